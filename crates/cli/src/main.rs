@@ -1,0 +1,2 @@
+//! The asperity command line.
+fn main() {}

@@ -1,0 +1,143 @@
+//! Quantities written as strings with units ("210 GPa", "20 um"), kept in SI.
+
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use std::fmt;
+
+/// What went wrong in reading a quantity.
+#[derive(Clone, Debug, PartialEq)]
+pub struct UnitError(String);
+
+impl fmt::Display for UnitError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for UnitError {}
+
+/// Splits "20 um" into a finite number and a unit, and returns the number in SI.
+fn parse(text: &str, dimension: &str, units: &[(&str, f64)]) -> Result<f64, UnitError> {
+    let names = || units.iter().map(|(name, _)| *name).collect::<Vec<_>>().join(", ");
+    let text = text.trim();
+    // the unit is the trailing run of letters; an exponent ("2e-6 m") ends in a digit and so stays with the number
+    let split = text
+        .rfind(|c: char| !(c.is_alphabetic() || c == '/'))
+        .map_or(0, |i| i + text[i..].chars().next().map_or(1, char::len_utf8));
+    let (number, unit) = (text[..split].trim(), &text[split..]);
+    if unit.is_empty() {
+        return Err(UnitError(format!(
+            "\"{text}\" has no unit: write a {dimension} with one of {}, for example \"{text} {}\"",
+            names(),
+            units[0].0
+        )));
+    }
+    let value: f64 = number.parse().ok().filter(|v: &f64| v.is_finite()).ok_or_else(|| {
+        UnitError(format!("\"{text}\" is not a finite number with a unit of {dimension} ({})", names()))
+    })?;
+    let scale = units.iter().find(|(name, _)| *name == unit).map(|(_, scale)| *scale).ok_or_else(|| {
+        UnitError(format!("\"{unit}\" is not a unit of {dimension}: use one of {}", names()))
+    })?;
+    let si = value * scale;
+    if si.is_finite() && (value == 0.0) == (si == 0.0) {
+        Ok(si)
+    } else {
+        Err(UnitError(format!("\"{text}\" is outside the range of numbers that can be computed with")))
+    }
+}
+
+macro_rules! quantity {
+    ($(#[$doc:meta])* $name:ident, $dimension:literal, $si:literal, $units:expr) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
+        pub struct $name(pub f64);
+
+        impl $name {
+            /// The units it may be written in, with their value in SI.
+            pub const UNITS: &'static [(&'static str, f64)] = $units;
+
+            /// The number of `unit`s in this quantity; `unit` must be one of [`Self::UNITS`], else NaN.
+            pub fn in_unit(self, unit: &str) -> f64 {
+                Self::UNITS.iter().find(|(name, _)| *name == unit).map_or(f64::NAN, |(_, scale)| self.0 / scale)
+            }
+        }
+
+        impl std::str::FromStr for $name {
+            type Err = UnitError;
+            fn from_str(text: &str) -> Result<Self, UnitError> {
+                parse(text, $dimension, Self::UNITS).map($name)
+            }
+        }
+
+        impl Serialize for $name {
+            fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+                serializer.serialize_str(&self.to_string())
+            }
+        }
+
+        impl fmt::Display for $name {
+            /// In the SI unit, shortest digits that read back to the same value.
+            fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                write!(f, "{:?} {}", self.0, $si)
+            }
+        }
+
+        impl<'de> Deserialize<'de> for $name {
+            fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+                struct Visitor;
+                impl serde::de::Visitor<'_> for Visitor {
+                    type Value = $name;
+                    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                        write!(f, "a {} as a string with a unit, for example \"1 {}\"", $dimension, $name::UNITS[0].0)
+                    }
+                    fn visit_str<E: serde::de::Error>(self, text: &str) -> Result<$name, E> {
+                        text.parse().map_err(E::custom)
+                    }
+                }
+                deserializer.deserialize_any(Visitor)
+            }
+        }
+    };
+}
+
+quantity!(
+    /// A length, kept in metres.
+    Length, "length", "m",
+    &[("um", 1e-6), ("nm", 1e-9), ("mm", 1e-3), ("cm", 1e-2), ("m", 1.0), ("µm", 1e-6), ("μm", 1e-6), ("pm", 1e-12), ("km", 1e3)]
+);
+quantity!(
+    /// A stress, pressure or modulus, kept in pascals.
+    Stress, "stress", "Pa",
+    &[("MPa", 1e6), ("GPa", 1e9), ("kPa", 1e3), ("Pa", 1.0), ("TPa", 1e12)]
+);
+quantity!(
+    /// A force, kept in newtons.
+    Force, "force", "N",
+    &[("N", 1.0), ("mN", 1e-3), ("uN", 1e-6), ("µN", 1e-6), ("μN", 1e-6), ("nN", 1e-9), ("kN", 1e3), ("MN", 1e6)]
+);
+quantity!(
+    /// A force per length (the load on a ridge in plane strain), kept in newtons per metre.
+    LineForce, "force per length", "N/m",
+    &[("N/mm", 1e3), ("N/m", 1.0), ("kN/m", 1e3), ("mN/m", 1e-3), ("kN/mm", 1e6)]
+);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quantities_read_and_refuse_as_a_person_would_expect() {
+        assert_eq!("20 um".parse::<Length>().unwrap().0, 20.0 * 1e-6);
+        assert_eq!("2e-6m".parse::<Length>().unwrap().0, 2e-6);
+        assert_eq!(" 210 GPa ".parse::<Stress>().unwrap().0, 210e9);
+        for bad in ["20", "20 MPa", "nan um", "inf um", "um", "", "1e400 um", "1e-320 nm", "1 2 um"] {
+            assert!(bad.parse::<Length>().is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn a_written_quantity_reads_back_to_the_same_bits() {
+        for v in [20e-6, 1.0 / 3.0, 2e-300, 1e300] {
+            assert_eq!(Length(v).to_string().parse::<Length>().unwrap().0, v);
+        }
+    }
+}

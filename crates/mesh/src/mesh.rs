@@ -1,0 +1,74 @@
+//! A mesh of quadrilaterals in the (r, z) half plane, or (x, z) in plane strain, with named sides.
+
+/// Which quadrilateral the cells are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ElementKind {
+    /// Four corner nodes.
+    Quad4,
+    /// Four corners and four mid-side nodes (serendipity).
+    Quad8,
+}
+
+impl ElementKind {
+    /// Nodes of one cell.
+    pub fn nodes(self) -> usize {
+        match self {
+            ElementKind::Quad4 => 4,
+            ElementKind::Quad8 => 8,
+        }
+    }
+}
+
+/// One side of one cell: side k runs from corner k to corner k+1, counterclockwise.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Edge {
+    /// Index of the cell.
+    pub cell: u32,
+    /// Which of its four sides, 0 to 3.
+    pub side: u8,
+}
+
+/// The boundary by name.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Sides {
+    /// On the axis of revolution r = 0, or the left side in plane strain.
+    pub axis: Vec<Edge>,
+    /// The bottom of the substrate.
+    pub base: Vec<Edge>,
+    /// The free surface a tool may touch, ordered from the axis outward.
+    pub surface: Vec<Edge>,
+    /// The lateral side far from the axis.
+    pub outer: Vec<Edge>,
+}
+
+/// Quadrilaterals with their nodes and named sides. Any unit of length; z points up.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mesh {
+    /// Kind of every cell.
+    pub kind: ElementKind,
+    /// Coordinates (r, z) of the nodes.
+    pub nodes: Vec<[f64; 2]>,
+    /// Node indices, `kind.nodes()` to a cell: corners counterclockwise, then the mid-side nodes of sides 0 to 3.
+    pub cells: Vec<u32>,
+    /// Named sides.
+    pub sides: Sides,
+}
+
+impl Mesh {
+    /// Number of cells.
+    pub fn cell_count(&self) -> usize {
+        self.cells.len() / self.kind.nodes()
+    }
+
+    /// The nodes of cell `cell`.
+    pub fn cell(&self, cell: usize) -> &[u32] {
+        let n = self.kind.nodes();
+        &self.cells[cell * n..(cell + 1) * n]
+    }
+
+    /// The nodes of an edge: its two corners counterclockwise around the cell, and its mid-side node if there is one.
+    pub fn edge_nodes(&self, edge: Edge) -> ([u32; 2], Option<u32>) {
+        let (cell, k) = (self.cell(edge.cell as usize), usize::from(edge.side));
+        ([cell[k], cell[(k + 1) % 4]], cell.get(4 + k).copied())
+    }
+}
