@@ -1,1 +1,3 @@
-//! placeholder
+//! Axisymmetric and plane-strain large-strain elastoplastic finite elements with a rigid tool.
+
+pub mod record;
