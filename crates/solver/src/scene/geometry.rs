@@ -1,0 +1,222 @@
+//! The bodies of a scene: asperities, substrate, tool.
+
+use super::SceneError;
+use asperity_law::units::Length;
+use serde::{Deserialize, Serialize};
+
+/// One asperity as written: a cone (`height`, `slope_deg`, …) or a sphere (`radius`).
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Asperity {
+    /// Base plane to the real (rounded) summit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub height: Option<Length>,
+    /// Angle β between flank and base plane, degrees.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub slope_deg: Option<f64>,
+    /// Radius of the sphere (cylinder) tangent to the flanks that rounds the tip; absent or 0: sharp.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tip_radius: Option<Length>,
+    /// Radius of the fillet at its outer foot; absent or 0: sharp.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub valley_radius: Option<Length>,
+    /// Flat distance between its outer foot and the next asperity; absent: 0.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub spacing: Option<Length>,
+    /// Radius of a spherical (cylindrical) asperity, half a ball standing on the base plane; excludes the keys above but `spacing`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub radius: Option<Length>,
+}
+
+/// The shape of an asperity, complete. Lengths in metres.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum AsperityForm {
+    /// A cone (a wedge in plane strain), sharp or rounded.
+    Cone {
+        /// Base plane to the real summit, m.
+        height: f64,
+        /// Angle β between flank and base plane, radians.
+        slope: f64,
+        /// Tip radius, m; 0: sharp.
+        tip_radius: f64,
+        /// Fillet radius at the outer foot, m; 0: sharp.
+        valley_radius: f64,
+    },
+    /// A half ball (half cylinder in plane strain).
+    Sphere {
+        /// Radius and height, m.
+        radius: f64,
+    },
+}
+
+impl AsperityForm {
+    /// Base plane to summit, m.
+    pub fn height(&self) -> f64 {
+        match *self {
+            AsperityForm::Cone { height, .. } => height,
+            AsperityForm::Sphere { radius } => radius,
+        }
+    }
+
+    /// Half width of the foot on the base plane, fillets left out, m.
+    pub fn base_radius(&self) -> f64 {
+        match *self {
+            // the flanks meet R (1/cos β - 1) above the rounded summit
+            AsperityForm::Cone { height, slope, tip_radius, .. } => {
+                (height + tip_radius * (slope.cos().recip() - 1.0)) / slope.tan()
+            }
+            AsperityForm::Sphere { radius } => radius,
+        }
+    }
+}
+
+/// The block of metal under the asperities.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Substrate {
+    /// Outer radius; in plane strain half the width of the block, the ridges in its middle. Absent: sized from the
+    /// contact, or with `lateral = "symmetric"` the asperities with their spacings.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub radius: Option<Length>,
+    /// From the base plane of the asperities down to the held bottom. Absent in axisymmetry: sized from the contact.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub depth: Option<Length>,
+}
+
+/// Outline of the rigid tool.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum ToolShape {
+    /// A plane that flattens the summits.
+    Plane,
+    /// A cone (wedge) on the axis.
+    Cone,
+    /// A sphere (cylinder) on the axis.
+    Sphere,
+}
+
+/// The tool as written.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Tool {
+    /// Its outline.
+    pub shape: ToolShape,
+    /// Cone: angle between its flank and the horizontal, degrees.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub slope_deg: Option<f64>,
+    /// Cone: tip radius; absent or 0: sharp.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tip_radius: Option<Length>,
+    /// Sphere: its radius.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub radius: Option<Length>,
+}
+
+/// The shape of a tool, complete. Lengths in metres.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ToolForm {
+    /// A horizontal plane.
+    Plane,
+    /// A cone (wedge) pointing down.
+    Cone {
+        /// Angle between flank and horizontal, radians.
+        slope: f64,
+        /// Tip radius, m; 0: sharp.
+        tip_radius: f64,
+    },
+    /// A sphere (cylinder).
+    Sphere {
+        /// Radius, m.
+        radius: f64,
+    },
+}
+
+impl Asperity {
+    /// The shape that the keys describe.
+    ///
+    /// # Errors
+    /// Keys that are missing or exclude each other; the path is relative to the asperity's table. Ranges are
+    /// checked by [`super::Scene::validate`].
+    pub fn form(&self) -> Result<AsperityForm, SceneError> {
+        let error = |path: &str, message: &str| SceneError { path: path.into(), message: message.into() };
+        if let Some(radius) = self.radius {
+            let others = [
+                ("height", self.height.is_some()),
+                ("slope_deg", self.slope_deg.is_some()),
+                ("tip_radius", self.tip_radius.is_some()),
+                ("valley_radius", self.valley_radius.is_some()),
+            ];
+            return match others.iter().find(|(_, given)| *given) {
+                Some((key, _)) => Err(error(
+                    key,
+                    "does not go with `radius`, which alone makes a spherical asperity: remove one of the two",
+                )),
+                None => Ok(AsperityForm::Sphere { radius: radius.0 }),
+            };
+        }
+        let missing = |key: &str, example: &str| {
+            error(
+                "",
+                &format!("`{key}` is missing: give {example}, or `radius` alone for a spherical asperity"),
+            )
+        };
+        let height = self.height.ok_or_else(|| missing("height", "height = \"20 um\""))?;
+        let slope_deg = self.slope_deg.ok_or_else(|| missing("slope_deg", "slope_deg = 10"))?;
+        Ok(AsperityForm::Cone {
+            height: height.0,
+            slope: slope_deg.to_radians(),
+            tip_radius: self.tip_radius.map_or(0.0, |r| r.0),
+            valley_radius: self.valley_radius.map_or(0.0, |r| r.0),
+        })
+    }
+}
+
+impl Tool {
+    /// The shape that the keys describe.
+    ///
+    /// # Errors
+    /// Keys that are missing or belong to another shape; the path is relative to the tool's table. Ranges are
+    /// checked by [`super::Scene::validate`].
+    pub fn form(&self) -> Result<ToolForm, SceneError> {
+        let error = |path: &str, message: String| SceneError { path: path.into(), message };
+        let (shape, allowed): (&str, &[&str]) = match self.shape {
+            ToolShape::Plane => ("plane", &[]),
+            ToolShape::Cone => ("cone", &["slope_deg", "tip_radius"]),
+            ToolShape::Sphere => ("sphere", &["radius"]),
+        };
+        let given = [
+            ("slope_deg", self.slope_deg.is_some()),
+            ("tip_radius", self.tip_radius.is_some()),
+            ("radius", self.radius.is_some()),
+        ];
+        if let Some((key, _)) = given.iter().find(|(key, given)| *given && !allowed.contains(key)) {
+            let keys = if allowed.is_empty() {
+                "has no size".into()
+            } else {
+                format!("takes {}", allowed.join(" and "))
+            };
+            return Err(error(
+                key,
+                format!("does not belong to a {shape}, which {keys}: remove it, or change `shape`"),
+            ));
+        }
+        match self.shape {
+            ToolShape::Plane => Ok(ToolForm::Plane),
+            ToolShape::Cone => {
+                let slope_deg = self.slope_deg.ok_or_else(|| {
+                    error("", "`slope_deg` of the cone is missing: give slope_deg = 19.7".into())
+                })?;
+                Ok(ToolForm::Cone {
+                    slope: slope_deg.to_radians(),
+                    tip_radius: self.tip_radius.map_or(0.0, |r| r.0),
+                })
+            }
+            ToolShape::Sphere => {
+                let radius = self.radius.ok_or_else(|| {
+                    error("", "`radius` of the sphere is missing: give radius = \"1 mm\"".into())
+                })?;
+                Ok(ToolForm::Sphere { radius: radius.0 })
+            }
+        }
+    }
+}

@@ -1,0 +1,400 @@
+//! Which scenes make sense.
+
+use super::{
+    Asperity, AsperityForm, Lateral, Loading, Material, Numerics, Scene, SceneError, Substrate, Symmetry,
+    Target, Tool, ToolForce, ToolForm,
+};
+use asperity_law::units::{Length, Stress};
+
+type Check = Result<(), SceneError>;
+
+fn error(path: impl Into<String>, message: impl Into<String>) -> SceneError {
+    SceneError { path: path.into(), message: message.into() }
+}
+
+/// Puts the table in front of the keys of an error.
+fn inside(table: &str, error: SceneError) -> SceneError {
+    let path = if error.path.is_empty() { table.to_string() } else { format!("{table}.{}", error.path) };
+    SceneError { path, ..error }
+}
+
+/// A length as a person writes it: "20 um".
+fn length(metres: f64) -> String {
+    let unit = match metres.abs() {
+        v if v == 0.0 || (1e-6..1e-3).contains(&v) => "um",
+        v if v < 1e-6 => "nm",
+        v if v < 1.0 => "mm",
+        _ => "m",
+    };
+    let value = Length(metres).in_unit(unit);
+    let digits = value.abs().log10().floor().clamp(-6.0, 6.0) as i32;
+    let rounded = format!("{value:.*}", (5 - digits).clamp(0, 9) as usize);
+    let rounded =
+        if rounded.contains('.') { rounded.trim_end_matches('0').trim_end_matches('.') } else { &rounded };
+    format!("{rounded} {unit}")
+}
+
+/// A number in `range`, both ends included, or an error naming both.
+fn within(path: &str, what: &str, value: f64, low: f64, high: f64, way_out: &str) -> Check {
+    if (low..=high).contains(&value) {
+        return Ok(());
+    }
+    Err(error(path, format!("{what} must be from {low} to {high}, not {value}: {way_out}")))
+}
+
+/// A finite length above zero, or an error.
+fn positive(path: &str, what: &str, value: Length) -> Check {
+    if value.0 > 0.0 && value.0.is_finite() {
+        return Ok(());
+    }
+    Err(error(path, format!("{what} must be finite and above 0, not {}", length(value.0))))
+}
+
+/// A finite length of at least zero, or an error.
+fn not_negative(path: &str, what: &str, value: Option<Length>) -> Check {
+    match value {
+        Some(v) if !(v.0 >= 0.0 && v.0.is_finite()) => Err(error(
+            path,
+            format!(
+                "{what} must be finite and at least 0, not {}: leave it out for a sharp corner",
+                length(v.0)
+            ),
+        )),
+        _ => Ok(()),
+    }
+}
+
+/// An angle in degrees strictly between flat and upright, or an error.
+fn slope(path: &str, degrees: Option<f64>) -> Check {
+    match degrees {
+        Some(d) if !(d > 0.0 && d < 90.0) => Err(error(
+            path,
+            format!(
+                "the slope must be above 0 and below 90 degrees, not {d}: it is the angle between flank and base plane"
+            ),
+        )),
+        _ => Ok(()),
+    }
+}
+
+impl Scene {
+    /// Whether every value lies in its allowed range and the parts go together.
+    ///
+    /// # Errors
+    /// The first value that does not, with its place in the scene, the allowed range and a way out.
+    pub fn validate(&self) -> Result<(), SceneError> {
+        self.material.check().map_err(|e| inside("material", e))?;
+        for (i, asperity) in self.asperity.iter().enumerate() {
+            asperity.check().map_err(|e| inside(&format!("asperity[{i}]"), e))?;
+        }
+        self.tool.check().map_err(|e| inside("tool", e))?;
+        if let Some(substrate) = &self.substrate {
+            substrate.check().map_err(|e| inside("substrate", e))?;
+        }
+        if let Some(mesh) = &self.mesh {
+            if mesh.file.as_os_str().is_empty() {
+                return Err(error(
+                    "mesh.file",
+                    "is empty: give the path of a .msh file, relative to the scene file",
+                ));
+            }
+            mesh.unit.map_or(Ok(()), |u| positive("mesh.unit", "the length of 1 in the mesh file", u))?;
+        }
+        self.check_body()?;
+        self.loading.check().map_err(|e| inside("loading", e))?;
+        self.check_loading()?;
+        self.numerics.check().map_err(|e| inside("numerics", e))
+    }
+
+    /// Asperities, substrate and mesh must make one body that the tool can touch.
+    fn check_body(&self) -> Check {
+        if self.mesh.is_some() {
+            return Ok(());
+        }
+        let flattens = matches!(self.tool.form(), Ok(ToolForm::Plane));
+        if self.asperity.is_empty() && flattens {
+            return Err(error(
+                "asperity",
+                "a plane needs something to crush: give at least one [[asperity]], or a mesh, or a tool that is a cone or a sphere",
+            ));
+        }
+        let substrate = self.substrate.unwrap_or(Substrate { radius: None, depth: None });
+        if self.symmetry == Symmetry::PlaneStrain {
+            let why = "in plane strain the depth of the tool grows with the logarithm of the substrate's size without end";
+            if self.substrate.is_none() {
+                return Err(error(
+                    "substrate",
+                    format!("is missing: {why}, so give [substrate] radius and depth"),
+                ));
+            }
+            if substrate.depth.is_none() {
+                return Err(error(
+                    "substrate",
+                    format!("`depth` is missing: {why}, so give depth = \"2 mm\""),
+                ));
+            }
+            if substrate.radius.is_none() && (self.lateral == Lateral::Free || self.asperity.is_empty()) {
+                return Err(error(
+                    "substrate",
+                    format!("`radius` (half the width) is missing: {why}, so give radius = \"2 mm\""),
+                ));
+            }
+        }
+        if let Some(radius) = substrate.radius {
+            let extent = self.extent();
+            if radius.0 < extent * (1.0 - 1e-12) {
+                return Err(error(
+                    "substrate.radius",
+                    format!(
+                        "must be at least {}, the reach of the asperities, not {}: widen it, or leave it out",
+                        length(extent),
+                        length(radius.0)
+                    ),
+                ));
+            }
+        }
+        Ok(())
+    }
+
+    /// From the axis to the outermost foot of the asperities, in plane strain half their whole width; m.
+    fn extent(&self) -> f64 {
+        let last = self.asperity.len().saturating_sub(1);
+        let widths = self.asperity.iter().enumerate().filter_map(|(i, a)| {
+            let base = a.form().ok()?.base_radius();
+            // half of the first asperity lies beyond the axis
+            let own = if i == 0 && self.symmetry == Symmetry::Axisymmetric { base } else { 2.0 * base };
+            Some(own + if i < last { a.spacing.map_or(0.0, |s| s.0) } else { 0.0 })
+        });
+        let total: f64 = widths.sum();
+        if self.symmetry == Symmetry::Axisymmetric { total } else { 0.5 * total }
+    }
+
+    /// The end of loading must suit the symmetry and the height of the asperities.
+    fn check_loading(&self) -> Check {
+        match (self.symmetry, self.loading.force) {
+            (Symmetry::Axisymmetric, Some(ToolForce::PerLength(_))) => {
+                return Err(error(
+                    "loading.force",
+                    "is per length, which belongs to plane strain: give the force on the full body of revolution, for example \"4 N\"",
+                ));
+            }
+            (Symmetry::PlaneStrain, Some(ToolForce::Total(_))) => {
+                return Err(error(
+                    "loading.force",
+                    "is a total, but in plane strain forces are per length of ridge: give for example \"4 N/mm\"",
+                ));
+            }
+            _ => {}
+        }
+        let Some(depth) = self.loading.depth else { return Ok(()) };
+        let highest =
+            self.asperity.iter().filter_map(|a| a.form().ok()).map(|f| f.height()).fold(0.0, f64::max);
+        match self.tool.form() {
+            Ok(ToolForm::Plane) if highest > 0.0 && depth.0 > highest => Err(error(
+                "loading.depth",
+                format!(
+                    "a plane can go at most {} deep, the height of the highest asperity, not {}: ask for less, or raise the asperity",
+                    length(highest),
+                    length(depth.0)
+                ),
+            )),
+            Ok(ToolForm::Sphere { radius }) if depth.0 > radius => Err(error(
+                "loading.depth",
+                format!(
+                    "a sphere can go at most its radius deep, {}, not {}: ask for less, or take a larger sphere",
+                    length(radius),
+                    length(depth.0)
+                ),
+            )),
+            _ => match self.substrate.and_then(|s| s.depth) {
+                Some(bottom) if depth.0 >= highest + bottom.0 => Err(error(
+                    "loading.depth",
+                    format!(
+                        "the tool would go {} deep into a body {} high: ask for less",
+                        length(depth.0),
+                        length(highest + bottom.0)
+                    ),
+                )),
+                _ => Ok(()),
+            },
+        }
+    }
+}
+
+impl Material {
+    fn check(&self) -> Check {
+        let e = self.youngs_modulus.0;
+        if !(e > 0.0 && e.is_finite()) {
+            return Err(error(
+                "youngs_modulus",
+                format!("must be finite and above 0, not {} GPa", self.youngs_modulus.in_unit("GPa")),
+            ));
+        }
+        let nu = self.poissons_ratio;
+        if !(nu > -1.0 && nu < 0.5) {
+            return Err(error(
+                "poissons_ratio",
+                format!(
+                    "must be above -1 and below 0.5, not {nu}: metals have 0.25 to 0.35; for a nearly incompressible body take 0.4999"
+                ),
+            ));
+        }
+        if let Some(yield_stress) = self.yield_stress {
+            self.check_yield_stress(yield_stress)?;
+        }
+        match self.hardening_exponent {
+            Some(n) if !(0.0..1.0).contains(&n) => Err(error(
+                "hardening_exponent",
+                format!(
+                    "must be at least 0 and below 1, not {n}: 0 is perfect plasticity; for an elastic body leave yield_stress out"
+                ),
+            )),
+            None if self.yield_stress.is_some() => Err(error(
+                "",
+                "`hardening_exponent` is missing beside yield_stress: give one from 0 (perfect plasticity) to below 1",
+            )),
+            _ => Ok(()),
+        }
+    }
+
+    fn check_yield_stress(&self, yield_stress: Stress) -> Check {
+        let (low, high) = (5.0, 1e6); // of E over σ_y
+        let ratio = self.youngs_modulus.0 / yield_stress.0;
+        if yield_stress.0 > 0.0 && (low..=high).contains(&ratio) {
+            return Ok(());
+        }
+        let e = self.youngs_modulus.in_unit("MPa");
+        Err(error(
+            "yield_stress",
+            format!(
+                "must be from {} to {} MPa (E/{high:e} to E/{low}), not {} MPa: for an elastic body leave it out",
+                e / high,
+                e / low,
+                yield_stress.in_unit("MPa")
+            ),
+        ))
+    }
+}
+
+impl Asperity {
+    /// Ranges of one asperity; paths relative to its table.
+    fn check(&self) -> Check {
+        let form = self.form()?;
+        not_negative("spacing", "the spacing", self.spacing)?;
+        if let Some(radius) = self.radius {
+            return positive("radius", "the radius", radius);
+        }
+        if let Some(height) = self.height {
+            positive("height", "the height", height)?;
+        }
+        slope("slope_deg", self.slope_deg)?;
+        not_negative("tip_radius", "the tip radius", self.tip_radius)?;
+        not_negative("valley_radius", "the valley radius", self.valley_radius)?;
+        let AsperityForm::Cone { height, slope, tip_radius, valley_radius } = form else { return Ok(()) };
+        let base = form.base_radius();
+        if !(base.is_finite() && base > 0.0) {
+            return Err(error("slope_deg", "makes a foot too wide to compute with: raise the slope"));
+        }
+        // the cap ends where the sphere meets the flank: R sin β out from the axis, R (1 - cos β) below the summit
+        let cap_height = 2.0 * (0.5 * slope).sin().powi(2);
+        if tip_radius * cap_height >= height {
+            return Err(error(
+                "tip_radius",
+                format!(
+                    "must be below {}, else the rounded tip is higher than the asperity ({} high), not {}: make the tip sharper, the slope smaller or the asperity higher",
+                    length(height / cap_height),
+                    length(height),
+                    length(tip_radius)
+                ),
+            ));
+        }
+        let flank = base - tip_radius * slope.sin();
+        if valley_radius * slope.sin() > flank {
+            return Err(error(
+                "valley_radius",
+                format!(
+                    "must be at most {}, else the fillet reaches the tip, not {}: make the valley sharper",
+                    length(flank / slope.sin()),
+                    length(valley_radius)
+                ),
+            ));
+        }
+        Ok(())
+    }
+}
+
+impl Tool {
+    fn check(&self) -> Check {
+        self.form()?;
+        slope("slope_deg", self.slope_deg)?;
+        not_negative("tip_radius", "the tip radius", self.tip_radius)?;
+        self.radius.map_or(Ok(()), |r| positive("radius", "the radius", r))
+    }
+}
+
+impl Substrate {
+    fn check(&self) -> Check {
+        self.radius.map_or(Ok(()), |r| positive("radius", "the radius", r))?;
+        self.depth.map_or(Ok(()), |d| positive("depth", "the depth", d))
+    }
+}
+
+impl Loading {
+    /// Where loading ends.
+    ///
+    /// # Errors
+    /// Neither or both of `depth` and `force`; the path is relative to the loading table.
+    pub fn target(&self) -> Result<Target, SceneError> {
+        match (self.depth, self.force) {
+            (Some(depth), None) => Ok(Target::Depth(depth.0)),
+            (None, Some(ToolForce::Total(force))) => Ok(Target::Force(force.0)),
+            (None, Some(ToolForce::PerLength(force))) => Ok(Target::Force(force.0)),
+            (Some(_), Some(_)) => Err(error("force", "does not go with `depth`: remove one of the two")),
+            (None, None) => {
+                Err(error("", "says not how far: give depth = \"5 um\" or force = \"4 N\", and not both"))
+            }
+        }
+    }
+
+    fn check(&self) -> Check {
+        match self.target()? {
+            Target::Depth(depth) => positive("depth", "the depth", Length(depth)),
+            Target::Force(force) if force > 0.0 && force.is_finite() => Ok(()),
+            Target::Force(force) => Err(error(
+                "force",
+                format!("must be finite and above 0, not {force} N: compression is positive"),
+            )),
+        }
+    }
+}
+
+impl Numerics {
+    fn check(&self) -> Check {
+        let whole = |path, what, value: Option<usize>, low, high, way_out| {
+            value.map_or(Ok(()), |v| within(path, what, v as f64, low, high, way_out))
+        };
+        let real = |path, what, value: Option<f64>, low, high, way_out| {
+            value.map_or(Ok(()), |v| within(path, what, v, low, high, way_out))
+        };
+        let leave = "leave it out to let `accuracy` choose";
+        whole(
+            "elements_in_contact",
+            "the number of elements across the contact",
+            self.elements_in_contact,
+            2.0,
+            200.0,
+            leave,
+        )?;
+        whole("steps", "the number of load steps", self.steps, 1.0, 1e4, leave)?;
+        real("penetration", "the penetration over depth", self.penetration, 1e-6, 0.1, leave)?;
+        real(
+            "newton_tolerance",
+            "the tolerance of Newton's method",
+            self.newton_tolerance,
+            1e-13,
+            1e-3,
+            leave,
+        )?;
+        real("domain", "the size of the substrate in contact radii", self.domain, 3.0, 1e4, leave)
+    }
+}
