@@ -1,4 +1,38 @@
 //! Axisymmetric and plane-strain large-strain elastoplastic finite elements with a rigid tool.
+//!
+//! In reading order: a metal point (`tensor`, `kinematics`, `material`, `j2`, `history`), an element (`element`,
+//! `quad4`, `quad8`), the tool (`tool`, `contact`), the system (`dofs`, `assemble`, `linear`, `newton`, `model`),
+//! and a run (`scene`, `record`).
+
+pub mod tensor;
+
+pub mod kinematics;
+
+pub mod material;
+
+pub mod j2;
+
+pub mod history;
+
+pub mod element;
+
+pub mod quad4;
+pub mod quad8;
+
+pub mod tool;
+
+pub mod contact;
+
+pub mod dofs;
+
+pub mod assemble;
+
+pub mod linear;
+
+pub mod newton;
+
+pub mod model;
+
+pub mod scene;
 
 pub mod record;
-pub mod scene;

@@ -1,0 +1,428 @@
+//! The mechanical system: a body of elements, held sides, and a rigid tool; one increment of it is what Newton solves.
+
+use crate::assemble::Stiffness;
+use crate::contact::{ContactContext, ContactEdge, EdgeContact, NOTHING, Parts};
+use crate::dofs::{Dofs, FIXED};
+use crate::element::{ElementContext, ElementOutput, POINTS, PointHistory};
+use crate::history::{Flowed, carry_factor, carry_on, flow};
+use crate::j2::Tangent;
+use crate::kinematics::{ShapePoint, Symmetry, motion};
+use crate::linear::{FactorError, Factor};
+use crate::material::{Metal, PointState};
+use crate::newton::{Assessment, Failure, System};
+use crate::tool::Tool;
+use crate::{quad4, quad8};
+use asperity_mesh::{ElementKind, Mesh};
+
+/// A tool in contact with the surface of the body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ToolContact {
+    /// Its shape.
+    pub tool: Tool,
+    /// Pressure per penetration.
+    pub penalty: f64,
+}
+
+/// Negative pivots with which an LDLᵀ step is still taken: a limit point or a bifurcation has one or two; more mean
+/// that the iterate is far from any equilibrium, and the increment is better halved.
+const TOLERATED_NEGATIVE_PIVOTS: usize = 2;
+
+/// Counters of the work done.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Counters {
+    /// Element loops with tangent.
+    pub assemblies: usize,
+    /// Factorisations.
+    pub factorisations: usize,
+    /// Seconds in element loops.
+    pub assembly_s: f64,
+    /// Seconds in factorisations.
+    pub factor_s: f64,
+    /// Seconds in triangular solves.
+    pub solve_s: f64,
+    /// Factorisations that lost a pivot.
+    pub lost_pivots: usize,
+}
+
+/// The body with its converged state and the increment under way. Lengths are the scene's own, stresses in units of E.
+pub struct Model<'m> {
+    mesh: &'m Mesh,
+    symmetry: Symmetry,
+    metal: Metal,
+    dofs: Dofs,
+    stiffness: Stiffness,
+    factor: Factor,
+    points8: [ShapePoint<8>; POINTS],
+    points4: [ShapePoint<4>; POINTS],
+    /// Reference volume of every integration point.
+    volume: Vec<f64>,
+    edges: Vec<ContactEdge>,
+    contact: Option<ToolContact>,
+    // converged state
+    position: Vec<[f64; 2]>,
+    old: Vec<PointState>,
+    flowed: Vec<Flowed>,
+    parts: Vec<Parts>,
+    /// Augmented Lagrange multipliers at the nodes.
+    multiplier: Vec<f64>,
+    // increment under way
+    tip: f64,
+    increment: Vec<[f64; 2]>,
+    base: Vec<[f64; 2]>,
+    history: Vec<PointHistory>,
+    new: Vec<PointState>,
+    flowing: Vec<bool>,
+    touching: Vec<Parts>,
+    edge_contact: Vec<EdgeContact>,
+    residual: Vec<f64>,
+    direction: Vec<f64>,
+    internal: Vec<[f64; 2]>,
+    keep_contact: bool,
+    tangent: Tangent,
+    load_scale: f64,
+    output: ElementOutput,
+    /// Work done so far.
+    pub counters: Counters,
+}
+
+impl<'m> Model<'m> {
+    /// A stress-free body whose displacement components named by `held(node)` are kept.
+    ///
+    /// Fails if an element is inside out in the mesh.
+    pub fn new(
+        mesh: &'m Mesh,
+        symmetry: Symmetry,
+        metal: Metal,
+        held: impl Fn(usize) -> [bool; 2],
+        contact: Option<ToolContact>,
+    ) -> Result<Self, Failure> {
+        let nodes = mesh.nodes.len();
+        // nodes that no element uses have no stiffness and are held
+        let mut used = vec![false; nodes];
+        for &node in &mesh.cells {
+            used[node as usize] = true;
+        }
+        let dofs = Dofs::new(nodes, |node| if used[node] { held(node) } else { [true, true] });
+        let stiffness = Stiffness::new(&mesh.cells, mesh.kind.nodes(), &dofs);
+        let factor = Factor::new(&stiffness.matrix).map_err(|_| Failure::Singular)?;
+        let count = mesh.cell_count() * POINTS;
+        let (points8, points4) = (quad8::points(), quad4::points());
+        let mut volume = Vec::with_capacity(count);
+        for cell in 0..mesh.cell_count() {
+            for q in 0..POINTS {
+                let v = match mesh.kind {
+                    ElementKind::Quad8 => {
+                        motion(&points8[q], &gather::<8>(&mesh.nodes, mesh.cell(cell)), &[[0.0; 2]; 8], symmetry)
+                            .map(|m| m.volume)
+                    }
+                    ElementKind::Quad4 => {
+                        motion(&points4[q], &gather::<4>(&mesh.nodes, mesh.cell(cell)), &[[0.0; 2]; 4], symmetry)
+                            .map(|m| m.volume)
+                    }
+                };
+                volume.push(v.ok_or(Failure::Inverted)?);
+            }
+        }
+        let edges: Vec<ContactEdge> = match contact {
+            None => Vec::new(),
+            Some(_) => mesh
+                .sides
+                .surface
+                .iter()
+                .map(|&edge| {
+                    let (corners, middle) = mesh.edge_nodes(edge);
+                    ContactEdge::new(corners, middle, |node| mesh.nodes[node as usize], symmetry)
+                })
+                .collect(),
+        };
+        let virgin = metal.virgin();
+        let still = Flowed { strain: [0.0; 4], accumulated: 0.0 };
+        let start = PointHistory { old: virgin, start: virgin, carried: false };
+        Ok(Model {
+            residual: vec![0.0; dofs.count],
+            direction: vec![0.0; dofs.count],
+            mesh,
+            symmetry,
+            metal,
+            dofs,
+            stiffness,
+            factor,
+            points8,
+            points4,
+            volume,
+            parts: vec![NOTHING; edges.len()],
+            touching: vec![NOTHING; edges.len()],
+            edge_contact: Vec::with_capacity(edges.len()),
+            edges,
+            contact,
+            position: mesh.nodes.clone(),
+            old: vec![virgin; count],
+            flowed: vec![still; count],
+            multiplier: vec![0.0; nodes],
+            tip: f64::INFINITY,
+            increment: vec![[0.0; 2]; nodes],
+            base: vec![[0.0; 2]; nodes],
+            history: vec![start; count],
+            new: vec![virgin; count],
+            flowing: vec![false; mesh.cell_count()],
+            internal: vec![[0.0; 2]; nodes],
+            keep_contact: false,
+            tangent: Tangent::Exact,
+            load_scale: 0.0,
+            output: ElementOutput::new(virgin),
+            counters: Counters::default(),
+        })
+    }
+
+    /// Starts an increment: the tool's lowest point at `tip`, prescribed components moved by `prescribed(node)`, the
+    /// first guess of the displacement `guess` (zero if absent), and the last flow carried on as for a step
+    /// `ratio` times the last one (0: not at all, as at the start of unloading).
+    pub fn begin(&mut self, tip: f64, ratio: f64, guess: impl Fn(usize) -> [f64; 2]) {
+        self.tip = tip;
+        for (node, du) in self.increment.iter_mut().enumerate() {
+            *du = guess(node);
+        }
+        let factor = carry_factor(ratio);
+        for ((history, old), flowed) in self.history.iter_mut().zip(&self.old).zip(&self.flowed) {
+            *history = carry_on(&self.metal, old, flowed, factor);
+        }
+        self.keep_contact = self.parts.iter().any(|p| *p != NOTHING);
+        self.touching.clone_from(&self.parts);
+        self.tangent = Tangent::Exact;
+    }
+
+    /// Accepts the increment under way: the only place where the state of the body changes.
+    pub fn accept(&mut self) -> Result<(), Failure> {
+        for cell in 0..self.flowing.len() {
+            let points = cell * POINTS..(cell + 1) * POINTS;
+            if !self.flowing[cell] {
+                for q in points {
+                    self.flowed[q].accumulated = 0.0;
+                }
+                continue;
+            }
+            // the elastic trial from the last converged state: what the increment would have been without flow
+            let elastic = Metal { hardening: None, ..self.metal };
+            let context = ElementContext { symmetry: self.symmetry, metal: &elastic, tangent: Tangent::None };
+            for q in points.clone() {
+                self.history[q].carried = false;
+            }
+            evaluate_cell(self, cell, &context)?;
+            for (i, q) in points.enumerate() {
+                let trial = &self.output.states[i].stretch;
+                self.flowed[q] = if self.new[q].plastic_strain > self.old[q].plastic_strain {
+                    flow(trial, &self.old[q], &self.new[q]).ok_or(Failure::Inverted)?
+                } else {
+                    Flowed { strain: [0.0; 4], accumulated: 0.0 }
+                };
+            }
+        }
+        for (x, du) in self.position.iter_mut().zip(&self.increment) {
+            x[0] += du[0];
+            x[1] += du[1];
+        }
+        self.old.clone_from(&self.new);
+        self.parts.clone_from(&self.touching);
+        self.load_scale = self.load_scale.max(self.load().abs());
+        Ok(())
+    }
+
+    /// Element loop: internal forces, stiffness, new states at the iterate.
+    fn assemble_elements(&mut self) -> Result<(), Failure> {
+        let clock = std::time::Instant::now();
+        self.stiffness.clear();
+        self.residual.fill(0.0);
+        self.internal.fill([0.0; 2]);
+        let metal = self.metal;
+        let context = ElementContext { symmetry: self.symmetry, metal: &metal, tangent: self.tangent };
+        for cell in 0..self.mesh.cell_count() {
+            evaluate_cell(self, cell, &context)?;
+            self.flowing[cell] = self.output.flowing > 0;
+            self.new[cell * POINTS..(cell + 1) * POINTS].copy_from_slice(&self.output.states);
+            self.stiffness.add(cell, &self.output.stiffness);
+            for (a, &node) in self.mesh.cell(cell).iter().enumerate() {
+                let f = &mut self.internal[node as usize];
+                f[0] += self.output.force[0][a];
+                f[1] += self.output.force[1][a];
+            }
+        }
+        for (f, numbers) in self.internal.iter().zip(&self.dofs.number) {
+            for i in 0..2 {
+                if numbers[i] != FIXED {
+                    self.residual[numbers[i] as usize] += f[i];
+                }
+            }
+        }
+        self.counters.assemblies += 1;
+        self.counters.assembly_s += clock.elapsed().as_secs_f64();
+        Ok(())
+    }
+
+    /// Contact loop; returns whether the set of touching edges changed.
+    fn assemble_contact(&mut self) -> bool {
+        let Some(contact) = self.contact else { return false };
+        let context =
+            ContactContext { tool: &contact.tool, tip: self.tip, penalty: contact.penalty, symmetry: self.symmetry };
+        let mut changed = false;
+        self.edge_contact.clear();
+        for (index, edge) in self.edges.iter().enumerate() {
+            let x = edge.nodes.map(|node| current(&self.position, &self.increment, node));
+            let multiplier = edge.nodes.map(|node| self.multiplier[node as usize]);
+            let parts = if self.keep_contact {
+                self.parts[index]
+            } else {
+                edge.touching(&context, &x, &multiplier)
+            };
+            changed |= shape_of(&parts) != shape_of(&self.touching[index]);
+            self.touching[index] = parts;
+            let share = edge.integrate(&context, parts, &x, &multiplier);
+            if parts != NOTHING {
+                for a in 0..edge.node_count() {
+                    let row = self.dofs.number[edge.nodes[a] as usize];
+                    for i in 0..2 {
+                        if row[i] != FIXED {
+                            self.residual[row[i] as usize] += share.force[a][i];
+                        }
+                        for b in 0..edge.node_count() {
+                            let col = self.dofs.number[edge.nodes[b] as usize];
+                            for j in 0..2 {
+                                self.stiffness.add_entry(row[i], col[j], share.stiffness[a][i][b][j]);
+                            }
+                        }
+                    }
+                }
+            }
+            self.edge_contact.push(share);
+        }
+        changed || std::mem::take(&mut self.keep_contact)
+    }
+
+    /// Assembles the iterate; returns whether the contact changed.
+    fn assemble(&mut self) -> Result<bool, Failure> {
+        self.assemble_elements()?;
+        Ok(self.assemble_contact())
+    }
+
+    /// Factorises the stiffness; a lost pivot is answered as the module documentation of `linear` says.
+    fn factorise(&mut self) -> Result<(), Failure> {
+        let clock = std::time::Instant::now();
+        self.counters.factorisations += 1;
+        let outcome = match self.factor.cholesky(&self.stiffness.matrix) {
+            Ok(()) => Ok(()),
+            Err(_) => self.factorise_indefinite(),
+        };
+        self.counters.factor_s += clock.elapsed().as_secs_f64();
+        outcome
+    }
+
+    /// A tangent without the compressive geometric term; else LDLᵀ of the exact one if it is nearly definite.
+    fn factorise_indefinite(&mut self) -> Result<(), Failure> {
+        self.counters.lost_pivots += 1;
+        let kept = self.touching.clone();
+        let residual = self.residual.clone();
+        let again = |model: &mut Self, tangent: Tangent| -> Result<(), Failure> {
+            model.tangent = tangent;
+            let outcome = model.assemble_elements();
+            model.tangent = Tangent::Exact;
+            outcome?;
+            // the same contact, so that only the element tangent differs
+            let parts = std::mem::replace(&mut model.parts, kept.clone());
+            model.keep_contact = true;
+            model.assemble_contact();
+            model.parts = parts;
+            model.residual.copy_from_slice(&residual);
+            Ok(())
+        };
+        again(self, Tangent::WithoutCompression)?;
+        if self.factor.cholesky(&self.stiffness.matrix).is_ok() {
+            return Ok(());
+        }
+        again(self, Tangent::Exact)?;
+        match self.factor.ldlt(&self.stiffness.matrix) {
+            Ok(negative) if negative <= TOLERATED_NEGATIVE_PIVOTS => Ok(()),
+            Ok(_) | Err(FactorError::NotPositive | FactorError::Singular) => Err(Failure::Singular),
+        }
+    }
+
+    /// Force on the tool along z at the iterate, positive in compression.
+    pub fn load(&self) -> f64 {
+        self.edge_contact.iter().map(|e| e.load).sum()
+    }
+}
+
+/// Current position of a node.
+fn current(position: &[[f64; 2]], increment: &[[f64; 2]], node: u32) -> [f64; 2] {
+    let (x, du) = (position[node as usize], increment[node as usize]);
+    [x[0] + du[0], x[1] + du[1]]
+}
+
+/// The node values of a cell.
+fn gather<const N: usize>(values: &[[f64; 2]], cell: &[u32]) -> [[f64; 2]; N] {
+    std::array::from_fn(|a| values[cell[a] as usize])
+}
+
+/// What of an edge touches, as far as it is discrete.
+fn shape_of(parts: &Parts) -> [bool; 2] {
+    parts.map(|p| p.is_some())
+}
+
+/// Evaluates one cell at the iterate into `model.output`.
+fn evaluate_cell(model: &mut Model<'_>, cell: usize, context: &ElementContext<'_>) -> Result<(), Failure> {
+    let nodes = model.mesh.cell(cell);
+    let points = cell * POINTS..(cell + 1) * POINTS;
+    let (history, volume) = (&model.history[points.clone()], &model.volume[points]);
+    let outcome = match model.mesh.kind {
+        ElementKind::Quad8 => {
+            let x: [[f64; 2]; 8] = std::array::from_fn(|a| current(&model.position, &model.increment, nodes[a]));
+            let du = gather::<8>(&model.increment, nodes);
+            quad8::evaluate(context, &model.points8, &x, &du, history, volume, &mut model.output)
+        }
+        ElementKind::Quad4 => {
+            let x: [[f64; 2]; 4] = std::array::from_fn(|a| current(&model.position, &model.increment, nodes[a]));
+            let du = gather::<4>(&model.increment, nodes);
+            quad4::evaluate(context, &model.points4, &x, &du, history, volume, &mut model.output)
+        }
+    };
+    outcome.ok_or(Failure::Inverted)
+}
+
+impl System for Model<'_> {
+    fn assess(&mut self) -> Result<Assessment, Failure> {
+        let changed = self.assemble()?;
+        let residual = self.residual.iter().map(|r| r * r).sum::<f64>().sqrt();
+        // forces of the held components and of the tool, and the largest load so far (the load itself goes to 0)
+        let mut reaction = 0.0;
+        for (f, numbers) in self.internal.iter().zip(&self.dofs.number) {
+            for i in 0..2 {
+                if numbers[i] == FIXED {
+                    reaction += f[i] * f[i];
+                }
+            }
+        }
+        for edge in &self.edge_contact {
+            reaction += edge.force.iter().flatten().map(|f| f * f).sum::<f64>();
+        }
+        let scale = reaction.sqrt().max(self.load_scale).max(f64::MIN_POSITIVE);
+        Ok(Assessment { residual, scale, changed })
+    }
+
+    fn find_direction(&mut self) -> Result<(), Failure> {
+        self.factorise()?;
+        let clock = std::time::Instant::now();
+        self.direction.copy_from_slice(&self.residual);
+        self.factor.solve(&mut self.direction);
+        self.base.clone_from(&self.increment);
+        self.counters.solve_s += clock.elapsed().as_secs_f64();
+        Ok(())
+    }
+
+    fn advance(&mut self, fraction: f64) {
+        for ((du, base), numbers) in self.increment.iter_mut().zip(&self.base).zip(&self.dofs.number) {
+            for i in 0..2 {
+                if numbers[i] != FIXED {
+                    du[i] = base[i] - fraction * self.direction[numbers[i] as usize];
+                }
+            }
+        }
+    }
+}

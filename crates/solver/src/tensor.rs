@@ -1,0 +1,52 @@
+//! The two small arrays everything is written in. Both live in the (r, z) plane plus the hoop direction θ;
+//! in plane strain r reads x and θ the direction out of the plane.
+
+/// A symmetric tensor: components rr, zz, θθ, rz.
+pub type Sym = [f64; 4];
+
+/// A displacement gradient ∂u_i/∂x_j: components rr, rz, zr, zz, θθ.
+pub type Gradient = [f64; 5];
+
+/// A quadratic form on gradients (symmetric).
+pub type GradientForm = [[f64; 5]; 5];
+
+/// Trace of a symmetric tensor.
+pub fn trace(a: &Sym) -> f64 {
+    a[0] + a[1] + a[2]
+}
+
+/// Double contraction a : b.
+pub fn contract(a: &Sym, b: &Sym) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + 2.0 * a[3] * b[3]
+}
+
+/// Von Mises equivalent √(3/2 s:s) of a symmetric tensor.
+pub fn von_mises(a: &Sym) -> f64 {
+    let m = trace(a) / 3.0;
+    let s = [a[0] - m, a[1] - m, a[2] - m, a[3]];
+    (1.5 * contract(&s, &s)).sqrt()
+}
+
+/// det(I + g) - 1, without the loss of digits of forming I + g.
+pub fn volume_change(g: &Gradient) -> f64 {
+    let plane = g[0] + g[3] + g[0] * g[3] - g[1] * g[2];
+    plane + g[4] + plane * g[4]
+}
+
+/// f a fᵀ + (f fᵀ - I) with f = I + g: pushes a deviation from the identity (a = b - I) forward by f.
+///
+/// Far from the contact strains are 1e-9; only the deviations from the identity keep their digits there.
+pub fn push_forward(g: &Gradient, a: &Sym) -> Sym {
+    let [grr, grz, gzr, gzz, gtt] = *g;
+    // f (I + a) fᵀ - I = a + p + pᵀ + p gᵀ with p = g (I + a)
+    let (crr, czz, crz) = (1.0 + a[0], 1.0 + a[1], a[3]);
+    let (prr, prz) = (grr * crr + grz * crz, grr * crz + grz * czz);
+    let (pzr, pzz) = (gzr * crr + gzz * crz, gzr * crz + gzz * czz);
+    let hoop = 2.0 * gtt + gtt * gtt;
+    [
+        a[0] + 2.0 * prr + prr * grr + prz * grz,
+        a[1] + 2.0 * pzz + pzr * gzr + pzz * gzz,
+        a[2] + hoop + hoop * a[2],
+        a[3] + prz + pzr + prr * gzr + prz * gzz,
+    ]
+}

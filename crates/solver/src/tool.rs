@@ -1,0 +1,109 @@
+//! A rigid tool is a signed gap function of position, nothing more.
+
+/// Shape of a rigid axisymmetric (or prismatic) tool that moves along z. Lengths are the scene's own.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Tool {
+    /// A plane, normal to z.
+    Plane,
+    /// A cone pointing down, flanks rising by `tan_slope`, its tip rounded by `tip_radius` (0: sharp).
+    Cone {
+        /// tan β of the flank against the plane.
+        tan_slope: f64,
+        /// Radius of the rounded tip.
+        tip_radius: f64,
+    },
+    /// A sphere (cylinder in plane strain).
+    Sphere {
+        /// Its radius.
+        radius: f64,
+    },
+}
+
+/// How deep a point is inside the tool, and the derivatives with respect to the point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Penetration {
+    /// Depth inside the tool; negative outside.
+    pub depth: f64,
+    /// ∂depth/∂(r, z): the direction in which the tool is left is its opposite.
+    pub slope: [f64; 2],
+    /// ∂²depth/∂r², ∂²depth/∂z², ∂²depth/∂r∂z.
+    pub curvature: [f64; 3],
+}
+
+impl Tool {
+    /// Penetration of the point `x` when the lowest point of the tool is at height `tip`.
+    pub fn penetration(&self, x: [f64; 2], tip: f64) -> Penetration {
+        match *self {
+            Tool::Plane => Penetration { depth: x[1] - tip, slope: [0.0, 1.0], curvature: [0.0; 3] },
+            Tool::Sphere { radius } => inside_sphere(x, tip + radius, radius),
+            Tool::Cone { tan_slope, tip_radius } => {
+                let (r, side) = (x[0].abs(), if x[0] < 0.0 { -1.0 } else { 1.0 });
+                let secant = tan_slope.hypot(1.0);
+                let (sine, cosine) = (tan_slope / secant, 1.0 / secant);
+                // centre of the tip sphere above its lowest point; the flank touches the sphere at the angle β
+                let centre = tip + tip_radius;
+                if tip_radius > 0.0 && r <= tan_slope * (centre - x[1]) {
+                    return inside_sphere(x, centre, tip_radius);
+                }
+                // signed distance to the flank through (R sin β, centre - R cos β)
+                let depth = (x[1] - centre) * cosine - r * sine + tip_radius;
+                Penetration { depth, slope: [-side * sine, cosine], curvature: [0.0; 3] }
+            }
+        }
+    }
+}
+
+fn inside_sphere(x: [f64; 2], centre: f64, radius: f64) -> Penetration {
+    let (r, z) = (x[0], x[1] - centre);
+    let distance = r.hypot(z);
+    if distance == 0.0 {
+        return Penetration { depth: radius, slope: [0.0, 1.0], curvature: [0.0; 3] };
+    }
+    let (n, m) = (r / distance, z / distance);
+    Penetration {
+        depth: radius - distance,
+        slope: [-n, -m],
+        curvature: [-(m * m) / distance, -(n * n) / distance, n * m / distance],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Slope and curvature are the derivatives of the depth (central differences, step 1e-5: error ≈ 1e-10).
+    #[test]
+    fn derivatives_are_the_derivatives() {
+        let tools = [
+            Tool::Plane,
+            Tool::Sphere { radius: 3.0 },
+            Tool::Cone { tan_slope: 0.4, tip_radius: 0.0 },
+            Tool::Cone { tan_slope: 0.4, tip_radius: 2.0 },
+        ];
+        let d = 1e-5;
+        for tool in tools {
+            for x in [[0.1, 0.2], [0.6, 0.1], [1.5, 0.4], [2.0, -0.3], [-1.1, 0.3]] {
+                let at = |r: f64, z: f64| tool.penetration([r, z], -0.1);
+                let here = at(x[0], x[1]);
+                let (left, right) = (at(x[0] - d, x[1]), at(x[0] + d, x[1]));
+                let (below, above) = (at(x[0], x[1] - d), at(x[0], x[1] + d));
+                assert!(((right.depth - left.depth) / (2.0 * d) - here.slope[0]).abs() < 1e-8);
+                assert!(((above.depth - below.depth) / (2.0 * d) - here.slope[1]).abs() < 1e-8);
+                assert!(((right.slope[0] - left.slope[0]) / (2.0 * d) - here.curvature[0]).abs() < 1e-8);
+                assert!(((above.slope[1] - below.slope[1]) / (2.0 * d) - here.curvature[1]).abs() < 1e-8);
+                assert!(((above.slope[0] - below.slope[0]) / (2.0 * d) - here.curvature[2]).abs() < 1e-8);
+            }
+        }
+    }
+
+    #[test]
+    fn a_rounded_cone_joins_its_flank_smoothly() {
+        let tool = Tool::Cone { tan_slope: 0.5, tip_radius: 2.0 };
+        let (sine, cosine) = (0.5 / 1.25_f64.sqrt(), 1.0 / 1.25_f64.sqrt());
+        for s in [-1e-9, 1e-9] {
+            let x = [2.0 * sine + s, 2.0 - 2.0 * cosine];
+            assert!(tool.penetration(x, 0.0).depth.abs() < 2e-9);
+        }
+        assert_eq!(tool.penetration([0.0, 0.0], 0.0).depth, 0.0);
+    }
+}

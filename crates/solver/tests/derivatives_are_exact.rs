@@ -1,0 +1,201 @@
+//! Claim: every tangent is the derivative of its force. Material, both elements and contact against central
+//! differences, at large strain, elastic and flowing, in both symmetries.
+//!
+//! Tolerance 1e-6 of the largest entry: central differences with step 1e-6 carry an error of about 1e-9 here.
+
+use asperity_law::{Elastic, Hardening, HardeningLaw};
+use asperity_solver::contact::{ContactContext, ContactEdge};
+use asperity_solver::element::{ElementContext, ElementOutput, PointHistory};
+use asperity_solver::j2::{Tangent, update};
+use asperity_solver::kinematics::{Symmetry, motion};
+use asperity_solver::material::{Metal, PointState};
+use asperity_solver::tool::Tool;
+use asperity_solver::{quad4, quad8};
+
+const STEP: f64 = 1e-6;
+const TOLERANCE: f64 = 1e-6;
+
+fn metal(law: Option<(HardeningLaw, f64)>) -> Metal {
+    let hardening =
+        law.map(|(law, exponent)| Hardening { law, yield_stress: 0.02, exponent, youngs_modulus: 1.0 });
+    Metal { elastic: Elastic { youngs_modulus: 1.0, poissons_ratio: 0.3 }, hardening }
+}
+
+fn metals() -> [Metal; 4] {
+    [
+        metal(None),
+        metal(Some((HardeningLaw::Hollomon, 0.3))),
+        metal(Some((HardeningLaw::Swift, 0.1))),
+        metal(Some((HardeningLaw::Hollomon, 0.0))),
+    ]
+}
+
+/// A state with prior plastic strain and a general elastic stretch.
+fn strained(metal: &Metal) -> PointState {
+    update(metal, &metal.virgin(), &[0.02, 0.05, -0.03, -0.04, 0.01], Tangent::None).unwrap().state
+}
+
+/// The quadratic form is the derivative of P = τ f⁻ᵀ pushed forward: d(τ:l δ)/dl with δf = l f, for all l.
+#[test]
+fn material() {
+    for metal in metals() {
+        let old = strained(&metal);
+        for g in [[0.3, -0.2, 0.4, -0.1, 0.15], [1e-3, 5e-4, -2e-3, 1e-3, -1e-3], [0.0; 5], [-0.4, 0.0, 0.0, 0.9, -0.3]] {
+            let here = update(&metal, &old, &g, Tangent::Exact).unwrap();
+            let scale = here.tangent.iter().flatten().fold(0.0_f64, |m, v| m.max(v.abs()));
+            let stress = |l: &[f64; 5]| {
+                // f' = (I + l) f; P: δf in terms of l' : nominal stress S = τ' (I + l)⁻ᵀ
+                let [a, b, c, d, e] = *l;
+                let f = [1.0 + g[0], g[1], g[2], 1.0 + g[3], 1.0 + g[4]];
+                let next = [
+                    (1.0 + a) * f[0] + b * f[2] - 1.0,
+                    (1.0 + a) * f[1] + b * f[3],
+                    c * f[0] + (1.0 + d) * f[2],
+                    c * f[1] + (1.0 + d) * f[3] - 1.0,
+                    (1.0 + e) * f[4] - 1.0,
+                ];
+                let t = update(&metal, &old, &next, Tangent::None).unwrap().stress;
+                let det = (1.0 + a) * (1.0 + d) - b * c;
+                // rows of (I + l)⁻ᵀ
+                let inverse = [(1.0 + d) / det, -c / det, -b / det, (1.0 + a) / det];
+                [
+                    t[0] * inverse[0] + t[3] * inverse[2],
+                    t[0] * inverse[1] + t[3] * inverse[3],
+                    t[3] * inverse[0] + t[1] * inverse[2],
+                    t[3] * inverse[1] + t[1] * inverse[3],
+                    t[2] / (1.0 + e),
+                ]
+            };
+            for j in 0..5 {
+                let mut l = [0.0; 5];
+                l[j] = STEP;
+                let up = stress(&l);
+                l[j] = -STEP;
+                let down = stress(&l);
+                for i in 0..5 {
+                    let difference = (up[i] - down[i]) / (2.0 * STEP);
+                    let error = (difference - here.tangent[i][j]).abs() / scale;
+                    assert!(error < TOLERANCE, "{metal:?} g {g:?} ({i}, {j}): {difference} {}", here.tangent[i][j]);
+                }
+            }
+        }
+    }
+}
+
+type Evaluate<const N: usize> = dyn Fn(&ElementContext<'_>, &[[f64; 2]; N], &[[f64; 2]; N], &[PointHistory], &[f64], &mut ElementOutput) -> Option<()>;
+
+fn element<const N: usize>(reference: [[f64; 2]; N], volume: impl Fn(Symmetry) -> Vec<f64>, evaluate: &Evaluate<N>) {
+    for metal in metals() {
+        for symmetry in [Symmetry::Axisymmetric, Symmetry::PlaneStrain] {
+            for amplitude in [1e-3, 0.15] {
+                let context = ElementContext { symmetry, metal: &metal, tangent: Tangent::Exact };
+                let old = strained(&metal);
+                let history = [PointHistory { old, start: old, carried: false }; 4];
+                let mut du: [[f64; 2]; N] =
+                    std::array::from_fn(|a| [0, 1].map(|i| amplitude * ((3 * a + 5 * i) as f64).sin()));
+                let volume = volume(symmetry);
+                let run = |du: &[[f64; 2]; N]| {
+                    let x = std::array::from_fn(|a| [reference[a][0] + du[a][0], reference[a][1] + du[a][1]]);
+                    let mut out = ElementOutput::new(old);
+                    evaluate(&context, &x, du, &history, &volume, &mut out).unwrap();
+                    out
+                };
+                let here = run(&du);
+                let scale = here.stiffness.iter().flatten().flatten().fold(0.0_f64, |m, v| m.max(v.abs()));
+                for b in 0..N {
+                    for j in 0..2 {
+                        let keep = du[b][j];
+                        du[b][j] = keep + STEP;
+                        let up = run(&du).force;
+                        du[b][j] = keep - STEP;
+                        let down = run(&du).force;
+                        du[b][j] = keep;
+                        for a in 0..N {
+                            for i in 0..2 {
+                                let difference = (up[i][a] - down[i][a]) / (2.0 * STEP);
+                                let exact = here.stiffness[2 * b + j][i][a];
+                                assert!(
+                                    (difference - exact).abs() < TOLERANCE * scale,
+                                    "{metal:?} {symmetry:?} {amplitude} ({a},{i}) ({b},{j}): {difference} {exact}"
+                                );
+                                let mirrored = here.stiffness[2 * a + i][j][b];
+                                assert!((mirrored - exact).abs() < 1e-12 * scale, "not symmetric");
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+const CORNERS: [[f64; 2]; 4] = [[1.0, 0.1], [2.1, -0.1], [2.3, 1.2], [0.9, 1.0]];
+
+#[test]
+fn quad4_with_mean_dilatation() {
+    let points = quad4::points();
+    let volume = |symmetry| points.iter().map(|p| motion(p, &CORNERS, &[[0.0; 2]; 4], symmetry).unwrap().volume).collect();
+    element(CORNERS, volume, &|c, x, du, h, v, out| quad4::evaluate(c, &points, x, du, h, v, out));
+}
+
+#[test]
+fn quad8_with_reduced_integration() {
+    let points = quad8::points();
+    let reference: [[f64; 2]; 8] = std::array::from_fn(|a| {
+        if a < 4 {
+            CORNERS[a]
+        } else {
+            let (p, q) = (CORNERS[a - 4], CORNERS[(a - 3) % 4]);
+            [0.5 * (p[0] + q[0]) + 0.02 * a as f64 - 0.1, 0.5 * (p[1] + q[1]) + 0.03]
+        }
+    });
+    let volume = |symmetry| points.iter().map(|p| motion(p, &reference, &[[0.0; 2]; 8], symmetry).unwrap().volume).collect();
+    element(reference, volume, &|c, x, du, h, v, out| quad8::evaluate(c, &points, x, du, h, v, out));
+}
+
+/// Contact force and stiffness are the first and second derivative of the contact energy, clipped at one end, in the
+/// middle, and at both ends. The energy is exact for a plane (polynomial of degree 6); for curved tools it is a
+/// quadrature whose own clip derivative is about 1e-5 of the force.
+#[test]
+fn contact() {
+    let reference = [[2.0, 0.0], [1.0, 0.1], [1.5, 0.04]];
+    let tools = [
+        (Tool::Plane, TOLERANCE),
+        (Tool::Sphere { radius: 6.0 }, 1e-4),
+        (Tool::Cone { tan_slope: 0.2, tip_radius: 0.0 }, TOLERANCE),
+    ];
+    for symmetry in [Symmetry::Axisymmetric, Symmetry::PlaneStrain] {
+        for (tool, tolerance) in tools {
+            for (tip, middle) in [(0.03, 0.04), (0.03, 0.12), (-0.3, -0.2), (-0.5, 0.04), (0.02, -0.1)] {
+                for quadratic in [true, false] {
+                    let context = ContactContext { tool: &tool, tip, penalty: 3.0, symmetry };
+                    let edge = ContactEdge::new([0, 1], quadratic.then_some(2), |n| reference[n as usize], symmetry);
+                    let mut x = reference;
+                    x[2][1] = middle;
+                    let run = |x: &[[f64; 2]; 3]| edge.integrate(&context, edge.touching(&context, x, &[0.0; 3]), x, &[0.0; 3]);
+                    let here = run(&x);
+                    let scale = here.stiffness.iter().flatten().flatten().flatten().fold(1e-3_f64, |m, v| m.max(v.abs()));
+                    for b in 0..edge.node_count() {
+                        for j in 0..2 {
+                            let keep = x[b][j];
+                            x[b][j] = keep + STEP;
+                            let up = run(&x);
+                            x[b][j] = keep - STEP;
+                            let down = run(&x);
+                            x[b][j] = keep;
+                            let force = (up.energy - down.energy) / (2.0 * STEP);
+                            assert!((force - here.force[b][j]).abs() < tolerance * scale, "{tool:?} {tip} {middle} {force} {}", here.force[b][j]);
+                            for a in 0..edge.node_count() {
+                                for i in 0..2 {
+                                    let difference = (up.force[a][i] - down.force[a][i]) / (2.0 * STEP);
+                                    let exact = here.stiffness[a][i][b][j];
+                                    assert!((difference - exact).abs() < tolerance * scale, "{tool:?} {tip} {middle}");
+                                }
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
