@@ -2,7 +2,15 @@
 
 pub mod build;
 pub mod grading;
+mod inp;
 mod mesh;
+mod msh;
 pub mod profile;
+mod quality;
+mod vtu;
 
+pub use inp::{Section, write_inp};
 pub use mesh::{Edge, ElementKind, Mesh, Sides};
+pub use msh::{MshError, read_msh, write_msh};
+pub use quality::Quality;
+pub use vtu::{FieldArray, VtuError, write_vtu};
