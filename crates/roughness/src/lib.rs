@@ -1,1 +1,22 @@
-//! placeholder
+//! Contact of a rough surface with a smooth rigid plane, asperity by asperity (Jourani et al., section 4).
+//!
+//! The order of the modules is the flow of the data: a height map is levelled and filtered, its roughness numbers are
+//! taken, a plane cuts it into islands, a closure gives each island its force, and the separation that carries the
+//! load is found.
+
+mod height_map;
+
+mod cell;
+mod ellipse;
+mod islands;
+mod ladder;
+
+mod closure;
+mod coefficient;
+
+pub use closure::{Closure, ClosureError, Metal, Model, PUBLISHED, Regime, Response, SINGLE_ASPERITY_EXPONENT};
+pub use coefficient::{Angle, Coefficient, CoefficientError, Cone};
+pub use ellipse::Ellipse;
+pub use height_map::{Extent, HeightMap, MapError};
+pub use islands::{Island, Islands};
+pub use ladder::{Above, Rungs, above_plane, above_rungs, plane_of};
