@@ -48,12 +48,16 @@ impl Closure {
     /// Where the closure comes from, in one line.
     pub fn source(self) -> &'static str {
         match self {
-            Closure::Published => "p = 0.13 E* tan(beta) on the island, never capped (Jourani et al., eqs 10-12)",
+            Closure::Published => {
+                "p = 0.13 E* tan(beta) on the island, never capped (Jourani et al., eqs 10-12)"
+            }
             Closure::Fitted => "p = c E* tan(beta) on the island, c from the calibration",
             Closure::Johnson => {
                 "p = min(0.2 E* tan(beta), max(2/3 Y, cavity law), H) on the island (Johnson 1985, ch. 6; eqs 18-20 mended)"
             }
-            Closure::Sneddon => "F = 2/pi^2 E* tan(beta) A_island, contact area 4/pi^2 of the island (Sneddon 1965)",
+            Closure::Sneddon => {
+                "F = 2/pi^2 E* tan(beta) A_island, contact area 4/pi^2 of the island (Sneddon 1965)"
+            }
             Closure::Calibrated => "F = K(beta) h^2, area = contact_ratio^2 A_island, K from crushed cones",
         }
     }
@@ -145,14 +149,27 @@ pub struct Model {
 #[derive(Clone, Debug)]
 enum Law {
     /// Island pressure = coefficient · E* tan β, contact area = ratio · island.
-    Linear { coefficient: f64, area_ratio: f64 },
-    Johnson { yield_stress: f64, hardness: f64 },
-    Calibrated { hardening: Hardening, coefficient: Coefficient },
+    Linear {
+        coefficient: f64,
+        area_ratio: f64,
+    },
+    Johnson {
+        yield_stress: f64,
+        hardness: f64,
+    },
+    Calibrated {
+        hardening: Hardening,
+        coefficient: Coefficient,
+    },
 }
 
 impl Model {
     /// The closure for one metal; `coefficient` is the calibration's result.
-    pub fn new(closure: Closure, metal: &Metal, coefficient: Option<&Coefficient>) -> Result<Model, ClosureError> {
+    pub fn new(
+        closure: Closure,
+        metal: &Metal,
+        coefficient: Option<&Coefficient>,
+    ) -> Result<Model, ClosureError> {
         let name = closure.name();
         let hardness = metal.hardness.or(metal.yield_stress.map(|y| 3.0 * y)); // eq. [20]
         let calibration = || coefficient.ok_or(ClosureError::Coefficient { closure: name });
@@ -179,7 +196,10 @@ impl Model {
                 let exponent = metal.hardening_exponent.ok_or(missing("hardening_exponent"))?;
                 let law = metal.hardening_law.unwrap_or(coefficient.law);
                 if law != coefficient.law {
-                    return Err(ClosureError::Law { calibrated: coefficient.law.name(), material: law.name() });
+                    return Err(ClosureError::Law {
+                        calibrated: coefficient.law.name(),
+                        material: law.name(),
+                    });
                 }
                 let youngs_modulus = metal.elastic.youngs_modulus;
                 Law::Calibrated {
@@ -275,7 +295,12 @@ impl Model {
         let cone = coefficient.cone(tan_beta, self.modulus / stress);
         let area_ratio = cone.contact_ratio * cone.contact_ratio;
         let island_pressure = stress * island_pressure(&cone, tan_beta);
-        Response { island_pressure, area_ratio, regime: self.regime(island_pressure / area_ratio), inside: cone.inside }
+        Response {
+            island_pressure,
+            area_ratio,
+            regime: self.regime(island_pressure / area_ratio),
+            inside: cone.inside,
+        }
     }
 
     /// Elastic pressure of the closure on its contact area at slope `tan_beta`, for the plasticity index (eq. [13]).
@@ -315,9 +340,11 @@ mod tests {
     #[test]
     fn pressures_at_the_slopes_of_table_1() {
         let model = |c| Model::new(c, &steel(), None).unwrap();
-        for (tan, published, index, johnson) in
-            [(0.02741, 822.0, 0.642, 648.2), (0.07133, 2140.0, 1.672, 901.1), (0.20127, 6038.0, 4.717, 1188.0)]
-        {
+        for (tan, published, index, johnson) in [
+            (0.02741, 822.0, 0.642, 648.2),
+            (0.07133, 2140.0, 1.672, 901.1),
+            (0.20127, 6038.0, 4.717, 1188.0),
+        ] {
             let p = model(Closure::Published).respond(tan).island_pressure;
             assert!((p / published - 1.0).abs() < 1e-3);
             assert!((model(Closure::Published).elastic_pressure(tan) / 1280.0 / index - 1.0).abs() < 1e-3);
@@ -356,6 +383,9 @@ mod tests {
         assert!((soft.island_pressure / (2.0 / PI / PI * 210e3 / 0.91 * 1e-5) - 1.0).abs() < 1e-6);
         assert!((soft.area_ratio - 4.0 / PI / PI).abs() < 1e-6);
         let swift = Metal { hardening_law: Some(HardeningLaw::Swift), ..metal };
-        assert!(matches!(Model::new(Closure::Calibrated, &swift, Some(&table)), Err(ClosureError::Law { .. })));
+        assert!(matches!(
+            Model::new(Closure::Calibrated, &swift, Some(&table)),
+            Err(ClosureError::Law { .. })
+        ));
     }
 }

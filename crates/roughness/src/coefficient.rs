@@ -28,7 +28,9 @@ pub enum CoefficientError {
     #[error("the coefficient file cannot be read: {0}; `asperity calibrate` writes a new one")]
     Syntax(String),
     /// A value makes no sense.
-    #[error("in the coefficient file {name} = {value}, but it must be {allowed}; `asperity calibrate` writes a new one")]
+    #[error(
+        "in the coefficient file {name} = {value}, but it must be {allowed}; `asperity calibrate` writes a new one"
+    )]
     Value {
         /// Which value.
         name: String,
@@ -90,7 +92,8 @@ pub struct Cone {
 impl Coefficient {
     /// Reads and checks the TOML text of a coefficient file.
     pub fn from_toml(text: &str) -> Result<Coefficient, CoefficientError> {
-        let read: Coefficient = toml::from_str(text).map_err(|e| CoefficientError::Syntax(e.message().into()))?;
+        let read: Coefficient =
+            toml::from_str(text).map_err(|e| CoefficientError::Syntax(e.message().into()))?;
         read.checked()
     }
 
@@ -116,7 +119,9 @@ impl Coefficient {
         value("poissons_ratio", nu, nu > -1.0 && nu < 0.5, "in (-1, 0.5)")?;
         let slopes: Vec<f64> = self.angles.iter().map(|a| a.beta_deg).collect();
         let slopes_fit = positive(&slopes) && ascending(&slopes) && slopes.iter().all(|b| *b < 90.0);
-        let table = |name: &str, allowed| Err(CoefficientError::Value { name: name.into(), value: "…".into(), allowed });
+        let table = |name: &str, allowed| {
+            Err(CoefficientError::Value { name: name.into(), value: "…".into(), allowed })
+        };
         if !slopes_fit {
             return table("[[angle]] beta_deg", "one or more slopes between 0 and 90, ascending");
         }
@@ -200,7 +205,8 @@ pub(crate) mod tests {
 
     /// A table on the published master curve of indentation data (E* tan β/σ_r from 5 to 200).
     pub(crate) fn master_curve() -> Coefficient {
-        let xy = [(5.0, 2.895), (10.0, 4.731), (20.0, 6.787), (50.0, 9.276), (100.0, 10.646), (200.0, 11.471)];
+        let xy =
+            [(5.0, 2.895), (10.0, 4.731), (20.0, 6.787), (50.0, 9.276), (100.0, 10.646), (200.0, 11.471)];
         let angle = |beta_deg: f64| {
             let tan = beta_deg.to_radians().tan();
             Angle {
@@ -235,7 +241,8 @@ pub(crate) mod tests {
         for w in xs.windows(2) {
             let (a, b) = (y(w[0]), y(w[1]));
             assert!(b > a && b < 1.011 * a, "{w:?} {a} {b}");
-            let (a, b) = (table.cone(tan, w[0] / tan).contact_ratio, table.cone(tan, w[1] / tan).contact_ratio);
+            let (a, b) =
+                (table.cone(tan, w[0] / tan).contact_ratio, table.cone(tan, w[1] / tan).contact_ratio);
             assert!((b / a - 1.0).abs() < 0.02);
         }
         assert_eq!(Coefficient::from_toml(&table.to_toml().unwrap()).unwrap(), table);

@@ -34,7 +34,10 @@ pub enum MapError {
         missing: usize,
     },
     /// More nodes than the contact analysis can number.
-    #[error("{columns} x {rows} nodes are more than the {} that can be handled: cut or thin the map", i32::MAX)]
+    #[error(
+        "{columns} x {rows} nodes are more than the {} that can be handled: cut or thin the map",
+        i32::MAX
+    )]
     TooLarge {
         /// Nodes along x.
         columns: usize,
@@ -60,7 +63,12 @@ impl HeightMap {
     /// A map of `columns` nodes along x and `rows` along y; `heights` (m) row by row, `pixel` = spacing along x and y (m).
     ///
     /// Heights that are not finite count as missing.
-    pub fn new(columns: usize, rows: usize, pixel: [f64; 2], mut heights: Vec<f64>) -> Result<Self, MapError> {
+    pub fn new(
+        columns: usize,
+        rows: usize,
+        pixel: [f64; 2],
+        mut heights: Vec<f64>,
+    ) -> Result<Self, MapError> {
         if columns.checked_mul(rows) != Some(heights.len()) {
             return Err(MapError::Shape { columns, rows, found: heights.len() });
         }
@@ -209,11 +217,7 @@ impl HeightMap {
             (0..self.cell_rows()).into_par_iter().map(count).sum()
         };
         if cells == 0 {
-            return Err(MapError::NoCell {
-                columns: self.columns,
-                rows: self.rows,
-                missing: self.missing,
-            });
+            return Err(MapError::NoCell { columns: self.columns, rows: self.rows, missing: self.missing });
         }
         Ok(Extent { low, high, cells })
     }

@@ -125,7 +125,8 @@ impl Islands {
                                 let m = cell::moments_above(&visit.corners, visit.sides, inverse_pixel);
                                 sum.add(&m.moved(f64::from(visit.offset[0]), f64::from(visit.offset[1])));
                             } else {
-                                let (area, slope_area) = part_above(&visit.corners, visit.sides, inverse_pixel);
+                                let (area, slope_area) =
+                                    part_above(&visit.corners, visit.sides, inverse_pixel);
                                 sum.area += area;
                                 sum.slope_area += slope_area;
                             }
@@ -147,7 +148,13 @@ impl Islands {
     }
 
     /// Walks the cells of cell row `row` that have a corner above the plane.
-    fn visit_row(&self, map: &HeightMap, row: usize, mut meet: impl FnMut(Meeting), mut add: impl FnMut(Visit)) {
+    fn visit_row(
+        &self,
+        map: &HeightMap,
+        row: usize,
+        mut meet: impl FnMut(Meeting),
+        mut add: impl FnMut(Visit),
+    ) {
         let wrap_row = row + 1 == map.rows();
         let next_row = if wrap_row { 0 } else { row + 1 };
         let (low, high) = (map.row(row), map.row(next_row));
@@ -388,7 +395,10 @@ fn runs_of_row(map: &HeightMap, row: usize, plane: f64, runs: &mut Vec<Run>) {
         let mut end = start + 1;
         let mut high = heights[start];
         // with holes in the map, two nodes are neighbours only if a used cell holds both
-        while end < heights.len() && heights[end] > plane && (map.missing() == 0 || edge_is_used(map, row, end)) {
+        while end < heights.len()
+            && heights[end] > plane
+            && (map.missing() == 0 || edge_is_used(map, row, end))
+        {
             high = high.max(heights[end]);
             end += 1;
         }

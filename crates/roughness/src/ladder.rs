@@ -80,7 +80,8 @@ impl Tally {
         let mut next = 0;
         if low >= self.rungs.low {
             let top = (((low - self.rungs.low) / self.rungs.step) as usize).min(self.rungs.count - 1);
-            let whole = Above { area: 1.0, slope_area: 0.25 * ((slopes[0] + slopes[1]) + (slopes[2] + slopes[3])) };
+            let whole =
+                Above { area: 1.0, slope_area: 0.25 * ((slopes[0] + slopes[1]) + (slopes[2] + slopes[3])) };
             self.whole[top].add(whole);
             next = top + 1;
         }
@@ -251,7 +252,8 @@ fn first_bracket(map: &HeightMap, rungs: Rungs, sums: &[Above], wanted: f64) -> 
         })
         .collect();
     let cells = parts.concat();
-    Bracket { low, high, cells, base: Above::default(), inverse_pixel: inverse(map.pixel()) }.with_top(sums[k + 1])
+    Bracket { low, high, cells, base: Above::default(), inverse_pixel: inverse(map.pixel()) }
+        .with_top(sums[k + 1])
 }
 
 fn false_position(bracket: &Bracket, wanted: f64) -> (f64, Above) {
@@ -267,7 +269,8 @@ fn false_position(bracket: &Bracket, wanted: f64) -> (f64, Above) {
         }
         let cross = low + (high - low) * (f_low / (f_low - f_high));
         // every fourth step halves, so that the bracket shrinks whatever the curve
-        let d = if iteration % 4 < 3 && cross > low && cross < high { cross } else { low + 0.5 * (high - low) };
+        let d =
+            if iteration % 4 < 3 && cross > low && cross < high { cross } else { low + 0.5 * (high - low) };
         if d <= low || d >= high {
             break;
         }

@@ -4,7 +4,11 @@
 //! taken, a plane cuts it into islands, a closure gives each island its force, and the separation that carries the
 //! load is found.
 
+pub mod format;
 mod height_map;
+
+mod level;
+mod numbers;
 
 mod cell;
 mod ellipse;
@@ -14,9 +18,18 @@ mod ladder;
 mod closure;
 mod coefficient;
 
-pub use closure::{Closure, ClosureError, Metal, Model, PUBLISHED, Regime, Response, SINGLE_ASPERITY_EXPONENT};
+mod contact;
+mod pressure;
+
+pub use closure::{
+    Closure, ClosureError, Metal, Model, PUBLISHED, Regime, Response, SINGLE_ASPERITY_EXPONENT,
+};
 pub use coefficient::{Angle, Coefficient, CoefficientError, Cone};
+pub use contact::{CURVE_POINTS, Contact, ContactError, CurvePoint, Load, Surface, Unloading, press, unload};
 pub use ellipse::Ellipse;
 pub use height_map::{Extent, HeightMap, MapError};
 pub use islands::{Island, Islands};
 pub use ladder::{Above, Rungs, above_plane, above_rungs, plane_of};
+pub use level::{Level, level};
+pub use numbers::Roughness;
+pub use pressure::{Loaded, PressureField, Profile};

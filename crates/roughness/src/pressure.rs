@@ -1,0 +1,147 @@
+//! Pressure on the pixels: each island's force spread over its pixels by a profile.
+
+use crate::contact::Contact;
+use crate::ellipse::Ellipse;
+use crate::height_map::HeightMap;
+use crate::islands::Piece;
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+/// How the pressure of an island falls from its middle to its edge, ρ being the elliptic radius.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Profile {
+    /// 3/2 p √(1 - ρ²) (eq. [15]).
+    Hertz,
+    /// p arcosh(1/ρ), the elastic cone's (Sneddon 1965); infinite in the middle, so averaged over each pixel.
+    Cone,
+    /// p everywhere.
+    Uniform,
+}
+
+impl Profile {
+    /// Pressure over mean pressure at squared elliptic radius `r2` < 1.
+    fn at(self, r2: f64) -> f64 {
+        match self {
+            Profile::Hertz => 1.5 * (1.0 - r2).sqrt(),
+            Profile::Cone => (1.0 / r2.max(1e-12).sqrt()).acosh(),
+            Profile::Uniform => 1.0,
+        }
+    }
+}
+
+/// A pixel (cell of the map) that carries load.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Loaded {
+    /// Number of the cell: row · cell columns + column.
+    pub cell: u32,
+    /// Island that it belongs to.
+    pub island: u32,
+    /// Force on the pixel over the area of the pixel, in Pa.
+    pub pressure: f32,
+    /// Part of the pixel in contact.
+    pub contact: f32,
+}
+
+/// The pressure map of one contact.
+#[derive(Clone, Debug)]
+pub struct PressureField {
+    /// Loaded pixels in the order of the cells; two in a row may share a cell (two islands at a saddle).
+    pub pixels: Vec<Loaded>,
+    /// Largest pressure of a pixel, in Pa.
+    pub largest: f64,
+}
+
+/// Samples along a side of a pixel.
+const SAMPLES: usize = 4;
+
+impl PressureField {
+    /// Spreads the forces of `contact` on the cells of `map`.
+    ///
+    /// 1. The weight of a pixel is the profile averaged over samples inside the ellipse of the true contact, times the
+    ///    part of the pixel in contact; an island without an ellipse is uniform.
+    /// 2. The weights of an island are scaled so that they sum to its force.
+    pub fn of(map: &HeightMap, contact: &Contact, profile: Profile) -> PressureField {
+        let columns = map.cell_columns() as u32;
+        let parts: Vec<Vec<Loaded>> = map
+            .chunks()
+            .into_par_iter()
+            .map(|(first, end)| {
+                let mut pixels = Vec::new();
+                for row in first..end {
+                    contact.islands.pieces(map, row, |piece| {
+                        let (weight, covered) = weigh(&piece, contact, profile, map.pixel());
+                        pixels.push(Loaded {
+                            cell: piece.cell[0] * columns + piece.cell[1],
+                            island: piece.island,
+                            pressure: weight as f32,
+                            contact: covered as f32,
+                        });
+                    });
+                }
+                pixels
+            })
+            .collect();
+        let mut pixels = parts.concat();
+        let mut sums = vec![(0.0, 0.0); contact.responses.len()];
+        for pixel in &pixels {
+            let sum = &mut sums[pixel.island as usize];
+            sum.0 += f64::from(pixel.pressure);
+            sum.1 += f64::from(pixel.contact);
+        }
+        let scales: Vec<(f64, bool)> = sums
+            .iter()
+            .enumerate()
+            .map(|(j, (weights, areas))| {
+                let pressure = contact.force(j) / map.cell_area();
+                if *weights > 0.0 { (pressure / weights, true) } else { (pressure / areas, false) }
+            })
+            .collect();
+        pixels.par_iter_mut().for_each(|pixel| {
+            let (scale, weighted) = scales[pixel.island as usize];
+            pixel.pressure =
+                (scale * f64::from(if weighted { pixel.pressure } else { pixel.contact })) as f32;
+        });
+        let mut largest = 0.0f64;
+        for (i, pixel) in pixels.iter().enumerate() {
+            let beside =
+                pixels.get(i + 1).filter(|next| next.cell == pixel.cell).map_or(0.0, |next| next.pressure);
+            largest = largest.max(f64::from(pixel.pressure + beside));
+        }
+        PressureField { pixels, largest }
+    }
+}
+
+/// Weight of a piece of an island, and the part of its pixel in true contact.
+fn weigh(piece: &Piece, contact: &Contact, profile: Profile, pixel: [f64; 2]) -> (f64, f64) {
+    let island = &contact.islands.islands[piece.island as usize];
+    let ratio = contact.responses[piece.island as usize].area_ratio;
+    let Some(ellipse) = &island.ellipse else {
+        return (piece.area, piece.area * ratio.min(1.0));
+    };
+    if profile == Profile::Uniform && ratio >= 1.0 {
+        return (piece.area, piece.area);
+    }
+    let (inside, mean) = sample(ellipse, profile, ratio, piece.offset, pixel);
+    let covered = if ratio < 1.0 { inside.min(piece.area) } else { piece.area };
+    (mean * inside.min(piece.area), covered)
+}
+
+/// Part of a pixel inside the ellipse of the true contact, and the mean of the profile over that part.
+fn sample(ellipse: &Ellipse, profile: Profile, ratio: f64, corner: [f64; 2], pixel: [f64; 2]) -> (f64, f64) {
+    let (mut inside, mut sum) = (0, 0.0);
+    for i in 0..SAMPLES {
+        for j in 0..SAMPLES {
+            let at = |k: usize, axis: usize| (corner[axis] + (k as f64 + 0.5) / SAMPLES as f64) * pixel[axis];
+            let r2 = ellipse.radius_squared(at(i, 0), at(j, 1)) / ratio;
+            if r2 < 1.0 {
+                inside += 1;
+                sum += profile.at(r2);
+            }
+        }
+    }
+    if inside == 0 {
+        return (0.0, 0.0);
+    }
+    (f64::from(inside) / (SAMPLES * SAMPLES) as f64, sum / f64::from(inside))
+}
