@@ -95,10 +95,18 @@ pub fn build(
             let cell = grid.cells.len() as u32;
             grid.cells.push([next[s], next[s + 1], ids[s + 1], ids[s]]);
             if s == 0 {
-                if shells.left { surface_left.push(Edge { cell, side: 3 }) } else { sides.axis.push(Edge { cell, side: 3 }) }
+                if shells.left {
+                    surface_left.push(Edge { cell, side: 3 })
+                } else {
+                    sides.axis.push(Edge { cell, side: 3 })
+                }
             }
             if s + 2 == ids.len() {
-                if shells.right { surface_right.push(Edge { cell, side: 1 }) } else { sides.outer.push(Edge { cell, side: 1 }) }
+                if shells.right {
+                    surface_right.push(Edge { cell, side: 1 })
+                } else {
+                    sides.outer.push(Edge { cell, side: 1 })
+                }
             }
             if outermost {
                 let side = if bottom.contains(&s) {
@@ -152,7 +160,11 @@ impl Shells {
             .iter()
             .map(|&x| {
                 // the same share of the logarithm on every side
-                let t = if right && !left { (x / from).ln() / (to / from).ln() } else { ((x - from) / (to - from)).max(0.0) };
+                let t = if right && !left {
+                    (x / from).ln() / (to / from).ln()
+                } else {
+                    ((x - from) / (to - from)).max(0.0)
+                };
                 let (l, r, d) = if right && !left {
                     (a, x, plan.core_depth * (far / plan.core_depth).powf(t))
                 } else if right {
@@ -192,8 +204,11 @@ fn divide_geometric(from: f64, to: f64, kinks: &[f64], size: &impl Fn(f64) -> f6
 /// Shears the flat grid under the profile and adds mid-side nodes.
 fn finish(plan: &Plan, grid: Grid, sides: Sides) -> Mesh {
     // flat depth ζ in [-depth, 0] goes to [-depth, z_s(r)], linearly
-    let mut nodes: Vec<[f64; 2]> =
-        grid.nodes.iter().map(|&[r, zeta]| [r, zeta + plan.profile.z(r) * (1.0 + zeta / plan.depth)]).collect();
+    let mut nodes: Vec<[f64; 2]> = grid
+        .nodes
+        .iter()
+        .map(|&[r, zeta]| [r, zeta + plan.profile.z(r) * (1.0 + zeta / plan.depth)])
+        .collect();
     if plan.kind == ElementKind::Quad4 {
         return Mesh { kind: plan.kind, nodes, cells: grid.cells.into_flattened(), sides };
     }

@@ -37,11 +37,7 @@ impl Asperity {
             Shape::Cone { tan_slope, tip_radius } => {
                 let secant = tan_slope.hypot(1.0);
                 let cap = tip_radius * tan_slope / secant; // R sin β
-                if x < cap {
-                    cap_drop(tip_radius, x)
-                } else {
-                    x * tan_slope - tip_radius * (secant - 1.0)
-                }
+                if x < cap { cap_drop(tip_radius, x) } else { x * tan_slope - tip_radius * (secant - 1.0) }
             }
         }
     }

@@ -21,9 +21,8 @@ impl Stiffness {
     /// Analyses elements of `nodes_per_cell` nodes.
     pub fn new(cells: &[u32], nodes_per_cell: usize, dofs: &Dofs) -> Stiffness {
         let size = 2 * nodes_per_cell;
-        let numbers = |cell: &[u32]| -> Vec<u32> {
-            cell.iter().flat_map(|&node| dofs.number[node as usize]).collect()
-        };
+        let numbers =
+            |cell: &[u32]| -> Vec<u32> { cell.iter().flat_map(|&node| dofs.number[node as usize]).collect() };
         let mut pattern = TriMat::new((dofs.count, dofs.count));
         for cell in cells.chunks_exact(nodes_per_cell) {
             let numbers = numbers(cell);

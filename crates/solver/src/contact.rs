@@ -72,9 +72,18 @@ const GAUSS4: [[f64; 2]; 4] = [
 
 impl ContactEdge {
     /// An edge from its reference positions (corner, corner, mid-side).
-    pub fn new(nodes: [u32; 2], middle: Option<u32>, position: impl Fn(u32) -> [f64; 2], symmetry: Symmetry) -> Self {
+    pub fn new(
+        nodes: [u32; 2],
+        middle: Option<u32>,
+        position: impl Fn(u32) -> [f64; 2],
+        symmetry: Symmetry,
+    ) -> Self {
         let quadratic = middle.is_some();
-        let mut edge = ContactEdge { nodes: [nodes[0], nodes[1], middle.unwrap_or(nodes[0])], quadratic, measure: [0.0; 3] };
+        let mut edge = ContactEdge {
+            nodes: [nodes[0], nodes[1], middle.unwrap_or(nodes[0])],
+            quadratic,
+            measure: [0.0; 3],
+        };
         let x = edge.nodes.map(position);
         for (i, xi) in [-1.0, 0.0, 1.0].into_iter().enumerate() {
             let ([r, _], [dr, dz]) = (edge.point(&x, xi), edge.tangent(&x, xi));
@@ -90,11 +99,7 @@ impl ContactEdge {
 
     /// Shape functions of the three nodes at ξ.
     pub fn shape(&self, xi: f64) -> [f64; 3] {
-        if self.quadratic {
-            quadratic_shape(xi)
-        } else {
-            [0.5 * (1.0 - xi), 0.5 * (1.0 + xi), 0.0]
-        }
+        if self.quadratic { quadratic_shape(xi) } else { [0.5 * (1.0 - xi), 0.5 * (1.0 + xi), 0.0] }
     }
 
     /// Position at ξ.

@@ -1,9 +1,9 @@
 //! What both quadrilaterals share: the arrays they fill and the two kernels that fill them.
 
-use crate::j2::{PointUpdate, Tangent, update};
+use crate::j2::Tangent;
 use crate::kinematics::Symmetry;
 use crate::material::{Metal, PointState};
-use crate::tensor::{Gradient, GradientForm, Sym};
+use crate::tensor::{GradientForm, Sym};
 
 /// Integration points of every element: 2 × 2.
 pub const POINTS: usize = 4;
@@ -22,19 +22,6 @@ pub struct ElementContext<'a> {
     pub tangent: Tangent,
 }
 
-/// The past of a point: its last converged state, and the state its increment starts from.
-///
-/// The two differ where the flow of the last increment is carried on (see `history`).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PointHistory {
-    /// Last converged state.
-    pub old: PointState,
-    /// State the return mapping starts from.
-    pub start: PointState,
-    /// Whether `start` differs from `old`.
-    pub carried: bool,
-}
-
 /// Forces, stiffness and states of one element, with room for eight nodes.
 #[derive(Clone, Debug)]
 pub struct ElementOutput {
@@ -51,7 +38,12 @@ pub struct ElementOutput {
 impl ElementOutput {
     /// An empty output; `state` fills the places of the point states.
     pub fn new(state: PointState) -> Self {
-        ElementOutput { force: [[0.0; 8]; 2], stiffness: [[[0.0; 8]; 2]; 16], states: [state; POINTS], flowing: 0 }
+        ElementOutput {
+            force: [[0.0; 8]; 2],
+            stiffness: [[[0.0; 8]; 2]; 16],
+            states: [state; POINTS],
+            flowing: 0,
+        }
     }
 
     /// Zeroes what is summed up.
@@ -84,21 +76,6 @@ impl Rows {
     }
 }
 
-/// Stress update of one point: from the carried-on state where that flows on, else from the last converged state.
-pub fn update_point(
-    context: &ElementContext<'_>,
-    history: &PointHistory,
-    increment: &Gradient,
-) -> Option<PointUpdate> {
-    if history.carried {
-        let carried = update(context.metal, &history.start, increment, context.tangent)?;
-        if carried.plastic {
-            return Some(carried);
-        }
-    }
-    update(context.metal, &history.old, increment, context.tangent)
-}
-
 /// f_a += w τ : ∇N_a.
 pub fn add_force(force: &mut [[f64; 8]; 2], rows: &Rows, stress: &Sym, weight: f64) {
     let [rr, zz, tt, rz] = stress.map(|s| s * weight);
@@ -109,7 +86,13 @@ pub fn add_force(force: &mut [[f64; 8]; 2], rows: &Rows, stress: &Sym, weight: f
 }
 
 /// K += w Gᵀ A G with G_a the gradient of a unit displacement of node a.
-pub fn add_stiffness(stiffness: &mut [[[f64; 8]; 2]; 16], nodes: usize, rows: &Rows, form: &GradientForm, weight: f64) {
+pub fn add_stiffness(
+    stiffness: &mut [[[f64; 8]; 2]; 16],
+    nodes: usize,
+    rows: &Rows,
+    form: &GradientForm,
+    weight: f64,
+) {
     for b in 0..nodes {
         let (d, e, h) = (weight * rows.r[b], weight * rows.z[b], weight * rows.hoop[b]);
         let mut t = [[0.0; 5]; 2]; // A G_b for a displacement of b along r, along z

@@ -4,12 +4,16 @@
 //! as it does in all metal under a growing contact. The two-step backward difference formula (BDF2) is second order:
 //!   ε_p(n+1) = ε_p(n) + κ [ε_p(n) - ε_p(n-1)] + Δγ N(n+1),   κ = ω²/(1 + 2ω), ω the ratio of the steps,
 //! which is a radial return that starts from a state in which the last flow has been carried on by κ. Nothing else
-//! changes: the yield condition holds at the end of the increment and the tangent stays symmetric. Points that do
-//! not flow on from there (local unloading) fall back to the last converged state.
+//! changes: the yield condition holds at the end of the increment and the tangent stays symmetric. A point that stops
+//! flowing is carried on once all the same: where flow fades smoothly that is of second order too, and a switch would
+//! make the residual jump. The accumulated plastic strain is the length of the flow from one converged state to the
+//! next, not the sum of its two pieces, which would count a turn twice.
+//!
+//! Measured on the single asperity (10°, n 0.3): force error 1.9 %, 0.3 %, 0.0 % at step ratios 1.2, 1.1, 1.05, where
+//! backward Euler has 4.5 %, 2.3 %, 1.2 %.
 
-use crate::element::PointHistory;
 use crate::material::{Metal, PointState, Spectral};
-use crate::tensor::Sym;
+use crate::tensor::{Sym, contract};
 
 /// The flow of the last increment at a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,31 +30,29 @@ pub fn carry_factor(ratio: f64) -> f64 {
 }
 
 /// Flow between the elastic trial b_e - I (`trial`, from the last converged state) and the state `end`.
-pub fn flow(trial: &Sym, old: &PointState, end: &PointState) -> Option<Flowed> {
+/// `None` if either is not positive definite.
+pub fn flow(trial: &Sym, end: &PointState) -> Option<Flowed> {
     let logarithm = |b: &Sym| Spectral::of(b).map(|s| s.tensor(&s.log_strain));
     let (from, to) = (logarithm(trial)?, logarithm(&end.stretch)?);
-    Some(Flowed {
-        strain: std::array::from_fn(|i| from[i] - to[i]),
-        accumulated: end.plastic_strain - old.plastic_strain,
-    })
+    let strain: Sym = std::array::from_fn(|i| from[i] - to[i]);
+    Some(Flowed { strain, accumulated: (2.0 / 3.0 * contract(&strain, &strain)).sqrt() })
 }
 
-/// The history of a point at the start of an increment: `old` with the last flow carried on by `factor`.
-pub fn carry_on(metal: &Metal, old: &PointState, flowed: &Flowed, factor: f64) -> PointHistory {
-    let plain = PointHistory { old: *old, start: *old, carried: false };
-    let Some(hardening) = metal.hardening.as_ref().filter(|_| factor > 0.0 && flowed.accumulated > 0.0) else {
-        return plain;
+/// The state an increment starts from: `old` with the last flow carried on by `factor`.
+pub fn carry_on(metal: &Metal, old: &PointState, flowed: &Flowed, factor: f64) -> PointState {
+    let Some(hardening) = metal.hardening.as_ref().filter(|_| factor > 0.0 && flowed.accumulated > 0.0)
+    else {
+        return *old;
     };
-    let Some(spectral) = Spectral::of(&old.stretch) else { return plain };
+    let Some(spectral) = Spectral::of(&old.stretch) else { return *old };
     let strain = spectral.tensor(&spectral.log_strain);
     let doubled: Sym = std::array::from_fn(|i| 2.0 * (strain[i] - factor * flowed.strain[i]));
     let plastic_strain = old.plastic_strain + factor * flowed.accumulated;
-    let start = PointState {
+    PointState {
         stretch: exponential_minus_identity(&doubled),
         plastic_strain,
         yield_stress: hardening.flow(plastic_strain).yield_stress,
-    };
-    PointHistory { old: *old, start, carried: true }
+    }
 }
 
 /// exp(a) - I of a symmetric tensor.

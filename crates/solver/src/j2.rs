@@ -37,7 +37,12 @@ pub enum Tangent {
 }
 
 /// Updates a point from the state `old` by f - I = `increment`. `None` if f b fᵀ is not positive definite.
-pub fn update(metal: &Metal, old: &PointState, increment: &Gradient, tangent: Tangent) -> Option<PointUpdate> {
+pub fn update(
+    metal: &Metal,
+    old: &PointState,
+    increment: &Gradient,
+    tangent: Tangent,
+) -> Option<PointUpdate> {
     // 1. trial
     let trial = push_forward(increment, &old.stretch);
     let spectral = Spectral::of(&trial)?;

@@ -90,7 +90,6 @@ pub fn motion<const N: usize>(
     }
     let area = k[0] * k[3] - k[1] * k[2];
     let hoop = if axisymmetric { ur / (r - ur) } else { 0.0 };
-    let increment =
-        [(k[0] - area) / shrink, k[1] / shrink, k[2] / shrink, (k[3] - area) / shrink, hoop];
+    let increment = [(k[0] - area) / shrink, k[1] / shrink, k[2] / shrink, (k[3] - area) / shrink, hoop];
     Some(PointMotion { rows, increment, volume: point.weight * det * symmetry.weight(r), radius: r })
 }

@@ -33,6 +33,8 @@ pub mod newton;
 
 pub mod model;
 
+pub mod energy;
+
 pub mod scene;
 
 pub mod record;

@@ -32,8 +32,13 @@ impl Factor {
     /// Orders (approximate minimum degree) and analyses the lower triangle `matrix`.
     pub fn new(matrix: &CsMat<f64>) -> Result<Factor, FactorError> {
         let columns = matrix.proper_indptr();
-        let pattern =
-            SymbolicSparseColMatRef::new_checked(matrix.rows(), matrix.cols(), &columns, None, matrix.indices());
+        let pattern = SymbolicSparseColMatRef::new_checked(
+            matrix.rows(),
+            matrix.cols(),
+            &columns,
+            None,
+            matrix.indices(),
+        );
         let params = CholeskySymbolicParams {
             // measured: the automatic choice takes the simplicial path at 5,000 unknowns and is three times slower
             supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
@@ -58,8 +63,13 @@ impl Factor {
     pub fn cholesky(&mut self, matrix: &CsMat<f64>) -> Result<(), FactorError> {
         // sprs's arrays as faer sees them; the matrix is whole, so its column pointers are borrowed, not copied
         let columns = matrix.proper_indptr();
-        let pattern =
-            SymbolicSparseColMatRef::new_checked(matrix.rows(), matrix.cols(), &columns, None, matrix.indices());
+        let pattern = SymbolicSparseColMatRef::new_checked(
+            matrix.rows(),
+            matrix.cols(),
+            &columns,
+            None,
+            matrix.indices(),
+        );
         let view = SparseColMatRef::new(pattern, matrix.data());
         self.definite = true;
         self.symbolic
@@ -79,8 +89,13 @@ impl Factor {
     /// LDLᵀ factorisation without pivoting; returns the number of negative pivots.
     pub fn ldlt(&mut self, matrix: &CsMat<f64>) -> Result<usize, FactorError> {
         let columns = matrix.proper_indptr();
-        let pattern =
-            SymbolicSparseColMatRef::new_checked(matrix.rows(), matrix.cols(), &columns, None, matrix.indices());
+        let pattern = SymbolicSparseColMatRef::new_checked(
+            matrix.rows(),
+            matrix.cols(),
+            &columns,
+            None,
+            matrix.indices(),
+        );
         let view = SparseColMatRef::new(pattern, matrix.data());
         self.definite = false;
         self.symbolic
@@ -123,10 +138,19 @@ impl Factor {
         let rhs = MatMut::from_column_major_slice_mut(rhs, rows, 1);
         let stack = MemStack::new(&mut self.memory);
         if self.definite {
-            LltRef::new(&self.symbolic, &self.values).solve_in_place_with_conj(Conj::No, rhs, Par::Seq, stack);
+            LltRef::new(&self.symbolic, &self.values).solve_in_place_with_conj(
+                Conj::No,
+                rhs,
+                Par::Seq,
+                stack,
+            );
         } else {
-            LdltRef::new(&self.symbolic, &self.values).solve_in_place_with_conj(Conj::No, rhs, Par::Seq, stack);
+            LdltRef::new(&self.symbolic, &self.values).solve_in_place_with_conj(
+                Conj::No,
+                rhs,
+                Par::Seq,
+                stack,
+            );
         }
     }
 }
-

@@ -57,8 +57,7 @@ impl Spectral {
         }
         let double_angle = if radius > 0.0 { [half / radius, stretch[3] / radius] } else { [1.0, 0.0] };
         // atanh(x) loses nothing for small x; its quotient by x needs the series
-        let shear_factor =
-            if x < 1e-4 { 1.0 + x * x * (1.0 / 3.0 + x * x / 5.0) } else { x.atanh() / x };
+        let shear_factor = if x < 1e-4 { 1.0 + x * x * (1.0 / 3.0 + x * x / 5.0) } else { x.atanh() / x };
         let (middle, difference) = (0.25 * area.ln_1p(), 0.5 * x * shear_factor);
         Some(Spectral {
             log_strain: [middle + difference, middle - difference, 0.5 * stretch[2].ln_1p()],
@@ -79,7 +78,13 @@ impl Spectral {
     ///
     /// a(g, g') = Σ_AB (D_AB - 2τ_A δ_AB) g_AA g'_BB + c_s γ γ' + Σ g_iA τ_A g'_iA, with the in-plane shear modulus
     /// c_s = (τ₁λ₂² - τ₂λ₁²)/(λ₁² - λ₂²) = G' atanh(x)/x - ½(τ₁ + τ₂) (Simo 1992; de Souza Neto et al., ch. 14).
-    pub fn tangent(&self, tau: &[f64; 3], moduli: &[[f64; 3]; 3], shear: f64, geometric: &Sym) -> GradientForm {
+    pub fn tangent(
+        &self,
+        tau: &[f64; 3],
+        moduli: &[[f64; 3]; 3],
+        shear: f64,
+        geometric: &Sym,
+    ) -> GradientForm {
         let [c, s] = self.double_angle;
         let first = [0.5 * (1.0 + c), 0.5 * s, 0.5 * s, 0.5 * (1.0 - c)];
         let second = [0.5 * (1.0 - c), -0.5 * s, -0.5 * s, 0.5 * (1.0 + c)];

@@ -3,11 +3,11 @@
 use crate::assemble::Stiffness;
 use crate::contact::{ContactContext, ContactEdge, EdgeContact, NOTHING, Parts};
 use crate::dofs::{Dofs, FIXED};
-use crate::element::{ElementContext, ElementOutput, POINTS, PointHistory};
+use crate::element::{ElementContext, ElementOutput, POINTS};
 use crate::history::{Flowed, carry_factor, carry_on, flow};
 use crate::j2::Tangent;
 use crate::kinematics::{ShapePoint, Symmetry, motion};
-use crate::linear::{FactorError, Factor};
+use crate::linear::{Factor, FactorError};
 use crate::material::{Metal, PointState};
 use crate::newton::{Assessment, Failure, System};
 use crate::tool::Tool;
@@ -69,7 +69,7 @@ pub struct Model<'m> {
     tip: f64,
     increment: Vec<[f64; 2]>,
     base: Vec<[f64; 2]>,
-    history: Vec<PointHistory>,
+    start: Vec<PointState>,
     new: Vec<PointState>,
     flowing: Vec<bool>,
     touching: Vec<Parts>,
@@ -111,14 +111,20 @@ impl<'m> Model<'m> {
         for cell in 0..mesh.cell_count() {
             for q in 0..POINTS {
                 let v = match mesh.kind {
-                    ElementKind::Quad8 => {
-                        motion(&points8[q], &gather::<8>(&mesh.nodes, mesh.cell(cell)), &[[0.0; 2]; 8], symmetry)
-                            .map(|m| m.volume)
-                    }
-                    ElementKind::Quad4 => {
-                        motion(&points4[q], &gather::<4>(&mesh.nodes, mesh.cell(cell)), &[[0.0; 2]; 4], symmetry)
-                            .map(|m| m.volume)
-                    }
+                    ElementKind::Quad8 => motion(
+                        &points8[q],
+                        &gather::<8>(&mesh.nodes, mesh.cell(cell)),
+                        &[[0.0; 2]; 8],
+                        symmetry,
+                    )
+                    .map(|m| m.volume),
+                    ElementKind::Quad4 => motion(
+                        &points4[q],
+                        &gather::<4>(&mesh.nodes, mesh.cell(cell)),
+                        &[[0.0; 2]; 4],
+                        symmetry,
+                    )
+                    .map(|m| m.volume),
                 };
                 volume.push(v.ok_or(Failure::Inverted)?);
             }
@@ -137,7 +143,6 @@ impl<'m> Model<'m> {
         };
         let virgin = metal.virgin();
         let still = Flowed { strain: [0.0; 4], accumulated: 0.0 };
-        let start = PointHistory { old: virgin, start: virgin, carried: false };
         Ok(Model {
             residual: vec![0.0; dofs.count],
             direction: vec![0.0; dofs.count],
@@ -162,7 +167,7 @@ impl<'m> Model<'m> {
             tip: f64::INFINITY,
             increment: vec![[0.0; 2]; nodes],
             base: vec![[0.0; 2]; nodes],
-            history: vec![start; count],
+            start: vec![virgin; count],
             new: vec![virgin; count],
             flowing: vec![false; mesh.cell_count()],
             internal: vec![[0.0; 2]; nodes],
@@ -183,8 +188,8 @@ impl<'m> Model<'m> {
             *du = guess(node);
         }
         let factor = carry_factor(ratio);
-        for ((history, old), flowed) in self.history.iter_mut().zip(&self.old).zip(&self.flowed) {
-            *history = carry_on(&self.metal, old, flowed, factor);
+        for ((start, old), flowed) in self.start.iter_mut().zip(&self.old).zip(&self.flowed) {
+            *start = carry_on(&self.metal, old, flowed, factor);
         }
         self.keep_contact = self.parts.iter().any(|p| *p != NOTHING);
         self.touching.clone_from(&self.parts);
@@ -193,28 +198,30 @@ impl<'m> Model<'m> {
 
     /// Accepts the increment under way: the only place where the state of the body changes.
     pub fn accept(&mut self) -> Result<(), Failure> {
+        let still = Flowed { strain: [0.0; 4], accumulated: 0.0 };
         for cell in 0..self.flowing.len() {
             let points = cell * POINTS..(cell + 1) * POINTS;
             if !self.flowing[cell] {
-                for q in points {
-                    self.flowed[q].accumulated = 0.0;
-                }
+                self.flowed[points].fill(still);
                 continue;
             }
             // the elastic trial from the last converged state: what the increment would have been without flow
             let elastic = Metal { hardening: None, ..self.metal };
             let context = ElementContext { symmetry: self.symmetry, metal: &elastic, tangent: Tangent::None };
-            for q in points.clone() {
-                self.history[q].carried = false;
-            }
+            self.start[points.clone()].copy_from_slice(&self.old[points.clone()]);
             evaluate_cell(self, cell, &context)?;
             for (i, q) in points.enumerate() {
-                let trial = &self.output.states[i].stretch;
-                self.flowed[q] = if self.new[q].plastic_strain > self.old[q].plastic_strain {
-                    flow(trial, &self.old[q], &self.new[q]).ok_or(Failure::Inverted)?
-                } else {
-                    Flowed { strain: [0.0; 4], accumulated: 0.0 }
-                };
+                self.flowed[q] = still;
+                if self.new[q].plastic_strain > self.old[q].plastic_strain {
+                    let flowed =
+                        flow(&self.output.states[i].stretch, &self.new[q]).ok_or(Failure::Inverted)?;
+                    let plastic_strain = self.old[q].plastic_strain + flowed.accumulated;
+                    self.new[q].plastic_strain = plastic_strain;
+                    if let Some(hardening) = &self.metal.hardening {
+                        self.new[q].yield_stress = hardening.flow(plastic_strain).yield_stress;
+                    }
+                    self.flowed[q] = flowed;
+                }
             }
         }
         for (x, du) in self.position.iter_mut().zip(&self.increment) {
@@ -261,18 +268,19 @@ impl<'m> Model<'m> {
     /// Contact loop; returns whether the set of touching edges changed.
     fn assemble_contact(&mut self) -> bool {
         let Some(contact) = self.contact else { return false };
-        let context =
-            ContactContext { tool: &contact.tool, tip: self.tip, penalty: contact.penalty, symmetry: self.symmetry };
+        let context = ContactContext {
+            tool: &contact.tool,
+            tip: self.tip,
+            penalty: contact.penalty,
+            symmetry: self.symmetry,
+        };
         let mut changed = false;
         self.edge_contact.clear();
         for (index, edge) in self.edges.iter().enumerate() {
             let x = edge.nodes.map(|node| current(&self.position, &self.increment, node));
             let multiplier = edge.nodes.map(|node| self.multiplier[node as usize]);
-            let parts = if self.keep_contact {
-                self.parts[index]
-            } else {
-                edge.touching(&context, &x, &multiplier)
-            };
+            let parts =
+                if self.keep_contact { self.parts[index] } else { edge.touching(&context, &x, &multiplier) };
             changed |= shape_of(&parts) != shape_of(&self.touching[index]);
             self.touching[index] = parts;
             let share = edge.integrate(&context, parts, &x, &multiplier);
@@ -348,6 +356,56 @@ impl<'m> Model<'m> {
     pub fn load(&self) -> f64 {
         self.edge_contact.iter().map(|e| e.load).sum()
     }
+
+    /// Contact of every surface edge at the iterate, in the order of the mesh.
+    pub fn contacts(&self) -> &[EdgeContact] {
+        &self.edge_contact
+    }
+
+    /// Last converged node positions.
+    pub fn positions(&self) -> &[[f64; 2]] {
+        &self.position
+    }
+
+    /// Last converged point states, four to an element.
+    pub fn states(&self) -> &[PointState] {
+        &self.old
+    }
+
+    /// Reference volumes of the points.
+    pub fn volumes(&self) -> &[f64] {
+        &self.volume
+    }
+
+    /// Displacements of the increment under way, or of the last one once it is accepted.
+    pub fn increment(&self) -> &[[f64; 2]] {
+        &self.increment
+    }
+
+    /// Internal nodal forces at the iterate: reactions where a component is held.
+    pub fn internal_forces(&self) -> &[[f64; 2]] {
+        &self.internal
+    }
+
+    /// The metal.
+    pub fn metal(&self) -> &Metal {
+        &self.metal
+    }
+
+    /// The mesh.
+    pub fn mesh(&self) -> &Mesh {
+        self.mesh
+    }
+
+    /// Axisymmetric or plane strain.
+    pub fn symmetry(&self) -> Symmetry {
+        self.symmetry
+    }
+
+    /// Number of unknowns.
+    pub fn unknowns(&self) -> usize {
+        self.dofs.count
+    }
 }
 
 /// Current position of a node.
@@ -370,17 +428,19 @@ fn shape_of(parts: &Parts) -> [bool; 2] {
 fn evaluate_cell(model: &mut Model<'_>, cell: usize, context: &ElementContext<'_>) -> Result<(), Failure> {
     let nodes = model.mesh.cell(cell);
     let points = cell * POINTS..(cell + 1) * POINTS;
-    let (history, volume) = (&model.history[points.clone()], &model.volume[points]);
+    let (start, volume) = (&model.start[points.clone()], &model.volume[points]);
     let outcome = match model.mesh.kind {
         ElementKind::Quad8 => {
-            let x: [[f64; 2]; 8] = std::array::from_fn(|a| current(&model.position, &model.increment, nodes[a]));
+            let x: [[f64; 2]; 8] =
+                std::array::from_fn(|a| current(&model.position, &model.increment, nodes[a]));
             let du = gather::<8>(&model.increment, nodes);
-            quad8::evaluate(context, &model.points8, &x, &du, history, volume, &mut model.output)
+            quad8::evaluate(context, &model.points8, &x, &du, start, volume, &mut model.output)
         }
         ElementKind::Quad4 => {
-            let x: [[f64; 2]; 4] = std::array::from_fn(|a| current(&model.position, &model.increment, nodes[a]));
+            let x: [[f64; 2]; 4] =
+                std::array::from_fn(|a| current(&model.position, &model.increment, nodes[a]));
             let du = gather::<4>(&model.increment, nodes);
-            quad4::evaluate(context, &model.points4, &x, &du, history, volume, &mut model.output)
+            quad4::evaluate(context, &model.points4, &x, &du, start, volume, &mut model.output)
         }
     };
     outcome.ok_or(Failure::Inverted)
@@ -414,6 +474,10 @@ impl System for Model<'_> {
         self.base.clone_from(&self.increment);
         self.counters.solve_s += clock.elapsed().as_secs_f64();
         Ok(())
+    }
+
+    fn slope(&self) -> f64 {
+        -self.residual.iter().zip(&self.direction).map(|(r, d)| r * d).sum::<f64>()
     }
 
     fn advance(&mut self, fraction: f64) {

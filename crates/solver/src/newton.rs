@@ -34,6 +34,8 @@ pub trait System {
     fn assess(&mut self) -> Result<Assessment, Failure>;
     /// Solves for the Newton direction at the last assessed iterate.
     fn find_direction(&mut self) -> Result<(), Failure>;
+    /// Derivative of the potential along the direction at the last assessed iterate: residual · direction.
+    fn slope(&self) -> f64;
     /// Moves the iterate by `fraction` of the direction from where the direction was found.
     fn advance(&mut self, fraction: f64);
 }
@@ -56,15 +58,19 @@ pub struct Converged {
     pub history: Vec<f64>,
 }
 
-/// The residual may grow by this much in one iteration: contact sets and plastic sets change the system itself.
-const TOLERATED_GROWTH: f64 = 4.0;
+/// An iterate is too far along its direction when the slope of the potential there is this share of the slope at the
+/// start, with the opposite sign.
+const TOLERATED_OVERSHOOT: f64 = 0.6;
+
+/// Fractions below which the line search gives up looking for a better one.
+const SMALLEST_FRACTION: f64 = 0.03;
 
 /// Solves `system`; also returns the iterations spent when it fails.
 ///
 /// 1. assess; converged when residual ≤ tolerance × scale and nothing discrete changed;
 /// 2. find the direction;
-/// 3. full step, halved while the iterate fails or the residual explodes (not after the first iteration, in which
-///    the system may still be a simplified one).
+/// 3. full step, shortened by regula falsi on the slope of the potential while it overshoots, halved while the
+///    iterate fails. Not after the first iteration, in which the system may still be a simplified one.
 pub fn solve(system: &mut impl System, settings: &Settings) -> Result<Converged, (Failure, usize)> {
     let mut last = system.assess().map_err(|f| (f, 0))?;
     let mut history = vec![last.residual / last.scale];
@@ -73,23 +79,25 @@ pub fn solve(system: &mut impl System, settings: &Settings) -> Result<Converged,
             return Err((Failure::NotFinite, iteration));
         }
         system.find_direction().map_err(|f| (f, iteration))?;
+        let start = system.slope();
         let mut fraction = 1.0;
-        let next = loop {
+        last = loop {
             system.advance(fraction);
             let outcome = system.assess();
-            let acceptable = match &outcome {
-                Ok(a) => {
-                    a.residual.is_finite()
-                        && (iteration == 1 || a.residual <= TOLERATED_GROWTH * last.residual.max(settings.tolerance * a.scale))
+            let shorter = match &outcome {
+                Ok(_) if iteration == 1 => None,
+                Ok(next) if next.residual.is_finite() => {
+                    let end = system.slope();
+                    let overshoots = start < 0.0 && end > -TOLERATED_OVERSHOOT * start;
+                    overshoots.then(|| (start / (start - end)).clamp(0.1, 0.7))
                 }
-                Err(_) => false,
+                _ => Some(0.5),
             };
-            if acceptable || fraction < 0.1 {
-                break outcome;
+            match shorter {
+                Some(factor) if fraction * factor > SMALLEST_FRACTION => fraction *= factor,
+                _ => break outcome.map_err(|f| (f, iteration))?,
             }
-            fraction *= 0.5;
         };
-        last = next.map_err(|f| (f, iteration))?;
         history.push(last.residual / last.scale);
         if last.residual <= settings.tolerance * last.scale && !last.changed {
             return Ok(Converged { iterations: iteration, history });
@@ -124,6 +132,9 @@ mod tests {
             self.base = self.x;
             self.direction = -(self.x * self.x - 2.0) / (2.0 * self.x);
             Ok(())
+        }
+        fn slope(&self) -> f64 {
+            (self.x * self.x - 2.0) * self.direction
         }
         fn advance(&mut self, fraction: f64) {
             self.x = self.base + fraction * self.direction;

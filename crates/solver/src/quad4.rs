@@ -3,11 +3,10 @@
 //! The points see f̄ = s f with s = (θ/j)^{1/3}, θ = v/v_n the volume ratio of the whole element and j = det f that of
 //! the point, hoop stretch included. The residual is the derivative of ∫ W(F̄) dV₀, and so the tangent is symmetric.
 
-use crate::element::{
-    ElementContext, ElementOutput, GAUSS, POINTS, PointHistory, Rows, add_force, add_stiffness, update_point,
-};
-use crate::j2::Tangent;
+use crate::element::{ElementContext, ElementOutput, GAUSS, POINTS, Rows, add_force, add_stiffness};
+use crate::j2::{Tangent, update};
 use crate::kinematics::{PointMotion, ShapePoint, motion};
+use crate::material::PointState;
 use crate::tensor::{trace, volume_change};
 
 /// Shape functions at (ξ, η).
@@ -26,7 +25,8 @@ pub fn points() -> [ShapePoint<4>; POINTS] {
     [[-GAUSS, -GAUSS], [GAUSS, -GAUSS], [GAUSS, GAUSS], [-GAUSS, GAUSS]].map(|[s, t]| shape(s, t, 1.0))
 }
 
-/// Internal forces, stiffness and new states. `volume` are the reference volumes of the points.
+/// Internal forces, stiffness and new states. `start` are the states the increment starts from,
+/// `volume` the reference volumes of the points.
 ///
 /// With b_a = div N_a, b̄_a its volume average and m_a = (b̄_a - b_a)/3, a virtual displacement of node a changes f̄
 /// by l̄_a = ∇N_a + m_a I: f_a = ∫ τ : l̄_a dV₀, and the tangent adds the second variation of s (see `second_variation`).
@@ -36,7 +36,7 @@ pub fn evaluate(
     points: &[ShapePoint<4>; POINTS],
     x: &[[f64; 2]; 4],
     du: &[[f64; 2]; 4],
-    history: &[PointHistory],
+    start: &[PointState],
     volume: &[f64],
     out: &mut ElementOutput,
 ) -> Option<()> {
@@ -68,7 +68,7 @@ pub fn evaluate(
         for i in [0, 3, 4] {
             increment[i] += s1;
         }
-        let end = update_point(context, &history[q], &increment)?;
+        let end = update(context.metal, &start[q], &increment, context.tangent)?;
         let rows = Rows::new(&m.rows);
         let mut shift = [[0.0; 8]; 2]; // m_a
         for a in 0..4 {

@@ -1,22 +1,13 @@
 //! Eight-node serendipity quadrilateral with reduced 2 × 2 integration.
 
-use crate::element::{
-    ElementContext, ElementOutput, GAUSS, POINTS, PointHistory, Rows, add_force, add_stiffness, update_point,
-};
-use crate::j2::Tangent;
+use crate::element::{ElementContext, ElementOutput, GAUSS, POINTS, Rows, add_force, add_stiffness};
+use crate::j2::{Tangent, update};
 use crate::kinematics::{ShapePoint, motion};
+use crate::material::PointState;
 
 /// Corners, then mid-sides, of the reference square.
-const NODES: [[f64; 2]; 8] = [
-    [-1.0, -1.0],
-    [1.0, -1.0],
-    [1.0, 1.0],
-    [-1.0, 1.0],
-    [0.0, -1.0],
-    [1.0, 0.0],
-    [0.0, 1.0],
-    [-1.0, 0.0],
-];
+const NODES: [[f64; 2]; 8] =
+    [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0], [0.0, -1.0], [1.0, 0.0], [0.0, 1.0], [-1.0, 0.0]];
 
 /// Shape functions at (ξ, η).
 pub fn shape(xi: f64, eta: f64, weight: f64) -> ShapePoint<8> {
@@ -25,7 +16,8 @@ pub fn shape(xi: f64, eta: f64, weight: f64) -> ShapePoint<8> {
         let (p, q) = (1.0 + s * xi, 1.0 + t * eta);
         if a < 4 {
             point.value[a] = 0.25 * p * q * (s * xi + t * eta - 1.0);
-            point.slope[a] = [0.25 * s * q * (2.0 * s * xi + t * eta), 0.25 * t * p * (s * xi + 2.0 * t * eta)];
+            point.slope[a] =
+                [0.25 * s * q * (2.0 * s * xi + t * eta), 0.25 * t * p * (s * xi + 2.0 * t * eta)];
         } else if s == 0.0 {
             point.value[a] = 0.5 * (1.0 - xi * xi) * q;
             point.slope[a] = [-xi * q, 0.5 * t * (1.0 - xi * xi)];
@@ -42,7 +34,8 @@ pub fn points() -> [ShapePoint<8>; POINTS] {
     [[-GAUSS, -GAUSS], [GAUSS, -GAUSS], [GAUSS, GAUSS], [-GAUSS, GAUSS]].map(|[s, t]| shape(s, t, 1.0))
 }
 
-/// Internal forces, stiffness and new states. `volume` are the reference volumes of the points.
+/// Internal forces, stiffness and new states. `start` are the states the increment starts from,
+/// `volume` the reference volumes of the points.
 ///
 /// f_a = ∫ τ : ∇N_a dV₀, K = ∂f/∂u. `None` where a point fails or the element turns inside out.
 pub fn evaluate(
@@ -50,14 +43,14 @@ pub fn evaluate(
     points: &[ShapePoint<8>; POINTS],
     x: &[[f64; 2]; 8],
     du: &[[f64; 2]; 8],
-    history: &[PointHistory],
+    start: &[PointState],
     volume: &[f64],
     out: &mut ElementOutput,
 ) -> Option<()> {
     out.clear();
     for (q, point) in points.iter().enumerate() {
         let motion = motion(point, x, du, context.symmetry)?;
-        let end = update_point(context, &history[q], &motion.increment)?;
+        let end = update(context.metal, &start[q], &motion.increment, context.tangent)?;
         let rows = Rows::new(&motion.rows);
         add_force(&mut out.force, &rows, &end.stress, volume[q]);
         if context.tangent != Tangent::None {

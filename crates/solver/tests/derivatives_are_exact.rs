@@ -5,7 +5,7 @@
 
 use asperity_law::{Elastic, Hardening, HardeningLaw};
 use asperity_solver::contact::{ContactContext, ContactEdge};
-use asperity_solver::element::{ElementContext, ElementOutput, PointHistory};
+use asperity_solver::element::{ElementContext, ElementOutput};
 use asperity_solver::j2::{Tangent, update};
 use asperity_solver::kinematics::{Symmetry, motion};
 use asperity_solver::material::{Metal, PointState};
@@ -40,7 +40,12 @@ fn strained(metal: &Metal) -> PointState {
 fn material() {
     for metal in metals() {
         let old = strained(&metal);
-        for g in [[0.3, -0.2, 0.4, -0.1, 0.15], [1e-3, 5e-4, -2e-3, 1e-3, -1e-3], [-2e-3, -4e-3, 3e-3, 3e-3, -1e-3], [-0.4, 0.0, 0.0, 0.9, -0.3]] {
+        for g in [
+            [0.3, -0.2, 0.4, -0.1, 0.15],
+            [1e-3, 5e-4, -2e-3, 1e-3, -1e-3],
+            [-2e-3, -4e-3, 3e-3, 3e-3, -1e-3],
+            [-0.4, 0.0, 0.0, 0.9, -0.3],
+        ] {
             let here = update(&metal, &old, &g, Tangent::Exact).unwrap();
             let scale = here.tangent.iter().flatten().fold(0.0_f64, |m, v| m.max(v.abs()));
             let stress = |l: &[f64; 5]| {
@@ -75,7 +80,11 @@ fn material() {
                 for i in 0..5 {
                     let difference = (up[i] - down[i]) / (2.0 * STEP);
                     let error = (difference - here.tangent[i][j]).abs() / scale;
-                    assert!(error < TOLERANCE, "{metal:?} g {g:?} ({i}, {j}): {difference} {}", here.tangent[i][j]);
+                    assert!(
+                        error < TOLERANCE,
+                        "{metal:?} g {g:?} ({i}, {j}): {difference} {}",
+                        here.tangent[i][j]
+                    );
                 }
             }
         }
@@ -89,7 +98,7 @@ fn element<const N: usize>(
         &ElementContext<'_>,
         &[[f64; 2]; N],
         &[[f64; 2]; N],
-        &[PointHistory],
+        &[PointState],
         &[f64],
         &mut ElementOutput,
     ) -> Option<()>,
@@ -99,14 +108,14 @@ fn element<const N: usize>(
             for amplitude in [1e-3, 0.15] {
                 let context = ElementContext { symmetry, metal: &metal, tangent: Tangent::Exact };
                 let old = strained(&metal);
-                let history = [PointHistory { old, start: old, carried: false }; 4];
+                let start = [old; 4];
                 let mut du: [[f64; 2]; N] =
                     std::array::from_fn(|a| [0, 1].map(|i| amplitude * ((3 * a + 5 * i) as f64).sin()));
                 let volume = volume(symmetry);
                 let run = |du: &[[f64; 2]; N]| {
                     let x = std::array::from_fn(|a| [reference[a][0] + du[a][0], reference[a][1] + du[a][1]]);
                     let mut out = ElementOutput::new(old);
-                    evaluate(&context, &x, du, &history, &volume, &mut out).unwrap();
+                    evaluate(&context, &x, du, &start, &volume, &mut out).unwrap();
                     out
                 };
                 let here = run(&du);
@@ -143,7 +152,9 @@ const CORNERS: [[f64; 2]; 4] = [[1.0, 0.1], [2.1, -0.1], [2.3, 1.2], [0.9, 1.0]]
 #[test]
 fn quad4_with_mean_dilatation() {
     let points = quad4::points();
-    let volume = |symmetry| points.iter().map(|p| motion(p, &CORNERS, &[[0.0; 2]; 4], symmetry).unwrap().volume).collect();
+    let volume = |symmetry| {
+        points.iter().map(|p| motion(p, &CORNERS, &[[0.0; 2]; 4], symmetry).unwrap().volume).collect()
+    };
     element(CORNERS, volume, |c, x, du, h, v, out| quad4::evaluate(c, &points, x, du, h, v, out));
 }
 
@@ -158,7 +169,9 @@ fn quad8_with_reduced_integration() {
             [0.5 * (p[0] + q[0]) + 0.02 * a as f64 - 0.1, 0.5 * (p[1] + q[1]) + 0.03]
         }
     });
-    let volume = |symmetry| points.iter().map(|p| motion(p, &reference, &[[0.0; 2]; 8], symmetry).unwrap().volume).collect();
+    let volume = |symmetry| {
+        points.iter().map(|p| motion(p, &reference, &[[0.0; 2]; 8], symmetry).unwrap().volume).collect()
+    };
     element(reference, volume, |c, x, du, h, v, out| quad8::evaluate(c, &points, x, du, h, v, out));
 }
 
@@ -178,12 +191,21 @@ fn contact() {
             for (tip, middle) in [(0.03, 0.04), (0.03, 0.12), (-0.3, -0.2), (-0.5, 0.04), (0.02, -0.1)] {
                 for quadratic in [true, false] {
                     let context = ContactContext { tool: &tool, tip, penalty: 3.0, symmetry };
-                    let edge = ContactEdge::new([0, 1], quadratic.then_some(2), |n| reference[n as usize], symmetry);
+                    let edge =
+                        ContactEdge::new([0, 1], quadratic.then_some(2), |n| reference[n as usize], symmetry);
                     let mut x = reference;
                     x[2][1] = middle;
-                    let run = |x: &[[f64; 2]; 3]| edge.integrate(&context, edge.touching(&context, x, &[0.0; 3]), x, &[0.0; 3]);
+                    let run = |x: &[[f64; 2]; 3]| {
+                        edge.integrate(&context, edge.touching(&context, x, &[0.0; 3]), x, &[0.0; 3])
+                    };
                     let here = run(&x);
-                    let scale = here.stiffness.iter().flatten().flatten().flatten().fold(1e-3_f64, |m, v| m.max(v.abs()));
+                    let scale = here
+                        .stiffness
+                        .iter()
+                        .flatten()
+                        .flatten()
+                        .flatten()
+                        .fold(1e-3_f64, |m, v| m.max(v.abs()));
                     for b in 0..edge.node_count() {
                         for j in 0..2 {
                             let keep = x[b][j];
@@ -193,12 +215,19 @@ fn contact() {
                             let down = run(&x);
                             x[b][j] = keep;
                             let force = (up.energy - down.energy) / (2.0 * STEP);
-                            assert!((force - here.force[b][j]).abs() < tolerance * scale, "{tool:?} {tip} {middle} {force} {}", here.force[b][j]);
+                            assert!(
+                                (force - here.force[b][j]).abs() < tolerance * scale,
+                                "{tool:?} {tip} {middle} {force} {}",
+                                here.force[b][j]
+                            );
                             for a in 0..edge.node_count() {
                                 for i in 0..2 {
                                     let difference = (up.force[a][i] - down.force[a][i]) / (2.0 * STEP);
                                     let exact = here.stiffness[a][i][b][j];
-                                    assert!((difference - exact).abs() < tolerance * scale, "{tool:?} {tip} {middle}");
+                                    assert!(
+                                        (difference - exact).abs() < tolerance * scale,
+                                        "{tool:?} {tip} {middle}"
+                                    );
                                 }
                             }
                         }

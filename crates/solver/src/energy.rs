@@ -1,0 +1,90 @@
+//! Energies and contact sums of a converged increment.
+
+use crate::contact::EdgeContact;
+use crate::kinematics::Symmetry;
+use crate::material::{Metal, PointState, elastic_energy};
+
+/// Stored elastic energy Σ ψ(ε_e) dV₀ over all points.
+pub fn stored(metal: &Metal, states: &[PointState], volume: &[f64]) -> f64 {
+    states.iter().zip(volume).map(|(state, v)| v * elastic_energy(&metal.elastic, &state.stretch)).sum()
+}
+
+/// Plastic work Σ ∫σ_y dε_p dV₀ done since the virgin state.
+pub fn dissipated(metal: &Metal, states: &[PointState], volume: &[f64]) -> f64 {
+    let Some(hardening) = &metal.hardening else { return 0.0 };
+    states
+        .iter()
+        .zip(volume)
+        .filter(|(state, _)| state.plastic_strain > 0.0)
+        .map(|(state, v)| {
+            let flow = asperity_law::Flow {
+                plastic_strain: state.plastic_strain,
+                yield_stress: state.yield_stress,
+                slope: 0.0,
+            };
+            v * hardening.plastic_work(&flow)
+        })
+        .sum()
+}
+
+/// ∫F dh between two states of a loading or unloading path, exact for F = (a + b h)^2.
+pub fn work(force: [f64; 2], travel: f64) -> f64 {
+    let [f, g] = force.map(|f| f.max(0.0));
+    travel * (f + (f * g).sqrt() + g) / 3.0
+}
+
+/// Sums of the contact over some edges.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ContactSums {
+    /// Force on the tool along z.
+    pub force: f64,
+    /// Projected current area.
+    pub area: f64,
+    /// Smallest and largest radius in contact (NaN without contact).
+    pub reach: [f64; 2],
+    /// Outer edge of the contact that holds the axis; half the width in plane strain.
+    pub radius: f64,
+    /// ∫p²/(2ε) dA.
+    pub energy: f64,
+    /// Pressure-weighted mean penetration.
+    pub penetration: f64,
+    /// Largest contact pressure.
+    pub max_pressure: f64,
+}
+
+/// Sums over `edges`.
+pub fn contact_sums<'a>(edges: impl Iterator<Item = &'a EdgeContact>, symmetry: Symmetry) -> ContactSums {
+    let mut sums = ContactSums {
+        force: 0.0,
+        area: 0.0,
+        reach: [f64::NAN; 2],
+        radius: 0.0,
+        energy: 0.0,
+        penetration: 0.0,
+        max_pressure: 0.0,
+    };
+    let (mut pressure, mut weighted) = (0.0, 0.0);
+    for edge in edges {
+        sums.force += edge.load;
+        sums.area += edge.area;
+        sums.energy += edge.energy;
+        pressure += edge.pressure;
+        weighted += edge.pressure_penetration;
+        sums.max_pressure = sums.max_pressure.max(edge.max_pressure);
+        if edge.parts[0].is_some() {
+            // the contact that holds the axis grows from 0 without a gap, edge after edge
+            let gap = 1e-9 * edge.reach[1].abs();
+            if edge.reach[0] <= sums.radius + gap {
+                sums.radius = sums.radius.max(edge.reach[1]);
+            }
+            sums.reach = [sums.reach[0].min(edge.reach[0]), sums.reach[1].max(edge.reach[1])];
+        }
+    }
+    if pressure > 0.0 {
+        sums.penetration = weighted / pressure;
+    }
+    if symmetry == Symmetry::PlaneStrain {
+        sums.radius = 0.5 * sums.area;
+    }
+    sums
+}
