@@ -89,8 +89,9 @@ pub fn run(
     scene.validate()?;
     let problem = prepare(scene, mesh)?;
     let contact = ToolContact { tool: problem.tool, penalty: problem.penalty };
-    let model = Model::new(&problem.mesh, problem.symmetry, problem.metal, |node| problem.held[node], Some(contact))
-        .map_err(|_| CrushError::Mesh)?;
+    let model =
+        Model::new(&problem.mesh, problem.symmetry, problem.metal, |node| problem.held[node], Some(contact))
+            .map_err(|_| CrushError::Mesh)?;
     let settings = Settings { tolerance: problem.numbers.newton_tolerance, max_iterations: 30 };
     let mut path = Path::new(model, settings, problem.numbers.contact == ContactMethod::Augmented);
     let mut log = Log::new(scene, &problem, path.model.unknowns());
@@ -103,7 +104,11 @@ pub fn run(
         },
     };
     let numbers = problem.numbers;
-    let expected = if numbers.contact == ContactMethod::Augmented { 0.0 } else { 0.9 * numbers.penetration * problem.depth };
+    let expected = if numbers.contact == ContactMethod::Augmented {
+        0.0
+    } else {
+        0.9 * numbers.penetration * problem.depth
+    };
     let mut stopped = path
         .load(goal, numbers.steps, expected, &mut |model, increment| log.record(model, increment, observer))
         .err();
@@ -143,7 +148,9 @@ impl Units {
     fn new(problem: &Problem) -> Units {
         let (l, e) = (problem.length, problem.modulus);
         match problem.symmetry {
-            Symmetry::Axisymmetric => Units { length: l, stress: e, force: e * l * l, area: l * l, energy: e * l * l * l },
+            Symmetry::Axisymmetric => {
+                Units { length: l, stress: e, force: e * l * l, area: l * l, energy: e * l * l * l }
+            }
             Symmetry::PlaneStrain => Units { length: l, stress: e, force: e * l, area: l, energy: e * l * l },
         }
     }
@@ -260,7 +267,9 @@ impl<'p> Log<'p> {
         model: &Model<'_>,
         observer: &mut dyn FnMut(&Event<'_>) -> ControlFlow<()>,
     ) -> ControlFlow<()> {
-        let Some(row) = self.rows.last().filter(|row| row.increment > 0) else { return ControlFlow::Continue(()) };
+        let Some(row) = self.rows.last().filter(|row| row.increment > 0) else {
+            return ControlFlow::Continue(());
+        };
         if self.last_fields == Some(row.increment) {
             return ControlFlow::Continue(());
         }
@@ -353,7 +362,13 @@ impl<'p> Log<'p> {
             cutbacks: path.cutbacks,
         };
         let stopped = stopped.map(|reason| Stopped { reason, depth: last.depth, phase: last.phase });
-        Outcome { rows: self.rows, asperities: self.asperities, summary, stopped, counters: path.model.counters }
+        Outcome {
+            rows: self.rows,
+            asperities: self.asperities,
+            summary,
+            stopped,
+            counters: path.model.counters,
+        }
     }
 }
 
@@ -369,7 +384,9 @@ fn balance_error(rows: &[CurveRow]) -> f64 {
     let peak = rows.iter().fold(0.0, |m: f64, r| m.max(r.external_work));
     rows.iter()
         .filter(|r| r.external_work > 0.01 * peak)
-        .map(|r| (r.external_work - r.elastic_energy - r.plastic_work - r.contact_energy).abs() / r.external_work)
+        .map(|r| {
+            (r.external_work - r.elastic_energy - r.plastic_work - r.contact_energy).abs() / r.external_work
+        })
         .fold(0.0, f64::max)
 }
 
@@ -382,7 +399,8 @@ fn groups(problem: &Problem) -> Vec<usize> {
         .map(|&edge| {
             let ([a, b], _) = mesh.edge_nodes(edge);
             let r = 0.5 * (mesh.nodes[a as usize][0] + mesh.nodes[b as usize][0]);
-            let distance = |a: &asperity_mesh::profile::Asperity| (r - a.centre).abs() - a.half_width(a.height);
+            let distance =
+                |a: &asperity_mesh::profile::Asperity| (r - a.centre).abs() - a.half_width(a.height);
             let asperities = &problem.profile.asperities;
             (0..asperities.len())
                 .min_by(|&i, &j| distance(&asperities[i]).total_cmp(&distance(&asperities[j])))

@@ -5,7 +5,8 @@
 use crate::kinematics::Symmetry;
 use crate::material::Metal;
 use crate::scene::{
-    Accuracy, AsperityForm, ContactMethod, ElementChoice, Lateral, Numerics, Scene, SceneError, Target, ToolForm,
+    Accuracy, AsperityForm, ContactMethod, ElementChoice, Lateral, Numerics, Scene, SceneError, Target,
+    ToolForm,
 };
 use crate::tool::Tool;
 use asperity_law::{Elastic, Hardening};
@@ -40,9 +41,9 @@ impl Discretisation {
     /// What the level `accuracy` uses where `numerics` is silent.
     pub fn new(accuracy: Accuracy, numerics: &Numerics) -> Discretisation {
         let (elements, steps, unload_steps, tolerance, domain) = match accuracy {
-            Accuracy::Draft => (10, 22, 6, 1e-5, 80.0),
-            Accuracy::Standard => (18, 64, 10, 1e-7, 200.0),
-            Accuracy::Reference => (36, 200, 20, 1e-9, 800.0),
+            Accuracy::Draft => (10, 24, 6, 1e-5, 60.0),
+            Accuracy::Standard => (18, 64, 10, 1e-7, 100.0),
+            Accuracy::Reference => (36, 200, 40, 1e-9, 800.0),
         };
         let element = numerics.element.unwrap_or(ElementChoice::Q8r);
         // a linear element is as exact as a quadratic one of twice its size
@@ -114,7 +115,9 @@ pub fn prepare(scene: &Scene, mesh: Option<Mesh>) -> Result<Problem, SceneError>
     let outlines = outlines(scene)?;
     let (length, target) = match scene.loading.target().map_err(|e| within("loading", e))? {
         Target::Depth(depth) => (depth, None),
-        Target::Force(force) => (estimate_depth(&metal, modulus, symmetry, &outlines, &tool_form, force), Some(force)),
+        Target::Force(force) => {
+            (estimate_depth(&metal, modulus, symmetry, &outlines, &tool_form, force), Some(force))
+        }
     };
     let scaled: Vec<Asperity> = outlines.iter().map(|a| scale(a, length)).collect();
     let profile = Profile { asperities: scaled };
@@ -140,7 +143,20 @@ pub fn prepare(scene: &Scene, mesh: Option<Mesh>) -> Result<Problem, SceneError>
         None => build_mesh(scene, &numbers, symmetry, &profile, &half_widths, length)?,
     };
     let held = held_nodes(&mesh, symmetry, scene.lateral);
-    Ok(Problem { length, modulus, symmetry, metal, profile, tool, depth, half_widths, penalty, mesh, held, numbers })
+    Ok(Problem {
+        length,
+        modulus,
+        symmetry,
+        metal,
+        profile,
+        tool,
+        depth,
+        half_widths,
+        penalty,
+        mesh,
+        held,
+        numbers,
+    })
 }
 
 fn within(table: &str, error: SceneError) -> SceneError {
@@ -155,7 +171,9 @@ fn outlines(scene: &Scene) -> Result<Vec<Asperity>, SceneError> {
     for (index, asperity) in scene.asperity.iter().enumerate() {
         let form = asperity.form().map_err(|e| within(&format!("asperity[{index}]"), e))?;
         let shape = match form {
-            AsperityForm::Cone { slope, tip_radius, .. } => Shape::Cone { tan_slope: slope.tan(), tip_radius },
+            AsperityForm::Cone { slope, tip_radius, .. } => {
+                Shape::Cone { tan_slope: slope.tan(), tip_radius }
+            }
             AsperityForm::Sphere { radius } => Shape::Sphere { radius },
         };
         let half = form.base_radius();
@@ -297,7 +315,8 @@ fn build_mesh(
     let k = (1.0 - start.ln()) / numbers.elements_in_contact as f64;
     let core = (start * contact).min(0.5 * radius).min(0.5 * depth);
     let fine = 1.6 * contact;
-    let shell = move |x: f64| if x < fine { k * x } else { x * (FAR_GROWTH + (k - FAR_GROWTH) * fine / x).max(k) };
+    let shell =
+        move |x: f64| if x < fine { k * x } else { x * (FAR_GROWTH + (k - FAR_GROWTH) * fine / x).max(k) };
     let plan = Plan {
         profile: profile.clone(),
         core: [0.0, core],

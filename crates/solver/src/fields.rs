@@ -85,8 +85,12 @@ pub fn fields(model: &Model<'_>) -> Fields {
         }
     }
     let contact_pressure = contact_pressure(model);
-    let displacement: Vec<[f64; 2]> =
-        model.positions().iter().zip(&mesh.nodes).map(|(x, reference)| [x[0] - reference[0], x[1] - reference[1]]).collect();
+    let displacement: Vec<[f64; 2]> = model
+        .positions()
+        .iter()
+        .zip(&mesh.nodes)
+        .map(|(x, reference)| [x[0] - reference[0], x[1] - reference[1]])
+        .collect();
     let stress: Vec<Sym> = sums.iter().map(|s| [s[0], s[1], s[2], s[3]]).collect();
     let plastic_strain: Vec<f64> = sums.iter().map(|s| s[4].max(0.0)).collect();
     let mut surface: Vec<SurfacePoint> = Vec::new();

@@ -187,7 +187,7 @@ impl<'m> Model<'m> {
 
     /// Starts an increment: the tool's lowest point at `tip`, prescribed components moved by `prescribed(node)`, the
     /// first guess of the displacement `guess` (zero if absent), and the last flow carried on as for a step
-    /// `ratio` times the last one (0: not at all, as at the start of unloading).
+    /// `ratio` times the last one (0: not at all, as at the start of unloading). A tip at infinity removes the tool.
     pub fn begin(&mut self, tip: f64, ratio: f64, guess: impl Fn(usize) -> [f64; 2]) {
         self.tip = tip;
         self.multiplier.clone_from(&self.accepted_multiplier);
@@ -197,6 +197,9 @@ impl<'m> Model<'m> {
         let factor = carry_factor(ratio);
         for ((start, old), flowed) in self.start.iter_mut().zip(&self.old).zip(&self.flowed) {
             *start = carry_on(&self.metal, old, flowed, factor);
+        }
+        if tip == f64::INFINITY {
+            self.parts.fill(NOTHING);
         }
         self.keep_contact = self.parts.iter().any(|p| *p != NOTHING);
         self.touching.clone_from(&self.parts);
@@ -276,7 +279,8 @@ impl<'m> Model<'m> {
 
     /// Contact loop; returns whether the set of touching edges changed.
     fn assemble_contact(&mut self) -> bool {
-        let Some(contact) = self.contact else { return false };
+        self.edge_contact.clear();
+        let Some(contact) = self.contact.filter(|_| self.tip.is_finite()) else { return false };
         let context = ContactContext {
             tool: &contact.tool,
             tip: self.tip,
@@ -284,7 +288,6 @@ impl<'m> Model<'m> {
             symmetry: self.symmetry,
         };
         let mut changed = false;
-        self.edge_contact.clear();
         for (index, edge) in self.edges.iter().enumerate() {
             let x = edge.nodes.map(|node| current(&self.position, &self.increment, node));
             let multiplier = edge.nodes.map(|node| self.multiplier[node as usize]);

@@ -117,7 +117,8 @@ impl<'m> Path<'m> {
     /// Solves, but does not accept, the increment to `travel` with the first guess `guess` times the scaled last one.
     fn attempt(&mut self, travel: f64, carry: bool, guess: f64) -> Result<ContactSums, Failure> {
         let step = travel - self.travel;
-        let ratio = if self.last_step != 0.0 && step / self.last_step > 0.0 { step / self.last_step } else { 0.0 };
+        let ratio =
+            if self.last_step != 0.0 && step / self.last_step > 0.0 { step / self.last_step } else { 0.0 };
         let scale = guess * ratio;
         let last = if scale > 0.0 { self.model.accepted_increment().to_vec() } else { Vec::new() };
         let tip = -(self.touch + travel);
@@ -224,7 +225,8 @@ impl<'m> Path<'m> {
         };
         let mut expected = penetration;
         let fractions = schedule(steps);
-        let growth = fractions.last().copied().unwrap_or(1.0) / fractions.iter().rev().nth(1).copied().unwrap_or(0.5);
+        let growth =
+            fractions.last().copied().unwrap_or(1.0) / fractions.iter().rev().nth(1).copied().unwrap_or(0.5);
         let mut index = 0;
         let mut fraction = 0.0;
         loop {
