@@ -120,6 +120,14 @@ impl ContactEdge {
         n[0] * self.measure[0] + n[1] * self.measure[2] + n[2] * self.measure[1]
     }
 
+    /// Current area over reference area at ξ; 1 at the axis, where both vanish.
+    pub fn stretch(&self, x: &[[f64; 2]; 3], xi: f64, symmetry: Symmetry) -> f64 {
+        let ([r, _], [dr, dz]) = (self.point(x, xi), self.tangent(x, xi));
+        let current = symmetry.weight(r.abs()) * dr.hypot(dz);
+        let reference = self.measure_at(xi);
+        if reference > 0.0 { current / reference } else { 1.0 }
+    }
+
     /// Parts where λ + ε d ≥ 0, from nodal multipliers.
     pub fn touching(&self, context: &ContactContext<'_>, x: &[[f64; 2]; 3], multiplier: &[f64; 3]) -> Parts {
         let pressure = |xi: f64| {

@@ -35,6 +35,14 @@ pub mod model;
 
 pub mod energy;
 
+pub mod fields;
+
 pub mod scene;
+
+pub mod discretise;
+
+pub mod stepping;
+
+pub mod crush;
 
 pub mod record;

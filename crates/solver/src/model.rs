@@ -65,6 +65,9 @@ pub struct Model<'m> {
     parts: Vec<Parts>,
     /// Augmented Lagrange multipliers at the nodes.
     multiplier: Vec<f64>,
+    trial_multiplier: Vec<f64>,
+    accepted: Vec<[f64; 2]>,
+    accepted_multiplier: Vec<f64>,
     // increment under way
     tip: f64,
     increment: Vec<[f64; 2]>,
@@ -164,6 +167,9 @@ impl<'m> Model<'m> {
             old: vec![virgin; count],
             flowed: vec![still; count],
             multiplier: vec![0.0; nodes],
+            trial_multiplier: vec![0.0; nodes],
+            accepted_multiplier: vec![0.0; nodes],
+            accepted: vec![[0.0; 2]; nodes],
             tip: f64::INFINITY,
             increment: vec![[0.0; 2]; nodes],
             base: vec![[0.0; 2]; nodes],
@@ -184,6 +190,7 @@ impl<'m> Model<'m> {
     /// `ratio` times the last one (0: not at all, as at the start of unloading).
     pub fn begin(&mut self, tip: f64, ratio: f64, guess: impl Fn(usize) -> [f64; 2]) {
         self.tip = tip;
+        self.multiplier.clone_from(&self.accepted_multiplier);
         for (node, du) in self.increment.iter_mut().enumerate() {
             *du = guess(node);
         }
@@ -228,6 +235,8 @@ impl<'m> Model<'m> {
             x[0] += du[0];
             x[1] += du[1];
         }
+        self.accepted.clone_from(&self.increment);
+        self.accepted_multiplier.clone_from(&self.multiplier);
         self.old.clone_from(&self.new);
         self.parts.clone_from(&self.touching);
         self.load_scale = self.load_scale.max(self.load().abs());
@@ -352,6 +361,57 @@ impl<'m> Model<'m> {
         }
     }
 
+    /// dF/dh at the converged state with every point elastic and the contact kept, the compliance of the penalty taken
+    /// out: F grows by K_t per travel of the tool, of which ∫ε δd² dA is spent in the penalty.
+    ///
+    /// With v = ∂F/∂u and c = ∂F/∂travel at fixed u: K_t = c - v K⁻¹ v.
+    pub fn unloading_stiffness(&mut self) -> Result<f64, Failure> {
+        self.begin(self.tip, 0.0, |_| [0.0; 2]);
+        self.tangent = Tangent::Elastic;
+        let assembled = self.assemble();
+        self.tangent = Tangent::Exact;
+        assembled?;
+        self.factorise()?;
+        let mut v = vec![0.0; self.dofs.count];
+        let mut c = 0.0;
+        for (edge, contact) in self.edges.iter().zip(&self.edge_contact) {
+            for a in 0..edge.node_count() {
+                for i in 0..2 {
+                    // a translation of the tool along z is minus that of all nodes of the edge
+                    let row: f64 = (0..edge.node_count()).map(|b| contact.stiffness[a][i][b][1]).sum();
+                    if i == 1 {
+                        c += row;
+                    }
+                    if let Some(slot) = v.get_mut(self.dofs.number[edge.nodes[a] as usize][i] as usize) {
+                        *slot += row;
+                    }
+                }
+            }
+        }
+        let mut u = v.clone();
+        self.factor.solve(&mut u);
+        // the tool goes down by 1, the body follows by u (down): δd = 1 - u on the contact
+        let stiffness = c - v.iter().zip(&u).map(|(a, b)| a * b).sum::<f64>();
+        let mut spent = 0.0;
+        for (edge, contact) in self.edges.iter().zip(&self.edge_contact) {
+            let d: [[f64; 2]; 3] = edge.nodes.map(|node| {
+                let numbers = self.dofs.number[node as usize];
+                let at = |i: usize| u.get(numbers[i] as usize).copied().unwrap_or(0.0);
+                [-at(0), 1.0 - at(1)]
+            });
+            for a in 0..edge.node_count() {
+                for i in 0..2 {
+                    for b in 0..edge.node_count() {
+                        for j in 0..2 {
+                            spent += d[a][i] * contact.stiffness[a][i][b][j] * d[b][j];
+                        }
+                    }
+                }
+            }
+        }
+        Ok(stiffness * stiffness / (stiffness - spent))
+    }
+
     /// Force on the tool along z at the iterate, positive in compression.
     pub fn load(&self) -> f64 {
         self.edge_contact.iter().map(|e| e.load).sum()
@@ -360,6 +420,23 @@ impl<'m> Model<'m> {
     /// Contact of every surface edge at the iterate, in the order of the mesh.
     pub fn contacts(&self) -> &[EdgeContact] {
         &self.edge_contact
+    }
+
+    /// The surface edges, in the order of the mesh.
+    pub fn edges(&self) -> &[ContactEdge] {
+        &self.edges
+    }
+
+    /// Whether cell `cell` flows in the increment under way, or flowed in the last one once that is accepted.
+    pub fn flows(&self, cell: usize) -> bool {
+        self.flowing[cell]
+    }
+
+    /// Contact pressure per current area at the node of `edge` that lies at ξ, negative off the contact.
+    pub fn nodal_pressure(&self, edge: &ContactEdge, x: &[[f64; 2]; 3], node: u32, xi: f64) -> f64 {
+        let Some(contact) = self.contact else { return 0.0 };
+        let depth = contact.tool.penetration(edge.point(x, xi), self.tip).depth;
+        (self.multiplier[node as usize] + contact.penalty * depth) / edge.stretch(x, xi, self.symmetry)
     }
 
     /// Last converged node positions.
@@ -377,9 +454,53 @@ impl<'m> Model<'m> {
         &self.volume
     }
 
-    /// Displacements of the increment under way, or of the last one once it is accepted.
-    pub fn increment(&self) -> &[[f64; 2]] {
-        &self.increment
+    /// Displacements of the last accepted increment.
+    pub fn accepted_increment(&self) -> &[[f64; 2]] {
+        &self.accepted
+    }
+
+    /// How far the tool must travel down from height 0 to touch the converged surface.
+    pub fn first_touch(&self) -> f64 {
+        self.touch(|node| self.position[node as usize])
+    }
+
+    /// The same at the iterate.
+    pub fn first_touch_at_iterate(&self) -> f64 {
+        self.touch(|node| current(&self.position, &self.increment, node))
+    }
+
+    fn touch(&self, position: impl Fn(u32) -> [f64; 2]) -> f64 {
+        let Some(contact) = self.contact else { return 0.0 };
+        // the deepest point gives the travel to first order, exactly for a plane; repeated for curved tools
+        let mut travel = 0.0;
+        for _ in 0..20 {
+            let depth = self
+                .edges
+                .iter()
+                .flat_map(|edge| edge.nodes)
+                .map(|node| contact.tool.penetration(position(node), -travel).depth)
+                .fold(f64::NEG_INFINITY, f64::max);
+            travel -= depth;
+            if contact.tool == Tool::Plane || depth.abs() <= 1e-15 {
+                break;
+            }
+        }
+        travel
+    }
+
+    /// Augmented Lagrange update at the nodes, λ ← max(0, λ + ε d), from the converged iterate.
+    pub fn augment(&mut self) {
+        let Some(contact) = self.contact else { return };
+        for edge in &self.edges {
+            for &node in &edge.nodes[..edge.node_count()] {
+                let x = current(&self.position, &self.increment, node);
+                let depth = contact.tool.penetration(x, self.tip).depth;
+                self.trial_multiplier[node as usize] =
+                    (self.multiplier[node as usize] + contact.penalty * depth).max(0.0);
+            }
+        }
+        self.multiplier.clone_from(&self.trial_multiplier);
+        self.keep_contact = false;
     }
 
     /// Internal nodal forces at the iterate: reactions where a component is held.

@@ -1,0 +1,392 @@
+//! One crush from a scene to its records: the entry point of the solver.
+
+use crate::discretise::{Problem, prepare};
+use crate::fields::{Fields, SurfacePoint, fields};
+use crate::kinematics::Symmetry;
+use crate::model::{Counters, Model, ToolContact};
+use crate::newton::Settings;
+use crate::record::{AsperityRow, CurveRow, Phase, Summary};
+use crate::scene::{ContactMethod, Scene, SceneError, Target};
+use crate::stepping::{Goal, Increment, Path, Stop};
+use asperity_mesh::Mesh;
+use std::ops::ControlFlow;
+
+/// What an observer is told, in SI units.
+pub enum Event<'a> {
+    /// An increment converged.
+    Increment {
+        /// Its row of the curve.
+        row: &'a CurveRow,
+        /// Increments that the whole run will have, as far as is known.
+        planned: usize,
+    },
+    /// Fields of the increment of the last row.
+    Fields(&'a FieldFrame),
+}
+
+/// Fields of one increment, SI units.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FieldFrame {
+    /// Increment of the curve.
+    pub increment: usize,
+    /// Loading or unloading.
+    pub phase: Phase,
+    /// The mesh before the crush, m.
+    pub mesh: Mesh,
+    /// The fields.
+    pub fields: Fields,
+}
+
+/// A run that ended before its target.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stopped {
+    /// Why.
+    pub reason: Stop,
+    /// Depth of the last converged increment, m.
+    pub depth: f64,
+    /// Whether the tool was advancing or retreating.
+    pub phase: Phase,
+}
+
+/// What a run leaves, complete or not.
+#[derive(Clone, Debug)]
+pub struct Outcome {
+    /// The curve, from first touch.
+    pub rows: Vec<CurveRow>,
+    /// The share of each asperity in each increment; empty for a single one.
+    pub asperities: Vec<AsperityRow>,
+    /// The summary.
+    pub summary: Summary,
+    /// `None` if the run reached its end.
+    pub stopped: Option<Stopped>,
+    /// Where the work went.
+    pub counters: Counters,
+}
+
+/// Why a run could not begin.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum CrushError {
+    /// The scene makes no sense.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// An element of the mesh is inside out.
+    #[error("the mesh has an element that is inside out or degenerate")]
+    Mesh,
+}
+
+/// Runs `scene`. `mesh` (in metres) replaces the mesh that would be built.
+///
+/// The observer hears of every increment, and of fields every `output.every` increments and at the peak and the end
+/// (if `output.every` is not 0); it ends the run by breaking.
+///
+/// # Errors
+/// Only if the run cannot begin: what stops it later is in the outcome, with all that was reached.
+pub fn run(
+    scene: &Scene,
+    mesh: Option<Mesh>,
+    observer: &mut dyn FnMut(&Event<'_>) -> ControlFlow<()>,
+) -> Result<Outcome, CrushError> {
+    scene.validate()?;
+    let problem = prepare(scene, mesh)?;
+    let contact = ToolContact { tool: problem.tool, penalty: problem.penalty };
+    let model = Model::new(&problem.mesh, problem.symmetry, problem.metal, |node| problem.held[node], Some(contact))
+        .map_err(|_| CrushError::Mesh)?;
+    let settings = Settings { tolerance: problem.numbers.newton_tolerance, max_iterations: 30 };
+    let mut path = Path::new(model, settings, problem.numbers.contact == ContactMethod::Augmented);
+    let mut log = Log::new(scene, &problem, path.model.unknowns());
+    let goal = match scene.loading.target()? {
+        Target::Depth(depth) => Goal::Depth(depth / problem.length),
+        Target::Force(force) => Goal::Force {
+            force: force / log.units.force,
+            expected_depth: problem.depth,
+            limit: 1.3 * problem.depth,
+        },
+    };
+    let numbers = problem.numbers;
+    let expected = if numbers.contact == ContactMethod::Augmented { 0.0 } else { 0.9 * numbers.penetration * problem.depth };
+    let mut stopped = path
+        .load(goal, numbers.steps, expected, &mut |model, increment| log.record(model, increment, observer))
+        .err();
+    log.peak_reached(&goal, &problem, observer, &path.model, stopped.is_none());
+    if stopped.is_none() {
+        match path.model.unloading_stiffness() {
+            Ok(stiffness) => {
+                log.stiffness = Some(stiffness);
+                if scene.loading.unload {
+                    stopped = path
+                        .unload(stiffness, numbers.unload_steps, &mut |model, increment| {
+                            log.record(model, increment, observer)
+                        })
+                        .err();
+                }
+            }
+            Err(_) => stopped = scene.loading.unload.then_some(Stop::NoEquilibrium),
+        }
+    }
+    Ok(log.finish(&path, stopped, observer))
+}
+
+/// Values of 1 in SI.
+#[derive(Clone, Copy, Debug)]
+struct Units {
+    length: f64,
+    stress: f64,
+    /// N, or N/m in plane strain.
+    force: f64,
+    /// m², or m.
+    area: f64,
+    /// J, or J/m.
+    energy: f64,
+}
+
+impl Units {
+    fn new(problem: &Problem) -> Units {
+        let (l, e) = (problem.length, problem.modulus);
+        match problem.symmetry {
+            Symmetry::Axisymmetric => Units { length: l, stress: e, force: e * l * l, area: l * l, energy: e * l * l * l },
+            Symmetry::PlaneStrain => Units { length: l, stress: e, force: e * l, area: l, energy: e * l * l },
+        }
+    }
+}
+
+/// Collects rows and hands out events.
+struct Log<'p> {
+    problem: &'p Problem,
+    units: Units,
+    interval: usize,
+    planned: usize,
+    unknowns: usize,
+    /// Which asperity each surface edge belongs to.
+    groups: Vec<usize>,
+    increments: Vec<Increment>,
+    rows: Vec<CurveRow>,
+    asperities: Vec<AsperityRow>,
+    peak: usize,
+    stiffness: Option<f64>,
+    last_fields: Option<usize>,
+}
+
+impl<'p> Log<'p> {
+    fn new(scene: &Scene, problem: &'p Problem, unknowns: usize) -> Self {
+        let units = Units::new(problem);
+        let unload = if scene.loading.unload { problem.numbers.unload_steps + 1 } else { 0 };
+        let first = CurveRow {
+            increment: 0,
+            phase: Phase::Load,
+            depth: 0.0,
+            force: 0.0,
+            contact_area: 0.0,
+            contact_radius: 0.0,
+            mean_pressure: 0.0,
+            external_work: 0.0,
+            elastic_energy: 0.0,
+            plastic_work: 0.0,
+            contact_energy: 0.0,
+            penetration: 0.0,
+            newton_iterations: 0,
+        };
+        Log {
+            problem,
+            units,
+            interval: scene.output.interval(),
+            planned: problem.numbers.steps + unload,
+            unknowns,
+            groups: groups(problem),
+            increments: Vec::new(),
+            rows: vec![first],
+            asperities: Vec::new(),
+            peak: 0,
+            stiffness: None,
+            last_fields: None,
+        }
+    }
+
+    fn record(
+        &mut self,
+        model: &Model<'_>,
+        increment: &Increment,
+        observer: &mut dyn FnMut(&Event<'_>) -> ControlFlow<()>,
+    ) -> bool {
+        let (u, contact) = (self.units, &increment.contact);
+        let number = self.rows.len();
+        let mut depth = increment.depth();
+        // a depth that was asked for is met to 1e-9: write it as asked
+        if (depth / self.problem.depth - 1.0).abs() < 2e-9 {
+            depth = self.problem.depth;
+        }
+        let row = CurveRow {
+            increment: number,
+            phase: increment.phase,
+            depth: depth * u.length,
+            force: contact.force * u.force,
+            contact_area: contact.area * u.area,
+            contact_radius: contact.radius * u.length,
+            mean_pressure: if contact.area > 0.0 { contact.force / contact.area * u.stress } else { 0.0 },
+            external_work: increment.external_work * u.energy,
+            elastic_energy: increment.elastic_energy * u.energy,
+            plastic_work: increment.plastic_work * u.energy,
+            contact_energy: contact.energy * u.energy,
+            penetration: contact.penetration * u.length,
+            newton_iterations: increment.newton_iterations,
+        };
+        self.rows.push(row);
+        self.increments.push(*increment);
+        if self.problem.profile.asperities.len() > 1 {
+            for asperity in 0..self.problem.profile.asperities.len() {
+                let sums = Path::group_sums(model, &self.groups, asperity);
+                self.asperities.push(AsperityRow {
+                    increment: number,
+                    phase: row.phase,
+                    asperity,
+                    depth: row.depth,
+                    force: sums.force * u.force,
+                    contact_area: sums.area * u.area,
+                    contact_left: sums.reach[0] * u.length,
+                    contact_right: sums.reach[1] * u.length,
+                    max_pressure: sums.max_pressure * u.stress,
+                });
+            }
+        }
+        let told = observer(&Event::Increment { row: &row, planned: self.planned.max(number) });
+        if self.interval > 0 && number.is_multiple_of(self.interval) && told.is_continue() {
+            return self.draw(model, observer).is_continue();
+        }
+        told.is_continue()
+    }
+
+    /// Hands out the fields of the last row, once.
+    fn draw(
+        &mut self,
+        model: &Model<'_>,
+        observer: &mut dyn FnMut(&Event<'_>) -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
+        let Some(row) = self.rows.last().filter(|row| row.increment > 0) else { return ControlFlow::Continue(()) };
+        if self.last_fields == Some(row.increment) {
+            return ControlFlow::Continue(());
+        }
+        self.last_fields = Some(row.increment);
+        let (l, e) = (self.units.length, self.units.stress);
+        let mut mesh = self.problem.mesh.clone();
+        for node in &mut mesh.nodes {
+            *node = node.map(|x| x * l);
+        }
+        let raw = fields(model);
+        let scaled = |values: Vec<f64>| values.into_iter().map(|v| v * e).collect();
+        let frame = FieldFrame {
+            increment: row.increment,
+            phase: row.phase,
+            mesh,
+            fields: Fields {
+                displacement: raw.displacement.into_iter().map(|d| d.map(|d| d * l)).collect(),
+                stress: raw.stress.into_iter().map(|s| s.map(|s| s * e)).collect(),
+                von_mises: scaled(raw.von_mises),
+                pressure: scaled(raw.pressure),
+                contact_pressure: scaled(raw.contact_pressure),
+                plastic_strain: raw.plastic_strain,
+                plastic_zone: raw.plastic_zone,
+                surface: raw
+                    .surface
+                    .into_iter()
+                    .map(|p| SurfacePoint {
+                        position: p.position.map(|x| x * l),
+                        displacement: p.displacement.map(|x| x * l),
+                        pressure: p.pressure * e,
+                        yielded: p.yielded,
+                    })
+                    .collect(),
+            },
+        };
+        observer(&Event::Fields(&frame))
+    }
+
+    /// Notes the peak and draws its fields.
+    fn peak_reached(
+        &mut self,
+        goal: &Goal,
+        problem: &Problem,
+        observer: &mut dyn FnMut(&Event<'_>) -> ControlFlow<()>,
+        model: &Model<'_>,
+        complete: bool,
+    ) {
+        self.peak = self.rows.len() - 1;
+        if complete && matches!(goal, Goal::Depth(_)) && problem.depth > 0.0 {
+            self.planned = self.peak + self.planned.saturating_sub(problem.numbers.steps);
+        }
+        if self.interval > 0 {
+            // an observer that breaks here is asked again at the next increment
+            let _ = self.draw(model, observer);
+        }
+    }
+
+    fn finish(
+        mut self,
+        path: &Path<'_>,
+        stopped: Option<Stop>,
+        observer: &mut dyn FnMut(&Event<'_>) -> ControlFlow<()>,
+    ) -> Outcome {
+        if self.interval > 0 {
+            let _ = self.draw(&path.model, observer);
+        }
+        let (peak, last) = (self.rows[self.peak], self.rows[self.rows.len() - 1]);
+        let unloaded = last.phase == Phase::Unload && stopped.is_none();
+        let total_work = work_along(&self.rows[..=self.peak]);
+        let elastic_work = unloaded.then(|| -work_along(&self.rows[self.peak..]));
+        let u = self.units;
+        let stiffness_unit = u.force / u.length;
+        let summary = Summary {
+            peak_force: peak.force,
+            peak_depth: peak.depth,
+            residual_depth: unloaded.then_some(last.depth),
+            unloading_stiffness: self.stiffness.map(|s| s * stiffness_unit),
+            contact_area: peak.contact_area,
+            contact_radius: peak.contact_radius,
+            total_work,
+            elastic_work,
+            plastic_work: peak.plastic_work,
+            elastic_fraction: elastic_work.map(|w| w / total_work),
+            energy_balance_error: balance_error(&self.rows),
+            estimated_error: f64::NAN,
+            elements: self.problem.mesh.cell_count(),
+            dofs: self.unknowns,
+            increments: self.rows.len() - 1,
+            newton_iterations: path.iterations,
+            cutbacks: path.cutbacks,
+        };
+        let stopped = stopped.map(|reason| Stopped { reason, depth: last.depth, phase: last.phase });
+        Outcome { rows: self.rows, asperities: self.asperities, summary, stopped, counters: path.model.counters }
+    }
+}
+
+/// ∫F dh over corrected depths.
+fn work_along(rows: &[CurveRow]) -> f64 {
+    rows.windows(2)
+        .map(|pair| crate::energy::work([pair[0].force, pair[1].force], pair[1].depth - pair[0].depth))
+        .sum()
+}
+
+/// The largest |W - E_e - W_p - E_c|/W over increments with W above 1 % of its peak.
+fn balance_error(rows: &[CurveRow]) -> f64 {
+    let peak = rows.iter().fold(0.0, |m: f64, r| m.max(r.external_work));
+    rows.iter()
+        .filter(|r| r.external_work > 0.01 * peak)
+        .map(|r| (r.external_work - r.elastic_energy - r.plastic_work - r.contact_energy).abs() / r.external_work)
+        .fold(0.0, f64::max)
+}
+
+/// The asperity of each surface edge: the one whose foot is nearest to the middle of the edge before the crush.
+fn groups(problem: &Problem) -> Vec<usize> {
+    let mesh = &problem.mesh;
+    mesh.sides
+        .surface
+        .iter()
+        .map(|&edge| {
+            let ([a, b], _) = mesh.edge_nodes(edge);
+            let r = 0.5 * (mesh.nodes[a as usize][0] + mesh.nodes[b as usize][0]);
+            let distance = |a: &asperity_mesh::profile::Asperity| (r - a.centre).abs() - a.half_width(a.height);
+            let asperities = &problem.profile.asperities;
+            (0..asperities.len())
+                .min_by(|&i, &j| distance(&asperities[i]).total_cmp(&distance(&asperities[j])))
+                .unwrap_or(0)
+        })
+        .collect()
+}

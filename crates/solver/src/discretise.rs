@@ -1,0 +1,333 @@
+//! From a scene to what the solver computes with: numbers of the accuracy level, unit of length, mesh, penalty.
+//!
+//! Inside the solver E = 1 and lengths are in units of the scene's own: the depth, or for a force the estimated depth.
+
+use crate::kinematics::Symmetry;
+use crate::material::Metal;
+use crate::scene::{
+    Accuracy, AsperityForm, ContactMethod, ElementChoice, Lateral, Numerics, Scene, SceneError, Target, ToolForm,
+};
+use crate::tool::Tool;
+use asperity_law::{Elastic, Hardening};
+use asperity_mesh::build::{Plan, build};
+use asperity_mesh::profile::{Asperity, Profile, Shape};
+use asperity_mesh::{ElementKind, Mesh};
+
+/// Every number of the discretisation, none left open.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Discretisation {
+    /// Which quadrilateral.
+    pub element: ElementChoice,
+    /// Elements across the contact radius at the peak.
+    pub elements_in_contact: usize,
+    /// Load steps to the peak.
+    pub steps: usize,
+    /// Steps back to zero force.
+    pub unload_steps: usize,
+    /// Penalty or augmented Lagrangian.
+    pub contact: ContactMethod,
+    /// Mean penetration over depth.
+    pub penetration: f64,
+    /// Relative residual at which Newton stops.
+    pub newton_tolerance: f64,
+    /// Size of an automatic substrate, in contact radii.
+    pub domain: f64,
+    /// The contact is resolved from this share of the peak's contact radius on.
+    pub resolved_from: f64,
+}
+
+impl Discretisation {
+    /// What the level `accuracy` uses where `numerics` is silent.
+    pub fn new(accuracy: Accuracy, numerics: &Numerics) -> Discretisation {
+        let (elements, steps, unload_steps, tolerance, domain) = match accuracy {
+            Accuracy::Draft => (10, 22, 6, 1e-5, 80.0),
+            Accuracy::Standard => (18, 64, 10, 1e-7, 200.0),
+            Accuracy::Reference => (36, 200, 20, 1e-9, 800.0),
+        };
+        let element = numerics.element.unwrap_or(ElementChoice::Q8r);
+        // a linear element is as exact as a quadratic one of twice its size
+        let elements = if element == ElementChoice::Q4 { 2 * elements } else { elements };
+        Discretisation {
+            element,
+            elements_in_contact: numerics.elements_in_contact.unwrap_or(elements),
+            steps: numerics.steps.unwrap_or(steps),
+            unload_steps,
+            contact: numerics.contact.unwrap_or(ContactMethod::Penalty),
+            penetration: numerics.penetration.unwrap_or(0.004),
+            newton_tolerance: numerics.newton_tolerance.unwrap_or(tolerance),
+            domain: numerics.domain.unwrap_or(domain),
+            resolved_from: 0.2,
+        }
+    }
+}
+
+/// A scene made ready, dimensionless.
+#[derive(Clone, Debug)]
+pub struct Problem {
+    /// Length of 1, m.
+    pub length: f64,
+    /// Stress of 1 (Young's modulus), Pa.
+    pub modulus: f64,
+    /// Axisymmetric or plane strain.
+    pub symmetry: Symmetry,
+    /// The metal, E = 1.
+    pub metal: Metal,
+    /// The surface before the crush.
+    pub profile: Profile,
+    /// The tool.
+    pub tool: Tool,
+    /// Estimated depth of the peak.
+    pub depth: f64,
+    /// Estimated contact half width of each asperity at the peak (one entry for a flat body under a tool).
+    pub half_widths: Vec<f64>,
+    /// Contact pressure per penetration.
+    pub penalty: f64,
+    /// The mesh.
+    pub mesh: Mesh,
+    /// Nodes on the held bottom, on the axis (left side) and on the lateral side.
+    pub held: Vec<[bool; 2]>,
+    /// The discretisation used.
+    pub numbers: Discretisation,
+}
+
+/// Prepares `scene`, which is valid; `mesh` replaces the mesh that would be built (in metres).
+///
+/// # Errors
+/// A scene that cannot be meshed: path and reason.
+pub fn prepare(scene: &Scene, mesh: Option<Mesh>) -> Result<Problem, SceneError> {
+    let numbers = Discretisation::new(scene.accuracy, &scene.numerics);
+    let elastic = scene.material.elastic();
+    let modulus = elastic.youngs_modulus;
+    let symmetry = match scene.symmetry {
+        crate::scene::Symmetry::Axisymmetric => Symmetry::Axisymmetric,
+        crate::scene::Symmetry::PlaneStrain => Symmetry::PlaneStrain,
+    };
+    let metal = Metal {
+        elastic: Elastic { youngs_modulus: 1.0, ..elastic },
+        hardening: scene.material.hardening().map(|h| Hardening {
+            yield_stress: h.yield_stress / modulus,
+            youngs_modulus: 1.0,
+            ..h
+        }),
+    };
+    let tool_form = scene.tool.form().map_err(|e| within("tool", e))?;
+    let outlines = outlines(scene)?;
+    let (length, target) = match scene.loading.target().map_err(|e| within("loading", e))? {
+        Target::Depth(depth) => (depth, None),
+        Target::Force(force) => (estimate_depth(&metal, modulus, symmetry, &outlines, &tool_form, force), Some(force)),
+    };
+    let scaled: Vec<Asperity> = outlines.iter().map(|a| scale(a, length)).collect();
+    let profile = Profile { asperities: scaled };
+    let tool = match tool_form {
+        ToolForm::Plane => Tool::Plane,
+        ToolForm::Cone { slope, tip_radius } => {
+            Tool::Cone { tan_slope: slope.tan(), tip_radius: tip_radius / length }
+        }
+        ToolForm::Sphere { radius } => Tool::Sphere { radius: radius / length },
+    };
+    // a force is only estimated into a depth: mesh somewhat further than that
+    let depth = 1.0;
+    let reach = if target.is_some() { 1.3 } else { 1.0 };
+    let half_widths = half_widths(&profile, &tool, reach * depth);
+    let penalty = expected_pressure(&metal, &profile, &tool, depth) / (numbers.penetration * depth);
+    let mesh = match mesh {
+        Some(mut mesh) => {
+            for node in &mut mesh.nodes {
+                *node = node.map(|x| x / length);
+            }
+            mesh
+        }
+        None => build_mesh(scene, &numbers, symmetry, &profile, &half_widths, length)?,
+    };
+    let held = held_nodes(&mesh, symmetry, scene.lateral);
+    Ok(Problem { length, modulus, symmetry, metal, profile, tool, depth, half_widths, penalty, mesh, held, numbers })
+}
+
+fn within(table: &str, error: SceneError) -> SceneError {
+    let path = if error.path.is_empty() { table.to_string() } else { format!("{table}.{}", error.path) };
+    SceneError { path, message: error.message }
+}
+
+/// The asperities side by side, in metres.
+fn outlines(scene: &Scene) -> Result<Vec<Asperity>, SceneError> {
+    let mut outlines = Vec::new();
+    let mut edge = 0.0; // where the next asperity may begin
+    for (index, asperity) in scene.asperity.iter().enumerate() {
+        let form = asperity.form().map_err(|e| within(&format!("asperity[{index}]"), e))?;
+        let shape = match form {
+            AsperityForm::Cone { slope, tip_radius, .. } => Shape::Cone { tan_slope: slope.tan(), tip_radius },
+            AsperityForm::Sphere { radius } => Shape::Sphere { radius },
+        };
+        let half = form.base_radius();
+        let on_axis = index == 0 && scene.symmetry == crate::scene::Symmetry::Axisymmetric;
+        let centre = if on_axis { 0.0 } else { edge + half };
+        outlines.push(Asperity { shape, height: form.height(), centre });
+        edge = centre + half + asperity.spacing.map_or(0.0, |s| s.0);
+    }
+    Ok(outlines)
+}
+
+fn scale(a: &Asperity, length: f64) -> Asperity {
+    let shape = match a.shape {
+        Shape::Cone { tan_slope, tip_radius } => Shape::Cone { tan_slope, tip_radius: tip_radius / length },
+        Shape::Sphere { radius } => Shape::Sphere { radius: radius / length },
+    };
+    Asperity { shape, height: a.height / length, centre: a.centre / length }
+}
+
+/// The tool as an asperity of the same outline: the contact of the two is the same to first order in the slope.
+fn mirror(tool: &Tool) -> Option<Asperity> {
+    let shape = match *tool {
+        Tool::Plane => return None,
+        Tool::Cone { tan_slope, tip_radius } => Shape::Cone { tan_slope, tip_radius },
+        Tool::Sphere { radius } => Shape::Sphere { radius },
+    };
+    Some(Asperity { shape, height: f64::INFINITY, centre: 0.0 })
+}
+
+/// Contact half width of a crushed asperity over the half width of the cut at the same depth: 0.64 (elastic cone,
+/// 2/π) to 1.06 (perfectly plastic), 0.89 for the single asperity.
+const SPREAD: f64 = 0.9;
+
+/// Contact half widths at `depth` below the highest summit.
+fn half_widths(profile: &Profile, tool: &Tool, depth: f64) -> Vec<f64> {
+    if let Some(mirrored) = mirror(tool) {
+        return vec![SPREAD * mirrored.half_width(depth)];
+    }
+    let top = profile.height();
+    profile.asperities.iter().map(|a| SPREAD * a.half_width((depth - (top - a.height)).max(0.0))).collect()
+}
+
+/// Mean contact pressure to be expected at `depth`, in units of E: ½E* tan β of the elastic cone and 2.8 σ_r of full
+/// plasticity (ε_r ≈ 0.1 tan β), joined harmonically. Only the penalty is scaled with it.
+fn expected_pressure(metal: &Metal, profile: &Profile, tool: &Tool, depth: f64) -> f64 {
+    let slopes = mirror(tool).into_iter().chain(profile.asperities.iter().copied()).map(|a| {
+        let width = SPREAD * a.half_width(depth);
+        match a.shape {
+            Shape::Cone { tan_slope, tip_radius } if tip_radius > 0.0 => tan_slope.min(width / tip_radius),
+            Shape::Cone { tan_slope, .. } => tan_slope,
+            Shape::Sphere { radius } => width / radius,
+        }
+    });
+    let slope = slopes.fold(0.0, f64::max);
+    let elastic = 0.5 * metal.elastic.reduced_modulus() * slope;
+    match &metal.hardening {
+        None => elastic,
+        Some(h) => 1.0 / (1.0 / elastic + 1.0 / (2.8 * h.representative_stress(0.1 * slope))),
+    }
+}
+
+/// Depth (m) at which the expected pressure over the cut area carries `force` (N, or N/m in plane strain).
+fn estimate_depth(
+    metal: &Metal,
+    modulus: f64,
+    symmetry: Symmetry,
+    outlines: &[Asperity],
+    tool: &ToolForm,
+    force: f64,
+) -> f64 {
+    let tool = match *tool {
+        ToolForm::Plane => Tool::Plane,
+        ToolForm::Cone { slope, tip_radius } => Tool::Cone { tan_slope: slope.tan(), tip_radius },
+        ToolForm::Sphere { radius } => Tool::Sphere { radius },
+    };
+    let profile = Profile { asperities: outlines.to_vec() };
+    let carried = |depth: f64| {
+        let pressure = modulus * expected_pressure(metal, &profile, &tool, depth);
+        let area: f64 = half_widths(&profile, &tool, depth)
+            .iter()
+            .zip(std::iter::once(0.0).chain(outlines.iter().skip(1).map(|a| a.centre)))
+            .map(|(w, centre)| match symmetry {
+                Symmetry::PlaneStrain => 2.0 * w,
+                Symmetry::Axisymmetric if centre == 0.0 => std::f64::consts::PI * w * w,
+                Symmetry::Axisymmetric => 4.0 * std::f64::consts::PI * centre * w,
+            })
+            .sum();
+        pressure * area
+    };
+    // the carried force grows with the depth: bisection in the logarithm over any physical size
+    let (mut low, mut high) = (1e-15_f64.ln(), 1e6_f64.ln());
+    for _ in 0..200 {
+        let middle = 0.5 * (low + high);
+        if carried(middle.exp()) < force {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    (0.5 * (low + high)).exp()
+}
+
+/// Growth of the shells far from the contact, as a share of the distance.
+const FAR_GROWTH: f64 = 0.4;
+
+/// The mesh of the scene, lengths over `length`.
+fn build_mesh(
+    scene: &Scene,
+    numbers: &Discretisation,
+    symmetry: Symmetry,
+    profile: &Profile,
+    half_widths: &[f64],
+    length: f64,
+) -> Result<Mesh, SceneError> {
+    let kind = match numbers.element {
+        ElementChoice::Q8r => ElementKind::Quad8,
+        ElementChoice::Q4 => ElementKind::Quad4,
+    };
+    let contact = half_widths.iter().fold(0.0, |m: f64, w| m.max(*w));
+    let foot = profile.asperities.iter().map(|a| a.centre + a.half_width(a.height)).fold(0.0, f64::max);
+    let substrate = scene.substrate.as_ref();
+    let automatic = (numbers.domain * contact).max(3.0 * foot);
+    let size_of = |given: Option<asperity_law::units::Length>| given.map_or(automatic, |l| l.0 / length);
+    let radius = size_of(substrate.and_then(|s| s.radius));
+    let depth = profile.height() + size_of(substrate.and_then(|s| s.depth));
+    if radius <= foot {
+        return Err(SceneError {
+            path: "substrate.radius".into(),
+            message: format!(
+                "{:.6e} m does not reach beyond the asperities, which end at {:.6e} m: enlarge it",
+                radius * length,
+                foot * length
+            ),
+        });
+    }
+    debug_assert_eq!(symmetry, Symmetry::Axisymmetric);
+    // k: element size over distance from the axis, so that the contact radius holds the wanted number of elements
+    let start = numbers.resolved_from;
+    let k = (1.0 - start.ln()) / numbers.elements_in_contact as f64;
+    let core = (start * contact).min(0.5 * radius).min(0.5 * depth);
+    let fine = 1.6 * contact;
+    let shell = move |x: f64| if x < fine { k * x } else { x * (FAR_GROWTH + (k - FAR_GROWTH) * fine / x).max(k) };
+    let plan = Plan {
+        profile: profile.clone(),
+        core: [0.0, core],
+        core_depth: core,
+        width: [0.0, radius],
+        depth,
+        kind,
+    };
+    Ok(build(&plan, |_| k * core, |_| k * core, shell))
+}
+
+/// Base nodes held, axis nodes (and a symmetric lateral side) held sideways.
+fn held_nodes(mesh: &Mesh, symmetry: Symmetry, lateral: Lateral) -> Vec<[bool; 2]> {
+    let mut held = vec![[false; 2]; mesh.nodes.len()];
+    let mut hold = |edges: &[asperity_mesh::Edge], components: [bool; 2]| {
+        for &edge in edges {
+            let (corners, middle) = mesh.edge_nodes(edge);
+            for node in corners.into_iter().chain(middle) {
+                for i in 0..2 {
+                    held[node as usize][i] |= components[i];
+                }
+            }
+        }
+    };
+    hold(&mesh.sides.base, [true, true]);
+    if symmetry == Symmetry::Axisymmetric || lateral == Lateral::Symmetric {
+        hold(&mesh.sides.axis, [true, false]);
+    }
+    if lateral == Lateral::Symmetric {
+        hold(&mesh.sides.outer, [true, false]);
+    }
+    held
+}

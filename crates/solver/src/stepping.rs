@@ -1,0 +1,327 @@
+//! The path of the tool: adaptive increments down to the peak, back to zero force, and the body left alone.
+
+use crate::contact::EdgeContact;
+use crate::energy::{ContactSums, contact_sums, dissipated, stored, work};
+use crate::model::Model;
+use crate::newton::{Failure, Settings, solve};
+use crate::record::Phase;
+
+/// Halvings of an increment after which the run stops.
+const MAX_HALVINGS: u32 = 7;
+
+/// Share of the last increment that is a good first guess for the next: measured 0.5 to 0.9 save a fifth of the
+/// iterations, 1 saves less because it overshoots where the contact front moves from element to element.
+const GUESS: f64 = 0.7;
+
+/// Depth at which geometric increments begin, as a share of the peak: below it the contact is smaller than the mesh
+/// resolves, and three uniform increments lead there.
+const GEOMETRIC_FROM: f64 = 0.02;
+
+/// One converged increment, dimensionless.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Increment {
+    /// Loading or unloading.
+    pub phase: Phase,
+    /// Travel of the tool from first touch, penetration included.
+    pub travel: f64,
+    /// Sums over the contact.
+    pub contact: ContactSums,
+    /// ∫F d(travel).
+    pub external_work: f64,
+    /// Stored elastic energy.
+    pub elastic_energy: f64,
+    /// Plastic work.
+    pub plastic_work: f64,
+    /// Newton iterations since the last increment.
+    pub newton_iterations: usize,
+}
+
+impl Increment {
+    /// Travel less penetration.
+    pub fn depth(&self) -> f64 {
+        self.travel - self.contact.penetration
+    }
+}
+
+/// Why a run ended before its target. The last converged increment is kept.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum Stop {
+    /// Elements were distorted until one turned inside out.
+    #[error("an element turned inside out: the metal is too distorted for its mesh")]
+    Distorted,
+    /// No equilibrium was found however small the increment.
+    #[error("no equilibrium was found with the smallest increment")]
+    NoEquilibrium,
+    /// The observer asked for the end.
+    #[error("the run was interrupted")]
+    Interrupted,
+}
+
+/// Where loading ends, dimensionless.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Goal {
+    /// At this depth.
+    Depth(f64),
+    /// At this force; the depth is an estimate.
+    Force {
+        /// The force to reach.
+        force: f64,
+        /// Depth at which it is expected.
+        expected_depth: f64,
+        /// Depth beyond which the search is given up.
+        limit: f64,
+    },
+}
+
+/// Called after every converged increment; `false` ends the run.
+pub type Observer<'o> = dyn FnMut(&Model<'_>, &Increment) -> bool + 'o;
+
+/// A model on its way, with the counts of the run.
+pub struct Path<'m> {
+    /// The mechanical system.
+    pub model: Model<'m>,
+    settings: Settings,
+    augmented: bool,
+    /// Travel at which the tool touches first, in the coordinates of the mesh.
+    touch: f64,
+    travel: f64,
+    last_step: f64,
+    force: f64,
+    external_work: f64,
+    spent: usize,
+    /// Newton iterations so far, failed ones included.
+    pub iterations: usize,
+    /// Times an increment was halved.
+    pub cutbacks: usize,
+}
+
+impl<'m> Path<'m> {
+    /// A path that starts where the tool touches `model` first.
+    pub fn new(model: Model<'m>, settings: Settings, augmented: bool) -> Path<'m> {
+        let touch = model.first_touch();
+        Path {
+            model,
+            settings,
+            augmented,
+            touch,
+            travel: 0.0,
+            last_step: 0.0,
+            force: 0.0,
+            external_work: 0.0,
+            spent: 0,
+            iterations: 0,
+            cutbacks: 0,
+        }
+    }
+
+    /// Solves, but does not accept, the increment to `travel` with the first guess `guess` times the scaled last one.
+    fn attempt(&mut self, travel: f64, carry: bool, guess: f64) -> Result<ContactSums, Failure> {
+        let step = travel - self.travel;
+        let ratio = if self.last_step != 0.0 && step / self.last_step > 0.0 { step / self.last_step } else { 0.0 };
+        let scale = guess * ratio;
+        let last = if scale > 0.0 { self.model.accepted_increment().to_vec() } else { Vec::new() };
+        let tip = -(self.touch + travel);
+        self.model.begin(tip, if carry { ratio } else { 0.0 }, |node| {
+            last.get(node).map_or([0.0; 2], |du| du.map(|u| scale * u))
+        });
+        self.iterate()?;
+        if self.augmented {
+            // λ ← max(0, λ + ε d) until the penetration is a thousandth of what the penalty alone leaves
+            let first = self.sums().penetration;
+            for _ in 0..20 {
+                self.model.augment();
+                self.iterate()?;
+                if self.sums().penetration.abs() <= 1e-3 * first {
+                    break;
+                }
+            }
+        }
+        Ok(self.sums())
+    }
+
+    fn iterate(&mut self) -> Result<(), Failure> {
+        let outcome = solve(&mut self.model, &self.settings);
+        let spent = match &outcome {
+            Ok(done) => done.iterations,
+            Err((_, spent)) => *spent,
+        };
+        self.iterations += spent;
+        self.spent += spent;
+        outcome.map(|_| ()).map_err(|(failure, _)| failure)
+    }
+
+    fn sums(&self) -> ContactSums {
+        contact_sums(self.model.contacts().iter(), self.model.symmetry())
+    }
+
+    /// Accepts the attempted increment to `travel`.
+    fn accept(&mut self, travel: f64, phase: Phase, observer: &mut Observer<'_>) -> Result<Increment, Stop> {
+        self.model.accept().map_err(|_| Stop::Distorted)?;
+        let contact = self.sums();
+        let step = travel - self.travel;
+        self.external_work += work([self.force, contact.force], step);
+        (self.travel, self.last_step, self.force) = (travel, step, contact.force);
+        let (metal, states, volumes) = (self.model.metal(), self.model.states(), self.model.volumes());
+        let increment = Increment {
+            phase,
+            travel,
+            contact,
+            external_work: self.external_work,
+            elastic_energy: stored(metal, states, volumes),
+            plastic_work: dissipated(metal, states, volumes),
+            newton_iterations: std::mem::take(&mut self.spent),
+        };
+        if observer(&self.model, &increment) { Ok(increment) } else { Err(Stop::Interrupted) }
+    }
+
+    /// Goes to `travel` in as few increments as converge; accepts all but the last, which is left attempted.
+    fn reach(
+        &mut self,
+        travel: f64,
+        phase: Phase,
+        carry: bool,
+        observer: &mut Observer<'_>,
+    ) -> Result<ContactSums, Stop> {
+        let mut halvings = 0;
+        let mut next = travel;
+        let mut guess = if carry { GUESS } else { 0.0 };
+        loop {
+            match self.attempt(next, carry, guess) {
+                Ok(sums) if next == travel => return Ok(sums),
+                Ok(_) => {
+                    self.accept(next, phase, observer)?;
+                    // try to take the rest in steps as long as the one that went
+                    let step = self.last_step;
+                    next = if (travel - next).abs() <= 1.01 * step.abs() { travel } else { next + step };
+                }
+                Err(failure) => {
+                    if halvings >= MAX_HALVINGS {
+                        return Err(match failure {
+                            Failure::Inverted => Stop::Distorted,
+                            _ => Stop::NoEquilibrium,
+                        });
+                    }
+                    halvings += 1;
+                    self.cutbacks += 1;
+                    next = 0.5 * (self.travel + next);
+                    guess = 0.0;
+                }
+            }
+        }
+    }
+
+    /// Loads to `goal` in about `steps` increments; `penetration` is the expected one at the peak.
+    pub fn load(
+        &mut self,
+        goal: Goal,
+        steps: usize,
+        penetration: f64,
+        observer: &mut Observer<'_>,
+    ) -> Result<(), Stop> {
+        let (depth, limit) = match goal {
+            Goal::Depth(depth) => (depth, depth),
+            Goal::Force { expected_depth, limit, .. } => (expected_depth, limit),
+        };
+        let mut expected = penetration;
+        let fractions = schedule(steps);
+        let growth = fractions.last().copied().unwrap_or(1.0) / fractions.iter().rev().nth(1).copied().unwrap_or(0.5);
+        let mut index = 0;
+        let mut fraction = 0.0;
+        loop {
+            fraction = fractions.get(index).copied().unwrap_or(fraction * growth);
+            index += 1;
+            let travel = (fraction * depth).min(limit) + expected;
+            let sums = self.reach(travel, Phase::Load, true, observer)?;
+            let last = match goal {
+                Goal::Depth(_) => index == fractions.len(),
+                Goal::Force { force, .. } => sums.force >= force,
+            };
+            if last {
+                let travel = self.home_in(goal, travel, sums)?;
+                return self.accept(travel, Phase::Load, observer).map(|_| ());
+            }
+            expected = sums.penetration;
+            self.accept(travel, Phase::Load, observer)?;
+            if fraction * depth >= limit && matches!(goal, Goal::Force { .. }) {
+                return Err(Stop::NoEquilibrium);
+            }
+        }
+    }
+
+    /// Moves the attempted increment until the goal is met to 1e-9 (secant; each try starts from the converged state).
+    fn home_in(&mut self, goal: Goal, travel: f64, sums: ContactSums) -> Result<f64, Stop> {
+        let miss = |travel: f64, sums: &ContactSums| match goal {
+            Goal::Depth(depth) => (travel - sums.penetration) / depth - 1.0,
+            Goal::Force { force, .. } => (sums.force.max(0.0) / force).sqrt() - 1.0,
+        };
+        // the converged state is the other end of the secant
+        let (mut t0, mut m0) = match goal {
+            Goal::Depth(_) => (self.travel, f64::NAN),
+            Goal::Force { force, .. } => (self.travel, (self.force.max(0.0) / force).sqrt() - 1.0),
+        };
+        let (mut t1, mut m1) = (travel, miss(travel, &sums));
+        for _ in 0..12 {
+            if m1.abs() <= 1e-9 {
+                break;
+            }
+            let next = match goal {
+                Goal::Depth(depth) if m0.is_nan() => t1 - m1 * depth,
+                _ => t1 - m1 * (t1 - t0) / (m1 - m0),
+            };
+            (t0, m0) = (t1, m1);
+            let sums = self
+                .attempt(next, true, GUESS)
+                .or_else(|_| self.attempt(next, true, 0.0))
+                .map_err(|_| Stop::NoEquilibrium)?;
+            (t1, m1) = (next, miss(next, &sums));
+        }
+        Ok(t1)
+    }
+
+    /// Unloads to zero force in about `steps` increments, then removes the tool and finds the equilibrium of the body
+    /// alone: there the force is zero and the depth that of its highest point. `stiffness` is dF/dh at the peak.
+    ///
+    /// Travels follow F ∝ (1 - u/u₀)^1.25 with u₀ = 1.25 F/S; the last few percent of the force are not chased.
+    pub fn unload(&mut self, stiffness: f64, steps: usize, observer: &mut Observer<'_>) -> Result<(), Stop> {
+        let (peak_force, peak) = (self.force, self.travel);
+        let compliance = 1.0 / stiffness + self.sums().penetration / peak_force;
+        let recovery = 1.25 * peak_force * compliance;
+        for i in 1..=steps {
+            let share = 1.0 - i as f64 / (steps as f64 + 0.3);
+            let travel = peak - recovery * (1.0 - share.powf(1.0 / 1.25));
+            if travel >= self.travel || self.force < 0.03 * peak_force {
+                continue;
+            }
+            let sums = self.reach(travel, Phase::Unload, false, observer)?;
+            if sums.force <= 0.0 {
+                break; // beyond separation: the equilibrium without the tool comes next
+            }
+            self.accept(travel, Phase::Unload, observer)?;
+        }
+        self.model.begin(f64::INFINITY, 0.0, |_| [0.0; 2]);
+        self.iterate().map_err(|_| Stop::NoEquilibrium)?;
+        let separation = self.model.first_touch_at_iterate() - self.touch;
+        self.accept(separation, Phase::Unload, observer).map(|_| ())
+    }
+
+    /// Contact of each group of edges at the last converged increment.
+    pub fn group_sums(model: &Model<'_>, groups: &[usize], group: usize) -> ContactSums {
+        let edges = model.contacts().iter().zip(groups).filter(|(_, g)| **g == group);
+        contact_sums(edges.map(|(edge, _): (&EdgeContact, _)| edge), model.symmetry())
+    }
+}
+
+/// Depths of the increments as shares of the peak, the last one 1.
+///
+/// Three uniform increments to [`GEOMETRIC_FROM`], then geometric ones: the error of an increment depends on the
+/// ratio of the depths at its ends.
+pub fn schedule(steps: usize) -> Vec<f64> {
+    if steps < 8 {
+        return (1..=steps).map(|i| i as f64 / steps as f64).collect();
+    }
+    let uniform = 3;
+    let geometric = steps - uniform;
+    let start = (1..=uniform).map(|i| GEOMETRIC_FROM * i as f64 / uniform as f64);
+    let rest = (1..=geometric).map(|i| GEOMETRIC_FROM.powf(1.0 - i as f64 / geometric as f64));
+    start.chain(rest).collect()
+}
