@@ -25,6 +25,8 @@ mod coefficient;
 mod contact;
 mod pressure;
 
+pub mod scene;
+
 pub use closure::{
     Closure, ClosureError, Metal, Model, PUBLISHED, Regime, Response, SINGLE_ASPERITY_EXPONENT,
 };
