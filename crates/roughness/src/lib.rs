@@ -7,8 +7,12 @@
 pub mod format;
 mod height_map;
 
+mod fft;
+mod filter;
 mod level;
 mod numbers;
+
+mod generate;
 
 mod cell;
 mod ellipse;
@@ -21,12 +25,16 @@ mod coefficient;
 mod contact;
 mod pressure;
 
+pub mod scene;
+
 pub use closure::{
     Closure, ClosureError, Metal, Model, PUBLISHED, Regime, Response, SINGLE_ASPERITY_EXPONENT,
 };
 pub use coefficient::{Angle, Coefficient, CoefficientError, Cone};
 pub use contact::{CURVE_POINTS, Contact, ContactError, CurvePoint, Load, Surface, Unloading, press, unload};
 pub use ellipse::Ellipse;
+pub use filter::{FilterError, fill, l_filter, s_filter};
+pub use generate::{GenerateError, Grid, Kind, KindName, Target, generate};
 pub use height_map::{Extent, HeightMap, MapError};
 pub use islands::{Island, Islands};
 pub use ladder::{Above, Rungs, above_plane, above_rungs, plane_of};

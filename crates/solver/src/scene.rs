@@ -327,3 +327,6 @@ pub struct MeshFile {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub unit: Option<Length>,
 }
+
+#[cfg(test)]
+mod tests;

@@ -54,7 +54,9 @@ pub(super) fn read_table(path: &Path) -> Result<Measured, ReadError> {
     }
     if ends_empty {
         // a separator at the end of every line makes no further column
-        table.iter_mut().for_each(|row| drop(row.pop()));
+        for row in &mut table {
+            row.pop();
+        }
     }
     let (columns, rows) = (table.first().map_or(0, Vec::len), table.len());
     let heights = table.concat();

@@ -1,0 +1,97 @@
+//! Discrete Fourier transforms of lines and maps.
+
+use rayon::prelude::*;
+use rustfft::{Fft, FftPlanner};
+use std::sync::Arc;
+
+pub(crate) use rustfft::num_complex::Complex64;
+
+/// A transform of one length, forward and back; going there and back multiplies by the length.
+pub(crate) struct Transform {
+    forward: Arc<dyn Fft<f64>>,
+    inverse: Arc<dyn Fft<f64>>,
+}
+
+impl Transform {
+    pub fn new(length: usize) -> Transform {
+        let mut planner = FftPlanner::new();
+        Transform { forward: planner.plan_fft_forward(length), inverse: planner.plan_fft_inverse(length) }
+    }
+
+    pub fn forward(&self, line: &mut [Complex64]) {
+        self.forward.process(line);
+    }
+
+    pub fn inverse(&self, line: &mut [Complex64]) {
+        self.inverse.process(line);
+    }
+}
+
+/// Rows become columns.
+pub(crate) fn transposed<T: Copy + Send + Sync + Default>(data: &[T], columns: usize) -> Vec<T> {
+    let rows = data.len() / columns;
+    let mut out = vec![T::default(); data.len()];
+    // strips of columns keep both sides in the cache
+    out.par_chunks_mut(rows * 16).enumerate().for_each(|(strip, part)| {
+        let first = strip * 16;
+        for row in 0..rows {
+            for (k, line) in part.chunks_mut(rows).enumerate() {
+                line[row] = data[row * columns + first + k];
+            }
+        }
+    });
+    out
+}
+
+/// Both passes of a transform of a map with rows of `columns` numbers; the result is transposed.
+fn both(
+    mut data: Vec<Complex64>,
+    columns: usize,
+    one: impl Fn(&Transform, &mut [Complex64]) + Sync,
+) -> Vec<Complex64> {
+    let rows = data.len() / columns;
+    let along_x = Transform::new(columns);
+    data.par_chunks_mut(columns).for_each(|line| one(&along_x, line));
+    let mut data = transposed(&data, columns);
+    let along_y = Transform::new(rows);
+    data.par_chunks_mut(rows).for_each(|line| one(&along_y, line));
+    data
+}
+
+/// The map whose spectrum is that of `noise` times `gain(frequency index x, y)`, indices from -n/2 to n/2.
+pub(crate) fn shaped(noise: &[f64], columns: usize, gain: impl Fn(f64, f64) -> f64 + Sync) -> Vec<f64> {
+    let rows = noise.len() / columns;
+    let signed = |k: usize, n: usize| if 2 * k > n { k as f64 - n as f64 } else { k as f64 };
+    let mut spectrum =
+        both(noise.iter().map(|z| Complex64::new(*z, 0.0)).collect(), columns, Transform::forward);
+    spectrum.par_chunks_mut(rows).enumerate().for_each(|(kx, line)| {
+        for (ky, value) in line.iter_mut().enumerate() {
+            *value *= gain(signed(kx, columns), signed(ky, rows));
+        }
+    });
+    let map = both(spectrum, rows, Transform::inverse);
+    let scale = 1.0 / noise.len() as f64;
+    map.into_par_iter().map(|z| z.re * scale).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_gain_of_one_returns_the_map_and_of_a_shift_of_sign_its_negative() {
+        let map: Vec<f64> = (0..12 * 35).map(|i| ((i * i) as f64).sin()).collect();
+        for (gain, sign) in [(1.0, 1.0), (-1.0, -1.0)] {
+            let out = shaped(&map, 35, |_, _| gain);
+            assert!(map.iter().zip(&out).all(|(a, b)| (a * sign - b).abs() < 1e-13));
+        }
+    }
+
+    #[test]
+    fn one_frequency_is_kept() {
+        let wave = |i: usize| (std::f64::consts::TAU * ((i % 16) * 3) as f64 / 16.0).cos() + 5.0;
+        let map: Vec<f64> = (0..16 * 8).map(wave).collect();
+        let out = shaped(&map, 16, |x, y| if x.abs() == 3.0 && y == 0.0 { 1.0 } else { 0.0 });
+        assert!(map.iter().zip(&out).all(|(a, b)| (a - 5.0 - b).abs() < 1e-13));
+    }
+}

@@ -1,0 +1,681 @@
+//! What a rough scene may hold, which values make sense, and the surface it describes.
+
+use crate::closure::{Closure, Metal};
+use crate::contact::{Load, Surface};
+use crate::filter;
+use crate::format::{self, Measured, Spacing};
+use crate::generate::{self, Grid, Kind, KindName, Target};
+use crate::height_map::{Extent, HeightMap};
+use crate::level::{self, Level};
+use crate::numbers::Roughness;
+use crate::pressure::Profile;
+use asperity_law::units::{Length, Stress};
+use asperity_law::{Elastic, HardeningLaw};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use std::path::{Path, PathBuf};
+use thiserror::Error;
+
+/// A value of a scene that makes no sense.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[error("{path}: {message}")]
+pub struct SceneError {
+    /// Where: keys joined by dots, for example `surface.generate.ra`.
+    pub path: String,
+    /// What is wrong: names the value, the allowed range and a way out.
+    pub message: String,
+}
+
+fn error<T>(path: &str, message: impl Into<String>) -> Result<T, SceneError> {
+    Err(SceneError { path: path.into(), message: message.into() })
+}
+
+/// A rough surface under a rigid plane.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Scene {
+    /// Which closure, or all.
+    pub closure: Choice,
+    /// Result of a calibration, for "fitted" and "calibrated".
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub coefficient: Option<PathBuf>,
+    /// How the pressure of an island is spread.
+    #[serde(default = "hertz")]
+    pub pressure_profile: Profile,
+    /// The surface.
+    pub surface: SurfaceScene,
+    /// Its metal.
+    pub material: Material,
+    /// What presses on it.
+    pub load: LoadScene,
+    /// What is written.
+    #[serde(default)]
+    pub output: Output,
+}
+
+fn hertz() -> Profile {
+    Profile::Hertz
+}
+
+/// One closure or all.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Choice {
+    /// Eqs [10]-[12].
+    Published,
+    /// The same law with the calibration's coefficient.
+    Fitted,
+    /// Eqs [18]-[20], mended.
+    Johnson,
+    /// The exact elastic cone.
+    Sneddon,
+    /// The calibrated elastoplastic cone.
+    Calibrated,
+    /// Every closure the material allows.
+    All,
+}
+
+impl Choice {
+    /// The closures chosen, in the order of the tables.
+    pub fn closures(self) -> Vec<Closure> {
+        match self {
+            Choice::Published => vec![Closure::Published],
+            Choice::Fitted => vec![Closure::Fitted],
+            Choice::Johnson => vec![Closure::Johnson],
+            Choice::Sneddon => vec![Closure::Sneddon],
+            Choice::Calibrated => vec![Closure::Calibrated],
+            Choice::All => Closure::ALL.to_vec(),
+        }
+    }
+}
+
+/// What is done with missing points.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Missing {
+    /// Cells with a missing corner are left out.
+    #[default]
+    Exclude,
+    /// Holes are closed smoothly from their rims.
+    Fill,
+}
+
+/// A unit of length by name, in metres.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HeightUnit {
+    name: String,
+    metres: f64,
+}
+
+impl Serialize for HeightUnit {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(&self.name)
+    }
+}
+
+impl<'de> Deserialize<'de> for HeightUnit {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let name = String::deserialize(deserializer)?;
+        let unit = Length::UNITS.iter().find(|(unit, _)| *unit == name).ok_or_else(|| {
+            let known: Vec<&str> = Length::UNITS.iter().map(|(unit, _)| *unit).collect();
+            serde::de::Error::custom(format!(
+                "\"{name}\" is not a unit of length: use one of {}",
+                known.join(", ")
+            ))
+        })?;
+        Ok(HeightUnit { metres: unit.1, name })
+    }
+}
+
+/// Where the surface comes from and what is done to it before the contact.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SurfaceScene {
+    /// A file, relative to the scene.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub file: Option<PathBuf>,
+    /// Instead of a file.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub generate: Option<GenerateScene>,
+    /// Distance of the points along x and y, where the file does not say.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pixel_size: Option<[Length; 2]>,
+    /// Unit of the heights, where the file does not say.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub height_unit: Option<HeightUnit>,
+    /// Whether `pixel_size` and `height_unit` win over what the file says.
+    #[serde(default, rename = "override")]
+    pub override_file: bool,
+    /// What is subtracted: by default the plane from a file, nothing from a generated surface.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub level: Option<Level>,
+    /// Missing points.
+    #[serde(default)]
+    pub missing: Missing,
+    /// Cut-off of the Gaussian S-filter (removes what is shorter).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub s_filter: Option<Length>,
+    /// Cut-off of the Gaussian L-filter (removes what is longer).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub l_filter: Option<Length>,
+    /// Whether the map is one period of an endless surface.
+    #[serde(default)]
+    pub periodic: bool,
+}
+
+/// A surface made from random numbers.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct GenerateScene {
+    /// Ground, milled, sanded or self-affine.
+    pub kind: KindName,
+    /// Arithmetic mean height.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ra: Option<Length>,
+    /// atan of the mean |∇h|.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mean_slope_deg: Option<f64>,
+    /// Length along x and y.
+    pub size: [Length; 2],
+    /// Points along x and y.
+    pub pixels: [usize; 2],
+    /// Start of the random numbers.
+    #[serde(default = "one")]
+    pub seed: u64,
+    /// Hurst exponent, of "self-affine".
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub hurst: Option<f64>,
+    /// Longest wave of the power law, of "self-affine".
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rolloff: Option<Length>,
+    /// Shortest wave, of "self-affine".
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cutoff: Option<Length>,
+}
+
+fn one() -> u64 {
+    1
+}
+
+/// The metal of the rough body.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Material {
+    /// Young's modulus E.
+    pub youngs_modulus: Stress,
+    /// Poisson's ratio ν.
+    pub poissons_ratio: f64,
+    /// Hardness H.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub hardness: Option<Stress>,
+    /// Yield stress σ_y.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub yield_stress: Option<Stress>,
+    /// Hardening exponent n.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub hardening_exponent: Option<f64>,
+    /// Hardening law, by default that of the calibration.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub hardening_law: Option<HardeningLaw>,
+}
+
+/// What presses: exactly one of the two.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LoadScene {
+    /// Nominal pressure.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pressure: Option<Stress>,
+    /// Separation from the mean plane.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub separation: Option<Length>,
+    /// Whether the load is taken off again.
+    #[serde(default)]
+    pub unload: bool,
+}
+
+/// What is written.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Output {
+    /// Pictures and .vti of pressure and contact.
+    #[serde(default = "yes")]
+    pub maps: bool,
+}
+
+impl Default for Output {
+    fn default() -> Self {
+        Output { maps: true }
+    }
+}
+
+fn yes() -> bool {
+    true
+}
+
+impl Scene {
+    /// Checks every value that can be checked without reading files.
+    pub fn validate(&self) -> Result<(), SceneError> {
+        self.material.validate()?;
+        self.load.load()?;
+        let surface = &self.surface;
+        match (&surface.file, &surface.generate) {
+            (None, None) => return error("surface", "name a file, or add a [surface.generate] table"),
+            (Some(_), Some(_)) => {
+                return error("surface.file", "give either a file or [surface.generate], not both");
+            }
+            (None, Some(_)) if surface.pixel_size.is_some() => {
+                return error(
+                    "surface.pixel_size",
+                    "a generated surface has size / pixels: remove pixel_size",
+                );
+            }
+            (None, Some(_)) if surface.height_unit.is_some() => {
+                return error(
+                    "surface.height_unit",
+                    "a generated surface has its heights from ra: remove height_unit",
+                );
+            }
+            (None, Some(made)) => made.request().map(|_| ())?,
+            (Some(_), None) => {}
+        }
+        for (path, length) in [("surface.s_filter", surface.s_filter), ("surface.l_filter", surface.l_filter)]
+        {
+            if length.is_some_and(|l| l.0 <= 0.0) {
+                return error(path, "a cut-off must be above 0: leave the key out for no filter");
+            }
+        }
+        if let Some(p) = surface.pixel_size.filter(|p| p.iter().any(|l| l.0 <= 0.0)) {
+            return error(
+                "surface.pixel_size",
+                format!("{} x {} is not possible: both must be above 0", p[0], p[1]),
+            );
+        }
+        if let (Some(s), Some(l)) = (surface.s_filter, surface.l_filter)
+            && s.0 >= l.0
+        {
+            return error(
+                "surface.s_filter",
+                format!("{s} must be below l_filter = {l}: else nothing is left"),
+            );
+        }
+        Ok(())
+    }
+}
+
+impl Material {
+    fn validate(&self) -> Result<(), SceneError> {
+        let (e, nu) = (self.youngs_modulus.0, self.poissons_ratio);
+        if e <= 0.0 {
+            return error(
+                "material.youngs_modulus",
+                format!("{} must be above 0, for example \"210 GPa\"", self.youngs_modulus),
+            );
+        }
+        if !(nu > -1.0 && nu < 0.5) {
+            return error(
+                "material.poissons_ratio",
+                format!("{nu} must be above -1 and below 0.5, for example 0.3"),
+            );
+        }
+        let within = |path, value: Option<Stress>, most: f64| match value {
+            Some(v) if v.0 <= 0.0 || v.0 > most => {
+                error(path, format!("{v} must be above 0 and at most {most:?} Pa: check its unit"))
+            }
+            _ => Ok(()),
+        };
+        within("material.yield_stress", self.yield_stress, e / 5.0)?;
+        within("material.hardness", self.hardness, e)?;
+        match self.hardening_exponent {
+            Some(n) if !(0.0..1.0).contains(&n) => error(
+                "material.hardening_exponent",
+                format!("{n} must be at least 0 and below 1, for example 0.3"),
+            ),
+            _ => Ok(()),
+        }
+    }
+
+    /// The metal in Pa.
+    pub fn metal(&self) -> Metal {
+        Metal {
+            elastic: Elastic { youngs_modulus: self.youngs_modulus.0, poissons_ratio: self.poissons_ratio },
+            hardness: self.hardness.map(|h| h.0),
+            yield_stress: self.yield_stress.map(|y| y.0),
+            hardening_exponent: self.hardening_exponent,
+            hardening_law: self.hardening_law,
+        }
+    }
+}
+
+impl LoadScene {
+    /// What presses, in SI.
+    pub fn load(&self) -> Result<Load, SceneError> {
+        match (self.pressure, self.separation) {
+            (Some(p), None) if p.0 >= 0.0 => Ok(Load::Pressure(p.0)),
+            (Some(p), None) => {
+                error("load.pressure", format!("{p} must be 0 or above (compression counts positive)"))
+            }
+            (None, Some(d)) => Ok(Load::Separation(d.0)),
+            (None, None) => error("load", "give pressure = \"200 MPa\" or separation = \"1 um\""),
+            (Some(_), Some(_)) => error("load.separation", "give either pressure or separation, not both"),
+        }
+    }
+}
+
+impl GenerateScene {
+    /// What to make, checked.
+    fn request(&self) -> Result<(Kind, Grid, Target), SceneError> {
+        let at = |key: &str| format!("surface.generate.{key}");
+        let [nx, ny] = self.pixels;
+        if nx < 2 || ny < 2 || nx.saturating_mul(ny) > 1 << 28 {
+            return error(
+                &at("pixels"),
+                format!("{nx} x {ny}: at least 2 along each side and at most 268435456 in all"),
+            );
+        }
+        if self.size.iter().any(|l| l.0 <= 0.0) {
+            return error(&at("size"), format!("{} x {}: both must be above 0", self.size[0], self.size[1]));
+        }
+        if self.ra.is_some_and(|r| r.0 <= 0.0) {
+            return error(&at("ra"), "Ra must be above 0");
+        }
+        if self.mean_slope_deg.is_some_and(|b| !(b > 0.0 && b < 80.0)) {
+            return error(&at("mean_slope_deg"), "the mean slope must be above 0 and below 80 degrees");
+        }
+        let target = match (self.ra, self.mean_slope_deg) {
+            (Some(ra), Some(slope)) => Target::Both(ra.0, slope.to_radians().tan()),
+            (Some(ra), None) => Target::Height(ra.0),
+            (None, Some(slope)) => Target::Slope(slope.to_radians().tan()),
+            (None, None) => return error("surface.generate", "give ra, mean_slope_deg, or both"),
+        };
+        let spectrum = [
+            ("hurst", self.hurst.is_some()),
+            ("rolloff", self.rolloff.is_some()),
+            ("cutoff", self.cutoff.is_some()),
+        ];
+        let kind = match self.kind {
+            KindName::SelfAffine => self.self_affine(target)?,
+            _ if spectrum.iter().any(|(_, given)| *given) => {
+                let key = spectrum.iter().find(|(_, given)| *given).map_or("hurst", |(key, _)| key);
+                return error(&at(key), "only kind = \"self-affine\" has this key");
+            }
+            KindName::Ground => Kind::Ground,
+            KindName::Milled => Kind::Milled,
+            KindName::Sanded => Kind::Sanded,
+        };
+        let pixel = [self.size[0].0 / nx as f64, self.size[1].0 / ny as f64];
+        Ok((kind, Grid { nodes: self.pixels, pixel, seed: self.seed }, target))
+    }
+
+    fn self_affine(&self, target: Target) -> Result<Kind, SceneError> {
+        let (Some(hurst), Some(rolloff), Some(cutoff)) = (self.hurst, self.rolloff, self.cutoff) else {
+            return error("surface.generate", "kind = \"self-affine\" needs hurst, rolloff and cutoff");
+        };
+        if !(hurst > 0.0 && hurst <= 1.0) {
+            return error(
+                "surface.generate.hurst",
+                format!("{hurst} must be above 0 and at most 1, for example 0.8"),
+            );
+        }
+        if matches!(target, Target::Both(..)) {
+            return error(
+                "surface.generate.mean_slope_deg",
+                "a self-affine surface of given spectrum has one free number: give ra or mean_slope_deg, not both",
+            );
+        }
+        Ok(Kind::SelfAffine { hurst, rolloff: rolloff.0, cutoff: cutoff.0 })
+    }
+}
+
+/// A surface ready for contact.
+pub struct Prepared {
+    /// Levelled and filtered.
+    pub map: HeightMap,
+    /// Points missing before any were filled.
+    pub missing: usize,
+    /// Extent of the map.
+    pub extent: Extent,
+    /// Roughness numbers of the map.
+    pub roughness: Roughness,
+}
+
+impl Prepared {
+    /// The surface to press.
+    pub fn surface(&self) -> Surface<'_> {
+        Surface { map: &self.map, extent: self.extent, roughness: self.roughness }
+    }
+}
+
+impl SurfaceScene {
+    /// Reads or makes the surface and prepares it: holes, S-filter, levelling, L-filter, in this order.
+    ///
+    /// `resolve` turns a path of the scene into one that can be opened.
+    pub fn prepare(&self, resolve: impl Fn(&Path) -> PathBuf) -> Result<Prepared, SceneError> {
+        let at = |path: &'static str| move |e: String| SceneError { path: path.into(), message: e };
+        let (map, source) = match (&self.file, &self.generate) {
+            (Some(file), _) => {
+                let path = resolve(file);
+                let measured = format::read(&path)
+                    .map_err(|e| at("surface.file")(format!("{}: {e}", path.display())))?;
+                (self.in_metres(measured)?, "surface.file")
+            }
+            (None, Some(made)) => {
+                let (kind, grid, target) = made.request()?;
+                let map = generate::generate(kind, &grid, target)
+                    .map_err(|e| at("surface.generate")(e.to_string()))?;
+                (map, "surface.generate")
+            }
+            (None, None) => return error("surface", "name a file, or add a [surface.generate] table"),
+        };
+        let mut map = map.with_periodic(self.periodic);
+        let missing = map.missing();
+        map.extent().map_err(|e| at(source)(e.to_string())).or_else(|e| match self.missing {
+            Missing::Fill if missing < map.heights().len() => Ok(Extent { low: 0.0, high: 0.0, cells: 0 }),
+            _ => Err(e),
+        })?;
+        if self.missing == Missing::Fill {
+            map = filter::fill(&map).map_err(|e| at("surface.missing")(e.to_string()))?;
+        }
+        if let Some(cutoff) = self.s_filter {
+            map = filter::s_filter(&map, cutoff.0).map_err(|e| at("surface.s_filter")(e.to_string()))?;
+        }
+        let default = if self.file.is_some() { Level::Plane } else { Level::None };
+        map = level::level(map, self.level.unwrap_or(default));
+        if let Some(cutoff) = self.l_filter {
+            map = filter::l_filter(&map, cutoff.0).map_err(|e| at("surface.l_filter")(e.to_string()))?;
+        }
+        let extent = map.extent().map_err(|e| at(source)(e.to_string()))?;
+        let roughness = Roughness::of(&map, &extent);
+        if ![roughness.sa, roughness.sdq, roughness.mean].iter().all(|v| v.is_finite()) {
+            return error(source, "the heights are too large to compute with: check height_unit");
+        }
+        Ok(Prepared { map, missing, extent, roughness })
+    }
+
+    /// The file's heights in metres, its units checked against those of the scene.
+    fn in_metres(&self, measured: Measured) -> Result<HeightMap, SceneError> {
+        let same = |a: f64, b: f64| (a / b - 1.0).abs() <= 1e-4;
+        let unit = match (measured.height_unit, &self.height_unit) {
+            (Some(file), Some(scene)) if !same(file, scene.metres) && !self.override_file => {
+                return error(
+                    "surface.height_unit",
+                    format!(
+                        "the file has its heights in units of {file} m, not {}: remove height_unit, or set override = true",
+                        scene.name
+                    ),
+                );
+            }
+            (_, Some(scene)) => scene.metres,
+            (Some(file), None) => file,
+            (None, None) => {
+                return error(
+                    "surface",
+                    "the file does not name the unit of its heights: add height_unit = \"um\"",
+                );
+            }
+        };
+        let said = match measured.spacing {
+            Spacing::Unknown => None,
+            Spacing::Metres(p) => Some(p),
+            Spacing::HeightUnits(p) => Some(p.map(|v| v * unit)),
+        };
+        let pixel = match (said, self.pixel_size.map(|p| p.map(|l| l.0))) {
+            (Some(file), Some(scene))
+                if !(same(file[0], scene[0]) && same(file[1], scene[1])) && !self.override_file =>
+            {
+                return error(
+                    "surface.pixel_size",
+                    format!(
+                        "the file has pixels of {:?} x {:?} m, the scene says {:?} x {:?} m: remove pixel_size, or set override = true",
+                        file[0], file[1], scene[0], scene[1]
+                    ),
+                );
+            }
+            (_, Some(scene)) => scene,
+            (Some(file), None) => file,
+            (None, None) => {
+                return error(
+                    "surface",
+                    "the file does not say how far its points are apart: add pixel_size = [\"1 um\", \"1 um\"]",
+                );
+            }
+        };
+        let mut heights = measured.heights;
+        if unit != 1.0 {
+            heights.iter_mut().for_each(|z| *z *= unit);
+        }
+        HeightMap::new(measured.columns, measured.rows, pixel, heights)
+            .map_err(|e| SceneError { path: "surface.file".into(), message: e.to_string() })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const GOOD: &str = r#"
+        closure = "published"
+        [surface]
+        file = "z.npy"
+        pixel_size = ["1 um", "2 um"]
+        height_unit = "nm"
+        level = "none"
+        [material]
+        youngs_modulus = "210 GPa"
+        poissons_ratio = 0.3
+        hardness = "1280 MPa"
+        [load]
+        pressure = "200 MPa"
+    "#;
+
+    fn read(text: &str) -> Result<Scene, String> {
+        let scene: Scene = toml::from_str(text).map_err(|e| e.to_string())?;
+        scene.validate().map_err(|e| e.to_string())?;
+        Ok(scene)
+    }
+
+    #[test]
+    fn a_scene_reads_and_is_written_back() {
+        let scene = read(GOOD).unwrap();
+        assert_eq!(toml::from_str::<Scene>(&toml::to_string(&scene).unwrap()).unwrap(), scene);
+    }
+
+    #[test]
+    fn a_wrong_scene_is_refused_where_it_is_wrong() {
+        for (old, new, place) in [
+            ("\"210 GPa\"", "\"-210 GPa\"", "material.youngs_modulus"),
+            ("0.3", "0.5", "material.poissons_ratio"),
+            ("0.3", "nan", "material.poissons_ratio"),
+            ("\"1280 MPa\"", "\"1280 GPa\"", "material.hardness"),
+            ("\"200 MPa\"", "\"-1 MPa\"", "load.pressure"),
+            ("pressure = \"200 MPa\"", "", "load:"),
+            ("pressure = ", "separation = \"1 um\"\npressure = ", "load.separation"),
+            ("\"1 um\", \"2 um\"", "\"0 um\", \"2 um\"", "surface.pixel_size"),
+            ("file = \"z.npy\"", "", "surface:"),
+            ("level = ", "s_filter = \"0 um\"\nlevel = ", "surface.s_filter"),
+            ("level = ", "s_filter = \"9 um\"\nl_filter = \"8 um\"\nlevel = ", "surface.s_filter"),
+            ("\"nm\"", "\"parsec\"", "parsec"),
+            ("\"none\"", "\"nothing\"", "nothing"),
+            ("\"published\"", "\"hertz\"", "hertz"),
+            ("closure", "colour = 1\nclosure", "colour"),
+        ] {
+            let message = read(&GOOD.replacen(old, new, 1)).unwrap_err();
+            assert!(message.contains(place), "{new}: {message}");
+        }
+    }
+
+    fn generated(table: &str) -> Result<Scene, String> {
+        let surface =
+            format!("[surface.generate]\nsize = [\"100 um\", \"100 um\"]\npixels = [64, 64]\n{table}\n");
+        let (head, rest) = GOOD.split_once("[surface]").unwrap();
+        let (_, tail) = rest.split_once("[material]").unwrap();
+        read(&format!("{head}{surface}[material]{tail}"))
+    }
+
+    #[test]
+    fn a_generated_surface_needs_what_its_kind_has() {
+        assert!(generated("kind = \"sanded\"\nra = \"1 um\"\nmean_slope_deg = 8").is_ok());
+        assert!(
+            generated(
+                "kind = \"self-affine\"\nra = \"1 um\"\nhurst = 0.8\nrolloff = \"50 um\"\ncutoff = \"10 um\""
+            )
+            .is_ok()
+        );
+        for bad in [
+            "kind = \"sanded\"",
+            "kind = \"sanded\"\nra = \"0 um\"",
+            "kind = \"sanded\"\nmean_slope_deg = 90",
+            "kind = \"sanded\"\nra = \"1 um\"\nhurst = 0.8",
+            "kind = \"self-affine\"\nra = \"1 um\"\nhurst = 0.8",
+            "kind = \"self-affine\"\nra = \"1 um\"\nhurst = 1.8\nrolloff = \"50 um\"\ncutoff = \"10 um\"",
+            "kind = \"self-affine\"\nra = \"1 um\"\nmean_slope_deg = 3\nhurst = 0.8\nrolloff = \"50 um\"\ncutoff = \"10 um\"",
+        ] {
+            assert!(generated(bad).is_err(), "{bad}");
+        }
+    }
+
+    fn surface(text: &str) -> SurfaceScene {
+        toml::from_str(text).unwrap()
+    }
+
+    #[test]
+    fn units_and_pixels_are_demanded_and_contradictions_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        let resolve = |p: &Path| folder.path().join(p);
+        let heights: Vec<f64> = (0..25).map(|i| f64::from(i * i % 7)).collect();
+        format::write_npy(&resolve(Path::new("z.npy")), 5, 5, &heights).unwrap();
+        format::write_x3p(&resolve(Path::new("z.x3p")), 5, 5, [1e-6, 1e-6], &heights).unwrap();
+        let unit = "height_unit = \"um\"\n";
+        let pixel = "pixel_size = [\"2 um\", \"2 um\"]\n";
+        for (text, place) in [
+            ("file = \"z.npy\"\n".to_string(), "height_unit"),
+            (format!("file = \"z.npy\"\n{unit}"), "pixel_size"),
+            (format!("file = \"z.x3p\"\n{unit}"), "surface.height_unit"),
+            (format!("file = \"z.x3p\"\n{pixel}"), "surface.pixel_size"),
+            ("file = \"none.npy\"\n".into(), "none.npy"),
+        ] {
+            let message = surface(&text).prepare(resolve).err().unwrap().to_string();
+            assert!(message.contains(place), "{message}");
+        }
+        let forced = surface(&format!("file = \"z.x3p\"\n{unit}{pixel}override = true\nlevel = \"none\""))
+            .prepare(resolve)
+            .unwrap();
+        assert_eq!((forced.map.pixel(), forced.map.heights()[2]), ([2e-6, 2e-6], 4e-6));
+        assert!(surface(&format!("file = \"z.npy\"\n{unit}{pixel}")).prepare(resolve).is_ok());
+    }
+
+    #[test]
+    fn a_map_without_a_height_is_refused_and_one_with_few_is_filled() {
+        let folder = tempfile::tempdir().unwrap();
+        let resolve = |p: &Path| folder.path().join(p);
+        let rest = "pixel_size = [\"2 um\", \"2 um\"]\nheight_unit = \"um\"\nfile = \"z.npy\"\n";
+        for (measured, missing, good) in
+            [(0, "fill", false), (0, "exclude", false), (1, "exclude", false), (1, "fill", true)]
+        {
+            let mut heights = vec![f64::NAN; 16];
+            heights[..measured].fill(1.0);
+            format::write_npy(&resolve(Path::new("z.npy")), 4, 4, &heights).unwrap();
+            let answer = surface(&format!("{rest}missing = \"{missing}\"")).prepare(resolve);
+            assert_eq!(answer.is_ok(), good, "{measured} {missing}");
+        }
+    }
+}
