@@ -1,0 +1,102 @@
+//! `asperity rough`: the contact of a rough surface with a rigid plane.
+
+mod files;
+mod glyphs;
+mod picture;
+mod run;
+mod table1;
+
+use crate::failure::{Failure, InputError};
+use crate::folder::Folder;
+use crate::toml_file::TomlFile;
+use asperity_roughness::scene::{Scene, SceneError};
+use asperity_roughness::{Closure, Coefficient};
+use run::Pressed;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+/// What the command line asks for.
+#[derive(Clone, Debug)]
+pub struct Request {
+    /// The scene file.
+    pub scene: PathBuf,
+    /// `--set` in their order.
+    pub overrides: Vec<String>,
+    /// `--out`.
+    pub out: Option<PathBuf>,
+    /// Print nothing but errors.
+    pub quiet: bool,
+    /// Write beside files of others.
+    pub force: bool,
+    /// Print the summary as JSON.
+    pub json: bool,
+}
+
+/// `asperity rough --table1`: prints the paper's table beside ours.
+pub fn table1(quiet: bool) -> Result<(), Failure> {
+    table1::run(quiet)
+}
+
+/// `asperity rough SCENE.toml`.
+pub fn rough(request: &Request) -> Result<(), Failure> {
+    let start = Instant::now();
+    let file: TomlFile<Scene> = TomlFile::read(&request.scene, &request.overrides)?;
+    let scene = &file.value;
+    let at = |e: SceneError| file.error_at(&e.path, &e.message);
+    scene.validate().map_err(at)?;
+    let coefficient = read_coefficient(&file)?;
+    let prepared = scene.surface.prepare(|path| file.resolve(path)).map_err(at)?;
+    let name = surface_name(&file);
+    let (pressed, warnings) = run::press_all(scene, &prepared, coefficient.as_ref()).map_err(|(path, message)| {
+        file.error_at(path, &message)
+    })?;
+    let target = request.out.clone().unwrap_or_else(|| Path::new("out").join(file.stem()));
+    let mut folder = Folder::create(&target, "rough", request.force)?;
+    let outcome = files::Outcome { name: &name, scene, prepared: &prepared, pressed: &pressed, warnings: &warnings };
+    outcome.write_tables(&mut folder)?;
+    if scene.output.maps {
+        outcome.write_maps(&mut folder)?;
+    }
+    let summary = outcome.summary(start.elapsed().as_secs_f64());
+    let text = serde_json::to_string_pretty(&summary).map_err(|e| Failure::Unfinished(e.to_string()))?;
+    folder.write("summary.json", |out| out.write_all(text.as_bytes()))?;
+    let target = folder.publish()?;
+    if request.json {
+        println!("{text}");
+    } else if !request.quiet {
+        warnings.iter().for_each(|w| eprintln!("warning: {w}"));
+        print!("{}", outcome.text());
+        println!("results in {}", target.display());
+    } else {
+        warnings.iter().for_each(|w| eprintln!("warning: {w}"));
+    }
+    Ok(())
+}
+
+/// The calibration's result that the scene names.
+fn read_coefficient(file: &TomlFile<Scene>) -> Result<Option<Coefficient>, InputError> {
+    let Some(path) = &file.value.coefficient else { return Ok(None) };
+    let wanted = file.value.closure.closures();
+    if !wanted.iter().any(|c| matches!(c, Closure::Fitted | Closure::Calibrated)) {
+        return Ok(None);
+    }
+    let path = file.resolve(path);
+    let text = std::fs::read_to_string(&path)
+        .map_err(|e| file.error_at("coefficient", &format!("{} cannot be read: {e}", path.display())))?;
+    Coefficient::from_toml(&text)
+        .map(Some)
+        .map_err(|e| file.error_at("coefficient", &format!("{}: {e}", path.display())))
+}
+
+/// What the surface is called in the tables: the kind it was generated as, or the name of its file.
+fn surface_name(file: &TomlFile<Scene>) -> String {
+    let surface = &file.value.surface;
+    match (&surface.file, &surface.generate) {
+        (Some(path), _) => path.file_stem().map_or_else(|| "surface".into(), |s| s.to_string_lossy().into_owned()),
+        (None, Some(made)) => run::kind_name(made.kind).into(),
+        (None, None) => file.stem(),
+    }
+}
+
+/// A pressed surface by its closure.
+type AllPressed = Vec<Pressed>;
