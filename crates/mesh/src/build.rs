@@ -58,6 +58,16 @@ pub struct Contact {
     pub half_width: f64,
     /// Half width of the foot of the asperity: that of its cell.
     pub foot: f64,
+    /// Steepest slope (tangent) of the profile over it.
+    pub slope: f64,
+}
+
+impl Contact {
+    /// Depth over half width of the core. The diagonals on which shells turn must stay steeper than the flank, or
+    /// the shear under the profile turns their cells inside out.
+    fn depth_ratio(&self) -> f64 {
+        (1.5 * self.slope).max(1.0)
+    }
 }
 
 /// What to mesh. Any unit of length.
@@ -87,7 +97,11 @@ pub fn build(plan: &Plan) -> Mesh {
         let contact = plan.contacts[0];
         let half =
             core_half_width(plan, &contact).min(0.4 * plan.depth).min(0.4 * (plan.width[1] - plan.width[0]));
-        let core = Rectangle { left: contact.centre, right: contact.centre + half, depth: half };
+        let core = Rectangle {
+            left: contact.centre,
+            right: contact.centre + half,
+            depth: half * contact.depth_ratio(),
+        };
         let row = add_core(&mut grid, plan, &contact, core);
         let right =
             divide_geometric(half, plan.width[1] - contact.centre, &kinks_from(plan, contact.centre), |x| {
@@ -100,7 +114,7 @@ pub fn build(plan: &Plan) -> Mesh {
                 Rectangle {
                     left: contact.centre,
                     right: contact.centre + x,
-                    depth: half * (plan.depth / half).powf(share),
+                    depth: core.depth * (plan.depth / core.depth).powf(share),
                 }
             })
             .collect();
@@ -247,7 +261,8 @@ fn wrap(grid: &mut Grid, mut ring: Ring, rectangles: &[Rectangle], width: [f64; 
 /// The rectangle of a row: as deep as the geometric mean of the half widths of its cells.
 fn row_rectangle(plan: &Plan) -> Rectangle {
     let contacts = &plan.contacts;
-    let mean = (contacts.iter().map(|c| c.foot.ln()).sum::<f64>() / contacts.len() as f64).exp();
+    let logs = contacts.iter().map(|c| (c.foot * c.depth_ratio()).ln());
+    let mean = (logs.sum::<f64>() / contacts.len() as f64).exp();
     Rectangle { left: plan.row[0], right: plan.row[1], depth: mean.min(0.5 * plan.depth) }
 }
 
@@ -285,7 +300,7 @@ fn add_row(grid: &mut Grid, plan: &Plan) -> Ring {
         let core = Rectangle {
             left: if halved { contact.centre } else { contact.centre - half },
             right: contact.centre + half,
-            depth: half.min(0.6 * rectangle.depth),
+            depth: (half * contact.depth_ratio()).min(0.6 * rectangle.depth),
         };
         let start = grid.surface.len();
         let ring = add_core(grid, plan, contact, core);

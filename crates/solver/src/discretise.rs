@@ -345,12 +345,13 @@ fn build_mesh(
         far: FAR_GROWTH,
     };
     let contacts: Vec<Contact> = if profile.asperities.is_empty() {
-        vec![Contact { centre: 0.0, half_width: widest, foot: 10.0 * widest }]
+        vec![Contact { centre: 0.0, half_width: widest, foot: 10.0 * widest, slope: 0.0 }]
     } else {
         let contact = |(a, w): (&Asperity, &f64)| Contact {
             centre: a.centre,
             half_width: *w,
             foot: a.half_width(a.height),
+            slope: steepest(a, *w),
         };
         profile.asperities.iter().zip(half_widths).map(contact).collect()
     };
@@ -361,6 +362,18 @@ fn build_mesh(
         });
     }
     Ok(build(&Plan { profile: profile.clone(), contacts, row, width, depth, grading, kind }))
+}
+
+/// Steepest slope that a mesh under the asperity must follow; a ball, vertical at its foot, is followed to twice its
+/// contact radius.
+fn steepest(asperity: &Asperity, half_width: f64) -> f64 {
+    match asperity.shape {
+        Shape::Cone { tan_slope, .. } => tan_slope,
+        Shape::Sphere { radius } => {
+            let x = (2.0 * half_width / radius).min(0.9);
+            x / (1.0 - x * x).sqrt()
+        }
+    }
 }
 
 /// Fillets must leave a part of both their sides straight.
