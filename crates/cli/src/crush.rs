@@ -151,15 +151,11 @@ fn write_records(
         folder
             .write("asperities.csv", |out| records::write_asperities(out, symmetry, &outcome.asperities))?;
     }
-    if scene.asperity.len() > 1 {
-        folder.write("gaps.csv", |out| records::write_gaps(out, &outcome.gaps))?;
-    }
     let plot = records::plot(symmetry, &outcome.rows).map_err(Failure::Unfinished)?;
     folder.write("curve.svg", |out| out.write_all(plot.as_bytes()))?;
     let wall_s = start.elapsed().as_secs_f64();
-    let summary =
-        records::summary_json(&outcome.summary, &outcome.elastic_islands, &resolved(scene), stopped, wall_s)
-            .map_err(|e| Failure::Unfinished(format!("the summary could not be written: {e}")))?;
+    let summary = records::summary_json(&outcome.summary, &resolved(scene), stopped, wall_s)
+        .map_err(|e| Failure::Unfinished(format!("the summary could not be written: {e}")))?;
     folder.write("summary.json", |out| out.write_all(summary.as_bytes()))?;
     Ok(summary)
 }

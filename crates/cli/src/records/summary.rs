@@ -1,7 +1,7 @@
 //! `summary.json`.
 
-use super::{MEGAPASCAL, MICROMETRE, area_unit, energy_unit, force_unit, stiffness_unit};
-use asperity_solver::record::{IslandRow, Summary};
+use super::{MICROMETRE, area_unit, energy_unit, force_unit, stiffness_unit};
+use asperity_solver::record::Summary;
 use asperity_solver::scene::{Scene, Symmetry};
 use serde::ser::{Serialize, SerializeMap, Serializer};
 use serde_json::{Value, json};
@@ -21,14 +21,12 @@ impl Serialize for Entries {
 
 /// The summary as indented JSON. A number that does not exist (no unloading, not reached, not finite) is `null`.
 ///
-/// `islands` are the regions that never yielded at the peak (left out where there are none), `scene` is the scene as
-/// resolved, `stopped` why the run ended early, `wall_s` its wall time in seconds.
+/// `scene` is the scene as resolved, `stopped` why the run ended early, `wall_s` its wall time in seconds.
 ///
 /// # Errors
 /// A scene that JSON cannot hold.
 pub fn summary_json(
     summary: &Summary,
-    islands: &[IslandRow],
     scene: &Scene,
     stopped: Option<&str>,
     wall_s: f64,
@@ -61,24 +59,10 @@ pub fn summary_json(
         ("scene".into(), serde_json::to_value(scene)?),
         ("version".into(), json!(env!("CARGO_PKG_VERSION"))),
     ];
-    if !islands.is_empty() {
-        entries.push(("elastic_islands".into(), islands.iter().map(island_json).collect()));
-    }
     if let Some(reason) = stopped {
         entries.insert(0, ("stopped".into(), json!(reason)));
     }
     serde_json::to_string_pretty(&Entries(entries)).map(|text| text + "\n")
-}
-
-fn island_json(island: &IslandRow) -> Value {
-    json!({
-        "r_um": island.place[0] / MICROMETRE,
-        "z_um": island.place[1] / MICROMETRE,
-        "area_um2": island.area / (MICROMETRE * MICROMETRE),
-        "mean_pressure_MPa": island.mean_pressure / MEGAPASCAL,
-        "reaches_substrate": island.reaches_substrate,
-        "reaches_surface": island.reaches_surface,
-    })
 }
 
 /// Largest resident memory of this process so far, in MB of 10⁶ bytes; `None` where the system does not say.
