@@ -16,8 +16,15 @@ import json
 import pathlib
 import sys
 
-SETS = [("slopes-1-4", "1-4° ground", "#0072b2", "-"), ("slopes-5-8", "5-8° milled", "#d55e00", "--"), ("slopes-9-12", "9-12° sanded", "#009e73", ":")]
-SYMMETRIES = [("", "axisymmetric: a cone and rings", "N"), ("-plane-strain", "plane strain: parallel ridges", "N/mm")]
+SETS = [
+    ("slopes-1-4", "1-4° ground", "#0072b2", "-"),
+    ("slopes-5-8", "5-8° milled", "#d55e00", "--"),
+    ("slopes-9-12", "9-12° sanded", "#009e73", ":"),
+]
+SYMMETRIES = [
+    ("", "axisymmetric: a cone and rings", "N"),
+    ("-plane-strain", "plane strain: parallel ridges", "N/mm"),
+]
 
 
 def curve(folder: pathlib.Path) -> tuple[list[float], list[float]]:
@@ -35,15 +42,22 @@ def total_work(summary: dict) -> float:
 def statements(works: list[float], shares: list[float]) -> list[tuple[str, bool]]:
     """The statements of section 3.2 on the three sets, in order of slope."""
     return [
-        ("the plastic share grows with the slope", all(a > b for a, b in zip(shares, shares[1:], strict=False))),
+        (
+            "the plastic share grows with the slope",
+            all(a > b for a, b in zip(shares, shares[1:], strict=False)),
+        ),
         ("the total work falls with the slope", all(a > b for a, b in zip(works, works[1:], strict=False))),
         ("elastic work outweighs plastic work in every set", all(share > 0.5 for share in shares)),
     ]
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("results", type=pathlib.Path, help="folder that holds slopes-1-4, slopes-5-8, … (usually out)")
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument(
+        "results", type=pathlib.Path, help="folder that holds slopes-1-4, slopes-5-8, … (usually out)"
+    )
     parser.add_argument("--to", type=pathlib.Path, default=pathlib.Path("fig6.png"), help="picture to write")
     arguments = parser.parse_args()
     try:
@@ -62,16 +76,22 @@ def main() -> int:
         for name, label, colour, style in SETS:
             folder = arguments.results / (name + suffix)
             if not (folder / "curve.csv").exists():
-                print(f"{folder}/curve.csv is missing: crush meshes/{name}{suffix}.toml first", file=sys.stderr)
+                print(
+                    f"{folder}/curve.csv is missing: crush meshes/{name}{suffix}.toml first", file=sys.stderr
+                )
                 return 1
             depth, force = curve(folder)
             axis.plot(depth, force, color=colour, linestyle=style, label=label)
             summary = json.loads((folder / "summary.json").read_text())
             works.append(total_work(summary))
             shares.append(summary["elastic_fraction"])
-            print(f"| {label} | {title} | {works[-1]:.4g} µJ{'' if unit == 'N' else '/mm'} | {100 * shares[-1]:.1f} % |")
+            print(
+                f"| {label} | {title} | {works[-1]:.4g} µJ{'' if unit == 'N' else '/mm'} | {100 * shares[-1]:.1f} % |"
+            )
         verdicts += [(title, text, holds) for text, holds in statements(works, shares)]
-        axis.set(xlabel="depth h (µm)", ylabel=f"force F ({unit})", title=title, xlim=(0, None), ylim=(0, None))
+        axis.set(
+            xlabel="depth h (µm)", ylabel=f"force F ({unit})", title=title, xlim=(0, None), ylim=(0, None)
+        )
         axis.grid(alpha=0.3)
         axis.legend(frameon=False)
     for title, text, holds in verdicts:
