@@ -10,7 +10,8 @@ use asperity_law::units::{Length, Stress};
 use asperity_solver::crush::run;
 use asperity_solver::element::POINTS;
 use asperity_solver::scene::{
-    Accuracy, Asperity, ElementChoice, Lateral, Loading, Material, Numerics, Output, Scene, Symmetry, Tool, ToolShape,
+    Accuracy, Asperity, ElementChoice, Lateral, Loading, Material, Numerics, Output, Scene, Symmetry, Tool,
+    ToolShape,
 };
 use std::ops::ControlFlow;
 use std::time::Instant;
@@ -45,12 +46,16 @@ fn single_asperity(accuracy: Accuracy, element: ElementChoice) -> Scene {
 }
 
 fn main() {
-    println!("| level | element | dofs | assembly ms | floor ms | factorise ms | solve ms | iteration ms | iterations | run s |");
+    println!(
+        "| level | element | dofs | assembly ms | floor ms | factorise ms | solve ms | iteration ms | iterations | run s |"
+    );
     println!("|-|-|-|-|-|-|-|-|-|-|");
     for (name, accuracy) in
         [("draft", Accuracy::Draft), ("standard", Accuracy::Standard), ("reference", Accuracy::Reference)]
     {
-        for (element, label, point_ns) in [(ElementChoice::Q8r, "q8r", 365.0), (ElementChoice::Q4, "q4", 271.0)] {
+        for (element, label, point_ns) in
+            [(ElementChoice::Q8r, "q8r", 365.0), (ElementChoice::Q4, "q4", 271.0)]
+        {
             let scene = single_asperity(accuracy, element);
             let repeats = if accuracy == Accuracy::Reference { 1 } else { 5 };
             let best = (0..repeats)

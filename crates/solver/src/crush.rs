@@ -8,7 +8,7 @@ use crate::model::{Counters, Model, ToolContact};
 use crate::newton::Settings;
 use crate::record::{AsperityRow, CurveRow, GapRow, IslandRow, Phase, Summary};
 use crate::scene::{ContactMethod, Scene, SceneError, Target};
-use crate::stepping::{Goal, Increment, Path, Stop};
+use crate::stepping::{Goal, Increment, Path, Stop, schedule};
 use asperity_mesh::Mesh;
 use std::ops::ControlFlow;
 
@@ -115,7 +115,9 @@ pub fn run(
         0.9 * numbers.penetration * problem.depth
     };
     let mut stopped = path
-        .load(goal, numbers.steps, expected, &mut |model, increment| log.record(model, increment, observer))
+        .load(goal, &schedule(numbers.steps, numbers.geometric_from), expected, &mut |model, increment| {
+            log.record(model, increment, observer)
+        })
         .err();
     log.peak_reached(&goal, &problem, observer, &path.model, stopped.is_none());
     if stopped.is_none() {

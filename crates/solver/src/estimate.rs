@@ -46,7 +46,7 @@ pub fn force_error(problem: &Problem, force: f64, depth: f64, automatic: bool) -
 
 /// Largest ln(h_{i+1}/h_i) from 0.2 of the peak on.
 fn largest_step(numbers: &Discretisation) -> f64 {
-    let depths = schedule(numbers.steps);
+    let depths = schedule(numbers.steps, numbers.geometric_from);
     let ratio = |pair: &[f64]| (pair[1] / pair[0]).ln();
     depths.windows(2).filter(|pair| pair[1] > 0.2).map(ratio).fold(0.0, f64::max).max(if depths.len() < 2 {
         1.0
