@@ -1,2 +1,40 @@
-//! The asperity command line.
-fn main() {}
+//! The asperity command line: arguments, progress, files, plots.
+
+mod args;
+mod chart;
+mod crush;
+mod failure;
+mod folder;
+mod mesh;
+mod progress;
+mod records;
+mod rough;
+mod scene_file;
+mod suggest;
+mod terminal;
+mod toml_file;
+
+use args::{Cli, Command};
+use clap::Parser;
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    let cli = Cli::parse();
+    // long lines stay whole: the terminal wraps them, and a search finds them
+    let _ = miette::set_hook(Box::new(|_| {
+        Box::new(miette::MietteHandlerOpts::new().wrap_lines(false).context_lines(1).build())
+    }));
+    let result = match &cli.command {
+        Command::Crush(args) => crush::crush(args),
+        Command::Mesh(args) => mesh::mesh(args),
+        Command::Rough(args) => rough::rough(args),
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            let code = failure.exit_code();
+            terminal::complain(failure.report().trim_end());
+            code
+        }
+    }
+}

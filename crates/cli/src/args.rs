@@ -1,0 +1,111 @@
+//! The command line.
+
+use asperity_solver::scene::Accuracy;
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use std::path::PathBuf;
+
+/// Crush rough metal, from one conical asperity to a measured surface.
+#[derive(Debug, Parser)]
+#[command(name = "asperity", version, arg_required_else_help = true, after_help = EXAMPLES)]
+pub struct Cli {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+const EXAMPLES: &str = "Examples:
+  asperity crush meshes/single-asperity.toml
+  asperity crush meshes/single-asperity.toml --accuracy draft --set material.hardening_exponent=0.1
+  asperity crush meshes/single-asperity.toml --set \"loading.depth=2 um\" --out out/shallow --json
+  asperity mesh meshes/single-asperity.toml -o asperity.msh
+
+Exit status: 0 done; 1 the run could not finish (what was reached is on disk); 2 the input is wrong.";
+
+/// The subcommands.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Crush the asperities of a scene with a rigid tool and write curve, summary and fields
+    Crush(Crush),
+    /// Mesh a scene, print sizes and quality, and write it as .vtu, .msh or .inp
+    Mesh(MeshCommand),
+    /// Press a rigid plane on a rough surface and write table, load curve, maps
+    Rough(crate::rough::Rough),
+}
+
+/// Arguments of `asperity crush`.
+#[derive(Debug, Args)]
+pub struct Crush {
+    /// Scene file (TOML)
+    pub scene: PathBuf,
+    #[command(flatten)]
+    pub scene_flags: SceneFlags,
+    #[command(flatten)]
+    pub run: RunFlags,
+}
+
+/// Arguments of `asperity mesh`.
+#[derive(Debug, Args)]
+pub struct MeshCommand {
+    /// Scene file (TOML)
+    pub scene: PathBuf,
+    /// File to write: .vtu (ParaView), .msh (Gmsh 4.1) or .inp (CalculiX, Abaqus)
+    #[arg(short, long, value_name = "FILE")]
+    pub output: PathBuf,
+    #[command(flatten)]
+    pub scene_flags: SceneFlags,
+    /// Print nothing but errors
+    #[arg(long)]
+    pub quiet: bool,
+}
+
+/// Flags that change what a file says.
+#[derive(Debug, Args)]
+pub struct SceneFlags {
+    /// Error of the force: draft 5 %, standard 1 %, reference 0.2 % [default: what the scene says, else standard]
+    #[arg(long, value_enum, value_name = "LEVEL")]
+    pub accuracy: Option<AccuracyFlag>,
+    /// Change a value of the file, for example --set "loading.depth=2 um"; repeatable
+    #[arg(long = "set", value_name = "KEY.PATH=VALUE")]
+    pub overrides: Vec<String>,
+}
+
+/// Flags of every command that fills a folder.
+#[derive(Debug, Args)]
+pub struct RunFlags {
+    /// Folder for the results [default: out/<scene name>]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Threads to use [default: all cores]; the results do not depend on it
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=4096))]
+    pub threads: Option<u16>,
+    /// Print nothing but errors
+    #[arg(long)]
+    pub quiet: bool,
+    /// Write into a folder that holds other files, which are left alone
+    #[arg(long)]
+    pub force: bool,
+    /// Print the summary as JSON on stdout
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// An accuracy level by name.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum AccuracyFlag {
+    /// 5 % of the force
+    Draft,
+    /// 1 % of the force
+    Standard,
+    /// 0.2 % of the force
+    Reference,
+}
+
+impl From<AccuracyFlag> for Accuracy {
+    fn from(flag: AccuracyFlag) -> Self {
+        match flag {
+            AccuracyFlag::Draft => Accuracy::Draft,
+            AccuracyFlag::Standard => Accuracy::Standard,
+            AccuracyFlag::Reference => Accuracy::Reference,
+        }
+    }
+}

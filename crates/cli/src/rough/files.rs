@@ -1,0 +1,318 @@
+//! The files of a rough contact: table, load curve, summary, maps. Inside SI, in the files µm and MPa.
+
+use super::AllPressed;
+use super::picture::{self, Map};
+use super::run::Pressed;
+use crate::chart::{self, Chart, Series};
+use crate::failure::Failure;
+use crate::folder::Folder;
+use asperity_roughness::format::{CellArray, write_vti};
+use asperity_roughness::scene::{Prepared, Scene};
+use serde_json::{Value, json};
+
+const MICROMETRE: f64 = 1e-6;
+const MEGAPASCAL: f64 = 1e6;
+
+const TABLE_COLUMNS: &str = "surface,closure,ra_um,beta_deg,mean_pressure_MPa,contact_area_ratio,plasticity_index,\
+elastic_share,elastoplastic_share,plastic_share,max_pressure_over_nominal,separation_um,load_error,asperities,\
+residual_displacement_um,elastic_energy_share";
+
+/// Everything a run found out.
+pub struct Outcome<'a> {
+    /// What the surface is called.
+    pub name: &'a str,
+    /// The scene as resolved.
+    pub scene: &'a Scene,
+    /// The surface.
+    pub prepared: &'a Prepared,
+    /// One per closure.
+    pub pressed: &'a AllPressed,
+    /// What a reader should know.
+    pub warnings: &'a [String],
+}
+
+/// A number as shortest digits that read back, nothing where there is none.
+fn cell(value: Option<f64>) -> String {
+    value.filter(|v| v.is_finite()).map_or_else(String::new, |v| format!("{v:?}"))
+}
+
+impl Outcome<'_> {
+    fn row(&self, one: &Pressed) -> [Option<f64>; 14] {
+        let contact = &one.contact;
+        let share = |k: usize| contact.shares.filter(|_| one.model.hardness().is_some()).map(|s| s[k]);
+        let touching = contact.area_ratio > 0.0;
+        [
+            Some(self.prepared.roughness.sa / MICROMETRE),
+            Some(self.prepared.roughness.beta_deg()),
+            contact.mean_pressure().map(|p| p / MEGAPASCAL),
+            Some(contact.area_ratio),
+            one.plasticity_index,
+            share(0),
+            share(1),
+            share(2),
+            one.peak_ratio().filter(|_| touching),
+            Some(contact.separation / MICROMETRE),
+            contact.load_error,
+            Some(contact.islands.islands.len() as f64),
+            one.unloading.as_ref().map(|u| u.residual_displacement / MICROMETRE),
+            one.unloading.as_ref().and_then(|u| u.elastic_share),
+        ]
+    }
+
+    /// table.csv, load_curve.csv, load_curve.svg, pressure_histogram.svg.
+    pub fn write_tables(&self, folder: &mut Folder) -> Result<(), Failure> {
+        folder.write("table.csv", |out| {
+            writeln!(out, "{TABLE_COLUMNS}")?;
+            for one in self.pressed {
+                let row = self.row(one);
+                let cells: Vec<String> =
+                    row.iter()
+                        .enumerate()
+                        .map(|(i, v)| {
+                            if i == 11 { format!("{}", one.contact.islands.islands.len()) } else { cell(*v) }
+                        })
+                        .collect();
+                writeln!(out, "{},{},{}", quoted(self.name), one.model.closure.name(), cells.join(","))?;
+            }
+            Ok::<(), std::io::Error>(())
+        })?;
+        folder.write("load_curve.csv", |out| {
+            writeln!(out, "closure,phase,separation_um,pressure_MPa,contact_area_ratio")?;
+            for one in self.pressed {
+                let unload = one.unloading.as_ref().map_or(&[][..], |u| &u.curve[..]);
+                for (phase, points) in [("load", &one.contact.curve[..]), ("unload", unload)] {
+                    for p in points {
+                        let (d, pressure) = (p.separation / MICROMETRE, p.pressure / MEGAPASCAL);
+                        writeln!(
+                            out,
+                            "{},{phase},{d:?},{pressure:?},{:?}",
+                            one.model.closure.name(),
+                            p.area_ratio
+                        )?;
+                    }
+                }
+            }
+            Ok::<(), std::io::Error>(())
+        })?;
+        self.write_chart(folder, "load_curve.svg", &self.load_chart())?;
+        self.write_chart(folder, "pressure_histogram.svg", &self.histogram())
+    }
+
+    fn write_chart(&self, folder: &mut Folder, name: &str, chart: &Chart) -> Result<(), Failure> {
+        let text = chart::svg(chart).map_err(Failure::Unfinished)?;
+        folder.write(name, |out| out.write_all(text.as_bytes()))
+    }
+
+    /// Pressure against the travel of the plane from first touch.
+    fn load_chart(&self) -> Chart {
+        let mut series = Vec::new();
+        for one in self.pressed {
+            let first = one.contact.curve.first().map_or(0.0, |p| p.separation);
+            let points = |curve: &[asperity_roughness::CurvePoint]| {
+                curve.iter().map(|p| [(first - p.separation) / MICROMETRE, p.pressure / MEGAPASCAL]).collect()
+            };
+            let name = one.model.closure.name();
+            series.push(Series { label: name.into(), points: points(&one.contact.curve), marks: false });
+            if let Some(unloading) = one.unloading.as_ref().filter(|_| !one.model.returns_everything()) {
+                series.push(Series {
+                    label: format!("{name}, unloading"),
+                    points: points(&unloading.curve),
+                    marks: false,
+                });
+            }
+        }
+        Chart {
+            x_label: "travel of the plane from first touch (µm)".into(),
+            y_label: "nominal pressure (MPa)".into(),
+            series,
+        }
+    }
+
+    /// Share of the contact area per step of pressure, against pressure over nominal pressure.
+    fn histogram(&self) -> Chart {
+        const STEPS: usize = 60;
+        let most = self.pressed.iter().filter_map(Pressed::peak_ratio).fold(0.0, f64::max);
+        let width = if most > 0.0 { most / STEPS as f64 } else { 1.0 };
+        let series = self.pressed.iter().filter(|one| one.nominal > 0.0).map(|one| {
+            let mut bins = [0.0; STEPS];
+            for pixel in &one.field.pixels {
+                let ratio = f64::from(pixel.pressure) / one.nominal;
+                bins[((ratio / width) as usize).min(STEPS - 1)] += f64::from(pixel.contact);
+            }
+            let total: f64 = bins.iter().sum::<f64>().max(f64::MIN_POSITIVE);
+            let points =
+                bins.iter().enumerate().map(|(i, b)| [(i as f64 + 0.5) * width, 100.0 * b / total]).collect();
+            Series { label: one.model.closure.name().into(), points, marks: false }
+        });
+        Chart {
+            x_label: "pressure over nominal pressure".into(),
+            y_label: format!("contact area per step of {width:.2} (%)"),
+            series: series.collect(),
+        }
+    }
+
+    /// Pictures and .vti of every closure.
+    pub fn write_maps(&self, folder: &mut Folder) -> Result<(), Failure> {
+        let map = &self.prepared.map;
+        let cells = [map.cell_columns(), map.cell_rows()];
+        for one in self.pressed {
+            let name = one.model.closure.name();
+            let count = cells[0] * cells[1];
+            let (mut pressure, mut contact, mut regime) =
+                (vec![0f32; count], vec![0f32; count], vec![0f32; count]);
+            for pixel in &one.field.pixels {
+                let i = pixel.cell as usize;
+                pressure[i] += pixel.pressure / MEGAPASCAL as f32;
+                contact[i] += pixel.contact;
+                if pixel.contact > 0.0 {
+                    regime[i] = f32::from(one.regime(pixel.island as usize));
+                }
+            }
+            let view = Map { cells, pixel: map.pixel(), values: &pressure };
+            let file = folder.path(&format!("pressure-{name}.png"))?;
+            picture::pressure(&file, &view, one.nominal / MEGAPASCAL).map_err(|e| Failure::disk(&file, e))?;
+            let view = Map { values: &contact, ..view };
+            let file = folder.path(&format!("contact-{name}.png"))?;
+            picture::contact(&file, &view, &regime, one.contact.shares)
+                .map_err(|e| Failure::disk(&file, e))?;
+            let file = folder.path(&format!("contact-{name}.vti"))?;
+            let heights: Vec<f32> = (0..=cells[1])
+                .flat_map(|row| {
+                    let row = map.row(row % map.rows());
+                    (0..=cells[0]).map(move |column| (row[column % row.len()] / MICROMETRE) as f32)
+                })
+                .collect();
+            let points = [CellArray { name: "height_um", values: &heights }];
+            let arrays = [
+                CellArray { name: "pressure_MPa", values: &pressure },
+                CellArray { name: "contact_fraction", values: &contact },
+                CellArray { name: "regime", values: &regime },
+            ];
+            write_vti(&file, cells, map.pixel().map(|p| p / MICROMETRE), &points, &arrays)
+                .map_err(|e| Failure::disk(&file, e))?;
+        }
+        Ok(())
+    }
+
+    /// The content of summary.json.
+    pub fn summary(&self, wall_s: f64) -> Value {
+        let (map, r) = (&self.prepared.map, &self.prepared.roughness);
+        let closures: Vec<Value> = self.pressed.iter().map(|one| self.closure_summary(one)).collect();
+        json!({
+            "surface": self.name,
+            "pixels": [map.columns(), map.rows()],
+            "pixel_size_um": map.pixel().map(|p| p / MICROMETRE),
+            "missing": self.prepared.missing,
+            "nominal_area_um2": self.prepared.extent.cells as f64 * map.cell_area() / MICROMETRE / MICROMETRE,
+            "sa_um": r.sa / MICROMETRE,
+            "sq_um": r.sq / MICROMETRE,
+            "ssk": r.ssk,
+            "sku": r.sku,
+            "sz_um": r.sz / MICROMETRE,
+            "sdq": r.sdq,
+            "ra_um": r.sa / MICROMETRE,
+            "rq_um": r.sq / MICROMETRE,
+            "mean_gradient": r.mean_gradient,
+            "mean_slope_x": r.mean_slope_x,
+            "beta_deg": r.beta_deg(),
+            "definitions": {
+                "standards": "sa, sq, ssk, sku, sz, sdq: ISO 25178-2 over the whole map, without further filters than those of the scene; \
+                              ra and rq are sa and sq of the map",
+                "beta": "atan of mean_gradient, the mean of |grad h|; mean_slope_x is the mean of |dz/dx|; both depend on the pixel size",
+                "asperity_slope": "tan(beta_j) is the mean of |grad h| over the island, not the slope from summit to rim",
+                "separation": "from the mean height of the nodes",
+                "pressure": "force on a pixel over the area of the pixel; an island mostly outside the ellipse of its moments is uniform (load_share_uniform)",
+            },
+            "closures": closures,
+            "warnings": self.warnings,
+            "wall_s": wall_s,
+            "scene": self.scene,
+            "version": env!("CARGO_PKG_VERSION"),
+        })
+    }
+
+    fn closure_summary(&self, one: &Pressed) -> Value {
+        let [
+            _,
+            _,
+            mean,
+            ratio,
+            index,
+            elastic,
+            elastoplastic,
+            plastic,
+            peak,
+            separation,
+            error,
+            _,
+            residual,
+            energy,
+        ] = self.row(one);
+        json!({
+            "closure": one.model.closure.name(),
+            "source": one.model.closure.source(),
+            "nominal_pressure_MPa": one.nominal / MEGAPASCAL,
+            "mean_pressure_MPa": mean,
+            "contact_area_ratio": ratio,
+            "plasticity_index": index,
+            "elastic_share": elastic,
+            "elastoplastic_share": elastoplastic,
+            "plastic_share": plastic,
+            "max_pressure_over_nominal": peak,
+            "separation_um": separation,
+            "load_error": error,
+            "load_jumps": one.contact.jump,
+            "load_share_outside_range": one.contact.outside_share,
+            "load_share_uniform": one.field.uniform_share,
+            "asperities": one.contact.islands.islands.len(),
+            "residual_displacement_um": residual,
+            "elastic_energy_share": energy,
+        })
+    }
+
+    /// What a person reads on the terminal.
+    pub fn text(&self) -> String {
+        let r = &self.prepared.roughness;
+        let map = &self.prepared.map;
+        let mut text = format!(
+            "{}: {} x {} points of {:.4} x {:.4} um, {} missing; Sa {:.4} um, Sq {:.4} um, Sdq {:.4}, beta {:.3} deg (mean |grad h|)\n",
+            self.name,
+            map.columns(),
+            map.rows(),
+            map.pixel()[0] / MICROMETRE,
+            map.pixel()[1] / MICROMETRE,
+            self.prepared.missing,
+            r.sa / MICROMETRE,
+            r.sq / MICROMETRE,
+            r.sdq,
+            r.beta_deg(),
+        );
+        text += "closure       A/A0 %   P_m MPa     psi  peak/nom  separation um  asperities  residual um  elastic energy\n";
+        let shown = |v: Option<f64>, digits: usize| v.map_or_else(|| "-".into(), |v| format!("{v:.digits$}"));
+        for one in self.pressed {
+            let row = self.row(one);
+            text += &format!(
+                "{:<11} {:>8} {:>9} {:>7} {:>9} {:>14} {:>11} {:>12} {:>15}\n",
+                one.model.closure.name(),
+                shown(row[3].map(|v| 100.0 * v), 3),
+                shown(row[2], 1),
+                shown(row[4], 3),
+                shown(row[8], 2),
+                shown(row[9], 4),
+                one.contact.islands.islands.len(),
+                shown(row[12], 4),
+                shown(row[13], 3),
+            );
+        }
+        text
+    }
+}
+
+/// A name as a CSV field.
+fn quoted(name: &str) -> String {
+    if name.contains([',', '"', '\n', '\r']) {
+        format!("\"{}\"", name.replace('"', "\"\""))
+    } else {
+        name.into()
+    }
+}

@@ -1,0 +1,85 @@
+//! The messages of serde in the words of a scene, and the known word nearest to an unknown one.
+
+/// Least number of letters to insert, drop, swap or replace to make `b` of `a`.
+fn distance(a: &str, b: &str) -> usize {
+    let (a, b): (Vec<char>, Vec<char>) = (a.chars().collect(), b.chars().collect());
+    let mut rows = vec![vec![0; b.len() + 1]; a.len() + 1];
+    for i in 0..=a.len() {
+        for j in 0..=b.len() {
+            rows[i][j] = if i == 0 || j == 0 {
+                i + j
+            } else {
+                let replace = rows[i - 1][j - 1] + usize::from(a[i - 1] != b[j - 1]);
+                let best = replace.min(rows[i - 1][j] + 1).min(rows[i][j - 1] + 1);
+                let swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
+                if swapped { best.min(rows[i - 2][j - 2] + 1) } else { best }
+            };
+        }
+    }
+    rows[a.len()][b.len()]
+}
+
+/// The candidate that `word` was probably meant to be.
+pub fn nearest<'a>(word: &str, candidates: &[&'a str]) -> Option<&'a str> {
+    let word = word.to_lowercase();
+    let near = |c: &&&str| {
+        let longer = word.chars().count().max(c.chars().count());
+        let starts = word.len() > 2 && (c.starts_with(&word) || word.starts_with(**c));
+        starts || distance(&word, c) <= 1 + longer / 4
+    };
+    candidates.iter().filter(near).min_by_key(|c| distance(&word, c)).copied()
+}
+
+/// A message of serde in the words of a scene, and help where there is some.
+pub fn reword(message: &str) -> (String, Option<String>) {
+    // serde quotes names in backticks: `unknown field `colour`, expected one of `symmetry`, `accuracy``
+    let quoted: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
+    let what = [("unknown field", "key"), ("unknown variant", "value")];
+    let unknown = what.iter().find(|(start, _)| message.starts_with(start));
+    match (unknown, quoted.as_slice()) {
+        (Some((_, noun)), [word, known @ ..]) => {
+            let list = known.join(", ");
+            let help = match nearest(word, known) {
+                Some(near) => format!("did you mean `{near}`? Known here: {list}"),
+                None => format!("known here: {list}"),
+            };
+            (format!("unknown {noun} `{word}`"), Some(help))
+        }
+        (None, [field]) if message.starts_with("missing field") => (format!("`{field}` is missing"), None),
+        _ => {
+            let message = message
+                .replace("expected f64", "expected a number without quotes")
+                .replace("expected usize", "expected a whole number from 0 up")
+                .replace("expected a boolean", "expected true or false");
+            (message, None)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_slip_finds_its_word_and_a_foreign_word_none() {
+        let keys = ["height", "slope_deg", "tip_radius", "valley_radius", "spacing", "radius"];
+        for (word, meant) in
+            [("hieght", "height"), ("slope", "slope_deg"), ("tipradius", "tip_radius"), ("Radius", "radius")]
+        {
+            assert_eq!(nearest(word, &keys), Some(meant), "{word}");
+        }
+        assert_eq!(nearest("colour", &keys), None);
+    }
+
+    #[test]
+    fn serde_is_put_into_plain_words() {
+        let (message, help) = reword("unknown field `depht`, expected one of `depth`, `force`");
+        assert_eq!(message, "unknown key `depht`");
+        assert_eq!(help.unwrap(), "did you mean `depth`? Known here: depth, force");
+        assert_eq!(reword("missing field `tool`").0, "`tool` is missing");
+        assert_eq!(
+            reword("invalid type: string \"x\", expected f64").0,
+            "invalid type: string \"x\", expected a number without quotes"
+        );
+    }
+}

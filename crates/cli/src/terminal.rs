@@ -1,0 +1,14 @@
+//! Talking to a person: the one place that prints.
+
+// what a command line is for; a closed pipe is no reason to fail
+use std::io::Write;
+
+/// A line on stdout.
+pub fn say(text: &str) {
+    let _ = writeln!(std::io::stdout(), "{text}");
+}
+
+/// A line on stderr.
+pub fn complain(text: &str) {
+    let _ = writeln!(std::io::stderr(), "{text}");
+}
