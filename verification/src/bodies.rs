@@ -1,7 +1,5 @@
 //! Small meshes for the tests: a grid of the unit square mapped anywhere.
 
-use asperity_mesh::build::{Plan, build};
-use asperity_mesh::profile::Profile;
 use asperity_mesh::{Edge, ElementKind, Mesh, Sides};
 use std::f64::consts::FRAC_PI_2;
 
@@ -80,20 +78,32 @@ pub fn quarter_ring(kind: ElementKind, counts: [usize; 2], inner: f64, outer: f6
     })
 }
 
-/// A flat body whose surface has `across` equal elements on 0 ≤ r ≤ 1, as fine beyond to r = 1.5, and then grows to
-/// `size` in r and z.
+/// A flat block 0 ≤ r ≤ `size`, -`size` ≤ z ≤ 0 whose surface has `across` equal elements on 0 ≤ r ≤ 1, as fine beyond to
+/// r = 1.5; from there outward, and from the surface downward, elements grow by a constant factor.
 pub fn punch_block(kind: ElementKind, across: usize, size: f64) -> Mesh {
     let h = 1.0 / across as f64;
-    let core = (1.5 * across as f64).round() * h;
-    let plan = Plan {
-        profile: Profile { asperities: Vec::new() },
-        core: [0.0, core],
-        core_depth: core,
-        width: [0.0, size],
-        depth: size,
-        kind,
+    let mut r: Vec<f64> = (0..=across + across / 2).map(|i| i as f64 * h).collect();
+    grow(&mut r, h, 1.3, size);
+    let mut depth = vec![0.0];
+    grow(&mut depth, h, 1.1, size);
+    depth.reverse();
+    let along = |stations: &[f64], share: f64| {
+        let x = share * (stations.len() - 1) as f64;
+        let i = (x as usize).min(stations.len() - 2);
+        stations[i] + (x - i as f64) * (stations[i + 1] - stations[i])
     };
-    build(&plan, |_| h, |depth| h * (1.0 + depth), |x| 0.25 * x)
+    mapped(kind, [r.len() - 1, depth.len() - 1], |[s, t]| [along(&r, s), -along(&depth, t)])
+}
+
+/// Adds stations to `size`, each step `factor` times the last, the first `step` long; the last step fills what is left.
+fn grow(stations: &mut Vec<f64>, mut step: f64, factor: f64, size: f64) {
+    let mut x = stations[stations.len() - 1];
+    while x + 1.5 * step < size {
+        x += step;
+        stations.push(x);
+        step *= factor;
+    }
+    stations.push(size);
 }
 
 /// The nodes of some edges, each once.

@@ -35,6 +35,9 @@ pub fn force_at(rows: &[CurveRow], depth: f64) -> f64 {
         .filter(|row| row.phase == Phase::Load && row.force >= 0.0)
         .map(|row| [row.depth, row.force.sqrt()])
         .collect();
+    // 5 µm may be 5e-6 or 5 times 1e-6
+    let end = load.last().map_or(0.0, |p| p[0]);
+    let depth = if depth > end && depth <= end * (1.0 + 1e-9) { end } else { depth };
     let after = load.partition_point(|p| p[0] < depth);
     if load.len() < 4 || after == load.len() || depth < load[0][0] {
         return f64::NAN;

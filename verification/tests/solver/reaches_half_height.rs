@@ -20,7 +20,10 @@ fn toward_whole_height(slope_deg: f64) -> Outcome {
 fn honest(outcome: &Outcome) {
     let last = outcome.rows.last().unwrap();
     assert!(outcome.rows.iter().all(|row| row.depth.is_finite() && row.force.is_finite()));
-    assert!(outcome.rows.windows(2).all(|pair| pair[1].depth > pair[0].depth));
+    // until the flat base comes into contact too, and the penetration taken off the depth drops all at once
+    let before_base = outcome.rows.iter().take_while(|row| row.depth < 19e-6);
+    let depths: Vec<f64> = before_base.map(|row| row.depth).collect();
+    assert!(depths.windows(2).all(|pair| pair[1] > pair[0]));
     match &outcome.stopped {
         None => assert!((last.depth / 20e-6 - 1.0).abs() < 1e-6),
         Some(stopped) => {
