@@ -240,11 +240,24 @@ pub struct Output {
     /// Pictures and .vti of pressure and contact.
     #[serde(default = "yes")]
     pub maps: bool,
+    /// The surface as pressed (levelled, filtered), as surface.x3p or surface.npy.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub surface: Option<SurfaceFormat>,
+}
+
+/// Formats in which a surface is written; both in metres.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum SurfaceFormat {
+    /// ISO 25178-72.
+    X3p,
+    /// NumPy array of f64, axis 0 = y.
+    Npy,
 }
 
 impl Default for Output {
     fn default() -> Self {
-        Output { maps: true }
+        Output { maps: true, surface: None }
     }
 }
 

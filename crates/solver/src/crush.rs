@@ -164,6 +164,8 @@ impl Units {
 /// Collects rows and hands out events.
 struct Log<'p> {
     problem: &'p Problem,
+    /// Whether the program sized the substrate.
+    automatic: bool,
     units: Units,
     interval: usize,
     planned: usize,
@@ -201,6 +203,7 @@ impl<'p> Log<'p> {
         };
         Log {
             problem,
+            automatic: scene.mesh.is_none() && scene.substrate.as_ref().is_none_or(|s| s.depth.is_none()),
             units,
             interval: scene.output.interval(),
             planned: problem.numbers.steps + unload,
@@ -397,7 +400,12 @@ impl<'p> Log<'p> {
             plastic_work: peak.plastic_work,
             elastic_fraction: elastic_work.map(|w| w / total_work),
             energy_balance_error: balance_error(&self.rows),
-            estimated_error: f64::NAN,
+            estimated_error: crate::estimate::force_error(
+                self.problem,
+                peak.force / u.force,
+                peak.depth / u.length,
+                self.automatic,
+            ),
             elements: self.problem.mesh.cell_count(),
             dofs: self.unknowns,
             increments: self.rows.len() - 1,
