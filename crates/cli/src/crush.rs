@@ -168,7 +168,7 @@ fn write_records(
 
 /// The scene with the numbers that its accuracy level stands for.
 fn resolved(scene: &Scene) -> Scene {
-    let numbers = Discretisation::new(scene.accuracy, &scene.numerics);
+    let numbers = Discretisation::new(scene);
     let numerics = Numerics {
         element: Some(numbers.element),
         elements_in_contact: Some(numbers.elements_in_contact),

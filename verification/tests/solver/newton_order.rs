@@ -64,7 +64,7 @@ fn quadratic_where_the_discrete_sets_rest() {
     let settings = Settings { tolerance: 1e-13, max_iterations: 40 };
     let mut orders = Vec::new();
     let mut last = [0.0; 2];
-    for travel in schedule(64) {
+    for travel in schedule(64, 0.02) {
         let step = travel - last[0];
         let ratio = if last[1] > 0.0 { step / last[1] } else { 0.0 };
         let before = model.accepted_increment().to_vec();
