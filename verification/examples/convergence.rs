@@ -1,7 +1,8 @@
 //! Prints the convergence of the single asperity as markdown tables: mesh, step, penalty and domain, both elements, and
 //! what the three levels of accuracy reach. The tables of `verification/README.md` are this output.
 //!
-//! `cargo run --release -p asperity-verification --example convergence` (about ten minutes of one core).
+//! `cargo run --release -p asperity-verification --example convergence` (about ten minutes of two
+//! cores); with the argument `energy` only the energy balance.
 
 // a program whose output is the point, on a committed scene
 #![allow(clippy::print_stdout, clippy::expect_used)]
@@ -68,8 +69,8 @@ fn all(jobs: &[Job]) -> Vec<Run> {
     runs.into_iter().map(|(_, run)| run).collect()
 }
 
-fn header(title: &str) {
-    println!("\n{title}\n");
+fn header(title: &str, fixed: &str) {
+    println!("\n### {title}\n\n{fixed}.\n");
     println!(
         "| | F(1 µm), N | F(2 µm), N | F(5 µm), N | largest error, % | mean error, % | residual depth, µm | elastic fraction, % | elements | increments | iterations | s |"
     );
@@ -145,7 +146,26 @@ fn converged_values(quadratic: &[Run], linear: &[Run]) -> Smooth {
     converged
 }
 
+/// Energy balance for three metals; `exponent` and `steps` are all that differs from standard.
+fn energy_balance() {
+    println!("\n### Energy balance\n\nLargest |W - E_e - W_p - E_c|/W, standard.\n");
+    println!("| steps | n = 0 | n = 0.1 | n = 0.3 |\n|-|-|-|-|");
+    for steps in [24, 64, 128] {
+        let errors = [0.0, 0.1, 0.3].map(|exponent| {
+            let mut scene = scene(Accuracy::Standard).expect("the committed scene reads");
+            scene.material.hardening_exponent = Some(exponent);
+            scene.numerics.steps = Some(steps);
+            let outcome = crush(&scene).expect("the committed scene runs");
+            format!("{:.1e}", outcome.summary.energy_balance_error)
+        });
+        println!("| {steps} | {} |", errors.join(" | "));
+    }
+}
+
 fn main() {
+    if std::env::args().any(|argument| argument == "energy") {
+        return energy_balance();
+    }
     let fine =
         Change { steps: Some(192), penetration: Some(0.001), domain: Some(800.0), ..Change::default() };
     let mesh = |q4: bool, n: f64| Change { q4, elements: Some(n as usize), ..fine };
@@ -153,10 +173,10 @@ fn main() {
         vary(&[9.0, 12.0, 18.0, 24.0, 36.0, 48.0], |n| format!("Q8R, {n} in contact"), |n| mesh(false, n));
     let linear = vary(&[18.0, 36.0, 72.0], |n| format!("Q4, {n} in contact"), |n| mesh(true, n));
     let converged = converged_values(&quadratic, &linear);
-    header("Mesh (192 steps, penetration 0.001 of the depth, domain 800 contact radii)");
+    header("Mesh", "192 steps, penetration 0.001 of the depth, domain 800 contact radii");
     quadratic.iter().chain(&linear).for_each(|run| row(run, &converged));
 
-    header("Step (the rest as standard)");
+    header("Step", "the rest as standard");
     vary(
         &[16.0, 24.0, 32.0, 48.0, 64.0, 96.0, 192.0, 384.0],
         |n| format!("{n} steps"),
@@ -165,7 +185,7 @@ fn main() {
     .iter()
     .for_each(|run| row(run, &converged));
 
-    header("Penalty (the rest as standard, 192 steps)");
+    header("Penalty", "the rest as standard, 192 steps");
     vary(
         &[0.016, 0.008, 0.004, 0.002, 0.001, 0.0005],
         |p| format!("penetration {p}"),
@@ -174,7 +194,7 @@ fn main() {
     .iter()
     .for_each(|run| row(run, &converged));
 
-    header("Domain (the rest as standard)");
+    header("Domain", "the rest as standard");
     vary(
         &[25.0, 50.0, 100.0, 200.0, 400.0, 800.0, 1600.0],
         |d| format!("{d} contact radii"),
@@ -183,7 +203,7 @@ fn main() {
     .iter()
     .for_each(|run| row(run, &converged));
 
-    println!("\nLevels: error of the force over depths of 0.2 to 1 of the peak\n");
+    println!("\n### Levels\n\nError of the force over depths of 0.2 to 1 of the peak\n");
     println!(
         "| | largest, % | mean, % | energy balance | unloading stiffness over 2 E* a | elements | iterations | s |"
     );
@@ -200,4 +220,5 @@ fn main() {
         .map(|(n, a, q4)| (n.to_string(), *a, Change { q4: *q4, ..Change::default() }))
         .collect();
     all(&jobs).iter().for_each(|run| level(run, &converged));
+    energy_balance();
 }
