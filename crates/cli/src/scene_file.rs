@@ -25,7 +25,7 @@ pub fn point_at(file: &TomlFile<Scene>, error: &SceneError) -> InputError {
     file.error_at(&error.path, &error.message)
 }
 
-/// The mesh that the scene names, in metres; `None` if it is to be built.
+/// The mesh that the scene names, in metres, its highest point at height 0; `None` if it is to be built.
 ///
 /// # Errors
 /// A file that cannot be read or is no mesh.
@@ -38,10 +38,10 @@ pub fn read_mesh(file: &TomlFile<Scene>) -> Result<Option<Mesh>, InputError> {
     };
     let bytes = std::fs::read(&path).map_err(|e| error(format!("cannot be read: {e}")))?;
     let mut mesh = read_msh(&bytes).map_err(|e| error(e.to_string()))?;
-    if let Some(unit) = named.unit {
-        for node in &mut mesh.nodes {
-            *node = node.map(|x| x * unit.0);
-        }
+    let scale = named.unit.map_or(1.0, |unit| unit.0);
+    let summit = mesh.nodes.iter().map(|node| node[1]).fold(f64::NEG_INFINITY, f64::max);
+    for [r, z] in &mut mesh.nodes {
+        (*r, *z) = (*r * scale, (*z - summit) * scale);
     }
     Ok(Some(mesh))
 }

@@ -110,6 +110,33 @@ fn a_ridge_in_plane_strain_is_per_length() {
 }
 
 #[test]
+fn asperities_share_the_force_and_leave_gaps() {
+    let second = "[[asperity]]\nheight = \"19 um\"\nslope_deg = 12\n[tool]";
+    let substrate = "[substrate]\nradius = \"1 mm\"\ndepth = \"1 mm\"\n";
+    let scene = SCENE.replace("\"axisymmetric\"", "\"plane-strain\"").replace("[tool]", second);
+    let place = Place::with_scene(scene + substrate);
+    let end = place.run(&["crush", "scene.toml", "--out", "out", "--json"]);
+    assert_eq!(end.status, 0, "{}", end.err);
+    let (curve, asperities) = (place.text("out/curve.csv"), place.text("out/asperities.csv"));
+    let (increment, force) = (numbers(&curve, "increment"), numbers(&curve, "force_N_per_mm"));
+    let (of, share) = (numbers(&asperities, "increment"), numbers(&asperities, "force_N_per_mm"));
+    let peak = force.iter().copied().fold(0.0, f64::max);
+    for (i, f) in increment.iter().zip(&force).skip(1) {
+        let sum: f64 = of.iter().zip(&share).filter(|(o, _)| *o == i).map(|(_, f)| f).sum();
+        assert!((sum - f).abs() <= 1e-10 * peak, "increment {i}: {sum} {f}");
+    }
+    assert!(column(&asperities, "asperity").iter().all(|a| a == "0" || a == "1"));
+    // the lower one is touched later: until then its place is empty
+    assert_eq!(column(&asperities, "contact_left_um")[1], "");
+    let gaps = place.text("out/gaps.csv");
+    assert!(numbers(&gaps, "width_um").iter().chain(&numbers(&gaps, "height_um")).all(|v| *v > 0.0));
+    let summary: Value = serde_json::from_str(&end.out).unwrap();
+    for island in summary["elastic_islands"].as_array().unwrap() {
+        assert!(island["area_um2"].as_f64().unwrap() > 0.0 && island["mean_pressure_MPa"].is_number());
+    }
+}
+
+#[test]
 fn fields_and_surface_are_written_when_asked_for() {
     let place = Place::with_scene(
         SCENE.replace("every = 0", "every = 3\nfields = [\"von_mises\", \"displacement\"]"),

@@ -26,6 +26,39 @@ fn a_mesh_that_was_written_and_read_gives_the_same_curve() {
     }
 }
 
+#[test]
+fn a_mesh_in_other_units_and_at_another_height_is_the_same_body() {
+    let place = Place::with_scene(SCENE);
+    assert_eq!(place.run(&["mesh", "scene.toml", "-o", "body.msh"]).status, 0);
+    std::fs::write(place.path("lifted.msh"), lifted(&place.text("body.msh"))).unwrap();
+    let crush = ["crush", "scene.toml", "--set", "loading.unload=false", "--set"];
+    let runs = [("body.msh", "1 m", "plain"), ("lifted.msh", "1 um", "lifted")];
+    for (file, unit, out) in runs {
+        let (file, unit) = (format!("mesh.file={file}"), format!("mesh.unit={unit}"));
+        let end = place.run(&[&crush[..], &[&file, "--set", &unit, "--out", out]].concat());
+        assert_eq!(end.status, 0, "{}", end.err);
+    }
+    let (plain, lifted) =
+        (load_branch(&place.text("plain/curve.csv")), load_branch(&place.text("lifted/curve.csv")));
+    for (a, b) in plain.iter().zip(&lifted) {
+        assert!((a[0] - b[0]).abs() <= 1e-9 * a[0] && (a[1] - b[1]).abs() <= 1e-9 * a[1], "{a:?} {b:?}");
+    }
+}
+
+/// The mesh in µm, 700 µm higher.
+fn lifted(msh: &str) -> String {
+    let (before, rest) = msh.split_once("$Nodes\n").unwrap();
+    let (nodes, after) = rest.split_once("$EndNodes").unwrap();
+    let lift = |line: &str| {
+        let words: Vec<f64> = line.split_whitespace().map(|w| w.parse().unwrap()).collect();
+        match words[..] {
+            [r, z, 0.0] => format!("{:?} {:?} 0\n", r * 1e6, z * 1e6 + 700.0),
+            _ => format!("{line}\n"),
+        }
+    };
+    format!("{before}$Nodes\n{}$EndNodes{after}", nodes.lines().map(lift).collect::<String>())
+}
+
 /// Depth and force of the loading rows.
 fn load_branch(curve: &str) -> Vec<[f64; 2]> {
     let rows = curve.lines().skip(1).map(|line| line.split(',').collect::<Vec<_>>());

@@ -78,8 +78,7 @@ fn the_ends_of_the_ranges_are_allowed() {
             s.asperity.clear();
             s.tool = Tool { shape: ToolShape::Cone, slope_deg: Some(19.7), tip_radius: None, radius: None };
         }),
-        ("mesh alone", |s| {
-            s.asperity.clear();
+        ("mesh of the asperity", |s| {
             s.mesh = Some(MeshFile { file: "body.msh".into(), unit: um(1.0) });
         }),
         ("ridges", |s| {
@@ -176,6 +175,14 @@ fn what_makes_no_sense_is_refused_with_place_value_and_range() {
         ),
         (|s| s.substrate = Some(Substrate { radius: None, depth: um(0.0) }), "substrate.depth", &["above 0"]),
         (|s| s.mesh = Some(MeshFile { file: "".into(), unit: None }), "mesh.file", &["empty"]),
+        (
+            |s| {
+                s.asperity.clear();
+                s.mesh = Some(MeshFile { file: "body.msh".into(), unit: None });
+            },
+            "mesh",
+            &["[[asperity]]"],
+        ),
         (|s| s.numerics.steps = Some(0), "numerics.steps", &["from 1 to 10000", "not 0"]),
         (|s| s.numerics.elements_in_contact = Some(1), "numerics.elements_in_contact", &["from 2 to 200"]),
         (|s| s.numerics.penetration = Some(0.5), "numerics.penetration", &["0.000001 to 0.1"]),

@@ -108,14 +108,20 @@ impl Scene {
 
     /// Asperities, substrate and mesh must make one body that the tool can touch.
     fn check_body(&self) -> Check {
+        let flattens = matches!(self.tool.form(), Ok(ToolForm::Plane));
+        if self.asperity.is_empty() && flattens && self.mesh.is_some() {
+            return Err(error(
+                "mesh",
+                "does not say how steep its summit is, from which the expected pressure follows: add the [[asperity]] that it holds",
+            ));
+        }
         if self.mesh.is_some() {
             return Ok(());
         }
-        let flattens = matches!(self.tool.form(), Ok(ToolForm::Plane));
         if self.asperity.is_empty() && flattens {
             return Err(error(
                 "asperity",
-                "a plane needs something to crush: give at least one [[asperity]], or a mesh, or a tool that is a cone or a sphere",
+                "a plane needs something to crush: give at least one [[asperity]], or a tool that is a cone or a sphere",
             ));
         }
         let substrate = self.substrate.unwrap_or(Substrate { radius: None, depth: None });
