@@ -30,7 +30,7 @@ pub fn force_error(problem: &Problem, force: f64, depth: f64, automatic: bool) -
     let step = hardening.map_or(0.0, |_| STEP * largest_step(numbers).powi(2));
     let quadratic = match numbers.element {
         ElementChoice::Q8r => numbers.elements_in_contact as f64,
-        ElementChoice::Q4 => 0.5 * numbers.elements_in_contact as f64,
+        ElementChoice::Q4 => 0.375 * numbers.elements_in_contact as f64,
     };
     let ripple = hardening.map_or(1.0, |h| 1.0 + 1.5 * (1.0 - h.exponent / 0.1).max(0.0));
     let mesh = MESH * ripple / quadratic;
