@@ -28,6 +28,8 @@ pub enum Command {
     Crush(Crush),
     /// Mesh a scene, print sizes and quality, and write it as .vtu, .msh or .inp
     Mesh(MeshCommand),
+    /// Press a rigid plane on a rough surface and write table, load curve, maps
+    Rough(crate::rough::Rough),
 }
 
 /// Arguments of `asperity crush`.

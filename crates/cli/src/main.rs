@@ -8,6 +8,7 @@ mod folder;
 mod mesh;
 mod progress;
 mod records;
+mod rough;
 mod scene_file;
 mod suggest;
 mod terminal;
@@ -26,6 +27,7 @@ fn main() -> ExitCode {
     let result = match &cli.command {
         Command::Crush(args) => crush::crush(args),
         Command::Mesh(args) => mesh::mesh(args),
+        Command::Rough(args) => rough::rough(args),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

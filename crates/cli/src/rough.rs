@@ -6,53 +6,61 @@ mod picture;
 mod run;
 mod table1;
 
+use crate::args::RunFlags;
 use crate::failure::{Failure, InputError};
 use crate::folder::Folder;
+use crate::terminal;
 use crate::toml_file::TomlFile;
 use asperity_roughness::scene::{Scene, SceneError};
 use asperity_roughness::{Closure, Coefficient};
+use clap::Args;
 use run::Pressed;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-/// What the command line asks for.
-#[derive(Clone, Debug)]
-pub struct Request {
-    /// The scene file.
-    pub scene: PathBuf,
-    /// `--set` in their order.
+/// Arguments of `asperity rough`.
+#[derive(Debug, Args)]
+pub struct Rough {
+    /// Scene file (TOML)
+    #[arg(required_unless_present = "table1")]
+    pub scene: Option<PathBuf>,
+    /// Print the paper's Table 1 beside ours: three generated surfaces, every closure
+    #[arg(long, conflicts_with = "scene")]
+    pub table1: bool,
+    /// Change a value of the file, for example --set "load.pressure=100 MPa"; repeatable
+    #[arg(long = "set", value_name = "KEY.PATH=VALUE")]
     pub overrides: Vec<String>,
-    /// `--out`.
-    pub out: Option<PathBuf>,
-    /// Print nothing but errors.
-    pub quiet: bool,
-    /// Write beside files of others.
-    pub force: bool,
-    /// Print the summary as JSON.
-    pub json: bool,
+    #[command(flatten)]
+    pub run: RunFlags,
 }
 
-/// `asperity rough --table1`: prints the paper's table beside ours.
-pub fn table1(quiet: bool) -> Result<(), Failure> {
-    table1::run(quiet)
+/// Runs the command.
+///
+/// # Errors
+/// Input that is wrong (nothing is written), or results that cannot be written.
+pub fn rough(args: &Rough) -> Result<(), Failure> {
+    match &args.scene {
+        Some(scene) if !args.table1 => one_scene(scene, args),
+        _ => table1::run(&args.run),
+    }
 }
 
 /// `asperity rough SCENE.toml`.
-pub fn rough(request: &Request) -> Result<(), Failure> {
+fn one_scene(path: &Path, args: &Rough) -> Result<(), Failure> {
     let start = Instant::now();
-    let file: TomlFile<Scene> = TomlFile::read(&request.scene, &request.overrides)?;
+    let file: TomlFile<Scene> = TomlFile::read(path, &args.overrides)?;
     let scene = &file.value;
     let at = |e: SceneError| file.error_at(&e.path, &e.message);
     scene.validate().map_err(at)?;
     let coefficient = read_coefficient(&file)?;
+    let target = args.run.out.clone().unwrap_or_else(|| Path::new("out").join(file.stem()));
     let prepared = scene.surface.prepare(|path| file.resolve(path)).map_err(at)?;
     let name = surface_name(&file);
-    let (pressed, warnings) = run::press_all(scene, &prepared, coefficient.as_ref()).map_err(|(path, message)| {
-        file.error_at(path, &message)
-    })?;
-    let target = request.out.clone().unwrap_or_else(|| Path::new("out").join(file.stem()));
-    let mut folder = Folder::create(&target, "rough", request.force)?;
-    let outcome = files::Outcome { name: &name, scene, prepared: &prepared, pressed: &pressed, warnings: &warnings };
+    let (pressed, warnings) = run::press_all(scene, &prepared, coefficient.as_ref())
+        .map_err(|(path, message)| file.error_at(path, &message))?;
+    let mut folder = Folder::create(&target, "rough", args.run.force)?;
+    let outcome =
+        files::Outcome { name: &name, scene, prepared: &prepared, pressed: &pressed, warnings: &warnings };
     outcome.write_tables(&mut folder)?;
     if scene.output.maps {
         outcome.write_maps(&mut folder)?;
@@ -61,14 +69,11 @@ pub fn rough(request: &Request) -> Result<(), Failure> {
     let text = serde_json::to_string_pretty(&summary).map_err(|e| Failure::Unfinished(e.to_string()))?;
     folder.write("summary.json", |out| out.write_all(text.as_bytes()))?;
     let target = folder.publish()?;
-    if request.json {
-        println!("{text}");
-    } else if !request.quiet {
-        warnings.iter().for_each(|w| eprintln!("warning: {w}"));
-        print!("{}", outcome.text());
-        println!("results in {}", target.display());
-    } else {
-        warnings.iter().for_each(|w| eprintln!("warning: {w}"));
+    warnings.iter().for_each(|w| terminal::complain(&format!("warning: {w}")));
+    if args.run.json {
+        terminal::say(&text);
+    } else if !args.run.quiet {
+        terminal::say(&format!("{}results   {}", outcome.text(), target.display()));
     }
     Ok(())
 }
@@ -92,7 +97,9 @@ fn read_coefficient(file: &TomlFile<Scene>) -> Result<Option<Coefficient>, Input
 fn surface_name(file: &TomlFile<Scene>) -> String {
     let surface = &file.value.surface;
     match (&surface.file, &surface.generate) {
-        (Some(path), _) => path.file_stem().map_or_else(|| "surface".into(), |s| s.to_string_lossy().into_owned()),
+        (Some(path), _) => {
+            path.file_stem().map_or_else(|| "surface".into(), |s| s.to_string_lossy().into_owned())
+        }
         (None, Some(made)) => run::kind_name(made.kind).into(),
         (None, None) => file.stem(),
     }

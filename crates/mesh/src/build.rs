@@ -1,18 +1,17 @@
-//! Graded quadrilaterals under a profile: a core of rows and columns under the contact, and shells around it that
-//! grow to the far boundary.
+//! Graded quadrilaterals under a profile: a fine core under every contact, shells around it that grow outward.
 //!
 //! ```text
-//!   axis                                           In the flat plane (ζ ≤ 0 below the surface) the core is a
-//!   +--+--+---+-----+----------+  surface          rectangle and every shell the space between two rectangles;
-//!   +--+--+   |     |          |                   the whole is then sheared so that the top follows the profile.
-//!   +--+--+   |     |          |                   Each shell has as many elements as the sides of the core that
-//!   |     \   |     |          |                   it wraps have, so their size grows with the distance: the far
-//!   +------\--+     |          |                   field costs a logarithm.
+//!   axis                                           In the flat plane (ζ ≤ 0 below the surface) a core is a rectangle
+//!   +--+--+---+-----+----------+  surface          of rows and columns and every shell the space between two
+//!   +--+--+   |     |          |                   rectangles; the whole is then sheared so that its top follows the
+//!   +--+--+   |     |          |                   profile. Each shell has as many elements as the sides of the
+//!   |     \   |     |          |                   core that it wraps, so their size grows with the distance: the
+//!   +------\--+     |          |                   far field costs a logarithm.
 //!   |        \      |          |
-//!   +---------\-----+          |  outer
-//!   |           \              |
-//!   +------------\-------------+
-//!   base
+//!   +---------\-----+          |  outer            One asperity on the axis is one core whose shells reach the far
+//!   |           \              |                   boundary. Several stand side by side, each in a cell of its own as
+//!   +------------\-------------+                   wide as its foot, with plain blocks between them; shells around
+//!   base                                           the whole row lead to the far boundary.
 //! ```
 
 use crate::grading::divide;
@@ -20,117 +19,146 @@ use crate::profile::Profile;
 use crate::{Edge, ElementKind, Mesh, Sides};
 use std::collections::HashMap;
 
+/// How element sizes follow the distance from a contact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Grading {
+    /// Element size over distance from the centre, within the fine zone.
+    pub fineness: f64,
+    /// Half size of the core over the half width of the contact.
+    pub start: f64,
+    /// Extent of the fine zone over the half width of the contact.
+    pub fine: f64,
+    /// Element size over distance far away.
+    pub far: f64,
+}
+
+impl Grading {
+    /// Elements along the half side of a core.
+    fn core_elements(&self) -> usize {
+        (1.0 / self.fineness).round().max(2.0) as usize
+    }
+
+    /// Wanted size at the distance `x` from a contact of half width `contact`.
+    fn size(&self, x: f64, contact: f64) -> f64 {
+        let fine = self.fine * contact;
+        if x < fine {
+            self.fineness * x
+        } else {
+            x * (self.far + (self.fineness - self.far) * fine / x).max(self.fineness)
+        }
+    }
+}
+
+/// A contact to be resolved.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contact {
+    /// Its centre.
+    pub centre: f64,
+    /// Its half width at the peak; 0 if the asperity stays untouched.
+    pub half_width: f64,
+    /// Half width of the foot of the asperity: that of its cell.
+    pub foot: f64,
+    /// Steepest slope (tangent) of the profile over it.
+    pub slope: f64,
+}
+
+impl Contact {
+    /// Depth over half width of the core. The diagonals on which shells turn must stay steeper than the flank, or
+    /// the shear under the profile turns their cells inside out.
+    fn depth_ratio(&self) -> f64 {
+        (1.5 * self.slope).max(1.0)
+    }
+}
+
 /// What to mesh. Any unit of length.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
     /// The surface.
     pub profile: Profile,
-    /// Left and right end of the core; the left end is the axis if `left` equals it.
-    pub core: [f64; 2],
-    /// Depth of the core below the surface.
-    pub core_depth: f64,
-    /// Left and right end of the body. An end that equals that of the core gets no shells on that side.
+    /// The contacts from left to right, at least one. One on the left side at its own centre is halved by the axis.
+    pub contacts: Vec<Contact>,
+    /// Left and right end of the row of cells and blocks; beyond it shells lead to the sides of the body.
+    pub row: [f64; 2],
+    /// Left and right side of the body.
     pub width: [f64; 2],
     /// Depth of the body below its highest summit.
     pub depth: f64,
+    /// Sizes.
+    pub grading: Grading,
     /// Kind of element.
     pub kind: ElementKind,
 }
 
-/// Builds the mesh of `plan`; `size(x)` is the wanted element size at the surface, `size_below(ζ)` at a depth, and
-/// `growth` > 1 the growth of the shells from the core outward as a function of the distance in core sizes.
-pub fn build(
-    plan: &Plan,
-    size: impl Fn(f64) -> f64,
-    size_below: impl Fn(f64) -> f64,
-    shell_size: impl Fn(f64) -> f64,
-) -> Mesh {
-    let kinks = plan.profile.kinks();
-    let columns = divide(plan.core[0], plan.core[1], &kinks, &size);
-    let rows: Vec<f64> = divide(0.0, plan.core_depth, &[], &size_below); // depths, downward
-    let shells = Shells::new(plan, &kinks, &shell_size);
+/// Builds the mesh of `plan`.
+pub fn build(plan: &Plan) -> Mesh {
     let mut grid = Grid::default();
-    // core: node (i, j) of column i and row j
-    let core: Vec<Vec<u32>> =
-        columns.iter().map(|&x| rows.iter().map(|&d| grid.node([x, -d])).collect()).collect();
-    for i in 0..columns.len() - 1 {
-        for j in 0..rows.len() - 1 {
-            grid.cells.push([core[i][j + 1], core[i + 1][j + 1], core[i + 1][j], core[i][j]]);
-        }
-    }
-    let mut surface_core: Vec<Edge> = Vec::new();
-    for i in 0..columns.len() - 1 {
-        surface_core.push(Edge { cell: (i * (rows.len() - 1)) as u32, side: 2 });
-    }
-    let (last_column, last_row) = (columns.len() - 1, rows.len() - 1);
-    // the wrapped sides of the core, counterclockwise: down the left, along the bottom, up the right
-    let mut ring: Vec<[f64; 2]> = Vec::new();
-    let mut ids: Vec<u32> = Vec::new();
-    let mut wrap = |i: usize, j: usize| {
-        ring.push([columns[i], -rows[j]]);
-        ids.push(core[i][j]);
+    let alone = plan.contacts.len() == 1 && plan.contacts[0].centre == plan.width[0];
+    let (row, rectangles) = if alone {
+        let contact = plan.contacts[0];
+        let half =
+            core_half_width(plan, &contact).min(0.4 * plan.depth).min(0.4 * (plan.width[1] - plan.width[0]));
+        let core = Rectangle {
+            left: contact.centre,
+            right: contact.centre + half,
+            depth: half * contact.depth_ratio(),
+        };
+        let row = add_core(&mut grid, plan, &contact, core);
+        let right =
+            divide_geometric(half, plan.width[1] - contact.centre, &kinks_from(plan, contact.centre), |x| {
+                plan.grading.size(x, contact_size(&contact))
+            });
+        let rectangles = right[1..]
+            .iter()
+            .map(|&x| {
+                let share = (x / half).ln() / ((plan.width[1] - contact.centre) / half).ln();
+                Rectangle {
+                    left: contact.centre,
+                    right: contact.centre + x,
+                    depth: core.depth * (plan.depth / core.depth).powf(share),
+                }
+            })
+            .collect();
+        (row, rectangles)
+    } else {
+        let row = add_row(&mut grid, plan);
+        (row, outer_rectangles(plan, row_rectangle(plan)))
     };
-    if shells.left {
-        (0..last_row).for_each(|j| wrap(0, j));
-    }
-    (0..=last_column).for_each(|i| wrap(i, last_row));
-    if shells.right {
-        (0..last_row).rev().for_each(|j| wrap(last_column, j));
-    }
-    let mut sides = Sides::default();
-    if !shells.left {
-        sides.axis.extend((0..last_row).map(|j| Edge { cell: j as u32, side: 3 }));
-    }
-    if !shells.right {
-        let first = (last_column - 1) * last_row;
-        sides.outer.extend((0..last_row).map(|j| Edge { cell: (first + j) as u32, side: 1 }));
-    }
-    let bottom = if shells.left { last_row } else { 0 }..if shells.left { last_row } else { 0 } + last_column;
-    let (mut surface_left, mut surface_right) = (Vec::new(), Vec::new());
-    for k in 0..shells.rectangles.len() {
-        let next: Vec<u32> = ring.iter().map(|&p| grid.node(shells.place(plan, k, p))).collect();
-        let outermost = k + 1 == shells.rectangles.len();
-        for s in 0..ids.len() - 1 {
-            // counterclockwise: outward ring first (the ring runs counterclockwise around the core)
-            let cell = grid.cells.len() as u32;
-            grid.cells.push([next[s], next[s + 1], ids[s + 1], ids[s]]);
-            if s == 0 {
-                if shells.left {
-                    surface_left.push(Edge { cell, side: 3 })
-                } else {
-                    sides.axis.push(Edge { cell, side: 3 })
-                }
-            }
-            if s + 2 == ids.len() {
-                if shells.right {
-                    surface_right.push(Edge { cell, side: 1 })
-                } else {
-                    sides.outer.push(Edge { cell, side: 1 })
-                }
-            }
-            if outermost {
-                let side = if bottom.contains(&s) {
-                    &mut sides.base
-                } else if s < bottom.start {
-                    &mut sides.axis
-                } else {
-                    &mut sides.outer
-                };
-                side.push(Edge { cell, side: 0 });
-            }
-        }
-        ids = next;
-    }
-    surface_left.reverse();
-    sides.surface = surface_left.into_iter().chain(surface_core).chain(surface_right).collect();
-    finish(plan, grid, sides)
+    wrap(&mut grid, row, &rectangles, plan.width);
+    finish(plan, grid)
 }
 
-/// Corner nodes in the flat plane and cells of four corners.
+/// Half width that the sizes around a contact follow: an untouched asperity is meshed coarsely after its foot.
+fn contact_size(contact: &Contact) -> f64 {
+    if contact.half_width > 0.0 { contact.half_width } else { 0.1 * contact.foot }
+}
+
+fn core_half_width(plan: &Plan, contact: &Contact) -> f64 {
+    let wish =
+        if contact.half_width > 0.0 { plan.grading.start * contact.half_width } else { 0.3 * contact.foot };
+    wish.min(0.6 * contact.foot)
+}
+
+/// Distances of the kinks of the profile to the right of `centre`.
+fn kinks_from(plan: &Plan, centre: f64) -> Vec<f64> {
+    plan.profile.kinks().into_iter().filter(|&k| k > centre).map(|k| k - centre).collect()
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Rectangle {
+    left: f64,
+    right: f64,
+    depth: f64,
+}
+
+/// Corner nodes in the flat plane, cells of four corners, and the sides found so far.
 #[derive(Default)]
 struct Grid {
     nodes: Vec<[f64; 2]>,
     cells: Vec<[u32; 4]>,
+    surface: Vec<Edge>,
+    axis: Vec<Edge>,
+    outer: Vec<Edge>,
+    base: Vec<Edge>,
 }
 
 impl Grid {
@@ -138,55 +166,265 @@ impl Grid {
         self.nodes.push(x);
         (self.nodes.len() - 1) as u32
     }
+
+    /// A block of columns and rows (depths, downward from 0); returns its nodes `[column][row]`.
+    fn block(&mut self, columns: &[f64], rows: &[f64]) -> Vec<Vec<u32>> {
+        let nodes: Vec<Vec<u32>> =
+            columns.iter().map(|&x| rows.iter().map(|&d| self.node([x, -d])).collect()).collect();
+        for i in 0..columns.len() - 1 {
+            for j in 0..rows.len() - 1 {
+                if j == 0 {
+                    self.surface.push(Edge { cell: self.cells.len() as u32, side: 2 });
+                }
+                self.cells.push([nodes[i][j + 1], nodes[i + 1][j + 1], nodes[i + 1][j], nodes[i][j]]);
+            }
+        }
+        nodes
+    }
 }
 
-/// The rectangles (left, right, depth) that bound the shells, from the first beyond the core outward.
-struct Shells {
-    left: bool,
-    right: bool,
-    rectangles: Vec<[f64; 3]>,
+/// The wrapped sides of a block, counterclockwise: down the left, along the bottom, up the right.
+struct Ring {
+    ids: Vec<u32>,
+    /// Number of edges on the left, at the bottom, on the right.
+    edges: [usize; 3],
+    rectangle: Rectangle,
 }
 
-impl Shells {
-    fn new(plan: &Plan, kinks: &[f64], shell_size: &impl Fn(f64) -> f64) -> Shells {
-        let ([a, b], [left_end, right_end]) = (plan.core, plan.width);
-        let (left, right) = (left_end < a, right_end > b);
-        let far = plan.depth;
-        // the distance that is divided: along the surface to the right if there are shells there, else downward
-        let (from, to) = if right { (b, right_end) } else { (plan.core_depth, far) };
-        let inner: Vec<f64> = if right { kinks.to_vec() } else { Vec::new() };
-        let stations = divide_geometric(from, to, &inner, shell_size);
-        let rectangles = stations[1..]
+/// The core under a contact, `rectangle` in size; halved by the axis where its left end is the centre.
+fn add_core(grid: &mut Grid, plan: &Plan, contact: &Contact, rectangle: Rectangle) -> Ring {
+    let elements = plan.grading.core_elements();
+    let size = rectangle.depth / elements as f64;
+    let kinks: Vec<f64> = plan.profile.kinks();
+    let columns = divide(rectangle.left, rectangle.right, &kinks, |_| size);
+    let rows: Vec<f64> = (0..=elements).map(|j| rectangle.depth * j as f64 / elements as f64).collect();
+    let first = grid.cells.len();
+    let nodes = grid.block(&columns, &rows);
+    let halved = rectangle.left == contact.centre;
+    if halved {
+        grid.axis.extend((0..elements).map(|j| Edge { cell: (first + j) as u32, side: 3 }));
+    }
+    let last = columns.len() - 1;
+    let left = if halved { 0 } else { elements };
+    let mut ids: Vec<u32> = nodes[0][..left].to_vec();
+    ids.extend(nodes.iter().map(|column| column[elements]));
+    ids.extend(nodes[last][..elements].iter().rev());
+    Ring { ids, edges: [left, last, elements], rectangle }
+}
+
+/// Wraps `ring` in shells up to each of `rectangles`; sides of the body are named where `width` says so.
+fn wrap(grid: &mut Grid, mut ring: Ring, rectangles: &[Rectangle], width: [f64; 2]) -> Ring {
+    let [left, bottom, right] = ring.edges;
+    let inner = ring.rectangle;
+    // places on the sides of the inner rectangle as shares, kept by every shell
+    let shares: Vec<[f64; 2]> = ring
+        .ids
+        .iter()
+        .map(|&id| {
+            let [x, z] = grid.nodes[id as usize];
+            [(x - inner.left) / (inner.right - inner.left), z / inner.depth]
+        })
+        .collect();
+    for to in rectangles {
+        let next: Vec<u32> = shares
+            .iter()
+            .map(|[s, t]| grid.node([to.left + s * (to.right - to.left), t * to.depth]))
+            .collect();
+        for s in 0..next.len() - 1 {
+            let cell = grid.cells.len() as u32;
+            grid.cells.push([next[s], next[s + 1], ring.ids[s + 1], ring.ids[s]]);
+            if s == 0 {
+                let side = if left > 0 { &mut grid.surface } else { &mut grid.axis };
+                side.push(Edge { cell, side: 3 });
+            }
+            if s + 2 == next.len() {
+                let side = if right > 0 { &mut grid.surface } else { &mut grid.outer };
+                side.push(Edge { cell, side: 1 });
+            }
+            if Some(to) == rectangles.last() {
+                let edge = Edge { cell, side: 0 };
+                if s < left && to.left == width[0] {
+                    grid.axis.push(edge);
+                } else if s >= left && s < left + bottom {
+                    grid.base.push(edge);
+                } else if s >= left + bottom && to.right == width[1] {
+                    grid.outer.push(edge);
+                }
+            }
+        }
+        ring.ids = next;
+        ring.rectangle = *to;
+    }
+    ring
+}
+
+/// The rectangle of a row: as deep as the geometric mean of the half widths of its cells.
+fn row_rectangle(plan: &Plan) -> Rectangle {
+    let contacts = &plan.contacts;
+    let logs = contacts.iter().map(|c| (c.foot * c.depth_ratio()).ln());
+    let mean = (logs.sum::<f64>() / contacts.len() as f64).exp();
+    Rectangle { left: plan.row[0], right: plan.row[1], depth: mean.min(0.5 * plan.depth) }
+}
+
+/// Cells side by side with plain blocks between them; returns the ring around the whole row.
+fn add_row(grid: &mut Grid, plan: &Plan) -> Ring {
+    let rectangle = row_rectangle(plan);
+    let rows = plan.grading.core_elements();
+    let depths: Vec<f64> = (0..=rows).map(|j| rectangle.depth * j as f64 / rows as f64).collect();
+    let (mut left, mut bottom, mut right): (Vec<u32>, Vec<u32>, Vec<u32>) =
+        (Vec::new(), Vec::new(), Vec::new());
+    // takes the sides of a block into the row: its left side is welded to the right side of the block before
+    let mut join = |grid: &mut Grid, [block_left, block_bottom, block_right]: &[Vec<u32>; 3]| {
+        if right.is_empty() {
+            left.clone_from(block_left);
+            bottom.clone_from(block_bottom);
+        } else {
+            let alias: HashMap<u32, u32> = block_left.iter().copied().zip(right.iter().copied()).collect();
+            for node in grid.cells.iter_mut().flatten() {
+                if let Some(&other) = alias.get(node) {
+                    *node = other;
+                }
+            }
+            bottom.extend_from_slice(&block_bottom[1..]);
+        }
+        right.clone_from(block_right);
+    };
+    let mut edge = rectangle.left;
+    for (index, contact) in plan.contacts.iter().enumerate() {
+        let halved = index == 0 && contact.centre == plan.width[0];
+        let cell_left = if halved { contact.centre } else { contact.centre - contact.foot };
+        if let Some(nodes) = plain_block(grid, plan, [edge, cell_left], &depths) {
+            join(grid, &nodes);
+        }
+        let half = core_half_width(plan, contact);
+        let core = Rectangle {
+            left: if halved { contact.centre } else { contact.centre - half },
+            right: contact.centre + half,
+            depth: (half * contact.depth_ratio()).min(0.6 * rectangle.depth),
+        };
+        let start = grid.surface.len();
+        let ring = add_core(grid, plan, contact, core);
+        let grading = if contact.half_width > 0.0 {
+            plan.grading
+        } else {
+            Grading { fineness: 0.5, far: 0.5, ..plan.grading }
+        };
+        let kinks: Vec<f64> =
+            kinks_from(plan, contact.centre).into_iter().filter(|&k| k < contact.foot).collect();
+        let stations =
+            divide_geometric(half, contact.foot, &kinks, |x| grading.size(x, contact_size(contact)));
+        let shells: Vec<Rectangle> = stations[1..]
             .iter()
             .map(|&x| {
-                // the same share of the logarithm on every side
-                let t = if right && !left {
-                    (x / from).ln() / (to / from).ln()
-                } else {
-                    ((x - from) / (to - from)).max(0.0)
-                };
-                let (l, r, d) = if right && !left {
-                    (a, x, plan.core_depth * (far / plan.core_depth).powf(t))
-                } else if right {
-                    (a + t * (left_end - a), x, plan.core_depth + t * (far - plan.core_depth))
-                } else {
-                    (a + t * (left_end - a), b, x)
-                };
-                [l, r, d]
+                let share = (x / half).ln() / (contact.foot / half).ln();
+                Rectangle {
+                    left: if halved { contact.centre } else { contact.centre - x },
+                    right: contact.centre + x,
+                    depth: core.depth * (rectangle.depth / core.depth).powf(share),
+                }
             })
             .collect();
-        Shells { left, right, rectangles }
+        let ring = wrap(grid, ring, &shells, [f64::NAN; 2]);
+        grid.base.clear(); // the bottom of a cell is not that of the body
+        sort_surface(grid, start);
+        let [l, b, _] = ring.edges;
+        let down: Vec<u32> = ring.ids[..=l].to_vec();
+        let up: Vec<u32> = ring.ids[l + b..].iter().rev().copied().collect();
+        join(grid, &[down, ring.ids[l..=l + b].to_vec(), up]);
+        edge = contact.centre + contact.foot;
     }
+    if let Some(nodes) = plain_block(grid, plan, [edge, rectangle.right], &depths) {
+        join(grid, &nodes);
+    }
+    let on_left = rectangle.left > plan.width[0];
+    let on_right = rectangle.right < plan.width[1];
+    if !on_left && plan.contacts[0].centre != plan.width[0] {
+        name_side(grid, &left, |grid| &mut grid.axis);
+    }
+    if !on_right {
+        name_side(grid, &right, |grid| &mut grid.outer);
+    }
+    let mut ids: Vec<u32> = if on_left { left[..rows].to_vec() } else { Vec::new() };
+    let columns = bottom.len() - 1;
+    ids.extend(bottom);
+    if on_right {
+        ids.extend(right[..rows].iter().rev());
+    }
+    Ring { ids, edges: [if on_left { rows } else { 0 }, columns, if on_right { rows } else { 0 }], rectangle }
+}
 
-    /// Where the core point `p` lands on rectangle `k`.
-    fn place(&self, plan: &Plan, k: usize, p: [f64; 2]) -> [f64; 2] {
-        let ([l, r, d], [a, b]) = (self.rectangles[k], plan.core);
-        [l + (p[0] - a) / (b - a) * (r - l), p[1] / plan.core_depth * d]
+/// A block of plain columns over [from, to], its nodes down the left, along the bottom and down the right; nothing if
+/// the interval is empty.
+fn plain_block(grid: &mut Grid, plan: &Plan, [from, to]: [f64; 2], depths: &[f64]) -> Option<[Vec<u32>; 3]> {
+    let width = to - from;
+    if width <= 1e-9 * (plan.row[1] - plan.row[0]) {
+        return None;
     }
+    let size = depths[1] - depths[0];
+    let columns = divide(from, to, &plan.profile.kinks(), |x| {
+        size + plan.grading.far * (x - from).min(to - x).max(0.0)
+    });
+    let nodes = grid.block(&columns, depths);
+    let under = nodes.iter().map(|column| column[depths.len() - 1]).collect();
+    Some([nodes[0].clone(), under, nodes[columns.len() - 1].clone()])
+}
+
+/// Names the edges between consecutive `nodes` as a side of the body.
+fn name_side(grid: &mut Grid, nodes: &[u32], side: impl Fn(&mut Grid) -> &mut Vec<Edge>) {
+    for pair in nodes.windows(2) {
+        let found = grid.cells.iter().enumerate().find_map(|(cell, corners)| {
+            (0..4)
+                .find(|&k| {
+                    let (a, b) = (corners[k], corners[(k + 1) % 4]);
+                    (a, b) == (pair[0], pair[1]) || (a, b) == (pair[1], pair[0])
+                })
+                .map(|k| Edge { cell: cell as u32, side: k as u8 })
+        });
+        side(grid).extend(found);
+    }
+}
+
+/// Orders the surface edges from index `start` on by their place.
+fn sort_surface(grid: &mut Grid, start: usize) {
+    let middle = |edge: &Edge| {
+        let cell = grid.cells[edge.cell as usize];
+        let k = usize::from(edge.side);
+        grid.nodes[cell[k] as usize][0] + grid.nodes[cell[(k + 1) % 4] as usize][0]
+    };
+    let mut keyed: Vec<(f64, Edge)> = grid.surface[start..].iter().map(|e| (middle(e), *e)).collect();
+    keyed.sort_by(|a, b| a.0.total_cmp(&b.0));
+    for (slot, (_, edge)) in grid.surface[start..].iter_mut().zip(keyed) {
+        *slot = edge;
+    }
+}
+
+/// The rectangles around a row of cells, out to the sides of the body.
+fn outer_rectangles(plan: &Plan, inner: Rectangle) -> Vec<Rectangle> {
+    let size = |x: f64| plan.grading.far * x;
+    let wider = (inner.left - plan.width[0]).max(plan.width[1] - inner.right);
+    let stations = divide_geometric(inner.depth, plan.depth, &[], size);
+    let lateral = divide_geometric(inner.depth, inner.depth + wider.max(1e-12 * inner.depth), &[], size);
+    let count = stations.len().max(if wider > 0.0 { lateral.len() } else { 0 }) - 1;
+    let ratio = plan.depth / inner.depth;
+    (1..=count)
+        .map(|k| {
+            let depth =
+                if k == count { plan.depth } else { inner.depth * ratio.powf(k as f64 / count as f64) };
+            let share = (depth - inner.depth) / (plan.depth - inner.depth);
+            if k == count {
+                return Rectangle { left: plan.width[0], right: plan.width[1], depth };
+            }
+            Rectangle {
+                left: inner.left + share * (plan.width[0] - inner.left),
+                right: inner.right + share * (plan.width[1] - inner.right),
+                depth,
+            }
+        })
+        .collect()
 }
 
 /// Divides like `divide`, but integrates in the logarithm of the distance, so that decades are resolved.
-fn divide_geometric(from: f64, to: f64, kinks: &[f64], size: &impl Fn(f64) -> f64) -> Vec<f64> {
+fn divide_geometric(from: f64, to: f64, kinks: &[f64], size: impl Fn(f64) -> f64) -> Vec<f64> {
     let logs: Vec<f64> = kinks.iter().filter(|&&k| k > from && k < to).map(|k| k.ln()).collect();
     let mut nodes: Vec<f64> =
         divide(from.ln(), to.ln(), &logs, |l| size(l.exp()) / l.exp()).into_iter().map(f64::exp).collect();
@@ -201,14 +439,21 @@ fn divide_geometric(from: f64, to: f64, kinks: &[f64], size: &impl Fn(f64) -> f6
     nodes
 }
 
-/// Shears the flat grid under the profile and adds mid-side nodes.
-fn finish(plan: &Plan, grid: Grid, sides: Sides) -> Mesh {
-    // flat depth ζ in [-depth, 0] goes to [-depth, z_s(r)], linearly
-    let mut nodes: Vec<[f64; 2]> = grid
-        .nodes
-        .iter()
-        .map(|&[r, zeta]| [r, zeta + plan.profile.z(r) * (1.0 + zeta / plan.depth)])
-        .collect();
+/// Shears the flat grid under the profile, drops welded nodes and adds mid-side nodes.
+fn finish(plan: &Plan, mut grid: Grid) -> Mesh {
+    sort_surface(&mut grid, 0);
+    let mut number: Vec<Option<u32>> = vec![None; grid.nodes.len()];
+    let mut nodes: Vec<[f64; 2]> = Vec::with_capacity(grid.nodes.len());
+    for node in grid.cells.iter_mut().flatten() {
+        let id = *node as usize;
+        *node = *number[id].get_or_insert_with(|| {
+            let [r, zeta] = grid.nodes[id];
+            // flat depth ζ in [-depth, 0] goes to [-depth, z_s(r)], linearly
+            nodes.push([r, zeta + plan.profile.z(r) * (1.0 + zeta / plan.depth)]);
+            (nodes.len() - 1) as u32
+        });
+    }
+    let sides = Sides { axis: grid.axis, base: grid.base, surface: grid.surface, outer: grid.outer };
     if plan.kind == ElementKind::Quad4 {
         return Mesh { kind: plan.kind, nodes, cells: grid.cells.into_flattened(), sides };
     }

@@ -26,6 +26,8 @@ pub struct Asperity {
     pub height: f64,
     /// Position of its summit: distance from the axis, or x in plane strain.
     pub centre: f64,
+    /// Radius of the fillet in the valley at its outer (right) foot; 0: sharp.
+    pub valley_radius: f64,
 }
 
 impl Asperity {
@@ -73,6 +75,34 @@ fn cap_drop(radius: f64, x: f64) -> f64 {
     x * x / (radius + ((radius - x) * (radius + x)).sqrt())
 }
 
+/// A fillet between a falling flank and what rises (or lies flat) beyond its foot.
+struct Valley {
+    foot: f64,
+    base: f64,
+    radius: f64,
+    /// Angles of the falling and of the rising side.
+    angles: [f64; 2],
+}
+
+impl Valley {
+    /// From the foot to the points of tangency, along either side.
+    fn tangent_length(&self) -> f64 {
+        self.radius * (0.5 * (self.angles[0] + self.angles[1])).tan()
+    }
+
+    /// Height of the fillet at `r`, if it reaches there.
+    fn z(&self, r: f64) -> Option<f64> {
+        let (length, [fall, rise]) = (self.tangent_length(), self.angles);
+        let x = r - self.foot;
+        if x < -length * fall.cos() || x > length * rise.cos() {
+            return None;
+        }
+        let centre =
+            [-length * fall.cos() + self.radius * fall.sin(), length * fall.sin() + self.radius * fall.cos()];
+        Some(self.base + centre[1] - (self.radius.powi(2) - (x - centre[0]).powi(2)).max(0.0).sqrt())
+    }
+}
+
 /// Asperities on a common base plane, none overlapping.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Profile {
@@ -89,7 +119,41 @@ impl Profile {
     /// Height of the surface at `r`, 0 at the highest summit, negative elsewhere.
     pub fn z(&self, r: f64) -> f64 {
         let base = -self.height();
-        self.asperities.iter().fold(base, |z, a| z.max(base + a.height - a.drop(r - a.centre)))
+        let sharp = self.asperities.iter().fold(base, |z, a| z.max(base + a.height - a.drop(r - a.centre)));
+        self.valleys().iter().filter_map(|valley| valley.z(r)).fold(sharp, f64::max)
+    }
+
+    /// The filleted valleys.
+    fn valleys(&self) -> Vec<Valley> {
+        let base = -self.height();
+        self.asperities
+            .iter()
+            .enumerate()
+            .filter(|(_, a)| a.valley_radius > 0.0)
+            .filter_map(|(i, a)| {
+                let Shape::Cone { tan_slope, .. } = a.shape else { return None };
+                let foot = a.centre + a.half_width(a.height);
+                // the next asperity begins there, or the flat base plane
+                let next = self.asperities.get(i + 1).filter(|b| {
+                    (b.centre - b.half_width(b.height) - foot).abs() <= 1e-9 * foot.abs().max(a.height)
+                });
+                let rise = match next.map(|b| b.shape) {
+                    Some(Shape::Cone { tan_slope, .. }) => tan_slope.atan(),
+                    _ => 0.0,
+                };
+                Some(Valley { foot, base, radius: a.valley_radius, angles: [tan_slope.atan(), rise] })
+            })
+            .collect()
+    }
+
+    /// Widths that the fillet of asperity `index` takes from its own flank and from what follows; `None` if sharp.
+    pub fn valley_reach(&self, index: usize) -> Option<[f64; 2]> {
+        let a = self.asperities.get(index)?;
+        let foot = a.centre + a.half_width(a.height);
+        let valleys = self.valleys();
+        let valley = valleys.iter().find(|v| v.foot == foot)?;
+        let length = valley.tangent_length();
+        Some([length * valley.angles[0].cos(), length * valley.angles[1].cos()])
     }
 
     /// Where the slope jumps or the curvature does: summits, edges of caps, feet of flanks, valleys; in order.
@@ -112,11 +176,35 @@ impl Profile {
 mod tests {
     use super::*;
 
+    /// A fillet leaves both sides tangentially, where `valley_reach` says.
+    #[test]
+    fn a_filleted_valley_is_smooth() {
+        let cone = |centre, tan_slope: f64| Asperity {
+            shape: Shape::Cone { tan_slope, tip_radius: 0.0 },
+            height: 1.0,
+            centre,
+            valley_radius: 2.0,
+        };
+        let profile = Profile { asperities: vec![cone(0.0, 0.5), cone(2.0 + 4.0, 0.25)] };
+        let [left, right] = profile.valley_reach(0).unwrap();
+        let slope = |r: f64| (profile.z(r + 1e-6) - profile.z(r - 1e-6)) / 2e-6;
+        assert!(
+            (slope(2.0 - left + 1e-4) + 0.5).abs() < 1e-3 && (slope(2.0 + right - 1e-4) - 0.25).abs() < 1e-3
+        );
+        assert!(profile.z(2.0) > -1.0 && profile.z(10.0) > -1.0);
+        assert!((profile.z(2.0 - left - 1e-9) - profile.z(2.0 - left + 1e-9)).abs() < 1e-8);
+    }
+
     /// Height 20 µm, slope 10°, tip 10 µm: the base radius is 114.30 µm.
     #[test]
     fn the_papers_asperity_has_base_radius_114_30() {
         let tan_slope = 10f64.to_radians().tan();
-        let a = Asperity { shape: Shape::Cone { tan_slope, tip_radius: 10.0 }, height: 20.0, centre: 0.0 };
+        let a = Asperity {
+            shape: Shape::Cone { tan_slope, tip_radius: 10.0 },
+            height: 20.0,
+            centre: 0.0,
+            valley_radius: 0.0,
+        };
         assert!((a.half_width(20.0) - 114.30).abs() < 5e-3);
         assert!((a.cap_radius() - 1.7365).abs() < 1e-4);
         let profile = Profile { asperities: vec![a] };

@@ -10,8 +10,6 @@ use thiserror::Error;
 
 /// Points of the load curve.
 pub const CURVE_POINTS: usize = 64;
-/// Rungs on which a closure that needs islands looks for its bracket.
-const RUNGS: usize = 64;
 /// Residual at which the search of such a closure ends.
 const RESIDUAL: f64 = 1e-8;
 /// False-position steps before plain halving, which ends at a jump of the load.
@@ -173,13 +171,13 @@ fn carried(surface: &Surface, model: &Model, plane: f64) -> (f64, f64) {
 /// 1. Guess the rung from the mean slope above each rung; walk until two rungs bracket the load.
 /// 2. False position, then halving; a bracket that closes without meeting the load is a jump.
 fn seek(surface: &Surface, model: &Model, pressure: f64) -> Result<(f64, bool), f64> {
-    let Extent { low, high, cells } = surface.extent;
-    let rungs = Rungs::between(low, high, RUNGS);
+    let Extent { high, cells, .. } = surface.extent;
+    let (rungs, sums) = ladder::estimate(surface.map, &surface.extent);
+    let last = rungs.count - 1;
     let guess = |above: &Above| {
         let slope = if above.area > 0.0 { above.slope_area / above.area } else { 0.0 };
         model.respond(slope).island_pressure * above.area / cells as f64
     };
-    let sums = ladder::above_rungs(surface.map, rungs);
     let mut k = sums.iter().rposition(|s| guess(s) >= pressure).unwrap_or(0);
     let at = |plane: f64| carried(surface, model, plane).0;
     let mut below = at(rungs.height(k));
@@ -188,10 +186,10 @@ fn seek(surface: &Surface, model: &Model, pressure: f64) -> Result<(f64, bool), 
         below = at(rungs.height(k));
     }
     if below < pressure * (1.0 - RESIDUAL) {
-        return Err((0..RUNGS).map(|k| at(rungs.height(k))).fold(0.0, f64::max));
+        return Err((0..last).map(|k| at(rungs.height(k))).fold(0.0, f64::max));
     }
-    let mut over = if k + 1 < RUNGS { at(rungs.height(k + 1)) } else { 0.0 };
-    while over >= pressure && k + 2 < RUNGS {
+    let mut over = if k < last { at(rungs.height(k + 1)) } else { 0.0 };
+    while over >= pressure && k + 1 < last {
         k += 1;
         (below, over) = (over, at(rungs.height(k + 1)));
     }

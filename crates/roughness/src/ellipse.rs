@@ -7,7 +7,7 @@ pub struct Ellipse {
     pub semi_axes: [f64; 2],
     /// Direction of the major axis: (cos, sin) of its angle to x.
     pub direction: [f64; 2],
-    /// Centre of gravity from the first node of the island, in metres.
+    /// Centre of gravity from node (0, 0), in metres; beyond the edge where a periodic island goes on there.
     pub centre: [f64; 2],
 }
 
@@ -15,8 +15,8 @@ pub struct Ellipse {
 const THINNEST: f64 = 1e-6;
 
 impl Ellipse {
-    /// From the moments of the island in pixels of size `pixel`; None where they span no ellipse.
-    pub(crate) fn of(m: &Moments, pixel: [f64; 2]) -> Option<Ellipse> {
+    /// From the moments of the island about `origin`, in pixels of size `pixel`; None where they span no ellipse.
+    pub(crate) fn of(m: &Moments, origin: [f64; 2], pixel: [f64; 2]) -> Option<Ellipse> {
         let (x, y) = (m.x / m.area, m.y / m.area);
         let xx = (m.xx / m.area - x * x) * pixel[0] * pixel[0];
         let xy = (m.xy / m.area - x * y) * pixel[0] * pixel[1];
@@ -35,11 +35,11 @@ impl Ellipse {
         Some(Ellipse {
             semi_axes: [radius * aspect, radius / aspect],
             direction: [angle.cos(), angle.sin()],
-            centre: [x * pixel[0], y * pixel[1]],
+            centre: [(origin[0] + x) * pixel[0], (origin[1] + y) * pixel[1]],
         })
     }
 
-    /// Squared elliptic radius of a point given from the first node of the island: 1 on the ellipse.
+    /// Squared elliptic radius of a point (m, from node (0, 0)): 1 on the ellipse.
     pub fn radius_squared(&self, x: f64, y: f64) -> f64 {
         let (u, v) = (x - self.centre[0], y - self.centre[1]);
         let along = (u * self.direction[0] + v * self.direction[1]) / self.semi_axes[0];

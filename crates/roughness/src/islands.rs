@@ -57,7 +57,7 @@ pub(crate) struct Piece {
     pub island: u32,
     /// Area above the plane, in cells.
     pub area: f64,
-    /// Where corner 0 of the cell lies from the origin of the island, in pixels.
+    /// Where corner 0 of the cell lies, in pixels; beyond the edge where a periodic island goes on there.
     pub offset: [f64; 2],
 }
 
@@ -70,6 +70,14 @@ pub struct Islands {
     runs: Vec<Run>,
     first_run: Vec<usize>,
     homes: Vec<Home>,
+}
+
+/// An island in the making: moments about the first node of run `root`.
+struct Sum {
+    moments: Moments,
+    high: f64,
+    endless: bool,
+    root: usize,
 }
 
 /// What a cell adds to a run.
@@ -234,25 +242,30 @@ impl Islands {
     /// Turns joined runs into islands; runs that no cell holds are dropped.
     fn collect(&mut self, map: &HeightMap, moments: &[Moments], joined: Joined, ellipses: bool) {
         let mut number = vec![u32::MAX; self.runs.len()];
-        let mut sums: Vec<(Moments, f64, bool)> = Vec::new();
+        let mut sums: Vec<Sum> = Vec::new();
         self.homes = Vec::with_capacity(self.runs.len());
         let size = [map.columns() as i64, map.rows() as i64];
         for (run, sum) in moments.iter().enumerate() {
             let (root, shift) = joined.root(run);
             if number[root] == u32::MAX {
                 number[root] = sums.len() as u32;
-                sums.push((Moments::default(), f64::NEG_INFINITY, joined.endless[root]));
+                sums.push(Sum {
+                    moments: Moments::default(),
+                    high: f64::NEG_INFINITY,
+                    endless: joined.endless[root],
+                    root,
+                });
             }
             let home = Home { island: number[root], shift };
             let target = &mut sums[home.island as usize];
             if ellipses {
                 let d = self.from_origin(run, root, shift, size);
-                target.0.add(&sum.moved(d[0], d[1]));
+                target.moments.add(&sum.moved(d[0], d[1]));
             } else {
-                target.0.area += sum.area;
-                target.0.slope_area += sum.slope_area;
+                target.moments.area += sum.area;
+                target.moments.slope_area += sum.slope_area;
             }
-            target.1 = target.1.max(self.runs[run].high);
+            target.high = target.high.max(self.runs[run].high);
             self.homes.push(home);
         }
         self.number(map, sums, ellipses);
@@ -267,16 +280,21 @@ impl Islands {
         ]
     }
 
-    fn number(&mut self, map: &HeightMap, sums: Vec<(Moments, f64, bool)>, ellipses: bool) {
+    fn number(&mut self, map: &HeightMap, sums: Vec<Sum>, ellipses: bool) {
         let mut kept = vec![u32::MAX; sums.len()];
-        for (old, (sum, high, endless)) in sums.into_iter().enumerate() {
-            if sum.area > 0.0 {
+        for (old, Sum { moments, high, endless, root }) in sums.into_iter().enumerate() {
+            if moments.area > 0.0 {
                 kept[old] = self.islands.len() as u32;
+                let origin = [self.runs[root].start, self.runs[root].row].map(f64::from);
                 self.islands.push(Island {
-                    area: sum.area * map.cell_area(),
-                    slope: sum.slope_area / sum.area,
+                    area: moments.area * map.cell_area(),
+                    slope: moments.slope_area / moments.area,
                     approach: high - self.plane,
-                    ellipse: if ellipses && !endless { Ellipse::of(&sum, map.pixel()) } else { None },
+                    ellipse: if ellipses && !endless {
+                        Ellipse::of(&moments, origin, map.pixel())
+                    } else {
+                        None
+                    },
                 });
             }
         }

@@ -9,6 +9,9 @@ use rayon::prelude::*;
 
 /// Rungs of one pass of the search.
 const RUNGS: usize = 64;
+/// Cells above which a first estimate looks at one in `SAMPLED` rows only.
+const LARGE: usize = 1 << 20;
+const SAMPLED: usize = 8;
 /// Relative residual at which the search for a separation ends.
 const RESIDUAL: f64 = 1e-11;
 
@@ -136,17 +139,36 @@ fn joined(rungs: Rungs, inverse_pixel: [f64; 2], parts: Vec<Tally>) -> Vec<Above
 
 /// What of the map lies above each rung.
 pub fn above_rungs(map: &HeightMap, rungs: Rungs) -> Vec<Above> {
+    above_rungs_in_rows(map, rungs, 1)
+}
+
+/// The same from every `stride`-th row of cells alone.
+fn above_rungs_in_rows(map: &HeightMap, rungs: Rungs, stride: usize) -> Vec<Above> {
     let inverse_pixel = inverse(map.pixel());
     let parts = map
         .chunks()
         .into_par_iter()
         .map(|(first, end)| {
             let mut tally = Tally::new(rungs, inverse_pixel);
-            (first..end).for_each(|row| map.for_each_cell(row, |z| tally.add_cell(&z)));
+            let rows = (first..end).filter(|row| row % stride == 0);
+            rows.for_each(|row| map.for_each_cell(row, |z| tally.add_cell(&z)));
             tally
         })
         .collect();
     joined(rungs, inverse_pixel, parts)
+}
+
+/// What of the map lies above each of 64 rungs over its whole height: an estimate from some of the rows of a large map.
+pub(crate) fn estimate(map: &HeightMap, extent: &Extent) -> (Rungs, Vec<Above>) {
+    let rungs = Rungs::between(extent.low, extent.high, RUNGS);
+    let stride = if extent.cells > LARGE { SAMPLED } else { 1 };
+    let mut sums = above_rungs_in_rows(map, rungs, stride);
+    // scaled by the whole area, which the lowest rung has above it
+    let scale = if sums[0].area > 0.0 { extent.cells as f64 / sums[0].area } else { 1.0 };
+    for sum in &mut sums {
+        *sum = Above { area: sum.area * scale, slope_area: sum.slope_area * scale };
+    }
+    (rungs, sums)
 }
 
 /// What of the map lies above one plane.
@@ -203,16 +225,25 @@ fn is_cut(z: &[f64; 4], low: f64, high: f64) -> bool {
 
 /// The height d with ∫_{h>d} |∇h| dA = `wanted` (in cells), and what lies above it; None if the whole map has less.
 ///
-/// 1. Sum on 64 rungs over the whole height, take the two that bracket the load.
+/// 1. Estimate on 64 rungs over the whole height; sum on the few rungs around the load, or on all if it is not
+///    between those; take the two that bracket the load.
 /// 2. Keep the cells that this bracket cuts; refine with 64 rungs on them, and again, until few are left.
 /// 3. Illinois' rule of false position on those, to a relative residual of 1e-11 or neighbouring numbers.
 pub fn plane_of(map: &HeightMap, extent: &Extent, wanted: f64) -> Option<(f64, Above)> {
     if extent.high <= extent.low {
         return None;
     }
-    let rungs = Rungs::between(extent.low, extent.high, RUNGS);
-    let sums = above_rungs(map, rungs);
-    if sums[0].slope_area < wanted * (1.0 - 1e-12) || !wanted.is_finite() {
+    if !wanted.is_finite() {
+        return None;
+    }
+    let (all, estimated) = estimate(map, extent);
+    let k = rung_below(&estimated, wanted);
+    let near = Rungs { low: all.height(k.saturating_sub(1)), step: all.step, count: 4 };
+    let (mut rungs, mut sums) = (near, above_rungs(map, near));
+    if sums[0].slope_area < wanted || sums[3].slope_area >= wanted {
+        (rungs, sums) = (all, above_rungs(map, all));
+    }
+    if sums[0].slope_area < wanted * (1.0 - 1e-12) {
         return None;
     }
     let mut bracket = first_bracket(map, rungs, &sums, wanted);

@@ -41,3 +41,6 @@ pub use ladder::{Above, Rungs, above_plane, above_rungs, plane_of};
 pub use level::{Level, level};
 pub use numbers::Roughness;
 pub use pressure::{Loaded, PressureField, Profile};
+
+#[cfg(test)]
+mod exact_tests;

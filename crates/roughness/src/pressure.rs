@@ -41,6 +41,8 @@ pub struct Loaded {
     pub pressure: f32,
     /// Part of the pixel in contact.
     pub contact: f32,
+    /// Part of the pixel on the island.
+    pub island_area: f32,
 }
 
 /// The pressure map of one contact.
@@ -50,16 +52,20 @@ pub struct PressureField {
     pub pixels: Vec<Loaded>,
     /// Largest pressure of a pixel, in Pa.
     pub largest: f64,
+    /// Share of the load on islands whose ellipse does not describe them, so that they are uniform; None without load.
+    pub uniform_share: Option<f64>,
 }
 
 /// Samples along a side of a pixel.
 const SAMPLES: usize = 4;
+/// An island that lies in its ellipse by less than this part of its area (a bent ridge, a ring) has no ellipse.
+const DESCRIBED: f64 = 0.5;
 
 impl PressureField {
     /// Spreads the forces of `contact` on the cells of `map`.
     ///
     /// 1. The weight of a pixel is the profile averaged over samples inside the ellipse of the true contact, times the
-    ///    part of the pixel in contact; an island without an ellipse is uniform.
+    ///    part of the pixel in contact; an island without an ellipse, or mostly outside it, is uniform.
     /// 2. The weights of an island are scaled so that they sum to its force.
     pub fn of(map: &HeightMap, contact: &Contact, profile: Profile) -> PressureField {
         let columns = map.cell_columns() as u32;
@@ -76,6 +82,7 @@ impl PressureField {
                             island: piece.island,
                             pressure: weight as f32,
                             contact: covered as f32,
+                            island_area: piece.area as f32,
                         });
                     });
                 }
@@ -83,24 +90,40 @@ impl PressureField {
             })
             .collect();
         let mut pixels = parts.concat();
-        let mut sums = vec![(0.0, 0.0); contact.responses.len()];
+        let mut sums = vec![Sums::default(); contact.responses.len()];
         for pixel in &pixels {
             let sum = &mut sums[pixel.island as usize];
-            sum.0 += f64::from(pixel.pressure);
-            sum.1 += f64::from(pixel.contact);
+            sum.weights += f64::from(pixel.pressure);
+            sum.covered += f64::from(pixel.contact);
         }
-        let scales: Vec<(f64, bool)> = sums
+        let (mut uniform, mut total) = (0.0, 0.0);
+        let scales: Vec<Scale> = sums
             .iter()
             .enumerate()
-            .map(|(j, (weights, areas))| {
-                let pressure = contact.force(j) / map.cell_area();
-                if *weights > 0.0 { (pressure / weights, true) } else { (pressure / areas, false) }
+            .map(|(j, sum)| {
+                let island = &contact.islands.islands[j];
+                let force = contact.force(j);
+                total += force;
+                if sum.weights > 0.0 && sum.inside(map, contact, j) >= DESCRIBED {
+                    return Scale::Weights(force / map.cell_area() / sum.weights);
+                }
+                uniform += force;
+                Scale::Areas(force / island.area)
             })
             .collect();
         pixels.par_iter_mut().for_each(|pixel| {
-            let (scale, weighted) = scales[pixel.island as usize];
-            pixel.pressure =
-                (scale * f64::from(if weighted { pixel.pressure } else { pixel.contact })) as f32;
+            let ratio = contact.responses[pixel.island as usize].area_ratio.min(1.0) as f32;
+            match scales[pixel.island as usize] {
+                Scale::Weights(scale) => {
+                    pixel.pressure = (scale * f64::from(pixel.pressure)) as f32;
+                    // a contact as large as its island is the island, whatever its shape
+                    pixel.contact = if ratio < 1.0 { pixel.contact } else { pixel.island_area };
+                }
+                Scale::Areas(pressure) => {
+                    pixel.pressure = (pressure * f64::from(pixel.island_area)) as f32;
+                    pixel.contact = ratio * pixel.island_area;
+                }
+            }
         });
         let mut largest = 0.0f64;
         for (i, pixel) in pixels.iter().enumerate() {
@@ -108,23 +131,47 @@ impl PressureField {
                 pixels.get(i + 1).filter(|next| next.cell == pixel.cell).map_or(0.0, |next| next.pressure);
             largest = largest.max(f64::from(pixel.pressure + beside));
         }
-        PressureField { pixels, largest }
+        PressureField { pixels, largest, uniform_share: (total > 0.0).then(|| uniform / total) }
     }
 }
 
-/// Weight of a piece of an island, and the part of its pixel in true contact.
+/// Sums over the pixels of an island.
+#[derive(Clone, Copy, Default)]
+struct Sums {
+    weights: f64,
+    covered: f64,
+}
+
+impl Sums {
+    /// Part of the true contact of island `j` that lies on the island and inside its ellipse.
+    fn inside(&self, map: &HeightMap, contact: &Contact, j: usize) -> f64 {
+        let area = contact.islands.islands[j].area * contact.responses[j].area_ratio.min(1.0);
+        self.covered * map.cell_area() / area
+    }
+}
+
+/// How the force of an island reaches its pixels.
+#[derive(Clone, Copy)]
+enum Scale {
+    /// Times the weight of the pixel.
+    Weights(f64),
+    /// Pressure times the part of the pixel on the island.
+    Areas(f64),
+}
+
+/// Weight of a piece of an island, and the part of its pixel on the island and inside the ellipse of the contact.
 fn weigh(piece: &Piece, contact: &Contact, profile: Profile, pixel: [f64; 2]) -> (f64, f64) {
     let island = &contact.islands.islands[piece.island as usize];
     let ratio = contact.responses[piece.island as usize].area_ratio;
     let Some(ellipse) = &island.ellipse else {
-        return (piece.area, piece.area * ratio.min(1.0));
+        return (0.0, 0.0);
     };
     if profile == Profile::Uniform && ratio >= 1.0 {
         return (piece.area, piece.area);
     }
     let (inside, mean) = sample(ellipse, profile, ratio, piece.offset, pixel);
-    let covered = if ratio < 1.0 { inside.min(piece.area) } else { piece.area };
-    (mean * inside.min(piece.area), covered)
+    let covered = inside.min(piece.area);
+    (mean * covered, covered)
 }
 
 /// Part of a pixel inside the ellipse of the true contact, and the mean of the profile over that part.

@@ -51,6 +51,8 @@ pub struct EdgeContact {
     pub load: f64,
     /// ∫ p²/(2ε) dA.
     pub energy: f64,
+    /// ∫ ½ε d² dA: what the penalty holds (the same without multipliers).
+    pub penalty_energy: f64,
     /// ∫ p d dA, for the pressure-weighted mean penetration.
     pub pressure_penetration: f64,
     /// ∫ p dA.
@@ -186,6 +188,7 @@ impl ContactEdge {
             stiffness: [[[[0.0; 2]; 3]; 2]; 3],
             load: 0.0,
             energy: 0.0,
+            penalty_energy: 0.0,
             pressure_penetration: 0.0,
             pressure: 0.0,
             area: 0.0,
@@ -203,6 +206,7 @@ impl ContactEdge {
                 let p = lambda + context.penalty * d.depth;
                 let w = half * weight * self.measure_at(xi);
                 out.energy += w * p * p / (2.0 * context.penalty);
+                out.penalty_energy += 0.5 * w * context.penalty * d.depth * d.depth;
                 out.pressure += w * p;
                 out.pressure_penetration += w * p * d.depth;
                 out.load += w * p * d.slope[1];

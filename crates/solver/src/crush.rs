@@ -2,10 +2,11 @@
 
 use crate::discretise::{Problem, prepare};
 use crate::fields::{Fields, SurfacePoint, fields};
+use crate::islands::{extent, gaps, islands};
 use crate::kinematics::Symmetry;
 use crate::model::{Counters, Model, ToolContact};
 use crate::newton::Settings;
-use crate::record::{AsperityRow, CurveRow, Phase, Summary};
+use crate::record::{AsperityRow, CurveRow, GapRow, IslandRow, Phase, Summary};
 use crate::scene::{ContactMethod, Scene, SceneError, Target};
 use crate::stepping::{Goal, Increment, Path, Stop};
 use asperity_mesh::Mesh;
@@ -55,6 +56,10 @@ pub struct Outcome {
     pub rows: Vec<CurveRow>,
     /// The share of each asperity in each increment; empty for a single one.
     pub asperities: Vec<AsperityRow>,
+    /// The gaps between contacts in each increment.
+    pub gaps: Vec<GapRow>,
+    /// What never yielded among the asperities, at the peak; empty for an elastic body.
+    pub elastic_islands: Vec<IslandRow>,
     /// The summary.
     pub summary: Summary,
     /// `None` if the run reached its end.
@@ -168,6 +173,8 @@ struct Log<'p> {
     increments: Vec<Increment>,
     rows: Vec<CurveRow>,
     asperities: Vec<AsperityRow>,
+    gaps: Vec<GapRow>,
+    islands: Vec<IslandRow>,
     peak: usize,
     stiffness: Option<f64>,
     last_fields: Option<usize>,
@@ -202,6 +209,8 @@ impl<'p> Log<'p> {
             increments: Vec::new(),
             rows: vec![first],
             asperities: Vec::new(),
+            gaps: Vec::new(),
+            islands: Vec::new(),
             peak: 0,
             stiffness: None,
             last_fields: None,
@@ -254,6 +263,14 @@ impl<'p> Log<'p> {
                 });
             }
         }
+        self.gaps.extend(gaps(model).into_iter().map(|gap| GapRow {
+            increment: number,
+            phase: row.phase,
+            depth: row.depth,
+            left: gap.left * u.length,
+            right: gap.right * u.length,
+            height: gap.height * u.length,
+        }));
         let told = observer(&Event::Increment { row: &row, planned: self.planned.max(number) });
         if self.interval > 0 && number.is_multiple_of(self.interval) && told.is_continue() {
             return self.draw(model, observer).is_continue();
@@ -308,6 +325,31 @@ impl<'p> Log<'p> {
         observer(&Event::Fields(&frame))
     }
 
+    /// Lists what never yielded above the base of the asperities and half their height below it.
+    fn find_islands(&mut self, model: &Model<'_>) {
+        let profile = &self.problem.profile;
+        let (Some(first), Some(last)) = (profile.asperities.first(), profile.asperities.last()) else {
+            return;
+        };
+        if self.problem.metal.hardening.is_none() {
+            return;
+        }
+        let feet =
+            [first.centre - first.half_width(first.height), last.centre + last.half_width(last.height)];
+        let found = islands(model, -1.5 * profile.height(), extent(self.problem.symmetry, feet));
+        let l = self.units.length;
+        self.islands = found
+            .into_iter()
+            .map(|island| IslandRow {
+                place: island.place.map(|x| x * l),
+                area: island.area * l * l,
+                mean_pressure: island.mean_pressure * self.units.stress,
+                reaches_substrate: island.reaches_substrate,
+                reaches_surface: island.reaches_surface,
+            })
+            .collect();
+    }
+
     /// Notes the peak and draws its fields.
     fn peak_reached(
         &mut self,
@@ -318,6 +360,7 @@ impl<'p> Log<'p> {
         complete: bool,
     ) {
         self.peak = self.rows.len() - 1;
+        self.find_islands(model);
         if complete && matches!(goal, Goal::Depth(_)) && problem.depth > 0.0 {
             self.planned = self.peak + self.planned.saturating_sub(problem.numbers.steps);
         }
@@ -365,6 +408,8 @@ impl<'p> Log<'p> {
         Outcome {
             rows: self.rows,
             asperities: self.asperities,
+            gaps: self.gaps,
+            elastic_islands: self.islands,
             summary,
             stopped,
             counters: path.model.counters,

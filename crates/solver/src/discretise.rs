@@ -10,7 +10,7 @@ use crate::scene::{
 };
 use crate::tool::Tool;
 use asperity_law::{Elastic, Hardening};
-use asperity_mesh::build::{Plan, build};
+use asperity_mesh::build::{Contact, Grading, Plan, build};
 use asperity_mesh::profile::{Asperity, Profile, Shape};
 use asperity_mesh::{ElementKind, Mesh};
 
@@ -170,16 +170,16 @@ fn outlines(scene: &Scene) -> Result<Vec<Asperity>, SceneError> {
     let mut edge = 0.0; // where the next asperity may begin
     for (index, asperity) in scene.asperity.iter().enumerate() {
         let form = asperity.form().map_err(|e| within(&format!("asperity[{index}]"), e))?;
-        let shape = match form {
-            AsperityForm::Cone { slope, tip_radius, .. } => {
-                Shape::Cone { tan_slope: slope.tan(), tip_radius }
+        let (shape, valley_radius) = match form {
+            AsperityForm::Cone { slope, tip_radius, valley_radius, .. } => {
+                (Shape::Cone { tan_slope: slope.tan(), tip_radius }, valley_radius)
             }
-            AsperityForm::Sphere { radius } => Shape::Sphere { radius },
+            AsperityForm::Sphere { radius } => (Shape::Sphere { radius }, 0.0),
         };
         let half = form.base_radius();
         let on_axis = index == 0 && scene.symmetry == crate::scene::Symmetry::Axisymmetric;
         let centre = if on_axis { 0.0 } else { edge + half };
-        outlines.push(Asperity { shape, height: form.height(), centre });
+        outlines.push(Asperity { shape, height: form.height(), centre, valley_radius });
         edge = centre + half + asperity.spacing.map_or(0.0, |s| s.0);
     }
     Ok(outlines)
@@ -190,7 +190,12 @@ fn scale(a: &Asperity, length: f64) -> Asperity {
         Shape::Cone { tan_slope, tip_radius } => Shape::Cone { tan_slope, tip_radius: tip_radius / length },
         Shape::Sphere { radius } => Shape::Sphere { radius: radius / length },
     };
-    Asperity { shape, height: a.height / length, centre: a.centre / length }
+    Asperity {
+        shape,
+        height: a.height / length,
+        centre: a.centre / length,
+        valley_radius: a.valley_radius / length,
+    }
 }
 
 /// The tool as an asperity of the same outline: the contact of the two is the same to first order in the slope.
@@ -200,7 +205,7 @@ fn mirror(tool: &Tool) -> Option<Asperity> {
         Tool::Cone { tan_slope, tip_radius } => Shape::Cone { tan_slope, tip_radius },
         Tool::Sphere { radius } => Shape::Sphere { radius },
     };
-    Some(Asperity { shape, height: f64::INFINITY, centre: 0.0 })
+    Some(Asperity { shape, height: f64::INFINITY, centre: 0.0, valley_radius: 0.0 })
 }
 
 /// Contact half width of a crushed asperity over the half width of the cut at the same depth: 0.64 (elastic cone,
@@ -292,40 +297,108 @@ fn build_mesh(
         ElementChoice::Q8r => ElementKind::Quad8,
         ElementChoice::Q4 => ElementKind::Quad4,
     };
-    let contact = half_widths.iter().fold(0.0, |m: f64, w| m.max(*w));
-    let foot = profile.asperities.iter().map(|a| a.centre + a.half_width(a.height)).fold(0.0, f64::max);
+    check_valleys(profile, length)?;
+    let widest = half_widths.iter().fold(0.0, |m: f64, w| m.max(*w));
+    // the row of asperities, with the half gaps that a symmetric side leaves
+    let end_gap = match (scene.lateral, scene.asperity.last()) {
+        (Lateral::Symmetric, Some(last)) => 0.5 * last.spacing.map_or(0.0, |s| s.0) / length,
+        _ => 0.0,
+    };
+    let right = profile.asperities.last().map_or(0.0, |a| a.centre + a.half_width(a.height)) + end_gap;
+    let row = match symmetry {
+        Symmetry::Axisymmetric => [0.0, right],
+        Symmetry::PlaneStrain if profile.asperities.is_empty() => [-10.0 * widest, 10.0 * widest],
+        Symmetry::PlaneStrain => [-end_gap, right],
+    };
     let substrate = scene.substrate.as_ref();
-    let automatic = (numbers.domain * contact).max(3.0 * foot);
+    let automatic = (numbers.domain * widest).max(3.0 * (row[1] - row[0]));
     let size_of = |given: Option<asperity_law::units::Length>| given.map_or(automatic, |l| l.0 / length);
-    let radius = size_of(substrate.and_then(|s| s.radius));
     let depth = profile.height() + size_of(substrate.and_then(|s| s.depth));
-    if radius <= foot {
+    let radius = size_of(substrate.and_then(|s| s.radius));
+    let width = match (scene.lateral, symmetry) {
+        (Lateral::Symmetric, _) if !profile.asperities.is_empty() => row,
+        (_, Symmetry::Axisymmetric) => [0.0, radius],
+        (_, Symmetry::PlaneStrain) => {
+            let middle = 0.5 * (row[0] + row[1]);
+            [middle - radius, middle + radius]
+        }
+    };
+    if width[0] > row[0] || width[1] < row[1] {
         return Err(SceneError {
             path: "substrate.radius".into(),
             message: format!(
-                "{:.6e} m does not reach beyond the asperities, which end at {:.6e} m: enlarge it",
+                "{:.6e} m does not reach beyond the asperities, which need {:.6e} m: enlarge it",
                 radius * length,
-                foot * length
+                match symmetry {
+                    Symmetry::Axisymmetric => row[1],
+                    Symmetry::PlaneStrain => 0.5 * (row[1] - row[0]),
+                } * length
             ),
         });
     }
-    debug_assert_eq!(symmetry, Symmetry::Axisymmetric);
-    // k: element size over distance from the axis, so that the contact radius holds the wanted number of elements
+    // sizes over the distance from a centre, so that the contact radius holds the wanted number of elements
     let start = numbers.resolved_from;
-    let k = (1.0 - start.ln()) / numbers.elements_in_contact as f64;
-    let core = (start * contact).min(0.5 * radius).min(0.5 * depth);
-    let fine = 1.6 * contact;
-    let shell =
-        move |x: f64| if x < fine { k * x } else { x * (FAR_GROWTH + (k - FAR_GROWTH) * fine / x).max(k) };
-    let plan = Plan {
-        profile: profile.clone(),
-        core: [0.0, core],
-        core_depth: core,
-        width: [0.0, radius],
-        depth,
-        kind,
+    let grading = Grading {
+        fineness: (1.0 - start.ln()) / numbers.elements_in_contact as f64,
+        start,
+        fine: 1.6,
+        far: FAR_GROWTH,
     };
-    Ok(build(&plan, |_| k * core, |_| k * core, shell))
+    let contacts: Vec<Contact> = if profile.asperities.is_empty() {
+        vec![Contact { centre: 0.0, half_width: widest, foot: 10.0 * widest, slope: 0.0 }]
+    } else {
+        let contact = |(a, w): (&Asperity, &f64)| Contact {
+            centre: a.centre,
+            half_width: *w,
+            foot: a.half_width(a.height),
+            slope: steepest(a, *w),
+        };
+        profile.asperities.iter().zip(half_widths).map(contact).collect()
+    };
+    if contacts.iter().all(|c| c.half_width <= 0.0) {
+        return Err(SceneError {
+            path: "loading.depth".into(),
+            message: "no asperity is touched at the full depth: raise the depth".into(),
+        });
+    }
+    Ok(build(&Plan { profile: profile.clone(), contacts, row, width, depth, grading, kind }))
+}
+
+/// Steepest slope that a mesh under the asperity must follow; a ball, vertical at its foot, is followed to twice its
+/// contact radius.
+fn steepest(asperity: &Asperity, half_width: f64) -> f64 {
+    match asperity.shape {
+        Shape::Cone { tan_slope, .. } => tan_slope,
+        Shape::Sphere { radius } => {
+            let x = (2.0 * half_width / radius).min(0.9);
+            x / (1.0 - x * x).sqrt()
+        }
+    }
+}
+
+/// Fillets must leave a part of both their sides straight.
+fn check_valleys(profile: &Profile, length: f64) -> Result<(), SceneError> {
+    for (index, asperity) in profile.asperities.iter().enumerate() {
+        let Some([own, beyond]) = profile.valley_reach(index) else { continue };
+        let foot = asperity.half_width(asperity.height);
+        let next = profile.asperities.get(index + 1);
+        let room = next.map_or(f64::INFINITY, |b| {
+            let gap = b.centre - b.half_width(b.height) - asperity.centre - foot;
+            if gap > 1e-9 * foot { gap } else { b.half_width(b.height) - b.cap_radius() }
+        });
+        if own > foot - asperity.cap_radius() || beyond > room {
+            let largest = asperity.valley_radius * ((foot - asperity.cap_radius()) / own).min(room / beyond);
+            return Err(SceneError {
+                path: format!("asperity[{index}].valley_radius"),
+                message: format!(
+                    "{:.6e} m leaves no straight flank: it may be at most {:.6e} m here",
+                    asperity.valley_radius * length,
+                    largest * length
+                ),
+            });
+        }
+    }
+    Ok(())
 }
 
 /// Base nodes held, axis nodes (and a symmetric lateral side) held sideways.

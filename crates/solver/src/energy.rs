@@ -44,7 +44,7 @@ pub struct ContactSums {
     pub reach: [f64; 2],
     /// Outer edge of the contact that holds the axis; half the width in plane strain.
     pub radius: f64,
-    /// ∫p²/(2ε) dA.
+    /// ½ε∫d² dA.
     pub energy: f64,
     /// Pressure-weighted mean penetration.
     pub penetration: f64,
@@ -67,7 +67,7 @@ pub fn contact_sums<'a>(edges: impl Iterator<Item = &'a EdgeContact>, symmetry: 
     for edge in edges {
         sums.force += edge.load;
         sums.area += edge.area;
-        sums.energy += edge.energy;
+        sums.energy += edge.penalty_energy;
         pressure += edge.pressure;
         weighted += edge.pressure_penetration;
         sums.max_pressure = sums.max_pressure.max(edge.max_pressure);

@@ -37,6 +37,8 @@ pub mod energy;
 
 pub mod fields;
 
+pub mod islands;
+
 pub mod scene;
 
 pub mod discretise;

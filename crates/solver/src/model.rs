@@ -83,6 +83,8 @@ pub struct Model<'m> {
     keep_contact: bool,
     tangent: Tangent,
     load_scale: f64,
+    /// Whether the increment under way has been accepted.
+    settled: bool,
     output: ElementOutput,
     /// Work done so far.
     pub counters: Counters,
@@ -180,6 +182,7 @@ impl<'m> Model<'m> {
             keep_contact: false,
             tangent: Tangent::Exact,
             load_scale: 0.0,
+            settled: true,
             output: ElementOutput::new(virgin),
             counters: Counters::default(),
         })
@@ -189,6 +192,7 @@ impl<'m> Model<'m> {
     /// first guess of the displacement `guess` (zero if absent), and the last flow carried on as for a step
     /// `ratio` times the last one (0: not at all, as at the start of unloading). A tip at infinity removes the tool.
     pub fn begin(&mut self, tip: f64, ratio: f64, guess: impl Fn(usize) -> [f64; 2]) {
+        self.settled = false;
         self.tip = tip;
         self.multiplier.clone_from(&self.accepted_multiplier);
         for (node, du) in self.increment.iter_mut().enumerate() {
@@ -238,6 +242,7 @@ impl<'m> Model<'m> {
             x[0] += du[0];
             x[1] += du[1];
         }
+        self.settled = true;
         self.accepted.clone_from(&self.increment);
         self.accepted_multiplier.clone_from(&self.multiplier);
         self.old.clone_from(&self.new);
@@ -423,6 +428,23 @@ impl<'m> Model<'m> {
     /// Contact of every surface edge at the iterate, in the order of the mesh.
     pub fn contacts(&self) -> &[EdgeContact] {
         &self.edge_contact
+    }
+
+    /// Position of a node at the iterate (the converged one once an increment is accepted).
+    pub fn current_position(&self, node: u32) -> [f64; 2] {
+        if self.settled {
+            self.position[node as usize]
+        } else {
+            current(&self.position, &self.increment, node)
+        }
+    }
+
+    /// Penetration of the point `x` into the tool where it stands; -∞ without a tool.
+    pub fn penetration_of(&self, x: [f64; 2]) -> f64 {
+        match self.contact {
+            Some(contact) if self.tip.is_finite() => contact.tool.penetration(x, self.tip).depth,
+            _ => f64::NEG_INFINITY,
+        }
     }
 
     /// The surface edges, in the order of the mesh.

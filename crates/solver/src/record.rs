@@ -66,6 +66,38 @@ pub struct AsperityRow {
     pub max_pressure: f64,
 }
 
+/// An untouched stretch of surface between two contacts in one increment: a row of `gaps.csv`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GapRow {
+    /// Increment of the curve.
+    pub increment: usize,
+    /// Loading or unloading.
+    pub phase: Phase,
+    /// As in the curve, m.
+    pub depth: f64,
+    /// Where the contact before the gap ends, m.
+    pub left: f64,
+    /// Where the contact after it begins, m.
+    pub right: f64,
+    /// Largest distance from the tool in between, m.
+    pub height: f64,
+}
+
+/// A connected region that never yielded in the metal that lay above the base of the asperities or just below it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct IslandRow {
+    /// Centroid (r, z) of its section before the crush, m.
+    pub place: [f64; 2],
+    /// Area of its section before the crush, m².
+    pub area: f64,
+    /// Mean hydrostatic pressure, positive in compression, Pa.
+    pub mean_pressure: f64,
+    /// Whether it hangs together with the elastic bulk of the substrate.
+    pub reaches_substrate: bool,
+    /// Whether it holds a part of the free surface.
+    pub reaches_surface: bool,
+}
+
 /// `summary.json`. `None` where the scene did not ask for it (unloading) or the run did not reach it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Summary {

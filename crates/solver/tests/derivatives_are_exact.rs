@@ -3,6 +3,8 @@
 //!
 //! Tolerance 1e-6 of the largest entry: central differences with step 1e-6 carry an error of about 1e-9 here.
 
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
+
 use asperity_law::{Elastic, Hardening, HardeningLaw};
 use asperity_solver::contact::{ContactContext, ContactEdge};
 use asperity_solver::element::{ElementContext, ElementOutput};

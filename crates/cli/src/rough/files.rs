@@ -9,7 +9,6 @@ use crate::folder::Folder;
 use asperity_roughness::format::{CellArray, write_vti};
 use asperity_roughness::scene::{Prepared, Scene};
 use serde_json::{Value, json};
-use std::io::Write;
 
 const MICROMETRE: f64 = 1e-6;
 const MEGAPASCAL: f64 = 1e6;
@@ -66,11 +65,13 @@ impl Outcome<'_> {
             writeln!(out, "{TABLE_COLUMNS}")?;
             for one in self.pressed {
                 let row = self.row(one);
-                let cells: Vec<String> = row
-                    .iter()
-                    .enumerate()
-                    .map(|(i, v)| if i == 11 { format!("{}", one.contact.islands.islands.len()) } else { cell(*v) })
-                    .collect();
+                let cells: Vec<String> =
+                    row.iter()
+                        .enumerate()
+                        .map(|(i, v)| {
+                            if i == 11 { format!("{}", one.contact.islands.islands.len()) } else { cell(*v) }
+                        })
+                        .collect();
                 writeln!(out, "{},{},{}", quoted(self.name), one.model.closure.name(), cells.join(","))?;
             }
             Ok::<(), std::io::Error>(())
@@ -82,7 +83,12 @@ impl Outcome<'_> {
                 for (phase, points) in [("load", &one.contact.curve[..]), ("unload", unload)] {
                     for p in points {
                         let (d, pressure) = (p.separation / MICROMETRE, p.pressure / MEGAPASCAL);
-                        writeln!(out, "{},{phase},{d:?},{pressure:?},{:?}", one.model.closure.name(), p.area_ratio)?;
+                        writeln!(
+                            out,
+                            "{},{phase},{d:?},{pressure:?},{:?}",
+                            one.model.closure.name(),
+                            p.area_ratio
+                        )?;
                     }
                 }
             }
@@ -108,7 +114,11 @@ impl Outcome<'_> {
             let name = one.model.closure.name();
             series.push(Series { label: name.into(), points: points(&one.contact.curve), marks: false });
             if let Some(unloading) = one.unloading.as_ref().filter(|_| !one.model.returns_everything()) {
-                series.push(Series { label: format!("{name}, unloading"), points: points(&unloading.curve), marks: false });
+                series.push(Series {
+                    label: format!("{name}, unloading"),
+                    points: points(&unloading.curve),
+                    marks: false,
+                });
             }
         }
         Chart {
@@ -130,7 +140,8 @@ impl Outcome<'_> {
                 bins[((ratio / width) as usize).min(STEPS - 1)] += f64::from(pixel.contact);
             }
             let total: f64 = bins.iter().sum::<f64>().max(f64::MIN_POSITIVE);
-            let points = bins.iter().enumerate().map(|(i, b)| [(i as f64 + 0.5) * width, 100.0 * b / total]).collect();
+            let points =
+                bins.iter().enumerate().map(|(i, b)| [(i as f64 + 0.5) * width, 100.0 * b / total]).collect();
             Series { label: one.model.closure.name().into(), points, marks: false }
         });
         Chart {
@@ -147,7 +158,8 @@ impl Outcome<'_> {
         for one in self.pressed {
             let name = one.model.closure.name();
             let count = cells[0] * cells[1];
-            let (mut pressure, mut contact, mut regime) = (vec![0f32; count], vec![0f32; count], vec![0f32; count]);
+            let (mut pressure, mut contact, mut regime) =
+                (vec![0f32; count], vec![0f32; count], vec![0f32; count]);
             for pixel in &one.field.pixels {
                 let i = pixel.cell as usize;
                 pressure[i] += pixel.pressure / MEGAPASCAL as f32;
@@ -161,7 +173,8 @@ impl Outcome<'_> {
             picture::pressure(&file, &view, one.nominal / MEGAPASCAL).map_err(|e| Failure::disk(&file, e))?;
             let view = Map { values: &contact, ..view };
             let file = folder.path(&format!("contact-{name}.png"))?;
-            picture::contact(&file, &view, &regime, one.contact.shares).map_err(|e| Failure::disk(&file, e))?;
+            picture::contact(&file, &view, &regime, one.contact.shares)
+                .map_err(|e| Failure::disk(&file, e))?;
             let file = folder.path(&format!("contact-{name}.vti"))?;
             let heights: Vec<f32> = (0..=cells[1])
                 .flat_map(|row| {
@@ -208,7 +221,7 @@ impl Outcome<'_> {
                 "beta": "atan of mean_gradient, the mean of |grad h|; mean_slope_x is the mean of |dz/dx|; both depend on the pixel size",
                 "asperity_slope": "tan(beta_j) is the mean of |grad h| over the island, not the slope from summit to rim",
                 "separation": "from the mean height of the nodes",
-                "pressure": "force on a pixel over the area of the pixel",
+                "pressure": "force on a pixel over the area of the pixel; an island mostly outside the ellipse of its moments is uniform (load_share_uniform)",
             },
             "closures": closures,
             "warnings": self.warnings,
@@ -219,8 +232,22 @@ impl Outcome<'_> {
     }
 
     fn closure_summary(&self, one: &Pressed) -> Value {
-        let [_, _, mean, ratio, index, elastic, elastoplastic, plastic, peak, separation, error, _, residual, energy] =
-            self.row(one);
+        let [
+            _,
+            _,
+            mean,
+            ratio,
+            index,
+            elastic,
+            elastoplastic,
+            plastic,
+            peak,
+            separation,
+            error,
+            _,
+            residual,
+            energy,
+        ] = self.row(one);
         json!({
             "closure": one.model.closure.name(),
             "source": one.model.closure.source(),
@@ -236,6 +263,7 @@ impl Outcome<'_> {
             "load_error": error,
             "load_jumps": one.contact.jump,
             "load_share_outside_range": one.contact.outside_share,
+            "load_share_uniform": one.field.uniform_share,
             "asperities": one.contact.islands.islands.len(),
             "residual_displacement_um": residual,
             "elastic_energy_share": energy,
@@ -282,5 +310,9 @@ impl Outcome<'_> {
 
 /// A name as a CSV field.
 fn quoted(name: &str) -> String {
-    if name.contains([',', '"', '\n', '\r']) { format!("\"{}\"", name.replace('"', "\"\"")) } else { name.into() }
+    if name.contains([',', '"', '\n', '\r']) {
+        format!("\"{}\"", name.replace('"', "\"\""))
+    } else {
+        name.into()
+    }
 }

@@ -17,8 +17,15 @@ const INK: [u8; 3] = [30, 30, 30];
 /// Regimes: none, elastic, elastoplastic, plastic (Okabe and Ito's palette).
 const REGIMES: [[u8; 3]; 4] = [[236, 236, 236], [0, 114, 178], [240, 180, 30], [213, 60, 20]];
 /// From low to high pressure: even in lightness, legible in grey (after the map "inferno").
-const HEAT: [[u8; 3]; 7] =
-    [[10, 8, 35], [66, 10, 104], [132, 32, 107], [188, 55, 84], [229, 92, 48], [251, 155, 6], [252, 255, 164]];
+const HEAT: [[u8; 3]; 7] = [
+    [10, 8, 35],
+    [66, 10, 104],
+    [132, 32, 107],
+    [188, 55, 84],
+    [229, 92, 48],
+    [251, 155, 6],
+    [252, 255, 164],
+];
 
 /// One number per cell.
 #[derive(Clone, Copy)]
@@ -75,7 +82,12 @@ impl Picture {
         }
     }
 
-    fn bar(&mut self, x: std::ops::Range<usize>, y: std::ops::Range<usize>, colour: impl Fn(usize) -> [u8; 3]) {
+    fn bar(
+        &mut self,
+        x: std::ops::Range<usize>,
+        y: std::ops::Range<usize>,
+        colour: impl Fn(usize) -> [u8; 3],
+    ) {
         for row in y {
             x.clone().for_each(|column| self.set(column, row, colour(column)));
         }
@@ -97,7 +109,8 @@ impl Picture {
     }
 
     fn write(&self, path: &Path) -> std::io::Result<()> {
-        let mut encoder = png::Encoder::new(BufWriter::new(File::create(path)?), self.width as u32, self.height as u32);
+        let mut encoder =
+            png::Encoder::new(BufWriter::new(File::create(path)?), self.width as u32, self.height as u32);
         encoder.set_color(png::ColorType::Rgb);
         encoder.set_depth(png::BitDepth::Eight);
         let mut writer = encoder.write_header()?;
@@ -120,7 +133,13 @@ fn heat(share: f64) -> [u8; 3] {
 
 /// The three leading digits of a pressure.
 fn digits(value: f64) -> String {
-    if value >= 100.0 { format!("{value:.0}") } else if value >= 10.0 { format!("{value:.1}") } else { format!("{value:.2}") }
+    if value >= 100.0 {
+        format!("{value:.0}")
+    } else if value >= 10.0 {
+        format!("{value:.1}")
+    } else {
+        format!("{value:.2}")
+    }
 }
 
 /// The value that a share of the loaded pixels does not exceed.
@@ -214,7 +233,8 @@ mod tests {
         let values: Vec<f32> = (0..64).map(|i| i as f32 / 8.0).collect();
         let map = Map { cells: [8, 8], pixel: [1.0, 1.0], values: &values };
         pressure(&path, &map, 100.0).unwrap();
-        let reader = png::Decoder::new(std::io::BufReader::new(File::open(&path).unwrap())).read_info().unwrap();
+        let reader =
+            png::Decoder::new(std::io::BufReader::new(File::open(&path).unwrap())).read_info().unwrap();
         assert_eq!((reader.info().width, reader.info().height), (640, 688));
         contact(&path, &map, &[3.0; 64], None).unwrap();
     }

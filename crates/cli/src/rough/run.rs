@@ -64,19 +64,26 @@ pub fn press_all(
                 warnings.extend(remarks(&one, coefficient));
                 pressed.push(one);
             }
-            Err(e @ ContactError::Unreachable { .. }) if scene.closure == Choice::All && closure != Closure::Published => {
+            Err(e @ ContactError::Unreachable { .. })
+                if scene.closure == Choice::All && closure != Closure::Published =>
+            {
                 warnings.push(format!("skipped: {e}"));
             }
             Err(e) => return Err(("load", e.to_string())),
         }
     }
     if pressed.is_empty() {
-        return Err(("closure", "no closure can be used with this material: add hardness or yield_stress".into()));
+        return Err((
+            "closure",
+            "no closure can be used with this material: add hardness or yield_stress".into(),
+        ));
     }
     if let (Some(hardness), Some(yield_stress)) = (scene.material.hardness, scene.material.yield_stress) {
         let ratio = hardness.0 / (3.0 * yield_stress.0);
         if !(0.8..=1.25).contains(&ratio) {
-            warnings.push(format!("hardness is {ratio:.2} times 3 yield_stress (eq. 20 says 1): two different metals?"));
+            warnings.push(format!(
+                "hardness is {ratio:.2} times 3 yield_stress (eq. 20 says 1): two different metals?"
+            ));
         }
     }
     Ok((pressed, warnings))
@@ -98,7 +105,14 @@ fn press_one(
         Load::Pressure(p) => p,
         Load::Separation(_) => contact.pressure,
     };
-    Ok(Pressed { plasticity_index: model.hardness().map(|h| elastic / h), model, contact, field, unloading, nominal })
+    Ok(Pressed {
+        plasticity_index: model.hardness().map(|h| elastic / h),
+        model,
+        contact,
+        field,
+        unloading,
+        nominal,
+    })
 }
 
 /// What a reader of the numbers should know.
@@ -112,7 +126,10 @@ fn remarks(one: &Pressed, coefficient: Option<&Coefficient>) -> Vec<String> {
         ));
     }
     if let Some(share) = one.contact.outside_share.filter(|s| *s > 0.0) {
-        remarks.push(format!("{name}: {:.1} % of the load is on asperities outside the calibrated range", 100.0 * share));
+        remarks.push(format!(
+            "{name}: {:.1} % of the load is on asperities outside the calibrated range",
+            100.0 * share
+        ));
     }
     if one.unloading.is_some() && !one.model.returns_everything() && coefficient.is_none() {
         remarks.push(format!(

@@ -1,0 +1,132 @@
+//! `asperity crush` from a scene to the files of the contract.
+
+mod common;
+
+use common::{Place, SCENE};
+use serde_json::Value;
+
+const SUMMARY: [&str; 22] = [
+    "peak_force_N",
+    "peak_depth_um",
+    "residual_depth_um",
+    "unloading_stiffness_N_per_um",
+    "contact_area_um2",
+    "contact_radius_um",
+    "total_work_uJ",
+    "elastic_work_uJ",
+    "plastic_work_uJ",
+    "elastic_fraction",
+    "energy_balance_error",
+    "estimated_error",
+    "elements",
+    "dofs",
+    "increments",
+    "newton_iterations",
+    "cutbacks",
+    "wall_s",
+    "peak_memory_MB",
+    "scene",
+    "version",
+    "hardening_law",
+];
+
+/// The rows of a CSV file by column name.
+fn column(text: &str, name: &str) -> Vec<String> {
+    let mut lines = text.lines();
+    let index =
+        lines.next().unwrap().split(',').position(|c| c == name).unwrap_or_else(|| panic!("no {name}"));
+    lines.map(|line| line.split(',').nth(index).unwrap().to_string()).collect()
+}
+
+fn numbers(text: &str, name: &str) -> Vec<f64> {
+    column(text, name).iter().map(|v| v.parse().unwrap()).collect()
+}
+
+#[test]
+fn curve_and_summary_agree() {
+    let place = Place::with_scene(SCENE);
+    let end = place.run(&["crush", "scene.toml", "--json", "--out", "out"]);
+    assert_eq!((end.status, end.err.as_str()), (0, ""));
+    let summary: Value = serde_json::from_str(&end.out).unwrap();
+    assert_eq!(end.out, place.text("out/summary.json"));
+    for key in SUMMARY {
+        let place = if key == "hardening_law" { &summary["scene"]["material"] } else { &summary };
+        assert!(place.get(key).is_some(), "{key}");
+    }
+    let curve = place.text("out/curve.csv");
+    let (force, depth, phase) =
+        (numbers(&curve, "force_N"), numbers(&curve, "depth_um"), column(&curve, "phase"));
+    let peak = force.iter().copied().fold(0.0, f64::max);
+    assert_eq!(summary["peak_force_N"].as_f64(), Some(peak));
+    assert_eq!((depth[0], force[0], phase[0].as_str()), (0.0, 0.0, "load"));
+    assert_eq!((force[force.len() - 1], phase[phase.len() - 1].as_str()), (0.0, "unload"));
+    assert_eq!(summary["residual_depth_um"].as_f64(), depth.last().copied());
+    assert!((summary["peak_depth_um"].as_f64().unwrap() - 5.0).abs() < 1e-9);
+    // coarse as it is, the run knows the paper's asperity to 10 %
+    assert!((peak / 5.52 - 1.0).abs() < 0.1, "{peak}");
+    assert!(place.text("out/curve.svg").contains("Force F (N)"));
+}
+
+#[test]
+fn the_summary_holds_the_scene_as_it_was_run() {
+    let place = Place::with_scene(SCENE);
+    let flags =
+        ["--set", "loading.depth=2 um", "--set", "loading.unload=false", "--accuracy", "draft", "--quiet"];
+    let end = place.run(&[&["crush", "scene.toml", "--out", "out"], &flags[..]].concat());
+    assert_eq!((end.status, end.out.as_str(), end.err.as_str()), (0, "", ""));
+    let summary: Value = serde_json::from_str(&place.text("out/summary.json")).unwrap();
+    let scene = &summary["scene"];
+    assert_eq!(scene["numerics"]["steps"], 8);
+    assert!(scene["numerics"]["newton_tolerance"].is_number() && scene["numerics"]["element"].is_string());
+    assert_eq!(scene["accuracy"], "draft");
+    // no unloading was asked for
+    for key in ["residual_depth_um", "elastic_work_uJ", "elastic_fraction"] {
+        assert!(summary[key].is_null(), "{key}");
+    }
+    assert!(column(&place.text("out/curve.csv"), "phase").iter().all(|p| p == "load"));
+}
+
+#[test]
+fn a_ridge_in_plane_strain_is_per_length() {
+    let substrate = "[substrate]\nradius = \"1 mm\"\ndepth = \"1 mm\"\n[tool]";
+    let scene = SCENE.replace("\"axisymmetric\"", "\"plane-strain\"").replace("[tool]", substrate);
+    let place = Place::with_scene(scene);
+    let end = place.run(&["crush", "scene.toml", "--out", "out"]);
+    assert_eq!(end.status, 0, "{}", end.err);
+    let curve = place.text("out/curve.csv");
+    assert!(numbers(&curve, "force_N_per_mm").iter().copied().fold(0.0, f64::max) > 0.0);
+    assert_eq!(numbers(&curve, "contact_width_um").len(), numbers(&curve, "external_work_uJ_per_mm").len());
+    let summary: Value = serde_json::from_str(&place.text("out/summary.json")).unwrap();
+    for key in [
+        "peak_force_N_per_mm",
+        "unloading_stiffness_N_per_um_per_mm",
+        "contact_width_um",
+        "total_work_uJ_per_mm",
+    ] {
+        assert!(summary[key].is_number(), "{key}");
+    }
+}
+
+#[test]
+fn fields_and_surface_are_written_when_asked_for() {
+    let place = Place::with_scene(
+        SCENE.replace("every = 0", "every = 3\nfields = [\"von_mises\", \"displacement\"]"),
+    );
+    assert_eq!(place.run(&["crush", "scene.toml", "--out", "out"]).status, 0);
+    let names = place.names("out");
+    let fields: Vec<&String> = names.iter().filter(|n| n.starts_with("fields_")).collect();
+    let collection = place.text("out/fields.pvd");
+    assert!(fields.len() >= 3);
+    for name in fields {
+        assert!(collection.contains(name.as_str()), "{name}");
+        let text = place.text(&format!("out/{name}"));
+        assert!(
+            text.contains("von_mises_MPa") && text.contains("displacement_um") && text.contains("vtkZLib")
+        );
+        assert!(!text.contains("plastic_strain"), "not asked for");
+        let surface = place.text(&format!("out/{}", name.replace("fields", "surface").replace("vtu", "csv")));
+        let radius = numbers(&surface, "r_um");
+        assert!(radius[0].abs() < 1e-9 && radius.windows(2).all(|p| p[0] < p[1]), "{radius:?}");
+        assert_eq!(numbers(&surface, "pressure_MPa").len(), radius.len());
+    }
+}

@@ -1,0 +1,161 @@
+//! Where fluid may leak: gaps between contacts, and metal that never yielded among the asperities.
+
+use crate::contact::NOTHING;
+use crate::element::POINTS;
+use crate::kinematics::Symmetry;
+use crate::material::{hydrostatic, stress, volume_ratio};
+use crate::model::Model;
+use std::collections::HashMap;
+
+/// An untouched stretch of surface between two contacts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Gap {
+    /// Where the contact before it ends.
+    pub left: f64,
+    /// Where the contact after it begins.
+    pub right: f64,
+    /// Largest distance from the tool in between.
+    pub height: f64,
+}
+
+/// A connected region of metal that never yielded.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Island {
+    /// Centroid (r, z) of its section before the crush.
+    pub place: [f64; 2],
+    /// Area of its section before the crush.
+    pub area: f64,
+    /// Volume-weighted mean hydrostatic pressure, positive in compression.
+    pub mean_pressure: f64,
+    /// Whether it hangs together with the elastic bulk of the substrate within the region that was searched.
+    pub reaches_substrate: bool,
+    /// Whether it holds a part of the free surface.
+    pub reaches_surface: bool,
+}
+
+/// The gaps between contacts at the iterate, from the axis (left side) outward.
+pub fn gaps(model: &Model<'_>) -> Vec<Gap> {
+    let mut gaps = Vec::new();
+    let mut open: Option<Gap> = None; // since the last contact
+    for (edge, contact) in model.edges().iter().zip(model.contacts()) {
+        let x = edge.nodes.map(|node| model.current_position(node));
+        // surface edges run inward: their second corner is the inner one
+        let heights = x.map(|x| -model.penetration_of(x));
+        if contact.parts == NOTHING {
+            if let Some(gap) = &mut open {
+                gap.height = heights.into_iter().fold(gap.height, f64::max);
+            }
+            continue;
+        }
+        if let Some(gap) = open.take() {
+            let right = contact.reach[0];
+            // two touching edges that share a node leave no gap
+            let height = gap.height.max(heights[1]);
+            if right - gap.left > 1e-9 * right.abs().max(gap.left.abs()) && height > 0.0 {
+                gaps.push(Gap { right, height, ..gap });
+            }
+        }
+        if let [Some([_, first_end]), Some([second_start, _])] = contact.parts {
+            // both ends of a quadratic edge touch, its middle does not
+            let (right, left) = (edge.point(&x, first_end)[0], edge.point(&x, second_start)[0]);
+            let height = -model.penetration_of(edge.point(&x, 0.5 * (first_end + second_start)));
+            gaps.push(Gap { left: left.min(right), right: left.max(right), height });
+        }
+        open = Some(Gap { left: contact.reach[1], right: f64::NAN, height: heights[0].max(0.0) });
+    }
+    gaps
+}
+
+/// Regions of cells without plastic strain, of the metal that lay above `floor` before the crush and within `extent`
+/// along r; cells hang together through common edges.
+pub fn islands(model: &Model<'_>, floor: f64, extent: [f64; 2]) -> Vec<Island> {
+    let mesh = model.mesh();
+    let place = |cell: usize| -> [f64; 2] {
+        let corners = &mesh.cell(cell)[..4];
+        let sum = |i: usize| corners.iter().map(|&n| mesh.nodes[n as usize][i]).sum::<f64>() / 4.0;
+        [sum(0), sum(1)]
+    };
+    let elastic = |cell: usize| {
+        model.states()[cell * POINTS..(cell + 1) * POINTS].iter().all(|s| s.plastic_strain == 0.0)
+    };
+    let inside: Vec<bool> = (0..mesh.cell_count())
+        .map(|cell| {
+            let [r, z] = place(cell);
+            z > floor && r > extent[0] && r < extent[1] && elastic(cell)
+        })
+        .collect();
+    let mut neighbours: HashMap<(u32, u32), Vec<usize>> = HashMap::new();
+    for cell in 0..mesh.cell_count() {
+        let corners = mesh.cell(cell);
+        for k in 0..4 {
+            let (a, b) = (corners[k], corners[(k + 1) % 4]);
+            neighbours.entry((a.min(b), a.max(b))).or_default().push(cell);
+        }
+    }
+    let on_surface: std::collections::HashSet<u32> = mesh.sides.surface.iter().map(|e| e.cell).collect();
+    let mut seen = vec![false; mesh.cell_count()];
+    let mut islands = Vec::new();
+    for seed in 0..mesh.cell_count() {
+        if seen[seed] || !inside[seed] {
+            continue;
+        }
+        let mut island = Island {
+            place: [0.0; 2],
+            area: 0.0,
+            mean_pressure: 0.0,
+            reaches_substrate: false,
+            reaches_surface: false,
+        };
+        let (mut volume, mut queue) = (0.0, vec![seed]);
+        seen[seed] = true;
+        while let Some(cell) = queue.pop() {
+            let [r, z] = place(cell);
+            let corners = mesh.cell(cell);
+            let area = section_area(corners[..4].iter().map(|&n| mesh.nodes[n as usize]));
+            island.area += area;
+            island.place[0] += area * r;
+            island.place[1] += area * z;
+            island.reaches_surface |= on_surface.contains(&(cell as u32));
+            for q in cell * POINTS..(cell + 1) * POINTS {
+                let state = &model.states()[q];
+                let tau = stress(&model.metal().elastic, &state.stretch);
+                island.mean_pressure -= model.volumes()[q] * hydrostatic(&tau) / volume_ratio(&state.stretch);
+                volume += model.volumes()[q];
+            }
+            for k in 0..4 {
+                let (a, b) = (corners[k], corners[(k + 1) % 4]);
+                for &next in neighbours.get(&(a.min(b), a.max(b))).into_iter().flatten() {
+                    if !inside[next] {
+                        island.reaches_substrate |= elastic(next) && place(next)[1] <= floor;
+                    } else if !seen[next] {
+                        seen[next] = true;
+                        queue.push(next);
+                    }
+                }
+            }
+        }
+        island.place = island.place.map(|x| x / island.area);
+        island.mean_pressure /= volume;
+        islands.push(island);
+    }
+    islands
+}
+
+/// Area of a polygon.
+fn section_area(corners: impl Iterator<Item = [f64; 2]>) -> f64 {
+    let corners: Vec<[f64; 2]> = corners.collect();
+    (0..corners.len())
+        .map(|i| {
+            let (p, q) = (corners[i], corners[(i + 1) % corners.len()]);
+            0.5 * (p[0] * q[1] - q[0] * p[1])
+        })
+        .sum()
+}
+
+/// Extent along r in which islands are searched: the asperities, from the axis or from the left foot.
+pub fn extent(symmetry: Symmetry, feet: [f64; 2]) -> [f64; 2] {
+    match symmetry {
+        Symmetry::Axisymmetric => [0.0, feet[1]],
+        Symmetry::PlaneStrain => feet,
+    }
+}

@@ -1,0 +1,91 @@
+#!/usr/bin/env python3
+"""Compares `asperity rough` with the boundary-element code tamaas on self-affine maps.
+
+    python3 scripts/rough-peer.py [--sizes 512 1024] [--seeds 1 2 3] [--binary target/release/asperity]
+
+Needs numpy and tamaas (pip install numpy tamaas scipy). Maps: H = 0.8, rms slope 0.1, flat spectrum above a quarter of
+the period, cut-off N/16, periodic, E* = 1 GPa in both programs. Elastic: tamaas against published and sneddon (and
+fitted where --coefficient names a file). Saturated at H: tamaas' Kato solver against johnson. `calibrated` has no
+counterpart there: an elastic or saturated half-space knows no hardening.
+"""
+import argparse, csv, pathlib, subprocess, tempfile, time
+import numpy as np
+import tamaas as tm
+
+MODULUS = 1e9   # E*, Pa
+POISSON = 0.3
+PIXEL = 1e-6    # m
+
+
+def surface(n, seed):
+    """Heights in units of the period, of rms slope 0.1."""
+    generator = tm.SurfaceGeneratorFilter2D([n, n])
+    spectrum = tm.Isopowerlaw2D()
+    spectrum.q0, spectrum.q1, spectrum.q2, spectrum.hurst = 4, 4, n // 16, 0.8
+    generator.spectrum, generator.random_seed = spectrum, seed
+    z = generator.buildSurface()
+    return z * 0.1 / tm.Statistics2D.computeSpectralRMSSlope(z)
+
+
+def solve(z, pressure, hardness=None):
+    """Contact area ratio and seconds of the boundary-element solution; pressure and hardness in E*."""
+    n = z.shape[0]
+    model = tm.ModelFactory.createModel(tm.model_type.basic_2d, [1.0, 1.0], [n, n])
+    model.E, model.nu = 1.0, 0.0
+    start = time.time()
+    if hardness is None:
+        solver = tm.PolonskyKeerRey(model, z, 1e-8, tm.PolonskyKeerRey.pressure, tm.PolonskyKeerRey.pressure)
+        solver.max_iter = 20000
+        solver.solve(pressure)
+    else:
+        solver = tm.KatoSaturated(model, z, 1e-8, hardness)
+        solver.max_iter = 20000
+        solver.solve(pressure)
+    return float((np.asarray(model.traction) > 0).mean()), time.time() - start
+
+
+def asperity(binary, z, pressure, hardness, coefficient):
+    """Rows of table.csv by closure, and seconds of the whole run."""
+    n = z.shape[0]
+    with tempfile.TemporaryDirectory() as folder:
+        folder = pathlib.Path(folder)
+        np.save(folder / "z.npy", z * n * PIXEL)
+        named = f'coefficient = "{pathlib.Path(coefficient).resolve()}"\n' if coefficient else ""
+        (folder / "scene.toml").write_text(
+            f'closure = "all"\n{named}[surface]\nfile = "z.npy"\npixel_size = ["1 um", "1 um"]\nheight_unit = "m"\nlevel = "mean"\n'
+            f'periodic = true\n[material]\nyoungs_modulus = "{MODULUS * (1 - POISSON**2)} Pa"\npoissons_ratio = {POISSON}\n'
+            f'hardness = "{hardness * MODULUS} Pa"\n[load]\npressure = "{pressure * MODULUS} Pa"\n[output]\nmaps = false\n')
+        start = time.time()
+        subprocess.run([binary, "rough", folder / "scene.toml", "--out", folder / "out", "--quiet"], check=True, capture_output=True)
+        wall = time.time() - start
+        with open(folder / "out/table.csv") as table:
+            return {row["closure"]: row for row in csv.DictReader(table)}, wall
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--sizes", type=int, nargs="+", default=[512, 1024])
+    parser.add_argument("--seeds", type=int, nargs="+", default=[1, 2, 3])
+    parser.add_argument("--loads", type=float, nargs="+", default=[0.002, 0.01], help="p/E*")
+    parser.add_argument("--hardness", type=float, default=0.03, help="H/E* of the saturated comparison")
+    parser.add_argument("--coefficient")
+    parser.add_argument("--binary", default="target/release/asperity")
+    flags = parser.parse_args()
+    print("| map | seed | p/E* | law | A/A0 BEM | closure | A/A0 | over BEM | P_m over BEM | s BEM | s all closures |")
+    print("|-|-|-|-|-|-|-|-|-|-|-|")
+    for n in flags.sizes:
+        for seed in flags.seeds:
+            z = surface(n, seed)
+            for pressure in flags.loads:
+                ours, wall = asperity(flags.binary, z, pressure, flags.hardness, flags.coefficient)
+                for law, hardness, closures in [("elastic", None, ["published", "fitted", "sneddon"]),
+                                                (f"saturated at {flags.hardness} E*", flags.hardness, ["johnson"])]:
+                    area, seconds = solve(z, pressure, hardness)
+                    for closure in (c for c in closures if c in ours):
+                        found = float(ours[closure]["contact_area_ratio"])
+                        print(f"| {n}² | {seed} | {pressure} | {law} | {area:.4f} | {closure} | {found:.4f} | {found / area:.2f} | "
+                              f"{area / found:.2f} | {seconds:.1f} | {wall:.2f} |", flush=True)
+
+
+if __name__ == "__main__":
+    main()
