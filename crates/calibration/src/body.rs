@@ -1,10 +1,9 @@
 //! The mesh of a sharp cone on its substrate, or of the flat body under a cone, and the penalty of its contact.
 
 use crate::case::{Case, Tool};
+use crate::layout::Layout;
 use crate::resolution::Resolution;
-use asperity_mesh::build::{Plan, build};
-use asperity_mesh::profile::{Asperity, Profile, Shape};
-use asperity_mesh::{Edge, ElementKind, Mesh};
+use asperity_mesh::{Edge, Mesh};
 use asperity_solver::material::Metal;
 use asperity_solver::model::ToolContact;
 use asperity_solver::tool::Tool as RigidTool;
@@ -56,31 +55,16 @@ impl Body {
         let radius = expected_ratio(case) / tan;
         let element = radius / r.elements as f64;
         let domain = r.domain * radius;
-        let (profile, height, tool) = match case.tool {
-            Tool::Plane => {
-                let height = r.foot * radius * tan;
-                let shape = Shape::Cone { tan_slope: tan, tip_radius: 0.0 };
-                (vec![Asperity { shape, height, centre: 0.0 }], height, RigidTool::Plane)
-            }
-            Tool::Cone => (Vec::new(), 0.0, RigidTool::Cone { tan_slope: tan, tip_radius: 0.0 }),
+        let columns = (r.core * r.elements as f64).round() as usize;
+        let (cone, tool) = match case.tool {
+            Tool::Plane => ([tan, r.foot * radius * tan], RigidTool::Plane),
+            Tool::Cone => ([0.0; 2], RigidTool::Cone { tan_slope: tan, tip_radius: 0.0 }),
         };
-        let core = (r.core * r.elements as f64).round() * element;
-        let plan = Plan {
-            profile: Profile { asperities: profile },
-            core: [0.0, core],
-            core_depth: r.core_depth * radius,
-            width: [0.0, domain],
-            depth: domain + height,
-            kind: ElementKind::Quad8,
-        };
-        let (row_growth, growth, near) = (r.row_growth, r.growth, element / core);
-        let mesh = build(
-            &plan,
-            |_| element,
-            |depth| element + row_growth * depth,
-            // from elements of the core's size to the growth of the far field
-            |x| x * (near + (growth - near) * (1.0 - core / x)),
-        );
+        // the diagonals on which the shells turn stay steeper than the flank
+        let row_depth = (r.core_depth * radius).max(1.5 * cone[0] * columns as f64 * element);
+        let layout =
+            Layout { element, columns, row_depth, row_growth: r.row_growth, growth: r.growth, domain, cone };
+        let mesh = layout.mesh();
         let held = held(&mesh);
         let metal = Metal { elastic: case.elastic(), hardening: case.hardening() };
         let contact = ToolContact { tool, penalty: expected_pressure(case) / r.penetration };
