@@ -1,1 +1,16 @@
-//! Closed forms with their sources.
+//! Closed forms with their sources, and the bodies on which the solver is held against them.
+//!
+//! The claims are in `tests/`, one a file; what was reached is in `README.md`, in figures that
+//! `examples/convergence.rs` prints. Closed forms: `contact` (elastic), `bar`, `simple_shear`, `thick_wall`,
+//! `plane_field`. Bodies: `bodies`, `single_asperity`. `drive` solves one increment.
+
+pub mod bar;
+pub mod contact;
+pub mod plane_field;
+pub mod simple_shear;
+pub mod thick_wall;
+
+pub mod bodies;
+pub mod single_asperity;
+
+pub mod drive;

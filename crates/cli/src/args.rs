@@ -35,6 +35,17 @@ pub enum Command {
     Calibrate(crate::calibrate::Calibrate),
 }
 
+impl Command {
+    /// Threads that were asked for.
+    pub fn threads(&self) -> Option<u16> {
+        match self {
+            Command::Crush(args) => args.run.threads,
+            Command::Mesh(_) => None,
+            Command::Rough(args) => args.run.threads,
+        }
+    }
+}
+
 /// Arguments of `asperity crush`.
 #[derive(Debug, Args)]
 pub struct Crush {

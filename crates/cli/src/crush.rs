@@ -31,7 +31,7 @@ pub fn crush(args: &Crush) -> Result<(), Failure> {
     let mut observer =
         Observer { scene, folder: &mut folder, series: FieldSeries::default(), failure: None, progress };
     let result = run(scene, mesh, &mut |event| observer.hear(event));
-    let failure = observer.finish();
+    let mut failure = observer.finish();
     let outcome = match result {
         Ok(outcome) => outcome,
         Err(error) => {
@@ -43,7 +43,9 @@ pub fn crush(args: &Crush) -> Result<(), Failure> {
         .as_ref()
         .map(|_| "its fields could not be written".to_string())
         .or_else(|| reason(&outcome, scene));
-    let summary = write_records(&mut folder, scene, &outcome, stopped.as_deref(), start)?;
+    // of two failures to write, the first says more
+    let summary = write_records(&mut folder, scene, &outcome, stopped.as_deref(), start)
+        .map_err(|error| failure.take().unwrap_or(error))?;
     folder.publish()?;
 
     if args.run.json {
@@ -151,18 +153,22 @@ fn write_records(
         folder
             .write("asperities.csv", |out| records::write_asperities(out, symmetry, &outcome.asperities))?;
     }
+    if !outcome.gaps.is_empty() {
+        folder.write("gaps.csv", |out| records::write_gaps(out, &outcome.gaps))?;
+    }
     let plot = records::plot(symmetry, &outcome.rows).map_err(Failure::Unfinished)?;
     folder.write("curve.svg", |out| out.write_all(plot.as_bytes()))?;
     let wall_s = start.elapsed().as_secs_f64();
-    let summary = records::summary_json(&outcome.summary, &resolved(scene), stopped, wall_s)
-        .map_err(|e| Failure::Unfinished(format!("the summary could not be written: {e}")))?;
+    let summary =
+        records::summary_json(&outcome.summary, &outcome.elastic_islands, &resolved(scene), stopped, wall_s)
+            .map_err(|e| Failure::Unfinished(format!("the summary could not be written: {e}")))?;
     folder.write("summary.json", |out| out.write_all(summary.as_bytes()))?;
     Ok(summary)
 }
 
 /// The scene with the numbers that its accuracy level stands for.
 fn resolved(scene: &Scene) -> Scene {
-    let numbers = Discretisation::new(scene.accuracy, &scene.numerics);
+    let numbers = Discretisation::new(scene);
     let numerics = Numerics {
         element: Some(numbers.element),
         elements_in_contact: Some(numbers.elements_in_contact),

@@ -25,6 +25,10 @@ fn main() -> ExitCode {
     let _ = miette::set_hook(Box::new(|_| {
         Box::new(miette::MietteHandlerOpts::new().wrap_lines(false).context_lines(1).build())
     }));
+    if let Some(threads) = cli.command.threads() {
+        // fails only where the pool exists already
+        let _ = rayon::ThreadPoolBuilder::new().num_threads(usize::from(threads)).build_global();
+    }
     let result = match &cli.command {
         Command::Crush(args) => crush::crush(args),
         Command::Mesh(args) => mesh::mesh(args),

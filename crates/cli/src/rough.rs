@@ -65,11 +65,14 @@ fn one_scene(path: &Path, args: &Rough) -> Result<(), Failure> {
     if scene.output.maps {
         outcome.write_maps(&mut folder)?;
     }
+    outcome.write_surface(&mut folder)?;
     let summary = outcome.summary(start.elapsed().as_secs_f64());
     let text = serde_json::to_string_pretty(&summary).map_err(|e| Failure::Unfinished(e.to_string()))?;
     folder.write("summary.json", |out| out.write_all(text.as_bytes()))?;
     let target = folder.publish()?;
-    warnings.iter().for_each(|w| terminal::complain(&format!("warning: {w}")));
+    if !args.run.quiet {
+        warnings.iter().for_each(|w| terminal::complain(&format!("warning: {w}")));
+    }
     if args.run.json {
         terminal::say(&text);
     } else if !args.run.quiet {

@@ -1,5 +1,7 @@
 //! `asperity crush` from a scene to the files of the contract.
 
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
 mod common;
 
 use common::{Place, SCENE};

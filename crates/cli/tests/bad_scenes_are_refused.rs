@@ -1,5 +1,7 @@
 //! Every wrong scene ends with status 2 and an error that shows the line and the allowed range; nothing is written.
 
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
 mod common;
 
 use common::{Place, SCENE};

@@ -1,5 +1,7 @@
 //! `asperity mesh` writes what `asperity crush` and other programs read.
 
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
 mod common;
 
 use common::{Place, SCENE};

@@ -2,6 +2,8 @@
 //!
 //! Needs a Python with the vtk package, `$ASPERITY_PYTHON` or `python3`; says so and passes where there is none.
 
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
 mod common;
 
 use common::{Place, SCENE};

@@ -117,7 +117,7 @@ fn islands_and_cells_hold_the_same_area_and_slope() {
         let n = 137;
         let z = (0..n * 90).map(|i: usize| {
             let (x, y) = ((i % n) as f64, (i / n) as f64);
-            let hole = holes && (i * 7919) % 13 == 0;
+            let hole = holes && (i * 7919).is_multiple_of(13);
             if hole {
                 f64::NAN
             } else {

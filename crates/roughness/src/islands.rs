@@ -6,10 +6,15 @@
 //! 3. Joined runs are one island. A periodic map also joins across its edges, and then each run remembers how many
 //!    periods it lies from its island's first run.
 
+mod joined;
+mod runs;
+
 use crate::cell::{self, Moments};
 use crate::ellipse::Ellipse;
-use crate::height_map::{HeightMap, ROWS_PER_CHUNK};
+use crate::height_map::HeightMap;
+use joined::{Joined, Meeting};
 use rayon::prelude::*;
+use runs::{Cursor, Run, find_runs};
 
 /// A connected part of the surface above the plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,23 +27,6 @@ pub struct Island {
     pub approach: f64,
     /// Ellipse of equal area and equal second moments, where there is one.
     pub ellipse: Option<Ellipse>,
-}
-
-/// Nodes `start..end` of one row, all above the plane.
-#[derive(Clone, Copy, Debug)]
-struct Run {
-    row: u32,
-    start: u32,
-    end: u32,
-    high: f64,
-}
-
-/// Two runs that meet, and how many periods the second lies from where its columns and rows say.
-#[derive(Clone, Copy, PartialEq)]
-struct Meeting {
-    a: u32,
-    b: u32,
-    shift: [i32; 2],
 }
 
 /// A run's island, and how many periods the run lies from the first run of it.
@@ -166,8 +154,8 @@ impl Islands {
         let wrap_row = row + 1 == map.rows();
         let next_row = if wrap_row { 0 } else { row + 1 };
         let (low, high) = (map.row(row), map.row(next_row));
-        let mut below = Cursor::new(self, row);
-        let mut over = Cursor::new(self, next_row);
+        let mut below = Cursor::new(&self.runs, &self.first_run, row);
+        let mut over = Cursor::new(&self.runs, &self.first_run, next_row);
         let cells = map.cell_columns();
         let columns = map.columns();
         let mut column = 0;
@@ -259,7 +247,7 @@ impl Islands {
             let home = Home { island: number[root], shift };
             let target = &mut sums[home.island as usize];
             if ellipses {
-                let d = self.from_origin(run, root, shift, size);
+                let d = self.offset_from(run, root, shift, size);
                 target.moments.add(&sum.moved(d[0], d[1]));
             } else {
                 target.moments.area += sum.area;
@@ -272,7 +260,7 @@ impl Islands {
     }
 
     /// Where the first node of `run` lies from the first node of run `root`, in pixels.
-    fn from_origin(&self, run: usize, root: usize, shift: [i32; 2], size: [i64; 2]) -> [f64; 2] {
+    fn offset_from(&self, run: usize, root: usize, shift: [i32; 2], size: [i64; 2]) -> [f64; 2] {
         let (a, b) = (self.runs[run], self.runs[root]);
         [
             (i64::from(a.start) - i64::from(b.start) + i64::from(shift[0]) * size[0]) as f64,
@@ -338,162 +326,5 @@ fn part_above(corners: &[f64; 4], sides: u8, inverse_pixel: [f64; 2]) -> (f64, f
     } else {
         let m = cell::moments_above(corners, sides, inverse_pixel);
         (m.area, m.slope_area)
-    }
-}
-
-/// Looks up the run that holds a node, for nodes asked from left to right.
-struct Cursor<'a> {
-    runs: &'a [Run],
-    number: usize,
-    at: usize,
-}
-
-impl<'a> Cursor<'a> {
-    fn new(islands: &'a Islands, row: usize) -> Cursor<'a> {
-        let (first, end) = (islands.first_run[row], islands.first_run[row + 1]);
-        Cursor { runs: &islands.runs[first..end], number: first, at: 0 }
-    }
-
-    /// The first cell, from `column` on, with a corner in a run of this row.
-    fn reach(&self, column: usize) -> Option<usize> {
-        self.runs[self.at..]
-            .iter()
-            .find(|run| run.end as usize > column)
-            .map(|run| (run.start as usize).saturating_sub(1).max(column))
-    }
-
-    /// The run that holds node `column`.
-    fn at(&mut self, column: usize) -> Option<u32> {
-        while self.runs.get(self.at).is_some_and(|run| run.end as usize <= column) {
-            self.at += 1;
-        }
-        let run = self.runs.get(self.at)?;
-        (run.start as usize <= column).then_some((self.number + self.at) as u32)
-    }
-
-    /// The run that holds node 0.
-    fn first(&self) -> Option<u32> {
-        self.runs.first().filter(|run| run.start == 0).map(|_| self.number as u32)
-    }
-}
-
-/// All runs above the plane, and the number of the first run of each row (with one more at the end).
-fn find_runs(map: &HeightMap, plane: f64) -> (Vec<Run>, Vec<usize>) {
-    let parts: Vec<(Vec<Run>, Vec<usize>)> = (0..map.rows().div_ceil(ROWS_PER_CHUNK))
-        .into_par_iter()
-        .map(|chunk| {
-            let first = chunk * ROWS_PER_CHUNK;
-            let mut runs = Vec::new();
-            let mut counts = Vec::with_capacity(ROWS_PER_CHUNK);
-            for row in first..(first + ROWS_PER_CHUNK).min(map.rows()) {
-                let before = runs.len();
-                runs_of_row(map, row, plane, &mut runs);
-                counts.push(runs.len() - before);
-            }
-            (runs, counts)
-        })
-        .collect();
-    let mut first_run = Vec::with_capacity(map.rows() + 1);
-    let mut total = 0;
-    for count in parts.iter().flat_map(|(_, counts)| counts) {
-        first_run.push(total);
-        total += count;
-    }
-    first_run.push(total);
-    let mut runs = Vec::with_capacity(total);
-    parts.iter().for_each(|(part, _)| runs.extend_from_slice(part));
-    (runs, first_run)
-}
-
-fn runs_of_row(map: &HeightMap, row: usize, plane: f64, runs: &mut Vec<Run>) {
-    let heights = map.row(row);
-    let mut column = 0;
-    while let Some(step) = heights[column..].iter().position(|z| *z > plane) {
-        let start = column + step;
-        let mut end = start + 1;
-        let mut high = heights[start];
-        // with holes in the map, two nodes are neighbours only if a used cell holds both
-        while end < heights.len()
-            && heights[end] > plane
-            && (map.missing() == 0 || edge_is_used(map, row, end))
-        {
-            high = high.max(heights[end]);
-            end += 1;
-        }
-        runs.push(Run { row: row as u32, start: start as u32, end: end as u32, high });
-        column = end;
-    }
-}
-
-/// Whether a cell with four measured corners holds the edge from node `column - 1` to node `column` of `row`.
-fn edge_is_used(map: &HeightMap, row: usize, column: usize) -> bool {
-    let measured = |row: usize| {
-        let heights = map.row(row);
-        !heights[column - 1].is_nan() && !heights[column].is_nan()
-    };
-    let before = if row > 0 { Some(row - 1) } else { map.periodic().then(|| map.rows() - 1) };
-    let after = if row + 1 < map.rows() { Some(row + 1) } else { map.periodic().then_some(0) };
-    measured(row) && (before.is_some_and(measured) || after.is_some_and(measured))
-}
-
-/// Runs joined into islands: a forest whose links know how many periods lie between its ends.
-struct Joined {
-    parent: Vec<u32>,
-    shift: Vec<[i32; 2]>,
-    /// Roots of islands that meet themselves across the edges: they have no extent.
-    endless: Vec<bool>,
-}
-
-impl Joined {
-    fn new(runs: usize, meetings: &[Meeting]) -> Joined {
-        let mut joined = Joined {
-            parent: (0..runs as u32).collect(),
-            shift: vec![[0, 0]; runs],
-            endless: vec![false; runs],
-        };
-        meetings.iter().for_each(|meeting| joined.join(meeting));
-        joined
-    }
-
-    /// The root of a run, and the periods from the root to the run.
-    fn root(&self, run: usize) -> (usize, [i32; 2]) {
-        let (mut at, mut shift) = (run, [0, 0]);
-        while self.parent[at] as usize != at {
-            shift = [shift[0] + self.shift[at][0], shift[1] + self.shift[at][1]];
-            at = self.parent[at] as usize;
-        }
-        (at, shift)
-    }
-
-    /// The same, linking every run on the way to the root.
-    fn root_and_shorten(&mut self, run: usize) -> (usize, [i32; 2]) {
-        let (root, total) = self.root(run);
-        let (mut at, mut left) = (run, total);
-        while at != root {
-            let (parent, step) = (self.parent[at] as usize, self.shift[at]);
-            self.parent[at] = root as u32;
-            self.shift[at] = left;
-            left = [left[0] - step[0], left[1] - step[1]];
-            at = parent;
-        }
-        (root, total)
-    }
-
-    fn join(&mut self, meeting: &Meeting) {
-        let (a, from_a) = self.root_and_shorten(meeting.a as usize);
-        let (b, from_b) = self.root_and_shorten(meeting.b as usize);
-        // periods from root a to root b
-        let gap = [from_a[0] + meeting.shift[0] - from_b[0], from_a[1] + meeting.shift[1] - from_b[1]];
-        if a == b {
-            self.endless[a] |= gap != [0, 0];
-        } else if a < b {
-            self.parent[b] = a as u32;
-            self.shift[b] = gap;
-            self.endless[a] |= self.endless[b];
-        } else {
-            self.parent[a] = b as u32;
-            self.shift[a] = [-gap[0], -gap[1]];
-            self.endless[b] |= self.endless[a];
-        }
     }
 }

@@ -1,18 +1,18 @@
 //! What a rough scene may hold, which values make sense, and the surface it describes.
 
+mod prepare;
+
+pub use prepare::Prepared;
+
 use crate::closure::{Closure, Metal};
-use crate::contact::{Load, Surface};
-use crate::filter;
-use crate::format::{self, Measured, Spacing};
-use crate::generate::{self, Grid, Kind, KindName, Target};
-use crate::height_map::{Extent, HeightMap};
-use crate::level::{self, Level};
-use crate::numbers::Roughness;
+use crate::contact::Load;
+use crate::generate::{Grid, Kind, KindName, Target};
+use crate::level::Level;
 use crate::pressure::Profile;
 use asperity_law::units::{Length, Stress};
 use asperity_law::{Elastic, HardeningLaw};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use thiserror::Error;
 
 /// A value of a scene that makes no sense.
@@ -240,11 +240,24 @@ pub struct Output {
     /// Pictures and .vti of pressure and contact.
     #[serde(default = "yes")]
     pub maps: bool,
+    /// The surface as pressed (levelled, filtered), as surface.x3p or surface.npy.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub surface: Option<SurfaceFormat>,
+}
+
+/// Formats in which a surface is written; both in metres.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum SurfaceFormat {
+    /// ISO 25178-72.
+    X3p,
+    /// NumPy array of f64, axis 0 = y.
+    Npy,
 }
 
 impl Default for Output {
     fn default() -> Self {
-        Output { maps: true }
+        Output { maps: true, surface: None }
     }
 }
 
@@ -426,256 +439,5 @@ impl GenerateScene {
     }
 }
 
-/// A surface ready for contact.
-pub struct Prepared {
-    /// Levelled and filtered.
-    pub map: HeightMap,
-    /// Points missing before any were filled.
-    pub missing: usize,
-    /// Extent of the map.
-    pub extent: Extent,
-    /// Roughness numbers of the map.
-    pub roughness: Roughness,
-}
-
-impl Prepared {
-    /// The surface to press.
-    pub fn surface(&self) -> Surface<'_> {
-        Surface { map: &self.map, extent: self.extent, roughness: self.roughness }
-    }
-}
-
-impl SurfaceScene {
-    /// Reads or makes the surface and prepares it: holes, S-filter, levelling, L-filter, in this order.
-    ///
-    /// `resolve` turns a path of the scene into one that can be opened.
-    pub fn prepare(&self, resolve: impl Fn(&Path) -> PathBuf) -> Result<Prepared, SceneError> {
-        let at = |path: &'static str| move |e: String| SceneError { path: path.into(), message: e };
-        let (map, source) = match (&self.file, &self.generate) {
-            (Some(file), _) => {
-                let path = resolve(file);
-                let measured = format::read(&path)
-                    .map_err(|e| at("surface.file")(format!("{}: {e}", path.display())))?;
-                (self.in_metres(measured)?, "surface.file")
-            }
-            (None, Some(made)) => {
-                let (kind, grid, target) = made.request()?;
-                let map = generate::generate(kind, &grid, target)
-                    .map_err(|e| at("surface.generate")(e.to_string()))?;
-                (map, "surface.generate")
-            }
-            (None, None) => return error("surface", "name a file, or add a [surface.generate] table"),
-        };
-        let mut map = map.with_periodic(self.periodic);
-        let missing = map.missing();
-        map.extent().map_err(|e| at(source)(e.to_string())).or_else(|e| match self.missing {
-            Missing::Fill if missing < map.heights().len() => Ok(Extent { low: 0.0, high: 0.0, cells: 0 }),
-            _ => Err(e),
-        })?;
-        if self.missing == Missing::Fill {
-            map = filter::fill(&map).map_err(|e| at("surface.missing")(e.to_string()))?;
-        }
-        if let Some(cutoff) = self.s_filter {
-            map = filter::s_filter(&map, cutoff.0).map_err(|e| at("surface.s_filter")(e.to_string()))?;
-        }
-        let default = if self.file.is_some() { Level::Plane } else { Level::None };
-        map = level::level(map, self.level.unwrap_or(default));
-        if let Some(cutoff) = self.l_filter {
-            map = filter::l_filter(&map, cutoff.0).map_err(|e| at("surface.l_filter")(e.to_string()))?;
-        }
-        let extent = map.extent().map_err(|e| at(source)(e.to_string()))?;
-        let roughness = Roughness::of(&map, &extent);
-        if ![roughness.sa, roughness.sdq, roughness.mean].iter().all(|v| v.is_finite()) {
-            return error(source, "the heights are too large to compute with: check height_unit");
-        }
-        Ok(Prepared { map, missing, extent, roughness })
-    }
-
-    /// The file's heights in metres, its units checked against those of the scene.
-    fn in_metres(&self, measured: Measured) -> Result<HeightMap, SceneError> {
-        let same = |a: f64, b: f64| (a / b - 1.0).abs() <= 1e-4;
-        let unit = match (measured.height_unit, &self.height_unit) {
-            (Some(file), Some(scene)) if !same(file, scene.metres) && !self.override_file => {
-                return error(
-                    "surface.height_unit",
-                    format!(
-                        "the file has its heights in units of {file} m, not {}: remove height_unit, or set override = true",
-                        scene.name
-                    ),
-                );
-            }
-            (_, Some(scene)) => scene.metres,
-            (Some(file), None) => file,
-            (None, None) => {
-                return error(
-                    "surface",
-                    "the file does not name the unit of its heights: add height_unit = \"um\"",
-                );
-            }
-        };
-        let said = match measured.spacing {
-            Spacing::Unknown => None,
-            Spacing::Metres(p) => Some(p),
-            Spacing::HeightUnits(p) => Some(p.map(|v| v * unit)),
-        };
-        let pixel = match (said, self.pixel_size.map(|p| p.map(|l| l.0))) {
-            (Some(file), Some(scene))
-                if !(same(file[0], scene[0]) && same(file[1], scene[1])) && !self.override_file =>
-            {
-                return error(
-                    "surface.pixel_size",
-                    format!(
-                        "the file has pixels of {:?} x {:?} m, the scene says {:?} x {:?} m: remove pixel_size, or set override = true",
-                        file[0], file[1], scene[0], scene[1]
-                    ),
-                );
-            }
-            (_, Some(scene)) => scene,
-            (Some(file), None) => file,
-            (None, None) => {
-                return error(
-                    "surface",
-                    "the file does not say how far its points are apart: add pixel_size = [\"1 um\", \"1 um\"]",
-                );
-            }
-        };
-        let mut heights = measured.heights;
-        if unit != 1.0 {
-            heights.iter_mut().for_each(|z| *z *= unit);
-        }
-        HeightMap::new(measured.columns, measured.rows, pixel, heights)
-            .map_err(|e| SceneError { path: "surface.file".into(), message: e.to_string() })
-    }
-}
-
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    const GOOD: &str = r#"
-        closure = "published"
-        [surface]
-        file = "z.npy"
-        pixel_size = ["1 um", "2 um"]
-        height_unit = "nm"
-        level = "none"
-        [material]
-        youngs_modulus = "210 GPa"
-        poissons_ratio = 0.3
-        hardness = "1280 MPa"
-        [load]
-        pressure = "200 MPa"
-    "#;
-
-    fn read(text: &str) -> Result<Scene, String> {
-        let scene: Scene = toml::from_str(text).map_err(|e| e.to_string())?;
-        scene.validate().map_err(|e| e.to_string())?;
-        Ok(scene)
-    }
-
-    #[test]
-    fn a_scene_reads_and_is_written_back() {
-        let scene = read(GOOD).unwrap();
-        assert_eq!(toml::from_str::<Scene>(&toml::to_string(&scene).unwrap()).unwrap(), scene);
-    }
-
-    #[test]
-    fn a_wrong_scene_is_refused_where_it_is_wrong() {
-        for (old, new, place) in [
-            ("\"210 GPa\"", "\"-210 GPa\"", "material.youngs_modulus"),
-            ("0.3", "0.5", "material.poissons_ratio"),
-            ("0.3", "nan", "material.poissons_ratio"),
-            ("\"1280 MPa\"", "\"1280 GPa\"", "material.hardness"),
-            ("\"200 MPa\"", "\"-1 MPa\"", "load.pressure"),
-            ("pressure = \"200 MPa\"", "", "load:"),
-            ("pressure = ", "separation = \"1 um\"\npressure = ", "load.separation"),
-            ("\"1 um\", \"2 um\"", "\"0 um\", \"2 um\"", "surface.pixel_size"),
-            ("file = \"z.npy\"", "", "surface:"),
-            ("level = ", "s_filter = \"0 um\"\nlevel = ", "surface.s_filter"),
-            ("level = ", "s_filter = \"9 um\"\nl_filter = \"8 um\"\nlevel = ", "surface.s_filter"),
-            ("\"nm\"", "\"parsec\"", "parsec"),
-            ("\"none\"", "\"nothing\"", "nothing"),
-            ("\"published\"", "\"hertz\"", "hertz"),
-            ("closure", "colour = 1\nclosure", "colour"),
-        ] {
-            let message = read(&GOOD.replacen(old, new, 1)).unwrap_err();
-            assert!(message.contains(place), "{new}: {message}");
-        }
-    }
-
-    fn generated(table: &str) -> Result<Scene, String> {
-        let surface =
-            format!("[surface.generate]\nsize = [\"100 um\", \"100 um\"]\npixels = [64, 64]\n{table}\n");
-        let (head, rest) = GOOD.split_once("[surface]").unwrap();
-        let (_, tail) = rest.split_once("[material]").unwrap();
-        read(&format!("{head}{surface}[material]{tail}"))
-    }
-
-    #[test]
-    fn a_generated_surface_needs_what_its_kind_has() {
-        assert!(generated("kind = \"sanded\"\nra = \"1 um\"\nmean_slope_deg = 8").is_ok());
-        assert!(
-            generated(
-                "kind = \"self-affine\"\nra = \"1 um\"\nhurst = 0.8\nrolloff = \"50 um\"\ncutoff = \"10 um\""
-            )
-            .is_ok()
-        );
-        for bad in [
-            "kind = \"sanded\"",
-            "kind = \"sanded\"\nra = \"0 um\"",
-            "kind = \"sanded\"\nmean_slope_deg = 90",
-            "kind = \"sanded\"\nra = \"1 um\"\nhurst = 0.8",
-            "kind = \"self-affine\"\nra = \"1 um\"\nhurst = 0.8",
-            "kind = \"self-affine\"\nra = \"1 um\"\nhurst = 1.8\nrolloff = \"50 um\"\ncutoff = \"10 um\"",
-            "kind = \"self-affine\"\nra = \"1 um\"\nmean_slope_deg = 3\nhurst = 0.8\nrolloff = \"50 um\"\ncutoff = \"10 um\"",
-        ] {
-            assert!(generated(bad).is_err(), "{bad}");
-        }
-    }
-
-    fn surface(text: &str) -> SurfaceScene {
-        toml::from_str(text).unwrap()
-    }
-
-    #[test]
-    fn units_and_pixels_are_demanded_and_contradictions_refused() {
-        let folder = tempfile::tempdir().unwrap();
-        let resolve = |p: &Path| folder.path().join(p);
-        let heights: Vec<f64> = (0..25).map(|i| f64::from(i * i % 7)).collect();
-        format::write_npy(&resolve(Path::new("z.npy")), 5, 5, &heights).unwrap();
-        format::write_x3p(&resolve(Path::new("z.x3p")), 5, 5, [1e-6, 1e-6], &heights).unwrap();
-        let unit = "height_unit = \"um\"\n";
-        let pixel = "pixel_size = [\"2 um\", \"2 um\"]\n";
-        for (text, place) in [
-            ("file = \"z.npy\"\n".to_string(), "height_unit"),
-            (format!("file = \"z.npy\"\n{unit}"), "pixel_size"),
-            (format!("file = \"z.x3p\"\n{unit}"), "surface.height_unit"),
-            (format!("file = \"z.x3p\"\n{pixel}"), "surface.pixel_size"),
-            ("file = \"none.npy\"\n".into(), "none.npy"),
-        ] {
-            let message = surface(&text).prepare(resolve).err().unwrap().to_string();
-            assert!(message.contains(place), "{message}");
-        }
-        let forced = surface(&format!("file = \"z.x3p\"\n{unit}{pixel}override = true\nlevel = \"none\""))
-            .prepare(resolve)
-            .unwrap();
-        assert_eq!((forced.map.pixel(), forced.map.heights()[2]), ([2e-6, 2e-6], 4e-6));
-        assert!(surface(&format!("file = \"z.npy\"\n{unit}{pixel}")).prepare(resolve).is_ok());
-    }
-
-    #[test]
-    fn a_map_without_a_height_is_refused_and_one_with_few_is_filled() {
-        let folder = tempfile::tempdir().unwrap();
-        let resolve = |p: &Path| folder.path().join(p);
-        let rest = "pixel_size = [\"2 um\", \"2 um\"]\nheight_unit = \"um\"\nfile = \"z.npy\"\n";
-        for (measured, missing, good) in
-            [(0, "fill", false), (0, "exclude", false), (1, "exclude", false), (1, "fill", true)]
-        {
-            let mut heights = vec![f64::NAN; 16];
-            heights[..measured].fill(1.0);
-            format::write_npy(&resolve(Path::new("z.npy")), 4, 4, &heights).unwrap();
-            let answer = surface(&format!("{rest}missing = \"{missing}\"")).prepare(resolve);
-            assert_eq!(answer.is_ok(), good, "{measured} {missing}");
-        }
-    }
-}
+mod tests;

@@ -8,7 +8,7 @@ use crate::model::{Counters, Model, ToolContact};
 use crate::newton::Settings;
 use crate::record::{AsperityRow, CurveRow, GapRow, IslandRow, Phase, Summary};
 use crate::scene::{ContactMethod, Scene, SceneError, Target};
-use crate::stepping::{Goal, Increment, Path, Stop};
+use crate::stepping::{Goal, Increment, Path, Stop, schedule};
 use asperity_mesh::Mesh;
 use std::ops::ControlFlow;
 
@@ -115,7 +115,9 @@ pub fn run(
         0.9 * numbers.penetration * problem.depth
     };
     let mut stopped = path
-        .load(goal, numbers.steps, expected, &mut |model, increment| log.record(model, increment, observer))
+        .load(goal, &schedule(numbers.steps, numbers.geometric_from), expected, &mut |model, increment| {
+            log.record(model, increment, observer)
+        })
         .err();
     log.peak_reached(&goal, &problem, observer, &path.model, stopped.is_none());
     if stopped.is_none() {
@@ -164,6 +166,8 @@ impl Units {
 /// Collects rows and hands out events.
 struct Log<'p> {
     problem: &'p Problem,
+    /// Whether the program sized the substrate.
+    automatic: bool,
     units: Units,
     interval: usize,
     planned: usize,
@@ -201,6 +205,7 @@ impl<'p> Log<'p> {
         };
         Log {
             problem,
+            automatic: scene.mesh.is_none() && scene.substrate.as_ref().is_none_or(|s| s.depth.is_none()),
             units,
             interval: scene.output.interval(),
             planned: problem.numbers.steps + unload,
@@ -397,7 +402,12 @@ impl<'p> Log<'p> {
             plastic_work: peak.plastic_work,
             elastic_fraction: elastic_work.map(|w| w / total_work),
             energy_balance_error: balance_error(&self.rows),
-            estimated_error: f64::NAN,
+            estimated_error: crate::estimate::force_error(
+                self.problem,
+                peak.force / u.force,
+                peak.depth / u.length,
+                self.automatic,
+            ),
             elements: self.problem.mesh.cell_count(),
             dofs: self.unknowns,
             increments: self.rows.len() - 1,

@@ -5,7 +5,7 @@
 use crate::kinematics::Symmetry;
 use crate::material::Metal;
 use crate::scene::{
-    Accuracy, AsperityForm, ContactMethod, ElementChoice, Lateral, Numerics, Scene, SceneError, Target,
+    Accuracy, AsperityForm, ContactMethod, ElementChoice, Lateral, Scene, SceneError, Target,
     ToolForm,
 };
 use crate::tool::Tool;
@@ -23,6 +23,8 @@ pub struct Discretisation {
     pub elements_in_contact: usize,
     /// Load steps to the peak.
     pub steps: usize,
+    /// Depth at which geometric steps begin, as a share of the peak.
+    pub geometric_from: f64,
     /// Steps back to zero force.
     pub unload_steps: usize,
     /// Penalty or augmented Lagrangian.
@@ -38,20 +40,25 @@ pub struct Discretisation {
 }
 
 impl Discretisation {
-    /// What the level `accuracy` uses where `numerics` is silent.
-    pub fn new(accuracy: Accuracy, numerics: &Numerics) -> Discretisation {
+    /// What the accuracy level of `scene` uses where its numerics are silent.
+    pub fn new(scene: &Scene) -> Discretisation {
+        let (accuracy, numerics) = (scene.accuracy, &scene.numerics);
         let (elements, steps, unload_steps, tolerance, domain) = match accuracy {
             Accuracy::Draft => (10, 24, 6, 1e-5, 60.0),
             Accuracy::Standard => (18, 64, 10, 1e-7, 100.0),
             Accuracy::Reference => (36, 200, 40, 1e-9, 800.0),
         };
         let element = numerics.element.unwrap_or(ElementChoice::Q8r);
+        // the work of ridges grows with h², that of a cone with h³: their early increments weigh more
+        let ridges = scene.symmetry == crate::scene::Symmetry::PlaneStrain || scene.asperity.len() > 1;
+        let (steps, geometric_from) = if ridges { (steps + steps / 3, 0.003) } else { (steps, 0.02) };
         // a linear element is as exact as a quadratic one of twice its size
         let elements = if element == ElementChoice::Q4 { 2 * elements } else { elements };
         Discretisation {
             element,
             elements_in_contact: numerics.elements_in_contact.unwrap_or(elements),
             steps: numerics.steps.unwrap_or(steps),
+            geometric_from,
             unload_steps,
             contact: numerics.contact.unwrap_or(ContactMethod::Penalty),
             penetration: numerics.penetration.unwrap_or(0.004),
@@ -96,7 +103,7 @@ pub struct Problem {
 /// # Errors
 /// A scene that cannot be meshed: path and reason.
 pub fn prepare(scene: &Scene, mesh: Option<Mesh>) -> Result<Problem, SceneError> {
-    let numbers = Discretisation::new(scene.accuracy, &scene.numerics);
+    let numbers = Discretisation::new(scene);
     let elastic = scene.material.elastic();
     let modulus = elastic.youngs_modulus;
     let symmetry = match scene.symmetry {

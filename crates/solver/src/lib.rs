@@ -45,6 +45,8 @@ pub mod discretise;
 
 pub mod stepping;
 
+pub mod estimate;
+
 pub mod crush;
 
 pub mod record;

@@ -533,6 +533,26 @@ impl<'m> Model<'m> {
         &self.internal
     }
 
+    /// Out-of-balance forces at the iterate, by the numbers of the unknowns.
+    pub fn residual(&self) -> &[f64] {
+        &self.residual
+    }
+
+    /// Stiffness at the iterate: lower triangle, by the numbers of the unknowns.
+    pub fn stiffness(&self) -> &sprs::CsMat<f64> {
+        &self.stiffness.matrix
+    }
+
+    /// Numbers of the displacement components of each node, [`FIXED`] where held.
+    pub fn numbers(&self) -> &[[u32; 2]] {
+        &self.dofs.number
+    }
+
+    /// Whether each point flows at the iterate.
+    pub fn flowing_points(&self) -> impl Iterator<Item = bool> + '_ {
+        self.new.iter().zip(&self.start).map(|(new, start)| new.plastic_strain > start.plastic_strain)
+    }
+
     /// The metal.
     pub fn metal(&self) -> &Metal {
         &self.metal

@@ -18,10 +18,6 @@ const MAX_AREA_GROWTH: f64 = 2.5;
 /// iterations, 1 saves less because it overshoots where the contact front moves from element to element.
 const GUESS: f64 = 0.7;
 
-/// Depth at which geometric increments begin, as a share of the peak: below it the contact is smaller than the mesh
-/// resolves, and three uniform increments lead there.
-const GEOMETRIC_FROM: f64 = 0.02;
-
 /// One converged increment, dimensionless.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Increment {
@@ -226,11 +222,11 @@ impl<'m> Path<'m> {
         }
     }
 
-    /// Loads to `goal` in about `steps` increments; `penetration` is the expected one at the peak.
+    /// Loads to `goal` along `fractions` (see [`schedule`]); `penetration` is the expected one at the peak.
     pub fn load(
         &mut self,
         goal: Goal,
-        steps: usize,
+        fractions: &[f64],
         penetration: f64,
         observer: &mut Observer<'_>,
     ) -> Result<(), Stop> {
@@ -239,7 +235,6 @@ impl<'m> Path<'m> {
             Goal::Force { expected_depth, limit, .. } => (expected_depth, limit),
         };
         let mut expected = penetration;
-        let fractions = schedule(steps);
         let growth =
             fractions.last().copied().unwrap_or(1.0) / fractions.iter().rev().nth(1).copied().unwrap_or(0.5);
         let mut index = 0;
@@ -330,15 +325,15 @@ impl<'m> Path<'m> {
 
 /// Depths of the increments as shares of the peak, the last one 1.
 ///
-/// Three uniform increments to [`GEOMETRIC_FROM`], then geometric ones: the error of an increment depends on the
-/// ratio of the depths at its ends.
-pub fn schedule(steps: usize) -> Vec<f64> {
+/// Three uniform increments to `start`, then geometric ones: the error of an increment depends on the ratio of the
+/// depths at its ends, and below `start` the work is too small to matter.
+pub fn schedule(steps: usize, start: f64) -> Vec<f64> {
     if steps < 8 {
         return (1..=steps).map(|i| i as f64 / steps as f64).collect();
     }
     let uniform = 3;
     let geometric = steps - uniform;
-    let start = (1..=uniform).map(|i| GEOMETRIC_FROM * i as f64 / uniform as f64);
-    let rest = (1..=geometric).map(|i| GEOMETRIC_FROM.powf(1.0 - i as f64 / geometric as f64));
-    start.chain(rest).collect()
+    let first = (1..=uniform).map(|i| start * i as f64 / uniform as f64);
+    let rest = (1..=geometric).map(|i| start.powf(1.0 - i as f64 / geometric as f64));
+    first.chain(rest).collect()
 }

@@ -1,7 +1,7 @@
 //! `summary.json`.
 
-use super::{MICROMETRE, area_unit, energy_unit, force_unit, stiffness_unit};
-use asperity_solver::record::Summary;
+use super::{MEGAPASCAL, MICROMETRE, area_unit, energy_unit, force_unit, stiffness_unit};
+use asperity_solver::record::{IslandRow, Summary};
 use asperity_solver::scene::{Scene, Symmetry};
 use serde::ser::{Serialize, SerializeMap, Serializer};
 use serde_json::{Value, json};
@@ -21,12 +21,13 @@ impl Serialize for Entries {
 
 /// The summary as indented JSON. A number that does not exist (no unloading, not reached, not finite) is `null`.
 ///
-/// `scene` is the scene as resolved, `stopped` why the run ended early, `wall_s` its wall time in seconds.
+/// `islands` are the regions that never yielded, `scene` is the scene as resolved, `stopped` why the run ended early, `wall_s` its wall time in seconds.
 ///
 /// # Errors
 /// A scene that JSON cannot hold.
 pub fn summary_json(
     summary: &Summary,
+    islands: &[IslandRow],
     scene: &Scene,
     stopped: Option<&str>,
     wall_s: f64,
@@ -54,6 +55,7 @@ pub fn summary_json(
         ("increments".into(), json!(summary.increments)),
         ("newton_iterations".into(), json!(summary.newton_iterations)),
         ("cutbacks".into(), json!(summary.cutbacks)),
+        ("elastic_islands".into(), islands.iter().map(island).collect()),
         ("wall_s".into(), json!(wall_s)),
         ("peak_memory_MB".into(), json!(peak_memory_mb())),
         ("scene".into(), serde_json::to_value(scene)?),
@@ -63,6 +65,17 @@ pub fn summary_json(
         entries.insert(0, ("stopped".into(), json!(reason)));
     }
     serde_json::to_string_pretty(&Entries(entries)).map(|text| text + "\n")
+}
+
+/// A region that never yielded: its centroid and area before the crush, and whether it is a leak path.
+fn island(row: &IslandRow) -> Value {
+    json!({
+        "place_um": row.place.map(|x| x / MICROMETRE),
+        "area_um2": row.area / (MICROMETRE * MICROMETRE),
+        "mean_pressure_MPa": row.mean_pressure / MEGAPASCAL,
+        "reaches_substrate": row.reaches_substrate,
+        "reaches_surface": row.reaches_surface,
+    })
 }
 
 /// Largest resident memory of this process so far, in MB of 10⁶ bytes; `None` where the system does not say.

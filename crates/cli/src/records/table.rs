@@ -1,7 +1,7 @@
-//! `curve.csv` and `asperities.csv`.
+//! `curve.csv`, `asperities.csv` and `gaps.csv`.
 
 use super::{MEGAPASCAL, MICROMETRE, area_unit, energy_unit, force_unit};
-use asperity_solver::record::{AsperityRow, CurveRow, Phase};
+use asperity_solver::record::{AsperityRow, CurveRow, GapRow, Phase};
 use asperity_solver::scene::Symmetry;
 use std::io::{self, Write};
 
@@ -71,6 +71,20 @@ pub fn write_asperities(out: &mut dyn Write, symmetry: Symmetry, rows: &[Asperit
         ]
         .map(number);
         writeln!(out, "{},{},{},{}", row.increment, phase_name(row.phase), row.asperity, values.join(","))?;
+    }
+    Ok(())
+}
+
+/// Writes the untouched stretches of surface between contacts: where they are, how wide and how high.
+///
+/// # Errors
+/// A writer that fails.
+pub fn write_gaps(out: &mut dyn Write, rows: &[GapRow]) -> io::Result<()> {
+    writeln!(out, "increment,phase,depth_um,left_um,right_um,width_um,height_um")?;
+    for row in rows {
+        let lengths = [row.depth, row.left, row.right, row.right - row.left, row.height];
+        let lengths = lengths.map(|v| number(v / MICROMETRE));
+        writeln!(out, "{},{},{}", row.increment, phase_name(row.phase), lengths.join(","))?;
     }
     Ok(())
 }

@@ -6,8 +6,8 @@ use super::run::Pressed;
 use crate::chart::{self, Chart, Series};
 use crate::failure::Failure;
 use crate::folder::Folder;
-use asperity_roughness::format::{CellArray, write_vti};
-use asperity_roughness::scene::{Prepared, Scene};
+use asperity_roughness::format::{CellArray, write_npy, write_vti, write_x3p};
+use asperity_roughness::scene::{Prepared, Scene, SurfaceFormat};
 use serde_json::{Value, json};
 
 const MICROMETRE: f64 = 1e-6;
@@ -149,6 +149,22 @@ impl Outcome<'_> {
             y_label: format!("contact area per step of {width:.2} (%)"),
             series: series.collect(),
         }
+    }
+
+    /// The surface as pressed, where the scene asks for it.
+    pub fn write_surface(&self, folder: &mut Folder) -> Result<(), Failure> {
+        let map = &self.prepared.map;
+        let Some(format) = self.scene.output.surface else { return Ok(()) };
+        let (columns, rows) = (map.columns(), map.rows());
+        let file = folder.path(match format {
+            SurfaceFormat::X3p => "surface.x3p",
+            SurfaceFormat::Npy => "surface.npy",
+        })?;
+        match format {
+            SurfaceFormat::X3p => write_x3p(&file, columns, rows, map.pixel(), map.heights()),
+            SurfaceFormat::Npy => write_npy(&file, columns, rows, map.heights()),
+        }
+        .map_err(|e| Failure::disk(&file, e))
     }
 
     /// Pictures and .vti of every closure.

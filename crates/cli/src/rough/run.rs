@@ -69,7 +69,7 @@ pub fn press_all(
             {
                 warnings.push(format!("skipped: {e}"));
             }
-            Err(e) => return Err(("load", e.to_string())),
+            Err(e) => return Err(("load.pressure", e.to_string())),
         }
     }
     if pressed.is_empty() {

@@ -99,7 +99,7 @@ fn scene(row: &Printed, seed: u64) -> Scene {
             hardening_law: None,
         },
         load: LoadScene { pressure: Some(Stress(NOMINAL * 1e6)), separation: None, unload: true },
-        output: Output { maps: false },
+        output: Output { maps: false, surface: None },
     }
 }
 

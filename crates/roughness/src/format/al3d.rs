@@ -34,7 +34,7 @@ pub(super) fn read(path: &Path) -> Result<Measured, ReadError> {
     };
     let whole = |name: &'static str| -> Result<u64, ReadError> {
         let value = number(name)?;
-        if value >= 0.0 && value <= 1e15 && value.fract() == 0.0 {
+        if (0.0..=1e15).contains(&value) && value.fract() == 0.0 {
             return Ok(value as u64);
         }
         let allowed = "it must be a whole number, not negative";

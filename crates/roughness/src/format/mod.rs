@@ -123,12 +123,15 @@ fn positive(format: &'static str, name: &'static str, value: f64) -> Result<f64,
     }
 }
 
+/// What reads one format.
+type Reader = fn(&Path) -> Result<Measured, ReadError>;
+
 /// Reads a surface file, told apart by its first bytes, else by its name.
 pub fn read(path: &Path) -> Result<Measured, ReadError> {
     let mut start = Vec::new();
     File::open(path)?.take(16).read_to_end(&mut start)?;
     let extension = path.extension().and_then(|e| e.to_str()).unwrap_or("").to_ascii_lowercase();
-    let known: [(&[u8], fn(&Path) -> Result<Measured, ReadError>); 10] = [
+    let known: [(&[u8], Reader); 10] = [
         (b"\x93NUMPY", npy::read),
         (b"PK\x03\x04", x3p::read),
         (b"DIGITAL SURF", sur::read),

@@ -91,7 +91,7 @@ fn ascii(text: &str) -> Result<Measured, ReadError> {
     };
     let size = |name: &'static str| {
         value(name).and_then(|v| {
-            if v >= 1.0 && v < 1e9 && v.fract() == 0.0 {
+            if (1.0..1e9).contains(&v) && v.fract() == 0.0 {
                 Ok(v as u64)
             } else {
                 Err(header_error(name, v.to_string(), "it must be a whole number of points"))

@@ -1,0 +1,224 @@
+//! Prints the convergence of the single asperity as markdown tables: mesh, step, penalty and domain, both elements, and
+//! what the three levels of accuracy reach. The tables of `verification/README.md` are this output.
+//!
+//! `cargo run --release -p asperity-verification --example convergence` (about ten minutes of two
+//! cores); with the argument `energy` only the energy balance.
+
+// a program whose output is the point, on a committed scene
+#![allow(clippy::print_stdout, clippy::expect_used)]
+
+use asperity_solver::crush::Outcome;
+use asperity_solver::scene::{Accuracy, ElementChoice, Scene};
+use asperity_verification::contact::punch_stiffness;
+use asperity_verification::single_asperity::{Smooth, crush, force_at, scene, smooth, worst_force_error};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Instant;
+
+const PEAK: f64 = 5e-6;
+
+struct Run {
+    name: String,
+    outcome: Outcome,
+    seconds: f64,
+}
+
+/// What of the discretisation differs from the level.
+#[derive(Clone, Copy, Default)]
+struct Change {
+    q4: bool,
+    elements: Option<usize>,
+    steps: Option<usize>,
+    penetration: Option<f64>,
+    domain: Option<f64>,
+}
+
+fn go(name: &str, accuracy: Accuracy, change: Change) -> Run {
+    let mut scene: Scene = scene(accuracy).expect("the committed scene reads");
+    let numerics = &mut scene.numerics;
+    numerics.element = Some(if change.q4 { ElementChoice::Q4 } else { ElementChoice::Q8r });
+    numerics.elements_in_contact = change.elements;
+    numerics.steps = change.steps;
+    numerics.penetration = change.penetration;
+    numerics.domain = change.domain;
+    let clock = Instant::now();
+    let outcome = crush(&scene).expect("the committed scene runs");
+    Run { name: name.into(), outcome, seconds: clock.elapsed().as_secs_f64() }
+}
+
+/// One run to make.
+type Job = (String, Accuracy, Change);
+
+/// Makes the runs on two threads; each run is the work of one thread, and the answers do not depend on it.
+fn all(jobs: &[Job]) -> Vec<Run> {
+    let next = AtomicUsize::new(0);
+    let work = || {
+        let mut done = Vec::new();
+        loop {
+            let index = next.fetch_add(1, Ordering::Relaxed);
+            // the last ones are the longest
+            let Some(index) = jobs.len().checked_sub(index + 1) else { return done };
+            let (name, accuracy, change) = &jobs[index];
+            done.push((index, go(name, *accuracy, *change)));
+        }
+    };
+    let mut runs: Vec<(usize, Run)> = std::thread::scope(|scope| {
+        let threads = [scope.spawn(work), scope.spawn(work)];
+        threads.into_iter().flat_map(|t| t.join().expect("no run panics")).collect()
+    });
+    runs.sort_by_key(|(index, _)| *index);
+    runs.into_iter().map(|(_, run)| run).collect()
+}
+
+fn header(title: &str, fixed: &str) {
+    println!("\n### {title}\n\n{fixed}.\n");
+    println!(
+        "| | F(1 µm), N | F(2 µm), N | F(5 µm), N | largest error, % | mean error, % | residual depth, µm | elastic fraction, % | elements | increments | iterations | s |"
+    );
+    println!("|-|-|-|-|-|-|-|-|-|-|-|-|");
+}
+
+/// Mean of the relative difference over depths of 0.2 to 1 of the peak: what is left is bias, the ripple averages out.
+fn mean_error(run: &Run, converged: &Smooth) -> f64 {
+    let depths = (0..=80).map(|i| PEAK * (0.2 + 0.8 * f64::from(i) / 80.0));
+    depths.map(|h| force_at(&run.outcome.rows, h) / converged.force(h) - 1.0).sum::<f64>() / 81.0
+}
+
+fn row(run: &Run, converged: &Smooth) {
+    let (rows, summary) = (&run.outcome.rows, &run.outcome.summary);
+    println!(
+        "| {} | {:.4} | {:.4} | {:.4} | {:.2} | {:+.2} | {:.4} | {:.2} | {} | {} | {} | {:.1} |",
+        run.name,
+        force_at(rows, 1e-6),
+        force_at(rows, 2e-6),
+        force_at(rows, PEAK),
+        100.0 * worst_force_error(rows, |h| converged.force(h), PEAK),
+        100.0 * mean_error(run, converged),
+        1e6 * summary.residual_depth.unwrap_or(f64::NAN),
+        100.0 * summary.elastic_fraction.unwrap_or(f64::NAN),
+        summary.elements,
+        summary.increments,
+        summary.newton_iterations,
+        run.seconds,
+    );
+}
+
+fn level(run: &Run, converged: &Smooth) {
+    let summary = &run.outcome.summary;
+    let worst = worst_force_error(&run.outcome.rows, |h| converged.force(h), PEAK);
+    let modulus = 210e9 / (1.0 - 0.09);
+    let ratio =
+        summary.unloading_stiffness.unwrap_or(f64::NAN) / punch_stiffness(modulus, summary.contact_radius);
+    println!(
+        "| {} | {:.2} | {:+.2} | {:.1e} | {:.3} | {} | {} | {:.1} |",
+        run.name,
+        100.0 * worst,
+        100.0 * mean_error(run, converged),
+        summary.energy_balance_error,
+        ratio,
+        summary.elements,
+        summary.newton_iterations,
+        run.seconds,
+    );
+}
+
+/// Runs of standard accuracy that differ in one number.
+fn vary(values: &[f64], name: impl Fn(f64) -> String, change: impl Fn(f64) -> Change) -> Vec<Run> {
+    let jobs: Vec<Job> = values.iter().map(|&v| (name(v), Accuracy::Standard, change(v))).collect();
+    all(&jobs)
+}
+
+/// Converged values: the mean of the two finest quadratic meshes, smoothed over depth. The interval is their
+/// difference, or half the difference of the extrapolated linear element if that is larger.
+fn converged_values(quadratic: &[Run], linear: &[Run]) -> Smooth {
+    let smoothed = |run: &Run| smooth(&run.outcome.rows, PEAK);
+    let finest: Vec<Smooth> = quadratic.iter().rev().take(2).map(smoothed).collect();
+    let converged = Smooth::mean(&finest);
+    let q4: Vec<Smooth> = linear.iter().rev().take(2).map(smoothed).collect();
+    println!("| h, µm | converged F, N | ± % | Q4 extrapolated, N |\n|-|-|-|-|");
+    for h in [1.0, 2.0, 5.0] {
+        let [f, a, b, fine, coarse] =
+            [&converged, &finest[0], &finest[1], &q4[0], &q4[1]].map(|curve| curve.force(h * 1e-6));
+        // observed: the error of the linear element falls with its size
+        let extrapolated = 2.0 * fine - coarse;
+        let interval = (a - b).abs().max(0.5 * (extrapolated - f).abs()) / f;
+        println!("| {h} | {f:.4} | {:.2} | {extrapolated:.4} |", 100.0 * interval);
+    }
+    converged
+}
+
+/// Energy balance for three metals; `exponent` and `steps` are all that differs from standard.
+fn energy_balance() {
+    println!("\n### Energy balance\n\nLargest |W - E_e - W_p - E_c|/W, standard.\n");
+    println!("| steps | n = 0 | n = 0.1 | n = 0.3 |\n|-|-|-|-|");
+    for steps in [24, 64, 128] {
+        let errors = [0.0, 0.1, 0.3].map(|exponent| {
+            let mut scene = scene(Accuracy::Standard).expect("the committed scene reads");
+            scene.material.hardening_exponent = Some(exponent);
+            scene.numerics.steps = Some(steps);
+            let outcome = crush(&scene).expect("the committed scene runs");
+            format!("{:.1e}", outcome.summary.energy_balance_error)
+        });
+        println!("| {steps} | {} |", errors.join(" | "));
+    }
+}
+
+fn main() {
+    if std::env::args().any(|argument| argument == "energy") {
+        return energy_balance();
+    }
+    let fine =
+        Change { steps: Some(192), penetration: Some(0.001), domain: Some(800.0), ..Change::default() };
+    let mesh = |q4: bool, n: f64| Change { q4, elements: Some(n as usize), ..fine };
+    let quadratic =
+        vary(&[9.0, 12.0, 18.0, 24.0, 36.0, 48.0], |n| format!("Q8R, {n} in contact"), |n| mesh(false, n));
+    let linear = vary(&[18.0, 36.0, 72.0], |n| format!("Q4, {n} in contact"), |n| mesh(true, n));
+    let converged = converged_values(&quadratic, &linear);
+    header("Mesh", "192 steps, penetration 0.001 of the depth, domain 800 contact radii");
+    quadratic.iter().chain(&linear).for_each(|run| row(run, &converged));
+
+    header("Step", "the rest as standard");
+    vary(
+        &[16.0, 24.0, 32.0, 48.0, 64.0, 96.0, 192.0, 384.0],
+        |n| format!("{n} steps"),
+        |n| Change { steps: Some(n as usize), ..Change::default() },
+    )
+    .iter()
+    .for_each(|run| row(run, &converged));
+
+    header("Penalty", "the rest as standard, 192 steps");
+    vary(
+        &[0.016, 0.008, 0.004, 0.002, 0.001, 0.0005],
+        |p| format!("penetration {p}"),
+        |p| Change { steps: Some(192), penetration: Some(p), ..Change::default() },
+    )
+    .iter()
+    .for_each(|run| row(run, &converged));
+
+    header("Domain", "the rest as standard");
+    vary(
+        &[25.0, 50.0, 100.0, 200.0, 400.0, 800.0, 1600.0],
+        |d| format!("{d} contact radii"),
+        |d| Change { domain: Some(d), ..Change::default() },
+    )
+    .iter()
+    .for_each(|run| row(run, &converged));
+
+    println!("\n### Levels\n\nError of the force over depths of 0.2 to 1 of the peak\n");
+    println!(
+        "| | largest, % | mean, % | energy balance | unloading stiffness over 2 E* a | elements | iterations | s |"
+    );
+    println!("|-|-|-|-|-|-|-|-|");
+    let levels = [
+        ("draft", Accuracy::Draft, false),
+        ("draft, Q4", Accuracy::Draft, true),
+        ("standard", Accuracy::Standard, false),
+        ("standard, Q4", Accuracy::Standard, true),
+        ("reference", Accuracy::Reference, false),
+    ];
+    let jobs: Vec<Job> = levels
+        .iter()
+        .map(|(n, a, q4)| (n.to_string(), *a, Change { q4: *q4, ..Change::default() }))
+        .collect();
+    all(&jobs).iter().for_each(|run| level(run, &converged));
+    energy_balance();
+}

@@ -1,0 +1,105 @@
+//! One increment of a model, solved and accepted.
+
+use asperity_law::{Elastic, Hardening, HardeningLaw};
+use asperity_mesh::Mesh;
+use asperity_solver::kinematics::Symmetry;
+use asperity_solver::material::{Metal, stress};
+use asperity_solver::model::{Model, ToolContact};
+use asperity_solver::newton::{Converged, Failure, Settings, solve};
+use asperity_solver::tensor::Sym;
+
+/// Tight enough that only rounding is left: the claims are about the equations, not about when Newton stops.
+pub const TIGHT: Settings = Settings { tolerance: 1e-12, max_iterations: 40 };
+
+/// E = 1, ν = 0.3, never yields.
+pub const ELASTIC: Metal =
+    Metal { elastic: Elastic { youngs_modulus: 1.0, poissons_ratio: 0.3 }, hardening: None };
+
+/// E = 1, ν = 0.3, eq. [1] with σ_y = `yield_stress` and exponent `exponent`.
+pub fn hollomon(yield_stress: f64, exponent: f64) -> Metal {
+    let hardening = Hardening { law: HardeningLaw::Hollomon, yield_stress, exponent, youngs_modulus: 1.0 };
+    Metal { hardening: Some(hardening), ..ELASTIC }
+}
+
+/// A stress-free model with the components `held` kept.
+///
+/// # Errors
+/// An element of the mesh is inside out.
+pub fn model<'m>(
+    mesh: &'m Mesh,
+    symmetry: Symmetry,
+    metal: Metal,
+    held: &[[bool; 2]],
+    contact: Option<ToolContact>,
+) -> Result<Model<'m>, Failure> {
+    Model::new(mesh, symmetry, metal, |node| held[node], contact)
+}
+
+/// Solves the increment with the tool at `tip` (infinite: none) from `guess`, whose held components are kept, and
+/// accepts it. Backward Euler: no flow is carried on.
+///
+/// # Errors
+/// Newton did not converge.
+pub fn increment(
+    model: &mut Model<'_>,
+    tip: f64,
+    settings: &Settings,
+    guess: impl Fn(usize) -> [f64; 2],
+) -> Result<Converged, Failure> {
+    model.begin(tip, 0.0, guess);
+    let done = solve(model, settings).map_err(|(failure, _)| failure)?;
+    model.accept()?;
+    Ok(done)
+}
+
+/// Moves the held components by `whole(node)` in as few increments as converge: an increment that fails is halved.
+/// Each starts from the last one, scaled. Backward Euler.
+///
+/// # Errors
+/// The failure of an increment of less than a hundredth of the whole.
+pub fn travel(
+    model: &mut Model<'_>,
+    settings: &Settings,
+    held: &[[bool; 2]],
+    whole: impl Fn(usize) -> [f64; 2],
+) -> Result<(), Failure> {
+    let (mut done, mut share) = (0.0_f64, 1.0_f64);
+    let mut last: Option<f64> = None;
+    while done < 1.0 - 1e-12 {
+        let step = share.min(1.0 - done);
+        let before = model.accepted_increment().to_vec();
+        let scale = last.map_or(0.0, |l| step / l);
+        let outcome = increment(model, f64::INFINITY, settings, |node| {
+            let to = whole(node);
+            [0, 1].map(|i| if held[node][i] { step * to[i] } else { scale * before[node][i] })
+        });
+        match outcome {
+            Ok(_) => {
+                done += step;
+                last = Some(step);
+            }
+            Err(failure) if share < 0.01 => return Err(failure),
+            Err(_) => {
+                share *= 0.5;
+                last = None;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Kirchhoff stress at every point of the converged state.
+pub fn stresses(model: &Model<'_>) -> Vec<Sym> {
+    model.states().iter().map(|state| stress(&model.metal().elastic, &state.stretch)).collect()
+}
+
+/// Sum over `nodes` of the internal force along `direction(node)`: the reaction that holds them.
+pub fn reaction(model: &Model<'_>, nodes: &[usize], direction: impl Fn(usize) -> [f64; 2]) -> f64 {
+    nodes
+        .iter()
+        .map(|&node| {
+            let (f, d) = (model.internal_forces()[node], direction(node));
+            f[0] * d[0] + f[1] * d[1]
+        })
+        .sum()
+}

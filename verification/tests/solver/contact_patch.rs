@@ -1,0 +1,45 @@
+//! Claim: a frictionless plane presses a flat bar uniformly on a distorted mesh, by the pressure of the uniaxial bar at
+//! the travel less p/ε, with both elements and in both symmetries of the section.
+//!
+//! Source: R. L. Taylor, P. Papadopoulos (1991), the contact patch test. Tolerance 1e-10: clipping and Gauss points
+//! integrate a uniform pressure exactly.
+
+use asperity_mesh::ElementKind;
+use asperity_solver::kinematics::Symmetry;
+use asperity_solver::model::ToolContact;
+use asperity_solver::tool::Tool;
+use asperity_verification::bar::penetration;
+use asperity_verification::bodies::{distorted_square, nodes_of};
+use asperity_verification::drive::{ELASTIC, TIGHT, increment, model, stresses};
+
+#[test]
+fn pressure_is_uniform_and_that_of_the_bar() {
+    let penalty = 4.0;
+    for kind in [ElementKind::Quad4, ElementKind::Quad8] {
+        let mesh = distorted_square(kind);
+        let mut held = vec![[false; 2]; mesh.nodes.len()];
+        nodes_of(&mesh, &mesh.sides.base).iter().for_each(|&n| held[n][1] = true);
+        nodes_of(&mesh, &mesh.sides.axis).iter().for_each(|&n| held[n][0] = true);
+        let contact = ToolContact { tool: Tool::Plane, penalty };
+        let mut model = model(&mesh, Symmetry::Axisymmetric, ELASTIC, &held, Some(contact)).unwrap();
+        let travels = [0.1, 0.2, 0.3, 0.4];
+        for travel in travels {
+            increment(&mut model, 1.0 - travel, &TIGHT, |_| [0.0; 2]).unwrap();
+            let depth = penetration(&ELASTIC.elastic, penalty, 1.0, travel);
+            for edge in model.edges() {
+                for &node in &edge.nodes[..edge.node_count()] {
+                    let here = model.positions()[node as usize][1] - (1.0 - travel);
+                    assert!((here / depth - 1.0).abs() < 1e-10, "{kind:?} {travel}: {here} {depth}");
+                }
+            }
+            // F = ε d π R² on the reference area
+            let force = penalty * depth * std::f64::consts::PI;
+            assert!((model.load() / force - 1.0).abs() < 1e-10);
+            let axial = (1.0 - travel + depth).ln();
+            for stress in stresses(&model) {
+                let expected = [0.0, axial, 0.0, 0.0];
+                assert!((0..4).all(|i| (stress[i] - expected[i]).abs() < 1e-10), "{stress:?}");
+            }
+        }
+    }
+}

@@ -1,0 +1,147 @@
+//! A system of fully integrated four-node elements, axisymmetric: what the solver does not offer, because it locks.
+//! Only `punch` uses it, to show that its claim can fail.
+
+use asperity_mesh::Mesh;
+use asperity_solver::assemble::Stiffness;
+use asperity_solver::dofs::{Dofs, FIXED};
+use asperity_solver::element::{ElementOutput, Rows, add_force, add_stiffness};
+use asperity_solver::j2::{Tangent, update};
+use asperity_solver::kinematics::{ShapePoint, Symmetry, motion};
+use asperity_solver::linear::Factor;
+use asperity_solver::material::{Metal, PointState};
+use asperity_solver::newton::{Assessment, Failure, System};
+use asperity_solver::quad4;
+
+pub struct FullQuad<'m> {
+    mesh: &'m Mesh,
+    metal: Metal,
+    dofs: Dofs,
+    stiffness: Stiffness,
+    factor: Factor,
+    points: [ShapePoint<4>; 4],
+    volume: Vec<f64>,
+    position: Vec<[f64; 2]>,
+    increment: Vec<[f64; 2]>,
+    base: Vec<[f64; 2]>,
+    old: Vec<PointState>,
+    new: Vec<PointState>,
+    /// Nodal forces at the iterate.
+    pub internal: Vec<[f64; 2]>,
+    residual: Vec<f64>,
+    direction: Vec<f64>,
+}
+
+impl<'m> FullQuad<'m> {
+    pub fn new(mesh: &'m Mesh, metal: Metal, held: &[[bool; 2]]) -> Self {
+        let dofs = Dofs::new(mesh.nodes.len(), |node| held[node]);
+        let stiffness = Stiffness::new(&mesh.cells, 4, &dofs);
+        let factor = Factor::new(&stiffness.matrix).unwrap();
+        let points = quad4::points();
+        let still = [[0.0; 2]; 4];
+        let volume: Vec<f64> = (0..mesh.cell_count())
+            .flat_map(|cell| {
+                let x: [[f64; 2]; 4] = std::array::from_fn(|a| mesh.nodes[mesh.cell(cell)[a] as usize]);
+                points.map(|p| motion(&p, &x, &still, Symmetry::Axisymmetric).unwrap().volume)
+            })
+            .collect();
+        let (nodes, count) = (mesh.nodes.len(), dofs.count);
+        FullQuad {
+            mesh,
+            metal,
+            dofs,
+            stiffness,
+            factor,
+            points,
+            position: mesh.nodes.clone(),
+            increment: vec![[0.0; 2]; nodes],
+            base: vec![[0.0; 2]; nodes],
+            old: vec![metal.virgin(); volume.len()],
+            new: vec![metal.virgin(); volume.len()],
+            volume,
+            internal: vec![[0.0; 2]; nodes],
+            residual: vec![0.0; count],
+            direction: vec![0.0; count],
+        }
+    }
+
+    pub fn begin(&mut self, guess: impl Fn(usize) -> [f64; 2]) {
+        self.increment = (0..self.position.len()).map(guess).collect();
+    }
+
+    pub fn accept(&mut self) {
+        for (x, du) in self.position.iter_mut().zip(&self.increment) {
+            *x = [x[0] + du[0], x[1] + du[1]];
+        }
+        self.old.clone_from(&self.new);
+    }
+
+    fn add_cell(&mut self, cell: usize) -> Result<(), Failure> {
+        let nodes = self.mesh.cell(cell);
+        let du: [[f64; 2]; 4] = std::array::from_fn(|a| self.increment[nodes[a] as usize]);
+        let x: [[f64; 2]; 4] = std::array::from_fn(|a| {
+            let x = self.position[nodes[a] as usize];
+            [x[0] + du[a][0], x[1] + du[a][1]]
+        });
+        let mut out = ElementOutput::new(self.metal.virgin());
+        for (q, point) in self.points.iter().enumerate() {
+            let motion = motion(point, &x, &du, Symmetry::Axisymmetric).ok_or(Failure::Inverted)?;
+            let index = 4 * cell + q;
+            let end = update(&self.metal, &self.old[index], &motion.increment, Tangent::Exact)
+                .ok_or(Failure::Inverted)?;
+            let rows = Rows::new(&motion.rows);
+            add_force(&mut out.force, &rows, &end.stress, self.volume[index]);
+            add_stiffness(&mut out.stiffness, 4, &rows, &end.tangent, self.volume[index]);
+            self.new[index] = end.state;
+        }
+        self.stiffness.add(cell, &out.stiffness);
+        for (a, &node) in nodes.iter().enumerate() {
+            for i in 0..2 {
+                self.internal[node as usize][i] += out.force[i][a];
+            }
+        }
+        Ok(())
+    }
+}
+
+impl System for FullQuad<'_> {
+    fn assess(&mut self) -> Result<Assessment, Failure> {
+        self.stiffness.clear();
+        self.internal.fill([0.0; 2]);
+        for cell in 0..self.mesh.cell_count() {
+            self.add_cell(cell)?;
+        }
+        let mut scale = 0.0;
+        for (f, numbers) in self.internal.iter().zip(&self.dofs.number) {
+            for i in 0..2 {
+                match self.residual.get_mut(numbers[i] as usize) {
+                    Some(slot) => *slot = f[i],
+                    None => scale += f[i] * f[i],
+                }
+            }
+        }
+        let residual = self.residual.iter().map(|r| r * r).sum::<f64>().sqrt();
+        Ok(Assessment { residual, scale: scale.sqrt(), changed: false })
+    }
+
+    fn find_direction(&mut self) -> Result<(), Failure> {
+        self.factor.cholesky(&self.stiffness.matrix).map_err(|_| Failure::Singular)?;
+        self.direction.copy_from_slice(&self.residual);
+        self.factor.solve(&mut self.direction);
+        self.base.clone_from(&self.increment);
+        Ok(())
+    }
+
+    fn slope(&self) -> f64 {
+        -self.residual.iter().zip(&self.direction).map(|(r, d)| r * d).sum::<f64>()
+    }
+
+    fn advance(&mut self, fraction: f64) {
+        for ((du, base), numbers) in self.increment.iter_mut().zip(&self.base).zip(&self.dofs.number) {
+            for i in 0..2 {
+                if numbers[i] != FIXED {
+                    du[i] = base[i] - fraction * self.direction[numbers[i] as usize];
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,24 @@
+//! What is claimed of the solver, one claim a file. One binary, so that the solver is linked once.
+
+// in a test a panic is the message
+#![allow(clippy::unwrap_used)]
+
+mod confined_bar;
+mod contact_patch;
+mod elastic_flattening;
+mod energy_balance;
+mod full_quad;
+mod lost_pivot;
+mod newton_order;
+mod patch;
+mod punch;
+mod reaches_half_height;
+mod refinement;
+mod rotation;
+mod same_bits;
+mod scaled_units;
+mod simple_shear;
+mod step_order;
+mod system_tangent;
+mod thick_walls;
+mod uniaxial_bar;

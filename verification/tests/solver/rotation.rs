@@ -1,0 +1,58 @@
+//! Claim: a rigid rotation superposed on a stretch rotates the stress and leaves energy and plastic strain unchanged.
+//!
+//! Source: objectivity; with b ← R b Rᵀ the stress must be R τ Rᵀ. Tolerance 1e-10: nine increments of 20 degrees add
+//! only rounding.
+
+use asperity_mesh::ElementKind;
+use asperity_solver::energy::{dissipated, stored};
+use asperity_solver::kinematics::Symmetry;
+use asperity_verification::bodies::{boundary, distorted_square};
+use asperity_verification::drive::{ELASTIC, TIGHT, hollomon, increment, model, stresses};
+
+#[test]
+fn stress_turns_with_the_body_and_energy_stays() {
+    let turn = 20.0_f64.to_radians();
+    for kind in [ElementKind::Quad4, ElementKind::Quad8] {
+        for metal in [ELASTIC, hollomon(0.01, 0.3)] {
+            let mesh = distorted_square(kind);
+            let held: Vec<[bool; 2]> = boundary(&mesh).iter().map(|&b| [b, b]).collect();
+            let mut model = model(&mesh, Symmetry::PlaneStrain, metal, &held, None).unwrap();
+            increment(&mut model, f64::INFINITY, &TIGHT, |node| {
+                let [x, z] = mesh.nodes[node];
+                // not uniform, so that stresses differ from point to point
+                [0.1 * x + 0.05 * x * z, -0.15 * z + 0.1 * x * x]
+            })
+            .unwrap();
+            let before = stresses(&model);
+            let energies = |model: &asperity_solver::model::Model<'_>| {
+                let (states, volumes) = (model.states(), model.volumes());
+                [stored(&metal, states, volumes), dissipated(&metal, states, volumes)]
+            };
+            let [elastic, plastic] = energies(&model);
+            let (s, c) = turn.sin_cos();
+            for _ in 0..9 {
+                let x = model.positions().to_vec();
+                increment(&mut model, f64::INFINITY, &TIGHT, |node| {
+                    let [r, z] = x[node];
+                    [c * r - s * z - r, s * r + c * z - z]
+                })
+                .unwrap();
+            }
+            let (s, c) = (9.0 * turn).sin_cos();
+            let scale = before.iter().flatten().fold(0.0, |m: f64, v| m.max(v.abs()));
+            for (old, new) in before.iter().zip(stresses(&model)) {
+                let [xx, zz, yy, xz] = *old;
+                let turned = [
+                    c * c * xx - 2.0 * c * s * xz + s * s * zz,
+                    s * s * xx + 2.0 * c * s * xz + c * c * zz,
+                    yy,
+                    c * s * (xx - zz) + (c * c - s * s) * xz,
+                ];
+                assert!((0..4).all(|i| (new[i] - turned[i]).abs() < 1e-10 * scale), "{new:?} {turned:?}");
+            }
+            let [elastic_after, plastic_after] = energies(&model);
+            assert!((elastic_after / elastic - 1.0).abs() < 1e-10);
+            assert!((plastic_after - plastic).abs() <= 1e-10 * plastic);
+        }
+    }
+}

@@ -1,0 +1,43 @@
+//! Claim: a bar in tension follows eq. [1] of the paper at total logarithmic strains from 0.002 to 1, force included.
+//!
+//! Source: `bar::hollomon_stress` (Kirchhoff's stress: the law is an energy in logarithmic strain). Tolerance 1e-9: the
+//! path is straight, so that the return mapping is exact for any increment; what is left is the local solve of the law.
+
+use asperity_mesh::ElementKind;
+use asperity_solver::kinematics::Symmetry;
+use asperity_verification::bar::{hollomon_stress, nominal_stress};
+use asperity_verification::bodies::{mapped, nodes_of};
+use asperity_verification::drive::{TIGHT, hollomon, increment, model, reaction, stresses};
+
+#[test]
+fn eq_1_from_0_002_to_1() {
+    let metal = hollomon(300.0 / 210e3, 0.3);
+    let hardening = metal.hardening.unwrap();
+    for kind in [ElementKind::Quad4, ElementKind::Quad8] {
+        // one element: a longer bar would neck beyond ε = n
+        let mesh = mapped(kind, [1, 1], |x| x);
+        let mut held = vec![[false; 2]; mesh.nodes.len()];
+        let top = nodes_of(&mesh, &mesh.sides.surface);
+        nodes_of(&mesh, &mesh.sides.base).iter().chain(&top).for_each(|&n| held[n][1] = true);
+        nodes_of(&mesh, &mesh.sides.axis).iter().for_each(|&n| held[n][0] = true);
+        let mut model = model(&mesh, Symmetry::Axisymmetric, metal, &held, None).unwrap();
+        let mut last = 0.0_f64;
+        for strain in [0.002, 0.01, 0.05, 0.1, 0.5, 1.0_f64] {
+            let x = model.positions().to_vec();
+            increment(&mut model, f64::INFINITY, &TIGHT, |node| {
+                let [r, z] = x[node];
+                // as incompressible: nearly right
+                [r * (0.5 * (last - strain)).exp_m1(), z * (strain - last).exp_m1()]
+            })
+            .unwrap();
+            last = strain;
+            let exact = hollomon_stress(&hardening, strain);
+            for stress in stresses(&model) {
+                assert!((stress[1] / exact - 1.0).abs() < 1e-9, "{kind:?} {strain}: {} {exact}", stress[1]);
+                assert!(stress[0].abs() < 1e-9 * exact && stress[2].abs() < 1e-9 * exact);
+            }
+            let force = reaction(&model, &top, |_| [0.0, 1.0]) / std::f64::consts::PI;
+            assert!((force / nominal_stress(exact, strain) - 1.0).abs() < 1e-9);
+        }
+    }
+}
