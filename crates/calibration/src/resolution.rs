@@ -52,7 +52,7 @@ impl Resolution {
             foot: 8.0,
             lead_steps: 4,
             steps: 24,
-            penetration: 0.012,
+            penetration: 0.016,
             tolerance: 1e-4,
             carry: 0.8,
             bias: 0.005,

@@ -42,6 +42,7 @@ impl Command {
             Command::Crush(args) => args.run.threads,
             Command::Mesh(_) => None,
             Command::Rough(args) => args.run.threads,
+            Command::Calibrate(args) => args.run.threads,
         }
     }
 }
