@@ -1,1 +1,34 @@
-//! placeholder
+//! The force of crushed cones over slopes and metals, and the representative strain that makes it one curve
+//! (Jourani et al., section 3.3).
+//!
+//! In the order of the data: a case (`case`), its mesh (`resolution`, `layout`, `body`), its path (`cone`) and its constant
+//! (`kick`); the grid (`sweep`), its rows on disk (`row`, `journal`) and its run (`run`); the representative strain of a
+//! slope (`collapse`), of all (`fit`), and the force as a formula (`dimensionless`).
+
+pub mod case;
+
+pub mod resolution;
+
+pub mod layout;
+
+pub mod body;
+
+pub mod cone;
+
+pub mod kick;
+
+pub mod sweep;
+
+pub mod row;
+
+pub mod journal;
+
+pub mod run;
+
+pub mod least_squares;
+
+pub mod collapse;
+
+pub mod fit;
+
+pub mod dimensionless;

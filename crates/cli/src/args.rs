@@ -18,6 +18,7 @@ const EXAMPLES: &str = "Examples:
   asperity crush meshes/single-asperity.toml --accuracy draft --set material.hardening_exponent=0.1
   asperity crush meshes/single-asperity.toml --set \"loading.depth=2 um\" --out out/shallow --json
   asperity mesh meshes/single-asperity.toml -o asperity.msh
+  asperity calibrate --out out/calibrate
 
 Exit status: 0 done; 1 the run could not finish (what was reached is on disk); 2 the input is wrong.";
 
@@ -30,6 +31,8 @@ pub enum Command {
     Mesh(MeshCommand),
     /// Press a rigid plane on a rough surface and write table, load curve, maps
     Rough(crate::rough::Rough),
+    /// Crush cones of many slopes and metals and find the representative strain
+    Calibrate(crate::calibrate::Calibrate),
 }
 
 impl Command {
@@ -39,6 +42,7 @@ impl Command {
             Command::Crush(args) => args.run.threads,
             Command::Mesh(_) => None,
             Command::Rough(args) => args.run.threads,
+            Command::Calibrate(args) => args.run.threads,
         }
     }
 }

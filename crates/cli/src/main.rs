@@ -1,6 +1,7 @@
 //! The asperity command line: arguments, progress, files, plots.
 
 mod args;
+mod calibrate;
 mod chart;
 mod crush;
 mod failure;
@@ -32,6 +33,7 @@ fn main() -> ExitCode {
         Command::Crush(args) => crush::crush(args),
         Command::Mesh(args) => mesh::mesh(args),
         Command::Rough(args) => rough::rough(args),
+        Command::Calibrate(args) => calibrate::calibrate(args),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

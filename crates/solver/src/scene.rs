@@ -4,6 +4,7 @@
 //! Keys that are absent are `None`: what a run uses in their place follows from the accuracy level.
 
 mod geometry;
+mod range;
 mod validate;
 
 pub use geometry::{Asperity, AsperityForm, Substrate, Tool, ToolForm, ToolShape};

@@ -1,0 +1,91 @@
+//! The mesh of a sharp cone on its substrate, or of the flat body under a cone, and the penalty of its contact.
+
+use crate::case::{Case, Tool};
+use crate::layout::Layout;
+use crate::resolution::Resolution;
+use asperity_mesh::{Edge, Mesh};
+use asperity_solver::material::Metal;
+use asperity_solver::model::ToolContact;
+use asperity_solver::tool::Tool as RigidTool;
+use std::f64::consts::FRAC_2_PI;
+
+/// A cone ready to be crushed to the depth 1, E = 1.
+#[derive(Clone, Debug)]
+pub struct Body {
+    /// The mesh.
+    pub mesh: Mesh,
+    /// Which displacement components of each node are held.
+    pub held: Vec<[bool; 2]>,
+    /// Metal.
+    pub metal: Metal,
+    /// Tool and penalty.
+    pub contact: ToolContact,
+    /// Size of the elements under the contact.
+    pub element: f64,
+    /// Radius and depth of the substrate.
+    pub domain: f64,
+}
+
+/// a tan β/h to be expected: 2/π of an elastic cone, up to 1.08 - 0.6 n of a fully plastic one, joined in
+/// X = E* tan β/σ_r (read off twenty cones, within 0.1). Only the mesh is laid out with it.
+fn expected_ratio(case: &Case) -> f64 {
+    let Some(hardening) = case.hardening() else { return FRAC_2_PI };
+    let t = case.tan_beta();
+    let x = case.elastic().reduced_modulus() * t / hardening.representative_stress(0.1 * t);
+    let plastic = 1.08 - 0.6 * hardening.exponent;
+    FRAC_2_PI + (plastic - FRAC_2_PI) * (x / (x + 6.0)).powi(2)
+}
+
+/// Mean pressure to be expected, in units of E: the elastic cone's ½E* tan β and 2.8 σ_r, joined harmonically. Only
+/// the penalty is scaled with it.
+fn expected_pressure(case: &Case) -> f64 {
+    let t = case.tan_beta();
+    let elastic = 0.5 * case.elastic().reduced_modulus() * t;
+    match case.hardening() {
+        None => elastic,
+        Some(h) => 1.0 / (1.0 / elastic + 1.0 / (2.8 * h.representative_stress(0.1 * t))),
+    }
+}
+
+impl Body {
+    /// Lays out `case`.
+    pub fn new(case: &Case, resolution: &Resolution) -> Body {
+        let r = resolution;
+        let tan = case.tan_beta();
+        let radius = expected_ratio(case) / tan;
+        let element = radius / r.elements as f64;
+        let domain = r.domain * radius;
+        let columns = (r.core * r.elements as f64).round() as usize;
+        let (cone, tool) = match case.tool {
+            Tool::Plane => ([tan, r.foot * radius * tan], RigidTool::Plane),
+            Tool::Cone => ([0.0; 2], RigidTool::Cone { tan_slope: tan, tip_radius: 0.0 }),
+        };
+        // the diagonals on which the shells turn stay steeper than the flank
+        let row_depth = (r.core_depth * radius).max(1.5 * cone[0] * columns as f64 * element);
+        let layout =
+            Layout { element, columns, row_depth, row_growth: r.row_growth, growth: r.growth, domain, cone };
+        let mesh = layout.mesh();
+        let held = held(&mesh);
+        let metal = Metal { elastic: case.elastic(), hardening: case.hardening() };
+        let contact = ToolContact { tool, penalty: expected_pressure(case) / r.penetration };
+        Body { mesh, held, metal, contact, element, domain }
+    }
+}
+
+/// The base is clamped, the axis free to slide along itself.
+fn held(mesh: &Mesh) -> Vec<[bool; 2]> {
+    let mut held = vec![[false; 2]; mesh.nodes.len()];
+    let mut hold = |edges: &[Edge], components: [bool; 2]| {
+        for &edge in edges {
+            let (corners, middle) = mesh.edge_nodes(edge);
+            for node in corners.into_iter().chain(middle) {
+                for i in 0..2 {
+                    held[node as usize][i] |= components[i];
+                }
+            }
+        }
+    };
+    hold(&mesh.sides.base, [true, true]);
+    hold(&mesh.sides.axis, [true, false]);
+    held
+}

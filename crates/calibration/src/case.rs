@@ -1,0 +1,60 @@
+//! One cone and its metal, in dimensionless groups.
+
+use asperity_law::{Elastic, Hardening, HardeningLaw};
+use serde::{Deserialize, Serialize};
+
+/// Which of the two bodies is the cone.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Tool {
+    /// A cone of metal crushed by a rigid plane.
+    Plane,
+    /// A flat body of metal indented by a rigid cone.
+    Cone,
+}
+
+/// A metal that yields, by the groups that K/E depends on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Yielding {
+    /// Hardening law.
+    pub law: HardeningLaw,
+    /// Hardening exponent n.
+    pub exponent: f64,
+    /// Young's modulus over yield stress.
+    pub e_over_sy: f64,
+}
+
+/// All that K/E depends on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Case {
+    /// Slope β of the cone against the plane, degrees.
+    pub beta_deg: f64,
+    /// How the metal yields; `None`: it is elastic.
+    pub yielding: Option<Yielding>,
+    /// Poisson's ratio.
+    pub poissons_ratio: f64,
+    /// Crush or indentation.
+    pub tool: Tool,
+}
+
+impl Case {
+    /// tan β.
+    pub fn tan_beta(&self) -> f64 {
+        self.beta_deg.to_radians().tan()
+    }
+
+    /// Elastic constants in units of E.
+    pub fn elastic(&self) -> Elastic {
+        Elastic { youngs_modulus: 1.0, poissons_ratio: self.poissons_ratio }
+    }
+
+    /// Hardening law in units of E.
+    pub fn hardening(&self) -> Option<Hardening> {
+        self.yielding.map(|y| Hardening {
+            law: y.law,
+            yield_stress: 1.0 / y.e_over_sy,
+            exponent: y.exponent,
+            youngs_modulus: 1.0,
+        })
+    }
+}

@@ -1,0 +1,329 @@
+//! From the rows of a sweep to ε_r of every slope, c with its interval, and what is left over.
+
+use crate::collapse::{Collapse, Measure, Sample, largest_correlation, least_scatter, scatter_left};
+use crate::row::Row;
+use asperity_law::Elastic;
+
+/// Resamples of the bootstrap and its seed, fixed so that the same rows give the same bytes.
+const RESAMPLES: usize = 800;
+const SEED: u64 = 480;
+
+/// Share of the resamples that must have a minimum for a slope to count as determined.
+const DETERMINED: f64 = 0.9;
+
+/// The representative strain of one slope.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Angle {
+    /// Slope, degrees.
+    pub beta_deg: f64,
+    /// ε_r of least scatter; `None`: not determined.
+    pub strain: Option<f64>,
+    /// ε_r of largest correlation.
+    pub correlation_strain: Option<f64>,
+    /// 95 % interval of ε_r (open ends where resamples have no minimum lie at the end of the range searched).
+    pub interval: [f64; 2],
+    /// Scatter of ln(K/σ_r) left at the minimum.
+    pub scatter: f64,
+    /// The curve of scatter against ε_r/tan β.
+    pub curve: Vec<Measure>,
+    /// Metals that took part.
+    pub cases: usize,
+    /// Weight in c: 1/variance of ln ε_r; 0 if not determined.
+    pub weight: f64,
+    /// ln(ε_r/tan β) of every resample.
+    resampled: Vec<Option<f64>>,
+}
+
+/// c of ε_r = c tan β over all slopes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Slope {
+    /// c.
+    pub c: f64,
+    /// 95 % interval from the resampled metals.
+    pub ci95: [f64; 2],
+    /// Slopes that took part.
+    pub angles: usize,
+}
+
+/// Samples of every slope, ascending.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Data {
+    /// Slope in degrees and its samples.
+    pub slopes: Vec<(f64, Vec<Sample>)>,
+    /// Hardening exponent of every metal.
+    pub metals: Vec<f64>,
+    /// E*/E.
+    pub reduced_modulus: f64,
+}
+
+impl Data {
+    /// The rows that succeeded, every metal once.
+    pub fn new(rows: &[Row]) -> Data {
+        let mut metals: Vec<(f64, f64)> = Vec::new();
+        let mut slopes: Vec<(f64, Vec<Sample>)> = Vec::new();
+        let mut reduced_modulus = 1.0;
+        for row in rows {
+            let (Ok(kick), Some(y), Some(hardening)) =
+                (&row.outcome, row.case.yielding, row.case.hardening())
+            else {
+                continue;
+            };
+            reduced_modulus = Elastic::reduced_modulus(&row.case.elastic());
+            let key = (y.exponent, y.e_over_sy);
+            let metal = metals.iter().position(|m| *m == key).unwrap_or_else(|| {
+                metals.push(key);
+                metals.len() - 1
+            });
+            let beta = row.case.beta_deg;
+            let at = slopes.iter().position(|s| s.0 == beta).unwrap_or_else(|| {
+                slopes.push((beta, Vec::new()));
+                slopes.len() - 1
+            });
+            let samples = &mut slopes[at].1;
+            if samples.iter().all(|s| s.metal != metal) {
+                samples.push(Sample {
+                    metal,
+                    hardening,
+                    k_over_e: kick.k_over_e,
+                    error: kick.error,
+                    contact_ratio: kick.contact_ratio,
+                });
+            }
+        }
+        slopes.sort_by(|a, b| a.0.total_cmp(&b.0));
+        Data { slopes, metals: metals.iter().map(|m| m.0).collect(), reduced_modulus }
+    }
+
+    /// The samples for which `keep(tan β, sample)` holds.
+    pub fn filtered(&self, keep: impl Fn(f64, &Sample) -> bool) -> Data {
+        let slopes = self.slopes.iter().map(|(beta, samples)| {
+            let tan = beta.to_radians().tan();
+            (*beta, samples.iter().filter(|s| keep(tan, s)).copied().collect())
+        });
+        Data { slopes: slopes.collect(), ..self.clone() }
+    }
+
+    /// X = E* tan β/σ_r of a sample at ε_r = `c` tan β.
+    pub fn developed(&self, tan_beta: f64, sample: &Sample, c: f64) -> f64 {
+        self.reduced_modulus * tan_beta / sample.hardening.representative_stress(c * tan_beta)
+    }
+}
+
+/// Why nothing can be fitted at all, in words for a person; `None` if it can be tried.
+pub fn obstacle(data: &Data) -> Option<String> {
+    let samples = || data.slopes.iter().flat_map(|s| &s.1);
+    let mut exponents: Vec<f64> = samples().map(|s| s.hardening.exponent).collect();
+    exponents.sort_by(f64::total_cmp);
+    exponents.dedup();
+    if exponents.len() < 2 {
+        return Some("metals of one hardening exponent collapse for every representative strain".into());
+    }
+    if data.slopes.iter().all(|s| s.1.len() < 6) {
+        return Some("fewer than six metals at every slope".into());
+    }
+    None
+}
+
+/// ε_r of every slope with its interval.
+pub fn angles(data: &Data) -> Vec<Angle> {
+    let draws = resample(&data.metals);
+    data.slopes
+        .iter()
+        .filter_map(|(beta, samples)| {
+            let tan = beta.to_radians().tan();
+            let collapse = Collapse::new(samples, tan, data.reduced_modulus);
+            let curve = collapse.measures(|_| [1.0, 0.0])?;
+            let resampled: Vec<Option<f64>> = draws
+                .iter()
+                .map(|d| collapse.measures(|m| d[m]).and_then(|m| least_scatter(&m)).map(f64::ln))
+                .collect();
+            let share = resampled.iter().flatten().count() as f64 / resampled.len() as f64;
+            let strain = least_scatter(&curve).filter(|_| share >= DETERMINED).map(|s| s * tan);
+            // a resample without a minimum says only that the strain may be anything
+            let (first, last) = (curve[0].share.ln(), curve[curve.len() - 1].share.ln());
+            let undecided = resampled.len() - resampled.iter().flatten().count();
+            let mut all: Vec<f64> = resampled.iter().flatten().copied().collect();
+            all.extend((0..undecided).map(|i| if i % 2 == 0 { first } else { last }));
+            let interval = quantiles(&mut all).map(|q| q.exp() * tan);
+            let found: Vec<f64> = resampled.iter().flatten().copied().collect();
+            Some(Angle {
+                beta_deg: *beta,
+                strain,
+                correlation_strain: largest_correlation(&curve).map(|s| s * tan),
+                interval,
+                scatter: scatter_left(&curve),
+                cases: samples.len(),
+                weight: if strain.is_some() { 1.0 / variance(&found).max(1e-12) } else { 0.0 },
+                curve,
+                resampled,
+            })
+        })
+        .collect()
+}
+
+/// c as the weighted mean of ln(ε_r/tan β) over the determined slopes, its interval from the same resamples of metals.
+pub fn slope(angles: &[Angle]) -> Option<Slope> {
+    let known: Vec<&Angle> = angles.iter().filter(|a| a.weight > 0.0).collect();
+    let mean = |values: &dyn Fn(&Angle) -> Option<f64>| {
+        let (mut sum, mut weight) = (0.0, 0.0);
+        for a in &known {
+            if let Some(v) = values(a) {
+                sum += a.weight * v;
+                weight += a.weight;
+            }
+        }
+        (weight > 0.0).then(|| sum / weight)
+    };
+    let log = |a: &Angle| a.strain.map(|e| (e / a.beta_deg.to_radians().tan()).ln());
+    let c = mean(&log)?.exp();
+    let mut resampled: Vec<f64> = (0..RESAMPLES).filter_map(|b| mean(&|a: &Angle| a.resampled[b])).collect();
+    let ci95 = quantiles(&mut resampled).map(f64::exp);
+    Some(Slope { c, ci95, angles: known.len() })
+}
+
+/// The 2.5 % and 97.5 % quantiles.
+fn quantiles(values: &mut [f64]) -> [f64; 2] {
+    values.sort_by(f64::total_cmp);
+    let at = |q: f64| values.get((q * (values.len().max(1) - 1) as f64).round() as usize).copied();
+    [at(0.025), at(0.975)].map(|v| v.unwrap_or(f64::NAN))
+}
+
+fn variance(values: &[f64]) -> f64 {
+    let n = values.len().max(1) as f64;
+    let mean = values.iter().sum::<f64>() / n;
+    values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / n
+}
+
+/// Resamples of the metals: how often each is drawn, and by how many times its 95 % bound its K is shifted.
+///
+/// The shift is the same for all metals of one exponent and for all slopes, a standard deviation of half the bound: the
+/// error of mesh and step is no noise, it depends on n, and so it is what would shift ε_r unseen.
+fn resample(exponents: &[f64]) -> Vec<Vec<[f64; 2]>> {
+    let mut random = SplitMix(SEED);
+    let mut kinds = exponents.to_vec();
+    kinds.sort_by(f64::total_cmp);
+    kinds.dedup();
+    (0..RESAMPLES)
+        .map(|_| {
+            let shifts: Vec<f64> = kinds.iter().map(|_| 0.5 * random.normal()).collect();
+            let shift = |n: &f64| kinds.iter().position(|k| k == n).map_or(0.0, |i| shifts[i]);
+            let mut drawn: Vec<[f64; 2]> = exponents.iter().map(|n| [0.0, shift(n)]).collect();
+            for _ in exponents {
+                drawn[(random.next() % exponents.len() as u64) as usize][0] += 1.0;
+            }
+            drawn
+        })
+        .collect()
+}
+
+/// Steele, Lea and Flood's generator: a few lines, the same numbers on every machine.
+pub struct SplitMix(pub u64);
+
+impl SplitMix {
+    /// The next 64 random bits.
+    pub fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    /// A normal deviate, by the sum of twelve uniform ones.
+    pub fn normal(&mut self) -> f64 {
+        (0..12).map(|_| self.uniform()).sum::<f64>() - 6.0
+    }
+
+    /// A number in [0, 1).
+    pub fn uniform(&mut self) -> f64 {
+        (self.next() >> 11) as f64 / (1u64 << 53) as f64
+    }
+}
+
+/// The developed cases alone: those with E* tan β/σ_r of at least `least` at ε_r = `c` tan β, at slopes where at least
+/// eight of them and three exponents are left.
+pub fn developed(data: &Data, c: f64, least: f64) -> Data {
+    let mut kept = data.filtered(|tan, s| data.developed(tan, s, c) >= least);
+    kept.slopes.retain(|(_, samples)| {
+        let mut exponents: Vec<f64> = samples.iter().map(|s| s.hardening.exponent).collect();
+        exponents.sort_by(f64::total_cmp);
+        exponents.dedup();
+        samples.len() >= 8 && exponents.len() >= 3
+    });
+    kept
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::Case;
+    use crate::kick::Kick;
+    use crate::sweep::Sweep;
+
+    /// K of a made-up law that collapses exactly at ε_r = `c` tan β, times 1 + noise·(normal deviate).
+    fn synthetic(c: f64, noise: f64) -> Vec<Row> {
+        let mut random = SplitMix(1);
+        let cases = Sweep::default().cases();
+        cases
+            .into_iter()
+            .map(|case| {
+                let tan = case.tan_beta();
+                let e_star = case.elastic().reduced_modulus();
+                let s = case.hardening().unwrap().representative_stress(c * tan);
+                let l = (e_star * tan / s).ln();
+                // ln Y of ln X as cone indentation has it; any smooth curve would do
+                let y = -1.147_675e-4 * l.powi(4) + 1.171_629e-2 * l.powi(3) - 0.212_961 * l * l
+                    + 1.409_473 * l
+                    - 0.701_906;
+                let k_over_e = y.exp() * s / (tan * tan) * (1.0 + noise * random.normal());
+                row(case, k_over_e)
+            })
+            .collect()
+    }
+
+    fn row(case: Case, k_over_e: f64) -> Row {
+        let kick = Kick { k_over_e, error: 0.01, contact_ratio: 0.9, increments: 1, iterations: 1 };
+        Row { case, outcome: Ok(kick), wall_s: 0.0 }
+    }
+
+    #[test]
+    fn a_known_strain_is_recovered_from_one_percent_noise() {
+        for c in [0.06, 0.1, 0.25] {
+            let angles = angles(&Data::new(&synthetic(c, 0.01)));
+            let fit = slope(&angles).unwrap();
+            assert!(fit.ci95[0] <= c && c <= fit.ci95[1], "{c}: {fit:?}");
+            assert!((fit.c / c - 1.0).abs() < 0.05, "{c}: {fit:?}");
+            // slopes that are determined agree by both measures, within the interval
+            for a in angles.iter().filter(|a| a.beta_deg >= 6.0) {
+                let (s, r) = (a.strain.unwrap(), a.correlation_strain.unwrap());
+                assert!((s / r - 1.0).abs() < 0.15 && a.interval[0] < s && s < a.interval[1], "{a:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn elastic_cones_determine_nothing() {
+        for noise in [0.0, 0.01] {
+            let mut random = SplitMix(2);
+            let rows: Vec<Row> = Sweep::default()
+                .cases()
+                .into_iter()
+                .map(|case| {
+                    let k = 0.7 / case.tan_beta() * (1.0 + noise * (2.0 * random.uniform() - 1.0));
+                    row(case, k)
+                })
+                .collect();
+            let angles = angles(&Data::new(&rows));
+            assert!(angles.len() == 10 && angles.iter().all(|a| a.strain.is_none()), "{noise}");
+            assert_eq!(slope(&angles), None);
+        }
+    }
+
+    #[test]
+    fn a_grid_that_cannot_be_fitted_says_why() {
+        let sweep = Sweep { hardening_exponent: vec![0.3], ..Sweep::default() };
+        let rows: Vec<Row> = sweep.cases().into_iter().map(|case| row(case, 1.0)).collect();
+        assert!(obstacle(&Data::new(&rows)).unwrap().contains("exponent"));
+        assert!(obstacle(&Data::new(&synthetic(0.1, 0.0))).is_none());
+    }
+}

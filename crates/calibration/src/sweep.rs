@@ -1,0 +1,192 @@
+//! The grid of a calibration: which cones of which metals.
+
+use crate::case::{Case, Tool, Yielding};
+use asperity_law::HardeningLaw;
+use asperity_law::units::Stress;
+use asperity_solver::scene::Accuracy;
+use serde::{Deserialize, Serialize};
+
+/// A sweep as its file says it; what is absent is the paper's grid of 480 cases.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Sweep {
+    /// Slopes β of the cones against the plane, degrees.
+    pub slopes_deg: Vec<f64>,
+    /// Young's moduli.
+    pub youngs_modulus: Vec<Stress>,
+    /// Yield stresses.
+    pub yield_stress: Vec<Stress>,
+    /// Hardening exponents n.
+    pub hardening_exponent: Vec<f64>,
+    /// Hardening law.
+    pub hardening_law: HardeningLaw,
+    /// Poisson's ratio.
+    pub poissons_ratio: f64,
+    /// Crush by a plane, or indentation by a cone.
+    pub tool: Tool,
+    /// Accuracy of K.
+    pub accuracy: Accuracy,
+}
+
+/// The grid of the paper's 480 tests, as far as it can be told: 10 slopes by 48 metals.
+impl Default for Sweep {
+    fn default() -> Self {
+        let gpa = |e: f64| Stress(e * 1e9);
+        let mpa = |s: f64| Stress(s * 1e6);
+        Sweep {
+            slopes_deg: (1..=10).map(f64::from).collect(),
+            youngs_modulus: [70.0, 130.0, 210.0].map(gpa).to_vec(),
+            yield_stress: [200.0, 300.0, 450.0, 700.0].map(mpa).to_vec(),
+            hardening_exponent: vec![0.1, 0.2, 0.3, 0.5],
+            hardening_law: HardeningLaw::Hollomon,
+            poissons_ratio: 0.3,
+            tool: Tool::Plane,
+            accuracy: Accuracy::Standard,
+        }
+    }
+}
+
+/// A value of a sweep that makes no sense.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{path}: {message}")]
+pub struct SweepError {
+    /// The key, with the place in its list.
+    pub path: String,
+    /// What is wrong and what is allowed.
+    pub message: String,
+}
+
+/// More cases than this in one sweep are a slip of the pen.
+const MOST_CASES: usize = 1_000_000;
+
+impl Sweep {
+    /// Checks every value.
+    ///
+    /// # Errors
+    /// The first value that makes no sense, with the allowed range.
+    pub fn validate(&self) -> Result<(), SweepError> {
+        let slope_limit = match self.tool {
+            Tool::Plane => 30.0,
+            Tool::Cone => 50.0,
+        };
+        check_list(
+            "slopes_deg",
+            &self.slopes_deg,
+            |b| b > 0.0 && b <= slope_limit,
+            || format!("a slope must lie above 0 and at most at {slope_limit} degrees"),
+        )?;
+        let moduli: Vec<f64> = self.youngs_modulus.iter().map(|s| s.0).collect();
+        let yields: Vec<f64> = self.yield_stress.iter().map(|s| s.0).collect();
+        check_list("youngs_modulus", &moduli, |e| e > 0.0, || "must be above 0".into())?;
+        check_list("yield_stress", &yields, |s| s > 0.0, || "must be above 0".into())?;
+        check_list(
+            "hardening_exponent",
+            &self.hardening_exponent,
+            |n| (0.0..=0.9).contains(&n),
+            || "must lie from 0 (perfect plasticity) to 0.9".into(),
+        )?;
+        if !(self.poissons_ratio > -1.0 && self.poissons_ratio < 0.5) {
+            return Err(error("poissons_ratio", "must lie above -1 and below 0.5"));
+        }
+        for (i, s) in yields.iter().enumerate() {
+            for e in &moduli {
+                let ratio = e / s;
+                if !(5.0..=1e6).contains(&ratio) {
+                    let message =
+                        format!("E over yield stress is {ratio:.4} for one metal: it must lie from 5 to 1e6");
+                    return Err(SweepError { path: format!("yield_stress[{i}]"), message });
+                }
+            }
+        }
+        let lists = [self.slopes_deg.len(), moduli.len(), yields.len(), self.hardening_exponent.len()];
+        if lists.iter().product::<usize>() > MOST_CASES {
+            return Err(error("", &format!("more than {MOST_CASES} cases")));
+        }
+        Ok(())
+    }
+
+    /// Every case of the grid in its order: slope, modulus, yield stress, exponent (the last runs fastest).
+    pub fn cases(&self) -> Vec<Case> {
+        let mut cases = Vec::new();
+        for &beta_deg in &self.slopes_deg {
+            for e in &self.youngs_modulus {
+                for s in &self.yield_stress {
+                    for &exponent in &self.hardening_exponent {
+                        let y = Yielding { law: self.hardening_law, exponent, e_over_sy: ratio(e.0, s.0) };
+                        cases.push(Case {
+                            beta_deg,
+                            yielding: Some(y),
+                            poissons_ratio: self.poissons_ratio,
+                            tool: self.tool,
+                        });
+                    }
+                }
+            }
+        }
+        cases
+    }
+}
+
+/// a/b to twelve digits: 210 GPa over 300 MPa is 700, whichever units it was written in, and equal metals are equal.
+fn ratio(a: f64, b: f64) -> f64 {
+    format!("{:.11e}", a / b).parse().unwrap_or(a / b)
+}
+
+fn error(path: &str, message: &str) -> SweepError {
+    SweepError { path: path.into(), message: message.into() }
+}
+
+/// A list with at least one value, all of them `good`, none of them twice.
+fn check_list(
+    path: &str,
+    values: &[f64],
+    good: impl Fn(f64) -> bool,
+    allowed: impl Fn() -> String,
+) -> Result<(), SweepError> {
+    if values.is_empty() {
+        return Err(error(path, "must hold at least one value"));
+    }
+    for (i, &v) in values.iter().enumerate() {
+        let path = format!("{path}[{i}]");
+        if !v.is_finite() || !good(v) {
+            return Err(SweepError { path, message: format!("{v} is not possible: {}", allowed()) });
+        }
+        if values[..i].contains(&v) {
+            return Err(SweepError { path, message: format!("{v} stands in the list twice") });
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_default_is_480_cases_of_12_ratios() {
+        let sweep = Sweep::default();
+        sweep.validate().unwrap();
+        let cases = sweep.cases();
+        assert_eq!(cases.len(), 480);
+        let mut ratios: Vec<f64> = cases.iter().map(|c| c.yielding.unwrap().e_over_sy).collect();
+        ratios.sort_by(f64::total_cmp);
+        ratios.dedup();
+        assert_eq!(ratios.len(), 12);
+        assert_eq!((ratios[0], ratios[11]), (100.0, 1050.0));
+    }
+
+    #[test]
+    fn impossible_values_are_named() {
+        let path = |change: fn(&mut Sweep)| {
+            let mut sweep = Sweep::default();
+            change(&mut sweep);
+            sweep.validate().unwrap_err().path
+        };
+        assert_eq!(path(|s| s.slopes_deg[2] = 0.0), "slopes_deg[2]");
+        assert_eq!(path(|s| s.slopes_deg[1] = 1.0), "slopes_deg[1]");
+        assert_eq!(path(|s| s.slopes_deg.clear()), "slopes_deg");
+        assert_eq!(path(|s| s.hardening_exponent[0] = f64::NAN), "hardening_exponent[0]");
+        assert_eq!(path(|s| s.yield_stress[3] = Stress(1e12)), "yield_stress[3]");
+        assert_eq!(path(|s| s.poissons_ratio = 0.5), "poissons_ratio");
+    }
+}

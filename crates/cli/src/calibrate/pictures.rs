@@ -1,0 +1,110 @@
+//! The two figures: curves of all exponents mixed into one, and the representative strain over the slope.
+
+use super::results::Calibration;
+use crate::chart::{Chart, Series, svg};
+use asperity_calibration::collapse::Sample;
+use asperity_roughness::PUBLISHED;
+
+/// File names and SVG documents; none where nothing was fitted.
+pub fn all(calibration: &Calibration, shown: Option<f64>) -> Vec<(&'static str, Result<String, String>)> {
+    let Some(slope) = calibration.slope else { return Vec::new() };
+    let mut pictures = Vec::new();
+    let distance = |beta: f64| shown.map_or(-beta, |wish| (beta - wish).abs());
+    let nearest =
+        calibration.angles.iter().min_by(|a, b| distance(a.beta_deg).total_cmp(&distance(b.beta_deg)));
+    if let Some(angle) = nearest {
+        let tan = angle.beta_deg.to_radians().tan();
+        let share = angle.strain.map_or(slope.c, |s| s / tan);
+        pictures.push(("collapse.svg", svg(&mixed(calibration, angle.beta_deg, share))));
+    }
+    pictures.push(("collapse_all.svg", svg(&master(calibration, slope.c))));
+    pictures.push(("representative_strain.svg", svg(&strains(calibration, slope.c))));
+    pictures
+}
+
+/// E*/σ_r and K/σ_r of a sample at ε_r = `share` tan β.
+fn point(calibration: &Calibration, tan: f64, sample: &Sample, share: f64) -> [f64; 2] {
+    let stress = sample.hardening.representative_stress(share * tan);
+    [calibration.data.reduced_modulus / stress, sample.k_over_e / stress]
+}
+
+fn sorted(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
+    points.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    points
+}
+
+/// Fig. 7 at one slope: a curve for every hardening exponent.
+fn mixed(calibration: &Calibration, beta_deg: f64, share: f64) -> Chart {
+    let tan = beta_deg.to_radians().tan();
+    let samples = calibration.data.slopes.iter().find(|s| s.0 == beta_deg).map_or(&[][..], |s| &s.1);
+    let mut exponents: Vec<f64> = samples.iter().map(|s| s.hardening.exponent).collect();
+    exponents.sort_by(f64::total_cmp);
+    exponents.dedup();
+    let series = exponents.iter().map(|n| Series {
+        label: format!("n = {n}"),
+        points: sorted(
+            samples
+                .iter()
+                .filter(|s| s.hardening.exponent == *n)
+                .map(|s| point(calibration, tan, s, share))
+                .collect(),
+        ),
+        marks: true,
+    });
+    Chart {
+        x_label: format!("E*/σr at εr = {share:.3} tan β, β = {beta_deg}°"),
+        y_label: "K/σr".into(),
+        series: series.collect(),
+    }
+}
+
+/// All slopes: Y = K tan²β/σ_r against X = E* tan β/σ_r at ε_r = c tan β.
+fn master(calibration: &Calibration, c: f64) -> Chart {
+    let series = calibration.data.slopes.iter().map(|(beta, samples)| {
+        let tan = beta.to_radians().tan();
+        let scaled = |s: &Sample| {
+            let [x, y] = point(calibration, tan, s, c);
+            [x * tan, y * tan * tan]
+        };
+        Series {
+            label: format!("β = {beta}°"),
+            points: sorted(samples.iter().map(scaled).collect()),
+            marks: true,
+        }
+    });
+    Chart {
+        x_label: format!("E* tan β/σr at εr = {c:.3} tan β"),
+        y_label: "K tan²β/σr".into(),
+        series: series.collect(),
+    }
+}
+
+/// Fig. 8: ε_r of every slope with its interval, the fit, and the published line.
+fn strains(calibration: &Calibration, c: f64) -> Chart {
+    let angles = &calibration.angles;
+    let last = angles.last().map_or(10.0, |a| a.beta_deg);
+    let line = |c: f64| {
+        (0..=20)
+            .map(|i| {
+                let beta = last * f64::from(i) / 20.0;
+                [beta, c * beta.to_radians().tan()]
+            })
+            .collect::<Vec<[f64; 2]>>()
+    };
+    let bound = |k: usize| {
+        angles.iter().filter(|a| a.strain.is_some()).map(|a| [a.beta_deg, a.interval[k]]).collect()
+    };
+    let found = angles.iter().filter_map(|a| a.strain.map(|s| [a.beta_deg, s])).collect();
+    let series = |label: String, points: Vec<[f64; 2]>, marks: bool| Series { label, points, marks };
+    Chart {
+        x_label: "β, degrees".into(),
+        y_label: "εr".into(),
+        series: vec![
+            series("least scatter".into(), found, true),
+            series("95 %, low".into(), bound(0), false),
+            series("95 %, high".into(), bound(1), false),
+            series(format!("{c:.4} tan β"), line(c), false),
+            series(format!("published: {PUBLISHED} tan β"), line(PUBLISHED), false),
+        ],
+    }
+}
