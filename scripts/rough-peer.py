@@ -8,13 +8,20 @@ the period, cut-off N/16, periodic, E* = 1 GPa in both programs. Elastic: tamaas
 fitted where --coefficient names a file). Saturated at H: tamaas' Kato solver against johnson. `calibrated` has no
 counterpart there: an elastic or saturated half-space knows no hardening.
 """
-import argparse, csv, pathlib, subprocess, tempfile, time
+
+import argparse
+import csv
+import pathlib
+import subprocess
+import tempfile
+import time
+
 import numpy as np
 import tamaas as tm
 
-MODULUS = 1e9   # E*, Pa
+MODULUS = 1e9  # E*, Pa
 POISSON = 0.3
-PIXEL = 1e-6    # m
+PIXEL = 1e-6  # m
 SATURATED_TOLERANCE = 1e-3
 
 
@@ -56,16 +63,23 @@ def asperity(binary, z, pressure, hardness, coefficient):
         (folder / "scene.toml").write_text(
             f'closure = "all"\n{named}[surface]\nfile = "z.npy"\npixel_size = ["1 um", "1 um"]\nheight_unit = "m"\nlevel = "mean"\n'
             f'periodic = true\n[material]\nyoungs_modulus = "{MODULUS * (1 - POISSON**2)} Pa"\npoissons_ratio = {POISSON}\n'
-            f'hardness = "{hardness * MODULUS} Pa"\n[load]\npressure = "{pressure * MODULUS} Pa"\n[output]\nmaps = false\n')
+            f'hardness = "{hardness * MODULUS} Pa"\n[load]\npressure = "{pressure * MODULUS} Pa"\n[output]\nmaps = false\n'
+        )
         start = time.time()
-        subprocess.run([binary, "rough", folder / "scene.toml", "--out", folder / "out", "--quiet"], check=True, capture_output=True)
+        subprocess.run(
+            [binary, "rough", folder / "scene.toml", "--out", folder / "out", "--quiet"],
+            check=True,
+            capture_output=True,
+        )
         wall = time.time() - start
         with open(folder / "out/table.csv") as table:
             return {row["closure"]: row for row in csv.DictReader(table)}, wall
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("--sizes", type=int, nargs="+", default=[512, 1024])
     parser.add_argument("--seeds", type=int, nargs="+", default=[1, 2, 3])
     parser.add_argument("--loads", type=float, nargs="+", default=[0.002, 0.01], help="p/E*")
@@ -73,20 +87,27 @@ def main():
     parser.add_argument("--coefficient")
     parser.add_argument("--binary", default="target/release/asperity")
     flags = parser.parse_args()
-    print("| map | seed | p/E* | law | A/A0 BEM | closure | A/A0 | over BEM | P_m over BEM | s BEM | s all closures |")
+    print(
+        "| map | seed | p/E* | law | A/A0 BEM | closure | A/A0 | over BEM | P_m over BEM | s BEM | s all closures |"
+    )
     print("|-|-|-|-|-|-|-|-|-|-|-|")
     for n in flags.sizes:
         for seed in flags.seeds:
             z = surface(n, seed)
             for pressure in flags.loads:
                 ours, wall = asperity(flags.binary, z, pressure, flags.hardness, flags.coefficient)
-                for law, hardness, closures in [("elastic", None, ["published", "fitted", "sneddon"]),
-                                                (f"saturated at {flags.hardness} E*", flags.hardness, ["johnson"])]:
+                for law, hardness, closures in [
+                    ("elastic", None, ["published", "fitted", "sneddon"]),
+                    (f"saturated at {flags.hardness} E*", flags.hardness, ["johnson"]),
+                ]:
                     area, seconds = solve(z, pressure, hardness)
                     for closure in (c for c in closures if c in ours):
                         found = float(ours[closure]["contact_area_ratio"])
-                        print(f"| {n}² | {seed} | {pressure} | {law} | {area:.4f} | {closure} | {found:.4f} | {found / area:.2f} | "
-                              f"{area / found:.2f} | {seconds:.1f} | {wall:.2f} |", flush=True)
+                        print(
+                            f"| {n}² | {seed} | {pressure} | {law} | {area:.4f} | {closure} | {found:.4f} | {found / area:.2f} | "
+                            f"{area / found:.2f} | {seconds:.1f} | {wall:.2f} |",
+                            flush=True,
+                        )
 
 
 if __name__ == "__main__":

@@ -3,7 +3,9 @@
 //! E* = E/(1-ν²); a closure linear in tan β has p = c E* tan β on the island: c = 0.13 (`published`), 2/π² (`sneddon`).
 
 use asperity_law::Elastic;
-use asperity_roughness::{Closure, Contact, HeightMap, Level, Load, Metal, Model, Roughness, Surface, level, press};
+use asperity_roughness::{
+    Closure, Contact, HeightMap, Level, Load, Metal, Model, Roughness, Surface, level, press,
+};
 use std::f64::consts::{FRAC_2_PI, PI, TAU};
 
 const MODULUS: f64 = 210e9 / 0.91;
@@ -66,7 +68,12 @@ fn one_cone_has_area_force_and_ellipse_of_the_circle() {
             let (area, force) = (PI * h * h / tan / tan, c * MODULUS * PI * h * h / tan);
             let ellipse = found.islands.islands[0].ellipse.unwrap();
             errors(
-                [found.area_ratio * found.nominal_area, found.pressure * found.nominal_area, ellipse.semi_axes[0], found.islands.islands[0].slope],
+                [
+                    found.area_ratio * found.nominal_area,
+                    found.pressure * found.nominal_area,
+                    ellipse.semi_axes[0],
+                    found.islands.islands[0].slope,
+                ],
                 [ratio * area, force, h / tan, tan],
             )
         });
@@ -191,5 +198,10 @@ fn non_square_pixels_change_nothing() {
     let island = found.islands.islands[0];
     let ellipse = island.ellipse.unwrap();
     let radius = h / tan;
-    assert!(errors([island.area, ellipse.semi_axes[0], ellipse.semi_axes[1], island.slope], [PI * radius * radius, radius, radius, tan]) < 1e-3);
+    assert!(
+        errors(
+            [island.area, ellipse.semi_axes[0], ellipse.semi_axes[1], island.slope],
+            [PI * radius * radius, radius, radius, tan]
+        ) < 1e-3
+    );
 }
