@@ -2,6 +2,8 @@
 //!
 //! E* = E/(1-ν²); a closure linear in tan β has p = c E* tan β on the island: c = 0.13 (`published`), 2/π² (`sneddon`).
 
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
+
 use asperity_law::Elastic;
 use asperity_roughness::{
     Closure, Contact, HeightMap, Level, Load, Metal, Model, Roughness, Surface, level, press,

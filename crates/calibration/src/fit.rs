@@ -209,7 +209,7 @@ fn resample(exponents: &[f64]) -> Vec<Vec<[f64; 2]>> {
             let shift = |n: &f64| kinds.iter().position(|k| k == n).map_or(0.0, |i| shifts[i]);
             let mut drawn: Vec<[f64; 2]> = exponents.iter().map(|n| [0.0, shift(n)]).collect();
             for _ in exponents {
-                drawn[(random.next() % exponents.len() as u64) as usize][0] += 1.0;
+                drawn[(random.bits() % exponents.len() as u64) as usize][0] += 1.0;
             }
             drawn
         })
@@ -221,7 +221,7 @@ pub struct SplitMix(pub u64);
 
 impl SplitMix {
     /// The next 64 random bits.
-    pub fn next(&mut self) -> u64 {
+    pub fn bits(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
         z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -236,7 +236,7 @@ impl SplitMix {
 
     /// A number in [0, 1).
     pub fn uniform(&mut self) -> f64 {
-        (self.next() >> 11) as f64 / (1u64 << 53) as f64
+        (self.bits() >> 11) as f64 / (1u64 << 53) as f64
     }
 }
 

@@ -36,8 +36,7 @@ pub fn solve(case: &Case, resolution: &Resolution) -> Result<Kick, CaseError> {
         let logs: Vec<[f64; 2]> = window.iter().map(|p| [p.depth.ln(), p.force.max(0.0).ln()]).collect();
         Line::through(&logs).slope
     };
-    // written so that NaN fails
-    if !((exponent - 2.0).abs() <= EXPONENT_TOLERANCE) {
+    if exponent.is_nan() || (exponent - 2.0).abs() > EXPONENT_TOLERANCE {
         return Err(CaseError::NotSimilar(exponent));
     }
     let softness = case.hardening().map_or(0.0, |h| (1.0 - h.exponent / 0.1).max(0.0));

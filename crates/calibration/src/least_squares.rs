@@ -17,7 +17,7 @@ pub fn solve<const N: usize>(rows: &[([f64; N], f64, f64)]) -> Option<[f64; N]> 
         for j in 0..=i {
             let s: f64 = a[i][j] - (0..j).map(|k| a[i][k] * a[j][k]).sum::<f64>();
             if i == j {
-                if !(s > 1e-12 * a[i][i]) {
+                if s.is_nan() || s <= 1e-12 * a[i][i] {
                     return None;
                 }
                 a[i][i] = s.sqrt();
