@@ -175,3 +175,32 @@ fn a_file_cut_anywhere_does_not_panic() {
         assert!(read_msh(&FOREIGN.as_bytes()[..end]).is_err() || end + 1 >= FOREIGN.len(), "{end}");
     }
 }
+
+/// Every file with some words replaced by others of the file, or by extremes, is an error or a mesh that holds
+/// together, never a panic.
+#[test]
+fn a_scrambled_file_does_not_panic() {
+    let odd = ["-1", "0", "99999999999999999999", "1e400", "nan", "\"", "$Nodes", "$EndNodes", "\n", ""];
+    let words: Vec<&str> = FOREIGN.split_inclusive(char::is_whitespace).collect();
+    let mut state = 1_u64;
+    let mut next = move |n: usize| {
+        state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        (state >> 33) as usize % n
+    };
+    let mut meshes = 0;
+    for _ in 0..20_000 {
+        let mut scrambled: Vec<String> = words.iter().map(|w| w.to_string()).collect();
+        for _ in 0..1 + next(3) {
+            let at = next(words.len());
+            let space: String = words[at].chars().filter(|c| c.is_whitespace()).collect();
+            let new = if next(2) == 0 { odd[next(odd.len())] } else { words[next(words.len())].trim() };
+            scrambled[at] = format!("{new}{space}");
+        }
+        if let Ok(mesh) = read_msh(scrambled.concat().as_bytes()) {
+            meshes += 1;
+            assert!(mesh.cells.iter().all(|&n| (n as usize) < mesh.nodes.len()));
+            assert!(mesh.quality().is_some_and(|q| q.min_scaled_jacobian > 0.0));
+        }
+    }
+    assert!(meshes > 100, "{meshes}");
+}
