@@ -45,3 +45,58 @@ pub fn read_mesh(file: &TomlFile<Scene>) -> Result<Option<Mesh>, InputError> {
     }
     Ok(Some(mesh))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A scene with some words replaced by others of it, or by extremes, is an error or a scene, never a panic.
+    #[test]
+    fn a_scrambled_scene_does_not_panic() {
+        let text = include_str!("../../../meshes/single-asperity.toml");
+        let lines: Vec<&str> = text.lines().map(|l| l.split('#').next().unwrap_or_default()).collect();
+        let text = lines.join("\n");
+        let odd = [
+            "-1",
+            "0",
+            "1e308",
+            "1e-308",
+            "nan",
+            "\"inf um\"",
+            "[",
+            "]",
+            "=",
+            "\"",
+            "\n",
+            "true",
+            "{}",
+            "[[x]]",
+            "\"1e300 km\"",
+        ];
+        let words: Vec<&str> = text.split_inclusive(char::is_whitespace).collect();
+        let mut state = 7_u64;
+        let mut next = move |n: usize| {
+            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            (state >> 33) as usize % n
+        };
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("scene.toml");
+        let flags = SceneFlags { accuracy: None, overrides: Vec::new() };
+        let mut scenes = 0;
+        for _ in 0..2_000 {
+            let mut scrambled: Vec<String> = words.iter().map(|w| w.to_string()).collect();
+            for _ in 0..1 + next(3) {
+                let at = next(words.len());
+                let space: String = words[at].chars().filter(|c| c.is_whitespace()).collect();
+                let new = if next(2) == 0 { odd[next(odd.len())] } else { words[next(words.len())].trim() };
+                scrambled[at] = format!("{new}{space}");
+            }
+            std::fs::write(&path, scrambled.concat()).unwrap();
+            match read(&path, &flags) {
+                Ok(_) => scenes += 1,
+                Err(error) => assert!(crate::failure::Failure::from(error).report().len() > 15),
+            }
+        }
+        assert!((20..1_900).contains(&scenes), "{scenes}");
+    }
+}
