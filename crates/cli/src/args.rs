@@ -96,7 +96,7 @@ pub struct RunFlags {
     /// Print nothing but errors
     #[arg(long)]
     pub quiet: bool,
-    /// Write into a folder that holds other files, which are left alone
+    /// Write into a folder that holds other files: they stay, but for those named like a result
     #[arg(long)]
     pub force: bool,
     /// Print the summary as JSON on stdout
