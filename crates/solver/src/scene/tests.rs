@@ -57,7 +57,8 @@ fn the_papers_asperity_has_its_base_radius() {
 /// A change to the paper's scene that the ranges allow.
 #[test]
 fn the_ends_of_the_ranges_are_allowed() {
-    let table: &[(&str, fn(&mut Scene))] = &[
+    type Change = fn(&mut Scene);
+    let table: &[(&str, Change)] = &[
         ("elastic", |s| s.material.yield_stress = None),
         ("nearly incompressible", |s| s.material.poissons_ratio = 0.4999999),
         ("auxetic", |s| s.material.poissons_ratio = -0.9),
