@@ -81,13 +81,17 @@ fn one_scene(path: &Path, args: &Rough) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The calibration's result that the scene names.
+/// The calibration's result that the scene names, or the one that comes with the program.
 fn read_coefficient(file: &TomlFile<Scene>) -> Result<Option<Coefficient>, InputError> {
-    let Some(path) = &file.value.coefficient else { return Ok(None) };
     let wanted = file.value.closure.closures();
     if !wanted.iter().any(|c| matches!(c, Closure::Fitted | Closure::Calibrated)) {
         return Ok(None);
     }
+    let Some(path) = &file.value.coefficient else {
+        return Coefficient::committed()
+            .map(Some)
+            .map_err(|e| file.error_at("closure", &format!("the calibration of this program: {e}")));
+    };
     let path = file.resolve(path);
     let text = std::fs::read_to_string(&path)
         .map_err(|e| file.error_at("coefficient", &format!("{} cannot be read: {e}", path.display())))?;

@@ -89,7 +89,15 @@ pub struct Cone {
     pub inside: bool,
 }
 
+/// The coefficient file of the default sweep, as `asperity calibrate` writes it.
+const COMMITTED: &str = include_str!("../data/coefficient.toml");
+
 impl Coefficient {
+    /// The result of the default sweep that comes with the program; `asperity calibrate` regenerates it.
+    pub fn committed() -> Result<Coefficient, CoefficientError> {
+        Coefficient::from_toml(COMMITTED)
+    }
+
     /// Reads and checks the TOML text of a coefficient file.
     pub fn from_toml(text: &str) -> Result<Coefficient, CoefficientError> {
         let read: Coefficient =

@@ -6,7 +6,7 @@ use crate::failure::{Failure, InputError};
 use crate::terminal;
 use asperity_law::units::{Length, Stress};
 use asperity_roughness::scene::{Choice, GenerateScene, LoadScene, Material, Output, Scene, SurfaceScene};
-use asperity_roughness::{KindName, Profile};
+use asperity_roughness::{Coefficient, KindName, PUBLISHED, Profile};
 use std::fmt::Write;
 
 /// A row of the paper's Table 1.
@@ -141,12 +141,14 @@ struct Ours {
 fn measure(row: &Printed) -> Result<(Vec<Ours>, Vec<String>), Failure> {
     let mut table: Vec<Ours> = Vec::new();
     let mut notes = Vec::new();
+    let calibration = Coefficient::committed()
+        .map_err(|e| InputError::new(format!("the calibration of this program: {e}")))?;
     for seed in 1..=SEEDS {
         let scene = scene(row, seed);
         let prepared =
             scene.surface.prepare(|path| path.to_path_buf()).map_err(|e| InputError::new(e.to_string()))?;
-        let (pressed, warnings) =
-            run::press_all(&scene, &prepared, None).map_err(|(_, message)| InputError::new(message))?;
+        let (pressed, warnings) = run::press_all(&scene, &prepared, Some(&calibration))
+            .map_err(|(_, message)| InputError::new(message))?;
         if seed == 1 {
             notes = warnings;
         }
@@ -174,7 +176,8 @@ fn measure(row: &Printed) -> Result<(Vec<Ours>, Vec<String>), Failure> {
 fn contradictions(row: &Printed) -> String {
     let tan = row.beta.to_radians().tan();
     let modulus = MODULUS / (1.0 - POISSON * POISSON);
-    let (eq11, index) = (0.13 * modulus * tan, 0.13 * modulus * tan / HARDNESS);
+    let eq11 = PUBLISHED * modulus * tan;
+    let index = eq11 / HARDNESS;
     let balance = NOMINAL / (row.area / 100.0);
     let mut text = format!(
         "  the paper against itself: P_m A_r = {:.1} MPa instead of {NOMINAL} (P_m = {balance:.0} MPa would balance the load); \
