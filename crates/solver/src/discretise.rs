@@ -293,6 +293,15 @@ fn estimate_depth(
 /// Growth of the shells far from the contact, as a share of the distance.
 const FAR_GROWTH: f64 = 0.4;
 
+/// Size of an automatic substrate: so many radii of the loaded region, which is the contact of a single asperity and
+/// the whole row of several, whose forces add up far away.
+pub fn automatic_size(numbers: &Discretisation, profile: &Profile, half_widths: &[f64]) -> f64 {
+    let widest = half_widths.iter().fold(0.0, |m: f64, w| m.max(*w));
+    let touched = profile.asperities.iter().zip(half_widths).filter(|(_, w)| **w > 0.0);
+    let loaded = touched.map(|(a, w)| a.centre + w).fold(widest, f64::max);
+    numbers.domain * loaded
+}
+
 /// The mesh of the scene, lengths over `length`.
 fn build_mesh(
     scene: &Scene,
@@ -320,7 +329,7 @@ fn build_mesh(
         Symmetry::PlaneStrain => [-end_gap, right],
     };
     let substrate = scene.substrate.as_ref();
-    let automatic = (numbers.domain * widest).max(3.0 * (row[1] - row[0]));
+    let automatic = automatic_size(numbers, profile, half_widths).max(3.0 * (row[1] - row[0]));
     let size_of = |given: Option<asperity_law::units::Length>| given.map_or(automatic, |l| l.0 / length);
     let depth = profile.height() + size_of(substrate.and_then(|s| s.depth));
     let radius = size_of(substrate.and_then(|s| s.radius));

@@ -8,7 +8,7 @@
 //! * substrate of automatic size L: the missing compliance below a held base, δ ≈ F/(2E* L), moves the force by 2δ/h;
 //! * penalty: what is left of the penetration after its correction.
 
-use crate::discretise::{Discretisation, Problem};
+use crate::discretise::{Discretisation, Problem, automatic_size};
 use crate::kinematics::Symmetry;
 use crate::scene::{ContactMethod, ElementChoice};
 use crate::stepping::schedule;
@@ -34,9 +34,9 @@ pub fn force_error(problem: &Problem, force: f64, depth: f64, automatic: bool) -
     };
     let ripple = hardening.map_or(1.0, |h| 1.0 + 1.5 * (1.0 - h.exponent / 0.1).max(0.0));
     let mesh = MESH * ripple / quadratic;
-    let widest = problem.half_widths.iter().fold(0.0, |m: f64, w| m.max(*w));
+    let size = automatic_size(numbers, &problem.profile, &problem.half_widths);
     let domain = if automatic && problem.symmetry == Symmetry::Axisymmetric && depth > 0.0 {
-        force / (problem.metal.elastic.reduced_modulus() * depth * numbers.domain * widest)
+        force / (problem.metal.elastic.reduced_modulus() * depth * size)
     } else {
         0.0
     };
