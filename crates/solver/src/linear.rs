@@ -28,17 +28,16 @@ pub struct Factor {
     definite: bool,
 }
 
+/// sprs's arrays as faer sees them. `columns` is `matrix.proper_indptr()`, which borrows: the matrix is whole.
+fn pattern_of<'a>(matrix: &'a CsMat<f64>, columns: &'a [usize]) -> SymbolicSparseColMatRef<'a, usize> {
+    SymbolicSparseColMatRef::new_checked(matrix.rows(), matrix.cols(), columns, None, matrix.indices())
+}
+
 impl Factor {
     /// Orders (approximate minimum degree) and analyses the lower triangle `matrix`.
     pub fn new(matrix: &CsMat<f64>) -> Result<Factor, FactorError> {
         let columns = matrix.proper_indptr();
-        let pattern = SymbolicSparseColMatRef::new_checked(
-            matrix.rows(),
-            matrix.cols(),
-            &columns,
-            None,
-            matrix.indices(),
-        );
+        let pattern = pattern_of(matrix, &columns);
         let params = CholeskySymbolicParams {
             // measured: the automatic choice takes the simplicial path at 5,000 unknowns and is three times slower
             supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
@@ -61,15 +60,8 @@ impl Factor {
 
     /// Cholesky factorisation of a matrix with the analysed pattern.
     pub fn cholesky(&mut self, matrix: &CsMat<f64>) -> Result<(), FactorError> {
-        // sprs's arrays as faer sees them; the matrix is whole, so its column pointers are borrowed, not copied
         let columns = matrix.proper_indptr();
-        let pattern = SymbolicSparseColMatRef::new_checked(
-            matrix.rows(),
-            matrix.cols(),
-            &columns,
-            None,
-            matrix.indices(),
-        );
+        let pattern = pattern_of(matrix, &columns);
         let view = SparseColMatRef::new(pattern, matrix.data());
         self.definite = true;
         self.symbolic
@@ -89,13 +81,7 @@ impl Factor {
     /// LDLᵀ factorisation without pivoting; returns the number of negative pivots.
     pub fn ldlt(&mut self, matrix: &CsMat<f64>) -> Result<usize, FactorError> {
         let columns = matrix.proper_indptr();
-        let pattern = SymbolicSparseColMatRef::new_checked(
-            matrix.rows(),
-            matrix.cols(),
-            &columns,
-            None,
-            matrix.indices(),
-        );
+        let pattern = pattern_of(matrix, &columns);
         let view = SparseColMatRef::new(pattern, matrix.data());
         self.definite = false;
         self.symbolic
