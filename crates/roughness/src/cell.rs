@@ -28,6 +28,21 @@ pub(crate) fn gradients(corners: &[f64; 4], inverse_pixel: [f64; 2]) -> [f64; 4]
     ]
 }
 
+/// |∇h| of a whole cell on the mean.
+#[inline]
+pub(crate) fn mean_gradient(corners: &[f64; 4], inverse_pixel: [f64; 2]) -> f64 {
+    let g = gradients(corners, inverse_pixel);
+    0.25 * ((g[0] + g[1]) + (g[2] + g[3]))
+}
+
+/// ∫|∇h|, in cells, over whole cells in a row between the nodes `low` and `high`.
+pub(crate) fn whole_slopes(low: &[f64], high: &[f64], inverse_pixel: [f64; 2]) -> f64 {
+    low.windows(2)
+        .zip(high.windows(2))
+        .map(|(a, b)| mean_gradient(&[a[0], a[1], b[1], b[0]], inverse_pixel))
+        .sum()
+}
+
 /// The share of a triangle that lies above 0, from the heights of its vertices.
 #[inline]
 pub(crate) fn share_above(a: f64, b: f64, c: f64) -> f64 {
@@ -73,6 +88,13 @@ pub(crate) struct Moments {
 }
 
 impl Moments {
+    /// A whole cell, origin at corner 0.
+    #[inline]
+    pub fn of_cell(slope: f64) -> Moments {
+        let (half, third) = (0.5, 1.0 / 3.0);
+        Moments { area: 1.0, slope_area: slope, x: half, y: half, xx: third, xy: half * half, yy: third }
+    }
+
     /// Adds those of another region.
     #[inline]
     pub fn add(&mut self, other: &Moments) {

@@ -1,20 +1,19 @@
 //! The separation at which the islands carry the load, and what each of them carries there.
 
+mod carrying;
+mod seek;
+
 use crate::closure::{Model, Regime, Response};
 use crate::height_map::{Extent, HeightMap};
 use crate::islands::Islands;
-use crate::ladder::{self, Above, Rungs};
+use crate::ladder::{self, Rungs};
 use crate::numbers::Roughness;
+use carrying::Carrying;
 use std::f64::consts::PI;
 use thiserror::Error;
 
 /// Points of the load curve.
 pub const CURVE_POINTS: usize = 64;
-/// Residual at which the search of such a closure ends.
-const RESIDUAL: f64 = 1e-8;
-/// False-position steps before plain halving, which ends at a jump of the load.
-const SECANTS: usize = 14;
-
 /// Why a surface cannot carry a load.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum ContactError {
@@ -148,109 +147,13 @@ fn plane_for(surface: &Surface, model: &Model, pressure: f64) -> Result<(f64, bo
                 })?;
             Ok((plane, false))
         }
-        None => seek(surface, model, pressure).map_err(unreachable),
-    }
-}
-
-/// Nominal pressure and contact area ratio at one plane, from the islands.
-fn carried(surface: &Surface, model: &Model, plane: f64) -> (f64, f64) {
-    let nominal = surface.extent.cells as f64 * surface.map.cell_area();
-    let islands = Islands::above(surface.map, plane, false);
-    let (force, area) = islands.islands.iter().fold((0.0, 0.0), |(force, area), island| {
-        let response = model.respond(island.slope);
-        (
-            force + response.island_pressure * island.area,
-            area + (response.area_ratio * island.area).min(nominal),
-        )
-    });
-    (force / nominal, (area / nominal).min(1.0))
-}
-
-/// The plane at which a closure that is not linear in tan β carries `pressure`, and whether the load jumps there.
-///
-/// 1. Guess the rung from the mean slope above each rung; walk until two rungs bracket the load.
-/// 2. False position, then halving; a bracket that closes without meeting the load is a jump.
-fn seek(surface: &Surface, model: &Model, pressure: f64) -> Result<(f64, bool), f64> {
-    let Extent { high, cells, .. } = surface.extent;
-    let (rungs, sums) = ladder::estimate(surface.map, &surface.extent);
-    let last = rungs.count - 1;
-    let guess = |above: &Above| {
-        let slope = if above.area > 0.0 { above.slope_area / above.area } else { 0.0 };
-        model.respond(slope).island_pressure * above.area / cells as f64
-    };
-    let mut k = sums.iter().rposition(|s| guess(s) >= pressure).unwrap_or(0);
-    let at = |plane: f64| carried(surface, model, plane).0;
-    let mut below = at(rungs.height(k));
-    while below < pressure && k > 0 {
-        k -= 1;
-        below = at(rungs.height(k));
-    }
-    if below < pressure * (1.0 - RESIDUAL) {
-        return Err((0..last).map(|k| at(rungs.height(k))).fold(0.0, f64::max));
-    }
-    let mut over = if k < last { at(rungs.height(k + 1)) } else { 0.0 };
-    while over >= pressure && k + 1 < last {
-        k += 1;
-        (below, over) = (over, at(rungs.height(k + 1)));
-    }
-    let mut bracket = Bracket {
-        low: rungs.height(k),
-        high: rungs.height(k + 1).min(high),
-        f_low: below - pressure,
-        f_high: over - pressure,
-    };
-    Ok(bracket.close(pressure, at))
-}
-
-/// Two planes with the load between theirs: `f_low` ≥ 0 > `f_high` are residuals.
-struct Bracket {
-    low: f64,
-    high: f64,
-    f_low: f64,
-    f_high: f64,
-}
-
-impl Bracket {
-    /// The plane that carries `wanted`, and whether none does within the residual.
-    fn close(&mut self, wanted: f64, at: impl Fn(f64) -> f64) -> (f64, bool) {
-        let mut best = if self.f_low.abs() <= self.f_high.abs() {
-            (self.low, self.f_low)
-        } else {
-            (self.high, self.f_high)
-        };
-        let (mut weight_low, mut weight_high) = (1.0, 1.0);
-        for step in 0.. {
-            if best.1.abs() <= RESIDUAL * wanted {
-                return (best.0, false);
-            }
-            let (a, b) = (weight_low * self.f_low, weight_high * self.f_high);
-            let cross = self.low + (self.high - self.low) * (a / (a - b));
-            let middle = self.low + 0.5 * (self.high - self.low);
-            let d = if step < SECANTS && cross > self.low && cross < self.high { cross } else { middle };
-            if d <= self.low || d >= self.high {
-                break;
-            }
-            let f = at(d) - wanted;
-            if f.abs() < best.1.abs() {
-                best = (d, f);
-            }
-            if f >= 0.0 {
-                (self.low, self.f_low) = (d, f);
-                weight_high *= 0.5;
-                weight_low = 1.0;
-            } else {
-                (self.high, self.f_high) = (d, f);
-                weight_low *= 0.5;
-                weight_high = 1.0;
-            }
-        }
-        (best.0, best.1.abs() > 1e-6 * wanted)
+        None => seek::plane_for(surface, model, pressure).map_err(unreachable),
     }
 }
 
 fn contact_at(surface: &Surface, model: &Model, plane: f64, jump: bool, wanted: Option<f64>) -> Contact {
     let nominal_area = surface.extent.cells as f64 * surface.map.cell_area();
-    let islands = Islands::above(surface.map, plane, true);
+    let islands = Islands::above(surface.map, plane);
     let responses: Vec<Response> = islands.islands.iter().map(|island| model.respond(island.slope)).collect();
     let mut contact = Contact {
         separation: plane - surface.roughness.mean,
@@ -312,12 +215,15 @@ fn load_curve(surface: &Surface, model: &Model, contact: &Contact, plane: f64) -
                 })
                 .collect()
         }
-        None => (0..CURVE_POINTS)
-            .map(|k| {
-                let (pressure, area_ratio) = carried(surface, model, rungs.height(k));
-                CurvePoint { separation: rungs.height(k) - mean, pressure, area_ratio }
-            })
-            .collect(),
+        None => {
+            let mut within = Carrying::above(surface, model, plane);
+            (0..CURVE_POINTS)
+                .map(|k| {
+                    let (pressure, area_ratio) = within.rise_to(rungs.height(k));
+                    CurvePoint { separation: rungs.height(k) - mean, pressure, area_ratio }
+                })
+                .collect()
+        }
     };
     curve[0] = end;
     curve[CURVE_POINTS - 1] = CurvePoint { separation: high - mean, pressure: 0.0, area_ratio: 0.0 };

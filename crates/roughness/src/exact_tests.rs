@@ -1,5 +1,6 @@
 //! Islands, ellipses, contact and pressure against closed forms.
 
+use crate::islands::Runs;
 use crate::*;
 use asperity_law::Elastic;
 use std::f64::consts::PI;
@@ -35,7 +36,7 @@ fn an_elliptic_paraboloid_gives_back_its_ellipse() {
     };
     for (pixel, tolerance) in [(1e-6, 5e-3), (0.25e-6, 4e-4)] {
         let n = (64e-6 / pixel) as usize + 1;
-        let islands = Islands::above(&map(n, pixel, |x, y| z(x - 2e-6, y + 3e-6)), -1e-6, true);
+        let islands = Islands::above(&map(n, pixel, |x, y| z(x - 2e-6, y + 3e-6)), -1e-6);
         assert_eq!(islands.islands.len(), 1);
         let island = islands.islands[0];
         let ellipse = island.ellipse.unwrap();
@@ -70,7 +71,7 @@ fn an_island_across_the_edges_of_a_periodic_map_is_one() {
         HeightMap::new(n, n, [1e-6, 1e-6], z.collect()).unwrap().with_periodic(true)
     };
     let one = |shift| {
-        let islands = Islands::above(&bump(shift), -1.3, true).islands;
+        let islands = Islands::above(&bump(shift), -1.3).islands;
         assert_eq!(islands.len(), 1, "{shift}");
         islands[0]
     };
@@ -84,13 +85,13 @@ fn an_island_across_the_edges_of_a_periodic_map_is_one() {
             && (a.semi_axes[1] / b.semi_axes[1] - 1.0).abs() < 1e-9
     );
     // not periodic: cut into four
-    let open = Islands::above(&bump(24).with_periodic(false), -1.3, true).islands;
+    let open = Islands::above(&bump(24).with_periodic(false), -1.3).islands;
     assert_eq!(open.len(), 4);
     // a ridge that meets itself has no extent
     let ridge = (0..n * n).map(|i| -((i / n) as f64 - 20.0).abs()).collect();
     let ridge = HeightMap::new(n, n, [1e-6, 1e-6], ridge).unwrap();
-    assert!(Islands::above(&ridge, -3.5, true).islands[0].ellipse.is_some());
-    let endless = Islands::above(&ridge.with_periodic(true), -3.5, true).islands;
+    assert!(Islands::above(&ridge, -3.5).islands[0].ellipse.is_some());
+    let endless = Islands::above(&ridge.with_periodic(true), -3.5).islands;
     assert!(endless.len() == 1 && endless[0].ellipse.is_none());
 }
 
@@ -102,11 +103,11 @@ fn a_saddle_joins_only_above_its_middle() {
     z[n + 1] = 0.6;
     z[2 * n + 2] = 0.6;
     let map = HeightMap::new(n, n, [1.0, 1.0], z.clone()).unwrap();
-    assert_eq!(Islands::above(&map, 0.0, true).islands.len(), 2);
+    assert_eq!(Islands::above(&map, 0.0).islands.len(), 2);
     z[n + 1] = 1.6;
     let map = HeightMap::new(n, n, [1.0, 1.0], z).unwrap();
-    assert_eq!(Islands::above(&map, 0.0, true).islands.len(), 1);
-    let total: f64 = Islands::above(&map, 0.0, false).islands.iter().map(|i| i.area).sum();
+    assert_eq!(Islands::above(&map, 0.0).islands.len(), 1);
+    let total: f64 = Islands::above(&map, 0.0).islands.iter().map(|i| i.area).sum();
     assert!((total - above_plane(&map, 0.0).area).abs() < 1e-12);
 }
 
@@ -127,12 +128,18 @@ fn islands_and_cells_hold_the_same_area_and_slope() {
         let map = HeightMap::new(n, 90, [1.0, 1.0], z.collect()).unwrap().with_periodic(periodic);
         for plane in [-3.0, -0.7, 0.0, 0.4, 1.5, 2.4, 2.6] {
             let sum = above_plane(&map, plane);
-            for ellipses in [false, true] {
-                let islands = Islands::above(&map, plane, ellipses);
-                let area: f64 = islands.islands.iter().map(|i| i.area).sum();
-                let slope: f64 = islands.islands.iter().map(|i| i.area * i.slope).sum();
-                assert!((area - sum.area).abs() <= 1e-9 * sum.area.max(1.0), "{periodic} {holes} {plane}");
-                assert!((slope - sum.slope_area).abs() <= 1e-9 * sum.slope_area.max(1.0));
+            let islands = Islands::above(&map, plane).islands;
+            let area: f64 = islands.iter().map(|i| i.area).sum();
+            let slope: f64 = islands.iter().map(|i| i.area * i.slope).sum();
+            assert!((area - sum.area).abs() <= 1e-9 * sum.area.max(1.0), "{periodic} {holes} {plane}");
+            assert!((slope - sum.slope_area).abs() <= 1e-9 * sum.slope_area.max(1.0));
+            // the islands found within what lies above a lower plane are the same, in the same order
+            let lower = Runs::above(&map, plane - 0.9).narrowed(&map, plane - 0.2).narrowed(&map, plane);
+            let sizes = Islands::sizes(&map, plane, lower);
+            assert_eq!(sizes.len(), islands.len(), "{periodic} {holes} {plane}");
+            for (size, island) in sizes.iter().zip(&islands) {
+                assert!((size.area - island.area).abs() <= 1e-9 * island.area);
+                assert!((size.slope_area - island.area * island.slope).abs() <= 1e-9 * size.slope_area);
             }
         }
     }

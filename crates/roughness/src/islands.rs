@@ -12,9 +12,11 @@ mod runs;
 use crate::cell::{self, Moments};
 use crate::ellipse::Ellipse;
 use crate::height_map::HeightMap;
+use crate::ladder::Above;
 use joined::{Joined, Meeting};
 use rayon::prelude::*;
-use runs::{Cursor, Run, find_runs};
+use runs::Cursor;
+pub(crate) use runs::Runs;
 
 /// A connected part of the surface above the plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -55,8 +57,7 @@ pub struct Islands {
     pub plane: f64,
     /// The islands, in the order of their first node.
     pub islands: Vec<Island>,
-    runs: Vec<Run>,
-    first_run: Vec<usize>,
+    runs: Runs,
     homes: Vec<Home>,
 }
 
@@ -68,43 +69,132 @@ struct Sum {
     root: usize,
 }
 
-/// What a cell adds to a run.
-struct Visit {
-    run: u32,
-    /// Where corner 0 lies from the first node of the run.
-    offset: [i32; 2],
-    cell: [u32; 2],
-    corners: [f64; 4],
-    sides: u8,
+/// What cells of one row add to a run.
+enum Visit<'a> {
+    /// Neighbouring cells wholly above the plane, the run along their lower side.
+    Whole {
+        run: u32,
+        /// First of the cells.
+        cell: [u32; 2],
+        /// Heights of the nodes below and above them, one more than there are cells.
+        nodes: [&'a [f64]; 2],
+    },
+    /// Some of the triangles of a cell.
+    Part {
+        run: u32,
+        /// Where corner 0 lies from the first node of the run.
+        offset: [i32; 2],
+        cell: [u32; 2],
+        corners: [f64; 4],
+        sides: u8,
+    },
+}
+
+/// What is summed over the cells of a run.
+trait Tally: Clone + Default + Send {
+    /// Adds what cells of one row bring; `start` is the column of the first node of the run.
+    fn visit(&mut self, visit: &Visit, start: u32, inverse_pixel: [f64; 2]);
+
+    /// Adds another part of the same run.
+    fn join(&mut self, other: &Self);
+}
+
+impl Tally for Above {
+    fn visit(&mut self, visit: &Visit, _: u32, inverse_pixel: [f64; 2]) {
+        match visit {
+            Visit::Whole { nodes: [low, high], .. } => {
+                self.area += (low.len() - 1) as f64;
+                self.slope_area += cell::whole_slopes(low, high, inverse_pixel);
+            }
+            Visit::Part { corners, sides, .. } => {
+                let (area, slope_area) = part_above(corners, *sides, inverse_pixel);
+                self.area += area;
+                self.slope_area += slope_area;
+            }
+        }
+    }
+
+    fn join(&mut self, other: &Above) {
+        self.area += other.area;
+        self.slope_area += other.slope_area;
+    }
+}
+
+/// The moments of a run are about its first node.
+impl Tally for Moments {
+    fn visit(&mut self, visit: &Visit, start: u32, inverse_pixel: [f64; 2]) {
+        match visit {
+            Visit::Whole { cell, nodes: [low, high], .. } => {
+                for (i, (a, b)) in low.windows(2).zip(high.windows(2)).enumerate() {
+                    let slope = cell::mean_gradient(&[a[0], a[1], b[1], b[0]], inverse_pixel);
+                    let x = f64::from(cell[1] - start) + i as f64;
+                    self.add(&Moments::of_cell(slope).moved(x, 0.0));
+                }
+            }
+            Visit::Part { corners, sides, offset, .. } => {
+                let m = cell::moments_above(corners, *sides, inverse_pixel);
+                self.add(&m.moved(f64::from(offset[0]), f64::from(offset[1])));
+            }
+        }
+    }
+
+    fn join(&mut self, other: &Moments) {
+        self.add(other);
+    }
+}
+
+impl Visit<'_> {
+    fn run(&self) -> usize {
+        match self {
+            Visit::Whole { run, .. } | Visit::Part { run, .. } => *run as usize,
+        }
+    }
 }
 
 impl Islands {
-    /// The islands of `map` above `plane` (m); `ellipses` asks for the second moments too.
-    pub fn above(map: &HeightMap, plane: f64, ellipses: bool) -> Islands {
-        let (runs, first_run) = find_runs(map, plane);
-        let mut islands = Islands { plane, islands: Vec::new(), runs, first_run, homes: Vec::new() };
-        let (moments, meetings) = islands.sums(map, ellipses);
-        let joined = Joined::new(islands.runs.len(), &meetings);
-        islands.collect(map, &moments, joined, ellipses);
+    /// The islands of `map` above `plane` (m).
+    pub fn above(map: &HeightMap, plane: f64) -> Islands {
+        let runs = Runs::above(map, plane);
+        let mut islands = Islands { plane, islands: Vec::new(), runs, homes: Vec::new() };
+        let (moments, meetings) = islands.sums::<Moments>(map);
+        let joined = Joined::new(islands.runs.list.len(), &meetings);
+        islands.collect(map, &moments, joined);
         islands
     }
 
+    /// Area and slope integral alone of every island above `plane`, in cells, from the runs above it.
+    pub(crate) fn sizes(map: &HeightMap, plane: f64, runs: Runs) -> Vec<Above> {
+        let islands = Islands { plane, islands: Vec::new(), runs, homes: Vec::new() };
+        let (mut sums, meetings) = islands.sums::<Above>(map);
+        let joined = Joined::new(sums.len(), &meetings);
+        // a root is the first run of its island
+        for run in 0..sums.len() {
+            let (root, _) = joined.root(run);
+            if root != run {
+                let sum = sums[run];
+                sums[root].join(&sum);
+                sums[run] = Above::default();
+            }
+        }
+        sums.retain(|sum| sum.area > 0.0);
+        sums
+    }
+
     /// Sums per run, and which runs meet; in the order of the rows.
-    fn sums(&self, map: &HeightMap, ellipses: bool) -> (Vec<Moments>, Vec<Meeting>) {
+    fn sums<T: Tally>(&self, map: &HeightMap) -> (Vec<T>, Vec<Meeting>) {
         let inverse_pixel = map.pixel().map(|p| 1.0 / p);
         let parts: Vec<_> = map
             .chunks()
             .into_par_iter()
             .map(|(first, end)| {
                 // runs of the rows first..=end; the last row of a periodic map meets row 0, kept apart at the end
-                let base = self.first_run[first];
-                let last = self.first_run[(end + 1).min(map.rows())];
-                let wrapped = if end == map.rows() { self.first_run[1] } else { 0 };
-                let mut sums = vec![Moments::default(); last - base + wrapped];
+                let base = self.runs.first[first];
+                let last = self.runs.first[(end + 1).min(map.rows())];
+                let wrapped = if end == map.rows() { self.runs.first[1] } else { 0 };
+                let mut sums = vec![T::default(); last - base + wrapped];
                 let mut meetings: Vec<Meeting> = Vec::new();
                 for row in first..end {
-                    let slot = |run: u32| {
-                        let run = run as usize;
+                    let slot = |run: usize| {
                         if run >= base && run < last { run - base } else { last - base + run }
                     };
                     self.visit_row(
@@ -116,28 +206,20 @@ impl Islands {
                             }
                         },
                         |visit| {
-                            let sum = &mut sums[slot(visit.run)];
-                            if ellipses {
-                                let m = cell::moments_above(&visit.corners, visit.sides, inverse_pixel);
-                                sum.add(&m.moved(f64::from(visit.offset[0]), f64::from(visit.offset[1])));
-                            } else {
-                                let (area, slope_area) =
-                                    part_above(&visit.corners, visit.sides, inverse_pixel);
-                                sum.area += area;
-                                sum.slope_area += slope_area;
-                            }
+                            let run = visit.run();
+                            sums[slot(run)].visit(&visit, self.runs.list[run].start, inverse_pixel);
                         },
                     );
                 }
                 (base, last, sums, meetings)
             })
             .collect();
-        let mut total = vec![Moments::default(); self.runs.len()];
+        let mut total = vec![T::default(); self.runs.list.len()];
         let mut all = Vec::new();
         for (base, last, sums, meetings) in parts {
             let (inside, wrapped) = sums.split_at(last - base);
-            total[base..last].iter_mut().zip(inside).for_each(|(t, s)| t.add(s));
-            total.iter_mut().zip(wrapped).for_each(|(t, s)| t.add(s));
+            total[base..last].iter_mut().zip(inside).for_each(|(t, s)| t.join(s));
+            total.iter_mut().zip(wrapped).for_each(|(t, s)| t.join(s));
             all.extend(meetings);
         }
         (total, all)
@@ -149,13 +231,13 @@ impl Islands {
         map: &HeightMap,
         row: usize,
         mut meet: impl FnMut(Meeting),
-        mut add: impl FnMut(Visit),
+        mut add: impl FnMut(Visit<'_>),
     ) {
         let wrap_row = row + 1 == map.rows();
         let next_row = if wrap_row { 0 } else { row + 1 };
         let (low, high) = (map.row(row), map.row(next_row));
-        let mut below = Cursor::new(&self.runs, &self.first_run, row);
-        let mut over = Cursor::new(&self.runs, &self.first_run, next_row);
+        let mut below = Cursor::new(&self.runs, row);
+        let mut over = Cursor::new(&self.runs, next_row);
         let cells = map.cell_columns();
         let columns = map.columns();
         let mut column = 0;
@@ -173,6 +255,21 @@ impl Islands {
                 _ if last_cell && column < cells => cells - 1,
                 _ => break,
             };
+            if let (Some(r0), Some(r3)) = (below.at(column), over.at(column)) {
+                let end = self.runs.list[r0 as usize].end.min(self.runs.list[r3 as usize].end) as usize;
+                if column + 1 < end {
+                    // nodes column..end of both rows are above, and so are the cells between them
+                    let shift = [0, i32::from(wrap_row)];
+                    meet(Meeting { a: r0, b: r3, shift });
+                    add(Visit::Whole {
+                        run: r0,
+                        cell: [row as u32, column as u32],
+                        nodes: [&low[column..end], &high[column..end]],
+                    });
+                    column = end - 1;
+                    continue;
+                }
+            }
             if column + 1 == cells {
                 last_cell = false;
             }
@@ -194,8 +291,8 @@ impl Islands {
                 if let Some(run) = run_of(corner) {
                     let node = [if corner == 1 || corner == 2 { next } else { column - 1 }, 0];
                     let (cx, cy) = (i32::from(corner == 1 || corner == 2), i32::from(corner >= 2));
-                    let start = self.runs[run as usize].start as i32;
-                    add(Visit {
+                    let start = self.runs.list[run as usize].start as i32;
+                    add(Visit::Part {
                         run,
                         offset: [node[0] as i32 - cx - start, -cy],
                         cell: [row as u32, (column - 1) as u32],
@@ -228,10 +325,10 @@ impl Islands {
     }
 
     /// Turns joined runs into islands; runs that no cell holds are dropped.
-    fn collect(&mut self, map: &HeightMap, moments: &[Moments], joined: Joined, ellipses: bool) {
-        let mut number = vec![u32::MAX; self.runs.len()];
+    fn collect(&mut self, map: &HeightMap, moments: &[Moments], joined: Joined) {
+        let mut number = vec![u32::MAX; self.runs.list.len()];
         let mut sums: Vec<Sum> = Vec::new();
-        self.homes = Vec::with_capacity(self.runs.len());
+        self.homes = Vec::with_capacity(self.runs.list.len());
         let size = [map.columns() as i64, map.rows() as i64];
         for (run, sum) in moments.iter().enumerate() {
             let (root, shift) = joined.root(run);
@@ -246,43 +343,34 @@ impl Islands {
             }
             let home = Home { island: number[root], shift };
             let target = &mut sums[home.island as usize];
-            if ellipses {
-                let d = self.offset_from(run, root, shift, size);
-                target.moments.add(&sum.moved(d[0], d[1]));
-            } else {
-                target.moments.area += sum.area;
-                target.moments.slope_area += sum.slope_area;
-            }
-            target.high = target.high.max(self.runs[run].high);
+            let d = self.offset_from(run, root, shift, size);
+            target.moments.add(&sum.moved(d[0], d[1]));
+            target.high = target.high.max(self.runs.list[run].high);
             self.homes.push(home);
         }
-        self.number(map, sums, ellipses);
+        self.number(map, sums);
     }
 
     /// Where the first node of `run` lies from the first node of run `root`, in pixels.
     fn offset_from(&self, run: usize, root: usize, shift: [i32; 2], size: [i64; 2]) -> [f64; 2] {
-        let (a, b) = (self.runs[run], self.runs[root]);
+        let (a, b) = (self.runs.list[run], self.runs.list[root]);
         [
             (i64::from(a.start) - i64::from(b.start) + i64::from(shift[0]) * size[0]) as f64,
             (i64::from(a.row) - i64::from(b.row) + i64::from(shift[1]) * size[1]) as f64,
         ]
     }
 
-    fn number(&mut self, map: &HeightMap, sums: Vec<Sum>, ellipses: bool) {
+    fn number(&mut self, map: &HeightMap, sums: Vec<Sum>) {
         let mut kept = vec![u32::MAX; sums.len()];
         for (old, Sum { moments, high, endless, root }) in sums.into_iter().enumerate() {
             if moments.area > 0.0 {
                 kept[old] = self.islands.len() as u32;
-                let origin = [self.runs[root].start, self.runs[root].row].map(f64::from);
+                let origin = [self.runs.list[root].start, self.runs.list[root].row].map(f64::from);
                 self.islands.push(Island {
                     area: moments.area * map.cell_area(),
                     slope: moments.slope_area / moments.area,
                     approach: high - self.plane,
-                    ellipse: if ellipses && !endless {
-                        Ellipse::of(&moments, origin, map.pixel())
-                    } else {
-                        None
-                    },
+                    ellipse: if endless { None } else { Ellipse::of(&moments, origin, map.pixel()) },
                 });
             }
         }
@@ -298,22 +386,30 @@ impl Islands {
             row,
             |_| {},
             |visit| {
-                let home = self.homes[visit.run as usize];
+                let home = self.homes[visit.run()];
                 if home.island == u32::MAX {
                     return;
                 }
-                let run = self.runs[visit.run as usize];
-                let position = [
-                    i64::from(run.start) + i64::from(visit.offset[0]) + i64::from(home.shift[0]) * size[0],
-                    i64::from(run.row) + i64::from(visit.offset[1]) + i64::from(home.shift[1]) * size[1],
+                let run = self.runs.list[visit.run()];
+                let origin = [
+                    i64::from(run.start) + i64::from(home.shift[0]) * size[0],
+                    i64::from(run.row) + i64::from(home.shift[1]) * size[1],
                 ];
-                let (area, _) = part_above(&visit.corners, visit.sides, inverse_pixel);
-                each(Piece {
-                    cell: visit.cell,
-                    island: home.island,
-                    area,
-                    offset: position.map(|p| p as f64),
-                });
+                let mut piece = |cell: [u32; 2], from_run: [i64; 2], area: f64| {
+                    let offset = [0, 1].map(|axis| (origin[axis] + from_run[axis]) as f64);
+                    each(Piece { cell, island: home.island, area, offset });
+                };
+                match visit {
+                    Visit::Whole { cell: [row, first], nodes, .. } => {
+                        for column in first..first + nodes[0].len() as u32 - 1 {
+                            piece([row, column], [i64::from(column) - i64::from(run.start), 0], 1.0);
+                        }
+                    }
+                    Visit::Part { cell, offset, corners, sides, .. } => {
+                        let (area, _) = part_above(&corners, sides, inverse_pixel);
+                        piece(cell, offset.map(i64::from), area);
+                    }
+                }
             },
         );
     }

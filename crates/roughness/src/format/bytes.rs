@@ -55,6 +55,18 @@ impl<'a> Bytes<'a> {
     }
 }
 
+/// The value of an IEEE 754 binary16 number: sign, 5 bits of exponent, 10 of fraction.
+fn half(bits: u16) -> f64 {
+    let (exponent, fraction) = (i32::from(bits >> 10 & 31), f64::from(bits & 1023));
+    let size = match exponent {
+        0 => fraction * 2f64.powi(-24),
+        31 if fraction == 0.0 => f64::INFINITY,
+        31 => f64::NAN,
+        _ => (1024.0 + fraction) * 2f64.powi(exponent - 25),
+    };
+    if bits >> 15 == 0 { size } else { -size }
+}
+
 /// How a number is stored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Number {
@@ -65,6 +77,8 @@ pub(super) enum Number {
     I16,
     I32,
     I64,
+    U64,
+    F16,
     F32,
     F64,
 }
@@ -73,9 +87,9 @@ impl Number {
     pub fn size(self) -> usize {
         match self {
             Number::U8 | Number::I8 => 1,
-            Number::U16 | Number::I16 => 2,
+            Number::U16 | Number::I16 | Number::F16 => 2,
             Number::U32 | Number::I32 | Number::F32 => 4,
-            Number::I64 | Number::F64 => 8,
+            Number::I64 | Number::U64 | Number::F64 => 8,
         }
     }
 
@@ -99,6 +113,8 @@ impl Number {
             Number::U32 => each(raw, big_endian, out, |b| f64::from(u32::from_le_bytes(b))),
             Number::I32 => each(raw, big_endian, out, |b| f64::from(i32::from_le_bytes(b))),
             Number::I64 => each(raw, big_endian, out, |b| i64::from_le_bytes(b) as f64),
+            Number::U64 => each(raw, big_endian, out, |b| u64::from_le_bytes(b) as f64),
+            Number::F16 => each(raw, big_endian, out, |b| half(u16::from_le_bytes(b))),
             Number::F32 => each(raw, big_endian, out, |b| f64::from(f32::from_le_bytes(b))),
             Number::F64 => each(raw, big_endian, out, f64::from_le_bytes),
         }

@@ -69,11 +69,12 @@ fn number(dtype: &DType) -> Result<(Number, bool), ReadError> {
         header_error(
             "descr",
             dtype.descr(),
-            "heights must be real numbers of 1, 2, 4 or 8 bytes (f4, f8, i1-i8, u1-u4)",
+            "heights must be real numbers of 1, 2, 4 or 8 bytes (f2-f8, i1-i8, u1-u8)",
         )
     };
     let DType::Plain(kind) = dtype else { return Err(refused()) };
     let number = match (kind.type_char(), kind.size_field()) {
+        (TypeChar::Float, 2) => Number::F16,
         (TypeChar::Float, 4) => Number::F32,
         (TypeChar::Float, 8) => Number::F64,
         (TypeChar::Int, 1) => Number::I8,
@@ -83,6 +84,7 @@ fn number(dtype: &DType) -> Result<(Number, bool), ReadError> {
         (TypeChar::Uint, 1) => Number::U8,
         (TypeChar::Uint, 2) => Number::U16,
         (TypeChar::Uint, 4) => Number::U32,
+        (TypeChar::Uint, 8) => Number::U64,
         _ => return Err(refused()),
     };
     Ok((number, kind.endianness() == Endianness::Big))

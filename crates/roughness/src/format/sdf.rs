@@ -76,16 +76,20 @@ fn binary(data: &[u8]) -> Result<Measured, ReadError> {
 }
 
 fn ascii(text: &str) -> Result<Measured, ReadError> {
-    let mut sections = text.split('*');
-    let head = sections.next().unwrap_or("");
-    let body = sections.next().ok_or(ReadError::Truncated {
+    // a line with a star ends the header, another one the heights; a comment may hold stars too
+    let is_end = |line: &&str| line.trim() == "*";
+    let lines: Vec<&str> = text.lines().collect();
+    let end = lines.iter().position(is_end).ok_or(ReadError::Truncated {
         format: FORMAT,
         what: "header",
         promised: text.len() as u64 + 1,
         found: text.len() as u64,
     })?;
+    let (head, body) = lines.split_at(end);
+    let body = body[1..].iter().take_while(|line| !is_end(line)).flat_map(|line| line.split_whitespace());
     let value = |name: &'static str| -> Result<f64, ReadError> {
-        let line = head.lines().filter_map(|l| l.split_once('=')).find(|(key, _)| key.trim() == name);
+        let mut pairs = head.iter().filter_map(|l| l.split_once('='));
+        let line = pairs.find(|(key, _)| key.trim().eq_ignore_ascii_case(name));
         let value = line.map_or("", |(_, value)| value.trim());
         value.parse().map_err(|_| header_error(name, format!("\"{value}\""), "it must be a number"))
     };
@@ -106,7 +110,7 @@ fn ascii(text: &str) -> Result<Measured, ReadError> {
     };
     let count = nodes(FORMAT, header.columns, header.rows)?;
     let mut heights = Vec::new();
-    for word in body.split_whitespace().take(count) {
+    for word in body.take(count) {
         heights.push(match word {
             "BAD" => f64::NAN,
             word => word

@@ -36,7 +36,16 @@ pub(super) fn read(path: &Path) -> Result<Measured, ReadError> {
         return Err(header_error("format", byte_order.to_string(), "only 0 (little-endian) is known"));
     }
     if kind != 2 {
-        return Err(header_error("object type", kind.to_string(), "only a surface (2) can be pressed"));
+        return Err(header_error(
+            "object type",
+            kind.to_string(),
+            "only a single surface (2) can be pressed, no profile, series, image or force curve",
+        ));
+    }
+    let objects = header.i16(14)?;
+    if objects > 1 {
+        let allowed = "only one can be pressed: export the heights alone";
+        return Err(header_error("number of objects", objects.to_string(), allowed));
     }
     let special = header.i16(86)? == 1;
     let number = match header.i16(98)? {
@@ -59,8 +68,8 @@ pub(super) fn read(path: &Path) -> Result<Measured, ReadError> {
     let height_unit = unit("z step unit", 212)?;
     let offset = header.f32(474)?;
     let offset = if offset.is_finite() { offset } else { 0.0 };
-    let comment = header.i16(334)?.max(0) as usize;
-    let private = header.i16(336)?.max(0) as usize;
+    let comment = usize::from(header.u16(334)?);
+    let private = usize::from(header.u16(336)?);
     let start = HEADER + comment + private;
     let size = count * number.size();
     let unpacked;

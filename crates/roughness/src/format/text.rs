@@ -12,7 +12,26 @@ fn number(word: &str, line: usize) -> Result<f64, ReadError> {
     if is_missing(word) {
         return Ok(f64::NAN);
     }
-    word.parse().map_err(|_| ReadError::Text { line, problem: format!("\"{word}\" is not a number") })
+    word.parse().map_err(|_| {
+        let hint = match word.split_once(',') {
+            Some(_) => "decimals stand behind a point, not a comma",
+            None => "begin lines that hold no heights with #",
+        };
+        ReadError::Text { line, problem: format!("\"{}\" is not a number ({hint})", shortened(word)) }
+    })
+}
+
+/// The beginning of a long word.
+fn shortened(word: &str) -> String {
+    const SHOWN: usize = 40;
+    let start: String = word.chars().take(SHOWN).collect();
+    if start.len() < word.len() { format!("{start}…") } else { start }
+}
+
+/// Whether a line names the columns of a list of points.
+fn is_title(line: &str) -> bool {
+    let names: Vec<String> = words(line.trim()).iter().map(|w| w.to_ascii_lowercase()).collect();
+    names == ["x", "y", "z"]
 }
 
 fn is_comment(line: &str) -> bool {
@@ -20,7 +39,7 @@ fn is_comment(line: &str) -> bool {
 }
 
 fn words(line: &str) -> Vec<&str> {
-    let separator = [';', ',', '\t'].into_iter().find(|s| line.contains(*s));
+    let separator = [';', '\t', ','].into_iter().find(|s| line.contains(*s));
     match separator {
         Some(s) => line.split(s).map(str::trim).collect(),
         None => line.split_whitespace().collect(),
@@ -31,13 +50,8 @@ fn words(line: &str) -> Vec<&str> {
 pub(super) fn read_table(path: &Path) -> Result<Measured, ReadError> {
     let data = std::fs::read(path)?;
     let text = text_of(&data)?;
-    let titles: Vec<String> = text
-        .lines()
-        .next()
-        .map(|l| words(l.trim()).iter().map(|w| w.to_ascii_lowercase()).collect())
-        .unwrap_or_default();
-    if titles == ["x", "y", "z"] {
-        return points(text, 1);
+    if text.lines().next().is_some_and(is_title) {
+        return points(text);
     }
     let mut table: Vec<Vec<f64>> = Vec::new();
     let mut ends_empty = true;
@@ -69,16 +83,19 @@ pub(super) fn read_table(path: &Path) -> Result<Measured, ReadError> {
 /// Reads points x y z, one a line.
 pub(super) fn read_points(path: &Path) -> Result<Measured, ReadError> {
     let data = std::fs::read(path)?;
-    points(text_of(&data)?, 0)
+    points(text_of(&data)?)
 }
 
 fn text_of(data: &[u8]) -> Result<&str, ReadError> {
-    std::str::from_utf8(data).map_err(|e| ReadError::Unknown {
+    let text = std::str::from_utf8(data).map_err(|e| ReadError::Unknown {
         found: format!("byte {} is no text: this file is not a list of numbers", e.valid_up_to()),
-    })
+    })?;
+    Ok(text.trim_start_matches('\u{feff}'))
 }
 
-fn points(text: &str, skip: usize) -> Result<Measured, ReadError> {
+/// A first line that names the columns is passed over.
+fn points(text: &str) -> Result<Measured, ReadError> {
+    let skip = usize::from(text.lines().next().is_some_and(is_title));
     let mut points: Vec<[f64; 3]> = Vec::new();
     for (i, line) in text.lines().enumerate().skip(skip).map(|(i, l)| (i + 1, l.trim())) {
         if is_comment(line) {

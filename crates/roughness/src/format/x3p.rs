@@ -3,7 +3,7 @@
 use super::bytes::Number;
 use super::{Measured, ReadError, Spacing, nodes, positive};
 use md5::{Digest, Md5};
-use roxmltree::{Document, Node};
+use roxmltree::{Document, Node, ParsingOptions};
 use std::fs::File;
 use std::io::{BufReader, Read, Write};
 use std::path::Path;
@@ -11,8 +11,10 @@ use zip::ZipArchive;
 use zip::write::SimpleFileOptions;
 
 const FORMAT: &str = "x3p";
-/// More than any main.xml holds unless it lists the heights itself.
-const LONGEST_XML: u64 = 1 << 28;
+/// More than a main.xml holds that does not list a large map itself, which the binary form is for.
+const LONGEST_XML: u64 = 1 << 26;
+/// Most parts of a main.xml: an entry of some kilobytes can unpack to millions.
+const MOST_PARTS: u32 = 1 << 23;
 
 type Zip = ZipArchive<BufReader<File>>;
 
@@ -23,7 +25,9 @@ fn damaged(what: impl ToString) -> ReadError {
 /// At most `limit` bytes of a member, whatever its directory entry says.
 fn member(zip: &mut Zip, name: &str, limit: u64) -> Result<Vec<u8>, ReadError> {
     let mut data = Vec::new();
-    let file = zip.by_name(name).map_err(|e| damaged(format!("{name}: {e}")))?;
+    // some programs write the paths of Windows
+    let stored = if zip.index_for_name(name).is_some() { name.into() } else { name.replace('\\', "/") };
+    let file = zip.by_name(&stored).map_err(|e| damaged(format!("{name}: {e}")))?;
     file.take(limit).read_to_end(&mut data).map_err(|e| damaged(format!("{name}: {e}")))?;
     Ok(data)
 }
@@ -73,7 +77,9 @@ pub(super) fn read(path: &Path) -> Result<Measured, ReadError> {
     let mut zip = ZipArchive::new(BufReader::new(File::open(path)?)).map_err(damaged)?;
     let xml = member(&mut zip, "main.xml", LONGEST_XML)?;
     let xml = String::from_utf8(xml).map_err(|_| damaged("main.xml is not UTF-8"))?;
-    let document = Document::parse(xml.trim_start_matches('\u{feff}')).map_err(damaged)?;
+    let options = ParsingOptions { nodes_limit: MOST_PARTS, ..ParsingOptions::default() };
+    let document =
+        Document::parse_with_options(xml.trim_start_matches('\u{feff}'), options).map_err(damaged)?;
     let root = document.root_element();
     let (x, y, z) = (Axis::of(root, "CX")?, Axis::of(root, "CY")?, Axis::of(root, "CZ")?);
     let feature = text(root, &["Record1", "FeatureType"]).unwrap_or("SUR");

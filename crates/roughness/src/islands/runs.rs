@@ -2,6 +2,7 @@
 
 use crate::height_map::{HeightMap, ROWS_PER_CHUNK};
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// Nodes `start..end` of one row, all above the plane.
 #[derive(Clone, Copy, Debug)]
@@ -20,10 +21,9 @@ pub(super) struct Cursor<'a> {
 }
 
 impl<'a> Cursor<'a> {
-    /// The runs of `row`, where `first_run` numbers the first run of each row.
-    pub fn new(runs: &'a [Run], first_run: &[usize], row: usize) -> Cursor<'a> {
-        let (first, end) = (first_run[row], first_run[row + 1]);
-        Cursor { runs: &runs[first..end], number: first, at: 0 }
+    /// At the left end of `row`.
+    pub fn new(runs: &'a Runs, row: usize) -> Cursor<'a> {
+        Cursor { runs: runs.row(row), number: runs.first[row], at: 0 }
     }
 
     /// The first cell, from `column` on, with a corner in a run of this row.
@@ -49,37 +49,65 @@ impl<'a> Cursor<'a> {
     }
 }
 
-/// All runs above the plane, and the number of the first run of each row (with one more at the end).
-pub(super) fn find_runs(map: &HeightMap, plane: f64) -> (Vec<Run>, Vec<usize>) {
-    let parts: Vec<(Vec<Run>, Vec<usize>)> = (0..map.rows().div_ceil(ROWS_PER_CHUNK))
-        .into_par_iter()
-        .map(|chunk| {
-            let first = chunk * ROWS_PER_CHUNK;
-            let mut runs = Vec::new();
-            let mut counts = Vec::with_capacity(ROWS_PER_CHUNK);
-            for row in first..(first + ROWS_PER_CHUNK).min(map.rows()) {
-                let before = runs.len();
-                runs_of_row(map, row, plane, &mut runs);
-                counts.push(runs.len() - before);
-            }
-            (runs, counts)
-        })
-        .collect();
-    let mut first_run = Vec::with_capacity(map.rows() + 1);
-    let mut total = 0;
-    for count in parts.iter().flat_map(|(_, counts)| counts) {
-        first_run.push(total);
-        total += count;
-    }
-    first_run.push(total);
-    let mut runs = Vec::with_capacity(total);
-    parts.iter().for_each(|(part, _)| runs.extend_from_slice(part));
-    (runs, first_run)
+/// All runs above a plane, row by row.
+#[derive(Clone, Debug)]
+pub(crate) struct Runs {
+    pub(super) list: Vec<Run>,
+    /// Number of the first run of each row, with one more at the end.
+    pub(super) first: Vec<usize>,
 }
 
-fn runs_of_row(map: &HeightMap, row: usize, plane: f64, runs: &mut Vec<Run>) {
-    let heights = map.row(row);
-    let mut column = 0;
+impl Runs {
+    /// The runs of `map` above `plane`.
+    pub fn above(map: &HeightMap, plane: f64) -> Runs {
+        let whole = 0..map.columns();
+        Runs::gathered(map, |row, runs| runs_of_span(map, row, whole.clone(), plane, runs))
+    }
+
+    /// The runs above `plane`, which is not below the plane of these runs: only they are searched.
+    pub fn narrowed(&self, map: &HeightMap, plane: f64) -> Runs {
+        Runs::gathered(map, |row, runs| {
+            for run in self.row(row).iter().filter(|run| run.high > plane) {
+                runs_of_span(map, row, run.start as usize..run.end as usize, plane, runs);
+            }
+        })
+    }
+
+    /// The runs of `row`.
+    pub(super) fn row(&self, row: usize) -> &[Run] {
+        &self.list[self.first[row]..self.first[row + 1]]
+    }
+
+    /// Rows in parallel, joined in their order; `find` appends the runs of one row.
+    fn gathered(map: &HeightMap, find: impl Fn(usize, &mut Vec<Run>) + Sync) -> Runs {
+        let parts: Vec<(Vec<Run>, Vec<usize>)> = (0..map.rows().div_ceil(ROWS_PER_CHUNK))
+            .into_par_iter()
+            .map(|chunk| {
+                let rows = chunk * ROWS_PER_CHUNK..((chunk + 1) * ROWS_PER_CHUNK).min(map.rows());
+                let mut runs = Vec::new();
+                let ends = rows.map(|row| {
+                    find(row, &mut runs);
+                    runs.len()
+                });
+                let ends = ends.collect();
+                (runs, ends)
+            })
+            .collect();
+        let mut list = Vec::with_capacity(parts.iter().map(|(part, _)| part.len()).sum());
+        let mut first = Vec::with_capacity(map.rows() + 1);
+        first.push(0);
+        for (part, ends) in &parts {
+            first.extend(ends.iter().map(|end| list.len() + end));
+            list.extend_from_slice(part);
+        }
+        Runs { list, first }
+    }
+}
+
+/// Appends the runs among the nodes `span` of one row.
+fn runs_of_span(map: &HeightMap, row: usize, span: Range<usize>, plane: f64, runs: &mut Vec<Run>) {
+    let heights = &map.row(row)[..span.end];
+    let mut column = span.start;
     while let Some(step) = heights[column..].iter().position(|z| *z > plane) {
         let start = column + step;
         let mut end = start + 1;
