@@ -123,7 +123,7 @@ pub fn run(
     if stopped.is_none() {
         match path.model.unloading_stiffness() {
             Ok(stiffness) => {
-                log.stiffness = Some(stiffness);
+                log.stiffness = Some(stiffness.depth);
                 if scene.loading.unload {
                     stopped = path
                         .unload(stiffness, numbers.unload_steps, &mut |model, increment| {
@@ -427,11 +427,14 @@ impl<'p> Log<'p> {
     }
 }
 
-/// ∫F dh over corrected depths.
+/// ∫F dh over corrected depths: the work over the travel less what the penetration took.
 fn work_along(rows: &[CurveRow]) -> f64 {
-    rows.windows(2)
-        .map(|pair| crate::energy::work([pair[0].force, pair[1].force], pair[1].depth - pair[0].depth))
-        .sum()
+    let step = |pair: &[CurveRow]| {
+        let (from, to) = (pair[0], pair[1]);
+        let sunk = crate::energy::work([from.force, to.force], to.penetration - from.penetration);
+        to.external_work - from.external_work - sunk
+    };
+    rows.windows(2).map(step).sum()
 }
 
 /// The largest |W - E_e - W_p - E_c|/W over increments with W above 1 % of its peak.

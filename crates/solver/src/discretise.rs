@@ -54,6 +54,8 @@ impl Discretisation {
         // the work of ridges grows with h², that of a cone with h³: their early increments weigh more
         let ridges = scene.symmetry == crate::scene::Symmetry::PlaneStrain || scene.asperity.len() > 1;
         let (steps, geometric_from) = if ridges { (steps + steps / 3, 0.003) } else { (steps, 0.02) };
+        // unloaded, contacts part one after the other, each with a kink in the curve
+        let unload_steps = if ridges { 2 * unload_steps } else { unload_steps };
         // a linear element must be 8/3 times smaller than a quadratic one to be as exact
         let elements = if element == ElementChoice::Q4 { elements * 8 / 3 } else { elements };
         Discretisation {

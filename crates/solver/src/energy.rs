@@ -33,6 +33,21 @@ pub fn work(force: [f64; 2], travel: f64) -> f64 {
     travel * (f + (f * g).sqrt() + g) / 3.0
 }
 
+/// ∫F dh between two states whose forces and slopes dF/dh are known: exact for a cubic.
+pub fn work_by_slopes(force: [f64; 2], slope: [f64; 2], travel: f64) -> f64 {
+    travel * (0.5 * (force[0] + force[1]) + travel * (slope[0] - slope[1]) / 12.0)
+}
+
+/// ∫F dh from a state of this force and slope to separation at `travel` (negative): F ∝ (distance to separation)^m.
+pub fn work_to_separation(force: f64, slope: f64, travel: f64) -> f64 {
+    if force <= 0.0 {
+        return 0.0;
+    }
+    // between a flat punch, 1, and a cone, 2: beyond that the slope is not one of this curve
+    let exponent = (slope * travel.abs() / force).clamp(1.0, 2.0);
+    travel * force / (exponent + 1.0)
+}
+
 /// Sums of the contact over some edges.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ContactSums {
@@ -87,4 +102,18 @@ pub fn contact_sums<'a>(edges: impl Iterator<Item = &'a EdgeContact>, symmetry: 
         sums.radius = 0.5 * sums.area;
     }
     sums
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn work_of_known_curves() {
+        // F = (1 + h)², from h = 0 to 2: 26/3; F = 3 h³ from 2 back to 1: -45/4; F = 5 u^1.5 over u = 0.3
+        assert!((work([1.0, 9.0], 2.0) - 26.0 / 3.0).abs() < 1e-14);
+        assert!((work_by_slopes([24.0, 3.0], [36.0, 9.0], -1.0) + 11.25).abs() < 1e-14);
+        let (force, slope) = (5.0 * 0.3_f64.powf(1.5), 7.5 * 0.3_f64.sqrt());
+        assert!((work_to_separation(force, slope, -0.3) + 2.0 * 0.3_f64.powf(2.5)).abs() < 1e-14);
+    }
 }

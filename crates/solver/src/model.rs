@@ -23,6 +23,15 @@ pub struct ToolContact {
     pub penalty: f64,
 }
 
+/// Growth of the force with the advance of the tool.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ToolStiffness {
+    /// dF per travel of the tool, the compliance of the penalty included.
+    pub travel: f64,
+    /// dF/dh: the compliance of the penalty taken out.
+    pub depth: f64,
+}
+
 /// Negative pivots with which an LDLᵀ step is still taken: a limit point or a bifurcation has one or two; more mean
 /// that the iterate is far from any equilibrium, and the increment is better halved.
 const TOLERATED_NEGATIVE_PIVOTS: usize = 2;
@@ -369,16 +378,20 @@ impl<'m> Model<'m> {
         }
     }
 
-    /// dF/dh at the converged state with every point elastic and the contact kept, the compliance of the penalty taken
-    /// out: F grows by K_t per travel of the tool, of which ∫ε δd² dA is spent in the penalty.
-    ///
-    /// With v = ∂F/∂u and c = ∂F/∂travel at fixed u: K_t = c - v K⁻¹ v.
-    pub fn unloading_stiffness(&mut self) -> Result<f64, Failure> {
+    /// dF/dh at the converged state with every point elastic and the contact kept.
+    pub fn unloading_stiffness(&mut self) -> Result<ToolStiffness, Failure> {
         self.begin(self.tip, 0.0, |_| [0.0; 2]);
         self.tangent = Tangent::Elastic;
         let assembled = self.assemble();
         self.tangent = Tangent::Exact;
         assembled?;
+        self.tool_stiffness()
+    }
+
+    /// How the force answers the travel of the tool at the assembled iterate.
+    ///
+    /// With v = ∂F/∂u and c = ∂F/∂travel at fixed u: K_t = c - v K⁻¹ v, of which ∫ε δd² dA is spent in the penalty.
+    pub fn tool_stiffness(&mut self) -> Result<ToolStiffness, Failure> {
         self.factorise()?;
         let mut v = vec![0.0; self.dofs.count];
         let mut c = 0.0;
@@ -399,7 +412,7 @@ impl<'m> Model<'m> {
         let mut u = v.clone();
         self.factor.solve(&mut u);
         // the tool goes down by 1, the body follows by u (down): δd = 1 - u on the contact
-        let stiffness = c - v.iter().zip(&u).map(|(a, b)| a * b).sum::<f64>();
+        let travel = c - v.iter().zip(&u).map(|(a, b)| a * b).sum::<f64>();
         let mut spent = 0.0;
         for (edge, contact) in self.edges.iter().zip(&self.edge_contact) {
             let d: [[f64; 2]; 3] = edge.nodes.map(|node| {
@@ -417,7 +430,7 @@ impl<'m> Model<'m> {
                 }
             }
         }
-        Ok(stiffness * stiffness / (stiffness - spent))
+        Ok(ToolStiffness { travel, depth: travel * travel / (travel - spent) })
     }
 
     /// Force on the tool along z at the iterate, positive in compression.

@@ -1,8 +1,10 @@
 //! The path of the tool: adaptive increments down to the peak, back to zero force, and the body left alone.
 
 use crate::contact::EdgeContact;
-use crate::energy::{ContactSums, contact_sums, dissipated, stored, work};
-use crate::model::Model;
+use crate::energy::{
+    ContactSums, contact_sums, dissipated, stored, work, work_by_slopes, work_to_separation,
+};
+use crate::model::{Model, ToolStiffness};
 use crate::newton::{Failure, Settings, solve};
 use crate::record::Phase;
 
@@ -89,6 +91,8 @@ pub struct Path<'m> {
     last_step: f64,
     force: f64,
     area: f64,
+    /// dF per travel, known while unloading.
+    slope: Option<f64>,
     external_work: f64,
     spent: usize,
     /// Newton iterations so far, failed ones included.
@@ -110,6 +114,7 @@ impl<'m> Path<'m> {
             last_step: 0.0,
             force: 0.0,
             area: 0.0,
+            slope: None,
             external_work: 0.0,
             spent: 0,
             iterations: 0,
@@ -158,12 +163,28 @@ impl<'m> Path<'m> {
         contact_sums(self.model.contacts().iter(), self.model.symmetry())
     }
 
+    /// Slope of the force over the travel: multipliers leave no penetration that would follow the force.
+    fn follows(&self, stiffness: &ToolStiffness) -> f64 {
+        if self.augmented { stiffness.depth } else { stiffness.travel }
+    }
+
     /// Accepts the attempted increment to `travel`.
     fn accept(&mut self, travel: f64, phase: Phase, observer: &mut Observer<'_>) -> Result<Increment, Stop> {
+        // loading is close to F = (a + b h)²; unloading bends less the flatter the contact has become, so there the
+        // slope is asked for, which costs one solve
+        let slope = match phase {
+            Phase::Load => None,
+            Phase::Unload => self.model.tool_stiffness().ok().map(|s| self.follows(&s)),
+        };
         self.model.accept().map_err(|_| Stop::Distorted)?;
         let contact = self.sums();
         let step = travel - self.travel;
-        self.external_work += work([self.force, contact.force], step);
+        self.external_work += match (self.slope, slope) {
+            (Some(from), _) if contact.force <= 0.0 => work_to_separation(self.force, from, step),
+            (Some(from), Some(to)) => work_by_slopes([self.force, contact.force], [from, to], step),
+            _ => work([self.force, contact.force], step),
+        };
+        self.slope = slope;
         (self.travel, self.last_step, self.force, self.area) = (travel, step, contact.force, contact.area);
         let (metal, states, volumes) = (self.model.metal(), self.model.states(), self.model.volumes());
         let increment = Increment {
@@ -291,13 +312,19 @@ impl<'m> Path<'m> {
     }
 
     /// Unloads to zero force in about `steps` increments, then removes the tool and finds the equilibrium of the body
-    /// alone: there the force is zero and the depth that of its highest point. `stiffness` is dF/dh at the peak.
+    /// alone: there the force is zero and the depth that of its highest point. `stiffness` is that of the peak.
     ///
     /// Travels follow F ∝ (1 - u/u₀)^1.25 with u₀ = 1.25 F/S; the last few percent of the force are not chased.
-    pub fn unload(&mut self, stiffness: f64, steps: usize, observer: &mut Observer<'_>) -> Result<(), Stop> {
+    pub fn unload(
+        &mut self,
+        stiffness: ToolStiffness,
+        steps: usize,
+        observer: &mut Observer<'_>,
+    ) -> Result<(), Stop> {
         let (peak_force, peak) = (self.force, self.travel);
-        let compliance = 1.0 / stiffness + self.sums().penetration / peak_force;
+        let compliance = 1.0 / stiffness.depth + self.sums().penetration / peak_force;
         let recovery = 1.25 * peak_force * compliance;
+        self.slope = Some(self.follows(&stiffness));
         for i in 1..=steps {
             let share = 1.0 - i as f64 / (steps as f64 + 0.3);
             let travel = peak - recovery * (1.0 - share.powf(1.0 / 1.25));
