@@ -9,6 +9,9 @@ use rayon::prelude::*;
 
 /// Rungs of one pass of the search.
 const RUNGS: usize = 64;
+/// Rungs of a pass that narrows a bracket, and the number of cells that is few.
+const NARROWING: usize = 9;
+const FEW: usize = 256;
 /// Cells above which a first estimate looks at one in `SAMPLED` rows only.
 const LARGE: usize = 1 << 20;
 const SAMPLED: usize = 8;
@@ -56,6 +59,11 @@ impl Rungs {
     pub fn height(&self, k: usize) -> f64 {
         self.low + k as f64 * self.step
     }
+
+    /// The highest rung that is not above `height`, which is not below the lowest.
+    fn at_or_below(&self, height: f64) -> usize {
+        (((height - self.low) / self.step) as usize).min(self.count - 1)
+    }
 }
 
 /// Sums on the rungs: `whole[k]` counts for rung k and all below it, `cut[k]` for rung k alone.
@@ -80,21 +88,51 @@ impl Tally {
         }
         let low = z[0].min(z[1]).min(z[2].min(z[3]));
         let slopes = cell::gradients(z, self.inverse_pixel);
+        if low >= self.rungs.low {
+            let top = self.rungs.at_or_below(low);
+            if top == self.rungs.at_or_below(high) {
+                let slope_area = 0.25 * ((slopes[0] + slopes[1]) + (slopes[2] + slopes[3]));
+                self.whole[top].add(Above { area: 1.0, slope_area });
+                return;
+            }
+        }
+        let middle = cell::centre(z);
+        for s in 0..4 {
+            self.add_triangle([z[s], z[(s + 1) % 4], middle], slopes[s]);
+        }
+    }
+
+    /// A quarter of a cell with these heights at its corners: the part above height d is quadratic in d, in two pieces.
+    #[inline]
+    fn add_triangle(&mut self, z: [f64; 3], slope: f64) {
+        let (least, most) = (z[0].min(z[1]), z[0].max(z[1]));
+        let (low, high) = (least.min(z[2]), most.max(z[2]));
+        let middle = least.max(most.min(z[2]));
+        if high <= self.rungs.low {
+            return;
+        }
+        let quarter = |share: f64| Above { area: 0.25 * share, slope_area: 0.25 * share * slope };
         let mut next = 0;
         if low >= self.rungs.low {
-            let top = (((low - self.rungs.low) / self.rungs.step) as usize).min(self.rungs.count - 1);
-            let whole =
-                Above { area: 1.0, slope_area: 0.25 * ((slopes[0] + slopes[1]) + (slopes[2] + slopes[3])) };
-            self.whole[top].add(whole);
+            let top = self.rungs.at_or_below(low);
+            self.whole[top].add(quarter(1.0));
             next = top + 1;
         }
+        // infinite where two heights are equal; no plane lies between those
+        let (below, over) = (1.0 / ((middle - low) * (high - low)), 1.0 / ((high - middle) * (high - low)));
         while next < self.rungs.count {
             let plane = self.rungs.height(next);
             if plane >= high {
                 break;
             }
-            let above = cut(&z.map(|v| v - plane), &slopes);
-            self.cut[next].add(above);
+            let share = if plane <= low {
+                1.0
+            } else if plane <= middle {
+                1.0 - (plane - low) * (plane - low) * below
+            } else {
+                (high - plane) * (high - plane) * over
+            };
+            self.cut[next].add(quarter(share));
             next += 1;
         }
     }
@@ -112,18 +150,6 @@ impl Tally {
         }
         self.cut
     }
-}
-
-/// What of a cell lies above height 0.
-#[inline]
-fn cut(z: &[f64; 4], slopes: &[f64; 4]) -> Above {
-    let middle = cell::centre(z);
-    let mut sum = Above::default();
-    for s in 0..4 {
-        let share = 0.25 * cell::share_above(z[s], z[(s + 1) % 4], middle);
-        sum.add(Above { area: share, slope_area: share * slopes[s] });
-    }
-    sum
 }
 
 fn inverse(pixel: [f64; 2]) -> [f64; 2] {
@@ -227,7 +253,8 @@ fn is_cut(z: &[f64; 4], low: f64, high: f64) -> bool {
 ///
 /// 1. Estimate on 64 rungs over the whole height; sum on the few rungs around the load, or on all if it is not
 ///    between those; take the two that bracket the load.
-/// 2. Keep the cells that this bracket cuts; refine with 64 rungs on them, and again, until few are left.
+/// 2. Keep the cells that this bracket cuts; narrow it on those as long as that leaves fewer (where the cells are steep,
+///    nearly all that one plane cuts are also cut by its neighbours).
 /// 3. Illinois' rule of false position on those, to a relative residual of 1e-11 or neighbouring numbers.
 pub fn plane_of(map: &HeightMap, extent: &Extent, wanted: f64) -> Option<(f64, Above)> {
     if extent.high <= extent.low {
@@ -247,14 +274,15 @@ pub fn plane_of(map: &HeightMap, extent: &Extent, wanted: f64) -> Option<(f64, A
         return None;
     }
     let mut bracket = first_bracket(map, rungs, &sums, wanted);
-    for _ in 0..3 {
-        if bracket.cells.len() < 256 || bracket.high - bracket.low <= 1e-9 * (extent.high - extent.low) {
-            break;
-        }
-        let rungs = Rungs::between(bracket.low, bracket.high, RUNGS);
+    while bracket.cells.len() > FEW {
+        let before = bracket.cells.len();
+        let rungs = Rungs::between(bracket.low, bracket.high, NARROWING);
         let sums = bracket.above_rungs(rungs);
         let k = rung_below(&sums, wanted);
         bracket = bracket.narrowed(rungs.height(k), rungs.height(k + 1), sums[k + 1]);
+        if 2 * bracket.cells.len() > before {
+            break;
+        }
     }
     Some(false_position(&bracket, wanted))
 }

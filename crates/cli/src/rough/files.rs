@@ -236,6 +236,7 @@ impl Outcome<'_> {
                               ra and rq are sa and sq of the map",
                 "beta": "atan of mean_gradient, the mean of |grad h|; mean_slope_x is the mean of |dz/dx|; both depend on the pixel size",
                 "asperity_slope": "tan(beta_j) is the mean of |grad h| over the island, not the slope from summit to rim",
+                "elastic_energy_share": "work returned over work done, at most 1; by_law is the unloading law's own figure, above 1 where asperities are shallower than the cones that stand for them",
                 "separation": "from the mean height of the nodes",
                 "pressure": "force on a pixel over the area of the pixel; an island mostly outside the ellipse of its moments is uniform (load_share_uniform)",
             },
@@ -283,6 +284,8 @@ impl Outcome<'_> {
             "asperities": one.contact.islands.islands.len(),
             "residual_displacement_um": residual,
             "elastic_energy_share": energy,
+            "elastic_energy_share_by_law": one.unloading.as_ref().and_then(|u| u.elastic_share_by_law),
+            "load_share_return_limited": one.unloading.as_ref().and_then(|u| u.limited_share),
         })
     }
 

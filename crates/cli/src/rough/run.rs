@@ -137,6 +137,15 @@ fn remarks(one: &Pressed, coefficient: Option<&Coefficient>) -> Vec<String> {
             asperity_roughness::SINGLE_ASPERITY_EXPONENT
         ));
     }
+    if let Some(unloading) = &one.unloading
+        && let Some(law) = unloading.elastic_share_by_law.filter(|share| *share > 1.0)
+    {
+        remarks.push(format!(
+            "{name}: the unloading law, made for cones, returns {law:.2} times the work done on asperities that are long or flat ({:.0} % of \
+             the load is on ones pressed by less than their cones would return): elastic_energy_share is limited to 1, plastic work is not resolved",
+            100.0 * unloading.limited_share.unwrap_or(0.0)
+        ));
+    }
     remarks
 }
 

@@ -150,7 +150,10 @@ fn measure(row: &Printed) -> Result<(Vec<Ours>, Vec<String>), Failure> {
         let (pressed, warnings) = run::press_all(&scene, &prepared, Some(&calibration))
             .map_err(|(_, message)| InputError::new(message))?;
         if seed == 1 {
-            notes = warnings;
+            notes = warnings
+                .into_iter()
+                .map(|warning| format!("{}, seed 1: {warning}", run::kind_name(row.kind)))
+                .collect();
         }
         for one in &pressed {
             let closure = one.model.closure.name();
@@ -165,7 +168,7 @@ fn measure(row: &Printed) -> Result<(Vec<Ours>, Vec<String>), Failure> {
             ours.peak.0.extend(one.peak_ratio());
             if let Some(unloading) = &one.unloading {
                 ours.residual.0.push(unloading.residual_displacement * 1e6);
-                ours.elastic.0.extend(unloading.elastic_share.map(|e| 100.0 * e));
+                ours.elastic.0.extend(unloading.elastic_share_by_law.map(|e| 100.0 * e));
             }
         }
     }
@@ -207,14 +210,14 @@ pub fn run(flags: &RunFlags) -> Result<(), Failure> {
          1.953 um, mean ± standard deviation\n"
     );
     let mut all = Vec::new();
-    let mut skipped = Vec::new();
+    let mut remarks = Vec::new();
     for row in &TABLE {
         let name = run::kind_name(row.kind);
         let _ = writeln!(text, "\n{name}: Ra {} um, beta {} deg", row.ra, row.beta);
         let _ = writeln!(
             text,
             "  {:<11} {:>18} {:>16} {:>7} {:>15} {:>16} {:>14}",
-            "", "P_m MPa", "A_r %", "psi", "peak/nominal", "residual um", "elastic %"
+            "", "P_m MPa", "A_r %", "psi", "peak/nominal", "residual um", "returned %"
         );
         let _ = writeln!(
             text,
@@ -222,7 +225,7 @@ pub fn run(flags: &RunFlags) -> Result<(), Failure> {
             "paper", row.pressure, row.area, row.index, row.peak, "", ""
         );
         let (ours, notes) = measure(row)?;
-        skipped = notes;
+        remarks.extend(notes);
         for o in &ours {
             let _ = writeln!(
                 text,
@@ -240,7 +243,7 @@ pub fn run(flags: &RunFlags) -> Result<(), Failure> {
         all.push(ours);
     }
     text += &trends(&all);
-    for note in skipped {
+    for note in remarks {
         let _ = writeln!(text, "note: {note}");
     }
     if flags.json || !flags.quiet {

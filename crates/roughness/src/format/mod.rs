@@ -146,6 +146,9 @@ pub fn read(path: &Path) -> Result<Measured, ReadError> {
     if let Some((_, reader)) = known.iter().find(|(magic, _)| start.starts_with(magic)) {
         return reader(path);
     }
+    if start.is_empty() || picture(&start).is_some() {
+        return Err(ReadError::Unknown { found: describe(&start, &extension) });
+    }
     match extension.as_str() {
         "xyz" => text::read_points(path),
         "csv" | "txt" | "asc" | "dat" => text::read_table(path),
@@ -153,8 +156,8 @@ pub fn read(path: &Path) -> Result<Measured, ReadError> {
     }
 }
 
-/// What a file that is no surface seems to be.
-fn describe(start: &[u8], extension: &str) -> String {
+/// The kind of picture that begins so.
+fn picture(start: &[u8]) -> Option<&'static str> {
     let images: [(&[u8], &str); 6] = [
         (b"\x89PNG", "a PNG picture"),
         (b"\xff\xd8\xff", "a JPEG picture"),
@@ -163,7 +166,12 @@ fn describe(start: &[u8], extension: &str) -> String {
         (b"BM", "a BMP picture"),
         (b"GIF8", "a GIF picture"),
     ];
-    if let Some((_, name)) = images.iter().find(|(magic, _)| start.starts_with(magic)) {
+    images.iter().find(|(magic, _)| start.starts_with(magic)).map(|(_, name)| *name)
+}
+
+/// What a file that is no surface seems to be.
+fn describe(start: &[u8], extension: &str) -> String {
+    if let Some(name) = picture(start) {
         return format!("this is {name}: colours are not heights");
     }
     if start.is_empty() {
