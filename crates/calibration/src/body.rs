@@ -26,13 +26,18 @@ pub struct Body {
     pub domain: f64,
 }
 
-/// a tan β/h to be expected: 2/π of an elastic cone, up to 1.08 - 0.6 n of a fully plastic one, joined in
-/// X = E* tan β/σ_r (read off twenty cones, within 0.1). Only the mesh is laid out with it.
+/// a tan β/h to be expected: 2/π of an elastic cone, up to 1.08 - 0.6 n of a fully plastic one, more where metal piles
+/// up against a steep tool, joined in X = E* tan β/σ_r (read off forty cones, within 0.1). Only the mesh is laid out
+/// with it.
 fn expected_ratio(case: &Case) -> f64 {
     let Some(hardening) = case.hardening() else { return FRAC_2_PI };
     let t = case.tan_beta();
     let x = case.elastic().reduced_modulus() * t / hardening.representative_stress(0.1 * t);
-    let plastic = 1.08 - 0.6 * hardening.exponent;
+    let pile_up = match case.tool {
+        Tool::Plane => 0.0,
+        Tool::Cone => 0.3 * (1.0 - hardening.exponent) * t,
+    };
+    let plastic = 1.08 - 0.6 * hardening.exponent + pile_up;
     FRAC_2_PI + (plastic - FRAC_2_PI) * (x / (x + 6.0)).powi(2)
 }
 
@@ -62,8 +67,17 @@ impl Body {
         };
         // the diagonals on which the shells turn stay steeper than the flank
         let row_depth = (r.core_depth * radius).max(1.5 * cone[0] * columns as f64 * element);
-        let layout =
-            Layout { element, columns, row_depth, row_growth: r.row_growth, growth: r.growth, domain, cone };
+        let layout = Layout {
+            element,
+            columns,
+            at_axis: r.at_axis,
+            row_depth,
+            row_growth: r.row_growth,
+            growth: r.growth,
+            domain,
+            cone,
+            kind: r.kind,
+        };
         let mesh = layout.mesh();
         let held = held(&mesh);
         let metal = Metal { elastic: case.elastic(), hardening: case.hardening() };

@@ -92,6 +92,9 @@ pub fn crush(case: &Case, resolution: &Resolution) -> Result<Curve, CaseError> {
             match outcome {
                 Ok(_) => {
                     model.accept().map_err(at(travel))?;
+                    if resolution.cauchy {
+                        model.weigh_by_current_volume();
+                    }
                     curve.increments += 1;
                     (travel, last_step) = (next, step);
                     // the rest in steps as long as the one that went

@@ -39,12 +39,10 @@ pub fn solve(case: &Case, resolution: &Resolution) -> Result<Kick, CaseError> {
     if exponent.is_nan() || (exponent - 2.0).abs() > EXPONENT_TOLERANCE {
         return Err(CaseError::NotSimilar(exponent));
     }
-    let softness = case.hardening().map_or(0.0, |h| (1.0 - h.exponent / 0.1).max(0.0));
-    let bias = resolution.bias + softness * resolution.soft_bias;
     let ripple = 2.0 * 2.0 * line.slope_error / line.slope; // K is the square; two standard deviations
     Ok(Kick {
         k_over_e: line.slope * line.slope,
-        error: bias.hypot(ripple),
+        error: resolution.bias_of(case).hypot(ripple),
         contact_ratio: Line::through(&radius).slope * case.tan_beta(),
         increments: curve.increments,
         iterations: curve.iterations,

@@ -10,8 +10,10 @@ use std::collections::HashMap;
 pub struct Layout {
     /// Width of a column under the contact.
     pub element: f64,
-    /// Number of such columns.
+    /// Number of such columns that fit under the contact.
     pub columns: usize,
+    /// How many of them, from the axis, are one wide column.
+    pub at_axis: usize,
     /// Depth of the rows under them, and what their height grows by per depth.
     pub row_depth: f64,
     /// Growth of the rows with depth.
@@ -22,6 +24,8 @@ pub struct Layout {
     pub domain: f64,
     /// Slope (tangent) of the cone and its height above the substrate; zeros for a flat body.
     pub cone: [f64; 2],
+    /// Kind of element.
+    pub kind: ElementKind,
 }
 
 impl Layout {
@@ -31,10 +35,13 @@ impl Layout {
         -(slope * r).min(height)
     }
 
-    /// Builds the mesh of eight-node elements.
+    /// Builds the mesh.
     pub fn mesh(&self) -> Mesh {
         let core = self.columns as f64 * self.element;
-        let columns: Vec<f64> = (0..=self.columns).map(|i| i as f64 * self.element).collect();
+        let columns: Vec<f64> = std::iter::once(0)
+            .chain(self.at_axis.max(1)..=self.columns)
+            .map(|i| i as f64 * self.element)
+            .collect();
         let rows = divide(0.0, self.row_depth, &[], |d| self.element + self.row_growth * d);
         let (near, far) = (self.element / core, self.growth);
         // in the logarithm of the radius, with a node where the cone ends
@@ -92,7 +99,12 @@ impl Layout {
         for node in &mut nodes {
             node[1] += self.surface(node[0]) * (1.0 + node[1] / depth);
         }
-        quadratic(nodes, &cells, sides)
+        match self.kind {
+            ElementKind::Quad4 => {
+                Mesh { kind: self.kind, nodes, cells: cells.into_iter().flatten().collect(), sides }
+            }
+            ElementKind::Quad8 => quadratic(nodes, &cells, sides),
+        }
     }
 }
 
@@ -124,11 +136,13 @@ mod tests {
             let layout = Layout {
                 element: 0.1,
                 columns: 11,
+                at_axis: 1,
                 row_depth: depth,
                 row_growth: 0.5,
                 growth: 0.4,
                 domain: 100.0,
                 cone: [slope, 8.0 * slope],
+                kind: ElementKind::Quad8,
             };
             let mesh = layout.mesh();
             assert!(mesh.quality().unwrap().min_scaled_jacobian > 0.15, "{slope} {:?}", mesh.quality());

@@ -4,15 +4,16 @@ use crate::case::Case;
 use crate::kick;
 use crate::resolution::Resolution;
 use crate::row::Row;
+use asperity_solver::scene::Accuracy;
 use rayon::prelude::*;
 use std::collections::{HashMap, HashSet};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 /// Solves one case; a case that fails is a row too.
-pub fn solve(case: &Case, resolution: &Resolution) -> Row {
+pub fn solve(case: &Case, accuracy: Accuracy) -> Row {
     let clock = Instant::now();
-    let outcome = kick::solve(case, resolution).map_err(|e| e.to_string());
+    let outcome = kick::solve(case, &Resolution::of(case, accuracy)).map_err(|e| e.to_string());
     Row { case: *case, outcome, wall_s: clock.elapsed().as_secs_f64() }
 }
 
@@ -30,7 +31,7 @@ pub fn shard(cases: &[Case], k: usize, of: usize) -> Vec<Case> {
 /// The first error of `finished`: no further case is begun then.
 pub fn run<E: Send>(
     cases: &[Case],
-    resolution: &Resolution,
+    accuracy: Accuracy,
     done: Vec<Row>,
     threads: usize,
     finished: impl Fn(&Row) -> Result<(), E> + Sync,
@@ -49,7 +50,7 @@ pub fn run<E: Send>(
                 if stop.load(Ordering::Relaxed) {
                     return Ok(None);
                 }
-                let row = solve(case, resolution);
+                let row = solve(case, accuracy);
                 finished(&row).map(|()| Some(row)).inspect_err(|_| stop.store(true, Ordering::Relaxed))
             })
             .collect::<Vec<Result<Option<Row>, E>>>()

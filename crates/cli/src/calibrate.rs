@@ -97,10 +97,9 @@ fn sweep(args: &Calibrate) -> Result<(), Failure> {
     };
     let target = args.run.out.clone().unwrap_or(default);
     let mut folder = Folder::create(&target, "calibrate", args.run.force)?;
-    let resolution = Resolution::new(sweep.accuracy);
     let path = journal_path(&target);
     let threads = args.run.threads.map_or(0, usize::from);
-    let rows = match solve(&cases, &sweep, &resolution, &path, threads, args.run.quiet) {
+    let rows = match solve(&cases, &sweep, &path, threads, args.run.quiet) {
         Ok(rows) => rows,
         Err(failure) => {
             folder.abandon();
@@ -150,12 +149,13 @@ fn journal_path(target: &Path) -> PathBuf {
 fn solve(
     cases: &[Case],
     sweep: &Sweep,
-    resolution: &Resolution,
     path: &Path,
     threads: usize,
     quiet: bool,
 ) -> Result<Vec<Row>, Failure> {
-    let definition = format!("{} {sweep:?} {resolution:?}", env!("CARGO_PKG_VERSION"));
+    // everything the rows depend on: the sweep, the discretisation of every case, and the program
+    let resolutions: Vec<Resolution> = cases.iter().map(|c| Resolution::of(c, sweep.accuracy)).collect();
+    let definition = format!("{} {sweep:?} {resolutions:?}", env!("CARGO_PKG_VERSION"));
     let (journal, done) = Journal::open(path, fingerprint(&definition), cases)
         .map_err(|e| InputError::new(format!("cannot write the journal {}: {e}", path.display())))?;
     if !done.is_empty() && !quiet {
@@ -164,7 +164,7 @@ fn solve(
     let finished = AtomicUsize::new(done.len());
     let journal = Mutex::new(journal);
     let progress = Progress::new(quiet);
-    let rows = run(cases, resolution, done, threads, |row| {
+    let rows = run(cases, sweep.accuracy, done, threads, |row| {
         let mut journal = journal.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
         journal.append(row)?;
         let count = finished.fetch_add(1, Ordering::Relaxed) + 1;

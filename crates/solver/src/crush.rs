@@ -246,7 +246,7 @@ impl<'p> Log<'p> {
             external_work: increment.external_work * u.energy,
             elastic_energy: increment.elastic_energy * u.energy,
             plastic_work: increment.plastic_work * u.energy,
-            contact_energy: contact.energy * u.energy,
+            contact_energy: (contact.energy - model.remeasured_energy()) * u.energy,
             penetration: contact.penetration * u.length,
             newton_iterations: increment.newton_iterations,
         };

@@ -31,6 +31,12 @@ pub struct Penetration {
 }
 
 impl Tool {
+    /// Whether metal under the tool may stretch many times over, so that the area of its contact must be taken anew
+    /// in every increment.
+    pub fn stretches_the_surface(&self) -> bool {
+        matches!(self, Tool::Cone { .. })
+    }
+
     /// Penetration of the point `x` when the lowest point of the tool is at height `tip`.
     pub fn penetration(&self, x: [f64; 2], tip: f64) -> Penetration {
         match *self {
