@@ -7,6 +7,7 @@
 pub mod bar;
 pub mod contact;
 pub mod plane_field;
+pub mod several;
 pub mod simple_shear;
 pub mod thick_wall;
 

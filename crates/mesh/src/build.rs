@@ -93,38 +93,142 @@ pub struct Plan {
 pub fn build(plan: &Plan) -> Mesh {
     let mut grid = Grid::default();
     let alone = plan.contacts.len() == 1 && plan.contacts[0].centre == plan.width[0];
-    let (row, rectangles) = if alone {
+    if alone {
         let contact = plan.contacts[0];
-        let half =
-            core_half_width(plan, &contact).min(0.4 * plan.depth).min(0.4 * (plan.width[1] - plan.width[0]));
+        let centre = contact.centre;
+        let half = core_half_width(plan, &contact).min(0.4 * plan.depth).min(0.4 * (plan.width[1] - centre));
         let core = Rectangle {
-            left: contact.centre,
-            right: contact.centre + half,
-            depth: half * contact.depth_ratio(),
+            left: centre,
+            right: centre + half,
+            depth: (half * contact.depth_ratio()).min(0.6 * plan.depth),
         };
         let row = add_core(&mut grid, plan, &contact, core);
-        let right =
-            divide_geometric(half, plan.width[1] - contact.centre, &kinks_from(plan, contact.centre), |x| {
-                plan.grading.size(x, contact_size(&contact))
-            });
-        let rectangles = right[1..]
+        let size = |x: f64| plan.grading.size(x, contact_size(&contact));
+        let end = shell_limit(plan, Rectangle { left: centre, right: centre, depth: 0.0 });
+        let right = divide_geometric(half, end.right - centre, &kinks_from(plan, centre), size);
+        let rectangles: Vec<Rectangle> = right[1..]
             .iter()
             .map(|&x| {
-                let share = (x / half).ln() / ((plan.width[1] - contact.centre) / half).ln();
-                Rectangle {
-                    left: contact.centre,
-                    right: contact.centre + x,
-                    depth: core.depth * (plan.depth / core.depth).powf(share),
-                }
+                let share = (x / half).ln() / ((end.right - centre) / half).ln();
+                let depth = if x == end.right - centre {
+                    end.depth
+                } else {
+                    core.depth * (end.depth / core.depth).powf(share)
+                };
+                Rectangle { left: centre, right: centre + x, depth }
             })
             .collect();
-        (row, rectangles)
+        let ring = wrap(&mut grid, row, &rectangles, Some(plan));
+        extend(&mut grid, ring, plan, size);
     } else {
         let row = add_row(&mut grid, plan);
-        (row, outer_rectangles(plan, row_rectangle(plan)))
-    };
-    wrap(&mut grid, row, &rectangles, plan.width);
+        let inner = row.rectangle;
+        let ring = wrap(&mut grid, row, &outer_rectangles(plan, inner), Some(plan));
+        let reach = ring.rectangle.right;
+        extend(&mut grid, ring, plan, |x| plan.grading.far * (x - reach + inner.depth));
+    }
     finish(plan, grid)
+}
+
+/// Width of a body over its depth, or the reverse, up to which one family of shells fills it.
+const STRETCH: f64 = 2.5;
+
+/// How far shells around `inner` go: to the sides of the body, unless one is so much farther than the other that the
+/// shells would become splinters; then as far in every direction as the nearer side.
+fn shell_limit(plan: &Plan, inner: Rectangle) -> Rectangle {
+    let sideways = (inner.left - plan.width[0]).max(plan.width[1] - inner.right);
+    let down = plan.depth - inner.depth;
+    let (sideways, down) = if sideways > STRETCH * down {
+        (down, down)
+    } else if sideways > 0.0 && down > STRETCH * sideways {
+        (sideways, sideways)
+    } else {
+        (sideways, down)
+    };
+    // the side itself where it is reached, not its rounded sum
+    let depth = if down < plan.depth - inner.depth { inner.depth + down } else { plan.depth };
+    let [left, right] = plan.width;
+    Rectangle {
+        left: if inner.left - sideways > left { inner.left - sideways } else { left },
+        right: if inner.right + sideways < right { inner.right + sideways } else { right },
+        depth,
+    }
+}
+
+/// Fills what the shells left of the body: columns beside them, or rows below them. `size` is the wanted size at a
+/// distance to the right of 0.
+fn extend(grid: &mut Grid, ring: Ring, plan: &Plan, size: impl Fn(f64) -> f64) {
+    let Ring { ids, edges: [left, bottom, _], rectangle } = ring;
+    if rectangle.depth < plan.depth {
+        let below = Ring { ids: ids[left..=left + bottom].to_vec(), edges: [0, bottom, 0], rectangle };
+        let width = rectangle.right - rectangle.left;
+        let stations =
+            divide_geometric(width, width + plan.depth - rectangle.depth, &[], |x| plan.grading.far * x);
+        let last = stations.len() - 1;
+        let deeper = |(k, station): (usize, &f64)| Rectangle {
+            depth: if k + 1 == last { plan.depth } else { rectangle.depth + station - width },
+            ..rectangle
+        };
+        let rectangles: Vec<Rectangle> = stations[1..].iter().enumerate().map(deeper).collect();
+        wrap(grid, below, &rectangles, Some(plan));
+    }
+    if rectangle.right < plan.width[1] {
+        let inner: Vec<u32> = ids[left + bottom..].iter().rev().copied().collect();
+        let columns = divide_geometric(rectangle.right, plan.width[1], &plan.profile.kinks(), &size);
+        add_columns(grid, &inner, &columns[1..], Side::Right);
+    }
+    if rectangle.left > plan.width[0] {
+        // the left side mirrors the right one
+        let [from, to] = [rectangle.right, rectangle.right + rectangle.left - plan.width[0]];
+        let columns: Vec<f64> = divide_geometric(from, to, &[], &size)[1..]
+            .iter()
+            .map(|x| if *x == to { plan.width[0] } else { rectangle.left - (x - from) })
+            .collect();
+        add_columns(grid, &ids[..=left], &columns, Side::Left);
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Side {
+    Left,
+    Right,
+}
+
+/// Columns of cells at the places `columns`, from the nodes `inner` (from the surface down to the base) outward;
+/// on the `side` of them.
+fn add_columns(grid: &mut Grid, inner: &[u32], columns: &[f64], side: Side) {
+    let mut before = inner.to_vec();
+    for (index, &x) in columns.iter().enumerate() {
+        let next: Vec<u32> = before
+            .iter()
+            .map(|&id| {
+                let depth = grid.nodes[id as usize][1];
+                grid.node([x, depth])
+            })
+            .collect();
+        let (left, right) = match side {
+            Side::Right => (&before, &next),
+            Side::Left => (&next, &before),
+        };
+        let rows = next.len() - 1;
+        for j in 0..rows {
+            let cell = grid.cells.len() as u32;
+            grid.cells.push([left[j + 1], right[j + 1], right[j], left[j]]);
+            if j == 0 {
+                grid.surface.push(Edge { cell, side: 2 });
+            }
+            if j + 1 == rows {
+                grid.base.push(Edge { cell, side: 0 });
+            }
+            if index + 1 == columns.len() {
+                match side {
+                    Side::Right => grid.outer.push(Edge { cell, side: 1 }),
+                    Side::Left => grid.axis.push(Edge { cell, side: 3 }),
+                }
+            }
+        }
+        before = next;
+    }
 }
 
 /// Half width that the sizes around a contact follow: an untouched asperity is meshed coarsely after its foot.
@@ -212,8 +316,8 @@ fn add_core(grid: &mut Grid, plan: &Plan, contact: &Contact, rectangle: Rectangl
     Ring { ids, edges: [left, last, elements], rectangle }
 }
 
-/// Wraps `ring` in shells up to each of `rectangles`; sides of the body are named where `width` says so.
-fn wrap(grid: &mut Grid, mut ring: Ring, rectangles: &[Rectangle], width: [f64; 2]) -> Ring {
+/// Wraps `ring` in shells up to each of `rectangles`; sides of the `body` are named where the last one reaches them.
+fn wrap(grid: &mut Grid, mut ring: Ring, rectangles: &[Rectangle], body: Option<&Plan>) -> Ring {
     let [left, bottom, right] = ring.edges;
     let inner = ring.rectangle;
     // places on the sides of the inner rectangle as shares, kept by every shell
@@ -241,13 +345,13 @@ fn wrap(grid: &mut Grid, mut ring: Ring, rectangles: &[Rectangle], width: [f64; 
                 let side = if right > 0 { &mut grid.surface } else { &mut grid.outer };
                 side.push(Edge { cell, side: 1 });
             }
-            if Some(to) == rectangles.last() {
+            if let Some(plan) = body.filter(|_| Some(to) == rectangles.last()) {
                 let edge = Edge { cell, side: 0 };
-                if s < left && to.left == width[0] {
+                if s < left && to.left == plan.width[0] {
                     grid.axis.push(edge);
-                } else if s >= left && s < left + bottom {
+                } else if s >= left && s < left + bottom && to.depth == plan.depth {
                     grid.base.push(edge);
-                } else if s >= left + bottom && to.right == width[1] {
+                } else if s >= left + bottom && to.right == plan.width[1] {
                     grid.outer.push(edge);
                 }
             }
@@ -324,8 +428,7 @@ fn add_row(grid: &mut Grid, plan: &Plan) -> Ring {
                 }
             })
             .collect();
-        let ring = wrap(grid, ring, &shells, [f64::NAN; 2]);
-        grid.base.clear(); // the bottom of a cell is not that of the body
+        let ring = wrap(grid, ring, &shells, None);
         sort_surface(grid, start);
         let [l, b, _] = ring.edges;
         let down: Vec<u32> = ring.ids[..=l].to_vec();
@@ -354,16 +457,26 @@ fn add_row(grid: &mut Grid, plan: &Plan) -> Ring {
 }
 
 /// A block of plain columns over [from, to], its nodes down the left, along the bottom and down the right; nothing if
-/// the interval is empty.
+/// the interval is empty. Columns widen from the feet of cells at its ends; between two cells its middle is a node, so
+/// that the two halves are the blocks that symmetric sides would leave.
 fn plain_block(grid: &mut Grid, plan: &Plan, [from, to]: [f64; 2], depths: &[f64]) -> Option<[Vec<u32>; 3]> {
     let width = to - from;
     if width <= 1e-9 * (plan.row[1] - plan.row[0]) {
         return None;
     }
-    let size = depths[1] - depths[0];
-    let columns = divide(from, to, &plan.profile.kinks(), |x| {
-        size + plan.grading.far * (x - from).min(to - x).max(0.0)
-    });
+    let size = |distance: f64| depths[1] - depths[0] + plan.grading.far * distance;
+    let kinks = plan.profile.kinks();
+    let columns = if from == plan.row[0] {
+        divide(from, to, &kinks, |x| size(to - x))
+    } else if to == plan.row[1] {
+        divide(from, to, &kinks, |x| size(x - from))
+    } else {
+        let middle = 0.5 * (from + to);
+        let mut columns = divide(from, middle, &kinks, |x| size(x - from));
+        columns.pop();
+        columns.extend(divide(middle, to, &kinks, |x| size(to - x)));
+        columns
+    };
     let nodes = grid.block(&columns, depths);
     let under = nodes.iter().map(|column| column[depths.len() - 1]).collect();
     Some([nodes[0].clone(), under, nodes[columns.len() - 1].clone()])
@@ -398,25 +511,25 @@ fn sort_surface(grid: &mut Grid, start: usize) {
     }
 }
 
-/// The rectangles around a row of cells, out to the sides of the body.
+/// The rectangles around a row of cells, out to where shells end.
 fn outer_rectangles(plan: &Plan, inner: Rectangle) -> Vec<Rectangle> {
+    let end = shell_limit(plan, inner);
     let size = |x: f64| plan.grading.far * x;
-    let wider = (inner.left - plan.width[0]).max(plan.width[1] - inner.right);
-    let stations = divide_geometric(inner.depth, plan.depth, &[], size);
+    let wider = (inner.left - end.left).max(end.right - inner.right);
+    let stations = divide_geometric(inner.depth, end.depth, &[], size);
     let lateral = divide_geometric(inner.depth, inner.depth + wider.max(1e-12 * inner.depth), &[], size);
     let count = stations.len().max(if wider > 0.0 { lateral.len() } else { 0 }) - 1;
-    let ratio = plan.depth / inner.depth;
+    let ratio = end.depth / inner.depth;
     (1..=count)
         .map(|k| {
-            let depth =
-                if k == count { plan.depth } else { inner.depth * ratio.powf(k as f64 / count as f64) };
-            let share = (depth - inner.depth) / (plan.depth - inner.depth);
             if k == count {
-                return Rectangle { left: plan.width[0], right: plan.width[1], depth };
+                return end;
             }
+            let depth = inner.depth * ratio.powf(k as f64 / count as f64);
+            let share = (depth - inner.depth) / (end.depth - inner.depth);
             Rectangle {
-                left: inner.left + share * (plan.width[0] - inner.left),
-                right: inner.right + share * (plan.width[1] - inner.right),
+                left: inner.left + share * (end.left - inner.left),
+                right: inner.right + share * (end.right - inner.right),
                 depth,
             }
         })

@@ -17,6 +17,7 @@ mod refinement;
 mod rotation;
 mod same_bits;
 mod scaled_units;
+mod several_asperities;
 mod simple_shear;
 mod step_order;
 mod system_tangent;
