@@ -8,9 +8,10 @@
 #![allow(clippy::print_stdout, clippy::expect_used)]
 
 use asperity_solver::crush::Outcome;
+use asperity_solver::curve::{Curve, Smooth};
 use asperity_solver::scene::{Accuracy, ElementChoice, Scene};
 use asperity_verification::contact::punch_stiffness;
-use asperity_verification::single_asperity::{Smooth, crush, force_at, scene, smooth, worst_force_error};
+use asperity_verification::single_asperity::{crush, scene};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
@@ -77,22 +78,21 @@ fn header(title: &str, fixed: &str) {
     println!("|-|-|-|-|-|-|-|-|-|-|-|-|");
 }
 
-/// Mean of the relative difference over depths of 0.2 to 1 of the peak: what is left is bias, the ripple averages out.
-fn mean_error(run: &Run, converged: &Smooth) -> f64 {
-    let depths = (0..=80).map(|i| PEAK * (0.2 + 0.8 * f64::from(i) / 80.0));
-    depths.map(|h| force_at(&run.outcome.rows, h) / converged.force(h) - 1.0).sum::<f64>() / 81.0
+/// The force while loading.
+fn force(run: &Run) -> Curve {
+    Curve::force(&run.outcome.rows)
 }
 
 fn row(run: &Run, converged: &Smooth) {
-    let (rows, summary) = (&run.outcome.rows, &run.outcome.summary);
+    let (curve, summary) = (force(run), &run.outcome.summary);
     println!(
         "| {} | {:.4} | {:.4} | {:.4} | {:.2} | {:+.2} | {:.4} | {:.2} | {} | {} | {} | {:.1} |",
         run.name,
-        force_at(rows, 1e-6),
-        force_at(rows, 2e-6),
-        force_at(rows, PEAK),
-        100.0 * worst_force_error(rows, |h| converged.force(h), PEAK),
-        100.0 * mean_error(run, converged),
+        curve.at(1e-6),
+        curve.at(2e-6),
+        curve.at(PEAK),
+        100.0 * curve.worst_difference(|h| converged.at(h), PEAK),
+        100.0 * curve.mean_difference(|h| converged.at(h), PEAK),
         1e6 * summary.residual_depth.unwrap_or(f64::NAN),
         100.0 * summary.elastic_fraction.unwrap_or(f64::NAN),
         summary.elements,
@@ -104,7 +104,8 @@ fn row(run: &Run, converged: &Smooth) {
 
 fn level(run: &Run, converged: &Smooth) {
     let summary = &run.outcome.summary;
-    let worst = worst_force_error(&run.outcome.rows, |h| converged.force(h), PEAK);
+    let curve = force(run);
+    let worst = curve.worst_difference(|h| converged.at(h), PEAK);
     let modulus = 210e9 / (1.0 - 0.09);
     let ratio =
         summary.unloading_stiffness.unwrap_or(f64::NAN) / punch_stiffness(modulus, summary.contact_radius);
@@ -112,7 +113,7 @@ fn level(run: &Run, converged: &Smooth) {
         "| {} | {:.2} | {:+.2} | {:.1e} | {:.3} | {} | {} | {:.1} |",
         run.name,
         100.0 * worst,
-        100.0 * mean_error(run, converged),
+        100.0 * curve.mean_difference(|h| converged.at(h), PEAK),
         summary.energy_balance_error,
         ratio,
         summary.elements,
@@ -130,14 +131,14 @@ fn vary(values: &[f64], name: impl Fn(f64) -> String, change: impl Fn(f64) -> Ch
 /// Converged values: the mean of the two finest quadratic meshes, smoothed over depth. The interval is their
 /// difference, or half the difference of the extrapolated linear element if that is larger.
 fn converged_values(quadratic: &[Run], linear: &[Run]) -> Smooth {
-    let smoothed = |run: &Run| smooth(&run.outcome.rows, PEAK);
+    let smoothed = |run: &Run| force(run).smooth(PEAK);
     let finest: Vec<Smooth> = quadratic.iter().rev().take(2).map(smoothed).collect();
-    let converged = Smooth::mean(&finest);
+    let converged = Smooth::mean(&finest[0], &finest[1]);
     let q4: Vec<Smooth> = linear.iter().rev().take(2).map(smoothed).collect();
     println!("| h, µm | converged F, N | ± % | Q4 extrapolated, N |\n|-|-|-|-|");
     for h in [1.0, 2.0, 5.0] {
         let [f, a, b, fine, coarse] =
-            [&converged, &finest[0], &finest[1], &q4[0], &q4[1]].map(|curve| curve.force(h * 1e-6));
+            [&converged, &finest[0], &finest[1], &q4[0], &q4[1]].map(|curve| curve.at(h * 1e-6));
         // observed: the error of the linear element falls with its size
         let extrapolated = 2.0 * fine - coarse;
         let interval = (a - b).abs().max(0.5 * (extrapolated - f).abs()) / f;

@@ -2,6 +2,7 @@
 
 use crate::case::Case;
 use crate::kick::Kick;
+use std::collections::HashMap;
 
 /// The columns of `cases.csv`.
 pub const HEADER: &str = "beta_deg,hardening_law,n,E_over_sy,K_over_E,K_error,contact_ratio,increments,newton_iterations,wall_s,status";
@@ -58,6 +59,13 @@ impl Row {
         Some(Row { case: *case, outcome, wall_s: wall.parse().ok()? })
     }
 
+    /// The rows of `cases` that lines of text hold; other lines are passed over.
+    pub fn of_cases<'l>(cases: &[Case], lines: impl IntoIterator<Item = &'l str>) -> Vec<Row> {
+        let by_key: HashMap<String, &Case> = cases.iter().map(|c| (Row::key(c), c)).collect();
+        let row = |line| by_key.get(Row::key_of(line)).and_then(|case| Row::from_csv(line, case));
+        lines.into_iter().filter_map(row).collect()
+    }
+
     /// The key at the start of a line.
     pub fn key_of(line: &str) -> &str {
         let end = line.match_indices(',').nth(3).map_or(line.len(), |(i, _)| i);
@@ -80,7 +88,8 @@ mod tests {
             let text = row.to_csv();
             assert_eq!(text.split(',').count(), HEADER.split(',').count());
             assert_eq!(Row::key_of(&text), Row::key(&case));
-            assert_eq!(Row::from_csv(&text, &case), Some(row));
+            assert_eq!(Row::from_csv(&text, &case), Some(row.clone()));
+            assert_eq!(Row::of_cases(&[case], [text.as_str(), "another"]), [row]);
         }
         assert_eq!(Row::from_csv("1,hollomon,0.5,233.333333333,1.0,0.01", &case), None);
     }

@@ -19,6 +19,7 @@ const EXAMPLES: &str = "Examples:
   asperity crush meshes/single-asperity.toml --set \"loading.depth=2 um\" --out out/shallow --json
   asperity mesh meshes/single-asperity.toml -o asperity.msh
   asperity calibrate --out out/calibrate
+  asperity trade meshes/single-asperity.toml
 
 Exit status: 0 done; 1 the run could not finish (what was reached is on disk); 2 the input is wrong.";
 
@@ -33,6 +34,8 @@ pub enum Command {
     Rough(crate::rough::Rough),
     /// Crush cones of many slopes and metals and find the representative strain
     Calibrate(crate::calibrate::Calibrate),
+    /// Measure what accuracy costs on a scene: error against core seconds, knob by knob
+    Trade(crate::trade::Trade),
 }
 
 impl Command {
@@ -43,6 +46,7 @@ impl Command {
             Command::Mesh(_) => None,
             Command::Rough(args) => args.run.threads,
             Command::Calibrate(args) => args.run.threads,
+            Command::Trade(args) => args.run.threads,
         }
     }
 }

@@ -5,7 +5,7 @@ mod results;
 
 use crate::args::{RunFlags, SceneFlags};
 use crate::failure::{Failure, InputError};
-use crate::folder::Folder;
+use crate::folder::{Folder, journal_beside};
 use crate::progress::Progress;
 use crate::terminal;
 use crate::toml_file::TomlFile;
@@ -97,7 +97,7 @@ fn sweep(args: &Calibrate) -> Result<(), Failure> {
     };
     let target = args.run.out.clone().unwrap_or(default);
     let mut folder = Folder::create(&target, "calibrate", args.run.force)?;
-    let path = journal_path(&target);
+    let path = journal_beside(&target);
     let threads = args.run.threads.map_or(0, usize::from);
     let rows = match solve(&cases, &sweep, &path, threads, args.run.quiet) {
         Ok(rows) => rows,
@@ -138,13 +138,6 @@ fn read_sweep(args: &Calibrate) -> Result<(Sweep, String), Failure> {
     Ok((file.value, name))
 }
 
-/// Beside the results, not in them: a folder of results holds results.
-fn journal_path(target: &Path) -> PathBuf {
-    let mut name = target.file_name().unwrap_or_default().to_os_string();
-    name.push(".journal");
-    target.with_file_name(name)
-}
-
 /// Solves what the journal does not hold yet.
 fn solve(
     cases: &[Case],
@@ -156,8 +149,9 @@ fn solve(
     // everything the rows depend on: the sweep, the discretisation of every case, and the program
     let resolutions: Vec<Resolution> = cases.iter().map(|c| Resolution::of(c, sweep.accuracy)).collect();
     let definition = format!("{} {sweep:?} {resolutions:?}", env!("CARGO_PKG_VERSION"));
-    let (journal, done) = Journal::open(path, fingerprint(&definition), cases)
+    let (journal, lines) = Journal::open(path, fingerprint(&definition))
         .map_err(|e| InputError::new(format!("cannot write the journal {}: {e}", path.display())))?;
+    let done = Row::of_cases(cases, lines.iter().map(String::as_str));
     if !done.is_empty() && !quiet {
         terminal::complain(&format!("{} cases of an earlier run are in {}", done.len(), path.display()));
     }
@@ -166,7 +160,7 @@ fn solve(
     let progress = Progress::new(quiet);
     let rows = run(cases, sweep.accuracy, done, threads, |row| {
         let mut journal = journal.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-        journal.append(row)?;
+        journal.append(&row.to_csv())?;
         let count = finished.fetch_add(1, Ordering::Relaxed) + 1;
         progress.show(count as f64 / cases.len().max(1) as f64, || {
             format!("case {count} of {}: {} degrees", cases.len(), row.case.beta_deg)

@@ -2,6 +2,7 @@
 //!
 //! Series differ in colour (Okabe and Ito's palette) and in dash, so that either alone tells them apart.
 
+use plotters::coord::Shift;
 use plotters::coord::ranged1d::{KeyPointHint, Ranged, ValueFormatter};
 use plotters::element::{DashedPathElement, IntoDynElement};
 use plotters::prelude::*;
@@ -30,7 +31,7 @@ pub struct Chart {
 }
 
 /// Colours in order of use: blue, vermilion, green, purple, orange, sky, black.
-const COLOURS: [RGBColor; 7] = [
+pub const COLOURS: [RGBColor; 7] = [
     RGBColor(0, 114, 178),
     RGBColor(213, 94, 0),
     RGBColor(0, 158, 115),
@@ -44,9 +45,11 @@ const DASHES: [[u32; 2]; 4] = [[1, 0], [9, 5], [3, 4], [15, 4]];
 /// Width and height in pixels.
 const SIZE: (u32, u32) = (760, 500);
 /// The library draws at whole pixels: it gets that many to a pixel of the picture.
-const FINE: u32 = 8;
-const INK: RGBColor = RGBColor(40, 40, 40);
-const GRID: RGBColor = RGBColor(225, 225, 225);
+pub const FINE: u32 = 8;
+/// Lines and letters.
+pub const INK: RGBColor = RGBColor(40, 40, 40);
+/// Lines of the grid.
+pub const GRID: RGBColor = RGBColor(225, 225, 225);
 
 /// An axis with ticks at 1, 2, 2.5 or 5 times a power of ten, written with just the digits that they need.
 #[derive(Clone)]
@@ -108,13 +111,28 @@ impl ValueFormatter<f64> for Axis {
 /// # Errors
 /// A text for a person where the drawing library fails.
 pub fn svg(chart: &Chart) -> Result<String, String> {
+    framed(SIZE, |root| draw(chart, root)).map_err(|e| format!("the chart could not be drawn: {e}"))
+}
+
+/// An SVG document of so many pixels that `fill` draws on, [`FINE`] times finer.
+///
+/// # Errors
+/// What `fill` returns.
+pub fn framed(
+    size: (u32, u32),
+    fill: impl FnOnce(&DrawingArea<SVGBackend<'_>, Shift>) -> Result<(), Box<dyn std::error::Error>>,
+) -> Result<String, Box<dyn std::error::Error>> {
     let mut text = String::new();
-    draw(chart, &mut text).map_err(|e| format!("the chart could not be drawn: {e}"))?;
-    let header = |scale: u32| format!("<svg width=\"{}\" height=\"{}\"", SIZE.0 * scale, SIZE.1 * scale);
+    let root = SVGBackend::with_string(&mut text, (size.0 * FINE, size.1 * FINE)).into_drawing_area();
+    root.fill(&WHITE)?;
+    fill(&root)?;
+    root.present()?;
+    drop(root);
+    let header = |scale: u32| format!("<svg width=\"{}\" height=\"{}\"", size.0 * scale, size.1 * scale);
     Ok(text.replacen(&header(FINE), &header(1), 1))
 }
 
-fn draw(chart: &Chart, text: &mut String) -> Result<(), Box<dyn std::error::Error>> {
+fn draw(chart: &Chart, root: &DrawingArea<SVGBackend<'_>, Shift>) -> Result<(), Box<dyn std::error::Error>> {
     let finite: Vec<Vec<(f64, f64)>> = chart
         .series
         .iter()
@@ -122,10 +140,8 @@ fn draw(chart: &Chart, text: &mut String) -> Result<(), Box<dyn std::error::Erro
         .collect();
     let x = Axis::covering(finite.iter().flatten().map(|p| p.0));
     let y = Axis::covering(finite.iter().flatten().map(|p| p.1));
-    let root = SVGBackend::with_string(text, (SIZE.0 * FINE, SIZE.1 * FINE)).into_drawing_area();
-    root.fill(&WHITE)?;
     let font = |size: u32| ("sans-serif", size * FINE).into_font().color(&INK);
-    let mut area = ChartBuilder::on(&root)
+    let mut area = ChartBuilder::on(root)
         .margin(14 * FINE)
         .margin_right(26 * FINE)
         .x_label_area_size(52 * FINE)
@@ -169,6 +185,5 @@ fn draw(chart: &Chart, text: &mut String) -> Result<(), Box<dyn std::error::Erro
         .label_font(font(16))
         .background_style(WHITE.mix(0.85))
         .draw()?;
-    root.present()?;
     Ok(())
 }

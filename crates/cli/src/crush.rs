@@ -10,7 +10,7 @@ use crate::{scene_file, toml_file::TomlFile};
 use asperity_solver::crush::{CrushError, Event, FieldFrame, Outcome, run};
 use asperity_solver::discretise::Discretisation;
 use asperity_solver::record::{CurveRow, Phase};
-use asperity_solver::scene::{Field, Numerics, Scene, Symmetry};
+use asperity_solver::scene::{Field, Scene, Symmetry};
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::time::Instant;
@@ -168,15 +168,6 @@ fn write_records(
 
 /// The scene with the numbers that its accuracy level stands for.
 fn resolved(scene: &Scene) -> Scene {
-    let numbers = Discretisation::new(scene);
-    let numerics = Numerics {
-        element: Some(numbers.element),
-        elements_in_contact: Some(numbers.elements_in_contact),
-        steps: Some(numbers.steps),
-        contact: Some(numbers.contact),
-        penetration: Some(numbers.penetration),
-        newton_tolerance: Some(numbers.newton_tolerance),
-        domain: Some(numbers.domain),
-    };
+    let numerics = Discretisation::new(scene).numerics();
     Scene { numerics, ..scene.clone() }
 }

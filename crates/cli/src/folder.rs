@@ -61,6 +61,13 @@ fn own_files(folder: &Path, command: &str, force: bool) -> Result<Vec<String>, I
     Ok(own)
 }
 
+/// The journal of a long run into `target`: beside the results, not in them, for a folder of results holds results.
+pub fn journal_beside(target: &Path) -> PathBuf {
+    let mut name = target.file_name().unwrap_or_default().to_os_string();
+    name.push(".journal");
+    target.with_file_name(name)
+}
+
 impl Folder {
     /// Prepares to fill `target` with the results of `command`.
     ///

@@ -14,6 +14,7 @@ mod scene_file;
 mod suggest;
 mod terminal;
 mod toml_file;
+mod trade;
 
 use args::{Cli, Command};
 use clap::Parser;
@@ -34,6 +35,7 @@ fn main() -> ExitCode {
         Command::Mesh(args) => mesh::mesh(args),
         Command::Rough(args) => rough::rough(args),
         Command::Calibrate(args) => calibrate::calibrate(args),
+        Command::Trade(args) => trade::trade(args),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

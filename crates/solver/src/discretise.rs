@@ -5,7 +5,8 @@
 use crate::kinematics::Symmetry;
 use crate::material::Metal;
 use crate::scene::{
-    Accuracy, AsperityForm, ContactMethod, ElementChoice, Lateral, Scene, SceneError, Target, ToolForm,
+    Accuracy, AsperityForm, ContactMethod, ElementChoice, Lateral, Numerics, Scene, SceneError, Target,
+    ToolForm,
 };
 use crate::tool::Tool;
 use asperity_law::{Elastic, Hardening};
@@ -69,6 +70,19 @@ impl Discretisation {
             newton_tolerance: numerics.newton_tolerance.unwrap_or(tolerance),
             domain: numerics.domain.unwrap_or(domain),
             resolved_from: 0.2,
+        }
+    }
+
+    /// What of it a scene can say.
+    pub fn numerics(&self) -> Numerics {
+        Numerics {
+            element: Some(self.element),
+            elements_in_contact: Some(self.elements_in_contact),
+            steps: Some(self.steps),
+            contact: Some(self.contact),
+            penetration: Some(self.penetration),
+            newton_tolerance: Some(self.newton_tolerance),
+            domain: Some(self.domain),
         }
     }
 }

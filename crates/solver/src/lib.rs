@@ -2,7 +2,7 @@
 //!
 //! In reading order: a metal point (`tensor`, `kinematics`, `material`, `j2`, `history`), an element (`element`,
 //! `quad4`, `quad8`), the tool (`tool`, `contact`), the system (`dofs`, `assemble`, `linear`, `newton`, `model`),
-//! and a run (`scene`, `record`).
+//! and a run (`scene`, `record`, `curve`).
 
 pub mod tensor;
 
@@ -50,3 +50,5 @@ pub mod estimate;
 pub mod crush;
 
 pub mod record;
+
+pub mod curve;

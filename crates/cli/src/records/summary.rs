@@ -79,7 +79,7 @@ fn island(row: &IslandRow) -> Value {
 }
 
 /// Largest resident memory of this process so far, in MB of 10⁶ bytes; `None` where the system does not say.
-fn peak_memory_mb() -> Option<f64> {
+pub fn peak_memory_mb() -> Option<f64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find_map(|l| l.strip_prefix("VmHWM:"))?;
     let kib: f64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;

@@ -1,0 +1,172 @@
+//! `asperity trade`: what accuracy costs, measured on a scene.
+
+mod case;
+mod errors;
+mod picture;
+mod settings;
+mod table;
+
+use crate::args::{RunFlags, SceneFlags};
+use crate::failure::{Failure, InputError};
+use crate::folder::{Folder, journal_beside};
+use crate::progress::Progress;
+use crate::scene_file;
+use crate::terminal;
+use crate::toml_file::TomlFile;
+use asperity_calibration::journal::{Journal, fingerprint};
+use asperity_solver::scene::Scene;
+use case::{Finished, Measured};
+use clap::Args;
+use errors::Converged;
+use rayon::prelude::*;
+use settings::{Knob, Setting};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+
+/// The scene of a trade that names none: the asperity of the paper.
+const DEFAULT_SCENE: &str = include_str!("../../../meshes/single-asperity.toml");
+
+/// Arguments of `asperity trade`.
+#[derive(Debug, Args)]
+pub struct Trade {
+    /// Scene file (TOML) [default: the asperity of the paper]
+    pub scene: Option<PathBuf>,
+    /// How many settings differ in everything at once
+    #[arg(long, value_name = "N", default_value_t = 30)]
+    pub combinations: usize,
+    /// Answer one case of another run, given on stdin
+    #[arg(long, hide = true)]
+    pub case: bool,
+    #[command(flatten)]
+    pub scene_flags: SceneFlags,
+    #[command(flatten)]
+    pub run: RunFlags,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// Input that is wrong (nothing is written), a scene whose converged value cannot be computed, or a disk that refuses.
+pub fn trade(args: &Trade) -> Result<(), Failure> {
+    if args.case {
+        return case::answer();
+    }
+    let (file, name) = read_scene(args)?;
+    let scene = &file.value;
+    if scene.mesh.is_some() {
+        return Err(file.error_at("mesh", "a trade varies the mesh: leave [mesh] out").into());
+    }
+    let target = args.run.out.clone().unwrap_or_else(|| Path::new("out").join(name));
+    let mut folder = Folder::create(&target, "trade", args.run.force)?;
+    let journal = journal_beside(&target);
+    let result = measure_all(scene, args.combinations, &journal, args.run.quiet)
+        .and_then(|finished| write(&mut folder, &finished));
+    let text = match result {
+        Ok(text) => text,
+        Err(failure) => {
+            folder.abandon();
+            return Err(failure);
+        }
+    };
+    folder.publish()?;
+    // the results are in their place: the journal has done its work
+    let _ = std::fs::remove_file(&journal);
+    if !args.run.quiet {
+        terminal::say(&text);
+        terminal::say(&format!("results   {}", target.display()));
+    }
+    Ok(())
+}
+
+/// The scene and the name of its results.
+fn read_scene(args: &Trade) -> Result<(TomlFile<Scene>, String), Failure> {
+    if let Some(path) = &args.scene {
+        let file = scene_file::read(path, &args.scene_flags)?;
+        let name = format!("trade-{}", file.stem());
+        return Ok((file, name));
+    }
+    let copy = tempfile::Builder::new().prefix("single-asperity").suffix(".toml").tempfile();
+    let copy = copy.and_then(|mut f| f.write_all(DEFAULT_SCENE.as_bytes()).map(|()| f));
+    let copy = copy.map_err(|e| Failure::Unfinished(format!("no temporary file: {e}")))?;
+    Ok((scene_file::read(copy.path(), &args.scene_flags)?, "trade".into()))
+}
+
+/// Runs what the journal does not hold yet, the longest first, each as a process on a thread of its own.
+fn measure_all(
+    scene: &Scene,
+    combinations: usize,
+    path: &Path,
+    quiet: bool,
+) -> Result<Vec<Finished>, Failure> {
+    let mut settings = settings::converged(scene).to_vec();
+    settings.extend(settings::settings(scene, combinations));
+    let definition = format!("{} {scene:?} {settings:?}", env!("CARGO_PKG_VERSION"));
+    let disk = |e: std::io::Error| {
+        Failure::Unfinished(format!(
+            "cannot write the journal {}: {e}; it keeps every run that was finished, and the same command goes on from there",
+            path.display()
+        ))
+    };
+    let (journal, lines) = Journal::open(path, fingerprint(&definition))
+        .map_err(|e| InputError::new(format!("cannot write the journal {}: {e}", path.display())))?;
+    let mut finished: Vec<Finished> =
+        lines.iter().filter_map(|line| serde_json::from_str(line).ok()).collect();
+    if !finished.is_empty() && !quiet {
+        terminal::complain(&format!("{} runs of an earlier trade are in {}", finished.len(), path.display()));
+    }
+    let mut open: Vec<&Setting> =
+        settings.iter().filter(|s| !finished.iter().any(|f| f.setting == **s)).collect();
+    open.sort_by(|a, b| b.weight().total_cmp(&a.weight()));
+    let whole: f64 = settings.iter().map(Setting::weight).sum();
+    let left: f64 = open.iter().map(|s| s.weight()).sum();
+    let progress = Progress::new(quiet);
+    let state = Mutex::new((journal, whole - left));
+    // a bridge hands the cases out in their order, which keeps the longest first
+    let new: Result<Vec<Finished>, Failure> = open
+        .into_iter()
+        .par_bridge()
+        .map(|setting| {
+            let finished = case::measure(setting, scene);
+            let line = serde_json::to_string(&finished).map_err(|e| disk(e.into()))?;
+            let mut state = state.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+            state.0.append(&line).map_err(disk)?;
+            state.1 += setting.weight();
+            progress.show(state.1 / whole, || setting.knob.name().to_string());
+            Ok(finished)
+        })
+        .collect();
+    progress.finish();
+    finished.extend(new?);
+    Ok(settings.iter().filter_map(|s| finished.iter().find(|f| f.setting == *s).cloned()).collect())
+}
+
+/// Writes table and picture; returns what a person reads.
+fn write(folder: &mut Folder, finished: &[Finished]) -> Result<String, Failure> {
+    let finer: Vec<&Finished> = finished.iter().filter(|f| f.setting.knob == Knob::Converged).collect();
+    let run = |i: usize| -> Result<&Measured, Failure> {
+        let outcome = finer.get(i).map(|f| f.outcome.as_ref());
+        match outcome {
+            Some(Ok(run)) => Ok(run),
+            Some(Err(reason)) => {
+                Err(Failure::Unfinished(format!("the converged value cannot be computed: {reason}")))
+            }
+            None => Err(Failure::Unfinished("the converged value was not computed".into())),
+        }
+    };
+    let converged = Converged::new(run(0)?, run(1)?);
+    let compared: Vec<Finished> =
+        finished.iter().filter(|f| f.setting.knob != Knob::Converged).cloned().collect();
+    let rows = errors::rows(&compared, &converged);
+    let picture = picture::draw(&rows).map_err(Failure::Unfinished)?;
+    folder.write("trade.csv", |out| table::write(out, &rows))?;
+    folder.write("front.csv", |out| table::write_front(out, &rows))?;
+    folder.write("trade.svg", |out| out.write_all(picture.as_bytes()))?;
+    let failed = rows.iter().filter(|r| r.outcome.is_err()).count();
+    Ok(format!(
+        "{}\n{} settings, {failed} without a result; the converged force is known to {:.3} %",
+        table::overview(&rows),
+        rows.len(),
+        100.0 * converged.doubt
+    ))
+}

@@ -1,0 +1,127 @@
+//! `trade.csv`, and the few lines of it that a person reads.
+
+use super::errors::{Row, front};
+use super::settings::{Knob, LEVELS};
+use asperity_solver::scene::{ContactMethod, ElementChoice, Numerics};
+use std::io::{self, Write};
+
+/// The columns of `trade.csv`.
+const HEADER: &str = "knob,around,element,elements_in_contact,steps,contact,penetration,newton_tolerance,domain,force_error,area_error,residual_depth_error,elastic_fraction_error,wall_s,core_s,newton_iterations,dofs,peak_memory_MB,estimated_error,on_front,status";
+
+/// A number, or nothing.
+fn cell<T: ToString>(value: Option<T>) -> String {
+    value.map_or_else(String::new, |v| v.to_string())
+}
+
+/// The numbers of a setting, in the order of the columns.
+fn numbers(n: &Numerics) -> String {
+    let element = n.element.map(|e| match e {
+        ElementChoice::Q8r => "q8r",
+        ElementChoice::Q4 => "q4",
+    });
+    let contact = n.contact.map(|c| match c {
+        ContactMethod::Penalty => "penalty",
+        ContactMethod::Augmented => "augmented",
+    });
+    [
+        cell(element),
+        cell(n.elements_in_contact),
+        cell(n.steps),
+        cell(contact),
+        cell(n.penetration),
+        cell(n.newton_tolerance),
+        cell(n.domain),
+    ]
+    .join(",")
+}
+
+fn level_name(row: &Row) -> &'static str {
+    LEVELS.iter().find(|(level, _)| *level == row.setting.around).map_or("", |(_, name)| name)
+}
+
+/// Writes `trade.csv`: errors relative, times in seconds; `status` is `ok` or the reason why there are no errors.
+///
+/// # Errors
+/// A full disk.
+pub fn write(out: &mut dyn Write, rows: &[Row]) -> io::Result<()> {
+    writeln!(out, "{HEADER}")?;
+    for row in rows {
+        let around = if row.setting.knob == Knob::Mixed { "" } else { level_name(row) };
+        write!(out, "{},{around},{}", row.setting.knob.name(), numbers(&row.setting.numerics))?;
+        match &row.outcome {
+            Ok((run, errors)) => writeln!(
+                out,
+                ",{},{},{},{},{},{},{},{},{},{},{},ok",
+                errors.force,
+                errors.area,
+                cell(errors.residual_depth),
+                cell(errors.elastic_fraction),
+                run.wall_s,
+                run.core_s,
+                run.newton_iterations,
+                run.dofs,
+                cell(run.peak_memory_mb),
+                cell(run.estimated_error),
+                row.on_front,
+            )?,
+            // a comma or a line break would end the column
+            Err(reason) => writeln!(out, ",,,,,,,,,,,false,{}", reason.replace([',', '\n', '"'], ";"))?,
+        }
+    }
+    Ok(())
+}
+
+/// The levels and the front of the force, cheapest first, as a table for a person.
+pub fn overview(rows: &[Row]) -> String {
+    let mut lines = vec![format!(
+        "{:<22} {:>8} {:>8} {:>9} {:>10} {:>7}",
+        "setting", "force %", "stated %", "core s", "iterations", "dofs"
+    )];
+    let mut add = |name: String, row: &Row| {
+        if let Ok((run, errors)) = &row.outcome {
+            lines.push(format!(
+                "{name:<22} {:>8.3} {:>8.3} {:>9.3} {:>10} {:>7}",
+                100.0 * errors.force,
+                100.0 * run.estimated_error.unwrap_or(f64::NAN),
+                run.core_s,
+                run.newton_iterations,
+                run.dofs
+            ));
+        }
+    };
+    for row in rows.iter().filter(|r| r.setting.knob == Knob::Level) {
+        add(level_name(row).to_string(), row);
+    }
+    let mut on_front: Vec<&Row> = rows.iter().filter(|r| r.on_front).collect();
+    let cost = |row: &Row| row.outcome.as_ref().map_or(f64::INFINITY, |(run, _)| run.core_s);
+    on_front.sort_by(|a, b| cost(a).total_cmp(&cost(b)));
+    for row in on_front {
+        let n = &row.setting.numerics;
+        let element = if n.element == Some(ElementChoice::Q4) { "q4" } else { "q8r" };
+        add(format!("front: {element} {} x {}", cell(n.elements_in_contact), cell(n.steps)), row);
+    }
+    lines.join("\n")
+}
+
+/// The numbers of the cheapest settings by what they can promise, cheapest first: the largest of all measured errors
+/// and of the one that the run states itself, so that neither luck nor a lenient estimate makes a setting look good.
+///
+/// # Errors
+/// A full disk.
+pub fn write_front(out: &mut dyn Write, rows: &[Row]) -> io::Result<()> {
+    let promise = |row: &Row| {
+        let (run, errors) = row.outcome.as_ref().ok()?;
+        Some([run.core_s, errors.worst().max(run.estimated_error?)])
+    };
+    let points: Vec<_> = rows.iter().map(promise).collect();
+    writeln!(
+        out,
+        "promise,core_s,element,elements_in_contact,steps,contact,penetration,newton_tolerance,domain"
+    )?;
+    for index in front(&points) {
+        if let Some([cost, error]) = points[index] {
+            writeln!(out, "{error:.5},{cost:.3},{}", numbers(&rows[index].setting.numerics))?;
+        }
+    }
+    Ok(())
+}

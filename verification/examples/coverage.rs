@@ -1,0 +1,118 @@
+//! Prints how well the error that a run states bounds the true one: a battery of 100 scenes at draft accuracy, each
+//! against the smoothed curve of a much finer run of its own.
+//!
+//! `cargo run --release -p asperity-verification --example coverage` (about five minutes of two cores); with the
+//! argument `rows` also every scene.
+
+// a program whose output is the point, on scenes of its own
+#![allow(clippy::print_stdout, clippy::expect_used)]
+
+use asperity_law::units::{Force, LineForce};
+use asperity_solver::crush::Outcome;
+use asperity_solver::curve::Curve;
+use asperity_solver::scene::{Accuracy, Scene, Symmetry, ToolForce};
+use asperity_verification::battery::{Entry, battery};
+use asperity_verification::single_asperity::crush;
+use rayon::prelude::*;
+
+/// What one scene tells.
+struct Row {
+    name: String,
+    /// Largest difference of the force from the finer one.
+    error: f64,
+    /// Its mean, with sign.
+    bias: f64,
+    /// Largest difference of the finer force from its own smoothed curve.
+    doubt: f64,
+    stated: f64,
+    balance: f64,
+}
+
+fn finish(scene: &Scene) -> Result<Outcome, String> {
+    let outcome = crush(scene).map_err(|e| e.to_string())?;
+    match &outcome.stopped {
+        Some(stopped) => Err(stopped.reason.to_string()),
+        None => Ok(outcome),
+    }
+}
+
+/// The scene driven by the force that it has at its depth.
+fn by_force(scene: &Scene) -> Result<Scene, String> {
+    let force = finish(&Scene { accuracy: Accuracy::Draft, ..scene.clone() })?.summary.peak_force;
+    let mut driven = scene.clone();
+    driven.loading.depth = None;
+    driven.loading.force = Some(match scene.symmetry {
+        Symmetry::Axisymmetric => ToolForce::Total(Force(force)),
+        Symmetry::PlaneStrain => ToolForce::PerLength(LineForce(force)),
+    });
+    Ok(driven)
+}
+
+fn measure(entry: &Entry) -> Result<Row, String> {
+    let scene = if entry.by_force { by_force(&entry.scene)? } else { entry.scene.clone() };
+    let mut finer = scene.clone();
+    finer.numerics.elements_in_contact = Some(26);
+    finer.numerics.steps = Some(144);
+    finer.numerics.domain = Some(400.0);
+    finer.numerics.penetration = Some(0.002);
+    let finer = Curve::force(&finish(&finer)?.rows);
+    let draft = finish(&Scene { accuracy: Accuracy::Draft, ..scene })?;
+    let curve = Curve::force(&draft.rows);
+    let peak = curve.end().min(finer.end());
+    let smooth = finer.smooth(peak);
+    Ok(Row {
+        name: entry.name.clone(),
+        error: curve.worst_difference(|h| smooth.at(h), peak),
+        bias: curve.mean_difference(|h| smooth.at(h), peak),
+        doubt: finer.worst_difference(|h| smooth.at(h), peak),
+        stated: draft.summary.estimated_error,
+        balance: draft.summary.energy_balance_error,
+    })
+}
+
+fn main() {
+    let entries = battery(100).expect("the committed scene reads");
+    let results: Vec<_> = entries.par_iter().with_max_len(1).map(|e| (e, measure(e))).collect();
+    if std::env::args().any(|argument| argument == "rows") {
+        println!(
+            "| scene | true error, % | bias, % | stated, % | energy balance | ripple of the finer run, % |"
+        );
+        println!("|-|-|-|-|-|-|");
+        for row in results.iter().filter_map(|(_, r)| r.as_ref().ok()) {
+            println!(
+                "| {} | {:.2} | {:+.2} | {:.2} | {:.1e} | {:.2} |",
+                row.name,
+                100.0 * row.error,
+                100.0 * row.bias,
+                100.0 * row.stated,
+                row.balance,
+                100.0 * row.doubt
+            );
+        }
+        println!();
+    }
+    for (entry, reason) in results.iter().filter_map(|(e, r)| Some((e, r.as_ref().err()?))) {
+        println!("not measured: {}: {reason}", entry.name);
+    }
+    let rows: Vec<&Row> = results.iter().filter_map(|(_, r)| r.as_ref().ok()).collect();
+    let mut ratios: Vec<f64> = rows.iter().map(|r| r.stated / r.error).collect();
+    ratios.sort_by(f64::total_cmp);
+    let share = |good: &dyn Fn(f64) -> bool| {
+        100.0 * ratios.iter().filter(|r| good(**r)).count() as f64 / ratios.len() as f64
+    };
+    let errors = rows.iter().map(|r| r.error);
+    println!(
+        "| scenes | bounded, % | stated within a factor of 5, % | median of stated over true | smallest | largest true error, % | above 5 %, scenes |"
+    );
+    println!("|-|-|-|-|-|-|-|");
+    println!(
+        "| {} | {:.0} | {:.0} | {:.1} | {:.2} | {:.2} | {} |",
+        rows.len(),
+        share(&|r| r >= 1.0),
+        share(&|r| r <= 5.0),
+        ratios[ratios.len() / 2],
+        ratios[0],
+        100.0 * errors.clone().fold(0.0, f64::max),
+        errors.filter(|e| *e > 0.05).count(),
+    );
+}

@@ -1,0 +1,62 @@
+//! Prints what the levels of accuracy reach on ten scenes that none of them was chosen by: the true error of the force
+//! and the stated one.
+//!
+//! `cargo run --release -p asperity-verification --example levels` (about ten minutes of two cores). The converged
+//! force is the mean of the smoothed curves of `reference` and of a mesh half as fine again.
+
+// a program whose output is the point, on scenes of its own
+#![allow(clippy::print_stdout, clippy::expect_used)]
+
+use asperity_solver::crush::Outcome;
+use asperity_solver::curve::{Curve, Smooth};
+use asperity_solver::discretise::Discretisation;
+use asperity_solver::scene::{Accuracy, Scene};
+use asperity_verification::battery::{Entry, others};
+use asperity_verification::single_asperity::crush;
+use rayon::prelude::*;
+
+const LEVELS: [Accuracy; 3] = [Accuracy::Draft, Accuracy::Standard, Accuracy::Reference];
+
+fn finish(scene: &Scene) -> Result<Outcome, String> {
+    let outcome = crush(scene).map_err(|e| e.to_string())?;
+    match &outcome.stopped {
+        Some(stopped) => Err(stopped.reason.to_string()),
+        None => Ok(outcome),
+    }
+}
+
+/// A row of the table.
+fn row(entry: &Entry) -> Result<String, String> {
+    let runs: Vec<Outcome> = LEVELS
+        .iter()
+        .map(|&accuracy| finish(&Scene { accuracy, ..entry.scene.clone() }))
+        .collect::<Result<_, _>>()?;
+    let mut other = Scene { accuracy: Accuracy::Reference, ..entry.scene.clone() };
+    // another mesh, so that what ripple the fits leave averages out
+    other.numerics.elements_in_contact = Some(Discretisation::new(&other).elements_in_contact * 5 / 4);
+    let other = Curve::force(&finish(&other)?.rows);
+    let curves: Vec<Curve> = runs.iter().map(|run| Curve::force(&run.rows)).collect();
+    let peak = curves[2].end();
+    let (a, b) = (curves[2].smooth(peak), other.smooth(peak));
+    let converged = Smooth::mean(&a, &b);
+    let cells: String = curves
+        .iter()
+        .zip(&runs)
+        .map(|(curve, run)| {
+            let error = curve.worst_difference(|h| converged.at(h), peak);
+            format!(" {:.2} | {:.2} |", 100.0 * error, 100.0 * run.summary.estimated_error)
+        })
+        .collect();
+    let doubt = [0.2, 0.4, 0.7, 1.0].map(|s| (a.at(s * peak) / b.at(s * peak) - 1.0).abs());
+    Ok(format!("| {} |{cells} {:.2} |", entry.name, 50.0 * doubt.iter().fold(0.0, |m: f64, d| m.max(*d))))
+}
+
+fn main() {
+    let entries = others().expect("the committed scene reads");
+    println!("| scene | draft, % | stated | standard, % | stated | reference, % | stated | converged ± % |");
+    println!("|-|-|-|-|-|-|-|-|");
+    let rows: Vec<_> = entries.par_iter().with_max_len(1).map(|e| (e, row(e))).collect();
+    for (entry, row) in rows {
+        println!("{}", row.unwrap_or_else(|reason| format!("| {} | {reason} |", entry.name)));
+    }
+}
