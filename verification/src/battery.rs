@@ -61,14 +61,13 @@ fn entry(i: usize) -> Result<Entry, toml::de::Error> {
     scene.material.yield_stress = (!elastic).then_some(Stress(modulus / ratio));
     scene.material.hardening_exponent = (!elastic).then_some(exponent);
     scene.material.hardening_law = law;
-    let cone =
-        Asperity { slope_deg: Some(slope), tip_radius: Some(Length(tip)), ..scene.asperity[0].clone() };
+    let cone = Asperity { slope_deg: Some(slope), tip_radius: Some(Length(tip)), ..scene.asperity[0] };
     let sphere = Asperity {
         radius: Some(Length(height)),
         height: None,
         slope_deg: None,
         tip_radius: None,
-        ..scene.asperity[0].clone()
+        ..scene.asperity[0]
     };
     scene.asperity = vec![if ball { sphere } else { cone }];
     if ridge {

@@ -2,7 +2,7 @@
 
 use crate::case::{Case, Tool};
 use asperity_mesh::ElementKind;
-use asperity_solver::scene::Accuracy;
+use asperity_solver::scene::{Accuracy, Level};
 
 /// How finely a cone is computed. Lengths are in units of the final contact radius a, depths of the final depth h.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -54,19 +54,20 @@ const STEEP: f64 = 20.0;
 const SOFT: f64 = 0.1;
 
 impl Resolution {
-    /// The numbers for `case` at a level.
+    /// The numbers for `case` at the coarsest level that promises `accuracy`.
     pub fn of(case: &Case, accuracy: Accuracy) -> Resolution {
+        let level = accuracy.level();
         let resolution = match case.tool {
-            Tool::Plane => Resolution::quadratic(accuracy),
+            Tool::Plane => Resolution::quadratic(level),
             // on a flat body the penetration costs more of the depth than on a cone: 0.5 % of K at 0.016
             Tool::Cone if case.beta_deg <= STEEP => {
-                Resolution { penetration: 0.004, ..Resolution::quadratic(accuracy) }
+                Resolution { penetration: 0.004, ..Resolution::quadratic(level) }
             }
-            Tool::Cone => Resolution::linear(accuracy),
+            Tool::Cone => Resolution::linear(level),
         };
         let soft = case.yielding.is_some_and(|y| y.exponent < SOFT);
-        match accuracy {
-            Accuracy::Standard if soft && resolution.kind == ElementKind::Quad8 => {
+        match level {
+            Level::Standard if soft && resolution.kind == ElementKind::Quad8 => {
                 Resolution { elements: 16, steps: 36, soft_bias: 0.004, ..resolution }
             }
             _ => resolution,
@@ -79,7 +80,7 @@ impl Resolution {
         self.bias + softness * self.soft_bias
     }
 
-    fn quadratic(accuracy: Accuracy) -> Resolution {
+    fn quadratic(level: Level) -> Resolution {
         let standard = Resolution {
             kind: ElementKind::Quad8,
             elements: 10,
@@ -99,8 +100,8 @@ impl Resolution {
             bias: 0.005,
             soft_bias: 0.012,
         };
-        match accuracy {
-            Accuracy::Draft => Resolution {
+        match level {
+            Level::Draft => Resolution {
                 elements: 7,
                 steps: 14,
                 growth: 0.5,
@@ -109,8 +110,8 @@ impl Resolution {
                 soft_bias: 0.03,
                 ..standard
             },
-            Accuracy::Standard => standard,
-            Accuracy::Reference => Resolution {
+            Level::Standard => standard,
+            Level::Reference => Resolution {
                 elements: 24,
                 core_depth: 0.8,
                 row_growth: 0.2,
@@ -132,7 +133,7 @@ impl Resolution {
     /// Metal parts under the apex of a steep cone: what lies on the axis is stretched over a large part of the flank,
     /// the more the less it hardens. The quadratic element turns inside out there, the linear one bears it and wants
     /// finer meshes, also far away; a wide column at the axis leaves it room.
-    fn linear(accuracy: Accuracy) -> Resolution {
+    fn linear(level: Level) -> Resolution {
         let standard = Resolution {
             kind: ElementKind::Quad4,
             elements: 16,
@@ -152,12 +153,12 @@ impl Resolution {
             bias: 0.005,
             soft_bias: 0.012,
         };
-        match accuracy {
-            Accuracy::Draft => {
+        match level {
+            Level::Draft => {
                 Resolution { elements: 12, growth: 0.12, steps: 24, bias: 0.015, soft_bias: 0.03, ..standard }
             }
-            Accuracy::Standard => standard,
-            Accuracy::Reference => Resolution {
+            Level::Standard => standard,
+            Level::Reference => Resolution {
                 elements: 40,
                 at_axis: 5,
                 core_depth: 0.8,

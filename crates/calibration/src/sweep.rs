@@ -98,6 +98,7 @@ impl Sweep {
                 }
             }
         }
+        self.accuracy.check().map_err(|e| error(&e.path, &e.message))?;
         let lists = [self.slopes_deg.len(), moduli.len(), yields.len(), self.hardening_exponent.len()];
         if lists.iter().product::<usize>() > MOST_CASES {
             return Err(error("", &format!("more than {MOST_CASES} cases")));

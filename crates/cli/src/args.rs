@@ -1,7 +1,7 @@
 //! The command line.
 
-use asperity_solver::scene::Accuracy;
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use asperity_solver::scene::{Accuracy, AccuracyError};
+use clap::{Args, Parser, Subcommand};
 use std::path::PathBuf;
 
 /// Crush rough metal, from one conical asperity to a measured surface.
@@ -80,9 +80,9 @@ pub struct MeshCommand {
 /// Flags that change what a file says.
 #[derive(Debug, Args)]
 pub struct SceneFlags {
-    /// Error of the force: draft 5 %, standard 1 %, reference 0.2 % [default: what the scene says, else standard]
-    #[arg(long, value_enum, value_name = "LEVEL")]
-    pub accuracy: Option<AccuracyFlag>,
+    /// Error of the force: draft (5 %), standard (1 %), reference (0.2 %) or a percentage like 0.5% [default: what the scene says, else standard]
+    #[arg(long, value_name = "LEVEL", value_parser = parse_accuracy)]
+    pub accuracy: Option<Accuracy>,
     /// Change a value of the file, for example --set "loading.depth=2 um"; repeatable
     #[arg(long = "set", value_name = "KEY.PATH=VALUE")]
     pub overrides: Vec<String>,
@@ -108,23 +108,8 @@ pub struct RunFlags {
     pub json: bool,
 }
 
-/// An accuracy level by name.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub enum AccuracyFlag {
-    /// 5 % of the force
-    Draft,
-    /// 1 % of the force
-    Standard,
-    /// 0.2 % of the force
-    Reference,
-}
-
-impl From<AccuracyFlag> for Accuracy {
-    fn from(flag: AccuracyFlag) -> Self {
-        match flag {
-            AccuracyFlag::Draft => Accuracy::Draft,
-            AccuracyFlag::Standard => Accuracy::Standard,
-            AccuracyFlag::Reference => Accuracy::Reference,
-        }
-    }
+fn parse_accuracy(text: &str) -> Result<Accuracy, String> {
+    let accuracy: Accuracy = text.parse().map_err(|e: AccuracyError| e.to_string())?;
+    accuracy.check().map_err(|e| e.message)?;
+    Ok(accuracy)
 }

@@ -132,7 +132,7 @@ fn read_sweep(args: &Calibrate) -> Result<(Sweep, String), Failure> {
         }
     };
     if let Some(level) = args.scene_flags.accuracy {
-        file.value.accuracy = level.into();
+        file.value.accuracy = level;
     }
     file.value.validate().map_err(|e: SweepError| file.error_at(&e.path, &e.message))?;
     Ok((file.value, name))

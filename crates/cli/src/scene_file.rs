@@ -14,7 +14,7 @@ use std::path::Path;
 pub fn read(path: &Path, flags: &SceneFlags) -> Result<TomlFile<Scene>, InputError> {
     let mut file: TomlFile<Scene> = TomlFile::read(path, &flags.overrides)?;
     if let Some(level) = flags.accuracy {
-        file.value.accuracy = level.into();
+        file.value.accuracy = level;
     }
     file.value.validate().map_err(|e| point_at(&file, &e))?;
     Ok(file)

@@ -160,7 +160,6 @@ fn write(folder: &mut Folder, finished: &[Finished]) -> Result<String, Failure> 
     let rows = errors::rows(&compared, &converged);
     let picture = picture::draw(&rows).map_err(Failure::Unfinished)?;
     folder.write("trade.csv", |out| table::write(out, &rows))?;
-    folder.write("front.csv", |out| table::write_front(out, &rows))?;
     folder.write("trade.svg", |out| out.write_all(picture.as_bytes()))?;
     let failed = rows.iter().filter(|r| r.outcome.is_err()).count();
     Ok(format!(

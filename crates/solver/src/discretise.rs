@@ -39,15 +39,52 @@ pub struct Discretisation {
     pub resolved_from: f64,
 }
 
+/// What an accuracy chooses for a quadratic element.
+struct Choice {
+    elements: usize,
+    steps: usize,
+    unload_steps: usize,
+    tolerance: f64,
+    domain: f64,
+    penetration: f64,
+}
+
+/// The levels from coarse to fine: the promised error, and in the order of [`Choice`] the numbers that keep it.
+const LEVELS: [(Accuracy, [f64; 6]); 3] = [
+    (Accuracy::Draft, [10.0, 24.0, 6.0, 1e-5, 60.0, 0.004]),
+    (Accuracy::Standard, [22.0, 112.0, 10.0, 1e-7, 100.0, 0.004]),
+    (Accuracy::Reference, [60.0, 220.0, 40.0, 1e-9, 800.0, 0.001]),
+];
+
+impl Choice {
+    /// Between two levels every number is a power of the promise, as every part of the error is a power of its number:
+    /// each part then falls with the promise.
+    fn of(promise: f64) -> Choice {
+        let [coarse, middle, fine] = LEVELS;
+        let ends = if promise > middle.0.promise() { [coarse, middle] } else { [middle, fine] };
+        let [from, to] = ends.map(|(level, _)| level.promise());
+        let share = ((promise / from).ln() / (to / from).ln()).clamp(0.0, 1.0);
+        let [elements, steps, unload_steps, tolerance, domain, penetration] =
+            std::array::from_fn(|i| ends[0].1[i].powf(1.0 - share) * ends[1].1[i].powf(share));
+        let whole = |x: f64| x.round() as usize;
+        let digits = |x: f64| format!("{x:.2e}").parse().unwrap_or(x);
+        Choice {
+            elements: whole(elements),
+            steps: whole(steps),
+            unload_steps: whole(unload_steps),
+            tolerance: digits(tolerance),
+            domain: digits(domain),
+            penetration: digits(penetration),
+        }
+    }
+}
+
 impl Discretisation {
-    /// What the accuracy level of `scene` uses where its numerics are silent.
+    /// What the accuracy of `scene` uses where its numerics are silent.
     pub fn new(scene: &Scene) -> Discretisation {
-        let (accuracy, numerics) = (scene.accuracy, &scene.numerics);
-        let (elements, steps, unload_steps, tolerance, domain, penetration) = match accuracy {
-            Accuracy::Draft => (10, 24, 6, 1e-5, 60.0, 0.004),
-            Accuracy::Standard => (22, 112, 10, 1e-7, 100.0, 0.004),
-            Accuracy::Reference => (60, 220, 40, 1e-9, 800.0, 0.001),
-        };
+        let numerics = &scene.numerics;
+        let Choice { elements, steps, unload_steps, tolerance, domain, penetration } =
+            Choice::of(scene.accuracy.promise());
         // the correction of the depth takes off too much while an elastic contact grows, so the penetration is halved;
         // stiffer still, quadratic edges open gaps at the front of the contact
         let penetration = if scene.material.yield_stress.is_none() { 0.002 } else { penetration };
@@ -456,4 +493,23 @@ fn held_nodes(mesh: &Mesh, symmetry: Symmetry, lateral: Lateral) -> Vec<[bool; 2
         hold(&mesh.sides.outer, [true, false]);
     }
     held
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_smaller_error_is_promised_by_finer_numbers() {
+        let mut before = Choice::of(0.05);
+        assert_eq!((before.elements, before.steps, before.tolerance), (10, 24, 1e-5));
+        for promise in [0.03, 0.02, 0.01, 0.007, 0.005, 0.003, 0.002] {
+            let next = Choice::of(promise);
+            assert!(next.elements > before.elements && next.steps > before.steps, "{promise}");
+            assert!(next.tolerance < before.tolerance && next.domain > before.domain, "{promise}");
+            assert!(next.unload_steps >= before.unload_steps && next.penetration <= before.penetration);
+            before = next;
+        }
+        assert_eq!((before.elements, before.steps, before.domain), (60, 220, 800.0));
+    }
 }

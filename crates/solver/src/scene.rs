@@ -3,10 +3,12 @@
 //! The types say what a scene may hold; [`Scene::validate`] says which values make sense. Quantities are in SI.
 //! Keys that are absent are `None`: what a run uses in their place follows from the accuracy level.
 
+mod accuracy;
 mod geometry;
 mod range;
 mod validate;
 
+pub use accuracy::{Accuracy, AccuracyError, Level};
 pub use geometry::{Asperity, AsperityForm, Substrate, Tool, ToolForm, ToolShape};
 
 use asperity_law::units::{Force, Length, LineForce, Stress, UnitError};
@@ -75,19 +77,6 @@ pub enum Symmetry {
     Axisymmetric,
     /// Straight ridges, nothing mirrored; results are per length of ridge.
     PlaneStrain,
-}
-
-/// Promise on the force: |F/F* - 1| for 0.2 ≤ h/h_peak ≤ 1.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Accuracy {
-    /// 5 %.
-    Draft,
-    /// 1 %.
-    #[default]
-    Standard,
-    /// 0.2 %.
-    Reference,
 }
 
 /// What holds the lateral side of the substrate.

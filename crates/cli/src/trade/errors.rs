@@ -63,11 +63,6 @@ impl Errors {
             elastic_fraction: off(run.elastic_fraction, converged.elastic_fraction),
         }
     }
-
-    /// The largest of those that an accuracy level promises.
-    pub fn worst(&self) -> f64 {
-        [self.residual_depth, self.elastic_fraction].iter().flatten().fold(self.force, |m, e| m.max(*e))
-    }
 }
 
 /// A line of the table.

@@ -96,8 +96,10 @@ fn fill(rows: &[Row], root: &DrawingArea<SVGBackend<'_>, Shift>) -> Result<(), B
             .label(label(knob))
             .legend(move |place| sample(i, place));
     }
-    for (level, name) in LEVELS {
-        let Some(p) = base(level) else { continue };
+    for row in of(Knob::Level) {
+        let Some(p) = at(row) else { continue };
+        let level = row.setting.around;
+        let name = if LEVELS.contains(&level) { level.to_string() } else { String::new() };
         let ring = INK.stroke_width(2 * FINE);
         area.draw_series([EmptyElement::at(p)
             + Circle::new((0, 0), 7 * FINE as i32, ring)

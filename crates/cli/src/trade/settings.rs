@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Knob {
-    /// Nothing: an accuracy level as it is.
+    /// Nothing: an accuracy as it is.
     Level,
     /// Linear elements instead of quadratic ones, with about as many unknowns.
     Element,
@@ -59,9 +59,12 @@ pub struct Setting {
     pub numerics: Numerics,
 }
 
-/// The levels from coarse to fine, by name.
-pub const LEVELS: [(Accuracy, &str); 3] =
-    [(Accuracy::Draft, "draft"), (Accuracy::Standard, "standard"), (Accuracy::Reference, "reference")];
+/// The levels from coarse to fine.
+pub const LEVELS: [Accuracy; 3] = [Accuracy::Draft, Accuracy::Standard, Accuracy::Reference];
+
+/// Accuracies between the levels, run as they are.
+const BETWEEN: [Accuracy; 4] =
+    [Accuracy::Within(0.03), Accuracy::Within(0.02), Accuracy::Within(0.007), Accuracy::Within(0.004)];
 
 /// An element of a linear mesh is smaller by this factor where it has as many unknowns as a quadratic one: a quadratic
 /// element brings three nodes, a linear one brings one.
@@ -89,10 +92,11 @@ impl Setting {
 
 /// The runs of `scene` whose cost and error are compared. Numbers that the scene fixes are not varied.
 pub fn settings(scene: &Scene, combinations: usize) -> Vec<Setting> {
-    let levels = LEVELS.iter().flat_map(|(level, _)| around(scene, *level));
+    let levels = LEVELS.into_iter().flat_map(|level| around(scene, level));
+    let between = BETWEEN.into_iter().map(|accuracy| level(scene, accuracy));
     let mixed = (0..combinations).map(|i| mixed(scene, i));
     let mut settings: Vec<Setting> = Vec::new();
-    for setting in levels.chain(mixed).map(|s| fixed(scene, s)) {
+    for setting in levels.chain(between).chain(mixed).map(|s| fixed(scene, s)) {
         if !settings.iter().any(|s| s.numerics == setting.numerics && s.around == setting.around) {
             settings.push(setting);
         }
@@ -103,7 +107,7 @@ pub fn settings(scene: &Scene, combinations: usize) -> Vec<Setting> {
 /// The two finer runs that the converged value is made of: their meshes differ, so that their ripples do.
 pub fn converged(scene: &Scene) -> [Setting; 2] {
     let base = level(scene, Accuracy::Reference);
-    [(1.15, 1.2), (1.35, 1.4)].map(|(mesh, steps)| {
+    [(1.1, 1.0), (1.25, 1.1)].map(|(mesh, steps)| {
         let mut numerics = base.numerics;
         scale(&mut numerics.elements_in_contact, mesh, [2.0, 200.0]);
         scale(&mut numerics.steps, steps, [1.0, 1e4]);
@@ -111,7 +115,7 @@ pub fn converged(scene: &Scene) -> [Setting; 2] {
     })
 }
 
-/// A level as it is.
+/// An accuracy as it is.
 fn level(scene: &Scene, accuracy: Accuracy) -> Setting {
     let numerics = Discretisation::new(&Scene { accuracy, ..scene.clone() }).numerics();
     Setting { knob: Knob::Level, around: accuracy, numerics }
@@ -132,35 +136,40 @@ fn fixed(scene: &Scene, setting: Setting) -> Setting {
     Setting { numerics, ..setting }
 }
 
-/// A level and each of its numbers changed by itself. Finer than the finest level only the converged value is.
+/// A level and each of its numbers changed by itself.
+///
+/// Around the finest level, whose runs are the longest, only to the cheaper side: finer than that is the converged value
+/// alone, and what linear elements and multipliers cost shows at the other levels.
 fn around(scene: &Scene, accuracy: Accuracy) -> Vec<Setting> {
     let base = level(scene, accuracy);
     let finest = accuracy == Accuracy::Reference;
-    let pick = |coarser: [f64; 2], both: [f64; 2]| if finest { coarser } else { both };
     let mut settings = vec![base];
     let mut add = |knob, change: &dyn Fn(&mut Numerics)| {
         let mut numerics = base.numerics;
         change(&mut numerics);
         settings.push(Setting { knob, numerics, ..base });
     };
-    add(Knob::Element, &|n| {
-        n.element = Some(ElementChoice::Q4);
-        scale(&mut n.elements_in_contact, LINEAR_FINENESS, [2.0, 200.0]);
-    });
-    for factor in pick([0.6, 0.8], [0.67, 1.5]) {
+    if !finest {
+        add(Knob::Element, &|n| {
+            n.element = Some(ElementChoice::Q4);
+            scale(&mut n.elements_in_contact, LINEAR_FINENESS, [2.0, 200.0]);
+        });
+        add(Knob::Contact, &|n| n.contact = Some(ContactMethod::Augmented));
+    }
+    for factor in if finest { [0.6, 0.8] } else { [0.67, 1.5] } {
         add(Knob::Mesh, &|n| scale(&mut n.elements_in_contact, factor, [2.0, 200.0]));
     }
-    for factor in pick([0.5, 0.7], [0.5, 2.0]) {
+    let sides = |cheap: f64, dear: f64| [cheap, dear].into_iter().take(if finest { 1 } else { 2 });
+    for factor in sides(0.5, 2.0) {
         add(Knob::Step, &|n| scale(&mut n.steps, factor, [1.0, 1e4]));
     }
-    add(Knob::Contact, &|n| n.contact = Some(ContactMethod::Augmented));
-    for factor in pick([4.0, 2.0], [4.0, 0.25]) {
+    for factor in sides(4.0, 0.25) {
         add(Knob::Penetration, &|n| scale_real(&mut n.penetration, factor, [1e-6, 0.1]));
     }
-    for factor in pick([1e4, 1e2], [1e2, 1e-2]) {
+    for factor in sides(1e2, 1e-2) {
         add(Knob::Tolerance, &|n| scale_real(&mut n.newton_tolerance, factor, [1e-13, 1e-3]));
     }
-    for factor in pick([0.125, 0.25], [0.25, 4.0]) {
+    for factor in sides(0.25, 4.0) {
         add(Knob::Domain, &|n| scale_real(&mut n.domain, factor, [3.0, 1e4]));
     }
     settings
@@ -186,7 +195,7 @@ fn mixed(scene: &Scene, i: usize) -> Setting {
     let at = |k: i32| (0.5 + (i + 1) as f64 * golden.powi(-k)).fract();
     let logs = |k, low: f64, high: f64| (low.ln() + at(k) * (high / low).ln()).exp();
     let linear = at(6) < 0.25;
-    let elements = logs(1, 7.0, 40.0) * if linear { LINEAR_FINENESS } else { 1.0 };
+    let elements = logs(1, 7.0, 34.0) * if linear { LINEAR_FINENESS } else { 1.0 };
     let steps = logs(2, 16.0, 200.0).round() as usize;
     let accuracy = match steps {
         ..60 => Accuracy::Draft,
@@ -209,11 +218,8 @@ fn mixed(scene: &Scene, i: usize) -> Setting {
 mod tests {
     use super::*;
 
-    fn scene(text: &str) -> Scene {
-        toml_scene(text)
-    }
-
-    fn toml_scene(numerics: &str) -> Scene {
+    /// The default scene with something added.
+    fn scene(numerics: &str) -> Scene {
         let dir = tempfile::tempdir().unwrap();
         let path = dir.path().join("scene.toml");
         std::fs::write(&path, super::super::DEFAULT_SCENE.to_string() + numerics).unwrap();
@@ -225,8 +231,8 @@ mod tests {
         let scene = scene("");
         let settings = settings(&scene, 30);
         assert_eq!(settings.iter().filter(|s| s.knob == Knob::Mixed).count(), 30);
-        assert_eq!(settings.iter().filter(|s| s.knob == Knob::Level).count(), 3);
-        assert!(settings.len() >= 60);
+        assert_eq!(settings.iter().filter(|s| s.knob == Knob::Level).count(), 7);
+        assert!(settings.len() >= 55);
         for setting in settings.iter().chain(&converged(&scene)) {
             setting.scene(&scene).validate().unwrap();
         }

@@ -1,7 +1,7 @@
 //! `trade.csv`, and the few lines of it that a person reads.
 
-use super::errors::{Row, front};
-use super::settings::{Knob, LEVELS};
+use super::errors::Row;
+use super::settings::Knob;
 use asperity_solver::scene::{ContactMethod, ElementChoice, Numerics};
 use std::io::{self, Write};
 
@@ -35,10 +35,6 @@ fn numbers(n: &Numerics) -> String {
     .join(",")
 }
 
-fn level_name(row: &Row) -> &'static str {
-    LEVELS.iter().find(|(level, _)| *level == row.setting.around).map_or("", |(_, name)| name)
-}
-
 /// Writes `trade.csv`: errors relative, times in seconds; `status` is `ok` or the reason why there are no errors.
 ///
 /// # Errors
@@ -46,7 +42,8 @@ fn level_name(row: &Row) -> &'static str {
 pub fn write(out: &mut dyn Write, rows: &[Row]) -> io::Result<()> {
     writeln!(out, "{HEADER}")?;
     for row in rows {
-        let around = if row.setting.knob == Knob::Mixed { "" } else { level_name(row) };
+        let around =
+            if row.setting.knob == Knob::Mixed { String::new() } else { row.setting.around.to_string() };
         write!(out, "{},{around},{}", row.setting.knob.name(), numbers(&row.setting.numerics))?;
         match &row.outcome {
             Ok((run, errors)) => writeln!(
@@ -90,7 +87,7 @@ pub fn overview(rows: &[Row]) -> String {
         }
     };
     for row in rows.iter().filter(|r| r.setting.knob == Knob::Level) {
-        add(level_name(row).to_string(), row);
+        add(row.setting.around.to_string(), row);
     }
     let mut on_front: Vec<&Row> = rows.iter().filter(|r| r.on_front).collect();
     let cost = |row: &Row| row.outcome.as_ref().map_or(f64::INFINITY, |(run, _)| run.core_s);
@@ -103,25 +100,36 @@ pub fn overview(rows: &[Row]) -> String {
     lines.join("\n")
 }
 
-/// The numbers of the cheapest settings by what they can promise, cheapest first: the largest of all measured errors
-/// and of the one that the run states itself, so that neither luck nor a lenient estimate makes a setting look good.
-///
-/// # Errors
-/// A full disk.
-pub fn write_front(out: &mut dyn Write, rows: &[Row]) -> io::Result<()> {
-    let promise = |row: &Row| {
-        let (run, errors) = row.outcome.as_ref().ok()?;
-        Some([run.core_s, errors.worst().max(run.estimated_error?)])
-    };
-    let points: Vec<_> = rows.iter().map(promise).collect();
-    writeln!(
-        out,
-        "promise,core_s,element,elements_in_contact,steps,contact,penetration,newton_tolerance,domain"
-    )?;
-    for index in front(&points) {
-        if let Some([cost, error]) = points[index] {
-            writeln!(out, "{error:.5},{cost:.3},{}", numbers(&rows[index].setting.numerics))?;
-        }
+#[cfg(test)]
+mod tests {
+    use super::super::case::Measured;
+    use super::super::errors::Errors;
+    use super::super::settings::Setting;
+    use super::*;
+    use asperity_solver::scene::Accuracy;
+
+    #[test]
+    fn a_run_and_a_failure_fill_the_same_columns() {
+        let setting = Setting { knob: Knob::Mesh, around: Accuracy::Draft, numerics: Numerics::default() };
+        let run = Measured {
+            loading: Vec::new(),
+            residual_depth: None,
+            elastic_fraction: None,
+            estimated_error: Some(0.04),
+            newton_iterations: 7,
+            dofs: 9,
+            wall_s: 0.5,
+            core_s: 0.25,
+            peak_memory_mb: None,
+        };
+        let errors = Errors { force: 0.03, area: 0.1, residual_depth: None, elastic_fraction: None };
+        let outcomes = [Ok((run, errors)), Err("stopped, \"inside out\"".to_string())];
+        let rows = outcomes.map(|outcome| Row { setting, outcome, on_front: false });
+        let mut text = Vec::new();
+        write(&mut text, &rows).unwrap();
+        let text = String::from_utf8(text).unwrap();
+        let columns = HEADER.split(',').count();
+        assert!(text.lines().all(|line| line.split(',').count() == columns), "{text}");
+        assert!(text.ends_with("stopped; ;inside out;\n"), "{text}");
     }
-    Ok(())
 }

@@ -19,6 +19,7 @@ impl Scene {
     /// # Errors
     /// The first value that does not, with its place in the scene, the allowed range and a way out.
     pub fn validate(&self) -> Result<(), SceneError> {
+        self.accuracy.check()?;
         self.material.check().map_err(|e| inside("material", e))?;
         for (i, asperity) in self.asperity.iter().enumerate() {
             asperity.check().map_err(|e| inside(&format!("asperity[{i}]"), e))?;
