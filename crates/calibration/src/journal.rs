@@ -2,7 +2,8 @@
 //! nothing that was finished.
 //!
 //! The first line names the work (its definition, discretisation and program version as one number); every other line
-//! is a checksum and a text of one line that the caller understands. A line that was cut short fails its checksum and is cut off when the run resumes.
+//! is a checksum and a text of one line that the caller understands. A line that was cut short fails its checksum and is
+//! cut off when the run resumes.
 
 use std::fs::{File, OpenOptions};
 use std::io::{self, Read, Seek, SeekFrom, Write};
@@ -12,6 +13,8 @@ use std::path::Path;
 #[derive(Debug)]
 pub struct Journal {
     file: File,
+    /// Length up to the end of its last whole line.
+    whole: u64,
 }
 
 /// FNV-1a: a short, stable number for a text.
@@ -53,19 +56,28 @@ impl Journal {
         file.set_len(whole as u64)?;
         file.seek(SeekFrom::End(0))?;
         if whole == 0 {
+            whole = header.len();
             file.write_all(header.as_bytes())?;
             file.sync_all()?;
         }
-        Ok((Journal { file }, texts))
+        Ok((Journal { file, whole: whole as u64 }, texts))
     }
 
     /// Adds a text of one line and forces it to the disk.
     ///
     /// # Errors
-    /// A full disk; the texts before this one stay.
+    /// A full disk; the texts before this one stay, and texts after it find no piece of it in front of them.
     pub fn append(&mut self, text: &str) -> io::Result<()> {
-        self.file.write_all(sealed(text).as_bytes())?;
-        self.file.sync_data()
+        let line = sealed(text);
+        let written = self.file.write_all(line.as_bytes()).and_then(|()| self.file.sync_data());
+        match written {
+            Ok(()) => self.whole += line.len() as u64,
+            Err(_) => {
+                self.file.set_len(self.whole)?;
+                self.file.seek(SeekFrom::End(0))?;
+            }
+        }
+        written
     }
 }
 
