@@ -33,6 +33,8 @@ pub enum Command {
     Rough(crate::rough::Rough),
     /// Crush cones of many slopes and metals and find the representative strain
     Calibrate(crate::calibrate::Calibrate),
+    /// Compute every figure and table of the paper and write a report that judges its claims
+    Reproduce(crate::reproduce::Reproduce),
 }
 
 impl Command {
@@ -43,6 +45,7 @@ impl Command {
             Command::Mesh(_) => None,
             Command::Rough(args) => args.run.threads,
             Command::Calibrate(args) => args.run.threads,
+            Command::Reproduce(args) => args.run.threads,
         }
     }
 }

@@ -9,8 +9,11 @@ mod folder;
 mod mesh;
 mod progress;
 mod records;
+mod reproduce;
 mod rough;
+mod scale;
 mod scene_file;
+mod section;
 mod suggest;
 mod terminal;
 mod toml_file;
@@ -34,6 +37,7 @@ fn main() -> ExitCode {
         Command::Mesh(args) => mesh::mesh(args),
         Command::Rough(args) => rough::rough(args),
         Command::Calibrate(args) => calibrate::calibrate(args),
+        Command::Reproduce(args) => reproduce::reproduce(args),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
