@@ -2,7 +2,7 @@
 //!
 //! The claims are in `tests/`, one a file; what was reached is in `README.md`, in figures that
 //! `examples/convergence.rs` prints. Closed forms: `contact` (elastic), `bar`, `simple_shear`, `thick_wall`,
-//! `plane_field`. Bodies: `bodies`, `single_asperity`. `drive` solves one increment.
+//! `plane_field`. Other codes: `calibration`. Bodies: `bodies`, `single_asperity`. `drive` solves one increment.
 
 pub mod bar;
 pub mod contact;
@@ -10,6 +10,8 @@ pub mod plane_field;
 pub mod several;
 pub mod simple_shear;
 pub mod thick_wall;
+
+pub mod calibration;
 
 pub mod bodies;
 pub mod single_asperity;

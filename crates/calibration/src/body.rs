@@ -76,6 +76,7 @@ impl Body {
             growth: r.growth,
             domain,
             cone,
+            rounding: r.rounding * radius,
             kind: r.kind,
         };
         let mesh = layout.mesh();

@@ -8,6 +8,9 @@ use asperity_law::Elastic;
 const RESAMPLES: usize = 800;
 const SEED: u64 = 480;
 
+/// E* tan β/σ_r from which a crush counts as developed plasticity: below it K says little about σ_r.
+pub const DEVELOPED: f64 = 10.0;
+
 /// Share of the resamples that must have a minimum for a slope to count as determined.
 const DETERMINED: f64 = 0.9;
 

@@ -15,6 +15,8 @@ use std::path::Path;
 #[derive(Debug)]
 pub struct Journal {
     file: File,
+    /// Length up to the end of its last whole line.
+    whole: u64,
 }
 
 /// FNV-1a: a short, stable number for a text.
@@ -58,19 +60,28 @@ impl Journal {
         file.set_len(whole as u64)?;
         file.seek(SeekFrom::End(0))?;
         if whole == 0 {
+            whole = header.len();
             file.write_all(header.as_bytes())?;
             file.sync_all()?;
         }
-        Ok((Journal { file }, rows))
+        Ok((Journal { file, whole: whole as u64 }, rows))
     }
 
     /// Adds a finished row and forces it to the disk.
     ///
     /// # Errors
-    /// A full disk; the rows before this one stay.
+    /// A full disk; the rows before this one stay, and rows after it find no piece of it in front of them.
     pub fn append(&mut self, row: &Row) -> io::Result<()> {
-        self.file.write_all(sealed(&row.to_csv()).as_bytes())?;
-        self.file.sync_data()
+        let line = sealed(&row.to_csv());
+        let written = self.file.write_all(line.as_bytes()).and_then(|()| self.file.sync_data());
+        match written {
+            Ok(()) => self.whole += line.len() as u64,
+            Err(_) => {
+                self.file.set_len(self.whole)?;
+                self.file.seek(SeekFrom::End(0))?;
+            }
+        }
+        written
     }
 }
 

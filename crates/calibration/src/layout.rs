@@ -24,6 +24,8 @@ pub struct Layout {
     pub domain: f64,
     /// Slope (tangent) of the cone and its height above the substrate; zeros for a flat body.
     pub cone: [f64; 2],
+    /// Radius over which the summit is rounded, to a hyperboloid.
+    pub rounding: f64,
     /// Kind of element.
     pub kind: ElementKind,
 }
@@ -32,7 +34,14 @@ impl Layout {
     /// Height of the surface at radius r, 0 at the summit.
     fn surface(&self, r: f64) -> f64 {
         let [slope, height] = self.cone;
-        -(slope * r).min(height)
+        let below = |r: f64| slope * (r.hypot(self.rounding) - self.rounding);
+        if r * slope < height { -below(r) } else { -below(self.foot()) }
+    }
+
+    /// Base radius of the cone, 0 for a flat body.
+    fn foot(&self) -> f64 {
+        let [slope, height] = self.cone;
+        if slope > 0.0 { height / slope } else { 0.0 }
     }
 
     /// Builds the mesh.
@@ -45,7 +54,7 @@ impl Layout {
         let rows = divide(0.0, self.row_depth, &[], |d| self.element + self.row_growth * d);
         let (near, far) = (self.element / core, self.growth);
         // in the logarithm of the radius, with a node where the cone ends
-        let foot = if self.cone[0] > 0.0 { vec![(self.cone[1] / self.cone[0]).ln()] } else { Vec::new() };
+        let foot = if self.cone[0] > 0.0 { vec![self.foot().ln()] } else { Vec::new() };
         let shells: Vec<f64> =
             divide(core.ln(), self.domain.ln(), &foot, |l| near + (far - near) * (1.0 - core / l.exp()));
         let depth = self.domain + self.cone[1];
@@ -142,6 +151,7 @@ mod tests {
                 growth: 0.4,
                 domain: 100.0,
                 cone: [slope, 8.0 * slope],
+                rounding: 0.0,
                 kind: ElementKind::Quad8,
             };
             let mesh = layout.mesh();

@@ -3,7 +3,8 @@
 //!
 //! In the order of the data: a case (`case`), its mesh (`resolution`, `layout`, `body`), its path (`cone`) and its constant
 //! (`kick`); the grid (`sweep`), its rows on disk (`row`, `journal`) and its run (`run`); the representative strain of a
-//! slope (`collapse`), of all (`fit`), and the force as a formula (`dimensionless`).
+//! slope (`collapse`), of all (`fit`) and of parts (`dependence`), the force as a formula (`dimensionless`) and
+//! the way back (`unloading`).
 
 pub mod case;
 
@@ -31,4 +32,8 @@ pub mod collapse;
 
 pub mod fit;
 
+pub mod dependence;
+
 pub mod dimensionless;
+
+pub mod unloading;

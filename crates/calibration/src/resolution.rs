@@ -25,6 +25,8 @@ pub struct Resolution {
     pub domain: f64,
     /// Base radius of the cone, in a.
     pub foot: f64,
+    /// Radius over which the summit of the cone is rounded, in a: 0 but to show that it does not matter.
+    pub rounding: f64,
     /// Steps to the depth where the fit of K begins, longer than the others.
     pub lead_steps: usize,
     /// Equal steps from there to the end.
@@ -90,6 +92,7 @@ impl Resolution {
             growth: 0.4,
             domain: 100.0,
             foot: 8.0,
+            rounding: 0.0,
             lead_steps: 4,
             steps: 24,
             penetration: 0.016,
@@ -143,6 +146,7 @@ impl Resolution {
             growth: 0.07,
             domain: 100.0,
             foot: 8.0,
+            rounding: 0.0,
             lead_steps: 8,
             steps: 36,
             penetration: 0.004,

@@ -1,5 +1,6 @@
 //! `asperity calibrate`: the sweep of crushed cones, the representative strain, and the coefficient for `rough`.
 
+mod dependence;
 mod pictures;
 mod results;
 
@@ -34,6 +35,9 @@ pub struct Calibrate {
     /// Solve only part K of N, for the tasks of an array job; join the folders with `asperity calibrate merge`
     #[arg(long, value_name = "K/N", value_parser = parse_shard)]
     pub shard: Option<(usize, usize)>,
+    /// What c depends on: a table over laws, tools, exponents and ranges of E over yield stress, from 1800 cases
+    #[arg(long, conflicts_with_all = ["sweep", "shard", "slope", "overrides"])]
+    pub dependence: bool,
     /// Slope in degrees that collapse.svg shows [default: the largest]
     #[arg(long, value_name = "DEGREES")]
     pub slope: Option<f64>,
@@ -78,6 +82,7 @@ fn parse_shard(text: &str) -> Result<(usize, usize), String> {
 pub fn calibrate(args: &Calibrate) -> Result<(), Failure> {
     match &args.merge {
         Some(Joining::Merge(merge)) => join(merge),
+        None if args.dependence => dependence::run(args),
         None => sweep(args),
     }
 }

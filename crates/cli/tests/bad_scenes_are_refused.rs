@@ -74,6 +74,27 @@ fn each_names_the_line_and_the_range() {
     }
 }
 
+/// The same with a second asperity beside the first.
+const BESIDE: &[(&str, &[&str])] = &[
+    ("spacing = \"-5 um\"", &["scene.toml:", "at least 0", "-5 um", "leave it out"]),
+    ("valley_radius = \"700 um\"", &["scene.toml:", "valley_radius", "at most"]),
+    ("valley_radius = \"-1 um\"", &["scene.toml:", "at least 0"]),
+    ("height = \"0 um\"", &["scene.toml:", "height", "above 0"]),
+    ("radius = \"50 um\"", &["scene.toml:", "radius", "does not go with"]),
+];
+
+#[test]
+fn a_second_asperity_is_checked_too() {
+    for (line, words) in BESIDE {
+        let first = "[[asperity]]\nheight = \"20 um\"\nslope_deg = 10\n";
+        assert!(SCENE.contains(first), "{SCENE}");
+        let own = if line.starts_with("height") { "" } else { "height = \"20 um\"\n" };
+        let two = format!("[[asperity]]\n{own}{line}\nslope_deg = 10\n{first}");
+        let place = Place::with_scene(SCENE.replacen(first, &two, 1));
+        refused(&place, &["crush", "scene.toml", "--out", "out"], words, line);
+    }
+}
+
 #[test]
 fn what_is_no_scene_at_all_is_refused() {
     let whole: &[(&[u8], &[&str])] = &[

@@ -19,6 +19,9 @@ use crate::profile::Profile;
 use crate::{Edge, ElementKind, Mesh, Sides};
 use std::collections::HashMap;
 
+/// Depths of a row of contacts within which shells around it stay fine: metal yields that far below touching rows.
+const NEAR_ROW: f64 = 3.0;
+
 /// How element sizes follow the distance from a contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Grading {
@@ -36,6 +39,12 @@ impl Grading {
     /// Elements along the half side of a core.
     fn core_elements(&self) -> usize {
         (1.0 / self.fineness).round().max(2.0) as usize
+    }
+
+    /// Wanted size over distance, `x` being the distance in depths of the row.
+    fn size_around_row(&self, x: f64) -> f64 {
+        let near = (1.5 * self.fineness).min(self.far);
+        (self.far + (near - self.far) * NEAR_ROW / x).max(near)
     }
 
     /// Wanted size at the distance `x` from a contact of half width `contact`.
@@ -511,29 +520,25 @@ fn sort_surface(grid: &mut Grid, start: usize) {
     }
 }
 
-/// The rectangles around a row of cells, out to where shells end.
+/// The rectangles around a row of cells, out to where shells end. Next to the row, where all its loads add up, they are
+/// as fine as the grading asks for.
 fn outer_rectangles(plan: &Plan, inner: Rectangle) -> Vec<Rectangle> {
     let end = shell_limit(plan, inner);
-    let size = |x: f64| plan.grading.far * x;
-    let wider = (inner.left - end.left).max(end.right - inner.right);
-    let stations = divide_geometric(inner.depth, end.depth, &[], size);
-    let lateral = divide_geometric(inner.depth, inner.depth + wider.max(1e-12 * inner.depth), &[], size);
-    let count = stations.len().max(if wider > 0.0 { lateral.len() } else { 0 }) - 1;
-    let ratio = end.depth / inner.depth;
-    (1..=count)
-        .map(|k| {
-            if k == count {
-                return end;
-            }
-            let depth = inner.depth * ratio.powf(k as f64 / count as f64);
-            let share = (depth - inner.depth) / (end.depth - inner.depth);
-            Rectangle {
-                left: inner.left + share * (end.left - inner.left),
-                right: inner.right + share * (end.right - inner.right),
-                depth,
-            }
-        })
-        .collect()
+    let stations =
+        divide_geometric(inner.depth, end.depth, &[], |x| plan.grading.size_around_row(x / inner.depth) * x);
+    let last = stations.len() - 1;
+    let rectangle = |(k, &depth): (usize, &f64)| {
+        if k + 1 == last {
+            return end;
+        }
+        let share = (depth - inner.depth) / (end.depth - inner.depth);
+        Rectangle {
+            left: inner.left + share * (end.left - inner.left),
+            right: inner.right + share * (end.right - inner.right),
+            depth,
+        }
+    };
+    stations[1..].iter().enumerate().map(rectangle).collect()
 }
 
 /// Divides like `divide`, but integrates in the logarithm of the distance, so that decades are resolved.

@@ -330,7 +330,8 @@ impl<'p> Log<'p> {
         observer(&Event::Fields(&frame))
     }
 
-    /// Lists what never yielded above the base of the asperities and half their height below it.
+    /// Lists what never yielded: enclosed by metal that did, or above the base of the asperities and half their height
+    /// below it.
     fn find_islands(&mut self, model: &Model<'_>) {
         let profile = &self.problem.profile;
         let (Some(first), Some(last)) = (profile.asperities.first(), profile.asperities.last()) else {
@@ -349,6 +350,7 @@ impl<'p> Log<'p> {
                 place: island.place.map(|x| x * l),
                 area: island.area * l * l,
                 mean_pressure: island.mean_pressure * self.units.stress,
+                mean_von_mises: island.mean_von_mises * self.units.stress,
                 reaches_substrate: island.reaches_substrate,
                 reaches_surface: island.reaches_surface,
             })

@@ -5,7 +5,9 @@ use crate::element::POINTS;
 use crate::kinematics::Symmetry;
 use crate::material::{hydrostatic, stress, volume_ratio};
 use crate::model::Model;
-use std::collections::HashMap;
+use crate::tensor::von_mises;
+use asperity_mesh::Mesh;
+use std::collections::{HashMap, HashSet};
 
 /// An untouched stretch of surface between two contacts.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -18,7 +20,7 @@ pub struct Gap {
     pub height: f64,
 }
 
-/// A connected region of metal that never yielded.
+/// A connected region of metal that never yielded, enclosed by metal that did or standing above the substrate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Island {
     /// Centroid (r, z) of its section before the crush.
@@ -27,7 +29,9 @@ pub struct Island {
     pub area: f64,
     /// Volume-weighted mean hydrostatic pressure, positive in compression.
     pub mean_pressure: f64,
-    /// Whether it hangs together with the elastic bulk of the substrate within the region that was searched.
+    /// Volume-weighted mean von Mises stress: far below the pressure where the metal is kept elastic by confinement.
+    pub mean_von_mises: f64,
+    /// Whether it hangs together with the elastic bulk of the substrate.
     pub reaches_substrate: bool,
     /// Whether it holds a part of the free surface.
     pub reaches_surface: bool,
@@ -66,79 +70,121 @@ pub fn gaps(model: &Model<'_>) -> Vec<Gap> {
     gaps
 }
 
-/// Regions of cells without plastic strain, of the metal that lay above `floor` before the crush and within `extent`
-/// along r; cells hang together through common edges.
+/// Regions of cells without plastic strain whose centroid lies within `extent` along r before the crush: those enclosed by
+/// yielded metal at any depth, and of the elastic bulk what lay above `floor`. Cells hang together through common edges.
 pub fn islands(model: &Model<'_>, floor: f64, extent: [f64; 2]) -> Vec<Island> {
     let mesh = model.mesh();
-    let place = |cell: usize| -> [f64; 2] {
-        let corners = &mesh.cell(cell)[..4];
-        let sum = |i: usize| corners.iter().map(|&n| mesh.nodes[n as usize][i]).sum::<f64>() / 4.0;
-        [sum(0), sum(1)]
-    };
-    let elastic = |cell: usize| {
-        model.states()[cell * POINTS..(cell + 1) * POINTS].iter().all(|s| s.plastic_strain == 0.0)
-    };
-    let inside: Vec<bool> = (0..mesh.cell_count())
+    let cells = 0..mesh.cell_count();
+    let neighbours = neighbours(mesh);
+    let elastic: Vec<bool> = cells
+        .clone()
         .map(|cell| {
-            let [r, z] = place(cell);
-            z > floor && r > extent[0] && r < extent[1] && elastic(cell)
+            model.states()[cell * POINTS..(cell + 1) * POINTS].iter().all(|s| s.plastic_strain == 0.0)
         })
         .collect();
-    let mut neighbours: HashMap<(u32, u32), Vec<usize>> = HashMap::new();
+    let on_base: HashSet<u32> = mesh.sides.base.iter().map(|e| e.cell).collect();
+    let within = |r: f64| r > extent[0] && r < extent[1];
+    let mut bulk = vec![false; mesh.cell_count()];
+    let mut islands = Vec::new();
+    for region in regions(&neighbours, &elastic) {
+        if region.iter().any(|cell| on_base.contains(&(*cell as u32))) {
+            region.iter().for_each(|cell| bulk[*cell] = true);
+        } else {
+            islands.push(describe(model, &region, false));
+        }
+    }
+    let standing: Vec<bool> = cells
+        .map(|cell| {
+            let [r, z] = centre(mesh, cell);
+            bulk[cell] && z > floor && within(r)
+        })
+        .collect();
+    islands.extend(regions(&neighbours, &standing).iter().map(|region| describe(model, region, true)));
+    islands.retain(|island| within(island.place[0]));
+    islands
+}
+
+/// Cells that share an edge with each cell.
+fn neighbours(mesh: &Mesh) -> Vec<Vec<usize>> {
+    let mut sharing: HashMap<(u32, u32), usize> = HashMap::new();
+    let mut neighbours = vec![Vec::new(); mesh.cell_count()];
     for cell in 0..mesh.cell_count() {
         let corners = mesh.cell(cell);
         for k in 0..4 {
             let (a, b) = (corners[k], corners[(k + 1) % 4]);
-            neighbours.entry((a.min(b), a.max(b))).or_default().push(cell);
+            if let Some(other) = sharing.insert((a.min(b), a.max(b)), cell) {
+                neighbours[cell].push(other);
+                neighbours[other].push(cell);
+            }
         }
     }
-    let on_surface: std::collections::HashSet<u32> = mesh.sides.surface.iter().map(|e| e.cell).collect();
-    let mut seen = vec![false; mesh.cell_count()];
-    let mut islands = Vec::new();
-    for seed in 0..mesh.cell_count() {
+    neighbours
+}
+
+/// Connected regions of the cells that are `inside`.
+fn regions(neighbours: &[Vec<usize>], inside: &[bool]) -> Vec<Vec<usize>> {
+    let mut seen = vec![false; inside.len()];
+    let mut regions = Vec::new();
+    for seed in 0..inside.len() {
         if seen[seed] || !inside[seed] {
             continue;
         }
-        let mut island = Island {
-            place: [0.0; 2],
-            area: 0.0,
-            mean_pressure: 0.0,
-            reaches_substrate: false,
-            reaches_surface: false,
-        };
-        let (mut volume, mut queue) = (0.0, vec![seed]);
+        let mut region = vec![seed];
         seen[seed] = true;
-        while let Some(cell) = queue.pop() {
-            let [r, z] = place(cell);
-            let corners = mesh.cell(cell);
-            let area = section_area(corners[..4].iter().map(|&n| mesh.nodes[n as usize]));
-            island.area += area;
-            island.place[0] += area * r;
-            island.place[1] += area * z;
-            island.reaches_surface |= on_surface.contains(&(cell as u32));
-            for q in cell * POINTS..(cell + 1) * POINTS {
-                let state = &model.states()[q];
-                let tau = stress(&model.metal().elastic, &state.stretch);
-                island.mean_pressure -= model.volumes()[q] * hydrostatic(&tau) / volume_ratio(&state.stretch);
-                volume += model.volumes()[q];
-            }
-            for k in 0..4 {
-                let (a, b) = (corners[k], corners[(k + 1) % 4]);
-                for &next in neighbours.get(&(a.min(b), a.max(b))).into_iter().flatten() {
-                    if !inside[next] {
-                        island.reaches_substrate |= elastic(next) && place(next)[1] <= floor;
-                    } else if !seen[next] {
-                        seen[next] = true;
-                        queue.push(next);
-                    }
+        let mut next = 0;
+        while next < region.len() {
+            for &cell in &neighbours[region[next]] {
+                if inside[cell] && !seen[cell] {
+                    seen[cell] = true;
+                    region.push(cell);
                 }
             }
+            next += 1;
         }
-        island.place = island.place.map(|x| x / island.area);
-        island.mean_pressure /= volume;
-        islands.push(island);
+        regions.push(region);
     }
-    islands
+    regions
+}
+
+/// Place, size and mean stress of a region.
+fn describe(model: &Model<'_>, region: &[usize], reaches_substrate: bool) -> Island {
+    let mesh = model.mesh();
+    let on_surface: HashSet<u32> = mesh.sides.surface.iter().map(|e| e.cell).collect();
+    let mut island = Island {
+        place: [0.0; 2],
+        area: 0.0,
+        mean_pressure: 0.0,
+        mean_von_mises: 0.0,
+        reaches_substrate,
+        reaches_surface: region.iter().any(|cell| on_surface.contains(&(*cell as u32))),
+    };
+    let mut volume = 0.0;
+    for &cell in region {
+        let ([r, z], corners) = (centre(mesh, cell), mesh.cell(cell));
+        let area = section_area(corners[..4].iter().map(|&n| mesh.nodes[n as usize]));
+        island.area += area;
+        island.place[0] += area * r;
+        island.place[1] += area * z;
+        for q in cell * POINTS..(cell + 1) * POINTS {
+            let state = &model.states()[q];
+            let tau = stress(&model.metal().elastic, &state.stretch);
+            let weight = model.volumes()[q];
+            let ratio = volume_ratio(&state.stretch);
+            island.mean_pressure -= weight * hydrostatic(&tau) / ratio;
+            island.mean_von_mises += weight * von_mises(&tau) / ratio;
+            volume += weight;
+        }
+    }
+    island.place = island.place.map(|x| x / island.area);
+    island.mean_pressure /= volume;
+    island.mean_von_mises /= volume;
+    island
+}
+
+/// Mean of the corners of a cell before the crush.
+fn centre(mesh: &Mesh, cell: usize) -> [f64; 2] {
+    let corners = &mesh.cell(cell)[..4];
+    [0, 1].map(|i| corners.iter().map(|&n| mesh.nodes[n as usize][i]).sum::<f64>() / 4.0)
 }
 
 /// Area of a polygon.

@@ -83,7 +83,7 @@ pub struct GapRow {
     pub height: f64,
 }
 
-/// A connected region that never yielded in the metal that lay above the base of the asperities or just below it.
+/// A connected region that never yielded, enclosed by metal that did or standing above the substrate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct IslandRow {
     /// Centroid (r, z) of its section before the crush, m.
@@ -92,6 +92,8 @@ pub struct IslandRow {
     pub area: f64,
     /// Mean hydrostatic pressure, positive in compression, Pa.
     pub mean_pressure: f64,
+    /// Mean von Mises stress, Pa.
+    pub mean_von_mises: f64,
     /// Whether it hangs together with the elastic bulk of the substrate.
     pub reaches_substrate: bool,
     /// Whether it holds a part of the free surface.

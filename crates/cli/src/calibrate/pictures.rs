@@ -52,8 +52,8 @@ fn mixed(calibration: &Calibration, beta_deg: f64, share: f64) -> Chart {
         marks: true,
     });
     Chart {
-        x_label: format!("E*/σr at εr = {share:.3} tan β, β = {beta_deg}°"),
-        y_label: "K/σr".into(),
+        x_label: format!("E*/σᵣ, σᵣ at εᵣ = {share:.3} tan β (β = {beta_deg}°)"),
+        y_label: "K/σᵣ".into(),
         series: series.collect(),
     }
 }
@@ -73,8 +73,8 @@ fn master(calibration: &Calibration, c: f64) -> Chart {
         }
     });
     Chart {
-        x_label: format!("E* tan β/σr at εr = {c:.3} tan β"),
-        y_label: "K tan²β/σr".into(),
+        x_label: format!("E* tan β/σᵣ, σᵣ at εᵣ = {c:.3} tan β"),
+        y_label: "K tan²β/σᵣ".into(),
         series: series.collect(),
     }
 }
@@ -97,13 +97,13 @@ fn strains(calibration: &Calibration, c: f64) -> Chart {
     let found = angles.iter().filter_map(|a| a.strain.map(|s| [a.beta_deg, s])).collect();
     let series = |label: String, points: Vec<[f64; 2]>, marks: bool| Series { label, points, marks };
     Chart {
-        x_label: "β, degrees".into(),
-        y_label: "εr".into(),
+        x_label: "slope β, degrees".into(),
+        y_label: "representative strain εᵣ".into(),
         series: vec![
             series("least scatter".into(), found, true),
-            series("95 %, low".into(), bound(0), false),
-            series("95 %, high".into(), bound(1), false),
-            series(format!("{c:.4} tan β"), line(c), false),
+            series("95 % interval, low end".into(), bound(0), false),
+            series("95 % interval, high end".into(), bound(1), false),
+            series(format!("fit: {c:.4} tan β"), line(c), false),
             series(format!("published: {PUBLISHED} tan β"), line(PUBLISHED), false),
         ],
     }

@@ -4,15 +4,13 @@ use super::pictures;
 use crate::failure::Failure;
 use crate::folder::Folder;
 use asperity_calibration::dimensionless::Dimensionless;
-use asperity_calibration::fit::{Angle, Data, Slope, angles, developed, obstacle, slope};
+use asperity_calibration::fit::{Angle, DEVELOPED, Data, Slope, angles, developed, obstacle, slope};
 use asperity_calibration::row::{HEADER, Row};
 use asperity_calibration::sweep::Sweep;
+use asperity_calibration::unloading::{self, Unloaded};
 use asperity_roughness::{self as roughness, Coefficient, PUBLISHED};
 use serde_json::{Value, json};
 use std::fmt::Write;
-
-/// E* tan β/σ_r from which a crush counts as developed plasticity.
-pub const DEVELOPED: f64 = 10.0;
 
 /// Points of the table of `coefficient.toml` for each slope.
 const TABLE: usize = 12;
@@ -34,6 +32,8 @@ pub struct Calibration {
     pub slope: Option<Slope>,
     developed: Option<Slope>,
     function: Option<Dimensionless>,
+    /// Cones taken back, for the exponent of the unloading curve.
+    unloaded: Vec<Unloaded>,
 }
 
 impl Calibration {
@@ -45,7 +45,12 @@ impl Calibration {
         let slope = slope(&angles);
         let developed = slope.and_then(|s| self::slope_of(&developed(&data, s.c, DEVELOPED)));
         let function = slope.and_then(|s| Dimensionless::fit(&data, s.c));
+        let unloaded = match (&function, slope) {
+            (Some(_), Some(s)) => unloading::unload(sweep, s.c),
+            _ => Vec::new(),
+        };
         Calibration {
+            unloaded,
             sweep: sweep.clone(),
             rows,
             wall_s,
@@ -133,6 +138,13 @@ impl Calibration {
                 "force": formula(&f.force),
                 "contact_ratio": formula(&f.contact_ratio),
             })),
+            "unloading_exponent": unloading::mean(&self.unloaded),
+            "unloaded": self.unloaded.iter().map(|u| json!({
+                "beta_deg": u.case.beta_deg,
+                "n": u.case.yielding.map(|y| y.exponent),
+                "E_over_sy": u.case.yielding.map(|y| y.e_over_sy),
+                "exponent": u.exponent,
+            })).collect::<Vec<Value>>(),
             "cases": self.rows.len(),
             "failed": self.failed(),
         });
@@ -164,7 +176,8 @@ impl Calibration {
             poissons_ratio: self.sweep.poissons_ratio,
             c: slope.c,
             ci95: slope.ci95,
-            unloading_exponent: roughness::SINGLE_ASPERITY_EXPONENT,
+            unloading_exponent: unloading::mean(&self.unloaded)
+                .unwrap_or(roughness::SINGLE_ASPERITY_EXPONENT),
             beta_deg,
             modulus_over_stress: stiffness,
             angles,
@@ -242,6 +255,14 @@ impl Calibration {
                 100.0 * f.contact_ratio.rms,
                 100.0 * f.contact_ratio.largest
             );
+        }
+        if let Some(m) = unloading::mean(&self.unloaded) {
+            let (low, high) = self
+                .unloaded
+                .iter()
+                .fold((f64::MAX, f64::MIN), |(a, b), u| (a.min(u.exponent), b.max(u.exponent)));
+            let count = self.unloaded.len();
+            let _ = writeln!(text, "unloading exponent {m:.3} ({low:.3} to {high:.3}, {count} cones)");
         }
         text.trim_end().into()
     }

@@ -73,6 +73,7 @@ fn island(row: &IslandRow) -> Value {
         "place_um": row.place.map(|x| x / MICROMETRE),
         "area_um2": row.area / (MICROMETRE * MICROMETRE),
         "mean_pressure_MPa": row.mean_pressure / MEGAPASCAL,
+        "mean_von_mises_MPa": row.mean_von_mises / MEGAPASCAL,
         "reaches_substrate": row.reaches_substrate,
         "reaches_surface": row.reaches_surface,
     })

@@ -85,7 +85,7 @@ impl Outcome<'_> {
         ]
     }
 
-    /// table.csv, load_curve.csv, load_curve.svg, pressure_histogram.svg.
+    /// table.csv, load_curve.csv, closures.svg, load_curve.svg, pressure_histogram.svg.
     pub fn write_tables(&self, folder: &mut Folder) -> Result<(), Failure> {
         folder.write("table.csv", |out| {
             writeln!(out, "{TABLE_COLUMNS}")?;
@@ -120,6 +120,7 @@ impl Outcome<'_> {
             }
             Ok::<(), std::io::Error>(())
         })?;
+        self.write_chart(folder, "closures.svg", &self.closure_chart())?;
         self.write_chart(folder, "load_curve.svg", &self.load_chart())?;
         self.write_chart(folder, "pressure_histogram.svg", &self.histogram())
     }
@@ -127,6 +128,29 @@ impl Outcome<'_> {
     fn write_chart(&self, folder: &mut Folder, name: &str, chart: &Chart) -> Result<(), Failure> {
         let text = chart::svg(chart).map_err(Failure::Unfinished)?;
         folder.write(name, |out| out.write_all(text.as_bytes()))
+    }
+
+    /// The closures themselves: pressure on the contact of an island against its slope, to three times the mean slope.
+    fn closure_chart(&self) -> Chart {
+        const STEPS: u32 = 120;
+        let steepest = 3.0 * self.prepared.roughness.mean_gradient;
+        let series = self.pressed.iter().map(|one| {
+            let point = |step| {
+                let tan = steepest * f64::from(step) / f64::from(STEPS);
+                let response = one.model.respond(tan);
+                [tan.atan().to_degrees(), response.island_pressure / response.area_ratio / MEGAPASCAL]
+            };
+            Series {
+                label: one.model.closure.name().into(),
+                points: (0..=STEPS).map(point).collect(),
+                marks: false,
+            }
+        });
+        Chart {
+            x_label: "slope of an island (degrees)".into(),
+            y_label: "mean pressure on its contact (MPa)".into(),
+            series: series.collect(),
+        }
     }
 
     /// Pressure against the travel of the plane from first touch.

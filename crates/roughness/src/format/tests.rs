@@ -270,6 +270,10 @@ fn an_x3p_that_lies_is_refused_and_not_unpacked() {
         zip.finish().unwrap().into_inner()
     };
     assert!(read(&folder.file("b.x3p", &content("3", "SUR", "D"))).is_ok());
+    let tags: String = (0..100_000).map(|i| format!(" a{i}='1'")).collect();
+    let long =
+        read(&folder.file("b.x3p", &content("3", &format!("<b{tags}/>SUR"), "D"))).unwrap_err().to_string();
+    assert!(long.contains("65536 bytes"), "{long}");
     for (size, feature, kind) in [
         ("4", "SUR", "D"),
         ("1000000000", "SUR", "D"),

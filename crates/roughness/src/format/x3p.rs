@@ -18,6 +18,9 @@ const MOST_PARTS: u32 = 1 << 23;
 
 type Zip = ZipArchive<BufReader<File>>;
 
+/// Longest tag of a main.xml: a parser compares each attribute of a tag with all others.
+const LONGEST_TAG: usize = 1 << 16;
+
 fn damaged(what: impl ToString) -> ReadError {
     ReadError::Container(what.to_string())
 }
@@ -75,8 +78,14 @@ impl Axis {
 /// Reads a surface; profiles, point clouds and layers are refused.
 pub(super) fn read(path: &Path) -> Result<Measured, ReadError> {
     let mut zip = ZipArchive::new(BufReader::new(File::open(path)?)).map_err(damaged)?;
+    if zip.index_for_name("main.xml").is_none() {
+        return Err(damaged("it is a zip archive without main.xml, some other kind of file"));
+    }
     let xml = member(&mut zip, "main.xml", LONGEST_XML)?;
     let xml = String::from_utf8(xml).map_err(|_| damaged("main.xml is not UTF-8"))?;
+    if xml.split('<').any(|part| part.find('>').unwrap_or(part.len()) > LONGEST_TAG) {
+        return Err(damaged(format!("main.xml has a tag of more than {LONGEST_TAG} bytes")));
+    }
     let options = ParsingOptions { nodes_limit: MOST_PARTS, ..ParsingOptions::default() };
     let document =
         Document::parse_with_options(xml.trim_start_matches('\u{feff}'), options).map_err(damaged)?;

@@ -1,0 +1,22 @@
+//! Sharp cones crushed by a plane agree with CalculiX 2.20, its load steps extrapolated to zero, within the stated error
+//! of K and CalculiX's own, once the stress of the law is taken as Cauchy's, as CalculiX does; and with the program's own
+//! Kirchhoff stress within a further 1 %, what the difference of the two measures amounts to at E/σ_y = 100. Four of the
+//! ten here; `--example calibration peers` prints all. The force grows with the depth to the exponent 2, or `solve` fails.
+
+use asperity_calibration::kick::solve;
+use asperity_calibration::resolution::Resolution;
+use asperity_solver::scene::Accuracy;
+use asperity_verification::calibration::{PEERS, peer_case};
+
+#[test]
+fn cones_agree_with_calculix() {
+    for i in [1, 4, 7, 8] {
+        let (peer, case) = (PEERS[i], peer_case(&PEERS[i]));
+        let resolution = Resolution::of(&case, Accuracy::Standard);
+        for (cauchy, measure) in [(true, 0.0), (false, 0.01)] {
+            let kick = solve(&case, &Resolution { cauchy, ..resolution }).unwrap();
+            let off = (kick.k_over_e / peer.k_over_e - 1.0).abs();
+            assert!(off <= kick.error + peer.error + measure, "{peer:?}: {kick:?}");
+        }
+    }
+}
