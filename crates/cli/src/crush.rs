@@ -22,7 +22,14 @@ use std::time::Instant;
 /// # Errors
 /// Input that is wrong (nothing is written), or a run that could not finish (what it reached is written).
 pub fn crush(args: &Crush) -> Result<(), Failure> {
-    let file = scene_file::read(&args.scene, &args.scene_flags)?;
+    let Some(scene) = &args.scene else {
+        return Err(InputError::new("crush what? No scene file is given")
+            .help(
+                "asperity new single writes single.toml, a commented scene to start from; then: asperity crush single.toml",
+            )
+            .into());
+    };
+    let file = scene_file::read(scene, &args.scene_flags)?;
     let mesh = scene_file::read_mesh(&file)?;
     let out = args.run.out.clone().unwrap_or_else(|| PathBuf::from("out").join(file.stem()));
     let mut folder = Folder::create(&out, "crush", args.run.force)?;

@@ -110,6 +110,18 @@ pub fn islands(evidence: &Evidence, part: &str) -> Option<Vec<Value>> {
     Some(found.iter().filter(|island| island["reaches_substrate"] == false).cloned().collect())
 }
 
+/// "1 region", "2 regions".
+fn count(number: usize, noun: &str) -> String {
+    format!("{number} {noun}{}", if number == 1 { "" } else { "s" })
+}
+
+/// Where the centre of a region was before the crush.
+fn place(island: &Value) -> String {
+    let [r, z] =
+        [0, 1].map(|k| island["place_um"][k].as_f64().map_or_else(String::new, |x| format!("{x:.0}")));
+    format!("r = {r} µm, z = {z} µm")
+}
+
 fn elastic_areas(evidence: &Evidence) -> Vec<Claim> {
     let mut claims = Vec::new();
     for (end, symmetry) in SYMMETRIES {
@@ -119,10 +131,11 @@ fn elastic_areas(evidence: &Evidence) -> Vec<Claim> {
             item: "fig5",
             place: "section 3.1",
             claim: format!("areas remain elastic even after the total crushing of the asperities ({symmetry})"),
-            ours: match found.len() {
-                0 => "no region inside the asperities that never yielded".into(),
-                1 => "1 region that never yielded".into(),
-                n => format!("{n} regions that never yielded"),
+            ours: if found.is_empty() {
+                "no region of the asperities that never yielded".into()
+            } else {
+                let places: Vec<String> = found.iter().map(place).collect();
+                format!("{} never yielded: at {}", count(found.len(), "region"), places.join(", "))
             },
             verdict: Verdict::of(!found.is_empty()),
             why: if found.is_empty() {
@@ -271,7 +284,7 @@ fn table1(evidence: &Evidence) -> Vec<Claim> {
                     item: "table1",
                     place: "Table 1",
                     claim: format!("{name}: {what} = {printed}{unit}"),
-                    ours: format!("{} ± {}{unit}", significant(s.mean), significant_two(s.deviation)),
+                    ours: format!("{}{unit}", with_deviation(s.mean, s.deviation)),
                     verdict: Verdict::of(holds),
                     why,
                 });
@@ -411,8 +424,12 @@ pub fn significant(value: f64) -> String {
     digits(value, 4)
 }
 
-fn significant_two(value: f64) -> String {
-    digits(value, 2)
+/// A mean and its standard deviation, where that can be seen beside the mean.
+fn with_deviation(mean: f64, deviation: f64) -> String {
+    if deviation < 1e-4 * mean.abs() {
+        return significant(mean);
+    }
+    format!("{} ± {}", significant(mean), digits(deviation, 2))
 }
 
 fn digits(value: f64, count: i32) -> String {

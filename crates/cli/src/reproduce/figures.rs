@@ -109,7 +109,14 @@ fn shown(value: Option<f64>) -> String {
 }
 
 fn spread(value: Option<Spread>, digits: usize) -> String {
-    value.map_or_else(|| "–".into(), |s| format!("{:.digits$} ± {:.digits$}", s.mean, s.deviation))
+    value.map_or_else(
+        || "–".into(),
+        |s| {
+            let deviation = format!("{:.digits$}", s.deviation);
+            let seen = deviation.trim_matches(['0', '.']) != "";
+            if seen { format!("{:.digits$} ± {deviation}", s.mean) } else { format!("{:.digits$}", s.mean) }
+        },
+    )
 }
 
 fn percent(value: Option<f64>) -> Option<f64> {

@@ -20,12 +20,11 @@ use asperity_solver::scene::{Accuracy, Scene};
 use serde::{Deserialize, Serialize};
 use std::fmt::Debug;
 use std::hash::{DefaultHasher, Hash, Hasher};
-use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-/// Dots along a side of a map of a rough surface in the report.
-const MAP: usize = 560;
+/// Dots along a side of a map of a rough surface in the report, its key included.
+const MAP: usize = 728;
 
 /// That a part is done.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -216,11 +215,16 @@ pub fn yardstick() -> Result<(f64, f64), Failure> {
     let text = include_str!("../../../../meshes/single-asperity.toml");
     let changes = ["output.every=0", "accuracy=draft"].map(String::from);
     let file: TomlFile<Scene> = TomlFile::parse(Path::new("single-asperity"), text.into(), &changes)?;
-    let start = Instant::now();
-    let outcome =
-        asperity_solver::crush::run(&file.value, None, &mut |_| std::ops::ControlFlow::Continue(()));
-    embedded("single-asperity", outcome)?;
-    Ok((start.elapsed().as_secs_f64(), load_of(&file.value)))
+    // the fastest of three: other work on the machine only ever adds
+    let mut fastest = f64::INFINITY;
+    for _ in 0..3 {
+        let start = Instant::now();
+        let outcome =
+            asperity_solver::crush::run(&file.value, None, &mut |_| std::ops::ControlFlow::Continue(()));
+        embedded("single-asperity", outcome)?;
+        fastest = fastest.min(start.elapsed().as_secs_f64());
+    }
+    Ok((fastest, load_of(&file.value)))
 }
 
 /// The row of the map with the largest summit: its heights, the plane, and the cones that stand for the islands on it.
@@ -278,10 +282,10 @@ fn profile(map: &asperity_roughness::HeightMap, islands: &Islands) -> String {
 /// # Errors
 /// A disk that refuses.
 pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
-    let folder = path.parent().unwrap_or(Path::new("."));
-    let error = |e: std::io::Error| Failure::disk(path, e);
-    let mut file = tempfile::NamedTempFile::new_in(folder).map_err(error)?;
-    file.write_all(bytes).map_err(error)?;
-    file.persist(path).map_err(|e| error(e.error))?;
+    let mut beside = path.as_os_str().to_os_string();
+    beside.push(".partial");
+    std::fs::write(&beside, bytes)
+        .and_then(|()| std::fs::rename(&beside, path))
+        .map_err(|e| Failure::disk(path, e))?;
     Ok(())
 }

@@ -103,8 +103,11 @@ fn page(evidence: &Evidence, items: &[Item], claims: &[Claim], level: &str) -> R
                         thead { tr { th { "claim of the paper" } th { "where" } th { "ours" } th { "verdict" } } }
                         tbody { @for claim in claims { tr {
                             td { (claim.claim) }
-                            td { a href={ "#" (claim.item) } { (claim.place) } }
-                            td { (claim.ours) }
+                            td class="place" { a href={ "#" (claim.item) } { (claim.place) } }
+                            td {
+                                (claim.ours)
+                                @if claim.verdict == Verdict::Contradicted && !claim.why.is_empty() { p class="cause" { (claim.why) } }
+                            }
                             td { (verdict(claim.verdict)) }
                         } } }
                     } }

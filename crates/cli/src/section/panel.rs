@@ -10,9 +10,9 @@ use base64::Engine;
 use maud::{Markup, html};
 use std::fmt::Write;
 
-/// Lines take the colour of the text around them, so that they show on dark ground too.
+/// Lines take the colour of the text around them, so that they show on dark ground too; those on metal are dark.
 pub const STYLE: &str = ".section text{font:13px system-ui,sans-serif;fill:currentColor}.section .title{font-size:15px;font-weight:600}\
-.section .line{fill:none;stroke:currentColor;stroke-width:1}.section .thin{fill:none;stroke:currentColor;stroke-width:.5;opacity:.55}\
+.section .line{fill:none;stroke:currentColor;stroke-width:1}.section .thin{fill:none;stroke:#26303a;stroke-width:.5;opacity:.6}\
 .section .grid{stroke:currentColor;stroke-width:.5;opacity:.2}.section .tool{fill:#8b95a1}.section .on-tool{fill:#fff}\
 .section .area{fill:#0072b2;fill-opacity:.35;stroke:#0072b2;stroke-width:1.5}.section image{image-rendering:auto}";
 
