@@ -116,7 +116,8 @@ fn lengths() {
         poissons_ratio: 0.3,
         tool: Tool::Plane,
     });
-    let changes: [(&str, fn(&mut Resolution)); 10] = [
+    type Change = fn(&mut Resolution);
+    let changes: [(&str, Change); 10] = [
         ("as standard", |_| ()),
         ("summit rounded over 0.1 a", |r| r.rounding = 0.1),
         ("summit rounded over 0.2 a", |r| r.rounding = 0.2),

@@ -37,6 +37,8 @@ pub mod energy;
 
 pub mod fields;
 
+pub mod folding;
+
 pub mod islands;
 
 pub mod scene;

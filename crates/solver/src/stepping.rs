@@ -4,6 +4,7 @@ use crate::contact::EdgeContact;
 use crate::energy::{
     ContactSums, contact_sums, dissipated, stored, work, work_by_slopes, work_to_separation,
 };
+use crate::folding::fold;
 use crate::model::{Model, ToolStiffness};
 use crate::newton::{Failure, Settings, solve};
 use crate::record::Phase;
@@ -55,6 +56,9 @@ pub enum Stop {
     /// No equilibrium was found however small the increment.
     #[error("no equilibrium was found with the smallest increment")]
     NoEquilibrium,
+    /// A flank met another flank: contact of the metal with itself is not modelled.
+    #[error("a flank met another flank: metal that touches itself is not modelled")]
+    FlanksMeet,
     /// The observer asked for the end.
     #[error("the run was interrupted")]
     Interrupted,
@@ -196,7 +200,10 @@ impl<'m> Path<'m> {
             plastic_work: dissipated(metal, states, volumes),
             newton_iterations: std::mem::take(&mut self.spent),
         };
-        if observer(&self.model, &increment) { Ok(increment) } else { Err(Stop::Interrupted) }
+        if !observer(&self.model, &increment) {
+            return Err(Stop::Interrupted);
+        }
+        if fold(&self.model).is_some() { Err(Stop::FlanksMeet) } else { Ok(increment) }
     }
 
     /// Goes to `travel` in as few increments as converge; accepts all but the last, which is left attempted.
