@@ -113,7 +113,7 @@ fn spread(value: Option<Spread>, digits: usize) -> String {
         || "–".into(),
         |s| {
             let deviation = format!("{:.digits$}", s.deviation);
-            let seen = deviation.trim_matches(['0', '.']) != "";
+            let seen = !deviation.trim_matches(['0', '.']).is_empty();
             if seen { format!("{:.digits$} ± {deviation}", s.mean) } else { format!("{:.digits$}", s.mean) }
         },
     )
