@@ -6,6 +6,7 @@ use super::figures;
 use super::plan::{Item, Part, Work, parts};
 use asperity_solver::scene::Accuracy;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
+use std::collections::BTreeMap;
 use std::fmt::Write;
 
 const PAPER: &str = "Jourani, Dellaleau, Dursapt, Hamdi, Sidoroff, Zahouani: Effect of local slopes of roughness during contact between solids";
@@ -34,7 +35,7 @@ pub fn report(evidence: &Evidence, items: &[Item], accuracy: Accuracy) -> Result
     let verdicts = [Verdict::BorneOut, Verdict::Contradicted, Verdict::CannotBeJudged];
     let tally = verdicts.map(|v| format!("{} {}", count(v), v.words())).join(", ");
     let value = serde_json::json!({
-        "accuracy": level, "version": env!("CARGO_PKG_VERSION"), "claims": claims,
+        "accuracy": level, "version": env!("CARGO_PKG_VERSION"), "numbers": numbers(evidence), "claims": claims,
     });
     Ok(Report {
         html: page(evidence, items, &claims, &level)?.into_string(),
@@ -42,6 +43,23 @@ pub fn report(evidence: &Evidence, items: &[Item], accuracy: Accuracy) -> Result
         claims_markdown: markdown(&claims, &level),
         overview: format!("claims    {tally}"),
     })
+}
+
+/// The numbers that pages of text quote; those of parts that were not asked for are left out.
+fn numbers(evidence: &Evidence) -> BTreeMap<&'static str, f64> {
+    let single = "single-asperity";
+    let fit = evidence.json("calibrate", "fit.json").unwrap_or_default();
+    let all = [
+        ("force_at_1_um_N", evidence.force_at(single, 1.0)),
+        ("force_at_2_um_N", evidence.force_at(single, 2.0)),
+        ("force_at_5_um_N", evidence.force_at(single, 5.0)),
+        ("residual_depth_um", evidence.summary(single, "residual_depth")),
+        ("elastic_share_percent", evidence.summary(single, "elastic_fraction").map(|f| 100.0 * f)),
+        ("coefficient", fit["coefficient"].as_f64()),
+        ("coefficient_low", fit["ci95"][0].as_f64()),
+        ("coefficient_high", fit["ci95"][1].as_f64()),
+    ];
+    all.into_iter().filter_map(|(name, value)| Some((name, value?))).collect()
 }
 
 fn class(verdict: Verdict) -> &'static str {
