@@ -5,6 +5,8 @@
         cargo run --release -- crush meshes/$s.toml; cargo run --release -- crush meshes/$s-plane-strain.toml
     done
     python3 scripts/figures.py out --to fig6.png
+    cargo run --release -p asperity-verification --example several -- approach.csv
+    python3 scripts/figures.py --approach approach.csv --to approach.svg
 
 Needs matplotlib 3.8 or later. Prints a table of works and elastic shares, and whether each statement of the paper is
 borne out. Elastic zones under total crushing (Fig. 5) are drawn by scripts/render.py from the fields of a crush.
@@ -51,13 +53,40 @@ def statements(works: list[float], shares: list[float]) -> list[tuple[str, bool]
     ]
 
 
+def draw_approach(pyplot, path: pathlib.Path, to: pathlib.Path) -> None:
+    """Three ridges over three times one, against the pitch in depths of the substrate."""
+    with open(path, newline="") as file:
+        rows = list(csv.DictReader(file))
+    figure, axis = pyplot.subplots(figsize=(5.6, 4.0), constrained_layout=True)
+    marks = zip(["#0072b2", "#d55e00", "#009e73"], ["o", "s", "^"], strict=True)
+    for depth, (colour, mark) in zip(sorted({float(r["depth_um"]) for r in rows}), marks, strict=False):
+        own = [r for r in rows if float(r["depth_um"]) == depth]
+        axis.semilogy(
+            [float(r["pitch_over_depth"]) for r in own],
+            [100 * float(r["difference"]) for r in own],
+            color=colour,
+            marker=mark,
+            label=f"substrate {depth:.0f} µm deep",
+        )
+    axis.axhline(1, color="grey", linewidth=0.8, linestyle="--")
+    axis.set(xlabel="pitch over depth of the substrate", ylabel="|F₃/(3 F₁) - 1|, largest (%)")
+    axis.grid(alpha=0.3, which="both")
+    axis.legend(frameon=False)
+    figure.savefig(to, dpi=150)
+
+
 def main() -> int:
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument(
-        "results", type=pathlib.Path, help="folder that holds slopes-1-4, slopes-5-8, … (usually out)"
+        "results",
+        type=pathlib.Path,
+        nargs="?",
+        default=pathlib.Path("out"),
+        help="folder that holds slopes-1-4, slopes-5-8, … (default out)",
     )
+    parser.add_argument("--approach", type=pathlib.Path, help="draw this table of three ridges instead")
     parser.add_argument("--to", type=pathlib.Path, default=pathlib.Path("fig6.png"), help="picture to write")
     arguments = parser.parse_args()
     try:
@@ -68,6 +97,10 @@ def main() -> int:
     matplotlib.use("Agg")
     from matplotlib import pyplot
 
+    if arguments.approach:
+        draw_approach(pyplot, arguments.approach, arguments.to)
+        print(f"written {arguments.to}")
+        return 0
     figure, axes = pyplot.subplots(1, 2, figsize=(11, 4.4), constrained_layout=True)
     print("| set | symmetry | total work | elastic share |\n|-|-|-|-|")
     verdicts = []

@@ -46,7 +46,9 @@ def solve(z, pressure, tolerance, hardness=None):
     model.E, model.nu = 1.0, 0.0
     start = time.process_time()
     if hardness is None:
-        solver = tm.PolonskyKeerRey(model, z, tolerance, tm.PolonskyKeerRey.pressure, tm.PolonskyKeerRey.pressure)
+        solver = tm.PolonskyKeerRey(
+            model, z, tolerance, tm.PolonskyKeerRey.pressure, tm.PolonskyKeerRey.pressure
+        )
         solver.max_iter = 20000
         solver.solve(pressure)
     else:
@@ -93,7 +95,9 @@ def main():
     parser.add_argument("--sizes", type=int, nargs="+", default=[512, 1024, 2048])
     parser.add_argument("--seeds", type=int, nargs="+", default=[1, 2, 3])
     parser.add_argument("--loads", type=float, nargs="+", default=[0.002, 0.01], help="p/E*")
-    parser.add_argument("--laws", nargs="+", choices=["elastic", "saturated"], default=["elastic", "saturated"])
+    parser.add_argument(
+        "--laws", nargs="+", choices=["elastic", "saturated"], default=["elastic", "saturated"]
+    )
     parser.add_argument("--tolerance", type=float, default=1e-6, help="of the elastic solver")
     parser.add_argument("--hardness", type=float, default=0.03, help="H/E* of the saturated comparison")
     parser.add_argument("--coefficient")

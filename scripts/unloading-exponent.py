@@ -53,7 +53,15 @@ def main():
                 depth = 2 * math.tan(math.radians(slope)) / math.tan(math.radians(10))
                 values = dict(slope=slope, yield_stress=stress, exponent=exponent, depth=round(depth, 4))
                 scene.write_text(SCENE.format(**values))
-                command = [flags.binary, "crush", scene, "--accuracy", flags.accuracy, "--out", f"{folder}/out"]
+                command = [
+                    flags.binary,
+                    "crush",
+                    scene,
+                    "--accuracy",
+                    flags.accuracy,
+                    "--out",
+                    f"{folder}/out",
+                ]
                 subprocess.run([*command, "--quiet"], check=True)
                 summary = json.loads(pathlib.Path(folder, "out/summary.json").read_text())
                 radius = math.sqrt(summary["contact_area_um2"] / math.pi)
@@ -63,8 +71,13 @@ def main():
                 found.append(m)
                 measured = summary["unloading_stiffness_N_per_um"] / stiffness
                 share = summary["elastic_fraction"]
-                print(f"| {slope:g} | {stress} | {exponent} | {m:.3f} | {measured:.3f} | {share:.3f} |", flush=True)
-    print(f"\nm = {statistics.mean(found):.3f} ± {statistics.stdev(found):.3f} (standard deviation of {len(found)} cones)")
+                print(
+                    f"| {slope:g} | {stress} | {exponent} | {m:.3f} | {measured:.3f} | {share:.3f} |",
+                    flush=True,
+                )
+    print(
+        f"\nm = {statistics.mean(found):.3f} ± {statistics.stdev(found):.3f} (standard deviation of {len(found)} cones)"
+    )
 
 
 if __name__ == "__main__":

@@ -2,7 +2,8 @@
 //! cones of another code, the elastic cone, the other lengths of a cone, and steep indentation. The tables of
 //! `verification/CALIBRATION.md` are this output.
 //!
-//! `cargo run --release -p asperity-verification --example calibration [random|peers|elastic|lengths|indentation]`
+//! `cargo run --release -p asperity-verification --example calibration [random|peers|elastic|lengths|indentation]`, or
+//! `-- published FILE.csv SLOPE_DEG` for a file of published indentations by a cone of that slope.
 
 // a program whose output is the point, on committed cases
 #![allow(clippy::print_stdout, clippy::expect_used)]
@@ -169,8 +170,61 @@ fn indentation() {
     }
 }
 
+/// Mean and standard deviation of the difference of K from a file of published indentations, in percent, with either
+/// stress: columns `Case,n,E (GPa),sy (GPa),C (GPa)`, C the curvature F/h².
+fn published(file: &str, beta_deg: f64) {
+    let text = std::fs::read_to_string(file).expect("the file named can be read");
+    let number = |field: &str| field.trim().parse::<f64>().ok();
+    let metals: Vec<[f64; 3]> = text
+        .lines()
+        .filter_map(|line| {
+            let fields: Vec<f64> = line.split(',').skip(1).map_while(number).collect();
+            // n, E/σ_y, K/E
+            (fields.len() >= 4).then(|| [fields[0], fields[1] / fields[2], fields[3] / fields[1]])
+        })
+        .collect();
+    let difference = |[exponent, ratio, k_over_e]: &[f64; 3], cauchy: bool| {
+        let yielding = Some(metal(HardeningLaw::Swift, *exponent, *ratio));
+        let case = Case { beta_deg, yielding, poissons_ratio: 0.3, tool: Tool::Cone };
+        let resolution = Resolution { cauchy, ..Resolution::of(&case, Accuracy::Standard) };
+        100.0 * (kick::solve(&case, &resolution).expect("runs").k_over_e / k_over_e - 1.0)
+    };
+    let half = metals.len().div_ceil(2);
+    let differences: Vec<[f64; 2]> = std::thread::scope(|scope| {
+        let threads: Vec<_> = metals
+            .chunks(half)
+            .map(|part| {
+                let solve = |m: &[f64; 3]| [difference(m, false), difference(m, true)];
+                scope.spawn(move || part.iter().map(solve).collect::<Vec<_>>())
+            })
+            .collect();
+        threads.into_iter().flat_map(|t| t.join().expect("no case panics")).collect()
+    });
+    println!("| n | metals | Kirchhoff's stress, % | Cauchy's stress, % |\n|-|-|-|-|");
+    for exponent in [None, Some(0.0), Some(0.1), Some(0.3), Some(0.5)] {
+        let own = || {
+            let pairs = metals.iter().zip(&differences);
+            pairs.filter(|(m, _)| exponent.is_none_or(|n| m[0] == n)).map(|(_, d)| *d)
+        };
+        let count = own().count() as f64;
+        let [kirchhoff, cauchy] = [0, 1].map(|i| {
+            let mean = own().map(|d| d[i]).sum::<f64>() / count;
+            let variance = own().map(|d| (d[i] - mean).powi(2)).sum::<f64>() / (count - 1.0);
+            format!("{mean:+.1} ± {:.1}", variance.sqrt())
+        });
+        let name = exponent.map_or("all".to_string(), |n| n.to_string());
+        println!("| {name} | {count} | {kirchhoff} | {cauchy} |");
+    }
+}
+
 fn main() {
-    let wish = std::env::args().nth(1);
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    if let [name, file, beta_deg] = &arguments[..]
+        && name == "published"
+    {
+        return published(file, beta_deg.parse().expect("the slope is a number of degrees"));
+    }
+    let wish = arguments.first();
     let tables: [(&str, fn()); 5] = [
         ("random", random),
         ("peers", peers),
@@ -179,7 +233,7 @@ fn main() {
         ("indentation", indentation),
     ];
     for (name, table) in tables {
-        if wish.as_deref().is_none_or(|w| w == name) {
+        if wish.is_none_or(|w| w == name) {
             println!("\n### {name}\n");
             table();
         }

@@ -14,12 +14,18 @@ pub struct Cli {
 }
 
 const EXAMPLES: &str = "Examples:
-  asperity crush meshes/single-asperity.toml
-  asperity crush meshes/single-asperity.toml --accuracy draft --set material.hardening_exponent=0.1
-  asperity crush meshes/single-asperity.toml --set \"loading.depth=2 um\" --out out/shallow --json
-  asperity mesh meshes/single-asperity.toml -o asperity.msh
-  asperity calibrate --out out/calibrate
-  asperity trade meshes/single-asperity.toml
+  asperity reproduce --accuracy draft              the whole paper, into out/reproduce/report/index.html
+  asperity reproduce --only fig6,table1            a part of it; --list names the parts
+  asperity new single                              a commented scene, single.toml, to start from
+  asperity crush single.toml                       curve, summary, fields, pictures, in out/single
+  asperity crush single.toml --accuracy draft --set material.hardening_exponent=0.1
+  asperity crush single.toml --set \"loading.depth=2 um\" --out out/shallow --json
+  asperity mesh single.toml -o asperity.msh        for Gmsh, CalculiX, ParaView
+  asperity calibrate                               the representative strain from 480 cones
+  asperity trade single.toml                       what accuracy costs on a scene, knob by knob
+  asperity rough --table1                          three rough surfaces beside the paper's Table 1
+  asperity schema > scene.schema.json              for editors that complete and check TOML
+  asperity completions bash; asperity man crush    for shells and manuals
 
 Exit status: 0 done; 1 the run could not finish (what was reached is on disk); 2 the input is wrong.";
 
@@ -36,6 +42,16 @@ pub enum Command {
     Calibrate(crate::calibrate::Calibrate),
     /// Measure what accuracy costs on a scene: error against core seconds, knob by knob
     Trade(crate::trade::Trade),
+    /// Compute every figure and table of the paper and write a report that judges its claims
+    Reproduce(crate::reproduce::Reproduce),
+    /// Write a commented scene to start from
+    New(crate::new::New),
+    /// Print the JSON schema of a scene or a sweep, for editors
+    Schema(crate::schema::SchemaCommand),
+    /// Print the completions of a shell
+    Completions(crate::manual::Completions),
+    /// Print a page of the manual
+    Man(crate::manual::ManPage),
 }
 
 impl Command {
@@ -43,10 +59,15 @@ impl Command {
     pub fn threads(&self) -> Option<u16> {
         match self {
             Command::Crush(args) => args.run.threads,
-            Command::Mesh(_) => None,
+            Command::Mesh(_)
+            | Command::New(_)
+            | Command::Schema(_)
+            | Command::Completions(_)
+            | Command::Man(_) => None,
             Command::Rough(args) => args.run.threads,
             Command::Calibrate(args) => args.run.threads,
             Command::Trade(args) => args.run.threads,
+            Command::Reproduce(args) => args.run.threads,
         }
     }
 }
@@ -54,8 +75,8 @@ impl Command {
 /// Arguments of `asperity crush`.
 #[derive(Debug, Args)]
 pub struct Crush {
-    /// Scene file (TOML)
-    pub scene: PathBuf,
+    /// Scene file (TOML); `asperity new single` writes one
+    pub scene: Option<PathBuf>,
     #[command(flatten)]
     pub scene_flags: SceneFlags,
     #[command(flatten)]
@@ -108,7 +129,11 @@ pub struct RunFlags {
     pub json: bool,
 }
 
-fn parse_accuracy(text: &str) -> Result<Accuracy, String> {
+/// An accuracy within the range that can be asked for.
+///
+/// # Errors
+/// What is wrong with it.
+pub fn parse_accuracy(text: &str) -> Result<Accuracy, String> {
     let accuracy: Accuracy = text.parse().map_err(|e: AccuracyError| e.to_string())?;
     accuracy.check().map_err(|e| e.message)?;
     Ok(accuracy)

@@ -17,9 +17,8 @@ use asperity_calibration::row::Row;
 use asperity_calibration::run::{run, shard};
 use asperity_calibration::sweep::{Sweep, SweepError};
 use clap::{Args, Subcommand};
-use results::Calibration;
+pub use results::Calibration;
 use std::collections::HashMap;
-use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -89,7 +88,6 @@ pub fn calibrate(args: &Calibrate) -> Result<(), Failure> {
 }
 
 fn sweep(args: &Calibrate) -> Result<(), Failure> {
-    let start = Instant::now();
     let (sweep, name) = read_sweep(args)?;
     let all = sweep.cases();
     let cases = match args.shard {
@@ -101,22 +99,56 @@ fn sweep(args: &Calibrate) -> Result<(), Failure> {
         None => Path::new("out").join(&name),
     };
     let target = args.run.out.clone().unwrap_or(default);
-    let mut folder = Folder::create(&target, "calibrate", args.run.force)?;
-    let path = journal_beside(&target);
     let threads = args.run.threads.map_or(0, usize::from);
-    let rows = match solve(&cases, &sweep, &path, threads, args.run.quiet) {
-        Ok(rows) => rows,
-        Err(failure) => {
-            folder.abandon();
-            return Err(failure);
-        }
-    };
-    let calibration = Calibration::new(&sweep, rows, start.elapsed().as_secs_f64(), args.slope);
-    calibration.write(&mut folder, args.shard.is_none())?;
-    folder.publish()?;
-    // the results are in their place: the journal has done its work
-    let _ = std::fs::remove_file(&path);
-    report(&calibration, &args.run, &target, args.shard.is_none())
+    let whole = args.shard.is_none();
+    let order = Order { sweep: &sweep, cases: &cases, whole, shown: args.slope, threads };
+    let calibration = order.fill(&target, args.run.force, args.run.quiet, Progress::new(args.run.quiet))?;
+    report(&calibration, &args.run, &target, whole)
+}
+
+/// What is to be solved and fitted.
+pub struct Order<'a> {
+    /// The sweep that the cases are of.
+    pub sweep: &'a Sweep,
+    /// All of its cases, or a part.
+    pub cases: &'a [Case],
+    /// Whether they are all.
+    pub whole: bool,
+    /// Slope in degrees that collapse.svg shows.
+    pub shown: Option<f64>,
+    /// Threads, 0: all cores.
+    pub threads: usize,
+}
+
+impl Order<'_> {
+    /// Solves what the journal beside `target` does not hold yet, and fills `target`.
+    ///
+    /// # Errors
+    /// A folder that is not ours, or a disk that refuses; finished cases stay in the journal.
+    pub fn fill(
+        &self,
+        target: &Path,
+        force: bool,
+        quiet: bool,
+        progress: Progress,
+    ) -> Result<Calibration, Failure> {
+        let start = Instant::now();
+        let mut folder = Folder::create(target, "calibrate", force)?;
+        let path = journal_beside(target);
+        let rows = match solve(self.cases, self.sweep, &path, self.threads, quiet, progress) {
+            Ok(rows) => rows,
+            Err(failure) => {
+                folder.abandon();
+                return Err(failure);
+            }
+        };
+        let calibration = Calibration::new(self.sweep, rows, start.elapsed().as_secs_f64(), self.shown);
+        calibration.write(&mut folder, self.whole)?;
+        folder.publish()?;
+        // the results are in their place: the journal has done its work
+        let _ = std::fs::remove_file(&path);
+        Ok(calibration)
+    }
 }
 
 /// The sweep and the name of its results.
@@ -130,10 +162,8 @@ fn read_sweep(args: &Calibrate) -> Result<(Sweep, String), Failure> {
         }
         None => {
             // overrides apply to a file: an empty one stands for the defaults
-            let empty = tempfile::Builder::new().prefix("default-sweep").suffix(".toml").tempfile();
-            let empty = empty.and_then(|mut f| f.write_all(b"# all defaults\n").map(|()| f));
-            let empty = empty.map_err(|e| Failure::Unfinished(format!("no temporary file: {e}")))?;
-            (TomlFile::read(empty.path(), overrides)?, "calibrate".into())
+            let text = "# all defaults\n".to_string();
+            (TomlFile::parse(Path::new("default sweep"), text, overrides)?, "calibrate".into())
         }
     };
     if let Some(level) = args.scene_flags.accuracy {
@@ -150,6 +180,7 @@ fn solve(
     path: &Path,
     threads: usize,
     quiet: bool,
+    progress: Progress,
 ) -> Result<Vec<Row>, Failure> {
     // everything the rows depend on: the sweep, the discretisation of every case, and the program
     let resolutions: Vec<Resolution> = cases.iter().map(|c| Resolution::of(c, sweep.accuracy)).collect();
@@ -162,7 +193,6 @@ fn solve(
     }
     let finished = AtomicUsize::new(done.len());
     let journal = Mutex::new(journal);
-    let progress = Progress::new(quiet);
     let rows = run(cases, sweep.accuracy, done, threads, |row| {
         let mut journal = journal.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
         journal.append(&row.to_csv())?;

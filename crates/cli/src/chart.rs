@@ -2,6 +2,7 @@
 //!
 //! Series differ in colour (Okabe and Ito's palette) and in dash, so that either alone tells them apart.
 
+use crate::scale;
 use plotters::coord::Shift;
 use plotters::coord::ranged1d::{KeyPointHint, Ranged, ValueFormatter};
 use plotters::element::{DashedPathElement, IntoDynElement};
@@ -64,19 +65,9 @@ impl Axis {
     fn covering(values: impl Iterator<Item = f64>) -> Self {
         let (low, high) = values.fold((0.0_f64, 0.0_f64), |(l, h), v| (l.min(v), h.max(v)));
         let span = if high > low { high - low } else { 1.0 };
-        let power = 10f64.powf((span / 7.0).log10().floor());
-        let step = [1.0, 2.0, 2.5, 5.0, 10.0].map(|m| m * power).into_iter().find(|s| span / s <= 7.0);
-        let step = step.unwrap_or(10.0 * power);
+        let step = scale::round_step(span, 7.0);
         let low = if low < 0.0 { (low / step + 1e-6).floor() * step } else { 0.0 };
         Axis { low, high: ((high / step - 1e-6).ceil() * step).max(low + step), step }
-    }
-
-    fn decimals(&self) -> usize {
-        let whole = |d: &usize| {
-            let scaled = self.step * 10f64.powi(*d as i32);
-            (scaled - scaled.round()).abs() < 1e-6 * scaled
-        };
-        (0..12).find(whole).unwrap_or(12)
     }
 }
 
@@ -101,8 +92,7 @@ impl Ranged for Axis {
 
 impl ValueFormatter<f64> for Axis {
     fn format_ext(&self, value: &f64) -> String {
-        let text = format!("{value:.*}", self.decimals());
-        if text.trim_start_matches(['-', '0', '.']).is_empty() { "0".into() } else { text }
+        scale::label(*value, self.step)
     }
 }
 

@@ -5,8 +5,10 @@ use crate::failure::{Failure, InputError};
 use crate::folder::Folder;
 use crate::progress::Progress;
 use crate::records::{self, FieldSeries, MICROMETRE};
+use crate::section::{Panel, Reach, Section};
 use crate::terminal;
 use crate::{scene_file, toml_file::TomlFile};
+use asperity_mesh::Mesh;
 use asperity_solver::crush::{CrushError, Event, FieldFrame, Outcome, run};
 use asperity_solver::discretise::Discretisation;
 use asperity_solver::record::{CurveRow, Phase};
@@ -20,38 +22,38 @@ use std::time::Instant;
 /// # Errors
 /// Input that is wrong (nothing is written), or a run that could not finish (what it reached is written).
 pub fn crush(args: &Crush) -> Result<(), Failure> {
-    let start = Instant::now();
-    let file = scene_file::read(&args.scene, &args.scene_flags)?;
+    let Some(scene) = &args.scene else {
+        return Err(InputError::new("crush what? No scene file is given")
+            .help(
+                "asperity new single writes single.toml, a commented scene to start from; then: asperity crush single.toml",
+            )
+            .into());
+    };
+    let file = scene_file::read(scene, &args.scene_flags)?;
     let mesh = scene_file::read_mesh(&file)?;
     let out = args.run.out.clone().unwrap_or_else(|| PathBuf::from("out").join(file.stem()));
     let mut folder = Folder::create(&out, "crush", args.run.force)?;
 
-    let scene = &file.value;
     let progress = Progress::new(args.run.quiet);
-    let mut observer =
-        Observer { scene, folder: &mut folder, series: FieldSeries::default(), failure: None, progress };
-    let result = run(scene, mesh, &mut |event| observer.hear(event));
-    let mut failure = observer.finish();
-    let outcome = match result {
-        Ok(outcome) => outcome,
-        Err(error) => {
-            folder.abandon();
-            return Err(begin_error(&file, &error).into());
-        }
+    let Crushed { outcome, stopped, failure, summary } =
+        match crush_into(&file.value, mesh, &mut folder, &[Sketch::PEAK], progress) {
+            Ok(crushed) => crushed,
+            Err(error) => {
+                folder.abandon();
+                return Err(begin_error(&file, &error).into());
+            }
+        };
+    let summary = match (summary, failure.is_some()) {
+        (Ok(summary), _) => summary,
+        // of two failures to write, the first says more
+        (Err(second), first) => return Err(if first { failure.unwrap_or(second) } else { second }),
     };
-    let stopped = failure
-        .as_ref()
-        .map(|_| "its fields could not be written".to_string())
-        .or_else(|| reason(&outcome, scene));
-    // of two failures to write, the first says more
-    let summary = write_records(&mut folder, scene, &outcome, stopped.as_deref(), start)
-        .map_err(|error| failure.take().unwrap_or(error))?;
     folder.publish()?;
 
     if args.run.json {
         terminal::say(summary.trim_end());
     } else if !args.run.quiet {
-        terminal::say(&records::overview(&outcome.summary, scene.symmetry));
+        terminal::say(&records::overview(&outcome.summary, file.value.symmetry));
         terminal::say(&format!("results   {}", out.display()));
     }
     match (failure, stopped) {
@@ -63,11 +65,71 @@ pub fn crush(args: &Crush) -> Result<(), Failure> {
     }
 }
 
-/// Hears of every increment: shows progress, writes fields.
+/// A picture of the peak that a crush leaves where it has fields.
+#[derive(Clone, Copy, Debug)]
+pub struct Sketch {
+    /// Start of the file's name.
+    pub name: &'static str,
+    /// Which part of the section.
+    pub reach: Reach,
+    /// What is drawn.
+    pub panels: &'static [Panel],
+}
+
+impl Sketch {
+    /// What `asperity crush` draws.
+    pub const PEAK: Sketch = Sketch { name: "section", reach: Reach::Yielded, panels: &Panel::PEAK };
+}
+
+/// A run whose files are in their folder.
+pub struct Crushed {
+    /// What it gave.
+    pub outcome: Outcome,
+    /// Why it ended before its target.
+    pub stopped: Option<String>,
+    /// What could not be written while it ran; the run ended there.
+    pub failure: Option<Failure>,
+    /// The text of summary.json.
+    pub summary: Result<String, Failure>,
+}
+
+/// Runs `scene` and writes its records, fields and `sketches` to `folder`.
+///
+/// # Errors
+/// Only if the run cannot begin.
+pub fn crush_into(
+    scene: &Scene,
+    mesh: Option<Mesh>,
+    folder: &mut Folder,
+    sketches: &[Sketch],
+    progress: Progress,
+) -> Result<Crushed, CrushError> {
+    let start = Instant::now();
+    let series = FieldSeries::default();
+    let mut observer = Observer { scene, folder, series, peak: None, last: None, failure: None, progress };
+    let result = run(scene, mesh, &mut |event| observer.hear(event));
+    let drawn = observer.draw(sketches);
+    let Observer { failure, progress, .. } = observer;
+    progress.finish();
+    let outcome = result?;
+    let failure = failure.or(drawn.err());
+    let stopped = failure
+        .as_ref()
+        .map(|_| "its fields could not be written".to_string())
+        .or_else(|| reason(&outcome, scene));
+    let summary = write_records(folder, scene, &outcome, stopped.as_deref(), start);
+    Ok(Crushed { outcome, stopped, failure, summary })
+}
+
+/// Hears of every increment: shows progress, writes fields, keeps the fields of the peak to draw them.
 struct Observer<'a> {
     scene: &'a Scene,
     folder: &'a mut Folder,
     series: FieldSeries,
+    /// The last fields of loading.
+    peak: Option<FieldFrame>,
+    /// The last increment and its title.
+    last: Option<(usize, String)>,
     failure: Option<Failure>,
     progress: Progress,
 }
@@ -78,9 +140,17 @@ impl Observer<'_> {
             Event::Increment { row, planned } => {
                 let share = row.increment as f64 / (*planned).max(1) as f64;
                 self.progress.show(share, || progress_line(row, self.scene.symmetry));
+                if row.phase == Phase::Load {
+                    self.last = Some((row.increment, title(row, self.scene.symmetry)));
+                }
                 Ok(())
             }
-            Event::Fields(frame) => self.write_fields(frame),
+            Event::Fields(frame) => {
+                if frame.phase == Phase::Load {
+                    self.peak = Some((*frame).clone());
+                }
+                self.write_fields(frame)
+            }
         };
         match result {
             Ok(()) => ControlFlow::Continue(()),
@@ -99,11 +169,32 @@ impl Observer<'_> {
         self.folder.write(&name, |out| records::write_surface(out, &frame.fields.surface))
     }
 
-    /// Takes the progress line away; what went wrong with the files, if anything did.
-    fn finish(self) -> Option<Failure> {
-        self.progress.finish();
-        self.failure
+    /// Draws the peak, where the run has left its fields.
+    fn draw(&mut self, sketches: &[Sketch]) -> Result<(), Failure> {
+        let (Some(frame), Some((increment, title))) = (&self.peak, &self.last) else { return Ok(()) };
+        // without fields at the last increment of loading there is none of the peak
+        if frame.increment != *increment {
+            return Ok(());
+        }
+        for sketch in sketches {
+            let drawn = Section::new(frame, self.scene, sketch.reach)
+                .and_then(|section| section.svg(sketch.panels, title))
+                .map_err(Failure::Unfinished)?;
+            let name = format!("{}_{increment:04}.svg", sketch.name);
+            self.folder.write(&name, |out| out.write_all(drawn.as_bytes()))?;
+        }
+        Ok(())
     }
+}
+
+/// Depth and force of a state, for people.
+fn title(row: &CurveRow, symmetry: Symmetry) -> String {
+    let per = if symmetry == Symmetry::PlaneStrain { "/mm" } else { "" };
+    let force = row.force / records::force_unit(symmetry).scale;
+    let digits = (3 - force.abs().max(1e-9).log10().floor() as i32 - 1).clamp(0, 9) as usize;
+    let depth = format!("{:.4}", row.depth / MICROMETRE);
+    let depth = depth.trim_end_matches('0').trim_end_matches('.');
+    format!("depth {depth} µm, force {force:.digits$} N{per}")
 }
 
 fn progress_line(row: &CurveRow, symmetry: Symmetry) -> String {
@@ -167,7 +258,7 @@ fn write_records(
 }
 
 /// The scene with the numbers that its accuracy level stands for.
-fn resolved(scene: &Scene) -> Scene {
+pub fn resolved(scene: &Scene) -> Scene {
     let numerics = Discretisation::new(scene).numerics();
     Scene { numerics, ..scene.clone() }
 }

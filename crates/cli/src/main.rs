@@ -6,11 +6,17 @@ mod chart;
 mod crush;
 mod failure;
 mod folder;
+mod manual;
 mod mesh;
+mod new;
 mod progress;
 mod records;
+mod reproduce;
 mod rough;
+mod scale;
 mod scene_file;
+mod schema;
+mod section;
 mod suggest;
 mod terminal;
 mod toml_file;
@@ -36,6 +42,17 @@ fn main() -> ExitCode {
         Command::Rough(args) => rough::rough(args),
         Command::Calibrate(args) => calibrate::calibrate(args),
         Command::Trade(args) => trade::trade(args),
+        Command::Reproduce(args) => reproduce::reproduce(args),
+        Command::New(args) => new::new(args),
+        Command::Schema(args) => {
+            schema::schema(args);
+            Ok(())
+        }
+        Command::Completions(args) => {
+            manual::completions(args);
+            Ok(())
+        }
+        Command::Man(args) => manual::man(args),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

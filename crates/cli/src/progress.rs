@@ -1,6 +1,6 @@
 //! One line on the terminal while a run lasts; nothing where there is no terminal to draw on.
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::{MultiProgress, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
 
 /// Steps of a full bar.
@@ -12,14 +12,45 @@ pub struct Progress {
     bar: ProgressBar,
 }
 
+/// Where lines are drawn: on stderr; nowhere if `quiet` or if stderr is no terminal.
+fn target(quiet: bool) -> ProgressDrawTarget {
+    let shown = !quiet && std::io::stderr().is_terminal();
+    if shown { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() }
+}
+
+/// A line for each of several parts that run side by side.
+#[derive(Debug)]
+pub struct Lines {
+    lines: MultiProgress,
+}
+
+impl Lines {
+    /// Lines on stderr; silent if `quiet` or if stderr is no terminal.
+    pub fn new(quiet: bool) -> Self {
+        Lines { lines: MultiProgress::with_draw_target(target(quiet)) }
+    }
+
+    /// A new line that begins with `name`.
+    pub fn add(&self, name: &str) -> Progress {
+        let template = format!("{name:<28} {{bar:24.cyan/dim}} {{percent:>3}} %  {{msg}}  {{eta}} left");
+        Progress::styled(self.lines.add(ProgressBar::new(FULL)), &template)
+    }
+
+    /// Prints what is to stay, above the lines.
+    pub fn say(&self, text: &str) {
+        self.lines.suspend(|| crate::terminal::complain(text));
+    }
+}
+
 impl Progress {
     /// A line on stderr; silent if `quiet` or if stderr is no terminal.
     pub fn new(quiet: bool) -> Self {
-        let shown = !quiet && std::io::stderr().is_terminal();
-        let target = if shown { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
-        let bar = ProgressBar::with_draw_target(Some(FULL), target);
-        if let Ok(style) = ProgressStyle::with_template("{bar:24.cyan/dim} {percent:>3} %  {msg}  {eta} left")
-        {
+        let bar = ProgressBar::with_draw_target(Some(FULL), target(quiet));
+        Progress::styled(bar, "{bar:24.cyan/dim} {percent:>3} %  {msg}  {eta} left")
+    }
+
+    fn styled(bar: ProgressBar, template: &str) -> Self {
+        if let Ok(style) = ProgressStyle::with_template(template) {
             bar.set_style(style.progress_chars("━╸─"));
         }
         Progress { bar }

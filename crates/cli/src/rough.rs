@@ -1,10 +1,10 @@
 //! `asperity rough`: the contact of a rough surface with a rigid plane.
 
-mod files;
+pub mod files;
 mod glyphs;
 mod picture;
-mod run;
-mod table1;
+pub mod run;
+pub mod table1;
 
 use crate::args::RunFlags;
 use crate::failure::{Failure, InputError};

@@ -30,7 +30,14 @@ impl<T: DeserializeOwned> TomlFile<T> {
     /// A file that cannot be read, is not text or not TOML, an override that names no place, or values that are
     /// not those of a `T`; each with its line and, for an unknown key, the nearest known one.
     pub fn read(path: &Path, overrides: &[String]) -> Result<Self, InputError> {
-        let text = read_text(path)?;
+        TomlFile::parse(path, read_text(path)?, overrides)
+    }
+
+    /// The same of a `text` that stands for the file at `path`.
+    ///
+    /// # Errors
+    /// As for [`TomlFile::read`].
+    pub fn parse(path: &Path, text: String, overrides: &[String]) -> Result<Self, InputError> {
         let sources = Sources::new(path.display().to_string(), text, overrides);
         let table = sources.table()?;
         let deserializer = Deserializer::from(Spanned::new(0..sources.text.len(), table));

@@ -14,6 +14,11 @@ use crate::tool::Tool;
 use crate::{quad4, quad8};
 use asperity_mesh::{ElementKind, Mesh};
 
+mod tool_stiffness;
+mod view;
+
+pub use tool_stiffness::ToolStiffness;
+
 /// A tool in contact with the surface of the body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ToolContact {
@@ -21,15 +26,6 @@ pub struct ToolContact {
     pub tool: Tool,
     /// Pressure per penetration.
     pub penalty: f64,
-}
-
-/// Growth of the force with the advance of the tool.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ToolStiffness {
-    /// dF per travel of the tool, the compliance of the penalty included.
-    pub travel: f64,
-    /// dF/dh: the compliance of the penalty taken out.
-    pub depth: f64,
 }
 
 /// Negative pivots with which an LDLᵀ step is still taken: a limit point or a bifurcation has one or two; more mean
@@ -418,154 +414,6 @@ impl<'m> Model<'m> {
         }
     }
 
-    /// dF/dh at the converged state with every point elastic and the contact kept.
-    pub fn unloading_stiffness(&mut self) -> Result<ToolStiffness, Failure> {
-        self.begin(self.tip, 0.0, |_| [0.0; 2]);
-        self.tangent = Tangent::Elastic;
-        let assembled = self.assemble();
-        self.tangent = Tangent::Exact;
-        assembled?;
-        self.tool_stiffness()
-    }
-
-    /// How the force answers the travel of the tool at the assembled iterate.
-    ///
-    /// With v = ∂F/∂u and c = ∂F/∂travel at fixed u: K_t = c - v K⁻¹ v, of which ∫ε δd² dA is spent in the penalty.
-    pub fn tool_stiffness(&mut self) -> Result<ToolStiffness, Failure> {
-        self.factorise()?;
-        let mut v = vec![0.0; self.dofs.count];
-        let mut c = 0.0;
-        for (edge, contact) in self.edges.iter().zip(&self.edge_contact) {
-            for a in 0..edge.node_count() {
-                for i in 0..2 {
-                    // a translation of the tool along z is minus that of all nodes of the edge
-                    let row: f64 = (0..edge.node_count()).map(|b| contact.stiffness[a][i][b][1]).sum();
-                    if i == 1 {
-                        c += row;
-                    }
-                    if let Some(slot) = v.get_mut(self.dofs.number[edge.nodes[a] as usize][i] as usize) {
-                        *slot += row;
-                    }
-                }
-            }
-        }
-        let mut u = v.clone();
-        self.factor.solve(&mut u);
-        // the tool goes down by 1, the body follows by u (down): δd = 1 - u on the contact
-        let travel = c - v.iter().zip(&u).map(|(a, b)| a * b).sum::<f64>();
-        let mut spent = 0.0;
-        for (edge, contact) in self.edges.iter().zip(&self.edge_contact) {
-            let d: [[f64; 2]; 3] = edge.nodes.map(|node| {
-                let numbers = self.dofs.number[node as usize];
-                let at = |i: usize| u.get(numbers[i] as usize).copied().unwrap_or(0.0);
-                [-at(0), 1.0 - at(1)]
-            });
-            for a in 0..edge.node_count() {
-                for i in 0..2 {
-                    for b in 0..edge.node_count() {
-                        for j in 0..2 {
-                            spent += d[a][i] * contact.stiffness[a][i][b][j] * d[b][j];
-                        }
-                    }
-                }
-            }
-        }
-        Ok(ToolStiffness { travel, depth: travel * travel / (travel - spent) })
-    }
-
-    /// Force on the tool along z at the iterate, positive in compression.
-    pub fn load(&self) -> f64 {
-        self.edge_contact.iter().map(|e| e.load).sum()
-    }
-
-    /// Contact of every surface edge at the iterate, in the order of the mesh.
-    pub fn contacts(&self) -> &[EdgeContact] {
-        &self.edge_contact
-    }
-
-    /// Position of a node at the iterate (the converged one once an increment is accepted).
-    pub fn current_position(&self, node: u32) -> [f64; 2] {
-        if self.settled {
-            self.position[node as usize]
-        } else {
-            current(&self.position, &self.increment, node)
-        }
-    }
-
-    /// Penetration of the point `x` into the tool where it stands; -∞ without a tool.
-    pub fn penetration_of(&self, x: [f64; 2]) -> f64 {
-        match self.contact {
-            Some(contact) if self.tip.is_finite() => contact.tool.penetration(x, self.tip).depth,
-            _ => f64::NEG_INFINITY,
-        }
-    }
-
-    /// The surface edges, in the order of the mesh.
-    pub fn edges(&self) -> &[ContactEdge] {
-        &self.edges
-    }
-
-    /// Whether cell `cell` flows in the increment under way, or flowed in the last one once that is accepted.
-    pub fn flows(&self, cell: usize) -> bool {
-        self.flowing[cell]
-    }
-
-    /// Contact pressure per current area at the node of `edge` that lies at ξ, negative off the contact.
-    pub fn nodal_pressure(&self, edge: &ContactEdge, x: &[[f64; 2]; 3], node: u32, xi: f64) -> f64 {
-        let Some(contact) = self.contact else { return 0.0 };
-        let depth = contact.tool.penetration(edge.point(x, xi), self.tip).depth;
-        (self.multiplier[node as usize] + contact.penalty * depth) / edge.stretch(x, xi)
-    }
-
-    /// Last converged node positions.
-    pub fn positions(&self) -> &[[f64; 2]] {
-        &self.position
-    }
-
-    /// Last converged point states, four to an element.
-    pub fn states(&self) -> &[PointState] {
-        &self.old
-    }
-
-    /// Reference volumes of the points.
-    pub fn volumes(&self) -> &[f64] {
-        &self.volume
-    }
-
-    /// Displacements of the last accepted increment.
-    pub fn accepted_increment(&self) -> &[[f64; 2]] {
-        &self.accepted
-    }
-
-    /// How far the tool must travel down from height 0 to touch the converged surface.
-    pub fn first_touch(&self) -> f64 {
-        self.touch(|node| self.position[node as usize])
-    }
-
-    /// The same at the iterate.
-    pub fn first_touch_at_iterate(&self) -> f64 {
-        self.touch(|node| current(&self.position, &self.increment, node))
-    }
-
-    fn touch(&self, position: impl Fn(u32) -> [f64; 2]) -> f64 {
-        let Some(contact) = self.contact else { return 0.0 };
-        // the deepest point gives the travel to first order, exactly for a plane; repeated for curved tools
-        let mut travel = 0.0;
-        for _ in 0..20 {
-            let depth = self
-                .edges
-                .iter()
-                .flat_map(|edge| edge.nodes)
-                .map(|node| contact.tool.penetration(position(node), -travel).depth)
-                .fold(f64::NEG_INFINITY, f64::max);
-            travel -= depth;
-            if contact.tool == Tool::Plane || depth.abs() <= 1e-15 {
-                break;
-            }
-        }
-        travel
-    }
-
     /// Augmented Lagrange update at the nodes, λ ← max(0, λ + ε d), from the converged iterate.
     pub fn augment(&mut self) {
         let Some(contact) = self.contact else { return };
@@ -579,51 +427,6 @@ impl<'m> Model<'m> {
         }
         self.multiplier.clone_from(&self.trial_multiplier);
         self.keep_contact = false;
-    }
-
-    /// Internal nodal forces at the iterate: reactions where a component is held.
-    pub fn internal_forces(&self) -> &[[f64; 2]] {
-        &self.internal
-    }
-
-    /// Out-of-balance forces at the iterate, by the numbers of the unknowns.
-    pub fn residual(&self) -> &[f64] {
-        &self.residual
-    }
-
-    /// Stiffness at the iterate: lower triangle, by the numbers of the unknowns.
-    pub fn stiffness(&self) -> &sprs::CsMat<f64> {
-        &self.stiffness.matrix
-    }
-
-    /// Numbers of the displacement components of each node, [`FIXED`] where held.
-    pub fn numbers(&self) -> &[[u32; 2]] {
-        &self.dofs.number
-    }
-
-    /// Whether each point flows at the iterate.
-    pub fn flowing_points(&self) -> impl Iterator<Item = bool> + '_ {
-        self.new.iter().zip(&self.start).map(|(new, start)| new.plastic_strain > start.plastic_strain)
-    }
-
-    /// The metal.
-    pub fn metal(&self) -> &Metal {
-        &self.metal
-    }
-
-    /// The mesh.
-    pub fn mesh(&self) -> &Mesh {
-        self.mesh
-    }
-
-    /// Axisymmetric or plane strain.
-    pub fn symmetry(&self) -> Symmetry {
-        self.symmetry
-    }
-
-    /// Number of unknowns.
-    pub fn unknowns(&self) -> usize {
-        self.dofs.count
     }
 }
 

@@ -1,5 +1,6 @@
 //! Claims on asperities side by side:
 //! * three ridges between symmetric sides carry three times what one carries in a cell of its own width: 1e-8;
+//!   and the forces of the three sum to the whole: 1e-10;
 //! * with free sides they do so to 1 % when the pitch is four depths of the substrate;
 //! * a neighbour that is never touched changes the force by at most 0.5 %;
 //! * a touched ring of line load P sinks the centre by 2P/E* at any radius: 2 %;
@@ -27,6 +28,11 @@ fn three_between_symmetric_sides_are_three_times_one() {
         scene.numerics.steps = Some(12);
         let outcome = crush(&scene).unwrap();
         assert!(outcome.stopped.is_none());
+        for row in &outcome.rows {
+            let shares = outcome.asperities.iter().filter(|share| share.increment == row.increment);
+            let sum: f64 = shares.map(|share| share.force).sum();
+            assert!(count == 1 || (sum - row.force).abs() <= 1e-10 * row.force, "{sum:e} of {:e}", row.force);
+        }
         whole(&outcome)
     };
     let (one, three) = (curve(1), curve(3));

@@ -3,6 +3,7 @@
 use super::{Calibrate, solve};
 use crate::failure::Failure;
 use crate::folder::Folder;
+use crate::progress::Progress;
 use crate::terminal;
 use asperity_calibration::case::Tool;
 use asperity_calibration::dependence::{Line, lines, sweeps};
@@ -20,7 +21,7 @@ use std::path::{Path, PathBuf};
 /// # Errors
 /// A disk that refuses; finished cases stay in the journals.
 pub fn run(args: &Calibrate) -> Result<(), Failure> {
-    let accuracy = args.scene_flags.accuracy.map_or(Accuracy::Standard, Into::into);
+    let accuracy = args.scene_flags.accuracy.unwrap_or_default();
     let target = args.run.out.clone().unwrap_or_else(|| PathBuf::from("out/dependence"));
     let mut folder = Folder::create(&target, "calibrate", args.run.force)?;
     let threads = args.run.threads.map_or(0, usize::from);
@@ -28,7 +29,14 @@ pub fn run(args: &Calibrate) -> Result<(), Failure> {
     for sweep in sweeps(accuracy) {
         let name = name_of(&sweep);
         let path = journal_of(&target.join(&name), &target);
-        let rows = match solve(&sweep.cases(), &sweep, &path, threads, args.run.quiet) {
+        let rows = match solve(
+            &sweep.cases(),
+            &sweep,
+            &path,
+            threads,
+            args.run.quiet,
+            Progress::new(args.run.quiet),
+        ) {
             Ok(rows) => rows,
             Err(failure) => {
                 folder.abandon();

@@ -36,6 +36,32 @@ fn cell(value: Option<f64>) -> String {
     value.filter(|v| v.is_finite()).map_or_else(String::new, |v| format!("{v:?}"))
 }
 
+/// What a contact does to every cell.
+pub struct Layers {
+    /// MPa.
+    pressure: Vec<f32>,
+    /// Share of the cell in contact.
+    contact: Vec<f32>,
+    /// 0 none, 1 elastic, 2 elastoplastic, 3 plastic.
+    regime: Vec<f32>,
+}
+
+impl Layers {
+    fn of(one: &Pressed, count: usize) -> Layers {
+        let [pressure, contact, regime] = [(); 3].map(|()| vec![0f32; count]);
+        let mut layers = Layers { pressure, contact, regime };
+        for pixel in &one.field.pixels {
+            let i = pixel.cell as usize;
+            layers.pressure[i] += pixel.pressure / MEGAPASCAL as f32;
+            layers.contact[i] += pixel.contact;
+            if pixel.contact > 0.0 {
+                layers.regime[i] = f32::from(one.regime(pixel.island as usize));
+            }
+        }
+        layers
+    }
+}
+
 impl Outcome<'_> {
     fn row(&self, one: &Pressed) -> [Option<f64>; 14] {
         let contact = &one.contact;
@@ -195,43 +221,61 @@ impl Outcome<'_> {
     pub fn write_maps(&self, folder: &mut Folder) -> Result<(), Failure> {
         let map = &self.prepared.map;
         let cells = [map.cell_columns(), map.cell_rows()];
+        let heights = self.heights(cells[0] + 1, cells[1] + 1);
         for one in self.pressed {
-            let name = one.model.closure.name();
-            let count = cells[0] * cells[1];
-            let (mut pressure, mut contact, mut regime) =
-                (vec![0f32; count], vec![0f32; count], vec![0f32; count]);
-            for pixel in &one.field.pixels {
-                let i = pixel.cell as usize;
-                pressure[i] += pixel.pressure / MEGAPASCAL as f32;
-                contact[i] += pixel.contact;
-                if pixel.contact > 0.0 {
-                    regime[i] = f32::from(one.regime(pixel.island as usize));
-                }
-            }
-            let view = Map { cells, pixel: map.pixel(), values: &pressure };
-            let file = folder.path(&format!("pressure-{name}.png"))?;
-            picture::pressure(&file, &view, one.nominal / MEGAPASCAL).map_err(|e| Failure::disk(&file, e))?;
-            let view = Map { values: &contact, ..view };
-            let file = folder.path(&format!("contact-{name}.png"))?;
-            picture::contact(&file, &view, &regime, one.contact.shares)
-                .map_err(|e| Failure::disk(&file, e))?;
-            let file = folder.path(&format!("contact-{name}.vti"))?;
-            let heights: Vec<f32> = (0..=cells[1])
-                .flat_map(|row| {
-                    let row = map.row(row % map.rows());
-                    (0..=cells[0]).map(move |column| (row[column % row.len()] / MICROMETRE) as f32)
-                })
-                .collect();
+            let layers = self.write_pictures(folder, one, picture::LONGEST)?;
+            let file = folder.path(&format!("contact-{}.vti", one.model.closure.name()))?;
             let points = [CellArray { name: "height_um", values: &heights }];
             let arrays = [
-                CellArray { name: "pressure_MPa", values: &pressure },
-                CellArray { name: "contact_fraction", values: &contact },
-                CellArray { name: "regime", values: &regime },
+                CellArray { name: "pressure_MPa", values: &layers.pressure },
+                CellArray { name: "contact_fraction", values: &layers.contact },
+                CellArray { name: "regime", values: &layers.regime },
             ];
             write_vti(&file, cells, map.pixel().map(|p| p / MICROMETRE), &points, &arrays)
                 .map_err(|e| Failure::disk(&file, e))?;
         }
         Ok(())
+    }
+
+    /// Heights of the nodes in µm; beyond the last ones those of the next period.
+    fn heights(&self, columns: usize, rows: usize) -> Vec<f32> {
+        let map = &self.prepared.map;
+        (0..rows)
+            .flat_map(|row| {
+                let row = map.row(row % map.rows());
+                (0..columns).map(move |column| (row[column % row.len()] / MICROMETRE) as f32)
+            })
+            .collect()
+    }
+
+    /// The topography as topography.png, no side longer than `longest` dots.
+    pub fn write_topography(&self, folder: &mut Folder, longest: usize) -> Result<(), Failure> {
+        let map = &self.prepared.map;
+        let cells = [map.columns(), map.rows()];
+        let values = self.heights(cells[0], cells[1]);
+        let file = folder.path("topography.png")?;
+        picture::heights(&file, &Map { cells, pixel: map.pixel(), values: &values, longest })
+            .map_err(|e| Failure::disk(&file, e))
+    }
+
+    /// Pressure and contact of one closure as PNG, no side longer than `longest` dots; what they show, by cell.
+    pub fn write_pictures(
+        &self,
+        folder: &mut Folder,
+        one: &Pressed,
+        longest: usize,
+    ) -> Result<Layers, Failure> {
+        let (map, name) = (&self.prepared.map, one.model.closure.name());
+        let cells = [map.cell_columns(), map.cell_rows()];
+        let layers = Layers::of(one, cells[0] * cells[1]);
+        let view = Map { cells, pixel: map.pixel(), values: &layers.pressure, longest };
+        let file = folder.path(&format!("pressure-{name}.png"))?;
+        picture::pressure(&file, &view, one.nominal / MEGAPASCAL).map_err(|e| Failure::disk(&file, e))?;
+        let view = Map { values: &layers.contact, ..view };
+        let file = folder.path(&format!("contact-{name}.png"))?;
+        picture::contact(&file, &view, &layers.regime, one.contact.shares)
+            .map_err(|e| Failure::disk(&file, e))?;
+        Ok(layers)
     }
 
     /// The content of summary.json.

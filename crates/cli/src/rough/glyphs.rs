@@ -30,6 +30,9 @@ pub fn glyph(letter: char) -> [u8; 7] {
         'o' => [0b00000, 0b00000, 0b01110, 0b10001, 0b10001, 0b10001, 0b01110],
         'p' => [0b00000, 0b00000, 0b11110, 0b10001, 0b11110, 0b10000, 0b10000],
         's' => [0b00000, 0b00000, 0b01110, 0b10000, 0b01110, 0b00001, 0b11110],
+        '-' => [0, 0, 0, 0b11111, 0, 0, 0],
+        'm' => [0b00000, 0b00000, 0b11010, 0b10101, 0b10101, 0b10101, 0b10101],
+        'u' => [0b00000, 0b00000, 0b10001, 0b10001, 0b10001, 0b10011, 0b01101],
         't' => [0b01000, 0b01000, 0b11100, 0b01000, 0b01000, 0b01001, 0b00110],
         _ => [0; 7],
     }
@@ -41,7 +44,7 @@ mod tests {
 
     #[test]
     fn every_letter_of_the_legends_is_drawn() {
-        for letter in "0123456789.,%()/MPAelasticoplasticelastoplastic".chars() {
+        for letter in "0123456789.,%()/-MPAelasticoplasticelastoplasticum".chars() {
             assert!(glyph(letter).iter().any(|row| *row != 0) && glyph(letter).iter().all(|row| *row < 32));
         }
     }

@@ -5,8 +5,8 @@ use std::fs::File;
 use std::io::BufWriter;
 use std::path::Path;
 
-/// No side of a picture is longer.
-const LONGEST: usize = 2048;
+/// No side of a picture is longer, unless less is asked for.
+pub const LONGEST: usize = 2048;
 /// Small maps are enlarged to about this.
 const WANTED: usize = 640;
 /// Room below the map for the legend.
@@ -36,6 +36,8 @@ pub struct Map<'a> {
     pub pixel: [f64; 2],
     /// Row by row.
     pub values: &'a [f32],
+    /// No side of the picture has more dots.
+    pub longest: usize,
 }
 
 /// How cells become dots: several cells a dot, or several dots a cell, so that lengths keep their ratio.
@@ -49,8 +51,8 @@ impl Grid {
         let size = [0, 1].map(|k| map.cells[k] as f64 * map.pixel[k]);
         let longer = size[0].max(size[1]);
         let cells = map.cells[0].max(map.cells[1]);
-        let room = LONGEST - LEGEND;
-        let most = if cells >= WANTED { cells.min(room) } else { cells * WANTED.div_ceil(cells) };
+        let room = map.longest.saturating_sub(LEGEND).max(1);
+        let most = if cells >= WANTED { cells.min(room) } else { (cells * WANTED.div_ceil(cells)).min(room) };
         let dots = size.map(|s| ((s / longer * most as f64).round() as usize).clamp(1, room));
         Grid { dots, cells: map.cells }
     }
@@ -179,6 +181,31 @@ pub fn pressure(path: &Path, map: &Map, nominal_mpa: f64) -> std::io::Result<()>
     picture.write(path)
 }
 
+/// Heights in µm about their mean, from low to high.
+pub fn heights(path: &Path, map: &Map) -> std::io::Result<()> {
+    let grid = Grid::of(map);
+    let (low, high) = map.values.iter().fold((f32::MAX, f32::MIN), |(l, h), v| (l.min(*v), h.max(*v)));
+    let span = f64::from(high - low).max(f64::MIN_POSITIVE);
+    let width = grid.dots[0].max(420);
+    let mut picture = Picture::new(width, grid.dots[1] + LEGEND);
+    for y in 0..grid.dots[1] {
+        for x in 0..grid.dots[0] {
+            let (mut sum, mut count) = (0.0, 0.0);
+            for row in grid.span(1, y) {
+                for value in &map.values[row * grid.cells[0]..][grid.span(0, x)] {
+                    (sum, count) = (sum + f64::from(*value), count + 1.0);
+                }
+            }
+            picture.set(x, y, heat((sum / count - f64::from(low)) / span));
+        }
+    }
+    let top = grid.dots[1] + 14;
+    let bar = picture.text(10, top + 3, &format!("{low:.1}")) + 8;
+    picture.bar(bar..bar + 180, top..top + 20, |x| heat((x - bar) as f64 / 180.0));
+    picture.text(bar + 190, top + 3, &format!("{high:.1} um"));
+    picture.write(path)
+}
+
 /// Contact by regime; a partly covered pixel is paler.
 pub fn contact(path: &Path, map: &Map, regime: &[f32], shares: Option<[f64; 3]>) -> std::io::Result<()> {
     let grid = Grid::of(map);
@@ -221,7 +248,7 @@ mod tests {
             ([100, 100], [1.0, 2.0], [350, 700]),
             ([5000, 10], [1.0, 1.0], [2000, 4]),
         ] {
-            let map = Map { cells, pixel, values: &[] };
+            let map = Map { cells, pixel, values: &[], longest: LONGEST };
             assert_eq!(Grid::of(&map).dots, want);
         }
     }
@@ -231,7 +258,7 @@ mod tests {
         let dir = tempfile::tempdir().unwrap();
         let path = dir.path().join("p.png");
         let values: Vec<f32> = (0..64).map(|i| i as f32 / 8.0).collect();
-        let map = Map { cells: [8, 8], pixel: [1.0, 1.0], values: &values };
+        let map = Map { cells: [8, 8], pixel: [1.0, 1.0], values: &values, longest: LONGEST };
         pressure(&path, &map, 100.0).unwrap();
         let reader =
             png::Decoder::new(std::io::BufReader::new(File::open(&path).unwrap())).read_info().unwrap();

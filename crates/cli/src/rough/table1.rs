@@ -10,23 +10,25 @@ use asperity_roughness::{Coefficient, KindName, PUBLISHED, Profile};
 use std::fmt::Write;
 
 /// A row of the paper's Table 1.
-struct Printed {
-    kind: KindName,
+pub struct Printed {
+    /// The surface.
+    pub kind: KindName,
     /// Ra, µm.
-    ra: f64,
+    pub ra: f64,
     /// β, degrees.
-    beta: f64,
+    pub beta: f64,
     /// P_m, MPa.
-    pressure: f64,
+    pub pressure: f64,
     /// A_r, %.
-    area: f64,
+    pub area: f64,
     /// ψ.
-    index: f64,
+    pub index: f64,
     /// Largest over nominal pressure, as the text says.
-    peak: &'static str,
+    pub peak: &'static str,
 }
 
-const TABLE: [Printed; 3] = [
+/// Table 1 as printed.
+pub const TABLE: [Printed; 3] = [
     Printed {
         kind: KindName::Ground,
         ra: 0.23,
@@ -104,8 +106,8 @@ fn scene(row: &Printed, seed: u64) -> Scene {
 }
 
 /// Values of one quantity over the seeds.
-#[derive(Default)]
-struct Spread(Vec<f64>);
+#[derive(Default, serde::Serialize)]
+pub struct Spread(Vec<f64>);
 
 impl Spread {
     fn mean(&self) -> f64 {
@@ -127,8 +129,8 @@ impl Spread {
 }
 
 /// What a closure says of one kind of surface.
-#[derive(Default)]
-struct Ours {
+#[derive(Default, serde::Serialize)]
+pub struct Ours {
     closure: &'static str,
     pressure: Spread,
     area: Spread,
@@ -138,7 +140,8 @@ struct Ours {
     elastic: Spread,
 }
 
-fn measure(row: &Printed) -> Result<(Vec<Ours>, Vec<String>), Failure> {
+/// Every closure on the surfaces of one row, and what a reader should know.
+pub fn measure(row: &Printed) -> Result<(Vec<Ours>, Vec<String>), Failure> {
     let mut table: Vec<Ours> = Vec::new();
     let mut notes = Vec::new();
     let calibration = Coefficient::committed()
@@ -176,7 +179,7 @@ fn measure(row: &Printed) -> Result<(Vec<Ours>, Vec<String>), Failure> {
 }
 
 /// The numbers of one row of the paper that contradict each other, from its own equations.
-fn contradictions(row: &Printed) -> String {
+pub fn contradictions(row: &Printed) -> String {
     let tan = row.beta.to_radians().tan();
     let modulus = MODULUS / (1.0 - POISSON * POISSON);
     let eq11 = PUBLISHED * modulus * tan;

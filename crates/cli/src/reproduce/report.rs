@@ -1,0 +1,229 @@
+//! The report: one self-contained page, its claims as JSON, and its overview as a table for a page of text.
+
+use super::claims::{Claim, Verdict, claims};
+use super::evidence::Evidence;
+use super::figures;
+use super::plan::{Item, Part, Work, parts};
+use asperity_solver::scene::Accuracy;
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+const PAPER: &str = "Jourani, Dellaleau, Dursapt, Hamdi, Sidoroff, Zahouani: Effect of local slopes of roughness during contact between solids";
+
+/// What is written.
+pub struct Report {
+    /// index.html.
+    pub html: String,
+    /// claims.json.
+    pub claims_json: String,
+    /// claims.md.
+    pub claims_markdown: String,
+    /// A few lines for the terminal.
+    pub overview: String,
+}
+
+/// The report on `items`.
+///
+/// # Errors
+/// A text for a person where a chart cannot be drawn.
+pub fn report(evidence: &Evidence, items: &[Item], accuracy: Accuracy) -> Result<Report, String> {
+    let level = accuracy.to_string();
+    let wanted = |claim: &Claim| items.iter().any(|item| item.name == claim.item);
+    let claims: Vec<Claim> = claims(evidence).into_iter().filter(wanted).collect();
+    let count = |verdict: Verdict| claims.iter().filter(|c| c.verdict == verdict).count();
+    let verdicts = [Verdict::BorneOut, Verdict::Contradicted, Verdict::CannotBeJudged];
+    let tally = verdicts.map(|v| format!("{} {}", count(v), v.words())).join(", ");
+    let value = serde_json::json!({
+        "accuracy": level, "version": env!("CARGO_PKG_VERSION"), "numbers": numbers(evidence), "claims": claims,
+    });
+    Ok(Report {
+        html: page(evidence, items, &claims, &level)?.into_string(),
+        claims_json: format!("{value:#}\n"),
+        claims_markdown: markdown(&claims, &level),
+        overview: format!("claims    {tally}"),
+    })
+}
+
+/// The numbers that pages of text quote; those of parts that were not asked for are left out.
+fn numbers(evidence: &Evidence) -> BTreeMap<&'static str, f64> {
+    let single = "single-asperity";
+    let fit = evidence.json("calibrate", "fit.json").unwrap_or_default();
+    let all = [
+        ("force_at_1_um_N", evidence.force_at(single, 1.0)),
+        ("force_at_2_um_N", evidence.force_at(single, 2.0)),
+        ("force_at_5_um_N", evidence.force_at(single, 5.0)),
+        ("residual_depth_um", evidence.summary(single, "residual_depth")),
+        ("elastic_share_percent", evidence.summary(single, "elastic_fraction").map(|f| 100.0 * f)),
+        ("coefficient", fit["coefficient"].as_f64()),
+        ("coefficient_low", fit["ci95"][0].as_f64()),
+        ("coefficient_high", fit["ci95"][1].as_f64()),
+    ];
+    all.into_iter().filter_map(|(name, value)| Some((name, value?))).collect()
+}
+
+fn class(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::BorneOut => "borne-out",
+        Verdict::Contradicted => "contradicted",
+        Verdict::CannotBeJudged => "cannot-be-judged",
+    }
+}
+
+/// A sign beside the colour.
+fn sign(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::BorneOut => "✓",
+        Verdict::Contradicted => "✗",
+        Verdict::CannotBeJudged => "?",
+    }
+}
+
+fn verdict(verdict: Verdict) -> Markup {
+    html! { span class={ "verdict " (class(verdict)) } { (sign(verdict)) " " (verdict.words()) } }
+}
+
+fn page(evidence: &Evidence, items: &[Item], claims: &[Claim], level: &str) -> Result<Markup, String> {
+    let sections: Result<Vec<Markup>, String> =
+        items.iter().map(|item| section(*item, evidence, claims, level)).collect();
+    let sections = sections?;
+    let parts = parts(items);
+    let promise = match level {
+        "draft" => "5 %",
+        "reference" => "0.2 %",
+        _ => "1 %",
+    };
+    Ok(html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                title { "The paper, computed" }
+                link rel="icon" href="data:,";
+                style { (PreEscaped(include_str!("style.css"))) }
+            }
+            body {
+                header {
+                    h1 { "The paper, computed" }
+                    p { (PAPER) ". What its text and figures claim, beside what this program computes from the data it prints; accuracy "
+                        strong { (level) } " (forces of the finite elements to " (promise) "), version " (env!("CARGO_PKG_VERSION")) "." }
+                }
+                nav aria-label="Contents" {
+                    a href="#claims" { "Claims" }
+                    @for item in items { a href={ "#" (item.name) } { (short(item)) } }
+                    a href="#scenes" { "Scenes" }
+                }
+                main {
+                    h2 id="claims" { "Claims of the paper" }
+                    (tally(claims))
+                    div class="wide" { table id="overview" {
+                        thead { tr { th { "claim of the paper" } th { "where" } th { "ours" } th { "verdict" } } }
+                        tbody { @for claim in claims { tr {
+                            td { (claim.claim) }
+                            td class="place" { a href={ "#" (claim.item) } { (claim.place) } }
+                            td {
+                                (claim.ours)
+                                @if claim.verdict == Verdict::Contradicted && !claim.why.is_empty() { p class="cause" { (claim.why) } }
+                            }
+                            td { (verdict(claim.verdict)) }
+                        } } }
+                    } }
+                    p { "“Borne out” means within the rounding of the printed number and our own error: the interval of a fit, or two standard "
+                        "deviations over five generated surfaces. Nothing here was adjusted to the paper." }
+                    @for section in &sections { (section) }
+                    h2 id="scenes" { "Scenes" }
+                    p { "Everything above was computed from these files and nothing else; " code { "asperity crush" } " and "
+                        code { "asperity rough" } " run them one by one." }
+                    @for part in &parts { (scene(part, evidence)) }
+                }
+            }
+        }
+    })
+}
+
+fn tally(claims: &[Claim]) -> Markup {
+    html! {
+        div class="tally" {
+            @for v in [Verdict::BorneOut, Verdict::Contradicted, Verdict::CannotBeJudged] {
+                span { strong { (claims.iter().filter(|c| c.verdict == v).count()) } " " (verdict(v)) }
+            }
+        }
+    }
+}
+
+/// "Figure 1" of "Figure 1. Geometry of an asperity".
+fn short(item: &Item) -> &'static str {
+    item.title.split('.').next().unwrap_or(item.title)
+}
+
+fn section(item: Item, evidence: &Evidence, claims: &[Claim], level: &str) -> Result<Markup, String> {
+    let body = figures::body(item, evidence)?;
+    let own: Vec<&Claim> = claims.iter().filter(|claim| claim.item == item.name).collect();
+    let parts = parts(&[item]);
+    Ok(html! {
+        section {
+            h2 id=(item.name) { (item.title) }
+            (body)
+            @if !own.is_empty() {
+                h3 { "What the paper says of it" }
+                ul { @for claim in own { li {
+                    (verdict(claim.verdict)) " " (claim.place) ": " (claim.claim) ". Ours: " (claim.ours) ". " (claim.why)
+                } } }
+            }
+            @for part in &parts {
+                @if let Some(why) = evidence.stamp(part.name).and_then(|stamp| stamp.stopped.as_ref()) {
+                    p class="missing" { (part.name) " " (why) "; what it reached is shown." }
+                }
+            }
+            p class="again" {
+                "Again: " code { "asperity reproduce --accuracy " (level) " --only " (item.name) }
+                "; scenes: "
+                @for (i, part) in parts.iter().enumerate() {
+                    @if i > 0 { ", " }
+                    a href={ "#scene-" (part.name) } { (part.name) }
+                }
+            }
+        }
+    })
+}
+
+/// A scene as it stands in its file, how to run it alone, and how long it took.
+fn scene(part: &Part, evidence: &Evidence) -> Markup {
+    let (text, command) = match part.work {
+        Work::Crush { scene, changes, .. } => {
+            let changes: Vec<String> = changes.iter().map(|c| format!(" --set \"{c}\"")).collect();
+            (scene, format!("asperity crush meshes/{}.toml{}", part.name, changes.concat()))
+        }
+        Work::Rough { scene, .. } => {
+            (scene, format!("asperity rough meshes/{}.toml, and asperity rough --table1", part.name))
+        }
+        Work::Calibrate => (
+            "# the defaults: 10 slopes, 3 moduli, 4 yield stresses, 4 exponents",
+            "asperity calibrate".into(),
+        ),
+    };
+    let time = evidence.stamp(part.name).map(|stamp| format!("took {:.1} s", stamp.wall_s));
+    html! {
+        details id={ "scene-" (part.name) } {
+            summary { (part.name) @if let Some(time) = time { " (" (time) ")" } }
+            p { code { (command) } }
+            pre { (text) }
+        }
+    }
+}
+
+fn markdown(claims: &[Claim], level: &str) -> String {
+    let mut text = format!("| claim of the paper | where | ours at `{level}` | verdict |\n|-|-|-|-|\n");
+    for claim in claims {
+        let _ = writeln!(
+            text,
+            "| {} | {} | {} | {} |",
+            claim.claim,
+            claim.place,
+            claim.ours,
+            claim.verdict.words()
+        );
+    }
+    text
+}

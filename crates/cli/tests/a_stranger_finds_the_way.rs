@@ -1,0 +1,74 @@
+//! Help, scenes to start from, completions, manual: what a person meets first.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+mod common;
+
+use common::Place;
+
+#[test]
+fn every_new_scene_runs() {
+    let place = Place::with_scene("");
+    for (kind, command) in [("single", "crush"), ("multi", "crush"), ("cone", "crush"), ("rough", "rough")] {
+        let end = place.run(&["new", kind]);
+        assert_eq!(end.status, 0, "{}", end.err);
+        let file = format!("{kind}.toml");
+        assert!(end.out.contains(&format!("asperity {command} {file}")), "{}", end.out);
+        let quick: &[&str] = match command {
+            "crush" => &["--accuracy", "draft", "--set", "output.every=0", "--set", "loading.depth=2 um"],
+            _ => &["--set", "surface.generate.pixels=[128, 128]", "--set", "closure=published"],
+        };
+        let out = format!("out-{kind}");
+        let end = place.run(&[&[command, file.as_str(), "--out", &out, "--quiet"], quick].concat());
+        assert_eq!((end.status, end.err.as_str()), (0, ""), "{kind}");
+    }
+    // a file is not overwritten unless asked
+    let end = place.run(&["new", "single"]);
+    assert_eq!(end.status, 2);
+    assert!(end.err.contains("--force"), "{}", end.err);
+    assert_eq!(place.run(&["new", "single", "--force"]).status, 0);
+}
+
+#[test]
+fn a_crush_of_nothing_says_what_to_do() {
+    let end = Place::with_scene("").run(&["crush"]);
+    assert_eq!(end.status, 2);
+    assert!(end.err.contains("asperity new single"), "{}", end.err);
+}
+
+#[test]
+fn help_manual_completions_and_schema_are_there() {
+    let place = Place::with_scene("");
+    let run = |args: &[&str]| {
+        let end = place.run(args);
+        assert_eq!((end.status, end.err.as_str()), (0, ""), "{args:?}");
+        end.out
+    };
+    let help = run(&["--help"]);
+    for command in ["reproduce", "crush", "mesh", "calibrate", "rough", "new", "schema", "completions", "man"]
+    {
+        assert!(help.contains(command), "{command}");
+        let page = run(&["man", command]);
+        assert!(page.contains(".TH") && page.contains(command), "{command}");
+    }
+    assert!(run(&["man"]).contains("Examples"));
+    assert_eq!(place.run(&["man", "melt"]).status, 2);
+    for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
+        assert!(run(&["completions", shell]).contains("reproduce"), "{shell}");
+    }
+    for kind in ["scene", "rough", "sweep"] {
+        let schema: serde_json::Value = serde_json::from_str(&run(&["schema", kind])).unwrap();
+        assert!(schema["properties"].is_object(), "{kind}");
+    }
+}
+
+/// A crush with fields leaves a picture of the peak; one without leaves none.
+#[test]
+fn a_crush_with_fields_leaves_a_picture() {
+    let place = Place::with_scene(common::SCENE);
+    let pictures = |out: &str| place.names(out).iter().filter(|n| n.starts_with("section_")).count();
+    place.run(&["crush", "scene.toml", "--out", "plain"]);
+    assert_eq!(pictures("plain"), 0);
+    let end = place.run(&["crush", "scene.toml", "--set", "output.every=100", "--out", "drawn"]);
+    assert_eq!((end.status, pictures("drawn")), (0, 1), "{}", end.err);
+}
