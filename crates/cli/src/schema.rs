@@ -97,7 +97,10 @@ mod tests {
         for (kind, keys) in [(SchemaKind::Scene, ["symmetry", "accuracy", "lateral"])] {
             let schema: Value = serde_json::from_str(text(kind)).unwrap();
             for key in keys {
-                for word in schema["properties"][key]["enum"].as_array().unwrap() {
+                let property = &schema["properties"][key];
+                // a level by name stands beside a percentage
+                let words = property["enum"].as_array().or(property["anyOf"][0]["enum"].as_array());
+                for word in words.unwrap() {
                     let change = format!("{key}={}", word.as_str().unwrap());
                     let read = TomlFile::<asperity_solver::scene::Scene>::parse(
                         Path::new("scene"),
