@@ -174,7 +174,7 @@ fn read_sweep(args: &Calibrate) -> Result<(Sweep, String), Failure> {
 }
 
 /// Beside the results, not in them: a folder of results holds results.
-fn journal_path(target: &Path) -> PathBuf {
+pub fn journal_path(target: &Path) -> PathBuf {
     let mut name = target.file_name().unwrap_or_default().to_os_string();
     name.push(".journal");
     target.with_file_name(name)
