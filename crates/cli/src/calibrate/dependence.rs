@@ -11,7 +11,6 @@ use asperity_calibration::fit::{DEVELOPED, Slope};
 use asperity_calibration::row::{HEADER, Row};
 use asperity_calibration::sweep::Sweep;
 use asperity_roughness::PUBLISHED;
-use asperity_solver::scene::Accuracy;
 use serde_json::json;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};

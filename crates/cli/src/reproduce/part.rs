@@ -8,6 +8,7 @@ use crate::calibrate::Order;
 use crate::crush::{Crushed, Sketch, crush_into, resolved};
 use crate::failure::Failure;
 use crate::folder::Folder;
+use crate::folder::journal_beside;
 use crate::progress::Progress;
 use crate::rough::files::Outcome;
 use crate::rough::{run as press, table1};
@@ -137,6 +138,7 @@ impl Job {
         let stopped = match &self.scene {
             Resolved::Crush(scene, sketches) => self.crush(scene, sketches, progress)?,
             Resolved::Calibrate(sweep) => {
+                self.keep_own_journal()?;
                 let cases = sweep.cases();
                 let threads = rayon::current_num_threads();
                 let order = Order { sweep, cases: &cases, whole: true, shown: None, threads };
@@ -153,6 +155,16 @@ impl Job {
         let text = serde_json::to_string(&stamp).map_err(|e| Failure::Unfinished(e.to_string()))?;
         write_whole(&self.stamp_path(), text.as_bytes())?;
         Ok(stamp)
+    }
+
+    /// Throws away a journal that another program, or the same for another sweep, has left.
+    fn keep_own_journal(&self) -> Result<(), Failure> {
+        let begun = self.folder.with_extension("begun");
+        if std::fs::read_to_string(&begun).is_ok_and(|key| key == self.key) {
+            return Ok(());
+        }
+        let _ = std::fs::remove_file(journal_beside(&self.folder));
+        write_whole(&begun, self.key.as_bytes())
     }
 
     fn crush(

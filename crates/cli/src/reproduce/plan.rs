@@ -71,7 +71,7 @@ const PEAK_ONLY: &str = "output.every=1000000";
 /// All of the asperities' height.
 const TOTAL: &str = "loading.depth=20 um";
 const ELEMENTS: Sketch = Sketch { name: "elements", reach: Reach::Asperities(3.0), panels: &[Panel::Mesh] };
-const ZONES: Sketch = Sketch { name: "zones", reach: Reach::Asperities(6.0), panels: &Panel::FIG5 };
+const ZONES: Sketch = Sketch { name: "zones", reach: Reach::Asperities(9.0), panels: &Panel::FIG5 };
 
 macro_rules! crush {
     ($name:literal, $changes:expr, $sketches:expr, $serves:expr) => {
