@@ -31,9 +31,91 @@ pub fn punch_stiffness(reduced_modulus: f64, radius: f64) -> f64 {
     2.0 * reduced_modulus * radius
 }
 
+/// A sphere of metal that does not harden, flattened by a frictionless rigid plane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Flattened {
+    /// Radius R.
+    pub radius: f64,
+    /// E* = E/(1 - ν²).
+    pub reduced_modulus: f64,
+    /// Poisson's ratio ν.
+    pub poissons_ratio: f64,
+    /// Yield stress S.
+    pub yield_stress: f64,
+}
+
+impl Flattened {
+    /// Depth of first yield below the surface, ω_c = (π C S/(2E*))² R with C = 1.295 e^(0.736 ν).
+    pub fn critical_depth(&self) -> f64 {
+        let c = self.strength() * self.yield_stress;
+        (PI * c / (2.0 * self.reduced_modulus)).powi(2) * self.radius
+    }
+
+    fn strength(&self) -> f64 {
+        1.295 * (0.736 * self.poissons_ratio).exp()
+    }
+
+    /// Force and contact area at `depth` above 1.9 ω_c.
+    ///
+    /// R. L. Jackson, I. Green, J. Tribol. 127 (2005) 343: fits to finite elements, 1.9 < ω/ω_c < 3000, a/R < 0.41.
+    pub fn jackson_green(&self, depth: f64) -> (f64, f64) {
+        let (critical, strain) = (self.critical_depth(), self.yield_stress / self.reduced_modulus);
+        let w = depth / critical;
+        let exponent = 0.14 * (23.0 * strain).exp();
+        let area = PI * self.radius * critical * w * (w / 1.9).powf(exponent);
+        let spread = (area / PI).sqrt() / self.radius;
+        let hardness = 2.84 * (1.0 - (-0.82 * spread.powf(-0.7)).exp());
+        let elastic = (-0.25 * w.powf(5.0 / 12.0)).exp() * w.powf(1.5);
+        let plastic = 4.0 * hardness / self.strength() * (1.0 - (-0.04 * w.powf(5.0 / 9.0)).exp()) * w;
+        (hertz_force(self.reduced_modulus, self.radius, critical) * (elastic + plastic), area)
+    }
+
+    /// Force and contact area at `depth` from 1 to 110 ω_c.
+    ///
+    /// L. Kogut, I. Etsion, J. Appl. Mech. 69 (2002) 657: fits to finite elements in two pieces.
+    pub fn kogut_etsion(&self, depth: f64) -> (f64, f64) {
+        let factor = 0.454 + 0.41 * self.poissons_ratio;
+        let strain = 2.8 * self.yield_stress / self.reduced_modulus; // H over their E, that of the pair
+        let critical = (0.5 * PI * factor * strain).powi(2) * self.radius;
+        let w = depth / critical;
+        let (force, area) = if w < 6.0 {
+            (1.03 * w.powf(1.425), 0.93 * w.powf(1.136))
+        } else {
+            (1.40 * w.powf(1.263), 0.94 * w.powf(1.146))
+        };
+        (hertz_force(self.reduced_modulus, self.radius, critical) * force, PI * self.radius * critical * area)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Values of the two fits at S/E* = 1.3e-3, ν = 0.3, computed apart: P/P_c, A/A_c at six depths; the critical
+    /// depths are 1.0876e-5 R and 1.0884e-5 R.
+    #[test]
+    fn fits_of_flattened_spheres_have_their_values() {
+        let ball = Flattened { radius: 1.0, reduced_modulus: 1.0, poissons_ratio: 0.3, yield_stress: 1.3e-3 };
+        assert!((ball.critical_depth() / 1.0876e-5 - 1.0).abs() < 1e-4);
+        let (force, area) = (hertz_force(1.0, 1.0, ball.critical_depth()), PI * ball.critical_depth());
+        for (w, f, a) in [
+            (2.0, 2.829, 2.015),
+            (6.0, 13.00, 7.08),
+            (10.0, 25.89, 12.71),
+            (50.0, 202.9, 80.1),
+            (110.0, 520.8, 197.5),
+            (200.0, 1036.7, 391.5),
+        ] {
+            let found = ball.jackson_green(w * ball.critical_depth());
+            assert!((found.0 / force / f - 1.0).abs() < 1e-3, "{w} {found:?}");
+            assert!((found.1 / area / a - 1.0).abs() < 1e-3, "{w} {found:?}");
+        }
+        for (w, f) in [(10.0, 25.65), (50.0, 195.9), (110.0, 530.2)] {
+            let critical = 1.0884e-5;
+            let found = ball.kogut_etsion(w * critical).0 / hertz_force(1.0, 1.0, critical);
+            assert!((found / f - 1.0).abs() < 1e-3, "{w} {found}");
+        }
+    }
 
     /// dF/dh = 2 E* a for every axisymmetric elastic contact (Pharr, Oliver, Brotzen 1992), so force and radius of
     /// each closed form must agree in it.

@@ -16,6 +16,8 @@ use asperity_solver::scene::Symmetry;
 pub const MICROMETRE: f64 = 1e-6;
 /// SI value of 1 MPa.
 pub const MEGAPASCAL: f64 = 1e6;
+/// SI value of 1 GPa.
+pub const GIGAPASCAL: f64 = 1e9;
 
 /// How a quantity that depends on the symmetry is named and scaled: divide SI by `scale`.
 #[derive(Clone, Copy, Debug, PartialEq)]

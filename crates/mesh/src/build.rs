@@ -557,17 +557,32 @@ fn divide_geometric(from: f64, to: f64, kinks: &[f64], size: impl Fn(f64) -> f64
     nodes
 }
 
+/// Flanks steeper than this (tangent) are not followed by the mesh far below a row.
+const STEEP: f64 = 0.75;
+
+/// Depth at which the mesh no longer follows the profile: that of the body; below a row of steep flanks sooner, for there
+/// the shells around the row spread sideways, and cells sheared by more than they spread turn inside out. Deep enough
+/// that cells below a valley keep half their height.
+fn fade_depth(plan: &Plan) -> f64 {
+    let steepest = plan.contacts.iter().fold(0.0, |m: f64, c| m.max(c.slope));
+    if plan.contacts.len() == 1 || steepest < STEEP {
+        return plan.depth;
+    }
+    (1.5 * row_rectangle(plan).depth).max(2.0 * plan.profile.height()).min(plan.depth)
+}
+
 /// Shears the flat grid under the profile, drops welded nodes and adds mid-side nodes.
 fn finish(plan: &Plan, mut grid: Grid) -> Mesh {
     sort_surface(&mut grid, 0);
+    let fade = fade_depth(plan);
     let mut number: Vec<Option<u32>> = vec![None; grid.nodes.len()];
     let mut nodes: Vec<[f64; 2]> = Vec::with_capacity(grid.nodes.len());
     for node in grid.cells.iter_mut().flatten() {
         let id = *node as usize;
         *node = *number[id].get_or_insert_with(|| {
             let [r, zeta] = grid.nodes[id];
-            // flat depth ζ in [-depth, 0] goes to [-depth, z_s(r)], linearly
-            nodes.push([r, zeta + plan.profile.z(r) * (1.0 + zeta / plan.depth)]);
+            // flat depth ζ in [-fade, 0] goes to [-fade, z_s(r)], linearly
+            nodes.push([r, zeta + plan.profile.z(r) * (1.0 + zeta / fade).max(0.0)]);
             (nodes.len() - 1) as u32
         });
     }

@@ -1,7 +1,8 @@
 //! One crush from a scene to its records: the entry point of the solver.
 
-use crate::discretise::{Problem, prepare};
+use crate::discretise::{Problem, mirror, prepare};
 use crate::fields::{Fields, SurfacePoint, fields};
+use crate::indentation::{OliverPharr, Peak, oliver_pharr};
 use crate::islands::{extent, gaps, islands};
 use crate::kinematics::Symmetry;
 use crate::model::{Counters, Model, ToolContact};
@@ -377,6 +378,21 @@ impl<'p> Log<'p> {
         }
     }
 
+    /// The peak as an instrument evaluates it that knows force, depth and stiffness (dimensionless), in SI.
+    fn as_an_instrument(&self, peak: &CurveRow, stiffness: f64) -> Option<OliverPharr> {
+        let (problem, u) = (self.problem, self.units);
+        let tool = mirror(&problem.tool).filter(|_| problem.symmetry == Symmetry::Axisymmetric)?;
+        let peak = Peak { force: peak.force / u.force, depth: peak.depth / u.length, stiffness };
+        let read = oliver_pharr(&problem.tool, |height| tool.half_width(height), &peak)?;
+        Some(OliverPharr {
+            geometry_factor: read.geometry_factor,
+            contact_depth: read.contact_depth * u.length,
+            contact_area: read.contact_area * u.area,
+            hardness: read.hardness * u.stress,
+            reduced_modulus: read.reduced_modulus * u.stress,
+        })
+    }
+
     fn finish(
         mut self,
         path: &Path<'_>,
@@ -402,6 +418,8 @@ impl<'p> Log<'p> {
             total_work,
             elastic_work,
             plastic_work: peak.plastic_work,
+            oliver_pharr: self.stiffness.filter(|_| unloaded).and_then(|s| self.as_an_instrument(&peak, s)),
+            reduced_modulus: self.problem.metal.elastic.reduced_modulus() * u.stress,
             elastic_fraction: elastic_work.map(|w| w / total_work),
             energy_balance_error: balance_error(&self.rows),
             estimated_error: crate::estimate::force_error(

@@ -261,7 +261,8 @@ fn scale(a: &Asperity, length: f64) -> Asperity {
 }
 
 /// The tool as an asperity of the same outline: the contact of the two is the same to first order in the slope.
-fn mirror(tool: &Tool) -> Option<Asperity> {
+/// `None` for a plane.
+pub fn mirror(tool: &Tool) -> Option<Asperity> {
     let shape = match *tool {
         Tool::Plane => return None,
         Tool::Cone { tan_slope, tip_radius } => Shape::Cone { tan_slope, tip_radius },

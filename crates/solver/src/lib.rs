@@ -35,6 +35,8 @@ pub mod model;
 
 pub mod energy;
 
+pub mod indentation;
+
 pub mod fields;
 
 pub mod folding;

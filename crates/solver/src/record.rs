@@ -3,6 +3,8 @@
 //! In axisymmetry forces are in N, areas in m², energies in J, of the full body of revolution. In plane strain
 //! they are per metre of ridge: N/m, m (contact width), J/m.
 
+use crate::indentation::OliverPharr;
+
 /// Whether the tool advances or retreats.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Phase {
@@ -121,6 +123,11 @@ pub struct Summary {
     pub elastic_work: Option<f64>,
     /// Plastic work at the end of loading, J (J/m).
     pub plastic_work: f64,
+    /// What the method of Oliver and Pharr reads from the curve; `None` without unloading, under a plane, in plane
+    /// strain.
+    pub oliver_pharr: Option<OliverPharr>,
+    /// E/(1 - ν²), Pa.
+    pub reduced_modulus: f64,
     /// elastic_work / total_work.
     pub elastic_fraction: Option<f64>,
     /// Largest |W - E_e - W_p - E_c|/W over increments with W above 1 % of its peak.

@@ -6,7 +6,9 @@
 mod confined_bar;
 mod contact_patch;
 mod elastic_flattening;
+mod elastic_indentation;
 mod energy_balance;
+mod flattened_sphere;
 mod full_quad;
 mod lost_pivot;
 mod newton_order;

@@ -1,6 +1,7 @@
 //! `summary.json`.
 
-use super::{MEGAPASCAL, MICROMETRE, area_unit, energy_unit, force_unit, stiffness_unit};
+use super::{GIGAPASCAL, MEGAPASCAL, MICROMETRE, area_unit, energy_unit, force_unit, stiffness_unit};
+use asperity_solver::indentation::OliverPharr;
 use asperity_solver::record::{IslandRow, Summary};
 use asperity_solver::scene::{Scene, Symmetry};
 use serde::ser::{Serialize, SerializeMap, Serializer};
@@ -47,6 +48,10 @@ pub fn summary_json(
         (name("total_work", energy.suffix), number(Some(summary.total_work), energy.scale)),
         (name("elastic_work", energy.suffix), number(summary.elastic_work, energy.scale)),
         (name("plastic_work", energy.suffix), number(Some(summary.plastic_work), energy.scale)),
+        (
+            "oliver_pharr".into(),
+            summary.oliver_pharr.as_ref().map_or(Value::Null, |o| instrument(o, summary)),
+        ),
         ("elastic_fraction".into(), number(summary.elastic_fraction, 1.0)),
         ("energy_balance_error".into(), number(Some(summary.energy_balance_error), 1.0)),
         ("estimated_error".into(), number(Some(summary.estimated_error), 1.0)),
@@ -76,6 +81,21 @@ fn island(row: &IslandRow) -> Value {
         "mean_von_mises_MPa": row.mean_von_mises / MEGAPASCAL,
         "reaches_substrate": row.reaches_substrate,
         "reaches_surface": row.reaches_surface,
+    })
+}
+
+/// What an instrument reads from the curve, and beside it what is true.
+fn instrument(read: &OliverPharr, summary: &Summary) -> Value {
+    let area = MICROMETRE * MICROMETRE;
+    json!({
+        "epsilon": read.geometry_factor,
+        "contact_depth_um": read.contact_depth / MICROMETRE,
+        "contact_area_um2": read.contact_area / area,
+        "true_contact_area_um2": summary.contact_area / area,
+        "hardness_MPa": read.hardness / MEGAPASCAL,
+        "true_hardness_MPa": summary.peak_force / summary.contact_area / MEGAPASCAL,
+        "reduced_modulus_GPa": read.reduced_modulus / GIGAPASCAL,
+        "true_reduced_modulus_GPa": summary.reduced_modulus / GIGAPASCAL,
     })
 }
 
