@@ -7,10 +7,11 @@
 //! `elastic_flattening`.
 
 use asperity_law::units::{Length, Stress};
+use asperity_solver::curve::Curve;
 use asperity_solver::record::CurveRow;
 use asperity_solver::scene::{Accuracy, Asperity, Scene};
 use asperity_verification::contact::{Flattened, hertz_force};
-use asperity_verification::single_asperity::{crush, force_at, scene};
+use asperity_verification::single_asperity::{crush, scene};
 
 const RADIUS: f64 = 50e-6;
 
@@ -41,7 +42,8 @@ fn rows(scene: &Scene) -> Vec<CurveRow> {
 
 /// Force over `law`, the mean at 0.95, 1 and 1.05 of `depth`.
 fn ratio(rows: &[CurveRow], depth: f64, law: impl Fn(f64) -> f64) -> f64 {
-    let at = |share: f64| force_at(rows, share * depth) / law(share * depth);
+    let curve = Curve::force(rows);
+    let at = |share: f64| curve.at(share * depth) / law(share * depth);
     (at(0.95) + at(1.0) + at(1.05)) / 3.0
 }
 
