@@ -32,8 +32,9 @@ pub fn write_inp(mut out: impl Write, mesh: &Mesh, section: Section) -> io::Resu
     };
     writeln!(out, "** x is the radius (plane strain: the width), y the height; lengths in m")?;
     writeln!(out, "*NODE, NSET=ALL")?;
+    // a field of CalculiX holds 20 characters: twelve digits fit with sign and exponent
     for (i, [r, z]) in mesh.nodes.iter().enumerate() {
-        writeln!(out, "{}, {r:?}, {z:?}, 0.", i + 1)?;
+        writeln!(out, "{}, {r:.11e}, {z:.11e}, 0.", i + 1)?;
     }
     writeln!(out, "*ELEMENT, TYPE={element}, ELSET=BODY")?;
     for (i, cell) in mesh.cells.chunks_exact(mesh.kind.nodes()).enumerate() {
@@ -93,7 +94,7 @@ mod tests {
         write_inp(&mut text, &mesh, Section::Axisymmetric).unwrap();
         let text = String::from_utf8(text).unwrap();
         for line in [
-            "3, 1e-6, 2e-6, 0.",
+            "3, 1.00000000000e-6, 2.00000000000e-6, 0.",
             "*ELEMENT, TYPE=CAX4, ELSET=BODY",
             "1, 1, 2, 3, 4",
             "*NSET, NSET=SURFACE",
