@@ -6,6 +6,7 @@ mod chart;
 mod crush;
 mod failure;
 mod folder;
+mod hardening_file;
 mod manual;
 mod mesh;
 mod new;

@@ -5,13 +5,12 @@
 //! element matrix of one plastic point in 365 ns (quadratic) or 271 ns (linear), and faer's supernodal Cholesky.
 #![allow(clippy::print_stdout, reason = "a benchmark prints")]
 
-use asperity_law::HardeningLaw;
 use asperity_law::units::{Length, Stress};
 use asperity_solver::crush::run;
 use asperity_solver::element::POINTS;
 use asperity_solver::scene::{
-    Accuracy, Asperity, ElementChoice, Lateral, Loading, Material, Numerics, Output, Scene, Symmetry, Tool,
-    ToolShape,
+    Accuracy, Asperity, ElementChoice, HardeningChoice, Lateral, Loading, Material, Numerics, Output, Scene,
+    Symmetry, Tool, ToolShape,
 };
 use std::ops::ControlFlow;
 use std::time::Instant;
@@ -26,7 +25,9 @@ fn single_asperity(accuracy: Accuracy, element: ElementChoice) -> Scene {
             poissons_ratio: 0.3,
             yield_stress: Some(Stress(300e6)),
             hardening_exponent: Some(0.3),
-            hardening_law: HardeningLaw::Hollomon,
+            hardening_law: HardeningChoice::Hollomon,
+            hardening_file: None,
+            hardening_table: None,
         },
         asperity: vec![Asperity {
             height: Some(Length(20e-6)),

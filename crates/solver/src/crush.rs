@@ -95,9 +95,14 @@ pub fn run(
     scene.validate()?;
     let problem = prepare(scene, mesh)?;
     let contact = ToolContact { tool: problem.tool, penalty: problem.penalty };
-    let model =
-        Model::new(&problem.mesh, problem.symmetry, problem.metal, |node| problem.held[node], Some(contact))
-            .map_err(|_| CrushError::Mesh)?;
+    let model = Model::new(
+        &problem.mesh,
+        problem.symmetry,
+        problem.metal.clone(),
+        |node| problem.held[node],
+        Some(contact),
+    )
+    .map_err(|_| CrushError::Mesh)?;
     let settings = Settings { tolerance: problem.numbers.newton_tolerance, max_iterations: 30 };
     let mut path = Path::new(model, settings, problem.numbers.contact == ContactMethod::Augmented);
     let mut log = Log::new(scene, &problem, path.model.unknowns());

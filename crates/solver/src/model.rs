@@ -230,7 +230,7 @@ impl<'m> Model<'m> {
                 continue;
             }
             // the elastic trial from the last converged state: what the increment would have been without flow
-            let elastic = Metal { hardening: None, ..self.metal };
+            let elastic = Metal { hardening: None, elastic: self.metal.elastic };
             let context = ElementContext { symmetry: self.symmetry, metal: &elastic, tangent: Tangent::None };
             self.start[points.clone()].copy_from_slice(&self.old[points.clone()]);
             evaluate_cell(self, cell, &context)?;
@@ -302,7 +302,7 @@ impl<'m> Model<'m> {
         self.stiffness.clear();
         self.residual.fill(0.0);
         self.internal.fill([0.0; 2]);
-        let metal = self.metal;
+        let metal = self.metal.clone();
         let context = ElementContext { symmetry: self.symmetry, metal: &metal, tangent: self.tangent };
         for cell in 0..self.mesh.cell_count() {
             evaluate_cell(self, cell, &context)?;

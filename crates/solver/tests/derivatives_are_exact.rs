@@ -5,7 +5,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
-use asperity_law::{Elastic, Hardening, HardeningLaw};
+use asperity_law::{Elastic, Hardening, HardeningLaw, HardeningTable};
 use asperity_solver::contact::{ContactContext, ContactEdge};
 use asperity_solver::element::{ElementContext, ElementOutput};
 use asperity_solver::j2::{Tangent, update};
@@ -18,13 +18,20 @@ const STEP: f64 = 1e-6;
 const TOLERANCE: f64 = 1e-6;
 
 fn metal(law: Option<(HardeningLaw, f64)>) -> Metal {
-    let hardening =
-        law.map(|(law, exponent)| Hardening { law, yield_stress: 0.02, exponent, youngs_modulus: 1.0 });
+    let hardening = law
+        .map(|(law, exponent)| Hardening { law, yield_stress: 0.02, exponent, youngs_modulus: 1.0 }.into());
     Metal { elastic: Elastic { youngs_modulus: 1.0, poissons_ratio: 0.3 }, hardening }
 }
 
-fn metals() -> [Metal; 4] {
+/// A table whose kinks none of the states below comes to lie on.
+fn tabulated() -> Metal {
+    let table = HardeningTable::new(&[[0.0, 0.02], [0.03, 0.03], [0.5, 0.04]]).unwrap();
+    Metal { hardening: Some(table.into()), ..metal(None) }
+}
+
+fn metals() -> [Metal; 5] {
     [
+        tabulated(),
         metal(None),
         metal(Some((HardeningLaw::Hollomon, 0.3))),
         metal(Some((HardeningLaw::Swift, 0.1))),

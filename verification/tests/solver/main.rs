@@ -23,5 +23,6 @@ mod several_asperities;
 mod simple_shear;
 mod step_order;
 mod system_tangent;
+mod tabulated_hardening;
 mod thick_walls;
 mod uniaxial_bar;

@@ -1,4 +1,5 @@
 use super::*;
+use asperity_law::units::Stress;
 
 /// The asperity of the paper.
 fn scene() -> Scene {
@@ -11,7 +12,9 @@ fn scene() -> Scene {
             poissons_ratio: 0.3,
             yield_stress: Some(Stress(300e6)),
             hardening_exponent: Some(0.3),
-            hardening_law: HardeningLaw::Hollomon,
+            hardening_law: HardeningChoice::Hollomon,
+            hardening_file: None,
+            hardening_table: None,
         },
         asperity: vec![cone()],
         substrate: None,
@@ -66,6 +69,8 @@ fn the_ends_of_the_ranges_are_allowed() {
         ("E/sy = 1e6", |s| s.material.yield_stress = Some(Stress(210e3))),
         ("n = 0.99", |s| s.material.hardening_exponent = Some(0.99)),
         ("n = 0", |s| s.material.hardening_exponent = Some(0.0)),
+        ("table", |s| table_of(s, &[(0.0, 300e6), (0.1, 450e6), (0.2, 450e6)])),
+        ("table of one point", |s| table_of(s, &[(0.0, 300e6)])),
         ("flat", |s| s.asperity[0].slope_deg = Some(0.1)),
         ("sharp", |s| s.asperity[0].tip_radius = um(0.0)),
         ("blunt", |s| s.asperity[0].tip_radius = um(1300.0)),
@@ -112,6 +117,17 @@ fn the_ends_of_the_ranges_are_allowed() {
 }
 
 /// A change, the place that must be named, and words of the message: the value and the allowed range.
+/// The same metal by a table, in Pa.
+fn table_of(scene: &mut Scene, points: &[(f64, f64)]) {
+    scene.material = Material {
+        yield_stress: None,
+        hardening_exponent: None,
+        hardening_law: HardeningChoice::Table,
+        hardening_table: Some(points.iter().map(|&(strain, stress)| (strain, Stress(stress))).collect()),
+        ..scene.material.clone()
+    };
+}
+
 #[test]
 fn what_makes_no_sense_is_refused_with_place_value_and_range() {
     type Row = (fn(&mut Scene), &'static str, &'static [&'static str]);
@@ -129,6 +145,48 @@ fn what_makes_no_sense_is_refused_with_place_value_and_range() {
         (|s| s.material.hardening_exponent = Some(f64::NAN), "material.hardening_exponent", &["NaN"]),
         (|s| s.material.hardening_exponent = None, "material", &["`hardening_exponent` is missing"]),
         (|s| s.asperity[0].height = um(-20.0), "asperity[0].height", &["above 0", "-20 um"]),
+        (
+            |s| table_of(s, &[(0.0, 300e9)]),
+            "material.hardening_table[0]",
+            &["0.21 to 42000 MPa", "300000 MPa"],
+        ),
+        (
+            |s| table_of(s, &[(0.0, 3e8), (0.1, 3e11)]),
+            "material.hardening_table[1]",
+            &["at most", "210000 MPa"],
+        ),
+        (
+            |s| table_of(s, &[(0.0, 3e8), (0.0, 4e8)]),
+            "material.hardening_table[1]",
+            &["must grow", "0 follows 0"],
+        ),
+        (|s| table_of(s, &[]), "material.hardening_table", &["from 1 to 100000 points"]),
+        (
+            |s| s.material.hardening_law = HardeningChoice::Table,
+            "material.yield_stress",
+            &["first point is the yield stress", "remove it"],
+        ),
+        (
+            |s| {
+                table_of(s, &[]);
+                s.material.hardening_table = None;
+            },
+            "material.hardening_law",
+            &["hardening_file = \"curve.csv\""],
+        ),
+        (
+            |s| {
+                table_of(s, &[(0.0, 3e8)]);
+                s.material.hardening_file = Some("curve.csv".into());
+            },
+            "material.hardening_file",
+            &["does not go with `hardening_table`"],
+        ),
+        (
+            |s| s.material.hardening_file = Some("curve.csv".into()),
+            "material.hardening_file",
+            &["hardening_law = \"table\""],
+        ),
         (|s| s.asperity[0].height = None, "asperity[0]", &["`height` is missing"]),
         (|s| s.asperity[0].slope_deg = Some(90.0), "asperity[0].slope_deg", &["below 90", "not 90"]),
         (|s| s.asperity[0].slope_deg = Some(0.0), "asperity[0].slope_deg", &["above 0", "not 0"]),
