@@ -39,7 +39,7 @@ fn single_asperity(accuracy: Accuracy, element: ElementChoice) -> Scene {
         }],
         substrate: None,
         tool: Tool { shape: ToolShape::Plane, slope_deg: None, tip_radius: None, radius: None },
-        loading: Loading { depth: Some(Length(5e-6)), force: None, unload: true },
+        loading: Loading { depth: Some(Length(5e-6)), force: None, unload: true, reloads: 0 },
         output: Output::default(),
         numerics: Numerics { element: Some(element), ..Numerics::default() },
         mesh: None,

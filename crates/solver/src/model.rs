@@ -214,6 +214,7 @@ impl<'m> Model<'m> {
         }
         if tip == f64::INFINITY {
             self.parts.fill(NOTHING);
+            self.multiplier.fill(0.0);
         }
         self.keep_contact = self.parts.iter().any(|p| *p != NOTHING);
         self.touching.clone_from(&self.parts);

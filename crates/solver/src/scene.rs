@@ -104,6 +104,13 @@ pub struct Loading {
     /// Whether the tool then retreats to zero force.
     #[serde(default)]
     pub unload: bool,
+    /// How often the tool then comes back to the same depth (or force) and retreats again.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub reloads: usize,
+}
+
+fn is_zero(count: &usize) -> bool {
+    *count == 0
 }
 
 /// Where loading ends, complete.

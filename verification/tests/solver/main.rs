@@ -24,5 +24,6 @@ mod simple_shear;
 mod step_order;
 mod system_tangent;
 mod tabulated_hardening;
+mod ten_reloads;
 mod thick_walls;
 mod uniaxial_bar;

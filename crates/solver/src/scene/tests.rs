@@ -19,7 +19,7 @@ fn scene() -> Scene {
         asperity: vec![cone()],
         substrate: None,
         tool: plane(),
-        loading: Loading { depth: Some(Length(5e-6)), force: None, unload: true },
+        loading: Loading { depth: Some(Length(5e-6)), force: None, unload: true, reloads: 0 },
         output: Output::default(),
         numerics: Numerics::default(),
         mesh: None,
@@ -77,7 +77,8 @@ fn the_ends_of_the_ranges_are_allowed() {
         ("steep", |s| s.asperity[0] = Asperity { slope_deg: Some(60.0), tip_radius: None, ..cone() }),
         ("whole height", |s| s.loading.depth = um(20.0)),
         ("force", |s| {
-            s.loading = Loading { depth: None, force: Some("4 N".parse().unwrap()), unload: false }
+            s.loading =
+                Loading { depth: None, force: Some("4 N".parse().unwrap()), unload: false, reloads: 0 }
         }),
         ("ball", |s| s.asperity[0] = ball(50e-6)),
         ("cone on a flat", |s| {
@@ -116,7 +117,6 @@ fn the_ends_of_the_ranges_are_allowed() {
     }
 }
 
-/// A change, the place that must be named, and words of the message: the value and the allowed range.
 /// The same metal by a table, in Pa.
 fn table_of(scene: &mut Scene, points: &[(f64, f64)]) {
     scene.material = Material {
@@ -128,6 +128,7 @@ fn table_of(scene: &mut Scene, points: &[(f64, f64)]) {
     };
 }
 
+/// A change, the place that must be named, and words of the message: the value and the allowed range.
 #[test]
 fn what_makes_no_sense_is_refused_with_place_value_and_range() {
     type Row = (fn(&mut Scene), &'static str, &'static [&'static str]);
@@ -144,7 +145,6 @@ fn what_makes_no_sense_is_refused_with_place_value_and_range() {
         (|s| s.material.hardening_exponent = Some(1.0), "material.hardening_exponent", &["below 1", "not 1"]),
         (|s| s.material.hardening_exponent = Some(f64::NAN), "material.hardening_exponent", &["NaN"]),
         (|s| s.material.hardening_exponent = None, "material", &["`hardening_exponent` is missing"]),
-        (|s| s.asperity[0].height = um(-20.0), "asperity[0].height", &["above 0", "-20 um"]),
         (
             |s| table_of(s, &[(0.0, 300e9)]),
             "material.hardening_table[0]",
@@ -187,6 +187,7 @@ fn what_makes_no_sense_is_refused_with_place_value_and_range() {
             "material.hardening_file",
             &["hardening_law = \"table\""],
         ),
+        (|s| s.asperity[0].height = um(-20.0), "asperity[0].height", &["above 0", "-20 um"]),
         (|s| s.asperity[0].height = None, "asperity[0]", &["`height` is missing"]),
         (|s| s.asperity[0].slope_deg = Some(90.0), "asperity[0].slope_deg", &["below 90", "not 90"]),
         (|s| s.asperity[0].slope_deg = Some(0.0), "asperity[0].slope_deg", &["above 0", "not 0"]),
@@ -210,10 +211,15 @@ fn what_makes_no_sense_is_refused_with_place_value_and_range() {
         (|s| s.loading.depth = None, "loading", &["depth = \"5 um\" or force"]),
         (|s| s.loading.force = Some("4 N".parse().unwrap()), "loading.force", &["does not go with `depth`"]),
         (
-            |s| s.loading = Loading { depth: None, force: Some("4 N/mm".parse().unwrap()), unload: true },
+            |s| {
+                s.loading =
+                    Loading { depth: None, force: Some("4 N/mm".parse().unwrap()), unload: true, reloads: 0 }
+            },
             "loading.force",
             &["plane strain", "4 N"],
         ),
+        (|s| s.loading.reloads = 1001, "loading.reloads", &["from 0 to 1000", "not 1001"]),
+        (|s| (s.loading.unload, s.loading.reloads) = (false, 2), "loading.reloads", &["unload = true"]),
         (|s| s.tool.radius = um(1.0), "tool.radius", &["does not belong to a plane"]),
         (|s| s.tool.shape = ToolShape::Cone, "tool", &["`slope_deg` of the cone is missing"]),
         (

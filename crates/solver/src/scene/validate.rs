@@ -245,6 +245,14 @@ impl Loading {
     }
 
     fn check(&self) -> Check {
+        if self.reloads > 0 && !self.unload {
+            return Err(error(
+                "reloads",
+                "needs unload = true: a body must be unloaded before it is loaded again",
+            ));
+        }
+        let way_out = "each cycle costs as much as two unloadings";
+        within("reloads", "the number of reloads", self.reloads as f64, 0.0, 1000.0, way_out)?;
         match self.target()? {
             Target::Depth(depth) => positive("depth", "the depth", Length(depth)),
             Target::Force(force) if force > 0.0 && force.is_finite() => Ok(()),
