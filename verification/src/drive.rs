@@ -13,8 +13,11 @@ use asperity_solver::tensor::Sym;
 pub const TIGHT: Settings = Settings { tolerance: 1e-12, max_iterations: 40 };
 
 /// E = 1, ν = 0.3, never yields.
-pub const ELASTIC: Metal =
-    Metal { elastic: Elastic { youngs_modulus: 1.0, poissons_ratio: 0.3 }, hardening: None };
+pub const ELASTIC: Metal = Metal {
+    elastic: Elastic { youngs_modulus: 1.0, poissons_ratio: 0.3 },
+    hardening: None,
+    kinematic_share: 0.0,
+};
 
 /// E = 1, ν = 0.3, eq. [1] with σ_y = `yield_stress` and exponent `exponent`.
 pub fn hollomon(yield_stress: f64, exponent: f64) -> Metal {

@@ -2,7 +2,18 @@
 
 use crate::hardening::{Flow, Hardening};
 use crate::table::HardeningTable;
+use serde::{Deserialize, Serialize};
 use std::sync::Arc;
+
+/// What the yield surface does as metal flows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum HardeningMode {
+    /// It grows: flow against the last direction begins at the stress that the last flow reached.
+    Isotropic,
+    /// It moves and keeps its size: flow against the last direction begins early (Bauschinger).
+    Kinematic,
+}
 
 /// A curve of hardening: a power law, or a table.
 #[derive(Clone, Debug, PartialEq)]

@@ -10,7 +10,7 @@ mod hardening;
 mod table;
 pub mod units;
 
-pub use curve::HardeningCurve;
+pub use curve::{HardeningCurve, HardeningMode};
 pub use curve_file::{CurveFile, CurveFileError};
 pub use elastic::Elastic;
 pub use hardening::{Flow, Hardening, HardeningLaw};

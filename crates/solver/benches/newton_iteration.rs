@@ -5,6 +5,7 @@
 //! element matrix of one plastic point in 365 ns (quadratic) or 271 ns (linear), and faer's supernodal Cholesky.
 #![allow(clippy::print_stdout, reason = "a benchmark prints")]
 
+use asperity_law::HardeningMode;
 use asperity_law::units::{Length, Stress};
 use asperity_solver::crush::run;
 use asperity_solver::element::POINTS;
@@ -28,6 +29,8 @@ fn single_asperity(accuracy: Accuracy, element: ElementChoice) -> Scene {
             hardening_law: HardeningChoice::Hollomon,
             hardening_file: None,
             hardening_table: None,
+            hardening_mode: HardeningMode::Isotropic,
+            kinematic_share: None,
         },
         asperity: vec![Asperity {
             height: Some(Length(20e-6)),

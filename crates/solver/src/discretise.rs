@@ -168,6 +168,7 @@ pub fn prepare(scene: &Scene, mesh: Option<Mesh>) -> Result<Problem, SceneError>
     let metal = Metal {
         elastic: Elastic { youngs_modulus: 1.0, ..elastic },
         hardening: scene.material.hardening().map(|curve| curve.over(modulus)),
+        kinematic_share: scene.material.moving_share(),
     };
     let tool_form = scene.tool.form().map_err(|e| within("tool", e))?;
     let outlines = outlines(scene)?;

@@ -13,6 +13,8 @@ pub struct Metal {
     pub elastic: Elastic,
     /// `None`: the body stays elastic and no return mapping runs.
     pub hardening: Option<HardeningCurve>,
+    /// Share of the hardening that moves the yield surface; the rest makes it grow. 0: isotropic, 1: kinematic.
+    pub kinematic_share: f64,
 }
 
 /// State of a material point.
@@ -27,6 +29,11 @@ pub struct PointState {
 }
 
 impl Metal {
+    /// Whether points need a memory beside their state (see `kinematic`).
+    pub fn has_back_stress(&self) -> bool {
+        self.kinematic_share > 0.0 && self.hardening.is_some()
+    }
+
     /// The stress-free virgin state.
     pub fn virgin(&self) -> PointState {
         let yield_stress = self.hardening.as_ref().map_or(f64::INFINITY, HardeningCurve::yield_stress);

@@ -1,9 +1,7 @@
 //! The path of the tool: adaptive increments down to the peak, back to zero force, and the body left alone.
 
 use crate::contact::EdgeContact;
-use crate::energy::{
-    ContactSums, contact_sums, dissipated, stored, work, work_by_slopes, work_to_separation,
-};
+use crate::energy::{ContactSums, contact_sums, work, work_by_slopes, work_to_separation};
 use crate::folding::fold;
 use crate::model::{Model, ToolStiffness};
 use crate::newton::{Failure, Settings, solve};
@@ -196,14 +194,14 @@ impl<'m> Path<'m> {
         };
         self.slope = slope;
         (self.travel, self.last_step, self.force, self.area) = (travel, step, contact.force, contact.area);
-        let (metal, states, volumes) = (self.model.metal(), self.model.states(), self.model.volumes());
+        let [elastic_energy, plastic_work] = self.model.energies();
         let increment = Increment {
             phase,
             travel,
             contact,
             external_work: self.external_work,
-            elastic_energy: stored(metal, states, volumes),
-            plastic_work: dissipated(metal, states, volumes),
+            elastic_energy,
+            plastic_work,
             newton_iterations: std::mem::take(&mut self.spent),
         };
         if !observer(&self.model, &increment) {
@@ -351,6 +349,9 @@ impl<'m> Path<'m> {
             }
             self.accept(travel, Phase::Unload, observer)?;
             self.way_back.push(travel);
+        }
+        if self.model.metal().has_back_stress() {
+            self.retreat_from_reverse_flow(0.03 * peak_force, steps, observer)?;
         }
         self.model.begin(f64::INFINITY, 0.0, |_| [0.0; 2]);
         self.iterate().map_err(|_| Stop::NoEquilibrium)?;

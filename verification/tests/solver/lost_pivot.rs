@@ -92,6 +92,7 @@ fn a_bar_with_many_necks_is_refused() {
     let metal = Metal {
         elastic: Elastic { youngs_modulus: 1.0, poissons_ratio: 0.3 },
         hardening: Some(hardening.into()),
+        kinematic_share: 0.0,
     };
     let (outcome, lost) = pulled(metal, 40, 0.2);
     assert_eq!(outcome, Err(Failure::Singular));

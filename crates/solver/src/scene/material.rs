@@ -2,7 +2,7 @@
 
 use super::range::{Check, error};
 use asperity_law::units::Stress;
-use asperity_law::{Elastic, Hardening, HardeningCurve, HardeningLaw, HardeningTable};
+use asperity_law::{Elastic, Hardening, HardeningCurve, HardeningLaw, HardeningMode, HardeningTable};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
@@ -21,7 +21,7 @@ pub struct Material {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hardening_exponent: Option<f64>,
     /// Which strain hardens, or that a table says it.
-    #[serde(default)]
+    #[serde(default = "hollomon")]
     pub hardening_law: HardeningChoice,
     /// A file with the table, relative to the scene file; what reads it puts `hardening_table` in its place, so that a
     /// resolved scene depends on no other file.
@@ -30,14 +30,27 @@ pub struct Material {
     /// Accumulated plastic strain and yield stress, point by point from first yield on.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hardening_table: Option<Vec<(f64, Stress)>>,
+    /// Whether the yield surface grows or moves.
+    #[serde(default = "isotropic")]
+    pub hardening_mode: HardeningMode,
+    /// Share of the hardening that moves the yield surface in the kinematic mode, in (0, 1]; absent: all of it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub kinematic_share: Option<f64>,
+}
+
+fn hollomon() -> HardeningChoice {
+    HardeningChoice::Hollomon
+}
+
+fn isotropic() -> HardeningMode {
+    HardeningMode::Isotropic
 }
 
 /// How the curve of hardening is given.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum HardeningChoice {
     /// By eq. [1] in the total strain.
-    #[default]
     Hollomon,
     /// By a power law in the plastic strain.
     Swift,
@@ -76,6 +89,14 @@ impl Material {
         Some(Hardening { law, yield_stress, exponent, youngs_modulus: self.youngs_modulus.0 }.into())
     }
 
+    /// Share of the hardening that moves the yield surface: 0 for isotropic hardening.
+    pub fn moving_share(&self) -> f64 {
+        match self.hardening_mode {
+            HardeningMode::Isotropic => 0.0,
+            HardeningMode::Kinematic => self.kinematic_share.unwrap_or(1.0),
+        }
+    }
+
     /// The points of the table, in Pa.
     fn points(&self) -> Option<Vec<[f64; 2]>> {
         let table = self.hardening_table.as_ref()?;
@@ -101,6 +122,29 @@ impl Material {
                     "must be above -1 and below 0.5, not {nu}: metals have 0.25 to 0.35; for a nearly incompressible body take 0.4999"
                 ),
             ));
+        }
+        if self.hardening_mode == HardeningMode::Kinematic && !self.yields() {
+            return Err(error(
+                "hardening_mode",
+                "needs a metal that yields: give yield_stress and hardening_exponent, or a table, or leave it out",
+            ));
+        }
+        match self.kinematic_share {
+            Some(_) if self.hardening_mode == HardeningMode::Isotropic => {
+                return Err(error(
+                    "kinematic_share",
+                    "needs hardening_mode = \"kinematic\" beside it: add that, or remove it",
+                ));
+            }
+            Some(share) if !(share > 0.0 && share <= 1.0) => {
+                return Err(error(
+                    "kinematic_share",
+                    format!(
+                        "must be above 0 and at most 1, not {share}: for isotropic hardening leave hardening_mode out"
+                    ),
+                ));
+            }
+            _ => {}
         }
         if self.hardening_law == HardeningChoice::Table {
             return self.check_table();

@@ -1,4 +1,5 @@
 use super::*;
+use asperity_law::HardeningMode;
 use asperity_law::units::Stress;
 
 /// The asperity of the paper.
@@ -15,6 +16,8 @@ fn scene() -> Scene {
             hardening_law: HardeningChoice::Hollomon,
             hardening_file: None,
             hardening_table: None,
+            hardening_mode: HardeningMode::Isotropic,
+            kinematic_share: None,
         },
         asperity: vec![cone()],
         substrate: None,
@@ -70,6 +73,7 @@ fn the_ends_of_the_ranges_are_allowed() {
         ("n = 0.99", |s| s.material.hardening_exponent = Some(0.99)),
         ("n = 0", |s| s.material.hardening_exponent = Some(0.0)),
         ("table", |s| table_of(s, &[(0.0, 300e6), (0.1, 450e6), (0.2, 450e6)])),
+        ("kinematic", |s| s.material.hardening_mode = HardeningMode::Kinematic),
         ("table of one point", |s| table_of(s, &[(0.0, 300e6)])),
         ("flat", |s| s.asperity[0].slope_deg = Some(0.1)),
         ("sharp", |s| s.asperity[0].tip_radius = um(0.0)),
@@ -181,6 +185,23 @@ fn what_makes_no_sense_is_refused_with_place_value_and_range() {
             },
             "material.hardening_file",
             &["does not go with `hardening_table`"],
+        ),
+        (
+            |s| {
+                s.material.hardening_mode = HardeningMode::Kinematic;
+                (s.material.yield_stress, s.material.hardening_exponent) = (None, None);
+            },
+            "material.hardening_mode",
+            &["needs a metal that yields"],
+        ),
+        (|s| s.material.kinematic_share = Some(0.5), "material.kinematic_share", &["needs hardening_mode"]),
+        (
+            |s| {
+                s.material.hardening_mode = HardeningMode::Kinematic;
+                s.material.kinematic_share = Some(1.5);
+            },
+            "material.kinematic_share",
+            &["at most 1, not 1.5"],
         ),
         (
             |s| s.material.hardening_file = Some("curve.csv".into()),
