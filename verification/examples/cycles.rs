@@ -40,19 +40,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             scene.material.hardening_mode = HardeningMode::Kinematic;
             scene.material.kinematic_share = share;
         }
-        let start = std::time::Instant::now();
         let outcome = crush(&scene)?;
         print(name, &outcome);
-        let s = &outcome.summary;
-        eprintln!(
-            "{name}: stopped {:?}, energy balance {:.1e}, {} increments, {} iterations, {} cut-backs, {:.1} s",
-            outcome.stopped,
-            s.energy_balance_error,
-            s.increments,
-            s.newton_iterations,
-            s.cutbacks,
-            start.elapsed().as_secs_f64()
-        );
+        let balance = outcome.summary.energy_balance_error;
+        println!("\n{name}: energy balance {balance:.1e}, stopped: {:?}\n", outcome.stopped);
     }
     Ok(())
 }

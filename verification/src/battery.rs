@@ -63,7 +63,7 @@ fn entry(i: usize) -> Result<Entry, toml::de::Error> {
     scene.material.hardening_law = law.into();
     let cone = Asperity { slope_deg: Some(slope), tip_radius: Some(Length(tip)), ..scene.asperity[0] };
     let sphere = Asperity {
-        radius: Some(Length(height)),
+        radius: Some(Length(4.0 * height)),
         height: None,
         slope_deg: None,
         tip_radius: None,

@@ -6,7 +6,7 @@ use crate::resolution::{FIT_FROM, Resolution};
 use asperity_solver::energy::contact_sums;
 use asperity_solver::kinematics::Symmetry;
 use asperity_solver::model::Model;
-use asperity_solver::newton::{Failure, Settings, solve};
+use asperity_solver::newton::{Failure, KEEP, Settings, solve};
 
 /// Share of the last increment that is the first guess of the next.
 const GUESS: f64 = 0.7;
@@ -91,7 +91,7 @@ impl<'m> Path<'m> {
 
     /// Moves the tool to `target`, in one step or, where that does not converge, in shorter ones.
     fn go_to(&mut self, target: f64) -> Result<Point, CaseError> {
-        let settings = Settings { tolerance: self.resolution.tolerance, max_iterations: 30 };
+        let settings = Settings { tolerance: self.resolution.tolerance, max_iterations: 40, keep: KEEP };
         let mut next = target;
         let mut guess = GUESS;
         while self.travel != target {

@@ -1,7 +1,7 @@
 //! The command line.
 
 use asperity_solver::scene::{Accuracy, AccuracyError};
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
 /// Crush rough metal, from one conical asperity to a measured surface.
@@ -20,7 +20,8 @@ const EXAMPLES: &str = "Examples:
   asperity crush single.toml                       curve, summary, fields, pictures, in out/single
   asperity crush single.toml --accuracy draft --set material.hardening_exponent=0.1
   asperity crush single.toml --set \"loading.depth=2 um\" --out out/shallow --json
-  asperity mesh single.toml -o asperity.msh        for Gmsh, CalculiX, ParaView
+  asperity mesh single.toml -o asperity.msh        for Gmsh; .vtu for ParaView
+  asperity mesh single.toml --format inp           the whole scene as a deck for CalculiX and Abaqus
   asperity calibrate                               the representative strain from 480 cones
   asperity trade single.toml                       what accuracy costs on a scene, knob by knob
   asperity rough --table1                          three rough surfaces beside the paper's Table 1
@@ -88,14 +89,39 @@ pub struct Crush {
 pub struct MeshCommand {
     /// Scene file (TOML)
     pub scene: PathBuf,
-    /// File to write: .vtu (ParaView), .msh (Gmsh 4.1) or .inp (CalculiX, Abaqus)
+    /// File to write: .vtu (ParaView), .msh (Gmsh 4.1) or .inp (CalculiX, Abaqus) [default: <scene name>.<format>]
     #[arg(short, long, value_name = "FILE")]
-    pub output: PathBuf,
+    pub output: Option<PathBuf>,
+    /// Format, where the extension of the file does not say
+    #[arg(long, value_enum)]
+    pub format: Option<MeshFormat>,
     #[command(flatten)]
     pub scene_flags: SceneFlags,
     /// Print nothing but errors
     #[arg(long)]
     pub quiet: bool,
+}
+
+/// Formats of `asperity mesh`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum MeshFormat {
+    /// The mesh for ParaView
+    Vtu,
+    /// The mesh for Gmsh 4.1; a scene can read it
+    Msh,
+    /// The whole scene for CalculiX and Abaqus: mesh, metal, tool, contact, steps, output
+    Inp,
+}
+
+impl MeshFormat {
+    /// The extension of its files.
+    pub fn extension(self) -> &'static str {
+        match self {
+            MeshFormat::Vtu => "vtu",
+            MeshFormat::Msh => "msh",
+            MeshFormat::Inp => "inp",
+        }
+    }
 }
 
 /// Flags that change what a file says.

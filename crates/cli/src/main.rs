@@ -4,6 +4,7 @@ mod args;
 mod calibrate;
 mod chart;
 mod crush;
+mod deck;
 mod failure;
 mod folder;
 mod hardening_file;

@@ -48,6 +48,9 @@ pub struct Flow {
     pub slope: f64,
 }
 
+/// Relative change of the last Newton step: quadratic convergence leaves its square, which rounds to nothing.
+const LAST_CHANGE: f64 = 5e-9;
+
 impl Hardening {
     /// Strain at first yield, ε_y = σ_y/E.
     pub fn yield_strain(&self) -> f64 {
@@ -63,9 +66,8 @@ impl Hardening {
         }
     }
 
-    /// The point of the curve at strain measure `e`.
-    fn flow_at(&self, e: f64) -> Flow {
-        let sigma = self.stress(e);
+    /// The point of the curve at strain measure `e`, where the stress is `sigma`.
+    fn flow_at(&self, [e, sigma]: [f64; 2]) -> Flow {
         let slope_e = self.exponent * sigma / e; // dσ/de
         match self.law {
             HardeningLaw::Hollomon => Flow {
@@ -84,7 +86,10 @@ impl Hardening {
     /// Yield stress and slope at accumulated plastic strain `plastic_strain` ≥ 0.
     pub fn flow(&self, plastic_strain: f64) -> Flow {
         let e = match self.law {
-            HardeningLaw::Swift => plastic_strain + self.yield_strain(),
+            HardeningLaw::Swift => {
+                let e = plastic_strain + self.yield_strain();
+                [e, self.stress(e)]
+            }
             // e - σ(e)/E = ε_p: the left side is convex in e with slope ≥ 1 - n at first yield
             HardeningLaw::Hollomon => {
                 self.solve(1.0, -1.0 / self.youngs_modulus, plastic_strain, plastic_strain)
@@ -109,33 +114,34 @@ impl Hardening {
         self.flow_at(self.solve(three_g, c, rhs, old_plastic_strain))
     }
 
-    /// Root e ≥ ε_y of `a e + c σ(e) = rhs`, a monotone function (convex for c < 0, concave for c > 0).
-    fn solve(&self, a: f64, c: f64, rhs: f64, old_plastic_strain: f64) -> f64 {
+    /// Root e ≥ ε_y of `a e + c σ(e) = rhs`, a monotone function (convex for c < 0, concave for c > 0), and σ there.
+    fn solve(&self, a: f64, c: f64, rhs: f64, old_plastic_strain: f64) -> [f64; 2] {
         let (mut low, mut high) = (self.yield_strain(), f64::INFINITY);
         let mut e = low + old_plastic_strain;
+        let mut sigma = self.stress(e);
         for _ in 0..200 {
-            let sigma = self.stress(e);
             let f = a * e + c * sigma - rhs;
             if f > 0.0 {
                 high = e;
             } else {
                 low = e;
             }
-            let next = e - f / (a + c * self.exponent * sigma / e);
-            let next = if next > low && next < high {
-                next
-            } else if high.is_finite() {
-                0.5 * (low + high)
-            } else {
-                low
+            let newton = e - f / (a + c * self.exponent * sigma / e);
+            let inside = newton > low && newton < high;
+            let next = match inside {
+                true => newton,
+                false if high.is_finite() => 0.5 * (low + high),
+                false => low,
             };
-            let done = (next - e).abs() <= 4.0 * f64::EPSILON * e;
+            let change = (next - e) / e;
             e = next;
-            if done {
-                break;
+            if change.abs() <= if inside { LAST_CHANGE } else { 4.0 * f64::EPSILON } {
+                // σ ∝ eⁿ to first order, which is exact to rounding: no power for the last step
+                return [e, sigma * (1.0 + self.exponent * change)];
             }
+            sigma = self.stress(e);
         }
-        e
+        [e, sigma]
     }
 
     /// Plastic work per volume, ∫₀^{ε_p} σ dε_p, at a state of the curve, in the unit of E.

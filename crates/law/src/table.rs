@@ -80,6 +80,11 @@ impl HardeningTable {
         HardeningTable { strain: self.strain.clone(), stress: over(&self.stress), work: over(&self.work) }
     }
 
+    /// Plastic strain and yield stress of each point.
+    pub fn points(&self) -> impl ExactSizeIterator<Item = [f64; 2]> + '_ {
+        self.strain.iter().zip(&self.stress).map(|(strain, stress)| [*strain, *stress])
+    }
+
     /// Stress at first yield.
     pub fn yield_stress(&self) -> f64 {
         self.stress[0]

@@ -16,21 +16,21 @@ pub enum Section {
 /// Numbers a node set has on one line.
 const PER_LINE: usize = 12;
 
-/// Writes the mesh with its coordinates as they are; nodes and elements count from 1.
+/// Writes the mesh with its coordinates as they are, in `unit`; nodes and elements count from 1.
 ///
 /// The elements are the set `BODY`; each side that has edges is a node set and an element surface with its name
 /// in capitals.
 ///
 /// # Errors
 /// A writer that fails.
-pub fn write_inp(mut out: impl Write, mesh: &Mesh, section: Section) -> io::Result<()> {
+pub fn write_inp(mut out: impl Write, mesh: &Mesh, section: Section, unit: &str) -> io::Result<()> {
     let element = match (section, mesh.kind) {
         (Section::Axisymmetric, ElementKind::Quad4) => "CAX4",
         (Section::Axisymmetric, ElementKind::Quad8) => "CAX8R",
         (Section::PlaneStrain, ElementKind::Quad4) => "CPE4",
         (Section::PlaneStrain, ElementKind::Quad8) => "CPE8R",
     };
-    writeln!(out, "** x is the radius (plane strain: the width), y the height; lengths in m")?;
+    writeln!(out, "** x is the radius (plane strain: the width), y the height; lengths in {unit}")?;
     writeln!(out, "*NODE, NSET=ALL")?;
     // a field of CalculiX holds 20 characters: twelve digits fit with sign and exponent
     for (i, [r, z]) in mesh.nodes.iter().enumerate() {
@@ -46,14 +46,17 @@ pub fn write_inp(mut out: impl Write, mesh: &Mesh, section: Section) -> io::Resu
     }
     for (name, edges) in mesh.sides.named() {
         if !edges.is_empty() {
-            write_side(&mut out, mesh, &name.to_uppercase(), edges)?;
+            write_inp_side(&mut out, mesh, &name.to_uppercase(), edges)?;
         }
     }
     Ok(())
 }
 
-/// A node set and a surface with the same name.
-fn write_side(out: &mut impl Write, mesh: &Mesh, name: &str, edges: &[Edge]) -> io::Result<()> {
+/// Writes `edges` as a node set and an element surface with the same name.
+///
+/// # Errors
+/// A writer that fails.
+pub fn write_inp_side(mut out: impl Write, mesh: &Mesh, name: &str, edges: &[Edge]) -> io::Result<()> {
     let nodes: BTreeSet<u32> = edges
         .iter()
         .flat_map(|&edge| {
@@ -91,7 +94,7 @@ mod tests {
             },
         };
         let mut text = Vec::new();
-        write_inp(&mut text, &mesh, Section::Axisymmetric).unwrap();
+        write_inp(&mut text, &mesh, Section::Axisymmetric, "m").unwrap();
         let text = String::from_utf8(text).unwrap();
         for line in [
             "3, 1.00000000000e-6, 2.00000000000e-6, 0.",

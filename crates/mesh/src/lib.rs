@@ -9,7 +9,7 @@ pub mod profile;
 mod quality;
 mod vtu;
 
-pub use inp::{Section, write_inp};
+pub use inp::{Section, write_inp, write_inp_side};
 pub use mesh::{Edge, ElementKind, Mesh, Sides};
 pub use msh::{MshError, read_msh, write_msh};
 pub use quality::Quality;

@@ -17,27 +17,35 @@ pub struct Stiffness {
     size: usize,
 }
 
+/// Numbers of the components of a cell, node by node.
+fn numbers_of(cell: &[u32], dofs: &Dofs) -> Vec<u32> {
+    cell.iter().flat_map(|&node| dofs.number[node as usize]).collect()
+}
+
+/// The lower triangle of a matrix of zeros where elements of `nodes_per_cell` nodes couple unknowns.
+pub fn pattern(cells: &[u32], nodes_per_cell: usize, dofs: &Dofs) -> CsMat<f64> {
+    let mut pattern = TriMat::new((dofs.count, dofs.count));
+    for cell in cells.chunks_exact(nodes_per_cell) {
+        let numbers = numbers_of(cell, dofs);
+        for &col in &numbers {
+            for &row in &numbers {
+                if row != FIXED && col != FIXED && row >= col {
+                    pattern.add_triplet(row as usize, col as usize, 0.0);
+                }
+            }
+        }
+    }
+    pattern.to_csc()
+}
+
 impl Stiffness {
     /// Analyses elements of `nodes_per_cell` nodes.
     pub fn new(cells: &[u32], nodes_per_cell: usize, dofs: &Dofs) -> Stiffness {
         let size = 2 * nodes_per_cell;
-        let numbers =
-            |cell: &[u32]| -> Vec<u32> { cell.iter().flat_map(|&node| dofs.number[node as usize]).collect() };
-        let mut pattern = TriMat::new((dofs.count, dofs.count));
-        for cell in cells.chunks_exact(nodes_per_cell) {
-            let numbers = numbers(cell);
-            for &col in &numbers {
-                for &row in &numbers {
-                    if row != FIXED && col != FIXED && row >= col {
-                        pattern.add_triplet(row as usize, col as usize, 0.0);
-                    }
-                }
-            }
-        }
-        let matrix: CsMat<f64> = pattern.to_csc();
+        let matrix = pattern(cells, nodes_per_cell, dofs);
         let mut places = Vec::with_capacity(cells.len() * size * 2);
         for cell in cells.chunks_exact(nodes_per_cell) {
-            let numbers = numbers(cell);
+            let numbers = numbers_of(cell, dofs);
             for &col in &numbers {
                 for &row in &numbers {
                     let place = if row != FIXED && col != FIXED && row >= col {

@@ -6,7 +6,7 @@ use crate::indentation::{OliverPharr, Peak, oliver_pharr};
 use crate::islands::{extent, gaps, islands};
 use crate::kinematics::Symmetry;
 use crate::model::{Counters, Model, ToolContact};
-use crate::newton::Settings;
+use crate::newton::{KEEP, Settings};
 use crate::record::{AsperityRow, CurveRow, CycleRow, GapRow, IslandRow, Phase, Summary};
 use crate::scene::{ContactMethod, Scene, SceneError, Target};
 use crate::stepping::{Goal, Increment, Path, Stop, schedule};
@@ -105,7 +105,7 @@ pub fn run(
         Some(contact),
     )
     .map_err(|_| CrushError::Mesh)?;
-    let settings = Settings { tolerance: problem.numbers.newton_tolerance, max_iterations: 30 };
+    let settings = Settings { tolerance: problem.numbers.newton_tolerance, max_iterations: 40, keep: KEEP };
     let mut path = Path::new(model, settings, problem.numbers.contact == ContactMethod::Augmented);
     let mut log = Log::new(scene, &problem, path.model.unknowns());
     let goal = match scene.loading.target()? {

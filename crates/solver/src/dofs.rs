@@ -30,4 +30,13 @@ impl Dofs {
             .collect();
         Dofs { number, count: count as usize }
     }
+
+    /// The same components with number i replaced by `new_number[i]`.
+    pub fn renumbered(&self, new_number: &[usize]) -> Dofs {
+        let number = |&i: &u32| if i == FIXED { FIXED } else { new_number[i as usize] as u32 };
+        Dofs {
+            number: self.number.iter().map(|pair| pair.each_ref().map(number)).collect(),
+            count: self.count,
+        }
+    }
 }

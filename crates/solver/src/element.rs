@@ -105,6 +105,7 @@ impl Rows {
 }
 
 /// f_a += w τ : ∇N_a.
+#[inline]
 pub fn add_force(force: &mut [[f64; 8]; 2], rows: &Rows, stress: &Sym, weight: f64) {
     let [rr, zz, tt, rz] = stress.map(|s| s * weight);
     for a in 0..8 {

@@ -37,6 +37,7 @@ pub enum Tangent {
 }
 
 /// Updates a point from the state `old` by f - I = `increment`. `None` if f b fᵀ is not positive definite.
+#[inline]
 pub fn update(
     metal: &Metal,
     old: &PointState,

@@ -52,6 +52,7 @@ pub struct PointMotion<const N: usize> {
 ///
 /// k = ∂Δu/∂x_{n+1} needs only current gradients; f = (I - k)⁻¹ and f - I = f k keep the digits of tiny strains.
 /// `None` where the element is or the increment would turn inside out.
+#[inline]
 pub fn motion<const N: usize>(
     point: &ShapePoint<N>,
     x: &[[f64; 2]; N],

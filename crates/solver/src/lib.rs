@@ -36,6 +36,8 @@ pub mod linear;
 
 pub mod newton;
 
+pub mod secant;
+
 pub mod model;
 
 pub mod energy;

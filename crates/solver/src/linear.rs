@@ -1,10 +1,10 @@
 //! Sparse factorisation by faer: the symbolic analysis once per mesh, numbers in place, nothing allocated per solve.
 
 use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::sparse::linalg::SupernodalThreshold;
 use faer::sparse::linalg::cholesky::{
     CholeskySymbolicParams, LdltRef, LltRef, SymbolicCholesky, SymmetricOrdering, factorize_symbolic_cholesky,
 };
+use faer::sparse::linalg::{SupernodalThreshold, amd};
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Conj, MatMut, Par, Side};
 use sprs::CsMat;
@@ -33,17 +33,33 @@ fn pattern_of<'a>(matrix: &'a CsMat<f64>, columns: &'a [usize]) -> SymbolicSpars
     SymbolicSparseColMatRef::new_checked(matrix.rows(), matrix.cols(), columns, None, matrix.indices())
 }
 
+/// For each row of the lower triangle `matrix`, its place in the order of elimination with the least fill (approximate
+/// minimum degree; measured against nested dissection by coordinates, whose factor is 1.3 to 1.5 times larger here).
+pub fn elimination_order(matrix: &CsMat<f64>) -> Result<Vec<usize>, FactorError> {
+    let columns = matrix.proper_indptr();
+    let pattern = pattern_of(matrix, &columns);
+    let size = matrix.rows();
+    let (mut order, mut place) = (vec![0; size], vec![0; size]);
+    let mut memory = MemBuffer::new(amd::order_maybe_unsorted_scratch::<usize>(size, matrix.nnz()));
+    let control = amd::Control::default();
+    amd::order_maybe_unsorted(&mut order, &mut place, pattern, control, MemStack::new(&mut memory))
+        .map_err(|_| FactorError::Singular)?;
+    Ok(place)
+}
+
 impl Factor {
-    /// Orders (approximate minimum degree) and analyses the lower triangle `matrix`.
+    /// Analyses the lower triangle `matrix`, whose rows stand in the order in which they are to be eliminated.
     pub fn new(matrix: &CsMat<f64>) -> Result<Factor, FactorError> {
-        let columns = matrix.proper_indptr();
-        let pattern = pattern_of(matrix, &columns);
+        // with the order it is given faer's analysis wants the upper triangle, the factorisation the lower
+        let upper = matrix.transpose_view().to_csc();
+        let columns = upper.proper_indptr();
+        let pattern = pattern_of(&upper, &columns);
         let params = CholeskySymbolicParams {
             // measured: the automatic choice takes the simplicial path at 5,000 unknowns and is three times slower
             supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
             ..Default::default()
         };
-        let symbolic = factorize_symbolic_cholesky(pattern, Side::Lower, SymmetricOrdering::Amd, params)
+        let symbolic = factorize_symbolic_cholesky(pattern, Side::Upper, SymmetricOrdering::Identity, params)
             .map_err(|_| FactorError::Singular)?;
         let work = symbolic
             .factorize_numeric_llt_scratch::<f64>(Par::Seq, Default::default())
@@ -51,11 +67,6 @@ impl Factor {
             .or(symbolic.solve_in_place_scratch::<f64>(1, Par::Seq));
         let values = vec![0.0; symbolic.len_val()];
         Ok(Factor { symbolic, values, memory: MemBuffer::new(work), definite: true })
-    }
-
-    /// Numbers in the factor.
-    pub fn fill(&self) -> usize {
-        self.values.len()
     }
 
     /// Cholesky factorisation of a matrix with the analysed pattern.

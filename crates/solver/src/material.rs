@@ -56,7 +56,7 @@ impl Spectral {
     /// Decomposes b - I. `None` where b is not positive definite.
     pub fn of(stretch: &Sym) -> Option<Spectral> {
         let (mean, half) = (0.5 * (stretch[0] + stretch[1]), 0.5 * (stretch[0] - stretch[1]));
-        let radius = half.hypot(stretch[3]);
+        let radius = (half * half + stretch[3] * stretch[3]).sqrt();
         let x = radius / (1.0 + mean);
         let area = stretch[0] + stretch[1] + stretch[0] * stretch[1] - stretch[3] * stretch[3];
         if !(mean > -1.0 && x < 1.0 && stretch[2] > -1.0 && area > -1.0 && radius.is_finite()) {

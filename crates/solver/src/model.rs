@@ -1,15 +1,16 @@
 //! The mechanical system: a body of elements, held sides, and a rigid tool; one increment of it is what Newton solves.
 
-use crate::assemble::Stiffness;
+use crate::assemble::{Stiffness, pattern};
 use crate::contact::{ContactContext, ContactEdge, EdgeContact, NOTHING, Parts};
 use crate::dofs::{Dofs, FIXED};
 use crate::element::{ElementContext, ElementOutput, POINTS};
 use crate::history::{Flowed, carry_factor, carry_on, flow};
 use crate::j2::Tangent;
 use crate::kinematics::{ShapePoint, Symmetry, motion};
-use crate::linear::{Factor, FactorError};
+use crate::linear::{Factor, FactorError, elimination_order};
 use crate::material::{Metal, PointState};
 use crate::newton::{Assessment, Failure, System};
+use crate::secant::Secants;
 use crate::tool::Tool;
 use crate::{quad4, quad8};
 use asperity_mesh::{ElementKind, Mesh};
@@ -39,6 +40,8 @@ const TOLERATED_NEGATIVE_PIVOTS: usize = 2;
 pub struct Counters {
     /// Element loops with tangent.
     pub assemblies: usize,
+    /// Element loops without.
+    pub residuals: usize,
     /// Factorisations.
     pub factorisations: usize,
     /// Seconds in element loops.
@@ -89,9 +92,19 @@ pub struct Model<'m> {
     edge_contact: Vec<EdgeContact>,
     residual: Vec<f64>,
     direction: Vec<f64>,
+    /// Residual where the direction was found, and the share of the direction that was gone since.
+    residual_before: Vec<f64>,
+    fraction: f64,
+    secants: Secants,
+    /// Whether the factors are of the tangent of some iterate of this body.
+    has_factors: bool,
+    /// Whether the stiffness is that of the last assessed iterate.
+    has_tangent: bool,
     internal: Vec<[f64; 2]>,
     keep_contact: bool,
-    tangent: Tangent,
+    /// Whether the last contact loop kept the contact, and whether the one did where the direction was found.
+    kept_contact: bool,
+    base_kept_contact: bool,
     load_scale: f64,
     remeasured_energy: f64,
     /// Whether the increment under way has been accepted.
@@ -118,7 +131,11 @@ impl<'m> Model<'m> {
         for &node in &mesh.cells {
             used[node as usize] = true;
         }
-        let dofs = Dofs::new(nodes, |node| if used[node] { held(node) } else { [true, true] });
+        let held = |node: usize| if used[node] { held(node) } else { [true, true] };
+        let dofs = Dofs::new(nodes, held);
+        // numbered in the order of elimination, the matrix is never permuted again
+        let pattern = pattern(&mesh.cells, mesh.kind.nodes(), &dofs);
+        let dofs = dofs.renumbered(&elimination_order(&pattern).map_err(|_| Failure::Singular)?);
         let stiffness = Stiffness::new(&mesh.cells, mesh.kind.nodes(), &dofs);
         let factor = Factor::new(&stiffness.matrix).map_err(|_| Failure::Singular)?;
         let count = mesh.cell_count() * POINTS;
@@ -163,6 +180,11 @@ impl<'m> Model<'m> {
         Ok(Model {
             residual: vec![0.0; dofs.count],
             direction: vec![0.0; dofs.count],
+            residual_before: vec![0.0; dofs.count],
+            fraction: 0.0,
+            secants: Secants::default(),
+            has_factors: false,
+            has_tangent: false,
             mesh,
             symmetry,
             metal,
@@ -194,7 +216,8 @@ impl<'m> Model<'m> {
             flowing: vec![false; mesh.cell_count()],
             internal: vec![[0.0; 2]; nodes],
             keep_contact: false,
-            tangent: Tangent::Exact,
+            kept_contact: false,
+            base_kept_contact: false,
             load_scale: 0.0,
             remeasured_energy: 0.0,
             settled: true,
@@ -225,7 +248,8 @@ impl<'m> Model<'m> {
         }
         self.keep_contact = self.parts.iter().any(|p| *p != NOTHING);
         self.touching.clone_from(&self.parts);
-        self.tangent = Tangent::Exact;
+        // what follows is no step of the last increment
+        self.fraction = 0.0;
     }
 
     /// Accepts the increment under way: the only place where the state of the body changes.
@@ -310,15 +334,17 @@ impl<'m> Model<'m> {
         self.remeasured_energy
     }
 
-    /// Element loop: internal forces, stiffness, new states at the iterate.
-    fn assemble_elements(&mut self) -> Result<(), Failure> {
+    /// Element loop: internal forces and new states at the iterate, and its stiffness if `tangent` is one.
+    fn assemble_elements(&mut self, tangent: Tangent) -> Result<(), Failure> {
         let clock = std::time::Instant::now();
-        self.stiffness.clear();
+        self.has_tangent = tangent != Tangent::None;
+        if self.has_tangent {
+            self.stiffness.clear();
+        }
         self.residual.fill(0.0);
         self.internal.fill([0.0; 2]);
         let metal = self.metal.clone();
-        let context =
-            ElementContext { symmetry: self.symmetry, metal: &metal, tangent: self.tangent, memory: None };
+        let context = ElementContext { symmetry: self.symmetry, metal: &metal, tangent, memory: None };
         for cell in 0..self.mesh.cell_count() {
             evaluate_cell(self, cell, &context)?;
             self.flowing[cell] = self.output.flowing > 0;
@@ -326,7 +352,9 @@ impl<'m> Model<'m> {
             if let Some(back) = &mut self.back_stress {
                 back.new[cell * POINTS..(cell + 1) * POINTS].copy_from_slice(&self.output.memory);
             }
-            self.stiffness.add(cell, &self.output.stiffness);
+            if self.has_tangent {
+                self.stiffness.add(cell, &self.output.stiffness);
+            }
             for (a, &node) in self.mesh.cell(cell).iter().enumerate() {
                 let f = &mut self.internal[node as usize];
                 f[0] += self.output.force[0][a];
@@ -340,14 +368,16 @@ impl<'m> Model<'m> {
                 }
             }
         }
-        self.counters.assemblies += 1;
+        self.counters.assemblies += usize::from(self.has_tangent);
+        self.counters.residuals += usize::from(!self.has_tangent);
         self.counters.assembly_s += clock.elapsed().as_secs_f64();
         Ok(())
     }
 
-    /// Contact loop; returns whether the set of touching edges changed.
+    /// Contact loop: forces of the touching edges; returns whether their set changed.
     fn assemble_contact(&mut self) -> bool {
         self.edge_contact.clear();
+        self.kept_contact = false;
         let Some(contact) = self.contact.filter(|_| self.tip.is_finite()) else { return false };
         let context = ContactContext {
             tool: &contact.tool,
@@ -364,41 +394,73 @@ impl<'m> Model<'m> {
             changed |= shape_of(&parts) != shape_of(&self.touching[index]);
             self.touching[index] = parts;
             let share = edge.integrate(&context, parts, &x, &multiplier);
-            if parts != NOTHING {
-                for a in 0..edge.node_count() {
-                    let row = self.dofs.number[edge.nodes[a] as usize];
+            self.edge_contact.push(share);
+        }
+        self.add_contact_forces();
+        self.kept_contact = std::mem::take(&mut self.keep_contact);
+        changed || self.kept_contact
+    }
+
+    /// Adds the forces of the last contact loop to the residual.
+    fn add_contact_forces(&mut self) {
+        for (edge, share) in self.edges.iter().zip(&self.edge_contact).filter(|(_, s)| s.parts != NOTHING) {
+            for a in 0..edge.node_count() {
+                let row = self.dofs.number[edge.nodes[a] as usize];
+                for i in 0..2 {
+                    if row[i] != FIXED {
+                        self.residual[row[i] as usize] += share.force[a][i];
+                    }
+                }
+            }
+        }
+    }
+
+    /// Adds the stiffness of the last contact loop to that of the elements.
+    fn add_contact_stiffness(&mut self) {
+        for (edge, share) in self.edges.iter().zip(&self.edge_contact).filter(|(_, s)| s.parts != NOTHING) {
+            for a in 0..edge.node_count() {
+                let row = self.dofs.number[edge.nodes[a] as usize];
+                for b in 0..edge.node_count() {
+                    let col = self.dofs.number[edge.nodes[b] as usize];
                     for i in 0..2 {
-                        if row[i] != FIXED {
-                            self.residual[row[i] as usize] += share.force[a][i];
-                        }
-                        for b in 0..edge.node_count() {
-                            let col = self.dofs.number[edge.nodes[b] as usize];
-                            for j in 0..2 {
-                                self.stiffness.add_entry(row[i], col[j], share.stiffness[a][i][b][j]);
-                            }
+                        for j in 0..2 {
+                            self.stiffness.add_entry(row[i], col[j], share.stiffness[a][i][b][j]);
                         }
                     }
                 }
             }
-            self.edge_contact.push(share);
         }
-        changed || std::mem::take(&mut self.keep_contact)
     }
 
     /// Assembles the iterate; returns whether the contact changed.
-    fn assemble(&mut self) -> Result<bool, Failure> {
-        self.assemble_elements()?;
-        Ok(self.assemble_contact())
+    fn assemble(&mut self, tangent: Tangent) -> Result<bool, Failure> {
+        self.assemble_elements(tangent)?;
+        let changed = self.assemble_contact();
+        if self.has_tangent {
+            self.add_contact_stiffness();
+        }
+        Ok(changed)
+    }
+
+    /// Assembles another tangent at the last assembled iterate, with the same contact.
+    fn assemble_again(&mut self, tangent: Tangent) -> Result<(), Failure> {
+        self.assemble_elements(tangent)?;
+        self.add_contact_forces();
+        self.add_contact_stiffness();
+        Ok(())
     }
 
     /// Factorises the stiffness; a lost pivot is answered as the module documentation of `linear` says.
     fn factorise(&mut self) -> Result<(), Failure> {
         let clock = std::time::Instant::now();
         self.counters.factorisations += 1;
+        self.secants.clear();
+        self.fraction = 0.0;
         let outcome = match self.factor.cholesky(&self.stiffness.matrix) {
             Ok(()) => Ok(()),
             Err(_) => self.factorise_indefinite(),
         };
+        self.has_factors = outcome.is_ok();
         self.counters.factor_s += clock.elapsed().as_secs_f64();
         outcome
     }
@@ -406,26 +468,11 @@ impl<'m> Model<'m> {
     /// A tangent without the compressive geometric term; else LDLᵀ of the exact one if it is nearly definite.
     fn factorise_indefinite(&mut self) -> Result<(), Failure> {
         self.counters.lost_pivots += 1;
-        let kept = self.touching.clone();
-        let residual = self.residual.clone();
-        let again = |model: &mut Self, tangent: Tangent| -> Result<(), Failure> {
-            model.tangent = tangent;
-            let outcome = model.assemble_elements();
-            model.tangent = Tangent::Exact;
-            outcome?;
-            // the same contact, so that only the element tangent differs
-            let parts = std::mem::replace(&mut model.parts, kept.clone());
-            model.keep_contact = true;
-            model.assemble_contact();
-            model.parts = parts;
-            model.residual.copy_from_slice(&residual);
-            Ok(())
-        };
-        again(self, Tangent::WithoutCompression)?;
+        self.assemble_again(Tangent::WithoutCompression)?;
         if self.factor.cholesky(&self.stiffness.matrix).is_ok() {
             return Ok(());
         }
-        again(self, Tangent::Exact)?;
+        self.assemble_again(Tangent::Exact)?;
         match self.factor.ldlt(&self.stiffness.matrix) {
             Ok(negative) if negative <= TOLERATED_NEGATIVE_PIVOTS => Ok(()),
             Ok(_) | Err(FactorError::NotPositive | FactorError::Singular) => Err(Failure::Singular),
@@ -489,8 +536,8 @@ fn evaluate_cell(model: &mut Model<'_>, cell: usize, context: &ElementContext<'_
 }
 
 impl System for Model<'_> {
-    fn assess(&mut self) -> Result<Assessment, Failure> {
-        let changed = self.assemble()?;
+    fn assess(&mut self, tangent: bool) -> Result<Assessment, Failure> {
+        let changed = self.assemble(if tangent { Tangent::Exact } else { Tangent::None })?;
         let residual = self.residual.iter().map(|r| r * r).sum::<f64>().sqrt();
         // forces of the held components and of the tool, and the largest load so far (the load itself goes to 0)
         let mut reaction = 0.0;
@@ -508,14 +555,33 @@ impl System for Model<'_> {
         Ok(Assessment { residual, scale, changed })
     }
 
-    fn find_direction(&mut self) -> Result<(), Failure> {
-        self.factorise()?;
+    fn renew(&mut self) -> Result<(), Failure> {
+        if !self.has_tangent {
+            self.assemble_again(Tangent::Exact)?;
+        }
+        self.factorise()
+    }
+
+    fn has_factors(&self) -> bool {
+        self.has_factors
+    }
+
+    fn forget(&mut self) {
+        self.has_factors = false;
+    }
+
+    fn find_direction(&mut self) {
         let clock = std::time::Instant::now();
+        if self.fraction > 0.0 {
+            self.secants.note(-self.fraction, &self.direction, &self.residual_before, &self.residual);
+        }
+        self.fraction = 0.0;
+        self.residual_before.copy_from_slice(&self.residual);
         self.direction.copy_from_slice(&self.residual);
-        self.factor.solve(&mut self.direction);
+        self.secants.solve(&mut self.direction, |rhs| self.factor.solve(rhs));
         self.base.clone_from(&self.increment);
+        self.base_kept_contact = self.kept_contact;
         self.counters.solve_s += clock.elapsed().as_secs_f64();
-        Ok(())
     }
 
     fn slope(&self) -> f64 {
@@ -523,6 +589,10 @@ impl System for Model<'_> {
     }
 
     fn advance(&mut self, fraction: f64) {
+        self.fraction = fraction;
+        if fraction == 0.0 {
+            self.keep_contact = self.base_kept_contact;
+        }
         for ((du, base), numbers) in self.increment.iter_mut().zip(&self.base).zip(&self.dofs.number) {
             for i in 0..2 {
                 if numbers[i] != FIXED {

@@ -30,13 +30,19 @@ pub struct Assessment {
 
 /// A nonlinear system with a current iterate.
 pub trait System {
-    /// Residual and tangent at the iterate.
-    fn assess(&mut self) -> Result<Assessment, Failure>;
-    /// Solves for the Newton direction at the last assessed iterate.
-    fn find_direction(&mut self) -> Result<(), Failure>;
+    /// Residual at the iterate; with `tangent` also what [`System::renew`] will need there, which is then cheaper.
+    fn assess(&mut self, tangent: bool) -> Result<Assessment, Failure>;
+    /// Factorises the tangent at the last assessed iterate.
+    fn renew(&mut self) -> Result<(), Failure>;
+    /// Whether there are factors of an earlier iterate that are worth a try.
+    fn has_factors(&self) -> bool;
+    /// Drops them.
+    fn forget(&mut self);
+    /// Solves for the direction at the last assessed iterate with the factors at hand.
+    fn find_direction(&mut self);
     /// Derivative of the potential along the direction at the last assessed iterate: residual · direction.
     fn slope(&self) -> f64;
-    /// Moves the iterate by `fraction` of the direction from where the direction was found.
+    /// Moves the iterate by `fraction` of the direction from where the direction was found; 0 goes back there.
     fn advance(&mut self, fraction: f64);
 }
 
@@ -47,6 +53,9 @@ pub struct Settings {
     pub tolerance: f64,
     /// Iterations after which it is given up.
     pub max_iterations: usize,
+    /// Factors are kept while a step leaves at most this share of the residual: an old tangent corrected by secants
+    /// costs a fraction of a new one. 0: a new tangent in every iteration, Newton-Raphson in the strict sense.
+    pub keep: f64,
 }
 
 /// A converged solve.
@@ -58,6 +67,9 @@ pub struct Converged {
     pub history: Vec<f64>,
 }
 
+/// [`Settings::keep`] of the runs of scenes and of calibrated cones: measured, see the table of the benchmark.
+pub const KEEP: f64 = 0.3;
+
 /// An iterate is too far along its direction when the slope of the potential there is this share of the slope at the
 /// start, with the opposite sign.
 const TOLERATED_OVERSHOOT: f64 = 0.6;
@@ -68,42 +80,90 @@ const SMALLEST_FRACTION: f64 = 0.03;
 /// Solves `system`; also returns the iterations spent when it fails.
 ///
 /// 1. assess; converged when residual ≤ tolerance × scale and nothing discrete changed;
-/// 2. find the direction;
-/// 3. full step, shortened by regula falsi on the slope of the potential while it overshoots, halved while the
-///    iterate fails. Not after the first iteration, in which the system may still be a simplified one.
+/// 2. factorise the tangent, unless the last step did well enough without (see [`Settings::keep`]); find the direction;
+/// 3. with a new tangent: full step, shortened by regula falsi on the slope of the potential while it overshoots, halved
+///    while the iterate fails. Not after the first iteration, in which the system may still be a simplified one;
+/// 4. with a kept one: full step. If it overshoots or leaves a larger residual it is taken back, and from there on every
+///    iteration has a new tangent, so that hard increments are solved by Newton-Raphson in the strict sense.
 pub fn solve(system: &mut impl System, settings: &Settings) -> Result<Converged, (Failure, usize)> {
-    let mut last = system.assess().map_err(|f| (f, 0))?;
+    let outcome = iterate(system, settings);
+    if outcome.is_err() {
+        // factors of a lost iterate
+        system.forget();
+    }
+    outcome
+}
+
+fn iterate(system: &mut impl System, settings: &Settings) -> Result<Converged, (Failure, usize)> {
+    let mut keep = settings.keep;
+    let mut renew = keep == 0.0 || !system.has_factors();
+    let mut last = system.assess(renew).map_err(|f| (f, 0))?;
     let mut history = vec![last.residual / last.scale];
     for iteration in 1..=settings.max_iterations {
         if !last.residual.is_finite() {
             return Err((Failure::NotFinite, iteration));
         }
-        system.find_direction().map_err(|f| (f, iteration))?;
-        let start = system.slope();
-        let mut fraction = 1.0;
-        last = loop {
-            system.advance(fraction);
-            let outcome = system.assess();
-            let shorter = match &outcome {
-                Ok(_) if iteration == 1 => None,
-                Ok(next) if next.residual.is_finite() => {
-                    let end = system.slope();
-                    let overshoots = start < 0.0 && end > -TOLERATED_OVERSHOOT * start;
-                    overshoots.then(|| (start / (start - end)).clamp(0.1, 0.7))
+        let step = if renew {
+            system.renew().map_err(|f| (f, iteration))?;
+            search(system, iteration > 1, keep == 0.0)
+        } else {
+            match try_whole(system, iteration > 1, last.residual) {
+                Some(step) => Ok(step),
+                None => {
+                    keep = 0.0;
+                    system.advance(0.0);
+                    system.assess(true).and_then(|_| system.renew()).map_err(|f| (f, iteration))?;
+                    search(system, iteration > 1, true)
                 }
-                _ => Some(0.5),
-            };
-            match shorter {
-                Some(factor) if fraction * factor > SMALLEST_FRACTION => fraction *= factor,
-                _ => break outcome.map_err(|f| (f, iteration))?,
             }
         };
+        let before = last.residual;
+        last = step.map_err(|f| (f, iteration))?;
         history.push(last.residual / last.scale);
         if last.residual <= settings.tolerance * last.scale && !last.changed {
             return Ok(Converged { iterations: iteration, history });
         }
+        renew = keep == 0.0 || last.residual > keep * before;
     }
     Err((Failure::NotConverged, settings.max_iterations))
+}
+
+/// Share of the step at which the potential would be least, if the step goes too far beyond it. `start` and `end` are
+/// the slopes of the potential at its ends.
+fn overshoot(start: f64, end: f64) -> Option<f64> {
+    (start < 0.0 && end > -TOLERATED_OVERSHOOT * start).then(|| start / (start - end))
+}
+
+/// A step along the direction of a new tangent, as long as the line search finds good (`searched`), else whole.
+fn search(system: &mut impl System, searched: bool, tangent: bool) -> Result<Assessment, Failure> {
+    system.find_direction();
+    let start = system.slope();
+    let mut fraction = 1.0;
+    loop {
+        system.advance(fraction);
+        let outcome = system.assess(tangent);
+        let shorter = match &outcome {
+            Ok(_) if !searched => None,
+            Ok(next) if next.residual.is_finite() => {
+                overshoot(start, system.slope()).map(|share| share.clamp(0.1, 0.7))
+            }
+            _ => Some(0.5),
+        };
+        match shorter {
+            Some(factor) if fraction * factor > SMALLEST_FRACTION => fraction *= factor,
+            _ => return outcome,
+        }
+    }
+}
+
+/// The whole step along the direction of kept factors; `None` if a new tangent is needed.
+fn try_whole(system: &mut impl System, searched: bool, before: f64) -> Option<Assessment> {
+    system.find_direction();
+    let start = system.slope();
+    system.advance(1.0);
+    let next = system.assess(false).ok()?;
+    let good = next.residual <= before && !(searched && overshoot(start, system.slope()).is_some());
+    good.then_some(next)
 }
 
 #[cfg(test)]
@@ -116,10 +176,11 @@ mod tests {
         base: f64,
         direction: f64,
         branch: bool,
+        tangent: Option<f64>,
     }
 
     impl System for Root {
-        fn assess(&mut self) -> Result<Assessment, Failure> {
+        fn assess(&mut self, _: bool) -> Result<Assessment, Failure> {
             let branch = self.x < 1.5;
             let changed = branch != self.branch;
             self.branch = branch;
@@ -128,10 +189,19 @@ mod tests {
             }
             Ok(Assessment { residual: (self.x * self.x - 2.0).abs(), scale: 1.0, changed })
         }
-        fn find_direction(&mut self) -> Result<(), Failure> {
-            self.base = self.x;
-            self.direction = -(self.x * self.x - 2.0) / (2.0 * self.x);
+        fn renew(&mut self) -> Result<(), Failure> {
+            self.tangent = Some(2.0 * self.x);
             Ok(())
+        }
+        fn has_factors(&self) -> bool {
+            self.tangent.is_some()
+        }
+        fn forget(&mut self) {
+            self.tangent = None;
+        }
+        fn find_direction(&mut self) {
+            self.base = self.x;
+            self.direction = -(self.x * self.x - 2.0) / self.tangent.unwrap();
         }
         fn slope(&self) -> f64 {
             (self.x * self.x - 2.0) * self.direction
@@ -143,12 +213,21 @@ mod tests {
 
     #[test]
     fn converges_quadratically_and_backs_off_from_failing_iterates() {
-        let settings = Settings { tolerance: 1e-14, max_iterations: 20 };
+        let settings = Settings { tolerance: 1e-14, max_iterations: 20, keep: 0.0 };
         for start in [3.0, 0.1] {
-            let mut root = Root { x: start, base: 0.0, direction: 0.0, branch: false };
+            let mut root = Root { x: start, base: 0.0, direction: 0.0, branch: false, tangent: None };
             let done = solve(&mut root, &settings).unwrap();
             assert!((root.x - 2f64.sqrt()).abs() < 1e-14);
             assert!(done.iterations < 9);
         }
+    }
+
+    #[test]
+    fn a_kept_tangent_takes_more_iterations_to_the_same_root_and_a_lost_one_is_forgotten() {
+        let mut root = Root { x: 3.0, base: 0.0, direction: 0.0, branch: false, tangent: Some(4.5) };
+        let done = solve(&mut root, &Settings { tolerance: 1e-14, max_iterations: 60, keep: 0.7 }).unwrap();
+        assert!((root.x - 2f64.sqrt()).abs() < 1e-14 && done.iterations > 7);
+        assert!(solve(&mut root, &Settings { tolerance: -1.0, max_iterations: 3, keep: 0.7 }).is_err());
+        assert!(!root.has_factors());
     }
 }

@@ -21,6 +21,9 @@ const MAX_AREA_GROWTH: f64 = 2.5;
 /// iterations, 1 saves less because it overshoots where the contact front moves from element to element.
 const GUESS: f64 = 0.7;
 
+/// Relative residual of the increments that home in on a goal, which the depth then follows to 1e-9.
+const HOMING_TOLERANCE: f64 = 1e-8;
+
 /// One converged increment, dimensionless.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Increment {
@@ -304,6 +307,8 @@ impl<'m> Path<'m> {
             Goal::Force { force, .. } => (self.travel, (self.force.max(0.0) / force).sqrt() - 1.0),
         };
         let (mut t1, mut m1) = (travel, miss(travel, &sums));
+        let settings = self.settings;
+        self.settings.tolerance = settings.tolerance.min(HOMING_TOLERANCE);
         for _ in 0..12 {
             if m1.abs() <= 1e-9 {
                 break;
@@ -313,12 +318,14 @@ impl<'m> Path<'m> {
                 _ => t1 - m1 * (t1 - t0) / (m1 - m0),
             };
             (t0, m0) = (t1, m1);
-            let sums = self
-                .attempt(next, true, GUESS)
-                .or_else(|_| self.attempt(next, true, 0.0))
-                .map_err(|_| Stop::NoEquilibrium)?;
+            let sums = self.attempt(next, true, GUESS).or_else(|_| self.attempt(next, true, 0.0));
+            let Ok(sums) = sums else {
+                self.settings = settings;
+                return Err(Stop::NoEquilibrium);
+            };
             (t1, m1) = (next, miss(next, &sums));
         }
+        self.settings = settings;
         Ok(t1)
     }
 

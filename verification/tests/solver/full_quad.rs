@@ -104,7 +104,7 @@ impl<'m> FullQuad<'m> {
 }
 
 impl System for FullQuad<'_> {
-    fn assess(&mut self) -> Result<Assessment, Failure> {
+    fn assess(&mut self, _: bool) -> Result<Assessment, Failure> {
         self.stiffness.clear();
         self.internal.fill([0.0; 2]);
         for cell in 0..self.mesh.cell_count() {
@@ -123,12 +123,20 @@ impl System for FullQuad<'_> {
         Ok(Assessment { residual, scale: scale.sqrt(), changed: false })
     }
 
-    fn find_direction(&mut self) -> Result<(), Failure> {
-        self.factor.cholesky(&self.stiffness.matrix).map_err(|_| Failure::Singular)?;
+    fn renew(&mut self) -> Result<(), Failure> {
+        self.factor.cholesky(&self.stiffness.matrix).map_err(|_| Failure::Singular)
+    }
+
+    fn has_factors(&self) -> bool {
+        false
+    }
+
+    fn forget(&mut self) {}
+
+    fn find_direction(&mut self) {
         self.direction.copy_from_slice(&self.residual);
         self.factor.solve(&mut self.direction);
         self.base.clone_from(&self.increment);
-        Ok(())
     }
 
     fn slope(&self) -> f64 {

@@ -56,7 +56,7 @@ fn pulled(metal: Metal, elements: usize, strain: f64) -> (Result<(), Failure>, u
     nodes_of(&mesh, &mesh.sides.axis).iter().for_each(|&n| held[n][0] = true);
     let mut bar: Model<'_> = model(&mesh, Symmetry::Axisymmetric, metal, &held, None).unwrap();
     let mut last = 0.0_f64;
-    let loose = Settings { tolerance: 1e-8, max_iterations: 30 };
+    let loose = Settings { tolerance: 1e-8, max_iterations: 30, keep: 0.0 };
     for step in 1..=10 {
         let now = strain * f64::from(step) / 10.0;
         let x = bar.positions().to_vec();
@@ -66,7 +66,7 @@ fn pulled(metal: Metal, elements: usize, strain: f64) -> (Result<(), Failure>, u
         };
         if step == 10 {
             bar.begin(f64::INFINITY, 0.0, guess);
-            let outcome = bar.assess().and_then(|_| bar.find_direction());
+            let outcome = bar.assess(true).and_then(|_| bar.renew());
             return (outcome, bar.counters.lost_pivots);
         }
         if let Err(failure) = increment(&mut bar, f64::INFINITY, &loose, guess) {

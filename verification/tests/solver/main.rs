@@ -10,6 +10,7 @@ mod elastic_indentation;
 mod energy_balance;
 mod flattened_sphere;
 mod full_quad;
+mod hysteresis_of_reloads;
 mod kinematic_hardening;
 mod lost_pivot;
 mod newton_order;

@@ -22,8 +22,8 @@ struct Watched<'w, 'm> {
 }
 
 impl System for Watched<'_, '_> {
-    fn assess(&mut self) -> Result<Assessment, Failure> {
-        let assessment = self.model.assess()?;
+    fn assess(&mut self, tangent: bool) -> Result<Assessment, Failure> {
+        let assessment = self.model.assess(tangent)?;
         let touching = |parts: &Parts| parts.map(|p| p.is_some());
         self.seen.push((
             assessment.residual / assessment.scale,
@@ -32,7 +32,16 @@ impl System for Watched<'_, '_> {
         ));
         Ok(assessment)
     }
-    fn find_direction(&mut self) -> Result<(), Failure> {
+    fn renew(&mut self) -> Result<(), Failure> {
+        self.model.renew()
+    }
+    fn has_factors(&self) -> bool {
+        self.model.has_factors()
+    }
+    fn forget(&mut self) {
+        self.model.forget()
+    }
+    fn find_direction(&mut self) {
         self.model.find_direction()
     }
     fn slope(&self) -> f64 {
@@ -61,7 +70,7 @@ fn quadratic_where_the_discrete_sets_rest() {
     let mut model =
         Model::new(&problem.mesh, problem.symmetry, problem.metal, |n| problem.held[n], Some(contact))
             .unwrap();
-    let settings = Settings { tolerance: 1e-13, max_iterations: 40 };
+    let settings = Settings { tolerance: 1e-13, max_iterations: 40, keep: 0.0 };
     let mut orders = Vec::new();
     let mut last = [0.0; 2];
     for travel in schedule(64, 0.02) {

@@ -19,7 +19,7 @@ use asperity_verification::drive::{hollomon, model, reaction, travel};
 use std::f64::consts::PI;
 
 const YIELD: f64 = 1.0 / 2e6;
-const SETTINGS: Settings = Settings { tolerance: 1e-6, max_iterations: 40 };
+const SETTINGS: Settings = Settings { tolerance: 1e-6, max_iterations: 40, keep: 0.0 };
 /// Depths over σ_y/E times the punch radius: fine around first yield, coarse on the plateau.
 const DEPTHS: [f64; 12] = [1.0, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 18.0, 26.0, 36.0, 48.0, 60.0];
 

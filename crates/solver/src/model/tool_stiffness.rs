@@ -2,7 +2,7 @@
 
 use super::Model;
 use crate::j2::Tangent;
-use crate::newton::Failure;
+use crate::newton::{Failure, System};
 
 /// Growth of the force with the advance of the tool.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,10 +17,7 @@ impl Model<'_> {
     /// dF/dh at the converged state with every point elastic and the contact kept.
     pub fn unloading_stiffness(&mut self) -> Result<ToolStiffness, Failure> {
         self.begin(self.tip, 0.0, |_| [0.0; 2]);
-        self.tangent = Tangent::Elastic;
-        let assembled = self.assemble();
-        self.tangent = Tangent::Exact;
-        assembled?;
+        self.assemble(Tangent::Elastic)?;
         self.tool_stiffness()
     }
 
@@ -28,7 +25,7 @@ impl Model<'_> {
     ///
     /// With v = ∂F/∂u and c = ∂F/∂travel at fixed u: K_t = c - v K⁻¹ v, of which ∫ε δd² dA is spent in the penalty.
     pub fn tool_stiffness(&mut self) -> Result<ToolStiffness, Failure> {
-        self.factorise()?;
+        self.renew()?;
         let mut v = vec![0.0; self.dofs.count];
         let mut c = 0.0;
         for (edge, contact) in self.edges.iter().zip(&self.edge_contact) {

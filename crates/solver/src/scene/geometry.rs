@@ -23,10 +23,17 @@ pub struct Asperity {
     /// Flat distance between its outer foot and the next asperity; absent: 0.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub spacing: Option<Length>,
-    /// Radius of a spherical (cylindrical) asperity, half a ball standing on the base plane; excludes the keys above but `spacing`.
+    /// Radius of a spherical (cylindrical) asperity; excludes the keys above but `height` and `spacing`. Its height is
+    /// a quarter of the radius if absent, and half the radius at most: the foot of half a ball is vertical.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub radius: Option<Length>,
 }
+
+/// Height over radius of a spherical asperity whose height is not given: its foot is 41 degrees steep.
+pub const CAP_HEIGHT: f64 = 0.25;
+
+/// The greatest height over radius: a foot of 60 degrees.
+pub const HIGHEST_CAP: f64 = 0.5;
 
 /// The shape of an asperity, complete. Lengths in metres.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,10 +49,12 @@ pub enum AsperityForm {
         /// Fillet radius at the outer foot, m; 0: sharp.
         valley_radius: f64,
     },
-    /// A half ball (half cylinder in plane strain).
+    /// A cap of a ball (of a cylinder in plane strain).
     Sphere {
-        /// Radius and height, m.
+        /// Radius of the ball, m.
         radius: f64,
+        /// Base plane to summit, m.
+        height: f64,
     },
 }
 
@@ -53,8 +62,7 @@ impl AsperityForm {
     /// Base plane to summit, m.
     pub fn height(&self) -> f64 {
         match *self {
-            AsperityForm::Cone { height, .. } => height,
-            AsperityForm::Sphere { radius } => radius,
+            AsperityForm::Cone { height, .. } | AsperityForm::Sphere { height, .. } => height,
         }
     }
 
@@ -65,7 +73,7 @@ impl AsperityForm {
             AsperityForm::Cone { height, slope, tip_radius, .. } => {
                 (height + tip_radius * (slope.cos().recip() - 1.0)) / slope.tan()
             }
-            AsperityForm::Sphere { radius } => radius,
+            AsperityForm::Sphere { radius, height } => (height * (2.0 * radius - height)).sqrt(),
         }
     }
 }
@@ -141,7 +149,6 @@ impl Asperity {
         let error = |path: &str, message: &str| SceneError { path: path.into(), message: message.into() };
         if let Some(radius) = self.radius {
             let others = [
-                ("height", self.height.is_some()),
                 ("slope_deg", self.slope_deg.is_some()),
                 ("tip_radius", self.tip_radius.is_some()),
                 ("valley_radius", self.valley_radius.is_some()),
@@ -149,9 +156,12 @@ impl Asperity {
             return match others.iter().find(|(_, given)| *given) {
                 Some((key, _)) => Err(error(
                     key,
-                    "does not go with `radius`, which alone makes a spherical asperity: remove one of the two",
+                    "does not go with `radius`, which makes a spherical asperity: remove one of the two",
                 )),
-                None => Ok(AsperityForm::Sphere { radius: radius.0 }),
+                None => Ok(AsperityForm::Sphere {
+                    radius: radius.0,
+                    height: self.height.map_or(CAP_HEIGHT * radius.0, |h| h.0),
+                }),
             };
         }
         let missing = |key: &str, example: &str| {

@@ -85,6 +85,9 @@ fn the_ends_of_the_ranges_are_allowed() {
                 Loading { depth: None, force: Some("4 N".parse().unwrap()), unload: false, reloads: 0 }
         }),
         ("ball", |s| s.asperity[0] = ball(50e-6)),
+        ("high cap", |s| {
+            s.asperity[0] = Asperity { height: um(25.0), ..ball(50e-6) };
+        }),
         ("cone on a flat", |s| {
             s.asperity.clear();
             s.tool = Tool { shape: ToolShape::Cone, slope_deg: Some(19.7), tip_radius: None, radius: None };
@@ -224,8 +227,13 @@ fn what_makes_no_sense_is_refused_with_place_value_and_range() {
             &["at most 648.2", "700 um"],
         ),
         (|s| s.asperity[0].spacing = um(-5.0), "asperity[0].spacing", &["at least 0"]),
-        (|s| s.asperity[0].radius = um(5.0), "asperity[0].height", &["does not go with `radius`"]),
+        (|s| s.asperity[0].radius = um(5.0), "asperity[0].slope_deg", &["does not go with `radius`"]),
         (|s| s.asperity.push(ball(0.0)), "asperity[1].radius", &["above 0"]),
+        (
+            |s| s.asperity[0] = Asperity { height: um(26.0), ..ball(50e-6) },
+            "asperity[0].height",
+            &["at most 25 um", "not 26 um"],
+        ),
         (|s| s.asperity.clear(), "asperity", &["at least one [[asperity]]"]),
         (|s| s.loading.depth = um(500.0), "loading.depth", &["at most 20 um", "not 500 um"]),
         (|s| s.loading.depth = um(0.0), "loading.depth", &["above 0"]),

@@ -1,5 +1,6 @@
 //! Which scenes make sense.
 
+use super::geometry::HIGHEST_CAP;
 use super::range::{Check, error, length, not_negative, positive, slope, within};
 use super::{
     Asperity, AsperityForm, Lateral, Loading, Numerics, Scene, SceneError, Substrate, Symmetry, Target, Tool,
@@ -169,11 +170,23 @@ impl Asperity {
     fn check(&self) -> Check {
         let form = self.form()?;
         not_negative("spacing", "the spacing", self.spacing)?;
-        if let Some(radius) = self.radius {
-            return positive("radius", "the radius", radius);
-        }
         if let Some(height) = self.height {
             positive("height", "the height", height)?;
+        }
+        if let Some(radius) = self.radius {
+            positive("radius", "the radius", radius)?;
+            let most = HIGHEST_CAP * radius.0;
+            return match self.height {
+                Some(height) if height.0 > most * (1.0 + 1e-12) => Err(error(
+                    "height",
+                    format!(
+                        "must be at most {}, half the radius, as a mesh cannot follow a steeper foot, not {}: lower it, or leave it out for a quarter of the radius",
+                        length(most),
+                        length(height.0)
+                    ),
+                )),
+                _ => Ok(()),
+            };
         }
         slope("slope_deg", self.slope_deg)?;
         not_negative("tip_radius", "the tip radius", self.tip_radius)?;
