@@ -16,6 +16,7 @@ pub mod calibration;
 
 pub mod battery;
 pub mod bodies;
+pub mod random_scenes;
 pub mod single_asperity;
 
 pub mod drive;

@@ -1,0 +1,86 @@
+//! Crushes scenes drawn at random with the program itself and tells how they ended.
+//!
+//! `cargo build --release && cargo run --release -p asperity-verification --example random_scenes -- [COUNT] [SEED]`
+//! (10000 scenes of seed 1 unless told). A scene that ends as it must not, or whose energy
+//! balances poorly, is left in `out/random-scenes` to be run again.
+#![allow(clippy::print_stdout, reason = "the table is the point")]
+
+use asperity_verification::random_scenes::{Drawn, End, Kind, crush, draw, reason};
+use rayon::prelude::*;
+use std::collections::BTreeMap;
+use std::error::Error;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+/// Longer than the slowest draft scene by far: what is still running then hangs.
+const LIMIT: Duration = Duration::from_secs(600);
+
+/// Scenes whose energy balances worse than this are left to be looked at.
+const POOR_BALANCE: f64 = 0.1;
+
+/// `target/release/asperity`, beside the folder of this example.
+fn program() -> Result<PathBuf, Box<dyn Error>> {
+    let own = std::env::current_exe()?;
+    let folder = own.ancestors().nth(2).ok_or("the example stands in no build folder")?;
+    let program = folder.join("asperity");
+    if program.exists() { Ok(program) } else { Err("build the program first: cargo build --release".into()) }
+}
+
+fn run(program: &Path, kept: &Path, index: usize, drawn: &Drawn) -> Result<End, std::io::Error> {
+    let place = kept.join(format!("{index:05}"));
+    std::fs::create_dir_all(&place)?;
+    let end = crush(program, drawn, &place, LIMIT);
+    let kept = match &end {
+        End::Fault(_) => true,
+        End::Done(balance) => *balance > POOR_BALANCE,
+        End::Stopped(_) | End::Refused => false,
+    };
+    if !kept {
+        std::fs::remove_dir_all(&place)?;
+    }
+    Ok(end)
+}
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let mut args = std::env::args().skip(1);
+    let count: usize = args.next().map_or(Ok(10_000), |a| a.parse())?;
+    let seed: u64 = args.next().map_or(Ok(1), |a| a.parse())?;
+    let (program, kept) = (program()?, PathBuf::from("out/random-scenes"));
+    let scenes = draw(count, seed)?;
+    let ends: Vec<(usize, End)> = scenes
+        .par_iter()
+        .enumerate()
+        .map(|(i, drawn)| run(&program, &kept, i, drawn).map(|end| (i, end)))
+        .collect::<Result<_, _>>()?;
+
+    let sound = scenes.iter().filter(|s| s.kind == Kind::Sound).count();
+    let mut balances: Vec<f64> = Vec::new();
+    let (mut stopped, mut faults) = (BTreeMap::<String, usize>::new(), Vec::new());
+    let (mut done, mut refused) = (0, 0);
+    for (i, end) in &ends {
+        match end {
+            End::Done(balance) => {
+                balances.push(*balance);
+                done += usize::from(scenes[*i].kind == Kind::Sound);
+            }
+            End::Stopped(message) => *stopped.entry(reason(message)).or_default() += 1,
+            End::Refused => refused += 1,
+            End::Fault(what) => faults.push(format!("scene {i}: {what}")),
+        }
+    }
+    println!(
+        "{count} scenes of seed {seed}: {sound} sound, of which {done} reached their depth ({:.1} %); {refused} refused;",
+        100.0 * done as f64 / sound.max(1) as f64
+    );
+    println!("{} ended as they must not.\n", faults.len());
+    println!("| stopped because | scenes |\n|-|-|");
+    stopped.iter().for_each(|(reason, scenes)| println!("| {reason} | {scenes} |"));
+    println!("\n| energy balance | scenes |\n|-|-|");
+    let edges = [0.0, 1e-3, 3e-3, 1e-2, 3e-2, 1e-1, f64::INFINITY];
+    for pair in edges.windows(2) {
+        let within = balances.iter().filter(|b| (pair[0]..pair[1]).contains(b)).count();
+        println!("| {:.0e} to {:.0e} | {within} |", pair[0], pair[1]);
+    }
+    faults.iter().for_each(|fault| println!("\n{fault}"));
+    if faults.is_empty() { Ok(()) } else { Err("see the scenes in out/random-scenes".into()) }
+}
