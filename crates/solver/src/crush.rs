@@ -1,5 +1,6 @@
 //! One crush from a scene to its records: the entry point of the solver.
 
+use crate::curve::Curve;
 use crate::discretise::{Problem, mirror, prepare};
 use crate::fields::{Fields, SurfacePoint, fields};
 use crate::indentation::{OliverPharr, Peak, oliver_pharr};
@@ -482,6 +483,7 @@ impl<'p> Log<'p> {
                 peak.force / u.force,
                 peak.depth / u.length,
                 self.automatic,
+                Curve::force(&self.rows).steepness(),
             ),
             elements: self.problem.mesh.cell_count(),
             dofs: self.unknowns,

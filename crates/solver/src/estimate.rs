@@ -7,6 +7,9 @@
 //!   Perfect plasticity ripples 2.5 times more;
 //! * substrate of automatic size L: the missing compliance below a held base, δ ≈ F/(2E* L), moves the force by 2δ/h;
 //! * penalty: what is left of the penetration after its correction.
+//!
+//! Each is an error of the depth as much as of the force: where the force grows faster than the h² of a cone, the sum
+//! grows with the exponent (an asperity that vanishes into its base, F ∝ h⁸ and more).
 
 use crate::discretise::{Discretisation, Problem, automatic_size};
 use crate::kinematics::Symmetry;
@@ -22,9 +25,13 @@ const MESH: f64 = 0.09;
 /// Constant of the penalty.
 const PENALTY: f64 = 0.3;
 
-/// Estimated error of the force; `force` and `depth` are those of the peak, dimensionless, and `automatic` says
-/// whether the substrate was sized by the program (else it is part of the scene and no error).
-pub fn force_error(problem: &Problem, force: f64, depth: f64, automatic: bool) -> f64 {
+/// The exponent of F(h) for which the constants were measured.
+const CONE: f64 = 2.0;
+
+/// Estimated error of the force; `force` and `depth` are those of the peak, dimensionless, `automatic` says whether the
+/// substrate was sized by the program (else it is part of the scene and no error), and `steepness` is the largest
+/// exponent of F(h), see [`crate::curve::Curve::steepness`].
+pub fn force_error(problem: &Problem, force: f64, depth: f64, automatic: bool, steepness: f64) -> f64 {
     let numbers = &problem.numbers;
     let hardening = problem.metal.hardening.as_ref();
     let step = hardening.map_or(0.0, |_| STEP * largest_step(numbers).powi(2));
@@ -41,7 +48,7 @@ pub fn force_error(problem: &Problem, force: f64, depth: f64, automatic: bool) -
         0.0
     };
     let penalty = if numbers.contact == ContactMethod::Penalty { PENALTY * numbers.penetration } else { 0.0 };
-    step + mesh + domain + penalty
+    (step + mesh + domain + penalty) * (steepness / CONE).max(1.0)
 }
 
 /// Largest ln(h_{i+1}/h_i) from 0.2 of the peak on.

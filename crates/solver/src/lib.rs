@@ -36,6 +36,8 @@ pub mod linear;
 
 pub mod newton;
 
+pub mod floor;
+
 pub mod secant;
 
 pub mod model;

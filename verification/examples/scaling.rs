@@ -1,0 +1,118 @@
+//! How one Newton iteration, its memory and a whole loading grow with the number of unknowns, on the single asperity.
+//!
+//! `cargo run --release -p asperity-verification --example scaling` prints the table and the exponents. Each mesh runs in
+//! a process of its own, so that its peak memory is its own.
+#![allow(clippy::print_stdout, reason = "the table is the point")]
+
+use asperity_solver::discretise::prepare;
+use asperity_solver::model::{Model, ToolContact};
+use asperity_solver::newton::{KEEP, Settings, System, solve};
+use asperity_solver::scene::Accuracy;
+use asperity_verification::single_asperity::scene;
+use std::error::Error;
+use std::process::Command;
+use std::time::Instant;
+
+/// Elements across the contact, for 3,000 to 300,000 unknowns.
+const ELEMENTS: [usize; 7] = [20, 32, 48, 72, 108, 160, 225];
+
+/// Load steps of the whole loading.
+const STEPS: usize = 8;
+
+/// Peak resident memory of this process, MB.
+fn peak_memory() -> Option<f64> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find(|l| l.starts_with("VmHWM:"))?;
+    line.split_whitespace().nth(1)?.parse::<f64>().ok().map(|kilobytes| kilobytes / 1024.0)
+}
+
+/// Prints unknowns, seconds of assembly, factorisation and solution of one iteration at the peak, seconds and iterations
+/// of the whole loading, and memory, separated by blanks.
+fn one(elements: usize) -> Result<(), Box<dyn Error>> {
+    let mut scene = scene(Accuracy::Reference)?;
+    scene.numerics.elements_in_contact = Some(elements);
+    let problem = prepare(&scene, None)?;
+    let contact = ToolContact { tool: problem.tool, penalty: problem.penalty };
+    let mut model =
+        Model::new(&problem.mesh, problem.symmetry, problem.metal, |n| problem.held[n], Some(contact))?;
+    let settings = Settings { tolerance: 1e-5, max_iterations: 60, keep: KEEP };
+    let clock = Instant::now();
+    let mut iterations = 0;
+    for step in 1..=STEPS {
+        let travel = step as f64 / STEPS as f64;
+        let before = model.accepted_increment().to_vec();
+        model.begin(-travel, 0.0, |node| before[node].map(|u| 0.7 * u));
+        let done = solve(&mut model, &settings).map_err(|(failure, _)| failure)?;
+        iterations += done.iterations;
+        model.accept()?;
+    }
+    let whole = clock.elapsed().as_secs_f64();
+    let before = model.accepted_increment().to_vec();
+    model.begin(-(1.0 + 1.0 / STEPS as f64), 0.0, |node| before[node]);
+    let repeats = 3;
+    let mut least = [f64::INFINITY; 3];
+    for _ in 0..repeats {
+        let c = model.counters;
+        let (assembly, factor, solution) = (c.assembly_s, c.factor_s, c.solve_s);
+        model.assess(true)?;
+        model.renew()?;
+        model.find_direction();
+        let c = model.counters;
+        for (least, seconds) in
+            least.iter_mut().zip([c.assembly_s - assembly, c.factor_s - factor, c.solve_s - solution])
+        {
+            *least = least.min(seconds);
+        }
+    }
+    let memory = peak_memory().unwrap_or(f64::NAN);
+    let unknowns = model.residual().len();
+    println!("{unknowns} {} {} {} {whole} {iterations} {memory}", least[0], least[1], least[2]);
+    Ok(())
+}
+
+/// Exponent of `y` in `x` between two rows.
+fn exponent(x: [f64; 2], y: [f64; 2]) -> f64 {
+    (y[1] / y[0]).ln() / (x[1] / x[0]).ln()
+}
+
+fn main() -> Result<(), Box<dyn Error>> {
+    if let Some(elements) = std::env::args().nth(1) {
+        return one(elements.parse()?);
+    }
+    println!(
+        "| unknowns | assembly ms | factorise ms | solve ms | iteration ms | exponent | loading in {STEPS} steps s | iterations | memory MB | exponent |"
+    );
+    println!("|-|-|-|-|-|-|-|-|-|-|");
+    let mut rows: Vec<[f64; 3]> = Vec::new();
+    for elements in ELEMENTS {
+        let output = Command::new(std::env::current_exe()?).arg(elements.to_string()).output()?;
+        let text = String::from_utf8(output.stdout)?;
+        let numbers: Vec<f64> = text.split_whitespace().map(str::parse).collect::<Result<_, _>>()?;
+        let [unknowns, assembly, factor, solution, whole, iterations, memory] = numbers[..] else {
+            return Err(String::from_utf8_lossy(&output.stderr).into_owned().into());
+        };
+        let iteration = assembly + factor + solution;
+        let row = [unknowns, iteration, memory];
+        let [time, space] = match rows.last() {
+            Some(last) => [1, 2].map(|i| format!("{:.2}", exponent([last[0], row[0]], [last[i], row[i]]))),
+            None => [String::new(), String::new()],
+        };
+        println!(
+            "| {unknowns} | {:.2} | {:.2} | {:.2} | {:.2} | {time} | {whole:.2} | {iterations} | {memory:.0} | {space} |",
+            1e3 * assembly,
+            1e3 * factor,
+            1e3 * solution,
+            1e3 * iteration
+        );
+        rows.push(row);
+    }
+    let (first, last) = (rows[0], rows[rows.len() - 1]);
+    println!(
+        "\nFrom {} to {} unknowns: an iteration costs unknowns^{:.2}, memory unknowns^{:.2}.",
+        first[0],
+        last[0],
+        exponent([first[0], last[0]], [first[1], last[1]]),
+        exponent([first[0], last[0]], [first[2], last[2]])
+    );
+    Ok(())
+}
