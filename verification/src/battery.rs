@@ -60,7 +60,7 @@ fn entry(i: usize) -> Result<Entry, toml::de::Error> {
     let modulus = scene.material.youngs_modulus.0;
     scene.material.yield_stress = (!elastic).then_some(Stress(modulus / ratio));
     scene.material.hardening_exponent = (!elastic).then_some(exponent);
-    scene.material.hardening_law = law;
+    scene.material.hardening_law = law.into();
     let cone = Asperity { slope_deg: Some(slope), tip_radius: Some(Length(tip)), ..scene.asperity[0] };
     let sphere = Asperity {
         radius: Some(Length(4.0 * height)),

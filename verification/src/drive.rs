@@ -1,7 +1,8 @@
 //! One increment of a model, solved and accepted.
 
+use crate::bodies::{mapped, nodes_of};
 use asperity_law::{Elastic, Hardening, HardeningLaw};
-use asperity_mesh::Mesh;
+use asperity_mesh::{ElementKind, Mesh};
 use asperity_solver::kinematics::Symmetry;
 use asperity_solver::material::{Metal, stress};
 use asperity_solver::model::{Model, ToolContact};
@@ -12,13 +13,16 @@ use asperity_solver::tensor::Sym;
 pub const TIGHT: Settings = Settings { tolerance: 1e-12, max_iterations: 40, keep: 0.0 };
 
 /// E = 1, ν = 0.3, never yields.
-pub const ELASTIC: Metal =
-    Metal { elastic: Elastic { youngs_modulus: 1.0, poissons_ratio: 0.3 }, hardening: None };
+pub const ELASTIC: Metal = Metal {
+    elastic: Elastic { youngs_modulus: 1.0, poissons_ratio: 0.3 },
+    hardening: None,
+    kinematic_share: 0.0,
+};
 
 /// E = 1, ν = 0.3, eq. [1] with σ_y = `yield_stress` and exponent `exponent`.
 pub fn hollomon(yield_stress: f64, exponent: f64) -> Metal {
     let hardening = Hardening { law: HardeningLaw::Hollomon, yield_stress, exponent, youngs_modulus: 1.0 };
-    Metal { hardening: Some(hardening), ..ELASTIC }
+    Metal { hardening: Some(hardening.into()), ..ELASTIC }
 }
 
 /// A stress-free model with the components `held` kept.
@@ -91,6 +95,34 @@ pub fn travel(
 /// Kirchhoff stress at every point of the converged state.
 pub fn stresses(model: &Model<'_>) -> Vec<Sym> {
     model.states().iter().map(|state| stress(&model.metal().elastic, &state.stretch)).collect()
+}
+
+/// Axial Kirchhoff stress of a bar of one element at each of the total logarithmic strains it is stretched to, one
+/// increment each.
+///
+/// # Errors
+/// Newton did not converge.
+pub fn stretch_bar(kind: ElementKind, metal: &Metal, strains: &[f64]) -> Result<Vec<f64>, Failure> {
+    // one element: a longer bar would neck
+    let mesh = mapped(kind, [1, 1], |x| x);
+    let mut held = vec![[false; 2]; mesh.nodes.len()];
+    let ends = [&mesh.sides.surface, &mesh.sides.base].map(|side| nodes_of(&mesh, side));
+    ends.iter().flatten().for_each(|&node| held[node][1] = true);
+    nodes_of(&mesh, &mesh.sides.axis).iter().for_each(|&node| held[node][0] = true);
+    let mut model = model(&mesh, Symmetry::Axisymmetric, metal.clone(), &held, None)?;
+    let mut last = 0.0_f64;
+    let mut axial = Vec::with_capacity(strains.len());
+    for &strain in strains {
+        let x = model.positions().to_vec();
+        increment(&mut model, f64::INFINITY, &TIGHT, |node| {
+            let [r, z] = x[node];
+            // as incompressible: nearly right
+            [r * (0.5 * (last - strain)).exp_m1(), z * (strain - last).exp_m1()]
+        })?;
+        last = strain;
+        axial.push(stresses(&model)[0][1]);
+    }
+    Ok(axial)
 }
 
 /// Sum over `nodes` of the internal force along `direction(node)`: the reaction that holds them.

@@ -10,10 +10,9 @@
 // in a test a panic is the message, and the table is the point
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
-use asperity_law::HardeningLaw;
 use asperity_law::units::{Length, Stress};
 use asperity_solver::crush::Outcome;
-use asperity_solver::scene::{Accuracy, ContactMethod, ElementChoice, Scene, Substrate};
+use asperity_solver::scene::{Accuracy, ContactMethod, ElementChoice, HardeningChoice, Scene, Substrate};
 use asperity_verification::calibration::PEERS;
 use asperity_verification::contact::{cone_force, hertz_force};
 use asperity_verification::single_asperity::{crush, scene};
@@ -46,7 +45,7 @@ fn plastic_cone(slope_deg: f64, exponent: f64, e_over_sy: f64) -> Scene {
         s.asperity[0].tip_radius = None;
         s.material.yield_stress = Some(Stress(YOUNG / e_over_sy));
         s.material.hardening_exponent = Some(exponent);
-        s.material.hardening_law = HardeningLaw::Swift;
+        s.material.hardening_law = HardeningChoice::Swift;
     })
 }
 
@@ -131,7 +130,7 @@ fn rows() -> Vec<Row> {
         ),
         against_sneddon("E/σ_y 10 under 1°: no yielding", {
             let mut scene = plastic_cone(1.0, 0.3, 10.0);
-            scene.material.hardening_law = HardeningLaw::Hollomon;
+            scene.material.hardening_law = HardeningChoice::Hollomon;
             scene
         }),
         row("E/σ_y 1e5, n 0: F/σ_y as at 1e4", plastic_cone(10.0, 0.0, 1e5), 0.05, |o| {

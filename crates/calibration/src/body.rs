@@ -81,7 +81,11 @@ impl Body {
         };
         let mesh = layout.mesh();
         let held = held(&mesh);
-        let metal = Metal { elastic: case.elastic(), hardening: case.hardening() };
+        let metal = Metal {
+            elastic: case.elastic(),
+            hardening: case.hardening().map(Into::into),
+            kinematic_share: 0.0,
+        };
         let contact = ToolContact { tool, penalty: expected_pressure(case) / r.penetration };
         Body { mesh, held, metal, contact, element, domain }
     }

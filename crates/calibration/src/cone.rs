@@ -82,8 +82,9 @@ impl<'m> Path<'m> {
     fn new(case: &Case, body: &'m Body, resolution: &'m Resolution) -> Result<Path<'m>, CaseError> {
         let far = FAR_FIELD / (case.elastic().reduced_modulus() * body.domain);
         let held = |node: usize| body.held[node];
-        let model = Model::new(&body.mesh, Symmetry::Axisymmetric, body.metal, held, Some(body.contact))
-            .map_err(|cause| CaseError::Solver { share: 0.0, cause })?;
+        let model =
+            Model::new(&body.mesh, Symmetry::Axisymmetric, body.metal.clone(), held, Some(body.contact))
+                .map_err(|cause| CaseError::Solver { share: 0.0, cause })?;
         let (travel, last_step) = (0.0, 0.0);
         Ok(Path { model, resolution, far, travel, last_step, halvings: 0, increments: 0, iterations: 0 })
     }

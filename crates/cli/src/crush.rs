@@ -202,6 +202,7 @@ fn progress_line(row: &CurveRow, symmetry: Symmetry) -> String {
     let verb = match row.phase {
         Phase::Load => "loading",
         Phase::Unload => "unloading",
+        Phase::Reload => "reloading",
     };
     let per = if symmetry == Symmetry::PlaneStrain { "/mm" } else { "" };
     let (depth, newtons) = (row.depth / MICROMETRE, row.force / force.scale);
@@ -214,9 +215,10 @@ fn reason(outcome: &Outcome, scene: &Scene) -> Option<String> {
     let verb = match stopped.phase {
         Phase::Load => "loading",
         Phase::Unload => "unloading",
+        Phase::Reload => "reloading",
     };
     let target = match (scene.loading.depth, stopped.phase) {
-        (Some(depth), Phase::Load) => format!(" of {:.4} um", depth.0 / MICROMETRE),
+        (Some(depth), Phase::Load | Phase::Reload) => format!(" of {:.4} um", depth.0 / MICROMETRE),
         _ => String::new(),
     };
     Some(format!("stopped {verb} at {:.4} um{target}: {}", stopped.depth / MICROMETRE, stopped.reason))
@@ -243,6 +245,10 @@ fn write_records(
     if !outcome.asperities.is_empty() {
         folder
             .write("asperities.csv", |out| records::write_asperities(out, symmetry, &outcome.asperities))?;
+    }
+    // a single loading stands in the summary
+    if scene.loading.reloads > 0 {
+        folder.write("cycles.csv", |out| records::write_cycles(out, symmetry, &outcome.cycles))?;
     }
     if !outcome.gaps.is_empty() {
         folder.write("gaps.csv", |out| records::write_gaps(out, &outcome.gaps))?;

@@ -10,7 +10,7 @@ use asperity_solver::discretise::{Problem, mirror};
 use asperity_solver::kinematics::Symmetry;
 use asperity_solver::scene::{Scene, SceneError, Target};
 use asperity_solver::stepping::schedule;
-use table::{PlasticTable, plastic_table};
+use table::PlasticTable;
 
 /// SI value of the deck's unit of length, 1 µm: nodes are numbers near 1, which the tolerances of such codes expect.
 const LENGTH: f64 = 1e-6;
@@ -71,6 +71,7 @@ impl Deck {
                         .into(),
             });
         }
+        check(scene)?;
         let um = problem.length / LENGTH;
         let section = match problem.symmetry {
             Symmetry::Axisymmetric => Section::Axisymmetric,
@@ -93,7 +94,7 @@ impl Deck {
             mesh: scaled(opened(&problem.mesh, section, hole), um),
             section,
             elastic: [problem.modulus / STRESS, problem.metal.elastic.poissons_ratio],
-            table: hardening.map(|h| plastic_table(&h, STRESS)),
+            table: hardening.map(|curve| table::curve_table(&curve, STRESS)),
             penalty: problem.penalty * problem.modulus / STRESS / um,
             penetration: problem.numbers.penetration,
             augmented: problem.numbers.contact == asperity_solver::scene::ContactMethod::Augmented,
@@ -104,6 +105,29 @@ impl Deck {
             travels: travels.0.into_iter().chain(travels.1).map(|t| um * t).collect(),
             depth: um * problem.depth,
         })
+    }
+}
+
+/// What of a metal and its loading a deck cannot say.
+fn check(scene: &Scene) -> Result<(), SceneError> {
+    let material = &scene.material;
+    let points = material.hardening_table.as_ref().map_or(0, Vec::len);
+    let refusals = [
+        (
+            material.moving_share() > 0.0,
+            "material.hardening_mode",
+            "a deck hardens isotropically: leave hardening_mode out".to_string(),
+        ),
+        (
+            points > table::POINTS,
+            "material.hardening_table",
+            format!("CalculiX holds {} points of hardening, not {points}: thin the table out", table::POINTS),
+        ),
+        (scene.loading.reloads > 0, "loading.reloads", "a deck unloads once: leave reloads out".to_string()),
+    ];
+    match refusals.into_iter().find(|(refused, ..)| *refused) {
+        Some((_, path, message)) => Err(SceneError { path: path.into(), message }),
+        None => Ok(()),
     }
 }
 

@@ -7,6 +7,7 @@ mod crush;
 mod deck;
 mod failure;
 mod folder;
+mod hardening_file;
 mod manual;
 mod mesh;
 mod new;

@@ -8,7 +8,7 @@ mod table;
 pub use fields::{FieldSeries, field_arrays, write_surface};
 pub use plot::plot;
 pub use summary::{overview, peak_memory_mb, summary_json};
-pub use table::{write_asperities, write_curve, write_gaps};
+pub use table::{write_asperities, write_curve, write_cycles, write_gaps};
 
 use asperity_solver::scene::Symmetry;
 

@@ -2,6 +2,7 @@
 
 use crate::args::SceneFlags;
 use crate::failure::InputError;
+use crate::hardening_file;
 use crate::toml_file::TomlFile;
 use asperity_mesh::{Mesh, read_msh};
 use asperity_solver::scene::{Scene, SceneError};
@@ -16,7 +17,14 @@ pub fn read(path: &Path, flags: &SceneFlags) -> Result<TomlFile<Scene>, InputErr
     if let Some(level) = flags.accuracy {
         file.value.accuracy = level;
     }
-    file.value.validate().map_err(|e| point_at(&file, &e))?;
+    let curve = hardening_file::read(&file)?;
+    if let Some(curve) = &curve {
+        curve.put_into(&mut file.value.material);
+    }
+    // what is wrong with a table shows in the file that holds it
+    file.value
+        .validate()
+        .map_err(|e| curve.and_then(|curve| curve.point_at(&e)).unwrap_or_else(|| point_at(&file, &e)))?;
     Ok(file)
 }
 

@@ -159,3 +159,28 @@ fn fields_and_surface_are_written_when_asked_for() {
         assert_eq!(numbers(&surface, "pressure_MPa").len(), radius.len());
     }
 }
+
+#[test]
+fn reloads_leave_their_cycles() {
+    let place = Place::with_scene(SCENE.replace("unload = true", "unload = true\nreloads = 2"));
+    let end = place.run(&["crush", "scene.toml", "--out", "out", "--quiet"]);
+    assert_eq!(end.status, 0, "{}", end.err);
+    let (curve, cycles) = (place.text("out/curve.csv"), place.text("out/cycles.csv"));
+    let (force, phase) = (numbers(&curve, "force_N"), column(&curve, "phase"));
+    assert!(phase.iter().all(|p| p == "load" || p == "unload"));
+    assert_eq!(column(&cycles, "cycle"), ["0", "1", "2"]);
+    for (peak, value) in numbers(&cycles, "peak_increment").iter().zip(numbers(&cycles, "peak_force_N")) {
+        assert_eq!((force[*peak as usize], phase[*peak as usize].as_str()), (value, "load"));
+    }
+    for end in numbers(&cycles, "end_increment") {
+        assert_eq!((force[end as usize], phase[end as usize].as_str()), (0.0, "unload"));
+    }
+    // the summary tells of the first loading
+    let summary: Value = serde_json::from_str(&place.text("out/summary.json")).unwrap();
+    assert_eq!(summary["peak_force_N"].as_f64(), numbers(&cycles, "peak_force_N").first().copied());
+    assert_eq!(summary["residual_depth_um"].as_f64(), numbers(&cycles, "residual_depth_um").first().copied());
+    let again = Place::with_scene(SCENE.replace("unload = true", "reloads = 2"));
+    let end = again.run(&["crush", "scene.toml"]);
+    assert_eq!(end.status, 2);
+    assert!(end.err.contains("unload = true"), "{}", end.err);
+}

@@ -6,14 +6,14 @@
 //! core of a Zen 4 (see `asperity_solver::floor`).
 #![allow(clippy::print_stdout, reason = "a benchmark prints")]
 
-use asperity_law::HardeningLaw;
+use asperity_law::HardeningMode;
 use asperity_law::units::{Length, Stress};
 use asperity_solver::crush::run;
 use asperity_solver::element::POINTS;
 use asperity_solver::floor::{LINEAR, QUADRATIC};
 use asperity_solver::scene::{
-    Accuracy, Asperity, ElementChoice, Lateral, Loading, Material, Numerics, Output, Scene, Symmetry, Tool,
-    ToolShape,
+    Accuracy, Asperity, ElementChoice, HardeningChoice, Lateral, Loading, Material, Numerics, Output, Scene,
+    Symmetry, Tool, ToolShape,
 };
 use std::ops::ControlFlow;
 use std::time::Instant;
@@ -28,7 +28,11 @@ fn single_asperity(accuracy: Accuracy, element: ElementChoice) -> Scene {
             poissons_ratio: 0.3,
             yield_stress: Some(Stress(300e6)),
             hardening_exponent: Some(0.3),
-            hardening_law: HardeningLaw::Hollomon,
+            hardening_law: HardeningChoice::Hollomon,
+            hardening_file: None,
+            hardening_table: None,
+            hardening_mode: HardeningMode::Isotropic,
+            kinematic_share: None,
         },
         asperity: vec![Asperity {
             height: Some(Length(20e-6)),
@@ -40,7 +44,7 @@ fn single_asperity(accuracy: Accuracy, element: ElementChoice) -> Scene {
         }],
         substrate: None,
         tool: Tool { shape: ToolShape::Plane, slope_deg: None, tip_radius: None, radius: None },
-        loading: Loading { depth: Some(Length(5e-6)), force: None, unload: true },
+        loading: Loading { depth: Some(Length(5e-6)), force: None, unload: true, reloads: 0 },
         output: Output::default(),
         numerics: Numerics { element: Some(element), ..Numerics::default() },
         mesh: None,

@@ -8,7 +8,7 @@ use crate::islands::{extent, gaps, islands};
 use crate::kinematics::Symmetry;
 use crate::model::{Counters, Model, ToolContact};
 use crate::newton::{KEEP, Settings};
-use crate::record::{AsperityRow, CurveRow, GapRow, IslandRow, Phase, Summary};
+use crate::record::{AsperityRow, CurveRow, CycleRow, GapRow, IslandRow, Phase, Summary};
 use crate::scene::{ContactMethod, Scene, SceneError, Target};
 use crate::stepping::{Goal, Increment, Path, Stop, schedule};
 use asperity_mesh::Mesh;
@@ -60,6 +60,8 @@ pub struct Outcome {
     pub asperities: Vec<AsperityRow>,
     /// The gaps between contacts in each increment.
     pub gaps: Vec<GapRow>,
+    /// The loading and the reloads, each with its unloading, as far as they are complete.
+    pub cycles: Vec<CycleRow>,
     /// What never yielded among the asperities, at the peak; empty for an elastic body.
     pub elastic_islands: Vec<IslandRow>,
     /// The summary.
@@ -96,9 +98,14 @@ pub fn run(
     scene.validate()?;
     let problem = prepare(scene, mesh)?;
     let contact = ToolContact { tool: problem.tool, penalty: problem.penalty };
-    let model =
-        Model::new(&problem.mesh, problem.symmetry, problem.metal, |node| problem.held[node], Some(contact))
-            .map_err(|_| CrushError::Mesh)?;
+    let model = Model::new(
+        &problem.mesh,
+        problem.symmetry,
+        problem.metal.clone(),
+        |node| problem.held[node],
+        Some(contact),
+    )
+    .map_err(|_| CrushError::Mesh)?;
     let settings = Settings { tolerance: problem.numbers.newton_tolerance, max_iterations: 40, keep: KEEP };
     let mut path = Path::new(model, settings, problem.numbers.contact == ContactMethod::Augmented);
     let mut log = Log::new(scene, &problem, path.model.unknowns());
@@ -123,21 +130,38 @@ pub fn run(
         .err();
     log.peak_reached(&goal, &problem, observer, &path.model, stopped.is_none());
     if stopped.is_none() {
-        match path.model.unloading_stiffness() {
-            Ok(stiffness) => {
-                log.stiffness = Some(stiffness.depth);
-                if scene.loading.unload {
-                    stopped = path
-                        .unload(stiffness, numbers.unload_steps, &mut |model, increment| {
-                            log.record(model, increment, observer)
-                        })
-                        .err();
-                }
-            }
-            Err(_) => stopped = scene.loading.unload.then_some(Stop::NoEquilibrium),
-        }
+        stopped = unload_and_reload(scene, &goal, &mut path, &mut log, observer).err();
     }
     Ok(log.finish(&path, stopped, observer))
+}
+
+/// What comes after the peak: the stiffness there, and unloading and reloading as often as the scene asks.
+fn unload_and_reload(
+    scene: &Scene,
+    goal: &Goal,
+    path: &mut Path<'_>,
+    log: &mut Log<'_>,
+    observer: &mut dyn FnMut(&Event<'_>) -> ControlFlow<()>,
+) -> Result<(), Stop> {
+    let unload = scene.loading.unload;
+    for cycle in 0..=scene.loading.reloads {
+        if cycle > 0 {
+            path.reload(*goal, &mut |model, increment| log.record(model, increment, observer))?;
+        }
+        let peak = log.rows.len() - 1;
+        let stiffness = match path.model.unloading_stiffness() {
+            Ok(stiffness) => stiffness,
+            Err(_) if unload => return Err(Stop::NoEquilibrium),
+            Err(_) => return Ok(()),
+        };
+        log.stiffness.get_or_insert(stiffness.depth);
+        if unload {
+            let steps = log.problem.numbers.unload_steps;
+            path.unload(stiffness, steps, &mut |model, increment| log.record(model, increment, observer))?;
+            log.turns.push([peak, log.rows.len() - 1]);
+        }
+    }
+    Ok(())
 }
 
 /// Values of 1 in SI.
@@ -182,6 +206,8 @@ struct Log<'p> {
     gaps: Vec<GapRow>,
     islands: Vec<IslandRow>,
     peak: usize,
+    /// Rows of each peak and of the end of the unloading after it.
+    turns: Vec<[usize; 2]>,
     stiffness: Option<f64>,
     last_fields: Option<usize>,
 }
@@ -190,6 +216,7 @@ impl<'p> Log<'p> {
     fn new(scene: &Scene, problem: &'p Problem, unknowns: usize) -> Self {
         let units = Units::new(problem);
         let unload = if scene.loading.unload { problem.numbers.unload_steps + 1 } else { 0 };
+        let unload = unload * (1 + 2 * scene.loading.reloads);
         let first = CurveRow {
             increment: 0,
             phase: Phase::Load,
@@ -219,6 +246,7 @@ impl<'p> Log<'p> {
             gaps: Vec::new(),
             islands: Vec::new(),
             peak: 0,
+            turns: Vec::new(),
             stiffness: None,
             last_fields: None,
         }
@@ -394,6 +422,28 @@ impl<'p> Log<'p> {
         })
     }
 
+    /// Every complete loading with its unloading.
+    fn cycles(&self) -> Vec<CycleRow> {
+        let mut start = 0;
+        let row = |(cycle, &[peak, end]): (usize, &[usize; 2])| {
+            let (from, top, last) = (&self.rows[start], &self.rows[peak], &self.rows[end]);
+            let row = CycleRow {
+                cycle,
+                peak_increment: peak,
+                end_increment: end,
+                peak_depth: top.depth,
+                peak_force: top.force,
+                residual_depth: last.depth,
+                work_in: work_along(&self.rows[start..=peak]),
+                work_out: -work_along(&self.rows[peak..=end]),
+                plastic_work: last.plastic_work - from.plastic_work,
+            };
+            start = end;
+            row
+        };
+        self.turns.iter().enumerate().map(row).collect()
+    }
+
     fn finish(
         mut self,
         path: &Path<'_>,
@@ -404,22 +454,27 @@ impl<'p> Log<'p> {
             let _ = self.draw(&path.model, observer);
         }
         let (peak, last) = (self.rows[self.peak], self.rows[self.rows.len() - 1]);
-        let unloaded = last.phase == Phase::Unload && stopped.is_none();
+        // of the first loading and unloading, whatever comes after
+        let cycles = self.cycles();
+        let first = cycles.first();
         let total_work = work_along(&self.rows[..=self.peak]);
-        let elastic_work = unloaded.then(|| -work_along(&self.rows[self.peak..]));
+        let elastic_work = first.map(|c| c.work_out);
         let u = self.units;
         let stiffness_unit = u.force / u.length;
         let summary = Summary {
             peak_force: peak.force,
             peak_depth: peak.depth,
-            residual_depth: unloaded.then_some(last.depth),
+            residual_depth: first.map(|c| c.residual_depth),
             unloading_stiffness: self.stiffness.map(|s| s * stiffness_unit),
             contact_area: peak.contact_area,
             contact_radius: peak.contact_radius,
             total_work,
             elastic_work,
             plastic_work: peak.plastic_work,
-            oliver_pharr: self.stiffness.filter(|_| unloaded).and_then(|s| self.as_an_instrument(&peak, s)),
+            oliver_pharr: self
+                .stiffness
+                .filter(|_| first.is_some())
+                .and_then(|s| self.as_an_instrument(&peak, s)),
             reduced_modulus: self.problem.metal.elastic.reduced_modulus() * u.stress,
             elastic_fraction: elastic_work.map(|w| w / total_work),
             energy_balance_error: balance_error(&self.rows),
@@ -441,6 +496,7 @@ impl<'p> Log<'p> {
             rows: self.rows,
             asperities: self.asperities,
             gaps: self.gaps,
+            cycles,
             elastic_islands: self.islands,
             summary,
             stopped,

@@ -9,7 +9,7 @@ use crate::scene::{
     ToolForm,
 };
 use crate::tool::Tool;
-use asperity_law::{Elastic, Hardening};
+use asperity_law::Elastic;
 use asperity_mesh::build::{Contact, Grading, Plan, build};
 use asperity_mesh::profile::{Asperity, Profile, Shape};
 use asperity_mesh::{ElementKind, Mesh};
@@ -87,7 +87,7 @@ impl Discretisation {
             Choice::of(scene.accuracy.promise());
         // the correction of the depth takes off too much while an elastic contact grows, so the penetration is halved;
         // stiffer still, quadratic edges open gaps at the front of the contact
-        let penetration = if scene.material.yield_stress.is_none() { 0.002 } else { penetration };
+        let penetration = if !scene.material.yields() { 0.002 } else { penetration };
         let element = numerics.element.unwrap_or(ElementChoice::Q8r);
         // the work of ridges grows with h², that of a cone with h³: their early increments weigh more
         let ridges = scene.symmetry == crate::scene::Symmetry::PlaneStrain || scene.asperity.len() > 1;
@@ -167,11 +167,8 @@ pub fn prepare(scene: &Scene, mesh: Option<Mesh>) -> Result<Problem, SceneError>
     };
     let metal = Metal {
         elastic: Elastic { youngs_modulus: 1.0, ..elastic },
-        hardening: scene.material.hardening().map(|h| Hardening {
-            yield_stress: h.yield_stress / modulus,
-            youngs_modulus: 1.0,
-            ..h
-        }),
+        hardening: scene.material.hardening().map(|curve| curve.over(modulus)),
+        kinematic_share: scene.material.moving_share(),
     };
     let tool_form = scene.tool.form().map_err(|e| within("tool", e))?;
     let outlines = outlines(scene)?;

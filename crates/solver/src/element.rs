@@ -1,9 +1,11 @@
 //! What both quadrilaterals share: the arrays they fill and the two kernels that fill them.
 
-use crate::j2::Tangent;
+use crate::j2::{PointUpdate, Tangent};
+use crate::kinematic::Memory;
 use crate::kinematics::Symmetry;
 use crate::material::{Metal, PointState};
-use crate::tensor::{GradientForm, Sym};
+use crate::tensor::{Gradient, GradientForm, Sym};
+use crate::{j2, kinematic};
 
 /// Integration points of every element: 2 × 2.
 pub const POINTS: usize = 4;
@@ -20,6 +22,29 @@ pub struct ElementContext<'a> {
     pub metal: &'a Metal,
     /// Which tangent is wanted.
     pub tangent: Tangent,
+    /// What the points of the element remember beside their states, for a metal with a back stress.
+    pub memory: Option<&'a [Memory]>,
+}
+
+impl ElementContext<'_> {
+    /// Updates point `q` from `start` by f - I = `increment`; what it remembers goes to `memory`.
+    #[inline]
+    pub fn update(
+        &self,
+        q: usize,
+        start: &PointState,
+        increment: &Gradient,
+        memory: &mut [Memory; POINTS],
+    ) -> Option<PointUpdate> {
+        match self.memory {
+            None => j2::update(self.metal, start, increment, self.tangent),
+            Some(before) => {
+                let (end, after) = kinematic::update(self.metal, start, &before[q], increment, self.tangent)?;
+                memory[q] = after;
+                Some(end)
+            }
+        }
+    }
 }
 
 /// Forces, stiffness and states of one element, with room for eight nodes.
@@ -31,6 +56,8 @@ pub struct ElementOutput {
     pub stiffness: [[[f64; 8]; 2]; 16],
     /// States at the end of the increment.
     pub states: [PointState; POINTS],
+    /// What the points remember then, for a metal with a back stress.
+    pub memory: [Memory; POINTS],
     /// Number of points that flow.
     pub flowing: usize,
 }
@@ -42,6 +69,7 @@ impl ElementOutput {
             force: [[0.0; 8]; 2],
             stiffness: [[[0.0; 8]; 2]; 16],
             states: [state; POINTS],
+            memory: [Memory::default(); POINTS],
             flowing: 0,
         }
     }

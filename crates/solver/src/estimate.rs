@@ -39,7 +39,7 @@ pub fn force_error(problem: &Problem, force: f64, depth: f64, automatic: bool, s
         ElementChoice::Q8r => numbers.elements_in_contact as f64,
         ElementChoice::Q4 => 0.375 * numbers.elements_in_contact as f64,
     };
-    let ripple = hardening.map_or(1.0, |h| 1.0 + 1.5 * (1.0 - h.exponent / 0.1).max(0.0));
+    let ripple = hardening.map_or(1.0, |h| 1.0 + 1.5 * (1.0 - h.exponent(1.0) / 0.1).max(0.0));
     let mesh = MESH * ripple / quadratic;
     let size = automatic_size(numbers, &problem.profile, &problem.half_widths);
     let domain = if automatic && problem.symmetry == Symmetry::Axisymmetric && depth > 0.0 {

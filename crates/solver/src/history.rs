@@ -56,7 +56,7 @@ pub fn carry_on(metal: &Metal, old: &PointState, flowed: &Flowed, factor: f64) -
 }
 
 /// exp(a) - I of a symmetric tensor.
-fn exponential_minus_identity(a: &Sym) -> Sym {
+pub fn exponential_minus_identity(a: &Sym) -> Sym {
     let (mean, half) = (0.5 * (a[0] + a[1]), 0.5 * (a[0] - a[1]));
     let radius = half.hypot(a[3]);
     let direction = if radius > 0.0 { [half / radius, a[3] / radius] } else { [1.0, 0.0] };

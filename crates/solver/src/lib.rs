@@ -1,6 +1,7 @@
 //! Axisymmetric and plane-strain large-strain elastoplastic finite elements with a rigid tool.
 //!
-//! In reading order: a metal point (`tensor`, `kinematics`, `material`, `j2`, `history`), an element (`element`,
+//! In reading order: a metal point (`tensor`, `kinematics`, `material`, `j2`, `history`; with a
+//! back stress `log_space`, `kinematic`), an element (`element`,
 //! `quad4`, `quad8`), the tool (`tool`, `contact`), the system (`dofs`, `assemble`, `linear`, `newton`, `model`),
 //! and a run (`scene`, `record`, `curve`).
 
@@ -13,6 +14,10 @@ pub mod material;
 pub mod j2;
 
 pub mod history;
+
+pub mod log_space;
+
+pub mod kinematic;
 
 pub mod element;
 

@@ -4,15 +4,17 @@
 //! strains keep their digits.
 
 use crate::tensor::{GradientForm, Sym, trace};
-use asperity_law::{Elastic, Hardening};
+use asperity_law::{Elastic, HardeningCurve};
 
-/// Elastic constants and, for a metal that yields, its hardening law; all in units of E.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// Elastic constants and, for a metal that yields, its curve of hardening; all in units of E.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Metal {
     /// Elastic constants.
     pub elastic: Elastic,
     /// `None`: the body stays elastic and no return mapping runs.
-    pub hardening: Option<Hardening>,
+    pub hardening: Option<HardeningCurve>,
+    /// Share of the hardening that moves the yield surface; the rest makes it grow. 0: isotropic, 1: kinematic.
+    pub kinematic_share: f64,
 }
 
 /// State of a material point.
@@ -27,9 +29,14 @@ pub struct PointState {
 }
 
 impl Metal {
+    /// Whether points need a memory beside their state (see `kinematic`).
+    pub fn has_back_stress(&self) -> bool {
+        self.kinematic_share > 0.0 && self.hardening.is_some()
+    }
+
     /// The stress-free virgin state.
     pub fn virgin(&self) -> PointState {
-        let yield_stress = self.hardening.map_or(f64::INFINITY, |h| h.yield_stress);
+        let yield_stress = self.hardening.as_ref().map_or(f64::INFINITY, HardeningCurve::yield_stress);
         PointState { stretch: [0.0; 4], plastic_strain: 0.0, yield_stress }
     }
 }

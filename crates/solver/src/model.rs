@@ -15,9 +15,11 @@ use crate::tool::Tool;
 use crate::{quad4, quad8};
 use asperity_mesh::{ElementKind, Mesh};
 
+mod back_stress;
 mod tool_stiffness;
 mod view;
 
+use back_stress::BackStress;
 pub use tool_stiffness::ToolStiffness;
 
 /// A tool in contact with the surface of the body.
@@ -72,6 +74,7 @@ pub struct Model<'m> {
     position: Vec<[f64; 2]>,
     old: Vec<PointState>,
     flowed: Vec<Flowed>,
+    back_stress: Option<BackStress>,
     parts: Vec<Parts>,
     /// Augmented Lagrange multipliers at the nodes.
     multiplier: Vec<f64>,
@@ -172,6 +175,7 @@ impl<'m> Model<'m> {
                 .collect(),
         };
         let virgin = metal.virgin();
+        let back_stress = metal.has_back_stress().then(|| BackStress::new(count));
         let still = Flowed { strain: [0.0; 4], accumulated: 0.0 };
         Ok(Model {
             residual: vec![0.0; dofs.count],
@@ -199,6 +203,7 @@ impl<'m> Model<'m> {
             position: mesh.nodes.clone(),
             old: vec![virgin; count],
             flowed: vec![still; count],
+            back_stress,
             multiplier: vec![0.0; nodes],
             trial_multiplier: vec![0.0; nodes],
             accepted_multiplier: vec![0.0; nodes],
@@ -232,11 +237,14 @@ impl<'m> Model<'m> {
             *du = guess(node);
         }
         let factor = carry_factor(ratio);
-        for ((start, old), flowed) in self.start.iter_mut().zip(&self.old).zip(&self.flowed) {
-            *start = carry_on(&self.metal, old, flowed, factor);
+        if !self.carry_back_stress_on(factor) {
+            for ((start, old), flowed) in self.start.iter_mut().zip(&self.old).zip(&self.flowed) {
+                *start = carry_on(&self.metal, old, flowed, factor);
+            }
         }
         if tip == f64::INFINITY {
             self.parts.fill(NOTHING);
+            self.multiplier.fill(0.0);
         }
         self.keep_contact = self.parts.iter().any(|p| *p != NOTHING);
         self.touching.clone_from(&self.parts);
@@ -247,7 +255,8 @@ impl<'m> Model<'m> {
     /// Accepts the increment under way: the only place where the state of the body changes.
     pub fn accept(&mut self) -> Result<(), Failure> {
         let still = Flowed { strain: [0.0; 4], accumulated: 0.0 };
-        for cell in 0..self.flowing.len() {
+        let cells = if self.settle_back_stress() { 0 } else { self.flowing.len() };
+        for cell in 0..cells {
             let points = cell * POINTS..(cell + 1) * POINTS;
             if !self.flowing[cell] {
                 self.flowed[points].fill(still);
@@ -255,7 +264,12 @@ impl<'m> Model<'m> {
             }
             // the elastic trial from the last converged state: what the increment would have been without flow
             let elastic = Metal { hardening: None, ..self.metal };
-            let context = ElementContext { symmetry: self.symmetry, metal: &elastic, tangent: Tangent::None };
+            let context = ElementContext {
+                symmetry: self.symmetry,
+                metal: &elastic,
+                tangent: Tangent::None,
+                memory: None,
+            };
             self.start[points.clone()].copy_from_slice(&self.old[points.clone()]);
             evaluate_cell(self, cell, &context)?;
             for (i, q) in points.enumerate() {
@@ -329,12 +343,15 @@ impl<'m> Model<'m> {
         }
         self.residual.fill(0.0);
         self.internal.fill([0.0; 2]);
-        let metal = self.metal;
-        let context = ElementContext { symmetry: self.symmetry, metal: &metal, tangent };
+        let metal = self.metal.clone();
+        let context = ElementContext { symmetry: self.symmetry, metal: &metal, tangent, memory: None };
         for cell in 0..self.mesh.cell_count() {
             evaluate_cell(self, cell, &context)?;
             self.flowing[cell] = self.output.flowing > 0;
             self.new[cell * POINTS..(cell + 1) * POINTS].copy_from_slice(&self.output.states);
+            if let Some(back) = &mut self.back_stress {
+                back.new[cell * POINTS..(cell + 1) * POINTS].copy_from_slice(&self.output.memory);
+            }
             if self.has_tangent {
                 self.stiffness.add(cell, &self.output.stiffness);
             }
@@ -498,7 +515,9 @@ fn shape_of(parts: &Parts) -> [bool; 2] {
 fn evaluate_cell(model: &mut Model<'_>, cell: usize, context: &ElementContext<'_>) -> Result<(), Failure> {
     let nodes = model.mesh.cell(cell);
     let points = cell * POINTS..(cell + 1) * POINTS;
-    let (start, volume) = (&model.start[points.clone()], &model.weight[points]);
+    let (start, volume) = (&model.start[points.clone()], &model.weight[points.clone()]);
+    let context =
+        &ElementContext { memory: model.back_stress.as_ref().map(|b| &b.start[points]), ..*context };
     let outcome = match model.mesh.kind {
         ElementKind::Quad8 => {
             let x: [[f64; 2]; 8] =

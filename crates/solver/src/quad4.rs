@@ -4,7 +4,7 @@
 //! the point, hoop stretch included. The residual is the derivative of ∫ W(F̄) dV₀, and so the tangent is symmetric.
 
 use crate::element::{ElementContext, ElementOutput, GAUSS, POINTS, Rows, add_force, add_stiffness};
-use crate::j2::{Tangent, update};
+use crate::j2::Tangent;
 use crate::kinematics::{PointMotion, ShapePoint, motion};
 use crate::material::PointState;
 use crate::tensor::{trace, volume_change};
@@ -68,7 +68,7 @@ pub fn evaluate(
         for i in [0, 3, 4] {
             increment[i] += s1;
         }
-        let end = update(context.metal, &start[q], &increment, context.tangent)?;
+        let end = context.update(q, &start[q], &increment, &mut out.memory)?;
         let rows = Rows::new(&m.rows);
         let mut shift = [[0.0; 8]; 2]; // m_a
         for a in 0..4 {

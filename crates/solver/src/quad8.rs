@@ -1,7 +1,7 @@
 //! Eight-node serendipity quadrilateral with reduced 2 × 2 integration.
 
 use crate::element::{ElementContext, ElementOutput, GAUSS, POINTS, Rows, add_force, add_stiffness};
-use crate::j2::{Tangent, update};
+use crate::j2::Tangent;
 use crate::kinematics::{ShapePoint, motion};
 use crate::material::PointState;
 
@@ -50,7 +50,7 @@ pub fn evaluate(
     out.clear();
     for (q, point) in points.iter().enumerate() {
         let motion = motion(point, x, du, context.symmetry)?;
-        let end = update(context.metal, &start[q], &motion.increment, context.tangent)?;
+        let end = context.update(q, &start[q], &motion.increment, &mut out.memory)?;
         let rows = Rows::new(&motion.rows);
         add_force(&mut out.force, &rows, &end.stress, volume[q]);
         if context.tangent != Tangent::None {

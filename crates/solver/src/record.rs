@@ -12,6 +12,31 @@ pub enum Phase {
     Load,
     /// The tool retreats.
     Unload,
+    /// The tool advances again to where it has been.
+    Reload,
+}
+
+/// One load and the unloading after it: a row of `cycles.csv`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CycleRow {
+    /// 0: the first loading; then the reloads.
+    pub cycle: usize,
+    /// Increment of the peak.
+    pub peak_increment: usize,
+    /// Increment at which the tool is gone.
+    pub end_increment: usize,
+    /// Depth at the peak, m.
+    pub peak_depth: f64,
+    /// Force at the peak, N (N/m).
+    pub peak_force: f64,
+    /// Initial summit minus the highest point of the body in equilibrium without the tool, m.
+    pub residual_depth: f64,
+    /// ∫F dh on the way in, over the corrected depth, J (J/m).
+    pub work_in: f64,
+    /// Work returned on the way out, J (J/m).
+    pub work_out: f64,
+    /// Plastic work of both ways, J (J/m).
+    pub plastic_work: f64,
 }
 
 /// One row of `curve.csv`.

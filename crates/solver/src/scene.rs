@@ -5,14 +5,15 @@
 
 mod accuracy;
 mod geometry;
+mod material;
 mod range;
 mod validate;
 
 pub use accuracy::{Accuracy, AccuracyError, Level};
 pub use geometry::{Asperity, AsperityForm, Substrate, Tool, ToolForm, ToolShape};
+pub use material::{HardeningChoice, Material};
 
-use asperity_law::units::{Force, Length, LineForce, Stress, UnitError};
-use asperity_law::{Elastic, Hardening, HardeningLaw};
+use asperity_law::units::{Force, Length, LineForce, UnitError};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::fmt;
 use std::path::PathBuf;
@@ -90,46 +91,6 @@ pub enum Lateral {
     Symmetric,
 }
 
-/// Isotropic metal: Hencky elasticity, von Mises plasticity, power-law hardening.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Material {
-    /// Young's modulus E.
-    pub youngs_modulus: Stress,
-    /// Poisson's ratio ν, in (-1, 0.5).
-    pub poissons_ratio: f64,
-    /// Initial yield stress σ_y; absent: the body stays elastic.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub yield_stress: Option<Stress>,
-    /// Hardening exponent n in [0, 1); required beside a yield stress.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub hardening_exponent: Option<f64>,
-    /// Which strain hardens.
-    #[serde(default = "hollomon")]
-    pub hardening_law: HardeningLaw,
-}
-
-fn hollomon() -> HardeningLaw {
-    HardeningLaw::Hollomon
-}
-
-impl Material {
-    /// Elastic constants, in Pa.
-    pub fn elastic(&self) -> Elastic {
-        Elastic { youngs_modulus: self.youngs_modulus.0, poissons_ratio: self.poissons_ratio }
-    }
-
-    /// The hardening law, in Pa; `None` for an elastic body.
-    pub fn hardening(&self) -> Option<Hardening> {
-        Some(Hardening {
-            law: self.hardening_law,
-            yield_stress: self.yield_stress?.0,
-            exponent: self.hardening_exponent?,
-            youngs_modulus: self.youngs_modulus.0,
-        })
-    }
-}
-
 /// How far the tool goes: exactly one of `depth` and `force`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -143,6 +104,13 @@ pub struct Loading {
     /// Whether the tool then retreats to zero force.
     #[serde(default)]
     pub unload: bool,
+    /// How often the tool then comes back to the same depth (or force) and retreats again.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub reloads: usize,
+}
+
+fn is_zero(count: &usize) -> bool {
+    *count == 0
 }
 
 /// Where loading ends, complete.

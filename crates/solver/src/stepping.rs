@@ -1,13 +1,13 @@
 //! The path of the tool: adaptive increments down to the peak, back to zero force, and the body left alone.
 
 use crate::contact::EdgeContact;
-use crate::energy::{
-    ContactSums, contact_sums, dissipated, stored, work, work_by_slopes, work_to_separation,
-};
+use crate::energy::{ContactSums, contact_sums, work, work_by_slopes, work_to_separation};
 use crate::folding::fold;
 use crate::model::{Model, ToolStiffness};
 use crate::newton::{Failure, Settings, solve};
 use crate::record::Phase;
+
+mod reload;
 
 /// Halvings of an increment after which the run stops.
 const MAX_HALVINGS: u32 = 7;
@@ -98,8 +98,10 @@ pub struct Path<'m> {
     last_step: f64,
     force: f64,
     area: f64,
-    /// dF per travel, known while unloading.
+    /// dF per travel, known while unloading and reloading.
     slope: Option<f64>,
+    /// Travels of the last unloading, from its peak on.
+    way_back: Vec<f64>,
     external_work: f64,
     spent: usize,
     /// Newton iterations so far, failed ones included.
@@ -122,6 +124,7 @@ impl<'m> Path<'m> {
             force: 0.0,
             area: 0.0,
             slope: None,
+            way_back: Vec::new(),
             external_work: 0.0,
             spent: 0,
             iterations: 0,
@@ -181,26 +184,27 @@ impl<'m> Path<'m> {
         // slope is asked for, which costs one solve
         let slope = match phase {
             Phase::Load => None,
-            Phase::Unload => self.model.tool_stiffness().ok().map(|s| self.follows(&s)),
+            Phase::Unload | Phase::Reload => self.model.tool_stiffness().ok().map(|s| self.follows(&s)),
         };
         self.model.accept().map_err(|_| Stop::Distorted)?;
         let contact = self.sums();
         let step = travel - self.travel;
         self.external_work += match (self.slope, slope) {
+            (_, Some(to)) if self.force <= 0.0 => -work_to_separation(contact.force, to, -step),
             (Some(from), _) if contact.force <= 0.0 => work_to_separation(self.force, from, step),
             (Some(from), Some(to)) => work_by_slopes([self.force, contact.force], [from, to], step),
             _ => work([self.force, contact.force], step),
         };
         self.slope = slope;
         (self.travel, self.last_step, self.force, self.area) = (travel, step, contact.force, contact.area);
-        let (metal, states, volumes) = (self.model.metal(), self.model.states(), self.model.volumes());
+        let [elastic_energy, plastic_work] = self.model.energies();
         let increment = Increment {
             phase,
             travel,
             contact,
             external_work: self.external_work,
-            elastic_energy: stored(metal, states, volumes),
-            plastic_work: dissipated(metal, states, volumes),
+            elastic_energy,
+            plastic_work,
             newton_iterations: std::mem::take(&mut self.spent),
         };
         if !observer(&self.model, &increment) {
@@ -339,6 +343,7 @@ impl<'m> Path<'m> {
         let compliance = 1.0 / stiffness.depth + self.sums().penetration / peak_force;
         let recovery = 1.25 * peak_force * compliance;
         self.slope = Some(self.follows(&stiffness));
+        self.way_back = vec![peak];
         for i in 1..=steps {
             let share = 1.0 - i as f64 / (steps as f64 + 0.3);
             let travel = peak - recovery * (1.0 - share.powf(1.0 / 1.25));
@@ -350,6 +355,10 @@ impl<'m> Path<'m> {
                 break; // beyond separation: the equilibrium without the tool comes next
             }
             self.accept(travel, Phase::Unload, observer)?;
+            self.way_back.push(travel);
+        }
+        if self.model.metal().has_back_stress() {
+            self.retreat_from_reverse_flow(0.03 * peak_force, steps, observer)?;
         }
         self.model.begin(f64::INFINITY, 0.0, |_| [0.0; 2]);
         self.iterate().map_err(|_| Stop::NoEquilibrium)?;

@@ -5,26 +5,38 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
-use asperity_law::{Elastic, Hardening, HardeningLaw};
+use asperity_law::{Elastic, Hardening, HardeningLaw, HardeningTable};
 use asperity_solver::contact::{ContactContext, ContactEdge};
 use asperity_solver::element::{ElementContext, ElementOutput};
-use asperity_solver::j2::{Tangent, update};
+use asperity_solver::j2::{PointUpdate, Tangent};
+use asperity_solver::kinematic::{self, Memory};
 use asperity_solver::kinematics::{Symmetry, motion};
 use asperity_solver::material::{Metal, PointState};
 use asperity_solver::tool::Tool;
-use asperity_solver::{quad4, quad8};
+use asperity_solver::{j2, quad4, quad8};
 
 const STEP: f64 = 1e-6;
 const TOLERANCE: f64 = 1e-6;
 
 fn metal(law: Option<(HardeningLaw, f64)>) -> Metal {
-    let hardening =
-        law.map(|(law, exponent)| Hardening { law, yield_stress: 0.02, exponent, youngs_modulus: 1.0 });
-    Metal { elastic: Elastic { youngs_modulus: 1.0, poissons_ratio: 0.3 }, hardening }
+    let hardening = law
+        .map(|(law, exponent)| Hardening { law, yield_stress: 0.02, exponent, youngs_modulus: 1.0 }.into());
+    Metal { elastic: Elastic { youngs_modulus: 1.0, poissons_ratio: 0.3 }, hardening, kinematic_share: 0.0 }
 }
 
-fn metals() -> [Metal; 4] {
+/// A table whose kinks none of the states below comes to lie on.
+fn tabulated() -> Metal {
+    let table = HardeningTable::new(&[[0.0, 0.02], [0.03, 0.03], [0.5, 0.04]]).unwrap();
+    Metal { hardening: Some(table.into()), ..metal(None) }
+}
+
+fn metals() -> [Metal; 8] {
+    let kinematic = |metal: Metal| Metal { kinematic_share: 1.0, ..metal };
     [
+        kinematic(metal(Some((HardeningLaw::Hollomon, 0.3)))),
+        kinematic(metal(Some((HardeningLaw::Swift, 0.0)))),
+        Metal { kinematic_share: 0.4, ..tabulated() },
+        tabulated(),
         metal(None),
         metal(Some((HardeningLaw::Hollomon, 0.3))),
         metal(Some((HardeningLaw::Swift, 0.1))),
@@ -32,9 +44,29 @@ fn metals() -> [Metal; 4] {
     ]
 }
 
-/// A state with prior plastic strain and a general elastic stretch.
-fn strained(metal: &Metal) -> PointState {
-    update(metal, &metal.virgin(), &[0.02, 0.05, -0.03, -0.04, 0.01], Tangent::None).unwrap().state
+/// The update that belongs to the metal.
+fn update(
+    metal: &Metal,
+    (state, memory): &(PointState, Memory),
+    g: &[f64; 5],
+    tangent: Tangent,
+) -> (PointUpdate, Memory) {
+    if metal.has_back_stress() {
+        kinematic::update(metal, state, memory, g, tangent).unwrap()
+    } else {
+        (j2::update(metal, state, g, tangent).unwrap(), *memory)
+    }
+}
+
+/// A state with prior plastic strain, general stretches, and a back stress that is coaxial with none of them.
+fn strained(metal: &Metal) -> (PointState, Memory) {
+    let mut old = (metal.virgin(), Memory::default());
+    for g in [[0.02, 0.05, -0.03, -0.04, 0.01], [0.1, 0.3, 0.2, 0.05, -0.1], [-0.03, 0.02, 0.06, 0.02, 0.01]]
+    {
+        let (end, memory) = update(metal, &old, &g, Tangent::None);
+        old = (end.state, memory);
+    }
+    old
 }
 
 /// The quadratic form is the derivative of P = τ f⁻ᵀ pushed forward: d(τ:l δ)/dl with δf = l f, for all l.
@@ -48,7 +80,7 @@ fn material() {
             [-2e-3, -4e-3, 3e-3, 3e-3, -1e-3],
             [-0.4, 0.0, 0.0, 0.9, -0.3],
         ] {
-            let here = update(&metal, &old, &g, Tangent::Exact).unwrap();
+            let here = update(&metal, &old, &g, Tangent::Exact).0;
             let scale = here.tangent.iter().flatten().fold(0.0_f64, |m, v| m.max(v.abs()));
             let stress = |l: &[f64; 5]| {
                 // f' = (I + l) f; P: δf in terms of l' : nominal stress S = τ' (I + l)⁻ᵀ
@@ -61,7 +93,7 @@ fn material() {
                     c * f[1] + (1.0 + d) * f[3] - 1.0,
                     (1.0 + e) * f[4] - 1.0,
                 ];
-                let t = update(&metal, &old, &next, Tangent::None).unwrap().stress;
+                let t = update(&metal, &old, &next, Tangent::None).0.stress;
                 let det = (1.0 + a) * (1.0 + d) - b * c;
                 // rows of (I + l)⁻ᵀ
                 let inverse = [(1.0 + d) / det, -c / det, -b / det, (1.0 + a) / det];
@@ -108,9 +140,10 @@ fn element<const N: usize>(
     for metal in metals() {
         for symmetry in [Symmetry::Axisymmetric, Symmetry::PlaneStrain] {
             for amplitude in [1e-3, 0.15] {
-                let context = ElementContext { symmetry, metal: &metal, tangent: Tangent::Exact };
-                let old = strained(&metal);
-                let start = [old; 4];
+                let (old, remembered) = strained(&metal);
+                let (start, memories) = ([old; 4], [remembered; 4]);
+                let memory = metal.has_back_stress().then_some(&memories[..]);
+                let context = ElementContext { symmetry, metal: &metal, tangent: Tangent::Exact, memory };
                 let mut du: [[f64; 2]; N] =
                     std::array::from_fn(|a| [0, 1].map(|i| amplitude * ((3 * a + 5 * i) as f64).sin()));
                 let volume = volume(symmetry);

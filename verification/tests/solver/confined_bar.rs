@@ -18,7 +18,7 @@ fn stress_follows_both_branches() {
             let mesh = distorted_square(kind);
             let held: Vec<[bool; 2]> =
                 mesh.nodes.iter().map(|x| [x[0] == 0.0 || x[0] == 1.0, x[1] == 0.0 || x[1] == 1.0]).collect();
-            let mut model = model(&mesh, symmetry, metal, &held, None).unwrap();
+            let mut model = model(&mesh, symmetry, metal.clone(), &held, None).unwrap();
             for stretch in [0.995, 0.95, 0.8, 0.65, 0.5] {
                 let x = model.positions().to_vec();
                 increment(&mut model, f64::INFINITY, &TIGHT, |node| {

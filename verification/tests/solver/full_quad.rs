@@ -47,7 +47,6 @@ impl<'m> FullQuad<'m> {
         let (nodes, count) = (mesh.nodes.len(), dofs.count);
         FullQuad {
             mesh,
-            metal,
             dofs,
             stiffness,
             factor,
@@ -57,6 +56,7 @@ impl<'m> FullQuad<'m> {
             base: vec![[0.0; 2]; nodes],
             old: vec![metal.virgin(); volume.len()],
             new: vec![metal.virgin(); volume.len()],
+            metal,
             volume,
             internal: vec![[0.0; 2]; nodes],
             residual: vec![0.0; count],

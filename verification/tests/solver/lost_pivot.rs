@@ -89,8 +89,11 @@ fn a_bar_with_one_neck_takes_an_indefinite_step() {
 fn a_bar_with_many_necks_is_refused() {
     let hardening =
         Hardening { law: HardeningLaw::Swift, yield_stress: 1.0 / 300.0, exponent: 0.0, youngs_modulus: 1.0 };
-    let metal =
-        Metal { elastic: Elastic { youngs_modulus: 1.0, poissons_ratio: 0.3 }, hardening: Some(hardening) };
+    let metal = Metal {
+        elastic: Elastic { youngs_modulus: 1.0, poissons_ratio: 0.3 },
+        hardening: Some(hardening.into()),
+        kinematic_share: 0.0,
+    };
     let (outcome, lost) = pulled(metal, 40, 0.2);
     assert_eq!(outcome, Err(Failure::Singular));
     assert!(lost > 0);

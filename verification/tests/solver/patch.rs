@@ -29,7 +29,7 @@ fn patch(symmetry: Symmetry, step: Plane, steps: usize) {
             let mesh = distorted_square(kind);
             let on = boundary(&mesh);
             let held: Vec<[bool; 2]> = on.iter().map(|&b| [b, b]).collect();
-            let mut model = model(&mesh, symmetry, metal, &held, None).unwrap();
+            let mut model = model(&mesh, symmetry, metal.clone(), &held, None).unwrap();
             let mut point = metal.virgin();
             let mut stress = [0.0; 4];
             let mut total = [1.0, 0.0, 0.0, 1.0];

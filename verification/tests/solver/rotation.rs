@@ -16,7 +16,7 @@ fn stress_turns_with_the_body_and_energy_stays() {
         for metal in [ELASTIC, hollomon(0.01, 0.3)] {
             let mesh = distorted_square(kind);
             let held: Vec<[bool; 2]> = boundary(&mesh).iter().map(|&b| [b, b]).collect();
-            let mut model = model(&mesh, Symmetry::PlaneStrain, metal, &held, None).unwrap();
+            let mut model = model(&mesh, Symmetry::PlaneStrain, metal.clone(), &held, None).unwrap();
             increment(&mut model, f64::INFINITY, &TIGHT, |node| {
                 let [x, z] = mesh.nodes[node];
                 // not uniform, so that stresses differ from point to point

@@ -1,9 +1,9 @@
 //! A hardening law as the points of a table.
 
-use asperity_law::{Hardening, HardeningLaw};
+use asperity_law::{Hardening, HardeningCurve, HardeningLaw};
 
 /// Points of a table: CalculiX holds 200 for a material.
-const POINTS: usize = 200;
+pub const POINTS: usize = 200;
 /// Plastic strain at which the table ends; codes keep the stress constant beyond.
 const LAST_STRAIN: f64 = 10.0;
 
@@ -16,11 +16,22 @@ pub struct PlasticTable {
     pub error: f64,
 }
 
+/// The curve of a metal as a table, stresses in units of `unit` Pa: a table as it is, a power law sampled.
+pub fn curve_table(curve: &HardeningCurve, unit: f64) -> PlasticTable {
+    match curve {
+        HardeningCurve::Power(law) => plastic_table(law, unit),
+        HardeningCurve::Table(table) => PlasticTable {
+            points: table.points().map(|[strain, stress]| [stress / unit, strain]).collect(),
+            error: 0.0,
+        },
+    }
+}
+
 /// Samples `law` from first yield to about [`LAST_STRAIN`]; stresses in units of `unit` Pa.
 ///
 /// The points are geometric in the strain measure e of the law σ = R eⁿ, so that the error in it, n(1-n)/8 (Δ ln e)²,
 /// is the same between any two.
-pub fn plastic_table(law: &Hardening, unit: f64) -> PlasticTable {
+fn plastic_table(law: &Hardening, unit: f64) -> PlasticTable {
     if law.exponent == 0.0 {
         return PlasticTable { points: vec![[law.yield_stress / unit, 0.0]], error: 0.0 };
     }
@@ -73,6 +84,13 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn a_table_stays_as_it_is() {
+        let table = asperity_law::HardeningTable::new(&[[0.0, 300e6], [0.1, 450e6]]).unwrap();
+        let written = curve_table(&table.into(), 1e6);
+        assert_eq!(written, PlasticTable { points: vec![[300.0, 0.0], [450.0, 0.1]], error: 0.0 });
     }
 
     fn interpolated(points: &[[f64; 2]], strain: f64) -> f64 {

@@ -11,7 +11,7 @@ fn prefix(largest: f64, prefixes: &[(f64, &'static str)]) -> (f64, &'static str)
     prefixes.iter().find(fits).or(prefixes.last()).copied().unwrap_or((1.0, ""))
 }
 
-/// Draws the curve as SVG; unloading starts at the last point of loading.
+/// Draws the curve as SVG; unloading starts at the last point of loading, reloads at the last one of unloading.
 ///
 /// # Errors
 /// A text for a person where the drawing library fails.
@@ -25,7 +25,8 @@ pub fn plot(symmetry: Symmetry, rows: &[CurveRow]) -> Result<String, String> {
     let per = if symmetry == Symmetry::PlaneStrain { "/mm" } else { "" };
 
     let point = |r: &CurveRow| [r.depth / MICROMETRE / length, r.force / force.scale / newton];
-    let branch = |phase: Phase| rows.iter().filter(move |r| r.phase == phase);
+    let again = rows.iter().position(|r| r.phase == Phase::Reload).unwrap_or(rows.len());
+    let branch = |phase: Phase| rows[..again].iter().filter(move |r| r.phase == phase);
     let mut series = vec![Series {
         label: "loading".into(),
         points: branch(Phase::Load).map(point).collect(),
@@ -38,6 +39,10 @@ pub fn plot(symmetry: Symmetry, rows: &[CurveRow]) -> Result<String, String> {
             points: peak.into_iter().chain(branch(Phase::Unload)).map(point).collect(),
             marks: false,
         });
+    }
+    if again < rows.len() {
+        let points = rows[again.saturating_sub(1)..].iter().map(point).collect();
+        series.push(Series { label: "again".into(), points, marks: false });
     }
     svg(&Chart {
         x_label: format!("Depth h ({length_name})"),
@@ -78,6 +83,10 @@ mod tests {
             row(24 + i as usize, Phase::Unload, 4.475e-6 + 0.525e-6 * s.sqrt(), 5.52 * s)
         }));
         let axisymmetric = plot(Symmetry::Axisymmetric, &rows).unwrap();
+        assert!(!axisymmetric.contains("again"));
+        let mut cycled = rows.clone();
+        cycled.push(row(35, Phase::Reload, 5e-6, 5.52));
+        assert!(plot(Symmetry::Axisymmetric, &cycled).unwrap().contains("again"));
         for text in ["Depth h (µm)", "Force F (N)", "loading", "unloading"] {
             assert!(axisymmetric.contains(text), "{text}");
         }

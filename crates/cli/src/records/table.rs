@@ -1,13 +1,14 @@
-//! `curve.csv`, `asperities.csv` and `gaps.csv`.
+//! `curve.csv`, `asperities.csv`, `gaps.csv` and `cycles.csv`.
 
 use super::{MEGAPASCAL, MICROMETRE, area_unit, energy_unit, force_unit};
-use asperity_solver::record::{AsperityRow, CurveRow, GapRow, Phase};
+use asperity_solver::record::{AsperityRow, CurveRow, CycleRow, GapRow, Phase};
 use asperity_solver::scene::Symmetry;
 use std::io::{self, Write};
 
+/// Whether the tool goes down or up; `cycles.csv` says where a load is a reload.
 fn phase_name(phase: Phase) -> &'static str {
     match phase {
-        Phase::Load => "load",
+        Phase::Load | Phase::Reload => "load",
         Phase::Unload => "unload",
     }
 }
@@ -85,6 +86,34 @@ pub fn write_gaps(out: &mut dyn Write, rows: &[GapRow]) -> io::Result<()> {
         let lengths = [row.depth, row.left, row.right, row.right - row.left, row.height];
         let lengths = lengths.map(|v| number(v / MICROMETRE));
         writeln!(out, "{},{},{}", row.increment, phase_name(row.phase), lengths.join(","))?;
+    }
+    Ok(())
+}
+
+/// Writes each loading with its unloading: the first one, then the reloads.
+///
+/// # Errors
+/// A writer that fails.
+pub fn write_cycles(out: &mut dyn Write, symmetry: Symmetry, rows: &[CycleRow]) -> io::Result<()> {
+    let (force, energy) = (force_unit(symmetry), energy_unit(symmetry));
+    let (f, e) = (force.suffix, energy.suffix);
+    writeln!(
+        out,
+        "cycle,peak_increment,end_increment,peak_depth_um,peak_force_{f},residual_depth_um,work_in_{e},work_out_{e},\
+         hysteresis_{e},plastic_work_{e}"
+    )?;
+    for row in rows {
+        let values = [
+            row.peak_depth / MICROMETRE,
+            row.peak_force / force.scale,
+            row.residual_depth / MICROMETRE,
+            row.work_in / energy.scale,
+            row.work_out / energy.scale,
+            (row.work_in - row.work_out) / energy.scale,
+            row.plastic_work / energy.scale,
+        ]
+        .map(number);
+        writeln!(out, "{},{},{},{}", row.cycle, row.peak_increment, row.end_increment, values.join(","))?;
     }
     Ok(())
 }

@@ -1,4 +1,6 @@
 use super::*;
+use asperity_law::HardeningMode;
+use asperity_law::units::Stress;
 
 /// The asperity of the paper.
 fn scene() -> Scene {
@@ -11,12 +13,16 @@ fn scene() -> Scene {
             poissons_ratio: 0.3,
             yield_stress: Some(Stress(300e6)),
             hardening_exponent: Some(0.3),
-            hardening_law: HardeningLaw::Hollomon,
+            hardening_law: HardeningChoice::Hollomon,
+            hardening_file: None,
+            hardening_table: None,
+            hardening_mode: HardeningMode::Isotropic,
+            kinematic_share: None,
         },
         asperity: vec![cone()],
         substrate: None,
         tool: plane(),
-        loading: Loading { depth: Some(Length(5e-6)), force: None, unload: true },
+        loading: Loading { depth: Some(Length(5e-6)), force: None, unload: true, reloads: 0 },
         output: Output::default(),
         numerics: Numerics::default(),
         mesh: None,
@@ -66,13 +72,17 @@ fn the_ends_of_the_ranges_are_allowed() {
         ("E/sy = 1e6", |s| s.material.yield_stress = Some(Stress(210e3))),
         ("n = 0.99", |s| s.material.hardening_exponent = Some(0.99)),
         ("n = 0", |s| s.material.hardening_exponent = Some(0.0)),
+        ("table", |s| table_of(s, &[(0.0, 300e6), (0.1, 450e6), (0.2, 450e6)])),
+        ("kinematic", |s| s.material.hardening_mode = HardeningMode::Kinematic),
+        ("table of one point", |s| table_of(s, &[(0.0, 300e6)])),
         ("flat", |s| s.asperity[0].slope_deg = Some(0.1)),
         ("sharp", |s| s.asperity[0].tip_radius = um(0.0)),
         ("blunt", |s| s.asperity[0].tip_radius = um(1300.0)),
         ("steep", |s| s.asperity[0] = Asperity { slope_deg: Some(60.0), tip_radius: None, ..cone() }),
         ("whole height", |s| s.loading.depth = um(20.0)),
         ("force", |s| {
-            s.loading = Loading { depth: None, force: Some("4 N".parse().unwrap()), unload: false }
+            s.loading =
+                Loading { depth: None, force: Some("4 N".parse().unwrap()), unload: false, reloads: 0 }
         }),
         ("ball", |s| s.asperity[0] = ball(50e-6)),
         ("high cap", |s| {
@@ -114,6 +124,17 @@ fn the_ends_of_the_ranges_are_allowed() {
     }
 }
 
+/// The same metal by a table, in Pa.
+fn table_of(scene: &mut Scene, points: &[(f64, f64)]) {
+    scene.material = Material {
+        yield_stress: None,
+        hardening_exponent: None,
+        hardening_law: HardeningChoice::Table,
+        hardening_table: Some(points.iter().map(|&(strain, stress)| (strain, Stress(stress))).collect()),
+        ..scene.material.clone()
+    };
+}
+
 /// A change, the place that must be named, and words of the message: the value and the allowed range.
 #[test]
 fn what_makes_no_sense_is_refused_with_place_value_and_range() {
@@ -131,6 +152,65 @@ fn what_makes_no_sense_is_refused_with_place_value_and_range() {
         (|s| s.material.hardening_exponent = Some(1.0), "material.hardening_exponent", &["below 1", "not 1"]),
         (|s| s.material.hardening_exponent = Some(f64::NAN), "material.hardening_exponent", &["NaN"]),
         (|s| s.material.hardening_exponent = None, "material", &["`hardening_exponent` is missing"]),
+        (
+            |s| table_of(s, &[(0.0, 300e9)]),
+            "material.hardening_table[0]",
+            &["0.21 to 42000 MPa", "300000 MPa"],
+        ),
+        (
+            |s| table_of(s, &[(0.0, 3e8), (0.1, 3e11)]),
+            "material.hardening_table[1]",
+            &["at most", "210000 MPa"],
+        ),
+        (
+            |s| table_of(s, &[(0.0, 3e8), (0.0, 4e8)]),
+            "material.hardening_table[1]",
+            &["must grow", "0 follows 0"],
+        ),
+        (|s| table_of(s, &[]), "material.hardening_table", &["from 1 to 100000 points"]),
+        (
+            |s| s.material.hardening_law = HardeningChoice::Table,
+            "material.yield_stress",
+            &["first point is the yield stress", "remove it"],
+        ),
+        (
+            |s| {
+                table_of(s, &[]);
+                s.material.hardening_table = None;
+            },
+            "material.hardening_law",
+            &["hardening_file = \"curve.csv\""],
+        ),
+        (
+            |s| {
+                table_of(s, &[(0.0, 3e8)]);
+                s.material.hardening_file = Some("curve.csv".into());
+            },
+            "material.hardening_file",
+            &["does not go with `hardening_table`"],
+        ),
+        (
+            |s| {
+                s.material.hardening_mode = HardeningMode::Kinematic;
+                (s.material.yield_stress, s.material.hardening_exponent) = (None, None);
+            },
+            "material.hardening_mode",
+            &["needs a metal that yields"],
+        ),
+        (|s| s.material.kinematic_share = Some(0.5), "material.kinematic_share", &["needs hardening_mode"]),
+        (
+            |s| {
+                s.material.hardening_mode = HardeningMode::Kinematic;
+                s.material.kinematic_share = Some(1.5);
+            },
+            "material.kinematic_share",
+            &["at most 1, not 1.5"],
+        ),
+        (
+            |s| s.material.hardening_file = Some("curve.csv".into()),
+            "material.hardening_file",
+            &["hardening_law = \"table\""],
+        ),
         (|s| s.asperity[0].height = um(-20.0), "asperity[0].height", &["above 0", "-20 um"]),
         (|s| s.asperity[0].height = None, "asperity[0]", &["`height` is missing"]),
         (|s| s.asperity[0].slope_deg = Some(90.0), "asperity[0].slope_deg", &["below 90", "not 90"]),
@@ -160,10 +240,15 @@ fn what_makes_no_sense_is_refused_with_place_value_and_range() {
         (|s| s.loading.depth = None, "loading", &["depth = \"5 um\" or force"]),
         (|s| s.loading.force = Some("4 N".parse().unwrap()), "loading.force", &["does not go with `depth`"]),
         (
-            |s| s.loading = Loading { depth: None, force: Some("4 N/mm".parse().unwrap()), unload: true },
+            |s| {
+                s.loading =
+                    Loading { depth: None, force: Some("4 N/mm".parse().unwrap()), unload: true, reloads: 0 }
+            },
             "loading.force",
             &["plane strain", "4 N"],
         ),
+        (|s| s.loading.reloads = 1001, "loading.reloads", &["from 0 to 1000", "not 1001"]),
+        (|s| (s.loading.unload, s.loading.reloads) = (false, 2), "loading.reloads", &["unload = true"]),
         (|s| s.tool.radius = um(1.0), "tool.radius", &["does not belong to a plane"]),
         (|s| s.tool.shape = ToolShape::Cone, "tool", &["`slope_deg` of the cone is missing"]),
         (

@@ -3,10 +3,10 @@
 use super::geometry::HIGHEST_CAP;
 use super::range::{Check, error, length, not_negative, positive, slope, within};
 use super::{
-    Asperity, AsperityForm, Lateral, Loading, Material, Numerics, Scene, SceneError, Substrate, Symmetry,
-    Target, Tool, ToolForce, ToolForm,
+    Asperity, AsperityForm, Lateral, Loading, Numerics, Scene, SceneError, Substrate, Symmetry, Target, Tool,
+    ToolForce, ToolForm,
 };
-use asperity_law::units::{Length, Stress};
+use asperity_law::units::Length;
 
 /// Puts the table in front of the keys of an error.
 fn inside(table: &str, error: SceneError) -> SceneError {
@@ -165,61 +165,6 @@ impl Scene {
     }
 }
 
-impl Material {
-    fn check(&self) -> Check {
-        let e = self.youngs_modulus.0;
-        if !(e > 0.0 && e.is_finite()) {
-            return Err(error(
-                "youngs_modulus",
-                format!("must be finite and above 0, not {} GPa", self.youngs_modulus.in_unit("GPa")),
-            ));
-        }
-        let nu = self.poissons_ratio;
-        if !(nu > -1.0 && nu < 0.5) {
-            return Err(error(
-                "poissons_ratio",
-                format!(
-                    "must be above -1 and below 0.5, not {nu}: metals have 0.25 to 0.35; for a nearly incompressible body take 0.4999"
-                ),
-            ));
-        }
-        if let Some(yield_stress) = self.yield_stress {
-            self.check_yield_stress(yield_stress)?;
-        }
-        match self.hardening_exponent {
-            Some(n) if !(0.0..1.0).contains(&n) => Err(error(
-                "hardening_exponent",
-                format!(
-                    "must be at least 0 and below 1, not {n}: 0 is perfect plasticity; for an elastic body leave yield_stress out"
-                ),
-            )),
-            None if self.yield_stress.is_some() => Err(error(
-                "",
-                "`hardening_exponent` is missing beside yield_stress: give one from 0 (perfect plasticity) to below 1",
-            )),
-            _ => Ok(()),
-        }
-    }
-
-    fn check_yield_stress(&self, yield_stress: Stress) -> Check {
-        let (low, high) = (5.0, 1e6); // of E over σ_y
-        let ratio = self.youngs_modulus.0 / yield_stress.0;
-        if yield_stress.0 > 0.0 && (low..=high).contains(&ratio) {
-            return Ok(());
-        }
-        let e = self.youngs_modulus.in_unit("MPa");
-        Err(error(
-            "yield_stress",
-            format!(
-                "must be from {} to {} MPa (E/{high:e} to E/{low}), not {} MPa: for an elastic body leave it out",
-                e / high,
-                e / low,
-                yield_stress.in_unit("MPa")
-            ),
-        ))
-    }
-}
-
 impl Asperity {
     /// Ranges of one asperity; paths relative to its table.
     fn check(&self) -> Check {
@@ -313,6 +258,14 @@ impl Loading {
     }
 
     fn check(&self) -> Check {
+        if self.reloads > 0 && !self.unload {
+            return Err(error(
+                "reloads",
+                "needs unload = true: a body must be unloaded before it is loaded again",
+            ));
+        }
+        let way_out = "each cycle costs as much as two unloadings";
+        within("reloads", "the number of reloads", self.reloads as f64, 0.0, 1000.0, way_out)?;
         match self.target()? {
             Target::Depth(depth) => positive("depth", "the depth", Length(depth)),
             Target::Force(force) if force > 0.0 && force.is_finite() => Ok(()),

@@ -1,0 +1,94 @@
+//! A scene may name a table of hardening: it is read from beside the scene, stands in the summary, which so is
+//! reproducible without the file, and a wrong one is refused at its line.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+mod common;
+
+use common::{Place, SCENE};
+
+const LAW: &str = "yield_stress = \"300 MPa\"\nhardening_exponent = 0.3\nhardening_law = \"hollomon\"\n";
+
+/// The scene with other lines for the metal.
+fn scene(material: &str) -> String {
+    assert!(SCENE.contains(LAW));
+    SCENE.replacen(LAW, material, 1)
+}
+
+fn place(table: &str) -> Place {
+    let place = Place::with_scene(scene("hardening_law = \"table\"\nhardening_file = \"curve.csv\"\n"));
+    std::fs::write(place.path("curve.csv"), table).unwrap();
+    place
+}
+
+#[test]
+fn the_summary_holds_the_table_and_gives_the_same_bits() {
+    let place = place("plastic_strain,yield_stress_MPa\n0,300\n0.01,420\n0.3,910\n");
+    let end = place.run(&["crush", "scene.toml", "--out", "file", "--quiet"]);
+    assert_eq!(end.status, 0, "{}", end.err);
+    let summary: serde_json::Value = serde_json::from_str(&place.text("file/summary.json")).unwrap();
+    let material = &summary["scene"]["material"];
+    assert_eq!(material["hardening_law"], "table");
+    assert!(material["hardening_file"].is_null(), "{material}");
+    let table = material["hardening_table"].as_array().unwrap();
+    assert_eq!(table.len(), 3);
+    // the table of the summary, as it stands, in the place of the file
+    let inline = format!("hardening_law = \"table\"\nhardening_table = {}\n", material["hardening_table"]);
+    std::fs::write(place.path("inline.toml"), scene(&inline)).unwrap();
+    let end = place.run(&["crush", "inline.toml", "--out", "inline", "--quiet"]);
+    assert_eq!(end.status, 0, "{}", end.err);
+    assert_eq!(place.text("file/curve.csv"), place.text("inline/curve.csv"));
+}
+
+#[test]
+fn a_wrong_table_is_refused_at_its_line() {
+    let head = "plastic_strain,yield_stress_MPa\n";
+    for (table, words) in [
+        ("", &["scene.toml:7:", "curve.csv: is empty", "plastic_strain,yield_stress_MPa"][..]),
+        ("strain,stress\n0,300\n", &["curve.csv:1:", "`strain` is no column"]),
+        ("plastic_strain,yield_stress\n0,300\n", &["curve.csv:1:", "has no unit", "MPa, GPa"]),
+        (&format!("{head}0,300\n0.1;400\n"), &["curve.csv:3:", "1 columns where the header has 2"]),
+        (&format!("{head}0,x\n"), &["curve.csv:2:", "`x` is not a finite number"]),
+        (&format!("{head}0.002,300\n"), &["curve.csv:2:", "must start at 0, not at 0.002"]),
+        (&format!("{head}0,300\n0.2,400\n\n0.1,500\n"), &["curve.csv:5:", "0.1 follows 0.2", "sort"]),
+        (&format!("{head}0,300\n0.2,400\n0.3,399\n"), &["curve.csv:4:", "399 follows 400", "end the table"]),
+        (&format!("{head}0,0.3\n0.2,0.1\n"), &["curve.csv:3:", "must not fall"]),
+        (&format!("{head}0,0.1\n"), &["curve.csv:2:", "from 0.21 to 42000 MPa", "not 0.1 MPa", "its unit"]),
+        (&format!("{head}0,300\n1,3e5\n"), &["curve.csv:3:", "at most Young's modulus", "not 300000 MPa"]),
+    ] {
+        let end = place(table).run(&["crush", "scene.toml", "--out", "out"]);
+        assert_eq!(end.status, 2, "{table}\n{}", end.err);
+        for word in words {
+            assert!(end.err.contains(word), "{table}: {word} is not in\n{}", end.err);
+        }
+    }
+}
+
+#[test]
+fn a_table_stands_alone() {
+    let table = "hardening_law = \"table\"\n";
+    for (material, words) in [
+        (table.to_string(), &["scene.toml:6:", "hardening_file = "][..]),
+        (format!("{table}hardening_file = \"none.csv\"\n"), &["scene.toml:7:", "none.csv: cannot be read"]),
+        (format!("{table}hardening_file = \".\"\n"), &["scene.toml:7:", "cannot be read"]),
+        (
+            format!("{table}hardening_file = \"curve.csv\"\nyield_stress = \"300 MPa\"\n"),
+            &["scene.toml:8:", "does not go with", "first point is the yield stress"],
+        ),
+        (
+            format!("{table}hardening_file = \"curve.csv\"\nhardening_table = [[0, \"300 MPa\"]]\n"),
+            &["scene.toml:7:", "does not go with `hardening_table`"],
+        ),
+        (format!("{table}hardening_table = [[0, 300]]\n"), &["scene.toml:7:", "a stress as a string"]),
+        (format!("{table}hardening_table = [[0, \"300 MPa\"], [0, \"400 MPa\"]]\n"), &["0 follows 0"]),
+        (format!("{LAW}hardening_file = \"curve.csv\"\n"), &["scene.toml:9:", "hardening_law = \"table\""]),
+    ] {
+        let place = Place::with_scene(scene(&material));
+        std::fs::write(place.path("curve.csv"), "plastic_strain,yield_stress_MPa\n0,300\n").unwrap();
+        let end = place.run(&["mesh", "scene.toml", "-o", "mesh.msh"]);
+        assert_eq!(end.status, 2, "{material}\n{}", end.err);
+        for word in words {
+            assert!(end.err.contains(word), "{material}: {word} is not in\n{}", end.err);
+        }
+    }
+}

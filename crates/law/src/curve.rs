@@ -1,0 +1,131 @@
+//! Yield stress over accumulated plastic strain, whichever way a scene gives it.
+
+use crate::hardening::{Flow, Hardening};
+use crate::table::HardeningTable;
+use serde::{Deserialize, Serialize};
+use std::sync::Arc;
+
+/// What the yield surface does as metal flows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum HardeningMode {
+    /// It grows: flow against the last direction begins at the stress that the last flow reached.
+    Isotropic,
+    /// It moves and keeps its size: flow against the last direction begins early (Bauschinger).
+    Kinematic,
+}
+
+/// A curve of hardening: a power law, or a table.
+#[derive(Clone, Debug, PartialEq)]
+pub enum HardeningCurve {
+    /// A power law.
+    Power(Hardening),
+    /// A table, shared between the copies of a metal.
+    Table(Arc<HardeningTable>),
+}
+
+impl From<Hardening> for HardeningCurve {
+    fn from(law: Hardening) -> Self {
+        HardeningCurve::Power(law)
+    }
+}
+
+impl From<HardeningTable> for HardeningCurve {
+    fn from(table: HardeningTable) -> Self {
+        HardeningCurve::Table(Arc::new(table))
+    }
+}
+
+impl HardeningCurve {
+    /// Stress at first yield.
+    pub fn yield_stress(&self) -> f64 {
+        match self {
+            HardeningCurve::Power(law) => law.yield_stress,
+            HardeningCurve::Table(table) => table.yield_stress(),
+        }
+    }
+
+    /// Yield stress and slope at accumulated plastic strain `plastic_strain` ≥ 0.
+    pub fn flow(&self, plastic_strain: f64) -> Flow {
+        match self {
+            HardeningCurve::Power(law) => law.flow(plastic_strain),
+            HardeningCurve::Table(table) => table.flow(plastic_strain),
+        }
+    }
+
+    /// Radial return: the flow state at which `q_trial - 3G (ε_p - ε_p,old) = σ(ε_p)`; see
+    /// [`Hardening::return_to_yield`].
+    #[inline]
+    pub fn return_to_yield(&self, q_trial: f64, three_g: f64, old_plastic_strain: f64) -> Flow {
+        match self {
+            HardeningCurve::Power(law) => law.return_to_yield(q_trial, three_g, old_plastic_strain),
+            HardeningCurve::Table(table) => table.return_to_yield(q_trial, three_g, old_plastic_strain),
+        }
+    }
+
+    /// Plastic work per volume, ∫₀^{ε_p} σ dε_p, at a state of the curve, in the unit of the stresses.
+    pub fn plastic_work(&self, flow: &Flow) -> f64 {
+        match self {
+            HardeningCurve::Power(law) => law.plastic_work(flow),
+            HardeningCurve::Table(table) => table.plastic_work(flow.plastic_strain),
+        }
+    }
+
+    /// Stress at a representative strain ε_r: eq. [8] of Jourani et al. for a power law (see
+    /// [`Hardening::representative_stress`]); of a table the yield stress at the plastic strain ε_r.
+    pub fn representative_stress(&self, representative_strain: f64) -> f64 {
+        match self {
+            HardeningCurve::Power(law) => law.representative_stress(representative_strain),
+            HardeningCurve::Table(table) => table.flow(representative_strain).yield_stress,
+        }
+    }
+
+    /// The hardening exponent that estimates ask for. Of a table: that of the `swift` law through first yield and the
+    /// stress at a plastic strain of 0.1, which metal under a contact reaches; E is `youngs_modulus`.
+    pub fn exponent(&self, youngs_modulus: f64) -> f64 {
+        match self {
+            HardeningCurve::Power(law) => law.exponent,
+            HardeningCurve::Table(table) => {
+                let first = table.yield_stress();
+                let (growth, strain) =
+                    (table.flow(0.1).yield_stress / first, 1.0 + 0.1 * youngs_modulus / first);
+                (growth.ln() / strain.ln()).clamp(0.0, 1.0)
+            }
+        }
+    }
+
+    /// The same metal with all stresses, E among them, in another unit, of which one is `unit` > 0 here.
+    #[must_use]
+    pub fn over(&self, unit: f64) -> HardeningCurve {
+        match self {
+            HardeningCurve::Power(law) => HardeningCurve::Power(Hardening {
+                yield_stress: law.yield_stress / unit,
+                youngs_modulus: law.youngs_modulus / unit,
+                ..*law
+            }),
+            HardeningCurve::Table(table) => HardeningCurve::from(table.over(unit)),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::HardeningLaw;
+
+    /// A table of a `swift` law has its exponent.
+    #[test]
+    fn the_exponent_of_a_table_is_that_of_its_law() {
+        let law = Hardening {
+            law: HardeningLaw::Swift,
+            yield_stress: 300.0,
+            exponent: 0.23,
+            youngs_modulus: 210e3,
+        };
+        let points: Vec<[f64; 2]> = [0.0, 0.05, 0.1, 0.2].map(|p| [p, law.flow(p).yield_stress]).into();
+        let curve = HardeningCurve::from(HardeningTable::new(&points).unwrap());
+        assert!((curve.exponent(210e3) - 0.23).abs() < 1e-12);
+        assert!((curve.over(210e3).exponent(1.0) - 0.23).abs() < 1e-12);
+        assert!((curve.representative_stress(0.1) / law.representative_stress(0.1) - 1.0).abs() < 1e-12);
+    }
+}
