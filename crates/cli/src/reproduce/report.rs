@@ -75,7 +75,7 @@ fn numbers(evidence: &Evidence) -> Vec<Number> {
         ("force_error_percent", "error of the force, stated, %", percent("estimated_error"), 2),
         ("residual_depth_um", "residual depth, µm", summary("residual_depth"), 3),
         ("elastic_share_percent", "elastic share of the work, %", percent("elastic_fraction"), 1),
-        ("unknowns", "unknowns", summary("unknowns"), 0),
+        ("unknowns", "unknowns", summary("dofs"), 0),
         ("newton_iterations", "Newton iterations", summary("newton_iterations"), 0),
         ("coefficient", "c of ε_r = c tan β, from 480 sharp cones", coefficient[0], 3),
         ("coefficient_low", "its 95 % interval, from", coefficient[1], 3),
