@@ -8,7 +8,7 @@
 // a program whose output is the point, on committed cases
 #![allow(clippy::print_stdout, clippy::expect_used)]
 
-use asperity_calibration::case::{Case, Tool};
+use asperity_calibration::case::{Case, Tool, YieldMeasure};
 use asperity_calibration::fit::SplitMix;
 use asperity_calibration::kick::{self, Kick};
 use asperity_calibration::resolution::Resolution;
@@ -71,8 +71,9 @@ fn peers() {
     println!("|-|-|-|-|-|-|-|-|-|");
     for ((p, s), r) in PEERS.iter().zip(&standard).zip(&reference) {
         let case = peer_case(p);
-        let resolution = Resolution { cauchy: true, ..Resolution::of(&case, Accuracy::Standard) };
-        let cauchy = kick::solve(&case, &resolution).expect("committed cases run");
+        let resolution = Resolution::of(&case, Accuracy::Standard);
+        let cauchy = kick::solve(&Case { stress: YieldMeasure::Cauchy, ..case }, &resolution)
+            .expect("committed cases run");
         let off = |k: &Kick| 100.0 * (k.k_over_e / p.k_over_e - 1.0);
         println!(
             "| {} | {} | {} | {:.4} | {:.4} | {:.4} | {:+.2} | {:.2} | {:+.2} | {:+.2} |",
@@ -95,7 +96,8 @@ fn elastic() {
     println!("| tool | E/σ_y | K/E | over Sneddon, % | a tan β/h over 2/π, % |\n|-|-|-|-|-|");
     for tool in [Tool::Plane, Tool::Cone] {
         for yielding in [None, Some(metal(HardeningLaw::Hollomon, 0.3, 10.0))] {
-            let case = Case { beta_deg: 1.0, yielding, poissons_ratio: 0.3, tool };
+            let case =
+                Case { beta_deg: 1.0, yielding, poissons_ratio: 0.3, tool, stress: YieldMeasure::Kirchhoff };
             let k = kick::solve(&case, &Resolution::of(&case, Accuracy::Standard)).expect("runs");
             let sneddon = std::f64::consts::FRAC_2_PI * case.elastic().reduced_modulus() / case.tan_beta();
             println!(
@@ -116,6 +118,7 @@ fn lengths() {
         yielding: Some(metal(HardeningLaw::Hollomon, n, ratio)),
         poissons_ratio: 0.3,
         tool: Tool::Plane,
+        stress: YieldMeasure::Kirchhoff,
     });
     type Change = fn(&mut Resolution);
     let changes: [(&str, Change); 10] = [
@@ -154,11 +157,13 @@ fn indentation() {
                     yielding: Some(metal(HardeningLaw::Swift, exponent, ratio)),
                     poissons_ratio: 0.3,
                     tool: Tool::Cone,
+                    stress: YieldMeasure::Kirchhoff,
                 };
                 let resolution = Resolution::of(&case, Accuracy::Standard);
                 let k = kick::solve(&case, &resolution).expect("runs");
-                let cauchy =
-                    kick::solve(&case, &Resolution { cauchy: true, ..resolution }).expect("runs").k_over_e;
+                let cauchy = kick::solve(&Case { stress: YieldMeasure::Cauchy, ..case }, &resolution)
+                    .expect("runs")
+                    .k_over_e;
                 println!(
                     "| {beta_deg} | {exponent} | {ratio:.1} | {:.4} | {:.2} | {:+.2} |",
                     k.k_over_e,
@@ -183,10 +188,10 @@ fn published(file: &str, beta_deg: f64) {
             (fields.len() >= 4).then(|| [fields[0], fields[1] / fields[2], fields[3] / fields[1]])
         })
         .collect();
-    let difference = |[exponent, ratio, k_over_e]: &[f64; 3], cauchy: bool| {
+    let difference = |[exponent, ratio, k_over_e]: &[f64; 3], stress: YieldMeasure| {
         let yielding = Some(metal(HardeningLaw::Swift, *exponent, *ratio));
-        let case = Case { beta_deg, yielding, poissons_ratio: 0.3, tool: Tool::Cone };
-        let resolution = Resolution { cauchy, ..Resolution::of(&case, Accuracy::Standard) };
+        let case = Case { beta_deg, yielding, poissons_ratio: 0.3, tool: Tool::Cone, stress };
+        let resolution = Resolution::of(&case, Accuracy::Standard);
         100.0 * (kick::solve(&case, &resolution).expect("runs").k_over_e / k_over_e - 1.0)
     };
     let half = metals.len().div_ceil(2);
@@ -194,7 +199,9 @@ fn published(file: &str, beta_deg: f64) {
         let threads: Vec<_> = metals
             .chunks(half)
             .map(|part| {
-                let solve = |m: &[f64; 3]| [difference(m, false), difference(m, true)];
+                let solve = |m: &[f64; 3]| {
+                    [difference(m, YieldMeasure::Kirchhoff), difference(m, YieldMeasure::Cauchy)]
+                };
                 scope.spawn(move || part.iter().map(solve).collect::<Vec<_>>())
             })
             .collect();

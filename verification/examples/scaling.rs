@@ -6,8 +6,9 @@
 
 use asperity_solver::discretise::prepare;
 use asperity_solver::model::{Model, ToolContact};
-use asperity_solver::newton::{KEEP, Settings, System, solve};
+use asperity_solver::newton::{KEEP, Settings, System};
 use asperity_solver::scene::Accuracy;
+use asperity_solver::stepping::{Goal, Path, schedule};
 use asperity_verification::single_asperity::scene;
 use std::error::Error;
 use std::process::Command;
@@ -16,8 +17,10 @@ use std::time::Instant;
 /// Elements across the contact, for 3,000 to 300,000 unknowns.
 const ELEMENTS: [usize; 7] = [20, 32, 48, 72, 108, 160, 225];
 
-/// Load steps of the whole loading.
-const STEPS: usize = 8;
+/// Load steps, and how far they go as a share of the depth for which the mesh is made. Further, long steps pass so many
+/// elements of a fine mesh at once that they are halved, and the number of steps would not be fixed.
+const STEPS: usize = 4;
+const FRACTION: f64 = 0.01;
 
 /// Peak resident memory of this process, MB.
 fn peak_memory() -> Option<f64> {
@@ -33,22 +36,18 @@ fn one(elements: usize) -> Result<(), Box<dyn Error>> {
     scene.numerics.elements_in_contact = Some(elements);
     let problem = prepare(&scene, None)?;
     let contact = ToolContact { tool: problem.tool, penalty: problem.penalty };
-    let mut model =
+    let model =
         Model::new(&problem.mesh, problem.symmetry, problem.metal, |n| problem.held[n], Some(contact))?;
-    let settings = Settings { tolerance: 1e-5, max_iterations: 60, keep: KEEP };
+    let settings = Settings { tolerance: 1e-5, max_iterations: 40, keep: KEEP };
     let clock = Instant::now();
-    let mut iterations = 0;
-    for step in 1..=STEPS {
-        let travel = step as f64 / STEPS as f64;
-        let before = model.accepted_increment().to_vec();
-        model.begin(-travel, 0.0, |node| before[node].map(|u| 0.7 * u));
-        let done = solve(&mut model, &settings).map_err(|(failure, _)| failure)?;
-        iterations += done.iterations;
-        model.accept()?;
-    }
+    let mut path = Path::new(model, settings, false);
+    let depth = Goal::Depth(FRACTION);
+    path.load(depth, &schedule(STEPS, 0.02), FRACTION * problem.numbers.penetration, &mut |_, _| true)?;
     let whole = clock.elapsed().as_secs_f64();
+    let iterations = path.iterations;
+    let model = &mut path.model;
     let before = model.accepted_increment().to_vec();
-    model.begin(-(1.0 + 1.0 / STEPS as f64), 0.0, |node| before[node]);
+    model.begin(-(FRACTION * (1.0 + problem.numbers.penetration)), 0.0, |node| before[node].map(|u| 0.1 * u));
     let repeats = 3;
     let mut least = [f64::INFINITY; 3];
     for _ in 0..repeats {
@@ -80,7 +79,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         return one(elements.parse()?);
     }
     println!(
-        "| unknowns | assembly ms | factorise ms | solve ms | iteration ms | exponent | loading in {STEPS} steps s | iterations | memory MB | exponent |"
+        "| unknowns | assembly ms | factorise ms | solve ms | iteration ms | exponent | {STEPS} steps s | iterations | memory MB | exponent |"
     );
     println!("|-|-|-|-|-|-|-|-|-|-|");
     let mut rows: Vec<[f64; 3]> = Vec::new();

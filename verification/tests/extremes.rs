@@ -10,8 +10,10 @@
 // in a test a panic is the message, and the table is the point
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
+use asperity_law::HardeningMode;
 use asperity_law::units::{Length, Stress};
 use asperity_solver::crush::Outcome;
+use asperity_solver::record::Phase;
 use asperity_solver::scene::{Accuracy, ContactMethod, ElementChoice, HardeningChoice, Scene, Substrate};
 use asperity_verification::calibration::PEERS;
 use asperity_verification::contact::{cone_force, hertz_force};
@@ -215,7 +217,115 @@ fn rows() -> Vec<Row> {
             1e-6,
             |o| o.summary.peak_depth / 16e-6,
         ),
+        against_peer("n 0, E/σ_y 100 under 3°", 3.0, 0.0, 100.0),
+        against_peer("n 0.1, E/σ_y 1000 under 3°", 3.0, 0.1, 1000.0),
+        against_peer("n 0.5, E/σ_y 1000 under 6°", 6.0, 0.5, 1000.0),
+        against(
+            "ν 0.49, plastic, beside 0.4999",
+            nearly_incompressible(0.49),
+            nearly_incompressible(0.4999),
+            0.05,
+        ),
+        against_sneddon("slope 0.1°, E/σ_y 300: no yielding", {
+            let mut scene = plastic_cone(0.1, 0.3, 300.0);
+            scene.material.hardening_law = HardeningChoice::Hollomon;
+            scene
+        }),
+        row("depth 1e-4 of the height, elastic: Hertz on the tip", shallow(), 0.05, |o| {
+            peak(o) / hertz_force(YOUNG / 0.91, 10e-6, 2e-9)
+        }),
+        row("a cap as high as half its radius, to 60 % of it", cap(0.6), 1e-6, |o| {
+            o.summary.peak_depth / (0.6 * 25e-6)
+        }),
+        row("slope 60°, to half its height, Q4: area of the cut cone", q4(steep_cone()), 0.6, |o| {
+            o.summary.contact_radius / (10e-6 / 60f64.to_radians().tan())
+        }),
+        against("10000 steps", steps(10_000), paper(), 0.05),
+        scaled("lengths of 1e-12", 1e-12, 1.0),
+        scaled("lengths of 1e12", 1e12, 1.0),
+        scaled("stresses of 1e-12", 1.0, 1e-12),
+        scaled("stresses of 1e12", 1.0, 1e12),
+        row("unloaded and loaded again ten times: the force of the first peak", reloaded(10), 0.02, |o| {
+            let last = o.rows.iter().rev().find(|r| r.phase == Phase::Load).unwrap();
+            last.force / peak(o)
+        }),
+        row(
+            "half of the hardening kinematic, reloaded: the force of the first peak",
+            half_kinematic(),
+            0.2,
+            |o| {
+                let last = o.rows.iter().rev().find(|r| r.phase == Phase::Load).unwrap();
+                last.force / peak(o)
+            },
+        ),
     ]
+}
+
+/// The sharp cone of 60 degrees, to half its height.
+fn steep_cone() -> Scene {
+    changed(|s| {
+        s.asperity[0].slope_deg = Some(60.0);
+        s.asperity[0].tip_radius = None;
+        s.loading.depth = Some(Length(10e-6));
+    })
+}
+
+/// An elastic crush of the tip alone.
+fn shallow() -> Scene {
+    changed(|s| {
+        s.material.yield_stress = None;
+        s.material.hardening_exponent = None;
+        s.loading.depth = Some(Length(2e-9));
+    })
+}
+
+/// A cap of 50 µm radius and 25 µm height, crushed to this share of it.
+fn cap(share: f64) -> Scene {
+    changed(|s| {
+        s.asperity[0].radius = Some(Length(50e-6));
+        s.asperity[0].height = Some(Length(25e-6));
+        (s.asperity[0].slope_deg, s.asperity[0].tip_radius) = (None, None);
+        s.loading.depth = Some(Length(share * 25e-6));
+    })
+}
+
+/// The paper's asperity `length` times as large, of a metal `stress` times as stiff: the force in its own units.
+fn scaled(name: &'static str, length: f64, stress: f64) -> Row {
+    let times = |x: Option<Length>| x.map(|x| Length(length * x.0));
+    let scene = changed(|s| {
+        s.asperity[0].height = times(s.asperity[0].height);
+        s.asperity[0].tip_radius = times(s.asperity[0].tip_radius);
+        s.loading.depth = times(s.loading.depth);
+        s.material.youngs_modulus.0 *= stress;
+        s.material.yield_stress = s.material.yield_stress.map(|y| Stress(stress * y.0));
+    });
+    row(name, scene, 1e-6, move |o| peak(o) / (stress * length * length) / force(&changed(|_| {})))
+}
+
+fn reloaded(times: usize) -> Scene {
+    changed(|s| {
+        s.loading.unload = true;
+        s.loading.reloads = times;
+    })
+}
+
+fn half_kinematic() -> Scene {
+    let mut scene = reloaded(1);
+    scene.material.hardening_mode = HardeningMode::Kinematic;
+    scene.material.kinematic_share = Some(0.5);
+    scene
+}
+
+/// The rim that is squeezed out of a steep cap lies down on the base plane.
+#[test]
+fn flanks_that_meet_stop_the_run() {
+    // seen at 80 % of the height of this cap with the mesh of `standard`
+    let mut scene = Scene { accuracy: Accuracy::Standard, ..cap(0.85) };
+    scene.material.hardening_exponent = Some(0.1);
+    let outcome = crush(&scene).unwrap();
+    let stop = outcome.stopped.unwrap();
+    assert!(stop.reason.to_string().contains("a flank met another flank"), "{}", stop.reason);
+    assert!(outcome.rows.last().unwrap().depth > 0.5 * 25e-6);
 }
 
 #[test]
@@ -255,5 +365,5 @@ fn every_extreme_has_an_answer() {
     }
     println!("\n{converged} of {} reached their depth.", rows.len());
     assert!(failures.is_empty(), "{failures:?}");
-    assert!(10 * converged >= 9 * rows.len(), "{converged} of {} reached their depth", rows.len());
+    assert!(100 * converged >= 95 * rows.len(), "{converged} of {} reached their depth", rows.len());
 }

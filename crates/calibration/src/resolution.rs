@@ -35,8 +35,6 @@ pub struct Resolution {
     pub penetration: f64,
     /// Relative residual at which Newton stops.
     pub tolerance: f64,
-    /// Whether the stress of the law is Cauchy's, as in most other codes, instead of Kirchhoff's: for comparisons.
-    pub cauchy: bool,
     /// Share of the flow that the second order of the step carries on. All of it overestimates K at long steps, none
     /// of it underestimates K; 0.8 leaves half the error of either at the steps of `standard`.
     pub carry: f64,
@@ -98,7 +96,6 @@ impl Resolution {
             steps: 24,
             penetration: 0.016,
             tolerance: 1e-4,
-            cauchy: false,
             carry: 0.8,
             bias: 0.005,
             soft_bias: 0.012,
@@ -152,7 +149,6 @@ impl Resolution {
             steps: 36,
             penetration: 0.004,
             tolerance: 1e-4,
-            cauchy: false,
             carry: 0.8,
             bias: 0.005,
             soft_bias: 0.012,

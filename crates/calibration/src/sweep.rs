@@ -1,6 +1,6 @@
 //! The grid of a calibration: which cones of which metals.
 
-use crate::case::{Case, Tool, Yielding};
+use crate::case::{Case, Tool, YieldMeasure, Yielding};
 use asperity_law::HardeningLaw;
 use asperity_law::units::Stress;
 use asperity_solver::scene::Accuracy;
@@ -24,6 +24,8 @@ pub struct Sweep {
     pub poissons_ratio: f64,
     /// Crush by a plane, or indentation by a cone.
     pub tool: Tool,
+    /// Which stress the law speaks of, for comparison with other codes.
+    pub stress: YieldMeasure,
     /// Accuracy of K.
     pub accuracy: Accuracy,
 }
@@ -41,6 +43,7 @@ impl Default for Sweep {
             hardening_law: HardeningLaw::Hollomon,
             poissons_ratio: 0.3,
             tool: Tool::Plane,
+            stress: YieldMeasure::Kirchhoff,
             accuracy: Accuracy::Standard,
         }
     }
@@ -119,6 +122,7 @@ impl Sweep {
                             yielding: Some(y),
                             poissons_ratio: self.poissons_ratio,
                             tool: self.tool,
+                            stress: self.stress,
                         });
                     }
                 }

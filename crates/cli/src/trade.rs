@@ -161,10 +161,12 @@ fn write(folder: &mut Folder, finished: &[Finished]) -> Result<String, Failure> 
     let picture = picture::draw(&rows).map_err(Failure::Unfinished)?;
     folder.write("trade.csv", |out| table::write(out, &rows))?;
     folder.write("trade.svg", |out| out.write_all(picture.as_bytes()))?;
+    let overview = table::overview(&rows);
+    folder.write("trade.md", |out| writeln!(out, "{overview}"))?;
     let failed = rows.iter().filter(|r| r.outcome.is_err()).count();
     Ok(format!(
-        "{}\n{} settings, {failed} without a result; the converged force is known to {:.3} %",
-        table::overview(&rows),
+        "{}\n\n{} settings, {failed} without a result; the converged force is known to {:.3} %",
+        overview,
         rows.len(),
         100.0 * converged.doubt
     ))

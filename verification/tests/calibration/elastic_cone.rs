@@ -3,7 +3,7 @@
 //! Tolerance of K 1 %: the bound of `standard`; of the contact ratio 3 %: the radius is taken at the outer edge of a
 //! penalty contact, which reaches 1.3 % too far at a penetration of 1.6 % of the depth.
 
-use asperity_calibration::case::{Case, Tool};
+use asperity_calibration::case::{Case, Tool, YieldMeasure};
 use asperity_calibration::kick::solve;
 use asperity_calibration::resolution::Resolution;
 use asperity_law::HardeningLaw;
@@ -15,7 +15,8 @@ use std::f64::consts::FRAC_2_PI;
 fn elastic_cones_follow_sneddon() {
     for tool in [Tool::Plane, Tool::Cone] {
         for yielding in [None, Some(metal(HardeningLaw::Hollomon, 0.3, 10.0))] {
-            let case = Case { beta_deg: 1.0, yielding, poissons_ratio: 0.3, tool };
+            let case =
+                Case { beta_deg: 1.0, yielding, poissons_ratio: 0.3, tool, stress: YieldMeasure::Kirchhoff };
             let kick = solve(&case, &Resolution::of(&case, Accuracy::Standard)).unwrap();
             let sneddon = FRAC_2_PI * case.elastic().reduced_modulus() / case.tan_beta();
             assert!((kick.k_over_e / sneddon - 1.0).abs() < 0.01, "{tool:?}: {} {sneddon}", kick.k_over_e);

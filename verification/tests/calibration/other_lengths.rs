@@ -2,7 +2,7 @@
 //! tip, its height and its substrate. Tolerance 0.5 %: the bound on mesh, step and substrate that `standard` states. What
 //! a rounded tip leaves of its effect falls with the square of its radius over the contact's.
 
-use asperity_calibration::case::{Case, Tool};
+use asperity_calibration::case::{Case, Tool, YieldMeasure};
 use asperity_calibration::kick::solve;
 use asperity_calibration::resolution::Resolution;
 use asperity_law::HardeningLaw;
@@ -12,7 +12,13 @@ use asperity_verification::calibration::metal;
 #[test]
 fn tip_height_and_substrate_do_not_matter() {
     let yielding = Some(metal(HardeningLaw::Hollomon, 0.3, 300.0));
-    let case = Case { beta_deg: 8.0, yielding, poissons_ratio: 0.3, tool: Tool::Plane };
+    let case = Case {
+        beta_deg: 8.0,
+        yielding,
+        poissons_ratio: 0.3,
+        tool: Tool::Plane,
+        stress: YieldMeasure::Kirchhoff,
+    };
     let standard = Resolution::of(&case, Accuracy::Standard);
     let k = |resolution: &Resolution| solve(&case, resolution).unwrap().k_over_e;
     let sharp = k(&standard);

@@ -3,6 +3,7 @@
 //! Kirchhoff stress within a further 1 %, what the difference of the two measures amounts to at E/σ_y = 100. Four of the
 //! ten here; `--example calibration peers` prints all. The force grows with the depth to the exponent 2, or `solve` fails.
 
+use asperity_calibration::case::{Case, YieldMeasure};
 use asperity_calibration::kick::solve;
 use asperity_calibration::resolution::Resolution;
 use asperity_solver::scene::Accuracy;
@@ -13,8 +14,8 @@ fn cones_agree_with_calculix() {
     for i in [1, 4, 7, 8] {
         let (peer, case) = (PEERS[i], peer_case(&PEERS[i]));
         let resolution = Resolution::of(&case, Accuracy::Standard);
-        for (cauchy, measure) in [(true, 0.0), (false, 0.01)] {
-            let kick = solve(&case, &Resolution { cauchy, ..resolution }).unwrap();
+        for (stress, measure) in [(YieldMeasure::Cauchy, 0.0), (YieldMeasure::Kirchhoff, 0.01)] {
+            let kick = solve(&Case { stress, ..case }, &resolution).unwrap();
             let off = (kick.k_over_e / peer.k_over_e - 1.0).abs();
             assert!(off <= kick.error + peer.error + measure, "{peer:?}: {kick:?}");
         }

@@ -68,36 +68,58 @@ pub fn write(out: &mut dyn Write, rows: &[Row]) -> io::Result<()> {
     Ok(())
 }
 
-/// The levels and the front of the force, cheapest first, as a table for a person.
+/// The levels, then the front of the force, cheapest first, as a Markdown table that reads well as text too.
 pub fn overview(rows: &[Row]) -> String {
-    let mut lines = vec![format!(
-        "{:<22} {:>8} {:>8} {:>9} {:>10} {:>7}",
-        "setting", "force %", "stated %", "core s", "iterations", "dofs"
-    )];
+    let mut cells = vec![
+        ["setting", "error of F, %", "stated, %", "core s", "iterations", "unknowns"].map(String::from),
+        std::array::from_fn(|_| "-".into()),
+    ];
     let mut add = |name: String, row: &Row| {
         if let Ok((run, errors)) = &row.outcome {
-            lines.push(format!(
-                "{name:<22} {:>8.3} {:>8.3} {:>9.3} {:>10} {:>7}",
-                100.0 * errors.force,
-                100.0 * run.estimated_error.unwrap_or(f64::NAN),
-                run.core_s,
-                run.newton_iterations,
-                run.dofs
-            ));
+            cells.push([
+                name,
+                format!("{:.2}", 100.0 * errors.force),
+                run.estimated_error.map_or(String::new(), |stated| format!("{:.2}", 100.0 * stated)),
+                format!("{:.2}", run.core_s),
+                run.newton_iterations.to_string(),
+                run.dofs.to_string(),
+            ]);
         }
     };
-    for row in rows.iter().filter(|r| r.setting.knob == Knob::Level) {
-        add(row.setting.around.to_string(), row);
+    let cost = |row: &&Row| row.outcome.as_ref().map_or(f64::INFINITY, |(run, _)| run.core_s);
+    let sorted = |chosen: &dyn Fn(&Row) -> bool| {
+        let mut chosen: Vec<&Row> = rows.iter().filter(|r| chosen(r)).collect();
+        chosen.sort_by(|a, b| cost(a).total_cmp(&cost(b)));
+        chosen
+    };
+    for row in sorted(&|r| r.setting.knob == Knob::Level) {
+        add(format!("`{}`", row.setting.around), row);
     }
-    let mut on_front: Vec<&Row> = rows.iter().filter(|r| r.on_front).collect();
-    let cost = |row: &Row| row.outcome.as_ref().map_or(f64::INFINITY, |(run, _)| run.core_s);
-    on_front.sort_by(|a, b| cost(a).total_cmp(&cost(b)));
-    for row in on_front {
+    for row in sorted(&|r| r.on_front && r.setting.knob != Knob::Level) {
         let n = &row.setting.numerics;
         let element = if n.element == Some(ElementChoice::Q4) { "q4" } else { "q8r" };
-        add(format!("front: {element} {} x {}", cell(n.elements_in_contact), cell(n.steps)), row);
+        let name = format!(
+            "front: {element}, {} elements, {} steps, penetration {}, tolerance {}, domain {}",
+            cell(n.elements_in_contact),
+            cell(n.steps),
+            cell(n.penetration),
+            cell(n.newton_tolerance),
+            cell(n.domain)
+        );
+        add(name, row);
     }
-    lines.join("\n")
+    let widths: [usize; 6] =
+        std::array::from_fn(|i| cells.iter().map(|row| row[i].chars().count()).max().unwrap_or(0));
+    let line = |row: &[String; 6]| {
+        let padded = row.iter().zip(widths).enumerate().map(|(i, (text, width))| match (text.as_str(), i) {
+            ("-", 0) => "-".repeat(width),
+            ("-", _) => format!("{}:", "-".repeat(width - 1)),
+            (_, 0) => format!("{text:<width$}"),
+            _ => format!("{text:>width$}"),
+        });
+        format!("| {} |", padded.collect::<Vec<_>>().join(" | "))
+    };
+    cells.iter().map(line).collect::<Vec<_>>().join("\n")
 }
 
 #[cfg(test)]
