@@ -8,7 +8,7 @@
     cargo run --release -p asperity-verification --example several -- approach.csv
     python3 scripts/figures.py --approach approach.csv --to approach.svg
 
-Needs matplotlib 3.8 or later. Prints a table of works and elastic shares, and whether each statement of the paper is
+Needs Python 3.10 and matplotlib 3.8 or later. Prints a table of works and elastic shares, and whether each statement of the paper is
 borne out. Elastic zones under total crushing (Fig. 5) are drawn by scripts/render.py from the fields of a crush.
 """
 

@@ -11,6 +11,6 @@ import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 
-from paraview_section import main
+from paraview_section import even_edges, main
 
-main("von_mises_MPa", "von Mises stress (MPa)", "Viridis (matplotlib)")
+main("von_mises_MPa", "von Mises stress (MPa)", even_edges)

@@ -10,6 +10,6 @@ import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 
-from paraview_section import main
+from paraview_section import main, strain_edges
 
-main("plastic_strain", "accumulated plastic strain", "Viridis (matplotlib)")
+main("plastic_strain", "accumulated plastic strain; pale: elastic", strain_edges, pale=True)

@@ -4,7 +4,7 @@
     python3 scripts/render.py out/single-asperity -o section.png
     python3 scripts/render.py out/single-asperity --increment last --zoom 2 -o unloaded.png
 
-Reads `fields.pvd` with PyVista (pip install pyvista, 0.44 or later, which brings VTK and Matplotlib) and draws with
+Needs Python 3.10 or later. Reads `fields.pvd` with PyVista (pip install pyvista, 0.49 or later, which brings VTK and Matplotlib) and draws with
 Matplotlib, so that no display and no graphics card is needed. A body of revolution is mirrored at its axis.
 """
 

@@ -3,6 +3,8 @@
 
     python3 scripts/unloading-exponent.py [--binary target/release/asperity] [--accuracy draft]
 
+Needs Python 3.10 or later and nothing else.
+
 For a circular contact of radius a the stiffness at the start of unloading is 2 E* a = m F_j/u_j, so m = 2 E* a u_j/F_j with
 u_j = depth - residual depth. The measured stiffness over 2 E* a stands beside it: it must be near 1 for that to hold.
 """

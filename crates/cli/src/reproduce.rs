@@ -221,5 +221,6 @@ fn write_report(
     write_whole(&folder.join("index.html"), report.html.as_bytes())?;
     write_whole(&folder.join("claims.json"), report.claims_json.as_bytes())?;
     write_whole(&folder.join("claims.md"), report.claims_markdown.as_bytes())?;
+    write_whole(&folder.join("numbers.md"), report.numbers_markdown.as_bytes())?;
     Ok(report)
 }

@@ -7,8 +7,9 @@ mod common;
 use common::Place;
 use scraper::{Html, Selector};
 use std::collections::HashSet;
-use std::process::Command;
-use std::time::SystemTime;
+use std::hash::{BuildHasher, RandomState};
+use std::process::{Command, Stdio};
+use std::time::{Duration, SystemTime};
 
 /// A place where the paper's asperity was reproduced at draft.
 fn reproduced() -> Place {
@@ -49,6 +50,51 @@ fn what_is_not_done_is_done_again() {
         serde_json::from_str::<serde_json::Value>(text).unwrap()["peak_force_N"].as_f64().unwrap()
     };
     assert_eq!(force(&summary), force(&place.text(&format!("{part}/summary.json"))));
+}
+
+/// Killed four times at moments drawn anew in every run of this test: no part that was done is begun again, the cases in
+/// the sweep's journal are taken as they are, seconds included.
+#[test]
+fn a_run_killed_anywhere_goes_on() {
+    let place = Place::with_scene("");
+    let args = ["reproduce", "--accuracy", "draft", "--only", "fig2,fig8", "--out", "out", "--quiet"];
+    let journal = || std::fs::read_to_string(place.path("out/parts/calibrate.journal")).unwrap_or_default();
+    let mut kept = String::new();
+    for _ in 0..4 {
+        let mut child = Command::new(env!("CARGO_BIN_EXE_asperity"))
+            .current_dir(place.path(""))
+            .args(args)
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .spawn()
+            .unwrap();
+        let moment = RandomState::new().hash_one(0) % 3000;
+        eprintln!("killed after {moment} ms");
+        std::thread::sleep(Duration::from_millis(moment));
+        let _ = child.kill();
+        child.wait().unwrap();
+        // only its last line may be torn
+        let (now, whole) = (journal(), kept.rfind('\n').map_or(0, |end| end + 1));
+        assert!(now.starts_with(&kept[..whole]) || place.path("out/parts/calibrate.done").exists());
+        kept = now;
+    }
+    let done = place.path("out/parts/single-asperity.done").exists();
+    let before = done.then(|| changed(&place, "out/parts/single-asperity/curve.csv"));
+    let end = place.run(&args);
+    assert_eq!(end.status, 0, "{}", end.err);
+    let cases = place.text("out/parts/calibrate/cases.csv");
+    assert_eq!(cases.lines().count(), 481);
+    let rows: HashSet<&str> = cases.lines().collect();
+    let whole_lines = kept.rsplit_once('\n').map_or("", |(lines, _)| lines);
+    let lost = whole_lines.lines().skip(1).filter(|line| !rows.iter().any(|row| line.ends_with(row))).count();
+    assert_eq!(lost, 0, "{kept}");
+    if let Some(before) = before {
+        assert_eq!(changed(&place, "out/parts/single-asperity/curve.csv"), before);
+    }
+    let written: serde_json::Value = serde_json::from_str(&place.text("out/report/claims.json")).unwrap();
+    assert!(
+        written["numbers"]["coefficient"].is_number() && written["numbers"]["force_at_5_um_N"].is_number()
+    );
 }
 
 #[test]

@@ -213,14 +213,17 @@ impl<'m> Path<'m> {
         if fold(&self.model).is_some() { Err(Stop::FlanksMeet) } else { Ok(increment) }
     }
 
-    /// Goes to `travel` in as few increments as converge; accepts all but the last, which is left attempted.
-    fn reach(
+    /// Goes to `travel` in as few increments as converge; accepts all but the last, which is left attempted. That may be one
+    /// before `travel` whose depth already is `enough`: where an asperity vanishes into its base the penetration falls, and
+    /// the travel planned with the one before would crush the base itself.
+    fn reach_depth(
         &mut self,
         travel: f64,
+        enough: f64,
         phase: Phase,
         carry: bool,
         observer: &mut Observer<'_>,
-    ) -> Result<ContactSums, Stop> {
+    ) -> Result<(f64, ContactSums), Stop> {
         let mut halvings = 0;
         let mut next = travel;
         let mut guess = if carry { GUESS } else { 0.0 };
@@ -234,7 +237,7 @@ impl<'m> Path<'m> {
                     halvings += 1;
                     next = 0.5 * (self.travel + next);
                 }
-                Ok(sums) if next == travel => return Ok(sums),
+                Ok(sums) if next == travel || next - sums.penetration >= enough => return Ok((next, sums)),
                 Ok(_) => {
                     self.accept(next, phase, observer)?;
                     // try to take the rest in steps as long as the one that went
@@ -257,6 +260,17 @@ impl<'m> Path<'m> {
         }
     }
 
+    /// [`Path::reach_depth`] all the way.
+    fn reach(
+        &mut self,
+        travel: f64,
+        phase: Phase,
+        carry: bool,
+        observer: &mut Observer<'_>,
+    ) -> Result<ContactSums, Stop> {
+        self.reach_depth(travel, f64::INFINITY, phase, carry, observer).map(|(_, sums)| sums)
+    }
+
     /// Loads to `goal` along `fractions` (see [`schedule`]); `penetration` is the expected one at the peak.
     pub fn load(
         &mut self,
@@ -265,9 +279,9 @@ impl<'m> Path<'m> {
         penetration: f64,
         observer: &mut Observer<'_>,
     ) -> Result<(), Stop> {
-        let (depth, limit) = match goal {
-            Goal::Depth(depth) => (depth, depth),
-            Goal::Force { expected_depth, limit, .. } => (expected_depth, limit),
+        let (depth, limit, enough) = match goal {
+            Goal::Depth(depth) => (depth, depth, depth),
+            Goal::Force { expected_depth, limit, .. } => (expected_depth, limit, f64::INFINITY),
         };
         let mut expected = penetration;
         let growth =
@@ -277,10 +291,10 @@ impl<'m> Path<'m> {
         loop {
             fraction = fractions.get(index).copied().unwrap_or(fraction * growth);
             index += 1;
-            let travel = (fraction * depth).min(limit) + expected;
-            let sums = self.reach(travel, Phase::Load, true, observer)?;
+            let planned = (fraction * depth).min(limit) + expected;
+            let (travel, sums) = self.reach_depth(planned, enough, Phase::Load, true, observer)?;
             let last = match goal {
-                Goal::Depth(_) => index == fractions.len(),
+                Goal::Depth(_) => index == fractions.len() || travel != planned,
                 Goal::Force { force, .. } => sums.force >= force,
             };
             if last {

@@ -19,6 +19,8 @@ pub struct Report {
     pub claims_json: String,
     /// claims.md.
     pub claims_markdown: String,
+    /// numbers.md.
+    pub numbers_markdown: String,
     /// A few lines for the terminal.
     pub overview: String,
 }
@@ -34,32 +36,64 @@ pub fn report(evidence: &Evidence, items: &[Item], accuracy: Accuracy) -> Result
     let count = |verdict: Verdict| claims.iter().filter(|c| c.verdict == verdict).count();
     let verdicts = [Verdict::BorneOut, Verdict::Contradicted, Verdict::CannotBeJudged];
     let tally = verdicts.map(|v| format!("{} {}", count(v), v.words())).join(", ");
+    let numbers = numbers(evidence);
+    let by_name: BTreeMap<&str, f64> = numbers.iter().map(|n| (n.name, n.value)).collect();
     let value = serde_json::json!({
-        "accuracy": level, "version": env!("CARGO_PKG_VERSION"), "numbers": numbers(evidence), "claims": claims,
+        "accuracy": level, "version": env!("CARGO_PKG_VERSION"), "numbers": by_name, "claims": claims,
     });
     Ok(Report {
         html: page(evidence, items, &claims, &level)?.into_string(),
         claims_json: format!("{value:#}\n"),
         claims_markdown: markdown(&claims, &level),
+        numbers_markdown: numbers_markdown(&numbers, &level),
         overview: format!("claims    {tally}"),
     })
 }
 
+/// A result in figures.
+struct Number {
+    /// What claims.json calls it.
+    name: &'static str,
+    /// What a page of text calls it.
+    words: &'static str,
+    value: f64,
+    /// Digits after the point on a page of text.
+    decimals: usize,
+}
+
 /// The numbers that pages of text quote; those of parts that were not asked for are left out.
-fn numbers(evidence: &Evidence) -> BTreeMap<&'static str, f64> {
+fn numbers(evidence: &Evidence) -> Vec<Number> {
     let single = "single-asperity";
+    let summary = |key: &str| evidence.summary(single, key);
+    let percent = |key: &str| summary(key).map(|share| 100.0 * share);
     let fit = evidence.json("calibrate", "fit.json").unwrap_or_default();
+    let coefficient = [&fit["coefficient"], &fit["ci95"][0], &fit["ci95"][1]].map(serde_json::Value::as_f64);
     let all = [
-        ("force_at_1_um_N", evidence.force_at(single, 1.0)),
-        ("force_at_2_um_N", evidence.force_at(single, 2.0)),
-        ("force_at_5_um_N", evidence.force_at(single, 5.0)),
-        ("residual_depth_um", evidence.summary(single, "residual_depth")),
-        ("elastic_share_percent", evidence.summary(single, "elastic_fraction").map(|f| 100.0 * f)),
-        ("coefficient", fit["coefficient"].as_f64()),
-        ("coefficient_low", fit["ci95"][0].as_f64()),
-        ("coefficient_high", fit["ci95"][1].as_f64()),
+        ("force_at_1_um_N", "force at 1 µm, N", evidence.force_at(single, 1.0), 3),
+        ("force_at_2_um_N", "force at 2 µm, N", evidence.force_at(single, 2.0), 3),
+        ("force_at_5_um_N", "force at 5 µm, N", evidence.force_at(single, 5.0), 3),
+        ("force_error_percent", "error of the force, stated, %", percent("estimated_error"), 2),
+        ("residual_depth_um", "residual depth, µm", summary("residual_depth"), 3),
+        ("elastic_share_percent", "elastic share of the work, %", percent("elastic_fraction"), 1),
+        ("unknowns", "unknowns", summary("dofs"), 0),
+        ("newton_iterations", "Newton iterations", summary("newton_iterations"), 0),
+        ("coefficient", "c of ε_r = c tan β, from 480 sharp cones", coefficient[0], 3),
+        ("coefficient_low", "its 95 % interval, from", coefficient[1], 3),
+        ("coefficient_high", "to", coefficient[2], 3),
     ];
-    all.into_iter().filter_map(|(name, value)| Some((name, value?))).collect()
+    let known = |(name, words, value, decimals): (_, _, Option<f64>, _)| {
+        Some(Number { name, words, value: value?, decimals })
+    };
+    all.into_iter().filter_map(known).collect()
+}
+
+/// The numbers as a table for a page of text.
+fn numbers_markdown(numbers: &[Number], level: &str) -> String {
+    let mut text = format!("| | ours at `{level}` |\n|-|-|\n");
+    for Number { words, value, decimals, .. } in numbers {
+        let _ = writeln!(text, "| {words} | {value:.decimals$} |");
+    }
+    text
 }
 
 fn class(verdict: Verdict) -> &'static str {
