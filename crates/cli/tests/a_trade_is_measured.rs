@@ -18,7 +18,7 @@ fn table_front_and_picture() {
     let done = place.run(&["trade", "scene.toml", "--combinations", "2", "--out", "out", "--threads", "2"]);
     assert_eq!(done.status, 0, "{}", done.err);
     assert!(done.out.contains("the converged force is known to"), "{}", done.out);
-    assert_eq!(place.names("out"), [".asperity-run", "trade.csv", "trade.svg"]);
+    assert_eq!(place.names("out"), [".asperity-run", "trade.csv", "trade.md", "trade.svg"]);
     assert!(!place.path("out.journal").exists());
 
     let table = place.text("out/trade.csv");
