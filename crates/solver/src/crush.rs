@@ -1,7 +1,6 @@
 //! One crush from a scene to its records: the entry point of the solver.
 
-use crate::curve::Curve;
-use crate::discretise::{Problem, mirror, prepare};
+use crate::discretise::{PROBED, Problem, mirror, prepare};
 use crate::fields::{Fields, SurfacePoint, fields};
 use crate::indentation::{OliverPharr, Peak, oliver_pharr};
 use crate::islands::{extent, gaps, islands};
@@ -114,7 +113,7 @@ pub fn run(
         Target::Force(force) => Goal::Force {
             force: force / log.units.force,
             expected_depth: problem.depth,
-            limit: 1.3 * problem.depth,
+            limit: (PROBED * problem.depth).min(scene.deepest() / problem.length),
         },
     };
     let numbers = problem.numbers;
@@ -480,10 +479,9 @@ impl<'p> Log<'p> {
             energy_balance_error: balance_error(&self.rows),
             estimated_error: crate::estimate::force_error(
                 self.problem,
-                peak.force / u.force,
-                peak.depth / u.length,
+                &self.rows[..=self.peak],
+                [peak.force / u.force, peak.depth / u.length],
                 self.automatic,
-                Curve::force(&self.rows).steepness(),
             ),
             elements: self.problem.mesh.cell_count(),
             dofs: self.unknowns,

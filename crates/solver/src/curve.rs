@@ -52,6 +52,15 @@ impl Curve {
         root * root
     }
 
+    /// The first depth at which the value is reached, linear in √value between increments; `None` if it never is.
+    pub fn depth_of(&self, value: f64) -> Option<f64> {
+        let root = value.sqrt();
+        let after = self.points.iter().position(|p| p[1] >= root)?;
+        let [h1, v1] = self.points[after];
+        let [h0, v0] = if after > 0 { self.points[after - 1] } else { [0.0, 0.0] };
+        Some(if v1 > v0 { h0 + (h1 - h0) * (root - v0) / (v1 - v0) } else { h1 })
+    }
+
     /// Largest exponent p of value ∝ depthᵖ within a tenth of the peak depth, over depths that count: 2 for a sharp cone,
     /// far more where flat metal comes into contact at once.
     pub fn steepness(&self) -> f64 {
@@ -160,6 +169,8 @@ mod tests {
             assert!((fit.at(h) / force(h) - 1.0).abs() < 1e-4);
         }
         assert!(curve.at(6e-6).is_nan());
+        assert!((curve.depth_of(force(3e-6)).unwrap() / 3e-6 - 1.0).abs() < 1e-9);
+        assert!(curve.depth_of(0.1 * force(1e-9)).unwrap() < 1e-7 && curve.depth_of(force(6e-6)).is_none());
         // a hundredth more in the reference is 1/101 less here, everywhere
         let worst = curve.worst_difference(|h| 1.01 * force(h), 5e-6);
         assert!((worst - 1.0 / 101.0).abs() < 1e-9);

@@ -4,6 +4,7 @@
 
 use crate::kinematics::Symmetry;
 use crate::material::Metal;
+use crate::probe::depth_of;
 use crate::scene::{
     Accuracy, AsperityForm, ContactMethod, ElementChoice, Lateral, Numerics, Scene, SceneError, Target,
     ToolForm,
@@ -94,6 +95,10 @@ impl Discretisation {
         let (steps, geometric_from) = if ridges { (steps + steps / 3, 0.003) } else { (steps, 0.02) };
         // unloaded, contacts part one after the other, each with a kink in the curve
         let unload_steps = if ridges { 2 * unload_steps } else { unload_steps };
+        // errors of step and mesh were made equal to the promise on metal of n 0.3 and grow as it hardens less
+        let softness = softness(scene);
+        let elements = (elements as f64 * softness.powf(0.8)).round() as usize;
+        let steps = (steps as f64 * softness).round() as usize;
         // a linear element must be 8/3 times smaller than a quadratic one to be as exact
         let elements = if element == ElementChoice::Q4 { elements * 8 / 3 } else { elements };
         Discretisation {
@@ -122,6 +127,13 @@ impl Discretisation {
             domain: Some(self.domain),
         }
     }
+}
+
+/// (1 - n)/0.7 of metal that hardens less than n = 0.3, else 1: the error of the load step grows with its square and is
+/// of second order in the step, the ripple of the mesh grows with it nearly and is of first order (see `estimate`).
+fn softness(scene: &Scene) -> f64 {
+    let modulus = scene.material.youngs_modulus.0;
+    scene.material.hardening().map_or(1.0, |h| ((1.0 - h.exponent(modulus)) / 0.7).max(1.0))
 }
 
 /// A scene made ready, dimensionless.
@@ -153,6 +165,9 @@ pub struct Problem {
     pub numbers: Discretisation,
 }
 
+/// How far a run that is driven by a force may go beyond the depth that was probed for it.
+pub const PROBED: f64 = 1.3;
+
 /// Prepares `scene`, which is valid; `mesh` replaces the mesh that would be built (in metres).
 ///
 /// # Errors
@@ -175,7 +190,8 @@ pub fn prepare(scene: &Scene, mesh: Option<Mesh>) -> Result<Problem, SceneError>
     let (length, target) = match scene.loading.target().map_err(|e| within("loading", e))? {
         Target::Depth(depth) => (depth, None),
         Target::Force(force) => {
-            (estimate_depth(&metal, modulus, symmetry, &outlines, &tool_form, force), Some(force))
+            let guess = estimate_depth(&metal, modulus, symmetry, &outlines, &tool_form, force);
+            (depth_of(scene, force, guess), Some(force))
         }
     };
     let scaled: Vec<Asperity> = outlines.iter().map(|a| scale(a, length)).collect();
@@ -187,9 +203,9 @@ pub fn prepare(scene: &Scene, mesh: Option<Mesh>) -> Result<Problem, SceneError>
         }
         ToolForm::Sphere { radius } => Tool::Sphere { radius: radius / length },
     };
-    // a force is only estimated into a depth: mesh somewhat further than that
+    // a force is only probed for its depth: mesh somewhat further than that
     let depth = 1.0;
-    let reach = if target.is_some() { 1.3 } else { 1.0 };
+    let reach = if target.is_some() { PROBED } else { 1.0 };
     let half_widths = half_widths(&profile, &tool, reach * depth);
     let penalty = expected_pressure(&metal, &profile, &tool, depth) / (numbers.penetration * depth);
     let mesh = match mesh {

@@ -56,6 +56,8 @@ pub mod scene;
 
 pub mod discretise;
 
+pub mod probe;
+
 pub mod stepping;
 
 pub mod estimate;

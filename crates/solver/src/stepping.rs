@@ -59,6 +59,11 @@ pub enum Stop {
     /// No equilibrium was found however small the increment.
     #[error("no equilibrium was found with the smallest increment")]
     NoEquilibrium,
+    /// A force that the tool does not find as deep as it can go.
+    #[error(
+        "the force is larger than what this body bears as deep as the tool can go: ask for less force, or for a depth"
+    )]
+    ForceNotReached,
     /// A flank met another flank: contact of the metal with itself is not modelled.
     #[error("a flank met another flank: metal that touches itself is not modelled")]
     FlanksMeet,
@@ -281,7 +286,7 @@ impl<'m> Path<'m> {
     ) -> Result<(), Stop> {
         let (depth, limit, enough) = match goal {
             Goal::Depth(depth) => (depth, depth, depth),
-            Goal::Force { expected_depth, limit, .. } => (expected_depth, limit, f64::INFINITY),
+            Goal::Force { expected_depth, limit, .. } => (expected_depth, limit, limit),
         };
         let mut expected = penetration;
         let growth =
@@ -303,8 +308,8 @@ impl<'m> Path<'m> {
             }
             expected = sums.penetration;
             self.accept(travel, Phase::Load, observer)?;
-            if fraction * depth >= limit && matches!(goal, Goal::Force { .. }) {
-                return Err(Stop::NoEquilibrium);
+            if (fraction * depth >= limit || travel != planned) && matches!(goal, Goal::Force { .. }) {
+                return Err(Stop::ForceNotReached);
             }
         }
     }

@@ -113,6 +113,23 @@ impl Scene {
         if self.symmetry == Symmetry::Axisymmetric { total } else { 0.5 * total }
     }
 
+    /// Height of the highest asperity, m.
+    fn highest(&self) -> f64 {
+        self.asperity.iter().filter_map(|a| a.form().ok()).map(|f| f.height()).fold(0.0, f64::max)
+    }
+
+    /// The depth (m) that the tool can go at most, infinite for a cone in a body without a bottom.
+    pub fn deepest(&self) -> f64 {
+        match self.tool.form() {
+            Ok(ToolForm::Plane) if self.highest() > 0.0 => self.highest(),
+            Ok(ToolForm::Sphere { radius }) => radius,
+            // a hair above the bottom, which itself is refused
+            _ => {
+                self.substrate.and_then(|s| s.depth).map_or(f64::INFINITY, |d| 0.999 * (self.highest() + d.0))
+            }
+        }
+    }
+
     /// The end of loading must suit the symmetry and the height of the asperities.
     fn check_loading(&self) -> Check {
         match (self.symmetry, self.loading.force) {
@@ -131,8 +148,7 @@ impl Scene {
             _ => {}
         }
         let Some(depth) = self.loading.depth else { return Ok(()) };
-        let highest =
-            self.asperity.iter().filter_map(|a| a.form().ok()).map(|f| f.height()).fold(0.0, f64::max);
+        let highest = self.highest();
         match self.tool.form() {
             Ok(ToolForm::Plane) if highest > 0.0 && depth.0 > highest => Err(error(
                 "loading.depth",

@@ -1,10 +1,11 @@
 //! Damaged files: every reader answers with a map or an error, never with a panic, an endless loop or a map larger
 //! than its file.
 //!
-//! PROPTEST_CASES sets how many files are damaged (64 unless told); ASPERITY_SURFACES names a folder of instruments'
-//! files that are damaged too.
+//! PROPTEST_CASES sets how many files are damaged (64 unless told), ASPERITY_FUZZ_SECONDS goes on with others for at least
+//! so much CPU time of each reader, and ASPERITY_SURFACES names a folder of instruments' files that are damaged too.
 
 use super::*;
+use std::time::Duration;
 
 /// Valid files of one kind: those made here, and those of the folder named by the environment.
 fn samples(extension: &str) -> Vec<(String, Vec<u8>)> {
@@ -101,23 +102,59 @@ fn cases() -> u32 {
     std::env::var("PROPTEST_CASES").ok().and_then(|n| n.parse().ok()).unwrap_or(64)
 }
 
+/// How long each reader is tried at least.
+fn duration() -> Duration {
+    let told = std::env::var("ASPERITY_FUZZ_SECONDS").ok().and_then(|n| n.parse().ok());
+    Duration::from_secs(told.unwrap_or(0))
+}
+
+/// CPU time of this thread, from the kernel's account of it (clock ticks of 10 ms); none where there is no such account.
+fn thread_time() -> Option<Duration> {
+    let account = std::fs::read_to_string("/proc/thread-self/stat").ok()?;
+    // the name, in brackets, may hold blanks; user and system time are the 12th and 13th fields after it
+    let fields: Vec<&str> = account.rsplit_once(')')?.1.split_whitespace().collect();
+    let ticks = |i: usize| fields.get(i)?.parse::<u64>().ok();
+    Some(Duration::from_millis(10 * (ticks(11)? + ticks(12)?)))
+}
+
 fn survives(extension: &str) {
     let samples = samples(extension);
     let folder = Folder::new();
+    let clock = std::time::Instant::now();
+    let start = thread_time();
+    let spent = || thread_time().zip(start).map_or_else(|| clock.elapsed(), |(now, start)| now - start);
+    let (mut files, mut maps) = (0, 0);
+    loop {
+        let (answered, read) = survives_once(&samples, &folder);
+        (files, maps) = (files + answered, maps + read);
+        if spent() >= duration() {
+            break;
+        }
+    }
+    println!("{extension}: {files} files in {:.0} s of CPU, {maps} still maps", spent().as_secs_f64());
+    assert!(files > 0);
+}
+
+/// A round of damaged files, with seeds of its own; how many there were, and of how many a map was read.
+fn survives_once(samples: &[(String, Vec<u8>)], folder: &Folder) -> (usize, usize) {
     let config = ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(cases()) };
     let input = (any::<prop::sample::Index>(), prop::collection::vec(damage(), 0..8));
-    let mut runner = prop::test_runner::TestRunner::new(config);
-    let result = runner.run(&input, |(which, damages)| {
+    let counts = std::cell::Cell::new((0, 0));
+    let result = prop::test_runner::TestRunner::new(config).run(&input, |(which, damages)| {
         let (name, content) = &samples[which.index(samples.len())];
         let mut content = content.clone();
         damages.iter().for_each(|d| d.harm(&mut content));
-        if let Ok(found) = read(&folder.file(name, &content)) {
+        let answer = read(&folder.file(name, &content));
+        let (files, maps) = counts.get();
+        counts.set((files + 1, maps + usize::from(answer.is_ok())));
+        if let Ok(found) = answer {
             prop_assert_eq!(found.heights.len(), found.columns * found.rows);
             prop_assert!(found.heights.len() <= LARGEST * content.len().max(8));
         }
         Ok(())
     });
     result.unwrap();
+    counts.get()
 }
 
 #[test]

@@ -1,0 +1,92 @@
+//! Claim: a scene that is driven by a force reaches it whatever the body, elastic or plastic, cone, cap or ridge, and
+//! gives the depth that a scene driven by that depth gives the force of; a force that no depth bears ends with its reason.
+//!
+//! Sources: Hertz for the cap (Johnson, Contact Mechanics, 1985, eq. 4.23); else the program's own depth-driven run.
+//! Tolerance: 5 %, the promise of draft on the force, which grows with the depth or faster; the meshes of the two runs differ.
+
+// in a test a panic is the message
+#![allow(clippy::unwrap_used)]
+
+use asperity_law::units::{Force, Length, LineForce, Stress};
+use asperity_solver::scene::{Accuracy, Scene, Substrate, Symmetry, ToolForce};
+use asperity_solver::stepping::Stop;
+use asperity_verification::contact::hertz_force;
+use asperity_verification::single_asperity::{crush, scene};
+
+/// The paper's asperity at draft, changed.
+fn changed(change: impl Fn(&mut Scene)) -> Scene {
+    let mut scene = scene(Accuracy::Draft).unwrap();
+    scene.loading.unload = false;
+    change(&mut scene);
+    scene
+}
+
+fn elastic(scene: &mut Scene) {
+    scene.material.yield_stress = None;
+    scene.material.hardening_exponent = None;
+}
+
+fn cap(scene: &mut Scene) {
+    let first = &mut scene.asperity[0];
+    (first.radius, first.height, first.slope_deg, first.tip_radius) =
+        (Some(Length(200e-6)), None, None, None);
+}
+
+fn driven(scene: &Scene, force: f64) -> Scene {
+    let mut driven = scene.clone();
+    driven.loading.depth = None;
+    driven.loading.force = Some(match scene.symmetry {
+        Symmetry::Axisymmetric => ToolForce::Total(Force(force)),
+        Symmetry::PlaneStrain => ToolForce::PerLength(LineForce(force)),
+    });
+    driven
+}
+
+#[test]
+fn the_force_of_a_depth_leads_back_to_the_depth() {
+    let soft = |s: &mut Scene| {
+        s.material.hardening_exponent = Some(0.0);
+        s.material.yield_stress = Some(Stress(180e6));
+    };
+    let ridge = |s: &mut Scene| {
+        s.symmetry = Symmetry::PlaneStrain;
+        s.substrate = Some(Substrate { radius: Some(Length(5e-3)), depth: Some(Length(5e-3)) });
+    };
+    let scenes = [
+        ("elastic cone", changed(elastic)),
+        ("plastic cone", changed(|_| {})),
+        ("elastic cap", changed(|s| (elastic(s), cap(s)).0)),
+        ("perfectly plastic cap", changed(|s| (soft(s), cap(s)).0)),
+        ("elastic ridge", changed(|s| (elastic(s), ridge(s)).0)),
+        ("plastic ridge", changed(ridge)),
+    ];
+    for (name, scene) in scenes {
+        let by_depth = crush(&scene).unwrap().summary;
+        let outcome = crush(&driven(&scene, by_depth.peak_force)).unwrap();
+        assert_eq!(outcome.stopped, None, "{name}");
+        let by_force = outcome.summary;
+        assert!((by_force.peak_force / by_depth.peak_force - 1.0).abs() < 1e-8, "{name}");
+        let ratio = by_force.peak_depth / by_depth.peak_depth;
+        assert!((ratio - 1.0).abs() < 0.05, "{name}: {ratio}");
+    }
+}
+
+#[test]
+fn a_flattened_ball_follows_hertz_by_force() {
+    let scene = changed(|s| (elastic(s), cap(s)).0);
+    let force = hertz_force(scene.material.elastic().reduced_modulus(), 200e-6, 1e-6);
+    let depth = crush(&driven(&scene, force)).unwrap().summary.peak_depth;
+    assert!((depth / 1e-6 - 1.0).abs() < 0.05, "{depth}");
+}
+
+#[test]
+fn a_force_beyond_reach_ends_with_its_reason_as_deep_as_the_tool_can_go() {
+    let scene = changed(|_| {});
+    for force in [1000.0, 1e9] {
+        let outcome = crush(&driven(&scene, force)).unwrap();
+        let stop = outcome.stopped.unwrap();
+        assert_eq!(stop.reason, Stop::ForceNotReached);
+        let height = scene.asperity[0].height.unwrap().0;
+        assert!((stop.depth / height - 1.0).abs() < 0.02, "{}", stop.depth);
+    }
+}
