@@ -1,8 +1,8 @@
 //! What a case of the default sweep costs: core-seconds, increments, iterations, and the floor of those iterations.
 //!
 //! `cargo bench -p asperity-calibration` solves every tenth case of the grid on one thread and prints a row for each slope
-//! and the mean. Floor: the iterations, each with a new tangent, on an idle core of a Zen 4 (`asperity_solver::floor`);
-//! most iterations reuse factors, so a case may cost less.
+//! and the mean. Floor: the iterations, each with a new tangent and every point flowing, at the arithmetic of this core
+//! (`asperity_solver::floor`).
 #![allow(clippy::print_stdout, reason = "a benchmark prints")]
 
 use asperity_calibration::body::Body;
@@ -10,9 +10,10 @@ use asperity_calibration::case::Case;
 use asperity_calibration::resolution::Resolution;
 use asperity_calibration::run::{shard, solve};
 use asperity_calibration::sweep::Sweep;
-use asperity_mesh::ElementKind;
 use asperity_solver::element::POINTS;
-use asperity_solver::floor::{LINEAR, QUADRATIC};
+use asperity_solver::floor::Floor;
+use asperity_solver::kinematics::Symmetry;
+use asperity_solver::model::Model;
 
 /// Sums over cases.
 #[derive(Clone, Copy, Default)]
@@ -52,27 +53,28 @@ impl Sums {
     }
 }
 
-fn measure(case: &Case, sweep: &Sweep) -> Sums {
+fn measure(case: &Case, sweep: &Sweep, floor: &Floor) -> Sums {
     let resolution = Resolution::of(case, sweep.accuracy);
     let body = Body::new(case, &resolution);
     let unknowns = body.held.iter().flatten().filter(|held| !**held).count() as f64;
     let row = solve(case, sweep.accuracy);
     let (increments, iterations) = row.outcome.map_or((0, 0), |k| (k.increments, k.iterations));
-    let floor = match resolution.kind {
-        ElementKind::Quad8 => QUADRATIC,
-        ElementKind::Quad4 => LINEAR,
-    };
+    let held = |node: usize| body.held[node];
+    let model = Model::new(&body.mesh, Symmetry::Axisymmetric, body.metal.clone(), held, Some(body.contact));
+    let points = body.mesh.cell_count() * POINTS;
+    let least = model.map_or(0.0, |m| floor.iteration(resolution.kind, points, m.operations()));
     Sums {
         cases: 1.0,
         seconds: row.wall_s,
         increments: increments as f64,
         iterations: iterations as f64,
         unknowns,
-        floor: iterations as f64 * floor.iteration(body.mesh.cell_count() * POINTS, unknowns),
+        floor: iterations as f64 * least,
     }
 }
 
 fn main() {
+    let floor = Floor::measure();
     let sweep = Sweep::default();
     let cases = shard(&sweep.cases(), 3, 10);
     println!(
@@ -82,7 +84,7 @@ fn main() {
     let mut all = Sums::default();
     for slope in &sweep.slopes_deg {
         let own = cases.iter().filter(|case| case.beta_deg == *slope);
-        let sums = own.map(|case| measure(case, &sweep)).fold(Sums::default(), Sums::add);
+        let sums = own.map(|case| measure(case, &sweep, &floor)).fold(Sums::default(), Sums::add);
         if sums.cases > 0.0 {
             sums.print(&format!("{slope}°"));
             all = all.add(sums);

@@ -1,33 +1,61 @@
-//! What one Newton iteration must cost, to hold what it does cost against: measured once for the same work done barely.
+//! What Newton iterations must cost at the arithmetic of the machine they run on, to hold what they do cost against.
 //!
-//! Element matrix with scatter of one flowing point (finite strain, spectral), and faer's supernodal Cholesky with its
-//! solution, on one idle core of a Zen 4; the factorisation of a plane mesh grows with unknowns^1.35 between 5,000 and
-//! 10,000 of them.
+//! The rate is that of a product of dense matrices that fit into the second cache, measured in the same process: what a
+//! core does when nothing waits for memory. Operations of the factorisation and of the solve are counted from the factor's
+//! own pattern, those of an element from its kernel; a logarithm, an exponential or a power counts as 20.
 
-/// Seconds that the parts of one iteration take at least.
+use asperity_mesh::ElementKind;
+use faer::linalg::matmul::matmul;
+use faer::{Accum, Mat, Par};
+use std::time::Instant;
+
+/// Floating-point operations of one solution of a sparse symmetric system.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Floor {
-    /// Element matrix of one flowing point.
-    point: f64,
-    /// Factorisation and solution of [`UNKNOWNS`] unknowns.
-    factor: f64,
+pub struct Operations {
+    /// Of the factorisation.
+    pub factor: f64,
+    /// Of a solve with the factors.
+    pub solve: f64,
 }
 
-/// Unknowns for which the factorisation was measured.
-const UNKNOWNS: f64 = 5000.0;
+/// Operations per second of one core.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Floor {
+    rate: f64,
+}
 
-/// Growth of the factorisation with the unknowns.
-const GROWTH: f64 = 1.35;
+/// Rows of the dense matrices: three of them take 1.5 MB.
+const ROWS: usize = 256;
 
-/// Eight-node elements.
-pub const QUADRATIC: Floor = Floor { point: 365e-9, factor: 2.4e-3 };
+/// Products of which the fastest counts.
+const REPEATS: usize = 30;
 
-/// Four-node elements.
-pub const LINEAR: Floor = Floor { point: 271e-9, factor: 1.9e-3 };
+/// Operations of a flowing point with its tangent: per node 40 for A G_b and 160 for its columns of the stiffness, 20 for the
+/// gradients and 16 for the forces; 500 for the push forward, the spectral form, the return and the moduli.
+fn point(kind: ElementKind) -> f64 {
+    500.0 + 236.0 * kind.nodes() as f64
+}
 
 impl Floor {
-    /// Seconds of one iteration with a new tangent.
-    pub fn iteration(&self, points: usize, unknowns: f64) -> f64 {
-        self.point * points as f64 + self.factor * (unknowns / UNKNOWNS).powf(GROWTH)
+    /// Measures this core, in some hundredths of a second.
+    pub fn measure() -> Floor {
+        let [a, b] = [1.0, 2.0].map(|x| Mat::from_fn(ROWS, ROWS, |i, j| x / (1.0 + (i + 2 * j) as f64)));
+        let mut product = Mat::zeros(ROWS, ROWS);
+        let seconds = (0..REPEATS).map(|_| {
+            let clock = Instant::now();
+            matmul(product.as_mut(), Accum::Replace, a.as_ref(), b.as_ref(), 1.0, Par::Seq);
+            clock.elapsed().as_secs_f64()
+        });
+        Floor { rate: 2.0 * (ROWS as f64).powi(3) / seconds.fold(f64::INFINITY, f64::min) }
+    }
+
+    /// Operations per second.
+    pub fn rate(&self) -> f64 {
+        self.rate
+    }
+
+    /// Seconds of an iteration with a new tangent of `points` points of elements of `kind`, all of which flow.
+    pub fn iteration(&self, kind: ElementKind, points: usize, system: Operations) -> f64 {
+        (point(kind) * points as f64 + system.factor + system.solve) / self.rate
     }
 }

@@ -337,8 +337,13 @@ impl<'m> Path<'m> {
                 _ => t1 - m1 * (t1 - t0) / (m1 - m0),
             };
             (t0, m0) = (t1, m1);
-            let sums = self.attempt(next, true, GUESS).or_else(|_| self.attempt(next, true, 0.0));
-            let Ok(sums) = sums else {
+            let exact = self.attempt(next, true, GUESS).or_else(|_| self.attempt(next, true, 0.0));
+            // metal that hardly hardens may not come that close to equilibrium
+            let found = exact.or_else(|_| {
+                self.settings = settings;
+                self.attempt(next, true, GUESS)
+            });
+            let Ok(sums) = found else {
                 self.settings = settings;
                 return Err(Stop::NoEquilibrium);
             };

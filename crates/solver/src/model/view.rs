@@ -2,6 +2,7 @@
 
 use super::{Model, current};
 use crate::contact::{ContactEdge, EdgeContact};
+use crate::floor::Operations;
 use crate::kinematics::Symmetry;
 use crate::material::{Metal, PointState};
 use crate::tool::Tool;
@@ -50,6 +51,11 @@ impl Model<'_> {
         let Some(contact) = self.contact else { return 0.0 };
         let depth = contact.tool.penetration(edge.point(x, xi), self.tip).depth;
         (self.multiplier[node as usize] + contact.penalty * depth) / edge.stretch(x, xi)
+    }
+
+    /// What a factorisation of its stiffness and a solve take.
+    pub fn operations(&self) -> Operations {
+        self.factor.operations()
     }
 
     /// Last converged node positions.
