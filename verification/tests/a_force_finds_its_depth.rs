@@ -8,7 +8,9 @@
 #![allow(clippy::unwrap_used)]
 
 use asperity_law::units::{Force, Length, LineForce, Stress};
-use asperity_solver::scene::{Accuracy, Scene, Substrate, Symmetry, ToolForce};
+use asperity_solver::scene::{
+    Accuracy, HardeningChoice, Scene, Substrate, Symmetry, Tool, ToolForce, ToolShape,
+};
 use asperity_solver::stepping::Stop;
 use asperity_verification::contact::hertz_force;
 use asperity_verification::single_asperity::{crush, scene};
@@ -89,4 +91,18 @@ fn a_force_beyond_reach_ends_with_its_reason_as_deep_as_the_tool_can_go() {
         let height = scene.asperity[0].height.unwrap().0;
         assert!((stop.depth / height - 1.0).abs() < 0.02, "{}", stop.depth);
     }
+}
+
+/// The metal beside a cone's tip gives way in leaps, so that increments are taken in parts, one of which passes the force.
+#[test]
+fn a_force_that_is_passed_within_an_increment_is_met() {
+    let scene = changed(|s| {
+        s.asperity.clear();
+        s.tool = Tool { shape: ToolShape::Cone, slope_deg: Some(19.7), tip_radius: None, radius: None };
+        s.material.hardening_exponent = Some(0.1);
+        s.material.hardening_law = HardeningChoice::Swift;
+    });
+    let outcome = crush(&driven(&scene, 4.0)).unwrap();
+    assert_eq!(outcome.stopped, None);
+    assert!((outcome.summary.peak_force / 4.0 - 1.0).abs() < 1e-8);
 }

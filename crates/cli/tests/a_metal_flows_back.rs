@@ -12,9 +12,11 @@ use common::{Place, SCENE};
 
 /// The scene with one reload and these lines more in its material.
 fn scene(material: &str) -> String {
-    SCENE
-        .replacen("unload = true", "unload = true\nreloads = 1", 1)
-        .replacen("[[asperity]]", &format!("{material}[[asperity]]"), 1)
+    SCENE.replacen("unload = true", "unload = true\nreloads = 1", 1).replacen(
+        "[[asperity]]",
+        &format!("{material}[[asperity]]"),
+        1,
+    )
 }
 
 /// Work lost in the second cycle as a share of what was put in.
@@ -41,8 +43,14 @@ fn a_surface_that_moves_loses_more_in_a_cycle() {
 #[test]
 fn a_mode_that_makes_no_sense_is_refused_at_its_line() {
     for (material, words) in [
-        ("kinematic_share = 0.5\n", &["scene.toml:9:", "kinematic_share", "hardening_mode = \"kinematic\""][..]),
-        ("hardening_mode = \"kinematic\"\nkinematic_share = 0\n", &["scene.toml:10:", "above 0 and at most 1, not 0"]),
+        (
+            "kinematic_share = 0.5\n",
+            &["scene.toml:9:", "kinematic_share", "hardening_mode = \"kinematic\""][..],
+        ),
+        (
+            "hardening_mode = \"kinematic\"\nkinematic_share = 0\n",
+            &["scene.toml:10:", "above 0 and at most 1, not 0"],
+        ),
         ("hardening_mode = \"kinematic\"\nkinematic_share = 1.5\n", &["scene.toml:10:", "not 1.5"]),
         ("hardening_mode = \"mixed\"\n", &["scene.toml:9:", "mixed", "isotropic", "kinematic"]),
     ] {

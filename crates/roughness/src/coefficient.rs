@@ -25,7 +25,9 @@ use thiserror::Error;
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum CoefficientError {
     /// The text is not what the file should be.
-    #[error("the coefficient file cannot be read: {0}; `asperity calibrate` writes a new one")]
+    #[error(
+        "the coefficient file cannot be read: {0}; it is the `coefficient.toml` that `asperity calibrate` writes"
+    )]
     Syntax(String),
     /// A value makes no sense.
     #[error(

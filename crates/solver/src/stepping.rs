@@ -21,8 +21,14 @@ const MAX_AREA_GROWTH: f64 = 2.5;
 /// iterations, 1 saves less because it overshoots where the contact front moves from element to element.
 const GUESS: f64 = 0.7;
 
-/// Relative residual of the increments that home in on a goal, which the depth then follows to 1e-9.
+/// Relative residual of the increments that home in on a goal, which the depth then follows to [`MET`].
 const HOMING_TOLERANCE: f64 = 1e-8;
+
+/// How far the end of loading may be from the depth or from the root of the force that was asked for, relative to it.
+const MET: f64 = 1e-9;
+
+/// Increments that home in on a goal; a secant takes three or four.
+const MOST_TRIES: usize = 24;
 
 /// One converged increment, dimensionless.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -88,6 +94,22 @@ pub enum Goal {
     },
 }
 
+/// Where an increment that is taken in parts need not go on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Enough {
+    depth: f64,
+    force: f64,
+}
+
+/// Every part is to be taken.
+const NEVER: Enough = Enough { depth: f64::INFINITY, force: f64::INFINITY };
+
+impl Enough {
+    fn holds(&self, travel: f64, sums: &ContactSums) -> bool {
+        travel - sums.penetration >= self.depth || sums.force >= self.force
+    }
+}
+
 /// Called after every converged increment; `false` ends the run.
 pub type Observer<'o> = dyn FnMut(&Model<'_>, &Increment) -> bool + 'o;
 
@@ -103,6 +125,7 @@ pub struct Path<'m> {
     last_step: f64,
     force: f64,
     area: f64,
+    penetration: f64,
     /// dF per travel, known while unloading and reloading.
     slope: Option<f64>,
     /// Travels of the last unloading, from its peak on.
@@ -128,6 +151,7 @@ impl<'m> Path<'m> {
             last_step: 0.0,
             force: 0.0,
             area: 0.0,
+            penetration: 0.0,
             slope: None,
             way_back: Vec::new(),
             external_work: 0.0,
@@ -202,6 +226,7 @@ impl<'m> Path<'m> {
         };
         self.slope = slope;
         (self.travel, self.last_step, self.force, self.area) = (travel, step, contact.force, contact.area);
+        self.penetration = contact.penetration;
         let [elastic_energy, plastic_work] = self.model.energies();
         let increment = Increment {
             phase,
@@ -219,12 +244,12 @@ impl<'m> Path<'m> {
     }
 
     /// Goes to `travel` in as few increments as converge; accepts all but the last, which is left attempted. That may be one
-    /// before `travel` whose depth already is `enough`: where an asperity vanishes into its base the penetration falls, and
+    /// before `travel` that already is `enough`: where an asperity vanishes into its base the penetration falls, and
     /// the travel planned with the one before would crush the base itself.
     fn reach_depth(
         &mut self,
         travel: f64,
-        enough: f64,
+        enough: Enough,
         phase: Phase,
         carry: bool,
         observer: &mut Observer<'_>,
@@ -242,7 +267,7 @@ impl<'m> Path<'m> {
                     halvings += 1;
                     next = 0.5 * (self.travel + next);
                 }
-                Ok(sums) if next == travel || next - sums.penetration >= enough => return Ok((next, sums)),
+                Ok(sums) if next == travel || enough.holds(next, &sums) => return Ok((next, sums)),
                 Ok(_) => {
                     self.accept(next, phase, observer)?;
                     // try to take the rest in steps as long as the one that went
@@ -273,7 +298,7 @@ impl<'m> Path<'m> {
         carry: bool,
         observer: &mut Observer<'_>,
     ) -> Result<ContactSums, Stop> {
-        self.reach_depth(travel, f64::INFINITY, phase, carry, observer).map(|(_, sums)| sums)
+        self.reach_depth(travel, NEVER, phase, carry, observer).map(|(_, sums)| sums)
     }
 
     /// Loads to `goal` along `fractions` (see [`schedule`]); `penetration` is the expected one at the peak.
@@ -285,8 +310,10 @@ impl<'m> Path<'m> {
         observer: &mut Observer<'_>,
     ) -> Result<(), Stop> {
         let (depth, limit, enough) = match goal {
-            Goal::Depth(depth) => (depth, depth, depth),
-            Goal::Force { expected_depth, limit, .. } => (expected_depth, limit, limit),
+            Goal::Depth(depth) => (depth, depth, Enough { depth, ..NEVER }),
+            Goal::Force { force, expected_depth, limit } => {
+                (expected_depth, limit, Enough { depth: limit, force })
+            }
         };
         let mut expected = penetration;
         let growth =
@@ -314,32 +341,42 @@ impl<'m> Path<'m> {
         }
     }
 
-    /// Moves the attempted increment until the goal is met to 1e-9 (secant; each try starts from the converged state).
+    /// Moves the attempted increment until the goal is met to [`MET`] (secant, held between travels on either side of the
+    /// goal; each try starts from the converged state).
+    ///
+    /// Metal that hardly hardens may not come so close to equilibrium that the force is known to that: then the goal is met
+    /// to the tolerance of the run.
     fn home_in(&mut self, goal: Goal, travel: f64, sums: ContactSums) -> Result<f64, Stop> {
-        let miss = |travel: f64, sums: &ContactSums| match goal {
-            Goal::Depth(depth) => (travel - sums.penetration) / depth - 1.0,
-            Goal::Force { force, .. } => (sums.force.max(0.0) / force).sqrt() - 1.0,
+        let miss = |travel: f64, penetration: f64, found: f64| match goal {
+            Goal::Depth(depth) => (travel - penetration) / depth - 1.0,
+            Goal::Force { force, .. } => (found.max(0.0) / force).sqrt() - 1.0,
         };
-        // the converged state is the other end of the secant
-        let (mut t0, mut m0) = match goal {
-            Goal::Depth(_) => (self.travel, f64::NAN),
-            Goal::Force { force, .. } => (self.travel, (self.force.max(0.0) / force).sqrt() - 1.0),
-        };
-        let (mut t1, mut m1) = (travel, miss(travel, &sums));
         let settings = self.settings;
         self.settings.tolerance = settings.tolerance.min(HOMING_TOLERANCE);
-        for _ in 0..12 {
-            if m1.abs() <= 1e-9 {
+        let mut met = MET;
+        // travel and miss: of the converged state, the last tries, and the nearest on either side of the goal
+        let before = (self.travel, miss(self.travel, self.penetration, self.force));
+        let mut now = (travel, miss(travel, sums.penetration, sums.force));
+        let (mut last, mut short, mut beyond) = (before, before, None);
+        for _ in 0..MOST_TRIES {
+            if now.1.abs() <= met {
                 break;
             }
-            let next = match goal {
-                Goal::Depth(depth) if m0.is_nan() => t1 - m1 * depth,
-                _ => t1 - m1 * (t1 - t0) / (m1 - m0),
+            if now.1 < 0.0 {
+                short = now;
+            } else {
+                beyond = Some(now);
+            }
+            let secant = now.0 - now.1 * (now.0 - last.0) / (now.1 - last.1);
+            let next = match beyond {
+                Some((end, _)) if !(short.0.min(end)..=short.0.max(end)).contains(&secant) => {
+                    0.5 * (short.0 + end)
+                }
+                _ => secant,
             };
-            (t0, m0) = (t1, m1);
             let exact = self.attempt(next, true, GUESS).or_else(|_| self.attempt(next, true, 0.0));
-            // metal that hardly hardens may not come that close to equilibrium
             let found = exact.or_else(|_| {
+                met = settings.tolerance;
                 self.settings = settings;
                 self.attempt(next, true, GUESS)
             });
@@ -347,10 +384,11 @@ impl<'m> Path<'m> {
                 self.settings = settings;
                 return Err(Stop::NoEquilibrium);
             };
-            (t1, m1) = (next, miss(next, &sums));
+            last = now;
+            now = (next, miss(next, sums.penetration, sums.force));
         }
         self.settings = settings;
-        Ok(t1)
+        if now.1.abs() <= met { Ok(now.0) } else { Err(Stop::NoEquilibrium) }
     }
 
     /// Unloads to zero force in about `steps` increments, then removes the tool and finds the equilibrium of the body
