@@ -30,6 +30,9 @@ const MET: f64 = 1e-9;
 /// Increments that home in on a goal; a secant takes three or four.
 const MOST_TRIES: usize = 24;
 
+/// Tries after which the interval around the goal is halved instead: the response leaps.
+const SECANTS: usize = 6;
+
 /// One converged increment, dimensionless.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Increment {
@@ -344,8 +347,8 @@ impl<'m> Path<'m> {
     /// Moves the attempted increment until the goal is met to [`MET`] (secant, held between travels on either side of the
     /// goal; each try starts from the converged state).
     ///
-    /// Metal that hardly hardens may not come so close to equilibrium that the force is known to that: then the goal is met
-    /// to the tolerance of the run.
+    /// Metal that hardly hardens may not come so close to equilibrium that the force is known to that, or may leap over the
+    /// goal from one state to another: then the goal is met to the tolerance of the run.
     fn home_in(&mut self, goal: Goal, travel: f64, sums: ContactSums) -> Result<f64, Stop> {
         let miss = |travel: f64, penetration: f64, found: f64| match goal {
             Goal::Depth(depth) => (travel - penetration) / depth - 1.0,
@@ -353,30 +356,37 @@ impl<'m> Path<'m> {
         };
         let settings = self.settings;
         self.settings.tolerance = settings.tolerance.min(HOMING_TOLERANCE);
-        let mut met = MET;
-        // travel and miss: of the converged state, the last tries, and the nearest on either side of the goal
-        let before = (self.travel, miss(self.travel, self.penetration, self.force));
+        // travel and miss: of the last tries, and of the nearest on either side of the goal; the converged state is the first
+        // of them for a force, while the depth follows the travel closely from the start
         let mut now = (travel, miss(travel, sums.penetration, sums.force));
-        let (mut last, mut short, mut beyond) = (before, before, None);
-        for _ in 0..MOST_TRIES {
-            if now.1.abs() <= met {
+        let mut last = match goal {
+            Goal::Depth(depth) => (travel - depth, now.1 - 1.0),
+            Goal::Force { .. } => (self.travel, miss(self.travel, self.penetration, self.force)),
+        };
+        let mut short = matches!(goal, Goal::Force { .. }).then_some(last);
+        let mut beyond: Option<(f64, f64)> = None;
+        for tried in 0..MOST_TRIES {
+            let leaps = matches!((short, beyond), (Some((a, _)), Some((b, _))) if (b - a).abs() <= MET * b);
+            if now.1.abs() <= MET || (leaps || self.settings == settings) && now.1.abs() <= settings.tolerance
+            {
                 break;
             }
             if now.1 < 0.0 {
-                short = now;
+                short = Some(now);
             } else {
                 beyond = Some(now);
             }
             let secant = now.0 - now.1 * (now.0 - last.0) / (now.1 - last.1);
-            let next = match beyond {
-                Some((end, _)) if !(short.0.min(end)..=short.0.max(end)).contains(&secant) => {
-                    0.5 * (short.0 + end)
+            let next = match (short, beyond) {
+                (Some((a, _)), Some((b, _)))
+                    if tried >= SECANTS || !(a.min(b)..=a.max(b)).contains(&secant) =>
+                {
+                    0.5 * (a + b)
                 }
                 _ => secant,
             };
             let exact = self.attempt(next, true, GUESS).or_else(|_| self.attempt(next, true, 0.0));
             let found = exact.or_else(|_| {
-                met = settings.tolerance;
                 self.settings = settings;
                 self.attempt(next, true, GUESS)
             });
@@ -388,7 +398,7 @@ impl<'m> Path<'m> {
             now = (next, miss(next, sums.penetration, sums.force));
         }
         self.settings = settings;
-        if now.1.abs() <= met { Ok(now.0) } else { Err(Stop::NoEquilibrium) }
+        if now.1.abs() <= settings.tolerance { Ok(now.0) } else { Err(Stop::NoEquilibrium) }
     }
 
     /// Unloads to zero force in about `steps` increments, then removes the tool and finds the equilibrium of the body
