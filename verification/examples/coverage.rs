@@ -7,12 +7,11 @@
 // a program whose output is the point, on scenes of its own
 #![allow(clippy::print_stdout, clippy::expect_used)]
 
-use asperity_law::units::{Force, LineForce};
 use asperity_solver::crush::Outcome;
 use asperity_solver::curve::Curve;
-use asperity_solver::scene::{Accuracy, Scene, Symmetry, ToolForce};
+use asperity_solver::scene::{Accuracy, Scene};
 use asperity_verification::battery::{Entry, battery};
-use asperity_verification::single_asperity::crush;
+use asperity_verification::single_asperity::{crush, driven_by};
 use rayon::prelude::*;
 
 /// Scenes of the battery that the constants of the estimate were chosen on; as many others follow.
@@ -42,13 +41,7 @@ fn finish(scene: &Scene) -> Result<Outcome, String> {
 /// The scene driven by the force that it has at its depth.
 fn by_force(scene: &Scene) -> Result<Scene, String> {
     let force = finish(&Scene { accuracy: Accuracy::Draft, ..scene.clone() })?.summary.peak_force;
-    let mut driven = scene.clone();
-    driven.loading.depth = None;
-    driven.loading.force = Some(match scene.symmetry {
-        Symmetry::Axisymmetric => ToolForce::Total(Force(force)),
-        Symmetry::PlaneStrain => ToolForce::PerLength(LineForce(force)),
-    });
-    Ok(driven)
+    Ok(driven_by(scene, force))
 }
 
 fn measure(entry: &Entry) -> Result<Row, String> {

@@ -1,6 +1,6 @@
 //! A battery of scenes that differ in everything a scene can say: what the stated errors are held against.
 
-use crate::single_asperity::scene;
+use crate::single_asperity::loaded;
 use asperity_law::HardeningLaw;
 use asperity_law::units::{Length, Stress};
 use asperity_solver::scene::{Accuracy, Asperity, Scene, Substrate, Symmetry};
@@ -56,7 +56,7 @@ fn entry(i: usize) -> Result<Entry, toml::de::Error> {
     let law = if at(8) < 0.5 { HardeningLaw::Hollomon } else { HardeningLaw::Swift };
     let by_force = at(9) < 0.2 && !ridge;
 
-    let mut scene = unloaded(Accuracy::Standard)?;
+    let mut scene = loaded(Accuracy::Standard)?;
     let modulus = scene.material.youngs_modulus.0;
     scene.material.yield_stress = (!elastic).then_some(Stress(modulus / ratio));
     scene.material.hardening_exponent = (!elastic).then_some(exponent);
@@ -87,12 +87,6 @@ fn entry(i: usize) -> Result<Entry, toml::de::Error> {
     Ok(Entry { name: format!("{body}, {metal}, to {share:.2} of the height{drive}"), scene, by_force })
 }
 
-fn unloaded(accuracy: Accuracy) -> Result<Scene, toml::de::Error> {
-    let mut scene = scene(accuracy)?;
-    scene.loading.unload = false;
-    Ok(scene)
-}
-
 /// Ten scenes that no level was chosen by: name, slope (degrees; 0: a ball), tip radius (µm), E/σ_y (0: elastic), n,
 /// depth (µm) of a height of 20 µm.
 const OTHERS: [(&str, f64, f64, f64, f64, f64); 10] = [
@@ -114,7 +108,7 @@ const OTHERS: [(&str, f64, f64, f64, f64, f64); 10] = [
 /// The committed scene file does not read.
 pub fn others() -> Result<Vec<Entry>, toml::de::Error> {
     let make = |&(name, slope, tip, ratio, exponent, depth): &(&str, f64, f64, f64, f64, f64)| {
-        let mut scene = unloaded(Accuracy::Standard)?;
+        let mut scene = loaded(Accuracy::Standard)?;
         let modulus = scene.material.youngs_modulus.0;
         let metal = ratio > 0.0;
         scene.material.yield_stress = metal.then(|| Stress(modulus / ratio));

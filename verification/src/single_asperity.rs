@@ -1,7 +1,8 @@
 //! The paper's asperity as a scene.
 
+use asperity_law::units::{Force, LineForce};
 use asperity_solver::crush::{CrushError, Outcome, run};
-use asperity_solver::scene::{Accuracy, Scene};
+use asperity_solver::scene::{Accuracy, Scene, Symmetry, ToolForce};
 use std::ops::ControlFlow;
 
 /// The scene of the first figure of the paper, at `accuracy`, without field output.
@@ -14,6 +15,27 @@ pub fn scene(accuracy: Accuracy) -> Result<Scene, toml::de::Error> {
     scene.output.fields = Some(Vec::new());
     scene.output.every = Some(0);
     Ok(scene)
+}
+
+/// The same without unloading.
+///
+/// # Errors
+/// The committed scene file does not read.
+pub fn loaded(accuracy: Accuracy) -> Result<Scene, toml::de::Error> {
+    let mut scene = scene(accuracy)?;
+    scene.loading.unload = false;
+    Ok(scene)
+}
+
+/// `scene` driven by `force` (N, or N/m in plane strain) in the place of its depth.
+pub fn driven_by(scene: &Scene, force: f64) -> Scene {
+    let mut driven = scene.clone();
+    driven.loading.depth = None;
+    driven.loading.force = Some(match scene.symmetry {
+        Symmetry::Axisymmetric => ToolForce::Total(Force(force)),
+        Symmetry::PlaneStrain => ToolForce::PerLength(LineForce(force)),
+    });
+    driven
 }
 
 /// Runs `scene` without an observer.

@@ -7,18 +7,15 @@
 // in a test a panic is the message
 #![allow(clippy::unwrap_used)]
 
-use asperity_law::units::{Force, Length, LineForce, Stress};
-use asperity_solver::scene::{
-    Accuracy, HardeningChoice, Scene, Substrate, Symmetry, Tool, ToolForce, ToolShape,
-};
+use asperity_law::units::{Length, Stress};
+use asperity_solver::scene::{Accuracy, HardeningChoice, Scene, Substrate, Symmetry, Tool, ToolShape};
 use asperity_solver::stepping::Stop;
 use asperity_verification::contact::hertz_force;
-use asperity_verification::single_asperity::{crush, scene};
+use asperity_verification::single_asperity::{crush, driven_by, loaded};
 
 /// The paper's asperity at draft, changed.
 fn changed(change: impl Fn(&mut Scene)) -> Scene {
-    let mut scene = scene(Accuracy::Draft).unwrap();
-    scene.loading.unload = false;
+    let mut scene = loaded(Accuracy::Draft).unwrap();
     change(&mut scene);
     scene
 }
@@ -32,16 +29,6 @@ fn cap(scene: &mut Scene) {
     let first = &mut scene.asperity[0];
     (first.radius, first.height, first.slope_deg, first.tip_radius) =
         (Some(Length(200e-6)), None, None, None);
-}
-
-fn driven(scene: &Scene, force: f64) -> Scene {
-    let mut driven = scene.clone();
-    driven.loading.depth = None;
-    driven.loading.force = Some(match scene.symmetry {
-        Symmetry::Axisymmetric => ToolForce::Total(Force(force)),
-        Symmetry::PlaneStrain => ToolForce::PerLength(LineForce(force)),
-    });
-    driven
 }
 
 #[test]
@@ -64,7 +51,7 @@ fn the_force_of_a_depth_leads_back_to_the_depth() {
     ];
     for (name, scene) in scenes {
         let by_depth = crush(&scene).unwrap().summary;
-        let outcome = crush(&driven(&scene, by_depth.peak_force)).unwrap();
+        let outcome = crush(&driven_by(&scene, by_depth.peak_force)).unwrap();
         assert_eq!(outcome.stopped, None, "{name}");
         let by_force = outcome.summary;
         assert!((by_force.peak_force / by_depth.peak_force - 1.0).abs() < 1e-8, "{name}");
@@ -77,7 +64,7 @@ fn the_force_of_a_depth_leads_back_to_the_depth() {
 fn a_flattened_ball_follows_hertz_by_force() {
     let scene = changed(|s| (elastic(s), cap(s)).0);
     let force = hertz_force(scene.material.elastic().reduced_modulus(), 200e-6, 1e-6);
-    let depth = crush(&driven(&scene, force)).unwrap().summary.peak_depth;
+    let depth = crush(&driven_by(&scene, force)).unwrap().summary.peak_depth;
     assert!((depth / 1e-6 - 1.0).abs() < 0.05, "{depth}");
 }
 
@@ -85,7 +72,7 @@ fn a_flattened_ball_follows_hertz_by_force() {
 fn a_force_beyond_reach_ends_with_its_reason_as_deep_as_the_tool_can_go() {
     let scene = changed(|_| {});
     for force in [1000.0, 1e9] {
-        let outcome = crush(&driven(&scene, force)).unwrap();
+        let outcome = crush(&driven_by(&scene, force)).unwrap();
         let stop = outcome.stopped.unwrap();
         assert_eq!(stop.reason, Stop::ForceNotReached);
         let height = scene.asperity[0].height.unwrap().0;
@@ -102,7 +89,14 @@ fn a_force_that_is_passed_within_an_increment_is_met() {
         s.material.hardening_exponent = Some(0.1);
         s.material.hardening_law = HardeningChoice::Swift;
     });
-    let outcome = crush(&driven(&scene, 4.0)).unwrap();
+    let outcome = crush(&driven_by(&scene, 4.0)).unwrap();
     assert_eq!(outcome.stopped, None);
     assert!((outcome.summary.peak_force / 4.0 - 1.0).abs() < 1e-8);
+}
+
+/// A tolerance of Newton's method that is tighter than what is asked of the goal asks nothing more of the goal.
+#[test]
+fn a_tight_tolerance_meets_its_depth() {
+    let scene = changed(|s| s.numerics.newton_tolerance = Some(1e-11));
+    assert_eq!(crush(&scene).unwrap().stopped, None);
 }

@@ -17,14 +17,13 @@ use asperity_solver::record::Phase;
 use asperity_solver::scene::{Accuracy, ContactMethod, ElementChoice, HardeningChoice, Scene, Substrate};
 use asperity_verification::calibration::PEERS;
 use asperity_verification::contact::{cone_force, hertz_force};
-use asperity_verification::single_asperity::{crush, scene};
+use asperity_verification::single_asperity::{crush, loaded};
 
 const YOUNG: f64 = 210e9;
 
 /// The paper's asperity, changed, at draft accuracy and without unloading.
 fn changed(change: impl Fn(&mut Scene)) -> Scene {
-    let mut scene = scene(Accuracy::Draft).unwrap();
-    scene.loading.unload = false;
+    let mut scene = loaded(Accuracy::Draft).unwrap();
     change(&mut scene);
     scene
 }

@@ -365,10 +365,10 @@ impl<'m> Path<'m> {
         };
         let mut short = matches!(goal, Goal::Force { .. }).then_some(last);
         let mut beyond: Option<(f64, f64)> = None;
+        let loosely = settings.tolerance.max(MET);
+        let mut met = MET;
         for tried in 0..MOST_TRIES {
-            let leaps = matches!((short, beyond), (Some((a, _)), Some((b, _))) if (b - a).abs() <= MET * b);
-            if now.1.abs() <= MET || (leaps || self.settings == settings) && now.1.abs() <= settings.tolerance
-            {
+            if now.1.abs() <= met {
                 break;
             }
             if now.1 < 0.0 {
@@ -387,6 +387,7 @@ impl<'m> Path<'m> {
             };
             let exact = self.attempt(next, true, GUESS).or_else(|_| self.attempt(next, true, 0.0));
             let found = exact.or_else(|_| {
+                met = loosely;
                 self.settings = settings;
                 self.attempt(next, true, GUESS)
             });
@@ -398,7 +399,7 @@ impl<'m> Path<'m> {
             now = (next, miss(next, sums.penetration, sums.force));
         }
         self.settings = settings;
-        if now.1.abs() <= settings.tolerance { Ok(now.0) } else { Err(Stop::NoEquilibrium) }
+        if now.1.abs() <= loosely { Ok(now.0) } else { Err(Stop::NoEquilibrium) }
     }
 
     /// Unloads to zero force in about `steps` increments, then removes the tool and finds the equilibrium of the body
