@@ -6,9 +6,9 @@
 
 use asperity_law::units::{Length, Stress};
 use asperity_solver::crush::{Outcome, run};
-use asperity_solver::discretise::prepare;
 use asperity_solver::model::{Model, ToolContact};
 use asperity_solver::newton::{KEEP, Settings, solve};
+use asperity_solver::problem::prepare;
 use asperity_solver::scene::{Accuracy, Scene, Substrate};
 use asperity_solver::stepping::schedule;
 use asperity_verification::single_asperity::scene;

@@ -4,9 +4,9 @@
 //! a process of its own, so that its peak memory is its own.
 #![allow(clippy::print_stdout, reason = "the table is the point")]
 
-use asperity_solver::discretise::prepare;
 use asperity_solver::model::{Model, ToolContact};
 use asperity_solver::newton::{KEEP, Settings, System};
+use asperity_solver::problem::prepare;
 use asperity_solver::scene::Accuracy;
 use asperity_solver::stepping::{Goal, Path, schedule};
 use asperity_verification::single_asperity::scene;

@@ -6,8 +6,8 @@ mod table;
 mod write;
 
 use asperity_mesh::{Edge, Mesh, Section};
-use asperity_solver::discretise::{Problem, mirror};
 use asperity_solver::kinematics::Symmetry;
+use asperity_solver::problem::Problem;
 use asperity_solver::scene::{Scene, SceneError, Target};
 use asperity_solver::stepping::schedule;
 use table::PlasticTable;
@@ -77,7 +77,7 @@ impl Deck {
             Symmetry::Axisymmetric => Section::Axisymmetric,
             Symmetry::PlaneStrain => Section::PlaneStrain,
         };
-        let drop = |x: f64| mirror(&problem.tool).map_or(0.0, |a| a.drop(x));
+        let drop = |x: f64| problem.tool.mirrored().map_or(0.0, |a| a.drop(x));
         let contact = touching(&problem.mesh, &drop, problem.depth);
         let hole = match section {
             Section::Axisymmetric => HOLE * first_width(&problem.mesh, &contact),

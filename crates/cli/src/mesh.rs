@@ -6,7 +6,7 @@ use crate::failure::{Failure, InputError};
 use crate::records::MICROMETRE;
 use crate::{scene_file, terminal};
 use asperity_mesh::{Mesh, Quality, write_msh, write_vtu};
-use asperity_solver::discretise::prepare;
+use asperity_solver::problem::prepare;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 

@@ -10,10 +10,10 @@ use asperity_law::HardeningMode;
 use asperity_law::units::{Length, Stress};
 use asperity_mesh::ElementKind;
 use asperity_solver::crush::run;
-use asperity_solver::discretise::prepare;
 use asperity_solver::element::POINTS;
 use asperity_solver::floor::Floor;
 use asperity_solver::model::{Model, ToolContact};
+use asperity_solver::problem::prepare;
 use asperity_solver::scene::{
     Accuracy, Asperity, ElementChoice, HardeningChoice, Lateral, Loading, Material, Numerics, Output, Scene,
     Symmetry, Tool, ToolShape,

@@ -15,8 +15,9 @@
 //! the published coverage is that of other scenes.
 
 use crate::curve::Curve;
-use crate::discretise::{Discretisation, Problem, automatic_size};
+use crate::discretise::Discretisation;
 use crate::kinematics::Symmetry;
+use crate::problem::{Problem, automatic_size};
 use crate::record::CurveRow;
 use crate::scene::{ContactMethod, ElementChoice};
 use crate::stepping::schedule;

@@ -3,7 +3,7 @@
 //! In reading order: a metal point (`tensor`, `kinematics`, `material`, `j2`, `history`; with a
 //! back stress `log_space`, `kinematic`), an element (`element`,
 //! `quad4`, `quad8`), the tool (`tool`, `contact`), the system (`dofs`, `assemble`, `linear`, `newton`, `model`),
-//! and a run (`scene`, `record`, `curve`).
+//! and a run (`scene`, `discretise`, `expected`, `problem`, `stepping`, `crush`, `record`, `curve`).
 
 pub mod tensor;
 
@@ -56,7 +56,11 @@ pub mod scene;
 
 pub mod discretise;
 
+pub mod expected;
+
 pub mod probe;
+
+pub mod problem;
 
 pub mod stepping;
 

@@ -110,48 +110,44 @@ impl Factor {
         Ok(self.negative_pivots())
     }
 
-    /// Negative entries of D, from the diagonals of the supernodes.
+    /// Negative entries of D.
     fn negative_pivots(&self) -> usize {
-        use faer::sparse::linalg::cholesky::{SymbolicCholeskyRaw, supernodal::SupernodalLdltRef};
-        match self.symbolic.raw() {
-            SymbolicCholeskyRaw::Supernodal(symbolic) => {
-                let factor = SupernodalLdltRef::<'_, usize, f64>::new(symbolic, &self.values);
-                (0..symbolic.n_supernodes())
-                    .map(|s| {
-                        let block = factor.supernode(s).val();
-                        (0..block.ncols()).filter(|&j| block[(j, j)] < 0.0).count()
-                    })
-                    .sum()
-            }
-            SymbolicCholeskyRaw::Simplicial(symbolic) => {
-                // the diagonal is the first entry of each column
-                symbolic.col_ptr()[..symbolic.ncols()].iter().filter(|&&i| self.values[i] < 0.0).count()
-            }
-        }
+        let mut count = 0;
+        self.each_column(|pivot, _| count += usize::from(pivot < 0.0));
+        count
     }
 
     /// What a factorisation and a solve take: a column with n entries below its diagonal takes n(n + 1) products and sums
     /// of its outer product and n divisions; a solve passes twice over every entry.
     pub fn operations(&self) -> Operations {
-        use faer::sparse::linalg::cholesky::{SymbolicCholeskyRaw, supernodal::SupernodalLdltRef};
-        let column = |below: usize| {
+        let mut sum = Operations { factor: 0.0, solve: 0.0 };
+        self.each_column(|_, below| {
             let n = below as f64;
-            [n * (n + 2.0), 4.0 * (n + 1.0)]
-        };
-        let columns: Vec<[f64; 2]> = match self.symbolic.raw() {
+            sum.factor += n * (n + 2.0);
+            sum.solve += 4.0 * (n + 1.0);
+        });
+        sum
+    }
+
+    /// Tells `visit` the diagonal entry of each column of the factor and the entries below it.
+    fn each_column(&self, mut visit: impl FnMut(f64, usize)) {
+        use faer::sparse::linalg::cholesky::{SymbolicCholeskyRaw, supernodal::SupernodalLdltRef};
+        match self.symbolic.raw() {
             SymbolicCholeskyRaw::Supernodal(symbolic) => {
                 let factor = SupernodalLdltRef::<'_, usize, f64>::new(symbolic, &self.values);
-                let blocks = (0..symbolic.n_supernodes()).map(|s| factor.supernode(s).val());
-                blocks
-                    .flat_map(|block| (0..block.ncols()).map(move |j| column(block.nrows() - 1 - j)))
-                    .collect()
+                for s in 0..symbolic.n_supernodes() {
+                    let block = factor.supernode(s).val();
+                    (0..block.ncols()).for_each(|j| visit(block[(j, j)], block.nrows() - 1 - j));
+                }
             }
             SymbolicCholeskyRaw::Simplicial(symbolic) => {
-                symbolic.col_ptr().windows(2).map(|ends| column(ends[1] - ends[0] - 1)).collect()
+                // the diagonal is the first entry of each column
+                symbolic
+                    .col_ptr()
+                    .windows(2)
+                    .for_each(|ends| visit(self.values[ends[0]], ends[1] - ends[0] - 1));
             }
-        };
-        let [factor, solve] = columns.iter().fold([0.0; 2], |sum, c| [sum[0] + c[0], sum[1] + c[1]]);
-        Operations { factor, solve }
+        }
     }
 
     /// Solves in place with the last factorisation.

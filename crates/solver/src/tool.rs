@@ -1,5 +1,7 @@
 //! A rigid tool is a signed gap function of position, nothing more.
 
+use asperity_mesh::profile::{Asperity, Shape};
+
 /// Shape of a rigid axisymmetric (or prismatic) tool that moves along z. Lengths are the scene's own.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Tool {
@@ -35,6 +37,17 @@ impl Tool {
     /// in every increment.
     pub fn stretches_the_surface(&self) -> bool {
         matches!(self, Tool::Cone { .. })
+    }
+
+    /// The tool as an asperity of the same outline: the contact of the two is the same to first order in the slope.
+    /// `None` for a plane.
+    pub fn mirrored(&self) -> Option<Asperity> {
+        let shape = match *self {
+            Tool::Plane => return None,
+            Tool::Cone { tan_slope, tip_radius } => Shape::Cone { tan_slope, tip_radius },
+            Tool::Sphere { radius } => Shape::Sphere { radius },
+        };
+        Some(Asperity { shape, height: f64::INFINITY, centre: 0.0, valley_radius: 0.0 })
     }
 
     /// Penetration of the point `x` when the lowest point of the tool is at height `tip`.

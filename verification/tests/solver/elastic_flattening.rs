@@ -6,9 +6,9 @@
 //! peak on, where the contact is resolved. 1e-6: an elastic state has no history, and Newton's residual is 1e-10.
 
 use asperity_law::units::Length;
-use asperity_solver::discretise::prepare;
 use asperity_solver::model::{Model, ToolContact};
 use asperity_solver::newton::Settings;
+use asperity_solver::problem::prepare;
 use asperity_solver::record::CurveRow;
 use asperity_solver::scene::{Accuracy, Scene};
 use asperity_verification::contact::{cone_force, hertz_force, hertz_radius};

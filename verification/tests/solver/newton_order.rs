@@ -5,9 +5,9 @@
 //! 1.8 and not 2: the three residuals are not yet infinitesimal.
 
 use asperity_solver::contact::{NOTHING, Parts};
-use asperity_solver::discretise::prepare;
 use asperity_solver::model::{Model, ToolContact};
 use asperity_solver::newton::{Assessment, Failure, Settings, System, solve};
+use asperity_solver::problem::prepare;
 use asperity_solver::scene::Accuracy;
 use asperity_solver::stepping::schedule;
 use asperity_verification::single_asperity::scene;

@@ -1,6 +1,5 @@
 //! The lower outline of a tool as a row of straight facets.
 
-use asperity_solver::discretise::mirror;
 use asperity_solver::tool::Tool;
 
 /// Facets over a round part.
@@ -12,7 +11,7 @@ const ROUND: f64 = 0.95;
 /// becomes [`FACETS`] facets between its points, outside it by at most (Δx)²/8R.
 pub fn outline(tool: &Tool, ends: [f64; 2]) -> Vec<[f64; 2]> {
     let [low, high] = ends;
-    let Some(mirrored) = mirror(tool) else { return vec![[low, 0.0], [high, 0.0]] };
+    let Some(mirrored) = tool.mirrored() else { return vec![[low, 0.0], [high, 0.0]] };
     let (round, last) = match *tool {
         Tool::Sphere { radius } => (high.min(ROUND * radius), high.min(ROUND * radius)),
         Tool::Plane | Tool::Cone { .. } => (mirrored.cap_radius().min(high), high),

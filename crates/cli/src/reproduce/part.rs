@@ -16,7 +16,7 @@ use crate::toml_file::TomlFile;
 use asperity_calibration::sweep::Sweep;
 use asperity_roughness::scene::Scene as RoughScene;
 use asperity_roughness::{Coefficient, Islands, KindName};
-use asperity_solver::discretise::prepare;
+use asperity_solver::problem::prepare;
 use asperity_solver::scene::{Accuracy, Level, Scene};
 use serde::{Deserialize, Serialize};
 use std::fmt::Debug;

@@ -303,3 +303,18 @@ fn fields_are_written_when_they_are_asked_for() {
     assert_eq!(output(Some(&[Field::VonMises]), None).interval(), 5);
     assert_eq!(output(Some(&[]), Some(7)).interval(), 0);
 }
+
+#[test]
+fn a_tool_goes_no_deeper_than_itself_and_the_body() {
+    assert_eq!(scene().deepest(), 20e-6);
+    let sphere = Tool { shape: ToolShape::Sphere, radius: um(500.0), ..plane() };
+    let shallow = Some(Substrate { radius: None, depth: um(100.0) });
+    let mut ball_on_flat = Scene { asperity: vec![], tool: sphere, ..scene() };
+    assert_eq!(ball_on_flat.deepest(), 500e-6);
+    ball_on_flat.substrate = shallow;
+    assert!((ball_on_flat.deepest() / 100e-6 - 1.0).abs() < 2e-3);
+    ball_on_flat.loading.depth = um(200.0);
+    assert_eq!(ball_on_flat.validate().unwrap_err().path, "loading.depth");
+    let cone_on_flat = Tool { shape: ToolShape::Cone, slope_deg: Some(20.0), ..plane() };
+    assert_eq!(Scene { asperity: vec![], tool: cone_on_flat, ..scene() }.deepest(), f64::INFINITY);
+}

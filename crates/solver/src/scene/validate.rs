@@ -14,6 +14,17 @@ fn inside(table: &str, error: SceneError) -> SceneError {
     SceneError { path, ..error }
 }
 
+/// What a tool cannot pass.
+#[derive(Clone, Copy)]
+enum End {
+    /// The foot of the highest asperity, for a plane.
+    Height,
+    /// The widest circle of a sphere.
+    Radius,
+    /// The held bottom of the body.
+    Bottom,
+}
+
 impl Scene {
     /// Whether every value lies in its allowed range and the parts go together.
     ///
@@ -118,16 +129,27 @@ impl Scene {
         self.asperity.iter().filter_map(|a| a.form().ok()).map(|f| f.height()).fold(0.0, f64::max)
     }
 
+    /// What ends the way of the tool, with the depth (m) there.
+    fn ends(&self) -> impl Iterator<Item = (End, f64)> {
+        let highest = self.highest();
+        let own = match self.tool.form() {
+            Ok(ToolForm::Plane) if highest > 0.0 => Some((End::Height, highest)),
+            Ok(ToolForm::Sphere { radius }) => Some((End::Radius, radius)),
+            _ => None,
+        };
+        let bottom = self.substrate.and_then(|s| s.depth).map(|d| (End::Bottom, highest + d.0));
+        own.into_iter().chain(bottom)
+    }
+
     /// The depth (m) that the tool can go at most, infinite for a cone in a body without a bottom.
     pub fn deepest(&self) -> f64 {
-        match self.tool.form() {
-            Ok(ToolForm::Plane) if self.highest() > 0.0 => self.highest(),
-            Ok(ToolForm::Sphere { radius }) => radius,
-            // a hair above the bottom, which itself is refused
-            _ => {
-                self.substrate.and_then(|s| s.depth).map_or(f64::INFINITY, |d| 0.999 * (self.highest() + d.0))
-            }
-        }
+        self.ends()
+            .map(|(end, depth)| match end {
+                End::Height | End::Radius => depth,
+                // a hair above the bottom, which itself is refused
+                End::Bottom => 0.999 * depth,
+            })
+            .fold(f64::INFINITY, f64::min)
     }
 
     /// The end of loading must suit the symmetry and the height of the asperities.
@@ -148,36 +170,25 @@ impl Scene {
             _ => {}
         }
         let Some(depth) = self.loading.depth else { return Ok(()) };
-        let highest = self.highest();
-        match self.tool.form() {
-            Ok(ToolForm::Plane) if highest > 0.0 && depth.0 > highest => Err(error(
-                "loading.depth",
-                format!(
-                    "a plane can go at most {} deep, the height of the highest asperity, not {}: ask for less, or raise the asperity",
-                    length(highest),
-                    length(depth.0)
-                ),
+        let message = self.ends().find_map(|(end, most)| match end {
+            End::Height if depth.0 > most => Some(format!(
+                "a plane can go at most {} deep, the height of the highest asperity, not {}: ask for less, or raise the asperity",
+                length(most),
+                length(depth.0)
             )),
-            Ok(ToolForm::Sphere { radius }) if depth.0 > radius => Err(error(
-                "loading.depth",
-                format!(
-                    "a sphere can go at most its radius deep, {}, not {}: ask for less, or take a larger sphere",
-                    length(radius),
-                    length(depth.0)
-                ),
+            End::Radius if depth.0 > most => Some(format!(
+                "a sphere can go at most its radius deep, {}, not {}: ask for less, or take a larger sphere",
+                length(most),
+                length(depth.0)
             )),
-            _ => match self.substrate.and_then(|s| s.depth) {
-                Some(bottom) if depth.0 >= highest + bottom.0 => Err(error(
-                    "loading.depth",
-                    format!(
-                        "the tool would go {} deep into a body {} high: ask for less",
-                        length(depth.0),
-                        length(highest + bottom.0)
-                    ),
-                )),
-                _ => Ok(()),
-            },
-        }
+            End::Bottom if depth.0 >= most => Some(format!(
+                "the tool would go {} deep into a body {} high: ask for less",
+                length(depth.0),
+                length(most)
+            )),
+            _ => None,
+        });
+        message.map_or(Ok(()), |m| Err(error("loading.depth", m)))
     }
 }
 

@@ -1,0 +1,74 @@
+//! What a crush is expected to do before it is computed: contact widths, pressure, depth under a force. None of it stands in
+//! a result: the mesh is made for it and the penalty scaled with it.
+
+use crate::kinematics::Symmetry;
+use crate::material::Metal;
+use crate::tool::Tool;
+use asperity_mesh::profile::{Profile, Shape};
+
+/// Contact half width of a crushed asperity over the half width of the cut at the same depth: 0.64 (elastic cone,
+/// 2/π) to 1.06 (perfectly plastic), 0.89 for the single asperity.
+const SPREAD: f64 = 0.9;
+
+/// Contact half widths at `depth` below the highest summit.
+pub fn half_widths(profile: &Profile, tool: &Tool, depth: f64) -> Vec<f64> {
+    if let Some(mirrored) = tool.mirrored() {
+        return vec![SPREAD * mirrored.half_width(depth)];
+    }
+    let top = profile.height();
+    profile.asperities.iter().map(|a| SPREAD * a.half_width((depth - (top - a.height)).max(0.0))).collect()
+}
+
+/// Mean contact pressure to be expected at `depth`, in units of E: ½E* tan β of the elastic cone and 2.8 σ_r of full
+/// plasticity (ε_r ≈ 0.1 tan β), joined harmonically. Only the penalty is scaled with it.
+pub fn expected_pressure(metal: &Metal, profile: &Profile, tool: &Tool, depth: f64) -> f64 {
+    let slopes = tool.mirrored().into_iter().chain(profile.asperities.iter().copied()).map(|a| {
+        let width = SPREAD * a.half_width(depth);
+        match a.shape {
+            Shape::Cone { tan_slope, tip_radius } if tip_radius > 0.0 => tan_slope.min(width / tip_radius),
+            Shape::Cone { tan_slope, .. } => tan_slope,
+            Shape::Sphere { radius } => width / radius,
+        }
+    });
+    let slope = slopes.fold(0.0, f64::max);
+    let elastic = 0.5 * metal.elastic.reduced_modulus() * slope;
+    match &metal.hardening {
+        None => elastic,
+        Some(h) => 1.0 / (1.0 / elastic + 1.0 / (2.8 * h.representative_stress(0.1 * slope))),
+    }
+}
+
+/// Depth (m) at which the expected pressure over the cut area carries `force` (N, or N/m in plane strain).
+pub fn expected_depth(
+    metal: &Metal,
+    modulus: f64,
+    symmetry: Symmetry,
+    profile: &Profile,
+    tool: &Tool,
+    force: f64,
+) -> f64 {
+    let carried = |depth: f64| {
+        let pressure = modulus * expected_pressure(metal, profile, tool, depth);
+        let area: f64 = half_widths(profile, tool, depth)
+            .iter()
+            .zip(std::iter::once(0.0).chain(profile.asperities.iter().skip(1).map(|a| a.centre)))
+            .map(|(w, centre)| match symmetry {
+                Symmetry::PlaneStrain => 2.0 * w,
+                Symmetry::Axisymmetric if centre == 0.0 => std::f64::consts::PI * w * w,
+                Symmetry::Axisymmetric => 4.0 * std::f64::consts::PI * centre * w,
+            })
+            .sum();
+        pressure * area
+    };
+    // the carried force grows with the depth: bisection in the logarithm over any physical size
+    let (mut low, mut high) = (1e-15_f64.ln(), 1e6_f64.ln());
+    for _ in 0..200 {
+        let middle = 0.5 * (low + high);
+        if carried(middle.exp()) < force {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    (0.5 * (low + high)).exp()
+}
