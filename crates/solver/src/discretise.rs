@@ -23,8 +23,6 @@ pub struct Discretisation {
     pub newton_tolerance: f64,
     /// Size of an automatic substrate, in contact radii.
     pub domain: f64,
-    /// The contact is resolved from this share of the peak's contact radius on.
-    pub resolved_from: f64,
 }
 
 /// What an accuracy chooses for a quadratic element.
@@ -98,7 +96,6 @@ impl Discretisation {
             penetration: numerics.penetration.unwrap_or(penetration),
             newton_tolerance: numerics.newton_tolerance.unwrap_or(tolerance),
             domain: numerics.domain.unwrap_or(domain),
-            resolved_from: 0.2,
         }
     }
 

@@ -14,7 +14,7 @@
 //! The constants are bounds of what refinement of the first 100 scenes of the verification battery showed, part by part;
 //! the published coverage is that of other scenes.
 
-use crate::curve::Curve;
+use crate::curve::{COUNTS_FROM, Curve};
 use crate::discretise::Discretisation;
 use crate::kinematics::Symmetry;
 use crate::problem::{Problem, automatic_size};
@@ -112,9 +112,10 @@ fn shown_ripple(curve: &Curve, increments: usize) -> Option<f64> {
 fn largest_step(numbers: &Discretisation) -> f64 {
     let depths = schedule(numbers.steps, numbers.geometric_from);
     let ratio = |pair: &[f64]| (pair[1] / pair[0]).ln();
-    depths.windows(2).filter(|pair| pair[1] > 0.2).map(ratio).fold(0.0, f64::max).max(if depths.len() < 2 {
-        1.0
-    } else {
-        0.0
-    })
+    depths
+        .windows(2)
+        .filter(|pair| pair[1] > COUNTS_FROM)
+        .map(ratio)
+        .fold(0.0, f64::max)
+        .max(if depths.len() < 2 { 1.0 } else { 0.0 })
 }

@@ -2,8 +2,9 @@
 //!
 //! Inside the solver E = 1 and lengths are in units of the scene's own: the depth, or for a force the probed depth.
 
+use crate::curve::COUNTS_FROM;
 use crate::discretise::Discretisation;
-use crate::expected::{expected_depth, expected_pressure, half_widths};
+use crate::expected::{self, expected_depth, expected_pressure};
 use crate::kinematics::Symmetry;
 use crate::material::Metal;
 use crate::probe::depth_of;
@@ -85,7 +86,7 @@ pub fn prepare(scene: &Scene, mesh: Option<Mesh>) -> Result<Problem, SceneError>
     // a force is only probed for its depth: mesh somewhat further than that
     let depth = 1.0;
     let reach = if target.is_some() { PROBED } else { 1.0 };
-    let half_widths = half_widths(&profile, &tool, reach * depth);
+    let half_widths = expected::half_widths(&profile, &tool, reach * depth);
     let penalty = expected_pressure(&metal, &profile, &tool, depth) / (numbers.penetration * depth);
     let mesh = match mesh {
         Some(mut mesh) => {
@@ -94,7 +95,11 @@ pub fn prepare(scene: &Scene, mesh: Option<Mesh>) -> Result<Problem, SceneError>
             }
             mesh
         }
-        None => build_mesh(scene, &numbers, symmetry, &profile, &half_widths, length)?,
+        None => {
+            let from = widest(&expected::half_widths(&profile, &tool, COUNTS_FROM * reach * depth))
+                / widest(&half_widths);
+            build_mesh(scene, &numbers, symmetry, &profile, &half_widths, from, length)?
+        }
     };
     let held = held_nodes(&mesh, symmetry, scene.lateral);
     Ok(Problem {
@@ -163,25 +168,29 @@ fn scale(a: &Asperity, length: f64) -> Asperity {
     }
 }
 
+fn widest(half_widths: &[f64]) -> f64 {
+    half_widths.iter().fold(0.0, |m: f64, w| m.max(*w))
+}
+
 /// Growth of the shells far from the contact, as a share of the distance.
 const FAR_GROWTH: f64 = 0.4;
 
 /// Size of an automatic substrate: so many radii of the loaded region, which is the contact of a single asperity and
 /// the whole row of several, whose forces add up far away.
 pub fn automatic_size(numbers: &Discretisation, profile: &Profile, half_widths: &[f64]) -> f64 {
-    let widest = half_widths.iter().fold(0.0, |m: f64, w| m.max(*w));
     let touched = profile.asperities.iter().zip(half_widths).filter(|(_, w)| **w > 0.0);
-    let loaded = touched.map(|(a, w)| a.centre + w).fold(widest, f64::max);
+    let loaded = touched.map(|(a, w)| a.centre + w).fold(widest(half_widths), f64::max);
     numbers.domain * loaded
 }
 
-/// The mesh of the scene, lengths over `length`.
+/// The mesh of the scene, lengths over `length`; contacts are resolved from the share `resolved_from` of their half widths on.
 fn build_mesh(
     scene: &Scene,
     numbers: &Discretisation,
     symmetry: Symmetry,
     profile: &Profile,
     half_widths: &[f64],
+    resolved_from: f64,
     length: f64,
 ) -> Result<Mesh, SceneError> {
     let kind = match numbers.element {
@@ -189,7 +198,7 @@ fn build_mesh(
         ElementChoice::Q4 => ElementKind::Quad4,
     };
     check_valleys(profile, length)?;
-    let widest = half_widths.iter().fold(0.0, |m: f64, w| m.max(*w));
+    let widest = widest(half_widths);
     // the row of asperities, with the half gaps that a symmetric side leaves
     let end_gap = match (scene.lateral, scene.asperity.last()) {
         (Lateral::Symmetric, Some(last)) => 0.5 * last.spacing.map_or(0.0, |s| s.0) / length,
@@ -228,10 +237,9 @@ fn build_mesh(
         });
     }
     // sizes over the distance from a centre, so that the contact radius holds the wanted number of elements
-    let start = numbers.resolved_from;
     let grading = Grading {
-        fineness: (1.0 - start.ln()) / numbers.elements_in_contact as f64,
-        start,
+        fineness: (1.0 - resolved_from.ln()) / numbers.elements_in_contact as f64,
+        start: resolved_from,
         fine: 1.6,
         far: FAR_GROWTH,
     };
