@@ -242,6 +242,18 @@ impl ContactEdge {
     }
 }
 
+/// The part `[start, end]` of an edge as four pieces, each with an integration point in its middle place: their lengths are
+/// the weights of the points.
+pub fn divide([start, end]: [f64; 2]) -> [[f64; 3]; 4] {
+    let half = 0.5 * (end - start);
+    let mut from = start;
+    GAUSS4.map(|[abscissa, weight]| {
+        let piece = [from, 0.5 * (start + end) + half * abscissa, from + half * weight];
+        from = piece[2];
+        piece
+    })
+}
+
 fn quadratic_shape(xi: f64) -> [f64; 3] {
     [0.5 * xi * (xi - 1.0), 0.5 * xi * (xi + 1.0), 1.0 - xi * xi]
 }

@@ -118,6 +118,8 @@ pub struct Path<'m> {
     force: f64,
     area: f64,
     penetration: f64,
+    /// Share of the work that went into flow while the body was loaded first: see [`crate::penetration`].
+    plastic_share: f64,
     /// dF per travel, known while unloading and reloading.
     slope: Option<f64>,
     /// Travels of the last unloading, from its peak on.
@@ -144,6 +146,7 @@ impl<'m> Path<'m> {
             force: 0.0,
             area: 0.0,
             penetration: 0.0,
+            plastic_share: 0.0,
             slope: None,
             way_back: Vec::new(),
             external_work: 0.0,
@@ -191,7 +194,10 @@ impl<'m> Path<'m> {
     }
 
     fn sums(&self) -> ContactSums {
-        contact_sums(self.model.contacts().iter(), self.model.symmetry())
+        let mut sums = contact_sums(self.model.contacts().iter(), self.model.symmetry());
+        let elastic = self.model.under_punches().penetration;
+        sums.penetration = elastic + self.plastic_share * (sums.penetration - elastic);
+        sums
     }
 
     /// Slope of the force over the travel: multipliers leave no penetration that would follow the force.
@@ -220,6 +226,10 @@ impl<'m> Path<'m> {
         (self.travel, self.last_step, self.force, self.area) = (travel, step, contact.force, contact.area);
         self.penetration = contact.penetration;
         let [elastic_energy, plastic_work] = self.model.energies();
+        if phase == Phase::Load && plastic_work > 0.0 {
+            let near = self.model.under_punches().energy / self.model.metal().elastic.reduced_modulus();
+            self.plastic_share = plastic_work / (near + plastic_work);
+        }
         let increment = Increment {
             phase,
             travel,

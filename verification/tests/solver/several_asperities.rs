@@ -82,11 +82,21 @@ fn ring(pitch: f64, size: [f64; 2], elastic: bool) -> [f64; 2] {
     let alone = whole(&crush(&scene(LOW)).unwrap());
     let outcome = crush(&scene(PAPER)).unwrap();
     let (centre, ring) = (of_asperity(&outcome, 0), of_asperity(&outcome, 1));
-    let [depth, force] = *centre.last().unwrap();
-    let line_load = at(&ring, depth) / (std::f64::consts::TAU * pitch);
     let modulus = scene(PAPER).material.elastic().reduced_modulus();
-    let added = depth - depth_at(&alone, force);
-    [added * modulus / (2.0 * line_load), worst_difference(&centre, &alone)]
+    let share = |depth: f64| {
+        let line_load = at(&ring, depth) / (std::f64::consts::TAU * pitch);
+        (depth - depth_at(&alone, at(&centre, depth))) * modulus / (2.0 * line_load)
+    };
+    let peak = centre.last().unwrap()[0];
+    [mean(SHARES.map(|s| share(s * peak))), worst_difference(&centre, &alone)]
+}
+
+/// Shares of the peak over which small differences of two draft curves are averaged: at one of them alone the ripple of the
+/// mesh is up to a tenth of the difference.
+const SHARES: [f64; 13] = [0.4, 0.45, 0.5, 0.55, 0.6, 0.65, 0.7, 0.75, 0.8, 0.85, 0.9, 0.95, 1.0];
+
+fn mean<const N: usize>(values: [f64; N]) -> f64 {
+    values.iter().sum::<f64>() / N as f64
 }
 
 #[test]
@@ -108,18 +118,22 @@ fn a_rigid_base_decouples_rings() {
 
 #[test]
 fn twice_the_depth_adds_a_logarithm() {
-    for (elastic, tolerance) in [(true, 0.01), (false, 0.05)] {
+    // the load stretches a shallow body sideways, which helps its metal flow: 0.90 of the logarithm at 2 mm, 0.99 at 20
+    for (elastic, depth, tolerance) in [(true, 2e-3, 0.01), (false, 20e-3, 0.05)] {
         let scene = |depth: f64| {
-            let substrate = Some([20e-3, depth]);
+            let substrate = Some([10.0 * depth, depth]);
             let scene = row(Symmetry::PlaneStrain, Lateral::Free, &[PAPER], substrate).unwrap();
             if elastic { without_yielding(scene) } else { scene }
         };
         let curve = |depth: f64| whole(&crush(&scene(depth)).unwrap());
-        let (shallow, deep) = (curve(2e-3), curve(4e-3));
-        let force = deep.last().unwrap()[1];
-        let modulus = scene(2e-3).material.elastic().reduced_modulus();
-        let shift = depth_at(&deep, force) - depth_at(&shallow, force);
-        let ratio = shift / (2.0 * force / (std::f64::consts::PI * modulus) * 2.0_f64.ln());
+        let (shallow, deep) = (curve(depth), curve(2.0 * depth));
+        let peak = deep.last().unwrap()[1];
+        let modulus = scene(depth).material.elastic().reduced_modulus();
+        let ratio = mean(SHARES.map(|s| {
+            let force = s * peak;
+            let shift = depth_at(&deep, force) - depth_at(&shallow, force);
+            shift / (2.0 * force / (std::f64::consts::PI * modulus) * 2.0_f64.ln())
+        }));
         assert!((ratio - 1.0).abs() < tolerance, "elastic {elastic}: {ratio} of (2P/πE*) ln 2");
     }
 }

@@ -5,6 +5,7 @@ use crate::contact::{ContactEdge, EdgeContact};
 use crate::floor::Operations;
 use crate::kinematics::Symmetry;
 use crate::material::{Metal, PointState};
+use crate::penetration::{Punches, under_punches};
 use crate::tool::Tool;
 use asperity_mesh::Mesh;
 
@@ -34,6 +35,16 @@ impl Model<'_> {
             Some(contact) if self.tip.is_finite() => contact.tool.penetration(x, self.tip).depth,
             _ => f64::NEG_INFINITY,
         }
+    }
+
+    /// What the penetration takes of the depth if the metal is elastic, and the elastic energy near the contacts.
+    pub fn under_punches(&self) -> Punches {
+        under_punches(
+            self.edges.iter().zip(&self.edge_contact),
+            self.symmetry,
+            |node| self.current_position(node),
+            |x| self.penetration_of(x),
+        )
     }
 
     /// The surface edges, in the order of the mesh.
