@@ -39,7 +39,7 @@ struct Choice {
 const LEVELS: [(Accuracy, [f64; 6]); 3] = [
     (Accuracy::Draft, [10.0, 24.0, 6.0, 1e-3, 60.0, 0.004]),
     (Accuracy::Standard, [22.0, 112.0, 10.0, 1e-4, 100.0, 0.004]),
-    (Accuracy::Reference, [74.0, 220.0, 40.0, 1e-6, 800.0, 0.001]),
+    (Accuracy::Reference, [60.0, 220.0, 40.0, 1e-6, 800.0, 0.001]),
 ];
 
 impl Choice {
@@ -135,6 +135,6 @@ mod tests {
             assert!(next.unload_steps >= before.unload_steps && next.penetration <= before.penetration);
             before = next;
         }
-        assert_eq!((before.elements, before.steps, before.domain), (74, 220, 800.0));
+        assert_eq!((before.elements, before.steps, before.domain), (60, 220, 800.0));
     }
 }
