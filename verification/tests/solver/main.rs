@@ -15,6 +15,7 @@ mod kinematic_hardening;
 mod lost_pivot;
 mod newton_order;
 mod patch;
+mod penetration_is_no_depth;
 mod punch;
 mod reaches_half_height;
 mod refinement;
