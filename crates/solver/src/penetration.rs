@@ -27,7 +27,7 @@ struct Piece {
 /// Gaps below this share of the larger radius are none.
 const TOUCHING: f64 = 1e-9;
 
-/// What the layer would take of the depth of elastic metal, and the elastic energy near the contacts times E*.
+/// What the penetration would take of the depth of elastic metal, and the elastic energy near the contacts times E*.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Punches {
     /// Mean penetration under flat punches as wide as the contacts; each contact counts by its force.
@@ -81,13 +81,12 @@ pub fn under_punches<'a>(
         let touching: f64 = contact.parts.into_iter().flatten().map(|[from, to]| to - from).sum();
         for [from, middle, to] in contact.parts.into_iter().flatten().flat_map(divide) {
             let [a, b] = [from, to].map(|xi| edge.point(&x, xi)[0]);
-            pieces.push(Piece {
-                ends: [a.min(b), a.max(b)],
-                depth: depth(edge.point(&x, middle)),
-                force: contact.load * (to - from) / touching,
-            });
+            let force = contact.load * (to - from) / touching;
+            pieces.push(Piece { ends: [a.min(b), a.max(b)], depth: depth(edge.point(&x, middle)), force });
         }
     }
+    // an edge that touches in a point carries nothing
+    pieces.retain(|p| p.ends[0] < p.ends[1] && p.force.is_finite());
     pieces.sort_by(|a, b| a.ends[0].total_cmp(&b.ends[0]));
     let joined = |a: &Piece, b: &Piece| (b.ends[0] - a.ends[1]).abs() <= TOUCHING * b.ends[0].abs();
     let (mut sums, mut force) = (Punches::default(), 0.0);
