@@ -6,6 +6,7 @@ use crate::chart::{COLOURS, FINE, GRID, INK, framed};
 use asperity_solver::scene::Accuracy;
 use plotters::coord::Shift;
 use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 /// Width and height in pixels.
 const SIZE: (u32, u32) = (900, 620);
@@ -101,9 +102,13 @@ fn fill(rows: &[Row], root: &DrawingArea<SVGBackend<'_>, Shift>) -> Result<(), B
         let level = row.setting.around;
         let name = if LEVELS.contains(&level) { level.to_string() } else { String::new() };
         let ring = INK.stroke_width(2 * FINE);
+        // names of marks near the right side stand before them
+        let (side, shift) =
+            if p.0 > x.1 - 0.15 * (x.1 - x.0) { (HPos::Right, -10) } else { (HPos::Left, 10) };
+        let style = font(16).pos(Pos::new(side, VPos::Top));
         area.draw_series([EmptyElement::at(p)
             + Circle::new((0, 0), 7 * FINE as i32, ring)
-            + Text::new(name, (10 * FINE as i32, -18 * FINE as i32), font(16))])?;
+            + Text::new(name, (shift * FINE as i32, -18 * FINE as i32), style)])?;
     }
     area.configure_series_labels()
         .position(SeriesLabelPosition::UpperRight)
