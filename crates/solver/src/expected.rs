@@ -1,6 +1,7 @@
 //! What a crush is expected to do before it is computed: contact widths, pressure, depth under a force. None of it stands in
 //! a result: the mesh is made for it and the penalty scaled with it.
 
+use crate::curve::COUNTS_FROM;
 use crate::kinematics::Symmetry;
 use crate::material::Metal;
 use crate::tool::Tool;
@@ -17,6 +18,19 @@ pub fn half_widths(profile: &Profile, tool: &Tool, depth: f64) -> Vec<f64> {
     }
     let top = profile.height();
     profile.asperities.iter().map(|a| SPREAD * a.half_width((depth - (top - a.height)).max(0.0))).collect()
+}
+
+/// Share of the contact half width at `depth` from which the mesh must resolve the contact: the half width at
+/// the depth from which the error of the force is promised. Under a flank that is the share of the depth, whatever the tip that
+/// was crushed before; under a tip that is still round there it is larger, and the same elements lie closer.
+pub fn resolved_from(profile: &Profile, tool: &Tool, depth: f64) -> f64 {
+    let highest = profile.asperities.iter().copied().max_by(|a, b| a.height.total_cmp(&b.height));
+    let Some(outline) = tool.mirrored().or(highest) else { return COUNTS_FROM };
+    let first = outline.half_width(COUNTS_FROM * depth);
+    match outline.shape {
+        Shape::Cone { .. } if first >= outline.cap_radius() => COUNTS_FROM,
+        _ => first / outline.half_width(depth),
+    }
 }
 
 /// Mean contact pressure to be expected at `depth`, in units of E: ½E* tan β of the elastic cone and 2.8 σ_r of full

@@ -2,7 +2,6 @@
 //!
 //! Inside the solver E = 1 and lengths are in units of the scene's own: the depth, or for a force the probed depth.
 
-use crate::curve::COUNTS_FROM;
 use crate::discretise::Discretisation;
 use crate::expected::{self, expected_depth, expected_pressure};
 use crate::kinematics::Symmetry;
@@ -96,8 +95,7 @@ pub fn prepare(scene: &Scene, mesh: Option<Mesh>) -> Result<Problem, SceneError>
             mesh
         }
         None => {
-            let from = widest(&expected::half_widths(&profile, &tool, COUNTS_FROM * reach * depth))
-                / widest(&half_widths);
+            let from = expected::resolved_from(&profile, &tool, reach * depth);
             build_mesh(scene, &numbers, symmetry, &profile, &half_widths, from, length)?
         }
     };
