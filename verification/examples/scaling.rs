@@ -15,7 +15,7 @@ use std::process::Command;
 use std::time::Instant;
 
 /// Elements across the contact, for 3,000 to 300,000 unknowns.
-const ELEMENTS: [usize; 7] = [20, 32, 48, 72, 108, 160, 225];
+const ELEMENTS: [usize; 7] = [40, 64, 104, 168, 272, 440, 710];
 
 /// Load steps, and how far they go as a share of the depth for which the mesh is made. Further, long steps pass so many
 /// elements of a fine mesh at once that they are halved, and the number of steps would not be fixed.

@@ -3,9 +3,12 @@
 use crate::case::{Case, Tool};
 use crate::layout::Layout;
 use crate::resolution::Resolution;
-use asperity_mesh::{Edge, Mesh};
+use asperity_mesh::Mesh;
+use asperity_solver::kinematics::Symmetry;
 use asperity_solver::material::Metal;
 use asperity_solver::model::ToolContact;
+use asperity_solver::problem::held_nodes;
+use asperity_solver::scene::Lateral;
 use asperity_solver::tool::Tool as RigidTool;
 use std::f64::consts::FRAC_2_PI;
 
@@ -80,7 +83,7 @@ impl Body {
             kind: r.kind,
         };
         let mesh = layout.mesh();
-        let held = held(&mesh);
+        let held = held_nodes(&mesh, Symmetry::Axisymmetric, Lateral::Free);
         let metal = Metal {
             elastic: case.elastic(),
             hardening: case.hardening().map(Into::into),
@@ -89,22 +92,4 @@ impl Body {
         let contact = ToolContact { tool, penalty: expected_pressure(case) / r.penetration };
         Body { mesh, held, metal, contact, element, domain }
     }
-}
-
-/// The base is clamped, the axis free to slide along itself.
-fn held(mesh: &Mesh) -> Vec<[bool; 2]> {
-    let mut held = vec![[false; 2]; mesh.nodes.len()];
-    let mut hold = |edges: &[Edge], components: [bool; 2]| {
-        for &edge in edges {
-            let (corners, middle) = mesh.edge_nodes(edge);
-            for node in corners.into_iter().chain(middle) {
-                for i in 0..2 {
-                    held[node as usize][i] |= components[i];
-                }
-            }
-        }
-    };
-    hold(&mesh.sides.base, [true, true]);
-    hold(&mesh.sides.axis, [true, false]);
-    held
 }

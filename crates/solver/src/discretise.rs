@@ -37,9 +37,9 @@ struct Choice {
 
 /// The levels from coarse to fine: the promised error, and in the order of [`Choice`] the numbers that keep it.
 const LEVELS: [(Accuracy, [f64; 6]); 3] = [
-    (Accuracy::Draft, [10.0, 24.0, 6.0, 1e-3, 60.0, 0.004]),
-    (Accuracy::Standard, [22.0, 112.0, 10.0, 1e-4, 100.0, 0.004]),
-    (Accuracy::Reference, [60.0, 220.0, 40.0, 1e-6, 800.0, 0.001]),
+    (Accuracy::Draft, [16.0, 30.0, 6.0, 1e-3, 60.0, 0.004]),
+    (Accuracy::Standard, [28.0, 100.0, 10.0, 1e-4, 100.0, 0.004]),
+    (Accuracy::Reference, [100.0, 220.0, 40.0, 1e-6, 800.0, 0.001]),
 ];
 
 impl Choice {
@@ -127,7 +127,7 @@ mod tests {
     #[test]
     fn a_smaller_error_is_promised_by_finer_numbers() {
         let mut before = Choice::of(0.05);
-        assert_eq!((before.elements, before.steps, before.tolerance), (10, 24, 1e-3));
+        assert_eq!((before.elements, before.steps, before.tolerance), (16, 30, 1e-3));
         for promise in [0.03, 0.02, 0.01, 0.007, 0.005, 0.003, 0.002] {
             let next = Choice::of(promise);
             assert!(next.elements > before.elements && next.steps > before.steps, "{promise}");
@@ -135,6 +135,6 @@ mod tests {
             assert!(next.unload_steps >= before.unload_steps && next.penetration <= before.penetration);
             before = next;
         }
-        assert_eq!((before.elements, before.steps, before.domain), (60, 220, 800.0));
+        assert_eq!((before.elements, before.steps, before.domain), (100, 220, 800.0));
     }
 }

@@ -20,16 +20,18 @@ pub fn half_widths(profile: &Profile, tool: &Tool, depth: f64) -> Vec<f64> {
     profile.asperities.iter().map(|a| SPREAD * a.half_width((depth - (top - a.height)).max(0.0))).collect()
 }
 
-/// Share of the contact half width at `depth` from which the mesh must resolve the contact: the half width at
-/// the depth from which the error of the force is promised. Under a flank that is the share of the depth, whatever the tip that
-/// was crushed before; under a tip that is still round there it is larger, and the same elements lie closer.
-pub fn resolved_from(profile: &Profile, tool: &Tool, depth: f64) -> f64 {
+/// Share of the contact half width at `reach`, for which the mesh is made, from which the contact must be resolved: the half
+/// width at the depth from which the error of the force is promised, a share of `depth`. Under a flank that is the share of
+/// the depth, whatever the tip that was crushed before; under a tip that is still round there it is larger, and the same
+/// elements lie closer.
+pub fn resolved_from(profile: &Profile, tool: &Tool, depth: f64, reach: f64) -> f64 {
+    let first = COUNTS_FROM * depth;
     let highest = profile.asperities.iter().copied().max_by(|a, b| a.height.total_cmp(&b.height));
-    let Some(outline) = tool.mirrored().or(highest) else { return COUNTS_FROM };
-    let first = outline.half_width(COUNTS_FROM * depth);
+    let Some(outline) = tool.mirrored().or(highest) else { return first / reach };
+    let half_width = outline.half_width(first);
     match outline.shape {
-        Shape::Cone { .. } if first >= outline.cap_radius() => COUNTS_FROM,
-        _ => first / outline.half_width(depth),
+        Shape::Cone { .. } if half_width >= outline.cap_radius() => first / reach,
+        _ => half_width / outline.half_width(reach),
     }
 }
 

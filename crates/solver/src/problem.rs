@@ -95,7 +95,7 @@ pub fn prepare(scene: &Scene, mesh: Option<Mesh>) -> Result<Problem, SceneError>
             mesh
         }
         None => {
-            let from = expected::resolved_from(&profile, &tool, reach * depth);
+            let from = expected::resolved_from(&profile, &tool, depth, reach * depth);
             build_mesh(scene, &numbers, symmetry, &profile, &half_widths, from, length)?
         }
     };
@@ -170,6 +170,10 @@ fn widest(half_widths: &[f64]) -> f64 {
     half_widths.iter().fold(0.0, |m: f64, w| m.max(*w))
 }
 
+/// Half width of the core over that from which a contact is to be resolved: an elastic contact is 0.7 times as wide as expected
+/// (see `expected`), and the columns of the core are wide.
+const CORE: f64 = 0.7;
+
 /// Growth of the shells far from the contact, as a share of the distance.
 const FAR_GROWTH: f64 = 0.4;
 
@@ -235,9 +239,10 @@ fn build_mesh(
         });
     }
     // sizes over the distance from a centre, so that the contact radius holds the wanted number of elements
+    let start = CORE * resolved_from;
     let grading = Grading {
-        fineness: (1.0 - resolved_from.ln()) / numbers.elements_in_contact as f64,
-        start: resolved_from,
+        fineness: (1.0 - start.ln()) / numbers.elements_in_contact as f64,
+        start,
         fine: 1.6,
         far: FAR_GROWTH,
     };
@@ -294,8 +299,8 @@ fn check_valleys(profile: &Profile, length: f64) -> Result<(), SceneError> {
     Ok(())
 }
 
-/// Base nodes held, axis nodes (and a symmetric lateral side) held sideways.
-fn held_nodes(mesh: &Mesh, symmetry: Symmetry, lateral: Lateral) -> Vec<[bool; 2]> {
+/// Which displacement components of each node are held: both at the base, that across at the axis and at symmetric sides.
+pub fn held_nodes(mesh: &Mesh, symmetry: Symmetry, lateral: Lateral) -> Vec<[bool; 2]> {
     let mut held = vec![[false; 2]; mesh.nodes.len()];
     let mut hold = |edges: &[asperity_mesh::Edge], components: [bool; 2]| {
         for &edge in edges {

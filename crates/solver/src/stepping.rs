@@ -5,6 +5,7 @@ use crate::energy::{ContactSums, contact_sums, work, work_by_slopes, work_to_sep
 use crate::folding::fold;
 use crate::model::{Model, ToolStiffness};
 use crate::newton::{Failure, Settings, solve};
+use crate::penetration::Punches;
 use crate::record::Phase;
 
 mod homing;
@@ -194,9 +195,14 @@ impl<'m> Path<'m> {
     }
 
     fn sums(&self) -> ContactSums {
+        self.sums_under(self.model.under_punches())
+    }
+
+    /// [`Path::sums`], the contact under punches being known.
+    fn sums_under(&self, punches: Punches) -> ContactSums {
         let mut sums = contact_sums(self.model.contacts().iter(), self.model.symmetry());
-        let elastic = self.model.under_punches().penetration;
-        sums.penetration = elastic + self.plastic_share * (sums.penetration - elastic);
+        sums.penetration =
+            punches.penetration + self.plastic_share * (sums.penetration - punches.penetration);
         sums
     }
 
@@ -214,7 +220,8 @@ impl<'m> Path<'m> {
             Phase::Unload | Phase::Reload => self.model.tool_stiffness().ok().map(|s| self.follows(&s)),
         };
         self.model.accept().map_err(|_| Stop::Distorted)?;
-        let contact = self.sums();
+        let punches = self.model.under_punches();
+        let contact = self.sums_under(punches);
         let step = travel - self.travel;
         self.external_work += match (self.slope, slope) {
             (_, Some(to)) if self.force <= 0.0 => -work_to_separation(contact.force, to, -step),
@@ -227,7 +234,7 @@ impl<'m> Path<'m> {
         self.penetration = contact.penetration;
         let [elastic_energy, plastic_work] = self.model.energies();
         if phase == Phase::Load && plastic_work > 0.0 {
-            let near = self.model.under_punches().energy / self.model.metal().elastic.reduced_modulus();
+            let near = punches.energy / self.model.metal().elastic.reduced_modulus();
             self.plastic_share = plastic_work / (near + plastic_work);
         }
         let increment = Increment {

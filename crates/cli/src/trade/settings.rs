@@ -86,7 +86,7 @@ impl Setting {
         let elements = or(n.elements_in_contact.map(|e| e as f64));
         let fineness = if n.element == Some(ElementChoice::Q4) { 1.0 / LINEAR_FINENESS } else { 1.0 };
         let augmented = if n.contact == Some(ContactMethod::Augmented) { 3.0 } else { 1.0 };
-        augmented * (elements * fineness).powf(2.4) * or(n.steps.map(|s| s as f64)).powf(0.7)
+        augmented * (elements * fineness).powf(1.8) * or(n.steps.map(|s| s as f64)).powf(0.7)
     }
 }
 
@@ -109,7 +109,7 @@ pub fn converged(scene: &Scene) -> [Setting; 2] {
     let base = level(scene, Accuracy::Reference);
     [(1.1, 1.0), (1.25, 1.1)].map(|(mesh, steps)| {
         let mut numerics = base.numerics;
-        scale(&mut numerics.elements_in_contact, mesh, [2.0, 200.0]);
+        scale(&mut numerics.elements_in_contact, mesh, [2.0, 1000.0]);
         scale(&mut numerics.steps, steps, [1.0, 1e4]);
         fixed(scene, Setting { knob: Knob::Converged, numerics, ..base })
     })
@@ -152,12 +152,12 @@ fn around(scene: &Scene, accuracy: Accuracy) -> Vec<Setting> {
     if !finest {
         add(Knob::Element, &|n| {
             n.element = Some(ElementChoice::Q4);
-            scale(&mut n.elements_in_contact, LINEAR_FINENESS, [2.0, 200.0]);
+            scale(&mut n.elements_in_contact, LINEAR_FINENESS, [2.0, 1000.0]);
         });
         add(Knob::Contact, &|n| n.contact = Some(ContactMethod::Augmented));
     }
     for factor in if finest { [0.6, 0.8] } else { [0.67, 1.5] } {
-        add(Knob::Mesh, &|n| scale(&mut n.elements_in_contact, factor, [2.0, 200.0]));
+        add(Knob::Mesh, &|n| scale(&mut n.elements_in_contact, factor, [2.0, 1000.0]));
     }
     let sides = |cheap: f64, dear: f64| [cheap, dear].into_iter().take(if finest { 1 } else { 2 });
     for factor in sides(0.5, 2.0) {
@@ -195,7 +195,7 @@ fn mixed(scene: &Scene, i: usize) -> Setting {
     let at = |k: i32| (0.5 + (i + 1) as f64 * golden.powi(-k)).fract();
     let logs = |k, low: f64, high: f64| (low.ln() + at(k) * (high / low).ln()).exp();
     let linear = at(6) < 0.25;
-    let elements = logs(1, 7.0, 34.0) * if linear { LINEAR_FINENESS } else { 1.0 };
+    let elements = logs(1, 9.0, 50.0) * if linear { LINEAR_FINENESS } else { 1.0 };
     let steps = logs(2, 16.0, 200.0).round() as usize;
     let accuracy = match steps {
         ..60 => Accuracy::Draft,

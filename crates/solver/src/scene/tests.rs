@@ -278,7 +278,7 @@ fn what_makes_no_sense_is_refused_with_place_value_and_range() {
             &["[[asperity]]"],
         ),
         (|s| s.numerics.steps = Some(0), "numerics.steps", &["from 1 to 10000", "not 0"]),
-        (|s| s.numerics.elements_in_contact = Some(1), "numerics.elements_in_contact", &["from 2 to 200"]),
+        (|s| s.numerics.elements_in_contact = Some(1), "numerics.elements_in_contact", &["from 2 to 1000"]),
         (|s| s.numerics.penetration = Some(0.5), "numerics.penetration", &["0.000001 to 0.1"]),
         (|s| s.numerics.newton_tolerance = Some(0.0), "numerics.newton_tolerance", &["to 0.001"]),
         (|s| s.numerics.domain = Some(1.0), "numerics.domain", &["from 3 to 10000"]),

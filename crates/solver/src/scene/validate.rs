@@ -318,7 +318,7 @@ impl Numerics {
             "the number of elements across the contact",
             self.elements_in_contact,
             2.0,
-            200.0,
+            1000.0,
             leave,
         )?;
         whole("steps", "the number of load steps", self.steps, 1.0, 1e4, leave)?;
