@@ -1,7 +1,7 @@
 //! Crushes scenes drawn at random with the program itself and tells how they ended.
 //!
 //! `cargo build --release && cargo run --release -p asperity-verification --example random_scenes -- [COUNT] [SEED]`
-//! (10000 scenes of seed 1 unless told). A scene that ends as it must not, or whose energy
+//! (10000 scenes of seed 1 unless told). A scene that ends as it must not, takes long or whose energy
 //! balances poorly, is left in `out/random-scenes` to be run again.
 #![allow(clippy::print_stdout, reason = "the table is the point")]
 
@@ -10,10 +10,16 @@ use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::error::Error;
 use std::path::{Path, PathBuf};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// Longer than the slowest draft scene by far: what is still running then hangs.
 const LIMIT: Duration = Duration::from_secs(600);
+
+/// Scenes that take longer are left as well.
+const SLOW: Duration = Duration::from_secs(10);
+
+/// How many of the slowest scenes are named.
+const SLOWEST: usize = 10;
 
 /// Scenes whose energy balances worse than this are left to be looked at.
 const POOR_BALANCE: f64 = 0.1;
@@ -29,13 +35,15 @@ fn program() -> Result<PathBuf, Box<dyn Error>> {
 fn run(program: &Path, kept: &Path, index: usize, drawn: &Drawn) -> Result<End, std::io::Error> {
     let place = kept.join(format!("{index:05}"));
     std::fs::create_dir_all(&place)?;
+    let clock = Instant::now();
     let end = crush(program, drawn, &place, LIMIT);
+    let slow = clock.elapsed() > SLOW;
     let kept = match &end {
         End::Fault(_) => true,
         End::Done(balance) => *balance > POOR_BALANCE,
         End::Stopped(_) | End::Refused => false,
     };
-    if !kept {
+    if !kept && !slow {
         std::fs::remove_dir_all(&place)?;
     }
     Ok(end)
@@ -47,17 +55,21 @@ fn main() -> Result<(), Box<dyn Error>> {
     let seed: u64 = args.next().map_or(Ok(1), |a| a.parse())?;
     let (program, kept) = (program()?, PathBuf::from("out/random-scenes"));
     let scenes = draw(count, seed)?;
-    let ends: Vec<(usize, End)> = scenes
+    let ends: Vec<(usize, End, Duration)> = scenes
         .par_iter()
+        .with_max_len(1)
         .enumerate()
-        .map(|(i, drawn)| run(&program, &kept, i, drawn).map(|end| (i, end)))
+        .map(|(i, drawn)| {
+            let clock = Instant::now();
+            run(&program, &kept, i, drawn).map(|end| (i, end, clock.elapsed()))
+        })
         .collect::<Result<_, _>>()?;
 
     let sound = scenes.iter().filter(|s| s.kind == Kind::Sound).count();
     let mut balances: Vec<f64> = Vec::new();
     let (mut stopped, mut faults) = (BTreeMap::<String, usize>::new(), Vec::new());
     let (mut done, mut refused) = (0, 0);
-    for (i, end) in &ends {
+    for (i, end, _) in &ends {
         match end {
             End::Done(balance) => {
                 balances.push(*balance);
@@ -81,6 +93,11 @@ fn main() -> Result<(), Box<dyn Error>> {
         let within = balances.iter().filter(|b| (pair[0]..pair[1]).contains(b)).count();
         println!("| {:.0e} to {:.0e} | {within} |", pair[0], pair[1]);
     }
+    let total: f64 = ends.iter().map(|(.., time)| time.as_secs_f64()).sum();
+    let mut slowest: Vec<(f64, usize)> = ends.iter().map(|(i, _, time)| (time.as_secs_f64(), *i)).collect();
+    slowest.sort_by(|a, b| b.0.total_cmp(&a.0));
+    println!("\n{:.2} s a scene in the mean; the slowest:", total / ends.len().max(1) as f64);
+    slowest.iter().take(SLOWEST).for_each(|(time, i)| println!("scene {i}: {time:.1} s"));
     faults.iter().for_each(|fault| println!("\n{fault}"));
     if faults.is_empty() { Ok(()) } else { Err("see the scenes in out/random-scenes".into()) }
 }

@@ -60,6 +60,16 @@ impl Stiffness {
         Stiffness { matrix, places, size }
     }
 
+    /// Adds to every diagonal entry `share` of its size.
+    pub fn stiffen(&mut self, share: f64) {
+        // the diagonal is the first entry of each column of a lower triangle
+        let diagonal: Vec<usize> = self.matrix.proper_indptr().windows(2).map(|ends| ends[0]).collect();
+        let values = self.matrix.data_mut();
+        for place in diagonal {
+            values[place] += share * values[place].abs();
+        }
+    }
+
     /// Sets all values to zero.
     pub fn clear(&mut self) {
         self.matrix.data_mut().fill(0.0);

@@ -32,8 +32,11 @@ pub struct ToolContact {
 }
 
 /// Negative pivots with which an LDLᵀ step is still taken: a limit point or a bifurcation has one or two; more mean
-/// that the iterate is far from any equilibrium, and the increment is better halved.
+/// that the iterate is far from any equilibrium.
 const TOLERATED_NEGATIVE_PIVOTS: usize = 2;
+
+/// Shares of the diagonal that are added to it, one after the other, until the tangent is definite.
+const STIFFER: [f64; 2] = [1e-2, 1e-1];
 
 /// Counters of the work done.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -109,6 +112,7 @@ pub struct Model<'m> {
     remeasured_energy: f64,
     /// Whether the increment under way has been accepted.
     settled: bool,
+    stiffens: bool,
     output: ElementOutput,
     /// Work done so far.
     pub counters: Counters,
@@ -221,6 +225,7 @@ impl<'m> Model<'m> {
             load_scale: 0.0,
             remeasured_energy: 0.0,
             settled: true,
+            stiffens: true,
             output: ElementOutput::new(virgin),
             counters: Counters::default(),
         })
@@ -465,7 +470,7 @@ impl<'m> Model<'m> {
         outcome
     }
 
-    /// A tangent without the compressive geometric term; else LDLᵀ of the exact one if it is nearly definite.
+    /// A tangent without the compressive geometric term; else LDLᵀ of the exact one if it is nearly definite; else a stiffer one.
     fn factorise_indefinite(&mut self) -> Result<(), Failure> {
         self.counters.lost_pivots += 1;
         self.assemble_again(Tangent::WithoutCompression)?;
@@ -475,8 +480,28 @@ impl<'m> Model<'m> {
         self.assemble_again(Tangent::Exact)?;
         match self.factor.ldlt(&self.stiffness.matrix) {
             Ok(negative) if negative <= TOLERATED_NEGATIVE_PIVOTS => Ok(()),
+            Ok(_) | Err(FactorError::NotPositive | FactorError::Singular) if self.stiffens => {
+                self.factorise_stiffened()
+            }
             Ok(_) | Err(FactorError::NotPositive | FactorError::Singular) => Err(Failure::Singular),
         }
+    }
+
+    /// The exact tangent with a stiffer diagonal, as little as makes it definite: directions that go down, where perfectly
+    /// plastic metal gives way and Newton's go anywhere.
+    fn factorise_stiffened(&mut self) -> Result<(), Failure> {
+        for share in STIFFER {
+            self.stiffness.stiffen(share);
+            if self.factor.cholesky(&self.stiffness.matrix).is_ok() {
+                return Ok(());
+            }
+        }
+        Err(Failure::Singular)
+    }
+
+    /// Whether tangents that are far from definite are stiffened, or fail.
+    pub fn stiffen(&mut self, stiffens: bool) {
+        self.stiffens = stiffens;
     }
 
     /// Augmented Lagrange update at the nodes, λ ← max(0, λ + ε d), from the converged iterate.

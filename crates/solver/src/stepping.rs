@@ -264,6 +264,8 @@ impl<'m> Path<'m> {
         observer: &mut Observer<'_>,
     ) -> Result<(f64, ContactSums), Stop> {
         let mut halvings = 0;
+        let mut stiffens = true;
+        self.model.stiffen(true);
         let mut next = travel;
         let mut guess = if carry { GUESS } else { 0.0 };
         loop {
@@ -282,6 +284,13 @@ impl<'m> Path<'m> {
                     // try to take the rest in steps as long as the one that went
                     let step = self.last_step;
                     next = if (travel - next).abs() <= 1.01 * step.abs() { travel } else { next + step };
+                }
+                Err(_) if halvings >= MAX_HALVINGS && stiffens => {
+                    // a stiffer tangent converges slowly, and can end in a place that no smaller increment leads out of
+                    stiffens = false;
+                    self.model.stiffen(false);
+                    halvings = 0;
+                    next = travel;
                 }
                 Err(failure) => {
                     if halvings >= MAX_HALVINGS {
