@@ -76,6 +76,7 @@ impl Body {
             at_axis: r.at_axis,
             row_depth,
             row_growth: r.row_growth,
+            first_shell: r.first_shell,
             growth: r.growth,
             domain,
             cone,

@@ -18,6 +18,8 @@ pub struct Layout {
     pub row_depth: f64,
     /// Growth of the rows with depth.
     pub row_growth: f64,
+    /// Width of the first shell, in columns.
+    pub first_shell: f64,
     /// Size of the far shells as a share of the distance.
     pub growth: f64,
     /// Radius and depth of the substrate.
@@ -52,7 +54,7 @@ impl Layout {
             .map(|i| i as f64 * self.element)
             .collect();
         let rows = divide(0.0, self.row_depth, &[], |d| self.element + self.row_growth * d);
-        let (near, far) = (self.element / core, self.growth);
+        let (near, far) = (self.first_shell * self.element / core, self.growth);
         // in the logarithm of the radius, with a node where the cone ends
         let foot = if self.cone[0] > 0.0 { vec![self.foot().ln()] } else { Vec::new() };
         let shells: Vec<f64> =
@@ -148,6 +150,7 @@ mod tests {
                 at_axis: 1,
                 row_depth: depth,
                 row_growth: 0.5,
+                first_shell: 1.0,
                 growth: 0.4,
                 domain: 100.0,
                 cone: [slope, 8.0 * slope],

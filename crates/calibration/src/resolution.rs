@@ -19,7 +19,9 @@ pub struct Resolution {
     pub core_depth: f64,
     /// Growth of its rows with depth.
     pub row_growth: f64,
-    /// Growth of the shells around it, as a share of the distance.
+    /// Width of the first shell around it, in elements.
+    pub first_shell: f64,
+    /// Growth of the shells, as a share of the distance.
     pub growth: f64,
     /// Radius and depth of the substrate, in a.
     pub domain: f64,
@@ -88,6 +90,7 @@ impl Resolution {
             core: 1.1,
             core_depth: 0.4,
             row_growth: 0.5,
+            first_shell: 1.0,
             growth: 0.4,
             domain: 100.0,
             foot: 8.0,
@@ -103,9 +106,12 @@ impl Resolution {
         match level {
             Level::Draft => Resolution {
                 elements: 7,
-                steps: 14,
+                at_axis: 2,
+                first_shell: 2.0,
                 growth: 0.5,
                 lead_steps: 3,
+                steps: 14,
+                tolerance: 1e-3,
                 bias: 0.015,
                 soft_bias: 0.03,
                 ..standard
@@ -141,6 +147,7 @@ impl Resolution {
             core: 1.1,
             core_depth: 0.6,
             row_growth: 0.1,
+            first_shell: 1.0,
             growth: 0.07,
             domain: 100.0,
             foot: 8.0,
