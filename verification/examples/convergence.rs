@@ -171,8 +171,8 @@ fn main() {
         Change { steps: Some(192), penetration: Some(0.001), domain: Some(800.0), ..Change::default() };
     let mesh = |q4: bool, n: f64| Change { q4, elements: Some(n as usize), ..fine };
     let quadratic =
-        vary(&[9.0, 12.0, 18.0, 24.0, 36.0, 48.0], |n| format!("Q8R, {n} in contact"), |n| mesh(false, n));
-    let linear = vary(&[18.0, 36.0, 72.0], |n| format!("Q4, {n} in contact"), |n| mesh(true, n));
+        vary(&[12.0, 16.0, 24.0, 36.0, 54.0, 80.0], |n| format!("Q8R, {n} in contact"), |n| mesh(false, n));
+    let linear = vary(&[27.0, 54.0, 108.0], |n| format!("Q4, {n} in contact"), |n| mesh(true, n));
     let converged = converged_values(&quadratic, &linear);
     header("Mesh", "192 steps, penetration 0.001 of the depth, domain 800 contact radii");
     quadratic.iter().chain(&linear).for_each(|run| row(run, &converged));
