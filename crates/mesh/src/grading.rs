@@ -1,4 +1,73 @@
-//! Positions of nodes along a line, from a wanted element size that varies along it.
+//! Sizes of elements around a contact, and positions of nodes along a line from a wanted size that varies along it.
+
+use crate::ElementKind;
+
+/// Height of the first row of a core over its depth, for a fineness of 1. The ripple that shells leave is of first order in
+/// their width, the bias that rows leave is of second order in their height: with the root of the fineness both fall alike.
+const ROW: f64 = 0.435;
+
+/// Height of the last row of a core over that of the first.
+const ROW_GROWTH: f64 = 3.0;
+
+/// Width of the column in the middle of a core over that of a column at its end.
+const COLUMN_GROWTH: f64 = 5.0;
+
+/// Linear elements that are as exact as one quadratic element, along a line.
+const LINEAR: f64 = 8.0 / 3.0;
+
+/// Depths of a row of contacts within which shells around it stay fine: metal yields that far below touching rows.
+const NEAR_ROW: f64 = 3.0;
+
+/// How element sizes follow the distance from a contact.
+///
+/// The front of a contact crosses shell after shell, and the force ripples by a share of their width; along a shell, down
+/// from the surface, fields are smooth. So shells are thin and their cells long, the longer the deeper: against square
+/// cells the same unknowns leave a third of the error (`verification/README.md`).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Grading {
+    /// Width of a shell over its distance from the centre, within the fine zone.
+    pub fineness: f64,
+    /// Half size of the core over the half width of the contact.
+    pub start: f64,
+    /// Extent of the fine zone over the half width of the contact.
+    pub fine: f64,
+    /// Element size over distance far away.
+    pub far: f64,
+}
+
+impl Grading {
+    /// Rows of cells from the surface down to the base of a core, as shares of its depth.
+    pub(crate) fn rows(&self, kind: ElementKind) -> Vec<f64> {
+        let linear = match kind {
+            ElementKind::Quad8 => 1.0,
+            ElementKind::Quad4 => LINEAR,
+        };
+        let first = ROW * (self.fineness * linear).sqrt() / linear;
+        let rows = divide(0.0, 1.0, &[], |t| first * (1.0 + (ROW_GROWTH - 1.0) * t));
+        if rows.len() > 2 { rows } else { vec![0.0, 0.5, 1.0] }
+    }
+
+    /// Columns from the centre of a core to its end, where they are as narrow as a shell.
+    pub(crate) fn columns(&self, half: f64, kinks: &[f64]) -> Vec<f64> {
+        divide(0.0, half, kinks, |x| self.fineness * half * (1.0 + (COLUMN_GROWTH - 1.0) * (1.0 - x / half)))
+    }
+
+    /// Wanted size over distance, `x` being the distance in depths of the row.
+    pub(crate) fn size_around_row(&self, x: f64) -> f64 {
+        let near = (1.5 * self.fineness).min(self.far);
+        (self.far + (near - self.far) * NEAR_ROW / x).max(near)
+    }
+
+    /// Wanted size at the distance `x` from a contact of half width `contact`.
+    pub(crate) fn size(&self, x: f64, contact: f64) -> f64 {
+        let fine = self.fine * contact;
+        if x < fine {
+            self.fineness * x
+        } else {
+            x * (self.far + (self.fineness - self.far) * fine / x).max(self.fineness)
+        }
+    }
+}
 
 /// Divides [from, to] so that elements have about the size `size(x)`; every `kink` strictly inside becomes a node.
 ///
@@ -47,6 +116,23 @@ fn divide_piece(from: f64, to: f64, size: &impl Fn(f64) -> f64, nodes: &mut Vec<
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn shells_are_four_times_thinner_for_twice_the_rows() {
+        let of = |fineness| Grading { fineness, start: 0.2, fine: 1.6, far: 0.4 };
+        let rows = |fineness, kind| of(fineness).rows(kind).len() - 1;
+        assert_eq!(rows(0.0064, ElementKind::Quad8), 2 * rows(0.0256, ElementKind::Quad8));
+        assert!(rows(0.0256, ElementKind::Quad4) > rows(0.0256, ElementKind::Quad8));
+        assert_eq!(rows(2.0, ElementKind::Quad8), 2);
+        let rows = of(0.02).rows(ElementKind::Quad8);
+        let last = rows.len() - 1;
+        assert!((rows[1] / (ROW * 0.02_f64.sqrt()) - 1.0).abs() < 0.1, "{}", rows[1]);
+        assert!(((rows[last] - rows[last - 1]) / rows[1] / ROW_GROWTH - 1.0).abs() < 0.15);
+        // the column at the end of a core is as wide as the shell beside it
+        let columns = of(0.02).columns(3.0, &[]);
+        let end = columns[columns.len() - 1] - columns[columns.len() - 2];
+        assert!((end / (0.02 * 3.0) - 1.0).abs() < 0.1, "{end}");
+    }
 
     #[test]
     fn kinks_are_nodes_and_sizes_follow_the_wish() {

@@ -10,7 +10,8 @@ use crate::probe::depth_of;
 use crate::scene::{AsperityForm, ElementChoice, Lateral, Scene, SceneError, Target, ToolForm};
 use crate::tool::Tool;
 use asperity_law::Elastic;
-use asperity_mesh::build::{Contact, Grading, Plan, build};
+use asperity_mesh::build::{Contact, Plan, build};
+use asperity_mesh::grading::Grading;
 use asperity_mesh::profile::{Asperity, Profile, Shape};
 use asperity_mesh::{ElementKind, Mesh};
 
