@@ -59,11 +59,15 @@ pub struct Plan {
     pub kind: ElementKind,
 }
 
+/// Whether there is one contact, halved by the axis: its shells reach the far boundary.
+fn stands_alone(plan: &Plan) -> bool {
+    plan.contacts.len() == 1 && plan.contacts[0].centre == plan.width[0]
+}
+
 /// Builds the mesh of `plan`.
 pub fn build(plan: &Plan) -> Mesh {
     let mut grid = Grid::default();
-    let alone = plan.contacts.len() == 1 && plan.contacts[0].centre == plan.width[0];
-    if alone {
+    if stands_alone(plan) {
         let contact = plan.contacts[0];
         let centre = contact.centre;
         let half = core_half_width(plan, &contact).min(0.4 * plan.depth).min(0.4 * (plan.width[1] - centre));
@@ -537,7 +541,7 @@ const STEEP: f64 = 0.75;
 /// that cells below a valley keep half their height.
 fn fade_depth(plan: &Plan) -> f64 {
     let steepest = plan.contacts.iter().fold(0.0, |m: f64, c| m.max(c.slope));
-    if plan.contacts.len() == 1 || steepest < STEEP {
+    if stands_alone(plan) || steepest < STEEP {
         return plan.depth;
     }
     (1.5 * row_rectangle(plan).depth).max(2.0 * plan.profile.height()).min(plan.depth)

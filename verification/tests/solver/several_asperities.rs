@@ -137,3 +137,18 @@ fn twice_the_depth_adds_a_logarithm() {
         assert!((ratio - 1.0).abs() < tolerance, "elastic {elastic}: {ratio} of (2P/πE*) ln 2");
     }
 }
+
+/// The shear under a steep flank ends before the shells around the row spread sideways: no cell is inside out.
+#[test]
+fn a_steep_ridge_alone_has_sound_cells() {
+    for slope in [40.0, 50.0, 60.0] {
+        let mut scene = asperity_verification::single_asperity::scene(Accuracy::Draft).unwrap();
+        scene.symmetry = Symmetry::PlaneStrain;
+        scene.asperity[0].slope_deg = Some(slope);
+        let size = Some(asperity_law::units::Length(4e-3));
+        scene.substrate = Some(asperity_solver::scene::Substrate { radius: size, depth: size });
+        let problem = asperity_solver::problem::prepare(&scene, None).unwrap();
+        let quality = problem.mesh.quality().unwrap();
+        assert!(quality.min_scaled_jacobian > 0.05, "{slope}°: {quality:?}");
+    }
+}
