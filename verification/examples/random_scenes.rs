@@ -32,21 +32,21 @@ fn program() -> Result<PathBuf, Box<dyn Error>> {
     if program.exists() { Ok(program) } else { Err("build the program first: cargo build --release".into()) }
 }
 
-fn run(program: &Path, kept: &Path, index: usize, drawn: &Drawn) -> Result<End, std::io::Error> {
+fn run(program: &Path, kept: &Path, index: usize, drawn: &Drawn) -> Result<(End, Duration), std::io::Error> {
     let place = kept.join(format!("{index:05}"));
     std::fs::create_dir_all(&place)?;
     let clock = Instant::now();
     let end = crush(program, drawn, &place, LIMIT);
-    let slow = clock.elapsed() > SLOW;
+    let time = clock.elapsed();
     let kept = match &end {
         End::Fault(_) => true,
         End::Done(balance) => *balance > POOR_BALANCE,
         End::Stopped(_) | End::Refused => false,
     };
-    if !kept && !slow {
+    if !kept && time <= SLOW {
         std::fs::remove_dir_all(&place)?;
     }
-    Ok(end)
+    Ok((end, time))
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -59,10 +59,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         .par_iter()
         .with_max_len(1)
         .enumerate()
-        .map(|(i, drawn)| {
-            let clock = Instant::now();
-            run(&program, &kept, i, drawn).map(|end| (i, end, clock.elapsed()))
-        })
+        .map(|(i, drawn)| run(&program, &kept, i, drawn).map(|(end, time)| (i, end, time)))
         .collect::<Result<_, _>>()?;
 
     let sound = scenes.iter().filter(|s| s.kind == Kind::Sound).count();
