@@ -36,7 +36,7 @@ impl Contact {
     /// Depth over half width of the core. The diagonals on which shells turn must stay steeper than the flank, or
     /// the shear under the profile turns their cells inside out.
     fn depth_ratio(&self) -> f64 {
-        (1.5 * self.slope).max(1.0)
+        (1.7 * self.slope).max(1.0)
     }
 }
 
@@ -80,17 +80,25 @@ pub fn build(plan: &Plan) -> Mesh {
         let size = |x: f64| plan.grading.size(x, contact_size(&contact));
         let end = shell_limit(plan, Rectangle { left: centre, right: centre, depth: 0.0 });
         let right = divide_geometric(half, end.right - centre, &kinks_from(plan, centre), size);
+        // a steep flank keeps the shells under it as deep for their width as the core, as far as the body allows
+        let inner = [half, core.depth];
+        let outer = [end.right - centre, end.depth];
+        let foot = [contact.foot, (contact.foot * core.depth / half).min(0.8 * outer[1])];
+        let turns = contact.depth_ratio() > 1.0 && foot[0] > half && foot[0] < 0.8 * outer[0];
+        let depth = |x: f64| {
+            if x == outer[0] {
+                outer[1]
+            } else if !turns {
+                power(inner, outer, x)
+            } else if x < foot[0] {
+                power(inner, foot, x)
+            } else {
+                power(foot, outer, x)
+            }
+        };
         let rectangles: Vec<Rectangle> = right[1..]
             .iter()
-            .map(|&x| {
-                let share = (x / half).ln() / ((end.right - centre) / half).ln();
-                let depth = if x == end.right - centre {
-                    end.depth
-                } else {
-                    core.depth * (end.depth / core.depth).powf(share)
-                };
-                Rectangle { left: centre, right: centre + x, depth }
-            })
+            .map(|&x| Rectangle { left: centre, right: centre + x, depth: depth(x) })
             .collect();
         let ring = wrap(&mut grid, row, &rectangles, Some(plan));
         extend(&mut grid, ring, plan, size);
@@ -104,14 +112,19 @@ pub fn build(plan: &Plan) -> Mesh {
     finish(plan, grid)
 }
 
+/// The power of x through two points (x, y), at `x`.
+fn power(from: [f64; 2], to: [f64; 2], x: f64) -> f64 {
+    from[1] * (to[1] / from[1]).powf((x / from[0]).ln() / (to[0] / from[0]).ln())
+}
+
 /// Width of a body over its depth, or the reverse, up to which one family of shells fills it.
 const STRETCH: f64 = 2.5;
 
 /// How far shells around `inner` go: to the sides of the body, unless one is so much farther than the other that the
 /// shells would become splinters; then as far in every direction as the nearer side.
 fn shell_limit(plan: &Plan, inner: Rectangle) -> Rectangle {
-    let sideways = (inner.left - plan.width[0]).max(plan.width[1] - inner.right);
-    let down = plan.depth - inner.depth;
+    let gaps = [inner.left - plan.width[0], plan.width[1] - inner.right];
+    let (sideways, down) = (gaps[0].max(gaps[1]), plan.depth - inner.depth);
     let (sideways, down) = if sideways > STRETCH * down {
         (down, down)
     } else if sideways > 0.0 && down > STRETCH * sideways {
@@ -119,13 +132,13 @@ fn shell_limit(plan: &Plan, inner: Rectangle) -> Rectangle {
     } else {
         (sideways, down)
     };
-    // the side itself where it is reached, not its rounded sum
-    let depth = if down < plan.depth - inner.depth { inner.depth + down } else { plan.depth };
+    // the side itself where it is reached, not a rounded sum, beside which a splinter would be left
+    let stops = |way: f64, gap: f64| way < (1.0 - 1e-9) * gap;
     let [left, right] = plan.width;
     Rectangle {
-        left: if inner.left - sideways > left { inner.left - sideways } else { left },
-        right: if inner.right + sideways < right { inner.right + sideways } else { right },
-        depth,
+        left: if stops(sideways, gaps[0]) { inner.left - sideways } else { left },
+        right: if stops(sideways, gaps[1]) { inner.right + sideways } else { right },
+        depth: if stops(down, plan.depth - inner.depth) { inner.depth + down } else { plan.depth },
     }
 }
 
@@ -404,13 +417,10 @@ fn add_row(grid: &mut Grid, plan: &Plan) -> Ring {
             divide_geometric(half, contact.foot, &kinks, |x| grading.size(x, contact_size(contact)));
         let shells: Vec<Rectangle> = stations[1..]
             .iter()
-            .map(|&x| {
-                let share = (x / half).ln() / (contact.foot / half).ln();
-                Rectangle {
-                    left: if halved { contact.centre } else { contact.centre - x },
-                    right: contact.centre + x,
-                    depth: core.depth * (rectangle.depth / core.depth).powf(share),
-                }
+            .map(|&x| Rectangle {
+                left: if halved { contact.centre } else { contact.centre - x },
+                right: contact.centre + x,
+                depth: power([half, core.depth], [contact.foot, rectangle.depth], x),
             })
             .collect();
         let ring = wrap(grid, ring, &shells, None);

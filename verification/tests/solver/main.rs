@@ -24,6 +24,7 @@ mod same_bits;
 mod scaled_units;
 mod several_asperities;
 mod simple_shear;
+mod sound_cells;
 mod step_order;
 mod system_tangent;
 mod tabulated_hardening;
