@@ -2,14 +2,18 @@
 //!
 //! `cargo build --release && cargo run --release -p asperity-verification --example random_scenes -- [COUNT] [SEED]`
 //! (10000 scenes of seed 1 unless told). A scene that ends as it must not, takes long or whose energy
-//! balances poorly, is left in `out/random-scenes` to be run again.
+//! balances poorly, is left in `out/random-scenes` to be run again. A run that was killed goes on from `ends-SEED.tsv` there;
+//! remove that file when the program has changed.
 #![allow(clippy::print_stdout, reason = "the table is the point")]
 
-use asperity_verification::random_scenes::{Drawn, End, Kind, crush, draw, reason};
+use asperity_verification::random_scenes::{Drawn, End, Kind, crush, draw};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::error::Error;
+use std::fs::{File, OpenOptions};
+use std::io::Write;
 use std::path::{Path, PathBuf};
+use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
 /// Longer than the slowest draft scene by far: what is still running then hangs.
@@ -30,6 +34,30 @@ fn program() -> Result<PathBuf, Box<dyn Error>> {
     let folder = own.ancestors().nth(2).ok_or("the example stands in no build folder")?;
     let program = folder.join("asperity");
     if program.exists() { Ok(program) } else { Err("build the program first: cargo build --release".into()) }
+}
+
+/// The line that tells of scene `index`; `None` of a fault, which is to be seen again.
+fn line(index: usize, end: &End, seconds: f64) -> Option<String> {
+    let [word, detail] = match end {
+        End::Done(balance) => ["done", &format!("{balance:e}")],
+        End::Stopped(reason) => ["stopped", reason],
+        End::Refused => ["refused", ""],
+        End::Fault(_) => return None,
+    };
+    Some(format!("{index}\t{seconds:.2}\t{word}\t{detail}\n"))
+}
+
+/// What [`line`] wrote; `None` of a line that was cut off.
+fn parse(line: &str) -> Option<(usize, (End, f64))> {
+    let mut parts = line.split('\t');
+    let (index, seconds) = (parts.next()?.parse().ok()?, parts.next()?.parse().ok()?);
+    let end = match (parts.next()?, parts.next()?) {
+        ("done", balance) => End::Done(balance.parse().ok()?),
+        ("stopped", reason) => End::Stopped(reason.into()),
+        ("refused", _) => End::Refused,
+        _ => return None,
+    };
+    Some((index, (end, seconds)))
 }
 
 fn run(program: &Path, kept: &Path, index: usize, drawn: &Drawn) -> Result<(End, Duration), std::io::Error> {
@@ -55,12 +83,27 @@ fn main() -> Result<(), Box<dyn Error>> {
     let seed: u64 = args.next().map_or(Ok(1), |a| a.parse())?;
     let (program, kept) = (program()?, PathBuf::from("out/random-scenes"));
     let scenes = draw(count, seed)?;
-    let ends: Vec<(usize, End, Duration)> = scenes
+    std::fs::create_dir_all(&kept)?;
+    let journal = kept.join(format!("ends-{seed}.tsv"));
+    let before: BTreeMap<usize, (End, f64)> =
+        std::fs::read_to_string(&journal).unwrap_or_default().lines().filter_map(parse).collect();
+    let journal: Mutex<File> = Mutex::new(OpenOptions::new().create(true).append(true).open(journal)?);
+    let ends: Vec<(usize, End, f64)> = scenes
         .par_iter()
         .with_max_len(1)
         .enumerate()
-        .map(|(i, drawn)| run(&program, &kept, i, drawn).map(|(end, time)| (i, end, time)))
-        .collect::<Result<_, _>>()?;
+        .map(|(i, drawn)| {
+            if let Some((end, seconds)) = before.get(&i) {
+                return Ok((i, end.clone(), *seconds));
+            }
+            let (end, time) = run(&program, &kept, i, drawn)?;
+            let seconds = time.as_secs_f64();
+            if let (Some(line), Ok(mut file)) = (line(i, &end, seconds), journal.lock()) {
+                file.write_all(line.as_bytes())?;
+            }
+            Ok((i, end, seconds))
+        })
+        .collect::<Result<_, std::io::Error>>()?;
 
     let sound = scenes.iter().filter(|s| s.kind == Kind::Sound).count();
     let mut balances: Vec<f64> = Vec::new();
@@ -72,7 +115,7 @@ fn main() -> Result<(), Box<dyn Error>> {
                 balances.push(*balance);
                 done += usize::from(scenes[*i].kind == Kind::Sound);
             }
-            End::Stopped(message) => *stopped.entry(reason(message)).or_default() += 1,
+            End::Stopped(reason) => *stopped.entry(reason.clone()).or_default() += 1,
             End::Refused => refused += 1,
             End::Fault(what) => faults.push(format!("scene {i}: {what}")),
         }
@@ -90,11 +133,11 @@ fn main() -> Result<(), Box<dyn Error>> {
         let within = balances.iter().filter(|b| (pair[0]..pair[1]).contains(b)).count();
         println!("| {:.0e} to {:.0e} | {within} |", pair[0], pair[1]);
     }
-    let total: f64 = ends.iter().map(|(.., time)| time.as_secs_f64()).sum();
-    let mut slowest: Vec<(f64, usize)> = ends.iter().map(|(i, _, time)| (time.as_secs_f64(), *i)).collect();
+    let total: f64 = ends.iter().map(|(.., seconds)| seconds).sum();
+    let mut slowest: Vec<(f64, usize)> = ends.iter().map(|(i, _, seconds)| (*seconds, *i)).collect();
     slowest.sort_by(|a, b| b.0.total_cmp(&a.0));
     println!("\n{:.2} s a scene in the mean; the slowest:", total / ends.len().max(1) as f64);
-    slowest.iter().take(SLOWEST).for_each(|(time, i)| println!("scene {i}: {time:.1} s"));
+    slowest.iter().take(SLOWEST).for_each(|(seconds, i)| println!("scene {i}: {seconds:.1} s"));
     faults.iter().for_each(|fault| println!("\n{fault}"));
     if faults.is_empty() { Ok(()) } else { Err("see the scenes in out/random-scenes".into()) }
 }

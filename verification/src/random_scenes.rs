@@ -36,7 +36,7 @@ pub struct Drawn {
 pub enum End {
     /// Exit status 0, with the energy balance of the summary.
     Done(f64),
-    /// Exit status 1, with the message.
+    /// Exit status 1, with the reason.
     Stopped(String),
     /// Exit status 2.
     Refused,
@@ -237,7 +237,7 @@ fn judge(kind: Kind, code: Option<i32>, message: &str, out: &Path) -> End {
             None => End::Fault("the summary has no energy balance".into()),
         },
         (Some(1), Kind::Sound | Kind::CutOff) if !message.trim().is_empty() => {
-            End::Stopped(message.trim().into())
+            End::Stopped(reason(message.trim()))
         }
         (Some(2), Kind::Unsound | Kind::CutOff) if message.trim().is_empty() => {
             End::Fault("refused without a message".into())
@@ -257,7 +257,7 @@ fn number(json: &str, key: &str) -> Option<f64> {
 }
 
 /// Why a run stopped, without the numbers of the scene.
-pub fn reason(message: &str) -> String {
+fn reason(message: &str) -> String {
     let after = message.split_once(": stopped").map_or(message, |(_, rest)| rest);
     let after = after.split_once(": ").map_or(after, |(_, rest)| rest);
     after.split(';').next().unwrap_or(after).trim().to_string()
