@@ -13,7 +13,7 @@ const ROW_GROWTH: f64 = 3.0;
 const COLUMN_GROWTH: f64 = 5.0;
 
 /// Linear elements that are as exact as one quadratic element, along a line.
-const LINEAR: f64 = 8.0 / 3.0;
+pub const LINEAR: f64 = 8.0 / 3.0;
 
 /// Depths of a row of contacts within which shells around it stay fine: metal yields that far below touching rows.
 const NEAR_ROW: f64 = 3.0;

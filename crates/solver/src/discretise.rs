@@ -1,6 +1,7 @@
 //! The numbers of the discretisation that an accuracy chooses: elements, steps, penalty, tolerance, size of the substrate.
 
 use crate::scene::{Accuracy, ContactMethod, ElementChoice, Numerics, Scene, Symmetry};
+use asperity_mesh::grading::LINEAR;
 
 /// Every number of the discretisation, none left open.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -84,8 +85,10 @@ impl Discretisation {
         let softness = softness(scene);
         let elements = (elements as f64 * softness.powf(0.8)).round() as usize;
         let steps = (steps as f64 * softness).round() as usize;
-        // a linear element must be 8/3 times smaller than a quadratic one to be as exact
-        let elements = if element == ElementChoice::Q4 { elements * 8 / 3 } else { elements };
+        let elements = match element {
+            ElementChoice::Q8r => elements,
+            ElementChoice::Q4 => (elements as f64 * LINEAR) as usize,
+        };
         Discretisation {
             element,
             elements_in_contact: numerics.elements_in_contact.unwrap_or(elements),

@@ -22,6 +22,7 @@ use crate::problem::{Problem, automatic_size};
 use crate::record::CurveRow;
 use crate::scene::{ContactMethod, ElementChoice};
 use crate::stepping::schedule;
+use asperity_mesh::grading::LINEAR;
 
 /// Constant of the load step.
 const STEP: f64 = 2.5;
@@ -82,7 +83,7 @@ pub fn force_error(
         if numbers.contact == ContactMethod::Penalty { PENALTY * numbers.penetration.powf(1.5) } else { 0.0 };
     let (quadratic, stiff) = match numbers.element {
         ElementChoice::Q8r => (numbers.elements_in_contact as f64, 0.0),
-        ElementChoice::Q4 => (0.375 * numbers.elements_in_contact as f64, LINEAR_BIAS),
+        ElementChoice::Q4 => (numbers.elements_in_contact as f64 / LINEAR, LINEAR_BIAS),
     };
     let expected = flow.ripple() * lever / quadratic;
     let ripple = shown_ripple(&curve, loading.len()).map_or(expected, |shown| shown.min(expected));

@@ -66,9 +66,6 @@ pub const LEVELS: [Accuracy; 3] = [Accuracy::Draft, Accuracy::Standard, Accuracy
 const BETWEEN: [Accuracy; 4] =
     [Accuracy::Within(0.03), Accuracy::Within(0.02), Accuracy::Within(0.007), Accuracy::Within(0.004)];
 
-/// Fewest and most elements across the contact that a scene may ask for.
-const ELEMENTS: [f64; 2] = [2.0, 1000.0];
-
 /// An element of a linear mesh is smaller by this factor where it has as many unknowns as a quadratic one: a quadratic
 /// element brings three nodes, a linear one brings one.
 const LINEAR_FINENESS: f64 = 1.732;
@@ -112,7 +109,7 @@ pub fn converged(scene: &Scene) -> [Setting; 2] {
     let base = level(scene, Accuracy::Reference);
     [(1.1, 1.0), (1.25, 1.1)].map(|(mesh, steps)| {
         let mut numerics = base.numerics;
-        scale(&mut numerics.elements_in_contact, mesh, ELEMENTS);
+        scale(&mut numerics.elements_in_contact, mesh, Numerics::ELEMENTS);
         scale(&mut numerics.steps, steps, [1.0, 1e4]);
         fixed(scene, Setting { knob: Knob::Converged, numerics, ..base })
     })
@@ -155,12 +152,12 @@ fn around(scene: &Scene, accuracy: Accuracy) -> Vec<Setting> {
     if !finest {
         add(Knob::Element, &|n| {
             n.element = Some(ElementChoice::Q4);
-            scale(&mut n.elements_in_contact, LINEAR_FINENESS, ELEMENTS);
+            scale(&mut n.elements_in_contact, LINEAR_FINENESS, Numerics::ELEMENTS);
         });
         add(Knob::Contact, &|n| n.contact = Some(ContactMethod::Augmented));
     }
     for factor in if finest { [0.6, 0.8] } else { [0.67, 1.5] } {
-        add(Knob::Mesh, &|n| scale(&mut n.elements_in_contact, factor, ELEMENTS));
+        add(Knob::Mesh, &|n| scale(&mut n.elements_in_contact, factor, Numerics::ELEMENTS));
     }
     let sides = |cheap: f64, dear: f64| [cheap, dear].into_iter().take(if finest { 1 } else { 2 });
     for factor in sides(0.5, 2.0) {

@@ -305,6 +305,9 @@ impl Loading {
 }
 
 impl Numerics {
+    /// Fewest and most elements across the contact that a scene may ask for.
+    pub const ELEMENTS: [f64; 2] = [2.0, 1000.0];
+
     fn check(&self) -> Check {
         let whole = |path, what, value: Option<usize>, low, high, way_out| {
             value.map_or(Ok(()), |v| within(path, what, v as f64, low, high, way_out))
@@ -317,8 +320,8 @@ impl Numerics {
             "elements_in_contact",
             "the number of elements across the contact",
             self.elements_in_contact,
-            2.0,
-            1000.0,
+            Numerics::ELEMENTS[0],
+            Numerics::ELEMENTS[1],
             leave,
         )?;
         whole("steps", "the number of load steps", self.steps, 1.0, 1e4, leave)?;

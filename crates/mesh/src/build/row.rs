@@ -1,0 +1,146 @@
+//! Contacts side by side: a cell under each, plain blocks between them, and the shells around the whole row.
+
+use super::grid::{Grid, Rectangle, Ring, name_side, sort_surface, wrap};
+use super::{
+    Plan, add_core, contact_size, core_half_width, divide_geometric, kinks_from, power, shell_limit,
+};
+use crate::grading::{Grading, divide};
+use std::collections::HashMap;
+
+/// The rectangle of a row: as deep as the geometric mean of the half widths of its cells.
+pub fn rectangle(plan: &Plan) -> Rectangle {
+    let contacts = &plan.contacts;
+    let logs = contacts.iter().map(|c| (c.foot * c.depth_ratio()).ln());
+    let mean = (logs.sum::<f64>() / contacts.len() as f64).exp();
+    Rectangle { left: plan.row[0], right: plan.row[1], depth: mean.min(0.5 * plan.depth) }
+}
+
+/// Cells side by side with plain blocks between them; returns the ring around the whole row.
+pub fn add(grid: &mut Grid, plan: &Plan) -> Ring {
+    let rectangle = rectangle(plan);
+    let depths: Vec<f64> = plan.grading.rows(plan.kind).iter().map(|t| t * rectangle.depth).collect();
+    let rows = depths.len() - 1;
+    let (mut left, mut bottom, mut right): (Vec<u32>, Vec<u32>, Vec<u32>) =
+        (Vec::new(), Vec::new(), Vec::new());
+    // takes the sides of a block into the row: its left side is welded to the right side of the block before
+    let mut join = |grid: &mut Grid, [block_left, block_bottom, block_right]: &[Vec<u32>; 3]| {
+        if right.is_empty() {
+            left.clone_from(block_left);
+            bottom.clone_from(block_bottom);
+        } else {
+            let alias: HashMap<u32, u32> = block_left.iter().copied().zip(right.iter().copied()).collect();
+            for node in grid.cells.iter_mut().flatten() {
+                if let Some(&other) = alias.get(node) {
+                    *node = other;
+                }
+            }
+            bottom.extend_from_slice(&block_bottom[1..]);
+        }
+        right.clone_from(block_right);
+    };
+    let mut edge = rectangle.left;
+    for (index, contact) in plan.contacts.iter().enumerate() {
+        let halved = index == 0 && contact.centre == plan.width[0];
+        let cell_left = if halved { contact.centre } else { contact.centre - contact.foot };
+        if let Some(nodes) = plain_block(grid, plan, [edge, cell_left], &depths) {
+            join(grid, &nodes);
+        }
+        let half = core_half_width(plan, contact);
+        let core = Rectangle {
+            left: if halved { contact.centre } else { contact.centre - half },
+            right: contact.centre + half,
+            depth: (half * contact.depth_ratio()).min(0.6 * rectangle.depth),
+        };
+        let start = grid.surface.len();
+        let ring = add_core(grid, plan, contact, core);
+        let grading = if contact.half_width > 0.0 {
+            plan.grading
+        } else {
+            Grading { fineness: 0.5, far: 0.5, ..plan.grading }
+        };
+        let kinks: Vec<f64> =
+            kinks_from(plan, contact.centre).into_iter().filter(|&k| k < contact.foot).collect();
+        let stations =
+            divide_geometric(half, contact.foot, &kinks, |x| grading.size(x, contact_size(contact)));
+        let shells: Vec<Rectangle> = stations[1..]
+            .iter()
+            .map(|&x| Rectangle {
+                left: if halved { contact.centre } else { contact.centre - x },
+                right: contact.centre + x,
+                depth: power([half, core.depth], [contact.foot, rectangle.depth], x),
+            })
+            .collect();
+        let ring = wrap(grid, ring, &shells, None);
+        sort_surface(grid, start);
+        let [l, b, _] = ring.edges;
+        let down: Vec<u32> = ring.ids[..=l].to_vec();
+        let up: Vec<u32> = ring.ids[l + b..].iter().rev().copied().collect();
+        join(grid, &[down, ring.ids[l..=l + b].to_vec(), up]);
+        edge = contact.centre + contact.foot;
+    }
+    if let Some(nodes) = plain_block(grid, plan, [edge, rectangle.right], &depths) {
+        join(grid, &nodes);
+    }
+    let on_left = rectangle.left > plan.width[0];
+    let on_right = rectangle.right < plan.width[1];
+    if !on_left && plan.contacts[0].centre != plan.width[0] {
+        name_side(grid, &left, |grid| &mut grid.axis);
+    }
+    if !on_right {
+        name_side(grid, &right, |grid| &mut grid.outer);
+    }
+    let mut ids: Vec<u32> = if on_left { left[..rows].to_vec() } else { Vec::new() };
+    let columns = bottom.len() - 1;
+    ids.extend(bottom);
+    if on_right {
+        ids.extend(right[..rows].iter().rev());
+    }
+    Ring { ids, edges: [if on_left { rows } else { 0 }, columns, if on_right { rows } else { 0 }], rectangle }
+}
+
+/// A block of plain columns over [from, to], its nodes down the left, along the bottom and down the right; nothing if
+/// the interval is empty. Columns widen from the feet of cells at its ends; between two cells its middle is a node, so
+/// that the two halves are the blocks that symmetric sides would leave.
+fn plain_block(grid: &mut Grid, plan: &Plan, [from, to]: [f64; 2], depths: &[f64]) -> Option<[Vec<u32>; 3]> {
+    let width = to - from;
+    if width <= 1e-9 * (plan.row[1] - plan.row[0]) {
+        return None;
+    }
+    let size = |distance: f64| depths[1] - depths[0] + plan.grading.far * distance;
+    let kinks = plan.profile.kinks();
+    let columns = if from == plan.row[0] {
+        divide(from, to, &kinks, |x| size(to - x))
+    } else if to == plan.row[1] {
+        divide(from, to, &kinks, |x| size(x - from))
+    } else {
+        let middle = 0.5 * (from + to);
+        let mut columns = divide(from, middle, &kinks, |x| size(x - from));
+        columns.pop();
+        columns.extend(divide(middle, to, &kinks, |x| size(to - x)));
+        columns
+    };
+    let nodes = grid.block(&columns, depths);
+    let under = nodes.iter().map(|column| column[depths.len() - 1]).collect();
+    Some([nodes[0].clone(), under, nodes[columns.len() - 1].clone()])
+}
+
+/// The rectangles around a row of cells, out to where shells end. Next to the row, where all its loads add up, they are
+/// as fine as the grading asks for.
+pub fn rectangles_around(plan: &Plan, inner: Rectangle) -> Vec<Rectangle> {
+    let end = shell_limit(plan, inner);
+    let stations =
+        divide_geometric(inner.depth, end.depth, &[], |x| plan.grading.size_around_row(x / inner.depth) * x);
+    let last = stations.len() - 1;
+    let rectangle = |(k, &depth): (usize, &f64)| {
+        if k + 1 == last {
+            return end;
+        }
+        let share = (depth - inner.depth) / (end.depth - inner.depth);
+        Rectangle {
+            left: inner.left + share * (end.left - inner.left),
+            right: inner.right + share * (end.right - inner.right),
+            depth,
+        }
+    };
+    stations[1..].iter().enumerate().map(rectangle).collect()
+}
