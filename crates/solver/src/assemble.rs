@@ -62,11 +62,11 @@ impl Stiffness {
 
     /// Adds to every diagonal entry `share` of its size.
     pub fn stiffen(&mut self, share: f64) {
-        // the diagonal is the first entry of each column of a lower triangle
-        let diagonal: Vec<usize> = self.matrix.proper_indptr().windows(2).map(|ends| ends[0]).collect();
-        let values = self.matrix.data_mut();
-        for place in diagonal {
-            values[place] += share * values[place].abs();
+        for mut column in self.matrix.outer_iterator_mut() {
+            // the diagonal is the first entry of each column of a lower triangle
+            if let Some((_, diagonal)) = column.iter_mut().next() {
+                *diagonal += share * diagonal.abs();
+            }
         }
     }
 

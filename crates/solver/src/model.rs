@@ -7,7 +7,7 @@ use crate::element::{ElementContext, ElementOutput, POINTS};
 use crate::history::{Flowed, carry_factor, carry_on, flow};
 use crate::j2::Tangent;
 use crate::kinematics::{ShapePoint, Symmetry, motion};
-use crate::linear::{Factor, FactorError, elimination_order};
+use crate::linear::{Factor, elimination_order};
 use crate::material::{Metal, PointState};
 use crate::newton::{Assessment, Failure, System};
 use crate::secant::Secants;
@@ -16,6 +16,7 @@ use crate::{quad4, quad8};
 use asperity_mesh::{ElementKind, Mesh};
 
 mod back_stress;
+mod factorise;
 mod tool_stiffness;
 mod view;
 
@@ -30,13 +31,6 @@ pub struct ToolContact {
     /// Pressure per penetration.
     pub penalty: f64,
 }
-
-/// Negative pivots with which an LDLᵀ step is still taken: a limit point or a bifurcation has one or two; more mean
-/// that the iterate is far from any equilibrium.
-const TOLERATED_NEGATIVE_PIVOTS: usize = 2;
-
-/// Shares of the diagonal that are added to it, one after the other, until the tangent is definite.
-const STIFFER: [f64; 2] = [1e-2, 1e-1];
 
 /// Counters of the work done.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -453,55 +447,6 @@ impl<'m> Model<'m> {
         self.add_contact_forces();
         self.add_contact_stiffness();
         Ok(())
-    }
-
-    /// Factorises the stiffness; a lost pivot is answered as the module documentation of `linear` says.
-    fn factorise(&mut self) -> Result<(), Failure> {
-        let clock = std::time::Instant::now();
-        self.counters.factorisations += 1;
-        self.secants.clear();
-        self.fraction = 0.0;
-        let outcome = match self.factor.cholesky(&self.stiffness.matrix) {
-            Ok(()) => Ok(()),
-            Err(_) => self.factorise_indefinite(),
-        };
-        self.has_factors = outcome.is_ok();
-        self.counters.factor_s += clock.elapsed().as_secs_f64();
-        outcome
-    }
-
-    /// A tangent without the compressive geometric term; else LDLᵀ of the exact one if it is nearly definite; else a stiffer one.
-    fn factorise_indefinite(&mut self) -> Result<(), Failure> {
-        self.counters.lost_pivots += 1;
-        self.assemble_again(Tangent::WithoutCompression)?;
-        if self.factor.cholesky(&self.stiffness.matrix).is_ok() {
-            return Ok(());
-        }
-        self.assemble_again(Tangent::Exact)?;
-        match self.factor.ldlt(&self.stiffness.matrix) {
-            Ok(negative) if negative <= TOLERATED_NEGATIVE_PIVOTS => Ok(()),
-            Ok(_) | Err(FactorError::NotPositive | FactorError::Singular) if self.stiffens => {
-                self.factorise_stiffened()
-            }
-            Ok(_) | Err(FactorError::NotPositive | FactorError::Singular) => Err(Failure::Singular),
-        }
-    }
-
-    /// The exact tangent with a stiffer diagonal, as little as makes it definite: directions that go down, where perfectly
-    /// plastic metal gives way and Newton's go anywhere.
-    fn factorise_stiffened(&mut self) -> Result<(), Failure> {
-        for share in STIFFER {
-            self.stiffness.stiffen(share);
-            if self.factor.cholesky(&self.stiffness.matrix).is_ok() {
-                return Ok(());
-            }
-        }
-        Err(Failure::Singular)
-    }
-
-    /// Whether tangents that are far from definite are stiffened, or fail.
-    pub fn stiffen(&mut self, stiffens: bool) {
-        self.stiffens = stiffens;
     }
 
     /// Augmented Lagrange update at the nodes, λ ← max(0, λ + ε d), from the converged iterate.
