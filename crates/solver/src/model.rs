@@ -49,6 +49,8 @@ pub struct Counters {
     pub solve_s: f64,
     /// Factorisations that lost a pivot.
     pub lost_pivots: usize,
+    /// Points returned to the yield surface.
+    pub returns: usize,
 }
 
 /// The body with its converged state and the increment under way. Lengths are the scene's own, stresses in units of E.
@@ -70,6 +72,7 @@ pub struct Model<'m> {
     // converged state
     position: Vec<[f64; 2]>,
     old: Vec<PointState>,
+    /// Flow of the last increment at every integration point; nothing is kept of elastic metal.
     flowed: Vec<Flowed>,
     back_stress: Option<BackStress>,
     parts: Vec<Parts>,
@@ -173,6 +176,7 @@ impl<'m> Model<'m> {
                 .collect(),
         };
         let virgin = metal.virgin();
+        let yields = metal.hardening.is_some();
         let back_stress = metal.has_back_stress().then(|| BackStress::new(count));
         let still = Flowed { strain: [0.0; 4], accumulated: 0.0 };
         Ok(Model {
@@ -200,7 +204,7 @@ impl<'m> Model<'m> {
             contact,
             position: mesh.nodes.clone(),
             old: vec![virgin; count],
-            flowed: vec![still; count],
+            flowed: vec![still; if yields { count } else { 0 }],
             back_stress,
             multiplier: vec![0.0; nodes],
             trial_multiplier: vec![0.0; nodes],
@@ -236,7 +240,9 @@ impl<'m> Model<'m> {
             *du = guess(node);
         }
         let factor = carry_factor(ratio);
-        if !self.carry_back_stress_on(factor) {
+        if self.flowed.is_empty() {
+            self.start.clone_from(&self.old);
+        } else if !self.carry_back_stress_on(factor) {
             for ((start, old), flowed) in self.start.iter_mut().zip(&self.old).zip(&self.flowed) {
                 *start = carry_on(&self.metal, old, flowed, factor);
             }
@@ -258,7 +264,9 @@ impl<'m> Model<'m> {
         for cell in 0..cells {
             let points = cell * POINTS..(cell + 1) * POINTS;
             if !self.flowing[cell] {
-                self.flowed[points].fill(still);
+                if let Some(flowed) = self.flowed.get_mut(points) {
+                    flowed.fill(still);
+                }
                 continue;
             }
             // the elastic trial from the last converged state: what the increment would have been without flow
@@ -347,6 +355,7 @@ impl<'m> Model<'m> {
         for cell in 0..self.mesh.cell_count() {
             evaluate_cell(self, cell, &context)?;
             self.flowing[cell] = self.output.flowing > 0;
+            self.counters.returns += self.output.flowing;
             self.new[cell * POINTS..(cell + 1) * POINTS].copy_from_slice(&self.output.states);
             if let Some(back) = &mut self.back_stress {
                 back.new[cell * POINTS..(cell + 1) * POINTS].copy_from_slice(&self.output.memory);
