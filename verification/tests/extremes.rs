@@ -139,7 +139,7 @@ fn rows() -> Vec<Row> {
         }),
         against_sneddon("slope 0.1°, elastic", elastic_cone(0.1, 0.3)),
         row(
-            "slope 45°, to half its height: area of the cut cone",
+            "slope 45°, to half its height: radius of the cut cone",
             changed(|s| {
                 s.asperity[0].slope_deg = Some(45.0);
                 s.asperity[0].tip_radius = None;
@@ -149,7 +149,7 @@ fn rows() -> Vec<Row> {
             |o| o.summary.contact_radius / 10e-6,
         ),
         row(
-            "slope 60°, to half its height: area of the cut cone",
+            "slope 60°, to half its height: radius of the cut cone",
             changed(|s| {
                 s.asperity[0].slope_deg = Some(60.0);
                 s.asperity[0].tip_radius = None;
@@ -236,7 +236,7 @@ fn rows() -> Vec<Row> {
         row("a cap as high as half its radius, to 60 % of it", cap(0.6), 1e-6, |o| {
             o.summary.peak_depth / (0.6 * 25e-6)
         }),
-        row("slope 60°, to half its height, Q4: area of the cut cone", q4(steep_cone()), 0.6, |o| {
+        row("slope 60°, to half its height, Q4: radius of the cut cone", q4(steep_cone()), 0.6, |o| {
             o.summary.contact_radius / (10e-6 / 60f64.to_radians().tan())
         }),
         against("10000 steps", steps(10_000), paper(), 0.05),
@@ -245,7 +245,12 @@ fn rows() -> Vec<Row> {
         scaled("stresses of 1e-12", 1.0, 1e-12),
         scaled("stresses of 1e12", 1.0, 1e12),
         row("unloaded and loaded again ten times: the force of the first peak", reloaded(10), 0.02, |o| {
-            let last = o.rows.iter().rev().find(|r| r.phase == Phase::Load).unwrap();
+            let last = o
+                .rows
+                .iter()
+                .filter(|r| r.phase == Phase::Reload)
+                .max_by(|a, b| a.depth.total_cmp(&b.depth))
+                .unwrap();
             last.force / peak(o)
         }),
         row(
@@ -253,7 +258,12 @@ fn rows() -> Vec<Row> {
             half_kinematic(),
             0.2,
             |o| {
-                let last = o.rows.iter().rev().find(|r| r.phase == Phase::Load).unwrap();
+                let last = o
+                    .rows
+                    .iter()
+                    .filter(|r| r.phase == Phase::Reload)
+                    .max_by(|a, b| a.depth.total_cmp(&b.depth))
+                    .unwrap();
                 last.force / peak(o)
             },
         ),

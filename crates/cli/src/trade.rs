@@ -127,7 +127,10 @@ fn measure_all(
         .into_iter()
         .par_bridge()
         .map(|setting| {
-            let finished = case::measure(setting, scene);
+            let finished = match case::measure(setting, scene) {
+                Ok(finished) => finished,
+                Err(reason) => return Ok(Finished { setting: *setting, outcome: Err(reason) }),
+            };
             let line = serde_json::to_string(&finished).map_err(|e| disk(e.into()))?;
             let mut state = state.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
             state.0.append(&line).map_err(disk)?;
@@ -155,6 +158,11 @@ fn write(folder: &mut Folder, finished: &[Finished]) -> Result<String, Failure> 
         }
     };
     let converged = Converged::new(run(0)?, run(1)?);
+    let known = if finer[0].setting.numerics == finer[1].setting.numerics {
+        "that of the scene's own mesh and steps: whether it is converged is not known".to_string()
+    } else {
+        format!("known to {:.3} %", 100.0 * converged.doubt)
+    };
     let compared: Vec<Finished> =
         finished.iter().filter(|f| f.setting.knob != Knob::Converged).cloned().collect();
     let rows = errors::rows(&compared, &converged);
@@ -165,9 +173,8 @@ fn write(folder: &mut Folder, finished: &[Finished]) -> Result<String, Failure> 
     folder.write("trade.md", |out| writeln!(out, "{overview}"))?;
     let failed = rows.iter().filter(|r| r.outcome.is_err()).count();
     Ok(format!(
-        "{}\n\n{} settings, {failed} without a result; the converged force is known to {:.3} %",
+        "{}\n\n{} settings, {failed} without a result; the converged force is {known}",
         overview,
         rows.len(),
-        100.0 * converged.doubt
     ))
 }

@@ -46,7 +46,10 @@ impl Asperity {
 
     /// Half width where the asperity continued for ever is cut at `depth` below its summit.
     pub fn half_width(&self, depth: f64) -> f64 {
-        let cap_width = |radius: f64| (depth * (2.0 * radius - depth)).max(0.0).sqrt();
+        let cap_width = |radius: f64| {
+            let depth = depth.min(radius);
+            (depth * (2.0 * radius - depth)).max(0.0).sqrt()
+        };
         match self.shape {
             Shape::Sphere { radius } => cap_width(radius),
             Shape::Cone { tan_slope, tip_radius } => {

@@ -127,11 +127,13 @@ pub fn run(
             journal.record(model, increment, observer)
         })
         .err();
-    journal.peak_reached(&goal, &problem, observer, &path.model, stopped.is_none());
+    path.model.recall();
+    journal.peak_reached(&goal, observer, &path.model, stopped.is_none());
     if stopped.is_none() {
         stopped =
             unload_and_reload(scene, &goal, numbers.unload_steps, &mut path, &mut journal, observer).err();
     }
+    path.model.recall();
     Ok(journal.finish(&path, stopped, observer))
 }
 

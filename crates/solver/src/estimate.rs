@@ -61,7 +61,9 @@ pub fn force_error(
 ) -> f64 {
     let numbers = &problem.numbers;
     let curve = Curve::force(loading);
-    let steepness = curve.steepness() / CONE;
+    // too few increments show no exponent
+    let shown = curve.steepness();
+    let steepness = if shown > 0.0 { shown / CONE } else { 1.0 };
     // an error of the depth is one of the force times the exponent
     let lever = steepness.max(1.0);
     let flow = problem.metal.hardening.as_ref().map_or(Flow::default(), |hardening| Flow {

@@ -5,7 +5,7 @@ use crate::curve::COUNTS_FROM;
 use crate::kinematics::Symmetry;
 use crate::material::Metal;
 use crate::tool::Tool;
-use asperity_mesh::profile::{Profile, Shape};
+use asperity_mesh::profile::{Asperity, Profile, Shape};
 
 /// Contact half width of a crushed asperity over the half width of the cut at the same depth: 0.64 (elastic cone,
 /// 2/π) to 1.06 (perfectly plastic), 0.89 for the single asperity.
@@ -13,11 +13,32 @@ const SPREAD: f64 = 0.9;
 
 /// Contact half widths at `depth` below the highest summit.
 pub fn half_widths(profile: &Profile, tool: &Tool, depth: f64) -> Vec<f64> {
-    if let Some(mirrored) = tool.mirrored() {
+    let mirrored = tool.mirrored();
+    if let (Some(mirrored), true) = (&mirrored, profile.asperities.is_empty()) {
         return vec![SPREAD * mirrored.half_width(depth)];
     }
     let top = profile.height();
-    profile.asperities.iter().map(|a| SPREAD * a.half_width((depth - (top - a.height)).max(0.0))).collect()
+    let width = |a: &Asperity| {
+        // a curved tool lies higher over the asperities beside the one that it comes down on
+        let below = top - a.height + mirrored.map_or(0.0, |m| m.drop(a.centre));
+        SPREAD * half_width_under(a, mirrored.as_ref(), (depth - below).max(0.0))
+    };
+    profile.asperities.iter().map(width).collect()
+}
+
+/// Half width over which the outlines of `asperity` and of the tool above it overlap at `depth`.
+fn half_width_under(asperity: &Asperity, mirrored: Option<&Asperity>, depth: f64) -> f64 {
+    let Some(tool) = mirrored else { return asperity.half_width(depth) };
+    let (mut low, mut high) = (0.0, asperity.half_width(depth).min(tool.half_width(depth)));
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if asperity.drop(middle) + tool.drop(middle) < depth {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    high
 }
 
 /// Share of the contact half width at `reach`, for which the mesh is made, from which the contact must be resolved: the half
@@ -27,6 +48,10 @@ pub fn half_widths(profile: &Profile, tool: &Tool, depth: f64) -> Vec<f64> {
 pub fn resolved_from(profile: &Profile, tool: &Tool, depth: f64, reach: f64) -> f64 {
     let first = COUNTS_FROM * depth;
     let highest = profile.asperities.iter().copied().max_by(|a, b| a.height.total_cmp(&b.height));
+    if let (Some(tool), Some(asperity)) = (tool.mirrored(), highest) {
+        let under = |depth: f64| half_width_under(&asperity, Some(&tool), depth);
+        return under(first) / under(reach);
+    }
     let Some(outline) = tool.mirrored().or(highest) else { return first / reach };
     let half_width = outline.half_width(first);
     match outline.shape {

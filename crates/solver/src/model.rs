@@ -8,7 +8,7 @@ use crate::history::{Flowed, carry_factor, carry_on, flow};
 use crate::j2::Tangent;
 use crate::kinematics::{ShapePoint, Symmetry, motion};
 use crate::linear::{Factor, elimination_order};
-use crate::material::{Metal, PointState};
+use crate::material::{Metal, PointState, volume_ratio};
 use crate::newton::{Assessment, Failure, System};
 use crate::secant::Secants;
 use crate::tool::Tool;
@@ -81,6 +81,8 @@ pub struct Model<'m> {
     trial_multiplier: Vec<f64>,
     accepted: Vec<[f64; 2]>,
     accepted_multiplier: Vec<f64>,
+    accepted_tip: f64,
+    accepted_flowing: Vec<bool>,
     // increment under way
     tip: f64,
     increment: Vec<[f64; 2]>,
@@ -209,6 +211,8 @@ impl<'m> Model<'m> {
             multiplier: vec![0.0; nodes],
             trial_multiplier: vec![0.0; nodes],
             accepted_multiplier: vec![0.0; nodes],
+            accepted_tip: f64::INFINITY,
+            accepted_flowing: vec![false; mesh.cell_count()],
             accepted: vec![[0.0; 2]; nodes],
             tip: f64::INFINITY,
             increment: vec![[0.0; 2]; nodes],
@@ -247,12 +251,14 @@ impl<'m> Model<'m> {
                 *start = carry_on(&self.metal, old, flowed, factor);
             }
         }
-        if tip == f64::INFINITY {
-            self.parts.fill(NOTHING);
+        let free = tip == f64::INFINITY;
+        self.keep_contact = !free && self.parts.iter().any(|p| *p != NOTHING);
+        if free {
+            self.touching.fill(NOTHING);
             self.multiplier.fill(0.0);
+        } else {
+            self.touching.clone_from(&self.parts);
         }
-        self.keep_contact = self.parts.iter().any(|p| *p != NOTHING);
-        self.touching.clone_from(&self.parts);
         // what follows is no step of the last increment
         self.fraction = 0.0;
     }
@@ -301,10 +307,28 @@ impl<'m> Model<'m> {
         self.settled = true;
         self.accepted.clone_from(&self.increment);
         self.accepted_multiplier.clone_from(&self.multiplier);
+        self.accepted_tip = self.tip;
+        self.accepted_flowing.clone_from(&self.flowing);
         self.old.clone_from(&self.new);
         self.parts.clone_from(&self.touching);
         self.load_scale = self.load_scale.max(self.load().abs());
         Ok(())
+    }
+
+    /// Goes back from an increment that was not accepted: tool, contact and flowing cells are those of the converged state
+    /// again, for those who look at it.
+    pub fn recall(&mut self) {
+        if self.settled {
+            return;
+        }
+        self.tip = self.accepted_tip;
+        self.increment.fill([0.0; 2]);
+        self.multiplier.clone_from(&self.accepted_multiplier);
+        self.touching.clone_from(&self.parts);
+        self.flowing.clone_from(&self.accepted_flowing);
+        self.keep_contact = true;
+        self.assemble_contact();
+        self.settled = true;
     }
 
     /// Takes the contact energy over the surface as it is now, under tools that stretch it; what that adds to the energy
@@ -330,9 +354,7 @@ impl<'m> Model<'m> {
     /// squeezed hard (steep indenters, E/σ_y below 100) that is a few percent of the force.
     pub fn weigh_by_current_volume(&mut self) {
         for (q, state) in self.old.iter().enumerate() {
-            let b = &state.stretch;
-            let det = ((1.0 + b[0]) * (1.0 + b[1]) - 0.5 * b[3] * b[3]) * (1.0 + b[2]);
-            self.weight[q] = self.volume[q] * det.sqrt();
+            self.weight[q] = self.volume[q] * volume_ratio(&state.stretch);
         }
     }
 

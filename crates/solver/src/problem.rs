@@ -7,9 +7,10 @@ use crate::expected::{self, expected_depth, expected_pressure};
 use crate::kinematics::Symmetry;
 use crate::material::Metal;
 use crate::probe::depth_of;
-use crate::scene::{AsperityForm, ElementChoice, Lateral, Scene, SceneError, Target, ToolForm};
+use crate::scene::{AsperityForm, ElementChoice, Lateral, Scene, SceneError, Substrate, Target, ToolForm};
 use crate::tool::Tool;
 use asperity_law::Elastic;
+use asperity_law::units::Length;
 use asperity_mesh::build::{Contact, Plan, build};
 use asperity_mesh::grading::Grading;
 use asperity_mesh::profile::{Asperity, Profile, Shape};
@@ -77,7 +78,7 @@ pub fn prepare(scene: &Scene, mesh: Option<Mesh>) -> Result<Problem, SceneError>
                 &tool_over(tool_form, 1.0),
                 force,
             );
-            (depth_of(scene, force, guess), Some(force))
+            (depth_of(&with_body_of(scene, mesh.as_ref()), force, guess), Some(force))
         }
     };
     let scaled: Vec<Asperity> = outlines.iter().map(|a| scale(a, length)).collect();
@@ -117,6 +118,22 @@ pub fn prepare(scene: &Scene, mesh: Option<Mesh>) -> Result<Problem, SceneError>
     })
 }
 
+/// `scene` with the size of the body that `mesh` (m) holds, where plane strain asks for one and the scene gives none.
+fn with_body_of(scene: &Scene, mesh: Option<&Mesh>) -> Scene {
+    let mut scene = scene.clone();
+    if let (Some(mesh), None, crate::scene::Symmetry::PlaneStrain) = (mesh, scene.substrate, scene.symmetry) {
+        let extent = |i: usize| {
+            let ends = mesh
+                .nodes
+                .iter()
+                .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x[i]), high.max(x[i])]);
+            Some(Length(ends[1] - ends[0]))
+        };
+        scene.substrate = Some(Substrate { radius: extent(0).map(|w| Length(0.5 * w.0)), depth: extent(1) });
+    }
+    scene
+}
+
 fn within(table: &str, error: SceneError) -> SceneError {
     let path = if error.path.is_empty() { table.to_string() } else { format!("{table}.{}", error.path) };
     SceneError { path, message: error.message }
@@ -125,6 +142,8 @@ fn within(table: &str, error: SceneError) -> SceneError {
 /// The asperities side by side, in metres.
 fn outlines(scene: &Scene) -> Result<Vec<Asperity>, SceneError> {
     let mut outlines = Vec::new();
+    let plane = scene.symmetry == crate::scene::Symmetry::PlaneStrain;
+    let curved = !matches!(scene.tool.form(), Ok(ToolForm::Plane));
     let mut edge = 0.0; // where the next asperity may begin
     for (index, asperity) in scene.asperity.iter().enumerate() {
         let form = asperity.form().map_err(|e| within(&format!("asperity[{index}]"), e))?;
@@ -135,7 +154,8 @@ fn outlines(scene: &Scene) -> Result<Vec<Asperity>, SceneError> {
             AsperityForm::Sphere { radius, .. } => (Shape::Sphere { radius }, 0.0),
         };
         let half = form.base_radius();
-        let on_axis = index == 0 && scene.symmetry == crate::scene::Symmetry::Axisymmetric;
+        // a curved tool comes down at 0: over the first summit
+        let on_axis = index == 0 && (!plane || curved);
         let centre = if on_axis { 0.0 } else { edge + half };
         outlines.push(Asperity { shape, height: form.height(), centre, valley_radius });
         edge = centre + half + asperity.spacing.map_or(0.0, |s| s.0);
@@ -211,7 +231,9 @@ fn build_mesh(
     let row = match symmetry {
         Symmetry::Axisymmetric => [0.0, right],
         Symmetry::PlaneStrain if profile.asperities.is_empty() => [-10.0 * widest, 10.0 * widest],
-        Symmetry::PlaneStrain => [-end_gap, right],
+        Symmetry::PlaneStrain => {
+            [profile.asperities.first().map_or(0.0, |a| a.centre - a.half_width(a.height)) - end_gap, right]
+        }
     };
     let substrate = scene.substrate.as_ref();
     let automatic = automatic_size(numbers, profile, half_widths).max(3.0 * (row[1] - row[0]));
@@ -319,6 +341,13 @@ pub fn held_nodes(mesh: &Mesh, symmetry: Symmetry, lateral: Lateral) -> Vec<[boo
     }
     if lateral == Lateral::Symmetric {
         hold(&mesh.sides.outer, [true, false]);
+    }
+    if symmetry == Symmetry::Axisymmetric {
+        // the axis stays on the axis, whether or not a file names it as a side
+        let reach = mesh.nodes.iter().fold(0.0, |m: f64, x| m.max(x[0]));
+        for (held, x) in held.iter_mut().zip(&mesh.nodes) {
+            held[0] |= x[0] <= 1e-12 * reach;
+        }
     }
     held
 }

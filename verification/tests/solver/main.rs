@@ -3,8 +3,10 @@
 // in a test a panic is the message
 #![allow(clippy::unwrap_used)]
 
+mod a_failed_attempt_leaves_no_trace;
 mod confined_bar;
 mod contact_patch;
+mod curved_tool_on_an_asperity;
 mod elastic_flattening;
 mod elastic_indentation;
 mod energy_balance;

@@ -256,7 +256,7 @@ fn strain(evidence: &Evidence) -> Vec<Claim> {
             place: "eq. [9]",
             claim: "one coefficient holds from 1° to 10°".into(),
             ours: format!(
-                "εr/tan β goes from {:.3} at {}° to {:.3} at {}°; {PUBLISHED} lies within our interval at {inside} of {} slopes",
+                "εr/tan β goes from {:.3} at {}° to {:.3} at {}°; {PUBLISHED} ± 0.005 meets our interval at {inside} of {} slopes",
                 first.1, first.0, last.1, last.0, ratios.len()
             ),
             verdict: Verdict::of(inside == ratios.len()),

@@ -124,8 +124,9 @@ fn page(evidence: &Evidence, items: &[Item], claims: &[Claim], level: &str) -> R
     let parts = parts(items);
     let promise = match level {
         "draft" => "5 %",
+        "standard" => "1 %",
         "reference" => "0.2 %",
-        _ => "1 %",
+        percentage => percentage,
     };
     Ok(html! {
         (DOCTYPE)

@@ -60,9 +60,11 @@ pub struct Finished {
 }
 
 /// Runs `setting` of `scene` in a process of its own.
-pub fn measure(setting: &Setting, scene: &Scene) -> Finished {
-    let outcome = ask(&setting.scene(scene)).and_then(|answer| answer);
-    Finished { setting: *setting, outcome }
+///
+/// # Errors
+/// A process that failed, of which nothing is to be kept: it may do better the next time.
+pub fn measure(setting: &Setting, scene: &Scene) -> Result<Finished, String> {
+    Ok(Finished { setting: *setting, outcome: ask(&setting.scene(scene))? })
 }
 
 /// Asks another instance of this program; the outer error is about the process, the inner one about the run.

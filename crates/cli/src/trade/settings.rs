@@ -62,9 +62,13 @@ pub struct Setting {
 /// The levels from coarse to fine.
 pub const LEVELS: [Accuracy; 3] = [Accuracy::Draft, Accuracy::Standard, Accuracy::Reference];
 
-/// Accuracies between the levels, run as they are.
-const BETWEEN: [Accuracy; 4] =
-    [Accuracy::Within(0.03), Accuracy::Within(0.02), Accuracy::Within(0.007), Accuracy::Within(0.004)];
+/// Accuracies between the levels, run as they are; to the last digit what "0.7%" is read as, by which a journal finds them.
+const BETWEEN: [Accuracy; 4] = [
+    Accuracy::Within(3.0 / 100.0),
+    Accuracy::Within(2.0 / 100.0),
+    Accuracy::Within(0.7 / 100.0),
+    Accuracy::Within(0.4 / 100.0),
+];
 
 /// An element of a linear mesh is smaller by this factor where it has as many unknowns as a quadratic one: a quadratic
 /// element brings three nodes, a linear one brings one.

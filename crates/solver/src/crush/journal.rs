@@ -261,15 +261,14 @@ impl<'p> Journal<'p> {
     pub(super) fn peak_reached(
         &mut self,
         goal: &Goal,
-        problem: &Problem,
         observer: &mut dyn FnMut(&Event<'_>) -> ControlFlow<()>,
         model: &Model<'_>,
         complete: bool,
     ) {
         self.peak = self.rows.len() - 1;
         self.find_islands(model);
-        if complete && matches!(goal, Goal::Depth(_)) && problem.depth > 0.0 {
-            self.planned = self.peak + self.planned.saturating_sub(problem.numbers.steps);
+        if complete && matches!(goal, Goal::Depth(_)) {
+            self.planned = self.peak + self.planned.saturating_sub(self.problem.numbers.steps);
         }
         if self.interval > 0 {
             // an observer that breaks here is asked again at the next increment

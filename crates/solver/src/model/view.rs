@@ -6,7 +6,7 @@ use crate::floor::Operations;
 use crate::kinematics::Symmetry;
 use crate::material::{Metal, PointState};
 use crate::penetration::{Punches, under_punches};
-use crate::tool::Tool;
+use crate::tool::{Penetration, Tool};
 use asperity_mesh::Mesh;
 
 impl Model<'_> {
@@ -101,14 +101,16 @@ impl Model<'_> {
 
     fn touch(&self, position: impl Fn(u32) -> [f64; 2]) -> f64 {
         let Some(contact) = self.contact else { return 0.0 };
-        // the deepest point gives the travel to first order, exactly for a plane; repeated for curved tools
+        // the way along z to the flank, exact for planes and cones; repeated for round tools. A point beside the
+        // widest place of a ball does not see it
+        let along_z = |inside: Penetration| inside.depth / inside.slope[1].max(0.1);
         let mut travel = 0.0;
         for _ in 0..20 {
             let depth = self
                 .edges
                 .iter()
                 .flat_map(|edge| edge.nodes)
-                .map(|node| contact.tool.penetration(position(node), -travel).depth)
+                .map(|node| along_z(contact.tool.penetration(position(node), -travel)))
                 .fold(f64::NEG_INFINITY, f64::max);
             travel -= depth;
             if contact.tool == Tool::Plane || depth.abs() <= 1e-15 {

@@ -1,0 +1,41 @@
+//! Claim: an increment that was tried and not accepted changes nothing of what is read from the body afterwards: force of the
+//! contact, its edges and the pressure at its nodes are those of the last converged state, bit for bit.
+//!
+//! No outside source: fields of a run that stopped are drawn from the model after the failed attempt.
+
+use asperity_mesh::ElementKind;
+use asperity_solver::kinematics::Symmetry;
+use asperity_solver::model::{Model, ToolContact};
+use asperity_solver::newton::System;
+use asperity_solver::tool::Tool;
+use asperity_verification::bodies::{distorted_square, nodes_of};
+use asperity_verification::drive::{ELASTIC, TIGHT, increment, model};
+
+fn seen(model: &Model<'_>) -> (f64, Vec<f64>, Vec<[f64; 2]>) {
+    let pressures = model.edges().iter().flat_map(|edge| {
+        let x = edge.nodes.map(|node| model.current_position(node));
+        [
+            model.nodal_pressure(edge, &x, edge.nodes[0], -1.0),
+            model.nodal_pressure(edge, &x, edge.nodes[1], 1.0),
+        ]
+    });
+    (model.load(), pressures.collect(), model.positions().to_vec())
+}
+
+#[test]
+fn contact_is_that_of_the_last_converged_state() {
+    let mesh = distorted_square(ElementKind::Quad8);
+    let mut held = vec![[false; 2]; mesh.nodes.len()];
+    nodes_of(&mesh, &mesh.sides.base).iter().for_each(|&n| held[n] = [true, true]);
+    let contact = ToolContact { tool: Tool::Sphere { radius: 3.0 }, penalty: 4.0 };
+    let mut model = model(&mesh, Symmetry::Axisymmetric, ELASTIC, &held, Some(contact)).unwrap();
+    increment(&mut model, 0.9, &TIGHT, |_| [0.0; 2]).unwrap();
+    let before = seen(&model);
+    assert!(before.0 > 0.0);
+    for tip in [0.7, f64::INFINITY] {
+        model.begin(tip, 1.0, |_| [0.0, -0.01]);
+        model.assess(true).unwrap();
+        model.recall();
+        assert_eq!(seen(&model), before);
+    }
+}
