@@ -200,7 +200,7 @@ fn rows() -> Vec<Row> {
         against(
             "a body 1000 times deeper than wide",
             changed(|s| {
-                s.substrate = Some(Substrate { radius: Some(Length(2e-3)), depth: Some(Length(2e-2)) });
+                s.substrate = Some(Substrate { radius: Some(Length(2e-3)), depth: Some(Length(2.0)) });
             }),
             paper(),
             0.05,

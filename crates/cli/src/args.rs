@@ -47,7 +47,7 @@ pub enum Command {
     Reproduce(crate::reproduce::Reproduce),
     /// Write a commented scene to start from
     New(crate::new::New),
-    /// Print the JSON schema of a scene or a sweep, for editors
+    /// Print the JSON schema of a scene, a rough surface or a sweep, for editors
     Schema(crate::schema::SchemaCommand),
     /// Print the completions of a shell
     Completions(crate::manual::Completions),
@@ -89,7 +89,7 @@ pub struct Crush {
 pub struct MeshCommand {
     /// Scene file (TOML)
     pub scene: PathBuf,
-    /// File to write: .vtu (ParaView), .msh (Gmsh 4.1) or .inp (CalculiX, Abaqus) [default: <scene name>.<format>]
+    /// File to write: .vtu (ParaView), .msh (Gmsh 4.1) or .inp (CalculiX, Abaqus) [default with --format: <scene name>.<format>]
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
     /// Format, where the extension of the file does not say
@@ -127,7 +127,7 @@ impl MeshFormat {
 /// Flags that change what a file says.
 #[derive(Debug, Args)]
 pub struct SceneFlags {
-    /// Error of the force: draft (5 %), standard (1 %), reference (0.2 %) or a percentage like 0.5% [default: what the scene says, else standard]
+    /// Error of the force: draft (5 %), standard (1 %), reference (0.2 %) or a percentage like 0.5%, from 0.2% to 5% [default: what the scene says, else standard]
     #[arg(long, value_name = "LEVEL", value_parser = parse_accuracy)]
     pub accuracy: Option<Accuracy>,
     /// Change a value of the file, for example --set "loading.depth=2 um"; repeatable
@@ -138,7 +138,7 @@ pub struct SceneFlags {
 /// Flags of every command that fills a folder.
 #[derive(Debug, Args)]
 pub struct RunFlags {
-    /// Folder for the results [default: out/<scene name>]
+    /// Folder for the results [default: in out/, named after the scene or the command]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Threads to use [default: all cores]; the results do not depend on it

@@ -84,7 +84,7 @@ fn one_scene(path: &Path, args: &Rough) -> Result<(), Failure> {
 /// The calibration's result that the scene names, or the one that comes with the program.
 fn read_coefficient(file: &TomlFile<Scene>) -> Result<Option<Coefficient>, InputError> {
     let wanted = file.value.closure.closures();
-    if !wanted.iter().any(|c| matches!(c, Closure::Fitted | Closure::Calibrated)) {
+    if !wanted.iter().any(|c| matches!(c, Closure::Fitted | Closure::Calibrated | Closure::Johnson)) {
         return Ok(None);
     }
     let Some(path) = &file.value.coefficient else {

@@ -62,8 +62,8 @@ pub fn trade(args: &Trade) -> Result<(), Failure> {
     let journal = journal_beside(&target);
     let result = measure_all(scene, args.combinations, &journal, args.run.quiet)
         .and_then(|finished| write(&mut folder, &finished));
-    let text = match result {
-        Ok(text) => text,
+    let said = match result {
+        Ok(said) => said,
         Err(failure) => {
             folder.abandon();
             return Err(failure);
@@ -72,8 +72,10 @@ pub fn trade(args: &Trade) -> Result<(), Failure> {
     folder.publish()?;
     // the results are in their place: the journal has done its work
     let _ = std::fs::remove_file(&journal);
-    if !args.run.quiet {
-        terminal::say(&text);
+    if args.run.json {
+        terminal::say(&said.json);
+    } else if !args.run.quiet {
+        terminal::say(&said.text);
         terminal::say(&format!("results   {}", target.display()));
     }
     Ok(())
@@ -144,8 +146,16 @@ fn measure_all(
     Ok(settings.iter().filter_map(|s| finished.iter().find(|f| f.setting == *s).cloned()).collect())
 }
 
-/// Writes table and picture; returns what a person reads.
-fn write(folder: &mut Folder, finished: &[Finished]) -> Result<String, Failure> {
+/// What the command says on the terminal.
+struct Said {
+    /// To a person.
+    text: String,
+    /// To a program.
+    json: String,
+}
+
+/// Writes table and picture.
+fn write(folder: &mut Folder, finished: &[Finished]) -> Result<Said, Failure> {
     let finer: Vec<&Finished> = finished.iter().filter(|f| f.setting.knob == Knob::Converged).collect();
     let run = |i: usize| -> Result<&Measured, Failure> {
         let outcome = finer.get(i).map(|f| f.outcome.as_ref());
@@ -172,9 +182,11 @@ fn write(folder: &mut Folder, finished: &[Finished]) -> Result<String, Failure> 
     let overview = table::overview(&rows);
     folder.write("trade.md", |out| writeln!(out, "{overview}"))?;
     let failed = rows.iter().filter(|r| r.outcome.is_err()).count();
-    Ok(format!(
+    let json = table::json(&rows).map_err(|e| Failure::Unfinished(e.to_string()))?;
+    let text = format!(
         "{}\n\n{} settings, {failed} without a result; the converged force is {known}",
         overview,
         rows.len(),
-    ))
+    );
+    Ok(Said { text, json })
 }

@@ -68,6 +68,27 @@ pub fn write(out: &mut dyn Write, rows: &[Row]) -> io::Result<()> {
     Ok(())
 }
 
+/// The rows of `trade.csv` as a JSON array of objects, its columns as keys; an empty cell is null.
+///
+/// # Errors
+/// None that a table in memory has.
+pub fn json(rows: &[Row]) -> io::Result<String> {
+    let mut text = Vec::new();
+    write(&mut text, rows)?;
+    let value = |cell: &str| match cell {
+        "" => serde_json::Value::Null,
+        "true" | "false" => (cell == "true").into(),
+        _ => cell.parse::<f64>().map_or_else(|_| cell.into(), serde_json::Value::from),
+    };
+    let columns: Vec<&str> = HEADER.split(',').collect();
+    let mut objects: Vec<serde_json::Map<String, serde_json::Value>> = Vec::new();
+    for record in csv::Reader::from_reader(text.as_slice()).records() {
+        let record = record.map_err(io::Error::other)?;
+        objects.push(columns.iter().zip(record.iter()).map(|(k, v)| ((*k).into(), value(v))).collect());
+    }
+    Ok(serde_json::to_string_pretty(&objects)?)
+}
+
 /// The levels, then the front of the force, cheapest first, as a Markdown table that reads well as text too.
 pub fn overview(rows: &[Row]) -> String {
     let mut cells = vec![
