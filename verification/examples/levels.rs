@@ -2,7 +2,8 @@
 //! and the stated one.
 //!
 //! `cargo run --release -p asperity-verification --example levels -- [ROW …]` (rows counted from 1; all of them unless told).
-//! The converged force is the mean of the smoothed curves of `reference` and of a mesh half as fine again.
+//! The converged force is the mean of the smoothed curves of `reference` and of a mesh finer by a quarter, so that the
+//! column of `reference` shows half of what the two differ by.
 
 // a program whose output is the point, on scenes of its own
 #![allow(clippy::print_stdout, clippy::expect_used)]
