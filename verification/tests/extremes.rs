@@ -13,6 +13,7 @@
 use asperity_law::HardeningMode;
 use asperity_law::units::{Length, Stress};
 use asperity_solver::crush::Outcome;
+use asperity_solver::curve::Curve;
 use asperity_solver::record::Phase;
 use asperity_solver::scene::{Accuracy, ContactMethod, ElementChoice, HardeningChoice, Scene, Substrate};
 use asperity_verification::calibration::PEERS;
@@ -197,13 +198,17 @@ fn rows() -> Vec<Row> {
             paper(),
             0.05,
         ),
-        against(
-            "a body 1000 times deeper than wide",
+        row(
+            "a body 1000 times deeper than wide: as deep as without, and the shortening of a bar",
             changed(|s| {
                 s.substrate = Some(Substrate { radius: Some(Length(2e-3)), depth: Some(Length(2.0)) });
             }),
-            paper(),
             0.05,
+            |o| {
+                let own = Curve::force(&crush(&changed(|_| {})).unwrap().rows).depth_of(peak(o)).unwrap();
+                let shortening = peak(o) * 2.0 / (YOUNG * std::f64::consts::PI * 2e-3_f64.powi(2));
+                o.summary.peak_depth / (own + shortening)
+            },
         ),
         row(
             "flanks of 60° side by side, to 80 % of their height",
