@@ -249,30 +249,25 @@ fn rows() -> Vec<Row> {
         scaled("lengths of 1e12", 1e12, 1.0),
         scaled("stresses of 1e-12", 1.0, 1e-12),
         scaled("stresses of 1e12", 1.0, 1e12),
-        row("unloaded and loaded again ten times: the force of the first peak", reloaded(10), 0.02, |o| {
-            let last = o
-                .rows
-                .iter()
-                .filter(|r| r.phase == Phase::Reload)
-                .max_by(|a, b| a.depth.total_cmp(&b.depth))
-                .unwrap();
-            last.force / peak(o)
-        }),
+        row(
+            "unloaded and loaded again ten times: the force of the first peak",
+            reloaded(10),
+            0.02,
+            last_peak_over_first,
+        ),
         row(
             "half of the hardening kinematic, reloaded: the force of the first peak",
             half_kinematic(),
             0.2,
-            |o| {
-                let last = o
-                    .rows
-                    .iter()
-                    .filter(|r| r.phase == Phase::Reload)
-                    .max_by(|a, b| a.depth.total_cmp(&b.depth))
-                    .unwrap();
-                last.force / peak(o)
-            },
+            last_peak_over_first,
         ),
     ]
+}
+
+/// Force where the last of the deepest reloads ends over that of the first loading.
+fn last_peak_over_first(o: &Outcome) -> f64 {
+    let reloads = o.rows.iter().filter(|r| r.phase == Phase::Reload);
+    reloads.max_by(|a, b| a.depth.total_cmp(&b.depth)).unwrap().force / peak(o)
 }
 
 /// The sharp cone of 60 degrees, to half its height.
