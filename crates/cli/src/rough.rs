@@ -24,11 +24,11 @@ pub struct Rough {
     /// Scene file (TOML)
     #[arg(required_unless_present = "table1")]
     pub scene: Option<PathBuf>,
-    /// Print the paper's Table 1 beside ours: three generated surfaces, every closure
+    /// Print the paper's Table 1 beside ours: three generated surfaces, every closure; into files with --out
     #[arg(long, conflicts_with = "scene")]
     pub table1: bool,
     /// Change a value of the file, for example --set "load.pressure=100 MPa"; repeatable
-    #[arg(long = "set", value_name = "KEY.PATH=VALUE")]
+    #[arg(long = "set", value_name = "KEY.PATH=VALUE", conflicts_with = "table1")]
     pub overrides: Vec<String>,
     #[command(flatten)]
     pub run: RunFlags,

@@ -37,6 +37,27 @@ fn a_crush_of_nothing_says_what_to_do() {
 }
 
 #[test]
+fn the_papers_table_goes_where_it_is_sent() {
+    let place = Place::with_scene("");
+    let end = place.run(&["rough", "--table1", "--out", "table", "--json"]);
+    assert_eq!((end.status, end.err.as_str()), (0, ""));
+    let rows: serde_json::Value = serde_json::from_str(&end.out).unwrap();
+    assert_eq!(rows.as_array().map(Vec::len), Some(3));
+    let milled = &rows[1];
+    assert_eq!(
+        (milled["surface"].as_str(), milled["paper"]["pressure"].as_f64()),
+        (Some("milled"), Some(3830.0))
+    );
+    let closures = milled["closures"].as_array().unwrap();
+    assert!(closures.iter().all(|c| c["pressure"].as_array().is_some_and(|seeds| seeds.len() == 5)));
+    let text = std::fs::read_to_string(place.path("table/table1.txt")).unwrap();
+    assert!(closures.iter().all(|c| text.contains(c["closure"].as_str().unwrap())), "{text}");
+    assert_eq!(end.out.trim_end(), std::fs::read_to_string(place.path("table/table1.json")).unwrap());
+    // it has no file whose values could be changed
+    assert_eq!(place.run(&["rough", "--table1", "--set", "load.pressure=1 MPa"]).status, 2);
+}
+
+#[test]
 fn help_manual_completions_and_schema_are_there() {
     let place = Place::with_scene("");
     let run = |args: &[&str]| {

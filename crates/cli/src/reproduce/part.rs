@@ -204,9 +204,9 @@ impl Job {
         folder.write("summary.json", |out| writeln!(out, "{summary:#}"))?;
         if let Some(row) = table1::TABLE.iter().find(|row| row.kind == kind) {
             progress.show(0.2, || format!("five {name} surfaces, every closure"));
-            let (ours, notes) = table1::measure(row)?;
-            let table = serde_json::json!({ "closures": ours, "notes": notes, "against_itself": table1::contradictions(row).trim() });
-            folder.write("table1.json", |out| writeln!(out, "{table:#}"))?;
+            let table = serde_json::to_string_pretty(&table1::measure(row)?)
+                .map_err(|e| Failure::Unfinished(e.to_string()))?;
+            folder.write("table1.json", |out| out.write_all(table.as_bytes()))?;
         }
         folder.publish().map(|_| ())
     }

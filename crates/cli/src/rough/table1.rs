@@ -3,15 +3,19 @@
 use super::run;
 use crate::args::RunFlags;
 use crate::failure::{Failure, InputError};
+use crate::folder::Folder;
 use crate::terminal;
 use asperity_law::units::{Length, Stress};
 use asperity_roughness::scene::{Choice, GenerateScene, LoadScene, Material, Output, Scene, SurfaceScene};
 use asperity_roughness::{Coefficient, KindName, PUBLISHED, Profile};
+use serde::Serialize;
 use std::fmt::Write;
 
 /// A row of the paper's Table 1.
+#[derive(Serialize)]
 pub struct Printed {
     /// The surface.
+    #[serde(skip)]
     pub kind: KindName,
     /// Ra, µm.
     pub ra: f64,
@@ -106,7 +110,7 @@ fn scene(row: &Printed, seed: u64) -> Scene {
 }
 
 /// Values of one quantity over the seeds.
-#[derive(Default, serde::Serialize)]
+#[derive(Default, Serialize)]
 pub struct Spread(Vec<f64>);
 
 impl Spread {
@@ -129,7 +133,7 @@ impl Spread {
 }
 
 /// What a closure says of one kind of surface.
-#[derive(Default, serde::Serialize)]
+#[derive(Default, Serialize)]
 pub struct Ours {
     closure: &'static str,
     pressure: Spread,
@@ -140,8 +144,25 @@ pub struct Ours {
     elastic: Spread,
 }
 
-/// Every closure on the surfaces of one row, and what a reader should know.
-pub fn measure(row: &Printed) -> Result<(Vec<Ours>, Vec<String>), Failure> {
+/// One row of the paper's table beside ours.
+#[derive(Serialize)]
+pub struct Measured {
+    surface: &'static str,
+    /// The row as printed.
+    paper: &'static Printed,
+    /// Every closure, one value per seed.
+    closures: Vec<Ours>,
+    /// What a reader should know.
+    pub notes: Vec<String>,
+    /// The numbers of the row that contradict each other.
+    against_itself: String,
+}
+
+/// Every closure on the surfaces of one row.
+///
+/// # Errors
+/// A calibration that cannot be read, or a surface that cannot be made or pressed.
+pub fn measure(row: &'static Printed) -> Result<Measured, Failure> {
     let mut table: Vec<Ours> = Vec::new();
     let mut notes = Vec::new();
     let calibration = Coefficient::committed()
@@ -175,7 +196,13 @@ pub fn measure(row: &Printed) -> Result<(Vec<Ours>, Vec<String>), Failure> {
             }
         }
     }
-    Ok((table, notes))
+    Ok(Measured {
+        surface: run::kind_name(row.kind),
+        paper: row,
+        closures: table,
+        notes,
+        against_itself: contradictions(row),
+    })
 }
 
 /// The numbers of one row of the paper that contradict each other, from its own equations.
@@ -186,7 +213,7 @@ pub fn contradictions(row: &Printed) -> String {
     let index = eq11 / HARDNESS;
     let balance = NOMINAL / (row.area / 100.0);
     let mut text = format!(
-        "  the paper against itself: P_m A_r = {:.1} MPa instead of {NOMINAL} (P_m = {balance:.0} MPa would balance the load); \
+        "the paper against itself: P_m A_r = {:.1} MPa instead of {NOMINAL} (P_m = {balance:.0} MPa would balance the load); \
          eq. 13 gives psi = {index:.3}, printed {} ({:.2} times less); eq. 11 gives {eq11:.0} MPa, psi H = {:.0} MPa, printed {} MPa",
         row.pressure * row.area / 100.0,
         row.index,
@@ -206,17 +233,37 @@ pub fn contradictions(row: &Printed) -> String {
     text
 }
 
-/// Prints the tables.
+/// Prints the tables; with `--out` they are left there as `table1.txt` and `table1.json` too.
+///
+/// # Errors
+/// What [`measure`] says, or a folder that cannot be written.
 pub fn run(flags: &RunFlags) -> Result<(), Failure> {
+    let rows = TABLE.iter().map(measure).collect::<Result<Vec<Measured>, Failure>>()?;
+    let text = text(&rows);
+    let json = serde_json::to_string_pretty(&rows).map_err(|e| Failure::Unfinished(e.to_string()))?;
+    if let Some(out) = &flags.out {
+        let mut folder = Folder::create(out, "rough", flags.force)?;
+        folder.write("table1.txt", |out| out.write_all(text.as_bytes()))?;
+        folder.write("table1.json", |out| out.write_all(json.as_bytes()))?;
+        folder.publish()?;
+    }
+    if flags.json {
+        terminal::say(&json);
+    } else if !flags.quiet {
+        terminal::say(text.trim_end());
+    }
+    Ok(())
+}
+
+/// The tables for a reader.
+fn text(rows: &[Measured]) -> String {
     let mut text = format!(
         "Table 1: steel E = {MODULUS} MPa, nu = {POISSON}, H = {HARDNESS} MPa under {NOMINAL} MPa; ours: {SEEDS} seeds, 1024 x 1024 points of \
          1.953 um, mean ± standard deviation\n"
     );
-    let mut all = Vec::new();
-    let mut remarks = Vec::new();
-    for row in &TABLE {
-        let name = run::kind_name(row.kind);
-        let _ = writeln!(text, "\n{name}: Ra {} um, beta {} deg", row.ra, row.beta);
+    for row in rows {
+        let paper = row.paper;
+        let _ = writeln!(text, "\n{}: Ra {} um, beta {} deg", row.surface, paper.ra, paper.beta);
         let _ = writeln!(
             text,
             "  {:<11} {:>18} {:>16} {:>7} {:>15} {:>16} {:>14}",
@@ -225,11 +272,9 @@ pub fn run(flags: &RunFlags) -> Result<(), Failure> {
         let _ = writeln!(
             text,
             "  {:<11} {:>18} {:>16} {:>7} {:>15} {:>16} {:>14}",
-            "paper", row.pressure, row.area, row.index, row.peak, "", ""
+            "paper", paper.pressure, paper.area, paper.index, paper.peak, "", ""
         );
-        let (ours, notes) = measure(row)?;
-        remarks.extend(notes);
-        for o in &ours {
+        for o in &row.closures {
             let _ = writeln!(
                 text,
                 "  {:<11} {:>18} {:>16} {:>7.3} {:>15} {:>16} {:>14}",
@@ -242,29 +287,27 @@ pub fn run(flags: &RunFlags) -> Result<(), Failure> {
                 o.elastic.text(1)
             );
         }
-        let _ = writeln!(text, "{}", contradictions(row));
-        all.push(ours);
+        let _ = writeln!(text, "  {}", row.against_itself);
     }
-    text += &trends(&all);
-    for note in remarks {
+    text += &trends(rows);
+    for note in rows.iter().flat_map(|row| &row.notes) {
         let _ = writeln!(text, "note: {note}");
     }
-    if flags.json || !flags.quiet {
-        terminal::say(text.trim_end());
-    }
-    Ok(())
+    text
 }
 
 /// Whether A_r falls and P_m rises with the slope, per closure.
-fn trends(all: &[Vec<Ours>]) -> String {
+fn trends(rows: &[Measured]) -> String {
     let mut text = String::from("\ntrend from ground to sanded (the paper: A_r falls, P_m rises):\n");
-    for o in &all[0] {
+    for o in rows.first().map_or(&[][..], |row| &row.closures) {
         let column = |of: fn(&Ours) -> f64| -> Vec<f64> {
-            all.iter().filter_map(|row| row.iter().find(|x| x.closure == o.closure).map(of)).collect()
+            rows.iter()
+                .filter_map(|row| row.closures.iter().find(|x| x.closure == o.closure).map(of))
+                .collect()
         };
         let (area, pressure) = (column(|x| x.area.mean()), column(|x| x.pressure.mean()));
         let holds =
-            |v: &[f64], sign: f64| v.len() == all.len() && v.windows(2).all(|w| sign * (w[1] - w[0]) > 0.0);
+            |v: &[f64], sign: f64| v.len() == rows.len() && v.windows(2).all(|w| sign * (w[1] - w[0]) > 0.0);
         let say = |ok: bool| if ok { "holds" } else { "does not hold" };
         let _ = writeln!(
             text,
