@@ -108,7 +108,9 @@ pub struct Model<'m> {
     kept_contact: bool,
     base_kept_contact: bool,
     load_scale: f64,
+    /// What the contact energy has changed by because its area did, up to the start of the last accepted increment, and since.
     remeasured_energy: f64,
+    next_remeasured: f64,
     /// Whether the increment under way has been accepted.
     settled: bool,
     stiffens: bool,
@@ -226,6 +228,7 @@ impl<'m> Model<'m> {
             base_kept_contact: false,
             load_scale: 0.0,
             remeasured_energy: 0.0,
+            next_remeasured: 0.0,
             settled: true,
             stiffens: true,
             output: ElementOutput::new(virgin),
@@ -341,12 +344,15 @@ impl<'m> Model<'m> {
             penalty: contact.penalty,
             symmetry: self.symmetry,
         };
+        let mut change = 0.0;
         for (edge, share) in self.edges.iter_mut().zip(&self.edge_contact) {
             edge.reference = edge.nodes.map(|node| self.position[node as usize]);
             let multiplier = edge.nodes.map(|node| self.multiplier[node as usize]);
             let anew = edge.integrate(&context, share.parts, &edge.reference, &multiplier);
-            self.remeasured_energy += anew.penalty_energy - share.penalty_energy;
+            change += anew.penalty_energy - share.penalty_energy;
         }
+        // the sums of this increment are still over the old area
+        self.remeasured_energy += std::mem::replace(&mut self.next_remeasured, change);
     }
 
     /// Takes the stress of the law as Cauchy's instead of Kirchhoff's from here to the next call, with the
