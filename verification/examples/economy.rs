@@ -119,20 +119,11 @@ fn main() -> Result<(), Box<dyn Error>> {
         "\nPoints returned to the yield surface: {} in {:.2} s where the metal yields, {} in {:.2} s where it is elastic.",
         yielding.1.counters.returns, yielding.0, elastic.1.counters.returns, elastic.0
     );
+    let [width, height] = problem.mesh.extent().map(|[low, high]| high - low);
     println!(
         "Cells more than three contact radii from the contact: {far} of {}, over {:.4} % of the section.",
         problem.mesh.cell_count(),
-        100.0 * (1.0 - reach * reach * std::f64::consts::FRAC_PI_4 / body_area(&problem.mesh.nodes))
+        100.0 * (1.0 - reach * reach * std::f64::consts::FRAC_PI_4 / (width * height))
     );
     Ok(())
-}
-
-/// Area of the box around the nodes.
-fn body_area(nodes: &[[f64; 2]]) -> f64 {
-    let extent = |i: usize| {
-        let (low, high) =
-            nodes.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x[i]), h.max(x[i])));
-        high - low
-    };
-    extent(0) * extent(1)
 }

@@ -66,6 +66,14 @@ impl Mesh {
         &self.cells[cell * n..(cell + 1) * n]
     }
 
+    /// Least and greatest of each coordinate over the nodes.
+    pub fn extent(&self) -> [[f64; 2]; 2] {
+        std::array::from_fn(|i| {
+            let ends = [f64::INFINITY, f64::NEG_INFINITY];
+            self.nodes.iter().fold(ends, |[low, high], x| [low.min(x[i]), high.max(x[i])])
+        })
+    }
+
     /// The nodes of an edge: its two corners counterclockwise around the cell, and its mid-side node if there is one.
     pub fn edge_nodes(&self, edge: Edge) -> ([u32; 2], Option<u32>) {
         let (cell, k) = (self.cell(edge.cell as usize), usize::from(edge.side));

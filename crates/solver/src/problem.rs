@@ -118,18 +118,12 @@ pub fn prepare(scene: &Scene, mesh: Option<Mesh>) -> Result<Problem, SceneError>
     })
 }
 
-/// `scene` with the size of the body that `mesh` (m) holds, where plane strain asks for one and the scene gives none.
+/// `scene` with the size of the body that `mesh` (m) holds, where plane strain asks for one.
 fn with_body_of(scene: &Scene, mesh: Option<&Mesh>) -> Scene {
     let mut scene = scene.clone();
-    if let (Some(mesh), None, crate::scene::Symmetry::PlaneStrain) = (mesh, scene.substrate, scene.symmetry) {
-        let extent = |i: usize| {
-            let ends = mesh
-                .nodes
-                .iter()
-                .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x[i]), high.max(x[i])]);
-            Some(Length(ends[1] - ends[0]))
-        };
-        scene.substrate = Some(Substrate { radius: extent(0).map(|w| Length(0.5 * w.0)), depth: extent(1) });
+    if let (Some(mesh), crate::scene::Symmetry::PlaneStrain) = (mesh, scene.symmetry) {
+        let [width, depth] = mesh.extent().map(|[low, high]| high - low);
+        scene.substrate = Some(Substrate { radius: Some(Length(0.5 * width)), depth: Some(Length(depth)) });
     }
     scene
 }
@@ -155,8 +149,8 @@ fn outlines(scene: &Scene) -> Result<Vec<Asperity>, SceneError> {
         };
         let half = form.base_radius();
         // a curved tool comes down at 0: over the first summit
-        let on_axis = index == 0 && (!plane || curved);
-        let centre = if on_axis { 0.0 } else { edge + half };
+        let at_zero = index == 0 && (!plane || curved);
+        let centre = if at_zero { 0.0 } else { edge + half };
         outlines.push(Asperity { shape, height: form.height(), centre, valley_radius });
         edge = centre + half + asperity.spacing.map_or(0.0, |s| s.0);
     }
@@ -222,9 +216,11 @@ fn build_mesh(
     };
     check_valleys(profile, length)?;
     let widest = widest(half_widths);
-    // the row of asperities, with the half gaps that a symmetric side leaves
-    let end_gap = match (scene.lateral, scene.asperity.last()) {
-        (Lateral::Symmetric, Some(last)) => 0.5 * last.spacing.map_or(0.0, |s| s.0) / length,
+    let substrate = scene.substrate.as_ref();
+    // symmetric sides repeat the row of asperities, and leave half of the last gap at its ends
+    let repeats = scene.lateral == Lateral::Symmetric && !profile.asperities.is_empty();
+    let end_gap = match scene.asperity.last() {
+        Some(last) if repeats => 0.5 * last.spacing.map_or(0.0, |s| s.0) / length,
         _ => 0.0,
     };
     let right = profile.asperities.last().map_or(0.0, |a| a.centre + a.half_width(a.height)) + end_gap;
@@ -235,15 +231,14 @@ fn build_mesh(
             [profile.asperities.first().map_or(0.0, |a| a.centre - a.half_width(a.height)) - end_gap, right]
         }
     };
-    let substrate = scene.substrate.as_ref();
     let automatic = automatic_size(numbers, profile, half_widths).max(3.0 * (row[1] - row[0]));
     let size_of = |given: Option<asperity_law::units::Length>| given.map_or(automatic, |l| l.0 / length);
     let depth = profile.height() + size_of(substrate.and_then(|s| s.depth));
     let radius = size_of(substrate.and_then(|s| s.radius));
-    let width = match (scene.lateral, symmetry) {
-        (Lateral::Symmetric, _) if !profile.asperities.is_empty() => row,
-        (_, Symmetry::Axisymmetric) => [0.0, radius],
-        (_, Symmetry::PlaneStrain) => {
+    let width = match symmetry {
+        _ if repeats => row,
+        Symmetry::Axisymmetric => [0.0, radius],
+        Symmetry::PlaneStrain => {
             let middle = 0.5 * (row[0] + row[1]);
             [middle - radius, middle + radius]
         }
@@ -344,7 +339,7 @@ pub fn held_nodes(mesh: &Mesh, symmetry: Symmetry, lateral: Lateral) -> Vec<[boo
     }
     if symmetry == Symmetry::Axisymmetric {
         // the axis stays on the axis, whether or not a file names it as a side
-        let reach = mesh.nodes.iter().fold(0.0, |m: f64, x| m.max(x[0]));
+        let [[_, reach], _] = mesh.extent();
         for (held, x) in held.iter_mut().zip(&mesh.nodes) {
             held[0] |= x[0] <= 1e-12 * reach;
         }

@@ -7,6 +7,7 @@ mod accuracy;
 mod geometry;
 mod material;
 mod range;
+mod unused;
 mod validate;
 
 pub use accuracy::{Accuracy, AccuracyError, Level};

@@ -79,11 +79,11 @@ impl AsperityForm {
 }
 
 /// The block of metal under the asperities.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Substrate {
     /// Outer radius; in plane strain half the width of the block, the ridges in its middle. Absent: sized from the
-    /// contact, or with `lateral = "symmetric"` the asperities with their spacings.
+    /// contact. Under asperities between symmetric sides it is always that of the row, with half the last spacing at its ends.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub radius: Option<Length>,
     /// From the base plane of the asperities down to the held bottom. Absent in axisymmetry: sized from the contact.

@@ -318,3 +318,41 @@ fn a_tool_goes_no_deeper_than_itself_and_the_body() {
     let cone_on_flat = Tool { shape: ToolShape::Cone, slope_deg: Some(20.0), ..plane() };
     assert_eq!(Scene { asperity: vec![], tool: cone_on_flat, ..scene() }.deepest(), f64::INFINITY);
 }
+
+#[test]
+fn what_has_no_effect_is_named() {
+    let unused = |change: &dyn Fn(&mut Scene)| {
+        let mut scene = scene();
+        change(&mut scene);
+        assert_eq!(scene.validate(), Ok(()));
+        scene.unused().into_iter().map(|e| e.path).collect::<Vec<_>>()
+    };
+    let sides = |spacing: f64, radius: Option<Length>| {
+        move |s: &mut Scene| {
+            s.lateral = Lateral::Symmetric;
+            s.asperity[0].spacing = um(spacing);
+            s.substrate = Some(Substrate { radius, depth: um(500.0) });
+        }
+    };
+    assert_eq!(unused(&|_| ()), [""; 0]);
+    // the asperity of the scene and half a gap
+    let cell = scene().asperity[0].form().unwrap().base_radius() + 15e-6;
+    assert_eq!(unused(&sides(30.0, Some(Length(cell)))), [""; 0]);
+    assert_eq!(unused(&sides(30.0, None)), [""; 0]);
+    assert_eq!(unused(&sides(30.0, um(2000.0))), ["substrate.radius"]);
+    assert_eq!(
+        unused(&|s| {
+            s.mesh = Some(MeshFile { file: "body.msh".into(), unit: None });
+            s.substrate = Some(Substrate { radius: None, depth: um(500.0) });
+            s.numerics.elements_in_contact = Some(12);
+        }),
+        ["substrate.depth", "numerics.elements_in_contact"]
+    );
+    assert_eq!(
+        unused(&|s| {
+            s.substrate = Some(Substrate { radius: um(2000.0), depth: um(2000.0) });
+            s.numerics.domain = Some(100.0);
+        }),
+        ["numerics.domain"]
+    );
+}

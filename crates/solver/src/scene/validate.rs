@@ -73,7 +73,7 @@ impl Scene {
                 "a plane needs something to crush: give at least one [[asperity]], or a tool that is a cone or a sphere",
             ));
         }
-        let substrate = self.substrate.unwrap_or(Substrate { radius: None, depth: None });
+        let substrate = self.substrate.unwrap_or_default();
         if self.symmetry == Symmetry::PlaneStrain {
             let why = "in plane strain the depth of the tool grows with the logarithm of the substrate's size without end";
             if self.substrate.is_none() {
@@ -112,7 +112,7 @@ impl Scene {
     }
 
     /// From the axis to the outermost foot of the asperities, in plane strain half their whole width; m.
-    fn extent(&self) -> f64 {
+    pub(super) fn extent(&self) -> f64 {
         let last = self.asperity.len().saturating_sub(1);
         let widths = self.asperity.iter().enumerate().filter_map(|(i, a)| {
             let base = a.form().ok()?.base_radius();
