@@ -70,19 +70,32 @@ pub struct Converged {
 /// [`Settings::keep`] of the runs of scenes and of calibrated cones: measured, see the table of the benchmark.
 pub const KEEP: f64 = 0.3;
 
-/// An iterate is too far along its direction when the slope of the potential there is this share of the slope at the
-/// start, with the opposite sign.
-const TOLERATED_OVERSHOOT: f64 = 0.6;
+/// How closely a step looks for the least potential along its direction.
+#[derive(Clone, Copy)]
+struct LineSearch {
+    /// An iterate is too far along the direction when the slope of the potential there is this share of the slope at
+    /// the start, with the opposite sign.
+    overshoot: f64,
+    /// Fraction of the direction below which nothing better is looked for.
+    smallest: f64,
+}
 
-/// Fractions below which the line search gives up looking for a better one.
-const SMALLEST_FRACTION: f64 = 0.03;
+/// Newton's steps are mostly good as they are: looking costs an assembly.
+const LOOSE: LineSearch = LineSearch { overshoot: 0.6, smallest: 0.03 };
+
+/// Where a whole edge touches and leaves again, loose steps jump between the two for ever.
+const CLOSE: LineSearch = LineSearch { overshoot: 0.05, smallest: 0.003 };
+
+/// Iterations after which the line search is a close one. Sound increments take half of them.
+const PATIENCE: usize = 15;
 
 /// Solves `system`; also returns the iterations spent when it fails.
 ///
 /// 1. assess; converged when residual ≤ tolerance × scale and nothing discrete changed;
 /// 2. factorise the tangent, unless the last step did well enough without (see [`Settings::keep`]); find the direction;
 /// 3. with a new tangent: full step, shortened by regula falsi on the slope of the potential while it overshoots, halved
-///    while the iterate fails. Not after the first iteration, in which the system may still be a simplified one;
+///    while the iterate fails, and closely so once the iterations are many. Not after the first iteration, in which the
+///    system may still be a simplified one;
 /// 4. with a kept one: full step. If it overshoots or leaves a larger residual it is taken back, and from there on every
 ///    iteration has a new tangent, so that hard increments are solved by Newton-Raphson in the strict sense.
 pub fn solve(system: &mut impl System, settings: &Settings) -> Result<Converged, (Failure, usize)> {
@@ -103,17 +116,22 @@ fn iterate(system: &mut impl System, settings: &Settings) -> Result<Converged, (
         if !last.residual.is_finite() {
             return Err((Failure::NotFinite, iteration));
         }
+        let line = match iteration {
+            1 => None,
+            _ if iteration <= PATIENCE => Some(LOOSE),
+            _ => Some(CLOSE),
+        };
         let step = if renew {
             system.renew().map_err(|f| (f, iteration))?;
-            search(system, iteration > 1, keep == 0.0)
+            search(system, line, keep == 0.0)
         } else {
-            match try_whole(system, iteration > 1, last.residual) {
+            match try_whole(system, line, last.residual) {
                 Some(step) => Ok(step),
                 None => {
                     keep = 0.0;
                     system.advance(0.0);
                     system.assess(true).and_then(|_| system.renew()).map_err(|f| (f, iteration))?;
-                    search(system, iteration > 1, true)
+                    search(system, line, true)
                 }
             }
         };
@@ -128,42 +146,45 @@ fn iterate(system: &mut impl System, settings: &Settings) -> Result<Converged, (
     Err((Failure::NotConverged, settings.max_iterations))
 }
 
-/// Share of the step at which the potential would be least, if the step goes too far beyond it. `start` and `end` are
-/// the slopes of the potential at its ends.
-fn overshoot(start: f64, end: f64) -> Option<f64> {
-    (start < 0.0 && end > -TOLERATED_OVERSHOOT * start).then(|| start / (start - end))
+impl LineSearch {
+    /// Share of the step at which the potential would be least, if the step goes too far beyond it. `start` and `end` are
+    /// the slopes of the potential at its ends.
+    fn shorten(self, start: f64, end: f64) -> Option<f64> {
+        (start < 0.0 && end > -self.overshoot * start).then(|| start / (start - end))
+    }
 }
 
-/// A step along the direction of a new tangent, as long as the line search finds good (`searched`), else whole.
-fn search(system: &mut impl System, searched: bool, tangent: bool) -> Result<Assessment, Failure> {
+/// A step along the direction of a new tangent, as long as the line search finds good, whole without one.
+fn search(system: &mut impl System, line: Option<LineSearch>, tangent: bool) -> Result<Assessment, Failure> {
     system.find_direction();
     let start = system.slope();
     let mut fraction = 1.0;
     loop {
         system.advance(fraction);
         let outcome = system.assess(tangent);
-        let shorter = match &outcome {
-            Ok(_) if !searched => None,
-            Ok(next) if next.residual.is_finite() => {
-                overshoot(start, system.slope()).map(|share| share.clamp(0.1, 0.7))
+        let shorter = match (&outcome, line) {
+            (Ok(_), None) => None,
+            (Ok(next), Some(line)) if next.residual.is_finite() => {
+                line.shorten(start, system.slope()).map(|share| share.clamp(0.1, 0.7))
             }
             _ => Some(0.5),
         };
+        let smallest = line.unwrap_or(LOOSE).smallest;
         match shorter {
-            Some(factor) if fraction * factor > SMALLEST_FRACTION => fraction *= factor,
+            Some(factor) if fraction * factor > smallest => fraction *= factor,
             _ => return outcome,
         }
     }
 }
 
 /// The whole step along the direction of kept factors; `None` if a new tangent is needed.
-fn try_whole(system: &mut impl System, searched: bool, before: f64) -> Option<Assessment> {
+fn try_whole(system: &mut impl System, line: Option<LineSearch>, before: f64) -> Option<Assessment> {
     system.find_direction();
     let start = system.slope();
     system.advance(1.0);
     let next = system.assess(false).ok()?;
-    let good = next.residual <= before && !(searched && overshoot(start, system.slope()).is_some());
-    good.then_some(next)
+    let too_far = line.is_some_and(|line| line.shorten(start, system.slope()).is_some());
+    (next.residual <= before && !too_far).then_some(next)
 }
 
 #[cfg(test)]
