@@ -4,7 +4,9 @@
 //! Source: Bauschinger's effect, and the remark of Jourani et al. that results differ with the hardening mode. What is
 //! held here is the order of the two modes, with factors far from what was measured (`verification/README.md`): force 6 %
 //! lower, residual depth 2 % smaller, hysteresis of the tenth reload 15 times larger for half of the hardening. Energy
-//! balance: 1e-2, what draft keeps for isotropic hardening.
+//! balance: 1e-2, what draft keeps for isotropic hardening. Metal that flows back far as the tool retreats has a residual
+//! depth that does not depend on the step: 3 % of the depth between draft and standard (2 %
+//! measured; 10 % when the tool was taken away in one increment from 3 % of the force).
 
 use asperity_law::HardeningMode;
 use asperity_solver::crush::Outcome;
@@ -39,6 +41,21 @@ fn a_surface_that_moves_pays_for_every_reload() {
     assert!(peak(&moves) < 0.97 * peak(&grows) && peak(&moves) > 0.9 * peak(&grows));
     let residual = |o: &Outcome| o.summary.residual_depth.unwrap();
     assert!(residual(&moves) < 0.99 * residual(&grows));
+}
+
+#[test]
+fn metal_that_flows_back_is_followed_to_its_rest() {
+    let residual = |accuracy| {
+        let mut scene = scene(accuracy).unwrap();
+        scene.material.hardening_mode = HardeningMode::Kinematic;
+        scene.material.kinematic_share = Some(0.8);
+        let outcome = crush(&scene).unwrap();
+        assert!(outcome.stopped.is_none(), "{:?}", outcome.stopped);
+        outcome.summary.residual_depth.unwrap()
+    };
+    let [coarse, fine] = [Accuracy::Draft, Accuracy::Standard].map(residual);
+    println!("residual depth at draft {coarse:e}, at standard {fine:e}");
+    assert!((coarse - fine).abs() < 0.03 * 5e-6, "{coarse:e} {fine:e}");
 }
 
 /// A share of nothing is the isotropic metal, computed in the other space: what differs is where strains that add differ

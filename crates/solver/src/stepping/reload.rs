@@ -6,21 +6,28 @@ use crate::record::Phase;
 /// Retreats after which a tool is taken away whatever it still bears.
 const MOST_RETREATS: usize = 500;
 
+/// Share of the peak travel that may be left when the tool is taken away, which is one increment however far the metal
+/// then flows: from further off it sprang back beyond its first summit.
+const LAST_RETREAT: f64 = 0.02;
+
 impl Path<'_> {
     /// Goes on unloading down to `force` where metal flows in reverse and gives way more than elastic metal does: each
-    /// step takes off a share of the force that the slope foretells, `steps` of which would take off all.
+    /// step takes off a share of the force that the slope foretells, `steps` of which would take off all; and further while
+    /// metal that has little force left still has far to go.
     pub(super) fn retreat_from_reverse_flow(
         &mut self,
         force: f64,
         steps: usize,
         observer: &mut Observer<'_>,
     ) -> Result<(), Stop> {
+        let peak = self.way_back.first().copied().unwrap_or(self.travel);
         for _ in 0..MOST_RETREATS {
             let slope = self.slope.unwrap_or(0.0);
-            if self.force <= force || slope <= 0.0 {
+            let left = 1.25 * self.force / slope;
+            if slope <= 0.0 || (self.force <= force && left <= LAST_RETREAT * peak) {
                 break;
             }
-            let travel = self.travel - 1.25 * self.force / slope / steps as f64;
+            let travel = self.travel - left / steps as f64;
             let sums = self.reach(travel, Phase::Unload, false, observer)?;
             if sums.force <= 0.0 {
                 break;
