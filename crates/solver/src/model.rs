@@ -1,7 +1,7 @@
 //! The mechanical system: a body of elements, held sides, and a rigid tool; one increment of it is what Newton solves.
 
 use crate::assemble::{Stiffness, pattern};
-use crate::contact::{ContactContext, ContactEdge, EdgeContact, NOTHING, Parts};
+use crate::contact::{ContactEdge, EdgeContact, NOTHING, Parts};
 use crate::dofs::{Dofs, FIXED};
 use crate::element::{ElementContext, ElementOutput, POINTS};
 use crate::history::{Flowed, carry_factor, carry_on, flow};
@@ -16,6 +16,7 @@ use crate::{quad4, quad8};
 use asperity_mesh::{ElementKind, Mesh};
 
 mod back_stress;
+mod contact_loop;
 mod factorise;
 mod tool_stiffness;
 mod view;
@@ -334,27 +335,6 @@ impl<'m> Model<'m> {
         self.settled = true;
     }
 
-    /// Takes the contact energy over the surface as it is now, under tools that stretch it; what that adds to the energy
-    /// is no work of the tool and is kept apart.
-    fn measure_contact_anew(&mut self) {
-        let Some(contact) = self.contact.filter(|c| c.tool.stretches_the_surface()) else { return };
-        let context = ContactContext {
-            tool: &contact.tool,
-            tip: self.tip,
-            penalty: contact.penalty,
-            symmetry: self.symmetry,
-        };
-        let mut change = 0.0;
-        for (edge, share) in self.edges.iter_mut().zip(&self.edge_contact) {
-            edge.reference = edge.nodes.map(|node| self.position[node as usize]);
-            let multiplier = edge.nodes.map(|node| self.multiplier[node as usize]);
-            let anew = edge.integrate(&context, share.parts, &edge.reference, &multiplier);
-            change += anew.penalty_energy - share.penalty_energy;
-        }
-        // the sums of this increment are still over the old area
-        self.remeasured_energy += std::mem::replace(&mut self.next_remeasured, change);
-    }
-
     /// Takes the stress of the law as Cauchy's instead of Kirchhoff's from here to the next call, with the
     /// volume change of the last converged state: what codes that read the yield stress so would find. Where metal is
     /// squeezed hard (steep indenters, E/σ_y below 100) that is a few percent of the force.
@@ -362,11 +342,6 @@ impl<'m> Model<'m> {
         for (q, state) in self.old.iter().enumerate() {
             self.weight[q] = self.volume[q] * volume_ratio(&state.stretch);
         }
-    }
-
-    /// What the contact energy has changed by because the area it is taken over did.
-    pub fn remeasured_energy(&self) -> f64 {
-        self.remeasured_energy
     }
 
     /// Element loop: internal forces and new states at the iterate, and its stiffness if `tangent` is one.
@@ -410,64 +385,6 @@ impl<'m> Model<'m> {
         Ok(())
     }
 
-    /// Contact loop: forces of the touching edges; returns whether their set changed.
-    fn assemble_contact(&mut self) -> bool {
-        self.edge_contact.clear();
-        self.kept_contact = false;
-        let Some(contact) = self.contact.filter(|_| self.tip.is_finite()) else { return false };
-        let context = ContactContext {
-            tool: &contact.tool,
-            tip: self.tip,
-            penalty: contact.penalty,
-            symmetry: self.symmetry,
-        };
-        let mut changed = false;
-        for (index, edge) in self.edges.iter().enumerate() {
-            let x = edge.nodes.map(|node| current(&self.position, &self.increment, node));
-            let multiplier = edge.nodes.map(|node| self.multiplier[node as usize]);
-            let parts =
-                if self.keep_contact { self.parts[index] } else { edge.touching(&context, &x, &multiplier) };
-            changed |= shape_of(&parts) != shape_of(&self.touching[index]);
-            self.touching[index] = parts;
-            let share = edge.integrate(&context, parts, &x, &multiplier);
-            self.edge_contact.push(share);
-        }
-        self.add_contact_forces();
-        self.kept_contact = std::mem::take(&mut self.keep_contact);
-        changed || self.kept_contact
-    }
-
-    /// Adds the forces of the last contact loop to the residual.
-    fn add_contact_forces(&mut self) {
-        for (edge, share) in self.edges.iter().zip(&self.edge_contact).filter(|(_, s)| s.parts != NOTHING) {
-            for a in 0..edge.node_count() {
-                let row = self.dofs.number[edge.nodes[a] as usize];
-                for i in 0..2 {
-                    if row[i] != FIXED {
-                        self.residual[row[i] as usize] += share.force[a][i];
-                    }
-                }
-            }
-        }
-    }
-
-    /// Adds the stiffness of the last contact loop to that of the elements.
-    fn add_contact_stiffness(&mut self) {
-        for (edge, share) in self.edges.iter().zip(&self.edge_contact).filter(|(_, s)| s.parts != NOTHING) {
-            for a in 0..edge.node_count() {
-                let row = self.dofs.number[edge.nodes[a] as usize];
-                for b in 0..edge.node_count() {
-                    let col = self.dofs.number[edge.nodes[b] as usize];
-                    for i in 0..2 {
-                        for j in 0..2 {
-                            self.stiffness.add_entry(row[i], col[j], share.stiffness[a][i][b][j]);
-                        }
-                    }
-                }
-            }
-        }
-    }
-
     /// Assembles the iterate; returns whether the contact changed.
     fn assemble(&mut self, tangent: Tangent) -> Result<bool, Failure> {
         self.assemble_elements(tangent)?;
@@ -485,21 +402,6 @@ impl<'m> Model<'m> {
         self.add_contact_stiffness();
         Ok(())
     }
-
-    /// Augmented Lagrange update at the nodes, λ ← max(0, λ + ε d), from the converged iterate.
-    pub fn augment(&mut self) {
-        let Some(contact) = self.contact else { return };
-        for edge in &self.edges {
-            for &node in &edge.nodes[..edge.node_count()] {
-                let x = current(&self.position, &self.increment, node);
-                let depth = contact.tool.penetration(x, self.tip).depth;
-                self.trial_multiplier[node as usize] =
-                    (self.multiplier[node as usize] + contact.penalty * depth).max(0.0);
-            }
-        }
-        self.multiplier.clone_from(&self.trial_multiplier);
-        self.keep_contact = false;
-    }
 }
 
 /// Current position of a node.
@@ -511,11 +413,6 @@ fn current(position: &[[f64; 2]], increment: &[[f64; 2]], node: u32) -> [f64; 2]
 /// The node values of a cell.
 fn gather<const N: usize>(values: &[[f64; 2]], cell: &[u32]) -> [[f64; 2]; N] {
     std::array::from_fn(|a| values[cell[a] as usize])
-}
-
-/// What of an edge touches, as far as it is discrete.
-fn shape_of(parts: &Parts) -> [bool; 2] {
-    parts.map(|p| p.is_some())
 }
 
 /// Evaluates one cell at the iterate into `model.output`.

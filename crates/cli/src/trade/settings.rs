@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 pub enum Knob {
     /// Nothing: an accuracy as it is.
     Level,
-    /// Linear elements instead of quadratic ones, with about as many unknowns.
+    /// Linear elements instead of quadratic ones or the reverse, with about as many unknowns.
     Element,
     /// Elements across the contact.
     Mesh,
@@ -114,7 +114,7 @@ pub fn converged(scene: &Scene) -> [Setting; 2] {
     [(1.1, 1.0), (1.25, 1.1)].map(|(mesh, steps)| {
         let mut numerics = base.numerics;
         scale(&mut numerics.elements_in_contact, mesh, Numerics::ELEMENTS);
-        scale(&mut numerics.steps, steps, [1.0, 1e4]);
+        scale(&mut numerics.steps, steps, Numerics::STEPS);
         fixed(scene, Setting { knob: Knob::Converged, numerics, ..base })
     })
 }
@@ -143,7 +143,7 @@ fn fixed(scene: &Scene, setting: Setting) -> Setting {
 /// A level and each of its numbers changed by itself.
 ///
 /// Around the finest level, whose runs are the longest, only to the cheaper side: finer than that is the converged value
-/// alone, and what linear elements and multipliers cost shows at the other levels.
+/// alone, and what the other element and multipliers cost shows at the other levels.
 fn around(scene: &Scene, accuracy: Accuracy) -> Vec<Setting> {
     let base = level(scene, accuracy);
     let finest = accuracy == Accuracy::Reference;
@@ -155,8 +155,12 @@ fn around(scene: &Scene, accuracy: Accuracy) -> Vec<Setting> {
     };
     if !finest {
         add(Knob::Element, &|n| {
-            n.element = Some(ElementChoice::Q4);
-            scale(&mut n.elements_in_contact, LINEAR_FINENESS, Numerics::ELEMENTS);
+            let (other, factor) = match n.element {
+                Some(ElementChoice::Q4) => (ElementChoice::Q8r, 1.0 / LINEAR_FINENESS),
+                _ => (ElementChoice::Q4, LINEAR_FINENESS),
+            };
+            n.element = Some(other);
+            scale(&mut n.elements_in_contact, factor, Numerics::ELEMENTS);
         });
         add(Knob::Contact, &|n| n.contact = Some(ContactMethod::Augmented));
     }
@@ -165,16 +169,16 @@ fn around(scene: &Scene, accuracy: Accuracy) -> Vec<Setting> {
     }
     let sides = |cheap: f64, dear: f64| [cheap, dear].into_iter().take(if finest { 1 } else { 2 });
     for factor in sides(0.5, 2.0) {
-        add(Knob::Step, &|n| scale(&mut n.steps, factor, [1.0, 1e4]));
+        add(Knob::Step, &|n| scale(&mut n.steps, factor, Numerics::STEPS));
     }
     for factor in sides(4.0, 0.25) {
-        add(Knob::Penetration, &|n| scale_real(&mut n.penetration, factor, [1e-6, 0.1]));
+        add(Knob::Penetration, &|n| scale_real(&mut n.penetration, factor, Numerics::PENETRATION));
     }
     for factor in sides(1e2, 1e-2) {
-        add(Knob::Tolerance, &|n| scale_real(&mut n.newton_tolerance, factor, [1e-13, 1e-3]));
+        add(Knob::Tolerance, &|n| scale_real(&mut n.newton_tolerance, factor, Numerics::TOLERANCE));
     }
     for factor in sides(0.25, 4.0) {
-        add(Knob::Domain, &|n| scale_real(&mut n.domain, factor, [3.0, 1e4]));
+        add(Knob::Domain, &|n| scale_real(&mut n.domain, factor, Numerics::DOMAIN));
     }
     settings
 }
@@ -221,6 +225,7 @@ fn mixed(scene: &Scene, i: usize) -> Setting {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use asperity_solver::scene::ToolShape;
 
     /// The default scene with something added.
     fn scene(numerics: &str) -> Scene {
@@ -240,6 +245,18 @@ mod tests {
         for setting in settings.iter().chain(&converged(&scene)) {
             setting.scene(&scene).validate().unwrap();
         }
+    }
+
+    #[test]
+    fn the_other_element_is_tried() {
+        let mut scene = scene("");
+        let tried = |scene: &Scene| {
+            let settings = settings(scene, 0);
+            settings.iter().find(|s| s.knob == Knob::Element).and_then(|s| s.numerics.element)
+        };
+        assert_eq!(tried(&scene), Some(ElementChoice::Q4));
+        (scene.tool.shape, scene.tool.slope_deg) = (ToolShape::Cone, Some(30.0));
+        assert_eq!(tried(&scene), Some(ElementChoice::Q8r));
     }
 
     #[test]

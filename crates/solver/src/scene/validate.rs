@@ -307,33 +307,37 @@ impl Loading {
 impl Numerics {
     /// Fewest and most elements across the contact that a scene may ask for.
     pub const ELEMENTS: [f64; 2] = [2.0, 1000.0];
+    /// Fewest and most load steps.
+    pub const STEPS: [f64; 2] = [1.0, 1e4];
+    /// Least and greatest penetration over depth.
+    pub const PENETRATION: [f64; 2] = [1e-6, 0.1];
+    /// Tightest and loosest tolerance of Newton's method.
+    pub const TOLERANCE: [f64; 2] = [1e-13, 1e-3];
+    /// Smallest and largest substrate in contact radii.
+    pub const DOMAIN: [f64; 2] = [3.0, 1e4];
 
     fn check(&self) -> Check {
-        let whole = |path, what, value: Option<usize>, low, high, way_out| {
-            value.map_or(Ok(()), |v| within(path, what, v as f64, low, high, way_out))
-        };
-        let real = |path, what, value: Option<f64>, low, high, way_out| {
-            value.map_or(Ok(()), |v| within(path, what, v, low, high, way_out))
-        };
-        let leave = "leave it out to let `accuracy` choose";
-        whole(
-            "elements_in_contact",
-            "the number of elements across the contact",
-            self.elements_in_contact,
-            Numerics::ELEMENTS[0],
-            Numerics::ELEMENTS[1],
-            leave,
-        )?;
-        whole("steps", "the number of load steps", self.steps, 1.0, 1e4, leave)?;
-        real("penetration", "the penetration over depth", self.penetration, 1e-6, 0.1, leave)?;
-        real(
-            "newton_tolerance",
-            "the tolerance of Newton's method",
-            self.newton_tolerance,
-            1e-13,
-            1e-3,
-            leave,
-        )?;
-        real("domain", "the size of the substrate in contact radii", self.domain, 3.0, 1e4, leave)
+        let whole = |value: Option<usize>| value.map(|v| v as f64);
+        let numbers = [
+            (
+                "elements_in_contact",
+                "the number of elements across the contact",
+                whole(self.elements_in_contact),
+                Numerics::ELEMENTS,
+            ),
+            ("steps", "the number of load steps", whole(self.steps), Numerics::STEPS),
+            ("penetration", "the penetration over depth", self.penetration, Numerics::PENETRATION),
+            (
+                "newton_tolerance",
+                "the tolerance of Newton's method",
+                self.newton_tolerance,
+                Numerics::TOLERANCE,
+            ),
+            ("domain", "the size of the substrate in contact radii", self.domain, Numerics::DOMAIN),
+        ];
+        numbers.into_iter().try_for_each(|(path, what, value, [low, high])| match value {
+            Some(value) => within(path, what, value, low, high, "leave it out to let `accuracy` choose"),
+            None => Ok(()),
+        })
     }
 }
