@@ -4,6 +4,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod a_failed_attempt_leaves_no_trace;
+mod a_whole_edge_parts;
 mod confined_bar;
 mod contact_patch;
 mod curved_tool_on_an_asperity;
