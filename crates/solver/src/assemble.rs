@@ -23,7 +23,7 @@ fn numbers_of(cell: &[u32], dofs: &Dofs) -> Vec<u32> {
 }
 
 /// The lower triangle of a matrix of zeros where elements of `nodes_per_cell` nodes couple unknowns.
-pub fn pattern(cells: &[u32], nodes_per_cell: usize, dofs: &Dofs) -> CsMat<f64> {
+fn pattern(cells: &[u32], nodes_per_cell: usize, dofs: &Dofs) -> CsMat<f64> {
     let mut pattern = TriMat::new((dofs.count, dofs.count));
     for cell in cells.chunks_exact(nodes_per_cell) {
         let numbers = numbers_of(cell, dofs);

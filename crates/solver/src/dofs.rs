@@ -13,30 +13,19 @@ pub struct Dofs {
 }
 
 impl Dofs {
-    /// Numbers all components of `nodes` nodes but those that `held(node)` names.
-    pub fn new(nodes: usize, held: impl Fn(usize) -> [bool; 2]) -> Dofs {
+    /// Numbers the components of the nodes in `order` in that order, but those that `held(node)` names; the components of
+    /// the others of `nodes` nodes are held.
+    pub fn new(nodes: usize, order: &[usize], held: impl Fn(usize) -> [bool; 2]) -> Dofs {
         let mut count = 0;
-        let number = (0..nodes)
-            .map(|node| {
-                held(node).map(|fixed| {
-                    if fixed {
-                        FIXED
-                    } else {
-                        count += 1;
-                        count - 1
-                    }
-                })
-            })
-            .collect();
-        Dofs { number, count: count as usize }
-    }
-
-    /// The same components with number i replaced by `new_number[i]`.
-    pub fn renumbered(&self, new_number: &[usize]) -> Dofs {
-        let number = |&i: &u32| if i == FIXED { FIXED } else { new_number[i as usize] as u32 };
-        Dofs {
-            number: self.number.iter().map(|pair| pair.each_ref().map(number)).collect(),
-            count: self.count,
+        let mut number = vec![[FIXED; 2]; nodes];
+        for &node in order {
+            for (number, held) in number[node].iter_mut().zip(held(node)) {
+                if !held {
+                    *number = count;
+                    count += 1;
+                }
+            }
         }
+        Dofs { number, count: count as usize }
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! In reading order: a metal point (`tensor`, `kinematics`, `material`, `j2`, `history`; with a
 //! back stress `log_space`, `kinematic`), an element (`element`,
-//! `quad4`, `quad8`), the tool (`tool`, `contact`, `penetration`), the system (`dofs`, `assemble`, `linear`, `newton`, `model`),
+//! `quad4`, `quad8`), the tool (`tool`, `contact`, `penetration`), the system (`dofs`, `assemble`, `elimination`, `linear`, `newton`, `model`),
 //! and a run (`scene`, `discretise`, `expected`, `problem`, `stepping`, `crush`, `record`, `curve`).
 
 pub mod tensor;
@@ -33,6 +33,8 @@ pub mod penetration;
 pub mod dofs;
 
 pub mod assemble;
+
+pub mod elimination;
 
 pub mod linear;
 

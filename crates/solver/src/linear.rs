@@ -2,10 +2,10 @@
 
 use crate::floor::Operations;
 use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::sparse::linalg::SupernodalThreshold;
 use faer::sparse::linalg::cholesky::{
     CholeskySymbolicParams, LdltRef, LltRef, SymbolicCholesky, SymmetricOrdering, factorize_symbolic_cholesky,
 };
-use faer::sparse::linalg::{SupernodalThreshold, amd};
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Conj, MatMut, Par, Side};
 use sprs::CsMat;
@@ -32,20 +32,6 @@ pub struct Factor {
 /// sprs's arrays as faer sees them. `columns` is `matrix.proper_indptr()`, which borrows: the matrix is whole.
 fn pattern_of<'a>(matrix: &'a CsMat<f64>, columns: &'a [usize]) -> SymbolicSparseColMatRef<'a, usize> {
     SymbolicSparseColMatRef::new_checked(matrix.rows(), matrix.cols(), columns, None, matrix.indices())
-}
-
-/// For each row of the lower triangle `matrix`, its place in the order of elimination with the least fill (approximate
-/// minimum degree; measured against nested dissection by coordinates, whose factor is 1.3 to 1.5 times larger here).
-pub fn elimination_order(matrix: &CsMat<f64>) -> Result<Vec<usize>, FactorError> {
-    let columns = matrix.proper_indptr();
-    let pattern = pattern_of(matrix, &columns);
-    let size = matrix.rows();
-    let (mut order, mut place) = (vec![0; size], vec![0; size]);
-    let mut memory = MemBuffer::new(amd::order_maybe_unsorted_scratch::<usize>(size, matrix.nnz()));
-    let control = amd::Control::default();
-    amd::order_maybe_unsorted(&mut order, &mut place, pattern, control, MemStack::new(&mut memory))
-        .map_err(|_| FactorError::Singular)?;
-    Ok(place)
 }
 
 impl Factor {

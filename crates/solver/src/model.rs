@@ -1,13 +1,14 @@
 //! The mechanical system: a body of elements, held sides, and a rigid tool; one increment of it is what Newton solves.
 
-use crate::assemble::{Stiffness, pattern};
+use crate::assemble::Stiffness;
 use crate::contact::{ContactEdge, EdgeContact, NOTHING, Parts};
 use crate::dofs::{Dofs, FIXED};
 use crate::element::{ElementContext, ElementOutput, POINTS};
+use crate::elimination::elimination_order;
 use crate::history::{Flowed, carry_factor, carry_on, flow};
 use crate::j2::Tangent;
 use crate::kinematics::{ShapePoint, Symmetry, motion};
-use crate::linear::{Factor, elimination_order};
+use crate::linear::Factor;
 use crate::material::{Metal, PointState, volume_ratio};
 use crate::newton::{Assessment, Failure, System};
 use crate::secant::Secants;
@@ -138,10 +139,11 @@ impl<'m> Model<'m> {
             used[node as usize] = true;
         }
         let held = |node: usize| if used[node] { held(node) } else { [true, true] };
-        let dofs = Dofs::new(nodes, held);
+        let free: Vec<bool> = (0..nodes).map(|node| held(node) != [true, true]).collect();
         // numbered in the order of elimination, the matrix is never permuted again
-        let pattern = pattern(&mesh.cells, mesh.kind.nodes(), &dofs);
-        let dofs = dofs.renumbered(&elimination_order(&pattern).map_err(|_| Failure::Singular)?);
+        let order =
+            elimination_order(&mesh.cells, mesh.kind.nodes(), &free).map_err(|_| Failure::Singular)?;
+        let dofs = Dofs::new(nodes, &order, held);
         let stiffness = Stiffness::new(&mesh.cells, mesh.kind.nodes(), &dofs);
         let factor = Factor::new(&stiffness.matrix).map_err(|_| Failure::Singular)?;
         let count = mesh.cell_count() * POINTS;

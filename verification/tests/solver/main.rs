@@ -10,6 +10,7 @@ mod contact_patch;
 mod curved_tool_on_an_asperity;
 mod elastic_flattening;
 mod elastic_indentation;
+mod elimination_grows_like_dissection;
 mod energy_balance;
 mod flattened_sphere;
 mod full_quad;
