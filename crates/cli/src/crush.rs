@@ -32,7 +32,7 @@ pub fn crush(args: &Crush) -> Result<(), Failure> {
     let file = scene_file::read(scene, &args.scene_flags)?;
     let mesh = scene_file::read_mesh(&file)?;
     if !args.run.quiet {
-        file.value.unused().iter().for_each(|unused| terminal::complain(&format!("warning: {unused}")));
+        file.value.unused().iter().for_each(terminal::warn);
     }
     let out = args.run.out.clone().unwrap_or_else(|| PathBuf::from("out").join(file.stem()));
     let mut folder = Folder::create(&out, "crush", args.run.force)?;

@@ -71,7 +71,7 @@ fn one_scene(path: &Path, args: &Rough) -> Result<(), Failure> {
     folder.write("summary.json", |out| out.write_all(text.as_bytes()))?;
     let target = folder.publish()?;
     if !args.run.quiet {
-        warnings.iter().for_each(|w| terminal::complain(&format!("warning: {w}")));
+        warnings.iter().for_each(terminal::warn);
     }
     if args.run.json {
         terminal::say(&text);

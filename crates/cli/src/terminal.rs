@@ -8,6 +8,11 @@ pub fn say(text: &str) {
     let _ = writeln!(std::io::stdout(), "{text}");
 }
 
+/// What a user should know of a run that goes on, on stderr.
+pub fn warn(warning: &impl std::fmt::Display) {
+    complain(&format!("warning: {warning}"));
+}
+
 /// A line on stderr.
 pub fn complain(text: &str) {
     let _ = writeln!(std::io::stderr(), "{text}");

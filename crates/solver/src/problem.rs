@@ -216,13 +216,7 @@ fn build_mesh(
     };
     check_valleys(profile, length)?;
     let widest = widest(half_widths);
-    let substrate = scene.substrate.as_ref();
-    // symmetric sides repeat the row of asperities, and leave half of the last gap at its ends
-    let repeats = scene.lateral == Lateral::Symmetric && !profile.asperities.is_empty();
-    let end_gap = match scene.asperity.last() {
-        Some(last) if repeats => 0.5 * last.spacing.map_or(0.0, |s| s.0) / length,
-        _ => 0.0,
-    };
+    let end_gap = scene.end_gap() / length;
     let right = profile.asperities.last().map_or(0.0, |a| a.centre + a.half_width(a.height)) + end_gap;
     let row = match symmetry {
         Symmetry::Axisymmetric => [0.0, right],
@@ -232,11 +226,12 @@ fn build_mesh(
         }
     };
     let automatic = automatic_size(numbers, profile, half_widths).max(3.0 * (row[1] - row[0]));
+    let substrate = scene.substrate.as_ref();
     let size_of = |given: Option<asperity_law::units::Length>| given.map_or(automatic, |l| l.0 / length);
     let depth = profile.height() + size_of(substrate.and_then(|s| s.depth));
     let radius = size_of(substrate.and_then(|s| s.radius));
     let width = match symmetry {
-        _ if repeats => row,
+        _ if scene.repeats() => row,
         Symmetry::Axisymmetric => [0.0, radius],
         Symmetry::PlaneStrain => {
             let middle = 0.5 * (row[0] + row[1]);

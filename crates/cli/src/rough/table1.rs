@@ -153,7 +153,7 @@ pub struct Measured {
     /// Every closure, one value per seed.
     closures: Vec<Ours>,
     /// What a reader should know.
-    pub notes: Vec<String>,
+    notes: Vec<String>,
     /// The numbers of the row that contradict each other.
     against_itself: String,
 }
@@ -206,7 +206,7 @@ pub fn measure(row: &'static Printed) -> Result<Measured, Failure> {
 }
 
 /// The numbers of one row of the paper that contradict each other, from its own equations.
-pub fn contradictions(row: &Printed) -> String {
+fn contradictions(row: &Printed) -> String {
     let tan = row.beta.to_radians().tan();
     let modulus = MODULUS / (1.0 - POISSON * POISSON);
     let eq11 = PUBLISHED * modulus * tan;

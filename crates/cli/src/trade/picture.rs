@@ -125,7 +125,7 @@ fn label(knob: Knob) -> &'static str {
     match knob {
         Knob::Mesh => "mesh",
         Knob::Step => "load step",
-        Knob::Element => "linear element",
+        Knob::Element => "other element",
         Knob::Penetration => "penetration",
         Knob::Contact => "augmented Lagrange",
         Knob::Domain => "size of the body",

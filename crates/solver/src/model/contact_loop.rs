@@ -1,7 +1,7 @@
 //! Contact of the surface with the tool: its loop over the edges, what it adds to the system, its energy and multipliers.
 
 use super::{Model, current};
-use crate::contact::{ContactContext, NOTHING, Parts};
+use crate::contact::{NOTHING, Parts};
 use crate::dofs::FIXED;
 
 impl Model<'_> {
@@ -10,12 +10,7 @@ impl Model<'_> {
         self.edge_contact.clear();
         self.kept_contact = false;
         let Some(contact) = self.contact.filter(|_| self.tip.is_finite()) else { return false };
-        let context = ContactContext {
-            tool: &contact.tool,
-            tip: self.tip,
-            penalty: contact.penalty,
-            symmetry: self.symmetry,
-        };
+        let context = contact.at(self.tip, self.symmetry);
         let mut changed = false;
         for (index, edge) in self.edges.iter().enumerate() {
             let x = edge.nodes.map(|node| current(&self.position, &self.increment, node));
@@ -67,12 +62,7 @@ impl Model<'_> {
     /// is no work of the tool and is kept apart.
     pub(super) fn measure_contact_anew(&mut self) {
         let Some(contact) = self.contact.filter(|c| c.tool.stretches_the_surface()) else { return };
-        let context = ContactContext {
-            tool: &contact.tool,
-            tip: self.tip,
-            penalty: contact.penalty,
-            symmetry: self.symmetry,
-        };
+        let context = contact.at(self.tip, self.symmetry);
         let mut change = 0.0;
         for (edge, share) in self.edges.iter_mut().zip(&self.edge_contact) {
             edge.reference = edge.nodes.map(|node| self.position[node as usize]);

@@ -25,9 +25,8 @@ impl Scene {
             }
             return unused;
         }
-        if self.lateral == Lateral::Symmetric && !self.asperity.is_empty() {
-            let last_gap = self.asperity.last().and_then(|a| a.spacing).map_or(0.0, |s| s.0);
-            let radius = self.extent() + 0.5 * last_gap;
+        if self.repeats() {
+            let radius = self.extent() + self.end_gap();
             let other = substrate.radius.is_some_and(|given| (given.0 / radius - 1.0).abs() > 1e-6);
             let what = if self.symmetry == Symmetry::Axisymmetric { "radius" } else { "half width" };
             note(

@@ -124,6 +124,17 @@ impl Scene {
         if self.symmetry == Symmetry::Axisymmetric { total } else { 0.5 * total }
     }
 
+    /// Whether symmetric sides repeat the asperities.
+    pub(crate) fn repeats(&self) -> bool {
+        self.lateral == Lateral::Symmetric && !self.asperity.is_empty()
+    }
+
+    /// What the body of repeated asperities has beyond the last of them: half of the last gap, m.
+    pub(crate) fn end_gap(&self) -> f64 {
+        let last = self.asperity.last().filter(|_| self.repeats());
+        last.and_then(|a| a.spacing).map_or(0.0, |s| 0.5 * s.0)
+    }
+
     /// Height of the highest asperity, m.
     fn highest(&self) -> f64 {
         self.asperity.iter().filter_map(|a| a.form().ok()).map(|f| f.height()).fold(0.0, f64::max)
