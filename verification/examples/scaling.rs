@@ -29,8 +29,8 @@ fn peak_memory() -> Option<f64> {
     line.split_whitespace().nth(1)?.parse::<f64>().ok().map(|kilobytes| kilobytes / 1024.0)
 }
 
-/// Prints unknowns, operations of a factorisation, seconds of assembly, factorisation and solution of one iteration at the peak, seconds and iterations
-/// of the whole loading, and memory, separated by blanks.
+/// Prints unknowns, operations of a factorisation, seconds of assembly, factorisation and solution of one iteration at the
+/// peak, seconds and iterations of the whole loading, and memory, separated by blanks.
 fn one(elements: usize) -> Result<(), Box<dyn Error>> {
     let mut scene = scene(Accuracy::Reference)?;
     scene.numerics.elements_in_contact = Some(elements);
@@ -64,7 +64,7 @@ fn one(elements: usize) -> Result<(), Box<dyn Error>> {
         }
     }
     let memory = peak_memory().unwrap_or(f64::NAN);
-    let unknowns = model.residual().len();
+    let unknowns = model.unknowns();
     let operations = model.operations().factor;
     println!("{unknowns} {operations} {} {} {} {whole} {iterations} {memory}", least[0], least[1], least[2]);
     Ok(())

@@ -13,8 +13,8 @@ pub struct Dofs {
 }
 
 impl Dofs {
-    /// Numbers the components of the nodes in `order` in that order, but those that `held(node)` names; the components of
-    /// the others of `nodes` nodes are held.
+    /// Numbers the components of `nodes` nodes, node after node as they stand in `order`, without those that `held(node)`
+    /// names. `order` has each node at most once; nodes that are not in it are held.
     pub fn new(nodes: usize, order: &[usize], held: impl Fn(usize) -> [bool; 2]) -> Dofs {
         let mut count = 0;
         let mut number = vec![[FIXED; 2]; nodes];

@@ -1,13 +1,15 @@
 //! The order in which the nodes of a mesh are eliminated, for little fill.
 //!
 //! Nodes are ordered instead of unknowns: a node's two components have the same neighbours, and a quarter of the graph is
-//! left. The approximate minimum degree of Amestoy, Davis and Duff (2004) is the best order of small meshes but hangs on the
-//! numbering it starts from: on meshes of more than some 40,000 unknowns one start takes up to four times the operations
-//! of another. Two starts are tried therefore, and on large meshes nested dissection (Karypis and Kumar 1998), whose
-//! operations follow unknowns^1.5 closely; the order with the fewest operations is used.
+//! left. The approximate minimum degree of Amestoy, Davis and Duff (2004) is the best order of small meshes but depends on
+//! the numbering it starts from: beyond some 40,000 unknowns one start takes up to four times the operations of another.
+//! Two starts are tried therefore, and on large meshes nested dissection (Karypis and Kumar 1998), which stays near
+//! unknowns^1.5 on all of them; the order with the fewest operations is used.
+//!
+//! An order lists vertices, the first to be eliminated first; places are its inverse: `place[order[i]] = i`.
 
 use crate::linear::FactorError;
-use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
+use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::SymbolicSparseColMatRef;
 use faer::sparse::linalg::amd;
 use faer::sparse::linalg::cholesky::simplicial;
@@ -15,7 +17,7 @@ use feral_metis::{CscPattern, metis_order};
 
 /// Free nodes from which nested dissection is tried: it takes ten times as long as a minimum degree, and on smaller meshes
 /// was never the better.
-const DISSECTED: usize = 10_000;
+const DISSECT_FROM: usize = 10_000;
 
 /// The free nodes of a mesh and which of them share an element: a symmetric pattern without its diagonal.
 struct Graph {
@@ -44,7 +46,7 @@ impl Graph {
     }
 
     /// The same graph with vertex i called `place[i]`.
-    fn renamed(&self, place: &[usize]) -> Graph {
+    fn renumbered(&self, place: &[usize]) -> Graph {
         let edges = (0..self.size()).flat_map(|vertex| {
             let ends = &self.neighbours[self.starts[vertex]..self.starts[vertex + 1]];
             ends.iter().map(move |&end| [place[vertex], place[end]])
@@ -83,18 +85,20 @@ impl Graph {
     /// Operations of a factorisation in the order `place`, in a unit of its own: Σ c² over the c entries of each column.
     fn operations(&self, place: &[usize]) -> f64 {
         let size = self.size();
-        let renamed = self.renamed(place);
+        let renumbered = self.renumbered(place);
         let (mut tree, mut counts) = (vec![0_isize; size], vec![0_usize; size]);
-        let request: StackReq =
-            simplicial::prefactorize_symbolic_cholesky_scratch::<usize>(size, renamed.neighbours.len());
+        let request =
+            simplicial::prefactorize_symbolic_cholesky_scratch::<usize>(size, renumbered.neighbours.len());
         let mut memory = MemBuffer::new(request);
         let stack = MemStack::new(&mut memory);
-        simplicial::prefactorize_symbolic_cholesky(&mut tree, &mut counts, renamed.pattern(), stack);
+        simplicial::prefactorize_symbolic_cholesky(&mut tree, &mut counts, renumbered.pattern(), stack);
         counts.iter().map(|&c| (c as f64).powi(2)).sum()
     }
 }
 
-/// The `free` nodes of the elements of `nodes_per_cell` nodes in `cells`, in the order in which to eliminate them.
+/// The `free` nodes in the order in which to eliminate them; `cells` are elements of `nodes_per_cell` nodes.
+///
+/// Fails where the graph has more edges than can be counted.
 pub fn elimination_order(
     cells: &[u32],
     nodes_per_cell: usize,
@@ -105,21 +109,36 @@ pub fn elimination_order(
     nodes.iter().enumerate().for_each(|(i, &node)| vertex[node] = i);
     let mut edges = Vec::with_capacity(cells.len() * nodes_per_cell);
     for cell in cells.chunks_exact(nodes_per_cell) {
-        let corners: Vec<usize> = cell.iter().map(|&n| n as usize).filter(|&n| free[n]).collect();
-        for &a in &corners {
-            edges.extend(corners.iter().filter(|&&b| b != a).map(|&b| [vertex[a], vertex[b]]));
+        let ends: Vec<usize> =
+            cell.iter().map(|&n| n as usize).filter(|&n| free[n]).map(|n| vertex[n]).collect();
+        for &a in &ends {
+            edges.extend(ends.iter().filter(|&&b| b != a).map(|&b| [a, b]));
         }
     }
     let graph = Graph::new(nodes.len(), edges);
-    let backwards: Vec<usize> = (0..graph.size()).rev().collect();
-    let from_behind = graph.renamed(&backwards).minimum_degree()?;
-    let mut places = vec![graph.minimum_degree()?, backwards.iter().map(|&i| from_behind[i]).collect()];
-    if graph.size() >= DISSECTED {
-        places.extend(graph.dissection());
-    }
-    let cost: Vec<f64> = places.iter().map(|place| graph.operations(place)).collect();
-    let best = (0..places.len()).min_by(|&a, &b| cost[a].total_cmp(&cost[b])).unwrap_or(0);
+    let places = cheapest_places(&graph)?;
     let mut order = vec![0; nodes.len()];
-    places[best].iter().zip(nodes).for_each(|(&place, node)| order[place] = node);
+    places.iter().zip(nodes).for_each(|(&place, node)| order[place] = node);
     Ok(order)
+}
+
+/// The places of the vertices in the cheapest of the orders that are tried.
+fn cheapest_places(graph: &Graph) -> Result<Vec<usize>, FactorError> {
+    let forwards = graph.minimum_degree()?;
+    let mut best = (graph.operations(&forwards), forwards);
+    let mut weigh = |places: Vec<usize>| {
+        let operations = graph.operations(&places);
+        if operations < best.0 {
+            best = (operations, places);
+        }
+    };
+    // the same from the last vertex on: vertex i is called last - i there
+    let reverse: Vec<usize> = (0..graph.size()).rev().collect();
+    let backwards = graph.renumbered(&reverse).minimum_degree()?;
+    weigh(reverse.iter().map(|&i| backwards[i]).collect());
+    if graph.size() >= DISSECT_FROM {
+        // beyond the numbers of the dissection there is still a minimum degree
+        graph.dissection().into_iter().for_each(weigh);
+    }
+    Ok(best.1)
 }

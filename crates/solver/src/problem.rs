@@ -231,7 +231,7 @@ fn build_mesh(
     let depth = profile.height() + size_of(substrate.and_then(|s| s.depth));
     let radius = size_of(substrate.and_then(|s| s.radius));
     let width = match symmetry {
-        _ if scene.repeats() => row,
+        _ if scene.has_repeated_asperities() => row,
         Symmetry::Axisymmetric => [0.0, radius],
         Symmetry::PlaneStrain => {
             let middle = 0.5 * (row[0] + row[1]);

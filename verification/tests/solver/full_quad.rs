@@ -33,7 +33,8 @@ pub struct FullQuad<'m> {
 
 impl<'m> FullQuad<'m> {
     pub fn new(mesh: &'m Mesh, metal: Metal, held: &[[bool; 2]]) -> Self {
-        let dofs = Dofs::new(mesh.nodes.len(), &(0..mesh.nodes.len()).collect::<Vec<_>>(), |node| held[node]);
+        let order: Vec<usize> = (0..mesh.nodes.len()).collect();
+        let dofs = Dofs::new(mesh.nodes.len(), &order, |node| held[node]);
         let stiffness = Stiffness::new(&mesh.cells, 4, &dofs);
         let factor = Factor::new(&stiffness.matrix).unwrap();
         let points = quad4::points();

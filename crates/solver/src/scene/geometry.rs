@@ -1,6 +1,6 @@
 //! The bodies of a scene: asperities, substrate, tool.
 
-use super::SceneError;
+use super::{Lateral, Scene, SceneError, Symmetry};
 use asperity_law::units::Length;
 use serde::{Deserialize, Serialize};
 
@@ -228,5 +228,36 @@ impl Tool {
                 Ok(ToolForm::Sphere { radius: radius.0 })
             }
         }
+    }
+}
+
+impl Scene {
+    /// From the axis to the outermost foot of the asperities, in plane strain half their whole width; m.
+    pub(super) fn extent(&self) -> f64 {
+        let last = self.asperity.len().saturating_sub(1);
+        let widths = self.asperity.iter().enumerate().filter_map(|(i, a)| {
+            let base = a.form().ok()?.base_radius();
+            // half of the first asperity lies beyond the axis
+            let own = if i == 0 && self.symmetry == Symmetry::Axisymmetric { base } else { 2.0 * base };
+            Some(own + if i < last { a.spacing.map_or(0.0, |s| s.0) } else { 0.0 })
+        });
+        let total: f64 = widths.sum();
+        if self.symmetry == Symmetry::Axisymmetric { total } else { 0.5 * total }
+    }
+
+    /// Whether symmetric sides repeat the asperities.
+    pub(crate) fn has_repeated_asperities(&self) -> bool {
+        self.lateral == Lateral::Symmetric && !self.asperity.is_empty()
+    }
+
+    /// What the body of repeated asperities has beyond the last of them: half of the last gap, m.
+    pub(crate) fn end_gap(&self) -> f64 {
+        let last = self.asperity.last().filter(|_| self.has_repeated_asperities());
+        last.and_then(|a| a.spacing).map_or(0.0, |s| 0.5 * s.0)
+    }
+
+    /// Height of the highest asperity, m.
+    pub(super) fn highest(&self) -> f64 {
+        self.asperity.iter().filter_map(|a| a.form().ok()).map(|f| f.height()).fold(0.0, f64::max)
     }
 }

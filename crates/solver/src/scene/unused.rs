@@ -25,7 +25,7 @@ impl Scene {
             }
             return unused;
         }
-        if self.repeats() {
+        if self.has_repeated_asperities() {
             let radius = self.extent() + self.end_gap();
             let other = substrate.radius.is_some_and(|given| (given.0 / radius - 1.0).abs() > 1e-6);
             let what = if self.symmetry == Symmetry::Axisymmetric { "radius" } else { "half width" };
