@@ -48,7 +48,7 @@ fn one(elements: usize) -> Result<(), Box<dyn Error>> {
     let model = &mut path.model;
     let before = model.accepted_increment().to_vec();
     model.begin(-(FRACTION * (1.0 + problem.numbers.penetration)), 0.0, |node| before[node].map(|u| 0.1 * u));
-    let repeats = 3;
+    let repeats = 5;
     let mut least = [f64::INFINITY; 3];
     for _ in 0..repeats {
         let c = model.counters;
@@ -73,6 +73,16 @@ fn one(elements: usize) -> Result<(), Box<dyn Error>> {
 /// Exponent of `y` in `x` between two rows.
 fn exponent(x: [f64; 2], y: [f64; 2]) -> f64 {
     (y[1] / y[0]).ln() / (x[1] / x[0]).ln()
+}
+
+/// Least-squares slope of the logarithm of column `column` over that of the first one.
+fn slope(rows: &[[f64; 3]], column: usize) -> f64 {
+    let mean = |i: usize| rows.iter().map(|row| row[i].ln()).sum::<f64>() / rows.len() as f64;
+    let (x, y) = (mean(0), mean(column));
+    let sum = |f: &dyn Fn(f64, f64) -> f64| -> f64 {
+        rows.iter().map(|row| f(row[0].ln() - x, row[column].ln() - y)).sum()
+    };
+    sum(&|dx, dy| dx * dy) / sum(&|dx, _| dx * dx)
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -107,14 +117,14 @@ fn main() -> Result<(), Box<dyn Error>> {
         );
         rows.push(row);
     }
-    let first = rows[0];
-    for last in &rows[rows.len() - 2..] {
+    for count in [rows.len() - 1, rows.len()] {
+        let rows = &rows[..count];
         println!(
-            "\nFrom {} to {} unknowns: an iteration costs unknowns^{:.2}, memory unknowns^{:.2}.",
-            first[0],
-            last[0],
-            exponent([first[0], last[0]], [first[1], last[1]]),
-            exponent([first[0], last[0]], [first[2], last[2]])
+            "\nFrom {} to {} unknowns, by least squares: an iteration costs unknowns^{:.2}, memory unknowns^{:.2}.",
+            rows[0][0],
+            rows[count - 1][0],
+            slope(rows, 1),
+            slope(rows, 2)
         );
     }
     Ok(())
