@@ -119,8 +119,13 @@ pub fn overview(rows: &[Row]) -> String {
     for row in sorted(&|r| r.on_front && r.setting.knob != Knob::Level) {
         let n = &row.setting.numerics;
         let element = if n.element == Some(ElementChoice::Q4) { "q4" } else { "q8r" };
+        // the penalty goes without saying
+        let contact = match n.contact {
+            Some(ContactMethod::Augmented) => ", augmented Lagrange",
+            _ => "",
+        };
         let name = format!(
-            "front: {element}, {} elements, {} steps, penetration {}, tolerance {}, domain {}",
+            "front: {element}{contact}, {} elements, {} steps, penetration {}, tolerance {}, domain {}",
             cell(n.elements_in_contact),
             cell(n.steps),
             cell(n.penetration),
