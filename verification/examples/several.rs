@@ -1,7 +1,7 @@
 //! Prints what was measured of asperities side by side as markdown tables: how three ridges approach three times one, what
 //! a ring adds to the depth of the centre, and the convergence of the committed scenes of three asperities.
 //!
-//! `cargo run --release -p asperity-verification --example several [-- approach.csv]` (about ten minutes of one
+//! `cargo run --release -p asperity-verification --example several [-- approach.csv]` (about two minutes of one
 //! core). The argument `convergence` prints only that; another names a file for the approach, which `scripts/figures.py` draws.
 
 // a program whose output is the point, on committed scenes
