@@ -10,7 +10,7 @@
 
 use asperity_calibration::case::{Case, Tool, YieldMeasure};
 use asperity_calibration::fit::SplitMix;
-use asperity_calibration::kick::{self, Kick};
+use asperity_calibration::loading_curvature::{self, LoadingCurvature};
 use asperity_calibration::resolution::Resolution;
 use asperity_calibration::row::Row;
 use asperity_calibration::run::run;
@@ -19,7 +19,7 @@ use asperity_law::HardeningLaw;
 use asperity_solver::scene::Accuracy;
 use asperity_verification::calibration::{PEERS, metal, peer_case};
 
-fn all(cases: &[Case], accuracy: Accuracy) -> Vec<Kick> {
+fn all(cases: &[Case], accuracy: Accuracy) -> Vec<LoadingCurvature> {
     let told = |row: &Row| {
         eprintln_row(row);
         Ok::<(), std::convert::Infallible>(())
@@ -72,9 +72,9 @@ fn peers() {
     for ((p, s), r) in PEERS.iter().zip(&standard).zip(&reference) {
         let case = peer_case(p);
         let resolution = Resolution::of(&case, Accuracy::Standard);
-        let cauchy = kick::solve(&Case { stress: YieldMeasure::Cauchy, ..case }, &resolution)
+        let cauchy = loading_curvature::solve(&Case { stress: YieldMeasure::Cauchy, ..case }, &resolution)
             .expect("committed cases run");
-        let off = |k: &Kick| 100.0 * (k.k_over_e / p.k_over_e - 1.0);
+        let off = |k: &LoadingCurvature| 100.0 * (k.k_over_e / p.k_over_e - 1.0);
         println!(
             "| {} | {} | {} | {:.4} | {:.4} | {:.4} | {:+.2} | {:.2} | {:+.2} | {:+.2} |",
             p.beta_deg,
@@ -98,7 +98,8 @@ fn elastic() {
         for yielding in [None, Some(metal(HardeningLaw::Hollomon, 0.3, 10.0))] {
             let case =
                 Case { beta_deg: 1.0, yielding, poissons_ratio: 0.3, tool, stress: YieldMeasure::Kirchhoff };
-            let k = kick::solve(&case, &Resolution::of(&case, Accuracy::Standard)).expect("runs");
+            let k =
+                loading_curvature::solve(&case, &Resolution::of(&case, Accuracy::Standard)).expect("runs");
             let sneddon = std::f64::consts::FRAC_2_PI * case.elastic().reduced_modulus() / case.tan_beta();
             println!(
                 "| {tool:?} | {} | {:.3} | {:+.2} | {:+.2} |",
@@ -137,7 +138,7 @@ fn lengths() {
     let k = |case: &Case, change: fn(&mut Resolution)| {
         let mut resolution = Resolution::of(case, Accuracy::Standard);
         change(&mut resolution);
-        kick::solve(case, &resolution).expect("runs").k_over_e
+        loading_curvature::solve(case, &resolution).expect("runs").k_over_e
     };
     for (name, change) in changes {
         let off = cases.each_ref().map(|case| 100.0 * (k(case, change) / k(case, |_| ()) - 1.0));
@@ -160,10 +161,11 @@ fn indentation() {
                     stress: YieldMeasure::Kirchhoff,
                 };
                 let resolution = Resolution::of(&case, Accuracy::Standard);
-                let k = kick::solve(&case, &resolution).expect("runs");
-                let cauchy = kick::solve(&Case { stress: YieldMeasure::Cauchy, ..case }, &resolution)
-                    .expect("runs")
-                    .k_over_e;
+                let k = loading_curvature::solve(&case, &resolution).expect("runs");
+                let cauchy =
+                    loading_curvature::solve(&Case { stress: YieldMeasure::Cauchy, ..case }, &resolution)
+                        .expect("runs")
+                        .k_over_e;
                 println!(
                     "| {beta_deg} | {exponent} | {ratio:.1} | {:.4} | {:.2} | {:+.2} |",
                     k.k_over_e,
@@ -192,7 +194,7 @@ fn published(file: &str, beta_deg: f64) {
         let yielding = Some(metal(HardeningLaw::Swift, *exponent, *ratio));
         let case = Case { beta_deg, yielding, poissons_ratio: 0.3, tool: Tool::Cone, stress };
         let resolution = Resolution::of(&case, Accuracy::Standard);
-        100.0 * (kick::solve(&case, &resolution).expect("runs").k_over_e / k_over_e - 1.0)
+        100.0 * (loading_curvature::solve(&case, &resolution).expect("runs").k_over_e / k_over_e - 1.0)
     };
     let half = metals.len().div_ceil(2);
     let differences: Vec<[f64; 2]> = std::thread::scope(|scope| {

@@ -7,8 +7,8 @@
 // a program whose output is the point, on a committed scene
 #![allow(clippy::print_stdout, clippy::expect_used)]
 
-use asperity_solver::crush::Outcome;
-use asperity_solver::curve::{Curve, Smooth};
+use asperity_solver::run::crush::Outcome;
+use asperity_solver::run::curve::{Curve, Smooth};
 use asperity_solver::scene::{Accuracy, ElementChoice, Scene};
 use asperity_verification::contact::punch_stiffness;
 use asperity_verification::single_asperity::{crush, scene};

@@ -7,10 +7,10 @@
 // a program whose output is the point, on scenes of its own
 #![allow(clippy::print_stdout, clippy::expect_used)]
 
-use asperity_solver::crush::Outcome;
-use asperity_solver::curve::Curve;
+use asperity_solver::run::crush::Outcome;
+use asperity_solver::run::curve::Curve;
 use asperity_solver::scene::{Accuracy, Scene};
-use asperity_verification::battery::{Entry, battery};
+use asperity_verification::coverage_scenes::{Entry, battery};
 use asperity_verification::single_asperity::{crush, driven_by};
 use rayon::prelude::*;
 

@@ -4,7 +4,7 @@
 #![allow(clippy::print_stdout, reason = "an example prints")]
 
 use asperity_law::HardeningMode;
-use asperity_solver::crush::Outcome;
+use asperity_solver::run::crush::Outcome;
 use asperity_solver::scene::Accuracy;
 use asperity_verification::single_asperity::{crush, scene};
 

@@ -5,12 +5,12 @@
 #![allow(clippy::print_stdout, reason = "the table is the point")]
 
 use asperity_law::units::{Length, Stress};
-use asperity_solver::crush::{Outcome, run};
-use asperity_solver::model::{Model, ToolContact};
-use asperity_solver::newton::{KEEP, Settings, solve};
-use asperity_solver::problem::prepare;
+use asperity_solver::algebra::newton::{KEEP, Settings, solve};
+use asperity_solver::body::model::{Model, ToolContact};
+use asperity_solver::run::crush::{Outcome, run};
+use asperity_solver::run::load_path::schedule;
+use asperity_solver::run::problem::prepare;
 use asperity_solver::scene::{Accuracy, Scene, Substrate};
-use asperity_solver::stepping::schedule;
 use asperity_verification::single_asperity::scene;
 use std::error::Error;
 use std::ops::ControlFlow;

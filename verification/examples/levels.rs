@@ -8,11 +8,11 @@
 // a program whose output is the point, on scenes of its own
 #![allow(clippy::print_stdout, clippy::expect_used)]
 
-use asperity_solver::crush::Outcome;
-use asperity_solver::curve::{Curve, Smooth};
-use asperity_solver::discretise::Discretisation;
+use asperity_solver::run::crush::Outcome;
+use asperity_solver::run::curve::{Curve, Smooth};
+use asperity_solver::run::discretisation::Discretisation;
 use asperity_solver::scene::{Accuracy, Scene};
-use asperity_verification::battery::{Entry, others};
+use asperity_verification::coverage_scenes::{Entry, others};
 use asperity_verification::single_asperity::crush;
 use rayon::prelude::*;
 

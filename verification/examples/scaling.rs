@@ -4,11 +4,11 @@
 //! a process of its own, so that its peak memory is its own.
 #![allow(clippy::print_stdout, reason = "the table is the point")]
 
-use asperity_solver::model::{Model, ToolContact};
-use asperity_solver::newton::{KEEP, Settings, System};
-use asperity_solver::problem::prepare;
+use asperity_solver::algebra::newton::{KEEP, Settings, System};
+use asperity_solver::body::model::{Model, ToolContact};
+use asperity_solver::run::load_path::{Goal, Path, schedule};
+use asperity_solver::run::problem::prepare;
 use asperity_solver::scene::Accuracy;
-use asperity_solver::stepping::{Goal, Path, schedule};
 use asperity_verification::single_asperity::scene;
 use std::error::Error;
 use std::process::Command;

@@ -2,8 +2,8 @@
 
 use crate::single_asperity::crush;
 use asperity_law::units::Length;
-use asperity_solver::crush::Outcome;
-use asperity_solver::record::Phase;
+use asperity_solver::run::crush::Outcome;
+use asperity_solver::run::record::Phase;
 use asperity_solver::scene::{Accuracy, Asperity, Lateral, Scene, Substrate, Symmetry};
 
 /// Half width of the base of the paper's asperity (20 µm, 10°, tip 10 µm), m.

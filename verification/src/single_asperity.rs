@@ -1,7 +1,7 @@
 //! The paper's asperity as a scene.
 
 use asperity_law::units::{Force, LineForce};
-use asperity_solver::crush::{CrushError, Outcome, run};
+use asperity_solver::run::crush::{CrushError, Outcome, run};
 use asperity_solver::scene::{Accuracy, Scene, Symmetry, ToolForce};
 use std::ops::ControlFlow;
 

@@ -12,9 +12,9 @@
 
 use asperity_law::HardeningMode;
 use asperity_law::units::{Length, Stress};
-use asperity_solver::crush::Outcome;
-use asperity_solver::curve::Curve;
-use asperity_solver::record::Phase;
+use asperity_solver::run::crush::Outcome;
+use asperity_solver::run::curve::Curve;
+use asperity_solver::run::record::Phase;
 use asperity_solver::scene::{Accuracy, ContactMethod, ElementChoice, HardeningChoice, Scene, Substrate};
 use asperity_verification::calibration::PEERS;
 use asperity_verification::contact::{cone_force, hertz_force};

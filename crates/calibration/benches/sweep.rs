@@ -2,7 +2,7 @@
 //!
 //! `cargo bench -p asperity-calibration` solves every tenth case of the grid on one thread and prints a row for each slope
 //! and the mean. Floor: the iterations, each with a new tangent and every point flowing, at the arithmetic of this core
-//! (`asperity_solver::floor`).
+//! (`asperity_solver::algebra::roofline`).
 #![allow(clippy::print_stdout, reason = "a benchmark prints")]
 
 use asperity_calibration::body::Body;
@@ -10,10 +10,10 @@ use asperity_calibration::case::Case;
 use asperity_calibration::resolution::Resolution;
 use asperity_calibration::run::{shard, solve};
 use asperity_calibration::sweep::Sweep;
-use asperity_solver::element::POINTS;
-use asperity_solver::floor::Floor;
-use asperity_solver::kinematics::Symmetry;
-use asperity_solver::model::Model;
+use asperity_solver::algebra::roofline::Floor;
+use asperity_solver::body::model::Model;
+use asperity_solver::element::kernel::POINTS;
+use asperity_solver::point::kinematics::Symmetry;
 
 /// Sums over cases.
 #[derive(Clone, Copy, Default)]

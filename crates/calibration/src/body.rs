@@ -4,12 +4,12 @@ use crate::case::{Case, Tool};
 use crate::layout::Layout;
 use crate::resolution::Resolution;
 use asperity_mesh::Mesh;
-use asperity_solver::kinematics::Symmetry;
-use asperity_solver::material::Metal;
-use asperity_solver::model::ToolContact;
-use asperity_solver::problem::held_nodes;
+use asperity_solver::body::model::ToolContact;
+use asperity_solver::contact::tool::Tool as RigidTool;
+use asperity_solver::point::kinematics::Symmetry;
+use asperity_solver::point::material::Metal;
+use asperity_solver::run::problem::held_nodes;
 use asperity_solver::scene::Lateral;
-use asperity_solver::tool::Tool as RigidTool;
 use std::f64::consts::FRAC_2_PI;
 
 /// A cone ready to be crushed to the depth 1, E = 1.

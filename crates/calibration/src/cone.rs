@@ -3,10 +3,10 @@
 use crate::body::Body;
 use crate::case::{Case, YieldMeasure};
 use crate::resolution::{FIT_FROM, Resolution};
-use asperity_solver::energy::contact_sums;
-use asperity_solver::kinematics::Symmetry;
-use asperity_solver::model::Model;
-use asperity_solver::newton::{Failure, KEEP, Settings, solve};
+use asperity_solver::algebra::newton::{Failure, KEEP, Settings, solve};
+use asperity_solver::body::energy::contact_sums;
+use asperity_solver::body::model::Model;
+use asperity_solver::point::kinematics::Symmetry;
 
 /// Share of the last increment that is the first guess of the next.
 const GUESS: f64 = 0.7;

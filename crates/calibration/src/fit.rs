@@ -260,7 +260,7 @@ pub fn developed(data: &Data, c: f64, least: f64) -> Data {
 mod tests {
     use super::*;
     use crate::case::Case;
-    use crate::kick::Kick;
+    use crate::loading_curvature::LoadingCurvature;
     use crate::sweep::Sweep;
 
     /// K of a made-up law that collapses exactly at ε_r = `c` tan β, times 1 + noise·(normal deviate).
@@ -285,7 +285,8 @@ mod tests {
     }
 
     fn row(case: Case, k_over_e: f64) -> Row {
-        let kick = Kick { k_over_e, error: 0.01, contact_ratio: 0.9, increments: 1, iterations: 1 };
+        let kick =
+            LoadingCurvature { k_over_e, error: 0.01, contact_ratio: 0.9, increments: 1, iterations: 1 };
         Row { case, outcome: Ok(kick), wall_s: 0.0 }
     }
 

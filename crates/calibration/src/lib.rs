@@ -2,8 +2,8 @@
 //! (Jourani et al., section 3.3).
 //!
 //! In the order of the data: a case (`case`), its mesh (`resolution`, `layout`, `body`), its path (`cone`) and its constant
-//! (`kick`); the grid (`sweep`), its rows on disk (`row`, `journal`) and its run (`run`); the representative strain of a
-//! slope (`collapse`), of all (`fit`) and of parts (`dependence`), the force as a formula (`dimensionless`) and
+//! (`loading_curvature`); the grid (`sweep`), its rows on disk (`row`, `journal`) and its run (`run`); the representative strain of a
+//! slope (`collapse`), of all (`fit`) and of parts (`sensitivity`), the force as a formula (`dimensionless`) and
 //! the way back (`unloading`).
 
 pub mod case;
@@ -16,7 +16,7 @@ pub mod body;
 
 pub mod cone;
 
-pub mod kick;
+pub mod loading_curvature;
 
 pub mod sweep;
 
@@ -32,7 +32,7 @@ pub mod collapse;
 
 pub mod fit;
 
-pub mod dependence;
+pub mod sensitivity;
 
 pub mod dimensionless;
 

@@ -1,7 +1,7 @@
 //! One row of `cases.csv`: a case and what came of it.
 
 use crate::case::Case;
-use crate::kick::Kick;
+use crate::loading_curvature::LoadingCurvature;
 use std::collections::HashMap;
 
 /// The columns of `cases.csv`.
@@ -13,7 +13,7 @@ pub struct Row {
     /// The case.
     pub case: Case,
     /// What it gave, or why nothing.
-    pub outcome: Result<Kick, String>,
+    pub outcome: Result<LoadingCurvature, String>,
     /// Seconds it took.
     pub wall_s: f64,
 }
@@ -46,7 +46,7 @@ impl Row {
         let columns: Vec<&str> = rest.split(',').collect();
         let [k, error, ratio, increments, iterations, wall, status] = columns.as_slice() else { return None };
         let outcome = if *status == "ok" {
-            Ok(Kick {
+            Ok(LoadingCurvature {
                 k_over_e: k.parse().ok()?,
                 error: error.parse().ok()?,
                 contact_ratio: ratio.parse().ok()?,
@@ -81,8 +81,13 @@ mod tests {
     #[test]
     fn rows_read_back() {
         let case = Sweep::default().cases()[7];
-        let kick =
-            Kick { k_over_e: 0.1 + 0.2, error: 5e-3, contact_ratio: 0.7, increments: 28, iterations: 110 };
+        let kick = LoadingCurvature {
+            k_over_e: 0.1 + 0.2,
+            error: 5e-3,
+            contact_ratio: 0.7,
+            increments: 28,
+            iterations: 110,
+        };
         for outcome in [Ok(kick), Err("stopped; at 0.3".to_string())] {
             let row = Row { case, outcome, wall_s: 0.125 };
             let text = row.to_csv();

@@ -3,17 +3,17 @@
 //!
 //! `cargo bench -p asperity-solver` prints a table. Times are per iteration, of which only some have a new tangent: the
 //! others reuse its factors. Floor: one Newton iteration in the strict sense, with a new tangent and every point flowing, at
-//! the arithmetic of this core (see `asperity_solver::floor`); 3% is what `verification/PEERS.md` runs.
+//! the arithmetic of this core (see `asperity_solver::algebra::roofline`); 3% is what `verification/PEERS.md` runs.
 #![allow(clippy::print_stdout, reason = "a benchmark prints")]
 
 use asperity_law::HardeningMode;
 use asperity_law::units::{Length, Stress};
 use asperity_mesh::ElementKind;
-use asperity_solver::crush::run;
-use asperity_solver::element::POINTS;
-use asperity_solver::floor::Floor;
-use asperity_solver::model::{Model, ToolContact};
-use asperity_solver::problem::prepare;
+use asperity_solver::algebra::roofline::Floor;
+use asperity_solver::body::model::{Model, ToolContact};
+use asperity_solver::element::kernel::POINTS;
+use asperity_solver::run::crush::run;
+use asperity_solver::run::problem::prepare;
 use asperity_solver::scene::{
     Accuracy, Asperity, ElementChoice, HardeningChoice, Lateral, Loading, Material, Numerics, Output, Scene,
     Symmetry, Tool, ToolShape,

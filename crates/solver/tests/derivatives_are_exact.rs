@@ -6,14 +6,16 @@
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use asperity_law::{Elastic, Hardening, HardeningLaw, HardeningTable};
-use asperity_solver::contact::{ContactContext, ContactEdge};
-use asperity_solver::element::{ElementContext, ElementOutput};
-use asperity_solver::j2::{PointUpdate, Tangent};
-use asperity_solver::kinematic::{self, Memory};
-use asperity_solver::kinematics::{Symmetry, motion};
-use asperity_solver::material::{Metal, PointState};
-use asperity_solver::tool::Tool;
-use asperity_solver::{j2, quad4, quad8};
+use asperity_solver::contact::edge::{ContactContext, ContactEdge};
+use asperity_solver::contact::tool::Tool;
+use asperity_solver::element::kernel::{ElementContext, ElementOutput};
+use asperity_solver::element::quad4;
+use asperity_solver::element::quad8;
+use asperity_solver::point::j2;
+use asperity_solver::point::j2::{PointUpdate, Tangent};
+use asperity_solver::point::kinematic_hardening::{self, Memory};
+use asperity_solver::point::kinematics::{Symmetry, motion};
+use asperity_solver::point::material::{Metal, PointState};
 
 const STEP: f64 = 1e-6;
 const TOLERANCE: f64 = 1e-6;
@@ -52,7 +54,7 @@ fn update(
     tangent: Tangent,
 ) -> (PointUpdate, Memory) {
     if metal.has_back_stress() {
-        kinematic::update(metal, state, memory, g, tangent).unwrap()
+        kinematic_hardening::update(metal, state, memory, g, tangent).unwrap()
     } else {
         (j2::update(metal, state, g, tangent).unwrap(), *memory)
     }

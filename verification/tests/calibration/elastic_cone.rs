@@ -4,7 +4,7 @@
 //! penalty contact, which reaches 1.3 % too far at a penetration of 1.6 % of the depth.
 
 use asperity_calibration::case::{Case, Tool, YieldMeasure};
-use asperity_calibration::kick::solve;
+use asperity_calibration::loading_curvature::solve;
 use asperity_calibration::resolution::Resolution;
 use asperity_law::HardeningLaw;
 use asperity_solver::scene::Accuracy;

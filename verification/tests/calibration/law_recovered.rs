@@ -4,7 +4,7 @@
 
 use asperity_calibration::case::Case;
 use asperity_calibration::fit::{Data, SplitMix, angles, slope};
-use asperity_calibration::kick::Kick;
+use asperity_calibration::loading_curvature::LoadingCurvature;
 use asperity_calibration::row::Row;
 use asperity_calibration::sweep::Sweep;
 
@@ -12,7 +12,8 @@ fn rows(k_over_e: impl Fn(&Case) -> f64) -> Vec<Row> {
     let mut random = SplitMix(7);
     let mut row = |case: Case| {
         let k_over_e = k_over_e(&case) * (1.0 + 0.01 * random.normal());
-        let kick = Kick { k_over_e, error: 0.01, contact_ratio: 0.9, increments: 1, iterations: 1 };
+        let kick =
+            LoadingCurvature { k_over_e, error: 0.01, contact_ratio: 0.9, increments: 1, iterations: 1 };
         Row { case, outcome: Ok(kick), wall_s: 0.0 }
     };
     Sweep::default().cases().into_iter().map(&mut row).collect()

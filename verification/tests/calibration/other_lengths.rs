@@ -3,7 +3,7 @@
 //! a rounded tip leaves of its effect falls with the square of its radius over the contact's.
 
 use asperity_calibration::case::{Case, Tool, YieldMeasure};
-use asperity_calibration::kick::solve;
+use asperity_calibration::loading_curvature::solve;
 use asperity_calibration::resolution::Resolution;
 use asperity_law::HardeningLaw;
 use asperity_solver::scene::Accuracy;

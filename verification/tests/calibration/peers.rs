@@ -4,7 +4,7 @@
 //! ten here; `--example calibration peers` prints all. The force grows with the depth to the exponent 2, or `solve` fails.
 
 use asperity_calibration::case::{Case, YieldMeasure};
-use asperity_calibration::kick::solve;
+use asperity_calibration::loading_curvature::solve;
 use asperity_calibration::resolution::Resolution;
 use asperity_solver::scene::Accuracy;
 use asperity_verification::calibration::{PEERS, peer_case};

@@ -7,7 +7,7 @@
 //! Tolerances: 2 % between two meshes at `draft` and coarser; 3 % of Π₁, its own scatter; 5 % of a scene at draft, its promise.
 
 use asperity_calibration::case::{Case, Tool, YieldMeasure};
-use asperity_calibration::kick::solve;
+use asperity_calibration::loading_curvature::solve;
 use asperity_calibration::resolution::Resolution;
 use asperity_law::HardeningLaw;
 use asperity_law::units::{Length, Stress};

@@ -4,12 +4,12 @@
 //! No outside source: fields of a run that stopped are drawn from the model after the failed attempt.
 
 use asperity_mesh::ElementKind;
-use asperity_solver::kinematics::Symmetry;
-use asperity_solver::model::{Model, ToolContact};
-use asperity_solver::newton::System;
-use asperity_solver::tool::Tool;
-use asperity_verification::bodies::{distorted_square, nodes_of};
-use asperity_verification::drive::{ELASTIC, TIGHT, increment, model};
+use asperity_solver::algebra::newton::System;
+use asperity_solver::body::model::{Model, ToolContact};
+use asperity_solver::contact::tool::Tool;
+use asperity_solver::point::kinematics::Symmetry;
+use asperity_verification::single_increment::{ELASTIC, TIGHT, increment, model};
+use asperity_verification::test_meshes::{distorted_square, nodes_of};
 
 fn seen(model: &Model<'_>) -> (f64, Vec<f64>, Vec<[f64; 2]>) {
     let pressures = model.edges().iter().flat_map(|edge| {

@@ -5,10 +5,10 @@
 //! so that the return mapping is exact, and only rounding is left.
 
 use asperity_mesh::ElementKind;
-use asperity_solver::kinematics::Symmetry;
-use asperity_verification::bar::{confined_flow_stress, confined_stress};
-use asperity_verification::bodies::distorted_square;
-use asperity_verification::drive::{TIGHT, hollomon, increment, model, stresses};
+use asperity_solver::point::kinematics::Symmetry;
+use asperity_verification::single_increment::{TIGHT, hollomon, increment, model, stresses};
+use asperity_verification::test_meshes::distorted_square;
+use asperity_verification::uniaxial::{confined_flow_stress, confined_stress};
 
 #[test]
 fn stress_follows_both_branches() {

@@ -5,12 +5,12 @@
 //! integrate a uniform pressure exactly.
 
 use asperity_mesh::ElementKind;
-use asperity_solver::kinematics::Symmetry;
-use asperity_solver::model::ToolContact;
-use asperity_solver::tool::Tool;
-use asperity_verification::bar::penetration;
-use asperity_verification::bodies::{distorted_square, nodes_of};
-use asperity_verification::drive::{ELASTIC, TIGHT, increment, model, stresses};
+use asperity_solver::body::model::ToolContact;
+use asperity_solver::contact::tool::Tool;
+use asperity_solver::point::kinematics::Symmetry;
+use asperity_verification::single_increment::{ELASTIC, TIGHT, increment, model, stresses};
+use asperity_verification::test_meshes::{distorted_square, nodes_of};
+use asperity_verification::uniaxial::penetration;
 
 #[test]
 fn pressure_is_uniform_and_that_of_the_bar() {

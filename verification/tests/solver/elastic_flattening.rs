@@ -6,14 +6,14 @@
 //! peak on, where the contact is resolved. 1e-6: an elastic state has no history, and Newton's residual is 1e-10.
 
 use asperity_law::units::Length;
-use asperity_solver::model::{Model, ToolContact};
-use asperity_solver::newton::Settings;
-use asperity_solver::problem::prepare;
-use asperity_solver::record::CurveRow;
+use asperity_solver::algebra::newton::Settings;
+use asperity_solver::body::model::{Model, ToolContact};
+use asperity_solver::run::problem::prepare;
+use asperity_solver::run::record::CurveRow;
 use asperity_solver::scene::{Accuracy, Scene};
 use asperity_verification::contact::{cone_force, hertz_force, hertz_radius};
-use asperity_verification::drive::increment;
 use asperity_verification::single_asperity::{crush, scene};
+use asperity_verification::single_increment::increment;
 
 /// An elastic asperity of 20 µm.
 fn elastic(slope_deg: f64, tip_radius: Option<f64>, depth: f64) -> Scene {

@@ -7,7 +7,7 @@
 //! of the edge element (an eighteenth of the radius), on top of the same 2 %.
 
 use asperity_law::units::Length;
-use asperity_solver::crush::Outcome;
+use asperity_solver::run::crush::Outcome;
 use asperity_solver::scene::{Accuracy, Scene, Tool, ToolShape};
 use asperity_verification::contact::{cone_force, hertz_force};
 use asperity_verification::single_asperity::{crush, scene};

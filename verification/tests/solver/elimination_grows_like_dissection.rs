@@ -9,9 +9,9 @@
 //! are counted (measured 0.8 to 1.2 here, 0.7 to 1.4 up to 437,000 unknowns). With approximate minimum degrees alone, of the
 //! two starts, the largest mesh takes 2.3. Below 0.5 something would be left out of the count.
 
-use asperity_solver::elimination::elimination_order;
-use asperity_solver::model::Model;
-use asperity_solver::problem::prepare;
+use asperity_solver::algebra::fill_ordering::elimination_order;
+use asperity_solver::body::model::Model;
+use asperity_solver::run::problem::prepare;
 use asperity_solver::scene::Accuracy;
 use asperity_verification::single_asperity::scene;
 

@@ -7,8 +7,8 @@
 //! `elastic_flattening`.
 
 use asperity_law::units::{Length, Stress};
-use asperity_solver::curve::Curve;
-use asperity_solver::record::CurveRow;
+use asperity_solver::run::curve::Curve;
+use asperity_solver::run::record::CurveRow;
 use asperity_solver::scene::{Accuracy, Asperity, Scene};
 use asperity_verification::contact::{Flattened, hertz_force};
 use asperity_verification::single_asperity::{crush, scene};

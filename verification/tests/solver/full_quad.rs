@@ -2,15 +2,15 @@
 //! Only `punch` uses it, to show that its claim can fail.
 
 use asperity_mesh::Mesh;
-use asperity_solver::assemble::Stiffness;
-use asperity_solver::dofs::{Dofs, FIXED};
-use asperity_solver::element::{ElementOutput, Rows, add_force, add_stiffness};
-use asperity_solver::j2::{Tangent, update};
-use asperity_solver::kinematics::{ShapePoint, Symmetry, motion};
-use asperity_solver::linear::Factor;
-use asperity_solver::material::{Metal, PointState};
-use asperity_solver::newton::{Assessment, Failure, System};
-use asperity_solver::quad4;
+use asperity_solver::algebra::assemble::Stiffness;
+use asperity_solver::algebra::cholesky::Factor;
+use asperity_solver::algebra::dofs::{Dofs, FIXED};
+use asperity_solver::algebra::newton::{Assessment, Failure, System};
+use asperity_solver::element::kernel::{ElementOutput, Rows, add_force, add_stiffness};
+use asperity_solver::element::quad4;
+use asperity_solver::point::j2::{Tangent, update};
+use asperity_solver::point::kinematics::{ShapePoint, Symmetry, motion};
+use asperity_solver::point::material::{Metal, PointState};
 
 pub struct FullQuad<'m> {
     mesh: &'m Mesh,

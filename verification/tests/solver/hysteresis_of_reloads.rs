@@ -9,7 +9,7 @@
 //! measured; 10 % when the tool was taken away in one increment from 3 % of the force).
 
 use asperity_law::HardeningMode;
-use asperity_solver::crush::Outcome;
+use asperity_solver::run::crush::Outcome;
 use asperity_solver::scene::Accuracy;
 use asperity_verification::single_asperity::{crush, scene};
 

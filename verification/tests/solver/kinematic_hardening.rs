@@ -1,17 +1,17 @@
 //! Claim: kinematic hardening repeats isotropic hardening in monotone tension, yields in reverse after a drop of 2σ_y,
 //! is objective, and is the metal of the isotropic update where nothing hardens and no principal direction turns.
 //!
-//! Source: the derivation in `asperity_solver::kinematic` (rule of Prager and Ziegler in the logarithmic strain space of
+//! Source: the derivation in `asperity_solver::point::kinematic_hardening` (rule of Prager and Ziegler in the logarithmic strain space of
 //! Miehe, Apel, Lambrecht 2002). Bar with linear hardening σ_y + Hε_p: the reversed branch leaves the elastic line at
 //! τ_a - 2σ_y and goes on with EH/(E + H). Tolerances: 1e-9 for bars, as in `uniaxial_bar`; 1e-12 for points, rounding.
 
 use asperity_law::{Hardening, HardeningLaw, HardeningTable};
 use asperity_mesh::ElementKind;
-use asperity_solver::j2::{self, Tangent};
-use asperity_solver::kinematic::{self, Memory};
-use asperity_solver::material::{Metal, PointState, stress, volume_ratio};
-use asperity_solver::tensor::{Gradient, Sym};
-use asperity_verification::drive::{ELASTIC, hollomon, stretch_bar};
+use asperity_solver::point::j2::{self, Tangent};
+use asperity_solver::point::kinematic_hardening::{self, Memory};
+use asperity_solver::point::material::{Metal, PointState, stress, volume_ratio};
+use asperity_solver::point::tensor::{Gradient, Sym};
+use asperity_verification::single_increment::{ELASTIC, hollomon, stretch_bar};
 
 const YIELD: f64 = 2e-3;
 const SLOPE: f64 = 0.05;
@@ -30,7 +30,7 @@ fn linear() -> Metal {
 fn drive(metal: &Metal, increments: &[Gradient]) -> (Sym, PointState, Memory) {
     let (mut state, mut memory, mut tau) = (metal.virgin(), Memory::default(), [0.0; 4]);
     for g in increments {
-        let (end, after) = kinematic::update(metal, &state, &memory, g, Tangent::None).unwrap();
+        let (end, after) = kinematic_hardening::update(metal, &state, &memory, g, Tangent::None).unwrap();
         (state, memory, tau) = (end.state, after, end.stress);
     }
     (tau, state, memory)
@@ -156,7 +156,8 @@ fn without_hardening_coaxial_paths_are_those_of_the_isotropic_update() {
     for g in &path {
         let a = j2::update(&metal, &grows, g, Tangent::Exact).unwrap();
         let (b, after) =
-            kinematic::update(&kinematic(metal.clone()), &state, &memory, g, Tangent::Exact).unwrap();
+            kinematic_hardening::update(&kinematic(metal.clone()), &state, &memory, g, Tangent::Exact)
+                .unwrap();
         (grows, state, memory) = (a.state, b.state, after);
         assert!((0..4).all(|i| (a.stress[i] - b.stress[i]).abs() < 1e-12 * YIELD.max(a.stress[i].abs())));
         assert!((grows.plastic_strain - state.plastic_strain).abs() < 1e-12);

@@ -7,13 +7,13 @@
 
 use asperity_law::{Elastic, Hardening, HardeningLaw};
 use asperity_mesh::ElementKind;
-use asperity_solver::energy::stored;
-use asperity_solver::kinematics::Symmetry;
-use asperity_solver::material::Metal;
-use asperity_solver::model::Model;
-use asperity_solver::newton::{Failure, Settings, System};
-use asperity_verification::bodies::{mapped, nodes_of};
-use asperity_verification::drive::{ELASTIC, TIGHT, hollomon, increment, model, reaction};
+use asperity_solver::algebra::newton::{Failure, Settings, System};
+use asperity_solver::body::energy::stored;
+use asperity_solver::body::model::Model;
+use asperity_solver::point::kinematics::Symmetry;
+use asperity_solver::point::material::Metal;
+use asperity_verification::single_increment::{ELASTIC, TIGHT, hollomon, increment, model, reaction};
+use asperity_verification::test_meshes::{mapped, nodes_of};
 
 #[test]
 fn a_strut_beyond_eulers_load_loses_a_pivot_and_finds_an_equilibrium() {

@@ -4,12 +4,12 @@
 //! Source: p = ln(r₃/r₂)/ln(r₂/r₁) of the last three residuals above 1e-12 of their scale, below which rounding rules.
 //! 1.8 and not 2: the three residuals are not yet infinitesimal.
 
-use asperity_solver::contact::{NOTHING, Parts};
-use asperity_solver::model::{Model, ToolContact};
-use asperity_solver::newton::{Assessment, Failure, Settings, System, solve};
-use asperity_solver::problem::prepare;
+use asperity_solver::algebra::newton::{Assessment, Failure, Settings, System, solve};
+use asperity_solver::body::model::{Model, ToolContact};
+use asperity_solver::contact::edge::{NOTHING, Parts};
+use asperity_solver::run::load_path::schedule;
+use asperity_solver::run::problem::prepare;
 use asperity_solver::scene::Accuracy;
-use asperity_solver::stepping::schedule;
 use asperity_verification::single_asperity::scene;
 
 /// Residual over scale, flowing points and touching edges of an iterate.

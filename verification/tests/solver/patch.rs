@@ -5,10 +5,10 @@
 //! Tolerance 1e-10 of the displacement and of the stress: rounding of a converged solve, nothing else.
 
 use asperity_mesh::ElementKind;
-use asperity_solver::j2::{Tangent, update};
-use asperity_solver::kinematics::Symmetry;
-use asperity_verification::bodies::{boundary, distorted_square};
-use asperity_verification::drive::{ELASTIC, TIGHT, hollomon, increment, model, stresses};
+use asperity_solver::point::j2::{Tangent, update};
+use asperity_solver::point::kinematics::Symmetry;
+use asperity_verification::single_increment::{ELASTIC, TIGHT, hollomon, increment, model, stresses};
+use asperity_verification::test_meshes::{boundary, distorted_square};
 
 /// ∂x/∂X in the plane: rr, rz, zr, zz.
 type Plane = [f64; 4];

@@ -7,7 +7,7 @@
 //! ripple of the mesh. Were the mean penetration taken off everywhere, the stiff cone would miss by 3 %.
 
 use asperity_law::units::{Length, Stress};
-use asperity_solver::curve::Curve;
+use asperity_solver::run::curve::Curve;
 use asperity_solver::scene::{Accuracy, ContactMethod, Scene};
 use asperity_verification::single_asperity::{crush, loaded};
 

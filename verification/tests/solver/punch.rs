@@ -12,10 +12,10 @@
 
 use crate::full_quad::FullQuad;
 use asperity_mesh::{ElementKind, Mesh};
-use asperity_solver::kinematics::Symmetry;
-use asperity_solver::newton::{Settings, solve};
-use asperity_verification::bodies::{nodes_of, punch_block};
-use asperity_verification::drive::{hollomon, model, reaction, travel};
+use asperity_solver::algebra::newton::{Settings, solve};
+use asperity_solver::point::kinematics::Symmetry;
+use asperity_verification::single_increment::{hollomon, model, reaction, travel};
+use asperity_verification::test_meshes::{nodes_of, punch_block};
 use std::f64::consts::PI;
 
 const YIELD: f64 = 1.0 / 2e6;

@@ -3,7 +3,7 @@
 //!
 //! Source: the limits of a mesh that is not renewed. No tolerance.
 
-use asperity_solver::crush::Outcome;
+use asperity_solver::run::crush::Outcome;
 use asperity_solver::scene::Accuracy;
 use asperity_verification::single_asperity::{crush, scene};
 

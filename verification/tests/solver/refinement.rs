@@ -7,11 +7,12 @@
 //! the large-strain terms are 1e-9 of the displacement. Tolerance 0.15 of the order: the second term of the expansion.
 
 use asperity_mesh::{ElementKind, Mesh};
-use asperity_solver::kinematics::Symmetry;
-use asperity_solver::{quad4, quad8};
-use asperity_verification::bodies::{boundary, mapped, straighten};
-use asperity_verification::drive::{ELASTIC, TIGHT, increment, model};
-use asperity_verification::plane_field::displacement;
+use asperity_solver::element::quad4;
+use asperity_solver::element::quad8;
+use asperity_solver::point::kinematics::Symmetry;
+use asperity_verification::manufactured::displacement;
+use asperity_verification::single_increment::{ELASTIC, TIGHT, increment, model};
+use asperity_verification::test_meshes::{boundary, mapped, straighten};
 
 const AMPLITUDE: f64 = 1e-9;
 

@@ -4,10 +4,10 @@
 //! only rounding.
 
 use asperity_mesh::ElementKind;
-use asperity_solver::energy::{dissipated, stored};
-use asperity_solver::kinematics::Symmetry;
-use asperity_verification::bodies::{boundary, distorted_square};
-use asperity_verification::drive::{ELASTIC, TIGHT, hollomon, increment, model, stresses};
+use asperity_solver::body::energy::{dissipated, stored};
+use asperity_solver::point::kinematics::Symmetry;
+use asperity_verification::single_increment::{ELASTIC, TIGHT, hollomon, increment, model, stresses};
+use asperity_verification::test_meshes::{boundary, distorted_square};
 
 #[test]
 fn stress_turns_with_the_body_and_energy_stays() {
@@ -24,7 +24,7 @@ fn stress_turns_with_the_body_and_energy_stays() {
             })
             .unwrap();
             let before = stresses(&model);
-            let energies = |model: &asperity_solver::model::Model<'_>| {
+            let energies = |model: &asperity_solver::body::model::Model<'_>| {
                 let (states, volumes) = (model.states(), model.volumes());
                 [stored(&metal, states, volumes), dissipated(&metal, states, volumes)]
             };

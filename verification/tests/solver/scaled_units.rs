@@ -6,7 +6,7 @@
 //! 1e-10 (steps as prescribed) or 1e-6 (steps that depend on convergence).
 
 use asperity_law::units::{Length, Stress};
-use asperity_solver::record::CurveRow;
+use asperity_solver::run::record::CurveRow;
 use asperity_solver::scene::{Accuracy, Scene};
 use asperity_verification::single_asperity::{crush, scene};
 

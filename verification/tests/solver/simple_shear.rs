@@ -4,11 +4,11 @@
 //! Source: `simple_shear` (Hoger 1987). Tolerance 1e-10: the field is uniform and elastic, whatever the increments.
 
 use asperity_mesh::ElementKind;
-use asperity_solver::energy::stored;
-use asperity_solver::kinematics::Symmetry;
-use asperity_verification::bodies::{boundary, distorted_square};
-use asperity_verification::drive::{ELASTIC, TIGHT, increment, model, stresses};
+use asperity_solver::body::energy::stored;
+use asperity_solver::point::kinematics::Symmetry;
 use asperity_verification::simple_shear::{energy, normal_stress, shear_stress};
+use asperity_verification::single_increment::{ELASTIC, TIGHT, increment, model, stresses};
+use asperity_verification::test_meshes::{boundary, distorted_square};
 
 #[test]
 fn hencky_shear_to_four() {

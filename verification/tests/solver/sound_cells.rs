@@ -7,7 +7,7 @@
 //! both kinds of element. The bound 0.02 of the scaled Jacobian is that of the steepest flanks on the coarsest meshes; an
 //! aspect of 1e6 is that of the narrowest gap between two feet that is drawn, a rounded sum would leave 1e15.
 
-use asperity_solver::problem::prepare;
+use asperity_solver::run::problem::prepare;
 use asperity_solver::scene::{Accuracy, Scene};
 use asperity_verification::random_scenes::{Kind, draw};
 use rayon::prelude::*;

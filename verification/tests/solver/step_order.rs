@@ -5,7 +5,7 @@
 //! three runs, p = log2(|F₂ - F₁|/|F₃ - F₂|); at least 1.5 is asked, because the contact front enters new elements at
 //! increments that differ from run to run, which backward Euler (order 1) would not pass either.
 
-use asperity_solver::curve::Curve;
+use asperity_solver::run::curve::Curve;
 use asperity_solver::scene::Accuracy;
 use asperity_verification::single_asperity::{crush, scene};
 

@@ -5,12 +5,12 @@
 //! carry an error of about 1e-9, more where a point is within a step of yielding or an edge of touching.
 
 use asperity_mesh::ElementKind;
-use asperity_solver::kinematics::Symmetry;
-use asperity_solver::model::{Model, ToolContact};
-use asperity_solver::newton::{Settings, System, solve};
-use asperity_solver::tool::Tool;
-use asperity_verification::bodies::{distorted_square, nodes_of};
-use asperity_verification::drive::{hollomon, model};
+use asperity_solver::algebra::newton::{Settings, System, solve};
+use asperity_solver::body::model::{Model, ToolContact};
+use asperity_solver::contact::tool::Tool;
+use asperity_solver::point::kinematics::Symmetry;
+use asperity_verification::single_increment::{hollomon, model};
+use asperity_verification::test_meshes::{distorted_square, nodes_of};
 
 const STEP: f64 = 1e-6;
 

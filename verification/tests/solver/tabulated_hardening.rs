@@ -9,12 +9,12 @@
 use asperity_law::units::Stress;
 use asperity_law::{Hardening, HardeningLaw, HardeningTable};
 use asperity_mesh::ElementKind;
-use asperity_solver::crush::Outcome;
-use asperity_solver::material::Metal;
-use asperity_solver::record::CurveRow;
+use asperity_solver::point::material::Metal;
+use asperity_solver::run::crush::Outcome;
+use asperity_solver::run::record::CurveRow;
 use asperity_solver::scene::{Accuracy, HardeningChoice, Material, Scene};
-use asperity_verification::drive::{ELASTIC, stretch_bar};
 use asperity_verification::single_asperity::{crush, scene};
+use asperity_verification::single_increment::{ELASTIC, stretch_bar};
 
 const SWIFT: Hardening =
     Hardening { law: HardeningLaw::Swift, yield_stress: 300e6, exponent: 0.3, youngs_modulus: 210e9 };

@@ -7,8 +7,8 @@
 //! each further cycle loses is a seventh of that. Tolerances: 1e-5 is ten times that of Newton's method; 5e-3 of the
 //! returned work is the quadrature of an unloading in six increments.
 
-use asperity_solver::crush::Outcome;
-use asperity_solver::record::Phase;
+use asperity_solver::run::crush::Outcome;
+use asperity_solver::run::record::Phase;
 use asperity_solver::scene::{Accuracy, ContactMethod, Scene, ToolShape};
 use asperity_verification::single_asperity::{crush, scene};
 

@@ -11,13 +11,13 @@
 
 use asperity_law::Elastic;
 use asperity_mesh::{ElementKind, Mesh};
-use asperity_solver::kinematics::Symmetry;
-use asperity_solver::material::Metal;
-use asperity_solver::model::Model;
-use asperity_solver::newton::Settings;
-use asperity_solver::tensor::von_mises;
-use asperity_verification::bodies::{nodes_of, quarter_ring};
-use asperity_verification::drive::{ELASTIC, hollomon, increment, model, reaction, stresses};
+use asperity_solver::algebra::newton::Settings;
+use asperity_solver::body::model::Model;
+use asperity_solver::point::kinematics::Symmetry;
+use asperity_solver::point::material::Metal;
+use asperity_solver::point::tensor::von_mises;
+use asperity_verification::single_increment::{ELASTIC, hollomon, increment, model, reaction, stresses};
+use asperity_verification::test_meshes::{nodes_of, quarter_ring};
 use asperity_verification::thick_wall::{Shape, ThickWall};
 use std::f64::consts::PI;
 

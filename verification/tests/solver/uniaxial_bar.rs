@@ -5,10 +5,10 @@
 
 use asperity_law::HardeningCurve;
 use asperity_mesh::ElementKind;
-use asperity_solver::kinematics::Symmetry;
-use asperity_verification::bar::{hollomon_stress, nominal_stress};
-use asperity_verification::bodies::{mapped, nodes_of};
-use asperity_verification::drive::{TIGHT, hollomon, increment, model, reaction, stresses};
+use asperity_solver::point::kinematics::Symmetry;
+use asperity_verification::single_increment::{TIGHT, hollomon, increment, model, reaction, stresses};
+use asperity_verification::test_meshes::{mapped, nodes_of};
+use asperity_verification::uniaxial::{hollomon_stress, nominal_stress};
 
 #[test]
 fn eq_1_from_0_002_to_1() {

@@ -1,0 +1,52 @@
+//! The lower outline of a tool as a row of straight facets.
+
+use asperity_solver::contact::tool::Tool;
+
+/// Facets over a round part.
+const FACETS: usize = 48;
+/// Largest share of the radius of a sphere that is drawn: beyond, facets would stand upright.
+const ROUND: f64 = 0.95;
+
+/// Points of the outline from left to right between the two `ends`, height 0 at the lowest point. Whatever is round
+/// becomes [`FACETS`] facets between its points, outside it by at most (Δx)²/8R.
+pub fn outline(tool: &Tool, ends: [f64; 2]) -> Vec<[f64; 2]> {
+    let [low, high] = ends;
+    let Some(mirrored) = tool.mirrored() else { return vec![[low, 0.0], [high, 0.0]] };
+    let (round, last) = match *tool {
+        Tool::Sphere { radius } => (high.min(ROUND * radius), high.min(ROUND * radius)),
+        Tool::Plane | Tool::Cone { .. } => (mirrored.cap_radius().min(high), high),
+    };
+    let mut right: Vec<f64> = Vec::new();
+    if round > 0.0 {
+        right.extend((1..=FACETS).map(|i| round * i as f64 / FACETS as f64));
+    }
+    if last > round {
+        right.push(last);
+    }
+    let mut xs: Vec<f64> = if low < 0.0 { right.iter().rev().map(|x| -x).collect() } else { Vec::new() };
+    xs.push(low.max(0.0));
+    xs.extend(right.into_iter().filter(|x| *x > low));
+    xs.into_iter().map(|x| [x, mirrored.drop(x)]).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn facets_follow_the_tool() {
+        let plane = outline(&Tool::Plane, [0.1, 2.0]);
+        assert_eq!(plane, [[0.1, 0.0], [2.0, 0.0]]);
+        let cone = outline(&Tool::Cone { tan_slope: 0.5, tip_radius: 0.0 }, [0.0, 2.0]);
+        assert_eq!(cone, [[0.0, 0.0], [2.0, 1.0]]);
+        let wedge = outline(&Tool::Cone { tan_slope: 0.5, tip_radius: 0.0 }, [-2.5, 2.0]);
+        assert_eq!(wedge, [[-2.0, 1.0], [0.0, 0.0], [2.0, 1.0]]);
+        for tool in [Tool::Sphere { radius: 3.0 }, Tool::Cone { tan_slope: 0.5, tip_radius: 1.0 }] {
+            let points = outline(&tool, [1e-3, 2.0]);
+            assert!(points.windows(2).all(|w| w[0][0] < w[1][0]) && points[points.len() - 1][0] == 2.0);
+            for [x, z] in points {
+                assert!(tool.penetration([x, z], 0.0).depth.abs() < 1e-12, "{tool:?} {x} {z}");
+            }
+        }
+    }
+}

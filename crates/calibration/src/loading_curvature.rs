@@ -1,0 +1,87 @@
+//! Kick's law of a cone, F = K h²: its constant, its contact radius and their error from a loading curve.
+
+use crate::case::Case;
+use crate::cone::{CaseError, Curve, Point, crush};
+use crate::resolution::{FIT_FROM, Resolution};
+
+/// What a case gives.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LoadingCurvature {
+    /// K/E = F/(E h²), from the slope of √F against h over whole periods of the mesh.
+    pub k_over_e: f64,
+    /// Relative 95 % bound of K.
+    pub error: f64,
+    /// a tan β/h, from the slope of the contact radius against h over the same periods.
+    pub contact_ratio: f64,
+    /// Converged increments.
+    pub increments: usize,
+    /// Newton iterations.
+    pub iterations: usize,
+}
+
+/// Exponents farther from 2 than this are no sharp cone: something other than the depth gave a length.
+const EXPONENT_TOLERANCE: f64 = 0.06;
+
+/// Solves `case` and fits it.
+///
+/// # Errors
+/// No equilibrium, or a force that is no parabola of the depth.
+pub fn solve(case: &Case, resolution: &Resolution) -> Result<LoadingCurvature, CaseError> {
+    let curve = crush(case, resolution)?;
+    let window = whole_periods(&curve);
+    let root: Vec<[f64; 2]> = window.iter().map(|p| [p.depth, p.force.max(0.0).sqrt()]).collect();
+    let radius: Vec<[f64; 2]> = window.iter().map(|p| [p.depth, p.radius]).collect();
+    let line = Line::through(&root);
+    let exponent = {
+        let logs: Vec<[f64; 2]> = window.iter().map(|p| [p.depth.ln(), p.force.max(0.0).ln()]).collect();
+        Line::through(&logs).slope
+    };
+    // a rounded summit shifts h, which the slope of √F does not notice and the exponent does
+    let sharp = resolution.rounding == 0.0;
+    if exponent.is_nan() || sharp && (exponent - 2.0).abs() > EXPONENT_TOLERANCE {
+        return Err(CaseError::NotSimilar(exponent));
+    }
+    let ripple = 2.0 * 2.0 * line.slope_error / line.slope; // K is the square; two standard deviations
+    Ok(LoadingCurvature {
+        k_over_e: line.slope * line.slope,
+        error: resolution.bias_of(case).hypot(ripple),
+        contact_ratio: Line::through(&radius).slope * case.tan_beta(),
+        increments: curve.increments,
+        iterations: curve.iterations,
+    })
+}
+
+/// The last points of the curve, over which the contact radius has grown by a whole number of elements: the force
+/// ripples with that period, and half a period too much tilts the line.
+fn whole_periods(curve: &Curve) -> &[Point] {
+    let points = &curve.points;
+    let end = points.last().map_or(0.0, |p| p.radius);
+    let off = |i: &usize| {
+        let periods = (end - points[*i].radius) / curve.element;
+        (periods - periods.round()).abs()
+    };
+    let first = points.iter().position(|p| p.depth >= 0.95 * FIT_FROM).unwrap_or(0);
+    let candidates = first..(first + 4).min(points.len());
+    let start = candidates.min_by(|i, j| off(i).total_cmp(&off(j))).unwrap_or(first);
+    &points[start..]
+}
+
+/// A least-squares line.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Line {
+    slope: f64,
+    /// Standard error of the slope.
+    slope_error: f64,
+}
+
+impl Line {
+    fn through(points: &[[f64; 2]]) -> Line {
+        let n = points.len() as f64;
+        let mean = |k: usize| points.iter().map(|p| p[k]).sum::<f64>() / n;
+        let (x, y) = (mean(0), mean(1));
+        let sxx: f64 = points.iter().map(|p| (p[0] - x).powi(2)).sum();
+        let slope = points.iter().map(|p| (p[0] - x) * (p[1] - y)).sum::<f64>() / sxx;
+        let rest: f64 = points.iter().map(|p| (p[1] - y - slope * (p[0] - x)).powi(2)).sum();
+        Line { slope, slope_error: (rest / (n - 2.0) / sxx).sqrt() }
+    }
+}

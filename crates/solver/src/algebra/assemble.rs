@@ -1,0 +1,103 @@
+//! The pattern of the stiffness matrix (lower triangle, compressed columns) and where each element's entries go.
+
+use crate::algebra::dofs::{Dofs, FIXED};
+use sprs::{CsMat, TriMat};
+
+/// No place: the row or column is held, or the entry is above the diagonal.
+const NOWHERE: u32 = u32::MAX;
+
+/// A symmetric sparse matrix with the places of all element entries.
+#[derive(Clone, Debug)]
+pub struct Stiffness {
+    /// Lower triangle in compressed columns.
+    pub matrix: CsMat<f64>,
+    /// For each element, the value index of entry (2a + i, 2b + j) at `[(2b + j)·2N + 2a + i]`.
+    places: Vec<u32>,
+    /// 2N.
+    size: usize,
+}
+
+/// Numbers of the components of a cell, node by node.
+fn numbers_of(cell: &[u32], dofs: &Dofs) -> Vec<u32> {
+    cell.iter().flat_map(|&node| dofs.number[node as usize]).collect()
+}
+
+/// The lower triangle of a matrix of zeros where elements of `nodes_per_cell` nodes couple unknowns.
+fn pattern(cells: &[u32], nodes_per_cell: usize, dofs: &Dofs) -> CsMat<f64> {
+    let mut pattern = TriMat::new((dofs.count, dofs.count));
+    for cell in cells.chunks_exact(nodes_per_cell) {
+        let numbers = numbers_of(cell, dofs);
+        for &col in &numbers {
+            for &row in &numbers {
+                if row != FIXED && col != FIXED && row >= col {
+                    pattern.add_triplet(row as usize, col as usize, 0.0);
+                }
+            }
+        }
+    }
+    pattern.to_csc()
+}
+
+impl Stiffness {
+    /// Analyses elements of `nodes_per_cell` nodes.
+    pub fn new(cells: &[u32], nodes_per_cell: usize, dofs: &Dofs) -> Stiffness {
+        let size = 2 * nodes_per_cell;
+        let matrix = pattern(cells, nodes_per_cell, dofs);
+        let mut places = Vec::with_capacity(cells.len() * size * 2);
+        for cell in cells.chunks_exact(nodes_per_cell) {
+            let numbers = numbers_of(cell, dofs);
+            for &col in &numbers {
+                for &row in &numbers {
+                    let place = if row != FIXED && col != FIXED && row >= col {
+                        matrix.nnz_index(row as usize, col as usize).map_or(NOWHERE, |i| i.0 as u32)
+                    } else {
+                        NOWHERE
+                    };
+                    places.push(place);
+                }
+            }
+        }
+        Stiffness { matrix, places, size }
+    }
+
+    /// Adds to every diagonal entry `share` of its size.
+    pub fn stiffen(&mut self, share: f64) {
+        for mut column in self.matrix.outer_iterator_mut() {
+            // the diagonal is the first entry of each column of a lower triangle
+            if let Some((_, diagonal)) = column.iter_mut().next() {
+                *diagonal += share * diagonal.abs();
+            }
+        }
+    }
+
+    /// Sets all values to zero.
+    pub fn clear(&mut self) {
+        self.matrix.data_mut().fill(0.0);
+    }
+
+    /// Adds the entries of element `cell`.
+    pub fn add(&mut self, cell: usize, stiffness: &[[[f64; 8]; 2]; 16]) {
+        let (size, length) = (self.size, self.size * self.size);
+        let places = &self.places[cell * length..(cell + 1) * length];
+        let values = self.matrix.data_mut();
+        for (column, places) in stiffness.iter().zip(places.chunks_exact(size)) {
+            for (a, pair) in places.chunks_exact(2).enumerate() {
+                for i in 0..2 {
+                    if pair[i] != NOWHERE {
+                        values[pair[i] as usize] += column[i][a];
+                    }
+                }
+            }
+        }
+    }
+
+    /// Adds `value` at (row, col) of two components in the same element; entries above the diagonal are skipped.
+    pub fn add_entry(&mut self, row: u32, col: u32, value: f64) {
+        if row == FIXED || col == FIXED || row < col {
+            return;
+        }
+        if let Some(place) = self.matrix.nnz_index(row as usize, col as usize) {
+            self.matrix.data_mut()[place.0] += value;
+        }
+    }
+}

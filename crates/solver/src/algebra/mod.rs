@@ -1,0 +1,15 @@
+//! The system of equations: numbering, assembly, order of elimination, factors, secants, Newton-Raphson.
+
+pub mod dofs;
+
+pub mod assemble;
+
+pub mod fill_ordering;
+
+pub mod cholesky;
+
+pub mod lbfgs;
+
+pub mod newton;
+
+pub mod roofline;

@@ -1,0 +1,141 @@
+//! Fields at the nodes of a converged state, and the line along the free surface.
+
+use crate::body::model::Model;
+use crate::contact::edge::NOTHING;
+use crate::element::kernel::POINTS;
+use crate::point::material::{hydrostatic, stress, volume_ratio};
+use crate::point::tensor::{Sym, von_mises};
+
+/// Fields of one increment. Dimensionless as the model's, or in SI once scaled.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fields {
+    /// Displacement (r, z) of the nodes.
+    pub displacement: Vec<[f64; 2]>,
+    /// Cauchy stress at the nodes: rr, zz, θθ, rz.
+    pub stress: Vec<Sym>,
+    /// Von Mises stress at the nodes.
+    pub von_mises: Vec<f64>,
+    /// Accumulated plastic strain at the nodes.
+    pub plastic_strain: Vec<f64>,
+    /// Hydrostatic pressure at the nodes, positive in compression.
+    pub pressure: Vec<f64>,
+    /// Contact pressure at the nodes, 0 off the contact.
+    pub contact_pressure: Vec<f64>,
+    /// Of each cell: 0 never yielded, 1 has yielded, 2 flows in this increment.
+    pub plastic_zone: Vec<f64>,
+    /// The free surface from the axis outward.
+    pub surface: Vec<SurfacePoint>,
+}
+
+/// A node of the free surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SurfacePoint {
+    /// Current position (r, z).
+    pub position: [f64; 2],
+    /// Displacement (r, z).
+    pub displacement: [f64; 2],
+    /// Contact pressure (current area).
+    pub pressure: f64,
+    /// Whether the metal there has yielded.
+    pub yielded: bool,
+}
+
+/// Point values are extrapolated linearly to the corners of their element and averaged by volume over the elements
+/// that share a node; mid-side nodes take the mean of their corners.
+pub fn fields(model: &Model<'_>) -> Fields {
+    let mesh = model.mesh();
+    let nodes = mesh.nodes.len();
+    let mut sums = vec![[0.0; 5]; nodes]; // Cauchy stress and plastic strain
+    let mut weights = vec![0.0; nodes];
+    let mut plastic_zone = Vec::with_capacity(mesh.cell_count());
+    let elastic = &model.metal().elastic;
+    // corner value from the points: √3 times their bilinear coordinates
+    let root = 3.0_f64.sqrt();
+    let (near, side, far) = (0.25 * (1.0 + root).powi(2), 0.25 * (1.0 - 3.0), 0.25 * (1.0 - root).powi(2));
+    for cell in 0..mesh.cell_count() {
+        let states = &model.states()[cell * POINTS..(cell + 1) * POINTS];
+        let yielded = states.iter().any(|s| s.plastic_strain > 0.0);
+        plastic_zone.push(if model.flows(cell) { 2.0 } else { f64::from(u8::from(yielded)) });
+        let values: [[f64; 5]; POINTS] = std::array::from_fn(|q| {
+            let j = volume_ratio(&states[q].stretch);
+            let [rr, zz, tt, rz] = stress(elastic, &states[q].stretch).map(|t| t / j);
+            [rr, zz, tt, rz, states[q].plastic_strain]
+        });
+        let volume: f64 = model.volumes()[cell * POINTS..(cell + 1) * POINTS].iter().sum();
+        for (corner, &node) in mesh.cell(cell)[..4].iter().enumerate() {
+            let coefficient = [near, side, far, side];
+            for (step, c) in coefficient.into_iter().enumerate() {
+                for (sum, value) in sums[node as usize].iter_mut().zip(values[(corner + step) % 4]) {
+                    *sum += volume * c * value;
+                }
+            }
+            weights[node as usize] += volume;
+        }
+    }
+    for (sum, weight) in sums.iter_mut().zip(&weights) {
+        if *weight > 0.0 {
+            *sum = sum.map(|s| s / weight);
+        }
+    }
+    for cell in 0..mesh.cell_count() {
+        let cell = mesh.cell(cell);
+        for (k, &middle) in cell.iter().skip(4).enumerate() {
+            let (a, b) = (cell[k] as usize, cell[(k + 1) % 4] as usize);
+            sums[middle as usize] = std::array::from_fn(|i| 0.5 * (sums[a][i] + sums[b][i]));
+        }
+    }
+    let contact_pressure = contact_pressure(model);
+    let displacement: Vec<[f64; 2]> = model
+        .positions()
+        .iter()
+        .zip(&mesh.nodes)
+        .map(|(x, reference)| [x[0] - reference[0], x[1] - reference[1]])
+        .collect();
+    let stress: Vec<Sym> = sums.iter().map(|s| [s[0], s[1], s[2], s[3]]).collect();
+    let plastic_strain: Vec<f64> = sums.iter().map(|s| s[4].max(0.0)).collect();
+    let mut surface: Vec<SurfacePoint> = Vec::new();
+    for &edge in &mesh.sides.surface {
+        // the edge runs counterclockwise around the body: from its outer to its inner corner
+        let (corners, middle) = mesh.edge_nodes(edge);
+        let mut along = vec![corners[1]];
+        along.extend(middle);
+        along.push(corners[0]);
+        for node in along {
+            let i = node as usize;
+            let point = SurfacePoint {
+                position: model.positions()[i],
+                displacement: displacement[i],
+                pressure: contact_pressure[i],
+                yielded: plastic_strain[i] > 0.0,
+            };
+            if surface.last() != Some(&point) {
+                surface.push(point);
+            }
+        }
+    }
+    Fields {
+        von_mises: stress.iter().map(von_mises).collect(),
+        pressure: stress.iter().map(|s| -hydrostatic(s)).collect(),
+        displacement,
+        stress,
+        plastic_strain,
+        contact_pressure,
+        plastic_zone,
+        surface,
+    }
+}
+
+/// Current pressure at the surface nodes: penalty times penetration, per current area.
+fn contact_pressure(model: &Model<'_>) -> Vec<f64> {
+    let mut pressure = vec![0.0; model.mesh().nodes.len()];
+    for (edge, contact) in model.edges().iter().zip(model.contacts()) {
+        if contact.parts == NOTHING {
+            continue;
+        }
+        let x = edge.nodes.map(|node| model.positions()[node as usize]);
+        for (node, xi) in edge.nodes.into_iter().zip([-1.0, 1.0, 0.0]).take(edge.node_count()) {
+            pressure[node as usize] = model.nodal_pressure(edge, &x, node, xi).max(0.0);
+        }
+    }
+    pressure
+}

@@ -1,0 +1,207 @@
+//! Where fluid may leak: gaps between contacts, and metal that never yielded among the asperities.
+
+use crate::body::model::Model;
+use crate::contact::edge::NOTHING;
+use crate::element::kernel::POINTS;
+use crate::point::kinematics::Symmetry;
+use crate::point::material::{hydrostatic, stress, volume_ratio};
+use crate::point::tensor::von_mises;
+use asperity_mesh::Mesh;
+use std::collections::{HashMap, HashSet};
+
+/// An untouched stretch of surface between two contacts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Gap {
+    /// Where the contact before it ends.
+    pub left: f64,
+    /// Where the contact after it begins.
+    pub right: f64,
+    /// Largest distance from the tool in between.
+    pub height: f64,
+}
+
+/// A connected region of metal that never yielded, enclosed by metal that did or standing above the substrate.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Island {
+    /// Centroid (r, z) of its section before the crush.
+    pub place: [f64; 2],
+    /// Area of its section before the crush.
+    pub area: f64,
+    /// Volume-weighted mean hydrostatic pressure, positive in compression.
+    pub mean_pressure: f64,
+    /// Volume-weighted mean von Mises stress: far below the pressure where the metal is kept elastic by confinement.
+    pub mean_von_mises: f64,
+    /// Whether it hangs together with the elastic bulk of the substrate.
+    pub reaches_substrate: bool,
+    /// Whether it holds a part of the free surface.
+    pub reaches_surface: bool,
+}
+
+/// The gaps between contacts at the iterate, from the axis (left side) outward.
+pub fn gaps(model: &Model<'_>) -> Vec<Gap> {
+    let mut gaps = Vec::new();
+    let mut open: Option<Gap> = None; // since the last contact
+    for (edge, contact) in model.edges().iter().zip(model.contacts()) {
+        let x = edge.nodes.map(|node| model.current_position(node));
+        // surface edges run inward: their second corner is the inner one
+        let heights = x.map(|x| -model.penetration_of(x));
+        if contact.parts == NOTHING {
+            if let Some(gap) = &mut open {
+                gap.height = heights.into_iter().fold(gap.height, f64::max);
+            }
+            continue;
+        }
+        if let Some(gap) = open.take() {
+            let right = contact.reach[0];
+            // two touching edges that share a node leave no gap
+            let height = gap.height.max(heights[1]);
+            if right - gap.left > 1e-9 * right.abs().max(gap.left.abs()) && height > 0.0 {
+                gaps.push(Gap { right, height, ..gap });
+            }
+        }
+        if let [Some([_, first_end]), Some([second_start, _])] = contact.parts {
+            // both ends of a quadratic edge touch, its middle does not
+            let (right, left) = (edge.point(&x, first_end)[0], edge.point(&x, second_start)[0]);
+            let height = -model.penetration_of(edge.point(&x, 0.5 * (first_end + second_start)));
+            gaps.push(Gap { left: left.min(right), right: left.max(right), height });
+        }
+        open = Some(Gap { left: contact.reach[1], right: f64::NAN, height: heights[0].max(0.0) });
+    }
+    gaps
+}
+
+/// Regions of cells without plastic strain whose centroid lies within `extent` along r before the crush: those enclosed by
+/// yielded metal at any depth, and of the elastic bulk what lay above `floor`. Cells hang together through common edges.
+pub fn islands(model: &Model<'_>, floor: f64, extent: [f64; 2]) -> Vec<Island> {
+    let mesh = model.mesh();
+    let cells = 0..mesh.cell_count();
+    let neighbours = neighbours(mesh);
+    let elastic: Vec<bool> = cells
+        .clone()
+        .map(|cell| {
+            model.states()[cell * POINTS..(cell + 1) * POINTS].iter().all(|s| s.plastic_strain == 0.0)
+        })
+        .collect();
+    let on_base: HashSet<u32> = mesh.sides.base.iter().map(|e| e.cell).collect();
+    let within = |r: f64| r > extent[0] && r < extent[1];
+    let mut bulk = vec![false; mesh.cell_count()];
+    let mut islands = Vec::new();
+    for region in regions(&neighbours, &elastic) {
+        if region.iter().any(|cell| on_base.contains(&(*cell as u32))) {
+            region.iter().for_each(|cell| bulk[*cell] = true);
+        } else {
+            islands.push(describe(model, &region, false));
+        }
+    }
+    let standing: Vec<bool> = cells
+        .map(|cell| {
+            let [r, z] = centre(mesh, cell);
+            bulk[cell] && z > floor && within(r)
+        })
+        .collect();
+    islands.extend(regions(&neighbours, &standing).iter().map(|region| describe(model, region, true)));
+    islands.retain(|island| within(island.place[0]));
+    islands
+}
+
+/// Cells that share an edge with each cell.
+fn neighbours(mesh: &Mesh) -> Vec<Vec<usize>> {
+    let mut sharing: HashMap<(u32, u32), usize> = HashMap::new();
+    let mut neighbours = vec![Vec::new(); mesh.cell_count()];
+    for cell in 0..mesh.cell_count() {
+        let corners = mesh.cell(cell);
+        for k in 0..4 {
+            let (a, b) = (corners[k], corners[(k + 1) % 4]);
+            if let Some(other) = sharing.insert((a.min(b), a.max(b)), cell) {
+                neighbours[cell].push(other);
+                neighbours[other].push(cell);
+            }
+        }
+    }
+    neighbours
+}
+
+/// Connected regions of the cells that are `inside`.
+fn regions(neighbours: &[Vec<usize>], inside: &[bool]) -> Vec<Vec<usize>> {
+    let mut seen = vec![false; inside.len()];
+    let mut regions = Vec::new();
+    for seed in 0..inside.len() {
+        if seen[seed] || !inside[seed] {
+            continue;
+        }
+        let mut region = vec![seed];
+        seen[seed] = true;
+        let mut next = 0;
+        while next < region.len() {
+            for &cell in &neighbours[region[next]] {
+                if inside[cell] && !seen[cell] {
+                    seen[cell] = true;
+                    region.push(cell);
+                }
+            }
+            next += 1;
+        }
+        regions.push(region);
+    }
+    regions
+}
+
+/// Place, size and mean stress of a region.
+fn describe(model: &Model<'_>, region: &[usize], reaches_substrate: bool) -> Island {
+    let mesh = model.mesh();
+    let on_surface: HashSet<u32> = mesh.sides.surface.iter().map(|e| e.cell).collect();
+    let mut island = Island {
+        place: [0.0; 2],
+        area: 0.0,
+        mean_pressure: 0.0,
+        mean_von_mises: 0.0,
+        reaches_substrate,
+        reaches_surface: region.iter().any(|cell| on_surface.contains(&(*cell as u32))),
+    };
+    let mut volume = 0.0;
+    for &cell in region {
+        let ([r, z], corners) = (centre(mesh, cell), mesh.cell(cell));
+        let area = section_area(corners[..4].iter().map(|&n| mesh.nodes[n as usize]));
+        island.area += area;
+        island.place[0] += area * r;
+        island.place[1] += area * z;
+        for q in cell * POINTS..(cell + 1) * POINTS {
+            let state = &model.states()[q];
+            let tau = stress(&model.metal().elastic, &state.stretch);
+            let weight = model.volumes()[q];
+            let ratio = volume_ratio(&state.stretch);
+            island.mean_pressure -= weight * hydrostatic(&tau) / ratio;
+            island.mean_von_mises += weight * von_mises(&tau) / ratio;
+            volume += weight;
+        }
+    }
+    island.place = island.place.map(|x| x / island.area);
+    island.mean_pressure /= volume;
+    island.mean_von_mises /= volume;
+    island
+}
+
+/// Mean of the corners of a cell before the crush.
+fn centre(mesh: &Mesh, cell: usize) -> [f64; 2] {
+    let corners = &mesh.cell(cell)[..4];
+    [0, 1].map(|i| corners.iter().map(|&n| mesh.nodes[n as usize][i]).sum::<f64>() / 4.0)
+}
+
+/// Area of a polygon.
+fn section_area(corners: impl Iterator<Item = [f64; 2]>) -> f64 {
+    let corners: Vec<[f64; 2]> = corners.collect();
+    (0..corners.len())
+        .map(|i| {
+            let (p, q) = (corners[i], corners[(i + 1) % corners.len()]);
+            0.5 * (p[0] * q[1] - q[0] * p[1])
+        })
+        .sum()
+}
+
+/// Extent along r in which islands are searched: the asperities, from the axis or from the left foot.
+pub fn extent(symmetry: Symmetry, feet: [f64; 2]) -> [f64; 2] {
+    match symmetry {
+        Symmetry::Axisymmetric => [0.0, feet[1]],
+        Symmetry::PlaneStrain => feet,
+    }
+}

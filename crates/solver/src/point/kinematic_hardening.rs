@@ -1,0 +1,209 @@
+//! The stress update with kinematic hardening: the yield surface moves, and grows by what does not move it.
+//!
+//! Written in the space of Lagrangian logarithmic strains (see `log_space`), in which plastic strain E_p and back stress
+//! α are symmetric deviators of the undeformed configuration: no rotation has to be carried along, and the tangent is the
+//! second derivative of an incremental energy. (A back stress of Kirchhoff's kind, turned with each increment, has no
+//! such energy: its tangent is not symmetric.)
+//!   T = K tr E + 2G dev(E - E_p),   ξ = dev T - α,   √(3/2)|ξ| ≤ r,   ΔE_p = √(3/2) Δε_p N,   N = ξ/|ξ|.
+//! The rule of Prager and Ziegler, Δα ∥ N, with its modulus from the curve of hardening: a share m of what the curve rises by
+//! moves the surface, √(3/2)|Δα| = m [σ(ε_p + Δε_p) - σ(ε_p)], and the rest makes it grow, r = σ(ε_p) - m [σ(ε_p) - σ_y].
+//! Along a straight path α keeps pace with the curve, so that monotone tension is that of isotropic hardening, exactly
+//! and in steps of any size. Backward Euler: N at the end is that of the trial state, and
+//!   q - 3G Δε_p - m [σ(ε_p + Δε_p) - σ(ε_p)] = r(ε_p + Δε_p),   q = √(3/2)|ξ_trial|,
+//! is the return of isotropic hardening from q + m [σ(ε_p) - σ_y], whatever m. The moduli are those of small strains, symmetric:
+//!   ∂T/∂E = K 1⊗1 + 2G (1 - β)(I - ⅓1⊗1) - 2G (3G/(3G + H) - β) N⊗N,   β = 3G Δε_p/q.
+//! After a reversal the modulus goes on falling with ε_p: the curve says nothing of cycles. Where the back stress exceeds
+//! r, metal flows back before its load is gone: with m = 1 from σ = 2σ_y on, with m ≤ ½ never.
+//!
+//! Coaxial paths are those of `j2` (with n = 0 the same metal). Where principal directions turn in the metal, additive
+//! strains differ from b_e: simple shear, see `verification`. The second order in the load step is that of `history`, in
+//! a frame that does not turn. The plastic work is T : ΔE_p, of which ∫α : dE_p is stored in the metal and the rest heat.
+
+use crate::point::bdf2::{Flowed, exponential_minus_identity};
+use crate::point::j2::{PointUpdate, Tangent};
+use crate::point::log_space::{LogStrain, compose};
+use crate::point::material::{Metal, PointState, Spectral};
+use crate::point::tensor::{Gradient, Sym, contract, trace};
+use asperity_law::{Elastic, Flow, HardeningCurve};
+
+/// What a point remembers beside its [`PointState`], all in the undeformed configuration.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Memory {
+    /// F - I.
+    pub deformation: Gradient,
+    /// Plastic logarithmic strain E_p.
+    pub plastic: Sym,
+    /// Back stress α.
+    pub back: Sym,
+    /// Plastic work per reference volume.
+    pub plastic_work: f64,
+}
+
+/// √(3/2).
+fn root() -> f64 {
+    1.5_f64.sqrt()
+}
+
+/// Updates a point by f - I = `increment`. Its state holds the b_e whose Hencky stress is the stress of the point.
+/// `None` if C is not positive definite.
+pub fn update(
+    metal: &Metal,
+    old: &PointState,
+    memory: &Memory,
+    increment: &Gradient,
+    tangent: Tangent,
+) -> Option<(PointUpdate, Memory)> {
+    let deformation = compose(increment, &memory.deformation);
+    let strain = LogStrain::of(&deformation)?;
+    let (g, k) = (metal.elastic.shear_modulus(), metal.elastic.bulk_modulus());
+    let [e1, e2, e3] = strain.principal;
+    let volume = e1 + e2 + e3;
+    let (plastic, back) = (strain.into_frame(&memory.plastic), strain.into_frame(&memory.back));
+    let total = [e1 - volume / 3.0, e2 - volume / 3.0, e3 - volume / 3.0, 0.0];
+    let trial: Sym = std::array::from_fn(|i| 2.0 * g * (total[i] - plastic[i]));
+    let xi: Sym = std::array::from_fn(|i| trial[i] - back[i]);
+    let norm = contract(&xi, &xi).sqrt();
+    let q = root() * norm;
+    // how far √(3/2)|α| has come along a straight path, and r = σ - moved
+    let moved = |h: &HardeningCurve| metal.kinematic_share * (old.yield_stress - h.yield_stress());
+    let flowing =
+        metal.hardening.as_ref().filter(|h| q > old.yield_stress - moved(h) && tangent != Tangent::Elastic);
+    let n: Sym = if norm > 0.0 { xi.map(|x| x / norm) } else { [0.0; 4] };
+    let mut end = Memory { deformation, ..*memory };
+    let (flow, left, drop) = match flowing {
+        None => (None, 1.0, 0.0),
+        Some(curve) => {
+            let flow = curve.return_to_yield(q + moved(curve), 3.0 * g, old.plastic_strain);
+            let length = (flow.plastic_strain - old.plastic_strain).max(0.0);
+            let growth = metal.kinematic_share * (flow.yield_stress - old.yield_stress).max(0.0);
+            let direction = strain.out_of_frame(&n);
+            end.plastic = std::array::from_fn(|i| memory.plastic[i] + root() * length * direction[i]);
+            end.back = std::array::from_fn(|i| memory.back[i] + growth / root() * direction[i]);
+            let beta = 3.0 * g * length / q;
+            (Some((flow, length)), 1.0 - beta, 2.0 * g * (3.0 * g / (3.0 * g + flow.slope) - beta))
+        }
+    };
+    let length = flow.map_or(0.0, |(_, length)| length);
+    let pressure = k * volume;
+    let mut t: Sym = std::array::from_fn(|i| trial[i] - 2.0 * g * root() * length * n[i]);
+    t[..3].iter_mut().for_each(|t| *t += pressure);
+    let stress = strain.to_current(&strain.kirchhoff(&t));
+    let state = PointState {
+        stretch: hencky_stretch(&metal.elastic, &stress),
+        plastic_strain: old.plastic_strain + length,
+        yield_stress: flow.map_or(old.yield_stress, |(flow, _)| flow.yield_stress),
+    };
+    let form = if tangent == Tangent::None {
+        [[0.0; 5]; 5]
+    } else {
+        let geometric = match tangent {
+            Tangent::WithoutCompression => tensile_part(&stress),
+            _ => stress,
+        };
+        strain.tangent(&t, [k, 2.0 * g * left, drop], &n, &geometric)
+    };
+    Some((PointUpdate { state, stress, plastic: flow.is_some(), tangent: form }, end))
+}
+
+/// b_e - I of the elastic body that bears `stress`: exp(2ε) - I with ε = dev τ/2G + tr τ/9K.
+fn hencky_stretch(elastic: &Elastic, stress: &Sym) -> Sym {
+    let mean = trace(stress) / 3.0;
+    let (shear, volume) = (1.0 / elastic.shear_modulus(), 2.0 * mean / (3.0 * elastic.bulk_modulus()));
+    exponential_minus_identity(&[
+        (stress[0] - mean) * shear + volume,
+        (stress[1] - mean) * shear + volume,
+        (stress[2] - mean) * shear + volume,
+        stress[3] * shear,
+    ])
+}
+
+/// The tensor without its negative principal values.
+fn tensile_part(a: &Sym) -> Sym {
+    let (mean, half) = (0.5 * (a[0] + a[1]), 0.5 * (a[0] - a[1]));
+    let radius = half.hypot(a[3]);
+    let double_angle = if radius > 0.0 { [half / radius, a[3] / radius] } else { [1.0, 0.0] };
+    let frame = Spectral { log_strain: [0.0; 3], double_angle, shear_factor: 1.0 };
+    frame.tensor(&[mean + radius, mean - radius, a[2]].map(|t| t.max(0.0)))
+}
+
+/// The state an increment starts from: the last flow carried on by `factor` (see `history`), the back stress along with it.
+pub fn carry_on(
+    metal: &Metal,
+    old: &PointState,
+    memory: &Memory,
+    flowed: &Flowed,
+    factor: f64,
+) -> (PointState, Memory) {
+    match metal.hardening.as_ref().filter(|_| factor > 0.0 && flowed.accumulated > 0.0) {
+        None => (*old, *memory),
+        Some(curve) => {
+            let carried = Flowed {
+                strain: flowed.strain.map(|e| factor * e),
+                accumulated: factor * flowed.accumulated,
+            };
+            flow_on(metal, curve, old, memory, &carried)
+        }
+    }
+}
+
+/// The states after the flow `flowed`, its direction constant.
+fn flow_on(
+    metal: &Metal,
+    curve: &HardeningCurve,
+    old: &PointState,
+    memory: &Memory,
+    flowed: &Flowed,
+) -> (PointState, Memory) {
+    let plastic_strain = old.plastic_strain + flowed.accumulated;
+    let yield_stress = curve.flow(plastic_strain).yield_stress;
+    // √(2/3) m (σ - σ_old) N with N = √(2/3) ΔE_p/Δε_p
+    let modulus = metal.kinematic_share * 2.0 / 3.0 * (yield_stress - old.yield_stress) / flowed.accumulated;
+    let memory = Memory {
+        plastic: std::array::from_fn(|i| memory.plastic[i] + flowed.strain[i]),
+        back: std::array::from_fn(|i| memory.back[i] + modulus * flowed.strain[i]),
+        ..*memory
+    };
+    (PointState { plastic_strain, yield_stress, ..*old }, memory)
+}
+
+/// Completes a converged increment from `old` to `new`: accumulated strain, back stress and work of its flow as a whole,
+/// which the two pieces of `history` would count twice where the flow turns. Returns that flow.
+pub fn settle(
+    metal: &Metal,
+    (old, before): (&PointState, &Memory),
+    (new, after): (&mut PointState, &mut Memory),
+) -> Flowed {
+    let strain: Sym = std::array::from_fn(|i| after.plastic[i] - before.plastic[i]);
+    let accumulated = contract(&strain, &strain).sqrt() / root();
+    let flowed = Flowed { strain, accumulated };
+    let Some(curve) = metal.hardening.as_ref().filter(|_| accumulated > 0.0) else { return flowed };
+    let (state, memory) = flow_on(metal, curve, old, before, &flowed);
+    // T : dE_p along the flow, where T : N = √(2/3) {√(3/2) α_old : N + m [σ(ε_p) - σ_old] + r(ε_p)}
+    let work = |state: &PointState| {
+        curve.plastic_work(&Flow {
+            plastic_strain: state.plastic_strain,
+            yield_stress: state.yield_stress,
+            slope: 0.0,
+        })
+    };
+    let surface = metal.kinematic_share * (curve.yield_stress() - old.yield_stress);
+    after.plastic_work = before.plastic_work
+        + contract(&before.back, &strain)
+        + surface * accumulated
+        + (work(&state) - work(old));
+    (new.plastic_strain, new.yield_stress, after.back) =
+        (state.plastic_strain, state.yield_stress, memory.back);
+    flowed
+}
+
+/// Elastic energy per reference volume, ½K(tr E)² + G|dev(E - E_p)|²; NaN where C is not positive definite.
+pub fn elastic_energy(elastic: &Elastic, memory: &Memory) -> f64 {
+    let Some(strain) = LogStrain::of(&memory.deformation) else { return f64::NAN };
+    let plastic = strain.into_frame(&memory.plastic);
+    let volume: f64 = strain.principal.iter().sum();
+    let mut dev: Sym = plastic.map(|e| -e);
+    for (dev, e) in dev.iter_mut().zip(strain.principal) {
+        *dev += e - volume / 3.0;
+    }
+    0.5 * elastic.bulk_modulus() * volume * volume + elastic.shear_modulus() * contract(&dev, &dev)
+}

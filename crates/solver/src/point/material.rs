@@ -1,0 +1,154 @@
+//! Hencky elasticity: an energy in the elastic logarithmic strain ½ ln b_e. Its stress is Kirchhoff's τ.
+//!
+//! The state keeps b_e - I, not ln b_e: the update then needs one spectral decomposition instead of two, and tiny
+//! strains keep their digits.
+
+use crate::point::tensor::{GradientForm, Sym, trace};
+use asperity_law::{Elastic, HardeningCurve};
+
+/// Elastic constants and, for a metal that yields, its curve of hardening; all in units of E.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Metal {
+    /// Elastic constants.
+    pub elastic: Elastic,
+    /// `None`: the body stays elastic and no return mapping runs.
+    pub hardening: Option<HardeningCurve>,
+    /// Share of the hardening that moves the yield surface; the rest makes it grow. 0: isotropic, 1: kinematic.
+    pub kinematic_share: f64,
+}
+
+/// State of a material point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PointState {
+    /// b_e - I, current frame.
+    pub stretch: Sym,
+    /// Accumulated plastic strain ε_p.
+    pub plastic_strain: f64,
+    /// Yield stress at that strain (Kirchhoff).
+    pub yield_stress: f64,
+}
+
+impl Metal {
+    /// Whether points need a memory beside their state (see `kinematic`).
+    pub fn has_back_stress(&self) -> bool {
+        self.kinematic_share > 0.0 && self.hardening.is_some()
+    }
+
+    /// The stress-free virgin state.
+    pub fn virgin(&self) -> PointState {
+        let yield_stress = self.hardening.as_ref().map_or(f64::INFINITY, HardeningCurve::yield_stress);
+        PointState { stretch: [0.0; 4], plastic_strain: 0.0, yield_stress }
+    }
+}
+
+/// A left stretch tensor in its principal frame: b = I + Σ μ_A m_A.
+#[derive(Clone, Copy, Debug)]
+pub struct Spectral {
+    /// Logarithmic strains ½ ln(1 + μ): two in the plane, then hoop.
+    pub log_strain: [f64; 3],
+    /// (cos 2α, sin 2α) of the first in-plane direction.
+    pub double_angle: [f64; 2],
+    /// atanh(x)/x, x the relative difference of the in-plane eigenvalues: 1 where they coincide.
+    pub shear_factor: f64,
+}
+
+impl Spectral {
+    /// Decomposes b - I. `None` where b is not positive definite.
+    pub fn of(stretch: &Sym) -> Option<Spectral> {
+        let (mean, half) = (0.5 * (stretch[0] + stretch[1]), 0.5 * (stretch[0] - stretch[1]));
+        let radius = (half * half + stretch[3] * stretch[3]).sqrt();
+        let x = radius / (1.0 + mean);
+        let area = stretch[0] + stretch[1] + stretch[0] * stretch[1] - stretch[3] * stretch[3];
+        if !(mean > -1.0 && x < 1.0 && stretch[2] > -1.0 && area > -1.0 && radius.is_finite()) {
+            return None;
+        }
+        let double_angle = if radius > 0.0 { [half / radius, stretch[3] / radius] } else { [1.0, 0.0] };
+        // atanh(x) loses nothing for small x; its quotient by x needs the series
+        let shear_factor = if x < 1e-4 { 1.0 + x * x * (1.0 / 3.0 + x * x / 5.0) } else { x.atanh() / x };
+        let (middle, difference) = (0.25 * area.ln_1p(), 0.5 * x * shear_factor);
+        Some(Spectral {
+            log_strain: [middle + difference, middle - difference, 0.5 * stretch[2].ln_1p()],
+            double_angle,
+            shear_factor,
+        })
+    }
+
+    /// The tensor with principal values `v` in this frame.
+    pub fn tensor(&self, v: &[f64; 3]) -> Sym {
+        let (mean, half) = (0.5 * (v[0] + v[1]), 0.5 * (v[0] - v[1]));
+        let [c, s] = self.double_angle;
+        [mean + half * c, mean - half * c, v[2], half * s]
+    }
+
+    /// ∂²W/∂∇u²: the spatial tangent with the geometric term, from principal stresses `tau`, the moduli `moduli`
+    /// = ∂τ_A/∂ε_B, and `shear` = G times the share of the trial deviator that is left.
+    ///
+    /// a(g, g') = Σ_AB (D_AB - 2τ_A δ_AB) g_AA g'_BB + c_s γ γ' + Σ g_iA τ_A g'_iA, with the in-plane shear modulus
+    /// c_s = (τ₁λ₂² - τ₂λ₁²)/(λ₁² - λ₂²) = G' atanh(x)/x - ½(τ₁ + τ₂) (Simo 1992; de Souza Neto et al., ch. 14).
+    pub fn tangent(
+        &self,
+        tau: &[f64; 3],
+        moduli: &[[f64; 3]; 3],
+        shear: f64,
+        geometric: &Sym,
+    ) -> GradientForm {
+        let [c, s] = self.double_angle;
+        let first = [0.5 * (1.0 + c), 0.5 * s, 0.5 * s, 0.5 * (1.0 - c)];
+        let second = [0.5 * (1.0 - c), -0.5 * s, -0.5 * s, 0.5 * (1.0 + c)];
+        let gamma = [-s, c, c, s];
+        let c_s = shear * self.shear_factor - 0.5 * (tau[0] + tau[1]);
+        let (m11, m22, m12) = (moduli[0][0] - 2.0 * tau[0], moduli[1][1] - 2.0 * tau[1], moduli[0][1]);
+        let mut form = [[0.0; 5]; 5];
+        for i in 0..4 {
+            let (p, q) = (m11 * first[i] + m12 * second[i], m12 * first[i] + m22 * second[i]);
+            let t = c_s * gamma[i];
+            for j in 0..=i {
+                form[i][j] = p * first[j] + q * second[j] + t * gamma[j];
+            }
+            form[4][i] = moduli[0][2] * first[i] + moduli[1][2] * second[i];
+        }
+        form[4][4] = moduli[2][2] - 2.0 * tau[2];
+        form[0][0] += geometric[0];
+        form[1][0] += geometric[3];
+        form[1][1] += geometric[1];
+        form[2][2] += geometric[0];
+        form[3][2] += geometric[3];
+        form[3][3] += geometric[1];
+        form[4][4] += geometric[2];
+        for i in 0..5 {
+            for j in i + 1..5 {
+                form[i][j] = form[j][i];
+            }
+        }
+        form
+    }
+}
+
+/// Elastic energy per reference volume, ½λ(tr ε)² + G ε:ε, of the state b_e - I.
+pub fn elastic_energy(elastic: &Elastic, stretch: &Sym) -> f64 {
+    let Some(spectral) = Spectral::of(stretch) else { return f64::NAN };
+    let e = spectral.log_strain;
+    let volume = e[0] + e[1] + e[2];
+    let (g, k) = (elastic.shear_modulus(), elastic.bulk_modulus());
+    0.5 * (k - 2.0 / 3.0 * g) * volume * volume + g * (e[0] * e[0] + e[1] * e[1] + e[2] * e[2])
+}
+
+/// Kirchhoff stress of the state b_e - I.
+pub fn stress(elastic: &Elastic, stretch: &Sym) -> Sym {
+    let Some(spectral) = Spectral::of(stretch) else { return [f64::NAN; 4] };
+    let e = spectral.log_strain;
+    let (g, k) = (elastic.shear_modulus(), elastic.bulk_modulus());
+    let volume = (k - 2.0 / 3.0 * g) * (e[0] + e[1] + e[2]);
+    spectral.tensor(&[volume + 2.0 * g * e[0], volume + 2.0 * g * e[1], volume + 2.0 * g * e[2]])
+}
+
+/// Elastic volume ratio J = det F (plastic flow keeps volume) of the state b_e - I.
+pub fn volume_ratio(stretch: &Sym) -> f64 {
+    let plane = (1.0 + stretch[0]) * (1.0 + stretch[1]) - stretch[3] * stretch[3];
+    (plane * (1.0 + stretch[2])).sqrt()
+}
+
+/// Mean of the principal stresses, negative in compression.
+pub fn hydrostatic(tau: &Sym) -> f64 {
+    trace(tau) / 3.0
+}

@@ -1,0 +1,15 @@
+//! An integration point: tensors, kinematics, Hencky elasticity, return mapping, second-order flow.
+
+pub mod tensor;
+
+pub mod kinematics;
+
+pub mod material;
+
+pub mod j2;
+
+pub mod bdf2;
+
+pub mod log_space;
+
+pub mod kinematic_hardening;

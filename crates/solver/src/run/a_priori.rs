@@ -1,0 +1,115 @@
+//! What a crush is expected to do before it is computed: contact widths, pressure, depth under a force. None of it stands in
+//! a result: the mesh is made for it and the penalty scaled with it.
+
+use crate::contact::tool::Tool;
+use crate::point::kinematics::Symmetry;
+use crate::point::material::Metal;
+use crate::run::curve::COUNTS_FROM;
+use asperity_mesh::profile::{Asperity, Profile, Shape};
+
+/// Contact half width of a crushed asperity over the half width of the cut at the same depth: 0.64 (elastic cone,
+/// 2/π) to 1.06 (perfectly plastic), 0.89 for the single asperity.
+const SPREAD: f64 = 0.9;
+
+/// Contact half widths at `depth` below the highest summit.
+pub fn half_widths(profile: &Profile, tool: &Tool, depth: f64) -> Vec<f64> {
+    let mirrored = tool.mirrored();
+    if let (Some(mirrored), true) = (&mirrored, profile.asperities.is_empty()) {
+        return vec![SPREAD * mirrored.half_width(depth)];
+    }
+    let top = profile.height();
+    let width = |a: &Asperity| {
+        // a curved tool lies higher over the asperities beside the one that it comes down on
+        let below = top - a.height + mirrored.map_or(0.0, |m| m.drop(a.centre));
+        SPREAD * half_width_under(a, mirrored.as_ref(), (depth - below).max(0.0))
+    };
+    profile.asperities.iter().map(width).collect()
+}
+
+/// Half width over which the outlines of `asperity` and of the tool above it overlap at `depth`.
+fn half_width_under(asperity: &Asperity, mirrored: Option<&Asperity>, depth: f64) -> f64 {
+    let Some(tool) = mirrored else { return asperity.half_width(depth) };
+    let (mut low, mut high) = (0.0, asperity.half_width(depth).min(tool.half_width(depth)));
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if asperity.drop(middle) + tool.drop(middle) < depth {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    high
+}
+
+/// Share of the contact half width at `reach`, for which the mesh is made, from which the contact must be resolved: the half
+/// width at the depth from which the error of the force is promised, a share of `depth`. Under a flank that is the share of
+/// the depth, whatever the tip that was crushed before; under a tip that is still round there it is larger, and the same
+/// elements lie closer.
+pub fn resolved_from(profile: &Profile, tool: &Tool, depth: f64, reach: f64) -> f64 {
+    let first = COUNTS_FROM * depth;
+    let highest = profile.asperities.iter().copied().max_by(|a, b| a.height.total_cmp(&b.height));
+    if let (Some(tool), Some(asperity)) = (tool.mirrored(), highest) {
+        let under = |depth: f64| half_width_under(&asperity, Some(&tool), depth);
+        return under(first) / under(reach);
+    }
+    let Some(outline) = tool.mirrored().or(highest) else { return first / reach };
+    let half_width = outline.half_width(first);
+    match outline.shape {
+        Shape::Cone { .. } if half_width >= outline.cap_radius() => first / reach,
+        _ => half_width / outline.half_width(reach),
+    }
+}
+
+/// Mean contact pressure to be expected at `depth`, in units of E: ½E* tan β of the elastic cone and 2.8 σ_r of full
+/// plasticity (ε_r ≈ 0.1 tan β), joined harmonically. Only the penalty is scaled with it.
+pub fn expected_pressure(metal: &Metal, profile: &Profile, tool: &Tool, depth: f64) -> f64 {
+    let slopes = tool.mirrored().into_iter().chain(profile.asperities.iter().copied()).map(|a| {
+        let width = SPREAD * a.half_width(depth);
+        match a.shape {
+            Shape::Cone { tan_slope, tip_radius } if tip_radius > 0.0 => tan_slope.min(width / tip_radius),
+            Shape::Cone { tan_slope, .. } => tan_slope,
+            Shape::Sphere { radius } => width / radius,
+        }
+    });
+    let slope = slopes.fold(0.0, f64::max);
+    let elastic = 0.5 * metal.elastic.reduced_modulus() * slope;
+    match &metal.hardening {
+        None => elastic,
+        Some(h) => 1.0 / (1.0 / elastic + 1.0 / (2.8 * h.representative_stress(0.1 * slope))),
+    }
+}
+
+/// Depth (m) at which the expected pressure over the cut area carries `force` (N, or N/m in plane strain).
+pub fn expected_depth(
+    metal: &Metal,
+    modulus: f64,
+    symmetry: Symmetry,
+    profile: &Profile,
+    tool: &Tool,
+    force: f64,
+) -> f64 {
+    let carried = |depth: f64| {
+        let pressure = modulus * expected_pressure(metal, profile, tool, depth);
+        let area: f64 = half_widths(profile, tool, depth)
+            .iter()
+            .zip(std::iter::once(0.0).chain(profile.asperities.iter().skip(1).map(|a| a.centre)))
+            .map(|(w, centre)| match symmetry {
+                Symmetry::PlaneStrain => 2.0 * w,
+                Symmetry::Axisymmetric if centre == 0.0 => std::f64::consts::PI * w * w,
+                Symmetry::Axisymmetric => 4.0 * std::f64::consts::PI * centre * w,
+            })
+            .sum();
+        pressure * area
+    };
+    // the carried force grows with the depth: bisection in the logarithm over any physical size
+    let (mut low, mut high) = (1e-15_f64.ln(), 1e6_f64.ln());
+    for _ in 0..200 {
+        let middle = 0.5 * (low + high);
+        if carried(middle.exp()) < force {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    (0.5 * (low + high)).exp()
+}

@@ -1,0 +1,415 @@
+//! The recorder of a run: rows of the curve, what is told to the observer, and the summary.
+
+use super::{Event, FieldFrame, Outcome, Stopped};
+use crate::body::fields::{Fields, SurfacePoint, fields};
+use crate::body::islands::{extent, gaps, islands};
+use crate::body::model::Model;
+use crate::point::kinematics::Symmetry;
+use crate::run::load_path::{Goal, Increment, Path, Stop};
+use crate::run::oliver_pharr::{OliverPharr, Peak, oliver_pharr};
+use crate::run::problem::Problem;
+use crate::run::record::{AsperityRow, CurveRow, CycleRow, GapRow, IslandRow, Phase, Summary};
+use crate::scene::Scene;
+use std::ops::ControlFlow;
+
+/// Values of 1 in SI.
+#[derive(Clone, Copy, Debug)]
+struct Units {
+    length: f64,
+    stress: f64,
+    /// N, or N/m in plane strain.
+    force: f64,
+    /// m², or m.
+    area: f64,
+    /// J, or J/m.
+    energy: f64,
+}
+
+impl Units {
+    fn new(problem: &Problem) -> Units {
+        let (l, e) = (problem.length, problem.modulus);
+        match problem.symmetry {
+            Symmetry::Axisymmetric => {
+                Units { length: l, stress: e, force: e * l * l, area: l * l, energy: e * l * l * l }
+            }
+            Symmetry::PlaneStrain => Units { length: l, stress: e, force: e * l, area: l, energy: e * l * l },
+        }
+    }
+}
+
+/// Collects rows and hands out events.
+pub(super) struct Recorder<'p> {
+    problem: &'p Problem,
+    /// Whether the program sized the substrate.
+    automatic: bool,
+    units: Units,
+    interval: usize,
+    planned: usize,
+    unknowns: usize,
+    /// Which asperity each surface edge belongs to.
+    groups: Vec<usize>,
+    increments: Vec<Increment>,
+    rows: Vec<CurveRow>,
+    asperities: Vec<AsperityRow>,
+    gaps: Vec<GapRow>,
+    islands: Vec<IslandRow>,
+    peak: usize,
+    /// Rows of each peak and of the end of the unloading after it.
+    turns: Vec<[usize; 2]>,
+    stiffness: Option<f64>,
+    last_fields: Option<usize>,
+}
+
+impl<'p> Recorder<'p> {
+    /// An empty recorder of `scene`, made ready as `problem`.
+    pub(super) fn new(scene: &Scene, problem: &'p Problem, unknowns: usize) -> Self {
+        let units = Units::new(problem);
+        let unload = if scene.loading.unload { problem.numbers.unload_steps + 1 } else { 0 };
+        let unload = unload * (1 + 2 * scene.loading.reloads);
+        let first = CurveRow {
+            increment: 0,
+            phase: Phase::Load,
+            depth: 0.0,
+            force: 0.0,
+            contact_area: 0.0,
+            contact_radius: 0.0,
+            mean_pressure: 0.0,
+            external_work: 0.0,
+            elastic_energy: 0.0,
+            plastic_work: 0.0,
+            contact_energy: 0.0,
+            penetration: 0.0,
+            newton_iterations: 0,
+        };
+        Recorder {
+            problem,
+            automatic: scene.mesh.is_none() && scene.substrate.as_ref().is_none_or(|s| s.depth.is_none()),
+            units,
+            interval: scene.output.interval(),
+            planned: problem.numbers.steps + unload,
+            unknowns,
+            groups: groups(problem),
+            increments: Vec::new(),
+            rows: vec![first],
+            asperities: Vec::new(),
+            gaps: Vec::new(),
+            islands: Vec::new(),
+            peak: 0,
+            turns: Vec::new(),
+            stiffness: None,
+            last_fields: None,
+        }
+    }
+
+    /// N, or N/m in plane strain.
+    pub(super) fn force_unit(&self) -> f64 {
+        self.units.force
+    }
+
+    /// Increments so far.
+    pub(super) fn increments(&self) -> usize {
+        self.rows.len() - 1
+    }
+
+    /// The unloading stiffness of a peak; that of the first one stays.
+    pub(super) fn note_stiffness(&mut self, stiffness: f64) {
+        self.stiffness.get_or_insert(stiffness);
+    }
+
+    /// The unloading from the increment `peak` ended with the last one.
+    pub(super) fn note_turn(&mut self, peak: usize) {
+        self.turns.push([peak, self.increments()]);
+    }
+
+    /// Takes down a converged increment and tells the observer; `false` where it breaks.
+    pub(super) fn record(
+        &mut self,
+        model: &Model<'_>,
+        increment: &Increment,
+        observer: &mut dyn FnMut(&Event<'_>) -> ControlFlow<()>,
+    ) -> bool {
+        let (u, contact) = (self.units, &increment.contact);
+        let number = self.rows.len();
+        let mut depth = increment.depth();
+        // a depth that was asked for is met to 1e-9: write it as asked
+        if (depth / self.problem.depth - 1.0).abs() < 2e-9 {
+            depth = self.problem.depth;
+        }
+        let row = CurveRow {
+            increment: number,
+            phase: increment.phase,
+            depth: depth * u.length,
+            force: contact.force * u.force,
+            contact_area: contact.area * u.area,
+            contact_radius: contact.radius * u.length,
+            mean_pressure: if contact.area > 0.0 { contact.force / contact.area * u.stress } else { 0.0 },
+            external_work: increment.external_work * u.energy,
+            elastic_energy: increment.elastic_energy * u.energy,
+            plastic_work: increment.plastic_work * u.energy,
+            contact_energy: (contact.energy - model.remeasured_energy()) * u.energy,
+            penetration: contact.penetration * u.length,
+            newton_iterations: increment.newton_iterations,
+        };
+        self.rows.push(row);
+        self.increments.push(*increment);
+        if self.problem.profile.asperities.len() > 1 {
+            for asperity in 0..self.problem.profile.asperities.len() {
+                let sums = Path::group_sums(model, &self.groups, asperity);
+                self.asperities.push(AsperityRow {
+                    increment: number,
+                    phase: row.phase,
+                    asperity,
+                    depth: row.depth,
+                    force: sums.force * u.force,
+                    contact_area: sums.area * u.area,
+                    contact_left: sums.reach[0] * u.length,
+                    contact_right: sums.reach[1] * u.length,
+                    max_pressure: sums.max_pressure * u.stress,
+                });
+            }
+        }
+        self.gaps.extend(gaps(model).into_iter().map(|gap| GapRow {
+            increment: number,
+            phase: row.phase,
+            depth: row.depth,
+            left: gap.left * u.length,
+            right: gap.right * u.length,
+            height: gap.height * u.length,
+        }));
+        let told = observer(&Event::Increment { row: &row, planned: self.planned.max(number) });
+        if self.interval > 0 && number.is_multiple_of(self.interval) && told.is_continue() {
+            return self.draw(model, observer).is_continue();
+        }
+        told.is_continue()
+    }
+
+    /// Hands out the fields of the last row, once.
+    fn draw(
+        &mut self,
+        model: &Model<'_>,
+        observer: &mut dyn FnMut(&Event<'_>) -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
+        let Some(row) = self.rows.last().filter(|row| row.increment > 0) else {
+            return ControlFlow::Continue(());
+        };
+        if self.last_fields == Some(row.increment) {
+            return ControlFlow::Continue(());
+        }
+        self.last_fields = Some(row.increment);
+        let (l, e) = (self.units.length, self.units.stress);
+        let mut mesh = self.problem.mesh.clone();
+        for node in &mut mesh.nodes {
+            *node = node.map(|x| x * l);
+        }
+        let raw = fields(model);
+        let scaled = |values: Vec<f64>| values.into_iter().map(|v| v * e).collect();
+        let frame = FieldFrame {
+            increment: row.increment,
+            phase: row.phase,
+            mesh,
+            fields: Fields {
+                displacement: raw.displacement.into_iter().map(|d| d.map(|d| d * l)).collect(),
+                stress: raw.stress.into_iter().map(|s| s.map(|s| s * e)).collect(),
+                von_mises: scaled(raw.von_mises),
+                pressure: scaled(raw.pressure),
+                contact_pressure: scaled(raw.contact_pressure),
+                plastic_strain: raw.plastic_strain,
+                plastic_zone: raw.plastic_zone,
+                surface: raw
+                    .surface
+                    .into_iter()
+                    .map(|p| SurfacePoint {
+                        position: p.position.map(|x| x * l),
+                        displacement: p.displacement.map(|x| x * l),
+                        pressure: p.pressure * e,
+                        yielded: p.yielded,
+                    })
+                    .collect(),
+            },
+        };
+        observer(&Event::Fields(&frame))
+    }
+
+    /// Lists what never yielded: enclosed by metal that did, or above the base of the asperities and half their height
+    /// below it.
+    fn find_islands(&mut self, model: &Model<'_>) {
+        let profile = &self.problem.profile;
+        let (Some(first), Some(last)) = (profile.asperities.first(), profile.asperities.last()) else {
+            return;
+        };
+        if self.problem.metal.hardening.is_none() {
+            return;
+        }
+        let feet =
+            [first.centre - first.half_width(first.height), last.centre + last.half_width(last.height)];
+        let found = islands(model, -1.5 * profile.height(), extent(self.problem.symmetry, feet));
+        let l = self.units.length;
+        self.islands = found
+            .into_iter()
+            .map(|island| IslandRow {
+                place: island.place.map(|x| x * l),
+                area: island.area * l * l,
+                mean_pressure: island.mean_pressure * self.units.stress,
+                mean_von_mises: island.mean_von_mises * self.units.stress,
+                reaches_substrate: island.reaches_substrate,
+                reaches_surface: island.reaches_surface,
+            })
+            .collect();
+    }
+
+    /// Notes the peak and draws its fields.
+    pub(super) fn peak_reached(
+        &mut self,
+        goal: &Goal,
+        observer: &mut dyn FnMut(&Event<'_>) -> ControlFlow<()>,
+        model: &Model<'_>,
+        complete: bool,
+    ) {
+        self.peak = self.rows.len() - 1;
+        self.find_islands(model);
+        if complete && matches!(goal, Goal::Depth(_)) {
+            self.planned = self.peak + self.planned.saturating_sub(self.problem.numbers.steps);
+        }
+        if self.interval > 0 {
+            // an observer that breaks here is asked again at the next increment
+            let _ = self.draw(model, observer);
+        }
+    }
+
+    /// The peak as an instrument evaluates it that knows force, depth and stiffness (dimensionless), in SI.
+    fn as_an_instrument(&self, peak: &CurveRow, stiffness: f64) -> Option<OliverPharr> {
+        let (problem, u) = (self.problem, self.units);
+        let tool = problem.tool.mirrored().filter(|_| problem.symmetry == Symmetry::Axisymmetric)?;
+        let peak = Peak { force: peak.force / u.force, depth: peak.depth / u.length, stiffness };
+        let read = oliver_pharr(&problem.tool, |height| tool.half_width(height), &peak)?;
+        Some(OliverPharr {
+            geometry_factor: read.geometry_factor,
+            contact_depth: read.contact_depth * u.length,
+            contact_area: read.contact_area * u.area,
+            hardness: read.hardness * u.stress,
+            reduced_modulus: read.reduced_modulus * u.stress,
+        })
+    }
+
+    /// Every complete loading with its unloading.
+    fn cycles(&self) -> Vec<CycleRow> {
+        let mut start = 0;
+        let row = |(cycle, &[peak, end]): (usize, &[usize; 2])| {
+            let (from, top, last) = (&self.rows[start], &self.rows[peak], &self.rows[end]);
+            let row = CycleRow {
+                cycle,
+                peak_increment: peak,
+                end_increment: end,
+                peak_depth: top.depth,
+                peak_force: top.force,
+                residual_depth: last.depth,
+                work_in: work_along(&self.rows[start..=peak]),
+                work_out: -work_along(&self.rows[peak..=end]),
+                plastic_work: last.plastic_work - from.plastic_work,
+            };
+            start = end;
+            row
+        };
+        self.turns.iter().enumerate().map(row).collect()
+    }
+
+    /// The outcome of a run that ended, `stopped` if before its goal.
+    pub(super) fn finish(
+        mut self,
+        path: &Path<'_>,
+        stopped: Option<Stop>,
+        observer: &mut dyn FnMut(&Event<'_>) -> ControlFlow<()>,
+    ) -> Outcome {
+        if self.interval > 0 {
+            let _ = self.draw(&path.model, observer);
+        }
+        let (peak, last) = (self.rows[self.peak], self.rows[self.rows.len() - 1]);
+        // of the first loading and unloading, whatever comes after
+        let cycles = self.cycles();
+        let first = cycles.first();
+        let total_work = work_along(&self.rows[..=self.peak]);
+        let elastic_work = first.map(|c| c.work_out);
+        let u = self.units;
+        let stiffness_unit = u.force / u.length;
+        let summary = Summary {
+            peak_force: peak.force,
+            peak_depth: peak.depth,
+            residual_depth: first.map(|c| c.residual_depth),
+            unloading_stiffness: self.stiffness.map(|s| s * stiffness_unit),
+            contact_area: peak.contact_area,
+            contact_radius: peak.contact_radius,
+            total_work,
+            elastic_work,
+            plastic_work: peak.plastic_work,
+            oliver_pharr: self
+                .stiffness
+                .filter(|_| first.is_some())
+                .and_then(|s| self.as_an_instrument(&peak, s)),
+            reduced_modulus: self.problem.metal.elastic.reduced_modulus() * u.stress,
+            elastic_fraction: elastic_work.map(|w| w / total_work),
+            energy_balance_error: balance_error(&self.rows),
+            estimated_error: crate::run::error_estimate::force_error(
+                self.problem,
+                &self.rows[..=self.peak],
+                [peak.force / u.force, peak.depth / u.length],
+                self.automatic,
+            ),
+            elements: self.problem.mesh.cell_count(),
+            dofs: self.unknowns,
+            increments: self.rows.len() - 1,
+            newton_iterations: path.iterations,
+            cutbacks: path.cutbacks,
+        };
+        let stopped = stopped.map(|reason| Stopped { reason, depth: last.depth, phase: last.phase });
+        Outcome {
+            rows: self.rows,
+            asperities: self.asperities,
+            gaps: self.gaps,
+            cycles,
+            elastic_islands: self.islands,
+            summary,
+            stopped,
+            counters: path.model.counters,
+        }
+    }
+}
+
+/// ∫F dh over corrected depths: the work over the travel less what the penetration took.
+fn work_along(rows: &[CurveRow]) -> f64 {
+    let step = |pair: &[CurveRow]| {
+        let (from, to) = (pair[0], pair[1]);
+        let sunk = crate::body::energy::work([from.force, to.force], to.penetration - from.penetration);
+        to.external_work - from.external_work - sunk
+    };
+    rows.windows(2).map(step).sum()
+}
+
+/// The largest |W - E_e - W_p - E_c|/W over increments with W above 1 % of its peak.
+fn balance_error(rows: &[CurveRow]) -> f64 {
+    let peak = rows.iter().fold(0.0, |m: f64, r| m.max(r.external_work));
+    rows.iter()
+        .filter(|r| r.external_work > 0.01 * peak)
+        .map(|r| {
+            (r.external_work - r.elastic_energy - r.plastic_work - r.contact_energy).abs() / r.external_work
+        })
+        .fold(0.0, f64::max)
+}
+
+/// The asperity of each surface edge: the one whose foot is nearest to the middle of the edge before the crush.
+fn groups(problem: &Problem) -> Vec<usize> {
+    let mesh = &problem.mesh;
+    mesh.sides
+        .surface
+        .iter()
+        .map(|&edge| {
+            let ([a, b], _) = mesh.edge_nodes(edge);
+            let r = 0.5 * (mesh.nodes[a as usize][0] + mesh.nodes[b as usize][0]);
+            let distance =
+                |a: &asperity_mesh::profile::Asperity| (r - a.centre).abs() - a.half_width(a.height);
+            let asperities = &problem.profile.asperities;
+            (0..asperities.len())
+                .min_by(|&i, &j| distance(&asperities[i]).total_cmp(&distance(&asperities[j])))
+                .unwrap_or(0)
+        })
+        .collect()
+}

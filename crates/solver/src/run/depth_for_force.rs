@@ -1,0 +1,60 @@
+//! From a force to the depth that it will need: coarse crushes to growing or shrinking depths until one passes the force.
+//!
+//! The mesh is fine where the contact will be, so a run that is driven by a force must know its depth beforehand. A formula
+//! is off by a factor of two between elastic and plastic asperities and by six on elastic ridges, whose depth depends on the
+//! whole body; a coarse crush takes some hundredths of a second and is off by a few percent.
+
+use crate::run::crush::run;
+use crate::run::curve::Curve;
+use crate::scene::{Accuracy, Loading, Numerics, Output, Scene};
+use asperity_law::units::Length;
+use std::ops::ControlFlow;
+
+/// Elements across the contact and load steps of a coarse crush.
+const ELEMENTS: usize = 6;
+const STEPS: usize = 12;
+
+/// Crushes after which the last answer is taken.
+const MOST_CRUSHES: usize = 6;
+
+/// A crush that goes further than this many times the depth of the force has too few elements in contact there.
+const TOO_DEEP: f64 = 2.0;
+
+/// How far beyond the expected depth a crush goes, so that the force is passed and not just missed.
+const BEYOND: f64 = 1.1;
+
+/// Depth (m) at which `scene` carries `force` (N, or N/m in plane strain), from the first guess `guess`; at most the
+/// deepest that its tool can go.
+pub fn depth_of(scene: &Scene, force: f64, guess: f64) -> f64 {
+    let deepest = scene.deepest();
+    let mut depth = guess.min(deepest);
+    for _ in 0..MOST_CRUSHES {
+        let Some(curve) = coarse(scene, depth) else { break };
+        let end = curve.end();
+        match curve.depth_of(force) {
+            Some(found) if TOO_DEEP * found >= end => return found,
+            Some(found) => depth = BEYOND * found,
+            // stopped on its way, or as deep as it can be
+            None if end < 0.999 * depth || depth >= deepest => break,
+            None => {
+                let exponent = (curve.at(end) / curve.at(0.5 * end)).log2().clamp(0.7, 4.0);
+                let growth = (force / curve.at(end)).powf(1.0 / exponent);
+                if !growth.is_finite() {
+                    break;
+                }
+                depth = (BEYOND * growth * end).min(deepest);
+            }
+        }
+    }
+    depth
+}
+
+fn coarse(scene: &Scene, depth: f64) -> Option<Curve> {
+    let numerics =
+        Numerics { elements_in_contact: Some(ELEMENTS), steps: Some(STEPS), ..Numerics::default() };
+    let loading = Loading { depth: Some(Length(depth)), force: None, unload: false, reloads: 0 };
+    let output = Output { fields: None, every: Some(0) };
+    let probe = Scene { accuracy: Accuracy::Draft, numerics, loading, output, mesh: None, ..scene.clone() };
+    let outcome = run(&probe, None, &mut |_| ControlFlow::Continue(())).ok()?;
+    Some(Curve::force(&outcome.rows))
+}

@@ -1,0 +1,76 @@
+//! The last increment of a loading: the travel at which the depth or the force is the one that was asked for.
+
+use super::{GUESS, Goal, Path, Stop};
+use crate::body::energy::ContactSums;
+
+/// Relative residual of the increments that home in on a goal, which the depth then follows to [`MET`].
+const HOMING_TOLERANCE: f64 = 1e-8;
+
+/// How far the end of loading may be from the depth or from the root of the force that was asked for, relative to it.
+const MET: f64 = 1e-9;
+
+/// Increments that home in on a goal; a secant takes three or four.
+const MOST_TRIES: usize = 24;
+
+/// Tries after which the interval around the goal is halved instead: the response leaps.
+const SECANTS: usize = 6;
+
+impl Path<'_> {
+    /// Moves the attempted increment until the goal is met to [`MET`] (secant, held between travels on either side of the
+    /// goal; each try starts from the converged state).
+    ///
+    /// Metal that hardly hardens may not come so close to equilibrium that the force is known to that, or may leap over the
+    /// goal from one state to another: then the goal is met to the tolerance of the run.
+    pub(super) fn home_in(&mut self, goal: Goal, travel: f64, sums: ContactSums) -> Result<f64, Stop> {
+        let miss = |travel: f64, penetration: f64, found: f64| match goal {
+            Goal::Depth(depth) => (travel - penetration) / depth - 1.0,
+            Goal::Force { force, .. } => (found.max(0.0) / force).sqrt() - 1.0,
+        };
+        let settings = self.settings;
+        self.settings.tolerance = settings.tolerance.min(HOMING_TOLERANCE);
+        // travel and miss: of the last tries, and of the nearest on either side of the goal; the converged state is the first
+        // of them for a force, while the depth follows the travel closely from the start
+        let mut now = (travel, miss(travel, sums.penetration, sums.force));
+        let mut last = match goal {
+            Goal::Depth(depth) => (travel - depth, now.1 - 1.0),
+            Goal::Force { .. } => (self.travel, miss(self.travel, self.penetration, self.force)),
+        };
+        let mut short = matches!(goal, Goal::Force { .. }).then_some(last);
+        let mut beyond: Option<(f64, f64)> = None;
+        let loosely = settings.tolerance.max(MET);
+        let mut met = MET;
+        for tried in 0..MOST_TRIES {
+            if now.1.abs() <= met {
+                break;
+            }
+            if now.1 < 0.0 {
+                short = Some(now);
+            } else {
+                beyond = Some(now);
+            }
+            let secant = now.0 - now.1 * (now.0 - last.0) / (now.1 - last.1);
+            let next = match (short, beyond) {
+                (Some((a, _)), Some((b, _)))
+                    if tried >= SECANTS || !(a.min(b)..=a.max(b)).contains(&secant) =>
+                {
+                    0.5 * (a + b)
+                }
+                _ => secant,
+            };
+            let exact = self.attempt(next, true, GUESS).or_else(|_| self.attempt(next, true, 0.0));
+            let found = exact.or_else(|_| {
+                met = loosely;
+                self.settings = settings;
+                self.attempt(next, true, GUESS)
+            });
+            let Ok(sums) = found else {
+                self.settings = settings;
+                return Err(Stop::NoEquilibrium);
+            };
+            last = now;
+            now = (next, miss(next, sums.penetration, sums.force));
+        }
+        self.settings = settings;
+        if now.1.abs() <= loosely { Ok(now.0) } else { Err(Stop::NoEquilibrium) }
+    }
+}

@@ -1,0 +1,95 @@
+//! What an instrument that knows no contact area would read from the curve of an indentation.
+//!
+//! W. C. Oliver, G. M. Pharr, J. Mater. Res. 7 (1992) 1564 and 19 (2004) 3: from force F, depth h and stiffness S at the
+//! peak, with the area function A of the tool,
+//!   h_c = h - ε F/S,   H = F/A(h_c),   E_r = (√π/2) S/√A(h_c).
+//! ε is that of the tool's shape, 2(π - 2)/π for a cone and 3/4 for a paraboloid, with which all three are exact for an
+//! elastic body. Metal that piles up around the tool makes the true area larger than A(h_c): hence both are given.
+
+use crate::contact::tool::Tool;
+use std::f64::consts::{FRAC_2_PI, PI};
+
+/// The peak of an indentation, any consistent units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Peak {
+    /// Force F.
+    pub force: f64,
+    /// Depth h.
+    pub depth: f64,
+    /// Slope S = dF/dh of the unloading curve at the peak.
+    pub stiffness: f64,
+}
+
+/// What the method of Oliver and Pharr makes of a peak, in the units of the peak.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OliverPharr {
+    /// ε of the tool's shape.
+    pub geometry_factor: f64,
+    /// h_c.
+    pub contact_depth: f64,
+    /// A(h_c).
+    pub contact_area: f64,
+    /// F/A(h_c).
+    pub hardness: f64,
+    /// (√π/2) S/√A(h_c).
+    pub reduced_modulus: f64,
+}
+
+/// ε of a tool; `None` for a plane, which has no tip from which a contact depth could count.
+pub fn geometry_factor(tool: &Tool) -> Option<f64> {
+    match tool {
+        Tool::Plane => None,
+        Tool::Cone { .. } => Some(2.0 - 2.0 * FRAC_2_PI),
+        Tool::Sphere { .. } => Some(0.75),
+    }
+}
+
+/// Evaluates `peak` of a tool of revolution whose section `height` above its lowest point has the radius
+/// `section(height)`. `None` for a plane, or if nothing is left of the depth.
+pub fn oliver_pharr(tool: &Tool, section: impl Fn(f64) -> f64, peak: &Peak) -> Option<OliverPharr> {
+    let geometry_factor = geometry_factor(tool)?;
+    let contact_depth = peak.depth - geometry_factor * peak.force / peak.stiffness;
+    if !(contact_depth > 0.0 && contact_depth.is_finite()) {
+        return None;
+    }
+    let contact_area = PI * section(contact_depth).powi(2);
+    Some(OliverPharr {
+        geometry_factor,
+        contact_depth,
+        contact_area,
+        hardness: peak.force / contact_area,
+        reduced_modulus: 0.5 * PI.sqrt() * peak.stiffness / contact_area.sqrt(),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Sneddon's cone, F = (2/π) E* h²/tan β, a = 2h/(π tan β); Hertz's paraboloid, F = (4/3) E* √R h^1.5, a² = R h.
+    #[test]
+    fn elastic_indentations_give_their_own_area_and_modulus() {
+        let (modulus, h) = (1.7, 0.3);
+        let (tan_slope, radius): (f64, f64) = (0.1, 9.0);
+        let cone = Tool::Cone { tan_slope, tip_radius: 0.0 };
+        let stiffness = 2.0 * FRAC_2_PI * modulus * h / tan_slope;
+        let peak = Peak { force: 0.5 * stiffness * h, depth: h, stiffness };
+        let found = oliver_pharr(&cone, |z| z / tan_slope, &peak).unwrap();
+        let area = PI * (FRAC_2_PI * h / tan_slope).powi(2);
+        assert!((found.contact_area / area - 1.0).abs() < 1e-14);
+        assert!((found.reduced_modulus / modulus - 1.0).abs() < 1e-14);
+
+        let stiffness = 2.0 * modulus * (radius * h).sqrt();
+        let peak = Peak { force: stiffness * h / 1.5, depth: h, stiffness };
+        let found = oliver_pharr(&Tool::Sphere { radius }, |z| (2.0 * radius * z).sqrt(), &peak).unwrap();
+        assert!((found.contact_area / (PI * radius * h) - 1.0).abs() < 1e-14);
+        assert!((found.reduced_modulus / modulus - 1.0).abs() < 1e-14);
+    }
+
+    #[test]
+    fn a_plane_and_a_soft_contact_have_no_contact_depth() {
+        let peak = Peak { force: 1.0, depth: 0.1, stiffness: 1.0 };
+        assert_eq!(oliver_pharr(&Tool::Plane, |z| z, &peak), None);
+        assert_eq!(oliver_pharr(&Tool::Sphere { radius: 1.0 }, |z| z, &peak), None);
+    }
+}

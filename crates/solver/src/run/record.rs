@@ -1,0 +1,172 @@
+//! What a run leaves: one row per converged increment, and the summary. SI units throughout.
+//!
+//! In axisymmetry forces are in N, areas in m², energies in J, of the full body of revolution. In plane strain
+//! they are per metre of ridge: N/m, m (contact width), J/m.
+
+use crate::run::oliver_pharr::OliverPharr;
+
+/// Whether the tool advances or retreats.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Phase {
+    /// The tool advances.
+    Load,
+    /// The tool retreats.
+    Unload,
+    /// The tool advances again to where it has been.
+    Reload,
+}
+
+/// One load and the unloading after it: a row of `cycles.csv`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CycleRow {
+    /// 0: the first loading; then the reloads.
+    pub cycle: usize,
+    /// Increment of the peak.
+    pub peak_increment: usize,
+    /// Increment at which the tool is gone.
+    pub end_increment: usize,
+    /// Depth at the peak, m.
+    pub peak_depth: f64,
+    /// Force at the peak, N (N/m).
+    pub peak_force: f64,
+    /// Initial summit minus the highest point of the body in equilibrium without the tool, m.
+    pub residual_depth: f64,
+    /// ∫F dh on the way in, over the corrected depth, J (J/m).
+    pub work_in: f64,
+    /// Work returned on the way out, J (J/m).
+    pub work_out: f64,
+    /// Plastic work of both ways, J (J/m).
+    pub plastic_work: f64,
+}
+
+/// One row of `curve.csv`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CurveRow {
+    /// Counted from 0, the first touch.
+    pub increment: usize,
+    /// Loading or unloading.
+    pub phase: Phase,
+    /// Tool travel from first touch less the penetration, m.
+    pub depth: f64,
+    /// Force on the tool, positive in compression, N (N/m).
+    pub force: f64,
+    /// Projected current area under pressure, m² (width, m).
+    pub contact_area: f64,
+    /// Outer edge of the contact that holds the axis, m (plane strain: half the contact width).
+    pub contact_radius: f64,
+    /// Force over contact area, Pa; 0 without contact.
+    pub mean_pressure: f64,
+    /// ∫F dh over the raw tool displacement, J (J/m).
+    pub external_work: f64,
+    /// Stored elastic energy, residual stress included, J (J/m).
+    pub elastic_energy: f64,
+    /// Σ∫σ_y dε_p, J (J/m).
+    pub plastic_work: f64,
+    /// ½ε∫g² dA, J (J/m).
+    pub contact_energy: f64,
+    /// Pressure-weighted mean penetration, m.
+    pub penetration: f64,
+    /// Newton iterations spent since the last row.
+    pub newton_iterations: usize,
+}
+
+/// The share of one asperity in one increment: a row of `asperities.csv`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AsperityRow {
+    /// Increment of the curve.
+    pub increment: usize,
+    /// Loading or unloading.
+    pub phase: Phase,
+    /// Counted from 0, from the axis (left side) outward.
+    pub asperity: usize,
+    /// As in the curve, m.
+    pub depth: f64,
+    /// Force on this asperity, N (N/m).
+    pub force: f64,
+    /// Its contact area, m² (width, m).
+    pub contact_area: f64,
+    /// Innermost (leftmost) point of its contact, m; NaN without contact.
+    pub contact_left: f64,
+    /// Outermost point of its contact, m; NaN without contact.
+    pub contact_right: f64,
+    /// Largest contact pressure on it, Pa.
+    pub max_pressure: f64,
+}
+
+/// An untouched stretch of surface between two contacts in one increment: a row of `gaps.csv`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GapRow {
+    /// Increment of the curve.
+    pub increment: usize,
+    /// Loading or unloading.
+    pub phase: Phase,
+    /// As in the curve, m.
+    pub depth: f64,
+    /// Where the contact before the gap ends, m.
+    pub left: f64,
+    /// Where the contact after it begins, m.
+    pub right: f64,
+    /// Largest distance from the tool in between, m.
+    pub height: f64,
+}
+
+/// A connected region that never yielded, enclosed by metal that did or standing above the substrate.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct IslandRow {
+    /// Centroid (r, z) of its section before the crush, m.
+    pub place: [f64; 2],
+    /// Area of its section before the crush, m².
+    pub area: f64,
+    /// Mean hydrostatic pressure, positive in compression, Pa.
+    pub mean_pressure: f64,
+    /// Mean von Mises stress, Pa.
+    pub mean_von_mises: f64,
+    /// Whether it hangs together with the elastic bulk of the substrate.
+    pub reaches_substrate: bool,
+    /// Whether it holds a part of the free surface.
+    pub reaches_surface: bool,
+}
+
+/// `summary.json`. `None` where the scene did not ask for it (unloading) or the run did not reach it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Summary {
+    /// Largest force, N (N/m).
+    pub peak_force: f64,
+    /// Depth at the peak, m.
+    pub peak_depth: f64,
+    /// Initial summit minus the highest point of the body in equilibrium without the tool, m.
+    pub residual_depth: Option<f64>,
+    /// dF/dh at the peak from one elastic solve with the contact kept, N/m (N/m²).
+    pub unloading_stiffness: Option<f64>,
+    /// Contact area at the peak, m² (m).
+    pub contact_area: f64,
+    /// Contact radius at the peak, m.
+    pub contact_radius: f64,
+    /// ∫F dh to the peak, over the corrected depth, J (J/m).
+    pub total_work: f64,
+    /// Work returned on unloading to F = 0, J (J/m).
+    pub elastic_work: Option<f64>,
+    /// Plastic work at the end of loading, J (J/m).
+    pub plastic_work: f64,
+    /// What the method of Oliver and Pharr reads from the curve; `None` without unloading, under a plane, in plane
+    /// strain.
+    pub oliver_pharr: Option<OliverPharr>,
+    /// E/(1 - ν²), Pa.
+    pub reduced_modulus: f64,
+    /// elastic_work / total_work.
+    pub elastic_fraction: Option<f64>,
+    /// Largest |W - E_e - W_p - E_c|/W over increments with W above 1 % of its peak.
+    pub energy_balance_error: f64,
+    /// 95 % bound of the relative error of the force for 0.2 ≤ h/h_peak ≤ 1.
+    pub estimated_error: f64,
+    /// Number of elements.
+    pub elements: usize,
+    /// Number of unknowns.
+    pub dofs: usize,
+    /// Converged increments.
+    pub increments: usize,
+    /// Newton iterations of the whole run, failed ones included.
+    pub newton_iterations: usize,
+    /// Times an increment was halved.
+    pub cutbacks: usize,
+}

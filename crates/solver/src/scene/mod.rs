@@ -1,0 +1,291 @@
+//! What to crush, with what, how far and how exactly: the content of a scene file.
+//!
+//! The types say what a scene may hold; [`Scene::validate`] says which values make sense. Quantities are in SI.
+//! Keys that are absent are `None`: what a run uses in their place follows from the accuracy level.
+
+mod accuracy;
+mod checks;
+mod geometry;
+mod material;
+mod range;
+mod warnings;
+
+pub use accuracy::{Accuracy, AccuracyError, Level};
+pub use geometry::{Asperity, AsperityForm, Substrate, Tool, ToolForm, ToolShape};
+pub use material::{HardeningChoice, Material};
+
+use asperity_law::units::{Force, Length, LineForce, UnitError};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use std::fmt;
+use std::path::PathBuf;
+
+/// A value of a scene that makes no sense.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SceneError {
+    /// Where: keys joined by dots, tables of an array by index, for example `asperity[0].height`.
+    pub path: String,
+    /// What is wrong: names the value, the allowed range and a way out.
+    pub message: String,
+}
+
+impl fmt::Display for SceneError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.path, self.message)
+    }
+}
+
+impl std::error::Error for SceneError {}
+
+/// Everything that defines a run.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Scene {
+    /// Body of revolution, or ridges of constant section.
+    pub symmetry: Symmetry,
+    /// How exact the force must be.
+    #[serde(default)]
+    pub accuracy: Accuracy,
+    /// What holds the lateral side.
+    #[serde(default)]
+    pub lateral: Lateral,
+    /// The metal of asperities and substrate.
+    pub material: Material,
+    /// From the axis (left side in plane strain) outward. May be empty under a cone or sphere.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub asperity: Vec<Asperity>,
+    /// The body under the asperities; absent in axisymmetry: sized from the contact.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub substrate: Option<Substrate>,
+    /// The rigid, frictionless tool.
+    pub tool: Tool,
+    /// How far it goes.
+    pub loading: Loading,
+    /// Which fields are written, and how often.
+    #[serde(default)]
+    pub output: Output,
+    /// Discretisation; what is absent follows from `accuracy`.
+    #[serde(default)]
+    pub numerics: Numerics,
+    /// A mesh to read instead of building one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mesh: Option<MeshFile>,
+}
+
+/// The two planar idealisations.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Symmetry {
+    /// Body of revolution about r = 0: the first asperity is a cone, the others are rings.
+    Axisymmetric,
+    /// Straight ridges, nothing mirrored; results are per length of ridge.
+    PlaneStrain,
+}
+
+/// What holds the lateral side of the substrate.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Lateral {
+    /// Nothing.
+    #[default]
+    Free,
+    /// A frictionless wall: the body repeats beyond it.
+    Symmetric,
+}
+
+/// How far the tool goes: exactly one of `depth` and `force`.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Loading {
+    /// Tool travel from first touch of the highest summit, corrected for penetration.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub depth: Option<Length>,
+    /// Force at the peak.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub force: Option<ToolForce>,
+    /// Whether the tool then retreats to zero force.
+    #[serde(default)]
+    pub unload: bool,
+    /// How often the tool then comes back to the same depth (or force) and retreats again.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub reloads: usize,
+}
+
+fn is_zero(count: &usize) -> bool {
+    *count == 0
+}
+
+/// Where loading ends, complete.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Target {
+    /// At this corrected depth, m.
+    Depth(f64),
+    /// At this force, N (N/m in plane strain).
+    Force(f64),
+}
+
+/// A force on a body of revolution, or per length of ridge.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ToolForce {
+    /// On the full body of revolution.
+    Total(Force),
+    /// Per length of ridge, in plane strain.
+    PerLength(LineForce),
+}
+
+impl std::str::FromStr for ToolForce {
+    type Err = UnitError;
+    fn from_str(text: &str) -> Result<Self, UnitError> {
+        if text.contains('/') {
+            text.parse().map(ToolForce::PerLength)
+        } else {
+            text.parse().map(ToolForce::Total)
+        }
+    }
+}
+
+impl Serialize for ToolForce {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            ToolForce::Total(force) => force.serialize(serializer),
+            ToolForce::PerLength(force) => force.serialize(serializer),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for ToolForce {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Visitor;
+        impl serde::de::Visitor<'_> for Visitor {
+            type Value = ToolForce;
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str(
+                    "a force as a string with a unit, for example \"4 N\" (\"4 N/mm\" in plane strain)",
+                )
+            }
+            fn visit_str<E: serde::de::Error>(self, text: &str) -> Result<ToolForce, E> {
+                text.parse().map_err(E::custom)
+            }
+        }
+        deserializer.deserialize_any(Visitor)
+    }
+}
+
+/// A quantity drawn over the section.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Field {
+    /// Displacement of the nodes.
+    Displacement,
+    /// Cauchy stress: rr, zz, θθ, rz (xx, zz, yy, xz).
+    Stress,
+    /// Von Mises stress.
+    VonMises,
+    /// Accumulated plastic strain.
+    PlasticStrain,
+    /// Hydrostatic pressure, positive in compression.
+    Pressure,
+    /// Whether the metal yields now, has yielded, or never has.
+    PlasticZone,
+}
+
+impl Field {
+    /// Every field.
+    pub const ALL: [Field; 6] = [
+        Field::Displacement,
+        Field::Stress,
+        Field::VonMises,
+        Field::PlasticStrain,
+        Field::Pressure,
+        Field::PlasticZone,
+    ];
+}
+
+/// Field output.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Output {
+    /// The fields of a field file; absent: all.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fields: Option<Vec<Field>>,
+    /// Increments between field files; 0: no files. Absent: 5 where `fields` are named, else 0.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub every: Option<usize>,
+}
+
+impl Output {
+    /// Increments between field files, 0 for none.
+    pub fn interval(&self) -> usize {
+        match (&self.fields, self.every) {
+            (Some(fields), _) if fields.is_empty() => 0,
+            (_, Some(every)) => every,
+            (Some(_), None) => 5,
+            (None, None) => 0,
+        }
+    }
+
+    /// The fields of a field file.
+    pub fn fields(&self) -> &[Field] {
+        self.fields.as_deref().unwrap_or(&Field::ALL)
+    }
+}
+
+/// Which quadrilateral.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum ElementChoice {
+    /// Eight nodes, reduced integration.
+    Q8r,
+    /// Four nodes, mean dilatation.
+    Q4,
+}
+
+/// How the tool pushes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum ContactMethod {
+    /// Penalty, its effect on the depth corrected.
+    Penalty,
+    /// Augmented Lagrangian: no penetration.
+    Augmented,
+}
+
+/// Discretisation by hand; each value overrides what `accuracy` chooses.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Numerics {
+    /// Which element.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub element: Option<ElementChoice>,
+    /// Elements across the contact radius at the peak.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub elements_in_contact: Option<usize>,
+    /// Load steps to the peak.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub steps: Option<usize>,
+    /// Penalty or augmented Lagrangian.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub contact: Option<ContactMethod>,
+    /// Mean penetration over depth that sets the penalty.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub penetration: Option<f64>,
+    /// Relative residual at which Newton stops.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub newton_tolerance: Option<f64>,
+    /// Size of an automatic substrate, in contact radii.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub domain: Option<f64>,
+}
+
+/// A mesh on disk, its sides named axis, base, surface, outer.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MeshFile {
+    /// A Gmsh MSH 4.1 file, relative to the scene file.
+    pub file: PathBuf,
+    /// The length of 1 in the file, for example "1 um"; absent: 1 m.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub unit: Option<Length>,
+}
+
+#[cfg(test)]
+mod tests;
