@@ -1,10 +1,11 @@
 //! `asperity calibrate --dependence`: c for both laws, both tools and parts of the range of metals.
 
-use super::{Calibrate, solve};
-use crate::failure::Failure;
-use crate::folder::Folder;
-use crate::progress::Progress;
-use crate::terminal;
+use crate::cli::calibrate::{Calibrate, solve};
+use crate::cli::folder::Folder;
+use crate::cli::progress::Progress;
+use crate::cli::terminal;
+use crate::error::Error;
+use crate::output::SinkExt;
 use asperity_calibration::case::Tool;
 use asperity_calibration::fit::{DEVELOPED, Slope};
 use asperity_calibration::row::{HEADER, Row};
@@ -19,7 +20,7 @@ use std::path::{Path, PathBuf};
 ///
 /// # Errors
 /// A disk that refuses; finished cases stay in the journals.
-pub fn run(args: &Calibrate) -> Result<(), Failure> {
+pub fn run(args: &Calibrate) -> Result<(), Error> {
     let accuracy = args.scene_flags.accuracy.unwrap_or_default();
     let target = args.run.out.clone().unwrap_or_else(|| PathBuf::from("out/dependence"));
     let mut folder = Folder::create(&target, "calibrate", args.run.force)?;
@@ -54,7 +55,7 @@ pub fn run(args: &Calibrate) -> Result<(), Failure> {
     }
     if args.run.json {
         let text = serde_json::to_string_pretty(&json(&table));
-        terminal::say(&text.map_err(|e| Failure::Unfinished(e.to_string()))?);
+        terminal::say(&text.map_err(|e| Error::Unfinished(e.to_string()))?);
     } else if !args.run.quiet {
         terminal::say(text(&table).trim_end());
         terminal::say(&format!("results   {}", target.display()));
@@ -78,10 +79,10 @@ fn journal_of(sweep: &Path, target: &Path) -> PathBuf {
     let mut name = target.file_name().unwrap_or_default().to_os_string();
     name.push(".");
     name.push(sweep.file_name().unwrap_or_default());
-    crate::folder::journal_beside(&target.with_file_name(name))
+    crate::cli::folder::journal_beside(&target.with_file_name(name))
 }
 
-fn write_rows(folder: &mut Folder, name: &str, rows: &[Row]) -> Result<(), Failure> {
+fn write_rows(folder: &mut Folder, name: &str, rows: &[Row]) -> Result<(), Error> {
     let mut table = format!("{HEADER}\n");
     for row in rows {
         let _ = writeln!(table, "{}", row.to_csv());

@@ -1,7 +1,7 @@
 //! The two figures: curves of all exponents mixed into one, and the representative strain over the slope.
 
 use super::results::Calibration;
-use crate::chart::{Chart, Series, svg};
+use crate::draw::chart::{Chart, Series, svg};
 use asperity_calibration::collapse::Sample;
 use asperity_roughness::PUBLISHED;
 

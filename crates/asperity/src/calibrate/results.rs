@@ -1,8 +1,8 @@
 //! The files and the text of a calibration.
 
 use super::pictures;
-use crate::failure::Failure;
-use crate::folder::Folder;
+use crate::error::Error;
+use crate::output::{Sink, SinkExt};
 use asperity_calibration::dimensionless::Dimensionless;
 use asperity_calibration::fit::{Angle, DEVELOPED, Data, Slope, angles, developed, obstacle, slope};
 use asperity_calibration::row::{HEADER, Row};
@@ -74,14 +74,14 @@ impl Calibration {
     }
 
     /// Writes everything; of a part only its rows and the sweep.
-    pub fn write(&self, folder: &mut Folder, whole: bool) -> Result<(), Failure> {
+    pub fn write(&self, folder: &mut dyn Sink, whole: bool) -> Result<(), Error> {
         let mut table = format!("{HEADER}\n");
         for row in &self.rows {
             let _ = writeln!(table, "{}", row.to_csv());
         }
         folder.write("cases.csv", |out| out.write_all(table.as_bytes()))?;
         let sweep =
-            serde_json::to_string_pretty(&self.sweep).map_err(|e| Failure::Unfinished(e.to_string()))?;
+            serde_json::to_string_pretty(&self.sweep).map_err(|e| Error::Unfinished(e.to_string()))?;
         folder.write("sweep.json", |out| out.write_all(sweep.as_bytes()))?;
         if !whole {
             return Ok(());
@@ -89,18 +89,18 @@ impl Calibration {
         let fit = self.json()?;
         folder.write("fit.json", |out| out.write_all(fit.as_bytes()))?;
         if let Some(coefficient) = self.coefficient() {
-            let text = coefficient.to_toml().map_err(|e| Failure::Unfinished(e.to_string()))?;
+            let text = coefficient.to_toml().map_err(|e| Error::Unfinished(e.to_string()))?;
             folder.write("coefficient.toml", |out| out.write_all(text.as_bytes()))?;
         }
         for (name, picture) in pictures::all(self, self.shown) {
-            let text = picture.map_err(Failure::Unfinished)?;
+            let text = picture.map_err(Error::Unfinished)?;
             folder.write(name, |out| out.write_all(text.as_bytes()))?;
         }
         Ok(())
     }
 
     /// The fit as JSON.
-    pub fn json(&self) -> Result<String, Failure> {
+    pub fn json(&self) -> Result<String, Error> {
         let angle = |a: &Angle| {
             json!({
                 "beta_deg": a.beta_deg,
@@ -148,7 +148,7 @@ impl Calibration {
             "cases": self.rows.len(),
             "failed": self.failed(),
         });
-        let text = serde_json::to_string_pretty(&value).map_err(|e| Failure::Unfinished(e.to_string()))?;
+        let text = serde_json::to_string_pretty(&value).map_err(|e| Error::Unfinished(e.to_string()))?;
         Ok(text + "\n")
     }
 

@@ -4,7 +4,7 @@
 //! lies within the paper's rounding plus our error.
 
 use super::evidence::Evidence;
-use crate::rough::{run::kind_name, table1};
+use crate::press::{run::kind_name, table1};
 use asperity_roughness::PUBLISHED;
 use serde::Serialize;
 use serde_json::Value;

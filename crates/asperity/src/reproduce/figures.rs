@@ -3,8 +3,8 @@
 use super::claims::{ROUGH, SETS, SYMMETRIES, TABLE2, islands, kick_exponent, significant};
 use super::evidence::{Evidence, Spread};
 use super::plan::Item;
-use crate::chart::{self, Chart, Series};
-use crate::rough::{run::kind_name, table1};
+use crate::draw::chart::{self, Chart, Series};
+use crate::press::{run::kind_name, table1};
 use maud::{Markup, PreEscaped, html};
 
 /// The closures of Tables 1 and 2, and what they are.

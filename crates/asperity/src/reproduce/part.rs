@@ -5,14 +5,15 @@
 
 use super::plan::{Part, Work};
 use crate::calibrate::Order;
+use crate::cli::folder::Folder;
+use crate::cli::folder::journal_beside;
+use crate::cli::progress::Progress;
 use crate::crush::{Crushed, Sketch, crush_into, resolved};
-use crate::failure::Failure;
-use crate::folder::Folder;
-use crate::folder::journal_beside;
-use crate::progress::Progress;
-use crate::rough::files::Outcome;
-use crate::rough::{run as press, table1};
-use crate::toml_file::TomlFile;
+use crate::error::Error;
+use crate::input::toml_file::TomlFile;
+use crate::output::{SinkExt, write_whole};
+use crate::press::files::Outcome;
+use crate::press::{run as press, table1};
 use asperity_calibration::sweep::Sweep;
 use asperity_roughness::scene::Scene as RoughScene;
 use asperity_roughness::{Coefficient, Islands, KindName};
@@ -69,8 +70,8 @@ impl Resolved {
 }
 
 /// A scene that comes with the program must be one: said like every other failure.
-fn embedded<T>(name: &str, result: Result<T, impl std::fmt::Display>) -> Result<T, Failure> {
-    result.map_err(|e| Failure::Unfinished(format!("the scene of {name}: {e}")))
+fn embedded<T>(name: &str, result: Result<T, impl std::fmt::Display>) -> Result<T, Error> {
+    result.map_err(|e| Error::Unfinished(format!("the scene of {name}: {e}")))
 }
 
 impl Job {
@@ -78,7 +79,7 @@ impl Job {
     ///
     /// # Errors
     /// A scene of the program that is none.
-    pub fn new(part: Part, accuracy: Accuracy, parts: &Path, program: u64) -> Result<Job, Failure> {
+    pub fn new(part: Part, accuracy: Accuracy, parts: &Path, program: u64) -> Result<Job, Error> {
         let file = Path::new(part.name);
         let scene = match part.work {
             Work::Crush { scene, changes, sketches } => {
@@ -132,7 +133,7 @@ impl Job {
     ///
     /// # Errors
     /// What kept it from being done. A crush that ends before its target is done: its stamp says so.
-    pub fn run(&self, progress: Progress) -> Result<Stamp, Failure> {
+    pub fn run(&self, progress: Progress) -> Result<Stamp, Error> {
         let start = Instant::now();
         let _ = std::fs::remove_file(self.stamp_path());
         let stopped = match &self.scene {
@@ -152,13 +153,13 @@ impl Job {
             }
         };
         let stamp = Stamp { key: self.key.clone(), wall_s: start.elapsed().as_secs_f64(), stopped };
-        let text = serde_json::to_string(&stamp).map_err(|e| Failure::Unfinished(e.to_string()))?;
+        let text = serde_json::to_string(&stamp).map_err(|e| Error::Unfinished(e.to_string()))?;
         write_whole(&self.stamp_path(), text.as_bytes())?;
         Ok(stamp)
     }
 
     /// Throws away a journal that another program, or the same for another sweep, has left.
-    fn keep_own_journal(&self) -> Result<(), Failure> {
+    fn keep_own_journal(&self) -> Result<(), Error> {
         let begun = self.folder.with_extension("begun");
         if std::fs::read_to_string(&begun).is_ok_and(|key| key == self.key) {
             return Ok(());
@@ -167,12 +168,7 @@ impl Job {
         write_whole(&begun, self.key.as_bytes())
     }
 
-    fn crush(
-        &self,
-        scene: &Scene,
-        sketches: &[Sketch],
-        progress: Progress,
-    ) -> Result<Option<String>, Failure> {
+    fn crush(&self, scene: &Scene, sketches: &[Sketch], progress: Progress) -> Result<Option<String>, Error> {
         let mut folder = Folder::create(&self.folder, "crush", true)?;
         let crushed = crush_into(scene, None, &mut folder, sketches, progress);
         let Crushed { stopped, failure, summary, .. } = embedded(self.part.name, crushed)?;
@@ -181,14 +177,14 @@ impl Job {
         failure.map_or(Ok(stopped), Err)
     }
 
-    fn press(&self, scene: &RoughScene, kind: KindName, progress: &Progress) -> Result<(), Failure> {
+    fn press(&self, scene: &RoughScene, kind: KindName, progress: &Progress) -> Result<(), Error> {
         let start = Instant::now();
         let name = press::kind_name(kind);
         let calibration = embedded(self.part.name, Coefficient::committed())?;
         progress.show(0.0, || format!("the {name} surface"));
         let prepared = embedded(self.part.name, scene.surface.prepare(Path::to_path_buf))?;
         let (pressed, warnings) = press::press_all(scene, &prepared, Some(&calibration))
-            .map_err(|(key, message)| Failure::Unfinished(format!("{}: {key}: {message}", self.part.name)))?;
+            .map_err(|(key, message)| Error::Unfinished(format!("{}: {key}: {message}", self.part.name)))?;
         let outcome = Outcome { name, scene, prepared: &prepared, pressed: &pressed, warnings: &warnings };
         let mut folder = Folder::create(&self.folder, "rough", true)?;
         outcome.write_tables(&mut folder)?;
@@ -205,7 +201,7 @@ impl Job {
         if let Some(row) = table1::TABLE.iter().find(|row| row.kind == kind) {
             progress.show(0.2, || format!("five {name} surfaces, every closure"));
             let table = serde_json::to_string_pretty(&table1::measure(row)?)
-                .map_err(|e| Failure::Unfinished(e.to_string()))?;
+                .map_err(|e| Error::Unfinished(e.to_string()))?;
             folder.write("table1.json", |out| out.write_all(table.as_bytes()))?;
         }
         folder.publish().map(|_| ())
@@ -223,8 +219,8 @@ fn load_of(scene: &Scene) -> f64 {
 ///
 /// # Errors
 /// A scene of the program that is none.
-pub fn yardstick() -> Result<(f64, f64), Failure> {
-    let text = include_str!("../../../../meshes/single-asperity.toml");
+pub fn yardstick() -> Result<(f64, f64), Error> {
+    let text = include_str!("../../scenes/single-asperity.toml");
     let changes = ["output.every=0", "accuracy=draft"].map(String::from);
     let file: TomlFile<Scene> = TomlFile::parse(Path::new("single-asperity"), text.into(), &changes)?;
     // the fastest of three: other work on the machine only ever adds
@@ -287,17 +283,4 @@ fn profile(map: &asperity_roughness::HeightMap, islands: &Islands) -> String {
     }
     point("cones", end.max(reached), d);
     lines.join("\n") + "\n"
-}
-
-/// Writes beside and renames, so that the file is whole or as it was.
-///
-/// # Errors
-/// A disk that refuses.
-pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
-    let mut beside = path.as_os_str().to_os_string();
-    beside.push(".partial");
-    std::fs::write(&beside, bytes)
-        .and_then(|()| std::fs::rename(&beside, path))
-        .map_err(|e| Failure::disk(path, e))?;
-    Ok(())
 }

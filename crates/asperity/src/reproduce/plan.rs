@@ -1,7 +1,7 @@
 //! What there is to reproduce, and what must be computed for it.
 
 use crate::crush::Sketch;
-use crate::section::{Panel, Reach};
+use crate::draw::field_plot::{Panel, Reach};
 use asperity_roughness::KindName;
 
 /// A figure or a table of the paper.
@@ -78,7 +78,7 @@ macro_rules! crush {
         Part {
             name: $name,
             work: Work::Crush {
-                scene: include_str!(concat!("../../../../meshes/", $name, ".toml")),
+                scene: include_str!(concat!("../../scenes/", $name, ".toml")),
                 changes: $changes,
                 sketches: $sketches,
             },
@@ -91,10 +91,7 @@ macro_rules! rough {
     ($name:literal, $kind:expr, $serves:expr) => {
         Part {
             name: $name,
-            work: Work::Rough {
-                scene: include_str!(concat!("../../../../meshes/", $name, ".toml")),
-                kind: $kind,
-            },
+            work: Work::Rough { scene: include_str!(concat!("../../scenes/", $name, ".toml")), kind: $kind },
             serves: $serves,
         }
     };

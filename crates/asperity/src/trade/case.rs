@@ -1,9 +1,9 @@
 //! One run of a trade, in a process of its own, so that its memory is its own and a run that dies is a row.
 
 use super::settings::Setting;
-use crate::failure::Failure;
-use crate::records::peak_memory_mb;
-use crate::terminal;
+use crate::cli::terminal;
+use crate::crush::peak_memory_mb;
+use crate::error::Error;
 use asperity_solver::run::crush::run;
 use asperity_solver::run::curve::Curve;
 use asperity_solver::run::record::Phase;
@@ -94,8 +94,8 @@ fn ask(scene: &Scene) -> Result<Result<Measured, String>, String> {
 ///
 /// # Errors
 /// An input that is no scene.
-pub fn answer() -> Result<(), Failure> {
-    let failed = |e: &dyn std::fmt::Display| Failure::Unfinished(format!("no case of a trade: {e}"));
+pub fn answer() -> Result<(), Error> {
+    let failed = |e: &dyn std::fmt::Display| Error::Unfinished(format!("no case of a trade: {e}"));
     let mut text = String::new();
     std::io::stdin().read_to_string(&mut text).map_err(|e| failed(&e))?;
     let scene: Scene = serde_json::from_str(&text).map_err(|e| failed(&e))?;

@@ -2,7 +2,7 @@
 
 use super::errors::Row;
 use super::settings::{Knob, LEVELS};
-use crate::chart::{COLOURS, FINE, GRID, INK, framed};
+use crate::draw::chart::{COLOURS, FINE, GRID, INK, framed};
 use asperity_solver::scene::Accuracy;
 use plotters::coord::Shift;
 use plotters::prelude::*;

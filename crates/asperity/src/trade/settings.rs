@@ -231,8 +231,8 @@ mod tests {
     fn scene(numerics: &str) -> Scene {
         let dir = tempfile::tempdir().unwrap();
         let path = dir.path().join("scene.toml");
-        std::fs::write(&path, super::super::DEFAULT_SCENE.to_string() + numerics).unwrap();
-        crate::toml_file::TomlFile::read(&path, &[]).unwrap().value
+        std::fs::write(&path, crate::cli::trade::DEFAULT_SCENE.to_string() + numerics).unwrap();
+        crate::input::toml_file::TomlFile::read(&path, &[]).unwrap().value
     }
 
     #[test]

@@ -1,0 +1,60 @@
+//! `asperity completions` and `asperity man`: what shells and readers of manuals need, made from the arguments.
+
+use crate::cli::args::Cli;
+use crate::error::{Error, InputError};
+use clap::{Args, CommandFactory};
+use clap_complete::Shell;
+use std::io::Write;
+
+/// Arguments of `asperity completions`.
+#[derive(Debug, Args)]
+pub struct Completions {
+    /// The shell; for example: asperity completions bash > ~/.local/share/bash-completion/completions/asperity
+    #[arg(value_enum)]
+    pub shell: Shell,
+}
+
+/// Arguments of `asperity man`.
+#[derive(Debug, Args)]
+pub struct ManPage {
+    /// A command of asperity [default: all of it]; for example: asperity man crush | man -l -
+    pub command: Option<String>,
+}
+
+/// Prints the completions.
+pub fn completions(args: &Completions) {
+    let mut text = Vec::new();
+    clap_complete::generate(args.shell, &mut Cli::command(), "asperity", &mut text);
+    print(&text);
+}
+
+/// Prints a page of the manual.
+///
+/// # Errors
+/// A command that there is not.
+pub fn man(args: &ManPage) -> Result<(), Error> {
+    let mut command = Cli::command();
+    command.build();
+    let command = match &args.command {
+        None => command,
+        Some(name) => {
+            let known: Vec<&str> = command.get_subcommands().map(clap::Command::get_name).collect();
+            let found = command.find_subcommand(name);
+            found.cloned().ok_or_else(|| {
+                InputError::new(format!("asperity has no command `{name}`"))
+                    .help(format!("known here: {}", known.join(", ")))
+            })?
+        }
+    };
+    let mut text = Vec::new();
+    clap_mangen::Man::new(command)
+        .render(&mut text)
+        .map_err(|e| Error::Unfinished(format!("the page could not be made: {e}")))?;
+    print(&text);
+    Ok(())
+}
+
+/// To stdout as it is; a closed pipe is no reason to fail.
+fn print(text: &[u8]) {
+    let _ = std::io::stdout().write_all(text);
+}

@@ -1,0 +1,71 @@
+//! `asperity new`: a commented scene to start from.
+
+use crate::cli::terminal;
+use crate::error::{Error, InputError};
+use clap::{Args, ValueEnum};
+use std::io::Write;
+use std::path::PathBuf;
+
+/// Arguments of `asperity new`.
+#[derive(Debug, Args)]
+pub struct New {
+    /// What to start from
+    #[arg(value_enum)]
+    pub kind: Start,
+    /// File to write [default: <KIND>.toml]
+    pub file: Option<PathBuf>,
+    /// Replace the file if it exists
+    #[arg(long)]
+    pub force: bool,
+}
+
+/// Scenes to start from.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum Start {
+    /// the paper's asperity under a plane
+    Single,
+    /// three asperities under a plane
+    Multi,
+    /// a flat body under a cone
+    Cone,
+    /// a rough surface under a plane
+    Rough,
+}
+
+impl Start {
+    /// Name, scene and command.
+    fn scene(self) -> (&'static str, &'static str, &'static str) {
+        match self {
+            Start::Single => ("single", include_str!("../../scenes/single-asperity.toml"), "crush"),
+            Start::Multi => ("multi", include_str!("../../scenes/three-identical.toml"), "crush"),
+            Start::Cone => ("cone", include_str!("../../scenes/cone-indentation.toml"), "crush"),
+            Start::Rough => ("rough", include_str!("../../scenes/rough-milled.toml"), "rough"),
+        }
+    }
+}
+
+/// Writes the scene and says how to run it.
+///
+/// # Errors
+/// A file that exists, or that cannot be written.
+pub fn new(args: &New) -> Result<(), Error> {
+    let (name, text, command) = args.kind.scene();
+    let path = args.file.clone().unwrap_or_else(|| PathBuf::from(format!("{name}.toml")));
+    let mut options = std::fs::OpenOptions::new();
+    options.write(true).create(true).truncate(true).create_new(!args.force);
+    let error = |e: std::io::Error| {
+        let help = if e.kind() == std::io::ErrorKind::AlreadyExists {
+            format!("give another name, asperity new {name} FILE, or --force to replace it")
+        } else {
+            "give a file in a folder you may write to".into()
+        };
+        InputError::new(format!("cannot write {}: {e}", path.display())).help(help)
+    };
+    options.open(&path).and_then(|mut file| file.write_all(text.as_bytes())).map_err(error)?;
+    terminal::say(&format!(
+        "written   {}; run it with: asperity {command} {}",
+        path.display(),
+        path.display()
+    ));
+    Ok(())
+}

@@ -1,0 +1,155 @@
+//! The metal of a converged state where it is now, cut into flat facets fine enough for smooth contours.
+
+use crate::crush::{MEGAPASCAL, MICROMETRE};
+use asperity_mesh::{Edge, Mesh};
+use asperity_solver::run::crush::FieldFrame;
+
+/// What a facet carries: von Mises stress, hydrostatic pressure (MPa), accumulated plastic strain.
+pub type Values = [f64; 3];
+
+/// A corner of a facet.
+#[derive(Clone, Copy, Debug)]
+pub struct Vertex {
+    /// Current position (r, z), µm.
+    pub at: [f64; 2],
+    /// The fields there.
+    pub values: Values,
+}
+
+/// Deformed cells with their fields.
+pub struct Metal {
+    mesh: Mesh,
+    /// Current positions of the nodes, µm.
+    points: Vec<[f64; 2]>,
+    values: Vec<Values>,
+    contact_pressure: Vec<f64>,
+    /// Of each cell: 0 never yielded, 1 has yielded, 2 flows now.
+    pub zone: Vec<u8>,
+    /// r and contact pressure along the surface, from the axis (left) outward, µm and MPa.
+    pub surface: Vec<[f64; 2]>,
+}
+
+impl Metal {
+    /// The metal of `frame`.
+    pub fn new(frame: &FieldFrame) -> Metal {
+        let fields = &frame.fields;
+        let moved = frame.mesh.nodes.iter().zip(&fields.displacement);
+        let stresses = fields.von_mises.iter().zip(&fields.pressure).zip(&fields.plastic_strain);
+        Metal {
+            mesh: frame.mesh.clone(),
+            points: moved.map(|(x, u)| [0, 1].map(|k| (x[k] + u[k]) / MICROMETRE)).collect(),
+            values: stresses.map(|((v, p), e)| [v / MEGAPASCAL, p / MEGAPASCAL, *e]).collect(),
+            contact_pressure: fields.contact_pressure.clone(),
+            zone: fields.plastic_zone.iter().map(|z| *z as u8).collect(),
+            surface: fields
+                .surface
+                .iter()
+                .map(|p| [p.position[0] / MICROMETRE, p.pressure / MEGAPASCAL])
+                .collect(),
+        }
+    }
+
+    /// Where the nodes are that the tool presses.
+    pub fn pressed(&self) -> impl Iterator<Item = [f64; 2]> + '_ {
+        self.points.iter().zip(&self.contact_pressure).filter(|(_, p)| **p > 0.0).map(|(x, _)| *x)
+    }
+
+    /// From the first to the last foot of asperities of this height, whose summit was at height 0 before the crush.
+    pub fn feet(&self, height: f64) -> [f64; 2] {
+        let risen = self.mesh.sides.surface.iter().flat_map(|&edge| self.mesh.edge_nodes(edge).0);
+        risen.map(|node| self.mesh.nodes[node as usize].map(|x| x / MICROMETRE)).fold(
+            [0.0, 0.0],
+            |[low, high], [r, z]| {
+                if z > -0.999 * height { [low.min(r), high.max(r)] } else { [low, high] }
+            },
+        )
+    }
+
+    /// Every node.
+    pub fn points(&self) -> &[[f64; 2]] {
+        &self.points
+    }
+
+    /// Number of cells.
+    pub fn cells(&self) -> usize {
+        self.mesh.cell_count()
+    }
+
+    /// The corners of a cell.
+    pub fn corners(&self, cell: usize) -> [[f64; 2]; 4] {
+        let nodes = self.mesh.cell(cell);
+        [0, 1, 2, 3].map(|k| self.points[nodes[k] as usize])
+    }
+
+    /// A cell cut into `parts` × `parts` quadrilaterals, each two facets.
+    pub fn facets(&self, cell: usize, parts: usize) -> impl Iterator<Item = [Vertex; 3]> + '_ {
+        let at = move |i: usize| 2.0 * i as f64 / parts as f64 - 1.0;
+        (0..parts * parts).flat_map(move |i| {
+            let (x, y) = ([at(i % parts), at(i % parts + 1)], [at(i / parts), at(i / parts + 1)]);
+            let [a, b, c, d] = [[x[0], y[0]], [x[1], y[0]], [x[1], y[1]], [x[0], y[1]]]
+                .map(|local| self.vertex(cell, local));
+            [[a, b, c], [a, c, d]]
+        })
+    }
+
+    /// The point of a cell at local coordinates in [-1, 1]²: quadratic in place, bilinear in the fields, which the
+    /// solver gives at corners.
+    fn vertex(&self, cell: usize, [x, y]: [f64; 2]) -> Vertex {
+        const CORNERS: [[f64; 2]; 4] = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
+        let nodes = self.mesh.cell(cell);
+        let quadratic = nodes.len() == 8;
+        let middles = [
+            (1.0 - x * x) * (1.0 - y),
+            (1.0 + x) * (1.0 - y * y),
+            (1.0 - x * x) * (1.0 + y),
+            (1.0 - x) * (1.0 - y * y),
+        ];
+        let mut vertex = Vertex { at: [0.0; 2], values: [0.0; 3] };
+        let mut place = |weight: f64, node: u32| {
+            let point = self.points[node as usize];
+            vertex.at = [0, 1].map(|k| vertex.at[k] + weight * point[k]);
+        };
+        for (k, [cx, cy]) in CORNERS.into_iter().enumerate() {
+            let bilinear = 0.25 * (1.0 + cx * x) * (1.0 + cy * y);
+            place(if quadratic { bilinear * (cx * x + cy * y - 1.0) } else { bilinear }, nodes[k]);
+        }
+        if quadratic {
+            middles.into_iter().enumerate().for_each(|(k, weight)| place(0.5 * weight, nodes[4 + k]));
+        }
+        for (k, [cx, cy]) in CORNERS.into_iter().enumerate() {
+            let (weight, of_node) = (0.25 * (1.0 + cx * x) * (1.0 + cy * y), self.values[nodes[k] as usize]);
+            vertex.values = [0, 1, 2].map(|i| vertex.values[i] + weight * of_node[i]);
+        }
+        vertex
+    }
+
+    /// The free surface: corner, corner, and the control point of the parabola between them.
+    pub fn surface_sides(&self) -> impl Iterator<Item = [[f64; 2]; 3]> + '_ {
+        self.mesh.sides.surface.iter().map(|&edge| self.side(edge))
+    }
+
+    /// Every side of every cell, each once.
+    pub fn sides(&self) -> Vec<[[f64; 2]; 3]> {
+        let mut seen = std::collections::HashSet::new();
+        let edges =
+            (0..self.cells()).flat_map(|cell| (0..4).map(move |side| Edge { cell: cell as u32, side }));
+        edges
+            .filter(|&edge| {
+                let ([a, b], _) = self.mesh.edge_nodes(edge);
+                seen.insert((a.min(b), a.max(b)))
+            })
+            .map(|edge| self.side(edge))
+            .collect()
+    }
+
+    fn side(&self, edge: Edge) -> [[f64; 2]; 3] {
+        let ([a, b], middle) = self.mesh.edge_nodes(edge);
+        let [a, b] = [a, b].map(|node| self.points[node as usize]);
+        let half = [0, 1].map(|k| 0.5 * (a[k] + b[k]));
+        let control = middle.map_or(half, |node| {
+            let m = self.points[node as usize];
+            [0, 1].map(|k| 2.0 * m[k] - half[k])
+        });
+        [a, b, control]
+    }
+}

@@ -1,0 +1,86 @@
+//! Claims about the pictures.
+
+use super::*;
+use asperity_solver::run::crush::{Event, run};
+use asperity_solver::run::record::Phase;
+use std::ops::ControlFlow;
+
+fn peak(change: &str) -> (Scene, FieldFrame) {
+    let text = include_str!("../../../scenes/single-asperity.toml").replace("\"standard\"", "\"draft\"");
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path().join("scene.toml");
+    std::fs::write(&path, text).unwrap();
+    let overrides = ["output.every=100000", change].map(String::from).to_vec();
+    let flags = crate::cli::args::SceneFlags { accuracy: None, overrides };
+    let scene = crate::input::scene_file::read(&path, &flags).unwrap().value;
+    let mut peak = None;
+    run(&scene, None, &mut |event| {
+        if let Event::Fields(frame) = event
+            && frame.phase == Phase::Load
+        {
+            peak = Some((*frame).clone());
+        }
+        ControlFlow::Continue(())
+    })
+    .unwrap();
+    (scene, peak.unwrap())
+}
+
+/// The dots on both sides of the axis are the same, the metal ends at the tool, and the colours reach the largest
+/// stress of the nodes but not beyond.
+#[test]
+fn the_picture_is_that_of_the_fields() {
+    let (scene, frame) = peak("numerics.steps=8");
+    let section = Section::new(&frame, &scene, Reach::Yielded).unwrap();
+    let size = [300, 200];
+    let raster = Raster::of(&section.metal, &section.window, true, size);
+    let largest = frame.fields.von_mises.iter().copied().fold(0.0, f64::max) / MEGAPASCAL;
+    let [_, high] = raster.range(0);
+    assert!(high <= largest * (1.0 + 1e-6) && high > 0.9 * largest, "{high} {largest}");
+    for row in raster.dots.chunks(size[0]) {
+        for (a, b) in row.iter().zip(row.iter().rev()) {
+            assert_eq!(a.is_some(), b.is_some());
+        }
+    }
+    let height = |dots: usize| section.window.high[1] - dots as f64 * section.window.size()[0] / 300.0;
+    let first = raster.dots.iter().position(Option::is_some).unwrap() / size[0];
+    assert!((height(first) - section.tip.unwrap()).abs() < 2.0 * section.window.size()[0] / 300.0);
+}
+
+#[test]
+fn every_panel_is_drawn_with_its_unit() {
+    let (scene, frame) = peak("numerics.steps=8");
+    let section = Section::new(&frame, &scene, Reach::Asperities(3.0)).unwrap();
+    let panels = [&Panel::PEAK[..], &Panel::FIG5, &[Panel::Mesh]].concat();
+    let svg = section.svg(&panels, "a title").unwrap();
+    for text in [
+        "a title",
+        "von Mises stress (MPa)",
+        "contact pressure (MPa)",
+        "r (µm)",
+        "never yielded",
+        "rigid tool",
+    ] {
+        assert!(svg.contains(text), "{text}");
+    }
+    assert!(!svg.contains("NaN") && svg.matches("data:image/png").count() == 6);
+    let document = roxmltree_free_check(&svg);
+    assert!(document, "tags that do not close");
+}
+
+/// Every element that opens closes: the document is XML, not only HTML.
+fn roxmltree_free_check(svg: &str) -> bool {
+    let opened = svg.matches('<').count() - svg.matches("</").count();
+    opened == svg.matches("</").count()
+}
+
+/// An elastic body has no zones and no plastic strain, and is drawn all the same.
+#[test]
+fn an_elastic_body_is_drawn() {
+    let (mut scene, mut frame) = peak("numerics.steps=8");
+    scene.material.yield_stress = None;
+    frame.fields.plastic_zone.iter_mut().for_each(|z| *z = 0.0);
+    frame.fields.plastic_strain.iter_mut().for_each(|s| *s = 0.0);
+    let svg = Section::new(&frame, &scene, Reach::Yielded).unwrap().svg(&Panel::PEAK, "").unwrap();
+    assert!(!svg.contains("NaN"));
+}

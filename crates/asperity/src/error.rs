@@ -1,0 +1,70 @@
+//! Why a function of the library ends without its result.
+
+use std::fmt;
+use std::ops::Range;
+use std::path::Path;
+
+/// The two ways to fail.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// A file or a value is wrong; nothing was computed.
+    #[error(transparent)]
+    Input(#[from] InputError),
+    /// The work could not be finished; the text says where and why.
+    #[error("{0}")]
+    Unfinished(String),
+}
+
+impl Error {
+    /// A result that could not be put on disk.
+    pub fn disk(path: &Path, error: impl fmt::Display) -> Self {
+        Error::Unfinished(format!("cannot write {}: {error}", path.display()))
+    }
+}
+
+/// Something wrong in what the user gave, with its place in a text where it has one.
+#[derive(Debug, thiserror::Error)]
+#[error("{message}")]
+pub struct InputError {
+    /// What is wrong, with the allowed range.
+    pub message: String,
+    /// A way out.
+    pub help: Option<String>,
+    /// Where it stands.
+    pub place: Option<Box<Place>>,
+}
+
+/// A piece of a text.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Place {
+    /// Name of the file, or `--set`.
+    pub name: String,
+    /// The whole text.
+    pub text: String,
+    /// Bytes of the text.
+    pub span: Range<usize>,
+}
+
+impl InputError {
+    /// An error without a place.
+    pub fn new(message: impl Into<String>) -> Self {
+        InputError { message: message.into(), help: None, place: None }
+    }
+
+    /// Adds a way out.
+    #[must_use]
+    pub fn help(mut self, help: impl Into<String>) -> Self {
+        self.help = Some(help.into());
+        self
+    }
+
+    /// Points at `span` (bytes) of `text`, which is called `name`; of a span over several lines, at its first one.
+    #[must_use]
+    pub fn at(mut self, name: &str, text: &str, span: Range<usize>) -> Self {
+        let start = span.start.min(text.len());
+        let line_end = text[start..].find('\n').map_or(text.len(), |i| start + i);
+        let end = span.end.clamp(start, line_end);
+        self.place = Some(Box::new(Place { name: name.into(), text: text.into(), span: start..end }));
+        self
+    }
+}

@@ -1,0 +1,247 @@
+//! Reading a TOML file into a type, with `--set` on top and errors that point at the line.
+//!
+//! This is the only file that names the toml crate.
+
+use crate::error::InputError;
+use crate::input::suggest;
+use serde::de::DeserializeOwned;
+use std::io::Read;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+use toml::Spanned;
+use toml::de::{DeArray, DeTable, DeValue, Deserializer};
+
+/// No scene is larger; a device that never ends is refused too.
+const LARGEST_FILE: u64 = 16 << 20;
+
+/// A file that was read, with what is needed to point at its lines later.
+#[derive(Debug)]
+pub struct TomlFile<T> {
+    /// What it says, overrides applied.
+    pub value: T,
+    path: PathBuf,
+    sources: Sources,
+}
+
+impl<T: DeserializeOwned> TomlFile<T> {
+    /// Reads `path`, applies overrides `key.path=value` in their order, and makes a `T` of the result.
+    ///
+    /// # Errors
+    /// A file that cannot be read, is not text or not TOML, an override that names no place, or values that are
+    /// not those of a `T`; each with its line and, for an unknown key, the nearest known one.
+    pub fn read(path: &Path, overrides: &[String]) -> Result<Self, InputError> {
+        TomlFile::parse(path, read_text(path)?, overrides)
+    }
+
+    /// The same of a `text` that stands for the file at `path`.
+    ///
+    /// # Errors
+    /// As for [`TomlFile::read`].
+    pub fn parse(path: &Path, text: String, overrides: &[String]) -> Result<Self, InputError> {
+        let sources = Sources::new(path.display().to_string(), text, overrides);
+        let table = sources.table()?;
+        let deserializer = Deserializer::from(Spanned::new(0..sources.text.len(), table));
+        let value = T::deserialize(deserializer).map_err(|e| sources.toml_error(&e))?;
+        Ok(TomlFile { value, path: path.to_path_buf(), sources })
+    }
+}
+
+impl<T> TomlFile<T> {
+    /// The file's name without its extension, which names the results.
+    pub fn stem(&self) -> String {
+        self.path.file_stem().map_or_else(|| "scene".into(), |s| s.to_string_lossy().into_owned())
+    }
+
+    /// A path of the file, which is relative to its folder.
+    pub fn resolve(&self, path: &Path) -> PathBuf {
+        self.path.parent().map_or_else(|| path.to_path_buf(), |folder| folder.join(path))
+    }
+
+    /// An error about the value at `path` ("asperity[0].height"), pointing at it or, where it is absent, at the
+    /// innermost table that lacks it.
+    pub fn error_at(&self, path: &str, message: &str) -> InputError {
+        let keys = path_keys(path).unwrap_or_default();
+        let span = self.sources.table().ok().and_then(|table| find(&table, &keys));
+        let message = if path.is_empty() { message.to_string() } else { format!("{path}: {message}") };
+        self.sources.error(&message, span)
+    }
+}
+
+/// Reads a whole text file, with errors a person can act on.
+fn read_text(path: &Path) -> Result<String, InputError> {
+    let name = path.display();
+    let error = |e: std::io::Error| {
+        InputError::new(format!("cannot read {name}: {e}")).help("give the path of a TOML file")
+    };
+    let mut bytes = Vec::new();
+    let file = std::fs::File::open(path).map_err(error)?;
+    file.take(LARGEST_FILE + 1).read_to_end(&mut bytes).map_err(error)?;
+    if bytes.len() as u64 > LARGEST_FILE {
+        return Err(InputError::new(format!("{name} is larger than {} MB", LARGEST_FILE >> 20))
+            .help("a scene is a text file of a few lines"));
+    }
+    let text = String::from_utf8(bytes).map_err(|e| {
+        let valid = e.utf8_error().valid_up_to();
+        let line = 1 + e.as_bytes()[..valid].iter().filter(|&&b| b == b'\n').count();
+        InputError::new(format!("{name} is not a text file: line {line}, byte {} is not UTF-8", valid + 1))
+            .help("a scene is a TOML file in UTF-8")
+    })?;
+    if text.trim().is_empty() {
+        return Err(InputError::new(format!("{name} is empty"))
+            .help("it must say what to compute: see the commented files in meshes/"));
+    }
+    Ok(text)
+}
+
+/// The text of the file followed by the overrides: spans beyond the file belong to an override.
+#[derive(Debug)]
+struct Sources {
+    name: String,
+    text: String,
+    overrides: Vec<(Range<usize>, String)>,
+}
+
+impl Sources {
+    fn new(name: String, text: String, overrides: &[String]) -> Self {
+        let mut start = text.len();
+        let overrides = overrides
+            .iter()
+            .map(|text| {
+                let span = start + 1..start + 1 + text.len();
+                start = span.end;
+                (span, text.clone())
+            })
+            .collect();
+        Sources { name, text, overrides }
+    }
+
+    /// The file as a table, overrides applied.
+    fn table(&self) -> Result<DeTable<'_>, InputError> {
+        let root = DeTable::parse(&self.text).map_err(|e| self.toml_error(&e))?.into_inner();
+        let mut root = Spanned::new(0..self.text.len(), DeValue::Table(root));
+        for (span, text) in &self.overrides {
+            set(&mut root, text, span).map_err(|message| self.error(&message, Some(span.clone())))?;
+        }
+        match root.into_inner() {
+            DeValue::Table(table) => Ok(table),
+            _ => Err(self.error("the overrides leave no table", None)),
+        }
+    }
+
+    /// An error that shows the place; for the file as a whole it names the file.
+    fn error(&self, message: &str, span: Option<Range<usize>>) -> InputError {
+        let Some(span) = span.filter(|span| *span != (0..self.text.len())) else {
+            return InputError::new(format!("{}: {message}", self.name));
+        };
+        match self.overrides.iter().find(|(place, _)| span.start >= place.start && span.end <= place.end) {
+            Some((_, text)) => InputError::new(message).at("--set", text, 0..text.len()),
+            None => InputError::new(message).at(&self.name, &self.text, span),
+        }
+    }
+
+    fn toml_error(&self, e: &toml::de::Error) -> InputError {
+        let (message, help) = suggest::reword(e.message());
+        let error = self.error(&message, e.span());
+        match help {
+            Some(help) => error.help(help),
+            None => error,
+        }
+    }
+}
+
+/// The keys of a path, "asperity[0].height" or "asperity.0.height"; `None` where one is empty or has odd letters.
+fn path_keys(path: &str) -> Option<Vec<&str>> {
+    let keys: Vec<&str> =
+        path.split(['.', '[']).map(|key| key.strip_suffix(']').unwrap_or(key).trim()).collect();
+    let letters = |key: &str| key.chars().all(|c| c.is_alphanumeric() || c == '_' || c == '-');
+    keys.iter().all(|key| !key.is_empty() && letters(key)).then_some(keys)
+}
+
+/// Where the value at `keys` stands, or the innermost table on the way to it; `None` for the root.
+fn find(table: &DeTable<'_>, keys: &[&str]) -> Option<Range<usize>> {
+    let mut value: &Spanned<DeValue<'_>> = table.get(*keys.first()?)?;
+    for key in &keys[1..] {
+        let inner = match value.get_ref() {
+            DeValue::Table(table) => table.get(*key),
+            DeValue::Array(array) => key.parse().ok().and_then(|i: usize| array.get(i)),
+            _ => None,
+        };
+        match inner {
+            Some(inner) => value = inner,
+            None => break,
+        }
+    }
+    Some(value.span())
+}
+
+/// Applies one override to the tree; the error is a sentence for the user.
+fn set<'a>(root: &mut Spanned<DeValue<'a>>, text: &'a str, span: &Range<usize>) -> Result<(), String> {
+    const FORM: &str = "--set takes key.path=value, for example --set \"loading.depth=5 um\" or --set asperity[0].slope_deg=8";
+    let (path, value) = text.split_once('=').ok_or(FORM)?;
+    let keys = path_keys(path.trim()).ok_or(FORM)?;
+    let value = value.trim();
+    if value.is_empty() {
+        return Err(FORM.into());
+    }
+    // what is no TOML value is a bare string, so that shells need no second pair of quotes
+    let value = DeValue::parse(value).map_or_else(|_| DeValue::String(value.into()), Spanned::into_inner);
+    put(root, &keys, moved(value, span), span)
+}
+
+/// Puts `new` at `keys`, making tables on the way.
+fn put<'a>(
+    at: &mut Spanned<DeValue<'a>>,
+    keys: &[&'a str],
+    new: Spanned<DeValue<'a>>,
+    span: &Range<usize>,
+) -> Result<(), String> {
+    let [key, rest @ ..] = keys else {
+        *at = new;
+        return Ok(());
+    };
+    let numbered = |keys: &[&str]| keys.first().is_some_and(|k| k.parse::<usize>().is_ok());
+    let empty = || {
+        let value =
+            if numbered(rest) { DeValue::Array(DeArray::new()) } else { DeValue::Table(DeTable::new()) };
+        Spanned::new(span.clone(), value)
+    };
+    match at.get_mut() {
+        DeValue::Table(table) => {
+            let name = Spanned::new(span.clone(), (*key).into());
+            put(table.entry(name).or_insert_with(empty), rest, new, span)
+        }
+        DeValue::Array(array) => {
+            let len = array.len();
+            let index = key.parse::<usize>().ok().filter(|&i| i <= len).ok_or_else(|| {
+                format!(
+                    "the table to the left of `{key}` is a list: give a number from 0 to {len} in brackets"
+                )
+            })?;
+            if index == len {
+                array.push(empty());
+            }
+            array.get_mut(index).map_or(Ok(()), |value| put(value, rest, new, span))
+        }
+        other => Err(format!("what stands to the left of `{key}` is a {}, not a table", other.type_str())),
+    }
+}
+
+/// The value with every span replaced: an override is shown as a whole.
+fn moved<'a>(value: DeValue<'a>, span: &Range<usize>) -> Spanned<DeValue<'a>> {
+    let value = match value {
+        DeValue::Array(array) => {
+            DeValue::Array(array.into_iter().map(|v| moved(v.into_inner(), span)).collect())
+        }
+        DeValue::Table(table) => DeValue::Table(
+            table
+                .into_iter()
+                .map(|(k, v)| (Spanned::new(span.clone(), k.into_inner()), moved(v.into_inner(), span)))
+                .collect(),
+        ),
+        other => other,
+    };
+    Spanned::new(span.clone(), value)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,22 @@
+//! Crushes rough metal on the computer, from one conical asperity to a whole measured surface, and says how far each number
+//! can be trusted.
+
+pub mod error;
+pub mod output;
+
+pub mod input;
+
+pub mod calculix;
+pub mod calibrate;
+pub mod crush;
+pub mod press;
+pub mod reproduce;
+pub mod trade;
+
+pub mod draw;
+
+#[cfg(feature = "cli")]
+#[doc(hidden)]
+pub mod cli;
+
+pub use error::{Error, InputError};
