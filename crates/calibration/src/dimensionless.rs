@@ -5,7 +5,7 @@
 //! and likewise for ln(a tan β/h). The second sum is what a finite slope adds to the curve that all slopes share.
 
 use crate::fit::Data;
-use crate::least_squares::{powers, solve, value};
+use asperity_law::least_squares::{powers, solve, value};
 
 /// A fitted function of ln X and tan β.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -26,8 +26,6 @@ pub mod journal;
 
 pub mod run;
 
-pub mod least_squares;
-
 pub mod collapse;
 
 pub mod fit;

@@ -3,6 +3,7 @@
 use crate::case::Case;
 use crate::cone::{CaseError, Curve, Point, crush};
 use crate::resolution::{FIT_FROM, Resolution};
+use asperity_law::least_squares::Line;
 
 /// What a case gives.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -64,24 +65,4 @@ fn whole_periods(curve: &Curve) -> &[Point] {
     let candidates = first..(first + 4).min(points.len());
     let start = candidates.min_by(|i, j| off(i).total_cmp(&off(j))).unwrap_or(first);
     &points[start..]
-}
-
-/// A least-squares line.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Line {
-    slope: f64,
-    /// Standard error of the slope.
-    slope_error: f64,
-}
-
-impl Line {
-    fn through(points: &[[f64; 2]]) -> Line {
-        let n = points.len() as f64;
-        let mean = |k: usize| points.iter().map(|p| p[k]).sum::<f64>() / n;
-        let (x, y) = (mean(0), mean(1));
-        let sxx: f64 = points.iter().map(|p| (p[0] - x).powi(2)).sum();
-        let slope = points.iter().map(|p| (p[0] - x) * (p[1] - y)).sum::<f64>() / sxx;
-        let rest: f64 = points.iter().map(|p| (p[1] - y - slope * (p[0] - x)).powi(2)).sum();
-        Line { slope, slope_error: (rest / (n - 2.0) / sxx).sqrt() }
-    }
 }

@@ -7,6 +7,7 @@ mod curve;
 mod curve_file;
 mod elastic;
 mod hardening;
+pub mod least_squares;
 mod table;
 pub mod units;
 
