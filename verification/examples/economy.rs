@@ -6,8 +6,9 @@
 
 use asperity_law::units::{Length, Stress};
 use asperity_solver::algebra::newton::{KEEP, Settings, solve};
-use asperity_solver::body::model::{Model, ToolContact};
+use asperity_solver::body::discrete_body::{Body, ToolContact};
 use asperity_solver::run::crush::{Outcome, run};
+use asperity_solver::run::equilibrium::Equilibrium;
 use asperity_solver::run::load_path::schedule;
 use asperity_solver::run::problem::prepare;
 use asperity_solver::scene::{Accuracy, Scene, Substrate};
@@ -50,20 +51,21 @@ fn loaded(scene: &Scene, keep: f64) -> Result<(f64, f64, usize), Box<dyn Error>>
     let problem = prepare(scene, None)?;
     let contact = ToolContact { tool: problem.tool, penalty: problem.penalty };
     let mut model =
-        Model::new(&problem.mesh, problem.symmetry, problem.metal, |n| problem.held[n], Some(contact))?;
+        Body::new(&problem.mesh, problem.symmetry, problem.metal, |n| problem.held[n], Some(contact))
+            .and_then(Equilibrium::new)?;
     let settings = Settings { tolerance: problem.numbers.newton_tolerance, max_iterations: 40, keep };
     let clock = Instant::now();
     let mut last = [0.0; 2];
     for travel in schedule(problem.numbers.steps, problem.numbers.geometric_from) {
         let step = travel - last[0];
         let ratio = if last[1] > 0.0 { step / last[1] } else { 0.0 };
-        let before = model.accepted_increment().to_vec();
+        let before = model.state().displacement.to_vec();
         model.begin(-travel, ratio, |node| before[node].map(|u| 0.7 * ratio * u));
         solve(&mut model, &settings).map_err(|(failure, _)| failure)?;
         model.accept()?;
         last = [travel, step];
     }
-    Ok((clock.elapsed().as_secs_f64(), model.load(), model.counters.factorisations))
+    Ok((clock.elapsed().as_secs_f64(), model.response().load(), model.counters.factorisations))
 }
 
 fn main() -> Result<(), Box<dyn Error>> {

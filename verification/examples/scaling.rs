@@ -5,7 +5,8 @@
 #![allow(clippy::print_stdout, reason = "the table is the point")]
 
 use asperity_solver::algebra::newton::{KEEP, Settings, System};
-use asperity_solver::body::model::{Model, ToolContact};
+use asperity_solver::body::discrete_body::{Body, ToolContact};
+use asperity_solver::run::equilibrium::Equilibrium;
 use asperity_solver::run::load_path::{Goal, Path, schedule};
 use asperity_solver::run::problem::prepare;
 use asperity_solver::scene::Accuracy;
@@ -36,8 +37,8 @@ fn one(elements: usize) -> Result<(), Box<dyn Error>> {
     scene.numerics.elements_in_contact = Some(elements);
     let problem = prepare(&scene, None)?;
     let contact = ToolContact { tool: problem.tool, penalty: problem.penalty };
-    let model =
-        Model::new(&problem.mesh, problem.symmetry, problem.metal, |n| problem.held[n], Some(contact))?;
+    let model = Body::new(&problem.mesh, problem.symmetry, problem.metal, |n| problem.held[n], Some(contact))
+        .and_then(Equilibrium::new)?;
     let settings = Settings { tolerance: 1e-5, max_iterations: 40, keep: KEEP };
     let clock = Instant::now();
     let mut path = Path::new(model, settings, false);
@@ -46,7 +47,7 @@ fn one(elements: usize) -> Result<(), Box<dyn Error>> {
     let whole = clock.elapsed().as_secs_f64();
     let iterations = path.iterations;
     let model = &mut path.model;
-    let before = model.accepted_increment().to_vec();
+    let before = model.state().displacement.to_vec();
     model.begin(-(FRACTION * (1.0 + problem.numbers.penetration)), 0.0, |node| before[node].map(|u| 0.1 * u));
     let repeats = 5;
     let mut least = [f64::INFINITY; 3];
@@ -64,7 +65,7 @@ fn one(elements: usize) -> Result<(), Box<dyn Error>> {
         }
     }
     let memory = peak_memory().unwrap_or(f64::NAN);
-    let unknowns = model.unknowns();
+    let unknowns = model.body().dofs.count;
     let operations = model.operations().factor;
     println!("{unknowns} {operations} {} {} {} {whole} {iterations} {memory}", least[0], least[1], least[2]);
     Ok(())

@@ -3,11 +3,12 @@
 use crate::test_meshes::{mapped, nodes_of};
 use asperity_law::{Elastic, Hardening, HardeningLaw};
 use asperity_mesh::{ElementKind, Mesh};
-use asperity_solver::algebra::newton::{Converged, Failure, Settings, solve};
-use asperity_solver::body::model::{Model, ToolContact};
+use asperity_solver::algebra::newton::{Converged, Settings, solve};
+use asperity_solver::body::discrete_body::{Body, ToolContact};
 use asperity_solver::point::kinematics::Symmetry;
 use asperity_solver::point::material::{Metal, stress};
 use asperity_solver::point::tensor::Sym;
+use asperity_solver::run::equilibrium::{Equilibrium, SolveFailure};
 
 /// Tight enough that only rounding is left: the claims are about the equations, not about when Newton stops.
 pub const TIGHT: Settings = Settings { tolerance: 1e-12, max_iterations: 40, keep: 0.0 };
@@ -35,8 +36,8 @@ pub fn model<'m>(
     metal: Metal,
     held: &[[bool; 2]],
     contact: Option<ToolContact>,
-) -> Result<Model<'m>, Failure> {
-    Model::new(mesh, symmetry, metal, |node| held[node], contact)
+) -> Result<Equilibrium<'m>, SolveFailure> {
+    Ok(Body::new(mesh, symmetry, metal, |node| held[node], contact).and_then(Equilibrium::new)?)
 }
 
 /// Solves the increment with the tool at `tip` (infinite: none) from `guess`, whose held components are kept, and
@@ -45,11 +46,11 @@ pub fn model<'m>(
 /// # Errors
 /// Newton did not converge.
 pub fn increment(
-    model: &mut Model<'_>,
+    model: &mut Equilibrium<'_>,
     tip: f64,
     settings: &Settings,
     guess: impl Fn(usize) -> [f64; 2],
-) -> Result<Converged, Failure> {
+) -> Result<Converged, SolveFailure> {
     model.begin(tip, 0.0, guess);
     let done = solve(model, settings).map_err(|(failure, _)| failure)?;
     model.accept()?;
@@ -62,16 +63,16 @@ pub fn increment(
 /// # Errors
 /// The failure of an increment of less than a hundredth of the whole.
 pub fn travel(
-    model: &mut Model<'_>,
+    model: &mut Equilibrium<'_>,
     settings: &Settings,
     held: &[[bool; 2]],
     whole: impl Fn(usize) -> [f64; 2],
-) -> Result<(), Failure> {
+) -> Result<(), SolveFailure> {
     let (mut done, mut share) = (0.0_f64, 1.0_f64);
     let mut last: Option<f64> = None;
     while done < 1.0 - 1e-12 {
         let step = share.min(1.0 - done);
-        let before = model.accepted_increment().to_vec();
+        let before = model.state().displacement.to_vec();
         let scale = last.map_or(0.0, |l| step / l);
         let outcome = increment(model, f64::INFINITY, settings, |node| {
             let to = whole(node);
@@ -93,8 +94,14 @@ pub fn travel(
 }
 
 /// Kirchhoff stress at every point of the converged state.
-pub fn stresses(model: &Model<'_>) -> Vec<Sym> {
-    model.states().iter().map(|state| stress(&model.metal().elastic, &state.stretch)).collect()
+pub fn stresses(model: &Equilibrium<'_>) -> Vec<Sym> {
+    model
+        .state()
+        .points
+        .states
+        .iter()
+        .map(|state| stress(&model.body().material.elastic, &state.stretch))
+        .collect()
 }
 
 /// Axial Kirchhoff stress of a bar of one element at each of the total logarithmic strains it is stretched to, one
@@ -102,7 +109,7 @@ pub fn stresses(model: &Model<'_>) -> Vec<Sym> {
 ///
 /// # Errors
 /// Newton did not converge.
-pub fn stretch_bar(kind: ElementKind, metal: &Metal, strains: &[f64]) -> Result<Vec<f64>, Failure> {
+pub fn stretch_bar(kind: ElementKind, metal: &Metal, strains: &[f64]) -> Result<Vec<f64>, SolveFailure> {
     // one element: a longer bar would neck
     let mesh = mapped(kind, [1, 1], |x| x);
     let mut held = vec![[false; 2]; mesh.nodes.len()];
@@ -113,7 +120,7 @@ pub fn stretch_bar(kind: ElementKind, metal: &Metal, strains: &[f64]) -> Result<
     let mut last = 0.0_f64;
     let mut axial = Vec::with_capacity(strains.len());
     for &strain in strains {
-        let x = model.positions().to_vec();
+        let x = model.state().position.to_vec();
         increment(&mut model, f64::INFINITY, &TIGHT, |node| {
             let [r, z] = x[node];
             // as incompressible: nearly right
@@ -126,11 +133,11 @@ pub fn stretch_bar(kind: ElementKind, metal: &Metal, strains: &[f64]) -> Result<
 }
 
 /// Sum over `nodes` of the internal force along `direction(node)`: the reaction that holds them.
-pub fn reaction(model: &Model<'_>, nodes: &[usize], direction: impl Fn(usize) -> [f64; 2]) -> f64 {
+pub fn reaction(model: &Equilibrium<'_>, nodes: &[usize], direction: impl Fn(usize) -> [f64; 2]) -> f64 {
     nodes
         .iter()
         .map(|&node| {
-            let (f, d) = (model.internal_forces()[node], direction(node));
+            let (f, d) = (model.response().internal[node], direction(node));
             f[0] * d[0] + f[1] * d[1]
         })
         .sum()

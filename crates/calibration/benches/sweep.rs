@@ -11,9 +11,10 @@ use asperity_calibration::resolution::Resolution;
 use asperity_calibration::run::{shard, solve};
 use asperity_calibration::sweep::Sweep;
 use asperity_solver::algebra::roofline::Floor;
-use asperity_solver::body::model::Model;
+use asperity_solver::body::discrete_body::Body as Discrete;
 use asperity_solver::element::kernel::POINTS;
 use asperity_solver::point::kinematics::Symmetry;
+use asperity_solver::run::equilibrium::Equilibrium;
 
 /// Sums over cases.
 #[derive(Clone, Copy, Default)]
@@ -60,7 +61,9 @@ fn measure(case: &Case, sweep: &Sweep, floor: &Floor) -> Sums {
     let row = solve(case, sweep.accuracy);
     let (increments, iterations) = row.outcome.map_or((0, 0), |k| (k.increments, k.iterations));
     let held = |node: usize| body.held[node];
-    let model = Model::new(&body.mesh, Symmetry::Axisymmetric, body.metal.clone(), held, Some(body.contact));
+    let model =
+        Discrete::new(&body.mesh, Symmetry::Axisymmetric, body.metal.clone(), held, Some(body.contact))
+            .and_then(Equilibrium::new);
     let points = body.mesh.cell_count() * POINTS;
     let least = model.map_or(0.0, |m| floor.iteration(resolution.kind, points, m.operations()));
     Sums {

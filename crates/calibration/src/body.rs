@@ -4,7 +4,7 @@ use crate::case::{Case, Tool};
 use crate::layout::Layout;
 use crate::resolution::Resolution;
 use asperity_mesh::Mesh;
-use asperity_solver::body::model::ToolContact;
+use asperity_solver::body::discrete_body::ToolContact;
 use asperity_solver::contact::tool::Tool as RigidTool;
 use asperity_solver::point::kinematics::Symmetry;
 use asperity_solver::point::material::Metal;

@@ -4,9 +4,10 @@ use crate::body::Body;
 use crate::case::{Case, YieldMeasure};
 use crate::resolution::{FIT_FROM, Resolution};
 use asperity_solver::algebra::newton::{Failure, KEEP, Settings, solve};
+use asperity_solver::body::discrete_body::Body as Discrete;
 use asperity_solver::body::energy::contact_sums;
-use asperity_solver::body::model::Model;
 use asperity_solver::point::kinematics::Symmetry;
+use asperity_solver::run::equilibrium::{Equilibrium, SolveFailure};
 
 /// Share of the last increment that is the first guess of the next.
 const GUESS: f64 = 0.7;
@@ -51,7 +52,7 @@ pub enum CaseError {
         /// Depth reached, in units of the final depth.
         share: f64,
         /// What the solver said last.
-        cause: Failure,
+        cause: SolveFailure,
     },
     /// The curve is no parabola.
     #[error("the force grows with depth to the {0:.3}, not 2")]
@@ -67,7 +68,7 @@ fn travels(r: &Resolution) -> Vec<f64> {
 
 /// A cone under way: its model and what the steps so far have cost.
 struct Path<'m> {
-    model: Model<'m>,
+    model: Equilibrium<'m>,
     resolution: &'m Resolution,
     stress: YieldMeasure,
     /// Relative to E and the final depth 1: what the far field takes away per force.
@@ -84,8 +85,9 @@ impl<'m> Path<'m> {
         let far = FAR_FIELD / (case.elastic().reduced_modulus() * body.domain);
         let held = |node: usize| body.held[node];
         let model =
-            Model::new(&body.mesh, Symmetry::Axisymmetric, body.metal.clone(), held, Some(body.contact))
-                .map_err(|cause| CaseError::Solver { share: 0.0, cause })?;
+            Discrete::new(&body.mesh, Symmetry::Axisymmetric, body.metal.clone(), held, Some(body.contact))
+                .and_then(Equilibrium::new)
+                .map_err(|cause| CaseError::Solver { share: 0.0, cause: cause.into() })?;
         let (travel, last_step) = (0.0, 0.0);
         let stress = case.stress;
         Ok(Path {
@@ -110,15 +112,15 @@ impl<'m> Path<'m> {
             let step = next - self.travel;
             // nothing of the last increment is carried on where the tool turns back
             let ratio = if self.last_step * step > 0.0 { step / self.last_step } else { 0.0 };
-            let last = self.model.accepted_increment().to_vec();
+            let last = self.model.state().displacement.clone();
             let carry = self.resolution.carry * ratio;
             self.model.begin(-next, carry, |node| last[node].map(|u| guess * ratio * u));
             let outcome = solve(&mut self.model, &settings);
             self.iterations += outcome.as_ref().map_or_else(|(_, spent)| *spent, |done| done.iterations);
-            let stopped = |cause: Failure| CaseError::Solver { share: self.travel, cause };
+            let stopped = |cause: SolveFailure| CaseError::Solver { share: self.travel, cause };
             match outcome {
                 Ok(_) => {
-                    self.model.accept().map_err(stopped)?;
+                    self.model.accept().map_err(|cause| stopped(cause.into()))?;
                     if self.stress == YieldMeasure::Cauchy {
                         self.model.weigh_by_current_volume();
                     }

@@ -10,9 +10,10 @@ use asperity_law::HardeningMode;
 use asperity_law::units::{Length, Stress};
 use asperity_mesh::ElementKind;
 use asperity_solver::algebra::roofline::Floor;
-use asperity_solver::body::model::{Model, ToolContact};
+use asperity_solver::body::discrete_body::{Body, ToolContact};
 use asperity_solver::element::kernel::POINTS;
 use asperity_solver::run::crush::run;
+use asperity_solver::run::equilibrium::Equilibrium;
 use asperity_solver::run::problem::prepare;
 use asperity_solver::scene::{
     Accuracy, Asperity, ElementChoice, HardeningChoice, Lateral, Loading, Material, Numerics, Output, Scene,
@@ -59,8 +60,9 @@ fn least(scene: &Scene, kind: ElementKind, floor: &Floor) -> Option<f64> {
     let problem = prepare(scene, None).ok()?;
     let contact = ToolContact { tool: problem.tool, penalty: problem.penalty };
     let held = |node: usize| problem.held[node];
-    let model =
-        Model::new(&problem.mesh, problem.symmetry, problem.metal.clone(), held, Some(contact)).ok()?;
+    let model = Body::new(&problem.mesh, problem.symmetry, problem.metal.clone(), held, Some(contact))
+        .and_then(Equilibrium::new)
+        .ok()?;
     Some(floor.iteration(kind, problem.mesh.cell_count() * POINTS, model.operations()))
 }
 

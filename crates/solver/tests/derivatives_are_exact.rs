@@ -8,12 +8,13 @@
 use asperity_law::{Elastic, Hardening, HardeningLaw, HardeningTable};
 use asperity_solver::contact::edge::{ContactContext, ContactEdge};
 use asperity_solver::contact::tool::Tool;
-use asperity_solver::element::kernel::{ElementContext, ElementOutput};
+use asperity_solver::element::kernel::{ElementContext, ElementOutput, PointSlice};
 use asperity_solver::element::quad4;
 use asperity_solver::element::quad8;
+use asperity_solver::point::failure::Failure;
 use asperity_solver::point::j2;
 use asperity_solver::point::j2::{PointUpdate, Tangent};
-use asperity_solver::point::kinematic_hardening::{self, Memory};
+use asperity_solver::point::kinematic_hardening::{self, History};
 use asperity_solver::point::kinematics::{Symmetry, motion};
 use asperity_solver::point::material::{Metal, PointState};
 
@@ -49,10 +50,10 @@ fn metals() -> [Metal; 8] {
 /// The update that belongs to the metal.
 fn update(
     metal: &Metal,
-    (state, memory): &(PointState, Memory),
+    (state, memory): &(PointState, History),
     g: &[f64; 5],
     tangent: Tangent,
-) -> (PointUpdate, Memory) {
+) -> (PointUpdate, History) {
     if metal.has_back_stress() {
         kinematic_hardening::update(metal, state, memory, g, tangent).unwrap()
     } else {
@@ -61,8 +62,8 @@ fn update(
 }
 
 /// A state with prior plastic strain, general stretches, and a back stress that is coaxial with none of them.
-fn strained(metal: &Metal) -> (PointState, Memory) {
-    let mut old = (metal.virgin(), Memory::default());
+fn strained(metal: &Metal) -> (PointState, History) {
+    let mut old = (metal.virgin(), History::default());
     for g in [[0.02, 0.05, -0.03, -0.04, 0.01], [0.1, 0.3, 0.2, 0.05, -0.1], [-0.03, 0.02, 0.06, 0.02, 0.01]]
     {
         let (end, memory) = update(metal, &old, &g, Tangent::None);
@@ -134,25 +135,23 @@ fn element<const N: usize>(
         &ElementContext<'_>,
         &[[f64; 2]; N],
         &[[f64; 2]; N],
-        &[PointState],
-        &[f64],
+        &PointSlice<'_>,
         &mut ElementOutput,
-    ) -> Option<()>,
+    ) -> Result<(), Failure>,
 ) {
     for metal in metals() {
         for symmetry in [Symmetry::Axisymmetric, Symmetry::PlaneStrain] {
             for amplitude in [1e-3, 0.15] {
                 let (old, remembered) = strained(&metal);
-                let (start, memories) = ([old; 4], [remembered; 4]);
-                let memory = metal.has_back_stress().then_some(&memories[..]);
-                let context = ElementContext { symmetry, metal: &metal, tangent: Tangent::Exact, memory };
+                let context = ElementContext { symmetry, metal: &metal, tangent: Tangent::Exact };
                 let mut du: [[f64; 2]; N] =
                     std::array::from_fn(|a| [0, 1].map(|i| amplitude * ((3 * a + 5 * i) as f64).sin()));
-                let volume = volume(symmetry);
+                let weight = volume(symmetry);
+                let start = PointSlice { states: &[old; 4], history: &[remembered; 4], weight: &weight };
                 let run = |du: &[[f64; 2]; N]| {
                     let x = std::array::from_fn(|a| [reference[a][0] + du[a][0], reference[a][1] + du[a][1]]);
                     let mut out = ElementOutput::new(old);
-                    evaluate(&context, &x, du, &start, &volume, &mut out).unwrap();
+                    evaluate(&context, &x, du, &start, &mut out).unwrap();
                     out
                 };
                 let here = run(&du);
@@ -192,7 +191,7 @@ fn quad4_with_mean_dilatation() {
     let volume = |symmetry| {
         points.iter().map(|p| motion(p, &CORNERS, &[[0.0; 2]; 4], symmetry).unwrap().volume).collect()
     };
-    element(CORNERS, volume, |c, x, du, h, v, out| quad4::evaluate(c, &points, x, du, h, v, out));
+    element(CORNERS, volume, |c, x, du, start, out| quad4::evaluate(c, &points, x, du, start, out));
 }
 
 #[test]
@@ -209,7 +208,7 @@ fn quad8_with_reduced_integration() {
     let volume = |symmetry| {
         points.iter().map(|p| motion(p, &reference, &[[0.0; 2]; 8], symmetry).unwrap().volume).collect()
     };
-    element(reference, volume, |c, x, du, h, v, out| quad8::evaluate(c, &points, x, du, h, v, out));
+    element(reference, volume, |c, x, du, start, out| quad8::evaluate(c, &points, x, du, start, out));
 }
 
 /// Contact force and stiffness are the first and second derivative of the contact energy, clipped at one end, in the

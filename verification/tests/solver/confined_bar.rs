@@ -20,12 +20,12 @@ fn stress_follows_both_branches() {
                 mesh.nodes.iter().map(|x| [x[0] == 0.0 || x[0] == 1.0, x[1] == 0.0 || x[1] == 1.0]).collect();
             let mut model = model(&mesh, symmetry, metal.clone(), &held, None).unwrap();
             for stretch in [0.995, 0.95, 0.8, 0.65, 0.5] {
-                let x = model.positions().to_vec();
+                let x = model.state().position.clone();
                 increment(&mut model, f64::INFINITY, &TIGHT, |node| {
                     [0.0, stretch * mesh.nodes[node][1] - x[node][1]]
                 })
                 .unwrap();
-                let yielded = model.states()[0].plastic_strain > 0.0;
+                let yielded = model.state().points.states[0].plastic_strain > 0.0;
                 assert_eq!(yielded, stretch < 0.99);
                 let exact = if yielded {
                     confined_flow_stress(&metal.elastic, 0.01, stretch)

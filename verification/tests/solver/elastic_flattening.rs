@@ -7,7 +7,8 @@
 
 use asperity_law::units::Length;
 use asperity_solver::algebra::newton::Settings;
-use asperity_solver::body::model::{Model, ToolContact};
+use asperity_solver::body::discrete_body::{Body, ToolContact};
+use asperity_solver::run::equilibrium::Equilibrium;
 use asperity_solver::run::problem::prepare;
 use asperity_solver::run::record::CurveRow;
 use asperity_solver::scene::{Accuracy, Scene};
@@ -75,13 +76,14 @@ fn unloading_retraces_loading() {
     let problem = prepare(&scene, None).unwrap();
     let contact = ToolContact { tool: problem.tool, penalty: problem.penalty };
     let mut model =
-        Model::new(&problem.mesh, problem.symmetry, problem.metal, |n| problem.held[n], Some(contact))
+        Body::new(&problem.mesh, problem.symmetry, problem.metal, |n| problem.held[n], Some(contact))
+            .and_then(Equilibrium::new)
             .unwrap();
     let settings = Settings { tolerance: 1e-10, max_iterations: 40, keep: 0.0 };
     let travels = [0.1, 0.2, 0.4, 0.6, 0.8, 1.0];
     let mut force = |travel: f64| {
         increment(&mut model, -travel, &settings, |_| [0.0; 2]).unwrap();
-        model.load()
+        model.response().load()
     };
     let loading = travels.map(&mut force);
     let mut back = travels;

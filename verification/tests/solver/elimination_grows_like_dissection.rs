@@ -10,7 +10,8 @@
 //! two starts, the largest mesh takes 2.3. Below 0.5 something would be left out of the count.
 
 use asperity_solver::algebra::fill_ordering::elimination_order;
-use asperity_solver::body::model::Model;
+use asperity_solver::body::discrete_body::Body;
+use asperity_solver::run::equilibrium::Equilibrium;
 use asperity_solver::run::problem::prepare;
 use asperity_solver::scene::Accuracy;
 use asperity_verification::single_asperity::scene;
@@ -21,9 +22,10 @@ fn factorisations_cost_no_more_than_twice_those_of_a_square_grid() {
     for elements in [28, 104, 240, 400] {
         scene.numerics.elements_in_contact = Some(elements);
         let problem = prepare(&scene, None).unwrap();
-        let model =
-            Model::new(&problem.mesh, problem.symmetry, problem.metal, |n| problem.held[n], None).unwrap();
-        let grid = 16.0 * 829.0 / 84.0 * (model.unknowns() as f64 / 2.0).powf(1.5);
+        let model = Body::new(&problem.mesh, problem.symmetry, problem.metal, |n| problem.held[n], None)
+            .and_then(Equilibrium::new)
+            .unwrap();
+        let grid = 16.0 * 829.0 / 84.0 * (model.body().dofs.count as f64 / 2.0).powf(1.5);
         let share = model.operations().factor / grid;
         assert!((0.5..2.0).contains(&share), "{elements} elements: {share:.2} of a square grid's operations");
     }

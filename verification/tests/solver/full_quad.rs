@@ -5,7 +5,8 @@ use asperity_mesh::Mesh;
 use asperity_solver::algebra::assemble::Stiffness;
 use asperity_solver::algebra::cholesky::Factor;
 use asperity_solver::algebra::dofs::{Dofs, FIXED};
-use asperity_solver::algebra::newton::{Assessment, Failure, System};
+use asperity_solver::algebra::newton::{Assessment, System};
+use asperity_solver::body::failure::Failure;
 use asperity_solver::element::kernel::{ElementOutput, Rows, add_force, add_stiffness};
 use asperity_solver::element::quad4;
 use asperity_solver::point::j2::{Tangent, update};
@@ -84,11 +85,12 @@ impl<'m> FullQuad<'m> {
             [x[0] + du[a][0], x[1] + du[a][1]]
         });
         let mut out = ElementOutput::new(self.metal.virgin());
+        let inverted = |cause| Failure::Element { cell, cause };
         for (q, point) in self.points.iter().enumerate() {
-            let motion = motion(point, &x, &du, Symmetry::Axisymmetric).ok_or(Failure::Inverted)?;
+            let motion = motion(point, &x, &du, Symmetry::Axisymmetric).map_err(inverted)?;
             let index = 4 * cell + q;
-            let end = update(&self.metal, &self.old[index], &motion.increment, Tangent::Exact)
-                .ok_or(Failure::Inverted)?;
+            let end =
+                update(&self.metal, &self.old[index], &motion.increment, Tangent::Exact).map_err(inverted)?;
             let rows = Rows::new(&motion.rows);
             add_force(&mut out.force, &rows, &end.stress, self.volume[index]);
             add_stiffness(&mut out.stiffness, 4, &rows, &end.tangent, self.volume[index]);
@@ -105,6 +107,8 @@ impl<'m> FullQuad<'m> {
 }
 
 impl System for FullQuad<'_> {
+    type Error = Failure;
+
     fn assess(&mut self, _: bool) -> Result<Assessment, Failure> {
         self.stiffness.clear();
         self.internal.fill([0.0; 2]);

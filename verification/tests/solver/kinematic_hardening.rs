@@ -8,7 +8,7 @@
 use asperity_law::{Hardening, HardeningLaw, HardeningTable};
 use asperity_mesh::ElementKind;
 use asperity_solver::point::j2::{self, Tangent};
-use asperity_solver::point::kinematic_hardening::{self, Memory};
+use asperity_solver::point::kinematic_hardening::{self, History};
 use asperity_solver::point::material::{Metal, PointState, stress, volume_ratio};
 use asperity_solver::point::tensor::{Gradient, Sym};
 use asperity_verification::single_increment::{ELASTIC, hollomon, stretch_bar};
@@ -27,8 +27,8 @@ fn linear() -> Metal {
 }
 
 /// A point under increments f - I, one after the other; its last stress and state.
-fn drive(metal: &Metal, increments: &[Gradient]) -> (Sym, PointState, Memory) {
-    let (mut state, mut memory, mut tau) = (metal.virgin(), Memory::default(), [0.0; 4]);
+fn drive(metal: &Metal, increments: &[Gradient]) -> (Sym, PointState, History) {
+    let (mut state, mut memory, mut tau) = (metal.virgin(), History::default(), [0.0; 4]);
     for g in increments {
         let (end, after) = kinematic_hardening::update(metal, &state, &memory, g, Tangent::None).unwrap();
         (state, memory, tau) = (end.state, after, end.stress);
@@ -152,7 +152,7 @@ fn without_hardening_coaxial_paths_are_those_of_the_isotropic_update() {
         [2e-3, 0.0, 0.0, 2e-3, -1e-3],
     ];
     let mut grows = metal.virgin();
-    let (mut state, mut memory) = (metal.virgin(), Memory::default());
+    let (mut state, mut memory) = (metal.virgin(), History::default());
     for g in &path {
         let a = j2::update(&metal, &grows, g, Tangent::Exact).unwrap();
         let (b, after) =

@@ -4,9 +4,11 @@
 //! Source: p = ln(r₃/r₂)/ln(r₂/r₁) of the last three residuals above 1e-12 of their scale, below which rounding rules.
 //! 1.8 and not 2: the three residuals are not yet infinitesimal.
 
-use asperity_solver::algebra::newton::{Assessment, Failure, Settings, System, solve};
-use asperity_solver::body::model::{Model, ToolContact};
+use asperity_solver::algebra::newton::{Assessment, Settings, System, solve};
+use asperity_solver::body::discrete_body::{Body, ToolContact};
+use asperity_solver::body::failure::Failure;
 use asperity_solver::contact::edge::{NOTHING, Parts};
+use asperity_solver::run::equilibrium::Equilibrium;
 use asperity_solver::run::load_path::schedule;
 use asperity_solver::run::problem::prepare;
 use asperity_solver::scene::Accuracy;
@@ -17,17 +19,18 @@ type Iterate = (f64, Vec<bool>, Vec<[bool; 2]>);
 
 /// A model that notes, at each assessed iterate, the residual and what is discrete.
 struct Watched<'w, 'm> {
-    model: &'w mut Model<'m>,
+    model: &'w mut Equilibrium<'m>,
     seen: Vec<Iterate>,
 }
 
 impl System for Watched<'_, '_> {
+    type Error = Failure;
     fn assess(&mut self, tangent: bool) -> Result<Assessment, Failure> {
         let assessment = self.model.assess(tangent)?;
         let touching = |parts: &Parts| parts.map(|p| p.is_some());
         self.seen.push((
             assessment.residual / assessment.scale,
-            self.model.flowing_points().collect(),
+            self.model.yielding_points().collect(),
             self.model.contacts().iter().map(|c| touching(&c.parts)).collect(),
         ));
         Ok(assessment)
@@ -68,7 +71,8 @@ fn quadratic_where_the_discrete_sets_rest() {
     let problem = prepare(&scene, None).unwrap();
     let contact = ToolContact { tool: problem.tool, penalty: problem.penalty };
     let mut model =
-        Model::new(&problem.mesh, problem.symmetry, problem.metal, |n| problem.held[n], Some(contact))
+        Body::new(&problem.mesh, problem.symmetry, problem.metal, |n| problem.held[n], Some(contact))
+            .and_then(Equilibrium::new)
             .unwrap();
     let settings = Settings { tolerance: 1e-13, max_iterations: 40, keep: 0.0 };
     let mut orders = Vec::new();
@@ -76,7 +80,7 @@ fn quadratic_where_the_discrete_sets_rest() {
     for travel in schedule(64, 0.02) {
         let step = travel - last[0];
         let ratio = if last[1] > 0.0 { step / last[1] } else { 0.0 };
-        let before = model.accepted_increment().to_vec();
+        let before = model.state().displacement.to_vec();
         model.begin(-travel, ratio, |node| before[node].map(|u| 0.7 * ratio * u));
         let mut watched = Watched { model: &mut model, seen: Vec::new() };
         let _ = solve(&mut watched, &settings);

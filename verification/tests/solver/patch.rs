@@ -34,7 +34,7 @@ fn patch(symmetry: Symmetry, step: Plane, steps: usize) {
             let mut stress = [0.0; 4];
             let mut total = [1.0, 0.0, 0.0, 1.0];
             for _ in 0..steps {
-                let x = model.positions().to_vec();
+                let x = model.state().position.clone();
                 increment(&mut model, f64::INFINITY, &TIGHT, |node| {
                     let to = apply(step, x[node]);
                     // a first guess that is wrong inside: the answer must come from the equations
@@ -48,14 +48,14 @@ fn patch(symmetry: Symmetry, step: Plane, steps: usize) {
                 (point, stress) = (end.state, end.stress);
                 total = multiply(step, total);
             }
-            for (x, reference) in model.positions().iter().zip(&mesh.nodes) {
+            for (x, reference) in model.state().position.iter().zip(&mesh.nodes) {
                 let exact = apply(total, *reference);
                 for i in 0..2 {
                     assert!((x[i] - exact[i]).abs() < 1e-10, "{kind:?} {symmetry:?}: {x:?} {exact:?}");
                 }
             }
             let scale = stress.iter().fold(0.0, |m: f64, s| m.max(s.abs()));
-            for (at, state) in stresses(&model).iter().zip(model.states()) {
+            for (at, state) in stresses(&model).iter().zip(&model.state().points.states) {
                 for i in 0..4 {
                     assert!((at[i] - stress[i]).abs() < 1e-10 * scale, "{kind:?}: {at:?} {stress:?}");
                 }

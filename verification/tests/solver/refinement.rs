@@ -75,7 +75,7 @@ fn solve_on(mesh: &Mesh) -> f64 {
         if held[node][0] { exact(mesh.nodes[node]) } else { [0.0; 2] }
     })
     .unwrap();
-    error_norm(mesh, model.accepted_increment())
+    error_norm(mesh, &model.state().displacement)
 }
 
 /// Observed orders between successive halvings.

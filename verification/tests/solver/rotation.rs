@@ -24,14 +24,14 @@ fn stress_turns_with_the_body_and_energy_stays() {
             })
             .unwrap();
             let before = stresses(&model);
-            let energies = |model: &asperity_solver::body::model::Model<'_>| {
-                let (states, volumes) = (model.states(), model.volumes());
+            let energies = |model: &asperity_solver::run::equilibrium::Equilibrium<'_>| {
+                let (states, volumes) = (&model.state().points.states, &model.body().volume);
                 [stored(&metal, states, volumes), dissipated(&metal, states, volumes)]
             };
             let [elastic, plastic] = energies(&model);
             let (s, c) = turn.sin_cos();
             for _ in 0..9 {
-                let x = model.positions().to_vec();
+                let x = model.state().position.clone();
                 increment(&mut model, f64::INFINITY, &TIGHT, |node| {
                     let [r, z] = x[node];
                     [c * r - s * z - r, s * r + c * z - z]

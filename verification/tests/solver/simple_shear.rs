@@ -28,7 +28,7 @@ fn hencky_shear_to_four() {
                     "{gamma}: {stress:?} {exact:?}"
                 );
             }
-            let work = stored(&ELASTIC, model.states(), model.volumes());
+            let work = stored(&ELASTIC, &model.state().points.states, &model.body().volume);
             assert!((work / energy(g, gamma) - 1.0).abs() < 1e-10);
         }
     }

@@ -6,20 +6,21 @@
 
 use asperity_mesh::ElementKind;
 use asperity_solver::algebra::newton::{Settings, System, solve};
-use asperity_solver::body::model::{Model, ToolContact};
+use asperity_solver::body::discrete_body::ToolContact;
 use asperity_solver::contact::tool::Tool;
 use asperity_solver::point::kinematics::Symmetry;
+use asperity_solver::run::equilibrium::Equilibrium;
 use asperity_verification::single_increment::{hollomon, model};
 use asperity_verification::test_meshes::{distorted_square, nodes_of};
 
 const STEP: f64 = 1e-6;
 
 /// The residual with the increment `du`: the second assessment sees the true contact, not the kept one.
-fn residual(model: &mut Model<'_>, tip: f64, du: &[[f64; 2]]) -> Vec<f64> {
+fn residual(model: &mut Equilibrium<'_>, tip: f64, du: &[[f64; 2]]) -> Vec<f64> {
     model.begin(tip, 0.5, |node| du[node]);
     model.assess(false).unwrap();
     model.assess(true).unwrap();
-    model.residual().to_vec()
+    model.response().residual.to_vec()
 }
 
 fn check(kind: ElementKind, symmetry: Symmetry) {
@@ -39,8 +40,10 @@ fn check(kind: ElementKind, symmetry: Symmetry) {
         .map(|n| [0, 1].map(|i| if held[n][i] { 0.0 } else { 0.01 * ((7 * n + 3 * i) as f64).sin() }))
         .collect();
     residual(&mut model, tip, &du);
-    assert!(model.load() > 0.0 && (0..mesh.cell_count()).any(|cell| model.flows(cell)));
-    let (stiffness, numbers) = (model.stiffness().clone(), model.numbers().to_vec());
+    assert!(
+        model.response().load() > 0.0 && (0..mesh.cell_count()).any(|cell| model.response().yielding[cell])
+    );
+    let (stiffness, numbers) = (model.stiffness().clone(), model.body().dofs.number.to_vec());
     let scale = stiffness.data().iter().fold(0.0, |m: f64, v| m.max(v.abs()));
     for node in 0..count {
         for i in 0..2 {

@@ -12,10 +12,10 @@
 use asperity_law::Elastic;
 use asperity_mesh::{ElementKind, Mesh};
 use asperity_solver::algebra::newton::Settings;
-use asperity_solver::body::model::Model;
 use asperity_solver::point::kinematics::Symmetry;
 use asperity_solver::point::material::Metal;
 use asperity_solver::point::tensor::von_mises;
+use asperity_solver::run::equilibrium::Equilibrium;
 use asperity_verification::single_increment::{ELASTIC, hollomon, increment, model, reaction, stresses};
 use asperity_verification::test_meshes::{nodes_of, quarter_ring};
 use asperity_verification::thick_wall::{Shape, ThickWall};
@@ -47,14 +47,14 @@ fn unit(x: [f64; 2]) -> [f64; 2] {
     x.map(|x| x / r)
 }
 
-fn reached(model: &Model<'_>, mesh: &Mesh, wall: &ThickWall) -> Reached {
+fn reached(model: &Equilibrium<'_>, mesh: &Mesh, wall: &ThickWall) -> Reached {
     let inner = nodes_of(mesh, &mesh.sides.axis);
     // a quarter of a circle of unit thickness, or half a sphere
     let area = if wall.shape == Shape::Cylinder { 0.5 * PI } else { 2.0 * PI };
     let pressure = reaction(model, &inner, |node| unit(mesh.nodes[node])) / area;
     let outer = nodes_of(mesh, &mesh.sides.outer);
     let displacement = |node: usize| {
-        let (x, reference) = (model.positions()[node], mesh.nodes[node]);
+        let (x, reference) = (model.state().position[node], mesh.nodes[node]);
         let n = unit(reference);
         (x[0] - reference[0]) * n[0] + (x[1] - reference[1]) * n[1]
     };
@@ -63,15 +63,16 @@ fn reached(model: &Model<'_>, mesh: &Mesh, wall: &ThickWall) -> Reached {
 }
 
 /// Crossing q = σ_y from the means over the angle of the first two rings of elements without plastic strain.
-fn front(model: &Model<'_>, mesh: &Mesh, wall: &ThickWall) -> Option<f64> {
+fn front(model: &Equilibrium<'_>, mesh: &Mesh, wall: &ThickWall) -> Option<f64> {
     let power = if wall.shape == Shape::Cylinder { 2 } else { 3 };
     let all = stresses(model);
     let columns = mesh.sides.base.len();
     let mut points = Vec::new(); // (r^-power, q)
     for column in 0..columns {
         let cells: Vec<usize> = (column..mesh.cell_count()).step_by(columns).collect();
-        let untouched =
-            cells.iter().all(|&c| (0..4).all(|q| model.states()[4 * c + q].plastic_strain == 0.0));
+        let untouched = cells
+            .iter()
+            .all(|&c| (0..4).all(|q| model.state().points.states[4 * c + q].plastic_strain == 0.0));
         if untouched {
             let q = cells.iter().flat_map(|c| &all[4 * c..4 * c + 4]).map(von_mises).sum::<f64>();
             let corner = |k: usize| mesh.nodes[mesh.cell(column)[k] as usize];

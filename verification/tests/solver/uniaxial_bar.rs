@@ -24,7 +24,7 @@ fn eq_1_from_0_002_to_1() {
         let mut model = model(&mesh, Symmetry::Axisymmetric, metal.clone(), &held, None).unwrap();
         let mut last = 0.0_f64;
         for strain in [0.002, 0.01, 0.05, 0.1, 0.5, 1.0_f64] {
-            let x = model.positions().to_vec();
+            let x = model.state().position.clone();
             increment(&mut model, f64::INFINITY, &TIGHT, |node| {
                 let [r, z] = x[node];
                 // as incompressible: nearly right

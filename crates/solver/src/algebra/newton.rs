@@ -1,20 +1,23 @@
 //! Newton-Raphson with a line search, for any system that can say how far from zero it is.
 
-/// Why an iterate or a solve failed. The caller takes a smaller step.
+/// Why a solve failed. The caller takes a smaller step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum Failure {
-    /// An element turned inside out or a material point could not be updated.
-    #[error("an element turned inside out")]
-    Inverted,
-    /// The matrix could not be factorised in any of the ways tried.
-    #[error("the tangent is singular")]
-    Singular,
+pub enum Failure<E> {
+    /// The system could not be assessed or its tangent not be factorised, however short the step.
+    #[error("{0}")]
+    System(E),
     /// The iterations ran out.
     #[error("the iterations did not converge")]
     NotConverged,
     /// A number overflowed.
     #[error("a residual is not finite")]
     NotFinite,
+}
+
+impl<E> From<E> for Failure<E> {
+    fn from(error: E) -> Self {
+        Failure::System(error)
+    }
 }
 
 /// How far an iterate is from a solution.
@@ -30,10 +33,12 @@ pub struct Assessment {
 
 /// A nonlinear system with a current iterate.
 pub trait System {
+    /// Why an iterate cannot be assessed or its tangent not be factorised.
+    type Error;
     /// Residual at the iterate; with `tangent` also what [`System::renew`] will need there, which is then cheaper.
-    fn assess(&mut self, tangent: bool) -> Result<Assessment, Failure>;
+    fn assess(&mut self, tangent: bool) -> Result<Assessment, Self::Error>;
     /// Factorises the tangent at the last assessed iterate.
-    fn renew(&mut self) -> Result<(), Failure>;
+    fn renew(&mut self) -> Result<(), Self::Error>;
     /// Whether there are factors of an earlier iterate that are worth a try.
     fn has_factors(&self) -> bool;
     /// Drops them.
@@ -98,7 +103,10 @@ const PATIENCE: usize = 15;
 ///    system may still be a simplified one;
 /// 4. with a kept one: full step. If it overshoots or leaves a larger residual it is taken back, and from there on every
 ///    iteration has a new tangent, so that hard increments are solved by Newton-Raphson in the strict sense.
-pub fn solve(system: &mut impl System, settings: &Settings) -> Result<Converged, (Failure, usize)> {
+pub fn solve<S: System>(
+    system: &mut S,
+    settings: &Settings,
+) -> Result<Converged, (Failure<S::Error>, usize)> {
     let outcome = iterate(system, settings);
     if outcome.is_err() {
         // factors of a lost iterate
@@ -107,10 +115,10 @@ pub fn solve(system: &mut impl System, settings: &Settings) -> Result<Converged,
     outcome
 }
 
-fn iterate(system: &mut impl System, settings: &Settings) -> Result<Converged, (Failure, usize)> {
+fn iterate<S: System>(system: &mut S, settings: &Settings) -> Result<Converged, (Failure<S::Error>, usize)> {
     let mut keep = settings.keep;
     let mut renew = keep == 0.0 || !system.has_factors();
-    let mut last = system.assess(renew).map_err(|f| (f, 0))?;
+    let mut last = system.assess(renew).map_err(|f| (f.into(), 0))?;
     let mut history = vec![last.residual / last.scale];
     for iteration in 1..=settings.max_iterations {
         if !last.residual.is_finite() {
@@ -122,7 +130,7 @@ fn iterate(system: &mut impl System, settings: &Settings) -> Result<Converged, (
             _ => Some(CLOSE),
         };
         let step = if renew {
-            system.renew().map_err(|f| (f, iteration))?;
+            system.renew().map_err(|f| (f.into(), iteration))?;
             search(system, line, keep == 0.0)
         } else {
             match try_whole(system, line, last.residual) {
@@ -130,13 +138,13 @@ fn iterate(system: &mut impl System, settings: &Settings) -> Result<Converged, (
                 None => {
                     keep = 0.0;
                     system.advance(0.0);
-                    system.assess(true).and_then(|_| system.renew()).map_err(|f| (f, iteration))?;
+                    system.assess(true).and_then(|_| system.renew()).map_err(|f| (f.into(), iteration))?;
                     search(system, line, true)
                 }
             }
         };
         let before = last.residual;
-        last = step.map_err(|f| (f, iteration))?;
+        last = step.map_err(|f| (f.into(), iteration))?;
         history.push(last.residual / last.scale);
         if last.residual <= settings.tolerance * last.scale && !last.changed {
             return Ok(Converged { iterations: iteration, history });
@@ -155,7 +163,11 @@ impl LineSearch {
 }
 
 /// A step along the direction of a new tangent, as long as the line search finds good, whole without one.
-fn search(system: &mut impl System, line: Option<LineSearch>, tangent: bool) -> Result<Assessment, Failure> {
+fn search<S: System>(
+    system: &mut S,
+    line: Option<LineSearch>,
+    tangent: bool,
+) -> Result<Assessment, S::Error> {
     system.find_direction();
     let start = system.slope();
     let mut fraction = 1.0;
@@ -201,16 +213,17 @@ mod tests {
     }
 
     impl System for Root {
-        fn assess(&mut self, _: bool) -> Result<Assessment, Failure> {
+        type Error = ();
+        fn assess(&mut self, _: bool) -> Result<Assessment, ()> {
             let branch = self.x < 1.5;
             let changed = branch != self.branch;
             self.branch = branch;
             if self.x < 0.0 {
-                return Err(Failure::Inverted);
+                return Err(());
             }
             Ok(Assessment { residual: (self.x * self.x - 2.0).abs(), scale: 1.0, changed })
         }
-        fn renew(&mut self) -> Result<(), Failure> {
+        fn renew(&mut self) -> Result<(), ()> {
             self.tangent = Some(2.0 * self.x);
             Ok(())
         }

@@ -1,6 +1,8 @@
 //! Fields at the nodes of a converged state, and the line along the free surface.
 
-use crate::body::model::Model;
+use crate::body::discrete_body::Body;
+use crate::body::state::State;
+use crate::body::surface::Surface;
 use crate::contact::edge::NOTHING;
 use crate::element::kernel::POINTS;
 use crate::point::material::{hydrostatic, stress, volume_ratio};
@@ -42,26 +44,26 @@ pub struct SurfacePoint {
 
 /// Point values are extrapolated linearly to the corners of their element and averaged by volume over the elements
 /// that share a node; mid-side nodes take the mean of their corners.
-pub fn fields(model: &Model<'_>) -> Fields {
-    let mesh = model.mesh();
+pub fn fields(body: &Body<'_>, state: &State) -> Fields {
+    let mesh = body.mesh;
     let nodes = mesh.nodes.len();
     let mut sums = vec![[0.0; 5]; nodes]; // Cauchy stress and plastic strain
     let mut weights = vec![0.0; nodes];
     let mut plastic_zone = Vec::with_capacity(mesh.cell_count());
-    let elastic = &model.metal().elastic;
+    let elastic = &body.material.elastic;
     // corner value from the points: √3 times their bilinear coordinates
     let root = 3.0_f64.sqrt();
     let (near, side, far) = (0.25 * (1.0 + root).powi(2), 0.25 * (1.0 - 3.0), 0.25 * (1.0 - root).powi(2));
     for cell in 0..mesh.cell_count() {
-        let states = &model.states()[cell * POINTS..(cell + 1) * POINTS];
+        let states = &state.points.states[Body::points_of(cell)];
         let yielded = states.iter().any(|s| s.plastic_strain > 0.0);
-        plastic_zone.push(if model.flows(cell) { 2.0 } else { f64::from(u8::from(yielded)) });
+        plastic_zone.push(if state.yielding[cell] { 2.0 } else { f64::from(u8::from(yielded)) });
         let values: [[f64; 5]; POINTS] = std::array::from_fn(|q| {
             let j = volume_ratio(&states[q].stretch);
             let [rr, zz, tt, rz] = stress(elastic, &states[q].stretch).map(|t| t / j);
             [rr, zz, tt, rz, states[q].plastic_strain]
         });
-        let volume: f64 = model.volumes()[cell * POINTS..(cell + 1) * POINTS].iter().sum();
+        let volume: f64 = body.volume[Body::points_of(cell)].iter().sum();
         for (corner, &node) in mesh.cell(cell)[..4].iter().enumerate() {
             let coefficient = [near, side, far, side];
             for (step, c) in coefficient.into_iter().enumerate() {
@@ -84,9 +86,9 @@ pub fn fields(model: &Model<'_>) -> Fields {
             sums[middle as usize] = std::array::from_fn(|i| 0.5 * (sums[a][i] + sums[b][i]));
         }
     }
-    let contact_pressure = contact_pressure(model);
-    let displacement: Vec<[f64; 2]> = model
-        .positions()
+    let contact_pressure = contact_pressure(body, state);
+    let displacement: Vec<[f64; 2]> = state
+        .position
         .iter()
         .zip(&mesh.nodes)
         .map(|(x, reference)| [x[0] - reference[0], x[1] - reference[1]])
@@ -103,7 +105,7 @@ pub fn fields(model: &Model<'_>) -> Fields {
         for node in along {
             let i = node as usize;
             let point = SurfacePoint {
-                position: model.positions()[i],
+                position: state.position[i],
                 displacement: displacement[i],
                 pressure: contact_pressure[i],
                 yielded: plastic_strain[i] > 0.0,
@@ -126,15 +128,15 @@ pub fn fields(model: &Model<'_>) -> Fields {
 }
 
 /// Current pressure at the surface nodes: penalty times penetration, per current area.
-fn contact_pressure(model: &Model<'_>) -> Vec<f64> {
-    let mut pressure = vec![0.0; model.mesh().nodes.len()];
-    for (edge, contact) in model.edges().iter().zip(model.contacts()) {
+fn contact_pressure(body: &Body<'_>, state: &State) -> Vec<f64> {
+    let mut pressure = vec![0.0; body.mesh.nodes.len()];
+    let surface = Surface::of_state(body, state);
+    for (edge, contact) in surface.edges.iter().zip(surface.contact) {
         if contact.parts == NOTHING {
             continue;
         }
-        let x = edge.nodes.map(|node| model.positions()[node as usize]);
         for (node, xi) in edge.nodes.into_iter().zip([-1.0, 1.0, 0.0]).take(edge.node_count()) {
-            pressure[node as usize] = model.nodal_pressure(edge, &x, node, xi).max(0.0);
+            pressure[node as usize] = surface.nodal_pressure(edge, node, xi).max(0.0);
         }
     }
     pressure

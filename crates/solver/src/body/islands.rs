@@ -1,6 +1,8 @@
 //! Where fluid may leak: gaps between contacts, and metal that never yielded among the asperities.
 
-use crate::body::model::Model;
+use crate::body::discrete_body::Body;
+use crate::body::state::State;
+use crate::body::surface::Surface;
 use crate::contact::edge::NOTHING;
 use crate::element::kernel::POINTS;
 use crate::point::kinematics::Symmetry;
@@ -38,13 +40,13 @@ pub struct Island {
 }
 
 /// The gaps between contacts at the iterate, from the axis (left side) outward.
-pub fn gaps(model: &Model<'_>) -> Vec<Gap> {
+pub fn gaps(surface: &Surface<'_>) -> Vec<Gap> {
     let mut gaps = Vec::new();
     let mut open: Option<Gap> = None; // since the last contact
-    for (edge, contact) in model.edges().iter().zip(model.contacts()) {
-        let x = edge.nodes.map(|node| model.current_position(node));
+    for (edge, contact) in surface.edges.iter().zip(surface.contact) {
+        let x = edge.nodes.map(|node| surface.position(node));
         // surface edges run inward: their second corner is the inner one
-        let heights = x.map(|x| -model.penetration_of(x));
+        let heights = x.map(|x| -surface.penetration_of(x));
         if contact.parts == NOTHING {
             if let Some(gap) = &mut open {
                 gap.height = heights.into_iter().fold(gap.height, f64::max);
@@ -62,7 +64,7 @@ pub fn gaps(model: &Model<'_>) -> Vec<Gap> {
         if let [Some([_, first_end]), Some([second_start, _])] = contact.parts {
             // both ends of a quadratic edge touch, its middle does not
             let (right, left) = (edge.point(&x, first_end)[0], edge.point(&x, second_start)[0]);
-            let height = -model.penetration_of(edge.point(&x, 0.5 * (first_end + second_start)));
+            let height = -surface.penetration_of(edge.point(&x, 0.5 * (first_end + second_start)));
             gaps.push(Gap { left: left.min(right), right: left.max(right), height });
         }
         open = Some(Gap { left: contact.reach[1], right: f64::NAN, height: heights[0].max(0.0) });
@@ -72,15 +74,13 @@ pub fn gaps(model: &Model<'_>) -> Vec<Gap> {
 
 /// Regions of cells without plastic strain whose centroid lies within `extent` along r before the crush: those enclosed by
 /// yielded metal at any depth, and of the elastic bulk what lay above `floor`. Cells hang together through common edges.
-pub fn islands(model: &Model<'_>, floor: f64, extent: [f64; 2]) -> Vec<Island> {
-    let mesh = model.mesh();
+pub fn islands(body: &Body<'_>, state: &State, floor: f64, extent: [f64; 2]) -> Vec<Island> {
+    let mesh = body.mesh;
     let cells = 0..mesh.cell_count();
     let neighbours = neighbours(mesh);
     let elastic: Vec<bool> = cells
         .clone()
-        .map(|cell| {
-            model.states()[cell * POINTS..(cell + 1) * POINTS].iter().all(|s| s.plastic_strain == 0.0)
-        })
+        .map(|cell| state.points.states[Body::points_of(cell)].iter().all(|s| s.plastic_strain == 0.0))
         .collect();
     let on_base: HashSet<u32> = mesh.sides.base.iter().map(|e| e.cell).collect();
     let within = |r: f64| r > extent[0] && r < extent[1];
@@ -90,7 +90,7 @@ pub fn islands(model: &Model<'_>, floor: f64, extent: [f64; 2]) -> Vec<Island> {
         if region.iter().any(|cell| on_base.contains(&(*cell as u32))) {
             region.iter().for_each(|cell| bulk[*cell] = true);
         } else {
-            islands.push(describe(model, &region, false));
+            islands.push(describe(body, state, &region, false));
         }
     }
     let standing: Vec<bool> = cells
@@ -99,7 +99,7 @@ pub fn islands(model: &Model<'_>, floor: f64, extent: [f64; 2]) -> Vec<Island> {
             bulk[cell] && z > floor && within(r)
         })
         .collect();
-    islands.extend(regions(&neighbours, &standing).iter().map(|region| describe(model, region, true)));
+    islands.extend(regions(&neighbours, &standing).iter().map(|region| describe(body, state, region, true)));
     islands.retain(|island| within(island.place[0]));
     islands
 }
@@ -147,8 +147,8 @@ fn regions(neighbours: &[Vec<usize>], inside: &[bool]) -> Vec<Vec<usize>> {
 }
 
 /// Place, size and mean stress of a region.
-fn describe(model: &Model<'_>, region: &[usize], reaches_substrate: bool) -> Island {
-    let mesh = model.mesh();
+fn describe(body: &Body<'_>, state: &State, region: &[usize], reaches_substrate: bool) -> Island {
+    let mesh = body.mesh;
     let on_surface: HashSet<u32> = mesh.sides.surface.iter().map(|e| e.cell).collect();
     let mut island = Island {
         place: [0.0; 2],
@@ -166,9 +166,9 @@ fn describe(model: &Model<'_>, region: &[usize], reaches_substrate: bool) -> Isl
         island.place[0] += area * r;
         island.place[1] += area * z;
         for q in cell * POINTS..(cell + 1) * POINTS {
-            let state = &model.states()[q];
-            let tau = stress(&model.metal().elastic, &state.stretch);
-            let weight = model.volumes()[q];
+            let state = &state.points.states[q];
+            let tau = stress(&body.material.elastic, &state.stretch);
+            let weight = body.volume[q];
             let ratio = volume_ratio(&state.stretch);
             island.mean_pressure -= weight * hydrostatic(&tau) / ratio;
             island.mean_von_mises += weight * von_mises(&tau) / ratio;

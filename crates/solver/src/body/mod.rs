@@ -1,8 +1,16 @@
-//! The body under its tool: converged state, the increment under way, energies, fields.
+//! The body under its tool: mesh and material, converged state, a trial and the response to it, energies, fields.
 
-pub mod model;
+pub mod failure;
+
+pub mod discrete_body;
+
+pub mod state;
+
+pub mod assembly;
 
 pub mod energy;
+
+pub mod surface;
 
 pub mod fields;
 

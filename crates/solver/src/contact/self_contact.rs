@@ -1,6 +1,6 @@
 //! Detects a free surface that has folded onto itself: a flank that meets another flank is contact which is not modelled.
 
-use crate::body::model::Model;
+use crate::contact::edge::ContactEdge;
 
 /// A piece of the surface between two nodes.
 #[derive(Clone, Copy, Debug)]
@@ -9,13 +9,14 @@ struct Segment {
     nodes: [u32; 2],
 }
 
-/// Where the converged surface of `model` crosses itself; edges are taken as straight between neighbouring nodes.
-pub fn fold(model: &Model<'_>) -> Option<[f64; 2]> {
-    let mut segments = Vec::with_capacity(2 * model.edges().len());
-    for edge in model.edges() {
+/// Where the surface of `edges`, whose nodes are at `position`, crosses itself; edges are taken as straight between
+/// neighbouring nodes.
+pub fn fold(edges: &[ContactEdge], position: &[[f64; 2]]) -> Option<[f64; 2]> {
+    let mut segments = Vec::with_capacity(2 * edges.len());
+    for edge in edges {
         let [first, last, middle] = edge.nodes;
         let mut add = |a: u32, b: u32| {
-            segments.push(Segment { ends: [a, b].map(|n| model.current_position(n)), nodes: [a, b] });
+            segments.push(Segment { ends: [a, b].map(|n| position[n as usize]), nodes: [a, b] });
         };
         if edge.quadratic {
             add(first, middle);

@@ -1,9 +1,8 @@
 //! What both quadrilaterals share: the arrays they fill and the two kernels that fill them.
 
-use crate::point::j2;
-use crate::point::j2::{PointUpdate, Tangent};
-use crate::point::kinematic_hardening;
-use crate::point::kinematic_hardening::Memory;
+use crate::point::failure::Failure;
+use crate::point::j2::{self, PointUpdate, Tangent};
+use crate::point::kinematic_hardening::{self, History};
 use crate::point::kinematics::Symmetry;
 use crate::point::material::{Metal, PointState};
 use crate::point::tensor::{Gradient, GradientForm, Sym};
@@ -23,30 +22,41 @@ pub struct ElementContext<'a> {
     pub metal: &'a Metal,
     /// Which tangent is wanted.
     pub tangent: Tangent,
-    /// What the points of the element remember beside their states, for a metal with a back stress.
-    pub memory: Option<&'a [Memory]>,
 }
 
 impl ElementContext<'_> {
-    /// Updates point `q` from `start` by f - I = `increment`; what it remembers goes to `memory`.
+    /// Updates point `q` of the element from its `start` by f - I = `increment`; its history variables go to `after`.
+    ///
+    /// # Errors
+    /// A strain without a logarithm.
     #[inline]
     pub fn update(
         &self,
         q: usize,
-        start: &PointState,
+        start: &PointSlice<'_>,
         increment: &Gradient,
-        memory: &mut [Memory; POINTS],
-    ) -> Option<PointUpdate> {
-        match self.memory {
-            None => j2::update(self.metal, start, increment, self.tangent),
-            Some(before) => {
-                let (end, after) =
-                    kinematic_hardening::update(self.metal, start, &before[q], increment, self.tangent)?;
-                memory[q] = after;
-                Some(end)
-            }
+        after: &mut [History; POINTS],
+    ) -> Result<PointUpdate, Failure> {
+        let (metal, state) = (self.metal, &start.states[q]);
+        if !metal.has_back_stress() {
+            return j2::update(metal, state, increment, self.tangent);
         }
+        let (end, history) =
+            kinematic_hardening::update(metal, state, &start.history[q], increment, self.tangent)?;
+        after[q] = history;
+        Ok(end)
     }
+}
+
+/// The points that an element starts from.
+#[derive(Clone, Copy, Debug)]
+pub struct PointSlice<'a> {
+    /// Their states.
+    pub states: &'a [PointState],
+    /// Their history variables; empty for a material without back stress.
+    pub history: &'a [History],
+    /// Their weights: reference volumes.
+    pub weight: &'a [f64],
 }
 
 /// Forces, stiffness and states of one element, with room for eight nodes.
@@ -58,8 +68,8 @@ pub struct ElementOutput {
     pub stiffness: [[[f64; 8]; 2]; 16],
     /// States at the end of the increment.
     pub states: [PointState; POINTS],
-    /// What the points remember then, for a metal with a back stress.
-    pub memory: [Memory; POINTS],
+    /// History variables then, for a material with a back stress.
+    pub history: [History; POINTS],
     /// Number of points that flow.
     pub flowing: usize,
 }
@@ -71,7 +81,7 @@ impl ElementOutput {
             force: [[0.0; 8]; 2],
             stiffness: [[[0.0; 8]; 2]; 16],
             states: [state; POINTS],
-            memory: [Memory::default(); POINTS],
+            history: [History::default(); POINTS],
             flowing: 0,
         }
     }

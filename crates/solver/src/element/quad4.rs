@@ -3,10 +3,12 @@
 //! The points see f̄ = s f with s = (θ/j)^{1/3}, θ = v/v_n the volume ratio of the whole element and j = det f that of
 //! the point, hoop stretch included. The residual is the derivative of ∫ W(F̄) dV₀, and so the tangent is symmetric.
 
-use crate::element::kernel::{ElementContext, ElementOutput, GAUSS, POINTS, Rows, add_force, add_stiffness};
+use crate::element::kernel::{
+    ElementContext, ElementOutput, GAUSS, POINTS, PointSlice, Rows, add_force, add_stiffness,
+};
+use crate::point::failure::Failure;
 use crate::point::j2::Tangent;
 use crate::point::kinematics::{PointMotion, ShapePoint, motion};
-use crate::point::material::PointState;
 use crate::point::tensor::{trace, volume_change};
 
 /// Shape functions at (ξ, η).
@@ -25,21 +27,22 @@ pub fn points() -> [ShapePoint<4>; POINTS] {
     [[-GAUSS, -GAUSS], [GAUSS, -GAUSS], [GAUSS, GAUSS], [-GAUSS, GAUSS]].map(|[s, t]| shape(s, t, 1.0))
 }
 
-/// Internal forces, stiffness and new states. `start` are the states the increment starts from,
-/// `volume` the reference volumes of the points.
+/// Internal forces, stiffness and new states. `start` are the points the increment starts from.
 ///
 /// With b_a = div N_a, b̄_a its volume average and m_a = (b̄_a - b_a)/3, a virtual displacement of node a changes f̄
 /// by l̄_a = ∇N_a + m_a I: f_a = ∫ τ : l̄_a dV₀, and the tangent adds the second variation of s (see `second_variation`).
-/// `None` where a point fails or the element turns inside out.
+///
+///
+/// # Errors
+/// A point that fails, an element that turns inside out.
 pub fn evaluate(
     context: &ElementContext<'_>,
     points: &[ShapePoint<4>; POINTS],
     x: &[[f64; 2]; 4],
     du: &[[f64; 2]; 4],
-    start: &[PointState],
-    volume: &[f64],
+    start: &PointSlice<'_>,
     out: &mut ElementOutput,
-) -> Option<()> {
+) -> Result<(), Failure> {
     out.clear();
     let motions = [
         motion(&points[0], x, du, context.symmetry)?,
@@ -68,15 +71,15 @@ pub fn evaluate(
         for i in [0, 3, 4] {
             increment[i] += s1;
         }
-        let end = context.update(q, &start[q], &increment, &mut out.memory)?;
+        let end = context.update(q, start, &increment, &mut out.history)?;
         let rows = Rows::new(&m.rows);
         let mut shift = [[0.0; 8]; 2]; // m_a
         for a in 0..4 {
             shift[0][a] = (mean[0][a] - m.rows[a][0] - m.rows[a][2]) / 3.0;
             shift[1][a] = (mean[1][a] - m.rows[a][1]) / 3.0;
         }
-        add_force(&mut out.force, &rows, &end.stress, volume[q]);
-        let pressure3 = trace(&end.stress) * volume[q];
+        add_force(&mut out.force, &rows, &end.stress, start.weight[q]);
+        let pressure3 = trace(&end.stress) * start.weight[q];
         for i in 0..2 {
             for a in 0..4 {
                 out.force[i][a] += pressure3 * shift[i][a];
@@ -84,7 +87,7 @@ pub fn evaluate(
         }
         total_pressure += pressure3 / 3.0;
         if context.tangent != Tangent::None {
-            add_point_stiffness(out, &rows, &shift, &end.tangent, &end.stress, volume[q]);
+            add_point_stiffness(out, &rows, &shift, &end.tangent, &end.stress, start.weight[q]);
         }
         out.flowing += usize::from(end.plastic);
         out.states[q] = end.state;
@@ -92,7 +95,7 @@ pub fn evaluate(
     if context.tangent != Tangent::None {
         add_volume_stiffness(out, &motions, &mean, current, total_pressure);
     }
-    Some(())
+    Ok(())
 }
 
 /// Adds l̄ᵀ A l̄ and the part of τ f̄ᵀ : δδf̄ that belongs to one point:

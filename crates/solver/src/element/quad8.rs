@@ -1,9 +1,11 @@
 //! Eight-node serendipity quadrilateral with reduced 2 × 2 integration.
 
-use crate::element::kernel::{ElementContext, ElementOutput, GAUSS, POINTS, Rows, add_force, add_stiffness};
+use crate::element::kernel::{
+    ElementContext, ElementOutput, GAUSS, POINTS, PointSlice, Rows, add_force, add_stiffness,
+};
+use crate::point::failure::Failure;
 use crate::point::j2::Tangent;
 use crate::point::kinematics::{ShapePoint, motion};
-use crate::point::material::PointState;
 
 /// Corners, then mid-sides, of the reference square.
 const NODES: [[f64; 2]; 8] =
@@ -34,30 +36,31 @@ pub fn points() -> [ShapePoint<8>; POINTS] {
     [[-GAUSS, -GAUSS], [GAUSS, -GAUSS], [GAUSS, GAUSS], [-GAUSS, GAUSS]].map(|[s, t]| shape(s, t, 1.0))
 }
 
-/// Internal forces, stiffness and new states. `start` are the states the increment starts from,
-/// `volume` the reference volumes of the points.
+/// Internal forces, stiffness and new states. `start` are the points the increment starts from.
 ///
-/// f_a = ∫ τ : ∇N_a dV₀, K = ∂f/∂u. `None` where a point fails or the element turns inside out.
+/// f_a = ∫ τ : ∇N_a dV₀, K = ∂f/∂u.
+///
+/// # Errors
+/// A point that fails, an element that turns inside out.
 pub fn evaluate(
     context: &ElementContext<'_>,
     points: &[ShapePoint<8>; POINTS],
     x: &[[f64; 2]; 8],
     du: &[[f64; 2]; 8],
-    start: &[PointState],
-    volume: &[f64],
+    start: &PointSlice<'_>,
     out: &mut ElementOutput,
-) -> Option<()> {
+) -> Result<(), Failure> {
     out.clear();
     for (q, point) in points.iter().enumerate() {
         let motion = motion(point, x, du, context.symmetry)?;
-        let end = context.update(q, &start[q], &motion.increment, &mut out.memory)?;
+        let end = context.update(q, start, &motion.increment, &mut out.history)?;
         let rows = Rows::new(&motion.rows);
-        add_force(&mut out.force, &rows, &end.stress, volume[q]);
+        add_force(&mut out.force, &rows, &end.stress, start.weight[q]);
         if context.tangent != Tangent::None {
-            add_stiffness(&mut out.stiffness, 8, &rows, &end.tangent, volume[q]);
+            add_stiffness(&mut out.stiffness, 8, &rows, &end.tangent, start.weight[q]);
         }
         out.flowing += usize::from(end.plastic);
         out.states[q] = end.state;
     }
-    Some(())
+    Ok(())
 }

@@ -7,6 +7,7 @@
 //! 3. q ≤ σ_y: elastic; else q - 3G Δε_p = σ_y(ε_p + Δε_p) and the deviator shrinks by σ_y/q;
 //! 4. consistent moduli D = ∂τ_A/∂ε_B and the spatial tangent.
 
+use crate::point::failure::Failure;
 use crate::point::material::{Metal, PointState, Spectral};
 use crate::point::tensor::{Gradient, GradientForm, Sym, push_forward};
 
@@ -23,7 +24,7 @@ pub struct PointUpdate {
     pub tangent: GradientForm,
 }
 
-/// What the tangent is wanted for.
+/// The tangent that is wanted; the stress does not depend on it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Tangent {
     /// Not at all.
@@ -32,18 +33,19 @@ pub enum Tangent {
     Exact,
     /// Without the part of the geometric term that compression makes negative.
     WithoutCompression,
-    /// As if no point flowed: the stiffness of unloading.
-    Elastic,
 }
 
-/// Updates a point from the state `old` by f - I = `increment`. `None` if f b fᵀ is not positive definite.
+/// Updates a point from the state `old` by f - I = `increment`.
+///
+/// # Errors
+/// f b fᵀ that is not positive definite.
 #[inline]
 pub fn update(
     metal: &Metal,
     old: &PointState,
     increment: &Gradient,
     tangent: Tangent,
-) -> Option<PointUpdate> {
+) -> Result<PointUpdate, Failure> {
     // 1. trial
     let trial = push_forward(increment, &old.stretch);
     let spectral = Spectral::of(&trial)?;
@@ -55,7 +57,7 @@ pub fn update(
     let norm = (dev[0] * dev[0] + dev[1] * dev[1] + dev[2] * dev[2]).sqrt();
     let q = 6.0_f64.sqrt() * g * norm;
     // 3. return
-    let flowing = metal.hardening.as_ref().filter(|_| q > old.yield_stress && tangent != Tangent::Elastic);
+    let flowing = metal.hardening.as_ref().filter(|_| q > old.yield_stress);
     let (state, left, drop) = match flowing {
         None => (PointState { stretch: trial, ..*old }, 1.0, 0.0),
         Some(hardening) => {
@@ -91,5 +93,5 @@ pub fn update(
         };
         spectral.tangent(&tau, &moduli, g * left, &geometric)
     };
-    Some(PointUpdate { state, stress, plastic: flowing.is_some(), tangent: form })
+    Ok(PointUpdate { state, stress, plastic: flowing.is_some(), tangent: form })
 }

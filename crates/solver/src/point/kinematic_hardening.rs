@@ -19,16 +19,17 @@
 //! strains differ from b_e: simple shear, see `verification`. The second order in the load step is that of `history`, in
 //! a frame that does not turn. The plastic work is T : ΔE_p, of which ∫α : dE_p is stored in the metal and the rest heat.
 
-use crate::point::bdf2::{Flowed, exponential_minus_identity};
+use crate::point::bdf2::{PlasticIncrement, exponential_minus_identity};
+use crate::point::failure::Failure;
 use crate::point::j2::{PointUpdate, Tangent};
 use crate::point::log_space::{LogStrain, compose};
 use crate::point::material::{Metal, PointState, Spectral};
 use crate::point::tensor::{Gradient, Sym, contract, trace};
 use asperity_law::{Elastic, Flow, HardeningCurve};
 
-/// What a point remembers beside its [`PointState`], all in the undeformed configuration.
+/// History variables of a point beside its [`PointState`], all in the undeformed configuration.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Memory {
+pub struct History {
     /// F - I.
     pub deformation: Gradient,
     /// Plastic logarithmic strain E_p.
@@ -45,14 +46,16 @@ fn root() -> f64 {
 }
 
 /// Updates a point by f - I = `increment`. Its state holds the b_e whose Hencky stress is the stress of the point.
-/// `None` if C is not positive definite.
+///
+/// # Errors
+/// C that is not positive definite.
 pub fn update(
     metal: &Metal,
     old: &PointState,
-    memory: &Memory,
+    memory: &History,
     increment: &Gradient,
     tangent: Tangent,
-) -> Option<(PointUpdate, Memory)> {
+) -> Result<(PointUpdate, History), Failure> {
     let deformation = compose(increment, &memory.deformation);
     let strain = LogStrain::of(&deformation)?;
     let (g, k) = (metal.elastic.shear_modulus(), metal.elastic.bulk_modulus());
@@ -66,10 +69,9 @@ pub fn update(
     let q = root() * norm;
     // how far √(3/2)|α| has come along a straight path, and r = σ - moved
     let moved = |h: &HardeningCurve| metal.kinematic_share * (old.yield_stress - h.yield_stress());
-    let flowing =
-        metal.hardening.as_ref().filter(|h| q > old.yield_stress - moved(h) && tangent != Tangent::Elastic);
+    let flowing = metal.hardening.as_ref().filter(|h| q > old.yield_stress - moved(h));
     let n: Sym = if norm > 0.0 { xi.map(|x| x / norm) } else { [0.0; 4] };
-    let mut end = Memory { deformation, ..*memory };
+    let mut end = History { deformation, ..*memory };
     let (flow, left, drop) = match flowing {
         None => (None, 1.0, 0.0),
         Some(curve) => {
@@ -102,7 +104,7 @@ pub fn update(
         };
         strain.tangent(&t, [k, 2.0 * g * left, drop], &n, &geometric)
     };
-    Some((PointUpdate { state, stress, plastic: flow.is_some(), tangent: form }, end))
+    Ok((PointUpdate { state, stress, plastic: flow.is_some(), tangent: form }, end))
 }
 
 /// b_e - I of the elastic body that bears `stress`: exp(2ε) - I with ε = dev τ/2G + tr τ/9K.
@@ -127,17 +129,17 @@ fn tensile_part(a: &Sym) -> Sym {
 }
 
 /// The state an increment starts from: the last flow carried on by `factor` (see `history`), the back stress along with it.
-pub fn carry_on(
+pub fn extrapolate(
     metal: &Metal,
     old: &PointState,
-    memory: &Memory,
-    flowed: &Flowed,
+    memory: &History,
+    flowed: &PlasticIncrement,
     factor: f64,
-) -> (PointState, Memory) {
+) -> (PointState, History) {
     match metal.hardening.as_ref().filter(|_| factor > 0.0 && flowed.accumulated > 0.0) {
         None => (*old, *memory),
         Some(curve) => {
-            let carried = Flowed {
+            let carried = PlasticIncrement {
                 strain: flowed.strain.map(|e| factor * e),
                 accumulated: factor * flowed.accumulated,
             };
@@ -151,14 +153,14 @@ fn flow_on(
     metal: &Metal,
     curve: &HardeningCurve,
     old: &PointState,
-    memory: &Memory,
-    flowed: &Flowed,
-) -> (PointState, Memory) {
+    memory: &History,
+    flowed: &PlasticIncrement,
+) -> (PointState, History) {
     let plastic_strain = old.plastic_strain + flowed.accumulated;
     let yield_stress = curve.flow(plastic_strain).yield_stress;
     // √(2/3) m (σ - σ_old) N with N = √(2/3) ΔE_p/Δε_p
     let modulus = metal.kinematic_share * 2.0 / 3.0 * (yield_stress - old.yield_stress) / flowed.accumulated;
-    let memory = Memory {
+    let memory = History {
         plastic: std::array::from_fn(|i| memory.plastic[i] + flowed.strain[i]),
         back: std::array::from_fn(|i| memory.back[i] + modulus * flowed.strain[i]),
         ..*memory
@@ -170,12 +172,12 @@ fn flow_on(
 /// which the two pieces of `history` would count twice where the flow turns. Returns that flow.
 pub fn settle(
     metal: &Metal,
-    (old, before): (&PointState, &Memory),
-    (new, after): (&mut PointState, &mut Memory),
-) -> Flowed {
+    (old, before): (&PointState, &History),
+    (new, after): (&mut PointState, &mut History),
+) -> PlasticIncrement {
     let strain: Sym = std::array::from_fn(|i| after.plastic[i] - before.plastic[i]);
     let accumulated = contract(&strain, &strain).sqrt() / root();
-    let flowed = Flowed { strain, accumulated };
+    let flowed = PlasticIncrement { strain, accumulated };
     let Some(curve) = metal.hardening.as_ref().filter(|_| accumulated > 0.0) else { return flowed };
     let (state, memory) = flow_on(metal, curve, old, before, &flowed);
     // T : dE_p along the flow, where T : N = √(2/3) {√(3/2) α_old : N + m [σ(ε_p) - σ_old] + r(ε_p)}
@@ -197,8 +199,8 @@ pub fn settle(
 }
 
 /// Elastic energy per reference volume, ½K(tr E)² + G|dev(E - E_p)|²; NaN where C is not positive definite.
-pub fn elastic_energy(elastic: &Elastic, memory: &Memory) -> f64 {
-    let Some(strain) = LogStrain::of(&memory.deformation) else { return f64::NAN };
+pub fn elastic_energy(elastic: &Elastic, memory: &History) -> f64 {
+    let Ok(strain) = LogStrain::of(&memory.deformation) else { return f64::NAN };
     let plastic = strain.into_frame(&memory.plastic);
     let volume: f64 = strain.principal.iter().sum();
     let mut dev: Sym = plastic.map(|e| -e);

@@ -3,6 +3,7 @@
 //! Axisymmetry enters here and nowhere else: the hoop row N_a/r and the weight 2πr. In plane strain the hoop row
 //! is zero and the weight is 1.
 
+use crate::point::failure::Failure;
 use crate::point::tensor::Gradient;
 
 /// Body of revolution about r = 0, or prismatic body of unit thickness.
@@ -51,14 +52,16 @@ pub struct PointMotion<const N: usize> {
 /// The motion at one point from current node positions `x` and the displacement increments `du` that led there.
 ///
 /// k = ∂Δu/∂x_{n+1} needs only current gradients; f = (I - k)⁻¹ and f - I = f k keep the digits of tiny strains.
-/// `None` where the element is or the increment would turn inside out.
+///
+/// # Errors
+/// An element that is, or that the increment would turn, inside out.
 #[inline]
 pub fn motion<const N: usize>(
     point: &ShapePoint<N>,
     x: &[[f64; 2]; N],
     du: &[[f64; 2]; N],
     symmetry: Symmetry,
-) -> Option<PointMotion<N>> {
+) -> Result<PointMotion<N>, Failure> {
     let (mut j, mut r, mut ur) = ([[0.0; 2]; 2], 0.0, 0.0);
     for a in 0..N {
         for i in 0..2 {
@@ -71,7 +74,7 @@ pub fn motion<const N: usize>(
     let det = j[0][0] * j[1][1] - j[0][1] * j[1][0];
     let axisymmetric = symmetry == Symmetry::Axisymmetric;
     if det.is_nan() || det <= 0.0 || (axisymmetric && (r <= 0.0 || r - ur <= 0.0)) {
-        return None;
+        return Err(Failure::Inverted);
     }
     let inverse_r = if axisymmetric { 1.0 / r } else { 0.0 };
     let (mut rows, mut k) = ([[0.0; 3]; N], [0.0; 4]);
@@ -87,10 +90,10 @@ pub fn motion<const N: usize>(
     }
     let shrink = (1.0 - k[0]) * (1.0 - k[3]) - k[1] * k[2]; // det(I - k) = 1/det f
     if shrink.is_nan() || shrink <= 0.0 {
-        return None;
+        return Err(Failure::Inverted);
     }
     let area = k[0] * k[3] - k[1] * k[2];
     let hoop = if axisymmetric { ur / (r - ur) } else { 0.0 };
     let increment = [(k[0] - area) / shrink, k[1] / shrink, k[2] / shrink, (k[3] - area) / shrink, hoop];
-    Some(PointMotion { rows, increment, volume: point.weight * det * symmetry.weight(r), radius: r })
+    Ok(PointMotion { rows, increment, volume: point.weight * det * symmetry.weight(r), radius: r })
 }

@@ -17,6 +17,7 @@
 //! The second variation of C itself, Fᵀ(gᵀg' + g'ᵀg)F, adds the geometric term τ_ij g_ki g'_kj. For a coaxial T = ∂W/∂E the
 //! coefficient of γγ' is G y coth y - ½(τ₁ + τ₂), that of `material::Spectral::tangent`.
 
+use crate::point::failure::Failure;
 use crate::point::material::Spectral;
 use crate::point::tensor::{Gradient, GradientForm, Sym};
 
@@ -49,8 +50,11 @@ pub struct LogStrain {
 }
 
 impl LogStrain {
-    /// Of F - I. `None` where C is not positive definite.
-    pub fn of(d: &Gradient) -> Option<LogStrain> {
+    /// Of F - I.
+    ///
+    /// # Errors
+    /// C that is not positive definite.
+    pub fn of(d: &Gradient) -> Result<LogStrain, Failure> {
         let [rr, rz, zr, zz, tt] = *d;
         let c_minus_one = [
             2.0 * rr + rr * rr + zr * zr,
@@ -71,7 +75,7 @@ impl LogStrain {
         ];
         let principal = spectral.log_strain;
         let [theta, kappa, mu] = shear_functions(principal[0] - principal[1]);
-        Some(LogStrain { principal, lagrangian, current, theta, kappa, mu })
+        Ok(LogStrain { principal, lagrangian, current, theta, kappa, mu })
     }
 
     /// The components of a Lagrangian tensor in the frame N_A.

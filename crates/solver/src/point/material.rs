@@ -3,6 +3,7 @@
 //! The state keeps b_e - I, not ln b_e: the update then needs one spectral decomposition instead of two, and tiny
 //! strains keep their digits.
 
+use crate::point::failure::Failure;
 use crate::point::tensor::{GradientForm, Sym, trace};
 use asperity_law::{Elastic, HardeningCurve};
 
@@ -29,9 +30,14 @@ pub struct PointState {
 }
 
 impl Metal {
-    /// Whether points need a memory beside their state (see `kinematic`).
+    /// Whether points have history variables beside their state (see `kinematic_hardening`).
     pub fn has_back_stress(&self) -> bool {
-        self.kinematic_share > 0.0 && self.hardening.is_some()
+        self.kinematic_share > 0.0
+    }
+
+    /// The same material without a yield stress: what a point does while it is elastic.
+    pub fn elastic_part(&self) -> Metal {
+        Metal { hardening: None, ..*self }
     }
 
     /// The stress-free virgin state.
@@ -53,20 +59,23 @@ pub struct Spectral {
 }
 
 impl Spectral {
-    /// Decomposes b - I. `None` where b is not positive definite.
-    pub fn of(stretch: &Sym) -> Option<Spectral> {
+    /// Decomposes b - I.
+    ///
+    /// # Errors
+    /// A tensor b that is not positive definite.
+    pub fn of(stretch: &Sym) -> Result<Spectral, Failure> {
         let (mean, half) = (0.5 * (stretch[0] + stretch[1]), 0.5 * (stretch[0] - stretch[1]));
         let radius = (half * half + stretch[3] * stretch[3]).sqrt();
         let x = radius / (1.0 + mean);
         let area = stretch[0] + stretch[1] + stretch[0] * stretch[1] - stretch[3] * stretch[3];
         if !(mean > -1.0 && x < 1.0 && stretch[2] > -1.0 && area > -1.0 && radius.is_finite()) {
-            return None;
+            return Err(Failure::NotPositive);
         }
         let double_angle = if radius > 0.0 { [half / radius, stretch[3] / radius] } else { [1.0, 0.0] };
         // atanh(x) loses nothing for small x; its quotient by x needs the series
         let shear_factor = if x < 1e-4 { 1.0 + x * x * (1.0 / 3.0 + x * x / 5.0) } else { x.atanh() / x };
         let (middle, difference) = (0.25 * area.ln_1p(), 0.5 * x * shear_factor);
-        Some(Spectral {
+        Ok(Spectral {
             log_strain: [middle + difference, middle - difference, 0.5 * stretch[2].ln_1p()],
             double_angle,
             shear_factor,
@@ -126,7 +135,7 @@ impl Spectral {
 
 /// Elastic energy per reference volume, ½λ(tr ε)² + G ε:ε, of the state b_e - I.
 pub fn elastic_energy(elastic: &Elastic, stretch: &Sym) -> f64 {
-    let Some(spectral) = Spectral::of(stretch) else { return f64::NAN };
+    let Ok(spectral) = Spectral::of(stretch) else { return f64::NAN };
     let e = spectral.log_strain;
     let volume = e[0] + e[1] + e[2];
     let (g, k) = (elastic.shear_modulus(), elastic.bulk_modulus());
@@ -135,7 +144,7 @@ pub fn elastic_energy(elastic: &Elastic, stretch: &Sym) -> f64 {
 
 /// Kirchhoff stress of the state b_e - I.
 pub fn stress(elastic: &Elastic, stretch: &Sym) -> Sym {
-    let Some(spectral) = Spectral::of(stretch) else { return [f64::NAN; 4] };
+    let Ok(spectral) = Spectral::of(stretch) else { return [f64::NAN; 4] };
     let e = spectral.log_strain;
     let (g, k) = (elastic.shear_modulus(), elastic.bulk_modulus());
     let volume = (k - 2.0 / 3.0 * g) * (e[0] + e[1] + e[2]);

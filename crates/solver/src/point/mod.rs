@@ -1,5 +1,7 @@
 //! An integration point: tensors, kinematics, Hencky elasticity, return mapping, second-order flow.
 
+pub mod failure;
+
 pub mod tensor;
 
 pub mod kinematics;

@@ -1,8 +1,9 @@
 //! One crush from a scene to its records: the entry point of the solver.
 
 use crate::algebra::newton::{KEEP, Settings};
+use crate::body::discrete_body::{Body, ToolContact};
 use crate::body::fields::Fields;
-use crate::body::model::{Counters, Model, ToolContact};
+use crate::run::equilibrium::{Counters, Equilibrium};
 use crate::run::load_path::{Goal, Path, Stop, schedule};
 use crate::run::problem::{PROBED, prepare};
 use crate::run::record::{AsperityRow, CurveRow, CycleRow, GapRow, IslandRow, Phase, Summary};
@@ -97,17 +98,18 @@ pub fn run(
     scene.validate()?;
     let problem = prepare(scene, mesh)?;
     let contact = ToolContact { tool: problem.tool, penalty: problem.penalty };
-    let model = Model::new(
+    let model = Body::new(
         &problem.mesh,
         problem.symmetry,
         problem.metal.clone(),
         |node| problem.held[node],
         Some(contact),
     )
+    .and_then(Equilibrium::new)
     .map_err(|_| CrushError::Mesh)?;
     let settings = Settings { tolerance: problem.numbers.newton_tolerance, max_iterations: 40, keep: KEEP };
     let mut path = Path::new(model, settings, problem.numbers.contact == ContactMethod::Augmented);
-    let mut recorder = Recorder::new(scene, &problem, path.model.unknowns());
+    let mut recorder = Recorder::new(scene, &problem, path.model.body().dofs.count);
     let goal = match scene.loading.target()? {
         Target::Depth(depth) => Goal::Depth(depth / problem.length),
         Target::Force(force) => Goal::Force {
@@ -127,13 +129,11 @@ pub fn run(
             recorder.record(model, increment, observer)
         })
         .err();
-    path.model.recall();
     recorder.peak_reached(&goal, observer, &path.model, stopped.is_none());
     if stopped.is_none() {
         stopped =
             unload_and_reload(scene, &goal, numbers.unload_steps, &mut path, &mut recorder, observer).err();
     }
-    path.model.recall();
     Ok(recorder.finish(&path, stopped, observer))
 }
 

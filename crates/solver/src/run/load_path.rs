@@ -2,11 +2,13 @@
 
 use crate::algebra::newton::{Failure, Settings, solve};
 use crate::body::energy::{ContactSums, contact_sums, work, work_by_slopes, work_to_separation};
-use crate::body::model::{Model, ToolStiffness};
+use crate::body::failure::Failure as BodyFailure;
 use crate::contact::edge::EdgeContact;
 use crate::contact::penalty_correction::Punches;
 use crate::contact::self_contact::fold;
+use crate::run::equilibrium::{Equilibrium, SolveFailure};
 use crate::run::record::Phase;
+use crate::run::tool_stiffness::ToolStiffness;
 
 mod reload;
 mod target;
@@ -104,12 +106,12 @@ impl Enough {
 }
 
 /// Called after every converged increment; `false` ends the run.
-pub type Observer<'o> = dyn FnMut(&Model<'_>, &Increment) -> bool + 'o;
+pub type Observer<'o> = dyn FnMut(&Equilibrium<'_>, &Increment) -> bool + 'o;
 
 /// A model on its way, with the counts of the run.
 pub struct Path<'m> {
     /// The mechanical system.
-    pub model: Model<'m>,
+    pub model: Equilibrium<'m>,
     settings: Settings,
     augmented: bool,
     /// Travel at which the tool touches first, in the coordinates of the mesh.
@@ -135,8 +137,8 @@ pub struct Path<'m> {
 
 impl<'m> Path<'m> {
     /// A path that starts where the tool touches `model` first.
-    pub fn new(model: Model<'m>, settings: Settings, augmented: bool) -> Path<'m> {
-        let touch = model.first_touch();
+    pub fn new(model: Equilibrium<'m>, settings: Settings, augmented: bool) -> Path<'m> {
+        let touch = model.converged_surface().first_touch();
         Path {
             model,
             settings,
@@ -158,12 +160,12 @@ impl<'m> Path<'m> {
     }
 
     /// Solves, but does not accept, the increment to `travel` with the first guess `guess` times the scaled last one.
-    fn attempt(&mut self, travel: f64, carry: bool, guess: f64) -> Result<ContactSums, Failure> {
+    fn attempt(&mut self, travel: f64, carry: bool, guess: f64) -> Result<ContactSums, SolveFailure> {
         let step = travel - self.travel;
         let ratio =
             if self.last_step != 0.0 && step / self.last_step > 0.0 { step / self.last_step } else { 0.0 };
         let scale = guess * ratio;
-        let last = if scale > 0.0 { self.model.accepted_increment().to_vec() } else { Vec::new() };
+        let last = if scale > 0.0 { self.model.state().displacement.clone() } else { Vec::new() };
         let tip = -(self.touch + travel);
         self.model.begin(tip, if carry { ratio } else { 0.0 }, |node| {
             last.get(node).map_or([0.0; 2], |du| du.map(|u| scale * u))
@@ -183,7 +185,7 @@ impl<'m> Path<'m> {
         Ok(self.sums())
     }
 
-    fn iterate(&mut self) -> Result<(), Failure> {
+    fn iterate(&mut self) -> Result<(), SolveFailure> {
         let outcome = solve(&mut self.model, &self.settings);
         let spent = match &outcome {
             Ok(done) => done.iterations,
@@ -195,12 +197,12 @@ impl<'m> Path<'m> {
     }
 
     fn sums(&self) -> ContactSums {
-        self.sums_under(self.model.under_punches())
+        self.sums_under(self.model.trial_surface().under_punches())
     }
 
     /// [`Path::sums`], the contact under punches being known.
     fn sums_under(&self, punches: Punches) -> ContactSums {
-        let mut sums = contact_sums(self.model.contacts().iter(), self.model.symmetry());
+        let mut sums = contact_sums(self.model.contacts().iter(), self.model.body().symmetry);
         sums.penetration =
             punches.penetration + self.plastic_share * (sums.penetration - punches.penetration);
         sums
@@ -220,7 +222,7 @@ impl<'m> Path<'m> {
             Phase::Unload | Phase::Reload => self.model.tool_stiffness().ok().map(|s| self.follows(&s)),
         };
         self.model.accept().map_err(|_| Stop::Distorted)?;
-        let punches = self.model.under_punches();
+        let punches = self.model.converged_surface().under_punches();
         let contact = self.sums_under(punches);
         let step = travel - self.travel;
         self.external_work += match (self.slope, slope) {
@@ -232,9 +234,9 @@ impl<'m> Path<'m> {
         self.slope = slope;
         (self.travel, self.last_step, self.force, self.area) = (travel, step, contact.force, contact.area);
         self.penetration = contact.penetration;
-        let [elastic_energy, plastic_work] = self.model.energies();
+        let [elastic_energy, plastic_work] = self.model.state().energies(self.model.body());
         if phase == Phase::Load && plastic_work > 0.0 {
-            let near = punches.energy / self.model.metal().elastic.reduced_modulus();
+            let near = punches.energy / self.model.body().material.elastic.reduced_modulus();
             self.plastic_share = plastic_work / (near + plastic_work);
         }
         let increment = Increment {
@@ -249,7 +251,11 @@ impl<'m> Path<'m> {
         if !observer(&self.model, &increment) {
             return Err(Stop::Interrupted);
         }
-        if fold(&self.model).is_some() { Err(Stop::FlanksMeet) } else { Ok(increment) }
+        if fold(&self.model.state().edges, &self.model.state().position).is_some() {
+            Err(Stop::FlanksMeet)
+        } else {
+            Ok(increment)
+        }
     }
 
     /// Goes to `travel` in as few increments as converge; accepts all but the last, which is left attempted. That may be one
@@ -295,7 +301,7 @@ impl<'m> Path<'m> {
                 Err(failure) => {
                     if halvings >= MAX_HALVINGS {
                         return Err(match failure {
-                            Failure::Inverted => Stop::Distorted,
+                            Failure::System(BodyFailure::Element { .. }) => Stop::Distorted,
                             _ => Stop::NoEquilibrium,
                         });
                     }
@@ -387,19 +393,19 @@ impl<'m> Path<'m> {
             self.accept(travel, Phase::Unload, observer)?;
             self.way_back.push(travel);
         }
-        if self.model.metal().has_back_stress() {
+        if self.model.body().material.has_back_stress() {
             self.retreat_from_reverse_flow(0.03 * peak_force, steps, observer)?;
         }
         self.model.begin(f64::INFINITY, 0.0, |_| [0.0; 2]);
         self.iterate().map_err(|_| Stop::NoEquilibrium)?;
-        let separation = self.model.first_touch_at_iterate() - self.touch;
+        let separation = self.model.trial_surface().first_touch() - self.touch;
         self.accept(separation, Phase::Unload, observer).map(|_| ())
     }
 
     /// Contact of each group of edges at the last converged increment.
-    pub fn group_sums(model: &Model<'_>, groups: &[usize], group: usize) -> ContactSums {
+    pub fn group_sums(model: &Equilibrium<'_>, groups: &[usize], group: usize) -> ContactSums {
         let edges = model.contacts().iter().zip(groups).filter(|(_, g)| **g == group);
-        contact_sums(edges.map(|(edge, _): (&EdgeContact, _)| edge), model.symmetry())
+        contact_sums(edges.map(|(edge, _): (&EdgeContact, _)| edge), model.body().symmetry)
     }
 }
 

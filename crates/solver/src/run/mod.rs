@@ -6,6 +6,10 @@ pub mod a_priori;
 
 pub mod problem;
 
+pub mod tool_stiffness;
+
+pub mod equilibrium;
+
 pub mod load_path;
 
 pub mod depth_for_force;

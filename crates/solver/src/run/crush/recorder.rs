@@ -3,8 +3,9 @@
 use super::{Event, FieldFrame, Outcome, Stopped};
 use crate::body::fields::{Fields, SurfacePoint, fields};
 use crate::body::islands::{extent, gaps, islands};
-use crate::body::model::Model;
+use crate::body::surface::Surface;
 use crate::point::kinematics::Symmetry;
+use crate::run::equilibrium::Equilibrium;
 use crate::run::load_path::{Goal, Increment, Path, Stop};
 use crate::run::oliver_pharr::{OliverPharr, Peak, oliver_pharr};
 use crate::run::problem::Problem;
@@ -124,7 +125,7 @@ impl<'p> Recorder<'p> {
     /// Takes down a converged increment and tells the observer; `false` where it breaks.
     pub(super) fn record(
         &mut self,
-        model: &Model<'_>,
+        model: &Equilibrium<'_>,
         increment: &Increment,
         observer: &mut dyn FnMut(&Event<'_>) -> ControlFlow<()>,
     ) -> bool {
@@ -146,7 +147,7 @@ impl<'p> Recorder<'p> {
             external_work: increment.external_work * u.energy,
             elastic_energy: increment.elastic_energy * u.energy,
             plastic_work: increment.plastic_work * u.energy,
-            contact_energy: (contact.energy - model.remeasured_energy()) * u.energy,
+            contact_energy: (contact.energy - model.state().remeasured_energy()) * u.energy,
             penetration: contact.penetration * u.length,
             newton_iterations: increment.newton_iterations,
         };
@@ -168,13 +169,15 @@ impl<'p> Recorder<'p> {
                 });
             }
         }
-        self.gaps.extend(gaps(model).into_iter().map(|gap| GapRow {
-            increment: number,
-            phase: row.phase,
-            depth: row.depth,
-            left: gap.left * u.length,
-            right: gap.right * u.length,
-            height: gap.height * u.length,
+        self.gaps.extend(gaps(&Surface::of_state(model.body(), model.state())).into_iter().map(|gap| {
+            GapRow {
+                increment: number,
+                phase: row.phase,
+                depth: row.depth,
+                left: gap.left * u.length,
+                right: gap.right * u.length,
+                height: gap.height * u.length,
+            }
         }));
         let told = observer(&Event::Increment { row: &row, planned: self.planned.max(number) });
         if self.interval > 0 && number.is_multiple_of(self.interval) && told.is_continue() {
@@ -186,7 +189,7 @@ impl<'p> Recorder<'p> {
     /// Hands out the fields of the last row, once.
     fn draw(
         &mut self,
-        model: &Model<'_>,
+        model: &Equilibrium<'_>,
         observer: &mut dyn FnMut(&Event<'_>) -> ControlFlow<()>,
     ) -> ControlFlow<()> {
         let Some(row) = self.rows.last().filter(|row| row.increment > 0) else {
@@ -201,7 +204,7 @@ impl<'p> Recorder<'p> {
         for node in &mut mesh.nodes {
             *node = node.map(|x| x * l);
         }
-        let raw = fields(model);
+        let raw = fields(model.body(), model.state());
         let scaled = |values: Vec<f64>| values.into_iter().map(|v| v * e).collect();
         let frame = FieldFrame {
             increment: row.increment,
@@ -232,7 +235,7 @@ impl<'p> Recorder<'p> {
 
     /// Lists what never yielded: enclosed by metal that did, or above the base of the asperities and half their height
     /// below it.
-    fn find_islands(&mut self, model: &Model<'_>) {
+    fn find_islands(&mut self, model: &Equilibrium<'_>) {
         let profile = &self.problem.profile;
         let (Some(first), Some(last)) = (profile.asperities.first(), profile.asperities.last()) else {
             return;
@@ -242,7 +245,12 @@ impl<'p> Recorder<'p> {
         }
         let feet =
             [first.centre - first.half_width(first.height), last.centre + last.half_width(last.height)];
-        let found = islands(model, -1.5 * profile.height(), extent(self.problem.symmetry, feet));
+        let found = islands(
+            model.body(),
+            model.state(),
+            -1.5 * profile.height(),
+            extent(self.problem.symmetry, feet),
+        );
         let l = self.units.length;
         self.islands = found
             .into_iter()
@@ -262,7 +270,7 @@ impl<'p> Recorder<'p> {
         &mut self,
         goal: &Goal,
         observer: &mut dyn FnMut(&Event<'_>) -> ControlFlow<()>,
-        model: &Model<'_>,
+        model: &Equilibrium<'_>,
         complete: bool,
     ) {
         self.peak = self.rows.len() - 1;

@@ -1,0 +1,116 @@
+//! The discretised body: what stays the same while it is loaded.
+
+use crate::algebra::dofs::Dofs;
+use crate::algebra::fill_ordering::elimination_order;
+use crate::body::failure::Failure;
+use crate::contact::edge::{ContactContext, ContactEdge};
+use crate::contact::tool::Tool;
+use crate::element::kernel::POINTS;
+use crate::element::{quad4, quad8};
+use crate::point::kinematics::{ShapePoint, Symmetry, motion};
+use crate::point::material::Metal;
+use asperity_mesh::{ElementKind, Mesh};
+
+/// A tool in contact with the surface of the body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ToolContact {
+    /// Its shape.
+    pub tool: Tool,
+    /// Pressure per penetration.
+    pub penalty: f64,
+}
+
+impl ToolContact {
+    /// The contact with the tool's tip at height `tip`.
+    pub fn at(&self, tip: f64, symmetry: Symmetry) -> ContactContext<'_> {
+        ContactContext { tool: &self.tool, tip, penalty: self.penalty, symmetry }
+    }
+}
+
+/// Mesh, material, fixed components and tool. Lengths are the scene's own, stresses in units of E.
+#[derive(Clone, Debug)]
+pub struct Body<'m> {
+    /// The mesh before loading.
+    pub mesh: &'m Mesh,
+    /// Axisymmetric or plane strain.
+    pub symmetry: Symmetry,
+    /// The material.
+    pub material: Metal,
+    /// The tool, if there is one.
+    pub contact: Option<ToolContact>,
+    /// Numbers of the unknown displacement components.
+    pub dofs: Dofs,
+    /// Reference volume of every integration point, four to an element.
+    pub volume: Vec<f64>,
+    /// Integration points of the eight-node element.
+    pub points8: [ShapePoint<8>; POINTS],
+    /// Integration points of the four-node element.
+    pub points4: [ShapePoint<4>; POINTS],
+}
+
+impl<'m> Body<'m> {
+    /// The body of `mesh` whose displacement components named by `fixed(node)` are prescribed.
+    ///
+    /// # Errors
+    /// An element that is inside out in the mesh.
+    pub fn new(
+        mesh: &'m Mesh,
+        symmetry: Symmetry,
+        material: Metal,
+        fixed: impl Fn(usize) -> [bool; 2],
+        contact: Option<ToolContact>,
+    ) -> Result<Self, Failure> {
+        let nodes = mesh.nodes.len();
+        // nodes that no element uses have no stiffness and are fixed
+        let mut used = vec![false; nodes];
+        for &node in &mesh.cells {
+            used[node as usize] = true;
+        }
+        let fixed = |node: usize| if used[node] { fixed(node) } else { [true, true] };
+        let free: Vec<bool> = (0..nodes).map(|node| fixed(node) != [true, true]).collect();
+        // numbered in the order of elimination, the matrix is never permuted again
+        let order =
+            elimination_order(&mesh.cells, mesh.kind.nodes(), &free).map_err(|_| Failure::Singular)?;
+        let dofs = Dofs::new(nodes, &order, fixed);
+        let (points8, points4) = (quad8::points(), quad4::points());
+        let mut volume = Vec::with_capacity(mesh.cell_count() * POINTS);
+        for cell in 0..mesh.cell_count() {
+            let inside_out = |cause| Failure::Element { cell, cause };
+            for q in 0..POINTS {
+                volume.push(match mesh.kind {
+                    ElementKind::Quad8 => {
+                        let x = gather::<8>(&mesh.nodes, mesh.cell(cell));
+                        motion(&points8[q], &x, &[[0.0; 2]; 8], symmetry).map_err(inside_out)?.volume
+                    }
+                    ElementKind::Quad4 => {
+                        let x = gather::<4>(&mesh.nodes, mesh.cell(cell));
+                        motion(&points4[q], &x, &[[0.0; 2]; 4], symmetry).map_err(inside_out)?.volume
+                    }
+                });
+            }
+        }
+        Ok(Body { mesh, symmetry, material, contact, dofs, volume, points8, points4 })
+    }
+
+    /// The edges of the free surface, in the order of the mesh; none without a tool.
+    pub fn surface(&self) -> Vec<ContactEdge> {
+        let edges = self.contact.map_or(&[][..], |_| &self.mesh.sides.surface);
+        edges
+            .iter()
+            .map(|&edge| {
+                let (corners, middle) = self.mesh.edge_nodes(edge);
+                ContactEdge::new(corners, middle, |node| self.mesh.nodes[node as usize], self.symmetry)
+            })
+            .collect()
+    }
+
+    /// Integration points of the element `cell`.
+    pub fn points_of(cell: usize) -> std::ops::Range<usize> {
+        cell * POINTS..(cell + 1) * POINTS
+    }
+}
+
+/// The node values of a cell.
+pub fn gather<const N: usize>(values: &[[f64; 2]], cell: &[u32]) -> [[f64; 2]; N] {
+    std::array::from_fn(|a| values[cell[a] as usize])
+}

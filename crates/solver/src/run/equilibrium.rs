@@ -1,0 +1,377 @@
+//! The equilibrium of one increment after the other: the body as Newton sees it, with what a solver remembers between
+//! iterates and increments (factors, secants, the contact that was kept), none of which belongs to the body.
+
+use crate::algebra::assemble::Stiffness;
+use crate::algebra::cholesky::Factor;
+use crate::algebra::dofs::FIXED;
+use crate::algebra::lbfgs::Secants;
+use crate::algebra::newton::{self, Assessment, System};
+use crate::algebra::roofline::Operations;
+use crate::body::assembly::{Response, Touching};
+use crate::body::discrete_body::Body;
+use crate::body::failure::Failure;
+use crate::body::state::{State, Trial};
+use crate::body::surface::Surface;
+use crate::contact::edge::{EdgeContact, NOTHING, Parts};
+use crate::point::j2::Tangent;
+use crate::run::tool_stiffness::{ToolStiffness, tool_stiffness};
+use std::time::Instant;
+
+/// Negative pivots with which an LDLᵀ step is still taken: a limit point or a bifurcation has one or two; more mean
+/// that the iterate is far from any equilibrium.
+const TOLERATED_NEGATIVE_PIVOTS: usize = 2;
+
+/// Shares of the diagonal that are added to it, one after the other, until the tangent is definite.
+const STIFFER: [f64; 2] = [1e-2, 1e-1];
+
+/// Why an increment has no equilibrium.
+pub type SolveFailure = newton::Failure<Failure>;
+
+/// Counters of the work done.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Counters {
+    /// Element loops with tangent.
+    pub assemblies: usize,
+    /// Element loops without.
+    pub residuals: usize,
+    /// Factorisations.
+    pub factorisations: usize,
+    /// Seconds in assembly, contact included.
+    pub assembly_s: f64,
+    /// Seconds in factorisations.
+    pub factor_s: f64,
+    /// Seconds in triangular solves.
+    pub solve_s: f64,
+    /// Factorisations that lost a pivot.
+    pub lost_pivots: usize,
+    /// Points returned to the yield surface.
+    pub returns: usize,
+}
+
+/// A body, its converged state, and the increment under way.
+pub struct Equilibrium<'m> {
+    body: Body<'m>,
+    state: State,
+    trial: Trial,
+    response: Response,
+    stiffness: Stiffness,
+    factor: Factor,
+    secants: Secants,
+    direction: Vec<f64>,
+    /// Where the direction was found: displacement, residual, and whether the contact was kept there.
+    base: Vec<[f64; 2]>,
+    residual_before: Vec<f64>,
+    base_kept_contact: bool,
+    /// Share of the direction that was gone since.
+    fraction: f64,
+    /// Whether the next assembly keeps the contact of the converged state, and whether the last one did.
+    keep_contact: bool,
+    kept_contact: bool,
+    /// Parts that touched at the last assessed iterate.
+    touching: Vec<Parts>,
+    /// Whether the factors are of the tangent of some iterate of this body.
+    has_factors: bool,
+    /// Whether the stiffness is that of the last assessed iterate.
+    has_tangent: bool,
+    stiffens: bool,
+    /// Work done so far.
+    pub counters: Counters,
+}
+
+impl<'m> Equilibrium<'m> {
+    /// The stress-free `body`.
+    ///
+    /// # Errors
+    /// A stiffness pattern that cannot be analysed.
+    pub fn new(body: Body<'m>) -> Result<Self, Failure> {
+        let state = State::virgin(&body);
+        let stiffness = Stiffness::new(&body.mesh.cells, body.mesh.kind.nodes(), &body.dofs);
+        let factor = Factor::new(&stiffness.matrix).map_err(|_| Failure::Singular)?;
+        let count = body.dofs.count;
+        Ok(Equilibrium {
+            trial: state.trial(),
+            response: Response::new(&body, &state),
+            stiffness,
+            factor,
+            secants: Secants::default(),
+            direction: vec![0.0; count],
+            base: vec![[0.0; 2]; body.mesh.nodes.len()],
+            residual_before: vec![0.0; count],
+            base_kept_contact: false,
+            fraction: 0.0,
+            keep_contact: false,
+            kept_contact: false,
+            touching: vec![NOTHING; state.edges.len()],
+            has_factors: false,
+            has_tangent: false,
+            stiffens: true,
+            counters: Counters::default(),
+            body,
+            state,
+        })
+    }
+
+    /// The body.
+    pub fn body(&self) -> &Body<'m> {
+        &self.body
+    }
+
+    /// The converged state.
+    pub fn state(&self) -> &State {
+        &self.state
+    }
+
+    /// The response of the body at the last assessed iterate.
+    pub fn response(&self) -> &Response {
+        &self.response
+    }
+
+    /// The surface of the converged state.
+    pub fn converged_surface(&self) -> Surface<'_> {
+        Surface::of_state(&self.body, &self.state)
+    }
+
+    /// The surface at the last assessed iterate, until that is accepted.
+    pub fn trial_surface(&self) -> Surface<'_> {
+        Surface::of_trial(&self.body, &self.state, &self.trial, &self.response)
+    }
+
+    /// Contact of every surface edge at the last assessed iterate, in the order of the mesh.
+    pub fn contacts(&self) -> &[EdgeContact] {
+        &self.response.contact
+    }
+
+    /// Stiffness at the last assessed iterate with a tangent: lower triangle, by the numbers of the unknowns.
+    pub fn stiffness(&self) -> &sprs::CsMat<f64> {
+        &self.stiffness.matrix
+    }
+
+    /// Whether each point yields at the last assessed iterate.
+    pub fn yielding_points(&self) -> impl Iterator<Item = bool> + '_ {
+        let (new, start) = (&self.response.points.states, &self.trial.start.states);
+        new.iter().zip(start).map(|(new, start)| new.plastic_strain > start.plastic_strain)
+    }
+
+    /// What a factorisation of the stiffness and a solve take.
+    pub fn operations(&self) -> Operations {
+        self.factor.operations()
+    }
+
+    /// Starts an increment: see [`State::begin`]. Its first iterate keeps the contact of the converged state.
+    pub fn begin(&mut self, tip: f64, ratio: f64, guess: impl Fn(usize) -> [f64; 2]) {
+        self.state.begin(&self.body, tip, ratio, guess, &mut self.trial);
+        let free = tip == f64::INFINITY;
+        self.touching.fill(NOTHING);
+        if !free {
+            self.touching.iter_mut().zip(self.state.parts()).for_each(|(parts, kept)| *parts = kept);
+        }
+        self.keep_contact = self.touching.iter().any(|p| *p != NOTHING);
+        // what follows is no step of the last increment
+        self.fraction = 0.0;
+    }
+
+    /// Accepts the increment under way.
+    ///
+    /// # Errors
+    /// See [`State::commit`].
+    pub fn accept(&mut self) -> Result<(), Failure> {
+        self.state.commit(&self.body, &self.trial, &mut self.response)
+    }
+
+    /// See [`State::weigh`].
+    pub fn weigh_by_current_volume(&mut self) {
+        self.state.weigh(&self.body);
+    }
+
+    /// Augmented Lagrange update at the nodes, λ ← max(0, λ + ε d), from the converged iterate.
+    pub fn augment(&mut self) {
+        let Some(contact) = self.body.contact else { return };
+        let mut multiplier = self.trial.multiplier.clone();
+        let surface = self.trial_surface();
+        for edge in surface.edges {
+            for &node in &edge.nodes[..edge.node_count()] {
+                let depth = contact.tool.penetration(surface.position(node), self.trial.tip).depth;
+                multiplier[node as usize] =
+                    (self.trial.multiplier[node as usize] + contact.penalty * depth).max(0.0);
+            }
+        }
+        self.trial.multiplier = multiplier;
+        self.keep_contact = false;
+    }
+
+    /// Whether tangents that are far from definite are stiffened, or fail.
+    pub fn stiffen(&mut self, stiffens: bool) {
+        self.stiffens = stiffens;
+    }
+
+    /// dF/dh at the converged state with every point elastic and the contact kept.
+    ///
+    /// # Errors
+    /// A stiffness that cannot be factorised.
+    pub fn unloading_stiffness(&mut self) -> Result<ToolStiffness, Failure> {
+        self.begin(self.state.tip, 0.0, |_| [0.0; 2]);
+        self.body.assemble_elastic(&self.state, &self.trial, &mut self.response, &mut self.stiffness)?;
+        self.has_tangent = true;
+        self.keep_contact = false;
+        self.tool_stiffness()
+    }
+
+    /// How the force answers the travel of the tool at the last assessed iterate.
+    ///
+    /// # Errors
+    /// A stiffness that cannot be factorised.
+    pub fn tool_stiffness(&mut self) -> Result<ToolStiffness, Failure> {
+        self.renew()?;
+        Ok(tool_stiffness(&self.body.dofs, self.state.edges.iter().zip(&self.response.contact), |rhs| {
+            self.factor.solve(rhs)
+        }))
+    }
+
+    /// Assembles another tangent at the last assessed iterate, with the same contact.
+    fn assemble_again(&mut self, tangent: Tangent) -> Result<(), Failure> {
+        let clock = Instant::now();
+        self.has_tangent = true;
+        let Self { body, state, trial, response, stiffness, .. } = self;
+        body.assemble_again(state, trial, tangent, response, stiffness)?;
+        self.counters.assemblies += 1;
+        self.counters.returns += self.response.returns;
+        self.counters.assembly_s += clock.elapsed().as_secs_f64();
+        Ok(())
+    }
+
+    /// Factorises the stiffness, or what [`Self::factorise_indefinite`] puts in its place if a pivot is lost.
+    fn factorise(&mut self) -> Result<(), Failure> {
+        let clock = Instant::now();
+        self.counters.factorisations += 1;
+        self.secants.clear();
+        self.fraction = 0.0;
+        let outcome = match self.factor.cholesky(&self.stiffness.matrix) {
+            Ok(()) => Ok(()),
+            Err(_) => self.factorise_indefinite(),
+        };
+        self.has_factors = outcome.is_ok();
+        self.counters.factor_s += clock.elapsed().as_secs_f64();
+        outcome
+    }
+
+    /// A tangent without the compressive geometric term; else LDLᵀ of the exact one if it is nearly definite; else a stiffer one.
+    fn factorise_indefinite(&mut self) -> Result<(), Failure> {
+        self.counters.lost_pivots += 1;
+        self.assemble_again(Tangent::WithoutCompression)?;
+        if self.factor.cholesky(&self.stiffness.matrix).is_ok() {
+            return Ok(());
+        }
+        self.assemble_again(Tangent::Exact)?;
+        match self.factor.ldlt(&self.stiffness.matrix) {
+            Ok(negative) if negative <= TOLERATED_NEGATIVE_PIVOTS => Ok(()),
+            _ if self.stiffens => self.factorise_stiffened(),
+            _ => Err(Failure::Singular),
+        }
+    }
+
+    /// The exact tangent with a stiffer diagonal, as little as makes it definite: directions that go down, where a
+    /// perfectly plastic body gives way and Newton's go anywhere.
+    fn factorise_stiffened(&mut self) -> Result<(), Failure> {
+        for share in STIFFER {
+            self.stiffness.stiffen(share);
+            if self.factor.cholesky(&self.stiffness.matrix).is_ok() {
+                return Ok(());
+            }
+        }
+        Err(Failure::Singular)
+    }
+
+    /// Whether the parts that touch changed since the last assessed iterate.
+    fn contact_changed(&mut self) -> bool {
+        let shape_of = |parts: &Parts| parts.map(|p| p.is_some());
+        let mut changed = false;
+        for (before, now) in self.touching.iter_mut().zip(&self.response.contact) {
+            changed |= shape_of(before) != shape_of(&now.parts);
+            *before = now.parts;
+        }
+        changed
+    }
+}
+
+impl System for Equilibrium<'_> {
+    type Error = Failure;
+
+    fn assess(&mut self, tangent: bool) -> Result<Assessment, Failure> {
+        let clock = Instant::now();
+        self.has_tangent = tangent;
+        let touching = if self.keep_contact { Touching::Kept } else { Touching::Found };
+        let tangent = if tangent { Tangent::Exact } else { Tangent::None };
+        let Self { body, state, trial, response, stiffness, .. } = self;
+        body.assemble(state, trial, tangent, touching, response, stiffness)?;
+        self.kept_contact = std::mem::take(&mut self.keep_contact);
+        let changed = self.contact_changed() || self.kept_contact;
+        self.counters.assemblies += usize::from(self.has_tangent);
+        self.counters.residuals += usize::from(!self.has_tangent);
+        self.counters.returns += self.response.returns;
+        self.counters.assembly_s += clock.elapsed().as_secs_f64();
+        let residual = self.response.residual.iter().map(|r| r * r).sum::<f64>().sqrt();
+        // forces of the fixed components and of the tool, and the largest load so far (the load itself goes to 0)
+        let mut reaction = 0.0;
+        for (f, numbers) in self.response.internal.iter().zip(&self.body.dofs.number) {
+            for i in 0..2 {
+                if numbers[i] == FIXED {
+                    reaction += f[i] * f[i];
+                }
+            }
+        }
+        for edge in &self.response.contact {
+            reaction += edge.force.iter().flatten().map(|f| f * f).sum::<f64>();
+        }
+        let scale = reaction.sqrt().max(self.state.load_scale).max(f64::MIN_POSITIVE);
+        Ok(Assessment { residual, scale, changed })
+    }
+
+    fn renew(&mut self) -> Result<(), Failure> {
+        if !self.has_tangent {
+            self.assemble_again(Tangent::Exact)?;
+        }
+        self.factorise()
+    }
+
+    fn has_factors(&self) -> bool {
+        self.has_factors
+    }
+
+    fn forget(&mut self) {
+        self.has_factors = false;
+    }
+
+    fn find_direction(&mut self) {
+        let clock = Instant::now();
+        let residual = &self.response.residual;
+        if self.fraction > 0.0 {
+            self.secants.note(-self.fraction, &self.direction, &self.residual_before, residual);
+        }
+        self.fraction = 0.0;
+        self.residual_before.copy_from_slice(residual);
+        self.direction.copy_from_slice(residual);
+        self.secants.solve(&mut self.direction, |rhs| self.factor.solve(rhs));
+        self.base.clone_from(&self.trial.displacement);
+        self.base_kept_contact = self.kept_contact;
+        self.counters.solve_s += clock.elapsed().as_secs_f64();
+    }
+
+    fn slope(&self) -> f64 {
+        -self.response.residual.iter().zip(&self.direction).map(|(r, d)| r * d).sum::<f64>()
+    }
+
+    fn advance(&mut self, fraction: f64) {
+        self.fraction = fraction;
+        if fraction == 0.0 {
+            self.keep_contact = self.base_kept_contact;
+        }
+        let displacement = self.trial.displacement.iter_mut();
+        for ((du, base), numbers) in displacement.zip(&self.base).zip(&self.body.dofs.number) {
+            for i in 0..2 {
+                if numbers[i] != FIXED {
+                    du[i] = base[i] - fraction * self.direction[numbers[i] as usize];
+                }
+            }
+        }
+    }
+}
