@@ -19,4 +19,5 @@ pub mod random_scenes;
 pub mod single_asperity;
 pub mod test_meshes;
 
+pub mod roofline;
 pub mod single_increment;

@@ -1,10 +1,12 @@
 //! Sparse factorisation by faer: the symbolic analysis once per mesh, numbers in place, nothing allocated per solve.
+//! This is the only file that names faer.
 
-use crate::algebra::roofline::Operations;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::linalg::SupernodalThreshold;
+use faer::sparse::linalg::amd;
 use faer::sparse::linalg::cholesky::{
-    CholeskySymbolicParams, LdltRef, LltRef, SymbolicCholesky, SymmetricOrdering, factorize_symbolic_cholesky,
+    CholeskySymbolicParams, LdltRef, LltRef, SymbolicCholesky, SymmetricOrdering,
+    factorize_symbolic_cholesky, simplicial,
 };
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Conj, MatMut, Par, Side};
@@ -21,6 +23,15 @@ pub enum FactorError {
     Singular,
 }
 
+/// Floating-point operations of one solution of a sparse symmetric system.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Operations {
+    /// Of the factorisation.
+    pub factor: f64,
+    /// Of a solve with the factors.
+    pub solve: f64,
+}
+
 /// Symbolic analysis, factor values and work space of one pattern.
 pub struct Factor {
     symbolic: SymbolicCholesky<usize>,
@@ -32,6 +43,31 @@ pub struct Factor {
 /// sprs's arrays as faer sees them. `columns` is `matrix.proper_indptr()`, which borrows: the matrix is whole.
 fn pattern_of<'a>(matrix: &'a CsMat<f64>, columns: &'a [usize]) -> SymbolicSparseColMatRef<'a, usize> {
     SymbolicSparseColMatRef::new_checked(matrix.rows(), matrix.cols(), columns, None, matrix.indices())
+}
+
+/// For each vertex of a graph (compressed columns without the diagonal) its place in an order of approximate minimum degree.
+///
+/// # Errors
+/// More edges than can be counted.
+pub fn minimum_degree(starts: &[usize], neighbours: &[usize]) -> Result<Vec<usize>, FactorError> {
+    let size = starts.len() - 1;
+    let (mut order, mut place) = (vec![0; size], vec![0; size]);
+    let mut memory = MemBuffer::new(amd::order_scratch::<usize>(size, neighbours.len()));
+    let pattern = SymbolicSparseColMatRef::new_checked(size, size, starts, None, neighbours);
+    amd::order(&mut order, &mut place, pattern, amd::Control::default(), MemStack::new(&mut memory))
+        .map_err(|_| FactorError::Singular)?;
+    Ok(place)
+}
+
+/// Entries of each column of the Cholesky factor of a graph (compressed columns without the diagonal).
+pub fn column_counts(starts: &[usize], neighbours: &[usize]) -> Vec<usize> {
+    let size = starts.len() - 1;
+    let (mut tree, mut counts) = (vec![0_isize; size], vec![0_usize; size]);
+    let request = simplicial::prefactorize_symbolic_cholesky_scratch::<usize>(size, neighbours.len());
+    let mut memory = MemBuffer::new(request);
+    let pattern = SymbolicSparseColMatRef::new_checked(size, size, starts, None, neighbours);
+    simplicial::prefactorize_symbolic_cholesky(&mut tree, &mut counts, pattern, MemStack::new(&mut memory));
+    counts
 }
 
 impl Factor {

@@ -8,11 +8,7 @@
 //!
 //! An order lists vertices, the first to be eliminated first; places are its inverse: `place[order[i]] = i`.
 
-use crate::algebra::cholesky::FactorError;
-use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::sparse::SymbolicSparseColMatRef;
-use faer::sparse::linalg::amd;
-use faer::sparse::linalg::cholesky::simplicial;
+use crate::algebra::cholesky::{FactorError, column_counts, minimum_degree};
 use feral_metis::{CscPattern, metis_order};
 
 /// Free nodes from which nested dissection is tried: it takes ten times as long as a minimum degree, and on smaller meshes
@@ -54,22 +50,6 @@ impl Graph {
         Graph::new(self.size(), edges.collect())
     }
 
-    /// The graph as faer sees it.
-    fn pattern(&self) -> SymbolicSparseColMatRef<'_, usize> {
-        SymbolicSparseColMatRef::new_checked(self.size(), self.size(), &self.starts, None, &self.neighbours)
-    }
-
-    /// For each vertex its place in an order of approximate minimum degree.
-    fn minimum_degree(&self) -> Result<Vec<usize>, FactorError> {
-        let size = self.size();
-        let (mut order, mut place) = (vec![0; size], vec![0; size]);
-        let mut memory = MemBuffer::new(amd::order_scratch::<usize>(size, self.neighbours.len()));
-        let stack = MemStack::new(&mut memory);
-        amd::order(&mut order, &mut place, self.pattern(), amd::Control::default(), stack)
-            .map_err(|_| FactorError::Singular)?;
-        Ok(place)
-    }
-
     /// For each vertex its place in an order of nested dissection, or nothing where that fails.
     fn dissection(&self) -> Option<Vec<usize>> {
         let narrow = |numbers: &[usize]| -> Option<Vec<i32>> {
@@ -84,14 +64,8 @@ impl Graph {
 
     /// Operations of a factorisation in the order `place`, in a unit of its own: Σ c² over the c entries of each column.
     fn operations(&self, place: &[usize]) -> f64 {
-        let size = self.size();
         let renumbered = self.renumbered(place);
-        let (mut tree, mut counts) = (vec![0_isize; size], vec![0_usize; size]);
-        let request =
-            simplicial::prefactorize_symbolic_cholesky_scratch::<usize>(size, renumbered.neighbours.len());
-        let mut memory = MemBuffer::new(request);
-        let stack = MemStack::new(&mut memory);
-        simplicial::prefactorize_symbolic_cholesky(&mut tree, &mut counts, renumbered.pattern(), stack);
+        let counts = column_counts(&renumbered.starts, &renumbered.neighbours);
         counts.iter().map(|&c| (c as f64).powi(2)).sum()
     }
 }
@@ -124,7 +98,7 @@ pub fn elimination_order(
 
 /// The places of the vertices in the cheapest of the orders that are tried.
 fn cheapest_places(graph: &Graph) -> Result<Vec<usize>, FactorError> {
-    let forwards = graph.minimum_degree()?;
+    let forwards = minimum_degree(&graph.starts, &graph.neighbours)?;
     let mut best = (graph.operations(&forwards), forwards);
     let mut weigh = |places: Vec<usize>| {
         let operations = graph.operations(&places);
@@ -134,7 +108,8 @@ fn cheapest_places(graph: &Graph) -> Result<Vec<usize>, FactorError> {
     };
     // the same from the last vertex on: vertex i is called last - i there
     let reverse: Vec<usize> = (0..graph.size()).rev().collect();
-    let backwards = graph.renumbered(&reverse).minimum_degree()?;
+    let turned = graph.renumbered(&reverse);
+    let backwards = minimum_degree(&turned.starts, &turned.neighbours)?;
     weigh(reverse.iter().map(|&i| backwards[i]).collect());
     if graph.size() >= DISSECT_FROM {
         // beyond the numbers of the dissection there is still a minimum degree

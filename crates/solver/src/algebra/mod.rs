@@ -11,5 +11,3 @@ pub mod cholesky;
 pub mod lbfgs;
 
 pub mod newton;
-
-pub mod roofline;

@@ -2,11 +2,10 @@
 //! iterates and increments (factors, secants, the contact that was kept), none of which belongs to the body.
 
 use crate::algebra::assemble::Stiffness;
-use crate::algebra::cholesky::Factor;
+use crate::algebra::cholesky::{Factor, Operations};
 use crate::algebra::dofs::FIXED;
 use crate::algebra::lbfgs::Secants;
 use crate::algebra::newton::{self, Assessment, System};
-use crate::algebra::roofline::Operations;
 use crate::body::assembly::{Response, Touching};
 use crate::body::discrete_body::Body;
 use crate::body::failure::Failure;

@@ -2,14 +2,13 @@
 //! iterations per run, on the single asperity at each accuracy level and with each element.
 //!
 //! `cargo bench -p asperity-solver` prints a table. Times are per iteration, of which only some have a new tangent: the
-//! others reuse its factors. Floor: one Newton iteration in the strict sense, with a new tangent and every point flowing, at
+//! others reuse its factors. Roofline: one Newton iteration in the strict sense, with a new tangent and every point flowing, at
 //! the arithmetic of this core (see `asperity_solver::algebra::roofline`); 3% is what `verification/PEERS.md` runs.
 #![allow(clippy::print_stdout, reason = "a benchmark prints")]
 
 use asperity_law::HardeningMode;
 use asperity_law::units::{Length, Stress};
 use asperity_mesh::ElementKind;
-use asperity_solver::algebra::roofline::Floor;
 use asperity_solver::body::discrete_body::{Body, ToolContact};
 use asperity_solver::element::kernel::POINTS;
 use asperity_solver::run::crush::run;
@@ -19,6 +18,7 @@ use asperity_solver::scene::{
     Accuracy, Asperity, ElementChoice, HardeningChoice, Lateral, Loading, Material, Numerics, Output, Scene,
     Symmetry, Tool, ToolShape,
 };
+use asperity_verification::roofline::Roofline;
 use std::ops::ControlFlow;
 use std::time::Instant;
 
@@ -56,7 +56,7 @@ fn single_asperity(accuracy: Accuracy, element: ElementChoice) -> Scene {
 }
 
 /// Seconds of an iteration of `scene` at the floor; `None` if it does not mesh.
-fn least(scene: &Scene, kind: ElementKind, floor: &Floor) -> Option<f64> {
+fn least(scene: &Scene, kind: ElementKind, floor: &Roofline) -> Option<f64> {
     let problem = prepare(scene, None).ok()?;
     let contact = ToolContact { tool: problem.tool, penalty: problem.penalty };
     let held = |node: usize| problem.held[node];
@@ -67,7 +67,7 @@ fn least(scene: &Scene, kind: ElementKind, floor: &Floor) -> Option<f64> {
 }
 
 fn main() {
-    let floor = Floor::measure();
+    let floor = Roofline::measure();
     println!("{:.1} GFLOP/s", 1e-9 * floor.rate());
     println!(
         "| level | element | unknowns | iterations | new tangents | assembly ms | factorise ms | solve ms | iteration ms | floor ms | over the floor | run s |"

@@ -1,7 +1,7 @@
 //! What a case of the default sweep costs: core-seconds, increments, iterations, and the floor of those iterations.
 //!
 //! `cargo bench -p asperity-calibration` solves every tenth case of the grid on one thread and prints a row for each slope
-//! and the mean. Floor: the iterations, each with a new tangent and every point flowing, at the arithmetic of this core
+//! and the mean. Roofline: the iterations, each with a new tangent and every point flowing, at the arithmetic of this core
 //! (`asperity_solver::algebra::roofline`).
 #![allow(clippy::print_stdout, reason = "a benchmark prints")]
 
@@ -10,11 +10,11 @@ use asperity_calibration::case::Case;
 use asperity_calibration::resolution::Resolution;
 use asperity_calibration::run::{shard, solve};
 use asperity_calibration::sweep::Sweep;
-use asperity_solver::algebra::roofline::Floor;
 use asperity_solver::body::discrete_body::Body as Discrete;
 use asperity_solver::element::kernel::POINTS;
 use asperity_solver::point::kinematics::Symmetry;
 use asperity_solver::run::equilibrium::Equilibrium;
+use asperity_verification::roofline::Roofline;
 
 /// Sums over cases.
 #[derive(Clone, Copy, Default)]
@@ -54,7 +54,7 @@ impl Sums {
     }
 }
 
-fn measure(case: &Case, sweep: &Sweep, floor: &Floor) -> Sums {
+fn measure(case: &Case, sweep: &Sweep, floor: &Roofline) -> Sums {
     let resolution = Resolution::of(case, sweep.accuracy);
     let body = Body::new(case, &resolution);
     let unknowns = body.held.iter().flatten().filter(|held| !**held).count() as f64;
@@ -77,7 +77,7 @@ fn measure(case: &Case, sweep: &Sweep, floor: &Floor) -> Sums {
 }
 
 fn main() {
-    let floor = Floor::measure();
+    let floor = Roofline::measure();
     let sweep = Sweep::default();
     let cases = shard(&sweep.cases(), 3, 10);
     println!(
