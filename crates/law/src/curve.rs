@@ -5,13 +5,13 @@ use crate::table::HardeningTable;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// What the yield surface does as metal flows.
+/// How the yield surface changes with plastic strain.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum HardeningMode {
-    /// It grows: flow against the last direction begins at the stress that the last flow reached.
+    /// It grows: reverse yielding begins at the stress that was reached before.
     Isotropic,
-    /// It moves and keeps its size: flow against the last direction begins early (Bauschinger).
+    /// It moves and keeps its size: reverse yielding begins early (Bauschinger).
     Kinematic,
 }
 
@@ -20,7 +20,7 @@ pub enum HardeningMode {
 pub enum HardeningCurve {
     /// A power law.
     Power(Hardening),
-    /// A table, shared between the copies of a metal.
+    /// A table, shared between the copies of a material.
     Table(Arc<HardeningTable>),
 }
 
@@ -81,7 +81,7 @@ impl HardeningCurve {
     }
 
     /// The hardening exponent that estimates ask for. Of a table: that of the `swift` law through first yield and the
-    /// stress at a plastic strain of 0.1, which metal under a contact reaches; E is `youngs_modulus`.
+    /// stress at a plastic strain of 0.1, which the material under a contact reaches; E is `youngs_modulus`.
     pub fn exponent(&self, youngs_modulus: f64) -> f64 {
         match self {
             HardeningCurve::Power(law) => law.exponent,
@@ -94,7 +94,7 @@ impl HardeningCurve {
         }
     }
 
-    /// The same metal with all stresses, E among them, in another unit, of which one is `unit` > 0 here.
+    /// The same material with all stresses, E among them, in another unit, of which one is `unit` > 0 here.
     #[must_use]
     pub fn over(&self, unit: f64) -> HardeningCurve {
         match self {

@@ -22,7 +22,7 @@ pub struct CurveFile {
     pub lines: Vec<usize>,
 }
 
-/// What is wrong in a file, and where.
+/// An error in a file, with its line.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CurveFileError {
     /// The line, from 1; `None`: the file as a whole.

@@ -20,7 +20,7 @@ impl HardeningLaw {
     }
 }
 
-/// Isotropic power-law hardening of a metal; n = 0 is perfect plasticity.
+/// Isotropic power-law hardening; n = 0 is perfect plasticity.
 ///
 /// Both laws are σ = R eⁿ in a strain measure e ≥ ε_y = σ_y/E and differ in the plastic strain that belongs to e:
 /// `hollomon` ε_p = e - σ/E, `swift` ε_p = e - σ_y/E. The equations of this file are solved for e, in which

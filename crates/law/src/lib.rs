@@ -1,4 +1,4 @@
-//! The metal: elastic constants, hardening laws and tables, the representative stress σ_r(ε_r), and physical units.
+//! The material: elastic constants, hardening laws and tables, the representative stress σ_r(ε_r), and physical units.
 //!
 //! This crate is the only place of the workspace that knows a σ(ε). It has no opinion on units inside: all
 //! stresses of one call must be in the same unit, strains and exponents are pure numbers.

@@ -22,7 +22,7 @@ pub struct HardeningTable {
     work: Vec<f64>,
 }
 
-/// What is wrong with a point of a table.
+/// Why a point of a table is refused.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TableError {
     /// Which point, from 0; `None`: the table as a whole.
@@ -47,7 +47,7 @@ impl HardeningTable {
     ///
     /// # Errors
     /// No points or too many; a plastic strain that does not start at 0 or does not grow; a yield stress that is not
-    /// positive or falls. Softening is refused because its localisation follows the mesh, not the metal.
+    /// positive or falls. Softening is refused because its localisation follows the mesh, not the material.
     pub fn new(points: &[[f64; 2]]) -> Result<HardeningTable, TableError> {
         if points.is_empty() || points.len() > LARGEST_TABLE {
             let message = format!(

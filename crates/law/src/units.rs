@@ -3,7 +3,7 @@
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::fmt;
 
-/// What went wrong in reading a quantity.
+/// Why a quantity could not be read.
 #[derive(Clone, Debug, PartialEq)]
 pub struct UnitError(String);
 

@@ -3,7 +3,7 @@
 use crate::algebra::dofs::{Dofs, FIXED};
 use sprs::{CsMat, TriMat};
 
-/// No place: the row or column is held, or the entry is above the diagonal.
+/// No place: the row or column is fixed, or the entry is above the diagonal.
 const NOWHERE: u32 = u32::MAX;
 
 /// A symmetric sparse matrix with the places of all element entries.

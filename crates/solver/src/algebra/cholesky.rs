@@ -139,7 +139,7 @@ impl Factor {
         count
     }
 
-    /// What a factorisation and a solve take: a column with n entries below its diagonal takes n(n + 1) products and sums
+    /// Operations of a factorisation and a solve: a column with n entries below its diagonal takes n(n + 1) products and sums
     /// of its outer product and n divisions; a solve passes twice over every entry.
     pub fn operations(&self) -> Operations {
         let mut sum = Operations { factor: 0.0, solve: 0.0 };

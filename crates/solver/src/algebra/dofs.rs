@@ -1,6 +1,6 @@
 //! Which displacement components are unknown, and their numbers.
 
-/// Marks a component that is held or prescribed.
+/// Marks a component that is fixed or prescribed.
 pub const FIXED: u32 = u32::MAX;
 
 /// Numbers of the unknown displacement components.
@@ -13,14 +13,14 @@ pub struct Dofs {
 }
 
 impl Dofs {
-    /// Numbers the components of `nodes` nodes, node after node as they stand in `order`, without those that `held(node)`
-    /// names. `order` has each node at most once; nodes that are not in it are held.
-    pub fn new(nodes: usize, order: &[usize], held: impl Fn(usize) -> [bool; 2]) -> Dofs {
+    /// Numbers the components of `nodes` nodes, node after node as they stand in `order`, without those that `fixed(node)`
+    /// names. `order` has each node at most once; nodes that are not in it are fixed.
+    pub fn new(nodes: usize, order: &[usize], fixed: impl Fn(usize) -> [bool; 2]) -> Dofs {
         let mut count = 0;
         let mut number = vec![[FIXED; 2]; nodes];
         for &node in order {
-            for (number, held) in number[node].iter_mut().zip(held(node)) {
-                if !held {
+            for (number, fixed) in number[node].iter_mut().zip(fixed(node)) {
+                if !fixed {
                     *number = count;
                     count += 1;
                 }

@@ -1,6 +1,6 @@
 //! Secant pairs that correct an older factorisation: limited-memory BFGS with the factors as the first matrix.
 //!
-//! After a step s the residual changed by y ≈ K s, whatever the tangent does in between (flow, new contact). The two loops
+//! After a step s the residual changed by y ≈ K s, whatever the tangent does in between (yielding, new contact). The two loops
 //! of Nocedal & Wright (Numerical Optimization, 2nd ed., algorithm 7.4) give the direction of the tangent that satisfies
 //! the last pairs; Matthies & Strang (1979) brought it to finite elements. A pair costs four products of vectors, where
 //! new factors cost an assembly and a factorisation.

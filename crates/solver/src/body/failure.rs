@@ -10,7 +10,7 @@ pub enum Failure {
     Element {
         /// Number of the element, from 0.
         cell: usize,
-        /// What is wrong there.
+        /// Why a point of it fails.
         cause: PointFailure,
     },
     /// The stiffness could not be factorised in any of the ways tried.

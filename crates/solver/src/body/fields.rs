@@ -23,7 +23,7 @@ pub struct Fields {
     pub pressure: Vec<f64>,
     /// Contact pressure at the nodes, 0 off the contact.
     pub contact_pressure: Vec<f64>,
-    /// Of each cell: 0 never yielded, 1 has yielded, 2 flows in this increment.
+    /// Of each cell: 0 never yielded, 1 has yielded, 2 yields in this increment.
     pub plastic_zone: Vec<f64>,
     /// The free surface from the axis outward.
     pub surface: Vec<SurfacePoint>,
@@ -38,7 +38,7 @@ pub struct SurfacePoint {
     pub displacement: [f64; 2],
     /// Contact pressure (current area).
     pub pressure: f64,
-    /// Whether the metal there has yielded.
+    /// Whether the material there has yielded.
     pub yielded: bool,
 }
 

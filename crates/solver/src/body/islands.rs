@@ -1,4 +1,4 @@
-//! Where fluid may leak: gaps between contacts, and metal that never yielded among the asperities.
+//! Where fluid may leak: gaps between contacts, and regions that never yielded among the asperities.
 
 use crate::body::discrete_body::Body;
 use crate::body::state::State;
@@ -22,7 +22,7 @@ pub struct Gap {
     pub height: f64,
 }
 
-/// A connected region of metal that never yielded, enclosed by metal that did or standing above the substrate.
+/// A connected region that never yielded, enclosed by material that did or standing above the substrate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Island {
     /// Centroid (r, z) of its section before the crush.
@@ -31,7 +31,7 @@ pub struct Island {
     pub area: f64,
     /// Volume-weighted mean hydrostatic pressure, positive in compression.
     pub mean_pressure: f64,
-    /// Volume-weighted mean von Mises stress: far below the pressure where the metal is kept elastic by confinement.
+    /// Volume-weighted mean von Mises stress: far below the pressure where confinement keeps the material elastic.
     pub mean_von_mises: f64,
     /// Whether it hangs together with the elastic bulk of the substrate.
     pub reaches_substrate: bool,
@@ -73,7 +73,7 @@ pub fn gaps(surface: &Surface<'_>) -> Vec<Gap> {
 }
 
 /// Regions of cells without plastic strain whose centroid lies within `extent` along r before the crush: those enclosed by
-/// yielded metal at any depth, and of the elastic bulk what lay above `floor`. Cells hang together through common edges.
+/// yielded material at any depth, and of the elastic bulk what lay above `floor`. Cells hang together through common edges.
 pub fn islands(body: &Body<'_>, state: &State, floor: f64, extent: [f64; 2]) -> Vec<Island> {
     let mesh = body.mesh;
     let cells = 0..mesh.cell_count();

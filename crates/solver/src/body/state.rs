@@ -53,7 +53,7 @@ pub struct State {
     pub multiplier: Vec<f64>,
     /// Largest load so far.
     pub load_scale: f64,
-    /// What the contact energy has changed by because the area it is taken over did, before the last increment and in it.
+    /// Change of the contact energy by that of the area it is taken over, before the last increment and in it.
     remeasured: [f64; 2],
 }
 
@@ -66,7 +66,7 @@ pub struct Trial {
     pub displacement: Vec<[f64; 2]>,
     /// Augmented Lagrange multipliers at the nodes.
     pub multiplier: Vec<f64>,
-    /// What the points start from: the converged state with the last plastic increment extrapolated.
+    /// States that the points start from: the converged ones with the last plastic increment extrapolated.
     pub start: Points,
 }
 
@@ -234,13 +234,13 @@ impl State {
         self.remeasured = [self.remeasured_energy() + self.remeasured[1], change];
     }
 
-    /// What the contact energy has changed by, up to the start of the last increment, because the area it is taken over did.
+    /// Change of the contact energy by that of the area it is taken over, up to the start of the last increment.
     pub fn remeasured_energy(&self) -> f64 {
         self.remeasured[0]
     }
 
     /// Takes the stress of the law as Cauchy's instead of Kirchhoff's from here to the next call, with the volume change of
-    /// this state: what codes that read the yield stress so would find. Where metal is squeezed hard (steep indenters,
+    /// this state: what codes that read the yield stress so would find. Where the material is squeezed hard (steep indenters,
     /// E/σ_y below 100) that is a few percent of the force.
     pub fn weigh(&mut self, body: &Body<'_>) {
         for ((weight, volume), state) in self.weight.iter_mut().zip(&body.volume).zip(&self.points.states) {

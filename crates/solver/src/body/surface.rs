@@ -67,7 +67,7 @@ impl<'a> Surface<'a> {
         }
     }
 
-    /// What the penetration takes of the depth if the material is elastic, and the elastic energy near the contacts.
+    /// Penalty correction if the material is elastic, and the elastic energy near the contacts.
     pub fn under_punches(&self) -> Punches {
         under_punches(
             self.edges.iter().zip(self.contact),

@@ -6,7 +6,7 @@
 //! the tangent is the exact derivative of the force.
 //!
 //! The reference is the undeformed surface, so that the energy is exact; under a cone it is the last converged one. A
-//! cone stretches the metal under its apex over a large part of the flank, where a penalty over the undeformed area
+//! cone stretches the surface under its apex over a large part of the flank, where a penalty over the undeformed area
 //! fades: the apex then pierces the surface (30° cone, n = 0.1: K 15 % low, and no convergence to any mesh).
 
 use crate::contact::tool::Tool;

@@ -1,12 +1,12 @@
-//! What the penetration takes of the travel of the tool: travel less this is the depth.
+//! Penalty correction from tool travel to depth: travel less this is the depth.
 //!
 //! The penalty is an elastic layer of stiffness ε per area on the tool; the layer is compressed by d = p/ε. What depth the tool
-//! would have without it depends on how the metal answers:
-//! * elastic metal: the layer adds E_c = ∫ ½ε d² dA to the complementary energy, so to first order in 1/ε the depth grows by
+//! would have without it depends on how the material answers:
+//! * elastic: the layer adds E_c = ∫ ½ε d² dA to the complementary energy, so to first order in 1/ε the depth grows by
 //!   dE_c/dF = ∫ d (∂p/∂F) dA (Castigliano). What an elastic contact gains in pressure is the pressure of a flat punch as wide as
 //!   the contact (Johnson, Contact Mechanics, 1985, eq. 3.34 and 2.64), whatever the shape: the mean of d under a punch. That is
 //!   ln 2 = 0.69 of the mean d under a cone, 3/4 of it under a ball;
-//! * metal that flows under an even pressure: a layer that is compressed evenly shifts the surface of the tool by d. The mean weighted by the
+//! * fully plastic, under an even pressure: a layer that is compressed evenly shifts the surface of the tool by d. The mean weighted by the
 //!   pressure is taken, 2 E_c/F, which leaves out the rim where contact has just begun.
 //!
 //! Between the two the share of the plastic work decides, beside the elastic energy near the contact: F²/(3E*a) of a cone (a ball has
@@ -27,7 +27,7 @@ struct Piece {
 /// Gaps below this share of the larger radius are none.
 const TOUCHING: f64 = 1e-9;
 
-/// What the penetration would take of the depth of elastic metal, and the elastic energy near the contacts times E*.
+/// Penalty correction if the material is elastic, and the elastic energy near the contacts times E*.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Punches {
     /// Mean penetration under flat punches as wide as the contacts; each contact counts by its force.

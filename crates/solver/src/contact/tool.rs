@@ -33,7 +33,7 @@ pub struct Penetration {
 }
 
 impl Tool {
-    /// Whether metal under the tool may stretch many times over, so that the area of its contact must be taken anew
+    /// Whether the surface under the tool may stretch many times over, so that the area of its contact must be taken anew
     /// in every increment.
     pub fn stretches_the_surface(&self) -> bool {
         matches!(self, Tool::Cone { .. })

@@ -1,4 +1,4 @@
-//! What both quadrilaterals share: the arrays they fill and the two kernels that fill them.
+//! Shared by both quadrilaterals: the arrays they fill and the two kernels that fill them.
 
 use crate::point::failure::Failure;
 use crate::point::j2::{self, PointUpdate, Tangent};
@@ -13,12 +13,12 @@ pub const POINTS: usize = 4;
 /// Gauss abscissa 1/√3.
 pub const GAUSS: f64 = 0.577_350_269_189_625_8;
 
-/// What an element needs of the scene and of the increment.
+/// Inputs of an element from the scene and the increment.
 #[derive(Clone, Copy, Debug)]
 pub struct ElementContext<'a> {
     /// Axisymmetric or plane strain.
     pub symmetry: Symmetry,
-    /// The metal.
+    /// The material.
     pub metal: &'a Metal,
     /// Which tangent is wanted.
     pub tangent: Tangent,
@@ -70,7 +70,7 @@ pub struct ElementOutput {
     pub states: [PointState; POINTS],
     /// History variables then, for a material with a back stress.
     pub history: [History; POINTS],
-    /// Number of points that flow.
+    /// Number of points that yield.
     pub flowing: usize,
 }
 

@@ -1,11 +1,11 @@
-//! Second order in the load step: the flow of the last increment is carried on into the next one.
+//! Second order in the load step: the last plastic increment is extrapolated into the next one (BDF2).
 //!
 //! The radial return is backward Euler: exact along straight paths, first order where the direction of flow turns,
-//! as it does in all metal under a growing contact. The two-step backward difference formula (BDF2) is second order:
+//! as it does under every growing contact. The two-step backward difference formula (BDF2) is second order:
 //!   ε_p(n+1) = ε_p(n) + κ [ε_p(n) - ε_p(n-1)] + Δγ N(n+1),   κ = ω²/(1 + 2ω), ω the ratio of the steps,
-//! which is a radial return that starts from a state in which the last flow has been carried on by κ. Nothing else
+//! which is a radial return that starts from a state in which the last plastic increment is extrapolated by κ. Nothing else
 //! changes: the yield condition holds at the end of the increment and the tangent stays symmetric. A point that stops
-//! flowing is carried on once all the same: where flow fades smoothly that is of second order too, and a switch would
+//! yielding is extrapolated once all the same: where flow fades smoothly that is of second order too, and a switch would
 //! make the residual jump. The accumulated plastic strain is the length of the flow from one converged state to the
 //! next, not the sum of its two pieces, which would count a turn twice.
 //!
@@ -16,7 +16,7 @@ use crate::point::failure::Failure;
 use crate::point::material::{Metal, PointState, Spectral};
 use crate::point::tensor::{Sym, contract};
 
-/// The flow of the last increment at a point.
+/// The plastic increment of a point in the last increment of the load.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlasticIncrement {
     /// Plastic logarithmic strain of the increment, in the frame of its end.
@@ -44,7 +44,7 @@ pub fn plastic_increment(trial: &Sym, end: &PointState) -> Result<PlasticIncreme
     Ok(PlasticIncrement { strain, accumulated: (2.0 / 3.0 * contract(&strain, &strain)).sqrt() })
 }
 
-/// The state an increment starts from: `old` with the last flow carried on by `factor`.
+/// The state an increment starts from: `old` with the `last` plastic increment extrapolated by `factor`.
 pub fn extrapolate(metal: &Metal, old: &PointState, last: &PlasticIncrement, factor: f64) -> PointState {
     let Some(hardening) = metal.hardening.as_ref().filter(|_| factor > 0.0 && last.accumulated > 0.0) else {
         return *old;

@@ -1,6 +1,6 @@
 //! Why an integration point cannot be updated.
 
-/// What is wrong with the deformation at a point.
+/// A deformation that a point cannot follow.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Failure {
     /// The element is, or the increment would turn it, inside out at the point: det J or det f is not positive.

@@ -18,7 +18,7 @@ pub struct PointUpdate {
     pub state: PointState,
     /// Kirchhoff stress τ.
     pub stress: Sym,
-    /// Whether the increment flowed.
+    /// Whether the point yielded in the increment.
     pub plastic: bool,
     /// Second derivative of the incremental energy with respect to the current displacement gradient.
     pub tangent: GradientForm,
@@ -69,7 +69,7 @@ pub fn update(
                 plastic_strain: flow.plastic_strain.max(old.plastic_strain),
                 yield_stress: flow.yield_stress,
             };
-            // 2G(left - H/(3G + H)): what the moduli lose along the flow direction
+            // 2G(left - H/(3G + H)): the loss of the moduli along the direction of plastic flow
             (state, left, 2.0 * g * (left - flow.slope / (3.0 * g + flow.slope)))
         }
     };

@@ -1,7 +1,7 @@
 //! The stress update with kinematic hardening: the yield surface moves, and grows by what does not move it.
 //!
 //! Written in the space of Lagrangian logarithmic strains (see `log_space`), in which plastic strain E_p and back stress
-//! α are symmetric deviators of the undeformed configuration: no rotation has to be carried along, and the tangent is the
+//! α are symmetric deviators of the undeformed configuration: no rotation has to be tracked, and the tangent is the
 //! second derivative of an incremental energy. (A back stress of Kirchhoff's kind, turned with each increment, has no
 //! such energy: its tangent is not symmetric.)
 //!   T = K tr E + 2G dev(E - E_p),   ξ = dev T - α,   √(3/2)|ξ| ≤ r,   ΔE_p = √(3/2) Δε_p N,   N = ξ/|ξ|.
@@ -13,11 +13,11 @@
 //! is the return of isotropic hardening from q + m [σ(ε_p) - σ_y], whatever m. The moduli are those of small strains, symmetric:
 //!   ∂T/∂E = K 1⊗1 + 2G (1 - β)(I - ⅓1⊗1) - 2G (3G/(3G + H) - β) N⊗N,   β = 3G Δε_p/q.
 //! After a reversal the modulus goes on falling with ε_p: the curve says nothing of cycles. Where the back stress exceeds
-//! r, metal flows back before its load is gone: with m = 1 from σ = 2σ_y on, with m ≤ ½ never.
+//! r, the point yields in reverse before its load is gone: with m = 1 from σ = 2σ_y on, with m ≤ ½ never.
 //!
-//! Coaxial paths are those of `j2` (with n = 0 the same metal). Where principal directions turn in the metal, additive
-//! strains differ from b_e: simple shear, see `verification`. The second order in the load step is that of `history`, in
-//! a frame that does not turn. The plastic work is T : ΔE_p, of which ∫α : dE_p is stored in the metal and the rest heat.
+//! Coaxial paths are those of `j2` (with n = 0 the same material). Where principal directions turn in the material, additive
+//! strains differ from b_e: simple shear, see `verification`. The second order in the load step is that of `bdf2`, in
+//! a frame that does not turn. The plastic work is T : ΔE_p, of which ∫α : dE_p is stored and the rest heat.
 
 use crate::point::bdf2::{PlasticIncrement, exponential_minus_identity};
 use crate::point::failure::Failure;
@@ -128,7 +128,7 @@ fn tensile_part(a: &Sym) -> Sym {
     frame.tensor(&[mean + radius, mean - radius, a[2]].map(|t| t.max(0.0)))
 }
 
-/// The state an increment starts from: the last flow carried on by `factor` (see `history`), the back stress along with it.
+/// The state an increment starts from: the last plastic increment extrapolated by `factor` (see `bdf2`), the back stress with it.
 pub fn extrapolate(
     metal: &Metal,
     old: &PointState,
@@ -148,7 +148,7 @@ pub fn extrapolate(
     }
 }
 
-/// The states after the flow `flowed`, its direction constant.
+/// The states after the plastic increment `flowed`, its direction constant.
 fn flow_on(
     metal: &Metal,
     curve: &HardeningCurve,
@@ -168,8 +168,8 @@ fn flow_on(
     (PointState { plastic_strain, yield_stress, ..*old }, memory)
 }
 
-/// Completes a converged increment from `old` to `new`: accumulated strain, back stress and work of its flow as a whole,
-/// which the two pieces of `history` would count twice where the flow turns. Returns that flow.
+/// Completes a converged increment from `old` to `new`: accumulated strain, back stress and work of its plastic increment as a
+/// whole, which the two pieces of `bdf2` would count twice where the flow turns. Returns that increment.
 pub fn settle(
     metal: &Metal,
     (old, before): (&PointState, &History),

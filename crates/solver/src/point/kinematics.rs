@@ -36,7 +36,7 @@ pub struct ShapePoint<const N: usize> {
     pub weight: f64,
 }
 
-/// What an integration point knows of the motion in one increment.
+/// Motion of an integration point in one increment.
 #[derive(Clone, Copy, Debug)]
 pub struct PointMotion<const N: usize> {
     /// Rows (∂N_a/∂r, ∂N_a/∂z, N_a/r) in the current configuration.

@@ -7,7 +7,7 @@ use crate::point::failure::Failure;
 use crate::point::tensor::{GradientForm, Sym, trace};
 use asperity_law::{Elastic, HardeningCurve};
 
-/// Elastic constants and, for a metal that yields, its curve of hardening; all in units of E.
+/// Elastic constants and, for a material that yields, its hardening curve; all in units of E.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Metal {
     /// Elastic constants.

@@ -151,7 +151,7 @@ impl<'m> Equilibrium<'m> {
         new.iter().zip(start).map(|(new, start)| new.plastic_strain > start.plastic_strain)
     }
 
-    /// What a factorisation of the stiffness and a solve take.
+    /// Operations of a factorisation of the stiffness and of a solve.
     pub fn operations(&self) -> Operations {
         self.factor.operations()
     }
