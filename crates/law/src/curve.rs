@@ -71,7 +71,7 @@ impl HardeningCurve {
         }
     }
 
-    /// Stress at a representative strain ε_r: eq. [8] of Jourani et al. for a power law (see
+    /// Stress at a representative strain ε_r: eq. (8) of Jourani et al. for a power law (see
     /// [`Hardening::representative_stress`]); of a table the yield stress at the plastic strain ε_r.
     pub fn representative_stress(&self, representative_strain: f64) -> f64 {
         match self {

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum HardeningLaw {
-    /// σ = R εⁿ in the total strain ε = σ/E + ε_p (Jourani et al., eq. [1]), R = Eⁿ σ_y^(1-n).
+    /// σ = R εⁿ in the total strain ε = σ/E + ε_p (Jourani et al., eq. (1)), R = Eⁿ σ_y^(1-n).
     Hollomon,
     /// σ = σ_y (1 + E ε_p/σ_y)ⁿ in the plastic strain (Dao et al. 2001, Bucaille et al. 2003).
     Swift,
@@ -158,7 +158,7 @@ impl Hardening {
         }
     }
 
-    /// Representative stress σ_r = σ_y (1 + E ε_r/σ_y)ⁿ (Jourani et al., eq. [8]), in the unit of E.
+    /// Representative stress σ_r = σ_y (1 + E ε_r/σ_y)ⁿ (Jourani et al., eq. (8)), in the unit of E.
     ///
     /// For `hollomon` ε_r is the strain beyond σ_y/E, for `swift` the plastic strain.
     pub fn representative_stress(&self, representative_strain: f64) -> f64 {

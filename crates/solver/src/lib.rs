@@ -3,6 +3,20 @@
 //! The folders are the theory, in reading order: an integration point ([`point`]), an element ([`element`]), contact with the
 //! tool ([`contact`]), the algebra of the system ([`algebra`]), the body with its state ([`body`]), a run along the load path
 //! ([`run`]) and the scene that asks for it ([`scene`]).
+//!
+//! A point alone, stretched by 1 % along z in plane strain:
+//! ```
+//! use asperity_law::{Elastic, Hardening, HardeningLaw};
+//! use asperity_solver::point::j2::{Tangent, update};
+//! use asperity_solver::point::material::Metal;
+//! use asperity_solver::point::tensor::von_mises;
+//!
+//! let law = Hardening { law: HardeningLaw::Swift, yield_stress: 0.002, exponent: 0.2, youngs_modulus: 1.0 };
+//! let elastic = Elastic { youngs_modulus: 1.0, poissons_ratio: 0.3 };
+//! let metal = Metal { elastic, hardening: Some(law.into()), kinematic_share: 0.0 };
+//! let end = update(&metal, &metal.virgin(), &[0.0, 0.0, 0.0, 0.01, 0.0], Tangent::None).unwrap();
+//! assert!(end.plastic && (von_mises(&end.stress) / end.state.yield_stress - 1.0).abs() < 1e-12);
+//! ```
 
 pub mod point;
 

@@ -7,12 +7,12 @@
 //! **Derivation.** In the frame of the principal directions N_A of C, with n_A = R N_A, a displacement gradient g of the
 //! current configuration with symmetric part d changes C by X = 2Fᵀ d F, X_AB = 2 λ_A λ_B d_AB (d in the frame n_A). The
 //! derivatives of ½ ln are divided differences of f(c) = ½ ln c,
-//!   E'[X]_AB = f[c_A, c_B] X_AB,   E''[X, X']_AB = Σ_K f[c_A, c_K, c_B] (X_AK X'_KB + X'_AK X_KB).
+//!   `E'[X]_AB = f[c_A, c_B] X_AB,   E''[X, X']_AB = Σ_K f[c_A, c_K, c_B] (X_AK X'_KB + X'_AK X_KB)`.
 //! With y = E₁ - E₂ all that is left depends on y alone:
 //!   E'₁₁ = d₁₁, E'₂₂ = d₂₂, E'₃₃ = d₃₃, E'₁₂ = θ d₁₂,   θ = y/sinh y,
 //! so that Kirchhoff's stress is τ_AA = T_AA, τ₁₂ = θ T₁₂ in the frame n_A; and with γ = 2 d₁₂,
-//!   T : E'' = - 2 Σ T_AA d_AA d'_AA + ½ γ γ' [μ (T₁₁ - T₂₂) - T₁₁ - T₂₂]
-//!             - T₁₂ {[θ (d₁₁ + d₂₂) + κ (d₁₁ - d₂₂)] γ' + [θ (d'₁₁ + d'₂₂) + κ (d'₁₁ - d'₂₂)] γ},
+//!   T : E'' = - 2 Σ T_AA d_AA d'_AA + ½ γ γ' {μ (T₁₁ - T₂₂) - T₁₁ - T₂₂}
+//!             - T₁₂ {(θ (d₁₁ + d₂₂) + κ (d₁₁ - d₂₂)) γ' + (θ (d'₁₁ + d'₂₂) + κ (d'₁₁ - d'₂₂)) γ},
 //!   κ = (y cosh y - sinh y)/sinh² y,   μ = (sinh y cosh y - y)/sinh² y.
 //! The second variation of C itself, Fᵀ(gᵀg' + g'ᵀg)F, adds the geometric term τ_ij g_ki g'_kj. For a coaxial T = ∂W/∂E the
 //! coefficient of γγ' is G y coth y - ½(τ₁ + τ₂), that of `material::Spectral::tangent`.
