@@ -1,20 +1,16 @@
 //! What a case of the default sweep costs: core-seconds, increments, iterations, and the floor of those iterations.
 //!
 //! `cargo bench -p asperity-calibration` solves every tenth case of the grid on one thread and prints a row for each slope
-//! and the mean. Roofline: the iterations, each with a new tangent and every point flowing, at the arithmetic of this core
+//! and the mean. Floor: the iterations, each with a new tangent and every point flowing, at the arithmetic of this core
 //! (`asperity_solver::algebra::roofline`).
 #![allow(clippy::print_stdout, reason = "a benchmark prints")]
 
-use asperity_calibration::body::Body;
 use asperity_calibration::case::Case;
-use asperity_calibration::resolution::Resolution;
 use asperity_calibration::run::{shard, solve};
 use asperity_calibration::sweep::Sweep;
-use asperity_solver::body::discrete_body::Body as Discrete;
+use asperity_solver::algebra::roofline::Floor;
 use asperity_solver::element::kernel::POINTS;
-use asperity_solver::point::kinematics::Symmetry;
-use asperity_solver::run::equilibrium::Equilibrium;
-use asperity_verification::roofline::Roofline;
+use asperity_solver::run::load_path::Path;
 
 /// Sums over cases.
 #[derive(Clone, Copy, Default)]
@@ -54,30 +50,27 @@ impl Sums {
     }
 }
 
-fn measure(case: &Case, sweep: &Sweep, floor: &Roofline) -> Sums {
-    let resolution = Resolution::of(case, sweep.accuracy);
-    let body = Body::new(case, &resolution);
-    let unknowns = body.held.iter().flatten().filter(|held| !**held).count() as f64;
+fn measure(case: &Case, sweep: &Sweep, floor: &Floor) -> Sums {
+    let problem = case.problem(&case.discretisation(sweep.accuracy));
     let row = solve(case, sweep.accuracy);
     let (increments, iterations) = row.outcome.map_or((0, 0), |k| (k.increments, k.iterations));
-    let held = |node: usize| body.held[node];
-    let model =
-        Discrete::new(&body.mesh, Symmetry::Axisymmetric, body.metal.clone(), held, Some(body.contact))
-            .and_then(Equilibrium::new);
-    let points = body.mesh.cell_count() * POINTS;
-    let least = model.map_or(0.0, |m| floor.iteration(resolution.kind, points, m.operations()));
+    let points = problem.mesh.cell_count() * POINTS;
+    let (unknowns, least) = Path::new(&problem).map_or((0, 0.0), |path| {
+        let operations = path.model.operations();
+        (path.model.unknowns(), floor.iteration(problem.mesh.kind, points, operations))
+    });
     Sums {
         cases: 1.0,
         seconds: row.wall_s,
         increments: increments as f64,
         iterations: iterations as f64,
-        unknowns,
+        unknowns: unknowns as f64,
         floor: iterations as f64 * least,
     }
 }
 
 fn main() {
-    let floor = Roofline::measure();
+    let floor = Floor::measure();
     let sweep = Sweep::default();
     let cases = shard(&sweep.cases(), 3, 10);
     println!(

@@ -1,6 +1,11 @@
 //! One cone and its metal, in dimensionless groups.
 
 use asperity_law::{Elastic, Hardening, HardeningLaw};
+use asperity_solver::point::material::Metal;
+use asperity_solver::run::cone::Cone;
+use asperity_solver::run::discretisation::ConeDiscretisation;
+use asperity_solver::run::problem::Problem;
+use asperity_solver::scene::Accuracy;
 use serde::{Deserialize, Serialize};
 
 /// Which of the two bodies is the cone.
@@ -70,5 +75,22 @@ impl Case {
             exponent: y.exponent,
             youngs_modulus: 1.0,
         })
+    }
+
+    /// The discretisation at the coarsest level that promises `accuracy`.
+    pub fn discretisation(&self, accuracy: Accuracy) -> ConeDiscretisation {
+        let exponent = self.yielding.map(|y| y.exponent);
+        ConeDiscretisation::new(self.beta_deg, self.tool == Tool::Cone, exponent, accuracy)
+    }
+
+    /// What the solver loads to the depth 1, E = 1.
+    pub fn problem(&self, discretisation: &ConeDiscretisation) -> Problem {
+        let metal = Metal {
+            elastic: self.elastic(),
+            hardening: self.hardening().map(Into::into),
+            kinematic_share: 0.0,
+        };
+        let (indents, cauchy) = (self.tool == Tool::Cone, self.stress == YieldMeasure::Cauchy);
+        Cone { slope_deg: self.beta_deg, indents, metal, cauchy }.problem(discretisation)
     }
 }

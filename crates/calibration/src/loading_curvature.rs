@@ -1,9 +1,10 @@
 //! Kick's law of a cone, F = K h²: its constant, its contact radius and their error from a loading curve.
 
 use crate::case::Case;
-use crate::cone::{CaseError, Curve, Point, crush};
-use crate::resolution::{FIT_FROM, Resolution};
+use crate::cone::{CaseError, Curve, crush};
 use asperity_law::least_squares::Line;
+use asperity_solver::run::discretisation::{ConeDiscretisation, FIT_FROM};
+use asperity_solver::run::load_path::Increment;
 
 /// What a case gives.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,26 +28,24 @@ const EXPONENT_TOLERANCE: f64 = 0.06;
 ///
 /// # Errors
 /// No equilibrium, or a force that is no parabola of the depth.
-pub fn solve(case: &Case, resolution: &Resolution) -> Result<LoadingCurvature, CaseError> {
-    let curve = crush(case, resolution)?;
+pub fn solve(case: &Case, discretisation: &ConeDiscretisation) -> Result<LoadingCurvature, CaseError> {
+    let curve = crush(case, discretisation)?;
     let window = whole_periods(&curve);
-    let root: Vec<[f64; 2]> = window.iter().map(|p| [p.depth, p.force.max(0.0).sqrt()]).collect();
-    let radius: Vec<[f64; 2]> = window.iter().map(|p| [p.depth, p.radius]).collect();
-    let line = Line::through(&root);
-    let exponent = {
-        let logs: Vec<[f64; 2]> = window.iter().map(|p| [p.depth.ln(), p.force.max(0.0).ln()]).collect();
-        Line::through(&logs).slope
-    };
+    let line =
+        |point: fn(&Increment) -> [f64; 2]| Line::through(&window.iter().map(point).collect::<Vec<_>>());
+    let root = line(|p| [p.depth, p.contact.force.max(0.0).sqrt()]);
+    let radius = line(|p| [p.depth, p.contact.radius]);
+    let exponent = line(|p| [p.depth.ln(), p.contact.force.max(0.0).ln()]).slope;
     // a rounded summit shifts h, which the slope of √F does not notice and the exponent does
-    let sharp = resolution.rounding == 0.0;
+    let sharp = discretisation.sizes.rounding == 0.0;
     if exponent.is_nan() || sharp && (exponent - 2.0).abs() > EXPONENT_TOLERANCE {
         return Err(CaseError::NotSimilar(exponent));
     }
-    let ripple = 2.0 * 2.0 * line.slope_error / line.slope; // K is the square; two standard deviations
+    let ripple = 2.0 * 2.0 * root.slope_error / root.slope; // K is the square; two standard deviations
     Ok(LoadingCurvature {
-        k_over_e: line.slope * line.slope,
-        error: resolution.bias_of(case).hypot(ripple),
-        contact_ratio: Line::through(&radius).slope * case.tan_beta(),
+        k_over_e: root.slope * root.slope,
+        error: discretisation.bias.hypot(ripple),
+        contact_ratio: radius.slope * case.tan_beta(),
         increments: curve.increments,
         iterations: curve.iterations,
     })
@@ -54,11 +53,11 @@ pub fn solve(case: &Case, resolution: &Resolution) -> Result<LoadingCurvature, C
 
 /// The last points of the curve, over which the contact radius has grown by a whole number of elements: the force
 /// ripples with that period, and half a period too much tilts the line.
-fn whole_periods(curve: &Curve) -> &[Point] {
+fn whole_periods(curve: &Curve) -> &[Increment] {
     let points = &curve.points;
-    let end = points.last().map_or(0.0, |p| p.radius);
+    let end = points.last().map_or(0.0, |p| p.contact.radius);
     let off = |i: &usize| {
-        let periods = (end - points[*i].radius) / curve.element;
+        let periods = (end - points[*i].contact.radius) / curve.element;
         (periods - periods.round()).abs()
     };
     let first = points.iter().position(|p| p.depth >= 0.95 * FIT_FROM).unwrap_or(0);

@@ -2,7 +2,6 @@
 
 use crate::case::Case;
 use crate::loading_curvature;
-use crate::resolution::Resolution;
 use crate::row::Row;
 use asperity_solver::scene::Accuracy;
 use rayon::prelude::*;
@@ -13,7 +12,7 @@ use std::time::Instant;
 /// Solves one case; a case that fails is a row too.
 pub fn solve(case: &Case, accuracy: Accuracy) -> Row {
     let clock = Instant::now();
-    let outcome = loading_curvature::solve(case, &Resolution::of(case, accuracy)).map_err(|e| e.to_string());
+    let outcome = loading_curvature::solve(case, &case.discretisation(accuracy)).map_err(|e| e.to_string());
     Row { case: *case, outcome, wall_s: clock.elapsed().as_secs_f64() }
 }
 

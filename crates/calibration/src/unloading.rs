@@ -3,7 +3,6 @@
 use crate::case::Case;
 use crate::cone::unloading_exponent;
 use crate::fit::DEVELOPED;
-use crate::resolution::Resolution;
 use crate::sweep::Sweep;
 use asperity_solver::scene::Accuracy;
 use rayon::prelude::*;
@@ -49,7 +48,7 @@ pub fn unload(sweep: &Sweep, c: f64) -> Vec<Unloaded> {
         case.elastic().reduced_modulus() * t / stress >= DEVELOPED
     });
     let solve = |case: &Case| {
-        let exponent = unloading_exponent(case, &Resolution::of(case, Accuracy::Standard)).ok()?;
+        let exponent = unloading_exponent(case, &case.discretisation(Accuracy::Standard)).ok()?;
         Some(Unloaded { case: *case, exponent })
     };
     cases.par_iter().filter_map(solve).collect()

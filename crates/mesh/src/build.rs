@@ -21,6 +21,9 @@ use std::collections::HashMap;
 
 mod grid;
 mod row;
+mod self_similar;
+
+pub use self_similar::{SelfSimilar, Sizes, self_similar};
 
 use grid::{Grid, Rectangle, Ring, Side, add_columns, sort_surface, wrap};
 
@@ -77,11 +80,17 @@ pub fn build(plan: &Plan) -> Mesh {
     } else {
         let row = row::add(&mut grid, plan);
         let inner = row.rectangle;
-        let ring = wrap(&mut grid, row, &row::rectangles_around(plan, inner), Some(plan));
+        let ring = wrap(&mut grid, row, &row::rectangles_around(plan, inner), Some(body(plan)));
         let reach = ring.rectangle.right;
         extend(&mut grid, ring, plan, |x| plan.grading.far * (x - reach + inner.depth));
     }
-    finish(plan, grid)
+    sort_surface(&mut grid, 0);
+    finish(grid, plan.kind, fade_depth(plan), |r| plan.profile.z(r))
+}
+
+/// The rectangle of the whole body in the flat plane.
+fn body(plan: &Plan) -> Rectangle {
+    Rectangle { left: plan.width[0], right: plan.width[1], depth: plan.depth }
 }
 
 /// The contact on the axis, its shells and what they leave of the body.
@@ -117,7 +126,7 @@ fn add_lone_contact(grid: &mut Grid, plan: &Plan) {
         .map(|&x| Rectangle { left: centre, right: centre + x, depth: depth(x) })
         .collect();
     let ring = add_core(grid, plan, &contact, core);
-    let ring = wrap(grid, ring, &shells, Some(plan));
+    let ring = wrap(grid, ring, &shells, Some(body(plan)));
     extend(grid, ring, plan, size);
 }
 
@@ -166,7 +175,7 @@ fn extend(grid: &mut Grid, ring: Ring, plan: &Plan, size: impl Fn(f64) -> f64) {
             ..rectangle
         };
         let rectangles: Vec<Rectangle> = stations[1..].iter().enumerate().map(deeper).collect();
-        wrap(grid, below, &rectangles, Some(plan));
+        wrap(grid, below, &rectangles, Some(body(plan)));
     }
     if rectangle.right < plan.width[1] {
         let inner: Vec<u32> = ids[left + bottom..].iter().rev().copied().collect();
@@ -262,10 +271,9 @@ fn fade_depth(plan: &Plan) -> f64 {
     (1.5 * row::rectangle(plan).depth).max(2.0 * plan.profile.height()).min(plan.depth)
 }
 
-/// Shears the flat grid under the profile, drops welded nodes and adds mid-side nodes.
-fn finish(plan: &Plan, mut grid: Grid) -> Mesh {
-    sort_surface(&mut grid, 0);
-    let fade = fade_depth(plan);
+/// Shears the flat grid under a surface of the height `z(r)`, less and less down to the depth `fade`, drops welded nodes and
+/// adds mid-side nodes.
+fn finish(mut grid: Grid, kind: ElementKind, fade: f64, z: impl Fn(f64) -> f64) -> Mesh {
     let mut number: Vec<Option<u32>> = vec![None; grid.nodes.len()];
     let mut nodes: Vec<[f64; 2]> = Vec::with_capacity(grid.nodes.len());
     for node in grid.cells.iter_mut().flatten() {
@@ -273,13 +281,13 @@ fn finish(plan: &Plan, mut grid: Grid) -> Mesh {
         *node = *number[id].get_or_insert_with(|| {
             let [r, zeta] = grid.nodes[id];
             // flat depth ζ in [-fade, 0] goes to [-fade, z_s(r)], linearly
-            nodes.push([r, zeta + plan.profile.z(r) * (1.0 + zeta / fade).max(0.0)]);
+            nodes.push([r, zeta + z(r) * (1.0 + zeta / fade).max(0.0)]);
             (nodes.len() - 1) as u32
         });
     }
     let sides = Sides { axis: grid.axis, base: grid.base, surface: grid.surface, outer: grid.outer };
-    if plan.kind == ElementKind::Quad4 {
-        return Mesh { kind: plan.kind, nodes, cells: grid.cells.into_flattened(), sides };
+    if kind == ElementKind::Quad4 {
+        return Mesh { kind, nodes, cells: grid.cells.into_flattened(), sides };
     }
     let mut middle: HashMap<(u32, u32), u32> = HashMap::new();
     let mut cells = Vec::with_capacity(8 * grid.cells.len());
@@ -295,11 +303,11 @@ fn finish(plan: &Plan, mut grid: Grid) -> Mesh {
             cells.push(id);
         }
     }
-    let mut mesh = Mesh { kind: plan.kind, nodes, cells, sides };
+    let mut mesh = Mesh { kind, nodes, cells, sides };
     for edge in mesh.sides.surface.clone() {
         if let (_, Some(node)) = mesh.edge_nodes(edge) {
             let r = mesh.nodes[node as usize][0];
-            mesh.nodes[node as usize][1] = plan.profile.z(r);
+            mesh.nodes[node as usize][1] = z(r);
         }
     }
     mesh

@@ -7,8 +7,8 @@ mod write;
 
 use asperity_mesh::{Edge, Mesh, Section};
 use asperity_solver::point::kinematics::Symmetry;
-use asperity_solver::run::load_path::schedule;
 use asperity_solver::run::problem::Problem;
+use asperity_solver::run::schedule::{UNLOADING_EXPONENT, unloading};
 use asperity_solver::scene::{Scene, SceneError, Target};
 use table::PlasticTable;
 
@@ -72,20 +72,19 @@ impl Deck {
             });
         }
         check(scene)?;
-        let um = problem.length / LENGTH;
+        let um = problem.units.length / LENGTH;
         let section = match problem.symmetry {
             Symmetry::Axisymmetric => Section::Axisymmetric,
             Symmetry::PlaneStrain => Section::PlaneStrain,
         };
         let drop = |x: f64| problem.tool.mirrored().map_or(0.0, |a| a.drop(x));
-        let contact = touching(&problem.mesh, &drop, problem.depth);
+        let contact = touching(&problem.mesh, &drop, 1.0);
         let hole = match section {
             Section::Axisymmetric => HOLE * first_width(&problem.mesh, &contact),
             Section::PlaneStrain => 0.0,
         };
         let lowest = first_touch(&problem.mesh, &drop);
-        let ends =
-            span(&problem.mesh, &contact, problem.depth, (section == Section::Axisymmetric).then_some(hole));
+        let ends = span(&problem.mesh, &contact, 1.0, (section == Section::Axisymmetric).then_some(hole));
         let outline = outline::outline(&problem.tool, ends);
         let travels = travels(scene, problem);
         let hardening = scene.material.hardening();
@@ -93,9 +92,9 @@ impl Deck {
             name: name.to_string(),
             mesh: scaled(opened(&problem.mesh, section, hole), um),
             section,
-            elastic: [problem.modulus / STRESS, problem.metal.elastic.poissons_ratio],
+            elastic: [problem.units.stress / STRESS, problem.metal.elastic.poissons_ratio],
             table: hardening.map(|curve| table::curve_table(&curve, STRESS)),
-            penalty: problem.penalty * problem.modulus / STRESS / um,
+            penalty: problem.penalty * problem.units.stress / STRESS / um,
             penetration: problem.numbers.penetration,
             augmented: problem.numbers.contact == asperity_solver::scene::ContactMethod::Augmented,
             symmetric: scene.lateral == asperity_solver::scene::Lateral::Symmetric,
@@ -103,7 +102,7 @@ impl Deck {
             outline: outline.into_iter().map(|[x, z]| [um * x, um * (z + lowest)]).collect(),
             loading: travels.0.len(),
             travels: travels.0.into_iter().chain(travels.1).map(|t| um * t).collect(),
-            depth: um * problem.depth,
+            depth: um,
         })
     }
 }
@@ -193,23 +192,16 @@ fn scaled(mut mesh: Mesh, factor: f64) -> Mesh {
 /// Travels of the tool, loading and unloading, in the unit of `problem`: the depths of the scene's own schedule and
 /// the penetration to be expected.
 fn travels(scene: &Scene, problem: &Problem) -> (Vec<f64>, Vec<f64>) {
-    let numbers = &problem.numbers;
-    let penetration = numbers.penetration * problem.depth;
-    let load: Vec<f64> = schedule(numbers.steps, numbers.geometric_from)
-        .into_iter()
-        .map(|share| share * problem.depth + penetration)
-        .collect();
+    let penetration = problem.numbers.penetration;
+    let load = problem.numbers.schedule().into_iter().map(|depth| depth + penetration).collect();
     if !scene.loading.unload {
         return (load, Vec::new());
     }
     let recovery = recovery(problem, penetration);
-    let peak = problem.depth + penetration;
-    let steps = numbers.unload_steps;
-    let mut unload: Vec<f64> = (1..=steps)
-        .map(|i| peak - recovery * (1.0 - (1.0 - i as f64 / steps as f64).powf(1.0 / 1.25)))
-        .collect();
+    let mut unload: Vec<f64> =
+        unloading(1.0 + penetration, recovery, problem.numbers.unload_steps, 0.0).collect();
     // far enough away that nothing touches: the body alone
-    unload.push(-0.1 * problem.depth);
+    unload.push(-0.1);
     (load, unload)
 }
 
@@ -229,5 +221,5 @@ fn recovery(problem: &Problem, penetration: f64) -> f64 {
     let local = punch(std::f64::consts::PI * widest * widest, widest);
     let rings: f64 = touched().map(|(centre, w)| 4.0 * std::f64::consts::PI * centre * w).sum();
     let bulk = if problem.symmetry == Symmetry::Axisymmetric { punch(rings, row) } else { 0.0 };
-    1.25 * (local + bulk + penetration)
+    UNLOADING_EXPONENT * (local + bulk + penetration)
 }

@@ -9,7 +9,6 @@ use crate::error::{Error, InputError};
 use crate::input::toml_file::TomlFile;
 use asperity_calibration::case::Case;
 use asperity_calibration::journal::{Journal, fingerprint};
-use asperity_calibration::resolution::Resolution;
 use asperity_calibration::row::Row;
 use asperity_calibration::run::{run, shard};
 use asperity_calibration::sweep::{Sweep, SweepError};
@@ -183,8 +182,8 @@ pub fn solve(
     progress: Progress,
 ) -> Result<Vec<Row>, Error> {
     // everything the rows depend on: the sweep, the discretisation of every case, and the program
-    let resolutions: Vec<Resolution> = cases.iter().map(|c| Resolution::of(c, sweep.accuracy)).collect();
-    let definition = format!("{} {sweep:?} {resolutions:?}", env!("CARGO_PKG_VERSION"));
+    let numbers: Vec<_> = cases.iter().map(|c| c.discretisation(sweep.accuracy)).collect();
+    let definition = format!("{} {sweep:?} {numbers:?}", env!("CARGO_PKG_VERSION"));
     let (journal, lines) = Journal::open(path, fingerprint(&definition))
         .map_err(|e| InputError::new(format!("cannot write the journal {}: {e}", path.display())))?;
     let done = Row::of_cases(cases, lines.iter().map(String::as_str));

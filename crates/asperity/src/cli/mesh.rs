@@ -7,7 +7,8 @@ use crate::crush::MICROMETRE;
 use crate::error::{Error, InputError};
 use crate::input::scene_file;
 use asperity_mesh::{Mesh, Quality, write_msh, write_vtu};
-use asperity_solver::run::problem::prepare;
+use asperity_solver::run::depth_for_force::target_depth;
+use asperity_solver::run::prepare::prepare;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -47,7 +48,10 @@ pub fn mesh(args: &MeshCommand) -> Result<(), Error> {
     let (path, format) = target(args)?;
     let file = scene_file::read(&args.scene, &args.scene_flags)?;
     let given = scene_file::read_mesh(&file)?;
-    let problem = prepare(&file.value, given).map_err(|e| scene_file::point_at(&file, &e))?;
+    let depth = target_depth(&file.value, given.as_ref());
+    let problem = depth
+        .and_then(|depth| prepare(&file.value, given, depth))
+        .map_err(|e| scene_file::point_at(&file, &e))?;
     let content = match format {
         MeshFormat::Inp => {
             let deck = Deck::new(&scene_name(args), &file.value, &problem);
@@ -58,7 +62,7 @@ pub fn mesh(args: &MeshCommand) -> Result<(), Error> {
     };
     let mut mesh = problem.mesh;
     for node in &mut mesh.nodes {
-        *node = node.map(|x| x * problem.length);
+        *node = node.map(|x| x * problem.units.length);
     }
     write_file(&path, &mesh, &content)?;
     if !args.quiet {

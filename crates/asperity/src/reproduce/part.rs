@@ -17,7 +17,8 @@ use crate::press::{run as press, table1};
 use asperity_calibration::sweep::Sweep;
 use asperity_roughness::scene::Scene as RoughScene;
 use asperity_roughness::{Coefficient, Islands, KindName};
-use asperity_solver::run::problem::prepare;
+use asperity_solver::run::depth_for_force::target_depth;
+use asperity_solver::run::prepare::prepare;
 use asperity_solver::scene::{Accuracy, Level, Scene};
 use serde::{Deserialize, Serialize};
 use std::fmt::Debug;
@@ -210,7 +211,9 @@ impl Job {
 
 /// Unknowns to a power times steps: what the time of a crush goes with.
 fn load_of(scene: &Scene) -> f64 {
-    let Ok(problem) = prepare(scene, None) else { return 0.0 };
+    let Ok(problem) = target_depth(scene, None).and_then(|depth| prepare(scene, None, depth)) else {
+        return 0.0;
+    };
     let numbers = problem.numbers;
     (problem.mesh.nodes.len() as f64).powf(1.15) * (numbers.steps + numbers.unload_steps) as f64
 }

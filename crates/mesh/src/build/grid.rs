@@ -1,6 +1,5 @@
 //! The flat grid that a mesh is sheared from: blocks, the shells that wrap them, columns beside them, and the named sides.
 
-use super::Plan;
 use crate::Edge;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -52,7 +51,7 @@ pub struct Ring {
 }
 
 /// Wraps `ring` in shells up to each of `rectangles`; sides of the `body` are named where the last one reaches them.
-pub fn wrap(grid: &mut Grid, mut ring: Ring, rectangles: &[Rectangle], body: Option<&Plan>) -> Ring {
+pub fn wrap(grid: &mut Grid, mut ring: Ring, rectangles: &[Rectangle], body: Option<Rectangle>) -> Ring {
     let [left, bottom, right] = ring.edges;
     let inner = ring.rectangle;
     // places on the sides of the inner rectangle as shares, kept by every shell
@@ -80,13 +79,13 @@ pub fn wrap(grid: &mut Grid, mut ring: Ring, rectangles: &[Rectangle], body: Opt
                 let side = if right > 0 { &mut grid.surface } else { &mut grid.outer };
                 side.push(Edge { cell, side: 1 });
             }
-            if let Some(plan) = body.filter(|_| Some(to) == rectangles.last()) {
+            if let Some(body) = body.filter(|_| Some(to) == rectangles.last()) {
                 let edge = Edge { cell, side: 0 };
-                if s < left && to.left == plan.width[0] {
+                if s < left && to.left == body.left {
                     grid.axis.push(edge);
-                } else if s >= left && s < left + bottom && to.depth == plan.depth {
+                } else if s >= left && s < left + bottom && to.depth == body.depth {
                     grid.base.push(edge);
-                } else if s >= left + bottom && to.right == plan.width[1] {
+                } else if s >= left + bottom && to.right == body.right {
                     grid.outer.push(edge);
                 }
             }

@@ -5,13 +5,15 @@
 
 use crate::point::failure::Failure;
 use crate::point::tensor::Gradient;
+use serde::{Deserialize, Serialize};
 
-/// Body of revolution about r = 0, or prismatic body of unit thickness.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// The two planar idealisations: body of revolution about r = 0, or prismatic body of unit thickness.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Symmetry {
-    /// Full body of revolution: hoop stretch r/R, weight 2πr.
+    /// Full body of revolution, hoop stretch r/R, weight 2πr: the first asperity is a cone, the others are rings.
     Axisymmetric,
-    /// Hoop stretch 1, weight 1.
+    /// Straight ridges, nothing mirrored, hoop stretch 1, weight 1: results are per length of ridge.
     PlaneStrain,
 }
 

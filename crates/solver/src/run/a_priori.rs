@@ -6,6 +6,7 @@ use crate::point::kinematics::Symmetry;
 use crate::point::material::Metal;
 use crate::run::curve::COUNTS_FROM;
 use asperity_mesh::profile::{Asperity, Profile, Shape};
+use std::f64::consts::FRAC_2_PI;
 
 /// Contact half width of a crushed asperity over the half width of the cut at the same depth: 0.64 (elastic cone,
 /// 2/π) to 1.06 (perfectly plastic), 0.89 for the single asperity.
@@ -77,6 +78,18 @@ pub fn expected_pressure(metal: &Metal, profile: &Profile, tool: &Tool, depth: f
         None => elastic,
         Some(h) => 1.0 / (1.0 / elastic + 1.0 / (2.8 * h.representative_stress(0.1 * slope))),
     }
+}
+
+/// a tan β/h to be expected of a sharp cone of the slope `tan`: 2/π of an elastic one, up to 1.08 - 0.6 n of a fully plastic one,
+/// more where material piles up against a steep tool that `indents`, joined in X = E* tan β/σ_r (read off forty cones, within
+/// 0.1). Only the mesh is laid out with it.
+pub fn contact_ratio(metal: &Metal, tan: f64, indents: bool) -> f64 {
+    let Some(hardening) = &metal.hardening else { return FRAC_2_PI };
+    let exponent = hardening.exponent(metal.elastic.youngs_modulus);
+    let x = metal.elastic.reduced_modulus() * tan / hardening.representative_stress(0.1 * tan);
+    let pile_up = if indents { 0.3 * (1.0 - exponent) * tan } else { 0.0 };
+    let plastic = 1.08 - 0.6 * exponent + pile_up;
+    FRAC_2_PI + (plastic - FRAC_2_PI) * (x / (x + 6.0)).powi(2)
 }
 
 /// Depth (m) at which the expected pressure over the cut area carries `force` (N, or N/m in plane strain).

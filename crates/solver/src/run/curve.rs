@@ -1,6 +1,7 @@
 //! A loading curve between its increments, without its ripple, and against another: how errors are measured.
 
 use crate::run::record::{CurveRow, Phase};
+use asperity_law::least_squares::{powers, solve, value};
 
 /// Depths from which errors count, as a share of the peak.
 pub const COUNTS_FROM: f64 = 0.2;
@@ -91,20 +92,13 @@ impl Curve {
 
     /// Least squares over depths of 0.15 to 1 of `peak`, equally spaced in the logarithm.
     pub fn smooth(&self, peak: f64) -> Smooth {
-        let mut normal = [[0.0; TERMS + 1]; TERMS];
         let from = 0.15_f64.ln();
-        for i in 0..=400 {
+        let row = |i: i32| {
             let x = from * (1.0 - f64::from(i) / 400.0);
-            let value = self.at(peak * x.exp()).ln();
-            let powers: [f64; TERMS] = std::array::from_fn(|k| x.powi(k as i32));
-            for a in 0..TERMS {
-                for b in 0..TERMS {
-                    normal[a][b] += powers[a] * powers[b];
-                }
-                normal[a][TERMS] += powers[a] * value;
-            }
-        }
-        Smooth { peak, coefficients: eliminate(normal) }
+            (powers(x), self.at(peak * x.exp()).ln(), 1.0)
+        };
+        let rows: Vec<([f64; TERMS], f64, f64)> = (0..=400).map(row).collect();
+        Smooth { peak, coefficients: solve(&rows).unwrap_or([f64::NAN; TERMS]) }
     }
 }
 
@@ -124,7 +118,7 @@ impl Smooth {
     /// The value at `depth`.
     pub fn at(&self, depth: f64) -> f64 {
         let x = (depth / self.peak).ln();
-        self.coefficients.iter().rev().fold(0.0, |sum, c| sum * x + c).exp()
+        value(&self.coefficients, &powers(x)).exp()
     }
 
     /// The converged curve that two runs of different meshes tell: their geometric mean, in which what ripple the fits
@@ -133,21 +127,6 @@ impl Smooth {
         let coefficients = std::array::from_fn(|i| 0.5 * (a.coefficients[i] + b.coefficients[i]));
         Smooth { peak: a.peak, coefficients }
     }
-}
-
-/// Solves a small positive definite system, right side in the last column.
-fn eliminate(mut a: [[f64; TERMS + 1]; TERMS]) -> [f64; TERMS] {
-    for k in 0..TERMS {
-        for i in 0..TERMS {
-            if i != k {
-                let factor = a[i][k] / a[k][k];
-                for j in k..=TERMS {
-                    a[i][j] -= factor * a[k][j];
-                }
-            }
-        }
-    }
-    std::array::from_fn(|k| a[k][TERMS] / a[k][k])
 }
 
 #[cfg(test)]

@@ -4,11 +4,13 @@
 //! is off by a factor of two between elastic and plastic asperities and by six on elastic ridges, whose depth depends on the
 //! whole body; a coarse crush takes some hundredths of a second and is off by a few percent.
 
-use crate::run::crush::run;
+use crate::run::a_priori::expected_depth;
 use crate::run::curve::Curve;
-use crate::scene::{Accuracy, Loading, Numerics, Output, Scene};
+use crate::run::load_path::Path;
+use crate::run::prepare::{bodies, metal, prepare};
+use crate::scene::{Accuracy, Loading, Numerics, Scene, SceneError, Substrate, Symmetry, Target};
 use asperity_law::units::Length;
-use std::ops::ControlFlow;
+use asperity_mesh::Mesh;
 
 /// Elements across the contact and load steps of a coarse crush.
 const ELEMENTS: usize = 6;
@@ -23,9 +25,35 @@ const TOO_DEEP: f64 = 2.0;
 /// How far beyond the expected depth a crush goes, so that the force is passed and not just missed.
 const BEYOND: f64 = 1.1;
 
-/// Depth (m) at which `scene` carries `force` (N, or N/m in plane strain), from the first guess `guess`; at most the
-/// deepest that its tool can go.
-pub fn depth_of(scene: &Scene, force: f64, guess: f64) -> f64 {
+/// Depth (m) of the peak of `scene`, which is valid: the one that it asks for, or else the one at which it carries its force, at
+/// most the deepest that its tool can go. `mesh` (in metres) holds the size of the body where plane strain asks for one.
+///
+/// # Errors
+/// Bodies that make no sense: path and reason.
+pub fn target_depth(scene: &Scene, mesh: Option<&Mesh>) -> Result<f64, SceneError> {
+    match scene.loading.target()? {
+        Target::Depth(depth) => Ok(depth),
+        Target::Force(force) => {
+            let (profile, tool) = bodies(scene, 1.0)?;
+            let modulus = scene.material.elastic().youngs_modulus;
+            let guess = expected_depth(&metal(scene), modulus, scene.symmetry, &profile, &tool, force);
+            Ok(depth_of(&with_body_of(scene, mesh), force, guess))
+        }
+    }
+}
+
+/// `scene` with the size of the body that `mesh` (m) holds, where plane strain asks for one.
+fn with_body_of(scene: &Scene, mesh: Option<&Mesh>) -> Scene {
+    let mut scene = scene.clone();
+    if let (Some(mesh), Symmetry::PlaneStrain) = (mesh, scene.symmetry) {
+        let [width, depth] = mesh.extent().map(|[low, high]| high - low);
+        scene.substrate = Some(Substrate { radius: Some(Length(0.5 * width)), depth: Some(Length(depth)) });
+    }
+    scene
+}
+
+/// Depth (m) at which `scene` carries `force` (N, or N/m in plane strain), from the first guess `guess`.
+fn depth_of(scene: &Scene, force: f64, guess: f64) -> f64 {
     let deepest = scene.deepest();
     let mut depth = guess.min(deepest);
     for _ in 0..MOST_CRUSHES {
@@ -49,12 +77,19 @@ pub fn depth_of(scene: &Scene, force: f64, guess: f64) -> f64 {
     depth
 }
 
+/// The loading curve of a coarse crush to `depth` (m), in SI; as far as it goes.
 fn coarse(scene: &Scene, depth: f64) -> Option<Curve> {
     let numerics =
         Numerics { elements_in_contact: Some(ELEMENTS), steps: Some(STEPS), ..Numerics::default() };
     let loading = Loading { depth: Some(Length(depth)), force: None, unload: false, reloads: 0 };
-    let output = Output { fields: None, every: Some(0) };
-    let probe = Scene { accuracy: Accuracy::Draft, numerics, loading, output, mesh: None, ..scene.clone() };
-    let outcome = run(&probe, None, &mut |_| ControlFlow::Continue(())).ok()?;
-    Some(Curve::force(&outcome.rows))
+    let probe = Scene { accuracy: Accuracy::Draft, numerics, loading, mesh: None, ..scene.clone() };
+    probe.validate().ok()?;
+    let problem = prepare(&probe, None, depth).ok()?;
+    let mut points = vec![[0.0; 2]];
+    // a path that stops early has a curve too
+    let _ = Path::new(&problem).ok()?.load(&mut |_, increment| {
+        points.push([increment.depth * problem.units.length, increment.contact.force * problem.units.force]);
+        true
+    });
+    Some(Curve::new(points))
 }

@@ -1,6 +1,9 @@
-//! The numbers of the discretisation that an accuracy chooses: elements, steps, penalty, tolerance, size of the substrate.
+//! The numbers of the discretisation that an accuracy chooses for a scene and for a self-similar cone: elements, steps, penalty,
+//! tolerance, size of the substrate.
 
-use crate::scene::{Accuracy, ContactMethod, ElementChoice, Numerics, Scene, Symmetry, ToolForm};
+use crate::run::schedule::{Spacing, loading};
+use crate::scene::{Accuracy, ContactMethod, ElementChoice, Level, Numerics, Scene, Symmetry, ToolForm};
+use asperity_mesh::build::Sizes;
 use asperity_mesh::grading::LINEAR;
 
 /// Every number of the discretisation, none left open.
@@ -12,8 +15,8 @@ pub struct Discretisation {
     pub elements_in_contact: usize,
     /// Load steps to the peak.
     pub steps: usize,
-    /// Depth at which geometric steps begin, as a share of the peak.
-    pub geometric_from: f64,
+    /// How the steps are spaced.
+    pub spacing: Spacing,
     /// Steps back to zero force.
     pub unload_steps: usize,
     /// Penalty or augmented Lagrangian.
@@ -75,10 +78,15 @@ impl Discretisation {
         // what the penetration takes of the depth of elastic metal is known to first order: 0.3 % too much is left of 0.004 at a
         // fifth of the depth of a cone; stiffer than 0.002, quadratic edges open gaps at the front of the contact
         let penetration = if !scene.material.yields() { 0.002 } else { penetration };
-        let element = numerics.element.unwrap_or_else(|| element_for(scene));
+        let element = numerics.element.unwrap_or_else(|| {
+            element_under(match scene.tool.form() {
+                Ok(ToolForm::Cone { slope, .. }) => Some(slope),
+                _ => None,
+            })
+        });
         // the work of ridges grows with h², that of a cone with h³: their early increments weigh more
         let ridges = scene.symmetry == Symmetry::PlaneStrain || scene.asperity.len() > 1;
-        let (steps, geometric_from) = if ridges { (steps + steps / 3, 0.003) } else { (steps, 0.02) };
+        let (steps, from) = if ridges { (steps + steps / 3, 0.003) } else { (steps, 0.02) };
         // unloaded, contacts part one after the other, each with a kink in the curve
         let unload_steps = if ridges { 2 * unload_steps } else { unload_steps };
         // errors of step and mesh were made equal to the promise on metal of n 0.3 and grow as it hardens less
@@ -93,13 +101,18 @@ impl Discretisation {
             element,
             elements_in_contact: numerics.elements_in_contact.unwrap_or(elements),
             steps: numerics.steps.unwrap_or(steps),
-            geometric_from,
+            spacing: Spacing::Geometric { from },
             unload_steps,
             contact: numerics.contact.unwrap_or(ContactMethod::Penalty),
             penetration: numerics.penetration.unwrap_or(penetration),
             newton_tolerance: numerics.newton_tolerance.unwrap_or(tolerance),
             domain: numerics.domain.unwrap_or(domain),
         }
+    }
+
+    /// Depths at the ends of the load steps as shares of the peak.
+    pub fn schedule(&self) -> Vec<f64> {
+        loading(self.steps, self.spacing)
     }
 
     /// What of it a scene can say.
@@ -119,13 +132,14 @@ impl Discretisation {
 /// Slope of an indenting cone, degrees, beyond which linear elements are used.
 const STEEP: f64 = 11.0;
 
-/// The quadratic element gives the smaller error for its cost. Under a steep indenter, though, the metal at the axis is drawn out
-/// along the flank until four points no longer hold the shape of its cells: perfectly plastic metal of E/σ_y 500 went to
+/// The quadratic element gives the smaller error for its cost. Under a steep indenter, though, the material at the axis is drawn out
+/// along the flank until four points no longer hold the shape of its cells: perfectly plastic material of E/σ_y 500 went to
 /// 0.6 of the depth under a cone of 20° and did not come back from one of 14°. With linear elements it does both, up to 40°.
-fn element_for(scene: &Scene) -> ElementChoice {
-    match scene.tool.form() {
-        Ok(ToolForm::Cone { slope, .. }) if slope > STEEP.to_radians() => ElementChoice::Q4,
-        _ => ElementChoice::Q8r,
+fn element_under(indenter: Option<f64>) -> ElementChoice {
+    if indenter.is_some_and(|slope| slope > STEEP.to_radians()) {
+        ElementChoice::Q4
+    } else {
+        ElementChoice::Q8r
     }
 }
 
@@ -134,6 +148,106 @@ fn element_for(scene: &Scene) -> ElementChoice {
 fn softness(scene: &Scene) -> f64 {
     let modulus = scene.material.youngs_modulus.0;
     scene.material.hardening().map_or(1.0, |h| ((1.0 - h.exponent(modulus)) / 0.7).max(1.0))
+}
+
+/// The discretisation of a self-similar cone, crushed or indenting, on which the slope of √F over the depth is measured: a mesh
+/// of one width and equal steps.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ConeDiscretisation {
+    /// Elements across the final contact radius, all of one size, so that the ripple of the force has one period; steps,
+    /// penalty, tolerance and size of the substrate.
+    pub numbers: Discretisation,
+    /// The mesh around the contact.
+    pub sizes: Sizes,
+    /// Share of the plastic flow that the second order of the step extrapolates. All of it overestimates K at long steps, none
+    /// of it underestimates K; 0.8 leaves half the error of either at the steps of `standard`.
+    pub extrapolated: f64,
+    /// Relative 95 % bound on what mesh, step, penalty and substrate do to K.
+    pub bias: f64,
+}
+
+/// Share of the final depth from which K is fitted: longer steps lead to it.
+pub const FIT_FROM: f64 = 0.3;
+
+/// Hardening exponent below which meshes and steps are finer: without hardening, flow gathers where the mesh lets it.
+const SOFT: f64 = 0.1;
+
+/// Numbers of a cone at draft, standard and reference: elements across the contact, of which so many are one column at the
+/// axis, steps to [`FIT_FROM`] and from there; depth of the core, growth of its rows, first shell in elements, growth of the
+/// shells, substrate and foot of the cone in contact radii; penetration over depth, tolerance, share of the flow extrapolated,
+/// bias of K, and what is added to it for n = 0, in proportion below [`SOFT`].
+type ConeLevels = [([usize; 4], [f64; 6], [f64; 5]); 3];
+
+/// Quadratic elements. The penetration is soft: it halves the ripple of the force and saves iterations.
+const QUADRATIC: ConeLevels = [
+    ([7, 2, 3, 14], [0.4, 0.5, 2.0, 0.5, 100.0, 8.0], [0.016, 1e-3, 0.8, 0.015, 0.03]),
+    ([10, 1, 4, 24], [0.4, 0.5, 1.0, 0.4, 100.0, 8.0], [0.016, 1e-4, 0.8, 0.005, 0.012]),
+    ([24, 1, 10, 96], [0.8, 0.2, 1.0, 0.25, 400.0, 12.0], [0.004, 1e-6, 1.0, 0.001, 0.002]),
+];
+
+/// Linear elements under a steep cone: they want finer meshes, also far away, and a wide column at the axis leaves room to what
+/// is stretched along the flank.
+const STEEP_LINEAR: ConeLevels = [
+    ([12, 2, 8, 24], [0.6, 0.1, 1.0, 0.12, 100.0, 8.0], [0.004, 1e-3, 0.8, 0.015, 0.03]),
+    ([16, 2, 8, 36], [0.6, 0.1, 1.0, 0.07, 100.0, 8.0], [0.004, 1e-4, 0.8, 0.005, 0.012]),
+    ([40, 5, 20, 96], [0.8, 0.05, 1.0, 0.035, 400.0, 8.0], [0.004, 1e-6, 1.0, 0.001, 0.002]),
+];
+
+/// Penetration over depth of a cone that indents a flat body with quadratic elements: it costs more of the depth there than on a
+/// cone, 0.5 % of K at 0.016.
+const INDENTED: f64 = 0.004;
+
+impl ConeDiscretisation {
+    /// The numbers at the coarsest level that promises `accuracy`, for a cone of the slope `slope_deg` (degrees) that is crushed or
+    /// `indents`, of a material of the hardening exponent `exponent` (`None`: elastic).
+    pub fn new(
+        slope_deg: f64,
+        indents: bool,
+        exponent: Option<f64>,
+        accuracy: Accuracy,
+    ) -> ConeDiscretisation {
+        let element = element_under(indents.then_some(slope_deg.to_radians()));
+        let level = accuracy.level();
+        let levels = if element == ElementChoice::Q8r { QUADRATIC } else { STEEP_LINEAR };
+        let (counts, lengths, shares) = levels[level as usize];
+        let [mut elements, at_axis, lead, mut steps] = counts;
+        let [core_depth, row_growth, first_shell, growth, domain, foot] = lengths;
+        let [mut penetration, tolerance, extrapolated, bias, mut soft_bias] = shares;
+        if element == ElementChoice::Q8r {
+            if level == Level::Standard && exponent.is_some_and(|n| n < SOFT) {
+                (elements, steps, soft_bias) = (16, 36, 0.004);
+            }
+            if indents {
+                penetration = INDENTED;
+            }
+        }
+        let softness = exponent.map_or(0.0, |n| (1.0 - n / SOFT).max(0.0));
+        ConeDiscretisation {
+            numbers: Discretisation {
+                element,
+                elements_in_contact: elements,
+                steps: lead + steps,
+                spacing: Spacing::Equal { lead, from: FIT_FROM },
+                unload_steps: 0,
+                contact: ContactMethod::Penalty,
+                penetration,
+                newton_tolerance: tolerance,
+                domain,
+            },
+            sizes: Sizes {
+                at_axis,
+                core: 1.1,
+                core_depth,
+                row_growth,
+                first_shell,
+                growth,
+                foot,
+                rounding: 0.0,
+            },
+            extrapolated,
+            bias: bias + softness * soft_bias,
+        }
+    }
 }
 
 #[cfg(test)]

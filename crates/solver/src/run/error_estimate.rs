@@ -18,8 +18,7 @@
 use crate::point::kinematics::Symmetry;
 use crate::run::curve::{COUNTS_FROM, Curve};
 use crate::run::discretisation::Discretisation;
-use crate::run::load_path::schedule;
-use crate::run::problem::{Problem, automatic_size};
+use crate::run::problem::Problem;
 use crate::run::record::CurveRow;
 use crate::scene::{ContactMethod, ElementChoice};
 use asperity_mesh::grading::LINEAR;
@@ -51,14 +50,8 @@ const CONE: f64 = 2.0;
 const STEEP: f64 = 1.25 * CONE;
 
 /// Estimated error of the force of a run of `problem` whose first loading is `loading`, up to its peak; `force` and `depth`
-/// are those of the peak, dimensionless, and `automatic` says whether the substrate was sized by the program (else it is
-/// part of the scene and no error).
-pub fn force_error(
-    problem: &Problem,
-    loading: &[CurveRow],
-    [force, depth]: [f64; 2],
-    automatic: bool,
-) -> f64 {
+/// are those of the peak, dimensionless. A substrate that the program did not size is part of the scene and no error.
+pub fn force_error(problem: &Problem, loading: &[CurveRow], [force, depth]: [f64; 2]) -> f64 {
     let numbers = &problem.numbers;
     let curve = Curve::force(loading);
     // too few increments show no exponent
@@ -75,11 +68,11 @@ pub fn force_error(
     });
     let turning = steepness * steepness.min(STEEP / CONE);
     let step = STEP * largest_step(numbers).powi(2) * flow.share.powf(1.5) * flow.softness * turning;
-    let size = automatic_size(numbers, &problem.profile, &problem.half_widths);
-    let domain = if automatic && problem.symmetry == Symmetry::Axisymmetric && depth > 0.0 {
-        DOMAIN * force / (problem.metal.elastic.reduced_modulus() * depth * size)
-    } else {
-        0.0
+    let domain = match problem.automatic_size {
+        Some(size) if problem.symmetry == Symmetry::Axisymmetric && depth > 0.0 => {
+            DOMAIN * force / (problem.metal.elastic.reduced_modulus() * depth * size)
+        }
+        _ => 0.0,
     };
     let penalty =
         if numbers.contact == ContactMethod::Penalty { PENALTY * numbers.penetration.powf(1.5) } else { 0.0 };
@@ -119,7 +112,7 @@ fn shown_ripple(curve: &Curve, increments: usize) -> Option<f64> {
 
 /// Largest ln(h_{i+1}/h_i) from 0.2 of the peak on.
 fn largest_step(numbers: &Discretisation) -> f64 {
-    let depths = schedule(numbers.steps, numbers.geometric_from);
+    let depths = numbers.schedule();
     let ratio = |pair: &[f64]| (pair[1] / pair[0]).ln();
     depths
         .windows(2)

@@ -14,7 +14,10 @@ pub use accuracy::{Accuracy, AccuracyError, Level};
 pub use geometry::{Asperity, AsperityForm, Substrate, Tool, ToolForm, ToolShape};
 pub use material::{HardeningChoice, Material};
 
+pub use crate::point::kinematics::Symmetry;
+
 use asperity_law::units::{Force, Length, LineForce, UnitError};
+use asperity_mesh::ElementKind;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::fmt;
 use std::path::PathBuf;
@@ -69,16 +72,6 @@ pub struct Scene {
     /// A mesh to read instead of building one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mesh: Option<MeshFile>,
-}
-
-/// The two planar idealisations.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Symmetry {
-    /// Body of revolution about r = 0: the first asperity is a cone, the others are rings.
-    Axisymmetric,
-    /// Straight ridges, nothing mirrored; results are per length of ridge.
-    PlaneStrain,
 }
 
 /// What holds the lateral side of the substrate.
@@ -237,6 +230,16 @@ pub enum ElementChoice {
     Q8r,
     /// Four nodes, mean dilatation.
     Q4,
+}
+
+impl ElementChoice {
+    /// The cells that it needs.
+    pub fn kind(self) -> ElementKind {
+        match self {
+            ElementChoice::Q8r => ElementKind::Quad8,
+            ElementChoice::Q4 => ElementKind::Quad4,
+        }
+    }
 }
 
 /// How the tool pushes.

@@ -1,13 +1,12 @@
 //! The last increment of a loading: the travel at which the depth or the force is the one that was asked for.
 
-use super::{GUESS, Goal, Path, Stop};
+use super::increment::Stop;
+use super::path::{GUESS, MET, Path};
 use crate::body::energy::ContactSums;
+use crate::run::problem::Goal;
 
 /// Relative residual of the increments that home in on a goal, which the depth then follows to [`MET`].
 const HOMING_TOLERANCE: f64 = 1e-8;
-
-/// How far the end of loading may be from the depth or from the root of the force that was asked for, relative to it.
-const MET: f64 = 1e-9;
 
 /// Increments that home in on a goal; a secant takes three or four.
 const MOST_TRIES: usize = 24;
@@ -16,24 +15,29 @@ const MOST_TRIES: usize = 24;
 const SECANTS: usize = 6;
 
 impl Path<'_> {
+    /// How far a travel is from `goal`, relative to it; of a force the root.
+    fn miss(&self, goal: Goal, travel: f64, penetration: f64, force: f64) -> f64 {
+        match goal {
+            Goal::Travel(asked) => travel / asked - 1.0,
+            Goal::Depth(asked) => self.depth(travel, penetration, force) / asked - 1.0,
+            Goal::Force { force: asked, .. } => (force.max(0.0) / asked).sqrt() - 1.0,
+        }
+    }
+
     /// Moves the attempted increment until the goal is met to [`MET`] (secant, held between travels on either side of the
     /// goal; each try starts from the converged state).
     ///
     /// Metal that hardly hardens may not come so close to equilibrium that the force is known to that, or may leap over the
     /// goal from one state to another: then the goal is met to the tolerance of the run.
     pub(super) fn home_in(&mut self, goal: Goal, travel: f64, sums: ContactSums) -> Result<f64, Stop> {
-        let miss = |travel: f64, penetration: f64, found: f64| match goal {
-            Goal::Depth(depth) => (travel - penetration) / depth - 1.0,
-            Goal::Force { force, .. } => (found.max(0.0) / force).sqrt() - 1.0,
-        };
         let settings = self.settings;
         self.settings.tolerance = settings.tolerance.min(HOMING_TOLERANCE);
         // travel and miss: of the last tries, and of the nearest on either side of the goal; the converged state is the first
         // of them for a force, while the depth follows the travel closely from the start
-        let mut now = (travel, miss(travel, sums.penetration, sums.force));
+        let mut now = (travel, self.miss(goal, travel, sums.penetration, sums.force));
         let mut last = match goal {
-            Goal::Depth(depth) => (travel - depth, now.1 - 1.0),
-            Goal::Force { .. } => (self.travel, miss(self.travel, self.penetration, self.force)),
+            Goal::Travel(depth) | Goal::Depth(depth) => (travel - depth, now.1 - 1.0),
+            Goal::Force { .. } => (self.travel, self.miss(goal, self.travel, self.penetration, self.force)),
         };
         let mut short = matches!(goal, Goal::Force { .. }).then_some(last);
         let mut beyond: Option<(f64, f64)> = None;
@@ -68,7 +72,7 @@ impl Path<'_> {
                 return Err(Stop::NoEquilibrium);
             };
             last = now;
-            now = (next, miss(next, sums.penetration, sums.force));
+            now = (next, self.miss(goal, next, sums.penetration, sums.force));
         }
         self.settings = settings;
         if now.1.abs() <= loosely { Ok(now.0) } else { Err(Stop::NoEquilibrium) }

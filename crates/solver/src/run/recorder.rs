@@ -1,55 +1,86 @@
 //! The recorder of a run: rows of the curve, what is told to the observer, and the summary.
 
-use super::{Event, FieldFrame, Outcome, Stopped};
+use crate::body::energy::{ContactSums, contact_sums};
 use crate::body::fields::{Fields, SurfacePoint, fields};
 use crate::body::islands::{extent, gaps, islands};
 use crate::body::surface::Surface;
 use crate::point::kinematics::Symmetry;
-use crate::run::equilibrium::Equilibrium;
-use crate::run::load_path::{Goal, Increment, Path, Stop};
+use crate::run::equilibrium::{Counters, Equilibrium};
+use crate::run::error_estimate::force_error;
+use crate::run::load_path::{Energies, Increment, Path, Stop};
 use crate::run::oliver_pharr::{OliverPharr, Peak, oliver_pharr};
-use crate::run::problem::Problem;
+use crate::run::problem::{Goal, Problem};
 use crate::run::record::{AsperityRow, CurveRow, CycleRow, GapRow, IslandRow, Phase, Summary};
-use crate::scene::Scene;
+use asperity_mesh::Mesh;
+use asperity_mesh::profile::Asperity;
 use std::ops::ControlFlow;
 
-/// Values of 1 in SI.
-#[derive(Clone, Copy, Debug)]
-struct Units {
-    length: f64,
-    stress: f64,
-    /// N, or N/m in plane strain.
-    force: f64,
-    /// m², or m.
-    area: f64,
-    /// J, or J/m.
-    energy: f64,
+/// What an observer is told, in SI units.
+pub enum Event<'a> {
+    /// An increment converged.
+    Increment {
+        /// Its row of the curve.
+        row: &'a CurveRow,
+        /// Increments that the whole run will have, as far as is known.
+        planned: usize,
+    },
+    /// Fields of the increment of the last row.
+    Fields(&'a FieldFrame),
 }
 
-impl Units {
-    fn new(problem: &Problem) -> Units {
-        let (l, e) = (problem.length, problem.modulus);
-        match problem.symmetry {
-            Symmetry::Axisymmetric => {
-                Units { length: l, stress: e, force: e * l * l, area: l * l, energy: e * l * l * l }
-            }
-            Symmetry::PlaneStrain => Units { length: l, stress: e, force: e * l, area: l, energy: e * l * l },
-        }
-    }
+/// Fields of one increment, SI units.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FieldFrame {
+    /// Increment of the curve.
+    pub increment: usize,
+    /// Loading or unloading.
+    pub phase: Phase,
+    /// The mesh before the crush, m.
+    pub mesh: Mesh,
+    /// The fields.
+    pub fields: Fields,
+}
+
+/// A run that ended before its target.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stopped {
+    /// Why.
+    pub reason: Stop,
+    /// Depth of the last converged increment, m.
+    pub depth: f64,
+    /// Whether the tool was advancing or retreating.
+    pub phase: Phase,
+}
+
+/// What a run leaves, complete or not.
+#[derive(Clone, Debug)]
+pub struct Outcome {
+    /// The curve, from first touch.
+    pub rows: Vec<CurveRow>,
+    /// The share of each asperity in each increment; empty for a single one.
+    pub asperities: Vec<AsperityRow>,
+    /// The gaps between contacts in each increment.
+    pub gaps: Vec<GapRow>,
+    /// The loading and the reloads, each with its unloading, as far as they are complete.
+    pub cycles: Vec<CycleRow>,
+    /// What never yielded among the asperities, at the peak; empty for an elastic body.
+    pub elastic_islands: Vec<IslandRow>,
+    /// The summary.
+    pub summary: Summary,
+    /// `None` if the run reached its end.
+    pub stopped: Option<Stopped>,
+    /// Where the work went.
+    pub counters: Counters,
 }
 
 /// Collects rows and hands out events.
 pub(super) struct Recorder<'p> {
     problem: &'p Problem,
-    /// Whether the program sized the substrate.
-    automatic: bool,
-    units: Units,
     interval: usize,
     planned: usize,
     unknowns: usize,
     /// Which asperity each surface edge belongs to.
     groups: Vec<usize>,
-    increments: Vec<Increment>,
     rows: Vec<CurveRow>,
     asperities: Vec<AsperityRow>,
     gaps: Vec<GapRow>,
@@ -62,11 +93,10 @@ pub(super) struct Recorder<'p> {
 }
 
 impl<'p> Recorder<'p> {
-    /// An empty recorder of `scene`, made ready as `problem`.
-    pub(super) fn new(scene: &Scene, problem: &'p Problem, unknowns: usize) -> Self {
-        let units = Units::new(problem);
-        let unload = if scene.loading.unload { problem.numbers.unload_steps + 1 } else { 0 };
-        let unload = unload * (1 + 2 * scene.loading.reloads);
+    /// An empty recorder of a run of `problem`, which hands out fields every `interval` increments (0: never).
+    pub(super) fn new(problem: &'p Problem, interval: usize, unknowns: usize) -> Self {
+        let unload = if problem.unload { problem.numbers.unload_steps + 1 } else { 0 };
+        let unload = unload * (1 + 2 * problem.reloads);
         let first = CurveRow {
             increment: 0,
             phase: Phase::Load,
@@ -84,13 +114,10 @@ impl<'p> Recorder<'p> {
         };
         Recorder {
             problem,
-            automatic: scene.mesh.is_none() && scene.substrate.as_ref().is_none_or(|s| s.depth.is_none()),
-            units,
-            interval: scene.output.interval(),
+            interval,
             planned: problem.numbers.steps + unload,
             unknowns,
             groups: groups(problem),
-            increments: Vec::new(),
             rows: vec![first],
             asperities: Vec::new(),
             gaps: Vec::new(),
@@ -100,11 +127,6 @@ impl<'p> Recorder<'p> {
             stiffness: None,
             last_fields: None,
         }
-    }
-
-    /// N, or N/m in plane strain.
-    pub(super) fn force_unit(&self) -> f64 {
-        self.units.force
     }
 
     /// Increments so far.
@@ -129,33 +151,29 @@ impl<'p> Recorder<'p> {
         increment: &Increment,
         observer: &mut dyn FnMut(&Event<'_>) -> ControlFlow<()>,
     ) -> bool {
-        let (u, contact) = (self.units, &increment.contact);
+        let (u, contact) = (self.problem.units, &increment.contact);
         let number = self.rows.len();
-        let mut depth = increment.depth();
-        // a depth that was asked for is met to 1e-9: write it as asked
-        if (depth / self.problem.depth - 1.0).abs() < 2e-9 {
-            depth = self.problem.depth;
-        }
+        let energies = increment.energies;
+        let energy = |of: fn(&Energies) -> f64| energies.as_ref().map_or(f64::NAN, of) * u.energy;
         let row = CurveRow {
             increment: number,
             phase: increment.phase,
-            depth: depth * u.length,
+            depth: increment.depth * u.length,
             force: contact.force * u.force,
             contact_area: contact.area * u.area,
             contact_radius: contact.radius * u.length,
             mean_pressure: if contact.area > 0.0 { contact.force / contact.area * u.stress } else { 0.0 },
-            external_work: increment.external_work * u.energy,
-            elastic_energy: increment.elastic_energy * u.energy,
-            plastic_work: increment.plastic_work * u.energy,
+            external_work: energy(|e| e.external_work),
+            elastic_energy: energy(|e| e.elastic),
+            plastic_work: energy(|e| e.plastic),
             contact_energy: (contact.energy - model.state().remeasured_energy()) * u.energy,
             penetration: contact.penetration * u.length,
             newton_iterations: increment.newton_iterations,
         };
         self.rows.push(row);
-        self.increments.push(*increment);
         if self.problem.profile.asperities.len() > 1 {
             for asperity in 0..self.problem.profile.asperities.len() {
-                let sums = Path::group_sums(model, &self.groups, asperity);
+                let sums = group_sums(model, &self.groups, asperity);
                 self.asperities.push(AsperityRow {
                     increment: number,
                     phase: row.phase,
@@ -199,7 +217,7 @@ impl<'p> Recorder<'p> {
             return ControlFlow::Continue(());
         }
         self.last_fields = Some(row.increment);
-        let (l, e) = (self.units.length, self.units.stress);
+        let (l, e) = (self.problem.units.length, self.problem.units.stress);
         let mut mesh = self.problem.mesh.clone();
         for node in &mut mesh.nodes {
             *node = node.map(|x| x * l);
@@ -251,14 +269,14 @@ impl<'p> Recorder<'p> {
             -1.5 * profile.height(),
             extent(self.problem.symmetry, feet),
         );
-        let l = self.units.length;
+        let l = self.problem.units.length;
         self.islands = found
             .into_iter()
             .map(|island| IslandRow {
                 place: island.place.map(|x| x * l),
                 area: island.area * l * l,
-                mean_pressure: island.mean_pressure * self.units.stress,
-                mean_von_mises: island.mean_von_mises * self.units.stress,
+                mean_pressure: island.mean_pressure * self.problem.units.stress,
+                mean_von_mises: island.mean_von_mises * self.problem.units.stress,
                 reaches_substrate: island.reaches_substrate,
                 reaches_surface: island.reaches_surface,
             })
@@ -268,14 +286,13 @@ impl<'p> Recorder<'p> {
     /// Notes the peak and draws its fields.
     pub(super) fn peak_reached(
         &mut self,
-        goal: &Goal,
         observer: &mut dyn FnMut(&Event<'_>) -> ControlFlow<()>,
         model: &Equilibrium<'_>,
         complete: bool,
     ) {
         self.peak = self.rows.len() - 1;
         self.find_islands(model);
-        if complete && matches!(goal, Goal::Depth(_)) {
+        if complete && matches!(self.problem.goal, Goal::Depth(_)) {
             self.planned = self.peak + self.planned.saturating_sub(self.problem.numbers.steps);
         }
         if self.interval > 0 {
@@ -286,7 +303,7 @@ impl<'p> Recorder<'p> {
 
     /// The peak as an instrument evaluates it that knows force, depth and stiffness (dimensionless), in SI.
     fn as_an_instrument(&self, peak: &CurveRow, stiffness: f64) -> Option<OliverPharr> {
-        let (problem, u) = (self.problem, self.units);
+        let (problem, u) = (self.problem, self.problem.units);
         let tool = problem.tool.mirrored().filter(|_| problem.symmetry == Symmetry::Axisymmetric)?;
         let peak = Peak { force: peak.force / u.force, depth: peak.depth / u.length, stiffness };
         let read = oliver_pharr(&problem.tool, |height| tool.half_width(height), &peak)?;
@@ -337,7 +354,7 @@ impl<'p> Recorder<'p> {
         let first = cycles.first();
         let total_work = work_along(&self.rows[..=self.peak]);
         let elastic_work = first.map(|c| c.work_out);
-        let u = self.units;
+        let u = self.problem.units;
         let stiffness_unit = u.force / u.length;
         let summary = Summary {
             peak_force: peak.force,
@@ -356,11 +373,10 @@ impl<'p> Recorder<'p> {
             reduced_modulus: self.problem.metal.elastic.reduced_modulus() * u.stress,
             elastic_fraction: elastic_work.map(|w| w / total_work),
             energy_balance_error: balance_error(&self.rows),
-            estimated_error: crate::run::error_estimate::force_error(
+            estimated_error: force_error(
                 self.problem,
                 &self.rows[..=self.peak],
                 [peak.force / u.force, peak.depth / u.length],
-                self.automatic,
             ),
             elements: self.problem.mesh.cell_count(),
             dofs: self.unknowns,
@@ -412,12 +428,17 @@ fn groups(problem: &Problem) -> Vec<usize> {
         .map(|&edge| {
             let ([a, b], _) = mesh.edge_nodes(edge);
             let r = 0.5 * (mesh.nodes[a as usize][0] + mesh.nodes[b as usize][0]);
-            let distance =
-                |a: &asperity_mesh::profile::Asperity| (r - a.centre).abs() - a.half_width(a.height);
+            let distance = |a: &Asperity| (r - a.centre).abs() - a.half_width(a.height);
             let asperities = &problem.profile.asperities;
             (0..asperities.len())
                 .min_by(|&i, &j| distance(&asperities[i]).total_cmp(&distance(&asperities[j])))
                 .unwrap_or(0)
         })
         .collect()
+}
+
+/// Contact of one of the `groups` of edges at the last converged increment.
+fn group_sums(model: &Equilibrium<'_>, groups: &[usize], group: usize) -> ContactSums {
+    let edges = model.state().contact.iter().zip(groups).filter(|(_, g)| **g == group);
+    contact_sums(edges.map(|(edge, _)| edge), model.body().symmetry)
 }

@@ -1,7 +1,11 @@
-//! Loading again a body that was unloaded.
+//! Unloading, and loading again a body that was unloaded.
 
-use super::{Goal, Observer, Path, Stop};
+use super::increment::{Observer, Stop};
+use super::path::Path;
+use crate::run::problem::Goal;
 use crate::run::record::Phase;
+use crate::run::schedule::{UNLOADING_EXPONENT, unloading};
+use crate::run::tool_stiffness::ToolStiffness;
 
 /// Retreats after which a tool is taken away whatever it still bears.
 const MOST_RETREATS: usize = 500;
@@ -11,10 +15,45 @@ const MOST_RETREATS: usize = 500;
 const LAST_RETREAT: f64 = 0.02;
 
 impl Path<'_> {
+    /// Unloads to zero force in about `steps` increments, then removes the tool and finds the equilibrium of the body
+    /// alone: there the force is zero and the depth that of its highest point. `stiffness` is that of the peak.
+    ///
+    /// Travels follow F ∝ (1 - u/u₀)^1.25 with u₀ = 1.25 F/S; the last few percent of the force are not chased.
+    pub fn unload(
+        &mut self,
+        stiffness: ToolStiffness,
+        steps: usize,
+        observer: &mut Observer<'_>,
+    ) -> Result<(), Stop> {
+        let (peak_force, peak) = (self.force, self.travel);
+        let compliance = 1.0 / stiffness.depth + self.sums().penetration / peak_force;
+        let recovery = UNLOADING_EXPONENT * peak_force * compliance;
+        self.slope = Some(self.follows(&stiffness));
+        self.way_back = vec![peak];
+        for travel in unloading(peak, recovery, steps, 0.3) {
+            if travel >= self.travel || self.force < 0.03 * peak_force {
+                continue;
+            }
+            let sums = self.reach(travel, Phase::Unload, false, observer)?;
+            if sums.force <= 0.0 {
+                break; // beyond separation: the equilibrium without the tool comes next
+            }
+            self.accept(travel, Phase::Unload, observer)?;
+            self.way_back.push(travel);
+        }
+        if self.model.body().material.has_back_stress() {
+            self.retreat_from_reverse_flow(0.03 * peak_force, steps, observer)?;
+        }
+        self.model.begin(f64::INFINITY, 0.0, |_| [0.0; 2]);
+        self.iterate().map_err(|_| Stop::NoEquilibrium)?;
+        let separation = self.model.trial_surface().first_touch() - self.touch;
+        self.accept(separation, Phase::Unload, observer).map(|_| ())
+    }
+
     /// Goes on unloading down to `force` where metal flows in reverse and gives way more than elastic metal does: each
     /// step takes off a share of the force that the slope foretells, `steps` of which would take off all; and further while
     /// metal that has little force left still has far to go.
-    pub(super) fn retreat_from_reverse_flow(
+    fn retreat_from_reverse_flow(
         &mut self,
         force: f64,
         steps: usize,
@@ -23,7 +62,7 @@ impl Path<'_> {
         let peak = self.way_back.first().copied().unwrap_or(self.travel);
         for _ in 0..MOST_RETREATS {
             let slope = self.slope.unwrap_or(0.0);
-            let left = 1.25 * self.force / slope;
+            let left = UNLOADING_EXPONENT * self.force / slope;
             if slope <= 0.0 || (self.force <= force && left <= LAST_RETREAT * peak) {
                 break;
             }

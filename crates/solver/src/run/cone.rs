@@ -1,0 +1,77 @@
+//! A sharp cone, crushed by a plane or indenting a flat body, as a problem. Nothing but the depth gives it a length, so its force
+//! is F = K h².
+
+use crate::contact::tool::Tool;
+use crate::point::kinematics::Symmetry;
+use crate::point::material::Metal;
+use crate::run::a_priori::{contact_ratio, expected_pressure};
+use crate::run::discretisation::ConeDiscretisation;
+use crate::run::problem::{Correction, Goal, Problem, Rules, Units, held_nodes};
+use crate::scene::Lateral;
+use asperity_mesh::build::{SelfSimilar, self_similar};
+use asperity_mesh::profile::{Asperity, Profile, Shape};
+
+/// Depth that a clamped substrate of size L takes away from an elastic half space is this times F/(E* L). Measured on
+/// crushed cones at L/a = 150 and 600: 0.37 to 0.40.
+const FAR_FIELD: f64 = 0.39;
+
+/// A sharp cone and its material.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cone {
+    /// Slope β of the flank against the plane, degrees.
+    pub slope_deg: f64,
+    /// Whether a rigid cone indents a flat body of the material; else a cone of the material is crushed by a rigid plane.
+    pub indents: bool,
+    /// The material, E = 1.
+    pub metal: Metal,
+    /// Whether the stress of its hardening law is Cauchy's, else Kirchhoff's.
+    pub cauchy: bool,
+}
+
+impl Cone {
+    /// Loading to the depth 1. Energies are not kept and a far field is added to the depth: the mesh is a part of a half space.
+    pub fn problem(&self, discretisation: &ConeDiscretisation) -> Problem {
+        let ConeDiscretisation { numbers, sizes, extrapolated, .. } = *discretisation;
+        let tan = self.slope_deg.to_radians().tan();
+        let radius = contact_ratio(&self.metal, tan, self.indents) / tan;
+        let domain = numbers.domain * radius;
+        let (slope, tool) = if self.indents {
+            (0.0, Tool::Cone { tan_slope: tan, tip_radius: 0.0 })
+        } else {
+            (tan, Tool::Plane)
+        };
+        let (elements, kind) = (numbers.elements_in_contact, numbers.element.kind());
+        let mesh = self_similar(&SelfSimilar { slope, radius, elements, domain, sizes, kind });
+        let cone = Asperity {
+            shape: Shape::Cone { tan_slope: tan, tip_radius: 0.0 },
+            height: sizes.foot * radius * tan,
+            centre: 0.0,
+            valley_radius: 0.0,
+        };
+        let profile = Profile { asperities: if self.indents { Vec::new() } else { vec![cone] } };
+        let symmetry = Symmetry::Axisymmetric;
+        Problem {
+            units: Units::new(1.0, 1.0, symmetry),
+            symmetry,
+            metal: self.metal.clone(),
+            penalty: expected_pressure(&self.metal, &profile, &tool, 1.0) / numbers.penetration,
+            profile,
+            tool,
+            half_widths: vec![radius],
+            held: held_nodes(&mesh, symmetry, Lateral::Free),
+            mesh,
+            numbers,
+            automatic_size: Some(domain),
+            goal: Goal::Depth(1.0),
+            unload: false,
+            reloads: 0,
+            rules: Rules {
+                far_field: FAR_FIELD / (self.metal.elastic.reduced_modulus() * domain),
+                extrapolated,
+                area_growth: f64::INFINITY,
+                correction: Correction::Mean,
+                cauchy: self.cauchy,
+            },
+        }
+    }
+}

@@ -1,0 +1,59 @@
+//! What a path tells of its increments, and why it stops.
+
+use crate::body::energy::ContactSums;
+use crate::run::equilibrium::Equilibrium;
+use crate::run::record::Phase;
+
+/// One converged increment, dimensionless.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Increment {
+    /// Loading, unloading or reloading.
+    pub phase: Phase,
+    /// Travel of the tool from first touch, penetration included.
+    pub travel: f64,
+    /// Travel less penetration, and what the rules add for the far field. A depth that was asked for is met to 1e-9 and
+    /// stands here as asked.
+    pub depth: f64,
+    /// Sums over the contact.
+    pub contact: ContactSums,
+    /// Energies, where the rules need them.
+    pub energies: Option<Energies>,
+    /// Newton iterations since the last increment.
+    pub newton_iterations: usize,
+}
+
+/// Energies since the first touch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Energies {
+    /// ∫F d(travel).
+    pub external_work: f64,
+    /// Stored elastic energy.
+    pub elastic: f64,
+    /// Plastic work.
+    pub plastic: f64,
+}
+
+/// Why a run ended before its target. The last converged increment is kept.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum Stop {
+    /// Elements were distorted until one turned inside out.
+    #[error("an element turned inside out: the metal is too distorted for its mesh")]
+    Distorted,
+    /// No equilibrium was found however small the increment.
+    #[error("no equilibrium was found with the smallest increment")]
+    NoEquilibrium,
+    /// A force that the tool does not find as deep as it can go.
+    #[error(
+        "the force is larger than what this body bears as deep as the tool can go: ask for less force, or for a depth"
+    )]
+    ForceNotReached,
+    /// A flank met another flank: contact of the metal with itself is not modelled.
+    #[error("a flank met another flank: metal that touches itself is not modelled")]
+    FlanksMeet,
+    /// The observer asked for the end.
+    #[error("the run was interrupted")]
+    Interrupted,
+}
+
+/// Called after every converged increment; `false` ends the run.
+pub type Observer<'o> = dyn FnMut(&Equilibrium<'_>, &Increment) -> bool + 'o;

@@ -1,0 +1,79 @@
+//! Loading: along a schedule of depths, or to a travel, a depth or a force at once.
+
+use super::increment::{Increment, Observer, Stop};
+use super::path::{Enough, NEVER, Path};
+use crate::run::problem::Goal;
+use crate::run::record::Phase;
+
+impl Path<'_> {
+    /// Goes from the last converged increment to `goal`, in as few increments as converge, and returns the last one. The
+    /// observer hears of each.
+    ///
+    /// To a travel in either direction; to a depth or a force beyond the present one. A force is looked for from its expected
+    /// depth on, which is doubled until the force is exceeded.
+    ///
+    /// # Errors
+    /// Why it could not: the path then stands at its last converged increment.
+    pub fn advance_to(&mut self, goal: Goal, observer: &mut Observer<'_>) -> Result<Increment, Stop> {
+        match goal {
+            Goal::Travel(travel) => {
+                let phase = if travel < self.travel { Phase::Unload } else { Phase::Load };
+                self.reach(travel, phase, phase == Phase::Load, observer)?;
+                self.accept(travel, phase, observer)
+            }
+            _ => self.follow(goal, &[1.0], self.penetration, observer),
+        }
+    }
+
+    /// Loads to the goal of the problem along its schedule.
+    ///
+    /// # Errors
+    /// Why it stopped on its way.
+    pub fn load(&mut self, observer: &mut Observer<'_>) -> Result<Increment, Stop> {
+        let problem = self.problem;
+        self.follow(problem.goal, &problem.numbers.schedule(), problem.expected_penetration(), observer)
+    }
+
+    /// Loads to `goal` along `fractions` of its depth; `penetration` is the expected one.
+    fn follow(
+        &mut self,
+        goal: Goal,
+        fractions: &[f64],
+        penetration: f64,
+        observer: &mut Observer<'_>,
+    ) -> Result<Increment, Stop> {
+        let (depth, limit, enough) = match goal {
+            Goal::Travel(travel) => (travel, travel, NEVER),
+            Goal::Depth(depth) => (depth, depth, Enough { depth, ..NEVER }),
+            Goal::Force { force, expected_depth, limit } => {
+                (expected_depth, limit, Enough { depth: limit, force })
+            }
+        };
+        self.asked = if let Goal::Depth(depth) = goal { Some(depth) } else { None };
+        let expects = !matches!(goal, Goal::Travel(_));
+        let mut expected = if expects { penetration } else { 0.0 };
+        let growth =
+            fractions.last().copied().unwrap_or(1.0) / fractions.iter().rev().nth(1).copied().unwrap_or(0.5);
+        let mut index = 0;
+        let mut fraction = 0.0;
+        loop {
+            fraction = fractions.get(index).copied().unwrap_or(fraction * growth);
+            index += 1;
+            let planned = (fraction * depth).min(limit) + expected;
+            let (travel, sums) = self.reach_depth(planned, enough, Phase::Load, true, observer)?;
+            let last = match goal {
+                Goal::Travel(_) | Goal::Depth(_) => index == fractions.len() || travel != planned,
+                Goal::Force { force, .. } => sums.force >= force,
+            };
+            if last {
+                let travel = self.home_in(goal, travel, sums)?;
+                return self.accept(travel, Phase::Load, observer);
+            }
+            expected = if expects { sums.penetration } else { 0.0 };
+            self.accept(travel, Phase::Load, observer)?;
+            if (fraction * depth >= limit || travel != planned) && matches!(goal, Goal::Force { .. }) {
+                return Err(Stop::ForceNotReached);
+            }
+        }
+    }
+}

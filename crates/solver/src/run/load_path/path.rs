@@ -1,0 +1,329 @@
+//! A body on its path: one attempted increment, and halved ones where it does not converge.
+
+use super::increment::{Energies, Increment, Observer, Stop};
+use crate::algebra::newton::{KEEP, Settings, solve};
+use crate::body::discrete_body::{Body, ToolContact};
+use crate::body::energy::{ContactSums, contact_sums, work, work_by_slopes, work_to_separation};
+use crate::body::failure::Failure as BodyFailure;
+use crate::body::surface::Surface;
+use crate::contact::penalty_correction::Punches;
+use crate::contact::self_contact::fold;
+use crate::run::equilibrium::{Equilibrium, SolveFailure};
+use crate::run::problem::{Correction, Problem, Rules};
+use crate::run::record::Phase;
+use crate::run::tool_stiffness::ToolStiffness;
+use crate::scene::ContactMethod;
+
+/// Halvings of an increment after which the run stops.
+const MAX_HALVINGS: u32 = 7;
+
+/// Share of the last increment that is a good first guess for the next: measured 0.5 to 0.9 save a fifth of the
+/// iterations, 1 saves less because it overshoots where the contact front moves from element to element.
+pub(super) const GUESS: f64 = 0.7;
+
+/// How far the end of loading may be from the depth or from the root of the force that was asked for, relative to it.
+pub(super) const MET: f64 = 1e-9;
+
+/// Where an increment that is taken in parts need not go on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Enough {
+    pub depth: f64,
+    pub force: f64,
+}
+
+/// Every part is to be taken.
+pub(super) const NEVER: Enough = Enough { depth: f64::INFINITY, force: f64::INFINITY };
+
+/// A body on its way, with the counts of the run.
+pub struct Path<'p> {
+    /// The mechanical system.
+    pub model: Equilibrium<'p>,
+    /// How each increment is solved.
+    pub settings: Settings,
+    pub(super) problem: &'p Problem,
+    /// Travel at which the tool touches first, in the coordinates of the mesh.
+    pub(super) touch: f64,
+    pub(super) travel: f64,
+    last_step: f64,
+    pub(super) force: f64,
+    area: f64,
+    /// What the penetration takes of the travel.
+    pub(super) penetration: f64,
+    /// Share of the work that went into flow while the body was loaded first: see [`crate::contact::penalty_correction`].
+    plastic_share: f64,
+    /// dF per travel, known while unloading and reloading.
+    pub(super) slope: Option<f64>,
+    /// Travels of the last unloading, from its peak on.
+    pub(super) way_back: Vec<f64>,
+    /// The depth that was asked for.
+    pub(super) asked: Option<f64>,
+    external_work: f64,
+    spent: usize,
+    /// Newton iterations so far, failed ones included.
+    pub iterations: usize,
+    /// Converged increments so far.
+    pub increments: usize,
+    /// Times an increment was halved.
+    pub cutbacks: usize,
+}
+
+impl<'p> Path<'p> {
+    /// A path that starts where the tool of `problem` touches its body first.
+    ///
+    /// # Errors
+    /// An element of the mesh is inside out.
+    pub fn new(problem: &'p Problem) -> Result<Path<'p>, BodyFailure> {
+        let contact = ToolContact { tool: problem.tool, penalty: problem.penalty };
+        let held = |node: usize| problem.held[node];
+        let body = Body::new(&problem.mesh, problem.symmetry, problem.metal.clone(), held, Some(contact))?;
+        let model = Equilibrium::new(body)?;
+        let tolerance = problem.numbers.newton_tolerance;
+        Ok(Path {
+            touch: model.converged_surface().first_touch(),
+            model,
+            settings: Settings { tolerance, max_iterations: 40, keep: KEEP },
+            problem,
+            travel: 0.0,
+            last_step: 0.0,
+            force: 0.0,
+            area: 0.0,
+            penetration: 0.0,
+            plastic_share: 0.0,
+            slope: None,
+            way_back: Vec::new(),
+            asked: None,
+            external_work: 0.0,
+            spent: 0,
+            iterations: 0,
+            increments: 0,
+            cutbacks: 0,
+        })
+    }
+
+    fn rules(&self) -> &'p Rules {
+        &self.problem.rules
+    }
+
+    fn augmented(&self) -> bool {
+        self.problem.numbers.contact == ContactMethod::Augmented
+    }
+
+    /// Travel of the tool at the last converged increment, from first touch.
+    pub fn travel(&self) -> f64 {
+        self.travel
+    }
+
+    /// Depth at a `travel` of which a `penetration` is to be taken off, under a `force`.
+    pub(super) fn depth(&self, travel: f64, penetration: f64, force: f64) -> f64 {
+        travel - penetration + self.rules().far_field * force
+    }
+
+    /// Solves, but does not accept, the increment to `travel` with the first guess `guess` times the scaled last one.
+    pub(super) fn attempt(
+        &mut self,
+        travel: f64,
+        carry: bool,
+        guess: f64,
+    ) -> Result<ContactSums, SolveFailure> {
+        let step = travel - self.travel;
+        let ratio =
+            if self.last_step != 0.0 && step / self.last_step > 0.0 { step / self.last_step } else { 0.0 };
+        let scale = guess * ratio;
+        let last = if scale > 0.0 { self.model.state().displacement.clone() } else { Vec::new() };
+        let tip = -(self.touch + travel);
+        self.model.begin(tip, if carry { self.rules().extrapolated * ratio } else { 0.0 }, |node| {
+            last.get(node).map_or([0.0; 2], |du| du.map(|u| scale * u))
+        });
+        self.iterate()?;
+        if self.augmented() {
+            // λ ← max(0, λ + ε d) until the penetration is a thousandth of what the penalty alone leaves
+            let first = self.sums().penetration;
+            for _ in 0..20 {
+                self.model.augment();
+                self.iterate()?;
+                if self.sums().penetration.abs() <= 1e-3 * first {
+                    break;
+                }
+            }
+        }
+        Ok(self.sums())
+    }
+
+    pub(super) fn iterate(&mut self) -> Result<(), SolveFailure> {
+        let outcome = solve(&mut self.model, &self.settings);
+        let spent = match &outcome {
+            Ok(done) => done.iterations,
+            Err((_, spent)) => *spent,
+        };
+        self.iterations += spent;
+        self.spent += spent;
+        outcome.map(|_| ()).map_err(|(failure, _)| failure)
+    }
+
+    pub(super) fn sums(&self) -> ContactSums {
+        self.corrected(self.punches(&self.model.trial_surface()))
+    }
+
+    /// Punches under `surface`, where the correction of the penetration asks for them.
+    fn punches(&self, surface: &Surface<'_>) -> Option<Punches> {
+        (self.rules().correction == Correction::PlasticShare).then(|| surface.under_punches())
+    }
+
+    /// The sums over the contact, their penetration that to be taken off the travel.
+    fn corrected(&self, punches: Option<Punches>) -> ContactSums {
+        let mut sums = contact_sums(self.model.contacts().iter(), self.model.body().symmetry);
+        if let Some(punches) = punches {
+            sums.penetration =
+                punches.penetration + self.plastic_share * (sums.penetration - punches.penetration);
+        }
+        sums
+    }
+
+    /// Slope of the force over the travel: multipliers leave no penetration that would follow the force.
+    pub(super) fn follows(&self, stiffness: &ToolStiffness) -> f64 {
+        if self.augmented() { stiffness.depth } else { stiffness.travel }
+    }
+
+    /// Accepts the attempted increment to `travel`.
+    pub(super) fn accept(
+        &mut self,
+        travel: f64,
+        phase: Phase,
+        observer: &mut Observer<'_>,
+    ) -> Result<Increment, Stop> {
+        let before = (self.force, self.slope);
+        // loading is close to F = (a + b h)²; unloading bends less the flatter the contact has become, so there the
+        // slope is asked for, which costs one solve
+        let counts = self.rules().correction == Correction::PlasticShare;
+        self.slope = match phase {
+            Phase::Unload | Phase::Reload if counts => {
+                self.model.tool_stiffness().ok().map(|s| self.follows(&s))
+            }
+            _ => None,
+        };
+        self.model.accept().map_err(|_| Stop::Distorted)?;
+        if self.rules().cauchy {
+            self.model.weigh_by_current_volume();
+        }
+        let punches = self.punches(&self.model.converged_surface());
+        let contact = self.corrected(punches);
+        let step = travel - self.travel;
+        (self.travel, self.last_step, self.force, self.area) = (travel, step, contact.force, contact.area);
+        self.penetration = contact.penetration;
+        self.increments += 1;
+        let energies = punches.map(|punches| self.count(before, step, phase, &punches));
+        let depth = self.depth(travel, contact.penetration, contact.force);
+        let met = |asked: &f64| (depth / asked - 1.0).abs() < 2.0 * MET;
+        let increment = Increment {
+            phase,
+            travel,
+            depth: self.asked.filter(met).unwrap_or(depth),
+            contact,
+            energies,
+            newton_iterations: std::mem::take(&mut self.spent),
+        };
+        if !observer(&self.model, &increment) {
+            return Err(Stop::Interrupted);
+        }
+        if fold(&self.model.state().edges, &self.model.state().position).is_some() {
+            Err(Stop::FlanksMeet)
+        } else {
+            Ok(increment)
+        }
+    }
+
+    /// Energies at the end of an accepted increment over `step` from a force and its slope, and what the next one needs of them.
+    fn count(
+        &mut self,
+        (force, slope): (f64, Option<f64>),
+        step: f64,
+        phase: Phase,
+        punches: &Punches,
+    ) -> Energies {
+        self.external_work += match (slope, self.slope) {
+            (_, Some(to)) if force <= 0.0 => -work_to_separation(self.force, to, -step),
+            (Some(from), _) if self.force <= 0.0 => work_to_separation(force, from, step),
+            (Some(from), Some(to)) => work_by_slopes([force, self.force], [from, to], step),
+            _ => work([force, self.force], step),
+        };
+        let [elastic, plastic] = self.model.state().energies(self.model.body());
+        if phase == Phase::Load && plastic > 0.0 {
+            let near = punches.energy / self.model.body().material.elastic.reduced_modulus();
+            self.plastic_share = plastic / (near + plastic);
+        }
+        Energies { external_work: self.external_work, elastic, plastic }
+    }
+
+    /// Goes to `travel` in as few increments as converge; accepts all but the last, which is left attempted. That may be one
+    /// before `travel` that already is `enough`: where an asperity vanishes into its base the penetration falls, and
+    /// the travel planned with the one before would crush the base itself.
+    pub(super) fn reach_depth(
+        &mut self,
+        travel: f64,
+        enough: Enough,
+        phase: Phase,
+        carry: bool,
+        observer: &mut Observer<'_>,
+    ) -> Result<(f64, ContactSums), Stop> {
+        let mut halvings = 0;
+        let mut stiffens = true;
+        self.model.stiffen(true);
+        let mut next = travel;
+        let mut guess = if carry { GUESS } else { 0.0 };
+        loop {
+            match self.attempt(next, carry, guess) {
+                Ok(sums)
+                    if self.area > 0.0
+                        && sums.area > self.rules().area_growth * self.area
+                        && halvings < MAX_HALVINGS =>
+                {
+                    halvings += 1;
+                    next = 0.5 * (self.travel + next);
+                }
+                Ok(sums)
+                    if next == travel
+                        || self.depth(next, sums.penetration, sums.force) >= enough.depth
+                        || sums.force >= enough.force =>
+                {
+                    return Ok((next, sums));
+                }
+                Ok(_) => {
+                    self.accept(next, phase, observer)?;
+                    // try to take the rest in steps as long as the one that went
+                    let step = self.last_step;
+                    next = if (travel - next).abs() <= 1.01 * step.abs() { travel } else { next + step };
+                }
+                Err(_) if halvings >= MAX_HALVINGS && stiffens => {
+                    // a stiffer tangent converges slowly, and can end in a place that no smaller increment leads out of
+                    stiffens = false;
+                    self.model.stiffen(false);
+                    halvings = 0;
+                    next = travel;
+                }
+                Err(failure) => {
+                    if halvings >= MAX_HALVINGS {
+                        return Err(match failure {
+                            SolveFailure::System(BodyFailure::Element { .. }) => Stop::Distorted,
+                            _ => Stop::NoEquilibrium,
+                        });
+                    }
+                    halvings += 1;
+                    self.cutbacks += 1;
+                    next = 0.5 * (self.travel + next);
+                    guess = 0.0;
+                }
+            }
+        }
+    }
+
+    /// [`Path::reach_depth`] all the way.
+    pub(super) fn reach(
+        &mut self,
+        travel: f64,
+        phase: Phase,
+        carry: bool,
+        observer: &mut Observer<'_>,
+    ) -> Result<ContactSums, Stop> {
+        self.reach_depth(travel, NEVER, phase, carry, observer).map(|(_, sums)| sums)
+    }
+}

@@ -1,0 +1,283 @@
+//! From a scene and its depth to what the solver computes with: unit of length, profile, tool, mesh, penalty.
+
+use crate::contact::tool::Tool;
+use crate::point::kinematics::Symmetry;
+use crate::point::material::Metal;
+use crate::run::a_priori;
+use crate::run::discretisation::Discretisation;
+use crate::run::problem::{Correction, Goal, Problem, Rules, Units, held_nodes};
+use crate::scene::{AsperityForm, Scene, SceneError, Target, ToolForm};
+use asperity_law::Elastic;
+use asperity_mesh::Mesh;
+use asperity_mesh::build::{Contact, Plan, build};
+use asperity_mesh::grading::Grading;
+use asperity_mesh::profile::{Asperity, Profile, Shape};
+
+/// How far a run that is driven by a force may go beyond the depth at which it is expected.
+const PROBED: f64 = 1.3;
+
+/// A path that grows the contact area by more than this factor in one increment halves it: flat metal comes into contact all
+/// at once when an asperity vanishes into its base. The schedule of the draft level grows it by 1.5.
+const AREA_GROWTH: f64 = 2.5;
+
+/// The rules of a scene, whose far field is not corrected.
+const RULES: Rules = Rules {
+    far_field: 0.0,
+    extrapolated: 1.0,
+    area_growth: AREA_GROWTH,
+    correction: Correction::PlasticShare,
+    cauchy: false,
+};
+
+/// The material of `scene`, E = 1.
+pub(super) fn metal(scene: &Scene) -> Metal {
+    let elastic = scene.material.elastic();
+    Metal {
+        elastic: Elastic { youngs_modulus: 1.0, ..elastic },
+        hardening: scene.material.hardening().map(|curve| curve.over(elastic.youngs_modulus)),
+        kinematic_share: scene.material.moving_share(),
+    }
+}
+
+/// The asperities and the tool of `scene`, lengths over `length` (m).
+pub(super) fn bodies(scene: &Scene, length: f64) -> Result<(Profile, Tool), SceneError> {
+    let tool = tool_over(scene.tool.form().map_err(|e| within("tool", e))?, length);
+    let asperities = outlines(scene)?.iter().map(|a| scale(a, length)).collect();
+    Ok((Profile { asperities }, tool))
+}
+
+/// Prepares `scene`, which is valid, for a peak at `depth` (m): the one that it asks for, or the one at which its force is
+/// expected (see [`crate::run::depth_for_force`]). `mesh` replaces the mesh that would be built (in metres). Lengths are in
+/// units of the depth.
+///
+/// # Errors
+/// A scene that cannot be meshed: path and reason.
+pub fn prepare(scene: &Scene, mesh: Option<Mesh>, depth: f64) -> Result<Problem, SceneError> {
+    let numbers = Discretisation::new(scene);
+    let symmetry = scene.symmetry;
+    let metal = metal(scene);
+    let (profile, tool) = bodies(scene, depth)?;
+    let units = Units::new(depth, scene.material.elastic().youngs_modulus, symmetry);
+    // a force may be found somewhat deeper than expected: the mesh reaches as far
+    let (goal, reach) = match scene.loading.target().map_err(|e| within("loading", e))? {
+        Target::Depth(asked) => (Goal::Depth(asked / depth), 1.0),
+        Target::Force(force) => {
+            let limit = PROBED.min(scene.deepest() / depth);
+            (Goal::Force { force: force / units.force, expected_depth: 1.0, limit }, PROBED)
+        }
+    };
+    let half_widths = a_priori::half_widths(&profile, &tool, reach);
+    let size = automatic_size(&numbers, &profile, &half_widths);
+    let penalty = a_priori::expected_pressure(&metal, &profile, &tool, 1.0) / numbers.penetration;
+    let mesh = match mesh {
+        Some(mut mesh) => {
+            for node in &mut mesh.nodes {
+                *node = node.map(|x| x / depth);
+            }
+            mesh
+        }
+        None => {
+            let from = a_priori::resolved_from(&profile, &tool, 1.0, reach);
+            build_mesh(scene, &numbers, &profile, &half_widths, [from, size], depth)?
+        }
+    };
+    let automatic = scene.mesh.is_none() && scene.substrate.as_ref().is_none_or(|s| s.depth.is_none());
+    Ok(Problem {
+        units,
+        symmetry,
+        metal,
+        profile,
+        tool,
+        half_widths,
+        penalty,
+        held: held_nodes(&mesh, symmetry, scene.lateral),
+        mesh,
+        numbers,
+        automatic_size: automatic.then_some(size),
+        goal,
+        unload: scene.loading.unload,
+        reloads: scene.loading.reloads,
+        rules: RULES,
+    })
+}
+
+fn within(table: &str, error: SceneError) -> SceneError {
+    let path = if error.path.is_empty() { table.to_string() } else { format!("{table}.{}", error.path) };
+    SceneError { path, message: error.message }
+}
+
+/// The asperities side by side, in metres.
+fn outlines(scene: &Scene) -> Result<Vec<Asperity>, SceneError> {
+    let mut outlines = Vec::new();
+    let plane = scene.symmetry == Symmetry::PlaneStrain;
+    let curved = !matches!(scene.tool.form(), Ok(ToolForm::Plane));
+    let mut edge = 0.0; // where the next asperity may begin
+    for (index, asperity) in scene.asperity.iter().enumerate() {
+        let form = asperity.form().map_err(|e| within(&format!("asperity[{index}]"), e))?;
+        let (shape, valley_radius) = match form {
+            AsperityForm::Cone { slope, tip_radius, valley_radius, .. } => {
+                (Shape::Cone { tan_slope: slope.tan(), tip_radius }, valley_radius)
+            }
+            AsperityForm::Sphere { radius, .. } => (Shape::Sphere { radius }, 0.0),
+        };
+        let half = form.base_radius();
+        // a curved tool comes down at 0: over the first summit
+        let at_zero = index == 0 && (!plane || curved);
+        let centre = if at_zero { 0.0 } else { edge + half };
+        outlines.push(Asperity { shape, height: form.height(), centre, valley_radius });
+        edge = centre + half + asperity.spacing.map_or(0.0, |s| s.0);
+    }
+    Ok(outlines)
+}
+
+/// The tool of a scene, lengths over `length` (m).
+fn tool_over(form: ToolForm, length: f64) -> Tool {
+    match form {
+        ToolForm::Plane => Tool::Plane,
+        ToolForm::Cone { slope, tip_radius } => {
+            Tool::Cone { tan_slope: slope.tan(), tip_radius: tip_radius / length }
+        }
+        ToolForm::Sphere { radius } => Tool::Sphere { radius: radius / length },
+    }
+}
+
+fn scale(a: &Asperity, length: f64) -> Asperity {
+    let shape = match a.shape {
+        Shape::Cone { tan_slope, tip_radius } => Shape::Cone { tan_slope, tip_radius: tip_radius / length },
+        Shape::Sphere { radius } => Shape::Sphere { radius: radius / length },
+    };
+    Asperity {
+        shape,
+        height: a.height / length,
+        centre: a.centre / length,
+        valley_radius: a.valley_radius / length,
+    }
+}
+
+fn widest(half_widths: &[f64]) -> f64 {
+    half_widths.iter().fold(0.0, |m: f64, w| m.max(*w))
+}
+
+/// Half width of the core over that from which a contact is to be resolved: an elastic contact is 0.7 times as wide as expected
+/// (see `expected`), and the columns of the core are wide.
+const CORE: f64 = 0.7;
+
+/// Growth of the shells far from the contact, as a share of the distance.
+const FAR_GROWTH: f64 = 0.4;
+
+/// Size of an automatic substrate: so many radii of the loaded region, which is the contact of a single asperity and
+/// the whole row of several, whose forces add up far away.
+fn automatic_size(numbers: &Discretisation, profile: &Profile, half_widths: &[f64]) -> f64 {
+    let touched = profile.asperities.iter().zip(half_widths).filter(|(_, w)| **w > 0.0);
+    let loaded = touched.map(|(a, w)| a.centre + w).fold(widest(half_widths), f64::max);
+    numbers.domain * loaded
+}
+
+/// The mesh of the scene, lengths over `length`; contacts are resolved from the share `resolved_from` of their half widths on,
+/// and the substrate has the `size` if the scene gives none.
+fn build_mesh(
+    scene: &Scene,
+    numbers: &Discretisation,
+    profile: &Profile,
+    half_widths: &[f64],
+    [resolved_from, size]: [f64; 2],
+    length: f64,
+) -> Result<Mesh, SceneError> {
+    let (kind, symmetry) = (numbers.element.kind(), scene.symmetry);
+    check_valleys(profile, length)?;
+    let widest = widest(half_widths);
+    let end_gap = scene.end_gap() / length;
+    let right = profile.asperities.last().map_or(0.0, |a| a.centre + a.half_width(a.height)) + end_gap;
+    let row = match symmetry {
+        Symmetry::Axisymmetric => [0.0, right],
+        Symmetry::PlaneStrain if profile.asperities.is_empty() => [-10.0 * widest, 10.0 * widest],
+        Symmetry::PlaneStrain => {
+            [profile.asperities.first().map_or(0.0, |a| a.centre - a.half_width(a.height)) - end_gap, right]
+        }
+    };
+    let automatic = size.max(3.0 * (row[1] - row[0]));
+    let substrate = scene.substrate.as_ref();
+    let size_of = |given: Option<asperity_law::units::Length>| given.map_or(automatic, |l| l.0 / length);
+    let depth = profile.height() + size_of(substrate.and_then(|s| s.depth));
+    let radius = size_of(substrate.and_then(|s| s.radius));
+    let width = match symmetry {
+        _ if scene.has_repeated_asperities() => row,
+        Symmetry::Axisymmetric => [0.0, radius],
+        Symmetry::PlaneStrain => {
+            let middle = 0.5 * (row[0] + row[1]);
+            [middle - radius, middle + radius]
+        }
+    };
+    if width[0] > row[0] || width[1] < row[1] {
+        return Err(SceneError {
+            path: "substrate.radius".into(),
+            message: format!(
+                "{:.6e} m does not reach beyond the asperities, which need {:.6e} m: enlarge it",
+                radius * length,
+                match symmetry {
+                    Symmetry::Axisymmetric => row[1],
+                    Symmetry::PlaneStrain => 0.5 * (row[1] - row[0]),
+                } * length
+            ),
+        });
+    }
+    // sizes over the distance from a centre, so that the contact radius holds the wanted number of elements
+    let start = CORE * resolved_from;
+    let grading = Grading {
+        fineness: (1.0 - start.ln()) / numbers.elements_in_contact as f64,
+        start,
+        fine: 1.6,
+        far: FAR_GROWTH,
+    };
+    let contacts: Vec<Contact> = if profile.asperities.is_empty() {
+        vec![Contact { centre: 0.0, half_width: widest, foot: 10.0 * widest, slope: 0.0 }]
+    } else {
+        let contact = |(a, w): (&Asperity, &f64)| Contact {
+            centre: a.centre,
+            half_width: *w,
+            foot: a.half_width(a.height),
+            slope: steepest(a),
+        };
+        profile.asperities.iter().zip(half_widths).map(contact).collect()
+    };
+    if contacts.iter().all(|c| c.half_width <= 0.0) {
+        return Err(SceneError {
+            path: "loading.depth".into(),
+            message: "no asperity is touched at the full depth: raise the depth".into(),
+        });
+    }
+    Ok(build(&Plan { profile: profile.clone(), contacts, row, width, depth, grading, kind }))
+}
+
+/// Steepest slope that a mesh under the asperity must follow: that at the foot of a cap.
+fn steepest(asperity: &Asperity) -> f64 {
+    match asperity.shape {
+        Shape::Cone { tan_slope, .. } => tan_slope,
+        Shape::Sphere { radius } => asperity.half_width(asperity.height) / (radius - asperity.height),
+    }
+}
+
+/// Fillets must leave a part of both their sides straight.
+fn check_valleys(profile: &Profile, length: f64) -> Result<(), SceneError> {
+    for (index, asperity) in profile.asperities.iter().enumerate() {
+        let Some([own, beyond]) = profile.valley_reach(index) else { continue };
+        let foot = asperity.half_width(asperity.height);
+        let next = profile.asperities.get(index + 1);
+        let room = next.map_or(f64::INFINITY, |b| {
+            let gap = b.centre - b.half_width(b.height) - asperity.centre - foot;
+            if gap > 1e-9 * foot { gap } else { b.half_width(b.height) - b.cap_radius() }
+        });
+        if own > foot - asperity.cap_radius() || beyond > room {
+            let largest = asperity.valley_radius * ((foot - asperity.cap_radius()) / own).min(room / beyond);
+            return Err(SceneError {
+                path: format!("asperity[{index}].valley_radius"),
+                message: format!(
+                    "{:.6e} m leaves no straight flank: it may be at most {:.6e} m here",
+                    asperity.valley_radius * length,
+                    largest * length
+                ),
+            });
+        }
+    }
+    Ok(())
+}
