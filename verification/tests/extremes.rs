@@ -338,7 +338,7 @@ fn flanks_that_meet_stop_the_run() {
 }
 
 #[test]
-fn every_extreme_has_an_answer() {
+fn extreme_scenes_converge_or_stop_with_a_reason() {
     let rows = rows();
     println!("| extreme | ends | measured over expected | bound | energy balance | increments | halvings |");
     println!("|-|-|-|-|-|-|-|");

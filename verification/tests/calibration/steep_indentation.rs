@@ -21,7 +21,7 @@ fn cone(beta_deg: f64, exponent: f64, e_over_sy: f64) -> Case {
 }
 
 #[test]
-fn the_apex_does_not_pierce_the_metal() {
+fn k_of_a_steep_cone_does_not_depend_on_the_mesh() {
     let case = cone(30.0, 0.1, 1000.0 / 3.0);
     let draft = Resolution::of(&case, Accuracy::Draft);
     let coarse = Resolution { elements: 8, at_axis: 1, ..draft };
@@ -30,7 +30,7 @@ fn the_apex_does_not_pierce_the_metal() {
 }
 
 #[test]
-fn the_equivalent_cone_of_vickers_follows_dao() {
+fn vickers_equivalent_cone_follows_dao() {
     for (exponent, e_over_sy) in [(0.1, 250.0), (0.3, 350.0), (0.3, 100.0), (0.5, 250.0)] {
         let case = Case { stress: YieldMeasure::Cauchy, ..cone(19.7, exponent, e_over_sy) };
         let resolution = Resolution::of(&case, Accuracy::Standard);

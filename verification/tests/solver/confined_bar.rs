@@ -11,7 +11,7 @@ use asperity_verification::test_meshes::distorted_square;
 use asperity_verification::uniaxial::{confined_flow_stress, confined_stress};
 
 #[test]
-fn stress_follows_both_branches() {
+fn confined_stress_follows_both_branches() {
     let metal = hollomon(0.01, 0.0);
     for kind in [ElementKind::Quad4, ElementKind::Quad8] {
         for symmetry in [Symmetry::Axisymmetric, Symmetry::PlaneStrain] {

@@ -63,7 +63,7 @@ fn order(seen: &[Iterate]) -> Option<f64> {
 }
 
 #[test]
-fn quadratic_where_the_discrete_sets_rest() {
+fn newton_is_quadratic_where_contact_and_plastic_sets_rest() {
     let scene = scene(Accuracy::Draft).unwrap();
     let problem = prepare(&scene, None).unwrap();
     let contact = ToolContact { tool: problem.tool, penalty: problem.penalty };

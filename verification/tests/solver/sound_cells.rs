@@ -13,7 +13,7 @@ use asperity_verification::random_scenes::{Kind, draw};
 use rayon::prelude::*;
 
 #[test]
-fn of_scenes_drawn_at_random() {
+fn meshes_of_random_scenes_have_convex_cells() {
     let scenes: Vec<_> = draw(2000, 1).unwrap().into_iter().filter(|d| d.kind == Kind::Sound).collect();
     assert!(scenes.len() > 1000);
     scenes.par_iter().for_each(|drawn| {

@@ -22,7 +22,7 @@ fn difference(a: &Curve, b: &Curve) -> f64 {
 }
 
 #[test]
-fn observed_order() {
+fn force_is_of_second_order_in_the_load_step() {
     let runs = [24, 48, 96].map(curve);
     let order = (difference(&runs[0], &runs[1]) / difference(&runs[1], &runs[2])).abs().log2();
     assert!(order > 1.5, "{order}");

@@ -11,7 +11,7 @@ use asperity_verification::test_meshes::{mapped, nodes_of};
 use asperity_verification::uniaxial::{hollomon_stress, nominal_stress};
 
 #[test]
-fn eq_1_from_0_002_to_1() {
+fn tension_follows_eq_1_from_strain_0_002_to_1() {
     let metal = hollomon(300.0 / 210e3, 0.3);
     let Some(HardeningCurve::Power(hardening)) = metal.hardening else { panic!("a power law") };
     for kind in [ElementKind::Quad4, ElementKind::Quad8] {

@@ -23,7 +23,7 @@ fn seen(model: &Model<'_>) -> (f64, Vec<f64>, Vec<[f64; 2]>) {
 }
 
 #[test]
-fn contact_is_that_of_the_last_converged_state() {
+fn contact_is_that_of_the_last_converged_increment() {
     let mesh = distorted_square(ElementKind::Quad8);
     let mut held = vec![[false; 2]; mesh.nodes.len()];
     nodes_of(&mesh, &mesh.sides.base).iter().for_each(|&n| held[n] = [true, true]);

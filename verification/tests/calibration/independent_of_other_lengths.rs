@@ -10,7 +10,7 @@ use asperity_solver::scene::Accuracy;
 use asperity_verification::calibration::metal;
 
 #[test]
-fn tip_height_and_substrate_do_not_matter() {
+fn tip_height_and_substrate_do_not_change_k() {
     let yielding = Some(metal(HardeningLaw::Hollomon, 0.3, 300.0));
     let case = Case {
         beta_deg: 8.0,

@@ -20,7 +20,7 @@ fn rows(k_over_e: impl Fn(&Case) -> f64) -> Vec<Row> {
 }
 
 #[test]
-fn a_known_strain_is_found_and_an_absent_one_is_not() {
+fn known_coefficient_is_found_and_elastic_data_give_none() {
     let c = 0.1;
     let made = rows(|case| {
         let stress = case.hardening().unwrap().representative_stress(c * case.tan_beta());
