@@ -1,7 +1,8 @@
 //! Claim: an increment that was tried and not accepted changes nothing of what is read from the body afterwards: force of the
 //! contact, its edges and the pressure at its nodes are those of the last converged state, bit for bit.
 //!
-//! No outside source: fields of a run that stopped are drawn from the model after the failed attempt.
+//! Source: none outside; fields of a run that stopped are drawn from the model after the failed attempt. Tolerance: none,
+//! bit for bit.
 
 use asperity_mesh::ElementKind;
 use asperity_solver::algebra::newton::System;

@@ -2,7 +2,7 @@
 //! asperity whose plastic set and touching edges rest in the last three iterations.
 //!
 //! Source: p = ln(r₃/r₂)/ln(r₂/r₁) of the last three residuals above 1e-12 of their scale, below which rounding rules.
-//! 1.8 and not 2: the three residuals are not yet infinitesimal.
+//! Tolerance: 1.8 and not 2: the three residuals are not yet infinitesimal.
 
 use asperity_solver::algebra::newton::{Assessment, Failure, Settings, System, solve};
 use asperity_solver::body::model::{Model, ToolContact};

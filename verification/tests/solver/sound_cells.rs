@@ -4,7 +4,7 @@
 //! its Jacobian is positive, which for straight sides the corners decide.
 //!
 //! Scenes drawn at random: slopes to 60°, tips to 0.9 of the height, one to three asperities on the axis or in a row,
-//! both kinds of element. The bound 0.02 of the scaled Jacobian is that of the steepest flanks on the coarsest meshes; an
+//! both kinds of element. Tolerance: 0.02 of the scaled Jacobian is that of the steepest flanks on the coarsest meshes; an
 //! aspect of 1e6 is that of the narrowest gap between two feet that is drawn, a rounded sum would leave 1e15.
 
 use asperity_solver::run::problem::prepare;
