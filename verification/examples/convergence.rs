@@ -23,7 +23,7 @@ struct Run {
     seconds: f64,
 }
 
-/// What of the discretisation differs from the level.
+/// Differences of the discretisation from that of the level.
 #[derive(Clone, Copy, Default)]
 struct Change {
     q4: bool,

@@ -19,7 +19,7 @@ use rayon::prelude::*;
 /// Scenes of the battery that the constants of the estimate were chosen on; half as many others follow.
 const CHOSEN: usize = 200;
 
-/// What one scene tells.
+/// Errors of one scene, relative to the force.
 struct Row {
     name: String,
     /// Largest difference of the force from the finer one.
@@ -68,7 +68,7 @@ fn measure(entry: &Entry) -> Result<Row, String> {
     })
 }
 
-/// What the rows of a battery tell together.
+/// The row of a battery in the table.
 fn summary(name: &str, rows: &[&Row]) -> String {
     let mut ratios: Vec<f64> = rows.iter().map(|r| r.stated / r.error).collect();
     ratios.sort_by(f64::total_cmp);

@@ -74,7 +74,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut elastic = paper.clone();
     (elastic.material.yield_stress, elastic.material.hardening_exponent) = (None, None);
     elastic.numerics = prepare(&elastic, None)?.numbers.numerics();
-    // a metal that could yield, under a load at which it does not
+    // a material that could yield, under a load at which it does not
     let mut never = elastic.clone();
     never.material.yield_stress = Some(Stress(0.19 * never.material.youngs_modulus.0));
     never.material.hardening_exponent = Some(0.0);

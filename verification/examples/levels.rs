@@ -1,4 +1,4 @@
-//! What the levels of accuracy reach on ten scenes that none of them was chosen by: the true error of the force
+//! Errors of the levels of accuracy on ten scenes that none of them was chosen by: the true error of the force
 //! and the stated one.
 //!
 //! `cargo run --release -p asperity-verification --example levels -- [ROW …] [--out FILE]` (rows counted from 1; all of them

@@ -47,7 +47,7 @@ fn line(index: usize, end: &End, seconds: f64) -> Option<String> {
     Some(format!("{index}\t{seconds:.2}\t{word}\t{detail}\n"))
 }
 
-/// What [`line`] wrote; `None` of a line that was cut off.
+/// The inverse of [`line`]; `None` of a line that was cut off.
 fn parse(line: &str) -> Option<(usize, (End, f64))> {
     let mut parts = line.split('\t');
     let (index, seconds) = (parts.next()?.parse().ok()?, parts.next()?.parse().ok()?);

@@ -1,4 +1,4 @@
-//! What the programs of `examples/` share: their arguments, the tables they write to `verification/results`, times.
+//! Shared by the programs of `examples/`: their arguments, the tables they write to `verification/results`, times.
 
 // tables are printed as they grow, because some take hours
 #![allow(clippy::print_stdout)]
@@ -55,7 +55,7 @@ impl Report {
     }
 }
 
-/// What `--out FILE` names, and the other words.
+/// The file of `--out FILE`, and the other words.
 fn arguments(mut words: impl Iterator<Item = String>) -> (Option<PathBuf>, Vec<String>) {
     let (mut file, mut rest) = (None, Vec::new());
     while let Some(word) = words.next() {
@@ -82,7 +82,7 @@ pub fn replace(file: &Path, text: &str) -> io::Result<()> {
     std::fs::rename(&part, file)
 }
 
-/// What `work` gives, and the seconds it took.
+/// The value of `work`, and the seconds it took.
 pub fn timed<T>(work: impl FnOnce() -> T) -> (T, f64) {
     let clock = Instant::now();
     let done = work();

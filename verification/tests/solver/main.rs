@@ -1,4 +1,4 @@
-//! What is claimed of the solver, one claim a file. One binary, so that the solver is linked once.
+//! Claims of the solver, one a file. One binary, so that the solver is linked once.
 
 // in a test a panic is the message
 #![allow(clippy::unwrap_used)]
