@@ -2,6 +2,7 @@
 """Compares `asperity rough` with the boundary-element code tamaas on self-affine maps.
 
     OMP_NUM_THREADS=1 python3 scripts/rough-peer.py [--sizes 512 1024 2048] [--seeds 1 2 3] [--laws elastic saturated]
+        [--out FILE]
 
 Needs Python 3.10, numpy 1.24, scipy 1.10 and tamaas 2.7 or later (pip install numpy scipy tamaas); measured with tamaas 2.9.0 and
 numpy 2.4. Seconds are CPU seconds of either program; "times slower" is
@@ -103,11 +104,13 @@ def main():
     parser.add_argument("--hardness", type=float, default=0.03, help="H/E* of the saturated comparison")
     parser.add_argument("--coefficient")
     parser.add_argument("--binary", default="target/release/asperity")
+    parser.add_argument("--out", type=pathlib.Path, help="file for the table")
     flags = parser.parse_args()
-    print(
-        "| map | seed | p/E* | law | A/A0 BEM | closure | A/A0 | over BEM | P_m over BEM | s BEM | s all closures | times slower |"
-    )
-    print("|-|-|-|-|-|-|-|-|-|-|-|-|")
+    report = [
+        "| map | seed | p/E* | law | A/A0 BEM | closure | A/A0 | over BEM | P_m over BEM | s BEM | s all closures | times slower |",
+        "|-|-|-|-|-|-|-|-|-|-|-|-|",
+    ]
+    print("\n".join(report))
     for n in flags.sizes:
         for seed in flags.seeds:
             z = surface(n, seed)
@@ -120,11 +123,16 @@ def main():
                     area, seconds = solve(z, pressure, flags.tolerance, hardness)
                     for closure in (c for c in closures if c in ours):
                         found = float(ours[closure]["contact_area_ratio"])
-                        print(
+                        report.append(
                             f"| {n}² | {seed} | {pressure} | {name} | {area:.4f} | {closure} | {found:.4f} | {found / area:.2f} | "
-                            f"{area / found:.2f} | {seconds:.1f} | {own:.2f} | {seconds / own:.0f} |",
-                            flush=True,
+                            f"{area / found:.2f} | {seconds:.1f} | {own:.2f} | {seconds / own:.0f} |"
                         )
+                        print(report[-1], flush=True)
+    if flags.out:
+        part = flags.out.with_suffix(".part")
+        said = f"`scripts/rough-peer.py`, tamaas {tm.__version__}"
+        part.write_text(f"<!-- written by {said} -->\n\n" + "\n".join(report) + "\n")
+        part.replace(flags.out)
 
 
 if __name__ == "__main__":

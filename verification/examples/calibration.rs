@@ -1,12 +1,12 @@
-//! Prints, as markdown tables, what the calibration of `asperity calibrate` was held against: itself at `reference`, sharp
-//! cones of another code, the elastic cone, the other lengths of a cone, and steep indentation. The tables of
-//! `verification/CALIBRATION.md` are this output.
+//! The calibration of `asperity calibrate` beside itself at `reference`, sharp cones of another code, the elastic cone, the
+//! other lengths of a cone, and steep indentation.
 //!
-//! `cargo run --release -p asperity-verification --example calibration [random|peers|elastic|lengths|indentation]`, or
-//! `-- published FILE.csv SLOPE_DEG` for a file of published indentations by a cone of that slope.
+//! `cargo run --release -p asperity-verification --example calibration -- random|peers|elastic|lengths|indentation [--out FILE]`,
+//! or `-- published FILE.csv SLOPE_DEG` for a file of published indentations by a cone of that slope. The tables are
+//! `verification/results/calibration-*.md`, one a word.
 
-// a program whose output is the point, on committed cases
-#![allow(clippy::print_stdout, clippy::expect_used)]
+// on committed cases
+#![allow(clippy::expect_used)]
 
 use asperity_calibration::case::{Case, Tool, YieldMeasure};
 use asperity_calibration::fit::SplitMix;
@@ -18,10 +18,11 @@ use asperity_calibration::sweep::Sweep;
 use asperity_law::HardeningLaw;
 use asperity_solver::scene::Accuracy;
 use asperity_verification::calibration::{PEERS, metal, peer_case};
+use asperity_verification::report::Report;
 
 fn all(cases: &[Case], accuracy: Accuracy) -> Vec<LoadingCurvature> {
     let told = |row: &Row| {
-        eprintln_row(row);
+        tell(row);
         Ok::<(), std::convert::Infallible>(())
     };
     let rows = run(cases, accuracy, Vec::new(), 0, told).expect("nothing can refuse");
@@ -30,24 +31,24 @@ fn all(cases: &[Case], accuracy: Accuracy) -> Vec<LoadingCurvature> {
 
 /// Progress of long tables.
 #[allow(clippy::print_stderr)]
-fn eprintln_row(row: &Row) {
+fn tell(row: &Row) {
     eprintln!("{} in {:.1} s", Row::key(&row.case), row.wall_s);
 }
 
 /// 24 of the 480 cases, drawn with a fixed seed, at both levels.
-fn random() {
+fn random(report: &mut Report) {
     let mut cases = Sweep::default().cases();
     let mut draw = SplitMix(24);
     let drawn: Vec<Case> =
         (0..24).map(|_| cases.swap_remove((draw.bits() % cases.len() as u64) as usize)).collect();
     let (standard, reference) = (all(&drawn, Accuracy::Standard), all(&drawn, Accuracy::Reference));
-    println!("| β | n | E/σ_y | K/E standard | K/E reference | difference, % | stated, % |\n|-|-|-|-|-|-|-|");
+    report.table("| β | n | E/σ_y | K/E standard | K/E reference | difference, % | stated, % |");
     let mut within = 0;
     for ((case, s), r) in drawn.iter().zip(&standard).zip(&reference) {
         let difference = s.k_over_e / r.k_over_e - 1.0;
         within += usize::from(difference.abs() <= s.error);
         let y = case.yielding.expect("the default sweep yields");
-        println!(
+        report.line(&format!(
             "| {} | {} | {:.1} | {:.4} | {:.4} | {:+.2} | {:.2} |",
             case.beta_deg,
             y.exponent,
@@ -56,26 +57,25 @@ fn random() {
             r.k_over_e,
             100.0 * difference,
             100.0 * s.error
-        );
+        ));
     }
-    println!("\n{within} of {} within the stated error.", drawn.len());
+    report.line(&format!("\n{within} of {} within the stated error.", drawn.len()));
 }
 
 /// The ten cones of CalculiX.
-fn peers() {
+fn peers(report: &mut Report) {
     let cases: Vec<Case> = PEERS.iter().map(peer_case).collect();
     let (standard, reference) = (all(&cases, Accuracy::Standard), all(&cases, Accuracy::Reference));
-    println!(
-        "| β | n | E/σ_y | K/E standard | reference | CalculiX | difference, % | allowed, % | reference, % |"
+    report.table(
+        "| β | n | E/σ_y | K/E standard | reference | CalculiX | difference, % | allowed, % | reference, % | Cauchy's stress, % |",
     );
-    println!("|-|-|-|-|-|-|-|-|-|");
     for ((p, s), r) in PEERS.iter().zip(&standard).zip(&reference) {
         let case = peer_case(p);
         let resolution = Resolution::of(&case, Accuracy::Standard);
         let cauchy = loading_curvature::solve(&Case { stress: YieldMeasure::Cauchy, ..case }, &resolution)
             .expect("committed cases run");
         let off = |k: &LoadingCurvature| 100.0 * (k.k_over_e / p.k_over_e - 1.0);
-        println!(
+        report.line(&format!(
             "| {} | {} | {} | {:.4} | {:.4} | {:.4} | {:+.2} | {:.2} | {:+.2} | {:+.2} |",
             p.beta_deg,
             p.exponent,
@@ -87,13 +87,13 @@ fn peers() {
             100.0 * (s.error + p.error + 0.005),
             off(r),
             off(&cauchy)
-        );
+        ));
     }
 }
 
 /// Elastic cones against Sneddon.
-fn elastic() {
-    println!("| tool | E/σ_y | K/E | over Sneddon, % | a tan β/h over 2/π, % |\n|-|-|-|-|-|");
+fn elastic(report: &mut Report) {
+    report.table("| tool | E/σ_y | K/E | over Sneddon, % | a tan β/h over 2/π, % |");
     for tool in [Tool::Plane, Tool::Cone] {
         for yielding in [None, Some(metal(HardeningLaw::Hollomon, 0.3, 10.0))] {
             let case =
@@ -101,19 +101,19 @@ fn elastic() {
             let k =
                 loading_curvature::solve(&case, &Resolution::of(&case, Accuracy::Standard)).expect("runs");
             let sneddon = std::f64::consts::FRAC_2_PI * case.elastic().reduced_modulus() / case.tan_beta();
-            println!(
+            report.line(&format!(
                 "| {tool:?} | {} | {:.3} | {:+.2} | {:+.2} |",
                 if yielding.is_some() { "10" } else { "elastic" },
                 k.k_over_e,
                 100.0 * (k.k_over_e / sneddon - 1.0),
                 100.0 * (k.contact_ratio / std::f64::consts::FRAC_2_PI - 1.0)
-            );
+            ));
         }
     }
 }
 
 /// K against the lengths that a sharp cone on a half space does not have.
-fn lengths() {
+fn lengths(report: &mut Report) {
     let cases = [(3.0, 0.1, 300.0), (10.0, 0.5, 1050.0)].map(|(beta_deg, n, ratio)| Case {
         beta_deg,
         yielding: Some(metal(HardeningLaw::Hollomon, n, ratio)),
@@ -134,7 +134,7 @@ fn lengths() {
         ("substrate 400 a", |r| r.domain = 400.0),
         ("substrate 1600 a", |r| r.domain = 1600.0),
     ];
-    println!("| | K, 3°, n 0.1, E/σ_y 300, % | K, 10°, n 0.5, E/σ_y 1050, % |\n|-|-|-|");
+    report.table("| | K, 3°, n 0.1, E/σ_y 300, % | K, 10°, n 0.5, E/σ_y 1050, % |");
     let k = |case: &Case, change: fn(&mut Resolution)| {
         let mut resolution = Resolution::of(case, Accuracy::Standard);
         change(&mut resolution);
@@ -142,14 +142,14 @@ fn lengths() {
     };
     for (name, change) in changes {
         let off = cases.each_ref().map(|case| 100.0 * (k(case, change) / k(case, |_| ()) - 1.0));
-        println!("| {name} | {:+.2} | {:+.2} |", off[0], off[1]);
+        report.line(&format!("| {name} | {:+.2} | {:+.2} |", off[0], off[1]));
     }
 }
 
 /// Steep cones, with the stress of the law as Kirchhoff's (what the program computes) and as Cauchy's.
-fn indentation() {
+fn indentation(report: &mut Report) {
     let ratios = [100.0 / 3.0, 100.0, 1000.0 / 3.0];
-    println!("| β | n | E/σ_y | K/E | K_error, % | with Cauchy's stress, % |\n|-|-|-|-|-|-|");
+    report.table("| β | n | E/σ_y | K/E | K_error, % | with Cauchy's stress, % |");
     for beta_deg in [19.7, 30.0, 40.0] {
         for exponent in [0.0, 0.1, 0.3, 0.5] {
             for ratio in ratios {
@@ -166,12 +166,12 @@ fn indentation() {
                     loading_curvature::solve(&Case { stress: YieldMeasure::Cauchy, ..case }, &resolution)
                         .expect("runs")
                         .k_over_e;
-                println!(
+                report.line(&format!(
                     "| {beta_deg} | {exponent} | {ratio:.1} | {:.4} | {:.2} | {:+.2} |",
                     k.k_over_e,
                     100.0 * k.error,
                     100.0 * (cauchy / k.k_over_e - 1.0)
-                );
+                ));
             }
         }
     }
@@ -179,7 +179,7 @@ fn indentation() {
 
 /// Mean and standard deviation of the difference of K from a file of published indentations, in percent, with either
 /// stress: columns `Case,n,E (GPa),sy (GPa),C (GPa)`, C the curvature F/h².
-fn published(file: &str, beta_deg: f64) {
+fn published(report: &mut Report, file: &str, beta_deg: f64) {
     let text = std::fs::read_to_string(file).expect("the file named can be read");
     let number = |field: &str| field.trim().parse::<f64>().ok();
     let metals: Vec<[f64; 3]> = text
@@ -209,7 +209,7 @@ fn published(file: &str, beta_deg: f64) {
             .collect();
         threads.into_iter().flat_map(|t| t.join().expect("no case panics")).collect()
     });
-    println!("| n | metals | Kirchhoff's stress, % | Cauchy's stress, % |\n|-|-|-|-|");
+    report.table("| n | metals | Kirchhoff's stress, % | Cauchy's stress, % |");
     for exponent in [None, Some(0.0), Some(0.1), Some(0.3), Some(0.5)] {
         let own = || {
             let pairs = metals.iter().zip(&differences);
@@ -222,29 +222,23 @@ fn published(file: &str, beta_deg: f64) {
             format!("{mean:+.1} ± {:.1}", variance.sqrt())
         });
         let name = exponent.map_or("all".to_string(), |n| n.to_string());
-        println!("| {name} | {count} | {kirchhoff} | {cauchy} |");
+        report.line(&format!("| {name} | {count} | {kirchhoff} | {cauchy} |"));
     }
 }
 
 fn main() {
-    let arguments: Vec<String> = std::env::args().skip(1).collect();
-    if let [name, file, beta_deg] = &arguments[..]
-        && name == "published"
-    {
-        return published(file, beta_deg.parse().expect("the slope is a number of degrees"));
-    }
-    let wish = arguments.first();
-    let tables: [(&str, fn()); 5] = [
-        ("random", random),
-        ("peers", peers),
-        ("elastic", elastic),
-        ("lengths", lengths),
-        ("indentation", indentation),
-    ];
-    for (name, table) in tables {
-        if wish.is_none_or(|w| w == name) {
-            println!("\n### {name}\n");
-            table();
+    let (mut report, words) = Report::of("calibration", "standard");
+    let words: Vec<&str> = words.iter().map(String::as_str).collect();
+    match words[..] {
+        ["random"] => random(&mut report),
+        ["peers"] => peers(&mut report),
+        ["elastic"] => elastic(&mut report),
+        ["lengths"] => lengths(&mut report),
+        ["indentation"] => indentation(&mut report),
+        ["published", file, slope] => {
+            published(&mut report, file, slope.parse().expect("the slope is a number of degrees"));
         }
+        _ => panic!("one of random, peers, elastic, lengths, indentation, or published FILE.csv SLOPE_DEG"),
     }
+    report.finish().expect("the file named can be written");
 }

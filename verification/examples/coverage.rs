@@ -1,23 +1,25 @@
-//! Prints how well the error that a run states bounds the true one: a battery of 300 scenes at draft accuracy, each
+//! How well the error that a run states bounds the true one: a battery of 300 scenes at draft accuracy, each
 //! against the smoothed curve of a much finer run of its own. The constants of the estimate were chosen on the first 200.
 //!
-//! `cargo run --release -p asperity-verification --example coverage` (about seven minutes of two cores); with the
-//! argument `rows` also every scene, with numbers only the scenes of these numbers.
+//! `cargo run --release -p asperity-verification --example coverage [-- --out FILE]` (about seven minutes of two cores);
+//! with the argument `rows` also every scene, with numbers only the scenes of these numbers. The table is
+//! `verification/results/coverage.md`.
 
-// a program whose output is the point, on scenes of its own
-#![allow(clippy::print_stdout, clippy::expect_used)]
+// on scenes of its own
+#![allow(clippy::expect_used)]
 
 use asperity_solver::run::crush::Outcome;
 use asperity_solver::run::curve::Curve;
 use asperity_solver::scene::{Accuracy, Scene};
 use asperity_verification::coverage_scenes::{Entry, battery};
+use asperity_verification::report::Report;
 use asperity_verification::single_asperity::{crush, driven_by};
 use rayon::prelude::*;
 
 /// Scenes of the battery that the constants of the estimate were chosen on; half as many others follow.
 const CHOSEN: usize = 200;
 
-/// What one scene tells.
+/// Errors of one scene, relative to the force.
 struct Row {
     name: String,
     /// Largest difference of the force from the finer one.
@@ -66,7 +68,7 @@ fn measure(entry: &Entry) -> Result<Row, String> {
     })
 }
 
-/// What the rows of a battery tell together.
+/// The row of a battery in the table.
 fn summary(name: &str, rows: &[&Row]) -> String {
     let mut ratios: Vec<f64> = rows.iter().map(|r| r.stated / r.error).collect();
     ratios.sort_by(f64::total_cmp);
@@ -88,9 +90,10 @@ fn summary(name: &str, rows: &[&Row]) -> String {
 
 fn main() {
     let batteries = [("the constants were chosen on", 0..CHOSEN), ("others", CHOSEN..CHOSEN + CHOSEN / 2)];
+    let (mut report, words) = Report::of("coverage", "draft against finer runs");
+    let only: Vec<usize> = words.iter().filter_map(|a| a.parse().ok()).collect();
     let mut summaries = Vec::new();
     for (name, numbers) in batteries {
-        let only: Vec<usize> = std::env::args().filter_map(|a| a.parse().ok()).collect();
         let entries: Vec<Entry> = numbers
             .filter(|i| only.is_empty() || only.contains(i))
             .flat_map(|i| battery(i..i + 1).expect("the committed scene reads"))
@@ -100,13 +103,12 @@ fn main() {
         }
         let results: Vec<_> = entries.par_iter().with_max_len(1).map(|e| (e, measure(e))).collect();
         let rows: Vec<&Row> = results.iter().filter_map(|(_, r)| r.as_ref().ok()).collect();
-        if std::env::args().any(|argument| argument == "rows") {
-            println!(
+        if words.iter().any(|word| word == "rows") {
+            report.table(
                 "| scene | true error, % | bias, % | stated, % | energy balance | ripple of the finer run, % |"
             );
-            println!("|-|-|-|-|-|-|");
             for row in &rows {
-                println!(
+                report.line(&format!(
                     "| {} | {:.2} | {:+.2} | {:.2} | {:.1e} | {:.2} |",
                     row.name,
                     100.0 * row.error,
@@ -114,18 +116,18 @@ fn main() {
                     100.0 * row.stated,
                     row.balance,
                     100.0 * row.doubt
-                );
+                ));
             }
-            println!();
+            report.line("");
         }
         for (entry, reason) in results.iter().filter_map(|(e, r)| Some((e, r.as_ref().err()?))) {
-            println!("not measured: {}: {reason}", entry.name);
+            report.line(&format!("not measured: {}: {reason}\n", entry.name));
         }
         summaries.push(summary(name, &rows));
     }
-    println!(
+    report.table(
         "| scenes | number | bounded, % | stated within a factor of 5, % | median of stated over true | smallest | largest true error, % | above 5 %, scenes |"
     );
-    println!("|-|-|-|-|-|-|-|-|");
-    summaries.iter().for_each(|line| println!("{line}"));
+    summaries.iter().for_each(|line| report.line(line));
+    report.finish().expect("the file named can be written");
 }

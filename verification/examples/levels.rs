@@ -1,18 +1,20 @@
-//! Prints what the levels of accuracy reach on ten scenes that none of them was chosen by: the true error of the force
+//! Errors of the levels of accuracy on ten scenes that none of them was chosen by: the true error of the force
 //! and the stated one.
 //!
-//! `cargo run --release -p asperity-verification --example levels -- [ROW …]` (rows counted from 1; all of them unless told).
+//! `cargo run --release -p asperity-verification --example levels -- [ROW …] [--out FILE]` (rows counted from 1; all of them
+//! unless told; a scene takes minutes at reference); the table is `verification/results/levels.md`.
 //! The converged force is the mean of the smoothed curves of `reference` and of a mesh finer by a quarter, so that the
 //! column of `reference` shows half of what the two differ by.
 
-// a program whose output is the point, on scenes of its own
-#![allow(clippy::print_stdout, clippy::expect_used)]
+// on scenes of its own
+#![allow(clippy::expect_used)]
 
 use asperity_solver::run::crush::Outcome;
 use asperity_solver::run::curve::{Curve, Smooth};
 use asperity_solver::run::discretisation::Discretisation;
 use asperity_solver::scene::{Accuracy, Scene};
 use asperity_verification::coverage_scenes::{Entry, others};
+use asperity_verification::report::Report;
 use asperity_verification::single_asperity::crush;
 use rayon::prelude::*;
 
@@ -53,14 +55,18 @@ fn row(entry: &Entry) -> Result<String, String> {
 }
 
 fn main() {
-    let rows: Vec<usize> = std::env::args().skip(1).map(|a| a.parse().expect("a row is a number")).collect();
+    let (mut report, words) = Report::of("levels", "draft, standard and reference");
+    let rows: Vec<usize> = words.iter().map(|a| a.parse().expect("a row is a number")).collect();
     let entries = others().expect("the committed scene reads").into_iter().enumerate();
     let entries: Vec<Entry> =
         entries.filter(|(i, _)| rows.is_empty() || rows.contains(&(i + 1))).map(|(_, entry)| entry).collect();
-    println!("| scene | draft, % | stated | standard, % | stated | reference, % | stated | converged ± % |");
-    println!("|-|-|-|-|-|-|-|-|");
-    // a scene takes minutes at reference: each row is printed when it is known
-    entries.par_iter().with_max_len(1).for_each(|entry| {
-        println!("{}", row(entry).unwrap_or_else(|reason| format!("| {} | {reason} |", entry.name)));
-    });
+    let measured = |entry: &Entry| {
+        row(entry).unwrap_or_else(|reason| format!("| {} | {reason} | | | | | | |", entry.name))
+    };
+    let rows: Vec<String> = entries.par_iter().with_max_len(1).map(measured).collect();
+    report.table(
+        "| scene | draft, % | stated | standard, % | stated | reference, % | stated | converged ± % |",
+    );
+    rows.iter().for_each(|row| report.line(row));
+    report.finish().expect("the file named can be written");
 }

@@ -1,12 +1,12 @@
-//! Crushes scenes drawn at random with the program itself and tells how they ended.
+//! Ends of scenes drawn at random, crushed with the program itself.
 //!
-//! `cargo build --release && cargo run --release -p asperity-verification --example random_scenes -- [COUNT] [SEED]`
+//! `cargo build --release && cargo run --release -p asperity-verification --example random_scenes -- [COUNT] [SEED] [--out FILE]`
 //! (10000 scenes of seed 1 unless told). A scene that ends as it must not, takes long or whose energy
 //! balances poorly, is left in `out/random-scenes` to be run again. A run that was killed goes on from `ends-SEED.tsv` there;
-//! remove that file when the program has changed.
-#![allow(clippy::print_stdout, reason = "the table is the point")]
+//! remove that file when the program has changed. The tables are `verification/results/random-scenes.md`.
 
 use asperity_verification::random_scenes::{Drawn, End, Kind, crush, draw};
+use asperity_verification::report::{Report, timed};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::error::Error;
@@ -14,13 +14,13 @@ use std::fs::{File, OpenOptions};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Longer than the slowest draft scene by far: what is still running then hangs.
 const LIMIT: Duration = Duration::from_secs(600);
 
-/// Scenes that take longer are left as well.
-const SLOW: Duration = Duration::from_secs(10);
+/// Scenes that take longer (s) are left as well.
+const SLOW: f64 = 10.0;
 
 /// How many of the slowest scenes are named.
 const SLOWEST: usize = 10;
@@ -47,7 +47,7 @@ fn line(index: usize, end: &End, seconds: f64) -> Option<String> {
     Some(format!("{index}\t{seconds:.2}\t{word}\t{detail}\n"))
 }
 
-/// What [`line`] wrote; `None` of a line that was cut off.
+/// The inverse of [`line`]; `None` of a line that was cut off.
 fn parse(line: &str) -> Option<(usize, (End, f64))> {
     let mut parts = line.split('\t');
     let (index, seconds) = (parts.next()?.parse().ok()?, parts.next()?.parse().ok()?);
@@ -60,27 +60,25 @@ fn parse(line: &str) -> Option<(usize, (End, f64))> {
     Some((index, (end, seconds)))
 }
 
-fn run(program: &Path, kept: &Path, index: usize, drawn: &Drawn) -> Result<(End, Duration), std::io::Error> {
+fn run(program: &Path, kept: &Path, index: usize, drawn: &Drawn) -> Result<(End, f64), std::io::Error> {
     let place = kept.join(format!("{index:05}"));
     std::fs::create_dir_all(&place)?;
-    let clock = Instant::now();
-    let end = crush(program, drawn, &place, LIMIT);
-    let time = clock.elapsed();
+    let (end, seconds) = timed(|| crush(program, drawn, &place, LIMIT));
     let kept = match &end {
         End::Fault(_) => true,
         End::Done(balance) => *balance > POOR_BALANCE,
         End::Stopped(_) | End::Refused => false,
     };
-    if !kept && time <= SLOW {
+    if !kept && seconds <= SLOW {
         std::fs::remove_dir_all(&place)?;
     }
-    Ok((end, time))
+    Ok((end, seconds))
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let mut args = std::env::args().skip(1);
-    let count: usize = args.next().map_or(Ok(10_000), |a| a.parse())?;
-    let seed: u64 = args.next().map_or(Ok(1), |a| a.parse())?;
+    let (mut report, words) = Report::of("random_scenes", "draft");
+    let count: usize = words.first().map_or(Ok(10_000), |a| a.parse())?;
+    let seed: u64 = words.get(1).map_or(Ok(1), |a| a.parse())?;
     let (program, kept) = (program()?, PathBuf::from("out/random-scenes"));
     let scenes = draw(count, seed)?;
     std::fs::create_dir_all(&kept)?;
@@ -96,8 +94,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             if let Some((end, seconds)) = before.get(&i) {
                 return Ok((i, end.clone(), *seconds));
             }
-            let (end, time) = run(&program, &kept, i, drawn)?;
-            let seconds = time.as_secs_f64();
+            let (end, seconds) = run(&program, &kept, i, drawn)?;
             if let (Some(line), Ok(mut file)) = (line(i, &end, seconds), journal.lock()) {
                 file.write_all(line.as_bytes())?;
             }
@@ -120,24 +117,27 @@ fn main() -> Result<(), Box<dyn Error>> {
             End::Fault(what) => faults.push(format!("scene {i}: {what}")),
         }
     }
-    println!(
+    report.line(&format!(
         "{count} scenes of seed {seed}: {sound} sound, of which {done} reached their depth ({:.1} %); {refused} refused;",
         100.0 * done as f64 / sound.max(1) as f64
-    );
-    println!("{} ended as they must not.\n", faults.len());
-    println!("| stopped because | scenes |\n|-|-|");
-    stopped.iter().for_each(|(reason, scenes)| println!("| {reason} | {scenes} |"));
-    println!("\n| energy balance | scenes |\n|-|-|");
+    ));
+    report.line(&format!("{} ended as they must not.\n", faults.len()));
+    report.table("| stopped because | scenes |");
+    stopped.iter().for_each(|(reason, scenes)| report.line(&format!("| {reason} | {scenes} |")));
+    report.line("");
+    report.table("| energy balance | scenes |");
     let edges = [0.0, 1e-3, 3e-3, 1e-2, 3e-2, 1e-1, f64::INFINITY];
     for pair in edges.windows(2) {
         let within = balances.iter().filter(|b| (pair[0]..pair[1]).contains(b)).count();
-        println!("| {:.0e} to {:.0e} | {within} |", pair[0], pair[1]);
+        report.line(&format!("| {:.0e} to {:.0e} | {within} |", pair[0], pair[1]));
     }
     let total: f64 = ends.iter().map(|(.., seconds)| seconds).sum();
     let mut slowest: Vec<(f64, usize)> = ends.iter().map(|(i, _, seconds)| (*seconds, *i)).collect();
     slowest.sort_by(|a, b| b.0.total_cmp(&a.0));
-    println!("\n{:.2} s a scene in the mean; the slowest:", total / ends.len().max(1) as f64);
-    slowest.iter().take(SLOWEST).for_each(|(seconds, i)| println!("scene {i}: {seconds:.1} s"));
-    faults.iter().for_each(|fault| println!("\n{fault}"));
+    report.line(&format!("\n{:.2} s a scene in the mean; the slowest:\n", total / ends.len().max(1) as f64));
+    report.table("| scene | s |");
+    slowest.iter().take(SLOWEST).for_each(|(seconds, i)| report.line(&format!("| {i} | {seconds:.1} |")));
+    faults.iter().for_each(|fault| report.line(&format!("\n{fault}")));
+    report.finish()?;
     if faults.is_empty() { Ok(()) } else { Err("see the scenes in out/random-scenes".into()) }
 }

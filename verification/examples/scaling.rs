@@ -1,19 +1,20 @@
 //! How one Newton iteration, its memory and a whole loading grow with the number of unknowns, on the single asperity.
 //!
-//! `cargo run --release -p asperity-verification --example scaling` prints the table and the exponents. Each mesh runs in
-//! a process of its own, so that its peak memory is its own.
-#![allow(clippy::print_stdout, reason = "the table is the point")]
+//! `cargo run --release -p asperity-verification --example scaling [-- --out FILE]`; the table is
+//! `verification/results/scaling.md`. Each mesh runs in a process of its own, so that its peak memory is its own.
+#![allow(clippy::print_stdout, reason = "the child tells its parent")]
 
+use asperity_law::least_squares::Line;
 use asperity_solver::algebra::newton::{KEEP, Settings, System};
 use asperity_solver::body::discrete_body::{Body, ToolContact};
 use asperity_solver::run::equilibrium::Equilibrium;
 use asperity_solver::run::load_path::{Goal, Path, schedule};
 use asperity_solver::run::problem::prepare;
 use asperity_solver::scene::Accuracy;
+use asperity_verification::report::{Report, timed};
 use asperity_verification::single_asperity::scene;
 use std::error::Error;
 use std::process::Command;
-use std::time::Instant;
 
 /// Elements across the contact, for 3,000 to 300,000 unknowns and once beyond.
 const ELEMENTS: [usize; 8] = [40, 64, 104, 168, 272, 440, 580, 710];
@@ -40,11 +41,11 @@ fn one(elements: usize) -> Result<(), Box<dyn Error>> {
     let model = Body::new(&problem.mesh, problem.symmetry, problem.metal, |n| problem.held[n], Some(contact))
         .and_then(Equilibrium::new)?;
     let settings = Settings { tolerance: 1e-5, max_iterations: 40, keep: KEEP };
-    let clock = Instant::now();
     let mut path = Path::new(model, settings, false);
     let depth = Goal::Depth(FRACTION);
-    path.load(depth, &schedule(STEPS, 0.02), FRACTION * problem.numbers.penetration, &mut |_, _| true)?;
-    let whole = clock.elapsed().as_secs_f64();
+    let penetration = FRACTION * problem.numbers.penetration;
+    let (end, whole) = timed(|| path.load(depth, &schedule(STEPS, 0.02), penetration, &mut |_, _| true));
+    end?;
     let iterations = path.iterations;
     let model = &mut path.model;
     let before = model.state().displacement.to_vec();
@@ -78,22 +79,18 @@ fn exponent(x: [f64; 2], y: [f64; 2]) -> f64 {
 
 /// Least-squares slope of the logarithm of column `column` over that of the first one.
 fn slope(rows: &[[f64; 3]], column: usize) -> f64 {
-    let mean = |i: usize| rows.iter().map(|row| row[i].ln()).sum::<f64>() / rows.len() as f64;
-    let (x, y) = (mean(0), mean(column));
-    let sum = |f: &dyn Fn(f64, f64) -> f64| -> f64 {
-        rows.iter().map(|row| f(row[0].ln() - x, row[column].ln() - y)).sum()
-    };
-    sum(&|dx, dy| dx * dy) / sum(&|dx, _| dx * dx)
+    let points: Vec<[f64; 2]> = rows.iter().map(|row| [row[0].ln(), row[column].ln()]).collect();
+    Line::through(&points).slope
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
-    if let Some(elements) = std::env::args().nth(1) {
+    let (mut report, words) = Report::of("scaling", "reference, on one core");
+    if let Some(elements) = words.first() {
         return one(elements.parse()?);
     }
-    println!(
-        "| unknowns | operations of factorising | assembly ms | factorise ms | solve ms | iteration ms | exponent | {STEPS} steps s | iterations | memory MB | exponent |"
+    report.table(
+        &format!("| unknowns | operations of factorising | assembly ms | factorise ms | solve ms | iteration ms | exponent | {STEPS} steps s | iterations | memory MB | exponent |"),
     );
-    println!("|-|-|-|-|-|-|-|-|-|-|-|");
     let mut rows: Vec<[f64; 3]> = Vec::new();
     for elements in ELEMENTS {
         let output = Command::new(std::env::current_exe()?).arg(elements.to_string()).output()?;
@@ -109,24 +106,24 @@ fn main() -> Result<(), Box<dyn Error>> {
             Some(last) => [1, 2].map(|i| format!("{:.2}", exponent([last[0], row[0]], [last[i], row[i]]))),
             None => [String::new(), String::new()],
         };
-        println!(
+        report.line(&format!(
             "| {unknowns} | {operations:.2e} | {:.2} | {:.2} | {:.2} | {:.2} | {time} | {whole:.2} | {iterations} | {memory:.0} | {space} |",
             1e3 * assembly,
             1e3 * factor,
             1e3 * solution,
             1e3 * iteration
-        );
+        ));
         rows.push(row);
     }
     for count in [rows.len() - 1, rows.len()] {
         let rows = &rows[..count];
-        println!(
+        report.line(&format!(
             "\nFrom {} to {} unknowns, by least squares: an iteration costs unknowns^{:.2}, memory unknowns^{:.2}.",
             rows[0][0],
             rows[count - 1][0],
             slope(rows, 1),
             slope(rows, 2)
-        );
+        ));
     }
-    Ok(())
+    Ok(report.finish()?)
 }

@@ -1,7 +1,7 @@
 //! Closed forms with their sources, and the bodies on which the solver is held against them.
 //!
-//! The claims are in `tests/`, one a file; what was reached is in `README.md`, in figures that
-//! `examples/convergence.rs` prints. Closed forms: `contact` (elastic), `uniaxial`, `simple_shear`, `thick_wall`,
+//! The claims are in `tests/`, one a file; what was reached is in `results/`, in tables that the programs of `examples/` write
+//! with `report`. Closed forms: `contact` (elastic), `uniaxial`, `simple_shear`, `thick_wall`,
 //! `manufactured`. Other codes: `calibration`. Bodies: `coverage_scenes`, `test_meshes`, `single_asperity`. `single_increment` solves one
 //! increment.
 
@@ -21,3 +21,5 @@ pub mod test_meshes;
 
 pub mod roofline;
 pub mod single_increment;
+
+pub mod report;

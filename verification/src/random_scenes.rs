@@ -11,7 +11,7 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-/// What a scene deserves.
+/// The end that a scene deserves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// Every value is in its range.
@@ -27,11 +27,11 @@ pub enum Kind {
 pub struct Drawn {
     /// TOML.
     pub text: String,
-    /// What is to be expected of it.
+    /// The end to be expected of it.
     pub kind: Kind,
 }
 
-/// What a run came to.
+/// The end of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub enum End {
     /// Exit status 0, with the energy balance of the summary.
@@ -40,7 +40,7 @@ pub enum End {
     Stopped(String),
     /// Exit status 2.
     Refused,
-    /// What must not be, with a description.
+    /// An end that must not be, with a description.
     Fault(String),
 }
 

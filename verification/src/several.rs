@@ -104,7 +104,7 @@ pub fn worst_difference(curve: &[[f64; 2]], reference: &[[f64; 2]]) -> f64 {
 /// difference of the force.
 ///
 /// # Errors
-/// What the solver refused.
+/// The reason why the solver refused.
 pub fn three_over_one(pitch: f64, depth: f64, accuracy: Accuracy) -> Result<f64, Box<dyn std::error::Error>> {
     let member = Member { spacing: pitch - 2.0 * FOOT, ..PAPER };
     let body = |members: &[Member]| {

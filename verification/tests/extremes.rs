@@ -4,7 +4,7 @@
 //!
 //! Sources: Sneddon 1965 (elastic cone, F = (2/π) E* h²/tan β for small slopes), Hertz; sharp cones of another code (the
 //! table of `asperity_verification::calibration::PEERS`); the same scene away from the extreme. Draft accuracy promises
-//! 5 %, which is the bound wherever a force is compared with a value from elsewhere; energy balances to 3 % (draft: 0.8 % on
+//! 5 %, which is the tolerance wherever a force is compared with a value from elsewhere; energy balances to 3 % (draft: 0.8 % on
 //! the committed scene), to 10 % where the steps themselves are the extreme.
 
 // in a test a panic is the message, and the table is the point
@@ -338,7 +338,7 @@ fn flanks_that_meet_stop_the_run() {
 }
 
 #[test]
-fn every_extreme_has_an_answer() {
+fn extreme_scenes_converge_or_stop_with_a_reason() {
     let rows = rows();
     println!("| extreme | ends | measured over expected | bound | energy balance | increments | halvings |");
     println!("|-|-|-|-|-|-|-|");

@@ -1,7 +1,7 @@
 //! Claims of the calibration, one file each.
 
+mod calculix_cones;
+mod coefficient_recovered;
 mod elastic_cone;
-mod law_recovered;
-mod other_lengths;
-mod peers;
+mod independent_of_other_lengths;
 mod steep_indentation;

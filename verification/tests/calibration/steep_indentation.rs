@@ -1,6 +1,7 @@
-//! Steep indentation. K must not depend on the mesh where metal piles up and parts under the apex (n = 0.1, 30°, where a
-//! contact measured over the undeformed surface lost 15 %), and at 19.7° (Vickers' equivalent cone) follows Dao et al.,
-//! Acta Mater. 49 (2001) 3899, Π₁: C/σ_r = -1.131 L³ + 13.635 L² - 30.594 L + 29.267, L = ln(E*/σ_r), σ_r at the
+//! Claim: steep indentation. K must not depend on the mesh where metal piles up and parts under the apex (n = 0.1, 30°, where a
+//! contact measured over the undeformed surface lost 15 %), and at 19.7° (Vickers' equivalent cone) it follows the published Π₁.
+//!
+//! Source: Dao et al., Acta Mater. 49 (2001) 3899, Π₁: C/σ_r = -1.131 L³ + 13.635 L² - 30.594 L + 29.267, L = ln(E*/σ_r), σ_r at the
 //! plastic strain 0.033. Their code takes the stress of the law as Cauchy's, and so does this comparison: at E/σ_y = 100 that
 //! is 1.3 % of K. A scene with such a cone, meshed for its depth and of linear elements, reaches the depth, comes back from
 //! it and gives K too, perfectly plastic metal included, where quadratic elements lose their shape at the axis.
@@ -21,7 +22,7 @@ fn cone(beta_deg: f64, exponent: f64, e_over_sy: f64) -> Case {
 }
 
 #[test]
-fn the_apex_does_not_pierce_the_metal() {
+fn k_of_a_steep_cone_does_not_depend_on_the_mesh() {
     let case = cone(30.0, 0.1, 1000.0 / 3.0);
     let draft = Resolution::of(&case, Accuracy::Draft);
     let coarse = Resolution { elements: 8, at_axis: 1, ..draft };
@@ -30,7 +31,7 @@ fn the_apex_does_not_pierce_the_metal() {
 }
 
 #[test]
-fn the_equivalent_cone_of_vickers_follows_dao() {
+fn vickers_equivalent_cone_follows_dao() {
     for (exponent, e_over_sy) in [(0.1, 250.0), (0.3, 350.0), (0.3, 100.0), (0.5, 250.0)] {
         let case = Case { stress: YieldMeasure::Cauchy, ..cone(19.7, exponent, e_over_sy) };
         let resolution = Resolution::of(&case, Accuracy::Standard);

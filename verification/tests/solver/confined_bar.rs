@@ -1,7 +1,7 @@
 //! Claim: a bar that cannot widen follows τ = (K + 4G/3) ln λ before yield and τ = K ln λ - ⅔σ_y after, to half its
 //! height, in compression, where the volume must shrink by a half.
 //!
-//! Source: `bar::confined_stress`, `bar::confined_flow_stress`. Tolerance 1e-10: the path of the deviator is straight,
+//! Source: `uniaxial::confined_stress`, `uniaxial::confined_flow_stress`. Tolerance 1e-10: the path of the deviator is straight,
 //! so that the return mapping is exact, and only rounding is left.
 
 use asperity_mesh::ElementKind;
@@ -11,7 +11,7 @@ use asperity_verification::test_meshes::distorted_square;
 use asperity_verification::uniaxial::{confined_flow_stress, confined_stress};
 
 #[test]
-fn stress_follows_both_branches() {
+fn confined_stress_follows_both_branches() {
     let metal = hollomon(0.01, 0.0);
     for kind in [ElementKind::Quad4, ElementKind::Quad8] {
         for symmetry in [Symmetry::Axisymmetric, Symmetry::PlaneStrain] {

@@ -13,7 +13,7 @@ use asperity_verification::test_meshes::{distorted_square, nodes_of};
 use asperity_verification::uniaxial::penetration;
 
 #[test]
-fn pressure_is_uniform_and_that_of_the_bar() {
+fn contact_pressure_is_uniform_and_that_of_the_bar() {
     let penalty = 4.0;
     for kind in [ElementKind::Quad4, ElementKind::Quad8] {
         let mesh = distorted_square(kind);

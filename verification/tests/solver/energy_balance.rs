@@ -17,7 +17,7 @@ fn balance_error(exponent: f64, steps: Option<usize>) -> f64 {
 }
 
 #[test]
-fn hardening_metal() {
+fn work_balances_with_hardening() {
     let error = balance_error(0.3, None);
     assert!(error <= 1e-3, "{error:e}");
     let coarse = balance_error(0.3, Some(24));
@@ -25,7 +25,7 @@ fn hardening_metal() {
 }
 
 #[test]
-fn perfectly_plastic_metal() {
+fn work_balances_in_perfect_plasticity() {
     let error = balance_error(0.0, None);
     assert!(error <= 1e-2, "{error:e}");
 }

@@ -2,7 +2,7 @@
 //! grows shakes down (`ten_reloads`). The energy of both balances.
 //!
 //! Source: Bauschinger's effect, and the remark of Jourani et al. that results differ with the hardening mode. What is
-//! held here is the order of the two modes, with factors far from what was measured (`verification/README.md`): force 6 %
+//! held here is the order of the two modes, with tolerances far from what was measured (`verification/README.md`): force 6 %
 //! lower, residual depth 2 % smaller, hysteresis of the tenth reload 15 times larger for half of the hardening. Energy
 //! balance: 1e-2, what draft keeps for isotropic hardening. Metal that flows back far as the tool retreats has a residual
 //! depth that does not depend on the step: 3 % of the depth between draft and standard (2 %
@@ -32,7 +32,7 @@ fn cycled(share: Option<f64>) -> Outcome {
 }
 
 #[test]
-fn a_surface_that_moves_pays_for_every_reload() {
+fn kinematic_hardening_loses_work_in_every_reload() {
     let [grows, moves] = [None, Some(0.5)].map(cycled);
     let hysteresis = |o: &Outcome, k: usize| o.cycles[k].work_in - o.cycles[k].work_out;
     assert!(hysteresis(&moves, 10) > 5.0 * hysteresis(&grows, 10));
@@ -44,7 +44,7 @@ fn a_surface_that_moves_pays_for_every_reload() {
 }
 
 #[test]
-fn metal_that_flows_back_is_followed_to_its_rest() {
+fn residual_depth_after_reverse_yielding_is_free_of_the_step() {
     let residual = |accuracy| {
         let mut scene = scene(accuracy).unwrap();
         scene.material.hardening_mode = HardeningMode::Kinematic;
@@ -61,7 +61,7 @@ fn metal_that_flows_back_is_followed_to_its_rest() {
 /// A share of nothing is the isotropic metal, computed in the other space: what differs is where strains that add differ
 /// from strains that multiply (`kinematic_hardening`), which metal under a plane hardly sees.
 #[test]
-fn a_vanishing_share_is_isotropic() {
+fn vanishing_kinematic_share_is_isotropic_hardening() {
     let run = |share| {
         let mut scene = scene(Accuracy::Draft).unwrap();
         scene.loading.unload = false;

@@ -130,7 +130,7 @@ fn a_superposed_rotation_turns_the_stress_and_nothing_else() {
 
 /// The state that fields, islands and energies read is the stress of the point and its volume.
 #[test]
-fn the_state_shows_the_stress() {
+fn stored_state_is_the_stress_and_volume_of_the_point() {
     let metal = kinematic(hollomon(YIELD, 0.2));
     let (tau, state, memory) = drive(&metal, &[[0.1, 0.4, -0.1, -0.05, 0.02], [-0.05, 0.1, 0.3, 0.1, -0.06]]);
     let shown = stress(&metal.elastic, &state.stretch);

@@ -1,17 +1,16 @@
-//! What is claimed of the solver, one claim a file. One binary, so that the solver is linked once.
+//! Claims of the solver, one a file. One binary, so that the solver is linked once.
 
 // in a test a panic is the message
 #![allow(clippy::unwrap_used)]
 
-mod a_failed_attempt_leaves_no_trace;
-mod a_whole_edge_parts;
 mod confined_bar;
 mod contact_patch;
 mod curved_tool_on_an_asperity;
 mod elastic_flattening;
 mod elastic_indentation;
-mod elimination_grows_like_dissection;
 mod energy_balance;
+mod failed_increment_leaves_no_trace;
+mod fill_ordering_grows_like_dissection;
 mod flattened_sphere;
 mod full_quad;
 mod hysteresis_of_reloads;
@@ -19,7 +18,7 @@ mod kinematic_hardening;
 mod lost_pivot;
 mod newton_order;
 mod patch;
-mod penetration_is_no_depth;
+mod penalty_keeps_the_force;
 mod punch;
 mod reaches_half_height;
 mod refinement;
@@ -29,6 +28,7 @@ mod scaled_units;
 mod several_asperities;
 mod simple_shear;
 mod sound_cells;
+mod steep_cone_unloads;
 mod step_order;
 mod system_tangent;
 mod tabulated_hardening;

@@ -2,7 +2,7 @@
 //! asperity whose plastic set and touching edges rest in the last three iterations.
 //!
 //! Source: p = ln(r₃/r₂)/ln(r₂/r₁) of the last three residuals above 1e-12 of their scale, below which rounding rules.
-//! 1.8 and not 2: the three residuals are not yet infinitesimal.
+//! Tolerance: 1.8 and not 2: the three residuals are not yet infinitesimal.
 
 use asperity_solver::algebra::newton::{Assessment, Settings, System, solve};
 use asperity_solver::body::discrete_body::{Body, ToolContact};
@@ -66,7 +66,7 @@ fn order(seen: &[Iterate]) -> Option<f64> {
 }
 
 #[test]
-fn quadratic_where_the_discrete_sets_rest() {
+fn newton_is_quadratic_where_contact_and_plastic_sets_rest() {
     let scene = scene(Accuracy::Draft).unwrap();
     let problem = prepare(&scene, None).unwrap();
     let contact = ToolContact { tool: problem.tool, penalty: problem.penalty };

@@ -70,12 +70,12 @@ fn comes_to_rest(kind: ElementKind, across: usize) {
 }
 
 #[test]
-fn quad8_with_reduced_integration() {
+fn quad8_comes_to_rest_at_the_limit_pressure() {
     comes_to_rest(ElementKind::Quad8, 9);
 }
 
 #[test]
-fn quad4_with_mean_dilatation() {
+fn quad4_comes_to_rest_at_the_limit_pressure() {
     comes_to_rest(ElementKind::Quad4, 18);
 }
 

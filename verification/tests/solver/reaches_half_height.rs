@@ -34,7 +34,7 @@ fn honest(outcome: &Outcome) {
 }
 
 #[test]
-fn ten_degrees() {
+fn ten_degree_asperity_reaches_half_its_height() {
     let outcome = toward_whole_height(10.0);
     honest(&outcome);
     let reached = outcome.rows.last().unwrap().depth;
@@ -42,7 +42,7 @@ fn ten_degrees() {
 }
 
 #[test]
-fn thirty_degrees() {
+fn thirty_degree_asperity_stops_with_a_reason() {
     let outcome = toward_whole_height(30.0);
     honest(&outcome);
     assert!(outcome.rows.len() > 5);

@@ -3,7 +3,7 @@
 //! while the four-node one keeps its order.
 //!
 //! Source: theory of isoparametric elements (Strang, Fix 1973); D. N. Arnold, D. Boffi, R. S. Falk, Math. Comp. 71
-//! (2002) 909: serendipity elements need affine families. Exact field: `plane_field`, at an amplitude of 1e-9 at which
+//! (2002) 909: serendipity elements need affine families. Exact field: `manufactured`, at an amplitude of 1e-9 at which
 //! the large-strain terms are 1e-9 of the displacement. Tolerance 0.15 of the order: the second term of the expansion.
 
 use asperity_mesh::{ElementKind, Mesh};

@@ -6,7 +6,7 @@ use asperity_solver::scene::Accuracy;
 use asperity_verification::single_asperity::{crush, scene};
 
 #[test]
-fn alone_and_beside_others() {
+fn a_scene_gives_the_same_bits_alone_and_beside_others() {
     let scene = scene(Accuracy::Draft).unwrap();
     let alone = crush(&scene).unwrap();
     let beside: Vec<_> = std::thread::scope(|scope| {

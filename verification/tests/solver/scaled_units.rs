@@ -24,7 +24,7 @@ fn scaled(length: f64, stress: f64) -> Scene {
     scene
 }
 
-/// What of a row has a unit, in the units of the scale.
+/// The quantities of a row that have a unit, in the units of the scale.
 fn dimensionless(row: &CurveRow, length: f64, stress: f64) -> [f64; 9] {
     let (force, energy) = (stress * length * length, stress * length * length * length);
     [

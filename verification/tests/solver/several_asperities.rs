@@ -19,7 +19,7 @@ use asperity_verification::several::{
 use asperity_verification::single_asperity::crush;
 
 #[test]
-fn three_between_symmetric_sides_are_three_times_one() {
+fn three_ridges_between_symmetric_sides_carry_three_times_one() {
     let member = Member { spacing: 30e-6, ..PAPER };
     let curve = |count: usize| {
         let mut scene =
@@ -44,13 +44,13 @@ fn three_between_symmetric_sides_are_three_times_one() {
 }
 
 #[test]
-fn three_at_four_depths_are_three_times_one() {
+fn three_free_ridges_at_four_depths_carry_three_times_one() {
     let difference = three_over_one(800e-6, 200e-6, Accuracy::Draft).unwrap();
     assert!(difference < 0.01, "{difference:e}");
 }
 
 #[test]
-fn untouched_neighbours_do_not_matter() {
+fn untouched_neighbours_do_not_change_the_force() {
     // the same substrate: the ring only fills the valley beside the cone
     let size = Some([20e-3, 20e-3]);
     let curve = |members: &[Member]| {
@@ -117,7 +117,7 @@ fn a_rigid_base_decouples_rings() {
 }
 
 #[test]
-fn twice_the_depth_adds_a_logarithm() {
+fn doubling_the_substrate_depth_adds_a_logarithm() {
     // the load stretches a shallow body sideways, which helps its metal flow: 0.90 of the logarithm at 2 mm, 0.99 at 20
     for (elastic, depth, tolerance) in [(true, 2e-3, 0.01), (false, 20e-3, 0.05)] {
         let scene = |depth: f64| {

@@ -11,7 +11,7 @@ use asperity_verification::single_increment::{ELASTIC, TIGHT, increment, model, 
 use asperity_verification::test_meshes::{boundary, distorted_square};
 
 #[test]
-fn hencky_shear_to_four() {
+fn shear_stress_follows_hencky_to_gamma_four() {
     let g = ELASTIC.elastic.shear_modulus();
     for kind in [ElementKind::Quad4, ElementKind::Quad8] {
         let mesh = distorted_square(kind);

@@ -4,7 +4,7 @@
 //! its Jacobian is positive, which for straight sides the corners decide.
 //!
 //! Scenes drawn at random: slopes to 60°, tips to 0.9 of the height, one to three asperities on the axis or in a row,
-//! both kinds of element. The bound 0.02 of the scaled Jacobian is that of the steepest flanks on the coarsest meshes; an
+//! both kinds of element. Tolerance: 0.02 of the scaled Jacobian is that of the steepest flanks on the coarsest meshes; an
 //! aspect of 1e6 is that of the narrowest gap between two feet that is drawn, a rounded sum would leave 1e15.
 
 use asperity_solver::run::problem::prepare;
@@ -13,7 +13,7 @@ use asperity_verification::random_scenes::{Kind, draw};
 use rayon::prelude::*;
 
 #[test]
-fn of_scenes_drawn_at_random() {
+fn meshes_of_random_scenes_have_convex_cells() {
     let scenes: Vec<_> = draw(2000, 1).unwrap().into_iter().filter(|d| d.kind == Kind::Sound).collect();
     assert!(scenes.len() > 1000);
     scenes.par_iter().for_each(|drawn| {

@@ -91,7 +91,7 @@ fn a_dense_table_gives_the_force_of_its_law() {
 }
 
 #[test]
-fn kinks_cost_newton_nothing() {
+fn kinks_in_the_table_cost_no_iterations() {
     let exact = swift();
     // kinks where most of the metal flows, the slope falling to a tenth in one of them
     let got = crush(&tabulated(&[0.0, 0.002, 0.02, 0.15])).unwrap();

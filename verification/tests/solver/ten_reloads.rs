@@ -36,7 +36,7 @@ fn assert_shaken_down(outcome: &Outcome) {
 }
 
 #[test]
-fn the_asperity_shakes_down() {
+fn isotropic_hardening_shakes_down() {
     let outcome = cycled(|_| {});
     let cycles = &outcome.cycles;
     assert!(cycles.iter().all(|c| (c.peak_depth / cycles[0].peak_depth - 1.0).abs() < 1e-8));
@@ -61,7 +61,7 @@ fn cycled_once() -> Outcome {
 }
 
 #[test]
-fn an_elastic_body_repeats_itself() {
+fn elastic_reloads_repeat_the_first_loading() {
     let outcome = cycled(|s| (s.material.yield_stress, s.material.hardening_exponent) = (None, None));
     let first = outcome.cycles[0];
     for cycle in &outcome.cycles {
@@ -72,7 +72,7 @@ fn an_elastic_body_repeats_itself() {
 }
 
 #[test]
-fn by_force_without_penetration_and_under_a_cone() {
+fn reloads_by_force_with_multipliers_and_under_a_cone_shake_down() {
     let by_force = cycled(|s| (s.loading.depth, s.loading.force) = (None, Some("4 N".parse().unwrap())));
     assert!(by_force.cycles.iter().all(|c| (c.peak_force / 4.0 - 1.0).abs() < 1e-8));
     assert_shaken_down(&by_force);

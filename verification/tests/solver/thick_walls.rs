@@ -136,25 +136,25 @@ fn follows(shape: Shape, kind: ElementKind, poissons_ratio: f64) {
 }
 
 #[test]
-fn cylinder_q8r() {
+fn q8r_cylinder_follows_lame_and_hill() {
     follows(Shape::Cylinder, ElementKind::Quad8, 0.3);
     follows(Shape::Cylinder, ElementKind::Quad8, 0.49);
 }
 
 #[test]
-fn cylinder_q4() {
+fn q4_cylinder_follows_lame_and_hill() {
     follows(Shape::Cylinder, ElementKind::Quad4, 0.3);
     follows(Shape::Cylinder, ElementKind::Quad4, 0.49);
 }
 
 #[test]
-fn sphere_q8r() {
+fn q8r_sphere_follows_lame_and_hill() {
     follows(Shape::Sphere, ElementKind::Quad8, 0.3);
     follows(Shape::Sphere, ElementKind::Quad8, 0.49);
 }
 
 #[test]
-fn sphere_q4() {
+fn q4_sphere_follows_lame_and_hill() {
     follows(Shape::Sphere, ElementKind::Quad4, 0.3);
     follows(Shape::Sphere, ElementKind::Quad4, 0.49);
 }

@@ -1,6 +1,6 @@
 //! Claim: a bar in tension follows eq. [1] of the paper at total logarithmic strains from 0.002 to 1, force included.
 //!
-//! Source: `bar::hollomon_stress` (Kirchhoff's stress: the law is an energy in logarithmic strain). Tolerance 1e-9: the
+//! Source: `uniaxial::hollomon_stress` (Kirchhoff's stress: the law is an energy in logarithmic strain). Tolerance 1e-9: the
 //! path is straight, so that the return mapping is exact for any increment; what is left is the local solve of the law.
 
 use asperity_law::HardeningCurve;
@@ -11,7 +11,7 @@ use asperity_verification::test_meshes::{mapped, nodes_of};
 use asperity_verification::uniaxial::{hollomon_stress, nominal_stress};
 
 #[test]
-fn eq_1_from_0_002_to_1() {
+fn tension_follows_eq_1_from_strain_0_002_to_1() {
     let metal = hollomon(300.0 / 210e3, 0.3);
     let Some(HardeningCurve::Power(hardening)) = metal.hardening else { panic!("a power law") };
     for kind in [ElementKind::Quad4, ElementKind::Quad8] {

@@ -12,7 +12,7 @@ pub struct New {
     /// What to start from
     #[arg(value_enum)]
     pub kind: Start,
-    /// File to write [default: <KIND>.toml]
+    /// File to write [default: KIND.toml]
     pub file: Option<PathBuf>,
     /// Replace the file if it exists
     #[arg(long)]

@@ -1,6 +1,8 @@
-//! Sharp cones crushed by a plane agree with CalculiX 2.20, its load steps extrapolated to zero, within the stated error
+//! Claim: sharp cones crushed by a plane agree with CalculiX 2.20, its load steps extrapolated to zero, within the stated error
 //! of K and CalculiX's own, once the stress of the law is taken as Cauchy's, as CalculiX does; and with the program's own
-//! Kirchhoff stress within a further 1 %, what the difference of the two measures amounts to at E/σ_y = 100. Four of the
+//! Kirchhoff stress within a further 1 %, what the difference of the two measures amounts to at E/σ_y = 100.
+//!
+//! Source: the table of `asperity_verification::calibration::PEERS`. Tolerance: the two stated errors. Four of the
 //! ten here; `--example calibration peers` prints all. The force grows with the depth to the exponent 2, or `solve` fails.
 
 use asperity_calibration::case::{Case, YieldMeasure};

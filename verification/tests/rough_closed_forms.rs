@@ -1,4 +1,8 @@
-//! Rough contact against closed forms: each test is a claim, its source and its tolerance.
+//! Claim: area, force, ellipse and separation of bodies with a closed form are met, and more closely on finer maps.
+//!
+//! Sources: geometry, beside each test (areas and gradients of cone, paraboloid, sinusoid, plane). Tolerance: 1 % at 64 pixels
+//! across, at least three times closer at 256 (the cells are of second order); 1e-9 where the map is a plane, which the
+//! cells hold exactly.
 //!
 //! E* = E/(1-ν²); a closure linear in tan β has p = c E* tan β on the island: c = 0.13 (`published`), 2/π² (`sneddon`).
 

@@ -1,7 +1,8 @@
 //! Claim: an increment that was tried and not accepted changes nothing of what is read from the body afterwards: force of the
 //! contact, its edges and the pressure at its nodes are those of the last converged state, bit for bit.
 //!
-//! No outside source: fields of a run that stopped are drawn from the model after the failed attempt.
+//! Source: none outside; fields of a run that stopped are drawn from the model after the failed attempt. Tolerance: none,
+//! bit for bit.
 
 use asperity_mesh::ElementKind;
 use asperity_solver::algebra::newton::System;
@@ -21,7 +22,7 @@ fn seen(model: &Equilibrium<'_>) -> (f64, Vec<f64>, Vec<[f64; 2]>) {
 }
 
 #[test]
-fn contact_is_that_of_the_last_converged_state() {
+fn contact_is_that_of_the_last_converged_increment() {
     let mesh = distorted_square(ElementKind::Quad8);
     let mut held = vec![[false; 2]; mesh.nodes.len()];
     nodes_of(&mesh, &mesh.sides.base).iter().for_each(|&n| held[n] = [true, true]);

@@ -1,6 +1,9 @@
-//! The collapse finds the ε_r = c tan β that data were made with, through 1 % of noise, and says "not determined" where
-//! the data are elastic and hold none. The made-up curve is that of published cone indentation (ln Y a quartic in
-//! ln X); any smooth one would do. c within 5 %: the half width of its own 95 % interval.
+//! Claim: the collapse finds the ε_r = c tan β that data were made with, through 1 % of noise, and says "not determined" where
+//! the data are elastic and hold none.
+//!
+//! Source: the data are made so; their curve is that of published cone indentation (ln Y a quartic in
+//! ln X); any smooth one would do.
+//! Tolerance of c 5 %: the half width of its own 95 % interval.
 
 use asperity_calibration::case::Case;
 use asperity_calibration::fit::{Data, SplitMix, angles, slope};
@@ -20,7 +23,7 @@ fn rows(k_over_e: impl Fn(&Case) -> f64) -> Vec<Row> {
 }
 
 #[test]
-fn a_known_strain_is_found_and_an_absent_one_is_not() {
+fn known_coefficient_is_found_and_elastic_data_give_none() {
     let c = 0.1;
     let made = rows(|case| {
         let stress = case.hardening().unwrap().representative_stress(c * case.tan_beta());
