@@ -2,7 +2,7 @@
 //! grows shakes down (`ten_reloads`). The energy of both balances.
 //!
 //! Source: Bauschinger's effect, and the remark of Jourani et al. that results differ with the hardening mode. What is
-//! held here is the order of the two modes, with tolerances far from what was measured (`verification/README.md`): force 6 %
+//! held here is the order of the two modes, with tolerances far from what was measured (`verification/results/cycles.md`): force 6 %
 //! lower, residual depth 2 % smaller, hysteresis of the tenth reload 15 times larger for half of the hardening. Energy
 //! balance: 1e-2, what draft keeps for isotropic hardening. Metal that flows back far as the tool retreats has a residual
 //! depth that does not depend on the step: 3 % of the depth between draft and standard (2 %
