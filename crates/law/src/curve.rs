@@ -2,11 +2,12 @@
 
 use crate::hardening::{Flow, Hardening};
 use crate::table::HardeningTable;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 /// What the yield surface does as metal flows.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum HardeningMode {
     /// It grows: flow against the last direction begins at the stress that the last flow reached.
