@@ -1,4 +1,4 @@
-//! Why a function of the library ends without its result.
+//! Errors of the library: wrong input, or work that could not be finished.
 
 use std::fmt;
 use std::ops::Range;

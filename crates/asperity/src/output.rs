@@ -1,9 +1,11 @@
-//! Where results are put: anything that can give a path to each file by its name.
+//! Where results are put, anything that can give a path to each file by its name, and rows as CSV.
 
 use crate::error::Error;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
 use std::fmt::Display;
 use std::fs::File;
-use std::io::{BufWriter, Write};
+use std::io::{BufWriter, Read, Write};
 use std::path::{Path, PathBuf};
 
 /// A place that takes the files of a result, each known by its name.
@@ -67,4 +69,46 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), Error> {
     std::fs::write(&beside, bytes)
         .and_then(|()| std::fs::rename(&beside, path))
         .map_err(|e| Error::disk(path, e))
+}
+
+/// Writes rows as CSV under the names of their fields, each changed by `name`: numbers in the shortest digits that read
+/// back to the same bits, those that are not finite as empty cells. Without rows there is no header.
+///
+/// # Errors
+/// A writer that fails, or rows that are not flat.
+pub fn write_csv<T: Serialize>(
+    out: impl Write,
+    rows: &[T],
+    name: impl Fn(&str) -> String,
+) -> csv::Result<()> {
+    let mut plain = csv::Writer::from_writer(Vec::new());
+    rows.iter().try_for_each(|row| plain.serialize(row))?;
+    let plain = plain.into_inner().map_err(|e| e.into_error())?;
+    let mut records = csv::Reader::from_reader(&plain[..]);
+    let mut out = csv::Writer::from_writer(out);
+    out.write_record(records.headers()?.iter().map(name))?;
+    for record in records.records() {
+        out.write_record(record?.iter().map(cell))?;
+    }
+    Ok(out.flush()?)
+}
+
+/// The text of a value as files have it: `5.0`, `5e-5`, nothing for NaN.
+fn cell(text: &str) -> String {
+    match text.parse::<f64>() {
+        Ok(value) if !value.is_finite() => String::new(),
+        Ok(value) if text.contains(['.', 'e']) => format!("{value:?}"),
+        _ => text.to_string(),
+    }
+}
+
+/// Reads the rows of a CSV file, the names of its columns changed by `name`.
+///
+/// # Errors
+/// A reader that fails, a column that is missing, a cell that is no value of its column.
+pub fn read_csv<T: DeserializeOwned>(input: impl Read, name: impl Fn(&str) -> &str) -> csv::Result<Vec<T>> {
+    let mut reader = csv::Reader::from_reader(input);
+    let names = reader.headers()?.iter().map(name).collect();
+    reader.set_headers(names);
+    reader.deserialize().collect()
 }

@@ -6,10 +6,11 @@ use asperity_solver::run::cone::Cone;
 use asperity_solver::run::discretisation::ConeDiscretisation;
 use asperity_solver::run::problem::Problem;
 use asperity_solver::scene::Accuracy;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Which of the two bodies is the cone.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Tool {
     /// A cone of metal crushed by a rigid plane.
@@ -20,7 +21,7 @@ pub enum Tool {
 
 /// Which stress the hardening law speaks of. A bar in tension does not tell them apart; metal under an indenter, whose volume
 /// shrinks, does: K of a steep cone at E/σ_y = 30 differs by 2 to 3 %.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum YieldMeasure {
     /// Force per reference area turned with the metal, τ = Jσ: the energy is then a potential and the tangent symmetric.

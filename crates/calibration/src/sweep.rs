@@ -4,29 +4,36 @@ use crate::case::{Case, Tool, YieldMeasure, Yielding};
 use asperity_law::HardeningLaw;
 use asperity_law::units::Stress;
 use asperity_solver::scene::Accuracy;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// A sweep as its file says it; what is absent is the paper's grid of 480 cases.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
+#[schemars(title = "A sweep of `asperity calibrate`; what is absent is the default of 480 cases")]
 pub struct Sweep {
-    /// Slopes β of the cones against the plane, degrees.
+    /// Slopes β of the cones against the plane, degrees; at most 30, under a cone 50.
+    #[schemars(length(min = 1), inner(range(min = 0, max = 50)))]
     pub slopes_deg: Vec<f64>,
     /// Young's moduli.
+    #[schemars(length(min = 1))]
     pub youngs_modulus: Vec<Stress>,
     /// Yield stresses.
+    #[schemars(length(min = 1))]
     pub yield_stress: Vec<Stress>,
     /// Hardening exponents n.
+    #[schemars(length(min = 1), inner(range(min = 0, max = 0.9)))]
     pub hardening_exponent: Vec<f64>,
-    /// Hardening law.
+    /// Which strain hardens.
     pub hardening_law: HardeningLaw,
     /// Poisson's ratio.
+    #[schemars(extend("exclusiveMinimum" = -1, "exclusiveMaximum" = 0.5))]
     pub poissons_ratio: f64,
     /// Crush by a plane, or indentation by a cone.
     pub tool: Tool,
     /// Which stress the law speaks of, for comparison with other codes.
     pub stress: YieldMeasure,
-    /// Accuracy of K.
+    /// Error of K: draft 5 %, standard 1 %, reference 0.2 %, or a percentage from 0.2% to 5%.
     pub accuracy: Accuracy,
 }
 

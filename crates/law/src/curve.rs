@@ -2,11 +2,12 @@
 
 use crate::hardening::{Flow, Hardening};
 use crate::table::HardeningTable;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 /// How the yield surface changes with plastic strain.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum HardeningMode {
     /// It grows: reverse yielding begins at the stress that was reached before.

@@ -1,7 +1,8 @@
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Which strain the power law hardens with.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum HardeningLaw {
     /// σ = R εⁿ in the total strain ε = σ/E + ε_p (Jourani et al., eq. (1)), R = Eⁿ σ_y^(1-n).

@@ -1,6 +1,8 @@
 //! Quantities written as strings with units ("210 GPa", "20 um"), kept in SI.
 
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use std::borrow::Cow;
 use std::fmt;
 
 /// Why a quantity could not be read.
@@ -45,6 +47,17 @@ fn parse(text: &str, dimension: &str, units: &[(&str, f64)]) -> Result<f64, Unit
     }
 }
 
+/// The JSON schema of a number with one of `units` in a string, which is what [`parse`] reads.
+pub fn quantity_schema<'u>(units: impl IntoIterator<Item = &'u (&'u str, f64)>) -> Schema {
+    let units: Vec<&str> = units.into_iter().map(|(name, _)| *name).collect();
+    let number = r"[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?";
+    json_schema!({
+        "type": "string",
+        "pattern": format!(r"^\s*{number}\s*({})\s*$", units.join("|")),
+        "examples": [format!("1 {}", units.first().unwrap_or(&""))],
+    })
+}
+
 macro_rules! quantity {
     ($(#[$doc:meta])* $name:ident, $dimension:literal, $si:literal, $units:expr) => {
         $(#[$doc])*
@@ -78,6 +91,18 @@ macro_rules! quantity {
             /// In the SI unit, shortest digits that read back to the same value.
             fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
                 write!(f, "{:?} {}", self.0, $si)
+            }
+        }
+
+        impl JsonSchema for $name {
+            fn inline_schema() -> bool {
+                true
+            }
+            fn schema_name() -> Cow<'static, str> {
+                stringify!($name).into()
+            }
+            fn json_schema(_: &mut SchemaGenerator) -> Schema {
+                quantity_schema(Self::UNITS)
             }
         }
 

@@ -8,6 +8,7 @@ use crate::height_map::{HeightMap, MapError};
 use crate::numbers::Roughness;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 use thiserror::Error;
@@ -245,7 +246,7 @@ fn feed_marks(grid: &Grid, feed: f64) -> Vec<f64> {
 }
 
 /// Kinds by their names in a scene.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum KindName {
     /// Lay along y.

@@ -5,10 +5,11 @@ use crate::ellipse::Ellipse;
 use crate::height_map::HeightMap;
 use crate::islands::Piece;
 use rayon::prelude::*;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// How the pressure of an island falls from its middle to its edge, ρ being the elliptic radius.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Profile {
     /// 3/2 p √(1 - ρ²) (eq. [15]).

@@ -12,7 +12,9 @@ use crate::level::Level;
 use crate::pressure::Profile;
 use asperity_law::units::{Length, Stress};
 use asperity_law::{Elastic, HardeningLaw};
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use std::borrow::Cow;
 use std::path::PathBuf;
 use thiserror::Error;
 
@@ -30,23 +32,24 @@ fn error<T>(path: &str, message: impl Into<String>) -> Result<T, SceneError> {
     Err(SceneError { path: path.into(), message: message.into() })
 }
 
-/// A rough surface under a rigid plane.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+/// A rough surface under a rigid plane: what `asperity rough` reads.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(title = "A scene of `asperity rough`")]
 pub struct Scene {
-    /// Which closure, or all.
+    /// The law of an asperity, or all of them.
     pub closure: Choice,
-    /// Result of a calibration, for "fitted" and "calibrated".
+    /// Result of a calibration, for "fitted" and "calibrated"; absent: the one that comes with the program.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub coefficient: Option<PathBuf>,
     /// How the pressure of an island is spread.
     #[serde(default = "hertz")]
     pub pressure_profile: Profile,
-    /// The surface.
+    /// The surface: either `file` or `generate`.
     pub surface: SurfaceScene,
-    /// Its metal.
+    /// Its material.
     pub material: Material,
-    /// What presses on it.
+    /// What presses on it: exactly one of `pressure` and `separation`.
     pub load: LoadScene,
     /// What is written.
     #[serde(default)]
@@ -58,7 +61,7 @@ fn hertz() -> Profile {
 }
 
 /// One closure or all.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Choice {
     /// Eqs [10]-[12].
@@ -90,7 +93,7 @@ impl Choice {
 }
 
 /// What is done with missing points.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Missing {
     /// Cells with a missing corner are left out.
@@ -105,6 +108,19 @@ pub enum Missing {
 pub struct HeightUnit {
     name: String,
     metres: f64,
+}
+
+impl JsonSchema for HeightUnit {
+    fn inline_schema() -> bool {
+        true
+    }
+    fn schema_name() -> Cow<'static, str> {
+        "HeightUnit".into()
+    }
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        let units: Vec<&str> = Length::UNITS.iter().map(|(unit, _)| *unit).collect();
+        json_schema!({"enum": units})
+    }
 }
 
 impl Serialize for HeightUnit {
@@ -128,7 +144,7 @@ impl<'de> Deserialize<'de> for HeightUnit {
 }
 
 /// Where the surface comes from and what is done to it before the contact.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SurfaceScene {
     /// A file, relative to the scene.
@@ -153,9 +169,11 @@ pub struct SurfaceScene {
     #[serde(default)]
     pub missing: Missing,
     /// Cut-off of the Gaussian S-filter (removes what is shorter).
+    #[schemars(example = "5 um")]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub s_filter: Option<Length>,
     /// Cut-off of the Gaussian L-filter (removes what is longer).
+    #[schemars(example = "0.8 mm")]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub l_filter: Option<Length>,
     /// Whether the map is one period of an endless surface.
@@ -164,20 +182,25 @@ pub struct SurfaceScene {
 }
 
 /// The metal of the rough body.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Material {
     /// Young's modulus E.
+    #[schemars(example = "210 GPa")]
     pub youngs_modulus: Stress,
     /// Poisson's ratio ν.
+    #[schemars(extend("exclusiveMinimum" = -1, "exclusiveMaximum" = 0.5))]
     pub poissons_ratio: f64,
     /// Hardness H.
+    #[schemars(example = "1280 MPa")]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hardness: Option<Stress>,
     /// Yield stress σ_y.
+    #[schemars(example = "300 MPa")]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub yield_stress: Option<Stress>,
     /// Hardening exponent n.
+    #[schemars(extend("minimum" = 0, "exclusiveMaximum" = 1))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hardening_exponent: Option<f64>,
     /// Hardening law, by default that of the calibration.
@@ -186,13 +209,15 @@ pub struct Material {
 }
 
 /// What presses: exactly one of the two.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LoadScene {
     /// Nominal pressure.
+    #[schemars(example = "200 MPa")]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pressure: Option<Stress>,
-    /// Separation from the mean plane.
+    /// Separation from the mean plane, instead of `pressure`.
+    #[schemars(example = "1 um")]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub separation: Option<Length>,
     /// Whether the load is taken off again.
@@ -201,7 +226,7 @@ pub struct LoadScene {
 }
 
 /// What is written.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Output {
     /// Pictures and .vti of pressure and contact.
@@ -213,7 +238,7 @@ pub struct Output {
 }
 
 /// Formats in which a surface is written; both in metres.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum SurfaceFormat {
     /// ISO 25178-72.

@@ -1,15 +1,18 @@
-//! A scene as a complete input of CalculiX (and Abaqus): body, metal, tool, contact, and a step for every point of the
+//! A scene as a complete input of CalculiX (and Abaqus): body, material, tool, contact, and a step for every point of the
 //! curve.
 
 mod outline;
 mod table;
 mod write;
 
+use crate::error::Error;
+use crate::input::scene::Scene;
+use crate::mesh::problem;
 use asperity_mesh::{Edge, Mesh, Section};
 use asperity_solver::point::kinematics::Symmetry;
 use asperity_solver::run::problem::Problem;
 use asperity_solver::run::schedule::{UNLOADING_EXPONENT, unloading};
-use asperity_solver::scene::{Scene, SceneError, Target};
+use asperity_solver::scene::{Scene as Tables, SceneError, Target};
 use table::PlasticTable;
 
 /// SI value of the deck's unit of length, 1 µm: nodes are numbers near 1, which the tolerances of such codes expect.
@@ -57,11 +60,17 @@ pub struct Deck {
 }
 
 impl Deck {
-    /// The deck of `problem`, which was prepared from `scene`.
+    /// The deck of `scene`, called `name` in its heading.
     ///
     /// # Errors
-    /// A scene that such a deck cannot express.
-    pub fn new(name: &str, scene: &Scene, problem: &Problem) -> Result<Deck, SceneError> {
+    /// A scene that such a deck cannot express, pointing at its line.
+    pub fn new(name: &str, scene: &Scene) -> Result<Deck, Error> {
+        let problem = problem(scene)?;
+        Deck::of(name, scene.tables(), &problem).map_err(|e| scene.error(&e).into())
+    }
+
+    /// The deck of `problem`, which was prepared from `scene`.
+    fn of(name: &str, scene: &Tables, problem: &Problem) -> Result<Deck, SceneError> {
         if let Target::Force(_) = scene.loading.target()? {
             return Err(SceneError {
                 path: "loading.force".into(),
@@ -107,8 +116,8 @@ impl Deck {
     }
 }
 
-/// What of a metal and its loading a deck cannot say.
-fn check(scene: &Scene) -> Result<(), SceneError> {
+/// Refuses materials and loadings that a deck cannot express.
+fn check(scene: &Tables) -> Result<(), SceneError> {
     let material = &scene.material;
     let points = material.hardening_table.as_ref().map_or(0, Vec::len);
     let refusals = [
@@ -191,7 +200,7 @@ fn scaled(mut mesh: Mesh, factor: f64) -> Mesh {
 
 /// Travels of the tool, loading and unloading, in the unit of `problem`: the depths of the scene's own schedule and
 /// the penetration to be expected.
-fn travels(scene: &Scene, problem: &Problem) -> (Vec<f64>, Vec<f64>) {
+fn travels(scene: &Tables, problem: &Problem) -> (Vec<f64>, Vec<f64>) {
     let penetration = problem.numbers.penetration;
     let load = problem.numbers.schedule().into_iter().map(|depth| depth + penetration).collect();
     if !scene.loading.unload {

@@ -16,7 +16,7 @@ pub struct PlasticTable {
     pub error: f64,
 }
 
-/// The curve of a metal as a table, stresses in units of `unit` Pa: a table as it is, a power law sampled.
+/// A hardening curve as a table, stresses in units of `unit` Pa: a table as it is, a power law sampled.
 pub fn curve_table(curve: &HardeningCurve, unit: f64) -> PlasticTable {
     match curve {
         HardeningCurve::Power(law) => plastic_table(law, unit),

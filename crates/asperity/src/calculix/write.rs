@@ -28,7 +28,7 @@ impl Deck {
         Ok(())
     }
 
-    /// What the deck is, and how to read its results.
+    /// The title, and how to read the results.
     fn heading(&self, out: &mut impl Write) -> io::Result<()> {
         let version = env!("CARGO_PKG_VERSION");
         writeln!(out, "*HEADING\n{}: crush by a rigid tool, written by asperity {version}", self.name)?;

@@ -1,7 +1,7 @@
 //! `asperity calibrate`: the sweep of crushed cones, the representative strain, and the coefficient for `rough`.
 
 pub use crate::calibrate::results::Calibration;
-use crate::cli::args::{RunFlags, SceneFlags};
+use crate::cli::flags::{RunFlags, SceneFlags};
 use crate::cli::folder::{Folder, journal_beside};
 use crate::cli::progress::Progress;
 use crate::cli::terminal;

@@ -55,7 +55,7 @@ fn own_files(folder: &Path, command: &str, force: bool) -> Result<Vec<String>, I
                 format!("and an earlier run of `asperity {maker}`")
             };
             return Err(InputError::new(format!("{name} holds {file}, {whose}: nothing was written")).help(
-                "give another folder with --out, or --force to write there: other files stay, but for those named like a result",
+                "give another folder with --out, or --force to write there: files of the same name are overwritten, others stay",
             ));
         }
     }

@@ -1,8 +1,7 @@
-//! `asperity completions` and `asperity man`: what shells and readers of manuals need, made from the arguments.
+//! `asperity completions` and `asperity man`: completions for shells and pages of the manual, made from the arguments.
 
-use crate::cli::args::Cli;
 use crate::error::{Error, InputError};
-use clap::{Args, CommandFactory};
+use clap::{Args, Command};
 use clap_complete::Shell;
 use std::io::Write;
 
@@ -21,25 +20,24 @@ pub struct ManPage {
     pub command: Option<String>,
 }
 
-/// Prints the completions.
-pub fn completions(args: &Completions) {
+/// Prints the completions of the command line `cli`.
+pub fn completions(args: &Completions, mut cli: Command) {
     let mut text = Vec::new();
-    clap_complete::generate(args.shell, &mut Cli::command(), "asperity", &mut text);
+    clap_complete::generate(args.shell, &mut cli, "asperity", &mut text);
     print(&text);
 }
 
-/// Prints a page of the manual.
+/// Prints a page of the manual of the command line `cli`.
 ///
 /// # Errors
 /// A command that there is not.
-pub fn man(args: &ManPage) -> Result<(), Error> {
-    let mut command = Cli::command();
-    command.build();
+pub fn man(args: &ManPage, mut cli: Command) -> Result<(), Error> {
+    cli.build();
     let command = match &args.command {
-        None => command,
+        None => cli,
         Some(name) => {
-            let known: Vec<&str> = command.get_subcommands().map(clap::Command::get_name).collect();
-            let found = command.find_subcommand(name);
+            let known: Vec<&str> = cli.get_subcommands().map(Command::get_name).collect();
+            let found = cli.find_subcommand(name);
             found.cloned().ok_or_else(|| {
                 InputError::new(format!("asperity has no command `{name}`"))
                     .help(format!("known here: {}", known.join(", ")))

@@ -1,27 +1,53 @@
 //! `asperity mesh`: the mesh of a scene with its sizes and quality, as a file.
 
 use crate::calculix::Deck;
-use crate::cli::args::{MeshCommand, MeshFormat};
+use crate::cli::flags::SceneFlags;
 use crate::cli::terminal;
-use crate::crush::MICROMETRE;
 use crate::error::{Error, InputError};
-use crate::input::scene_file;
+use crate::input::scene::Scene;
+use crate::output::write_whole;
+use crate::units::MICROMETRE;
 use asperity_mesh::{Mesh, Quality, write_msh, write_vtu};
-use asperity_solver::run::depth_for_force::target_depth;
-use asperity_solver::run::prepare::prepare;
-use std::io::Write;
+use clap::{Args, ValueEnum};
+use std::fmt::Display;
 use std::path::{Path, PathBuf};
+
+/// Arguments of `asperity mesh`.
+#[derive(Debug, Args)]
+pub struct MeshCommand {
+    /// Scene file (TOML)
+    pub scene: PathBuf,
+    /// File to write: .vtu (ParaView), .msh (Gmsh 4.1) or .inp (CalculiX, Abaqus) [default with --format: <scene name>.<format>]
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+    /// Format, where the extension of the file does not say
+    #[arg(long, value_enum)]
+    pub format: Option<MeshFormat>,
+    #[command(flatten)]
+    pub scene_flags: SceneFlags,
+    /// Print nothing but errors
+    #[arg(long)]
+    pub quiet: bool,
+}
+
+/// Formats of `asperity mesh`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum MeshFormat {
+    /// The mesh for ParaView
+    Vtu,
+    /// The mesh for Gmsh 4.1; a scene can read it
+    Msh,
+    /// The whole scene for CalculiX and Abaqus: mesh, material, tool, contact, steps, output
+    Inp,
+}
 
 /// The format that the extension of the file names.
 fn format_of(path: &Path) -> Result<MeshFormat, InputError> {
     let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
-    match extension.as_str() {
-        "vtu" => Ok(MeshFormat::Vtu),
-        "msh" => Ok(MeshFormat::Msh),
-        "inp" => Ok(MeshFormat::Inp),
-        _ => Err(InputError::new(format!("{}: the extension does not name a mesh format", path.display()))
-            .help("write .vtu (ParaView), .msh (Gmsh 4.1) or .inp (CalculiX, Abaqus), or give --format")),
-    }
+    MeshFormat::from_str(&extension, true).map_err(|_| {
+        InputError::new(format!("{}: the extension does not name a mesh format", path.display()))
+            .help("write .vtu (ParaView), .msh (Gmsh 4.1) or .inp (CalculiX, Abaqus), or give --format")
+    })
 }
 
 /// Where to write what: `--format` wins over the extension, and alone writes a file with the scene's name.
@@ -29,15 +55,15 @@ fn target(args: &MeshCommand) -> Result<(PathBuf, MeshFormat), InputError> {
     match (&args.output, args.format) {
         (Some(path), Some(format)) => Ok((path.clone(), format)),
         (Some(path), None) => Ok((path.clone(), format_of(path)?)),
-        (None, Some(format)) => Ok((format!("{}.{}", scene_name(args), format.extension()).into(), format)),
+        (None, Some(format)) => {
+            let name = args.scene.file_stem().unwrap_or("scene".as_ref());
+            let value = format.to_possible_value();
+            let extension = value.as_ref().map_or("", |value| value.get_name());
+            Ok((Path::new(name).with_extension(extension), format))
+        }
         (None, None) => Err(InputError::new("no file to write")
             .help("name it with -o, for example -o body.msh, or give --format vtu, msh or inp")),
     }
-}
-
-/// The file name of the scene without its extension.
-fn scene_name(args: &MeshCommand) -> String {
-    args.scene.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_else(|| "scene".into())
 }
 
 /// Runs the command.
@@ -46,25 +72,11 @@ fn scene_name(args: &MeshCommand) -> String {
 /// A scene or a file name that is wrong; a disk that refuses.
 pub fn mesh(args: &MeshCommand) -> Result<(), Error> {
     let (path, format) = target(args)?;
-    let file = scene_file::read(&args.scene, &args.scene_flags)?;
-    let given = scene_file::read_mesh(&file)?;
-    let depth = target_depth(&file.value, given.as_ref());
-    let problem = depth
-        .and_then(|depth| prepare(&file.value, given, depth))
-        .map_err(|e| scene_file::point_at(&file, &e))?;
-    let content = match format {
-        MeshFormat::Inp => {
-            let deck = Deck::new(&scene_name(args), &file.value, &problem);
-            Content::Deck(Box::new(deck.map_err(|e| scene_file::point_at(&file, &e))?))
-        }
-        MeshFormat::Vtu => Content::Vtu,
-        MeshFormat::Msh => Content::Msh,
-    };
-    let mut mesh = problem.mesh;
-    for node in &mut mesh.nodes {
-        *node = node.map(|x| x * problem.units.length);
-    }
-    write_file(&path, &mesh, &content)?;
+    let scene = args.scene_flags.read(&args.scene)?;
+    let mesh = crate::mesh::mesh(&scene)?;
+    let bytes = content(&scene, &mesh, format)?;
+    write_whole(&path, &bytes)
+        .map_err(|e| InputError::new(e.to_string()).help("give another file with -o"))?;
     if !args.quiet {
         terminal::say(&overview(&mesh));
         terminal::say(&format!("written    {}", path.display()));
@@ -72,33 +84,18 @@ pub fn mesh(args: &MeshCommand) -> Result<(), Error> {
     Ok(())
 }
 
-/// What goes into the file.
-enum Content {
-    /// The mesh for ParaView, in µm.
-    Vtu,
-    /// The mesh for Gmsh, in m.
-    Msh,
-    /// The whole scene for CalculiX.
-    Deck(Box<Deck>),
-}
-
-/// Writes beside the file and renames, so that it is whole or as it was.
-fn write_file(path: &Path, mesh: &Mesh, content: &Content) -> Result<(), Error> {
-    let error = |e: &dyn std::fmt::Display| {
-        InputError::new(format!("cannot write {}: {e}", path.display())).help("give another file with -o")
-    };
-    let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let mut file = tempfile::NamedTempFile::new_in(folder).map_err(|e| error(&e))?;
-    let mut out = std::io::BufWriter::new(file.as_file_mut());
-    match content {
-        Content::Vtu => write_vtu(&mut out, mesh, 1.0 / MICROMETRE, &[], &[]).map_err(|e| error(&e))?,
-        Content::Msh => write_msh(&mut out, mesh).map_err(|e| error(&e))?,
-        Content::Deck(deck) => deck.write(&mut out).map_err(|e| error(&e))?,
+/// The content of the file: the mesh for ParaView in µm, for Gmsh in m, or the whole scene for CalculiX.
+fn content(scene: &Scene, mesh: &Mesh, format: MeshFormat) -> Result<Vec<u8>, Error> {
+    fn failed(e: impl Display) -> Error {
+        Error::Unfinished(format!("the mesh cannot be written: {e}"))
     }
-    out.flush().map_err(|e| error(&e))?;
-    drop(out);
-    file.persist(path).map_err(|e| error(&e))?;
-    Ok(())
+    let mut out = Vec::new();
+    match format {
+        MeshFormat::Vtu => write_vtu(&mut out, mesh, 1.0 / MICROMETRE, &[], &[]).map_err(failed)?,
+        MeshFormat::Msh => write_msh(&mut out, mesh).map_err(failed)?,
+        MeshFormat::Inp => Deck::new(&scene.name(), scene)?.write(&mut out).map_err(failed)?,
+    }
+    Ok(out)
 }
 
 /// Sizes and quality, a line each.

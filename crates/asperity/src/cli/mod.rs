@@ -4,7 +4,9 @@ pub mod args;
 pub mod calibrate;
 pub mod crush;
 pub mod failure;
+pub mod flags;
 pub mod folder;
+pub mod interrupt;
 pub mod manual;
 pub mod mesh;
 pub mod new;
@@ -16,7 +18,7 @@ pub mod terminal;
 pub mod trade;
 
 use args::{Cli, Command};
-use clap::Parser;
+use clap::{CommandFactory, Parser};
 use std::process::ExitCode;
 
 /// Reads the arguments, runs the command, gives its exit status.
@@ -38,15 +40,12 @@ pub fn main() -> ExitCode {
         Command::Trade(args) => trade::trade(args),
         Command::Reproduce(args) => reproduce::reproduce(args),
         Command::New(args) => new::new(args),
-        Command::Schema(args) => {
-            schema::schema(args);
-            Ok(())
-        }
+        Command::Schema(args) => schema::schema(args),
         Command::Completions(args) => {
-            manual::completions(args);
+            manual::completions(args, Cli::command());
             Ok(())
         }
-        Command::Man(args) => manual::man(args),
+        Command::Man(args) => manual::man(args, Cli::command()),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

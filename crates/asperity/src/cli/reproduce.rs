@@ -4,7 +4,7 @@
 //! (`part`); the report reads those folders (`evidence`), judges the paper's claims (`claims`) and shows its figures
 //! (`figures`, `report`).
 
-use crate::cli::args::{RunFlags, parse_accuracy};
+use crate::cli::flags::{RunFlags, parse_accuracy};
 use crate::cli::progress::Lines;
 use crate::cli::terminal;
 use crate::error::{Error, InputError};

@@ -1,6 +1,6 @@
 //! `asperity rough`: the contact of a rough surface with a rigid plane.
 
-use crate::cli::args::RunFlags;
+use crate::cli::flags::RunFlags;
 use crate::cli::folder::Folder;
 use crate::cli::terminal;
 use crate::error::{Error, InputError};

@@ -1,9 +1,14 @@
 //! `asperity schema`: what a file may hold, as a JSON schema that editors complete and check with.
 //!
-//! The schemas are kept by hand, for their words; a test holds their keys against the types that read the files.
+//! The schemas are made from the types that read the files; the descriptions of the keys are their docstrings.
 
 use crate::cli::terminal;
+use crate::error::Error;
 use clap::{Args, ValueEnum};
+use schemars::generate::SchemaSettings;
+use schemars::transform::RecursiveTransform;
+use schemars::{JsonSchema, Schema};
+use serde_json::Value;
 
 /// Arguments of `asperity schema`.
 #[derive(Debug, Args)]
@@ -25,91 +30,105 @@ pub enum SchemaKind {
 }
 
 /// Prints the schema.
-pub fn schema(args: &SchemaCommand) {
-    terminal::say(text(args.kind).trim_end());
+///
+/// # Errors
+/// None that is known: a schema is always JSON.
+pub fn schema(args: &SchemaCommand) -> Result<(), Error> {
+    let text = serde_json::to_string_pretty(&of_kind(args.kind));
+    terminal::say(&text.map_err(|e| Error::Unfinished(e.to_string()))?);
+    Ok(())
 }
 
-fn text(kind: SchemaKind) -> &'static str {
+fn of_kind(kind: SchemaKind) -> Schema {
     match kind {
-        SchemaKind::Scene => include_str!("schema/scene.json"),
-        SchemaKind::Rough => include_str!("schema/rough.json"),
-        SchemaKind::Sweep => include_str!("schema/sweep.json"),
+        SchemaKind::Scene => of_type::<asperity_solver::scene::Scene>(),
+        SchemaKind::Rough => of_type::<asperity_roughness::scene::Scene>(),
+        SchemaKind::Sweep => of_type::<asperity_calibration::sweep::Sweep>(),
+    }
+}
+
+/// The schema of a file that holds a `T`, each table where it stands: editors follow references less well.
+fn of_type<T: JsonSchema>() -> Schema {
+    SchemaSettings::draft2020_12()
+        .with(|settings| settings.inline_subschemas = true)
+        .with_transform(RecursiveTransform(without_null))
+        .into_generator()
+        .into_root_schema_for::<T>()
+}
+
+/// TOML has no null: a key without a value is left out.
+fn without_null(schema: &mut Schema) {
+    if let Some(Value::Array(types)) = schema.get_mut("type") {
+        types.retain(|name| name != "null");
+        if let [only] = &types[..] {
+            let only = only.clone();
+            schema.insert("type".into(), only);
+        }
+    }
+    if let Some(Value::Array(choices)) = schema.get_mut("enum") {
+        choices.retain(|choice| !choice.is_null());
+    }
+    let Some(Value::Array(forms)) = schema.get_mut("anyOf") else { return };
+    forms.retain(|form| form["type"] != "null");
+    if let [Value::Object(only)] = &mut forms[..] {
+        let only = std::mem::take(only);
+        schema.remove("anyOf");
+        for (key, value) in only {
+            // what the key says of itself goes before what its type says
+            if schema.get(&key).is_none() {
+                schema.insert(key, value);
+            }
+        }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::error::Error;
-    use crate::input::toml_file::TomlFile;
-    use serde::de::DeserializeOwned;
-    use serde_json::Value;
-    use std::collections::BTreeSet;
-    use std::path::Path;
 
-    /// The keys that the type behind `toml` knows in the table at `path`, by what it says of a foreign one.
-    fn known<T: DeserializeOwned + std::fmt::Debug>(toml: &str, path: &str) -> BTreeSet<String> {
-        let key = if path.is_empty() { "zzz=1".to_string() } else { format!("{path}.zzz=1") };
-        let error = TomlFile::<T>::parse(Path::new("scene"), toml.into(), &[key]).unwrap_err();
-        let report = crate::cli::failure::report(error.into());
-        let list = report.to_lowercase();
-        let list = list.split("known here: ").nth(1).unwrap_or_else(|| panic!("{path}: {report}"));
-        list.split([',', '\n']).map(|key| key.trim().to_string()).filter(|key| !key.is_empty()).collect()
-    }
-
-    /// The tables of a schema and the path that leads to each.
-    fn tables(schema: &Value, path: &str, found: &mut Vec<(String, BTreeSet<String>)>) {
+    /// The tables of a schema by the path that leads to each.
+    fn tables<'s>(schema: &'s Value, path: &str, found: &mut Vec<(String, &'s Value)>) {
         let Some(properties) = schema["properties"].as_object() else { return };
-        found.push((path.to_string(), properties.keys().cloned().collect()));
+        found.push((path.to_string(), schema));
         for (key, value) in properties {
-            let inner = if path.is_empty() { key.clone() } else { format!("{path}.{key}") };
-            tables(value, &inner, found);
-            tables(&value["items"], &format!("{inner}[0]"), found);
-        }
-    }
-
-    fn agrees<T: DeserializeOwned + std::fmt::Debug>(kind: SchemaKind, toml: &str) {
-        let schema: Value = serde_json::from_str(text(kind)).unwrap();
-        let mut found = Vec::new();
-        tables(&schema, "", &mut found);
-        for (path, keys) in found {
-            assert_eq!(known::<T>(toml, &path), keys, "{path}");
+            tables(value, &format!("{path}.{key}"), found);
+            tables(&value["items"], &format!("{path}.{key}[]"), found);
         }
     }
 
     #[test]
-    fn the_keys_are_those_of_the_types() {
-        agrees::<asperity_solver::scene::Scene>(
-            SchemaKind::Scene,
-            include_str!("../../scenes/single-asperity.toml"),
-        );
-        agrees::<asperity_roughness::scene::Scene>(
-            SchemaKind::Rough,
-            include_str!("../../scenes/rough-milled.toml"),
-        );
-        agrees::<asperity_calibration::sweep::Sweep>(SchemaKind::Sweep, "poissons_ratio = 0.3\n");
-    }
-
-    /// A word that the schema allows is one that the program reads.
-    #[test]
-    fn every_choice_is_read() {
-        let scene = include_str!("../../scenes/single-asperity.toml");
-        for (kind, keys) in [(SchemaKind::Scene, ["symmetry", "accuracy", "lateral"])] {
-            let schema: Value = serde_json::from_str(text(kind)).unwrap();
-            for key in keys {
-                let property = &schema["properties"][key];
-                // a level by name stands beside a percentage
-                let words = property["enum"].as_array().or(property["anyOf"][0]["enum"].as_array());
-                for word in words.unwrap() {
-                    let change = format!("{key}={}", word.as_str().unwrap());
-                    let read = TomlFile::<asperity_solver::scene::Scene>::parse(
-                        Path::new("scene"),
-                        scene.into(),
-                        &[change],
-                    );
-                    assert!(read.is_ok(), "{key} {word}");
+    fn every_table_is_there_closed_and_every_key_described() {
+        for (kind, count) in [(SchemaKind::Scene, 9), (SchemaKind::Rough, 6), (SchemaKind::Sweep, 1)] {
+            let schema = of_kind(kind).to_value();
+            let text = schema.to_string();
+            assert!(!text.contains("null") && !text.contains("$ref"), "{schema:#}");
+            let mut found = Vec::new();
+            tables(&schema, "", &mut found);
+            assert_eq!(found.len(), count, "{kind:?}");
+            for (path, table) in found {
+                assert_eq!(table["additionalProperties"], false, "{path}");
+                for (key, value) in table["properties"].as_object().unwrap() {
+                    assert!(value["description"].as_str().is_some_and(|d| d.len() > 5), "{path}.{key}");
                 }
             }
         }
+    }
+
+    #[test]
+    fn quantities_are_strings_with_a_unit_and_choices_are_words() {
+        let scene = of_kind(SchemaKind::Scene).to_value();
+        let modulus = &scene["properties"]["material"]["properties"]["youngs_modulus"];
+        assert_eq!((modulus["type"].as_str(), &modulus["examples"][0]), (Some("string"), &"210 GPa".into()));
+        assert!(modulus["pattern"].as_str().unwrap().contains("MPa|GPa"), "{modulus}");
+        let force = &scene["properties"]["loading"]["properties"]["force"];
+        assert!(force["pattern"].as_str().unwrap().contains("N/mm"), "{force}");
+        let words: Vec<&str> = scene["properties"]["symmetry"]["oneOf"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(|choice| choice["const"].as_str().unwrap())
+            .collect();
+        assert_eq!(words, ["axisymmetric", "plane-strain"]);
+        assert_eq!(scene["required"], serde_json::json!(["symmetry", "material", "tool", "loading"]));
     }
 }

@@ -1,21 +1,19 @@
 //! `asperity trade`: what accuracy costs, measured on a scene.
 
-use crate::cli::args::{RunFlags, SceneFlags};
+use crate::cli::flags::{RunFlags, SceneFlags};
 use crate::cli::folder::{Folder, journal_beside};
 use crate::cli::progress::Progress;
 use crate::cli::terminal;
 use crate::error::{Error, InputError};
-use crate::input::scene_file;
-use crate::input::toml_file::TomlFile;
+use crate::input::scene::Scene;
 use crate::output::SinkExt;
 use crate::trade::case::{Finished, Measured};
 use crate::trade::errors::Converged;
 use crate::trade::settings::{Knob, Setting};
 use asperity_calibration::journal::{Journal, fingerprint};
-use asperity_solver::scene::Scene;
+use asperity_solver::scene::{Scene as Tables, SceneError};
 use clap::Args;
 use rayon::prelude::*;
-use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
@@ -47,10 +45,11 @@ pub fn trade(args: &Trade) -> Result<(), Error> {
     if args.case {
         return crate::trade::case::answer();
     }
-    let (file, name) = read_scene(args)?;
-    let scene = &file.value;
+    let (read, name) = read_scene(args)?;
+    let scene = read.tables();
     if scene.mesh.is_some() {
-        return Err(file.error_at("mesh", "a trade varies the mesh: leave [mesh] out").into());
+        let message = "a trade varies the mesh: leave [mesh] out".into();
+        return Err(read.error(&SceneError { path: "mesh".into(), message }).into());
     }
     let target = args.run.out.clone().unwrap_or_else(|| Path::new("out").join(name));
     let mut folder = Folder::create(&target, "trade", args.run.force)?;
@@ -77,20 +76,27 @@ pub fn trade(args: &Trade) -> Result<(), Error> {
 }
 
 /// The scene and the name of its results.
-fn read_scene(args: &Trade) -> Result<(TomlFile<Scene>, String), Error> {
-    if let Some(path) = &args.scene {
-        let file = scene_file::read(path, &args.scene_flags)?;
-        let name = format!("trade-{}", file.stem());
-        return Ok((file, name));
+fn read_scene(args: &Trade) -> Result<(Scene, String), Error> {
+    match &args.scene {
+        Some(path) => {
+            let scene = args.scene_flags.read(path)?;
+            let name = format!("trade-{}", scene.name());
+            Ok((scene, name))
+        }
+        None => {
+            let scene = Scene::from_toml(DEFAULT_SCENE, Path::new(""))?.with(&args.scene_flags.changes())?;
+            Ok((scene, "trade".into()))
+        }
     }
-    let copy = tempfile::Builder::new().prefix("single-asperity").suffix(".toml").tempfile();
-    let copy = copy.and_then(|mut f| f.write_all(DEFAULT_SCENE.as_bytes()).map(|()| f));
-    let copy = copy.map_err(|e| Error::Unfinished(format!("no temporary file: {e}")))?;
-    Ok((scene_file::read(copy.path(), &args.scene_flags)?, "trade".into()))
 }
 
 /// Runs what the journal does not hold yet, the longest first, each as a process on a thread of its own.
-fn measure_all(scene: &Scene, combinations: usize, path: &Path, quiet: bool) -> Result<Vec<Finished>, Error> {
+fn measure_all(
+    scene: &Tables,
+    combinations: usize,
+    path: &Path,
+    quiet: bool,
+) -> Result<Vec<Finished>, Error> {
     let mut settings = crate::trade::settings::converged(scene).to_vec();
     settings.extend(crate::trade::settings::settings(scene, combinations));
     let definition = format!("{} {scene:?} {settings:?}", env!("CARGO_PKG_VERSION"));

@@ -1,62 +1,269 @@
-//! The files of a crush: curve, asperities, summary, plot, fields. Inside SI, in the files µm, N, µJ, MPa.
+//! One scene crushed: the run, its result, and the files of the result.
+//!
+//! Rows, summary and fields have the units and names of the files ([`crate::units`]).
 
 mod fields;
 mod plot;
+mod record;
 mod summary;
-mod table;
 
-pub use fields::{FieldSeries, field_arrays, write_surface};
+pub use fields::{FieldSeries, Frame};
 pub use plot::plot;
-pub use summary::{overview, peak_memory_mb, summary_json};
-pub use table::{write_asperities, write_curve, write_cycles, write_gaps};
+pub use record::{AsperityRow, CurveRow, CycleRow, GapRow, Phase, SurfaceRow, read_rows, write_rows};
+pub use summary::{Instrument, Island, Summary, peak_memory_mb};
 
-use asperity_solver::scene::Symmetry;
+use crate::draw::field_plot::{Panel, Reach, Section};
+use crate::error::Error;
+use crate::input::scene::Scene;
+use crate::output::{Sink, SinkExt};
+use crate::units::{MICROMETRE, Units};
+use asperity_mesh::Mesh;
+use asperity_solver::run::crush::{CrushError, Event, FieldFrame, Outcome, run};
+use asperity_solver::run::record as si;
+use asperity_solver::scene::SceneError;
+use std::ops::ControlFlow;
+use std::sync::Arc;
+use std::time::Instant;
+use summary::per_length;
 
-/// SI value of 1 µm.
-pub const MICROMETRE: f64 = 1e-6;
-/// SI value of 1 MPa.
-pub const MEGAPASCAL: f64 = 1e6;
-/// SI value of 1 GPa.
-pub const GIGAPASCAL: f64 = 1e9;
-
-/// How a quantity that depends on the symmetry is named and scaled: divide SI by `scale`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Unit {
-    /// End of the column's name.
-    pub suffix: &'static str,
-    /// SI value of 1 in the file.
-    pub scale: f64,
+/// The result of a crush.
+#[derive(Clone, Debug)]
+pub struct Crush {
+    /// The numbers of `summary.json`; `summary.stopped` says why and where the run ended before its target.
+    pub summary: Summary,
+    /// Loading and unloading, one row per converged increment, from first touch.
+    pub curve: Vec<CurveRow>,
+    /// The share of each asperity in each increment; empty for a single one.
+    pub asperities: Vec<AsperityRow>,
+    /// The gaps between contacts in each increment.
+    pub gaps: Vec<GapRow>,
+    /// The loading and the reloads, each with its unloading, as far as they are complete; empty without reloads.
+    pub cycles: Vec<CycleRow>,
+    /// Fields of some increments, where the scene asks for them and they were not written as they came.
+    pub frames: Vec<Frame>,
+    /// Fields of the last increment of the first loading, SI, for pictures.
+    peak: Option<FieldFrame>,
 }
 
-/// Force on the body of revolution, or per length of ridge.
-pub fn force_unit(symmetry: Symmetry) -> Unit {
-    match symmetry {
-        Symmetry::Axisymmetric => Unit { suffix: "N", scale: 1.0 },
-        Symmetry::PlaneStrain => Unit { suffix: "N_per_mm", scale: 1e3 },
+/// What an observer of a crush is told: of every increment, and again where its fields are due.
+#[derive(Clone, Copy, Debug)]
+pub struct Progress<'a> {
+    /// The last increment.
+    pub row: &'a CurveRow,
+    /// Increments that the whole run will have, as far as is known.
+    pub planned: usize,
+    /// The fields of the increment, where they are due.
+    pub frame: Option<&'a Frame>,
+}
+
+/// A picture of the peak that a crush leaves where it has fields.
+#[derive(Clone, Copy, Debug)]
+pub struct Sketch {
+    /// Start of the file's name.
+    pub name: &'static str,
+    /// Which part of the section.
+    pub reach: Reach,
+    /// What is drawn.
+    pub panels: &'static [Panel],
+}
+
+impl Sketch {
+    /// The picture that `asperity crush` draws.
+    pub const PEAK: Sketch = Sketch { name: "section", reach: Reach::Yielded, panels: &Panel::PEAK };
+}
+
+/// Crushes `scene` and keeps its fields in the result.
+///
+/// The observer hears of every increment; it ends the run by `false`, and the result is what was reached.
+///
+/// # Errors
+/// Only if the run cannot begin: [`Error::Input`], pointing at the line of the scene. What stops it later is in
+/// `summary.stopped`.
+pub fn crush(scene: &Scene, observer: &mut dyn FnMut(&Progress<'_>) -> bool) -> Result<Crush, Error> {
+    let mut frames = Vec::new();
+    let keep = &mut |frame: Frame| {
+        frames.push(frame);
+        Ok(())
+    };
+    let (crush, _) = simulate(scene, observer, keep)?;
+    Ok(Crush { frames, ..crush })
+}
+
+/// Crushes `scene` and writes its fields to `sink` as they come, then its records and `sketches`; the result keeps no
+/// fields.
+///
+/// # Errors
+/// [`Error::Input`] only if the run cannot begin, when nothing was written. [`Error::Unfinished`] if something could
+/// not be written: the run ended there, and what could be written of it was.
+pub fn crush_into(
+    scene: &Scene,
+    sink: &mut dyn Sink,
+    sketches: &[Sketch],
+    observer: &mut dyn FnMut(&Progress<'_>) -> bool,
+) -> Result<Crush, Error> {
+    let mut series = FieldSeries::default();
+    let (crush, failure) = simulate(scene, observer, &mut |frame| series.add(sink, &frame))?;
+    let written = crush.write_records(sink, sketches);
+    // of two failures to write, the first says more
+    failure.map_or(written, Err).map(|()| crush)
+}
+
+/// Runs `scene`, hands its fields to `keep`, and gives the result with the failure of `keep`, if it failed.
+fn simulate(
+    scene: &Scene,
+    observer: &mut dyn FnMut(&Progress<'_>) -> bool,
+    keep: &mut dyn FnMut(Frame) -> Result<(), Error>,
+) -> Result<(Crush, Option<Error>), Error> {
+    let start = Instant::now();
+    let tables = scene.tables();
+    let units = Units::of(tables.symmetry);
+    let mut last = None;
+    let (mut peak, mut mesh, mut failure, mut ended) = (None, None::<Arc<Mesh>>, None, false);
+    let mut hear = |event: &Event<'_>| -> bool {
+        let frame = match event {
+            Event::Increment { row, planned } => {
+                last = Some((CurveRow::new(row, units), *planned));
+                None
+            }
+            Event::Fields(frame) => {
+                let mesh = mesh.get_or_insert_with(|| Arc::new(frame.mesh.clone()));
+                if frame.phase == si::Phase::Load {
+                    peak = Some((*frame).clone());
+                }
+                Some(Frame::new(frame, mesh.clone(), tables))
+            }
+        };
+        let told =
+            last.as_ref().map(|(row, planned)| Progress { row, planned: *planned, frame: frame.as_ref() });
+        // a run that was ended may still hand out the fields of where it ended
+        ended = ended || told.is_some_and(|progress| !observer(&progress));
+        if let (Some(frame), None) = (frame, &failure) {
+            failure = keep(frame).err();
+        }
+        !ended && failure.is_none()
+    };
+    let outcome = run(tables, scene.mesh().cloned(), &mut |event| match hear(event) {
+        true => ControlFlow::Continue(()),
+        false => ControlFlow::Break(()),
+    });
+    let outcome = outcome.map_err(|e| begin_error(scene, e))?;
+    let stopped = match &failure {
+        Some(_) => Some("its fields could not be written".to_string()),
+        None => reason(&outcome, tables.loading.depth.map(|depth| depth.0)),
+    };
+    let crush = Crush {
+        curve: outcome.rows.iter().map(|row| CurveRow::new(row, units)).collect(),
+        asperities: outcome.asperities.iter().map(|row| AsperityRow::new(row, units)).collect(),
+        gaps: outcome.gaps.iter().map(GapRow::from).collect(),
+        // a single loading stands in the summary
+        cycles: match tables.loading.reloads {
+            0 => Vec::new(),
+            _ => outcome.cycles.iter().map(|row| CycleRow::new(row, units)).collect(),
+        },
+        frames: Vec::new(),
+        peak,
+        summary: Summary::new(
+            &outcome.summary,
+            &outcome.elastic_islands,
+            scene.resolved(),
+            stopped,
+            start.elapsed().as_secs_f64(),
+        ),
+    };
+    Ok((crush, failure))
+}
+
+/// Why the run ended before its target, with the place where it did; `target` is a depth in m.
+fn reason(outcome: &Outcome, target: Option<f64>) -> Option<String> {
+    let stopped = outcome.stopped.as_ref()?;
+    let verb = match stopped.phase {
+        si::Phase::Load => "loading",
+        si::Phase::Unload => "unloading",
+        si::Phase::Reload => "reloading",
+    };
+    let target = target.filter(|_| stopped.phase != si::Phase::Unload);
+    let target = target.map_or(String::new(), |depth| format!(" of {:.4} um", depth / MICROMETRE));
+    Some(format!("stopped {verb} at {:.4} um{target}: {}", stopped.depth / MICROMETRE, stopped.reason))
+}
+
+fn begin_error(scene: &Scene, error: CrushError) -> Error {
+    let error = match error {
+        CrushError::Scene(error) => error,
+        CrushError::Mesh => {
+            let path = if scene.mesh().is_some() { "mesh.file" } else { "" };
+            SceneError { path: path.into(), message: error.to_string() }
+        }
+    };
+    scene.error(&error).into()
+}
+
+impl Crush {
+    /// Writes the files of `asperity crush`: curve, summary, plots, and the fields that the result holds.
+    ///
+    /// # Errors
+    /// A disk that refuses.
+    pub fn write(&self, sink: &mut dyn Sink) -> Result<(), Error> {
+        let mut series = FieldSeries::default();
+        for frame in &self.frames {
+            series.add(sink, frame)?;
+        }
+        self.write_records(sink, &[Sketch::PEAK])
+    }
+
+    /// Writes everything but the fields.
+    fn write_records(&self, sink: &mut dyn Sink, sketches: &[Sketch]) -> Result<(), Error> {
+        let symmetry = self.summary.scene.symmetry;
+        sink.write("curve.csv", |out| write_rows(out, &self.curve, symmetry))?;
+        if !self.asperities.is_empty() {
+            sink.write("asperities.csv", |out| write_rows(out, &self.asperities, symmetry))?;
+        }
+        if !self.cycles.is_empty() {
+            sink.write("cycles.csv", |out| write_rows(out, &self.cycles, symmetry))?;
+        }
+        if !self.gaps.is_empty() {
+            sink.write("gaps.csv", |out| write_rows(out, &self.gaps, symmetry))?;
+        }
+        let plot = plot(symmetry, &self.curve).map_err(Error::Unfinished)?;
+        sink.write("curve.svg", |out| out.write_all(plot.as_bytes()))?;
+        let summary = self.summary.to_json()?;
+        sink.write("summary.json", |out| out.write_all(summary.as_bytes()))?;
+        for sketch in sketches {
+            if let Some(drawn) = self.section(sketch)? {
+                let name =
+                    format!("{}_{:04}.svg", sketch.name, self.peak_row().map_or(0, |row| row.increment));
+                sink.write(&name, |out| out.write_all(drawn.as_bytes()))?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The last increment of the first loading.
+    fn peak_row(&self) -> Option<&CurveRow> {
+        self.curve.iter().take_while(|row| row.phase == Phase::Load).last()
+    }
+
+    /// A picture of the section at the peak as SVG; `None` where the run has no fields of the peak.
+    ///
+    /// # Errors
+    /// A drawing that fails.
+    pub fn section(&self, sketch: &Sketch) -> Result<Option<String>, Error> {
+        let (Some(frame), Some(row)) = (&self.peak, self.peak_row()) else { return Ok(None) };
+        if frame.increment != row.increment {
+            return Ok(None);
+        }
+        let scene = &self.summary.scene;
+        Section::new(frame, scene, sketch.reach)
+            .and_then(|section| section.svg(sketch.panels, &title(row, per_length(scene.symmetry))))
+            .map(Some)
+            .map_err(Error::Unfinished)
     }
 }
 
-/// Energy of the body of revolution, or per length of ridge.
-pub fn energy_unit(symmetry: Symmetry) -> Unit {
-    match symmetry {
-        Symmetry::Axisymmetric => Unit { suffix: "uJ", scale: 1e-6 },
-        Symmetry::PlaneStrain => Unit { suffix: "uJ_per_mm", scale: 1e-3 },
-    }
+/// Depth and force of a state, for people.
+fn title(row: &CurveRow, per: &str) -> String {
+    let force = row.force_N;
+    let digits = (3 - force.abs().max(1e-9).log10().floor() as i32 - 1).clamp(0, 9) as usize;
+    let depth = format!("{:.4}", row.depth_um);
+    let depth = depth.trim_end_matches('0').trim_end_matches('.');
+    format!("depth {depth} µm, force {force:.digits$} N{per}")
 }
-
-/// Stiffness dF/dh.
-pub fn stiffness_unit(symmetry: Symmetry) -> Unit {
-    match symmetry {
-        Symmetry::Axisymmetric => Unit { suffix: "N_per_um", scale: 1e6 },
-        Symmetry::PlaneStrain => Unit { suffix: "N_per_um_per_mm", scale: 1e9 },
-    }
-}
-
-/// Contact area, or contact width; the suffix is the whole name of the column.
-pub fn area_unit(symmetry: Symmetry) -> Unit {
-    match symmetry {
-        Symmetry::Axisymmetric => Unit { suffix: "contact_area_um2", scale: 1e-12 },
-        Symmetry::PlaneStrain => Unit { suffix: "contact_width_um", scale: 1e-6 },
-    }
-}
-pub use crate::cli::crush::{Crushed, Sketch, crush_into, resolved};

@@ -1,8 +1,8 @@
 //! `curve.svg`: force against depth, loading and unloading.
 
-use super::{MICROMETRE, force_unit};
+use super::record::{CurveRow, Phase};
+use super::summary::per_length;
 use crate::draw::chart::{Chart, Series, svg};
-use asperity_solver::run::record::{CurveRow, Phase};
 use asperity_solver::scene::Symmetry;
 
 /// The largest prefix whose numbers are not all below 1: (its SI value, its symbol before the unit).
@@ -16,37 +16,28 @@ fn prefix(largest: f64, prefixes: &[(f64, &'static str)]) -> (f64, &'static str)
 /// # Errors
 /// A text for a person where the drawing library fails.
 pub fn plot(symmetry: Symmetry, rows: &[CurveRow]) -> Result<String, String> {
-    let force = force_unit(symmetry);
     let largest = |value: fn(&CurveRow) -> f64| rows.iter().map(value).fold(0.0, f64::max);
-    let (length, length_name) =
-        prefix(largest(|r| r.depth) / MICROMETRE, &[(1e3, "mm"), (1.0, "µm"), (1e-3, "nm")]);
+    let (length, length_name) = prefix(largest(|r| r.depth_um), &[(1e3, "mm"), (1.0, "µm"), (1e-3, "nm")]);
     let (newton, newton_name) =
-        prefix(largest(|r| r.force) / force.scale, &[(1e3, "kN"), (1.0, "N"), (1e-3, "mN"), (1e-6, "µN")]);
-    let per = if symmetry == Symmetry::PlaneStrain { "/mm" } else { "" };
-
-    let point = |r: &CurveRow| [r.depth / MICROMETRE / length, r.force / force.scale / newton];
-    let again = rows.iter().position(|r| r.phase == Phase::Reload).unwrap_or(rows.len());
-    let branch = |phase: Phase| rows[..again].iter().filter(move |r| r.phase == phase);
-    let mut series = vec![Series {
-        label: "loading".into(),
-        points: branch(Phase::Load).map(point).collect(),
-        marks: true,
-    }];
-    if branch(Phase::Unload).next().is_some() {
-        let peak = branch(Phase::Load).next_back();
-        series.push(Series {
-            label: "unloading".into(),
-            points: peak.into_iter().chain(branch(Phase::Unload)).map(point).collect(),
-            marks: false,
-        });
+        prefix(largest(|r| r.force_N), &[(1e3, "kN"), (1.0, "N"), (1e-3, "mN"), (1e-6, "µN")]);
+    let point = |r: &CurveRow| [r.depth_um / length, r.force_N / newton];
+    let next = |from: usize, phase: Phase| {
+        rows[from..].iter().position(|r| r.phase == phase).map_or(rows.len(), |i| from + i)
+    };
+    let peak = next(0, Phase::Unload);
+    let again = next(peak, Phase::Load);
+    // each branch begins where the one before it ends
+    let branch = |from: usize, to: usize| rows[from.saturating_sub(1)..to].iter().map(point).collect();
+    let mut series = vec![Series { label: "loading".into(), points: branch(0, peak), marks: true }];
+    if peak < again {
+        series.push(Series { label: "unloading".into(), points: branch(peak, again), marks: false });
     }
     if again < rows.len() {
-        let points = rows[again.saturating_sub(1)..].iter().map(point).collect();
-        series.push(Series { label: "again".into(), points, marks: false });
+        series.push(Series { label: "again".into(), points: branch(again, rows.len()), marks: false });
     }
     svg(&Chart {
         x_label: format!("Depth h ({length_name})"),
-        y_label: format!("Force F ({newton_name}{per})"),
+        y_label: format!("Force F ({newton_name}{})", per_length(symmetry)),
         series,
     })
 }
@@ -57,40 +48,40 @@ mod tests {
 
     #[test]
     fn the_plot_names_its_axes_and_both_branches() {
-        let row = |increment, phase, depth: f64, force: f64| CurveRow {
+        let row = |increment, phase, depth_um: f64, force: f64| CurveRow {
             increment,
             phase,
-            depth,
-            force,
-            contact_area: 0.0,
-            contact_radius: 0.0,
-            mean_pressure: 0.0,
-            external_work: 0.0,
-            elastic_energy: 0.0,
-            plastic_work: 0.0,
-            contact_energy: 0.0,
-            penetration: 0.0,
+            depth_um,
+            force_N: force,
+            contact_area_um2: 0.0,
+            contact_radius_um: 0.0,
+            mean_pressure_MPa: 0.0,
+            external_work_uJ: 0.0,
+            elastic_energy_uJ: 0.0,
+            plastic_work_uJ: 0.0,
+            contact_energy_uJ: 0.0,
+            penetration_um: 0.0,
             newton_iterations: 4,
         };
         let mut rows: Vec<_> = (0..=24)
             .map(|i| {
                 let h = f64::from(i) / 24.0;
-                row(i as usize, Phase::Load, 5e-6 * h, 5.52 * h * h)
+                row(i as usize, Phase::Load, 5.0 * h, 5.52 * h * h)
             })
             .collect();
         rows.extend((1..=10).map(|i| {
             let s = 1.0 - f64::from(i) / 10.0;
-            row(24 + i as usize, Phase::Unload, 4.475e-6 + 0.525e-6 * s.sqrt(), 5.52 * s)
+            row(24 + i as usize, Phase::Unload, 4.475 + 0.525 * s.sqrt(), 5.52 * s)
         }));
         let axisymmetric = plot(Symmetry::Axisymmetric, &rows).unwrap();
         assert!(!axisymmetric.contains("again"));
         let mut cycled = rows.clone();
-        cycled.push(row(35, Phase::Reload, 5e-6, 5.52));
+        cycled.push(row(35, Phase::Load, 5.0, 5.52));
         assert!(plot(Symmetry::Axisymmetric, &cycled).unwrap().contains("again"));
         for text in ["Depth h (µm)", "Force F (N)", "loading", "unloading"] {
             assert!(axisymmetric.contains(text), "{text}");
         }
-        assert!(plot(Symmetry::PlaneStrain, &rows).unwrap().contains("Force F (mN/mm)"));
+        assert!(plot(Symmetry::PlaneStrain, &rows).unwrap().contains("Force F (N/mm)"));
         let start = plot(Symmetry::Axisymmetric, &rows[..1]).unwrap();
         assert!(!start.contains("unloading") && !start.contains("NaN"));
     }

@@ -9,7 +9,7 @@ mod panel;
 mod raster;
 mod window;
 
-use crate::crush::{MEGAPASCAL, MICROMETRE};
+use crate::units::{MEGAPASCAL, MICROMETRE};
 use asperity_solver::run::crush::FieldFrame;
 use asperity_solver::scene::{Scene, Symmetry, ToolForm};
 use deformed_mesh::Metal;

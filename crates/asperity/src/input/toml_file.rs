@@ -4,6 +4,7 @@
 
 use crate::error::InputError;
 use crate::input::suggest;
+use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::io::Read;
 use std::ops::Range;
@@ -44,6 +45,16 @@ impl<T: DeserializeOwned> TomlFile<T> {
         let value = T::deserialize(deserializer).map_err(|e| sources.toml_error(&e))?;
         Ok(TomlFile { value, path: path.to_path_buf(), sources })
     }
+
+    /// The same file with more overrides.
+    ///
+    /// # Errors
+    /// As for [`TomlFile::read`].
+    pub fn with(&self, overrides: &[String]) -> Result<Self, InputError> {
+        let Sources { text, overrides: before, .. } = &self.sources;
+        let all: Vec<String> = before.iter().map(|(_, text)| text).chain(overrides).cloned().collect();
+        TomlFile::parse(&self.path, text.clone(), &all)
+    }
 }
 
 impl<T> TomlFile<T> {
@@ -65,6 +76,14 @@ impl<T> TomlFile<T> {
         let message = if path.is_empty() { message.to_string() } else { format!("{path}: {message}") };
         self.sources.error(&message, span)
     }
+}
+
+/// `value` as the text of a TOML file.
+///
+/// # Errors
+/// A value that TOML cannot hold; a sentence for the user.
+pub fn to_toml(value: &impl Serialize) -> Result<String, String> {
+    toml::to_string(value).map_err(|e| e.to_string())
 }
 
 /// Reads a whole text file, with errors a person can act on.

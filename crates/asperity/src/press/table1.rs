@@ -1,7 +1,7 @@
 //! `asperity rough --table1`: the paper's Table 1 beside ours, with the contradictions named.
 
 use super::run;
-use crate::cli::args::RunFlags;
+use crate::cli::flags::RunFlags;
 use crate::cli::folder::Folder;
 use crate::cli::terminal;
 use crate::error::{Error, InputError};

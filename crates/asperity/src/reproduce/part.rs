@@ -8,8 +8,9 @@ use crate::calibrate::Order;
 use crate::cli::folder::Folder;
 use crate::cli::folder::journal_beside;
 use crate::cli::progress::Progress;
-use crate::crush::{Crushed, Sketch, crush_into, resolved};
+use crate::crush::{Sketch, crush_into};
 use crate::error::Error;
+use crate::input::scene::Scene;
 use crate::input::toml_file::TomlFile;
 use crate::output::{SinkExt, write_whole};
 use crate::press::files::Outcome;
@@ -19,7 +20,7 @@ use asperity_roughness::scene::Scene as RoughScene;
 use asperity_roughness::{Coefficient, Islands, KindName};
 use asperity_solver::run::depth_for_force::target_depth;
 use asperity_solver::run::prepare::prepare;
-use asperity_solver::scene::{Accuracy, Level, Scene};
+use asperity_solver::scene::{Accuracy, Level, Scene as Tables};
 use serde::{Deserialize, Serialize};
 use std::fmt::Debug;
 use std::hash::{DefaultHasher, Hash, Hasher};
@@ -63,7 +64,7 @@ impl Resolved {
             format!("{value:?}")
         }
         match self {
-            Resolved::Crush(scene, sketches) => text(&(resolved(scene), sketches)),
+            Resolved::Crush(scene, sketches) => text(&(scene.resolved(), sketches)),
             Resolved::Calibrate(sweep) => text(sweep),
             Resolved::Rough(scene, kind) => text(&(scene, kind)),
         }
@@ -84,11 +85,10 @@ impl Job {
         let file = Path::new(part.name);
         let scene = match part.work {
             Work::Crush { scene, changes, sketches } => {
-                let changes: Vec<String> = changes.iter().map(|c| (*c).to_string()).collect();
-                let mut read: TomlFile<Scene> = TomlFile::parse(file, scene.into(), &changes)?;
-                read.value.accuracy = accuracy;
-                embedded(part.name, read.value.validate())?;
-                Resolved::Crush(Box::new(read.value), sketches)
+                let mut changes: Vec<String> = changes.iter().map(|c| (*c).to_string()).collect();
+                changes.push(format!("accuracy={accuracy}"));
+                let read = Scene::from_toml(scene, Path::new("")).and_then(|scene| scene.with(&changes));
+                Resolved::Crush(Box::new(embedded(part.name, read)?), sketches)
             }
             Work::Calibrate => Resolved::Calibrate(Sweep { accuracy, ..Sweep::default() }),
             Work::Rough { scene, kind } => {
@@ -117,7 +117,7 @@ impl Job {
     /// How long it takes, in crushes of the single asperity at `draft`.
     pub fn effort(&self, single: f64) -> f64 {
         match &self.scene {
-            Resolved::Crush(scene, _) => load_of(scene) / single,
+            Resolved::Crush(scene, _) => load_of(scene.tables()) / single,
             Resolved::Calibrate(sweep) => {
                 let each = match sweep.accuracy.level() {
                     Level::Draft => 0.25,
@@ -171,11 +171,16 @@ impl Job {
 
     fn crush(&self, scene: &Scene, sketches: &[Sketch], progress: Progress) -> Result<Option<String>, Error> {
         let mut folder = Folder::create(&self.folder, "crush", true)?;
-        let crushed = crush_into(scene, None, &mut folder, sketches, progress);
-        let Crushed { stopped, failure, summary, .. } = embedded(self.part.name, crushed)?;
-        summary?;
+        let crushed = crush_into(scene, &mut folder, sketches, &mut |reached| {
+            let share = reached.row.increment as f64 / reached.planned.max(1) as f64;
+            progress.show(share, || {
+                format!("{:.3} um  increment {}", reached.row.depth_um, reached.row.increment)
+            });
+            true
+        });
+        progress.finish();
         folder.publish()?;
-        failure.map_or(Ok(stopped), Err)
+        Ok(crushed?.summary.stopped)
     }
 
     fn press(&self, scene: &RoughScene, kind: KindName, progress: &Progress) -> Result<(), Error> {
@@ -210,7 +215,7 @@ impl Job {
 }
 
 /// Unknowns to a power times steps: what the time of a crush goes with.
-fn load_of(scene: &Scene) -> f64 {
+fn load_of(scene: &Tables) -> f64 {
     let Ok(problem) = target_depth(scene, None).and_then(|depth| prepare(scene, None, depth)) else {
         return 0.0;
     };
@@ -225,7 +230,7 @@ fn load_of(scene: &Scene) -> f64 {
 pub fn yardstick() -> Result<(f64, f64), Error> {
     let text = include_str!("../../scenes/single-asperity.toml");
     let changes = ["output.every=0", "accuracy=draft"].map(String::from);
-    let file: TomlFile<Scene> = TomlFile::parse(Path::new("single-asperity"), text.into(), &changes)?;
+    let file: TomlFile<Tables> = TomlFile::parse(Path::new("single-asperity"), text.into(), &changes)?;
     // the fastest of three: other work on the machine only ever adds
     let mut fastest = f64::INFINITY;
     for _ in 0..3 {

@@ -1,34 +1,42 @@
 use super::{SceneError, error};
 use crate::generate::{Grid, Kind, KindName, Target};
 use asperity_law::units::Length;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// A surface made from random numbers.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct GenerateScene {
     /// Ground, milled, sanded or self-affine.
     pub kind: KindName,
     /// Arithmetic mean height.
+    #[schemars(example = "2.95 um")]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ra: Option<Length>,
-    /// atan of the mean |∇h|.
+    /// atan of the mean |∇h|, degrees.
+    #[schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 80))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mean_slope_deg: Option<f64>,
     /// Length along x and y.
+    #[schemars(extend("examples" = [["1 mm", "1 mm"]]))]
     pub size: [Length; 2],
-    /// Points along x and y.
+    /// Points along x and y, at least 2.
+    #[schemars(extend("examples" = [[1024, 1024]]))]
     pub pixels: [usize; 2],
     /// Start of the random numbers.
     #[serde(default = "one")]
     pub seed: u64,
     /// Hurst exponent, of "self-affine".
+    #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 1))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hurst: Option<f64>,
     /// Longest wave of the power law, of "self-affine".
+    #[schemars(example = "128 um")]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rolloff: Option<Length>,
     /// Shortest wave, of "self-affine".
+    #[schemars(example = "16 um")]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cutoff: Option<Length>,
 }

@@ -5,10 +5,11 @@
 
 use crate::point::failure::Failure;
 use crate::point::tensor::Gradient;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// The two planar idealisations: body of revolution about r = 0, or prismatic body of unit thickness.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Symmetry {
     /// Full body of revolution, hoop stretch r/R, weight 2πr: the first asperity is a cone, the others are rings.

@@ -2,7 +2,9 @@
 
 use super::SceneError;
 use super::range::error;
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use std::borrow::Cow;
 use std::fmt;
 use std::str::FromStr;
 
@@ -109,6 +111,19 @@ impl fmt::Display for Accuracy {
 /// The share in percent, without the digits that the division by a hundred has added.
 fn percent(share: f64) -> f64 {
     format!("{:.12e}", 100.0 * share).parse().unwrap_or(100.0 * share)
+}
+
+impl JsonSchema for Accuracy {
+    fn inline_schema() -> bool {
+        true
+    }
+    fn schema_name() -> Cow<'static, str> {
+        "Accuracy".into()
+    }
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        let names = NAMES.map(|(name, _)| name);
+        json_schema!({"anyOf": [{"enum": names}, {"type": "string", "pattern": "^[0-9.eE+-]+ *%$"}]})
+    }
 }
 
 impl Serialize for Accuracy {

@@ -2,29 +2,36 @@
 
 use super::{Lateral, Scene, SceneError, Symmetry};
 use asperity_law::units::Length;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// One asperity as written: a cone (`height`, `slope_deg`, …) or a sphere (`radius`).
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Asperity {
     /// Base plane to the real (rounded) summit.
+    #[schemars(example = "20 um")]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub height: Option<Length>,
     /// Angle β between flank and base plane, degrees.
+    #[schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 90))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub slope_deg: Option<f64>,
     /// Radius of the sphere (cylinder) tangent to the flanks that rounds the tip; absent or 0: sharp.
+    #[schemars(example = "10 um")]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tip_radius: Option<Length>,
     /// Radius of the fillet at its outer foot; absent or 0: sharp.
+    #[schemars(example = "5 um")]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub valley_radius: Option<Length>,
     /// Flat distance between its outer foot and the next asperity; absent: 0.
+    #[schemars(example = "20 um")]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub spacing: Option<Length>,
     /// Radius of a spherical (cylindrical) asperity; excludes the keys above but `height` and `spacing`. Its height is
     /// a quarter of the radius if absent, and half the radius at most: the foot of half a ball is vertical.
+    #[schemars(example = "50 um")]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub radius: Option<Length>,
 }
@@ -79,20 +86,22 @@ impl AsperityForm {
 }
 
 /// The block of metal under the asperities.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Substrate {
     /// Outer radius; in plane strain half the width of the block, the ridges in its middle. Absent: sized from the
     /// contact. Under asperities between symmetric sides it is always that of the row, with half the last spacing at its ends.
+    #[schemars(example = "2 mm")]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub radius: Option<Length>,
     /// From the base plane of the asperities down to the held bottom. Absent in axisymmetry: sized from the contact.
+    #[schemars(example = "2 mm")]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub depth: Option<Length>,
 }
 
 /// Outline of the rigid tool.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum ToolShape {
     /// A plane that flattens the summits.
@@ -104,18 +113,21 @@ pub enum ToolShape {
 }
 
 /// The tool as written.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Tool {
     /// Its outline.
     pub shape: ToolShape,
     /// Cone: angle between its flank and the horizontal, degrees.
+    #[schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 90))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub slope_deg: Option<f64>,
     /// Cone: tip radius; absent or 0: sharp.
+    #[schemars(example = "1 um")]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tip_radius: Option<Length>,
     /// Sphere: its radius.
+    #[schemars(example = "1 mm")]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub radius: Option<Length>,
 }

@@ -3,37 +3,45 @@
 use super::range::{Check, error};
 use asperity_law::units::Stress;
 use asperity_law::{Elastic, Hardening, HardeningCurve, HardeningLaw, HardeningMode, HardeningTable};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
 /// Isotropic metal: Hencky elasticity, von Mises plasticity, hardening by a power law or a table.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Material {
     /// Young's modulus E.
+    #[schemars(example = "210 GPa")]
     pub youngs_modulus: Stress,
     /// Poisson's ratio ν, in (-1, 0.5).
+    #[schemars(extend("exclusiveMinimum" = -1, "exclusiveMaximum" = 0.5))]
     pub poissons_ratio: f64,
     /// Initial yield stress σ_y; absent without a table: the body stays elastic.
+    #[schemars(example = "300 MPa")]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub yield_stress: Option<Stress>,
-    /// Hardening exponent n in [0, 1); required beside a yield stress.
+    /// Hardening exponent n in [0, 1), 0: perfect plasticity; required beside a yield stress.
+    #[schemars(extend("minimum" = 0, "exclusiveMaximum" = 1))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hardening_exponent: Option<f64>,
     /// Which strain hardens, or that a table says it.
     #[serde(default = "hollomon")]
     pub hardening_law: HardeningChoice,
-    /// A file with the table, relative to the scene file; what reads it puts `hardening_table` in its place, so that a
-    /// resolved scene depends on no other file.
+    /// For hardening_law = "table": a csv file, relative to the scene file, whose first line is plastic_strain,yield_stress_MPa;
+    /// linear between its points, constant beyond the last. A resolved scene has `hardening_table` in its place.
+    #[schemars(example = "curve.csv")]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hardening_file: Option<PathBuf>,
-    /// Accumulated plastic strain and yield stress, point by point from first yield on.
+    /// Instead of `hardening_file`: accumulated plastic strain, from 0, and yield stress, point by point.
+    #[schemars(extend("examples" = [[[0, "300 MPa"], [0.1, "450 MPa"]]]))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hardening_table: Option<Vec<(f64, Stress)>>,
-    /// Whether the yield surface grows or moves.
+    /// Whether the yield surface grows or moves with plastic flow; they differ in unloading and reloading.
     #[serde(default = "isotropic")]
     pub hardening_mode: HardeningMode,
     /// Share of the hardening that moves the yield surface in the kinematic mode, in (0, 1]; absent: all of it.
+    #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 1))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub kinematic_share: Option<f64>,
 }
@@ -47,7 +55,7 @@ fn isotropic() -> HardeningMode {
 }
 
 /// How the curve of hardening is given.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum HardeningChoice {
     /// By eq. [1] in the total strain.

@@ -1,6 +1,6 @@
 //! The metal of a converged state where it is now, cut into flat facets fine enough for smooth contours.
 
-use crate::crush::{MEGAPASCAL, MICROMETRE};
+use crate::units::{MEGAPASCAL, MICROMETRE};
 use asperity_mesh::{Edge, Mesh};
 use asperity_solver::run::crush::FieldFrame;
 

@@ -7,12 +7,9 @@ use std::ops::ControlFlow;
 
 fn peak(change: &str) -> (Scene, FieldFrame) {
     let text = include_str!("../../../scenes/single-asperity.toml").replace("\"standard\"", "\"draft\"");
-    let dir = tempfile::tempdir().unwrap();
-    let path = dir.path().join("scene.toml");
-    std::fs::write(&path, text).unwrap();
     let overrides = ["output.every=100000", change].map(String::from).to_vec();
-    let flags = crate::cli::args::SceneFlags { accuracy: None, overrides };
-    let scene = crate::input::scene_file::read(&path, &flags).unwrap().value;
+    let scene =
+        crate::Scene::from_toml(&text, "".as_ref()).unwrap().with(&overrides).unwrap().tables().clone();
     let mut peak = None;
     run(&scene, None, &mut |event| {
         if let Event::Fields(frame) = event

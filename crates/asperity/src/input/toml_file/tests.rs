@@ -1,5 +1,4 @@
 use super::*;
-use crate::error::Error;
 use serde::Deserialize;
 
 #[derive(Debug, Deserialize, PartialEq)]
@@ -22,12 +21,21 @@ struct Tree {
 const FILE: &str =
     "count = 3\n\n[[leaf]]\nsize = 1.5\n[[leaf]]\nsize = 2 # the second\n\n[trunk]\nsize = 9\n";
 
+/// An error as a person sees it: place, text of the place, message, help.
+fn shown(error: &InputError) -> String {
+    let place = error.place.as_ref().map(|p| {
+        let line = 1 + p.text[..p.span.start].matches('\n').count();
+        format!("{}:{line}: {}", p.name, p.text)
+    });
+    format!("{} {error} {}", place.unwrap_or_default(), error.help.as_deref().unwrap_or_default())
+}
+
 fn read(text: &[u8], overrides: &[&str]) -> Result<TomlFile<Tree>, String> {
     let dir = tempfile::tempdir().unwrap();
     let path = dir.path().join("tree.toml");
     std::fs::write(&path, text).unwrap();
     let overrides: Vec<String> = overrides.iter().map(|s| s.to_string()).collect();
-    TomlFile::read(&path, &overrides).map_err(|e| crate::cli::failure::report(e.into()))
+    TomlFile::read(&path, &overrides).map_err(|e| shown(&e))
 }
 
 #[test]
@@ -115,7 +123,7 @@ fn a_later_error_points_at_the_value_or_the_table_that_lacks_it() {
         ("trunk", "tree.toml:8:"),
         ("list", "tree.toml: list: odd"),
     ] {
-        let error = crate::cli::failure::report(file.error_at(path, "odd").into());
+        let error = shown(&file.error_at(path, "odd"));
         assert!(error.contains(place) && error.contains(&format!("{path}: odd")), "{path}: {error}");
     }
 }

@@ -65,7 +65,7 @@ fn a_wrong_table_is_refused_at_its_line() {
 }
 
 #[test]
-fn a_table_stands_alone() {
+fn a_table_excludes_yield_stress_and_exponent() {
     let table = "hardening_law = \"table\"\n";
     for (material, words) in [
         (table.to_string(), &["scene.toml:6:", "hardening_file = "][..]),

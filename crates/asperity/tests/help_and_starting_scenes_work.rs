@@ -1,4 +1,4 @@
-//! Help, scenes to start from, completions, manual: what a person meets first.
+//! Help, scenes to start from, completions and manual work.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
@@ -30,14 +30,18 @@ fn every_new_scene_runs() {
 }
 
 #[test]
-fn a_crush_of_nothing_says_what_to_do() {
+fn a_missing_scene_file_is_answered_with_a_way_out() {
     let end = Place::with_scene("").run(&["crush"]);
     assert_eq!(end.status, 2);
-    assert!(end.err.contains("asperity new single"), "{}", end.err);
+    assert!(
+        end.err.contains("Missing scene file.") && end.err.contains("asperity new single"),
+        "{}",
+        end.err
+    );
 }
 
 #[test]
-fn the_papers_table_goes_where_it_is_sent() {
+fn table1_is_written_to_the_given_folder() {
     let place = Place::with_scene("");
     let end = place.run(&["rough", "--table1", "--out", "table", "--json"]);
     assert_eq!((end.status, end.err.as_str()), (0, ""));
@@ -85,7 +89,7 @@ fn help_manual_completions_and_schema_are_there() {
 
 /// A crush with fields leaves a picture of the peak; one without leaves none.
 #[test]
-fn a_crush_with_fields_leaves_a_picture() {
+fn a_picture_is_drawn_only_with_fields() {
     let place = Place::with_scene(common::SCENE);
     let pictures = |out: &str| place.names(out).iter().filter(|n| n.starts_with("section_")).count();
     place.run(&["crush", "scene.toml", "--out", "plain"]);

@@ -89,7 +89,7 @@ fn the_summary_holds_the_scene_as_it_was_run() {
 }
 
 #[test]
-fn a_ridge_in_plane_strain_is_per_length() {
+fn plane_strain_forces_and_energies_are_per_length() {
     let substrate = "[substrate]\nradius = \"1 mm\"\ndepth = \"1 mm\"\n[tool]";
     let scene = SCENE.replace("\"axisymmetric\"", "\"plane-strain\"").replace("[tool]", substrate);
     let place = Place::with_scene(scene);
@@ -110,7 +110,7 @@ fn a_ridge_in_plane_strain_is_per_length() {
 }
 
 #[test]
-fn asperities_share_the_force_and_leave_gaps() {
+fn forces_of_asperities_add_up_to_the_curve() {
     let second = "[[asperity]]\nheight = \"19 um\"\nslope_deg = 12\n[tool]";
     let substrate = "[substrate]\nradius = \"1 mm\"\ndepth = \"1 mm\"\n";
     let scene = SCENE.replace("\"axisymmetric\"", "\"plane-strain\"").replace("[tool]", second);
@@ -161,7 +161,7 @@ fn fields_and_surface_are_written_when_asked_for() {
 }
 
 #[test]
-fn reloads_leave_their_cycles() {
+fn reloads_are_written_as_cycles() {
     let place = Place::with_scene(SCENE.replace("unload = true", "unload = true\nreloads = 2"));
     let end = place.run(&["crush", "scene.toml", "--out", "out", "--quiet"]);
     assert_eq!(end.status, 0, "{}", end.err);

@@ -34,14 +34,14 @@ fn loss(material: &str) -> f64 {
 }
 
 #[test]
-fn a_surface_that_moves_loses_more_in_a_cycle() {
+fn kinematic_hardening_loses_more_work_in_a_cycle_than_isotropic() {
     let isotropic = loss("");
     let kinematic = loss("hardening_mode = \"kinematic\"\nkinematic_share = 0.5\n");
     assert!(kinematic > 2.0 * isotropic.abs(), "{kinematic} beside {isotropic}");
 }
 
 #[test]
-fn a_mode_that_makes_no_sense_is_refused_at_its_line() {
+fn a_wrong_hardening_mode_is_refused_at_its_line() {
     for (material, words) in [
         (
             "kinematic_share = 0.5\n",

@@ -34,7 +34,7 @@ fn sizes(place: &Place) -> [usize; 2] {
 }
 
 #[test]
-fn every_part_is_there_and_nothing_is_lost() {
+fn the_deck_has_every_part_node_and_step() {
     let place = Place::with_scene(SCENE);
     let deck = deck(&place, &[]);
     for part in [
@@ -106,7 +106,7 @@ fn the_table_is_the_law_within_the_error_it_states() {
 }
 
 #[test]
-fn other_scenes_have_their_own_words() {
+fn elements_supports_and_tool_follow_the_scene() {
     let place = Place::with_scene(SCENE);
     let linear = deck(&place, &["numerics.element=q4", "loading.unload=false"]);
     assert!(linear.iter().any(|l| l == "*ELEMENT, TYPE=CAX4, ELSET=BODY"));
@@ -134,7 +134,7 @@ fn other_scenes_have_their_own_words() {
 }
 
 #[test]
-fn what_a_deck_cannot_say_is_refused() {
+fn a_scene_that_a_deck_cannot_express_is_refused() {
     let place = Place::with_scene(SCENE.replace("depth = \"5 um\"", "force = \"4 N\""));
     let end = place.run(&["mesh", "scene.toml", "--format", "inp"]);
     assert_eq!(end.status, 2);

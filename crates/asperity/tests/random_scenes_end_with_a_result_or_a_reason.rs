@@ -11,7 +11,7 @@ use std::path::Path;
 use std::time::Duration;
 
 #[test]
-fn three_hundred_scenes() {
+fn three_hundred_random_scenes_end_with_a_result_or_a_reason() {
     let scenes = draw(300, 7).unwrap();
     let faults: Vec<String> = scenes
         .par_iter()

@@ -1,0 +1,23 @@
+//! The loading curvature K = F/h² of one cone under a plane.
+
+#![allow(clippy::print_stdout, reason = "an example prints its result")]
+
+use asperity_calibration::case::{Case, Tool, YieldMeasure, Yielding};
+use asperity_calibration::run::solve;
+use asperity_law::HardeningLaw;
+use asperity_solver::scene::Accuracy;
+
+fn main() {
+    let yielding = Yielding { law: HardeningLaw::Hollomon, exponent: 0.3, e_over_sy: 300.0 };
+    let case = Case {
+        beta_deg: 10.0,
+        yielding: Some(yielding),
+        poissons_ratio: 0.3,
+        tool: Tool::Plane,
+        stress: YieldMeasure::Kirchhoff,
+    };
+    match solve(&case, Accuracy::Draft).outcome {
+        Ok(cone) => println!("K/E = {:.4} within {:.2} %", cone.k_over_e, 100.0 * cone.error),
+        Err(reason) => println!("no K: {reason}"),
+    }
+}

@@ -1,0 +1,64 @@
+//! Flags that several commands share.
+
+use crate::error::Error;
+use crate::input::scene::Scene;
+use asperity_solver::scene::{Accuracy, AccuracyError};
+use clap::Args;
+use std::path::{Path, PathBuf};
+
+/// Flags that change what a file says.
+#[derive(Debug, Args)]
+pub struct SceneFlags {
+    /// Error of the force: draft (5 %), standard (1 %), reference (0.2 %) or a percentage like 0.5%, from 0.2% to 5% [default: what the scene says, else standard]
+    #[arg(long, value_name = "LEVEL", value_parser = parse_accuracy)]
+    pub accuracy: Option<Accuracy>,
+    /// Change a value of the file, for example --set "loading.depth=2 um"; repeatable
+    #[arg(long = "set", value_name = "KEY.PATH=VALUE")]
+    pub overrides: Vec<String>,
+}
+
+impl SceneFlags {
+    /// All changes as overrides; the accuracy wins.
+    pub fn changes(&self) -> Vec<String> {
+        let accuracy = self.accuracy.map(|level| format!("accuracy={level}"));
+        self.overrides.iter().cloned().chain(accuracy).collect()
+    }
+
+    /// The scene at `path` with these changes.
+    ///
+    /// # Errors
+    /// A scene that cannot be read or makes no sense, pointing at the line.
+    pub fn read(&self, path: &Path) -> Result<Scene, Error> {
+        Scene::read(path, &self.changes())
+    }
+}
+
+/// Flags of every command that fills a folder.
+#[derive(Debug, Args)]
+pub struct RunFlags {
+    /// Folder for the results [default: in out/, named after the scene or the command]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Threads to use [default: all cores]; the results do not depend on it
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=4096))]
+    pub threads: Option<u16>,
+    /// Print nothing but errors
+    #[arg(long)]
+    pub quiet: bool,
+    /// Allow a non-empty folder; files of the same name are overwritten
+    #[arg(long)]
+    pub force: bool,
+    /// Print the summary as JSON on stdout
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// An accuracy within the range that can be asked for.
+///
+/// # Errors
+/// A sentence for the user.
+pub fn parse_accuracy(text: &str) -> Result<Accuracy, String> {
+    let accuracy: Accuracy = text.parse().map_err(|e: AccuracyError| e.to_string())?;
+    accuracy.check().map_err(|e| e.message)?;
+    Ok(accuracy)
+}

@@ -1,0 +1,219 @@
+//! A scene: the tables that say what to crush, checked, with the files they name and the text they stand in.
+
+use crate::error::{Error, InputError};
+use crate::input::hardening_file;
+use crate::input::toml_file::{TomlFile, to_toml};
+use asperity_mesh::{Mesh, read_msh};
+use asperity_solver::run::discretisation::Discretisation;
+use asperity_solver::scene::{Scene as Tables, SceneError};
+use std::path::Path;
+
+/// A scene that makes sense, with the mesh and the hardening table that it names, ready to be crushed.
+///
+/// It is read from a file ([`Scene::read`]) or a text ([`Scene::from_toml`]), or made of tables that were built in code
+/// ([`Scene::new`]). Later errors point at its text.
+#[derive(Debug)]
+pub struct Scene {
+    file: TomlFile<Tables>,
+    mesh: Option<Mesh>,
+}
+
+impl Scene {
+    /// A scene of tables that were built in code; the files that they name are relative to the working directory.
+    ///
+    /// # Errors
+    /// Values that make no sense, with the allowed range; a mesh or hardening table that cannot be read.
+    ///
+    /// # Examples
+    /// A cone of steel under a plane:
+    /// ```
+    /// use asperity::tables::{Asperity, Loading, Material, Symmetry, Tool, Scene as Tables};
+    /// use asperity::{Length, Scene, Stress};
+    ///
+    /// let steel = Material::elastic_body(Stress(210e9), 0.3).yielding(Stress(300e6), 0.3);
+    /// let tables = Tables::new(Symmetry::Axisymmetric, steel, Tool::plane(), Loading::to_depth(Length(5e-6)));
+    /// assert!(Scene::new(&tables).unwrap_err().to_string().contains("at least one [[asperity]]"));
+    ///
+    /// let cone = Asperity::cone(Length(20e-6), 10.0).rounded(Length(10e-6));
+    /// assert!(Scene::new(&tables.with(cone)).is_ok());
+    /// ```
+    pub fn new(tables: &Tables) -> Result<Scene, Error> {
+        let text = to_toml(tables).map_err(InputError::new)?;
+        Scene::from_toml(&text, Path::new(""))
+    }
+
+    /// The scene that `text` says in TOML; the files that it names are relative to the folder `base`.
+    ///
+    /// # Errors
+    /// A text that is no scene or makes no sense, pointing at its line; a mesh or hardening table that cannot be read.
+    pub fn from_toml(text: &str, base: &Path) -> Result<Scene, Error> {
+        Scene::checked(TomlFile::parse(&base.join("scene"), text.into(), &[])?)
+    }
+
+    /// The scene of the file at `path`, with overrides `key.path=value` in their order; the files that it names are
+    /// relative to its folder.
+    ///
+    /// # Errors
+    /// As for [`Scene::from_toml`], and a file that cannot be read.
+    pub fn read(path: &Path, overrides: &[String]) -> Result<Scene, Error> {
+        Scene::checked(TomlFile::read(path, overrides)?)
+    }
+
+    /// The scene with more overrides `key.path=value`, such as `loading.depth=2 um`.
+    ///
+    /// # Errors
+    /// As for [`Scene::from_toml`], pointing at the override where it is wrong.
+    pub fn with(&self, overrides: &[String]) -> Result<Scene, Error> {
+        Scene::checked(self.file.with(overrides)?)
+    }
+
+    /// Sets the value at `key`, such as `loading.depth` or `asperity[0].slope_deg`; the scene stays as it was where
+    /// that makes no sense.
+    ///
+    /// # Errors
+    /// As for [`Scene::with`].
+    pub fn set(&mut self, key: &str, value: &str) -> Result<(), Error> {
+        *self = self.with(&[format!("{key}={value}")])?;
+        Ok(())
+    }
+
+    fn checked(mut file: TomlFile<Tables>) -> Result<Scene, Error> {
+        let curve = hardening_file::read(&file)?;
+        if let Some(curve) = &curve {
+            curve.put_into(&mut file.value.material);
+        }
+        // what is wrong with a table shows in the file that holds it
+        file.value.validate().map_err(|e| {
+            let shown = curve.and_then(|curve| curve.point_at(&e));
+            shown.unwrap_or_else(|| file.error_at(&e.path, &e.message))
+        })?;
+        let mesh = read_mesh(&file)?;
+        Ok(Scene { file, mesh })
+    }
+
+    /// What the scene says, in SI, a hardening table in the place of its file.
+    pub fn tables(&self) -> &Tables {
+        &self.file.value
+    }
+
+    /// The tables with the numbers that the accuracy stands for.
+    pub fn resolved(&self) -> Tables {
+        let tables = self.tables();
+        Tables { numerics: Discretisation::new(tables).numerics(), ..tables.clone() }
+    }
+
+    /// The mesh that the scene names, in metres, its highest point at height 0; `None` if it is to be built.
+    pub fn mesh(&self) -> Option<&Mesh> {
+        self.mesh.as_ref()
+    }
+
+    /// Name of the file without its extension; `scene` where there is none.
+    pub fn name(&self) -> String {
+        self.file.stem()
+    }
+
+    /// The scene as a file, in SI units.
+    ///
+    /// # Errors
+    /// None that is known: what was read can be written.
+    pub fn to_toml(&self) -> Result<String, Error> {
+        to_toml(self.tables()).map_err(Error::Unfinished)
+    }
+
+    /// An error about a value of the scene, pointing at its line.
+    pub fn error(&self, error: &SceneError) -> InputError {
+        self.file.error_at(&error.path, &error.message)
+    }
+}
+
+/// The mesh that the scene names, in metres, its highest point at height 0; `None` if it is to be built.
+fn read_mesh(file: &TomlFile<Tables>) -> Result<Option<Mesh>, InputError> {
+    let Some(named) = &file.value.mesh else { return Ok(None) };
+    let path = file.resolve(&named.file);
+    let error = |reason: String| {
+        file.error_at("mesh.file", &format!("{}: {reason}", path.display()))
+            .help("a mesh is a Gmsh MSH 4.1 ASCII file of quadrangles with physical curves axis, base, surface, outer")
+    };
+    let bytes = std::fs::read(&path).map_err(|e| error(format!("cannot be read: {e}")))?;
+    let mut mesh = read_msh(&bytes).map_err(|e| error(e.to_string()))?;
+    let scale = named.unit.map_or(1.0, |unit| unit.0);
+    let summit = mesh.nodes.iter().map(|node| node[1]).fold(f64::NEG_INFINITY, f64::max);
+    for [r, z] in &mut mesh.nodes {
+        (*r, *z) = (*r * scale, (*z - summit) * scale);
+    }
+    Ok(Some(mesh))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A scene with some words replaced by others of it, or by extremes, is an error or a scene, never a panic.
+    #[test]
+    fn a_scrambled_scene_does_not_panic() {
+        let text = include_str!("../../scenes/single-asperity.toml");
+        let lines: Vec<&str> = text.lines().map(|l| l.split('#').next().unwrap_or_default()).collect();
+        let text = lines.join("\n");
+        let odd = [
+            "-1",
+            "0",
+            "1e308",
+            "1e-308",
+            "nan",
+            "\"inf um\"",
+            "[",
+            "]",
+            "=",
+            "\"",
+            "\n",
+            "true",
+            "{}",
+            "[[x]]",
+            "\"1e300 km\"",
+        ];
+        let words: Vec<&str> = text.split_inclusive(char::is_whitespace).collect();
+        let mut state = 7_u64;
+        let mut next = move |n: usize| {
+            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            (state >> 33) as usize % n
+        };
+        let mut scenes = 0;
+        for _ in 0..2_000 {
+            let mut scrambled: Vec<String> = words.iter().map(|w| w.to_string()).collect();
+            for _ in 0..1 + next(3) {
+                let at = next(words.len());
+                let space: String = words[at].chars().filter(|c| c.is_whitespace()).collect();
+                let new = if next(2) == 0 { odd[next(odd.len())] } else { words[next(words.len())].trim() };
+                scrambled[at] = format!("{new}{space}");
+            }
+            match Scene::from_toml(&scrambled.concat(), Path::new("")) {
+                Ok(_) => scenes += 1,
+                Err(error) => assert!(error.to_string().len() > 10),
+            }
+        }
+        assert!((20..1_900).contains(&scenes), "{scenes}");
+    }
+
+    #[test]
+    fn a_scene_built_in_code_is_that_of_its_file() {
+        let text = include_str!("../../scenes/single-asperity.toml");
+        let read = Scene::from_toml(text, Path::new("")).unwrap();
+        let built = Scene::new(read.tables()).unwrap();
+        assert_eq!(built.tables(), read.tables());
+        assert_eq!(
+            Scene::from_toml(&read.to_toml().unwrap(), Path::new("")).unwrap().tables(),
+            read.tables()
+        );
+    }
+
+    #[test]
+    fn a_value_that_is_set_is_checked() {
+        let text = include_str!("../../scenes/single-asperity.toml");
+        let mut scene = Scene::from_toml(text, Path::new("")).unwrap();
+        scene.set("loading.depth", "2 um").unwrap();
+        assert_eq!(scene.tables().loading.depth, Some("2 um".parse().unwrap()));
+        let error = scene.set("loading.depth", "2 km").unwrap_err();
+        assert!(error.to_string().contains("loading.depth"), "{error}");
+        assert_eq!(scene.tables().loading.depth, Some("2 um".parse().unwrap()));
+    }
+}

@@ -1,0 +1,28 @@
+//! The mesh of a scene, read or built.
+
+use crate::error::Error;
+use crate::input::scene::Scene;
+use asperity_mesh::Mesh;
+use asperity_solver::run::depth_for_force::target_depth;
+use asperity_solver::run::prepare::prepare;
+use asperity_solver::run::problem::Problem;
+
+/// The mesh that a crush of `scene` begins with, in metres, z up and 0 at the highest summit.
+///
+/// # Errors
+/// A scene that cannot be meshed, pointing at its line.
+pub fn mesh(scene: &Scene) -> Result<Mesh, Error> {
+    let problem = problem(scene)?;
+    let mut mesh = problem.mesh;
+    for node in &mut mesh.nodes {
+        *node = node.map(|x| x * problem.units.length);
+    }
+    Ok(mesh)
+}
+
+/// The scene made ready for the solver.
+pub(crate) fn problem(scene: &Scene) -> Result<Problem, Error> {
+    target_depth(scene.tables(), scene.mesh())
+        .and_then(|depth| prepare(scene.tables(), scene.mesh().cloned(), depth))
+        .map_err(|e| scene.error(&e).into())
+}
