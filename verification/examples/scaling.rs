@@ -4,12 +4,11 @@
 //! a process of its own, so that its peak memory is its own.
 #![allow(clippy::print_stdout, reason = "the table is the point")]
 
-use asperity_solver::algebra::newton::{KEEP, Settings, System};
-use asperity_solver::body::model::{Model, ToolContact};
-use asperity_solver::run::load_path::{Goal, Path, schedule};
-use asperity_solver::run::problem::prepare;
+use asperity_solver::algebra::newton::System;
+use asperity_solver::run::load_path::Path;
+use asperity_solver::run::problem::Goal;
 use asperity_solver::scene::Accuracy;
-use asperity_verification::single_asperity::scene;
+use asperity_verification::single_asperity::{prepared, scene};
 use std::error::Error;
 use std::process::Command;
 use std::time::Instant;
@@ -34,15 +33,12 @@ fn peak_memory() -> Option<f64> {
 fn one(elements: usize) -> Result<(), Box<dyn Error>> {
     let mut scene = scene(Accuracy::Reference)?;
     scene.numerics.elements_in_contact = Some(elements);
-    let problem = prepare(&scene, None)?;
-    let contact = ToolContact { tool: problem.tool, penalty: problem.penalty };
-    let model =
-        Model::new(&problem.mesh, problem.symmetry, problem.metal, |n| problem.held[n], Some(contact))?;
-    let settings = Settings { tolerance: 1e-5, max_iterations: 40, keep: KEEP };
+    let mut problem = prepared(&scene)?;
+    (problem.goal, problem.numbers.steps) = (Goal::Depth(FRACTION), STEPS);
     let clock = Instant::now();
-    let mut path = Path::new(model, settings, false);
-    let depth = Goal::Depth(FRACTION);
-    path.load(depth, &schedule(STEPS, 0.02), FRACTION * problem.numbers.penetration, &mut |_, _| true)?;
+    let mut path = Path::new(&problem)?;
+    path.settings.tolerance = 1e-5;
+    path.load(&mut |_, _| true)?;
     let whole = clock.elapsed().as_secs_f64();
     let iterations = path.iterations;
     let model = &mut path.model;

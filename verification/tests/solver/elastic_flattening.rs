@@ -8,11 +8,10 @@
 use asperity_law::units::Length;
 use asperity_solver::algebra::newton::Settings;
 use asperity_solver::body::model::{Model, ToolContact};
-use asperity_solver::run::problem::prepare;
 use asperity_solver::run::record::CurveRow;
 use asperity_solver::scene::{Accuracy, Scene};
 use asperity_verification::contact::{cone_force, hertz_force, hertz_radius};
-use asperity_verification::single_asperity::{crush, scene};
+use asperity_verification::single_asperity::{crush, prepared, scene};
 use asperity_verification::single_increment::increment;
 
 /// An elastic asperity of 20 µm.
@@ -72,7 +71,7 @@ fn a_sharp_shallow_cone_follows_sneddon() {
 fn unloading_retraces_loading() {
     let mut scene = elastic(10.0, Some(100e-6), 0.5e-6);
     scene.numerics.domain = Some(60.0);
-    let problem = prepare(&scene, None).unwrap();
+    let problem = prepared(&scene).unwrap();
     let contact = ToolContact { tool: problem.tool, penalty: problem.penalty };
     let mut model =
         Model::new(&problem.mesh, problem.symmetry, problem.metal, |n| problem.held[n], Some(contact))

@@ -11,16 +11,15 @@
 
 use asperity_solver::algebra::fill_ordering::elimination_order;
 use asperity_solver::body::model::Model;
-use asperity_solver::run::problem::prepare;
 use asperity_solver::scene::Accuracy;
-use asperity_verification::single_asperity::scene;
+use asperity_verification::single_asperity::{prepared, scene};
 
 #[test]
 fn factorisations_cost_no_more_than_twice_those_of_a_square_grid() {
     let mut scene = scene(Accuracy::Standard).unwrap();
     for elements in [28, 104, 240, 400] {
         scene.numerics.elements_in_contact = Some(elements);
-        let problem = prepare(&scene, None).unwrap();
+        let problem = prepared(&scene).unwrap();
         let model =
             Model::new(&problem.mesh, problem.symmetry, problem.metal, |n| problem.held[n], None).unwrap();
         let grid = 16.0 * 829.0 / 84.0 * (model.unknowns() as f64 / 2.0).powf(1.5);

@@ -7,10 +7,9 @@
 use asperity_solver::algebra::newton::{Assessment, Failure, Settings, System, solve};
 use asperity_solver::body::model::{Model, ToolContact};
 use asperity_solver::contact::edge::{NOTHING, Parts};
-use asperity_solver::run::load_path::schedule;
-use asperity_solver::run::problem::prepare;
+use asperity_solver::run::schedule::{Spacing, loading};
 use asperity_solver::scene::Accuracy;
-use asperity_verification::single_asperity::scene;
+use asperity_verification::single_asperity::{prepared, scene};
 
 /// Residual over scale, flowing points and touching edges of an iterate.
 type Iterate = (f64, Vec<bool>, Vec<[bool; 2]>);
@@ -65,7 +64,7 @@ fn order(seen: &[Iterate]) -> Option<f64> {
 #[test]
 fn quadratic_where_the_discrete_sets_rest() {
     let scene = scene(Accuracy::Draft).unwrap();
-    let problem = prepare(&scene, None).unwrap();
+    let problem = prepared(&scene).unwrap();
     let contact = ToolContact { tool: problem.tool, penalty: problem.penalty };
     let mut model =
         Model::new(&problem.mesh, problem.symmetry, problem.metal, |n| problem.held[n], Some(contact))
@@ -73,7 +72,7 @@ fn quadratic_where_the_discrete_sets_rest() {
     let settings = Settings { tolerance: 1e-13, max_iterations: 40, keep: 0.0 };
     let mut orders = Vec::new();
     let mut last = [0.0; 2];
-    for travel in schedule(64, 0.02) {
+    for travel in loading(64, Spacing::Geometric { from: 0.02 }) {
         let step = travel - last[0];
         let ratio = if last[1] > 0.0 { step / last[1] } else { 0.0 };
         let before = model.accepted_increment().to_vec();
