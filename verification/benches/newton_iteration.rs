@@ -9,11 +9,11 @@
 use asperity_law::HardeningMode;
 use asperity_law::units::{Length, Stress};
 use asperity_mesh::ElementKind;
-use asperity_solver::body::discrete_body::{Body, ToolContact};
 use asperity_solver::element::kernel::POINTS;
 use asperity_solver::run::crush::run;
-use asperity_solver::run::equilibrium::Equilibrium;
-use asperity_solver::run::problem::prepare;
+use asperity_solver::run::depth_for_force::target_depth;
+use asperity_solver::run::load_path::Path;
+use asperity_solver::run::prepare::prepare;
 use asperity_solver::scene::{
     Accuracy, Asperity, ElementChoice, HardeningChoice, Lateral, Loading, Material, Numerics, Output, Scene,
     Symmetry, Tool, ToolShape,
@@ -57,13 +57,9 @@ fn single_asperity(accuracy: Accuracy, element: ElementChoice) -> Scene {
 
 /// Seconds of an iteration of `scene` at the floor; `None` if it does not mesh.
 fn least(scene: &Scene, kind: ElementKind, floor: &Roofline) -> Option<f64> {
-    let problem = prepare(scene, None).ok()?;
-    let contact = ToolContact { tool: problem.tool, penalty: problem.penalty };
-    let held = |node: usize| problem.held[node];
-    let model = Body::new(&problem.mesh, problem.symmetry, problem.metal.clone(), held, Some(contact))
-        .and_then(Equilibrium::new)
-        .ok()?;
-    Some(floor.iteration(kind, problem.mesh.cell_count() * POINTS, model.operations()))
+    let problem = prepare(scene, None, target_depth(scene, None).ok()?).ok()?;
+    let operations = Path::new(&problem).ok()?.model.operations();
+    Some(floor.iteration(kind, problem.mesh.cell_count() * POINTS, operations))
 }
 
 fn main() {

@@ -1,16 +1,16 @@
 //! What a case of the default sweep costs: core-seconds, increments, iterations, and the floor of those iterations.
 //!
 //! `cargo bench -p asperity-calibration` solves every tenth case of the grid on one thread and prints a row for each slope
-//! and the mean. Floor: the iterations, each with a new tangent and every point flowing, at the arithmetic of this core
+//! and the mean. Roofline: the iterations, each with a new tangent and every point flowing, at the arithmetic of this core
 //! (`asperity_solver::algebra::roofline`).
 #![allow(clippy::print_stdout, reason = "a benchmark prints")]
 
 use asperity_calibration::case::Case;
 use asperity_calibration::run::{shard, solve};
 use asperity_calibration::sweep::Sweep;
-use asperity_solver::algebra::roofline::Floor;
 use asperity_solver::element::kernel::POINTS;
 use asperity_solver::run::load_path::Path;
+use asperity_verification::roofline::Roofline;
 
 /// Sums over cases.
 #[derive(Clone, Copy, Default)]
@@ -50,14 +50,14 @@ impl Sums {
     }
 }
 
-fn measure(case: &Case, sweep: &Sweep, floor: &Floor) -> Sums {
+fn measure(case: &Case, sweep: &Sweep, floor: &Roofline) -> Sums {
     let problem = case.problem(&case.discretisation(sweep.accuracy));
     let row = solve(case, sweep.accuracy);
     let (increments, iterations) = row.outcome.map_or((0, 0), |k| (k.increments, k.iterations));
     let points = problem.mesh.cell_count() * POINTS;
     let (unknowns, least) = Path::new(&problem).map_or((0, 0.0), |path| {
         let operations = path.model.operations();
-        (path.model.unknowns(), floor.iteration(problem.mesh.kind, points, operations))
+        (path.model.body().dofs.count, floor.iteration(problem.mesh.kind, points, operations))
     });
     Sums {
         cases: 1.0,
@@ -70,7 +70,7 @@ fn measure(case: &Case, sweep: &Sweep, floor: &Floor) -> Sums {
 }
 
 fn main() {
-    let floor = Floor::measure();
+    let floor = Roofline::measure();
     let sweep = Sweep::default();
     let cases = shard(&sweep.cases(), 3, 10);
     println!(

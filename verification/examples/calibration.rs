@@ -11,11 +11,11 @@
 use asperity_calibration::case::{Case, Tool, YieldMeasure};
 use asperity_calibration::fit::SplitMix;
 use asperity_calibration::loading_curvature::{self, LoadingCurvature};
-use asperity_calibration::resolution::Resolution;
 use asperity_calibration::row::Row;
 use asperity_calibration::run::run;
 use asperity_calibration::sweep::Sweep;
 use asperity_law::HardeningLaw;
+use asperity_solver::run::discretisation::ConeDiscretisation;
 use asperity_solver::scene::Accuracy;
 use asperity_verification::calibration::{PEERS, metal, peer_case};
 use asperity_verification::report::Report;
@@ -71,7 +71,7 @@ fn peers(report: &mut Report) {
     );
     for ((p, s), r) in PEERS.iter().zip(&standard).zip(&reference) {
         let case = peer_case(p);
-        let resolution = Resolution::of(&case, Accuracy::Standard);
+        let resolution = case.discretisation(Accuracy::Standard);
         let cauchy = loading_curvature::solve(&Case { stress: YieldMeasure::Cauchy, ..case }, &resolution)
             .expect("committed cases run");
         let off = |k: &LoadingCurvature| 100.0 * (k.k_over_e / p.k_over_e - 1.0);
@@ -98,8 +98,7 @@ fn elastic(report: &mut Report) {
         for yielding in [None, Some(metal(HardeningLaw::Hollomon, 0.3, 10.0))] {
             let case =
                 Case { beta_deg: 1.0, yielding, poissons_ratio: 0.3, tool, stress: YieldMeasure::Kirchhoff };
-            let k =
-                loading_curvature::solve(&case, &Resolution::of(&case, Accuracy::Standard)).expect("runs");
+            let k = loading_curvature::solve(&case, &case.discretisation(Accuracy::Standard)).expect("runs");
             let sneddon = std::f64::consts::FRAC_2_PI * case.elastic().reduced_modulus() / case.tan_beta();
             report.line(&format!(
                 "| {tool:?} | {} | {:.3} | {:+.2} | {:+.2} |",
@@ -121,22 +120,22 @@ fn lengths(report: &mut Report) {
         tool: Tool::Plane,
         stress: YieldMeasure::Kirchhoff,
     });
-    type Change = fn(&mut Resolution);
+    type Change = fn(&mut ConeDiscretisation);
     let changes: [(&str, Change); 10] = [
         ("as standard", |_| ()),
-        ("summit rounded over 0.1 a", |r| r.rounding = 0.1),
-        ("summit rounded over 0.2 a", |r| r.rounding = 0.2),
-        ("height: base radius 2 a", |r| r.foot = 2.0),
-        ("height: base radius 4 a", |r| r.foot = 4.0),
-        ("height: base radius 16 a", |r| r.foot = 16.0),
-        ("substrate 50 a", |r| r.domain = 50.0),
-        ("substrate 200 a", |r| r.domain = 200.0),
-        ("substrate 400 a", |r| r.domain = 400.0),
-        ("substrate 1600 a", |r| r.domain = 1600.0),
+        ("summit rounded over 0.1 a", |r| r.sizes.rounding = 0.1),
+        ("summit rounded over 0.2 a", |r| r.sizes.rounding = 0.2),
+        ("height: base radius 2 a", |r| r.sizes.foot = 2.0),
+        ("height: base radius 4 a", |r| r.sizes.foot = 4.0),
+        ("height: base radius 16 a", |r| r.sizes.foot = 16.0),
+        ("substrate 50 a", |r| r.numbers.domain = 50.0),
+        ("substrate 200 a", |r| r.numbers.domain = 200.0),
+        ("substrate 400 a", |r| r.numbers.domain = 400.0),
+        ("substrate 1600 a", |r| r.numbers.domain = 1600.0),
     ];
     report.table("| | K, 3°, n 0.1, E/σ_y 300, % | K, 10°, n 0.5, E/σ_y 1050, % |");
-    let k = |case: &Case, change: fn(&mut Resolution)| {
-        let mut resolution = Resolution::of(case, Accuracy::Standard);
+    let k = |case: &Case, change: Change| {
+        let mut resolution = case.discretisation(Accuracy::Standard);
         change(&mut resolution);
         loading_curvature::solve(case, &resolution).expect("runs").k_over_e
     };
@@ -160,7 +159,7 @@ fn indentation(report: &mut Report) {
                     tool: Tool::Cone,
                     stress: YieldMeasure::Kirchhoff,
                 };
-                let resolution = Resolution::of(&case, Accuracy::Standard);
+                let resolution = case.discretisation(Accuracy::Standard);
                 let k = loading_curvature::solve(&case, &resolution).expect("runs");
                 let cauchy =
                     loading_curvature::solve(&Case { stress: YieldMeasure::Cauchy, ..case }, &resolution)
@@ -193,7 +192,7 @@ fn published(report: &mut Report, file: &str, beta_deg: f64) {
     let difference = |[exponent, ratio, k_over_e]: &[f64; 3], stress: YieldMeasure| {
         let yielding = Some(metal(HardeningLaw::Swift, *exponent, *ratio));
         let case = Case { beta_deg, yielding, poissons_ratio: 0.3, tool: Tool::Cone, stress };
-        let resolution = Resolution::of(&case, Accuracy::Standard);
+        let resolution = case.discretisation(Accuracy::Standard);
         100.0 * (loading_curvature::solve(&case, &resolution).expect("runs").k_over_e / k_over_e - 1.0)
     };
     let half = metals.len().div_ceil(2);

@@ -4,15 +4,12 @@
 //! `cargo run --release -p asperity-verification --example economy [-- --out FILE]`; the table is `verification/results/economy.md`.
 
 use asperity_law::units::{Length, Stress};
-use asperity_solver::algebra::newton::{KEEP, Settings, solve};
-use asperity_solver::body::discrete_body::{Body, ToolContact};
+use asperity_solver::algebra::newton::KEEP;
 use asperity_solver::run::crush::{Outcome, run};
-use asperity_solver::run::equilibrium::Equilibrium;
-use asperity_solver::run::load_path::schedule;
-use asperity_solver::run::problem::prepare;
+use asperity_solver::run::load_path::Path;
 use asperity_solver::scene::{Accuracy, Scene, Substrate};
 use asperity_verification::report::{Report, timed};
-use asperity_verification::single_asperity::scene;
+use asperity_verification::single_asperity::{prepared, scene};
 use std::error::Error;
 use std::ops::ControlFlow;
 use std::time::Instant;
@@ -47,24 +44,12 @@ fn row(report: &mut Report, what: &str, with: &(f64, Outcome), without: &(f64, O
 
 /// Seconds and force of the loading of `scene` where factors are kept as `keep` says.
 fn loaded(scene: &Scene, keep: f64) -> Result<(f64, f64, usize), Box<dyn Error>> {
-    let problem = prepare(scene, None)?;
-    let contact = ToolContact { tool: problem.tool, penalty: problem.penalty };
-    let mut model =
-        Body::new(&problem.mesh, problem.symmetry, problem.metal, |n| problem.held[n], Some(contact))
-            .and_then(Equilibrium::new)?;
-    let settings = Settings { tolerance: problem.numbers.newton_tolerance, max_iterations: 40, keep };
+    let problem = prepared(scene)?;
+    let mut path = Path::new(&problem)?;
+    path.settings.keep = keep;
     let clock = Instant::now();
-    let mut last = [0.0; 2];
-    for travel in schedule(problem.numbers.steps, problem.numbers.geometric_from) {
-        let step = travel - last[0];
-        let ratio = if last[1] > 0.0 { step / last[1] } else { 0.0 };
-        let before = model.state().displacement.to_vec();
-        model.begin(-travel, ratio, |node| before[node].map(|u| 0.7 * ratio * u));
-        solve(&mut model, &settings).map_err(|(failure, _)| failure)?;
-        model.accept()?;
-        last = [travel, step];
-    }
-    Ok((clock.elapsed().as_secs_f64(), model.response().load(), model.counters.factorisations))
+    let last = path.load(&mut |_, _| true)?;
+    Ok((clock.elapsed().as_secs_f64(), last.contact.force, path.model.counters.factorisations))
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -75,7 +60,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     let mut elastic = paper.clone();
     (elastic.material.yield_stress, elastic.material.hardening_exponent) = (None, None);
-    elastic.numerics = prepare(&elastic, None)?.numbers.numerics();
+    elastic.numerics = prepared(&elastic)?.numbers.numerics();
     // a material that could yield, under a load at which it does not
     let mut never = elastic.clone();
     never.material.yield_stress = Some(Stress(0.19 * never.material.youngs_modulus.0));
@@ -109,7 +94,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         kept.1 / every.1 - 1.0
     ));
 
-    let problem = prepare(&paper, None)?;
+    let problem = prepared(&paper)?;
     let reach = 3.0 * problem.half_widths.iter().fold(0.0_f64, |m, w| m.max(*w));
     let far = (0..problem.mesh.cell_count())
         .filter(|&cell| {

@@ -5,14 +5,12 @@
 #![allow(clippy::print_stdout, reason = "the child tells its parent")]
 
 use asperity_law::least_squares::Line;
-use asperity_solver::algebra::newton::{KEEP, Settings, System};
-use asperity_solver::body::discrete_body::{Body, ToolContact};
-use asperity_solver::run::equilibrium::Equilibrium;
-use asperity_solver::run::load_path::{Goal, Path, schedule};
-use asperity_solver::run::problem::prepare;
+use asperity_solver::algebra::newton::System;
+use asperity_solver::run::load_path::Path;
+use asperity_solver::run::problem::Goal;
 use asperity_solver::scene::Accuracy;
 use asperity_verification::report::{Report, timed};
-use asperity_verification::single_asperity::scene;
+use asperity_verification::single_asperity::{prepared, scene};
 use std::error::Error;
 use std::process::Command;
 
@@ -36,15 +34,11 @@ fn peak_memory() -> Option<f64> {
 fn one(elements: usize) -> Result<(), Box<dyn Error>> {
     let mut scene = scene(Accuracy::Reference)?;
     scene.numerics.elements_in_contact = Some(elements);
-    let problem = prepare(&scene, None)?;
-    let contact = ToolContact { tool: problem.tool, penalty: problem.penalty };
-    let model = Body::new(&problem.mesh, problem.symmetry, problem.metal, |n| problem.held[n], Some(contact))
-        .and_then(Equilibrium::new)?;
-    let settings = Settings { tolerance: 1e-5, max_iterations: 40, keep: KEEP };
-    let mut path = Path::new(model, settings, false);
-    let depth = Goal::Depth(FRACTION);
-    let penetration = FRACTION * problem.numbers.penetration;
-    let (end, whole) = timed(|| path.load(depth, &schedule(STEPS, 0.02), penetration, &mut |_, _| true));
+    let mut problem = prepared(&scene)?;
+    (problem.goal, problem.numbers.steps) = (Goal::Depth(FRACTION), STEPS);
+    let mut path = Path::new(&problem)?;
+    path.settings.tolerance = 1e-5;
+    let (end, whole) = timed(|| path.load(&mut |_, _| true));
     end?;
     let iterations = path.iterations;
     let model = &mut path.model;

@@ -2,7 +2,10 @@
 
 use asperity_law::units::{Force, LineForce};
 use asperity_solver::run::crush::{CrushError, Outcome, run};
-use asperity_solver::scene::{Accuracy, Scene, Symmetry, ToolForce};
+use asperity_solver::run::depth_for_force::target_depth;
+use asperity_solver::run::prepare::prepare;
+use asperity_solver::run::problem::Problem;
+use asperity_solver::scene::{Accuracy, Scene, SceneError, Symmetry, ToolForce};
 use std::ops::ControlFlow;
 
 /// The scene of the first figure of the paper, at `accuracy`, without field output.
@@ -44,4 +47,12 @@ pub fn driven_by(scene: &Scene, force: f64) -> Scene {
 /// The run could not begin.
 pub fn crush(scene: &Scene) -> Result<Outcome, CrushError> {
     run(scene, None, &mut |_| ControlFlow::Continue(()))
+}
+
+/// `scene` as the solver sees it.
+///
+/// # Errors
+/// A scene that cannot be meshed.
+pub fn prepared(scene: &Scene) -> Result<Problem, SceneError> {
+    prepare(scene, None, target_depth(scene, None)?)
 }

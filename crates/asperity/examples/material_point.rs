@@ -12,7 +12,7 @@ const STEP: f64 = 0.002;
 /// Stretches `old` along z by [`STEP`] and sideways by the logarithmic strain `lateral`.
 fn stretch(material: &Metal, old: &PointState, lateral: f64) -> Option<PointUpdate> {
     let (side, along) = (lateral.exp_m1(), STEP.exp_m1());
-    update(material, old, &[side, 0.0, 0.0, along, side], Tangent::None)
+    update(material, old, &[side, 0.0, 0.0, along, side], Tangent::None).ok()
 }
 
 /// The increment whose stress on the sides is 0: between full contraction and none, by bisection.

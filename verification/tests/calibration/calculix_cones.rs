@@ -7,7 +7,6 @@
 
 use asperity_calibration::case::{Case, YieldMeasure};
 use asperity_calibration::loading_curvature::solve;
-use asperity_calibration::resolution::Resolution;
 use asperity_solver::scene::Accuracy;
 use asperity_verification::calibration::{PEERS, peer_case};
 
@@ -15,7 +14,7 @@ use asperity_verification::calibration::{PEERS, peer_case};
 fn cones_agree_with_calculix() {
     for i in [1, 4, 7, 8] {
         let (peer, case) = (PEERS[i], peer_case(&PEERS[i]));
-        let resolution = Resolution::of(&case, Accuracy::Standard);
+        let resolution = case.discretisation(Accuracy::Standard);
         for (stress, measure) in [(YieldMeasure::Cauchy, 0.0), (YieldMeasure::Kirchhoff, 0.01)] {
             let kick = solve(&Case { stress, ..case }, &resolution).unwrap();
             let off = (kick.k_over_e / peer.k_over_e - 1.0).abs();

@@ -7,7 +7,6 @@
 
 use asperity_calibration::case::{Case, Tool, YieldMeasure};
 use asperity_calibration::loading_curvature::solve;
-use asperity_calibration::resolution::Resolution;
 use asperity_law::HardeningLaw;
 use asperity_solver::scene::Accuracy;
 use asperity_verification::calibration::metal;
@@ -19,7 +18,7 @@ fn elastic_cones_follow_sneddon() {
         for yielding in [None, Some(metal(HardeningLaw::Hollomon, 0.3, 10.0))] {
             let case =
                 Case { beta_deg: 1.0, yielding, poissons_ratio: 0.3, tool, stress: YieldMeasure::Kirchhoff };
-            let kick = solve(&case, &Resolution::of(&case, Accuracy::Standard)).unwrap();
+            let kick = solve(&case, &case.discretisation(Accuracy::Standard)).unwrap();
             let sneddon = FRAC_2_PI * case.elastic().reduced_modulus() / case.tan_beta();
             assert!((kick.k_over_e / sneddon - 1.0).abs() < 0.01, "{tool:?}: {} {sneddon}", kick.k_over_e);
             assert!((kick.contact_ratio / FRAC_2_PI - 1.0).abs() < 0.03, "{tool:?}: {}", kick.contact_ratio);

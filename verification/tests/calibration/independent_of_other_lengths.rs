@@ -7,8 +7,8 @@
 
 use asperity_calibration::case::{Case, Tool, YieldMeasure};
 use asperity_calibration::loading_curvature::solve;
-use asperity_calibration::resolution::Resolution;
 use asperity_law::HardeningLaw;
+use asperity_solver::run::discretisation::ConeDiscretisation;
 use asperity_solver::scene::Accuracy;
 use asperity_verification::calibration::metal;
 
@@ -22,14 +22,20 @@ fn tip_height_and_substrate_do_not_change_k() {
         tool: Tool::Plane,
         stress: YieldMeasure::Kirchhoff,
     };
-    let standard = Resolution::of(&case, Accuracy::Standard);
-    let k = |resolution: &Resolution| solve(&case, resolution).unwrap().k_over_e;
-    let sharp = k(&standard);
-    for (name, changed) in [
-        ("tip", Resolution { rounding: 0.025, ..standard }),
-        ("height", Resolution { foot: 16.0, ..standard }),
-        ("substrate", Resolution { domain: 400.0, ..standard }),
-    ] {
-        assert!((k(&changed) / sharp - 1.0).abs() < 0.005, "{name}: {} {sharp}", k(&changed));
+    let standard = case.discretisation(Accuracy::Standard);
+    let k = |change: fn(&mut ConeDiscretisation)| {
+        let mut changed = standard;
+        change(&mut changed);
+        solve(&case, &changed).unwrap().k_over_e
+    };
+    let sharp = k(|_| ());
+    let changes: [(&str, fn(&mut ConeDiscretisation)); 3] = [
+        ("tip", |d| d.sizes.rounding = 0.025),
+        ("height", |d| d.sizes.foot = 16.0),
+        ("substrate", |d| d.numbers.domain = 400.0),
+    ];
+    for (name, change) in changes {
+        let other = k(change);
+        assert!((other / sharp - 1.0).abs() < 0.005, "{name}: {other} {sharp}");
     }
 }

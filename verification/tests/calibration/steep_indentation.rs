@@ -9,7 +9,6 @@
 
 use asperity_calibration::case::{Case, Tool, YieldMeasure};
 use asperity_calibration::loading_curvature::solve;
-use asperity_calibration::resolution::Resolution;
 use asperity_law::HardeningLaw;
 use asperity_law::units::{Length, Stress};
 use asperity_solver::scene::{Accuracy, HardeningChoice, ToolShape};
@@ -24,8 +23,9 @@ fn cone(beta_deg: f64, exponent: f64, e_over_sy: f64) -> Case {
 #[test]
 fn k_of_a_steep_cone_does_not_depend_on_the_mesh() {
     let case = cone(30.0, 0.1, 1000.0 / 3.0);
-    let draft = Resolution::of(&case, Accuracy::Draft);
-    let coarse = Resolution { elements: 8, at_axis: 1, ..draft };
+    let draft = case.discretisation(Accuracy::Draft);
+    let mut coarse = draft;
+    (coarse.numbers.elements_in_contact, coarse.sizes.at_axis) = (8, 1);
     let [fine, coarse] = [draft, coarse].map(|r| solve(&case, &r).unwrap().k_over_e);
     assert!((coarse / fine - 1.0).abs() < 0.02, "{coarse} {fine}");
 }
@@ -34,7 +34,7 @@ fn k_of_a_steep_cone_does_not_depend_on_the_mesh() {
 fn vickers_equivalent_cone_follows_dao() {
     for (exponent, e_over_sy) in [(0.1, 250.0), (0.3, 350.0), (0.3, 100.0), (0.5, 250.0)] {
         let case = Case { stress: YieldMeasure::Cauchy, ..cone(19.7, exponent, e_over_sy) };
-        let resolution = Resolution::of(&case, Accuracy::Standard);
+        let resolution = case.discretisation(Accuracy::Standard);
         let kick = solve(&case, &resolution).unwrap();
         let stress = case.hardening().unwrap().representative_stress(0.033);
         let l = (case.elastic().reduced_modulus() / stress).ln();
@@ -60,7 +60,7 @@ fn a_scene_with_a_steep_cone_goes_down_and_comes_back() {
         assert_eq!(outcome.stopped, None, "{beta_deg} degrees, n {exponent}");
         let k = outcome.summary.peak_force / (scene.material.youngs_modulus.0 * depth * depth);
         let case = cone(beta_deg, exponent, e_over_sy);
-        let kick = solve(&case, &Resolution::of(&case, Accuracy::Draft)).unwrap().k_over_e;
+        let kick = solve(&case, &case.discretisation(Accuracy::Draft)).unwrap().k_over_e;
         assert!((k / kick - 1.0).abs() < 0.05, "{beta_deg} degrees, n {exponent}: {k} {kick}");
     }
 }

@@ -7,13 +7,10 @@
 
 use asperity_law::units::Length;
 use asperity_solver::algebra::newton::Settings;
-use asperity_solver::body::discrete_body::{Body, ToolContact};
-use asperity_solver::run::equilibrium::Equilibrium;
-use asperity_solver::run::problem::prepare;
 use asperity_solver::run::record::CurveRow;
 use asperity_solver::scene::{Accuracy, Scene};
 use asperity_verification::contact::{cone_force, hertz_force, hertz_radius};
-use asperity_verification::single_asperity::{crush, scene};
+use asperity_verification::single_asperity::{crush, prepared, scene};
 use asperity_verification::single_increment::increment;
 
 /// An elastic asperity of 20 µm.
@@ -73,12 +70,8 @@ fn a_sharp_shallow_cone_follows_sneddon() {
 fn unloading_retraces_loading() {
     let mut scene = elastic(10.0, Some(100e-6), 0.5e-6);
     scene.numerics.domain = Some(60.0);
-    let problem = prepare(&scene, None).unwrap();
-    let contact = ToolContact { tool: problem.tool, penalty: problem.penalty };
-    let mut model =
-        Body::new(&problem.mesh, problem.symmetry, problem.metal, |n| problem.held[n], Some(contact))
-            .and_then(Equilibrium::new)
-            .unwrap();
+    let problem = prepared(&scene).unwrap();
+    let mut model = problem.equilibrium().unwrap();
     let settings = Settings { tolerance: 1e-10, max_iterations: 40, keep: 0.0 };
     let travels = [0.1, 0.2, 0.4, 0.6, 0.8, 1.0];
     let mut force = |travel: f64| {

@@ -1,30 +1,25 @@
-//! Claim: a factorisation takes operations like unknowns^1.5 on small and large meshes: no numbering makes a large one several
+//! A factorisation takes operations like unknowns^1.5 on small and large meshes: no numbering makes a large one several
 //! times dearer than its neighbours.
 //!
 //! Source: nested dissection of a square grid of m nodes with nine-point coupling (George, SIAM J. Numer. Anal. 10 (1973),
 //! pp. 345-363): 829/84 m^1.5 multiplications to leading order, from half the sum of the squared columns of its separators.
 //! With two unknowns a node and the additions counted these are 16 * 829/84 (n / 2)^1.5 = 56 n^1.5 operations of n unknowns.
 //!
-//! Tolerance 2: quadratic elements couple eight nodes, not four, the mesh is graded, and zeros kept for dense blocks
+//! The tolerance of 2: quadratic elements couple eight nodes, not four, the mesh is graded, and zeros kept for dense blocks
 //! are counted (measured 0.8 to 1.2 here, 0.7 to 1.4 up to 437,000 unknowns). With approximate minimum degrees alone, of the
 //! two starts, the largest mesh takes 2.3. Below 0.5 something would be left out of the count.
 
 use asperity_solver::algebra::fill_ordering::elimination_order;
-use asperity_solver::body::discrete_body::Body;
-use asperity_solver::run::equilibrium::Equilibrium;
-use asperity_solver::run::problem::prepare;
 use asperity_solver::scene::Accuracy;
-use asperity_verification::single_asperity::scene;
+use asperity_verification::single_asperity::{prepared, scene};
 
 #[test]
 fn factorisations_cost_no_more_than_twice_those_of_a_square_grid() {
     let mut scene = scene(Accuracy::Standard).unwrap();
     for elements in [28, 104, 240, 400] {
         scene.numerics.elements_in_contact = Some(elements);
-        let problem = prepare(&scene, None).unwrap();
-        let model = Body::new(&problem.mesh, problem.symmetry, problem.metal, |n| problem.held[n], None)
-            .and_then(Equilibrium::new)
-            .unwrap();
+        let problem = prepared(&scene).unwrap();
+        let model = problem.equilibrium().unwrap();
         let grid = 16.0 * 829.0 / 84.0 * (model.body().dofs.count as f64 / 2.0).powf(1.5);
         let share = model.operations().factor / grid;
         assert!((0.5..2.0).contains(&share), "{elements} elements: {share:.2} of a square grid's operations");
@@ -61,5 +56,5 @@ fn large_bodies_of_several_pieces_are_eliminated_whole() {
 
 #[test]
 fn a_body_without_free_nodes_has_nothing_to_eliminate() {
-    assert_eq!(elimination_order(&[0, 1, 2, 3], 4, &[false; 4]).unwrap(), []);
+    assert_eq!(elimination_order(&[0, 1, 2, 3], 4, &[false; 4]).unwrap(), Vec::<usize>::new());
 }

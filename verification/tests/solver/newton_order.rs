@@ -2,17 +2,15 @@
 //! asperity whose plastic set and touching edges rest in the last three iterations.
 //!
 //! Source: p = ln(r₃/r₂)/ln(r₂/r₁) of the last three residuals above 1e-12 of their scale, below which rounding rules.
-//! Tolerance: 1.8 and not 2: the three residuals are not yet infinitesimal.
+//! 1.8 and not 2: the three residuals are not yet infinitesimal.
 
 use asperity_solver::algebra::newton::{Assessment, Settings, System, solve};
-use asperity_solver::body::discrete_body::{Body, ToolContact};
 use asperity_solver::body::failure::Failure;
 use asperity_solver::contact::edge::{NOTHING, Parts};
 use asperity_solver::run::equilibrium::Equilibrium;
-use asperity_solver::run::load_path::schedule;
-use asperity_solver::run::problem::prepare;
+use asperity_solver::run::schedule::{Spacing, loading};
 use asperity_solver::scene::Accuracy;
-use asperity_verification::single_asperity::scene;
+use asperity_verification::single_asperity::{prepared, scene};
 
 /// Residual over scale, flowing points and touching edges of an iterate.
 type Iterate = (f64, Vec<bool>, Vec<[bool; 2]>);
@@ -66,21 +64,17 @@ fn order(seen: &[Iterate]) -> Option<f64> {
 }
 
 #[test]
-fn newton_is_quadratic_where_contact_and_plastic_sets_rest() {
+fn quadratic_where_the_discrete_sets_rest() {
     let scene = scene(Accuracy::Draft).unwrap();
-    let problem = prepare(&scene, None).unwrap();
-    let contact = ToolContact { tool: problem.tool, penalty: problem.penalty };
-    let mut model =
-        Body::new(&problem.mesh, problem.symmetry, problem.metal, |n| problem.held[n], Some(contact))
-            .and_then(Equilibrium::new)
-            .unwrap();
+    let problem = prepared(&scene).unwrap();
+    let mut model = problem.equilibrium().unwrap();
     let settings = Settings { tolerance: 1e-13, max_iterations: 40, keep: 0.0 };
     let mut orders = Vec::new();
     let mut last = [0.0; 2];
-    for travel in schedule(64, 0.02) {
+    for travel in loading(64, Spacing::Geometric { from: 0.02 }) {
         let step = travel - last[0];
         let ratio = if last[1] > 0.0 { step / last[1] } else { 0.0 };
-        let before = model.state().displacement.to_vec();
+        let before = model.state().displacement.clone();
         model.begin(-travel, ratio, |node| before[node].map(|u| 0.7 * ratio * u));
         let mut watched = Watched { model: &mut model, seen: Vec::new() };
         let _ = solve(&mut watched, &settings);

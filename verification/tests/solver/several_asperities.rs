@@ -147,7 +147,7 @@ fn a_steep_ridge_alone_has_sound_cells() {
         scene.asperity[0].slope_deg = Some(slope);
         let size = Some(asperity_law::units::Length(4e-3));
         scene.substrate = Some(asperity_solver::scene::Substrate { radius: size, depth: size });
-        let problem = asperity_solver::run::problem::prepare(&scene, None).unwrap();
+        let problem = asperity_verification::single_asperity::prepared(&scene).unwrap();
         let quality = problem.mesh.quality().unwrap();
         assert!(quality.min_scaled_jacobian > 0.05, "{slope}°: {quality:?}");
     }

@@ -7,9 +7,9 @@
 //! both kinds of element. Tolerance: 0.02 of the scaled Jacobian is that of the steepest flanks on the coarsest meshes; an
 //! aspect of 1e6 is that of the narrowest gap between two feet that is drawn, a rounded sum would leave 1e15.
 
-use asperity_solver::run::problem::prepare;
 use asperity_solver::scene::{Accuracy, Scene};
 use asperity_verification::random_scenes::{Kind, draw};
+use asperity_verification::single_asperity::prepared;
 use rayon::prelude::*;
 
 #[test]
@@ -19,7 +19,7 @@ fn meshes_of_random_scenes_have_convex_cells() {
     scenes.par_iter().for_each(|drawn| {
         let mut scene: Scene = toml::from_str(&drawn.text).unwrap();
         scene.accuracy = Accuracy::Draft;
-        let quality = prepare(&scene, None).unwrap().mesh.quality().unwrap();
+        let quality = prepared(&scene).unwrap().mesh.quality().unwrap();
         assert!(
             quality.min_scaled_jacobian > 0.02 && quality.max_aspect < 1e6,
             "{quality:?}\n{}",

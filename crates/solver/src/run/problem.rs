@@ -1,9 +1,12 @@
 //! What the solver computes with: mesh, material, tool, and the rules of its path. Inside the solver E = 1.
 
+use crate::body::discrete_body::{Body, ToolContact};
+use crate::body::failure::Failure;
 use crate::contact::tool::Tool;
 use crate::point::kinematics::Symmetry;
 use crate::point::material::Metal;
 use crate::run::discretisation::Discretisation;
+use crate::run::equilibrium::Equilibrium;
 use crate::scene::{ContactMethod, Lateral};
 use asperity_mesh::Mesh;
 use asperity_mesh::profile::Profile;
@@ -114,6 +117,17 @@ pub struct Problem {
 }
 
 impl Problem {
+    /// Its body, stress-free and out of contact.
+    ///
+    /// # Errors
+    /// An element of the mesh that is inside out.
+    pub fn equilibrium(&self) -> Result<Equilibrium<'_>, Failure> {
+        let contact = ToolContact { tool: self.tool, penalty: self.penalty };
+        let fixed = |node: usize| self.held[node];
+        Body::new(&self.mesh, self.symmetry, self.metal.clone(), fixed, Some(contact))
+            .and_then(Equilibrium::new)
+    }
+
     /// Penetration at the peak to be expected before the first increment shows it; 0 with multipliers.
     pub fn expected_penetration(&self) -> f64 {
         match (self.numbers.contact, self.goal) {

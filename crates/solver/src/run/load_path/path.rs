@@ -2,7 +2,6 @@
 
 use super::increment::{Energies, Increment, Observer, Stop};
 use crate::algebra::newton::{KEEP, Settings, solve};
-use crate::body::discrete_body::{Body, ToolContact};
 use crate::body::energy::{ContactSums, contact_sums, work, work_by_slopes, work_to_separation};
 use crate::body::failure::Failure as BodyFailure;
 use crate::body::surface::Surface;
@@ -73,10 +72,7 @@ impl<'p> Path<'p> {
     /// # Errors
     /// An element of the mesh is inside out.
     pub fn new(problem: &'p Problem) -> Result<Path<'p>, BodyFailure> {
-        let contact = ToolContact { tool: problem.tool, penalty: problem.penalty };
-        let held = |node: usize| problem.held[node];
-        let body = Body::new(&problem.mesh, problem.symmetry, problem.metal.clone(), held, Some(contact))?;
-        let model = Equilibrium::new(body)?;
+        let model = problem.equilibrium()?;
         let tolerance = problem.numbers.newton_tolerance;
         Ok(Path {
             touch: model.converged_surface().first_touch(),
