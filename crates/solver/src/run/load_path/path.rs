@@ -43,7 +43,7 @@ pub struct Path<'p> {
     last_step: f64,
     pub(super) force: f64,
     area: f64,
-    /// What the penetration takes of the travel.
+    /// Correction of the travel for the penetration.
     pub(super) penetration: f64,
     /// Share of the work that went into flow while the body was loaded first: see [`crate::contact::penalty_correction`].
     plastic_share: f64,
@@ -154,7 +154,7 @@ impl<'p> Path<'p> {
         self.corrected(self.punches())
     }
 
-    /// What the correction of the penetration asks of the contact.
+    /// The contact under flat punches, where the correction of the penetration needs it.
     fn punches(&self) -> Option<Punches> {
         (self.rules().correction == Correction::PlasticShare).then(|| self.model.under_punches())
     }
