@@ -84,7 +84,7 @@ impl Case {
         ConeDiscretisation::new(self.beta_deg, self.tool == Tool::Cone, exponent, accuracy)
     }
 
-    /// What the solver loads to the depth 1, E = 1.
+    /// The problem of the solver, loaded to the depth 1, E = 1.
     pub fn problem(&self, discretisation: &ConeDiscretisation) -> Problem {
         let metal = Metal {
             elastic: self.elastic(),

@@ -6,7 +6,7 @@ use asperity_law::least_squares::Line;
 use asperity_solver::run::discretisation::{ConeDiscretisation, FIT_FROM};
 use asperity_solver::run::load_path::Increment;
 
-/// What a case gives.
+/// The result of a case.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LoadingCurvature {
     /// K/E = F/(E h²), from the slope of √F against h over whole periods of the mesh.

@@ -48,7 +48,7 @@ impl Contact {
     }
 }
 
-/// What to mesh. Any unit of length.
+/// A body to mesh. Any unit of length.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
     /// The surface.

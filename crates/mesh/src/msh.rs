@@ -30,12 +30,12 @@ impl Sides {
     }
 }
 
-/// What is wrong with an MSH file.
+/// An MSH file that cannot be read.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct MshError {
     /// Line of the file, counted from 1; 0 where no line is to blame.
     pub line: usize,
-    /// What was found and what was expected.
+    /// Found and expected content.
     pub message: String,
 }
 

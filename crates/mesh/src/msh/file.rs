@@ -16,7 +16,7 @@ pub(super) struct Curve {
     pub(super) lines: Vec<Element>,
 }
 
-/// What a file holds that makes a mesh of quadrilaterals.
+/// The content of a file that makes a mesh of quadrilaterals.
 pub(super) struct File {
     pub(super) kind: ElementKind,
     /// Coordinates x, y, z in the order of the file.

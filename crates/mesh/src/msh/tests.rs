@@ -116,7 +116,7 @@ fn the_surface_comes_in_order_from_the_axis_outward() {
     assert_eq!(read_msh(written(&mesh).as_bytes()).unwrap().sides, strip().sides);
 }
 
-/// What a person may do to a file, and what the error must name.
+/// Changes that a person may make to a file, and what the error must name.
 #[test]
 fn broken_files_are_refused_with_the_line() {
     let good = FOREIGN;

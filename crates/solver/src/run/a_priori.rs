@@ -1,4 +1,4 @@
-//! What a crush is expected to do before it is computed: contact widths, pressure, depth under a force. None of it stands in
+//! Estimates before a crush is computed: contact widths, pressure, depth under a force. None of it stands in
 //! a result: the mesh is made for it and the penalty scaled with it.
 
 use crate::contact::tool::Tool;

@@ -7,9 +7,8 @@ use crate::run::problem::Problem;
 use crate::run::recorder::Recorder;
 use crate::scene::{Scene, SceneError};
 use asperity_mesh::Mesh;
-use std::ops::ControlFlow;
 
-pub use crate::run::recorder::{Event, FieldFrame, Outcome, Stopped};
+pub use crate::run::recorder::{Event, FieldFrame, Outcome, Stopped, Watcher};
 
 /// Why a run could not begin.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -29,11 +28,7 @@ pub enum CrushError {
 ///
 /// # Errors
 /// Only if the run cannot begin: what stops it later is in the outcome, with all that was reached.
-pub fn run(
-    scene: &Scene,
-    mesh: Option<Mesh>,
-    observer: &mut dyn FnMut(&Event<'_>) -> ControlFlow<()>,
-) -> Result<Outcome, CrushError> {
+pub fn run(scene: &Scene, mesh: Option<Mesh>, observer: &mut Watcher<'_>) -> Result<Outcome, CrushError> {
     scene.validate()?;
     let depth = target_depth(scene, mesh.as_ref())?;
     let problem = prepare(scene, mesh, depth)?;
@@ -50,7 +45,7 @@ pub fn run(
 pub fn simulate(
     problem: &Problem,
     interval: usize,
-    observer: &mut dyn FnMut(&Event<'_>) -> ControlFlow<()>,
+    observer: &mut Watcher<'_>,
 ) -> Result<Outcome, CrushError> {
     let mut path = Path::new(problem).map_err(|_| CrushError::Mesh)?;
     let mut recorder = Recorder::new(problem, interval, path.model.body().dofs.count);
@@ -62,12 +57,12 @@ pub fn simulate(
     Ok(recorder.finish(&path, stopped, observer))
 }
 
-/// What comes after the peak: the stiffness there, and unloading and reloading as often as the problem asks.
+/// The path after the peak: the stiffness there, and unloading and reloading as often as the problem asks.
 fn unload_and_reload(
     problem: &Problem,
     path: &mut Path<'_>,
     recorder: &mut Recorder<'_>,
-    observer: &mut dyn FnMut(&Event<'_>) -> ControlFlow<()>,
+    observer: &mut Watcher<'_>,
 ) -> Result<(), Stop> {
     for cycle in 0..=problem.reloads {
         if cycle > 0 {

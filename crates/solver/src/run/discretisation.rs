@@ -29,7 +29,7 @@ pub struct Discretisation {
     pub domain: f64,
 }
 
-/// What an accuracy chooses for a quadratic element.
+/// Numbers that an accuracy chooses for a quadratic element.
 struct Choice {
     elements: usize,
     steps: usize,
@@ -70,7 +70,7 @@ impl Choice {
 }
 
 impl Discretisation {
-    /// What the accuracy of `scene` uses where its numerics are silent.
+    /// The numbers of `scene`: those of its numerics, and of its accuracy where they are silent.
     pub fn new(scene: &Scene) -> Discretisation {
         let numerics = &scene.numerics;
         let Choice { elements, steps, unload_steps, tolerance, domain, penetration } =
@@ -115,7 +115,7 @@ impl Discretisation {
         loading(self.steps, self.spacing)
     }
 
-    /// What of it a scene can say.
+    /// The part of it that a scene can give.
     pub fn numerics(&self) -> Numerics {
         Numerics {
             element: Some(self.element),

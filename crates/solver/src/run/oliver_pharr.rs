@@ -1,4 +1,4 @@
-//! What an instrument that knows no contact area would read from the curve of an indentation.
+//! The evaluation of an indentation by an instrument that knows no contact area.
 //!
 //! W. C. Oliver, G. M. Pharr, J. Mater. Res. 7 (1992) 1564 and 19 (2004) 3: from force F, depth h and stiffness S at the
 //! peak, with the area function A of the tool,
@@ -20,7 +20,7 @@ pub struct Peak {
     pub stiffness: f64,
 }
 
-/// What the method of Oliver and Pharr makes of a peak, in the units of the peak.
+/// The evaluation of a peak after Oliver and Pharr, in the units of the peak.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OliverPharr {
     /// ε of the tool's shape.

@@ -1,4 +1,4 @@
-//! What the solver computes with: mesh, material, tool, and the rules of its path. Inside the solver E = 1.
+//! The input of the solver: mesh, material, tool, and the rules of its path. Inside the solver E = 1.
 
 use crate::body::discrete_body::{Body, ToolContact};
 use crate::body::failure::Failure;

@@ -1,4 +1,4 @@
-//! What a run leaves: one row per converged increment, and the summary. SI units throughout.
+//! Results of a run: one row per converged increment, and the summary. SI units throughout.
 //!
 //! In axisymmetry forces are in N, areas in m², energies in J, of the full body of revolution. In plane strain
 //! they are per metre of ridge: N/m, m (contact width), J/m.
@@ -148,7 +148,7 @@ pub struct Summary {
     pub elastic_work: Option<f64>,
     /// Plastic work at the end of loading, J (J/m).
     pub plastic_work: f64,
-    /// What the method of Oliver and Pharr reads from the curve; `None` without unloading, under a plane, in plane
+    /// The evaluation of the curve after Oliver and Pharr; `None` without unloading, under a plane, in plane
     /// strain.
     pub oliver_pharr: Option<OliverPharr>,
     /// E/(1 - ν²), Pa.

@@ -15,7 +15,7 @@ use asperity_mesh::Mesh;
 use asperity_mesh::profile::Asperity;
 use std::ops::ControlFlow;
 
-/// What an observer is told, in SI units.
+/// News for an observer, in SI units.
 pub enum Event<'a> {
     /// An increment converged.
     Increment {
@@ -27,6 +27,9 @@ pub enum Event<'a> {
     /// Fields of the increment of the last row.
     Fields(&'a FieldFrame),
 }
+
+/// Is told of a run, which it ends by breaking.
+pub type Watcher<'w> = dyn FnMut(&Event<'_>) -> ControlFlow<()> + 'w;
 
 /// Fields of one increment, SI units.
 #[derive(Clone, Debug, PartialEq)]
@@ -52,7 +55,7 @@ pub struct Stopped {
     pub phase: Phase,
 }
 
-/// What a run leaves, complete or not.
+/// The results of a run, complete or not.
 #[derive(Clone, Debug)]
 pub struct Outcome {
     /// The curve, from first touch.
@@ -63,7 +66,7 @@ pub struct Outcome {
     pub gaps: Vec<GapRow>,
     /// The loading and the reloads, each with its unloading, as far as they are complete.
     pub cycles: Vec<CycleRow>,
-    /// What never yielded among the asperities, at the peak; empty for an elastic body.
+    /// Regions that never yielded among the asperities, at the peak; empty for an elastic body.
     pub elastic_islands: Vec<IslandRow>,
     /// The summary.
     pub summary: Summary,
@@ -149,7 +152,7 @@ impl<'p> Recorder<'p> {
         &mut self,
         model: &Equilibrium<'_>,
         increment: &Increment,
-        observer: &mut dyn FnMut(&Event<'_>) -> ControlFlow<()>,
+        observer: &mut Watcher<'_>,
     ) -> bool {
         let (u, contact) = (self.problem.units, &increment.contact);
         let number = self.rows.len();
@@ -205,11 +208,7 @@ impl<'p> Recorder<'p> {
     }
 
     /// Hands out the fields of the last row, once.
-    fn draw(
-        &mut self,
-        model: &Equilibrium<'_>,
-        observer: &mut dyn FnMut(&Event<'_>) -> ControlFlow<()>,
-    ) -> ControlFlow<()> {
+    fn draw(&mut self, model: &Equilibrium<'_>, observer: &mut Watcher<'_>) -> ControlFlow<()> {
         let Some(row) = self.rows.last().filter(|row| row.increment > 0) else {
             return ControlFlow::Continue(());
         };
@@ -286,7 +285,7 @@ impl<'p> Recorder<'p> {
     /// Notes the peak and draws its fields.
     pub(super) fn peak_reached(
         &mut self,
-        observer: &mut dyn FnMut(&Event<'_>) -> ControlFlow<()>,
+        observer: &mut Watcher<'_>,
         model: &Equilibrium<'_>,
         complete: bool,
     ) {
@@ -343,7 +342,7 @@ impl<'p> Recorder<'p> {
         mut self,
         path: &Path<'_>,
         stopped: Option<Stop>,
-        observer: &mut dyn FnMut(&Event<'_>) -> ControlFlow<()>,
+        observer: &mut Watcher<'_>,
     ) -> Outcome {
         if self.interval > 0 {
             let _ = self.draw(&path.model, observer);

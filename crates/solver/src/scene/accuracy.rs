@@ -48,7 +48,7 @@ impl Accuracy {
         }
     }
 
-    /// What can be asked for: from 0.2 to 5 %.
+    /// The allowed range: from 0.2 to 5 %.
     ///
     /// # Errors
     /// A number outside of what was measured; the path is that of the key `accuracy`.

@@ -14,7 +14,7 @@ fn inside(table: &str, error: SceneError) -> SceneError {
     SceneError { path, ..error }
 }
 
-/// What a tool cannot pass.
+/// Limits that a tool cannot pass.
 #[derive(Clone, Copy)]
 enum End {
     /// The foot of the highest asperity, for a plane.
@@ -111,7 +111,7 @@ impl Scene {
         Ok(())
     }
 
-    /// What ends the way of the tool, with the depth (m) there.
+    /// The limit of the way of the tool, with the depth (m) there.
     fn ends(&self) -> impl Iterator<Item = (End, f64)> {
         let highest = self.highest();
         let own = match self.tool.form() {
@@ -260,9 +260,10 @@ impl Loading {
             (None, Some(ToolForce::Total(force))) => Ok(Target::Force(force.0)),
             (None, Some(ToolForce::PerLength(force))) => Ok(Target::Force(force.0)),
             (Some(_), Some(_)) => Err(error("force", "does not go with `depth`: remove one of the two")),
-            (None, None) => {
-                Err(error("", "says not how far: give depth = \"5 um\" or force = \"4 N\", and not both"))
-            }
+            (None, None) => Err(error(
+                "",
+                "set exactly one of `depth` or `force`, for example depth = \"5 um\" or force = \"4 N\"",
+            )),
         }
     }
 

@@ -262,7 +262,7 @@ impl Scene {
         self.lateral == Lateral::Symmetric && !self.asperity.is_empty()
     }
 
-    /// What the body of repeated asperities has beyond the last of them: half of the last gap, m.
+    /// Width of the body of repeated asperities beyond the last of them: half of the last gap, m.
     pub(crate) fn end_gap(&self) -> f64 {
         let last = self.asperity.last().filter(|_| self.has_repeated_asperities());
         last.and_then(|a| a.spacing).map_or(0.0, |s| 0.5 * s.0)

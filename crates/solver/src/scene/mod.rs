@@ -1,4 +1,4 @@
-//! What to crush, with what, how far and how exactly: the content of a scene file.
+//! The content of a scene file: bodies, tool, loading, accuracy.
 //!
 //! The types say what a scene may hold; [`Scene::validate`] says which values make sense. Quantities are in SI.
 //! Keys that are absent are `None`: what a run uses in their place follows from the accuracy level.
@@ -30,7 +30,7 @@ use std::path::PathBuf;
 pub struct SceneError {
     /// Where: keys joined by dots, tables of an array by index, for example `asperity[0].height`.
     pub path: String,
-    /// What is wrong: names the value, the allowed range and a way out.
+    /// The fault: names the value, the allowed range and a way out.
     pub message: String,
 }
 
@@ -78,7 +78,7 @@ pub struct Scene {
     pub mesh: Option<MeshFile>,
 }
 
-/// What holds the lateral side of the substrate.
+/// Support of the lateral side of the substrate.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Lateral {

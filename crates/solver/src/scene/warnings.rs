@@ -1,4 +1,4 @@
-//! What a scene says to no effect.
+//! Warnings for inputs without effect.
 
 use super::range::{error, length};
 use super::{Lateral, Scene, SceneError, Symmetry};

@@ -1,4 +1,4 @@
-//! What a path tells of its increments, and why it stops.
+//! The increments of a path, and why it stops.
 
 use crate::body::energy::ContactSums;
 use crate::run::equilibrium::Equilibrium;
@@ -43,9 +43,7 @@ pub enum Stop {
     #[error("no equilibrium was found with the smallest increment")]
     NoEquilibrium,
     /// A force that the tool does not find as deep as it can go.
-    #[error(
-        "the force is larger than what this body bears as deep as the tool can go: ask for less force, or for a depth"
-    )]
+    #[error("target force not reached at maximum depth: ask for less force, or for a depth")]
     ForceNotReached,
     /// A flank met another flank: contact of the metal with itself is not modelled.
     #[error("a flank met another flank: metal that touches itself is not modelled")]

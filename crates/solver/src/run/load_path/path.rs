@@ -46,7 +46,7 @@ pub struct Path<'p> {
     last_step: f64,
     pub(super) force: f64,
     area: f64,
-    /// What the penetration takes of the travel.
+    /// Correction of the travel for the penetration.
     pub(super) penetration: f64,
     /// Share of the work that went into flow while the body was loaded first: see [`crate::contact::penalty_correction`].
     plastic_share: f64,
