@@ -8,7 +8,7 @@ use crate::crush::{self as records, FieldSeries, MICROMETRE};
 use crate::draw::field_plot::{Panel, Reach, Section};
 use crate::error::{Error, InputError};
 use crate::input::{scene_file, toml_file::TomlFile};
-use crate::output::SinkExt;
+use crate::output::{Sink, SinkExt};
 use asperity_mesh::Mesh;
 use asperity_solver::run::crush::{CrushError, Event, FieldFrame, Outcome, run};
 use asperity_solver::run::discretisation::Discretisation;
@@ -104,7 +104,7 @@ pub struct Crushed {
 pub fn crush_into(
     scene: &Scene,
     mesh: Option<Mesh>,
-    folder: &mut Folder,
+    folder: &mut dyn Sink,
     sketches: &[Sketch],
     progress: Progress,
 ) -> Result<Crushed, CrushError> {
@@ -128,7 +128,7 @@ pub fn crush_into(
 /// Hears of every increment: shows progress, writes fields, keeps the fields of the peak to draw them.
 struct Observer<'a> {
     scene: &'a Scene,
-    folder: &'a mut Folder,
+    folder: &'a mut dyn Sink,
     series: FieldSeries,
     /// The last fields of loading.
     peak: Option<FieldFrame>,
@@ -238,7 +238,7 @@ fn begin_error(file: &TomlFile<Scene>, error: &CrushError) -> InputError {
 
 /// Writes everything but the fields; returns the text of the summary.
 fn write_records(
-    folder: &mut Folder,
+    folder: &mut dyn Sink,
     scene: &Scene,
     outcome: &Outcome,
     stopped: Option<&str>,

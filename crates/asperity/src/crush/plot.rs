@@ -1,7 +1,8 @@
 //! `curve.svg`: force against depth, loading and unloading.
 
 use super::{MICROMETRE, force_unit};
-use crate::draw::chart::{Chart, Series, svg};
+use crate::draw::chart::{Chart, Dash, Series, svg};
+use crate::draw::palette::LINES;
 use asperity_solver::run::record::{CurveRow, Phase};
 use asperity_solver::scene::Symmetry;
 
@@ -27,22 +28,20 @@ pub fn plot(symmetry: Symmetry, rows: &[CurveRow]) -> Result<String, String> {
     let point = |r: &CurveRow| [r.depth / MICROMETRE / length, r.force / force.scale / newton];
     let again = rows.iter().position(|r| r.phase == Phase::Reload).unwrap_or(rows.len());
     let branch = |phase: Phase| rows[..again].iter().filter(move |r| r.phase == phase);
-    let mut series = vec![Series {
-        label: "loading".into(),
-        points: branch(Phase::Load).map(point).collect(),
-        marks: true,
-    }];
+    let line = |label: &str, dash: Dash, points: Vec<[f64; 2]>| Series {
+        colour: Some(LINES[0]),
+        dash: Some(dash),
+        ..Series::line(label, points)
+    };
+    let mut series = vec![line("loading", Dash::Solid, branch(Phase::Load).map(point).collect()).marked()];
     if branch(Phase::Unload).next().is_some() {
         let peak = branch(Phase::Load).next_back();
-        series.push(Series {
-            label: "unloading".into(),
-            points: peak.into_iter().chain(branch(Phase::Unload)).map(point).collect(),
-            marks: false,
-        });
+        let points = peak.into_iter().chain(branch(Phase::Unload)).map(point).collect();
+        series.push(line("unloading", Dash::Dashed, points));
     }
     if again < rows.len() {
         let points = rows[again.saturating_sub(1)..].iter().map(point).collect();
-        series.push(Series { label: "again".into(), points, marks: false });
+        series.push(line("again", Dash::Dotted, points));
     }
     svg(&Chart {
         x_label: format!("Depth h ({length_name})"),
