@@ -40,16 +40,10 @@ fn mixed(calibration: &Calibration, beta_deg: f64, share: f64) -> Chart {
     let mut exponents: Vec<f64> = samples.iter().map(|s| s.hardening.exponent).collect();
     exponents.sort_by(f64::total_cmp);
     exponents.dedup();
-    let series = exponents.iter().map(|n| Series {
-        label: format!("n = {n}"),
-        points: sorted(
-            samples
-                .iter()
-                .filter(|s| s.hardening.exponent == *n)
-                .map(|s| point(calibration, tan, s, share))
-                .collect(),
-        ),
-        marks: true,
+    let series = exponents.iter().map(|n| {
+        let of_n = samples.iter().filter(|s| s.hardening.exponent == *n);
+        let points = sorted(of_n.map(|s| point(calibration, tan, s, share)).collect());
+        Series::line(format!("n = {n}"), points).marked()
     });
     Chart {
         x_label: format!("E*/σᵣ, σᵣ at εᵣ = {share:.3} tan β (β = {beta_deg}°)"),
@@ -66,11 +60,7 @@ fn master(calibration: &Calibration, c: f64) -> Chart {
             let [x, y] = point(calibration, tan, s, c);
             [x * tan, y * tan * tan]
         };
-        Series {
-            label: format!("β = {beta}°"),
-            points: sorted(samples.iter().map(scaled).collect()),
-            marks: true,
-        }
+        Series::line(format!("β = {beta}°"), sorted(samples.iter().map(scaled).collect())).marked()
     });
     Chart {
         x_label: format!("E* tan β/σᵣ, σᵣ at εᵣ = {c:.3} tan β"),
@@ -95,16 +85,15 @@ fn strains(calibration: &Calibration, c: f64) -> Chart {
         angles.iter().filter(|a| a.strain.is_some()).map(|a| [a.beta_deg, a.interval[k]]).collect()
     };
     let found = angles.iter().filter_map(|a| a.strain.map(|s| [a.beta_deg, s])).collect();
-    let series = |label: String, points: Vec<[f64; 2]>, marks: bool| Series { label, points, marks };
     Chart {
         x_label: "slope β, degrees".into(),
         y_label: "representative strain εᵣ".into(),
         series: vec![
-            series("least scatter".into(), found, true),
-            series("95 % interval, low end".into(), bound(0), false),
-            series("95 % interval, high end".into(), bound(1), false),
-            series(format!("fit: {c:.4} tan β"), line(c), false),
-            series(format!("published: {PUBLISHED} tan β"), line(PUBLISHED), false),
+            Series::line("least scatter", found).marked(),
+            Series::line("95 % interval, low end", bound(0)),
+            Series::line("95 % interval, high end", bound(1)),
+            Series::line(format!("fit: {c:.4} tan β"), line(c)),
+            Series::line(format!("published: {PUBLISHED} tan β"), line(PUBLISHED)),
         ],
     }
 }

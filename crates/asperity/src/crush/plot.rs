@@ -2,7 +2,8 @@
 
 use super::record::{CurveRow, Phase};
 use super::summary::per_length;
-use crate::draw::chart::{Chart, Series, svg};
+use crate::draw::chart::{Chart, Dash, Series, svg};
+use crate::draw::palette::LINES;
 use asperity_solver::scene::Symmetry;
 
 /// The largest prefix whose numbers are not all below 1: (its SI value, its symbol before the unit).
@@ -27,13 +28,17 @@ pub fn plot(symmetry: Symmetry, rows: &[CurveRow]) -> Result<String, String> {
     let peak = next(0, Phase::Unload);
     let again = next(peak, Phase::Load);
     // each branch begins where the one before it ends
-    let branch = |from: usize, to: usize| rows[from.saturating_sub(1)..to].iter().map(point).collect();
-    let mut series = vec![Series { label: "loading".into(), points: branch(0, peak), marks: true }];
+    let branch = |label: &str, dash: Dash, from: usize, to: usize| Series {
+        colour: Some(LINES[0]),
+        dash: Some(dash),
+        ..Series::line(label, rows[from.saturating_sub(1)..to].iter().map(point).collect::<Vec<_>>())
+    };
+    let mut series = vec![branch("loading", Dash::Solid, 0, peak).marked()];
     if peak < again {
-        series.push(Series { label: "unloading".into(), points: branch(peak, again), marks: false });
+        series.push(branch("unloading", Dash::Dashed, peak, again));
     }
     if again < rows.len() {
-        series.push(Series { label: "again".into(), points: branch(again, rows.len()), marks: false });
+        series.push(branch("reloading", Dash::Dotted, again, rows.len()));
     }
     svg(&Chart {
         x_label: format!("Depth h ({length_name})"),
@@ -74,10 +79,10 @@ mod tests {
             row(24 + i as usize, Phase::Unload, 4.475 + 0.525 * s.sqrt(), 5.52 * s)
         }));
         let axisymmetric = plot(Symmetry::Axisymmetric, &rows).unwrap();
-        assert!(!axisymmetric.contains("again"));
+        assert!(!axisymmetric.contains("reloading"));
         let mut cycled = rows.clone();
         cycled.push(row(35, Phase::Load, 5.0, 5.52));
-        assert!(plot(Symmetry::Axisymmetric, &cycled).unwrap().contains("again"));
+        assert!(plot(Symmetry::Axisymmetric, &cycled).unwrap().contains("reloading"));
         for text in ["Depth h (µm)", "Force F (N)", "loading", "unloading"] {
             assert!(axisymmetric.contains(text), "{text}");
         }

@@ -1,16 +1,20 @@
 //! Line charts as SVG: labelled with units, legible in print and to colour-blind people.
 //!
-//! Series differ in colour (Okabe and Ito's palette) and in dash, so that either alone tells them apart.
+//! Lines differ in colour and in dash, so that either alone tells them apart, unless they say how they look. The legend
+//! stands beside the axes, where no data are.
 
-use crate::draw::scale;
+use super::encode::FAMILY;
+use super::palette::{self, Colour};
+use super::scale;
 use plotters::coord::Shift;
 use plotters::coord::ranged1d::{KeyPointHint, Ranged, ValueFormatter};
-use plotters::element::{DashedPathElement, IntoDynElement};
+use plotters::element::DashedPathElement;
 use plotters::prelude::*;
 use plotters::series::DashedLineSeries;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 /// One line of a chart.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Series {
     /// Its name in the legend.
     pub label: String,
@@ -18,6 +22,43 @@ pub struct Series {
     pub points: Vec<[f64; 2]>,
     /// Whether each point is marked with a dot.
     pub marks: bool,
+    /// Its colour; by its place among the lines where none is given.
+    pub colour: Option<Colour>,
+    /// Its dash; a line of a given colour is solid where none is given, others go by their place.
+    pub dash: Option<Dash>,
+}
+
+/// How a line is broken.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Dash {
+    /// Not at all.
+    Solid,
+    /// Into dashes: what goes back, as in unloading.
+    Dashed,
+    /// Into dots.
+    Dotted,
+    /// Into long dashes.
+    Long,
+}
+
+impl Series {
+    /// A line that looks as its place among the lines says.
+    pub fn line(label: impl Into<String>, points: Vec<[f64; 2]>) -> Series {
+        Series { label: label.into(), points, ..Series::default() }
+    }
+
+    /// The loading or unloading of a rough surface by a closure: its colour is that of the closure in every chart.
+    pub fn of_closure(closure: &str, unloading: bool, points: Vec<[f64; 2]>) -> Series {
+        let label = if unloading { format!("{closure}, unloading") } else { closure.into() };
+        let dash = if unloading { Dash::Dashed } else { Dash::Solid };
+        Series { colour: Some(palette::closure(closure)), dash: Some(dash), ..Series::line(label, points) }
+    }
+
+    /// The same with a dot at each point.
+    #[must_use]
+    pub fn marked(self) -> Series {
+        Series { marks: true, ..self }
+    }
 }
 
 /// A chart of lines over common axes that start at 0 or below.
@@ -31,26 +72,24 @@ pub struct Chart {
     pub series: Vec<Series>,
 }
 
-/// Colours in order of use: blue, vermilion, green, purple, orange, sky, black.
-pub const COLOURS: [RGBColor; 7] = [
-    RGBColor(0, 114, 178),
-    RGBColor(213, 94, 0),
-    RGBColor(0, 158, 115),
-    RGBColor(204, 121, 167),
-    RGBColor(230, 159, 0),
-    RGBColor(86, 180, 233),
-    RGBColor(0, 0, 0),
-];
-/// Dash and gap of each series in pixels; no gap: solid.
-const DASHES: [[u32; 2]; 4] = [[1, 0], [9, 5], [3, 4], [15, 4]];
-/// Width and height in pixels.
+/// Width and height of the axes with their names in pixels.
 const SIZE: (u32, u32) = (760, 500);
 /// The library draws at whole pixels: it gets that many to a pixel of the picture.
 pub const FINE: u32 = 8;
 /// Lines and letters.
-pub const INK: RGBColor = RGBColor(40, 40, 40);
+pub const INK: RGBColor = rgb(palette::INK);
 /// Lines of the grid.
-pub const GRID: RGBColor = RGBColor(225, 225, 225);
+pub const GRID: RGBColor = rgb(palette::GRID);
+
+/// A colour as the library takes it.
+pub const fn rgb([r, g, b]: Colour) -> RGBColor {
+    RGBColor(r, g, b)
+}
+
+/// Letters of `size` pixels.
+pub fn font(size: u32) -> TextStyle<'static> {
+    (FAMILY, size * FINE).into_font().color(&INK)
+}
 
 /// An axis with ticks at 1, 2, 2.5 or 5 times a power of ten, written with just the digits that they need.
 #[derive(Clone)]
@@ -96,33 +135,98 @@ impl ValueFormatter<f64> for Axis {
     }
 }
 
+/// An error of the drawing library.
+pub type Failure = Box<dyn std::error::Error>;
+/// A surface to draw on.
+pub type Paper<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+/// What a legend shows beside a name.
+pub enum Sample {
+    /// A piece of a line of this colour with dash and gap in pixels; no gap: solid.
+    Line(RGBColor, [u32; 2]),
+    /// A mark of this colour with its outline about the middle.
+    Mark(RGBColor, Vec<(i32, i32)>),
+}
+
+/// An SVG document: axes of so many pixels that `fill` draws on, [`FINE`] times finer, and the legend to their right.
+///
+/// # Errors
+/// A text for a person where the drawing library fails.
+pub fn framed(
+    size: (u32, u32),
+    legend: &[(String, Sample)],
+    fill: impl FnOnce(&Paper) -> Result<(), Failure>,
+) -> Result<String, String> {
+    paint(size, legend, fill).map_err(|e| format!("the chart could not be drawn: {e}"))
+}
+
+/// Pixels from the left end of a legend to its names.
+const SAMPLE: u32 = 46;
+
+fn paint(
+    (width, height): (u32, u32),
+    legend: &[(String, Sample)],
+    fill: impl FnOnce(&Paper) -> Result<(), Failure>,
+) -> Result<String, Failure> {
+    let letters = legend.iter().map(|(name, _)| name.chars().count()).max().unwrap_or(0) as u32;
+    let whole = width + if legend.is_empty() { 0 } else { SAMPLE + 9 * letters + 14 };
+    let mut text = String::new();
+    let root = SVGBackend::with_string(&mut text, (whole * FINE, height * FINE)).into_drawing_area();
+    root.fill(&WHITE)?;
+    let (axes, beside) = root.split_horizontally(width * FINE);
+    fill(&axes)?;
+    let fine = FINE as i32;
+    for (i, (name, sample)) in legend.iter().enumerate() {
+        let y = (28 + 24 * i as i32) * fine;
+        match sample {
+            Sample::Line(colour, [dash, gap]) => {
+                let (line, style) = ([(0, y), (36 * fine, y)], colour.stroke_width(2 * FINE));
+                match gap {
+                    0 => beside.draw(&PathElement::new(line, style))?,
+                    _ => beside.draw(&DashedPathElement::new(line, *dash, *gap, style))?,
+                }
+            }
+            Sample::Mark(colour, outline) => {
+                let moved: Vec<_> = outline.iter().map(|(dx, dy)| (18 * fine + dx, y + dy)).collect();
+                beside.draw(&Polygon::new(moved, colour.filled()))?;
+            }
+        }
+        let style = font(15).pos(Pos::new(HPos::Left, VPos::Center));
+        beside.draw(&Text::new(name.as_str(), (SAMPLE as i32 * fine, y), style))?;
+    }
+    root.present()?;
+    drop((axes, beside, root));
+    let header = |scale: u32| format!("<svg width=\"{}\" height=\"{}\"", whole * scale, height * scale);
+    Ok(text.replacen(&header(FINE), &header(1), 1))
+}
+
+/// Colour, and pixels of dash and gap, of line `i`; no gap: solid.
+fn pen(i: usize, series: &Series) -> (RGBColor, [u32; 2]) {
+    const ORDER: [Dash; 4] = [Dash::Solid, Dash::Dashed, Dash::Dotted, Dash::Long];
+    let placed = if series.colour.is_some() { Dash::Solid } else { ORDER[i % ORDER.len()] };
+    let dash = match series.dash.unwrap_or(placed) {
+        Dash::Solid => [1, 0],
+        Dash::Dashed => [9, 5],
+        Dash::Dotted => [3, 4],
+        Dash::Long => [15, 4],
+    };
+    let colour = series.colour.unwrap_or(palette::LINES[i % palette::LINES.len()]);
+    (rgb(colour), dash.map(|pixels| pixels * FINE))
+}
+
 /// Draws the chart as an SVG document.
 ///
 /// # Errors
 /// A text for a person where the drawing library fails.
 pub fn svg(chart: &Chart) -> Result<String, String> {
-    framed(SIZE, |root| draw(chart, root)).map_err(|e| format!("the chart could not be drawn: {e}"))
+    let entry = |(i, series): (usize, &Series)| {
+        let (colour, dashes) = pen(i, series);
+        (series.label.clone(), Sample::Line(colour, dashes))
+    };
+    let legend: Vec<_> = chart.series.iter().enumerate().map(entry).collect();
+    framed(SIZE, &legend, |paper| draw(chart, paper))
 }
 
-/// An SVG document of so many pixels that `fill` draws on, [`FINE`] times finer.
-///
-/// # Errors
-/// What `fill` returns.
-pub fn framed(
-    size: (u32, u32),
-    fill: impl FnOnce(&DrawingArea<SVGBackend<'_>, Shift>) -> Result<(), Box<dyn std::error::Error>>,
-) -> Result<String, Box<dyn std::error::Error>> {
-    let mut text = String::new();
-    let root = SVGBackend::with_string(&mut text, (size.0 * FINE, size.1 * FINE)).into_drawing_area();
-    root.fill(&WHITE)?;
-    fill(&root)?;
-    root.present()?;
-    drop(root);
-    let header = |scale: u32| format!("<svg width=\"{}\" height=\"{}\"", size.0 * scale, size.1 * scale);
-    Ok(text.replacen(&header(FINE), &header(1), 1))
-}
-
-fn draw(chart: &Chart, root: &DrawingArea<SVGBackend<'_>, Shift>) -> Result<(), Box<dyn std::error::Error>> {
+fn draw(chart: &Chart, paper: &Paper) -> Result<(), Failure> {
     let finite: Vec<Vec<(f64, f64)>> = chart
         .series
         .iter()
@@ -130,50 +234,33 @@ fn draw(chart: &Chart, root: &DrawingArea<SVGBackend<'_>, Shift>) -> Result<(), 
         .collect();
     let x = Axis::covering(finite.iter().flatten().map(|p| p.0));
     let y = Axis::covering(finite.iter().flatten().map(|p| p.1));
-    let font = |size: u32| ("sans-serif", size * FINE).into_font().color(&INK);
-    let mut area = ChartBuilder::on(root)
+    let mut area = ChartBuilder::on(paper)
         .margin(14 * FINE)
         .margin_right(26 * FINE)
         .x_label_area_size(52 * FINE)
-        .y_label_area_size(66 * FINE)
+        .y_label_area_size(70 * FINE)
         .build_cartesian_2d(x, y)?;
     area.configure_mesh()
         .light_line_style(TRANSPARENT)
         .bold_line_style(GRID.stroke_width(FINE))
         .axis_style(INK.stroke_width(FINE))
         .set_all_tick_mark_size(5 * FINE)
-        .label_style(font(16))
-        .axis_desc_style(font(18))
+        .label_style(font(15))
+        .axis_desc_style(font(17))
         .x_desc(&chart.x_label)
         .y_desc(&chart.y_label)
         .draw()?;
     for (i, (series, points)) in chart.series.iter().zip(&finite).enumerate() {
-        let colour = COLOURS[i % COLOURS.len()];
+        let (colour, [dash, gap]) = pen(i, series);
         let style = colour.stroke_width(2 * FINE);
-        let [dash, gap] = DASHES[i % DASHES.len()].map(|pixels| pixels * FINE);
-        let annotation = if gap == 0 {
-            area.draw_series(LineSeries::new(points.iter().copied(), style))?
+        if gap == 0 {
+            area.draw_series(LineSeries::new(points.iter().copied(), style))?;
         } else {
-            area.draw_series(DashedLineSeries::new(points.iter().copied(), dash, gap, style))?
-        };
-        annotation.label(&series.label).legend(move |(x, y)| {
-            let sample = [(x, y), (x + 36 * FINE as i32, y)];
-            if gap == 0 {
-                PathElement::new(sample, style).into_dyn()
-            } else {
-                DashedPathElement::new(sample, dash, gap, style).into_dyn()
-            }
-        });
+            area.draw_series(DashedLineSeries::new(points.iter().copied(), dash, gap, style))?;
+        }
         if series.marks {
             area.draw_series(points.iter().map(|&p| Circle::new(p, 3 * FINE, colour.filled())))?;
         }
     }
-    area.configure_series_labels()
-        .position(SeriesLabelPosition::UpperLeft)
-        .margin(14 * FINE)
-        .legend_area_size(44 * FINE)
-        .label_font(font(16))
-        .background_style(WHITE.mix(0.85))
-        .draw()?;
     Ok(())
 }

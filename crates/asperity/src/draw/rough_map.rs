@@ -1,40 +1,35 @@
-//! Maps as PNG: pressure with a colour bar, contact coloured by regime.
+//! Maps of a rough surface as PNG: heights, pressure, contact by regime, with axes, scale bar and colour key.
+//!
+//! A map is an SVG document around an indexed picture of its cells; the PNG is that document rendered, dot for dot.
 
-use super::glyphs;
-use std::fs::File;
-use std::io::BufWriter;
+use super::encode::{drawing_png, indexed_png};
+use super::frame::{Frame, LEFT, RIGHT, Short, boxes, document};
+use super::palette::{Bands, Colour, REGIMES, between};
+use super::scale;
+use maud::{Markup, html};
 use std::path::Path;
 
 /// No side of a picture is longer, unless less is asked for.
 pub const LONGEST: usize = 2048;
-/// Small maps are enlarged to about this.
+/// Small maps are enlarged to about so many dots.
 const WANTED: usize = 640;
-/// Room below the map for the legend.
-const LEGEND: usize = 48;
-
-const PAPER: [u8; 3] = [255, 255, 255];
-const INK: [u8; 3] = [30, 30, 30];
-/// Regimes: none, elastic, elastoplastic, plastic (Okabe and Ito's palette).
-const REGIMES: [[u8; 3]; 4] = [[236, 236, 236], [0, 114, 178], [240, 180, 30], [213, 60, 20]];
-/// From low to high pressure: even in lightness, legible in grey (after the map "inferno").
-const HEAT: [[u8; 3]; 7] = [
-    [10, 8, 35],
-    [66, 10, 104],
-    [132, 32, 107],
-    [188, 55, 84],
-    [229, 92, 48],
-    [251, 155, 6],
-    [252, 255, 164],
-];
+/// Longer side of a map on paper.
+const SIDE: f64 = 560.0;
+/// Room above a map for title and heading.
+const ABOVE: f64 = 54.0;
+/// Room below it for its axis, and for the key.
+const BELOW: f64 = 76.0;
+/// A colour bar is at least so high, a picture at least so wide.
+const LEAST: [f64; 2] = [420.0, 110.0];
 
 /// One number per cell.
 #[derive(Clone, Copy)]
 pub struct Map<'a> {
     /// Columns and rows.
     pub cells: [usize; 2],
-    /// Size of a cell along x and y, in any unit.
+    /// Size of a cell along x and y, m.
     pub pixel: [f64; 2],
-    /// Row by row.
+    /// Row by row, y rising.
     pub values: &'a [f32],
     /// No side of the picture has more dots.
     pub longest: usize,
@@ -42,19 +37,29 @@ pub struct Map<'a> {
 
 /// How cells become dots: several cells a dot, or several dots a cell, so that lengths keep their ratio.
 struct Grid {
-    dots: [usize; 2],
     cells: [usize; 2],
+    dots: [usize; 2],
+    frame: Frame,
+    /// Width and height of the picture on paper.
+    paper: [f64; 2],
+    /// Dots to a unit of paper.
+    fine: f64,
 }
 
 impl Grid {
     fn of(map: &Map) -> Grid {
-        let size = [0, 1].map(|k| map.cells[k] as f64 * map.pixel[k]);
+        let size = [0, 1].map(|k| map.cells[k] as f64 * map.pixel[k] * 1e6);
         let longer = size[0].max(size[1]);
+        let extent = size.map(|s| s / longer * SIDE);
+        let paper =
+            [(LEFT + extent[0] + RIGHT).max(LEAST[0]), ABOVE + extent[1].max(LEAST[1] - BELOW) + BELOW];
         let cells = map.cells[0].max(map.cells[1]);
-        let room = map.longest.saturating_sub(LEGEND).max(1);
-        let most = if cells >= WANTED { cells.min(room) } else { (cells * WANTED.div_ceil(cells)).min(room) };
-        let dots = size.map(|s| ((s / longer * most as f64).round() as usize).clamp(1, room));
-        Grid { dots, cells: map.cells }
+        let wanted = if cells >= WANTED { cells } else { cells * WANTED.div_ceil(cells.max(1)) };
+        let fine = (wanted as f64 / SIDE).min(map.longest as f64 / paper[0].max(paper[1]));
+        let dots = extent.map(|side| ((side * fine).round() as usize).max(1));
+        // the picture's corner lies on a dot, so that its dots are those of the map
+        let top = (ABOVE * fine).round() / fine;
+        Grid { cells: map.cells, dots, frame: Frame::new(top, extent[0], [0.0; 2], size), paper, fine }
     }
 
     /// Cells `start..end` that dot `dot` shows along axis `k`.
@@ -63,85 +68,77 @@ impl Grid {
         let end = ((dot + 1) * self.cells[k] / self.dots[k]).max(start + 1);
         start..end
     }
-}
 
-/// An image with room for a legend.
-struct Picture {
-    width: usize,
-    height: usize,
-    dots: Vec<u8>,
-}
-
-impl Picture {
-    fn new(width: usize, height: usize) -> Picture {
-        Picture { width, height, dots: PAPER.repeat(width * height) }
-    }
-
-    fn set(&mut self, x: usize, y: usize, colour: [u8; 3]) {
-        if x < self.width && y < self.height {
-            let at = 3 * (y * self.width + x);
-            self.dots[at..at + 3].copy_from_slice(&colour);
-        }
-    }
-
-    fn bar(
-        &mut self,
-        x: std::ops::Range<usize>,
-        y: std::ops::Range<usize>,
-        colour: impl Fn(usize) -> [u8; 3],
-    ) {
-        for row in y {
-            x.clone().for_each(|column| self.set(column, row, colour(column)));
-        }
-    }
-
-    /// Writes `text` with its left end at `x`; returns where it ends.
-    fn text(&mut self, x: usize, y: usize, text: &str) -> usize {
-        let mut at = x;
-        for c in text.chars() {
-            for (row, bits) in glyphs::glyph(c).iter().enumerate() {
-                for column in (0..5).filter(|column| bits >> (4 - column) & 1 == 1) {
-                    let (px, py) = (at + 2 * column, y + 2 * row);
-                    self.bar(px..px + 2, py..py + 2, |_| INK);
-                }
+    /// `colour` of the cells of each dot, row by row from the top, where y is largest.
+    fn paint(&self, colour: impl Fn(&mut dyn Iterator<Item = usize>) -> u8) -> Vec<u8> {
+        let mut indices = Vec::with_capacity(self.dots[0] * self.dots[1]);
+        for y in (0..self.dots[1]).rev() {
+            let rows = self.span(1, y);
+            for x in 0..self.dots[0] {
+                let columns = self.span(0, x);
+                let mut cells = rows
+                    .clone()
+                    .flat_map(|row| columns.clone().map(move |column| row * self.cells[0] + column));
+                indices.push(colour(&mut cells));
             }
-            at += 12;
         }
-        at
+        indices
     }
 
-    fn write(&self, path: &Path) -> std::io::Result<()> {
-        let mut encoder =
-            png::Encoder::new(BufWriter::new(File::create(path)?), self.width as u32, self.height as u32);
-        encoder.set_color(png::ColorType::Rgb);
-        encoder.set_depth(png::BitDepth::Eight);
-        let mut writer = encoder.write_header()?;
-        writer.write_image_data(&self.dots)?;
-        writer.finish()?;
-        Ok(())
+    /// Writes the picture: its cells, what they mean, and `key` beside or below them.
+    fn write(
+        &self,
+        path: &Path,
+        title: &str,
+        heading: &str,
+        (palette, indices): (&[Colour], &[u8]),
+        key: &Markup,
+    ) -> std::io::Result<()> {
+        let picture = indexed_png(self.dots, palette, indices);
+        let drawn = picture.and_then(|picture| {
+            let body = html! {
+                text x=(Short(LEFT)) y="40" { (heading) }
+                (self.frame.image(&picture))
+                (self.frame.axes(["x (µm)", "y (µm)"], true))
+                (self.ruler())
+                (key)
+            };
+            drawing_png(&document(self.paper, title, &body), self.fine)
+        });
+        std::fs::write(path, drawn.map_err(std::io::Error::other)?)
     }
-}
 
-fn mixed(a: [u8; 3], b: [u8; 3], t: f64) -> [u8; 3] {
-    [0, 1, 2].map(|k| (f64::from(a[k]) + t * (f64::from(b[k]) - f64::from(a[k]))).round() as u8)
-}
+    /// A bar of a round length in the lower left corner, where there is room for it.
+    fn ruler(&self) -> Markup {
+        let [width, height] = self.frame.size;
+        if width < 160.0 || height < 60.0 {
+            return html! {};
+        }
+        let length = scale::round_step(self.frame.high[0], 6.0);
+        let (on_paper, y) = (length / self.frame.high[0] * width, self.frame.bottom() - 20.0);
+        html! {
+            rect class="paper" x=(Short(LEFT + 6.0)) y=(Short(y - 22.0)) width=(Short(on_paper.max(60.0) + 16.0)) height="36" {}
+            rect class="ruler" x=(Short(LEFT + 14.0)) y=(Short(y)) width=(Short(on_paper)) height="5" {}
+            text class="on-map" x=(Short(LEFT + 14.0)) y=(Short(y - 6.0)) { (scale::label(length, length)) " µm" }
+        }
+    }
 
-/// Colour of a share 0..1 of the scale.
-fn heat(share: f64) -> [u8; 3] {
-    let place = share.clamp(0.0, 1.0) * (HEAT.len() - 1) as f64;
-    let k = (place as usize).min(HEAT.len() - 2);
-    mixed(HEAT[k], HEAT[k + 1], place - k as f64)
+    /// Colours of a scale with the numbers beside the map; `nothing` counts from 1 after the colours of the scale.
+    fn scaled(&self, bands: &Bands, nothing: Colour) -> (Vec<Colour>, Markup) {
+        ([bands.colours.as_slice(), &[nothing]].concat(), self.frame.bar(bands, LEAST[1]))
+    }
 }
 
 /// The three leading digits of a pressure.
 fn digits(value: f64) -> String {
-    if value >= 100.0 {
-        format!("{value:.0}")
+    let decimals = if value >= 100.0 {
+        0
     } else if value >= 10.0 {
-        format!("{value:.1}")
+        1
     } else {
-        format!("{value:.2}")
-    }
+        2
+    };
+    format!("{value:.decimals$}")
 }
 
 /// The value that a share of the loaded pixels does not exceed.
@@ -155,85 +152,82 @@ fn quantile(values: &[f32], share: f64) -> f64 {
     f64::from(*value)
 }
 
-/// Pressure in MPa: colours end at the pressure that 99 % of the loaded pixels do not exceed; no load is pale.
-pub fn pressure(path: &Path, map: &Map, nominal_mpa: f64) -> std::io::Result<()> {
+/// Pressure in MPa under `nominal_mpa`: colours end at the pressure that 99 % of the loaded pixels do not exceed; no load
+/// is pale.
+///
+/// # Errors
+/// A disk that refuses, a picture that cannot be encoded.
+pub fn pressure(path: &Path, map: &Map, title: &str, nominal_mpa: f64) -> std::io::Result<()> {
     let grid = Grid::of(map);
     let most = quantile(map.values, 0.99);
-    let width = grid.dots[0].max(560);
-    let mut picture = Picture::new(width, grid.dots[1] + LEGEND);
-    for y in 0..grid.dots[1] {
-        for x in 0..grid.dots[0] {
-            // the largest pressure of the cells of a dot: small asperities stay visible
-            let mut value = 0f32;
-            for row in grid.span(1, y) {
-                let line = &map.values[row * grid.cells[0]..][grid.span(0, x)];
-                value = line.iter().fold(value, |v, p| v.max(*p));
-            }
-            let colour = if value > 0.0 { heat(f64::from(value) / most) } else { REGIMES[0] };
-            picture.set(x, y, colour);
-        }
-    }
-    let top = grid.dots[1] + 14;
-    let bar = picture.text(10, top + 3, "0") + 8;
-    picture.bar(bar..bar + 180, top..top + 20, |x| heat((x - bar) as f64 / 180.0));
-    let label = format!("{} MPa (99 %), P/A0 {}", digits(most), digits(nominal_mpa));
-    picture.text(bar + 190, top + 3, &label);
-    picture.write(path)
+    let bands = Bands::smooth([0.0, most]);
+    let (palette, key) = grid.scaled(&bands, REGIMES[0]);
+    let none = palette.len() as u8;
+    // the largest pressure of the cells of a dot: small asperities stay visible
+    let indices = grid.paint(|cells| {
+        let value = cells.fold(0f32, |v, i| v.max(map.values[i]));
+        if value > 0.0 { 1 + bands.band(f64::from(value)) as u8 } else { none }
+    });
+    let heading = format!(
+        "pressure (MPa); 99 % of the contact below {}; nominal {}",
+        digits(most),
+        digits(nominal_mpa)
+    );
+    grid.write(path, title, &heading, (&palette, &indices), &key)
 }
 
-/// Heights in µm about their mean, from low to high.
-pub fn heights(path: &Path, map: &Map) -> std::io::Result<()> {
+/// Heights in µm, from low to high; missing ones are pale.
+///
+/// # Errors
+/// A disk that refuses, a picture that cannot be encoded.
+pub fn heights(path: &Path, map: &Map, title: &str) -> std::io::Result<()> {
     let grid = Grid::of(map);
     let (low, high) = map.values.iter().fold((f32::MAX, f32::MIN), |(l, h), v| (l.min(*v), h.max(*v)));
-    let span = f64::from(high - low).max(f64::MIN_POSITIVE);
-    let width = grid.dots[0].max(420);
-    let mut picture = Picture::new(width, grid.dots[1] + LEGEND);
-    for y in 0..grid.dots[1] {
-        for x in 0..grid.dots[0] {
-            let (mut sum, mut count) = (0.0, 0.0);
-            for row in grid.span(1, y) {
-                for value in &map.values[row * grid.cells[0]..][grid.span(0, x)] {
-                    (sum, count) = (sum + f64::from(*value), count + 1.0);
-                }
-            }
-            picture.set(x, y, heat((sum / count - f64::from(low)) / span));
-        }
-    }
-    let top = grid.dots[1] + 14;
-    let bar = picture.text(10, top + 3, &format!("{low:.1}")) + 8;
-    picture.bar(bar..bar + 180, top..top + 20, |x| heat((x - bar) as f64 / 180.0));
-    picture.text(bar + 190, top + 3, &format!("{high:.1} um"));
-    picture.write(path)
+    let bands = Bands::smooth([f64::from(low), f64::from(high)]);
+    let (palette, key) = grid.scaled(&bands, REGIMES[0]);
+    let none = palette.len() as u8;
+    let indices = grid.paint(|cells| {
+        let finite = cells.map(|i| f64::from(map.values[i])).filter(|v| v.is_finite());
+        let (sum, count) = finite.fold((0.0, 0.0), |(sum, count), v| (sum + v, count + 1.0));
+        if count > 0.0 { 1 + bands.band(sum / count) as u8 } else { none }
+    });
+    grid.write(path, title, "height (µm)", (&palette, &indices), &key)
 }
 
-/// Contact by regime; a partly covered pixel is paler.
-pub fn contact(path: &Path, map: &Map, regime: &[f32], shares: Option<[f64; 3]>) -> std::io::Result<()> {
+/// Contact by regime with the shares of each; a partly covered pixel is paler.
+///
+/// # Errors
+/// A disk that refuses, a picture that cannot be encoded.
+pub fn contact(
+    path: &Path,
+    map: &Map,
+    title: &str,
+    regime: &[f32],
+    shares: Option<[f64; 3]>,
+) -> std::io::Result<()> {
+    /// Shades of each regime, from none to full cover.
+    const SHADES: usize = 64;
     let grid = Grid::of(map);
-    let width = grid.dots[0].max(680);
-    let mut picture = Picture::new(width, grid.dots[1] + LEGEND);
-    for y in 0..grid.dots[1] {
-        for x in 0..grid.dots[0] {
-            let (mut cover, mut worst, mut count) = (0f32, 0f32, 0);
-            for row in grid.span(1, y) {
-                for column in grid.span(0, x) {
-                    let i = row * grid.cells[0] + column;
-                    cover += map.values[i];
-                    worst = worst.max(regime[i]);
-                    count += 1;
-                }
-            }
-            let share = f64::from(cover) / f64::from(count.max(1));
-            picture.set(x, y, mixed(REGIMES[0], REGIMES[worst as usize % 4], share.min(1.0)));
+    let shade = |i: usize| {
+        let full = REGIMES[1 + i / SHADES];
+        between(&[REGIMES[0], full], (i % SHADES) as f64 / (SHADES - 1) as f64)
+    };
+    let palette: Vec<Colour> = (0..3 * SHADES).map(shade).collect();
+    let indices = grid.paint(|cells| {
+        let (mut cover, mut worst, mut count) = (0f32, 0f32, 0);
+        for i in cells {
+            (cover, worst, count) = (cover + map.values[i], worst.max(regime[i]), count + 1);
         }
-    }
-    let top = grid.dots[1] + 14;
-    let mut x = 10;
-    for (k, name) in ["elastic", "elastoplastic", "plastic"].iter().enumerate() {
-        picture.bar(x..x + 20, top..top + 20, |_| REGIMES[k + 1]);
+        let share = f64::from(cover) / f64::from(count.max(1));
+        let shade = (share.clamp(0.0, 1.0) * (SHADES - 1) as f64).round() as usize;
+        1 + (SHADES * (worst as usize).clamp(1, 3) - SHADES + shade) as u8
+    });
+    let names = ["elastic", "elastoplastic", "plastic"].iter().enumerate().map(|(k, name)| {
         let share = shares.map_or_else(String::new, |s| format!(" {:.0} %", 100.0 * s[k]));
-        x = picture.text(x + 26, top + 3, &format!("{name}{share}")) + 14;
-    }
-    picture.write(path)
+        (REGIMES[k + 1], format!("{name}{share}"))
+    });
+    let key = boxes(grid.frame.bottom() + 50.0, &names.collect::<Vec<_>>());
+    grid.write(path, title, "contact by regime", (&palette, &indices), &key)
 }
 
 #[cfg(test)]
@@ -243,13 +237,18 @@ mod tests {
     #[test]
     fn pictures_keep_their_proportions_and_their_limit() {
         for (cells, pixel, want) in [
-            ([1024, 1024], [1.0, 1.0], [1024, 1024]),
-            ([8192, 4096], [1.0, 1.0], [2000, 1000]),
-            ([100, 100], [1.0, 2.0], [350, 700]),
-            ([5000, 10], [1.0, 1.0], [2000, 4]),
+            ([1024, 1024], [1.0, 1.0], [1.0, 1.0]),
+            ([8192, 4096], [1.0, 1.0], [1.0, 0.5]),
+            ([100, 100], [1.0, 2.0], [0.5, 1.0]),
+            ([5000, 10], [1.0, 1.0], [1.0, 0.002]),
         ] {
-            let map = Map { cells, pixel, values: &[], longest: LONGEST };
-            assert_eq!(Grid::of(&map).dots, want);
+            let grid = Grid::of(&Map { cells, pixel, values: &[], longest: LONGEST });
+            let longer = grid.dots[0].max(grid.dots[1]) as f64;
+            for k in 0..2 {
+                assert!((grid.dots[k] as f64 - want[k] * longer).abs() <= 1.0, "{:?}", grid.dots);
+                assert!(grid.paper[k] * grid.fine <= LONGEST as f64 + 1e-6);
+            }
+            assert!(longer >= 640.0);
         }
     }
 
@@ -258,11 +257,17 @@ mod tests {
         let dir = tempfile::tempdir().unwrap();
         let path = dir.path().join("p.png");
         let values: Vec<f32> = (0..64).map(|i| i as f32 / 8.0).collect();
-        let map = Map { cells: [8, 8], pixel: [1.0, 1.0], values: &values, longest: LONGEST };
-        pressure(&path, &map, 100.0).unwrap();
-        let reader =
-            png::Decoder::new(std::io::BufReader::new(File::open(&path).unwrap())).read_info().unwrap();
-        assert_eq!((reader.info().width, reader.info().height), (640, 688));
-        contact(&path, &map, &[3.0; 64], None).unwrap();
+        let map = Map { cells: [8, 8], pixel: [1e-6, 1e-6], values: &values, longest: LONGEST };
+        let size = || {
+            let file = std::io::BufReader::new(std::fs::File::open(&path).unwrap());
+            let reader = png::Decoder::new(file).read_info().unwrap();
+            [reader.info().width, reader.info().height]
+        };
+        pressure(&path, &map, "pressure", 100.0).unwrap();
+        let first = size();
+        assert!(first[0] > 640 && first.iter().all(|side| *side <= 2048), "{first:?}");
+        contact(&path, &map, "contact", &[3.0; 64], None).unwrap();
+        heights(&path, &Map { longest: 300, ..map }, "heights").unwrap();
+        assert!(size().iter().all(|side| *side <= 300), "{:?}", size());
     }
 }

@@ -140,11 +140,7 @@ impl Outcome<'_> {
                 let response = one.model.respond(tan);
                 [tan.atan().to_degrees(), response.island_pressure / response.area_ratio / MEGAPASCAL]
             };
-            Series {
-                label: one.model.closure.name().into(),
-                points: (0..=STEPS).map(point).collect(),
-                marks: false,
-            }
+            Series::of_closure(one.model.closure.name(), false, (0..=STEPS).map(point).collect())
         });
         Chart {
             x_label: "slope of an island (degrees)".into(),
@@ -162,13 +158,9 @@ impl Outcome<'_> {
                 curve.iter().map(|p| [(first - p.separation) / MICROMETRE, p.pressure / MEGAPASCAL]).collect()
             };
             let name = one.model.closure.name();
-            series.push(Series { label: name.into(), points: points(&one.contact.curve), marks: false });
+            series.push(Series::of_closure(name, false, points(&one.contact.curve)));
             if let Some(unloading) = one.unloading.as_ref().filter(|_| !one.model.returns_everything()) {
-                series.push(Series {
-                    label: format!("{name}, unloading"),
-                    points: points(&unloading.curve),
-                    marks: false,
-                });
+                series.push(Series::of_closure(name, true, points(&unloading.curve)));
             }
         }
         Chart {
@@ -192,7 +184,7 @@ impl Outcome<'_> {
             let total: f64 = bins.iter().sum::<f64>().max(f64::MIN_POSITIVE);
             let points =
                 bins.iter().enumerate().map(|(i, b)| [(i as f64 + 0.5) * width, 100.0 * b / total]).collect();
-            Series { label: one.model.closure.name().into(), points, marks: false }
+            Series::of_closure(one.model.closure.name(), false, points)
         });
         Chart {
             x_label: "pressure over nominal pressure".into(),
@@ -254,7 +246,7 @@ impl Outcome<'_> {
         let cells = [map.columns(), map.rows()];
         let values = self.heights(cells[0], cells[1]);
         let file = folder.path("topography.png")?;
-        picture::heights(&file, &Map { cells, pixel: map.pixel(), values: &values, longest })
+        picture::heights(&file, &Map { cells, pixel: map.pixel(), values: &values, longest }, self.name)
             .map_err(|e| Error::disk(&file, e))
     }
 
@@ -270,10 +262,12 @@ impl Outcome<'_> {
         let layers = Layers::of(one, cells[0] * cells[1]);
         let view = Map { cells, pixel: map.pixel(), values: &layers.pressure, longest };
         let file = folder.path(&format!("pressure-{name}.png"))?;
-        picture::pressure(&file, &view, one.nominal / MEGAPASCAL).map_err(|e| Error::disk(&file, e))?;
+        let title = format!("{}, {name} closure", self.name);
+        picture::pressure(&file, &view, &title, one.nominal / MEGAPASCAL)
+            .map_err(|e| Error::disk(&file, e))?;
         let view = Map { values: &layers.contact, ..view };
         let file = folder.path(&format!("contact-{name}.png"))?;
-        picture::contact(&file, &view, &layers.regime, one.contact.shares)
+        picture::contact(&file, &view, &title, &layers.regime, one.contact.shares)
             .map_err(|e| Error::disk(&file, e))?;
         Ok(layers)
     }

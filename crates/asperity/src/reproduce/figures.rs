@@ -1,8 +1,9 @@
 //! Each figure and table of the paper: ours, beside what the paper prints.
 
-use super::claims::{ROUGH, SETS, SYMMETRIES, TABLE2, islands, kick_exponent, significant};
-use super::evidence::{Evidence, Spread};
+use super::format::{shown, spread};
+use super::paper::{ROUGH, SETS, SYMMETRIES, TABLE2};
 use super::plan::Item;
+use super::results_reader::{LoadPoint, Results, Spread, Summary, Table1Row};
 use crate::draw::chart::{self, Chart, Series};
 use crate::press::{run::kind_name, table1};
 use maud::{Markup, PreEscaped, html};
@@ -17,50 +18,51 @@ const CLOSURES: [(&str, &str); 5] = [
 ];
 
 /// What a section shows.
-pub fn body(item: Item, evidence: &Evidence) -> Result<Markup, String> {
+pub fn body(item: Item, results: &Results) -> Result<Markup, String> {
     let body = match item.name {
-        "fig1" => geometry(evidence),
-        "fig2" => single(evidence),
-        "fig3" => load_curve(
-            evidence,
+        "fig1" => geometry(results),
+        "fig2" => single(results),
+        "fig3" => file(
+            results,
             "rough-milled",
+            "load_curve.svg",
             "A generated milled surface with the printed Ra and slope, pressed and released; every closure. The paper's curve is measured and prints no number, so this is a prediction.",
         ),
         "fig4" => sketch(
-            evidence,
+            results,
             "three-identical",
             "elements",
             "Three asperities of 20 µm and 10° at the end of the crush: the elements in the section of a body of revolution, a cone and two rings. The paper does not say whether its model is axisymmetric; both idealisations are computed.",
         ),
-        "fig5" => return zones(evidence),
-        "fig6" => return sets(evidence),
+        "fig5" => zones(results),
+        "fig6" => sets(results)?,
         "fig7" => html! {
-            (file(evidence, "calibrate", "collapse.svg", "K/σr of all metals at one slope, at the representative strain that mixes the curves best: one curve for every exponent n, as in the paper's figure."))
-            (file(evidence, "calibrate", "collapse_all.svg", "All slopes in one: K tan²β/σr against E* tan β/σr."))
+            (file(results, "calibrate", "collapse.svg", "K/σr of all metals at one slope, at the representative strain that mixes the curves best: one curve for every exponent n, as in the paper's figure."))
+            (file(results, "calibrate", "collapse_all.svg", "All slopes in one: K tan²β/σr against E* tan β/σr."))
         },
         "fig8" => html! {
-            (file(evidence, "calibrate", "representative_strain.svg", "The representative strain of every slope with its 95 % interval, our line and the published one."))
-            (strains(evidence))
+            (file(results, "calibrate", "representative_strain.svg", "The representative strain of every slope with its 95 % interval, our line and the published one."))
+            (strains(results))
         },
-        "fig9" => return profile(evidence),
+        "fig9" => profile(results)?,
         "fig11" => maps(
-            evidence,
+            results,
             "topography.png",
             "Heights in µm; surfaces generated with the printed Ra and mean slope, 2 mm a side. The paper's own surfaces are not public.",
         ),
         "fig12" => maps(
-            evidence,
+            results,
             "pressure-published.png",
             "Pressure under a nominal 200 MPa by the paper's closure; colours end where 99 % of the loaded pixels do.",
         ),
         "fig13" => maps(
-            evidence,
+            results,
             "contact-published.png",
             "Contact areas by regime, by the paper's closure and its thresholds.",
         ),
-        "table1" => numbers(evidence),
-        "fig15" => unloading(evidence)?,
-        "table2" => energies(evidence),
+        "table1" => numbers(results),
+        "fig15" => unloading(results)?,
+        "table2" => energies(results),
         _ => html! {},
     };
     Ok(body)
@@ -79,16 +81,12 @@ fn drawing(svg: Option<String>, caption: &str) -> Markup {
     }
 }
 
-fn file(evidence: &Evidence, part: &str, name: &str, caption: &str) -> Markup {
-    drawing(evidence.text(part, name), caption)
+fn file(results: &Results, part: &str, name: &str, caption: &str) -> Markup {
+    drawing(results.text(part, name), caption)
 }
 
-fn sketch(evidence: &Evidence, part: &str, start: &str, caption: &str) -> Markup {
-    drawing(evidence.sketch(part, start), caption)
-}
-
-fn load_curve(evidence: &Evidence, part: &str, caption: &str) -> Markup {
-    file(evidence, part, "load_curve.svg", caption)
+fn sketch(results: &Results, part: &str, start: &str, caption: &str) -> Markup {
+    drawing(results.sketch(part, start), caption)
 }
 
 /// A table of a head and rows; the first column is text, the others are numbers.
@@ -103,84 +101,55 @@ fn table(head: &[&str], rows: &[Vec<String>]) -> Markup {
     }
 }
 
-/// A number with its unit scale, or a dash.
-fn shown(value: Option<f64>) -> String {
-    value.map_or_else(|| "–".into(), significant)
-}
-
-fn spread(value: Option<Spread>, digits: usize) -> String {
-    value.map_or_else(
-        || "–".into(),
-        |s| {
-            let deviation = format!("{:.digits$}", s.deviation);
-            let seen = !deviation.trim_matches(['0', '.']).is_empty();
-            if seen { format!("{:.digits$} ± {deviation}", s.mean) } else { format!("{:.digits$}", s.mean) }
-        },
-    )
-}
-
 fn percent(value: Option<f64>) -> Option<f64> {
     value.map(|v| 100.0 * v)
 }
 
-fn geometry(evidence: &Evidence) -> Markup {
+fn geometry(results: &Results) -> Markup {
     html! {
-        (sketch(evidence, "single-asperity", "elements", "The asperity at the end of the crush with its elements: height 20 µm, attack angle 10°, tip radius 10 µm, as printed; the base radius follows."))
+        (sketch(results, "single-asperity", "elements", "The asperity at the end of the crush with its elements: height 20 µm, attack angle 10°, tip radius 10 µm, as printed; the base radius follows."))
     }
 }
 
-fn single(evidence: &Evidence) -> Markup {
+fn single(results: &Results) -> Markup {
     let part = "single-asperity";
-    let force = |depth: f64| shown(evidence.force_at(part, depth));
-    let error = percent(evidence.summary(part, "estimated_error"));
+    let force = |depth: f64| results.force_at(part, depth);
+    let summary = results.summary(part);
+    let of = |quantity: fn(&Summary) -> Option<f64>| summary.as_ref().and_then(quantity);
     let rows = [
         ("force at 1 µm, N", force(1.0)),
         ("force at 2 µm, N", force(2.0)),
         ("force at 5 µm, N", force(5.0)),
-        ("estimated error of the force, %", shown(error)),
-        ("residual depth, µm", shown(evidence.summary(part, "residual_depth"))),
-        ("stiffness of unloading, N/µm", shown(evidence.summary(part, "unloading_stiffness"))),
-        ("elastic share of the work, %", shown(percent(evidence.summary(part, "elastic_fraction")))),
-        ("contact radius at 5 µm, µm", shown(evidence.summary(part, "contact_radius"))),
-        ("exponent of F over h, upper half", shown(kick_exponent(evidence))),
+        ("estimated error of the force, %", percent(of(|s| s.estimated_error))),
+        ("residual depth, µm", of(|s| s.residual_depth_um)),
+        ("stiffness of unloading, N/µm", of(|s| s.unloading_stiffness_N_per_um)),
+        ("elastic share of the work, %", percent(of(|s| s.elastic_fraction))),
+        ("contact radius at 5 µm, µm", of(|s| s.contact_radius_um)),
+        ("exponent of F over h, upper half", results.force_exponent()),
     ];
-    let rows: Vec<Vec<String>> =
-        rows.into_iter().map(|(name, value)| vec![name.into(), value, "not printed".into()]).collect();
+    let rows = rows.map(|(name, value)| vec![name.into(), shown(value), "not printed".into()]);
     html! {
-        (file(evidence, part, "curve.svg", "Force against depth of the paper's asperity, loading and unloading."))
+        (file(results, part, "curve.svg", "Force against depth of the paper's asperity, loading and unloading."))
         (table(&["", "ours", "paper"], &rows))
-        (sketch(evidence, part, "section", "The peak: pressure of the tool, von Mises stress, plastic strain and hydrostatic pressure on the deformed section."))
+        (sketch(results, part, "section", "The peak: pressure of the tool, von Mises stress, plastic strain and hydrostatic pressure on the deformed section."))
     }
 }
 
-fn zones(evidence: &Evidence) -> Result<Markup, String> {
-    let rows: Vec<Vec<String>> = SYMMETRIES
-        .iter()
-        .flat_map(|(end, symmetry)| {
-            let part = format!("three-identical{end}");
-            let found = islands(evidence, &part).unwrap_or_default();
-            found
-                .into_iter()
-                .map(|island| {
-                    let number = |key: &str| shown(island[key].as_f64());
-                    let place = [0, 1].map(|k| shown(island["place_um"][k].as_f64()));
-                    vec![
-                        (*symmetry).to_string(),
-                        place.join(", "),
-                        number("area_um2"),
-                        number("mean_pressure_MPa"),
-                    ]
-                })
-                .collect::<Vec<_>>()
-        })
-        .collect();
-    Ok(html! {
+fn zones(results: &Results) -> Markup {
+    let mut rows = Vec::new();
+    for (end, symmetry) in SYMMETRIES {
+        for island in results.islands(&format!("three-identical{end}")).unwrap_or_default() {
+            let [area, pressure] = [island.area_um2, island.mean_pressure_MPa].map(shown);
+            rows.push(vec![symmetry.to_string(), island.place_um.map(shown).join(", "), area, pressure]);
+        }
+    }
+    html! {
         p { "The tool has come down by the whole height of the asperities. The paper draws where the von Mises stress is below "
-            "the first yield stress; below are the line of that stress, and what the metal itself says: where it never yielded, "
-            "where it has yielded but is elastic now, and where it flows." }
+            "the first yield stress; below are the line of that stress, and what the material itself says: where it never yielded, "
+            "where it has yielded but is elastic now, and where it yields." }
         @for (end, symmetry) in SYMMETRIES {
             h3 { (symmetry) }
-            (sketch(evidence, &format!("three-identical{end}"), "zones", "Elastic zones and hydrostatic pressure at the end of the crush."))
+            (sketch(results, &format!("three-identical{end}"), "zones", "Elastic zones and hydrostatic pressure at the end of the crush."))
         }
         @if rows.is_empty() {
             p { "No region of the asperities stays without any plastic strain." }
@@ -188,32 +157,29 @@ fn zones(evidence: &Evidence) -> Result<Markup, String> {
             (table(&["symmetry", "place r, z (µm)", "area (µm²)", "mean pressure (MPa)"], &rows))
         }
         h3 { "The state of the whole row" }
-        (sketch(evidence, "three-identical", "section", "Body of revolution: pressure of the tool and fields of the row."))
-    })
+        (sketch(results, "three-identical", "section", "Body of revolution: pressure of the tool and fields of the row."))
+    }
 }
 
-fn sets(evidence: &Evidence) -> Result<Markup, String> {
+fn sets(results: &Results) -> Result<Markup, String> {
     let labels = ["1–4° (rectified)", "5–8° (milled)", "9–12° (sanded)"];
-    let mut figures = Vec::new();
-    let mut rows = Vec::new();
+    let (mut figures, mut rows) = (Vec::new(), Vec::new());
     for (end, symmetry) in SYMMETRIES {
         let unit = if end.is_empty() { "N" } else { "N/mm" };
         let mut series = Vec::new();
         for (set, label) in SETS.iter().zip(labels) {
             let part = format!("{set}{end}");
-            let Some(curve) = evidence.table(&part, "curve.csv") else { continue };
-            series.push(Series {
-                label: label.into(),
-                points: curve.points("depth_um", "force_", &[]),
-                marks: false,
-            });
+            let (Some(curve), Some(summary)) = (results.curve(&part), results.summary(&part)) else {
+                continue;
+            };
+            series.push(Series::line(label, curve.iter().map(|row| [row.depth_um, row.force_N]).collect()));
             rows.push(vec![
                 format!("{label}, {symmetry}"),
-                format!("{} {unit}", shown(evidence.summary(&part, "peak_force"))),
-                shown(percent(evidence.summary(&part, "estimated_error"))),
-                shown(evidence.summary(&part, "total_work")),
-                shown(percent(evidence.summary(&part, "elastic_fraction"))),
-                shown(evidence.summary(&part, "residual_depth")),
+                format!("{} {unit}", shown(summary.peak_force_N)),
+                shown(percent(summary.estimated_error)),
+                shown(summary.total_work_uJ),
+                shown(percent(summary.elastic_fraction)),
+                shown(summary.residual_depth_um),
             ]);
         }
         let chart = Chart { x_label: "Depth h (µm)".into(), y_label: format!("Force F ({unit})"), series };
@@ -228,35 +194,33 @@ fn sets(evidence: &Evidence) -> Result<Markup, String> {
     })
 }
 
-fn strains(evidence: &Evidence) -> Markup {
-    let fit = evidence.json("calibrate", "fit.json").unwrap_or_default();
-    let rows: Vec<Vec<String>> = fit["per_angle"]
-        .as_array()
-        .into_iter()
-        .flatten()
-        .filter_map(|angle| {
-            let number = |key: &str| angle[key].as_f64();
-            let beta = number("beta_deg")?;
-            let tan = beta.to_radians().tan();
-            let published = fit["published"].as_f64()? * tan;
-            let ours = number("representative_strain");
-            let strain = |v: Option<f64>| v.map_or_else(|| "–".into(), |v| format!("{v:.5}"));
-            Some(vec![
-                format!("{beta}°"),
+fn strains(results: &Results) -> Markup {
+    let fit = results.fit();
+    let strain = |v: Option<f64>| v.map_or_else(|| "–".into(), |v| format!("{v:.5}"));
+    let rows: Vec<Vec<String>> = fit
+        .iter()
+        .flat_map(|fit| fit.per_angle.iter().map(|angle| (fit.published, angle)))
+        .map(|(published, angle)| {
+            let tan = angle.beta_deg.to_radians().tan();
+            let (published, ours) = (published * tan, angle.representative_strain);
+            vec![
+                format!("{}°", angle.beta_deg),
                 strain(ours),
-                format!("{} … {}", strain(number("low")), strain(number("high"))),
+                format!("{} … {}", strain(angle.low), strain(angle.high)),
                 strain(Some(published)),
                 ours.map_or_else(|| "–".into(), |v| format!("{:+.0} %", 100.0 * (v / published - 1.0))),
                 ours.map_or_else(|| "–".into(), |v| format!("{:.4}", v / tan)),
-            ])
+            ]
         })
         .collect();
     table(&["slope", "εr, ours", "95 %", "0.13 tan β (published)", "ours over published", "εr/tan β"], &rows)
 }
 
-fn profile(evidence: &Evidence) -> Result<Markup, String> {
-    let Some(rows) = evidence.table("rough-milled", "profile.csv") else { return Ok(drawing(None, "")) };
-    let points = |what: &str| rows.points("x_um", "z_um", &[("what", what)]);
+fn profile(results: &Results) -> Result<Markup, String> {
+    let Some(rows) = results.profile("rough-milled") else { return Ok(drawing(None, "")) };
+    let points = |what: &str| -> Vec<[f64; 2]> {
+        rows.iter().filter(|p| p.what == what).map(|p| [p.x_um, p.z_um]).collect()
+    };
     let (surface, cones) = (points("surface"), points("cones"));
     // the part about the widest cone
     let widest = cones.windows(3).filter(|w| w[1][1] > w[0][1] && w[1][1] > w[2][1]);
@@ -270,12 +234,13 @@ fn profile(evidence: &Evidence) -> Result<Markup, String> {
             .map(|p| [p[0] - start, p[1]])
             .collect()
     };
-    let series =
-        |label: &str, points: &[[f64; 2]]| Series { label: label.into(), points: part(points), marks: false };
     let chart = Chart {
         x_label: "x (µm)".into(),
         y_label: "height (µm)".into(),
-        series: vec![series("milled surface", &surface), series("plane and cones", &cones)],
+        series: vec![
+            Series::line("milled surface", part(&surface)),
+            Series::line("plane and cones", part(&cones)),
+        ],
     };
     Ok(drawing(
         Some(chart::svg(&chart)?),
@@ -284,12 +249,12 @@ fn profile(evidence: &Evidence) -> Result<Markup, String> {
     ))
 }
 
-fn maps(evidence: &Evidence, name: &str, caption: &str) -> Markup {
+fn maps(results: &Results, name: &str, caption: &str) -> Markup {
     html! {
         div class="row" {
             @for (part, letter) in ROUGH.iter().zip(["(a)", "(b)", "(c)"]) {
                 figure {
-                    @match evidence.png(part, name) {
+                    @match results.png(part, name) {
                         Some(uri) => { img src=(uri) alt={ (letter) " " (part) ", " (name) }; }
                         None => { p class="missing" { "not there" } }
                     }
@@ -301,7 +266,7 @@ fn maps(evidence: &Evidence, name: &str, caption: &str) -> Markup {
     }
 }
 
-fn numbers(evidence: &Evidence) -> Markup {
+fn numbers(results: &Results) -> Markup {
     let mut rows = Vec::new();
     let mut against_itself = Vec::new();
     for (row, part) in table1::TABLE.iter().zip(ROUGH) {
@@ -313,20 +278,21 @@ fn numbers(evidence: &Evidence) -> Markup {
             format!("{}", row.index),
             row.peak.to_string(),
         ]);
-        for (closure, what) in CLOSURES {
-            let of = |quantity: &str, digits: usize| spread(evidence.rough(part, closure, quantity), digits);
+        for (closure, source) in CLOSURES {
+            let of = |quantity: fn(&Table1Row) -> &Vec<f64>, digits: usize| {
+                spread(results.rough(part, closure, quantity), digits)
+            };
             rows.push(vec![
-                format!("{name}, {closure}: {what}"),
-                of("pressure", 0),
-                of("area", 2),
-                of("index", 3),
-                of("peak", 1),
+                format!("{name}, {closure}: {source}"),
+                of(|r| &r.pressure, 0),
+                of(|r| &r.area, 2),
+                of(|r| &r.index, 3),
+                of(|r| &r.peak, 1),
             ]);
         }
-        if let Some(text) =
-            evidence.json(part, "table1.json").as_ref().and_then(|t| t["against_itself"].as_str())
-        {
-            against_itself.push(format!("{name}: {}", text.trim_start_matches("the paper against itself: ")));
+        if let Some(row) = results.table1(part) {
+            let text = row.against_itself.trim_start_matches("the paper against itself: ");
+            against_itself.push(format!("{name}: {text}"));
         }
     }
     html! {
@@ -339,20 +305,19 @@ fn numbers(evidence: &Evidence) -> Markup {
     }
 }
 
-fn unloading(evidence: &Evidence) -> Result<Markup, String> {
+fn unloading(results: &Results) -> Result<Markup, String> {
     let mut figures = Vec::new();
     for part in ROUGH {
-        let Some(curve) = evidence.table(part, "load_curve.csv") else { continue };
+        let Some(curve) = results.load_curve(part) else { continue };
         let mut series = Vec::new();
         for closure in ["johnson", "calibrated"] {
-            let both = |phase: &str| {
-                curve.points("separation_um", "pressure_MPa", &[("closure", closure), ("phase", phase)])
+            let of = |phase: &'static str| {
+                curve.iter().filter(move |p: &&LoadPoint| p.closure == closure && p.phase == phase)
             };
-            let loading = both("load");
-            let Some(first) = loading.first().map(|p| p[0]) else { continue };
-            for (name, points) in [("loading", loading), ("unloading", both("unload"))] {
-                let travel = points.iter().map(|p| [first - p[0], p[1]]).collect();
-                series.push(Series { label: format!("{closure}, {name}"), points: travel, marks: false });
+            let Some(first) = of("load").next().map(|p| p.separation_um) else { continue };
+            for (phase, unloading) in [("load", false), ("unload", true)] {
+                let travel = of(phase).map(|p| [first - p.separation_um, p.pressure_MPa]).collect();
+                series.push(Series::of_closure(closure, unloading, travel));
             }
         }
         if !series.is_empty() {
@@ -370,7 +335,7 @@ fn unloading(evidence: &Evidence) -> Result<Markup, String> {
     })
 }
 
-fn energies(evidence: &Evidence) -> Markup {
+fn energies(results: &Results) -> Markup {
     let mut rows = Vec::new();
     for ((row, part), [residual, elastic]) in table1::TABLE.iter().zip(ROUGH).zip(TABLE2) {
         let name = kind_name(row.kind);
@@ -382,10 +347,10 @@ fn energies(evidence: &Evidence) -> Markup {
         ]);
         for closure in ["johnson", "calibrated"] {
             let share =
-                evidence.rough(part, closure, "elastic").map(|s| Spread { mean: s.mean.min(100.0), ..s });
+                results.rough(part, closure, |r| &r.elastic).map(|s| Spread { mean: s.mean.min(100.0), ..s });
             rows.push(vec![
                 format!("{name}, {closure} (predicted)"),
-                spread(evidence.rough(part, closure, "residual"), 2),
+                spread(results.rough(part, closure, |r| &r.residual), 2),
                 spread(share, 1),
                 spread(share.map(|s| Spread { mean: 100.0 - s.mean, ..s }), 1),
             ]);

@@ -1,23 +1,23 @@
 //! One part from its definition to a folder of files, and the stamp that says it is done.
 //!
 //! A stamp is written when the files are in their place and taken away before they change, so that a part that was
-//! killed is begun anew; the sweep goes on from its journal.
+//! killed is begun anew; the sweep resumes from its journal.
 
 use super::plan::{Part, Work};
+use super::profile::profile;
 use crate::calibrate::Order;
-use crate::cli::folder::Folder;
-use crate::cli::folder::journal_beside;
-use crate::cli::progress::Progress;
-use crate::crush::{Sketch, crush_into};
+// crushes and sweeps do not take an observer yet
+use crate::cli::progress::Progress as HiddenProgress;
+use crate::crush::{Progress, Sketch, crush_into};
 use crate::error::Error;
 use crate::input::scene::Scene;
 use crate::input::toml_file::TomlFile;
-use crate::output::{SinkExt, write_whole};
+use crate::output::{Directory, Sink, SinkExt, write_whole};
 use crate::press::files::Outcome;
 use crate::press::{run as press, table1};
 use asperity_calibration::sweep::Sweep;
 use asperity_roughness::scene::Scene as RoughScene;
-use asperity_roughness::{Coefficient, Islands, KindName};
+use asperity_roughness::{Coefficient, KindName};
 use asperity_solver::run::depth_for_force::target_depth;
 use asperity_solver::run::prepare::prepare;
 use asperity_solver::scene::{Accuracy, Level, Scene as Tables};
@@ -28,7 +28,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 /// Dots along a side of a map of a rough surface in the report, its key included.
-const MAP: usize = 728;
+const MAP: usize = 900;
 
 /// That a part is done.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -85,10 +85,11 @@ impl Job {
         let file = Path::new(part.name);
         let scene = match part.work {
             Work::Crush { scene, changes, sketches } => {
-                let mut changes: Vec<String> = changes.iter().map(|c| (*c).to_string()).collect();
-                changes.push(format!("accuracy={accuracy}"));
-                let read = Scene::from_toml(scene, Path::new("")).and_then(|scene| scene.with(&changes));
-                Resolved::Crush(Box::new(embedded(part.name, read)?), sketches)
+                let accuracy = format!("accuracy={accuracy}");
+                let changes: Vec<String> =
+                    changes.iter().map(|c| (*c).to_string()).chain([accuracy]).collect();
+                let scene = Scene::from_toml(scene, Path::new("")).and_then(|s| s.with(&changes));
+                Resolved::Crush(Box::new(embedded(part.name, scene)?), sketches)
             }
             Work::Calibrate => Resolved::Calibrate(Sweep { accuracy, ..Sweep::default() }),
             Work::Rough { scene, kind } => {
@@ -130,26 +131,32 @@ impl Job {
         }
     }
 
-    /// Computes the part and stamps it.
+    /// Computes the part and stamps it; `observer` hears of the share that is done (0 to 1) and ends the work by `false`.
     ///
     /// # Errors
     /// What kept it from being done. A crush that ends before its target is done: its stamp says so.
-    pub fn run(&self, progress: Progress) -> Result<Stamp, Error> {
+    pub fn run(&self, observer: &mut dyn FnMut(f64, &str) -> bool) -> Result<Stamp, Error> {
         let start = Instant::now();
         let _ = std::fs::remove_file(self.stamp_path());
         let stopped = match &self.scene {
-            Resolved::Crush(scene, sketches) => self.crush(scene, sketches, progress)?,
+            Resolved::Crush(scene, sketches) => self.fill(|sink| {
+                let told = &mut |reached: &Progress<'_>| {
+                    let row = reached.row;
+                    let share = row.increment as f64 / reached.planned.max(1) as f64;
+                    observer(share, &format!("{:.3} um  increment {}", row.depth_um, row.increment))
+                };
+                crush_into(scene, sink, sketches, told).map(|crushed| crushed.summary.stopped)
+            })?,
             Resolved::Calibrate(sweep) => {
                 self.keep_own_journal()?;
                 let cases = sweep.cases();
                 let threads = rayon::current_num_threads();
                 let order = Order { sweep, cases: &cases, whole: true, shown: None, threads };
-                order.fill(&self.folder, true, true, progress)?;
+                order.fill(&self.folder, true, true, HiddenProgress::new(true))?;
                 None
             }
             Resolved::Rough(scene, kind) => {
-                self.press(scene, *kind, &progress)?;
-                progress.finish();
+                self.fill(|sink| self.press(scene, *kind, sink, observer))?;
                 None
             }
         };
@@ -159,58 +166,61 @@ impl Job {
         Ok(stamp)
     }
 
+    /// Fills a folder beside the part's own and puts it in its place when it is whole.
+    fn fill<T>(&self, compute: impl FnOnce(&mut dyn Sink) -> Result<T, Error>) -> Result<T, Error> {
+        let partial = self.folder.with_extension("partial");
+        let _ = std::fs::remove_dir_all(&partial);
+        let result = compute(&mut Directory::create(&partial)?)?;
+        let _ = std::fs::remove_dir_all(&self.folder);
+        std::fs::rename(&partial, &self.folder).map_err(|e| Error::disk(&self.folder, e))?;
+        Ok(result)
+    }
+
     /// Throws away a journal that another program, or the same for another sweep, has left.
     fn keep_own_journal(&self) -> Result<(), Error> {
         let begun = self.folder.with_extension("begun");
         if std::fs::read_to_string(&begun).is_ok_and(|key| key == self.key) {
             return Ok(());
         }
-        let _ = std::fs::remove_file(journal_beside(&self.folder));
+        let _ = std::fs::remove_file(self.folder.with_extension("journal"));
         write_whole(&begun, self.key.as_bytes())
     }
 
-    fn crush(&self, scene: &Scene, sketches: &[Sketch], progress: Progress) -> Result<Option<String>, Error> {
-        let mut folder = Folder::create(&self.folder, "crush", true)?;
-        let crushed = crush_into(scene, &mut folder, sketches, &mut |reached| {
-            let share = reached.row.increment as f64 / reached.planned.max(1) as f64;
-            progress.show(share, || {
-                format!("{:.3} um  increment {}", reached.row.depth_um, reached.row.increment)
-            });
-            true
-        });
-        progress.finish();
-        folder.publish()?;
-        Ok(crushed?.summary.stopped)
-    }
-
-    fn press(&self, scene: &RoughScene, kind: KindName, progress: &Progress) -> Result<(), Error> {
+    fn press(
+        &self,
+        scene: &RoughScene,
+        kind: KindName,
+        sink: &mut dyn Sink,
+        observer: &mut dyn FnMut(f64, &str) -> bool,
+    ) -> Result<(), Error> {
         let start = Instant::now();
         let name = press::kind_name(kind);
         let calibration = embedded(self.part.name, Coefficient::committed())?;
-        progress.show(0.0, || format!("the {name} surface"));
+        observer(0.0, &format!("the {name} surface"));
         let prepared = embedded(self.part.name, scene.surface.prepare(Path::to_path_buf))?;
         let (pressed, warnings) = press::press_all(scene, &prepared, Some(&calibration))
             .map_err(|(key, message)| Error::Unfinished(format!("{}: {key}: {message}", self.part.name)))?;
         let outcome = Outcome { name, scene, prepared: &prepared, pressed: &pressed, warnings: &warnings };
-        let mut folder = Folder::create(&self.folder, "rough", true)?;
-        outcome.write_tables(&mut folder)?;
-        outcome.write_topography(&mut folder, MAP)?;
+        outcome.write_tables(sink)?;
+        outcome.write_topography(sink, MAP)?;
         for one in &pressed {
-            outcome.write_pictures(&mut folder, one, MAP)?;
+            outcome.write_pictures(sink, one, MAP)?;
         }
         if let Some(one) = pressed.first() {
-            let cones = profile(&prepared.map, &one.contact.islands);
-            folder.write("profile.csv", |out| out.write_all(cones.as_bytes()))?;
+            sink.write("profile.csv", |out| {
+                let mut table = csv::Writer::from_writer(out);
+                profile(&prepared.map, &one.contact.islands).iter().try_for_each(|p| table.serialize(p))?;
+                Ok::<(), csv::Error>(table.flush()?)
+            })?;
         }
         let summary = outcome.summary(start.elapsed().as_secs_f64());
-        folder.write("summary.json", |out| writeln!(out, "{summary:#}"))?;
+        sink.write("summary.json", |out| writeln!(out, "{summary:#}"))?;
         if let Some(row) = table1::TABLE.iter().find(|row| row.kind == kind) {
-            progress.show(0.2, || format!("five {name} surfaces, every closure"));
-            let table = serde_json::to_string_pretty(&table1::measure(row)?)
-                .map_err(|e| Error::Unfinished(e.to_string()))?;
-            folder.write("table1.json", |out| out.write_all(table.as_bytes()))?;
+            observer(0.2, &format!("five {name} surfaces, every closure"));
+            let table = table1::measure(row)?;
+            sink.write("table1.json", |out| serde_json::to_writer_pretty(out, &table))?;
         }
-        folder.publish().map(|_| ())
+        Ok(())
     }
 }
 
@@ -230,65 +240,16 @@ fn load_of(scene: &Tables) -> f64 {
 pub fn yardstick() -> Result<(f64, f64), Error> {
     let text = include_str!("../../scenes/single-asperity.toml");
     let changes = ["output.every=0", "accuracy=draft"].map(String::from);
-    let file: TomlFile<Tables> = TomlFile::parse(Path::new("single-asperity"), text.into(), &changes)?;
+    let scene = Scene::from_toml(text, Path::new(""))?.with(&changes)?;
     // the fastest of three: other work on the machine only ever adds
     let mut fastest = f64::INFINITY;
     for _ in 0..3 {
         let start = Instant::now();
-        let outcome =
-            asperity_solver::run::crush::run(&file.value, None, &mut |_| std::ops::ControlFlow::Continue(()));
+        let outcome = asperity_solver::run::crush::run(scene.tables(), None, &mut |_| {
+            std::ops::ControlFlow::Continue(())
+        });
         embedded("single-asperity", outcome)?;
         fastest = fastest.min(start.elapsed().as_secs_f64());
     }
-    Ok((fastest, load_of(&file.value)))
-}
-
-/// The row of the map with the largest summit: its heights, the plane, and the cones that stand for the islands on it.
-fn profile(map: &asperity_roughness::HeightMap, islands: &Islands) -> String {
-    const MICROMETRE: f64 = 1e-6;
-    let [width, height] = map.pixel();
-    let top = (0..map.rows())
-        .max_by(|a, b| {
-            let most = |row: usize| map.row(row).iter().copied().fold(f64::NEG_INFINITY, f64::max);
-            most(*a).total_cmp(&most(*b))
-        })
-        .unwrap_or(0);
-    let y = top as f64 * height;
-    let mut lines = vec!["what,x_um,z_um".to_string()];
-    let mut point = |what: &str, x: f64, z: f64| {
-        lines.push(format!("{what},{:?},{:?}", x / MICROMETRE, z / MICROMETRE));
-    };
-    for (column, z) in map.row(top).iter().enumerate().filter(|(_, z)| z.is_finite()) {
-        point("surface", column as f64 * width, *z);
-    }
-    let end = map.columns().saturating_sub(1) as f64 * width;
-    let d = islands.plane;
-    point("cones", 0.0, d);
-    let mut cones: Vec<[f64; 3]> = islands
-        .islands
-        .iter()
-        .filter_map(|island| {
-            let radius = (island.area / std::f64::consts::PI).sqrt();
-            let centre = island.ellipse?.centre;
-            // the chord of the cone's base on this row
-            let aside = (centre[1] - y).abs();
-            (aside < 0.5 * radius && radius > 2.0 * width).then_some([
-                centre[0],
-                radius,
-                island.slope * (radius - aside),
-            ])
-        })
-        .collect();
-    cones.sort_by(|a, b| a[0].total_cmp(&b[0]));
-    let mut reached = 0.0;
-    for [x, radius, rise] in cones {
-        if x - radius > reached {
-            point("cones", x - radius, d);
-            point("cones", x, d + rise);
-            point("cones", x + radius, d);
-            reached = x + radius;
-        }
-    }
-    point("cones", end.max(reached), d);
-    lines.join("\n") + "\n"
+    Ok((fastest, load_of(scene.tables())))
 }

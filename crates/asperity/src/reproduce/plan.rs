@@ -1,15 +1,16 @@
-//! What there is to reproduce, and what must be computed for it.
+//! The figures and tables of the paper, and the parts that must be computed for them.
 
 use crate::crush::Sketch;
 use crate::draw::field_plot::{Panel, Reach};
+use crate::error::InputError;
 use asperity_roughness::KindName;
 
 /// A figure or a table of the paper.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Item {
-    /// What `--only` calls it.
+    /// Its name for `--only`.
     pub name: &'static str,
-    /// What the paper calls it.
+    /// Its name in the paper.
     pub title: &'static str,
 }
 
@@ -60,7 +61,7 @@ pub enum Work {
 pub struct Part {
     /// The folder's name; for a scene that of its file.
     pub name: &'static str,
-    /// What must be done.
+    /// How it is computed.
     pub work: Work,
     /// Which items need it.
     pub serves: &'static [&'static str],
@@ -120,10 +121,15 @@ pub const PARTS: [Part; 13] = [
 /// The items called for, in the order of the paper; all of them if none is.
 ///
 /// # Errors
-/// The name that is none of theirs.
-pub fn items(only: &[String]) -> Result<Vec<Item>, String> {
-    if let Some(unknown) = only.iter().find(|name| ITEMS.iter().all(|item| item.name != name.as_str())) {
-        return Err(unknown.clone());
+/// A name that is none of theirs, with the nearest one.
+pub fn items(only: &[String]) -> Result<Vec<Item>, InputError> {
+    let only: Vec<String> = only.iter().map(|name| name.trim().to_lowercase()).collect();
+    let names = ITEMS.map(|item| item.name);
+    if let Some(unknown) = only.iter().find(|name| !names.contains(&name.as_str())) {
+        let near = crate::input::suggest::nearest(unknown, &names);
+        let did_you = near.map_or_else(String::new, |near| format!("did you mean {near}? "));
+        return Err(InputError::new(format!("--only: the paper has no `{unknown}` that can be computed"))
+            .help(format!("{did_you}Known here: {}", names.join(", "))));
     }
     let wanted = |item: &&Item| only.is_empty() || only.iter().any(|name| name == item.name);
     Ok(ITEMS.iter().filter(wanted).copied().collect())
@@ -149,6 +155,6 @@ mod tests {
             assert!(part.serves.iter().all(|name| ITEMS.iter().any(|i| i.name == *name)), "{}", part.name);
         }
         assert_eq!(items(&["table1".into(), "fig6".into()]).unwrap().len(), 2);
-        assert_eq!(items(&["fig10".into()]).unwrap_err(), "fig10");
+        assert!(items(&["fig10".into()]).unwrap_err().message.contains("fig10"));
     }
 }

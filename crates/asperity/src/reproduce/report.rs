@@ -1,9 +1,9 @@
 //! The report: one self-contained page, its claims as JSON, and its overview as a table for a page of text.
 
 use super::claims::{Claim, Verdict, claims};
-use super::evidence::Evidence;
 use super::figures;
 use super::plan::{Item, Part, Work, parts};
+use super::results_reader::{Results, Summary};
 use asperity_solver::scene::Accuracy;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use std::collections::BTreeMap;
@@ -11,7 +11,8 @@ use std::fmt::Write;
 
 const PAPER: &str = "Jourani, Dellaleau, Dursapt, Hamdi, Sidoroff, Zahouani: Effect of local slopes of roughness during contact between solids";
 
-/// What is written.
+/// The files of the report.
+#[derive(Clone, Debug)]
 pub struct Report {
     /// index.html.
     pub html: String,
@@ -29,20 +30,19 @@ pub struct Report {
 ///
 /// # Errors
 /// A text for a person where a chart cannot be drawn.
-pub fn report(evidence: &Evidence, items: &[Item], accuracy: Accuracy) -> Result<Report, String> {
+pub(super) fn report(results: &Results, items: &[Item], accuracy: Accuracy) -> Result<Report, String> {
     let level = accuracy.to_string();
     let wanted = |claim: &Claim| items.iter().any(|item| item.name == claim.item);
-    let claims: Vec<Claim> = claims(evidence).into_iter().filter(wanted).collect();
+    let claims: Vec<Claim> = claims(results).into_iter().filter(wanted).collect();
     let count = |verdict: Verdict| claims.iter().filter(|c| c.verdict == verdict).count();
-    let verdicts = [Verdict::BorneOut, Verdict::Contradicted, Verdict::CannotBeJudged];
-    let tally = verdicts.map(|v| format!("{} {}", count(v), v.words())).join(", ");
-    let numbers = numbers(evidence);
+    let tally = Verdict::ALL.map(|v| format!("{} {}", count(v), v.words())).join(", ");
+    let numbers = numbers(results);
     let by_name: BTreeMap<&str, f64> = numbers.iter().map(|n| (n.name, n.value)).collect();
     let value = serde_json::json!({
         "accuracy": level, "version": env!("CARGO_PKG_VERSION"), "numbers": by_name, "claims": claims,
     });
     Ok(Report {
-        html: page(evidence, items, &claims, &level)?.into_string(),
+        html: page(results, items, &claims, &level)?.into_string(),
         claims_json: format!("{value:#}\n"),
         claims_markdown: markdown(&claims, &level),
         numbers_markdown: numbers_markdown(&numbers, &level),
@@ -62,24 +62,26 @@ struct Number {
 }
 
 /// The numbers that pages of text quote; those of parts that were not asked for are left out.
-fn numbers(evidence: &Evidence) -> Vec<Number> {
+fn numbers(results: &Results) -> Vec<Number> {
     let single = "single-asperity";
-    let summary = |key: &str| evidence.summary(single, key);
-    let percent = |key: &str| summary(key).map(|share| 100.0 * share);
-    let fit = evidence.json("calibrate", "fit.json").unwrap_or_default();
-    let coefficient = [&fit["coefficient"], &fit["ci95"][0], &fit["ci95"][1]].map(serde_json::Value::as_f64);
+    let summary = results.summary(single);
+    let summary = |quantity: fn(&Summary) -> Option<f64>| summary.as_ref().and_then(quantity);
+    let percent = |quantity| summary(quantity).map(|share| 100.0 * share);
+    let fit = results.fit();
+    let coefficient = fit.as_ref().and_then(|fit| fit.coefficient);
+    let interval = fit.as_ref().and_then(|fit| fit.ci95);
     let all = [
-        ("force_at_1_um_N", "force at 1 µm, N", evidence.force_at(single, 1.0), 3),
-        ("force_at_2_um_N", "force at 2 µm, N", evidence.force_at(single, 2.0), 3),
-        ("force_at_5_um_N", "force at 5 µm, N", evidence.force_at(single, 5.0), 3),
-        ("force_error_percent", "error of the force, stated, %", percent("estimated_error"), 2),
-        ("residual_depth_um", "residual depth, µm", summary("residual_depth"), 3),
-        ("elastic_share_percent", "elastic share of the work, %", percent("elastic_fraction"), 1),
-        ("unknowns", "unknowns", summary("dofs"), 0),
-        ("newton_iterations", "Newton iterations", summary("newton_iterations"), 0),
-        ("coefficient", "c of ε_r = c tan β, from 480 sharp cones", coefficient[0], 3),
-        ("coefficient_low", "its 95 % interval, from", coefficient[1], 3),
-        ("coefficient_high", "to", coefficient[2], 3),
+        ("force_at_1_um_N", "force at 1 µm, N", results.force_at(single, 1.0), 3),
+        ("force_at_2_um_N", "force at 2 µm, N", results.force_at(single, 2.0), 3),
+        ("force_at_5_um_N", "force at 5 µm, N", results.force_at(single, 5.0), 3),
+        ("force_error_percent", "error of the force, stated, %", percent(|s| s.estimated_error), 2),
+        ("residual_depth_um", "residual depth, µm", summary(|s| s.residual_depth_um), 3),
+        ("elastic_share_percent", "elastic share of the work, %", percent(|s| s.elastic_fraction), 1),
+        ("unknowns", "unknowns", summary(|s| Some(s.dofs as f64)), 0),
+        ("newton_iterations", "Newton iterations", summary(|s| Some(s.newton_iterations as f64)), 0),
+        ("coefficient", "c of ε_r = c tan β, from 480 sharp cones", coefficient, 3),
+        ("coefficient_low", "its 95 % interval, from", interval.map(|i| i[0]), 3),
+        ("coefficient_high", "to", interval.map(|i| i[1]), 3),
     ];
     let known = |(name, words, value, decimals): (_, _, Option<f64>, _)| {
         Some(Number { name, words, value: value?, decimals })
@@ -117,9 +119,9 @@ fn verdict(verdict: Verdict) -> Markup {
     html! { span class={ "verdict " (class(verdict)) } { (sign(verdict)) " " (verdict.words()) } }
 }
 
-fn page(evidence: &Evidence, items: &[Item], claims: &[Claim], level: &str) -> Result<Markup, String> {
+fn page(results: &Results, items: &[Item], claims: &[Claim], level: &str) -> Result<Markup, String> {
     let sections: Result<Vec<Markup>, String> =
-        items.iter().map(|item| section(*item, evidence, claims, level)).collect();
+        items.iter().map(|item| section(*item, results, claims, level)).collect();
     let sections = sections?;
     let parts = parts(items);
     let promise = match level {
@@ -170,7 +172,7 @@ fn page(evidence: &Evidence, items: &[Item], claims: &[Claim], level: &str) -> R
                     h2 id="scenes" { "Scenes" }
                     p { "Everything above was computed from these files and nothing else; " code { "asperity crush" } " and "
                         code { "asperity rough" } " run them one by one." }
-                    @for part in &parts { (scene(part, evidence)) }
+                    @for part in &parts { (scene(part, results)) }
                 }
             }
         }
@@ -180,7 +182,7 @@ fn page(evidence: &Evidence, items: &[Item], claims: &[Claim], level: &str) -> R
 fn tally(claims: &[Claim]) -> Markup {
     html! {
         div class="tally" {
-            @for v in [Verdict::BorneOut, Verdict::Contradicted, Verdict::CannotBeJudged] {
+            @for v in Verdict::ALL {
                 span { strong { (claims.iter().filter(|c| c.verdict == v).count()) } " " (verdict(v)) }
             }
         }
@@ -192,8 +194,8 @@ fn short(item: &Item) -> &'static str {
     item.title.split('.').next().unwrap_or(item.title)
 }
 
-fn section(item: Item, evidence: &Evidence, claims: &[Claim], level: &str) -> Result<Markup, String> {
-    let body = figures::body(item, evidence)?;
+fn section(item: Item, results: &Results, claims: &[Claim], level: &str) -> Result<Markup, String> {
+    let body = figures::body(item, results)?;
     let own: Vec<&Claim> = claims.iter().filter(|claim| claim.item == item.name).collect();
     let parts = parts(&[item]);
     Ok(html! {
@@ -207,7 +209,7 @@ fn section(item: Item, evidence: &Evidence, claims: &[Claim], level: &str) -> Re
                 } } }
             }
             @for part in &parts {
-                @if let Some(why) = evidence.stamp(part.name).and_then(|stamp| stamp.stopped.as_ref()) {
+                @if let Some(why) = results.stamp(part.name).and_then(|stamp| stamp.stopped.as_ref()) {
                     p class="missing" { (part.name) " " (why) "; what it reached is shown." }
                 }
             }
@@ -224,7 +226,7 @@ fn section(item: Item, evidence: &Evidence, claims: &[Claim], level: &str) -> Re
 }
 
 /// A scene as it stands in its file, how to run it alone, and how long it took.
-fn scene(part: &Part, evidence: &Evidence) -> Markup {
+fn scene(part: &Part, results: &Results) -> Markup {
     let (text, command) = match part.work {
         Work::Crush { scene, changes, .. } => {
             let changes: Vec<String> = changes.iter().map(|c| format!(" --set \"{c}\"")).collect();
@@ -238,7 +240,7 @@ fn scene(part: &Part, evidence: &Evidence) -> Markup {
             "asperity calibrate".into(),
         ),
     };
-    let time = evidence.stamp(part.name).map(|stamp| format!("took {:.1} s", stamp.wall_s));
+    let time = results.stamp(part.name).map(|stamp| format!("took {:.1} s", stamp.wall_s));
     html! {
         details id={ "scene-" (part.name) } {
             summary { (part.name) @if let Some(time) = time { " (" (time) ")" } }

@@ -1,21 +1,17 @@
-//! One run of a trade, in a process of its own, so that its memory is its own and a run that dies is a row.
+//! One run of a trade.
 
 use super::settings::Setting;
-use crate::cli::terminal;
 use crate::crush::peak_memory_mb;
-use crate::error::Error;
 use asperity_solver::run::crush::run;
 use asperity_solver::run::curve::Curve;
 use asperity_solver::run::record::Phase;
 use asperity_solver::scene::Scene;
 use cpu_time::ThreadTime;
 use serde::{Deserialize, Serialize};
-use std::io::{Read, Write};
 use std::ops::ControlFlow;
-use std::process::{Command, Stdio};
 use std::time::Instant;
 
-/// What a run gave, SI units.
+/// The results of a run, SI units.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Measured {
     /// Depth, force and contact area of each increment of loading.
@@ -50,60 +46,39 @@ impl Measured {
     }
 }
 
-/// A setting and what came of it, or why nothing.
+/// A setting and its results, or why it has none.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Finished {
     /// The setting.
     pub setting: Setting,
-    /// What it gave.
+    /// Its results.
     pub outcome: Result<Measured, String>,
 }
 
-/// Runs `setting` of `scene` in a process of its own.
+/// Why a setting has no result.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum Failed {
+    /// The run stopped, and would again.
+    #[error("{0}")]
+    Run(String),
+    /// The process of the run failed; another one may do better.
+    #[error("the process of the run failed: {0}")]
+    Process(String),
+}
+
+/// Runs `setting` of `scene` in this process.
 ///
 /// # Errors
-/// A process that failed, of which nothing is to be kept: it may do better the next time.
-pub fn measure(setting: &Setting, scene: &Scene) -> Result<Finished, String> {
-    Ok(Finished { setting: *setting, outcome: ask(&setting.scene(scene))? })
+/// A run that stopped.
+pub fn measure(setting: &Setting, scene: &Scene) -> Result<Measured, Failed> {
+    solve(&setting.scene(scene)).map_err(Failed::Run)
 }
 
-/// Asks another instance of this program; the outer error is about the process, the inner one about the run.
-fn ask(scene: &Scene) -> Result<Result<Measured, String>, String> {
-    let failed = |e: &dyn std::fmt::Display| format!("the process of the run failed: {e}");
-    let program = std::env::current_exe().map_err(|e| failed(&e))?;
-    let question = serde_json::to_vec(scene).map_err(|e| failed(&e))?;
-    let mut child = Command::new(program)
-        .args(["trade", "--case"])
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::null())
-        .spawn()
-        .map_err(|e| failed(&e))?;
-    if let Some(mut input) = child.stdin.take() {
-        // a child that died early closes the pipe: its status says more
-        let _ = input.write_all(&question);
-    }
-    let output = child.wait_with_output().map_err(|e| failed(&e))?;
-    if !output.status.success() {
-        return Err(failed(&output.status));
-    }
-    serde_json::from_slice(&output.stdout).map_err(|e| failed(&e))
-}
-
-/// The other side of [`measure`]: reads a scene from stdin, runs it, writes what it gave to stdout.
+/// Runs `scene` as it is.
 ///
 /// # Errors
-/// An input that is no scene.
-pub fn answer() -> Result<(), Error> {
-    let failed = |e: &dyn std::fmt::Display| Error::Unfinished(format!("no case of a trade: {e}"));
-    let mut text = String::new();
-    std::io::stdin().read_to_string(&mut text).map_err(|e| failed(&e))?;
-    let scene: Scene = serde_json::from_str(&text).map_err(|e| failed(&e))?;
-    terminal::say(&serde_json::to_string(&solve(&scene)).map_err(|e| failed(&e))?);
-    Ok(())
-}
-
-fn solve(scene: &Scene) -> Result<Measured, String> {
+/// Where and why the run stopped.
+pub fn solve(scene: &Scene) -> Result<Measured, String> {
     let (clock, core) = (Instant::now(), ThreadTime::now());
     let outcome = run(scene, None, &mut |_| ControlFlow::Continue(())).map_err(|e| e.to_string())?;
     let (core_s, wall_s) = (core.elapsed().as_secs_f64(), clock.elapsed().as_secs_f64());

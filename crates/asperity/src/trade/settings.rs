@@ -4,7 +4,7 @@ use asperity_solver::run::discretisation::Discretisation;
 use asperity_solver::scene::{Accuracy, ContactMethod, ElementChoice, Numerics, Scene};
 use serde::{Deserialize, Serialize};
 
-/// What of the discretisation was changed.
+/// The number of the discretisation that was changed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Knob {
@@ -30,28 +30,10 @@ pub enum Knob {
     Converged,
 }
 
-impl Knob {
-    /// As it stands in tables and legends.
-    pub fn name(self) -> &'static str {
-        match self {
-            Knob::Level => "level",
-            Knob::Element => "element",
-            Knob::Mesh => "mesh",
-            Knob::Step => "step",
-            Knob::Contact => "contact",
-            Knob::Penetration => "penetration",
-            Knob::Tolerance => "tolerance",
-            Knob::Domain => "domain",
-            Knob::Mixed => "mixed",
-            Knob::Converged => "converged",
-        }
-    }
-}
-
 /// One run of a trade.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Setting {
-    /// What was changed.
+    /// The number that was changed.
     pub knob: Knob,
     /// The level around which it was changed; what a scene cannot say (steps of unloading) is that level's.
     pub around: Accuracy,
@@ -125,7 +107,7 @@ fn level(scene: &Scene, accuracy: Accuracy) -> Setting {
     Setting { knob: Knob::Level, around: accuracy, numerics }
 }
 
-/// The setting with what the scene fixes.
+/// The setting with the numbers that the scene fixes.
 fn fixed(scene: &Scene, setting: Setting) -> Setting {
     let (said, own) = (&scene.numerics, setting.numerics);
     let numerics = Numerics {
@@ -229,10 +211,8 @@ mod tests {
 
     /// The default scene with something added.
     fn scene(numerics: &str) -> Scene {
-        let dir = tempfile::tempdir().unwrap();
-        let path = dir.path().join("scene.toml");
-        std::fs::write(&path, crate::cli::trade::DEFAULT_SCENE.to_string() + numerics).unwrap();
-        crate::input::toml_file::TomlFile::read(&path, &[]).unwrap().value
+        let text = include_str!("../../scenes/single-asperity.toml").to_string() + numerics;
+        crate::input::toml_file::TomlFile::parse("scene.toml".as_ref(), text, &[]).unwrap().value
     }
 
     #[test]
@@ -260,7 +240,7 @@ mod tests {
     }
 
     #[test]
-    fn what_the_scene_fixes_is_not_varied() {
+    fn numbers_that_the_scene_fixes_are_not_varied() {
         let scene = scene("[numerics]\nelements_in_contact = 6\nelement = \"q8r\"\n");
         for setting in settings(&scene, 5).iter().chain(&converged(&scene)) {
             assert_eq!(setting.numerics.elements_in_contact, Some(6));

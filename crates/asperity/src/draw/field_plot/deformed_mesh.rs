@@ -1,10 +1,10 @@
-//! The metal of a converged state where it is now, cut into flat facets fine enough for smooth contours.
+//! The mesh of a converged state where it is now, cut into flat facets fine enough for smooth contours.
 
 use crate::units::{MEGAPASCAL, MICROMETRE};
 use asperity_mesh::{Edge, Mesh};
 use asperity_solver::run::crush::FieldFrame;
 
-/// What a facet carries: von Mises stress, hydrostatic pressure (MPa), accumulated plastic strain.
+/// Fields of a facet: von Mises stress, hydrostatic pressure (MPa), accumulated plastic strain.
 pub type Values = [f64; 3];
 
 /// A corner of a facet.
@@ -17,25 +17,25 @@ pub struct Vertex {
 }
 
 /// Deformed cells with their fields.
-pub struct Metal {
+pub struct DeformedMesh {
     mesh: Mesh,
     /// Current positions of the nodes, µm.
     points: Vec<[f64; 2]>,
     values: Vec<Values>,
     contact_pressure: Vec<f64>,
-    /// Of each cell: 0 never yielded, 1 has yielded, 2 flows now.
+    /// Of each cell: 0 never yielded, 1 has yielded, 2 yields now.
     pub zone: Vec<u8>,
     /// r and contact pressure along the surface, from the axis (left) outward, µm and MPa.
     pub surface: Vec<[f64; 2]>,
 }
 
-impl Metal {
-    /// The metal of `frame`.
-    pub fn new(frame: &FieldFrame) -> Metal {
+impl DeformedMesh {
+    /// The mesh of `frame`.
+    pub fn new(frame: &FieldFrame) -> DeformedMesh {
         let fields = &frame.fields;
         let moved = frame.mesh.nodes.iter().zip(&fields.displacement);
         let stresses = fields.von_mises.iter().zip(&fields.pressure).zip(&fields.plastic_strain);
-        Metal {
+        DeformedMesh {
             mesh: frame.mesh.clone(),
             points: moved.map(|(x, u)| [0, 1].map(|k| (x[k] + u[k]) / MICROMETRE)).collect(),
             values: stresses.map(|((v, p), e)| [v / MEGAPASCAL, p / MEGAPASCAL, *e]).collect(),

@@ -1,7 +1,9 @@
-//! Facets painted onto a grid of dots, and grids of colours as PNG.
+//! Facets painted onto a grid of dots.
 
-use super::deformed_mesh::{Metal, Values, Vertex};
+use super::deformed_mesh::{DeformedMesh, Values, Vertex};
 use super::window::Window;
+use crate::draw::encode::indexed_png;
+use crate::draw::palette::Colour;
 
 /// Dots a facet covers at most along a side.
 const FACET: f64 = 6.0;
@@ -10,7 +12,7 @@ const FACET: f64 = 6.0;
 pub struct Raster {
     /// Columns and rows of dots.
     pub size: [usize; 2],
-    /// Row by row from the top; `None` outside the metal.
+    /// Row by row from the top; `None` outside the body.
     pub dots: Vec<Option<Dot>>,
 }
 
@@ -24,16 +26,16 @@ pub struct Dot {
 }
 
 impl Raster {
-    /// Paints the part of `metal` in `window`, and its mirror image where `mirrored`.
-    pub fn of(metal: &Metal, window: &Window, mirrored: bool, size: [usize; 2]) -> Raster {
+    /// Paints the part of `mesh` in `window`, and its mirror image where `mirrored`.
+    pub fn of(mesh: &DeformedMesh, window: &Window, mirrored: bool, size: [usize; 2]) -> Raster {
         let mut raster = Raster { size, dots: vec![None; size[0] * size[1]] };
         let span = window.size();
         let scale = size[0] as f64 / span[0];
         let sides: &[f64] = if mirrored { &[1.0, -1.0] } else { &[1.0] };
         for &side in sides {
             let shown = |[r, z]: [f64; 2]| [side * r, z];
-            for cell in 0..metal.cells() {
-                let corners = metal.corners(cell).map(shown);
+            for cell in 0..mesh.cells() {
+                let corners = mesh.corners(cell).map(shown);
                 if !window.meets(&corners) {
                     continue;
                 }
@@ -44,12 +46,12 @@ impl Raster {
                     })
                     .fold(0.0, f64::max);
                 let parts = ((largest * scale / FACET).ceil() as usize).clamp(2, 64);
-                for facet in metal.facets(cell, parts) {
+                for facet in mesh.facets(cell, parts) {
                     let facet = facet.map(|v| {
                         let [r, z] = shown(v.at);
                         Vertex { at: [(r - window.low[0]) * scale, (window.high[1] - z) * scale], ..v }
                     });
-                    raster.paint(&facet, metal.zone[cell]);
+                    raster.paint(&facet, mesh.zone[cell]);
                 }
             }
         }
@@ -96,22 +98,11 @@ impl Raster {
     }
 
     /// A colour for every dot, counted from 1 in `palette`; 0 is transparent.
-    pub fn png(&self, palette: &[[u8; 3]], colour: impl Fn(&Dot) -> u8) -> Result<Vec<u8>, String> {
+    ///
+    /// # Errors
+    /// A text for a person where the picture cannot be encoded.
+    pub fn png(&self, palette: &[Colour], colour: impl Fn(&Dot) -> u8) -> Result<Vec<u8>, String> {
         let indices: Vec<u8> = self.dots.iter().map(|dot| dot.as_ref().map_or(0, &colour)).collect();
-        indexed_png(self.size, palette, &indices).map_err(|e| format!("a picture could not be encoded: {e}"))
+        indexed_png(self.size, palette, &indices)
     }
-}
-
-fn indexed_png(size: [usize; 2], palette: &[[u8; 3]], indices: &[u8]) -> Result<Vec<u8>, png::EncodingError> {
-    let mut bytes = Vec::new();
-    let mut encoder = png::Encoder::new(&mut bytes, size[0] as u32, size[1] as u32);
-    encoder.set_color(png::ColorType::Indexed);
-    encoder.set_depth(png::BitDepth::Eight);
-    encoder.set_palette([&[[255; 3]], palette].concat().concat());
-    encoder.set_trns(vec![0]);
-    encoder.set_compression(png::Compression::High);
-    let mut writer = encoder.write_header()?;
-    writer.write_image_data(indices)?;
-    writer.finish()?;
-    Ok(bytes)
 }

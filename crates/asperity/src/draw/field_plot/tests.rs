@@ -1,15 +1,17 @@
 //! Claims about the pictures.
 
 use super::*;
-use asperity_solver::run::crush::{Event, run};
+use crate::crush::MEGAPASCAL;
+use crate::input::toml_file::TomlFile;
+use asperity_solver::run::crush::{Event, FieldFrame, run};
 use asperity_solver::run::record::Phase;
+use asperity_solver::scene::Scene;
 use std::ops::ControlFlow;
 
 fn peak(change: &str) -> (Scene, FieldFrame) {
     let text = include_str!("../../../scenes/single-asperity.toml").replace("\"standard\"", "\"draft\"");
-    let overrides = ["output.every=100000", change].map(String::from).to_vec();
-    let scene =
-        crate::Scene::from_toml(&text, "".as_ref()).unwrap().with(&overrides).unwrap().tables().clone();
+    let overrides = ["output.every=100000", change].map(String::from);
+    let scene: Scene = TomlFile::parse("scene.toml".as_ref(), text, &overrides).unwrap().value;
     let mut peak = None;
     run(&scene, None, &mut |event| {
         if let Event::Fields(frame) = event
@@ -23,14 +25,14 @@ fn peak(change: &str) -> (Scene, FieldFrame) {
     (scene, peak.unwrap())
 }
 
-/// The dots on both sides of the axis are the same, the metal ends at the tool, and the colours reach the largest
+/// The dots on both sides of the axis are the same, the body ends at the tool, and the colours reach the largest
 /// stress of the nodes but not beyond.
 #[test]
 fn the_picture_is_that_of_the_fields() {
     let (scene, frame) = peak("numerics.steps=8");
     let section = Section::new(&frame, &scene, Reach::Yielded).unwrap();
     let size = [300, 200];
-    let raster = Raster::of(&section.metal, &section.window, true, size);
+    let raster = Raster::of(&section.mesh, &section.window, true, size);
     let largest = frame.fields.von_mises.iter().copied().fold(0.0, f64::max) / MEGAPASCAL;
     let [_, high] = raster.range(0);
     assert!(high <= largest * (1.0 + 1e-6) && high > 0.9 * largest, "{high} {largest}");

@@ -1,10 +1,10 @@
 //! Which part of the section is drawn.
 
-use super::deformed_mesh::Metal;
+use super::deformed_mesh::DeformedMesh;
 
 /// The asperities before the crush.
 #[derive(Clone, Copy, Debug)]
-pub struct Row {
+pub struct AsperityRow {
     /// From the first foot to the last, µm.
     pub feet: [f64; 2],
     /// Height of the highest, µm.
@@ -13,10 +13,10 @@ pub struct Row {
     pub count: usize,
 }
 
-/// How much of the metal a picture shows.
+/// How much of the body a picture shows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Reach {
-    /// What has yielded or is pressed, and its surroundings; several asperities: their whole row.
+    /// All that has yielded or is pressed, and its surroundings; several asperities: their whole row.
     Yielded,
     /// The asperities, and as many of their heights below the base plane.
     Asperities(f64),
@@ -37,15 +37,21 @@ fn range(values: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
 }
 
 impl Window {
-    /// The part of `metal` that `reach` asks for.
-    pub fn around(metal: &Metal, mirrored: bool, revolved: bool, reach: Reach, row: &Row) -> Window {
-        let all = |k: usize| range(metal.points().iter().map(move |p| p[k])).unwrap_or([0.0, 1.0]);
+    /// The part of the body that `reach` asks for.
+    pub fn around(
+        mesh: &DeformedMesh,
+        mirrored: bool,
+        revolved: bool,
+        reach: Reach,
+        row: &AsperityRow,
+    ) -> Window {
+        let all = |k: usize| range(mesh.points().iter().map(move |p| p[k])).unwrap_or([0.0, 1.0]);
         let (body_x, body_z) = (all(0), all(1));
-        let yielded: Vec<[f64; 2]> = (0..metal.cells())
-            .filter(|&cell| metal.zone[cell] > 0)
-            .flat_map(|cell| metal.corners(cell))
+        let yielded: Vec<[f64; 2]> = (0..mesh.cells())
+            .filter(|&cell| mesh.zone[cell] > 0)
+            .flat_map(|cell| mesh.corners(cell))
             .collect();
-        let pressed = range(metal.pressed().map(|p| p[0]));
+        let pressed = range(mesh.pressed().map(|p| p[0]));
         let busy = range(yielded.iter().map(|p| p[0]));
         let whole_row = row.count > 1 || (row.count == 1 && matches!(reach, Reach::Asperities(_)));
         let [mut left, right] = if whole_row { row.feet } else { busy.or(pressed).unwrap_or(body_x) };

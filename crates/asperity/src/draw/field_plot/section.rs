@@ -1,0 +1,71 @@
+//! The tool and the body of one converged state in the part of the section that is drawn.
+
+use super::deformed_mesh::DeformedMesh;
+use super::window::{AsperityRow, Reach, Window};
+use crate::units::{MEGAPASCAL, MICROMETRE};
+use asperity_solver::run::crush::FieldFrame;
+use asperity_solver::scene::{Scene, Symmetry, ToolForm};
+
+/// The tool and the body of one converged state, ready to be drawn. Lengths in µm, stresses in MPa.
+pub struct Section {
+    /// The body.
+    pub(super) mesh: DeformedMesh,
+    /// The part that is drawn.
+    pub(super) window: Window,
+    tool: ToolForm,
+    /// Height of the tool's lowest point; `None` if nothing touches it.
+    pub(super) tip: Option<f64>,
+    /// Whether the other half of a body of revolution is drawn too.
+    pub(super) mirrored: bool,
+    /// Whether the body is one of revolution.
+    pub(super) revolved: bool,
+    /// First yield stress.
+    pub(super) yield_stress: Option<f64>,
+}
+
+impl Section {
+    /// The section of `frame`, a state of `scene`, as far as `reach` says.
+    ///
+    /// # Errors
+    /// A text for a person where the scene's tool is none.
+    pub fn new(frame: &FieldFrame, scene: &Scene, reach: Reach) -> Result<Section, String> {
+        let mesh = DeformedMesh::new(frame);
+        let revolved = scene.symmetry == Symmetry::Axisymmetric;
+        let mirrored = revolved && scene.asperity.len() < 2;
+        let tool = scene.tool.form().map_err(|e| e.to_string())?;
+        let tips = mesh.pressed().map(|[r, z]| z - rise(&tool, r));
+        let tip = tips.fold(None, |most: Option<f64>, z| Some(most.map_or(z, |m| m.max(z))));
+        let heights = scene.asperity.iter().filter_map(|a| a.form().ok());
+        let height = heights.map(|form| form.height() / MICROMETRE).fold(0.0, f64::max);
+        let row = AsperityRow { feet: mesh.feet(height), height, count: scene.asperity.len() };
+        let window = Window::around(&mesh, mirrored, revolved, reach, &row);
+        let yield_stress = scene.material.yield_stress.map(|s| s.0 / MEGAPASCAL);
+        Ok(Section { mesh, window, tool, tip, mirrored, revolved, yield_stress })
+    }
+
+    /// The face of the tool from the right end of the window to its left, (r, z); empty if nothing touches it.
+    pub(super) fn face(&self) -> Vec<[f64; 2]> {
+        let Some(tip) = self.tip else { return Vec::new() };
+        let (left, right) = (self.window.low[0], self.window.high[0]);
+        let at = |i: u32| left + f64::from(i) / 200.0 * (right - left);
+        (0..=200).rev().map(|i| [at(i), tip + rise(&self.tool, at(i))]).collect()
+    }
+}
+
+/// Height of the tool's face above its lowest point, at a distance `r` from the axis, both in µm.
+fn rise(tool: &ToolForm, r: f64) -> f64 {
+    let r = r.abs();
+    let round = |radius: f64| radius - (radius * radius - r * r).max(0.0).sqrt();
+    match *tool {
+        ToolForm::Plane => 0.0,
+        ToolForm::Sphere { radius } => round(radius / MICROMETRE),
+        ToolForm::Cone { slope, tip_radius } => {
+            let radius = tip_radius / MICROMETRE;
+            if r < radius * slope.sin() {
+                round(radius)
+            } else {
+                r * slope.tan() - radius * (slope.cos().recip() - 1.0)
+            }
+        }
+    }
+}
