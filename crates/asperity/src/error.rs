@@ -26,7 +26,7 @@ impl Error {
 #[derive(Debug, thiserror::Error)]
 #[error("{message}")]
 pub struct InputError {
-    /// What is wrong, with the allowed range.
+    /// The fault, with the allowed range.
     pub message: String,
     /// A way out.
     pub help: Option<String>,

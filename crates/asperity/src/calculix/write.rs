@@ -1,6 +1,6 @@
 //! The text of a deck.
 
-use super::Deck;
+use super::deck::Deck;
 use asperity_mesh::{ElementKind, Section, write_inp, write_inp_side};
 use std::io::{self, Write};
 

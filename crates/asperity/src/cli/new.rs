@@ -9,7 +9,7 @@ use std::path::PathBuf;
 /// Arguments of `asperity new`.
 #[derive(Debug, Args)]
 pub struct New {
-    /// What to start from
+    /// Kind of scene
     #[arg(value_enum)]
     pub kind: Start,
     /// File to write [default: KIND.toml]

@@ -8,7 +8,7 @@ pub fn say(text: &str) {
     let _ = writeln!(std::io::stdout(), "{text}");
 }
 
-/// What a user should know of a run that goes on, on stderr.
+/// A warning about a run that goes on, on stderr.
 pub fn warn(warning: &impl std::fmt::Display) {
     complain(&format!("warning: {warning}"));
 }

@@ -45,7 +45,7 @@ pub struct Crush {
     peak: Option<FieldFrame>,
 }
 
-/// What an observer of a crush is told: of every increment, and again where its fields are due.
+/// News for the observer of a crush: of every increment, and again where its fields are due.
 #[derive(Clone, Copy, Debug)]
 pub struct Progress<'a> {
     /// The last increment.
@@ -63,7 +63,7 @@ pub struct Sketch {
     pub name: &'static str,
     /// Which part of the section.
     pub reach: Reach,
-    /// What is drawn.
+    /// The panels, side by side.
     pub panels: &'static [Panel],
 }
 

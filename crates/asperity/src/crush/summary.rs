@@ -14,7 +14,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use serde_json::Value;
 use std::path::Path;
 
-/// What came out of a crush. `None`, `null` in the file, is what the scene did not ask for (unloading) or the run did not
+/// The numbers of a crush. `None`, `null` in the file, is what the scene did not ask for (unloading) or the run did not
 /// reach. Fields are named as the keys of an axisymmetric crush; the file of a crush in plane strain has the names of
 /// [`crate::units::plane_strain_name`], and so has what is serialised.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

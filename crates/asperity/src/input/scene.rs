@@ -91,7 +91,7 @@ impl Scene {
         Ok(Scene { file, mesh })
     }
 
-    /// What the scene says, in SI, a hardening table in the place of its file.
+    /// The tables of the scene, in SI, a hardening table in the place of its file.
     pub fn tables(&self) -> &Tables {
         &self.file.value
     }

@@ -18,7 +18,7 @@ const LARGEST_FILE: u64 = 16 << 20;
 /// A file that was read, with what is needed to point at its lines later.
 #[derive(Debug)]
 pub struct TomlFile<T> {
-    /// What it says, overrides applied.
+    /// Its content, overrides applied.
     pub value: T,
     path: PathBuf,
     sources: Sources,

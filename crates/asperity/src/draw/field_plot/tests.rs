@@ -1,8 +1,8 @@
 //! Claims about the pictures.
 
 use super::*;
-use crate::crush::MEGAPASCAL;
 use crate::input::toml_file::TomlFile;
+use crate::units::MEGAPASCAL;
 use asperity_solver::run::crush::{Event, FieldFrame, run};
 use asperity_solver::run::record::Phase;
 use asperity_solver::scene::Scene;

@@ -1,0 +1,230 @@
+//! The content of a deck, made of a scene.
+
+use super::outline::outline;
+use super::table::{self, PlasticTable};
+use crate::error::Error;
+use crate::input::scene::Scene;
+use crate::mesh::problem;
+use asperity_mesh::{Edge, Mesh, Section};
+use asperity_solver::point::kinematics::Symmetry;
+use asperity_solver::run::problem::Problem;
+use asperity_solver::run::schedule::{UNLOADING_EXPONENT, unloading};
+use asperity_solver::scene::{Scene as Tables, SceneError, Target};
+
+/// SI value of the deck's unit of length, 1 µm: nodes are numbers near 1, which the tolerances of such codes expect.
+const LENGTH: f64 = 1e-6;
+/// SI value of the deck's unit of stress, 1 MPa; forces are then in µN and energies in pJ.
+const STRESS: f64 = 1e6;
+
+/// Radius of the hole along the axis over the size of the first element of the surface: CalculiX finds no contact on
+/// faces that collapse onto the axis, which costs 0.5 to 1.7 % of the force; the hole costs 1e-6.
+const HOLE: f64 = 1e-3;
+
+/// Edges of the surface closer to the tool than this many depths may touch it.
+const REACH: f64 = 2.0;
+
+/// Everything that a deck says, in µm and MPa.
+pub struct Deck {
+    /// Name of the scene.
+    pub(super) name: String,
+    /// The body, its axis opened to a hole.
+    pub(super) mesh: Mesh,
+    /// Idealisation.
+    pub(super) section: Section,
+    /// Young's modulus (MPa) and Poisson's ratio.
+    pub(super) elastic: [f64; 2],
+    /// Hardening, unless the body is elastic.
+    pub(super) table: Option<PlasticTable>,
+    /// Contact pressure per penetration, MPa/µm.
+    pub(super) penalty: f64,
+    /// Penetration for which the penalty is made, as a share of the depth.
+    pub(super) penetration: f64,
+    /// Whether the scene asks for multipliers, for which a deck has a penalty only.
+    pub(super) augmented: bool,
+    /// Whether the lateral sides are held sideways.
+    pub(super) symmetric: bool,
+    /// Edges that may touch the tool.
+    pub(super) contact: Vec<Edge>,
+    /// Lower outline of the tool where it first touches, from left to right, µm.
+    pub(super) outline: Vec<[f64; 2]>,
+    /// Travel of the tool at the end of each step, µm; the last one has left the body if the scene unloads.
+    pub(super) travels: Vec<f64>,
+    /// How many of them load.
+    pub(super) loading: usize,
+    /// Depth of the peak, µm.
+    pub(super) depth: f64,
+}
+
+impl Deck {
+    /// The deck of `scene`, called `name` in its heading.
+    ///
+    /// # Errors
+    /// A scene that such a deck cannot express, pointing at its line.
+    pub fn new(name: &str, scene: &Scene) -> Result<Deck, Error> {
+        let problem = problem(scene)?;
+        Deck::of(name, scene.tables(), &problem).map_err(|e| scene.error(&e).into())
+    }
+
+    /// The deck of `problem`, which was prepared from `scene`.
+    fn of(name: &str, scene: &Tables, problem: &Problem) -> Result<Deck, SceneError> {
+        if let Target::Force(_) = scene.loading.target()? {
+            return Err(SceneError {
+                path: "loading.force".into(),
+                message:
+                    "a deck moves its tool by given depths: write depth = \"...\" instead, for example the \
+                          peak_depth_um that `asperity crush` gives for this force"
+                        .into(),
+            });
+        }
+        check(scene)?;
+        let um = problem.units.length / LENGTH;
+        let section = match problem.symmetry {
+            Symmetry::Axisymmetric => Section::Axisymmetric,
+            Symmetry::PlaneStrain => Section::PlaneStrain,
+        };
+        let drop = |x: f64| problem.tool.mirrored().map_or(0.0, |a| a.drop(x));
+        let contact = touching(&problem.mesh, &drop, 1.0);
+        let hole = match section {
+            Section::Axisymmetric => HOLE * first_width(&problem.mesh, &contact),
+            Section::PlaneStrain => 0.0,
+        };
+        let lowest = first_touch(&problem.mesh, &drop);
+        let ends = span(&problem.mesh, &contact, 1.0, (section == Section::Axisymmetric).then_some(hole));
+        let outline = outline(&problem.tool, ends);
+        let travels = travels(scene, problem);
+        let hardening = scene.material.hardening();
+        Ok(Deck {
+            name: name.to_string(),
+            mesh: scaled(opened(&problem.mesh, section, hole), um),
+            section,
+            elastic: [problem.units.stress / STRESS, problem.metal.elastic.poissons_ratio],
+            table: hardening.map(|curve| table::curve_table(&curve, STRESS)),
+            penalty: problem.penalty * problem.units.stress / STRESS / um,
+            penetration: problem.numbers.penetration,
+            augmented: problem.numbers.contact == asperity_solver::scene::ContactMethod::Augmented,
+            symmetric: scene.lateral == asperity_solver::scene::Lateral::Symmetric,
+            contact,
+            outline: outline.into_iter().map(|[x, z]| [um * x, um * (z + lowest)]).collect(),
+            loading: travels.0.len(),
+            travels: travels.0.into_iter().chain(travels.1).map(|t| um * t).collect(),
+            depth: um,
+        })
+    }
+}
+
+/// Refuses materials and loadings that a deck cannot express.
+fn check(scene: &Tables) -> Result<(), SceneError> {
+    let material = &scene.material;
+    let points = material.hardening_table.as_ref().map_or(0, Vec::len);
+    let refusals = [
+        (
+            material.moving_share() > 0.0,
+            "material.hardening_mode",
+            "a deck hardens isotropically: leave hardening_mode out".to_string(),
+        ),
+        (
+            points > table::POINTS,
+            "material.hardening_table",
+            format!("CalculiX holds {} points of hardening, not {points}: thin the table out", table::POINTS),
+        ),
+        (scene.loading.reloads > 0, "loading.reloads", "a deck unloads once: leave reloads out".to_string()),
+    ];
+    match refusals.into_iter().find(|(refused, ..)| *refused) {
+        Some((_, path, message)) => Err(SceneError { path: path.into(), message }),
+        None => Ok(()),
+    }
+}
+
+/// Height of the lowest point of the tool when it first touches the body; `drop` is the rise of its outline.
+fn first_touch(mesh: &Mesh, drop: &impl Fn(f64) -> f64) -> f64 {
+    let nodes = mesh.sides.surface.iter().flat_map(|&edge| ends(mesh, edge));
+    nodes.map(|[x, z]| z - drop(x)).fold(f64::NEG_INFINITY, f64::max)
+}
+
+/// The corners of an edge.
+fn ends(mesh: &Mesh, edge: Edge) -> [[f64; 2]; 2] {
+    mesh.edge_nodes(edge).0.map(|node| mesh.nodes[node as usize])
+}
+
+/// The edges of the surface that the tool may meet on its way to `depth`.
+fn touching(mesh: &Mesh, drop: &impl Fn(f64) -> f64, depth: f64) -> Vec<Edge> {
+    let lowest = first_touch(mesh, drop);
+    let gap = |[x, z]: [f64; 2]| lowest + drop(x) - z;
+    let near = |edge: &Edge| ends(mesh, *edge).into_iter().any(|point| gap(point) <= REACH * depth);
+    mesh.sides.surface.iter().copied().filter(near).collect()
+}
+
+/// Width of the edge nearest to the axis.
+fn first_width(mesh: &Mesh, edges: &[Edge]) -> f64 {
+    let first = edges.iter().map(|&edge| ends(mesh, edge)).min_by(|a, b| left(a).total_cmp(&left(b)));
+    first.map_or(0.0, |[a, b]| (a[0] - b[0]).abs())
+}
+
+fn left(edge: &[[f64; 2]; 2]) -> f64 {
+    edge[0][0].min(edge[1][0])
+}
+
+/// From where to where the tool must reach: beyond the edges by what metal may be squeezed out. `axis`: where it
+/// begins in a body of revolution.
+fn span(mesh: &Mesh, edges: &[Edge], depth: f64, axis: Option<f64>) -> [f64; 2] {
+    let xs = || edges.iter().flat_map(|&edge| ends(mesh, edge)).map(|[x, _]| x);
+    let (low, high) = (xs().fold(f64::INFINITY, f64::min), xs().fold(f64::NEG_INFINITY, f64::max));
+    let margin = REACH * depth + 0.1 * (high - low);
+    [axis.unwrap_or(low - margin), high + margin]
+}
+
+/// The mesh with the nodes of its axis at the radius `hole`.
+fn opened(mesh: &Mesh, section: Section, hole: f64) -> Mesh {
+    let mut mesh = mesh.clone();
+    if section == Section::Axisymmetric {
+        for edge in mesh.sides.axis.clone() {
+            let (corners, middle) = mesh.edge_nodes(edge);
+            for node in corners.into_iter().chain(middle) {
+                mesh.nodes[node as usize][0] = hole;
+            }
+        }
+    }
+    mesh
+}
+
+fn scaled(mut mesh: Mesh, factor: f64) -> Mesh {
+    for node in &mut mesh.nodes {
+        *node = node.map(|x| factor * x);
+    }
+    mesh
+}
+
+/// Travels of the tool, loading and unloading, in the unit of `problem`: the depths of the scene's own schedule and
+/// the penetration to be expected.
+fn travels(scene: &Tables, problem: &Problem) -> (Vec<f64>, Vec<f64>) {
+    let penetration = problem.numbers.penetration;
+    let load = problem.numbers.schedule().into_iter().map(|depth| depth + penetration).collect();
+    if !scene.loading.unload {
+        return (load, Vec::new());
+    }
+    let recovery = recovery(problem, penetration);
+    let mut unload: Vec<f64> =
+        unloading(1.0 + penetration, recovery, problem.numbers.unload_steps, 0.0).collect();
+    // far enough away that nothing touches: the body alone
+    unload.push(-0.1);
+    (load, unload)
+}
+
+/// Estimated way from the peak to the end of contact, in the unit of `problem`: F ∝ (1 - u/u₀)^1.25 with the slope of a
+/// punch, 2E* a, at the peak: u₀ = 1.25 p A/(2E* a). Under a row of rings their sum on a punch as wide as the row is
+/// added. Only the steps are chosen by it.
+fn recovery(problem: &Problem, penetration: f64) -> f64 {
+    let modulus = problem.metal.elastic.reduced_modulus();
+    let pressure = problem.penalty * penetration;
+    let punch = |area: f64, radius: f64| pressure * area / (2.0 * modulus * radius);
+    let touched = || {
+        let centres = problem.profile.asperities.iter().map(|a| a.centre).chain(std::iter::once(0.0));
+        centres.zip(&problem.half_widths).filter(|(_, w)| **w > 0.0)
+    };
+    let widest = touched().fold(0.0, |m: f64, (_, w)| m.max(*w));
+    let row = touched().fold(widest, |m, (centre, w)| m.max(centre + w));
+    let local = punch(std::f64::consts::PI * widest * widest, widest);
+    let rings: f64 = touched().map(|(centre, w)| 4.0 * std::f64::consts::PI * centre * w).sum();
+    let bulk = if problem.symmetry == Symmetry::Axisymmetric { punch(rings, row) } else { 0.0 };
+    UNLOADING_EXPONENT * (local + bulk + penetration)
+}
