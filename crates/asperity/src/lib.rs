@@ -1,7 +1,9 @@
 //! Crushes rough metal on the computer, from one conical asperity to a whole measured surface, and says how far each number
 //! can be trusted.
 
+mod csv_file;
 pub mod error;
+mod json_file;
 pub mod output;
 
 pub mod input;
@@ -20,3 +22,4 @@ pub mod draw;
 pub mod cli;
 
 pub use error::{Error, InputError};
+pub use press::{Rough, RoughScene, press};

@@ -161,14 +161,14 @@ impl Calibration {
             let at = |i: usize| low * (high / low).powf(i as f64 / (TABLE - 1) as f64);
             let column = |f: &dyn Fn(f64) -> f64| (0..TABLE).map(|i| f(at(i))).collect::<Vec<f64>>();
             stiffness = [stiffness[0].min(low / tan), stiffness[1].max(high / tan)];
-            roughness::Angle {
+            roughness::SlopeTable {
                 beta_deg,
                 modulus_over_stress: column(&|x| x / tan),
                 k_over_stress: column(&|x| function.force.at(x, tan) / (tan * tan)),
                 contact_ratio: column(&|x| function.contact_ratio.at(x, tan)),
             }
         });
-        let angles: Vec<roughness::Angle> =
+        let angles: Vec<roughness::SlopeTable> =
             rows.filter(|a| a.modulus_over_stress[0] < a.modulus_over_stress[TABLE - 1]).collect();
         let beta_deg = [angles.first()?.beta_deg, angles.last()?.beta_deg];
         Some(Coefficient {

@@ -4,7 +4,7 @@
 //! lies within the paper's rounding plus our error.
 
 use super::evidence::Evidence;
-use crate::press::{run::kind_name, table1};
+use crate::press::table1;
 use asperity_roughness::PUBLISHED;
 use serde::Serialize;
 use serde_json::Value;
@@ -272,8 +272,8 @@ const PEAKS: [[f64; 2]; 3] = [[7.5, 8.5], [60.0, 80.0], [60.0, 80.0]];
 fn table1(evidence: &Evidence) -> Vec<Claim> {
     let mut claims = Vec::new();
     let closure = "published";
-    for ((row, part), peak) in table1::TABLE.iter().zip(ROUGH).zip(PEAKS) {
-        let name = kind_name(row.kind);
+    for (((kind, row), part), peak) in table1::TABLE.iter().zip(ROUGH).zip(PEAKS) {
+        let name = kind.name();
         let spread = |quantity: &str| evidence.rough(part, closure, quantity);
         let generated =
             "The surface is generated with the printed Ra and slope; the paper's own is not public.";

@@ -4,7 +4,7 @@ use super::claims::{ROUGH, SETS, SYMMETRIES, TABLE2, islands, kick_exponent, sig
 use super::evidence::{Evidence, Spread};
 use super::plan::Item;
 use crate::draw::chart::{self, Chart, Series};
-use crate::press::{run::kind_name, table1};
+use crate::press::table1;
 use maud::{Markup, PreEscaped, html};
 
 /// The closures of Tables 1 and 2, and what they are.
@@ -304,8 +304,8 @@ fn maps(evidence: &Evidence, name: &str, caption: &str) -> Markup {
 fn numbers(evidence: &Evidence) -> Markup {
     let mut rows = Vec::new();
     let mut against_itself = Vec::new();
-    for (row, part) in table1::TABLE.iter().zip(ROUGH) {
-        let name = kind_name(row.kind);
+    for ((kind, row), part) in table1::TABLE.iter().zip(ROUGH) {
+        let name = kind.name();
         rows.push(vec![
             format!("{name}, paper"),
             format!("{}", row.pressure),
@@ -372,8 +372,8 @@ fn unloading(evidence: &Evidence) -> Result<Markup, String> {
 
 fn energies(evidence: &Evidence) -> Markup {
     let mut rows = Vec::new();
-    for ((row, part), [residual, elastic]) in table1::TABLE.iter().zip(ROUGH).zip(TABLE2) {
-        let name = kind_name(row.kind);
+    for (((kind, _), part), [residual, elastic]) in table1::TABLE.iter().zip(ROUGH).zip(TABLE2) {
+        let name = kind.name();
         rows.push(vec![
             format!("{name}, paper (measured)"),
             format!("{residual}"),

@@ -12,11 +12,10 @@ use crate::crush::{Crushed, Sketch, crush_into, resolved};
 use crate::error::Error;
 use crate::input::toml_file::TomlFile;
 use crate::output::{SinkExt, write_whole};
-use crate::press::files::Outcome;
-use crate::press::{run as press, table1};
+use crate::press::{self, RoughScene, table1};
 use asperity_calibration::sweep::Sweep;
-use asperity_roughness::scene::Scene as RoughScene;
-use asperity_roughness::{Coefficient, Islands, KindName};
+use asperity_roughness::scene::Scene as RoughTables;
+use asperity_roughness::{Islands, KindName};
 use asperity_solver::run::problem::prepare;
 use asperity_solver::scene::{Accuracy, Level, Scene};
 use serde::{Deserialize, Serialize};
@@ -52,7 +51,7 @@ pub struct Job {
 enum Resolved {
     Crush(Box<Scene>, &'static [Sketch]),
     Calibrate(Sweep),
-    Rough(Box<RoughScene>, KindName),
+    Rough(Box<RoughTables>, KindName),
 }
 
 impl Resolved {
@@ -91,7 +90,7 @@ impl Job {
             }
             Work::Calibrate => Resolved::Calibrate(Sweep { accuracy, ..Sweep::default() }),
             Work::Rough { scene, kind } => {
-                let read: TomlFile<RoughScene> = TomlFile::parse(file, scene.into(), &[])?;
+                let read: TomlFile<RoughTables> = TomlFile::parse(file, scene.into(), &[])?;
                 embedded(part.name, read.value.validate())?;
                 Resolved::Rough(Box::new(read.value), kind)
             }
@@ -177,30 +176,24 @@ impl Job {
         failure.map_or(Ok(stopped), Err)
     }
 
-    fn press(&self, scene: &RoughScene, kind: KindName, progress: &Progress) -> Result<(), Error> {
-        let start = Instant::now();
-        let name = press::kind_name(kind);
-        let calibration = embedded(self.part.name, Coefficient::committed())?;
+    fn press(&self, scene: &RoughTables, kind: KindName, progress: &Progress) -> Result<(), Error> {
+        let name = kind.name();
         progress.show(0.0, || format!("the {name} surface"));
-        let prepared = embedded(self.part.name, scene.surface.prepare(Path::to_path_buf))?;
-        let (pressed, warnings) = press::press_all(scene, &prepared, Some(&calibration))
-            .map_err(|(key, message)| Error::Unfinished(format!("{}: {key}: {message}", self.part.name)))?;
-        let outcome = Outcome { name, scene, prepared: &prepared, pressed: &pressed, warnings: &warnings };
+        let scene = RoughScene::new(scene.clone(), Path::new(""));
+        let rough = embedded(self.part.name, press::press(&scene, &mut |_| true))?;
         let mut folder = Folder::create(&self.folder, "rough", true)?;
-        outcome.write_tables(&mut folder)?;
-        outcome.write_topography(&mut folder, MAP)?;
-        for one in &pressed {
-            outcome.write_pictures(&mut folder, one, MAP)?;
+        rough.write_tables(&mut folder)?;
+        rough.write_topography(&mut folder, MAP)?;
+        for one in &rough.contacts {
+            rough.write_pictures(&mut folder, one, MAP)?;
         }
-        if let Some(one) = pressed.first() {
-            let cones = profile(&prepared.map, &one.contact.islands);
+        if let Some(one) = rough.contacts.first() {
+            let cones = profile(&rough.surface.map, &one.contact.islands);
             folder.write("profile.csv", |out| out.write_all(cones.as_bytes()))?;
         }
-        let summary = outcome.summary(start.elapsed().as_secs_f64());
-        folder.write("summary.json", |out| writeln!(out, "{summary:#}"))?;
-        if let Some(row) = table1::TABLE.iter().find(|row| row.kind == kind) {
+        if let Some((kind, row)) = table1::TABLE.iter().find(|(row, _)| *row == kind) {
             progress.show(0.2, || format!("five {name} surfaces, every closure"));
-            let table = serde_json::to_string_pretty(&table1::measure(row)?)
+            let table = serde_json::to_string_pretty(&table1::measure(*kind, row)?)
                 .map_err(|e| Error::Unfinished(e.to_string()))?;
             folder.write("table1.json", |out| out.write_all(table.as_bytes()))?;
         }

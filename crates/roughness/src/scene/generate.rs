@@ -1,5 +1,5 @@
-use super::{SceneError, error};
-use crate::generate::{Grid, Kind, KindName, Target};
+use super::error::{SceneError, error};
+use crate::surface::generate::{Grid, Kind, KindName, Target};
 use asperity_law::units::Length;
 use serde::{Deserialize, Serialize};
 

@@ -1,0 +1,136 @@
+use super::closures::ClosureContact;
+use super::rough::Rough;
+use super::{MEGAPASCAL, MICROMETRE};
+use crate::draw::rough_map::{self as picture, Map};
+use crate::error::Error;
+use crate::output::Sink;
+use asperity_roughness::formats::{CellArray, write_npy, write_vti, write_x3p};
+use asperity_roughness::scene::SurfaceFormat;
+use asperity_roughness::{HeightMap, Regime};
+
+/// One number per cell of the map, row by row, of a contact.
+#[derive(Clone, Debug)]
+pub struct Layers {
+    /// Force on a cell over its area, MPa.
+    pub pressure: Vec<f32>,
+    /// Share of the cell in contact.
+    pub contact: Vec<f32>,
+    /// 0 none, 1 elastic, 2 elastoplastic, 3 plastic.
+    pub regime: Vec<f32>,
+}
+
+impl Layers {
+    fn of(one: &ClosureContact, cells: [usize; 2]) -> Layers {
+        let [pressure, contact, regime] = [(); 3].map(|()| vec![0f32; cells[0] * cells[1]]);
+        let mut layers = Layers { pressure, contact, regime };
+        for pixel in &one.field.pixels {
+            let i = pixel.cell as usize;
+            layers.pressure[i] += pixel.pressure / MEGAPASCAL as f32;
+            layers.contact[i] += pixel.contact;
+            if pixel.contact > 0.0 {
+                layers.regime[i] = match one.contact.responses[pixel.island as usize].regime {
+                    Regime::Elastic => 1.0,
+                    Regime::Elastoplastic => 2.0,
+                    Regime::Plastic => 3.0,
+                };
+            }
+        }
+        layers
+    }
+}
+
+/// Cells of a map along x and y.
+fn cells(map: &HeightMap) -> [usize; 2] {
+    [map.cell_columns(), map.cell_rows()]
+}
+
+/// Heights of the nodes in µm; beyond the last ones those of the next period.
+fn heights(map: &HeightMap, columns: usize, rows: usize) -> Vec<f32> {
+    let row = |row: usize| {
+        let row = map.row(row % map.rows());
+        (0..columns).map(move |column| (row[column % row.len()] / MICROMETRE) as f32)
+    };
+    (0..rows).flat_map(row).collect()
+}
+
+impl Rough {
+    /// Pressure, contact and regime on the cells of the map.
+    pub fn layers(&self, one: &ClosureContact) -> Layers {
+        Layers::of(one, cells(&self.surface.map))
+    }
+
+    /// Pictures and .vti of every closure.
+    pub(super) fn write_maps(&self, sink: &mut dyn Sink) -> Result<(), Error> {
+        let map = &self.surface.map;
+        let [columns, rows] = cells(map);
+        let heights = heights(map, columns + 1, rows + 1);
+        for one in &self.contacts {
+            let layers = self.write_pictures(sink, one, picture::LONGEST)?;
+            let file = sink.path(&format!("contact-{}.vti", one.name()))?;
+            let points = [CellArray { name: "height_um", values: &heights }];
+            let arrays = [
+                CellArray { name: "pressure_MPa", values: &layers.pressure },
+                CellArray { name: "contact_fraction", values: &layers.contact },
+                CellArray { name: "regime", values: &layers.regime },
+            ];
+            write_vti(&file, [columns, rows], map.pixel().map(|p| p / MICROMETRE), &points, &arrays)
+                .map_err(|e| Error::disk(&file, e))?;
+        }
+        Ok(())
+    }
+
+    /// Pressure and contact of one closure as PNG, no side longer than `longest` dots; returns the numbers they show.
+    ///
+    /// # Errors
+    /// A disk that refuses.
+    pub fn write_pictures(
+        &self,
+        sink: &mut dyn Sink,
+        one: &ClosureContact,
+        longest: usize,
+    ) -> Result<Layers, Error> {
+        let map = &self.surface.map;
+        let layers = self.layers(one);
+        let view = Map { cells: cells(map), pixel: map.pixel(), values: &layers.pressure, longest };
+        let file = sink.path(&format!("pressure-{}.png", one.name()))?;
+        picture::pressure(&file, &view, one.nominal / MEGAPASCAL).map_err(|e| Error::disk(&file, e))?;
+        let view = Map { values: &layers.contact, ..view };
+        let file = sink.path(&format!("contact-{}.png", one.name()))?;
+        picture::contact(&file, &view, &layers.regime, one.contact.shares)
+            .map_err(|e| Error::disk(&file, e))?;
+        Ok(layers)
+    }
+
+    /// The topography as topography.png, no side longer than `longest` dots.
+    ///
+    /// # Errors
+    /// A disk that refuses.
+    pub fn write_topography(&self, sink: &mut dyn Sink, longest: usize) -> Result<(), Error> {
+        let map = &self.surface.map;
+        let cells = [map.columns(), map.rows()];
+        let values = heights(map, cells[0], cells[1]);
+        let file = sink.path("topography.png")?;
+        picture::heights(&file, &Map { cells, pixel: map.pixel(), values: &values, longest })
+            .map_err(|e| Error::disk(&file, e))
+    }
+
+    /// The surface as pressed, where the scene asks for it.
+    pub(super) fn write_surface(&self, sink: &mut dyn Sink) -> Result<(), Error> {
+        let map = &self.surface.map;
+        let (columns, rows) = (map.columns(), map.rows());
+        let (file, written) = match self.summary.scene.output.surface {
+            None => return Ok(()),
+            Some(SurfaceFormat::X3p) => {
+                let file = sink.path("surface.x3p")?;
+                let written = write_x3p(&file, columns, rows, map.pixel(), map.heights());
+                (file, written)
+            }
+            Some(SurfaceFormat::Npy) => {
+                let file = sink.path("surface.npy")?;
+                let written = write_npy(&file, columns, rows, map.heights());
+                (file, written)
+            }
+        };
+        written.map_err(|e| Error::disk(&file, e))
+    }
+}
