@@ -21,5 +21,6 @@ pub mod draw;
 #[doc(hidden)]
 pub mod cli;
 
+pub use calibrate::{Calibration, Sweep, calibrate};
 pub use error::{Error, InputError};
 pub use press::{Rough, RoughScene, press};

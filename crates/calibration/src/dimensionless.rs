@@ -6,15 +6,18 @@
 
 use crate::fit::Data;
 use asperity_law::least_squares::{powers, solve, value};
+use serde::{Deserialize, Serialize};
 
 /// A fitted function of ln X and tan β.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Formula {
     /// a_0 … a_4, then b_0 … b_2.
     pub coefficients: [f64; 8],
     /// Root mean square of what is left in the logarithm: a relative error.
+    #[serde(rename = "rms_error")]
     pub rms: f64,
     /// The largest of it.
+    #[serde(rename = "largest_error")]
     pub largest: f64,
 }
 

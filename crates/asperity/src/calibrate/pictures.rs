@@ -1,24 +1,25 @@
 //! The two figures: curves of all exponents mixed into one, and the representative strain over the slope.
 
-use super::results::Calibration;
+use super::calibration::Calibration;
+use super::fit::AngleFit;
 use crate::draw::chart::{Chart, Series, svg};
 use asperity_calibration::collapse::Sample;
 use asperity_roughness::PUBLISHED;
 
 /// File names and SVG documents; none where nothing was fitted.
-pub fn all(calibration: &Calibration, shown: Option<f64>) -> Vec<(&'static str, Result<String, String>)> {
-    let Some(slope) = calibration.slope else { return Vec::new() };
+pub(super) fn all(calibration: &Calibration) -> Vec<(&'static str, Result<String, String>)> {
+    let Some(c) = calibration.fit.coefficient else { return Vec::new() };
     let mut pictures = Vec::new();
-    let distance = |beta: f64| shown.map_or(-beta, |wish| (beta - wish).abs());
+    let distance = |beta: f64| calibration.shown.map_or(-beta, |wish| (beta - wish).abs());
     let nearest =
-        calibration.angles.iter().min_by(|a, b| distance(a.beta_deg).total_cmp(&distance(b.beta_deg)));
+        calibration.fit.per_angle.iter().min_by(|a, b| distance(a.beta_deg).total_cmp(&distance(b.beta_deg)));
     if let Some(angle) = nearest {
         let tan = angle.beta_deg.to_radians().tan();
-        let share = angle.strain.map_or(slope.c, |s| s / tan);
+        let share = angle.representative_strain.map_or(c, |s| s / tan);
         pictures.push(("collapse.svg", svg(&mixed(calibration, angle.beta_deg, share))));
     }
-    pictures.push(("collapse_all.svg", svg(&master(calibration, slope.c))));
-    pictures.push(("representative_strain.svg", svg(&strains(calibration, slope.c))));
+    pictures.push(("collapse_all.svg", svg(&master(calibration, c))));
+    pictures.push(("representative_strain.svg", svg(&strains(calibration, c))));
     pictures
 }
 
@@ -81,7 +82,7 @@ fn master(calibration: &Calibration, c: f64) -> Chart {
 
 /// Fig. 8: ε_r of every slope with its interval, the fit, and the published line.
 fn strains(calibration: &Calibration, c: f64) -> Chart {
-    let angles = &calibration.angles;
+    let angles = &calibration.fit.per_angle;
     let last = angles.last().map_or(10.0, |a| a.beta_deg);
     let line = |c: f64| {
         (0..=20)
@@ -91,18 +92,18 @@ fn strains(calibration: &Calibration, c: f64) -> Chart {
             })
             .collect::<Vec<[f64; 2]>>()
     };
-    let bound = |k: usize| {
-        angles.iter().filter(|a| a.strain.is_some()).map(|a| [a.beta_deg, a.interval[k]]).collect()
+    let bound = |of: fn(&AngleFit) -> f64| {
+        angles.iter().filter(|a| a.determined).map(|a| [a.beta_deg, of(a)]).collect()
     };
-    let found = angles.iter().filter_map(|a| a.strain.map(|s| [a.beta_deg, s])).collect();
+    let found = angles.iter().filter_map(|a| a.representative_strain.map(|s| [a.beta_deg, s])).collect();
     let series = |label: String, points: Vec<[f64; 2]>, marks: bool| Series { label, points, marks };
     Chart {
         x_label: "slope β, degrees".into(),
         y_label: "representative strain εᵣ".into(),
         series: vec![
             series("least scatter".into(), found, true),
-            series("95 % interval, low end".into(), bound(0), false),
-            series("95 % interval, high end".into(), bound(1), false),
+            series("95 % interval, low end".into(), bound(|a| a.low), false),
+            series("95 % interval, high end".into(), bound(|a| a.high), false),
             series(format!("fit: {c:.4} tan β"), line(c), false),
             series(format!("published: {PUBLISHED} tan β"), line(PUBLISHED), false),
         ],

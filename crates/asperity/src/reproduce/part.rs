@@ -4,7 +4,7 @@
 //! killed is begun anew; the sweep goes on from its journal.
 
 use super::plan::{Part, Work};
-use crate::calibrate::Order;
+use crate::calibrate::{Options, Progress as Done, calibrate};
 use crate::cli::folder::Folder;
 use crate::cli::folder::journal_beside;
 use crate::cli::progress::Progress;
@@ -139,10 +139,7 @@ impl Job {
             Resolved::Crush(scene, sketches) => self.crush(scene, sketches, progress)?,
             Resolved::Calibrate(sweep) => {
                 self.keep_own_journal()?;
-                let cases = sweep.cases();
-                let threads = rayon::current_num_threads();
-                let order = Order { sweep, cases: &cases, whole: true, shown: None, threads };
-                order.fill(&self.folder, true, true, progress)?;
+                self.calibrate(sweep, progress)?;
                 None
             }
             Resolved::Rough(scene, kind) => {
@@ -155,6 +152,29 @@ impl Job {
         let text = serde_json::to_string(&stamp).map_err(|e| Error::Unfinished(e.to_string()))?;
         write_whole(&self.stamp_path(), text.as_bytes())?;
         Ok(stamp)
+    }
+
+    fn calibrate(&self, sweep: &Sweep, progress: Progress) -> Result<(), Error> {
+        let mut folder = Folder::create(&self.folder, "calibrate", true)?;
+        let journal = Some(journal_beside(&self.folder));
+        let options = Options { threads: rayon::current_num_threads(), journal, ..Options::default() };
+        let mut show = |done: &Done| {
+            let share = done.done as f64 / done.cases.max(1) as f64;
+            progress.show(share, || format!("case {} of {}", done.done, done.cases));
+            true
+        };
+        let calibration = match calibrate(sweep, &options, &mut show) {
+            Ok(calibration) => calibration,
+            Err(failure) => {
+                folder.abandon();
+                return Err(failure);
+            }
+        };
+        progress.finish();
+        calibration.write(&mut folder)?;
+        folder.publish()?;
+        calibration.remove_journal();
+        Ok(())
     }
 
     /// Throws away a journal that another program, or the same for another sweep, has left.
