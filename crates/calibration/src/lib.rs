@@ -5,6 +5,19 @@
 //! (`loading_curvature`); the grid (`sweep`), its rows on disk (`row`, `journal`) and its run (`run`); the representative strain of a
 //! slope (`collapse`), of all (`fit`) and of parts (`sensitivity`), the force as a formula (`dimensionless`) and
 //! the way back (`unloading`).
+//!
+//! ```
+//! use asperity_calibration::row::CaseRow;
+//! use asperity_calibration::run::solve;
+//! use asperity_calibration::sweep::Sweep;
+//! use asperity_solver::scene::Accuracy;
+//!
+//! // the last of the 480 cones: 10 degrees, E/σ_y = 300, n = 0.5
+//! let cone = Sweep::default().cases()[479];
+//! let row = CaseRow::from(&solve(&cone, Accuracy::Draft));
+//! let k_over_e = row.k_over_e.unwrap();
+//! assert!((k_over_e / 1.79 - 1.0).abs() < 0.1, "{k_over_e}");
+//! ```
 
 pub mod case;
 

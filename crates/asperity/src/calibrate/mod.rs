@@ -16,4 +16,4 @@ pub use calibration::{Calibration, calibrate};
 pub use fit::{AngleFit, DevelopedFit, Fit, FunctionFit, UnloadedCone};
 pub use merge::{merge, read_sweep};
 pub use run::{Options, Progress};
-pub use sensitivity::{Estimate, Sensitivity, SensitivityLine, sensitivity};
+pub use sensitivity::{Sensitivity, SensitivityLine, sensitivity};

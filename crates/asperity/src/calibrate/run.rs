@@ -56,8 +56,7 @@ pub(super) fn solve(sweep: &Sweep, options: &Options, observer: &mut Observer) -
         None => (None, Vec::new()),
     };
     let done = found.len();
-    let mut progress = Progress { done, cases: cases.len(), row: None };
-    if !observer(&progress) {
+    if !observer(&Progress { done, cases: cases.len(), row: None }) {
         return Ok(Solved { rows: found, stopped: true });
     }
     let finished = found.clone();
@@ -74,7 +73,6 @@ pub(super) fn solve(sweep: &Sweep, options: &Options, observer: &mut Observer) -
         if observer(&progress) { Ok(()) } else { Err(Stop::Observer) }
     };
     let outcome = run(&cases, sweep.accuracy, found, options.threads, told);
-    progress.row = None;
     match outcome {
         Ok(rows) => Ok(Solved { rows, stopped: false }),
         Err(Stop::Observer) => {
@@ -84,8 +82,7 @@ pub(super) fn solve(sweep: &Sweep, options: &Options, observer: &mut Observer) -
         Err(Stop::Disk(e)) => {
             let path = options.journal.clone().unwrap_or_default();
             Err(Error::Unfinished(format!(
-                "cannot write the journal {}: {e}; it keeps every case that was finished, and the same command goes on \
-                 from there",
+                "cannot write the journal {}: {e}; it keeps every finished case, and the same command resumes from it",
                 path.display()
             )))
         }

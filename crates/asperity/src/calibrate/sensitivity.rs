@@ -7,11 +7,12 @@ use crate::output::Sink;
 use asperity_calibration::case::Tool;
 use asperity_calibration::fit::{DEVELOPED, Slope};
 use asperity_calibration::row::CaseRow;
-use asperity_calibration::sensitivity::{lines, sweeps};
+use asperity_calibration::sensitivity::{Line, lines, sweeps};
+use asperity_calibration::sweep::Sweep;
 use asperity_law::HardeningLaw;
 use asperity_roughness::PUBLISHED;
 use asperity_solver::scene::Accuracy;
-use serde::{Deserialize, Serialize, Serializer};
+use serde::{Deserialize, Serialize};
 use std::fmt::Write;
 use std::path::PathBuf;
 
@@ -29,67 +30,63 @@ pub struct Sensitivity {
     journals: Vec<PathBuf>,
 }
 
-/// c of a part of the grid.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+/// c of a part of the grid: a row of `dependence.csv`. The first three c are those of all cases, the others those of the
+/// cases in which plasticity is developed; each with its 95 % interval, none where it is not determined.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SensitivityLine {
-    /// Crush or indentation.
-    pub tool: Tool,
+    /// `crush` or `indentation`.
+    pub tool: String,
     /// Hardening law.
-    pub law: HardeningLaw,
-    /// Smallest and largest n.
-    pub hardening_exponent: [f64; 2],
-    /// Smallest and largest E/σ_y.
-    pub modulus_over_yield_stress: [f64; 2],
-    /// c of all cases; none where it is not determined.
-    pub all: Option<Estimate>,
-    /// c of those in which plasticity is developed.
-    pub developed: Option<Estimate>,
-}
-
-/// A c with its 95 % interval.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Estimate {
-    /// c.
-    pub coefficient: f64,
-    /// Its interval.
-    pub ci95: [f64; 2],
-}
-
-impl From<Slope> for Estimate {
-    fn from(s: Slope) -> Estimate {
-        Estimate { coefficient: s.c, ci95: s.ci95 }
-    }
-}
-
-/// A row of `dependence.csv`.
-#[derive(Serialize)]
-struct Record {
-    tool: &'static str,
-    hardening_law: HardeningLaw,
-    n_least: String,
-    n_largest: String,
+    pub hardening_law: HardeningLaw,
+    /// Smallest n.
+    pub n_least: f64,
+    /// Largest n.
+    pub n_largest: f64,
+    /// Smallest E/σ_y.
     #[serde(rename = "E_over_sy_least")]
-    ratio_least: String,
+    pub e_over_sy_least: f64,
+    /// Largest E/σ_y.
     #[serde(rename = "E_over_sy_largest")]
-    ratio_largest: String,
-    #[serde(serialize_with = "rounded")]
-    c: Option<f64>,
-    #[serde(serialize_with = "rounded")]
-    low: Option<f64>,
-    #[serde(serialize_with = "rounded")]
-    high: Option<f64>,
-    #[serde(serialize_with = "rounded")]
-    c_developed: Option<f64>,
-    #[serde(serialize_with = "rounded")]
-    low_developed: Option<f64>,
-    #[serde(serialize_with = "rounded")]
-    high_developed: Option<f64>,
+    pub e_over_sy_largest: f64,
+    /// c.
+    pub c: Option<f64>,
+    /// Lower end.
+    pub low: Option<f64>,
+    /// Upper end.
+    pub high: Option<f64>,
+    /// c.
+    pub c_developed: Option<f64>,
+    /// Lower end.
+    pub low_developed: Option<f64>,
+    /// Upper end.
+    pub high_developed: Option<f64>,
 }
 
-fn rounded<S: Serializer>(value: &Option<f64>, serializer: S) -> Result<S::Ok, S::Error> {
-    match value {
-        Some(value) => serializer.collect_str(&format_args!("{value:.5}")),
-        None => serializer.serialize_none(),
+/// c and the ends of its interval, to five decimals.
+fn estimate(slope: Option<Slope>) -> [Option<f64>; 3] {
+    let rounded = |v: f64| (1e5 * v).round() / 1e5;
+    slope.map_or([None; 3], |s| [s.c, s.ci95[0], s.ci95[1]].map(|v| Some(rounded(v))))
+}
+
+impl SensitivityLine {
+    fn of(sweep: &Sweep, line: &Line) -> SensitivityLine {
+        let ([c, low, high], [c_developed, low_developed, high_developed]) =
+            (estimate(line.all), estimate(line.developed));
+        let ([n_least, n_largest], [e_over_sy_least, e_over_sy_largest]) = (line.exponents, line.ratios);
+        SensitivityLine {
+            tool: tool_name(sweep.tool).into(),
+            hardening_law: sweep.hardening_law,
+            n_least,
+            n_largest,
+            e_over_sy_least,
+            e_over_sy_largest,
+            c,
+            low,
+            high,
+            c_developed,
+            low_developed,
+            high_developed,
+        }
     }
 }
 
@@ -97,27 +94,6 @@ fn tool_name(tool: Tool) -> &'static str {
     match tool {
         Tool::Plane => "crush",
         Tool::Cone => "indentation",
-    }
-}
-
-impl From<&SensitivityLine> for Record {
-    fn from(line: &SensitivityLine) -> Record {
-        let [n_least, n_largest] = line.hardening_exponent.map(|n| n.to_string());
-        let [ratio_least, ratio_largest] = line.modulus_over_yield_stress.map(|r| r.to_string());
-        Record {
-            tool: tool_name(line.tool),
-            hardening_law: line.law,
-            n_least,
-            n_largest,
-            ratio_least,
-            ratio_largest,
-            c: line.all.map(|s| s.coefficient),
-            low: line.all.map(|s| s.ci95[0]),
-            high: line.all.map(|s| s.ci95[1]),
-            c_developed: line.developed.map(|s| s.coefficient),
-            low_developed: line.developed.map(|s| s.ci95[0]),
-            high_developed: line.developed.map(|s| s.ci95[1]),
-        }
     }
 }
 
@@ -141,14 +117,7 @@ pub fn sensitivity(
         found.journals.extend(journal.clone());
         let solved = solve(&sweep, &Options { journal, ..options.clone() }, observer)?;
         found.sweeps.push((name, solved.rows.iter().map(CaseRow::from).collect()));
-        found.lines.extend(lines(&solved.rows).iter().map(|line| SensitivityLine {
-            tool: sweep.tool,
-            law: sweep.hardening_law,
-            hardening_exponent: line.exponents,
-            modulus_over_yield_stress: line.ratios,
-            all: line.all.map(Estimate::from),
-            developed: line.developed.map(Estimate::from),
-        }));
+        found.lines.extend(lines(&solved.rows).iter().map(|line| SensitivityLine::of(&sweep, line)));
         if solved.stopped {
             break;
         }
@@ -165,7 +134,7 @@ impl Sensitivity {
         for (name, rows) in &self.sweeps {
             csv_file::write(sink, &format!("cases-{name}.csv"), rows)?;
         }
-        csv_file::write(sink, "dependence.csv", self.lines.iter().map(Record::from))
+        csv_file::write(sink, "dependence.csv", &self.lines)
     }
 
     /// Removes the journals, which are of no use once the results are in their place.
@@ -188,17 +157,23 @@ impl Sensitivity {
         let mut text = format!(
             "| tool, law | n | E/σ_y | c (95 %) | c where E* tan β/σ_r ≥ {DEVELOPED} |\n|-|-|-|-|-|\n"
         );
-        let shown = |s: Option<Estimate>| {
-            let text =
-                |Estimate { coefficient: c, ci95: [low, high] }| format!("{c:.3} ({low:.3}-{high:.3})");
-            s.map_or("not determined".into(), text)
-        };
-        for line in &self.lines {
-            let (tool, law) = (tool_name(line.tool), line.law.name());
-            let ([n, most], [ratio, largest]) = (line.hardening_exponent, line.modulus_over_yield_stress);
-            let (all, developed) = (shown(line.all), shown(line.developed));
-            let _ =
-                writeln!(text, "| {tool}, {law} | {n}-{most} | {ratio}-{largest} | {all} | {developed} |");
+        for l in &self.lines {
+            let shown = |c: Option<f64>, low: Option<f64>, high: Option<f64>| match (c, low, high) {
+                (Some(c), Some(low), Some(high)) => format!("{c:.3} ({low:.3}-{high:.3})"),
+                _ => "not determined".into(),
+            };
+            let _ = writeln!(
+                text,
+                "| {}, {} | {}-{} | {}-{} | {} | {} |",
+                l.tool,
+                l.hardening_law.name(),
+                l.n_least,
+                l.n_largest,
+                l.e_over_sy_least,
+                l.e_over_sy_largest,
+                shown(l.c, l.low, l.high),
+                shown(l.c_developed, l.low_developed, l.high_developed)
+            );
         }
         let indentation = "published: Tabor and Johnson 0.2, Bucaille 0.105 (indentation)";
         let _ = writeln!(text, "{indentation}, Jourani {PUBLISHED} (crush)");

@@ -115,7 +115,8 @@ fn dependence(args: &Calibrate) -> Result<(), Error> {
             found.write(&mut folder)?;
             folder.publish()?;
             found.remove_journals();
-            say(&args.run, &target, || found.json(), || found.text())
+            say(&args.run, &target, found.json()?, &found.text());
+            Ok(())
         }
         Err(failure) => {
             folder.abandon();
@@ -155,29 +156,19 @@ fn observed<T>(
     result
 }
 
-fn finish(
-    calibration: Calibration,
-    mut folder: Folder,
-    flags: &RunFlags,
-    target: &Path,
-) -> Result<(), Error> {
-    calibration.write(&mut folder)?;
+fn finish(result: Calibration, mut folder: Folder, flags: &RunFlags, target: &Path) -> Result<(), Error> {
+    result.write(&mut folder)?;
     folder.publish()?;
-    calibration.remove_journal();
-    say(flags, target, || calibration.json(), || calibration.text())
+    result.remove_journal();
+    say(flags, target, result.json()?, &result.text());
+    Ok(())
 }
 
-fn say(
-    flags: &RunFlags,
-    target: &Path,
-    json: impl FnOnce() -> Result<String, Error>,
-    text: impl FnOnce() -> String,
-) -> Result<(), Error> {
+fn say(flags: &RunFlags, target: &Path, json: String, text: &str) {
     if flags.json {
-        terminal::say(json()?.trim_end());
+        terminal::say(json.trim_end());
     } else if !flags.quiet {
-        terminal::say(text().trim_end());
+        terminal::say(text.trim_end());
         terminal::say(&format!("results   {}", target.display()));
     }
-    Ok(())
 }
