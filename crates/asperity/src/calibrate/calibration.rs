@@ -36,9 +36,9 @@ pub struct Calibration {
     /// Seconds it took.
     pub wall_s: f64,
     /// Usable rows by slope.
-    pub(super) data: Data,
+    data: Data,
     /// Slope that collapse.svg shows, degrees.
-    pub(super) shown: Option<f64>,
+    shown: Option<f64>,
     journal: Option<PathBuf>,
 }
 
@@ -114,7 +114,7 @@ impl Calibration {
             let text = coefficient.to_toml().map_err(|e| Error::Unfinished(e.to_string()))?;
             sink.write("coefficient.toml", |out| out.write_all(text.as_bytes()))?;
         }
-        for (name, picture) in pictures::all(self) {
+        for (name, picture) in pictures::all(&self.data, &self.fit, self.shown) {
             let text = picture.map_err(Error::Unfinished)?;
             sink.write(name, |out| out.write_all(text.as_bytes()))?;
         }

@@ -1,32 +1,31 @@
 //! The two figures: curves of all exponents mixed into one, and the representative strain over the slope.
 
-use super::calibration::Calibration;
-use super::fit::AngleFit;
+use super::fit::{AngleFit, Fit};
 use crate::draw::chart::{Chart, Series, svg};
 use asperity_calibration::collapse::Sample;
+use asperity_calibration::fit::Data;
 use asperity_roughness::PUBLISHED;
 
 /// File names and SVG documents; none where nothing was fitted.
-pub(super) fn all(calibration: &Calibration) -> Vec<(&'static str, Result<String, String>)> {
-    let Some(c) = calibration.fit.coefficient else { return Vec::new() };
+pub(super) fn all(data: &Data, fit: &Fit, shown: Option<f64>) -> Vec<(&'static str, Result<String, String>)> {
+    let Some(c) = fit.coefficient else { return Vec::new() };
     let mut pictures = Vec::new();
-    let distance = |beta: f64| calibration.shown.map_or(-beta, |wish| (beta - wish).abs());
-    let nearest =
-        calibration.fit.per_angle.iter().min_by(|a, b| distance(a.beta_deg).total_cmp(&distance(b.beta_deg)));
+    let distance = |beta: f64| shown.map_or(-beta, |wish| (beta - wish).abs());
+    let nearest = fit.per_angle.iter().min_by(|a, b| distance(a.beta_deg).total_cmp(&distance(b.beta_deg)));
     if let Some(angle) = nearest {
         let tan = angle.beta_deg.to_radians().tan();
         let share = angle.representative_strain.map_or(c, |s| s / tan);
-        pictures.push(("collapse.svg", svg(&mixed(calibration, angle.beta_deg, share))));
+        pictures.push(("collapse.svg", svg(&mixed(data, angle.beta_deg, share))));
     }
-    pictures.push(("collapse_all.svg", svg(&master(calibration, c))));
-    pictures.push(("representative_strain.svg", svg(&strains(calibration, c))));
+    pictures.push(("collapse_all.svg", svg(&master(data, c))));
+    pictures.push(("representative_strain.svg", svg(&strains(&fit.per_angle, c))));
     pictures
 }
 
 /// E*/σ_r and K/σ_r of a sample at ε_r = `share` tan β.
-fn point(calibration: &Calibration, tan: f64, sample: &Sample, share: f64) -> [f64; 2] {
+fn point(data: &Data, tan: f64, sample: &Sample, share: f64) -> [f64; 2] {
     let stress = sample.hardening.representative_stress(share * tan);
-    [calibration.data.reduced_modulus / stress, sample.k_over_e / stress]
+    [data.reduced_modulus / stress, sample.k_over_e / stress]
 }
 
 fn sorted(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
@@ -35,9 +34,9 @@ fn sorted(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
 }
 
 /// Fig. 7 at one slope: a curve for every hardening exponent.
-fn mixed(calibration: &Calibration, beta_deg: f64, share: f64) -> Chart {
+fn mixed(data: &Data, beta_deg: f64, share: f64) -> Chart {
     let tan = beta_deg.to_radians().tan();
-    let samples = calibration.data.slopes.iter().find(|s| s.0 == beta_deg).map_or(&[][..], |s| &s.1);
+    let samples = data.slopes.iter().find(|s| s.0 == beta_deg).map_or(&[][..], |s| &s.1);
     let mut exponents: Vec<f64> = samples.iter().map(|s| s.hardening.exponent).collect();
     exponents.sort_by(f64::total_cmp);
     exponents.dedup();
@@ -47,7 +46,7 @@ fn mixed(calibration: &Calibration, beta_deg: f64, share: f64) -> Chart {
             samples
                 .iter()
                 .filter(|s| s.hardening.exponent == *n)
-                .map(|s| point(calibration, tan, s, share))
+                .map(|s| point(data, tan, s, share))
                 .collect(),
         ),
         marks: true,
@@ -60,11 +59,11 @@ fn mixed(calibration: &Calibration, beta_deg: f64, share: f64) -> Chart {
 }
 
 /// All slopes: Y = K tan²β/σ_r against X = E* tan β/σ_r at ε_r = c tan β.
-fn master(calibration: &Calibration, c: f64) -> Chart {
-    let series = calibration.data.slopes.iter().map(|(beta, samples)| {
+fn master(data: &Data, c: f64) -> Chart {
+    let series = data.slopes.iter().map(|(beta, samples)| {
         let tan = beta.to_radians().tan();
         let scaled = |s: &Sample| {
-            let [x, y] = point(calibration, tan, s, c);
+            let [x, y] = point(data, tan, s, c);
             [x * tan, y * tan * tan]
         };
         Series {
@@ -81,8 +80,7 @@ fn master(calibration: &Calibration, c: f64) -> Chart {
 }
 
 /// Fig. 8: ε_r of every slope with its interval, the fit, and the published line.
-fn strains(calibration: &Calibration, c: f64) -> Chart {
-    let angles = &calibration.fit.per_angle;
+fn strains(angles: &[AngleFit], c: f64) -> Chart {
     let last = angles.last().map_or(10.0, |a| a.beta_deg);
     let line = |c: f64| {
         (0..=20)

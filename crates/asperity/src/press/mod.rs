@@ -4,16 +4,18 @@ mod scene;
 
 mod closures;
 
-mod charts;
-mod maps;
+mod summary;
 mod table;
 
 mod rough;
-mod summary;
+
+mod charts;
+mod files;
 
 pub mod table1;
 
 pub use closures::ClosureContact;
+pub use files::Layers;
 pub use rough::{Progress, Rough, press};
 pub use scene::RoughScene;
 pub use summary::{ClosureSummary, Summary};

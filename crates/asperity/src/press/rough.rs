@@ -1,12 +1,8 @@
-use super::charts;
 use super::closures::{ClosureContact, press_by};
 use super::scene::RoughScene;
 use super::summary::{ClosureSummary, Summary};
 use super::table::{LoadPoint, TableRow};
-use crate::csv_file;
-use crate::draw::chart;
 use crate::error::Error;
-use crate::output::{Sink, SinkExt};
 use asperity_roughness::scene::{Scene, SceneError};
 use asperity_roughness::{Closure, Surface};
 use std::fmt::Write;
@@ -86,33 +82,6 @@ impl Rough {
     /// The contact by one closure; `None` where the scene does not ask for it or it could not be used.
     pub fn contact(&self, closure: Closure) -> Option<&ClosureContact> {
         self.contacts.iter().find(|one| one.law.closure == closure)
-    }
-
-    /// Writes tables, charts and summary, and the maps and the surface where the scene asks for them.
-    ///
-    /// # Errors
-    /// A disk that refuses.
-    pub fn write(&self, sink: &mut dyn Sink) -> Result<(), Error> {
-        self.write_tables(sink)?;
-        if self.summary.scene.output.maps {
-            self.write_maps(sink)?;
-        }
-        self.write_surface(sink)
-    }
-
-    /// Writes table.csv, load_curve.csv, summary.json and the charts alone.
-    ///
-    /// # Errors
-    /// A disk that refuses.
-    pub fn write_tables(&self, sink: &mut dyn Sink) -> Result<(), Error> {
-        csv_file::write(sink, "table.csv", &self.table)?;
-        csv_file::write(sink, "load_curve.csv", &self.load_curve)?;
-        for (name, chart) in charts::all(&self.contacts, self.surface.parameters.mean_gradient) {
-            let text = chart::svg(&chart).map_err(Error::Unfinished)?;
-            sink.write(name, |out| out.write_all(text.as_bytes()))?;
-        }
-        let text = self.json()?;
-        sink.write("summary.json", |out| out.write_all(text.as_bytes()))
     }
 
     /// The text of summary.json.

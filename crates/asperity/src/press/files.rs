@@ -1,9 +1,12 @@
+use super::charts;
 use super::closures::ClosureContact;
 use super::rough::Rough;
 use super::{MEGAPASCAL, MICROMETRE};
+use crate::csv_file;
+use crate::draw::chart;
 use crate::draw::rough_map::{self as picture, Map};
 use crate::error::Error;
-use crate::output::Sink;
+use crate::output::{Sink, SinkExt};
 use asperity_roughness::formats::{CellArray, write_npy, write_vti, write_x3p};
 use asperity_roughness::scene::SurfaceFormat;
 use asperity_roughness::{HeightMap, Regime};
@@ -59,8 +62,35 @@ impl Rough {
         Layers::of(one, cells(&self.surface.map))
     }
 
+    /// Writes tables, charts and summary, and the maps and the surface where the scene asks for them.
+    ///
+    /// # Errors
+    /// A disk that refuses.
+    pub fn write(&self, sink: &mut dyn Sink) -> Result<(), Error> {
+        self.write_tables(sink)?;
+        if self.summary.scene.output.maps {
+            self.write_maps(sink)?;
+        }
+        self.write_surface(sink)
+    }
+
+    /// Writes table.csv, load_curve.csv, summary.json and the charts alone.
+    ///
+    /// # Errors
+    /// A disk that refuses.
+    pub fn write_tables(&self, sink: &mut dyn Sink) -> Result<(), Error> {
+        csv_file::write(sink, "table.csv", &self.table)?;
+        csv_file::write(sink, "load_curve.csv", &self.load_curve)?;
+        for (name, chart) in charts::all(&self.contacts, self.surface.parameters.mean_gradient) {
+            let text = chart::svg(&chart).map_err(Error::Unfinished)?;
+            sink.write(name, |out| out.write_all(text.as_bytes()))?;
+        }
+        let text = self.json()?;
+        sink.write("summary.json", |out| out.write_all(text.as_bytes()))
+    }
+
     /// Pictures and .vti of every closure.
-    pub(super) fn write_maps(&self, sink: &mut dyn Sink) -> Result<(), Error> {
+    fn write_maps(&self, sink: &mut dyn Sink) -> Result<(), Error> {
         let map = &self.surface.map;
         let [columns, rows] = cells(map);
         let heights = heights(map, columns + 1, rows + 1);
@@ -115,7 +145,7 @@ impl Rough {
     }
 
     /// The surface as pressed, where the scene asks for it.
-    pub(super) fn write_surface(&self, sink: &mut dyn Sink) -> Result<(), Error> {
+    fn write_surface(&self, sink: &mut dyn Sink) -> Result<(), Error> {
         let map = &self.surface.map;
         let (columns, rows) = (map.columns(), map.rows());
         let (file, written) = match self.summary.scene.output.surface {
