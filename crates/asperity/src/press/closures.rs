@@ -15,7 +15,7 @@ pub struct ClosureContact {
     pub contact: Contact,
     /// Pressure on the pixels.
     pub field: PressureField,
-    /// What taking the load off gives back, where that was asked for.
+    /// Elastic return, where unloading was asked for.
     pub unloading: Option<Unloading>,
     /// p(β)/H of the closure's elastic pressure at the mean slope.
     pub plasticity_index: Option<f64>,
@@ -35,7 +35,7 @@ impl ClosureContact {
     }
 }
 
-/// What a reader of the numbers should know.
+/// Remarks on the trust in the numbers.
 pub type Warnings = Vec<String>;
 
 /// The contact by `closure` with its warnings; of a scene with all closures, one that cannot be used is a warning alone.

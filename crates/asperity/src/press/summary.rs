@@ -6,7 +6,7 @@ use asperity_roughness::scene::Scene;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// What the numbers of the summary mean where a word alone could be misread.
+/// Meaning of numbers whose names could be misread.
 const DEFINITIONS: [(&str, &str); 6] = [
     (
         "standards",
@@ -59,7 +59,7 @@ pub struct Summary {
     pub beta_deg: f64,
     pub definitions: BTreeMap<String, String>,
     pub closures: Vec<ClosureSummary>,
-    /// What a reader of the numbers should know.
+    /// Remarks on the trust in the numbers.
     pub warnings: Warnings,
     pub wall_s: f64,
     /// The scene as pressed.

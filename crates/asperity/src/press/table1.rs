@@ -131,7 +131,7 @@ pub struct ComparedRow {
     pub paper: Printed,
     /// Every closure, one value per seed.
     pub closures: Vec<ClosureSeeds>,
-    /// What a reader should know.
+    /// Warnings of the first seed.
     pub notes: Vec<String>,
     /// The numbers of the row that contradict each other.
     pub against_itself: String,
@@ -181,7 +181,7 @@ pub struct Table1 {
 /// Every closure on the surfaces of every row.
 ///
 /// # Errors
-/// What [`measure`] says.
+/// As for [`measure`].
 pub fn table1() -> Result<Table1, Error> {
     let rows = TABLE.iter().map(|(kind, row)| measure(*kind, row)).collect::<Result<_, Error>>()?;
     Ok(Table1 { rows })

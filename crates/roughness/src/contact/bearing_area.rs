@@ -18,7 +18,7 @@ const SAMPLED: usize = 8;
 /// Relative residual at which the search for a separation ends.
 const RESIDUAL: f64 = 1e-11;
 
-/// What lies above one plane, in cells: the area, and the integral of |∇h| over it.
+/// Bearing area above one plane, and the integral of |∇h| over it, in cells.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Above {
     /// Area above the plane, in cells.
@@ -163,7 +163,7 @@ fn joined(planes: Planes, inverse_pixel: [f64; 2], parts: Vec<Tally>) -> Vec<Abo
     total.finish()
 }
 
-/// What of the map lies above each plane.
+/// Bearing area of the map above each plane.
 pub fn above_planes(map: &HeightMap, planes: Planes) -> Vec<Above> {
     above_planes_in_rows(map, planes, 1)
 }
@@ -184,7 +184,7 @@ fn above_planes_in_rows(map: &HeightMap, planes: Planes, stride: usize) -> Vec<A
     joined(planes, inverse_pixel, parts)
 }
 
-/// What of the map lies above each of 64 planes over its whole height: an estimate from some of the rows of a large map.
+/// Bearing area above each of 64 planes over the whole height: an estimate from some of the rows of a large map.
 pub(crate) fn estimate(map: &HeightMap, extent: &Extent) -> (Planes, Vec<Above>) {
     let planes = Planes::between(extent.low, extent.high, PLANES);
     let stride = if extent.cells > LARGE { SAMPLED } else { 1 };

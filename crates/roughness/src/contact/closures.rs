@@ -83,7 +83,7 @@ pub enum ClosureError {
     Material {
         /// The closure's name.
         closure: &'static str,
-        /// What is missing.
+        /// The missing keys.
         needs: &'static str,
     },
     /// No calibration was given.
@@ -108,7 +108,7 @@ pub enum ClosureError {
     },
 }
 
-/// What an island carries.
+/// Pressure, area and regime of an island.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Response {
     /// Mean pressure over the island, in Pa.
@@ -226,7 +226,7 @@ impl ClosureLaw {
         self.linear().is_some()
     }
 
-    /// What an island of mean gradient `tan_beta` carries.
+    /// Pressure, area and regime of an island of mean gradient `tan_beta`.
     pub fn respond(&self, tan_beta: f64) -> Response {
         match &self.law {
             Law::Linear { coefficient, area_ratio } => {
@@ -371,13 +371,14 @@ mod tests {
             assert_eq!(answer.is_ok(), closure == Closure::Sneddon, "{closure:?}");
         }
         let table = crate::contact::coefficient::tests::master_curve();
-        let metal = Material { yield_stress: Some(Stress(300.0)), hardening_exponent: Some(0.3), ..steel() };
-        let model = ClosureLaw::new(Closure::Calibrated, &metal, Some(&table)).unwrap();
+        let material =
+            Material { yield_stress: Some(Stress(300.0)), hardening_exponent: Some(0.3), ..steel() };
+        let model = ClosureLaw::new(Closure::Calibrated, &material, Some(&table)).unwrap();
         // elastic limit: Sneddon's cone
         let soft = model.respond(1e-5);
         assert!((soft.island_pressure / (2.0 / PI / PI * 210e3 / 0.91 * 1e-5) - 1.0).abs() < 1e-6);
         assert!((soft.area_ratio - 4.0 / PI / PI).abs() < 1e-6);
-        let swift = Material { hardening_law: Some(HardeningLaw::Swift), ..metal };
+        let swift = Material { hardening_law: Some(HardeningLaw::Swift), ..material };
         assert!(matches!(
             ClosureLaw::new(Closure::Calibrated, &swift, Some(&table)),
             Err(ClosureError::Law { .. })

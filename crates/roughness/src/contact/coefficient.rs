@@ -1,4 +1,4 @@
-//! What the calibration hands over: the representative strain and the force and contact radius of a crushed cone.
+//! Result of a calibration: the representative strain and the force and contact radius of a crushed cone.
 //!
 //! The file `coefficient.toml`:
 //! ```toml
@@ -36,9 +36,9 @@ pub enum CoefficientError {
     Value {
         /// Which value.
         name: String,
-        /// What it is.
+        /// Its value.
         value: String,
-        /// What it may be.
+        /// The allowed range.
         allowed: &'static str,
     },
 }
@@ -153,7 +153,7 @@ impl Coefficient {
     /// 1. In each row of the table Y = K tan²β/σ_r is a function of X = E* tan β/σ_r; both are nearly the same for
     ///    all slopes, so rows are read at equal X and mixed linearly in β, in logarithms.
     /// 2. Below the first X of a row the cone is elastic: the lower of Sneddon's Y = 2X/π and the row's own line
-    ///    carried on. Above the last X the line is carried on.
+    ///    extrapolated. Above the last X the line is extrapolated.
     /// 3. Slopes outside the rows take the nearest row.
     pub fn cone(&self, tan_beta: f64, modulus_over_stress: f64) -> Cone {
         let beta = tan_beta.atan().to_degrees();

@@ -8,7 +8,7 @@ use crate::surface::ready::Surface;
 
 /// Residual at which the search ends: half of what is promised.
 const RESIDUAL: f64 = 5e-7;
-/// What is promised; a load that no plane meets to this jumps.
+/// Promised residual; a load that no plane meets to this jumps.
 const PROMISE: f64 = 1e-6;
 /// Secants before plain halving, which closes in on a jump.
 const SECANTS: usize = 12;

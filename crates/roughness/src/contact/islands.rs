@@ -70,7 +70,7 @@ struct Sum {
     root: usize,
 }
 
-/// What cells of one row add to a run.
+/// Cells of one row that belong to a run.
 enum Visit<'a> {
     /// Neighbouring cells wholly above the plane, the run along their lower side.
     Whole {
@@ -91,7 +91,7 @@ enum Visit<'a> {
     },
 }
 
-/// What is summed over the cells of a run.
+/// Quantity that is summed over the cells of a run.
 trait Tally: Clone + Default + Send {
     /// Adds what cells of one row bring; `start` is the column of the first node of the run.
     fn visit(&mut self, visit: &Visit, start: u32, inverse_pixel: [f64; 2]);

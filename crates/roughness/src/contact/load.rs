@@ -8,7 +8,7 @@ const ISLANDS_PER_CHUNK: usize = 1 << 12;
 
 /// Nominal pressure and contact area ratio at planes above a lowest one, from the islands there.
 ///
-/// What lies above a plane also lies above every lower one, so the map is searched only once.
+/// A point above a plane also lies above every lower one, so the map is searched only once.
 pub(super) struct Carrying<'a> {
     surface: &'a Surface,
     model: &'a ClosureLaw,
@@ -27,7 +27,7 @@ impl<'a> Carrying<'a> {
         self.plane
     }
 
-    /// What is carried at `plane`.
+    /// Nominal pressure and contact area ratio at `plane`.
     pub fn at(&self, plane: f64) -> (f64, f64) {
         self.carried(plane, self.runs.narrowed(&self.surface.map, plane))
     }

@@ -38,7 +38,7 @@ pub enum ContactError {
     },
 }
 
-/// What presses the plane on the surface.
+/// Load of the plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Load {
     /// Nominal pressure in Pa.
@@ -77,7 +77,7 @@ pub struct Contact {
     pub outside_share: Option<f64>,
     /// Islands, with their ellipses.
     pub islands: Islands,
-    /// What each island carries.
+    /// Response of each island.
     pub responses: Vec<Response>,
     /// Nominal area, in m².
     pub nominal_area: f64,

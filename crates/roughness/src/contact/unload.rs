@@ -2,7 +2,7 @@ use super::closures::ClosureLaw;
 use super::press::{CURVE_POINTS, Contact, CurvePoint};
 use std::f64::consts::PI;
 
-/// What taking the load off gives back.
+/// Elastic return when the load is taken off.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Unloading {
     /// First touch minus final separation minus the largest elastic return, in metres.

@@ -6,7 +6,7 @@ use thiserror::Error;
 pub struct SceneError {
     /// Where: keys joined by dots, for example `surface.generate.ra`.
     pub path: String,
-    /// What is wrong: names the value, the allowed range and a way out.
+    /// The mistake: names the value, the allowed range and a way out.
     pub message: String,
 }
 

@@ -38,7 +38,7 @@ fn one() -> u64 {
 }
 
 impl GenerateScene {
-    /// What to make, checked.
+    /// Arguments of the generator, checked.
     pub(super) fn request(&self) -> Result<(Kind, Grid, Target), SceneError> {
         let at = |key: &str| format!("surface.generate.{key}");
         let [nx, ny] = self.pixels;

@@ -1,4 +1,4 @@
-//! What a rough scene may hold, which values make sense, and the surface it describes.
+//! The tables of a rough scene, the checks of their values, and the surface they describe.
 
 mod error;
 
@@ -34,9 +34,9 @@ pub struct Scene {
     pub surface: SurfaceScene,
     /// Its material.
     pub material: Material,
-    /// What presses on it.
+    /// Its load.
     pub load: LoadScene,
-    /// What is written.
+    /// Output files.
     #[serde(default)]
     pub output: Output,
 }
@@ -77,7 +77,7 @@ impl Choice {
     }
 }
 
-/// What presses: exactly one of the two.
+/// Load of the plane: exactly one of pressure and separation.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LoadScene {
@@ -92,7 +92,7 @@ pub struct LoadScene {
     pub unload: bool,
 }
 
-/// What is written.
+/// Output files.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Output {
@@ -166,7 +166,7 @@ fn check_material(material: &Material) -> Result<(), SceneError> {
 }
 
 impl LoadScene {
-    /// What presses, in SI.
+    /// The load, in SI.
     ///
     /// # Errors
     /// Both, none, or a negative pressure.

@@ -10,7 +10,7 @@ use asperity_law::units::Length;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::path::{Path, PathBuf};
 
-/// What is done with missing points.
+/// Treatment of missing points.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Missing {
@@ -70,7 +70,7 @@ pub struct SurfaceScene {
     /// Whether `pixel_size` and `height_unit` win over what the file says.
     #[serde(default, rename = "override")]
     pub override_file: bool,
-    /// What is subtracted: by default the plane from a file, nothing from a generated surface.
+    /// Levelling: by default the plane from a file, nothing from a generated surface.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub level: Option<Levelling>,
     /// Missing points.

@@ -1,4 +1,4 @@
-//! Surfaces made from random numbers: self-affine, and three that look like ground, milled and sanded metal.
+//! Surfaces made from random numbers: self-affine, and three that look like ground, milled and sanded metal surfaces.
 //!
 //! Every kind is a shape that depends on one length; the length is searched so that the mean slope belongs to the
 //! arithmetic mean height, and the heights are then scaled. The random numbers depend on the seed alone.
@@ -49,7 +49,7 @@ pub enum GenerateError {
     Map(#[from] MapError),
 }
 
-/// What kind of surface.
+/// Kind of a surface with its parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Kind {
     /// Lay along y: long scratches of all widths.

@@ -223,7 +223,7 @@ impl HeightMap {
     }
 }
 
-/// What the whole map spans.
+/// Range of heights and number of cells of a map.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Extent {
     /// Lowest node, in metres.

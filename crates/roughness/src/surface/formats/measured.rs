@@ -9,7 +9,7 @@ pub enum ReadError {
     /// No reader knows it.
     #[error("{found}; a surface is a .npy, .x3p, .sdf, .sur, .al3d, .xyz or .csv file")]
     Unknown {
-        /// What it seems to be.
+        /// Its probable kind.
         found: String,
     },
     /// A header asks for more than the file holds.
@@ -19,7 +19,7 @@ pub enum ReadError {
     Truncated {
         /// Format.
         format: &'static str,
-        /// What is too short.
+        /// The part that is too short.
         what: &'static str,
         /// Bytes promised.
         promised: u64,
@@ -33,9 +33,9 @@ pub enum ReadError {
         format: &'static str,
         /// Which value.
         name: &'static str,
-        /// What it is.
+        /// Its value.
         value: String,
-        /// What it may be.
+        /// The allowed range.
         allowed: &'static str,
     },
     /// A text file has something else than a number.
@@ -43,7 +43,7 @@ pub enum ReadError {
     Text {
         /// Line, from 1.
         line: usize,
-        /// What is wrong.
+        /// The mistake.
         problem: String,
     },
     /// The zip container or its XML is damaged.
@@ -75,7 +75,7 @@ impl ReadError {
     }
 }
 
-/// What a file says of the distance of its points.
+/// Distance of the points, as far as a file says.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Spacing {
     /// Nothing.

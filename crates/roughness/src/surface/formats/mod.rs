@@ -20,7 +20,7 @@ use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
-/// What reads one format.
+/// Reader of one format.
 type Reader = fn(&Path) -> Result<Measured, ReadError>;
 
 /// Reads a surface file, told apart by its first bytes, else by its name.
@@ -66,7 +66,7 @@ fn picture(start: &[u8]) -> Option<&'static str> {
     images.iter().find(|(magic, _)| start.starts_with(magic)).map(|(_, name)| *name)
 }
 
-/// What a file that is no surface seems to be.
+/// Probable kind of a file that is no surface.
 fn describe(start: &[u8], extension: &str) -> String {
     if let Some(name) = picture(start) {
         return format!("this is {name}: colours are not heights");

@@ -17,7 +17,7 @@ pub(super) fn read(path: &Path) -> Result<Measured, ReadError> {
     if data.first() == Some(&b'b') { binary(&data) } else { ascii(&String::from_utf8_lossy(&data)) }
 }
 
-/// What both headers say.
+/// Content of both headers.
 struct Header {
     columns: u64,
     rows: u64,
