@@ -160,7 +160,10 @@ mod tests {
             let record = CaseRow::from(&row);
             let line = record.line();
             assert_eq!(CaseRow::of_line(&line), Some(record.clone()));
-            assert_eq!(CaseRow::read(format!("{HEADER}\n{line}\n").as_bytes()).unwrap(), [record.clone()]);
+            assert_eq!(
+                CaseRow::read(format!("{HEADER}\n{line}\n").as_bytes()).unwrap(),
+                std::slice::from_ref(&record)
+            );
             assert_eq!(Row::of_cases(&[case], [record]), [row]);
         }
         assert_eq!(CaseRow::of_line("1,hollomon,0.5,233.333333333,1.0,0.01"), None);

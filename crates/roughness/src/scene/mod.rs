@@ -138,7 +138,7 @@ impl Scene {
 
 fn check_material(material: &Material) -> Result<(), SceneError> {
     let (e, nu) = (material.youngs_modulus, material.poissons_ratio);
-    if !(e.0 > 0.0) {
+    if e.0.is_nan() || e.0 <= 0.0 {
         let message = format!("{e} must be above 0, for example \"210 GPa\"");
         return error("material.youngs_modulus", message);
     }
