@@ -8,9 +8,9 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
-use asperity_law::Elastic;
+use asperity_law::units::Stress;
 use asperity_roughness::{
-    Closure, Contact, HeightMap, Level, Load, Metal, Model, Roughness, Surface, level, press,
+    Closure, ClosureLaw, Contact, HeightMap, Levelling, Load, Material, Parameters, Surface, level, press,
 };
 use std::f64::consts::{FRAC_2_PI, PI, TAU};
 
@@ -20,10 +20,11 @@ const MODULUS: f64 = 210e9 / 0.91;
 const LINEAR: [(Closure, f64, f64); 2] =
     [(Closure::Published, 0.13, 1.0), (Closure::Sneddon, 2.0 / (PI * PI), 4.0 / (PI * PI))];
 
-fn steel() -> Metal {
-    Metal {
-        elastic: Elastic { youngs_modulus: 210e9, poissons_ratio: 0.3 },
-        hardness: Some(100e9),
+fn steel() -> Material {
+    Material {
+        youngs_modulus: Stress(210e9),
+        poissons_ratio: 0.3,
+        hardness: Some(Stress(100e9)),
         yield_stress: None,
         hardening_exponent: None,
         hardening_law: None,
@@ -39,14 +40,13 @@ fn map(n: usize, size: f64, periodic: bool, z: impl Fn(f64, f64) -> f64) -> Heig
 }
 
 fn contact(map: &HeightMap, closure: Closure, load: Load) -> Contact {
-    let extent = map.extent().unwrap();
-    let surface = Surface { map, extent, roughness: Roughness::of(map, &extent) };
-    press(&surface, &Model::new(closure, &steel(), None).unwrap(), load).unwrap()
+    let surface = Surface::of(map.clone()).unwrap();
+    press(&surface, &ClosureLaw::new(closure, &steel(), None).unwrap(), load).unwrap()
 }
 
 /// The plane's height above the origin of z instead of the mean height.
 fn height(map: &HeightMap, contact: &Contact) -> f64 {
-    contact.separation + Roughness::of(map, &map.extent().unwrap()).mean
+    contact.separation + Parameters::of(map, &map.extent().unwrap()).mean
 }
 
 /// Relative errors of `got` against `want`.
@@ -69,7 +69,7 @@ fn one_cone_has_area_force_and_ellipse_of_the_circle() {
         converges("cone", |n| {
             let map = map(n, 21e-6, false, |x, y| -tan * x.hypot(y));
             let extent = map.extent().unwrap();
-            let mean = Roughness::of(&map, &extent).mean;
+            let mean = Parameters::of(&map, &extent).mean;
             let found = contact(&map, closure, Load::Separation(-h - mean));
             let (area, force) = (PI * h * h / tan / tan, c * MODULUS * PI * h * h / tan);
             let ellipse = found.islands.islands[0].ellipse.unwrap();
@@ -95,7 +95,7 @@ fn one_paraboloid_has_twice_the_area_of_hertz_and_two_thirds_of_its_rim_slope() 
     for (closure, c, ratio) in LINEAR {
         converges("paraboloid", |n| {
             let map = map(n, 21e-6, false, |x, y| -(x * x + y * y) / (2.0 * radius));
-            let mean = Roughness::of(&map, &map.extent().unwrap()).mean;
+            let mean = Parameters::of(&map, &map.extent().unwrap()).mean;
             let found = contact(&map, closure, Load::Separation(-h - mean));
             let (area, slope) = (TAU * radius * h, 2.0 / 3.0 * (2.0 * h / radius).sqrt());
             errors(
@@ -178,13 +178,12 @@ fn an_inclined_plane_is_exact_on_any_grid() {
 fn a_flat_plane_carries_nothing() {
     let inclined = map(33, 1e-3, false, |x, y| 0.02 * x - 0.01 * y);
     let flat = map(33, 1e-3, false, |_, _| 7e-6);
-    let extent = flat.extent().unwrap();
-    let surface = Surface { map: &flat, extent, roughness: Roughness::of(&flat, &extent) };
-    let model = Model::new(Closure::Published, &steel(), None).unwrap();
+    let surface = Surface::of(flat).unwrap();
+    let model = ClosureLaw::new(Closure::Published, &steel(), None).unwrap();
     let error = press(&surface, &model, Load::Pressure(1e6)).err().unwrap();
     assert!(error.to_string().contains("largest load"), "{error}");
     assert_eq!(press(&surface, &model, Load::Pressure(0.0)).unwrap().area_ratio, 0.0);
-    let levelled = level(inclined, Level::Plane);
+    let levelled = level(inclined, Levelling::Plane);
     assert!(levelled.extent().unwrap().high < 1e-18);
 }
 
@@ -199,7 +198,7 @@ fn non_square_pixels_change_nothing() {
         -tan * x.hypot(y)
     };
     let map = HeightMap::new(nx, ny, pixel, (0..nx * ny).map(z).collect()).unwrap();
-    let mean = Roughness::of(&map, &map.extent().unwrap()).mean;
+    let mean = Parameters::of(&map, &map.extent().unwrap()).mean;
     let found = contact(&map, Closure::Published, Load::Separation(-h - mean));
     let island = found.islands.islands[0];
     let ellipse = island.ellipse.unwrap();

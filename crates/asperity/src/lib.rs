@@ -24,7 +24,9 @@
 //! The same scene as text is read by [`Scene::from_toml`], and [`crush::Crush::write`] leaves the files of the command in
 //! a [`output::Directory`].
 
+mod csv_file;
 pub mod error;
+mod json_file;
 pub mod output;
 pub mod units;
 
@@ -47,7 +49,9 @@ pub mod cli;
 
 pub use asperity_law::units::{Force, Length, Stress};
 pub use asperity_solver::scene as tables;
+pub use calibrate::{Calibration, Sweep, calibrate};
 pub use crush::{Crush, crush, crush_into};
 pub use error::{Error, InputError};
 pub use input::scene::Scene;
 pub use mesh::mesh;
+pub use press::{Rough, RoughScene, press};

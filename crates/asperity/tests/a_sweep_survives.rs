@@ -114,7 +114,7 @@ fn a_disk_that_refuses_is_named_and_loses_no_case() {
         .unwrap();
     let err = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(1), "{err}");
-    assert!(err.contains("full.journal") && err.contains("goes on"), "{err}");
+    assert!(err.contains("full.journal") && err.contains("resumes"), "{err}");
     let kept = place.text("full.journal").lines().count() - 1;
     assert!((1..24).contains(&kept), "{kept} rows");
     let end = place.run(&["calibrate", "scene.toml", "--out", "full"]);

@@ -1,6 +1,6 @@
-//! The representative strain of one slope: the ε_r for which K/σ_r against E*/σ_r is one curve for all metals.
+//! The representative strain of one slope: the ε_r for which K/σ_r against E*/σ_r is one curve for all materials.
 //!
-//! The measure is the scatter: the root mean square of what a cubic in ln(E*/σ_r), fitted to all metals at once,
+//! The measure is the scatter: the root mean square of what a cubic in ln(E*/σ_r), fitted to all materials at once,
 //! leaves of ln(K/σ_r). The second measure is the paper's, "the maximum of correlation": the share of the variance of
 //! ln(K/σ_r) that the cubic explains. Where the crush is nearly elastic K hardly depends on σ_r: the scatter is then
 //! the same for every ε_r, and says so.
@@ -8,11 +8,11 @@
 use asperity_law::Hardening;
 use asperity_law::least_squares::{powers, solve, value};
 
-/// One metal crushed at one slope.
+/// One material crushed at one slope.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sample {
-    /// Which metal, the same number for every slope.
-    pub metal: usize,
+    /// Which material, the same number for every slope.
+    pub material: usize,
     /// Its hardening, E = 1.
     pub hardening: Hardening,
     /// K/E.
@@ -39,7 +39,7 @@ pub struct Collapse {
     trials: Vec<f64>,
     /// For every trial: powers of the scaled ln(E*/σ_r), and ln(K/σ_r), of every sample.
     points: Vec<Vec<([f64; 4], f64)>>,
-    metals: Vec<usize>,
+    materials: Vec<usize>,
     errors: Vec<f64>,
 }
 
@@ -76,18 +76,18 @@ impl Collapse {
         Collapse {
             trials,
             points,
-            metals: samples.iter().map(|s| s.metal).collect(),
+            materials: samples.iter().map(|s| s.material).collect(),
             errors: samples.iter().map(|s| s.error).collect(),
         }
     }
 
-    /// The measure at every trial strain with `draw(metal)` for every sample: its weight, and by how many times its
+    /// The measure at every trial strain with `draw(material)` for every sample: its weight, and by how many times its
     /// 95 % bound K is shifted.
     ///
     /// `None` if there are too few samples for a cubic.
     pub fn measures(&self, draw: impl Fn(usize) -> [f64; 2]) -> Option<Vec<Measure>> {
         let (weights, shifts): (Vec<f64>, Vec<f64>) = self
-            .metals
+            .materials
             .iter()
             .zip(&self.errors)
             .map(|(&m, error)| {

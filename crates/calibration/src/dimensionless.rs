@@ -1,4 +1,4 @@
-//! The fitted dimensionless function Π of eq. [7]: K/σ_r of any metal and slope as a formula, and the contact ratio.
+//! The fitted dimensionless function Π of eq. [7]: K/σ_r of any material and slope as a formula, and the contact ratio.
 //!
 //! With X = E* tan β/σ_r, Y = K tan²β/σ_r and σ_r taken at ε_r = c tan β,
 //!   ln Y = Σ_{k<5} a_k (ln X)^k + tan β Σ_{k<3} b_k (ln X)^k,
@@ -6,15 +6,18 @@
 
 use crate::fit::Data;
 use asperity_law::least_squares::{powers, solve, value};
+use serde::{Deserialize, Serialize};
 
 /// A fitted function of ln X and tan β.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Formula {
     /// a_0 … a_4, then b_0 … b_2.
     pub coefficients: [f64; 8],
     /// Root mean square of what is left in the logarithm: a relative error.
+    #[serde(rename = "rms_error")]
     pub rms: f64,
     /// The largest of it.
+    #[serde(rename = "largest_error")]
     pub largest: f64,
 }
 
@@ -52,7 +55,7 @@ impl Formula {
 }
 
 impl Dimensionless {
-    /// Fits all samples of `data` with σ_r at ε_r = `c` tan β; `None` with too few slopes or metals for it.
+    /// Fits all samples of `data` with σ_r at ε_r = `c` tan β; `None` with too few slopes or materials for it.
     pub fn fit(data: &Data, c: f64) -> Option<Dimensionless> {
         let (mut force, mut ratio, mut ranges) = (Vec::new(), Vec::new(), Vec::new());
         for (beta, samples) in data.slopes.iter().filter(|s| !s.1.is_empty()) {
@@ -85,7 +88,7 @@ mod tests {
     fn a_function_of_the_assumed_form_is_met() {
         let truth =
             |x: f64, tan: f64| (0.3 + 0.8 * x.ln() - 0.05 * x.ln().powi(2) + 0.4 * tan * x.ln()).exp();
-        let mut data = Data { slopes: Vec::new(), metals: Vec::new(), reduced_modulus: 1.1 };
+        let mut data = Data { slopes: Vec::new(), materials: Vec::new(), reduced_modulus: 1.1 };
         for case in Sweep::default().cases() {
             let tan = case.tan_beta();
             if data.slopes.last().is_none_or(|s| s.0 != case.beta_deg) {
@@ -95,7 +98,7 @@ mod tests {
             let stress = hardening.representative_stress(0.1 * tan);
             let x = 1.1 * tan / stress;
             let sample = Sample {
-                metal: 0,
+                material: 0,
                 hardening,
                 k_over_e: truth(x, tan) * stress / (tan * tan),
                 error: 0.0,

@@ -29,7 +29,7 @@ pub struct Angle {
     pub scatter: f64,
     /// The curve of scatter against ε_r/tan β.
     pub curve: Vec<Measure>,
-    /// Metals that took part.
+    /// Materials that took part.
     pub cases: usize,
     /// Weight in c: 1/variance of ln ε_r; 0 if not determined.
     pub weight: f64,
@@ -42,7 +42,7 @@ pub struct Angle {
 pub struct Slope {
     /// c.
     pub c: f64,
-    /// 95 % interval from the resampled metals.
+    /// 95 % interval from the resampled materials.
     pub ci95: [f64; 2],
     /// Slopes that took part.
     pub angles: usize,
@@ -53,16 +53,16 @@ pub struct Slope {
 pub struct Data {
     /// Slope in degrees and its samples.
     pub slopes: Vec<(f64, Vec<Sample>)>,
-    /// Hardening exponent of every metal.
-    pub metals: Vec<f64>,
+    /// Hardening exponent of every material.
+    pub materials: Vec<f64>,
     /// E*/E.
     pub reduced_modulus: f64,
 }
 
 impl Data {
-    /// The rows that succeeded, every metal once.
+    /// The rows that succeeded, every material once.
     pub fn new(rows: &[Row]) -> Data {
-        let mut metals: Vec<(f64, f64)> = Vec::new();
+        let mut materials: Vec<(f64, f64)> = Vec::new();
         let mut slopes: Vec<(f64, Vec<Sample>)> = Vec::new();
         let mut reduced_modulus = 1.0;
         for row in rows {
@@ -73,9 +73,9 @@ impl Data {
             };
             reduced_modulus = Elastic::reduced_modulus(&row.case.elastic());
             let key = (y.exponent, y.e_over_sy);
-            let metal = metals.iter().position(|m| *m == key).unwrap_or_else(|| {
-                metals.push(key);
-                metals.len() - 1
+            let material = materials.iter().position(|m| *m == key).unwrap_or_else(|| {
+                materials.push(key);
+                materials.len() - 1
             });
             let beta = row.case.beta_deg;
             let at = slopes.iter().position(|s| s.0 == beta).unwrap_or_else(|| {
@@ -83,9 +83,9 @@ impl Data {
                 slopes.len() - 1
             });
             let samples = &mut slopes[at].1;
-            if samples.iter().all(|s| s.metal != metal) {
+            if samples.iter().all(|s| s.material != material) {
                 samples.push(Sample {
-                    metal,
+                    material,
                     hardening,
                     k_over_e: kick.k_over_e,
                     error: kick.error,
@@ -94,7 +94,7 @@ impl Data {
             }
         }
         slopes.sort_by(|a, b| a.0.total_cmp(&b.0));
-        Data { slopes, metals: metals.iter().map(|m| m.0).collect(), reduced_modulus }
+        Data { slopes, materials: materials.iter().map(|m| m.0).collect(), reduced_modulus }
     }
 
     /// The samples for which `keep(tan β, sample)` holds.
@@ -119,17 +119,17 @@ pub fn obstacle(data: &Data) -> Option<String> {
     exponents.sort_by(f64::total_cmp);
     exponents.dedup();
     if exponents.len() < 2 {
-        return Some("metals of one hardening exponent collapse for every representative strain".into());
+        return Some("materials of one hardening exponent collapse for every representative strain".into());
     }
     if data.slopes.iter().all(|s| s.1.len() < 6) {
-        return Some("fewer than six metals at every slope".into());
+        return Some("fewer than six materials at every slope".into());
     }
     None
 }
 
 /// ε_r of every slope with its interval.
 pub fn angles(data: &Data) -> Vec<Angle> {
-    let draws = resample(&data.metals);
+    let draws = resample(&data.materials);
     data.slopes
         .iter()
         .filter_map(|(beta, samples)| {
@@ -164,7 +164,7 @@ pub fn angles(data: &Data) -> Vec<Angle> {
         .collect()
 }
 
-/// c as the weighted mean of ln(ε_r/tan β) over the determined slopes, its interval from the same resamples of metals.
+/// c as the weighted mean of ln(ε_r/tan β) over the determined slopes, its interval from the same resamples of materials.
 pub fn slope(angles: &[Angle]) -> Option<Slope> {
     let known: Vec<&Angle> = angles.iter().filter(|a| a.weight > 0.0).collect();
     let mean = |values: &dyn Fn(&Angle) -> Option<f64>| {
@@ -197,9 +197,9 @@ fn variance(values: &[f64]) -> f64 {
     values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / n
 }
 
-/// Resamples of the metals: how often each is drawn, and by how many times its 95 % bound its K is shifted.
+/// Resamples of the materials: how often each is drawn, and by how many times its 95 % bound its K is shifted.
 ///
-/// The shift is the same for all metals of one exponent and for all slopes, a standard deviation of half the bound: the
+/// The shift is the same for all materials of one exponent and for all slopes, a standard deviation of half the bound: the
 /// error of mesh and step is no noise, it depends on n, and so it is what would shift ε_r unseen.
 fn resample(exponents: &[f64]) -> Vec<Vec<[f64; 2]>> {
     let mut random = SplitMix(SEED);

@@ -5,6 +5,20 @@
 //! (`loading_curvature`); the grid (`sweep`), its rows on disk (`row`, `journal`) and its run (`run`); the representative strain of a
 //! slope (`collapse`), of all (`fit`) and of parts (`sensitivity`), the force as a formula (`dimensionless`) and
 //! the way back (`unloading`).
+//!
+//! ```
+//! use asperity_calibration::row::CaseRow;
+//! use asperity_calibration::run::solve;
+//! use asperity_calibration::sweep::Sweep;
+//! use asperity_solver::scene::Accuracy;
+//!
+//! // the last of the 480 cones: 10 degrees, E/σ_y = 300, n = 0.5
+//! let cone = Sweep::default().cases()[479];
+//! let row = CaseRow::from(&solve(&cone, Accuracy::Draft));
+//! // softer than an elastic cone, K = (2/π) E*/tan β (Sneddon 1965)
+//! let elastic = std::f64::consts::FRAC_2_PI * cone.elastic().reduced_modulus() / cone.tan_beta();
+//! assert!(row.k_over_e.is_some_and(|k| k > 0.0 && k < elastic));
+//! ```
 
 pub mod case;
 

@@ -3,6 +3,7 @@
 use crate::case::Case;
 use crate::loading_curvature;
 use crate::row::Row;
+use crate::sweep::Sweep;
 use asperity_solver::scene::Accuracy;
 use rayon::prelude::*;
 use std::collections::{HashMap, HashSet};
@@ -14,6 +15,12 @@ pub fn solve(case: &Case, accuracy: Accuracy) -> Row {
     let clock = Instant::now();
     let outcome = loading_curvature::solve(case, &case.discretisation(accuracy)).map_err(|e| e.to_string());
     Row { case: *case, outcome, wall_s: clock.elapsed().as_secs_f64() }
+}
+
+/// All that the rows of `cases` depend on: the sweep, the discretisation of every case, and the program.
+pub fn definition(sweep: &Sweep, cases: &[Case]) -> String {
+    let resolutions: Vec<_> = cases.iter().map(|c| c.discretisation(sweep.accuracy)).collect();
+    format!("{} {sweep:?} {resolutions:?}", env!("CARGO_PKG_VERSION"))
 }
 
 /// The part `k` of `of` (k from 1): every `of`-th case, so that the parts take about equally long.

@@ -1,4 +1,4 @@
-//! What c depends on: one grid for both laws and both tools, fitted whole and in parts.
+//! Sensitivity of c: one grid for both laws and both tools, fitted whole and in parts.
 
 use crate::case::Tool;
 use crate::fit::{DEVELOPED, Data, Slope, angles, developed, slope};
@@ -9,7 +9,7 @@ use asperity_law::units::Stress;
 use asperity_solver::scene::Accuracy;
 use rayon::prelude::*;
 
-/// E/σ_y of the grid: the range of the default sweep, its two halves, and stiffer metals beyond it.
+/// E/σ_y of the grid: the range of the default sweep, its two halves, and stiffer materials beyond it.
 const RATIOS: [f64; 9] = [100.0, 150.0, 225.0, 350.0, 500.0, 700.0, 1050.0, 2000.0, 4000.0];
 
 /// Ranges of E/σ_y that are fitted.

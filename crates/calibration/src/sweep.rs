@@ -1,4 +1,4 @@
-//! The grid of a calibration: which cones of which metals.
+//! The grid of a calibration: which cones of which materials.
 
 use crate::case::{Case, Tool, YieldMeasure, Yielding};
 use asperity_law::HardeningLaw;
@@ -37,7 +37,7 @@ pub struct Sweep {
     pub accuracy: Accuracy,
 }
 
-/// The grid of the paper's 480 tests, as far as it can be told: 10 slopes by 48 metals.
+/// The grid of the paper's 480 tests, as far as it can be told: 10 slopes by 48 materials.
 impl Default for Sweep {
     fn default() -> Self {
         let gpa = |e: f64| Stress(e * 1e9);
@@ -62,7 +62,7 @@ impl Default for Sweep {
 pub struct SweepError {
     /// The key, with the place in its list.
     pub path: String,
-    /// What is wrong and what is allowed.
+    /// The mistake and the allowed range.
     pub message: String,
 }
 
@@ -102,8 +102,9 @@ impl Sweep {
             for e in &moduli {
                 let ratio = e / s;
                 if !(5.0..=1e6).contains(&ratio) {
-                    let message =
-                        format!("E over yield stress is {ratio:.4} for one metal: it must lie from 5 to 1e6");
+                    let message = format!(
+                        "E over yield stress is {ratio:.4} for one material: it must lie from 5 to 1e6"
+                    );
                     return Err(SweepError { path: format!("yield_stress[{i}]"), message });
                 }
             }
@@ -139,7 +140,7 @@ impl Sweep {
     }
 }
 
-/// a/b to twelve digits: 210 GPa over 300 MPa is 700, whichever units it was written in, and equal metals are equal.
+/// a/b to twelve digits: 210 GPa over 300 MPa is 700, whichever units it was written in, and equal materials are equal.
 fn ratio(a: f64, b: f64) -> f64 {
     format!("{:.11e}", a / b).parse().unwrap_or(a / b)
 }

@@ -4,7 +4,7 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use asperity_roughness::scene::Scene;
-use asperity_roughness::{Closure, Model, press};
+use asperity_roughness::{Closure, ClosureLaw, press};
 use std::path::Path;
 
 /// What becomes of a row of the table.
@@ -29,9 +29,9 @@ fn pressed(name: &str, content: &[u8], surface: &str, load: &str, closure: Closu
     scene.validate().map_err(|e| e.to_string())?;
     let prepared =
         scene.surface.prepare(|path: &Path| folder.path().join(path)).map_err(|e| e.to_string())?;
-    let model = Model::new(closure, &scene.material.metal(), None).map_err(|e| e.to_string())?;
+    let model = ClosureLaw::new(closure, &scene.material, None).map_err(|e| e.to_string())?;
     let load = scene.load.load().map_err(|e| e.to_string())?;
-    let contact = press(&prepared.surface(), &model, load).map_err(|e| e.to_string())?;
+    let contact = press(&prepared, &model, load).map_err(|e| e.to_string())?;
     if let Some(error) = contact.load_error {
         assert!(error <= 1e-6, "{name} {surface}: load error {error}");
     }

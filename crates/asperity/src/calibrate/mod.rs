@@ -1,6 +1,19 @@
-//! The sweep of cones and its fit.
+//! The sweep of cones, the representative strain that makes its curves one, and what that strain depends on.
 
-pub mod dependence;
-pub mod pictures;
-pub mod results;
-pub use crate::cli::calibrate::Order;
+mod run;
+
+mod fit;
+
+mod calibration;
+mod pictures;
+
+mod merge;
+mod sensitivity;
+
+pub use asperity_calibration::row::CaseRow;
+pub use asperity_calibration::sweep::Sweep;
+pub use calibration::{Calibration, calibrate};
+pub use fit::{AngleFit, DevelopedFit, Fit, FunctionFit, UnloadedCone};
+pub use merge::{merge, read_sweep};
+pub use run::{Options, Progress};
+pub use sensitivity::{Sensitivity, SensitivityLine, sensitivity};

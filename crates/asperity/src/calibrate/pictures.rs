@@ -1,31 +1,31 @@
 //! The two figures: curves of all exponents mixed into one, and the representative strain over the slope.
 
-use super::results::Calibration;
+use super::fit::{AngleFit, Fit};
 use crate::draw::chart::{Chart, Series, svg};
 use asperity_calibration::collapse::Sample;
+use asperity_calibration::fit::Data;
 use asperity_roughness::PUBLISHED;
 
 /// File names and SVG documents; none where nothing was fitted.
-pub fn all(calibration: &Calibration, shown: Option<f64>) -> Vec<(&'static str, Result<String, String>)> {
-    let Some(slope) = calibration.slope else { return Vec::new() };
+pub(super) fn all(data: &Data, fit: &Fit, shown: Option<f64>) -> Vec<(&'static str, Result<String, String>)> {
+    let Some(c) = fit.coefficient else { return Vec::new() };
     let mut pictures = Vec::new();
     let distance = |beta: f64| shown.map_or(-beta, |wish| (beta - wish).abs());
-    let nearest =
-        calibration.angles.iter().min_by(|a, b| distance(a.beta_deg).total_cmp(&distance(b.beta_deg)));
+    let nearest = fit.per_angle.iter().min_by(|a, b| distance(a.beta_deg).total_cmp(&distance(b.beta_deg)));
     if let Some(angle) = nearest {
         let tan = angle.beta_deg.to_radians().tan();
-        let share = angle.strain.map_or(slope.c, |s| s / tan);
-        pictures.push(("collapse.svg", svg(&mixed(calibration, angle.beta_deg, share))));
+        let share = angle.representative_strain.map_or(c, |s| s / tan);
+        pictures.push(("collapse.svg", svg(&mixed(data, angle.beta_deg, share))));
     }
-    pictures.push(("collapse_all.svg", svg(&master(calibration, slope.c))));
-    pictures.push(("representative_strain.svg", svg(&strains(calibration, slope.c))));
+    pictures.push(("collapse_all.svg", svg(&master(data, c))));
+    pictures.push(("representative_strain.svg", svg(&strains(&fit.per_angle, c))));
     pictures
 }
 
 /// E*/σ_r and K/σ_r of a sample at ε_r = `share` tan β.
-fn point(calibration: &Calibration, tan: f64, sample: &Sample, share: f64) -> [f64; 2] {
+fn point(data: &Data, tan: f64, sample: &Sample, share: f64) -> [f64; 2] {
     let stress = sample.hardening.representative_stress(share * tan);
-    [calibration.data.reduced_modulus / stress, sample.k_over_e / stress]
+    [data.reduced_modulus / stress, sample.k_over_e / stress]
 }
 
 fn sorted(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
@@ -34,15 +34,15 @@ fn sorted(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
 }
 
 /// Fig. 7 at one slope: a curve for every hardening exponent.
-fn mixed(calibration: &Calibration, beta_deg: f64, share: f64) -> Chart {
+fn mixed(data: &Data, beta_deg: f64, share: f64) -> Chart {
     let tan = beta_deg.to_radians().tan();
-    let samples = calibration.data.slopes.iter().find(|s| s.0 == beta_deg).map_or(&[][..], |s| &s.1);
+    let samples = data.slopes.iter().find(|s| s.0 == beta_deg).map_or(&[][..], |s| &s.1);
     let mut exponents: Vec<f64> = samples.iter().map(|s| s.hardening.exponent).collect();
     exponents.sort_by(f64::total_cmp);
     exponents.dedup();
     let series = exponents.iter().map(|n| {
         let of_n = samples.iter().filter(|s| s.hardening.exponent == *n);
-        let points = sorted(of_n.map(|s| point(calibration, tan, s, share)).collect());
+        let points = sorted(of_n.map(|s| point(data, tan, s, share)).collect());
         Series::line(format!("n = {n}"), points).marked()
     });
     Chart {
@@ -53,11 +53,11 @@ fn mixed(calibration: &Calibration, beta_deg: f64, share: f64) -> Chart {
 }
 
 /// All slopes: Y = K tan²β/σ_r against X = E* tan β/σ_r at ε_r = c tan β.
-fn master(calibration: &Calibration, c: f64) -> Chart {
-    let series = calibration.data.slopes.iter().map(|(beta, samples)| {
+fn master(data: &Data, c: f64) -> Chart {
+    let series = data.slopes.iter().map(|(beta, samples)| {
         let tan = beta.to_radians().tan();
         let scaled = |s: &Sample| {
-            let [x, y] = point(calibration, tan, s, c);
+            let [x, y] = point(data, tan, s, c);
             [x * tan, y * tan * tan]
         };
         Series::line(format!("β = {beta}°"), sorted(samples.iter().map(scaled).collect())).marked()
@@ -70,8 +70,7 @@ fn master(calibration: &Calibration, c: f64) -> Chart {
 }
 
 /// Fig. 8: ε_r of every slope with its interval, the fit, and the published line.
-fn strains(calibration: &Calibration, c: f64) -> Chart {
-    let angles = &calibration.angles;
+fn strains(angles: &[AngleFit], c: f64) -> Chart {
     let last = angles.last().map_or(10.0, |a| a.beta_deg);
     let line = |c: f64| {
         (0..=20)
@@ -81,17 +80,17 @@ fn strains(calibration: &Calibration, c: f64) -> Chart {
             })
             .collect::<Vec<[f64; 2]>>()
     };
-    let bound = |k: usize| {
-        angles.iter().filter(|a| a.strain.is_some()).map(|a| [a.beta_deg, a.interval[k]]).collect()
+    let bound = |of: fn(&AngleFit) -> f64| {
+        angles.iter().filter(|a| a.determined).map(|a| [a.beta_deg, of(a)]).collect()
     };
-    let found = angles.iter().filter_map(|a| a.strain.map(|s| [a.beta_deg, s])).collect();
+    let found = angles.iter().filter_map(|a| a.representative_strain.map(|s| [a.beta_deg, s])).collect();
     Chart {
         x_label: "slope β, degrees".into(),
         y_label: "representative strain εᵣ".into(),
         series: vec![
             Series::line("least scatter", found).marked(),
-            Series::line("95 % interval, low end", bound(0)),
-            Series::line("95 % interval, high end", bound(1)),
+            Series::line("95 % interval, low end", bound(|a| a.low)),
+            Series::line("95 % interval, high end", bound(|a| a.high)),
             Series::line(format!("fit: {c:.4} tan β"), line(c)),
             Series::line(format!("published: {PUBLISHED} tan β"), line(PUBLISHED)),
         ],

@@ -1,23 +1,18 @@
-//! `asperity rough --table1`: the paper's Table 1 beside ours, with the contradictions named.
+//! The paper's Table 1 beside ours, with the contradictions named.
 
-use super::run;
-use crate::cli::flags::RunFlags;
-use crate::cli::folder::Folder;
-use crate::cli::terminal;
-use crate::error::{Error, InputError};
-use crate::output::SinkExt;
-use asperity_law::units::{Length, Stress};
-use asperity_roughness::scene::{Choice, GenerateScene, LoadScene, Material, Output, Scene, SurfaceScene};
-use asperity_roughness::{Coefficient, KindName, PUBLISHED, Profile};
-use serde::Serialize;
+use super::rough::press;
+use super::scene::RoughScene;
+use crate::error::Error;
+use crate::output::{Sink, SinkExt};
+use asperity_roughness::{Closure, KindName, PUBLISHED};
+use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
 use std::fmt::Write;
+use std::path::Path;
 
 /// A row of the paper's Table 1.
-#[derive(Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Printed {
-    /// The surface.
-    #[serde(skip)]
-    pub kind: KindName,
     /// Ra, µm.
     pub ra: f64,
     /// β, degrees.
@@ -29,97 +24,65 @@ pub struct Printed {
     /// ψ.
     pub index: f64,
     /// Largest over nominal pressure, as the text says.
-    pub peak: &'static str,
+    pub peak: Cow<'static, str>,
+}
+
+const fn printed(ra: f64, beta: f64, pressure: f64, area: f64, index: f64, peak: &'static str) -> Printed {
+    Printed { ra, beta, pressure, area, index, peak: Cow::Borrowed(peak) }
 }
 
 /// Table 1 as printed.
-pub const TABLE: [Printed; 3] = [
-    Printed {
-        kind: KindName::Ground,
-        ra: 0.23,
-        beta: 1.57,
-        pressure: 719.0,
-        area: 13.74,
-        index: 0.52,
-        peak: "8",
-    },
-    Printed {
-        kind: KindName::Milled,
-        ra: 2.95,
-        beta: 4.08,
-        pressure: 3830.0,
-        area: 5.35,
-        index: 1.37,
-        peak: "60-80",
-    },
-    Printed {
-        kind: KindName::Sanded,
-        ra: 5.27,
-        beta: 11.38,
-        pressure: 75683.0,
-        area: 2.23,
-        index: 3.87,
-        peak: "60-80",
-    },
+pub const TABLE: [(KindName, Printed); 3] = [
+    (KindName::Ground, printed(0.23, 1.57, 719.0, 13.74, 0.52, "8")),
+    (KindName::Milled, printed(2.95, 4.08, 3830.0, 5.35, 1.37, "60-80")),
+    (KindName::Sanded, printed(5.27, 11.38, 75683.0, 2.23, 3.87, "60-80")),
 ];
 const NOMINAL: f64 = 200.0;
 const SEEDS: u64 = 5;
 const HARDNESS: f64 = 1280.0;
 const MODULUS: f64 = 210e3;
 const POISSON: f64 = 0.3;
-/// σ_y for the closures that need it: eq. [20], H = 3 σ_y.
-const YIELD: f64 = HARDNESS / 3.0;
 
-fn scene(row: &Printed, seed: u64) -> Scene {
-    Scene {
-        closure: Choice::All,
-        coefficient: None,
-        pressure_profile: Profile::Hertz,
-        surface: SurfaceScene {
-            file: None,
-            generate: Some(GenerateScene {
-                kind: row.kind,
-                ra: Some(Length(row.ra * 1e-6)),
-                mean_slope_deg: Some(row.beta),
-                size: [Length(2e-3), Length(2e-3)],
-                pixels: [1024, 1024],
-                seed,
-                hurst: None,
-                rolloff: None,
-                cutoff: None,
-            }),
-            pixel_size: None,
-            height_unit: None,
-            override_file: false,
-            level: None,
-            missing: Default::default(),
-            s_filter: None,
-            l_filter: None,
-            periodic: false,
-        },
-        material: Material {
-            youngs_modulus: Stress(MODULUS * 1e6),
-            poissons_ratio: POISSON,
-            hardness: Some(Stress(HARDNESS * 1e6)),
-            yield_stress: Some(Stress(YIELD * 1e6)),
-            hardening_exponent: Some(0.3),
-            hardening_law: None,
-        },
-        load: LoadScene { pressure: Some(Stress(NOMINAL * 1e6)), separation: None, unload: true },
-        output: Output { maps: false, surface: None },
-    }
+/// The scene of a row; σ_y for the closures that need it is that of eq. [20], H = 3 σ_y.
+fn scene(kind: KindName, row: &Printed, seed: u64) -> String {
+    format!(
+        r#"closure = "all"
+[surface.generate]
+kind = "{}"
+ra = "{} um"
+mean_slope_deg = {:?}
+size = ["2 mm", "2 mm"]
+pixels = [1024, 1024]
+seed = {seed}
+[material]
+youngs_modulus = "{MODULUS} MPa"
+poissons_ratio = {POISSON}
+hardness = "{HARDNESS} MPa"
+yield_stress = "{} MPa"
+hardening_exponent = 0.3
+[load]
+pressure = "{NOMINAL} MPa"
+unload = true
+"#,
+        kind.name(),
+        row.ra,
+        row.beta,
+        HARDNESS / 3.0
+    )
 }
 
-/// Values of one quantity over the seeds.
-#[derive(Default, Serialize)]
-pub struct Spread(Vec<f64>);
+/// Values of one quantity, one per seed.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Seeds(pub Vec<f64>);
 
-impl Spread {
-    fn mean(&self) -> f64 {
+impl Seeds {
+    /// Mean; NaN of none.
+    pub fn mean(&self) -> f64 {
         self.0.iter().sum::<f64>() / self.0.len() as f64
     }
 
-    fn deviation(&self) -> f64 {
+    /// Standard deviation of the sample; 0 of one value.
+    pub fn deviation(&self) -> f64 {
         let mean = self.mean();
         let sum: f64 = self.0.iter().map(|v| (v - mean).powi(2)).sum();
         (sum / (self.0.len().max(2) - 1) as f64).sqrt()
@@ -133,77 +96,120 @@ impl Spread {
     }
 }
 
-/// What a closure says of one kind of surface.
-#[derive(Default, Serialize)]
-pub struct Ours {
-    closure: &'static str,
-    pressure: Spread,
-    area: Spread,
-    index: Spread,
-    peak: Spread,
-    residual: Spread,
-    elastic: Spread,
+/// One closure on one kind of surface.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ClosureSeeds {
+    /// The closure.
+    pub closure: Closure,
+    /// P_m, MPa.
+    pub pressure: Seeds,
+    /// A_r, %.
+    pub area: Seeds,
+    /// ψ.
+    pub index: Seeds,
+    /// Largest over nominal pressure.
+    pub peak: Seeds,
+    /// Displacement that stays after unloading, µm.
+    pub residual: Seeds,
+    /// Work returned over work done by the unloading law, %.
+    pub elastic: Seeds,
 }
 
-/// One row of the paper's table beside ours.
-#[derive(Serialize)]
-pub struct Measured {
-    surface: &'static str,
+impl ClosureSeeds {
+    fn new(closure: Closure) -> ClosureSeeds {
+        let [pressure, area, index, peak, residual, elastic] = [(); 6].map(|()| Seeds::default());
+        ClosureSeeds { closure, pressure, area, index, peak, residual, elastic }
+    }
+}
+
+/// One row of the paper's table beside ours: the content of the `table1.json` of one surface.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ComparedRow {
+    /// The kind of surface.
+    pub surface: KindName,
     /// The row as printed.
-    paper: &'static Printed,
+    pub paper: Printed,
     /// Every closure, one value per seed.
-    closures: Vec<Ours>,
-    /// What a reader should know.
-    notes: Vec<String>,
+    pub closures: Vec<ClosureSeeds>,
+    /// Warnings of the first seed.
+    pub notes: Vec<String>,
     /// The numbers of the row that contradict each other.
-    against_itself: String,
+    pub against_itself: String,
 }
 
 /// Every closure on the surfaces of one row.
 ///
 /// # Errors
 /// A calibration that cannot be read, or a surface that cannot be made or pressed.
-pub fn measure(row: &'static Printed) -> Result<Measured, Error> {
-    let mut table: Vec<Ours> = Vec::new();
+pub fn measure(kind: KindName, row: &Printed) -> Result<ComparedRow, Error> {
+    let mut table: Vec<ClosureSeeds> = Vec::new();
     let mut notes = Vec::new();
-    let calibration = Coefficient::committed()
-        .map_err(|e| InputError::new(format!("the calibration of this program: {e}")))?;
     for seed in 1..=SEEDS {
-        let scene = scene(row, seed);
-        let prepared =
-            scene.surface.prepare(|path| path.to_path_buf()).map_err(|e| InputError::new(e.to_string()))?;
-        let (pressed, warnings) = run::press_all(&scene, &prepared, Some(&calibration))
-            .map_err(|(_, message)| InputError::new(message))?;
+        let scene = RoughScene::from_toml(&scene(kind, row, seed), Path::new(""))?;
+        let rough = press(&scene, &mut |_| true)?;
         if seed == 1 {
-            notes = warnings
-                .into_iter()
-                .map(|warning| format!("{}, seed 1: {warning}", run::kind_name(row.kind)))
-                .collect();
+            let warnings = rough.summary.warnings.iter();
+            notes = warnings.map(|warning| format!("{}, seed 1: {warning}", kind.name())).collect();
         }
-        for one in &pressed {
-            let closure = one.model.closure.name();
+        for one in &rough.summary.closures {
+            let closure = one.row.closure;
             let at = table.iter().position(|o| o.closure == closure).unwrap_or_else(|| {
-                table.push(Ours { closure, ..Ours::default() });
+                table.push(ClosureSeeds::new(closure));
                 table.len() - 1
             });
             let ours = &mut table[at];
-            ours.pressure.0.extend(one.contact.mean_pressure().map(|p| p * 1e-6));
-            ours.area.0.push(100.0 * one.contact.area_ratio);
-            ours.index.0.extend(one.plasticity_index);
-            ours.peak.0.extend(one.peak_ratio());
-            if let Some(unloading) = &one.unloading {
-                ours.residual.0.push(unloading.residual_displacement * 1e6);
-                ours.elastic.0.extend(unloading.elastic_share_by_law.map(|e| 100.0 * e));
-            }
+            ours.pressure.0.extend(one.row.mean_pressure_mpa);
+            ours.area.0.push(100.0 * one.row.contact_area_ratio);
+            ours.index.0.extend(one.row.plasticity_index);
+            ours.peak.0.extend(one.row.max_pressure_over_nominal);
+            ours.residual.0.extend(one.row.residual_displacement_um);
+            ours.elastic.0.extend(one.elastic_energy_share_by_law.map(|e| 100.0 * e));
         }
     }
-    Ok(Measured {
-        surface: run::kind_name(row.kind),
-        paper: row,
-        closures: table,
-        notes,
-        against_itself: contradictions(row),
-    })
+    let (paper, against_itself) = (row.clone(), contradictions(row));
+    Ok(ComparedRow { surface: kind, paper, closures: table, notes, against_itself })
+}
+
+/// The whole table: the content of `table1.json`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct Table1 {
+    /// Ground, milled, sanded.
+    pub rows: Vec<ComparedRow>,
+}
+
+/// Every closure on the surfaces of every row.
+///
+/// # Errors
+/// As for [`measure`].
+pub fn table1() -> Result<Table1, Error> {
+    let rows = TABLE.iter().map(|(kind, row)| measure(*kind, row)).collect::<Result<_, Error>>()?;
+    Ok(Table1 { rows })
+}
+
+impl Table1 {
+    /// Writes `table1.txt` and `table1.json`.
+    ///
+    /// # Errors
+    /// A disk that refuses.
+    pub fn write(&self, sink: &mut dyn Sink) -> Result<(), Error> {
+        sink.write("table1.txt", |out| out.write_all(self.text().as_bytes()))?;
+        let json = self.json()?;
+        sink.write("table1.json", |out| out.write_all(json.as_bytes()))
+    }
+
+    /// The text of table1.json.
+    ///
+    /// # Errors
+    /// None that is known: every table is JSON.
+    pub fn json(&self) -> Result<String, Error> {
+        serde_json::to_string_pretty(self).map_err(|e| Error::Unfinished(e.to_string()))
+    }
+
+    /// The tables for a reader.
+    pub fn text(&self) -> String {
+        text(&self.rows)
+    }
 }
 
 /// The numbers of one row of the paper that contradict each other, from its own equations.
@@ -234,37 +240,15 @@ fn contradictions(row: &Printed) -> String {
     text
 }
 
-/// Prints the tables; with `--out` they are left there as `table1.txt` and `table1.json` too.
-///
-/// # Errors
-/// What [`measure`] says, or a folder that cannot be written.
-pub fn run(flags: &RunFlags) -> Result<(), Error> {
-    let rows = TABLE.iter().map(measure).collect::<Result<Vec<Measured>, Error>>()?;
-    let text = text(&rows);
-    let json = serde_json::to_string_pretty(&rows).map_err(|e| Error::Unfinished(e.to_string()))?;
-    if let Some(out) = &flags.out {
-        let mut folder = Folder::create(out, "rough", flags.force)?;
-        folder.write("table1.txt", |out| out.write_all(text.as_bytes()))?;
-        folder.write("table1.json", |out| out.write_all(json.as_bytes()))?;
-        folder.publish()?;
-    }
-    if flags.json {
-        terminal::say(&json);
-    } else if !flags.quiet {
-        terminal::say(text.trim_end());
-    }
-    Ok(())
-}
-
 /// The tables for a reader.
-fn text(rows: &[Measured]) -> String {
+fn text(rows: &[ComparedRow]) -> String {
     let mut text = format!(
         "Table 1: steel E = {MODULUS} MPa, nu = {POISSON}, H = {HARDNESS} MPa under {NOMINAL} MPa; ours: {SEEDS} seeds, 1024 x 1024 points of \
          1.953 um, mean ± standard deviation\n"
     );
     for row in rows {
-        let paper = row.paper;
-        let _ = writeln!(text, "\n{}: Ra {} um, beta {} deg", row.surface, paper.ra, paper.beta);
+        let paper = &row.paper;
+        let _ = writeln!(text, "\n{}: Ra {} um, beta {} deg", row.surface.name(), paper.ra, paper.beta);
         let _ = writeln!(
             text,
             "  {:<11} {:>18} {:>16} {:>7} {:>15} {:>16} {:>14}",
@@ -279,7 +263,7 @@ fn text(rows: &[Measured]) -> String {
             let _ = writeln!(
                 text,
                 "  {:<11} {:>18} {:>16} {:>7.3} {:>15} {:>16} {:>14}",
-                o.closure,
+                o.closure.name(),
                 o.pressure.text(0),
                 o.area.text(2),
                 o.index.mean(),
@@ -298,10 +282,10 @@ fn text(rows: &[Measured]) -> String {
 }
 
 /// Whether A_r falls and P_m rises with the slope, per closure.
-fn trends(rows: &[Measured]) -> String {
+fn trends(rows: &[ComparedRow]) -> String {
     let mut text = String::from("\ntrend from ground to sanded (the paper: A_r falls, P_m rises):\n");
     for o in rows.first().map_or(&[][..], |row| &row.closures) {
-        let column = |of: fn(&Ours) -> f64| -> Vec<f64> {
+        let column = |of: fn(&ClosureSeeds) -> f64| -> Vec<f64> {
             rows.iter()
                 .filter_map(|row| row.closures.iter().find(|x| x.closure == o.closure).map(of))
                 .collect()
@@ -313,7 +297,7 @@ fn trends(rows: &[Measured]) -> String {
         let _ = writeln!(
             text,
             "  {:<11} A_r falls: {}; P_m rises: {}",
-            o.closure,
+            o.closure.name(),
             say(holds(&area, -1.0)),
             say(holds(&pressure, 1.0))
         );
@@ -327,7 +311,7 @@ mod tests {
 
     #[test]
     fn the_contradictions_of_the_paper_are_named_with_their_numbers() {
-        let texts: Vec<String> = TABLE.iter().map(contradictions).collect();
+        let texts: Vec<String> = TABLE.iter().map(|(_, row)| contradictions(row)).collect();
         for (text, words) in texts.iter().zip([
             ["98.8", "0.642", "1456"],
             ["204.9", "1.672", "3738"],

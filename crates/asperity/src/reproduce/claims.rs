@@ -6,7 +6,7 @@
 use super::format::{listed, significant, with_deviation};
 use super::paper::{PEAKS, ROUGH, SETS, SYMMETRIES, TABLE2};
 use super::results_reader::{Fit, Island, Results, Spread, Summary, Table1Row};
-use crate::press::{run::kind_name, table1};
+use crate::press::table1;
 use asperity_roughness::PUBLISHED;
 use serde::Serialize;
 
@@ -217,8 +217,8 @@ fn table1_rows(results: &Results) -> Vec<Claim> {
     const GENERATED: &str =
         "The surface is generated with the printed Ra and slope; the paper's own is not public.";
     let mut claims = Vec::new();
-    for ((row, part), peak) in table1::TABLE.iter().zip(ROUGH).zip(PEAKS) {
-        let name = kind_name(row.kind);
+    for (((kind, row), part), peak) in table1::TABLE.iter().zip(ROUGH).zip(PEAKS) {
+        let name = kind.name();
         let spread = |quantity: fn(&Table1Row) -> &Vec<f64>| results.rough(part, "published", quantity);
         let mut add =
             |name_of: &str, printed: f64, rounding: f64, unit: &str, s: Option<Spread>, why: String| {

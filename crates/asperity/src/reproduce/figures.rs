@@ -5,7 +5,7 @@ use super::paper::{ROUGH, SETS, SYMMETRIES, TABLE2};
 use super::plan::Item;
 use super::results_reader::{LoadPoint, Results, Spread, Summary, Table1Row};
 use crate::draw::chart::{self, Chart, Series};
-use crate::press::{run::kind_name, table1};
+use crate::press::table1;
 use maud::{Markup, PreEscaped, html};
 
 /// The closures of Tables 1 and 2, and what they are.
@@ -269,8 +269,8 @@ fn maps(results: &Results, name: &str, caption: &str) -> Markup {
 fn numbers(results: &Results) -> Markup {
     let mut rows = Vec::new();
     let mut against_itself = Vec::new();
-    for (row, part) in table1::TABLE.iter().zip(ROUGH) {
-        let name = kind_name(row.kind);
+    for ((kind, row), part) in table1::TABLE.iter().zip(ROUGH) {
+        let name = kind.name();
         rows.push(vec![
             format!("{name}, paper"),
             format!("{}", row.pressure),
@@ -337,8 +337,8 @@ fn unloading(results: &Results) -> Result<Markup, String> {
 
 fn energies(results: &Results) -> Markup {
     let mut rows = Vec::new();
-    for ((row, part), [residual, elastic]) in table1::TABLE.iter().zip(ROUGH).zip(TABLE2) {
-        let name = kind_name(row.kind);
+    for (((kind, _), part), [residual, elastic]) in table1::TABLE.iter().zip(ROUGH).zip(TABLE2) {
+        let name = kind.name();
         rows.push(vec![
             format!("{name}, paper (measured)"),
             format!("{residual}"),

@@ -5,19 +5,16 @@
 
 use super::plan::{Part, Work};
 use super::profile::profile;
-use crate::calibrate::Order;
-// crushes and sweeps do not take an observer yet
-use crate::cli::progress::Progress as HiddenProgress;
+use crate::calibrate::{Options, Progress as Solved, calibrate};
 use crate::crush::{Progress, Sketch, crush_into};
 use crate::error::Error;
 use crate::input::scene::Scene;
 use crate::input::toml_file::TomlFile;
-use crate::output::{Directory, Sink, SinkExt, write_whole};
-use crate::press::files::Outcome;
-use crate::press::{run as press, table1};
+use crate::output::{Directory, Sink, SinkExt, write_csv, write_whole};
+use crate::press::{self, RoughScene, table1};
 use asperity_calibration::sweep::Sweep;
-use asperity_roughness::scene::Scene as RoughScene;
-use asperity_roughness::{Coefficient, KindName};
+use asperity_roughness::KindName;
+use asperity_roughness::scene::Scene as RoughTables;
 use asperity_solver::run::depth_for_force::target_depth;
 use asperity_solver::run::prepare::prepare;
 use asperity_solver::scene::{Accuracy, Level, Scene as Tables};
@@ -54,7 +51,7 @@ pub struct Job {
 enum Resolved {
     Crush(Box<Scene>, &'static [Sketch]),
     Calibrate(Sweep),
-    Rough(Box<RoughScene>, KindName),
+    Rough(Box<RoughTables>, KindName),
 }
 
 impl Resolved {
@@ -93,7 +90,7 @@ impl Job {
             }
             Work::Calibrate => Resolved::Calibrate(Sweep { accuracy, ..Sweep::default() }),
             Work::Rough { scene, kind } => {
-                let read: TomlFile<RoughScene> = TomlFile::parse(file, scene.into(), &[])?;
+                let read: TomlFile<RoughTables> = TomlFile::parse(file, scene.into(), &[])?;
                 embedded(part.name, read.value.validate())?;
                 Resolved::Rough(Box::new(read.value), kind)
             }
@@ -135,7 +132,7 @@ impl Job {
     ///
     /// # Errors
     /// What kept it from being done. A crush that ends before its target is done: its stamp says so.
-    pub fn run(&self, observer: &mut dyn FnMut(f64, &str) -> bool) -> Result<Stamp, Error> {
+    pub fn run(&self, observer: &mut (dyn FnMut(f64, &str) -> bool + Send)) -> Result<Stamp, Error> {
         let start = Instant::now();
         let _ = std::fs::remove_file(self.stamp_path());
         let stopped = match &self.scene {
@@ -149,10 +146,7 @@ impl Job {
             })?,
             Resolved::Calibrate(sweep) => {
                 self.keep_own_journal()?;
-                let cases = sweep.cases();
-                let threads = rayon::current_num_threads();
-                let order = Order { sweep, cases: &cases, whole: true, shown: None, threads };
-                order.fill(&self.folder, true, true, HiddenProgress::new(true))?;
+                self.calibrate(sweep, observer)?;
                 None
             }
             Resolved::Rough(scene, kind) => {
@@ -176,6 +170,22 @@ impl Job {
         Ok(result)
     }
 
+    fn calibrate(
+        &self,
+        sweep: &Sweep,
+        observer: &mut (dyn FnMut(f64, &str) -> bool + Send),
+    ) -> Result<(), Error> {
+        let journal = Some(self.folder.with_extension("journal"));
+        let options = Options { threads: rayon::current_num_threads(), journal, ..Options::default() };
+        let calibration = calibrate(sweep, &options, &mut |solved: &Solved| {
+            let share = solved.done as f64 / solved.cases.max(1) as f64;
+            observer(share, &format!("case {} of {}", solved.done, solved.cases))
+        })?;
+        self.fill(|sink| calibration.write(sink))?;
+        calibration.remove_journal();
+        Ok(())
+    }
+
     /// Throws away a journal that another program, or the same for another sweep, has left.
     fn keep_own_journal(&self) -> Result<(), Error> {
         let begun = self.folder.with_extension("begun");
@@ -188,36 +198,27 @@ impl Job {
 
     fn press(
         &self,
-        scene: &RoughScene,
+        scene: &RoughTables,
         kind: KindName,
         sink: &mut dyn Sink,
-        observer: &mut dyn FnMut(f64, &str) -> bool,
+        observer: &mut (dyn FnMut(f64, &str) -> bool + Send),
     ) -> Result<(), Error> {
-        let start = Instant::now();
-        let name = press::kind_name(kind);
-        let calibration = embedded(self.part.name, Coefficient::committed())?;
+        let name = kind.name();
         observer(0.0, &format!("the {name} surface"));
-        let prepared = embedded(self.part.name, scene.surface.prepare(Path::to_path_buf))?;
-        let (pressed, warnings) = press::press_all(scene, &prepared, Some(&calibration))
-            .map_err(|(key, message)| Error::Unfinished(format!("{}: {key}: {message}", self.part.name)))?;
-        let outcome = Outcome { name, scene, prepared: &prepared, pressed: &pressed, warnings: &warnings };
-        outcome.write_tables(sink)?;
-        outcome.write_topography(sink, MAP)?;
-        for one in &pressed {
-            outcome.write_pictures(sink, one, MAP)?;
+        let scene = RoughScene::new(scene.clone(), Path::new(""));
+        let rough = embedded(self.part.name, press::press(&scene, &mut |_| true))?;
+        rough.write_tables(sink)?;
+        rough.write_topography(sink, MAP)?;
+        for one in &rough.contacts {
+            rough.write_pictures(sink, one, MAP)?;
         }
-        if let Some(one) = pressed.first() {
-            sink.write("profile.csv", |out| {
-                let mut table = csv::Writer::from_writer(out);
-                profile(&prepared.map, &one.contact.islands).iter().try_for_each(|p| table.serialize(p))?;
-                Ok::<(), csv::Error>(table.flush()?)
-            })?;
+        if let Some(one) = rough.contacts.first() {
+            let points = profile(&rough.surface.map, &one.contact.islands);
+            sink.write("profile.csv", |out| write_csv(out, &points, str::to_string))?;
         }
-        let summary = outcome.summary(start.elapsed().as_secs_f64());
-        sink.write("summary.json", |out| writeln!(out, "{summary:#}"))?;
-        if let Some(row) = table1::TABLE.iter().find(|row| row.kind == kind) {
+        if let Some((kind, row)) = table1::TABLE.iter().find(|(row, _)| *row == kind) {
             observer(0.2, &format!("five {name} surfaces, every closure"));
-            let table = table1::measure(row)?;
+            let table = table1::measure(*kind, row)?;
             sink.write("table1.json", |out| serde_json::to_writer_pretty(out, &table))?;
         }
         Ok(())

@@ -1,5 +1,5 @@
-use super::{SceneError, error};
-use crate::generate::{Grid, Kind, KindName, Target};
+use super::error::{SceneError, error};
+use crate::surface::generate::{Grid, Kind, KindName, Target};
 use asperity_law::units::Length;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -46,7 +46,7 @@ fn one() -> u64 {
 }
 
 impl GenerateScene {
-    /// What to make, checked.
+    /// Arguments of the generator, checked.
     pub(super) fn request(&self) -> Result<(Kind, Grid, Target), SceneError> {
         let at = |key: &str| format!("surface.generate.{key}");
         let [nx, ny] = self.pixels;

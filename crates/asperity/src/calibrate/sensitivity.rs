@@ -1,0 +1,182 @@
+//! c for both laws, both tools and parts of the range of materials.
+
+use super::run::{Options, Progress, solve};
+use crate::csv_file;
+use crate::error::Error;
+use crate::output::Sink;
+use asperity_calibration::case::Tool;
+use asperity_calibration::fit::{DEVELOPED, Slope};
+use asperity_calibration::row::CaseRow;
+use asperity_calibration::sensitivity::{Line, lines, sweeps};
+use asperity_calibration::sweep::Sweep;
+use asperity_law::HardeningLaw;
+use asperity_roughness::PUBLISHED;
+use asperity_solver::scene::Accuracy;
+use serde::{Deserialize, Serialize};
+use std::fmt::Write;
+use std::path::PathBuf;
+
+/// c over laws, tools, exponents and ranges of E over yield stress.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Sensitivity {
+    /// A line for every part of the grid.
+    pub lines: Vec<SensitivityLine>,
+    /// The published c.
+    pub published: f64,
+    /// Name and rows of every sweep.
+    #[serde(skip)]
+    pub sweeps: Vec<(String, Vec<CaseRow>)>,
+    #[serde(skip)]
+    journals: Vec<PathBuf>,
+}
+
+/// c of a part of the grid: a row of `dependence.csv`. The first three c are those of all cases, the others those of the
+/// cases in which plasticity is developed; each with its 95 % interval, none where it is not determined.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SensitivityLine {
+    /// `crush` or `indentation`.
+    pub tool: String,
+    /// Hardening law.
+    pub hardening_law: HardeningLaw,
+    /// Smallest n.
+    pub n_least: f64,
+    /// Largest n.
+    pub n_largest: f64,
+    /// Smallest E/σ_y.
+    #[serde(rename = "E_over_sy_least")]
+    pub e_over_sy_least: f64,
+    /// Largest E/σ_y.
+    #[serde(rename = "E_over_sy_largest")]
+    pub e_over_sy_largest: f64,
+    /// c.
+    pub c: Option<f64>,
+    /// Lower end.
+    pub low: Option<f64>,
+    /// Upper end.
+    pub high: Option<f64>,
+    /// c.
+    pub c_developed: Option<f64>,
+    /// Lower end.
+    pub low_developed: Option<f64>,
+    /// Upper end.
+    pub high_developed: Option<f64>,
+}
+
+/// c and the ends of its interval, to five decimals.
+fn estimate(slope: Option<Slope>) -> [Option<f64>; 3] {
+    let rounded = |v: f64| (1e5 * v).round() / 1e5;
+    slope.map_or([None; 3], |s| [s.c, s.ci95[0], s.ci95[1]].map(|v| Some(rounded(v))))
+}
+
+impl SensitivityLine {
+    fn of(sweep: &Sweep, line: &Line) -> SensitivityLine {
+        let ([c, low, high], [c_developed, low_developed, high_developed]) =
+            (estimate(line.all), estimate(line.developed));
+        let ([n_least, n_largest], [e_over_sy_least, e_over_sy_largest]) = (line.exponents, line.ratios);
+        SensitivityLine {
+            tool: tool_name(sweep.tool).into(),
+            hardening_law: sweep.hardening_law,
+            n_least,
+            n_largest,
+            e_over_sy_least,
+            e_over_sy_largest,
+            c,
+            low,
+            high,
+            c_developed,
+            low_developed,
+            high_developed,
+        }
+    }
+}
+
+fn tool_name(tool: Tool) -> &'static str {
+    match tool {
+        Tool::Plane => "crush",
+        Tool::Cone => "indentation",
+    }
+}
+
+/// Runs four sweeps, crush and indentation, each with both laws, and fits their parts.
+///
+/// A journal of the options stands for four, one a sweep, beside it. The observer is told as by
+/// [`calibrate`](super::calibrate); `false` ends the run after the sweep at hand.
+///
+/// # Errors
+/// A journal that cannot be written; finished cases stay in the journals.
+pub fn sensitivity(
+    accuracy: Accuracy,
+    options: &Options,
+    observer: &mut (dyn FnMut(&Progress) -> bool + Send),
+) -> Result<Sensitivity, Error> {
+    let mut found =
+        Sensitivity { lines: Vec::new(), published: PUBLISHED, sweeps: Vec::new(), journals: Vec::new() };
+    for sweep in sweeps(accuracy) {
+        let name = format!("{}-{}", tool_name(sweep.tool), sweep.hardening_law.name());
+        let journal = options.journal.as_ref().map(|path| path.with_extension(format!("{name}.journal")));
+        found.journals.extend(journal.clone());
+        let solved = solve(&sweep, &Options { journal, ..options.clone() }, observer)?;
+        found.sweeps.push((name, solved.rows.iter().map(CaseRow::from).collect()));
+        found.lines.extend(lines(&solved.rows).iter().map(|line| SensitivityLine::of(&sweep, line)));
+        if solved.stopped {
+            break;
+        }
+    }
+    Ok(found)
+}
+
+impl Sensitivity {
+    /// Writes `dependence.csv` and the rows of every sweep.
+    ///
+    /// # Errors
+    /// A disk that refuses.
+    pub fn write(&self, sink: &mut dyn Sink) -> Result<(), Error> {
+        for (name, rows) in &self.sweeps {
+            csv_file::write(sink, &format!("cases-{name}.csv"), rows)?;
+        }
+        csv_file::write(sink, "dependence.csv", &self.lines)
+    }
+
+    /// Removes the journals, which are of no use once the results are in their place.
+    pub fn remove_journals(&self) {
+        for path in &self.journals {
+            let _ = std::fs::remove_file(path);
+        }
+    }
+
+    /// The lines as JSON.
+    ///
+    /// # Errors
+    /// None that is known: every line is JSON.
+    pub fn json(&self) -> Result<String, Error> {
+        crate::json_file::text(self)
+    }
+
+    /// The lines as a table of Markdown.
+    pub fn text(&self) -> String {
+        let mut text = format!(
+            "| tool, law | n | E/σ_y | c (95 %) | c where E* tan β/σ_r ≥ {DEVELOPED} |\n|-|-|-|-|-|\n"
+        );
+        for l in &self.lines {
+            let shown = |c: Option<f64>, low: Option<f64>, high: Option<f64>| match (c, low, high) {
+                (Some(c), Some(low), Some(high)) => format!("{c:.3} ({low:.3}-{high:.3})"),
+                _ => "not determined".into(),
+            };
+            let _ = writeln!(
+                text,
+                "| {}, {} | {}-{} | {}-{} | {} | {} |",
+                l.tool,
+                l.hardening_law.name(),
+                l.n_least,
+                l.n_largest,
+                l.e_over_sy_least,
+                l.e_over_sy_largest,
+                shown(l.c, l.low, l.high),
+                shown(l.c_developed, l.low_developed, l.high_developed)
+            );
+        }
+        let indentation = "published: Tabor and Johnson 0.2, Bucaille 0.105 (indentation)";
+        let _ = writeln!(text, "{indentation}, Jourani {PUBLISHED} (crush)");
+        text
+    }
+}

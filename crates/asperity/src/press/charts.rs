@@ -1,0 +1,73 @@
+use super::closures::ClosureContact;
+use super::{MEGAPASCAL, MICROMETRE};
+use crate::draw::chart::{Chart, Series};
+use asperity_roughness::CurvePoint;
+
+/// File names and charts of all closures at once; `mean_gradient` is that of the surface.
+pub(super) fn all(contacts: &[ClosureContact], mean_gradient: f64) -> [(&'static str, Chart); 3] {
+    [
+        ("closures.svg", closures(contacts, mean_gradient)),
+        ("load_curve.svg", load_curves(contacts)),
+        ("pressure_histogram.svg", histogram(contacts)),
+    ]
+}
+
+/// The closures themselves: pressure on the contact of an island against its slope, to three times the mean slope.
+fn closures(contacts: &[ClosureContact], mean_gradient: f64) -> Chart {
+    const STEPS: u32 = 120;
+    let series = contacts.iter().map(|one| {
+        let point = |step| {
+            let tan = 3.0 * mean_gradient * f64::from(step) / f64::from(STEPS);
+            let response = one.law.respond(tan);
+            [tan.atan().to_degrees(), response.island_pressure / response.area_ratio / MEGAPASCAL]
+        };
+        Series::of_closure(one.name(), false, (0..=STEPS).map(point).collect())
+    });
+    Chart {
+        x_label: "slope of an island (degrees)".into(),
+        y_label: "mean pressure on its contact (MPa)".into(),
+        series: series.collect(),
+    }
+}
+
+/// Pressure against the travel of the plane from first touch.
+fn load_curves(contacts: &[ClosureContact]) -> Chart {
+    let mut series = Vec::new();
+    for one in contacts {
+        let first = one.contact.curve.first().map_or(0.0, |p| p.separation);
+        let points = |curve: &[CurvePoint]| {
+            curve.iter().map(|p| [(first - p.separation) / MICROMETRE, p.pressure / MEGAPASCAL]).collect()
+        };
+        series.push(Series::of_closure(one.name(), false, points(&one.contact.curve)));
+        if let Some(unloading) = one.unloading.as_ref().filter(|_| !one.law.returns_everything()) {
+            series.push(Series::of_closure(one.name(), true, points(&unloading.curve)));
+        }
+    }
+    Chart {
+        x_label: "travel of the plane from first touch (µm)".into(),
+        y_label: "nominal pressure (MPa)".into(),
+        series,
+    }
+}
+
+/// Share of the contact area per step of pressure, against pressure over nominal pressure.
+fn histogram(contacts: &[ClosureContact]) -> Chart {
+    const STEPS: usize = 60;
+    let most = contacts.iter().filter_map(ClosureContact::peak_ratio).fold(0.0, f64::max);
+    let width = if most > 0.0 { most / STEPS as f64 } else { 1.0 };
+    let series = contacts.iter().filter(|one| one.nominal > 0.0).map(|one| {
+        let mut bins = [0.0; STEPS];
+        for pixel in &one.field.pixels {
+            let ratio = f64::from(pixel.pressure) / one.nominal;
+            bins[((ratio / width) as usize).min(STEPS - 1)] += f64::from(pixel.contact);
+        }
+        let total: f64 = bins.iter().sum::<f64>().max(f64::MIN_POSITIVE);
+        let points = bins.iter().enumerate().map(|(i, b)| [(i as f64 + 0.5) * width, 100.0 * b / total]);
+        Series::of_closure(one.name(), false, points.collect())
+    });
+    Chart {
+        x_label: "pressure over nominal pressure".into(),
+        y_label: format!("contact area per step of {width:.2} (%)"),
+        series: series.collect(),
+    }
+}

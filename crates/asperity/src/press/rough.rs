@@ -1,0 +1,122 @@
+use super::closures::{ClosureContact, press_by};
+use super::scene::RoughScene;
+use super::summary::{ClosureSummary, Summary};
+use super::table::{LoadPoint, TableRow};
+use crate::error::Error;
+use asperity_roughness::scene::{Scene, SceneError};
+use asperity_roughness::{Closure, Surface};
+use std::fmt::Write;
+use std::time::Instant;
+
+/// A rough surface pressed by every closure that its scene asks for.
+#[derive(Debug)]
+pub struct Rough {
+    /// One row per closure: `table.csv`.
+    pub table: Vec<TableRow>,
+    /// From first touch to the load and back: `load_curve.csv`.
+    pub load_curve: Vec<LoadPoint>,
+    /// The surface and every closure: `summary.json`.
+    pub summary: Summary,
+    /// The surface as pressed, levelled and filtered.
+    pub surface: Surface,
+    /// The contacts with their islands and pressures, one per row of the table.
+    pub contacts: Vec<ClosureContact>,
+}
+
+/// How far a press has come.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Progress {
+    /// Share of the work that is done, 0 to 1.
+    pub share: f64,
+    /// The closure that comes next.
+    pub closure: Closure,
+}
+
+/// Presses a rigid plane on the surface of `scene` by every closure that it asks for.
+///
+/// `observer` is asked before each closure; `false` ends the run, which keeps the closures that were done.
+///
+/// # Errors
+/// A scene that makes no sense, a surface that cannot be read, a closure without its material or its calibration, a
+/// load that the surface cannot carry. Of a scene with all closures those that cannot be used are warnings.
+pub fn press(scene: &RoughScene, observer: &mut dyn FnMut(&Progress) -> bool) -> Result<Rough, Error> {
+    let start = Instant::now();
+    scene.validate()?;
+    let coefficient = scene.coefficient()?;
+    let tables = scene.tables();
+    let surface = tables.surface.prepare(|path| scene.resolve(path)).map_err(|e| scene.error(&e))?;
+    let name = scene.surface_name();
+    let mut summary = Summary::of(&name, &surface, tables);
+    let mut contacts = Vec::new();
+    let closures = tables.closure.closures();
+    for (i, &closure) in closures.iter().enumerate() {
+        if !observer(&Progress { share: i as f64 / closures.len() as f64, closure }) {
+            summary.warnings.push(format!("stopped before closure \"{}\"", closure.name()));
+            break;
+        }
+        let (contact, warnings) = press_by(closure, scene, &surface, coefficient.as_ref())?;
+        summary.warnings.extend(warnings);
+        contacts.extend(contact);
+    }
+    if contacts.is_empty() && summary.warnings.iter().all(|w| w.starts_with("skipped")) {
+        let message = "no closure can be used with this material: add hardness or yield_stress";
+        return Err(scene.error(&SceneError::new("closure", message)).into());
+    }
+    summary.warnings.extend(two_materials(tables));
+    let table: Vec<TableRow> = contacts.iter().map(|one| TableRow::of(&name, &surface, one)).collect();
+    summary.closures =
+        table.iter().zip(&contacts).map(|(row, one)| ClosureSummary::of(row.clone(), one)).collect();
+    let load_curve = contacts.iter().flat_map(LoadPoint::curve).collect();
+    summary.wall_s = start.elapsed().as_secs_f64();
+    Ok(Rough { table, load_curve, summary, surface, contacts })
+}
+
+/// A hardness that is not that of the yield stress.
+fn two_materials(scene: &Scene) -> Option<String> {
+    let ratio = scene.material.hardness?.0 / (3.0 * scene.material.yield_stress?.0);
+    let text = format!("hardness is {ratio:.2} times 3 yield_stress (eq. 20 says 1): two different metals?");
+    (!(0.8..=1.25).contains(&ratio)).then_some(text)
+}
+
+impl Rough {
+    /// The contact by one closure; `None` where the scene does not ask for it or it could not be used.
+    pub fn contact(&self, closure: Closure) -> Option<&ClosureContact> {
+        self.contacts.iter().find(|one| one.law.closure == closure)
+    }
+
+    /// The text of summary.json.
+    ///
+    /// # Errors
+    /// None that is known: every summary is JSON.
+    pub fn json(&self) -> Result<String, Error> {
+        crate::json_file::text(&self.summary)
+    }
+
+    /// The table for a person.
+    pub fn text(&self) -> String {
+        let s = &self.summary;
+        let ([nx, ny], [dx, dy]) = (s.pixels, s.pixel_size_um);
+        let mut text = format!(
+            "{}: {nx} x {ny} points of {dx:.4} x {dy:.4} um, {} missing; Sa {:.4} um, Sq {:.4} um, Sdq {:.4}, beta {:.3} deg (mean |grad h|)\n",
+            s.surface, s.missing, s.sa_um, s.sq_um, s.sdq, s.beta_deg,
+        );
+        text += "closure       A/A0 %   P_m MPa     psi  peak/nom  separation um  asperities  residual um  elastic energy\n";
+        let shown = |v: Option<f64>, digits: usize| v.map_or_else(|| "-".into(), |v| format!("{v:.digits$}"));
+        for row in &self.table {
+            let _ = writeln!(
+                text,
+                "{:<11} {:>8.3} {:>9} {:>7} {:>9} {:>14.4} {:>11} {:>12} {:>15}",
+                row.closure.name(),
+                100.0 * row.contact_area_ratio,
+                shown(row.mean_pressure_mpa, 1),
+                shown(row.plasticity_index, 3),
+                shown(row.max_pressure_over_nominal, 2),
+                row.separation_um,
+                row.asperities,
+                shown(row.residual_displacement_um, 4),
+                shown(row.elastic_energy_share, 3),
+            );
+        }
+        text
+    }
+}

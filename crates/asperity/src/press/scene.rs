@@ -1,0 +1,118 @@
+use crate::error::InputError;
+use crate::input::toml_file::TomlFile;
+use asperity_roughness::formats::{Measured, Spacing};
+use asperity_roughness::scene::{Scene, SceneError};
+use asperity_roughness::{Closure, Coefficient};
+use std::path::{Path, PathBuf};
+
+/// A rough surface, its material and its load, with the place that its paths are relative to.
+#[derive(Debug)]
+pub struct RoughScene {
+    scene: Scene,
+    /// The text that it was read from, for errors that point at a line.
+    source: Option<TomlFile<Scene>>,
+    base: PathBuf,
+}
+
+impl RoughScene {
+    /// Reads the file at `path` and applies overrides `key.path=value` in their order.
+    ///
+    /// # Errors
+    /// A file that cannot be read or is no scene, pointing at the line.
+    pub fn read(path: &Path, overrides: &[String]) -> Result<RoughScene, InputError> {
+        TomlFile::read(path, overrides).map(RoughScene::of_file)
+    }
+
+    /// Reads TOML text; its paths are relative to the folder `base`.
+    ///
+    /// # Errors
+    /// A text that is no scene, pointing at the line.
+    pub fn from_toml(text: &str, base: &Path) -> Result<RoughScene, InputError> {
+        let file = TomlFile::parse(&base.join("scene"), text.into(), &[])?;
+        Ok(RoughScene::of_file(file))
+    }
+
+    /// A scene built in code; its paths are relative to the folder `base`.
+    pub fn new(scene: Scene, base: &Path) -> RoughScene {
+        RoughScene { scene, source: None, base: base.into() }
+    }
+
+    fn of_file(file: TomlFile<Scene>) -> RoughScene {
+        RoughScene { scene: file.value.clone(), base: file.resolve(Path::new("")), source: Some(file) }
+    }
+
+    /// The same scene with the surface of these heights (m) in place of its own, row by row, `columns` to a row, NaN
+    /// where nothing was measured; `pixel` is the distance of the points along x and y (m).
+    #[must_use]
+    pub fn with_heights(mut self, columns: usize, pixel: [f64; 2], heights: Vec<f64>) -> RoughScene {
+        let rows = heights.len() / columns.max(1);
+        let (spacing, height_unit) = (Spacing::Metres(pixel), Some(1.0));
+        let surface = &mut self.scene.surface;
+        (surface.file, surface.generate) = (None, None);
+        surface.heights = Some(Measured { columns, rows, heights, spacing, height_unit });
+        self
+    }
+
+    /// Every value of the scene.
+    pub fn tables(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// Checks every value that can be checked without reading the surface.
+    ///
+    /// # Errors
+    /// The first value that makes no sense, pointing at its line where there is one.
+    pub fn validate(&self) -> Result<(), InputError> {
+        self.scene.validate().map_err(|e| self.error(&e))
+    }
+
+    /// Name of the scene: that of its file without extension.
+    pub fn name(&self) -> String {
+        self.source.as_ref().map_or_else(|| "surface".into(), TomlFile::stem)
+    }
+
+    /// Name of the surface in tables: the kind it is generated as, or the name of its file.
+    pub(super) fn surface_name(&self) -> String {
+        let surface = &self.scene.surface;
+        match (&surface.file, &surface.generate) {
+            (Some(path), _) => {
+                path.file_stem().map_or_else(|| "surface".into(), |s| s.to_string_lossy().into_owned())
+            }
+            (None, Some(made)) => made.kind.name().into(),
+            (None, None) => self.name(),
+        }
+    }
+
+    /// A path of the scene as one that can be opened.
+    pub(super) fn resolve(&self, path: &Path) -> PathBuf {
+        self.base.join(path)
+    }
+
+    pub(super) fn error(&self, error: &SceneError) -> InputError {
+        match &self.source {
+            Some(file) => file.error_at(&error.path, &error.message),
+            None => InputError::new(error.to_string()),
+        }
+    }
+
+    /// The calibration that the scene names, or the one that comes with the program; `None` where no closure needs it.
+    pub(super) fn coefficient(&self) -> Result<Option<Coefficient>, InputError> {
+        let needed = |c: &Closure| matches!(c, Closure::Fitted | Closure::Calibrated | Closure::Johnson);
+        if !self.scene.closure.closures().iter().any(needed) {
+            return Ok(None);
+        }
+        let error = |key: &str, message: String| self.error(&SceneError::new(key, message));
+        let Some(path) = &self.scene.coefficient else {
+            let committed = Coefficient::committed();
+            return committed
+                .map(Some)
+                .map_err(|e| error("closure", format!("the calibration of this program: {e}")));
+        };
+        let path = self.resolve(path);
+        let text = std::fs::read_to_string(&path)
+            .map_err(|e| error("coefficient", format!("{} cannot be read: {e}", path.display())))?;
+        Coefficient::from_toml(&text)
+            .map(Some)
+            .map_err(|e| error("coefficient", format!("{}: {e}", path.display())))
+    }
+}

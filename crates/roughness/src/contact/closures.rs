@@ -1,0 +1,387 @@
+//! Closures: what force and contact area an island of slope tan β carries.
+
+use super::coefficient::{Coefficient, island_pressure};
+use super::material::Material;
+use asperity_law::Hardening;
+use serde::{Deserialize, Serialize};
+use std::f64::consts::PI;
+use thiserror::Error;
+
+/// The published coefficient of eqs [9]-[13].
+pub const PUBLISHED: f64 = 0.13;
+/// Eq. [18].
+const JOHNSON_ELASTIC: f64 = 0.2;
+/// Thresholds of the plasticity index printed below eq. [13].
+const THRESHOLDS: [f64; 2] = [0.6, 1.0];
+
+/// Which law gives the force of an island.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Closure {
+    /// p = 0.13 E* tan β on the island, never capped (Jourani et al., eqs [10]-[12]).
+    Published,
+    /// p = c E* tan β with the c of the calibration.
+    Fitted,
+    /// Elastic, elastic-plastic, plastic after Johnson (eqs [18]-[20] with "tan" of eq. [19] mended to "ln").
+    Johnson,
+    /// Exact elastic cone (Love 1939, Sneddon 1965).
+    Sneddon,
+    /// K and contact ratio of the calibrated elastoplastic cone.
+    Calibrated,
+}
+
+impl Closure {
+    /// All closures, in the order of the tables.
+    pub const ALL: [Closure; 5] =
+        [Closure::Published, Closure::Fitted, Closure::Johnson, Closure::Sneddon, Closure::Calibrated];
+
+    /// The name used in scenes and files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Closure::Published => "published",
+            Closure::Fitted => "fitted",
+            Closure::Johnson => "johnson",
+            Closure::Sneddon => "sneddon",
+            Closure::Calibrated => "calibrated",
+        }
+    }
+
+    /// Where the closure comes from, in one line.
+    pub fn source(self) -> &'static str {
+        match self {
+            Closure::Published => {
+                "p = 0.13 E* tan(beta) on the island, never capped (Jourani et al., eqs 10-12)"
+            }
+            Closure::Fitted => "p = c E* tan(beta) on the island, c from the calibration",
+            Closure::Johnson => {
+                "p = min(0.2 E* tan(beta), max(2/3 Y, cavity law), H) on the island (Johnson 1985, ch. 6; eqs 18-20 mended)"
+            }
+            Closure::Sneddon => {
+                "F = 2/pi^2 E* tan(beta) A_island, contact area 4/pi^2 of the island (Sneddon 1965)"
+            }
+            Closure::Calibrated => "F = K(beta) h^2, area = contact_ratio^2 A_island, K from crushed cones",
+        }
+    }
+}
+
+/// State of an island.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Regime {
+    /// Returns when unloaded.
+    Elastic,
+    /// Between first yield and full plasticity.
+    Elastoplastic,
+    /// Fully plastic.
+    Plastic,
+}
+
+/// Why a closure cannot be used.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum ClosureError {
+    /// The material lacks a value.
+    #[error("closure \"{closure}\" needs {needs} in [material]: add it, or choose another closure")]
+    Material {
+        /// The closure's name.
+        closure: &'static str,
+        /// The missing keys.
+        needs: &'static str,
+    },
+    /// No calibration was given.
+    #[error(
+        "closure \"{closure}\" needs the result of a calibration: name the file in `coefficient = \"coefficient.toml\"` \
+         (`asperity calibrate` writes it), or choose \"published\", \"johnson\" or \"sneddon\""
+    )]
+    Coefficient {
+        /// The closure's name.
+        closure: &'static str,
+    },
+    /// The calibration was made with another law.
+    #[error(
+        "closure \"calibrated\": the calibration belongs to hardening_law = \"{calibrated}\", the material says \"{material}\": \
+         set the same law, or name another coefficient file"
+    )]
+    Law {
+        /// Law of the calibration.
+        calibrated: &'static str,
+        /// Law of the material.
+        material: &'static str,
+    },
+}
+
+/// Pressure, area and regime of an island.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Response {
+    /// Mean pressure over the island, in Pa.
+    pub island_pressure: f64,
+    /// True contact area over the island's area.
+    pub area_ratio: f64,
+    /// Regime.
+    pub regime: Regime,
+    /// Whether slope and stiffness lie inside the range of the law.
+    pub inside: bool,
+}
+
+/// A closure with the numbers of one material.
+#[derive(Clone, Debug)]
+pub struct ClosureLaw {
+    /// Which closure.
+    pub closure: Closure,
+    material: Material,
+    modulus: f64,
+    hardness: Option<f64>,
+    law: Law,
+}
+
+#[derive(Clone, Debug)]
+enum Law {
+    /// Island pressure = coefficient · E* tan β, contact area = ratio · island.
+    Linear {
+        coefficient: f64,
+        area_ratio: f64,
+    },
+    Johnson {
+        yield_stress: f64,
+        hardness: f64,
+    },
+    Calibrated {
+        hardening: Hardening,
+        coefficient: Coefficient,
+    },
+}
+
+impl ClosureLaw {
+    /// The closure for one material; `coefficient` is the calibration's result.
+    pub fn new(
+        closure: Closure,
+        material: &Material,
+        coefficient: Option<&Coefficient>,
+    ) -> Result<ClosureLaw, ClosureError> {
+        let name = closure.name();
+        let hardness = material.hardness.map_or(material.yield_stress.map(|y| 3.0 * y.0), |h| Some(h.0)); // eq. [20]
+        let calibration = || coefficient.ok_or(ClosureError::Coefficient { closure: name });
+        let missing = |needs| ClosureError::Material { closure: name, needs };
+        let regimes = || hardness.map(|_| ()).ok_or(missing("hardness (or yield_stress, H = 3 σ_y)"));
+        let law = match closure {
+            Closure::Published => {
+                regimes()?;
+                Law::Linear { coefficient: PUBLISHED, area_ratio: 1.0 }
+            }
+            Closure::Fitted => {
+                let c = calibration()?.c;
+                regimes()?;
+                Law::Linear { coefficient: c, area_ratio: 1.0 }
+            }
+            Closure::Sneddon => Law::Linear { coefficient: 2.0 / (PI * PI), area_ratio: 4.0 / (PI * PI) },
+            Closure::Johnson => {
+                let hardness = hardness.ok_or(missing("hardness or yield_stress"))?;
+                Law::Johnson { yield_stress: material.yield_stress.map_or(hardness / 3.0, |y| y.0), hardness }
+            }
+            Closure::Calibrated => {
+                let coefficient = calibration()?.clone();
+                let yield_stress = material.yield_stress.ok_or(missing("yield_stress"))?.0;
+                let exponent = material.hardening_exponent.ok_or(missing("hardening_exponent"))?;
+                let law = material.hardening_law.unwrap_or(coefficient.law);
+                if law != coefficient.law {
+                    return Err(ClosureError::Law {
+                        calibrated: coefficient.law.name(),
+                        material: law.name(),
+                    });
+                }
+                let youngs_modulus = material.youngs_modulus.0;
+                Law::Calibrated {
+                    hardening: Hardening { law, yield_stress, exponent, youngs_modulus },
+                    coefficient,
+                }
+            }
+        };
+        Ok(ClosureLaw {
+            closure,
+            material: *material,
+            modulus: material.elastic().reduced_modulus(),
+            hardness,
+            law,
+        })
+    }
+
+    /// Force per E* and unit of ∫|∇h|dA, and contact area per island area, of a closure linear in tan β.
+    pub fn linear(&self) -> Option<(f64, f64)> {
+        match self.law {
+            Law::Linear { coefficient, area_ratio } => Some((coefficient, area_ratio)),
+            _ => None,
+        }
+    }
+
+    /// E*, in Pa.
+    pub fn reduced_modulus(&self) -> f64 {
+        self.modulus
+    }
+
+    /// H, or 3 σ_y where only that is known (eq. [20]).
+    pub fn hardness(&self) -> Option<f64> {
+        self.hardness
+    }
+
+    /// Whether unloading returns all the work: closures without a limit of pressure.
+    pub fn returns_everything(&self) -> bool {
+        self.linear().is_some()
+    }
+
+    /// Pressure, area and regime of an island of mean gradient `tan_beta`.
+    pub fn respond(&self, tan_beta: f64) -> Response {
+        match &self.law {
+            Law::Linear { coefficient, area_ratio } => {
+                let island_pressure = coefficient * self.modulus * tan_beta;
+                Response {
+                    island_pressure,
+                    area_ratio: *area_ratio,
+                    regime: self.regime(island_pressure / area_ratio),
+                    inside: true,
+                }
+            }
+            Law::Johnson { yield_stress, hardness } => self.johnson(tan_beta, *yield_stress, *hardness),
+            Law::Calibrated { hardening, coefficient } => self.calibrated(tan_beta, hardening, coefficient),
+        }
+    }
+
+    /// Regime by p/H with the printed thresholds; elastic where no hardness is known.
+    fn regime(&self, pressure: f64) -> Regime {
+        let index = self.hardness.map_or(0.0, |h| pressure / h);
+        if index < THRESHOLDS[0] {
+            Regime::Elastic
+        } else if index <= THRESHOLDS[1] {
+            Regime::Elastoplastic
+        } else {
+            Regime::Plastic
+        }
+    }
+
+    fn johnson(&self, tan_beta: f64, yield_stress: f64, hardness: f64) -> Response {
+        let nu = self.material.poissons_ratio;
+        let x = self.material.youngs_modulus.0 * tan_beta / yield_stress;
+        let elastic = JOHNSON_ELASTIC * self.modulus * tan_beta;
+        let argument = (x + 4.0 * (1.0 - 2.0 * nu)) / (6.0 * (1.0 - nu));
+        let log = if argument > 0.0 { argument.ln() } else { f64::NEG_INFINITY };
+        let first = 2.0 / 3.0 * yield_stress;
+        let cavity = first.max(first * (1.0 + log));
+        let island_pressure = elastic.min(cavity).min(hardness);
+        let regime = if elastic <= cavity.min(hardness) {
+            Regime::Elastic
+        } else if cavity < hardness {
+            Regime::Elastoplastic
+        } else {
+            Regime::Plastic
+        };
+        Response { island_pressure, area_ratio: 1.0, regime, inside: true }
+    }
+
+    fn calibrated(&self, tan_beta: f64, hardening: &Hardening, coefficient: &Coefficient) -> Response {
+        if tan_beta <= 0.0 {
+            return Response {
+                island_pressure: 0.0,
+                area_ratio: 4.0 / (PI * PI),
+                regime: Regime::Elastic,
+                inside: false,
+            };
+        }
+        let stress = hardening.representative_stress(coefficient.c * tan_beta);
+        let cone = coefficient.cone(tan_beta, self.modulus / stress);
+        let area_ratio = cone.contact_ratio * cone.contact_ratio;
+        let island_pressure = stress * island_pressure(&cone, tan_beta);
+        Response {
+            island_pressure,
+            area_ratio,
+            regime: self.regime(island_pressure / area_ratio),
+            inside: cone.inside,
+        }
+    }
+
+    /// Elastic pressure of the closure on its contact area at slope `tan_beta`, for the plasticity index (eq. [13]).
+    pub fn elastic_pressure(&self, tan_beta: f64) -> f64 {
+        let coefficient = match &self.law {
+            Law::Linear { coefficient, area_ratio } => coefficient / area_ratio,
+            Law::Johnson { .. } => JOHNSON_ELASTIC,
+            Law::Calibrated { .. } => 0.5, // Sneddon's, on the contact area
+        };
+        coefficient * self.modulus * tan_beta
+    }
+
+    /// Exponent m of unloading, from the calibration where there is one.
+    pub fn unloading_exponent(&self, coefficient: Option<&Coefficient>) -> f64 {
+        coefficient.map_or(SINGLE_ASPERITY_EXPONENT, |c| c.unloading_exponent)
+    }
+}
+
+/// Unloading exponent of the paper's single asperity (tip 10 µm, 10°) unloaded from 5 µm.
+pub const SINGLE_ASPERITY_EXPONENT: f64 = 1.22;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use asperity_law::HardeningLaw;
+    use asperity_law::units::Stress;
+
+    fn steel() -> Material {
+        Material {
+            youngs_modulus: Stress(210e3),
+            poissons_ratio: 0.3,
+            hardness: Some(Stress(1280.0)),
+            yield_stress: None,
+            hardening_exponent: None,
+            hardening_law: None,
+        }
+    }
+
+    /// The paper's Table 1 slopes: arithmetic of eqs [11], [13], and of [18]-[20] mended, for E 210 GPa, ν 0.3, H 1280 MPa.
+    #[test]
+    fn pressures_at_the_slopes_of_table_1() {
+        let model = |c| ClosureLaw::new(c, &steel(), None).unwrap();
+        for (tan, published, index, johnson) in [
+            (0.02741, 822.0, 0.642, 648.2),
+            (0.07133, 2140.0, 1.672, 901.1),
+            (0.20127, 6038.0, 4.717, 1188.0),
+        ] {
+            let p = model(Closure::Published).respond(tan).island_pressure;
+            assert!((p / published - 1.0).abs() < 1e-3);
+            assert!((model(Closure::Published).elastic_pressure(tan) / 1280.0 / index - 1.0).abs() < 1e-3);
+            let p = model(Closure::Johnson).respond(tan).island_pressure;
+            assert!((p / johnson - 1.0).abs() < 1e-3, "{p} {johnson}");
+        }
+    }
+
+    #[test]
+    fn johnson_is_continuous_monotone_and_capped() {
+        let model = ClosureLaw::new(Closure::Johnson, &steel(), None).unwrap();
+        let mut last = 0.0;
+        for i in 0..4000 {
+            let tan = 1e-5 * 1.003f64.powi(i);
+            let p = model.respond(tan).island_pressure;
+            assert!(p >= last && p <= 1280.0 && (i < 1 || p - last < 0.0031 * p.max(1e-3)));
+            last = p;
+        }
+        assert_eq!(last, 1280.0);
+        assert_eq!(model.respond(1.0).regime, Regime::Plastic);
+        assert_eq!(model.respond(1e-3).regime, Regime::Elastic);
+    }
+
+    #[test]
+    fn a_closure_without_its_material_says_what_it_needs() {
+        let bare = Material { hardness: None, ..steel() };
+        for closure in Closure::ALL {
+            let answer = ClosureLaw::new(closure, &bare, None);
+            assert_eq!(answer.is_ok(), closure == Closure::Sneddon, "{closure:?}");
+        }
+        let table = crate::contact::coefficient::tests::master_curve();
+        let material =
+            Material { yield_stress: Some(Stress(300.0)), hardening_exponent: Some(0.3), ..steel() };
+        let model = ClosureLaw::new(Closure::Calibrated, &material, Some(&table)).unwrap();
+        // elastic limit: Sneddon's cone
+        let soft = model.respond(1e-5);
+        assert!((soft.island_pressure / (2.0 / PI / PI * 210e3 / 0.91 * 1e-5) - 1.0).abs() < 1e-6);
+        assert!((soft.area_ratio - 4.0 / PI / PI).abs() < 1e-6);
+        let swift = Material { hardening_law: Some(HardeningLaw::Swift), ..material };
+        assert!(matches!(
+            ClosureLaw::new(Closure::Calibrated, &swift, Some(&table)),
+            Err(ClosureError::Law { .. })
+        ));
+    }
+}

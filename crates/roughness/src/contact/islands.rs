@@ -1,0 +1,427 @@
+//! Islands: the connected parts of the surface above a plane.
+//!
+//! 1. Every row of nodes is cut into runs of neighbouring nodes above the plane.
+//! 2. Every cell with a corner above joins the runs of its corners and gives its area above to one of them. (In a
+//!    cell whose middle is not above, two diagonal corners stay apart and each takes the triangles beside it.)
+//! 3. UnionFind runs are one island. A periodic map also joins across its edges, and then each run remembers how many
+//!    periods it lies from its island's first run.
+
+mod runs;
+mod union_find;
+
+use super::bearing_area::Above;
+use super::ellipse::Ellipse;
+use crate::surface::cells::{self, Moments};
+use crate::surface::height_map::HeightMap;
+use rayon::prelude::*;
+use runs::Cursor;
+pub(crate) use runs::Runs;
+use union_find::{Meeting, UnionFind};
+
+/// A connected part of the surface above the plane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Island {
+    /// Exact projected area A_j, in m².
+    pub area: f64,
+    /// tan β_j = mean of |∇h| over the island.
+    pub slope: f64,
+    /// d_j: highest node above the plane, in metres.
+    pub approach: f64,
+    /// Ellipse of equal area and equal second moments, where there is one.
+    pub ellipse: Option<Ellipse>,
+}
+
+/// A run's island, and how many periods the run lies from the first run of it.
+#[derive(Clone, Copy, Debug)]
+struct Home {
+    island: u32,
+    shift: [i32; 2],
+}
+
+/// Part of a cell that belongs to one island.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Piece {
+    /// Row and column of the cell.
+    pub cell: [u32; 2],
+    /// The island it belongs to.
+    pub island: u32,
+    /// Area above the plane, in cells.
+    pub area: f64,
+    /// Where corner 0 of the cell lies, in pixels; beyond the edge where a periodic island goes on there.
+    pub offset: [f64; 2],
+}
+
+/// All islands above a plane.
+#[derive(Clone, Debug)]
+pub struct Islands {
+    /// The plane's height in metres.
+    pub plane: f64,
+    /// The islands, in the order of their first node.
+    pub islands: Vec<Island>,
+    runs: Runs,
+    homes: Vec<Home>,
+}
+
+/// An island in the making: moments about the first node of run `root`.
+struct Sum {
+    moments: Moments,
+    high: f64,
+    endless: bool,
+    root: usize,
+}
+
+/// Cells of one row that belong to a run.
+enum Visit<'a> {
+    /// Neighbouring cells wholly above the plane, the run along their lower side.
+    Whole {
+        run: u32,
+        /// First of the cells.
+        cell: [u32; 2],
+        /// Heights of the nodes below and above them, one more than there are cells.
+        nodes: [&'a [f64]; 2],
+    },
+    /// Some of the triangles of a cell.
+    Part {
+        run: u32,
+        /// Where corner 0 lies from the first node of the run.
+        offset: [i32; 2],
+        cell: [u32; 2],
+        corners: [f64; 4],
+        sides: u8,
+    },
+}
+
+/// Quantity that is summed over the cells of a run.
+trait Tally: Clone + Default + Send {
+    /// Adds what cells of one row bring; `start` is the column of the first node of the run.
+    fn visit(&mut self, visit: &Visit, start: u32, inverse_pixel: [f64; 2]);
+
+    /// Adds another part of the same run.
+    fn join(&mut self, other: &Self);
+}
+
+impl Tally for Above {
+    fn visit(&mut self, visit: &Visit, _: u32, inverse_pixel: [f64; 2]) {
+        match visit {
+            Visit::Whole { nodes: [low, high], .. } => {
+                self.area += (low.len() - 1) as f64;
+                self.slope_area += cells::whole_slopes(low, high, inverse_pixel);
+            }
+            Visit::Part { corners, sides, .. } => {
+                let (area, slope_area) = part_above(corners, *sides, inverse_pixel);
+                self.area += area;
+                self.slope_area += slope_area;
+            }
+        }
+    }
+
+    fn join(&mut self, other: &Above) {
+        self.area += other.area;
+        self.slope_area += other.slope_area;
+    }
+}
+
+/// The moments of a run are about its first node.
+impl Tally for Moments {
+    fn visit(&mut self, visit: &Visit, start: u32, inverse_pixel: [f64; 2]) {
+        match visit {
+            Visit::Whole { cell, nodes: [low, high], .. } => {
+                for (i, (a, b)) in low.windows(2).zip(high.windows(2)).enumerate() {
+                    let slope = cells::mean_gradient(&[a[0], a[1], b[1], b[0]], inverse_pixel);
+                    let x = f64::from(cell[1] - start) + i as f64;
+                    self.add(&Moments::of_cell(slope).moved(x, 0.0));
+                }
+            }
+            Visit::Part { corners, sides, offset, .. } => {
+                let m = cells::moments_above(corners, *sides, inverse_pixel);
+                self.add(&m.moved(f64::from(offset[0]), f64::from(offset[1])));
+            }
+        }
+    }
+
+    fn join(&mut self, other: &Moments) {
+        self.add(other);
+    }
+}
+
+impl Visit<'_> {
+    fn run(&self) -> usize {
+        match self {
+            Visit::Whole { run, .. } | Visit::Part { run, .. } => *run as usize,
+        }
+    }
+}
+
+impl Islands {
+    /// The islands of `map` above `plane` (m).
+    pub fn above(map: &HeightMap, plane: f64) -> Islands {
+        let runs = Runs::above(map, plane);
+        let mut islands = Islands { plane, islands: Vec::new(), runs, homes: Vec::new() };
+        let (moments, meetings) = islands.sums::<Moments>(map);
+        let forest = UnionFind::new(islands.runs.list.len(), &meetings);
+        islands.collect(map, &moments, forest);
+        islands
+    }
+
+    /// Area and slope integral alone of every island above `plane`, in cells, from the runs above it.
+    pub(crate) fn sizes(map: &HeightMap, plane: f64, runs: Runs) -> Vec<Above> {
+        let islands = Islands { plane, islands: Vec::new(), runs, homes: Vec::new() };
+        let (mut sums, meetings) = islands.sums::<Above>(map);
+        let forest = UnionFind::new(sums.len(), &meetings);
+        // a root is the first run of its island
+        for run in 0..sums.len() {
+            let (root, _) = forest.root(run);
+            if root != run {
+                let sum = sums[run];
+                sums[root].join(&sum);
+                sums[run] = Above::default();
+            }
+        }
+        sums.retain(|sum| sum.area > 0.0);
+        sums
+    }
+
+    /// Sums per run, and which runs meet; in the order of the rows.
+    fn sums<T: Tally>(&self, map: &HeightMap) -> (Vec<T>, Vec<Meeting>) {
+        let inverse_pixel = map.pixel().map(|p| 1.0 / p);
+        let parts: Vec<_> = map
+            .chunks()
+            .into_par_iter()
+            .map(|(first, end)| {
+                // runs of the rows first..=end; the last row of a periodic map meets row 0, kept apart at the end
+                let base = self.runs.first[first];
+                let last = self.runs.first[(end + 1).min(map.rows())];
+                let wrapped = if end == map.rows() { self.runs.first[1] } else { 0 };
+                let mut sums = vec![T::default(); last - base + wrapped];
+                let mut meetings: Vec<Meeting> = Vec::new();
+                for row in first..end {
+                    let slot = |run: usize| {
+                        if run >= base && run < last { run - base } else { last - base + run }
+                    };
+                    self.visit_row(
+                        map,
+                        row,
+                        |meeting| {
+                            if meetings.last() != Some(&meeting) {
+                                meetings.push(meeting);
+                            }
+                        },
+                        |visit| {
+                            let run = visit.run();
+                            sums[slot(run)].visit(&visit, self.runs.list[run].start, inverse_pixel);
+                        },
+                    );
+                }
+                (base, last, sums, meetings)
+            })
+            .collect();
+        let mut total = vec![T::default(); self.runs.list.len()];
+        let mut all = Vec::new();
+        for (base, last, sums, meetings) in parts {
+            let (inside, wrapped) = sums.split_at(last - base);
+            total[base..last].iter_mut().zip(inside).for_each(|(t, s)| t.join(s));
+            total.iter_mut().zip(wrapped).for_each(|(t, s)| t.join(s));
+            all.extend(meetings);
+        }
+        (total, all)
+    }
+
+    /// Walks the cells of cell row `row` that have a corner above the plane.
+    fn visit_row(
+        &self,
+        map: &HeightMap,
+        row: usize,
+        mut meet: impl FnMut(Meeting),
+        mut add: impl FnMut(Visit<'_>),
+    ) {
+        let wrap_row = row + 1 == map.rows();
+        let next_row = if wrap_row { 0 } else { row + 1 };
+        let (low, high) = (map.row(row), map.row(next_row));
+        let mut below = Cursor::new(&self.runs, row);
+        let mut over = Cursor::new(&self.runs, next_row);
+        let cells = map.cell_columns();
+        let columns = map.columns();
+        let mut column = 0;
+        // a run that starts in column 0 of a periodic map is also met by the last cell of the row
+        let wraps = |cursor: &Cursor| map.periodic() && cursor.runs.first().is_some_and(|r| r.start == 0);
+        let mut last_cell = wraps(&below) || wraps(&over);
+        loop {
+            // the next cell that a run of either row reaches
+            let reach = match (below.reach(column), over.reach(column)) {
+                (Some(a), Some(b)) => Some(a.min(b)),
+                (a, b) => a.or(b),
+            };
+            column = match reach {
+                Some(c) if c < cells => c,
+                _ if last_cell && column < cells => cells - 1,
+                _ => break,
+            };
+            if let (Some(r0), Some(r3)) = (below.at(column), over.at(column)) {
+                let end = self.runs.list[r0 as usize].end.min(self.runs.list[r3 as usize].end) as usize;
+                if column + 1 < end {
+                    // nodes column..end of both rows are above, and so are the cells between them
+                    let shift = [0, i32::from(wrap_row)];
+                    meet(Meeting { a: r0, b: r3, shift });
+                    add(Visit::Whole {
+                        run: r0,
+                        cell: [row as u32, column as u32],
+                        nodes: [&low[column..end], &high[column..end]],
+                    });
+                    column = end - 1;
+                    continue;
+                }
+            }
+            if column + 1 == cells {
+                last_cell = false;
+            }
+            let wrap_column = column + 1 == columns;
+            let next = if wrap_column { 0 } else { column + 1 };
+            let corners = [low[column], low[next], high[next], high[column]].map(|z| z - self.plane);
+            let at_next = |cursor: &mut Cursor| if wrap_column { cursor.first() } else { cursor.at(next) };
+            let (r0, r3) = (below.at(column), over.at(column));
+            let runs = [r0, at_next(&mut below), at_next(&mut over), r3];
+            column += 1;
+            if corners.iter().any(|z| z.is_nan()) {
+                continue;
+            }
+            let periods = |corner: usize| {
+                [i32::from(wrap_column && (corner == 1 || corner == 2)), i32::from(wrap_row && corner >= 2)]
+            };
+            let run_of = |corner: usize| runs[corner];
+            let mut visit = |corner: usize, sides: u8| {
+                if let Some(run) = run_of(corner) {
+                    let node = [if corner == 1 || corner == 2 { next } else { column - 1 }, 0];
+                    let (cx, cy) = (i32::from(corner == 1 || corner == 2), i32::from(corner >= 2));
+                    let start = self.runs.list[run as usize].start as i32;
+                    add(Visit::Part {
+                        run,
+                        offset: [node[0] as i32 - cx - start, -cy],
+                        cell: [row as u32, (column - 1) as u32],
+                        corners,
+                        sides,
+                    });
+                }
+            };
+            let up = corners.map(|z| z > 0.0);
+            let saddle = up[0] == up[2] && up[1] == up[3] && up[0] != up[1] && cells::centre(&corners) <= 0.0;
+            if saddle {
+                let (one, other) = if up[0] { (0, 2) } else { (1, 3) };
+                for corner in [one, other] {
+                    visit(corner, (1 << corner) | (1 << ((corner + 3) % 4)));
+                }
+                continue;
+            }
+            let Some(first) = (0..4).find(|c| up[*c]) else { continue };
+            visit(first, 15);
+            for corner in first + 1..4 {
+                if let (true, Some(a), Some(b)) = (up[corner], run_of(first), run_of(corner)) {
+                    let (p, q) = (periods(first), periods(corner));
+                    let shift = [q[0] - p[0], q[1] - p[1]];
+                    if a != b || shift != [0, 0] {
+                        meet(Meeting { a, b, shift });
+                    }
+                }
+            }
+        }
+    }
+
+    /// Turns joined runs into islands; runs that no cell holds are dropped.
+    fn collect(&mut self, map: &HeightMap, moments: &[Moments], forest: UnionFind) {
+        let mut number = vec![u32::MAX; self.runs.list.len()];
+        let mut sums: Vec<Sum> = Vec::new();
+        self.homes = Vec::with_capacity(self.runs.list.len());
+        let size = [map.columns() as i64, map.rows() as i64];
+        for (run, sum) in moments.iter().enumerate() {
+            let (root, shift) = forest.root(run);
+            if number[root] == u32::MAX {
+                number[root] = sums.len() as u32;
+                sums.push(Sum {
+                    moments: Moments::default(),
+                    high: f64::NEG_INFINITY,
+                    endless: forest.endless[root],
+                    root,
+                });
+            }
+            let home = Home { island: number[root], shift };
+            let target = &mut sums[home.island as usize];
+            let d = self.offset_from(run, root, shift, size);
+            target.moments.add(&sum.moved(d[0], d[1]));
+            target.high = target.high.max(self.runs.list[run].high);
+            self.homes.push(home);
+        }
+        self.number(map, sums);
+    }
+
+    /// Where the first node of `run` lies from the first node of run `root`, in pixels.
+    fn offset_from(&self, run: usize, root: usize, shift: [i32; 2], size: [i64; 2]) -> [f64; 2] {
+        let (a, b) = (self.runs.list[run], self.runs.list[root]);
+        [
+            (i64::from(a.start) - i64::from(b.start) + i64::from(shift[0]) * size[0]) as f64,
+            (i64::from(a.row) - i64::from(b.row) + i64::from(shift[1]) * size[1]) as f64,
+        ]
+    }
+
+    fn number(&mut self, map: &HeightMap, sums: Vec<Sum>) {
+        let mut kept = vec![u32::MAX; sums.len()];
+        for (old, Sum { moments, high, endless, root }) in sums.into_iter().enumerate() {
+            if moments.area > 0.0 {
+                kept[old] = self.islands.len() as u32;
+                let origin = [self.runs.list[root].start, self.runs.list[root].row].map(f64::from);
+                self.islands.push(Island {
+                    area: moments.area * map.cell_area(),
+                    slope: moments.slope_area / moments.area,
+                    approach: high - self.plane,
+                    ellipse: if endless { None } else { Ellipse::of(&moments, origin, map.pixel()) },
+                });
+            }
+        }
+        self.homes.iter_mut().for_each(|home| home.island = kept[home.island as usize]);
+    }
+
+    /// The pieces of the islands of cell row `row`, from left to right; pieces of one cell follow each other.
+    pub(crate) fn pieces(&self, map: &HeightMap, row: usize, mut each: impl FnMut(Piece)) {
+        let inverse_pixel = map.pixel().map(|p| 1.0 / p);
+        let size = [map.columns() as i64, map.rows() as i64];
+        self.visit_row(
+            map,
+            row,
+            |_| {},
+            |visit| {
+                let home = self.homes[visit.run()];
+                if home.island == u32::MAX {
+                    return;
+                }
+                let run = self.runs.list[visit.run()];
+                let origin = [
+                    i64::from(run.start) + i64::from(home.shift[0]) * size[0],
+                    i64::from(run.row) + i64::from(home.shift[1]) * size[1],
+                ];
+                let mut piece = |cell: [u32; 2], from_run: [i64; 2], area: f64| {
+                    let offset = [0, 1].map(|axis| (origin[axis] + from_run[axis]) as f64);
+                    each(Piece { cell, island: home.island, area, offset });
+                };
+                match visit {
+                    Visit::Whole { cell: [row, first], nodes, .. } => {
+                        for column in first..first + nodes[0].len() as u32 - 1 {
+                            piece([row, column], [i64::from(column) - i64::from(run.start), 0], 1.0);
+                        }
+                    }
+                    Visit::Part { cell, offset, corners, sides, .. } => {
+                        let (area, _) = part_above(&corners, sides, inverse_pixel);
+                        piece(cell, offset.map(i64::from), area);
+                    }
+                }
+            },
+        );
+    }
+}
+
+/// Area and slope integral above 0 of the triangles named by `sides`.
+fn part_above(corners: &[f64; 4], sides: u8, inverse_pixel: [f64; 2]) -> (f64, f64) {
+    if sides == 15 {
+        cells::above(corners, inverse_pixel)
+    } else {
+        let m = cells::moments_above(corners, sides, inverse_pixel);
+        (m.area, m.slope_area)
+    }
+}

@@ -1,0 +1,38 @@
+use asperity_law::units::Stress;
+use asperity_law::{Elastic, HardeningLaw};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// The material of the rough body; closures need different parts of it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Material {
+    /// Young's modulus E.
+    #[schemars(example = "210 GPa")]
+    pub youngs_modulus: Stress,
+    /// Poisson's ratio ν.
+    #[schemars(extend("exclusiveMinimum" = -1, "exclusiveMaximum" = 0.5))]
+    pub poissons_ratio: f64,
+    /// Hardness H.
+    #[schemars(example = "1280 MPa")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub hardness: Option<Stress>,
+    /// Yield stress σ_y.
+    #[schemars(example = "300 MPa")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub yield_stress: Option<Stress>,
+    /// Hardening exponent n.
+    #[schemars(extend("minimum" = 0, "exclusiveMaximum" = 1))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub hardening_exponent: Option<f64>,
+    /// Hardening law, by default that of the calibration.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub hardening_law: Option<HardeningLaw>,
+}
+
+impl Material {
+    /// Elastic constants, in Pa.
+    pub fn elastic(&self) -> Elastic {
+        Elastic { youngs_modulus: self.youngs_modulus.0, poissons_ratio: self.poissons_ratio }
+    }
+}

@@ -1,0 +1,191 @@
+//! The tables of a rough scene, the checks of their values, and the surface they describe.
+
+mod error;
+
+mod generate;
+mod surface;
+
+pub use error::SceneError;
+pub use generate::GenerateScene;
+pub use surface::{HeightUnit, Missing, SurfaceScene};
+
+use crate::contact::closures::Closure;
+use crate::contact::material::Material;
+use crate::contact::press::Load;
+use crate::contact::pressure::PressureProfile;
+use asperity_law::units::{Length, Stress};
+use error::error;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::path::PathBuf;
+
+/// A rough surface under a rigid plane.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(title = "A scene of `asperity rough`")]
+pub struct Scene {
+    /// Which closure, or all.
+    pub closure: Choice,
+    /// Result of a calibration, for "fitted" and "calibrated".
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub coefficient: Option<PathBuf>,
+    /// How the pressure of an island is spread.
+    #[serde(default = "hertz")]
+    pub pressure_profile: PressureProfile,
+    /// The surface.
+    pub surface: SurfaceScene,
+    /// Its material.
+    pub material: Material,
+    /// Its load.
+    pub load: LoadScene,
+    /// Output files.
+    #[serde(default)]
+    pub output: Output,
+}
+
+fn hertz() -> PressureProfile {
+    PressureProfile::Hertz
+}
+
+/// One closure or all.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Choice {
+    /// Eqs [10]-[12].
+    Published,
+    /// The same law with the calibration's coefficient.
+    Fitted,
+    /// Eqs [18]-[20], mended.
+    Johnson,
+    /// The exact elastic cone.
+    Sneddon,
+    /// The calibrated elastoplastic cone.
+    Calibrated,
+    /// Every closure the material allows.
+    All,
+}
+
+impl Choice {
+    /// The closures chosen, in the order of the tables.
+    pub fn closures(self) -> Vec<Closure> {
+        match self {
+            Choice::Published => vec![Closure::Published],
+            Choice::Fitted => vec![Closure::Fitted],
+            Choice::Johnson => vec![Closure::Johnson],
+            Choice::Sneddon => vec![Closure::Sneddon],
+            Choice::Calibrated => vec![Closure::Calibrated],
+            Choice::All => Closure::ALL.to_vec(),
+        }
+    }
+}
+
+/// Load of the plane: exactly one of pressure and separation.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LoadScene {
+    /// Nominal pressure.
+    #[schemars(example = "200 MPa")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pressure: Option<Stress>,
+    /// Separation from the mean plane.
+    #[schemars(example = "1 um")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub separation: Option<Length>,
+    /// Whether the load is taken off again.
+    #[serde(default)]
+    pub unload: bool,
+}
+
+/// Output files.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Output {
+    /// Pictures and .vti of pressure and contact.
+    #[serde(default = "yes")]
+    pub maps: bool,
+    /// The surface as pressed (levelled, filtered), as surface.x3p or surface.npy.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub surface: Option<SurfaceFormat>,
+}
+
+/// Formats in which a surface is written; both in metres.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum SurfaceFormat {
+    /// ISO 25178-72.
+    X3p,
+    /// NumPy array of f64, axis 0 = y.
+    Npy,
+}
+
+impl Default for Output {
+    fn default() -> Self {
+        Output { maps: true, surface: None }
+    }
+}
+
+fn yes() -> bool {
+    true
+}
+
+impl Scene {
+    /// Checks every value that can be checked without reading files.
+    ///
+    /// # Errors
+    /// The first value that makes no sense, by the path of its key.
+    pub fn validate(&self) -> Result<(), SceneError> {
+        check_material(&self.material)?;
+        self.load.load()?;
+        self.surface.validate()
+    }
+}
+
+fn check_material(material: &Material) -> Result<(), SceneError> {
+    let (e, nu) = (material.youngs_modulus, material.poissons_ratio);
+    if e.0.is_nan() || e.0 <= 0.0 {
+        let message = format!("{e} must be above 0, for example \"210 GPa\"");
+        return error("material.youngs_modulus", message);
+    }
+    if !(nu > -1.0 && nu < 0.5) {
+        let message = format!("{nu} must be above -1 and below 0.5, for example 0.3");
+        return error("material.poissons_ratio", message);
+    }
+    let strengths = [
+        ("material.yield_stress", material.yield_stress, e.0 / 5.0),
+        ("material.hardness", material.hardness, e.0),
+    ];
+    for (path, value, most) in strengths {
+        if let Some(v) = value.filter(|v| !(v.0 > 0.0 && v.0 <= most)) {
+            let message = format!("{v} must be above 0 and at most {most:?} Pa: check its unit");
+            return error(path, message);
+        }
+    }
+    match material.hardening_exponent {
+        Some(n) if !(0.0..1.0).contains(&n) => {
+            let message = format!("{n} must be at least 0 and below 1, for example 0.3");
+            error("material.hardening_exponent", message)
+        }
+        _ => Ok(()),
+    }
+}
+
+impl LoadScene {
+    /// The load, in SI.
+    ///
+    /// # Errors
+    /// Both, none, or a negative pressure.
+    pub fn load(&self) -> Result<Load, SceneError> {
+        match (self.pressure, self.separation) {
+            (Some(p), None) if p.0 >= 0.0 => Ok(Load::Pressure(p.0)),
+            (Some(p), None) => {
+                error("load.pressure", format!("{p} must be 0 or above (compression counts positive)"))
+            }
+            (None, Some(d)) => Ok(Load::Separation(d.0)),
+            (None, None) => error("load", "give pressure = \"200 MPa\" or separation = \"1 um\""),
+            (Some(_), Some(_)) => error("load.separation", "give either pressure or separation, not both"),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

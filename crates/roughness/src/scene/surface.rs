@@ -1,0 +1,241 @@
+use super::error::{SceneError, error};
+use super::generate::GenerateScene;
+use crate::surface::filter;
+use crate::surface::formats::{self, Measured, Spacing};
+use crate::surface::generate;
+use crate::surface::height_map::HeightMap;
+use crate::surface::level::{self, Levelling};
+use crate::surface::ready::Surface;
+use asperity_law::units::Length;
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use std::borrow::Cow;
+use std::path::{Path, PathBuf};
+
+/// Treatment of missing points.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Missing {
+    /// Cells with a missing corner are left out.
+    #[default]
+    Exclude,
+    /// Holes are closed smoothly from their rims.
+    Fill,
+}
+
+/// A unit of length by name, in metres.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HeightUnit {
+    name: String,
+    metres: f64,
+}
+
+impl JsonSchema for HeightUnit {
+    fn inline_schema() -> bool {
+        true
+    }
+    fn schema_name() -> Cow<'static, str> {
+        "HeightUnit".into()
+    }
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        let units: Vec<&str> = Length::UNITS.iter().map(|(unit, _)| *unit).collect();
+        json_schema!({"enum": units})
+    }
+}
+
+impl Serialize for HeightUnit {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(&self.name)
+    }
+}
+
+impl<'de> Deserialize<'de> for HeightUnit {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let name = String::deserialize(deserializer)?;
+        let unit = Length::UNITS.iter().find(|(unit, _)| *unit == name).ok_or_else(|| {
+            let known: Vec<&str> = Length::UNITS.iter().map(|(unit, _)| *unit).collect();
+            serde::de::Error::custom(format!(
+                "\"{name}\" is not a unit of length: use one of {}",
+                known.join(", ")
+            ))
+        })?;
+        Ok(HeightUnit { metres: unit.1, name })
+    }
+}
+
+/// Where the surface comes from and what is done to it before the contact.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SurfaceScene {
+    /// A file, relative to the scene.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub file: Option<PathBuf>,
+    /// Instead of a file.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub generate: Option<GenerateScene>,
+    /// Heights in memory instead of a file, for surfaces that a program holds.
+    #[serde(skip)]
+    pub heights: Option<Measured>,
+    /// Distance of the points along x and y, where the file does not say.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pixel_size: Option<[Length; 2]>,
+    /// Unit of the heights, where the file does not say.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub height_unit: Option<HeightUnit>,
+    /// Whether `pixel_size` and `height_unit` win over what the file says.
+    #[serde(default, rename = "override")]
+    pub override_file: bool,
+    /// Levelling: by default the plane from a file, nothing from a generated surface.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub level: Option<Levelling>,
+    /// Missing points.
+    #[serde(default)]
+    pub missing: Missing,
+    /// Cut-off of the Gaussian S-filter (removes what is shorter).
+    #[schemars(example = "5 um")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub s_filter: Option<Length>,
+    /// Cut-off of the Gaussian L-filter (removes what is longer).
+    #[schemars(example = "0.8 mm")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub l_filter: Option<Length>,
+    /// Whether the map is one period of an endless surface.
+    #[serde(default)]
+    pub periodic: bool,
+}
+
+impl SurfaceScene {
+    pub(super) fn validate(&self) -> Result<(), SceneError> {
+        let sources = [self.file.is_some(), self.heights.is_some(), self.generate.is_some()];
+        match sources.iter().filter(|given| **given).count() {
+            0 => return error("surface", "name a file, or add a [surface.generate] table"),
+            1 => {}
+            _ => return error("surface.file", "give either a file or [surface.generate], not both"),
+        }
+        if let Some(made) = &self.generate {
+            if self.pixel_size.is_some() {
+                let message = "a generated surface has size / pixels: remove pixel_size";
+                return error("surface.pixel_size", message);
+            }
+            if self.height_unit.is_some() {
+                let message = "a generated surface has its heights from ra: remove height_unit";
+                return error("surface.height_unit", message);
+            }
+            made.request()?;
+        }
+        for (path, length) in [("surface.s_filter", self.s_filter), ("surface.l_filter", self.l_filter)] {
+            if length.is_some_and(|l| l.0 <= 0.0) {
+                return error(path, "a cut-off must be above 0: leave the key out for no filter");
+            }
+        }
+        if let Some([x, y]) = self.pixel_size.filter(|p| p.iter().any(|l| l.0 <= 0.0)) {
+            let message = format!("{x} x {y} is not possible: both must be above 0");
+            return error("surface.pixel_size", message);
+        }
+        match (self.s_filter, self.l_filter) {
+            (Some(s), Some(l)) if s.0 >= l.0 => {
+                let message = format!("{s} must be below l_filter = {l}: else nothing is left");
+                error("surface.s_filter", message)
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Reads or makes the surface and prepares it: holes, S-filter, levelling, L-filter, in this order.
+    ///
+    /// `resolve` turns a path of the scene into one that can be opened.
+    ///
+    /// # Errors
+    /// A file that is no surface, units that are missing or contradict it, a filter that does not fit it.
+    pub fn prepare(&self, resolve: impl Fn(&Path) -> PathBuf) -> Result<Surface, SceneError> {
+        fn at<E: ToString>(path: &'static str) -> impl Fn(E) -> SceneError {
+            move |e| SceneError::new(path, e)
+        }
+        let source = if self.generate.is_some() { "surface.generate" } else { "surface.file" };
+        let map = match (&self.file, &self.heights, &self.generate) {
+            (Some(file), ..) => {
+                let path = resolve(file);
+                let measured = formats::read(&path)
+                    .map_err(|e| SceneError::new(source, format!("{}: {e}", path.display())))?;
+                self.in_metres(measured)?
+            }
+            (None, Some(measured), _) => self.in_metres(measured.clone())?,
+            (None, None, Some(made)) => {
+                let (kind, grid, target) = made.request()?;
+                generate::generate(kind, &grid, target).map_err(at(source))?
+            }
+            (None, None, None) => return error("surface", "name a file, or add a [surface.generate] table"),
+        };
+        let mut map = map.with_periodic(self.periodic);
+        let missing = map.missing();
+        let fill = self.missing == Missing::Fill;
+        if let Err(e) = map.extent()
+            && !(fill && missing < map.heights().len())
+        {
+            return error(source, e);
+        }
+        if fill {
+            map = filter::fill(&map).map_err(at("surface.missing"))?;
+        }
+        if let Some(cutoff) = self.s_filter {
+            map = filter::s_filter(&map, cutoff.0).map_err(at("surface.s_filter"))?;
+        }
+        let default = if self.generate.is_some() { Levelling::None } else { Levelling::Plane };
+        map = level::level(map, self.level.unwrap_or(default));
+        if let Some(cutoff) = self.l_filter {
+            map = filter::l_filter(&map, cutoff.0).map_err(at("surface.l_filter"))?;
+        }
+        let surface = Surface { missing, ..Surface::of(map).map_err(at(source))? };
+        let parameters = &surface.parameters;
+        if ![parameters.sa, parameters.sdq, parameters.mean].iter().all(|v| v.is_finite()) {
+            return error(source, "the heights are too large to compute with: check height_unit");
+        }
+        Ok(surface)
+    }
+
+    /// Heights in metres, the units that came with them checked against those of the scene.
+    fn in_metres(&self, measured: Measured) -> Result<HeightMap, SceneError> {
+        let same = |a: f64, b: f64| (a / b - 1.0).abs() <= 1e-4;
+        let unit = match (measured.height_unit, &self.height_unit) {
+            (Some(file), Some(scene)) if !same(file, scene.metres) && !self.override_file => {
+                let message = format!(
+                    "the file has its heights in units of {file} m, not {}: remove height_unit, or set override = true",
+                    scene.name
+                );
+                return error("surface.height_unit", message);
+            }
+            (_, Some(scene)) => scene.metres,
+            (Some(file), None) => file,
+            (None, None) => {
+                let message = "the file does not name the unit of its heights: add height_unit = \"um\"";
+                return error("surface", message);
+            }
+        };
+        let said = match measured.spacing {
+            Spacing::Unknown => None,
+            Spacing::Metres(p) => Some(p),
+            Spacing::HeightUnits(p) => Some(p.map(|v| v * unit)),
+        };
+        let pixel = match (said, self.pixel_size.map(|p| p.map(|l| l.0))) {
+            (Some([x, y]), Some([a, b])) if !(self.override_file || same(x, a) && same(y, b)) => {
+                let message = format!(
+                    "the file has pixels of {x:?} x {y:?} m, the scene says {a:?} x {b:?} m: remove pixel_size, or set \
+                     override = true"
+                );
+                return error("surface.pixel_size", message);
+            }
+            (_, Some(scene)) => scene,
+            (Some(file), None) => file,
+            (None, None) => {
+                let message = "the file does not say how far its points are apart: add pixel_size = [\"1 um\", \"1 um\"]";
+                return error("surface", message);
+            }
+        };
+        let mut heights = measured.heights;
+        if unit != 1.0 {
+            heights.iter_mut().for_each(|z| *z *= unit);
+        }
+        HeightMap::new(measured.columns, measured.rows, pixel, heights)
+            .map_err(|e| SceneError::new("surface.file", e))
+    }
+}

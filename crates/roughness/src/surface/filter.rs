@@ -1,0 +1,212 @@
+//! Gaussian areal filters (ISO 16610-61) and the filling of holes.
+
+use crate::surface::fft::{Complex64, Transform, transposed};
+use crate::surface::height_map::{HeightMap, MapError};
+use rayon::prelude::*;
+use std::f64::consts::{LN_2, PI};
+use thiserror::Error;
+
+/// Why a filter cannot be applied.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum FilterError {
+    /// The cut-off does not fit the map.
+    #[error(
+        "{name} = {cutoff_um} µm must be between two pixels ({least_um} µm) and the size of the map ({most_um} µm)"
+    )]
+    Cutoff {
+        /// Which filter.
+        name: &'static str,
+        /// Its cut-off, µm.
+        cutoff_um: f64,
+        /// Two pixels, µm.
+        least_um: f64,
+        /// The shorter side of the map, µm.
+        most_um: f64,
+    },
+    /// The result is no map.
+    #[error(transparent)]
+    Map(#[from] MapError),
+}
+
+/// Checks that a cut-off (m) is resolved by the pixels and fits the map.
+fn checked(map: &HeightMap, name: &'static str, cutoff: f64) -> Result<(), FilterError> {
+    let pixel = map.pixel();
+    let least = 2.0 * pixel[0].max(pixel[1]);
+    let most = (map.columns() as f64 * pixel[0]).min(map.rows() as f64 * pixel[1]);
+    if cutoff >= least && cutoff <= most {
+        return Ok(());
+    }
+    Err(FilterError::Cutoff { name, cutoff_um: cutoff * 1e6, least_um: least * 1e6, most_um: most * 1e6 })
+}
+
+/// S-filter: removes what is shorter than `cutoff` (m); a wave of that length keeps half its height.
+pub fn s_filter(map: &HeightMap, cutoff: f64) -> Result<HeightMap, FilterError> {
+    checked(map, "s_filter", cutoff)?;
+    Ok(map.with_heights(smoothed(map, cutoff))?)
+}
+
+/// L-filter: removes what is longer than `cutoff` (m); a wave of that length keeps half its height.
+pub fn l_filter(map: &HeightMap, cutoff: f64) -> Result<HeightMap, FilterError> {
+    checked(map, "l_filter", cutoff)?;
+    let waviness = smoothed(map, cutoff);
+    Ok(map.with_heights(map.heights().iter().zip(waviness).map(|(z, w)| z - w).collect())?)
+}
+
+/// Mean of the measured heights around each measured node, weighted by the Gaussian of `cutoff`.
+///
+/// Height and weight travel as real and imaginary part through the same convolution, along x and then along y;
+/// beyond an edge and in a hole the weight is 0, so that the mean is of what was measured.
+fn smoothed(map: &HeightMap, cutoff: f64) -> Vec<f64> {
+    let reference = map.heights().iter().copied().find(|z| !z.is_nan()).unwrap_or(0.0);
+    let data: Vec<Complex64> = map
+        .heights()
+        .par_iter()
+        .map(|z| if z.is_nan() { Complex64::new(0.0, 0.0) } else { Complex64::new(z - reference, 1.0) })
+        .collect();
+    let lines = convolved(data, map.columns(), cutoff / map.pixel()[0], map.periodic());
+    let lines =
+        convolved(transposed(&lines, map.columns()), map.rows(), cutoff / map.pixel()[1], map.periodic());
+    let mean = transposed(&lines, map.rows());
+    let restored =
+        |(z, mean): (&f64, &Complex64)| if z.is_nan() { f64::NAN } else { reference + mean.re / mean.im };
+    map.heights().par_iter().zip(&mean).map(restored).collect()
+}
+
+/// Every line of `length` numbers convolved with the Gaussian of `cutoff` (in pixels).
+fn convolved(mut data: Vec<Complex64>, length: usize, cutoff: f64, periodic: bool) -> Vec<Complex64> {
+    let alpha = (LN_2 / PI).sqrt();
+    // at one cut-off from its middle the weight is 7e-7
+    let reach = cutoff.ceil() as usize;
+    let padded = if periodic { length } else { length + reach };
+    let transform = Transform::new(padded);
+    let mut kernel = vec![Complex64::new(0.0, 0.0); padded];
+    let mut sum = 0.0;
+    for k in -(reach as i64)..=reach as i64 {
+        let u = k as f64 / (alpha * cutoff);
+        let weight = (-PI * u * u).exp();
+        kernel[k.rem_euclid(padded as i64) as usize] += weight;
+        sum += weight;
+    }
+    transform.forward(&mut kernel);
+    let scale = 1.0 / (sum * padded as f64);
+    data.par_chunks_mut(length).for_each_init(
+        || vec![Complex64::new(0.0, 0.0); padded],
+        |buffer, line| {
+            buffer[..length].copy_from_slice(line);
+            buffer[length..].fill(Complex64::new(0.0, 0.0));
+            transform.forward(buffer);
+            buffer.iter_mut().zip(&kernel).for_each(|(b, k)| *b *= k.re * scale);
+            transform.inverse(buffer);
+            line.copy_from_slice(&buffer[..length]);
+        },
+    );
+    data
+}
+
+/// Relaxation sweeps after the first fill.
+const SWEEPS: usize = 60;
+
+/// Fills the holes smoothly from their rims: coarser and coarser means, then relaxation towards the mean of the
+/// neighbours. A map without any height stays as it is.
+pub fn fill(map: &HeightMap) -> Result<HeightMap, MapError> {
+    if map.missing() == 0 || map.missing() == map.heights().len() {
+        return Ok(map.clone());
+    }
+    let (columns, rows) = (map.columns(), map.rows());
+    let mut heights = fill_from_coarser(map.heights(), columns, rows);
+    let holes: Vec<usize> = (0..heights.len()).filter(|i| map.heights()[*i].is_nan()).collect();
+    for _ in 0..SWEEPS {
+        for &i in &holes {
+            let (x, y) = (i % columns, i / columns);
+            let beside = [
+                (x > 0).then(|| heights[i - 1]),
+                (x + 1 < columns).then(|| heights[i + 1]),
+                (y > 0).then(|| heights[i - columns]),
+                (y + 1 < rows).then(|| heights[i + columns]),
+            ];
+            let (sum, n) = beside.iter().flatten().fold((0.0, 0.0), |(s, n), z| (s + z, n + 1.0));
+            if n > 0.0 {
+                heights[i] = sum / n;
+            }
+        }
+    }
+    map.with_heights(heights)
+}
+
+/// Heights with every hole filled from a map of half the size, in which a node is the mean of its measured four.
+fn fill_from_coarser(heights: &[f64], columns: usize, rows: usize) -> Vec<f64> {
+    if !heights.iter().any(|z| z.is_nan()) {
+        return heights.to_vec();
+    }
+    let (half_columns, half_rows) = (columns.div_ceil(2), rows.div_ceil(2));
+    let mut coarse = vec![(0.0, 0.0); half_columns * half_rows];
+    for (i, z) in heights.iter().enumerate().filter(|(_, z)| !z.is_nan()) {
+        let node = &mut coarse[i / columns / 2 * half_columns + i % columns / 2];
+        *node = (node.0 + z, node.1 + 1.0);
+    }
+    let coarse: Vec<f64> = coarse.iter().map(|(sum, n)| if *n > 0.0 { sum / n } else { f64::NAN }).collect();
+    let filled = fill_from_coarser(&coarse, half_columns, half_rows);
+    let restored = |(i, z): (usize, &f64)| {
+        if z.is_nan() { filled[i / columns / 2 * half_columns + i % columns / 2] } else { *z }
+    };
+    heights.iter().enumerate().map(restored).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn wave(length: usize, n: usize, holes: bool, periodic: bool) -> HeightMap {
+        let z = (0..n * 40).map(|i| {
+            let x = (i % n) as f64;
+            if holes && (i % 11 == 4 || x < 3.0) {
+                f64::NAN
+            } else {
+                3.0 + (std::f64::consts::TAU * x / length as f64).cos()
+            }
+        });
+        HeightMap::new(n, 40, [0.5, 0.5], z.collect()).unwrap().with_periodic(periodic)
+    }
+
+    /// ISO 16610-61: a wave of the cut-off length is halved, exp(-π (α λc/λ)²) in general.
+    #[test]
+    fn a_wave_keeps_the_share_of_the_standard() {
+        for (length, share) in [(16, 0.5), (32, 0.5f64.powf(0.25)), (8, 0.0625)] {
+            let map = wave(length, 128, false, true);
+            let smooth = s_filter(&map, 8.0).unwrap();
+            let rough = l_filter(&map, 8.0).unwrap();
+            for i in 0..128 {
+                let z = map.heights()[i] - 3.0;
+                assert!((smooth.heights()[i] - 3.0 - share * z).abs() < 2e-4, "{length}");
+                assert!((rough.heights()[i] - (1.0 - share) * z).abs() < 2e-4);
+            }
+        }
+    }
+
+    #[test]
+    fn edges_and_holes_neither_bend_a_constant_nor_spread() {
+        let flat = wave(16, 128, true, false)
+            .mapped(|_, row| row.iter_mut().filter(|z| !z.is_nan()).for_each(|z| *z = 7.0));
+        let smooth = s_filter(&flat, 8.0).unwrap();
+        assert_eq!(smooth.missing(), flat.missing());
+        assert!(smooth.heights().iter().filter(|z| !z.is_nan()).all(|z| (z - 7.0).abs() < 1e-12));
+        assert!(
+            s_filter(&flat, 0.9).is_err()
+                && l_filter(&flat, 1e3).is_err()
+                && l_filter(&flat, f64::NAN).is_err()
+        );
+    }
+
+    #[test]
+    fn holes_are_filled_between_their_rims() {
+        let map = wave(64, 128, true, false);
+        let filled = fill(&map).unwrap();
+        assert_eq!(filled.missing(), 0);
+        let whole = wave(64, 128, false, false);
+        let worst =
+            filled.heights().iter().zip(whole.heights()).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(worst < 0.1, "{worst}");
+        let none = HeightMap::new(2, 2, [1.0, 1.0], vec![f64::NAN; 4]).unwrap();
+        assert_eq!(fill(&none).unwrap().missing(), 4);
+    }
+}

@@ -1,0 +1,111 @@
+//! Digital Surf `.sur`: a header of 512 bytes, a comment, a private zone, 16- or 32-bit heights; little-endian.
+
+use super::bytes::{Bytes, Number};
+use super::measured::{Measured, ReadError, Spacing, nodes, positive};
+use flate2::read::ZlibDecoder;
+use std::io::Read;
+use std::path::Path;
+
+const HEADER: usize = 512;
+const FORMAT: &str = "sur";
+
+/// Metres per unit named in a header.
+pub(super) fn metres(unit: &str) -> Option<f64> {
+    match unit {
+        "m" => Some(1.0),
+        "cm" => Some(1e-2),
+        "mm" => Some(1e-3),
+        "µm" | "um" | "μm" | "\u{fffd}m" => Some(1e-6),
+        "nm" => Some(1e-9),
+        "pm" => Some(1e-12),
+        _ => None,
+    }
+}
+
+fn header_error(name: &'static str, value: impl ToString, allowed: &'static str) -> ReadError {
+    ReadError::header(FORMAT, name, value, allowed)
+}
+
+/// Reads a surface; profiles, series and pictures are refused.
+pub(super) fn read(path: &Path) -> Result<Measured, ReadError> {
+    let data = std::fs::read(path)?;
+    let header = Bytes { format: FORMAT, data: &data };
+    let compressed = header.text(0, 12)? == "DSCOMPRESSED";
+    let (byte_order, kind) = (header.i16(12)?, header.i16(18)?);
+    if byte_order != 0 {
+        return Err(header_error("format", byte_order, "only 0 (little-endian) is known"));
+    }
+    if kind != 2 {
+        return Err(header_error(
+            "object type",
+            kind,
+            "only a single surface (2) can be pressed, no profile, series, image or force curve",
+        ));
+    }
+    let objects = header.i16(14)?;
+    if objects > 1 {
+        let allowed = "only one can be pressed: export the heights alone";
+        return Err(header_error("number of objects", objects, allowed));
+    }
+    let special = header.i16(86)? == 1;
+    let number = match header.i16(98)? {
+        16 => Number::I16,
+        32 => Number::I32,
+        bits => return Err(header_error("size of points", bits, "it must be 16 or 32 bits")),
+    };
+    let lowest = f64::from(header.i32(100)?);
+    let (columns, rows) = (header.i32(108)?, header.i32(112)?);
+    let count = nodes(FORMAT, columns.max(0) as u64, rows.max(0) as u64)?;
+    let unit = |name: &'static str, offset: usize| {
+        let text = header.text(offset, 16)?;
+        metres(&text).ok_or_else(|| header_error(name, text, "it must be m, cm, mm, µm, nm or pm"))
+    };
+    let pixel = [
+        positive(FORMAT, "x step", header.f32(120)?.abs())? * unit("x step unit", 180)?,
+        positive(FORMAT, "y step", header.f32(124)?.abs())? * unit("y step unit", 196)?,
+    ];
+    let step = positive(FORMAT, "z step", header.f32(128)?)?;
+    let height_unit = unit("z step unit", 212)?;
+    let offset = header.f32(474)?;
+    let offset = if offset.is_finite() { offset } else { 0.0 };
+    let comment = usize::from(header.u16(334)?);
+    let private = usize::from(header.u16(336)?);
+    let start = HEADER + comment + private;
+    let size = count * number.size();
+    let unpacked;
+    let raw = if compressed {
+        unpacked = inflate(&header, start, size)?;
+        &unpacked[..]
+    } else {
+        header.slice("heights", start, size)?
+    };
+    let mut heights = number.decode_all(raw, count);
+    for z in &mut heights {
+        // a point that was not measured is stored two below the lowest
+        *z = if special && *z == lowest - 2.0 { f64::NAN } else { *z * step + offset };
+    }
+    let (columns, rows) = (columns as usize, rows as usize);
+    Ok(Measured { columns, rows, heights, spacing: Spacing::Metres(pixel), height_unit: Some(height_unit) })
+}
+
+/// Heights of a compressed file: a directory of zlib streams (unpacked length, packed length), then the streams.
+fn inflate(file: &Bytes, start: usize, size: usize) -> Result<Vec<u8>, ReadError> {
+    let streams = file.u32(start)? as usize;
+    let directory = file.slice("directory", start + 4, streams.saturating_mul(8))?;
+    let directory = Bytes { format: FORMAT, data: directory };
+    let mut at = start + 4 + streams * 8;
+    let mut out = Vec::new();
+    for stream in 0..streams {
+        let packed = directory.u32(8 * stream + 4)? as usize;
+        let raw = file.slice("compressed heights", at, packed)?;
+        // never more than the header's size, whatever the stream says
+        let room = (size - out.len()) as u64;
+        ZlibDecoder::new(raw).take(room).read_to_end(&mut out)?;
+        at += packed;
+    }
+    if out.len() < size {
+        let found = out.len() as u64;
+        return Err(ReadError::truncated(FORMAT, "heights", size as u64, found));
+    }
+    Ok(out)
+}

@@ -1,0 +1,261 @@
+use rayon::prelude::*;
+use thiserror::Error;
+
+/// Rows of cells that one task takes: fixed, so that sums come out the same for any number of threads.
+pub(crate) const ROWS_PER_CHUNK: usize = 32;
+
+/// Why numbers are not a height map.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum MapError {
+    /// The shape does not hold the heights.
+    #[error("a map of {columns} x {rows} nodes needs {} heights, {found} were given", columns.saturating_mul(*rows))]
+    Shape {
+        /// Nodes along x.
+        columns: usize,
+        /// Nodes along y.
+        rows: usize,
+        /// Heights given.
+        found: usize,
+    },
+    /// A pixel size is not a positive length.
+    #[error("a pixel of {0} m x {1} m is not possible: both sides must be finite and above 0")]
+    Pixel(f64, f64),
+    /// No cell can be made.
+    #[error(
+        "the map has no cell with four measured corners ({columns} x {rows} nodes, {missing} missing): a surface needs at \
+         least 2 x 2 neighbouring nodes; missing = \"fill\" closes holes"
+    )]
+    NoCell {
+        /// Nodes along x.
+        columns: usize,
+        /// Nodes along y.
+        rows: usize,
+        /// Nodes without a height.
+        missing: usize,
+    },
+    /// More nodes than the contact analysis can number.
+    #[error(
+        "{columns} x {rows} nodes are more than the {} that can be handled: cut or thin the map",
+        i32::MAX
+    )]
+    TooLarge {
+        /// Nodes along x.
+        columns: usize,
+        /// Nodes along y.
+        rows: usize,
+    },
+}
+
+/// Heights on a regular grid, in metres; a missing point is NaN, and only a missing point is.
+///
+/// Between the nodes the surface is piecewise linear: a cell is four triangles about the mean of its corners.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HeightMap {
+    columns: usize,
+    rows: usize,
+    pixel: [f64; 2],
+    heights: Vec<f64>,
+    missing: usize,
+    periodic: bool,
+}
+
+impl HeightMap {
+    /// A map of `columns` nodes along x and `rows` along y; `heights` (m) row by row, `pixel` = spacing along x and y (m).
+    ///
+    /// Heights that are not finite count as missing.
+    pub fn new(
+        columns: usize,
+        rows: usize,
+        pixel: [f64; 2],
+        mut heights: Vec<f64>,
+    ) -> Result<Self, MapError> {
+        if columns.checked_mul(rows) != Some(heights.len()) {
+            return Err(MapError::Shape { columns, rows, found: heights.len() });
+        }
+        if heights.len() >= i32::MAX as usize {
+            return Err(MapError::TooLarge { columns, rows });
+        }
+        if !pixel.iter().all(|p| p.is_finite() && *p > 0.0) {
+            return Err(MapError::Pixel(pixel[0], pixel[1]));
+        }
+        let missing = heights
+            .par_chunks_mut(ROWS_PER_CHUNK * columns.max(1))
+            .map(|part| {
+                let mut bad = 0;
+                for z in part {
+                    if !z.is_finite() {
+                        *z = f64::NAN;
+                        bad += 1;
+                    }
+                }
+                bad
+            })
+            .sum();
+        Ok(HeightMap { columns, rows, pixel, heights, missing, periodic: false })
+    }
+
+    /// The same map as one period of an endless surface (or not).
+    pub fn with_periodic(mut self, periodic: bool) -> Self {
+        self.periodic = periodic;
+        self
+    }
+
+    /// Nodes along x.
+    pub fn columns(&self) -> usize {
+        self.columns
+    }
+
+    /// Nodes along y.
+    pub fn rows(&self) -> usize {
+        self.rows
+    }
+
+    /// Spacing of the nodes along x and y, in metres.
+    pub fn pixel(&self) -> [f64; 2] {
+        self.pixel
+    }
+
+    /// Heights in metres, row by row; NaN where missing.
+    pub fn heights(&self) -> &[f64] {
+        &self.heights
+    }
+
+    /// How many nodes have no height.
+    pub fn missing(&self) -> usize {
+        self.missing
+    }
+
+    /// Whether the map repeats beyond its edges.
+    pub fn periodic(&self) -> bool {
+        self.periodic
+    }
+
+    /// Cells along x: columns - 1, or columns of a periodic map.
+    pub fn cell_columns(&self) -> usize {
+        if self.periodic { self.columns } else { self.columns.saturating_sub(1) }
+    }
+
+    /// Cells along y: rows - 1, or rows of a periodic map.
+    pub fn cell_rows(&self) -> usize {
+        if self.periodic { self.rows } else { self.rows.saturating_sub(1) }
+    }
+
+    /// Area of one cell, in m².
+    pub fn cell_area(&self) -> f64 {
+        self.pixel[0] * self.pixel[1]
+    }
+
+    /// The heights of node row `row` (counted modulo the rows of the map).
+    pub fn row(&self, row: usize) -> &[f64] {
+        let row = if row < self.rows { row } else { row - self.rows };
+        &self.heights[row * self.columns..(row + 1) * self.columns]
+    }
+
+    /// A map of the same grid with other heights, made by `change(row, heights of the row)` in parallel.
+    pub fn mapped(mut self, change: impl Fn(usize, &mut [f64]) + Sync) -> Self {
+        let columns = self.columns.max(1);
+        self.heights.par_chunks_mut(columns).enumerate().for_each(|(row, heights)| change(row, heights));
+        self
+    }
+
+    /// The same grid and edges with these heights (one per node, NaN = missing).
+    pub fn with_heights(&self, heights: Vec<f64>) -> Result<Self, MapError> {
+        Ok(HeightMap::new(self.columns, self.rows, self.pixel, heights)?.with_periodic(self.periodic))
+    }
+
+    /// Chunks of cell rows, in order: (first, one past the last).
+    pub(crate) fn chunks(&self) -> Vec<(usize, usize)> {
+        let rows = self.cell_rows();
+        (0..rows).step_by(ROWS_PER_CHUNK).map(|first| (first, (first + ROWS_PER_CHUNK).min(rows))).collect()
+    }
+
+    /// Calls `visit` with the corner heights of every used cell of cell row `row`, from left to right.
+    ///
+    /// Corners run around the cell: (x, y), (x+1, y), (x+1, y+1), (x, y+1).
+    pub(crate) fn for_each_cell(&self, row: usize, mut visit: impl FnMut([f64; 4])) {
+        let (low, high) = (self.row(row), self.row(row + 1));
+        let inner = self.columns.saturating_sub(1);
+        if self.missing == 0 {
+            for (a, b) in low.windows(2).zip(high.windows(2)) {
+                visit([a[0], a[1], b[1], b[0]]);
+            }
+        } else {
+            for (a, b) in low.windows(2).zip(high.windows(2)) {
+                let corners = [a[0], a[1], b[1], b[0]];
+                if !corners.iter().any(|z| z.is_nan()) {
+                    visit(corners);
+                }
+            }
+        }
+        if self.periodic && !low.is_empty() {
+            let corners = [low[inner], low[0], high[0], high[inner]];
+            if !corners.iter().any(|z| z.is_nan()) {
+                visit(corners);
+            }
+        }
+    }
+
+    /// Lowest and highest node, and the number of used cells; an error where there is no cell.
+    pub fn extent(&self) -> Result<Extent, MapError> {
+        let (low, high) = self
+            .heights
+            .par_chunks(ROWS_PER_CHUNK * self.columns.max(1))
+            .map(|part| {
+                part.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), z| {
+                    (if *z < low { *z } else { low }, if *z > high { *z } else { high })
+                })
+            })
+            .reduce(|| (f64::INFINITY, f64::NEG_INFINITY), |a, b| (a.0.min(b.0), a.1.max(b.1)));
+        let cells = if self.missing == 0 {
+            self.cell_columns() * self.cell_rows()
+        } else {
+            let count = |row| {
+                let mut n = 0;
+                self.for_each_cell(row, |_| n += 1);
+                n
+            };
+            (0..self.cell_rows()).into_par_iter().map(count).sum()
+        };
+        if cells == 0 {
+            return Err(MapError::NoCell { columns: self.columns, rows: self.rows, missing: self.missing });
+        }
+        Ok(Extent { low, high, cells })
+    }
+}
+
+/// Range of heights and number of cells of a map.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Extent {
+    /// Lowest node, in metres.
+    pub low: f64,
+    /// Highest node, in metres.
+    pub high: f64,
+    /// Cells with four measured corners; times the cell area this is the nominal area.
+    pub cells: usize,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cells_are_counted_with_edges_and_holes() {
+        let map = HeightMap::new(3, 3, [1.0, 1.0], vec![0.0; 9]).unwrap();
+        assert_eq!(map.extent().unwrap().cells, 4);
+        assert_eq!(map.clone().with_periodic(true).extent().unwrap().cells, 9);
+        let mut holed = vec![0.0; 9];
+        holed[8] = f64::INFINITY;
+        let map = HeightMap::new(3, 3, [1.0, 1.0], holed).unwrap();
+        assert_eq!((map.missing(), map.extent().unwrap().cells), (1, 3));
+        assert_eq!(map.with_periodic(true).extent().unwrap().cells, 5);
+    }
+
+    #[test]
+    fn what_is_no_map_is_refused() {
+        assert!(HeightMap::new(2, 2, [1.0, 1.0], vec![0.0; 3]).is_err());
+        assert!(HeightMap::new(usize::MAX, 3, [1.0, 1.0], vec![0.0; 3]).is_err());
+        assert!(HeightMap::new(1, 1, [0.0, 1.0], vec![0.0]).is_err());
+        assert!(HeightMap::new(1, 1, [1.0, 1.0], vec![0.0]).unwrap().extent().is_err());
+        assert!(HeightMap::new(0, 0, [1.0, 1.0], vec![]).unwrap().extent().is_err());
+    }
+}

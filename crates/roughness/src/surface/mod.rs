@@ -1,0 +1,16 @@
+//! Height maps: read or generated, levelled, filtered, with their roughness parameters.
+
+pub mod formats;
+
+pub(crate) mod height_map;
+
+pub(crate) mod fft;
+pub(crate) mod filter;
+pub(crate) mod level;
+
+pub(crate) mod cells;
+pub(crate) mod parameters;
+
+pub(crate) mod generate;
+
+pub(crate) mod ready;
