@@ -101,7 +101,7 @@ impl Frame {
     /// lowest of several windows.
     pub fn axes(&self, names: [&str; 2], lowest: bool) -> Markup {
         let span = [0, 1].map(|k| self.high[k] - self.low[k]);
-        let most = [(self.size[0] / 80.0).clamp(2.0, 8.0), (self.size[1] / 34.0).clamp(2.0, 8.0)];
+        let most = [(self.size[0] / 70.0).clamp(2.0, 8.0), (self.size[1] / 34.0).clamp(2.0, 8.0)];
         let [step_x, step_y] = [0, 1].map(|k| scale::round_step(span[k], most[k]));
         let (bottom, middle) = (self.bottom(), [LEFT + 0.5 * self.size[0], self.top + 0.5 * self.size[1]]);
         html! {

@@ -61,6 +61,7 @@ fn fill(rows: &[TradeRow], paper: &Paper) -> Result<(), Failure> {
         .light_line_style(TRANSPARENT)
         .bold_line_style(GRID.stroke_width(FINE))
         .axis_style(INK.stroke_width(FINE))
+        .set_all_tick_mark_size(5 * FINE)
         .x_labels((x.1 - x.0) as usize + 1)
         .y_labels((y.1 - y.0) as usize + 1)
         .x_label_formatter(&power)
