@@ -23,13 +23,14 @@ fn tip_height_and_substrate_do_not_change_k() {
         stress: YieldMeasure::Kirchhoff,
     };
     let standard = case.discretisation(Accuracy::Standard);
-    let k = |change: fn(&mut ConeDiscretisation)| {
+    type Change = fn(&mut ConeDiscretisation);
+    let k = |change: Change| {
         let mut changed = standard;
         change(&mut changed);
         solve(&case, &changed).unwrap().k_over_e
     };
     let sharp = k(|_| ());
-    let changes: [(&str, fn(&mut ConeDiscretisation)); 3] = [
+    let changes: [(&str, Change); 3] = [
         ("tip", |d| d.sizes.rounding = 0.025),
         ("height", |d| d.sizes.foot = 16.0),
         ("substrate", |d| d.numbers.domain = 400.0),
