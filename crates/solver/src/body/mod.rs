@@ -8,6 +8,8 @@ pub mod state;
 
 pub mod assembly;
 
+mod commit;
+
 pub mod energy;
 
 pub mod surface;

@@ -49,9 +49,10 @@ fn table_front_and_picture() {
 }
 
 #[test]
-fn a_mesh_of_ones_own_is_refused() {
-    let place = Place::with_scene(scene() + "[mesh]\nfile = \"body.msh\"\n");
-    let done = place.run(&["trade", "scene.toml"]);
+fn trade_refuses_an_imported_mesh() {
+    let place = Place::with_scene(scene());
+    assert_eq!(place.run(&["mesh", "scene.toml", "-o", "body.msh", "--quiet"]).status, 0);
+    let done = place.run(&["trade", "scene.toml", "--set", "mesh.file=body.msh"]);
     assert_eq!(done.status, 2);
     assert!(done.err.contains("leave [mesh] out"), "{}", done.err);
     assert!(place.names("out").is_empty());
