@@ -1,9 +1,9 @@
 //! Where the time of a crush goes: milliseconds per Newton iteration in assembly, factorisation and solve, and
 //! iterations per run, on the single asperity at each accuracy level and with each element.
 //!
-//! `cargo bench -p asperity-solver` prints a table. Times are per iteration, of which only some have a new tangent: the
+//! `cargo bench -p asperity-verification` prints a table. Times are per iteration, of which only some have a new tangent: the
 //! others reuse its factors. Roofline: one Newton iteration in the strict sense, with a new tangent and every point flowing, at
-//! the arithmetic of this core (see `asperity_solver::algebra::roofline`); 3% is what `verification/PEERS.md` runs.
+//! the arithmetic of this core (see `asperity_verification::roofline`); 3% is what `verification/PEERS.md` runs.
 #![allow(clippy::print_stdout, reason = "a benchmark prints")]
 
 use asperity_law::HardeningMode;

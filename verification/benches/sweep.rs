@@ -1,8 +1,8 @@
 //! What a case of the default sweep costs: core-seconds, increments, iterations, and the floor of those iterations.
 //!
-//! `cargo bench -p asperity-calibration` solves every tenth case of the grid on one thread and prints a row for each slope
+//! `cargo bench -p asperity-verification` solves every tenth case of the grid on one thread and prints a row for each slope
 //! and the mean. Roofline: the iterations, each with a new tangent and every point flowing, at the arithmetic of this core
-//! (`asperity_solver::algebra::roofline`).
+//! (`asperity_verification::roofline`).
 #![allow(clippy::print_stdout, reason = "a benchmark prints")]
 
 use asperity_calibration::case::Case;

@@ -46,7 +46,11 @@ fn main() -> Result<(), Error> {
     };
     let swept = calibrate(&sweep, &Options::default(), &mut |_| true)?;
     swept.cases.iter().for_each(|case| println!("K/E {}", case.k_over_e.unwrap_or(f64::NAN)));
-    println!("c {}", swept.fit.coefficient.unwrap_or(f64::NAN));
+    for angle in &swept.fit.per_angle {
+        println!("scatter {}", angle.scatter);
+    }
+    // six cones of one slope collapse for many strains: the fit says so instead of a coefficient
+    println!("c {:?}: {}", swept.fit.coefficient, swept.fit.reason.as_deref().unwrap_or("determined"));
 
     let rough = press(&RoughScene::from_toml(SURFACE, Path::new("."))?, &mut |_| true)?;
     rough.table.iter().for_each(|row| println!("{} {}", row.closure.name(), row.contact_area_ratio));

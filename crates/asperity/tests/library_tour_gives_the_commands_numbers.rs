@@ -19,8 +19,8 @@ fn column(text: &str, name: &str) -> Vec<String> {
     table.records().map(|row| row.unwrap()[place].to_string()).collect()
 }
 
-fn json(text: &str, key: &str) -> f64 {
-    serde_json::from_str::<serde_json::Value>(text).unwrap()[key].as_f64().unwrap()
+fn json(text: &str) -> serde_json::Value {
+    serde_json::from_str(text).unwrap()
 }
 
 #[test]
@@ -37,12 +37,15 @@ fn the_example_prints_what_the_commands_write() {
         assert_eq!(place.run(&[command, input, "--out", command, "--quiet"]).status, 0, "{command}");
     }
     let mut expected =
-        vec![format!("peak force {} N", json(&place.text("crush/summary.json"), "peak_force_N"))];
+        vec![format!("peak force {} N", json(&place.text("crush/summary.json"))["peak_force_N"])];
     let parsed = |text: String| text.parse::<f64>().unwrap();
     for k in column(&place.text("calibrate/cases.csv"), "K_over_E") {
         expected.push(format!("K/E {}", parsed(k)));
     }
-    expected.push(format!("c {}", json(&place.text("calibrate/fit.json"), "coefficient")));
+    let fit = json(&place.text("calibrate/fit.json"));
+    expected.push(format!("scatter {}", fit["per_angle"][0]["scatter"]));
+    assert!(fit["coefficient"].is_null());
+    expected.push(format!("c None: {}", fit["reason"].as_str().unwrap()));
     let table = place.text("rough/table.csv");
     let closures = column(&table, "closure");
     for (closure, ratio) in closures.into_iter().zip(column(&table, "contact_area_ratio")) {

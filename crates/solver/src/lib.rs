@@ -1,8 +1,10 @@
 //! Axisymmetric and plane-strain large-strain elastoplastic finite elements with a rigid tool.
 //!
 //! The folders are the theory, in reading order: an integration point ([`point`]), an element ([`element`]), contact with the
-//! tool ([`contact`]), the algebra of the system ([`algebra`]), the body with its state ([`body`]), a run along the load path
-//! ([`run`]) and the scene that asks for it ([`scene`]).
+//! tool ([`contact`]), the algebra of the system ([`algebra`]), the body with its state ([`body`]), the scene that is asked for
+//! ([`scene`]) and its run along the load path ([`run`]).
+//!
+//! Callers need [`scene`], [`run`] and [`point`]; the folders between are open to the verification and hidden from these pages.
 //!
 //! A point alone, stretched by 1 % along z in plane strain:
 //! ```
@@ -20,14 +22,18 @@
 
 pub mod point;
 
+#[doc(hidden)]
 pub mod element;
 
+#[doc(hidden)]
 pub mod contact;
 
+#[doc(hidden)]
 pub mod algebra;
 
+#[doc(hidden)]
 pub mod body;
 
-pub mod run;
-
 pub mod scene;
+
+pub mod run;

@@ -1,4 +1,4 @@
-//! Acceptance of a converged increment: the only place where the state of a body changes.
+//! Acceptance of a converged increment: with [`State::weigh`] the only place where the state of a body changes.
 
 use crate::body::assembly::{Response, evaluate_cell};
 use crate::body::discrete_body::Body;
@@ -10,8 +10,7 @@ use crate::point::j2::Tangent;
 use crate::point::kinematic_hardening;
 
 impl State {
-    /// Accepts the converged `trial` with its `response`: the only place where the state of a body changes. The response's
-    /// points are taken over; it holds no valid points afterwards.
+    /// Accepts the converged `trial` with its `response`, whose points are taken over; it holds no valid points afterwards.
     ///
     /// # Errors
     /// A point whose elastic trial from the old state fails; the state is then as it was in part and must not be used.

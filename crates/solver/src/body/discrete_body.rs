@@ -27,7 +27,7 @@ impl ToolContact {
     }
 }
 
-/// Mesh, material, fixed components and tool. Lengths are the scene's own, stresses in units of E.
+/// Mesh, material, fixed components and tool. Lengths are in units of the peak depth of a scene, stresses in units of E.
 #[derive(Clone, Debug)]
 pub struct Body<'m> {
     /// The mesh before loading.

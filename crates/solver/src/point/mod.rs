@@ -10,8 +10,10 @@ pub mod material;
 
 pub mod j2;
 
+#[doc(hidden)]
 pub mod bdf2;
 
+#[doc(hidden)]
 pub mod log_space;
 
 pub mod kinematic_hardening;

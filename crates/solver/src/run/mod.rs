@@ -2,8 +2,10 @@
 
 pub mod discretisation;
 
+#[doc(hidden)]
 pub mod a_priori;
 
+#[doc(hidden)]
 pub mod schedule;
 
 pub mod problem;
@@ -12,8 +14,10 @@ pub mod prepare;
 
 pub mod cone;
 
+#[doc(hidden)]
 pub mod tool_stiffness;
 
+#[doc(hidden)]
 pub mod equilibrium;
 
 pub mod load_path;
