@@ -32,7 +32,7 @@ impl Frame {
     /// The fields that `scene` asks for.
     pub(super) fn new(frame: &FieldFrame, mesh: Arc<Mesh>, scene: &Tables) -> Frame {
         let (nodes, cells) = field_arrays(&frame.fields, scene.output.fields(), scene.symmetry);
-        let surface = frame.fields.surface.iter().map(SurfaceRow::from).collect();
+        let surface = frame.fields.surface.iter().map(SurfaceRow::new).collect();
         Frame { increment: frame.increment, phase: frame.phase.into(), mesh, nodes, cells, surface }
     }
 

@@ -154,7 +154,7 @@ fn simulate(
     let crush = Crush {
         curve: outcome.rows.iter().map(|row| CurveRow::new(row, units)).collect(),
         asperities: outcome.asperities.iter().map(|row| AsperityRow::new(row, units)).collect(),
-        gaps: outcome.gaps.iter().map(GapRow::from).collect(),
+        gaps: outcome.gaps.iter().map(GapRow::new).collect(),
         // a single loading stands in the summary
         cycles: match tables.loading.reloads {
             0 => Vec::new(),
@@ -165,6 +165,7 @@ fn simulate(
         summary: Summary::new(
             &outcome.summary,
             &outcome.elastic_islands,
+            units,
             scene.resolved(),
             stopped,
             start.elapsed().as_secs_f64(),

@@ -34,195 +34,148 @@ impl From<record::Phase> for Phase {
     }
 }
 
-/// One converged increment.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct CurveRow {
-    /// Counted from 0, the first touch.
-    pub increment: usize,
-    /// Loading or unloading.
-    pub phase: Phase,
-    /// Tool travel from first touch, corrected for penetration.
-    pub depth_um: f64,
-    /// Force on the tool, positive in compression, of the full body of revolution (in plane strain per mm).
-    pub force_N: f64,
-    /// Projected current area under pressure (in plane strain its width in µm).
-    pub contact_area_um2: f64,
-    /// Outer edge of the contact that holds the axis; in plane strain half the contact width.
-    pub contact_radius_um: f64,
-    /// Force over contact area; 0 without contact.
-    pub mean_pressure_MPa: f64,
-    /// ∫F dh over the raw tool displacement.
-    pub external_work_uJ: f64,
-    /// Stored elastic energy, residual stress included.
-    pub elastic_energy_uJ: f64,
-    /// Σ∫σ_y dε_p.
-    pub plastic_work_uJ: f64,
-    /// ½ε∫g² dA of the penalty.
-    pub contact_energy_uJ: f64,
-    /// Mean penetration, weighted by the pressure.
-    pub penetration_um: f64,
-    /// Newton iterations spent since the last row.
-    pub newton_iterations: usize,
+/// A row of a file: every field declared once, with the value that it takes from the SI record.
+macro_rules! row {
+    ($(#[$about:meta])* $row:ident($($from:ident: $record:ty),*) {
+        $($(#[$field_about:meta])* $field:ident: $kind:ty = $value:expr,)*
+    }) => {
+        #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+        $(#[$about])*
+        pub struct $row {
+            $($(#[$field_about])* pub $field: $kind,)*
+        }
+
+        impl $row {
+            pub(super) fn new($($from: $record),*) -> $row {
+                $row { $($field: $value,)* }
+            }
+        }
+    };
+}
+pub(super) use row;
+
+/// A place in µm; `None` where there is none.
+fn place(metres: f64) -> Option<f64> {
+    Some(metres / MICROMETRE).filter(|um| um.is_finite())
 }
 
-impl CurveRow {
-    pub(super) fn new(row: &record::CurveRow, units: Units) -> CurveRow {
-        CurveRow {
-            increment: row.increment,
-            phase: row.phase.into(),
-            depth_um: row.depth / MICROMETRE,
-            force_N: row.force / units.force,
-            contact_area_um2: row.contact_area / units.area,
-            contact_radius_um: row.contact_radius / MICROMETRE,
-            mean_pressure_MPa: row.mean_pressure / MEGAPASCAL,
-            external_work_uJ: row.external_work / units.energy,
-            elastic_energy_uJ: row.elastic_energy / units.energy,
-            plastic_work_uJ: row.plastic_work / units.energy,
-            contact_energy_uJ: row.contact_energy / units.energy,
-            penetration_um: row.penetration / MICROMETRE,
-            newton_iterations: row.newton_iterations,
-        }
+row! {
+    /// One converged increment.
+    CurveRow(row: &record::CurveRow, units: Units) {
+        /// Counted from 0, the first touch.
+        increment: usize = row.increment,
+        /// Loading or unloading.
+        phase: Phase = row.phase.into(),
+        /// Tool travel from first touch, corrected for penetration.
+        depth_um: f64 = row.depth / MICROMETRE,
+        /// Force on the tool, positive in compression, of the full body of revolution (in plane strain per mm).
+        force_N: f64 = row.force / units.force,
+        /// Projected current area under pressure (in plane strain its width in µm).
+        contact_area_um2: f64 = row.contact_area / units.area,
+        /// Outer edge of the contact that holds the axis; in plane strain half the contact width.
+        contact_radius_um: f64 = row.contact_radius / MICROMETRE,
+        /// Force over contact area; 0 without contact.
+        mean_pressure_MPa: f64 = row.mean_pressure / MEGAPASCAL,
+        /// ∫F dh over the raw tool displacement.
+        external_work_uJ: f64 = row.external_work / units.energy,
+        /// Stored elastic energy, residual stress included.
+        elastic_energy_uJ: f64 = row.elastic_energy / units.energy,
+        /// Σ∫σ_y dε_p.
+        plastic_work_uJ: f64 = row.plastic_work / units.energy,
+        /// ½ε∫g² dA of the penalty.
+        contact_energy_uJ: f64 = row.contact_energy / units.energy,
+        /// Mean penetration, weighted by the pressure.
+        penetration_um: f64 = row.penetration / MICROMETRE,
+        /// Newton iterations spent since the last row.
+        newton_iterations: usize = row.newton_iterations,
     }
 }
 
-/// The share of one asperity in one increment.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct AsperityRow {
-    /// Increment of the curve.
-    pub increment: usize,
-    /// Loading or unloading.
-    pub phase: Phase,
-    /// Counted from 0, from the axis (left side) outward.
-    pub asperity: usize,
-    /// As in the curve.
-    pub depth_um: f64,
-    /// Force on this asperity.
-    pub force_N: f64,
-    /// Its contact area.
-    pub contact_area_um2: f64,
-    /// Innermost (leftmost) point of its contact; `None` without contact.
-    pub contact_left_um: Option<f64>,
-    /// Outermost point of its contact; `None` without contact.
-    pub contact_right_um: Option<f64>,
-    /// Largest contact pressure on it.
-    pub max_pressure_MPa: f64,
-}
-
-impl AsperityRow {
-    pub(super) fn new(row: &record::AsperityRow, units: Units) -> AsperityRow {
-        let place = |x: f64| Some(x / MICROMETRE).filter(|x| x.is_finite());
-        AsperityRow {
-            increment: row.increment,
-            phase: row.phase.into(),
-            asperity: row.asperity,
-            depth_um: row.depth / MICROMETRE,
-            force_N: row.force / units.force,
-            contact_area_um2: row.contact_area / units.area,
-            contact_left_um: place(row.contact_left),
-            contact_right_um: place(row.contact_right),
-            max_pressure_MPa: row.max_pressure / MEGAPASCAL,
-        }
+row! {
+    /// The share of one asperity in one increment.
+    AsperityRow(row: &record::AsperityRow, units: Units) {
+        /// Increment of the curve.
+        increment: usize = row.increment,
+        /// Loading or unloading.
+        phase: Phase = row.phase.into(),
+        /// Counted from 0, from the axis (left side) outward.
+        asperity: usize = row.asperity,
+        /// As in the curve.
+        depth_um: f64 = row.depth / MICROMETRE,
+        /// Force on this asperity.
+        force_N: f64 = row.force / units.force,
+        /// Its contact area.
+        contact_area_um2: f64 = row.contact_area / units.area,
+        /// Innermost (leftmost) point of its contact; `None` without contact.
+        contact_left_um: Option<f64> = place(row.contact_left),
+        /// Outermost point of its contact; `None` without contact.
+        contact_right_um: Option<f64> = place(row.contact_right),
+        /// Largest contact pressure on it.
+        max_pressure_MPa: f64 = row.max_pressure / MEGAPASCAL,
     }
 }
 
-/// An untouched stretch of surface between two contacts in one increment.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct GapRow {
-    /// Increment of the curve.
-    pub increment: usize,
-    /// Loading or unloading.
-    pub phase: Phase,
-    /// As in the curve.
-    pub depth_um: f64,
-    /// End of the contact before the gap.
-    pub left_um: f64,
-    /// Beginning of the contact after it.
-    pub right_um: f64,
-    /// Distance of the two.
-    pub width_um: f64,
-    /// Largest distance from the tool in between.
-    pub height_um: f64,
-}
-
-impl From<&record::GapRow> for GapRow {
-    fn from(row: &record::GapRow) -> GapRow {
-        GapRow {
-            increment: row.increment,
-            phase: row.phase.into(),
-            depth_um: row.depth / MICROMETRE,
-            left_um: row.left / MICROMETRE,
-            right_um: row.right / MICROMETRE,
-            width_um: (row.right - row.left) / MICROMETRE,
-            height_um: row.height / MICROMETRE,
-        }
+row! {
+    /// An untouched stretch of surface between two contacts in one increment.
+    GapRow(row: &record::GapRow) {
+        /// Increment of the curve.
+        increment: usize = row.increment,
+        /// Loading or unloading.
+        phase: Phase = row.phase.into(),
+        /// As in the curve.
+        depth_um: f64 = row.depth / MICROMETRE,
+        /// End of the contact before the gap.
+        left_um: f64 = row.left / MICROMETRE,
+        /// Beginning of the contact after it.
+        right_um: f64 = row.right / MICROMETRE,
+        /// Distance of the two.
+        width_um: f64 = (row.right - row.left) / MICROMETRE,
+        /// Largest distance from the tool in between.
+        height_um: f64 = row.height / MICROMETRE,
     }
 }
 
-/// One loading with its unloading: the first one, then the reloads.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct CycleRow {
-    /// 0: the first loading; then the reloads.
-    pub cycle: usize,
-    /// Increment of the peak.
-    pub peak_increment: usize,
-    /// Increment at which the tool is gone.
-    pub end_increment: usize,
-    /// Depth at the peak.
-    pub peak_depth_um: f64,
-    /// Force at the peak.
-    pub peak_force_N: f64,
-    /// Initial summit minus the highest point of the body in equilibrium without the tool.
-    pub residual_depth_um: f64,
-    /// ∫F dh on the way in, over the corrected depth.
-    pub work_in_uJ: f64,
-    /// Work returned on the way out.
-    pub work_out_uJ: f64,
-    /// The difference of the two.
-    pub hysteresis_uJ: f64,
-    /// Plastic work of both ways.
-    pub plastic_work_uJ: f64,
-}
-
-impl CycleRow {
-    pub(super) fn new(row: &record::CycleRow, units: Units) -> CycleRow {
-        CycleRow {
-            cycle: row.cycle,
-            peak_increment: row.peak_increment,
-            end_increment: row.end_increment,
-            peak_depth_um: row.peak_depth / MICROMETRE,
-            peak_force_N: row.peak_force / units.force,
-            residual_depth_um: row.residual_depth / MICROMETRE,
-            work_in_uJ: row.work_in / units.energy,
-            work_out_uJ: row.work_out / units.energy,
-            hysteresis_uJ: (row.work_in - row.work_out) / units.energy,
-            plastic_work_uJ: row.plastic_work / units.energy,
-        }
+row! {
+    /// One loading with its unloading: the first one, then the reloads.
+    CycleRow(row: &record::CycleRow, units: Units) {
+        /// 0: the first loading; then the reloads.
+        cycle: usize = row.cycle,
+        /// Increment of the peak.
+        peak_increment: usize = row.peak_increment,
+        /// Increment at which the tool is gone.
+        end_increment: usize = row.end_increment,
+        /// Depth at the peak.
+        peak_depth_um: f64 = row.peak_depth / MICROMETRE,
+        /// Force at the peak.
+        peak_force_N: f64 = row.peak_force / units.force,
+        /// Initial summit minus the highest point of the body in equilibrium without the tool.
+        residual_depth_um: f64 = row.residual_depth / MICROMETRE,
+        /// ∫F dh on the way in, over the corrected depth.
+        work_in_uJ: f64 = row.work_in / units.energy,
+        /// Work returned on the way out.
+        work_out_uJ: f64 = row.work_out / units.energy,
+        /// The difference of the two.
+        hysteresis_uJ: f64 = (row.work_in - row.work_out) / units.energy,
+        /// Plastic work of both ways.
+        plastic_work_uJ: f64 = row.plastic_work / units.energy,
     }
 }
 
-/// A node of the free surface: pile-up and sink-in. In plane strain r is x.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct SurfaceRow {
-    /// Current radius.
-    pub r_um: f64,
-    /// Current height over the initial summit.
-    pub z_um: f64,
-    /// Displacement along r.
-    pub u_r_um: f64,
-    /// Displacement along z.
-    pub u_z_um: f64,
-    /// Contact pressure.
-    pub pressure_MPa: f64,
-    /// 1 where the material has yielded, else 0.
-    pub yielded: u8,
-}
-
-impl From<&SurfacePoint> for SurfaceRow {
-    fn from(point: &SurfacePoint) -> SurfaceRow {
-        let [r_um, z_um] = point.position.map(|x| x / MICROMETRE);
-        let [u_r_um, u_z_um] = point.displacement.map(|x| x / MICROMETRE);
-        let (pressure_MPa, yielded) = (point.pressure / MEGAPASCAL, u8::from(point.yielded));
-        SurfaceRow { r_um, z_um, u_r_um, u_z_um, pressure_MPa, yielded }
+row! {
+    /// A node of the free surface: pile-up and sink-in. In plane strain r is x.
+    SurfaceRow(point: &SurfacePoint) {
+        /// Current radius.
+        r_um: f64 = point.position[0] / MICROMETRE,
+        /// Current height over the initial summit.
+        z_um: f64 = point.position[1] / MICROMETRE,
+        /// Displacement along r.
+        u_r_um: f64 = point.displacement[0] / MICROMETRE,
+        /// Displacement along z.
+        u_z_um: f64 = point.displacement[1] / MICROMETRE,
+        /// Contact pressure.
+        pressure_MPa: f64 = point.pressure / MEGAPASCAL,
+        /// 1 where the material has yielded, else 0.
+        yielded: u8 = u8::from(point.yielded),
     }
 }
 

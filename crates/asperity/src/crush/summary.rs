@@ -2,6 +2,7 @@
 
 #![expect(non_snake_case, reason = "a name ends in its unit, as in the file")]
 
+use super::record::row;
 use crate::error::{Error, InputError};
 use crate::units::{GIGAPASCAL, MEGAPASCAL, MICROMETRE, Units, axisymmetric_name, file_name};
 use asperity_solver::run::oliver_pharr::OliverPharr;
@@ -14,171 +15,111 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use serde_json::Value;
 use std::path::Path;
 
-/// The numbers of a crush. `None`, `null` in the file, is what the scene did not ask for (unloading) or the run did not
-/// reach. Fields are named as the keys of an axisymmetric crush; the file of a crush in plane strain has the names of
-/// [`crate::units::plane_strain_name`], and so has what is serialised.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(remote = "Self")]
-pub struct Summary {
-    /// Why and where the run ended before its target; absent if it did not.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub stopped: Option<String>,
-    /// Largest force.
-    pub peak_force_N: f64,
-    /// Depth at the peak.
-    pub peak_depth_um: f64,
-    /// Initial summit minus the highest point of the body in equilibrium without the tool.
-    pub residual_depth_um: Option<f64>,
-    /// dF/dh at the peak from one elastic solve with the contact kept.
-    pub unloading_stiffness_N_per_um: Option<f64>,
-    /// Contact area at the peak.
-    pub contact_area_um2: f64,
-    /// Contact radius at the peak.
-    pub contact_radius_um: f64,
-    /// ∫F dh to the peak, over the corrected depth.
-    pub total_work_uJ: f64,
-    /// Work returned on unloading to F = 0.
-    pub elastic_work_uJ: Option<f64>,
-    /// Plastic work at the end of loading.
-    pub plastic_work_uJ: f64,
-    /// Reading of the unloading curve by the method of Oliver and Pharr, under a cone or sphere.
-    pub oliver_pharr: Option<Instrument>,
-    /// elastic_work / total_work.
-    pub elastic_fraction: Option<f64>,
-    /// Largest |W - E_e - W_p - E_c|/W over increments with W above 1 % of its peak.
-    #[serde(deserialize_with = "nan_for_null")]
-    pub energy_balance_error: f64,
-    /// 95 % bound of the relative error of the force for 0.2 ≤ h/h_peak ≤ 1; NaN (`null`) where it is not known.
-    #[serde(deserialize_with = "nan_for_null")]
-    pub estimated_error: f64,
-    /// Number of elements.
-    pub elements: usize,
-    /// Number of unknowns.
-    pub dofs: usize,
-    /// Converged increments.
-    pub increments: usize,
-    /// Newton iterations of the whole run, failed ones included.
-    pub newton_iterations: usize,
-    /// Times an increment was halved.
-    pub cutbacks: usize,
-    /// Regions among the asperities that never yielded, at the peak.
-    pub elastic_islands: Vec<Island>,
-    /// Seconds the run took.
-    pub wall_s: f64,
-    /// Largest resident memory of the process so far, MB of 10⁶ bytes; `None` where the system does not say.
-    pub peak_memory_MB: Option<f64>,
-    /// The scene with the numbers that its accuracy stands for.
-    #[serde(serialize_with = "by_key")]
-    pub scene: Box<Tables>,
-    /// Version of this program.
-    pub version: String,
-}
-
-/// A connected region that never yielded, enclosed by material that did or standing above the substrate.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Island {
-    /// Area of its section before the crush.
-    pub area_um2: f64,
-    /// Mean hydrostatic pressure, positive in compression.
-    pub mean_pressure_MPa: f64,
-    /// Mean von Mises stress.
-    pub mean_von_mises_MPa: f64,
-    /// Centroid (r, z) of its section before the crush.
-    pub place_um: [f64; 2],
-    /// Whether it hangs together with the elastic bulk of the substrate.
-    pub reaches_substrate: bool,
-    /// Whether it holds a part of the free surface: a leak path.
-    pub reaches_surface: bool,
-}
-
-impl From<&record::IslandRow> for Island {
-    fn from(row: &record::IslandRow) -> Island {
-        Island {
-            area_um2: row.area / (MICROMETRE * MICROMETRE),
-            mean_pressure_MPa: row.mean_pressure / MEGAPASCAL,
-            mean_von_mises_MPa: row.mean_von_mises / MEGAPASCAL,
-            place_um: row.place.map(|x| x / MICROMETRE),
-            reaches_substrate: row.reaches_substrate,
-            reaches_surface: row.reaches_surface,
-        }
+row! {
+    /// The numbers of a crush. `None`, `null` in the file, is what the scene did not ask for (unloading) or the run did not
+    /// reach. Fields are named as the keys of an axisymmetric crush; the file of a crush in plane strain has the names of
+    /// [`crate::units::plane_strain_name`], and so has what is serialised.
+    #[serde(remote = "Self")]
+    Summary(
+        summary: &record::Summary, islands: &[record::IslandRow], units: Units, scene: Tables,
+        stopped: Option<String>, wall_s: f64
+    ) {
+        /// Why and where the run ended before its target; absent if it did not.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        stopped: Option<String> = stopped,
+        /// Largest force.
+        peak_force_N: f64 = summary.peak_force / units.force,
+        /// Depth at the peak.
+        peak_depth_um: f64 = summary.peak_depth / MICROMETRE,
+        /// Initial summit minus the highest point of the body in equilibrium without the tool.
+        residual_depth_um: Option<f64> = summary.residual_depth.map(|h| h / MICROMETRE),
+        /// dF/dh at the peak from one elastic solve with the contact kept.
+        unloading_stiffness_N_per_um: Option<f64> = summary.unloading_stiffness.map(|s| s / units.stiffness),
+        /// Contact area at the peak.
+        contact_area_um2: f64 = summary.contact_area / units.area,
+        /// Contact radius at the peak.
+        contact_radius_um: f64 = summary.contact_radius / MICROMETRE,
+        /// ∫F dh to the peak, over the corrected depth.
+        total_work_uJ: f64 = summary.total_work / units.energy,
+        /// Work returned on unloading to F = 0.
+        elastic_work_uJ: Option<f64> = summary.elastic_work.map(|w| w / units.energy),
+        /// Plastic work at the end of loading.
+        plastic_work_uJ: f64 = summary.plastic_work / units.energy,
+        /// Reading of the unloading curve by the method of Oliver and Pharr, under a cone or sphere.
+        oliver_pharr: Option<Instrument> = summary.oliver_pharr.as_ref().map(|read| Instrument::new(read, summary)),
+        /// elastic_work / total_work.
+        elastic_fraction: Option<f64> = summary.elastic_fraction,
+        /// Largest |W - E_e - W_p - E_c|/W over increments with W above 1 % of its peak.
+        #[serde(deserialize_with = "nan_for_null")]
+        energy_balance_error: f64 = summary.energy_balance_error,
+        /// 95 % bound of the relative error of the force for 0.2 ≤ h/h_peak ≤ 1; NaN (`null`) where it is not known.
+        #[serde(deserialize_with = "nan_for_null")]
+        estimated_error: f64 = summary.estimated_error,
+        /// Number of elements.
+        elements: usize = summary.elements,
+        /// Number of unknowns.
+        dofs: usize = summary.dofs,
+        /// Converged increments.
+        increments: usize = summary.increments,
+        /// Newton iterations of the whole run, failed ones included.
+        newton_iterations: usize = summary.newton_iterations,
+        /// Times an increment was halved.
+        cutbacks: usize = summary.cutbacks,
+        /// Regions among the asperities that never yielded, at the peak.
+        elastic_islands: Vec<Island> = islands.iter().map(Island::new).collect(),
+        /// Seconds the run took.
+        wall_s: f64 = wall_s,
+        /// Largest resident memory of the process so far, MB of 10⁶ bytes; `None` where the system does not say.
+        peak_memory_MB: Option<f64> = peak_memory_mb(),
+        /// The scene with the numbers that its accuracy stands for.
+        #[serde(serialize_with = "by_key")]
+        scene: Box<Tables> = Box::new(scene),
+        /// Version of this program.
+        version: String = env!("CARGO_PKG_VERSION").into(),
     }
 }
 
-/// An instrument's reading of the unloading curve (Oliver and Pharr 1992), and beside it what is true.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Instrument {
-    /// Contact area read from the contact depth.
-    pub contact_area_um2: f64,
-    /// h - ε F/S.
-    pub contact_depth_um: f64,
-    /// The geometry factor ε.
-    pub epsilon: f64,
-    /// Peak force over the area that was read.
-    pub hardness_MPa: f64,
-    /// Reduced modulus from stiffness and area read.
-    pub reduced_modulus_GPa: f64,
-    /// Contact area at the peak.
-    pub true_contact_area_um2: f64,
-    /// Mean pressure at the peak.
-    pub true_hardness_MPa: f64,
-    /// E/(1 - ν²).
-    pub true_reduced_modulus_GPa: f64,
+row! {
+    /// A connected region that never yielded, enclosed by material that did or standing above the substrate.
+    Island(row: &record::IslandRow) {
+        /// Area of its section before the crush.
+        area_um2: f64 = row.area / (MICROMETRE * MICROMETRE),
+        /// Mean hydrostatic pressure, positive in compression.
+        mean_pressure_MPa: f64 = row.mean_pressure / MEGAPASCAL,
+        /// Mean von Mises stress.
+        mean_von_mises_MPa: f64 = row.mean_von_mises / MEGAPASCAL,
+        /// Centroid (r, z) of its section before the crush.
+        place_um: [f64; 2] = row.place.map(|x| x / MICROMETRE),
+        /// Whether it hangs together with the elastic bulk of the substrate.
+        reaches_substrate: bool = row.reaches_substrate,
+        /// Whether it holds a part of the free surface: a leak path.
+        reaches_surface: bool = row.reaches_surface,
+    }
 }
 
-impl Instrument {
-    fn new(read: &OliverPharr, summary: &record::Summary) -> Instrument {
-        let area = MICROMETRE * MICROMETRE;
-        Instrument {
-            contact_area_um2: read.contact_area / area,
-            contact_depth_um: read.contact_depth / MICROMETRE,
-            epsilon: read.geometry_factor,
-            hardness_MPa: read.hardness / MEGAPASCAL,
-            reduced_modulus_GPa: read.reduced_modulus / GIGAPASCAL,
-            true_contact_area_um2: summary.contact_area / area,
-            true_hardness_MPa: summary.peak_force / summary.contact_area / MEGAPASCAL,
-            true_reduced_modulus_GPa: summary.reduced_modulus / GIGAPASCAL,
-        }
+row! {
+    /// An instrument's reading of the unloading curve (Oliver and Pharr 1992), and beside it what is true.
+    Instrument(read: &OliverPharr, summary: &record::Summary) {
+        /// Contact area read from the contact depth.
+        contact_area_um2: f64 = read.contact_area / (MICROMETRE * MICROMETRE),
+        /// h - ε F/S.
+        contact_depth_um: f64 = read.contact_depth / MICROMETRE,
+        /// The geometry factor ε.
+        epsilon: f64 = read.geometry_factor,
+        /// Peak force over the area that was read.
+        hardness_MPa: f64 = read.hardness / MEGAPASCAL,
+        /// Reduced modulus from stiffness and area read.
+        reduced_modulus_GPa: f64 = read.reduced_modulus / GIGAPASCAL,
+        /// Contact area at the peak.
+        true_contact_area_um2: f64 = summary.contact_area / (MICROMETRE * MICROMETRE),
+        /// Mean pressure at the peak.
+        true_hardness_MPa: f64 = summary.peak_force / summary.contact_area / MEGAPASCAL,
+        /// E/(1 - ν²).
+        true_reduced_modulus_GPa: f64 = summary.reduced_modulus / GIGAPASCAL,
     }
 }
 
 impl Summary {
-    /// The summary of a run of `scene`, resolved, that took `wall_s` seconds.
-    pub(super) fn new(
-        summary: &record::Summary,
-        islands: &[record::IslandRow],
-        scene: Tables,
-        stopped: Option<String>,
-        wall_s: f64,
-    ) -> Summary {
-        let units = Units::of(scene.symmetry);
-        Summary {
-            stopped,
-            peak_force_N: summary.peak_force / units.force,
-            peak_depth_um: summary.peak_depth / MICROMETRE,
-            residual_depth_um: summary.residual_depth.map(|h| h / MICROMETRE),
-            unloading_stiffness_N_per_um: summary.unloading_stiffness.map(|s| s / units.stiffness),
-            contact_area_um2: summary.contact_area / units.area,
-            contact_radius_um: summary.contact_radius / MICROMETRE,
-            total_work_uJ: summary.total_work / units.energy,
-            elastic_work_uJ: summary.elastic_work.map(|w| w / units.energy),
-            plastic_work_uJ: summary.plastic_work / units.energy,
-            oliver_pharr: summary.oliver_pharr.as_ref().map(|read| Instrument::new(read, summary)),
-            elastic_fraction: summary.elastic_fraction,
-            energy_balance_error: summary.energy_balance_error,
-            estimated_error: summary.estimated_error,
-            elements: summary.elements,
-            dofs: summary.dofs,
-            increments: summary.increments,
-            newton_iterations: summary.newton_iterations,
-            cutbacks: summary.cutbacks,
-            elastic_islands: islands.iter().map(Island::from).collect(),
-            wall_s,
-            peak_memory_MB: peak_memory_mb(),
-            scene: Box::new(scene),
-            version: env!("CARGO_PKG_VERSION").into(),
-        }
-    }
-
     /// The text of summary.json.
     ///
     /// # Errors

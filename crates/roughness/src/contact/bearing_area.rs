@@ -28,7 +28,8 @@ pub struct Above {
 }
 
 impl Above {
-    fn add(&mut self, other: Above) {
+    /// Adds what another part of the surface has above the plane.
+    pub fn add(&mut self, other: Above) {
         self.area += other.area;
         self.slope_area += other.slope_area;
     }
@@ -152,10 +153,6 @@ impl Tally {
     }
 }
 
-fn inverse(pixel: [f64; 2]) -> [f64; 2] {
-    pixel.map(|p| 1.0 / p)
-}
-
 /// Sums `parts` made in parallel, in their order.
 fn joined(planes: Planes, inverse_pixel: [f64; 2], parts: Vec<Tally>) -> Vec<Above> {
     let mut total = Tally::new(planes, inverse_pixel);
@@ -170,17 +167,13 @@ pub fn above_planes(map: &HeightMap, planes: Planes) -> Vec<Above> {
 
 /// The same from every `stride`-th row of cells alone.
 fn above_planes_in_rows(map: &HeightMap, planes: Planes, stride: usize) -> Vec<Above> {
-    let inverse_pixel = inverse(map.pixel());
-    let parts = map
-        .chunks()
-        .into_par_iter()
-        .map(|(first, end)| {
-            let mut tally = Tally::new(planes, inverse_pixel);
-            let rows = (first..end).filter(|row| row % stride == 0);
-            rows.for_each(|row| map.for_each_cell(row, |z| tally.add_cell(&z)));
-            tally
-        })
-        .collect();
+    let inverse_pixel = map.inverse_pixel();
+    let parts = map.chunks(|rows| {
+        let mut tally = Tally::new(planes, inverse_pixel);
+        let rows = rows.filter(|row| row % stride == 0);
+        rows.for_each(|row| map.for_each_cell(row, |z| tally.add_cell(&z)));
+        tally
+    });
     joined(planes, inverse_pixel, parts)
 }
 
@@ -252,10 +245,7 @@ fn is_cut(z: &[f64; 4], low: f64, high: f64) -> bool {
 ///    nearly all that one plane cuts are also cut by its neighbours).
 /// 3. Illinois' rule of false position on those, to a relative residual of 1e-11 or neighbouring numbers.
 pub fn plane_of(map: &HeightMap, extent: &Extent, wanted: f64) -> Option<(f64, Above)> {
-    if extent.high <= extent.low {
-        return None;
-    }
-    if !wanted.is_finite() {
+    if extent.high <= extent.low || !wanted.is_finite() {
         return None;
     }
     let (all, estimated) = estimate(map, extent);
@@ -290,23 +280,19 @@ fn plane_below(sums: &[Above], wanted: f64) -> usize {
 fn first_bracket(map: &HeightMap, planes: Planes, sums: &[Above], wanted: f64) -> Bracket {
     let k = plane_below(sums, wanted);
     let (low, high) = (planes.height(k), planes.height(k + 1));
-    let parts: Vec<Vec<[f64; 4]>> = map
-        .chunks()
-        .into_par_iter()
-        .map(|(first, end)| {
-            let mut cells = Vec::new();
-            for row in first..end {
-                map.for_each_cell(row, |z| {
-                    if is_cut(&z, low, high) {
-                        cells.push(z);
-                    }
-                });
-            }
-            cells
-        })
-        .collect();
+    let parts = map.chunks(|rows| {
+        let mut cells = Vec::new();
+        for row in rows {
+            map.for_each_cell(row, |z| {
+                if is_cut(&z, low, high) {
+                    cells.push(z);
+                }
+            });
+        }
+        cells
+    });
     let cells = parts.concat();
-    Bracket { low, high, cells, base: Above::default(), inverse_pixel: inverse(map.pixel()) }
+    Bracket { low, high, cells, base: Above::default(), inverse_pixel: map.inverse_pixel() }
         .with_top(sums[k + 1])
 }
 

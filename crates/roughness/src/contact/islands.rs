@@ -13,9 +13,9 @@ use super::bearing_area::Above;
 use super::ellipse::Ellipse;
 use crate::surface::cells::{self, Moments};
 use crate::surface::height_map::HeightMap;
-use rayon::prelude::*;
 use runs::Cursor;
 pub(crate) use runs::Runs;
+use std::ops::Range;
 use union_find::{Meeting, UnionFind};
 
 /// A connected part of the surface above the plane.
@@ -116,8 +116,7 @@ impl Tally for Above {
     }
 
     fn join(&mut self, other: &Above) {
-        self.area += other.area;
-        self.slope_area += other.slope_area;
+        self.add(*other);
     }
 }
 
@@ -183,38 +182,34 @@ impl Islands {
 
     /// Sums per run, and which runs meet; in the order of the rows.
     fn sums<T: Tally>(&self, map: &HeightMap) -> (Vec<T>, Vec<Meeting>) {
-        let inverse_pixel = map.pixel().map(|p| 1.0 / p);
-        let parts: Vec<_> = map
-            .chunks()
-            .into_par_iter()
-            .map(|(first, end)| {
-                // runs of the rows first..=end; the last row of a periodic map meets row 0, kept apart at the end
-                let base = self.runs.first[first];
-                let last = self.runs.first[(end + 1).min(map.rows())];
-                let wrapped = if end == map.rows() { self.runs.first[1] } else { 0 };
-                let mut sums = vec![T::default(); last - base + wrapped];
-                let mut meetings: Vec<Meeting> = Vec::new();
-                for row in first..end {
-                    let slot = |run: usize| {
-                        if run >= base && run < last { run - base } else { last - base + run }
-                    };
-                    self.visit_row(
-                        map,
-                        row,
-                        |meeting| {
-                            if meetings.last() != Some(&meeting) {
-                                meetings.push(meeting);
-                            }
-                        },
-                        |visit| {
-                            let run = visit.run();
-                            sums[slot(run)].visit(&visit, self.runs.list[run].start, inverse_pixel);
-                        },
-                    );
-                }
-                (base, last, sums, meetings)
-            })
-            .collect();
+        let inverse_pixel = map.inverse_pixel();
+        let parts = map.chunks(|Range { start: first, end }| {
+            // runs of the rows first..=end; the last row of a periodic map meets row 0, kept apart at the end
+            let base = self.runs.first[first];
+            let last = self.runs.first[(end + 1).min(map.rows())];
+            let wrapped = if end == map.rows() { self.runs.first[1] } else { 0 };
+            let mut sums = vec![T::default(); last - base + wrapped];
+            let mut meetings: Vec<Meeting> = Vec::new();
+            for row in first..end {
+                let slot = |run: usize| {
+                    if run >= base && run < last { run - base } else { last - base + run }
+                };
+                self.visit_row(
+                    map,
+                    row,
+                    |meeting| {
+                        if meetings.last() != Some(&meeting) {
+                            meetings.push(meeting);
+                        }
+                    },
+                    |visit| {
+                        let run = visit.run();
+                        sums[slot(run)].visit(&visit, self.runs.list[run].start, inverse_pixel);
+                    },
+                );
+            }
+            (base, last, sums, meetings)
+        });
         let mut total = vec![T::default(); self.runs.list.len()];
         let mut all = Vec::new();
         for (base, last, sums, meetings) in parts {
@@ -380,7 +375,7 @@ impl Islands {
 
     /// The pieces of the islands of cell row `row`, from left to right; pieces of one cell follow each other.
     pub(crate) fn pieces(&self, map: &HeightMap, row: usize, mut each: impl FnMut(Piece)) {
-        let inverse_pixel = map.pixel().map(|p| 1.0 / p);
+        let inverse_pixel = map.inverse_pixel();
         let size = [map.columns() as i64, map.rows() as i64];
         self.visit_row(
             map,

@@ -9,10 +9,11 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// How the pressure of an island falls from its middle to its edge, ρ being the elliptic radius.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum PressureProfile {
     /// 3/2 p √(1 - ρ²) (eq. [15]).
+    #[default]
     Hertz,
     /// p arcosh(1/ρ), the elastic cone's (Sneddon 1965); infinite in the middle, so averaged over each pixel.
     Cone,
@@ -70,26 +71,22 @@ impl PressureField {
     /// 2. The weights of an island are scaled so that they sum to its force.
     pub fn of(map: &HeightMap, contact: &Contact, profile: PressureProfile) -> PressureField {
         let columns = map.cell_columns() as u32;
-        let parts: Vec<Vec<LoadedPixel>> = map
-            .chunks()
-            .into_par_iter()
-            .map(|(first, end)| {
-                let mut pixels = Vec::new();
-                for row in first..end {
-                    contact.islands.pieces(map, row, |piece| {
-                        let (weight, covered) = weigh(&piece, contact, profile, map.pixel());
-                        pixels.push(LoadedPixel {
-                            cell: piece.cell[0] * columns + piece.cell[1],
-                            island: piece.island,
-                            pressure: weight as f32,
-                            contact: covered as f32,
-                            island_area: piece.area as f32,
-                        });
+        let parts = map.chunks(|rows| {
+            let mut pixels = Vec::new();
+            for row in rows {
+                contact.islands.pieces(map, row, |piece| {
+                    let (weight, covered) = weigh(&piece, contact, profile, map.pixel());
+                    pixels.push(LoadedPixel {
+                        cell: piece.cell[0] * columns + piece.cell[1],
+                        island: piece.island,
+                        pressure: weight as f32,
+                        contact: covered as f32,
+                        island_area: piece.area as f32,
                     });
-                }
-                pixels
-            })
-            .collect();
+                });
+            }
+            pixels
+        });
         let mut pixels = parts.concat();
         let mut sums = vec![Sums::default(); contact.responses.len()];
         for pixel in &pixels {

@@ -30,7 +30,7 @@ pub struct Scene {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub coefficient: Option<PathBuf>,
     /// How the pressure of an island is spread.
-    #[serde(default = "hertz")]
+    #[serde(default)]
     pub pressure_profile: PressureProfile,
     /// The surface.
     pub surface: SurfaceScene,
@@ -41,10 +41,6 @@ pub struct Scene {
     /// Output files.
     #[serde(default)]
     pub output: Output,
-}
-
-fn hertz() -> PressureProfile {
-    PressureProfile::Hertz
 }
 
 /// One closure or all.
@@ -98,13 +94,12 @@ pub struct LoadScene {
 
 /// Output files.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, default)]
 pub struct Output {
     /// Pictures and .vti of pressure and contact.
-    #[serde(default = "yes")]
     pub maps: bool,
     /// The surface as pressed (levelled, filtered), as surface.x3p or surface.npy.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub surface: Option<SurfaceFormat>,
 }
 
@@ -122,10 +117,6 @@ impl Default for Output {
     fn default() -> Self {
         Output { maps: true, surface: None }
     }
-}
-
-fn yes() -> bool {
-    true
 }
 
 impl Scene {

@@ -1,31 +1,9 @@
 //! Discrete Fourier transforms of lines and maps.
 
 use rayon::prelude::*;
-use rustfft::{Fft, FftPlanner};
-use std::sync::Arc;
+use rustfft::{FftDirection, FftPlanner};
 
 pub(crate) use rustfft::num_complex::Complex64;
-
-/// A transform of one length, forward and back; going there and back multiplies by the length.
-pub(crate) struct Transform {
-    forward: Arc<dyn Fft<f64>>,
-    inverse: Arc<dyn Fft<f64>>,
-}
-
-impl Transform {
-    pub fn new(length: usize) -> Transform {
-        let mut planner = FftPlanner::new();
-        Transform { forward: planner.plan_fft_forward(length), inverse: planner.plan_fft_inverse(length) }
-    }
-
-    pub fn forward(&self, line: &mut [Complex64]) {
-        self.forward.process(line);
-    }
-
-    pub fn inverse(&self, line: &mut [Complex64]) {
-        self.inverse.process(line);
-    }
-}
 
 /// Rows become columns.
 pub(crate) fn transposed<T: Copy + Send + Sync + Default>(data: &[T], columns: usize) -> Vec<T> {
@@ -43,18 +21,16 @@ pub(crate) fn transposed<T: Copy + Send + Sync + Default>(data: &[T], columns: u
     out
 }
 
-/// Both passes of a transform of a map with rows of `columns` numbers; the result is transposed.
-fn both(
-    mut data: Vec<Complex64>,
-    columns: usize,
-    one: impl Fn(&Transform, &mut [Complex64]) + Sync,
-) -> Vec<Complex64> {
+/// Both passes of a transform of a map with rows of `columns` numbers; the result is transposed. There and back
+/// multiplies by the number of nodes.
+fn both(mut data: Vec<Complex64>, columns: usize, direction: FftDirection) -> Vec<Complex64> {
+    let mut planner = FftPlanner::new();
     let rows = data.len() / columns;
-    let along_x = Transform::new(columns);
-    data.par_chunks_mut(columns).for_each(|line| one(&along_x, line));
+    let along_x = planner.plan_fft(columns, direction);
+    data.par_chunks_mut(columns).for_each(|line| along_x.process(line));
     let mut data = transposed(&data, columns);
-    let along_y = Transform::new(rows);
-    data.par_chunks_mut(rows).for_each(|line| one(&along_y, line));
+    let along_y = planner.plan_fft(rows, direction);
+    data.par_chunks_mut(rows).for_each(|line| along_y.process(line));
     data
 }
 
@@ -63,13 +39,13 @@ pub(crate) fn shaped(noise: &[f64], columns: usize, gain: impl Fn(f64, f64) -> f
     let rows = noise.len() / columns;
     let signed = |k: usize, n: usize| if 2 * k > n { k as f64 - n as f64 } else { k as f64 };
     let mut spectrum =
-        both(noise.iter().map(|z| Complex64::new(*z, 0.0)).collect(), columns, Transform::forward);
+        both(noise.iter().map(|z| Complex64::new(*z, 0.0)).collect(), columns, FftDirection::Forward);
     spectrum.par_chunks_mut(rows).enumerate().for_each(|(kx, line)| {
         for (ky, value) in line.iter_mut().enumerate() {
             *value *= gain(signed(kx, columns), signed(ky, rows));
         }
     });
-    let map = both(spectrum, rows, Transform::inverse);
+    let map = both(spectrum, rows, FftDirection::Inverse);
     let scale = 1.0 / noise.len() as f64;
     map.into_par_iter().map(|z| z.re * scale).collect()
 }

@@ -1,8 +1,9 @@
 //! Gaussian areal filters (ISO 16610-61) and the filling of holes.
 
-use crate::surface::fft::{Complex64, Transform, transposed};
+use crate::surface::fft::{Complex64, transposed};
 use crate::surface::height_map::{HeightMap, MapError};
 use rayon::prelude::*;
+use rustfft::FftPlanner;
 use std::f64::consts::{LN_2, PI};
 use thiserror::Error;
 
@@ -78,7 +79,8 @@ fn convolved(mut data: Vec<Complex64>, length: usize, cutoff: f64, periodic: boo
     // at one cut-off from its middle the weight is 7e-7
     let reach = cutoff.ceil() as usize;
     let padded = if periodic { length } else { length + reach };
-    let transform = Transform::new(padded);
+    let mut planner = FftPlanner::new();
+    let (forward, inverse) = (planner.plan_fft_forward(padded), planner.plan_fft_inverse(padded));
     let mut kernel = vec![Complex64::new(0.0, 0.0); padded];
     let mut sum = 0.0;
     for k in -(reach as i64)..=reach as i64 {
@@ -87,16 +89,16 @@ fn convolved(mut data: Vec<Complex64>, length: usize, cutoff: f64, periodic: boo
         kernel[k.rem_euclid(padded as i64) as usize] += weight;
         sum += weight;
     }
-    transform.forward(&mut kernel);
+    forward.process(&mut kernel);
     let scale = 1.0 / (sum * padded as f64);
     data.par_chunks_mut(length).for_each_init(
         || vec![Complex64::new(0.0, 0.0); padded],
         |buffer, line| {
             buffer[..length].copy_from_slice(line);
             buffer[length..].fill(Complex64::new(0.0, 0.0));
-            transform.forward(buffer);
+            forward.process(buffer);
             buffer.iter_mut().zip(&kernel).for_each(|(b, k)| *b *= k.re * scale);
-            transform.inverse(buffer);
+            inverse.process(buffer);
             line.copy_from_slice(&buffer[..length]);
         },
     );

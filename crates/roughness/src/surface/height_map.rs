@@ -1,8 +1,15 @@
 use rayon::prelude::*;
+use std::ops::Range;
 use thiserror::Error;
 
 /// Rows of cells that one task takes: fixed, so that sums come out the same for any number of threads.
 pub(crate) const ROWS_PER_CHUNK: usize = 32;
+
+/// The answers of `of` for chunks of `rows` rows in parallel, in their order.
+pub(crate) fn chunks<T: Send>(rows: usize, of: impl Fn(Range<usize>) -> T + Sync) -> Vec<T> {
+    let chunk = |k: usize| of(k * ROWS_PER_CHUNK..((k + 1) * ROWS_PER_CHUNK).min(rows));
+    (0..rows.div_ceil(ROWS_PER_CHUNK)).into_par_iter().map(chunk).collect()
+}
 
 /// Why numbers are not a height map.
 #[derive(Clone, Debug, Error, PartialEq)]
@@ -163,10 +170,14 @@ impl HeightMap {
         Ok(HeightMap::new(self.columns, self.rows, self.pixel, heights)?.with_periodic(self.periodic))
     }
 
-    /// Chunks of cell rows, in order: (first, one past the last).
-    pub(crate) fn chunks(&self) -> Vec<(usize, usize)> {
-        let rows = self.cell_rows();
-        (0..rows).step_by(ROWS_PER_CHUNK).map(|first| (first, (first + ROWS_PER_CHUNK).min(rows))).collect()
+    /// The answers of `of` for chunks of cell rows in parallel, in their order.
+    pub(crate) fn chunks<T: Send>(&self, of: impl Fn(Range<usize>) -> T + Sync) -> Vec<T> {
+        chunks(self.cell_rows(), of)
+    }
+
+    /// 1/dx and 1/dy, in 1/m.
+    pub(crate) fn inverse_pixel(&self) -> [f64; 2] {
+        self.pixel.map(|p| 1.0 / p)
     }
 
     /// Calls `visit` with the corner heights of every used cell of cell row `row`, from left to right.

@@ -1,7 +1,6 @@
 //! Levelling: subtracts the least-squares constant, plane or quadratic from a map.
 
-use crate::surface::height_map::{HeightMap, ROWS_PER_CHUNK};
-use rayon::prelude::*;
+use crate::surface::height_map::{HeightMap, chunks};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -67,46 +66,36 @@ pub fn level(map: HeightMap, level: Levelling) -> HeightMap {
 fn fit(map: &HeightMap, terms: usize, reference: f64) -> [f64; 6] {
     let x: Vec<f64> = (0..map.columns()).map(|i| unit(i, map.columns())).collect();
     let whole_row = row_powers(&x, |_| true);
-    let parts: Vec<Sums> = (0..map.rows().div_ceil(ROWS_PER_CHUNK))
-        .into_par_iter()
-        .map(|chunk| {
-            let mut sums = Sums::default();
-            for row in chunk * ROWS_PER_CHUNK..((chunk + 1) * ROWS_PER_CHUNK).min(map.rows()) {
-                let heights = map.row(row);
-                let powers =
-                    if map.missing() == 0 { whole_row } else { row_powers(&x, |i| !heights[i].is_nan()) };
-                let mut h = [0.0; 3];
-                for (x, z) in x.iter().zip(heights).filter(|(_, z)| !z.is_nan()) {
-                    let z = z - reference;
-                    h[0] += z;
-                    h[1] += x * z;
-                    h[2] += x * x * z;
+    let parts = chunks(map.rows(), |rows| {
+        let mut sums = Sums::default();
+        for row in rows {
+            let heights = map.row(row);
+            let powers =
+                if map.missing() == 0 { whole_row } else { row_powers(&x, |i| !heights[i].is_nan()) };
+            let mut h = [0.0; 3];
+            for (x, z) in x.iter().zip(heights).filter(|(_, z)| !z.is_nan()) {
+                let z = z - reference;
+                h[0] += z;
+                h[1] += x * z;
+                h[2] += x * x * z;
+            }
+            let y = unit(row, map.rows());
+            for p in 0..5 {
+                for q in 0..5 - p {
+                    sums.powers[p][q] += powers[p] * y.powi(q as i32);
                 }
-                let y = unit(row, map.rows());
-                for p in 0..5 {
-                    for q in 0..5 - p {
-                        sums.powers[p][q] += powers[p] * y.powi(q as i32);
-                    }
-                    for q in (0..3).filter(|q| p + q < 3) {
-                        sums.heights[p][q] += h[p] * y.powi(q as i32);
-                    }
+                for q in (0..3).filter(|q| p + q < 3) {
+                    sums.heights[p][q] += h[p] * y.powi(q as i32);
                 }
             }
-            sums
-        })
-        .collect();
+        }
+        sums
+    });
+    let add = |total: &mut [f64], part: &[f64]| total.iter_mut().zip(part).for_each(|(t, p)| *t += p);
     let mut total = Sums::default();
     for part in &parts {
-        for p in 0..5 {
-            for q in 0..5 {
-                total.powers[p][q] += part.powers[p][q];
-            }
-        }
-        for p in 0..3 {
-            for q in 0..3 {
-                total.heights[p][q] += part.heights[p][q];
-            }
-        }
+        add(total.powers.as_flattened_mut(), part.powers.as_flattened());
+        add(total.heights.as_flattened_mut(), part.heights.as_flattened());
     }
     solve(terms, &total)
 }

@@ -90,26 +90,21 @@ fn central_sums(map: &HeightMap, mean: f64, range: f64) -> [f64; 4] {
 
 /// Σ|∇h|, Σ|∇h|², Σ|dz/dx| over the cells (means of their four triangles).
 fn slope_sums(map: &HeightMap) -> [f64; 3] {
-    let inverse_pixel = map.pixel().map(|p| 1.0 / p);
-    let parts: Vec<[f64; 3]> = map
-        .chunks()
-        .into_par_iter()
-        .map(|(first, end)| {
-            let mut s = [0.0; 3];
-            for row in first..end {
-                map.for_each_cell(row, |z| {
-                    let g = cells::gradients(&z, inverse_pixel);
-                    s[0] += 0.25 * ((g[0] + g[1]) + (g[2] + g[3]));
-                    s[1] += 0.25 * ((g[0] * g[0] + g[1] * g[1]) + (g[2] * g[2] + g[3] * g[3]));
-                    let (low, high) = (z[1] - z[0], z[2] - z[3]);
-                    // the triangles on the left and right have the mean of the two
-                    s[2] += 0.25 * ((low.abs() + high.abs()) + (low + high).abs()) * inverse_pixel[0];
-                });
-            }
-            s
-        })
-        .collect();
-    total(&parts)
+    let inverse_pixel = map.inverse_pixel();
+    total(&map.chunks(|rows| {
+        let mut s = [0.0; 3];
+        for row in rows {
+            map.for_each_cell(row, |z| {
+                let g = cells::gradients(&z, inverse_pixel);
+                s[0] += 0.25 * ((g[0] + g[1]) + (g[2] + g[3]));
+                s[1] += 0.25 * ((g[0] * g[0] + g[1] * g[1]) + (g[2] * g[2] + g[3] * g[3]));
+                let (low, high) = (z[1] - z[0], z[2] - z[3]);
+                // the triangles on the left and right have the mean of the two
+                s[2] += 0.25 * ((low.abs() + high.abs()) + (low + high).abs()) * inverse_pixel[0];
+            });
+        }
+        s
+    }))
 }
 
 fn total<const N: usize>(parts: &[[f64; N]]) -> [f64; N] {

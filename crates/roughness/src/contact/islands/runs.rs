@@ -1,7 +1,6 @@
 //! Runs of neighbouring nodes above the plane, row by row.
 
-use crate::surface::height_map::{HeightMap, ROWS_PER_CHUNK};
-use rayon::prelude::*;
+use crate::surface::height_map::{HeightMap, chunks};
 use std::ops::Range;
 
 /// Nodes `start..end` of one row, all above the plane.
@@ -80,19 +79,15 @@ impl Runs {
 
     /// Rows in parallel, joined in their order; `find` appends the runs of one row.
     fn gathered(map: &HeightMap, find: impl Fn(usize, &mut Vec<Run>) + Sync) -> Runs {
-        let parts: Vec<(Vec<Run>, Vec<usize>)> = (0..map.rows().div_ceil(ROWS_PER_CHUNK))
-            .into_par_iter()
-            .map(|chunk| {
-                let rows = chunk * ROWS_PER_CHUNK..((chunk + 1) * ROWS_PER_CHUNK).min(map.rows());
-                let mut runs = Vec::new();
-                let ends = rows.map(|row| {
-                    find(row, &mut runs);
-                    runs.len()
-                });
-                let ends = ends.collect();
-                (runs, ends)
-            })
-            .collect();
+        let parts = chunks(map.rows(), |rows| {
+            let mut runs = Vec::new();
+            let ends = rows.map(|row| {
+                find(row, &mut runs);
+                runs.len()
+            });
+            let ends: Vec<usize> = ends.collect();
+            (runs, ends)
+        });
         let mut list = Vec::with_capacity(parts.iter().map(|(part, _)| part.len()).sum());
         let mut first = Vec::with_capacity(map.rows() + 1);
         first.push(0);

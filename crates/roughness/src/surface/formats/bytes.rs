@@ -17,34 +17,11 @@ impl<'a> Bytes<'a> {
         ))
     }
 
-    fn array<const N: usize>(&self, offset: usize) -> Result<[u8; N], ReadError> {
-        let mut out = [0; N];
-        out.copy_from_slice(self.slice("header", offset, N)?);
-        Ok(out)
-    }
-
-    pub fn u16(&self, offset: usize) -> Result<u16, ReadError> {
-        self.array(offset).map(u16::from_le_bytes)
-    }
-
-    pub fn i16(&self, offset: usize) -> Result<i16, ReadError> {
-        self.array(offset).map(i16::from_le_bytes)
-    }
-
-    pub fn i32(&self, offset: usize) -> Result<i32, ReadError> {
-        self.array(offset).map(i32::from_le_bytes)
-    }
-
-    pub fn u32(&self, offset: usize) -> Result<u32, ReadError> {
-        self.array(offset).map(u32::from_le_bytes)
-    }
-
-    pub fn f32(&self, offset: usize) -> Result<f64, ReadError> {
-        self.array(offset).map(f32::from_le_bytes).map(f64::from)
-    }
-
-    pub fn f64(&self, offset: usize) -> Result<f64, ReadError> {
-        self.array(offset).map(f64::from_le_bytes)
+    /// The little-endian number at `offset`.
+    pub fn number(&self, kind: Number, offset: usize) -> Result<f64, ReadError> {
+        let mut out = [0.0];
+        kind.decode(self.slice("header", offset, kind.size())?, false, &mut out);
+        Ok(out[0])
     }
 
     /// Text of a fixed field, without padding.
@@ -67,59 +44,58 @@ fn half(bits: u16) -> f64 {
     if bits >> 15 == 0 { size } else { -size }
 }
 
-/// How a number is stored.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Number {
-    U8,
-    U16,
-    U32,
-    I8,
-    I16,
-    I32,
-    I64,
-    U64,
-    F16,
-    F32,
-    F64,
+/// Reads as many numbers of `N` bytes as `out` takes.
+fn each<const N: usize>(raw: &[u8], big_endian: bool, out: &mut [f64], read: impl Fn([u8; N]) -> f64) {
+    for (z, bytes) in out.iter_mut().zip(raw.chunks_exact(N)) {
+        let mut b = [0; N];
+        b.copy_from_slice(bytes);
+        if big_endian {
+            b.reverse();
+        }
+        *z = read(b);
+    }
+}
+
+/// The kinds of numbers, each with the type that has its bytes and the value of one of those.
+macro_rules! numbers {
+    ($stored:ident; $($kind:ident: $type:ty = $value:expr,)*) => {
+        /// How a number is stored.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub(super) enum Number { $($kind,)* }
+
+        impl Number {
+            pub fn size(self) -> usize {
+                match self { $(Number::$kind => size_of::<$type>(),)* }
+            }
+
+            /// Decodes as many numbers as `out` takes from `raw`.
+            pub fn decode(self, raw: &[u8], big_endian: bool, out: &mut [f64]) {
+                match self {
+                    $(Number::$kind => each(raw, big_endian, out, |bytes| {
+                        let $stored = <$type>::from_le_bytes(bytes);
+                        $value
+                    }),)*
+                }
+            }
+        }
+    };
+}
+
+numbers! { stored;
+    U8: u8 = stored as f64,
+    U16: u16 = stored as f64,
+    U32: u32 = stored as f64,
+    U64: u64 = stored as f64,
+    I8: i8 = stored as f64,
+    I16: i16 = stored as f64,
+    I32: i32 = stored as f64,
+    I64: i64 = stored as f64,
+    F16: u16 = half(stored),
+    F32: f32 = stored as f64,
+    F64: f64 = stored,
 }
 
 impl Number {
-    pub fn size(self) -> usize {
-        match self {
-            Number::U8 | Number::I8 => 1,
-            Number::U16 | Number::I16 | Number::F16 => 2,
-            Number::U32 | Number::I32 | Number::F32 => 4,
-            Number::I64 | Number::U64 | Number::F64 => 8,
-        }
-    }
-
-    /// Decodes as many numbers as `out` takes from `raw`.
-    pub fn decode(self, raw: &[u8], big_endian: bool, out: &mut [f64]) {
-        fn each<const N: usize>(raw: &[u8], big: bool, out: &mut [f64], read: impl Fn([u8; N]) -> f64) {
-            for (z, bytes) in out.iter_mut().zip(raw.chunks_exact(N)) {
-                let mut b = [0; N];
-                b.copy_from_slice(bytes);
-                if big {
-                    b.reverse();
-                }
-                *z = read(b);
-            }
-        }
-        match self {
-            Number::U8 => each(raw, big_endian, out, |b: [u8; 1]| f64::from(b[0])),
-            Number::I8 => each(raw, big_endian, out, |b| f64::from(i8::from_le_bytes(b))),
-            Number::U16 => each(raw, big_endian, out, |b| f64::from(u16::from_le_bytes(b))),
-            Number::I16 => each(raw, big_endian, out, |b| f64::from(i16::from_le_bytes(b))),
-            Number::U32 => each(raw, big_endian, out, |b| f64::from(u32::from_le_bytes(b))),
-            Number::I32 => each(raw, big_endian, out, |b| f64::from(i32::from_le_bytes(b))),
-            Number::I64 => each(raw, big_endian, out, |b| i64::from_le_bytes(b) as f64),
-            Number::U64 => each(raw, big_endian, out, |b| u64::from_le_bytes(b) as f64),
-            Number::F16 => each(raw, big_endian, out, |b| half(u16::from_le_bytes(b))),
-            Number::F32 => each(raw, big_endian, out, |b| f64::from(f32::from_le_bytes(b))),
-            Number::F64 => each(raw, big_endian, out, f64::from_le_bytes),
-        }
-    }
-
     /// Decodes all `count` little-endian numbers of `raw`.
     pub fn decode_all(self, raw: &[u8], count: usize) -> Vec<f64> {
         let mut out = vec![0.0; count];

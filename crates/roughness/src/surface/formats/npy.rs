@@ -2,6 +2,7 @@
 
 use super::bytes::Number;
 use super::measured::{Measured, ReadError, Spacing, nodes};
+use crate::surface::fft::transposed;
 use npyz::{DType, Endianness, NpyHeader, Order, TypeChar, WriterBuilder};
 use rayon::prelude::*;
 use std::fs::File;
@@ -120,18 +121,9 @@ pub(super) fn read(path: &Path) -> Result<Measured, ReadError> {
     })?;
     let (columns, rows) = (columns as usize, rows as usize);
     if header.order() == Order::Fortran {
-        heights = transposed(&heights, rows, columns);
+        heights = transposed(&heights, rows);
     }
     Ok(Measured { columns, rows, heights, spacing: Spacing::Unknown, height_unit: None })
-}
-
-/// Turns columns of `rows` heights into rows of `columns` heights.
-fn transposed(by_column: &[f64], rows: usize, columns: usize) -> Vec<f64> {
-    let mut by_row = vec![0.0; by_column.len()];
-    by_row.par_chunks_mut(columns).enumerate().for_each(|(row, part)| {
-        part.iter_mut().enumerate().for_each(|(column, z)| *z = by_column[column * rows + row]);
-    });
-    by_row
 }
 
 /// Writes heights as an array of f64, axis 0 = y.

@@ -43,10 +43,10 @@ impl Header {
 fn binary(data: &[u8]) -> Result<Measured, ReadError> {
     let file = Bytes { format: FORMAT, data };
     let header = Header {
-        columns: file.u16(42)?.into(),
-        rows: file.u16(44)?.into(),
-        pixel: [file.f64(46)?, file.f64(54)?],
-        scale: file.f64(62)?,
+        columns: file.number(Number::U16, 42)? as u64,
+        rows: file.number(Number::U16, 44)? as u64,
+        pixel: [file.number(Number::F64, 46)?, file.number(Number::F64, 54)?],
+        scale: file.number(Number::F64, 62)?,
     };
     let (compression, kind) = (file.slice("header", 78, 1)?[0], file.slice("header", 79, 1)?[0]);
     if compression != 0 {

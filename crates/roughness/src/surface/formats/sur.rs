@@ -31,45 +31,45 @@ pub(super) fn read(path: &Path) -> Result<Measured, ReadError> {
     let data = std::fs::read(path)?;
     let header = Bytes { format: FORMAT, data: &data };
     let compressed = header.text(0, 12)? == "DSCOMPRESSED";
-    let (byte_order, kind) = (header.i16(12)?, header.i16(18)?);
-    if byte_order != 0 {
+    let (byte_order, kind) = (header.number(Number::I16, 12)?, header.number(Number::I16, 18)?);
+    if byte_order != 0.0 {
         return Err(header_error("format", byte_order, "only 0 (little-endian) is known"));
     }
-    if kind != 2 {
+    if kind != 2.0 {
         return Err(header_error(
             "object type",
             kind,
             "only a single surface (2) can be pressed, no profile, series, image or force curve",
         ));
     }
-    let objects = header.i16(14)?;
-    if objects > 1 {
+    let objects = header.number(Number::I16, 14)?;
+    if objects > 1.0 {
         let allowed = "only one can be pressed: export the heights alone";
         return Err(header_error("number of objects", objects, allowed));
     }
-    let special = header.i16(86)? == 1;
-    let number = match header.i16(98)? {
-        16 => Number::I16,
-        32 => Number::I32,
+    let special = header.number(Number::I16, 86)? == 1.0;
+    let number = match header.number(Number::I16, 98)? {
+        16.0 => Number::I16,
+        32.0 => Number::I32,
         bits => return Err(header_error("size of points", bits, "it must be 16 or 32 bits")),
     };
-    let lowest = f64::from(header.i32(100)?);
-    let (columns, rows) = (header.i32(108)?, header.i32(112)?);
-    let count = nodes(FORMAT, columns.max(0) as u64, rows.max(0) as u64)?;
+    let lowest = header.number(Number::I32, 100)?;
+    let (columns, rows) = (header.number(Number::I32, 108)?, header.number(Number::I32, 112)?);
+    let count = nodes(FORMAT, columns.max(0.0) as u64, rows.max(0.0) as u64)?;
     let unit = |name: &'static str, offset: usize| {
         let text = header.text(offset, 16)?;
         metres(&text).ok_or_else(|| header_error(name, text, "it must be m, cm, mm, µm, nm or pm"))
     };
     let pixel = [
-        positive(FORMAT, "x step", header.f32(120)?.abs())? * unit("x step unit", 180)?,
-        positive(FORMAT, "y step", header.f32(124)?.abs())? * unit("y step unit", 196)?,
+        positive(FORMAT, "x step", header.number(Number::F32, 120)?.abs())? * unit("x step unit", 180)?,
+        positive(FORMAT, "y step", header.number(Number::F32, 124)?.abs())? * unit("y step unit", 196)?,
     ];
-    let step = positive(FORMAT, "z step", header.f32(128)?)?;
+    let step = positive(FORMAT, "z step", header.number(Number::F32, 128)?)?;
     let height_unit = unit("z step unit", 212)?;
-    let offset = header.f32(474)?;
+    let offset = header.number(Number::F32, 474)?;
     let offset = if offset.is_finite() { offset } else { 0.0 };
-    let comment = usize::from(header.u16(334)?);
-    let private = usize::from(header.u16(336)?);
+    let comment = header.number(Number::U16, 334)? as usize;
+    let private = header.number(Number::U16, 336)? as usize;
     let start = HEADER + comment + private;
     let size = count * number.size();
     let unpacked;
@@ -90,13 +90,13 @@ pub(super) fn read(path: &Path) -> Result<Measured, ReadError> {
 
 /// Heights of a compressed file: a directory of zlib streams (unpacked length, packed length), then the streams.
 fn inflate(file: &Bytes, start: usize, size: usize) -> Result<Vec<u8>, ReadError> {
-    let streams = file.u32(start)? as usize;
+    let streams = file.number(Number::U32, start)? as usize;
     let directory = file.slice("directory", start + 4, streams.saturating_mul(8))?;
     let directory = Bytes { format: FORMAT, data: directory };
     let mut at = start + 4 + streams * 8;
     let mut out = Vec::new();
     for stream in 0..streams {
-        let packed = directory.u32(8 * stream + 4)? as usize;
+        let packed = directory.number(Number::U32, 8 * stream + 4)? as usize;
         let raw = file.slice("compressed heights", at, packed)?;
         // never more than the header's size, whatever the stream says
         let room = (size - out.len()) as u64;
