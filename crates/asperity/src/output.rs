@@ -1,8 +1,8 @@
 //! Where results are put, anything that can give a path to each file by its name, and rows as CSV.
 
 use crate::error::Error;
-use serde::Serialize;
 use serde::de::DeserializeOwned;
+use serde::{Deserialize, Deserializer, Serialize};
 use std::fmt::Display;
 use std::fs::File;
 use std::io::{BufWriter, Read, Write};
@@ -111,4 +111,9 @@ pub fn read_csv<T: DeserializeOwned>(input: impl Read, name: impl Fn(&str) -> &s
     let names = reader.headers()?.iter().map(name).collect();
     reader.set_headers(names);
     reader.deserialize().collect()
+}
+
+/// JSON has no NaN.
+pub(crate) fn nan_for_null<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+    Ok(Option::deserialize(deserializer)?.unwrap_or(f64::NAN))
 }

@@ -46,10 +46,10 @@ pub struct Summary {
     /// elastic_work / total_work.
     pub elastic_fraction: Option<f64>,
     /// Largest |W - E_e - W_p - E_c|/W over increments with W above 1 % of its peak.
-    #[serde(deserialize_with = "nan_for_null")]
+    #[serde(deserialize_with = "crate::output::nan_for_null")]
     pub energy_balance_error: f64,
     /// 95 % bound of the relative error of the force for 0.2 ≤ h/h_peak ≤ 1; NaN (`null`) where it is not known.
-    #[serde(deserialize_with = "nan_for_null")]
+    #[serde(deserialize_with = "crate::output::nan_for_null")]
     pub estimated_error: f64,
     /// Number of elements.
     pub elements: usize,
@@ -253,11 +253,6 @@ impl<'de> Deserialize<'de> for Summary {
 /// The scene with its keys in the order of the alphabet.
 fn by_key<S: Serializer>(scene: &Tables, serializer: S) -> Result<S::Ok, S::Error> {
     serde_json::to_value(scene).map_err(S::Error::custom)?.serialize(serializer)
-}
-
-/// JSON has no NaN.
-fn nan_for_null<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
-    Ok(Option::deserialize(deserializer)?.unwrap_or(f64::NAN))
 }
 
 /// Largest resident memory of this process so far, in MB of 10⁶ bytes; `None` where the system does not say.
