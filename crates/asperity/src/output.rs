@@ -34,6 +34,26 @@ pub trait SinkExt: Sink {
         write(&mut out).map_err(|e| Error::disk(&path, e))?;
         out.flush().map_err(|e| Error::disk(&path, e))
     }
+
+    /// Writes `text` as the file `name`.
+    ///
+    /// # Errors
+    /// A disk that refuses.
+    fn text(&mut self, name: &str, text: &str) -> Result<(), Error> {
+        self.write(name, |out| out.write_all(text.as_bytes()))
+    }
+
+    /// Writes `rows` as the CSV file `name`: its columns are their fields.
+    ///
+    /// # Errors
+    /// A disk that refuses, or rows that are not flat.
+    fn csv<T: Serialize>(&mut self, name: &str, rows: &[T]) -> Result<(), Error> {
+        self.write(name, |out| {
+            let mut table = csv::Writer::from_writer(out);
+            rows.iter().try_for_each(|row| table.serialize(row))?;
+            table.flush().map_err(csv::Error::from)
+        })
+    }
 }
 
 impl<S: Sink + ?Sized> SinkExt for S {}
@@ -91,6 +111,26 @@ pub fn write_csv<T: Serialize>(
         out.write_record(record?.iter().map(cell))?;
     }
     Ok(out.flush()?)
+}
+
+/// `value` as indented JSON, its keys in the order of its fields.
+///
+/// # Errors
+/// A value that JSON cannot hold.
+pub(crate) fn json<T: Serialize>(value: &T) -> Result<String, Error> {
+    serde_json::to_string_pretty(value).map_err(no_json)
+}
+
+/// The same with the keys in alphabetical order.
+///
+/// # Errors
+/// A value that JSON cannot hold.
+pub(crate) fn sorted_json<T: Serialize>(value: &T) -> Result<String, Error> {
+    json(&serde_json::to_value(value).map_err(no_json)?)
+}
+
+fn no_json(error: serde_json::Error) -> Error {
+    Error::Unfinished(format!("a result is not JSON: {error}"))
 }
 
 /// The text of a value as files have it: `5.0`, `5e-5`, nothing for NaN.

@@ -184,9 +184,7 @@ impl Summary {
     /// # Errors
     /// A scene that JSON cannot hold.
     pub fn to_json(&self) -> Result<String, Error> {
-        let text = serde_json::to_string_pretty(self);
-        text.map(|text| text + "\n")
-            .map_err(|e| Error::Unfinished(format!("the summary could not be written: {e}")))
+        Ok(crate::output::json(self)? + "\n")
     }
 
     /// Reads a summary.json.

@@ -1,6 +1,5 @@
 use super::closures::ClosureContact;
 use super::{MEGAPASCAL, MICROMETRE};
-use crate::csv_file::shortest;
 use asperity_roughness::{Closure, CurvePoint, Surface};
 use serde::{Deserialize, Serialize};
 
@@ -85,13 +84,11 @@ pub struct LoadPoint {
     /// Down or up.
     pub phase: Phase,
     /// The plane above the mean height, µm.
-    #[serde(serialize_with = "shortest")]
     pub separation_um: f64,
     /// Nominal pressure, MPa.
-    #[serde(rename = "pressure_MPa", serialize_with = "shortest")]
+    #[serde(rename = "pressure_MPa")]
     pub pressure_mpa: f64,
     /// Contact area over nominal area.
-    #[serde(serialize_with = "shortest")]
     pub contact_area_ratio: f64,
 }
 

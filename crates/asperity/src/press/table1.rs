@@ -193,9 +193,8 @@ impl Table1 {
     /// # Errors
     /// A disk that refuses.
     pub fn write(&self, sink: &mut dyn Sink) -> Result<(), Error> {
-        sink.write("table1.txt", |out| out.write_all(self.text().as_bytes()))?;
-        let json = self.json()?;
-        sink.write("table1.json", |out| out.write_all(json.as_bytes()))
+        sink.text("table1.txt", &self.text())?;
+        sink.text("table1.json", &self.json()?)
     }
 
     /// The text of table1.json.
@@ -203,7 +202,7 @@ impl Table1 {
     /// # Errors
     /// None that is known: every table is JSON.
     pub fn json(&self) -> Result<String, Error> {
-        serde_json::to_string_pretty(self).map_err(|e| Error::Unfinished(e.to_string()))
+        crate::output::json(self)
     }
 
     /// The tables for a reader.
