@@ -24,9 +24,7 @@
 //! The same scene as text is read by [`Scene::from_toml`], and [`crush::Crush::write`] leaves the files of the command in
 //! a [`output::Directory`].
 
-mod csv_file;
 pub mod error;
-mod json_file;
 pub mod output;
 pub mod units;
 

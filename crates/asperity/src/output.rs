@@ -1,8 +1,8 @@
 //! Where results are put, anything that can give a path to each file by its name, and rows as CSV.
 
 use crate::error::Error;
-use serde::Serialize;
 use serde::de::DeserializeOwned;
+use serde::{Deserialize, Deserializer, Serialize};
 use std::fmt::Display;
 use std::fs::File;
 use std::io::{BufWriter, Read, Write};
@@ -33,6 +33,26 @@ pub trait SinkExt: Sink {
         let mut out = BufWriter::new(file);
         write(&mut out).map_err(|e| Error::disk(&path, e))?;
         out.flush().map_err(|e| Error::disk(&path, e))
+    }
+
+    /// Writes `text` as the file `name`.
+    ///
+    /// # Errors
+    /// A disk that refuses.
+    fn text(&mut self, name: &str, text: &str) -> Result<(), Error> {
+        self.write(name, |out| out.write_all(text.as_bytes()))
+    }
+
+    /// Writes `rows` as the CSV file `name`: its columns are their fields.
+    ///
+    /// # Errors
+    /// A disk that refuses, or rows that are not flat.
+    fn csv<T: Serialize>(&mut self, name: &str, rows: &[T]) -> Result<(), Error> {
+        self.write(name, |out| {
+            let mut table = csv::Writer::from_writer(out);
+            rows.iter().try_for_each(|row| table.serialize(row))?;
+            table.flush().map_err(csv::Error::from)
+        })
     }
 }
 
@@ -93,6 +113,26 @@ pub fn write_csv<T: Serialize>(
     Ok(out.flush()?)
 }
 
+/// `value` as indented JSON, its keys in the order of its fields.
+///
+/// # Errors
+/// A value that JSON cannot hold.
+pub(crate) fn json<T: Serialize>(value: &T) -> Result<String, Error> {
+    serde_json::to_string_pretty(value).map_err(no_json)
+}
+
+/// The same with the keys in alphabetical order.
+///
+/// # Errors
+/// A value that JSON cannot hold.
+pub(crate) fn sorted_json<T: Serialize>(value: &T) -> Result<String, Error> {
+    json(&serde_json::to_value(value).map_err(no_json)?)
+}
+
+fn no_json(error: serde_json::Error) -> Error {
+    Error::Unfinished(format!("a result is not JSON: {error}"))
+}
+
 /// The text of a value as files have it: `5.0`, `5e-5`, nothing for NaN.
 fn cell(text: &str) -> String {
     match text.parse::<f64>() {
@@ -111,4 +151,9 @@ pub fn read_csv<T: DeserializeOwned>(input: impl Read, name: impl Fn(&str) -> &s
     let names = reader.headers()?.iter().map(name).collect();
     reader.set_headers(names);
     reader.deserialize().collect()
+}
+
+/// JSON has no NaN.
+pub(crate) fn nan_for_null<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+    Ok(Option::deserialize(deserializer)?.unwrap_or(f64::NAN))
 }

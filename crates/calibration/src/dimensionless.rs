@@ -1,4 +1,4 @@
-//! The fitted dimensionless function Π of eq. [7]: K/σ_r of any material and slope as a formula, and the contact ratio.
+//! The fitted dimensionless function Π of eq. (7): K/σ_r of any material and slope as a formula, and the contact ratio.
 //!
 //! With X = E* tan β/σ_r, Y = K tan²β/σ_r and σ_r taken at ε_r = c tan β,
 //!   ln Y = Σ_{k<5} a_k (ln X)^k + tan β Σ_{k<3} b_k (ln X)^k,

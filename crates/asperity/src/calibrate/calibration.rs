@@ -1,7 +1,6 @@
 use super::fit::{AngleFit, Fit};
 use super::pictures;
 use super::run::{Options, Progress, solve};
-use crate::csv_file;
 use crate::error::{Error, InputError};
 use crate::output::{Sink, SinkExt};
 use asperity_calibration::dimensionless::Dimensionless;
@@ -103,20 +102,19 @@ impl Calibration {
     /// # Errors
     /// A disk that refuses.
     pub fn write(&self, sink: &mut dyn Sink) -> Result<(), Error> {
-        csv_file::write(sink, "cases.csv", &self.cases)?;
-        sink.write("sweep.json", |out| serde_json::to_writer_pretty(out, &self.sweep))?;
+        sink.csv("cases.csv", &self.cases)?;
+        sink.text("sweep.json", &crate::output::json(&self.sweep)?)?;
         if !self.whole {
             return Ok(());
         }
-        let fit = self.json()?;
-        sink.write("fit.json", |out| out.write_all(fit.as_bytes()))?;
+        sink.text("fit.json", &self.json()?)?;
         if let Some(coefficient) = &self.coefficient {
             let text = coefficient.to_toml().map_err(|e| Error::Unfinished(e.to_string()))?;
-            sink.write("coefficient.toml", |out| out.write_all(text.as_bytes()))?;
+            sink.text("coefficient.toml", &text)?;
         }
         for (name, picture) in pictures::all(&self.data, &self.fit, self.shown) {
             let text = picture.map_err(Error::Unfinished)?;
-            sink.write(name, |out| out.write_all(text.as_bytes()))?;
+            sink.text(name, &text)?;
         }
         Ok(())
     }
@@ -126,7 +124,7 @@ impl Calibration {
     /// # Errors
     /// None that is known: every fit is JSON.
     pub fn json(&self) -> Result<String, Error> {
-        Ok(crate::json_file::text(&self.fit)? + "\n")
+        Ok(crate::output::sorted_json(&self.fit)? + "\n")
     }
 
     /// The result for a person.

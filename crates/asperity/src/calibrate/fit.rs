@@ -1,3 +1,4 @@
+use crate::output::nan_for_null;
 use asperity_calibration::case::Tool;
 use asperity_calibration::dimensionless::{Dimensionless, Formula};
 use asperity_calibration::fit::{Angle, DEVELOPED, Slope};
@@ -47,11 +48,14 @@ pub struct AngleFit {
     pub beta_deg: f64,
     /// ε_r of least scatter; none where it is not determined.
     pub representative_strain: Option<f64>,
-    /// Lower end of its 95 % interval.
+    /// Lower end of its 95 % interval; NaN (`null`) where there is none, as of the other end and the scatter.
+    #[serde(deserialize_with = "nan_for_null")]
     pub low: f64,
     /// Upper end.
+    #[serde(deserialize_with = "nan_for_null")]
     pub high: f64,
     /// Scatter of ln(K/σ_r) left at the minimum.
+    #[serde(deserialize_with = "nan_for_null")]
     pub scatter: f64,
     /// Cases that took part.
     pub cases: usize,
@@ -96,7 +100,7 @@ pub struct DevelopedFit {
     pub slopes: usize,
 }
 
-/// The dimensionless function Π of eq. [7].
+/// The dimensionless function Π of eq. (7).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FunctionFit {
     /// The formula in words.

@@ -1,9 +1,8 @@
 //! c for both laws, both tools and parts of the range of materials.
 
 use super::run::{Options, Progress, solve};
-use crate::csv_file;
 use crate::error::Error;
-use crate::output::Sink;
+use crate::output::{Sink, SinkExt};
 use asperity_calibration::case::Tool;
 use asperity_calibration::fit::{DEVELOPED, Slope};
 use asperity_calibration::row::CaseRow;
@@ -132,9 +131,9 @@ impl Sensitivity {
     /// A disk that refuses.
     pub fn write(&self, sink: &mut dyn Sink) -> Result<(), Error> {
         for (name, rows) in &self.sweeps {
-            csv_file::write(sink, &format!("cases-{name}.csv"), rows)?;
+            sink.csv(&format!("cases-{name}.csv"), rows)?;
         }
-        csv_file::write(sink, "dependence.csv", &self.lines)
+        sink.csv("dependence.csv", &self.lines)
     }
 
     /// Removes the journals, which are of no use once the results are in their place.
@@ -149,7 +148,7 @@ impl Sensitivity {
     /// # Errors
     /// None that is known: every line is JSON.
     pub fn json(&self) -> Result<String, Error> {
-        crate::json_file::text(self)
+        crate::output::sorted_json(self)
     }
 
     /// The lines as a table of Markdown.

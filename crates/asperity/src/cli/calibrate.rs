@@ -26,7 +26,7 @@ pub struct Calibrate {
     /// Solve only part K of N, for the tasks of an array job; join the folders with `asperity calibrate merge`
     #[arg(long, value_name = "K/N", value_parser = parse_shard)]
     pub shard: Option<(usize, usize)>,
-    /// What c depends on: a table over laws, tools, exponents and ranges of E over yield stress, from 1800 cases
+    /// The dependence of c: a table over laws, tools, exponents and ranges of E over yield stress, from 1800 cases
     #[arg(long, conflicts_with_all = ["sweep", "shard", "slope", "overrides"])]
     pub dependence: bool,
     /// Slope in degrees that collapse.svg shows [default: the largest]
@@ -75,7 +75,7 @@ pub fn calibrate(args: &Calibrate) -> Result<(), Error> {
         Some(Joining::Merge(Merge { parts, slope, run })) => {
             let target = run.out.clone().unwrap_or_else(|| PathBuf::from("out/calibrate"));
             let calibration = merge(parts, *slope)?;
-            finish(calibration, Folder::create(&target, "calibrate", run.force)?, run, &target)
+            finish(Ok(calibration), Folder::create(&target, "calibrate", run.force)?, run, &target)
         }
         None if args.dependence => dependence(args),
         None => sweep(args),
@@ -96,33 +96,19 @@ fn sweep(args: &Calibrate) -> Result<(), Error> {
     let target = args.run.out.clone().unwrap_or(default);
     let folder = Folder::create(&target, "calibrate", args.run.force)?;
     let options = Options { part: args.shard, shown_slope_deg: args.slope, ..options(&args.run, &target) };
-    match observed(&options, args.run.quiet, |observer| run(&sweep, &options, observer)) {
-        Ok(calibration) => finish(calibration, folder, &args.run, &target),
-        Err(failure) => {
-            folder.abandon();
-            Err(failure)
-        }
-    }
+    let result = observed(&options, args.run.quiet, |observer| run(&sweep, &options, observer));
+    finish(result, folder, &args.run, &target)
 }
 
 fn dependence(args: &Calibrate) -> Result<(), Error> {
     let target = args.run.out.clone().unwrap_or_else(|| PathBuf::from("out/dependence"));
-    let mut folder = Folder::create(&target, "calibrate", args.run.force)?;
+    let folder = Folder::create(&target, "calibrate", args.run.force)?;
     let options = options(&args.run, &target);
     let accuracy = args.scene_flags.accuracy.unwrap_or_default();
-    match observed(&options, args.run.quiet, |observer| sensitivity(accuracy, &options, observer)) {
-        Ok(found) => {
-            found.write(&mut folder)?;
-            folder.publish()?;
-            found.remove_journals();
-            say(&args.run, &target, found.json()?, &found.text());
-            Ok(())
-        }
-        Err(failure) => {
-            folder.abandon();
-            Err(failure)
-        }
-    }
+    let result = observed(&options, args.run.quiet, |observer| sensitivity(accuracy, &options, observer));
+    let found = folder.fill(result, |found, folder| found.write(folder))?;
+    found.remove_journals();
+    args.run.say(&target, || found.json(), || found.text())
 }
 
 fn options(flags: &RunFlags, target: &Path) -> Options {
@@ -156,19 +142,13 @@ fn observed<T>(
     result
 }
 
-fn finish(result: Calibration, mut folder: Folder, flags: &RunFlags, target: &Path) -> Result<(), Error> {
-    result.write(&mut folder)?;
-    folder.publish()?;
-    result.remove_journal();
-    say(flags, target, result.json()?, &result.text());
-    Ok(())
-}
-
-fn say(flags: &RunFlags, target: &Path, json: String, text: &str) {
-    if flags.json {
-        terminal::say(json.trim_end());
-    } else if !flags.quiet {
-        terminal::say(text.trim_end());
-        terminal::say(&format!("results   {}", target.display()));
-    }
+fn finish(
+    result: Result<Calibration, Error>,
+    folder: Folder,
+    flags: &RunFlags,
+    target: &Path,
+) -> Result<(), Error> {
+    let done = folder.fill(result, |calibration, folder| calibration.write(folder))?;
+    done.remove_journal();
+    flags.say(target, || done.json(), || done.text())
 }

@@ -51,12 +51,7 @@ pub fn crush(args: &Crush) -> Result<(), Error> {
     }
     folder.publish()?;
     let summary = result?.summary;
-    if args.run.json {
-        terminal::say(summary.to_json()?.trim_end());
-    } else if !args.run.quiet {
-        terminal::say(&summary.overview());
-        terminal::say(&format!("results   {}", out.display()));
-    }
+    args.run.say(&out, || summary.to_json(), || summary.overview())?;
     match summary.stopped {
         Some(reason) => Err(Error::Unfinished(format!("{reason}; what was reached is in {}", out.display()))),
         None => Ok(()),

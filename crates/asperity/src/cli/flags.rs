@@ -1,5 +1,6 @@
 //! Flags that several commands share.
 
+use crate::cli::terminal;
 use crate::error::Error;
 use crate::input::scene::Scene;
 use asperity_solver::scene::{Accuracy, AccuracyError};
@@ -51,6 +52,26 @@ pub struct RunFlags {
     /// Print the summary as JSON on stdout
     #[arg(long)]
     pub json: bool,
+}
+
+impl RunFlags {
+    /// Prints the result as the flags ask: as JSON, for a person with the folder that holds it, or not at all.
+    ///
+    /// # Errors
+    /// Those of `json`.
+    pub fn say(
+        &self,
+        target: &Path,
+        json: impl FnOnce() -> Result<String, Error>,
+        text: impl FnOnce() -> String,
+    ) -> Result<(), Error> {
+        if self.json {
+            terminal::say(json()?.trim_end());
+        } else if !self.quiet {
+            terminal::say(&format!("{}\nresults   {}", text().trim_end(), target.display()));
+        }
+        Ok(())
+    }
 }
 
 /// An accuracy within the range that can be asked for.

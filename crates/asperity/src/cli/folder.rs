@@ -69,6 +69,44 @@ pub fn journal_beside(target: &Path) -> PathBuf {
     target.with_file_name(name)
 }
 
+fn cannot_write(path: &Path, e: &io::Error) -> InputError {
+    InputError::new(format!("cannot write to {}: {e}", path.display()))
+        .help("give a folder you may write to with --out")
+}
+
+/// Opens the manifest of a run into `target` and locks it as long as it is held.
+fn lock(manifest: &Path, target: &Path) -> Result<File, InputError> {
+    let options = fs::OpenOptions::new().append(true).create(true).open(manifest);
+    let file = options.map_err(|e| cannot_write(manifest, &e))?;
+    match file.try_lock() {
+        Err(TryLockError::WouldBlock) => {
+            Err(InputError::new(format!("another run is writing to {}", target.display()))
+                .help("wait for it, or give another folder with --out"))
+        }
+        // a file system without locks: go on without
+        Ok(()) | Err(TryLockError::Error(_)) => Ok(file),
+    }
+}
+
+/// Marks `target` as the place where `command` adds to its results, and holds it as long as the mark is held.
+///
+/// # Errors
+/// A folder that holds anything that no run of `command` made (unless `force`), that another run is filling now, or that
+/// cannot be written.
+pub fn claim(target: &Path, command: &str, force: bool) -> Result<File, InputError> {
+    let path = target.join(MANIFEST);
+    let ours = fs::read_to_string(&path).is_ok_and(|mark| mark.starts_with(command));
+    if !ours {
+        own_files(target, command, force)?;
+    }
+    fs::create_dir_all(target).map_err(|e| cannot_write(target, &e))?;
+    let mark = lock(&path, target)?;
+    if !ours {
+        fs::write(&path, format!("{command}\n")).map_err(|e| cannot_write(target, &e))?;
+    }
+    Ok(mark)
+}
+
 impl Folder {
     /// Prepares to fill `target` with the results of `command`.
     ///
@@ -76,35 +114,45 @@ impl Folder {
     /// A folder that holds anything but results of an earlier run of `command` (unless `force`), that another run
     /// is filling now, or that cannot be written.
     pub fn create(target: &Path, command: &str, force: bool) -> Result<Self, InputError> {
-        let error = |path: &Path, e: io::Error| {
-            InputError::new(format!("cannot write to {}: {e}", path.display()))
-                .help("give a folder you may write to with --out")
-        };
         own_files(target, command, force)?;
-        fs::create_dir_all(target).map_err(|e| error(target, e))?;
-        let target = fs::canonicalize(target).map_err(|e| error(target, e))?;
+        fs::create_dir_all(target).map_err(|e| cannot_write(target, &e))?;
+        let target = fs::canonicalize(target).map_err(|e| cannot_write(target, &e))?;
         let mut name = target.file_name().unwrap_or_default().to_os_string();
         name.push(".partial");
         let partial = target.with_file_name(name);
         let leftovers = own_files(&partial, command, force)?;
-        fs::create_dir_all(&partial).map_err(|e| error(&partial, e))?;
+        fs::create_dir_all(&partial).map_err(|e| cannot_write(&partial, &e))?;
         let path = partial.join(MANIFEST);
-        let mut manifest =
-            fs::OpenOptions::new().append(true).create(true).open(&path).map_err(|e| error(&path, e))?;
-        match manifest.try_lock() {
-            Ok(()) => {}
-            Err(TryLockError::WouldBlock) => {
-                return Err(InputError::new(format!("another run is writing to {}", target.display()))
-                    .help("wait for it, or give another folder with --out"));
-            }
-            // a file system without locks: go on without
-            Err(TryLockError::Error(_)) => {}
-        }
+        let mut manifest = lock(&path, &target)?;
         for file in leftovers.iter().filter(|f| *f != MANIFEST) {
-            fs::remove_file(partial.join(file)).map_err(|e| error(&partial.join(file), e))?;
+            fs::remove_file(partial.join(file)).map_err(|e| cannot_write(&partial.join(file), &e))?;
         }
-        manifest.set_len(0).and_then(|()| writeln!(manifest, "{command}")).map_err(|e| error(&path, e))?;
+        manifest
+            .set_len(0)
+            .and_then(|()| writeln!(manifest, "{command}"))
+            .map_err(|e| cannot_write(&path, &e))?;
         Ok(Folder { target, partial, manifest, files: BTreeSet::new() })
+    }
+
+    /// Writes and publishes the results of `work`; work that failed leaves no trace.
+    ///
+    /// # Errors
+    /// The failure of the work, or a disk that refuses.
+    pub fn fill<T>(
+        mut self,
+        work: Result<T, Error>,
+        write: impl FnOnce(&T, &mut Folder) -> Result<(), Error>,
+    ) -> Result<T, Error> {
+        match work {
+            Ok(done) => {
+                write(&done, &mut self)?;
+                self.publish().map(|_| done)
+            }
+            Err(failure) => {
+                self.abandon();
+                Err(failure)
+            }
+        }
     }
 
     /// Leaves no trace of a run that did not begin.

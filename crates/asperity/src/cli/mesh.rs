@@ -17,7 +17,7 @@ use std::path::{Path, PathBuf};
 pub struct MeshCommand {
     /// Scene file (TOML)
     pub scene: PathBuf,
-    /// File to write: .vtu (ParaView), .msh (Gmsh 4.1) or .inp (CalculiX, Abaqus) [default with --format: <scene name>.<format>]
+    /// File to write: .vtu (ParaView), .msh (Gmsh 4.1) or .inp (CalculiX, Abaqus) [default with --format: named after the scene]
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
     /// Format, where the extension of the file does not say

@@ -2,22 +2,19 @@
 
 use crate::cli::failure;
 use crate::cli::flags::{RunFlags, parse_accuracy};
+use crate::cli::folder::claim;
 use crate::cli::progress::{Lines, Progress as Line};
 use crate::cli::terminal;
-use crate::error::{Error, InputError};
+use crate::error::Error;
 use crate::reproduce::part::Stamp;
 use crate::reproduce::plan::{ITEMS, items};
 use crate::reproduce::{Options, Planned, Progress};
 use asperity_solver::scene::Accuracy;
 use clap::Args;
 use std::collections::HashMap;
-use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
-
-/// Names the command that a folder belongs to.
-const MARK: &str = ".asperity-run";
 
 /// Arguments of `asperity reproduce`.
 #[derive(Debug, Args)]
@@ -48,7 +45,7 @@ pub fn reproduce(args: &Reproduce) -> Result<(), Error> {
     let (items, quiet) = (items(&args.only)?, args.run.quiet);
     let accuracy = args.accuracy.unwrap_or_default();
     let target = args.run.out.clone().unwrap_or_else(|| PathBuf::from("out/reproduce"));
-    let _mark = claim_folder(&target, args.run.force)?;
+    let _mark = claim(&target, "reproduce", args.run.force)?;
     let (start, lines, open) = (Instant::now(), Lines::new(quiet), Mutex::new(HashMap::<_, Line>::new()));
     let options = Options { out: &target, items: &items, accuracy, estimate: !quiet };
     let done = crate::reproduce::reproduce(&options, &|progress| {
@@ -90,39 +87,7 @@ fn ending(outcome: &Result<Stamp, Error>) -> String {
     }
 }
 
-/// Marks the folder as ours and holds it as long as the mark is held.
-fn claim_folder(target: &Path, force: bool) -> Result<fs::File, InputError> {
-    let name = target.display();
-    let error = |e: std::io::Error| {
-        InputError::new(format!("cannot write to {name}: {e}"))
-            .help("give a folder you may write to with --out")
-    };
-    fs::create_dir_all(target).map_err(error)?;
-    let path = target.join(MARK);
-    let ours = fs::read_to_string(&path).is_ok_and(|mark| mark.starts_with("reproduce"));
-    if !ours
-        && !force
-        && let Some(Ok(entry)) = fs::read_dir(target).map_err(error)?.next()
-    {
-        let file = entry.file_name();
-        return Err(InputError::new(format!(
-            "{name} holds {}, which no run of this command made: nothing was written",
-            file.to_string_lossy()
-        ))
-        .help("give another folder with --out, or --force to write there"));
-    }
-    let mark = fs::OpenOptions::new().append(true).create(true).open(&path).map_err(error)?;
-    if let Err(fs::TryLockError::WouldBlock) = mark.try_lock() {
-        return Err(InputError::new(format!("another run is writing to {name}"))
-            .help("wait for it, or give another folder with --out"));
-    }
-    if !ours {
-        fs::write(&path, "reproduce\n").map_err(error)?;
-    }
-    Ok(mark)
-}
-
-/// Says what will run and how long it takes.
+/// Announces the parts and how long they take.
 fn announce(parts: &[Planned], accuracy: Accuracy) {
     let open: Vec<f64> = parts.iter().filter_map(|part| part.seconds).collect();
     let count = parts.len();

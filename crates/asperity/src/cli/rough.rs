@@ -47,12 +47,7 @@ fn one_scene(path: &Path, args: &Rough) -> Result<(), Error> {
     if !args.run.quiet {
         rough.summary.warnings.iter().for_each(terminal::warn);
     }
-    if args.run.json {
-        terminal::say(&rough.json()?);
-    } else if !args.run.quiet {
-        terminal::say(&format!("{}results   {}", rough.text(), target.display()));
-    }
-    Ok(())
+    args.run.say(&target, || rough.json(), || rough.text())
 }
 
 /// `asperity rough --table1`.

@@ -8,6 +8,7 @@ use crate::cli::progress::Progress;
 use crate::cli::terminal;
 use crate::error::Error;
 use crate::input::scene::Scene;
+use crate::output::json;
 use crate::trade::case::{Failed, Measured, solve};
 use crate::trade::settings::Setting;
 use crate::trade::{DEFAULT_SCENE, Options};
@@ -49,7 +50,7 @@ pub fn trade(args: &Trade) -> Result<(), Error> {
         return Err(scene.error(&SceneError { path: "mesh".into(), message }).into());
     }
     let target = args.run.out.clone().unwrap_or_else(|| Path::new("out").join(name));
-    let mut folder = Folder::create(&target, "trade", args.run.force)?;
+    let folder = Folder::create(&target, "trade", args.run.force)?;
     let journal = journal_beside(&target);
     let options = Options { combinations: args.combinations, journal: Some(&journal), runner: &ask };
     let progress = Progress::new(args.run.quiet);
@@ -65,25 +66,10 @@ pub fn trade(args: &Trade) -> Result<(), Error> {
         true
     });
     progress.finish();
-    let result = result.and_then(|trade| trade.write(&mut folder).map(|()| trade));
-    let trade = match result {
-        Ok(trade) => trade,
-        Err(failure) => {
-            folder.abandon();
-            return Err(failure);
-        }
-    };
-    folder.publish()?;
+    let trade = folder.fill(result, |trade, folder| trade.write(folder))?;
     // the results are in their place: the journal has done its work
     let _ = std::fs::remove_file(&journal);
-    if args.run.json {
-        let rows = serde_json::to_string_pretty(&trade.rows);
-        terminal::say(&rows.map_err(|e| Error::Unfinished(e.to_string()))?);
-    } else if !args.run.quiet {
-        terminal::say(&trade.text());
-        terminal::say(&format!("results   {}", target.display()));
-    }
-    Ok(())
+    args.run.say(&target, || json(&trade.rows), || trade.text())
 }
 
 /// The scene and the name of its results.

@@ -225,14 +225,13 @@ impl Crush {
             sink.write("gaps.csv", |out| write_rows(out, &self.gaps, symmetry))?;
         }
         let plot = plot(symmetry, &self.curve).map_err(Error::Unfinished)?;
-        sink.write("curve.svg", |out| out.write_all(plot.as_bytes()))?;
-        let summary = self.summary.to_json()?;
-        sink.write("summary.json", |out| out.write_all(summary.as_bytes()))?;
+        sink.text("curve.svg", &plot)?;
+        sink.text("summary.json", &self.summary.to_json()?)?;
         for sketch in sketches {
             if let Some(drawn) = self.section(sketch)? {
                 let name =
                     format!("{}_{:04}.svg", sketch.name, self.peak_row().map_or(0, |row| row.increment));
-                sink.write(&name, |out| out.write_all(drawn.as_bytes()))?;
+                sink.text(&name, &drawn)?;
             }
         }
         Ok(())

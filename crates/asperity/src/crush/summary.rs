@@ -4,6 +4,7 @@
 
 use super::record::row;
 use crate::error::{Error, InputError};
+use crate::output::nan_for_null;
 use crate::units::{GIGAPASCAL, MEGAPASCAL, MICROMETRE, Units, axisymmetric_name, file_name};
 use asperity_solver::run::oliver_pharr::OliverPharr;
 use asperity_solver::run::record;
@@ -125,9 +126,7 @@ impl Summary {
     /// # Errors
     /// A scene that JSON cannot hold.
     pub fn to_json(&self) -> Result<String, Error> {
-        let text = serde_json::to_string_pretty(self);
-        text.map(|text| text + "\n")
-            .map_err(|e| Error::Unfinished(format!("the summary could not be written: {e}")))
+        Ok(crate::output::json(self)? + "\n")
     }
 
     /// Reads a summary.json.
@@ -194,11 +193,6 @@ impl<'de> Deserialize<'de> for Summary {
 /// The scene with its keys in the order of the alphabet.
 fn by_key<S: Serializer>(scene: &Tables, serializer: S) -> Result<S::Ok, S::Error> {
     serde_json::to_value(scene).map_err(S::Error::custom)?.serialize(serializer)
-}
-
-/// JSON has no NaN.
-fn nan_for_null<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
-    Ok(Option::deserialize(deserializer)?.unwrap_or(f64::NAN))
 }
 
 /// Largest resident memory of this process so far, in MB of 10⁶ bytes; `None` where the system does not say.

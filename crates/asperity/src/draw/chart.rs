@@ -139,7 +139,7 @@ impl ValueFormatter<f64> for Axis {
 pub type Failure = Box<dyn std::error::Error>;
 /// A surface to draw on.
 pub type Paper<'a> = DrawingArea<SVGBackend<'a>, Shift>;
-/// What a legend shows beside a name.
+/// The sign beside a name in a legend.
 pub enum Sample {
     /// A piece of a line of this colour with dash and gap in pixels; no gap: solid.
     Line(RGBColor, [u32; 2]),

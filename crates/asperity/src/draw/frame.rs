@@ -1,4 +1,4 @@
-//! What pictures of sections and of maps share: the framed window with its axes, the colour bar, the key, the document.
+//! The shared parts of pictures of sections and of maps: the framed window with its axes, the colour bar, the key, the document.
 
 use super::palette::{Bands, Colour, hex};
 use super::scale;

@@ -2,11 +2,10 @@ use super::charts;
 use super::closures::ClosureContact;
 use super::rough::Rough;
 use super::{MEGAPASCAL, MICROMETRE};
-use crate::csv_file;
 use crate::draw::chart;
 use crate::draw::rough_map::{self as picture, Map};
 use crate::error::Error;
-use crate::output::{Sink, SinkExt};
+use crate::output::{Sink, SinkExt, write_csv};
 use asperity_roughness::formats::{CellArray, write_npy, write_vti, write_x3p};
 use asperity_roughness::scene::SurfaceFormat;
 use asperity_roughness::{HeightMap, Regime};
@@ -79,14 +78,13 @@ impl Rough {
     /// # Errors
     /// A disk that refuses.
     pub fn write_tables(&self, sink: &mut dyn Sink) -> Result<(), Error> {
-        csv_file::write(sink, "table.csv", &self.table)?;
-        csv_file::write(sink, "load_curve.csv", &self.load_curve)?;
+        sink.csv("table.csv", &self.table)?;
+        sink.write("load_curve.csv", |out| write_csv(out, &self.load_curve, str::to_string))?;
         for (name, chart) in charts::all(&self.contacts, self.surface.parameters.mean_gradient) {
             let text = chart::svg(&chart).map_err(Error::Unfinished)?;
-            sink.write(name, |out| out.write_all(text.as_bytes()))?;
+            sink.text(name, &text)?;
         }
-        let text = self.json()?;
-        sink.write("summary.json", |out| out.write_all(text.as_bytes()))
+        sink.text("summary.json", &self.json()?)
     }
 
     /// Pictures and .vti of every closure.

@@ -89,7 +89,7 @@ impl Rough {
     /// # Errors
     /// None that is known: every summary is JSON.
     pub fn json(&self) -> Result<String, Error> {
-        crate::json_file::text(&self.summary)
+        crate::output::sorted_json(&self.summary)
     }
 
     /// The table for a person.

@@ -1,6 +1,5 @@
 use super::closures::ClosureContact;
 use super::{MEGAPASCAL, MICROMETRE};
-use crate::csv_file::shortest;
 use asperity_roughness::{Closure, CurvePoint, Surface};
 use serde::{Deserialize, Serialize};
 
@@ -20,7 +19,7 @@ pub struct TableRow {
     pub mean_pressure_mpa: Option<f64>,
     /// Contact area over nominal area.
     pub contact_area_ratio: f64,
-    /// Elastic pressure of the closure at the mean slope over hardness (eq. [13]).
+    /// Elastic pressure of the closure at the mean slope over hardness (eq. (13)).
     pub plasticity_index: Option<f64>,
     /// Elastic share.
     pub elastic_share: Option<f64>,
@@ -85,13 +84,11 @@ pub struct LoadPoint {
     /// Down or up.
     pub phase: Phase,
     /// The plane above the mean height, µm.
-    #[serde(serialize_with = "shortest")]
     pub separation_um: f64,
     /// Nominal pressure, MPa.
-    #[serde(rename = "pressure_MPa", serialize_with = "shortest")]
+    #[serde(rename = "pressure_MPa")]
     pub pressure_mpa: f64,
     /// Contact area over nominal area.
-    #[serde(serialize_with = "shortest")]
     pub contact_area_ratio: f64,
 }
 

@@ -43,7 +43,7 @@ const HARDNESS: f64 = 1280.0;
 const MODULUS: f64 = 210e3;
 const POISSON: f64 = 0.3;
 
-/// The scene of a row; σ_y for the closures that need it is that of eq. [20], H = 3 σ_y.
+/// The scene of a row; σ_y for the closures that need it is that of eq. (20), H = 3 σ_y.
 fn scene(kind: KindName, row: &Printed, seed: u64) -> String {
     format!(
         r#"closure = "all"
@@ -193,9 +193,8 @@ impl Table1 {
     /// # Errors
     /// A disk that refuses.
     pub fn write(&self, sink: &mut dyn Sink) -> Result<(), Error> {
-        sink.write("table1.txt", |out| out.write_all(self.text().as_bytes()))?;
-        let json = self.json()?;
-        sink.write("table1.json", |out| out.write_all(json.as_bytes()))
+        sink.text("table1.txt", &self.text())?;
+        sink.text("table1.json", &self.json()?)
     }
 
     /// The text of table1.json.
@@ -203,7 +202,7 @@ impl Table1 {
     /// # Errors
     /// None that is known: every table is JSON.
     pub fn json(&self) -> Result<String, Error> {
-        serde_json::to_string_pretty(self).map_err(|e| Error::Unfinished(e.to_string()))
+        crate::output::json(self)
     }
 
     /// The tables for a reader.

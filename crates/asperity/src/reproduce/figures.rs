@@ -1,23 +1,26 @@
 //! Each figure and table of the paper: ours, beside what the paper prints.
 
-use super::format::{shown, spread};
+use super::format::{Spread, shown, significant, spread};
 use super::paper::{ROUGH, SETS, SYMMETRIES, TABLE2};
 use super::plan::Item;
-use super::results_reader::{LoadPoint, Results, Spread, Summary, Table1Row};
+use super::results_reader::Results;
+use crate::crush::Summary;
 use crate::draw::chart::{self, Chart, Series};
-use crate::press::table1;
+use crate::press::table1::{self, ClosureSeeds, Seeds};
+use crate::press::{LoadPoint, Phase};
+use asperity_roughness::Closure;
 use maud::{Markup, PreEscaped, html};
 
 /// The closures of Tables 1 and 2, and what they are.
-const CLOSURES: [(&str, &str); 5] = [
-    ("published", "0.13 E* tan β (eq. [11])"),
-    ("fitted", "the same with our c"),
-    ("johnson", "eqs [18]–[20], mended, capped at H"),
-    ("sneddon", "exact elastic cone"),
-    ("calibrated", "our elastoplastic cones"),
+const CLOSURES: [(Closure, &str); 5] = [
+    (Closure::Published, "0.13 E* tan β (eq. [11])"),
+    (Closure::Fitted, "the same with our c"),
+    (Closure::Johnson, "eqs [18]–[20], mended, capped at H"),
+    (Closure::Sneddon, "exact elastic cone"),
+    (Closure::Calibrated, "our elastoplastic cones"),
 ];
 
-/// What a section shows.
+/// The figures and tables of a section.
 pub fn body(item: Item, results: &Results) -> Result<Markup, String> {
     let body = match item.name {
         "fig1" => geometry(results),
@@ -120,11 +123,11 @@ fn single(results: &Results) -> Markup {
         ("force at 1 µm, N", force(1.0)),
         ("force at 2 µm, N", force(2.0)),
         ("force at 5 µm, N", force(5.0)),
-        ("estimated error of the force, %", percent(of(|s| s.estimated_error))),
+        ("estimated error of the force, %", percent(of(|s| Some(s.estimated_error)))),
         ("residual depth, µm", of(|s| s.residual_depth_um)),
         ("stiffness of unloading, N/µm", of(|s| s.unloading_stiffness_N_per_um)),
         ("elastic share of the work, %", percent(of(|s| s.elastic_fraction))),
-        ("contact radius at 5 µm, µm", of(|s| s.contact_radius_um)),
+        ("contact radius at 5 µm, µm", of(|s| Some(s.contact_radius_um))),
         ("exponent of F over h, upper half", results.force_exponent()),
     ];
     let rows = rows.map(|(name, value)| vec![name.into(), shown(value), "not printed".into()]);
@@ -139,8 +142,13 @@ fn zones(results: &Results) -> Markup {
     let mut rows = Vec::new();
     for (end, symmetry) in SYMMETRIES {
         for island in results.islands(&format!("three-identical{end}")).unwrap_or_default() {
-            let [area, pressure] = [island.area_um2, island.mean_pressure_MPa].map(shown);
-            rows.push(vec![symmetry.to_string(), island.place_um.map(shown).join(", "), area, pressure]);
+            let [area, pressure] = [island.area_um2, island.mean_pressure_MPa].map(significant);
+            rows.push(vec![
+                symmetry.to_string(),
+                island.place_um.map(significant).join(", "),
+                area,
+                pressure,
+            ]);
         }
     }
     html! {
@@ -175,9 +183,9 @@ fn sets(results: &Results) -> Result<Markup, String> {
             series.push(Series::line(label, curve.iter().map(|row| [row.depth_um, row.force_N]).collect()));
             rows.push(vec![
                 format!("{label}, {symmetry}"),
-                format!("{} {unit}", shown(summary.peak_force_N)),
-                shown(percent(summary.estimated_error)),
-                shown(summary.total_work_uJ),
+                format!("{} {unit}", significant(summary.peak_force_N)),
+                shown(percent(Some(summary.estimated_error))),
+                significant(summary.total_work_uJ),
                 shown(percent(summary.elastic_fraction)),
                 shown(summary.residual_depth_um),
             ]);
@@ -196,7 +204,8 @@ fn sets(results: &Results) -> Result<Markup, String> {
 
 fn strains(results: &Results) -> Markup {
     let fit = results.fit();
-    let strain = |v: Option<f64>| v.map_or_else(|| "–".into(), |v| format!("{v:.5}"));
+    let strain =
+        |v: Option<f64>| v.filter(|v| v.is_finite()).map_or_else(|| "–".into(), |v| format!("{v:.5}"));
     let rows: Vec<Vec<String>> = fit
         .iter()
         .flat_map(|fit| fit.per_angle.iter().map(|angle| (fit.published, angle)))
@@ -206,7 +215,7 @@ fn strains(results: &Results) -> Markup {
             vec![
                 format!("{}°", angle.beta_deg),
                 strain(ours),
-                format!("{} … {}", strain(angle.low), strain(angle.high)),
+                format!("{} … {}", strain(Some(angle.low)), strain(Some(angle.high))),
                 strain(Some(published)),
                 ours.map_or_else(|| "–".into(), |v| format!("{:+.0} %", 100.0 * (v / published - 1.0))),
                 ours.map_or_else(|| "–".into(), |v| format!("{:.4}", v / tan)),
@@ -279,11 +288,11 @@ fn numbers(results: &Results) -> Markup {
             row.peak.to_string(),
         ]);
         for (closure, source) in CLOSURES {
-            let of = |quantity: fn(&Table1Row) -> &Vec<f64>, digits: usize| {
+            let of = |quantity: fn(&ClosureSeeds) -> &Seeds, digits: usize| {
                 spread(results.rough(part, closure, quantity), digits)
             };
             rows.push(vec![
-                format!("{name}, {closure}: {source}"),
+                format!("{name}, {}: {source}", closure.name()),
                 of(|r| &r.pressure, 0),
                 of(|r| &r.area, 2),
                 of(|r| &r.index, 3),
@@ -310,14 +319,14 @@ fn unloading(results: &Results) -> Result<Markup, String> {
     for part in ROUGH {
         let Some(curve) = results.load_curve(part) else { continue };
         let mut series = Vec::new();
-        for closure in ["johnson", "calibrated"] {
-            let of = |phase: &'static str| {
+        for closure in [Closure::Johnson, Closure::Calibrated] {
+            let of = |phase: Phase| {
                 curve.iter().filter(move |p: &&LoadPoint| p.closure == closure && p.phase == phase)
             };
-            let Some(first) = of("load").next().map(|p| p.separation_um) else { continue };
-            for (phase, unloading) in [("load", false), ("unload", true)] {
-                let travel = of(phase).map(|p| [first - p.separation_um, p.pressure_MPa]).collect();
-                series.push(Series::of_closure(closure, unloading, travel));
+            let Some(first) = of(Phase::Load).next().map(|p| p.separation_um) else { continue };
+            for (phase, unloading) in [(Phase::Load, false), (Phase::Unload, true)] {
+                let travel = of(phase).map(|p| [first - p.separation_um, p.pressure_mpa]).collect();
+                series.push(Series::of_closure(closure.name(), unloading, travel));
             }
         }
         if !series.is_empty() {
@@ -345,11 +354,11 @@ fn energies(results: &Results) -> Markup {
             format!("{elastic}"),
             format!("{}", 100.0 - elastic),
         ]);
-        for closure in ["johnson", "calibrated"] {
+        for closure in [Closure::Johnson, Closure::Calibrated] {
             let share =
                 results.rough(part, closure, |r| &r.elastic).map(|s| Spread { mean: s.mean.min(100.0), ..s });
             rows.push(vec![
-                format!("{name}, {closure} (predicted)"),
+                format!("{name}, {} (predicted)", closure.name()),
                 spread(results.rough(part, closure, |r| &r.residual), 2),
                 spread(share, 1),
                 spread(share.map(|s| Spread { mean: 100.0 - s.mean, ..s }), 1),

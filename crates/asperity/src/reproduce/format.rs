@@ -1,15 +1,22 @@
 //! Numbers for people.
 
-use super::results_reader::Spread;
+/// Mean and standard deviation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spread {
+    /// Mean.
+    pub mean: f64,
+    /// Standard deviation of the sample; 0 of one value.
+    pub deviation: f64,
+}
 
 /// Four significant digits or so.
 pub fn significant(value: f64) -> String {
     digits(value, 4)
 }
 
-/// The same, or a dash.
+/// The same, or a dash where there is none.
 pub fn shown(value: Option<f64>) -> String {
-    value.map_or_else(|| "–".into(), significant)
+    value.filter(|v| v.is_finite()).map_or_else(|| "–".into(), significant)
 }
 
 /// Values in one line.

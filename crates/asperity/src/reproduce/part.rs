@@ -131,7 +131,7 @@ impl Job {
     /// Computes the part and stamps it; `observer` hears of the share that is done (0 to 1) and ends the work by `false`.
     ///
     /// # Errors
-    /// What kept it from being done. A crush that ends before its target is done: its stamp says so.
+    /// The failure that kept it from being done. A crush that ends before its target is done: its stamp says so.
     pub fn run(&self, observer: &mut (dyn FnMut(f64, &str) -> bool + Send)) -> Result<Stamp, Error> {
         let start = Instant::now();
         let _ = std::fs::remove_file(self.stamp_path());
@@ -219,7 +219,7 @@ impl Job {
         if let Some((kind, row)) = table1::TABLE.iter().find(|(row, _)| *row == kind) {
             observer(0.2, &format!("five {name} surfaces, every closure"));
             let table = table1::measure(*kind, row)?;
-            sink.write("table1.json", |out| serde_json::to_writer_pretty(out, &table))?;
+            sink.text("table1.json", &crate::output::json(&table)?)?;
         }
         Ok(())
     }

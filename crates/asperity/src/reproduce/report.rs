@@ -3,7 +3,8 @@
 use super::claims::{Claim, Verdict, claims};
 use super::figures;
 use super::plan::{Item, Part, Work, parts};
-use super::results_reader::{Results, Summary};
+use super::results_reader::Results;
+use crate::crush::Summary;
 use asperity_solver::scene::Accuracy;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use std::collections::BTreeMap;
@@ -52,9 +53,9 @@ pub(super) fn report(results: &Results, items: &[Item], accuracy: Accuracy) -> R
 
 /// A result in figures.
 struct Number {
-    /// What claims.json calls it.
+    /// Its key in claims.json.
     name: &'static str,
-    /// What a page of text calls it.
+    /// Its name on a page of text.
     words: &'static str,
     value: f64,
     /// Digits after the point on a page of text.
@@ -74,7 +75,7 @@ fn numbers(results: &Results) -> Vec<Number> {
         ("force_at_1_um_N", "force at 1 µm, N", results.force_at(single, 1.0), 3),
         ("force_at_2_um_N", "force at 2 µm, N", results.force_at(single, 2.0), 3),
         ("force_at_5_um_N", "force at 5 µm, N", results.force_at(single, 5.0), 3),
-        ("force_error_percent", "error of the force, stated, %", percent(|s| s.estimated_error), 2),
+        ("force_error_percent", "error of the force, stated, %", percent(|s| Some(s.estimated_error)), 2),
         ("residual_depth_um", "residual depth, µm", summary(|s| s.residual_depth_um), 3),
         ("elastic_share_percent", "elastic share of the work, %", percent(|s| s.elastic_fraction), 1),
         ("unknowns", "unknowns", summary(|s| Some(s.dofs as f64)), 0),
@@ -84,7 +85,7 @@ fn numbers(results: &Results) -> Vec<Number> {
         ("coefficient_high", "to", interval.map(|i| i[1]), 3),
     ];
     let known = |(name, words, value, decimals): (_, _, Option<f64>, _)| {
-        Some(Number { name, words, value: value?, decimals })
+        Some(Number { name, words, value: value.filter(|v| v.is_finite())?, decimals })
     };
     all.into_iter().filter_map(known).collect()
 }

@@ -13,7 +13,7 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// What to reproduce, and where.
+/// The items to reproduce, and where.
 #[derive(Clone, Copy, Debug)]
 pub struct Options<'a> {
     /// The folder that holds the parts and the report. Completed parts are cached there; interrupted runs resume.
@@ -37,7 +37,7 @@ pub struct Planned {
     pub seconds: Option<f64>,
 }
 
-/// What an observer is told; parts run side by side.
+/// News for the observer; parts run side by side.
 #[derive(Clone, Copy, Debug)]
 pub enum Progress<'a> {
     /// Every part, before the first begins.

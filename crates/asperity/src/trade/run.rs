@@ -86,7 +86,7 @@ pub fn trade(
     Ok(Trade { rows: rows(&finished, &converged), converged_to: finer_differ.then_some(converged.doubt) })
 }
 
-/// What the threads of a trade share.
+/// The state that the threads of a trade share.
 struct Shared<'a> {
     journal: Option<Journal>,
     observer: &'a mut (dyn FnMut(&Progress) -> bool + Send),
@@ -173,7 +173,7 @@ impl Trade {
             self.rows.iter().try_for_each(|row| table.serialize(row))?;
             Ok::<(), csv::Error>(table.flush()?)
         })?;
-        sink.write("trade.svg", |out| out.write_all(picture.as_bytes()))?;
+        sink.text("trade.svg", &picture)?;
         sink.write("trade.md", |out| writeln!(out, "{}", overview(&self.rows)))
     }
 

@@ -7,22 +7,22 @@ use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 use thiserror::Error;
 
-/// The published coefficient of eqs [9]-[13].
+/// The published coefficient of eqs (9)-(13).
 pub const PUBLISHED: f64 = 0.13;
 /// Eq. [18].
 const JOHNSON_ELASTIC: f64 = 0.2;
-/// Thresholds of the plasticity index printed below eq. [13].
+/// Thresholds of the plasticity index printed below eq. (13).
 const THRESHOLDS: [f64; 2] = [0.6, 1.0];
 
 /// Which law gives the force of an island.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Closure {
-    /// p = 0.13 E* tan β on the island, never capped (Jourani et al., eqs [10]-[12]).
+    /// p = 0.13 E* tan β on the island, never capped (Jourani et al., eqs (10)-(12)).
     Published,
     /// p = c E* tan β with the c of the calibration.
     Fitted,
-    /// Elastic, elastic-plastic, plastic after Johnson (eqs [18]-[20] with "tan" of eq. [19] mended to "ln").
+    /// Elastic, elastic-plastic, plastic after Johnson (eqs (18)-(20) with "tan" of eq. (19) mended to "ln").
     Johnson,
     /// Exact elastic cone (Love 1939, Sneddon 1965).
     Sneddon,
@@ -216,7 +216,7 @@ impl ClosureLaw {
         self.modulus
     }
 
-    /// H, or 3 σ_y where only that is known (eq. [20]).
+    /// H, or 3 σ_y where only that is known (eq. (20)).
     pub fn hardness(&self) -> Option<f64> {
         self.hardness
     }
@@ -295,7 +295,7 @@ impl ClosureLaw {
         }
     }
 
-    /// Elastic pressure of the closure on its contact area at slope `tan_beta`, for the plasticity index (eq. [13]).
+    /// Elastic pressure of the closure on its contact area at slope `tan_beta`, for the plasticity index (eq. (13)).
     pub fn elastic_pressure(&self, tan_beta: f64) -> f64 {
         let coefficient = match &self.law {
             Law::Linear { coefficient, area_ratio } => coefficient / area_ratio,
@@ -331,7 +331,7 @@ mod tests {
         }
     }
 
-    /// The paper's Table 1 slopes: arithmetic of eqs [11], [13], and of [18]-[20] mended, for E 210 GPa, ν 0.3, H 1280 MPa.
+    /// The paper's Table 1 slopes: arithmetic of eqs (11), [13], and of [18]-[20] mended, for E 210 GPa, ν 0.3, H 1280 MPa.
     #[test]
     fn pressures_at_the_slopes_of_table_1() {
         let model = |c| ClosureLaw::new(c, &steel(), None).unwrap();

@@ -51,7 +51,7 @@ pub struct SlopeTable {
     pub beta_deg: f64,
     /// E*/σ_r, ascending, pure numbers.
     pub modulus_over_stress: Vec<f64>,
-    /// K/σ_r with F = K h² (eq. [7]), one per entry of `modulus_over_stress`.
+    /// K/σ_r with F = K h² (eq. (7)), one per entry of `modulus_over_stress`.
     pub k_over_stress: Vec<f64>,
     /// Contact radius times tan β over depth, one per entry.
     pub contact_ratio: Vec<f64>,
@@ -65,7 +65,7 @@ pub struct Coefficient {
     pub law: HardeningLaw,
     /// Poisson's ratio of the cases.
     pub poissons_ratio: f64,
-    /// c of ε_r = c tan β (eq. [9] prints 0.13).
+    /// c of ε_r = c tan β (eq. (9) prints 0.13).
     pub c: f64,
     /// 95 % interval of c.
     pub ci95: [f64; 2],

@@ -1,6 +1,6 @@
 use crate::surface::cells::Moments;
 
-/// The ellipse that stands for an island: π a b is its area, its axes follow from the second moments (eq. [14]).
+/// The ellipse that stands for an island: π a b is its area, its axes follow from the second moments (eq. (14)).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ellipse {
     /// Major and minor semi-axes a ≥ b, in metres.

@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum PressureProfile {
-    /// 3/2 p √(1 - ρ²) (eq. [15]).
+    /// 3/2 p √(1 - ρ²) (eq. (15)).
     #[default]
     Hertz,
     /// p arcosh(1/ρ), the elastic cone's (Sneddon 1965); infinite in the middle, so averaged over each pixel.

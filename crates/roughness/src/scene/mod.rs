@@ -47,11 +47,11 @@ pub struct Scene {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Choice {
-    /// Eqs [10]-[12].
+    /// Eqs (10)-(12).
     Published,
     /// The same law with the calibration's coefficient.
     Fitted,
-    /// Eqs [18]-[20], mended.
+    /// Eqs (18)-(20), corrected.
     Johnson,
     /// The exact elastic cone.
     Sneddon,

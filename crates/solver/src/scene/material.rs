@@ -58,7 +58,7 @@ fn isotropic() -> HardeningMode {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum HardeningChoice {
-    /// By eq. [1] in the total strain.
+    /// By eq. (1) in the total strain.
     Hollomon,
     /// By a power law in the plastic strain.
     Swift,

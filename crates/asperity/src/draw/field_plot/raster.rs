@@ -16,7 +16,7 @@ pub struct Raster {
     pub dots: Vec<Option<Dot>>,
 }
 
-/// What is at a dot.
+/// The thing at a dot.
 #[derive(Clone, Copy, Debug)]
 pub struct Dot {
     /// Fields, single precision is plenty for a colour.
