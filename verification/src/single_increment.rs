@@ -20,7 +20,7 @@ pub const ELASTIC: Metal = Metal {
     kinematic_share: 0.0,
 };
 
-/// E = 1, ν = 0.3, eq. [1] with σ_y = `yield_stress` and exponent `exponent`.
+/// E = 1, ν = 0.3, eq. (1) with σ_y = `yield_stress` and exponent `exponent`.
 pub fn hollomon(yield_stress: f64, exponent: f64) -> Metal {
     let hardening = Hardening { law: HardeningLaw::Hollomon, yield_stress, exponent, youngs_modulus: 1.0 };
     Metal { hardening: Some(hardening.into()), ..ELASTIC }

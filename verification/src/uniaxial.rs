@@ -2,9 +2,9 @@
 
 use asperity_law::{Elastic, Hardening};
 
-/// Kirchhoff stress of a bar at the total logarithmic strain `strain` > σ_y/E: eq. [1] of the paper, σ = Eⁿ σ_y^(1-n) εⁿ.
+/// Kirchhoff stress of a bar at the total logarithmic strain `strain` > σ_y/E: eq. (1) of the paper, σ = Eⁿ σ_y^(1-n) εⁿ.
 ///
-/// The strain of eq. [1] is σ/E + ε_p, which in uniaxial stress is the logarithm of the axial stretch.
+/// The strain of eq. (1) is σ/E + ε_p, which in uniaxial stress is the logarithm of the axial stretch.
 pub fn hollomon_stress(metal: &Hardening, strain: f64) -> f64 {
     metal.youngs_modulus.powf(metal.exponent)
         * metal.yield_stress.powf(1.0 - metal.exponent)
@@ -47,7 +47,7 @@ mod tests {
     use super::*;
     use asperity_law::HardeningLaw;
 
-    /// E = 210 GPa, σ_y = 300 MPa, n = 0.3: values computed by hand from eq. [1], MPa.
+    /// E = 210 GPa, σ_y = 300 MPa, n = 0.3: values computed by hand from eq. (1), MPa.
     #[test]
     fn bar_of_equation_1() {
         let steel = Hardening {

@@ -47,7 +47,7 @@ fn parse(text: &str, dimension: &str, units: &[(&str, f64)]) -> Result<f64, Unit
     }
 }
 
-/// The JSON schema of a number with one of `units` in a string, which is what [`parse`] reads.
+/// The JSON schema of a number with one of `units` in a string, which is what `parse` reads.
 pub fn quantity_schema<'u>(units: impl IntoIterator<Item = &'u (&'u str, f64)>) -> Schema {
     let units: Vec<&str> = units.into_iter().map(|(name, _)| *name).collect();
     let number = r"[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?";

@@ -68,7 +68,7 @@ impl<T> TomlFile<T> {
         self.path.parent().map_or_else(|| path.to_path_buf(), |folder| folder.join(path))
     }
 
-    /// An error about the value at `path` ("asperity[0].height"), pointing at it or, where it is absent, at the
+    /// An error about the value at `path` (`asperity[0].height`), pointing at it or, where it is absent, at the
     /// innermost table that lacks it.
     pub fn error_at(&self, path: &str, message: &str) -> InputError {
         let keys = path_keys(path).unwrap_or_default();
