@@ -1,4 +1,4 @@
-//! What a case of the default sweep costs: core-seconds, increments, iterations, and the floor of those iterations.
+//! The cost of a case of the default sweep: core-seconds, increments, iterations, and the floor of those iterations.
 //!
 //! `cargo bench -p asperity-verification` solves every tenth case of the grid on one thread and prints a row for each slope
 //! and the mean. Roofline: the iterations, each with a new tangent and every point flowing, at the arithmetic of this core

@@ -10,6 +10,9 @@ use asperity::tables::{Accuracy, Asperity, Loading, Material, Scene as Tables, S
 use asperity::{Error, Length, RoughScene, Scene, Stress, Sweep, calibrate, crush, press};
 use std::path::Path;
 
+/// A micrometre in metres.
+const UM: f64 = 1e-6;
+
 const SURFACE: &str = r#"
 closure = "all"
 [surface.generate]
@@ -29,9 +32,9 @@ pressure = "100 MPa"
 
 fn main() -> Result<(), Error> {
     let steel = Material::elastic_body(Stress(210e9), 0.3).yielding(Stress(300e6), 0.3);
-    let loading = Loading::to_depth(Length(5e-6)).unloaded();
+    let loading = Loading::to_depth(Length(5.0 * UM)).unloaded();
     let tables = Tables::new(Symmetry::Axisymmetric, steel, Tool::plane(), loading)
-        .with(Asperity::cone(Length(20e-6), 10.0).rounded(Length(10e-6)))
+        .with(Asperity::cone(Length(20.0 * UM), 10.0).rounded(Length(10.0 * UM)))
         .at(Accuracy::Draft);
     let crushed = crush(&Scene::new(&tables)?, &mut |_| true)?;
     println!("peak force {} N", crushed.summary.peak_force_N);

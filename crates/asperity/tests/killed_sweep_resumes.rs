@@ -1,4 +1,4 @@
-//! What a sweep leaves when it is killed, when the disk refuses, and when it is done in parts: the same bytes, seconds
+//! The remains of a sweep when it is killed, when the disk refuses, and when it is done in parts: the same bytes, seconds
 //! excepted.
 
 #![cfg(unix)]

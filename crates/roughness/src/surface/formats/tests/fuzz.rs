@@ -187,7 +187,7 @@ fn damaged_text_is_answered() {
     survives("text");
 }
 
-/// What follows the magic of a format is noise.
+/// Noise follows the magic of a format.
 #[test]
 fn noise_after_a_known_beginning_is_answered() {
     let folder = Folder::new();
