@@ -50,7 +50,7 @@ pub struct LoadedPixel {
 /// The pressure map of one contact.
 #[derive(Clone, Debug)]
 pub struct PressureField {
-    /// LoadedPixel pixels in the order of the cells; two in a row may share a cell (two islands at a saddle).
+    /// Loaded pixels in the order of the cells; two in a row may share a cell (two islands at a saddle).
     pub pixels: Vec<LoadedPixel>,
     /// Largest pressure of a pixel, in Pa.
     pub largest: f64,

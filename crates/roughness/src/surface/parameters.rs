@@ -2,7 +2,7 @@ use crate::surface::cells;
 use crate::surface::height_map::{Extent, HeightMap, ROWS_PER_CHUNK};
 use rayon::prelude::*;
 
-/// Parameters numbers of a map; heights in metres, slopes pure numbers.
+/// Roughness parameters of a map; heights in metres, slopes pure numbers.
 ///
 /// Height parameters are taken over the nodes about their mean, slopes over the piecewise linear surface.
 #[derive(Clone, Copy, Debug, PartialEq)]

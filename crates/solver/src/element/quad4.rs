@@ -30,8 +30,7 @@ pub fn points() -> [ShapePoint<4>; POINTS] {
 /// Internal forces, stiffness and new states. `start` are the points the increment starts from.
 ///
 /// With b_a = div N_a, b̄_a its volume average and m_a = (b̄_a - b_a)/3, a virtual displacement of node a changes f̄
-/// by l̄_a = ∇N_a + m_a I: f_a = ∫ τ : l̄_a dV₀, and the tangent adds the second variation of s (see `second_variation`).
-///
+/// by l̄_a = ∇N_a + m_a I: f_a = ∫ τ : l̄_a dV₀, and the tangent adds the second variation of s (see `add_volume_stiffness`).
 ///
 /// # Errors
 /// A point that fails, an element that turns inside out.

@@ -144,7 +144,7 @@ fn element_under(indenter: Option<f64>) -> ElementChoice {
 }
 
 /// (1 - n)/0.7 of metal that hardens less than n = 0.3, else 1: the error of the load step grows with its square and is
-/// of second order in the step, the ripple of the mesh grows with it nearly and is of first order (see `estimate`).
+/// of second order in the step, the ripple of the mesh grows with it nearly and is of first order (see `error_estimate`).
 fn softness(scene: &Scene) -> f64 {
     let modulus = scene.material.youngs_modulus.0;
     scene.material.hardening().map_or(1.0, |h| ((1.0 - h.exponent(modulus)) / 0.7).max(1.0))

@@ -3,7 +3,7 @@
 //! The force is too small by what the load steps leave, and too large by what a held base and the penetration leave:
 //! the larger of the two counts. What the mesh leaves comes on top. With s the exponent of F ∝ h^s, φ the plastic share
 //! of the work, n the hardening exponent, m the quadratic elements across the contact radius:
-//! * load step: c (ln h_{i+1}/h_i)² φ^1.5 (1 - n)² (s/2)², second order (see `history`): the more of the metal flows, the
+//! * load step: c (ln h_{i+1}/h_i)² φ^1.5 (1 - n)² (s/2)², second order (see `point::bdf2`): the more of the metal flows, the
 //!   less it hardens, and the faster the contact grows, the more the direction of flow turns within a step;
 //! * substrate of automatic size L: the missing compliance below a held base, δ ∝ F/(E* L), against the depth;
 //! * penalty: what is left of the penetration p after its correction, c p^1.5 (p of 0.016, 0.004, 0.002 and 0.001 leave 2, 0.27,

@@ -159,7 +159,7 @@ fn widest(half_widths: &[f64]) -> f64 {
 }
 
 /// Half width of the core over that from which a contact is to be resolved: an elastic contact is 0.7 times as wide as expected
-/// (see `expected`), and the columns of the core are wide.
+/// (see `a_priori`), and the columns of the core are wide.
 const CORE: f64 = 0.7;
 
 /// Growth of the shells far from the contact, as a share of the distance.
