@@ -35,6 +35,7 @@ fn single_asperity(accuracy: Accuracy, element: ElementChoice) -> Scene {
             hardening_law: HardeningChoice::Hollomon,
             hardening_file: None,
             hardening_table: None,
+            stress_measure: StressMeasure::Cauchy,
             hardening_mode: HardeningMode::Isotropic,
             kinematic_share: None,
         },

@@ -8,13 +8,13 @@
 // on committed cases
 #![allow(clippy::expect_used)]
 
-use asperity_calibration::case::{Case, Tool, YieldMeasure};
+use asperity_calibration::case::{Case, Tool};
 use asperity_calibration::fit::SplitMix;
 use asperity_calibration::loading_curvature::{self, LoadingCurvature};
 use asperity_calibration::row::Row;
 use asperity_calibration::run::run;
 use asperity_calibration::sweep::Sweep;
-use asperity_law::HardeningLaw;
+use asperity_law::{HardeningLaw, StressMeasure};
 use asperity_solver::run::discretisation::ConeDiscretisation;
 use asperity_solver::scene::Accuracy;
 use asperity_verification::calibration::{PEERS, metal, peer_case};
@@ -72,8 +72,9 @@ fn peers(report: &mut Report) {
     for ((p, s), r) in PEERS.iter().zip(&standard).zip(&reference) {
         let case = peer_case(p);
         let resolution = case.discretisation(Accuracy::Standard);
-        let cauchy = loading_curvature::solve(&Case { stress: YieldMeasure::Cauchy, ..case }, &resolution)
-            .expect("committed cases run");
+        let cauchy =
+            loading_curvature::solve(&Case { stress_measure: StressMeasure::Cauchy, ..case }, &resolution)
+                .expect("committed cases run");
         let off = |k: &LoadingCurvature| 100.0 * (k.k_over_e / p.k_over_e - 1.0);
         report.line(&format!(
             "| {} | {} | {} | {:.4} | {:.4} | {:.4} | {:+.2} | {:.2} | {:+.2} | {:+.2} |",
@@ -96,8 +97,13 @@ fn elastic(report: &mut Report) {
     report.table("| tool | E/σ_y | K/E | over Sneddon, % | a tan β/h over 2/π, % |");
     for tool in [Tool::Plane, Tool::Cone] {
         for yielding in [None, Some(metal(HardeningLaw::Hollomon, 0.3, 10.0))] {
-            let case =
-                Case { beta_deg: 1.0, yielding, poissons_ratio: 0.3, tool, stress: YieldMeasure::Kirchhoff };
+            let case = Case {
+                beta_deg: 1.0,
+                yielding,
+                poissons_ratio: 0.3,
+                tool,
+                stress_measure: StressMeasure::Kirchhoff,
+            };
             let k = loading_curvature::solve(&case, &case.discretisation(Accuracy::Standard)).expect("runs");
             let sneddon = std::f64::consts::FRAC_2_PI * case.elastic().reduced_modulus() / case.tan_beta();
             report.line(&format!(
@@ -118,7 +124,7 @@ fn lengths(report: &mut Report) {
         yielding: Some(metal(HardeningLaw::Hollomon, n, ratio)),
         poissons_ratio: 0.3,
         tool: Tool::Plane,
-        stress: YieldMeasure::Kirchhoff,
+        stress_measure: StressMeasure::Kirchhoff,
     });
     type Change = fn(&mut ConeDiscretisation);
     let changes: [(&str, Change); 10] = [
@@ -157,14 +163,16 @@ fn indentation(report: &mut Report) {
                     yielding: Some(metal(HardeningLaw::Swift, exponent, ratio)),
                     poissons_ratio: 0.3,
                     tool: Tool::Cone,
-                    stress: YieldMeasure::Kirchhoff,
+                    stress_measure: StressMeasure::Kirchhoff,
                 };
                 let resolution = case.discretisation(Accuracy::Standard);
                 let k = loading_curvature::solve(&case, &resolution).expect("runs");
-                let cauchy =
-                    loading_curvature::solve(&Case { stress: YieldMeasure::Cauchy, ..case }, &resolution)
-                        .expect("runs")
-                        .k_over_e;
+                let cauchy = loading_curvature::solve(
+                    &Case { stress_measure: StressMeasure::Cauchy, ..case },
+                    &resolution,
+                )
+                .expect("runs")
+                .k_over_e;
                 report.line(&format!(
                     "| {beta_deg} | {exponent} | {ratio:.1} | {:.4} | {:.2} | {:+.2} |",
                     k.k_over_e,
@@ -189,7 +197,7 @@ fn published(report: &mut Report, file: &str, beta_deg: f64) {
             (fields.len() >= 4).then(|| [fields[0], fields[1] / fields[2], fields[3] / fields[1]])
         })
         .collect();
-    let difference = |[exponent, ratio, k_over_e]: &[f64; 3], stress: YieldMeasure| {
+    let difference = |[exponent, ratio, k_over_e]: &[f64; 3], stress_measure: StressMeasure| {
         let yielding = Some(metal(HardeningLaw::Swift, *exponent, *ratio));
         let case = Case { beta_deg, yielding, poissons_ratio: 0.3, tool: Tool::Cone, stress };
         let resolution = case.discretisation(Accuracy::Standard);
@@ -201,7 +209,7 @@ fn published(report: &mut Report, file: &str, beta_deg: f64) {
             .chunks(half)
             .map(|part| {
                 let solve = |m: &[f64; 3]| {
-                    [difference(m, YieldMeasure::Kirchhoff), difference(m, YieldMeasure::Cauchy)]
+                    [difference(m, StressMeasure::Kirchhoff), difference(m, StressMeasure::Cauchy)]
                 };
                 scope.spawn(move || part.iter().map(solve).collect::<Vec<_>>())
             })

@@ -1,7 +1,7 @@
 //! Sharp cones of another code.
 
-use asperity_calibration::case::{Case, Tool, YieldMeasure, Yielding};
-use asperity_law::HardeningLaw;
+use asperity_calibration::case::{Case, Tool, Yielding};
+use asperity_law::{HardeningLaw, StressMeasure};
 
 /// A cone crushed by a plane with CalculiX 2.20 (quadratic elements with reduced integration), its own load steps
 /// extrapolated to zero; ν 0.3, law `swift`.
@@ -49,6 +49,6 @@ pub fn peer_case(peer: &Peer) -> Case {
         yielding: Some(metal(HardeningLaw::Swift, peer.exponent, peer.e_over_sy)),
         poissons_ratio: 0.3,
         tool: Tool::Plane,
-        stress: YieldMeasure::Kirchhoff,
+        stress_measure: StressMeasure::Kirchhoff,
     }
 }

@@ -1,7 +1,7 @@
 //! One increment of a model, solved and accepted.
 
 use crate::test_meshes::{mapped, nodes_of};
-use asperity_law::{Elastic, Hardening, HardeningLaw};
+use asperity_law::{Elastic, Hardening, HardeningLaw, StressMeasure};
 use asperity_mesh::{ElementKind, Mesh};
 use asperity_solver::algebra::newton::{Converged, Settings, solve};
 use asperity_solver::body::discrete_body::{Body, ToolContact};
@@ -18,6 +18,7 @@ pub const ELASTIC: Metal = Metal {
     elastic: Elastic { youngs_modulus: 1.0, poissons_ratio: 0.3 },
     hardening: None,
     kinematic_share: 0.0,
+    stress_measure: StressMeasure::Kirchhoff,
 };
 
 /// E = 1, ν = 0.3, eq. (1) with σ_y = `yield_stress` and exponent `exponent`.

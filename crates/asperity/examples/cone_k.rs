@@ -2,9 +2,9 @@
 
 #![allow(clippy::print_stdout, reason = "an example prints its result")]
 
-use asperity_calibration::case::{Case, Tool, YieldMeasure, Yielding};
+use asperity_calibration::case::{Case, Tool, Yielding};
 use asperity_calibration::run::solve;
-use asperity_law::HardeningLaw;
+use asperity_law::{HardeningLaw, StressMeasure};
 use asperity_solver::scene::Accuracy;
 
 fn main() {
@@ -14,7 +14,7 @@ fn main() {
         yielding: Some(yielding),
         poissons_ratio: 0.3,
         tool: Tool::Plane,
-        stress: YieldMeasure::Kirchhoff,
+        stress_measure: StressMeasure::Kirchhoff,
     };
     match solve(&case, Accuracy::Draft).outcome {
         Ok(cone) => println!("K/E = {:.4} within {:.2} %", cone.k_over_e, 100.0 * cone.error),

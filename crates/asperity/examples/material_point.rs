@@ -2,7 +2,7 @@
 
 #![allow(clippy::print_stdout, reason = "an example prints its result")]
 
-use asperity_law::{Elastic, Hardening, HardeningLaw};
+use asperity_law::{Elastic, Hardening, HardeningLaw, StressMeasure};
 use asperity_solver::point::j2::{PointUpdate, Tangent, update};
 use asperity_solver::point::material::{Metal, PointState};
 
@@ -37,7 +37,12 @@ fn main() {
         youngs_modulus: 1.0,
     };
     let elastic = Elastic { youngs_modulus: 1.0, poissons_ratio: 0.3 };
-    let material = Metal { elastic, hardening: Some(law.into()), kinematic_share: 0.0 };
+    let material = Metal {
+        elastic,
+        hardening: Some(law.into()),
+        kinematic_share: 0.0,
+        stress_measure: StressMeasure::Kirchhoff,
+    };
     let mut state = material.virgin();
     println!("strain  stress/E  plastic strain  law/E");
     for increment in 1..=50 {

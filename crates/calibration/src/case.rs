@@ -1,6 +1,6 @@
 //! One cone and its metal, in dimensionless groups.
 
-use asperity_law::{Elastic, Hardening, HardeningLaw};
+use asperity_law::{Elastic, Hardening, HardeningLaw, StressMeasure};
 use asperity_solver::point::material::Metal;
 use asperity_solver::run::cone::Cone;
 use asperity_solver::run::discretisation::ConeDiscretisation;
@@ -17,18 +17,6 @@ pub enum Tool {
     Plane,
     /// A flat body of metal indented by a rigid cone.
     Cone,
-}
-
-/// Which stress the hardening law speaks of. A bar in tension does not tell them apart; metal under an indenter, whose volume
-/// shrinks, does: K of a steep cone at E/σ_y = 30 differs by 2 to 3 %.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum YieldMeasure {
-    /// Force per reference area turned with the metal, τ = Jσ: the energy is then a potential and the tangent symmetric.
-    #[default]
-    Kirchhoff,
-    /// Force per current area, σ, as most general codes have it. The volume change is that of the last increment.
-    Cauchy,
 }
 
 /// A metal that yields, by the groups that K/E depends on.
@@ -54,7 +42,7 @@ pub struct Case {
     /// Crush or indentation.
     pub tool: Tool,
     /// Which stress yields.
-    pub stress: YieldMeasure,
+    pub stress_measure: StressMeasure,
 }
 
 impl Case {
@@ -90,8 +78,8 @@ impl Case {
             elastic: self.elastic(),
             hardening: self.hardening().map(Into::into),
             kinematic_share: 0.0,
+            stress_measure: self.stress_measure,
         };
-        let (indents, cauchy) = (self.tool == Tool::Cone, self.stress == YieldMeasure::Cauchy);
-        Cone { slope_deg: self.beta_deg, indents, metal, cauchy }.problem(discretisation)
+        Cone { slope_deg: self.beta_deg, indents: self.tool == Tool::Cone, metal }.problem(discretisation)
     }
 }

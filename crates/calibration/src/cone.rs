@@ -112,7 +112,8 @@ pub fn unloading_exponent(case: &Case, discretisation: &ConeDiscretisation) -> R
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::{Tool, YieldMeasure};
+    use crate::case::Tool;
+    use asperity_law::StressMeasure;
     use asperity_solver::scene::Accuracy;
 
     /// Sneddon's cone unloads along F = (2/π) E* h²/tan β with a = 2h/(π tan β): m = 2. 5 %, the accuracy claimed for m:
@@ -125,7 +126,7 @@ mod tests {
             yielding: None,
             poissons_ratio: 0.3,
             tool: Tool::Plane,
-            stress: YieldMeasure::Kirchhoff,
+            stress_measure: StressMeasure::Kirchhoff,
         };
         let m = unloading_exponent(&case, &case.discretisation(Accuracy::Standard)).unwrap();
         assert!((m / 2.0 - 1.0).abs() < 0.05, "{m}");

@@ -1,8 +1,8 @@
 //! The grid of a calibration: which cones of which materials.
 
-use crate::case::{Case, Tool, YieldMeasure, Yielding};
-use asperity_law::HardeningLaw;
+use crate::case::{Case, Tool, Yielding};
 use asperity_law::units::Stress;
+use asperity_law::{HardeningLaw, StressMeasure};
 use asperity_solver::scene::Accuracy;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -31,8 +31,9 @@ pub struct Sweep {
     pub poissons_ratio: f64,
     /// Crush by a plane, or indentation by a cone.
     pub tool: Tool,
-    /// Which stress the law speaks of, for comparison with other codes.
-    pub stress: YieldMeasure,
+    /// Which stress the hardening law speaks of.
+    #[serde(alias = "stress")]
+    pub stress_measure: StressMeasure,
     /// Error of K: draft 5 %, standard 1 %, reference 0.2 %, or a percentage from 0.2% to 5%.
     pub accuracy: Accuracy,
 }
@@ -50,7 +51,7 @@ impl Default for Sweep {
             hardening_law: HardeningLaw::Hollomon,
             poissons_ratio: 0.3,
             tool: Tool::Plane,
-            stress: YieldMeasure::Kirchhoff,
+            stress_measure: StressMeasure::Cauchy,
             accuracy: Accuracy::Standard,
         }
     }
@@ -130,7 +131,7 @@ impl Sweep {
                             yielding: Some(y),
                             poissons_ratio: self.poissons_ratio,
                             tool: self.tool,
-                            stress: self.stress,
+                            stress_measure: self.stress_measure,
                         });
                     }
                 }

@@ -21,7 +21,7 @@ pub mod least_squares;
 mod table;
 pub mod units;
 
-pub use curve::{HardeningCurve, HardeningMode};
+pub use curve::{HardeningCurve, HardeningMode, StressMeasure};
 pub use curve_file::{CurveFile, CurveFileError};
 pub use elastic::Elastic;
 pub use hardening::{Flow, Hardening, HardeningLaw};

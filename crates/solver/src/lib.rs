@@ -8,14 +8,15 @@
 //!
 //! A point alone, stretched by 1 % along z in plane strain:
 //! ```
-//! use asperity_law::{Elastic, Hardening, HardeningLaw};
+//! use asperity_law::{Elastic, Hardening, HardeningLaw, StressMeasure};
 //! use asperity_solver::point::j2::{Tangent, update};
 //! use asperity_solver::point::material::Metal;
 //! use asperity_solver::point::tensor::von_mises;
 //!
 //! let law = Hardening { law: HardeningLaw::Swift, yield_stress: 0.002, exponent: 0.2, youngs_modulus: 1.0 };
 //! let elastic = Elastic { youngs_modulus: 1.0, poissons_ratio: 0.3 };
-//! let metal = Metal { elastic, hardening: Some(law.into()), kinematic_share: 0.0 };
+//! let stress_measure = StressMeasure::Kirchhoff;
+//! let metal = Metal { elastic, hardening: Some(law.into()), kinematic_share: 0.0, stress_measure };
 //! let end = update(&metal, &metal.virgin(), &[0.0, 0.0, 0.0, 0.01, 0.0], Tangent::None).unwrap();
 //! assert!(end.plastic && (von_mises(&end.stress) / end.state.yield_stress - 1.0).abs() < 1e-12);
 //! ```

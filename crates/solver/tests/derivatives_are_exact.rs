@@ -5,7 +5,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
-use asperity_law::{Elastic, Hardening, HardeningLaw, HardeningTable};
+use asperity_law::{Elastic, Hardening, HardeningLaw, HardeningTable, StressMeasure};
 use asperity_solver::contact::edge::{ContactContext, ContactEdge};
 use asperity_solver::contact::tool::Tool;
 use asperity_solver::element::kernel::{ElementContext, ElementOutput, PointSlice};
@@ -24,7 +24,12 @@ const TOLERANCE: f64 = 1e-6;
 fn metal(law: Option<(HardeningLaw, f64)>) -> Metal {
     let hardening = law
         .map(|(law, exponent)| Hardening { law, yield_stress: 0.02, exponent, youngs_modulus: 1.0 }.into());
-    Metal { elastic: Elastic { youngs_modulus: 1.0, poissons_ratio: 0.3 }, hardening, kinematic_share: 0.0 }
+    Metal {
+        elastic: Elastic { youngs_modulus: 1.0, poissons_ratio: 0.3 },
+        hardening,
+        kinematic_share: 0.0,
+        stress_measure: StressMeasure::Kirchhoff,
+    }
 }
 
 /// A table whose kinks none of the states below comes to lie on.

@@ -5,8 +5,9 @@
 //! Source: the table of `asperity_verification::calibration::PEERS`. Tolerance: the two stated errors. Four of the
 //! ten here; `--example calibration peers` prints all. The force grows with the depth to the exponent 2, or `solve` fails.
 
-use asperity_calibration::case::{Case, YieldMeasure};
+use asperity_calibration::case::Case;
 use asperity_calibration::loading_curvature::solve;
+use asperity_law::StressMeasure;
 use asperity_solver::scene::Accuracy;
 use asperity_verification::calibration::{PEERS, peer_case};
 
@@ -15,7 +16,7 @@ fn cones_agree_with_calculix() {
     for i in [1, 4, 7, 8] {
         let (peer, case) = (PEERS[i], peer_case(&PEERS[i]));
         let resolution = case.discretisation(Accuracy::Standard);
-        for (stress, measure) in [(YieldMeasure::Cauchy, 0.0), (YieldMeasure::Kirchhoff, 0.01)] {
+        for (stress, measure) in [(StressMeasure::Cauchy, 0.0), (StressMeasure::Kirchhoff, 0.01)] {
             let kick = solve(&Case { stress, ..case }, &resolution).unwrap();
             let off = (kick.k_over_e / peer.k_over_e - 1.0).abs();
             assert!(off <= kick.error + peer.error + measure, "{peer:?}: {kick:?}");

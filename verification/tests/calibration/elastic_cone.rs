@@ -5,9 +5,9 @@
 //! Tolerance of K 1 %: the bound of `standard`; of the contact ratio 3 %: the radius is taken at the outer edge of a
 //! penalty contact, which reaches 1.3 % too far at a penetration of 1.6 % of the depth.
 
-use asperity_calibration::case::{Case, Tool, YieldMeasure};
+use asperity_calibration::case::{Case, Tool};
 use asperity_calibration::loading_curvature::solve;
-use asperity_law::HardeningLaw;
+use asperity_law::{HardeningLaw, StressMeasure};
 use asperity_solver::scene::Accuracy;
 use asperity_verification::calibration::metal;
 use std::f64::consts::FRAC_2_PI;
@@ -16,8 +16,13 @@ use std::f64::consts::FRAC_2_PI;
 fn elastic_cones_follow_sneddon() {
     for tool in [Tool::Plane, Tool::Cone] {
         for yielding in [None, Some(metal(HardeningLaw::Hollomon, 0.3, 10.0))] {
-            let case =
-                Case { beta_deg: 1.0, yielding, poissons_ratio: 0.3, tool, stress: YieldMeasure::Kirchhoff };
+            let case = Case {
+                beta_deg: 1.0,
+                yielding,
+                poissons_ratio: 0.3,
+                tool,
+                stress_measure: StressMeasure::Kirchhoff,
+            };
             let kick = solve(&case, &case.discretisation(Accuracy::Standard)).unwrap();
             let sneddon = FRAC_2_PI * case.elastic().reduced_modulus() / case.tan_beta();
             assert!((kick.k_over_e / sneddon - 1.0).abs() < 0.01, "{tool:?}: {} {sneddon}", kick.k_over_e);

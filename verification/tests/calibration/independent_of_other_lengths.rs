@@ -5,9 +5,9 @@
 //! Tolerance 0.5 %: the bound on mesh, step and substrate that `standard` states. What a rounded tip leaves of its effect
 //! falls with the square of its radius over the contact's.
 
-use asperity_calibration::case::{Case, Tool, YieldMeasure};
+use asperity_calibration::case::{Case, Tool};
 use asperity_calibration::loading_curvature::solve;
-use asperity_law::HardeningLaw;
+use asperity_law::{HardeningLaw, StressMeasure};
 use asperity_solver::run::discretisation::ConeDiscretisation;
 use asperity_solver::scene::Accuracy;
 use asperity_verification::calibration::metal;
@@ -20,7 +20,7 @@ fn tip_height_and_substrate_do_not_change_k() {
         yielding,
         poissons_ratio: 0.3,
         tool: Tool::Plane,
-        stress: YieldMeasure::Kirchhoff,
+        stress_measure: StressMeasure::Kirchhoff,
     };
     let standard = case.discretisation(Accuracy::Standard);
     type Change = fn(&mut ConeDiscretisation);

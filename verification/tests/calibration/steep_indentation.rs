@@ -7,17 +7,23 @@
 //! it and gives K too, perfectly plastic metal included, where quadratic elements lose their shape at the axis.
 //! Tolerances: 2 % between two meshes at `draft` and coarser; 3 % of Π₁, its own scatter; 5 % of a scene at draft, its promise.
 
-use asperity_calibration::case::{Case, Tool, YieldMeasure};
+use asperity_calibration::case::{Case, Tool};
 use asperity_calibration::loading_curvature::solve;
-use asperity_law::HardeningLaw;
 use asperity_law::units::{Length, Stress};
+use asperity_law::{HardeningLaw, StressMeasure};
 use asperity_solver::scene::{Accuracy, HardeningChoice, ToolShape};
 use asperity_verification::calibration::metal;
 use asperity_verification::single_asperity::{crush, scene};
 
 fn cone(beta_deg: f64, exponent: f64, e_over_sy: f64) -> Case {
     let yielding = Some(metal(HardeningLaw::Swift, exponent, e_over_sy));
-    Case { beta_deg, yielding, poissons_ratio: 0.3, tool: Tool::Cone, stress: YieldMeasure::Kirchhoff }
+    Case {
+        beta_deg,
+        yielding,
+        poissons_ratio: 0.3,
+        tool: Tool::Cone,
+        stress_measure: StressMeasure::Kirchhoff,
+    }
 }
 
 #[test]
@@ -33,7 +39,7 @@ fn k_of_a_steep_cone_does_not_depend_on_the_mesh() {
 #[test]
 fn vickers_equivalent_cone_follows_dao() {
     for (exponent, e_over_sy) in [(0.1, 250.0), (0.3, 350.0), (0.3, 100.0), (0.5, 250.0)] {
-        let case = Case { stress: YieldMeasure::Cauchy, ..cone(19.7, exponent, e_over_sy) };
+        let case = Case { stress_measure: StressMeasure::Cauchy, ..cone(19.7, exponent, e_over_sy) };
         let resolution = case.discretisation(Accuracy::Standard);
         let kick = solve(&case, &resolution).unwrap();
         let stress = case.hardening().unwrap().representative_stress(0.033);

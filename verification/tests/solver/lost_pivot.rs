@@ -5,7 +5,7 @@
 //! Source: the decision of `Model::factorise`. A straight strut pressed beyond Euler's load is the first case, a bar
 //! pulled beyond Considère's strain the second and third. Tolerances with the claims.
 
-use asperity_law::{Elastic, Hardening, HardeningLaw};
+use asperity_law::{Elastic, Hardening, HardeningLaw, StressMeasure};
 use asperity_mesh::ElementKind;
 use asperity_solver::algebra::newton::{Settings, System};
 use asperity_solver::body::energy::stored;
@@ -100,6 +100,7 @@ fn a_bar_with_many_necks_is_stiffened_or_refused() {
         elastic: Elastic { youngs_modulus: 1.0, poissons_ratio: 0.3 },
         hardening: Some(hardening.into()),
         kinematic_share: 0.0,
+        stress_measure: StressMeasure::Kirchhoff,
     };
     for (stiffens, expected) in [(true, Ok(())), (false, Err(Failure::Singular.into()))] {
         let (outcome, lost) = pulled(metal.clone(), 40, 0.2, stiffens);

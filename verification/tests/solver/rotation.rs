@@ -4,7 +4,6 @@
 //! only rounding.
 
 use asperity_mesh::ElementKind;
-use asperity_solver::body::energy::{dissipated, stored};
 use asperity_solver::point::kinematics::Symmetry;
 use asperity_verification::single_increment::{ELASTIC, TIGHT, hollomon, increment, model, stresses};
 use asperity_verification::test_meshes::{boundary, distorted_square};
@@ -24,11 +23,7 @@ fn stress_turns_with_the_body_and_energy_stays() {
             })
             .unwrap();
             let before = stresses(&model);
-            let energies = |model: &asperity_solver::run::equilibrium::Equilibrium<'_>| {
-                let (states, volumes) = (&model.state().points.states, &model.body().volume);
-                [stored(&metal, states, volumes), dissipated(&metal, states, volumes)]
-            };
-            let [elastic, plastic] = energies(&model);
+            let [elastic, plastic] = model.state().energies(model.body());
             let (s, c) = turn.sin_cos();
             for _ in 0..9 {
                 let x = model.state().position.clone();
@@ -50,7 +45,7 @@ fn stress_turns_with_the_body_and_energy_stays() {
                 ];
                 assert!((0..4).all(|i| (new[i] - turned[i]).abs() < 1e-10 * scale), "{new:?} {turned:?}");
             }
-            let [elastic_after, plastic_after] = energies(&model);
+            let [elastic_after, plastic_after] = model.state().energies(model.body());
             assert!((elastic_after / elastic - 1.0).abs() < 1e-10);
             assert!((plastic_after - plastic).abs() <= 1e-10 * plastic);
         }

@@ -2,7 +2,7 @@
 //! times closer, on average over the depths of the promise (0.2 to 1 of the peak).
 //!
 //! Source: BDF2 (E. Hairer, S. P. Nørsett, G. Wanner, Solving Ordinary Differential Equations I, §III.3). Observed from
-//! three runs, p = log2(|F₂ - F₁|/|F₃ - F₂|); tolerance: at least 1.5, because the contact front enters new elements at
+//! three runs, p = log2(|F₂ - F₁|/|F₃ - F₂|); tolerance: at least 1.8, because the contact front enters new elements at
 //! increments that differ from run to run, which backward Euler (order 1) would not pass either.
 
 use asperity_solver::run::curve::Curve;
@@ -23,7 +23,7 @@ fn difference(a: &Curve, b: &Curve) -> f64 {
 
 #[test]
 fn force_is_of_second_order_in_the_load_step() {
-    let runs = [24, 48, 96].map(curve);
+    let runs = [48, 96, 192].map(curve);
     let order = (difference(&runs[0], &runs[1]) / difference(&runs[1], &runs[2])).abs().log2();
-    assert!(order > 1.5, "{order}");
+    assert!(order > 1.8, "{order}");
 }

@@ -133,7 +133,8 @@ impl Body<'_> {
         *returns = 0;
         let context = ElementContext { symmetry: self.symmetry, metal: material, tangent };
         for (cell, yields) in yielding.iter_mut().enumerate() {
-            evaluate_cell(self, state, &trial.displacement, &trial.start, cell, &context, output)?;
+            let start = trial.start.slice(self, cell);
+            evaluate_cell(self, state, &trial.displacement, &start, cell, &context, output)?;
             *yields = output.flowing > 0;
             *returns += output.flowing;
             let range = Body::points_of(cell);
@@ -221,18 +222,12 @@ pub fn evaluate_cell(
     body: &Body<'_>,
     state: &State,
     displacement: &[[f64; 2]],
-    start: &Points,
+    start: &PointSlice<'_>,
     cell: usize,
     context: &ElementContext<'_>,
     output: &mut ElementOutput,
 ) -> Result<(), Failure> {
     let nodes = body.mesh.cell(cell);
-    let range = Body::points_of(cell);
-    let start = &PointSlice {
-        states: &start.states[range.clone()],
-        weight: &state.weight[range.clone()],
-        history: start.history.get(range).unwrap_or_default(),
-    };
     let x = |a: usize| current(&state.position, displacement, nodes[a]);
     match body.mesh.kind {
         ElementKind::Quad8 => {

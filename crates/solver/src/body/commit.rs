@@ -1,4 +1,4 @@
-//! Acceptance of a converged increment: with [`State::weigh`] the only place where the state of a body changes.
+//! Acceptance of a converged increment: the only place where the state of a body changes.
 
 use crate::body::assembly::{Response, evaluate_cell};
 use crate::body::discrete_body::Body;
@@ -8,6 +8,7 @@ use crate::element::kernel::{ElementContext, ElementOutput};
 use crate::point::bdf2::{PlasticIncrement, plastic_increment};
 use crate::point::j2::Tangent;
 use crate::point::kinematic_hardening;
+use crate::point::material::{plastic_work, volume_ratio};
 
 impl State {
     /// Accepts the converged `trial` with its `response`, whose points are taken over; it holds no valid points afterwards.
@@ -15,11 +16,7 @@ impl State {
     /// # Errors
     /// A point whose elastic trial from the old state fails; the state is then as it was in part and must not be used.
     pub fn commit(&mut self, body: &Body<'_>, trial: &Trial, response: &mut Response) -> Result<(), Failure> {
-        if self.points.history.is_empty() {
-            self.complete_isotropic(body, trial, response)?;
-        } else {
-            self.complete_kinematic(body, response);
-        }
+        self.note_flow(body, trial, response)?;
         for (x, du) in self.position.iter_mut().zip(&trial.displacement) {
             x[0] += du[0];
             x[1] += du[1];
@@ -35,55 +32,57 @@ impl State {
         Ok(())
     }
 
-    /// The plastic increment from the old state to the new one, whose accumulated strain is its length as a whole: the two
-    /// pieces of the second-order formula would count a turn twice.
-    fn complete_isotropic(
-        &mut self,
-        body: &Body<'_>,
-        trial: &Trial,
-        response: &mut Response,
-    ) -> Result<(), Failure> {
+    /// Takes down the plastic increment of each point, its work, and the change of its volume ratio.
+    fn note_flow(&mut self, body: &Body<'_>, trial: &Trial, response: &Response) -> Result<(), Failure> {
+        let Some(hardening) = &body.material.hardening else { return Ok(()) };
+        for (change, (old, new)) in
+            self.volume_change.iter_mut().zip(self.points.states.iter().zip(&response.points.states))
+        {
+            *change = volume_ratio(&new.stretch) - volume_ratio(&old.stretch);
+        }
         // the elastic trial from the old state: what the increment would have been without plasticity
         let elastic = body.material.elastic_part();
         let context = ElementContext { symmetry: body.symmetry, metal: &elastic, tangent: Tangent::None };
         let mut output = ElementOutput::new(body.material.virgin());
+        let mut work = 0.0;
         for cell in 0..response.yielding.len() {
             let points = Body::points_of(cell);
-            if !response.yielding[cell] {
-                if let Some(plastic) = self.plastic.get_mut(points) {
-                    plastic.fill(PlasticIncrement::NONE);
-                }
+            let flowed =
+                |q: usize| response.points.states[q].plastic_strain > self.points.states[q].plastic_strain;
+            if !points.clone().any(flowed) {
+                self.plastic[points].fill(PlasticIncrement::NONE);
                 continue;
             }
-            evaluate_cell(body, self, &trial.displacement, &self.points, cell, &context, &mut output)?;
+            let start = self.points.slice(body, cell);
+            if start.history.is_empty() {
+                evaluate_cell(body, self, &trial.displacement, &start, cell, &context, &mut output)?;
+            }
             for (i, q) in points.enumerate() {
-                self.plastic[q] = PlasticIncrement::NONE;
-                let (old, new) = (&self.points.states[q], &mut response.points.states[q]);
-                if new.plastic_strain > old.plastic_strain {
-                    let plastic = plastic_increment(&output.states[i].stretch, new)
-                        .map_err(|cause| Failure::Element { cell, cause })?;
-                    new.plastic_strain = old.plastic_strain + plastic.accumulated;
-                    if let Some(hardening) = &body.material.hardening {
-                        new.yield_stress = hardening.flow(new.plastic_strain).yield_stress;
+                let (old, new) = (&self.points.states[q], &response.points.states[q]);
+                if new.plastic_strain <= old.plastic_strain {
+                    self.plastic[q] = PlasticIncrement::NONE;
+                    continue;
+                }
+                let (flow, spent) = match (self.points.history.get(q), response.points.history.get(q)) {
+                    (Some(before), Some(after)) => {
+                        kinematic_hardening::plastic_increment(&body.material, (old, before), (new, after))
                     }
-                    self.plastic[q] = plastic;
+                    _ => {
+                        let flow = plastic_increment(&output.states[i].stretch, old, new)
+                            .map_err(|cause| Failure::Element { cell, cause })?;
+                        (flow, plastic_work(hardening, old, new))
+                    }
+                };
+                self.plastic[q] = flow;
+                work += body.volume[q] * spent;
+                if body.material.yields_by_true_stress() {
+                    let drift = (new.yield_scale / volume_ratio(&new.stretch) - 1.0).abs();
+                    self.yield_drift = self.yield_drift.max(drift);
                 }
             }
         }
+        self.plastic_work += work;
         Ok(())
-    }
-
-    /// The same for a material with a back stress.
-    fn complete_kinematic(&mut self, body: &Body<'_>, response: &mut Response) {
-        for cell in 0..response.yielding.len() {
-            for q in Body::points_of(cell) {
-                let before = (&self.points.states[q], &self.points.history[q]);
-                let after = (&mut response.points.states[q], &mut response.points.history[q]);
-                let plastic = kinematic_hardening::settle(&body.material, before, after);
-                // an element that no longer yields is not extrapolated a second time
-                self.plastic[q] = if response.yielding[cell] { plastic } else { PlasticIncrement::NONE };
-            }
-        }
     }
 
     /// Takes the contact energy over the surface as it is now, under tools that stretch it; what that adds to the energy

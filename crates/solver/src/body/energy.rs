@@ -9,24 +9,6 @@ pub fn stored(metal: &Metal, states: &[PointState], volume: &[f64]) -> f64 {
     states.iter().zip(volume).map(|(state, v)| v * elastic_energy(&metal.elastic, &state.stretch)).sum()
 }
 
-/// Plastic work Σ ∫σ_y dε_p dV₀ done since the virgin state.
-pub fn dissipated(metal: &Metal, states: &[PointState], volume: &[f64]) -> f64 {
-    let Some(hardening) = &metal.hardening else { return 0.0 };
-    states
-        .iter()
-        .zip(volume)
-        .filter(|(state, _)| state.plastic_strain > 0.0)
-        .map(|(state, v)| {
-            let flow = asperity_law::Flow {
-                plastic_strain: state.plastic_strain,
-                yield_stress: state.yield_stress,
-                slope: 0.0,
-            };
-            v * hardening.plastic_work(&flow)
-        })
-        .sum()
-}
-
 /// ∫F dh between two states of a loading or unloading path, exact for F = (a + b h)^2.
 pub fn work(force: [f64; 2], travel: f64) -> f64 {
     let [f, g] = force.map(|f| f.max(0.0));

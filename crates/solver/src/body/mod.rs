@@ -8,6 +8,8 @@ pub mod state;
 
 pub mod assembly;
 
+mod extrapolation;
+
 mod commit;
 
 pub mod energy;

@@ -1,11 +1,12 @@
 //! The converged state of a body, and the increment that is tried from it.
 
 use crate::body::discrete_body::Body;
-use crate::body::energy::{dissipated, stored};
+use crate::body::energy::stored;
 use crate::contact::edge::{ContactEdge, EdgeContact, NOTHING, Parts};
-use crate::point::bdf2::{PlasticIncrement, extrapolate, extrapolation_factor};
-use crate::point::kinematic_hardening::{self, History, elastic_energy};
-use crate::point::material::{Metal, PointState, volume_ratio};
+use crate::element::kernel::PointSlice;
+use crate::point::bdf2::PlasticIncrement;
+use crate::point::kinematic_hardening::{History, elastic_energy};
+use crate::point::material::{Metal, PointState};
 
 /// States of all integration points, four to an element.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,6 +23,16 @@ impl Points {
         let with_history = if material.has_back_stress() { count } else { 0 };
         Points { states: vec![material.virgin(); count], history: vec![History::default(); with_history] }
     }
+
+    /// Those of one element.
+    pub fn slice<'a>(&'a self, body: &'a Body<'_>, cell: usize) -> PointSlice<'a> {
+        let range = Body::points_of(cell);
+        PointSlice {
+            states: &self.states[range.clone()],
+            weight: &body.volume[range.clone()],
+            history: self.history.get(range).unwrap_or_default(),
+        }
+    }
 }
 
 /// A converged state: all that the next increment starts from.
@@ -33,10 +44,14 @@ pub struct State {
     pub displacement: Vec<[f64; 2]>,
     /// Integration points.
     pub points: Points,
-    /// Weight of each point in the internal forces: its reference volume, or its current one (see [`State::weigh`]).
-    pub weight: Vec<f64>,
     /// Plastic increment of each point in the last increment; empty for an elastic body.
     pub plastic: Vec<PlasticIncrement>,
+    /// Change of each point's volume ratio J in the last increment; empty where the yield stress does not depend on it.
+    pub volume_change: Vec<f64>,
+    /// Plastic work so far.
+    pub plastic_work: f64,
+    /// Largest |Ĵ/J - 1| at which a point yielded so far: how far the accepted yield stress is from Cauchy's.
+    pub yield_drift: f64,
     /// Whether each element yielded in the last increment.
     pub yielding: Vec<bool>,
     /// Height of the tool's lowest point; infinite without a tool.
@@ -64,6 +79,8 @@ pub struct Trial {
     pub multiplier: Vec<f64>,
     /// States that the points start from: the converged ones with the last plastic increment extrapolated.
     pub start: Points,
+    /// κ of that extrapolation.
+    pub factor: f64,
 }
 
 impl State {
@@ -75,8 +92,10 @@ impl State {
             position: body.mesh.nodes.clone(),
             displacement: vec![[0.0; 2]; nodes],
             points: Points::virgin(&body.material, count),
-            weight: body.volume.clone(),
             plastic: vec![PlasticIncrement::NONE; if yields { count } else { 0 }],
+            volume_change: vec![0.0; if yields && body.material.yields_by_true_stress() { count } else { 0 }],
+            plastic_work: 0.0,
+            yield_drift: 0.0,
             yielding: vec![false; body.mesh.cell_count()],
             tip: f64::INFINITY,
             edges: body.surface(),
@@ -92,41 +111,6 @@ impl State {
         (0..self.edges.len()).map(|i| self.contact.get(i).map_or(NOTHING, |c| c.parts))
     }
 
-    /// Begins the trial with the tool's lowest point at `tip` (infinite: without a tool) and the first guess `guess` of the
-    /// displacement, which fixed components keep. The last plastic increment is extrapolated as for a step `ratio` times the
-    /// last one (0: not at all, as at the start of unloading).
-    pub fn begin(
-        &self,
-        body: &Body<'_>,
-        tip: f64,
-        ratio: f64,
-        guess: impl Fn(usize) -> [f64; 2],
-        trial: &mut Trial,
-    ) {
-        trial.tip = tip;
-        trial.multiplier.clone_from(&self.multiplier);
-        if tip == f64::INFINITY {
-            trial.multiplier.fill(0.0);
-        }
-        trial.displacement.iter_mut().enumerate().for_each(|(node, du)| *du = guess(node));
-        let (factor, material, start) = (extrapolation_factor(ratio), &body.material, &mut trial.start);
-        if !self.points.history.is_empty() {
-            for q in 0..self.points.states.len() {
-                let (state, history) = (&self.points.states[q], &self.points.history[q]);
-                (start.states[q], start.history[q]) =
-                    kinematic_hardening::extrapolate(material, state, history, &self.plastic[q], factor);
-            }
-        } else if self.plastic.is_empty() {
-            start.states.clone_from(&self.points.states);
-        } else {
-            for ((start, state), plastic) in
-                start.states.iter_mut().zip(&self.points.states).zip(&self.plastic)
-            {
-                *start = extrapolate(material, state, plastic, factor);
-            }
-        }
-    }
-
     /// An empty trial of this state's size.
     pub fn trial(&self) -> Trial {
         Trial {
@@ -134,21 +118,13 @@ impl State {
             displacement: vec![[0.0; 2]; self.position.len()],
             multiplier: vec![0.0; self.position.len()],
             start: self.points.clone(),
+            factor: 0.0,
         }
     }
 
     /// Change of the contact energy by that of the area it is taken over, up to the start of the last increment.
     pub fn remeasured_energy(&self) -> f64 {
         self.remeasured[0]
-    }
-
-    /// Takes the stress of the law as Cauchy's instead of Kirchhoff's from here to the next call, with the volume change of
-    /// this state: what codes that read the yield stress so would find. Where the material is squeezed hard (steep indenters,
-    /// E/σ_y below 100) that is a few percent of the force.
-    pub fn weigh(&mut self, body: &Body<'_>) {
-        for ((weight, volume), state) in self.weight.iter_mut().zip(&body.volume).zip(&self.points.states) {
-            *weight = volume * volume_ratio(&state.stretch);
-        }
     }
 
     /// Force on the tool along z, positive in compression.
@@ -159,16 +135,12 @@ impl State {
     /// Stored elastic energy and plastic work.
     pub fn energies(&self, body: &Body<'_>) -> [f64; 2] {
         let points = &self.points;
-        if points.history.is_empty() {
-            return [
-                stored(&body.material, &points.states, &body.volume),
-                dissipated(&body.material, &points.states, &body.volume),
-            ];
-        }
-        let weighted = || points.history.iter().zip(&body.volume);
-        [
-            weighted().map(|(history, v)| v * elastic_energy(&body.material.elastic, history)).sum(),
-            weighted().map(|(history, v)| v * history.plastic_work).sum(),
-        ]
+        let elastic = if points.history.is_empty() {
+            stored(&body.material, &points.states, &body.volume)
+        } else {
+            let of = |(history, v): (&History, &f64)| v * elastic_energy(&body.material.elastic, history);
+            points.history.iter().zip(&body.volume).map(of).sum()
+        };
+        [elastic, self.plastic_work]
     }
 }

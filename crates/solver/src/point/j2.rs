@@ -4,8 +4,11 @@
 //! Peric, Owen, Computational Methods for Plasticity, ch. 14):
 //! 1. trial b_e = f b_e,old fᵀ, ε = ½ ln b_e in its principal frame;
 //! 2. τ = K tr ε + 2G dev ε, q = √(3/2)|dev τ|;
-//! 3. q ≤ σ_y: elastic; else q - 3G Δε_p = σ_y(ε_p + Δε_p) and the deviator shrinks by σ_y/q;
+//! 3. q ≤ Ĵσ_y: elastic; else q - 3G Δε_p = Ĵσ_y(ε_p + Δε_p) and the deviator shrinks by Ĵσ_y/q;
 //! 4. consistent moduli D = ∂τ_A/∂ε_B and the spatial tangent.
+//!
+//! The yield stress is Cauchy's (true) or Kirchhoff's. Cauchy's times J would make the tangent unsymmetric; Ĵ is a constant of the
+//! increment, extrapolated from the last two converged states (see `bdf2`), and an increment keeps its potential.
 
 use crate::point::failure::Failure;
 use crate::point::material::{Metal, PointState, Spectral};
@@ -57,20 +60,23 @@ pub fn update(
     let norm = (dev[0] * dev[0] + dev[1] * dev[1] + dev[2] * dev[2]).sqrt();
     let q = 6.0_f64.sqrt() * g * norm;
     // 3. return
-    let flowing = metal.hardening.as_ref().filter(|_| q > old.yield_stress);
+    let scale = old.yield_scale;
+    let flowing = metal.hardening.as_ref().filter(|_| q > scale * old.yield_stress);
     let (state, left, drop) = match flowing {
         None => (PointState { stretch: trial, ..*old }, 1.0, 0.0),
         Some(hardening) => {
-            let flow = hardening.return_to_yield(q, 3.0 * g, old.plastic_strain);
-            let left = flow.yield_stress / q;
+            // over Ĵ: q/Ĵ - 3G/Ĵ Δε_p = σ_y
+            let flow = hardening.return_to_yield(q / scale, 3.0 * g / scale, old.plastic_strain);
+            let (left, slope) = (scale * flow.yield_stress / q, scale * flow.slope);
             let elastic = dev.map(|d| 2.0 * (left * d + volume / 3.0));
             let state = PointState {
                 stretch: spectral.tensor(&elastic.map(f64::exp_m1)),
                 plastic_strain: flow.plastic_strain.max(old.plastic_strain),
                 yield_stress: flow.yield_stress,
+                yield_scale: scale,
             };
-            // 2G(left - H/(3G + H)): the loss of the moduli along the direction of plastic flow
-            (state, left, 2.0 * g * (left - flow.slope / (3.0 * g + flow.slope)))
+            // 2G(left - ĴH/(3G + ĴH)): the loss of the moduli along the direction of plastic flow
+            (state, left, 2.0 * g * (left - slope / (3.0 * g + slope)))
         }
     };
     let tau = dev.map(|d| k * volume + 2.0 * g * left * d);

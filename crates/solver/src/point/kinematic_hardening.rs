@@ -4,14 +4,15 @@
 //! α are symmetric deviators of the undeformed configuration: no rotation has to be tracked, and the tangent is the
 //! second derivative of an incremental energy. (A back stress of Kirchhoff's kind, turned with each increment, has no
 //! such energy: its tangent is not symmetric.)
-//!   T = K tr E + 2G dev(E - E_p),   ξ = dev T - α,   √(3/2)|ξ| ≤ r,   ΔE_p = √(3/2) Δε_p N,   N = ξ/|ξ|.
+//!   T = K tr E + 2G dev(E - E_p),   ξ = dev T - Ĵα,   √(3/2)|ξ| ≤ Ĵr,   ΔE_p = √(3/2) Δε_p N,   N = ξ/|ξ|,
+//! with Ĵ of `j2`: the curve of hardening speaks of Cauchy's stress, and so does the back stress.
 //! The rule of Prager and Ziegler, Δα ∥ N, with its modulus from the curve of hardening: a share m of what the curve rises by
 //! moves the surface, √(3/2)|Δα| = m [σ(ε_p + Δε_p) - σ(ε_p)], and the rest makes it grow, r = σ(ε_p) - m [σ(ε_p) - σ_y].
 //! Along a straight path α keeps pace with the curve, so that monotone tension is that of isotropic hardening, exactly
 //! and in steps of any size. Backward Euler: N at the end is that of the trial state, and
-//!   q - 3G Δε_p - m [σ(ε_p + Δε_p) - σ(ε_p)] = r(ε_p + Δε_p),   q = √(3/2)|ξ_trial|,
-//! is the return of isotropic hardening from q + m [σ(ε_p) - σ_y], whatever m. The moduli are those of small strains, symmetric:
-//!   ∂T/∂E = K 1⊗1 + 2G (1 - β)(I - ⅓1⊗1) - 2G (3G/(3G + H) - β) N⊗N,   β = 3G Δε_p/q.
+//!   q - 3G Δε_p - Ĵm [σ(ε_p + Δε_p) - σ(ε_p)] = Ĵr(ε_p + Δε_p),   q = √(3/2)|ξ_trial|,
+//! is the return of isotropic hardening from q/Ĵ + m [σ(ε_p) - σ_y], whatever m. The moduli are those of small strains, symmetric:
+//!   ∂T/∂E = K 1⊗1 + 2G (1 - β)(I - ⅓1⊗1) - 2G (3G/(3G + ĴH) - β) N⊗N,   β = 3G Δε_p/q.
 //! After a reversal the modulus goes on falling with ε_p: the curve says nothing of cycles. Where the back stress exceeds
 //! r, the point yields in reverse before its load is gone: with m = 1 from σ = 2σ_y on, with m ≤ ½ never.
 //!
@@ -23,9 +24,9 @@ use crate::point::bdf2::{PlasticIncrement, exponential_minus_identity};
 use crate::point::failure::Failure;
 use crate::point::j2::{PointUpdate, Tangent};
 use crate::point::log_space::{LogStrain, compose};
-use crate::point::material::{Metal, PointState, Spectral};
+use crate::point::material::{Metal, PointState, Spectral, plastic_work};
 use crate::point::tensor::{Gradient, Sym, contract, trace};
-use asperity_law::{Elastic, Flow, HardeningCurve};
+use asperity_law::{Elastic, HardeningCurve};
 
 /// History variables of a point beside its [`PointState`], all in the undeformed configuration.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -36,8 +37,6 @@ pub struct History {
     pub plastic: Sym,
     /// Back stress α.
     pub back: Sym,
-    /// Plastic work per reference volume.
-    pub plastic_work: f64,
 }
 
 /// √(3/2).
@@ -64,25 +63,27 @@ pub fn update(
     let (plastic, back) = (strain.into_frame(&memory.plastic), strain.into_frame(&memory.back));
     let total = [e1 - volume / 3.0, e2 - volume / 3.0, e3 - volume / 3.0, 0.0];
     let trial: Sym = std::array::from_fn(|i| 2.0 * g * (total[i] - plastic[i]));
-    let xi: Sym = std::array::from_fn(|i| trial[i] - back[i]);
+    let scale = old.yield_scale;
+    let xi: Sym = std::array::from_fn(|i| trial[i] - scale * back[i]);
     let norm = contract(&xi, &xi).sqrt();
     let q = root() * norm;
     // how far √(3/2)|α| has come along a straight path, and r = σ - moved
     let moved = |h: &HardeningCurve| metal.kinematic_share * (old.yield_stress - h.yield_stress());
-    let flowing = metal.hardening.as_ref().filter(|h| q > old.yield_stress - moved(h));
+    let flowing = metal.hardening.as_ref().filter(|h| q > scale * (old.yield_stress - moved(h)));
     let n: Sym = if norm > 0.0 { xi.map(|x| x / norm) } else { [0.0; 4] };
     let mut end = History { deformation, ..*memory };
     let (flow, left, drop) = match flowing {
         None => (None, 1.0, 0.0),
         Some(curve) => {
-            let flow = curve.return_to_yield(q + moved(curve), 3.0 * g, old.plastic_strain);
+            let flow = curve.return_to_yield(q / scale + moved(curve), 3.0 * g / scale, old.plastic_strain);
             let length = (flow.plastic_strain - old.plastic_strain).max(0.0);
             let growth = metal.kinematic_share * (flow.yield_stress - old.yield_stress).max(0.0);
             let direction = strain.out_of_frame(&n);
             end.plastic = std::array::from_fn(|i| memory.plastic[i] + root() * length * direction[i]);
             end.back = std::array::from_fn(|i| memory.back[i] + growth / root() * direction[i]);
             let beta = 3.0 * g * length / q;
-            (Some((flow, length)), 1.0 - beta, 2.0 * g * (3.0 * g / (3.0 * g + flow.slope) - beta))
+            let drop = 2.0 * g * (3.0 * g / (3.0 * g + scale * flow.slope) - beta);
+            (Some((flow, length)), 1.0 - beta, drop)
         }
     };
     let length = flow.map_or(0.0, |(_, length)| length);
@@ -94,6 +95,7 @@ pub fn update(
         stretch: hencky_stretch(&metal.elastic, &stress),
         plastic_strain: old.plastic_strain + length,
         yield_stress: flow.map_or(old.yield_stress, |(flow, _)| flow.yield_stress),
+        yield_scale: scale,
     };
     let form = if tangent == Tangent::None {
         [[0.0; 5]; 5]
@@ -128,38 +130,19 @@ fn tensile_part(a: &Sym) -> Sym {
     frame.tensor(&[mean + radius, mean - radius, a[2]].map(|t| t.max(0.0)))
 }
 
-/// The state an increment starts from: the last plastic increment extrapolated by `factor` (see `bdf2`), the back stress with it.
+/// The state an increment starts from: `old` with the plastic increment `flowed` added, the back stress with it.
 pub fn extrapolate(
     metal: &Metal,
     old: &PointState,
     memory: &History,
     flowed: &PlasticIncrement,
-    factor: f64,
 ) -> (PointState, History) {
-    match metal.hardening.as_ref().filter(|_| factor > 0.0 && flowed.accumulated > 0.0) {
-        None => (*old, *memory),
-        Some(curve) => {
-            let carried = PlasticIncrement {
-                strain: flowed.strain.map(|e| factor * e),
-                accumulated: factor * flowed.accumulated,
-            };
-            flow_on(metal, curve, old, memory, &carried)
-        }
-    }
-}
-
-/// The states after the plastic increment `flowed`, its direction constant.
-fn flow_on(
-    metal: &Metal,
-    curve: &HardeningCurve,
-    old: &PointState,
-    memory: &History,
-    flowed: &PlasticIncrement,
-) -> (PointState, History) {
+    let length = flowed.length();
+    let Some(curve) = metal.hardening.as_ref().filter(|_| length > 0.0) else { return (*old, *memory) };
     let plastic_strain = old.plastic_strain + flowed.accumulated;
     let yield_stress = curve.flow(plastic_strain).yield_stress;
     // √(2/3) m (σ - σ_old) N with N = √(2/3) ΔE_p/Δε_p
-    let modulus = metal.kinematic_share * 2.0 / 3.0 * (yield_stress - old.yield_stress) / flowed.accumulated;
+    let modulus = metal.kinematic_share * 2.0 / 3.0 * (yield_stress - old.yield_stress) / length;
     let memory = History {
         plastic: std::array::from_fn(|i| memory.plastic[i] + flowed.strain[i]),
         back: std::array::from_fn(|i| memory.back[i] + modulus * flowed.strain[i]),
@@ -168,34 +151,22 @@ fn flow_on(
     (PointState { plastic_strain, yield_stress, ..*old }, memory)
 }
 
-/// Completes a converged increment from `old` to `new`: accumulated strain, back stress and work of its plastic increment as a
-/// whole, which the two pieces of `bdf2` would count twice where the flow turns. Returns that increment.
-pub fn settle(
+/// The plastic increment from `before` to `after`, and its work T : ΔE_p per reference volume along the flow.
+///
+/// T : N = √(2/3) Ĵ {√(3/2) α_old : N + m [σ(ε_p) - σ_old] + r(ε_p)}.
+pub fn plastic_increment(
     metal: &Metal,
     (old, before): (&PointState, &History),
-    (new, after): (&mut PointState, &mut History),
-) -> PlasticIncrement {
+    (new, after): (&PointState, &History),
+) -> (PlasticIncrement, f64) {
     let strain: Sym = std::array::from_fn(|i| after.plastic[i] - before.plastic[i]);
-    let accumulated = contract(&strain, &strain).sqrt() / root();
-    let flowed = PlasticIncrement { strain, accumulated };
-    let Some(curve) = metal.hardening.as_ref().filter(|_| accumulated > 0.0) else { return flowed };
-    let (state, memory) = flow_on(metal, curve, old, before, &flowed);
-    // T : dE_p along the flow, where T : N = √(2/3) {√(3/2) α_old : N + m [σ(ε_p) - σ_old] + r(ε_p)}
-    let work = |state: &PointState| {
-        curve.plastic_work(&Flow {
-            plastic_strain: state.plastic_strain,
-            yield_stress: state.yield_stress,
-            slope: 0.0,
-        })
+    let flowed = PlasticIncrement { strain, accumulated: new.plastic_strain - old.plastic_strain };
+    let Some(curve) = metal.hardening.as_ref().filter(|_| flowed.accumulated > 0.0) else {
+        return (flowed, 0.0);
     };
     let surface = metal.kinematic_share * (curve.yield_stress() - old.yield_stress);
-    after.plastic_work = before.plastic_work
-        + contract(&before.back, &strain)
-        + surface * accumulated
-        + (work(&state) - work(old));
-    (new.plastic_strain, new.yield_stress, after.back) =
-        (state.plastic_strain, state.yield_stress, memory.back);
-    flowed
+    let turned = contract(&before.back, &strain) + surface * flowed.accumulated;
+    (flowed, new.yield_scale * turned + plastic_work(curve, old, new))
 }
 
 /// Elastic energy per reference volume, ½K(tr E)² + G|dev(E - E_p)|²; NaN where C is not positive definite.

@@ -5,7 +5,7 @@
 
 use crate::point::failure::Failure;
 use crate::point::tensor::{GradientForm, Sym, trace};
-use asperity_law::{Elastic, HardeningCurve};
+use asperity_law::{Elastic, Flow, HardeningCurve, StressMeasure};
 
 /// Elastic constants and, for a material that yields, its hardening curve; all in units of E.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,6 +16,8 @@ pub struct Metal {
     pub hardening: Option<HardeningCurve>,
     /// Share of the hardening that moves the yield surface; the rest makes it grow. 0: isotropic, 1: kinematic.
     pub kinematic_share: f64,
+    /// Which stress the hardening curve speaks of.
+    pub stress_measure: StressMeasure,
 }
 
 /// State of a material point.
@@ -25,14 +27,22 @@ pub struct PointState {
     pub stretch: Sym,
     /// Accumulated plastic strain ε_p.
     pub plastic_strain: f64,
-    /// Yield stress at that strain (Kirchhoff).
+    /// Yield stress at that strain, in the measure of the material.
     pub yield_stress: f64,
+    /// Ĵ: the Kirchhoff stress yields at Ĵ times the yield stress. Constant within an increment, which so keeps a potential;
+    /// 1 where the yield stress is Kirchhoff's.
+    pub yield_scale: f64,
 }
 
 impl Metal {
     /// Whether points have history variables beside their state (see `kinematic_hardening`).
     pub fn has_back_stress(&self) -> bool {
         self.kinematic_share > 0.0
+    }
+
+    /// Whether the yield stress is Cauchy's.
+    pub fn yields_by_true_stress(&self) -> bool {
+        self.stress_measure == StressMeasure::Cauchy
     }
 
     /// The same material without a yield stress: what a point does while it is elastic.
@@ -43,7 +53,7 @@ impl Metal {
     /// The stress-free virgin state.
     pub fn virgin(&self) -> PointState {
         let yield_stress = self.hardening.as_ref().map_or(f64::INFINITY, HardeningCurve::yield_stress);
-        PointState { stretch: [0.0; 4], plastic_strain: 0.0, yield_stress }
+        PointState { stretch: [0.0; 4], plastic_strain: 0.0, yield_stress, yield_scale: 1.0 }
     }
 }
 
@@ -140,6 +150,15 @@ pub fn elastic_energy(elastic: &Elastic, stretch: &Sym) -> f64 {
     let volume = e[0] + e[1] + e[2];
     let (g, k) = (elastic.shear_modulus(), elastic.bulk_modulus());
     0.5 * (k - 2.0 / 3.0 * g) * volume * volume + g * (e[0] * e[0] + e[1] * e[1] + e[2] * e[2])
+}
+
+/// Plastic work per reference volume from the state `old` to `new`, Ĵ∫σ_y dε_p.
+pub fn plastic_work(hardening: &HardeningCurve, old: &PointState, new: &PointState) -> f64 {
+    let work = |state: &PointState| {
+        let PointState { plastic_strain, yield_stress, .. } = *state;
+        hardening.plastic_work(&Flow { plastic_strain, yield_stress, slope: 0.0 })
+    };
+    new.yield_scale * (work(new) - work(old))
 }
 
 /// Kirchhoff stress of the state b_e - I.

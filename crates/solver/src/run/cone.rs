@@ -24,14 +24,12 @@ pub struct Cone {
     pub indents: bool,
     /// The material, E = 1.
     pub metal: Metal,
-    /// Whether the stress of its hardening law is Cauchy's, else Kirchhoff's.
-    pub cauchy: bool,
 }
 
 impl Cone {
     /// Loading to the depth 1. Energies are not kept and a far field is added to the depth: the mesh is a part of a half space.
     pub fn problem(&self, discretisation: &ConeDiscretisation) -> Problem {
-        let ConeDiscretisation { numbers, sizes, extrapolated, .. } = *discretisation;
+        let ConeDiscretisation { numbers, sizes, .. } = *discretisation;
         let tan = self.slope_deg.to_radians().tan();
         let radius = contact_ratio(&self.metal, tan, self.indents) / tan;
         let domain = numbers.domain * radius;
@@ -67,10 +65,8 @@ impl Cone {
             reloads: 0,
             rules: Rules {
                 far_field: FAR_FIELD / (self.metal.elastic.reduced_modulus() * domain),
-                extrapolated,
                 area_growth: f64::INFINITY,
                 correction: Correction::Mean,
-                cauchy: self.cauchy,
             },
         }
     }

@@ -159,9 +159,6 @@ pub struct ConeDiscretisation {
     pub numbers: Discretisation,
     /// The mesh around the contact.
     pub sizes: Sizes,
-    /// Share of the plastic flow that the second order of the step extrapolates. All of it overestimates K at long steps, none
-    /// of it underestimates K; 0.8 leaves half the error of either at the steps of `standard`.
-    pub extrapolated: f64,
     /// Relative 95 % bound on what mesh, step, penalty and substrate do to K.
     pub bias: f64,
 }
@@ -174,23 +171,22 @@ const SOFT: f64 = 0.1;
 
 /// Numbers of a cone at draft, standard and reference: elements across the contact, of which so many are one column at the
 /// axis, steps to [`FIT_FROM`] and from there; depth of the core, growth of its rows, first shell in elements, growth of the
-/// shells, substrate and foot of the cone in contact radii; penetration over depth, tolerance, share of the flow extrapolated,
-/// bias of K, and what is added to it for n = 0, in proportion below [`SOFT`].
-type ConeLevels = [([usize; 4], [f64; 6], [f64; 5]); 3];
+/// shells, substrate and foot of the cone in contact radii; penetration over depth, tolerance, bias of K, and what is added to it for n = 0, in proportion below [`SOFT`].
+type ConeLevels = [([usize; 4], [f64; 6], [f64; 4]); 3];
 
 /// Quadratic elements. The penetration is soft: it halves the ripple of the force and saves iterations.
 const QUADRATIC: ConeLevels = [
-    ([7, 2, 3, 14], [0.4, 0.5, 2.0, 0.5, 100.0, 8.0], [0.016, 1e-3, 0.8, 0.015, 0.03]),
-    ([10, 1, 4, 24], [0.4, 0.5, 1.0, 0.4, 100.0, 8.0], [0.016, 1e-4, 0.8, 0.005, 0.012]),
-    ([24, 1, 10, 96], [0.8, 0.2, 1.0, 0.25, 400.0, 12.0], [0.004, 1e-6, 1.0, 0.001, 0.002]),
+    ([7, 2, 3, 14], [0.4, 0.5, 2.0, 0.5, 100.0, 8.0], [0.016, 1e-3, 0.015, 0.03]),
+    ([10, 1, 4, 24], [0.4, 0.5, 1.0, 0.4, 100.0, 8.0], [0.016, 1e-4, 0.005, 0.012]),
+    ([24, 1, 10, 96], [0.8, 0.2, 1.0, 0.25, 400.0, 12.0], [0.004, 1e-6, 0.001, 0.002]),
 ];
 
 /// Linear elements under a steep cone: they want finer meshes, also far away, and a wide column at the axis leaves room to what
 /// is stretched along the flank.
 const STEEP_LINEAR: ConeLevels = [
-    ([12, 2, 8, 24], [0.6, 0.1, 1.0, 0.12, 100.0, 8.0], [0.004, 1e-3, 0.8, 0.015, 0.03]),
-    ([16, 2, 8, 36], [0.6, 0.1, 1.0, 0.07, 100.0, 8.0], [0.004, 1e-4, 0.8, 0.005, 0.012]),
-    ([40, 5, 20, 96], [0.8, 0.05, 1.0, 0.035, 400.0, 8.0], [0.004, 1e-6, 1.0, 0.001, 0.002]),
+    ([12, 2, 8, 24], [0.6, 0.1, 1.0, 0.12, 100.0, 8.0], [0.004, 1e-3, 0.015, 0.03]),
+    ([16, 2, 8, 36], [0.6, 0.1, 1.0, 0.07, 100.0, 8.0], [0.004, 1e-4, 0.005, 0.012]),
+    ([40, 5, 20, 96], [0.8, 0.05, 1.0, 0.035, 400.0, 8.0], [0.004, 1e-6, 0.001, 0.002]),
 ];
 
 /// Penetration over depth of a cone that indents a flat body with quadratic elements: it costs more of the depth there than on a
@@ -212,7 +208,7 @@ impl ConeDiscretisation {
         let (counts, lengths, shares) = levels[level as usize];
         let [mut elements, at_axis, lead, mut steps] = counts;
         let [core_depth, row_growth, first_shell, growth, domain, foot] = lengths;
-        let [mut penetration, tolerance, extrapolated, bias, mut soft_bias] = shares;
+        let [mut penetration, tolerance, bias, mut soft_bias] = shares;
         if element == ElementChoice::Q8r {
             if level == Level::Standard && exponent.is_some_and(|n| n < SOFT) {
                 (elements, steps, soft_bias) = (16, 36, 0.004);
@@ -244,7 +240,6 @@ impl ConeDiscretisation {
                 foot,
                 rounding: 0.0,
             },
-            extrapolated,
             bias: bias + softness * soft_bias,
         }
     }

@@ -23,6 +23,9 @@ const TOLERATED_NEGATIVE_PIVOTS: usize = 2;
 /// Shares of the diagonal that are added to it, one after the other, until the tangent is definite.
 const STIFFER: [f64; 2] = [1e-2, 1e-1];
 
+/// Relative residual at which a displacement is good enough to tell which points stop yielding.
+const NEARLY: f64 = 0.1;
+
 /// Why an increment has no equilibrium.
 pub type SolveFailure = newton::Failure<Failure>;
 
@@ -73,6 +76,11 @@ pub struct Equilibrium<'m> {
     /// Whether the stiffness is that of the last assessed iterate.
     has_tangent: bool,
     stiffens: bool,
+    /// Whether what the points extrapolate is still to be guarded (see [`State::guard`]), and at which relative residual.
+    unguarded: bool,
+    nearly: f64,
+    /// Whether that changed the residual at the last assessed iterate, and at the one before.
+    jumped: [bool; 2],
     /// Work done so far.
     pub counters: Counters,
 }
@@ -104,6 +112,9 @@ impl<'m> Equilibrium<'m> {
             has_factors: false,
             has_tangent: false,
             stiffens: true,
+            unguarded: false,
+            nearly: NEARLY,
+            jumped: [false; 2],
             counters: Counters::default(),
             body,
             state,
@@ -159,14 +170,33 @@ impl<'m> Equilibrium<'m> {
     /// Starts an increment: see [`State::begin`]. Its first iterate keeps the contact of the converged state.
     pub fn begin(&mut self, tip: f64, ratio: f64, guess: impl Fn(usize) -> [f64; 2]) {
         self.state.begin(&self.body, tip, ratio, guess, &mut self.trial);
-        let free = tip == f64::INFINITY;
+        self.keep_converged_contact();
+        self.unguarded = self.trial.factor > 0.0 && !self.state.plastic.is_empty();
+    }
+
+    /// From now on increments are solved to the relative residual `tolerance`: the closer, the less what is frozen on the way may
+    /// depend on that way.
+    pub fn guard_for(&mut self, tolerance: f64) {
+        self.nearly = NEARLY.min(1e3 * tolerance);
+    }
+
+    /// Starts the increment once more, a little longer or shorter: its points start as they did, so that the response is a smooth
+    /// function of `tip`.
+    pub fn begin_again(&mut self, tip: f64, guess: impl Fn(usize) -> [f64; 2]) {
+        self.state.begin_again(tip, guess, &mut self.trial);
+        self.keep_converged_contact();
+    }
+
+    /// The first iterate of an increment keeps the contact of the converged state, and is no step of the last increment.
+    fn keep_converged_contact(&mut self) {
+        let free = self.trial.tip == f64::INFINITY;
         self.touching.fill(NOTHING);
         if !free {
             self.touching.iter_mut().zip(self.state.parts()).for_each(|(parts, kept)| *parts = kept);
         }
         self.keep_contact = self.touching.iter().any(|p| *p != NOTHING);
-        // what follows is no step of the last increment
         self.fraction = 0.0;
+        self.jumped = [false; 2];
     }
 
     /// Accepts the increment under way.
@@ -175,11 +205,6 @@ impl<'m> Equilibrium<'m> {
     /// See [`State::commit`].
     pub fn accept(&mut self) -> Result<(), Failure> {
         self.state.commit(&self.body, &self.trial, &mut self.response)
-    }
-
-    /// See [`State::weigh`].
-    pub fn weigh_by_current_volume(&mut self) {
-        self.state.weigh(&self.body);
     }
 
     /// Augmented Lagrange update at the nodes, λ ← max(0, λ + ε d), from the converged iterate.
@@ -322,7 +347,13 @@ impl System for Equilibrium<'_> {
             reaction += edge.force.iter().flatten().map(|f| f * f).sum::<f64>();
         }
         let scale = reaction.sqrt().max(self.state.load_scale).max(f64::MIN_POSITIVE);
-        Ok(Assessment { residual, scale, changed })
+        let guards = self.unguarded && residual <= self.nearly * scale && !self.kept_contact;
+        if guards {
+            self.state.guard(&self.body, &mut self.trial, &self.response);
+            self.jumped[0] = true;
+            self.unguarded = false;
+        }
+        Ok(Assessment { residual, scale, changed: changed || guards })
     }
 
     fn renew(&mut self) -> Result<(), Failure> {
@@ -343,10 +374,11 @@ impl System for Equilibrium<'_> {
     fn find_direction(&mut self) {
         let clock = Instant::now();
         let residual = &self.response.residual;
-        if self.fraction > 0.0 {
+        if self.fraction > 0.0 && !self.jumped[1] {
             self.secants.note(-self.fraction, &self.direction, &self.residual_before, residual);
         }
         self.fraction = 0.0;
+        self.jumped = [false, self.jumped[0]];
         self.residual_before.copy_from_slice(residual);
         self.direction.copy_from_slice(residual);
         self.secants.solve(&mut self.direction, |rhs| self.factor.solve(rhs));

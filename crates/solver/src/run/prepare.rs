@@ -21,13 +21,7 @@ const PROBED: f64 = 1.3;
 const AREA_GROWTH: f64 = 2.5;
 
 /// The rules of a scene, whose far field is not corrected.
-const RULES: Rules = Rules {
-    far_field: 0.0,
-    extrapolated: 1.0,
-    area_growth: AREA_GROWTH,
-    correction: Correction::PlasticShare,
-    cauchy: false,
-};
+const RULES: Rules = Rules { far_field: 0.0, area_growth: AREA_GROWTH, correction: Correction::PlasticShare };
 
 /// The material of `scene`, E = 1.
 pub(super) fn metal(scene: &Scene) -> Metal {
@@ -36,6 +30,7 @@ pub(super) fn metal(scene: &Scene) -> Metal {
         elastic: Elastic { youngs_modulus: 1.0, ..elastic },
         hardening: scene.material.hardening().map(|curve| curve.over(elastic.youngs_modulus)),
         kinematic_share: scene.material.moving_share(),
+        stress_measure: scene.material.stress_measure,
     }
 }
 

@@ -71,14 +71,10 @@ pub enum Correction {
 pub struct Rules {
     /// Depth that a substrate of finite size takes away per force and that is added to the depth; 0: not corrected.
     pub far_field: f64,
-    /// Share of the plastic flow of the last increment that is extrapolated into the next.
-    pub extrapolated: f64,
     /// An increment in which the contact area grows by more than this factor is halved, as long as halvings are left.
     pub area_growth: f64,
     /// How the penetration is taken off the travel.
     pub correction: Correction,
-    /// Takes the stress of the hardening law as Cauchy's instead of Kirchhoff's, with the volume change of the last increment.
-    pub cauchy: bool,
 }
 
 /// A problem made ready, dimensionless.

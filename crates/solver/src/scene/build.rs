@@ -5,6 +5,7 @@ use super::{
     Symmetry, Tool, ToolForce, ToolShape,
 };
 use asperity_law::HardeningMode;
+use asperity_law::StressMeasure;
 use asperity_law::units::{Length, Stress};
 
 impl Scene {
@@ -56,6 +57,7 @@ impl Material {
             hardening_law: HardeningChoice::Hollomon,
             hardening_file: None,
             hardening_table: None,
+            stress_measure: StressMeasure::Cauchy,
             hardening_mode: HardeningMode::Isotropic,
             kinematic_share: None,
         }

@@ -2,7 +2,9 @@
 
 use super::range::{Check, error};
 use asperity_law::units::Stress;
-use asperity_law::{Elastic, Hardening, HardeningCurve, HardeningLaw, HardeningMode, HardeningTable};
+use asperity_law::{
+    Elastic, Hardening, HardeningCurve, HardeningLaw, HardeningMode, HardeningTable, StressMeasure,
+};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
@@ -37,6 +39,9 @@ pub struct Material {
     #[schemars(extend("examples" = [[[0, "300 MPa"], [0.1, "450 MPa"]]]))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hardening_table: Option<Vec<(f64, Stress)>>,
+    /// Which stress the yield stress and the hardening curve mean: true stress, or Kirchhoff's, which is J times that.
+    #[serde(default)]
+    pub stress_measure: StressMeasure,
     /// Whether the yield surface grows or moves with plastic flow; they differ in unloading and reloading.
     #[serde(default = "isotropic")]
     pub hardening_mode: HardeningMode,

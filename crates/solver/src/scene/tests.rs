@@ -1,5 +1,6 @@
 use super::*;
 use asperity_law::HardeningMode;
+use asperity_law::StressMeasure;
 use asperity_law::units::Stress;
 
 /// The asperity of the paper.
@@ -16,6 +17,7 @@ fn scene() -> Scene {
             hardening_law: HardeningChoice::Hollomon,
             hardening_file: None,
             hardening_table: None,
+            stress_measure: StressMeasure::Cauchy,
             hardening_mode: HardeningMode::Isotropic,
             kinematic_share: None,
         },

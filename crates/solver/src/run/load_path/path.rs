@@ -121,15 +121,32 @@ impl<'p> Path<'p> {
         carry: bool,
         guess: f64,
     ) -> Result<ContactSums, SolveFailure> {
+        let ratio = self.ratio(travel);
+        let guess = self.scaled(guess * ratio);
+        self.model.begin(-(self.touch + travel), if carry { ratio } else { 0.0 }, guess);
+        self.solve_attempted()
+    }
+
+    /// Solves the increment that was attempted last to a `travel` nearby.
+    pub(super) fn attempt_again(&mut self, travel: f64, guess: f64) -> Result<ContactSums, SolveFailure> {
+        let guess = self.scaled(guess * self.ratio(travel));
+        self.model.begin_again(-(self.touch + travel), guess);
+        self.solve_attempted()
+    }
+
+    /// Length of the increment to `travel` over that of the last one; 0 where the tool turns.
+    fn ratio(&self, travel: f64) -> f64 {
         let step = travel - self.travel;
-        let ratio =
-            if self.last_step != 0.0 && step / self.last_step > 0.0 { step / self.last_step } else { 0.0 };
-        let scale = guess * ratio;
+        if self.last_step != 0.0 { (step / self.last_step).max(0.0) } else { 0.0 }
+    }
+
+    /// The displacement of the last increment times `scale`.
+    fn scaled(&self, scale: f64) -> impl Fn(usize) -> [f64; 2] + use<> {
         let last = if scale > 0.0 { self.model.state().displacement.clone() } else { Vec::new() };
-        let tip = -(self.touch + travel);
-        self.model.begin(tip, if carry { self.rules().extrapolated * ratio } else { 0.0 }, |node| {
-            last.get(node).map_or([0.0; 2], |du| du.map(|u| scale * u))
-        });
+        move |node| last.get(node).map_or([0.0; 2], |du| du.map(|u| scale * u))
+    }
+
+    fn solve_attempted(&mut self) -> Result<ContactSums, SolveFailure> {
         self.iterate()?;
         if self.augmented() {
             // λ ← max(0, λ + ε d) until the penetration is a thousandth of what the penalty alone leaves
@@ -146,6 +163,7 @@ impl<'p> Path<'p> {
     }
 
     pub(super) fn iterate(&mut self) -> Result<(), SolveFailure> {
+        self.model.guard_for(self.settings.tolerance);
         let outcome = solve(&mut self.model, &self.settings);
         let spent = match &outcome {
             Ok(done) => done.iterations,
@@ -198,9 +216,6 @@ impl<'p> Path<'p> {
             _ => None,
         };
         self.model.accept().map_err(|_| Stop::Distorted)?;
-        if self.rules().cauchy {
-            self.model.weigh_by_current_volume();
-        }
         let punches = self.punches(&self.model.converged_surface());
         let contact = self.corrected(punches);
         let step = travel - self.travel;

@@ -11,6 +11,9 @@ const HOMING_TOLERANCE: f64 = 1e-8;
 /// Increments that home in on a goal; a secant takes three or four.
 const MOST_TRIES: usize = 24;
 
+/// Share of an increment by which the next try may differ to be the same increment.
+const NEAR: f64 = 0.05;
+
 /// Tries after which the interval around the goal is halved instead: the response leaps.
 const SECANTS: usize = 6;
 
@@ -61,7 +64,9 @@ impl Path<'_> {
                 }
                 _ => secant,
             };
-            let exact = self.attempt(next, true, GUESS).or_else(|_| self.attempt(next, true, 0.0));
+            let near = (next - now.0).abs() <= NEAR * (now.0 - self.travel).abs();
+            let exact = if near { self.attempt_again(next, GUESS) } else { self.attempt(next, true, GUESS) };
+            let exact = exact.or_else(|_| self.attempt(next, true, 0.0));
             let found = exact.or_else(|_| {
                 met = loosely;
                 self.settings = settings;
