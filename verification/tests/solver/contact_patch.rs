@@ -24,6 +24,9 @@ fn contact_pressure_is_uniform_and_that_of_the_bar() {
         let mut model = model(&mesh, Symmetry::Axisymmetric, ELASTIC, &held, Some(contact)).unwrap();
         let travels = [0.1, 0.2, 0.3, 0.4];
         for travel in travels {
+            // the contact is measured over the last converged surface, a disc of this radius
+            let radius = model.state().position.iter().fold(0.0_f64, |m, x| m.max(x[0]));
+            let penalty = penalty * radius * radius;
             increment(&mut model, 1.0 - travel, &TIGHT, |_| [0.0; 2]).unwrap();
             let depth = penetration(&ELASTIC.elastic, penalty, 1.0, travel);
             for edge in &model.state().edges {
@@ -32,7 +35,7 @@ fn contact_pressure_is_uniform_and_that_of_the_bar() {
                     assert!((here / depth - 1.0).abs() < 1e-10, "{kind:?} {travel}: {here} {depth}");
                 }
             }
-            // F = ε d π R² on the reference area
+            // F = ε d π R²
             let force = penalty * depth * std::f64::consts::PI;
             assert!((model.response().load() / force - 1.0).abs() < 1e-10);
             let axial = (1.0 - travel + depth).ln();

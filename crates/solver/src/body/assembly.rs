@@ -165,7 +165,7 @@ impl Body<'_> {
     fn integrate_contact(&self, state: &State, trial: &Trial, touching: Touching, response: &mut Response) {
         response.contact.clear();
         let Some(contact) = self.contact.filter(|_| trial.tip.is_finite()) else { return };
-        let context = contact.at(trial.tip, self.symmetry);
+        let context = contact.at(trial.tip, trial.penalty, self.symmetry);
         for (edge, kept) in state.edges.iter().zip(state.parts()) {
             let x = edge.nodes.map(|node| current(&state.position, &trial.displacement, node));
             let multiplier = edge.nodes.map(|node| trial.multiplier[node as usize]);

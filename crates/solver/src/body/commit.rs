@@ -22,6 +22,12 @@ impl State {
             x[1] += du[1];
         }
         self.displacement.clone_from(&trial.displacement);
+        // the increment began with the old contact under its own penalty
+        let held = self.contact.iter().map(|share| share.penalty_energy).sum::<f64>() + self.remeasured[1];
+        if self.penalty > 0.0 {
+            self.remeasured[1] += (trial.penalty / self.penalty - 1.0) * held;
+        }
+        self.penalty = trial.penalty;
         self.contact.clone_from(&response.contact);
         self.tip = trial.tip;
         self.multiplier.clone_from(&trial.multiplier);
@@ -85,11 +91,11 @@ impl State {
         Ok(())
     }
 
-    /// Takes the contact energy over the surface as it is now, under tools that stretch it; what that adds to the energy
-    /// is no work of the tool and is kept apart.
+    /// Takes the contact energy over the surface as it is now, which the tool has stretched; what that adds to the energy is no
+    /// work of the tool and is kept apart.
     fn remeasure_contact(&mut self, body: &Body<'_>) {
-        let Some(contact) = body.contact.filter(|c| c.tool.stretches_the_surface()) else { return };
-        let context = contact.at(self.tip, body.symmetry);
+        let Some(contact) = body.contact else { return };
+        let context = contact.at(self.tip, self.penalty, body.symmetry);
         let mut change = 0.0;
         for (edge, share) in self.edges.iter_mut().zip(&self.contact) {
             edge.reference = edge.nodes.map(|node| self.position[node as usize]);

@@ -16,14 +16,14 @@ use asperity_mesh::{ElementKind, Mesh};
 pub struct ToolContact {
     /// Its shape.
     pub tool: Tool,
-    /// Pressure per penetration.
+    /// Pressure per penetration in the stress-free state; a load path may change it.
     pub penalty: f64,
 }
 
 impl ToolContact {
     /// The contact with the tool's tip at height `tip`.
-    pub fn at(&self, tip: f64, symmetry: Symmetry) -> ContactContext<'_> {
-        ContactContext { tool: &self.tool, tip, penalty: self.penalty, symmetry }
+    pub fn at(&self, tip: f64, penalty: f64, symmetry: Symmetry) -> ContactContext<'_> {
+        ContactContext { tool: &self.tool, tip, penalty, symmetry }
     }
 }
 

@@ -56,6 +56,8 @@ pub struct State {
     pub yielding: Vec<bool>,
     /// Height of the tool's lowest point; infinite without a tool.
     pub tip: f64,
+    /// Contact pressure per penetration.
+    pub penalty: f64,
     /// The surface, with the positions over whose area the contact energy is taken.
     pub edges: Vec<ContactEdge>,
     /// Contact of each edge.
@@ -64,7 +66,7 @@ pub struct State {
     pub multiplier: Vec<f64>,
     /// Largest load so far.
     pub load_scale: f64,
-    /// Change of the contact energy by that of the area it is taken over, before the last increment and in it.
+    /// Change of the contact energy by that of the area it is taken over and of the penalty, up to the last increment and after it.
     pub(super) remeasured: [f64; 2],
 }
 
@@ -73,6 +75,8 @@ pub struct State {
 pub struct Trial {
     /// Height of the tool's lowest point; infinite without a tool.
     pub tip: f64,
+    /// Contact pressure per penetration.
+    pub penalty: f64,
     /// Displacement of each node from the converged state.
     pub displacement: Vec<[f64; 2]>,
     /// Augmented Lagrange multipliers at the nodes.
@@ -98,6 +102,7 @@ impl State {
             yield_drift: 0.0,
             yielding: vec![false; body.mesh.cell_count()],
             tip: f64::INFINITY,
+            penalty: body.contact.map_or(0.0, |contact| contact.penalty),
             edges: body.surface(),
             contact: Vec::new(),
             multiplier: vec![0.0; nodes],
@@ -115,6 +120,7 @@ impl State {
     pub fn trial(&self) -> Trial {
         Trial {
             tip: f64::INFINITY,
+            penalty: self.penalty,
             displacement: vec![[0.0; 2]; self.position.len()],
             multiplier: vec![0.0; self.position.len()],
             start: self.points.clone(),
@@ -122,7 +128,8 @@ impl State {
         }
     }
 
-    /// Change of the contact energy by that of the area it is taken over, up to the start of the last increment.
+    /// Change of the contact energy that is no work of the tool: by that of the area it is taken over and of the penalty, up to the
+    /// last increment.
     pub fn remeasured_energy(&self) -> f64 {
         self.remeasured[0]
     }

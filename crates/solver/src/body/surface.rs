@@ -18,6 +18,7 @@ pub struct Surface<'a> {
     /// Displacement beyond `position` in a trial.
     displacement: Option<&'a [[f64; 2]]>,
     tip: f64,
+    penalty: f64,
     multiplier: &'a [f64],
 }
 
@@ -31,6 +32,7 @@ impl<'a> Surface<'a> {
             position: &state.position,
             displacement: None,
             tip: state.tip,
+            penalty: state.penalty,
             multiplier: &state.multiplier,
         }
     }
@@ -46,6 +48,7 @@ impl<'a> Surface<'a> {
             contact: &response.contact,
             displacement: Some(&trial.displacement),
             tip: trial.tip,
+            penalty: trial.penalty,
             multiplier: &trial.multiplier,
             ..Surface::of_state(body, state)
         }
@@ -104,6 +107,6 @@ impl<'a> Surface<'a> {
         let Some(contact) = self.body.contact else { return 0.0 };
         let x = edge.nodes.map(|node| self.position(node));
         let depth = contact.tool.penetration(edge.point(&x, xi), self.tip).depth;
-        (self.multiplier[node as usize] + contact.penalty * depth) / edge.stretch(&x, xi)
+        (self.multiplier[node as usize] + self.penalty * depth) / edge.stretch(&x, xi)
     }
 }

@@ -5,9 +5,9 @@
 //! part: force and contact radius move smoothly as the front crosses an element, and because p vanishes at the clip
 //! the tangent is the exact derivative of the force.
 //!
-//! The reference is the undeformed surface, so that the energy is exact; under a cone it is the last converged one. A
-//! cone stretches the surface under its apex over a large part of the flank, where a penalty over the undeformed area
-//! fades: the apex then pierces the surface (30° cone, n = 0.1: K 15 % low, and no convergence to any mesh).
+//! The reference is the surface of the last converged state. A steep tool stretches the surface under its apex over a large
+//! part of its flank, where a penalty over the undeformed area fades: the apex then pierces the surface (30° cone, n = 0.1: K 15 %
+//! low, and no convergence to any mesh).
 
 use crate::contact::tool::Tool;
 use crate::point::kinematics::Symmetry;

@@ -33,12 +33,6 @@ pub struct Penetration {
 }
 
 impl Tool {
-    /// Whether the surface under the tool may stretch many times over, so that the area of its contact must be taken anew
-    /// in every increment.
-    pub fn stretches_the_surface(&self) -> bool {
-        matches!(self, Tool::Cone { .. })
-    }
-
     /// The tool as an asperity of the same outline: the contact of the two is the same to first order in the slope.
     /// `None` for a plane.
     pub fn mirrored(&self) -> Option<Asperity> {

@@ -174,6 +174,11 @@ impl<'m> Equilibrium<'m> {
         self.unguarded = self.trial.factor > 0.0 && !self.state.plastic.is_empty();
     }
 
+    /// Contact pressure per penetration from the next increment on.
+    pub fn press_with(&mut self, penalty: f64) {
+        self.trial.penalty = penalty;
+    }
+
     /// From now on increments are solved to the relative residual `tolerance`: the closer, the less what is frozen on the way may
     /// depend on that way.
     pub fn guard_for(&mut self, tolerance: f64) {
@@ -216,7 +221,7 @@ impl<'m> Equilibrium<'m> {
             for &node in &edge.nodes[..edge.node_count()] {
                 let depth = contact.tool.penetration(surface.position(node), self.trial.tip).depth;
                 multiplier[node as usize] =
-                    (self.trial.multiplier[node as usize] + contact.penalty * depth).max(0.0);
+                    (self.trial.multiplier[node as usize] + self.trial.penalty * depth).max(0.0);
             }
         }
         self.trial.multiplier = multiplier;

@@ -5,6 +5,7 @@ use crate::body::failure::Failure;
 use crate::contact::tool::Tool;
 use crate::point::kinematics::Symmetry;
 use crate::point::material::Metal;
+use crate::run::a_priori::expected_pressure;
 use crate::run::discretisation::Discretisation;
 use crate::run::equilibrium::Equilibrium;
 use crate::scene::{ContactMethod, Lateral};
@@ -92,7 +93,7 @@ pub struct Problem {
     pub tool: Tool,
     /// Estimated contact half width of each asperity at the peak (one entry for a flat body under a tool).
     pub half_widths: Vec<f64>,
-    /// Contact pressure per penetration.
+    /// Contact pressure per penetration at the depth 1.
     pub penalty: f64,
     /// The mesh.
     pub mesh: Mesh,
@@ -124,6 +125,14 @@ impl Problem {
             .and_then(Equilibrium::new)
     }
 
+    /// Contact pressure per penetration at `travel`: the penetration is the same share of every depth, so that early contact is as
+    /// good as late.
+    pub fn penalty_at(&self, travel: f64) -> f64 {
+        let depth = travel.max(FIRST_TOUCH);
+        let pressure = |depth| expected_pressure(&self.metal, &self.profile, &self.tool, depth);
+        self.penalty * pressure(depth) / (pressure(1.0) * depth)
+    }
+
     /// Penetration at the peak to be expected before the first increment shows it; 0 with multipliers.
     pub fn expected_penetration(&self) -> f64 {
         match (self.numbers.contact, self.goal) {
@@ -133,6 +142,9 @@ impl Problem {
         }
     }
 }
+
+/// Share of the peak depth below which the penalty is no longer stiffened: errors are promised from there on, elements grow no smaller.
+const FIRST_TOUCH: f64 = 0.2;
 
 /// Which displacement components of each node are fixed: both at the base, that across at the axis and at symmetric sides.
 pub fn held_nodes(mesh: &Mesh, symmetry: Symmetry, lateral: Lateral) -> Vec<[bool; 2]> {

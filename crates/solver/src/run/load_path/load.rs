@@ -51,7 +51,8 @@ impl Path<'_> {
         };
         self.asked = if let Goal::Depth(depth) = goal { Some(depth) } else { None };
         let expects = !matches!(goal, Goal::Travel(_));
-        let mut expected = if expects { penetration } else { 0.0 };
+        // the penetration is a share of the depth
+        let mut share = if expects { penetration / depth } else { 0.0 };
         let growth =
             fractions.last().copied().unwrap_or(1.0) / fractions.iter().rev().nth(1).copied().unwrap_or(0.5);
         let mut index = 0;
@@ -59,7 +60,7 @@ impl Path<'_> {
         loop {
             fraction = fractions.get(index).copied().unwrap_or(fraction * growth);
             index += 1;
-            let planned = (fraction * depth).min(limit) + expected;
+            let planned = (fraction * depth).min(limit) * (1.0 + share);
             let (travel, sums) = self.reach_depth(planned, enough, Phase::Load, true, observer)?;
             let last = match goal {
                 Goal::Travel(_) | Goal::Depth(_) => index == fractions.len() || travel != planned,
@@ -69,7 +70,7 @@ impl Path<'_> {
                 let travel = self.home_in(goal, travel, sums)?;
                 return self.accept(travel, Phase::Load, observer);
             }
-            expected = if expects { sums.penetration } else { 0.0 };
+            share = if expects { sums.penetration / (travel - sums.penetration) } else { 0.0 };
             self.accept(travel, Phase::Load, observer)?;
             if (fraction * depth >= limit || travel != planned) && matches!(goal, Goal::Force { .. }) {
                 return Err(Stop::ForceNotReached);

@@ -43,6 +43,8 @@ pub struct Path<'p> {
     /// Travel at which the tool touches first, in the coordinates of the mesh.
     pub(super) touch: f64,
     pub(super) travel: f64,
+    /// Largest travel so far.
+    deepest: f64,
     last_step: f64,
     pub(super) force: f64,
     area: f64,
@@ -80,6 +82,7 @@ impl<'p> Path<'p> {
             settings: Settings { tolerance, max_iterations: 40, keep: KEEP },
             problem,
             travel: 0.0,
+            deepest: 0.0,
             last_step: 0.0,
             force: 0.0,
             area: 0.0,
@@ -123,6 +126,9 @@ impl<'p> Path<'p> {
     ) -> Result<ContactSums, SolveFailure> {
         let ratio = self.ratio(travel);
         let guess = self.scaled(guess * ratio);
+        if travel > self.deepest {
+            self.model.press_with(self.problem.penalty_at(travel));
+        }
         self.model.begin(-(self.touch + travel), if carry { ratio } else { 0.0 }, guess);
         self.solve_attempted()
     }
@@ -221,6 +227,7 @@ impl<'p> Path<'p> {
         let step = travel - self.travel;
         (self.travel, self.last_step, self.force, self.area) = (travel, step, contact.force, contact.area);
         self.penetration = contact.penetration;
+        self.deepest = self.deepest.max(travel);
         self.increments += 1;
         let energies = punches.map(|punches| self.count(before, step, phase, &punches));
         let depth = self.depth(travel, contact.penetration, contact.force);
