@@ -1,4 +1,4 @@
-//! Weighted linear least squares with a few columns.
+//! Linear least squares: weighted with a few columns, and with columns that are added one by one.
 
 use nalgebra::{SMatrix, SVector};
 
@@ -53,4 +53,133 @@ pub fn powers<const N: usize>(u: f64) -> [f64; N] {
         basis[k] = basis[k - 1] * u;
     }
     basis
+}
+
+/// A column of which a smaller share than this is left beside the earlier ones is rounding.
+const ROUNDING: f64 = 1e-12;
+
+/// A least-squares problem to which columns are added one after the other, each made orthogonal to those before it: a column
+/// that depends on them is refused, and what an added one gains is known without solving anew.
+#[derive(Clone, Debug, Default)]
+pub struct Columns {
+    own: Vec<Vec<f64>>,
+    orthonormal: Vec<Vec<f64>>,
+}
+
+impl Columns {
+    /// No column.
+    pub fn new() -> Columns {
+        Columns::default()
+    }
+
+    /// Number of columns.
+    pub fn count(&self) -> usize {
+        self.own.len()
+    }
+
+    /// What the columns do not explain of `y`.
+    pub fn remainder(&self, y: &[f64]) -> Vec<f64> {
+        let mut rest = y.to_vec();
+        // twice: the first pass leaves rounding of the size of what it took away
+        for _ in 0..2 {
+            for q in &self.orthonormal {
+                let along = dot(q, &rest);
+                rest.iter_mut().zip(q).for_each(|(r, q)| *r -= along * q);
+            }
+        }
+        rest
+    }
+
+    /// The fit of `y`.
+    pub fn fitted(&self, y: &[f64]) -> Vec<f64> {
+        self.remainder(y).iter().zip(y).map(|(rest, y)| y - rest).collect()
+    }
+
+    /// Share of the sum of squares of `column` that the columns do not explain; 0 of a column of zeros.
+    pub fn independence(&self, column: &[f64]) -> f64 {
+        let rest = self.remainder(column);
+        let all = dot(column, column);
+        if all > 0.0 { dot(&rest, &rest) / all } else { 0.0 }
+    }
+
+    /// Adds `column` if more than the share `least` of its sum of squares is independent of the others.
+    pub fn add(&mut self, column: Vec<f64>, least: f64) -> bool {
+        let mut rest = self.remainder(&column);
+        let (left, all) = (dot(&rest, &rest), dot(&column, &column));
+        if left.is_nan() || left <= least.max(ROUNDING) * all {
+            return false;
+        }
+        rest.iter_mut().for_each(|r| *r /= left.sqrt());
+        self.orthonormal.push(rest);
+        self.own.push(column);
+        true
+    }
+
+    /// Mean square of the error with which `y` of each row is foretold by the fit to all other rows (Allen's PRESS): unlike the
+    /// residual, it grows again where columns fit what is chance.
+    pub fn left_out_error(&self, y: &[f64]) -> f64 {
+        let rest = self.remainder(y);
+        let error = |i: usize| {
+            let leverage: f64 = self.orthonormal.iter().map(|q| q[i] * q[i]).sum();
+            rest[i] / (1.0 - leverage).max(1e-3)
+        };
+        (0..y.len()).map(|i| error(i).powi(2)).sum::<f64>() / y.len() as f64
+    }
+
+    /// What the columns from the index `from` on contribute to the fit of `y`.
+    pub fn contribution(&self, y: &[f64], from: usize) -> Vec<f64> {
+        let mut sum = vec![0.0; y.len()];
+        // the last coefficient first: each column is what is left of it plus a sum of those before
+        for j in (from..self.count()).rev() {
+            let (q, column) = (&self.orthonormal[j], &self.own[j]);
+            let coefficient = (dot(q, y) - dot(q, &sum)) / dot(q, column);
+            sum.iter_mut().zip(column).for_each(|(s, c)| *s += coefficient * c);
+        }
+        sum
+    }
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn column(f: impl Fn(f64) -> f64) -> Vec<f64> {
+        (0..40).map(|i| f(0.1 * f64::from(i))).collect()
+    }
+
+    #[test]
+    fn columns_return_what_each_contributes_and_refuse_what_depends_on_others() {
+        let mut columns = Columns::new();
+        assert!(columns.add(column(|_| 1.0), 0.0) && columns.add(column(|x| x), 0.0));
+        assert!(!columns.add(column(|x| 3.0 - 2.0 * x), 0.0) && !columns.add(column(|_| 0.0), 0.0));
+        assert!(!columns.add(column(|_| f64::NAN), 0.0));
+        assert!(columns.add(column(f64::cos), 0.0) && columns.add(column(f64::sin), 0.0));
+        let y = column(|x| 5.0 - x + 0.3 * x.cos() + 0.2 * x.sin());
+        let periodic = columns.contribution(&y, 2);
+        for (got, expected) in periodic.iter().zip(column(|x| 0.3 * x.cos() + 0.2 * x.sin())) {
+            assert!((got - expected).abs() < 1e-12);
+        }
+        assert!(columns.left_out_error(&y) < 1e-24 && columns.count() == 4);
+        assert!(columns.independence(&column(|x| 1.0 + x)) < 1e-20);
+    }
+
+    #[test]
+    fn the_left_out_error_is_that_of_a_fit_without_the_row() {
+        let y = column(|x| x.exp());
+        let fit = |left_out: usize| {
+            let rows: Vec<([f64; 2], f64, f64)> = (0..40)
+                .map(|i| (powers(0.1 * i as f64), y[i], if i == left_out { 0.0 } else { 1.0 }))
+                .collect();
+            value(&solve(&rows).unwrap(), &powers(0.1 * left_out as f64)) - y[left_out]
+        };
+        let expected = (0..40).map(|i| fit(i).powi(2)).sum::<f64>() / 40.0;
+        let mut columns = Columns::new();
+        columns.add(column(|_| 1.0), 0.0);
+        columns.add(column(|x| x), 0.0);
+        assert!((columns.left_out_error(&y) / expected - 1.0).abs() < 1e-9);
+    }
 }

@@ -67,6 +67,7 @@ mod tests {
             contact_energy_uJ: 0.0,
             penetration_um: 0.0,
             newton_iterations: 4,
+            force_nodal_N: force,
         };
         let mut rows: Vec<_> = (0..=24)
             .map(|i| {

@@ -68,11 +68,12 @@ row! {
         phase: Phase = row.phase.into(),
         /// Tool travel from first touch, corrected for penetration.
         depth_um: f64 = row.depth / MICROMETRE,
-        /// Force on the tool, positive in compression, of the full body of revolution (in plane strain per mm).
+        /// Force on the tool, positive in compression, of the full body of revolution (in plane strain per mm); without the
+        /// ripple of the mesh.
         force_N: f64 = row.force / units.force,
-        /// Projected current area under pressure (in plane strain its width in µm).
+        /// Projected current area under pressure (in plane strain its width in µm); without the ripple of the mesh.
         contact_area_um2: f64 = row.contact_area / units.area,
-        /// Outer edge of the contact that holds the axis; in plane strain half the contact width.
+        /// Radius of the disc of the area of the contact that holds the axis; in plane strain half the contact width.
         contact_radius_um: f64 = row.contact_radius / MICROMETRE,
         /// Force over contact area; 0 without contact.
         mean_pressure_MPa: f64 = row.mean_pressure / MEGAPASCAL,
@@ -88,6 +89,8 @@ row! {
         penetration_um: f64 = row.penetration / MICROMETRE,
         /// Newton iterations spent since the last row.
         newton_iterations: usize = row.newton_iterations,
+        /// Sum of the nodal forces: the force with the ripple of the mesh, which the works are made of.
+        force_nodal_N: f64 = row.force_nodal / units.force,
     }
 }
 
@@ -216,6 +219,7 @@ mod tests {
             contact_energy: 5e-11,
             penetration: 2e-8,
             newton_iterations: 6,
+            force_nodal: 5.5,
         };
         CurveRow::new(&row, Units::of(symmetry))
     }
@@ -233,11 +237,11 @@ mod tests {
         assert_eq!(
             head,
             "increment,phase,depth_um,force_N,contact_area_um2,contact_radius_um,mean_pressure_MPa,external_work_uJ,\
-             elastic_energy_uJ,plastic_work_uJ,contact_energy_uJ,penetration_um,newton_iterations"
+             elastic_energy_uJ,plastic_work_uJ,contact_energy_uJ,penetration_um,newton_iterations,force_nodal_N"
         );
         let cells: Vec<&str> = line.split(',').collect();
         assert_eq!(cells[..4], ["3", "unload", "5.0", "5.52"]);
-        assert_eq!(cells[10..], ["5e-5", "0.02", "6"]);
+        assert_eq!(cells[10..], ["5e-5", "0.02", "6", "5.5"]);
         for (k, value) in [(4, 300.0), (5, 10.0), (6, 18400.0), (7, 9.46), (8, 1.0 / 3.0)] {
             let got: f64 = cells[k].parse().unwrap();
             assert!((got / value - 1.0).abs() < 1e-15, "{k}: {got}");

@@ -32,6 +32,8 @@ pub mod oliver_pharr;
 
 pub mod error_estimate;
 
+mod ripple;
+
 mod recorder;
 
 pub mod crush;

@@ -48,11 +48,13 @@ pub struct CurveRow {
     pub phase: Phase,
     /// Tool travel from first touch less the penetration, m.
     pub depth: f64,
-    /// Force on the tool, positive in compression, N (N/m).
+    /// Force on the tool, positive in compression, N (N/m). Once the run has ended without the ripple of the mesh, and so
+    /// are the contact area and what follows from the two; as they are for an observer.
     pub force: f64,
     /// Projected current area under pressure, m² (width, m).
     pub contact_area: f64,
-    /// Outer edge of the contact that holds the axis, m (plane strain: half the contact width).
+    /// Radius of the disc of the area of the contact that holds the axis, m: its outer edge, where no gap is open in it
+    /// (plane strain: half the contact width).
     pub contact_radius: f64,
     /// Force over contact area, Pa; 0 without contact.
     pub mean_pressure: f64,
@@ -68,6 +70,8 @@ pub struct CurveRow {
     pub penetration: f64,
     /// Newton iterations spent since the last row.
     pub newton_iterations: usize,
+    /// Sum of the nodal forces, N (N/m), in equilibrium with the stresses: what energies and works are made of.
+    pub force_nodal: f64,
 }
 
 /// The share of one asperity in one increment: a row of `asperities.csv`.

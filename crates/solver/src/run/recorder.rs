@@ -11,6 +11,7 @@ use crate::run::load_path::{Energies, Increment, Path, Stop};
 use crate::run::oliver_pharr::{OliverPharr, Peak, oliver_pharr};
 use crate::run::problem::{Goal, Problem};
 use crate::run::record::{AsperityRow, CurveRow, CycleRow, GapRow, IslandRow, Phase, Summary};
+use crate::run::ripple::{Ends, ends, remove};
 use asperity_mesh::Mesh;
 use asperity_mesh::profile::Asperity;
 use std::ops::ControlFlow;
@@ -85,6 +86,8 @@ pub(super) struct Recorder<'p> {
     /// Which asperity each surface edge belongs to.
     groups: Vec<usize>,
     rows: Vec<CurveRow>,
+    /// Ends of the contact of each asperity, for each row.
+    ends: Vec<Ends>,
     asperities: Vec<AsperityRow>,
     gaps: Vec<GapRow>,
     islands: Vec<IslandRow>,
@@ -114,6 +117,7 @@ impl<'p> Recorder<'p> {
             contact_energy: 0.0,
             penetration: 0.0,
             newton_iterations: 0,
+            force_nodal: 0.0,
         };
         Recorder {
             problem,
@@ -122,6 +126,7 @@ impl<'p> Recorder<'p> {
             unknowns,
             groups: groups(problem),
             rows: vec![first],
+            ends: vec![[f64::NAN; 2]; problem.profile.asperities.len().max(1)],
             asperities: Vec::new(),
             gaps: Vec::new(),
             islands: Vec::new(),
@@ -164,7 +169,7 @@ impl<'p> Recorder<'p> {
             depth: increment.depth * u.length,
             force: contact.force * u.force,
             contact_area: contact.area * u.area,
-            contact_radius: contact.radius * u.length,
+            contact_radius: self.radius(model, contact) * u.length,
             mean_pressure: if contact.area > 0.0 { contact.force / contact.area * u.stress } else { 0.0 },
             external_work: energy(|e| e.external_work),
             elastic_energy: energy(|e| e.elastic),
@@ -172,8 +177,13 @@ impl<'p> Recorder<'p> {
             contact_energy: (contact.energy - model.state().remeasured_energy()) * u.energy,
             penetration: contact.penetration * u.length,
             newton_iterations: increment.newton_iterations,
+            force_nodal: contact.force * u.force,
         };
         self.rows.push(row);
+        let (edges, touching) = (&model.state().edges, &model.state().contact);
+        for asperity in 0..self.problem.profile.asperities.len().max(1) {
+            self.ends.push(ends(edges, touching, |edge| self.groups.get(edge) == Some(&asperity)));
+        }
         if self.problem.profile.asperities.len() > 1 {
             for asperity in 0..self.problem.profile.asperities.len() {
                 let sums = group_sums(model, &self.groups, asperity);
@@ -205,6 +215,24 @@ impl<'p> Recorder<'p> {
             return self.draw(model, observer).is_continue();
         }
         told.is_continue()
+    }
+
+    /// Radius of the disc of the area of the contact that holds the axis; half the width in plane strain. The outer edge of that
+    /// contact is not told from that of another by gaps: it opens at the axis and elsewhere.
+    fn radius(&self, model: &Equilibrium<'_>, contact: &ContactSums) -> f64 {
+        match (self.problem.symmetry, self.on_axis()) {
+            (Symmetry::Axisymmetric, Some(asperity)) => {
+                (group_sums(model, &self.groups, asperity).area / std::f64::consts::PI).sqrt()
+            }
+            _ => contact.radius,
+        }
+    }
+
+    /// The asperity whose contact holds the axis: the first one, or the flat body without asperities.
+    fn on_axis(&self) -> Option<usize> {
+        let first = self.problem.profile.asperities.first();
+        let holds = first.is_none_or(|a| a.centre < a.half_width(a.height));
+        (self.problem.symmetry == Symmetry::Axisymmetric && holds).then_some(0)
     }
 
     /// Hands out the fields of the last row, once.
@@ -347,6 +375,8 @@ impl<'p> Recorder<'p> {
         if self.interval > 0 {
             let _ = self.draw(&path.model, observer);
         }
+        let axis = self.on_axis();
+        remove(&mut self.rows, &mut self.asperities, &self.ends, self.peak, self.problem.symmetry, axis);
         let (peak, last) = (self.rows[self.peak], self.rows[self.rows.len() - 1]);
         // of the first loading and unloading, whatever comes after
         let cycles = self.cycles();
@@ -401,7 +431,8 @@ impl<'p> Recorder<'p> {
 fn work_along(rows: &[CurveRow]) -> f64 {
     let step = |pair: &[CurveRow]| {
         let (from, to) = (pair[0], pair[1]);
-        let sunk = crate::body::energy::work([from.force, to.force], to.penetration - from.penetration);
+        let sunk =
+            crate::body::energy::work([from.force_nodal, to.force_nodal], to.penetration - from.penetration);
         to.external_work - from.external_work - sunk
     };
     rows.windows(2).map(step).sum()
