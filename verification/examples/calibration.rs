@@ -199,7 +199,7 @@ fn published(report: &mut Report, file: &str, beta_deg: f64) {
         .collect();
     let difference = |[exponent, ratio, k_over_e]: &[f64; 3], stress_measure: StressMeasure| {
         let yielding = Some(metal(HardeningLaw::Swift, *exponent, *ratio));
-        let case = Case { beta_deg, yielding, poissons_ratio: 0.3, tool: Tool::Cone, stress_measure: stress };
+        let case = Case { beta_deg, yielding, poissons_ratio: 0.3, tool: Tool::Cone, stress_measure };
         let resolution = case.discretisation(Accuracy::Standard);
         100.0 * (loading_curvature::solve(&case, &resolution).expect("runs").k_over_e / k_over_e - 1.0)
     };
