@@ -7,6 +7,7 @@
 #![allow(clippy::print_stdout, reason = "a benchmark prints")]
 
 use asperity_law::HardeningMode;
+use asperity_law::StressMeasure;
 use asperity_law::units::{Length, Stress};
 use asperity_mesh::ElementKind;
 use asperity_solver::element::kernel::POINTS;

@@ -17,7 +17,7 @@ fn cones_agree_with_calculix() {
         let (peer, case) = (PEERS[i], peer_case(&PEERS[i]));
         let resolution = case.discretisation(Accuracy::Standard);
         for (stress, measure) in [(StressMeasure::Cauchy, 0.0), (StressMeasure::Kirchhoff, 0.01)] {
-            let kick = solve(&Case { stress, ..case }, &resolution).unwrap();
+            let kick = solve(&Case { stress_measure: stress, ..case }, &resolution).unwrap();
             let off = (kick.k_over_e / peer.k_over_e - 1.0).abs();
             assert!(off <= kick.error + peer.error + measure, "{peer:?}: {kick:?}");
         }

@@ -92,6 +92,13 @@ pub fn contact_ratio(metal: &Metal, tan: f64, indents: bool) -> f64 {
     FRAC_2_PI + (plastic - FRAC_2_PI) * (x / (x + 6.0)).powi(2)
 }
 
+/// Depth per force that a clamped substrate of this size takes away from an elastic half space: 0.39/(E* size), its depth and its
+/// radius alike. Measured from sizes of 25 to 800 contact radii: 0.387 under cones, 0.394 under balls, 0.37 to 0.40 on
+/// crushed cones.
+pub fn far_field(metal: &Metal, size: f64) -> f64 {
+    0.39 / (metal.elastic.reduced_modulus() * size)
+}
+
 /// Depth (m) at which the expected pressure over the cut area carries `force` (N, or N/m in plane strain).
 pub fn expected_depth(
     metal: &Metal,

@@ -4,16 +4,12 @@
 use crate::contact::tool::Tool;
 use crate::point::kinematics::Symmetry;
 use crate::point::material::Metal;
-use crate::run::a_priori::{contact_ratio, expected_pressure};
+use crate::run::a_priori::{contact_ratio, expected_pressure, far_field};
 use crate::run::discretisation::ConeDiscretisation;
 use crate::run::problem::{Correction, Goal, Problem, Rules, Units, held_nodes};
 use crate::scene::Lateral;
 use asperity_mesh::build::{SelfSimilar, self_similar};
 use asperity_mesh::profile::{Asperity, Profile, Shape};
-
-/// Depth that a clamped substrate of size L takes away from an elastic half space is this times F/(E* L). Measured on
-/// crushed cones at L/a = 150 and 600: 0.37 to 0.40.
-const FAR_FIELD: f64 = 0.39;
 
 /// A sharp cone and its material.
 #[derive(Clone, Debug, PartialEq)]
@@ -64,7 +60,7 @@ impl Cone {
             unload: false,
             reloads: 0,
             rules: Rules {
-                far_field: FAR_FIELD / (self.metal.elastic.reduced_modulus() * domain),
+                far_field: far_field(&self.metal, domain),
                 area_growth: f64::INFINITY,
                 correction: Correction::Mean,
             },

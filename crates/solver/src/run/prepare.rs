@@ -6,7 +6,7 @@ use crate::point::material::Metal;
 use crate::run::a_priori;
 use crate::run::discretisation::Discretisation;
 use crate::run::problem::{Correction, Goal, Problem, Rules, Units, held_nodes};
-use crate::scene::{AsperityForm, Scene, SceneError, Target, ToolForm};
+use crate::scene::{AsperityForm, Lateral, Scene, SceneError, Target, ToolForm};
 use asperity_law::Elastic;
 use asperity_mesh::Mesh;
 use asperity_mesh::build::{Contact, Plan, build};
@@ -19,9 +19,6 @@ const PROBED: f64 = 1.3;
 /// A path that grows the contact area by more than this factor in one increment halves it: flat metal comes into contact all
 /// at once when an asperity vanishes into its base. The schedule of the draft level grows it by 1.5.
 const AREA_GROWTH: f64 = 2.5;
-
-/// The rules of a scene, whose far field is not corrected.
-const RULES: Rules = Rules { far_field: 0.0, area_growth: AREA_GROWTH, correction: Correction::PlasticShare };
 
 /// The material of `scene`, E = 1.
 pub(super) fn metal(scene: &Scene) -> Metal {
@@ -62,7 +59,8 @@ pub fn prepare(scene: &Scene, mesh: Option<Mesh>, depth: f64) -> Result<Problem,
         }
     };
     let half_widths = a_priori::half_widths(&profile, &tool, reach);
-    let size = automatic_size(&numbers, &profile, &half_widths);
+    let row = extent(scene, &profile, &half_widths, depth);
+    let size = automatic_size(&numbers, &profile, &half_widths).max(3.0 * (row[1] - row[0]));
     let penalty = a_priori::expected_pressure(&metal, &profile, &tool, 1.0) / numbers.penetration;
     let mesh = match mesh {
         Some(mut mesh) => {
@@ -73,10 +71,17 @@ pub fn prepare(scene: &Scene, mesh: Option<Mesh>, depth: f64) -> Result<Problem,
         }
         None => {
             let from = a_priori::resolved_from(&profile, &tool, 1.0, reach);
-            build_mesh(scene, &numbers, &profile, &half_widths, [from, size], depth)?
+            build_mesh(scene, &numbers, &profile, &half_widths, row, [from, size], depth)?
         }
     };
     let automatic = scene.mesh.is_none() && scene.substrate.as_ref().is_none_or(|s| s.depth.is_none());
+    let half_space = automatic && symmetry == Symmetry::Axisymmetric && scene.lateral == Lateral::Free;
+    let rules = Rules {
+        // a substrate that the scene gives is a part of it
+        far_field: if half_space { a_priori::far_field(&metal, size) } else { 0.0 },
+        area_growth: AREA_GROWTH,
+        correction: Correction::PlasticShare,
+    };
     Ok(Problem {
         units,
         symmetry,
@@ -92,7 +97,7 @@ pub fn prepare(scene: &Scene, mesh: Option<Mesh>, depth: f64) -> Result<Problem,
         goal,
         unload: scene.loading.unload,
         reloads: scene.loading.reloads,
-        rules: RULES,
+        rules,
     })
 }
 
@@ -168,31 +173,36 @@ fn automatic_size(numbers: &Discretisation, profile: &Profile, half_widths: &[f6
     numbers.domain * loaded
 }
 
-/// The mesh of the scene, lengths over `length`; contacts are resolved from the share `resolved_from` of their half widths on,
+/// Left and right end of the row of asperities with the gaps beside it, lengths over `length`; of a flat body some contact widths.
+fn extent(scene: &Scene, profile: &Profile, half_widths: &[f64], length: f64) -> [f64; 2] {
+    let end_gap = scene.end_gap() / length;
+    let right = profile.asperities.last().map_or(0.0, |a| a.centre + a.half_width(a.height)) + end_gap;
+    match scene.symmetry {
+        Symmetry::Axisymmetric => [0.0, right],
+        Symmetry::PlaneStrain if profile.asperities.is_empty() => {
+            [-10.0, 10.0].map(|w| w * widest(half_widths))
+        }
+        Symmetry::PlaneStrain => {
+            [profile.asperities.first().map_or(0.0, |a| a.centre - a.half_width(a.height)) - end_gap, right]
+        }
+    }
+}
+
+/// The mesh of the scene over the `row` of its asperities, lengths over `length`; contacts are resolved from the share `resolved_from` of their half widths on,
 /// and the substrate has the `size` if the scene gives none.
 fn build_mesh(
     scene: &Scene,
     numbers: &Discretisation,
     profile: &Profile,
     half_widths: &[f64],
+    row: [f64; 2],
     [resolved_from, size]: [f64; 2],
     length: f64,
 ) -> Result<Mesh, SceneError> {
     let (kind, symmetry) = (numbers.element.kind(), scene.symmetry);
     check_valleys(profile, length)?;
-    let widest = widest(half_widths);
-    let end_gap = scene.end_gap() / length;
-    let right = profile.asperities.last().map_or(0.0, |a| a.centre + a.half_width(a.height)) + end_gap;
-    let row = match symmetry {
-        Symmetry::Axisymmetric => [0.0, right],
-        Symmetry::PlaneStrain if profile.asperities.is_empty() => [-10.0 * widest, 10.0 * widest],
-        Symmetry::PlaneStrain => {
-            [profile.asperities.first().map_or(0.0, |a| a.centre - a.half_width(a.height)) - end_gap, right]
-        }
-    };
-    let automatic = size.max(3.0 * (row[1] - row[0]));
     let substrate = scene.substrate.as_ref();
-    let size_of = |given: Option<asperity_law::units::Length>| given.map_or(automatic, |l| l.0 / length);
+    let size_of = |given: Option<asperity_law::units::Length>| given.map_or(size, |l| l.0 / length);
     let depth = profile.height() + size_of(substrate.and_then(|s| s.depth));
     let radius = size_of(substrate.and_then(|s| s.radius));
     let width = match symmetry {
@@ -225,6 +235,7 @@ fn build_mesh(
         far: FAR_GROWTH,
     };
     let contacts: Vec<Contact> = if profile.asperities.is_empty() {
+        let widest = widest(half_widths);
         vec![Contact { centre: 0.0, half_width: widest, foot: 10.0 * widest, slope: 0.0 }]
     } else {
         let contact = |(a, w): (&Asperity, &f64)| Contact {
