@@ -5,14 +5,14 @@
 //! phase of the front is known as such and can be told from the curve. The logarithm of force or area over the loading rows
 //! is fitted by
 //! ```text
-//! ln v = spline(ln h) + Σ_k [a_k cos 2πks + b_k sin 2πks] (1, t, t²),   k = 1, 2, 3
+//! ln v = spline(ln h) + Σ_k [a_k cos 2πks + b_k sin 2πks] (1, t, t², t³),   k = 1 … 4
 //! ```
 //! s: edges between the middle of the contact and its front, the touched share of the last one included; t: ln h from -1 at the
 //! first row to 1 at the peak, for a shape that changes slowly. Only the periodic part is taken off, so that whatever else a
 //! curve does stays.
 //!
-//! How many knots, harmonics and powers of t there are, the curve itself decides: those that foretell rows left out best.
-//! Nothing is taken off where that is not clearly better than the spline alone. Harmonics that the rows sample
+//! How many knots, harmonics and powers of t there are, the curve itself decides: fits count the more the better they foretell
+//! rows left out. Nothing is taken off where that is not clearly better than the spline alone. Harmonics that the rows sample
 //! so that they look like a slow change (three rows per period and the third harmonic, two and the second) cannot be told from
 //! the curve and stay out.
 
@@ -27,12 +27,12 @@ const ROWS: usize = 14;
 const PERIODS: f64 = 3.0;
 
 /// Most harmonics, and highest power of t in their amplitudes.
-const HARMONICS: usize = 3;
-const POWER: usize = 2;
+const HARMONICS: usize = 4;
+const POWER: usize = 3;
 
 /// Rows and periods per interval of the spline: fewer, and it would follow the ripple.
-const ROWS_PER_KNOT: usize = 5;
-const PERIODS_PER_KNOT: f64 = 1.4;
+const ROWS_PER_KNOT: usize = 4;
+const PERIODS_PER_KNOT: f64 = 1.1;
 
 /// Rows that a fit has more than columns.
 const FREEDOM: usize = 5;
@@ -41,9 +41,13 @@ const FREEDOM: usize = 5;
 const APART_FROM_SPLINE: f64 = 0.75;
 const APART: f64 = 0.1;
 
-/// A ripple is taken off if the mean square error of rows left out falls below this share of that of the best spline. On
-/// curves without ripple, of chance errors, that happened in less than one of a hundred.
-const BETTER: f64 = 0.75;
+/// A ripple is taken off if the mean square error of rows left out falls below this share of that of the best spline. Where
+/// curves have chance errors and no ripple, that happens twice in a hundred times.
+const BETTER: f64 = 0.6;
+
+/// Weight of a fit in the mean of all: its mean square error of rows left out to minus this power per row. Half would be that of
+/// its likelihood; less takes in more fits, whose errors differ.
+const SELECTIVE: f64 = 0.2;
 
 /// Edges that the front passes per ln h stay within this factor of those at the peak: elsewhere the mesh has another grading,
 /// or the contact has just begun, and the ripple another amplitude.
@@ -171,7 +175,7 @@ fn periodic_part(depth: &[f64], value: &[f64], ends: &[Ends]) -> Option<(usize, 
     let y: Vec<f64> = value[first..].iter().map(|v| v.ln()).collect();
     // the front itself moves by jerks: harmonics of its even advance are fewer
     let even: Vec<Vec<f64>> = fronts.iter().map(|s| spline(x, 2).fitted(s)).collect();
-    let mut part = best_fit(x, &y, &even)?;
+    let mut part = average_fit(x, &y, &even)?;
     // the ripple sets in over one period, so that the curve does not jump
     for (i, part) in part.iter_mut().enumerate() {
         let in_all = even.iter().map(|s| s[i] - s[0]).fold(f64::INFINITY, f64::min);
@@ -208,15 +212,15 @@ fn steady_from(x: &[f64], front: &[f64]) -> usize {
     first
 }
 
-/// The periodic part of the fit that foretells rows best which are left out; `None` if none is clearly better than a spline alone.
-fn best_fit(x: &[f64], y: &[f64], fronts: &[Vec<f64>]) -> Option<Vec<f64>> {
+/// The periodic part of the fits of all sizes, averaged; `None` if none is clearly better than a spline alone.
+fn average_fit(x: &[f64], y: &[f64], fronts: &[Vec<f64>]) -> Option<Vec<f64>> {
     let periods = fronts.iter().map(|s| travelled(s)).fold(0.0, f64::max);
-    let intervals = (x.len() / ROWS_PER_KNOT).min((periods / PERIODS_PER_KNOT) as usize).max(1);
+    let most = (x.len() / ROWS_PER_KNOT).min((periods / PERIODS_PER_KNOT) as usize).max(1);
     let [from, to] = [x[0], x[x.len() - 1]];
     let t: Vec<f64> = x.iter().map(|x| 2.0 * (x - from) / (to - from) - 1.0).collect();
     let mut without = f64::INFINITY;
-    let mut best: Option<(f64, Vec<f64>)> = None;
-    for intervals in 1..=intervals {
+    let mut fits: Vec<(f64, Vec<f64>)> = Vec::new();
+    for intervals in 1..=most {
         let smooth = spline(x, intervals);
         without = without.min(smooth.left_out_error(y));
         for power in 0..=POWER {
@@ -230,14 +234,26 @@ fn best_fit(x: &[f64], y: &[f64], fronts: &[Vec<f64>]) -> Option<Vec<f64>> {
                 if x.len() < fit.count() + FREEDOM {
                     break;
                 }
-                let error = fit.left_out_error(y);
-                if fit.count() > smooth.count() && best.as_ref().is_none_or(|(least, _)| error < *least) {
-                    best = Some((error, fit.contribution(y, smooth.count())));
+                if fit.count() > smooth.count() {
+                    fits.push((fit.left_out_error(y), fit.contribution(y, smooth.count())));
                 }
             }
         }
     }
-    best.filter(|(error, _)| *error < BETTER * without).map(|(_, part)| part)
+    let least = fits.iter().map(|(error, _)| *error).fold(f64::INFINITY, f64::min);
+    if fits.is_empty() || least >= BETTER * without {
+        return None;
+    }
+    // a fit without error takes all of the weight
+    let least = least.max(f64::MIN_POSITIVE);
+    let weight = |error: f64| (least / error.max(least)).powf(SELECTIVE * x.len() as f64);
+    let all: f64 = fits.iter().map(|(error, _)| weight(*error)).sum();
+    let mut part = vec![0.0; y.len()];
+    for (error, own) in &fits {
+        let share = weight(*error) / all;
+        part.iter_mut().zip(own).for_each(|(sum, own)| *sum += share * own);
+    }
+    Some(part)
 }
 
 /// Columns of one harmonic of every front, with amplitudes up to the given power of t.
