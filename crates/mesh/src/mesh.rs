@@ -1,5 +1,7 @@
 //! A mesh of quadrilaterals in the (r, z) half plane, or (x, z) in plane strain, with named sides.
 
+use std::collections::HashMap;
+
 /// Which quadrilateral the cells are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ElementKind {
@@ -64,6 +66,29 @@ impl Mesh {
     pub fn cell(&self, cell: usize) -> &[u32] {
         let n = self.kind.nodes();
         &self.cells[cell * n..(cell + 1) * n]
+    }
+
+    /// The same cells as the other element: mid-side nodes are left out, or put halfway between corners.
+    #[must_use]
+    pub fn with_other_element(&self) -> Mesh {
+        let (n, mut nodes, mut cells) = (self.kind.nodes(), self.nodes.clone(), Vec::new());
+        if self.kind == ElementKind::Quad8 {
+            cells.extend(self.cells.chunks_exact(n).flat_map(|cell| &cell[..4]));
+            return Mesh { kind: ElementKind::Quad4, nodes, cells, sides: self.sides.clone() };
+        }
+        let mut middles = HashMap::new();
+        for cell in self.cells.chunks_exact(n) {
+            cells.extend(cell);
+            for k in 0..4 {
+                let (a, b) = (cell[k], cell[(k + 1) % 4]);
+                cells.push(*middles.entry((a.min(b), a.max(b))).or_insert_with(|| {
+                    let [from, to] = [a, b].map(|node| nodes[node as usize]);
+                    nodes.push([0, 1].map(|i| 0.5 * (from[i] + to[i])));
+                    nodes.len() as u32 - 1
+                }));
+            }
+        }
+        Mesh { kind: ElementKind::Quad8, nodes, cells, sides: self.sides.clone() }
     }
 
     /// Least and greatest of each coordinate over the nodes.

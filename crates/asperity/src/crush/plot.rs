@@ -68,6 +68,7 @@ mod tests {
             penetration_um: 0.0,
             newton_iterations: 4,
             force_nodal_N: force,
+            force_error: None,
         };
         let mut rows: Vec<_> = (0..=24)
             .map(|i| {

@@ -17,6 +17,28 @@ use serde_json::Value;
 use std::path::Path;
 
 row! {
+    /// 95 % bounds of the errors against the program's own converged limit, for 0.2 ≤ h/h_peak ≤ 1. NaN or `None`, `null` in
+    /// the file, where an error is not known or the run did not unload.
+    Errors(errors: &record::Errors) {
+        /// Of the force, relative.
+        #[serde(deserialize_with = "nan_for_null")]
+        force: f64 = errors.force,
+        /// Of the contact area, relative.
+        #[serde(deserialize_with = "nan_for_null")]
+        contact_area: f64 = errors.contact_area,
+        /// Of the mean pressure, relative.
+        #[serde(deserialize_with = "nan_for_null")]
+        mean_pressure: f64 = errors.mean_pressure,
+        /// Of the residual depth, over the peak depth.
+        residual_depth: Option<f64> = errors.residual_depth,
+        /// Of the elastic fraction, absolute.
+        elastic_fraction: Option<f64> = errors.elastic_fraction,
+        /// Of the unloading stiffness, relative.
+        unloading_stiffness: Option<f64> = errors.unloading_stiffness,
+    }
+}
+
+row! {
     /// The numbers of a crush. `None`, `null` in the file, is what the scene did not ask for (unloading) or the run did not
     /// reach. Fields are named as the keys of an axisymmetric crush; the file of a crush in plane strain has the names of
     /// [`crate::units::plane_strain_name`], and so has what is serialised.
@@ -53,9 +75,11 @@ row! {
         /// Largest |W - E_e - W_p - E_c|/W over increments with W above 1 % of its peak.
         #[serde(deserialize_with = "nan_for_null")]
         energy_balance_error: f64 = summary.energy_balance_error,
-        /// 95 % bound of the relative error of the force for 0.2 ≤ h/h_peak ≤ 1; NaN (`null`) where it is not known.
+        /// `errors.force`; NaN (`null`) where it is not known.
         #[serde(deserialize_with = "nan_for_null")]
         estimated_error: f64 = summary.estimated_error,
+        /// 95 % bounds of the errors against the converged limit.
+        errors: Errors = Errors::new(&summary.errors),
         /// Number of elements.
         elements: usize = summary.elements,
         /// Number of unknowns.

@@ -1,12 +1,15 @@
 //! One crush from a scene to its records: the entry point of the solver.
 
 use crate::run::depth_for_force::target_depth;
+use crate::run::discretisation::Discretisation;
+use crate::run::errors::settle;
 use crate::run::load_path::{Path, Stop};
-use crate::run::prepare::prepare;
-use crate::run::problem::Problem;
+use crate::run::prepare::prepare_with;
+use crate::run::problem::{Goal, Problem};
 use crate::run::recorder::Recorder;
 use crate::scene::{Scene, SceneError};
 use asperity_mesh::Mesh;
+use std::ops::ControlFlow;
 
 pub use crate::run::recorder::{Event, FieldFrame, Outcome, Stopped, Watcher};
 
@@ -31,8 +34,31 @@ pub enum CrushError {
 pub fn run(scene: &Scene, mesh: Option<Mesh>, observer: &mut Watcher<'_>) -> Result<Outcome, CrushError> {
     scene.validate()?;
     let depth = target_depth(scene, mesh.as_ref())?;
-    let problem = prepare(scene, mesh, depth)?;
-    simulate(&problem, scene.output.interval(), observer)
+    let coarser = mesh.as_ref().map(Mesh::with_other_element);
+    let numbers = Discretisation::new(scene);
+    let problem = prepare_with(scene, numbers, mesh, depth)?;
+    let mut outcome = simulate(&problem, scene.output.interval(), observer)?;
+    let interrupted = outcome.stopped.as_ref().is_some_and(|s| s.reason == Stop::Interrupted);
+    if !interrupted && let Some(companion) = companion(scene, numbers, coarser, depth, &outcome) {
+        settle(&mut outcome, &companion, scene.symmetry);
+    }
+    Ok(outcome)
+}
+
+/// The run that reveals the errors of `outcome`: to the depth that it reached, with numbers half as good. An imported mesh, which
+/// cannot be made coarser, gives its nodes to the `other` element. `None` if it does not even begin.
+fn companion(
+    scene: &Scene,
+    numbers: Discretisation,
+    other: Option<Mesh>,
+    depth: f64,
+    outcome: &Outcome,
+) -> Option<Outcome> {
+    let mut problem = prepare_with(scene, numbers.coarser(), other, depth).ok()?;
+    problem.goal = Goal::Depth(outcome.summary.peak_depth / problem.units.length);
+    problem.reloads = 0;
+    problem.unload &= outcome.summary.residual_depth.is_some();
+    simulate(&problem, 0, &mut |_| ControlFlow::Continue(())).ok()
 }
 
 /// Runs `problem`: loads it to its goal, and unloads and reloads it as often as it asks.

@@ -41,9 +41,9 @@ struct Choice {
 
 /// The levels from coarse to fine: the promised error, and in the order of [`Choice`] the numbers that keep it.
 const LEVELS: [(Accuracy, [f64; 6]); 3] = [
-    (Accuracy::Draft, [16.0, 30.0, 6.0, 1e-3, 60.0, 0.004]),
-    (Accuracy::Standard, [28.0, 100.0, 10.0, 1e-4, 100.0, 0.004]),
-    (Accuracy::Reference, [100.0, 220.0, 40.0, 1e-6, 800.0, 0.001]),
+    (Accuracy::Draft, [12.0, 36.0, 6.0, 1e-3, 40.0, 0.008]),
+    (Accuracy::Standard, [20.0, 70.0, 10.0, 1e-4, 60.0, 0.005]),
+    (Accuracy::Reference, [48.0, 180.0, 24.0, 1e-6, 200.0, 0.002]),
 ];
 
 impl Choice {
@@ -69,15 +69,17 @@ impl Choice {
     }
 }
 
+/// Fewest elements or steps of a companion.
+const FEWEST: usize = 3;
+
 impl Discretisation {
     /// The numbers of `scene`: those of its numerics, and of its accuracy where they are silent.
     pub fn new(scene: &Scene) -> Discretisation {
         let numerics = &scene.numerics;
         let Choice { elements, steps, unload_steps, tolerance, domain, penetration } =
             Choice::of(scene.accuracy.promise());
-        // what the penetration takes of the depth of elastic metal is known to first order: 0.3 % too much is left of 0.004 at a
-        // fifth of the depth of a cone; stiffer than 0.002, quadratic edges open gaps at the front of the contact
-        let penetration = if !scene.material.yields() { 0.002 } else { penetration };
+        // an elastic contact is narrower, and the penetration widens it by a larger share
+        let penetration = if scene.material.yields() { penetration } else { 0.5 * penetration };
         let element = numerics.element.unwrap_or_else(|| {
             element_under(match scene.tool.form() {
                 Ok(ToolForm::Cone { slope, .. }) => Some(slope),
@@ -107,6 +109,19 @@ impl Discretisation {
             penetration: numerics.penetration.unwrap_or(penetration),
             newton_tolerance: numerics.newton_tolerance.unwrap_or(tolerance),
             domain: numerics.domain.unwrap_or(domain),
+        }
+    }
+
+    /// Numbers half as good: half the elements and steps, twice the penetration, half the substrate.
+    #[must_use]
+    pub fn coarser(&self) -> Discretisation {
+        Discretisation {
+            elements_in_contact: self.elements_in_contact.div_ceil(2).max(FEWEST),
+            steps: self.steps.div_ceil(2).max(FEWEST),
+            unload_steps: self.unload_steps.div_ceil(2).max(FEWEST),
+            penetration: 2.0 * self.penetration,
+            domain: 0.5 * self.domain,
+            ..*self
         }
     }
 

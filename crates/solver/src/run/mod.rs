@@ -30,7 +30,7 @@ pub mod depth_for_force;
 
 pub mod oliver_pharr;
 
-pub mod error_estimate;
+pub mod errors;
 
 mod ripple;
 

@@ -45,7 +45,16 @@ pub(super) fn bodies(scene: &Scene, length: f64) -> Result<(Profile, Tool), Scen
 /// # Errors
 /// A scene that cannot be meshed: path and reason.
 pub fn prepare(scene: &Scene, mesh: Option<Mesh>, depth: f64) -> Result<Problem, SceneError> {
-    let numbers = Discretisation::new(scene);
+    prepare_with(scene, Discretisation::new(scene), mesh, depth)
+}
+
+/// [`prepare`] with other `numbers` than those of the scene.
+pub(super) fn prepare_with(
+    scene: &Scene,
+    numbers: Discretisation,
+    mesh: Option<Mesh>,
+    depth: f64,
+) -> Result<Problem, SceneError> {
     let symmetry = scene.symmetry;
     let metal = metal(scene);
     let (profile, tool) = bodies(scene, depth)?;

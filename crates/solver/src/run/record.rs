@@ -72,6 +72,37 @@ pub struct CurveRow {
     pub newton_iterations: usize,
     /// Sum of the nodal forces, N (N/m), in equilibrium with the stresses: what energies and works are made of.
     pub force_nodal: f64,
+    /// 95 % bound of the relative error of the force; NaN where it is not known or there is no force.
+    pub force_error: f64,
+}
+
+/// 95 % bounds of the errors of a run against its own converged limit, over 0.2 ≤ h/h_peak ≤ 1; NaN where they are not known.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Errors {
+    /// Of the force, relative.
+    pub force: f64,
+    /// Of the contact area, relative.
+    pub contact_area: f64,
+    /// Of the mean pressure, relative.
+    pub mean_pressure: f64,
+    /// Of the residual depth, over the peak depth; `None` without unloading.
+    pub residual_depth: Option<f64>,
+    /// Of the elastic fraction, absolute; `None` without unloading.
+    pub elastic_fraction: Option<f64>,
+    /// Of the unloading stiffness, relative.
+    pub unloading_stiffness: Option<f64>,
+}
+
+impl Errors {
+    /// Nothing is known.
+    pub const UNKNOWN: Errors = Errors {
+        force: f64::NAN,
+        contact_area: f64::NAN,
+        mean_pressure: f64::NAN,
+        residual_depth: None,
+        elastic_fraction: None,
+        unloading_stiffness: None,
+    };
 }
 
 /// The share of one asperity in one increment: a row of `asperities.csv`.
@@ -161,8 +192,10 @@ pub struct Summary {
     pub elastic_fraction: Option<f64>,
     /// Largest |W - E_e - W_p - E_c|/W over increments with W above 1 % of its peak.
     pub energy_balance_error: f64,
-    /// 95 % bound of the relative error of the force for 0.2 ≤ h/h_peak ≤ 1.
+    /// That of the force among the errors.
     pub estimated_error: f64,
+    /// What is known of the errors.
+    pub errors: Errors,
     /// Number of elements.
     pub elements: usize,
     /// Number of unknowns.

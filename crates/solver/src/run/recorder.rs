@@ -6,11 +6,10 @@ use crate::body::islands::{extent, gaps, islands};
 use crate::body::surface::Surface;
 use crate::point::kinematics::Symmetry;
 use crate::run::equilibrium::{Counters, Equilibrium};
-use crate::run::error_estimate::force_error;
 use crate::run::load_path::{Energies, Increment, Path, Stop};
 use crate::run::oliver_pharr::{OliverPharr, Peak, oliver_pharr};
 use crate::run::problem::{Goal, Problem};
-use crate::run::record::{AsperityRow, CurveRow, CycleRow, GapRow, IslandRow, Phase, Summary};
+use crate::run::record::{AsperityRow, CurveRow, CycleRow, Errors, GapRow, IslandRow, Phase, Summary};
 use crate::run::ripple::{Ends, ends, remove};
 use asperity_mesh::Mesh;
 use asperity_mesh::profile::Asperity;
@@ -118,6 +117,7 @@ impl<'p> Recorder<'p> {
             penetration: 0.0,
             newton_iterations: 0,
             force_nodal: 0.0,
+            force_error: f64::NAN,
         };
         Recorder {
             problem,
@@ -178,6 +178,7 @@ impl<'p> Recorder<'p> {
             penetration: contact.penetration * u.length,
             newton_iterations: increment.newton_iterations,
             force_nodal: contact.force * u.force,
+            force_error: f64::NAN,
         };
         self.rows.push(row);
         let (edges, touching) = (&model.state().edges, &model.state().contact);
@@ -402,11 +403,8 @@ impl<'p> Recorder<'p> {
             reduced_modulus: self.problem.metal.elastic.reduced_modulus() * u.stress,
             elastic_fraction: elastic_work.map(|w| w / total_work),
             energy_balance_error: balance_error(&self.rows),
-            estimated_error: force_error(
-                self.problem,
-                &self.rows[..=self.peak],
-                [peak.force / u.force, peak.depth / u.length],
-            ),
+            estimated_error: f64::NAN,
+            errors: Errors::UNKNOWN,
             elements: self.problem.mesh.cell_count(),
             dofs: self.unknowns,
             increments: self.rows.len() - 1,
