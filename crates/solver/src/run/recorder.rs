@@ -470,3 +470,59 @@ fn group_sums(model: &Equilibrium<'_>, groups: &[usize], group: usize) -> Contac
     let edges = model.state().contact.iter().zip(groups).filter(|(_, g)| **g == group);
     contact_sums(edges.map(|(edge, _)| edge), model.body().symmetry)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::run::crush::run;
+    use crate::scene::{self, Loading, Material, Numerics, Scene, Tool};
+    use asperity_law::units::{Length, Stress};
+
+    /// The asperity of the paper, unloaded, and the force of each increment as the observer hears of it.
+    fn crushed() -> (Outcome, Vec<f64>) {
+        let steel = Material::elastic_body(Stress(210e9), 0.3).yielding(Stress(300e6), 0.3);
+        let loading = Loading { depth: Some(Length(5e-6)), force: None, unload: true, reloads: 0 };
+        let cone = scene::Asperity::cone(Length(20e-6), 10.0).rounded(Length(10e-6));
+        let numerics = Numerics { elements_in_contact: Some(16), steps: Some(60), ..Numerics::default() };
+        let scene = Scene::new(scene::Symmetry::Axisymmetric, steel, Tool::plane(), loading).with(cone);
+        let mut live = vec![0.0];
+        let outcome = run(&Scene { numerics, ..scene }, None, &mut |event| {
+            if let Event::Increment { row, .. } = event {
+                live.push(row.force);
+            }
+            ControlFlow::Continue(())
+        });
+        (outcome.unwrap(), live)
+    }
+
+    #[test]
+    fn the_curve_loses_its_ripple_and_keeps_its_nodal_force_and_its_work() {
+        let (outcome, live) = crushed();
+        assert!(outcome.rows.iter().zip(&live).all(|(row, live)| row.force_nodal == *live));
+        let loading: Vec<&CurveRow> =
+            outcome.rows.iter().filter(|r| r.phase == Phase::Load && r.depth > 1e-6).collect();
+        // the exponent of F(h) from increment to increment, against the mean of its neighbours
+        let roughness = |force: fn(&CurveRow) -> f64| {
+            let exponent =
+                |p: &[&CurveRow]| (force(p[1]) / force(p[0])).ln() / (p[1].depth / p[0].depth).ln();
+            let exponents: Vec<f64> = loading.windows(2).map(exponent).collect();
+            exponents.windows(3).map(|e| (e[1] - 0.5 * (e[0] + e[2])).powi(2)).sum::<f64>().sqrt()
+        };
+        let [nodal, corrected] = [roughness(|r| r.force_nodal), roughness(|r| r.force)];
+        assert!(corrected < 0.1 * nodal, "{corrected} {nodal}");
+        let peak = loading[loading.len() - 1];
+        assert!((peak.force / peak.force_nodal - 1.0).abs() < 0.02);
+        assert_eq!(outcome.summary.peak_force, peak.force);
+        assert!((peak.mean_pressure * peak.contact_area / peak.force - 1.0).abs() < 1e-12);
+        assert_eq!(outcome.summary.total_work, work_along(&outcome.rows[..=peak.increment]));
+    }
+
+    #[test]
+    fn the_contact_radius_is_that_of_the_area_where_the_contact_opens_at_the_axis_too() {
+        let (outcome, _) = crushed();
+        for row in &outcome.rows {
+            let disc = std::f64::consts::PI * row.contact_radius.powi(2);
+            assert!((disc - row.contact_area).abs() <= 1e-9 * row.contact_area, "{row:?}");
+        }
+    }
+}
