@@ -13,6 +13,18 @@ pub enum Section {
     PlaneStrain,
 }
 
+impl Section {
+    /// Name of the element.
+    pub fn element(self, kind: ElementKind) -> &'static str {
+        match (self, kind) {
+            (Section::Axisymmetric, ElementKind::Quad4) => "CAX4",
+            (Section::Axisymmetric, ElementKind::Quad8) => "CAX8R",
+            (Section::PlaneStrain, ElementKind::Quad4) => "CPE4",
+            (Section::PlaneStrain, ElementKind::Quad8) => "CPE8R",
+        }
+    }
+}
+
 /// Numbers a node set has on one line.
 const PER_LINE: usize = 12;
 
@@ -24,12 +36,7 @@ const PER_LINE: usize = 12;
 /// # Errors
 /// A writer that fails.
 pub fn write_inp(mut out: impl Write, mesh: &Mesh, section: Section, unit: &str) -> io::Result<()> {
-    let element = match (section, mesh.kind) {
-        (Section::Axisymmetric, ElementKind::Quad4) => "CAX4",
-        (Section::Axisymmetric, ElementKind::Quad8) => "CAX8R",
-        (Section::PlaneStrain, ElementKind::Quad4) => "CPE4",
-        (Section::PlaneStrain, ElementKind::Quad8) => "CPE8R",
-    };
+    let element = section.element(mesh.kind);
     writeln!(out, "** x is the radius (plane strain: the width), y the height; lengths in {unit}")?;
     writeln!(out, "*NODE, NSET=ALL")?;
     // a field of CalculiX holds 20 characters: twelve digits fit with sign and exponent
@@ -57,13 +64,7 @@ pub fn write_inp(mut out: impl Write, mesh: &Mesh, section: Section, unit: &str)
 /// # Errors
 /// A writer that fails.
 pub fn write_inp_side(mut out: impl Write, mesh: &Mesh, name: &str, edges: &[Edge]) -> io::Result<()> {
-    let nodes: BTreeSet<u32> = edges
-        .iter()
-        .flat_map(|&edge| {
-            let ([a, b], middle) = mesh.edge_nodes(edge);
-            [Some(a), middle, Some(b)].into_iter().flatten()
-        })
-        .collect();
+    let nodes: BTreeSet<u32> = edges.iter().flat_map(|&edge| mesh.nodes_along(edge)).collect();
     writeln!(out, "*NSET, NSET={name}")?;
     let nodes: Vec<String> = nodes.iter().map(|n| (n + 1).to_string()).collect();
     for line in nodes.chunks(PER_LINE) {

@@ -95,7 +95,7 @@ impl Deck {
         let hardening = scene.material.hardening();
         Ok(Deck {
             name: name.to_string(),
-            mesh: scaled(opened(&problem.mesh, section, hole), um),
+            mesh: opened(&problem.mesh, section, hole).scaled(um),
             section,
             elastic: [problem.units.stress / STRESS, problem.metal.elastic.poissons_ratio],
             table: hardening.map(|curve| table::curve_table(&curve, STRESS)),
@@ -183,13 +183,6 @@ fn opened(mesh: &Mesh, section: Section, hole: f64) -> Mesh {
                 mesh.nodes[node as usize][0] = hole;
             }
         }
-    }
-    mesh
-}
-
-fn scaled(mut mesh: Mesh, factor: f64) -> Mesh {
-    for node in &mut mesh.nodes {
-        *node = node.map(|x| factor * x);
     }
     mesh
 }

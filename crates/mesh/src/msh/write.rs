@@ -1,19 +1,14 @@
 //! Writing MSH.
 
 use super::BODY;
+use crate::mesh::extent;
 use crate::{ElementKind, Mesh};
 use std::io::{self, Write};
 
 /// Least and largest coordinate of some nodes, as MSH wants boxes: x y z of the one, then of the other.
 fn bounding_box(mesh: &Mesh, nodes: impl Iterator<Item = u32>) -> String {
-    let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-    for node in nodes {
-        for i in 0..2 {
-            low[i] = low[i].min(mesh.nodes[node as usize][i]);
-            high[i] = high[i].max(mesh.nodes[node as usize][i]);
-        }
-    }
-    format!("{:?} {:?} 0 {:?} {:?} 0", low[0], low[1], high[0], high[1])
+    let [[left, right], [low, high]] = extent(nodes.map(|node| mesh.nodes[node as usize]));
+    format!("{left:?} {low:?} 0 {right:?} {high:?} 0")
 }
 
 /// Writes the mesh in the plane z = 0 with its coordinates as they are, shortest digits that read back to the
@@ -35,10 +30,7 @@ pub fn write_msh(mut out: impl Write, mesh: &Mesh) -> io::Result<()> {
 
     writeln!(out, "$Entities\n0 {} 1 0", sides.len())?;
     for (i, (_, edges)) in &sides {
-        let nodes = edges.iter().flat_map(|&edge| {
-            let ([a, b], middle) = mesh.edge_nodes(edge);
-            [Some(a), middle, Some(b)].into_iter().flatten()
-        });
+        let nodes = edges.iter().flat_map(|&edge| mesh.nodes_along(edge));
         let tag = i + 1;
         writeln!(out, "{tag} {} 1 {tag} 0", bounding_box(mesh, nodes))?;
     }
