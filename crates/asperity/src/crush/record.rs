@@ -5,6 +5,7 @@
 #![expect(non_snake_case, reason = "a name ends in its unit, as in the files")]
 
 use crate::error::{Error, InputError};
+pub(super) use crate::output::row;
 use crate::output::{read_csv, write_csv};
 use crate::units::{MEGAPASCAL, MICROMETRE, Units, axisymmetric_name, file_name};
 use asperity_solver::body::fields::SurfacePoint;
@@ -33,26 +34,6 @@ impl From<record::Phase> for Phase {
         }
     }
 }
-
-/// A row of a file: every field declared once, with the value that it takes from the SI record.
-macro_rules! row {
-    ($(#[$about:meta])* $row:ident($($from:ident: $record:ty),*) {
-        $($(#[$field_about:meta])* $field:ident: $kind:ty = $value:expr,)*
-    }) => {
-        #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-        $(#[$about])*
-        pub struct $row {
-            $($(#[$field_about])* pub $field: $kind,)*
-        }
-
-        impl $row {
-            pub(super) fn new($($from: $record),*) -> $row {
-                $row { $($field: $value,)* }
-            }
-        }
-    };
-}
-pub(super) use row;
 
 /// A place in µm; `None` where there is none.
 fn place(metres: f64) -> Option<f64> {

@@ -6,6 +6,7 @@
 use super::encode::FAMILY;
 use super::palette::{self, Colour};
 use super::scale;
+use asperity_roughness::Closure;
 use plotters::coord::Shift;
 use plotters::coord::ranged1d::{KeyPointHint, Ranged, ValueFormatter};
 use plotters::element::DashedPathElement;
@@ -48,9 +49,9 @@ impl Series {
     }
 
     /// The loading or unloading of a rough surface by a closure: its colour is that of the closure in every chart.
-    pub fn of_closure(closure: &str, unloading: bool, points: Vec<[f64; 2]>) -> Series {
-        let label = if unloading { format!("{closure}, unloading") } else { closure.into() };
-        let dash = if unloading { Dash::Dashed } else { Dash::Solid };
+    pub fn of_closure(closure: Closure, unloading: bool, points: Vec<[f64; 2]>) -> Series {
+        let (end, dash) = if unloading { (", unloading", Dash::Dashed) } else { ("", Dash::Solid) };
+        let label = format!("{}{end}", closure.name());
         Series { colour: Some(palette::closure(closure)), dash: Some(dash), ..Series::line(label, points) }
     }
 
@@ -70,6 +71,17 @@ pub struct Chart {
     pub y_label: String,
     /// The lines, drawn in this order.
     pub series: Vec<Series>,
+}
+
+impl Chart {
+    /// A chart of `series` over axes of these names.
+    pub fn new(
+        x_label: impl Into<String>,
+        y_label: impl Into<String>,
+        series: impl IntoIterator<Item = Series>,
+    ) -> Chart {
+        Chart { x_label: x_label.into(), y_label: y_label.into(), series: series.into_iter().collect() }
+    }
 }
 
 /// Width and height of the axes with their names in pixels.

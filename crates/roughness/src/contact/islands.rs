@@ -3,7 +3,7 @@
 //! 1. Every row of nodes is cut into runs of neighbouring nodes above the plane.
 //! 2. Every cell with a corner above joins the runs of its corners and gives its area above to one of them. (In a
 //!    cell whose middle is not above, two diagonal corners stay apart and each takes the triangles beside it.)
-//! 3. UnionFind runs are one island. A periodic map also joins across its edges, and then each run remembers how many
+//! 3. Runs that meet are one island. A periodic map also joins across its edges, and then each run remembers how many
 //!    periods it lies from its island's first run.
 
 mod runs;
@@ -279,23 +279,14 @@ impl Islands {
             if corners.iter().any(|z| z.is_nan()) {
                 continue;
             }
-            let periods = |corner: usize| {
-                [i32::from(wrap_column && (corner == 1 || corner == 2)), i32::from(wrap_row && corner >= 2)]
-            };
-            let run_of = |corner: usize| runs[corner];
+            let on_right = |corner: usize| corner == 1 || corner == 2;
+            let periods =
+                |corner: usize| [wrap_column && on_right(corner), wrap_row && corner >= 2].map(i32::from);
             let mut visit = |corner: usize, sides: u8| {
-                if let Some(run) = run_of(corner) {
-                    let node = [if corner == 1 || corner == 2 { next } else { column - 1 }, 0];
-                    let (cx, cy) = (i32::from(corner == 1 || corner == 2), i32::from(corner >= 2));
-                    let start = self.runs.list[run as usize].start as i32;
-                    add(Visit::Part {
-                        run,
-                        offset: [node[0] as i32 - cx - start, -cy],
-                        cell: [row as u32, (column - 1) as u32],
-                        corners,
-                        sides,
-                    });
-                }
+                let Some(run) = runs[corner] else { return };
+                let left = if on_right(corner) { next as i32 - 1 } else { column as i32 - 1 };
+                let offset = [left - self.runs.list[run as usize].start as i32, -i32::from(corner >= 2)];
+                add(Visit::Part { run, offset, cell: [row as u32, (column - 1) as u32], corners, sides });
             };
             let up = corners.map(|z| z > 0.0);
             let saddle = up[0] == up[2] && up[1] == up[3] && up[0] != up[1] && cells::centre(&corners) <= 0.0;
@@ -309,7 +300,7 @@ impl Islands {
             let Some(first) = (0..4).find(|c| up[*c]) else { continue };
             visit(first, 15);
             for corner in first + 1..4 {
-                if let (true, Some(a), Some(b)) = (up[corner], run_of(first), run_of(corner)) {
+                if let (true, Some(a), Some(b)) = (up[corner], runs[first], runs[corner]) {
                     let (p, q) = (periods(first), periods(corner));
                     let shift = [q[0] - p[0], q[1] - p[1]];
                     if a != b || shift != [0, 0] {

@@ -1,7 +1,7 @@
 //! The separation at which the islands carry the load, and what each of them carries there.
 
 use super::bearing_area::{self, Planes};
-use super::closures::{ClosureLaw, Regime, Response};
+use super::closures::{ClosureLaw, Response};
 use super::find_separation;
 use super::islands::Islands;
 use super::load::Carrying;
@@ -127,10 +127,10 @@ fn plane_for(surface: &Surface, model: &ClosureLaw, pressure: f64) -> Result<(f6
     };
     match model.linear() {
         Some((coefficient, _)) => {
-            let scale = coefficient * model.reduced_modulus() / cells as f64;
+            let scale = coefficient * model.reduced_modulus / cells as f64;
             let (plane, _) = bearing_area::plane_of(&surface.map, &surface.extent, pressure / scale)
                 .ok_or_else(|| {
-                    unreachable(coefficient * model.reduced_modulus() * surface.parameters.mean_gradient)
+                    unreachable(coefficient * model.reduced_modulus * surface.parameters.mean_gradient)
                 })?;
             Ok((plane, false))
         }
@@ -157,12 +157,7 @@ fn contact_at(surface: &Surface, model: &ClosureLaw, plane: f64, jump: bool, wan
     };
     let (mut force, mut outside, mut areas) = (0.0, 0.0, [0.0; 3]);
     for (j, response) in contact.responses.iter().enumerate() {
-        let regime = match response.regime {
-            Regime::Elastic => 0,
-            Regime::Elastoplastic => 1,
-            Regime::Plastic => 2,
-        };
-        areas[regime] += contact.contact_area(j);
+        areas[response.regime as usize] += contact.contact_area(j);
         force += contact.force(j);
         outside += if response.inside { 0.0 } else { contact.force(j) };
     }
@@ -197,7 +192,7 @@ fn load_curve(surface: &Surface, model: &ClosureLaw, contact: &Contact, plane: f
                 .enumerate()
                 .map(|(k, above)| CurvePoint {
                     separation: planes.height(k) - mean,
-                    pressure: coefficient * model.reduced_modulus() * above.slope_area / cells,
+                    pressure: coefficient * model.reduced_modulus * above.slope_area / cells,
                     area_ratio: area_ratio * above.area / cells,
                 })
                 .collect()

@@ -26,7 +26,8 @@ use std::path::PathBuf;
 pub struct Scene {
     /// Which closure, or all.
     pub closure: Choice,
-    /// Result of a calibration, for "fitted" and "calibrated".
+    /// Result of a calibration, by default the one that comes with the program: c of "fitted", the cones of
+    /// "calibrated", the unloading exponent of "calibrated" and "johnson".
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub coefficient: Option<PathBuf>,
     /// How the pressure of an island is spread.

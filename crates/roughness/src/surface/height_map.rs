@@ -1,3 +1,5 @@
+//! Heights on a regular grid, and its cells.
+
 use rayon::prelude::*;
 use std::ops::Range;
 use thiserror::Error;
@@ -186,23 +188,17 @@ impl HeightMap {
     pub(crate) fn for_each_cell(&self, row: usize, mut visit: impl FnMut([f64; 4])) {
         let (low, high) = (self.row(row), self.row(row + 1));
         let inner = self.columns.saturating_sub(1);
-        if self.missing == 0 {
-            for (a, b) in low.windows(2).zip(high.windows(2)) {
-                visit([a[0], a[1], b[1], b[0]]);
-            }
-        } else {
-            for (a, b) in low.windows(2).zip(high.windows(2)) {
-                let corners = [a[0], a[1], b[1], b[0]];
-                if !corners.iter().any(|z| z.is_nan()) {
-                    visit(corners);
-                }
-            }
-        }
-        if self.periodic && !low.is_empty() {
-            let corners = [low[inner], low[0], high[0], high[inner]];
-            if !corners.iter().any(|z| z.is_nan()) {
+        let whole = self.missing == 0;
+        let mut visit_used = |corners: [f64; 4]| {
+            if whole || !corners.iter().any(|z| z.is_nan()) {
                 visit(corners);
             }
+        };
+        for (a, b) in low.windows(2).zip(high.windows(2)) {
+            visit_used([a[0], a[1], b[1], b[0]]);
+        }
+        if self.periodic && !low.is_empty() {
+            visit_used([low[inner], low[0], high[0], high[inner]]);
         }
     }
 

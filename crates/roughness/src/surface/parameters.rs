@@ -1,3 +1,5 @@
+//! Roughness parameters of a map.
+
 use crate::surface::cells;
 use crate::surface::height_map::{Extent, HeightMap, ROWS_PER_CHUNK};
 use rayon::prelude::*;
