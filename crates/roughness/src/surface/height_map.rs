@@ -5,7 +5,7 @@ use std::ops::Range;
 use thiserror::Error;
 
 /// Rows of cells that one task takes: fixed, so that sums come out the same for any number of threads.
-pub(crate) const ROWS_PER_CHUNK: usize = 32;
+const ROWS_PER_CHUNK: usize = 32;
 
 /// The answers of `of` for chunks of `rows` rows in parallel, in their order.
 pub(crate) fn chunks<T: Send>(rows: usize, of: impl Fn(Range<usize>) -> T + Sync) -> Vec<T> {
@@ -87,19 +87,7 @@ impl HeightMap {
         if !pixel.iter().all(|p| p.is_finite() && *p > 0.0) {
             return Err(MapError::Pixel(pixel[0], pixel[1]));
         }
-        let missing = heights
-            .par_chunks_mut(ROWS_PER_CHUNK * columns.max(1))
-            .map(|part| {
-                let mut bad = 0;
-                for z in part {
-                    if !z.is_finite() {
-                        *z = f64::NAN;
-                        bad += 1;
-                    }
-                }
-                bad
-            })
-            .sum();
+        let missing = heights.par_iter_mut().filter(|z| !z.is_finite()).map(|z| *z = f64::NAN).count();
         Ok(HeightMap { columns, rows, pixel, heights, missing, periodic: false })
     }
 
@@ -177,6 +165,11 @@ impl HeightMap {
         chunks(self.cell_rows(), of)
     }
 
+    /// The answers of `of` for the heights of chunks of rows in parallel, in their order.
+    pub(crate) fn parts<T: Send>(&self, of: impl Fn(&[f64]) -> T + Sync + Send) -> Vec<T> {
+        self.heights.par_chunks(ROWS_PER_CHUNK * self.columns.max(1)).map(of).collect()
+    }
+
     /// 1/dx and 1/dy, in 1/m.
     pub(crate) fn inverse_pixel(&self) -> [f64; 2] {
         self.pixel.map(|p| 1.0 / p)
@@ -204,15 +197,13 @@ impl HeightMap {
 
     /// Lowest and highest node, and the number of used cells; an error where there is no cell.
     pub fn extent(&self) -> Result<Extent, MapError> {
-        let (low, high) = self
-            .heights
-            .par_chunks(ROWS_PER_CHUNK * self.columns.max(1))
-            .map(|part| {
-                part.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), z| {
-                    (if *z < low { *z } else { low }, if *z > high { *z } else { high })
-                })
-            })
-            .reduce(|| (f64::INFINITY, f64::NEG_INFINITY), |a, b| (a.0.min(b.0), a.1.max(b.1)));
+        // a missing height compares with nothing
+        let widened = |(low, high): (f64, f64), z: &f64| {
+            (if *z < low { *z } else { low }, if *z > high { *z } else { high })
+        };
+        let none = (f64::INFINITY, f64::NEG_INFINITY);
+        let ends = self.parts(|part| part.iter().fold(none, widened));
+        let (low, high) = ends.iter().fold(none, |a, b| (a.0.min(b.0), a.1.max(b.1)));
         let cells = if self.missing == 0 {
             self.cell_columns() * self.cell_rows()
         } else {
