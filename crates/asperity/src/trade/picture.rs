@@ -11,9 +11,31 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 /// Width and height of the axes with their names in pixels.
 const SIZE: (u32, u32) = (820, 600);
 
-/// The knobs in the order of the legend.
-const KNOBS: [Knob; 7] =
-    [Knob::Mesh, Knob::Step, Knob::Element, Knob::Penetration, Knob::Contact, Knob::Domain, Knob::Tolerance];
+/// A knob in the legend: its name, and its mark as a polygon or star.
+struct Mark {
+    knob: Knob,
+    name: &'static str,
+    corners: i32,
+    /// Angle of the first corner, degrees.
+    start: f64,
+    /// Radius of every other corner over that of the rest.
+    inner: f64,
+}
+
+const fn mark(knob: Knob, name: &'static str, corners: i32, start: f64, inner: f64) -> Mark {
+    Mark { knob, name, corners, start, inner }
+}
+
+/// The knobs in the order of the legend. They differ in shape and in colour, so that either alone tells them apart.
+const MARKS: [Mark; 7] = [
+    mark(Knob::Mesh, "mesh", 32, 0.0, 1.0),
+    mark(Knob::Step, "load step", 4, 45.0, 1.0),
+    mark(Knob::Element, "other element", 3, 90.0, 1.0),
+    mark(Knob::Penetration, "penetration", 4, 0.0, 1.0),
+    mark(Knob::Contact, "augmented Lagrange", 3, -90.0, 1.0),
+    mark(Knob::Domain, "size of the body", 10, 90.0, 0.45),
+    mark(Knob::Tolerance, "Newton's tolerance", 6, 0.0, 1.0),
+];
 
 const MIXED: RGBColor = RGBColor(170, 170, 170);
 
@@ -34,13 +56,13 @@ fn decades(values: impl Iterator<Item = f64>) -> (f64, f64) {
 /// # Errors
 /// A text for a person where the drawing library fails.
 pub fn draw(rows: &[TradeRow]) -> Result<String, String> {
-    let dot = outline(0).into_iter().map(|(x, y)| (x / 2, y / 2)).collect();
+    let dot = outline(&MARKS[0]).into_iter().map(|(x, y)| (x / 2, y / 2)).collect();
     let mut legend = vec![
         ("Pareto front".to_string(), Sample::Line(INK, [1, 0])),
         ("all at once".to_string(), Sample::Mark(MIXED, dot)),
     ];
-    let knobs = KNOBS.into_iter().enumerate();
-    legend.extend(knobs.map(|(i, knob)| (label(knob).to_string(), Sample::Mark(colour(i), outline(i)))));
+    let marks = MARKS.iter().enumerate();
+    legend.extend(marks.map(|(i, mark)| (mark.name.to_string(), Sample::Mark(colour(i), outline(mark)))));
     framed(SIZE, &legend, |paper| fill(rows, paper))
 }
 
@@ -84,11 +106,13 @@ fn fill(rows: &[TradeRow], paper: &Paper) -> Result<(), Failure> {
         .collect();
     area.draw_series(LineSeries::new(stairs, INK.stroke_width(2 * FINE)))?;
     area.draw_series(of(Knob::Mixed).filter_map(place).map(|p| Circle::new(p, 3 * FINE, MIXED.filled())))?;
-    for (i, knob) in KNOBS.into_iter().enumerate() {
-        let arms = of(knob).filter_map(|r| Some(vec![base(r.around?)?, place(r)?]));
+    for (i, mark) in MARKS.iter().enumerate() {
+        let arms = of(mark.knob).filter_map(|r| Some(vec![base(r.around?)?, place(r)?]));
         area.draw_series(arms.map(|arm| PathElement::new(arm, colour(i).mix(0.6).stroke_width(FINE))))?;
-        let marks = of(knob).filter_map(place);
-        area.draw_series(marks.map(|p| EmptyElement::at(p) + Polygon::new(outline(i), colour(i).filled())))?;
+        let places = of(mark.knob).filter_map(place);
+        area.draw_series(
+            places.map(|p| EmptyElement::at(p) + Polygon::new(outline(mark), colour(i).filled())),
+        )?;
     }
     for row in of(Knob::Level) {
         let (Some(p), Some(level)) = (place(row), row.around) else { continue };
@@ -108,32 +132,8 @@ fn colour(i: usize) -> RGBColor {
     rgb(LINES[i % LINES.len()])
 }
 
-fn label(knob: Knob) -> &'static str {
-    match knob {
-        Knob::Mesh => "mesh",
-        Knob::Step => "load step",
-        Knob::Element => "other element",
-        Knob::Penetration => "penetration",
-        Knob::Contact => "augmented Lagrange",
-        Knob::Domain => "size of the body",
-        Knob::Tolerance => "Newton's tolerance",
-        Knob::Level | Knob::Mixed | Knob::Converged => "",
-    }
-}
-
-/// Pixels around the middle of the mark of knob `i`. Knobs differ in shape and in colour, so that either alone tells
-/// them apart.
-fn outline(i: usize) -> Vec<(i32, i32)> {
-    // corners, first angle in degrees, and the radius of every other corner over that of the rest
-    let (corners, start, inner) = [
-        (32, 0.0, 1.0),
-        (4, 45.0, 1.0),
-        (3, 90.0, 1.0),
-        (4, 0.0, 1.0),
-        (3, -90.0, 1.0),
-        (10, 90.0, 0.45),
-        (6, 0.0, 1.0),
-    ][i % KNOBS.len()];
+/// Pixels around the middle of a mark.
+fn outline(&Mark { corners, start, inner, .. }: &Mark) -> Vec<(i32, i32)> {
     let size = 6.0 * f64::from(FINE);
     (0..corners)
         .map(|k| {
