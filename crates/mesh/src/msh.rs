@@ -43,6 +43,11 @@ impl MshError {
     fn new(line: usize, message: impl Into<String>) -> Self {
         MshError { line, message: message.into() }
     }
+
+    /// An error of the file as a whole.
+    fn whole(message: impl Into<String>) -> Self {
+        MshError::new(0, message)
+    }
 }
 
 /// Reads a mesh of 4-node or 8-node quadrilaterals whose physical curves are named axis, base, surface, outer.
