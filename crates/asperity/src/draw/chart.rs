@@ -8,6 +8,7 @@ use super::palette::{self, Colour};
 use super::scale;
 use asperity_roughness::Closure;
 use plotters::coord::Shift;
+use plotters::coord::cartesian::Cartesian2d;
 use plotters::coord::ranged1d::{KeyPointHint, Ranged, ValueFormatter};
 use plotters::element::DashedPathElement;
 use plotters::prelude::*;
@@ -91,7 +92,7 @@ pub const FINE: u32 = 8;
 /// Lines and letters.
 pub const INK: RGBColor = rgb(palette::INK);
 /// Lines of the grid.
-pub const GRID: RGBColor = rgb(palette::GRID);
+const GRID: RGBColor = rgb(palette::GRID);
 
 /// A colour as the library takes it.
 pub const fn rgb([r, g, b]: Colour) -> RGBColor {
@@ -105,10 +106,14 @@ pub fn font(size: u32) -> TextStyle<'static> {
 
 /// An axis with ticks at 1, 2, 2.5 or 5 times a power of ten, written with just the digits that they need.
 #[derive(Clone)]
-struct Axis {
-    low: f64,
-    high: f64,
+pub struct Axis {
+    /// Lower end.
+    pub low: f64,
+    /// Upper end.
+    pub high: f64,
     step: f64,
+    /// Whether it holds logarithms; the powers of ten are written.
+    logarithmic: bool,
 }
 
 impl Axis {
@@ -118,7 +123,15 @@ impl Axis {
         let span = if high > low { high - low } else { 1.0 };
         let step = scale::round_step(span, 7.0);
         let low = if low < 0.0 { (low / step + 1e-6).floor() * step } else { 0.0 };
-        Axis { low, high: ((high / step - 1e-6).ceil() * step).max(low + step), step }
+        let high = ((high / step - 1e-6).ceil() * step).max(low + step);
+        Axis { low, high, step, logarithmic: false }
+    }
+
+    /// Covers logarithms by whole decades, at least one.
+    pub fn decades(values: impl Iterator<Item = f64>) -> Self {
+        let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
+        let (low, high) = if low > high { (0.0, 1.0) } else { (low.floor(), high.ceil()) };
+        Axis { low, high: high.max(low + 1.0), step: 1.0, logarithmic: true }
     }
 }
 
@@ -143,7 +156,11 @@ impl Ranged for Axis {
 
 impl ValueFormatter<f64> for Axis {
     fn format_ext(&self, value: &f64) -> String {
-        scale::label(*value, self.step)
+        if !self.logarithmic {
+            return scale::label(*value, self.step);
+        }
+        let decimals = (-value.round()).max(0.0) as usize;
+        format!("{:.decimals$}", 10f64.powf(value.round()))
     }
 }
 
@@ -238,14 +255,15 @@ pub fn svg(chart: &Chart) -> Result<String, String> {
     framed(SIZE, &legend, |paper| draw(chart, paper))
 }
 
-fn draw(chart: &Chart, paper: &Paper) -> Result<(), Failure> {
-    let finite: Vec<Vec<(f64, f64)>> = chart
-        .series
-        .iter()
-        .map(|s| s.points.iter().filter(|p| p.iter().all(|v| v.is_finite())).map(|p| (p[0], p[1])).collect())
-        .collect();
-    let x = Axis::covering(finite.iter().flatten().map(|p| p.0));
-    let y = Axis::covering(finite.iter().flatten().map(|p| p.1));
+/// Axes on `paper` with their grid and names.
+///
+/// # Errors
+/// Those of the drawing library.
+pub fn axes<'a>(
+    paper: &Paper<'a>,
+    [x, y]: [Axis; 2],
+    names: [&str; 2],
+) -> Result<ChartContext<'a, SVGBackend<'a>, Cartesian2d<Axis, Axis>>, Failure> {
     let mut area = ChartBuilder::on(paper)
         .margin(14 * FINE)
         .margin_right(26 * FINE)
@@ -259,9 +277,21 @@ fn draw(chart: &Chart, paper: &Paper) -> Result<(), Failure> {
         .set_all_tick_mark_size(5 * FINE)
         .label_style(font(15))
         .axis_desc_style(font(17))
-        .x_desc(&chart.x_label)
-        .y_desc(&chart.y_label)
+        .x_desc(names[0])
+        .y_desc(names[1])
         .draw()?;
+    Ok(area)
+}
+
+fn draw(chart: &Chart, paper: &Paper) -> Result<(), Failure> {
+    let finite: Vec<Vec<(f64, f64)>> = chart
+        .series
+        .iter()
+        .map(|s| s.points.iter().filter(|p| p.iter().all(|v| v.is_finite())).map(|p| (p[0], p[1])).collect())
+        .collect();
+    let x = Axis::covering(finite.iter().flatten().map(|p| p.0));
+    let y = Axis::covering(finite.iter().flatten().map(|p| p.1));
+    let mut area = axes(paper, [x, y], [&chart.x_label, &chart.y_label])?;
     for (i, (series, points)) in chart.series.iter().zip(&finite).enumerate() {
         let (colour, [dash, gap]) = pen(i, series);
         let style = colour.stroke_width(2 * FINE);

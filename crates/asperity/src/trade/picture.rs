@@ -2,7 +2,7 @@
 
 use super::row::TradeRow;
 use super::settings::{Knob, LEVELS};
-use crate::draw::chart::{FINE, Failure, GRID, INK, Paper, Sample, font, framed, rgb};
+use crate::draw::chart::{Axis, FINE, Failure, INK, Paper, Sample, axes, font, framed, rgb};
 use crate::draw::palette::LINES;
 use asperity_solver::scene::Accuracy;
 use plotters::prelude::*;
@@ -45,12 +45,6 @@ fn place(row: &TradeRow) -> Option<(f64, f64)> {
     (x.is_finite() && y.is_finite()).then_some((x, y))
 }
 
-/// Whole numbers around the values, at least one apart.
-fn decades(values: impl Iterator<Item = f64>) -> (f64, f64) {
-    let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
-    if low > high { (0.0, 1.0) } else { (low.floor(), high.ceil().max(low.floor() + 1.0)) }
-}
-
 /// Draws the rows as SVG.
 ///
 /// # Errors
@@ -67,32 +61,10 @@ pub fn draw(rows: &[TradeRow]) -> Result<String, String> {
 }
 
 fn fill(rows: &[TradeRow], paper: &Paper) -> Result<(), Failure> {
-    // the axes hold logarithms: the library's own leave half a decade empty
-    let x = decades(rows.iter().filter_map(place).map(|p| p.0));
-    let y = decades(rows.iter().filter_map(place).map(|p| p.1));
-    let mut area = ChartBuilder::on(paper)
-        .margin(14 * FINE)
-        .x_label_area_size(54 * FINE)
-        .y_label_area_size(70 * FINE)
-        .build_cartesian_2d(x.0..x.1, y.0..y.1)?;
-    let power = |v: &f64| {
-        let decimals = (-v.round()).max(0.0) as usize;
-        format!("{:.decimals$}", 10f64.powf(v.round()))
-    };
-    area.configure_mesh()
-        .light_line_style(TRANSPARENT)
-        .bold_line_style(GRID.stroke_width(FINE))
-        .axis_style(INK.stroke_width(FINE))
-        .set_all_tick_mark_size(5 * FINE)
-        .x_labels((x.1 - x.0) as usize + 1)
-        .y_labels((y.1 - y.0) as usize + 1)
-        .x_label_formatter(&power)
-        .y_label_formatter(&power)
-        .label_style(font(15))
-        .axis_desc_style(font(17))
-        .x_desc("Cost (core seconds)")
-        .y_desc("Largest error of the force (%)")
-        .draw()?;
+    let axis = |of: fn((f64, f64)) -> f64| Axis::decades(rows.iter().filter_map(place).map(of));
+    let (x, y) = (axis(|p| p.0), axis(|p| p.1));
+    let right = x.high - 0.15 * (x.high - x.low);
+    let mut area = axes(paper, [x, y], ["Cost (core seconds)", "Largest error of the force (%)"])?;
     let of = |knob: Knob| rows.iter().filter(move |r| r.knob == knob);
     let base = |level: Accuracy| of(Knob::Level).find(|r| r.around == Some(level)).and_then(place);
 
@@ -118,8 +90,7 @@ fn fill(rows: &[TradeRow], paper: &Paper) -> Result<(), Failure> {
         let (Some(p), Some(level)) = (place(row), row.around) else { continue };
         let name = if LEVELS.contains(&level) { level.to_string() } else { String::new() };
         // names of marks near the right side stand before them
-        let (side, shift) =
-            if p.0 > x.1 - 0.15 * (x.1 - x.0) { (HPos::Right, -10) } else { (HPos::Left, 10) };
+        let (side, shift) = if p.0 > right { (HPos::Right, -10) } else { (HPos::Left, 10) };
         let style = font(16).pos(Pos::new(side, VPos::Top));
         area.draw_series([EmptyElement::at(p)
             + Circle::new((0, 0), 7 * FINE as i32, INK.stroke_width(2 * FINE))
