@@ -222,29 +222,22 @@ impl ClosureLaw {
     pub fn respond(&self, tan_beta: f64) -> Response {
         match &self.law {
             Law::Linear { coefficient, area_ratio } => {
-                let island_pressure = coefficient * self.reduced_modulus * tan_beta;
-                Response {
-                    island_pressure,
-                    area_ratio: *area_ratio,
-                    regime: self.regime(island_pressure / area_ratio),
-                    inside: true,
-                }
+                self.response(coefficient * self.reduced_modulus * tan_beta, *area_ratio, true)
             }
             Law::Johnson { yield_stress, hardness } => self.johnson(tan_beta, *yield_stress, *hardness),
             Law::Calibrated { hardening, coefficient } => self.calibrated(tan_beta, hardening, coefficient),
         }
     }
 
-    /// Regime by p/H with the printed thresholds; elastic where no hardness is known.
-    fn regime(&self, pressure: f64) -> Regime {
-        let index = self.hardness.map_or(0.0, |h| pressure / h);
-        if index < THRESHOLDS[0] {
-            Regime::Elastic
-        } else if index <= THRESHOLDS[1] {
-            Regime::Elastoplastic
-        } else {
-            Regime::Plastic
-        }
+    /// The regime goes by p/H with the printed thresholds; elastic where no hardness is known.
+    fn response(&self, island_pressure: f64, area_ratio: f64, inside: bool) -> Response {
+        let index = self.hardness.map_or(0.0, |h| island_pressure / area_ratio / h);
+        let regime = match index {
+            index if index < THRESHOLDS[0] => Regime::Elastic,
+            index if index <= THRESHOLDS[1] => Regime::Elastoplastic,
+            _ => Regime::Plastic,
+        };
+        Response { island_pressure, area_ratio, regime, inside }
     }
 
     fn johnson(&self, tan_beta: f64, yield_stress: f64, hardness: f64) -> Response {
@@ -268,23 +261,12 @@ impl ClosureLaw {
 
     fn calibrated(&self, tan_beta: f64, hardening: &Hardening, coefficient: &Coefficient) -> Response {
         if tan_beta <= 0.0 {
-            return Response {
-                island_pressure: 0.0,
-                area_ratio: 4.0 / (PI * PI),
-                regime: Regime::Elastic,
-                inside: false,
-            };
+            return self.response(0.0, 4.0 / (PI * PI), false);
         }
         let stress = hardening.representative_stress(coefficient.c * tan_beta);
         let cone = coefficient.cone(tan_beta, self.reduced_modulus / stress);
         let area_ratio = cone.contact_ratio * cone.contact_ratio;
-        let island_pressure = stress * island_pressure(&cone, tan_beta);
-        Response {
-            island_pressure,
-            area_ratio,
-            regime: self.regime(island_pressure / area_ratio),
-            inside: cone.inside,
-        }
+        self.response(stress * island_pressure(&cone, tan_beta), area_ratio, cone.inside)
     }
 
     /// Elastic pressure of the closure on its contact area at slope `tan_beta`, for the plasticity index (eq. (13)).

@@ -173,42 +173,31 @@ fn contact_at(surface: &Surface, model: &ClosureLaw, plane: f64, jump: bool, wan
 
 /// 64 points from first touch to the plane of `contact`.
 fn load_curve(surface: &Surface, model: &ClosureLaw, contact: &Contact, plane: f64) -> Vec<CurvePoint> {
-    let high = surface.extent.high;
-    let mean = surface.parameters.mean;
-    let end = CurvePoint {
-        separation: contact.separation,
-        pressure: contact.pressure,
-        area_ratio: contact.area_ratio,
+    let (high, mean) = (surface.extent.high, surface.parameters.mean);
+    let point = |plane: f64, (pressure, area_ratio): (f64, f64)| {
+        let separation = plane - mean;
+        CurvePoint { separation, pressure, area_ratio }
     };
+    let end = point(plane, (contact.pressure, contact.area_ratio));
     if plane >= high {
         return vec![end];
     }
     let planes = Planes::between(plane, high, CURVE_POINTS);
-    let mut curve: Vec<CurvePoint> = match model.linear() {
+    let carried: Vec<(f64, f64)> = match model.linear() {
         Some((coefficient, area_ratio)) => {
-            let cells = surface.extent.cells as f64;
-            bearing_area::above_planes(&surface.map, planes)
-                .iter()
-                .enumerate()
-                .map(|(k, above)| CurvePoint {
-                    separation: planes.height(k) - mean,
-                    pressure: coefficient * model.reduced_modulus * above.slope_area / cells,
-                    area_ratio: area_ratio * above.area / cells,
-                })
-                .collect()
+            let (stress, cells) = (coefficient * model.reduced_modulus, surface.extent.cells as f64);
+            let above = bearing_area::above_planes(&surface.map, planes);
+            above.iter().map(|a| (stress * a.slope_area / cells, area_ratio * a.area / cells)).collect()
         }
         None => {
             let mut within = Carrying::above(surface, model, plane);
-            (0..CURVE_POINTS)
-                .map(|k| {
-                    let (pressure, area_ratio) = within.rise_to(planes.height(k));
-                    CurvePoint { separation: planes.height(k) - mean, pressure, area_ratio }
-                })
-                .collect()
+            (0..CURVE_POINTS).map(|k| within.rise_to(planes.height(k))).collect()
         }
     };
+    let curve = carried.into_iter().enumerate().map(|(k, carried)| point(planes.height(k), carried));
+    let mut curve: Vec<CurvePoint> = curve.collect();
     curve[0] = end;
-    curve[CURVE_POINTS - 1] = CurvePoint { separation: high - mean, pressure: 0.0, area_ratio: 0.0 };
+    curve[CURVE_POINTS - 1] = point(high, (0.0, 0.0));
     curve.reverse();
     curve
 }
