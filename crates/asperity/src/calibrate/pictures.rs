@@ -2,7 +2,7 @@
 
 use super::fit::{AngleFit, Fit};
 use crate::draw::chart::{Chart, Series, svg};
-use asperity_calibration::collapse::Sample;
+use asperity_calibration::collapse::{Sample, distinct};
 use asperity_calibration::fit::Data;
 use asperity_roughness::PUBLISHED;
 
@@ -37,9 +37,7 @@ fn sorted(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
 fn mixed(data: &Data, beta_deg: f64, share: f64) -> Chart {
     let tan = beta_deg.to_radians().tan();
     let samples = data.slopes.iter().find(|s| s.0 == beta_deg).map_or(&[][..], |s| &s.1);
-    let mut exponents: Vec<f64> = samples.iter().map(|s| s.hardening.exponent).collect();
-    exponents.sort_by(f64::total_cmp);
-    exponents.dedup();
+    let exponents = distinct(samples.iter().map(|s| s.hardening.exponent));
     let series = exponents.iter().map(|n| {
         let of_n = samples.iter().filter(|s| s.hardening.exponent == *n);
         let points = sorted(of_n.map(|s| point(data, tan, s, share)).collect());
