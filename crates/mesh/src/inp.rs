@@ -1,5 +1,6 @@
 //! A mesh as CalculiX (and Abaqus) input: nodes, elements, and the sides as node sets and surfaces.
 
+use crate::mesh::numbers;
 use crate::{Edge, ElementKind, Mesh};
 use std::collections::BTreeSet;
 use std::io::{self, Write};
@@ -45,11 +46,7 @@ pub fn write_inp(mut out: impl Write, mesh: &Mesh, section: Section, unit: &str)
     }
     writeln!(out, "*ELEMENT, TYPE={element}, ELSET=BODY")?;
     for (i, cell) in mesh.cells.chunks_exact(mesh.kind.nodes()).enumerate() {
-        write!(out, "{}", i + 1)?;
-        for node in cell {
-            write!(out, ", {}", node + 1)?;
-        }
-        writeln!(out)?;
+        writeln!(out, "{}, {}", i + 1, numbers(cell.iter().copied()).join(", "))?;
     }
     for (name, edges) in mesh.sides.named() {
         if !edges.is_empty() {
@@ -66,8 +63,7 @@ pub fn write_inp(mut out: impl Write, mesh: &Mesh, section: Section, unit: &str)
 pub fn write_inp_side(mut out: impl Write, mesh: &Mesh, name: &str, edges: &[Edge]) -> io::Result<()> {
     let nodes: BTreeSet<u32> = edges.iter().flat_map(|&edge| mesh.nodes_along(edge)).collect();
     writeln!(out, "*NSET, NSET={name}")?;
-    let nodes: Vec<String> = nodes.iter().map(|n| (n + 1).to_string()).collect();
-    for line in nodes.chunks(PER_LINE) {
+    for line in numbers(nodes).chunks(PER_LINE) {
         writeln!(out, "{},", line.join(", "))?;
     }
     writeln!(out, "*SURFACE, NAME={name}, TYPE=ELEMENT")?;

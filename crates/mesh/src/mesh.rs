@@ -91,6 +91,11 @@ impl Mesh {
     }
 }
 
+/// Numbers from 1 of some nodes, as files have them.
+pub(crate) fn numbers(nodes: impl IntoIterator<Item = u32>) -> Vec<String> {
+    nodes.into_iter().map(|node| (node + 1).to_string()).collect()
+}
+
 /// Least and greatest of each coordinate of some points.
 pub(crate) fn extent(points: impl Iterator<Item = [f64; 2]>) -> [[f64; 2]; 2] {
     points.fold([[f64::INFINITY, f64::NEG_INFINITY]; 2], |ends, x| {

@@ -1,7 +1,7 @@
 //! Writing MSH.
 
 use super::BODY;
-use crate::mesh::extent;
+use crate::mesh::{extent, numbers};
 use crate::{ElementKind, Mesh};
 use std::io::{self, Write};
 
@@ -55,21 +55,15 @@ pub fn write_msh(mut out: impl Write, mesh: &Mesh) -> io::Result<()> {
     writeln!(out, "$Elements\n{} {} 1 {}", sides.len() + 1, cells + lines, cells + lines)?;
     writeln!(out, "2 1 {quad} {cells}")?;
     for (i, cell) in mesh.cells.chunks_exact(mesh.kind.nodes()).enumerate() {
-        write!(out, "{}", i + 1)?;
-        for node in cell {
-            write!(out, " {}", node + 1)?;
-        }
-        writeln!(out)?;
+        writeln!(out, "{} {}", i + 1, numbers(cell.iter().copied()).join(" "))?;
     }
     let mut tag = cells;
     for (i, (_, edges)) in &sides {
         writeln!(out, "1 {} {line} {}", i + 1, edges.len())?;
         for &edge in *edges {
             tag += 1;
-            let ([a, b], middle) = mesh.edge_nodes(edge);
-            write!(out, "{tag} {} {}", a + 1, b + 1)?;
-            middle.map_or(Ok(()), |m| write!(out, " {}", m + 1))?;
-            writeln!(out)?;
+            let (corners, middle) = mesh.edge_nodes(edge);
+            writeln!(out, "{tag} {}", numbers(corners.into_iter().chain(middle)).join(" "))?;
         }
     }
     writeln!(out, "$EndElements")

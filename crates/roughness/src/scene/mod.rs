@@ -65,14 +65,8 @@ pub enum Choice {
 impl Choice {
     /// The closures chosen, in the order of the tables.
     pub fn closures(self) -> Vec<Closure> {
-        match self {
-            Choice::Published => vec![Closure::Published],
-            Choice::Fitted => vec![Closure::Fitted],
-            Choice::Johnson => vec![Closure::Johnson],
-            Choice::Sneddon => vec![Closure::Sneddon],
-            Choice::Calibrated => vec![Closure::Calibrated],
-            Choice::All => Closure::ALL.to_vec(),
-        }
+        // the choices are the closures in their order, then all
+        Closure::ALL.get(self as usize).map_or(Closure::ALL.to_vec(), |closure| vec![*closure])
     }
 }
 
