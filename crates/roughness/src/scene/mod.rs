@@ -26,8 +26,7 @@ use std::path::PathBuf;
 pub struct Scene {
     /// Which closure, or all.
     pub closure: Choice,
-    /// Result of a calibration, by default the one that comes with the program: c of "fitted", the cones of
-    /// "calibrated", the unloading exponent of "calibrated" and "johnson".
+    /// Result of a calibration, for "fitted" (c), "calibrated" (cones, unloading) and "johnson" (unloading).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub coefficient: Option<PathBuf>,
     /// How the pressure of an island is spread.

@@ -9,7 +9,7 @@ use crate::surface::height_map::HeightMap;
 use crate::surface::level::{self, Levelling};
 use crate::surface::ready::Surface;
 use asperity_law::units::Length;
-use schemars::JsonSchema;
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
@@ -35,6 +35,10 @@ pub struct HeightUnit {
 /// The names of all units of length.
 fn units() -> Vec<&'static str> {
     Length::UNITS.iter().map(|(unit, _)| *unit).collect()
+}
+
+fn unit_schema(_: &mut SchemaGenerator) -> Schema {
+    json_schema!({"enum": units()})
 }
 
 impl TryFrom<String> for HeightUnit {
@@ -72,7 +76,7 @@ pub struct SurfaceScene {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pixel_size: Option<[Length; 2]>,
     /// Unit of the heights, where the file does not say.
-    #[schemars(extend("enum" = units()), with = "Option<String>")]
+    #[schemars(schema_with = "unit_schema")]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub height_unit: Option<HeightUnit>,
     /// Whether `pixel_size` and `height_unit` win over what the file says.
