@@ -13,11 +13,7 @@ use asperity_solver::run::problem::Problem;
 /// A scene that cannot be meshed, pointing at its line.
 pub fn mesh(scene: &Scene) -> Result<Mesh, Error> {
     let problem = problem(scene)?;
-    let mut mesh = problem.mesh;
-    for node in &mut mesh.nodes {
-        *node = node.map(|x| x * problem.units.length);
-    }
-    Ok(mesh)
+    Ok(problem.mesh.scaled(problem.units.length))
 }
 
 /// The scene made ready for the solver.

@@ -1,6 +1,7 @@
 //! Where results are put, anything that can give a path to each file by its name, and rows as CSV.
 
-use crate::error::Error;
+use crate::error::{Error, InputError};
+use asperity_calibration::journal::{Journal, fingerprint};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Deserializer, Serialize};
 use std::fmt::Display;
@@ -79,16 +80,56 @@ impl Sink for Directory {
     }
 }
 
+/// A row of a file: every field declared once, with its value in terms of what the row is made from.
+macro_rules! row {
+    ($(#[$about:meta])* $row:ident($($from:ident: $record:ty),*) {
+        $($(#[$field_about:meta])* $field:ident: $kind:ty = $value:expr,)*
+    }) => {
+        #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+        $(#[$about])*
+        pub struct $row {
+            $($(#[$field_about])* pub $field: $kind,)*
+        }
+
+        impl $row {
+            pub(super) fn new($($from: $record),*) -> $row {
+                $row { $($field: $value,)* }
+            }
+        }
+    };
+}
+pub(crate) use row;
+
 /// Writes beside the file and renames, so that it is whole or as it was.
 ///
 /// # Errors
 /// A disk that refuses.
 pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), Error> {
-    let mut beside = path.as_os_str().to_os_string();
-    beside.push(".partial");
-    std::fs::write(&beside, bytes)
-        .and_then(|()| std::fs::rename(&beside, path))
+    let partial = beside(path, ".partial");
+    std::fs::write(&partial, bytes)
+        .and_then(|()| std::fs::rename(&partial, path))
         .map_err(|e| Error::disk(path, e))
+}
+
+/// The path with `ending` after its last name.
+pub(crate) fn beside(path: &Path, ending: &str) -> PathBuf {
+    let mut name = path.as_os_str().to_os_string();
+    name.push(ending);
+    name.into()
+}
+
+/// The journal at `path` of the work that `definition` says, and the lines that it holds.
+///
+/// # Errors
+/// A file that cannot be read or written.
+pub(crate) fn open_journal(
+    path: Option<&Path>,
+    definition: &str,
+) -> Result<(Option<Journal>, Vec<String>), InputError> {
+    let Some(path) = path else { return Ok((None, Vec::new())) };
+    let (journal, lines) = Journal::open(path, fingerprint(definition))
+        .map_err(|e| InputError::new(format!("cannot write the journal {}: {e}", path.display())))?;
+    Ok((Some(journal), lines))
 }
 
 /// Writes rows as CSV under the names of their fields, each changed by `name`: numbers in the shortest digits that read

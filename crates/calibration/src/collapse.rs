@@ -150,3 +150,11 @@ pub fn largest_correlation(measures: &[Measure]) -> Option<f64> {
 pub fn scatter_left(measures: &[Measure]) -> f64 {
     measures.iter().map(|m| m.scatter).fold(f64::INFINITY, f64::min)
 }
+
+/// The values in ascending order, each once.
+pub fn distinct(values: impl Iterator<Item = f64>) -> Vec<f64> {
+    let mut values: Vec<f64> = values.collect();
+    values.sort_by(f64::total_cmp);
+    values.dedup();
+    values
+}

@@ -3,7 +3,7 @@
 use crate::case::{Case, Tool, Yielding};
 use asperity_law::units::Stress;
 use asperity_law::{HardeningLaw, StressMeasure};
-use asperity_solver::scene::Accuracy;
+use asperity_solver::scene::{Accuracy, SceneError};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -57,16 +57,6 @@ impl Default for Sweep {
     }
 }
 
-/// A value of a sweep that makes no sense.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("{path}: {message}")]
-pub struct SweepError {
-    /// The key, with the place in its list.
-    pub path: String,
-    /// The mistake and the allowed range.
-    pub message: String,
-}
-
 /// More cases than this in one sweep are a slip of the pen.
 const MOST_CASES: usize = 1_000_000;
 
@@ -75,7 +65,7 @@ impl Sweep {
     ///
     /// # Errors
     /// The first value that makes no sense, with the allowed range.
-    pub fn validate(&self) -> Result<(), SweepError> {
+    pub fn validate(&self) -> Result<(), SceneError> {
         let slope_limit = match self.tool {
             Tool::Plane => 30.0,
             Tool::Cone => 50.0,
@@ -106,11 +96,11 @@ impl Sweep {
                     let message = format!(
                         "E over yield stress is {ratio:.4} for one material: it must lie from 5 to 1e6"
                     );
-                    return Err(SweepError { path: format!("yield_stress[{i}]"), message });
+                    return Err(SceneError { path: format!("yield_stress[{i}]"), message });
                 }
             }
         }
-        self.accuracy.check().map_err(|e| error(&e.path, &e.message))?;
+        self.accuracy.check()?;
         let lists = [self.slopes_deg.len(), moduli.len(), yields.len(), self.hardening_exponent.len()];
         if lists.iter().product::<usize>() > MOST_CASES {
             return Err(error("", &format!("more than {MOST_CASES} cases")));
@@ -146,8 +136,8 @@ fn ratio(a: f64, b: f64) -> f64 {
     format!("{:.11e}", a / b).parse().unwrap_or(a / b)
 }
 
-fn error(path: &str, message: &str) -> SweepError {
-    SweepError { path: path.into(), message: message.into() }
+fn error(path: &str, message: &str) -> SceneError {
+    SceneError { path: path.into(), message: message.into() }
 }
 
 /// A list with at least one value, all of them `good`, none of them twice.
@@ -156,17 +146,17 @@ fn check_list(
     values: &[f64],
     good: impl Fn(f64) -> bool,
     allowed: impl Fn() -> String,
-) -> Result<(), SweepError> {
+) -> Result<(), SceneError> {
     if values.is_empty() {
         return Err(error(path, "must hold at least one value"));
     }
     for (i, &v) in values.iter().enumerate() {
         let path = format!("{path}[{i}]");
         if !v.is_finite() || !good(v) {
-            return Err(SweepError { path, message: format!("{v} is not possible: {}", allowed()) });
+            return Err(SceneError { path, message: format!("{v} is not possible: {}", allowed()) });
         }
         if values[..i].contains(&v) {
-            return Err(SweepError { path, message: format!("{v} stands in the list twice") });
+            return Err(SceneError { path, message: format!("{v} stands in the list twice") });
         }
     }
     Ok(())

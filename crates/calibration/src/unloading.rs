@@ -1,6 +1,7 @@
 //! The unloading exponent of a sweep, from a few of its cones.
 
 use crate::case::Case;
+use crate::collapse::distinct;
 use crate::cone::unloading_exponent;
 use crate::fit::DEVELOPED;
 use crate::sweep::Sweep;
@@ -26,12 +27,7 @@ pub fn unload(sweep: &Sweep, c: f64) -> Vec<Unloaded> {
     }
     let ratio = |c: &Case| c.yielding.map_or(f64::INFINITY, |y| y.e_over_sy);
     let exponent = |c: &Case| c.yielding.map_or(0.0, |y| y.exponent);
-    let sorted = |value: &dyn Fn(&Case) -> f64| {
-        let mut values: Vec<f64> = cases.iter().map(value).collect();
-        values.sort_by(f64::total_cmp);
-        values.dedup();
-        values
-    };
+    let sorted = |value: &dyn Fn(&Case) -> f64| distinct(cases.iter().map(value));
     let middle = |values: &[f64]| values[values.len() / 2];
     let (ratios, exponents, slopes) = (sorted(&ratio), sorted(&exponent), sorted(&|c| c.beta_deg));
     let ends = |values: &[f64]| [values[0], values[values.len() - 1]];

@@ -11,7 +11,6 @@
 
 use crate::table::HardeningTable;
 use crate::units::Stress;
-use std::fmt;
 
 /// A curve that was read, with the line of each point.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,24 +22,14 @@ pub struct CurveFile {
 }
 
 /// An error in a file, with its line.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{}{message}", line.map_or_else(String::new, |line| format!("line {line}: ")))]
 pub struct CurveFileError {
     /// The line, from 1; `None`: the file as a whole.
     pub line: Option<usize>,
     /// Names the value, what is allowed and a way out.
     pub message: String,
 }
-
-impl fmt::Display for CurveFileError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.line {
-            Some(line) => write!(f, "line {line}: {}", self.message),
-            None => f.write_str(&self.message),
-        }
-    }
-}
-
-impl std::error::Error for CurveFileError {}
 
 /// A header that can be read.
 const HEADER: &str = "plastic_strain,yield_stress_MPa";

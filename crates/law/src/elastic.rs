@@ -1,3 +1,5 @@
+//! Elastic constants.
+
 use serde::{Deserialize, Serialize};
 
 /// Isotropic elastic constants.

@@ -1,3 +1,5 @@
+//! Power laws of hardening: the yield stress over plastic strain, the return to yield, the representative stress.
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

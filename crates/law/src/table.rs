@@ -6,7 +6,6 @@
 //! ended on; the incremental energy stays convex there, so that Newton's method with a line search passes it.
 
 use crate::hardening::Flow;
-use std::fmt;
 
 /// Most points that a table may have.
 pub const LARGEST_TABLE: usize = 100_000;
@@ -23,24 +22,14 @@ pub struct HardeningTable {
 }
 
 /// Why a point of a table is refused.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{}{message}", point.map_or_else(String::new, |point| format!("point {}: ", point + 1)))]
 pub struct TableError {
     /// Which point, from 0; `None`: the table as a whole.
     pub point: Option<usize>,
     /// Names the value, what is allowed and a way out.
     pub message: String,
 }
-
-impl fmt::Display for TableError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.point {
-            Some(point) => write!(f, "point {}: {}", point + 1, self.message),
-            None => f.write_str(&self.message),
-        }
-    }
-}
-
-impl std::error::Error for TableError {}
 
 impl HardeningTable {
     /// A table through `points` (plastic strain, yield stress in any unit).

@@ -6,16 +6,9 @@ use std::borrow::Cow;
 use std::fmt;
 
 /// Why a quantity could not be read.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{0}")]
 pub struct UnitError(String);
-
-impl fmt::Display for UnitError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.0)
-    }
-}
-
-impl std::error::Error for UnitError {}
 
 /// Splits "20 um" into a finite number and a unit, and returns the number in SI.
 fn parse(text: &str, dimension: &str, units: &[(&str, f64)]) -> Result<f64, UnitError> {

@@ -16,7 +16,7 @@
 
 use crate::grading::{Grading, divide};
 use crate::profile::Profile;
-use crate::{Edge, ElementKind, Mesh, Sides};
+use crate::{Edge, ElementKind, Mesh};
 use std::collections::HashMap;
 
 mod grid;
@@ -232,7 +232,7 @@ fn add_core(grid: &mut Grid, plan: &Plan, contact: &Contact, rectangle: Rectangl
         }
     }
     if halved {
-        grid.axis.extend((0..elements).map(|j| Edge { cell: (first + j) as u32, side: 3 }));
+        grid.sides.axis.extend((0..elements).map(|j| Edge { cell: (first + j) as u32, side: 3 }));
     }
     let left = if halved { 0 } else { elements };
     let mut ids: Vec<u32> = nodes[0][..left].to_vec();
@@ -285,7 +285,7 @@ fn finish(mut grid: Grid, kind: ElementKind, fade: f64, z: impl Fn(f64) -> f64) 
             (nodes.len() - 1) as u32
         });
     }
-    let sides = Sides { axis: grid.axis, base: grid.base, surface: grid.surface, outer: grid.outer };
+    let sides = grid.sides;
     if kind == ElementKind::Quad4 {
         return Mesh { kind, nodes, cells: grid.cells.into_flattened(), sides };
     }

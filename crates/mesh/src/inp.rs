@@ -1,5 +1,6 @@
 //! A mesh as CalculiX (and Abaqus) input: nodes, elements, and the sides as node sets and surfaces.
 
+use crate::mesh::numbers;
 use crate::{Edge, ElementKind, Mesh};
 use std::collections::BTreeSet;
 use std::io::{self, Write};
@@ -13,6 +14,18 @@ pub enum Section {
     PlaneStrain,
 }
 
+impl Section {
+    /// Name of the element.
+    pub fn element(self, kind: ElementKind) -> &'static str {
+        match (self, kind) {
+            (Section::Axisymmetric, ElementKind::Quad4) => "CAX4",
+            (Section::Axisymmetric, ElementKind::Quad8) => "CAX8R",
+            (Section::PlaneStrain, ElementKind::Quad4) => "CPE4",
+            (Section::PlaneStrain, ElementKind::Quad8) => "CPE8R",
+        }
+    }
+}
+
 /// Numbers a node set has on one line.
 const PER_LINE: usize = 12;
 
@@ -24,12 +37,7 @@ const PER_LINE: usize = 12;
 /// # Errors
 /// A writer that fails.
 pub fn write_inp(mut out: impl Write, mesh: &Mesh, section: Section, unit: &str) -> io::Result<()> {
-    let element = match (section, mesh.kind) {
-        (Section::Axisymmetric, ElementKind::Quad4) => "CAX4",
-        (Section::Axisymmetric, ElementKind::Quad8) => "CAX8R",
-        (Section::PlaneStrain, ElementKind::Quad4) => "CPE4",
-        (Section::PlaneStrain, ElementKind::Quad8) => "CPE8R",
-    };
+    let element = section.element(mesh.kind);
     writeln!(out, "** x is the radius (plane strain: the width), y the height; lengths in {unit}")?;
     writeln!(out, "*NODE, NSET=ALL")?;
     // a field of CalculiX holds 20 characters: twelve digits fit with sign and exponent
@@ -38,11 +46,7 @@ pub fn write_inp(mut out: impl Write, mesh: &Mesh, section: Section, unit: &str)
     }
     writeln!(out, "*ELEMENT, TYPE={element}, ELSET=BODY")?;
     for (i, cell) in mesh.cells.chunks_exact(mesh.kind.nodes()).enumerate() {
-        write!(out, "{}", i + 1)?;
-        for node in cell {
-            write!(out, ", {}", node + 1)?;
-        }
-        writeln!(out)?;
+        writeln!(out, "{}, {}", i + 1, numbers(cell.iter().copied()).join(", "))?;
     }
     for (name, edges) in mesh.sides.named() {
         if !edges.is_empty() {
@@ -57,16 +61,9 @@ pub fn write_inp(mut out: impl Write, mesh: &Mesh, section: Section, unit: &str)
 /// # Errors
 /// A writer that fails.
 pub fn write_inp_side(mut out: impl Write, mesh: &Mesh, name: &str, edges: &[Edge]) -> io::Result<()> {
-    let nodes: BTreeSet<u32> = edges
-        .iter()
-        .flat_map(|&edge| {
-            let ([a, b], middle) = mesh.edge_nodes(edge);
-            [Some(a), middle, Some(b)].into_iter().flatten()
-        })
-        .collect();
+    let nodes: BTreeSet<u32> = edges.iter().flat_map(|&edge| mesh.nodes_along(edge)).collect();
     writeln!(out, "*NSET, NSET={name}")?;
-    let nodes: Vec<String> = nodes.iter().map(|n| (n + 1).to_string()).collect();
-    for line in nodes.chunks(PER_LINE) {
+    for line in numbers(nodes).chunks(PER_LINE) {
         writeln!(out, "{},", line.join(", "))?;
     }
     writeln!(out, "*SURFACE, NAME={name}, TYPE=ELEMENT")?;

@@ -91,12 +91,22 @@ impl Mesh {
         Mesh { kind: ElementKind::Quad8, nodes, cells, sides: self.sides.clone() }
     }
 
+    /// The mesh with its coordinates times `factor`.
+    #[must_use]
+    pub fn scaled(mut self, factor: f64) -> Mesh {
+        self.nodes.iter_mut().flatten().for_each(|x| *x *= factor);
+        self
+    }
+
+    /// Every node of an edge, from corner to corner.
+    pub(crate) fn nodes_along(&self, edge: Edge) -> impl Iterator<Item = u32> {
+        let ([a, b], middle) = self.edge_nodes(edge);
+        [Some(a), middle, Some(b)].into_iter().flatten()
+    }
+
     /// Least and greatest of each coordinate over the nodes.
     pub fn extent(&self) -> [[f64; 2]; 2] {
-        std::array::from_fn(|i| {
-            let ends = [f64::INFINITY, f64::NEG_INFINITY];
-            self.nodes.iter().fold(ends, |[low, high], x| [low.min(x[i]), high.max(x[i])])
-        })
+        extent(self.nodes.iter().copied())
     }
 
     /// The nodes of an edge: its two corners counterclockwise around the cell, and its mid-side node if there is one.
@@ -104,4 +114,16 @@ impl Mesh {
         let (cell, k) = (self.cell(edge.cell as usize), usize::from(edge.side));
         ([cell[k], cell[(k + 1) % 4]], cell.get(4 + k).copied())
     }
+}
+
+/// Numbers from 1 of some nodes, as files have them.
+pub(crate) fn numbers(nodes: impl IntoIterator<Item = u32>) -> Vec<String> {
+    nodes.into_iter().map(|node| (node + 1).to_string()).collect()
+}
+
+/// Least and greatest of each coordinate of some points.
+pub(crate) fn extent(points: impl Iterator<Item = [f64; 2]>) -> [[f64; 2]; 2] {
+    points.fold([[f64::INFINITY, f64::NEG_INFINITY]; 2], |ends, x| {
+        [0, 1].map(|i| [ends[i][0].min(x[i]), ends[i][1].max(x[i])])
+    })
 }

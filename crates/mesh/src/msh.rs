@@ -5,7 +5,6 @@ mod sides;
 mod write;
 
 use crate::{Edge, Mesh, Sides};
-use std::fmt;
 
 pub use write::write_msh;
 
@@ -31,7 +30,8 @@ impl Sides {
 }
 
 /// An MSH file that cannot be read.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{}{message}", if *line > 0 { format!("line {line}: ") } else { String::new() })]
 pub struct MshError {
     /// Line of the file, counted from 1; 0 where no line is to blame.
     pub line: usize,
@@ -43,18 +43,12 @@ impl MshError {
     fn new(line: usize, message: impl Into<String>) -> Self {
         MshError { line, message: message.into() }
     }
-}
 
-impl fmt::Display for MshError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if self.line > 0 {
-            write!(f, "line {}: ", self.line)?;
-        }
-        f.write_str(&self.message)
+    /// An error of the file as a whole.
+    fn whole(message: impl Into<String>) -> Self {
+        MshError::new(0, message)
     }
 }
-
-impl std::error::Error for MshError {}
 
 /// Reads a mesh of 4-node or 8-node quadrilaterals whose physical curves are named axis, base, surface, outer.
 ///

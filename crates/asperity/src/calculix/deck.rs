@@ -9,7 +9,7 @@ use asperity_mesh::{Edge, Mesh, Section};
 use asperity_solver::point::kinematics::Symmetry;
 use asperity_solver::run::problem::Problem;
 use asperity_solver::run::schedule::{UNLOADING_EXPONENT, unloading};
-use asperity_solver::scene::{Scene as Tables, SceneError, Target};
+use asperity_solver::scene::{ContactMethod, Lateral, Scene as Tables, SceneError, Target};
 
 /// SI value of the deck's unit of length, 1 µm: nodes are numbers near 1, which the tolerances of such codes expect.
 const LENGTH: f64 = 1e-6;
@@ -68,13 +68,11 @@ impl Deck {
     /// The deck of `problem`, which was prepared from `scene`.
     fn of(name: &str, scene: &Tables, problem: &Problem) -> Result<Deck, SceneError> {
         if let Target::Force(_) = scene.loading.target()? {
-            return Err(SceneError {
-                path: "loading.force".into(),
-                message:
-                    "a deck moves its tool by given depths: write depth = \"...\" instead, for example the \
-                          peak_depth_um that `asperity crush` gives for this force"
-                        .into(),
-            });
+            return Err(error(
+                "loading.force",
+                "a deck moves its tool by given depths: write depth = \"...\" instead, for example the peak_depth_um that \
+                 `asperity crush` gives for this force",
+            ));
         }
         check(scene)?;
         let um = problem.units.length / LENGTH;
@@ -95,14 +93,14 @@ impl Deck {
         let hardening = scene.material.hardening();
         Ok(Deck {
             name: name.to_string(),
-            mesh: scaled(opened(&problem.mesh, section, hole), um),
+            mesh: opened(&problem.mesh, section, hole).scaled(um),
             section,
             elastic: [problem.units.stress / STRESS, problem.metal.elastic.poissons_ratio],
             table: hardening.map(|curve| table::curve_table(&curve, STRESS)),
             penalty: problem.penalty * problem.units.stress / STRESS / um,
             penetration: problem.numbers.penetration,
-            augmented: problem.numbers.contact == asperity_solver::scene::ContactMethod::Augmented,
-            symmetric: scene.lateral == asperity_solver::scene::Lateral::Symmetric,
+            augmented: problem.numbers.contact == ContactMethod::Augmented,
+            symmetric: scene.lateral == Lateral::Symmetric,
             contact,
             outline: outline.into_iter().map(|[x, z]| [um * x, um * (z + lowest)]).collect(),
             loading: travels.0.len(),
@@ -116,23 +114,23 @@ impl Deck {
 fn check(scene: &Tables) -> Result<(), SceneError> {
     let material = &scene.material;
     let points = material.hardening_table.as_ref().map_or(0, Vec::len);
-    let refusals = [
-        (
-            material.moving_share() > 0.0,
-            "material.hardening_mode",
-            "a deck hardens isotropically: leave hardening_mode out".to_string(),
-        ),
-        (
-            points > table::POINTS,
-            "material.hardening_table",
-            format!("CalculiX holds {} points of hardening, not {points}: thin the table out", table::POINTS),
-        ),
-        (scene.loading.reloads > 0, "loading.reloads", "a deck unloads once: leave reloads out".to_string()),
-    ];
-    match refusals.into_iter().find(|(refused, ..)| *refused) {
-        Some((_, path, message)) => Err(SceneError { path: path.into(), message }),
-        None => Ok(()),
+    if material.moving_share() > 0.0 {
+        let message = "a deck hardens isotropically: leave hardening_mode out";
+        return Err(error("material.hardening_mode", message));
     }
+    if points > table::POINTS {
+        let most = table::POINTS;
+        let message = format!("CalculiX holds {most} points of hardening, not {points}: thin the table out");
+        return Err(error("material.hardening_table", message));
+    }
+    if scene.loading.reloads > 0 {
+        return Err(error("loading.reloads", "a deck unloads once: leave reloads out"));
+    }
+    Ok(())
+}
+
+fn error(path: &str, message: impl Into<String>) -> SceneError {
+    SceneError { path: path.into(), message: message.into() }
 }
 
 /// Height of the lowest point of the tool when it first touches the body; `drop` is the rise of its outline.
@@ -156,12 +154,9 @@ fn touching(mesh: &Mesh, drop: &impl Fn(f64) -> f64, depth: f64) -> Vec<Edge> {
 
 /// Width of the edge nearest to the axis.
 fn first_width(mesh: &Mesh, edges: &[Edge]) -> f64 {
+    let left = |[a, b]: &[[f64; 2]; 2]| a[0].min(b[0]);
     let first = edges.iter().map(|&edge| ends(mesh, edge)).min_by(|a, b| left(a).total_cmp(&left(b)));
     first.map_or(0.0, |[a, b]| (a[0] - b[0]).abs())
-}
-
-fn left(edge: &[[f64; 2]; 2]) -> f64 {
-    edge[0][0].min(edge[1][0])
 }
 
 /// From where to where the tool must reach: beyond the edges by what metal may be squeezed out. `axis`: where it
@@ -187,13 +182,6 @@ fn opened(mesh: &Mesh, section: Section, hole: f64) -> Mesh {
     mesh
 }
 
-fn scaled(mut mesh: Mesh, factor: f64) -> Mesh {
-    for node in &mut mesh.nodes {
-        *node = node.map(|x| factor * x);
-    }
-    mesh
-}
-
 /// Travels of the tool, loading and unloading, in the unit of `problem`: the depths of the scene's own schedule and
 /// the penetration to be expected.
 fn travels(scene: &Tables, problem: &Problem) -> (Vec<f64>, Vec<f64>) {
@@ -202,12 +190,10 @@ fn travels(scene: &Tables, problem: &Problem) -> (Vec<f64>, Vec<f64>) {
     if !scene.loading.unload {
         return (load, Vec::new());
     }
-    let recovery = recovery(problem, penetration);
-    let mut unload: Vec<f64> =
-        unloading(1.0 + penetration, recovery, problem.numbers.unload_steps, 0.0).collect();
+    let back = recovery(problem, penetration);
+    let unload = unloading(1.0 + penetration, back, problem.numbers.unload_steps, 0.0);
     // far enough away that nothing touches: the body alone
-    unload.push(-0.1);
-    (load, unload)
+    (load, unload.chain([-0.1]).collect())
 }
 
 /// Estimated way from the peak to the end of contact, in the unit of `problem`: F ∝ (1 - u/u₀)^1.25 with the slope of a

@@ -84,10 +84,7 @@ impl Deck {
         for (i, [x, _]) in self.outline.iter().enumerate() {
             writeln!(out, "{}, {}, {}, 0.", nodes + count + i + 1, number(*x), number(high))?;
         }
-        let element = match self.section {
-            Section::Axisymmetric => "CAX4",
-            Section::PlaneStrain => "CPE4",
-        };
+        let element = self.section.element(ElementKind::Quad4);
         writeln!(out, "*ELEMENT, TYPE={element}, ELSET=TOOL")?;
         for i in 0..count - 1 {
             let (a, b) = (nodes + i + 1, nodes + count + i + 1);

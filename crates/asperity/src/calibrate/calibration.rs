@@ -1,11 +1,12 @@
+//! A sweep with its fit: the files that it leaves, and the text for a person.
+
 use super::fit::{AngleFit, Fit};
 use super::pictures;
 use super::run::{Options, Progress, solve};
 use crate::error::{Error, InputError};
 use crate::output::{Sink, SinkExt};
 use asperity_calibration::dimensionless::Dimensionless;
-use asperity_calibration::fit::DEVELOPED;
-use asperity_calibration::fit::{Data, Slope, angles, developed, obstacle, slope};
+use asperity_calibration::fit::{DEVELOPED, Data, Slope, angles, developed, obstacle, slope};
 use asperity_calibration::row::{CaseRow, Row};
 use asperity_calibration::sweep::Sweep;
 use asperity_calibration::unloading;
@@ -78,11 +79,9 @@ impl Calibration {
             (Some(_), Some(s)) => unloading::unload(sweep, s.c),
             _ => Vec::new(),
         };
-        let mut fit = Fit::of(sweep, &angles, [all, developed], function.as_ref(), &unloaded);
         let flat = "not determined: the scatter is flat in the representative strain at every slope";
-        fit.reason = obstacle.or_else(|| all.is_none().then(|| flat.into()));
-        fit.cases = rows.len();
-        fit.failed = rows.iter().filter(|r| r.outcome.is_err()).count();
+        let reason = obstacle.or_else(|| all.is_none().then(|| flat.into()));
+        let fit = Fit::new(sweep, &rows, &angles, all, developed, function.as_ref(), &unloaded, reason);
         let coefficient = all.zip(function.as_ref()).and_then(|(s, f)| coefficient(sweep, &fit, s, f));
         let cases = rows.iter().map(CaseRow::from).collect();
         let sweep = sweep.clone();

@@ -1,3 +1,5 @@
+//! The sweep file, and the parts of a sweep joined.
+
 use super::calibration::Calibration;
 use crate::error::{Error, InputError};
 use crate::input::toml_file::TomlFile;

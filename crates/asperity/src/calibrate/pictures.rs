@@ -2,7 +2,7 @@
 
 use super::fit::{AngleFit, Fit};
 use crate::draw::chart::{Chart, Series, svg};
-use asperity_calibration::collapse::Sample;
+use asperity_calibration::collapse::{Sample, distinct};
 use asperity_calibration::fit::Data;
 use asperity_roughness::PUBLISHED;
 
@@ -37,19 +37,13 @@ fn sorted(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
 fn mixed(data: &Data, beta_deg: f64, share: f64) -> Chart {
     let tan = beta_deg.to_radians().tan();
     let samples = data.slopes.iter().find(|s| s.0 == beta_deg).map_or(&[][..], |s| &s.1);
-    let mut exponents: Vec<f64> = samples.iter().map(|s| s.hardening.exponent).collect();
-    exponents.sort_by(f64::total_cmp);
-    exponents.dedup();
+    let exponents = distinct(samples.iter().map(|s| s.hardening.exponent));
     let series = exponents.iter().map(|n| {
         let of_n = samples.iter().filter(|s| s.hardening.exponent == *n);
         let points = sorted(of_n.map(|s| point(data, tan, s, share)).collect());
         Series::line(format!("n = {n}"), points).marked()
     });
-    Chart {
-        x_label: format!("E*/σᵣ, σᵣ at εᵣ = {share:.3} tan β (β = {beta_deg}°)"),
-        y_label: "K/σᵣ".into(),
-        series: series.collect(),
-    }
+    Chart::new(format!("E*/σᵣ, σᵣ at εᵣ = {share:.3} tan β (β = {beta_deg}°)"), "K/σᵣ", series)
 }
 
 /// All slopes: Y = K tan²β/σ_r against X = E* tan β/σ_r at ε_r = c tan β.
@@ -62,37 +56,26 @@ fn master(data: &Data, c: f64) -> Chart {
         };
         Series::line(format!("β = {beta}°"), sorted(samples.iter().map(scaled).collect())).marked()
     });
-    Chart {
-        x_label: format!("E* tan β/σᵣ, σᵣ at εᵣ = {c:.3} tan β"),
-        y_label: "K tan²β/σᵣ".into(),
-        series: series.collect(),
-    }
+    Chart::new(format!("E* tan β/σᵣ, σᵣ at εᵣ = {c:.3} tan β"), "K tan²β/σᵣ", series)
 }
 
 /// Fig. 8: ε_r of every slope with its interval, the fit, and the published line.
 fn strains(angles: &[AngleFit], c: f64) -> Chart {
     let last = angles.last().map_or(10.0, |a| a.beta_deg);
     let line = |c: f64| {
-        (0..=20)
-            .map(|i| {
-                let beta = last * f64::from(i) / 20.0;
-                [beta, c * beta.to_radians().tan()]
-            })
-            .collect::<Vec<[f64; 2]>>()
+        let slopes = (0..=20).map(|i| last * f64::from(i) / 20.0);
+        slopes.map(|beta| [beta, c * beta.to_radians().tan()]).collect::<Vec<[f64; 2]>>()
     };
     let bound = |of: fn(&AngleFit) -> f64| {
         angles.iter().filter(|a| a.determined).map(|a| [a.beta_deg, of(a)]).collect()
     };
     let found = angles.iter().filter_map(|a| a.representative_strain.map(|s| [a.beta_deg, s])).collect();
-    Chart {
-        x_label: "slope β, degrees".into(),
-        y_label: "representative strain εᵣ".into(),
-        series: vec![
-            Series::line("least scatter", found).marked(),
-            Series::line("95 % interval, low end", bound(|a| a.low)),
-            Series::line("95 % interval, high end", bound(|a| a.high)),
-            Series::line(format!("fit: {c:.4} tan β"), line(c)),
-            Series::line(format!("published: {PUBLISHED} tan β"), line(PUBLISHED)),
-        ],
-    }
+    let lines = [
+        Series::line("least scatter", found).marked(),
+        Series::line("95 % interval, low end", bound(|a| a.low)),
+        Series::line("95 % interval, high end", bound(|a| a.high)),
+        Series::line(format!("fit: {c:.4} tan β"), line(c)),
+        Series::line(format!("published: {PUBLISHED} tan β"), line(PUBLISHED)),
+    ];
+    Chart::new("slope β, degrees", "representative strain εᵣ", lines)
 }

@@ -1,10 +1,11 @@
-use crate::error::{Error, InputError};
-use asperity_calibration::case::Case;
-use asperity_calibration::journal::{Journal, fingerprint};
+//! The cases of a sweep that its journal does not hold yet, solved.
+
+use crate::error::Error;
+use crate::output::open_journal;
 use asperity_calibration::row::{CaseRow, Row};
 use asperity_calibration::run::{definition, run, shard};
 use asperity_calibration::sweep::Sweep;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::{Mutex, PoisonError};
 
 /// How a sweep is run; its results do not depend on it.
@@ -51,10 +52,8 @@ enum Stop {
 pub(super) fn solve(sweep: &Sweep, options: &Options, observer: &mut Observer) -> Result<Solved, Error> {
     let all = sweep.cases();
     let cases = options.part.map_or_else(|| all.clone(), |(k, n)| shard(&all, k, n));
-    let (journal, found) = match &options.journal {
-        Some(path) => open(path, sweep, &cases)?,
-        None => (None, Vec::new()),
-    };
+    let (journal, lines) = open_journal(options.journal.as_deref(), &definition(sweep, &cases))?;
+    let found = Row::of_cases(&cases, lines.iter().filter_map(|line| CaseRow::of_line(line)));
     let done = found.len();
     if !observer(&Progress { done, cases: cases.len(), row: None }) {
         return Ok(Solved { rows: found, stopped: true });
@@ -87,12 +86,4 @@ pub(super) fn solve(sweep: &Sweep, options: &Options, observer: &mut Observer) -
             )))
         }
     }
-}
-
-/// The journal at `path`, and the rows of `cases` that it holds.
-fn open(path: &Path, sweep: &Sweep, cases: &[Case]) -> Result<(Option<Journal>, Vec<Row>), InputError> {
-    let (journal, lines) = Journal::open(path, fingerprint(&definition(sweep, cases)))
-        .map_err(|e| InputError::new(format!("cannot write the journal {}: {e}", path.display())))?;
-    let found = Row::of_cases(cases, lines.iter().filter_map(|line| CaseRow::of_line(line)));
-    Ok((Some(journal), found))
 }

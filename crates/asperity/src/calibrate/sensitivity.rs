@@ -2,9 +2,9 @@
 
 use super::run::{Options, Progress, solve};
 use crate::error::Error;
-use crate::output::{Sink, SinkExt};
+use crate::output::{Sink, SinkExt, row};
 use asperity_calibration::case::Tool;
-use asperity_calibration::fit::{DEVELOPED, Slope};
+use asperity_calibration::fit::DEVELOPED;
 use asperity_calibration::row::CaseRow;
 use asperity_calibration::sensitivity::{Line, lines, sweeps};
 use asperity_calibration::sweep::Sweep;
@@ -29,64 +29,42 @@ pub struct Sensitivity {
     journals: Vec<PathBuf>,
 }
 
-/// c of a part of the grid: a row of `dependence.csv`. The first three c are those of all cases, the others those of the
-/// cases in which plasticity is developed; each with its 95 % interval, none where it is not determined.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct SensitivityLine {
-    /// `crush` or `indentation`.
-    pub tool: String,
-    /// Hardening law.
-    pub hardening_law: HardeningLaw,
-    /// Smallest n.
-    pub n_least: f64,
-    /// Largest n.
-    pub n_largest: f64,
-    /// Smallest E/σ_y.
-    #[serde(rename = "E_over_sy_least")]
-    pub e_over_sy_least: f64,
-    /// Largest E/σ_y.
-    #[serde(rename = "E_over_sy_largest")]
-    pub e_over_sy_largest: f64,
-    /// c.
-    pub c: Option<f64>,
-    /// Lower end.
-    pub low: Option<f64>,
-    /// Upper end.
-    pub high: Option<f64>,
-    /// c.
-    pub c_developed: Option<f64>,
-    /// Lower end.
-    pub low_developed: Option<f64>,
-    /// Upper end.
-    pub high_developed: Option<f64>,
-}
-
-/// c and the ends of its interval, to five decimals.
-fn estimate(slope: Option<Slope>) -> [Option<f64>; 3] {
-    let rounded = |v: f64| (1e5 * v).round() / 1e5;
-    slope.map_or([None; 3], |s| [s.c, s.ci95[0], s.ci95[1]].map(|v| Some(rounded(v))))
-}
-
-impl SensitivityLine {
-    fn of(sweep: &Sweep, line: &Line) -> SensitivityLine {
-        let ([c, low, high], [c_developed, low_developed, high_developed]) =
-            (estimate(line.all), estimate(line.developed));
-        let ([n_least, n_largest], [e_over_sy_least, e_over_sy_largest]) = (line.exponents, line.ratios);
-        SensitivityLine {
-            tool: tool_name(sweep.tool).into(),
-            hardening_law: sweep.hardening_law,
-            n_least,
-            n_largest,
-            e_over_sy_least,
-            e_over_sy_largest,
-            c,
-            low,
-            high,
-            c_developed,
-            low_developed,
-            high_developed,
-        }
+row! {
+    /// c of a part of the grid: a row of `dependence.csv`. The first three c are those of all cases, the others those of the
+    /// cases in which plasticity is developed; each with its 95 % interval, none where it is not determined.
+    SensitivityLine(sweep: &Sweep, line: &Line) {
+        /// `crush` or `indentation`.
+        tool: String = tool_name(sweep.tool).into(),
+        /// Hardening law.
+        hardening_law: HardeningLaw = sweep.hardening_law,
+        /// Smallest n.
+        n_least: f64 = line.exponents[0],
+        /// Largest n.
+        n_largest: f64 = line.exponents[1],
+        /// Smallest E/σ_y.
+        #[serde(rename = "E_over_sy_least")]
+        e_over_sy_least: f64 = line.ratios[0],
+        /// Largest E/σ_y.
+        #[serde(rename = "E_over_sy_largest")]
+        e_over_sy_largest: f64 = line.ratios[1],
+        /// c.
+        c: Option<f64> = line.all.map(|s| rounded(s.c)),
+        /// Lower end.
+        low: Option<f64> = line.all.map(|s| rounded(s.ci95[0])),
+        /// Upper end.
+        high: Option<f64> = line.all.map(|s| rounded(s.ci95[1])),
+        /// c.
+        c_developed: Option<f64> = line.developed.map(|s| rounded(s.c)),
+        /// Lower end.
+        low_developed: Option<f64> = line.developed.map(|s| rounded(s.ci95[0])),
+        /// Upper end.
+        high_developed: Option<f64> = line.developed.map(|s| rounded(s.ci95[1])),
     }
+}
+
+/// To five decimals.
+fn rounded(value: f64) -> f64 {
+    (1e5 * value).round() / 1e5
 }
 
 fn tool_name(tool: Tool) -> &'static str {
@@ -116,7 +94,7 @@ pub fn sensitivity(
         found.journals.extend(journal.clone());
         let solved = solve(&sweep, &Options { journal, ..options.clone() }, observer)?;
         found.sweeps.push((name, solved.rows.iter().map(CaseRow::from).collect()));
-        found.lines.extend(lines(&solved.rows).iter().map(|line| SensitivityLine::of(&sweep, line)));
+        found.lines.extend(lines(&solved.rows).iter().map(|line| SensitivityLine::new(&sweep, line)));
         if solved.stopped {
             break;
         }

@@ -59,15 +59,11 @@ impl Command {
     pub fn threads(&self) -> Option<u16> {
         match self {
             Command::Crush(args) => args.run.threads,
-            Command::Mesh(_)
-            | Command::New(_)
-            | Command::Schema(_)
-            | Command::Completions(_)
-            | Command::Man(_) => None,
             Command::Rough(args) => args.run.threads,
             Command::Calibrate(args) => args.run.threads,
             Command::Trade(args) => args.run.threads,
             Command::Reproduce(args) => args.run.threads,
+            _ => None,
         }
     }
 }

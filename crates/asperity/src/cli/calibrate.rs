@@ -73,7 +73,7 @@ fn parse_shard(text: &str) -> Result<(usize, usize), String> {
 pub fn calibrate(args: &Calibrate) -> Result<(), Error> {
     match &args.merge {
         Some(Joining::Merge(Merge { parts, slope, run })) => {
-            let target = run.out.clone().unwrap_or_else(|| PathBuf::from("out/calibrate"));
+            let target = run.target("calibrate");
             let calibration = merge(parts, *slope)?;
             finish(Ok(calibration), Folder::create(&target, "calibrate", run.force)?, run, &target)
         }
@@ -89,11 +89,8 @@ fn sweep(args: &Calibrate) -> Result<(), Error> {
     }
     let name = args.sweep.as_ref().and_then(|path| path.file_stem()).map(|stem| stem.to_string_lossy());
     let name = name.as_deref().unwrap_or("calibrate");
-    let default = match args.shard {
-        Some((k, n)) => Path::new("out").join(format!("{name}-{k}-of-{n}")),
-        None => Path::new("out").join(name),
-    };
-    let target = args.run.out.clone().unwrap_or(default);
+    let part = args.shard.map_or_else(String::new, |(k, n)| format!("-{k}-of-{n}"));
+    let target = args.run.target(&format!("{name}{part}"));
     let folder = Folder::create(&target, "calibrate", args.run.force)?;
     let options = Options { part: args.shard, shown_slope_deg: args.slope, ..options(&args.run, &target) };
     let result = observed(&options, args.run.quiet, |observer| run(&sweep, &options, observer));
@@ -101,7 +98,7 @@ fn sweep(args: &Calibrate) -> Result<(), Error> {
 }
 
 fn dependence(args: &Calibrate) -> Result<(), Error> {
-    let target = args.run.out.clone().unwrap_or_else(|| PathBuf::from("out/dependence"));
+    let target = args.run.target("dependence");
     let folder = Folder::create(&target, "calibrate", args.run.force)?;
     let options = options(&args.run, &target);
     let accuracy = args.scene_flags.accuracy.unwrap_or_default();
@@ -129,11 +126,10 @@ fn observed<T>(
             Some(row) => progress.show(done.done as f64 / done.cases.max(1) as f64, || {
                 format!("case {} of {}: {} degrees", done.done, done.cases, row.beta_deg)
             }),
-            None if done.done > 0 && !quiet => terminal::complain(&format!(
-                "{} cases of an earlier run are in {}",
-                done.done,
-                journal.display()
-            )),
+            None if done.done > 0 && !quiet => {
+                let kept = journal.display();
+                terminal::complain(&format!("{} cases of an earlier run are in {kept}", done.done));
+            }
             None => {}
         }
         true

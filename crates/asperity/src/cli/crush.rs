@@ -34,7 +34,7 @@ pub fn crush(args: &Crush) -> Result<(), Error> {
     if !args.run.quiet {
         scene.tables().unused().iter().for_each(terminal::warn);
     }
-    let out = args.run.out.clone().unwrap_or_else(|| PathBuf::from("out").join(scene.name()));
+    let out = args.run.target(&scene.name());
     let mut folder = Folder::create(&out, "crush", args.run.force)?;
     interrupt::catch();
     let progress = Progress::new(args.run.quiet);

@@ -55,6 +55,11 @@ pub struct RunFlags {
 }
 
 impl RunFlags {
+    /// The folder for results that are called `name`.
+    pub fn target(&self, name: &str) -> PathBuf {
+        self.out.clone().unwrap_or_else(|| Path::new("out").join(name))
+    }
+
     /// Prints the result as the flags ask: as JSON, for a person with the folder that holds it, or not at all.
     ///
     /// # Errors

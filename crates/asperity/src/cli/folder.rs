@@ -4,7 +4,7 @@
 //! manifest lists the files a run has made, so that a later run of the same command may replace exactly those.
 
 use crate::error::{Error, InputError};
-use crate::output::Sink;
+use crate::output::{Sink, beside};
 use std::collections::BTreeSet;
 use std::fs::{self, File, TryLockError};
 use std::io::{self, Write};
@@ -64,9 +64,7 @@ fn own_files(folder: &Path, command: &str, force: bool) -> Result<Vec<String>, I
 
 /// The journal of a long run into `target`: beside the results, not in them, for a folder of results holds results.
 pub fn journal_beside(target: &Path) -> PathBuf {
-    let mut name = target.file_name().unwrap_or_default().to_os_string();
-    name.push(".journal");
-    target.with_file_name(name)
+    target.with_file_name(beside(Path::new(target.file_name().unwrap_or_default()), ".journal"))
 }
 
 fn cannot_write(path: &Path, e: &io::Error) -> InputError {
@@ -117,9 +115,7 @@ impl Folder {
         own_files(target, command, force)?;
         fs::create_dir_all(target).map_err(|e| cannot_write(target, &e))?;
         let target = fs::canonicalize(target).map_err(|e| cannot_write(target, &e))?;
-        let mut name = target.file_name().unwrap_or_default().to_os_string();
-        name.push(".partial");
-        let partial = target.with_file_name(name);
+        let partial = beside(&target, ".partial");
         let leftovers = own_files(&partial, command, force)?;
         fs::create_dir_all(&partial).map_err(|e| cannot_write(&partial, &e))?;
         let path = partial.join(MANIFEST);

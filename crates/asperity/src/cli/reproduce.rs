@@ -12,7 +12,6 @@ use crate::reproduce::{Options, Planned, Progress};
 use asperity_solver::scene::Accuracy;
 use clap::Args;
 use std::collections::HashMap;
-use std::path::PathBuf;
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
@@ -44,7 +43,7 @@ pub fn reproduce(args: &Reproduce) -> Result<(), Error> {
     }
     let (items, quiet) = (items(&args.only)?, args.run.quiet);
     let accuracy = args.accuracy.unwrap_or_default();
-    let target = args.run.out.clone().unwrap_or_else(|| PathBuf::from("out/reproduce"));
+    let target = args.run.target("reproduce");
     let _mark = claim(&target, "reproduce", args.run.force)?;
     let (start, lines, open) = (Instant::now(), Lines::new(quiet), Mutex::new(HashMap::<_, Line>::new()));
     let options = Options { out: &target, items: &items, accuracy, estimate: !quiet };

@@ -40,7 +40,7 @@ pub fn rough(args: &Rough) -> Result<(), Error> {
 fn one_scene(path: &Path, args: &Rough) -> Result<(), Error> {
     let scene = RoughScene::read(path, &args.overrides)?;
     let rough = press(&scene, &mut |_| true)?;
-    let target = args.run.out.clone().unwrap_or_else(|| Path::new("out").join(scene.name()));
+    let target = args.run.target(&scene.name());
     let mut folder = Folder::create(&target, "rough", args.run.force)?;
     rough.write(&mut folder)?;
     let target = folder.publish()?;

@@ -49,7 +49,7 @@ pub fn trade(args: &Trade) -> Result<(), Error> {
         let message = "a trade varies the mesh: leave [mesh] out".into();
         return Err(scene.error(&SceneError { path: "mesh".into(), message }).into());
     }
-    let target = args.run.out.clone().unwrap_or_else(|| Path::new("out").join(name));
+    let target = args.run.target(&name);
     let folder = Folder::create(&target, "trade", args.run.force)?;
     let journal = journal_beside(&target);
     let options = Options { combinations: args.combinations, journal: Some(&journal), runner: &ask };

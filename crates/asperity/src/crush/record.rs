@@ -5,6 +5,7 @@
 #![expect(non_snake_case, reason = "a name ends in its unit, as in the files")]
 
 use crate::error::{Error, InputError};
+pub(super) use crate::output::row;
 use crate::output::{read_csv, write_csv};
 use crate::units::{MEGAPASCAL, MICROMETRE, Units, axisymmetric_name, file_name};
 use asperity_solver::body::fields::SurfacePoint;
@@ -33,26 +34,6 @@ impl From<record::Phase> for Phase {
         }
     }
 }
-
-/// A row of a file: every field declared once, with the value that it takes from the SI record.
-macro_rules! row {
-    ($(#[$about:meta])* $row:ident($($from:ident: $record:ty),*) {
-        $($(#[$field_about:meta])* $field:ident: $kind:ty = $value:expr,)*
-    }) => {
-        #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-        $(#[$about])*
-        pub struct $row {
-            $($(#[$field_about])* pub $field: $kind,)*
-        }
-
-        impl $row {
-            pub(super) fn new($($from: $record),*) -> $row {
-                $row { $($field: $value,)* }
-            }
-        }
-    };
-}
-pub(super) use row;
 
 /// A place in µm; `None` where there is none.
 fn place(metres: f64) -> Option<f64> {
@@ -240,11 +221,11 @@ mod tests {
         assert_eq!(
             head,
             "increment,phase,depth_um,force_N,contact_area_um2,contact_radius_um,mean_pressure_MPa,external_work_uJ,\
-             elastic_energy_uJ,plastic_work_uJ,contact_energy_uJ,penetration_um,newton_iterations,force_nodal_N"
+             elastic_energy_uJ,plastic_work_uJ,contact_energy_uJ,penetration_um,newton_iterations,force_nodal_N,force_error"
         );
         let cells: Vec<&str> = line.split(',').collect();
         assert_eq!(cells[..4], ["3", "unload", "5.0", "5.52"]);
-        assert_eq!(cells[10..], ["5e-5", "0.02", "6", "5.5"]);
+        assert_eq!(cells[10..], ["5e-5", "0.02", "6", "5.5", "0.01"]);
         for (k, value) in [(4, 300.0), (5, 10.0), (6, 18400.0), (7, 9.46), (8, 1.0 / 3.0)] {
             let got: f64 = cells[k].parse().unwrap();
             assert!((got / value - 1.0).abs() < 1e-15, "{k}: {got}");

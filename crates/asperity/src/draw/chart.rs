@@ -6,7 +6,9 @@
 use super::encode::FAMILY;
 use super::palette::{self, Colour};
 use super::scale;
+use asperity_roughness::Closure;
 use plotters::coord::Shift;
+use plotters::coord::cartesian::Cartesian2d;
 use plotters::coord::ranged1d::{KeyPointHint, Ranged, ValueFormatter};
 use plotters::element::DashedPathElement;
 use plotters::prelude::*;
@@ -48,9 +50,9 @@ impl Series {
     }
 
     /// The loading or unloading of a rough surface by a closure: its colour is that of the closure in every chart.
-    pub fn of_closure(closure: &str, unloading: bool, points: Vec<[f64; 2]>) -> Series {
-        let label = if unloading { format!("{closure}, unloading") } else { closure.into() };
-        let dash = if unloading { Dash::Dashed } else { Dash::Solid };
+    pub fn of_closure(closure: Closure, unloading: bool, points: Vec<[f64; 2]>) -> Series {
+        let (end, dash) = if unloading { (", unloading", Dash::Dashed) } else { ("", Dash::Solid) };
+        let label = format!("{}{end}", closure.name());
         Series { colour: Some(palette::closure(closure)), dash: Some(dash), ..Series::line(label, points) }
     }
 
@@ -72,6 +74,17 @@ pub struct Chart {
     pub series: Vec<Series>,
 }
 
+impl Chart {
+    /// A chart of `series` over axes of these names.
+    pub fn new(
+        x_label: impl Into<String>,
+        y_label: impl Into<String>,
+        series: impl IntoIterator<Item = Series>,
+    ) -> Chart {
+        Chart { x_label: x_label.into(), y_label: y_label.into(), series: series.into_iter().collect() }
+    }
+}
+
 /// Width and height of the axes with their names in pixels.
 const SIZE: (u32, u32) = (760, 500);
 /// The library draws at whole pixels: it gets that many to a pixel of the picture.
@@ -79,7 +92,7 @@ pub const FINE: u32 = 8;
 /// Lines and letters.
 pub const INK: RGBColor = rgb(palette::INK);
 /// Lines of the grid.
-pub const GRID: RGBColor = rgb(palette::GRID);
+const GRID: RGBColor = rgb(palette::GRID);
 
 /// A colour as the library takes it.
 pub const fn rgb([r, g, b]: Colour) -> RGBColor {
@@ -93,10 +106,14 @@ pub fn font(size: u32) -> TextStyle<'static> {
 
 /// An axis with ticks at 1, 2, 2.5 or 5 times a power of ten, written with just the digits that they need.
 #[derive(Clone)]
-struct Axis {
-    low: f64,
-    high: f64,
+pub struct Axis {
+    /// Lower end.
+    pub low: f64,
+    /// Upper end.
+    pub high: f64,
     step: f64,
+    /// Whether it holds logarithms; the powers of ten are written.
+    logarithmic: bool,
 }
 
 impl Axis {
@@ -106,7 +123,15 @@ impl Axis {
         let span = if high > low { high - low } else { 1.0 };
         let step = scale::round_step(span, 7.0);
         let low = if low < 0.0 { (low / step + 1e-6).floor() * step } else { 0.0 };
-        Axis { low, high: ((high / step - 1e-6).ceil() * step).max(low + step), step }
+        let high = ((high / step - 1e-6).ceil() * step).max(low + step);
+        Axis { low, high, step, logarithmic: false }
+    }
+
+    /// Covers logarithms by whole decades, at least one.
+    pub fn decades(values: impl Iterator<Item = f64>) -> Self {
+        let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
+        let (low, high) = if low > high { (0.0, 1.0) } else { (low.floor(), high.ceil()) };
+        Axis { low, high: high.max(low + 1.0), step: 1.0, logarithmic: true }
     }
 }
 
@@ -131,7 +156,11 @@ impl Ranged for Axis {
 
 impl ValueFormatter<f64> for Axis {
     fn format_ext(&self, value: &f64) -> String {
-        scale::label(*value, self.step)
+        if !self.logarithmic {
+            return scale::label(*value, self.step);
+        }
+        let decimals = (-value.round()).max(0.0) as usize;
+        format!("{:.decimals$}", 10f64.powf(value.round()))
     }
 }
 
@@ -226,14 +255,15 @@ pub fn svg(chart: &Chart) -> Result<String, String> {
     framed(SIZE, &legend, |paper| draw(chart, paper))
 }
 
-fn draw(chart: &Chart, paper: &Paper) -> Result<(), Failure> {
-    let finite: Vec<Vec<(f64, f64)>> = chart
-        .series
-        .iter()
-        .map(|s| s.points.iter().filter(|p| p.iter().all(|v| v.is_finite())).map(|p| (p[0], p[1])).collect())
-        .collect();
-    let x = Axis::covering(finite.iter().flatten().map(|p| p.0));
-    let y = Axis::covering(finite.iter().flatten().map(|p| p.1));
+/// Axes on `paper` with their grid and names.
+///
+/// # Errors
+/// Those of the drawing library.
+pub fn axes<'a>(
+    paper: &Paper<'a>,
+    [x, y]: [Axis; 2],
+    names: [&str; 2],
+) -> Result<ChartContext<'a, SVGBackend<'a>, Cartesian2d<Axis, Axis>>, Failure> {
     let mut area = ChartBuilder::on(paper)
         .margin(14 * FINE)
         .margin_right(26 * FINE)
@@ -247,9 +277,21 @@ fn draw(chart: &Chart, paper: &Paper) -> Result<(), Failure> {
         .set_all_tick_mark_size(5 * FINE)
         .label_style(font(15))
         .axis_desc_style(font(17))
-        .x_desc(&chart.x_label)
-        .y_desc(&chart.y_label)
+        .x_desc(names[0])
+        .y_desc(names[1])
         .draw()?;
+    Ok(area)
+}
+
+fn draw(chart: &Chart, paper: &Paper) -> Result<(), Failure> {
+    let finite: Vec<Vec<(f64, f64)>> = chart
+        .series
+        .iter()
+        .map(|s| s.points.iter().filter(|p| p.iter().all(|v| v.is_finite())).map(|p| (p[0], p[1])).collect())
+        .collect();
+    let x = Axis::covering(finite.iter().flatten().map(|p| p.0));
+    let y = Axis::covering(finite.iter().flatten().map(|p| p.1));
+    let mut area = axes(paper, [x, y], [&chart.x_label, &chart.y_label])?;
     for (i, (series, points)) in chart.series.iter().zip(&finite).enumerate() {
         let (colour, [dash, gap]) = pen(i, series);
         let style = colour.stroke_width(2 * FINE);

@@ -1,6 +1,7 @@
 //! Colours, and scales cut into bands of one colour each: even in lightness, legible to colour-blind people and in grey.
 
 use super::scale;
+use asperity_roughness::Closure;
 
 /// Red, green, blue.
 pub type Colour = [u8; 3];
@@ -45,13 +46,9 @@ pub const ZONES: [Colour; 4] = [[0, 114, 178], [240, 180, 60], [226, 226, 226], 
 /// Regimes of a rough contact: none, elastic, elastoplastic, plastic.
 pub const REGIMES: [Colour; 4] = [[236, 236, 236], [0, 114, 178], [240, 180, 30], [213, 60, 20]];
 
-/// The closures of a rough contact in the order of [`LINES`], so that each has one colour in every picture.
-const CLOSURES: [&str; 7] =
-    ["published", "fitted", "johnson", "sneddon", "calibrated", "half-space", "half-space-plastic"];
-
-/// The colour of a closure in every picture; black of an unknown one.
-pub fn closure(name: &str) -> Colour {
-    CLOSURES.iter().position(|closure| *closure == name).map_or(LINES[6], |k| LINES[k])
+/// The colour of a closure in every picture.
+pub fn closure(closure: Closure) -> Colour {
+    LINES[closure as usize]
 }
 
 /// A colour as SVG writes it.
@@ -165,9 +162,9 @@ mod tests {
 
     #[test]
     fn closures_differ_in_colour() {
-        let mut colours = CLOSURES.map(closure).to_vec();
+        let mut colours = Closure::ALL.map(closure).to_vec();
         colours.sort_unstable();
         colours.dedup();
-        assert_eq!(colours.len(), CLOSURES.len());
+        assert_eq!(colours.len(), Closure::ALL.len());
     }
 }

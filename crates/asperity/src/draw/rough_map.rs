@@ -131,13 +131,7 @@ impl Grid {
 
 /// The three leading digits of a pressure.
 fn digits(value: f64) -> String {
-    let decimals = if value >= 100.0 {
-        0
-    } else if value >= 10.0 {
-        1
-    } else {
-        2
-    };
+    let decimals = usize::from(value < 100.0) + usize::from(value < 10.0);
     format!("{value:.decimals$}")
 }
 

@@ -1,6 +1,4 @@
 //! Reading a TOML file into a type, with `--set` on top and errors that point at the line.
-//!
-//! This is the only file that names the toml crate.
 
 use crate::error::InputError;
 use crate::input::suggest;

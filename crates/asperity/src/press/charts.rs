@@ -1,6 +1,8 @@
+//! Charts of all closures at once.
+
 use super::closures::ClosureContact;
-use super::{MEGAPASCAL, MICROMETRE};
 use crate::draw::chart::{Chart, Series};
+use crate::units::{MEGAPASCAL, MICROMETRE};
 use asperity_roughness::CurvePoint;
 
 /// File names and charts of all closures at once; `mean_gradient` is that of the surface.
@@ -21,13 +23,9 @@ fn closures(contacts: &[ClosureContact], mean_gradient: f64) -> Chart {
             let response = one.law.respond(tan);
             [tan.atan().to_degrees(), response.island_pressure / response.area_ratio / MEGAPASCAL]
         };
-        Series::of_closure(one.name(), false, (0..=STEPS).map(point).collect())
+        Series::of_closure(one.law.closure, false, (0..=STEPS).map(point).collect())
     });
-    Chart {
-        x_label: "slope of an island (degrees)".into(),
-        y_label: "mean pressure on its contact (MPa)".into(),
-        series: series.collect(),
-    }
+    Chart::new("slope of an island (degrees)", "mean pressure on its contact (MPa)", series)
 }
 
 /// Pressure against the travel of the plane from first touch.
@@ -38,16 +36,17 @@ fn load_curves(contacts: &[ClosureContact]) -> Chart {
         let points = |curve: &[CurvePoint]| {
             curve.iter().map(|p| [(first - p.separation) / MICROMETRE, p.pressure / MEGAPASCAL]).collect()
         };
-        series.push(Series::of_closure(one.name(), false, points(&one.contact.curve)));
+        series.push(Series::of_closure(one.law.closure, false, points(&one.contact.curve)));
         if let Some(unloading) = one.unloading.as_ref().filter(|_| !one.law.returns_everything()) {
-            series.push(Series::of_closure(one.name(), true, points(&unloading.curve)));
+            series.push(Series::of_closure(one.law.closure, true, points(&unloading.curve)));
         }
     }
-    Chart {
-        x_label: "travel of the plane from first touch (µm)".into(),
-        y_label: "nominal pressure (MPa)".into(),
-        series,
-    }
+    travel_chart(series)
+}
+
+/// A chart of nominal pressure against the travel of the plane.
+pub(crate) fn travel_chart(series: Vec<Series>) -> Chart {
+    Chart::new("travel of the plane from first touch (µm)", "nominal pressure (MPa)", series)
 }
 
 /// Share of the contact area per step of pressure, against pressure over nominal pressure.
@@ -63,11 +62,7 @@ fn histogram(contacts: &[ClosureContact]) -> Chart {
         }
         let total: f64 = bins.iter().sum::<f64>().max(f64::MIN_POSITIVE);
         let points = bins.iter().enumerate().map(|(i, b)| [(i as f64 + 0.5) * width, 100.0 * b / total]);
-        Series::of_closure(one.name(), false, points.collect())
+        Series::of_closure(one.law.closure, false, points.collect())
     });
-    Chart {
-        x_label: "pressure over nominal pressure".into(),
-        y_label: format!("contact area per step of {width:.2} (%)"),
-        series: series.collect(),
-    }
+    Chart::new("pressure over nominal pressure", format!("contact area per step of {width:.2} (%)"), series)
 }

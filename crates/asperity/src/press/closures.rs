@@ -1,3 +1,5 @@
+//! The contact of one surface by one closure, with its warnings.
+
 use super::scene::RoughScene;
 use crate::error::InputError;
 use asperity_roughness::scene::{Choice, SceneError};
@@ -75,7 +77,7 @@ fn press_one(
     let contact = press(surface, &law, load)?;
     let scene = scene.tables();
     let field = PressureField::of(&surface.map, &contact, scene.pressure_profile);
-    let exponent = law.unloading_exponent(coefficient);
+    let exponent = coefficient.map_or(SINGLE_ASPERITY_EXPONENT, |c| c.unloading_exponent);
     let unloading = scene.load.unload.then(|| unload(&contact, &law, exponent));
     let elastic = law.elastic_pressure(surface.parameters.mean_gradient);
     let nominal = match load {
@@ -83,7 +85,7 @@ fn press_one(
         Load::Separation(_) => contact.pressure,
     };
     Ok(ClosureContact {
-        plasticity_index: law.hardness().map(|h| elastic / h),
+        plasticity_index: law.hardness.map(|h| elastic / h),
         law,
         contact,
         field,

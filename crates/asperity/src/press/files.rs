@@ -1,14 +1,16 @@
+//! The files of a pressed surface: tables, charts, summary, maps, the surface itself.
+
 use super::charts;
 use super::closures::ClosureContact;
 use super::rough::Rough;
-use super::{MEGAPASCAL, MICROMETRE};
 use crate::draw::chart;
 use crate::draw::rough_map::{self as picture, Map};
 use crate::error::Error;
 use crate::output::{Sink, SinkExt, write_csv};
+use crate::units::{MEGAPASCAL, MICROMETRE};
+use asperity_roughness::HeightMap;
 use asperity_roughness::formats::{CellArray, write_npy, write_vti, write_x3p};
 use asperity_roughness::scene::SurfaceFormat;
-use asperity_roughness::{HeightMap, Regime};
 
 /// One number per cell of the map, row by row, of a contact.
 #[derive(Clone, Debug)]
@@ -19,26 +21,6 @@ pub struct Layers {
     pub contact: Vec<f32>,
     /// 0 none, 1 elastic, 2 elastoplastic, 3 plastic.
     pub regime: Vec<f32>,
-}
-
-impl Layers {
-    fn of(one: &ClosureContact, cells: [usize; 2]) -> Layers {
-        let [pressure, contact, regime] = [(); 3].map(|()| vec![0f32; cells[0] * cells[1]]);
-        let mut layers = Layers { pressure, contact, regime };
-        for pixel in &one.field.pixels {
-            let i = pixel.cell as usize;
-            layers.pressure[i] += pixel.pressure / MEGAPASCAL as f32;
-            layers.contact[i] += pixel.contact;
-            if pixel.contact > 0.0 {
-                layers.regime[i] = match one.contact.responses[pixel.island as usize].regime {
-                    Regime::Elastic => 1.0,
-                    Regime::Elastoplastic => 2.0,
-                    Regime::Plastic => 3.0,
-                };
-            }
-        }
-        layers
-    }
 }
 
 /// Cells of a map along x and y.
@@ -58,7 +40,19 @@ fn heights(map: &HeightMap, columns: usize, rows: usize) -> Vec<f32> {
 impl Rough {
     /// Pressure, contact and regime on the cells of the map.
     pub fn layers(&self, one: &ClosureContact) -> Layers {
-        Layers::of(one, cells(&self.surface.map))
+        let [columns, rows] = cells(&self.surface.map);
+        let [pressure, contact, regime] = [(); 3].map(|()| vec![0f32; columns * rows]);
+        let mut layers = Layers { pressure, contact, regime };
+        for pixel in &one.field.pixels {
+            let i = pixel.cell as usize;
+            layers.pressure[i] += pixel.pressure / MEGAPASCAL as f32;
+            layers.contact[i] += pixel.contact;
+            if pixel.contact > 0.0 {
+                let regime = one.contact.responses[pixel.island as usize].regime;
+                layers.regime[i] = 1.0 + regime as u8 as f32;
+            }
+        }
+        layers
     }
 
     /// Writes tables, charts and summary, and the maps and the surface where the scene asks for them.
@@ -148,18 +142,13 @@ impl Rough {
     fn write_surface(&self, sink: &mut dyn Sink) -> Result<(), Error> {
         let map = &self.surface.map;
         let (columns, rows) = (map.columns(), map.rows());
-        let (file, written) = match self.summary.scene.output.surface {
-            None => return Ok(()),
-            Some(SurfaceFormat::X3p) => {
-                let file = sink.path("surface.x3p")?;
-                let written = write_x3p(&file, columns, rows, map.pixel(), map.heights());
-                (file, written)
-            }
-            Some(SurfaceFormat::Npy) => {
-                let file = sink.path("surface.npy")?;
-                let written = write_npy(&file, columns, rows, map.heights());
-                (file, written)
-            }
+        let Some(format) = self.summary.scene.output.surface else { return Ok(()) };
+        let x3p = format == SurfaceFormat::X3p;
+        let file = sink.path(if x3p { "surface.x3p" } else { "surface.npy" })?;
+        let written = if x3p {
+            write_x3p(&file, columns, rows, map.pixel(), map.heights())
+        } else {
+            write_npy(&file, columns, rows, map.heights())
         };
         written.map_err(|e| Error::disk(&file, e))
     }

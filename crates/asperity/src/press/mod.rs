@@ -9,17 +9,15 @@ mod table;
 
 mod rough;
 
-mod charts;
+pub(crate) mod charts;
 mod files;
 
 pub mod table1;
 
+pub use crate::crush::Phase;
 pub use closures::ClosureContact;
 pub use files::Layers;
 pub use rough::{Progress, Rough, press};
 pub use scene::RoughScene;
 pub use summary::{ClosureSummary, Summary};
-pub use table::{LoadPoint, Phase, TableRow};
-
-const MICROMETRE: f64 = 1e-6;
-const MEGAPASCAL: f64 = 1e6;
+pub use table::{LoadPoint, TableRow};

@@ -1,3 +1,5 @@
+//! A rough surface pressed by every closure that its scene asks for.
+
 use super::closures::{ClosureContact, press_by};
 use super::scene::RoughScene;
 use super::summary::{ClosureSummary, Summary};
@@ -46,7 +48,7 @@ pub fn press(scene: &RoughScene, observer: &mut dyn FnMut(&Progress) -> bool) ->
     let tables = scene.tables();
     let surface = tables.surface.prepare(|path| scene.resolve(path)).map_err(|e| scene.error(&e))?;
     let name = scene.surface_name();
-    let mut summary = Summary::of(&name, &surface, tables);
+    let mut summary = Summary::new(&name, &surface, tables);
     let mut contacts = Vec::new();
     let closures = tables.closure.closures();
     for (i, &closure) in closures.iter().enumerate() {
@@ -63,9 +65,9 @@ pub fn press(scene: &RoughScene, observer: &mut dyn FnMut(&Progress) -> bool) ->
         return Err(scene.error(&SceneError::new("closure", message)).into());
     }
     summary.warnings.extend(two_materials(tables));
-    let table: Vec<TableRow> = contacts.iter().map(|one| TableRow::of(&name, &surface, one)).collect();
+    let table: Vec<TableRow> = contacts.iter().map(|one| TableRow::new(&name, &surface, one)).collect();
     summary.closures =
-        table.iter().zip(&contacts).map(|(row, one)| ClosureSummary::of(row.clone(), one)).collect();
+        table.iter().zip(&contacts).map(|(row, one)| ClosureSummary::new(row.clone(), one)).collect();
     let load_curve = contacts.iter().flat_map(LoadPoint::curve).collect();
     summary.wall_s = start.elapsed().as_secs_f64();
     Ok(Rough { table, load_curve, summary, surface, contacts })

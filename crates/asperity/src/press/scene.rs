@@ -1,3 +1,5 @@
+//! A scene of `asperity rough` with the files that it names.
+
 use crate::error::InputError;
 use crate::input::toml_file::TomlFile;
 use asperity_roughness::formats::{Measured, Spacing};
@@ -103,10 +105,8 @@ impl RoughScene {
         }
         let error = |key: &str, message: String| self.error(&SceneError::new(key, message));
         let Some(path) = &self.scene.coefficient else {
-            let committed = Coefficient::committed();
-            return committed
-                .map(Some)
-                .map_err(|e| error("closure", format!("the calibration of this program: {e}")));
+            let refused = |e| error("closure", format!("the calibration of this program: {e}"));
+            return Coefficient::committed().map(Some).map_err(refused);
         };
         let path = self.resolve(path);
         let text = std::fs::read_to_string(&path)

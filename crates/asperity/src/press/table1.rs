@@ -207,7 +207,43 @@ impl Table1 {
 
     /// The tables for a reader.
     pub fn text(&self) -> String {
-        text(&self.rows)
+        let mut text = format!(
+            "Table 1: steel E = {MODULUS} MPa, nu = {POISSON}, H = {HARDNESS} MPa under {NOMINAL} MPa; ours: {SEEDS} seeds, 1024 x 1024 points of \
+             1.953 um, mean ± standard deviation\n"
+        );
+        for row in &self.rows {
+            let paper = &row.paper;
+            let _ = writeln!(text, "\n{}: Ra {} um, beta {} deg", row.surface.name(), paper.ra, paper.beta);
+            let _ = writeln!(
+                text,
+                "  {:<11} {:>18} {:>16} {:>7} {:>15} {:>16} {:>14}",
+                "", "P_m MPa", "A_r %", "psi", "peak/nominal", "residual um", "returned %"
+            );
+            let _ = writeln!(
+                text,
+                "  {:<11} {:>18} {:>16} {:>7} {:>15} {:>16} {:>14}",
+                "paper", paper.pressure, paper.area, paper.index, paper.peak, "", ""
+            );
+            for o in &row.closures {
+                let _ = writeln!(
+                    text,
+                    "  {:<11} {:>18} {:>16} {:>7.3} {:>15} {:>16} {:>14}",
+                    o.closure.name(),
+                    o.pressure.text(0),
+                    o.area.text(2),
+                    o.index.mean(),
+                    o.peak.text(1),
+                    o.residual.text(2),
+                    o.elastic.text(1)
+                );
+            }
+            let _ = writeln!(text, "  {}", row.against_itself);
+        }
+        text += &trends(&self.rows);
+        for note in self.rows.iter().flat_map(|row| &row.notes) {
+            let _ = writeln!(text, "note: {note}");
+        }
+        text
     }
 }
 
@@ -235,47 +271,6 @@ fn contradictions(row: &Printed) -> String {
             row.pressure / 10.0,
             row.pressure * row.area / 1000.0
         );
-    }
-    text
-}
-
-/// The tables for a reader.
-fn text(rows: &[ComparedRow]) -> String {
-    let mut text = format!(
-        "Table 1: steel E = {MODULUS} MPa, nu = {POISSON}, H = {HARDNESS} MPa under {NOMINAL} MPa; ours: {SEEDS} seeds, 1024 x 1024 points of \
-         1.953 um, mean ± standard deviation\n"
-    );
-    for row in rows {
-        let paper = &row.paper;
-        let _ = writeln!(text, "\n{}: Ra {} um, beta {} deg", row.surface.name(), paper.ra, paper.beta);
-        let _ = writeln!(
-            text,
-            "  {:<11} {:>18} {:>16} {:>7} {:>15} {:>16} {:>14}",
-            "", "P_m MPa", "A_r %", "psi", "peak/nominal", "residual um", "returned %"
-        );
-        let _ = writeln!(
-            text,
-            "  {:<11} {:>18} {:>16} {:>7} {:>15} {:>16} {:>14}",
-            "paper", paper.pressure, paper.area, paper.index, paper.peak, "", ""
-        );
-        for o in &row.closures {
-            let _ = writeln!(
-                text,
-                "  {:<11} {:>18} {:>16} {:>7.3} {:>15} {:>16} {:>14}",
-                o.closure.name(),
-                o.pressure.text(0),
-                o.area.text(2),
-                o.index.mean(),
-                o.peak.text(1),
-                o.residual.text(2),
-                o.elastic.text(1)
-            );
-        }
-        let _ = writeln!(text, "  {}", row.against_itself);
-    }
-    text += &trends(rows);
-    for note in rows.iter().flat_map(|row| &row.notes) {
-        let _ = writeln!(text, "note: {note}");
     }
     text
 }

@@ -3,9 +3,11 @@
 use super::format::{Spread, shown, significant, spread};
 use super::paper::{ROUGH, SETS, SYMMETRIES, TABLE2};
 use super::plan::Item;
+use super::profile::ProfilePoint;
 use super::results_reader::Results;
 use crate::crush::Summary;
 use crate::draw::chart::{self, Chart, Series};
+use crate::press::charts::travel_chart;
 use crate::press::table1::{self, ClosureSeeds, Seeds};
 use crate::press::{LoadPoint, Phase};
 use asperity_roughness::Closure;
@@ -190,7 +192,7 @@ fn sets(results: &Results) -> Result<Markup, String> {
                 shown(summary.residual_depth_um),
             ]);
         }
-        let chart = Chart { x_label: "Depth h (µm)".into(), y_label: format!("Force F ({unit})"), series };
+        let chart = Chart::new("Depth h (µm)", format!("Force F ({unit})"), series);
         let svg = if chart.series.is_empty() { None } else { Some(chart::svg(&chart)?) };
         figures.push((svg, symmetry));
     }
@@ -226,7 +228,9 @@ fn strains(results: &Results) -> Markup {
 }
 
 fn profile(results: &Results) -> Result<Markup, String> {
-    let Some(rows) = results.profile("rough-milled") else { return Ok(drawing(None, "")) };
+    let Some(rows) = results.rows::<ProfilePoint>("rough-milled", "profile.csv") else {
+        return Ok(drawing(None, ""));
+    };
     let points = |what: &str| -> Vec<[f64; 2]> {
         rows.iter().filter(|p| p.what == what).map(|p| [p.x_um, p.z_um]).collect()
     };
@@ -243,14 +247,9 @@ fn profile(results: &Results) -> Result<Markup, String> {
             .map(|p| [p[0] - start, p[1]])
             .collect()
     };
-    let chart = Chart {
-        x_label: "x (µm)".into(),
-        y_label: "height (µm)".into(),
-        series: vec![
-            Series::line("milled surface", part(&surface)),
-            Series::line("plane and cones", part(&cones)),
-        ],
-    };
+    let lines =
+        [Series::line("milled surface", part(&surface)), Series::line("plane and cones", part(&cones))];
+    let chart = Chart::new("x (µm)", "height (µm)", lines);
     Ok(drawing(
         Some(chart::svg(&chart)?),
         "A line across the generated milled surface under 200 MPa, the height of the plane, and the cone that stands for each island \
@@ -317,7 +316,7 @@ fn numbers(results: &Results) -> Markup {
 fn unloading(results: &Results) -> Result<Markup, String> {
     let mut figures = Vec::new();
     for part in ROUGH {
-        let Some(curve) = results.load_curve(part) else { continue };
+        let Some(curve) = results.rows::<LoadPoint>(part, "load_curve.csv") else { continue };
         let mut series = Vec::new();
         for closure in [Closure::Johnson, Closure::Calibrated] {
             let of = |phase: Phase| {
@@ -326,16 +325,11 @@ fn unloading(results: &Results) -> Result<Markup, String> {
             let Some(first) = of(Phase::Load).next().map(|p| p.separation_um) else { continue };
             for (phase, unloading) in [(Phase::Load, false), (Phase::Unload, true)] {
                 let travel = of(phase).map(|p| [first - p.separation_um, p.pressure_mpa]).collect();
-                series.push(Series::of_closure(closure.name(), unloading, travel));
+                series.push(Series::of_closure(closure, unloading, travel));
             }
         }
         if !series.is_empty() {
-            let chart = Chart {
-                x_label: "travel of the plane from first touch (µm)".into(),
-                y_label: "nominal pressure (MPa)".into(),
-                series,
-            };
-            figures.push((chart::svg(&chart)?, part.trim_start_matches("rough-")));
+            figures.push((chart::svg(&travel_chart(series))?, part.trim_start_matches("rough-")));
         }
     }
     Ok(html! {

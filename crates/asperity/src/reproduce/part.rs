@@ -19,7 +19,6 @@ use asperity_solver::run::depth_for_force::target_depth;
 use asperity_solver::run::prepare::prepare;
 use asperity_solver::scene::{Accuracy, Level, Scene as Tables};
 use serde::{Deserialize, Serialize};
-use std::fmt::Debug;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -57,13 +56,10 @@ enum Resolved {
 impl Resolved {
     /// All that the result depends on but the program.
     fn definition(&self) -> String {
-        fn text(value: &impl Debug) -> String {
-            format!("{value:?}")
-        }
         match self {
-            Resolved::Crush(scene, sketches) => text(&(scene.resolved(), sketches)),
-            Resolved::Calibrate(sweep) => text(sweep),
-            Resolved::Rough(scene, kind) => text(&(scene, kind)),
+            Resolved::Crush(scene, sketches) => format!("{:?}", (scene.resolved(), sketches)),
+            Resolved::Calibrate(sweep) => format!("{sweep:?}"),
+            Resolved::Rough(scene, kind) => format!("{:?}", (scene, kind)),
         }
     }
 }

@@ -1,5 +1,6 @@
 //! `profile.csv`: a line across a rough surface, and the cones that stand for its islands.
 
+use crate::units::MICROMETRE;
 use asperity_roughness::{HeightMap, Islands};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
@@ -17,7 +18,6 @@ pub struct ProfilePoint {
 
 /// The row of the map with the largest summit: its heights, the plane, and the cones that stand for the islands on it.
 pub fn profile(map: &HeightMap, islands: &Islands) -> Vec<ProfilePoint> {
-    const MICROMETRE: f64 = 1e-6;
     let [width, height] = map.pixel();
     let most = |row: usize| map.row(row).iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let top = (0..map.rows()).max_by(|a, b| most(*a).total_cmp(&most(*b))).unwrap_or(0);

@@ -99,14 +99,6 @@ fn numbers_markdown(numbers: &[Number], level: &str) -> String {
     text
 }
 
-fn class(verdict: Verdict) -> &'static str {
-    match verdict {
-        Verdict::BorneOut => "borne-out",
-        Verdict::Contradicted => "contradicted",
-        Verdict::CannotBeJudged => "cannot-be-judged",
-    }
-}
-
 /// A sign beside the colour.
 fn sign(verdict: Verdict) -> &'static str {
     match verdict {
@@ -117,13 +109,13 @@ fn sign(verdict: Verdict) -> &'static str {
 }
 
 fn verdict(verdict: Verdict) -> Markup {
-    html! { span class={ "verdict " (class(verdict)) } { (sign(verdict)) " " (verdict.words()) } }
+    let class = verdict.words().replace(' ', "-");
+    html! { span class={ "verdict " (class) } { (sign(verdict)) " " (verdict.words()) } }
 }
 
 fn page(results: &Results, items: &[Item], claims: &[Claim], level: &str) -> Result<Markup, String> {
-    let sections: Result<Vec<Markup>, String> =
-        items.iter().map(|item| section(*item, results, claims, level)).collect();
-    let sections = sections?;
+    let sections = items.iter().map(|item| section(*item, results, claims, level));
+    let sections = sections.collect::<Result<Vec<Markup>, String>>()?;
     let parts = parts(items);
     let promise = match level {
         "draft" => "5 %",

@@ -2,11 +2,9 @@
 
 use super::format::Spread;
 use super::part::{Job, Stamp};
-use super::profile::ProfilePoint;
 use crate::calibrate::Fit;
 use crate::crush::{CurveRow, Island, Phase, Summary, read_rows};
 use crate::draw::frame::data_uri;
-use crate::press::LoadPoint;
 use crate::press::table1::{ClosureSeeds, ComparedRow, Seeds};
 use asperity_law::least_squares::Line;
 use asperity_roughness::Closure;
@@ -41,7 +39,8 @@ impl Results {
         serde_json::from_slice(&self.bytes(part, file)?).ok()
     }
 
-    fn rows<T: DeserializeOwned>(&self, part: &str, file: &str) -> Option<Vec<T>> {
+    /// The rows of a CSV file of a part.
+    pub fn rows<T: DeserializeOwned>(&self, part: &str, file: &str) -> Option<Vec<T>> {
         self.stamp(part)?;
         read_rows(&self.parts.join(part).join(file)).ok()
     }
@@ -63,28 +62,13 @@ impl Results {
 
     /// Depth (µm) and force of a crush while loading.
     fn loading(&self, part: &str) -> Option<Vec<[f64; 2]>> {
-        let rows = self.curve(part)?;
-        Some(
-            rows.iter()
-                .filter(|row| row.phase == Phase::Load)
-                .map(|row| [row.depth_um, row.force_N])
-                .collect(),
-        )
+        let rows = self.curve(part)?.into_iter().filter(|row| row.phase == Phase::Load);
+        Some(rows.map(|row| [row.depth_um, row.force_N]).collect())
     }
 
     /// The fit of the sweep.
     pub fn fit(&self) -> Option<Fit> {
         self.json("calibrate", "fit.json")
-    }
-
-    /// The load curves of a rough surface.
-    pub fn load_curve(&self, part: &str) -> Option<Vec<LoadPoint>> {
-        self.rows(part, "load_curve.csv")
-    }
-
-    /// The line across a rough surface.
-    pub fn profile(&self, part: &str) -> Option<Vec<ProfilePoint>> {
-        self.rows(part, "profile.csv")
     }
 
     /// The row of Table 1 of a rough surface.

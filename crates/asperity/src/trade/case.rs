@@ -2,7 +2,8 @@
 
 use super::settings::Setting;
 use crate::crush::peak_memory_mb;
-use asperity_solver::run::crush::run;
+use crate::output::row;
+use asperity_solver::run::crush::{Outcome, run};
 use asperity_solver::run::curve::Curve;
 use asperity_solver::run::record::Phase;
 use asperity_solver::scene::Scene;
@@ -11,27 +12,33 @@ use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
 use std::time::Instant;
 
-/// The results of a run, SI units.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Measured {
-    /// Depth, force and contact area of each increment of loading.
-    pub loading: Vec<[f64; 3]>,
-    /// Depth that remains without the tool, m.
-    pub residual_depth: Option<f64>,
-    /// Share of the work that came back.
-    pub elastic_fraction: Option<f64>,
-    /// The error that the run states itself.
-    pub estimated_error: Option<f64>,
-    /// Newton iterations, failed ones included.
-    pub newton_iterations: usize,
-    /// Unknowns.
-    pub dofs: usize,
-    /// Seconds on the clock.
-    pub wall_s: f64,
-    /// Seconds of the core.
-    pub core_s: f64,
-    /// Largest resident memory of the process, MB of 10⁶ bytes; absent where the system does not say.
-    pub peak_memory_mb: Option<f64>,
+row! {
+    /// The results of a run, SI units.
+    Measured(outcome: &Outcome, wall_s: f64, core_s: f64) {
+        /// Depth, force and contact area of each increment of loading.
+        loading: Vec<[f64; 3]> = outcome
+            .rows
+            .iter()
+            .filter(|row| row.phase == Phase::Load)
+            .map(|row| [row.depth, row.force, row.contact_area])
+            .collect(),
+        /// Depth that remains without the tool, m.
+        residual_depth: Option<f64> = outcome.summary.residual_depth,
+        /// Share of the work that came back.
+        elastic_fraction: Option<f64> = outcome.summary.elastic_fraction,
+        /// The error that the run states itself.
+        estimated_error: Option<f64> = Some(outcome.summary.estimated_error).filter(|e| e.is_finite()),
+        /// Newton iterations, failed ones included.
+        newton_iterations: usize = outcome.summary.newton_iterations,
+        /// Unknowns.
+        dofs: usize = outcome.summary.dofs,
+        /// Seconds on the clock.
+        wall_s: f64 = wall_s,
+        /// Seconds of the core.
+        core_s: f64 = core_s,
+        /// Largest resident memory of the process, MB of 10⁶ bytes; absent where the system does not say.
+        peak_memory_mb: Option<f64> = peak_memory_mb(),
+    }
 }
 
 impl Measured {
@@ -85,17 +92,5 @@ pub fn solve(scene: &Scene) -> Result<Measured, String> {
     if let Some(stopped) = &outcome.stopped {
         return Err(format!("stopped at {:.4} um: {}", stopped.depth * 1e6, stopped.reason));
     }
-    let summary = &outcome.summary;
-    let loading = outcome.rows.iter().filter(|row| row.phase == Phase::Load);
-    Ok(Measured {
-        loading: loading.map(|row| [row.depth, row.force, row.contact_area]).collect(),
-        residual_depth: summary.residual_depth,
-        elastic_fraction: summary.elastic_fraction,
-        estimated_error: Some(summary.estimated_error).filter(|e| e.is_finite()),
-        newton_iterations: summary.newton_iterations,
-        dofs: summary.dofs,
-        wall_s,
-        core_s,
-        peak_memory_mb: peak_memory_mb(),
-    })
+    Ok(Measured::new(&outcome, wall_s, core_s))
 }

@@ -2,7 +2,7 @@
 
 use super::row::TradeRow;
 use super::settings::{Knob, LEVELS};
-use crate::draw::chart::{FINE, Failure, GRID, INK, Paper, Sample, font, framed, rgb};
+use crate::draw::chart::{Axis, FINE, Failure, INK, Paper, Sample, axes, font, framed, rgb};
 use crate::draw::palette::LINES;
 use asperity_solver::scene::Accuracy;
 use plotters::prelude::*;
@@ -11,9 +11,31 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 /// Width and height of the axes with their names in pixels.
 const SIZE: (u32, u32) = (820, 600);
 
-/// The knobs in the order of the legend.
-const KNOBS: [Knob; 7] =
-    [Knob::Mesh, Knob::Step, Knob::Element, Knob::Penetration, Knob::Contact, Knob::Domain, Knob::Tolerance];
+/// A knob in the legend: its name, and its mark as a polygon or star.
+struct Mark {
+    knob: Knob,
+    name: &'static str,
+    corners: i32,
+    /// Angle of the first corner, degrees.
+    start: f64,
+    /// Radius of every other corner over that of the rest.
+    inner: f64,
+}
+
+const fn mark(knob: Knob, name: &'static str, corners: i32, start: f64, inner: f64) -> Mark {
+    Mark { knob, name, corners, start, inner }
+}
+
+/// The knobs in the order of the legend. They differ in shape and in colour, so that either alone tells them apart.
+const MARKS: [Mark; 7] = [
+    mark(Knob::Mesh, "mesh", 32, 0.0, 1.0),
+    mark(Knob::Step, "load step", 4, 45.0, 1.0),
+    mark(Knob::Element, "other element", 3, 90.0, 1.0),
+    mark(Knob::Penetration, "penetration", 4, 0.0, 1.0),
+    mark(Knob::Contact, "augmented Lagrange", 3, -90.0, 1.0),
+    mark(Knob::Domain, "size of the body", 10, 90.0, 0.45),
+    mark(Knob::Tolerance, "Newton's tolerance", 6, 0.0, 1.0),
+];
 
 const MIXED: RGBColor = RGBColor(170, 170, 170);
 
@@ -23,54 +45,26 @@ fn place(row: &TradeRow) -> Option<(f64, f64)> {
     (x.is_finite() && y.is_finite()).then_some((x, y))
 }
 
-/// Whole numbers around the values, at least one apart.
-fn decades(values: impl Iterator<Item = f64>) -> (f64, f64) {
-    let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
-    if low > high { (0.0, 1.0) } else { (low.floor(), high.ceil().max(low.floor() + 1.0)) }
-}
-
 /// Draws the rows as SVG.
 ///
 /// # Errors
 /// A text for a person where the drawing library fails.
 pub fn draw(rows: &[TradeRow]) -> Result<String, String> {
-    let dot = outline(0).into_iter().map(|(x, y)| (x / 2, y / 2)).collect();
+    let dot = outline(&MARKS[0]).into_iter().map(|(x, y)| (x / 2, y / 2)).collect();
     let mut legend = vec![
         ("Pareto front".to_string(), Sample::Line(INK, [1, 0])),
         ("all at once".to_string(), Sample::Mark(MIXED, dot)),
     ];
-    let knobs = KNOBS.into_iter().enumerate();
-    legend.extend(knobs.map(|(i, knob)| (label(knob).to_string(), Sample::Mark(colour(i), outline(i)))));
+    let marks = MARKS.iter().enumerate();
+    legend.extend(marks.map(|(i, mark)| (mark.name.to_string(), Sample::Mark(colour(i), outline(mark)))));
     framed(SIZE, &legend, |paper| fill(rows, paper))
 }
 
 fn fill(rows: &[TradeRow], paper: &Paper) -> Result<(), Failure> {
-    // the axes hold logarithms: the library's own leave half a decade empty
-    let x = decades(rows.iter().filter_map(place).map(|p| p.0));
-    let y = decades(rows.iter().filter_map(place).map(|p| p.1));
-    let mut area = ChartBuilder::on(paper)
-        .margin(14 * FINE)
-        .x_label_area_size(54 * FINE)
-        .y_label_area_size(70 * FINE)
-        .build_cartesian_2d(x.0..x.1, y.0..y.1)?;
-    let power = |v: &f64| {
-        let decimals = (-v.round()).max(0.0) as usize;
-        format!("{:.decimals$}", 10f64.powf(v.round()))
-    };
-    area.configure_mesh()
-        .light_line_style(TRANSPARENT)
-        .bold_line_style(GRID.stroke_width(FINE))
-        .axis_style(INK.stroke_width(FINE))
-        .set_all_tick_mark_size(5 * FINE)
-        .x_labels((x.1 - x.0) as usize + 1)
-        .y_labels((y.1 - y.0) as usize + 1)
-        .x_label_formatter(&power)
-        .y_label_formatter(&power)
-        .label_style(font(15))
-        .axis_desc_style(font(17))
-        .x_desc("Cost (core seconds)")
-        .y_desc("Largest error of the force (%)")
-        .draw()?;
+    let axis = |of: fn((f64, f64)) -> f64| Axis::decades(rows.iter().filter_map(place).map(of));
+    let (x, y) = (axis(|p| p.0), axis(|p| p.1));
+    let right = x.high - 0.15 * (x.high - x.low);
+    let mut area = axes(paper, [x, y], ["Cost (core seconds)", "Largest error of the force (%)"])?;
     let of = |knob: Knob| rows.iter().filter(move |r| r.knob == knob);
     let base = |level: Accuracy| of(Knob::Level).find(|r| r.around == Some(level)).and_then(place);
 
@@ -84,18 +78,19 @@ fn fill(rows: &[TradeRow], paper: &Paper) -> Result<(), Failure> {
         .collect();
     area.draw_series(LineSeries::new(stairs, INK.stroke_width(2 * FINE)))?;
     area.draw_series(of(Knob::Mixed).filter_map(place).map(|p| Circle::new(p, 3 * FINE, MIXED.filled())))?;
-    for (i, knob) in KNOBS.into_iter().enumerate() {
-        let arms = of(knob).filter_map(|r| Some(vec![base(r.around?)?, place(r)?]));
+    for (i, mark) in MARKS.iter().enumerate() {
+        let arms = of(mark.knob).filter_map(|r| Some(vec![base(r.around?)?, place(r)?]));
         area.draw_series(arms.map(|arm| PathElement::new(arm, colour(i).mix(0.6).stroke_width(FINE))))?;
-        let marks = of(knob).filter_map(place);
-        area.draw_series(marks.map(|p| EmptyElement::at(p) + Polygon::new(outline(i), colour(i).filled())))?;
+        let places = of(mark.knob).filter_map(place);
+        area.draw_series(
+            places.map(|p| EmptyElement::at(p) + Polygon::new(outline(mark), colour(i).filled())),
+        )?;
     }
     for row in of(Knob::Level) {
         let (Some(p), Some(level)) = (place(row), row.around) else { continue };
         let name = if LEVELS.contains(&level) { level.to_string() } else { String::new() };
         // names of marks near the right side stand before them
-        let (side, shift) =
-            if p.0 > x.1 - 0.15 * (x.1 - x.0) { (HPos::Right, -10) } else { (HPos::Left, 10) };
+        let (side, shift) = if p.0 > right { (HPos::Right, -10) } else { (HPos::Left, 10) };
         let style = font(16).pos(Pos::new(side, VPos::Top));
         area.draw_series([EmptyElement::at(p)
             + Circle::new((0, 0), 7 * FINE as i32, INK.stroke_width(2 * FINE))
@@ -108,32 +103,8 @@ fn colour(i: usize) -> RGBColor {
     rgb(LINES[i % LINES.len()])
 }
 
-fn label(knob: Knob) -> &'static str {
-    match knob {
-        Knob::Mesh => "mesh",
-        Knob::Step => "load step",
-        Knob::Element => "other element",
-        Knob::Penetration => "penetration",
-        Knob::Contact => "augmented Lagrange",
-        Knob::Domain => "size of the body",
-        Knob::Tolerance => "Newton's tolerance",
-        Knob::Level | Knob::Mixed | Knob::Converged => "",
-    }
-}
-
-/// Pixels around the middle of the mark of knob `i`. Knobs differ in shape and in colour, so that either alone tells
-/// them apart.
-fn outline(i: usize) -> Vec<(i32, i32)> {
-    // corners, first angle in degrees, and the radius of every other corner over that of the rest
-    let (corners, start, inner) = [
-        (32, 0.0, 1.0),
-        (4, 45.0, 1.0),
-        (3, 90.0, 1.0),
-        (4, 0.0, 1.0),
-        (3, -90.0, 1.0),
-        (10, 90.0, 0.45),
-        (6, 0.0, 1.0),
-    ][i % KNOBS.len()];
+/// Pixels around the middle of a mark.
+fn outline(&Mark { corners, start, inner, .. }: &Mark) -> Vec<(i32, i32)> {
     let size = 6.0 * f64::from(FINE);
     (0..corners)
         .map(|k| {

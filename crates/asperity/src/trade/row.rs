@@ -4,96 +4,67 @@ use super::case::{Finished, Measured};
 use super::converged::{Converged, Errors};
 use super::pareto_front::pareto_front;
 use super::settings::{Knob, Setting};
+use crate::output::row;
 use asperity_solver::scene::{Accuracy, ContactMethod, ElementChoice};
-use serde::{Deserialize, Serialize};
 
-/// One setting with its cost and its errors, relative to the converged values of the scene. Fields are named as the
-/// columns; those of a run without a result are absent.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct TradeRow {
-    /// The number that was changed.
-    pub knob: Knob,
-    /// The level around which it was changed; absent where everything was.
-    pub around: Option<Accuracy>,
-    /// Quadrilateral.
-    pub element: Option<ElementChoice>,
-    /// Elements across the contact.
-    pub elements_in_contact: Option<usize>,
-    /// Load steps.
-    pub steps: Option<usize>,
-    /// Contact method.
-    pub contact: Option<ContactMethod>,
-    /// Penetration over depth, which sets the penalty.
-    pub penetration: Option<f64>,
-    /// Tolerance of Newton's method.
-    pub newton_tolerance: Option<f64>,
-    /// Size of the substrate in contact radii.
-    pub domain: Option<f64>,
-    /// Largest error of the force for 0.2 ≤ h/h_peak ≤ 1.
-    pub force_error: Option<f64>,
-    /// Largest error of the contact area over the same depths.
-    pub area_error: Option<f64>,
-    /// Error of the residual depth over the peak depth; absent without unloading.
-    pub residual_depth_error: Option<f64>,
-    /// Error of the elastic fraction, absolute; absent without unloading.
-    pub elastic_fraction_error: Option<f64>,
-    /// Seconds on the clock.
-    pub wall_s: Option<f64>,
-    /// Seconds of the core.
-    pub core_s: Option<f64>,
-    /// Newton iterations, failed ones included.
-    pub newton_iterations: Option<usize>,
-    /// Unknowns.
-    pub dofs: Option<usize>,
-    /// Largest resident memory of the process, MB of 10⁶ bytes; absent where the system does not say.
-    #[serde(rename = "peak_memory_MB")]
-    pub peak_memory_mb: Option<f64>,
-    /// The error of the force that the run states itself.
-    pub estimated_error: Option<f64>,
-    /// Whether no other setting has a smaller error of the force at no higher cost.
-    pub on_front: bool,
-    /// `ok`, or the reason why there is no result.
-    pub status: String,
-}
-
-impl TradeRow {
-    fn new(setting: &Setting, outcome: Result<(&Measured, Errors), &String>) -> TradeRow {
-        let n = &setting.numerics;
-        let (run, errors) =
-            outcome.as_ref().ok().map_or((None, None), |(run, errors)| (Some(*run), Some(errors)));
-        TradeRow {
-            knob: setting.knob,
-            around: Some(setting.around).filter(|_| setting.knob != Knob::Mixed),
-            element: n.element,
-            elements_in_contact: n.elements_in_contact,
-            steps: n.steps,
-            contact: n.contact,
-            penetration: n.penetration,
-            newton_tolerance: n.newton_tolerance,
-            domain: n.domain,
-            force_error: errors.map(|e| e.force),
-            area_error: errors.map(|e| e.area),
-            residual_depth_error: errors.and_then(|e| e.residual_depth),
-            elastic_fraction_error: errors.and_then(|e| e.elastic_fraction),
-            wall_s: run.map(|r| r.wall_s),
-            core_s: run.map(|r| r.core_s),
-            newton_iterations: run.map(|r| r.newton_iterations),
-            dofs: run.map(|r| r.dofs),
-            peak_memory_mb: run.and_then(|r| r.peak_memory_mb),
-            estimated_error: run.and_then(|r| r.estimated_error),
-            on_front: false,
-            // readers that split at commas find every column
-            status: outcome.map_or_else(|reason| reason.replace([',', '\n', '"'], ";"), |_| "ok".into()),
-        }
+row! {
+    /// One setting with its cost and its errors, relative to the converged values of the scene. Fields are named as the
+    /// columns; those of a run without a result are absent.
+    TradeRow(setting: &Setting, run: Option<&Measured>, errors: Option<Errors>, failure: Option<&String>) {
+        /// The number that was changed.
+        knob: Knob = setting.knob,
+        /// The level around which it was changed; absent where everything was.
+        around: Option<Accuracy> = Some(setting.around).filter(|_| setting.knob != Knob::Mixed),
+        /// Quadrilateral.
+        element: Option<ElementChoice> = setting.numerics.element,
+        /// Elements across the contact.
+        elements_in_contact: Option<usize> = setting.numerics.elements_in_contact,
+        /// Load steps.
+        steps: Option<usize> = setting.numerics.steps,
+        /// Contact method.
+        contact: Option<ContactMethod> = setting.numerics.contact,
+        /// Penetration over depth, which sets the penalty.
+        penetration: Option<f64> = setting.numerics.penetration,
+        /// Tolerance of Newton's method.
+        newton_tolerance: Option<f64> = setting.numerics.newton_tolerance,
+        /// Size of the substrate in contact radii.
+        domain: Option<f64> = setting.numerics.domain,
+        /// Largest error of the force for 0.2 ≤ h/h_peak ≤ 1.
+        force_error: Option<f64> = errors.map(|e| e.force),
+        /// Largest error of the contact area over the same depths.
+        area_error: Option<f64> = errors.map(|e| e.area),
+        /// Error of the residual depth over the peak depth; absent without unloading.
+        residual_depth_error: Option<f64> = errors.and_then(|e| e.residual_depth),
+        /// Error of the elastic fraction, absolute; absent without unloading.
+        elastic_fraction_error: Option<f64> = errors.and_then(|e| e.elastic_fraction),
+        /// Seconds on the clock.
+        wall_s: Option<f64> = run.map(|r| r.wall_s),
+        /// Seconds of the core.
+        core_s: Option<f64> = run.map(|r| r.core_s),
+        /// Newton iterations, failed ones included.
+        newton_iterations: Option<usize> = run.map(|r| r.newton_iterations),
+        /// Unknowns.
+        dofs: Option<usize> = run.map(|r| r.dofs),
+        /// Largest resident memory of the process, MB of 10⁶ bytes; absent where the system does not say.
+        #[serde(rename = "peak_memory_MB")]
+        peak_memory_mb: Option<f64> = run.and_then(|r| r.peak_memory_mb),
+        /// The error of the force that the run states itself.
+        estimated_error: Option<f64> = run.and_then(|r| r.estimated_error),
+        /// Whether no other setting has a smaller error of the force at no higher cost.
+        on_front: bool = false,
+        /// `ok`, or the reason why there is no result, without commas: readers that split at them find every column.
+        status: String = failure.map_or_else(|| "ok".into(), |reason| reason.replace([',', '\n', '"'], ";")),
     }
 }
 
 /// The rows of a trade, in the order of `finished`, the runs of the converged values left out.
 pub fn rows(finished: &[Finished], converged: &Converged) -> Vec<TradeRow> {
     let compared = finished.iter().filter(|f| f.setting.knob != Knob::Converged);
-    let mut rows: Vec<TradeRow> = compared
-        .map(|f| TradeRow::new(&f.setting, f.outcome.as_ref().map(|run| (run, converged.errors(run)))))
-        .collect();
+    let row = |f: &Finished| {
+        let run = f.outcome.as_ref().ok();
+        TradeRow::new(&f.setting, run, run.map(|run| converged.errors(run)), f.outcome.as_ref().err())
+    };
+    let mut rows: Vec<TradeRow> = compared.map(row).collect();
     let points: Vec<_> = rows.iter().map(|row| Some([row.core_s?, row.force_error?])).collect();
     for index in pareto_front(&points) {
         rows[index].on_front = true;
@@ -122,7 +93,10 @@ mod tests {
         };
         let errors = Errors { force: 0.03, area: 0.1, residual_depth: None, elastic_fraction: None };
         let reason = "stopped, \"inside out\"".to_string();
-        let rows = [TradeRow::new(&setting, Ok((&run, errors))), TradeRow::new(&setting, Err(&reason))];
+        let rows = [
+            TradeRow::new(&setting, Some(&run), Some(errors), None),
+            TradeRow::new(&setting, None, None, Some(&reason)),
+        ];
         let mut writer = csv::Writer::from_writer(Vec::new());
         rows.iter().for_each(|row| writer.serialize(row).unwrap());
         let text = String::from_utf8(writer.into_inner().unwrap()).unwrap();

@@ -7,8 +7,8 @@ use super::picture;
 use super::row::{TradeRow, rows};
 use super::settings::{Knob, Setting, converged, settings};
 use crate::error::{Error, InputError};
-use crate::output::{Sink, SinkExt};
-use asperity_calibration::journal::{Journal, fingerprint};
+use crate::output::{Sink, SinkExt, open_journal};
+use asperity_calibration::journal::Journal;
 use asperity_solver::scene::Scene;
 use rayon::prelude::*;
 use std::path::Path;
@@ -103,7 +103,9 @@ fn measure_all(
 ) -> Result<Vec<Finished>, Error> {
     let mut settings = [&converged(scene)[..], &settings(scene, options.combinations)].concat();
     let definition = format!("{} {scene:?} {settings:?}", env!("CARGO_PKG_VERSION"));
-    let (journal, mut finished) = open_journal(options.journal, fingerprint(&definition))?;
+    let (journal, lines) = open_journal(options.journal, &definition)?;
+    let mut finished: Vec<Finished> =
+        lines.iter().filter_map(|line| serde_json::from_str(line).ok()).collect();
     let mut open: Vec<&Setting> =
         settings.iter().filter(|s| !finished.iter().any(|f| f.setting == **s)).collect();
     open.sort_by(|a, b| b.weight().total_cmp(&a.weight()));
@@ -146,14 +148,6 @@ fn measure_all(
     Ok(settings.iter().filter_map(|s| finished.iter().find(|f| f.setting == *s).cloned()).collect())
 }
 
-/// The journal and the runs that it holds.
-fn open_journal(path: Option<&Path>, definition: u64) -> Result<(Option<Journal>, Vec<Finished>), Error> {
-    let Some(path) = path else { return Ok((None, Vec::new())) };
-    let (journal, lines) = Journal::open(path, definition)
-        .map_err(|e| InputError::new(format!("cannot write the journal {}: {e}", path.display())))?;
-    Ok((Some(journal), lines.iter().filter_map(|line| serde_json::from_str(line).ok()).collect()))
-}
-
 fn disk(journal: Option<&Path>, error: &std::io::Error) -> Error {
     let name = journal.map_or_else(String::new, |path| format!(" {}", path.display()));
     Error::Unfinished(format!(
@@ -168,11 +162,7 @@ impl Trade {
     /// A disk that refuses.
     pub fn write(&self, sink: &mut dyn Sink) -> Result<(), Error> {
         let picture = picture::draw(&self.rows).map_err(Error::Unfinished)?;
-        sink.write("trade.csv", |out| {
-            let mut table = csv::Writer::from_writer(out);
-            self.rows.iter().try_for_each(|row| table.serialize(row))?;
-            Ok::<(), csv::Error>(table.flush()?)
-        })?;
+        sink.csv("trade.csv", &self.rows)?;
         sink.text("trade.svg", &picture)?;
         sink.write("trade.md", |out| writeln!(out, "{}", overview(&self.rows)))
     }

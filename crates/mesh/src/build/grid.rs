@@ -1,6 +1,6 @@
 //! The flat grid that a mesh is sheared from: blocks, the shells that wrap them, columns beside them, and the named sides.
 
-use crate::Edge;
+use crate::{Edge, Sides};
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rectangle {
@@ -14,10 +14,7 @@ pub struct Rectangle {
 pub struct Grid {
     pub nodes: Vec<[f64; 2]>,
     pub cells: Vec<[u32; 4]>,
-    pub surface: Vec<Edge>,
-    pub axis: Vec<Edge>,
-    pub outer: Vec<Edge>,
-    pub base: Vec<Edge>,
+    pub sides: Sides,
 }
 
 impl Grid {
@@ -33,7 +30,7 @@ impl Grid {
         for i in 0..columns.len() - 1 {
             for j in 0..rows.len() - 1 {
                 if j == 0 {
-                    self.surface.push(Edge { cell: self.cells.len() as u32, side: 2 });
+                    self.sides.surface.push(Edge { cell: self.cells.len() as u32, side: 2 });
                 }
                 self.cells.push([nodes[i][j + 1], nodes[i + 1][j + 1], nodes[i + 1][j], nodes[i][j]]);
             }
@@ -72,21 +69,21 @@ pub fn wrap(grid: &mut Grid, mut ring: Ring, rectangles: &[Rectangle], body: Opt
             let cell = grid.cells.len() as u32;
             grid.cells.push([next[s], next[s + 1], ring.ids[s + 1], ring.ids[s]]);
             if s == 0 {
-                let side = if left > 0 { &mut grid.surface } else { &mut grid.axis };
+                let side = if left > 0 { &mut grid.sides.surface } else { &mut grid.sides.axis };
                 side.push(Edge { cell, side: 3 });
             }
             if s + 2 == next.len() {
-                let side = if right > 0 { &mut grid.surface } else { &mut grid.outer };
+                let side = if right > 0 { &mut grid.sides.surface } else { &mut grid.sides.outer };
                 side.push(Edge { cell, side: 1 });
             }
             if let Some(body) = body.filter(|_| Some(to) == rectangles.last()) {
                 let edge = Edge { cell, side: 0 };
                 if s < left && to.left == body.left {
-                    grid.axis.push(edge);
+                    grid.sides.axis.push(edge);
                 } else if s >= left && s < left + bottom && to.depth == body.depth {
-                    grid.base.push(edge);
+                    grid.sides.base.push(edge);
                 } else if s >= left + bottom && to.right == body.right {
-                    grid.outer.push(edge);
+                    grid.sides.outer.push(edge);
                 }
             }
         }
@@ -123,15 +120,15 @@ pub fn add_columns(grid: &mut Grid, inner: &[u32], columns: &[f64], side: Side) 
             let cell = grid.cells.len() as u32;
             grid.cells.push([left[j + 1], right[j + 1], right[j], left[j]]);
             if j == 0 {
-                grid.surface.push(Edge { cell, side: 2 });
+                grid.sides.surface.push(Edge { cell, side: 2 });
             }
             if j + 1 == rows {
-                grid.base.push(Edge { cell, side: 0 });
+                grid.sides.base.push(Edge { cell, side: 0 });
             }
             if index + 1 == columns.len() {
                 match side {
-                    Side::Right => grid.outer.push(Edge { cell, side: 1 }),
-                    Side::Left => grid.axis.push(Edge { cell, side: 3 }),
+                    Side::Right => grid.sides.outer.push(Edge { cell, side: 1 }),
+                    Side::Left => grid.sides.axis.push(Edge { cell, side: 3 }),
                 }
             }
         }
@@ -146,9 +143,9 @@ pub fn sort_surface(grid: &mut Grid, start: usize) {
         let k = usize::from(edge.side);
         grid.nodes[cell[k] as usize][0] + grid.nodes[cell[(k + 1) % 4] as usize][0]
     };
-    let mut keyed: Vec<(f64, Edge)> = grid.surface[start..].iter().map(|e| (middle(e), *e)).collect();
+    let mut keyed: Vec<(f64, Edge)> = grid.sides.surface[start..].iter().map(|e| (middle(e), *e)).collect();
     keyed.sort_by(|a, b| a.0.total_cmp(&b.0));
-    for (slot, (_, edge)) in grid.surface[start..].iter_mut().zip(keyed) {
+    for (slot, (_, edge)) in grid.sides.surface[start..].iter_mut().zip(keyed) {
         *slot = edge;
     }
 }

@@ -51,7 +51,7 @@ pub fn add(grid: &mut Grid, plan: &Plan) -> Ring {
             right: contact.centre + half,
             depth: (half * contact.depth_ratio()).min(0.6 * rectangle.depth),
         };
-        let start = grid.surface.len();
+        let start = grid.sides.surface.len();
         let ring = add_core(grid, plan, contact, core);
         let grading = if contact.half_width > 0.0 {
             plan.grading
@@ -84,10 +84,10 @@ pub fn add(grid: &mut Grid, plan: &Plan) -> Ring {
     let on_left = rectangle.left > plan.width[0];
     let on_right = rectangle.right < plan.width[1];
     if !on_left && plan.contacts[0].centre != plan.width[0] {
-        name_side(grid, &left, |grid| &mut grid.axis);
+        name_side(grid, &left, |grid| &mut grid.sides.axis);
     }
     if !on_right {
-        name_side(grid, &right, |grid| &mut grid.outer);
+        name_side(grid, &right, |grid| &mut grid.sides.outer);
     }
     let mut ids: Vec<u32> = if on_left { left[..rows].to_vec() } else { Vec::new() };
     let columns = bottom.len() - 1;

@@ -64,7 +64,7 @@ pub fn self_similar(plan: &SelfSimilar) -> Mesh {
     let mut grid = Grid::default();
     let nodes = grid.block(&columns, &rows);
     let (right, bottom) = (columns.len() - 1, rows.len() - 1);
-    grid.axis.extend((0..bottom).map(|j| Edge { cell: j as u32, side: 3 }));
+    grid.sides.axis.extend((0..bottom).map(|j| Edge { cell: j as u32, side: 3 }));
     let mut ids: Vec<u32> = nodes.iter().map(|column| column[bottom]).collect();
     ids.extend(nodes[right][..bottom].iter().rev());
     let inner = Rectangle { left: 0.0, right: core, depth: row_depth };

@@ -130,9 +130,8 @@ pub(super) fn parse(text: &str) -> Result<File, MshError> {
     while let Some(header) = lines.next() {
         let Some(name) = header.strip_prefix('$') else {
             let hint = if first { ": this is not an MSH file, which starts with $MeshFormat" } else { "" };
-            return Err(
-                lines.error(format!("expected the $Name of a section, found {:?}{hint}", shorten(header)))
-            );
+            let found = shorten(header);
+            return Err(lines.error(format!("expected the $Name of a section, found {found:?}{hint}")));
         };
         if first && name != "MeshFormat" {
             return Err(lines.error(format!("expected $MeshFormat first, found ${}", shorten(name))));
@@ -147,12 +146,8 @@ pub(super) fn parse(text: &str) -> Result<File, MshError> {
             other => lines.skip(other)?,
         }
     }
-    let kind = reader.kind.filter(|_| !reader.quads.is_empty()).ok_or_else(|| {
-        MshError::new(
-            0,
-            "holds no quadrangles: mesh a surface with quadrangles (Recombine) and save its elements",
-        )
-    })?;
+    let none = "holds no quadrangles: mesh a surface with quadrangles (Recombine) and save its elements";
+    let kind = reader.kind.filter(|_| !reader.quads.is_empty()).ok_or(MshError::whole(none))?;
     Ok(File { kind, nodes: reader.nodes, quads: reader.quads, curves: reader.curves })
 }
 
@@ -252,10 +247,8 @@ impl Reader {
         }
         if self.nodes.len() != header[1] {
             let (promised, held) = (header[1], self.nodes.len());
-            return Err(MshError::new(
-                header_line,
-                format!("the section promises {promised} nodes and holds {held}"),
-            ));
+            let message = format!("the section promises {promised} nodes and holds {held}");
+            return Err(MshError::new(header_line, message));
         }
         lines.end("Nodes")
     }
@@ -304,13 +297,10 @@ impl Reader {
         if tags.len() > 1 + width {
             return Err(lines.error(format!("a {type_name} has {width} nodes, found {}", tags.len() - 1)));
         }
-        let nodes = tags[1..]
-            .iter()
-            .map(|tag| {
-                self.index.get(tag).copied().ok_or_else(|| lines.error(format!("there is no node {tag}")))
-            })
-            .collect::<Result<Vec<_>, _>>()?;
-        Ok(Element { line: lines.line, nodes })
+        let index = |tag: &usize| {
+            self.index.get(tag).copied().ok_or_else(|| lines.error(format!("there is no node {tag}")))
+        };
+        Ok(Element { line: lines.line, nodes: tags[1..].iter().map(index).collect::<Result<_, _>>()? })
     }
 
     /// Adds line elements to every physical curve they belong to.

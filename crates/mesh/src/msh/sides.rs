@@ -9,19 +9,17 @@ use std::collections::HashMap;
 pub(super) fn mesh(file: File) -> Result<Mesh, MshError> {
     let plane = section(&file)?;
     let mut cells = Vec::with_capacity(file.quads.len() * file.kind.nodes());
-    let mut index: Vec<Option<u32>> = vec![None; file.nodes.len()];
     for quad in &file.quads {
-        for &node in &oriented(quad, &plane)? {
-            index[node] = Some(0);
-            cells.push(node);
-        }
+        cells.extend(oriented(quad, &plane)?);
     }
+    let mut index: Vec<Option<u32>> = vec![None; file.nodes.len()];
+    cells.iter().for_each(|&node| index[node] = Some(0));
     // the nodes that cells use, in the order of the file
     let mut nodes = Vec::new();
     for (slot, point) in index.iter_mut().zip(&plane) {
         if slot.is_some() {
             *slot =
-                Some(u32::try_from(nodes.len()).map_err(|_| MshError::new(0, "holds more nodes than 2^32"))?);
+                Some(u32::try_from(nodes.len()).map_err(|_| MshError::whole("holds more nodes than 2^32"))?);
             nodes.push(*point);
         }
     }
@@ -40,12 +38,9 @@ pub(super) fn mesh(file: File) -> Result<Mesh, MshError> {
         if edges.is_empty() && (name == "base" || name == "surface") {
             let found: Vec<_> = file.curves.iter().map(|c| c.name.as_str()).collect();
             let found = if found.is_empty() { "none".into() } else { found.join(", ") };
-            return Err(MshError::new(
-                0,
-                format!(
-                    "has no physical curve named \"{name}\" (found: {found}): name the sides axis, base, surface, outer"
-                ),
-            ));
+            return Err(MshError::whole(format!(
+                "has no physical curve named \"{name}\" (found: {found}): name the sides axis, base, surface, outer"
+            )));
         }
     }
     mesh.sides.surface = outward(&mesh, &mesh.sides.surface)?;
@@ -60,7 +55,7 @@ fn section(file: &File) -> Result<Vec<[f64; 2]>, MshError> {
     } else if used().all(|p| p[1] == 0.0) {
         2
     } else {
-        return Err(MshError::new(0, "is not plane: expected all nodes at z = 0, or all at y = 0"));
+        return Err(MshError::whole("is not plane: expected all nodes at z = 0, or all at y = 0"));
     };
     Ok(file.nodes.iter().map(|p| [p[0], p[pick]]).collect())
 }
@@ -103,12 +98,9 @@ fn one_piece(mesh: &Mesh) -> Result<(), MshError> {
     }
     let pieces = (0..mesh.nodes.len() as u32).filter(|&n| root(&mut parent, n) == n).count();
     if pieces > 1 {
-        return Err(MshError::new(
-            0,
-            format!(
-                "falls into {pieces} pieces that share no node: expected one body (Coherence Mesh joins double nodes)"
-            ),
-        ));
+        return Err(MshError::whole(format!(
+            "falls into {pieces} pieces that share no node: expected one body (Coherence Mesh joins double nodes)"
+        )));
     }
     Ok(())
 }
@@ -123,10 +115,8 @@ fn boundary(mesh: &Mesh, quads: &[Element]) -> Result<HashMap<[u32; 2], Edge>, M
             let count = &mut seen.entry([a.min(b), a.max(b)]).or_insert((0, edge)).0;
             *count += 1;
             if *count > 2 {
-                return Err(MshError::new(
-                    quad.line,
-                    "a side of this quadrangle belongs to three cells, expected at most two",
-                ));
+                let message = "a side of this quadrangle belongs to three cells, expected at most two";
+                return Err(MshError::new(quad.line, message));
             }
         }
     }
@@ -139,19 +129,13 @@ fn curve_edges(
     index: &[Option<u32>],
     boundary: &HashMap<[u32; 2], Edge>,
 ) -> Result<Vec<Edge>, MshError> {
-    let mut edges: Vec<Edge> = Vec::new();
-    for line in &curve.lines {
-        let edge = index[line.nodes[0]]
-            .zip(index[line.nodes[1]])
-            .and_then(|(a, b)| boundary.get(&[a.min(b), a.max(b)]))
-            .ok_or_else(|| {
-                MshError::new(
-                    line.line,
-                    format!("this piece of {:?} is not on the boundary of the cells", curve.name),
-                )
-            })?;
-        edges.push(*edge);
-    }
+    let edge = |piece: &Element| {
+        let ends = index[piece.nodes[0]].zip(index[piece.nodes[1]]);
+        let edge = ends.and_then(|(a, b)| boundary.get(&[a.min(b), a.max(b)])).copied();
+        let message = || format!("this piece of {:?} is not on the boundary of the cells", curve.name);
+        edge.ok_or_else(|| MshError::new(piece.line, message()))
+    };
+    let edges = curve.lines.iter().map(edge).collect::<Result<Vec<Edge>, _>>()?;
     let mut sorted = edges.clone();
     sorted.sort();
     if sorted.windows(2).any(|pair| pair[0] == pair[1]) {
@@ -169,7 +153,7 @@ fn outward(mesh: &Mesh, surface: &[Edge]) -> Result<Vec<Edge>, MshError> {
     let by_end: HashMap<u32, Edge> = surface.iter().map(|&e| (ends(e)[1], e)).collect();
     let starts: std::collections::HashSet<u32> = surface.iter().map(|&e| ends(e)[0]).collect();
     if by_end.len() < surface.len() || starts.len() < surface.len() {
-        return Err(MshError::new(0, "the surface branches: expected a line without forks"));
+        return Err(MshError::whole("the surface branches: expected a line without forks"));
     }
     let mut heads: Vec<Edge> = surface.iter().copied().filter(|&e| !starts.contains(&ends(e)[1])).collect();
     let radius = |edge: &Edge| mesh.nodes[ends(*edge)[1] as usize][0];
@@ -183,7 +167,7 @@ fn outward(mesh: &Mesh, surface: &[Edge]) -> Result<Vec<Edge>, MshError> {
         }
     }
     if ordered.len() < surface.len() {
-        return Err(MshError::new(0, "the surface is closed in itself: expected a line with two ends"));
+        return Err(MshError::whole("the surface is closed in itself: expected a line with two ends"));
     }
     Ok(ordered)
 }

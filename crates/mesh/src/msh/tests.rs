@@ -1,3 +1,5 @@
+//! Claims about MSH files.
+
 use super::*;
 use crate::ElementKind;
 

@@ -1,19 +1,14 @@
 //! Writing MSH.
 
 use super::BODY;
+use crate::mesh::{extent, numbers};
 use crate::{ElementKind, Mesh};
 use std::io::{self, Write};
 
 /// Least and largest coordinate of some nodes, as MSH wants boxes: x y z of the one, then of the other.
 fn bounding_box(mesh: &Mesh, nodes: impl Iterator<Item = u32>) -> String {
-    let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-    for node in nodes {
-        for i in 0..2 {
-            low[i] = low[i].min(mesh.nodes[node as usize][i]);
-            high[i] = high[i].max(mesh.nodes[node as usize][i]);
-        }
-    }
-    format!("{:?} {:?} 0 {:?} {:?} 0", low[0], low[1], high[0], high[1])
+    let [[left, right], [low, high]] = extent(nodes.map(|node| mesh.nodes[node as usize]));
+    format!("{left:?} {low:?} 0 {right:?} {high:?} 0")
 }
 
 /// Writes the mesh in the plane z = 0 with its coordinates as they are, shortest digits that read back to the
@@ -35,10 +30,7 @@ pub fn write_msh(mut out: impl Write, mesh: &Mesh) -> io::Result<()> {
 
     writeln!(out, "$Entities\n0 {} 1 0", sides.len())?;
     for (i, (_, edges)) in &sides {
-        let nodes = edges.iter().flat_map(|&edge| {
-            let ([a, b], middle) = mesh.edge_nodes(edge);
-            [Some(a), middle, Some(b)].into_iter().flatten()
-        });
+        let nodes = edges.iter().flat_map(|&edge| mesh.nodes_along(edge));
         let tag = i + 1;
         writeln!(out, "{tag} {} 1 {tag} 0", bounding_box(mesh, nodes))?;
     }
@@ -63,21 +55,15 @@ pub fn write_msh(mut out: impl Write, mesh: &Mesh) -> io::Result<()> {
     writeln!(out, "$Elements\n{} {} 1 {}", sides.len() + 1, cells + lines, cells + lines)?;
     writeln!(out, "2 1 {quad} {cells}")?;
     for (i, cell) in mesh.cells.chunks_exact(mesh.kind.nodes()).enumerate() {
-        write!(out, "{}", i + 1)?;
-        for node in cell {
-            write!(out, " {}", node + 1)?;
-        }
-        writeln!(out)?;
+        writeln!(out, "{} {}", i + 1, numbers(cell.iter().copied()).join(" "))?;
     }
     let mut tag = cells;
     for (i, (_, edges)) in &sides {
         writeln!(out, "1 {} {line} {}", i + 1, edges.len())?;
         for &edge in *edges {
             tag += 1;
-            let ([a, b], middle) = mesh.edge_nodes(edge);
-            write!(out, "{tag} {} {}", a + 1, b + 1)?;
-            middle.map_or(Ok(()), |m| write!(out, " {}", m + 1))?;
-            writeln!(out)?;
+            let (corners, middle) = mesh.edge_nodes(edge);
+            writeln!(out, "{tag} {}", numbers(corners.into_iter().chain(middle)).join(" "))?;
         }
     }
     writeln!(out, "$EndElements")

@@ -298,16 +298,18 @@ fn first_bracket(map: &HeightMap, planes: Planes, sums: &[Above], wanted: f64) -
 
 fn false_position(bracket: &Bracket, wanted: f64) -> (f64, Above) {
     let residual = |above: &Above| above.slope_area - wanted;
-    let (mut low, mut high) = (bracket.low, bracket.high);
-    let (low_sum, high_sum) = (bracket.above(low), bracket.above(high));
-    let (mut f_low, mut f_high) = (residual(&low_sum), residual(&high_sum));
-    let mut best = if f_low.abs() < f_high.abs() { (low, low_sum) } else { (high, high_sum) };
-    let mut last_side = 0;
+    let mut ends = [bracket.low, bracket.high];
+    let sums = ends.map(|plane| bracket.above(plane));
+    let mut f = [residual(&sums[0]), residual(&sums[1])];
+    let nearer = usize::from(f[0].abs() >= f[1].abs());
+    let mut best = (ends[nearer], sums[nearer]);
+    let mut last_side = None;
     for iteration in 0..200 {
         if residual(&best.1).abs() <= RESIDUAL * wanted {
             break;
         }
-        let cross = low + (high - low) * (f_low / (f_low - f_high));
+        let [low, high] = ends;
+        let cross = low + (high - low) * (f[0] / (f[0] - f[1]));
         // every fourth step halves, so that the bracket shrinks whatever the curve
         let d =
             if iteration % 4 < 3 && cross > low && cross < high { cross } else { low + 0.5 * (high - low) };
@@ -315,23 +317,15 @@ fn false_position(bracket: &Bracket, wanted: f64) -> (f64, Above) {
             break;
         }
         let sum = bracket.above(d);
-        let f = residual(&sum);
-        if f.abs() < residual(&best.1).abs() {
+        if residual(&sum).abs() < residual(&best.1).abs() {
             best = (d, sum);
         }
-        let side = if f >= 0.0 { 1 } else { -1 };
-        if side > 0 {
-            (low, f_low) = (d, f);
-            if last_side == side {
-                f_high *= 0.5;
-            }
-        } else {
-            (high, f_high) = (d, f);
-            if last_side == side {
-                f_low *= 0.5;
-            }
+        let side = usize::from(residual(&sum) < 0.0);
+        (ends[side], f[side]) = (d, residual(&sum));
+        if last_side == Some(side) {
+            f[1 - side] *= 0.5;
         }
-        last_side = side;
+        last_side = Some(side);
     }
     best
 }

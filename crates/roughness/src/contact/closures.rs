@@ -64,7 +64,7 @@ impl Closure {
     }
 }
 
-/// State of an island.
+/// State of an island, in the order of shares and of numbers in files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Regime {
     /// Returns when unloaded.
@@ -127,8 +127,10 @@ pub struct ClosureLaw {
     /// Which closure.
     pub closure: Closure,
     material: Material,
-    modulus: f64,
-    hardness: Option<f64>,
+    /// E*, in Pa.
+    pub reduced_modulus: f64,
+    /// H, or 3 σ_y where only that is known (eq. (20)).
+    pub hardness: Option<f64>,
     law: Law,
 }
 
@@ -197,7 +199,7 @@ impl ClosureLaw {
         Ok(ClosureLaw {
             closure,
             material: *material,
-            modulus: material.elastic().reduced_modulus(),
+            reduced_modulus: material.elastic().reduced_modulus(),
             hardness,
             law,
         })
@@ -211,16 +213,6 @@ impl ClosureLaw {
         }
     }
 
-    /// E*, in Pa.
-    pub fn reduced_modulus(&self) -> f64 {
-        self.modulus
-    }
-
-    /// H, or 3 σ_y where only that is known (eq. (20)).
-    pub fn hardness(&self) -> Option<f64> {
-        self.hardness
-    }
-
     /// Whether unloading returns all the work: closures without a limit of pressure.
     pub fn returns_everything(&self) -> bool {
         self.linear().is_some()
@@ -230,35 +222,28 @@ impl ClosureLaw {
     pub fn respond(&self, tan_beta: f64) -> Response {
         match &self.law {
             Law::Linear { coefficient, area_ratio } => {
-                let island_pressure = coefficient * self.modulus * tan_beta;
-                Response {
-                    island_pressure,
-                    area_ratio: *area_ratio,
-                    regime: self.regime(island_pressure / area_ratio),
-                    inside: true,
-                }
+                self.response(coefficient * self.reduced_modulus * tan_beta, *area_ratio, true)
             }
             Law::Johnson { yield_stress, hardness } => self.johnson(tan_beta, *yield_stress, *hardness),
             Law::Calibrated { hardening, coefficient } => self.calibrated(tan_beta, hardening, coefficient),
         }
     }
 
-    /// Regime by p/H with the printed thresholds; elastic where no hardness is known.
-    fn regime(&self, pressure: f64) -> Regime {
-        let index = self.hardness.map_or(0.0, |h| pressure / h);
-        if index < THRESHOLDS[0] {
-            Regime::Elastic
-        } else if index <= THRESHOLDS[1] {
-            Regime::Elastoplastic
-        } else {
-            Regime::Plastic
-        }
+    /// The regime goes by p/H with the printed thresholds; elastic where no hardness is known.
+    fn response(&self, island_pressure: f64, area_ratio: f64, inside: bool) -> Response {
+        let index = self.hardness.map_or(0.0, |h| island_pressure / area_ratio / h);
+        let regime = match index {
+            index if index < THRESHOLDS[0] => Regime::Elastic,
+            index if index <= THRESHOLDS[1] => Regime::Elastoplastic,
+            _ => Regime::Plastic,
+        };
+        Response { island_pressure, area_ratio, regime, inside }
     }
 
     fn johnson(&self, tan_beta: f64, yield_stress: f64, hardness: f64) -> Response {
         let nu = self.material.poissons_ratio;
         let x = self.material.youngs_modulus.0 * tan_beta / yield_stress;
-        let elastic = JOHNSON_ELASTIC * self.modulus * tan_beta;
+        let elastic = JOHNSON_ELASTIC * self.reduced_modulus * tan_beta;
         let argument = (x + 4.0 * (1.0 - 2.0 * nu)) / (6.0 * (1.0 - nu));
         let log = if argument > 0.0 { argument.ln() } else { f64::NEG_INFINITY };
         let first = 2.0 / 3.0 * yield_stress;
@@ -276,23 +261,12 @@ impl ClosureLaw {
 
     fn calibrated(&self, tan_beta: f64, hardening: &Hardening, coefficient: &Coefficient) -> Response {
         if tan_beta <= 0.0 {
-            return Response {
-                island_pressure: 0.0,
-                area_ratio: 4.0 / (PI * PI),
-                regime: Regime::Elastic,
-                inside: false,
-            };
+            return self.response(0.0, 4.0 / (PI * PI), false);
         }
         let stress = hardening.representative_stress(coefficient.c * tan_beta);
-        let cone = coefficient.cone(tan_beta, self.modulus / stress);
+        let cone = coefficient.cone(tan_beta, self.reduced_modulus / stress);
         let area_ratio = cone.contact_ratio * cone.contact_ratio;
-        let island_pressure = stress * island_pressure(&cone, tan_beta);
-        Response {
-            island_pressure,
-            area_ratio,
-            regime: self.regime(island_pressure / area_ratio),
-            inside: cone.inside,
-        }
+        self.response(stress * island_pressure(&cone, tan_beta), area_ratio, cone.inside)
     }
 
     /// Elastic pressure of the closure on its contact area at slope `tan_beta`, for the plasticity index (eq. (13)).
@@ -302,12 +276,7 @@ impl ClosureLaw {
             Law::Johnson { .. } => JOHNSON_ELASTIC,
             Law::Calibrated { .. } => 0.5, // Sneddon's, on the contact area
         };
-        coefficient * self.modulus * tan_beta
-    }
-
-    /// Exponent m of unloading, from the calibration where there is one.
-    pub fn unloading_exponent(&self, coefficient: Option<&Coefficient>) -> f64 {
-        coefficient.map_or(SINGLE_ASPERITY_EXPONENT, |c| c.unloading_exponent)
+        coefficient * self.reduced_modulus * tan_beta
     }
 }
 

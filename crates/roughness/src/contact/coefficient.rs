@@ -19,6 +19,7 @@
 use asperity_law::HardeningLaw;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{FRAC_2_PI, PI};
+use std::fmt::Display;
 use thiserror::Error;
 
 /// Why a coefficient cannot be used.
@@ -113,37 +114,26 @@ impl Coefficient {
     }
 
     fn checked(self) -> Result<Coefficient, CoefficientError> {
-        let value = |name: &str, value: f64, ok: bool, allowed: &'static str| {
-            if ok {
-                Ok(())
-            } else {
-                Err(CoefficientError::Value { name: name.into(), value: value.to_string(), allowed })
-            }
+        let check = |ok: bool, name: &str, value: &dyn Display, allowed: &'static str| {
+            let (name, value) = (name.into(), value.to_string());
+            ok.then_some(()).ok_or(CoefficientError::Value { name, value, allowed })
         };
         let ascending = |v: &[f64]| v.windows(2).all(|w| w[0] < w[1]);
         let positive = |v: &[f64]| !v.is_empty() && v.iter().all(|x| x.is_finite() && *x > 0.0);
-        value("c", self.c, self.c.is_finite() && self.c > 0.0 && self.c < 10.0, "between 0 and 10")?;
-        let m = self.unloading_exponent;
-        value("unloading_exponent", m, (1.0..=3.0).contains(&m), "between 1 and 3")?;
-        let nu = self.poissons_ratio;
-        value("poissons_ratio", nu, nu > -1.0 && nu < 0.5, "in (-1, 0.5)")?;
+        let (c, m, nu) = (self.c, self.unloading_exponent, self.poissons_ratio);
+        check(c.is_finite() && c > 0.0 && c < 10.0, "c", &c, "between 0 and 10")?;
+        check((1.0..=3.0).contains(&m), "unloading_exponent", &m, "between 1 and 3")?;
+        check(nu > -1.0 && nu < 0.5, "poissons_ratio", &nu, "in (-1, 0.5)")?;
         let slopes: Vec<f64> = self.angles.iter().map(|a| a.beta_deg).collect();
         let slopes_fit = positive(&slopes) && ascending(&slopes) && slopes.iter().all(|b| *b < 90.0);
-        let table = |name: &str, allowed| {
-            Err(CoefficientError::Value { name: name.into(), value: "…".into(), allowed })
-        };
-        if !slopes_fit {
-            return table("[[angle]] beta_deg", "one or more slopes between 0 and 90, ascending");
-        }
+        let allowed = "one or more slopes between 0 and 90, ascending";
+        check(slopes_fit, "[[angle]] beta_deg", &"…", allowed)?;
         for angle in &self.angles {
             let n = angle.modulus_over_stress.len();
             let lists = [&angle.modulus_over_stress, &angle.k_over_stress, &angle.contact_ratio];
-            if !lists.iter().all(|v| positive(v) && v.len() == n) || !ascending(&angle.modulus_over_stress) {
-                return table(
-                    "[[angle]]",
-                    "three lists of equal length, positive, modulus_over_stress ascending",
-                );
-            }
+            let equal = lists.iter().all(|v| positive(v) && v.len() == n);
+            let allowed = "three lists of equal length, positive, modulus_over_stress ascending";
+            check(equal && ascending(&angle.modulus_over_stress), "[[angle]]", &"…", allowed)?;
         }
         Ok(self)
     }

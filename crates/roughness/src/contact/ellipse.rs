@@ -1,3 +1,5 @@
+//! The ellipse that stands for an island.
+
 use crate::surface::cells::Moments;
 
 /// The ellipse that stands for an island: π a b is its area, its axes follow from the second moments (eq. (14)).

@@ -3,7 +3,7 @@
 //! 1. Every row of nodes is cut into runs of neighbouring nodes above the plane.
 //! 2. Every cell with a corner above joins the runs of its corners and gives its area above to one of them. (In a
 //!    cell whose middle is not above, two diagonal corners stay apart and each takes the triangles beside it.)
-//! 3. UnionFind runs are one island. A periodic map also joins across its edges, and then each run remembers how many
+//! 3. Runs that meet are one island. A periodic map also joins across its edges, and then each run remembers how many
 //!    periods it lies from its island's first run.
 
 mod runs;
@@ -62,30 +62,23 @@ pub struct Islands {
     homes: Vec<Home>,
 }
 
-/// An island in the making: moments about the first node of run `root`.
-struct Sum {
-    moments: Moments,
-    high: f64,
-    endless: bool,
-    root: usize,
+/// Cells of one row that belong to a run.
+struct Visit<'a> {
+    run: u32,
+    /// The first of the cells.
+    cell: [u32; 2],
+    part: Part<'a>,
 }
 
-/// Cells of one row that belong to a run.
-enum Visit<'a> {
-    /// Neighbouring cells wholly above the plane, the run along their lower side.
-    Whole {
-        run: u32,
-        /// First of the cells.
-        cell: [u32; 2],
-        /// Heights of the nodes below and above them, one more than there are cells.
-        nodes: [&'a [f64]; 2],
-    },
-    /// Some of the triangles of a cell.
-    Part {
-        run: u32,
+/// What of the cells lies above the plane.
+enum Part<'a> {
+    /// All of neighbouring cells, the run along their lower side: heights of the nodes below and above them, one more
+    /// than there are cells.
+    Whole([&'a [f64]; 2]),
+    /// Something of some triangles of one cell.
+    Cut {
         /// Where corner 0 lies from the first node of the run.
         offset: [i32; 2],
-        cell: [u32; 2],
         corners: [f64; 4],
         sides: u8,
     },
@@ -102,12 +95,12 @@ trait Tally: Clone + Default + Send {
 
 impl Tally for Above {
     fn visit(&mut self, visit: &Visit, _: u32, inverse_pixel: [f64; 2]) {
-        match visit {
-            Visit::Whole { nodes: [low, high], .. } => {
+        match &visit.part {
+            Part::Whole([low, high]) => {
                 self.area += (low.len() - 1) as f64;
                 self.slope_area += cells::whole_slopes(low, high, inverse_pixel);
             }
-            Visit::Part { corners, sides, .. } => {
+            Part::Cut { corners, sides, .. } => {
                 let (area, slope_area) = part_above(corners, *sides, inverse_pixel);
                 self.area += area;
                 self.slope_area += slope_area;
@@ -123,15 +116,15 @@ impl Tally for Above {
 /// The moments of a run are about its first node.
 impl Tally for Moments {
     fn visit(&mut self, visit: &Visit, start: u32, inverse_pixel: [f64; 2]) {
-        match visit {
-            Visit::Whole { cell, nodes: [low, high], .. } => {
+        match &visit.part {
+            Part::Whole([low, high]) => {
                 for (i, (a, b)) in low.windows(2).zip(high.windows(2)).enumerate() {
                     let slope = cells::mean_gradient(&[a[0], a[1], b[1], b[0]], inverse_pixel);
-                    let x = f64::from(cell[1] - start) + i as f64;
+                    let x = f64::from(visit.cell[1] - start) + i as f64;
                     self.add(&Moments::of_cell(slope).moved(x, 0.0));
                 }
             }
-            Visit::Part { corners, sides, offset, .. } => {
+            Part::Cut { corners, sides, offset } => {
                 let m = cells::moments_above(corners, *sides, inverse_pixel);
                 self.add(&m.moved(f64::from(offset[0]), f64::from(offset[1])));
             }
@@ -143,14 +136,6 @@ impl Tally for Moments {
     }
 }
 
-impl Visit<'_> {
-    fn run(&self) -> usize {
-        match self {
-            Visit::Whole { run, .. } | Visit::Part { run, .. } => *run as usize,
-        }
-    }
-}
-
 impl Islands {
     /// The islands of `map` above `plane` (m).
     pub fn above(map: &HeightMap, plane: f64) -> Islands {
@@ -158,7 +143,7 @@ impl Islands {
         let mut islands = Islands { plane, islands: Vec::new(), runs, homes: Vec::new() };
         let (moments, meetings) = islands.sums::<Moments>(map);
         let forest = UnionFind::new(islands.runs.list.len(), &meetings);
-        islands.collect(map, &moments, forest);
+        islands.collect(map, &moments, &forest);
         islands
     }
 
@@ -203,7 +188,7 @@ impl Islands {
                         }
                     },
                     |visit| {
-                        let run = visit.run();
+                        let run = visit.run as usize;
                         sums[slot(run)].visit(&visit, self.runs.list[run].start, inverse_pixel);
                     },
                 );
@@ -257,11 +242,8 @@ impl Islands {
                     // nodes column..end of both rows are above, and so are the cells between them
                     let shift = [0, i32::from(wrap_row)];
                     meet(Meeting { a: r0, b: r3, shift });
-                    add(Visit::Whole {
-                        run: r0,
-                        cell: [row as u32, column as u32],
-                        nodes: [&low[column..end], &high[column..end]],
-                    });
+                    let part = Part::Whole([&low[column..end], &high[column..end]]);
+                    add(Visit { run: r0, cell: [row as u32, column as u32], part });
                     column = end - 1;
                     continue;
                 }
@@ -279,23 +261,15 @@ impl Islands {
             if corners.iter().any(|z| z.is_nan()) {
                 continue;
             }
-            let periods = |corner: usize| {
-                [i32::from(wrap_column && (corner == 1 || corner == 2)), i32::from(wrap_row && corner >= 2)]
-            };
-            let run_of = |corner: usize| runs[corner];
+            let on_right = |corner: usize| corner == 1 || corner == 2;
+            let periods =
+                |corner: usize| [wrap_column && on_right(corner), wrap_row && corner >= 2].map(i32::from);
             let mut visit = |corner: usize, sides: u8| {
-                if let Some(run) = run_of(corner) {
-                    let node = [if corner == 1 || corner == 2 { next } else { column - 1 }, 0];
-                    let (cx, cy) = (i32::from(corner == 1 || corner == 2), i32::from(corner >= 2));
-                    let start = self.runs.list[run as usize].start as i32;
-                    add(Visit::Part {
-                        run,
-                        offset: [node[0] as i32 - cx - start, -cy],
-                        cell: [row as u32, (column - 1) as u32],
-                        corners,
-                        sides,
-                    });
-                }
+                let Some(run) = runs[corner] else { return };
+                let left = if on_right(corner) { next as i32 - 1 } else { column as i32 - 1 };
+                let offset = [left - self.runs.list[run as usize].start as i32, -i32::from(corner >= 2)];
+                let part = Part::Cut { offset, corners, sides };
+                add(Visit { run, cell: [row as u32, (column - 1) as u32], part });
             };
             let up = corners.map(|z| z > 0.0);
             let saddle = up[0] == up[2] && up[1] == up[3] && up[0] != up[1] && cells::centre(&corners) <= 0.0;
@@ -309,7 +283,7 @@ impl Islands {
             let Some(first) = (0..4).find(|c| up[*c]) else { continue };
             visit(first, 15);
             for corner in first + 1..4 {
-                if let (true, Some(a), Some(b)) = (up[corner], run_of(first), run_of(corner)) {
+                if let (true, Some(a), Some(b)) = (up[corner], runs[first], runs[corner]) {
                     let (p, q) = (periods(first), periods(corner));
                     let shift = [q[0] - p[0], q[1] - p[1]];
                     if a != b || shift != [0, 0] {
@@ -321,54 +295,38 @@ impl Islands {
     }
 
     /// Turns joined runs into islands; runs that no cell holds are dropped.
-    fn collect(&mut self, map: &HeightMap, moments: &[Moments], forest: UnionFind) {
-        let mut number = vec![u32::MAX; self.runs.list.len()];
-        let mut sums: Vec<Sum> = Vec::new();
-        self.homes = Vec::with_capacity(self.runs.list.len());
+    fn collect(&mut self, map: &HeightMap, moments: &[Moments], forest: &UnionFind) {
+        let runs = &self.runs.list;
         let size = [map.columns() as i64, map.rows() as i64];
+        let place = |run: usize| [runs[run].start, runs[run].row].map(i64::from);
+        // root, moments about the first node of the root, and highest node of each island
+        let mut sums: Vec<(usize, Moments, f64)> = Vec::new();
+        let mut number: Vec<Option<usize>> = vec![None; runs.len()];
+        self.homes = Vec::with_capacity(runs.len());
         for (run, sum) in moments.iter().enumerate() {
             let (root, shift) = forest.root(run);
-            if number[root] == u32::MAX {
-                number[root] = sums.len() as u32;
-                sums.push(Sum {
-                    moments: Moments::default(),
-                    high: f64::NEG_INFINITY,
-                    endless: forest.endless[root],
-                    root,
-                });
-            }
-            let home = Home { island: number[root], shift };
-            let target = &mut sums[home.island as usize];
-            let d = self.offset_from(run, root, shift, size);
-            target.moments.add(&sum.moved(d[0], d[1]));
-            target.high = target.high.max(self.runs.list[run].high);
-            self.homes.push(home);
+            let island = *number[root].get_or_insert_with(|| {
+                sums.push((root, Moments::default(), f64::NEG_INFINITY));
+                sums.len() - 1
+            });
+            let [at, from] = [run, root].map(place);
+            let [dx, dy] = [0, 1].map(|k| (at[k] - from[k] + i64::from(shift[k]) * size[k]) as f64);
+            let (_, total, high) = &mut sums[island];
+            total.add(&sum.moved(dx, dy));
+            *high = high.max(runs[run].high);
+            self.homes.push(Home { island: island as u32, shift });
         }
-        self.number(map, sums);
-    }
-
-    /// Where the first node of `run` lies from the first node of run `root`, in pixels.
-    fn offset_from(&self, run: usize, root: usize, shift: [i32; 2], size: [i64; 2]) -> [f64; 2] {
-        let (a, b) = (self.runs.list[run], self.runs.list[root]);
-        [
-            (i64::from(a.start) - i64::from(b.start) + i64::from(shift[0]) * size[0]) as f64,
-            (i64::from(a.row) - i64::from(b.row) + i64::from(shift[1]) * size[1]) as f64,
-        ]
-    }
-
-    fn number(&mut self, map: &HeightMap, sums: Vec<Sum>) {
         let mut kept = vec![u32::MAX; sums.len()];
-        for (old, Sum { moments, high, endless, root }) in sums.into_iter().enumerate() {
-            if moments.area > 0.0 {
-                kept[old] = self.islands.len() as u32;
-                let origin = [self.runs.list[root].start, self.runs.list[root].row].map(f64::from);
-                self.islands.push(Island {
-                    area: moments.area * map.cell_area(),
-                    slope: moments.slope_area / moments.area,
-                    approach: high - self.plane,
-                    ellipse: if endless { None } else { Ellipse::of(&moments, origin, map.pixel()) },
-                });
-            }
+        for (old, (root, moments, high)) in sums.iter().enumerate().filter(|(_, sum)| sum.1.area > 0.0) {
+            kept[old] = self.islands.len() as u32;
+            let origin = place(*root).map(|x| x as f64);
+            let ellipse = || Ellipse::of(moments, origin, map.pixel());
+            self.islands.push(Island {
+                area: moments.area * map.cell_area(),
+                slope: moments.slope_area / moments.area,
+                approach: high - self.plane,
+                ellipse: if forest.endless[*root] { None } else { ellipse() },
+            });
         }
         self.homes.iter_mut().for_each(|home| home.island = kept[home.island as usize]);
     }
@@ -382,28 +340,26 @@ impl Islands {
             row,
             |_| {},
             |visit| {
-                let home = self.homes[visit.run()];
+                let (home, run) = (self.homes[visit.run as usize], self.runs.list[visit.run as usize]);
                 if home.island == u32::MAX {
                     return;
                 }
-                let run = self.runs.list[visit.run()];
-                let origin = [
-                    i64::from(run.start) + i64::from(home.shift[0]) * size[0],
-                    i64::from(run.row) + i64::from(home.shift[1]) * size[1],
-                ];
+                let first = [run.start, run.row].map(i64::from);
+                let origin = [0, 1].map(|axis| first[axis] + i64::from(home.shift[axis]) * size[axis]);
                 let mut piece = |cell: [u32; 2], from_run: [i64; 2], area: f64| {
                     let offset = [0, 1].map(|axis| (origin[axis] + from_run[axis]) as f64);
                     each(Piece { cell, island: home.island, area, offset });
                 };
-                match visit {
-                    Visit::Whole { cell: [row, first], nodes, .. } => {
-                        for column in first..first + nodes[0].len() as u32 - 1 {
-                            piece([row, column], [i64::from(column) - i64::from(run.start), 0], 1.0);
+                match visit.part {
+                    Part::Whole([nodes, _]) => {
+                        let [row, left] = visit.cell;
+                        for column in left..left + nodes.len() as u32 - 1 {
+                            piece([row, column], [i64::from(column) - first[0], 0], 1.0);
                         }
                     }
-                    Visit::Part { cell, offset, corners, sides, .. } => {
+                    Part::Cut { offset, corners, sides } => {
                         let (area, _) = part_above(&corners, sides, inverse_pixel);
-                        piece(cell, offset.map(i64::from), area);
+                        piece(visit.cell, offset.map(i64::from), area);
                     }
                 }
             },

@@ -1,3 +1,5 @@
+//! The load that the islands above a plane carry.
+
 use super::closures::ClosureLaw;
 use super::islands::{Islands, Runs};
 use crate::surface::ready::Surface;

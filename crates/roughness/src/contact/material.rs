@@ -1,3 +1,5 @@
+//! The material of the rough body.
+
 use asperity_law::units::Stress;
 use asperity_law::{Elastic, HardeningLaw};
 use schemars::JsonSchema;

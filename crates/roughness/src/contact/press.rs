@@ -1,7 +1,7 @@
 //! The separation at which the islands carry the load, and what each of them carries there.
 
 use super::bearing_area::{self, Planes};
-use super::closures::{ClosureLaw, Regime, Response};
+use super::closures::{ClosureLaw, Response};
 use super::find_separation;
 use super::islands::Islands;
 use super::load::Carrying;
@@ -127,10 +127,10 @@ fn plane_for(surface: &Surface, model: &ClosureLaw, pressure: f64) -> Result<(f6
     };
     match model.linear() {
         Some((coefficient, _)) => {
-            let scale = coefficient * model.reduced_modulus() / cells as f64;
+            let scale = coefficient * model.reduced_modulus / cells as f64;
             let (plane, _) = bearing_area::plane_of(&surface.map, &surface.extent, pressure / scale)
                 .ok_or_else(|| {
-                    unreachable(coefficient * model.reduced_modulus() * surface.parameters.mean_gradient)
+                    unreachable(coefficient * model.reduced_modulus * surface.parameters.mean_gradient)
                 })?;
             Ok((plane, false))
         }
@@ -157,12 +157,7 @@ fn contact_at(surface: &Surface, model: &ClosureLaw, plane: f64, jump: bool, wan
     };
     let (mut force, mut outside, mut areas) = (0.0, 0.0, [0.0; 3]);
     for (j, response) in contact.responses.iter().enumerate() {
-        let regime = match response.regime {
-            Regime::Elastic => 0,
-            Regime::Elastoplastic => 1,
-            Regime::Plastic => 2,
-        };
-        areas[regime] += contact.contact_area(j);
+        areas[response.regime as usize] += contact.contact_area(j);
         force += contact.force(j);
         outside += if response.inside { 0.0 } else { contact.force(j) };
     }
@@ -178,42 +173,31 @@ fn contact_at(surface: &Surface, model: &ClosureLaw, plane: f64, jump: bool, wan
 
 /// 64 points from first touch to the plane of `contact`.
 fn load_curve(surface: &Surface, model: &ClosureLaw, contact: &Contact, plane: f64) -> Vec<CurvePoint> {
-    let high = surface.extent.high;
-    let mean = surface.parameters.mean;
-    let end = CurvePoint {
-        separation: contact.separation,
-        pressure: contact.pressure,
-        area_ratio: contact.area_ratio,
+    let (high, mean) = (surface.extent.high, surface.parameters.mean);
+    let point = |plane: f64, (pressure, area_ratio): (f64, f64)| {
+        let separation = plane - mean;
+        CurvePoint { separation, pressure, area_ratio }
     };
+    let end = point(plane, (contact.pressure, contact.area_ratio));
     if plane >= high {
         return vec![end];
     }
     let planes = Planes::between(plane, high, CURVE_POINTS);
-    let mut curve: Vec<CurvePoint> = match model.linear() {
+    let carried: Vec<(f64, f64)> = match model.linear() {
         Some((coefficient, area_ratio)) => {
-            let cells = surface.extent.cells as f64;
-            bearing_area::above_planes(&surface.map, planes)
-                .iter()
-                .enumerate()
-                .map(|(k, above)| CurvePoint {
-                    separation: planes.height(k) - mean,
-                    pressure: coefficient * model.reduced_modulus() * above.slope_area / cells,
-                    area_ratio: area_ratio * above.area / cells,
-                })
-                .collect()
+            let (stress, cells) = (coefficient * model.reduced_modulus, surface.extent.cells as f64);
+            let above = bearing_area::above_planes(&surface.map, planes);
+            above.iter().map(|a| (stress * a.slope_area / cells, area_ratio * a.area / cells)).collect()
         }
         None => {
             let mut within = Carrying::above(surface, model, plane);
-            (0..CURVE_POINTS)
-                .map(|k| {
-                    let (pressure, area_ratio) = within.rise_to(planes.height(k));
-                    CurvePoint { separation: planes.height(k) - mean, pressure, area_ratio }
-                })
-                .collect()
+            (0..CURVE_POINTS).map(|k| within.rise_to(planes.height(k))).collect()
         }
     };
+    let curve = carried.into_iter().enumerate().map(|(k, carried)| point(planes.height(k), carried));
+    let mut curve: Vec<CurvePoint> = curve.collect();
     curve[0] = end;
-    curve[CURVE_POINTS - 1] = CurvePoint { separation: high - mean, pressure: 0.0, area_ratio: 0.0 };
+    curve[CURVE_POINTS - 1] = point(high, (0.0, 0.0));
     curve.reverse();
     curve
 }

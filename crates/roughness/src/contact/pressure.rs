@@ -88,25 +88,26 @@ impl PressureField {
             pixels
         });
         let mut pixels = parts.concat();
-        let mut sums = vec![Sums::default(); contact.responses.len()];
+        let mut sums = vec![(0.0, 0.0); contact.responses.len()];
         for pixel in &pixels {
-            let sum = &mut sums[pixel.island as usize];
-            sum.weights += f64::from(pixel.pressure);
-            sum.covered += f64::from(pixel.contact);
+            let (weights, covered) = &mut sums[pixel.island as usize];
+            *weights += f64::from(pixel.pressure);
+            *covered += f64::from(pixel.contact);
         }
         let (mut uniform, mut total) = (0.0, 0.0);
         let scales: Vec<Scale> = sums
             .iter()
             .enumerate()
-            .map(|(j, sum)| {
-                let island = &contact.islands.islands[j];
-                let force = contact.force(j);
+            .map(|(j, (weights, covered))| {
+                let (force, area) = (contact.force(j), contact.islands.islands[j].area);
                 total += force;
-                if sum.weights > 0.0 && sum.inside(map, contact, j) >= DESCRIBED {
-                    return Scale::Weights(force / map.cell_area() / sum.weights);
+                // part of the true contact that lies on the island and inside its ellipse
+                let inside = covered * map.cell_area() / (area * contact.responses[j].area_ratio.min(1.0));
+                if *weights > 0.0 && inside >= DESCRIBED {
+                    return Scale::Weights(force / map.cell_area() / weights);
                 }
                 uniform += force;
-                Scale::Areas(force / island.area)
+                Scale::Areas(force / area)
             })
             .collect();
         pixels.par_iter_mut().for_each(|pixel| {
@@ -130,21 +131,6 @@ impl PressureField {
             largest = largest.max(f64::from(pixel.pressure + beside));
         }
         PressureField { pixels, largest, uniform_share: (total > 0.0).then(|| uniform / total) }
-    }
-}
-
-/// Sums over the pixels of an island.
-#[derive(Clone, Copy, Default)]
-struct Sums {
-    weights: f64,
-    covered: f64,
-}
-
-impl Sums {
-    /// Part of the true contact of island `j` that lies on the island and inside its ellipse.
-    fn inside(&self, map: &HeightMap, contact: &Contact, j: usize) -> f64 {
-        let area = contact.islands.islands[j].area * contact.responses[j].area_ratio.min(1.0);
-        self.covered * map.cell_area() / area
     }
 }
 

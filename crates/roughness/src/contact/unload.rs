@@ -1,3 +1,5 @@
+//! Elastic return of the islands when the load is taken off.
+
 use super::closures::ClosureLaw;
 use super::press::{CURVE_POINTS, Contact, CurvePoint};
 use std::f64::consts::PI;
@@ -49,7 +51,7 @@ pub fn unload(contact: &Contact, model: &ClosureLaw, exponent: f64) -> Unloading
         .map(|j| {
             let (force, area) = (contact.force(j), contact.contact_area(j));
             let radius = (area / PI).sqrt();
-            let stiffness = 2.0 * model.reduced_modulus() * radius;
+            let stiffness = 2.0 * model.reduced_modulus * radius;
             let u = if stiffness > 0.0 { exponent * force / stiffness } else { 0.0 };
             let approach = contact.islands.islands[j].approach;
             load += force;

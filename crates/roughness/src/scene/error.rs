@@ -1,3 +1,5 @@
+//! Errors of a scene.
+
 use thiserror::Error;
 
 /// A value of a scene that makes no sense.

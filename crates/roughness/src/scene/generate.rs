@@ -1,3 +1,5 @@
+//! The table of a generated surface.
+
 use super::error::{SceneError, error};
 use crate::surface::generate::{Grid, Kind, KindName, Target};
 use asperity_law::units::Length;
@@ -76,15 +78,12 @@ impl GenerateScene {
             ("rolloff", self.rolloff.is_some()),
             ("cutoff", self.cutoff.is_some()),
         ];
-        let kind = match self.kind {
-            KindName::SelfAffine => self.self_affine(target)?,
-            _ if spectrum.iter().any(|(_, given)| *given) => {
-                let key = spectrum.iter().find(|(_, given)| *given).map_or("hurst", |(key, _)| key);
-                return error(&at(key), "only kind = \"self-affine\" has this key");
-            }
-            KindName::Ground => Kind::Ground,
-            KindName::Milled => Kind::Milled,
-            KindName::Sanded => Kind::Sanded,
+        let kind = match (self.kind, spectrum.iter().find(|(_, given)| *given)) {
+            (KindName::SelfAffine, _) => self.self_affine(target)?,
+            (_, Some((key, _))) => return error(&at(key), "only kind = \"self-affine\" has this key"),
+            (KindName::Ground, None) => Kind::Ground,
+            (KindName::Milled, None) => Kind::Milled,
+            (KindName::Sanded, None) => Kind::Sanded,
         };
         let pixel = [self.size[0].0 / nx as f64, self.size[1].0 / ny as f64];
         Ok((kind, Grid { nodes: self.pixels, pixel, seed: self.seed }, target))

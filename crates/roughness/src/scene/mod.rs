@@ -26,7 +26,7 @@ use std::path::PathBuf;
 pub struct Scene {
     /// Which closure, or all.
     pub closure: Choice,
-    /// Result of a calibration, for "fitted" and "calibrated".
+    /// Result of a calibration, for "fitted" (c), "calibrated" (cones, unloading) and "johnson" (unloading).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub coefficient: Option<PathBuf>,
     /// How the pressure of an island is spread.
@@ -64,14 +64,8 @@ pub enum Choice {
 impl Choice {
     /// The closures chosen, in the order of the tables.
     pub fn closures(self) -> Vec<Closure> {
-        match self {
-            Choice::Published => vec![Closure::Published],
-            Choice::Fitted => vec![Closure::Fitted],
-            Choice::Johnson => vec![Closure::Johnson],
-            Choice::Sneddon => vec![Closure::Sneddon],
-            Choice::Calibrated => vec![Closure::Calibrated],
-            Choice::All => Closure::ALL.to_vec(),
-        }
+        // the choices are the closures in their order, then all
+        Closure::ALL.get(self as usize).map_or(Closure::ALL.to_vec(), |closure| vec![*closure])
     }
 }
 

@@ -1,3 +1,5 @@
+//! The table of a surface: where it comes from, and what is done to it.
+
 use super::error::{SceneError, error};
 use super::generate::GenerateScene;
 use crate::surface::filter;
@@ -8,8 +10,7 @@ use crate::surface::level::{self, Levelling};
 use crate::surface::ready::Surface;
 use asperity_law::units::Length;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
-use serde::{Deserialize, Deserializer, Serialize, Serializer};
-use std::borrow::Cow;
+use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
 /// Treatment of missing points.
@@ -24,42 +25,37 @@ pub enum Missing {
 }
 
 /// A unit of length by name, in metres.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "String", into = "String")]
 pub struct HeightUnit {
     name: String,
     metres: f64,
 }
 
-impl JsonSchema for HeightUnit {
-    fn inline_schema() -> bool {
-        true
-    }
-    fn schema_name() -> Cow<'static, str> {
-        "HeightUnit".into()
-    }
-    fn json_schema(_: &mut SchemaGenerator) -> Schema {
-        let units: Vec<&str> = Length::UNITS.iter().map(|(unit, _)| *unit).collect();
-        json_schema!({"enum": units})
-    }
+/// The names of all units of length.
+fn units() -> Vec<&'static str> {
+    Length::UNITS.iter().map(|(unit, _)| *unit).collect()
 }
 
-impl Serialize for HeightUnit {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.serialize_str(&self.name)
-    }
+fn unit_schema(_: &mut SchemaGenerator) -> Schema {
+    json_schema!({"enum": units()})
 }
 
-impl<'de> Deserialize<'de> for HeightUnit {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let name = String::deserialize(deserializer)?;
-        let unit = Length::UNITS.iter().find(|(unit, _)| *unit == name).ok_or_else(|| {
-            let known: Vec<&str> = Length::UNITS.iter().map(|(unit, _)| *unit).collect();
-            serde::de::Error::custom(format!(
-                "\"{name}\" is not a unit of length: use one of {}",
-                known.join(", ")
-            ))
+impl TryFrom<String> for HeightUnit {
+    type Error = String;
+
+    fn try_from(name: String) -> Result<HeightUnit, String> {
+        let unit = Length::UNITS.iter().find(|(unit, _)| *unit == name);
+        let (_, metres) = unit.ok_or_else(|| {
+            format!("\"{name}\" is not a unit of length: use one of {}", units().join(", "))
         })?;
-        Ok(HeightUnit { metres: unit.1, name })
+        Ok(HeightUnit { metres: *metres, name })
+    }
+}
+
+impl From<HeightUnit> for String {
+    fn from(unit: HeightUnit) -> String {
+        unit.name
     }
 }
 
@@ -80,6 +76,7 @@ pub struct SurfaceScene {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pixel_size: Option<[Length; 2]>,
     /// Unit of the heights, where the file does not say.
+    #[schemars(schema_with = "unit_schema")]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub height_unit: Option<HeightUnit>,
     /// Whether `pixel_size` and `height_unit` win over what the file says.

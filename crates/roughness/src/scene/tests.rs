@@ -1,3 +1,5 @@
+//! Claims about scenes.
+
 use super::*;
 use crate::formats;
 use std::path::Path;

@@ -5,7 +5,7 @@
 
 use crate::surface::fft;
 use crate::surface::height_map::{HeightMap, MapError};
-use crate::surface::parameters::Parameters;
+use crate::surface::ready::Surface;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use schemars::JsonSchema;
@@ -133,13 +133,17 @@ pub fn generate(kind: Kind, grid: &Grid, target: Target) -> Result<HeightMap, Ge
         (kind, Target::Both(ra, slope)) => (matched(kind, grid, &noise, ra, slope)?, Target::Height(ra)),
         (kind, target) => (machined(kind, grid, &noise, 0.25 * span(grid)), target),
     };
-    let map = HeightMap::new(grid.nodes[0], grid.nodes[1], grid.pixel, shape)?;
-    let numbers = Parameters::of(&map, &map.extent()?);
+    let Surface { map, parameters, .. } = on_grid(grid, shape)?;
     let factor = match wanted {
-        Target::Height(ra) | Target::Both(ra, _) => ra / numbers.sa,
-        Target::Slope(slope) => slope / numbers.mean_gradient,
+        Target::Height(ra) | Target::Both(ra, _) => ra / parameters.sa,
+        Target::Slope(slope) => slope / parameters.mean_gradient,
     };
-    Ok(map.mapped(|_, row| row.iter_mut().for_each(|z| *z = (*z - numbers.mean) * factor)))
+    Ok(map.mapped(|_, row| row.iter_mut().for_each(|z| *z = (*z - parameters.mean) * factor)))
+}
+
+/// The surface of these heights.
+fn on_grid(grid: &Grid, heights: Vec<f64>) -> Result<Surface, MapError> {
+    Surface::of(HeightMap::new(grid.nodes[0], grid.nodes[1], grid.pixel, heights)?)
 }
 
 /// The shorter side of the map.
@@ -151,10 +155,8 @@ fn span(grid: &Grid) -> f64 {
 fn matched(kind: Kind, grid: &Grid, noise: &[f64], ra: f64, slope: f64) -> Result<Vec<f64>, GenerateError> {
     let wanted = ra / slope;
     let ratio = |wave: f64| -> Result<(f64, Vec<f64>), GenerateError> {
-        let shape = machined(kind, grid, noise, wave);
-        let map = HeightMap::new(grid.nodes[0], grid.nodes[1], grid.pixel, shape)?;
-        let numbers = Parameters::of(&map, &map.extent()?);
-        Ok((numbers.sa / numbers.mean_gradient, map.heights().to_vec()))
+        let Surface { map, parameters, .. } = on_grid(grid, machined(kind, grid, noise, wave))?;
+        Ok((parameters.sa / parameters.mean_gradient, map.heights().to_vec()))
     };
     let pixel = grid.pixel[0].max(grid.pixel[1]);
     let no_shape = |need| GenerateError::NoShape {
@@ -274,6 +276,7 @@ impl KindName {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::surface::parameters::Parameters;
 
     fn grid(n: usize, seed: u64) -> Grid {
         Grid { nodes: [n, n], pixel: [2e-6, 2e-6], seed }

@@ -1,9 +1,11 @@
+//! Heights on a regular grid, and its cells.
+
 use rayon::prelude::*;
 use std::ops::Range;
 use thiserror::Error;
 
 /// Rows of cells that one task takes: fixed, so that sums come out the same for any number of threads.
-pub(crate) const ROWS_PER_CHUNK: usize = 32;
+const ROWS_PER_CHUNK: usize = 32;
 
 /// The answers of `of` for chunks of `rows` rows in parallel, in their order.
 pub(crate) fn chunks<T: Send>(rows: usize, of: impl Fn(Range<usize>) -> T + Sync) -> Vec<T> {
@@ -85,19 +87,7 @@ impl HeightMap {
         if !pixel.iter().all(|p| p.is_finite() && *p > 0.0) {
             return Err(MapError::Pixel(pixel[0], pixel[1]));
         }
-        let missing = heights
-            .par_chunks_mut(ROWS_PER_CHUNK * columns.max(1))
-            .map(|part| {
-                let mut bad = 0;
-                for z in part {
-                    if !z.is_finite() {
-                        *z = f64::NAN;
-                        bad += 1;
-                    }
-                }
-                bad
-            })
-            .sum();
+        let missing = heights.par_iter_mut().filter(|z| !z.is_finite()).map(|z| *z = f64::NAN).count();
         Ok(HeightMap { columns, rows, pixel, heights, missing, periodic: false })
     }
 
@@ -175,6 +165,11 @@ impl HeightMap {
         chunks(self.cell_rows(), of)
     }
 
+    /// The answers of `of` for the heights of chunks of rows in parallel, in their order.
+    pub(crate) fn parts<T: Send>(&self, of: impl Fn(&[f64]) -> T + Sync + Send) -> Vec<T> {
+        self.heights.par_chunks(ROWS_PER_CHUNK * self.columns.max(1)).map(of).collect()
+    }
+
     /// 1/dx and 1/dy, in 1/m.
     pub(crate) fn inverse_pixel(&self) -> [f64; 2] {
         self.pixel.map(|p| 1.0 / p)
@@ -186,37 +181,29 @@ impl HeightMap {
     pub(crate) fn for_each_cell(&self, row: usize, mut visit: impl FnMut([f64; 4])) {
         let (low, high) = (self.row(row), self.row(row + 1));
         let inner = self.columns.saturating_sub(1);
-        if self.missing == 0 {
-            for (a, b) in low.windows(2).zip(high.windows(2)) {
-                visit([a[0], a[1], b[1], b[0]]);
-            }
-        } else {
-            for (a, b) in low.windows(2).zip(high.windows(2)) {
-                let corners = [a[0], a[1], b[1], b[0]];
-                if !corners.iter().any(|z| z.is_nan()) {
-                    visit(corners);
-                }
-            }
-        }
-        if self.periodic && !low.is_empty() {
-            let corners = [low[inner], low[0], high[0], high[inner]];
-            if !corners.iter().any(|z| z.is_nan()) {
+        let whole = self.missing == 0;
+        let mut visit_used = |corners: [f64; 4]| {
+            if whole || !corners.iter().any(|z| z.is_nan()) {
                 visit(corners);
             }
+        };
+        for (a, b) in low.windows(2).zip(high.windows(2)) {
+            visit_used([a[0], a[1], b[1], b[0]]);
+        }
+        if self.periodic && !low.is_empty() {
+            visit_used([low[inner], low[0], high[0], high[inner]]);
         }
     }
 
     /// Lowest and highest node, and the number of used cells; an error where there is no cell.
     pub fn extent(&self) -> Result<Extent, MapError> {
-        let (low, high) = self
-            .heights
-            .par_chunks(ROWS_PER_CHUNK * self.columns.max(1))
-            .map(|part| {
-                part.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), z| {
-                    (if *z < low { *z } else { low }, if *z > high { *z } else { high })
-                })
-            })
-            .reduce(|| (f64::INFINITY, f64::NEG_INFINITY), |a, b| (a.0.min(b.0), a.1.max(b.1)));
+        // a missing height compares with nothing
+        let widened = |(low, high): (f64, f64), z: &f64| {
+            (if *z < low { *z } else { low }, if *z > high { *z } else { high })
+        };
+        let none = (f64::INFINITY, f64::NEG_INFINITY);
+        let ends = self.parts(|part| part.iter().fold(none, widened));
+        let (low, high) = ends.iter().fold(none, |a, b| (a.0.min(b.0), a.1.max(b.1)));
         let cells = if self.missing == 0 {
             self.cell_columns() * self.cell_rows()
         } else {

@@ -1,6 +1,7 @@
+//! Roughness parameters of a map.
+
 use crate::surface::cells;
-use crate::surface::height_map::{Extent, HeightMap, ROWS_PER_CHUNK};
-use rayon::prelude::*;
+use crate::surface::height_map::{Extent, HeightMap};
 
 /// Roughness parameters of a map; heights in metres, slopes pure numbers.
 ///
@@ -36,17 +37,9 @@ impl Parameters {
     /// The numbers of `map`; `extent` is its own.
     pub fn of(map: &HeightMap, extent: &Extent) -> Parameters {
         let nodes = (map.heights().len() - map.missing()) as f64;
-        let chunk = ROWS_PER_CHUNK * map.columns().max(1);
         let reference = 0.5 * (extent.low + extent.high);
-        let sum = |term: &(dyn Fn(f64) -> f64 + Sync)| -> f64 {
-            let parts: Vec<f64> = map
-                .heights()
-                .par_chunks(chunk)
-                .map(|part| part.iter().filter(|z| !z.is_nan()).map(|z| term(*z)).sum())
-                .collect();
-            parts.iter().sum()
-        };
-        let mean = reference + sum(&|z| z - reference) / nodes;
+        let above = |part: &[f64]| part.iter().filter(|z| !z.is_nan()).map(|z| z - reference).sum::<f64>();
+        let mean = reference + map.parts(above).iter().sum::<f64>() / nodes;
         let [sa, s2, s3, s4] = central_sums(map, mean, extent.high - extent.low).map(|s| s / nodes);
         let range = extent.high - extent.low;
         let (ssk, sku) =
@@ -69,23 +62,18 @@ impl Parameters {
 /// Σ|u|, Σu², Σu³, Σu⁴ with u = (z - mean)/range.
 fn central_sums(map: &HeightMap, mean: f64, range: f64) -> [f64; 4] {
     let scale = if range > 0.0 { 1.0 / range } else { 0.0 };
-    let parts: Vec<[f64; 4]> = map
-        .heights()
-        .par_chunks(ROWS_PER_CHUNK * map.columns().max(1))
-        .map(|part| {
-            let mut s = [0.0; 4];
-            for z in part.iter().filter(|z| !z.is_nan()) {
-                let u = (z - mean) * scale;
-                let u2 = u * u;
-                s[0] += u.abs();
-                s[1] += u2;
-                s[2] += u2 * u;
-                s[3] += u2 * u2;
-            }
-            s
-        })
-        .collect();
-    total(&parts)
+    total(&map.parts(|part| {
+        let mut s = [0.0; 4];
+        for z in part.iter().filter(|z| !z.is_nan()) {
+            let u = (z - mean) * scale;
+            let u2 = u * u;
+            s[0] += u.abs();
+            s[1] += u2;
+            s[2] += u2 * u;
+            s[3] += u2 * u2;
+        }
+        s
+    }))
 }
 
 /// Σ|∇h|, Σ|∇h|², Σ|dz/dx| over the cells (means of their four triangles).

@@ -1,3 +1,5 @@
+//! A surface ready to be pressed.
+
 use crate::surface::height_map::{Extent, HeightMap, MapError};
 use crate::surface::parameters::Parameters;
 

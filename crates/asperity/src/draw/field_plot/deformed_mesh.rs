@@ -2,6 +2,7 @@
 
 use crate::units::{MEGAPASCAL, MICROMETRE};
 use asperity_mesh::{Edge, Mesh};
+use asperity_solver::element::{quad4, quad8};
 use asperity_solver::run::crush::FieldFrame;
 
 /// Fields of a facet: von Mises stress, hydrostatic pressure (MPa), accumulated plastic strain.
@@ -95,29 +96,16 @@ impl DeformedMesh {
     /// The point of a cell at local coordinates in [-1, 1]²: quadratic in place, bilinear in the fields, which the
     /// solver gives at corners.
     fn vertex(&self, cell: usize, [x, y]: [f64; 2]) -> Vertex {
-        const CORNERS: [[f64; 2]; 4] = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
         let nodes = self.mesh.cell(cell);
-        let quadratic = nodes.len() == 8;
-        let middles = [
-            (1.0 - x * x) * (1.0 - y),
-            (1.0 + x) * (1.0 - y * y),
-            (1.0 - x * x) * (1.0 + y),
-            (1.0 - x) * (1.0 - y * y),
-        ];
+        let (linear, quadratic) = (quad4::shape(x, y, 1.0).value, quad8::shape(x, y, 1.0).value);
+        let shape = if nodes.len() == 8 { &quadratic[..] } else { &linear[..] };
         let mut vertex = Vertex { at: [0.0; 2], values: [0.0; 3] };
-        let mut place = |weight: f64, node: u32| {
+        for (weight, &node) in shape.iter().zip(nodes) {
             let point = self.points[node as usize];
             vertex.at = [0, 1].map(|k| vertex.at[k] + weight * point[k]);
-        };
-        for (k, [cx, cy]) in CORNERS.into_iter().enumerate() {
-            let bilinear = 0.25 * (1.0 + cx * x) * (1.0 + cy * y);
-            place(if quadratic { bilinear * (cx * x + cy * y - 1.0) } else { bilinear }, nodes[k]);
         }
-        if quadratic {
-            middles.into_iter().enumerate().for_each(|(k, weight)| place(0.5 * weight, nodes[4 + k]));
-        }
-        for (k, [cx, cy]) in CORNERS.into_iter().enumerate() {
-            let (weight, of_node) = (0.25 * (1.0 + cx * x) * (1.0 + cy * y), self.values[nodes[k] as usize]);
+        for (weight, &node) in linear.iter().zip(nodes) {
+            let of_node = self.values[node as usize];
             vertex.values = [0, 1, 2].map(|i| vertex.values[i] + weight * of_node[i]);
         }
         vertex

@@ -1,7 +1,7 @@
 //! Facets painted onto a grid of dots.
 
-use super::deformed_mesh::{DeformedMesh, Values, Vertex};
-use super::window::Window;
+use super::deformed_mesh::{DeformedMesh, Vertex};
+use super::window::{Window, range};
 use crate::draw::encode::indexed_png;
 use crate::draw::palette::Colour;
 
@@ -89,12 +89,7 @@ impl Raster {
 
     /// Least and largest of field `i` in the picture.
     pub fn range(&self, i: usize) -> [f64; 2] {
-        let start: Values = [f64::INFINITY, f64::NEG_INFINITY, 0.0];
-        let [low, high, _] = self.dots.iter().flatten().fold(start, |[low, high, _], dot| {
-            let v = f64::from(dot.values[i]);
-            [low.min(v), high.max(v), 0.0]
-        });
-        if low <= high { [low, high] } else { [0.0, 0.0] }
+        range(self.dots.iter().flatten().map(|dot| f64::from(dot.values[i]))).unwrap_or_default()
     }
 
     /// A colour for every dot, counted from 1 in `palette`; 0 is transparent.

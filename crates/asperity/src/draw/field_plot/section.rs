@@ -3,6 +3,8 @@
 use super::deformed_mesh::DeformedMesh;
 use super::window::{AsperityRow, Reach, Window};
 use crate::units::{MEGAPASCAL, MICROMETRE};
+use asperity_mesh::profile::Asperity;
+use asperity_solver::contact::tool::Tool;
 use asperity_solver::run::crush::FieldFrame;
 use asperity_solver::scene::{Scene, Symmetry, ToolForm};
 
@@ -12,7 +14,8 @@ pub struct Section {
     pub(super) mesh: DeformedMesh,
     /// The part that is drawn.
     pub(super) window: Window,
-    tool: ToolForm,
+    /// The tool as an asperity of the same outline; `None` for a plane.
+    tool: Option<Asperity>,
     /// Height of the tool's lowest point; `None` if nothing touches it.
     pub(super) tip: Option<f64>,
     /// Whether the other half of a body of revolution is drawn too.
@@ -32,9 +35,9 @@ impl Section {
         let mesh = DeformedMesh::new(frame);
         let revolved = scene.symmetry == Symmetry::Axisymmetric;
         let mirrored = revolved && scene.asperity.len() < 2;
-        let tool = scene.tool.form().map_err(|e| e.to_string())?;
+        let tool = outline(&scene.tool.form().map_err(|e| e.to_string())?);
         let tips = mesh.pressed().map(|[r, z]| z - rise(&tool, r));
-        let tip = tips.fold(None, |most: Option<f64>, z| Some(most.map_or(z, |m| m.max(z))));
+        let tip = tips.reduce(f64::max);
         let heights = scene.asperity.iter().filter_map(|a| a.form().ok());
         let height = heights.map(|form| form.height() / MICROMETRE).fold(0.0, f64::max);
         let row = AsperityRow { feet: mesh.feet(height), height, count: scene.asperity.len() };
@@ -53,19 +56,18 @@ impl Section {
 }
 
 /// Height of the tool's face above its lowest point, at a distance `r` from the axis, both in µm.
-fn rise(tool: &ToolForm, r: f64) -> f64 {
-    let r = r.abs();
-    let round = |radius: f64| radius - (radius * radius - r * r).max(0.0).sqrt();
-    match *tool {
-        ToolForm::Plane => 0.0,
-        ToolForm::Sphere { radius } => round(radius / MICROMETRE),
+fn rise(tool: &Option<Asperity>, r: f64) -> f64 {
+    tool.map_or(0.0, |tool| tool.drop(r))
+}
+
+/// The tool as an asperity of the same outline, lengths in µm; `None` for a plane.
+fn outline(tool: &ToolForm) -> Option<Asperity> {
+    let tool = match *tool {
+        ToolForm::Plane => Tool::Plane,
+        ToolForm::Sphere { radius } => Tool::Sphere { radius: radius / MICROMETRE },
         ToolForm::Cone { slope, tip_radius } => {
-            let radius = tip_radius / MICROMETRE;
-            if r < radius * slope.sin() {
-                round(radius)
-            } else {
-                r * slope.tan() - radius * (slope.cos().recip() - 1.0)
-            }
+            Tool::Cone { tan_slope: slope.tan(), tip_radius: tip_radius / MICROMETRE }
         }
-    }
+    };
+    tool.mirrored()
 }

@@ -32,7 +32,7 @@ pub struct Window {
 }
 
 /// Least and largest of numbers; `None` of none.
-fn range(values: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
+pub fn range(values: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
     values.fold(None, |so_far, v| Some(so_far.map_or([v, v], |[a, b]: [f64; 2]| [a.min(v), b.max(v)])))
 }
 

@@ -1,3 +1,5 @@
+//! Claims about TOML files and overrides.
+
 use super::*;
 use serde::Deserialize;
 

@@ -1,10 +1,10 @@
 //! Alicona `.al3d`: tags of 52 bytes, then the depth image in 32-bit floats, metres, rows padded to 8 bytes.
 
 use super::bytes::{Bytes, Number};
-use super::measured::{Measured, ReadError, Spacing, nodes, positive};
+use super::measured::{Format, Measured, ReadError};
 use std::path::Path;
 
-const FORMAT: &str = "al3d";
+const FORMAT: Format = Format("al3d");
 const MAGIC: usize = 17;
 const KEY: usize = 20;
 const VALUE: usize = 30;
@@ -15,16 +15,13 @@ pub(super) fn read(path: &Path) -> Result<Measured, ReadError> {
     let data = std::fs::read(path)?;
     let file = Bytes { format: FORMAT, data: &data };
     let tags = tags(&file)?;
-    let text =
-        |name: &'static str| {
-            tags.iter()
-                .find(|(key, _)| key == name)
-                .map(|(_, value)| value.as_str())
-                .ok_or(ReadError::header(FORMAT, name, "nothing", "this tag is needed"))
-        };
+    let text = |name: &'static str| {
+        let tag = tags.iter().find(|(key, _)| key == name).map(|(_, value)| value.as_str());
+        tag.ok_or(FORMAT.header(name, "nothing", "this tag is needed"))
+    };
     let number = |name: &'static str| -> Result<f64, ReadError> {
         let value = text(name)?;
-        value.parse().map_err(|_| ReadError::header(FORMAT, name, value, "it must be a number"))
+        value.parse().map_err(|_| FORMAT.header(name, value, "it must be a number"))
     };
     let whole = |name: &'static str| -> Result<u64, ReadError> {
         let value = number(name)?;
@@ -32,34 +29,30 @@ pub(super) fn read(path: &Path) -> Result<Measured, ReadError> {
             return Ok(value as u64);
         }
         let allowed = "it must be a whole number, not negative";
-        Err(ReadError::header(FORMAT, name, value.to_string(), allowed))
+        Err(FORMAT.header(name, value.to_string(), allowed))
     };
     let (columns, rows) = (whole("Cols")?, whole("Rows")?);
-    let count = nodes(FORMAT, columns, rows)?;
+    let count = FORMAT.nodes(columns, rows)?;
     let pixel = [
-        positive(FORMAT, "PixelSizeXMeter", number("PixelSizeXMeter")?)?,
-        positive(FORMAT, "PixelSizeYMeter", number("PixelSizeYMeter")?)?,
+        FORMAT.positive("PixelSizeXMeter", number("PixelSizeXMeter")?)?,
+        FORMAT.positive("PixelSizeYMeter", number("PixelSizeYMeter")?)?,
     ];
     let start = whole("DepthImageOffset")? as usize;
     if start == 0 {
-        return Err(ReadError::header(
-            FORMAT,
-            "DepthImageOffset",
-            "0",
-            "a file without depth image has no heights",
-        ));
+        return Err(FORMAT.header("DepthImageOffset", "0", "a file without depth image has no heights"));
     }
     let invalid = number("InvalidPixelValue").unwrap_or(f64::NAN);
-    let (columns, rows) = (columns as usize, rows as usize);
-    let stride = (columns * 4).div_ceil(8) * 8;
+    let row_length = columns as usize;
+    let stride = (row_length * 4).div_ceil(8) * 8;
     // the last row need not be padded
-    let raw = file.slice("heights", start, stride.saturating_mul(rows - 1).saturating_add(columns * 4))?;
+    let length = stride.saturating_mul(rows as usize - 1).saturating_add(row_length * 4);
+    let raw = file.slice("heights", start, length)?;
     let mut heights = vec![0.0; count];
-    for (row, out) in heights.chunks_mut(columns).enumerate() {
+    for (row, out) in heights.chunks_mut(row_length).enumerate() {
         Number::F32.decode(&raw[row * stride..], false, out);
         out.iter_mut().filter(|z| (**z - invalid).abs() <= 1e-6 * invalid.abs()).for_each(|z| *z = f64::NAN);
     }
-    Ok(Measured { columns, rows, heights, spacing: Spacing::Metres(pixel), height_unit: Some(1.0) })
+    Ok(Measured::in_metres(columns, rows, pixel, heights))
 }
 
 /// Keys and values of the header; the second tag says how many follow.
@@ -69,8 +62,8 @@ fn tags(file: &Bytes) -> Result<Vec<(String, String)>, ReadError> {
         Ok((file.text(at, KEY)?, file.text(at + KEY, VALUE)?))
     };
     let (name, count) = tag(1)?;
-    let count: usize = count.parse().ok().filter(|n| name == "TagCount" && *n < 10_000).ok_or(
-        ReadError::header(FORMAT, "TagCount", count, "it must be a small whole number in the second tag"),
-    )?;
+    let known = count.parse().ok().filter(|n| name == "TagCount" && *n < 10_000);
+    let count: usize =
+        known.ok_or(FORMAT.header("TagCount", count, "it must be a small whole number in the second tag"))?;
     (2..2 + count).map(tag).collect()
 }

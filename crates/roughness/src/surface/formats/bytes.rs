@@ -1,18 +1,20 @@
-use super::measured::ReadError;
+//! Numbers and texts of binary files, by their kind and place.
+
+use super::measured::{Format, ReadError};
 
 /// Numbers at places of a byte string; reading beyond its end is an error.
 pub(super) struct Bytes<'a> {
-    pub format: &'static str,
+    pub format: Format,
     pub data: &'a [u8],
 }
 
 impl<'a> Bytes<'a> {
     /// `length` bytes from `offset`.
     pub fn slice(&self, what: &'static str, offset: usize, length: usize) -> Result<&'a [u8], ReadError> {
-        offset.checked_add(length).and_then(|end| self.data.get(offset..end)).ok_or(ReadError::truncated(
-            self.format,
+        let promised = (offset as u64).saturating_add(length as u64);
+        offset.checked_add(length).and_then(|end| self.data.get(offset..end)).ok_or(self.format.truncated(
             what,
-            (offset as u64).saturating_add(length as u64),
+            promised,
             self.data.len() as u64,
         ))
     }

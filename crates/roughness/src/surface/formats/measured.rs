@@ -1,3 +1,5 @@
+//! What every reader gives: heights as a file holds them, or why it is no surface.
+
 use thiserror::Error;
 
 /// Why a file is no surface.
@@ -52,26 +54,39 @@ pub enum ReadError {
 }
 
 impl ReadError {
-    pub(super) fn header(
-        format: &'static str,
-        name: &'static str,
-        value: impl ToString,
-        allowed: &'static str,
-    ) -> ReadError {
-        ReadError::Header { format, name, value: value.to_string(), allowed }
-    }
-
-    pub(super) fn truncated(
-        format: &'static str,
-        what: &'static str,
-        promised: u64,
-        found: u64,
-    ) -> ReadError {
-        ReadError::Truncated { format, what, promised, found }
-    }
-
     pub(super) fn text(line: usize, problem: impl ToString) -> ReadError {
         ReadError::Text { line, problem: problem.to_string() }
+    }
+}
+
+/// A format with a header, by its name in errors.
+#[derive(Clone, Copy)]
+pub(super) struct Format(pub &'static str);
+
+impl Format {
+    /// A value of the header that makes no sense.
+    pub fn header(self, name: &'static str, value: impl ToString, allowed: &'static str) -> ReadError {
+        ReadError::Header { format: self.0, name, value: value.to_string(), allowed }
+    }
+
+    /// A file that is shorter than its header says.
+    pub fn truncated(self, what: &'static str, promised: u64, found: u64) -> ReadError {
+        ReadError::Truncated { format: self.0, what, promised, found }
+    }
+
+    /// The number of nodes of a map, checked against what can be handled.
+    pub fn nodes(self, columns: u64, rows: u64) -> Result<usize, ReadError> {
+        let count = columns.checked_mul(rows).filter(|n| *n > 0 && *n < MOST_NODES);
+        let allowed = "a map has at least 1 and at most 2147483646 points";
+        count
+            .map(|n| n as usize)
+            .ok_or_else(|| self.header("size", format_args!("{columns} x {rows} points"), allowed))
+    }
+
+    /// A positive finite length of the header.
+    pub fn positive(self, name: &'static str, value: f64) -> Result<f64, ReadError> {
+        let positive = value.is_finite() && value > 0.0;
+        positive.then_some(value).ok_or_else(|| self.header(name, value, "it must be finite and above 0"))
     }
 }
 
@@ -101,23 +116,13 @@ pub struct Measured {
     pub height_unit: Option<f64>,
 }
 
-/// Most nodes a header may ask for.
-pub(super) const MOST_NODES: u64 = i32::MAX as u64;
-
-/// The number of nodes of a map, checked against what can be handled.
-pub(super) fn nodes(format: &'static str, columns: u64, rows: u64) -> Result<usize, ReadError> {
-    let count = columns.checked_mul(rows).filter(|n| *n > 0 && *n < MOST_NODES);
-    let allowed = "a map has at least 1 and at most 2147483646 points";
-    count
-        .map(|n| n as usize)
-        .ok_or_else(|| ReadError::header(format, "size", format_args!("{columns} x {rows} points"), allowed))
-}
-
-/// A positive finite length of a header.
-pub(super) fn positive(format: &'static str, name: &'static str, value: f64) -> Result<f64, ReadError> {
-    if value.is_finite() && value > 0.0 {
-        Ok(value)
-    } else {
-        Err(ReadError::header(format, name, value, "it must be finite and above 0"))
+impl Measured {
+    /// A grid whose lengths are all in metres.
+    pub(super) fn in_metres(columns: u64, rows: u64, pixel: [f64; 2], heights: Vec<f64>) -> Measured {
+        let (columns, rows) = (columns as usize, rows as usize);
+        Measured { columns, rows, heights, spacing: Spacing::Metres(pixel), height_unit: Some(1.0) }
     }
 }
+
+/// Most nodes a header may ask for.
+pub(super) const MOST_NODES: u64 = i32::MAX as u64;

@@ -1,7 +1,7 @@
 //! NumPy arrays: two dimensions, axis 0 is y.
 
 use super::bytes::Number;
-use super::measured::{Measured, ReadError, Spacing, nodes};
+use super::measured::{Format, Measured, ReadError, Spacing};
 use crate::surface::fft::transposed;
 use npyz::{DType, Endianness, NpyHeader, Order, TypeChar, WriterBuilder};
 use rayon::prelude::*;
@@ -9,14 +9,11 @@ use std::fs::File;
 use std::io::{BufReader, BufWriter, Read, Seek, SeekFrom};
 use std::path::Path;
 
+const FORMAT: Format = Format("npy");
 /// A header longer than this describes no plain array.
 const LONGEST_HEADER: usize = 1 << 14;
 /// Heights that one task reads at a time.
 const CHUNK: usize = 1 << 20;
-
-fn header_error(name: &'static str, value: impl ToString, allowed: &'static str) -> ReadError {
-    ReadError::header("npy", name, value, allowed)
-}
 
 /// The text of the header, its length with the magic, checked so that a parser can be let loose on it.
 fn header_bytes(path: &Path, length: u64) -> Result<Vec<u8>, ReadError> {
@@ -24,18 +21,18 @@ fn header_bytes(path: &Path, length: u64) -> Result<Vec<u8>, ReadError> {
     let mut start = vec![0; 12.min(length as usize)];
     reader.read_exact(&mut start)?;
     if start.len() < 12 {
-        return Err(ReadError::truncated("npy", "header", 12, length));
+        return Err(FORMAT.truncated("header", 12, length));
     }
     let text = match start[6] {
         1 => usize::from(u16::from_le_bytes([start[8], start[9]])) + 10,
         2 | 3 => u32::from_le_bytes([start[8], start[9], start[10], start[11]]) as usize + 12,
-        v => return Err(header_error("version", v, "versions 1, 2 and 3 are known")),
+        v => return Err(FORMAT.header("version", v, "versions 1, 2 and 3 are known")),
     };
     if text as u64 > length {
-        return Err(ReadError::truncated("npy", "header", text as u64, length));
+        return Err(FORMAT.truncated("header", text as u64, length));
     }
     if text > LONGEST_HEADER {
-        return Err(header_error("length", text, "a plain array has a header below 16384 bytes"));
+        return Err(FORMAT.header("length", text, "a plain array has a header below 16384 bytes"));
     }
     let mut header = vec![0; text];
     reader.seek(SeekFrom::Start(0))?;
@@ -48,21 +45,21 @@ fn header_bytes(path: &Path, length: u64) -> Result<Vec<u8>, ReadError> {
 fn plausible(header: &[u8]) -> Result<(), ReadError> {
     let text = String::from_utf8_lossy(header);
     if text.matches(['(', '[', '{']).count() > 2 {
-        return Err(header_error("descr", "a record", "heights must be plain numbers"));
+        return Err(FORMAT.header("descr", "a record", "heights must be plain numbers"));
     }
     let shape = text.split("shape").nth(1).unwrap_or("");
     let shape = shape.split(')').next().unwrap_or("");
     let sizes: Vec<&str> = shape.split(|c: char| !c.is_ascii_digit()).filter(|s| !s.is_empty()).collect();
     if sizes.len() != 2 || sizes.iter().any(|s| s.len() > 9) {
         let value = if sizes.is_empty() { "?".into() } else { sizes.join(" x ") };
-        return Err(header_error("shape", value, "a map has two dimensions, (y, x), each below 1000000000"));
+        return Err(FORMAT.header("shape", value, "a map has two dimensions, (y, x), each below 1000000000"));
     }
     Ok(())
 }
 
 fn number(dtype: &DType) -> Result<(Number, bool), ReadError> {
     let refused = || {
-        header_error(
+        FORMAT.header(
             "descr",
             dtype.descr(),
             "heights must be real numbers of 1, 2, 4 or 8 bytes (f2-f8, i1-i8, u1-u8)",
@@ -91,20 +88,20 @@ pub(super) fn read(path: &Path) -> Result<Measured, ReadError> {
     let length = std::fs::metadata(path)?.len();
     let bytes = header_bytes(path, length)?;
     let header = NpyHeader::from_reader(&bytes[..])
-        .map_err(|e| header_error("dictionary", e, "it must be one that numpy.save writes"))?;
+        .map_err(|e| FORMAT.header("dictionary", e, "it must be one that numpy.save writes"))?;
     let (number, big_endian) = number(&header.dtype())?;
     let &[rows, columns] = header.shape() else {
-        return Err(header_error(
+        return Err(FORMAT.header(
             "shape",
             format!("{:?}", header.shape()),
             "a map has two dimensions, (y, x)",
         ));
     };
-    let count = nodes("npy", columns, rows)?;
+    let count = FORMAT.nodes(columns, rows)?;
     let start = bytes.len() as u64;
     let promised = count as u64 * number.size() as u64;
     if length - start < promised {
-        return Err(ReadError::truncated("npy", "heights", promised, length - start));
+        return Err(FORMAT.truncated("heights", promised, length - start));
     }
     let mut heights = vec![0.0; count];
     heights.par_chunks_mut(CHUNK).enumerate().try_for_each(|(i, part)| -> Result<(), ReadError> {

@@ -1,15 +1,11 @@
 //! SDF of ISO 25178-71 (and its ancestor BCR): ASCII or binary, all lengths in metres.
 
 use super::bytes::{Bytes, Number};
-use super::measured::{Measured, ReadError, Spacing, nodes, positive};
+use super::measured::{Format, Measured, ReadError};
 use std::path::Path;
 
-const FORMAT: &str = "sdf";
+const FORMAT: Format = Format("sdf");
 const BINARY_HEADER: usize = 81;
-
-fn header_error(name: &'static str, value: impl ToString, allowed: &'static str) -> ReadError {
-    ReadError::header(FORMAT, name, value, allowed)
-}
 
 /// Reads either kind.
 pub(super) fn read(path: &Path) -> Result<Measured, ReadError> {
@@ -27,16 +23,10 @@ struct Header {
 
 impl Header {
     fn measured(self, mut heights: Vec<f64>) -> Result<Measured, ReadError> {
-        let pixel = [positive(FORMAT, "Xscale", self.pixel[0])?, positive(FORMAT, "Yscale", self.pixel[1])?];
-        let scale = positive(FORMAT, "Zscale", self.scale)?;
+        let pixel = [FORMAT.positive("Xscale", self.pixel[0])?, FORMAT.positive("Yscale", self.pixel[1])?];
+        let scale = FORMAT.positive("Zscale", self.scale)?;
         heights.iter_mut().for_each(|z| *z *= scale);
-        Ok(Measured {
-            columns: self.columns as usize,
-            rows: self.rows as usize,
-            heights,
-            spacing: Spacing::Metres(pixel),
-            height_unit: Some(1.0),
-        })
+        Ok(Measured::in_metres(self.columns, self.rows, pixel, heights))
     }
 }
 
@@ -50,7 +40,7 @@ fn binary(data: &[u8]) -> Result<Measured, ReadError> {
     };
     let (compression, kind) = (file.slice("header", 78, 1)?[0], file.slice("header", 79, 1)?[0]);
     if compression != 0 {
-        return Err(header_error("Compression", compression, "only 0 (none) is known"));
+        return Err(FORMAT.header("Compression", compression, "only 0 (none) is known"));
     }
     // (type, what stands for a missing point)
     let (number, missing) = match kind {
@@ -62,9 +52,9 @@ fn binary(data: &[u8]) -> Result<Measured, ReadError> {
         5 => (Number::I16, f64::from(i16::MIN)),
         6 => (Number::I32, f64::from(i32::MIN)),
         7 => (Number::F64, f64::MAX),
-        _ => return Err(header_error("DataType", kind, "it must be 0 to 7")),
+        _ => return Err(FORMAT.header("DataType", kind, "it must be 0 to 7")),
     };
-    let count = nodes(FORMAT, header.columns, header.rows)?;
+    let count = FORMAT.nodes(header.columns, header.rows)?;
     let raw = file.slice("heights", BINARY_HEADER, count * number.size())?;
     let mut heights = number.decode_all(raw, count);
     heights.iter_mut().filter(|z| z.abs() >= missing.abs() && **z == missing.copysign(**z)).for_each(|z| {
@@ -79,28 +69,21 @@ fn ascii(text: &str) -> Result<Measured, ReadError> {
     // a line with a star ends the header, another one the heights; a comment may hold stars too
     let is_end = |line: &&str| line.trim() == "*";
     let lines: Vec<&str> = text.lines().collect();
-    let end = lines.iter().position(is_end).ok_or(ReadError::truncated(
-        FORMAT,
-        "header",
-        text.len() as u64 + 1,
-        text.len() as u64,
-    ))?;
+    let length = text.len() as u64;
+    let end = lines.iter().position(is_end).ok_or(FORMAT.truncated("header", length + 1, length))?;
     let (head, body) = lines.split_at(end);
     let body = body[1..].iter().take_while(|line| !is_end(line)).flat_map(|line| line.split_whitespace());
     let value = |name: &'static str| -> Result<f64, ReadError> {
         let mut pairs = head.iter().filter_map(|l| l.split_once('='));
         let line = pairs.find(|(key, _)| key.trim().eq_ignore_ascii_case(name));
         let value = line.map_or("", |(_, value)| value.trim());
-        value.parse().map_err(|_| header_error(name, format!("\"{value}\""), "it must be a number"))
+        value.parse().map_err(|_| FORMAT.header(name, format!("\"{value}\""), "it must be a number"))
     };
     let size = |name: &'static str| {
-        value(name).and_then(|v| {
-            if (1.0..1e9).contains(&v) && v.fract() == 0.0 {
-                Ok(v as u64)
-            } else {
-                Err(header_error(name, v, "it must be a whole number of points"))
-            }
-        })
+        let size = value(name)?;
+        let whole = (1.0..1e9).contains(&size) && size.fract() == 0.0;
+        let refused = || FORMAT.header(name, size, "it must be a whole number of points");
+        whole.then_some(size as u64).ok_or_else(refused)
     };
     let header = Header {
         columns: size("NumPoints")?,
@@ -108,18 +91,18 @@ fn ascii(text: &str) -> Result<Measured, ReadError> {
         pixel: [value("Xscale")?, value("Yscale")?],
         scale: value("Zscale")?,
     };
-    let count = nodes(FORMAT, header.columns, header.rows)?;
+    let count = FORMAT.nodes(header.columns, header.rows)?;
     let mut heights = Vec::new();
     for word in body.take(count) {
         heights.push(match word {
             "BAD" => f64::NAN,
-            word => word
-                .parse()
-                .map_err(|_| header_error("a height", format!("\"{word}\""), "heights are numbers or BAD"))?,
+            word => word.parse().map_err(|_| {
+                FORMAT.header("a height", format!("\"{word}\""), "heights are numbers or BAD")
+            })?,
         });
     }
     if heights.len() < count {
-        return Err(ReadError::truncated(FORMAT, "heights (as numbers)", count as u64, heights.len() as u64));
+        return Err(FORMAT.truncated("heights (as numbers)", count as u64, heights.len() as u64));
     }
     header.measured(heights)
 }

@@ -1,29 +1,19 @@
 //! Digital Surf `.sur`: a header of 512 bytes, a comment, a private zone, 16- or 32-bit heights; little-endian.
 
 use super::bytes::{Bytes, Number};
-use super::measured::{Measured, ReadError, Spacing, nodes, positive};
+use super::measured::{Format, Measured, ReadError};
+use asperity_law::units::Length;
 use flate2::read::ZlibDecoder;
 use std::io::Read;
 use std::path::Path;
 
 const HEADER: usize = 512;
-const FORMAT: &str = "sur";
+const FORMAT: Format = Format("sur");
 
-/// Metres per unit named in a header.
-pub(super) fn metres(unit: &str) -> Option<f64> {
-    match unit {
-        "m" => Some(1.0),
-        "cm" => Some(1e-2),
-        "mm" => Some(1e-3),
-        "µm" | "um" | "μm" | "\u{fffd}m" => Some(1e-6),
-        "nm" => Some(1e-9),
-        "pm" => Some(1e-12),
-        _ => None,
-    }
-}
-
-fn header_error(name: &'static str, value: impl ToString, allowed: &'static str) -> ReadError {
-    ReadError::header(FORMAT, name, value, allowed)
+/// Metres per unit named in a header, where µ may be of another code page.
+fn metres(unit: &str) -> Option<f64> {
+    let unit = unit.replace('\u{fffd}', "µ");
+    Length::UNITS.iter().find(|(name, _)| *name == unit).map(|(_, metres)| *metres)
 }
 
 /// Reads a surface; profiles, series and pictures are refused.
@@ -33,10 +23,10 @@ pub(super) fn read(path: &Path) -> Result<Measured, ReadError> {
     let compressed = header.text(0, 12)? == "DSCOMPRESSED";
     let (byte_order, kind) = (header.number(Number::I16, 12)?, header.number(Number::I16, 18)?);
     if byte_order != 0.0 {
-        return Err(header_error("format", byte_order, "only 0 (little-endian) is known"));
+        return Err(FORMAT.header("format", byte_order, "only 0 (little-endian) is known"));
     }
     if kind != 2.0 {
-        return Err(header_error(
+        return Err(FORMAT.header(
             "object type",
             kind,
             "only a single surface (2) can be pressed, no profile, series, image or force curve",
@@ -45,26 +35,26 @@ pub(super) fn read(path: &Path) -> Result<Measured, ReadError> {
     let objects = header.number(Number::I16, 14)?;
     if objects > 1.0 {
         let allowed = "only one can be pressed: export the heights alone";
-        return Err(header_error("number of objects", objects, allowed));
+        return Err(FORMAT.header("number of objects", objects, allowed));
     }
     let special = header.number(Number::I16, 86)? == 1.0;
     let number = match header.number(Number::I16, 98)? {
         16.0 => Number::I16,
         32.0 => Number::I32,
-        bits => return Err(header_error("size of points", bits, "it must be 16 or 32 bits")),
+        bits => return Err(FORMAT.header("size of points", bits, "it must be 16 or 32 bits")),
     };
     let lowest = header.number(Number::I32, 100)?;
-    let (columns, rows) = (header.number(Number::I32, 108)?, header.number(Number::I32, 112)?);
-    let count = nodes(FORMAT, columns.max(0.0) as u64, rows.max(0.0) as u64)?;
+    let (columns, rows) = (header.number(Number::I32, 108)? as u64, header.number(Number::I32, 112)? as u64);
+    let count = FORMAT.nodes(columns, rows)?;
     let unit = |name: &'static str, offset: usize| {
         let text = header.text(offset, 16)?;
-        metres(&text).ok_or_else(|| header_error(name, text, "it must be m, cm, mm, µm, nm or pm"))
+        metres(&text).ok_or_else(|| FORMAT.header(name, text, "it must be m, cm, mm, µm, nm or pm"))
     };
     let pixel = [
-        positive(FORMAT, "x step", header.number(Number::F32, 120)?.abs())? * unit("x step unit", 180)?,
-        positive(FORMAT, "y step", header.number(Number::F32, 124)?.abs())? * unit("y step unit", 196)?,
+        FORMAT.positive("x step", header.number(Number::F32, 120)?.abs())? * unit("x step unit", 180)?,
+        FORMAT.positive("y step", header.number(Number::F32, 124)?.abs())? * unit("y step unit", 196)?,
     ];
-    let step = positive(FORMAT, "z step", header.number(Number::F32, 128)?)?;
+    let step = FORMAT.positive("z step", header.number(Number::F32, 128)?)?;
     let height_unit = unit("z step unit", 212)?;
     let offset = header.number(Number::F32, 474)?;
     let offset = if offset.is_finite() { offset } else { 0.0 };
@@ -84,8 +74,7 @@ pub(super) fn read(path: &Path) -> Result<Measured, ReadError> {
         // a point that was not measured is stored two below the lowest
         *z = if special && *z == lowest - 2.0 { f64::NAN } else { *z * step + offset };
     }
-    let (columns, rows) = (columns as usize, rows as usize);
-    Ok(Measured { columns, rows, heights, spacing: Spacing::Metres(pixel), height_unit: Some(height_unit) })
+    Ok(Measured { height_unit: Some(height_unit), ..Measured::in_metres(columns, rows, pixel, heights) })
 }
 
 /// Heights of a compressed file: a directory of zlib streams (unpacked length, packed length), then the streams.
@@ -105,7 +94,7 @@ fn inflate(file: &Bytes, start: usize, size: usize) -> Result<Vec<u8>, ReadError
     }
     if out.len() < size {
         let found = out.len() as u64;
-        return Err(ReadError::truncated(FORMAT, "heights", size as u64, found));
+        return Err(FORMAT.truncated("heights", size as u64, found));
     }
     Ok(out)
 }

@@ -1,3 +1,5 @@
+//! Claims about the readers and writers of surfaces.
+
 use super::*;
 use proptest::prelude::*;
 use std::path::PathBuf;

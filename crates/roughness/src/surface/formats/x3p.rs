@@ -1,7 +1,7 @@
 //! x3p of ISO 25178-72: a zip with main.xml and binary heights; all lengths in metres.
 
 use super::bytes::Number;
-use super::measured::{Measured, ReadError, Spacing, nodes, positive};
+use super::measured::{Format, Measured, ReadError};
 use md5::{Digest, Md5};
 use roxmltree::{Document, Node, ParsingOptions};
 use std::fs::File;
@@ -10,7 +10,7 @@ use std::path::Path;
 use zip::ZipArchive;
 use zip::write::SimpleFileOptions;
 
-const FORMAT: &str = "x3p";
+const FORMAT: Format = Format("x3p");
 /// More than a main.xml holds that does not list a large map itself, which the binary form is for.
 const LONGEST_XML: u64 = 1 << 26;
 /// Most parts of a main.xml: an entry of some kilobytes can unpack to millions.
@@ -57,7 +57,7 @@ impl Axis {
         let number = |key: &str, absent: f64| -> Result<f64, ReadError> {
             get(key).filter(|t| !t.is_empty()).map_or(Ok(absent), |t| {
                 t.parse().ok().filter(|v: &f64| v.is_finite()).ok_or_else(|| {
-                    ReadError::header(FORMAT, name, format!("{key} \"{t}\""), "it must be a finite number")
+                    FORMAT.header(name, format!("{key} \"{t}\""), "it must be a finite number")
                 })
             })
         };
@@ -89,7 +89,7 @@ pub(super) fn read(path: &Path) -> Result<Measured, ReadError> {
     let root = document.root_element();
     let (x, y, z) = (Axis::of(root, "CX")?, Axis::of(root, "CY")?, Axis::of(root, "CZ")?);
     let feature = text(root, &["Record1", "FeatureType"]).unwrap_or("SUR");
-    let refuse = |name, value: String, allowed| Err(ReadError::header(FORMAT, name, value, allowed));
+    let refuse = |name, value: String, allowed| Err(FORMAT.header(name, value, allowed));
     if feature != "SUR" {
         return refuse(
             "FeatureType",
@@ -109,7 +109,7 @@ pub(super) fn read(path: &Path) -> Result<Measured, ReadError> {
     if layers != 1 {
         return refuse("SizeZ", layers.to_string(), "only one layer can be pressed");
     }
-    let count = nodes(FORMAT, columns, rows)?;
+    let count = FORMAT.nodes(columns, rows)?;
     let mut heights = match text(root, &["Record3", "DataLink", "PointDataLink"]) {
         Some(name) => binary(&mut zip, name, &z.kind, count)?,
         None => listed(root, count)?,
@@ -127,18 +127,12 @@ pub(super) fn read(path: &Path) -> Result<Measured, ReadError> {
             .for_each(|(_, h)| *h = f64::NAN);
     }
     let pixel =
-        [positive(FORMAT, "CX Increment", x.increment)?, positive(FORMAT, "CY Increment", y.increment)?];
-    Ok(Measured {
-        columns: columns as usize,
-        rows: rows as usize,
-        heights,
-        spacing: Spacing::Metres(pixel),
-        height_unit: Some(1.0),
-    })
+        [FORMAT.positive("CX Increment", x.increment)?, FORMAT.positive("CY Increment", y.increment)?];
+    Ok(Measured::in_metres(columns, rows, pixel, heights))
 }
 
 fn truncated(what: &'static str, promised: usize, found: usize) -> ReadError {
-    ReadError::truncated(FORMAT, what, promised as u64, found as u64)
+    FORMAT.truncated(what, promised as u64, found as u64)
 }
 
 fn binary(zip: &mut Zip, name: &str, kind: &str, count: usize) -> Result<Vec<f64>, ReadError> {
@@ -148,7 +142,7 @@ fn binary(zip: &mut Zip, name: &str, kind: &str, count: usize) -> Result<Vec<f64
         "F" => Number::F32,
         "D" => Number::F64,
         other => {
-            return Err(ReadError::header(FORMAT, "CZ DataType", other, "it must be I, L, F or D"));
+            return Err(FORMAT.header("CZ DataType", other, "it must be I, L, F or D"));
         }
     };
     let promised = count * number.size();
