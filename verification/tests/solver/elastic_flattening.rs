@@ -24,8 +24,6 @@ fn elastic(slope_deg: f64, tip_radius: Option<f64>, depth: f64) -> Scene {
     scene.loading.depth = Some(Length(depth));
     scene.loading.unload = false;
     scene.numerics.domain = Some(400.0);
-    scene.numerics.steps = Some(16);
-    scene.numerics.elements_in_contact = Some(16);
     scene
 }
 
@@ -50,8 +48,8 @@ fn a_rounded_tip_follows_hertz() {
     assert!(error < 0.01, "force off by {error:e}");
     let last = outcome.rows.last().unwrap();
     let error = last.contact_radius / hertz_radius(tip, last.depth) - 1.0;
-    // within a fifth of the element at the edge, a sixth of the radius
-    assert!(error.abs() < 0.03, "radius off by {error:e}");
+    // the projected area is measured to 1 to 2 % at this accuracy
+    assert!(error.abs() < 0.015, "radius off by {error:e}");
 }
 
 #[test]

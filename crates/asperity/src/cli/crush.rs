@@ -51,6 +51,9 @@ pub fn crush(args: &Crush) -> Result<(), Error> {
     }
     folder.publish()?;
     let summary = result?.summary;
+    if !args.run.quiet {
+        summary.warnings().iter().for_each(|warning| terminal::warn(warning));
+    }
     args.run.say(&out, || summary.to_json(), || summary.overview())?;
     match summary.stopped {
         Some(reason) => Err(Error::Unfinished(format!("{reason}; what was reached is in {}", out.display()))),

@@ -73,7 +73,7 @@ row! {
         /// Sum of the nodal forces: the force with the ripple of the mesh, which the works are made of.
         force_nodal_N: f64 = row.force_nodal / units.force,
         /// 95 % bound of the relative error of the force; `None` where there is no force or the bound is not known.
-        force_error: Option<f64> = Some(row.force_error).filter(|e| e.is_finite()),
+        force_error: Option<f64> = row.force_error,
     }
 }
 
@@ -203,7 +203,7 @@ mod tests {
             penetration: 2e-8,
             newton_iterations: 6,
             force_nodal: 5.5,
-            force_error: 0.01,
+            force_error: Some(0.01),
         };
         CurveRow::new(&row, Units::of(symmetry))
     }

@@ -164,12 +164,45 @@ impl Summary {
         serde_json::from_str(&text).map_err(|e| error(&e).into())
     }
 
+    /// Promises of the accuracy that this run does not keep, as far as it can tell.
+    pub fn warnings(&self) -> Vec<String> {
+        let promise = self.scene.accuracy.promise();
+        let mut warnings = Vec::new();
+        for (what, error) in [("force", self.errors.force), ("contact area", self.errors.contact_area)] {
+            if error.is_nan() {
+                warnings.push(format!(
+                    "the error of the {what} is not known: the coarser run beside this one did not get as far"
+                ));
+            } else if error > promise {
+                let [error, promise] = [error, promise].map(|share| 100.0 * share);
+                warnings.push(format!(
+                    "the {what} is exact to {error:.2} %, not to the {promise} % of the accuracy: ask for a finer one if that matters"
+                ));
+            }
+        }
+        let balance = if promise > 0.01 { 1e-2 } else { 1e-3 };
+        if self.energy_balance_error > balance {
+            warnings.push(format!(
+                "work and energies differ by {:.1e} of the work, more than {balance:.0e}: load in finer steps if energies matter",
+                self.energy_balance_error
+            ));
+        }
+        warnings
+    }
+
     /// A few lines for a person.
     pub fn overview(&self) -> String {
         let per = per_length(self.scene.symmetry);
-        let error = self.estimated_error;
-        let error =
-            if error.is_finite() { format!(", error within {:.2} %", 100.0 * error) } else { String::new() };
+        let error = match self.errors {
+            Errors { force, contact_area, .. } if force.is_finite() => {
+                format!(
+                    ", force within {:.2} %, contact area within {:.2} %",
+                    100.0 * force,
+                    100.0 * contact_area
+                )
+            }
+            _ => String::new(),
+        };
         let mut text =
             format!("peak      {:.4} N{per} at {:.4} um{error}\n", self.peak_force_N, self.peak_depth_um);
         if let (Some(residual), Some(elastic), Some(fraction)) =

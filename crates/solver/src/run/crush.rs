@@ -2,12 +2,12 @@
 
 use crate::run::depth_for_force::target_depth;
 use crate::run::discretisation::Discretisation;
-use crate::run::errors::settle;
+use crate::run::errors::{meet_force, settle};
 use crate::run::load_path::{Path, Stop};
 use crate::run::prepare::prepare_with;
 use crate::run::problem::{Goal, Problem};
 use crate::run::recorder::Recorder;
-use crate::scene::{Scene, SceneError};
+use crate::scene::{Scene, SceneError, Target};
 use asperity_mesh::Mesh;
 use std::ops::ControlFlow;
 
@@ -40,7 +40,10 @@ pub fn run(scene: &Scene, mesh: Option<Mesh>, observer: &mut Watcher<'_>) -> Res
     let mut outcome = simulate(&problem, scene.output.interval(), observer)?;
     let interrupted = outcome.stopped.as_ref().is_some_and(|s| s.reason == Stop::Interrupted);
     if !interrupted && let Some(companion) = companion(scene, numbers, coarser, depth, &outcome) {
-        settle(&mut outcome, &companion, scene.symmetry);
+        settle(&mut outcome, &companion, scene.symmetry, numbers.penetration);
+    }
+    if let (Target::Force(force), None) = (scene.loading.target()?, &outcome.stopped) {
+        meet_force(&mut outcome, force);
     }
     Ok(outcome)
 }

@@ -33,6 +33,17 @@ impl Curve {
     /// The value at `depth`: the cubic in √value through the four nearest increments, whose error is far below the
     /// curve's own. NaN outside the curve.
     pub fn at(&self, depth: f64) -> f64 {
+        self.interpolated(depth, |x| x).powi(2)
+    }
+
+    /// The logarithm of the value at `depth`: the cubic in the logarithms through the four nearest increments, exact for powers
+    /// of the depth however far the increments are apart. NaN outside the curve.
+    pub fn logarithm_at(&self, depth: f64) -> f64 {
+        2.0 * self.interpolated(depth, f64::ln)
+    }
+
+    /// `scale(√value)` at `depth`, the cubic in `scale(depth)` through the four nearest increments.
+    fn interpolated(&self, depth: f64, scale: impl Fn(f64) -> f64) -> f64 {
         // 5 µm may be 5e-6 or 5 times 1e-6
         let end = self.end();
         let depth = if depth > end && depth <= end * (1.0 + 1e-9) { end } else { depth };
@@ -41,16 +52,13 @@ impl Curve {
             return f64::NAN;
         }
         let first = after.saturating_sub(2).min(self.points.len() - 4);
-        let near = &self.points[first..first + 4];
-        let root: f64 = near
-            .iter()
-            .enumerate()
-            .map(|(i, p)| {
-                let others = near.iter().enumerate().filter(|(j, _)| *j != i);
-                p[1] * others.map(|(_, q)| (depth - q[0]) / (p[0] - q[0])).product::<f64>()
-            })
-            .sum();
-        root * root
+        let near: [[f64; 2]; 4] = std::array::from_fn(|i| self.points[first + i].map(&scale));
+        let x = scale(depth);
+        let term = |(i, p): (usize, &[f64; 2])| {
+            let others = near.iter().enumerate().filter(|(j, _)| *j != i);
+            p[1] * others.map(|(_, q)| (x - q[0]) / (p[0] - q[0])).product::<f64>()
+        };
+        near.iter().enumerate().map(term).sum()
     }
 
     /// The first depth at which the value is reached, linear in √value between increments; `None` if it never is.
@@ -146,6 +154,7 @@ mod tests {
         for h in [1e-6, 1.7e-6, 3.3e-6, 4.999e-6] {
             assert!((curve.at(h) / force(h) - 1.0).abs() < 1e-9);
             assert!((fit.at(h) / force(h) - 1.0).abs() < 1e-4);
+            assert!((curve.logarithm_at(h) - force(h).ln()).abs() < 1e-6);
         }
         assert!(curve.at(6e-6).is_nan());
         assert!((curve.depth_of(force(3e-6)).unwrap() / 3e-6 - 1.0).abs() < 1e-9);

@@ -42,7 +42,7 @@ struct Choice {
 /// The levels from coarse to fine: the promised error, and in the order of [`Choice`] the numbers that keep it.
 const LEVELS: [(Accuracy, [f64; 6]); 3] = [
     (Accuracy::Draft, [12.0, 36.0, 6.0, 1e-3, 40.0, 0.008]),
-    (Accuracy::Standard, [20.0, 70.0, 10.0, 1e-4, 60.0, 0.005]),
+    (Accuracy::Standard, [24.0, 80.0, 10.0, 1e-4, 60.0, 0.0042]),
     (Accuracy::Reference, [48.0, 180.0, 24.0, 1e-6, 200.0, 0.002]),
 ];
 
@@ -78,8 +78,6 @@ impl Discretisation {
         let numerics = &scene.numerics;
         let Choice { elements, steps, unload_steps, tolerance, domain, penetration } =
             Choice::of(scene.accuracy.promise());
-        // an elastic contact is narrower, and the penetration widens it by a larger share
-        let penetration = if scene.material.yields() { penetration } else { 0.5 * penetration };
         let element = numerics.element.unwrap_or_else(|| {
             element_under(match scene.tool.form() {
                 Ok(ToolForm::Cone { slope, .. }) => Some(slope),

@@ -72,8 +72,8 @@ pub struct CurveRow {
     pub newton_iterations: usize,
     /// Sum of the nodal forces, N (N/m), in equilibrium with the stresses: what energies and works are made of.
     pub force_nodal: f64,
-    /// 95 % bound of the relative error of the force; NaN where it is not known or there is no force.
-    pub force_error: f64,
+    /// 95 % bound of the relative error of the force; `None` where it is not known or there is no force.
+    pub force_error: Option<f64>,
 }
 
 /// 95 % bounds of the errors of a run against its own converged limit, over 0.2 ≤ h/h_peak ≤ 1; NaN where they are not known.

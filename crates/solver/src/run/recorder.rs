@@ -117,7 +117,7 @@ impl<'p> Recorder<'p> {
             penetration: 0.0,
             newton_iterations: 0,
             force_nodal: 0.0,
-            force_error: f64::NAN,
+            force_error: None,
         };
         Recorder {
             problem,
@@ -178,7 +178,7 @@ impl<'p> Recorder<'p> {
             penetration: contact.penetration * u.length,
             newton_iterations: increment.newton_iterations,
             force_nodal: contact.force * u.force,
-            force_error: f64::NAN,
+            force_error: None,
         };
         self.rows.push(row);
         let (edges, touching) = (&model.state().edges, &model.state().contact);
