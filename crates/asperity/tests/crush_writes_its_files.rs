@@ -48,7 +48,8 @@ fn numbers(text: &str, name: &str) -> Vec<f64> {
 fn curve_and_summary_agree() {
     let place = Place::with_scene(SCENE);
     let end = place.run(&["crush", "scene.toml", "--json", "--out", "out"]);
-    assert_eq!((end.status, end.err.as_str()), (0, ""));
+    // so few elements and steps do not keep the promise, and the run says so
+    assert!(end.status == 0 && end.err.lines().all(|line| line.starts_with("warning: ")), "{}", end.err);
     let summary: Value = serde_json::from_str(&end.out).unwrap();
     assert_eq!(end.out, place.text("out/summary.json"));
     for key in SUMMARY {

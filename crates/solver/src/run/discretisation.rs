@@ -69,8 +69,8 @@ impl Choice {
     }
 }
 
-/// Fewest elements or steps of a companion.
-const FEWEST: usize = 3;
+/// Fewest elements, load steps and unloading steps of a companion: fewer make no curve.
+const FEWEST: [usize; 3] = [3, 8, 3];
 
 impl Discretisation {
     /// The numbers of `scene`: those of its numerics, and of its accuracy where they are silent.
@@ -114,9 +114,9 @@ impl Discretisation {
     #[must_use]
     pub fn coarser(&self) -> Discretisation {
         Discretisation {
-            elements_in_contact: self.elements_in_contact.div_ceil(2).max(FEWEST),
-            steps: self.steps.div_ceil(2).max(FEWEST),
-            unload_steps: self.unload_steps.div_ceil(2).max(FEWEST),
+            elements_in_contact: self.elements_in_contact.div_ceil(2).max(FEWEST[0]),
+            steps: self.steps.div_ceil(2).max(FEWEST[1]),
+            unload_steps: self.unload_steps.div_ceil(2).max(FEWEST[2]),
             penetration: 2.0 * self.penetration,
             domain: 0.5 * self.domain,
             ..*self
