@@ -5,9 +5,8 @@
 //! is drawn from the number.
 
 use crate::single_asperity::{loaded, prepared};
-use asperity_law::HardeningLaw;
-use asperity_law::HardeningMode;
 use asperity_law::units::{Length, Stress};
+use asperity_law::{HardeningLaw, HardeningMode};
 use asperity_mesh::Mesh;
 use asperity_solver::run::discretisation::Discretisation;
 use asperity_solver::scene::{
