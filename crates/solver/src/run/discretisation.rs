@@ -192,7 +192,7 @@ type ConeLevels = [([usize; 4], [f64; 6], [f64; 2]); 3];
 /// Quadratic elements.
 const QUADRATIC: ConeLevels = [
     ([7, 1, 3, 14], [0.4, 0.5, 1.0, 0.5, 64.0, 8.0], [0.008, 1e-3]),
-    ([8, 1, 5, 22], [0.4, 0.5, 1.0, 0.4, 64.0, 8.0], [0.008, 1e-3]),
+    ([8, 1, 5, 20], [0.4, 0.5, 1.0, 0.4, 64.0, 8.0], [0.008, 1e-3]),
     ([18, 1, 12, 60], [0.8, 0.2, 1.0, 0.25, 200.0, 12.0], [0.004, 1e-6]),
 ];
 
@@ -207,9 +207,9 @@ const STEEP_LINEAR: ConeLevels = [
 /// Penetration of a cone that indents a flat body with quadratic elements over that of a crushed one: it costs more of the depth.
 const INDENTED: f64 = 0.5;
 
-/// Power of the [softness](softness_of) in the numbers of quadratic elements and steps of a cone. With it the difference between
-/// run and companion is about the same for all n from 0 to 0.5; without hardening, flow gathers where the mesh lets it.
-const SOFTER: f64 = 1.6;
+/// Powers of the [softness](softness_of) in the numbers of quadratic elements and of steps of a cone. With them the difference
+/// between run and companion is about the same for all n from 0 to 0.5; without hardening, flow gathers where the mesh lets it.
+const SOFTER: [f64; 2] = [1.6, 2.0];
 
 /// How much faster cells grow with the distance from the contact in a companion: the error of that growth is of the fourth order
 /// nearly, so that twice as much of it would tell of nothing else.
@@ -230,8 +230,9 @@ impl ConeDiscretisation {
         let (counts, lengths, [penetration, tolerance]) = levels[accuracy.level() as usize];
         let [elements, at_axis, lead, steps] = counts;
         let [core_depth, row_growth, first_shell, growth, domain, foot] = lengths;
-        let finer = if quadratic { exponent.map_or(1.0, softness_of).powf(SOFTER) } else { 1.0 };
-        let [elements, steps] = [elements, steps].map(|count| (count as f64 * finer).round() as usize);
+        let softness = if quadratic { exponent.map_or(1.0, softness_of) } else { 1.0 };
+        let finer = |count: usize, power: f64| (count as f64 * softness.powf(power)).round() as usize;
+        let (elements, steps) = (finer(elements, SOFTER[0]), finer(steps, SOFTER[1]));
         ConeDiscretisation {
             numbers: Discretisation {
                 element,
