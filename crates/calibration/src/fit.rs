@@ -230,8 +230,9 @@ pub fn model_choices(data: &Data) -> Vec<ModelChoice> {
             slopes.push((format!("without {}°", degrees(out)), others.collect()));
         }
     }
-    let of_slopes =
-        slopes.into_iter().filter_map(|(part, points)| Some(ModelChoice { part, c: through_origin(&points)? }));
+    let of_slopes = slopes
+        .into_iter()
+        .filter_map(|(part, points)| Some(ModelChoice { part, c: through_origin(&points)? }));
     of_metals.chain(of_slopes).collect()
 }
 
@@ -356,7 +357,10 @@ mod tests {
             let angles = angles(&Data::new(&synthetic(c, 0.01)));
             let fit = strain_coefficient(&angles).unwrap();
             assert!(fit.ci95[0] <= c && c <= fit.ci95[1], "{c}: {fit:?}");
-            assert!((fit.c / c - 1.0).abs() < 0.05 && (fit.mean_ratio / c - 1.0).abs() < 0.05, "{c}: {fit:?}");
+            assert!(
+                (fit.c / c - 1.0).abs() < 0.05 && (fit.mean_ratio / c - 1.0).abs() < 0.05,
+                "{c}: {fit:?}"
+            );
             // slopes that are determined agree by both measures, within the interval
             for a in angles.iter().filter(|a| a.beta_deg >= 6.0) {
                 let (s, r) = (a.strain.unwrap(), a.correlation_strain.unwrap());

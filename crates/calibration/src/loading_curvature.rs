@@ -4,8 +4,9 @@
 //! and costs a sixth. D = ln(K_companion/K) holds what mesh, load steps, penalty and substrate do.
 //! * [`ORDER`] of D is taken off ln K: Richardson's extrapolation of errors of second order.
 //! * What is left is bounded by [`REMAINS`] of D and the standard errors of both slopes. On 27 cones of 1° to 20°, E/σ_y 50 to
-//!   3000 and n 0 to 0.5, crushed or indenting, against meshes of 30 to 40 elements and 82 steps, all lay within that
-//!   bound; the median of the bound over the error was 3.4. The extrapolation took the mean error from 0.31 % to 0.06 %.
+//!   3000 and n 0 to 0.5, crushed or indenting, against meshes of 30 to 40 elements and 82 steps, 26 lay within that
+//!   bound and one at it; the median of the bound over the error was 3.1, the mean error 0.10 % ± 0.27 %. Without the
+//!   extrapolation the mean would be 0.3 %.
 //!
 //! The bound says nothing of what both runs share: the law of the material, the stress that yields, a frictionless tool.
 
@@ -102,7 +103,8 @@ fn fitted(case: &Case, discretisation: &ConeDiscretisation) -> Result<Fitted, Ca
     let points = |of: fn(&Increment) -> [f64; 2]| window.iter().map(of).collect::<Vec<[f64; 2]>>();
     let exponent = Line::through(&points(|p| [p.depth.ln(), p.contact.force.max(0.0).ln()])).slope;
     let radius = Line::through(&points(|p| [p.depth, disc_radius(p)])).slope;
-    let root = beside_a_ripple(&points(|p| [p.depth, p.contact.force.max(0.0).sqrt()]), radius / curve.element);
+    let root =
+        beside_a_ripple(&points(|p| [p.depth, p.contact.force.max(0.0).sqrt()]), radius / curve.element);
     Ok(Fitted { root: root.slope, root_error: root.slope_error / root.slope, radius, exponent, curve })
 }
 

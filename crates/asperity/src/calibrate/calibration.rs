@@ -76,9 +76,8 @@ impl Calibration {
         let angles = if obstacle.is_none() { angles(&data) } else { Vec::new() };
         let all = strain_coefficient(&angles);
         let choices = if all.is_some() { model_choices(&data) } else { Vec::new() };
-        let developed = all.and_then(|a| {
-            strain_coefficient(&self::angles(&self::developed(&data, a.c, DEVELOPED)))
-        });
+        let developed =
+            all.and_then(|a| strain_coefficient(&self::angles(&self::developed(&data, a.c, DEVELOPED))));
         let function = all.and_then(|a| Dimensionless::fit(&data, a.c));
         let unloaded = match (&function, all) {
             (Some(_), Some(a)) => unloading::unload(sweep, a.c),
@@ -189,7 +188,10 @@ fn fit_text(fit: &Fit) -> String {
                 text,
                 "c         {c:.4} by least squares through the origin, {mean:.4} as mean of eps_r/tan ({law}, {slopes} slopes; published {published})"
             );
-            let _ = writeln!(text, "          {arithmetic} arithmetic: 95 %, other cases drawn, K shifted by its error");
+            let _ = writeln!(
+                text,
+                "          {arithmetic} arithmetic: 95 %, other cases drawn, K shifted by its error"
+            );
             writeln!(
                 text,
                 "          {model} model: other ranges of metals and slopes; the law is {law} in all of them"
@@ -219,7 +221,12 @@ fn fit_text(fit: &Fit) -> String {
 }
 
 /// The table that `rough` reads.
-fn coefficient(sweep: &Sweep, fit: &Fit, all: StrainCoefficient, function: &Dimensionless) -> Option<Coefficient> {
+fn coefficient(
+    sweep: &Sweep,
+    fit: &Fit,
+    all: StrainCoefficient,
+    function: &Dimensionless,
+) -> Option<Coefficient> {
     let mut stiffness = [f64::INFINITY, 0.0_f64];
     let rows = function.ranges.iter().map(|&(beta_deg, [low, high])| {
         let tan = beta_deg.to_radians().tan();

@@ -84,9 +84,19 @@ fn numbers(results: &Results) -> Vec<Number> {
         ("newton_iterations", "Newton iterations", summary(|s| Some(s.newton_iterations as f64)), 0),
         ("coefficient", "c of ε_r = c tan β, from 480 sharp cones, by least squares", coefficient, 3),
         ("coefficient_mean_ratio", "the same as mean of ε_r/tan β", mean, 3),
-        ("coefficient_low", "95 % interval of the arithmetic (other cases drawn, K shifted by its error), from", interval.map(|i| i[0]), 3),
+        (
+            "coefficient_low",
+            "95 % interval of the arithmetic (other cases drawn, K shifted by its error), from",
+            interval.map(|i| i[0]),
+            3,
+        ),
         ("coefficient_high", "to", interval.map(|i| i[1]), 3),
-        ("coefficient_model_low", "interval of the model (other ranges of metals and slopes), from", model.map(|i| i[0]), 3),
+        (
+            "coefficient_model_low",
+            "interval of the model (other ranges of metals and slopes), from",
+            model.map(|i| i[0]),
+            3,
+        ),
         ("coefficient_model_high", "to", model.map(|i| i[1]), 3),
     ];
     let known = |(name, words, value, decimals): (_, _, Option<f64>, _)| {
