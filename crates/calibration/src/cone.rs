@@ -38,6 +38,11 @@ pub enum CaseError {
     NotSimilar(f64),
 }
 
+/// Radius of the disc of the contact area: the element at the axis may hang free over a part of its width.
+pub fn disc_radius(increment: &Increment) -> f64 {
+    (increment.contact.area / std::f64::consts::PI).sqrt()
+}
+
 fn start(problem: &Problem) -> Result<Path<'_>, CaseError> {
     Path::new(problem).map_err(|_| CaseError::Mesh)
 }
@@ -47,7 +52,7 @@ fn go_to(path: &mut Path<'_>, travel: f64) -> Result<Increment, CaseError> {
         .map_err(|cause| CaseError::Stopped { share: path.travel(), cause })
 }
 
-/// Goes along the schedule of `problem`; the penetration on top of it stays the same, so that steps remain equal.
+/// Goes along the schedule of `problem`. The penetration of the end is on top of every depth, so that steps remain equal.
 fn load(path: &mut Path<'_>, problem: &Problem) -> Result<Vec<Increment>, CaseError> {
     let numbers = &problem.numbers;
     numbers.schedule().into_iter().map(|depth| go_to(path, depth + numbers.penetration)).collect()
@@ -81,7 +86,7 @@ pub fn unloading_exponent(case: &Case, discretisation: &ConeDiscretisation) -> R
     let not_found = |share: f64| CaseError::Stopped { share, cause: Stop::NoEquilibrium };
     let peak = load(&mut path, &problem)?.pop().ok_or(not_found(0.0))?;
     let (peak_depth, peak_force) = of(peak);
-    let stiffness = 2.0 * case.elastic().reduced_modulus() * peak.contact.radius;
+    let stiffness = 2.0 * case.elastic().reduced_modulus() * disc_radius(&peak);
     // in (F/F_j)^(1/m) the way is nearly a straight line: m of a flat punch is 1, of a cone 2, of flattened ones 1.2
     let straight = |force: f64| (force / peak_force).powf(1.0 / UNLOADING_EXPONENT);
     let mut last = of(peak);

@@ -1,6 +1,11 @@
-//! From the rows of a sweep to ε_r of every slope, c with its interval, and what is left over.
+//! From the rows of a sweep to ε_r of every slope, c of ε_r = c tan β, and its two intervals:
+//! * that of the arithmetic: the same choices, other cases drawn and K shifted by its error;
+//! * that of the model: the same cases, of which parts are left out. ε_r = c tan β is not exact, so c depends on the metals
+//!   and slopes that it is fitted to, by more than its arithmetic tells.
 
-use crate::collapse::{Collapse, Measure, Sample, largest_correlation, least_scatter, scatter_left};
+use crate::collapse::{
+    Collapse, Measure, Sample, distinct, largest_correlation, least_scatter, scatter_left,
+};
 use crate::row::Row;
 use asperity_law::Elastic;
 
@@ -31,21 +36,30 @@ pub struct Angle {
     pub curve: Vec<Measure>,
     /// Materials that took part.
     pub cases: usize,
-    /// Weight in c: 1/variance of ln ε_r; 0 if not determined.
-    pub weight: f64,
     /// ln(ε_r/tan β) of every resample.
     resampled: Vec<Option<f64>>,
 }
 
 /// c of ε_r = c tan β over all slopes.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Slope {
-    /// c.
+pub struct StrainCoefficient {
+    /// c by least squares of ε_r = c tan β, a line through the origin: Σ ε_r tan β/Σ tan²β. The steepest cones count most.
     pub c: f64,
-    /// 95 % interval from the resampled materials.
+    /// Mean of ε_r/tan β, in which all slopes count alike.
+    pub mean_ratio: f64,
+    /// 95 % interval of c from the arithmetic: resampled materials, K shifted by its error.
     pub ci95: [f64; 2],
     /// Slopes that took part.
     pub angles: usize,
+}
+
+/// c of a part of the cases.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ModelChoice {
+    /// Which part, in words.
+    pub part: String,
+    /// Its c by least squares.
+    pub c: f64,
 }
 
 /// Samples of every slope, ascending.
@@ -115,10 +129,7 @@ impl Data {
 /// Why nothing can be fitted at all, in words for a person; `None` if it can be tried.
 pub fn obstacle(data: &Data) -> Option<String> {
     let samples = || data.slopes.iter().flat_map(|s| &s.1);
-    let mut exponents: Vec<f64> = samples().map(|s| s.hardening.exponent).collect();
-    exponents.sort_by(f64::total_cmp);
-    exponents.dedup();
-    if exponents.len() < 2 {
+    if distinct(samples().map(|s| s.hardening.exponent)).len() < 2 {
         return Some("materials of one hardening exponent collapse for every representative strain".into());
     }
     if data.slopes.iter().all(|s| s.1.len() < 6) {
@@ -148,7 +159,6 @@ pub fn angles(data: &Data) -> Vec<Angle> {
             let mut all: Vec<f64> = resampled.iter().flatten().copied().collect();
             all.extend((0..undecided).map(|i| if i % 2 == 0 { first } else { last }));
             let interval = quantiles(&mut all).map(|q| q.exp() * tan);
-            let found: Vec<f64> = resampled.iter().flatten().copied().collect();
             Some(Angle {
                 beta_deg: *beta,
                 strain,
@@ -156,7 +166,6 @@ pub fn angles(data: &Data) -> Vec<Angle> {
                 interval,
                 scatter: scatter_left(&curve),
                 cases: samples.len(),
-                weight: if strain.is_some() { 1.0 / variance(&found).max(1e-12) } else { 0.0 },
                 curve,
                 resampled,
             })
@@ -164,24 +173,82 @@ pub fn angles(data: &Data) -> Vec<Angle> {
         .collect()
 }
 
-/// c as the weighted mean of ln(ε_r/tan β) over the determined slopes, its interval from the same resamples of materials.
-pub fn slope(angles: &[Angle]) -> Option<Slope> {
-    let known: Vec<&Angle> = angles.iter().filter(|a| a.weight > 0.0).collect();
-    let mean = |values: &dyn Fn(&Angle) -> Option<f64>| {
-        let (mut sum, mut weight) = (0.0, 0.0);
-        for a in &known {
-            if let Some(v) = values(a) {
-                sum += a.weight * v;
-                weight += a.weight;
-            }
-        }
-        (weight > 0.0).then(|| sum / weight)
+/// c over the determined slopes, and its interval from the same resamples of materials.
+pub fn strain_coefficient(angles: &[Angle]) -> Option<StrainCoefficient> {
+    let known: Vec<&Angle> = angles.iter().filter(|a| a.strain.is_some()).collect();
+    let tan = |a: &Angle| a.beta_deg.to_radians().tan();
+    let strains: Vec<[f64; 2]> = known.iter().filter_map(|a| Some([tan(a), a.strain?])).collect();
+    let c = through_origin(&strains)?;
+    let mean_ratio = strains.iter().map(|[tan, strain]| strain / tan).sum::<f64>() / strains.len() as f64;
+    let resample = |b: usize| {
+        let drawn = known.iter().filter_map(|a| Some([tan(a), a.resampled[b]?.exp() * tan(a)]));
+        through_origin(&drawn.collect::<Vec<_>>())
     };
-    let log = |a: &Angle| a.strain.map(|e| (e / a.beta_deg.to_radians().tan()).ln());
-    let c = mean(&log)?.exp();
-    let mut resampled: Vec<f64> = (0..RESAMPLES).filter_map(|b| mean(&|a: &Angle| a.resampled[b])).collect();
-    let ci95 = quantiles(&mut resampled).map(f64::exp);
-    Some(Slope { c, ci95, angles: known.len() })
+    let ci95 = quantiles(&mut (0..RESAMPLES).filter_map(resample).collect::<Vec<f64>>());
+    Some(StrainCoefficient { c, mean_ratio, ci95, angles: known.len() })
+}
+
+/// Slope of the line through the origin by least squares of points (tan β, ε_r); `None` without any.
+fn through_origin(points: &[[f64; 2]]) -> Option<f64> {
+    let sum = |of: fn(&[f64; 2]) -> f64| points.iter().map(of).sum::<f64>();
+    let square = sum(|p| p[0] * p[0]);
+    (square > 0.0).then(|| sum(|p| p[0] * p[1]) / square)
+}
+
+/// c of parts of `data`: each half of the range of E/σ_y, each hardening exponent left out, each half of the slopes and each
+/// slope left out. Parts that determine no c are not listed. One law was swept; what another would give is in none of them.
+pub fn model_choices(data: &Data) -> Vec<ModelChoice> {
+    let ratio = |s: &Sample| 1.0 / s.hardening.yield_stress;
+    let all = || data.slopes.iter().flat_map(|(_, samples)| samples);
+    let ends = all().map(ratio).fold([f64::MAX, 0.0_f64], |[low, high], r| [low.min(r), high.max(r)]);
+    let middle = (ends[0] * ends[1]).sqrt();
+    let mut parts = vec![
+        (format!("E/σ_y up to {middle:.0}"), data.filtered(|_, s| ratio(s) <= middle)),
+        (format!("E/σ_y from {middle:.0}"), data.filtered(|_, s| ratio(s) >= middle)),
+    ];
+    for n in distinct(all().map(|s| s.hardening.exponent)) {
+        parts.push((format!("without n = {n}"), data.filtered(|_, s| s.hardening.exponent != n)));
+    }
+    let of_metals = parts.iter().filter_map(|(part, data)| {
+        let enough = obstacle(data).is_none();
+        let c = enough.then(|| through_origin(&least_scatters(data))).flatten()?;
+        Some(ModelChoice { part: part.clone(), c })
+    });
+    let strains = least_scatters(data);
+    let half = strains.len().div_ceil(2);
+    let degrees = |i: usize| {
+        let beta = strains.get(i).map_or(f64::NAN, |p| p[0].atan().to_degrees());
+        (1e6 * beta).round() * 1e-6
+    };
+    let mut slopes = Vec::new();
+    if strains.len() > 1 {
+        let last = strains.len() - 1;
+        slopes.push((format!("slopes up to {}°", degrees(half - 1)), strains[..half].to_vec()));
+        slopes.push((format!("slopes from {}°", degrees(half - 1)), strains[half - 1..].to_vec()));
+        for out in 0..=last {
+            let others = strains.iter().enumerate().filter(|(i, _)| *i != out).map(|(_, p)| *p);
+            slopes.push((format!("without {}°", degrees(out)), others.collect()));
+        }
+    }
+    let of_slopes = slopes
+        .into_iter()
+        .filter_map(|(part, points)| Some(ModelChoice { part, c: through_origin(&points)? }));
+    of_metals.chain(of_slopes).collect()
+}
+
+/// Least and largest c of the whole, `c`, and of the `choices`.
+pub fn model_interval(c: f64, choices: &[ModelChoice]) -> [f64; 2] {
+    choices.iter().fold([c, c], |[low, high], choice| [low.min(choice.c), high.max(choice.c)])
+}
+
+/// tan β and ε_r of least scatter of every slope that has one.
+fn least_scatters(data: &Data) -> Vec<[f64; 2]> {
+    let point = |(beta, samples): &(f64, Vec<Sample>)| {
+        let tan = beta.to_radians().tan();
+        let curve = Collapse::new(samples, tan, data.reduced_modulus).measures(|_| [1.0, 0.0])?;
+        Some([tan, least_scatter(&curve)? * tan])
+    };
+    data.slopes.iter().filter_map(point).collect()
 }
 
 /// The 2.5 % and 97.5 % quantiles.
@@ -189,12 +256,6 @@ fn quantiles(values: &mut [f64]) -> [f64; 2] {
     values.sort_by(f64::total_cmp);
     let at = |q: f64| values.get((q * (values.len().max(1) - 1) as f64).round() as usize).copied();
     [at(0.025), at(0.975)].map(|v| v.unwrap_or(f64::NAN))
-}
-
-fn variance(values: &[f64]) -> f64 {
-    let n = values.len().max(1) as f64;
-    let mean = values.iter().sum::<f64>() / n;
-    values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / n
 }
 
 /// Resamples of the materials: how often each is drawn, and by how many times its 95 % bound its K is shifted.
@@ -294,15 +355,31 @@ mod tests {
     fn a_known_strain_is_recovered_from_one_percent_noise() {
         for c in [0.06, 0.1, 0.25] {
             let angles = angles(&Data::new(&synthetic(c, 0.01)));
-            let fit = slope(&angles).unwrap();
+            let fit = strain_coefficient(&angles).unwrap();
             assert!(fit.ci95[0] <= c && c <= fit.ci95[1], "{c}: {fit:?}");
-            assert!((fit.c / c - 1.0).abs() < 0.05, "{c}: {fit:?}");
+            assert!(
+                (fit.c / c - 1.0).abs() < 0.05 && (fit.mean_ratio / c - 1.0).abs() < 0.05,
+                "{c}: {fit:?}"
+            );
             // slopes that are determined agree by both measures, within the interval
             for a in angles.iter().filter(|a| a.beta_deg >= 6.0) {
                 let (s, r) = (a.strain.unwrap(), a.correlation_strain.unwrap());
                 assert!((s / r - 1.0).abs() < 0.15 && a.interval[0] < s && s < a.interval[1], "{a:?}");
             }
         }
+    }
+
+    #[test]
+    fn exact_data_have_the_same_coefficient_in_every_part() {
+        let choices = model_choices(&Data::new(&synthetic(0.1, 0.0)));
+        // two halves of the metals, four exponents, two halves of the slopes, ten slopes
+        assert_eq!(choices.len(), 18);
+        assert!(choices.iter().all(|choice| (choice.c / 0.1 - 1.0).abs() < 0.01), "{choices:?}");
+        let parts: Vec<&str> = choices.iter().map(|choice| choice.part.as_str()).collect();
+        assert!(parts.contains(&"E/σ_y up to 324") && parts.contains(&"without n = 0.5"), "{parts:?}");
+        assert!(parts.contains(&"slopes up to 5°") && parts.contains(&"slopes from 5°"), "{parts:?}");
+        let [low, high] = model_interval(0.1, &choices);
+        assert!(low <= 0.1 && 0.1 <= high);
     }
 
     #[test]
@@ -319,7 +396,7 @@ mod tests {
                 .collect();
             let angles = angles(&Data::new(&rows));
             assert!(angles.len() == 10 && angles.iter().all(|a| a.strain.is_none()), "{noise}");
-            assert_eq!(slope(&angles), None);
+            assert_eq!(strain_coefficient(&angles), None);
         }
     }
 

@@ -1,67 +1,150 @@
-//! Kick's law of a cone, F = K h²: its constant, its contact radius and their error from a loading curve.
+//! Kick's law of a cone, F = K h²: its constant, its contact radius and their error, from two loading curves.
+//!
+//! K is the square of the slope of √F over h. The companion is the same cone with every number of the discretisation half as good,
+//! and costs a sixth. D = ln(K_companion/K) holds what mesh, load steps, penalty and substrate do.
+//! * [`ORDER`] of D is taken off ln K: Richardson's extrapolation of errors of second order.
+//! * What is left is bounded by [`REMAINS`] of D and the standard errors of both slopes. On 27 cones of 1° to 20°, E/σ_y 50 to
+//!   3000 and n 0 to 0.5, crushed or indenting, against meshes of 30 to 40 elements and 82 steps, 26 lay within that
+//!   bound and one at it; the median of the bound over the error was 3.1, the mean error 0.10 % ± 0.27 %. Without the
+//!   extrapolation the mean would be 0.3 %.
+//!
+//! The bound says nothing of what both runs share: the law of the material, the stress that yields, a frictionless tool.
 
 use crate::case::Case;
-use crate::cone::{CaseError, Curve, crush};
-use asperity_law::least_squares::Line;
-use asperity_solver::run::discretisation::{ConeDiscretisation, FIT_FROM};
+use crate::cone::{CaseError, Curve, crush, disc_radius};
+use asperity_law::least_squares::{Line, solve as least_squares, value};
+use asperity_solver::run::discretisation::ConeDiscretisation;
 use asperity_solver::run::load_path::Increment;
+use std::f64::consts::TAU;
 
 /// The result of a case.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LoadingCurvature {
-    /// K/E = F/(E h²), from the slope of √F against h over whole periods of the mesh.
+    /// K/E = F/(E h²).
     pub k_over_e: f64,
-    /// Relative 95 % bound of K.
+    /// Relative 95 % bound of what mesh, load steps, penalty and substrate leave in K.
     pub error: f64,
-    /// a tan β/h, from the slope of the contact radius against h over the same periods.
+    /// a tan β/h, with π a² the contact area.
     pub contact_ratio: f64,
-    /// Converged increments.
+    /// Converged increments of run and companion.
     pub increments: usize,
-    /// Newton iterations.
+    /// Newton iterations of both.
     pub iterations: usize,
 }
+
+/// 1/(2ᵖ - 1) for the order p = 2.
+const ORDER: f64 = 1.0 / 3.0;
+
+/// The same for the contact radius, which the penalty widens: p = 3/2 takes its mean error from 0.9 % to -0.1 %.
+const ORDER_OF_RADIUS: f64 = 0.547;
+
+/// Share of the difference between run and companion that may be left.
+const REMAINS: f64 = 0.4;
+
+/// Share of the final depth from which the lines are fitted: by then what the longer first steps left behind has faded.
+const FIT_FROM: f64 = 0.43;
 
 /// Exponents farther from 2 than this are no sharp cone: something other than the depth gave a length.
 const EXPONENT_TOLERANCE: f64 = 0.06;
 
-/// Solves `case` and fits it.
+/// Points that a line with a ripple has at least.
+const POINTS: usize = 6;
+
+/// What one curve says.
+struct Fitted {
+    /// Slope of √F, and its relative standard error.
+    root: f64,
+    root_error: f64,
+    /// Slope of the contact radius.
+    radius: f64,
+    /// Exponent of the force over the depth.
+    exponent: f64,
+    curve: Curve,
+}
+
+/// Solves `case` and its companion.
 ///
 /// # Errors
 /// No equilibrium, or a force that is no parabola of the depth.
 pub fn solve(case: &Case, discretisation: &ConeDiscretisation) -> Result<LoadingCurvature, CaseError> {
-    let curve = crush(case, discretisation)?;
-    let window = whole_periods(&curve);
-    let line =
-        |point: fn(&Increment) -> [f64; 2]| Line::through(&window.iter().map(point).collect::<Vec<_>>());
-    let root = line(|p| [p.depth, p.contact.force.max(0.0).sqrt()]);
-    let radius = line(|p| [p.depth, p.contact.radius]);
-    let exponent = line(|p| [p.depth.ln(), p.contact.force.max(0.0).ln()]).slope;
+    let run = fitted(case, discretisation)?;
     // a rounded summit shifts h, which the slope of √F does not notice and the exponent does
     let sharp = discretisation.sizes.rounding == 0.0;
-    if exponent.is_nan() || sharp && (exponent - 2.0).abs() > EXPONENT_TOLERANCE {
-        return Err(CaseError::NotSimilar(exponent));
+    if run.exponent.is_nan() || sharp && (run.exponent - 2.0).abs() > EXPONENT_TOLERANCE {
+        return Err(CaseError::NotSimilar(run.exponent));
     }
-    let ripple = 2.0 * 2.0 * root.slope_error / root.slope; // K is the square; two standard deviations
+    let companion = companion(case, discretisation)?;
+    let difference = 2.0 * (companion.root / run.root).ln();
+    // K is the square
+    let [own, other] = [run.root_error, companion.root_error].map(|error| 2.0 * error);
     Ok(LoadingCurvature {
-        k_over_e: root.slope * root.slope,
-        error: discretisation.bias.hypot(ripple),
-        contact_ratio: radius.slope * case.tan_beta(),
-        increments: curve.increments,
-        iterations: curve.iterations,
+        k_over_e: run.root * run.root * (-ORDER * difference).exp(),
+        error: REMAINS * difference.abs() + own.hypot(ORDER * other),
+        contact_ratio: run.radius * (run.radius / companion.radius).powf(ORDER_OF_RADIUS) * case.tan_beta(),
+        increments: run.curve.increments + companion.curve.increments,
+        iterations: run.curve.iterations + companion.curve.iterations,
     })
 }
 
-/// The last points of the curve, over which the contact radius has grown by a whole number of elements: the force
-/// ripples with that period, and half a period too much tilts the line.
-fn whole_periods(curve: &Curve) -> &[Increment] {
-    let points = &curve.points;
-    let end = points.last().map_or(0.0, |p| p.contact.radius);
-    let off = |i: &usize| {
-        let periods = (end - points[*i].contact.radius) / curve.element;
-        (periods - periods.round()).abs()
+/// The companion; if it does not come to its end, that with as many steps as the run, whose difference says less of the steps.
+fn companion(case: &Case, discretisation: &ConeDiscretisation) -> Result<Fitted, CaseError> {
+    let mut coarser = discretisation.coarser();
+    fitted(case, &coarser).or_else(|_| {
+        coarser.numbers.steps = discretisation.numbers.steps;
+        coarser.numbers.spacing = discretisation.numbers.spacing;
+        fitted(case, &coarser)
+    })
+}
+
+fn fitted(case: &Case, discretisation: &ConeDiscretisation) -> Result<Fitted, CaseError> {
+    let curve = crush(case, discretisation)?;
+    let from = curve.points.iter().position(|p| p.depth >= FIT_FROM).unwrap_or(0);
+    let window = &curve.points[from..];
+    let points = |of: fn(&Increment) -> [f64; 2]| window.iter().map(of).collect::<Vec<[f64; 2]>>();
+    let exponent = Line::through(&points(|p| [p.depth.ln(), p.contact.force.max(0.0).ln()])).slope;
+    let radius = Line::through(&points(|p| [p.depth, disc_radius(p)])).slope;
+    let root =
+        beside_a_ripple(&points(|p| [p.depth, p.contact.force.max(0.0).sqrt()]), radius / curve.element);
+    Ok(Fitted { root: root.slope, root_error: root.slope_error / root.slope, radius, exponent, curve })
+}
+
+/// The straight line through `points`, beside a ripple of `frequency` periods per unit of x: as the front crosses element after
+/// element, √F of a cone ripples with the same amplitude. Without the ripple where there are too few points for it.
+fn beside_a_ripple(points: &[[f64; 2]], frequency: f64) -> Line {
+    let ripple = |x: f64| {
+        let (sin, cos) = (TAU * frequency * x).sin_cos();
+        [1.0, cos, sin]
     };
-    let first = points.iter().position(|p| p.depth >= 0.95 * FIT_FROM).unwrap_or(0);
-    let candidates = first..(first + 4).min(points.len());
-    let start = candidates.min_by(|i, j| off(i).total_cmp(&off(j))).unwrap_or(first);
-    &points[start..]
+    let rest = |y: fn(&[f64; 2]) -> f64| {
+        let rows: Vec<_> = points.iter().map(|p| (ripple(p[0]), y(p), 1.0)).collect();
+        let ripple = least_squares(&rows)?;
+        Some(rows.iter().map(|(basis, y, _)| y - value(&ripple, basis)).collect::<Vec<f64>>())
+    };
+    // the slope is that of what is left of y over what is left of x
+    match (rest(|p| p[0]), rest(|p| p[1])) {
+        (Some(x), Some(y)) if points.len() >= POINTS => {
+            let sxx: f64 = x.iter().map(|x| x * x).sum();
+            let slope = x.iter().zip(&y).map(|(x, y)| x * y).sum::<f64>() / sxx;
+            let scatter: f64 = x.iter().zip(&y).map(|(x, y)| (y - slope * x).powi(2)).sum();
+            Line { slope, slope_error: (scatter / (points.len() as f64 - 4.0) / sxx).sqrt() }
+        }
+        _ => Line::through(points),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_ripple_does_not_tilt_the_line() {
+        let point = |i: i32| {
+            let x = 0.43 + 0.57 * f64::from(i) / 17.0;
+            [x, 0.3 + 2.0 * x + 0.01 * (TAU * 7.7 * x + 0.4).sin()]
+        };
+        let points: Vec<[f64; 2]> = (0..=17).map(point).collect();
+        let line = beside_a_ripple(&points, 7.7);
+        assert!((line.slope - 2.0).abs() < 1e-9 && line.slope_error < 1e-9, "{line:?}");
+        assert!((Line::through(&points).slope - 2.0).abs() > 1e-3);
+    }
 }

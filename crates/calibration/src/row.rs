@@ -2,6 +2,7 @@
 
 use crate::case::Case;
 use crate::loading_curvature::LoadingCurvature;
+use asperity_law::StressMeasure;
 use serde::{Deserialize, Serialize, Serializer};
 use std::collections::HashMap;
 use std::io;
@@ -31,16 +32,18 @@ pub struct CaseRow {
     /// Young's modulus over yield stress.
     #[serde(rename = "E_over_sy", serialize_with = "plain")]
     pub e_over_sy: f64,
+    /// Which stress yields, `cauchy` or `kirchhoff`. Files of versions without this column are refused: they do not say.
+    pub stress_measure: StressMeasure,
     /// F/(E h²); none of a case that failed, like the next four.
     #[serde(rename = "K_over_E", serialize_with = "plain")]
     pub k_over_e: Option<f64>,
-    /// Relative 95 % bound of K.
+    /// Relative 95 % bound of what mesh, load steps, penalty and substrate leave in K.
     #[serde(rename = "K_error", serialize_with = "plain")]
     pub k_error: Option<f64>,
     /// a tan β/h.
     #[serde(serialize_with = "plain")]
     pub contact_ratio: Option<f64>,
-    /// Converged increments.
+    /// Converged increments, those of the companion included, as the next.
     pub increments: Option<usize>,
     /// Newton iterations.
     pub newton_iterations: Option<usize>,
@@ -68,6 +71,7 @@ impl From<&Row> for CaseRow {
             hardening_law: yielding.map_or("elastic", |y| y.law.name()).into(),
             n: yielding.map_or(0.0, |y| y.exponent),
             e_over_sy: yielding.map_or(f64::INFINITY, |y| y.e_over_sy),
+            stress_measure: row.case.stress_measure,
             k_over_e: found.map(|k| k.k_over_e),
             k_error: found.map(|k| k.error),
             contact_ratio: found.map(|k| k.contact_ratio),
@@ -83,7 +87,12 @@ impl From<&Row> for CaseRow {
 impl CaseRow {
     /// Names the case; the grid supplies Poisson's ratio and the tool.
     pub fn key(&self) -> String {
-        format!("{},{},{},{}", self.beta_deg, self.hardening_law, self.n, self.e_over_sy)
+        let CaseRow { beta_deg, hardening_law, n, e_over_sy, stress_measure, .. } = self;
+        let stress_measure = match stress_measure {
+            StressMeasure::Cauchy => "cauchy",
+            StressMeasure::Kirchhoff => "kirchhoff",
+        };
+        format!("{beta_deg},{hardening_law},{n},{e_over_sy},{stress_measure}")
     }
 
     /// The row as a line of the file, without its end.
@@ -143,7 +152,7 @@ mod tests {
     use super::*;
     use crate::sweep::Sweep;
 
-    const HEADER: &str = "beta_deg,hardening_law,n,E_over_sy,K_over_E,K_error,contact_ratio,increments,newton_iterations,wall_s,status";
+    const HEADER: &str = "beta_deg,hardening_law,n,E_over_sy,stress_measure,K_over_E,K_error,contact_ratio,increments,newton_iterations,wall_s,status";
 
     #[test]
     fn rows_read_back_from_lines_and_from_the_file() {
@@ -166,13 +175,17 @@ mod tests {
             );
             assert_eq!(Row::of_cases(&[case], [record]), [row]);
         }
-        assert_eq!(CaseRow::of_line("1,hollomon,0.5,233.333333333,1.0,0.01"), None);
+        assert_eq!(CaseRow::of_line("1,hollomon,0.5,233.333333333,cauchy,1.0,0.01"), None);
+        let old = "beta_deg,hardening_law,n,E_over_sy,K_over_E,K_error,contact_ratio,increments,newton_iterations,wall_s,status\n\
+                   1,hollomon,0.1,350,2,0.01,0.7,28,110,0.1,ok\n";
+        let refused = CaseRow::read(old.as_bytes()).unwrap_err().to_string();
+        assert!(refused.contains("stress_measure"), "{refused}");
     }
 
     #[test]
-    fn a_line_has_the_digits_of_earlier_versions() {
+    fn a_line_has_the_shortest_digits_and_no_quotes() {
         let case = Sweep::default().cases()[0];
         let row = Row { case, outcome: Err("no, \"never\"".into()), wall_s: 2.0 };
-        assert_eq!(CaseRow::from(&row).line(), "1,hollomon,0.1,350,,,,,,2,no; ;never;");
+        assert_eq!(CaseRow::from(&row).line(), "1,hollomon,0.1,350,cauchy,,,,,,2,no; ;never;");
     }
 }

@@ -1,7 +1,7 @@
 //! Sensitivity of c: one grid for both laws and both tools, fitted whole and in parts.
 
 use crate::case::Tool;
-use crate::fit::{DEVELOPED, Data, Slope, angles, developed, slope};
+use crate::fit::{DEVELOPED, Data, StrainCoefficient, angles, developed, strain_coefficient};
 use crate::row::Row;
 use crate::sweep::Sweep;
 use asperity_law::HardeningLaw;
@@ -46,9 +46,9 @@ pub struct Line {
     /// Smallest and largest E/σ_y.
     pub ratios: [f64; 2],
     /// c of all cases; `None`: not determined.
-    pub all: Option<Slope>,
+    pub all: Option<StrainCoefficient>,
     /// c where E* tan β/σ_r is at least [`DEVELOPED`].
-    pub developed: Option<Slope>,
+    pub developed: Option<StrainCoefficient>,
 }
 
 /// c of every part of the rows of one sweep.
@@ -65,8 +65,8 @@ pub fn lines(rows: &[Row]) -> Vec<Line> {
         let part = data.filtered(|_, s| {
             within(exponents, s.hardening.exponent) && within(ratios, 1.0 / s.hardening.yield_stress)
         });
-        let all = slope(&angles(&part));
-        let developed = all.and_then(|s| slope(&angles(&developed(&part, s.c, DEVELOPED))));
+        let all = strain_coefficient(&angles(&part));
+        let developed = all.and_then(|s| strain_coefficient(&angles(&developed(&part, s.c, DEVELOPED))));
         Line { exponents, ratios, all, developed }
     };
     parts.par_iter().map(fitted).collect()

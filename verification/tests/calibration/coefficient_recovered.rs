@@ -6,7 +6,7 @@
 //! Tolerance of c 5 %: the half width of its own 95 % interval.
 
 use asperity_calibration::case::Case;
-use asperity_calibration::fit::{Data, SplitMix, angles, slope};
+use asperity_calibration::fit::{Data, SplitMix, angles, strain_coefficient};
 use asperity_calibration::loading_curvature::LoadingCurvature;
 use asperity_calibration::row::Row;
 use asperity_calibration::sweep::Sweep;
@@ -32,10 +32,10 @@ fn known_coefficient_is_found_and_elastic_data_give_none() {
             - 0.701_906;
         ln_y.exp() * stress / case.tan_beta().powi(2)
     });
-    let found = slope(&angles(&Data::new(&made))).unwrap();
+    let found = strain_coefficient(&angles(&Data::new(&made))).unwrap();
     assert!((found.c / c - 1.0).abs() < 0.05, "{found:?}");
     assert!(found.ci95[0] < c && c < found.ci95[1], "{found:?}");
     let elastic = angles(&Data::new(&rows(|case| 0.7 / case.tan_beta())));
     assert!(elastic.iter().all(|a| a.strain.is_none()));
-    assert_eq!(slope(&elastic), None);
+    assert_eq!(strain_coefficient(&elastic), None);
 }

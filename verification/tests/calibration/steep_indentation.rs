@@ -5,7 +5,7 @@
 //! plastic strain 0.033. Their code takes the stress of the law as Cauchy's, and so does this comparison: at E/σ_y = 100 that
 //! is 1.3 % of K. A scene with such a cone, meshed for its depth and of linear elements, reaches the depth, comes back from
 //! it and gives K too, perfectly plastic metal included, where quadratic elements lose their shape at the axis.
-//! Tolerances: 2 % between two meshes at `draft` and coarser; 3 % of Π₁, its own scatter; 5 % of a scene at draft, its promise.
+//! Tolerances: the stated errors of two meshes at `draft` and coarser, and 5 %, the promise of `draft`; 3 % of Π₁, its own scatter; 5 % of a scene at draft, its promise.
 
 use asperity_calibration::case::{Case, Tool};
 use asperity_calibration::loading_curvature::solve;
@@ -32,8 +32,9 @@ fn k_of_a_steep_cone_does_not_depend_on_the_mesh() {
     let draft = case.discretisation(Accuracy::Draft);
     let mut coarse = draft;
     (coarse.numbers.elements_in_contact, coarse.sizes.at_axis) = (8, 1);
-    let [fine, coarse] = [draft, coarse].map(|r| solve(&case, &r).unwrap().k_over_e);
-    assert!((coarse / fine - 1.0).abs() < 0.02, "{coarse} {fine}");
+    let [fine, coarse] = [draft, coarse].map(|r| solve(&case, &r).unwrap());
+    let difference = (coarse.k_over_e / fine.k_over_e - 1.0).abs();
+    assert!(difference < 0.05 && difference < fine.error + coarse.error, "{coarse:?} {fine:?}");
 }
 
 #[test]

@@ -6,7 +6,9 @@ use super::run::{Options, Progress, solve};
 use crate::error::{Error, InputError};
 use crate::output::{Sink, SinkExt};
 use asperity_calibration::dimensionless::Dimensionless;
-use asperity_calibration::fit::{DEVELOPED, Data, Slope, angles, developed, obstacle, slope};
+use asperity_calibration::fit::{
+    DEVELOPED, Data, StrainCoefficient, angles, developed, model_choices, obstacle, strain_coefficient,
+};
 use asperity_calibration::row::{CaseRow, Row};
 use asperity_calibration::sweep::Sweep;
 use asperity_calibration::unloading;
@@ -72,17 +74,20 @@ impl Calibration {
         let data = Data::new(&rows);
         let obstacle = obstacle(&data);
         let angles = if obstacle.is_none() { angles(&data) } else { Vec::new() };
-        let all = slope(&angles);
-        let developed = all.and_then(|s| slope(&self::angles(&developed(&data, s.c, DEVELOPED))));
-        let function = all.and_then(|s| Dimensionless::fit(&data, s.c));
+        let all = strain_coefficient(&angles);
+        let choices = if all.is_some() { model_choices(&data) } else { Vec::new() };
+        let developed =
+            all.and_then(|a| strain_coefficient(&self::angles(&self::developed(&data, a.c, DEVELOPED))));
+        let function = all.and_then(|a| Dimensionless::fit(&data, a.c));
         let unloaded = match (&function, all) {
-            (Some(_), Some(s)) => unloading::unload(sweep, s.c),
+            (Some(_), Some(a)) => unloading::unload(sweep, a.c),
             _ => Vec::new(),
         };
         let flat = "not determined: the scatter is flat in the representative strain at every slope";
         let reason = obstacle.or_else(|| all.is_none().then(|| flat.into()));
-        let fit = Fit::new(sweep, &rows, &angles, all, developed, function.as_ref(), &unloaded, reason);
-        let coefficient = all.zip(function.as_ref()).and_then(|(s, f)| coefficient(sweep, &fit, s, f));
+        let function = function.as_ref();
+        let fit = Fit::new(sweep, &rows, &angles, all, &choices, developed, function, &unloaded, reason);
+        let coefficient = all.zip(function).and_then(|(a, f)| coefficient(sweep, &fit, a, f));
         let cases = rows.iter().map(CaseRow::from).collect();
         let sweep = sweep.clone();
         let (whole, stopped, journal) = (true, false, None);
@@ -173,19 +178,29 @@ fn fit_text(fit: &Fit) -> String {
             if a.determined { "" } else { "  not determined" }
         );
     }
-    let say = |c: f64, [low, high]: [f64; 2], slopes: usize| {
-        format!("{c:.4} [{low:.4}, {high:.4}] from {slopes} slopes")
-    };
-    let _ = match (fit.coefficient, fit.ci95) {
-        (Some(c), Some(ci95)) => {
-            let determined = fit.per_angle.iter().filter(|a| a.weight > 0.0).count();
+    let within = |[low, high]: [f64; 2]| format!("[{low:.4}, {high:.4}]");
+    let _ = match (fit.coefficient_least_squares, fit.coefficient_mean_ratio, fit.ci95, fit.model_interval) {
+        (Some(c), Some(mean), Some(ci95), Some(model)) => {
+            let slopes = fit.per_angle.iter().filter(|a| a.determined).count();
             let (law, published) = (fit.law.name(), fit.published);
-            writeln!(text, "c         {} ({law}; published {published})", say(c, ci95, determined))
+            let [arithmetic, model] = [ci95, model].map(within);
+            let _ = writeln!(
+                text,
+                "c         {c:.4} by least squares through the origin, {mean:.4} as mean of eps_r/tan ({law}, {slopes} slopes; published {published})"
+            );
+            let _ = writeln!(
+                text,
+                "          {arithmetic} arithmetic: 95 %, other cases drawn, K shifted by its error"
+            );
+            writeln!(
+                text,
+                "          {model} model: other ranges of metals and slopes; the law is {law} in all of them"
+            )
         }
         _ => writeln!(text, "c         {}", fit.reason.as_deref().unwrap_or_default()),
     };
-    if let Some(s) = &fit.developed {
-        let said = say(s.coefficient, s.ci95, s.slopes);
+    if let Some(d) = &fit.developed {
+        let said = format!("{:.4} {} from {} slopes", d.coefficient, within(d.ci95), d.slopes);
         let _ = writeln!(text, "          {said} where E* tan(beta)/sigma_r >= {DEVELOPED}");
     }
     if let Some(f) = &fit.dimensionless_function {
@@ -206,7 +221,12 @@ fn fit_text(fit: &Fit) -> String {
 }
 
 /// The table that `rough` reads.
-fn coefficient(sweep: &Sweep, fit: &Fit, slope: Slope, function: &Dimensionless) -> Option<Coefficient> {
+fn coefficient(
+    sweep: &Sweep,
+    fit: &Fit,
+    all: StrainCoefficient,
+    function: &Dimensionless,
+) -> Option<Coefficient> {
     let mut stiffness = [f64::INFINITY, 0.0_f64];
     let rows = function.ranges.iter().map(|&(beta_deg, [low, high])| {
         let tan = beta_deg.to_radians().tan();
@@ -226,8 +246,8 @@ fn coefficient(sweep: &Sweep, fit: &Fit, slope: Slope, function: &Dimensionless)
     Some(Coefficient {
         law: sweep.hardening_law,
         poissons_ratio: sweep.poissons_ratio,
-        c: slope.c,
-        ci95: slope.ci95,
+        c: all.c,
+        ci95: all.ci95,
         unloading_exponent: fit.unloading_exponent.unwrap_or(roughness::SINGLE_ASPERITY_EXPONENT),
         beta_deg,
         modulus_over_stress: stiffness,

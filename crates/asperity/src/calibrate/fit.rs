@@ -3,7 +3,7 @@
 use crate::output::{nan_for_null, row};
 use asperity_calibration::case::Tool;
 use asperity_calibration::dimensionless::{Dimensionless, Formula};
-use asperity_calibration::fit::{Angle, DEVELOPED, Slope};
+use asperity_calibration::fit::{Angle, DEVELOPED, ModelChoice, StrainCoefficient, model_interval};
 use asperity_calibration::row::Row;
 use asperity_calibration::sweep::Sweep;
 use asperity_calibration::unloading::{Unloaded, mean};
@@ -13,8 +13,8 @@ use asperity_roughness::PUBLISHED;
 row! {
     /// The content of `fit.json`.
     Fit(
-        sweep: &Sweep, rows: &[Row], angles: &[Angle], slope: Option<Slope>, developed: Option<Slope>,
-        function: Option<&Dimensionless>, unloaded: &[Unloaded], reason: Option<String>
+        sweep: &Sweep, rows: &[Row], angles: &[Angle], all: Option<StrainCoefficient>, choices: &[ModelChoice],
+        developed: Option<StrainCoefficient>, function: Option<&Dimensionless>, unloaded: &[Unloaded], reason: Option<String>
     ) {
         /// Hardening law of the sweep.
         law: HardeningLaw = sweep.hardening_law,
@@ -22,10 +22,18 @@ row! {
         tool: Tool = sweep.tool,
         /// Poisson's ratio of the sweep.
         poissons_ratio: f64 = sweep.poissons_ratio,
-        /// c of ε_r = c tan β; none where it cannot be determined.
-        coefficient: Option<f64> = slope.map(|s| s.c),
-        /// Its 95 % interval.
-        ci95: Option<[f64; 2]> = slope.map(|s| s.ci95),
+        /// c of ε_r = c tan β, by least squares; none where it cannot be determined.
+        coefficient: Option<f64> = all.map(|a| a.c),
+        /// c of the line through the origin that fits ε_r over tan β by least squares: steep cones count most.
+        coefficient_least_squares: Option<f64> = all.map(|a| a.c),
+        /// The mean of ε_r/tan β: all slopes count alike.
+        coefficient_mean_ratio: Option<f64> = all.map(|a| a.mean_ratio),
+        /// 95 % interval of the arithmetic: cases drawn anew, K shifted by its error, the same choice of cases and law.
+        ci95: Option<[f64; 2]> = all.map(|a| a.ci95),
+        /// Interval of the model: least and largest c that other choices of metals and slopes give.
+        model_interval: Option<[f64; 2]> = all.map(|a| model_interval(a.c, choices)),
+        /// Those choices and their c. No other law is among them: a sweep has one.
+        model_choices: Vec<PartFit> = if all.is_some() { choices.iter().map(PartFit::new).collect() } else { Vec::new() },
         /// Why there is no coefficient.
         reason: Option<String> = reason,
         /// Every slope.
@@ -44,6 +52,16 @@ row! {
         cases: usize = rows.len(),
         /// Those without a K.
         failed: usize = rows.iter().filter(|r| r.outcome.is_err()).count(),
+    }
+}
+
+row! {
+    /// c of a part of the cases.
+    PartFit(choice: &ModelChoice) {
+        /// Which part.
+        part: String = choice.part.clone(),
+        /// Its c by least squares.
+        coefficient: f64 = choice.c,
     }
 }
 
@@ -69,8 +87,8 @@ row! {
         determined: bool = angle.strain.is_some(),
         /// ε_r of largest correlation.
         correlation_strain: Option<f64> = angle.correlation_strain,
-        /// Weight in c.
-        weight: f64 = angle.weight,
+        /// Weight of ε_r/tan β in c: tan²β, 0 where there is no representative strain.
+        weight: f64 = angle.strain.map_or(0.0, |_| angle.beta_deg.to_radians().tan().powi(2)),
         /// ε_r, scatter and correlation over the strains that were tried.
         scatter_curve: Vec<[f64; 3]> = {
             let tan = angle.beta_deg.to_radians().tan();
@@ -82,15 +100,15 @@ row! {
 row! {
     /// c of the cases in which plasticity is developed.
     #[derive(Copy)]
-    DevelopedFit(slope: Slope) {
+    DevelopedFit(developed: StrainCoefficient) {
         /// Least E* tan β/σ_r of these cases.
         least_modulus_tan_beta_over_stress: f64 = DEVELOPED,
         /// c.
-        coefficient: f64 = slope.c,
-        /// Its 95 % interval.
-        ci95: [f64; 2] = slope.ci95,
+        coefficient: f64 = developed.c,
+        /// Its 95 % interval of the arithmetic.
+        ci95: [f64; 2] = developed.ci95,
         /// Slopes that took part.
-        slopes: usize = slope.angles,
+        slopes: usize = developed.angles,
     }
 }
 

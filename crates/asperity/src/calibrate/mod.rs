@@ -13,7 +13,7 @@ mod sensitivity;
 pub use asperity_calibration::row::CaseRow;
 pub use asperity_calibration::sweep::Sweep;
 pub use calibration::{Calibration, calibrate};
-pub use fit::{AngleFit, DevelopedFit, Fit, FunctionFit, UnloadedCone};
+pub use fit::{AngleFit, DevelopedFit, Fit, FunctionFit, PartFit, UnloadedCone};
 pub use merge::{merge, read_sweep};
 pub use run::{Options, Progress};
 pub use sensitivity::{Sensitivity, SensitivityLine, sensitivity};

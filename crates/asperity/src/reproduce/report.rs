@@ -70,7 +70,9 @@ fn numbers(results: &Results) -> Vec<Number> {
     let percent = |quantity| summary(quantity).map(|share| 100.0 * share);
     let fit = results.fit();
     let coefficient = fit.as_ref().and_then(|fit| fit.coefficient);
+    let mean = fit.as_ref().and_then(|fit| fit.coefficient_mean_ratio);
     let interval = fit.as_ref().and_then(|fit| fit.ci95);
+    let model = fit.as_ref().and_then(|fit| fit.model_interval);
     let all = [
         ("force_at_1_um_N", "force at 1 µm, N", results.force_at(single, 1.0), 3),
         ("force_at_2_um_N", "force at 2 µm, N", results.force_at(single, 2.0), 3),
@@ -80,9 +82,22 @@ fn numbers(results: &Results) -> Vec<Number> {
         ("elastic_share_percent", "elastic share of the work, %", percent(|s| s.elastic_fraction), 1),
         ("unknowns", "unknowns", summary(|s| Some(s.dofs as f64)), 0),
         ("newton_iterations", "Newton iterations", summary(|s| Some(s.newton_iterations as f64)), 0),
-        ("coefficient", "c of ε_r = c tan β, from 480 sharp cones", coefficient, 3),
-        ("coefficient_low", "its 95 % interval, from", interval.map(|i| i[0]), 3),
+        ("coefficient", "c of ε_r = c tan β, from 480 sharp cones, by least squares", coefficient, 3),
+        ("coefficient_mean_ratio", "the same as mean of ε_r/tan β", mean, 3),
+        (
+            "coefficient_low",
+            "95 % interval of the arithmetic (other cases drawn, K shifted by its error), from",
+            interval.map(|i| i[0]),
+            3,
+        ),
         ("coefficient_high", "to", interval.map(|i| i[1]), 3),
+        (
+            "coefficient_model_low",
+            "interval of the model (other ranges of metals and slopes), from",
+            model.map(|i| i[0]),
+            3,
+        ),
+        ("coefficient_model_high", "to", model.map(|i| i[1]), 3),
     ];
     let known = |(name, words, value, decimals): (_, _, Option<f64>, _)| {
         Some(Number { name, words, value: value.filter(|v| v.is_finite())?, decimals })

@@ -62,7 +62,7 @@ impl Cone {
             rules: Rules {
                 far_field: far_field(&self.metal, domain),
                 area_growth: f64::INFINITY,
-                correction: Correction::Mean,
+                correction: Correction::PlasticShare,
             },
         }
     }

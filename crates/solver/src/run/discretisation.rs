@@ -2,7 +2,7 @@
 //! tolerance, size of the substrate.
 
 use crate::run::schedule::{Spacing, loading};
-use crate::scene::{Accuracy, ContactMethod, ElementChoice, Level, Numerics, Scene, Symmetry, ToolForm};
+use crate::scene::{Accuracy, ContactMethod, ElementChoice, Numerics, Scene, Symmetry, ToolForm};
 use asperity_mesh::build::Sizes;
 use asperity_mesh::grading::LINEAR;
 
@@ -156,11 +156,16 @@ fn element_under(indenter: Option<f64>) -> ElementChoice {
     }
 }
 
-/// (1 - n)/0.7 of metal that hardens less than n = 0.3, else 1: the error of the load step grows with its square and is
-/// of second order in the step, the ripple of the mesh grows with it nearly and is of first order (see `error_estimate`).
+/// The [softness](softness_of) of the metal of `scene`.
 fn softness(scene: &Scene) -> f64 {
     let modulus = scene.material.youngs_modulus.0;
-    scene.material.hardening().map_or(1.0, |h| ((1.0 - h.exponent(modulus)) / 0.7).max(1.0))
+    scene.material.hardening().map_or(1.0, |h| softness_of(h.exponent(modulus)))
+}
+
+/// (1 - n)/0.7 of metal that hardens less than n = 0.3, else 1: the error of the load step grows with its square and is
+/// of second order in the step, the ripple of the mesh grows with it nearly and is of first order (see `error_estimate`).
+fn softness_of(exponent: f64) -> f64 {
+    ((1.0 - exponent) / 0.7).max(1.0)
 }
 
 /// The discretisation of a self-similar cone, crushed or indenting, on which the slope of √F over the depth is measured: a mesh
@@ -172,39 +177,41 @@ pub struct ConeDiscretisation {
     pub numbers: Discretisation,
     /// The mesh around the contact.
     pub sizes: Sizes,
-    /// Relative 95 % bound on what mesh, step, penalty and substrate do to K.
-    pub bias: f64,
 }
 
-/// Share of the final depth from which K is fitted: longer steps lead to it.
-pub const FIT_FROM: f64 = 0.3;
+/// Share of the final depth to which longer steps lead, and from which they are equal.
+pub const EQUAL_FROM: f64 = 0.3;
 
-/// Hardening exponent below which meshes and steps are finer: without hardening, flow gathers where the mesh lets it.
-const SOFT: f64 = 0.1;
+/// Numbers of a cone of metal that hardens with n = 0.3 or more, at draft, standard and reference: elements across the contact, of
+/// which so many are one column at the axis, steps to [`EQUAL_FROM`] and from there; depth of the core, growth of its rows, first
+/// shell in elements, growth of the shells, substrate and foot of the cone in contact radii; penetration over depth, tolerance.
+type ConeLevels = [([usize; 4], [f64; 6], [f64; 2]); 3];
 
-/// Numbers of a cone at draft, standard and reference: elements across the contact, of which so many are one column at the
-/// axis, steps to [`FIT_FROM`] and from there; depth of the core, growth of its rows, first shell in elements, growth of the
-/// shells, substrate and foot of the cone in contact radii; penetration over depth, tolerance, bias of K, and what is added to it for n = 0, in proportion below [`SOFT`].
-type ConeLevels = [([usize; 4], [f64; 6], [f64; 4]); 3];
-
-/// Quadratic elements. The penetration is soft: it halves the ripple of the force and saves iterations.
+/// Quadratic elements.
 const QUADRATIC: ConeLevels = [
-    ([7, 2, 3, 14], [0.4, 0.5, 2.0, 0.5, 100.0, 8.0], [0.016, 1e-3, 0.015, 0.03]),
-    ([10, 1, 4, 24], [0.4, 0.5, 1.0, 0.4, 100.0, 8.0], [0.016, 1e-4, 0.005, 0.012]),
-    ([24, 1, 10, 96], [0.8, 0.2, 1.0, 0.25, 400.0, 12.0], [0.004, 1e-6, 0.001, 0.002]),
+    ([7, 1, 3, 14], [0.4, 0.5, 1.0, 0.5, 64.0, 8.0], [0.008, 1e-3]),
+    ([8, 1, 5, 20], [0.4, 0.5, 1.0, 0.4, 64.0, 8.0], [0.008, 1e-3]),
+    ([18, 1, 12, 60], [0.8, 0.2, 1.0, 0.25, 200.0, 12.0], [0.004, 1e-6]),
 ];
 
-/// Linear elements under a steep cone: they want finer meshes, also far away, and a wide column at the axis leaves room to what
-/// is stretched along the flank.
+/// Linear elements under a steep cone: they want finer meshes, and a wide column at the axis leaves room to what is stretched along
+/// the flank.
 const STEEP_LINEAR: ConeLevels = [
-    ([12, 2, 8, 24], [0.6, 0.1, 1.0, 0.12, 100.0, 8.0], [0.004, 1e-3, 0.015, 0.03]),
-    ([16, 2, 8, 36], [0.6, 0.1, 1.0, 0.07, 100.0, 8.0], [0.004, 1e-4, 0.005, 0.012]),
-    ([40, 5, 20, 96], [0.8, 0.05, 1.0, 0.035, 400.0, 8.0], [0.004, 1e-6, 0.001, 0.002]),
+    ([12, 2, 6, 24], [0.6, 0.15, 1.0, 0.15, 100.0, 8.0], [0.004, 1e-3]),
+    ([18, 2, 8, 36], [0.6, 0.15, 1.0, 0.1, 100.0, 8.0], [0.004, 1e-4]),
+    ([36, 4, 16, 72], [0.8, 0.08, 1.0, 0.05, 200.0, 8.0], [0.002, 1e-6]),
 ];
 
-/// Penetration over depth of a cone that indents a flat body with quadratic elements: it costs more of the depth there than on a
-/// cone, 0.5 % of K at 0.016.
-const INDENTED: f64 = 0.004;
+/// Penetration of a cone that indents a flat body with quadratic elements over that of a crushed one: it costs more of the depth.
+const INDENTED: f64 = 0.5;
+
+/// Powers of the [softness](softness_of) in the numbers of quadratic elements and of steps of a cone. With them the difference
+/// between run and companion is about the same for all n from 0 to 0.5; without hardening, flow gathers where the mesh lets it.
+const SOFTER: [f64; 2] = [1.6, 2.0];
+
+/// How much faster cells grow with the distance from the contact in a companion: the error of that growth is of the fourth order
+/// nearly, so that twice as much of it would tell of nothing else.
+const FASTER: f64 = 1.5;
 
 impl ConeDiscretisation {
     /// The numbers at the coarsest level that promises `accuracy`, for a cone of the slope `slope_deg` (degrees) that is crushed or
@@ -216,30 +223,23 @@ impl ConeDiscretisation {
         accuracy: Accuracy,
     ) -> ConeDiscretisation {
         let element = element_under(indents.then_some(slope_deg.to_radians()));
-        let level = accuracy.level();
-        let levels = if element == ElementChoice::Q8r { QUADRATIC } else { STEEP_LINEAR };
-        let (counts, lengths, shares) = levels[level as usize];
-        let [mut elements, at_axis, lead, mut steps] = counts;
+        let quadratic = element == ElementChoice::Q8r;
+        let levels = if quadratic { QUADRATIC } else { STEEP_LINEAR };
+        let (counts, lengths, [penetration, tolerance]) = levels[accuracy.level() as usize];
+        let [elements, at_axis, lead, steps] = counts;
         let [core_depth, row_growth, first_shell, growth, domain, foot] = lengths;
-        let [mut penetration, tolerance, bias, mut soft_bias] = shares;
-        if element == ElementChoice::Q8r {
-            if level == Level::Standard && exponent.is_some_and(|n| n < SOFT) {
-                (elements, steps, soft_bias) = (16, 36, 0.004);
-            }
-            if indents {
-                penetration = INDENTED;
-            }
-        }
-        let softness = exponent.map_or(0.0, |n| (1.0 - n / SOFT).max(0.0));
+        let softness = if quadratic { exponent.map_or(1.0, softness_of) } else { 1.0 };
+        let finer = |count: usize, power: f64| (count as f64 * softness.powf(power)).round() as usize;
+        let (elements, steps) = (finer(elements, SOFTER[0]), finer(steps, SOFTER[1]));
         ConeDiscretisation {
             numbers: Discretisation {
                 element,
                 elements_in_contact: elements,
                 steps: lead + steps,
-                spacing: Spacing::Equal { lead, from: FIT_FROM },
+                spacing: Spacing::Equal { lead, from: EQUAL_FROM },
                 unload_steps: 0,
                 contact: ContactMethod::Penalty,
-                penetration,
+                penetration: if quadratic && indents { INDENTED * penetration } else { penetration },
                 newton_tolerance: tolerance,
                 domain,
             },
@@ -253,8 +253,26 @@ impl ConeDiscretisation {
                 foot,
                 rounding: 0.0,
             },
-            bias: bias + softness * soft_bias,
         }
+    }
+
+    /// Numbers half as good, those of the lead included; cells grow faster by half.
+    #[must_use]
+    pub fn coarser(&self) -> ConeDiscretisation {
+        let mut numbers = self.numbers.coarser();
+        if let Spacing::Equal { lead, from } = self.numbers.spacing {
+            let equal = self.numbers.steps.saturating_sub(lead);
+            let lead = lead.div_ceil(2);
+            numbers.steps = lead + equal.div_ceil(2).max(FEWEST);
+            numbers.spacing = Spacing::Equal { lead, from };
+        }
+        let sizes = Sizes {
+            at_axis: self.sizes.at_axis.div_ceil(2),
+            row_growth: FASTER * self.sizes.row_growth,
+            growth: FASTER * self.sizes.growth,
+            ..self.sizes
+        };
+        ConeDiscretisation { numbers, sizes }
     }
 }
 
