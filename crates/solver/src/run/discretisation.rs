@@ -263,7 +263,7 @@ impl ConeDiscretisation {
         if let Spacing::Equal { lead, from } = self.numbers.spacing {
             let equal = self.numbers.steps.saturating_sub(lead);
             let lead = lead.div_ceil(2);
-            numbers.steps = lead + equal.div_ceil(2).max(FEWEST);
+            numbers.steps = lead + equal.div_ceil(2).max(FEWEST[0]);
             numbers.spacing = Spacing::Equal { lead, from };
         }
         let sizes = Sizes {
