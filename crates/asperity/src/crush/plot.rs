@@ -28,9 +28,19 @@ pub fn plot(symmetry: Symmetry, rows: &[CurveRow]) -> Result<String, String> {
     let peak = next(0, Phase::Unload);
     let again = next(peak, Phase::Load);
     // each branch begins where the one before it ends
+    let edge = |r: &CurveRow, side: f64| {
+        let [depth, force] = point(r);
+        r.force_error.map(|error| [depth, force * (1.0 + side * error)])
+    };
+    // up along the upper edge of the stated error, back along the lower one
+    let band = |rows: &[CurveRow]| -> Vec<[f64; 2]> {
+        let upper = rows.iter().filter_map(|r| edge(r, 1.0));
+        upper.chain(rows.iter().rev().filter_map(|r| edge(r, -1.0))).collect()
+    };
     let branch = |label: &str, dash: Dash, from: usize, to: usize| Series {
         colour: Some(LINES[0]),
         dash: Some(dash),
+        band: band(&rows[from.saturating_sub(1)..to]),
         ..Series::line(label, rows[from.saturating_sub(1)..to].iter().map(point).collect::<Vec<_>>())
     };
     let mut series = vec![branch("loading", Dash::Solid, 0, peak).marked()];

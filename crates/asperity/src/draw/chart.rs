@@ -28,6 +28,8 @@ pub struct Series {
     pub colour: Option<Colour>,
     /// Its dash; a line of a given colour is solid where none is given, others go by their place.
     pub dash: Option<Dash>,
+    /// Outline of the band of its error, drawn pale under the line; none if empty.
+    pub band: Vec<[f64; 2]>,
 }
 
 /// How a line is broken.
@@ -294,6 +296,10 @@ fn draw(chart: &Chart, paper: &Paper) -> Result<(), Failure> {
     let mut area = axes(paper, [x, y], [&chart.x_label, &chart.y_label])?;
     for (i, (series, points)) in chart.series.iter().zip(&finite).enumerate() {
         let (colour, [dash, gap]) = pen(i, series);
+        if !series.band.is_empty() {
+            let outline: Vec<_> = series.band.iter().map(|p| (p[0], p[1])).collect();
+            area.draw_series(std::iter::once(Polygon::new(outline, colour.mix(0.25).filled())))?;
+        }
         let style = colour.stroke_width(2 * FINE);
         if gap == 0 {
             area.draw_series(LineSeries::new(points.iter().copied(), style))?;
