@@ -24,9 +24,10 @@ fn results(place: &Place, folder: &str) -> Vec<(String, String)> {
     let mut files = Vec::new();
     for name in place.names(folder) {
         let text = place.text(&format!("{folder}/{name}"));
+        let seconds = text.lines().next().and_then(|head| head.split(',').position(|name| name == "wall_s"));
         let without_seconds = |line: &str| {
             let mut columns: Vec<&str> = line.split(',').collect();
-            columns.remove(9);
+            seconds.map(|column| columns.remove(column));
             columns.join(",")
         };
         let text = match name.as_str() {

@@ -46,7 +46,9 @@ fn files_of_the_library_and_the_command_are_the_same() {
         );
         // what is written reads back to the same values
         assert_eq!(read_rows::<CurveRow>(&place.path("library/curve.csv")).unwrap(), result.curve);
-        assert_eq!(Summary::read(&place.path("library/summary.json")).unwrap(), result.summary);
+        // by their text: a bound that is not known is no number, which equals nothing
+        let read = Summary::read(&place.path("library/summary.json")).unwrap();
+        assert_eq!(format!("{read:?}"), format!("{:?}", result.summary));
         if names.contains(&"asperities.csv".into()) {
             assert_eq!(
                 read_rows::<AsperityRow>(&place.path("library/asperities.csv")).unwrap(),
