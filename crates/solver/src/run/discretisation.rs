@@ -283,7 +283,7 @@ mod tests {
     #[test]
     fn a_smaller_error_is_promised_by_finer_numbers() {
         let mut before = Choice::of(0.05);
-        assert_eq!((before.elements, before.steps, before.tolerance), (16, 30, 1e-3));
+        assert_eq!((before.elements, before.steps, before.tolerance), (12, 36, 1e-3));
         for promise in [0.03, 0.02, 0.01, 0.007, 0.005, 0.003, 0.002] {
             let next = Choice::of(promise);
             assert!(next.elements > before.elements && next.steps > before.steps, "{promise}");
@@ -291,6 +291,6 @@ mod tests {
             assert!(next.unload_steps >= before.unload_steps && next.penetration <= before.penetration);
             before = next;
         }
-        assert_eq!((before.elements, before.steps, before.domain), (100, 220, 800.0));
+        assert_eq!((before.elements, before.steps, before.domain), (48, 180, 200.0));
     }
 }
