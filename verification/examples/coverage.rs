@@ -229,29 +229,29 @@ enum End {
     /// Its truth was not looked for in the time.
     Open,
     /// The truth does not reach the depth.
-    NoTruth(Case, String),
+    NoTruth(Box<Case>, String),
     /// The level does not.
-    Stopped(Case, String),
-    Measured(Row),
+    Stopped(Box<Case>, String),
+    Measured(Box<Row>),
 }
 
 fn measure(case: Case, cache: &Path, search: bool) -> End {
     let truth = match truth(&case, cache, search) {
         None => return End::Open,
-        Some(Err(reason)) => return End::NoTruth(case, reason),
+        Some(Err(reason)) => return End::NoTruth(Box::new(case), reason),
         Some(Ok(truth)) => truth,
     };
     let run = case.mesh().map_err(|e| e.to_string()).and_then(|mesh| answer(&case.scene, mesh));
     match run {
-        Err(reason) => End::Stopped(case, reason),
-        Ok(run) => End::Measured(Row {
+        Err(reason) => End::Stopped(Box::new(case), reason),
+        Ok(run) => End::Measured(Box::new(Row {
             error: run.error(&truth.answer),
             stated: run.stated,
             doubt: truth.answer.stated,
             energy_balance: run.energy_balance,
             other_element: truth.other_element,
             case,
-        }),
+        })),
     }
 }
 
@@ -478,7 +478,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let (mut rows, mut others) = (Vec::new(), Vec::new());
     for (_, end) in ends {
         match end {
-            End::Measured(row) => rows.push(row),
+            End::Measured(row) => rows.push(*row),
             other => others.push(other),
         }
     }

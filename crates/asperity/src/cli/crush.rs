@@ -52,7 +52,7 @@ pub fn crush(args: &Crush) -> Result<(), Error> {
     folder.publish()?;
     let summary = result?.summary;
     if !args.run.quiet {
-        summary.warnings().iter().for_each(|warning| terminal::warn(warning));
+        summary.warnings().iter().for_each(terminal::warn);
     }
     args.run.say(&out, || summary.to_json(), || summary.overview())?;
     match summary.stopped {

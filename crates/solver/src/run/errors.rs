@@ -8,6 +8,7 @@
 //! * The bound of what is left is [`REMAINS`] times the largest smooth part and the largest rest, from a fifth of the depth on. The
 //!   rest is that of D, or that of the run from a smooth curve of its own where it is less: the companion ripples more.
 //! * Penetration and mesh pull the area in opposite directions, and two runs may agree by chance: [`HIDDEN`] is added in squares.
+//!
 //! The two constants were chosen on nine scenes (crushed, indented, ridges, rings; n of 0 to 0.3, elastic), not those of the coverage.
 //!
 //! What is read at the peak or after it is not extrapolated. Its bound is the difference itself, and what the errors of force and
