@@ -5,9 +5,9 @@
 //! of first order at least, and the ripple of both. A parabola through D over ln h is the smooth part.
 //! * Were all errors of the order p, D/(2ᵖ - 1) of it would be left in Q. With p = 3/2 it is taken off (Richardson's extrapolation):
 //!   observed orders lie between 1 and 2, for which a third of the smooth part at most is left.
-//! * The bound of what is left is [`REMAINS`] times the largest smooth part and the largest rest, from a fifth of the depth on. The
+//! * The bound of what is left is `REMAINS` times the largest smooth part and the largest rest, from a fifth of the depth on. The
 //!   rest is that of D, or that of the run from a smooth curve of its own where it is less: the companion ripples more.
-//! * Penetration and mesh pull the area in opposite directions, and two runs may agree by chance: [`HIDDEN`] is added in squares.
+//! * Penetration and mesh pull the area in opposite directions, and two runs may agree by chance: `HIDDEN` is added in squares.
 //!
 //! The two constants were chosen on nine scenes (crushed, indented, ridges, rings; n of 0 to 0.3, elastic), not those of the coverage.
 //!
