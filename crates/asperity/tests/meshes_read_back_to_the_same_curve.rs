@@ -9,12 +9,14 @@ use common::{Place, SCENE};
 #[test]
 fn a_mesh_that_was_written_and_read_gives_the_same_curve() {
     let place = Place::with_scene(SCENE);
-    let end = place.run(&["mesh", "scene.toml", "-o", "body.msh"]);
+    // a body of given size: that of a mesh, and no part of a half space
+    let sized = ["--set", "substrate.radius=1 mm", "--set", "substrate.depth=1 mm"];
+    let end = place.run(&[&["mesh", "scene.toml", "-o", "body.msh"], &sized[..]].concat());
     assert_eq!((end.status, end.err.as_str()), (0, ""));
     for word in ["cells", "sides", "um", "scaled Jacobian", "aspect ratio", "body.msh"] {
         assert!(end.out.contains(word), "{word}: {}", end.out);
     }
-    assert_eq!(place.run(&["crush", "scene.toml", "--out", "built"]).status, 0);
+    assert_eq!(place.run(&[&["crush", "scene.toml", "--out", "built"], &sized[..]].concat()).status, 0);
     let end = place.run(&["crush", "scene.toml", "--set", "mesh.file=body.msh", "--out", "read"]);
     assert_eq!(end.status, 0, "{}", end.err);
     // metres in the file cost the last digit of a coordinate; near zero force that is magnified
