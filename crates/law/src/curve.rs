@@ -1,6 +1,7 @@
 //! Yield stress over accumulated plastic strain, whichever way a scene gives it.
 
 use crate::hardening::{Flow, Hardening};
+use crate::real::Real;
 use crate::table::HardeningTable;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -59,20 +60,31 @@ impl HardeningCurve {
     }
 
     /// Yield stress and slope at accumulated plastic strain `plastic_strain` ≥ 0.
-    pub fn flow(&self, plastic_strain: f64) -> Flow {
+    #[inline(always)]
+    pub fn flow<T: Real>(&self, plastic_strain: T) -> Flow<T> {
         match self {
             HardeningCurve::Power(law) => law.flow(plastic_strain),
-            HardeningCurve::Table(table) => table.flow(plastic_strain),
+            HardeningCurve::Table(table) => by_lane(|lane| table.flow(plastic_strain.lane(lane))),
         }
     }
 
     /// Radial return: the flow state at which `q_trial - 3G (ε_p - ε_p,old) = σ(ε_p)`; see
     /// [`Hardening::return_to_yield`].
-    #[inline]
-    pub fn return_to_yield(&self, q_trial: f64, three_g: f64, old_plastic_strain: f64) -> Flow {
+    #[inline(always)]
+    pub fn return_to_yield<T: Real>(
+        &self,
+        q_trial: T,
+        three_g: T,
+        old_plastic_strain: T,
+        old_yield_stress: T,
+    ) -> Flow<T> {
         match self {
-            HardeningCurve::Power(law) => law.return_to_yield(q_trial, three_g, old_plastic_strain),
-            HardeningCurve::Table(table) => table.return_to_yield(q_trial, three_g, old_plastic_strain),
+            HardeningCurve::Power(law) => {
+                law.return_to_yield(q_trial, three_g, old_plastic_strain, old_yield_stress)
+            }
+            HardeningCurve::Table(table) => by_lane(|lane| {
+                table.return_to_yield(q_trial.lane(lane), three_g.lane(lane), old_plastic_strain.lane(lane))
+            }),
         }
     }
 
@@ -118,6 +130,17 @@ impl HardeningCurve {
             }),
             HardeningCurve::Table(table) => HardeningCurve::from(table.over(unit)),
         }
+    }
+}
+
+/// The flow that is `of(lane)` in each lane.
+fn by_lane<T: Real>(of: impl Fn(usize) -> Flow) -> Flow<T> {
+    let mut flows = [Flow { plastic_strain: 0.0, yield_stress: 0.0, slope: 0.0 }; 4];
+    (0..T::LANES).for_each(|lane| flows[lane] = of(lane));
+    Flow {
+        plastic_strain: T::each(|lane| flows[lane].plastic_strain),
+        yield_stress: T::each(|lane| flows[lane].yield_stress),
+        slope: T::each(|lane| flows[lane].slope),
     }
 }
 

@@ -1,5 +1,6 @@
 //! Power laws of hardening: the yield stress over plastic strain, the return to yield, the representative stress.
 
+use crate::real::Real;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -42,17 +43,17 @@ pub struct Hardening {
 
 /// A point on the hardening curve.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Flow {
+pub struct Flow<T = f64> {
     /// Accumulated plastic strain ε_p.
-    pub plastic_strain: f64,
+    pub plastic_strain: T,
     /// Yield stress at that strain, in the unit of E.
-    pub yield_stress: f64,
+    pub yield_stress: T,
     /// dσ/dε_p, in the unit of E.
-    pub slope: f64,
+    pub slope: T,
 }
 
-/// Relative change of the last Newton step: quadratic convergence leaves its square, which rounds to nothing.
-const LAST_CHANGE: f64 = 5e-9;
+/// Relative change of e in the last step: what the cube of it leaves of the root and of σ rounds to nothing.
+const LAST_CHANGE: f64 = 3e-6;
 
 impl Hardening {
     /// Strain at first yield, ε_y = σ_y/E.
@@ -61,33 +62,32 @@ impl Hardening {
     }
 
     /// σ(e) = R eⁿ, written with σ_y so that n = 0 is exact.
-    fn stress(&self, e: f64) -> f64 {
+    #[inline(always)]
+    fn stress<T: Real>(&self, e: T) -> T {
         if self.exponent == 0.0 {
-            self.yield_stress
+            T::splat(self.yield_stress)
         } else {
-            self.yield_stress * (e / self.yield_strain()).powf(self.exponent)
+            (e / self.yield_strain()).powf(self.exponent) * self.yield_stress
         }
     }
 
     /// The point of the curve at strain measure `e`, where the stress is `sigma`.
-    fn flow_at(&self, [e, sigma]: [f64; 2]) -> Flow {
-        let slope_e = self.exponent * sigma / e; // dσ/de
-        match self.law {
-            HardeningLaw::Hollomon => Flow {
-                plastic_strain: (e - sigma / self.youngs_modulus).max(0.0),
-                yield_stress: sigma,
-                slope: slope_e / (1.0 - slope_e / self.youngs_modulus),
-            },
-            HardeningLaw::Swift => Flow {
-                plastic_strain: (e - self.yield_strain()).max(0.0),
-                yield_stress: sigma,
-                slope: slope_e,
-            },
-        }
+    #[inline(always)]
+    fn flow_at<T: Real>(&self, [e, sigma]: [T; 2]) -> Flow<T> {
+        let slope_e = sigma * self.exponent / e; // dσ/de
+        let (strain, slope) = match self.law {
+            HardeningLaw::Hollomon => {
+                let modulus = self.youngs_modulus;
+                (e - sigma / modulus, slope_e / (T::splat(1.0) - slope_e / modulus))
+            }
+            HardeningLaw::Swift => (e - self.yield_strain(), slope_e),
+        };
+        Flow { plastic_strain: strain.max(T::splat(0.0)), yield_stress: sigma, slope }
     }
 
     /// Yield stress and slope at accumulated plastic strain `plastic_strain` ≥ 0.
-    pub fn flow(&self, plastic_strain: f64) -> Flow {
+    #[inline(always)]
+    pub fn flow<T: Real>(&self, plastic_strain: T) -> Flow<T> {
         let e = match self.law {
             HardeningLaw::Swift => {
                 let e = plastic_strain + self.yield_strain();
@@ -95,7 +95,9 @@ impl Hardening {
             }
             // e - σ(e)/E = ε_p: the left side is convex in e with slope ≥ 1 - n at first yield
             HardeningLaw::Hollomon => {
-                self.solve(1.0, -1.0 / self.youngs_modulus, plastic_strain, plastic_strain)
+                let compliance = T::splat(-1.0 / self.youngs_modulus);
+                let e = plastic_strain + self.yield_strain();
+                self.solve(T::splat(1.0), compliance, plastic_strain, [e, self.stress(e)])
             }
         };
         Flow { plastic_strain, ..self.flow_at(e) }
@@ -103,48 +105,69 @@ impl Hardening {
 
     /// Radial return: the flow state at which `q_trial - 3G (ε_p - ε_p,old) = σ(ε_p)`.
     ///
-    /// `q_trial` is the trial von Mises stress, at or above the yield stress at `old_plastic_strain`; `three_g` is
-    /// 3G. Bracketed Newton in e, good for n from 0 to 0.99 and any overshoot.
-    pub fn return_to_yield(&self, q_trial: f64, three_g: f64, old_plastic_strain: f64) -> Flow {
-        let (c, rhs) = match self.law {
-            // 3G (e - σ/E - ε_p,old) + σ = q
+    /// `q_trial` is the trial von Mises stress, at or above `old_yield_stress`, which belongs to `old_plastic_strain`; `three_g`
+    /// is 3G. Bracketed steps in e, good for n from 0 to 0.99 and any overshoot.
+    #[inline(always)]
+    pub fn return_to_yield<T: Real>(
+        &self,
+        q_trial: T,
+        three_g: T,
+        old_plastic_strain: T,
+        old_yield_stress: T,
+    ) -> Flow<T> {
+        // 3G (e - elastic - ε_p,old) + σ = q with the elastic part of e
+        let (elastic, c, rhs) = match self.law {
             HardeningLaw::Hollomon => {
-                (1.0 - three_g / self.youngs_modulus, q_trial + three_g * old_plastic_strain)
+                let modulus = self.youngs_modulus;
+                let c = T::splat(1.0) - three_g / modulus;
+                (old_yield_stress / modulus, c, q_trial + three_g * old_plastic_strain)
             }
-            // 3G (e - ε_y - ε_p,old) + σ = q
-            HardeningLaw::Swift => (1.0, q_trial + three_g * (old_plastic_strain + self.yield_strain())),
+            HardeningLaw::Swift => {
+                let rhs = q_trial + three_g * (old_plastic_strain + self.yield_strain());
+                (T::splat(self.yield_strain()), T::splat(1.0), rhs)
+            }
         };
-        self.flow_at(self.solve(three_g, c, rhs, old_plastic_strain))
+        let start = [old_plastic_strain + elastic, old_yield_stress];
+        self.flow_at(self.solve(three_g, c, rhs, start))
     }
 
-    /// Root e ≥ ε_y of `a e + c σ(e) = rhs`, a monotone function (convex for c < 0, concave for c > 0), and σ there.
-    fn solve(&self, a: f64, c: f64, rhs: f64, old_plastic_strain: f64) -> [f64; 2] {
-        let (mut low, mut high) = (self.yield_strain(), f64::INFINITY);
-        let mut e = low + old_plastic_strain;
-        let mut sigma = self.stress(e);
+    /// Root e ≥ ε_y of f(e) = `a e + c σ(e) - rhs`, a monotone function (convex for c < 0, concave for c > 0), and σ there, from a
+    /// `start` [e, σ(e)] on: Halley's steps, which are of third order, halved brackets where they leave those. Lanes that have
+    /// their root wait for the others.
+    #[inline(always)]
+    fn solve<T: Real>(&self, a: T, c: T, rhs: T, start: [T; 2]) -> [T; 2] {
+        let (zero, one, infinity) = (T::splat(0.0), T::splat(1.0), T::splat(f64::INFINITY));
+        let n = self.exponent;
+        let (mut low, mut high) = (T::splat(self.yield_strain()), infinity);
+        let [mut e, mut sigma] = start;
+        let (mut found, mut root) = (T::mask(|_| false), start);
         for _ in 0..200 {
             let f = a * e + c * sigma - rhs;
-            if f > 0.0 {
-                high = e;
-            } else {
-                low = e;
-            }
-            let newton = e - f / (a + c * self.exponent * sigma / e);
-            let inside = newton > low && newton < high;
-            let next = match inside {
-                true => newton,
-                false if high.is_finite() => 0.5 * (low + high),
-                false => low,
-            };
+            let beyond = f.above(zero);
+            (low, high) = (T::select(beyond, low, e), T::select(beyond, e, high));
+            // over e: f' = a + cσ', f'' = -(1 - n) cσ'/e with σ' = nσ/e
+            let hardens = c * sigma * n / e;
+            let slope = a + hardens;
+            let newton = f / (slope * e);
+            let bend = newton * hardens * (0.5 * (1.0 - n)) / slope;
+            // far from the root no more than twice Newton's step
+            let halley = e - e * newton / (bend.max(T::splat(-0.5)) + one);
+            let inside = halley.above(low) & high.above(halley);
+            let middle = T::select(infinity.above(high), (low + high) * 0.5, low);
+            let next = T::select(inside, halley, middle);
             let change = (next - e) / e;
-            e = next;
-            if change.abs() <= if inside { LAST_CHANGE } else { 4.0 * f64::EPSILON } {
-                // σ ∝ eⁿ to first order, which is exact to rounding: no power for the last step
-                return [e, sigma * (1.0 + self.exponent * change)];
+            // σ ∝ eⁿ to second order, which is exact to rounding: no power for the last step
+            let last = [next, sigma * (change * (change * (0.5 * (n - 1.0)) + one) * n + one)];
+            let least = T::select(inside, T::splat(LAST_CHANGE), T::splat(4.0 * f64::EPSILON));
+            let open = change.abs().above(least);
+            root = [T::select(found, root[0], last[0]), T::select(found, root[1], last[1])];
+            found = T::mask(|lane| T::holds(found, lane) | !T::holds(open, lane));
+            if T::all(found) {
+                break;
             }
-            sigma = self.stress(e);
+            (e, sigma) = (next, self.stress(next));
         }
-        [e, sigma]
+        root
     }
 
     /// Plastic work per volume, ∫₀^{ε_p} σ dε_p, at a state of the curve, in the unit of E.
@@ -207,7 +230,7 @@ mod tests {
                             let start = m.flow(old);
                             for overshoot in [1e-9, 0.1, 1.0, 1e3, 1e5] {
                                 let q = start.yield_stress * (1.0 + overshoot);
-                                let end = m.return_to_yield(q, three_g, old);
+                                let end = m.return_to_yield(q, three_g, old, start.yield_stress);
                                 let gap = q - three_g * (end.plastic_strain - old) - end.yield_stress;
                                 assert!(
                                     gap.abs() <= 1e-12 * (q + three_g * old),

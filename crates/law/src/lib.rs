@@ -18,6 +18,7 @@ mod curve_file;
 mod elastic;
 mod hardening;
 pub mod least_squares;
+pub mod real;
 mod table;
 pub mod units;
 

@@ -15,7 +15,7 @@ use asperity_solver::point::failure::Failure;
 use asperity_solver::point::j2;
 use asperity_solver::point::j2::{PointUpdate, Tangent};
 use asperity_solver::point::kinematic_hardening::{self, History};
-use asperity_solver::point::kinematics::{Symmetry, motion};
+use asperity_solver::point::kinematics::{ShapePoint, Symmetry, motion};
 use asperity_solver::point::material::{Metal, PointState};
 
 const STEP: f64 = 1e-6;
@@ -172,13 +172,14 @@ fn element<const N: usize>(
                         for a in 0..N {
                             for i in 0..2 {
                                 let difference = (up[i][a] - down[i][a]) / (2.0 * STEP);
-                                let exact = here.stiffness[2 * b + j][i][a];
+                                // the lower triangle stands for both, so that an unsymmetric derivative is caught
+                                let ([row, m], [column, n]) =
+                                    if (a, i) < (b, j) { ([b, j], [a, i]) } else { ([a, i], [b, j]) };
+                                let exact = here.stiffness[2 * column + n][m][row];
                                 assert!(
                                     (difference - exact).abs() < TOLERANCE * scale,
                                     "{metal:?} {symmetry:?} {amplitude} ({a},{i}) ({b},{j}): {difference} {exact}"
                                 );
-                                let mirrored = here.stiffness[2 * a + i][j][b];
-                                assert!((mirrored - exact).abs() < 1e-12 * scale, "not symmetric");
                             }
                         }
                     }
@@ -192,16 +193,14 @@ const CORNERS: [[f64; 2]; 4] = [[1.0, 0.1], [2.1, -0.1], [2.3, 1.2], [0.9, 1.0]]
 
 #[test]
 fn quad4_with_mean_dilatation() {
-    let points = quad4::points();
-    let volume = |symmetry| {
-        points.iter().map(|p| motion(p, &CORNERS, &[[0.0; 2]; 4], symmetry).unwrap().volume).collect()
-    };
+    let points = ShapePoint::side_by_side(&quad4::points());
+    let volume = |symmetry| motion(&points, &CORNERS, &[[0.0; 2]; 4], symmetry).unwrap().volume.0.to_vec();
     element(CORNERS, volume, |c, x, du, start, out| quad4::evaluate(c, &points, x, du, start, out));
 }
 
 #[test]
 fn quad8_with_reduced_integration() {
-    let points = quad8::points();
+    let points = ShapePoint::side_by_side(&quad8::points());
     let reference: [[f64; 2]; 8] = std::array::from_fn(|a| {
         if a < 4 {
             CORNERS[a]
@@ -210,9 +209,7 @@ fn quad8_with_reduced_integration() {
             [0.5 * (p[0] + q[0]) + 0.02 * a as f64 - 0.1, 0.5 * (p[1] + q[1]) + 0.03]
         }
     });
-    let volume = |symmetry| {
-        points.iter().map(|p| motion(p, &reference, &[[0.0; 2]; 8], symmetry).unwrap().volume).collect()
-    };
+    let volume = |symmetry| motion(&points, &reference, &[[0.0; 2]; 8], symmetry).unwrap().volume.0.to_vec();
     element(reference, volume, |c, x, du, start, out| quad8::evaluate(c, &points, x, du, start, out));
 }
 

@@ -92,7 +92,7 @@ impl<'m> FullQuad<'m> {
             let index = 4 * cell + q;
             let end =
                 update(&self.metal, &self.old[index], &motion.increment, Tangent::Exact).map_err(inverted)?;
-            let rows = Rows::new(&motion.rows);
+            let rows = Rows::new(&motion.rows, 0);
             add_force(&mut out.force, &rows, &end.stress, self.volume[index]);
             add_stiffness(&mut out.stiffness, 4, &rows, &end.tangent, self.volume[index]);
             self.new[index] = end.state;

@@ -3,7 +3,7 @@
 use crate::algebra::dofs::{Dofs, FIXED};
 use sprs::{CsMat, TriMat};
 
-/// No place: the row or column is fixed, or the entry is above the diagonal.
+/// No place: the row or column is fixed.
 const NOWHERE: u32 = u32::MAX;
 
 /// A symmetric sparse matrix with the places of all element entries.
@@ -11,7 +11,7 @@ const NOWHERE: u32 = u32::MAX;
 pub struct Stiffness {
     /// Lower triangle in compressed columns.
     pub matrix: CsMat<f64>,
-    /// For each element, the value index of entry (2a + i, 2b + j) at `[(2b + j)·2N + 2a + i]`.
+    /// For each element, column by column of its lower triangle, the value index of entry (2a + i, 2b + j).
     places: Vec<u32>,
     /// 2N.
     size: usize,
@@ -43,17 +43,14 @@ impl Stiffness {
     pub fn new(cells: &[u32], nodes_per_cell: usize, dofs: &Dofs) -> Stiffness {
         let size = 2 * nodes_per_cell;
         let matrix = pattern(cells, nodes_per_cell, dofs);
-        let mut places = Vec::with_capacity(cells.len() * size * 2);
+        let mut places = Vec::with_capacity(cells.len() * (size + 1));
         for cell in cells.chunks_exact(nodes_per_cell) {
             let numbers = numbers_of(cell, dofs);
-            for &col in &numbers {
-                for &row in &numbers {
-                    let place = if row != FIXED && col != FIXED && row >= col {
-                        matrix.nnz_index(row as usize, col as usize).map_or(NOWHERE, |i| i.0 as u32)
-                    } else {
-                        NOWHERE
-                    };
-                    places.push(place);
+            for (first, &col) in numbers.iter().enumerate() {
+                for &row in &numbers[first..] {
+                    let (low, high) = (row.max(col), row.min(col));
+                    let place = matrix.nnz_index(low as usize, high as usize).filter(|_| low != FIXED);
+                    places.push(place.map_or(NOWHERE, |i| i.0 as u32));
                 }
             }
         }
@@ -75,18 +72,30 @@ impl Stiffness {
         self.matrix.data_mut().fill(0.0);
     }
 
-    /// Adds the entries of element `cell`.
+    /// Adds the lower triangle of the symmetric stiffness of element `cell`.
     pub fn add(&mut self, cell: usize, stiffness: &[[[f64; 8]; 2]; 16]) {
-        let (size, length) = (self.size, self.size * self.size);
-        let places = &self.places[cell * length..(cell + 1) * length];
+        let length = self.size * (self.size + 1) / 2;
+        let mut places = self.places[cell * length..(cell + 1) * length].iter();
         let values = self.matrix.data_mut();
-        for (column, places) in stiffness.iter().zip(places.chunks_exact(size)) {
-            for (a, pair) in places.chunks_exact(2).enumerate() {
-                for i in 0..2 {
-                    if pair[i] != NOWHERE {
-                        values[pair[i] as usize] += column[i][a];
-                    }
-                }
+        let mut add = |entry: f64| {
+            if let Some(&place) = places.next()
+                && place != NOWHERE
+            {
+                values[place as usize] += entry;
+            }
+        };
+        for (b, columns) in stiffness[..self.size].chunks_exact(2).enumerate() {
+            let [along_r, along_z] = columns else { continue };
+            add(along_r[0][b]);
+            add(along_r[1][b]);
+            for a in b + 1..self.size / 2 {
+                add(along_r[0][a]);
+                add(along_r[1][a]);
+            }
+            add(along_z[1][b]);
+            for a in b + 1..self.size / 2 {
+                add(along_z[0][a]);
+                add(along_z[1][a]);
             }
         }
     }

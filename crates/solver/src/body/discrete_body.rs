@@ -9,6 +9,7 @@ use crate::element::kernel::POINTS;
 use crate::element::{quad4, quad8};
 use crate::point::kinematics::{ShapePoint, Symmetry, motion};
 use crate::point::material::Metal;
+use asperity_law::real::Lanes;
 use asperity_mesh::{ElementKind, Mesh};
 
 /// A tool in contact with the surface of the body.
@@ -43,9 +44,9 @@ pub struct Body<'m> {
     /// Reference volume of every integration point, four to an element.
     pub volume: Vec<f64>,
     /// Integration points of the eight-node element.
-    pub points8: [ShapePoint<8>; POINTS],
+    pub points8: ShapePoint<8, Lanes>,
     /// Integration points of the four-node element.
-    pub points4: [ShapePoint<4>; POINTS],
+    pub points4: ShapePoint<4, Lanes>,
 }
 
 impl<'m> Body<'m> {
@@ -72,22 +73,22 @@ impl<'m> Body<'m> {
         let order =
             elimination_order(&mesh.cells, mesh.kind.nodes(), &free).map_err(|_| Failure::Singular)?;
         let dofs = Dofs::new(nodes, &order, fixed);
-        let (points8, points4) = (quad8::points(), quad4::points());
+        let points8 = ShapePoint::side_by_side(&quad8::points());
+        let points4 = ShapePoint::side_by_side(&quad4::points());
         let mut volume = Vec::with_capacity(mesh.cell_count() * POINTS);
         for cell in 0..mesh.cell_count() {
             let inside_out = |cause| Failure::Element { cell, cause };
-            for q in 0..POINTS {
-                volume.push(match mesh.kind {
-                    ElementKind::Quad8 => {
-                        let x = gather::<8>(&mesh.nodes, mesh.cell(cell));
-                        motion(&points8[q], &x, &[[0.0; 2]; 8], symmetry).map_err(inside_out)?.volume
-                    }
-                    ElementKind::Quad4 => {
-                        let x = gather::<4>(&mesh.nodes, mesh.cell(cell));
-                        motion(&points4[q], &x, &[[0.0; 2]; 4], symmetry).map_err(inside_out)?.volume
-                    }
-                });
-            }
+            let volumes = match mesh.kind {
+                ElementKind::Quad8 => {
+                    let x = gather::<8>(&mesh.nodes, mesh.cell(cell));
+                    motion(&points8, &x, &[[0.0; 2]; 8], symmetry).map_err(inside_out)?.volume
+                }
+                ElementKind::Quad4 => {
+                    let x = gather::<4>(&mesh.nodes, mesh.cell(cell));
+                    motion(&points4, &x, &[[0.0; 2]; 4], symmetry).map_err(inside_out)?.volume
+                }
+            };
+            volume.extend(volumes.0);
         }
         Ok(Body { mesh, symmetry, material, contact, dofs, volume, points8, points4 })
     }

@@ -6,6 +6,7 @@ use crate::point::kinematic_hardening::{self, History};
 use crate::point::kinematics::Symmetry;
 use crate::point::material::{Metal, PointState};
 use crate::point::tensor::{Gradient, GradientForm, Sym};
+use asperity_law::real::{Lanes, Real};
 
 /// Integration points of every element: 2 × 2.
 pub const POINTS: usize = 4;
@@ -25,26 +26,46 @@ pub struct ElementContext<'a> {
 }
 
 impl ElementContext<'_> {
-    /// Updates point `q` of the element from its `start` by f - I = `increment`; its history variables go to `after`.
+    /// Updates the points of the element from their `start` by f - I = `increment`; their history variables go to `after`.
     ///
     /// # Errors
     /// A strain without a logarithm.
-    #[inline]
+    #[inline(always)]
     pub fn update(
         &self,
-        q: usize,
         start: &PointSlice<'_>,
-        increment: &Gradient,
+        increment: &Gradient<Lanes>,
         after: &mut [History; POINTS],
-    ) -> Result<PointUpdate, Failure> {
-        let (metal, state) = (self.metal, &start.states[q]);
-        if !metal.has_back_stress() {
-            return j2::update(metal, state, increment, self.tangent);
+    ) -> Result<PointUpdate<Lanes>, Failure> {
+        if self.metal.has_back_stress() {
+            return self.update_by_point(start, increment, after);
         }
-        let (end, history) =
-            kinematic_hardening::update(metal, state, &start.history[q], increment, self.tangent)?;
-        after[q] = history;
-        Ok(end)
+        j2::update(self.metal, &PointState::side_by_side(start.states), increment, self.tangent)
+    }
+
+    /// The points one after the other: kinematic hardening.
+    #[inline(never)]
+    fn update_by_point(
+        &self,
+        start: &PointSlice<'_>,
+        increment: &Gradient<Lanes>,
+        after: &mut [History; POINTS],
+    ) -> Result<PointUpdate<Lanes>, Failure> {
+        let update = |q: usize| {
+            let increment = increment.map(|g| g.0[q]);
+            let (state, history) = (&start.states[q], &start.history[q]);
+            kinematic_hardening::update(self.metal, state, history, &increment, self.tangent)
+        };
+        let ends = [update(0)?, update(1)?, update(2)?, update(3)?];
+        *after = ends.map(|(_, history)| history);
+        Ok(PointUpdate {
+            state: PointState::side_by_side(&ends.map(|(end, _)| end.state)),
+            stress: std::array::from_fn(|i| Lanes::each(|q| ends[q].0.stress[i])),
+            plastic: Lanes::mask(|q| ends[q].0.plastic),
+            tangent: std::array::from_fn(|i| {
+                std::array::from_fn(|j| Lanes::each(|q| ends[q].0.tangent[i][j]))
+            }),
+        })
     }
 }
 
@@ -86,11 +107,21 @@ impl ElementOutput {
         }
     }
 
-    /// Zeroes what is summed up.
-    pub fn clear(&mut self) {
+    /// Takes the states at the end of the increment.
+    #[inline(always)]
+    pub fn note(&mut self, end: &PointUpdate<Lanes>) {
+        for q in 0..POINTS {
+            self.states[q] = end.state.lane(q);
+        }
+        self.flowing = (0..POINTS).filter(|q| Lanes::holds(end.plastic, *q)).count();
+    }
+
+    /// Zeroes what is summed up for `tangent`.
+    pub fn clear(&mut self, tangent: Tangent) {
         self.force = [[0.0; 8]; 2];
-        self.stiffness = [[[0.0; 8]; 2]; 16];
-        self.flowing = 0;
+        if tangent != Tangent::None {
+            self.stiffness = [[[0.0; 8]; 2]; 16];
+        }
     }
 }
 
@@ -106,27 +137,46 @@ pub struct Rows {
 }
 
 impl Rows {
-    /// Regroups the rows of `motion`; places beyond N stay zero.
-    pub fn new<const N: usize>(rows: &[[f64; 3]; N]) -> Rows {
+    /// Regroups the rows of the point in lane `q` of a motion; places beyond N stay zero.
+    #[inline(always)]
+    pub fn new<T: Real, const N: usize>(rows: &[[T; 3]; N], q: usize) -> Rows {
         let mut out = Rows { r: [0.0; 8], z: [0.0; 8], hoop: [0.0; 8] };
         for a in 0..N {
-            [out.r[a], out.z[a], out.hoop[a]] = rows[a];
+            let [r, z, hoop] = &rows[a];
+            (out.r[a], out.z[a], out.hoop[a]) = (r.lane(q), z.lane(q), hoop.lane(q));
         }
         out
     }
 }
 
+/// The stress and the tangent of the point `q`.
+#[inline(always)]
+pub fn response_of(end: &PointUpdate<Lanes>, q: usize) -> (Sym, GradientForm) {
+    let (mut stress, mut form) = ([0.0; 4], [[0.0; 5]; 5]);
+    for i in 0..4 {
+        stress[i] = end.stress[i].0[q];
+    }
+    for i in 0..5 {
+        for j in 0..5 {
+            form[i][j] = end.tangent[i][j].0[q];
+        }
+    }
+    (stress, form)
+}
+
 /// f_a += w τ : ∇N_a.
-#[inline]
+#[inline(always)]
 pub fn add_force(force: &mut [[f64; 8]; 2], rows: &Rows, stress: &Sym, weight: f64) {
     let [rr, zz, tt, rz] = stress.map(|s| s * weight);
     for a in 0..8 {
-        force[0][a] += rr * rows.r[a] + rz * rows.z[a] + tt * rows.hoop[a];
-        force[1][a] += rz * rows.r[a] + zz * rows.z[a];
+        force[0][a] = rr.fused(rows.r[a], rz.fused(rows.z[a], tt.fused(rows.hoop[a], force[0][a])));
+        force[1][a] = rz.fused(rows.r[a], zz.fused(rows.z[a], force[1][a]));
     }
 }
 
-/// K += w Gᵀ A G with G_a the gradient of a unit displacement of node a.
+/// K += w Gᵀ A G with G_a the gradient of a unit displacement of node a: the entries of node b with the nodes of its half of the
+/// element and beyond, of which only those from b on are read.
+#[inline(always)]
 pub fn add_stiffness(
     stiffness: &mut [[[f64; 8]; 2]; 16],
     nodes: usize,
@@ -138,15 +188,24 @@ pub fn add_stiffness(
         let (d, e, h) = (weight * rows.r[b], weight * rows.z[b], weight * rows.hoop[b]);
         let mut t = [[0.0; 5]; 2]; // A G_b for a displacement of b along r, along z
         for i in 0..5 {
-            t[0][i] = form[i][0] * d + form[i][1] * e + form[i][4] * h;
-            t[1][i] = form[i][2] * d + form[i][3] * e;
+            t[0][i] = form[i][0].fused(d, form[i][1].fused(e, form[i][4] * h));
+            t[1][i] = form[i][2].fused(d, form[i][3] * e);
         }
         for j in 0..2 {
-            let column = &mut stiffness[2 * b + j];
             let t = &t[j];
-            for a in 0..8 {
-                column[0][a] += rows.r[a] * t[0] + rows.z[a] * t[1] + rows.hoop[a] * t[4];
-                column[1][a] += rows.r[a] * t[2] + rows.z[a] * t[3];
+            let [along_r, along_z] = &mut stiffness[2 * b + j];
+            let mut add = |from: usize| {
+                for a in from..from + 4 {
+                    let (r, z, hoop) = (rows.r[a], rows.z[a], rows.hoop[a]);
+                    along_r[a] = r.fused(t[0], z.fused(t[1], hoop.fused(t[4], along_r[a])));
+                    along_z[a] = r.fused(t[2], z.fused(t[3], along_z[a]));
+                }
+            };
+            if b < 4 {
+                add(0);
+            }
+            if nodes > 4 {
+                add(4);
             }
         }
     }

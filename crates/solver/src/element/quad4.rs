@@ -4,12 +4,13 @@
 //! the point, hoop stretch included. The residual is the derivative of ∫ W(F̄) dV₀, and so the tangent is symmetric.
 
 use crate::element::kernel::{
-    ElementContext, ElementOutput, GAUSS, POINTS, PointSlice, Rows, add_force, add_stiffness,
+    ElementContext, ElementOutput, GAUSS, POINTS, PointSlice, Rows, add_force, add_stiffness, response_of,
 };
 use crate::point::failure::Failure;
 use crate::point::j2::Tangent;
 use crate::point::kinematics::{PointMotion, ShapePoint, motion};
 use crate::point::tensor::{trace, volume_change};
+use asperity_law::real::{Lanes, Real};
 
 /// Shape functions at (ξ, η).
 pub fn shape(xi: f64, eta: f64, weight: f64) -> ShapePoint<4> {
@@ -36,49 +37,39 @@ pub fn points() -> [ShapePoint<4>; POINTS] {
 /// A point that fails, an element that turns inside out.
 pub fn evaluate(
     context: &ElementContext<'_>,
-    points: &[ShapePoint<4>; POINTS],
+    points: &ShapePoint<4, Lanes>,
     x: &[[f64; 2]; 4],
     du: &[[f64; 2]; 4],
     start: &PointSlice<'_>,
     out: &mut ElementOutput,
 ) -> Result<(), Failure> {
-    out.clear();
-    let motions = [
-        motion(&points[0], x, du, context.symmetry)?,
-        motion(&points[1], x, du, context.symmetry)?,
-        motion(&points[2], x, du, context.symmetry)?,
-        motion(&points[3], x, du, context.symmetry)?,
-    ];
-    let (mut current, mut change) = (0.0, 0.0); // v_{n+1}, v_{n+1} - v_n
-    let mut mean = [[0.0; 4]; 2]; // b̄
-    for m in &motions {
-        let j = volume_change(&m.increment);
-        current += m.volume;
-        change += m.volume * j / (1.0 + j);
-        for a in 0..4 {
-            mean[0][a] += m.volume * (m.rows[a][0] + m.rows[a][2]);
-            mean[1][a] += m.volume * m.rows[a][1];
-        }
-    }
+    out.clear(context.tangent);
+    let m = motion(points, x, du, context.symmetry)?;
+    let j = volume_change(&m.increment);
+    let current = sum(m.volume); // v_{n+1}
+    let change = sum(m.volume * j / (j + 1.0)); // v_{n+1} - v_n
+    // b̄
+    let mean = [0, 1]
+        .map(|i| m.rows.map(|row| sum(m.volume * if i == 0 { row[0] + row[2] } else { row[1] }) / current));
+    // f̄ - I = s (f - I) + (s - 1) I
     let theta = (change / (current - change)).ln_1p();
-    mean = mean.map(|row| row.map(|b| b / current));
+    let s1 = ((-j.ln_1p() + theta) / 3.0).exp_m1();
+    let mut increment = m.increment.map(|g| g + s1 * g);
+    for i in [0, 3, 4] {
+        increment[i] += s1;
+    }
+    let end = context.update(start, &increment, &mut out.history)?;
     let mut total_pressure = 0.0; // ∫ ⅓ tr τ dV₀
-    for (q, m) in motions.iter().enumerate() {
-        // f̄ - I = s (f - I) + (s - 1) I
-        let s1 = ((theta - volume_change(&m.increment).ln_1p()) / 3.0).exp_m1();
-        let mut increment = m.increment.map(|g| g + s1 * g);
-        for i in [0, 3, 4] {
-            increment[i] += s1;
-        }
-        let end = context.update(q, start, &increment, &mut out.history)?;
-        let rows = Rows::new(&m.rows);
+    for q in 0..POINTS {
+        let rows = Rows::new(&m.rows, q);
+        let (stress, form) = response_of(&end, q);
         let mut shift = [[0.0; 8]; 2]; // m_a
         for a in 0..4 {
-            shift[0][a] = (mean[0][a] - m.rows[a][0] - m.rows[a][2]) / 3.0;
-            shift[1][a] = (mean[1][a] - m.rows[a][1]) / 3.0;
+            shift[0][a] = (mean[0][a] - rows.r[a] - rows.hoop[a]) / 3.0;
+            shift[1][a] = (mean[1][a] - rows.z[a]) / 3.0;
         }
-        add_force(&mut out.force, &rows, &end.stress, start.weight[q]);
-        let pressure3 = trace(&end.stress) * start.weight[q];
+        add_force(&mut out.force, &rows, &stress, start.weight[q]);
+        let pressure3 = trace(&stress) * start.weight[q];
         for i in 0..2 {
             for a in 0..4 {
                 out.force[i][a] += pressure3 * shift[i][a];
@@ -86,15 +77,19 @@ pub fn evaluate(
         }
         total_pressure += pressure3 / 3.0;
         if context.tangent != Tangent::None {
-            add_point_stiffness(out, &rows, &shift, &end.tangent, &end.stress, start.weight[q]);
+            add_point_stiffness(out, &rows, &shift, &form, &stress, start.weight[q]);
         }
-        out.flowing += usize::from(end.plastic);
-        out.states[q] = end.state;
     }
     if context.tangent != Tangent::None {
-        add_volume_stiffness(out, &motions, &mean, current, total_pressure);
+        add_volume_stiffness(out, &m, &mean, current, total_pressure);
     }
+    out.note(&end);
     Ok(())
+}
+
+/// The sum over the points.
+fn sum(of: Lanes) -> f64 {
+    of.0.iter().sum()
 }
 
 /// Adds l̄ᵀ A l̄ and the part of τ f̄ᵀ : δδf̄ that belongs to one point:
@@ -148,14 +143,14 @@ fn transposed_product(rows: &Rows, i: usize, a: usize, j: usize, b: usize) -> f6
 /// Adds P (δδv/v - b̄_a b̄_b), P = ∫⅓ tr τ dV₀ and δδv = ∫ (b_a b_b - ∇N_a : ∇N_bᵀ) dv: the second variation of ln θ.
 fn add_volume_stiffness(
     out: &mut ElementOutput,
-    motions: &[PointMotion<4>; POINTS],
+    motion: &PointMotion<4, Lanes>,
     mean: &[[f64; 4]; 2],
     current: f64,
     total_pressure: f64,
 ) {
-    for m in motions {
-        let rows = Rows::new(&m.rows);
-        let w = total_pressure * m.volume / current;
+    for q in 0..POINTS {
+        let rows = Rows::new(&motion.rows, q);
+        let w = total_pressure * motion.volume.0[q] / current;
         let b = |i: usize, a: usize| if i == 0 { rows.r[a] + rows.hoop[a] } else { rows.z[a] };
         for n in 0..4 {
             for j in 0..2 {

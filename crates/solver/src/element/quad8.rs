@@ -1,11 +1,12 @@
 //! Eight-node serendipity quadrilateral with reduced 2 × 2 integration.
 
 use crate::element::kernel::{
-    ElementContext, ElementOutput, GAUSS, POINTS, PointSlice, Rows, add_force, add_stiffness,
+    ElementContext, ElementOutput, GAUSS, POINTS, PointSlice, Rows, add_force, add_stiffness, response_of,
 };
 use crate::point::failure::Failure;
 use crate::point::j2::Tangent;
 use crate::point::kinematics::{ShapePoint, motion};
+use asperity_law::real::Lanes;
 
 /// Corners, then mid-sides, of the reference square.
 const NODES: [[f64; 2]; 8] =
@@ -44,23 +45,23 @@ pub fn points() -> [ShapePoint<8>; POINTS] {
 /// A point that fails, an element that turns inside out.
 pub fn evaluate(
     context: &ElementContext<'_>,
-    points: &[ShapePoint<8>; POINTS],
+    points: &ShapePoint<8, Lanes>,
     x: &[[f64; 2]; 8],
     du: &[[f64; 2]; 8],
     start: &PointSlice<'_>,
     out: &mut ElementOutput,
 ) -> Result<(), Failure> {
-    out.clear();
-    for (q, point) in points.iter().enumerate() {
-        let motion = motion(point, x, du, context.symmetry)?;
-        let end = context.update(q, start, &motion.increment, &mut out.history)?;
-        let rows = Rows::new(&motion.rows);
-        add_force(&mut out.force, &rows, &end.stress, start.weight[q]);
+    out.clear(context.tangent);
+    let motion = motion(points, x, du, context.symmetry)?;
+    let end = context.update(start, &motion.increment, &mut out.history)?;
+    for q in 0..POINTS {
+        let rows = Rows::new(&motion.rows, q);
+        let (stress, form) = response_of(&end, q);
+        add_force(&mut out.force, &rows, &stress, start.weight[q]);
         if context.tangent != Tangent::None {
-            add_stiffness(&mut out.stiffness, 8, &rows, &end.tangent, start.weight[q]);
+            add_stiffness(&mut out.stiffness, 8, &rows, &form, start.weight[q]);
         }
-        out.flowing += usize::from(end.plastic);
-        out.states[q] = end.state;
     }
+    out.note(&end);
     Ok(())
 }

@@ -88,7 +88,7 @@ pub fn backward_euler(metal: &Metal, old: &PointState, trial: &Sym) -> Result<Sy
     let Some(hardening) = metal.hardening.as_ref().filter(|_| q > scale * old.yield_stress) else {
         return Ok([0.0; 4]);
     };
-    let end = hardening.return_to_yield(q / scale, three_g / scale, old.plastic_strain);
+    let end = hardening.return_to_yield(q / scale, three_g / scale, old.plastic_strain, old.yield_stress);
     let share = (end.plastic_strain - old.plastic_strain).max(0.0) / strain;
     Ok(dev.map(|e| share * e))
 }

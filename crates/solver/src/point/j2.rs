@@ -13,18 +13,19 @@
 use crate::point::failure::Failure;
 use crate::point::material::{Metal, PointState, Spectral};
 use crate::point::tensor::{Gradient, GradientForm, Sym, push_forward};
+use asperity_law::real::Real;
 
 /// Outcome of a stress update.
 #[derive(Clone, Copy, Debug)]
-pub struct PointUpdate {
+pub struct PointUpdate<T: Real = f64> {
     /// State at the end of the increment.
-    pub state: PointState,
+    pub state: PointState<T>,
     /// Kirchhoff stress τ.
-    pub stress: Sym,
+    pub stress: Sym<T>,
     /// Whether the point yielded in the increment.
-    pub plastic: bool,
+    pub plastic: T::Mask,
     /// Second derivative of the incremental energy with respect to the current displacement gradient.
-    pub tangent: GradientForm,
+    pub tangent: GradientForm<T>,
 }
 
 /// The tangent that is wanted; the stress does not depend on it.
@@ -38,17 +39,18 @@ pub enum Tangent {
     WithoutCompression,
 }
 
-/// Updates a point from the state `old` by f - I = `increment`.
+/// Updates a point, or several side by side, from the state `old` by f - I = `increment`.
 ///
 /// # Errors
 /// f b fᵀ that is not positive definite.
-#[inline]
-pub fn update(
+#[inline(always)]
+pub fn update<T: Real>(
     metal: &Metal,
-    old: &PointState,
-    increment: &Gradient,
+    old: &PointState<T>,
+    increment: &Gradient<T>,
     tangent: Tangent,
-) -> Result<PointUpdate, Failure> {
+) -> Result<PointUpdate<T>, Failure> {
+    let zero = T::splat(0.0);
     // 1. trial
     let trial = push_forward(increment, &old.stretch);
     let spectral = Spectral::of(&trial)?;
@@ -56,48 +58,63 @@ pub fn update(
     // 2. trial stress
     let (g, k) = (metal.elastic.shear_modulus(), metal.elastic.bulk_modulus());
     let volume = strain[0] + strain[1] + strain[2];
-    let dev = [strain[0] - volume / 3.0, strain[1] - volume / 3.0, strain[2] - volume / 3.0];
+    let third = volume / 3.0;
+    let dev = [strain[0] - third, strain[1] - third, strain[2] - third];
     let norm = (dev[0] * dev[0] + dev[1] * dev[1] + dev[2] * dev[2]).sqrt();
-    let q = 6.0_f64.sqrt() * g * norm;
+    let q = norm * (6.0_f64.sqrt() * g);
     // 3. return
     let scale = old.yield_scale;
-    let flowing = metal.hardening.as_ref().filter(|_| q > scale * old.yield_stress);
-    let (state, left, drop) = match flowing {
-        None => (PointState { stretch: trial, ..*old }, 1.0, 0.0),
-        Some(hardening) => {
-            // over Ĵ: q/Ĵ - 3G/Ĵ Δε_p = σ_y
-            let flow = hardening.return_to_yield(q / scale, 3.0 * g / scale, old.plastic_strain);
-            let (left, slope) = (scale * flow.yield_stress / q, scale * flow.slope);
-            let elastic = dev.map(|d| 2.0 * (left * d + volume / 3.0));
-            let state = PointState {
-                stretch: spectral.tensor(&elastic.map(f64::exp_m1)),
-                plastic_strain: flow.plastic_strain.max(old.plastic_strain),
-                yield_stress: flow.yield_stress,
-                yield_scale: scale,
-            };
-            // 2G(left - ĴH/(3G + ĴH)): the loss of the moduli along the direction of plastic flow
-            (state, left, 2.0 * g * (left - slope / (3.0 * g + slope)))
-        }
+    let mut state = PointState { stretch: trial, ..*old };
+    let (mut left, mut drop) = (T::splat(1.0), zero);
+    let plastic = match &metal.hardening {
+        Some(_) => q.above(scale * old.yield_stress),
+        None => zero.above(zero),
     };
-    let tau = dev.map(|d| k * volume + 2.0 * g * left * d);
+    if let Some(hardening) = metal.hardening.as_ref().filter(|_| T::any(plastic)) {
+        // over Ĵ: q/Ĵ - 3G/Ĵ Δε_p = σ_y
+        let three_g = T::splat(3.0 * g);
+        let (strain, stress) = (old.plastic_strain, old.yield_stress);
+        let flow = hardening.return_to_yield(q / scale, three_g / scale, strain, stress);
+        let slope = scale * flow.slope;
+        left = T::select(plastic, scale * flow.yield_stress / q, left);
+        let mut elastic = dev;
+        for e in &mut elastic {
+            *e = ((left * *e + third) * 2.0).exp_m1();
+        }
+        let returned = spectral.tensor(&elastic);
+        for i in 0..4 {
+            state.stretch[i] = T::select(plastic, returned[i], trial[i]);
+        }
+        state.plastic_strain =
+            T::select(plastic, flow.plastic_strain.max(old.plastic_strain), old.plastic_strain);
+        state.yield_stress = T::select(plastic, flow.yield_stress, old.yield_stress);
+        // 2G(left - ĴH/(3G + ĴH)): the loss of the moduli along the direction of plastic flow
+        drop = T::select(plastic, (left - slope / (three_g + slope)) * (2.0 * g), zero);
+    }
+    let (mean, shear) = (volume * k, left * (2.0 * g));
+    let tau = [mean + shear * dev[0], mean + shear * dev[1], mean + shear * dev[2]];
     let stress = spectral.tensor(&tau);
     // 4. tangent
     let form = if tangent == Tangent::None {
-        [[0.0; 5]; 5]
+        [[zero; 5]; 5]
     } else {
-        let n = if norm > 0.0 { dev.map(|d| d / norm) } else { [0.0; 3] };
-        let mut moduli = [[0.0; 3]; 3];
+        let strained = norm.above(zero);
+        let inverse = T::select(strained, T::splat(1.0) / norm, zero);
+        let n = [dev[0] * inverse, dev[1] * inverse, dev[2] * inverse];
+        let mut moduli = [[zero; 3]; 3];
         for a in 0..3 {
             for b in 0..3 {
                 let identity = if a == b { 1.0 } else { 0.0 };
-                moduli[a][b] = k + 2.0 * g * left * (identity - 1.0 / 3.0) - drop * n[a] * n[b];
+                moduli[a][b] = shear * (identity - 1.0 / 3.0) + k - drop * n[a] * n[b];
             }
         }
         let geometric = match tangent {
-            Tangent::WithoutCompression => spectral.tensor(&tau.map(|t| t.max(0.0))),
+            Tangent::WithoutCompression => {
+                spectral.tensor(&[tau[0].max(zero), tau[1].max(zero), tau[2].max(zero)])
+            }
             _ => stress,
         };
-        spectral.tangent(&tau, &moduli, g * left, &geometric)
+        spectral.tangent(&tau, &moduli, left * g, &geometric)
     };
-    Ok(PointUpdate { state, stress, plastic: flowing.is_some(), tangent: form })
+    Ok(PointUpdate { state, stress, plastic, tangent: form })
 }

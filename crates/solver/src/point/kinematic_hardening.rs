@@ -75,7 +75,8 @@ pub fn update(
     let (flow, left, drop) = match flowing {
         None => (None, 1.0, 0.0),
         Some(curve) => {
-            let flow = curve.return_to_yield(q / scale + moved(curve), 3.0 * g / scale, old.plastic_strain);
+            let reach = q / scale + moved(curve);
+            let flow = curve.return_to_yield(reach, 3.0 * g / scale, old.plastic_strain, old.yield_stress);
             let length = (flow.plastic_strain - old.plastic_strain).max(0.0);
             let growth = metal.kinematic_share * (flow.yield_stress - old.yield_stress).max(0.0);
             let direction = strain.out_of_frame(&n);

@@ -5,6 +5,7 @@
 
 use crate::point::failure::Failure;
 use crate::point::tensor::Gradient;
+use asperity_law::real::{Lanes, Real};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -28,75 +29,90 @@ impl Symmetry {
     }
 }
 
-/// Shape functions of an N-node element at one integration point.
+/// Shape functions of an N-node element at one integration point, or at several side by side.
 #[derive(Clone, Copy, Debug)]
-pub struct ShapePoint<const N: usize> {
+pub struct ShapePoint<const N: usize, T = f64> {
     /// N_a.
-    pub value: [f64; N],
+    pub value: [T; N],
     /// ∂N_a/∂(ξ, η).
-    pub slope: [[f64; 2]; N],
+    pub slope: [[T; 2]; N],
     /// Weight of the quadrature.
-    pub weight: f64,
+    pub weight: T,
 }
 
-/// Motion of an integration point in one increment.
+impl<const N: usize> ShapePoint<N, Lanes> {
+    /// Four points side by side.
+    pub fn side_by_side(points: &[ShapePoint<N>; 4]) -> Self {
+        ShapePoint {
+            value: std::array::from_fn(|a| Lanes::each(|q| points[q].value[a])),
+            slope: std::array::from_fn(|a| [0, 1].map(|i| Lanes::each(|q| points[q].slope[a][i]))),
+            weight: Lanes::each(|q| points[q].weight),
+        }
+    }
+}
+
+/// Motion of an integration point, or of several side by side, in one increment.
 #[derive(Clone, Copy, Debug)]
-pub struct PointMotion<const N: usize> {
+pub struct PointMotion<const N: usize, T = f64> {
     /// Rows (∂N_a/∂r, ∂N_a/∂z, N_a/r) in the current configuration.
-    pub rows: [[f64; 3]; N],
+    pub rows: [[T; 3]; N],
     /// f - I, f = ∂x_{n+1}/∂x_n.
-    pub increment: Gradient,
+    pub increment: Gradient<T>,
     /// Current volume of the point: weight × det J × 2πr.
-    pub volume: f64,
+    pub volume: T,
     /// Current radius.
-    pub radius: f64,
+    pub radius: T,
 }
 
-/// The motion at one point from current node positions `x` and the displacement increments `du` that led there.
+/// The motion at one point, or at several, from current node positions `x` and the displacement increments `du` that led there.
 ///
 /// k = ∂Δu/∂x_{n+1} needs only current gradients; f = (I - k)⁻¹ and f - I = f k keep the digits of tiny strains.
 ///
 /// # Errors
 /// An element that is, or that the increment would turn, inside out.
-#[inline]
-pub fn motion<const N: usize>(
-    point: &ShapePoint<N>,
+#[inline(always)]
+pub fn motion<T: Real, const N: usize>(
+    point: &ShapePoint<N, T>,
     x: &[[f64; 2]; N],
     du: &[[f64; 2]; N],
     symmetry: Symmetry,
-) -> Result<PointMotion<N>, Failure> {
-    let (mut j, mut r, mut ur) = ([[0.0; 2]; 2], 0.0, 0.0);
+) -> Result<PointMotion<N, T>, Failure> {
+    let (zero, one) = (T::splat(0.0), T::splat(1.0));
+    let (mut j, mut r, mut ur) = ([[zero; 2]; 2], zero, zero);
     for a in 0..N {
         for i in 0..2 {
-            j[i][0] += x[a][i] * point.slope[a][0];
-            j[i][1] += x[a][i] * point.slope[a][1];
+            j[i][0] += point.slope[a][0] * x[a][i];
+            j[i][1] += point.slope[a][1] * x[a][i];
         }
         r += point.value[a] * x[a][0];
         ur += point.value[a] * du[a][0];
     }
     let det = j[0][0] * j[1][1] - j[0][1] * j[1][0];
     let axisymmetric = symmetry == Symmetry::Axisymmetric;
-    if det.is_nan() || det <= 0.0 || (axisymmetric && (r <= 0.0 || r - ur <= 0.0)) {
+    let off_axis = !axisymmetric || T::all(r.above(zero) & (r - ur).above(zero));
+    if !(off_axis && T::all(det.above(zero))) {
         return Err(Failure::Inverted);
     }
-    let inverse_r = if axisymmetric { 1.0 / r } else { 0.0 };
-    let (mut rows, mut k) = ([[0.0; 3]; N], [0.0; 4]);
+    let inverse_r = if axisymmetric { one / r } else { zero };
+    let inverse = [[j[0][0] / det, j[0][1] / det], [j[1][0] / det, j[1][1] / det]];
+    let (mut rows, mut k) = ([[zero; 3]; N], [zero; 4]);
     for a in 0..N {
         let [s, t] = point.slope[a];
-        let dr = (s * j[1][1] - t * j[1][0]) / det;
-        let dz = (t * j[0][0] - s * j[0][1]) / det;
+        let dr = s * inverse[1][1] - t * inverse[1][0];
+        let dz = t * inverse[0][0] - s * inverse[0][1];
         rows[a] = [dr, dz, point.value[a] * inverse_r];
-        k[0] += du[a][0] * dr;
-        k[1] += du[a][0] * dz;
-        k[2] += du[a][1] * dr;
-        k[3] += du[a][1] * dz;
+        k[0] += dr * du[a][0];
+        k[1] += dz * du[a][0];
+        k[2] += dr * du[a][1];
+        k[3] += dz * du[a][1];
     }
-    let shrink = (1.0 - k[0]) * (1.0 - k[3]) - k[1] * k[2]; // det(I - k) = 1/det f
-    if shrink.is_nan() || shrink <= 0.0 {
+    let shrink = (one - k[0]) * (one - k[3]) - k[1] * k[2]; // det(I - k) = 1/det f
+    if !T::all(shrink.above(zero)) {
         return Err(Failure::Inverted);
     }
     let area = k[0] * k[3] - k[1] * k[2];
-    let hoop = if axisymmetric { ur / (r - ur) } else { 0.0 };
+    let hoop = if axisymmetric { ur / (r - ur) } else { zero };
     let increment = [(k[0] - area) / shrink, k[1] / shrink, k[2] / shrink, (k[3] - area) / shrink, hoop];
-    Ok(PointMotion { rows, increment, volume: point.weight * det * symmetry.weight(r), radius: r })
+    let weight = if axisymmetric { r * (2.0 * std::f64::consts::PI) } else { one };
+    Ok(PointMotion { rows, increment, volume: point.weight * det * weight, radius: r })
 }

@@ -5,6 +5,7 @@
 
 use crate::point::failure::Failure;
 use crate::point::tensor::{GradientForm, Sym, trace};
+use asperity_law::real::{Lanes, Real};
 use asperity_law::{Elastic, Flow, HardeningCurve, StressMeasure};
 
 /// Elastic constants and, for a material that yields, its hardening curve; all in units of E.
@@ -20,18 +21,44 @@ pub struct Metal {
     pub stress_measure: StressMeasure,
 }
 
-/// State of a material point.
+/// State of a material point, or of several side by side.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PointState {
+pub struct PointState<T = f64> {
     /// b_e - I, current frame.
-    pub stretch: Sym,
+    pub stretch: Sym<T>,
     /// Accumulated plastic strain ε_p.
-    pub plastic_strain: f64,
+    pub plastic_strain: T,
     /// Yield stress at that strain, in the measure of the material.
-    pub yield_stress: f64,
+    pub yield_stress: T,
     /// Ĵ: the Kirchhoff stress yields at Ĵ times the yield stress. Constant within an increment, which so keeps a potential;
     /// 1 where the yield stress is Kirchhoff's.
-    pub yield_scale: f64,
+    pub yield_scale: T,
+}
+
+impl PointState<Lanes> {
+    /// Four points side by side.
+    #[inline(always)]
+    pub fn side_by_side(points: &[PointState]) -> Self {
+        let component = |i: usize| Lanes::each(|q| points[q].stretch[i]);
+        PointState {
+            stretch: [component(0), component(1), component(2), component(3)],
+            plastic_strain: Lanes::each(|q| points[q].plastic_strain),
+            yield_stress: Lanes::each(|q| points[q].yield_stress),
+            yield_scale: Lanes::each(|q| points[q].yield_scale),
+        }
+    }
+
+    /// The point in `lane`.
+    #[inline(always)]
+    pub fn lane(&self, lane: usize) -> PointState {
+        let b = &self.stretch;
+        PointState {
+            stretch: [b[0].0[lane], b[1].0[lane], b[2].0[lane], b[3].0[lane]],
+            plastic_strain: self.plastic_strain.0[lane],
+            yield_stress: self.yield_stress.0[lane],
+            yield_scale: self.yield_scale.0[lane],
+        }
+    }
 }
 
 impl Metal {
@@ -59,42 +86,49 @@ impl Metal {
 
 /// A left stretch tensor in its principal frame: b = I + Σ μ_A m_A.
 #[derive(Clone, Copy, Debug)]
-pub struct Spectral {
+pub struct Spectral<T = f64> {
     /// Logarithmic strains ½ ln(1 + μ): two in the plane, then hoop.
-    pub log_strain: [f64; 3],
+    pub log_strain: [T; 3],
     /// (cos 2α, sin 2α) of the first in-plane direction.
-    pub double_angle: [f64; 2],
+    pub double_angle: [T; 2],
     /// atanh(x)/x, x the relative difference of the in-plane eigenvalues: 1 where they coincide.
-    pub shear_factor: f64,
+    pub shear_factor: T,
 }
 
-impl Spectral {
+impl<T: Real> Spectral<T> {
     /// Decomposes b - I.
     ///
     /// # Errors
     /// A tensor b that is not positive definite.
-    pub fn of(stretch: &Sym) -> Result<Spectral, Failure> {
-        let (mean, half) = (0.5 * (stretch[0] + stretch[1]), 0.5 * (stretch[0] - stretch[1]));
+    #[inline(always)]
+    pub fn of(stretch: &Sym<T>) -> Result<Spectral<T>, Failure> {
+        let (zero, one) = (T::splat(0.0), T::splat(1.0));
+        let (mean, half) = ((stretch[0] + stretch[1]) * 0.5, (stretch[0] - stretch[1]) * 0.5);
         let radius = (half * half + stretch[3] * stretch[3]).sqrt();
-        let x = radius / (1.0 + mean);
+        let x = radius / (mean + 1.0);
         let area = stretch[0] + stretch[1] + stretch[0] * stretch[1] - stretch[3] * stretch[3];
-        if !(mean > -1.0 && x < 1.0 && stretch[2] > -1.0 && area > -1.0 && radius.is_finite()) {
+        let sound = mean.above(-one) & one.above(x) & stretch[2].above(-one) & area.above(-one);
+        if !T::all(sound & T::splat(f64::INFINITY).above(radius)) {
             return Err(Failure::NotPositive);
         }
-        let double_angle = if radius > 0.0 { [half / radius, stretch[3] / radius] } else { [1.0, 0.0] };
-        // atanh(x) loses nothing for small x; its quotient by x needs the series
-        let shear_factor = if x < 1e-4 { 1.0 + x * x * (1.0 / 3.0 + x * x / 5.0) } else { x.atanh() / x };
-        let (middle, difference) = (0.25 * area.ln_1p(), 0.5 * x * shear_factor);
+        let turned = radius.above(zero);
+        let double_angle =
+            [T::select(turned, half / radius, one), T::select(turned, stretch[3] / radius, zero)];
+        // 2 atanh x = ln(1 + 2x/(1 - x)) loses nothing for small x, nor does its quotient by x
+        let twice = (x * 2.0 / (one - x)).ln_1p();
+        let shear_factor = T::select(turned, twice * 0.5 / x, one);
+        let (middle, difference) = (area.ln_1p() * 0.25, twice * 0.25);
         Ok(Spectral {
-            log_strain: [middle + difference, middle - difference, 0.5 * stretch[2].ln_1p()],
+            log_strain: [middle + difference, middle - difference, stretch[2].ln_1p() * 0.5],
             double_angle,
             shear_factor,
         })
     }
 
     /// The tensor with principal values `v` in this frame.
-    pub fn tensor(&self, v: &[f64; 3]) -> Sym {
-        let (mean, half) = (0.5 * (v[0] + v[1]), 0.5 * (v[0] - v[1]));
+    #[inline(always)]
+    pub fn tensor(&self, v: &[T; 3]) -> Sym<T> {
+        let (mean, half) = ((v[0] + v[1]) * 0.5, (v[0] - v[1]) * 0.5);
         let [c, s] = self.double_angle;
         [mean + half * c, mean - half * c, v[2], half * s]
     }
@@ -104,20 +138,23 @@ impl Spectral {
     ///
     /// a(g, g') = Σ_AB (D_AB - 2τ_A δ_AB) g_AA g'_BB + c_s γ γ' + Σ g_iA τ_A g'_iA, with the in-plane shear modulus
     /// c_s = (τ₁λ₂² - τ₂λ₁²)/(λ₁² - λ₂²) = G' atanh(x)/x - ½(τ₁ + τ₂) (Simo 1992; de Souza Neto et al., ch. 14).
+    #[inline(always)]
     pub fn tangent(
         &self,
-        tau: &[f64; 3],
-        moduli: &[[f64; 3]; 3],
-        shear: f64,
-        geometric: &Sym,
-    ) -> GradientForm {
-        let [c, s] = self.double_angle;
-        let first = [0.5 * (1.0 + c), 0.5 * s, 0.5 * s, 0.5 * (1.0 - c)];
-        let second = [0.5 * (1.0 - c), -0.5 * s, -0.5 * s, 0.5 * (1.0 + c)];
+        tau: &[T; 3],
+        moduli: &[[T; 3]; 3],
+        shear: T,
+        geometric: &Sym<T>,
+    ) -> GradientForm<T> {
+        let ([c, s], zero) = (self.double_angle, T::splat(0.0));
+        let (ahead, aside, skew) = ((c + 1.0) * 0.5, (-c + 1.0) * 0.5, s * 0.5);
+        let first = [ahead, skew, skew, aside];
+        let second = [aside, -skew, -skew, ahead];
         let gamma = [-s, c, c, s];
-        let c_s = shear * self.shear_factor - 0.5 * (tau[0] + tau[1]);
-        let (m11, m22, m12) = (moduli[0][0] - 2.0 * tau[0], moduli[1][1] - 2.0 * tau[1], moduli[0][1]);
-        let mut form = [[0.0; 5]; 5];
+        let c_s = shear * self.shear_factor - (tau[0] + tau[1]) * 0.5;
+        let m11 = moduli[0][0] - tau[0] * 2.0;
+        let (m22, m12) = (moduli[1][1] - tau[1] * 2.0, moduli[0][1]);
+        let mut form = [[zero; 5]; 5];
         for i in 0..4 {
             let (p, q) = (m11 * first[i] + m12 * second[i], m12 * first[i] + m22 * second[i]);
             let t = c_s * gamma[i];
@@ -126,7 +163,7 @@ impl Spectral {
             }
             form[4][i] = moduli[0][2] * first[i] + moduli[1][2] * second[i];
         }
-        form[4][4] = moduli[2][2] - 2.0 * tau[2];
+        form[4][4] = moduli[2][2] - tau[2] * 2.0;
         form[0][0] += geometric[0];
         form[1][0] += geometric[3];
         form[1][1] += geometric[1];

@@ -1,14 +1,16 @@
 //! The two small arrays everything is written in. Both live in the (r, z) plane plus the hoop direction θ;
 //! in plane strain r reads x and θ the direction out of the plane.
 
-/// A symmetric tensor: components rr, zz, θθ, rz.
-pub type Sym = [f64; 4];
+use asperity_law::real::Real;
+
+/// A symmetric tensor: components rr, zz, θθ, rz; of one point, or of several side by side.
+pub type Sym<T = f64> = [T; 4];
 
 /// A displacement gradient ∂u_i/∂x_j: components rr, rz, zr, zz, θθ.
-pub type Gradient = [f64; 5];
+pub type Gradient<T = f64> = [T; 5];
 
 /// A quadratic form on gradients (symmetric).
-pub type GradientForm = [[f64; 5]; 5];
+pub type GradientForm<T = f64> = [[T; 5]; 5];
 
 /// Trace of a symmetric tensor.
 pub fn trace(a: &Sym) -> f64 {
@@ -28,7 +30,8 @@ pub fn von_mises(a: &Sym) -> f64 {
 }
 
 /// det(I + g) - 1, without the loss of digits of forming I + g.
-pub fn volume_change(g: &Gradient) -> f64 {
+#[inline(always)]
+pub fn volume_change<T: Real>(g: &Gradient<T>) -> T {
     let plane = g[0] + g[3] + g[0] * g[3] - g[1] * g[2];
     plane + g[4] + plane * g[4]
 }
@@ -36,16 +39,17 @@ pub fn volume_change(g: &Gradient) -> f64 {
 /// f a fᵀ + (f fᵀ - I) with f = I + g: pushes a deviation from the identity (a = b - I) forward by f.
 ///
 /// Far from the contact strains are 1e-9; only the deviations from the identity keep their digits there.
-pub fn push_forward(g: &Gradient, a: &Sym) -> Sym {
+#[inline(always)]
+pub fn push_forward<T: Real>(g: &Gradient<T>, a: &Sym<T>) -> Sym<T> {
     let [grr, grz, gzr, gzz, gtt] = *g;
     // f (I + a) fᵀ - I = a + p + pᵀ + p gᵀ with p = g (I + a)
-    let (crr, czz, crz) = (1.0 + a[0], 1.0 + a[1], a[3]);
+    let (crr, czz, crz) = (a[0] + 1.0, a[1] + 1.0, a[3]);
     let (prr, prz) = (grr * crr + grz * crz, grr * crz + grz * czz);
     let (pzr, pzz) = (gzr * crr + gzz * crz, gzr * crz + gzz * czz);
-    let hoop = 2.0 * gtt + gtt * gtt;
+    let hoop = gtt * 2.0 + gtt * gtt;
     [
-        a[0] + 2.0 * prr + prr * grr + prz * grz,
-        a[1] + 2.0 * pzz + pzr * gzr + pzz * gzz,
+        a[0] + prr * 2.0 + prr * grr + prz * grz,
+        a[1] + pzz * 2.0 + pzr * gzr + pzz * gzz,
         a[2] + hoop + hoop * a[2],
         a[3] + prz + pzr + prr * gzr + prz * gzz,
     ]
