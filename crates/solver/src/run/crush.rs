@@ -10,6 +10,7 @@ use crate::run::recorder::Recorder;
 use crate::scene::{Scene, SceneError, Target};
 use asperity_mesh::Mesh;
 use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 pub use crate::run::recorder::{Event, FieldFrame, Outcome, Stopped, Watcher};
 
@@ -37,31 +38,70 @@ pub fn run(scene: &Scene, mesh: Option<Mesh>, observer: &mut Watcher<'_>) -> Res
     let coarser = mesh.as_ref().map(Mesh::with_other_element);
     let numbers = Discretisation::new(scene);
     let problem = prepare_with(scene, numbers, mesh, depth)?;
-    let mut outcome = simulate(&problem, scene.output.interval(), observer)?;
+    let target = scene.loading.target()?;
+    let companion = companion(scene, numbers, coarser, depth);
+    let asks_for_depth = matches!(target, Target::Depth(_));
+    let (mut outcome, ahead) = match companion.as_ref().filter(|_| asks_for_depth) {
+        Some(companion) => simulate_both(&problem, companion, scene.output.interval(), observer)?,
+        None => (simulate(&problem, scene.output.interval(), observer)?, None),
+    };
     let interrupted = outcome.stopped.as_ref().is_some_and(|s| s.reason == Stop::Interrupted);
-    if !interrupted && let Some(companion) = companion(scene, numbers, coarser, depth, &outcome) {
+    // what ended early, or was looking for a force, is compared as far as it came
+    let compared = match (ahead, &outcome.stopped) {
+        _ if interrupted => None,
+        (Some(ahead), None) => Some(ahead),
+        _ => companion.and_then(|mut companion| {
+            companion.goal = Goal::Depth(outcome.summary.peak_depth / companion.units.length);
+            companion.unload &= outcome.summary.residual_depth.is_some();
+            simulate(&companion, 0, &mut |_| ControlFlow::Continue(())).ok()
+        }),
+    };
+    if let Some(companion) = compared {
         settle(&mut outcome, &companion, scene.symmetry, numbers.penetration);
     }
-    if let (Target::Force(force), None) = (scene.loading.target()?, &outcome.stopped) {
+    if let (Target::Force(force), None) = (target, &outcome.stopped) {
         meet_force(&mut outcome, force);
     }
     Ok(outcome)
 }
 
-/// The run that reveals the errors of `outcome`: to the depth that it reached, with numbers half as good. An imported mesh, which
-/// cannot be made coarser, gives its nodes to the `other` element. `None` if it does not even begin.
-fn companion(
-    scene: &Scene,
-    numbers: Discretisation,
-    other: Option<Mesh>,
-    depth: f64,
-    outcome: &Outcome,
-) -> Option<Outcome> {
-    let mut problem = prepare_with(scene, numbers.coarser(), other, depth).ok()?;
-    problem.goal = Goal::Depth(outcome.summary.peak_depth / problem.units.length);
-    problem.reloads = 0;
-    problem.unload &= outcome.summary.residual_depth.is_some();
-    simulate(&problem, 0, &mut |_| ControlFlow::Continue(())).ok()
+/// The run that reveals the errors of another: with numbers half as good. An imported mesh, which cannot be made coarser, gives its
+/// nodes to the `other` element. `None` if it does not even begin.
+fn companion(scene: &Scene, numbers: Discretisation, other: Option<Mesh>, depth: f64) -> Option<Problem> {
+    let problem = prepare_with(scene, numbers.coarser(), other, depth).ok()?;
+    Some(Problem { reloads: 0, ..problem })
+}
+
+/// Runs `problem` and its `companion`, on two threads where there are two. The bits do not depend on that.
+fn simulate_both(
+    problem: &Problem,
+    companion: &Problem,
+    interval: usize,
+    observer: &mut Watcher<'_>,
+) -> Result<(Outcome, Option<Outcome>), CrushError> {
+    let ended = AtomicBool::new(false);
+    let mut ahead = None;
+    let mut main = || {
+        let outcome = simulate(problem, interval, observer);
+        ended.store(!matches!(&outcome, Ok(Outcome { stopped: None, .. })), Ordering::Relaxed);
+        outcome
+    };
+    let mut follow = || {
+        let go_on =
+            || if ended.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
+        ahead = simulate(companion, 0, &mut |_| go_on()).ok();
+    };
+    let outcome = if rayon::current_num_threads() > 1 {
+        rayon::in_place_scope(|scope| {
+            scope.spawn(|_| follow());
+            main()
+        })?
+    } else {
+        let outcome = main()?;
+        follow();
+        outcome
+    };
+    Ok((outcome, ahead))
 }
 
 /// Runs `problem`: loads it to its goal, and unloads and reloads it as often as it asks.
