@@ -1,14 +1,13 @@
 //! Acceptance of a converged increment: the only place where the state of a body changes.
 
-use crate::body::assembly::{Response, evaluate_cell};
+use crate::body::assembly::Response;
 use crate::body::discrete_body::Body;
 use crate::body::failure::Failure;
+use crate::body::flow::Flows;
 use crate::body::state::{State, Trial};
-use crate::element::kernel::{ElementContext, ElementOutput};
-use crate::point::bdf2::{PlasticIncrement, plastic_increment};
-use crate::point::j2::Tangent;
-use crate::point::kinematic_hardening;
-use crate::point::material::{plastic_work, volume_ratio};
+use crate::element::kernel::POINTS;
+use crate::point::bdf2::PlasticIncrement;
+use crate::point::material::volume_ratio;
 
 impl State {
     /// Accepts the converged `trial` with its `response`, whose points are taken over; it holds no valid points afterwards.
@@ -40,51 +39,22 @@ impl State {
 
     /// Takes down the plastic increment of each point, its work, and the change of its volume ratio.
     fn note_flow(&mut self, body: &Body<'_>, trial: &Trial, response: &Response) -> Result<(), Failure> {
-        let Some(hardening) = &body.material.hardening else { return Ok(()) };
         for (change, (old, new)) in
             self.volume_change.iter_mut().zip(self.points.states.iter().zip(&response.points.states))
         {
             *change = volume_ratio(&new.stretch) - volume_ratio(&old.stretch);
         }
-        // the elastic trial from the old state: what the increment would have been without plasticity
-        let elastic = body.material.elastic_part();
-        let context = ElementContext { symmetry: body.symmetry, metal: &elastic, tangent: Tangent::None };
-        let mut output = ElementOutput::new(body.material.virgin());
-        let mut work = 0.0;
-        for cell in 0..response.yielding.len() {
+        let (before, after) = (&self.points.states, &response.points.states);
+        let yields = |q: usize| after[q].plastic_strain > before[q].plastic_strain;
+        let (mut flows, mut work) = (Flows::new(body), 0.0);
+        for cell in 0..self.plastic.len() / POINTS {
             let points = Body::points_of(cell);
-            let flowed =
-                |q: usize| response.points.states[q].plastic_strain > self.points.states[q].plastic_strain;
-            if !points.clone().any(flowed) {
-                self.plastic[points].fill(PlasticIncrement::NONE);
-                continue;
-            }
-            let start = self.points.slice(body, cell);
-            if start.history.is_empty() {
-                evaluate_cell(body, self, &trial.displacement, &start, cell, &context, &mut output)?;
+            if points.clone().any(yields) {
+                flows.find(self, trial, response, cell)?;
             }
             for (i, q) in points.enumerate() {
-                let (old, new) = (&self.points.states[q], &response.points.states[q]);
-                if new.plastic_strain <= old.plastic_strain {
-                    self.plastic[q] = PlasticIncrement::NONE;
-                    continue;
-                }
-                let (flow, spent) = match (self.points.history.get(q), response.points.history.get(q)) {
-                    (Some(before), Some(after)) => {
-                        kinematic_hardening::plastic_increment(&body.material, (old, before), (new, after))
-                    }
-                    _ => {
-                        let flow = plastic_increment(&output.states[i].stretch, old, new)
-                            .map_err(|cause| Failure::Element { cell, cause })?;
-                        (flow, plastic_work(hardening, old, new))
-                    }
-                };
-                self.plastic[q] = flow;
-                work += body.volume[q] * spent;
-                if body.material.yields_by_true_stress() {
-                    let drift = (new.yield_scale / volume_ratio(&new.stretch) - 1.0).abs();
-                    self.yield_drift = self.yield_drift.max(drift);
-                }
+                self.plastic[q] = if yields(q) { flows.flow[i] } else { PlasticIncrement::NONE };
+                work += if yields(q) { body.volume[q] * flows.work[i] } else { 0.0 };
             }
         }
         self.plastic_work += work;

@@ -1,17 +1,12 @@
-//! What the integration points of an increment start from: the converged states, with the last plastic increment extrapolated.
+//! The start of an increment: the converged states of the integration points, with the last plastic increment extrapolated.
 
-use crate::body::assembly::{Response, evaluate_cell};
+use crate::body::assembly::Response;
 use crate::body::discrete_body::Body;
-use crate::body::failure::Failure;
+use crate::body::flow::Flows;
 use crate::body::state::{Points, State, Trial};
-use crate::element::kernel::{ElementContext, ElementOutput, POINTS, PointSlice};
-use crate::point::bdf2::{
-    PlasticIncrement, backward_euler, bounded, extrapolate, extrapolation_factor, plastic_increment, share,
-};
-use crate::point::j2::Tangent;
+use crate::point::bdf2::{PlasticIncrement, bounded, extrapolate, extrapolation_factor, share};
 use crate::point::kinematic_hardening;
-use crate::point::material::{Metal, PointState, volume_ratio};
-use crate::point::tensor::Sym;
+use crate::point::material::volume_ratio;
 
 /// Ĵ is kept within this share of J: an increment that overturns the volume change of the last one is no smooth path.
 const LARGEST_CHANGE: f64 = 0.1;
@@ -63,10 +58,12 @@ impl State {
             if last.iter().all(|flow| flow.accumulated == 0.0) {
                 continue;
             }
-            let found = flows.evaluate(self, trial, response, cell);
+            let found = flows
+                .find(self, trial, response, cell)
+                .and_then(|()| flows.backward_euler(self, trial, cell));
             for (i, q) in range.enumerate() {
-                let flowed = match found {
-                    Ok(()) => share(trial.factor, &self.plastic[q], &flows.flow[i], &flows.euler[i]),
+                let flowed = match &found {
+                    Ok(euler) => share(trial.factor, &self.plastic[q], &flows.flow[i], &euler[i]),
                     Err(_) => PlasticIncrement::NONE,
                 };
                 self.extrapolate_point(body, q, &flowed, &mut trial.start);
@@ -85,61 +82,5 @@ impl State {
             }
         }
         start.states[q].yield_scale = scale;
-    }
-}
-
-/// Plastic flow of the points of an element from the converged state, as a trial has it and as backward Euler would have it.
-struct Flows<'b, 'm> {
-    body: &'b Body<'m>,
-    elastic: Metal,
-    output: ElementOutput,
-    flow: [PlasticIncrement; POINTS],
-    euler: [Sym; POINTS],
-}
-
-impl<'b, 'm> Flows<'b, 'm> {
-    fn new(body: &'b Body<'m>) -> Self {
-        Flows {
-            body,
-            elastic: body.material.elastic_part(),
-            output: ElementOutput::new(body.material.virgin()),
-            flow: [PlasticIncrement::NONE; POINTS],
-            euler: [[0.0; 4]; POINTS],
-        }
-    }
-
-    fn evaluate(
-        &mut self,
-        state: &State,
-        trial: &Trial,
-        response: &Response,
-        cell: usize,
-    ) -> Result<(), Failure> {
-        let Flows { body, elastic, output, flow, euler } = self;
-        let fails = |cause| Failure::Element { cell, cause };
-        let kinematic = body.material.has_back_stress();
-        let metal = if kinematic { &body.material } else { elastic };
-        let context = ElementContext { symmetry: body.symmetry, metal, tangent: Tangent::None };
-        // backward Euler starts from the converged states, with the yield stress of the increment
-        let range = Body::points_of(cell);
-        let states: [PointState; POINTS] = std::array::from_fn(|i| PointState {
-            yield_scale: trial.start.states[range.start + i].yield_scale,
-            ..state.points.states[range.start + i]
-        });
-        let start = PointSlice { states: &states, ..state.points.slice(body, cell) };
-        evaluate_cell(body, state, &trial.displacement, &start, cell, &context, output)?;
-        for (i, q) in range.enumerate() {
-            let (old, new, end) = (&states[i], &response.points.states[q], &output.states[i]);
-            if kinematic {
-                let (before, after) = (&state.points.history[q], &response.points.history[q]);
-                flow[i] =
-                    kinematic_hardening::plastic_increment(&body.material, (old, before), (new, after)).0;
-                euler[i] = std::array::from_fn(|k| output.history[i].plastic[k] - before.plastic[k]);
-            } else {
-                flow[i] = plastic_increment(&end.stretch, old, new).map_err(fails)?;
-                euler[i] = backward_euler(&body.material, old, &end.stretch).map_err(fails)?;
-            }
-        }
-        Ok(())
     }
 }

@@ -8,6 +8,8 @@ pub mod state;
 
 pub mod assembly;
 
+mod flow;
+
 mod extrapolation;
 
 mod commit;

@@ -50,8 +50,6 @@ pub struct State {
     pub volume_change: Vec<f64>,
     /// Plastic work so far.
     pub plastic_work: f64,
-    /// Largest |Ĵ/J - 1| at which a point yielded so far: how far the accepted yield stress is from Cauchy's.
-    pub yield_drift: f64,
     /// Whether each element yielded in the last increment.
     pub yielding: Vec<bool>,
     /// Height of the tool's lowest point; infinite without a tool.
@@ -99,7 +97,6 @@ impl State {
             plastic: vec![PlasticIncrement::NONE; if yields { count } else { 0 }],
             volume_change: vec![0.0; if yields && body.material.yields_by_true_stress() { count } else { 0 }],
             plastic_work: 0.0,
-            yield_drift: 0.0,
             yielding: vec![false; body.mesh.cell_count()],
             tip: f64::INFINITY,
             penalty: body.contact.map_or(0.0, |contact| contact.penalty),

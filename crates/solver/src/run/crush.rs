@@ -4,6 +4,7 @@ use crate::run::depth_for_force::target_depth;
 use crate::run::discretisation::Discretisation;
 use crate::run::errors::{meet_force, settle};
 use crate::run::load_path::{Path, Stop};
+use crate::run::oliver_pharr::as_an_instrument;
 use crate::run::prepare::prepare_with;
 use crate::run::problem::{Goal, Problem};
 use crate::run::recorder::Recorder;
@@ -62,6 +63,8 @@ pub fn run(scene: &Scene, mesh: Option<Mesh>, observer: &mut Watcher<'_>) -> Res
     if let (Target::Force(force), None) = (target, &outcome.stopped) {
         meet_force(&mut outcome, force);
     }
+    // of the force and the depth that are stated
+    outcome.summary.oliver_pharr = as_an_instrument(&problem, &outcome.summary);
     Ok(outcome)
 }
 
@@ -123,7 +126,9 @@ pub fn simulate(
     if stopped.is_none() {
         stopped = unload_and_reload(problem, &mut path, &mut recorder, observer).err();
     }
-    Ok(recorder.finish(&path, stopped, observer))
+    let mut outcome = recorder.finish(&path, stopped, observer);
+    outcome.summary.oliver_pharr = as_an_instrument(problem, &outcome.summary);
+    Ok(outcome)
 }
 
 /// The path after the peak: the stiffness there, and unloading and reloading as often as the problem asks.

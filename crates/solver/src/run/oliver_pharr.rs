@@ -7,6 +7,9 @@
 //! elastic body. Metal that piles up around the tool makes the true area larger than A(h_c): hence both are given.
 
 use crate::contact::tool::Tool;
+use crate::point::kinematics::Symmetry;
+use crate::run::problem::Problem;
+use crate::run::record::Summary;
 use std::f64::consts::{FRAC_2_PI, PI};
 
 /// The peak of an indentation, any consistent units.
@@ -59,6 +62,26 @@ pub fn oliver_pharr(tool: &Tool, section: impl Fn(f64) -> f64, peak: &Peak) -> O
         contact_area,
         hardness: peak.force / contact_area,
         reduced_modulus: 0.5 * PI.sqrt() * peak.stiffness / contact_area.sqrt(),
+    })
+}
+
+/// The peak of a run that was unloaded, in SI, as an instrument evaluates it that knows force, depth and stiffness.
+pub fn as_an_instrument(problem: &Problem, summary: &Summary) -> Option<OliverPharr> {
+    let (tool, u) = (&problem.tool, problem.units);
+    let mirrored = tool.mirrored().filter(|_| problem.symmetry == Symmetry::Axisymmetric)?;
+    let stiffness = summary.unloading_stiffness.filter(|_| summary.residual_depth.is_some())?;
+    let peak = Peak {
+        force: summary.peak_force / u.force,
+        depth: summary.peak_depth / u.length,
+        stiffness: stiffness * u.length / u.force,
+    };
+    let read = oliver_pharr(tool, |height| mirrored.half_width(height), &peak)?;
+    Some(OliverPharr {
+        geometry_factor: read.geometry_factor,
+        contact_depth: read.contact_depth * u.length,
+        contact_area: read.contact_area * u.area,
+        hardness: read.hardness * u.stress,
+        reduced_modulus: read.reduced_modulus * u.stress,
     })
 }
 

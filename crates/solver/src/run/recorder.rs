@@ -7,7 +7,6 @@ use crate::body::surface::Surface;
 use crate::point::kinematics::Symmetry;
 use crate::run::equilibrium::{Counters, Equilibrium};
 use crate::run::load_path::{Energies, Increment, Path, Stop};
-use crate::run::oliver_pharr::{OliverPharr, Peak, oliver_pharr};
 use crate::run::problem::{Goal, Problem};
 use crate::run::record::{AsperityRow, CurveRow, CycleRow, Errors, GapRow, IslandRow, Phase, Summary};
 use crate::run::ripple::{Ends, ends, remove};
@@ -329,21 +328,6 @@ impl<'p> Recorder<'p> {
         }
     }
 
-    /// The peak as an instrument evaluates it that knows force, depth and stiffness (dimensionless), in SI.
-    fn as_an_instrument(&self, peak: &CurveRow, stiffness: f64) -> Option<OliverPharr> {
-        let (problem, u) = (self.problem, self.problem.units);
-        let tool = problem.tool.mirrored().filter(|_| problem.symmetry == Symmetry::Axisymmetric)?;
-        let peak = Peak { force: peak.force / u.force, depth: peak.depth / u.length, stiffness };
-        let read = oliver_pharr(&problem.tool, |height| tool.half_width(height), &peak)?;
-        Some(OliverPharr {
-            geometry_factor: read.geometry_factor,
-            contact_depth: read.contact_depth * u.length,
-            contact_area: read.contact_area * u.area,
-            hardness: read.hardness * u.stress,
-            reduced_modulus: read.reduced_modulus * u.stress,
-        })
-    }
-
     /// Every complete loading with its unloading.
     fn cycles(&self) -> Vec<CycleRow> {
         let mut start = 0;
@@ -396,10 +380,7 @@ impl<'p> Recorder<'p> {
             total_work,
             elastic_work,
             plastic_work: peak.plastic_work,
-            oliver_pharr: self
-                .stiffness
-                .filter(|_| first.is_some())
-                .and_then(|s| self.as_an_instrument(&peak, s)),
+            oliver_pharr: None,
             reduced_modulus: self.problem.metal.elastic.reduced_modulus() * u.stress,
             elastic_fraction: elastic_work.map(|w| w / total_work),
             energy_balance_error: balance_error(&self.rows),
