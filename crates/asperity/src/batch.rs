@@ -52,6 +52,9 @@ impl Display for Shard {
     }
 }
 
+/// Runs one case; it may ask whether to go on.
+pub(crate) type Solve<'a, C, R> = dyn Fn(&C, &dyn Fn() -> bool) -> Option<R> + Sync + 'a;
+
 /// What to run, and what a run leaves.
 pub(crate) struct Batch<'a, C, R> {
     /// All that the results depend on beside the keys: a journal of another definition is begun anew.
@@ -61,7 +64,7 @@ pub(crate) struct Batch<'a, C, R> {
     /// Names a run; those of equal names are run once.
     pub key: &'a (dyn Fn(&C) -> String + Sync),
     /// Runs one; it may ask whether to go on, and gives `None` where it was told not to.
-    pub solve: &'a (dyn Fn(&C, &dyn Fn() -> bool) -> Option<R> + Sync),
+    pub solve: &'a Solve<'a, C, R>,
     /// Threads, 0: all cores.
     pub threads: usize,
     /// File that keeps finished runs.
