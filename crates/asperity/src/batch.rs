@@ -30,6 +30,11 @@ impl Shard {
         (1..=n).contains(&k).then_some(Shard { k, n })
     }
 
+    /// What is put behind the name of a folder for it alone: `-2-of-8`.
+    pub fn suffix(self) -> String {
+        format!("-{}-of-{}", self.k, self.n)
+    }
+
     /// The numbers of its runs out of `runs`.
     pub(crate) fn of(part: Option<Shard>, runs: usize) -> impl Iterator<Item = usize> {
         let Shard { k, n } = part.unwrap_or(Shard { k: 1, n: 1 });

@@ -93,7 +93,7 @@ fn sweep(args: &Study, path: &Path) -> Result<(), Error> {
     let plan = plan(args, &file)?;
     let stem = |path: &Path| path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let name = if file.scene == path { format!("{}-study", stem(path)) } else { stem(path) };
-    let part = args.shard.map_or_else(String::new, |part| format!("-{part}").replace('/', "-of-"));
+    let part = args.shard.map_or_else(String::new, Shard::suffix);
     let target = args.run.target(&format!("{name}{part}"));
     let mark = claim(&target, "study", args.run.force)?;
     interrupt::catch();
