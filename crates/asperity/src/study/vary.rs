@@ -1,6 +1,7 @@
 //! A key of a scene and the values that it takes: a list, or a range that is cut into steps or drawn from.
 
 use crate::error::InputError;
+use asperity_law::units::{Force, Length, Stress};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
@@ -169,6 +170,22 @@ fn quantity(text: &str) -> Option<(f64, &str)> {
     found.next().filter(|(number, _)| number.is_finite())
 }
 
+/// `unit` over `other`, which must be of the same quantity.
+fn ratio(unit: &str, other: &str) -> Option<f64> {
+    if unit == other {
+        return Some(1.0);
+    }
+    let size =
+        |units: &[(&str, f64)], unit| units.iter().find(|(name, _)| *name == unit).map(|(_, size)| *size);
+    let of = |units: &[(&str, f64)]| Some(size(units, unit)? / size(units, other)?);
+    of(Length::UNITS).or_else(|| of(Stress::UNITS)).or_else(|| of(Force::UNITS))
+}
+
+/// The value to twelve digits: what arithmetic leaves behind them is in no file.
+fn twelve_digits(value: f64) -> f64 {
+    format!("{value:.11e}").parse().unwrap_or(value)
+}
+
 impl Range {
     /// Reads `A..B`, `A..B/N` or `A..B/N log`; `None` where the text is no range at all.
     fn parse(text: &str) -> Option<Result<Range, String>> {
@@ -195,9 +212,15 @@ impl Range {
         };
         let (high, unit) =
             quantity(end).ok_or_else(|| format!("`{}` in `{text}` is no number", end.trim()))?;
-        if !low_unit.is_empty() && low_unit != unit {
-            return Err(format!("the ends of `{text}` have different units"));
-        }
+        let (high, unit) = match low_unit {
+            // 1..5 um
+            "" => (high, unit),
+            _ => {
+                let ratio = ratio(unit, low_unit)
+                    .ok_or_else(|| format!("the ends of `{text}` have units that do not go together"))?;
+                (twelve_digits(high * ratio), low_unit)
+            }
+        };
         if low == high {
             return Err(format!("the range `{text}` is empty: its ends are equal"));
         }
@@ -219,8 +242,7 @@ impl Range {
             _ if self.logarithmic => low * (high / low).powf(share),
             _ => low + (high - low) * share,
         };
-        let value: f64 = format!("{value:.11e}").parse().unwrap_or(value);
-        format!("{value} {}", self.unit).trim_end().into()
+        format!("{} {}", twelve_digits(value), self.unit).trim_end().into()
     }
 }
 
@@ -237,6 +259,7 @@ mod tests {
         assert_eq!(levels("material.hardening_exponent=0, 0.1,0.2"), ["0", "0.1", "0.2"]);
         assert_eq!(levels("loading.depth=1 um..5 um/5"), ["1 um", "2 um", "3 um", "4 um", "5 um"]);
         assert_eq!(levels("loading.depth=0.1..0.3 um/3"), ["0.1 um", "0.2 um", "0.3 um"]);
+        assert_eq!(levels("m.y=200 MPa..1 GPa/3"), ["200 MPa", "600 MPa", "1000 MPa"]);
         assert_eq!(levels("m.y=1..100/3 log"), ["1", "10", "100"]);
         assert_eq!(levels("loading.force=1 N/mm..3 N/mm/3"), ["1 N/mm", "2 N/mm", "3 N/mm"]);
         assert_eq!(levels("surface.pixels=[64, 64],[128, 128]"), ["[64, 64]", "[128, 128]"]);
@@ -256,7 +279,7 @@ mod tests {
             ("loading.depth=1 um..2 um/1", "at least 2"),
             ("loading.depth=1 um..2 um/2.5", "2.5"),
             ("loading.depth=1 um..1 um/3", "empty"),
-            ("loading.depth=1 um..2 mm/3", "different units"),
+            ("loading.depth=1 um..2 MPa/3", "do not go together"),
             ("loading.depth=1..x/3", "`x`"),
             ("loading.depth=0..1/3 log", "above 0"),
         ] {
