@@ -6,16 +6,17 @@
 use crate::error::Error;
 use crate::output::open_journal;
 use asperity_calibration::journal::Journal;
-use rayon::prelude::*;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::collections::{HashMap, HashSet};
 use std::fmt::{self, Display};
 use std::io;
+use std::panic::resume_unwind;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
+use std::thread;
 
 /// Part k of n (k from 1) of a batch: every n-th run, so that the parts take about equally long.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -136,7 +137,7 @@ pub(crate) fn run<C: Sync, R: Clone + Send + Sync + Serialize + DeserializeOwned
         }
         !stop.load(Ordering::Relaxed)
     };
-    let one = |&i: &usize| -> io::Result<Option<(usize, R)>> {
+    let one = |i: usize| -> io::Result<Option<(usize, R)>> {
         if stop.load(Ordering::Relaxed) {
             return Ok(None);
         }
@@ -154,12 +155,7 @@ pub(crate) fn run<C: Sync, R: Clone + Send + Sync + Serialize + DeserializeOwned
         }
         Ok(Some((i, row)))
     };
-    let work = || open.par_iter().with_max_len(1).map(one).collect::<Vec<_>>();
-    let outcomes = match rayon::ThreadPoolBuilder::new().num_threads(batch.threads).build() {
-        Ok(pool) => pool.install(work),
-        // no threads of our own to be had: those of the process
-        Err(_) => work(),
-    };
+    let outcomes = side_by_side(batch.threads, &open, &one);
     for outcome in outcomes {
         if let Some((i, row)) = outcome.map_err(|e| refused(batch.journal, &e))? {
             rows.insert(keys[i].clone(), row);
@@ -167,6 +163,32 @@ pub(crate) fn run<C: Sync, R: Clone + Send + Sync + Serialize + DeserializeOwned
     }
     let rows: Vec<(usize, R)> = (0..cases).filter_map(|i| Some((i, rows.get(&keys[i])?.clone()))).collect();
     Ok(Finished { stopped: rows.len() < cases, rows })
+}
+
+/// What `one` gives for all of `open`, each on one thread: what a run does side by side in itself is done one after the
+/// other, unless there are fewer runs than threads. `threads` is how many, 0 for all cores.
+fn side_by_side<T: Send>(threads: usize, open: &[usize], one: &(dyn Fn(usize) -> T + Sync)) -> Vec<T> {
+    let threads = if threads == 0 { rayon::current_num_threads() } else { threads };
+    let workers = threads.min(open.len()).max(1);
+    let next = AtomicUsize::new(0);
+    // a pool of its own for each: a thread of a common pool that waits for a part of its run would begin another run
+    let work = || {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads / workers).build().ok();
+        let taken = std::iter::from_fn(|| open.get(next.fetch_add(1, Ordering::Relaxed)).copied());
+        taken
+            .map(|i| pool.as_ref().map_or_else(|| one(i), |pool| pool.install(|| one(i))))
+            .collect::<Vec<T>>()
+    };
+    thread::scope(|scope| {
+        // a thread that is not to be had leaves its runs to the others
+        let spawned = (1..workers).map_while(|_| thread::Builder::new().spawn_scoped(scope, work).ok());
+        let spawned: Vec<_> = spawned.collect();
+        let mut done = work();
+        for thread in spawned {
+            done.extend(thread.join().unwrap_or_else(|panic| resume_unwind(panic)));
+        }
+        done
+    })
 }
 
 fn refused(journal: Option<&Path>, error: &io::Error) -> Error {
@@ -199,7 +221,6 @@ pub struct Options {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::sync::atomic::AtomicUsize;
 
     fn squares(cases: &[u32], journal: &Path, solved: &AtomicUsize, most: usize) -> Finished<u32> {
         let batch = Batch {
