@@ -58,6 +58,21 @@ impl InputError {
         self
     }
 
+    /// The whole text for those who cannot draw a caret: the fault, the line that it is in, the way out.
+    pub fn full(&self) -> String {
+        let mut text = self.message.clone();
+        if let Some(place) = &self.place {
+            let before = &place.text[..place.span.start.min(place.text.len())];
+            let number = 1 + before.matches('\n').count();
+            let line = place.text.lines().nth(number - 1).unwrap_or_default().trim();
+            text += &format!("\n{}, line {number}: {line}", place.name);
+        }
+        if let Some(help) = &self.help {
+            text += &format!("\nhelp: {help}");
+        }
+        text
+    }
+
     /// Points at `span` (bytes) of `text`, which is called `name`; of a span over several lines, at its first one.
     #[must_use]
     pub fn at(mut self, name: &str, text: &str, span: Range<usize>) -> Self {

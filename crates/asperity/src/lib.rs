@@ -28,6 +28,8 @@ pub mod error;
 pub mod output;
 pub mod units;
 
+pub mod batch;
+
 pub mod input;
 
 pub mod mesh;
@@ -37,6 +39,7 @@ pub mod calibrate;
 pub mod crush;
 pub mod press;
 pub mod reproduce;
+pub mod study;
 pub mod trade;
 
 pub mod draw;
@@ -53,3 +56,4 @@ pub use error::{Error, InputError};
 pub use input::scene::Scene;
 pub use mesh::mesh;
 pub use press::{Rough, RoughScene, press};
+pub use study::{Study, study};

@@ -17,9 +17,10 @@ pub struct Journal {
     whole: u64,
 }
 
-/// FNV-1a: a short, stable number for a text.
-pub fn fingerprint(text: &str) -> u64 {
-    text.bytes().fold(0xcbf2_9ce4_8422_2325, |h, b| (h ^ u64::from(b)).wrapping_mul(0x0100_0000_01b3))
+/// FNV-1a: a short, stable number for a text or the content of a file.
+pub fn fingerprint(content: impl AsRef<[u8]>) -> u64 {
+    let step = |h: u64, b: &u8| (h ^ u64::from(*b)).wrapping_mul(0x0100_0000_01b3);
+    content.as_ref().iter().fold(0xcbf2_9ce4_8422_2325, step)
 }
 
 fn sealed(text: &str) -> String {
@@ -32,6 +33,26 @@ fn unsealed(line: &str) -> Option<&str> {
     (u64::from_str_radix(sum, 16).ok()? == fingerprint(text)).then_some(text)
 }
 
+fn header(identity: u64) -> String {
+    sealed(&format!("sweep {identity:016x}"))
+}
+
+/// The texts of the whole lines behind the header of the work `identity`, and the bytes up to the end of the last one; 0
+/// without that header.
+fn whole_lines(bytes: &[u8], identity: u64) -> (Vec<String>, usize) {
+    let text = String::from_utf8_lossy(bytes);
+    let (mut texts, mut whole) = (Vec::new(), header(identity).len());
+    if !text.starts_with(&header(identity)) {
+        return (texts, 0);
+    }
+    for line in text[whole..].split_inclusive('\n') {
+        let Some(text) = unsealed(line) else { break };
+        whole += line.len();
+        texts.push(text.to_string());
+    }
+    (texts, whole)
+}
+
 impl Journal {
     /// Opens the journal of the work `identity` and returns the texts it holds. A journal of other work is begun anew.
     ///
@@ -41,26 +62,24 @@ impl Journal {
         let mut file = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(path)?;
         let mut bytes = Vec::new();
         file.read_to_end(&mut bytes)?;
-        let text = String::from_utf8_lossy(&bytes);
-        let header = sealed(&format!("sweep {identity:016x}"));
-        let mut texts = Vec::new();
-        let mut whole = 0;
-        if text.starts_with(&header) {
-            whole = header.len();
-            for line in text[whole..].split_inclusive('\n') {
-                let Some(text) = unsealed(line) else { break };
-                whole += line.len();
-                texts.push(text.to_string());
-            }
-        }
+        let (texts, mut whole) = whole_lines(&bytes, identity);
         file.set_len(whole as u64)?;
         file.seek(SeekFrom::End(0))?;
         if whole == 0 {
+            let header = header(identity);
             whole = header.len();
             file.write_all(header.as_bytes())?;
             file.sync_all()?;
         }
         Ok((Journal { file, whole: whole as u64 }, texts))
+    }
+
+    /// The texts that the journal of the work `identity` holds; none where it is of other work. It stays as it is.
+    ///
+    /// # Errors
+    /// A file that cannot be read.
+    pub fn read(path: &Path, identity: u64) -> io::Result<Vec<String>> {
+        Ok(whole_lines(&std::fs::read(path)?, identity).0)
     }
 
     /// Adds a text of one line and forces it to the disk.

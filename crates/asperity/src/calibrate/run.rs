@@ -1,20 +1,21 @@
 //! The cases of a sweep that its journal does not hold yet, solved.
 
+use crate::batch::{self, Batch, Reached, Shard};
 use crate::error::Error;
-use crate::output::open_journal;
+use asperity_calibration::case::Case;
 use asperity_calibration::row::{CaseRow, Row};
-use asperity_calibration::run::{definition, run, shard};
+use asperity_calibration::run::{definition, solve as solve_case};
 use asperity_calibration::sweep::Sweep;
+use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
-use std::sync::{Mutex, PoisonError};
 
 /// How a sweep is run; its results do not depend on it.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
     /// Threads, 0: all cores.
     pub threads: usize,
-    /// Solve only part k of n (k from 1).
-    pub part: Option<(usize, usize)>,
+    /// Solve only a part of the cases.
+    pub part: Option<Shard>,
     /// File that keeps finished cases: a run that was stopped resumes from it.
     pub journal: Option<PathBuf>,
     /// Slope in degrees that collapse.svg shows; the largest where there is none.
@@ -42,48 +43,46 @@ pub(super) struct Solved {
     pub stopped: bool,
 }
 
-/// Why no further case is begun.
-enum Stop {
-    Observer,
-    Disk(std::io::Error),
+/// A row as the journal has it: a line of cases.csv.
+#[derive(Clone, Serialize, Deserialize)]
+#[serde(into = "String", try_from = "String")]
+struct Kept(CaseRow);
+
+impl From<Kept> for String {
+    fn from(kept: Kept) -> String {
+        kept.0.line()
+    }
+}
+
+impl TryFrom<String> for Kept {
+    type Error = String;
+
+    fn try_from(line: String) -> Result<Kept, String> {
+        CaseRow::of_line(&line).map(Kept).ok_or_else(|| format!("no row: {line}"))
+    }
 }
 
 /// Solves the cases that the journal does not hold yet.
 pub(super) fn solve(sweep: &Sweep, options: &Options, observer: &mut Observer) -> Result<Solved, Error> {
     let all = sweep.cases();
-    let cases = options.part.map_or_else(|| all.clone(), |(k, n)| shard(&all, k, n));
-    let (journal, lines) = open_journal(options.journal.as_deref(), &definition(sweep, &cases))?;
-    let found = Row::of_cases(&cases, lines.iter().filter_map(|line| CaseRow::of_line(line)));
-    let done = found.len();
-    if !observer(&Progress { done, cases: cases.len(), row: None }) {
-        return Ok(Solved { rows: found, stopped: true });
-    }
-    let finished = found.clone();
-    let state = Mutex::new((journal, observer, finished));
-    let told = |row: &Row| {
-        let mut state = state.lock().unwrap_or_else(PoisonError::into_inner);
-        let (journal, observer, finished) = &mut *state;
-        let record = CaseRow::from(row);
-        if let Some(journal) = journal {
-            journal.append(&record.line()).map_err(Stop::Disk)?;
-        }
-        finished.push(row.clone());
-        let progress = Progress { done: finished.len(), cases: cases.len(), row: Some(record) };
-        if observer(&progress) { Ok(()) } else { Err(Stop::Observer) }
+    let cases: Vec<Case> = Shard::of(options.part, all.len()).map(|i| all[i]).collect();
+    let batch = Batch {
+        definition: &definition(sweep, &cases),
+        cases: &cases,
+        key: &Row::key,
+        solve: &|case: &Case, _: &dyn Fn() -> bool| {
+            Some(Kept(CaseRow::from(&solve_case(case, sweep.accuracy))))
+        },
+        threads: options.threads,
+        journal: options.journal.as_deref(),
     };
-    let outcome = run(&cases, sweep.accuracy, found, options.threads, told);
-    match outcome {
-        Ok(rows) => Ok(Solved { rows, stopped: false }),
-        Err(Stop::Observer) => {
-            let (_, _, finished) = state.into_inner().unwrap_or_else(PoisonError::into_inner);
-            Ok(Solved { rows: Row::of_cases(&cases, finished.iter().map(CaseRow::from)), stopped: true })
-        }
-        Err(Stop::Disk(e)) => {
-            let path = options.journal.clone().unwrap_or_default();
-            Err(Error::Unfinished(format!(
-                "cannot write the journal {}: {e}; it keeps every finished case, and the same command resumes from it",
-                path.display()
-            )))
-        }
-    }
+    let finished = batch::run(&batch, &mut |reached: &Reached<'_, Kept>| {
+        observer(&Progress {
+            done: reached.done,
+            cases: reached.cases,
+            row: reached.row.map(|kept| kept.0.clone()),
+        })
+    })?;
+    let rows = Row::of_cases(&cases, finished.rows.into_iter().map(|(_, kept)| kept.0));
+    Ok(Solved { rows, stopped: finished.stopped })
 }

@@ -1,5 +1,6 @@
 //! `asperity calibrate`: the sweep of crushed cones, the representative strain, and the coefficient for `rough`.
 
+use crate::batch::Shard;
 use crate::calibrate::{
     Calibration, Options, Progress as Done, calibrate as run, merge, read_sweep, sensitivity,
 };
@@ -24,8 +25,8 @@ pub struct Calibrate {
     /// Sweep file (TOML) [default: the 480 cases of slopes 1 to 10 degrees]
     pub sweep: Option<PathBuf>,
     /// Solve only part K of N, for the tasks of an array job; join the folders with `asperity calibrate merge`
-    #[arg(long, value_name = "K/N", value_parser = parse_shard)]
-    pub shard: Option<(usize, usize)>,
+    #[arg(long, value_name = "K/N", value_parser = clap::value_parser!(Shard))]
+    pub shard: Option<Shard>,
     /// The dependence of c: a table over laws, tools, exponents and ranges of E over yield stress, from 1800 cases
     #[arg(long, conflicts_with_all = ["sweep", "shard", "slope", "overrides"])]
     pub dependence: bool,
@@ -58,14 +59,6 @@ pub struct Merge {
     pub run: RunFlags,
 }
 
-fn parse_shard(text: &str) -> Result<(usize, usize), String> {
-    let parsed = text.split_once('/').and_then(|(k, n)| Some((k.parse().ok()?, n.parse().ok()?)));
-    match parsed {
-        Some((k, n)) if (1..=n).contains(&k) => Ok((k, n)),
-        _ => Err("write it as K/N with K from 1 to N, for example 2/8".into()),
-    }
-}
-
 /// Runs the command.
 ///
 /// # Errors
@@ -89,7 +82,7 @@ fn sweep(args: &Calibrate) -> Result<(), Error> {
     }
     let name = args.sweep.as_ref().and_then(|path| path.file_stem()).map(|stem| stem.to_string_lossy());
     let name = name.as_deref().unwrap_or("calibrate");
-    let part = args.shard.map_or_else(String::new, |(k, n)| format!("-{k}-of-{n}"));
+    let part = args.shard.map_or_else(String::new, Shard::suffix);
     let target = args.run.target(&format!("{name}{part}"));
     let folder = Folder::create(&target, "calibrate", args.run.force)?;
     let options = Options { part: args.shard, shown_slope_deg: args.slope, ..options(&args.run, &target) };

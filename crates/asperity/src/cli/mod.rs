@@ -14,6 +14,7 @@ pub mod progress;
 pub mod reproduce;
 pub mod rough;
 pub mod schema;
+pub mod study;
 pub mod terminal;
 pub mod trade;
 
@@ -37,6 +38,7 @@ pub fn main() -> ExitCode {
         Command::Mesh(args) => mesh::mesh(args),
         Command::Rough(args) => rough::rough(args),
         Command::Calibrate(args) => calibrate::calibrate(args),
+        Command::Study(args) => study::study(args),
         Command::Trade(args) => trade::trade(args),
         Command::Reproduce(args) => reproduce::reproduce(args),
         Command::New(args) => new::new(args),

@@ -27,6 +27,8 @@ pub enum SchemaKind {
     Rough,
     /// of `asperity calibrate`
     Sweep,
+    /// of `asperity study`
+    Study,
 }
 
 /// Prints the schema.
@@ -44,6 +46,7 @@ fn of_kind(kind: SchemaKind) -> Schema {
         SchemaKind::Scene => of_type::<asperity_solver::scene::Scene>(),
         SchemaKind::Rough => of_type::<asperity_roughness::scene::Scene>(),
         SchemaKind::Sweep => of_type::<asperity_calibration::sweep::Sweep>(),
+        SchemaKind::Study => of_type::<crate::study::StudyFile>(),
     }
 }
 

@@ -120,7 +120,7 @@ pub struct Axis {
 
 impl Axis {
     /// Covers `values` and 0 with about seven steps.
-    fn covering(values: impl Iterator<Item = f64>) -> Self {
+    pub fn covering(values: impl Iterator<Item = f64>) -> Self {
         let (low, high) = values.fold((0.0_f64, 0.0_f64), |(l, h), v| (l.min(v), h.max(v)));
         let span = if high > low { high - low } else { 1.0 };
         let step = scale::round_step(span, 7.0);

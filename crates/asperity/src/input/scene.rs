@@ -107,6 +107,11 @@ impl Scene {
         self.mesh.as_ref()
     }
 
+    /// A path of the scene as one that can be opened.
+    pub(crate) fn resolve(&self, path: &Path) -> std::path::PathBuf {
+        self.file.resolve(path)
+    }
+
     /// Name of the file without its extension; `scene` where there is none.
     pub fn name(&self) -> String {
         self.file.stem()

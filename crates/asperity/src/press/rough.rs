@@ -86,6 +86,15 @@ impl Rough {
         self.contacts.iter().find(|one| one.law.closure == closure)
     }
 
+    /// Distance of the plane from the surface before it was pressed at each node, m, row by row: 0 where they overlap, NaN
+    /// where nothing was measured. The closures know no other: they move no metal beside an island.
+    pub fn gap(&self, one: &ClosureContact) -> Vec<f64> {
+        let plane = self.surface.parameters.mean + one.contact.separation;
+        // a maximum that lets a missing height through
+        let distance = |z: &f64| if plane - z < 0.0 { 0.0 } else { plane - z };
+        self.surface.map.heights().iter().map(distance).collect()
+    }
+
     /// The text of summary.json.
     ///
     /// # Errors

@@ -1,7 +1,8 @@
 //! A scene of `asperity rough` with the files that it names.
 
 use crate::error::InputError;
-use crate::input::toml_file::TomlFile;
+use crate::input::toml_file::{TomlFile, to_toml};
+use asperity_calibration::journal::fingerprint;
 use asperity_roughness::formats::{Measured, Spacing};
 use asperity_roughness::scene::{Scene, SceneError};
 use asperity_roughness::{Closure, Coefficient};
@@ -55,6 +56,34 @@ impl RoughScene {
         self
     }
 
+    /// The scene with more overrides `key.path=value`, such as `load.pressure=100 MPa`; heights in memory stay.
+    ///
+    /// # Errors
+    /// An override that names no key, or a value of another kind.
+    pub fn with(&self, overrides: &[String]) -> Result<RoughScene, InputError> {
+        let file = match &self.source {
+            Some(file) => file.with(overrides)?,
+            None => {
+                let text = to_toml(&self.scene).map_err(InputError::new)?;
+                TomlFile::parse(&self.base.join("scene"), text, overrides)?
+            }
+        };
+        let mut scene = RoughScene::of_file(file);
+        if let Some(heights) = &self.scene.surface.heights {
+            let surface = &mut scene.scene.surface;
+            (surface.file, surface.generate, surface.heights) = (None, None, Some(heights.clone()));
+        }
+        Ok(scene)
+    }
+
+    /// A number for the heights in memory; 0 where there are none.
+    pub(crate) fn heights_mark(&self) -> u64 {
+        let Some(surface) = &self.scene.surface.heights else { return 0 };
+        let bits = surface.heights.iter().flat_map(|z| z.to_le_bytes());
+        fingerprint(bits.collect::<Vec<u8>>())
+            ^ fingerprint(format!("{} {:?}", surface.columns, surface.spacing))
+    }
+
     /// Every value of the scene.
     pub fn tables(&self) -> &Scene {
         &self.scene
@@ -86,7 +115,7 @@ impl RoughScene {
     }
 
     /// A path of the scene as one that can be opened.
-    pub(super) fn resolve(&self, path: &Path) -> PathBuf {
+    pub(crate) fn resolve(&self, path: &Path) -> PathBuf {
         self.base.join(path)
     }
 

@@ -1,0 +1,25 @@
+//! Any scene over any of its keys: grids, lists and drawn points, a row a run, killed and resumed, in parts and joined.
+
+mod vary;
+
+mod sobol;
+
+mod points;
+
+mod row;
+
+mod subject;
+
+mod plan;
+
+mod picture;
+
+mod run;
+
+pub use crate::batch::{Options, Shard};
+pub use plan::{Plan, SampleKind, SampleTable, StudyFile};
+pub use points::Sample;
+pub use row::{Columns, Run};
+pub use run::{Progress, Study, merge, study};
+pub use subject::Subject;
+pub use vary::{Range, Values, Vary};

@@ -1,0 +1,185 @@
+//! A study over any key of any scene: the numbers of single runs, every run once whatever happens, the same bytes in parts,
+//! failures as rows, and wrong input as an error that names the key.
+
+#![cfg(unix)]
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+mod common;
+
+use common::{Place, SCENE};
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+const ROUGH: &str = r#"closure = "published"
+[surface.generate]
+kind = "milled"
+ra = "2.95 um"
+mean_slope_deg = 4.08
+size = ["1 mm", "1 mm"]
+pixels = [64, 64]
+seed = 1
+[material]
+youngs_modulus = "210 GPa"
+poissons_ratio = 0.3
+hardness = "1280 MPa"
+[load]
+pressure = "100 MPa"
+"#;
+
+const STUDY: &str = r#"scene = "scene.toml"
+curves = true
+[vary]
+material.hardening_exponent = [0.1, 0.3]
+"loading.depth" = "1 um..4 um/4"
+[set]
+loading.unload = false
+"#;
+
+/// The cells of a table by column.
+fn column(text: &str, name: &str) -> Vec<String> {
+    let mut table = csv::Reader::from_reader(text.as_bytes());
+    let at =
+        table.headers().unwrap().iter().position(|head| head == name).unwrap_or_else(|| panic!("{text}"));
+    table.records().map(|row| row.unwrap()[at].to_string()).collect()
+}
+
+#[test]
+fn a_killed_study_ends_with_the_bytes_of_an_undisturbed_one_and_so_do_its_parts() {
+    let place = Place::with_scene(SCENE);
+    std::fs::write(place.path("study.toml"), STUDY).unwrap();
+    let clock = Instant::now();
+    let end = place.run(&["study", "study.toml", "--out", "whole"]);
+    assert_eq!(end.status, 0, "{}", end.err);
+    let whole = clock.elapsed();
+    for share in [0.2, 0.3, 0.5] {
+        let mut child = Command::new(env!("CARGO_BIN_EXE_asperity"))
+            .current_dir(place.path(""))
+            .args(["study", "study.toml", "--out", "killed", "--threads", "1"])
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .spawn()
+            .unwrap();
+        std::thread::sleep(Duration::from_secs_f64(share * whole.as_secs_f64()));
+        child.kill().unwrap();
+        child.wait().unwrap();
+    }
+    assert_eq!(place.run(&["study", "study.toml", "--out", "killed"]).status, 0);
+    for part in ["1", "2", "3"] {
+        let shard = format!("{part}/3");
+        assert_eq!(place.run(&["study", "study.toml", "--shard", &shard, "--out", part]).status, 0);
+    }
+    let missing = place.run(&["study", "merge", "1", "3", "--out", "merged"]);
+    assert!(missing.status == 2 && missing.err.contains("3 of 8"), "{}", missing.err);
+    assert!(!place.path("merged").exists(), "wrong input leaves nothing");
+    let end = place.run(&["study", "merge", "3", "1", "2", "--out", "merged"]);
+    assert_eq!(end.status, 0, "{}", end.err);
+    let results = place.text("whole/results.csv");
+    for other in ["killed", "merged"] {
+        assert_eq!(place.text(&format!("{other}/results.csv")), results, "{other}");
+        assert_eq!(place.text(&format!("{other}/study.svg")), place.text("whole/study.svg"), "{other}");
+        for curve in column(&results, "curve") {
+            assert_eq!(place.text(&format!("{other}/{curve}")), place.text(&format!("whole/{curve}")));
+        }
+    }
+    // a study that grows runs only what is new: its journal gains as many lines
+    let lines = |folder: &str| place.text(&format!("{folder}/study.journal")).lines().count();
+    let before = lines("killed");
+    let end = place.run(&["study", "study.toml", "--vary", "loading.depth=1 um..5 um/5", "--out", "killed"]);
+    assert_eq!((end.status, lines("killed") - before), (0, 2), "{}", end.err);
+    assert_eq!(column(&place.text("killed/results.csv"), "status").len(), 10);
+}
+
+#[test]
+fn a_row_has_the_numbers_of_its_run() {
+    let place = Place::with_scene(SCENE);
+    let vary = ["--vary", "material.hardening_law=hollomon,swift", "--vary", "loading.depth=2 um"];
+    let end = place.run(&[&["study", "scene.toml", "--out", "study"][..], &vary].concat());
+    assert_eq!(end.status, 0, "{}", end.err);
+    let sets = ["--set", "material.hardening_law=swift", "--set", "loading.depth=2 um"];
+    assert_eq!(place.run(&[&["crush", "scene.toml", "--out", "one"][..], &sets].concat()).status, 0);
+    let summary: serde_json::Value = serde_json::from_str(&place.text("one/summary.json")).unwrap();
+    let table = place.text("study/results.csv");
+    assert_eq!(column(&table, "material.hardening_law"), ["hollomon", "swift"]);
+    for (name, value) in [
+        ("peak_force_N", &summary["peak_force_N"]),
+        ("elastic_fraction", &summary["elastic_fraction"]),
+        ("energy_balance_error", &summary["energy_balance_error"]),
+        ("dofs", &summary["dofs"]),
+    ] {
+        assert_eq!(column(&table, name)[1], value.to_string(), "{name}");
+    }
+    // an error that is not known, where the scene fixes mesh and steps, is an empty cell
+    assert_eq!(column(&table, "errors.force"), ["", ""]);
+    assert!(!table.contains("wall_s") && column(&place.text("study/times.csv"), "wall_s").len() == 2);
+}
+
+#[test]
+fn rough_scenes_are_varied_too() {
+    let place = Place::with_scene(ROUGH);
+    let vary = ["--vary", "closure=sneddon,all", "--vary", "load.pressure=50 MPa,100 MPa"];
+    let end = place.run(&[&["study", "scene.toml", "--out", "study"][..], &vary].concat());
+    assert_eq!(end.status, 0, "{}", end.err);
+    let set = ["--set", "closure=sneddon", "--set", "load.pressure=100 MPa"];
+    assert_eq!(place.run(&[&["rough", "scene.toml", "--out", "one"][..], &set].concat()).status, 0);
+    let (table, one) = (place.text("study/results.csv"), place.text("one/table.csv"));
+    assert_eq!(column(&table, "contact_area_ratio")[1], column(&one, "contact_area_ratio")[0]);
+    assert_eq!(column(&table, "sneddon.contact_area_ratio")[3], column(&one, "contact_area_ratio")[0]);
+    assert!(place.text("study/study.svg").contains("<svg"));
+}
+
+#[test]
+fn a_combination_that_makes_no_sense_is_a_row_with_its_reason() {
+    let place = Place::with_scene(SCENE);
+    // 12 um is deeper than the lower asperity is high
+    let vary = ["--vary", "asperity[0].height=10 um,20 um", "--vary", "loading.depth=1 um,12 um"];
+    let end = place.run(&[&["study", "scene.toml", "--out", "study"][..], &vary].concat());
+    assert_eq!(end.status, 0, "{}", end.err);
+    let table = place.text("study/results.csv");
+    let status = column(&table, "status");
+    assert!(status[1].contains("10 um deep") && [0, 2, 3].iter().all(|i| status[*i] == "ok"), "{status:?}");
+    assert_eq!(column(&table, "peak_force_N")[1], "");
+}
+
+#[test]
+fn wrong_input_names_the_key_and_leaves_nothing() {
+    let place = Place::with_scene(SCENE);
+    for (args, said) in [
+        (&["--vary", "material.harden=1,2"][..], "harden`"),
+        (&["--vary", "material.hardening_exponent=0.1,5"], "material.hardening_exponent: must be"),
+        (&["--vary", "loading.depth=1 um,soft"], "loading.depth"),
+        (&["--vary", "loading.depth="], "loading.depth: no values"),
+        (&["--vary", "loading.depth=1 um..1 um/3"], "loading.depth: the range"),
+        (&["--vary", "loading.depth=1 um..2 um"], "loading.depth: a range"),
+        (&["--vary", "loading.depth=1 um,2 um", "--set", "loading.depth=1 um"], "loading.depth: is varied"),
+        (&["--vary", "loading.depth=1 um..2 um", "--sample", "lhs"], "how many points"),
+        (&["--vary", "loading.depth=1 um..2 um", "--sample", "halton", "4"], "halton"),
+        (&[], "at least one key"),
+    ] {
+        let end = place.run(&[&["study", "scene.toml", "--out", "out"], args].concat());
+        assert!(end.status == 2 && end.err.contains(said), "{args:?}: {} {}", end.status, end.err);
+    }
+    let file = STUDY.replace("[vary]", "[very]");
+    std::fs::write(place.path("study.toml"), file).unwrap();
+    let end = place.run(&["study", "study.toml", "--out", "out"]);
+    assert!(end.status == 2 && end.err.contains("`very`"), "{}", end.err);
+    assert_eq!(place.names(""), ["scene.toml", "study.toml"]);
+}
+
+#[test]
+fn drawn_points_lie_in_their_ranges() {
+    let place = Place::with_scene(SCENE);
+    let vary = ["--vary", "material.hardening_exponent=0..0.5", "--vary", "loading.depth=0.5 um..1 um"];
+    for sample in [&["--sample", "lhs", "4", "--seed", "2"][..], &["--sample", "sobol", "4"]] {
+        let out = sample[1];
+        let end = place.run(&[&["study", "scene.toml", "--out", out, "--quiet"], &vary[..], sample].concat());
+        assert_eq!((end.status, end.err.as_str()), (0, ""));
+        let table = place.text(&format!("{out}/results.csv"));
+        let mut quarters: Vec<usize> = column(&table, "material.hardening_exponent")
+            .iter()
+            .map(|n| (n.parse::<f64>().unwrap() * 8.0) as usize)
+            .collect();
+        quarters.sort_unstable();
+        assert_eq!(quarters, [0, 1, 2, 3], "{out}");
+        assert!(column(&table, "status").iter().all(|s| s == "ok"), "{table}");
+    }
+}

@@ -1,0 +1,186 @@
+"""The functions: arguments of Python in, results out."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from . import _asperity
+from ._results import Calibration, Crush, FloatArray, Rough, Study, Trade
+
+if TYPE_CHECKING:
+    from ._asperity import RoughScene, Scene
+
+    PathLike = str | os.PathLike[str]
+    Progress = Callable[[float, str], object]
+
+
+def _path(path: PathLike | None) -> str | None:
+    return None if path is None else os.fspath(path)
+
+
+def crush(
+    scene: Scene,
+    *,
+    accuracy: str | None = None,
+    out: PathLike | None = None,
+    progress: Progress | None = None,
+) -> Crush:
+    """Crushes a scene.
+
+    :param accuracy: ``draft`` (5 %), ``standard`` (1 %), ``reference`` (0.2 %) or a percentage in place of the scene's.
+    :param out: folder for the files of ``asperity crush``; files of the same name are replaced.
+    :param progress: called with the share that is done and a text.
+    :raises InputError: the run cannot begin; what stops it later is in ``summary["stopped"]``.
+    """
+    return Crush(_asperity.crush(scene, accuracy, _path(out), progress))
+
+
+def _heights(
+    surface: Any, pixel_size_um: tuple[float, float] | None
+) -> tuple[FloatArray, tuple[float, float]]:
+    """Heights in µm and their pixel, of an array or of a topography of the package SurfaceTopography."""
+    if callable(getattr(surface, "heights", None)) and hasattr(surface, "pixel_size"):
+        metres = {
+            "m": 1.0,
+            "mm": 1e-3,
+            "µm": 1e-6,
+            "um": 1e-6,
+            "μm": 1e-6,
+            "nm": 1e-9,
+            "pm": 1e-12,
+            "Å": 1e-10,
+        }
+        unit = getattr(surface, "unit", None)
+        if unit not in metres:
+            raise _asperity.InputError(
+                f"a topography in unit {unit!r} is not known: use one of {', '.join(metres)}"
+            )
+        to_um = metres[unit] / 1e-6
+        if pixel_size_um is None:
+            dx, dy = surface.pixel_size
+            pixel_size_um = (float(dx) * to_um, float(dy) * to_um)
+        # its first index runs along x, ours along y
+        surface = np.ma.filled(np.ma.asarray(surface.heights(), dtype=float), np.nan).T * to_um
+    heights = np.ma.filled(np.ma.asarray(surface, dtype=np.float64), np.nan)
+    if heights.ndim != 2:
+        raise _asperity.InputError(f"heights have {heights.ndim} dimensions: give two, the first along y")
+    if pixel_size_um is None:
+        raise _asperity.InputError("pixel_size_um is missing: the distance of the heights along x and y")
+    return np.ascontiguousarray(heights), pixel_size_um
+
+
+def press(
+    heights: Any = None,
+    *,
+    pixel_size_um: tuple[float, float] | None = None,
+    out: PathLike | None = None,
+    progress: Progress | None = None,
+    **scene: Any,
+) -> Rough:
+    """Presses a rigid plane on a rough surface.
+
+    :param heights: in µm, the first index along y, NaN or masked where nothing was measured; or a topography of the package
+        SurfaceTopography; or a :class:`RoughScene`; absent where the tables name or generate a surface.
+    :param pixel_size_um: distance of the heights along x and y.
+    :param out: folder for the files of ``asperity rough``; files of the same name are replaced.
+    :param progress: called with the share that is done and a text.
+    :param scene: the tables of the scene: ``closure="all"``, ``material={...}``, ``load={...}``; with heights,
+        ``surface={"level": "none", "periodic": True}`` says what is done to them.
+    :raises InputError: a scene that makes no sense, a load that the surface cannot carry.
+    """
+    if isinstance(heights, _asperity.RoughScene):
+        if scene or pixel_size_um is not None:
+            raise _asperity.InputError("a RoughScene has its own tables: change it with its set")
+        return Rough(_asperity.press(heights, None, None, _path(out), progress))
+    surface, pixel = (None, None) if heights is None else _heights(heights, pixel_size_um)
+    tables = {"surface": {}, **scene}
+    return Rough(_asperity.press(_asperity.RoughScene(**tables), surface, pixel, _path(out), progress))
+
+
+def calibrate(
+    *, threads: int = 0, out: PathLike | None = None, progress: Progress | None = None, **sweep: Any
+) -> Calibration:
+    """Crushes cones of many slopes and metals and finds the representative strain.
+
+    :param threads: 0 for all cores; results do not depend on it.
+    :param out: folder for the files of ``asperity calibrate``.
+    :param progress: called with the share that is done and a text.
+    :param sweep: keys of a sweep, ``slopes_deg=[2, 4]``, ``yield_stress=["200 MPa"]``; what is absent is the paper's.
+    :raises InputError: values that make no sense.
+    """
+    return Calibration(*_asperity.calibrate(sweep, threads, _path(out), progress))
+
+
+def trade(
+    scene: Scene,
+    *,
+    combinations: int = 30,
+    out: PathLike | None = None,
+    progress: Progress | None = None,
+) -> Trade:
+    """Measures what accuracy costs on a scene, knob by knob.
+
+    :param combinations: how many settings differ in everything at once.
+    """
+    return Trade(*_asperity.trade(scene, combinations, _path(out), progress))
+
+
+def study(
+    scene: Scene | RoughScene | PathLike,
+    vary: Mapping[str, Any],
+    *,
+    sample: str | tuple[str, int] = "grid",
+    seed: int = 0,
+    set: Mapping[str, Any] | None = None,  # noqa: A002
+    heights: Any = None,
+    pixel_size_um: tuple[float, float] | None = None,
+    curves: bool = False,
+    show: str | None = None,
+    shard: str | None = None,
+    threads: int = 0,
+    out: PathLike | None = None,
+    progress: Progress | None = None,
+) -> Study:
+    """Runs a scene of any kind over any of its keys.
+
+    >>> import asperity
+    >>> scene = asperity.Scene.from_toml("meshes/single-asperity.toml")  # doctest: +SKIP
+    >>> study = asperity.study(scene, {"material.hardening_exponent": [0, 0.1], "loading.depth": "1 um..5 um/5"})  # doctest: +SKIP
+
+    :param scene: a scene or the path of its file.
+    :param vary: keys and their values: a list, or a text such as ``"1 um..5 um/5"``, ``"5..500/3 log"``.
+    :param sample: ``grid`` (every combination), ``list`` (values in step), ``("lhs", 100)`` or ``("sobol", 128)``, drawn from
+        ranges such as ``"1 um..5 um"``.
+    :param seed: of the Latin hypercube.
+    :param set: keys and the value that they have in all runs.
+    :param heights: surface of a rough scene, as for :func:`press`.
+    :param curves: keep the curve of every run, in ``out``.
+    :param show: column that the picture shows.
+    :param shard: a part such as ``"2/8"`` alone; ``asperity study merge`` joins their folders.
+    :param threads: 0 for all cores; results do not depend on it.
+    :param out: folder for the results; a study that was stopped goes on from there.
+    :param progress: called with the share that is done and a text.
+    :raises InputError: a key or a value that makes no sense; a run that fails is a row with its reason.
+    """
+    given: Sequence[Any] = (sample,) if isinstance(sample, str) else sample
+    table: dict[str, Any] = {"kind": given[0], "seed": seed, "points": given[1] if len(given) > 1 else None}
+    surface, pixel = (None, None) if heights is None else _heights(heights, pixel_size_um)
+    results = _asperity.study(
+        scene if isinstance(scene, _asperity.Scene | _asperity.RoughScene) else os.fspath(scene),
+        dict(vary),
+        table,
+        None if set is None else dict(set),
+        surface,
+        pixel,
+        curves,
+        show,
+        shard,
+        threads,
+        _path(out),
+        progress,
+    )
+    return Study(list(vary), *results)

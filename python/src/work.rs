@@ -1,0 +1,61 @@
+//! Work without the interpreter's lock, which tells how far it has come and ends at Ctrl-C.
+
+use pyo3::exceptions::PyRuntimeError;
+use pyo3::prelude::*;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, sync_channel};
+use std::sync::{Mutex, PoisonError};
+use std::thread;
+use std::time::Duration;
+
+/// How often signals are looked at.
+const PATIENCE: Duration = Duration::from_millis(20);
+
+/// Told by the work: share of it that is done, 0 to 1, and what it is at; `false` ends it.
+pub type Tell<'a> = dyn Fn(f64, String) -> bool + Sync + 'a;
+
+/// Runs `work` in a thread of its own; Python runs on meanwhile. `progress(share, text)` is called now and then.
+///
+/// # Errors
+/// What `progress` raises, and KeyboardInterrupt: both end the work.
+pub fn run<T: Send>(
+    py: Python<'_>,
+    progress: Option<&Bound<'_, PyAny>>,
+    work: impl FnOnce(&Tell<'_>) -> T + Send,
+) -> PyResult<T> {
+    let progress = progress.map(|callable| callable.clone().unbind());
+    let (ended, news) = (AtomicBool::new(false), Mutex::new(None::<(f64, String)>));
+    py.detach(|| {
+        thread::scope(|scope| {
+            let (done, wait) = sync_channel::<()>(1);
+            let (ended, news) = (&ended, &news);
+            let handle = scope.spawn(move || {
+                // dropped at the end, also of a panic, which wakes the one who waits
+                let _done = done;
+                work(&|share, text| {
+                    *news.lock().unwrap_or_else(PoisonError::into_inner) = Some((share, text));
+                    !ended.load(Ordering::Relaxed)
+                })
+            });
+            let mut raised = None;
+            while wait.recv_timeout(PATIENCE) == Err(RecvTimeoutError::Timeout) {
+                let seen = Python::attach(|py| {
+                    py.check_signals()?;
+                    let told = news.lock().unwrap_or_else(PoisonError::into_inner).take();
+                    match (&progress, told) {
+                        (Some(callable), Some(told)) => callable.call1(py, told).map(|_| ()),
+                        _ => Ok(()),
+                    }
+                });
+                if let Err(error) = seen {
+                    ended.store(true, Ordering::Relaxed);
+                    raised.get_or_insert(error);
+                }
+            }
+            let result = handle
+                .join()
+                .map_err(|_| PyRuntimeError::new_err("the computation panicked: please report it"));
+            raised.map_or(result, Err)
+        })
+    })
+}

@@ -1,0 +1,266 @@
+"""The package against the command: the same bits, errors that name their key, and manners of Python.
+
+``ASPERITY`` is the command that numbers are compared with; without it those tests are skipped.
+"""
+
+import csv
+import json
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import threading
+import time
+from typing import Any
+
+import asperity
+import numpy as np
+import pytest
+
+SCENE: dict[str, Any] = {
+    "symmetry": "axisymmetric",
+    "accuracy": "draft",
+    "material": {
+        "youngs_modulus": "210 GPa",
+        "poissons_ratio": 0.3,
+        "yield_stress": "300 MPa",
+        "hardening_exponent": 0.3,
+    },
+    "asperity": [{"height": "20 um", "slope_deg": 10, "tip_radius": "10 um"}],
+    "tool": {"shape": "plane"},
+    "loading": {"depth": "2 um", "unload": True},
+    "output": {"every": 0},
+}
+STEEL = {"youngs_modulus": "210 GPa", "poissons_ratio": 0.3, "hardness": "1280 MPa"}
+
+
+def waves() -> asperity._results.FloatArray:
+    """An egg box that is not square, so that the axes cannot be mixed up."""
+    x, y = np.arange(96), np.arange(64)
+    return 0.2 * np.cos(2 * np.pi * y / 32)[:, None] * np.cos(2 * np.pi * x / 48)[None, :]
+
+
+def command(folder: pathlib.Path, *args: str) -> None:
+    """Runs the command in a folder."""
+    binary = os.environ.get("ASPERITY")
+    if binary is None:
+        pytest.skip("ASPERITY names no command")
+    done = subprocess.run([binary, *args, "--quiet"], cwd=folder, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+
+
+def column(file: pathlib.Path, name: str) -> list[float]:
+    with file.open() as lines:
+        return [float(row[name]) for row in csv.DictReader(lines)]
+
+
+def test_a_crush_has_the_bits_of_the_command(tmp_path: pathlib.Path) -> None:
+    scene = asperity.Scene(**SCENE)
+    (tmp_path / "scene.toml").write_text(scene.to_toml())
+    result = asperity.crush(scene)
+    command(tmp_path, "crush", "scene.toml", "--out", "out")
+    for name in ("depth_um", "force_N", "plastic_work_uJ"):
+        assert result.curve[name].tolist() == column(tmp_path / "out/curve.csv", name), name
+    summary = json.loads((tmp_path / "out/summary.json").read_text())
+    for name in ("peak_force_N", "residual_depth_um", "errors", "dofs"):
+        assert result.summary[name] == summary[name], name
+    assert result.curve["depth_um"].dtype == np.float64
+    assert result.curve["increment"].dtype == np.int64
+    result.write(tmp_path / "again")
+    assert (tmp_path / "again/curve.csv").read_bytes() == (tmp_path / "out/curve.csv").read_bytes()
+
+
+def test_a_numpy_surface_is_pressed_like_its_file(tmp_path: pathlib.Path) -> None:
+    heights = waves()
+    np.save(tmp_path / "surface.npy", heights)
+    tables: dict[str, Any] = {"material": STEEL, "load": {"pressure": "50 MPa"}}
+    rough = asperity.press(
+        heights, pixel_size_um=(1.0, 2.0), closure="all", surface={"level": "none"}, **tables
+    )
+    scene = asperity.RoughScene(
+        closure="all",
+        surface={"file": "surface.npy", "pixel_size": ["1 um", "2 um"], "height_unit": "um", "level": "none"},
+        **tables,
+    )
+    (tmp_path / "scene.toml").write_text(scene.to_toml())
+    command(tmp_path, "rough", "scene.toml", "--out", "out")
+    ratios = column(tmp_path / "out/table.csv", "contact_area_ratio")
+    assert rough.table["contact_area_ratio"].tolist() == ratios
+    assert len(rough.table) == len(ratios) >= 3
+    # cells lie between the nodes
+    assert rough.pressure("sneddon").shape == (63, 95) and rough.gap("sneddon").shape == (64, 96)
+    assert np.array_equal(rough.heights_um, heights) or np.allclose(rough.heights_um, heights, rtol=1e-15)
+    # pressure over the cells carries the load
+    assert rough.pressure("sneddon").mean() == pytest.approx(50.0, rel=1e-5)
+    assert rough.gap("sneddon").min() == 0.0 and rough.gap("sneddon").max() > 0.1
+
+
+def test_a_topography_is_taken_with_its_units() -> None:
+    class Topography:
+        """As in the package SurfaceTopography: the first index runs along x."""
+
+        unit = "nm"
+        pixel_size = (1000.0, 2000.0)
+
+        def heights(self) -> Any:
+            return np.ma.masked_array(1000.0 * waves().T)
+
+    tables: dict[str, Any] = {"closure": "sneddon", "material": STEEL, "load": {"pressure": "50 MPa"}}
+    one = asperity.press(Topography(), **tables)
+    other = asperity.press(waves(), pixel_size_um=(1.0, 2.0), **tables)
+    ratio = one.table["contact_area_ratio"][0]
+    assert ratio == pytest.approx(other.table["contact_area_ratio"][0], rel=1e-9)
+
+
+def test_wrong_input_names_its_key() -> None:
+    with pytest.raises(asperity.InputError, match="axisymmetric"):
+        asperity.Scene.from_toml("symmetry = 'axisymetric'")
+    with pytest.raises(asperity.InputError, match=r"poissons_ratio"):
+        asperity.Scene(**{**SCENE, "material": {**SCENE["material"], "poissons_ratio": 0.7}})
+    with pytest.raises(asperity.InputError, match=r"did you mean `depth`"):
+        asperity.Scene(**SCENE).set("loading.dept", "1 um")
+    with pytest.raises(asperity.InputError, match=r"loading.depth"):
+        asperity.study(asperity.Scene(**SCENE), {"loading.depth": []})
+    with pytest.raises(asperity.InputError, match=r"cannot read"):
+        asperity.Scene.from_toml("no such file.toml")
+    with pytest.raises(asperity.InputError, match="pixel_size_um"):
+        asperity.press(waves(), closure="sneddon", material=STEEL, load={"pressure": "50 MPa"})
+    with pytest.raises(asperity.InputError, match="dimensions"):
+        asperity.press(np.zeros(4), pixel_size_um=(1.0, 1.0), closure="sneddon")
+    with pytest.raises(asperity.InputError, match="material"):
+        asperity.press(waves(), pixel_size_um=(1.0, 1.0), closure="sneddon", load={"pressure": "1 MPa"})
+    assert issubclass(asperity.InputError, ValueError)
+
+
+def test_scenes_go_to_toml_and_back() -> None:
+    scene = asperity.Scene(**SCENE)
+    again = asperity.Scene.from_toml(scene.to_toml())
+    assert again == scene and eval(repr(scene), {"Scene": asperity.Scene}) == scene
+    deeper = scene.set("loading.depth", "3 um")
+    assert deeper != scene and deeper.tables["loading"]["depth"] == "3e-6 m"
+    assert scene.set("asperity[0].slope_deg", np.float64(8.0)).tables["asperity"][0]["slope_deg"] == 8.0
+
+
+def test_fields_are_arrays_over_a_mesh() -> None:
+    fields = {"every": 100, "fields": ["displacement", "von_mises", "plastic_zone"]}
+    result = asperity.crush(asperity.Scene(**{**SCENE, "output": fields}))
+    assert result.frames >= 1
+    frame = result.fields(-1)
+    nodes, cells = len(frame.points_um), len(frame.cells)
+    assert frame["von_mises_MPa"].shape == (nodes,) and frame["displacement_um"].shape == (nodes, 2)
+    assert frame["plastic_zone"].shape == (cells,) and frame.cells.max() == nodes - 1
+    assert frame["von_mises_MPa"].max() > 200.0
+    with pytest.raises(KeyError, match="von_mises_MPa"):
+        frame["mises"]
+    meshio = pytest.importorskip("meshio")
+    assert isinstance(frame.to_meshio(), meshio.Mesh)
+    section = result.section_svg()
+    assert section is not None and "<svg" in section
+
+
+def test_a_study_is_a_table(tmp_path: pathlib.Path) -> None:
+    vary = {"material.hardening_exponent": np.array([0.1, 0.3]), "loading.depth": "1 um..2 um/2"}
+    study = asperity.study(asperity.Scene(**SCENE), vary, out=tmp_path / "study", curves=True)
+    assert len(study.results) == 4 and set(study.results["status"]) == {"ok"}
+    assert study.varied("loading.depth").tolist() == [1.0, 2.0, 1.0, 2.0]
+    alone = asperity.crush(asperity.Scene(**SCENE).set("material.hardening_exponent", 0.3))
+    assert study.results["peak_force_N"][3] == alone.summary["peak_force_N"]
+    assert (tmp_path / "study" / str(study.results["curve"][3])).is_file()
+    assert study.picture is not None and "<svg" in study.picture
+    # found in the folder, not run again
+    told: list[str] = []
+    asperity.study(
+        asperity.Scene(**SCENE),
+        vary,
+        out=tmp_path / "study",
+        curves=True,
+        progress=lambda _, text: told.append(text),
+    )
+    drawn = asperity.study(
+        asperity.Scene(**SCENE), {"loading.depth": "0.5 um..1 um"}, sample=("sobol", 2), threads=1
+    )
+    assert drawn.varied("loading.depth").tolist() == [0.5, 0.75]
+    pandas = pytest.importorskip("pandas")
+    assert isinstance(study.to_dataframe(), pandas.DataFrame)
+
+
+def test_a_surface_is_varied_too() -> None:
+    scene = asperity.RoughScene(
+        closure="sneddon", surface={"level": "none"}, material=STEEL, load={"pressure": "20 MPa"}
+    )
+    vary = {"load.pressure": ["20 MPa", "50 MPa"]}
+    study = asperity.study(scene, vary, heights=waves(), pixel_size_um=(1.0, 2.0))
+    ratio = study.results["contact_area_ratio"]
+    assert ratio[1] > ratio[0] > 0.0
+    assert study.results["load_error"].max() < 1e-6
+
+
+def test_a_sweep_is_fitted_or_says_why() -> None:
+    swept = asperity.calibrate(
+        slopes_deg=[8.0], youngs_modulus=["210 GPa"], yield_stress=["200 MPa", "800 MPa"],
+        hardening_exponent=[0.1], accuracy="draft",
+    )  # fmt: skip
+    assert len(swept.cases) == 2 and (swept.cases["K_over_E"] > 0).all()
+    assert swept.fit["coefficient"] is None and swept.fit["reason"]
+    with pytest.raises(asperity.InputError, match="slopes_deg"):
+        asperity.calibrate(slopes_deg=[60.0])
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="signals of Unix")
+def test_ctrl_c_ends_a_run() -> None:
+    scene = asperity.Scene(**SCENE).set("accuracy", "reference").set("loading.depth", "15 um")
+    threading.Timer(1.0, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+    start = time.monotonic()
+    with pytest.raises(KeyboardInterrupt):
+        asperity.crush(scene)
+    assert time.monotonic() - start < 15.0
+
+
+def test_progress_is_told_and_python_runs_on() -> None:
+    shares: list[float] = []
+    counted, ended = [0], threading.Event()
+
+    def count() -> None:
+        while not ended.is_set():
+            counted[0] += 1
+            time.sleep(0.001)
+
+    beside = threading.Thread(target=count)
+    beside.start()
+    scene = asperity.Scene(**SCENE).set("accuracy", "standard")
+    before = counted[0]
+    asperity.crush(scene, progress=lambda share, _: shares.append(share))
+    after = counted[0]
+    ended.set()
+    beside.join()
+    assert shares and all(0.0 <= share <= 1.0 for share in shares) and shares == sorted(shares)
+    assert after - before > 10
+
+    def refuse(_share: float, _text: str) -> None:
+        raise RuntimeError("enough")
+
+    with pytest.raises(RuntimeError, match="enough"):
+        asperity.crush(scene, progress=refuse)
+
+
+def test_an_old_processor_is_refused_by_name() -> None:
+    from asperity import _processor
+
+    assert _processor.missing("sse2 avx avx2 fma bmi1 f16c movbe") == ["bmi2"]
+    _processor.check()
+
+
+def test_the_scripts_of_the_front_page_run(tmp_path: pathlib.Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    matplotlib = pytest.importorskip("matplotlib")
+    pytest.importorskip("pandas")
+    matplotlib.use("Agg")
+    monkeypatch.chdir(tmp_path)
+    text = (pathlib.Path(__file__).parents[1] / "README.md").read_text()
+    blocks = [block.split("```")[0] for block in text.split("```python\n")[1:]]
+    assert len(blocks[0].splitlines()) <= 15
+    scope: dict[str, Any] = {}
+    for block in blocks:
+        exec(block, scope)
+    assert (tmp_path / "both.png").stat().st_size > 10_000
+    assert len(scope["study"].results) == 12 and set(scope["study"].results["status"]) == {"ok"}
