@@ -29,6 +29,8 @@ mod surface;
 
 mod contact;
 
+pub mod half_space;
+
 pub mod scene;
 
 pub use contact::closures::{
