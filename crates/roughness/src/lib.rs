@@ -31,6 +31,8 @@ mod contact;
 
 pub mod half_space;
 
+pub mod flow;
+
 pub mod scene;
 
 pub use contact::closures::{
