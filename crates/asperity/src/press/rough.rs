@@ -1,6 +1,6 @@
 //! A rough surface pressed by every closure that its scene asks for.
 
-use super::closures::{ClosureContact, press_by};
+use super::closures::{ClosureContact, Spaces, judge, press_by};
 use super::scene::RoughScene;
 use super::summary::{ClosureSummary, Summary};
 use super::table::{LoadPoint, TableRow};
@@ -9,6 +9,9 @@ use asperity_roughness::scene::{Scene, SceneError};
 use asperity_roughness::{Closure, Surface};
 use std::fmt::Write;
 use std::time::Instant;
+
+/// Points of a map up to which closures are judged unless the scene says otherwise.
+const JUDGED: usize = 1024 * 1024;
 
 /// A rough surface pressed by every closure that its scene asks for.
 #[derive(Debug)]
@@ -50,15 +53,19 @@ pub fn press(scene: &RoughScene, observer: &mut dyn FnMut(&Progress) -> bool) ->
     let name = scene.surface_name();
     let mut summary = Summary::new(&name, &surface, tables);
     let mut contacts = Vec::new();
+    let mut spaces = Spaces::default();
     let closures = tables.closure.closures();
     for (i, &closure) in closures.iter().enumerate() {
         if !observer(&Progress { share: i as f64 / closures.len() as f64, closure }) {
             summary.warnings.push(format!("stopped before closure \"{}\"", closure.name()));
             break;
         }
-        let (contact, warnings) = press_by(closure, scene, &surface, coefficient.as_ref())?;
+        let (contact, warnings) = press_by(closure, scene, &surface, coefficient.as_ref(), &mut spaces)?;
         summary.warnings.extend(warnings);
         contacts.extend(contact);
+    }
+    if tables.judge.unwrap_or(surface.map.heights().len() <= JUDGED) {
+        judge(&mut contacts, scene, &surface, &mut spaces);
     }
     if contacts.is_empty() && summary.warnings.iter().all(|w| w.starts_with("skipped")) {
         let message = "no closure can be used with this material: add hardness or yield_stress";
@@ -70,7 +77,9 @@ pub fn press(scene: &RoughScene, observer: &mut dyn FnMut(&Progress) -> bool) ->
         table.iter().zip(&contacts).map(|(row, one)| ClosureSummary::new(row.clone(), one)).collect();
     let load_curve = contacts.iter().flat_map(LoadPoint::curve).collect();
     summary.wall_s = start.elapsed().as_secs_f64();
-    Ok(Rough { table, load_curve, summary, surface, contacts })
+    let mut rough = Rough { table, load_curve, summary, surface, contacts };
+    rough.summary.verdict = rough.verdict();
+    Ok(rough)
 }
 
 /// A hardness that is not that of the yield stress.
@@ -83,7 +92,7 @@ fn two_materials(scene: &Scene) -> Option<String> {
 impl Rough {
     /// The contact by one closure; `None` where the scene does not ask for it or it could not be used.
     pub fn contact(&self, closure: Closure) -> Option<&ClosureContact> {
-        self.contacts.iter().find(|one| one.law.closure == closure)
+        self.contacts.iter().find(|one| one.closure == closure)
     }
 
     /// The text of summary.json.
@@ -102,22 +111,29 @@ impl Rough {
             "{}: {nx} x {ny} points of {dx:.4} x {dy:.4} um, {} missing; Sa {:.4} um, Sq {:.4} um, Sdq {:.4}, beta {:.3} deg (mean |grad h|)\n",
             s.surface, s.missing, s.sa_um, s.sq_um, s.sdq, s.beta_deg,
         );
-        text += "closure       A/A0 %   P_m MPa     psi  peak/nom  separation um  asperities  residual um  elastic energy\n";
-        let shown = |v: Option<f64>, digits: usize| v.map_or_else(|| "-".into(), |v| format!("{v:.digits$}"));
+        text += "closure              A/A0 %   P_m MPa     psi  peak/nom  separation um  asperities  residual um  elastic energy  A/A_hs\n";
+        let shown = |v: Option<f64>, digits: usize| {
+            v.filter(|v| v.is_finite()).map_or_else(|| "-".into(), |v| format!("{v:.digits$}"))
+        };
         for row in &self.table {
             let _ = writeln!(
                 text,
-                "{:<11} {:>8.3} {:>9} {:>7} {:>9} {:>14.4} {:>11} {:>12} {:>15}",
+                "{:<18} {:>8} {:>9} {:>7} {:>9} {:>14} {:>11} {:>12} {:>15} {:>7}",
                 row.closure.name(),
-                100.0 * row.contact_area_ratio,
+                shown(Some(100.0 * row.contact_area_ratio), 3),
                 shown(row.mean_pressure_mpa, 1),
                 shown(row.plasticity_index, 3),
                 shown(row.max_pressure_over_nominal, 2),
-                row.separation_um,
-                row.asperities,
+                shown(Some(row.separation_um), 4),
+                row.asperities.map_or_else(|| "-".into(), |n| n.to_string()),
                 shown(row.residual_displacement_um, 4),
                 shown(row.elastic_energy_share, 3),
+                shown(row.area_over_half_space, 3),
             );
+        }
+        if let Some(verdict) = self.verdict() {
+            text += &verdict;
+            text.push('\n');
         }
         text
     }

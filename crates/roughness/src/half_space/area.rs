@@ -45,3 +45,37 @@ fn edges(map: &HeightMap, pressures: &[f32]) -> usize {
     let parts = chunks(ny, |rows| rows.map(|y| (0..nx).map(|x| across(x, y)).sum::<usize>()).sum::<usize>());
     parts.iter().sum()
 }
+
+/// Patches of pixels under pressure, joined over sides and corners, and over the edges of a periodic map.
+pub fn patches(map: &HeightMap, pressures: &[f32]) -> usize {
+    let (nx, ny) = (map.columns(), map.rows());
+    let mut seen = vec![false; pressures.len()];
+    let mut stack = Vec::new();
+    let mut count = 0;
+    // the neighbour of `at` by `step`, where there is one
+    let beside = |at: usize, n: usize, step: usize| match (at + step).checked_sub(1) {
+        Some(next) if next < n => Some(next),
+        Some(_) => map.periodic().then_some(0),
+        None => map.periodic().then(|| n - 1),
+    };
+    for first in 0..pressures.len() {
+        if seen[first] || pressures[first] <= 0.0 {
+            continue;
+        }
+        count += 1;
+        seen[first] = true;
+        stack.push(first);
+        while let Some(i) = stack.pop() {
+            for (dx, dy) in (0..9).map(|k| (k % 3, k / 3)) {
+                if let (Some(x), Some(y)) = (beside(i % nx, nx, dx), beside(i / nx, ny, dy)) {
+                    let j = y * nx + x;
+                    if !seen[j] && pressures[j] > 0.0 {
+                        seen[j] = true;
+                        stack.push(j);
+                    }
+                }
+            }
+        }
+    }
+    count
+}

@@ -24,7 +24,7 @@ mod stiffness;
 
 mod press;
 
-pub use area::Area;
+pub use area::{Area, patches};
 pub use press::{FINEST, HalfSpace, HalfSpaceContact, HalfSpaceError, TOLERANCE, TOLERANCE_LIMITED};
 
 #[cfg(test)]
