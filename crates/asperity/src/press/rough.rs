@@ -5,6 +5,7 @@ use super::scene::RoughScene;
 use super::summary::{ClosureSummary, Summary};
 use super::table::{LoadPoint, TableRow};
 use crate::error::Error;
+use crate::units::MICROMETRE;
 use asperity_roughness::scene::{Scene, SceneError};
 use asperity_roughness::{Closure, Surface};
 use std::fmt::Write;
@@ -72,6 +73,7 @@ pub fn press(scene: &RoughScene, observer: &mut dyn FnMut(&Progress) -> bool) ->
         return Err(scene.error(&SceneError::new("closure", message)).into());
     }
     summary.warnings.extend(two_materials(tables));
+    summary.warnings.extend(doubts(&surface, tables));
     let table: Vec<TableRow> = contacts.iter().map(|one| TableRow::new(&name, &surface, one)).collect();
     summary.closures =
         table.iter().zip(&contacts).map(|(row, one)| ClosureSummary::new(row.clone(), one)).collect();
@@ -87,6 +89,36 @@ fn two_materials(scene: &Scene) -> Option<String> {
     let ratio = scene.material.hardness?.0 / (3.0 * scene.material.yield_stress?.0);
     let text = format!("hardness is {ratio:.2} times 3 yield_stress (eq. 20 says 1): two different metals?");
     (!(0.8..=1.25).contains(&ratio)).then_some(text)
+}
+
+/// The largest step across the seam of a periodic map, over that between neighbours, that is taken without a word.
+const SEAM: f64 = 4.0;
+/// Standard deviations above the mean beyond which the highest point looks like an error of measurement.
+const SPIKE: f64 = 8.0;
+
+/// Doubts about the surface and the load.
+fn doubts(surface: &Surface, scene: &Scene) -> Vec<String> {
+    let seam = surface.seam().filter(|ratio| *ratio > SEAM).map(|ratio| {
+        format!(
+            "surface.periodic: the steps across the seam are {ratio:.0} times those between neighbours: the map is no period of a \
+             surface; leave periodic out, and it stands free"
+        )
+    });
+    let parameters = &surface.parameters;
+    let above = surface.extent.high - parameters.mean;
+    let spike = Some(above / parameters.sq).filter(|ratio| *ratio > SPIKE).map(|ratio| {
+        format!(
+            "the highest point is {ratio:.0} standard deviations above the mean: if it is dust or an error of measurement, the first \
+             touch and all at light loads are its own; remove it, or smooth with s_filter"
+        )
+    });
+    let apart = scene.load.separation.filter(|s| s.0 > above).map(|s| {
+        format!(
+            "load.separation = {s} is above the highest point ({:.4} um above the mean): nothing touches",
+            above / MICROMETRE
+        )
+    });
+    [seam, spike, apart].into_iter().flatten().collect()
 }
 
 impl Rough {
