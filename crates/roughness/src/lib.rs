@@ -29,6 +29,10 @@ mod surface;
 
 mod contact;
 
+pub mod half_space;
+
+pub mod flow;
+
 pub mod scene;
 
 pub use contact::closures::{

@@ -21,6 +21,12 @@ pub struct Rough {
     /// Change a value of the file, for example --set "load.pressure=100 MPa"; repeatable
     #[arg(long = "set", value_name = "KEY.PATH=VALUE", conflicts_with = "table1")]
     pub overrides: Vec<String>,
+    /// Compare every closure with the half-space (default on maps of up to 1024 x 1024 points)
+    #[arg(long, conflicts_with_all = ["table1", "no_judge"])]
+    pub judge: bool,
+    /// Do not compare closures with the half-space
+    #[arg(long, conflicts_with = "table1")]
+    pub no_judge: bool,
     #[command(flatten)]
     pub run: RunFlags,
 }
@@ -38,7 +44,11 @@ pub fn rough(args: &Rough) -> Result<(), Error> {
 
 /// `asperity rough SCENE.toml`.
 fn one_scene(path: &Path, args: &Rough) -> Result<(), Error> {
-    let scene = RoughScene::read(path, &args.overrides)?;
+    let mut overrides = args.overrides.clone();
+    if args.judge || args.no_judge {
+        overrides.push(format!("judge={}", args.judge));
+    }
+    let scene = RoughScene::read(path, &overrides)?;
     let rough = press(&scene, &mut |_| true)?;
     let target = args.run.target(&scene.name());
     let mut folder = Folder::create(&target, "rough", args.run.force)?;

@@ -1,6 +1,6 @@
 //! Charts of all closures at once.
 
-use super::closures::ClosureContact;
+use super::closures::{Body, ClosureContact};
 use crate::draw::chart::{Chart, Series};
 use crate::units::{MEGAPASCAL, MICROMETRE};
 use asperity_roughness::CurvePoint;
@@ -17,7 +17,7 @@ pub(super) fn all(contacts: &[ClosureContact], mean_gradient: f64) -> [(&'static
 /// The closures themselves: pressure on the contact of an island against its slope, to three times the mean slope.
 fn closures(contacts: &[ClosureContact], mean_gradient: f64) -> Chart {
     const STEPS: u32 = 120;
-    let series = contacts.iter().map(|one| {
+    let series = contacts.iter().filter_map(ClosureContact::islands).map(|one| {
         let point = |step| {
             let tan = 3.0 * mean_gradient * f64::from(step) / f64::from(STEPS);
             let response = one.law.respond(tan);
@@ -32,13 +32,13 @@ fn closures(contacts: &[ClosureContact], mean_gradient: f64) -> Chart {
 fn load_curves(contacts: &[ClosureContact]) -> Chart {
     let mut series = Vec::new();
     for one in contacts {
-        let first = one.contact.curve.first().map_or(0.0, |p| p.separation);
+        let first = one.curve().first().map_or(0.0, |p| p.separation);
         let points = |curve: &[CurvePoint]| {
             curve.iter().map(|p| [(first - p.separation) / MICROMETRE, p.pressure / MEGAPASCAL]).collect()
         };
-        series.push(Series::of_closure(one.law.closure, false, points(&one.contact.curve)));
-        if let Some(unloading) = one.unloading.as_ref().filter(|_| !one.law.returns_everything()) {
-            series.push(Series::of_closure(one.law.closure, true, points(&unloading.curve)));
+        series.push(Series::of_closure(one.closure, false, points(one.curve())));
+        if !one.returns_everything() && !one.unloading_curve().is_empty() {
+            series.push(Series::of_closure(one.closure, true, points(one.unloading_curve())));
         }
     }
     travel_chart(series)
@@ -56,13 +56,20 @@ fn histogram(contacts: &[ClosureContact]) -> Chart {
     let width = if most > 0.0 { most / STEPS as f64 } else { 1.0 };
     let series = contacts.iter().filter(|one| one.nominal > 0.0).map(|one| {
         let mut bins = [0.0; STEPS];
-        for pixel in &one.field.pixels {
-            let ratio = f64::from(pixel.pressure) / one.nominal;
-            bins[((ratio / width) as usize).min(STEPS - 1)] += f64::from(pixel.contact);
+        let mut count = |pressure: f32, contact: f32| {
+            let ratio = f64::from(pressure) / one.nominal;
+            bins[((ratio / width) as usize).min(STEPS - 1)] += f64::from(contact);
+        };
+        match &one.body {
+            Body::Islands(one) => one.field.pixels.iter().for_each(|p| count(p.pressure, p.contact)),
+            Body::HalfSpace(one) => {
+                one.contact.pressures.iter().filter(|p| **p > 0.0).for_each(|p| count(*p, 1.0));
+            }
+            Body::Failed(_) => {}
         }
         let total: f64 = bins.iter().sum::<f64>().max(f64::MIN_POSITIVE);
         let points = bins.iter().enumerate().map(|(i, b)| [(i as f64 + 0.5) * width, 100.0 * b / total]);
-        Series::of_closure(one.law.closure, false, points.collect())
+        Series::of_closure(one.closure, false, points.collect())
     });
     Chart::new("pressure over nominal pressure", format!("contact area per step of {width:.2} (%)"), series)
 }

@@ -1,16 +1,44 @@
 //! The contact of one surface by one closure, with its warnings.
 
+use super::half_space::{self, SpaceContact};
 use super::scene::RoughScene;
 use crate::error::InputError;
+use asperity_roughness::half_space::{HalfSpace, HalfSpaceContact, HalfSpaceError};
 use asperity_roughness::scene::{Choice, SceneError};
 use asperity_roughness::{
-    Closure, ClosureLaw, Coefficient, Contact, ContactError, Load, PressureField, SINGLE_ASPERITY_EXPONENT,
-    Surface, Unloading, press, unload,
+    Closure, ClosureLaw, Coefficient, Contact, ContactError, CurvePoint, Load, PressureField,
+    SINGLE_ASPERITY_EXPONENT, Surface, Unloading, press, unload,
 };
 
 /// The contact of a surface by one closure at the load.
 #[derive(Debug)]
 pub struct ClosureContact {
+    /// The closure.
+    pub closure: Closure,
+    /// What was found.
+    pub body: Body,
+    /// p(β)/H of the closure's elastic pressure at the mean slope.
+    pub plasticity_index: Option<f64>,
+    /// Nominal pressure: that asked for, or that carried at the separation asked for, in Pa.
+    pub nominal: f64,
+    /// Area and mean pressure over those of the half-space with the same metal.
+    pub judged: Option<[f64; 2]>,
+}
+
+/// What presses a surface.
+#[derive(Debug)]
+pub enum Body {
+    /// Islands, each by its closure.
+    Islands(Box<IslandContact>),
+    /// The whole surface at once.
+    HalfSpace(Box<SpaceContact>),
+    /// Nothing: the reason.
+    Failed(String),
+}
+
+/// The contact of islands.
+#[derive(Debug)]
+pub struct IslandContact {
     /// The closure with its material.
     pub law: ClosureLaw,
     /// The contact.
@@ -19,83 +47,267 @@ pub struct ClosureContact {
     pub field: PressureField,
     /// Elastic return, where unloading was asked for.
     pub unloading: Option<Unloading>,
-    /// p(β)/H of the closure's elastic pressure at the mean slope.
-    pub plasticity_index: Option<f64>,
-    /// Nominal pressure: that asked for, or that carried at the separation asked for, in Pa.
-    pub nominal: f64,
 }
 
 impl ClosureContact {
     /// Name of the closure.
     pub fn name(&self) -> &'static str {
-        self.law.closure.name()
+        self.closure.name()
+    }
+
+    /// The contact of islands, where the closure has them.
+    pub fn islands(&self) -> Option<&IslandContact> {
+        match &self.body {
+            Body::Islands(one) => Some(one),
+            _ => None,
+        }
+    }
+
+    /// The contact on a half-space.
+    pub fn space(&self) -> Option<&SpaceContact> {
+        match &self.body {
+            Body::HalfSpace(one) => Some(one),
+            _ => None,
+        }
+    }
+
+    /// `ok`, or why there are no numbers.
+    pub fn status(&self) -> &str {
+        match &self.body {
+            Body::Failed(reason) => reason,
+            _ => "ok",
+        }
+    }
+
+    /// One of two values by what presses; None of nothing.
+    pub(super) fn either<T>(
+        &self,
+        islands: impl FnOnce(&IslandContact) -> T,
+        space: impl FnOnce(&SpaceContact) -> T,
+    ) -> Option<T> {
+        match &self.body {
+            Body::Islands(one) => Some(islands(one)),
+            Body::HalfSpace(one) => Some(space(one)),
+            Body::Failed(_) => None,
+        }
+    }
+
+    /// Contact area over nominal area.
+    pub fn area_ratio(&self) -> Option<f64> {
+        self.either(|i| i.contact.area_ratio, |s| s.contact.area.ratio)
+    }
+
+    /// Load over contact area, in Pa; None without contact.
+    pub fn mean_pressure(&self) -> Option<f64> {
+        self.either(|i| i.contact.mean_pressure(), |s| s.contact.mean_pressure()).flatten()
     }
 
     /// Largest pixel pressure over nominal pressure.
     pub fn peak_ratio(&self) -> Option<f64> {
-        (self.nominal > 0.0).then(|| self.field.largest / self.nominal)
+        let largest = self.either(|i| i.field.largest, |s| s.contact.largest_pressure)?;
+        (self.nominal > 0.0).then(|| largest / self.nominal)
+    }
+
+    /// Share of the contact area that is elastic, elastoplastic, plastic, where a limit tells them apart.
+    pub fn shares(&self) -> Option<[f64; 3]> {
+        let of_space = |s: &SpaceContact| {
+            let plastic = s.contact.limited_share;
+            (s.contact.area.ratio > 0.0).then_some([1.0 - plastic, 0.0, plastic])
+        };
+        self.either(|i| i.law.hardness.and(i.contact.shares), of_space).flatten()
+    }
+
+    /// From first touch to the load.
+    pub fn curve(&self) -> &[CurvePoint] {
+        self.either_ref(|i| &i.contact.curve, |s| &s.curve)
+    }
+
+    /// Back from the load; empty where unloading was not asked for.
+    pub fn unloading_curve(&self) -> &[CurvePoint] {
+        self.either_ref(
+            |i| i.unloading.as_ref().map_or(&[][..], |u| &u.curve),
+            |s| s.unloading.as_ref().map_or(&[][..], |u| &u.curve),
+        )
+    }
+
+    fn either_ref<'a>(
+        &'a self,
+        islands: impl FnOnce(&'a IslandContact) -> &'a [CurvePoint],
+        space: impl FnOnce(&'a SpaceContact) -> &'a [CurvePoint],
+    ) -> &'a [CurvePoint] {
+        match &self.body {
+            Body::Islands(one) => islands(one),
+            Body::HalfSpace(one) => space(one),
+            Body::Failed(_) => &[],
+        }
+    }
+
+    /// Whether unloading follows the load curve back.
+    pub fn returns_everything(&self) -> bool {
+        self.either(|i| i.law.returns_everything(), |s| s.body.limit.is_none()).unwrap_or(true)
     }
 }
 
 /// Remarks on the trust in the numbers.
 pub type Warnings = Vec<String>;
 
-/// The contact by `closure` with its warnings; of a scene with all closures, one that cannot be used is a warning alone.
+/// The contact by `closure` with its warnings; of a scene with all closures, one that lacks its material is a warning alone
+/// and one that cannot carry the load says so in its row.
 pub(super) fn press_by(
     closure: Closure,
     scene: &RoughScene,
     surface: &Surface,
     coefficient: Option<&Coefficient>,
+    spaces: &mut Spaces,
 ) -> Result<(Option<ClosureContact>, Warnings), InputError> {
-    let all = scene.tables().closure == Choice::All;
+    let tables = scene.tables();
+    let all = tables.closure == Choice::All;
     let wrong = |key: &str, message: String| scene.error(&SceneError::new(key, message));
-    let load = scene.tables().load.load().map_err(|e| scene.error(&e))?;
-    let law = match ClosureLaw::new(closure, &scene.tables().material, coefficient) {
+    let load = tables.load.load().map_err(|e| scene.error(&e))?;
+    let hardness = tables.material.limit();
+    let made = |body: Body, elastic: f64, nominal: f64| ClosureContact {
+        closure,
+        body,
+        plasticity_index: hardness.map(|h| elastic / h),
+        nominal,
+        judged: None,
+    };
+    let asked = match load {
+        Load::Pressure(p) => p,
+        Load::Separation(_) => 0.0,
+    };
+    // on the contact an elastic cone of the mean slope has half of E* tan β
+    let sneddon = 0.5 * tables.material.elastic().reduced_modulus() * surface.parameters.mean_gradient;
+    if closure.is_half_space() {
+        let Some(body) = half_space::body(closure, tables) else {
+            let message = format!(
+                "closure \"{}\" needs hardness (or yield_stress, H = 3 σ_y) in [material]: add it, or choose \"half-space\"",
+                closure.name()
+            );
+            return if all {
+                Ok((None, vec![format!("skipped: {message}")]))
+            } else {
+                Err(wrong("closure", message))
+            };
+        };
+        let found = spaces.contact(&body, surface, load);
+        let pressed = found.and_then(|found| SpaceContact::of(body, surface, tables, found));
+        return match pressed {
+            Ok(one) => {
+                let nominal = if asked > 0.0 { asked } else { one.contact.pressure };
+                let warnings = space_remarks(closure, &one);
+                Ok((Some(made(Body::HalfSpace(Box::new(one)), sneddon, nominal)), warnings))
+            }
+            Err(e) if all => Ok((
+                Some(made(Body::Failed(e.to_string()), sneddon, asked)),
+                vec![format!("{}: {e}", closure.name())],
+            )),
+            Err(e @ HalfSpaceError::Closed { .. }) => Err(wrong("load.separation", e.to_string())),
+            Err(e) => Err(wrong("load.pressure", e.to_string())),
+        };
+    }
+    let law = match ClosureLaw::new(closure, &tables.material, coefficient) {
         Ok(law) => law,
         Err(e) if all => return Ok((None, vec![format!("skipped: {e}")])),
         Err(e) => return Err(wrong("closure", e.to_string())),
     };
-    match press_one(scene, surface, law, load, coefficient) {
+    let elastic = law.elastic_pressure(surface.parameters.mean_gradient);
+    match press_islands(scene, surface, law, load, coefficient) {
         Ok(one) => {
-            let warnings = remarks(&one, coefficient);
-            Ok((Some(one), warnings))
+            let warnings = remarks(closure, &one, coefficient);
+            let nominal = if asked > 0.0 { asked } else { one.contact.pressure };
+            Ok((Some(made(Body::Islands(Box::new(one)), elastic, nominal)), warnings))
         }
-        Err(e @ ContactError::Unreachable { .. }) if all && closure != Closure::Published => {
-            Ok((None, vec![format!("skipped: {e}")]))
-        }
+        Err(e @ ContactError::Unreachable { .. }) if all => Ok((
+            Some(made(Body::Failed(e.to_string()), elastic, asked)),
+            vec![format!("{}: {e}", closure.name())],
+        )),
         Err(e) => Err(wrong("load.pressure", e.to_string())),
     }
 }
 
-fn press_one(
+fn press_islands(
     scene: &RoughScene,
     surface: &Surface,
     law: ClosureLaw,
     load: Load,
     coefficient: Option<&Coefficient>,
-) -> Result<ClosureContact, ContactError> {
+) -> Result<IslandContact, ContactError> {
     let contact = press(surface, &law, load)?;
     let scene = scene.tables();
     let field = PressureField::of(&surface.map, &contact, scene.pressure_profile);
     let exponent = coefficient.map_or(SINGLE_ASPERITY_EXPONENT, |c| c.unloading_exponent);
     let unloading = scene.load.unload.then(|| unload(&contact, &law, exponent));
-    let elastic = law.elastic_pressure(surface.parameters.mean_gradient);
-    let nominal = match load {
-        Load::Pressure(p) => p,
-        Load::Separation(_) => contact.pressure,
-    };
-    Ok(ClosureContact {
-        plasticity_index: law.hardness.map(|h| elastic / h),
-        law,
-        contact,
-        field,
-        unloading,
-        nominal,
-    })
+    Ok(IslandContact { law, contact, field, unloading })
 }
 
-fn remarks(one: &ClosureContact, coefficient: Option<&Coefficient>) -> Warnings {
-    let name = one.name();
+/// Contacts on half-spaces that were found, for those that are asked for again.
+#[derive(Default)]
+pub(super) struct Spaces {
+    found: Vec<(HalfSpace, Result<HalfSpaceContact, HalfSpaceError>)>,
+}
+
+impl Spaces {
+    /// The contact of `surface` at `load`, found once.
+    pub fn contact(
+        &mut self,
+        body: &HalfSpace,
+        surface: &Surface,
+        load: Load,
+    ) -> Result<HalfSpaceContact, HalfSpaceError> {
+        if let Some((_, found)) = self.found.iter().find(|(known, _)| known == body) {
+            return found.clone();
+        }
+        let found = body.press(surface, load);
+        self.found.push((*body, found.clone()));
+        found
+    }
+}
+
+/// Area and mean pressure of each closure over those of the half-space with the same metal: elastic for "sneddon", with the
+/// hardness for the others.
+pub(super) fn judge(
+    contacts: &mut [ClosureContact],
+    scene: &RoughScene,
+    surface: &Surface,
+    spaces: &mut Spaces,
+) {
+    let tables = scene.tables();
+    let Ok(load) = tables.load.load() else { return };
+    for one in contacts.iter_mut() {
+        let elastic = matches!(one.closure, Closure::Sneddon | Closure::HalfSpace);
+        let reference = if elastic { Closure::HalfSpace } else { Closure::HalfSpacePlastic };
+        let found = half_space::body(reference, tables).map(|body| spaces.contact(&body, surface, load));
+        if let (Some(Ok(found)), Some(area)) = (found, one.area_ratio())
+            && let (Some(pressure), Some(mean)) = (found.mean_pressure(), one.mean_pressure())
+        {
+            one.judged = Some([area / found.area.ratio, mean / pressure]);
+        }
+    }
+}
+
+fn space_remarks(closure: Closure, one: &SpaceContact) -> Warnings {
+    let leaks = one.passages.iter().filter_map(|p| p.leak);
+    let unbalanced = leaks.filter(|l| l.imbalance > 1e-2).map(|l| {
+        format!(
+            "{}: the leak was not found to the end (in- and outflow differ by {:.1e})",
+            closure.name(),
+            l.imbalance
+        )
+    });
+    let area = &one.contact.area;
+    let coarse = (area.error > 0.1 * area.ratio).then(|| {
+        format!(
+            "{}: the contact is made of few pixels: its area is uncertain by {:.0} %; measure finer, or smooth with s_filter",
+            closure.name(),
+            100.0 * area.error / area.ratio
+        )
+    });
+    unbalanced.chain(coarse).collect()
+}
+
+fn remarks(closure: Closure, one: &IslandContact, coefficient: Option<&Coefficient>) -> Warnings {
+    let name = closure.name();
     let mut remarks = Vec::new();
     if one.contact.jump {
         remarks.push(format!(

@@ -1,7 +1,7 @@
 //! The files of a pressed surface: tables, charts, summary, maps, the surface itself.
 
 use super::charts;
-use super::closures::ClosureContact;
+use super::closures::{Body, ClosureContact};
 use super::rough::Rough;
 use crate::draw::chart;
 use crate::draw::rough_map::{self as picture, Map};
@@ -21,6 +21,10 @@ pub struct Layers {
     pub contact: Vec<f32>,
     /// 0 none, 1 elastic, 2 elastoplastic, 3 plastic.
     pub regime: Vec<f32>,
+    /// Distance of plane and surface, µm; only on a half-space.
+    pub gap: Option<Vec<f32>>,
+    /// Cells along x and y: those between the nodes, or on a half-space the pixels around them.
+    pub cells: [usize; 2],
 }
 
 /// Cells of a map along x and y.
@@ -38,19 +42,35 @@ fn heights(map: &HeightMap, columns: usize, rows: usize) -> Vec<f32> {
 }
 
 impl Rough {
-    /// Pressure, contact and regime on the cells of the map.
+    /// Pressure, contact and regime on the cells of the map; zeros where a closure failed.
     pub fn layers(&self, one: &ClosureContact) -> Layers {
-        let [columns, rows] = cells(&self.surface.map);
-        let [pressure, contact, regime] = [(); 3].map(|()| vec![0f32; columns * rows]);
-        let mut layers = Layers { pressure, contact, regime };
-        for pixel in &one.field.pixels {
-            let i = pixel.cell as usize;
-            layers.pressure[i] += pixel.pressure / MEGAPASCAL as f32;
-            layers.contact[i] += pixel.contact;
-            if pixel.contact > 0.0 {
-                let regime = one.contact.responses[pixel.island as usize].regime;
-                layers.regime[i] = 1.0 + regime as u8 as f32;
+        let map = &self.surface.map;
+        let cells = if one.space().is_some() { [map.columns(), map.rows()] } else { cells(map) };
+        let [pressure, contact, regime] = [(); 3].map(|()| vec![0f32; cells[0] * cells[1]]);
+        let mut layers = Layers { pressure, contact, regime, gap: None, cells };
+        match &one.body {
+            Body::Islands(one) => {
+                for pixel in &one.field.pixels {
+                    let i = pixel.cell as usize;
+                    layers.pressure[i] += pixel.pressure / MEGAPASCAL as f32;
+                    layers.contact[i] += pixel.contact;
+                    if pixel.contact > 0.0 {
+                        let regime = one.contact.responses[pixel.island as usize].regime;
+                        layers.regime[i] = 1.0 + regime as u8 as f32;
+                    }
+                }
             }
+            Body::HalfSpace(one) => {
+                let limit = one.body.limit.map_or(f32::INFINITY, |l| (l * (1.0 - 1e-6)) as f32);
+                for (i, p) in one.contact.pressures.iter().enumerate().filter(|(_, p)| **p > 0.0) {
+                    layers.pressure[i] = p / MEGAPASCAL as f32;
+                    layers.contact[i] = 1.0;
+                    layers.regime[i] = if *p >= limit { 3.0 } else { 1.0 };
+                }
+                let um = |g: &f32| (f64::from(*g) / MICROMETRE) as f32;
+                layers.gap = Some(one.contact.gaps.iter().map(um).collect());
+            }
+            Body::Failed(_) => {}
         }
         layers
     }
@@ -85,18 +105,25 @@ impl Rough {
     fn write_maps(&self, sink: &mut dyn Sink) -> Result<(), Error> {
         let map = &self.surface.map;
         let [columns, rows] = cells(map);
-        let heights = heights(map, columns + 1, rows + 1);
-        for one in &self.contacts {
+        let nodes = heights(map, columns + 1, rows + 1);
+        let spacing = map.pixel().map(|p| p / MICROMETRE);
+        for one in self.contacts.iter().filter(|one| !matches!(one.body, Body::Failed(_))) {
             let layers = self.write_pictures(sink, one, picture::LONGEST)?;
             let file = sink.path(&format!("contact-{}.vti", one.name()))?;
-            let points = [CellArray { name: "height_um", values: &heights }];
-            let arrays = [
-                CellArray { name: "pressure_MPa", values: &layers.pressure },
-                CellArray { name: "contact_fraction", values: &layers.contact },
-                CellArray { name: "regime", values: &layers.regime },
+            let array = |name, values| CellArray { name, values };
+            let mut arrays = vec![
+                array("pressure_MPa", &layers.pressure[..]),
+                array("contact_fraction", &layers.contact),
+                array("regime", &layers.regime),
             ];
-            write_vti(&file, [columns, rows], map.pixel().map(|p| p / MICROMETRE), &points, &arrays)
-                .map_err(|e| Error::disk(&file, e))?;
+            let own;
+            let mut points = vec![array("height_um", &nodes[..])];
+            if let Some(gap) = &layers.gap {
+                own = heights(map, map.columns(), map.rows());
+                points.clear();
+                arrays.extend([array("gap_um", gap), array("height_um", &own)]);
+            }
+            write_vti(&file, layers.cells, spacing, &points, &arrays).map_err(|e| Error::disk(&file, e))?;
         }
         Ok(())
     }
@@ -114,13 +141,13 @@ impl Rough {
         let map = &self.surface.map;
         let layers = self.layers(one);
         let title = format!("{}, {} closure", self.summary.surface, one.name());
-        let view = Map { cells: cells(map), pixel: map.pixel(), values: &layers.pressure, longest };
+        let view = Map { cells: layers.cells, pixel: map.pixel(), values: &layers.pressure, longest };
         let file = sink.path(&format!("pressure-{}.png", one.name()))?;
         picture::pressure(&file, &view, &title, one.nominal / MEGAPASCAL)
             .map_err(|e| Error::disk(&file, e))?;
         let view = Map { values: &layers.contact, ..view };
         let file = sink.path(&format!("contact-{}.png", one.name()))?;
-        picture::contact(&file, &view, &title, &layers.regime, one.contact.shares)
+        picture::contact(&file, &view, &title, &layers.regime, one.shares())
             .map_err(|e| Error::disk(&file, e))?;
         Ok(layers)
     }

@@ -2,12 +2,15 @@
 
 mod scene;
 
+mod half_space;
+
 mod closures;
 
 mod summary;
 mod table;
 
 mod rough;
+mod verdict;
 
 pub(crate) mod charts;
 mod files;
@@ -15,8 +18,9 @@ mod files;
 pub mod table1;
 
 pub use crate::crush::Phase;
-pub use closures::ClosureContact;
+pub use closures::{Body, ClosureContact, IslandContact};
 pub use files::Layers;
+pub use half_space::{Passage, SpaceContact, SpaceUnloading};
 pub use rough::{Progress, Rough, press};
 pub use scene::RoughScene;
 pub use summary::{ClosureSummary, Summary};

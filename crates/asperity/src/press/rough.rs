@@ -1,14 +1,18 @@
 //! A rough surface pressed by every closure that its scene asks for.
 
-use super::closures::{ClosureContact, press_by};
+use super::closures::{ClosureContact, Spaces, judge, press_by};
 use super::scene::RoughScene;
 use super::summary::{ClosureSummary, Summary};
 use super::table::{LoadPoint, TableRow};
 use crate::error::Error;
+use crate::units::MICROMETRE;
 use asperity_roughness::scene::{Scene, SceneError};
 use asperity_roughness::{Closure, Surface};
 use std::fmt::Write;
 use std::time::Instant;
+
+/// Points of a map up to which closures are judged unless the scene says otherwise.
+const JUDGED: usize = 1024 * 1024;
 
 /// A rough surface pressed by every closure that its scene asks for.
 #[derive(Debug)]
@@ -50,27 +54,34 @@ pub fn press(scene: &RoughScene, observer: &mut dyn FnMut(&Progress) -> bool) ->
     let name = scene.surface_name();
     let mut summary = Summary::new(&name, &surface, tables);
     let mut contacts = Vec::new();
+    let mut spaces = Spaces::default();
     let closures = tables.closure.closures();
     for (i, &closure) in closures.iter().enumerate() {
         if !observer(&Progress { share: i as f64 / closures.len() as f64, closure }) {
             summary.warnings.push(format!("stopped before closure \"{}\"", closure.name()));
             break;
         }
-        let (contact, warnings) = press_by(closure, scene, &surface, coefficient.as_ref())?;
+        let (contact, warnings) = press_by(closure, scene, &surface, coefficient.as_ref(), &mut spaces)?;
         summary.warnings.extend(warnings);
         contacts.extend(contact);
+    }
+    if tables.judge.unwrap_or(surface.map.heights().len() <= JUDGED) {
+        judge(&mut contacts, scene, &surface, &mut spaces);
     }
     if contacts.is_empty() && summary.warnings.iter().all(|w| w.starts_with("skipped")) {
         let message = "no closure can be used with this material: add hardness or yield_stress";
         return Err(scene.error(&SceneError::new("closure", message)).into());
     }
     summary.warnings.extend(two_materials(tables));
+    summary.warnings.extend(doubts(&surface, tables));
     let table: Vec<TableRow> = contacts.iter().map(|one| TableRow::new(&name, &surface, one)).collect();
     summary.closures =
         table.iter().zip(&contacts).map(|(row, one)| ClosureSummary::new(row.clone(), one)).collect();
     let load_curve = contacts.iter().flat_map(LoadPoint::curve).collect();
     summary.wall_s = start.elapsed().as_secs_f64();
-    Ok(Rough { table, load_curve, summary, surface, contacts })
+    let mut rough = Rough { table, load_curve, summary, surface, contacts };
+    rough.summary.verdict = rough.verdict();
+    Ok(rough)
 }
 
 /// A hardness that is not that of the yield stress.
@@ -80,10 +91,40 @@ fn two_materials(scene: &Scene) -> Option<String> {
     (!(0.8..=1.25).contains(&ratio)).then_some(text)
 }
 
+/// The largest step across the seam of a periodic map, over that between neighbours, that is taken without a word.
+const SEAM: f64 = 4.0;
+/// Standard deviations above the mean beyond which the highest point looks like an error of measurement.
+const SPIKE: f64 = 8.0;
+
+/// Doubts about the surface and the load.
+fn doubts(surface: &Surface, scene: &Scene) -> Vec<String> {
+    let seam = surface.seam().filter(|ratio| *ratio > SEAM).map(|ratio| {
+        format!(
+            "surface.periodic: the steps across the seam are {ratio:.0} times those between neighbours: the map is no period of a \
+             surface; leave periodic out, and it stands free"
+        )
+    });
+    let parameters = &surface.parameters;
+    let above = surface.extent.high - parameters.mean;
+    let spike = Some(above / parameters.sq).filter(|ratio| *ratio > SPIKE).map(|ratio| {
+        format!(
+            "the highest point is {ratio:.0} standard deviations above the mean: if it is dust or an error of measurement, the first \
+             touch and all at light loads are its own; remove it, or smooth with s_filter"
+        )
+    });
+    let apart = scene.load.separation.filter(|s| s.0 > above).map(|s| {
+        format!(
+            "load.separation = {s} is above the highest point ({:.4} um above the mean): nothing touches",
+            above / MICROMETRE
+        )
+    });
+    [seam, spike, apart].into_iter().flatten().collect()
+}
+
 impl Rough {
     /// The contact by one closure; `None` where the scene does not ask for it or it could not be used.
     pub fn contact(&self, closure: Closure) -> Option<&ClosureContact> {
-        self.contacts.iter().find(|one| one.law.closure == closure)
+        self.contacts.iter().find(|one| one.closure == closure)
     }
 
     /// Distance of the plane from the surface before it was pressed at each node, m, row by row: 0 where they overlap, NaN
@@ -111,22 +152,29 @@ impl Rough {
             "{}: {nx} x {ny} points of {dx:.4} x {dy:.4} um, {} missing; Sa {:.4} um, Sq {:.4} um, Sdq {:.4}, beta {:.3} deg (mean |grad h|)\n",
             s.surface, s.missing, s.sa_um, s.sq_um, s.sdq, s.beta_deg,
         );
-        text += "closure       A/A0 %   P_m MPa     psi  peak/nom  separation um  asperities  residual um  elastic energy\n";
-        let shown = |v: Option<f64>, digits: usize| v.map_or_else(|| "-".into(), |v| format!("{v:.digits$}"));
+        text += "closure              A/A0 %   P_m MPa     psi  peak/nom  separation um  asperities  residual um  elastic energy  A/A_hs\n";
+        let shown = |v: Option<f64>, digits: usize| {
+            v.filter(|v| v.is_finite()).map_or_else(|| "-".into(), |v| format!("{v:.digits$}"))
+        };
         for row in &self.table {
             let _ = writeln!(
                 text,
-                "{:<11} {:>8.3} {:>9} {:>7} {:>9} {:>14.4} {:>11} {:>12} {:>15}",
+                "{:<18} {:>8} {:>9} {:>7} {:>9} {:>14} {:>11} {:>12} {:>15} {:>7}",
                 row.closure.name(),
-                100.0 * row.contact_area_ratio,
+                shown(Some(100.0 * row.contact_area_ratio), 3),
                 shown(row.mean_pressure_mpa, 1),
                 shown(row.plasticity_index, 3),
                 shown(row.max_pressure_over_nominal, 2),
-                row.separation_um,
-                row.asperities,
+                shown(Some(row.separation_um), 4),
+                row.asperities.map_or_else(|| "-".into(), |n| n.to_string()),
                 shown(row.residual_displacement_um, 4),
                 shown(row.elastic_energy_share, 3),
+                shown(row.area_over_half_space, 3),
             );
+        }
+        if let Some(verdict) = self.verdict() {
+            text += &verdict;
+            text.push('\n');
         }
         text
     }

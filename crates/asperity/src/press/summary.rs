@@ -61,6 +61,8 @@ row! {
         beta_deg: f64 = surface.parameters.beta_deg(),
         definitions: BTreeMap<String, String> = DEFINITIONS.map(|(name, text)| (name.into(), text.into())).into(),
         closures: Vec<ClosureSummary> = Vec::new(),
+        /// Area, closure to believe, gap and leak in words; none without a half-space.
+        verdict: Option<String> = None,
         /// Remarks on the trust in the numbers.
         warnings: Warnings = Vec::new(),
         wall_s: f64 = 0.0,
@@ -81,19 +83,32 @@ row! {
         #[serde(flatten)]
         row: TableRow = row,
         /// Where the closure comes from.
-        source: String = one.law.closure.source().into(),
+        source: String = one.closure.source().into(),
         /// The pressure asked for, or carried at the separation asked for, MPa.
         #[serde(rename = "nominal_pressure_MPa")]
         nominal_pressure_mpa: f64 = one.nominal / MEGAPASCAL,
         /// Whether the load jumps at the separation.
-        load_jumps: bool = one.contact.jump,
+        load_jumps: bool = one.islands().is_some_and(|i| i.contact.jump),
         /// Share of the load on islands outside the range of the closure.
-        load_share_outside_range: Option<f64> = one.contact.outside_share,
+        load_share_outside_range: Option<f64> = one.islands().and_then(|i| i.contact.outside_share),
         /// Share of the load on islands that no ellipse describes.
-        load_share_uniform: Option<f64> = one.field.uniform_share,
+        load_share_uniform: Option<f64> = one.islands().and_then(|i| i.field.uniform_share),
         /// Work returned by the unloading law over work done, above 1 too.
-        elastic_energy_share_by_law: Option<f64> = one.unloading.as_ref().and_then(|u| u.elastic_share_by_law),
+        elastic_energy_share_by_law: Option<f64> =
+            one.islands().and_then(|i| i.unloading.as_ref()).and_then(|u| u.elastic_share_by_law),
         /// Share of the load on islands that the law would raise by more than they were pressed.
-        load_share_return_limited: Option<f64> = one.unloading.as_ref().and_then(|u| u.limited_share),
+        load_share_return_limited: Option<f64> =
+            one.islands().and_then(|i| i.unloading.as_ref()).and_then(|u| u.limited_share),
+        /// Largest pressure that a pixel of the half-space bears, MPa.
+        #[serde(rename = "limit_MPa")]
+        limit_mpa: Option<f64> = one.space().and_then(|s| s.body.limit).map(|l| l / MEGAPASCAL),
+        /// Convolutions on the finest grid of the half-space.
+        convolutions: Option<usize> = one.space().map(|s| s.contact.convolutions),
+        /// Root mean square height of the surface after unloading, µm.
+        residual_sq_um: Option<f64> =
+            one.space().and_then(|s| s.unloading.as_ref()).map(|u| u.residual_sq / MICROMETRE),
+        /// Pixels of the critical constriction along x and along y, counted from the first.
+        critical_pixels: Option<[Option<[usize; 2]>; 2]> =
+            one.space().map(|s| s.passages.map(|p| p.narrowest.map(|c| c.at))),
     }
 }

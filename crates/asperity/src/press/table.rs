@@ -2,7 +2,7 @@
 
 use super::closures::ClosureContact;
 use crate::crush::Phase;
-use crate::output::row;
+use crate::output::{nan_for_null, row};
 use crate::units::{MEGAPASCAL, MICROMETRE};
 use asperity_roughness::{Closure, CurvePoint, Surface};
 
@@ -12,16 +12,17 @@ row! {
         /// Name of the surface.
         surface: String = name.into(),
         /// The closure.
-        closure: Closure = one.law.closure,
+        closure: Closure = one.closure,
         /// Sa of the map, µm.
         ra_um: f64 = surface.parameters.sa / MICROMETRE,
         /// atan of the mean |∇h|, degrees.
         beta_deg: f64 = surface.parameters.beta_deg(),
         /// Load over contact area, MPa; none without contact.
         #[serde(rename = "mean_pressure_MPa")]
-        mean_pressure_mpa: Option<f64> = one.contact.mean_pressure().map(|p| p / MEGAPASCAL),
-        /// Contact area over nominal area.
-        contact_area_ratio: f64 = one.contact.area_ratio,
+        mean_pressure_mpa: Option<f64> = one.mean_pressure().map(|p| p / MEGAPASCAL),
+        /// Contact area over nominal area; NaN where `status` says why.
+        #[serde(deserialize_with = "nan_for_null")]
+        contact_area_ratio: f64 = one.area_ratio().unwrap_or(f64::NAN),
         /// Elastic pressure of the closure at the mean slope over hardness (eq. (13)).
         plasticity_index: Option<f64> = one.plasticity_index,
         /// Elastic share.
@@ -31,28 +32,78 @@ row! {
         /// Plastic share.
         plastic_share: Option<f64> = share(one, 2),
         /// Largest pressure on a pixel over nominal pressure.
-        max_pressure_over_nominal: Option<f64> = one.peak_ratio().filter(|_| one.contact.area_ratio > 0.0),
+        max_pressure_over_nominal: Option<f64> = one.peak_ratio().filter(|_| one.area_ratio() > Some(0.0)),
         /// The plane above the mean height, µm.
-        separation_um: f64 = one.contact.separation / MICROMETRE,
+        #[serde(deserialize_with = "nan_for_null")]
+        separation_um: f64 =
+            one.either(|i| i.contact.separation, |s| s.contact.separation).unwrap_or(f64::NAN) / MICROMETRE,
         /// |ΣF_j/(P A_nom) - 1|; none where no pressure was asked for.
-        load_error: Option<f64> = one.contact.load_error,
-        /// Islands in contact.
-        asperities: usize = one.contact.islands.islands.len(),
+        load_error: Option<f64> = one.either(|i| i.contact.load_error, |s| s.load_error(one.nominal)).flatten(),
+        /// Islands in contact; patches of pixels on a half-space.
+        asperities: Option<usize> = one.either(|i| i.contact.islands.islands.len(), |s| s.patches),
         /// Displacement that stays after unloading, µm.
-        residual_displacement_um: Option<f64> =
-            one.unloading.as_ref().map(|u| u.residual_displacement / MICROMETRE),
+        residual_displacement_um: Option<f64> = one
+            .either(
+                |i| i.unloading.as_ref().map(|u| u.residual_displacement),
+                |s| s.unloading.as_ref().map(|u| u.residual_displacement),
+            )
+            .flatten()
+            .map(|u| u / MICROMETRE),
         /// Work returned over work done.
-        elastic_energy_share: Option<f64> = one.unloading.as_ref().and_then(|u| u.elastic_share),
+        elastic_energy_share: Option<f64> = one
+            .either(
+                |i| i.unloading.as_ref().and_then(|u| u.elastic_share),
+                |s| s.unloading.as_ref().and_then(|u| u.elastic_share),
+            )
+            .flatten(),
+        /// Contact area ratio with the rim of the pixels taken off.
+        contact_area_ratio_corrected: Option<f64> = one.space().map(|s| s.contact.area.corrected),
+        /// Uncertainty of the corrected ratio.
+        area_error: Option<f64> = one.space().map(|s| s.contact.area.error),
+        /// Residual of the complementarity conditions of the half-space.
+        residual: Option<f64> = one.space().map(|s| s.contact.residual),
+        /// Mean distance of plane and surface, µm.
+        mean_gap_um: Option<f64> = one.space().map(|s| s.contact.mean_gap / MICROMETRE),
+        /// -dp/d(mean gap).
+        #[serde(rename = "stiffness_MPa_per_um")]
+        stiffness_mpa_per_um: Option<f64> =
+            one.space().and_then(|s| s.contact.stiffness).map(|k| k / MEGAPASCAL * MICROMETRE),
+        /// Whether an open path crosses the map along x.
+        percolates_x: Option<bool> = one.space().map(|s| s.passages[0].narrowest.is_some()),
+        /// The same along y.
+        percolates_y: Option<bool> = one.space().map(|s| s.passages[1].narrowest.is_some()),
+        /// Gap of the critical constriction along x, µm.
+        critical_gap_x_um: Option<f64> =
+            one.space().and_then(|s| s.passages[0].narrowest).map(|c| c.gap / MICROMETRE),
+        /// The same along y.
+        critical_gap_y_um: Option<f64> =
+            one.space().and_then(|s| s.passages[1].narrowest).map(|c| c.gap / MICROMETRE),
+        /// Volume flux times viscosity over pressure difference along x, m³; 0 where tight, none where not asked for.
+        leak_x_m3: Option<f64> = one.space().and_then(|s| s.leak(0)),
+        /// The same along y.
+        leak_y_m3: Option<f64> = one.space().and_then(|s| s.leak(1)),
+        /// Gap between parallel planes that leak as much along x, µm.
+        hydraulic_gap_x_um: Option<f64> =
+            one.space().and_then(|s| s.passages[0].leak).map(|l| l.hydraulic_gap / MICROMETRE),
+        /// The same along y.
+        hydraulic_gap_y_um: Option<f64> =
+            one.space().and_then(|s| s.passages[1].leak).map(|l| l.hydraulic_gap / MICROMETRE),
+        /// Area over that of the half-space with the same metal.
+        area_over_half_space: Option<f64> = one.judged.map(|j| j[0]),
+        /// Mean pressure over that of the half-space with the same metal.
+        pressure_over_half_space: Option<f64> = one.judged.map(|j| j[1]),
+        /// `ok`, or why there are no numbers.
+        status: String = one.status().into(),
     }
 }
 
 /// Share of the contact area in a regime; none where no hardness tells the regimes apart.
 fn share(one: &ClosureContact, regime: usize) -> Option<f64> {
-    one.law.hardness.and(one.contact.shares).map(|shares| shares[regime])
+    one.shares().map(|shares| shares[regime])
 }
 
 row! {
-    /// A row of `load_curve.csv`: 64 points a closure from first touch to the load, and as many back.
+    /// A row of `load_curve.csv`: 64 points a closure from first touch to the load, and as many back; up to 9 of a half-space.
     #[derive(Copy)]
     LoadPoint(closure: Closure, phase: Phase, point: &CurvePoint) {
         /// The closure.
@@ -72,8 +123,10 @@ row! {
 impl LoadPoint {
     /// Both phases of a contact.
     pub(super) fn curve(one: &ClosureContact) -> impl Iterator<Item = LoadPoint> {
-        let point = |phase: Phase| move |p: &CurvePoint| LoadPoint::new(one.law.closure, phase, p);
-        let unload = one.unloading.iter().flat_map(|u| &u.curve);
-        one.contact.curve.iter().map(point(Phase::Load)).chain(unload.map(point(Phase::Unload)))
+        let point = |phase: Phase| move |p: &CurvePoint| LoadPoint::new(one.closure, phase, p);
+        one.curve()
+            .iter()
+            .map(point(Phase::Load))
+            .chain(one.unloading_curve().iter().map(point(Phase::Unload)))
     }
 }

@@ -151,7 +151,7 @@ pub fn measure(kind: KindName, row: &Printed) -> Result<ComparedRow, Error> {
             let warnings = rough.summary.warnings.iter();
             notes = warnings.map(|warning| format!("{}, seed 1: {warning}", kind.name())).collect();
         }
-        for one in &rough.summary.closures {
+        for one in rough.summary.closures.iter().filter(|one| one.row.status == "ok") {
             let closure = one.row.closure;
             let at = table.iter().position(|o| o.closure == closure).unwrap_or_else(|| {
                 table.push(ClosureSeeds::new(closure));
@@ -216,18 +216,18 @@ impl Table1 {
             let _ = writeln!(text, "\n{}: Ra {} um, beta {} deg", row.surface.name(), paper.ra, paper.beta);
             let _ = writeln!(
                 text,
-                "  {:<11} {:>18} {:>16} {:>7} {:>15} {:>16} {:>14}",
+                "  {:<18} {:>18} {:>16} {:>7} {:>15} {:>16} {:>14}",
                 "", "P_m MPa", "A_r %", "psi", "peak/nominal", "residual um", "returned %"
             );
             let _ = writeln!(
                 text,
-                "  {:<11} {:>18} {:>16} {:>7} {:>15} {:>16} {:>14}",
+                "  {:<18} {:>18} {:>16} {:>7} {:>15} {:>16} {:>14}",
                 "paper", paper.pressure, paper.area, paper.index, paper.peak, "", ""
             );
             for o in &row.closures {
                 let _ = writeln!(
                     text,
-                    "  {:<11} {:>18} {:>16} {:>7.3} {:>15} {:>16} {:>14}",
+                    "  {:<18} {:>18} {:>16} {:>7.3} {:>15} {:>16} {:>14}",
                     o.closure.name(),
                     o.pressure.text(0),
                     o.area.text(2),
@@ -290,7 +290,7 @@ fn trends(rows: &[ComparedRow]) -> String {
         let say = |ok: bool| if ok { "holds" } else { "does not hold" };
         let _ = writeln!(
             text,
-            "  {:<11} A_r falls: {}; P_m rises: {}",
+            "  {:<18} A_r falls: {}; P_m rises: {}",
             o.closure.name(),
             say(holds(&area, -1.0)),
             say(holds(&pressure, 1.0))

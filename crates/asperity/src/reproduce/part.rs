@@ -208,7 +208,7 @@ impl Job {
         for one in &rough.contacts {
             rough.write_pictures(sink, one, MAP)?;
         }
-        if let Some(one) = rough.contacts.first() {
+        if let Some(one) = rough.contacts.iter().find_map(press::ClosureContact::islands) {
             let points = profile(&rough.surface.map, &one.contact.islands);
             sink.write("profile.csv", |out| write_csv(out, &points, str::to_string))?;
         }

@@ -16,7 +16,7 @@ const THRESHOLDS: [f64; 2] = [0.6, 1.0];
 
 /// Which law gives the force of an island.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
+#[serde(rename_all = "kebab-case")]
 pub enum Closure {
     /// p = 0.13 E* tan β on the island, never capped (Jourani et al., eqs (10)-(12)).
     Published,
@@ -28,12 +28,28 @@ pub enum Closure {
     Sneddon,
     /// K and contact ratio of the calibrated elastoplastic cone.
     Calibrated,
+    /// No closure: the whole surface on an elastic half-space, interaction included.
+    HalfSpace,
+    /// The same with a limit of pressure.
+    HalfSpacePlastic,
 }
 
 impl Closure {
     /// All closures, in the order of the tables.
-    pub const ALL: [Closure; 5] =
-        [Closure::Published, Closure::Fitted, Closure::Johnson, Closure::Sneddon, Closure::Calibrated];
+    pub const ALL: [Closure; 7] = [
+        Closure::Published,
+        Closure::Fitted,
+        Closure::Johnson,
+        Closure::Sneddon,
+        Closure::Calibrated,
+        Closure::HalfSpace,
+        Closure::HalfSpacePlastic,
+    ];
+
+    /// Whether the whole surface is solved at once, without islands.
+    pub fn is_half_space(self) -> bool {
+        matches!(self, Closure::HalfSpace | Closure::HalfSpacePlastic)
+    }
 
     /// The name used in scenes and files.
     pub fn name(self) -> &'static str {
@@ -43,6 +59,8 @@ impl Closure {
             Closure::Johnson => "johnson",
             Closure::Sneddon => "sneddon",
             Closure::Calibrated => "calibrated",
+            Closure::HalfSpace => "half-space",
+            Closure::HalfSpacePlastic => "half-space-plastic",
         }
     }
 
@@ -60,6 +78,12 @@ impl Closure {
                 "F = 2/pi^2 E* tan(beta) A_island, contact area 4/pi^2 of the island (Sneddon 1965)"
             }
             Closure::Calibrated => "F = K(beta) h^2, area = contact_ratio^2 A_island, K from crushed cones",
+            Closure::HalfSpace => {
+                "the whole surface on an elastic half-space, pressures from 0 up (Stanley and Kato 1997; Polonsky and Keer 1999)"
+            }
+            Closure::HalfSpacePlastic => {
+                "the same with pressures from 0 to the hardness, else 3 yield_stress (Almqvist et al. 2007)"
+            }
         }
     }
 }
@@ -92,6 +116,12 @@ pub enum ClosureError {
          (`asperity calibrate` writes it), or choose \"published\", \"johnson\" or \"sneddon\""
     )]
     Coefficient {
+        /// The closure's name.
+        closure: &'static str,
+    },
+    /// The closure is no law of one island.
+    #[error("\"{closure}\" is no law of one island: it presses the whole surface (half_space::HalfSpace)")]
+    Whole {
         /// The closure's name.
         closure: &'static str,
     },
@@ -159,11 +189,14 @@ impl ClosureLaw {
         coefficient: Option<&Coefficient>,
     ) -> Result<ClosureLaw, ClosureError> {
         let name = closure.name();
-        let hardness = material.hardness.map_or(material.yield_stress.map(|y| 3.0 * y.0), |h| Some(h.0)); // eq. [20]
+        let hardness = material.limit();
         let calibration = || coefficient.ok_or(ClosureError::Coefficient { closure: name });
         let missing = |needs| ClosureError::Material { closure: name, needs };
         let regimes = || hardness.map(|_| ()).ok_or(missing("hardness (or yield_stress, H = 3 σ_y)"));
         let law = match closure {
+            Closure::HalfSpace | Closure::HalfSpacePlastic => {
+                return Err(ClosureError::Whole { closure: name });
+            }
             Closure::Published => {
                 regimes()?;
                 Law::Linear { coefficient: PUBLISHED, area_ratio: 1.0 }

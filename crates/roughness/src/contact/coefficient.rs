@@ -155,15 +155,26 @@ impl Coefficient {
         let t = if width > 0.0 { ((beta - low.beta_deg) / width).clamp(0.0, 1.0) } else { 0.0 };
         let ((y0, r0), (y1, r1)) = (low.at(x), high.at(x));
         let within = |range: [f64; 2], v: f64| v >= range[0] && v <= range[1];
+        // the table is no rectangle: every row has its own range
+        let in_rows = low.holds(x) && high.holds(x);
         Cone {
             k_over_stress: (y0 + t * (y1 - y0)).exp() / (tan_beta * tan_beta),
             contact_ratio: (r0 + t * (r1 - r0)).exp(),
-            inside: within(self.beta_deg, beta) && within(self.modulus_over_stress, modulus_over_stress),
+            inside: within(self.beta_deg, beta)
+                && within(self.modulus_over_stress, modulus_over_stress)
+                && in_rows,
         }
     }
 }
 
 impl SlopeTable {
+    /// Whether ln X = `x` lies between the first and the last of the row, to a rounding.
+    fn holds(&self, x: f64) -> bool {
+        let tan = self.beta_deg.to_radians().tan();
+        let end = |v: Option<&f64>| v.map_or(f64::NAN, |v| (v * tan).ln());
+        x >= end(self.modulus_over_stress.first()) - 1e-9 && x <= end(self.modulus_over_stress.last()) + 1e-9
+    }
+
     /// ln Y and ln of the contact ratio at ln X = `x`.
     fn at(&self, x: f64) -> (f64, f64) {
         let tan = self.beta_deg.to_radians().tan();

@@ -37,4 +37,9 @@ impl Material {
     pub fn elastic(&self) -> Elastic {
         Elastic { youngs_modulus: self.youngs_modulus.0, poissons_ratio: self.poissons_ratio }
     }
+
+    /// H, or 3 σ_y where only that is known (eq. (20)), in Pa.
+    pub fn limit(&self) -> Option<f64> {
+        self.hardness.map_or(self.yield_stress.map(|y| 3.0 * y.0), |h| Some(h.0))
+    }
 }

@@ -2,11 +2,15 @@
 
 mod error;
 
+mod fluid;
 mod generate;
+mod half_space;
 mod surface;
 
 pub use error::SceneError;
+pub use fluid::{Fluid, Viscosity};
 pub use generate::GenerateScene;
+pub use half_space::HalfSpaceScene;
 pub use surface::{HeightUnit, Missing, SurfaceScene};
 
 use crate::contact::closures::Closure;
@@ -32,12 +36,21 @@ pub struct Scene {
     /// How the pressure of an island is spread.
     #[serde(default)]
     pub pressure_profile: PressureProfile,
+    /// Whether every closure is compared with the half-space: by default on maps of up to 1024 x 1024 points.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub judge: Option<bool>,
     /// The surface.
     pub surface: SurfaceScene,
     /// Its material.
     pub material: Material,
     /// Its load.
     pub load: LoadScene,
+    /// How the half-space is solved.
+    #[serde(default, skip_serializing_if = "HalfSpaceScene::is_default")]
+    pub half_space: HalfSpaceScene,
+    /// A fluid in the gap.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fluid: Option<Fluid>,
     /// Output files.
     #[serde(default)]
     pub output: Output,
@@ -45,7 +58,7 @@ pub struct Scene {
 
 /// One closure or all.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
+#[serde(rename_all = "kebab-case")]
 pub enum Choice {
     /// Eqs (10)-(12).
     Published,
@@ -57,6 +70,10 @@ pub enum Choice {
     Sneddon,
     /// The calibrated elastoplastic cone.
     Calibrated,
+    /// The whole surface on an elastic half-space.
+    HalfSpace,
+    /// The same with pressures up to the hardness.
+    HalfSpacePlastic,
     /// Every closure the material allows.
     All,
 }
@@ -121,6 +138,8 @@ impl Scene {
     pub fn validate(&self) -> Result<(), SceneError> {
         check_material(&self.material)?;
         self.load.load()?;
+        self.half_space.validate()?;
+        self.fluid.as_ref().map_or(Ok(()), Fluid::validate)?;
         self.surface.validate()
     }
 }

@@ -1,0 +1,159 @@
+//! The contact of a surface on a half-space with its load curve, unloading, gap and leak.
+
+use asperity_roughness::flow::{Axis, Constriction, Gap, Leak, constriction, leak};
+use asperity_roughness::half_space::{HalfSpace, HalfSpaceContact, HalfSpaceError, patches};
+use asperity_roughness::scene::Scene;
+use asperity_roughness::{Closure, CurvePoint, Load, Surface};
+
+/// Residual of the points of a load curve before its last: areas to a few per mille.
+const CURVE_TOLERANCE: f64 = 1e-4;
+
+/// A surface on a half-space.
+#[derive(Clone, Debug)]
+pub struct SpaceContact {
+    /// The half-space.
+    pub body: HalfSpace,
+    /// The contact at the load.
+    pub contact: HalfSpaceContact,
+    /// From first touch to the load.
+    pub curve: Vec<CurvePoint>,
+    /// Back from the load, where unloading was asked for.
+    pub unloading: Option<SpaceUnloading>,
+    /// The gap along x and along y.
+    pub passages: [Passage; 2],
+    /// Whether the flow was asked for.
+    pub flows: bool,
+    /// Patches of pixels in contact, joined over sides and corners.
+    pub patches: usize,
+}
+
+/// The return of a half-space when the load is taken off: elastic, on the surface as the flow left it.
+#[derive(Clone, Debug)]
+pub struct SpaceUnloading {
+    /// First touch minus last touch, in metres.
+    pub residual_displacement: f64,
+    /// Work returned over work done; None without work.
+    pub elastic_share: Option<f64>,
+    /// Root mean square height of the surface after unloading, in metres.
+    pub residual_sq: f64,
+    /// From the load to the last touch.
+    pub curve: Vec<CurvePoint>,
+}
+
+/// The gap along one axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Passage {
+    /// The narrowest place of the widest path; None where no path crosses.
+    pub narrowest: Option<Constriction>,
+    /// The flow; None where nothing passes or no flow was asked for.
+    pub leak: Option<Leak>,
+}
+
+/// The half-space that stands for `closure` with the metal of `scene`; None where no limit of pressure is known.
+pub(super) fn body(closure: Closure, scene: &Scene) -> Option<HalfSpace> {
+    let limit = match closure {
+        Closure::HalfSpace => None,
+        _ => Some(scene.material.limit()?),
+    };
+    let reduced_modulus = scene.material.elastic().reduced_modulus();
+    Some(HalfSpace { reduced_modulus, limit, tolerance: scene.half_space.tolerance(limit.is_some()) })
+}
+
+impl SpaceContact {
+    /// What a scene asks of the contact `found` of `body` on `surface`.
+    pub(super) fn of(
+        body: HalfSpace,
+        surface: &Surface,
+        scene: &Scene,
+        found: HalfSpaceContact,
+    ) -> Result<SpaceContact, HalfSpaceError> {
+        let points = scene.half_space.load_points(surface.map.heights().len());
+        let high = surface.extent.high - surface.parameters.mean;
+        let curve = curve(&body, surface, &found, points, high)?;
+        let unloading =
+            scene.load.unload.then(|| unload(&body, surface, &found, &curve, points)).transpose()?;
+        let gap = Gap::of(&surface.map, &found.gaps);
+        // in a comparison of closures the flow is a cost that only a fluid asks for
+        let asked = scene.fluid.is_some() || scene.closure.closures().len() == 1;
+        let flows = scene.half_space.leak.unwrap_or(asked);
+        let passage = |axis| {
+            let narrowest = constriction(&gap, axis);
+            let leak = narrowest.filter(|_| flows).and_then(|_| leak(&gap, axis));
+            Passage { narrowest, leak }
+        };
+        let (x, y) = rayon::join(|| passage(Axis::X), || passage(Axis::Y));
+        let patches = patches(&surface.map, &found.pressures);
+        Ok(SpaceContact { body, contact: found, curve, unloading, passages: [x, y], flows, patches })
+    }
+}
+
+impl SpaceContact {
+    /// Flux times viscosity over pressure difference along an axis, m³; 0 where nothing passes; None where it was not asked for.
+    pub fn leak(&self, axis: usize) -> Option<f64> {
+        self.flows.then(|| self.passages[axis].leak.map_or(0.0, |l| l.conductance))
+    }
+
+    /// Relative error of the load where `asked` is what was asked for, in Pa.
+    pub(super) fn load_error(&self, asked: f64) -> Option<f64> {
+        (asked > 0.0).then(|| (self.contact.pressure / asked - 1.0).abs())
+    }
+}
+
+fn point(contact: &HalfSpaceContact) -> CurvePoint {
+    CurvePoint { separation: contact.separation, pressure: contact.pressure, area_ratio: contact.area.ratio }
+}
+
+/// From first touch at `high` above the mean to the load: pressures rising as squares, each started from the one before.
+fn curve(
+    body: &HalfSpace,
+    surface: &Surface,
+    end: &HalfSpaceContact,
+    points: usize,
+    high: f64,
+) -> Result<Vec<CurvePoint>, HalfSpaceError> {
+    let mut curve = vec![CurvePoint { separation: high, pressure: 0.0, area_ratio: 0.0 }];
+    if end.pressure <= 0.0 {
+        return Ok(vec![point(end)]);
+    }
+    let rough = HalfSpace { tolerance: body.tolerance.max(CURVE_TOLERANCE), ..*body };
+    let mut last: Option<HalfSpaceContact> = None;
+    for k in 1..points {
+        let share = (k as f64 / points as f64).powi(2);
+        let found = rough.press_from(surface, Load::Pressure(share * end.pressure), last.as_ref())?;
+        curve.push(point(&found));
+        last = Some(found);
+    }
+    curve.push(point(end));
+    Ok(curve)
+}
+
+fn unload(
+    body: &HalfSpace,
+    surface: &Surface,
+    found: &HalfSpaceContact,
+    loading: &[CurvePoint],
+    points: usize,
+) -> Result<SpaceUnloading, HalfSpaceError> {
+    let work = found.elastic_work + found.plastic_work;
+    let left = found.flattened_surface(surface).ok();
+    let left = left.as_ref().unwrap_or(surface);
+    let mut back = if body.limit.is_none() {
+        loading.to_vec()
+    } else {
+        let elastic = HalfSpace { limit: None, ..*body };
+        let high = left.extent.high - surface.parameters.mean;
+        let mut back = curve(&elastic, left, found, points, high)?;
+        // separations count from the mean of the surface as it was
+        let shift = left.parameters.mean - surface.parameters.mean;
+        let inner = back.len().saturating_sub(1);
+        back[1..inner.max(1)].iter_mut().for_each(|p| p.separation += shift);
+        back
+    };
+    back.reverse();
+    Ok(SpaceUnloading {
+        residual_displacement: found.residual_displacement,
+        elastic_share: (work > 0.0).then(|| found.elastic_work / work),
+        residual_sq: left.parameters.sq,
+        curve: back,
+    })
+}

@@ -1,0 +1,107 @@
+//! `press` with the half-space: its rows, the judgement of closures, rows that fail alone, the leak, the words at the end.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+use asperity::{Rough, RoughScene, press};
+use asperity_roughness::Closure;
+use std::path::Path;
+
+fn pressed(top: &str, rest: &str) -> Result<Rough, asperity::Error> {
+    let text = format!(
+        r#"{top}
+[surface]
+periodic = true
+[surface.generate]
+kind = "self-affine"
+ra = "0.3 um"
+hurst = 0.8
+rolloff = "30 um"
+cutoff = "8 um"
+size = ["96 um", "96 um"]
+pixels = [96, 96]
+seed = 1
+[material]
+youngs_modulus = "210 GPa"
+poissons_ratio = 0.3
+hardness = "2 GPa"
+{rest}"#
+    );
+    press(&RoughScene::from_toml(&text, Path::new("")).unwrap(), &mut |_| true)
+}
+
+fn row(rough: &Rough, closure: Closure) -> &asperity::press::TableRow {
+    rough.table.iter().find(|row| row.closure == closure).unwrap()
+}
+
+#[test]
+fn every_closure_is_judged_by_the_half_space_of_its_metal() {
+    let rough = pressed("closure = \"all\"", "[load]\npressure = \"150 MPa\"\nunload = true").unwrap();
+    let soft = row(&rough, Closure::HalfSpacePlastic);
+    let hard = row(&rough, Closure::HalfSpace);
+    assert!(hard.load_error.unwrap() < 1e-6 && soft.residual.unwrap() <= 1e-6);
+    assert!(soft.contact_area_ratio > hard.contact_area_ratio);
+    assert!((soft.max_pressure_over_nominal.unwrap() - 2000.0 / 150.0).abs() < 1e-3);
+    for (closure, reference) in
+        [(Closure::Published, soft), (Closure::Johnson, soft), (Closure::Sneddon, hard)]
+    {
+        let one = row(&rough, closure);
+        let ratio = one.contact_area_ratio / reference.contact_area_ratio;
+        assert!((one.area_over_half_space.unwrap() / ratio - 1.0).abs() < 1e-9, "{closure:?}");
+        assert!((one.pressure_over_half_space.unwrap() * ratio - 1.0).abs() < 1e-5);
+    }
+    // elastic: everything returns; plastic: work is lost and summits stay lower
+    assert_eq!((hard.elastic_energy_share, hard.residual_displacement_um), (Some(1.0), Some(0.0)));
+    assert!(soft.elastic_energy_share.unwrap() < 0.99 && soft.residual_displacement_um.unwrap() > 0.0);
+    let points = |closure| rough.load_curve.iter().filter(|p| p.closure == closure).count();
+    assert_eq!((points(Closure::HalfSpace), points(Closure::HalfSpacePlastic)), (18, 18));
+    let verdict = rough.summary.verdict.as_ref().unwrap();
+    assert!(verdict.contains("true contact on") && verdict.contains("mean gap"), "{verdict}");
+}
+
+#[test]
+fn a_closure_that_cannot_carry_the_load_fails_alone() {
+    let rough = pressed("closure = \"all\"", "[load]\npressure = \"2.5 GPa\"").unwrap();
+    let failed = row(&rough, Closure::HalfSpacePlastic);
+    assert!(failed.status.contains("out of reach") && failed.contact_area_ratio.is_nan());
+    assert_eq!(row(&rough, Closure::HalfSpace).status, "ok");
+    // its row reads back from the summary
+    let summary: asperity::press::Summary = serde_json::from_str(&rough.json().unwrap()).unwrap();
+    assert_eq!(summary.closures.len(), rough.table.len());
+    // alone it is an error that says why
+    let alone = pressed("closure = \"half-space-plastic\"", "[load]\npressure = \"2.5 GPa\"")
+        .unwrap_err()
+        .to_string();
+    assert!(alone.contains("load.pressure") && alone.contains("2000 MPa"), "{alone}");
+}
+
+#[test]
+fn a_fluid_leaks_by_the_gap_and_more_load_leaks_less() {
+    let fluid = "[fluid]\nviscosity = \"1 mPa s\"\npressures = [\"2 MPa\", \"1 MPa\"]";
+    let leak = |load: &str| {
+        let rest = format!("[load]\npressure = \"{load}\"\n{fluid}");
+        let rough = pressed("closure = \"half-space\"", &rest).unwrap();
+        let row = row(&rough, Closure::HalfSpace).clone();
+        let flux = row.leak_x_m3.unwrap() * 1e6 / 1e-3;
+        assert!(rough.summary.verdict.unwrap().contains(&format!("{flux:.2e} m³/s")));
+        assert!(row.hydraulic_gap_x_um.unwrap() < row.mean_gap_um.unwrap() && row.percolates_x == Some(true));
+        (row.leak_x_m3.unwrap(), row.stiffness_mpa_per_um.unwrap())
+    };
+    let (light, heavy) = (leak("20 MPa"), leak("100 MPa"));
+    assert!(heavy.0 < light.0 && heavy.1 > light.1, "{light:?} {heavy:?}");
+    for (wrong, place) in [
+        ("[fluid]\nviscosity = \"1 mPa\"\npressures = [\"2 MPa\", \"1 MPa\"]", "viscosity"),
+        ("[half_space]\ntolerance = 0.5", "half_space.tolerance"),
+        ("[half_space]\nload_points = 9", "half_space.load_points"),
+    ] {
+        let rest = format!("[load]\npressure = \"20 MPa\"\n{wrong}");
+        let text = format!(
+            "closure = \"half-space\"\n[surface]\nfile = \"z.npy\"\n[material]\nyoungs_modulus = \"210 GPa\"\npoissons_ratio = 0.3\n{rest}"
+        );
+        let message = RoughScene::from_toml(&text, Path::new(""))
+            .and_then(|scene| scene.validate().map(|()| scene))
+            .err()
+            .unwrap()
+            .to_string();
+        assert!(message.contains(place), "{message}");
+    }
+}

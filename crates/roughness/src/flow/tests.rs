@@ -1,0 +1,85 @@
+//! Claims about flows: planes, steps, open and closed paths.
+
+use super::*;
+use crate::half_space::HalfSpace;
+use crate::{Grid, Kind, Load, Surface, Target, generate};
+
+fn gap(nodes: [usize; 2], periodic: bool, values: &[f32]) -> Gap<'_> {
+    Gap { nodes, pixel: [2e-6, 0.5e-6], periodic, values }
+}
+
+/// Poiseuille: flux times viscosity over pressure difference is g³/12 times width over length.
+#[test]
+fn parallel_planes_leak_as_poiseuille_says() {
+    for (nodes, periodic) in [([64, 40], false), ([37, 21], true), ([1, 5], false), ([5, 1], true)] {
+        let values = vec![3e-7; nodes[0] * nodes[1]];
+        let map = gap(nodes, periodic, &values);
+        let size = [nodes[0] as f64 * 2e-6, nodes[1] as f64 * 0.5e-6];
+        for (axis, shape) in [(Axis::X, size[1] / size[0]), (Axis::Y, size[0] / size[1])] {
+            let found = leak(&map, axis).unwrap();
+            let exact = f64::from(3e-7f32).powi(3) / 12.0 * shape;
+            assert!((found.conductance / exact - 1.0).abs() < 1e-8, "{nodes:?} {axis:?} {found:?}");
+            assert!((found.hydraulic_gap / 3e-7 - 1.0).abs() < 1e-6);
+        }
+    }
+}
+
+/// Two halves with gaps a and b, one after the other: resistances add; side by side: conductances do.
+#[test]
+fn steps_leak_in_series_and_in_parallel() {
+    let (a, b) = (2e-7f32, 5e-7f32);
+    let values: Vec<f32> = (0..32 * 16).map(|i| if i % 32 < 16 { a } else { b }).collect();
+    let map = gap([32, 16], true, &values);
+    let cube = |g: f32| f64::from(g).powi(3) / 12.0;
+    let series = 2.0 / (1.0 / cube(a) + 1.0 / cube(b)) * (8e-6 / 64e-6);
+    let parallel = 0.5 * (cube(a) + cube(b)) * (64e-6 / 8e-6);
+    for (axis, exact) in [(Axis::X, series), (Axis::Y, parallel)] {
+        let found = leak(&map, axis).unwrap();
+        assert!((found.conductance / exact - 1.0).abs() < 1e-8, "{axis:?} {found:?} {exact}");
+    }
+    assert_eq!(constriction(&map, Axis::X).unwrap().gap, f64::from(a));
+    assert_eq!(constriction(&map, Axis::Y).unwrap().gap, f64::from(b));
+}
+
+#[test]
+fn a_wall_is_tight_and_a_hole_in_it_is_the_constriction() {
+    let mut values = vec![1e-6f32; 20 * 12];
+    (0..12).for_each(|row| values[row * 20 + 7] = 0.0);
+    let wall = gap([20, 12], false, &values);
+    assert!(leak(&wall, Axis::X).is_none() && constriction(&wall, Axis::X).is_none());
+    assert!(leak(&wall, Axis::Y).is_some());
+    let mut holed = values.clone();
+    holed[5 * 20 + 7] = 2e-7;
+    let holed = gap([20, 12], false, &holed);
+    let narrowest = constriction(&holed, Axis::X).unwrap();
+    assert_eq!((narrowest.at, narrowest.gap), ([7, 5], f64::from(2e-7f32)));
+    // diagonal neighbours do not join
+    let corner: Vec<f32> = vec![1e-6, 0.0, 0.0, 1e-6];
+    assert!(constriction(&gap([2, 2], false, &corner), Axis::X).is_none());
+    let nothing = vec![f32::NAN; 4];
+    assert!(leak(&gap([2, 2], true, &nothing), Axis::X).is_none());
+}
+
+/// The gap of a rough surface: what enters leaves, the constriction bounds the path, more load leaks less.
+#[test]
+fn a_rough_gap_balances_and_closes_with_the_load() {
+    let grid = Grid { nodes: [160, 130], pixel: [1e-6, 1e-6], seed: 5 };
+    let kind = Kind::SelfAffine { hurst: 0.8, rolloff: 24e-6, cutoff: 8e-6 };
+    let map = generate(kind, &grid, Target::Height(1e-6)).unwrap().with_periodic(true);
+    let surface = Surface::of(map).unwrap();
+    let body = HalfSpace { reduced_modulus: 1e11, limit: None, tolerance: 1e-5 };
+    let mut last = f64::INFINITY;
+    for share in [0.02, 0.06, 0.1] {
+        let load = Load::Pressure(share * 1e11 * surface.parameters.sdq);
+        let found = body.press(&surface, load).unwrap();
+        let map = Gap::of(&surface.map, &found.gaps);
+        for axis in [Axis::X, Axis::Y] {
+            let flow = leak(&map, axis).unwrap();
+            assert!(flow.imbalance < 1e-4 && flow.hydraulic_gap < found.mean_gap, "{flow:?}");
+            assert!(constriction(&map, axis).unwrap().gap > 0.3 * flow.hydraulic_gap);
+        }
+        let flow = leak(&map, Axis::X).unwrap().conductance;
+        assert!(flow < 0.5 * last);
+        last = flow;
+    }
+}

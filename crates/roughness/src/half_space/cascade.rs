@@ -1,0 +1,190 @@
+//! From a coarse grid to the fine one, from `f32` to `f64`: each start is the answer of the one before.
+
+use super::conjugate_gradients::conjugate_gradients;
+use super::convolution::Convolution;
+use super::level::{Hold, Level, MISSING, Search};
+use super::projected_gradient::projected_gradient;
+use super::real::{Real, sums};
+use rayon::prelude::*;
+
+/// A side of more nodes is halved for the coarser grid.
+const COARSEST: usize = 64;
+/// Residual of the coarse grids.
+const COARSE: f64 = 1e-3;
+/// The least residual that `f32` is asked for: it stagnates a decade below.
+pub(super) const SINGLE: f64 = 1e-6;
+/// Iterations of one grid.
+const ITERATIONS: usize = 400;
+
+/// A grid with heights between 0 and 1, in units in which E* is 1 and the half-space has no length of its own.
+pub(super) struct Task {
+    /// Nodes along x and y.
+    pub nodes: [usize; 2],
+    /// Sides of a pixel.
+    pub sides: [f64; 2],
+    /// Whether the grid repeats; else the half-space is free around it.
+    pub periodic: bool,
+    /// Heights, row by row; NaN where nothing was measured.
+    pub heights: Vec<f64>,
+    /// Root mean square height about the mean.
+    pub rms: f64,
+    /// Largest pressure, infinite of an elastic half-space.
+    pub limit: f64,
+}
+
+/// Projected gradients need so many times the iterations.
+const PATIENCE: usize = 5;
+
+/// An answer with the way to it.
+#[derive(Clone, Debug)]
+pub(super) struct Answer {
+    /// Pressure on each node.
+    pub pressure: Vec<f64>,
+    /// Displacement minus height of each node.
+    pub lift: Vec<f64>,
+    /// Height of the plane.
+    pub plane: f64,
+    /// Residual of the complementarity conditions.
+    pub residual: f64,
+    /// Convolutions on the finest grid.
+    pub convolutions: usize,
+}
+
+impl Task {
+    /// The grid in numbers of type `T`.
+    pub fn level<T: Real>(&self) -> Level<T> {
+        let missing = T::of(MISSING);
+        let converted = |h: &f64| if h.is_nan() { missing } else { T::of(*h) };
+        Level {
+            heights: self.heights.par_iter().map(converted).collect(),
+            limit: self.limit,
+            rms: self.rms,
+            space: Convolution::new(self.nodes, self.sides, self.periodic),
+            convolutions: 0,
+        }
+    }
+
+    /// The grid with long sides halved, heights being means; `None` of a grid that is coarse.
+    fn coarser(&self) -> Option<Task> {
+        let nodes = self.nodes.map(|n| if n > COARSEST { n.div_ceil(2) } else { n });
+        if nodes == self.nodes {
+            return None;
+        }
+        let sides = [0, 1].map(|k| self.sides[k] * self.nodes[k] as f64 / nodes[k] as f64);
+        let range = |k: usize, i: usize| i * self.nodes[k] / nodes[k]..(i + 1) * self.nodes[k] / nodes[k];
+        let mean = |i: usize| {
+            let (x, y) = (i % nodes[0], i / nodes[0]);
+            let (mut sum, mut n) = (0.0, 0.0);
+            for row in range(1, y) {
+                for h in &self.heights[row * self.nodes[0]..][range(0, x)] {
+                    if !h.is_nan() {
+                        (sum, n) = (sum + h, n + 1.0);
+                    }
+                }
+            }
+            if n > 0.0 { sum / n } else { f64::NAN }
+        };
+        let heights = (0..nodes[0] * nodes[1]).into_par_iter().map(mean).collect();
+        Some(Task { nodes, sides, heights, ..*self })
+    }
+
+    /// Values of a coarser grid on the nodes of this one.
+    fn prolonged(&self, nodes: [usize; 2], values: &[f32]) -> Vec<f32> {
+        let [nx, ny] = self.nodes;
+        let at = |i: usize| {
+            let (x, y) = (i % nx * nodes[0] / nx, i / nx * nodes[1] / ny);
+            // nothing to hold on to where nothing was measured
+            if self.heights[i].is_nan() { 0.0 } else { values[y * nodes[0] + x] }
+        };
+        (0..nx * ny).into_par_iter().map(at).collect()
+    }
+
+    /// A pressure to start from, by the coarser grids.
+    fn first_guess(&self, hold: Hold) -> Vec<f32> {
+        let Some(coarse) = self.coarser() else {
+            return self.uniform(hold);
+        };
+        let start = coarse.first_guess(hold);
+        let mut level = coarse.level::<f32>();
+        let start = allowed(&level, hold, start);
+        let found = search(&mut level, hold, start, COARSE, ITERATIONS);
+        self.prolonged(coarse.nodes, &found.pressure)
+    }
+
+    /// The same pressure everywhere.
+    fn uniform(&self, hold: Hold) -> Vec<f32> {
+        let value = match hold {
+            Hold::Pressure(p) => p,
+            Hold::Plane(_) => 0.0,
+        };
+        self.heights.iter().map(|h| if h.is_nan() { 0.0 } else { value as f32 }).collect()
+    }
+
+    /// The pressure that `hold` brings about, from `start` or from coarser grids, to `tolerance`.
+    pub fn solve(&self, hold: Hold, start: Option<&[f64]>, tolerance: f64) -> Answer {
+        let start = match start {
+            Some(pressure) => pressure.par_iter().map(|p| *p as f32).collect(),
+            None => self.first_guess(hold),
+        };
+        let mut level = self.level::<f32>();
+        let start = allowed(&level, hold, start);
+        let found = search(&mut level, hold, start, tolerance.max(SINGLE), ITERATIONS);
+        let single = level.convolutions;
+        drop(level);
+        let start: Vec<f64> = found.pressure.par_iter().map(|p| f64::from(*p)).collect();
+        if tolerance >= SINGLE {
+            let lift = found.lift.par_iter().map(|u| f64::from(*u)).collect();
+            let (plane, residual) = (found.plane, found.residual);
+            return Answer { pressure: start, lift, plane, residual, convolutions: single };
+        }
+        drop(found);
+        let mut level = self.level::<f64>();
+        let start = allowed(&level, hold, start);
+        let found = search(&mut level, hold, start, tolerance, ITERATIONS);
+        Answer {
+            pressure: found.pressure,
+            lift: found.lift,
+            plane: found.plane,
+            residual: found.residual,
+            convolutions: single + level.convolutions,
+        }
+    }
+}
+
+/// Conjugate gradients; where those stall, as they may where most of the metal flows, projected gradients.
+fn search<T: Real>(
+    level: &mut Level<T>,
+    hold: Hold,
+    start: Vec<T>,
+    tolerance: f64,
+    iterations: usize,
+) -> Search<T> {
+    let found = conjugate_gradients(level, hold, start, tolerance, iterations);
+    if found.residual <= tolerance {
+        return found;
+    }
+    let start = allowed(level, hold, found.pressure);
+    projected_gradient(level, hold, start, tolerance, PATIENCE * iterations)
+}
+
+/// `start` within the bounds and with the load.
+fn allowed<T: Real>(level: &Level<T>, hold: Hold, mut start: Vec<T>) -> Vec<T> {
+    let top = level.top();
+    start.par_iter_mut().for_each(|p| *p = p.max(T::zero()).min(top));
+    if let Hold::Pressure(wanted) = hold {
+        level.rescale(&mut start, wanted);
+    }
+    start
+}
+
+/// Mean and root mean square about it of what was measured.
+pub(super) fn spread(heights: &[f64]) -> (f64, f64) {
+    let [sum, n] = sums(heights.len(), |range| {
+        heights[range].iter().filter(|h| !h.is_nan()).fold([0.0, 0.0], |[s, n], h| [s + h, n + 1.0])
+    });
+    let mean = sum / n;
+    let [squares] = sums(heights.len(), |range| {
+        [heights[range].iter().filter(|h| !h.is_nan()).map(|h| (h - mean) * (h - mean)).sum()]
+    });
+    (mean, (squares / n).sqrt())
+}

@@ -1,0 +1,275 @@
+//! Displacement of an elastic half-space under a map of pressures, by fast Fourier transforms.
+//!
+//! Lengths are in pixels (the root of a pixel's area), pressures such that E* is 1.
+
+use super::real::Real;
+use rayon::prelude::*;
+use realfft::num_complex::Complex;
+use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
+use rustfft::{Fft, FftPlanner};
+use std::f64::consts::{PI, TAU};
+use std::sync::Arc;
+
+/// Columns that one task transforms at once: a few cache lines of every row.
+const BLOCK: usize = 16;
+/// Rows that one task transforms.
+const ROWS: usize = 16;
+
+/// Which way between pressure and displacement.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Way {
+    /// Displacement of a pressure.
+    Compliance,
+    /// Pressure of a displacement on the whole grid: what preconditions the search on a part of it.
+    Stiffness,
+}
+
+/// The response of the half-space to one wave.
+enum Response<T> {
+    /// 2/|q| (Westergaard; Johnson 1985, ch. 13), from the squares of the two wave numbers; a periodic surface.
+    Periodic { x2: Vec<f64>, y2: Vec<f64>, least: f64 },
+    /// Transform of the displacement around one loaded pixel (Love 1929), column by column for waves 0..=n/2 along y; a
+    /// surface that stands free.
+    Free { table: Vec<T>, rows: usize },
+}
+
+/// Transforms of one grid with the half-space's response.
+pub(super) struct Convolution<T: Real> {
+    nodes: [usize; 2],
+    padded: [usize; 2],
+    along_x: Arc<dyn RealToComplex<T>>,
+    back_x: Arc<dyn ComplexToReal<T>>,
+    along_y: Arc<dyn Fft<T>>,
+    back_y: Arc<dyn Fft<T>>,
+    response: Response<T>,
+    /// Transformed rows, one after the other.
+    spectrum: Vec<Complex<T>>,
+    /// The same after the columns, in blocks of columns: a task owns its block.
+    blocks: Vec<Complex<T>>,
+}
+
+/// The least even length of factors 2, 3 and 5 that holds `least`.
+pub(crate) fn good_length(least: usize) -> usize {
+    let smooth = |mut n: usize| {
+        for factor in [2, 3, 5] {
+            while n.is_multiple_of(factor) {
+                n /= factor;
+            }
+        }
+        n == 1
+    };
+    (least.max(2)..).find(|n| n.is_multiple_of(2) && smooth(*n)).unwrap_or(least)
+}
+
+impl<T: Real> Convolution<T> {
+    /// For `nodes` pixels along x and y whose sides are `sides` (in pixels, their product 1).
+    pub fn new(nodes: [usize; 2], sides: [f64; 2], periodic: bool) -> Convolution<T> {
+        let padded = if periodic { nodes } else { nodes.map(|n| good_length(2 * n - 1)) };
+        let mut real = RealFftPlanner::new();
+        let mut complex = FftPlanner::new();
+        let width = padded[0] / 2 + 1;
+        let mut made = Convolution {
+            nodes,
+            padded,
+            along_x: real.plan_fft_forward(padded[0]),
+            back_x: real.plan_fft_inverse(padded[0]),
+            along_y: complex.plan_fft_forward(padded[1]),
+            back_y: complex.plan_fft_inverse(padded[1]),
+            response: Response::Free { table: Vec::new(), rows: 0 },
+            spectrum: vec![Complex::default(); width * nodes[1]],
+            blocks: vec![Complex::default(); width.div_ceil(BLOCK) * BLOCK * nodes[1]],
+        };
+        made.response = if periodic { waves(nodes, sides) } else { free(padded, sides) };
+        made
+    }
+
+    /// `output` = response (or its inverse) applied to `input`, both one number per node.
+    pub fn apply(&mut self, way: Way, input: &[T], output: &mut [T]) {
+        let ([nx, ny], [px, py]) = (self.nodes, self.padded);
+        let width = px / 2 + 1;
+        let (along_x, back_x) = (&self.along_x, &self.back_x);
+        self.spectrum.par_chunks_mut(width * ROWS).enumerate().for_each_init(
+            || (vec![T::zero(); px], along_x.make_scratch_vec()),
+            |(line, scratch), (k, rows)| {
+                for (i, out) in rows.chunks_mut(width).enumerate() {
+                    let row = k * ROWS + i;
+                    line[..nx].copy_from_slice(&input[row * nx..(row + 1) * nx]);
+                    line[nx..].fill(T::zero());
+                    // the lengths are those of the plan
+                    let _ = along_x.process_with_scratch(line, out, scratch);
+                }
+            },
+        );
+        let (spectrum, along_y, back_y, response) =
+            (&self.spectrum, &self.along_y, &self.back_y, &self.response);
+        let scale = 1.0 / (px as f64 * py as f64);
+        let scratch = along_y.get_inplace_scratch_len().max(back_y.get_inplace_scratch_len());
+        self.blocks.par_chunks_mut(BLOCK * ny).enumerate().for_each_init(
+            || (vec![Complex::<T>::default(); BLOCK * py], vec![Complex::default(); scratch]),
+            |(columns, scratch), (b, out)| {
+                let first = b * BLOCK;
+                let count = BLOCK.min(width - first);
+                let used = &mut columns[..count * py];
+                for row in 0..ny {
+                    let from = &spectrum[row * width + first..][..count];
+                    from.iter().enumerate().for_each(|(k, value)| used[k * py + row] = *value);
+                }
+                for line in used.chunks_mut(py) {
+                    line[ny..].fill(Complex::default());
+                }
+                along_y.process_with_scratch(used, scratch);
+                for (k, line) in used.chunks_mut(py).enumerate() {
+                    response.multiply(way, first + k, line, scale);
+                }
+                back_y.process_with_scratch(used, scratch);
+                for row in 0..ny {
+                    let to = &mut out[row * BLOCK..][..count];
+                    to.iter_mut().enumerate().for_each(|(k, value)| *value = used[k * py + row]);
+                }
+            },
+        );
+        let blocks = &self.blocks;
+        output.par_chunks_mut(nx * ROWS).enumerate().for_each_init(
+            || (vec![T::zero(); px], vec![Complex::<T>::default(); width], back_x.make_scratch_vec()),
+            |(line, wave, scratch), (k, rows)| {
+                for (i, out) in rows.chunks_mut(nx).enumerate() {
+                    let row = k * ROWS + i;
+                    for (b, part) in wave.chunks_mut(BLOCK).enumerate() {
+                        part.copy_from_slice(&blocks[(b * ny + row) * BLOCK..][..part.len()]);
+                    }
+                    // real numbers have no sine of these
+                    wave[0].im = T::zero();
+                    if px.is_multiple_of(2) {
+                        wave[width - 1].im = T::zero();
+                    }
+                    let _ = back_x.process_with_scratch(wave, line, scratch);
+                    out.copy_from_slice(&line[..nx]);
+                }
+            },
+        );
+    }
+}
+
+/// Squares of the wave numbers of a periodic grid.
+fn waves<T>(nodes: [usize; 2], sides: [f64; 2]) -> Response<T> {
+    let number = |n: usize, side: f64, k: usize| {
+        let signed = if 2 * k > n { k as f64 - n as f64 } else { k as f64 };
+        (TAU * signed / (n as f64 * side)).powi(2)
+    };
+    let x2: Vec<f64> = (0..nodes[0] / 2 + 1).map(|k| number(nodes[0], sides[0], k)).collect();
+    let y2: Vec<f64> = (0..nodes[1]).map(|k| number(nodes[1], sides[1], k)).collect();
+    let least = [x2.get(1), y2.get(1)].into_iter().flatten().fold(f64::INFINITY, |a, b| a.min(*b));
+    Response::Periodic { x2, y2, least: if least.is_finite() { 0.5 * least.sqrt() } else { 1.0 } }
+}
+
+/// ∫∫ dA/r over a rectangle with one corner at the origin: second differences give it over any rectangle.
+fn corner(x: f64, y: f64) -> f64 {
+    x * (y / x.abs()).asinh() + y * (x / y.abs()).asinh()
+}
+
+/// Transform of the displacement around one pixel.
+fn free<T: Real>(padded: [usize; 2], sides: [f64; 2]) -> Response<T> {
+    let [px, py] = padded;
+    let (wide, high) = (px / 2 + 1, py / 2 + 1);
+    let corners: Vec<Vec<f64>> = (0..=high)
+        .into_par_iter()
+        .map(|j| {
+            let y = (j as f64 - 0.5) * sides[1];
+            (0..=wide).map(|i| corner((i as f64 - 0.5) * sides[0], y)).collect()
+        })
+        .collect();
+    let mut plan = RealFftPlanner::<f64>::new();
+    let (along_x, along_y) = (plan.plan_fft_forward(px), plan.plan_fft_forward(py));
+    // even in both directions, so that transforms are real and half of them is enough
+    let rows: Vec<Vec<f64>> = (0..high)
+        .into_par_iter()
+        .map(|j| {
+            let (low, high) = (&corners[j], &corners[j + 1]);
+            let at = |i: usize| (high[i + 1] - high[i] - low[i + 1] + low[i]) / PI;
+            let mut line: Vec<f64> = (0..px).map(|i| at(i.min(px - i))).collect();
+            let mut wave = along_x.make_output_vec();
+            let _ = along_x.process(&mut line, &mut wave);
+            wave.iter().map(|value| value.re).collect()
+        })
+        .collect();
+    let mut table = vec![T::zero(); wide * high];
+    table.par_chunks_mut(high).enumerate().for_each(|(kx, out)| {
+        let mut line: Vec<f64> = (0..py).map(|j| rows[j.min(py - j)][kx]).collect();
+        let mut wave = along_y.make_output_vec();
+        let _ = along_y.process(&mut line, &mut wave);
+        out.iter_mut().zip(&wave).for_each(|(to, value)| *to = T::of(value.re));
+    });
+    Response::Free { table, rows: high }
+}
+
+impl<T: Real> Response<T> {
+    /// Multiplies the waves of column `kx` by the response and `scale`.
+    fn multiply(&self, way: Way, kx: usize, line: &mut [Complex<T>], scale: f64) {
+        match self {
+            Response::Periodic { x2, y2, least } => {
+                let x2 = x2[kx];
+                let first = if x2 == 0.0 && way == Way::Compliance { 1 } else { 0 };
+                line[..first].fill(Complex::default());
+                for (value, y2) in line.iter_mut().zip(y2).skip(first) {
+                    let number = (x2 + y2).sqrt().max(*least);
+                    let gain = if way == Way::Compliance { 2.0 / number } else { 0.5 * number };
+                    *value = value.scale(T::of(gain * scale));
+                }
+            }
+            Response::Free { table, rows } => {
+                let (n, table) = (line.len(), &table[kx * rows..(kx + 1) * rows]);
+                for (k, value) in line.iter_mut().enumerate() {
+                    let gain = table[k.min(n - k)];
+                    let gain = if way == Way::Compliance { gain } else { gain.abs().recip() };
+                    *value = value.scale(gain * T::of(scale));
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_wave_of_pressure_lifts_by_two_over_its_wave_number() {
+        for nodes in [[16, 10], [15, 9], [8, 1]] {
+            let sides = [2.0, 0.5];
+            let mut space = Convolution::<f64>::new(nodes, sides, true);
+            let number = TAU * 2.0 / (nodes[0] as f64 * sides[0]);
+            let wave = |i: usize| (number * sides[0] * (i % nodes[0]) as f64).cos();
+            let input: Vec<f64> = (0..nodes[0] * nodes[1]).map(wave).collect();
+            let mut output = vec![0.0; input.len()];
+            space.apply(Way::Compliance, &input, &mut output);
+            assert!(input.iter().zip(&output).all(|(p, u)| (u - 2.0 / number * p).abs() < 1e-12));
+            let lifted = output.clone();
+            space.apply(Way::Stiffness, &lifted, &mut output);
+            assert!(input.iter().zip(&output).all(|(p, u)| (u - p).abs() < 1e-12));
+        }
+    }
+
+    /// Love 1929: 4 ln(1 + √2)/π pixels under the middle of a square pixel of unit pressure; far away that of a point force.
+    #[test]
+    fn a_loaded_pixel_sinks_as_love_says_and_nothing_returns_from_beyond_the_edge() {
+        let (nodes, sides) = ([11, 7], [2.0, 0.5]);
+        let mut input = vec![0.0; 77];
+        input[0] = 1.0;
+        let mut output = vec![0.0; 77];
+        let mut square = Convolution::<f64>::new(nodes, [1.0, 1.0], false);
+        square.apply(Way::Compliance, &input, &mut output);
+        assert!((output[0] - 4.0 * (1.0 + 2f64.sqrt()).ln() / PI).abs() < 1e-12);
+        let mut long = Convolution::<f64>::new(nodes, sides, false);
+        long.apply(Way::Compliance, &input, &mut output);
+        for (x, y) in [(10, 0), (10, 6), (5, 3)] {
+            let far = 1.0 / (PI * ((x as f64 * 2.0).powi(2) + (y as f64 * 0.5).powi(2)).sqrt());
+            assert!((output[y * 11 + x] / far - 1.0).abs() < 6e-3, "{x} {y}");
+        }
+    }
+
+    #[test]
+    fn good_lengths_hold_what_they_must() {
+        let lengths = [1, 2, 7, 13, 199, 2047, 4097].map(good_length);
+        assert_eq!(lengths, [2, 2, 8, 16, 200, 2048, 4320]);
+    }
+}

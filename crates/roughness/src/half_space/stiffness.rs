@@ -1,0 +1,88 @@
+//! Stiffness of the interface: the change of load with the mean gap while the contact keeps its rim.
+
+use super::cascade::Task;
+use super::convolution::Way;
+use super::level::Level;
+use super::real::{Real, sums};
+
+/// Residual at which the search ends; the stiffness is its square better.
+const TOLERANCE: f64 = 1e-3;
+/// Iterations at most.
+const ITERATIONS: usize = 200;
+
+/// -d(mean pressure over all nodes)/d(mean gap), in the units of the solver; None without contact or gap.
+///
+/// On the nodes in contact that are below the limit the displacement t → A t follows the plane, on the others t is 0. The
+/// change of pressure of unit mean solves A t = const there, by preconditioned conjugate gradients on a fixed set. The plane
+/// moves by that constant, and the gap by as much as surface beside the contact does not follow.
+pub(super) fn stiffness(task: &Task, pressure: &[f64]) -> Option<f64> {
+    let mut level: Level<f32> = task.level();
+    let n = pressure.len();
+    let inside: Vec<bool> = pressure.iter().map(|p| *p > 0.0 && *p < task.limit).collect();
+    let open: Vec<bool> = pressure.iter().zip(&task.heights).map(|(p, h)| *p <= 0.0 && !h.is_nan()).collect();
+    let count = inside.iter().filter(|i| **i).count() as f64;
+    let gaps = open.iter().filter(|o| **o).count() as f64;
+    if count == 0.0 || gaps == 0.0 {
+        return None;
+    }
+    let measured = task.heights.iter().filter(|h| !h.is_nan()).count() as f64;
+    let mean = |values: &[f32]| {
+        let [sum] = sums(n, |range| {
+            [values[range.clone()]
+                .iter()
+                .zip(&inside[range])
+                .filter(|(_, i)| **i)
+                .map(|(v, _)| v.wide())
+                .sum()]
+        });
+        sum / count
+    };
+    let dot = |a: &[f32], b: &[f32]| {
+        let [sum] =
+            sums(n, |range| [a[range.clone()].iter().zip(&b[range]).map(|(a, b)| a.wide() * b.wide()).sum()]);
+        sum
+    };
+    // centred on the contact: sums of what is added to the pressure stay 0
+    let centred = |values: &mut [f32]| {
+        let shift = mean(values);
+        values
+            .iter_mut()
+            .zip(&inside)
+            .for_each(|(v, i)| *v = if *i { (v.wide() - shift) as f32 } else { 0.0 });
+    };
+    let mut x: Vec<f32> = inside.iter().map(|i| if *i { (n as f64 / count) as f32 } else { 0.0 }).collect();
+    let [mut r, mut z, mut q] = [(); 3].map(|()| vec![0f32; n]);
+    level.apply(Way::Compliance, &x, &mut r);
+    centred(&mut r);
+    let mut t = vec![0f32; n];
+    let (mut last, mut first) = (0.0, None);
+    for _ in 0..ITERATIONS {
+        level.apply(Way::Stiffness, &r, &mut z);
+        centred(&mut z);
+        let now = dot(&r, &z);
+        if now <= TOLERANCE * TOLERANCE * *first.get_or_insert(now) {
+            break;
+        }
+        let beta = if last > 0.0 { (now / last) as f32 } else { 0.0 };
+        last = now;
+        t.iter_mut().zip(&z).for_each(|(t, z)| *t = *z + beta * *t);
+        level.apply(Way::Compliance, &t, &mut q);
+        centred(&mut q);
+        let work = dot(&t, &q);
+        if work <= 0.0 {
+            break;
+        }
+        let step = (now / work) as f32;
+        x.iter_mut().zip(&t).for_each(|(x, t)| *x -= step * *t);
+        r.iter_mut().zip(&q).for_each(|(r, q)| *r -= step * *q);
+    }
+    // the plane comes down by what the contact yields, the surface beside it by its own displacement
+    level.apply(Way::Compliance, &x, &mut q);
+    let plane = mean(&q);
+    let [beside] = sums(n, |range| {
+        [q[range.clone()].iter().zip(&open[range]).filter(|(_, o)| **o).map(|(v, _)| plane - v.wide()).sum()]
+    });
+    // beside is the loss of gap per unit of mean pressure, summed over the open nodes
+    let change = beside / measured;
+    (change > 0.0).then(|| 1.0 / change)
+}

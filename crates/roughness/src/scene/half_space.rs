@@ -1,0 +1,58 @@
+//! `[half_space]`: how the half-space is solved.
+
+use super::error::{SceneError, error};
+use crate::half_space::{FINEST, TOLERANCE, TOLERANCE_LIMITED};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Most points of the load curve of a half-space.
+const MOST_POINTS: usize = 8;
+/// Nodes up to which the load curve has all its points unless the scene says otherwise.
+const SMALL: usize = 512 * 512;
+
+/// How the half-space is solved.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct HalfSpaceScene {
+    /// Residual of the complementarity conditions: 1e-5 by default, 1e-6 with a limit of pressure.
+    #[schemars(extend("minimum" = 1e-10, "maximum" = 1e-2))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tolerance: Option<f64>,
+    /// Points of the load curve beside first touch: by default 8, and 1 on maps of more than 512 x 512 points.
+    #[schemars(extend("minimum" = 1, "maximum" = 8))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub load_points: Option<usize>,
+    /// Whether the flow through the gap is computed: by default where a fluid is given or one closure alone is chosen.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub leak: Option<bool>,
+}
+
+impl HalfSpaceScene {
+    /// Whether nothing was said.
+    pub fn is_default(&self) -> bool {
+        *self == HalfSpaceScene::default()
+    }
+
+    /// The residual to be reached, with a limit of pressure or without.
+    pub fn tolerance(&self, limited: bool) -> f64 {
+        self.tolerance.unwrap_or(if limited { TOLERANCE_LIMITED } else { TOLERANCE })
+    }
+
+    /// Points of the load curve of a map of so many nodes.
+    pub fn load_points(&self, nodes: usize) -> usize {
+        self.load_points.unwrap_or(if nodes <= SMALL { MOST_POINTS } else { 1 })
+    }
+
+    pub(super) fn validate(&self) -> Result<(), SceneError> {
+        if let Some(t) = self.tolerance.filter(|t| !(FINEST..=1e-2).contains(t)) {
+            let message = format!("{t:e} must be between 1e-10 and 0.01: leave the key out for 1e-5");
+            return error("half_space.tolerance", message);
+        }
+        match self.load_points {
+            Some(n) if !(1..=MOST_POINTS).contains(&n) => {
+                error("half_space.load_points", format!("{n} must be between 1 and {MOST_POINTS}"))
+            }
+            _ => Ok(()),
+        }
+    }
+}
