@@ -90,7 +90,7 @@ impl Rough {
         self.inner.summary.warnings.clone()
     }
 
-    /// Pressure, share in contact, or regime, on the cells.
+    /// Pressure, share in contact, or regime, on the cells; on the nodes for a half-space.
     fn layer<'py>(&self, py: Python<'py>, closure: Option<&str>, name: &str) -> PyResult<Bound<'py, PyAny>> {
         let layers = self.inner.layers(self.contact(closure)?);
         let values = match name {
@@ -98,10 +98,10 @@ impl Rough {
             "contact" => layers.contact,
             _ => layers.regime,
         };
-        matrix(py, values.into_iter().map(f64::from).collect(), self.inner.surface.map.cell_columns())
+        matrix(py, values.into_iter().map(f64::from).collect(), layers.cells[0])
     }
 
-    /// Distance of plane and undeformed surface at the nodes, µm, 0 where they overlap.
+    /// Distance of plane and surface at the nodes, µm, 0 in contact.
     fn gap<'py>(&self, py: Python<'py>, closure: Option<&str>) -> PyResult<Bound<'py, PyAny>> {
         let gap = self.inner.gap(self.contact(closure)?);
         matrix(py, gap.into_iter().map(|z| z / MICROMETRE).collect(), self.inner.surface.map.columns())

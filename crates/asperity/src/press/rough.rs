@@ -1,6 +1,6 @@
 //! A rough surface pressed by every closure that its scene asks for.
 
-use super::closures::{ClosureContact, Spaces, judge, press_by};
+use super::closures::{Body, ClosureContact, Spaces, judge, press_by};
 use super::scene::RoughScene;
 use super::summary::{ClosureSummary, Summary};
 use super::table::{LoadPoint, TableRow};
@@ -127,13 +127,20 @@ impl Rough {
         self.contacts.iter().find(|one| one.closure == closure)
     }
 
-    /// Distance of the plane from the surface before it was pressed at each node, m, row by row: 0 where they overlap, NaN
-    /// where nothing was measured. The closures know no other: they move no metal beside an island.
+    /// Distance of plane and surface at each node, m, row by row: 0 in contact, NaN where nothing was measured or the closure has
+    /// no contact. On a half-space the surface is the deformed one; closures with islands move no metal beside them, so there
+    /// it is the surface before it was pressed.
     pub fn gap(&self, one: &ClosureContact) -> Vec<f64> {
-        let plane = self.surface.parameters.mean + one.contact.separation;
-        // a maximum that lets a missing height through
-        let distance = |z: &f64| if plane - z < 0.0 { 0.0 } else { plane - z };
-        self.surface.map.heights().iter().map(distance).collect()
+        let heights = self.surface.map.heights();
+        match &one.body {
+            Body::Islands(islands) => {
+                let plane = self.surface.parameters.mean + islands.contact.separation;
+                // a maximum that lets a missing height through
+                heights.iter().map(|z| if plane - z < 0.0 { 0.0 } else { plane - z }).collect()
+            }
+            Body::HalfSpace(space) => space.contact.gaps.iter().map(|gap| f64::from(*gap)).collect(),
+            Body::Failed(_) => vec![f64::NAN; heights.len()],
+        }
     }
 
     /// The text of summary.json.
