@@ -97,7 +97,9 @@ def main():
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument("--sizes", type=int, nargs="+", default=[512])
-    parser.add_argument("--maps", type=int, nargs="+", default=list(range(len(MAPS))), help="which of the eight")
+    parser.add_argument(
+        "--maps", type=int, nargs="+", default=list(range(len(MAPS))), help="which of the eight"
+    )
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument(
         "--laws", nargs="+", choices=["elastic", "saturated"], default=["elastic", "saturated"]
@@ -138,7 +140,10 @@ def main():
                 )
                 print(report[-1], flush=True)
             every, seconds = asperity(flags.binary, z, pressure, hardness, "all", "judge = true\n")
-            ratios = [every.get(c, {}).get("area_over_half_space") for c in ["published", "fitted", "johnson", "sneddon"]]
+            ratios = [
+                every.get(c, {}).get("area_over_half_space")
+                for c in ["published", "fitted", "johnson", "sneddon"]
+            ]
             shown = " | ".join(f"{float(r):.2f}" if r else "-" for r in ratios)
             judged.append(f"{name} {flags.hardness} | {shown} | {seconds:.2f} |")
     report += ["", "Area of a closure over that of the half-space with the same metal:", "", *judged]
