@@ -1,5 +1,5 @@
 //! Numbers that a formula is written for once: one `f64`, or four of them side by side, which the compiler puts into the vector
-//! registers of whatever processor it compiles for.
+//! registers of whatever processor it compiles for. The bits are the same on all: no product is fused with a sum.
 //!
 //! ```
 //! use asperity_law::real::{Lanes, Real};
@@ -45,8 +45,6 @@ pub trait Real:
     }
     /// √x.
     fn sqrt(self) -> Self;
-    /// x y + z, rounded once where the processor that is compiled for does so in one instruction.
-    fn fused(self, y: Self, z: Self) -> Self;
     /// ln(1 + x) for x > -1, with full digits for small x.
     fn ln_1p(self) -> Self;
     /// eˣ - 1 for |x| < 700, with full digits for small x.
@@ -97,14 +95,6 @@ impl Real for f64 {
     #[inline(always)]
     fn sqrt(self) -> f64 {
         self.sqrt()
-    }
-    #[inline(always)]
-    fn fused(self, y: f64, z: f64) -> f64 {
-        if cfg!(any(target_feature = "fma", target_arch = "aarch64")) {
-            self.mul_add(y, z)
-        } else {
-            self * y + z
-        }
     }
     #[inline(always)]
     fn ln_1p(self) -> f64 {
@@ -277,7 +267,7 @@ const ROUNDS: f64 = 6_755_399_441_055_744.0;
 fn horner<const N: usize>(coefficients: &[f64; N], x: Lanes) -> Lanes {
     let mut sum = Lanes::splat(coefficients[N - 1]);
     for i in (0..N - 1).rev() {
-        sum = sum.fused(x, Lanes::splat(coefficients[i]));
+        sum = sum * x + coefficients[i];
     }
     sum
 }
@@ -296,10 +286,6 @@ impl Real for Lanes {
     #[inline(always)]
     fn sqrt(self) -> Lanes {
         Lanes(four!(i => self.0[i].sqrt()))
-    }
-    #[inline(always)]
-    fn fused(self, y: Lanes, z: Lanes) -> Lanes {
-        Lanes(four!(i => self.0[i].fused(y.0[i], z.0[i])))
     }
     /// 1 + x = 2ᵏ (1 + f) with 1 + f in [√½, √2]; what the sum 1 + x rounds away is put back (fdlibm, s_log1p.c).
     #[inline(always)]

@@ -169,8 +169,8 @@ pub fn response_of(end: &PointUpdate<Lanes>, q: usize) -> (Sym, GradientForm) {
 pub fn add_force(force: &mut [[f64; 8]; 2], rows: &Rows, stress: &Sym, weight: f64) {
     let [rr, zz, tt, rz] = stress.map(|s| s * weight);
     for a in 0..8 {
-        force[0][a] = rr.fused(rows.r[a], rz.fused(rows.z[a], tt.fused(rows.hoop[a], force[0][a])));
-        force[1][a] = rz.fused(rows.r[a], zz.fused(rows.z[a], force[1][a]));
+        force[0][a] += rr * rows.r[a] + rz * rows.z[a] + tt * rows.hoop[a];
+        force[1][a] += rz * rows.r[a] + zz * rows.z[a];
     }
 }
 
@@ -188,8 +188,8 @@ pub fn add_stiffness(
         let (d, e, h) = (weight * rows.r[b], weight * rows.z[b], weight * rows.hoop[b]);
         let mut t = [[0.0; 5]; 2]; // A G_b for a displacement of b along r, along z
         for i in 0..5 {
-            t[0][i] = form[i][0].fused(d, form[i][1].fused(e, form[i][4] * h));
-            t[1][i] = form[i][2].fused(d, form[i][3] * e);
+            t[0][i] = form[i][0] * d + form[i][1] * e + form[i][4] * h;
+            t[1][i] = form[i][2] * d + form[i][3] * e;
         }
         for j in 0..2 {
             let t = &t[j];
@@ -197,8 +197,8 @@ pub fn add_stiffness(
             let mut add = |from: usize| {
                 for a in from..from + 4 {
                     let (r, z, hoop) = (rows.r[a], rows.z[a], rows.hoop[a]);
-                    along_r[a] = r.fused(t[0], z.fused(t[1], hoop.fused(t[4], along_r[a])));
-                    along_z[a] = r.fused(t[2], z.fused(t[3], along_z[a]));
+                    along_r[a] += r * t[0] + z * t[1] + hoop * t[4];
+                    along_z[a] += r * t[2] + z * t[3];
                 }
             };
             if b < 4 {
