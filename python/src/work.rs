@@ -17,7 +17,7 @@ pub type Tell<'a> = dyn Fn(f64, String) -> bool + Sync + 'a;
 /// Runs `work` in a thread of its own; Python runs on meanwhile. `progress(share, text)` is called now and then.
 ///
 /// # Errors
-/// What `progress` raises, and KeyboardInterrupt: both end the work.
+/// The exceptions of `progress`, and KeyboardInterrupt: both end the work.
 pub fn run<T: Send>(
     py: Python<'_>,
     progress: Option<&Bound<'_, PyAny>>,

@@ -50,14 +50,14 @@ const DEPTHS: usize = 81;
 /// Largest share of the depth by which the end of a complete run may miss it.
 const SHORT: f64 = 1e-3;
 
-/// What errors are stated of, in the order of [`stated`].
+/// The quantities whose errors are stated, in the order of [`stated`].
 const QUANTITIES: [&str; 6] =
     ["force", "contact area", "mean pressure", "residual depth", "elastic fraction", "unloading stiffness"];
 
 /// A value or a bound of each of [`QUANTITIES`], `None` where it is not known.
 type Each = [Option<f64>; 6];
 
-/// What a run says of a scene.
+/// The results of a run of a scene.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 struct Answer {
     /// Depth over the peak depth, force (N, N/m), contact area (m², m).
@@ -139,7 +139,7 @@ impl Answer {
         })
     }
 
-    /// What it is off from `truth`.
+    /// Its errors against `truth`.
     fn error(&self, truth: &Answer) -> Each {
         let worst = |of: fn(&[f64; 3]) -> f64| {
             let pairs = self.curve.iter().zip(&truth.curve);
@@ -194,7 +194,7 @@ fn find(case: &Case) -> Result<Truth, String> {
     }
 }
 
-/// What a truth depends on: not on the level, nor on the numbers of `reference`, as these are only to be surpassed.
+/// The key of a truth, which depends not on the level, nor on the numbers of `reference`, as these are only to be surpassed.
 fn text(case: &Case) -> String {
     let same = Scene { accuracy: Accuracy::Reference, ..case.scene.clone() };
     let element = case.element_of_truth();
@@ -224,7 +224,7 @@ fn truth(case: &Case, cache: &Path, search: bool) -> Option<Result<Truth, String
     Some(found)
 }
 
-/// What became of a scene.
+/// The outcome of a scene.
 enum End {
     /// Its truth was not looked for in the time.
     Open,

@@ -13,7 +13,7 @@ use asperity_solver::scene::{
     Accuracy, Asperity, ElementChoice, Lateral, Loading, Material, Scene, SceneError, Symmetry, Tool,
 };
 
-/// What is particular about a scene.
+/// The peculiarity of a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Kind {
     /// A plane on a sharp cone.
@@ -80,7 +80,7 @@ impl Kind {
     /// Kinds with one contact, the first ones.
     const SINGLE: usize = 8;
 
-    /// What a table calls it.
+    /// Its name in a table.
     pub fn name(self) -> &'static str {
         match self {
             Kind::SharpCone => "sharp cone",
@@ -124,7 +124,7 @@ const OTHER_ELEMENT: usize = 13;
 pub struct Case {
     /// Counted from 0.
     pub number: usize,
-    /// What is particular about it.
+    /// Its peculiarity.
     pub kind: Kind,
     /// Driven by depth, with unloading, without fields.
     pub scene: Scene,

@@ -31,7 +31,7 @@ impl Shard {
         (1..=n).contains(&k).then_some(Shard { k, n })
     }
 
-    /// What is put behind the name of a folder for it alone: `-2-of-8`.
+    /// The ending that makes the name of a folder its own: `-2-of-8`.
     pub fn suffix(self) -> String {
         format!("-{}-of-{}", self.k, self.n)
     }
@@ -61,7 +61,7 @@ impl Display for Shard {
 /// Runs one case; it may ask whether to go on.
 pub(crate) type Solve<'a, C, R> = dyn Fn(&C, &dyn Fn() -> bool) -> Option<R> + Sync + 'a;
 
-/// What to run, and what a run leaves.
+/// The work of a batch, and what each run leaves.
 pub(crate) struct Batch<'a, C, R> {
     /// All that the results depend on beside the keys: a journal of another definition is begun anew.
     pub definition: &'a str,
@@ -98,7 +98,7 @@ pub(crate) struct Finished<R> {
 /// Asked at the beginning, after every run, and by runs as they go; `false` ends the batch.
 pub(crate) type Observer<'a, R> = dyn FnMut(&Reached<'_, R>) -> bool + Send + 'a;
 
-/// What the threads of a batch share.
+/// The state that the threads of a batch share.
 struct Shared<'a, 'o, R> {
     journal: Option<Journal>,
     observer: &'a mut Observer<'o, R>,
@@ -165,7 +165,7 @@ pub(crate) fn run<C: Sync, R: Clone + Send + Sync + Serialize + DeserializeOwned
     Ok(Finished { stopped: rows.len() < cases, rows })
 }
 
-/// What `one` gives for all of `open`, each on one thread: what a run does side by side in itself is done one after the
+/// The results of `one` for all of `open`, each on one thread: what a run does side by side in itself is done one after the
 /// other, unless there are fewer runs than threads. `threads` is how many, 0 for all cores.
 fn side_by_side<T: Send>(threads: usize, open: &[usize], one: &(dyn Fn(usize) -> T + Sync)) -> Vec<T> {
     let threads = if threads == 0 { rayon::current_num_threads() } else { threads };

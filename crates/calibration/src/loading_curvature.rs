@@ -50,7 +50,7 @@ const EXPONENT_TOLERANCE: f64 = 0.06;
 /// Points that a line with a ripple has at least.
 const POINTS: usize = 6;
 
-/// What one curve says.
+/// The numbers read from one curve.
 struct Fitted {
     /// Slope of √F, and its relative standard error.
     root: f64,

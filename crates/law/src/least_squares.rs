@@ -77,7 +77,7 @@ impl Columns {
         self.own.len()
     }
 
-    /// What the columns do not explain of `y`.
+    /// The part of `y` that the columns do not explain.
     pub fn remainder(&self, y: &[f64]) -> Vec<f64> {
         let mut rest = y.to_vec();
         // twice: the first pass leaves rounding of the size of what it took away
@@ -126,7 +126,7 @@ impl Columns {
         (0..y.len()).map(|i| error(i).powi(2)).sum::<f64>() / y.len() as f64
     }
 
-    /// What the columns from the index `from` on contribute to the fit of `y`.
+    /// The part that the columns from the index `from` on contribute to the fit of `y`.
     pub fn contribution(&self, y: &[f64], from: usize) -> Vec<f64> {
         let mut sum = vec![0.0; y.len()];
         // the last coefficient first: each column is what is left of it plus a sum of those before

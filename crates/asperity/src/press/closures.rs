@@ -15,7 +15,7 @@ use asperity_roughness::{
 pub struct ClosureContact {
     /// The closure.
     pub closure: Closure,
-    /// What was found.
+    /// The contact, or why there is none.
     pub body: Body,
     /// p(β)/H of the closure's elastic pressure at the mean slope.
     pub plasticity_index: Option<f64>,
@@ -25,7 +25,7 @@ pub struct ClosureContact {
     pub judged: Option<[f64; 2]>,
 }
 
-/// What presses a surface.
+/// The model that presses a surface, with its contact.
 #[derive(Debug)]
 pub enum Body {
     /// Islands, each by its closure.

@@ -60,7 +60,7 @@ pub(super) fn body(closure: Closure, scene: &Scene) -> Option<HalfSpace> {
 }
 
 impl SpaceContact {
-    /// What a scene asks of the contact `found` of `body` on `surface`.
+    /// The results that a scene asks for of the contact `found` of `body` on `surface`.
     pub(super) fn of(
         body: HalfSpace,
         surface: &Surface,

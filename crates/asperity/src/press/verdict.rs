@@ -13,7 +13,7 @@ use std::fmt::Write;
 const BELIEVED: f64 = 0.1;
 
 impl Rough {
-    /// What a surface does by the half-space, in words; `None` where no half-space was pressed.
+    /// The verdict of the half-space, in words; `None` where no half-space was pressed.
     pub fn verdict(&self) -> Option<String> {
         let best = self
             .contact(Closure::HalfSpacePlastic)

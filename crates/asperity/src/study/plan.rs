@@ -1,4 +1,4 @@
-//! What a study runs: a scene, the keys that it varies, and how their values are combined.
+//! The plan of a study: a scene, the keys that it varies, and how their values are combined.
 
 use super::points::{Points, Sample};
 use super::subject::{Subject, is_study};
@@ -20,7 +20,7 @@ pub struct Plan {
     pub(super) definition: Definition,
 }
 
-/// What a study was, for those who join its parts: the content of `study.json`.
+/// The record of a study for those who join its parts: the content of `study.json`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Definition {
     pub version: String,
@@ -157,7 +157,7 @@ impl StudyFile {
         flattened(&self.vary).iter().map(|(key, value)| Vary::new(key, value)).collect()
     }
 
-    /// What is the same in all runs, as overrides.
+    /// The values that are the same in all runs, as overrides.
     pub fn overrides(&self) -> Vec<String> {
         let text = |value: &Value| value.as_str().map_or_else(|| value.to_string(), str::to_string);
         flattened(&self.set).iter().map(|(key, value)| format!("{key}={}", text(value))).collect()

@@ -63,7 +63,7 @@ impl Run {
     }
 }
 
-/// What differs from machine to machine and stands in times.csv, and what is no result.
+/// Values that differ from machine to machine and stand in times.csv, and those that are no result.
 const LEFT_OUT: [&str; 4] = ["wall_s", "peak_memory_MB", "scene", "definitions"];
 
 /// Every number of a summary by its name, those of its tables behind their names and a point.

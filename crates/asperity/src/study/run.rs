@@ -40,7 +40,7 @@ pub struct Progress {
 
 /// The journal of a study in the folder of its results.
 const JOURNAL: &str = "study.journal";
-/// What the study was.
+/// The plan of the study.
 const DEFINITION: &str = "study.json";
 /// The folder of the curves in the folder of the results.
 const CURVES: &str = "curves";
@@ -242,7 +242,7 @@ impl Study {
         text
     }
 
-    /// What it was and how it went, as JSON.
+    /// Its plan and its outcome, as JSON.
     ///
     /// # Errors
     /// None that is known: names and numbers are JSON.

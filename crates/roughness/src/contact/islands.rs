@@ -70,7 +70,7 @@ struct Visit<'a> {
     part: Part<'a>,
 }
 
-/// What of the cells lies above the plane.
+/// The part of the cells that lies above the plane.
 enum Part<'a> {
     /// All of neighbouring cells, the run along their lower side: heights of the nodes below and above them, one more
     /// than there are cells.

@@ -87,7 +87,7 @@ fn network(map: &Oriented, largest: f64) -> (Network, Vec<f64>) {
     (Network::new(map.long, map.wide, ahead, beside, ends), entry)
 }
 
-/// What flows from pressure 1 at the entry to 0 at the exit, the relative difference of both, and the iterations.
+/// The flow from pressure 1 at the entry to 0 at the exit, the relative difference of both, and the iterations.
 fn solve(network: Network, entry: &[f64]) -> (f64, f64, usize) {
     let n = entry.len();
     let mut grids = Multigrid::of(network);

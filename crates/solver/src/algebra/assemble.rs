@@ -48,8 +48,8 @@ impl Stiffness {
             let numbers = numbers_of(cell, dofs);
             for (first, &col) in numbers.iter().enumerate() {
                 for &row in &numbers[first..] {
-                    let (low, high) = (row.max(col), row.min(col));
-                    let place = matrix.nnz_index(low as usize, high as usize).filter(|_| low != FIXED);
+                    let (row, col) = (row.max(col), row.min(col));
+                    let place = matrix.nnz_index(row as usize, col as usize).filter(|_| row != FIXED);
                     places.push(place.map_or(NOWHERE, |i| i.0 as u32));
                 }
             }

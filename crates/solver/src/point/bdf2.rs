@@ -11,7 +11,7 @@
 //! point is extrapolated beyond what backward Euler flows along its last direction ([`share`]). That is known only once the
 //! increment is nearly solved; it is then frozen, and the increment keeps its potential.
 //!
-//! What is extrapolated of the accumulated plastic strain is frozen then too, so that the increment of it is the length of the flow
+//! The extrapolated part of the accumulated plastic strain is frozen then too, so that the increment of it is the length of the flow
 //! from one converged state to the next (the sum of the two pieces would count a turn twice) and the accepted stress lies on
 //! the yield surface of that strain.
 

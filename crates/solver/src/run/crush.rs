@@ -126,9 +126,7 @@ pub fn simulate(
     if stopped.is_none() {
         stopped = unload_and_reload(problem, &mut path, &mut recorder, observer).err();
     }
-    let mut outcome = recorder.finish(&path, stopped, observer);
-    outcome.summary.oliver_pharr = as_an_instrument(problem, &outcome.summary);
-    Ok(outcome)
+    Ok(recorder.finish(&path, stopped, observer))
 }
 
 /// The path after the peak: the stiffness there, and unloading and reloading as often as the problem asks.

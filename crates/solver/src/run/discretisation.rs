@@ -287,7 +287,7 @@ mod tests {
         for promise in [0.03, 0.02, 0.01, 0.007, 0.005, 0.003, 0.002] {
             let next = Choice::of(promise);
             assert!(next.elements > before.elements && next.steps > before.steps, "{promise}");
-            assert!(next.tolerance <= before.tolerance && next.domain > before.domain, "{promise}");
+            assert!(next.tolerance < before.tolerance && next.domain > before.domain, "{promise}");
             assert!(next.unload_steps >= before.unload_steps && next.penetration <= before.penetration);
             before = next;
         }

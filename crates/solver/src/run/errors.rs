@@ -11,7 +11,7 @@
 //!
 //! The two constants were chosen on nine scenes (crushed, indented, ridges, rings; n of 0 to 0.3, elastic), not those of the coverage.
 //!
-//! What is read at the peak or after it is not extrapolated. Its bound is the difference itself, and what the errors of force and
+//! Values read at the peak or after it are not extrapolated. Their bound is the difference itself, and what the errors of force and
 //! stiffness would do to it, since two runs may agree by chance.
 
 use crate::point::kinematics::Symmetry;
@@ -50,7 +50,7 @@ struct Difference {
     smooth: [f64; 3],
     /// ln Q less a smooth curve of its own, at the same places.
     ripple: Vec<f64>,
-    /// What mesh and penetration may hide.
+    /// The error that mesh and penetration may hide.
     hidden: f64,
 }
 
@@ -66,7 +66,7 @@ impl Difference {
         value(&self.smooth, &powers(x.clamp(COUNTS_FROM.ln(), 0.0)))
     }
 
-    /// What is taken off ln Q.
+    /// The correction that is added to ln Q.
     fn correction(&self, x: f64) -> f64 {
         -(ORDER * self.smooth(x)).clamp(-MOST, MOST)
     }

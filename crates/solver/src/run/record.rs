@@ -3,6 +3,7 @@
 //! In axisymmetry forces are in N, areas in m², energies in J, of the full body of revolution. In plane strain
 //! they are per metre of ridge: N/m, m (contact width), J/m.
 
+use crate::body::energy::work;
 use crate::run::oliver_pharr::OliverPharr;
 
 /// Whether the tool advances or retreats.
@@ -194,7 +195,7 @@ pub struct Summary {
     pub energy_balance_error: f64,
     /// That of the force among the errors.
     pub estimated_error: f64,
-    /// What is known of the errors.
+    /// Bounds of the errors, where they are known.
     pub errors: Errors,
     /// Number of elements.
     pub elements: usize,
@@ -206,4 +207,25 @@ pub struct Summary {
     pub newton_iterations: usize,
     /// Times an increment was halved.
     pub cutbacks: usize,
+}
+
+/// ∫F dh over corrected depths: the work over the travel less what the penetration took.
+pub(super) fn work_along(rows: &[CurveRow]) -> f64 {
+    let step = |pair: &[CurveRow]| {
+        let (from, to) = (pair[0], pair[1]);
+        let sunk = work([from.force_nodal, to.force_nodal], to.penetration - from.penetration);
+        to.external_work - from.external_work - sunk
+    };
+    rows.windows(2).map(step).sum()
+}
+
+/// The largest |W - E_e - W_p - E_c|/W over increments with W above 1 % of its peak.
+pub(super) fn balance_error(rows: &[CurveRow]) -> f64 {
+    let peak = rows.iter().fold(0.0, |m: f64, r| m.max(r.external_work));
+    rows.iter()
+        .filter(|r| r.external_work > 0.01 * peak)
+        .map(|r| {
+            (r.external_work - r.elastic_energy - r.plastic_work - r.contact_energy).abs() / r.external_work
+        })
+        .fold(0.0, f64::max)
 }

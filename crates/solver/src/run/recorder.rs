@@ -8,7 +8,9 @@ use crate::point::kinematics::Symmetry;
 use crate::run::equilibrium::{Counters, Equilibrium};
 use crate::run::load_path::{Energies, Increment, Path, Stop};
 use crate::run::problem::{Goal, Problem};
-use crate::run::record::{AsperityRow, CurveRow, CycleRow, Errors, GapRow, IslandRow, Phase, Summary};
+use crate::run::record::{
+    AsperityRow, CurveRow, CycleRow, Errors, GapRow, IslandRow, Phase, Summary, balance_error, work_along,
+};
 use crate::run::ripple::{Ends, ends, remove};
 use asperity_mesh::Mesh;
 use asperity_mesh::profile::Asperity;
@@ -404,28 +406,6 @@ impl<'p> Recorder<'p> {
             counters: path.model.counters,
         }
     }
-}
-
-/// ∫F dh over corrected depths: the work over the travel less what the penetration took.
-fn work_along(rows: &[CurveRow]) -> f64 {
-    let step = |pair: &[CurveRow]| {
-        let (from, to) = (pair[0], pair[1]);
-        let sunk =
-            crate::body::energy::work([from.force_nodal, to.force_nodal], to.penetration - from.penetration);
-        to.external_work - from.external_work - sunk
-    };
-    rows.windows(2).map(step).sum()
-}
-
-/// The largest |W - E_e - W_p - E_c|/W over increments with W above 1 % of its peak.
-fn balance_error(rows: &[CurveRow]) -> f64 {
-    let peak = rows.iter().fold(0.0, |m: f64, r| m.max(r.external_work));
-    rows.iter()
-        .filter(|r| r.external_work > 0.01 * peak)
-        .map(|r| {
-            (r.external_work - r.elastic_energy - r.plastic_work - r.contact_energy).abs() / r.external_work
-        })
-        .fold(0.0, f64::max)
 }
 
 /// The asperity of each surface edge: the one whose foot is nearest to the middle of the edge before the crush.

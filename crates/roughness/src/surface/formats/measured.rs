@@ -1,4 +1,4 @@
-//! What every reader gives: heights as a file holds them, or why it is no surface.
+//! The result of every reader: heights as a file holds them, or why it is no surface.
 
 use thiserror::Error;
 
