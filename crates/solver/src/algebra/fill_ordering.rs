@@ -8,7 +8,8 @@
 //!
 //! An order lists vertices, the first to be eliminated first; places are its inverse: `place[order[i]] = i`.
 
-use crate::algebra::cholesky::{FactorError, column_counts, minimum_degree};
+use crate::algebra::cholesky::FactorError;
+use crate::algebra::minimum_degree::{column_counts, minimum_degree};
 use feral_metis::{CscPattern, metis_order};
 
 /// Free nodes from which nested dissection is tried: it takes ten times as long as a minimum degree, and on smaller meshes

@@ -6,6 +6,14 @@ pub mod assemble;
 
 pub mod fill_ordering;
 
+pub mod minimum_degree;
+
+pub mod front;
+
+pub mod large_front;
+
+pub mod front_tree;
+
 pub mod cholesky;
 
 pub mod lbfgs;

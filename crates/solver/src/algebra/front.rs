@@ -1,0 +1,367 @@
+//! The dense algebra of one front: elimination of its pivots, and the solves with the columns that result.
+//!
+//! A front is the dense symmetric matrix of the unknowns that meet when its pivots are eliminated. Its *panel* holds the columns
+//! of the k pivots: k rows of pivots, then n rows below. Its *update* is what elimination leaves of the n × n rest. Both are stored
+//! by columns, of which only the lower triangle counts; the length of a column is a multiple of [`LANES`], and the rows that fill
+//! it up are zero or never read.
+//!
+//! Symbols: F = L D Lᵀ with L of unit diagonal; W = L D.
+//!
+//! Every product is fused with its sum, on processors that can, whatever processor the program was built for: the same bits.
+
+use crate::algebra::large_front::{is_large, take_from_panel, take_from_update};
+use pulp::{Arch, Simd, WithSimd};
+use std::ops::Range;
+
+/// Rows of a tile; the length of a column is a multiple of it.
+pub const LANES: usize = 8;
+
+/// Columns of a tile, and of the blocks in which pivots are eliminated.
+const TILE: usize = 4;
+
+/// Pivots of a large front that are eliminated before a product takes them from the next ones.
+const LARGE_BLOCK: usize = 64;
+
+/// `length` rounded up to a multiple of [`LANES`].
+pub const fn padded(length: usize) -> usize {
+    length.next_multiple_of(LANES)
+}
+
+/// Sizes of a front.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Size {
+    /// Pivots, k.
+    pub pivots: usize,
+    /// Rows below them, n.
+    pub below: usize,
+}
+
+impl Size {
+    /// Length of a column of the panel: what is read in tiles below the pivots stays inside it.
+    pub const fn panel_column(self) -> usize {
+        padded(self.pivots + padded(self.below))
+    }
+
+    /// Numbers in the panel.
+    pub const fn panel(self) -> usize {
+        self.panel_column() * self.pivots
+    }
+
+    /// Numbers in the update.
+    pub const fn update(self) -> usize {
+        padded(self.below) * self.below
+    }
+}
+
+/// Which pivots are accepted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Pivots {
+    /// Positive ones: the matrix is positive definite, or the elimination stops.
+    Positive,
+    /// All but zero.
+    Any,
+}
+
+/// a·b + c, in one operation if `FUSED`.
+#[inline(always)]
+fn fma<const FUSED: bool>(a: f64, b: f64, c: f64) -> f64 {
+    if FUSED { a.mul_add(b, c) } else { a * b + c }
+}
+
+/// y ← y + a x.
+#[inline(always)]
+fn axpy<const FUSED: bool>(y: &mut [f64], a: f64, x: &[f64]) {
+    y.iter_mut().zip(x).for_each(|(y, &x)| *y = fma::<FUSED>(a, x, *y));
+}
+
+/// Rows `row..row + LANES` of the columns of `target`, N of them `stride` apart: C ← C − L Wᵀ over `depth` columns.
+///
+/// `l` starts at row `row` of L, `w` at the row of W that is the first of the N columns; columns of both are `column` apart.
+#[inline(always)]
+fn tile<const N: usize, const FUSED: bool>(
+    target: &mut [f64],
+    stride: usize,
+    row: usize,
+    [l, w]: [&[f64]; 2],
+    column: usize,
+    depth: usize,
+) {
+    let mut c = [[0.0; LANES]; N];
+    for (j, c) in c.iter_mut().enumerate() {
+        if let Some(from) = target[j * stride + row..].first_chunk() {
+            *c = *from;
+        }
+    }
+    for (l, w) in l.chunks(column).zip(w.chunks(column)).take(depth) {
+        let (Some(l), Some(w)) = (l.first_chunk::<LANES>(), w.first_chunk::<N>()) else { break };
+        for (c, &w) in c.iter_mut().zip(w) {
+            for (c, &l) in c.iter_mut().zip(l) {
+                *c = fma::<FUSED>(-l, w, *c);
+            }
+        }
+    }
+    for (j, c) in c.iter().enumerate() {
+        if let Some(to) = target[j * stride + row..].first_chunk_mut() {
+            *to = *c;
+        }
+    }
+}
+
+/// Columns of a matrix from which products are taken away.
+struct Columns<'a> {
+    /// The first of the columns.
+    target: &'a mut [f64],
+    /// How far apart they are.
+    stride: usize,
+    /// Rows: tiles from the first on, to the last.
+    rows: Range<usize>,
+}
+
+impl Columns<'_> {
+    /// C ← C − L Wᵀ, where rows of `l` are those of C, and the first `N` rows of `w` its columns.
+    #[inline(always)]
+    fn subtract<const N: usize, const FUSED: bool>(
+        &mut self,
+        [l, w]: [&[f64]; 2],
+        column: usize,
+        depth: usize,
+    ) {
+        for row in self.rows.clone().step_by(LANES) {
+            tile::<N, FUSED>(self.target, self.stride, row, [&l[row..], w], column, depth);
+        }
+    }
+
+    /// [`Self::subtract`] for `count` columns, at most [`TILE`].
+    #[inline(always)]
+    fn subtract_some<const FUSED: bool>(
+        &mut self,
+        count: usize,
+        lw: [&[f64]; 2],
+        column: usize,
+        depth: usize,
+    ) {
+        match count {
+            1 => self.subtract::<1, FUSED>(lw, column, depth),
+            2 => self.subtract::<2, FUSED>(lw, column, depth),
+            3 => self.subtract::<3, FUSED>(lw, column, depth),
+            _ => self.subtract::<TILE, FUSED>(lw, column, depth),
+        }
+    }
+}
+
+/// Elimination of the pivots of a front.
+struct Elimination<'a> {
+    size: Size,
+    panel: &'a mut [f64],
+    update: &'a mut [f64],
+    scaled: &'a mut [f64],
+    pivots: Pivots,
+}
+
+impl Elimination<'_> {
+    /// The pivots `start..end` of the panel, which earlier ones have been taken from. Negative ones are counted.
+    #[inline(always)]
+    fn block<const FUSED: bool>(&mut self, start: usize, end: usize) -> Option<usize> {
+        let column = self.size.panel_column();
+        let mut negative = 0;
+        for j in start..end {
+            let (done, rest) = self.panel.split_at_mut(j * column);
+            let rest = &mut rest[..column];
+            for p in start..j {
+                axpy::<FUSED>(
+                    &mut rest[j..],
+                    -self.scaled[p * column + j],
+                    &done[p * column + j..][..column - j],
+                );
+            }
+            let pivot = rest[j];
+            let accepted = match self.pivots {
+                Pivots::Positive => pivot > 0.0,
+                Pivots::Any => pivot != 0.0,
+            };
+            if !(accepted && pivot.is_finite()) {
+                return None;
+            }
+            negative += usize::from(pivot < 0.0);
+            self.scaled[j * column..][j..column].copy_from_slice(&rest[j..]);
+            let inverse = pivot.recip();
+            rest[j + 1..].iter_mut().for_each(|entry| *entry *= inverse);
+        }
+        Some(negative)
+    }
+
+    /// The pivots `start..end`, from which those before `taken` have been taken.
+    #[inline(always)]
+    fn pivots<const FUSED: bool>(&mut self, taken: usize, range: Range<usize>) -> Option<usize> {
+        let column = self.size.panel_column();
+        let mut negative = 0;
+        for start in range.clone().step_by(TILE) {
+            let end = range.end.min(start + TILE);
+            if start > taken {
+                let (done, rest) = self.panel.split_at_mut(start * column);
+                let (l, w) = (&done[taken * column..], &self.scaled[taken * column + start..]);
+                let mut block = Columns { target: rest, stride: column, rows: start / LANES * LANES..column };
+                block.subtract_some::<FUSED>(end - start, [l, w], column, start - taken);
+            }
+            negative += self.block::<FUSED>(start, end)?;
+        }
+        Some(negative)
+    }
+
+    /// What the pivots leave of the update.
+    #[inline(always)]
+    fn rest<const FUSED: bool>(&mut self) {
+        let Size { pivots, below } = self.size;
+        let (column, stride) = (self.size.panel_column(), padded(below));
+        let l = &self.panel[pivots.min(self.panel.len())..];
+        for first in (0..below).step_by(TILE) {
+            let rows = first / LANES * LANES..stride;
+            let mut rest = Columns { target: &mut self.update[first * stride..], stride, rows };
+            let w = &self.scaled[pivots + first..];
+            rest.subtract_some::<FUSED>((below - first).min(TILE), [l, w], column, pivots);
+        }
+    }
+
+    #[inline(always)]
+    fn run<const FUSED: bool>(mut self) -> Option<usize> {
+        let pivots = self.size.pivots;
+        if !is_large(self.size) {
+            let negative = self.pivots::<FUSED>(0, 0..pivots)?;
+            self.rest::<FUSED>();
+            return Some(negative);
+        }
+        let mut negative = 0;
+        for start in (0..pivots).step_by(LARGE_BLOCK) {
+            let end = pivots.min(start + LARGE_BLOCK);
+            if start > 0 {
+                take_from_panel(self.size, start, end, self.panel, self.scaled);
+            }
+            negative += self.pivots::<FUSED>(start, start..end)?;
+        }
+        take_from_update(self.size, self.panel, self.scaled, self.update);
+        Some(negative)
+    }
+}
+
+impl WithSimd for Elimination<'_> {
+    type Output = Option<usize>;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> Option<usize> {
+        if S::IS_SCALAR { self.run::<false>() } else { self.run::<true>() }
+    }
+}
+
+/// Eliminates the pivots of a front: its panel becomes the columns of L with D on the diagonal, its update what is left of the
+/// rest. `scaled` is work space as large as the panel. Returns the number of negative pivots, nothing where a pivot is not accepted.
+pub fn eliminate(
+    arch: Arch,
+    size: Size,
+    [panel, update, scaled]: [&mut [f64]; 3],
+    pivots: Pivots,
+) -> Option<usize> {
+    arch.dispatch(Elimination { size, panel, update, scaled, pivots })
+}
+
+/// Solves with the columns of a front: `local` holds the right-hand side in its rows.
+struct Solve<'a> {
+    size: Size,
+    panel: &'a [f64],
+    local: &'a mut [f64],
+}
+
+/// y ← L⁻¹ y, with what that takes from the rows below.
+struct Forward<'a>(Solve<'a>);
+
+/// y ← L⁻ᵀ y in the rows of pivots, from the rows below.
+struct Backward<'a>(Solve<'a>);
+
+/// Columns `start..` of a panel, as many as a block has, from row `row` on. A block with fewer columns repeats its last one,
+/// which then counts for nothing.
+#[inline(always)]
+fn columns(size: Size, panel: &[f64], start: usize, row: usize) -> [&[f64]; TILE] {
+    let column = size.panel_column();
+    std::array::from_fn(|p| {
+        let p = (start + p).min(size.pivots - 1);
+        &panel[p * column + row..(p + 1) * column]
+    })
+}
+
+impl Forward<'_> {
+    #[inline(always)]
+    fn run<const FUSED: bool>(self) {
+        let Solve { size, panel, local } = self.0;
+        let column = size.panel_column();
+        for start in (0..size.pivots).step_by(TILE) {
+            let end = size.pivots.min(start + TILE);
+            let [a, b, c, d] = columns(size, panel, start, end);
+            let mut y = [0.0; TILE];
+            for j in start..end {
+                y[j - start] = -local[j];
+                axpy::<FUSED>(&mut local[j + 1..end], y[j - start], &panel[j * column + j + 1..]);
+            }
+            for ((((row, &a), &b), &c), &d) in local[end..].iter_mut().zip(a).zip(b).zip(c).zip(d) {
+                let near = fma::<FUSED>(a, y[0], fma::<FUSED>(b, y[1], *row));
+                *row = fma::<FUSED>(c, y[2], fma::<FUSED>(d, y[3], near));
+            }
+        }
+    }
+}
+
+impl Backward<'_> {
+    #[inline(always)]
+    fn run<const FUSED: bool>(self) {
+        let Solve { size, panel, local } = self.0;
+        let column = size.panel_column();
+        for start in (0..size.pivots).step_by(TILE).rev() {
+            let end = size.pivots.min(start + TILE);
+            let columns = columns(size, panel, start, end);
+            let mut sums = [[0.0; LANES]; TILE];
+            let known = local[end..].rchunks_exact(LANES);
+            let length = known.remainder().len();
+            for (sums, l) in sums.iter_mut().zip(&columns) {
+                sums.iter_mut().zip(&l[..length]).zip(known.remainder()).for_each(|((s, l), y)| *s = l * y);
+            }
+            let mut row = column - end;
+            for y in known {
+                row -= LANES;
+                for (sums, l) in sums.iter_mut().zip(&columns) {
+                    for ((sum, &l), &y) in sums.iter_mut().zip(&l[row..row + LANES]).zip(y) {
+                        *sum = fma::<FUSED>(l, y, *sum);
+                    }
+                }
+            }
+            for j in (start..end).rev() {
+                let l = &panel[j * column + j + 1..j * column + end];
+                let near = l.iter().zip(&local[j + 1..end]).map(|(l, y)| l * y).sum::<f64>();
+                local[j] -= near + sums[j - start].iter().sum::<f64>();
+            }
+        }
+    }
+}
+
+macro_rules! dispatched {
+    ($what:ident) => {
+        impl WithSimd for $what<'_> {
+            type Output = ();
+
+            #[inline(always)]
+            fn with_simd<S: Simd>(self, _: S) {
+                if S::IS_SCALAR { self.run::<false>() } else { self.run::<true>() }
+            }
+        }
+    };
+}
+
+dispatched!(Forward);
+dispatched!(Backward);
+
+/// y ← L⁻¹ y: `local` has the rows of the panel.
+pub fn solve_forward(arch: Arch, size: Size, panel: &[f64], local: &mut [f64]) {
+    arch.dispatch(Forward(Solve { size, panel, local }));
+}
+
+/// y ← L⁻ᵀ y: `local` has the rows of the panel, those below the pivots are known.
+pub fn solve_backward(arch: Arch, size: Size, panel: &[f64], local: &mut [f64]) {
+    arch.dispatch(Backward(Solve { size, panel, local }));
+}

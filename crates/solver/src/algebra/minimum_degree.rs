@@ -1,0 +1,32 @@
+//! The orders of elimination that faer finds: this is the only file that names it.
+
+use crate::algebra::cholesky::FactorError;
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::sparse::SymbolicSparseColMatRef;
+use faer::sparse::linalg::amd;
+use faer::sparse::linalg::cholesky::simplicial;
+
+/// For each vertex of a graph (compressed columns without the diagonal) its place in an order of approximate minimum degree.
+///
+/// # Errors
+/// More edges than can be counted.
+pub fn minimum_degree(starts: &[usize], neighbours: &[usize]) -> Result<Vec<usize>, FactorError> {
+    let size = starts.len() - 1;
+    let (mut order, mut place) = (vec![0; size], vec![0; size]);
+    let mut memory = MemBuffer::new(amd::order_scratch::<usize>(size, neighbours.len()));
+    let pattern = SymbolicSparseColMatRef::new_checked(size, size, starts, None, neighbours);
+    amd::order(&mut order, &mut place, pattern, amd::Control::default(), MemStack::new(&mut memory))
+        .map_err(|_| FactorError::Singular)?;
+    Ok(place)
+}
+
+/// Entries of each column of the Cholesky factor of a graph (compressed columns without the diagonal).
+pub fn column_counts(starts: &[usize], neighbours: &[usize]) -> Vec<usize> {
+    let size = starts.len() - 1;
+    let (mut tree, mut counts) = (vec![0_isize; size], vec![0_usize; size]);
+    let request = simplicial::prefactorize_symbolic_cholesky_scratch::<usize>(size, neighbours.len());
+    let mut memory = MemBuffer::new(request);
+    let pattern = SymbolicSparseColMatRef::new_checked(size, size, starts, None, neighbours);
+    simplicial::prefactorize_symbolic_cholesky(&mut tree, &mut counts, pattern, MemStack::new(&mut memory));
+    counts
+}
