@@ -73,7 +73,7 @@ pub struct Converged {
 }
 
 /// [`Settings::keep`] of the runs of scenes and of calibrated cones: measured, see the table of the benchmark.
-pub const KEEP: f64 = 0.3;
+pub const KEEP: f64 = 0.2;
 
 /// How closely a step looks for the least potential along its direction.
 #[derive(Clone, Copy)]
