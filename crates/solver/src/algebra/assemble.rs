@@ -22,11 +22,11 @@ fn numbers_of(cell: &[u32], dofs: &Dofs) -> Vec<u32> {
     cell.iter().flat_map(|&node| dofs.number[node as usize]).collect()
 }
 
-/// The lower triangle of a matrix of zeros where elements of `nodes_per_cell` nodes couple unknowns.
-fn pattern(cells: &[u32], nodes_per_cell: usize, dofs: &Dofs) -> CsMat<f64> {
+/// The lower triangle of a matrix of zeros where `groups` of nodes couple unknowns.
+fn pattern<'a>(groups: impl Iterator<Item = &'a [u32]>, dofs: &Dofs) -> CsMat<f64> {
     let mut pattern = TriMat::new((dofs.count, dofs.count));
-    for cell in cells.chunks_exact(nodes_per_cell) {
-        let numbers = numbers_of(cell, dofs);
+    for group in groups {
+        let numbers = numbers_of(group, dofs);
         for &col in &numbers {
             for &row in &numbers {
                 if row != FIXED && col != FIXED && row >= col {
@@ -41,8 +41,14 @@ fn pattern(cells: &[u32], nodes_per_cell: usize, dofs: &Dofs) -> CsMat<f64> {
 impl Stiffness {
     /// Analyses elements of `nodes_per_cell` nodes.
     pub fn new(cells: &[u32], nodes_per_cell: usize, dofs: &Dofs) -> Stiffness {
+        Stiffness::coupled(cells, nodes_per_cell, &[], dofs)
+    }
+
+    /// Analyses elements of `nodes_per_cell` nodes and further groups of nodes that act on each other.
+    pub fn coupled(cells: &[u32], nodes_per_cell: usize, groups: &[Vec<u32>], dofs: &Dofs) -> Stiffness {
         let size = 2 * nodes_per_cell;
-        let matrix = pattern(cells, nodes_per_cell, dofs);
+        let matrix =
+            pattern(cells.chunks_exact(nodes_per_cell).chain(groups.iter().map(Vec::as_slice)), dofs);
         let mut places = Vec::with_capacity(cells.len() * (size + 1));
         for cell in cells.chunks_exact(nodes_per_cell) {
             let numbers = numbers_of(cell, dofs);
@@ -98,6 +104,15 @@ impl Stiffness {
                 add(along_z[1][a]);
             }
         }
+    }
+
+    /// Whether the pattern couples these nodes.
+    pub fn couples(&self, nodes: &[u32], dofs: &Dofs) -> bool {
+        let numbers = numbers_of(nodes, dofs);
+        let free = || numbers.iter().copied().filter(|&number| number != FIXED);
+        free().all(|row| {
+            free().all(|col| row < col || self.matrix.nnz_index(row as usize, col as usize).is_some())
+        })
     }
 
     /// Adds `value` at (row, col) of two components in the same element; entries above the diagonal are skipped.

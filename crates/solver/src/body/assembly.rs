@@ -6,6 +6,7 @@ use crate::body::discrete_body::{Body, gather};
 use crate::body::failure::Failure;
 use crate::body::state::{Points, State, Trial};
 use crate::contact::edge::{EdgeContact, NOTHING};
+use crate::contact::self_contact::Pressed;
 use crate::element::kernel::{ElementContext, ElementOutput, PointSlice};
 use crate::element::{quad4, quad8};
 use crate::point::j2::Tangent;
@@ -32,6 +33,8 @@ pub struct Response {
     pub returns: usize,
     /// Contact of each edge; empty without a tool.
     pub contact: Vec<EdgeContact>,
+    /// Contact of the surface with itself, point by point.
+    pub pressed: Vec<Pressed>,
     /// Internal nodal forces: reactions where a component is fixed.
     pub internal: Vec<[f64; 2]>,
     /// Out-of-balance forces, by the numbers of the unknowns.
@@ -47,6 +50,7 @@ impl Response {
             yielding: vec![false; body.mesh.cell_count()],
             returns: 0,
             contact: Vec::with_capacity(state.edges.len()),
+            pressed: Vec::new(),
             internal: vec![[0.0; 2]; body.mesh.nodes.len()],
             residual: vec![0.0; body.dofs.count],
             output: ElementOutput::new(body.material.virgin()),
@@ -164,6 +168,11 @@ impl Body<'_> {
     /// Contact loop over the surface edges.
     fn integrate_contact(&self, state: &State, trial: &Trial, touching: Touching, response: &mut Response) {
         response.contact.clear();
+        response.pressed.clear();
+        if !state.facing.is_empty() {
+            let x = |node| current(&state.position, &trial.displacement, node);
+            response.pressed.extend(state.facing.press(&state.edges, trial.penalty, x));
+        }
         let Some(contact) = self.contact.filter(|_| trial.tip.is_finite()) else { return };
         let context = contact.at(trial.tip, trial.penalty, self.symmetry);
         for (edge, kept) in state.edges.iter().zip(state.parts()) {
@@ -185,25 +194,44 @@ impl Body<'_> {
         response: &mut Response,
         stiffness: &mut Stiffness,
     ) {
-        let Response { contact, residual, .. } = response;
+        let Response { contact, pressed, residual, .. } = response;
+        let stiffness = &mut Some(stiffness).filter(|_| tangent != Tangent::None);
         for (edge, share) in state.edges.iter().zip(contact).filter(|(_, s)| s.parts != NOTHING) {
-            let nodes = &edge.nodes[..edge.node_count()];
-            for (a, &node) in nodes.iter().enumerate() {
-                let row = self.dofs.number[node as usize];
+            self.add_nodal(
+                &edge.nodes[..edge.node_count()],
+                &share.force,
+                &share.stiffness,
+                residual,
+                stiffness,
+            );
+        }
+        for share in pressed {
+            self.add_nodal(&share.nodes[..share.count], &share.force, &share.stiffness, residual, stiffness);
+        }
+    }
+
+    /// Adds the forces at `nodes`, and their derivatives where a stiffness is wanted.
+    fn add_nodal<const N: usize>(
+        &self,
+        nodes: &[u32],
+        force: &[[f64; 2]; N],
+        derivative: &[[[[f64; 2]; N]; 2]; N],
+        residual: &mut [f64],
+        stiffness: &mut Option<&mut Stiffness>,
+    ) {
+        for (a, &node) in nodes.iter().enumerate() {
+            let row = self.dofs.number[node as usize];
+            for i in 0..2 {
+                if row[i] != FIXED {
+                    residual[row[i] as usize] += force[a][i];
+                }
+            }
+            let Some(stiffness) = stiffness else { continue };
+            for (b, &other) in nodes.iter().enumerate() {
+                let col = self.dofs.number[other as usize];
                 for i in 0..2 {
-                    if row[i] != FIXED {
-                        residual[row[i] as usize] += share.force[a][i];
-                    }
-                }
-                if tangent == Tangent::None {
-                    continue;
-                }
-                for (b, &other) in nodes.iter().enumerate() {
-                    let col = self.dofs.number[other as usize];
-                    for i in 0..2 {
-                        for j in 0..2 {
-                            stiffness.add_entry(row[i], col[j], share.stiffness[a][i][b][j]);
-                        }
+                    for j in 0..2 {
+                        stiffness.add_entry(row[i], col[j], derivative[a][i][b][j]);
                     }
                 }
             }

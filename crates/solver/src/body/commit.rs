@@ -5,6 +5,7 @@ use crate::body::discrete_body::Body;
 use crate::body::failure::Failure;
 use crate::body::flow::Flows;
 use crate::body::state::{State, Trial};
+use crate::contact::self_contact::Facing;
 use crate::element::kernel::POINTS;
 use crate::point::bdf2::PlasticIncrement;
 use crate::point::material::volume_ratio;
@@ -22,7 +23,8 @@ impl State {
         }
         self.displacement.clone_from(&trial.displacement);
         // the increment began with the old contact under its own penalty
-        let held = self.contact.iter().map(|share| share.penalty_energy).sum::<f64>() + self.remeasured[1];
+        let pressed = self.contact.iter().map(|share| share.penalty_energy).sum::<f64>();
+        let held = pressed + self.self_contact_energy + self.remeasured[1];
         if self.penalty > 0.0 {
             self.remeasured[1] += (trial.penalty / self.penalty - 1.0) * held;
         }
@@ -31,6 +33,7 @@ impl State {
         self.tip = trial.tip;
         self.multiplier.clone_from(&trial.multiplier);
         self.remeasure_contact(body);
+        self.face_anew(response);
         self.yielding.clone_from(&response.yielding);
         std::mem::swap(&mut self.points, &mut response.points);
         self.load_scale = self.load_scale.max(self.load().abs());
@@ -59,6 +62,17 @@ impl State {
         }
         self.plastic_work += work;
         Ok(())
+    }
+
+    /// Finds anew which parts of the surface face each other. What the new points and their areas add to the energy is no work of
+    /// the tool.
+    fn face_anew(&mut self, response: &Response) {
+        let before: f64 = response.pressed.iter().map(|point| point.energy).sum();
+        self.facing = Facing::new(&self.edges, &self.position, &self.displacement);
+        let x = |node: u32| self.position[node as usize];
+        let after: f64 = self.facing.press(&self.edges, self.penalty, x).map(|point| point.energy).sum();
+        self.self_contact_energy = before;
+        self.remeasured[1] += after - before;
     }
 
     /// Takes the contact energy over the surface as it is now, which the tool has stretched; what that adds to the energy is no

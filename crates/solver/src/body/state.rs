@@ -3,6 +3,7 @@
 use crate::body::discrete_body::Body;
 use crate::body::energy::stored;
 use crate::contact::edge::{ContactEdge, EdgeContact, NOTHING, Parts};
+use crate::contact::self_contact::Facing;
 use crate::element::kernel::PointSlice;
 use crate::point::bdf2::PlasticIncrement;
 use crate::point::kinematic_hardening::{History, elastic_energy};
@@ -60,6 +61,10 @@ pub struct State {
     pub edges: Vec<ContactEdge>,
     /// Contact of each edge.
     pub contact: Vec<EdgeContact>,
+    /// Which points of the surface face other parts of it.
+    pub facing: Facing,
+    /// Energy of the contact of the surface with itself.
+    pub self_contact_energy: f64,
     /// Augmented Lagrange multipliers at the nodes.
     pub multiplier: Vec<f64>,
     /// Largest load so far.
@@ -102,6 +107,8 @@ impl State {
             penalty: body.contact.map_or(0.0, |contact| contact.penalty),
             edges: body.surface(),
             contact: Vec::new(),
+            facing: Facing::default(),
+            self_contact_energy: 0.0,
             multiplier: vec![0.0; nodes],
             load_scale: 0.0,
             remeasured: [0.0; 2],

@@ -114,7 +114,7 @@ impl ContactEdge {
     }
 
     /// Reference area per dξ at ξ.
-    fn measure_at(&self, xi: f64) -> f64 {
+    pub fn measure(&self, xi: f64) -> f64 {
         self.area(&self.reference, xi)
     }
 
@@ -126,7 +126,7 @@ impl ContactEdge {
 
     /// Current area over reference area at ξ; 1 at the axis, where both vanish.
     pub fn stretch(&self, x: &[[f64; 2]; 3], xi: f64) -> f64 {
-        let (current, reference) = (self.area(x, xi), self.measure_at(xi));
+        let (current, reference) = (self.area(x, xi), self.measure(xi));
         if reference > 0.0 { current / reference } else { 1.0 }
     }
 
@@ -204,7 +204,7 @@ impl ContactEdge {
                 let d = context.tool.penetration(here, context.tip);
                 let lambda = n[0] * multiplier[0] + n[1] * multiplier[1] + n[2] * multiplier[2];
                 let p = lambda + context.penalty * d.depth;
-                let w = half * weight * self.measure_at(xi);
+                let w = half * weight * self.measure(xi);
                 out.energy += w * p * p / (2.0 * context.penalty);
                 out.penalty_energy += 0.5 * w * context.penalty * d.depth * d.depth;
                 out.pressure += w * p;
@@ -212,7 +212,7 @@ impl ContactEdge {
                 out.load += w * p * d.slope[1];
                 let [dr, dz] = self.tangent(x, xi);
                 let current = context.symmetry.weight(here[0].abs()) * dr.hypot(dz);
-                out.max_pressure = out.max_pressure.max(p * self.measure_at(xi) / current);
+                out.max_pressure = out.max_pressure.max(p * self.measure(xi) / current);
                 let [krr, kzz, krz] = d.curvature;
                 let [sr, sz] = d.slope;
                 let e = context.penalty;

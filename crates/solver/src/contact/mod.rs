@@ -1,9 +1,11 @@
-//! Contact with the rigid tool: its shape, the clipped surface edge, the penalty correction of the depth, flanks that meet.
+//! Contact with the rigid tool: its shape, the clipped surface edge, the penalty correction of the depth, the surface in contact with itself.
 
 pub mod tool;
 
 pub mod edge;
 
 pub mod penalty_correction;
+
+pub mod piece;
 
 pub mod self_contact;

@@ -14,6 +14,7 @@ use crate::body::surface::Surface;
 use crate::contact::edge::{EdgeContact, NOTHING, Parts};
 use crate::point::j2::Tangent;
 use crate::run::tool_stiffness::{ToolStiffness, tool_stiffness};
+use std::collections::BTreeSet;
 use std::time::Instant;
 
 /// Negative pivots with which an LDLᵀ step is still taken: a limit point or a bifurcation has one or two; more mean
@@ -57,6 +58,8 @@ pub struct Equilibrium<'m> {
     trial: Trial,
     response: Response,
     stiffness: Stiffness,
+    /// Groups of nodes that the stiffness couples beside those of the elements.
+    coupled: BTreeSet<Vec<u32>>,
     factor: Factor,
     secants: Secants,
     direction: Vec<f64>,
@@ -99,6 +102,7 @@ impl<'m> Equilibrium<'m> {
             trial: state.trial(),
             response: Response::new(&body, &state),
             stiffness,
+            coupled: BTreeSet::new(),
             factor,
             secants: Secants::default(),
             direction: vec![0.0; count],
@@ -167,8 +171,30 @@ impl<'m> Equilibrium<'m> {
         self.factor.operations()
     }
 
+    /// Gives the stiffness the places of what the surface may press of itself in the increments to come.
+    fn couple_what_faces(&mut self) {
+        let state = &self.state;
+        let mut grown = false;
+        for (nodes, count) in state.facing.couplings(&state.edges) {
+            let mut group = nodes[..count].to_vec();
+            if !self.stiffness.couples(&group, &self.body.dofs) {
+                group.sort_unstable();
+                grown |= self.coupled.insert(group);
+            }
+        }
+        if grown {
+            let groups: Vec<Vec<u32>> = self.coupled.iter().cloned().collect();
+            let mesh = self.body.mesh;
+            self.stiffness = Stiffness::coupled(&mesh.cells, mesh.kind.nodes(), &groups, &self.body.dofs);
+            self.factor = Factor::new(&self.stiffness.matrix);
+            (self.has_factors, self.has_tangent) = (false, false);
+            self.secants.clear();
+        }
+    }
+
     /// Starts an increment: see [`State::begin`]. Its first iterate keeps the contact of the converged state.
     pub fn begin(&mut self, tip: f64, ratio: f64, guess: impl Fn(usize) -> [f64; 2]) {
+        self.couple_what_faces();
         self.state.begin(&self.body, tip, ratio, guess, &mut self.trial);
         self.keep_converged_contact();
         self.unguarded = self.trial.factor > 0.0 && !self.state.plastic.is_empty();

@@ -160,7 +160,7 @@ impl<'p> Recorder<'p> {
         increment: &Increment,
         observer: &mut Watcher<'_>,
     ) -> bool {
-        let (u, contact) = (self.problem.units, &increment.contact);
+        let (u, contact, state) = (self.problem.units, &increment.contact, model.state());
         let number = self.rows.len();
         let energies = increment.energies;
         let energy = |of: fn(&Energies) -> f64| energies.as_ref().map_or(f64::NAN, of) * u.energy;
@@ -175,7 +175,8 @@ impl<'p> Recorder<'p> {
             external_work: energy(|e| e.external_work),
             elastic_energy: energy(|e| e.elastic),
             plastic_work: energy(|e| e.plastic),
-            contact_energy: (contact.energy - model.state().remeasured_energy()) * u.energy,
+            contact_energy: (contact.energy + state.self_contact_energy - state.remeasured_energy())
+                * u.energy,
             penetration: contact.penetration * u.length,
             newton_iterations: increment.newton_iterations,
             force_nodal: contact.force * u.force,

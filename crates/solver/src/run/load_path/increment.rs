@@ -45,8 +45,8 @@ pub enum Stop {
     /// A force that the tool does not find as deep as it can go.
     #[error("target force not reached at maximum depth: ask for less force, or for a depth")]
     ForceNotReached,
-    /// A flank met another flank: contact of the metal with itself is not modelled.
-    #[error("a flank met another flank: metal that touches itself is not modelled")]
+    /// A flank went through another part of the surface before the contact of the two was seen.
+    #[error("a flank met another flank and went through it")]
     FlanksMeet,
     /// The observer asked for the end.
     #[error("the run was interrupted")]

@@ -6,7 +6,6 @@ use crate::body::energy::{ContactSums, contact_sums, work, work_by_slopes, work_
 use crate::body::failure::Failure as BodyFailure;
 use crate::body::surface::Surface;
 use crate::contact::penalty_correction::Punches;
-use crate::contact::self_contact::fold;
 use crate::run::equilibrium::{Equilibrium, SolveFailure};
 use crate::run::problem::{Correction, Problem, Rules};
 use crate::run::record::Phase;
@@ -243,7 +242,8 @@ impl<'p> Path<'p> {
         if !observer(&self.model, &increment) {
             return Err(Stop::Interrupted);
         }
-        if fold(&self.model.state().edges, &self.model.state().position).is_some() {
+        let state = self.model.state();
+        if state.facing.fold(&state.edges, &state.position).is_some() {
             Err(Stop::FlanksMeet)
         } else {
             Ok(increment)
