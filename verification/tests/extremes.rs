@@ -326,16 +326,15 @@ fn half_kinematic() -> Scene {
     scene
 }
 
-/// The rim that is squeezed out of a steep cap lies down on the base plane.
+/// The rim that is squeezed out of a steep cap lies down on the base plane and presses it.
 #[test]
-fn flanks_that_meet_stop_the_run() {
-    // seen at 80 % of the height of this cap with the mesh of `standard`
+fn a_rim_that_lies_down_on_the_base_carries_on() {
+    // touches at 80 % of the height of this cap with the mesh of `standard`
     let mut scene = Scene { accuracy: Accuracy::Standard, ..cap(0.85) };
     scene.material.hardening_exponent = Some(0.1);
     let outcome = crush(&scene).unwrap();
-    let stop = outcome.stopped.unwrap();
-    assert!(stop.reason.to_string().contains("a flank met another flank"), "{}", stop.reason);
-    assert!(outcome.rows.last().unwrap().depth > 0.5 * 25e-6);
+    assert!(outcome.stopped.is_none(), "{:?}", outcome.stopped);
+    assert!(outcome.summary.energy_balance_error < 1e-2, "{}", outcome.summary.energy_balance_error);
 }
 
 #[test]

@@ -26,6 +26,7 @@ mod refinement;
 mod rotation;
 mod same_bits;
 mod scaled_units;
+mod self_contact;
 mod several_asperities;
 mod simple_shear;
 mod sound_cells;

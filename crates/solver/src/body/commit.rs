@@ -68,7 +68,7 @@ impl State {
     /// the tool.
     fn face_anew(&mut self, response: &Response) {
         let before: f64 = response.pressed.iter().map(|point| point.energy).sum();
-        self.facing = Facing::new(&self.edges, &self.position, &self.displacement);
+        self.facing = Facing::new(&self.edges, &self.position, &self.displacement, &self.facing);
         let x = |node: u32| self.position[node as usize];
         let after: f64 = self.facing.press(&self.edges, self.penalty, x).map(|point| point.energy).sum();
         self.self_contact_energy = before;

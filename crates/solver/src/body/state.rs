@@ -95,9 +95,11 @@ impl State {
     pub fn virgin(body: &Body<'_>) -> State {
         let (nodes, count) = (body.mesh.nodes.len(), body.volume.len());
         let yields = body.material.hardening.is_some() || body.material.has_back_stress();
+        let (edges, still) = (body.surface(), vec![[0.0; 2]; nodes]);
         State {
+            facing: Facing::new(&edges, &body.mesh.nodes, &still, &Facing::default()),
             position: body.mesh.nodes.clone(),
-            displacement: vec![[0.0; 2]; nodes],
+            displacement: still,
             points: Points::virgin(&body.material, count),
             plastic: vec![PlasticIncrement::NONE; if yields { count } else { 0 }],
             volume_change: vec![0.0; if yields && body.material.yields_by_true_stress() { count } else { 0 }],
@@ -105,9 +107,8 @@ impl State {
             yielding: vec![false; body.mesh.cell_count()],
             tip: f64::INFINITY,
             penalty: body.contact.map_or(0.0, |contact| contact.penalty),
-            edges: body.surface(),
+            edges,
             contact: Vec::new(),
-            facing: Facing::default(),
             self_contact_energy: 0.0,
             multiplier: vec![0.0; nodes],
             load_scale: 0.0,

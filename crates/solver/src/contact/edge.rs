@@ -71,7 +71,8 @@ pub struct EdgeContact {
     pub max_pressure: f64,
 }
 
-const GAUSS4: [[f64; 2]; 4] = [
+/// Integration points of an interval [-1, 1]: abscissa and weight.
+pub(super) const GAUSS4: [[f64; 2]; 4] = [
     [-0.861_136_311_594_052_6, 0.347_854_845_137_453_85],
     [-0.339_981_043_584_856_26, 0.652_145_154_862_546_1],
     [0.339_981_043_584_856_26, 0.652_145_154_862_546_1],
@@ -101,6 +102,11 @@ impl ContactEdge {
         if self.quadratic { quadratic_shape(xi) } else { [0.5 * (1.0 - xi), 0.5 * (1.0 + xi), 0.0] }
     }
 
+    /// Their derivatives by ξ.
+    pub fn slope(&self, xi: f64) -> [f64; 3] {
+        if self.quadratic { [xi - 0.5, xi + 0.5, -2.0 * xi] } else { [-0.5, 0.5, 0.0] }
+    }
+
     /// Position at ξ.
     pub fn point(&self, x: &[[f64; 2]; 3], xi: f64) -> [f64; 2] {
         let n = self.shape(xi);
@@ -109,7 +115,7 @@ impl ContactEdge {
 
     /// dx/dξ.
     pub fn tangent(&self, x: &[[f64; 2]; 3], xi: f64) -> [f64; 2] {
-        let d = if self.quadratic { [xi - 0.5, xi + 0.5, -2.0 * xi] } else { [-0.5, 0.5, 0.0] };
+        let d = self.slope(xi);
         [0, 1].map(|i| d[0] * x[0][i] + d[1] * x[1][i] + d[2] * x[2][i])
     }
 

@@ -6,6 +6,6 @@ pub mod edge;
 
 pub mod penalty_correction;
 
-pub mod piece;
+pub mod projection;
 
 pub mod self_contact;

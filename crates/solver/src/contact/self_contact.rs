@@ -1,33 +1,33 @@
 //! Frictionless penalty contact of the free surface with itself: flanks that meet, flanks that lie down on the base.
 //!
-//! The surface is taken as a chain of straight pieces between neighbouring nodes. Energy ∫ ½ (ε/2) d² dA over the surface, with d
-//! the depth of a surface point behind the nearest of the pieces that it faces, and A the area of the last converged state as
-//! for the tool: each side presses the other with half the penalty ε, so that two flat faces press with ε d. The force is the
-//! gradient of this energy, the tangent its second derivative.
+//! Energy ∫ ½ (ε/2) d² dA over the surface. ε is [`STIFFER`] times the tool's penalty, d the depth of a surface point behind the
+//! nearest of the edges that it faces, A the area of the last converged state as for the tool. Each side presses the other with
+//! half the penalty, so that two faces press with ε d. The force is the gradient of this energy, the tangent its second
+//! derivative. Integration points lie between the places where nodes of the other side were, so that two meshes that do not
+//! match carry a uniform pressure exactly.
 //!
-//! Which points face which pieces is found once an increment, from the converged state: a point inside thin metal lies behind
-//! its other side as well, and only its past tells the two apart. A piece is faced if the two normals part by more than 60° and the
-//! point lay outside of it or less than [`DEEPEST`] of a piece behind.
+//! Which points face which edges is found once an increment, from the converged state: a point inside thin metal lies behind
+//! its other side as well, and only its past tells the two apart. An edge is faced if the two normals part by more than 60° and the
+//! point lay outside of it or less than [`DEEPEST`] of a piece behind. Pieces are the straight lines between neighbouring nodes.
 
-use crate::contact::edge::ContactEdge;
-use crate::contact::piece::{Depth, Ends, Nearest, behind_end, behind_line, intersection, nearest};
+use crate::contact::edge::{ContactEdge, GAUSS4};
+use crate::contact::projection::{Depth, NODES, Placed, intersection};
 
 /// Share of the length of a piece up to which a point may lie behind it: more would be the other side of thin metal.
 const DEEPEST: f64 = 0.25;
+
+/// The penalty over that of the tool, which is softer than the metal by an order of magnitude so that Newton follows a front that
+/// runs over many edges; a fold grows slowly, and lies where elements are as coarse as the tool's penetration is deep.
+const STIFFER: f64 = 4.0;
+
+/// The same for an edge that the piece faced before: there is no doubt which side it came from.
+const LOST: f64 = 2.0;
 
 /// Cosine between outward normals from which on two pieces do not face each other.
 const FACING: f64 = 0.5;
 
 /// Displacements of the last increment within which the next one may bring two pieces together.
 const REACH: f64 = 3.0;
-
-/// Integration points of each piece: abscissa in [0, 1] and weight.
-const GAUSS: [[f64; 2]; 4] = [
-    [0.069_431_844_202_973_7, 0.173_927_422_568_726_93],
-    [0.330_009_478_207_571_9, 0.326_072_577_431_273_07],
-    [0.669_990_521_792_428_1, 0.326_072_577_431_273_07],
-    [0.930_568_155_797_026_3, 0.173_927_422_568_726_93],
-];
 
 /// A straight piece of the surface between two neighbouring nodes, the body on its left.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -47,8 +47,8 @@ pub struct FacingPoint {
     xi: f64,
     /// Its reference area.
     weight: f64,
-    /// The pieces, by their nodes.
-    pieces: Vec<[u32; 2]>,
+    /// The edges that it faces.
+    faced: Vec<usize>,
 }
 
 /// The points of a surface that face other parts of it.
@@ -60,16 +60,16 @@ pub struct Facing {
 /// What a point that lies behind a piece adds.
 #[derive(Clone, Copy, Debug)]
 pub struct Pressed {
-    /// Nodes: those of the edge of the point, then the two of the piece.
-    pub nodes: [u32; 5],
+    /// Nodes: those of the edge of the point, then those of the other edge.
+    pub nodes: [u32; NODES],
     /// How many of them there are.
     pub count: usize,
     /// Energy.
     pub energy: f64,
     /// Nodal forces, the gradient of the energy.
-    pub force: [[f64; 2]; 5],
+    pub force: [[f64; 2]; NODES],
     /// Second derivative of the energy, `[node a][i][node b][j]`.
-    pub stiffness: [[[[f64; 2]; 5]; 2]; 5],
+    pub stiffness: [[[[f64; 2]; NODES]; 2]; NODES],
 }
 
 impl Piece {
@@ -139,9 +139,14 @@ fn close_pairs(pieces: &[Piece], margin: f64, count: impl Fn(&Piece, &Piece) -> 
 }
 
 impl Facing {
-    /// The points of `edges` that face other parts of the surface. Nodes are at `position`, in the last increment they moved by
-    /// `displacement`.
-    pub fn new(edges: &[ContactEdge], position: &[[f64; 2]], displacement: &[[f64; 2]]) -> Facing {
+    /// The points of `edges` that face other parts of the surface, which faced each other as in `before`. Nodes are at `position`, in
+    /// the last increment they moved by `displacement`.
+    pub fn new(
+        edges: &[ContactEdge],
+        position: &[[f64; 2]],
+        displacement: &[[f64; 2]],
+        before: &Facing,
+    ) -> Facing {
         let pieces = pieces(edges, position);
         let nodes = edges.iter().flat_map(|edge| edge.nodes);
         let moved = nodes.map(|n| displacement[n as usize]).fold(0.0, |m: f64, [r, z]| m.max(r.hypot(z)));
@@ -150,27 +155,32 @@ impl Facing {
             partners[a].push(b);
             partners[b].push(a);
         }
+        let placed = |edge: usize| {
+            let edge = &edges[edge];
+            Placed { edge, x: edge.nodes.map(|node| position[node as usize]) }
+        };
         let mut points = Vec::new();
-        for (piece, mut partners) in pieces.iter().zip(partners) {
-            partners.sort_unstable();
-            let edge = &edges[piece.edge];
-            let x = edge.nodes.map(|node| position[node as usize]);
-            let [from, to] = piece.interval;
-            for [share, weight] in GAUSS {
-                let xi = from + (to - from) * share;
-                let here = edge.point(&x, xi);
-                let outside = |other: &&usize| {
-                    let other = &pieces[**other];
-                    let [a, b] = other.ends;
-                    let (distance, behind, place) = nearest([here, a, b]);
-                    let limit = DEEPEST * piece.length().min(other.length());
-                    !behind || (place == Nearest::Between && distance < limit)
-                };
-                let faced: Vec<_> =
-                    partners.iter().filter(outside).map(|&other| pieces[other].nodes).collect();
-                if !faced.is_empty() {
-                    let weight = weight * (to - from) * edge.measure(xi);
-                    points.push(FacingPoint { edge: piece.edge, xi, weight, pieces: faced });
+        for (piece, partners) in pieces.iter().zip(partners).filter(|(_, partners)| !partners.is_empty()) {
+            let own = placed(piece.edge);
+            let mut others: Vec<usize> = partners.iter().map(|&other| pieces[other].edge).collect();
+            others.sort_unstable();
+            others.dedup();
+            let nodes = others.iter().flat_map(|&other| placed(other).x);
+            for [from, to] in parts(&own, piece.interval, nodes) {
+                for [abscissa, weight] in GAUSS4 {
+                    let half = 0.5 * (to - from);
+                    let xi = from + half * (1.0 + abscissa);
+                    let outside = |&&other: &&usize| {
+                        let nearest = placed(other).nearest(own.point(xi));
+                        let share = if before.knows(piece, other) { LOST } else { DEEPEST };
+                        let limit = share * piece.length().min(0.5 * placed(other).length());
+                        !nearest.behind || (nearest.end.is_none() && nearest.distance < limit)
+                    };
+                    let faced: Vec<usize> = others.iter().filter(outside).copied().collect();
+                    if !faced.is_empty() {
+                        let weight = weight * half * own.edge.measure(xi);
+                        points.push(FacingPoint { edge: piece.edge, xi, weight, faced });
+                    }
                 }
             }
         }
@@ -184,16 +194,16 @@ impl Facing {
         pairs.into_iter().find_map(|[a, b]| {
             let (a, b) = (&pieces[a], &pieces[b]);
             let crossing = intersection(a.ends, b.ends)?;
-            (!self.know(a, b) && !self.know(b, a)).then_some(crossing)
+            (!self.knows(a, b.edge) && !self.knows(b, a.edge)).then_some(crossing)
         })
     }
 
-    /// Whether a point of one piece faces the other.
-    fn know(&self, piece: &Piece, other: &Piece) -> bool {
+    /// Whether a point of the piece faces the edge.
+    fn knows(&self, piece: &Piece, edge: usize) -> bool {
         let [from, to] = piece.interval;
         self.points
             .iter()
-            .any(|p| p.edge == piece.edge && (from..=to).contains(&p.xi) && p.pieces.contains(&other.nodes))
+            .any(|p| p.edge == piece.edge && (from..=to).contains(&p.xi) && p.faced.contains(&edge))
     }
 
     /// Whether nothing faces anything.
@@ -201,79 +211,109 @@ impl Facing {
         self.points.is_empty()
     }
 
-    /// Nodes that may press each other: those of the edge of a point with those of a piece.
-    pub fn couplings<'a>(&'a self, edges: &'a [ContactEdge]) -> impl Iterator<Item = ([u32; 5], usize)> + 'a {
-        self.points
-            .iter()
-            .flat_map(move |point| point.pieces.iter().map(move |&piece| together(&edges[point.edge], piece)))
+    /// Nodes that may press each other: those of the edge of a point with those of another edge.
+    pub fn couplings<'a>(
+        &'a self,
+        edges: &'a [ContactEdge],
+    ) -> impl Iterator<Item = ([u32; NODES], usize)> + 'a {
+        self.points.iter().flat_map(move |point| {
+            point.faced.iter().map(move |&other| together(&edges[point.edge], &edges[other]))
+        })
     }
 
-    /// What presses where the nodes are at `x(node)`, with `penalty` ε, one entry for each point behind a piece.
+    /// What presses where the nodes are at `x(node)`, with `penalty` ε, one entry for each point behind an edge.
     pub fn press<'a>(
         &'a self,
         edges: &'a [ContactEdge],
         penalty: f64,
         x: impl Fn(u32) -> [f64; 2] + Copy + 'a,
     ) -> impl Iterator<Item = Pressed> + 'a {
-        self.points.iter().filter_map(move |point| point.press(&edges[point.edge], 0.5 * penalty, x))
+        self.points.iter().filter_map(move |point| point.press(edges, 0.5 * STIFFER * penalty, x))
     }
 }
 
-/// The nodes of an edge and of a piece, and how many they are.
-fn together(edge: &ContactEdge, piece: [u32; 2]) -> ([u32; 5], usize) {
-    let count = edge.node_count();
-    let mut nodes = [0; 5];
-    nodes[..count].copy_from_slice(&edge.nodes[..count]);
-    nodes[count..count + 2].copy_from_slice(&piece);
-    (nodes, count + 2)
+/// The interval of an edge between its ends and the places of `nodes` of the other side.
+fn parts(own: &Placed<'_>, [from, to]: [f64; 2], nodes: impl Iterator<Item = [f64; 2]>) -> Vec<[f64; 2]> {
+    // a part of a thousandth of the piece adds nothing but points
+    let shortest = 1e-3 * (to - from);
+    let mut places: Vec<f64> = nodes.map(|node| own.nearest(node).xi).collect();
+    places.push(to);
+    places.sort_by(f64::total_cmp);
+    let mut parts: Vec<[f64; 2]> = Vec::new();
+    let mut start = from;
+    for place in places.into_iter().filter(|place| *place <= to) {
+        if place - start > shortest && (place == to || to - place > shortest) {
+            parts.push([start, place]);
+            start = place;
+        }
+    }
+    parts
+}
+
+/// The nodes of two edges, and how many they are.
+fn together(edge: &ContactEdge, other: &ContactEdge) -> ([u32; NODES], usize) {
+    let (own, others) = (edge.node_count(), other.node_count());
+    let mut nodes = [0; NODES];
+    nodes[..own].copy_from_slice(&edge.nodes[..own]);
+    nodes[own..own + others].copy_from_slice(&other.nodes[..others]);
+    (nodes, own + others)
 }
 
 impl FacingPoint {
-    /// The piece nearest to the point at `here` and the depth behind it, if the point lies behind the surface.
-    fn depth(&self, here: [f64; 2], x: impl Fn(u32) -> [f64; 2]) -> Option<([u32; 2], Depth)> {
-        let ends = |piece: &[u32; 2]| -> Ends { [here, x(piece[0]), x(piece[1])] };
-        let found = self.pieces.iter().map(|piece| (piece, nearest(ends(piece))));
-        let (piece, (_, behind, place)) = found.min_by(|a, b| a.1.0.total_cmp(&b.1.0))?;
-        match place {
-            Nearest::Between => behind.then(|| (*piece, behind_line(ends(piece)))),
-            // behind an end only if behind both pieces that meet there: beyond the end of a chain nothing is known
-            Nearest::End(end) => {
-                let other = self.pieces.iter().find(|other| other[1 - end] == piece[end])?;
-                let both = behind && nearest(ends(other)).1;
-                both.then(|| (*piece, behind_end(ends(piece), end)))
+    /// The edge nearest to the point and the depth behind it, if the point lies behind the surface.
+    fn depth(
+        &self,
+        edges: &[ContactEdge],
+        own: &Placed<'_>,
+        x: impl Fn(u32) -> [f64; 2] + Copy,
+    ) -> Option<(usize, Depth)> {
+        let here = own.point(self.xi);
+        let placed = |edge: usize| Placed { edge: &edges[edge], x: edges[edge].nodes.map(x) };
+        // a neighbour whose nearest point is the node that it shares with this edge is no other surface
+        let shared = |edge: usize, end: usize| own.edge.nodes[..2].contains(&edges[edge].nodes[end]);
+        let found = self
+            .faced
+            .iter()
+            .map(|&edge| (edge, placed(edge).nearest(here)))
+            .filter(|(edge, nearest)| !nearest.end.is_some_and(|end| shared(*edge, end)));
+        let (edge, nearest) = found.min_by(|a, b| a.1.distance.total_cmp(&b.1.distance))?;
+        if !nearest.behind {
+            return None;
+        }
+        if let Some(end) = nearest.end {
+            // behind an end only if behind both edges that meet there: beyond the end of a chain nothing is known
+            let node = edges[edge].nodes[end];
+            let other = self.faced.iter().find(|&&other| edges[other].nodes[1 - end] == node)?;
+            if !placed(*other).nearest(here).behind {
+                return None;
             }
         }
+        Some((edge, own.depth_behind(self.xi, &placed(edge), &nearest)))
     }
 
-    fn press(&self, edge: &ContactEdge, penalty: f64, x: impl Fn(u32) -> [f64; 2] + Copy) -> Option<Pressed> {
-        let here = edge.point(&edge.nodes.map(x), self.xi);
-        let (piece, depth) = self.depth(here, x)?;
-        let (nodes, count) = together(edge, piece);
+    fn press(
+        &self,
+        edges: &[ContactEdge],
+        penalty: f64,
+        x: impl Fn(u32) -> [f64; 2] + Copy,
+    ) -> Option<Pressed> {
+        let edge = &edges[self.edge];
+        let own = Placed { edge, x: edge.nodes.map(x) };
+        let (other, Depth { depth, slope, curvature }) = self.depth(edges, &own, x)?;
+        let (nodes, count) = together(edge, &edges[other]);
+        let pressure = self.weight * penalty;
         let mut pressed = Pressed {
             nodes,
             count,
-            energy: 0.5 * self.weight * penalty * depth.depth * depth.depth,
-            force: [[0.0; 2]; 5],
-            stiffness: [[[[0.0; 2]; 5]; 2]; 5],
+            energy: 0.5 * pressure * depth * depth,
+            force: slope.map(|slope| slope.map(|slope| pressure * depth * slope)),
+            stiffness: curvature,
         };
-        // (x, a, b) are shares of the nodes: x of those of the edge, a and b nodes themselves
-        let shape = edge.shape(self.xi);
-        let place = |node: usize| match node.checked_sub(count - 2) {
-            None => (0, shape[node]),
-            Some(end) => (2 + 2 * end, 1.0),
-        };
-        for a in 0..count {
-            let (i0, share) = place(a);
-            for i in 0..2 {
-                let slope = share * depth.slope[i0 + i];
-                pressed.force[a][i] = self.weight * penalty * depth.depth * slope;
-                for b in 0..count {
-                    let (j0, other) = place(b);
-                    for j in 0..2 {
-                        pressed.stiffness[a][i][b][j] = self.weight
-                            * penalty
-                            * (slope * other * depth.slope[j0 + j]
-                                + depth.depth * share * other * depth.curvature[i0 + i][j0 + j]);
+        for (a, rows) in pressed.stiffness.iter_mut().enumerate() {
+            for (i, row) in rows.iter_mut().enumerate() {
+                for (entries, other) in row.iter_mut().zip(&slope) {
+                    for (entry, other) in entries.iter_mut().zip(other) {
+                        *entry = pressure * (depth * *entry + slope[a][i] * other);
                     }
                 }
             }
@@ -310,7 +350,7 @@ mod tests {
     #[test]
     fn force_and_tangent_are_derivatives_of_the_energy() {
         let (edges, position) = two_faces();
-        let facing = Facing::new(&edges, &position, &vec![[0.1; 2]; 6]);
+        let facing = Facing::new(&edges, &position, &vec![[0.1; 2]; 6], &Facing::default());
         assert!(!facing.is_empty() && energy(&facing, &edges, &position) > 0.0);
         let (mut force, mut stiffness) = ([0.0; 12], [[0.0; 12]; 12]);
         for pressed in facing.press(&edges, 3.0, |n| position[n as usize]) {
@@ -358,7 +398,7 @@ mod tests {
     #[test]
     fn forces_are_in_equilibrium() {
         let (edges, position) = two_faces();
-        let facing = Facing::new(&edges, &position, &vec![[0.1; 2]; 6]);
+        let facing = Facing::new(&edges, &position, &vec![[0.1; 2]; 6], &Facing::default());
         for pressed in facing.press(&edges, 3.0, |n| position[n as usize]) {
             let nodes = || pressed.nodes[..pressed.count].iter().zip(&pressed.force);
             let sum = |i: usize| nodes().map(|(_, f)| f[i]).sum::<f64>();
@@ -388,7 +428,7 @@ mod tests {
         for x in &mut position[..3] {
             x[1] += 0.2;
         }
-        assert!(Facing::new(&edges, &position, &vec![[0.1; 2]; 6]).is_empty());
+        assert!(Facing::new(&edges, &position, &vec![[0.1; 2]; 6], &Facing::default()).is_empty());
         let round: Vec<[f64; 2]> = (0..17)
             .map(|i| f64::from(i) / 16.0 * std::f64::consts::PI)
             .map(|angle| [2.0 + angle.cos(), angle.sin()])
@@ -399,6 +439,6 @@ mod tests {
                 ContactEdge::new([2 * e, 2 * e + 2], Some(2 * e + 1), node, Symmetry::PlaneStrain)
             })
             .collect();
-        assert!(Facing::new(&edges, &round, &vec![[0.3; 2]; 17]).is_empty());
+        assert!(Facing::new(&edges, &round, &vec![[0.3; 2]; 17], &Facing::default()).is_empty());
     }
 }
