@@ -69,6 +69,8 @@ impl Asperity {
                     (depth + tip_radius * (secant - 1.0)) / tan_slope
                 }
             }
+            // the summit itself may be found a rounding beside 0
+            Shape::Measured(_) if depth <= 0.0 => 0.0,
             Shape::Measured(outline) => {
                 let [left, right] = outline.widths(depth);
                 // a neighbour begins at the foot; a tool goes on

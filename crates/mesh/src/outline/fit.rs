@@ -73,13 +73,8 @@ pub fn fit(points: &[[f64; 2]], span: Span, tolerance: Option<f64>) -> Result<Fi
     let kinks: Vec<usize> = found.iter().filter_map(|i| i.checked_sub(skipped)).collect();
     let tip = span == Span::Half && kinks.contains(&0);
     let level = span == Span::Half && !tip;
-    let smoothed = Points { points: &unit, kinks: &kinks, level, scatter: tolerance };
-    let arcs = smoothed.arcs().ok_or_else(|| FitError {
-        point: None,
-        message: "do not determine a smooth curve: give more points, or points further apart".into(),
-    })?;
-    let value = |x: f64| value(&arcs, x);
-    let farthest = unit.iter().fold(0.0, |m: f64, p| m.max((p[1] - value(p[0])).abs())) * height;
+    let arcs = smoothed(&unit, &kinks, level, tolerance)?;
+    let farthest = farthest(&unit, &arcs).0 * height;
     let physical = |a: &Parabola| Parabola {
         x: left + a.x * width,
         drop: -a.drop * height,
@@ -99,6 +94,38 @@ pub fn fit(points: &[[f64; 2]], span: Span, tolerance: Option<f64>) -> Result<Fi
         farthest,
         corners: kinks.iter().map(|&i| if i == 0 && tip { 0.0 } else { points[i][0] }).collect(),
     })
+}
+
+/// The arcs that stand for `points`, both over the size of the outline.
+fn smoothed(
+    points: &[[f64; 2]],
+    kinks: &[usize],
+    level: bool,
+    scatter: f64,
+) -> Result<Vec<Parabola>, FitError> {
+    let most = MISSED.max(MISSED_TOLERANCES * scatter);
+    let mut missed = 0;
+    for fewest in FEWEST {
+        let arcs = Points { points, kinks, level, scatter, fewest }.arcs();
+        let Some(arcs) = arcs else { continue };
+        let (distance, point) = farthest(points, &arcs);
+        missed = point;
+        if distance <= COARSE.max(MISSED_TOLERANCES * scatter) || (fewest == 1 && distance <= most) {
+            return Ok(arcs);
+        }
+    }
+    Err(FitError {
+        point: Some(missed),
+        message: "lies off the smooth curve through its neighbours: measure more points where the outline turns, leave out an outlier, or smooth it away with a greater `tolerance`"
+            .into(),
+    })
+}
+
+/// The greatest distance of a point from arcs, and its index.
+fn farthest(points: &[[f64; 2]], arcs: &[Parabola]) -> (f64, usize) {
+    let distance = |p: &[f64; 2]| (p[1] - value(arcs, p[0])).abs();
+    let all = points.iter().map(distance).zip(0..);
+    all.fold((0.0, 0), |far, next| if next.0 > far.0 { next } else { far })
 }
 
 /// Whether the points can be an outline.
@@ -164,6 +191,8 @@ struct Points<'a> {
     /// Whether the slope at the left end is 0.
     level: bool,
     scatter: f64,
+    /// Spacings of points on an arc, at least.
+    fewest: usize,
 }
 
 /// Arcs between stops, what they leave of the points and the sum of its squares.
@@ -207,7 +236,8 @@ impl Points<'_> {
         for _ in 0..MOST_ROUNDS {
             let residuals = self.trial(&stops)?.residuals;
             let far = stretches_too_far(&residuals, self.scatter);
-            let mut halves: Vec<usize> = far.iter().filter_map(|s| division(&stops, *s)).collect();
+            let mut halves: Vec<usize> =
+                far.iter().filter_map(|s| division(&stops, *s, self.fewest)).collect();
             halves.sort_unstable();
             halves.dedup();
             if halves.is_empty() {
@@ -223,7 +253,7 @@ impl Points<'_> {
     fn move_stops(&self, stops: &mut [usize]) {
         let Some(mut best) = self.trial(stops).map(|t| t.squares) else { return };
         for i in 1..stops.len() - 1 {
-            let (low, high) = (stops[i - 1] + FEWEST, stops[i + 1] - FEWEST.min(stops[i + 1]));
+            let (low, high) = (stops[i - 1] + self.fewest, stops[i + 1] - self.fewest);
             let mut step = (stops[i + 1] - stops[i - 1]) / 4;
             while step > 0 && !self.kinks.contains(&stops[i]) {
                 let from = stops[i];
@@ -259,8 +289,15 @@ impl Points<'_> {
     }
 }
 
-/// Spacings of points on an arc, at least.
-const FEWEST: usize = 2;
+/// Spacings of points on an arc, at least: with two a curve does not swing between its points. Points too far apart for that may
+/// have an arc each.
+const FEWEST: [usize; 2] = [2, 1];
+
+/// Distance of a point from the curve over the height of the outline from which points count as too far apart, and the most that
+/// may be left; or so many tolerances.
+const COARSE: f64 = 1e-3;
+const MISSED: f64 = 0.01;
+const MISSED_TOLERANCES: f64 = 6.0;
 
 /// Times that stops are moved and dropped, and the number of stops times points up to which that is done.
 const PASSES: usize = 2;
@@ -268,9 +305,9 @@ const MOST_WORK: usize = 100_000;
 
 /// Where to divide the arc that holds the middle of a stretch, or the longest that shares points with it; at least two
 /// spacings are left on either side.
-fn division(stops: &[usize], [from, to]: [usize; 2]) -> Option<usize> {
+fn division(stops: &[usize], [from, to]: [usize; 2], fewest: usize) -> Option<usize> {
     let middle = (from + to) / 2;
-    let arcs = || stops.windows(2).map(|p| [p[0], p[1]]).filter(|[a, b]| b - a >= 2 * FEWEST);
+    let arcs = || stops.windows(2).map(|p| [p[0], p[1]]).filter(|[a, b]| b - a >= 2 * fewest);
     let halved = |[a, b]: [usize; 2]| (a + b) / 2;
     arcs()
         .find(|[a, b]| (*a..*b).contains(&middle))

@@ -239,11 +239,17 @@ impl<'p> Recorder<'p> {
         (self.problem.symmetry == Symmetry::Axisymmetric && holds).then_some(0)
     }
 
+    /// Hands out the fields before the first increment, if any are wanted.
+    pub(super) fn draw_start(&mut self, model: &Equilibrium<'_>, observer: &mut Watcher<'_>) {
+        if self.interval > 0 {
+            // an observer that breaks here is asked again at the first increment
+            let _ = self.draw(model, observer);
+        }
+    }
+
     /// Hands out the fields of the last row, once.
     fn draw(&mut self, model: &Equilibrium<'_>, observer: &mut Watcher<'_>) -> ControlFlow<()> {
-        let Some(row) = self.rows.last().filter(|row| row.increment > 0) else {
-            return ControlFlow::Continue(());
-        };
+        let Some(row) = self.rows.last() else { return ControlFlow::Continue(()) };
         if self.last_fields == Some(row.increment) {
             return ControlFlow::Continue(());
         }

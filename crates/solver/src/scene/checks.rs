@@ -1,12 +1,14 @@
 //! Which scenes make sense.
 
 use super::geometry::HIGHEST_CAP;
+use super::measured::span_of;
 use super::range::{Check, error, length, not_negative, positive, slope, within};
 use super::{
     Asperity, AsperityForm, Lateral, Loading, Numerics, Scene, SceneError, Substrate, Symmetry, Target,
     ToolForce, ToolForm,
 };
 use asperity_law::units::Length;
+use asperity_mesh::outline::Span;
 
 /// Puts the table in front of the keys of an error.
 fn inside(table: &str, error: SceneError) -> SceneError {
@@ -37,6 +39,9 @@ impl Scene {
         self.material.check().map_err(|e| inside("material", e))?;
         for (i, asperity) in self.asperity.iter().enumerate() {
             asperity.check().map_err(|e| inside(&format!("asperity[{i}]"), e))?;
+            if i == 0 && self.symmetry == Symmetry::Axisymmetric {
+                asperity.check_on_axis().map_err(|e| inside("asperity[0]", e))?;
+            }
         }
         self.tool.check().map_err(|e| inside("tool", e))?;
         if let Some(substrate) = &self.substrate {
@@ -266,6 +271,19 @@ impl Asperity {
             ));
         }
         Ok(())
+    }
+}
+
+impl Asperity {
+    /// A measured outline on the axis must be half a section.
+    fn check_on_axis(&self) -> Check {
+        match self.points.as_ref().map(|points| span_of(points.metres())) {
+            Some(Span::Whole) => Err(error(
+                "points[0]",
+                "the asperity on the axis is half a section, from the axis outward, and begins at least half way up: count the places from its summit; a deeper hole in the middle is not meshed",
+            )),
+            _ => Ok(()),
+        }
     }
 }
 

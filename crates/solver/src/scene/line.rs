@@ -73,12 +73,12 @@ impl LineProfile {
             }
             (None, None) => return Err(error("", "`file` is missing: give file = \"line.csv\"")),
         };
-        let fit = points.fit(Span::Whole, self.tolerance, false).map_err(refused)?;
+        let fit = points.fit(Span::Whole, self.tolerance, false).map_err(|e| refused(points, e))?;
         let turns = turns(&fit.outline, PRUNED * fit.outline.lowest());
         let (Some(first), Some(last)) = (turns.first(), turns.last()) else {
             return Err(error(
                 "points",
-                "have no summit between two valleys: give a longer line, or an [[asperity]] with `profile`",
+                "the points have no summit between two valleys: give a longer line, or an [[asperity]] with `profile`",
             ));
         };
         let highest = turns.iter().skip(1).step_by(2).fold(f64::INFINITY, |m, t| m.min(t[1]));
@@ -94,7 +94,7 @@ impl LineProfile {
             return Err(error(
                 "points",
                 format!(
-                    "have {} asperities, more than the {MOST} of a mesh: cut out a part, or smooth with a greater `tolerance`",
+                    "the points have {} asperities, more than the {MOST} of a mesh: cut out a part, or smooth with a greater `tolerance`",
                     asperities.len()
                 ),
             ));

@@ -94,11 +94,14 @@ impl Smoothing {
     }
 }
 
-/// The error of a fit in the words of a scene; paths are relative to the table, a point is `points[i]`.
-pub(super) fn refused(e: FitError) -> SceneError {
+/// The error of a fit of `points` in the words of a scene; paths are relative to the table, a point is `points[i]`.
+pub(super) fn refused(points: &Points, e: FitError) -> SceneError {
     match e.point {
-        Some(point) => error(format!("points[{point}]"), e.message),
-        None => error("points", e.message),
+        Some(point) => {
+            let place = points.metres().get(point).map_or(f64::NAN, |p| p[0]);
+            error(format!("points[{point}]"), format!("the point at {} {}", length(place), e.message))
+        }
+        None => error("points", format!("the points {}", e.message)),
     }
 }
 
@@ -123,13 +126,13 @@ pub(super) fn asperity(
     tolerance: Option<Length>,
 ) -> Result<(Arc<Outline>, f64), SceneError> {
     let span = span_of(points.metres());
-    let fit = points.fit(span, tolerance, false).map_err(refused)?;
+    let fit = points.fit(span, tolerance, false).map_err(|e| refused(points, e))?;
     let steepest = fit.outline.steepest();
     if steepest > STEEPEST {
         return Err(error(
             "points",
             format!(
-                "rise at {:.0} degrees, more than the {:.0} that a mesh follows: cut the outline off where it is too steep, or smooth it with a greater `tolerance`",
+                "the points rise at {:.0} degrees, more than the {:.0} that a mesh follows: cut the outline off where it is too steep, or smooth it with a greater `tolerance`",
                 steepest.atan().to_degrees(),
                 STEEPEST.atan().to_degrees()
             ),
@@ -137,8 +140,8 @@ pub(super) fn asperity(
     }
     if span == Span::Half {
         let foot = lowest_place(&fit.outline);
-        let cut = fit.outline.cut(foot);
-        return Ok((Arc::new(cut.clone()), cut.depth_at(foot)));
+        let (cut, height) = (fit.outline.cut(foot), fit.outline.depth_at(foot));
+        return if height > 0.0 && height.is_finite() { Ok((cut.shared(), height)) } else { Err(level()) };
     }
     let [x, drop] = fit.outline.summit();
     let seen = fit.outline.seen_from(x, drop);
@@ -146,14 +149,25 @@ pub(super) fn asperity(
     if left >= 0.0 || right <= 0.0 {
         return Err(error(
             "points",
-            "have their highest point at an end: give a ridge from foot to foot, or half of it from its axis outward",
+            "the points have their highest at an end: give a ridge from foot to foot, or half of it from its axis outward",
         ));
     }
     let image = seen.reversed();
     let (to_left, to_right) = (lowest_place(&image), lowest_place(&seen));
     let height = image.depth_at(to_left).max(seen.depth_at(to_right));
+    if !(height > 0.0 && height.is_finite()) {
+        return Err(level());
+    }
     let seen = seen.between(-to_left, to_right).down_to(height);
     Ok((seen.reversed().down_to(height).reversed().shared(), height))
+}
+
+/// The error of an outline of which nothing is left.
+fn level() -> SceneError {
+    error(
+        "points",
+        "the points fall from no summit once they are smoothed: give the outline to its foot, and a smaller `tolerance`",
+    )
 }
 
 /// The place of the greatest drop to the right of 0.
@@ -168,18 +182,31 @@ const DENT_IN_TOLERANCES: f64 = 3.0;
 
 /// The outline of a tool, as the rise from its apex.
 pub(super) fn tool(points: &Points, tolerance: Option<Length>) -> Result<Arc<Outline>, SceneError> {
-    let fit = points.fit(Span::Half, tolerance, true).map_err(refused)?;
+    let fit = points.fit(Span::Half, tolerance, true).map_err(|e| refused(points, e))?;
     let (outline, height) = (&fit.outline, fit.outline.lowest());
     let dent = deepest_dent(outline);
     let most = (FLAT_DENT * height).max(DENT_IN_TOLERANCES * fit.tolerance);
-    if dent.depth > most {
-        let nearest = |p: &[f64; 2]| (p[0] - dent.x).abs();
-        let all = points.metres().iter().enumerate();
-        let point = all.min_by(|a, b| nearest(a.1).total_cmp(&nearest(b.1))).map_or(0, |(i, _)| i);
+    let point_at = |x: f64| {
+        let all = points.metres().iter().map(|p| (p[0] - x).abs()).enumerate();
+        let point = all.min_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |(i, _)| i);
+        format!("points[{point}]")
+    };
+    if outline.depth_at(0.0) > most {
+        let [x, _] = outline.summit();
         return Err(error(
-            format!("points[{point}]"),
+            point_at(x),
             format!(
-                "lies in a dent {} deep, at {} from the axis: a tool must be convex (to {} here), its apex on the axis and its outline rising ever more steeply; close the dent, or smooth it with a greater `tolerance`",
+                "the point is the lowest of the tool, but lies {} from the axis, where the tool is {} higher: its apex must be on the axis; count the places from there, and close a hole in the middle",
+                length(x),
+                length(outline.depth_at(0.0))
+            ),
+        ));
+    }
+    if dent.depth > most {
+        return Err(error(
+            point_at(dent.x),
+            format!(
+                "the point lies in a dent {} deep, at {} from the axis: a tool must be convex (to {} here), its apex on the axis and its outline rising ever more steeply; close the dent, or smooth it with a greater `tolerance`",
                 length(dent.depth),
                 length(dent.x),
                 length(most)
@@ -191,7 +218,7 @@ pub(super) fn tool(points: &Points, tolerance: Option<Length>) -> Result<Arc<Out
         return Err(error(
             "points",
             format!(
-                "rise at {:.1} degrees, more than the {:.0} up to which a tool presses: cut the outline off where it stands upright",
+                "the points rise at {:.1} degrees, more than the {:.0} up to which a tool presses: cut the outline off where it stands upright",
                 steepest.atan().to_degrees(),
                 STEEPEST_TOOL.atan().to_degrees()
             ),
