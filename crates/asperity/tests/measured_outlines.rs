@@ -121,7 +121,8 @@ fn pyramids_press_as_the_cone_of_their_area_and_soft_ones_give_way() {
         assert!((value(summary, "peak_depth_um") - 1.0).abs() < 1e-9);
         assert!(value(summary, "peak_force_N") < value(&berkovich, "peak_force_N"));
         assert!(
-            value(summary, "unloading_stiffness_N_per_um") < value(&berkovich, "unloading_stiffness_N_per_um")
+            value(summary, "unloading_stiffness_N_per_um")
+                < value(&berkovich, "unloading_stiffness_N_per_um")
         );
     }
     // 1/E_r = (1 - 0.3²)/210 + (1 - 0.07²)/1141 in 1/GPa
@@ -135,11 +136,16 @@ fn a_line_is_the_surface_with_its_asperities() {
     let line: String = (0..=800).map(|i| 0.25 * f64::from(i)).map(|x| format!("{x},{}\n", wave(x))).collect();
     let scene = SCENE
         .replace("axisymmetric", "plane-strain")
-        .replacen(ASPERITY, "[[profile]]\nfile = \"p.csv\"\n[substrate]\nradius = \"1 mm\"\ndepth = \"1 mm\"\n", 1)
+        .replacen(
+            ASPERITY,
+            "[[profile]]\nfile = \"p.csv\"\n[substrate]\nradius = \"1 mm\"\ndepth = \"1 mm\"\n",
+            1,
+        )
         .replace("5 um", "0.5 um");
     let (place, free) = crushed(&scene, &format!("x_um,z_um\n{line}"));
     let rows = place.text("out/asperities.csv");
-    let count = 1 + rows.lines().skip(1).filter_map(|l| l.split(',').nth(2)?.parse().ok()).fold(0, usize::max);
+    let count =
+        1 + rows.lines().skip(1).filter_map(|l| l.split(',').nth(2)?.parse().ok()).fold(0, usize::max);
     assert_eq!(count, 5, "{}", free["outlines"]);
     let end = place.run(&["crush", "scene.toml", "--set", "lateral=symmetric", "--out", "cell", "--quiet"]);
     assert_eq!(end.status, 0, "{}", end.err);
@@ -147,7 +153,8 @@ fn a_line_is_the_surface_with_its_asperities() {
 
 #[test]
 fn what_is_no_outline_is_refused_at_its_line() {
-    let ring: String = (0..60).map(|i| format!("{i},{}\n", 0.3 * f64::from(20 - (i - 20i32).abs()))).collect();
+    let ring: String =
+        (0..60).map(|i| format!("{i},{}\n", 0.3 * f64::from(20 - (i - 20i32).abs()))).collect();
     let rows: [(&str, bool, &[&str]); 12] = [
         ("", false, &["scene.toml:9:", "p.csv: is empty"]),
         ("r,z\n0,20\n114,0\n", false, &["p.csv:1:", "has no unit", "r_um"]),

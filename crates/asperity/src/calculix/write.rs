@@ -68,7 +68,10 @@ impl Deck {
             )?;
         }
         if self.reader == Reader::Abaqus {
-            return writeln!(out, "** Elasticity and the stress measure of the table (here Kirchhoff's) are those of Abaqus.");
+            return writeln!(
+                out,
+                "** Elasticity and the stress measure of the table (here Kirchhoff's) are those of Abaqus."
+            );
         }
         writeln!(
             out,

@@ -9,7 +9,9 @@ mod summary;
 
 pub use fields::{FieldSeries, Frame};
 pub use plot::plot;
-pub use record::{AsperityRow, CurveRow, CycleRow, GapRow, Phase, SurfaceRow, SurfaceStateRow, read_rows, write_rows};
+pub use record::{
+    AsperityRow, CurveRow, CycleRow, GapRow, Phase, SurfaceRow, SurfaceStateRow, read_rows, write_rows,
+};
 pub use summary::{Instrument, Island, MeasuredOutline, Summary, peak_memory_mb};
 
 use crate::draw::field_plot::{Panel, Reach, Section};
