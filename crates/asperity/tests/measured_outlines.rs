@@ -50,11 +50,16 @@ fn crushed(scene: &str, file: &str) -> (Place, Value) {
     (place, summary)
 }
 
-/// 0.1 %: the mesh is the same, the curve within 1e-5 of the points.
+/// 0.2 %, and 0.5 % of the area: six elements across the contact, whose columns may fall a little differently under the tip.
 fn same(a: &Value, b: &Value) {
-    for key in ["peak_force_N", "contact_area_um2", "residual_depth_um", "unloading_stiffness_N_per_um"] {
+    for (key, tolerance) in [
+        ("peak_force_N", 2e-3),
+        ("contact_area_um2", 5e-3),
+        ("residual_depth_um", 2e-3),
+        ("unloading_stiffness_N_per_um", 2e-3),
+    ] {
         let [a, b] = [a, b].map(|s| s[key].as_f64().unwrap());
-        assert!((a / b - 1.0).abs() < 1e-3, "{key}: {a} {b}");
+        assert!((a / b - 1.0).abs() < tolerance, "{key}: {a} {b}");
     }
 }
 
@@ -146,7 +151,7 @@ fn a_line_is_the_surface_with_its_asperities() {
     let rows = place.text("out/asperities.csv");
     let count =
         1 + rows.lines().skip(1).filter_map(|l| l.split(',').nth(2)?.parse().ok()).fold(0, usize::max);
-    assert_eq!(count, 5, "{}", free["outlines"]);
+    assert_eq!(count, 7, "{}", free["outlines"]);
     let end = place.run(&["crush", "scene.toml", "--set", "lateral=symmetric", "--out", "cell", "--quiet"]);
     assert_eq!(end.status, 0, "{}", end.err);
 }
@@ -156,9 +161,9 @@ fn what_is_no_outline_is_refused_at_its_line() {
     let ring: String =
         (0..60).map(|i| format!("{i},{}\n", 0.3 * f64::from(20 - (i - 20i32).abs()))).collect();
     let rows: [(&str, bool, &[&str]); 12] = [
-        ("", false, &["scene.toml:9:", "p.csv: is empty"]),
+        ("", false, &["scene.toml:10:", "p.csv: is empty"]),
         ("r,z\n0,20\n114,0\n", false, &["p.csv:1:", "has no unit", "r_um"]),
-        ("r_um,z_um\n0,20\n", false, &["scene.toml:9:", "not 1"]),
+        ("r_um,z_um\n0,20\n", false, &["scene.toml:10:", "not 1"]),
         ("r_um,z_um\n0,20\n50,15\n40,16\n114,0\n", false, &["p.csv:4:", "at 40 um", "sort", "overhangs"]),
         ("r_um,z_um\n0,20\n50,15\n50,0\n", false, &["p.csv:4:", "upright"]),
         ("r_um,z_um\n0,20\n50,nan\n114,0\n", false, &["p.csv:3:", "`nan`", "was not measured"]),
