@@ -9,6 +9,7 @@ import csv
 import math
 import os
 import pathlib
+import re
 import sys
 
 from paraview import simple
@@ -42,10 +43,13 @@ def peak(folder, times):
     """The last of `times` that lies on the loading branch, and its row of the curve."""
     with open(folder / "curve.csv", newline="") as file:
         rows = {int(row["increment"]): row for row in csv.DictReader(file)}
-    loading = [t for t in times if rows.get(int(t), {}).get("phase") == "load"]
+    # the times of the collection are depths, in the order of its files
+    increments = map(int, re.findall(r"fields_(\d+)\.vtu", (folder / "fields.pvd").read_text()))
+    loading = [(t, i) for t, i in zip(times, increments, strict=True) if rows.get(i, {}).get("phase") == "load"]
     if not loading:
         sys.exit(f"{folder} has no field file of the loading branch")
-    return loading[-1], rows[int(loading[-1])]
+    time, increment = loading[-1]
+    return time, rows[increment]
 
 
 def colour(text):

@@ -12,6 +12,7 @@ import argparse
 import csv
 import dataclasses
 import pathlib
+import re
 import sys
 
 import matplotlib
@@ -63,17 +64,22 @@ def read_curve(folder):
         return {int(row["increment"]): row for row in csv.DictReader(file)}
 
 
-def choose(times, wanted, curve):
-    """The increment to draw: one of `times`, which has a field file."""
+def increments_of(path):
+    """Increments of the field files of a collection, in the order of its times."""
+    return [int(number) for number in re.findall(r"fields_(\d+)\.vtu", path.read_text())]
+
+
+def choose(increments, wanted, curve):
+    """The place of the increment to draw among those that have a field file."""
     if wanted == "last":
-        return times[-1]
+        return len(increments) - 1
     if wanted == "peak":
-        loading = [t for t in times if curve.get(int(t), {}).get("phase", "load") == "load"]
-        return loading[-1] if loading else times[-1]
-    if wanted.isdigit() and float(wanted) in times:
-        return float(wanted)
+        loading = [k for k, i in enumerate(increments) if curve.get(i, {}).get("phase", "load") == "load"]
+        return loading[-1] if loading else len(increments) - 1
+    if wanted.isdigit() and int(wanted) in increments:
+        return increments.index(int(wanted))
     sys.exit(
-        f"there are no fields of increment {wanted}: choose peak, last or one of {', '.join(f'{t:g}' for t in times)}"
+        f"there are no fields of increment {wanted}: choose peak, last or one of {', '.join(map(str, increments))}"
     )
 
 
@@ -239,13 +245,14 @@ def main():
         sys.exit(f"{path} is missing: crush a scene with fields, for example --set output.every=5")
     curve = read_curve(path.parent)
     reader = pv.get_reader(str(path))
-    time = choose(reader.time_values, args.increment, curve)
-    reader.set_active_time_value(time)
+    increments = increments_of(path)
+    place = choose(increments, args.increment, curve)
+    reader.set_active_time_point(place)
     mesh = reader.read()[0]
     missing = sorted(NEEDED - set(mesh.array_names))
     if missing:
         sys.exit(f"the fields lack {', '.join(missing)}: name them in [output] fields")
-    row = curve.get(int(time), {})
+    row = curve.get(increments[place], {})
     revolved = "force_N_per_mm" not in row and mesh.bounds[0] > -1e-6
     cut = section(mesh, revolved, args.zoom)
     figure = draw(cut, row.get("phase") == "unload", caption(row), "r (µm)" if revolved else "x (µm)")

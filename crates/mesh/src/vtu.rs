@@ -43,7 +43,7 @@ pub enum VtuError {
     Io(#[from] std::io::Error),
 }
 
-/// Writes `mesh` with its coordinates times `scale`, and arrays on nodes and cells, to `out`.
+/// Writes `mesh` with its coordinates times `scale`, arrays on nodes and cells, and numbers of the whole state, to `out`.
 ///
 /// The section lies in the plane z = 0 of VTK: x is r, y is the height; vectors of two components get a third
 /// that is 0. Quadratic cells stay quadratic; the data are zlib-compressed.
@@ -56,6 +56,7 @@ pub fn write_vtu(
     scale: f64,
     nodes: &[FieldArray],
     cells: &[FieldArray],
+    whole: &[(&str, f64)],
 ) -> Result<(), VtuError> {
     let points: Vec<f64> = mesh.nodes.iter().flat_map(|p| [p[0] * scale, p[1] * scale, 0.0]).collect();
     let (count, width) = (mesh.cell_count(), mesh.kind.nodes());
@@ -88,7 +89,34 @@ pub fn write_vtu(
     .map_err(|e| VtuError::Encode(e.to_string()))?;
     let mut text = Vec::new();
     file.write(&mut text).map_err(|e| VtuError::Encode(e.to_string()))?;
-    out.write_all(&text)?;
+    // vtkio writes no data of a whole file
+    const GRID: &[u8] = b"<UnstructuredGrid>";
+    let start = text.windows(GRID.len()).position(|w| w == GRID).map_or(0, |i| i + GRID.len());
+    if start == 0 && !whole.is_empty() {
+        return Err(VtuError::Encode("no grid was written".into()));
+    }
+    out.write_all(&text[..start])?;
+    write_whole(&mut out, whole)?;
+    out.write_all(&text[start..])?;
+    Ok(())
+}
+
+/// The numbers of a whole file as VTK's field data.
+fn write_whole(out: &mut impl Write, whole: &[(&str, f64)]) -> Result<(), VtuError> {
+    if whole.is_empty() {
+        return Ok(());
+    }
+    writeln!(out, "<FieldData>")?;
+    for (name, value) in whole {
+        if !value.is_finite() {
+            return Err(VtuError::NotFinite((*name).into()));
+        }
+        writeln!(
+            out,
+            "<DataArray type=\"Float64\" Name=\"{name}\" NumberOfTuples=\"1\" format=\"ascii\">{value:?}</DataArray>"
+        )?;
+    }
+    writeln!(out, "</FieldData>")?;
     Ok(())
 }
 

@@ -23,8 +23,19 @@ const HOLE: f64 = 1e-3;
 /// Edges of the surface closer to the tool than this many depths may touch it.
 const REACH: f64 = 2.0;
 
+/// The program that a deck is written for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reader {
+    /// CalculiX; Abaqus reads it with a few words changed, which its heading names.
+    CalculiX,
+    /// Abaqus/Standard as it is.
+    Abaqus,
+}
+
 /// Everything that a deck says, in µm and MPa.
 pub struct Deck {
+    /// The program that reads it.
+    pub(super) reader: Reader,
     /// Name of the scene.
     pub(super) name: String,
     /// The body, its axis opened to a hole.
@@ -60,13 +71,13 @@ impl Deck {
     ///
     /// # Errors
     /// A scene that such a deck cannot express, pointing at its line.
-    pub fn new(name: &str, scene: &Scene) -> Result<Deck, Error> {
+    pub fn new(name: &str, scene: &Scene, reader: Reader) -> Result<Deck, Error> {
         let problem = problem(scene)?;
-        Deck::of(name, scene.tables(), &problem).map_err(|e| scene.error(&e).into())
+        Deck::of(name, scene.tables(), &problem, reader).map_err(|e| scene.error(&e).into())
     }
 
     /// The deck of `problem`, which was prepared from `scene`.
-    fn of(name: &str, scene: &Tables, problem: &Problem) -> Result<Deck, SceneError> {
+    fn of(name: &str, scene: &Tables, problem: &Problem, reader: Reader) -> Result<Deck, SceneError> {
         if let Target::Force(_) = scene.loading.target()? {
             return Err(error(
                 "loading.force",
@@ -83,7 +94,10 @@ impl Deck {
         let drop = |x: f64| problem.tool.mirrored().map_or(0.0, |a| a.drop(x));
         let contact = touching(&problem.mesh, &drop, 1.0);
         let hole = match section {
-            Section::Axisymmetric => HOLE * first_width(&problem.mesh, &contact),
+            Section::Axisymmetric if reader == Reader::CalculiX => {
+                HOLE * first_width(&problem.mesh, &contact)
+            }
+            Section::Axisymmetric => 0.0,
             Section::PlaneStrain => 0.0,
         };
         let lowest = first_touch(&problem.mesh, &drop);
@@ -92,6 +106,7 @@ impl Deck {
         let travels = travels(scene, problem);
         let hardening = scene.material.hardening();
         Ok(Deck {
+            reader,
             name: name.to_string(),
             mesh: opened(&problem.mesh, section, hole).scaled(um),
             section,
@@ -122,6 +137,10 @@ fn check(scene: &Tables) -> Result<(), SceneError> {
         let most = table::POINTS;
         let message = format!("CalculiX holds {most} points of hardening, not {points}: thin the table out");
         return Err(error("material.hardening_table", message));
+    }
+    if scene.tool.youngs_modulus.is_some() || scene.tool.machine_compliance.is_some() {
+        let message = "a deck has a rigid tool on a stiff machine: leave youngs_modulus, poissons_ratio and machine_compliance out";
+        return Err(error("tool", message));
     }
     if scene.loading.reloads > 0 {
         return Err(error("loading.reloads", "a deck unloads once: leave reloads out"));

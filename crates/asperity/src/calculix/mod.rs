@@ -9,4 +9,4 @@ mod deck;
 
 mod write;
 
-pub use deck::Deck;
+pub use deck::{Deck, Reader};

@@ -1,6 +1,6 @@
 //! The text of a deck.
 
-use super::deck::Deck;
+use super::deck::{Deck, Reader};
 use asperity_mesh::{ElementKind, Section, write_inp, write_inp_side};
 use std::io::{self, Write};
 
@@ -34,6 +34,9 @@ impl Deck {
         writeln!(out, "*HEADING\n{}: crush by a rigid tool, written by asperity {version}", self.name)?;
         writeln!(out, "** units: um, MPa; so forces in uN, energies in pJ")?;
         match self.section {
+            Section::Axisymmetric if self.reader == Reader::Abaqus => {
+                writeln!(out, "** forces, areas and energies are those of the full revolution")?;
+            }
             Section::Axisymmetric => writeln!(
                 out,
                 "** CalculiX takes CAX elements as wedges of 2 degrees: multiply its forces, areas and energies by 180\n\
@@ -63,6 +66,12 @@ impl Deck {
                 out,
                 "** The linear element of asperity has one dilatation; that of the reader of this deck is its own."
             )?;
+        }
+        if self.reader == Reader::Abaqus {
+            return writeln!(
+                out,
+                "** Elasticity and the stress measure of the table (here Kirchhoff's) are those of Abaqus."
+            );
         }
         writeln!(
             out,
@@ -153,6 +162,9 @@ impl Deck {
         writeln!(out, "** step {}, {kind} to a travel of {travel:.6} um", index + 1)?;
         writeln!(out, "*STEP, NLGEOM, INC=1000\n*STATIC\n1., 1., 1.E-6, 1.")?;
         writeln!(out, "*BOUNDARY\nTOOL, 2, 2, {}", number(-travel))?;
+        if self.reader == Reader::Abaqus {
+            return self.abaqus_output(out, index);
+        }
         if index == 0 {
             writeln!(out, "*NODE PRINT, NSET=TOOL, TOTALS=YES, FREQUENCY=1000\nU, RF")?;
             writeln!(out, "*EL PRINT, ELSET=BODY, TOTALS=ONLY, FREQUENCY=1000\nELSE")?;
@@ -164,6 +176,20 @@ impl Deck {
             writeln!(out, "*NODE FILE, FREQUENCY={frequency}\nU, RF")?;
             writeln!(out, "*EL FILE, FREQUENCY={frequency}\nS, PEEQ, ENER")?;
             writeln!(out, "*CONTACT FILE, FREQUENCY={frequency}\nCDIS, CSTR")?;
+        }
+        writeln!(out, "*END STEP")
+    }
+
+    /// The end of a step of Abaqus: requests of its first step hold for the later ones.
+    fn abaqus_output(&self, out: &mut impl Write, index: usize) -> io::Result<()> {
+        if index == 0 {
+            writeln!(out, "*NODE PRINT, NSET=TOOL, TOTALS=YES, FREQUENCY=1000\nU, RF")?;
+            writeln!(out, "*ENERGY PRINT, FREQUENCY=1000")?;
+            writeln!(out, "*CONTACT PRINT, SLAVE=CONTACT, MASTER=TOOL, FREQUENCY=1000\nCFN, CAREA")?;
+            writeln!(out, "*OUTPUT, FIELD, FREQUENCY=1000\n*NODE OUTPUT\nU, RF")?;
+            writeln!(out, "*ELEMENT OUTPUT, ELSET=BODY\nS, PEEQ\n*CONTACT OUTPUT\nCSTRESS, CDISP")?;
+            writeln!(out, "*OUTPUT, HISTORY, FREQUENCY=1\n*NODE OUTPUT, NSET=TOOL\nRF2, U2")?;
+            writeln!(out, "*ENERGY OUTPUT\nALLSE, ALLPD, ALLWK")?;
         }
         writeln!(out, "*END STEP")
     }

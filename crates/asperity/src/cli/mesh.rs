@@ -1,6 +1,6 @@
 //! `asperity mesh`: the mesh of a scene with its sizes and quality, as a file.
 
-use crate::calculix::Deck;
+use crate::calculix::{Deck, Reader};
 use crate::cli::flags::SceneFlags;
 use crate::cli::terminal;
 use crate::error::{Error, InputError};
@@ -17,7 +17,7 @@ use std::path::{Path, PathBuf};
 pub struct MeshCommand {
     /// Scene file (TOML)
     pub scene: PathBuf,
-    /// File to write: .vtu (ParaView), .msh (Gmsh 4.1) or .inp (CalculiX, Abaqus) [default with --format: named after the scene]
+    /// File to write: .vtu (ParaView), .msh (Gmsh 4.1) or .inp (CalculiX; with --format abaqus for Abaqus) [default with --format: named after the scene]
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
     /// Format, where the extension of the file does not say
@@ -37,8 +37,10 @@ pub enum MeshFormat {
     Vtu,
     /// The mesh for Gmsh 4.1; a scene can read it
     Msh,
-    /// The whole scene for CalculiX and Abaqus: mesh, material, tool, contact, steps, output
+    /// The whole scene for CalculiX: mesh, material, tool, contact, steps, output
     Inp,
+    /// The same for Abaqus, in a file .inp
+    Abaqus,
 }
 
 /// The format that the extension of the file names.
@@ -58,7 +60,10 @@ fn target(args: &MeshCommand) -> Result<(PathBuf, MeshFormat), InputError> {
         (None, Some(format)) => {
             let name = args.scene.file_stem().unwrap_or("scene".as_ref());
             let value = format.to_possible_value();
-            let extension = value.as_ref().map_or("", |value| value.get_name());
+            let extension = match format {
+                MeshFormat::Abaqus => "inp",
+                _ => value.as_ref().map_or("", |value| value.get_name()),
+            };
             Ok((Path::new(name).with_extension(extension), format))
         }
         (None, None) => Err(InputError::new("no file to write")
@@ -89,11 +94,13 @@ fn content(scene: &Scene, mesh: &Mesh, format: MeshFormat) -> Result<Vec<u8>, Er
     fn failed(e: impl Display) -> Error {
         Error::Unfinished(format!("the mesh cannot be written: {e}"))
     }
+    let deck = |reader| Deck::new(&scene.name(), scene, reader);
     let mut out = Vec::new();
     match format {
-        MeshFormat::Vtu => write_vtu(&mut out, mesh, 1.0 / MICROMETRE, &[], &[]).map_err(failed)?,
+        MeshFormat::Vtu => write_vtu(&mut out, mesh, 1.0 / MICROMETRE, &[], &[], &[]).map_err(failed)?,
         MeshFormat::Msh => write_msh(&mut out, mesh).map_err(failed)?,
-        MeshFormat::Inp => Deck::new(&scene.name(), scene)?.write(&mut out).map_err(failed)?,
+        MeshFormat::Inp => deck(Reader::CalculiX)?.write(&mut out).map_err(failed)?,
+        MeshFormat::Abaqus => deck(Reader::Abaqus)?.write(&mut out).map_err(failed)?,
     }
     Ok(out)
 }

@@ -1,6 +1,8 @@
 //! `fields.pvd` with its `fields_NNNN.vtu` and `surface_NNNN.csv`: the fields of some increments, as they are written.
 
-use super::record::{Phase, SurfaceRow, write_rows};
+#![expect(non_snake_case, reason = "a name ends in its unit, as in the files")]
+
+use super::record::{CurveRow, Phase, SurfaceRow, SurfaceStateRow, write_rows};
 use crate::error::Error;
 use crate::output::{Sink, SinkExt};
 use crate::units::{MEGAPASCAL, MICROMETRE};
@@ -18,6 +20,12 @@ pub struct Frame {
     pub increment: usize,
     /// Loading or unloading.
     pub phase: Phase,
+    /// Depth and force of the increment, as the observer hears of them: the curve is free of ripple once the run has ended.
+    pub depth_um: f64,
+    /// See `depth_um`; per mm in plane strain.
+    pub force_N: f64,
+    /// Whether the force is one per mm.
+    pub per_length: bool,
     /// The mesh before the crush, m; the frames of a run share it.
     pub mesh: Arc<Mesh>,
     /// Arrays over the nodes, such as `displacement_um`, `stress_rr_MPa`, `von_mises_MPa`, `contact_pressure_MPa`.
@@ -30,10 +38,22 @@ pub struct Frame {
 
 impl Frame {
     /// The fields that `scene` asks for.
-    pub(super) fn new(frame: &FieldFrame, mesh: Arc<Mesh>, scene: &Tables) -> Frame {
+    pub(super) fn new(frame: &FieldFrame, mesh: Arc<Mesh>, scene: &Tables, row: Option<&CurveRow>) -> Frame {
         let (nodes, cells) = field_arrays(&frame.fields, scene.output.fields(), scene.symmetry);
         let surface = frame.fields.surface.iter().map(SurfaceRow::new).collect();
-        Frame { increment: frame.increment, phase: frame.phase.into(), mesh, nodes, cells, surface }
+        // before the first increment nothing has happened
+        let [depth_um, force_N] = row.map_or([0.0; 2], |row| [row.depth_um, row.force_N]);
+        Frame {
+            increment: frame.increment,
+            phase: frame.phase.into(),
+            depth_um,
+            force_N,
+            per_length: scene.symmetry == Symmetry::PlaneStrain,
+            mesh,
+            nodes,
+            cells,
+            surface,
+        }
     }
 
     /// The values of the array `name` over nodes or cells, all components of a point together.
@@ -46,8 +66,12 @@ impl Frame {
 /// The collection of field files of one run, readable at any moment.
 #[derive(Debug, Default)]
 pub struct FieldSeries {
-    /// Increments that have a file.
-    increments: Vec<usize>,
+    /// Increments that have a file, with their times.
+    times: Vec<(usize, f64)>,
+    /// Depth of the last of them.
+    depth_um: f64,
+    /// The surfaces so far.
+    surfaces: Vec<SurfaceStateRow>,
 }
 
 impl FieldSeries {
@@ -58,9 +82,11 @@ impl FieldSeries {
     pub fn add(&mut self, folder: &mut dyn Sink, frame: &Frame) -> Result<(), Error> {
         let increment = frame.increment;
         folder.write(&format!("fields_{increment:04}.vtu"), |out| {
-            write_vtu(out, &frame.mesh, 1.0 / MICROMETRE, &frame.nodes, &frame.cells)
+            let force = if frame.per_length { "force_N_per_mm" } else { "force_N" };
+            let whole = [("depth_um", frame.depth_um), (force, frame.force_N)];
+            write_vtu(out, &frame.mesh, 1.0 / MICROMETRE, &frame.nodes, &frame.cells, &whole)
         })?;
-        self.increments.push(increment);
+        self.count(frame);
         folder.write("fields.pvd", |out| self.write_collection(out))?;
         // the columns of a surface have one name in both symmetries
         folder.write(&format!("surface_{increment:04}.csv"), |out| {
@@ -68,17 +94,50 @@ impl FieldSeries {
         })
     }
 
-    /// The ParaView collection; its time is the increment.
+    /// Takes down the time and the surface of a frame.
+    fn count(&mut self, frame: &Frame) {
+        let way = self.times.last().map_or(0.0, |(_, time)| *time) + (frame.depth_um - self.depth_um).abs();
+        // states of one depth keep their order
+        let time = self.times.last().map_or(way, |(_, last)| way.max(last.next_up()));
+        self.times.push((frame.increment, time));
+        self.depth_um = frame.depth_um;
+        let state = |point: &SurfaceRow| SurfaceStateRow {
+            increment: frame.increment,
+            phase: frame.phase,
+            depth_um: frame.depth_um,
+            r_um: point.r_um,
+            z_um: point.z_um,
+            u_r_um: point.u_r_um,
+            u_z_um: point.u_z_um,
+            pressure_MPa: point.pressure_MPa,
+            yielded: point.yielded,
+        };
+        self.surfaces.extend(frame.surface.iter().map(state));
+    }
+
+    /// Writes the surfaces of all frames to one file, if there are any.
+    ///
+    /// # Errors
+    /// A disk that refuses.
+    pub fn write_surfaces(&self, folder: &mut dyn Sink) -> Result<(), Error> {
+        if self.surfaces.is_empty() {
+            return Ok(());
+        }
+        folder.write("surfaces.csv", |out| write_rows(out, &self.surfaces, Symmetry::Axisymmetric))
+    }
+
+    /// The ParaView collection; its time is the way of the depth, µm: the depth while the tool advances first, and further
+    /// on what it retreats, so that no two states share a time.
     fn write_collection(&self, out: &mut dyn Write) -> io::Result<()> {
         writeln!(out, "<?xml version=\"1.0\"?>")?;
         writeln!(
             out,
             "<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n  <Collection>"
         )?;
-        for i in &self.increments {
+        for (i, time) in &self.times {
             writeln!(
                 out,
-                "    <DataSet timestep=\"{i}\" group=\"\" part=\"0\" file=\"fields_{i:04}.vtu\"/>"
+                "    <DataSet timestep=\"{time:?}\" group=\"\" part=\"0\" file=\"fields_{i:04}.vtu\"/>"
             )?;
         }
         writeln!(out, "  </Collection>\n</VTKFile>")

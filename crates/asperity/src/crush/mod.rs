@@ -9,8 +9,10 @@ mod summary;
 
 pub use fields::{FieldSeries, Frame};
 pub use plot::plot;
-pub use record::{AsperityRow, CurveRow, CycleRow, GapRow, Phase, SurfaceRow, read_rows, write_rows};
-pub use summary::{Instrument, Island, Summary, peak_memory_mb};
+pub use record::{
+    AsperityRow, CurveRow, CycleRow, GapRow, Phase, SurfaceRow, SurfaceStateRow, read_rows, write_rows,
+};
+pub use summary::{Instrument, Island, MeasuredOutline, Summary, peak_memory_mb};
 
 use crate::draw::field_plot::{Panel, Reach, Section};
 use crate::error::Error;
@@ -103,7 +105,7 @@ pub fn crush_into(
 ) -> Result<Crush, Error> {
     let mut series = FieldSeries::default();
     let (crush, failure) = simulate(scene, observer, &mut |frame| series.add(sink, &frame))?;
-    let written = crush.write_records(sink, sketches);
+    let written = series.write_surfaces(sink).and_then(|()| crush.write_records(sink, sketches));
     // of two failures to write, the first says more
     failure.map_or(written, Err).map(|()| crush)
 }
@@ -130,7 +132,8 @@ fn simulate(
                 if frame.phase == si::Phase::Load {
                     peak = Some((*frame).clone());
                 }
-                Some(Frame::new(frame, mesh.clone(), tables))
+                let row = last.as_ref().map(|(row, _)| row);
+                Some(Frame::new(frame, mesh.clone(), tables, row))
             }
         };
         let told =
@@ -208,6 +211,7 @@ impl Crush {
         for frame in &self.frames {
             series.add(sink, frame)?;
         }
+        series.write_surfaces(sink)?;
         self.write_records(sink, &[Sketch::PEAK])
     }
 

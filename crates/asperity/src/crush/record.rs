@@ -165,6 +165,29 @@ row! {
     }
 }
 
+/// A node of the free surface in one state: a row of `surfaces.csv`. In plane strain r is x.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SurfaceStateRow {
+    /// Increment of the curve; 0: before the crush.
+    pub increment: usize,
+    /// Loading or unloading.
+    pub phase: Phase,
+    /// Depth of the increment.
+    pub depth_um: f64,
+    /// Current radius.
+    pub r_um: f64,
+    /// Current height over the initial summit.
+    pub z_um: f64,
+    /// Displacement along r.
+    pub u_r_um: f64,
+    /// Displacement along z.
+    pub u_z_um: f64,
+    /// Contact pressure.
+    pub pressure_MPa: f64,
+    /// 1 where the material has yielded, else 0.
+    pub yielded: u8,
+}
+
 /// Writes rows as the CSV of a crush in this symmetry.
 ///
 /// # Errors

@@ -173,7 +173,7 @@ impl Body<'_> {
             let x = |node| current(&state.position, &trial.displacement, node);
             response.pressed.extend(state.facing.press(&state.edges, trial.penalty, x));
         }
-        let Some(contact) = self.contact.filter(|_| trial.tip.is_finite()) else { return };
+        let Some(contact) = self.contact.as_ref().filter(|_| trial.tip.is_finite()) else { return };
         let context = contact.at(trial.tip, trial.penalty, self.symmetry);
         for (edge, kept) in state.edges.iter().zip(state.parts()) {
             let x = edge.nodes.map(|node| current(&state.position, &trial.displacement, node));

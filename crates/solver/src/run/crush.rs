@@ -121,6 +121,7 @@ pub fn simulate(
 ) -> Result<Outcome, CrushError> {
     let mut path = Path::new(problem).map_err(|_| CrushError::Mesh)?;
     let mut recorder = Recorder::new(problem, interval, path.model.body().dofs.count);
+    recorder.draw_start(&path.model, observer);
     let mut stopped = path.load(&mut |model, increment| recorder.record(model, increment, observer)).err();
     recorder.peak_reached(observer, &path.model, stopped.is_none());
     if stopped.is_none() {
@@ -146,7 +147,7 @@ fn unload_and_reload(
             Err(_) if problem.unload => return Err(Stop::NoEquilibrium),
             Err(_) => return Ok(()),
         };
-        recorder.note_stiffness(stiffness.depth);
+        recorder.note_stiffness(problem.rules.compliance.in_series(stiffness.depth, path.area()));
         if problem.unload {
             path.unload(stiffness, problem.numbers.unload_steps, &mut |model, increment| {
                 recorder.record(model, increment, observer)
