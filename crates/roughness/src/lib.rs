@@ -29,6 +29,8 @@ mod surface;
 
 mod contact;
 
+pub mod asperities;
+
 pub mod half_space;
 
 pub mod flow;
