@@ -20,6 +20,7 @@ pub mod table1;
 pub use crate::crush::Phase;
 pub use closures::{Body, ClosureContact, IslandContact};
 pub use files::Layers;
+pub(crate) use half_space::body as half_space_of;
 pub use half_space::{Passage, SpaceContact, SpaceUnloading};
 pub use rough::{Progress, Rough, press};
 pub use scene::RoughScene;
