@@ -10,6 +10,7 @@ mod summary;
 mod table;
 
 mod rough;
+mod several;
 mod verdict;
 
 pub(crate) mod charts;
@@ -24,5 +25,6 @@ pub(crate) use half_space::body as half_space_of;
 pub use half_space::{Passage, SpaceContact, SpaceUnloading};
 pub use rough::{Progress, Rough, press};
 pub use scene::RoughScene;
+pub use several::{Several, SurfaceRow, press_several};
 pub use summary::{ClosureSummary, Summary};
 pub use table::{LoadPoint, TableRow};
