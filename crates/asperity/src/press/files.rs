@@ -2,7 +2,8 @@
 
 use super::charts;
 use super::closures::{Body, ClosureContact};
-use super::rough::Rough;
+use super::curves;
+use super::rough::{MODEST, Rough};
 use crate::draw::chart;
 use crate::draw::rough_map::{self as picture, Map};
 use crate::error::Error;
@@ -87,13 +88,24 @@ impl Rough {
         self.write_surface(sink)
     }
 
-    /// Writes table.csv, load_curve.csv, summary.json and the charts alone.
+    /// Writes table.csv, load_curve.csv, bearing.csv, spectrum.csv, gaps.csv, summary.json and the charts alone.
     ///
     /// # Errors
     /// A disk that refuses.
     pub fn write_tables(&self, sink: &mut dyn Sink) -> Result<(), Error> {
         sink.csv("table.csv", &self.table)?;
         sink.write("load_curve.csv", |out| write_csv(out, &self.load_curve, str::to_string))?;
+        sink.csv("bearing.csv", &curves::bearing(&self.surface))?;
+        let points = self.surface.map.heights().len();
+        if self.summary.scene.output.spectrum.unwrap_or(points <= MODEST) {
+            sink.write("spectrum.csv", |out| {
+                write_csv(out, &curves::spectrum(&self.surface), str::to_string)
+            })?;
+        }
+        let gaps: Vec<_> = self.contacts.iter().flat_map(curves::gaps).collect();
+        if !gaps.is_empty() {
+            sink.csv("gaps.csv", &gaps)?;
+        }
         for (name, chart) in charts::all(&self.contacts, self.surface.parameters.mean_gradient) {
             let text = chart::svg(&chart).map_err(Error::Unfinished)?;
             sink.text(name, &text)?;

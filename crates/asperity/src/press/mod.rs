@@ -6,6 +6,8 @@ mod half_space;
 
 mod closures;
 
+mod curves;
+
 mod summary;
 mod table;
 
@@ -20,6 +22,7 @@ pub mod table1;
 
 pub use crate::crush::Phase;
 pub use closures::{Body, ClosureContact, IslandContact};
+pub use curves::{BearingRow, GapShare, SpectrumRow};
 pub use files::Layers;
 pub(crate) use half_space::body as half_space_of;
 pub use half_space::{Passage, SpaceContact, SpaceUnloading};

@@ -46,6 +46,8 @@ row! {
         pixel_size_um: [f64; 2] = surface.map.pixel().map(|p| p / MICROMETRE),
         /// Points that were not measured.
         missing: usize = surface.missing,
+        /// Points that `surface.outliers` took away.
+        outliers: usize = surface.outliers,
         nominal_area_um2: f64 = surface.nominal_area() / MICROMETRE / MICROMETRE,
         sa_um: f64 = surface.parameters.sa / MICROMETRE,
         sq_um: f64 = surface.parameters.sq / MICROMETRE,

@@ -1,5 +1,6 @@
 //! A surface ready to be pressed.
 
+use crate::contact::bearing_area::{self, Above, Planes};
 use crate::surface::height_map::{Extent, HeightMap, MapError};
 use crate::surface::parameters::Parameters;
 
@@ -10,6 +11,8 @@ pub struct Surface {
     pub map: HeightMap,
     /// Points that were not measured, before any were filled.
     pub missing: usize,
+    /// Points that were taken away because they stood out, before any were filled.
+    pub outliers: usize,
     /// Extent of the map.
     pub extent: Extent,
     /// Roughness parameters of the map.
@@ -24,12 +27,26 @@ impl Surface {
     pub fn of(map: HeightMap) -> Result<Surface, MapError> {
         let extent = map.extent()?;
         let parameters = Parameters::of(&map, &extent);
-        Ok(Surface { missing: map.missing(), map, extent, parameters })
+        Ok(Surface { missing: map.missing(), outliers: 0, map, extent, parameters })
     }
 
     /// Nominal area, in m²: that of the cells with four measured corners.
     pub fn nominal_area(&self) -> f64 {
         self.extent.cells as f64 * self.map.cell_area()
+    }
+
+    /// Share of the surface above `points` ≥ 2 heights from the highest to the lowest: the areal material ratio of ISO 25178-2.
+    /// Heights are above the mean, in metres.
+    pub fn material_ratio(&self, points: usize) -> Vec<[f64; 2]> {
+        let planes = Planes::between(self.extent.low, self.extent.high, points.max(2));
+        if planes.step <= 0.0 {
+            return Vec::new();
+        }
+        let above = bearing_area::above_planes(&self.map, planes);
+        let cells = self.extent.cells as f64;
+        let point =
+            |(k, above): (usize, &Above)| [planes.height(k) - self.parameters.mean, above.area / cells];
+        above.iter().enumerate().map(point).rev().collect()
     }
 
     /// Root mean square step across the seam of a periodic map over that between neighbours: far above 1 where the map is no
