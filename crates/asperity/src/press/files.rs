@@ -10,7 +10,7 @@ use crate::error::Error;
 use crate::output::{Sink, SinkExt, write_csv};
 use crate::units::{MEGAPASCAL, MICROMETRE};
 use asperity_roughness::HeightMap;
-use asperity_roughness::formats::{CellArray, write_npy, write_vti, write_x3p};
+use asperity_roughness::formats::{Vti, write_npy, write_x3p};
 use asperity_roughness::scene::SurfaceFormat;
 
 /// One number per cell of the map, row by row, of a contact.
@@ -31,6 +31,13 @@ pub struct Layers {
 /// Cells of a map along x and y.
 fn cells(map: &HeightMap) -> [usize; 2] {
     [map.cell_columns(), map.cell_rows()]
+}
+
+/// Numbers of the nodes; beyond the last ones those of the next period.
+fn repeated(values: &[f32], map: &HeightMap, columns: usize, rows: usize) -> Vec<f32> {
+    let own = map.columns();
+    let node = |i: usize| values[i / columns % map.rows() * own + i % columns % own];
+    (0..columns * rows).map(node).collect()
 }
 
 /// Heights of the nodes in µm; beyond the last ones those of the next period.
@@ -113,31 +120,33 @@ impl Rough {
         sink.text("summary.json", &self.json()?)
     }
 
-    /// Pictures and .vti of every closure.
+    /// Pictures of every closure, and contact.vti with all of them: arrays begin with the closure's name. Those of a
+    /// half-space are on the nodes, whose pixels carry them, the others on the cells between.
     fn write_maps(&self, sink: &mut dyn Sink) -> Result<(), Error> {
         let map = &self.surface.map;
         let [columns, rows] = cells(map);
-        let nodes = heights(map, columns + 1, rows + 1);
         let spacing = map.pixel().map(|p| p / MICROMETRE);
+        let file = sink.path("contact.vti")?;
+        let refused = |e: std::io::Error| Error::disk(&file, e);
+        let mut image = Vti::new();
+        image.add_points("height_um", &heights(map, columns + 1, rows + 1)).map_err(refused)?;
         for one in self.contacts.iter().filter(|one| !matches!(one.body, Body::Failed(_))) {
             let layers = self.write_pictures(sink, one, picture::LONGEST)?;
-            let file = sink.path(&format!("contact-{}.vti", one.name()))?;
-            let array = |name, values| CellArray { name, values };
-            let mut arrays = vec![
-                array("pressure_MPa", &layers.pressure[..]),
-                array("contact_fraction", &layers.contact),
-                array("regime", &layers.regime),
-            ];
-            let own;
-            let mut points = vec![array("height_um", &nodes[..])];
+            let mut add = |name: &str, values: &[f32]| {
+                let name = format!("{}_{name}", one.name());
+                match layers.gap {
+                    Some(_) => image.add_points(name, &repeated(values, map, columns + 1, rows + 1)),
+                    None => image.add_cells(name, values),
+                }
+            };
+            add("pressure_MPa", &layers.pressure).map_err(refused)?;
+            add("contact_fraction", &layers.contact).map_err(refused)?;
+            add("regime", &layers.regime).map_err(refused)?;
             if let Some(gap) = &layers.gap {
-                own = heights(map, map.columns(), map.rows());
-                points.clear();
-                arrays.extend([array("gap_um", gap), array("height_um", &own)]);
+                add("gap_um", gap).map_err(refused)?;
             }
-            write_vti(&file, layers.cells, spacing, &points, &arrays).map_err(|e| Error::disk(&file, e))?;
         }
-        Ok(())
+        image.write(&file, [columns, rows], spacing).map_err(refused)
     }
 
     /// Pressure and contact of one closure as PNG, no side longer than `longest` dots; returns the numbers they show.

@@ -134,6 +134,23 @@ fn linear_developed(map: &HeightMap, extent: &Extent) -> f64 {
 /// Weights of the nodes 1, 2 and 3 away in a derivative, times 60 (ISO 25178-2).
 const SEVEN: [f64; 3] = [45.0, -9.0, 1.0];
 
+/// 60 times the derivative along a line, per pixel; the nodes near the ends of one that is not periodic keep what they had.
+fn slopes_of_seven(line: &[f64], periodic: bool, slopes: &mut [f64]) {
+    let reach = SEVEN.len();
+    let n = line.len();
+    let inner = slopes[reach..n - reach].iter_mut().zip(line.windows(2 * reach + 1));
+    inner.for_each(|(slope, z)| {
+        *slope = SEVEN[0] * (z[4] - z[2]) + SEVEN[1] * (z[5] - z[1]) + SEVEN[2] * (z[6] - z[0]);
+    });
+    if periodic {
+        for i in (0..reach).chain(n - reach..n) {
+            let sides =
+                (1..).zip(SEVEN).map(|(k, weight)| weight * (line[(i + k) % n] - line[(i + n - k) % n]));
+            slopes[i] = sides.sum();
+        }
+    }
+}
+
 /// Means of |∇h|² and of √(1 + |∇h|²) - 1 over the nodes with three measured neighbours on each side along both axes; `None`
 /// where there is no such node.
 fn seven_points(map: &HeightMap) -> Option<[f64; 2]> {
@@ -145,37 +162,30 @@ fn seven_points(map: &HeightMap) -> Option<[f64; 2]> {
         return None;
     }
     let [along_x, along_y] = map.inverse_pixel().map(|p| p / 60.0);
+    let whole = map.missing() == 0;
     let lines = chunks(rows - 2 * border, |part| {
-        let (mut sum, mut slopes) = ([0.0; 3], vec![0.0; columns]);
+        let (mut sum, mut x, mut y) = ([0.0; 3], vec![0.0; columns], vec![0.0; columns]);
         for row in part {
             let row = row + border;
-            let line = map.row(row);
+            slopes_of_seven(map.row(row), map.periodic(), &mut x);
             let beside = |step: i64| map.row((row as i64 + step).rem_euclid(rows as i64) as usize);
-            slopes.fill(0.0);
-            for (k, weight) in SEVEN.iter().enumerate() {
-                let (over, under) = (beside(k as i64 + 1), beside(-(k as i64) - 1));
-                slopes.iter_mut().zip(over.iter().zip(under)).for_each(|(s, (a, b))| *s += weight * (a - b));
+            y.fill(0.0);
+            for (k, weight) in (1..).zip(SEVEN) {
+                let sides = beside(k).iter().zip(beside(-k));
+                y.iter_mut().zip(sides).for_each(|(y, (a, b))| *y += weight * (a - b));
             }
-            let mut add = |column: usize, x: f64| {
-                let (x, y) = (x * along_x, slopes[column] * along_y);
-                let squared = x * x + y * y;
-                if !squared.is_nan() {
-                    sum[0] += 1.0;
-                    sum[1] += squared;
-                    sum[2] += developed(squared);
-                }
-            };
-            let weighted = |pairs: [f64; 3]| SEVEN[0] * pairs[0] + SEVEN[1] * pairs[1] + SEVEN[2] * pairs[2];
-            for (i, z) in line.windows(2 * reach + 1).enumerate() {
-                add(i + reach, weighted([z[4] - z[2], z[5] - z[1], z[6] - z[0]]));
+            let nodes = x.iter_mut().zip(&y).skip(border).take(columns - 2 * border);
+            nodes.for_each(|(x, y)| *x = (*x * along_x).powi(2) + (y * along_y).powi(2));
+            let inner = &mut x[border..columns - border];
+            if !whole {
+                // a node that lacks a neighbour adds nothing
+                sum[0] -= inner.iter().filter(|squared| squared.is_nan()).count() as f64;
+                inner.iter_mut().filter(|squared| squared.is_nan()).for_each(|squared| *squared = 0.0);
             }
-            if map.periodic() {
-                for column in (0..reach).chain(columns - reach..columns) {
-                    let at = |step: usize| [(column + step) % columns, (column + columns - step) % columns];
-                    let pairs = [1, 2, 3].map(|step| at(step).map(|i| line[i]));
-                    add(column, weighted(pairs.map(|[a, b]| a - b)));
-                }
-            }
+            sum[0] += inner.len() as f64;
+            sum[1] += inner.iter().sum::<f64>();
+            inner.iter_mut().for_each(|squared| *squared = developed(*squared));
+            sum[2] += inner.iter().sum::<f64>();
         }
         sum
     });

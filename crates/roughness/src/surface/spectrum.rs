@@ -206,12 +206,14 @@ mod tests {
             ((c ^ (c >> 31)) >> 11) as f64 / (1u64 << 53) as f64 - 0.5
         });
         let map = HeightMap::new(n, n, [2.0, 2.0], noise.collect()).unwrap();
+        let inner = |points: &[SpectrumPoint]| {
+            // few waves lie at the ends
+            points.iter().copied().filter(|p| (0.15..0.25).contains(&p.frequency)).collect::<Vec<_>>()
+        };
         for periodic in [true, false] {
             // variance 1/12 over frequencies up to 1/4 on both sides
             let level = 1.0 / 12.0 * 4.0;
-            for point in
-                spectrum(&map.clone().with_periodic(periodic)).unwrap().iter().filter(|p| p.frequency > 0.05)
-            {
+            for point in inner(&spectrum(&map.clone().with_periodic(periodic)).unwrap()) {
                 // a band of 2000 waves scatters by 3 %
                 assert!((point.areal.unwrap() / level - 1.0).abs() < 0.12, "{point:?}");
             }
