@@ -15,6 +15,8 @@ pub mod uniaxial;
 pub mod calibration;
 
 pub mod coverage_scenes;
+pub mod measured_scenes;
+
 pub mod random_scenes;
 pub mod single_asperity;
 pub mod test_meshes;

@@ -44,12 +44,12 @@ pub enum End {
     Fault(String),
 }
 
-fn log_between(low: f64, high: f64) -> impl Strategy<Value = f64> {
+pub(crate) fn log_between(low: f64, high: f64) -> impl Strategy<Value = f64> {
     (low.ln()..high.ln()).prop_map(f64::exp)
 }
 
 /// Metals: all of the range of a law that another scene of the literature would use, and the ends of what is allowed.
-fn material() -> impl Strategy<Value = String> {
+pub(crate) fn material() -> impl Strategy<Value = String> {
     let poissons_ratio = prop_oneof![8 => 0.0..0.49, 1 => Just(0.4999), 1 => -0.9..0.0];
     let exponent = prop_oneof![1 => Just(0.0), 4 => 0.0..0.6];
     (log_between(1.0, 1000.0), poissons_ratio, log_between(10.0, 5000.0), exponent, any::<bool>(), 0..8)
@@ -176,11 +176,22 @@ fn drawn() -> impl Strategy<Value = Drawn> {
 /// # Errors
 /// A strategy that yields no value, which names itself.
 pub fn draw(count: usize, seed: u64) -> Result<Vec<Drawn>, String> {
+    draw_from(&drawn(), count, seed)
+}
+
+/// The first `count` scenes of a `strategy` with this `seed`.
+///
+/// # Errors
+/// A strategy that yields no value, which names itself.
+pub(crate) fn draw_from(
+    strategy: &impl Strategy<Value = Drawn>,
+    count: usize,
+    seed: u64,
+) -> Result<Vec<Drawn>, String> {
     let mut bytes = [0; 32];
     bytes[..8].copy_from_slice(&seed.to_le_bytes());
     let rng = TestRng::from_seed(RngAlgorithm::ChaCha, &bytes);
     let mut runner = TestRunner::new_with_rng(Config::default(), rng);
-    let strategy = drawn();
     (0..count)
         .map(|_| strategy.new_tree(&mut runner).map(|t| t.current()).map_err(|e| e.to_string()))
         .collect()

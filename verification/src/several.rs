@@ -36,13 +36,13 @@ pub fn row(
     substrate: Option<[f64; 2]>,
 ) -> Result<Scene, toml::de::Error> {
     let mut scene = crate::single_asperity::scene(Accuracy::Draft)?;
-    let paper = scene.asperity[0];
+    let paper = scene.asperity[0].clone();
     scene.asperity = members
         .iter()
         .map(|member| Asperity {
             height: Some(Length(member.height)),
             spacing: (member.spacing > 0.0).then_some(Length(member.spacing)),
-            ..paper
+            ..paper.clone()
         })
         .collect();
     scene.symmetry = symmetry;

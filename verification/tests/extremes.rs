@@ -216,7 +216,7 @@ fn rows() -> Vec<Row> {
             changed(|s| {
                 s.asperity[0].slope_deg = Some(60.0);
                 s.asperity[0].tip_radius = Some(Length(2e-6));
-                s.asperity.push(s.asperity[0]);
+                s.asperity.push(s.asperity[0].clone());
                 s.loading.depth = Some(Length(16e-6));
             }),
             1e-6,

@@ -85,7 +85,7 @@ fn a_force_beyond_reach_ends_with_its_reason_as_deep_as_the_tool_can_go() {
 fn a_force_that_is_passed_within_an_increment_is_met() {
     let scene = changed(|s| {
         s.asperity.clear();
-        s.tool = Tool { shape: ToolShape::Cone, slope_deg: Some(19.7), tip_radius: None, radius: None };
+        s.tool = Tool::cone(19.7);
         s.material.hardening_exponent = Some(0.1);
         s.material.hardening_law = HardeningChoice::Swift;
     });

@@ -10,6 +10,7 @@
 //! comments.
 
 use crate::table::HardeningTable;
+use crate::text_table::TextTable;
 use crate::units::Stress;
 
 /// A curve that was read, with the line of each point.
@@ -36,10 +37,8 @@ const HEADER: &str = "plastic_strain,yield_stress_MPa";
 
 /// Where the two columns stand, and what 1 in them is worth.
 struct Columns {
-    separator: char,
-    count: usize,
-    strain: usize,
-    stress: usize,
+    /// Those of strain and stress.
+    places: [usize; 2],
     /// 1 of the stress column in Pa.
     unit: f64,
 }
@@ -51,24 +50,14 @@ impl CurveFile {
     /// No header, a column that is not known or has no unit, a line that is not numbers, or points that are no curve of
     /// hardening (see [`HardeningTable::new`]); each with its line.
     pub fn parse(text: &str) -> Result<CurveFile, CurveFileError> {
-        // spreadsheets begin their files with a byte order mark
-        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-        let mut lines = text
-            .lines()
-            .enumerate()
-            .map(|(i, line)| (i + 1, line.trim()))
-            .filter(|(_, line)| !line.is_empty() && !line.starts_with('#'));
-        let (line, header) = lines.next().ok_or_else(|| CurveFileError {
+        let table = TextTable::new(text).ok_or_else(|| CurveFileError {
             line: None,
             message: format!("is empty: begin it with the line {HEADER}"),
         })?;
-        let at = |line: usize| move |message: String| CurveFileError { line: Some(line), message };
-        let columns = Columns::of(header).map_err(at(line))?;
-        let mut file = CurveFile { points: Vec::new(), lines: Vec::new() };
-        for (line, text) in lines {
-            file.points.push(columns.point(text).map_err(at(line))?);
-            file.lines.push(line);
-        }
+        let at = |(line, message)| CurveFileError { line: Some(line), message };
+        let columns = Columns::of(&table.header).map_err(|message| at((table.header_line, message)))?;
+        let (lines, points) = table.pairs(columns.places).map_err(at)?.into_iter().unzip();
+        let mut file = CurveFile { points, lines };
         // in the unit of the file, so that the sentence says what the reader sees
         HardeningTable::new(&file.points).map_err(|e| CurveFileError {
             line: e.point.map(|point| file.lines[point]),
@@ -82,9 +71,7 @@ impl CurveFile {
 }
 
 impl Columns {
-    fn of(header: &str) -> Result<Columns, String> {
-        let separator = [',', ';', '\t'].into_iter().find(|s| header.contains(*s)).unwrap_or(',');
-        let names: Vec<&str> = header.split(separator).map(str::trim).collect();
+    fn of(names: &[&str]) -> Result<Columns, String> {
         let units = Stress::UNITS.iter().map(|(name, _)| *name).collect::<Vec<_>>().join(", ");
         let (mut strain, mut stress) = (None, None);
         for (place, name) in names.iter().enumerate() {
@@ -105,31 +92,10 @@ impl Columns {
             }
         }
         match (strain, stress) {
-            (Some(strain), Some((stress, unit))) => {
-                Ok(Columns { separator, count: names.len(), strain, stress, unit })
-            }
+            (Some(strain), Some((stress, unit))) => Ok(Columns { places: [strain, stress], unit }),
             (None, _) => Err(format!("a column plastic_strain is missing: write {HEADER}")),
             (_, None) => Err(format!("a column yield_stress_MPa is missing: write {HEADER}")),
         }
-    }
-
-    /// Plastic strain and yield stress of one line, in the unit of the file.
-    fn point(&self, text: &str) -> Result<[f64; 2], String> {
-        let cells: Vec<&str> = text.split(self.separator).map(str::trim).collect();
-        if cells.len() != self.count {
-            return Err(format!(
-                "{} columns where the header has {}: a decimal comma must be a point",
-                cells.len(),
-                self.count
-            ));
-        }
-        let number = |place: usize| {
-            let cell = cells[place];
-            cell.parse::<f64>().ok().filter(|v| v.is_finite()).ok_or_else(|| {
-                format!("`{cell}` is not a finite number: write digits with a decimal point, the unit belongs into the header")
-            })
-        };
-        Ok([number(self.strain)?, number(self.stress)?])
     }
 }
 

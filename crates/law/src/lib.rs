@@ -20,6 +20,7 @@ mod hardening;
 pub mod least_squares;
 pub mod real;
 mod table;
+mod text_table;
 pub mod units;
 
 pub use curve::{HardeningCurve, HardeningMode, StressMeasure};
@@ -27,3 +28,4 @@ pub use curve_file::{CurveFile, CurveFileError};
 pub use elastic::Elastic;
 pub use hardening::{Flow, Hardening, HardeningLaw};
 pub use table::{HardeningTable, LARGEST_TABLE, TableError};
+pub use text_table::TextTable;

@@ -138,6 +138,12 @@ quantity!(
     &[("N/mm", 1e3), ("N/m", 1.0), ("kN/m", 1e3), ("mN/m", 1e-3), ("kN/mm", 1e6)]
 );
 
+quantity!(
+    /// A way per force (of a machine's frame), kept in metres per newton.
+    Compliance, "compliance", "m/N",
+    &[("nm/mN", 1e-6), ("um/N", 1e-6), ("µm/N", 1e-6), ("μm/N", 1e-6), ("nm/N", 1e-9), ("nm/uN", 1e-3), ("um/mN", 1e-3), ("um/kN", 1e-9), ("mm/kN", 1e-6), ("mm/N", 1e-3), ("m/N", 1.0)]
+);
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -34,13 +34,29 @@ pub struct Contact {
     pub centre: f64,
     /// Its half width at the peak; 0 if the asperity stays untouched.
     pub half_width: f64,
-    /// Half width of the foot of the asperity: that of its cell.
+    /// Half width of the foot of the asperity: that of its cell; the wider of two.
     pub foot: f64,
+    /// Its left and right side over that.
+    pub sides: [f64; 2],
     /// Steepest slope (tangent) of the profile over it.
     pub slope: f64,
 }
 
 impl Contact {
+    /// Left and right end of the shell whose wider side is `x` away from the centre: shells around a core of the half width
+    /// `half` grow towards the two feet.
+    fn shell(&self, half: f64, x: f64) -> [f64; 2] {
+        let side = |share: f64| {
+            if share == 1.0 { x } else { power([half, half], [self.foot, share * self.foot], x) }
+        };
+        [self.centre - side(self.sides[0]), self.centre + side(self.sides[1])]
+    }
+
+    /// Half width of the narrower side of its foot.
+    fn narrow(&self) -> f64 {
+        self.foot * self.sides[0].min(self.sides[1])
+    }
+
     /// Depth over half width of the core. The diagonals on which shells turn must stay steeper than the flank, or
     /// the shear under the profile turns their cells inside out.
     fn depth_ratio(&self) -> f64 {
@@ -201,7 +217,7 @@ fn contact_size(contact: &Contact) -> f64 {
 fn core_half_width(plan: &Plan, contact: &Contact) -> f64 {
     let wish =
         if contact.half_width > 0.0 { plan.grading.start * contact.half_width } else { 0.3 * contact.foot };
-    wish.min(0.6 * contact.foot)
+    wish.min(0.6 * contact.narrow())
 }
 
 /// Distances of the kinks of the profile to the right of `centre`.

@@ -8,8 +8,8 @@
 //!
 //! // a flat body of radius and depth 100, fine under a contact of radius 1
 //! let mesh = build(&Plan {
-//!     profile: Profile { asperities: Vec::new() },
-//!     contacts: vec![Contact { centre: 0.0, half_width: 1.0, foot: 10.0, slope: 0.0 }],
+//!     profile: Profile { asperities: Vec::new(), line: None },
+//!     contacts: vec![Contact { centre: 0.0, half_width: 1.0, foot: 10.0, sides: [1.0; 2], slope: 0.0 }],
 //!     row: [0.0, 0.0],
 //!     width: [0.0, 100.0],
 //!     depth: 100.0,
@@ -24,6 +24,7 @@ pub mod grading;
 mod inp;
 mod mesh;
 mod msh;
+pub mod outline;
 pub mod profile;
 mod quality;
 mod vtu;

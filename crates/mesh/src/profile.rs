@@ -1,7 +1,13 @@
 //! The profile of a rough surface: asperities side by side on a base plane. Height 0 is the highest summit.
 
+use crate::outline::Outline;
+use std::sync::Arc;
+
+/// Slopes that jump by less than this are no kink for a mesh.
+const KINK: f64 = 0.01;
+
 /// Shape of one asperity, in any unit of length.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Shape {
     /// A cone (ridge in plane strain) whose flank rises by `tan_slope`, with a rounded tip.
     Cone {
@@ -15,10 +21,12 @@ pub enum Shape {
         /// Its radius.
         radius: f64,
     },
+    /// A measured outline, seen from its summit; it ends at its feet.
+    Measured(Arc<Outline>),
 }
 
 /// One asperity on the base plane.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Asperity {
     /// Its shape.
     pub shape: Shape,
@@ -33,41 +41,103 @@ pub struct Asperity {
 impl Asperity {
     /// How far the surface lies below the summit at the distance `x` from it, on the asperity continued for ever.
     pub fn drop(&self, x: f64) -> f64 {
-        let x = x.abs();
-        match self.shape {
-            Shape::Sphere { radius } => cap_drop(radius, x),
+        match &self.shape {
+            Shape::Sphere { radius } => cap_drop(*radius, x.abs()),
             Shape::Cone { tan_slope, tip_radius } => {
+                let x = x.abs();
                 let secant = tan_slope.hypot(1.0);
                 let cap = tip_radius * tan_slope / secant; // R sin β
-                if x < cap { cap_drop(tip_radius, x) } else { x * tan_slope - tip_radius * (secant - 1.0) }
+                if x < cap { cap_drop(*tip_radius, x) } else { x * tan_slope - tip_radius * (secant - 1.0) }
             }
+            Shape::Measured(outline) => outline.depth_at(x),
         }
     }
 
-    /// Half width where the asperity continued for ever is cut at `depth` below its summit.
+    /// Half width where the asperity continued for ever is cut at `depth` below its summit, on the side where it is wider.
     pub fn half_width(&self, depth: f64) -> f64 {
         let cap_width = |radius: f64| {
             let depth = depth.min(radius);
             (depth * (2.0 * radius - depth)).max(0.0).sqrt()
         };
-        match self.shape {
-            Shape::Sphere { radius } => cap_width(radius),
+        match &self.shape {
+            Shape::Sphere { radius } => cap_width(*radius),
             Shape::Cone { tan_slope, tip_radius } => {
                 let secant = tan_slope.hypot(1.0);
                 if depth < tip_radius * (1.0 - 1.0 / secant) {
-                    cap_width(tip_radius)
+                    cap_width(*tip_radius)
                 } else {
                     (depth + tip_radius * (secant - 1.0)) / tan_slope
                 }
             }
+            Shape::Measured(outline) => {
+                let [left, right] = outline.widths(depth);
+                // a neighbour begins at the foot; a tool goes on
+                let [a, b] = if self.height.is_finite() { self.feet() } else { [f64::INFINITY; 2] };
+                left.min(a).max(right.min(b))
+            }
         }
     }
 
-    /// Radius of the tangent circle between tip and flank, 0 for a sharp tip.
+    /// Widths of its left and right side, from the summit to the foot.
+    pub fn feet(&self) -> [f64; 2] {
+        match &self.shape {
+            Shape::Measured(outline) => {
+                let [left, right] = outline.ends();
+                [-left, right]
+            }
+            _ => [self.half_width(self.height); 2],
+        }
+    }
+
+    /// Radius of the tangent circle between tip and flank, 0 for a sharp tip and where there is no such circle.
     pub fn cap_radius(&self) -> f64 {
         match self.shape {
-            Shape::Sphere { .. } => 0.0,
+            Shape::Sphere { .. } | Shape::Measured(_) => 0.0,
             Shape::Cone { tan_slope, tip_radius } => tip_radius * tan_slope / tan_slope.hypot(1.0),
+        }
+    }
+
+    /// Slope (tangent) at the edge of a contact of the half width `width`, as the estimates before a run take it; of a measured
+    /// outline at least that of the chord to its summit.
+    pub fn slope_at(&self, width: f64) -> f64 {
+        match &self.shape {
+            Shape::Cone { tan_slope, tip_radius } if *tip_radius > 0.0 => tan_slope.min(width / tip_radius),
+            Shape::Cone { tan_slope, .. } => *tan_slope,
+            Shape::Sphere { radius } => width / radius,
+            Shape::Measured(outline) => {
+                let at = |x: f64| {
+                    let [drop, slope] = outline.at(x);
+                    slope.abs().max(drop / width)
+                };
+                at(width).min(at(-width)).max(outline.depth_at(width).min(outline.depth_at(-width)) / width)
+            }
+        }
+    }
+
+    /// Steepest slope that a mesh under the asperity must follow: that at the foot of a cap.
+    pub fn steepest(&self) -> f64 {
+        match &self.shape {
+            Shape::Cone { tan_slope, .. } => *tan_slope,
+            Shape::Sphere { radius } => self.half_width(self.height) / (radius - self.height),
+            Shape::Measured(outline) => outline.steepest(),
+        }
+    }
+
+    /// The asperity with every length over `length`.
+    #[must_use]
+    pub fn over(&self, length: f64) -> Asperity {
+        let shape = match &self.shape {
+            Shape::Cone { tan_slope, tip_radius } => {
+                Shape::Cone { tan_slope: *tan_slope, tip_radius: tip_radius / length }
+            }
+            Shape::Sphere { radius } => Shape::Sphere { radius: radius / length },
+            Shape::Measured(outline) => Shape::Measured(outline.scaled(length.recip()).shared()),
+        };
+        Asperity {
+            shape,
+            height: self.height / length,
+            centre: self.centre / length,
+            valley_radius: self.valley_radius / length,
         }
     }
 }
@@ -111,6 +181,9 @@ impl Valley {
 pub struct Profile {
     /// In order from the axis (left) outward; may be empty: a flat surface.
     pub asperities: Vec<Asperity>,
+    /// The surface between the outer feet of the asperities where it was measured as one line, seen from the highest summit;
+    /// beyond its ends it is level. `None`: the asperities stand on the base plane.
+    pub line: Option<Arc<Outline>>,
 }
 
 impl Profile {
@@ -121,6 +194,10 @@ impl Profile {
 
     /// Height of the surface at `r`, 0 at the highest summit, negative elsewhere.
     pub fn z(&self, r: f64) -> f64 {
+        if let Some(line) = &self.line {
+            let [left, right] = line.ends();
+            return -line.depth_at(r.clamp(left, right));
+        }
         let base = -self.height();
         let sharp = self.asperities.iter().fold(base, |z, a| z.max(base + a.height - a.drop(r - a.centre)));
         self.valleys().iter().filter_map(|valley| valley.z(r)).fold(sharp, f64::max)
@@ -137,10 +214,11 @@ impl Profile {
                 let Shape::Cone { tan_slope, .. } = a.shape else { return None };
                 let foot = a.centre + a.half_width(a.height);
                 // the next asperity begins there, or the flat base plane
-                let next = self.asperities.get(i + 1).filter(|b| {
-                    (b.centre - b.half_width(b.height) - foot).abs() <= 1e-9 * foot.abs().max(a.height)
-                });
-                let rise = match next.map(|b| b.shape) {
+                let next = self
+                    .asperities
+                    .get(i + 1)
+                    .filter(|b| (b.centre - b.feet()[0] - foot).abs() <= 1e-9 * foot.abs().max(a.height));
+                let rise = match next.map(|b| b.shape.clone()) {
                     Some(Shape::Cone { tan_slope, .. }) => tan_slope.atan(),
                     _ => 0.0,
                 };
@@ -165,8 +243,13 @@ impl Profile {
             .asperities
             .iter()
             .flat_map(|a| {
-                let (foot, cap) = (a.half_width(a.height), a.cap_radius());
-                [-foot, -cap, 0.0, cap, foot].map(|x| a.centre + x)
+                let ([left, right], cap) = (a.feet(), a.cap_radius());
+                let measured = match &a.shape {
+                    Shape::Measured(outline) => outline.kinks(KINK),
+                    _ => Vec::new(),
+                };
+                let places = [-left, -cap, 0.0, cap, right].into_iter().chain(measured);
+                places.map(|x| a.centre + x).collect::<Vec<_>>()
             })
             .collect();
         kinks.sort_by(f64::total_cmp);
@@ -188,7 +271,7 @@ mod tests {
             centre,
             valley_radius: 2.0,
         };
-        let profile = Profile { asperities: vec![cone(0.0, 0.5), cone(2.0 + 4.0, 0.25)] };
+        let profile = Profile { asperities: vec![cone(0.0, 0.5), cone(2.0 + 4.0, 0.25)], line: None };
         let [left, right] = profile.valley_reach(0).unwrap();
         let slope = |r: f64| (profile.z(r + 1e-6) - profile.z(r - 1e-6)) / 2e-6;
         assert!(
@@ -210,7 +293,7 @@ mod tests {
         };
         assert!((a.half_width(20.0) - 114.30).abs() < 5e-3);
         assert!((a.cap_radius() - 1.7365).abs() < 1e-4);
-        let profile = Profile { asperities: vec![a] };
+        let profile = Profile { asperities: vec![a.clone()], line: None };
         assert_eq!(profile.z(0.0), 0.0);
         assert!((profile.z(200.0) + 20.0).abs() < 1e-12);
         for x in [0.5, 1.7, 1.8, 50.0] {

@@ -6,6 +6,7 @@
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use asperity_law::{Elastic, Hardening, HardeningLaw, HardeningTable, StressMeasure};
+use asperity_mesh::outline::{Outline, Parabola};
 use asperity_solver::contact::edge::{ContactContext, ContactEdge};
 use asperity_solver::contact::tool::Tool;
 use asperity_solver::element::kernel::{ElementContext, ElementOutput, PointSlice};
@@ -213,6 +214,15 @@ fn quad8_with_reduced_integration() {
     element(reference, volume, |c, x, du, start, out| quad8::evaluate(c, &points, x, du, start, out));
 }
 
+/// A parabola that turns at a kink into a flatter one, steeper all the same.
+fn measured_tip() -> std::sync::Arc<Outline> {
+    let arcs = vec![
+        Parabola { x: 0.0, drop: 0.0, slope: 0.0, bend: 0.05 },
+        Parabola { x: 1.35, drop: 0.05 * 1.35 * 1.35, slope: 0.16, bend: 0.02 },
+    ];
+    Outline::new(arcs, 4.0, true).unwrap().shared()
+}
+
 /// Contact force and stiffness are the first and second derivative of the contact energy, clipped at one end, in the
 /// middle, and at both ends. The energy is exact for a plane (polynomial of degree 6); for curved tools it is a
 /// quadrature whose own clip derivative is about 1e-5 of the force.
@@ -223,9 +233,10 @@ fn contact() {
         (Tool::Plane, TOLERANCE),
         (Tool::Sphere { radius: 6.0 }, 1e-4),
         (Tool::Cone { tan_slope: 0.2, tip_radius: 0.0 }, TOLERANCE),
+        (Tool::Measured(measured_tip()), 1e-4),
     ];
     for symmetry in [Symmetry::Axisymmetric, Symmetry::PlaneStrain] {
-        for (tool, tolerance) in tools {
+        for (tool, tolerance) in tools.clone() {
             for (tip, middle) in [(0.03, 0.04), (0.03, 0.12), (-0.3, -0.2), (-0.5, 0.04), (0.02, -0.1)] {
                 for quadratic in [true, false] {
                     let context = ContactContext { tool: &tool, tip, penalty: 3.0, symmetry };

@@ -11,7 +11,7 @@ use asperity_verification::contact::hertz_force;
 use asperity_verification::single_asperity::{crush, loaded};
 
 fn ball(radius: f64) -> Tool {
-    Tool { shape: ToolShape::Sphere, slope_deg: None, tip_radius: None, radius: Some(Length(radius)) }
+    Tool::sphere(Length(radius))
 }
 
 fn peak_force(scene: &Scene) -> f64 {

@@ -47,8 +47,7 @@ fn check(scene: &Scene, outcome: &Outcome, force: impl Fn(f64) -> f64) {
 #[test]
 fn a_sphere_follows_hertz() {
     let radius = 1e-3;
-    let tool =
-        Tool { shape: ToolShape::Sphere, radius: Some(Length(radius)), slope_deg: None, tip_radius: None };
+    let tool = Tool::sphere(Length(radius));
     let (scene, outcome) = indent(tool, 0.2e-6); // a = 0.014 R
     let modulus = scene.material.elastic().reduced_modulus();
     check(&scene, &outcome, |h| hertz_force(modulus, radius, h));
@@ -56,7 +55,7 @@ fn a_sphere_follows_hertz() {
 
 #[test]
 fn a_cone_follows_sneddon() {
-    let tool = Tool { shape: ToolShape::Cone, slope_deg: Some(1.0), tip_radius: None, radius: None };
+    let tool = Tool::cone(1.0);
     let (scene, outcome) = indent(tool, 0.2e-6);
     let modulus = scene.material.elastic().reduced_modulus();
     check(&scene, &outcome, |h| cone_force(modulus, 1.0_f64.to_radians().tan(), h));

@@ -12,17 +12,23 @@ const ROUND: f64 = 0.95;
 pub fn outline(tool: &Tool, ends: [f64; 2]) -> Vec<[f64; 2]> {
     let [low, high] = ends;
     let Some(mirrored) = tool.mirrored() else { return vec![[low, 0.0], [high, 0.0]] };
-    let (round, last) = match *tool {
+    let (round, last) = match tool {
         Tool::Sphere { radius } => (high.min(ROUND * radius), high.min(ROUND * radius)),
         Tool::Plane | Tool::Cone { .. } => (mirrored.cap_radius().min(high), high),
+        Tool::Measured(_) => (high, high),
     };
     let mut right: Vec<f64> = Vec::new();
+    if let Tool::Measured(outline) = tool {
+        // a kink is a corner of the facets
+        right.extend(outline.kinks(0.0).into_iter().filter(|x| *x > 0.0 && *x < high));
+    }
     if round > 0.0 {
         right.extend((1..=FACETS).map(|i| round * i as f64 / FACETS as f64));
     }
     if last > round {
         right.push(last);
     }
+    right.sort_by(f64::total_cmp);
     let mut xs: Vec<f64> = if low < 0.0 { right.iter().rev().map(|x| -x).collect() } else { Vec::new() };
     xs.push(low.max(0.0));
     xs.extend(right.into_iter().filter(|x| *x > low));

@@ -8,7 +8,7 @@ use crate::output::nan_for_null;
 use crate::units::{GIGAPASCAL, MEGAPASCAL, MICROMETRE, Units, axisymmetric_name, file_name};
 use asperity_solver::run::oliver_pharr::OliverPharr;
 use asperity_solver::run::record;
-use asperity_solver::scene::{Scene as Tables, Symmetry};
+use asperity_solver::scene::{Scene as Tables, Smoothing, Symmetry};
 use indexmap::IndexMap;
 use serde::de::Error as _;
 use serde::ser::Error as _;
@@ -68,7 +68,7 @@ row! {
         elastic_work_uJ: Option<f64> = summary.elastic_work.map(|w| w / units.energy),
         /// Plastic work at the end of loading.
         plastic_work_uJ: f64 = summary.plastic_work / units.energy,
-        /// Reading of the unloading curve by the method of Oliver and Pharr, under a cone or sphere.
+        /// Reading of the unloading curve by the method of Oliver and Pharr, under a tool with an apex.
         oliver_pharr: Option<Instrument> = summary.oliver_pharr.as_ref().map(|read| Instrument::new(read, summary)),
         /// elastic_work / total_work.
         elastic_fraction: Option<f64> = summary.elastic_fraction,
@@ -96,6 +96,12 @@ row! {
         wall_s: f64 = wall_s,
         /// Largest resident memory of the process so far, MB of 10⁶ bytes; `None` where the system does not say.
         peak_memory_MB: Option<f64> = peak_memory_mb(),
+        /// Half apex angle of the cone that stands for a pyramid: that of the same projected area; absent of other tools.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        equivalent_half_apex_deg: Option<f64> = scene.tool.shape.equivalent_half_apex_deg(),
+        /// What was made of each measured outline; absent where there is none.
+        #[serde(default, skip_serializing_if = "Vec::is_empty")]
+        outlines: Vec<MeasuredOutline> = scene.smoothings().iter().map(MeasuredOutline::new).collect(),
         /// The scene with the numbers that its accuracy stands for.
         #[serde(serialize_with = "by_key")]
         scene: Box<Tables> = Box::new(scene),
@@ -123,6 +129,24 @@ row! {
 }
 
 row! {
+    /// A measured outline and the curve that stands for it.
+    MeasuredOutline(read: &Smoothing) {
+        /// Table of the scene that names it: `asperity[0]`, `tool`.
+        table: String = read.table.clone(),
+        /// Number of points.
+        points: usize = read.points,
+        /// Number of parabolic arcs of the curve.
+        arcs: usize = read.arcs,
+        /// Standard deviation of the points about the curve that was allowed for.
+        tolerance_um: f64 = read.tolerance / MICROMETRE,
+        /// Greatest distance of a point from the curve.
+        farthest_um: f64 = read.farthest / MICROMETRE,
+        /// Places of the corners that were kept.
+        corners_um: Vec<f64> = read.corners.iter().map(|x| x / MICROMETRE).collect(),
+    }
+}
+
+row! {
     /// An instrument's reading of the unloading curve (Oliver and Pharr 1992), and beside it what is true.
     Instrument(read: &OliverPharr, summary: &record::Summary) {
         /// Contact area read from the contact depth.
@@ -139,7 +163,7 @@ row! {
         true_contact_area_um2: f64 = summary.contact_area / (MICROMETRE * MICROMETRE),
         /// Mean pressure at the peak.
         true_hardness_MPa: f64 = summary.peak_force / summary.contact_area / MEGAPASCAL,
-        /// E/(1 - ν²).
+        /// E/(1 - ν²), with an elastic tool in series.
         true_reduced_modulus_GPa: f64 = summary.reduced_modulus / GIGAPASCAL,
     }
 }

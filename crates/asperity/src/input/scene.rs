@@ -1,11 +1,12 @@
 //! A scene: the tables that say what to crush, checked, with the files they name and the text they stand in.
 
+use crate::crush::Summary;
 use crate::error::{Error, InputError};
-use crate::input::hardening_file;
 use crate::input::toml_file::{TomlFile, to_toml};
+use crate::input::{hardening_file, profile_file};
 use asperity_mesh::{Mesh, read_msh};
 use asperity_solver::run::discretisation::Discretisation;
-use asperity_solver::scene::{Scene as Tables, SceneError};
+use asperity_solver::scene::{Numerics, Scene as Tables, SceneError};
 use std::path::Path;
 
 /// A scene that makes sense, with the mesh and the hardening table that it names, ready to be crushed.
@@ -51,11 +52,15 @@ impl Scene {
     }
 
     /// The scene of the file at `path`, with overrides `key.path=value` in their order; the files that it names are
-    /// relative to its folder.
+    /// relative to its folder. `-` is standard input; a `summary.json` of an earlier run gives the scene of that run.
     ///
     /// # Errors
     /// As for [`Scene::from_toml`], and a file that cannot be read.
     pub fn read(path: &Path, overrides: &[String]) -> Result<Scene, Error> {
+        if path.extension().is_some_and(|extension| extension == "json") {
+            let text = to_toml(&as_asked(Summary::read(path)?)).map_err(InputError::new)?;
+            return Scene::checked(TomlFile::parse(path, text, overrides)?);
+        }
         Scene::checked(TomlFile::read(path, overrides)?)
     }
 
@@ -82,16 +87,18 @@ impl Scene {
         if let Some(curve) = &curve {
             curve.put_into(&mut file.value.material);
         }
+        let outlines = profile_file::read(&mut file)?;
         // what is wrong with a table shows in the file that holds it
         file.value.validate().map_err(|e| {
-            let shown = curve.and_then(|curve| curve.point_at(&e));
+            let shown = curve.and_then(|curve| curve.point_at(&file, &e));
+            let shown = shown.or_else(|| outlines.iter().find_map(|outline| outline.point_at(&file, &e)));
             shown.unwrap_or_else(|| file.error_at(&e.path, &e.message))
         })?;
         let mesh = read_mesh(&file)?;
         Ok(Scene { file, mesh })
     }
 
-    /// The tables of the scene, in SI, a hardening table in the place of its file.
+    /// The tables of the scene, in SI, tables of hardening and outlines in the place of their files.
     pub fn tables(&self) -> &Tables {
         &self.file.value
     }
@@ -129,6 +136,14 @@ impl Scene {
     pub fn error(&self, error: &SceneError) -> InputError {
         self.file.error_at(&error.path, &error.message)
     }
+}
+
+/// The scene of a run as it was asked for: numbers that follow from its accuracy are left to it again, so that another one can be
+/// set.
+fn as_asked(summary: Summary) -> Tables {
+    let scene = *summary.scene;
+    let open = Tables { numerics: Numerics::default(), ..scene.clone() };
+    if Discretisation::new(&open).numerics() == scene.numerics { open } else { scene }
 }
 
 /// The mesh that the scene names, in metres, its highest point at height 0; `None` if it is to be built.

@@ -37,7 +37,9 @@ impl<T: DeserializeOwned> TomlFile<T> {
     /// # Errors
     /// As for [`TomlFile::read`].
     pub fn parse(path: &Path, text: String, overrides: &[String]) -> Result<Self, InputError> {
-        let sources = Sources::new(path.display().to_string(), text, overrides);
+        let from_input = path == Path::new(STANDARD_INPUT);
+        let name = if from_input { "standard input".into() } else { path.display().to_string() };
+        let sources = Sources::new(name, text, overrides);
         let table = sources.table()?;
         let deserializer = Deserializer::from(Spanned::new(0..sources.text.len(), table));
         let value = T::deserialize(deserializer).map_err(|e| sources.toml_error(&e))?;
@@ -58,7 +60,8 @@ impl<T: DeserializeOwned> TomlFile<T> {
 impl<T> TomlFile<T> {
     /// The file's name without its extension, which names the results.
     pub fn stem(&self) -> String {
-        self.path.file_stem().map_or_else(|| "scene".into(), |s| s.to_string_lossy().into_owned())
+        let stem = self.path.file_stem().filter(|_| self.path != Path::new(STANDARD_INPUT));
+        stem.map_or_else(|| "scene".into(), |s| s.to_string_lossy().into_owned())
     }
 
     /// A path of the file, which is relative to its folder.
@@ -84,15 +87,24 @@ pub fn to_toml(value: &impl Serialize) -> Result<String, String> {
     toml::to_string(value).map_err(|e| e.to_string())
 }
 
-/// Reads a whole text file, with errors a person can act on.
+/// Stands for standard input.
+pub const STANDARD_INPUT: &str = "-";
+
+/// Reads a whole text file, or standard input, with errors a person can act on.
 fn read_text(path: &Path) -> Result<String, InputError> {
-    let name = path.display();
+    let from_input = path == Path::new(STANDARD_INPUT);
+    let name = if from_input { "standard input".into() } else { path.display().to_string() };
     let error = |e: std::io::Error| {
-        InputError::new(format!("cannot read {name}: {e}")).help("give the path of a TOML file")
+        InputError::new(format!("cannot read {name}: {e}"))
+            .help("give the path of a TOML file, or - for standard input")
     };
     let mut bytes = Vec::new();
-    let file = std::fs::File::open(path).map_err(error)?;
-    file.take(LARGEST_FILE + 1).read_to_end(&mut bytes).map_err(error)?;
+    if from_input {
+        std::io::stdin().lock().take(LARGEST_FILE + 1).read_to_end(&mut bytes).map_err(error)?;
+    } else {
+        let file = std::fs::File::open(path).map_err(error)?;
+        file.take(LARGEST_FILE + 1).read_to_end(&mut bytes).map_err(error)?;
+    }
     if bytes.len() as u64 > LARGEST_FILE {
         return Err(InputError::new(format!("{name} is larger than {} MB", LARGEST_FILE >> 20))
             .help("a scene is a text file of a few lines"));

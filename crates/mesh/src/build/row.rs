@@ -41,7 +41,9 @@ pub fn add(grid: &mut Grid, plan: &Plan) -> Ring {
     let mut edge = rectangle.left;
     for (index, contact) in plan.contacts.iter().enumerate() {
         let halved = index == 0 && contact.centre == plan.width[0];
-        let cell_left = if halved { contact.centre } else { contact.centre - contact.foot };
+        let [cell_left, cell_right] =
+            [0, 1].map(|i| contact.centre + [-1.0, 1.0][i] * contact.foot * contact.sides[i]);
+        let cell_left = if halved { contact.centre } else { cell_left };
         if let Some(nodes) = plain_block(grid, plan, [edge, cell_left], &depths) {
             join(grid, &nodes);
         }
@@ -64,10 +66,13 @@ pub fn add(grid: &mut Grid, plan: &Plan) -> Ring {
             divide_geometric(half, contact.foot, &kinks, |x| grading.size(x, contact_size(contact)));
         let shells: Vec<Rectangle> = stations[1..]
             .iter()
-            .map(|&x| Rectangle {
-                left: if halved { contact.centre } else { contact.centre - x },
-                right: contact.centre + x,
-                depth: power([half, core.depth], [contact.foot, rectangle.depth], x),
+            .map(|&x| {
+                let [left, right] = contact.shell(half, x);
+                Rectangle {
+                    left: if halved { contact.centre } else { left },
+                    right,
+                    depth: power([half, core.depth], [contact.foot, rectangle.depth], x),
+                }
             })
             .collect();
         let ring = wrap(grid, ring, &shells, None);
@@ -76,7 +81,7 @@ pub fn add(grid: &mut Grid, plan: &Plan) -> Ring {
         let down: Vec<u32> = ring.ids[..=l].to_vec();
         let up: Vec<u32> = ring.ids[l + b..].iter().rev().copied().collect();
         join(grid, &[down, ring.ids[l..=l + b].to_vec(), up]);
-        edge = contact.centre + contact.foot;
+        edge = cell_right;
     }
     if let Some(nodes) = plain_block(grid, plan, [edge, rectangle.right], &depths) {
         join(grid, &nodes);

@@ -164,7 +164,7 @@ impl Body<'_> {
     /// Contact loop over the surface edges.
     fn integrate_contact(&self, state: &State, trial: &Trial, touching: Touching, response: &mut Response) {
         response.contact.clear();
-        let Some(contact) = self.contact.filter(|_| trial.tip.is_finite()) else { return };
+        let Some(contact) = self.contact.as_ref().filter(|_| trial.tip.is_finite()) else { return };
         let context = contact.at(trial.tip, trial.penalty, self.symmetry);
         for (edge, kept) in state.edges.iter().zip(state.parts()) {
             let x = edge.nodes.map(|node| current(&state.position, &trial.displacement, node));

@@ -64,7 +64,7 @@ impl State {
     /// Takes the contact energy over the surface as it is now, which the tool has stretched; what that adds to the energy is no
     /// work of the tool and is kept apart.
     fn remeasure_contact(&mut self, body: &Body<'_>) {
-        let Some(contact) = body.contact else { return };
+        let Some(contact) = &body.contact else { return };
         let context = contact.at(self.tip, self.penalty, body.symmetry);
         let mut change = 0.0;
         for (edge, share) in self.edges.iter_mut().zip(&self.contact) {

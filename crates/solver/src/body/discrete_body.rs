@@ -13,7 +13,7 @@ use asperity_law::real::Lanes;
 use asperity_mesh::{ElementKind, Mesh};
 
 /// A tool in contact with the surface of the body.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct ToolContact {
     /// Its shape.
     pub tool: Tool,
@@ -95,7 +95,7 @@ impl<'m> Body<'m> {
 
     /// The edges of the free surface, in the order of the mesh; none without a tool.
     pub fn surface(&self) -> Vec<ContactEdge> {
-        let edges = self.contact.map_or(&[][..], |_| &self.mesh.sides.surface);
+        let edges = self.contact.as_ref().map_or(&[][..], |_| &self.mesh.sides.surface);
         edges
             .iter()
             .map(|&edge| {

@@ -99,7 +99,7 @@ impl State {
             plastic_work: 0.0,
             yielding: vec![false; body.mesh.cell_count()],
             tip: f64::INFINITY,
-            penalty: body.contact.map_or(0.0, |contact| contact.penalty),
+            penalty: body.contact.as_ref().map_or(0.0, |contact| contact.penalty),
             edges: body.surface(),
             contact: Vec::new(),
             multiplier: vec![0.0; nodes],

@@ -64,7 +64,7 @@ impl<'a> Surface<'a> {
 
     /// Penetration of the point `x` into the tool where it stands; -∞ without a tool.
     pub fn penetration_of(&self, x: [f64; 2]) -> f64 {
-        match self.body.contact {
+        match &self.body.contact {
             Some(contact) if self.tip.is_finite() => contact.tool.penetration(x, self.tip).depth,
             _ => f64::NEG_INFINITY,
         }
@@ -82,7 +82,7 @@ impl<'a> Surface<'a> {
 
     /// How far the tool must travel down from height 0 to touch this surface.
     pub fn first_touch(&self) -> f64 {
-        let Some(contact) = self.body.contact else { return 0.0 };
+        let Some(contact) = &self.body.contact else { return 0.0 };
         // the way along z to the flank, exact for planes and cones; repeated for round tools. A point beside the
         // widest place of a ball does not see it
         let along_z = |inside: Penetration| inside.depth / inside.slope[1].max(0.1);
@@ -104,7 +104,7 @@ impl<'a> Surface<'a> {
 
     /// Contact pressure per current area at the node of `edge` that lies at ξ, negative off the contact; 0 without a tool.
     pub fn nodal_pressure(&self, edge: &ContactEdge, node: u32, xi: f64) -> f64 {
-        let Some(contact) = self.body.contact else { return 0.0 };
+        let Some(contact) = &self.body.contact else { return 0.0 };
         let x = edge.nodes.map(|node| self.position(node));
         let depth = contact.tool.penetration(edge.point(&x, xi), self.tip).depth;
         (self.multiplier[node as usize] + self.penalty * depth) / edge.stretch(&x, xi)

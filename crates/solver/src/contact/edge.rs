@@ -9,6 +9,7 @@
 //! part of its flank, where a penalty over the undeformed area fades: the apex then pierces the surface (30° cone, n = 0.1: K 15 %
 //! low, and no convergence to any mesh).
 
+use crate::contact::roots::parts_above_zero;
 use crate::contact::tool::Tool;
 use crate::point::kinematics::Symmetry;
 
@@ -137,6 +138,9 @@ impl ContactEdge {
             let lambda = n[0] * multiplier[0] + n[1] * multiplier[1] + n[2] * multiplier[2];
             lambda + context.penalty * context.tool.penetration(self.point(x, xi), context.tip).depth
         };
+        if matches!(context.tool, Tool::Measured(_)) {
+            return parts_above_zero(pressure);
+        }
         let (left, middle, right) = (pressure(-1.0), pressure(0.0), pressure(1.0));
         // p(ξ) = c + bξ + aξ², exact for a plane; for curved tools the roots are polished on p itself
         let (a, b, c) = (0.5 * (left + right) - middle, 0.5 * (right - left), middle);

@@ -4,6 +4,8 @@ pub mod tool;
 
 pub mod edge;
 
+mod roots;
+
 pub mod penalty_correction;
 
 pub mod self_contact;

@@ -1,9 +1,11 @@
 //! A rigid tool is a signed gap function of position, nothing more.
 
+use asperity_mesh::outline::Outline;
 use asperity_mesh::profile::{Asperity, Shape};
+use std::sync::Arc;
 
 /// Shape of a rigid axisymmetric (or prismatic) tool that moves along z. Lengths are the scene's own.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Tool {
     /// A plane, normal to z.
     Plane,
@@ -19,6 +21,8 @@ pub enum Tool {
         /// Its radius.
         radius: f64,
     },
+    /// A measured outline, as the rise from its apex on the axis; it goes straight on beyond its end.
+    Measured(Arc<Outline>),
 }
 
 /// How deep a point is inside the tool, and the derivatives with respect to the point.
@@ -36,20 +40,24 @@ impl Tool {
     /// The tool as an asperity of the same outline: the contact of the two is the same to first order in the slope.
     /// `None` for a plane.
     pub fn mirrored(&self) -> Option<Asperity> {
-        let shape = match *self {
+        let shape = match self {
             Tool::Plane => return None,
-            Tool::Cone { tan_slope, tip_radius } => Shape::Cone { tan_slope, tip_radius },
-            Tool::Sphere { radius } => Shape::Sphere { radius },
+            Tool::Cone { tan_slope, tip_radius } => {
+                Shape::Cone { tan_slope: *tan_slope, tip_radius: *tip_radius }
+            }
+            Tool::Sphere { radius } => Shape::Sphere { radius: *radius },
+            Tool::Measured(outline) => Shape::Measured(outline.clone()),
         };
         Some(Asperity { shape, height: f64::INFINITY, centre: 0.0, valley_radius: 0.0 })
     }
 
     /// Penetration of the point `x` when the lowest point of the tool is at height `tip`.
     pub fn penetration(&self, x: [f64; 2], tip: f64) -> Penetration {
-        match *self {
+        match self {
             Tool::Plane => Penetration { depth: x[1] - tip, slope: [0.0, 1.0], curvature: [0.0; 3] },
-            Tool::Sphere { radius } => inside_sphere(x, tip + radius, radius),
-            Tool::Cone { tan_slope, tip_radius } => {
+            &Tool::Sphere { radius } => inside_sphere(x, tip + radius, radius),
+            Tool::Measured(outline) => inside_outline(x, tip, outline),
+            &Tool::Cone { tan_slope, tip_radius } => {
                 let (r, side) = (x[0].abs(), if x[0] < 0.0 { -1.0 } else { 1.0 });
                 let secant = tan_slope.hypot(1.0);
                 let (sine, cosine) = (tan_slope / secant, 1.0 / secant);
@@ -63,6 +71,32 @@ impl Tool {
                 Penetration { depth, slope: [-side * sine, cosine], curvature: [0.0; 3] }
             }
         }
+    }
+}
+
+/// Least of what a curvature leaves of the distance to its centre: deeper points are past it, which no contact is.
+const LEAST_RADIUS: f64 = 1e-3;
+
+/// Signed distance to an outline: with κ its curvature at the foot of the point and d the depth, the level lines of the depth have
+/// the curvature κ/(1 - κd) there.
+fn inside_outline(x: [f64; 2], tip: f64, outline: &Outline) -> Penetration {
+    let (r, side) = (x[0].abs(), if x[0] < 0.0 { -1.0 } else { 1.0 });
+    let z = x[1] - tip;
+    let foot = outline.foot(r, z);
+    if foot.corner {
+        let near = inside_sphere([r - foot.x, z], foot.drop, 0.0);
+        let ([nr, nz], [rr, zz, rz]) = (near.slope, near.curvature);
+        return Penetration { slope: [side * nr, nz], curvature: [rr, zz, side * rz], ..near };
+    }
+    let secant = foot.slope.hypot(1.0);
+    let (sine, cosine) = (foot.slope / secant, 1.0 / secant);
+    let depth = (z - foot.drop) * cosine - (r - foot.x) * sine;
+    let curvature = foot.bend * cosine.powi(3);
+    let level = curvature / (1.0 - curvature * depth).max(LEAST_RADIUS);
+    Penetration {
+        depth,
+        slope: [-side * sine, cosine],
+        curvature: [-level * cosine * cosine, -level * sine * sine, -side * level * cosine * sine],
     }
 }
 
@@ -83,6 +117,7 @@ fn inside_sphere(x: [f64; 2], centre: f64, radius: f64) -> Penetration {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use asperity_mesh::outline::Parabola;
 
     /// Slope and curvature are the derivatives of the depth (central differences, step 1e-5: error ≈ 1e-10).
     #[test]
@@ -92,6 +127,8 @@ mod tests {
             Tool::Sphere { radius: 3.0 },
             Tool::Cone { tan_slope: 0.4, tip_radius: 0.0 },
             Tool::Cone { tan_slope: 0.4, tip_radius: 2.0 },
+            Tool::Measured(bowl(true)),
+            Tool::Measured(bowl(false)),
         ];
         let d = 1e-5;
         for tool in tools {
@@ -107,6 +144,32 @@ mod tests {
                 assert!(((above.slope[0] - below.slope[0]) / (2.0 * d) - here.curvature[2]).abs() < 1e-8);
             }
         }
+    }
+
+    /// A parabola, or a cone, that turns into a steeper flank at a kink.
+    fn bowl(round: bool) -> Arc<Outline> {
+        let (slope, bend) = if round { (0.0, 0.1) } else { (0.2, 0.0) };
+        let at = slope * 1.2 + bend * 1.44;
+        let arcs = vec![
+            Parabola { x: 0.0, drop: 0.0, slope, bend },
+            Parabola { x: 1.2, drop: at, slope: slope + 2.4 * bend + 0.1, bend: 0.05 },
+        ];
+        Outline::new(arcs, 1.8, true).unwrap().shared()
+    }
+
+    #[test]
+    fn a_measured_cone_and_a_measured_parabola_are_as_far_as_they_are() {
+        let straight = Outline::new(vec![Parabola { x: 0.0, drop: 0.0, slope: 0.4, bend: 0.0 }], 5.0, true);
+        let [measured, cone] =
+            [Tool::Measured(straight.unwrap().shared()), Tool::Cone { tan_slope: 0.4, tip_radius: 0.0 }];
+        for x in [[0.0, 0.3], [0.0, -0.2], [1.0, 0.45], [-2.0, 0.5], [7.0, 3.0]] {
+            let (a, b) = (measured.penetration(x, 0.1), cone.penetration(x, 0.1));
+            assert!((a.depth - b.depth).abs() < 1e-14 && (a.slope[1] - b.slope[1]).abs() < 1e-14, "{x:?}");
+            assert!((a.slope[0] - b.slope[0]).abs() < 1e-14, "{x:?}");
+        }
+        // before a kink the distance is that of the point
+        let near = Tool::Measured(bowl(true)).penetration([1.22, 0.1], 0.0);
+        assert!((near.depth + 0.02_f64.hypot(0.044)).abs() < 1e-12, "{near:?}");
     }
 
     #[test]

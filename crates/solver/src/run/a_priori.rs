@@ -21,11 +21,14 @@ pub fn half_widths(profile: &Profile, tool: &Tool, depth: f64) -> Vec<f64> {
     let top = profile.height();
     let width = |a: &Asperity| {
         // a curved tool lies higher over the asperities beside the one that it comes down on
-        let below = top - a.height + mirrored.map_or(0.0, |m| m.drop(a.centre));
+        let below = top - a.height + mirrored.as_ref().map_or(0.0, |m| m.drop(a.centre));
         SPREAD * half_width_under(a, mirrored.as_ref(), (depth - below).max(0.0))
     };
     profile.asperities.iter().map(width).collect()
 }
+
+/// Relative change of slope up to which a measured flank is straight.
+const STRAIGHT: f64 = 0.1;
 
 /// Half width over which the outlines of `asperity` and of the tool above it overlap at `depth`.
 fn half_width_under(asperity: &Asperity, mirrored: Option<&Asperity>, depth: f64) -> f64 {
@@ -33,7 +36,9 @@ fn half_width_under(asperity: &Asperity, mirrored: Option<&Asperity>, depth: f64
     let (mut low, mut high) = (0.0, asperity.half_width(depth).min(tool.half_width(depth)));
     for _ in 0..60 {
         let middle = 0.5 * (low + high);
-        if asperity.drop(middle) + tool.drop(middle) < depth {
+        // of an outline that is not symmetric, on the side where the two overlap further
+        let drop = asperity.drop(middle).min(asperity.drop(-middle));
+        if drop + tool.drop(middle) < depth {
             low = middle;
         } else {
             high = middle;
@@ -48,31 +53,30 @@ fn half_width_under(asperity: &Asperity, mirrored: Option<&Asperity>, depth: f64
 /// elements lie closer.
 pub fn resolved_from(profile: &Profile, tool: &Tool, depth: f64, reach: f64) -> f64 {
     let first = COUNTS_FROM * depth;
-    let highest = profile.asperities.iter().copied().max_by(|a, b| a.height.total_cmp(&b.height));
-    if let (Some(tool), Some(asperity)) = (tool.mirrored(), highest) {
-        let under = |depth: f64| half_width_under(&asperity, Some(&tool), depth);
+    let highest = profile.asperities.iter().max_by(|a, b| a.height.total_cmp(&b.height));
+    let tool = tool.mirrored();
+    if let (Some(tool), Some(asperity)) = (&tool, highest) {
+        let under = |depth: f64| half_width_under(asperity, Some(tool), depth);
         return under(first) / under(reach);
     }
-    let Some(outline) = tool.mirrored().or(highest) else { return first / reach };
+    let Some(outline) = tool.as_ref().or(highest) else { return first / reach };
     let half_width = outline.half_width(first);
-    match outline.shape {
-        Shape::Cone { .. } if half_width >= outline.cap_radius() => first / reach,
-        _ => half_width / outline.half_width(reach),
-    }
+    let under_a_flank = match &outline.shape {
+        Shape::Cone { .. } => half_width >= outline.cap_radius(),
+        Shape::Sphere { .. } => false,
+        Shape::Measured(_) => {
+            let slope = |depth: f64| outline.slope_at(outline.half_width(depth));
+            (slope(first) / slope(reach) - 1.0).abs() < STRAIGHT
+        }
+    };
+    if under_a_flank { first / reach } else { half_width / outline.half_width(reach) }
 }
 
 /// Mean contact pressure to be expected at `depth`, in units of E: ½E* tan β of the elastic cone and 2.8 σ_r of full
 /// plasticity (ε_r ≈ 0.1 tan β), joined harmonically. Only the penalty is scaled with it.
 pub fn expected_pressure(metal: &Metal, profile: &Profile, tool: &Tool, depth: f64) -> f64 {
-    let slopes = tool.mirrored().into_iter().chain(profile.asperities.iter().copied()).map(|a| {
-        let width = SPREAD * a.half_width(depth);
-        match a.shape {
-            Shape::Cone { tan_slope, tip_radius } if tip_radius > 0.0 => tan_slope.min(width / tip_radius),
-            Shape::Cone { tan_slope, .. } => tan_slope,
-            Shape::Sphere { radius } => width / radius,
-        }
-    });
-    let slope = slopes.fold(0.0, f64::max);
+    let slope_of = |a: &Asperity| a.slope_at(SPREAD * a.half_width(depth));
+    let slope = tool.mirrored().iter().chain(&profile.asperities).map(slope_of).fold(0.0, f64::max);
     let elastic = 0.5 * metal.elastic.reduced_modulus() * slope;
     match &metal.hardening {
         None => elastic,

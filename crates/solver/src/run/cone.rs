@@ -5,6 +5,7 @@ use crate::contact::tool::Tool;
 use crate::point::kinematics::Symmetry;
 use crate::point::material::Metal;
 use crate::run::a_priori::{contact_ratio, expected_pressure, far_field};
+use crate::run::compliance::Compliance;
 use crate::run::discretisation::ConeDiscretisation;
 use crate::run::problem::{Correction, Goal, Problem, Rules, Units, held_nodes};
 use crate::scene::Lateral;
@@ -42,7 +43,7 @@ impl Cone {
             centre: 0.0,
             valley_radius: 0.0,
         };
-        let profile = Profile { asperities: if self.indents { Vec::new() } else { vec![cone] } };
+        let profile = Profile { asperities: if self.indents { Vec::new() } else { vec![cone] }, line: None };
         let symmetry = Symmetry::Axisymmetric;
         Problem {
             units: Units::new(1.0, 1.0, symmetry),
@@ -61,6 +62,7 @@ impl Cone {
             reloads: 0,
             rules: Rules {
                 far_field: far_field(&self.metal, domain),
+                compliance: Compliance::NONE,
                 area_growth: f64::INFINITY,
                 correction: Correction::PlasticShare,
             },

@@ -4,10 +4,13 @@
 //! is off by a factor of two between elastic and plastic asperities and by six on elastic ridges, whose depth depends on the
 //! whole body; a coarse crush takes some hundredths of a second and is off by a few percent.
 
+use crate::body::energy::ContactSums;
 use crate::run::a_priori::expected_depth;
+use crate::run::compliance::Compliance;
 use crate::run::curve::Curve;
 use crate::run::load_path::Path;
 use crate::run::prepare::{bodies, metal, prepare};
+use crate::run::problem::Problem;
 use crate::scene::{Accuracy, Loading, Numerics, Scene, SceneError, Substrate, Symmetry, Target};
 use asperity_law::units::Length;
 use asperity_mesh::Mesh;
@@ -32,6 +35,7 @@ const BEYOND: f64 = 1.1;
 /// Bodies that make no sense: path and reason.
 pub fn target_depth(scene: &Scene, mesh: Option<&Mesh>) -> Result<f64, SceneError> {
     match scene.loading.target()? {
+        Target::Depth(depth) if gives_way(scene) => Ok(depth_of_body(&with_body_of(scene, mesh), depth)),
         Target::Depth(depth) => Ok(depth),
         Target::Force(force) => {
             let (profile, tool) = bodies(scene, 1.0)?;
@@ -57,7 +61,8 @@ fn depth_of(scene: &Scene, force: f64, guess: f64) -> f64 {
     let deepest = scene.deepest();
     let mut depth = guess.min(deepest);
     for _ in 0..MOST_CRUSHES {
-        let Some(curve) = coarse(scene, depth) else { break };
+        let force_of = |problem: &Problem, contact: &ContactSums| contact.force * problem.units.force;
+        let Some(curve) = coarse(scene, depth, force_of).map(Curve::new) else { break };
         let end = curve.end();
         match curve.depth_of(force) {
             Some(found) if TOO_DEEP * found >= end => return found,
@@ -77,19 +82,57 @@ fn depth_of(scene: &Scene, force: f64, guess: f64) -> f64 {
     depth
 }
 
-/// The loading curve of a coarse crush to `depth` (m), in SI; as far as it goes.
-fn coarse(scene: &Scene, depth: f64) -> Option<Curve> {
+/// Whether tool or machine give way.
+fn gives_way(scene: &Scene) -> bool {
+    scene.tool.youngs_modulus.is_some() || scene.tool.machine_compliance.is_some()
+}
+
+/// Depth (m) of the body where it is `asked` (m) with what tool and machine give way.
+fn depth_of_body(scene: &Scene, asked: f64) -> f64 {
+    let mut depth = asked;
+    for _ in 0..MOST_CRUSHES {
+        let total = coarse(scene, depth, |problem, contact| {
+            Compliance::of(scene, &problem.units).way(contact.force, contact.area) * problem.units.length
+        });
+        let Some(found) = total.and_then(|way| body_depth(&way, asked)) else { break };
+        let fine = found * TOO_DEEP >= depth;
+        depth = found;
+        if fine {
+            break;
+        }
+    }
+    depth
+}
+
+/// Depth at which it makes `asked` together with the way over it, linear between points.
+fn body_depth(way: &[[f64; 2]], asked: f64) -> Option<f64> {
+    let sum = |p: &[f64; 2]| p[0] + p[1];
+    let after = way.iter().position(|p| sum(p) >= asked)?;
+    let (from, to) = (way.get(after.checked_sub(1)?)?, way.get(after)?);
+    Some(from[0] + (to[0] - from[0]) * (asked - sum(from)) / (sum(to) - sum(from)))
+}
+
+/// Depth (m) and what `of` makes of the contact in the increments of a coarse crush to `depth` (m), from 0 on; as far as it goes.
+/// Tool and machine are stiff.
+fn coarse(scene: &Scene, depth: f64, of: impl Fn(&Problem, &ContactSums) -> f64) -> Option<Vec<[f64; 2]>> {
     let numerics =
         Numerics { elements_in_contact: Some(ELEMENTS), steps: Some(STEPS), ..Numerics::default() };
     let loading = Loading { depth: Some(Length(depth)), force: None, unload: false, reloads: 0 };
-    let probe = Scene { accuracy: Accuracy::Draft, numerics, loading, mesh: None, ..scene.clone() };
+    let probe = Scene {
+        accuracy: Accuracy::Draft,
+        numerics,
+        loading,
+        mesh: None,
+        tool: scene.tool.rigid(),
+        ..scene.clone()
+    };
     probe.validate().ok()?;
     let problem = prepare(&probe, None, depth).ok()?;
     let mut points = vec![[0.0; 2]];
     // a path that stops early has a curve too
     let _ = Path::new(&problem).ok()?.load(&mut |_, increment| {
-        points.push([increment.depth * problem.units.length, increment.contact.force * problem.units.force]);
+        points.push([increment.depth * problem.units.length, of(&problem, &increment.contact)]);
         true
     });
-    Some(Curve::new(points))
+    Some(points)
 }

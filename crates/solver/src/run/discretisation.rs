@@ -5,6 +5,7 @@ use crate::run::schedule::{Spacing, loading};
 use crate::scene::{Accuracy, ContactMethod, ElementChoice, Numerics, Scene, Symmetry, ToolForm};
 use asperity_mesh::build::Sizes;
 use asperity_mesh::grading::LINEAR;
+use asperity_mesh::outline::Outline;
 
 /// Every number of the discretisation, none left open.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -81,6 +82,7 @@ impl Discretisation {
         let element = numerics.element.unwrap_or_else(|| {
             element_under(match scene.tool.form() {
                 Ok(ToolForm::Cone { slope, .. }) => Some(slope),
+                Ok(ToolForm::Measured(outline)) => conical_slope(&outline),
                 _ => None,
             })
         });
@@ -154,6 +156,16 @@ fn element_under(indenter: Option<f64>) -> ElementChoice {
     } else {
         ElementChoice::Q8r
     }
+}
+
+/// Slope at half way out over that at the end from which a measured tool is a cone: that of a ball is a half at most.
+const CONICAL: f64 = 0.75;
+
+/// Slope (radians) of the flank of a measured tool that is conical.
+fn conical_slope(outline: &Outline) -> Option<f64> {
+    let [_, end] = outline.ends();
+    let [middle, last] = [0.5 * end, end].map(|x| outline.at(x)[1]);
+    (middle > CONICAL * last).then(|| last.atan())
 }
 
 /// The [softness](softness_of) of the metal of `scene`.

@@ -214,7 +214,7 @@ impl<'m> Equilibrium<'m> {
 
     /// Augmented Lagrange update at the nodes, λ ← max(0, λ + ε d), from the converged iterate.
     pub fn augment(&mut self) {
-        let Some(contact) = self.body.contact else { return };
+        let Some(contact) = &self.body.contact else { return };
         let mut multiplier = self.trial.multiplier.clone();
         let surface = self.trial_surface();
         for edge in surface.edges {

@@ -36,4 +36,5 @@ mod ripple;
 
 mod recorder;
 
+pub mod compliance;
 pub mod crush;

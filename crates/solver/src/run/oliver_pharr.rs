@@ -38,19 +38,30 @@ pub struct OliverPharr {
     pub reduced_modulus: f64,
 }
 
-/// ε of a tool; `None` for a plane, which has no tip from which a contact depth could count.
-pub fn geometry_factor(tool: &Tool) -> Option<f64> {
+/// ε of a tool that is in contact up to about `height` above its apex; `None` for a plane, which has no tip from which a contact
+/// depth could count.
+///
+/// An outline that rises with r^n has ε = (1 + 1/n)(1 - Γ((n + 1)/2)/(√π Γ(n/2 + 1))) (Sneddon 1965), nearly linear in n between
+/// the cone's and the paraboloid's (within 0.001).
+pub fn geometry_factor(tool: &Tool, height: f64) -> Option<f64> {
+    let (cone, paraboloid) = (2.0 - 2.0 * FRAC_2_PI, 0.75);
     match tool {
         Tool::Plane => None,
-        Tool::Cone { .. } => Some(2.0 - 2.0 * FRAC_2_PI),
-        Tool::Sphere { .. } => Some(0.75),
+        Tool::Cone { .. } => Some(cone),
+        Tool::Sphere { .. } => Some(paraboloid),
+        Tool::Measured(outline) => {
+            let r = outline.widths(height)[1];
+            let [rise, slope] = outline.at(r);
+            let exponent = (r * slope / rise).clamp(1.0, 2.0);
+            Some(cone + (exponent - 1.0) * (paraboloid - cone))
+        }
     }
 }
 
 /// Evaluates `peak` of a tool of revolution whose section `height` above its lowest point has the radius
 /// `section(height)`. `None` for a plane, or if nothing is left of the depth.
 pub fn oliver_pharr(tool: &Tool, section: impl Fn(f64) -> f64, peak: &Peak) -> Option<OliverPharr> {
-    let geometry_factor = geometry_factor(tool)?;
+    let geometry_factor = geometry_factor(tool, peak.depth)?;
     let contact_depth = peak.depth - geometry_factor * peak.force / peak.stiffness;
     if !(contact_depth > 0.0 && contact_depth.is_finite()) {
         return None;
@@ -70,10 +81,14 @@ pub fn as_an_instrument(problem: &Problem, summary: &Summary) -> Option<OliverPh
     let (tool, u) = (&problem.tool, problem.units);
     let mirrored = tool.mirrored().filter(|_| problem.symmetry == Symmetry::Axisymmetric)?;
     let stiffness = summary.unloading_stiffness.filter(|_| summary.residual_depth.is_some())?;
+    let force = summary.peak_force / u.force;
+    // the method knows the machine's frame and takes it off
+    let frame = problem.rules.compliance.machine;
+    let stiffness = stiffness * u.length / u.force;
     let peak = Peak {
-        force: summary.peak_force / u.force,
-        depth: summary.peak_depth / u.length,
-        stiffness: stiffness * u.length / u.force,
+        force,
+        depth: summary.peak_depth / u.length - frame * force,
+        stiffness: if frame > 0.0 { (stiffness.recip() - frame).recip() } else { stiffness },
     };
     let read = oliver_pharr(tool, |height| mirrored.half_width(height), &peak)?;
     Some(OliverPharr {

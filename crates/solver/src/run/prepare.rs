@@ -4,9 +4,10 @@ use crate::contact::tool::Tool;
 use crate::point::kinematics::Symmetry;
 use crate::point::material::Metal;
 use crate::run::a_priori;
+use crate::run::compliance::Compliance;
 use crate::run::discretisation::Discretisation;
 use crate::run::problem::{Correction, Goal, Problem, Rules, Units, held_nodes};
-use crate::scene::{AsperityForm, Lateral, Scene, SceneError, Target, ToolForm};
+use crate::scene::{AsperityForm, Lateral, Line, LineAsperity, Scene, SceneError, Target, ToolForm};
 use asperity_law::Elastic;
 use asperity_mesh::Mesh;
 use asperity_mesh::build::{Contact, Plan, build};
@@ -34,8 +35,26 @@ pub(super) fn metal(scene: &Scene) -> Metal {
 /// The asperities and the tool of `scene`, lengths over `length` (m).
 pub(super) fn bodies(scene: &Scene, length: f64) -> Result<(Profile, Tool), SceneError> {
     let tool = tool_over(scene.tool.form().map_err(|e| within("tool", e))?, length);
-    let asperities = outlines(scene)?.iter().map(|a| scale(a, length)).collect();
-    Ok((Profile { asperities }, tool))
+    if let Some(line) = scene.profile.first() {
+        let profile = measured_line(&line.line().map_err(|e| within("profile[0]", e))?, length);
+        return Ok((profile, tool));
+    }
+    let asperities = outlines(scene)?.iter().map(|a| a.over(length)).collect();
+    Ok((Profile { asperities, line: None }, tool))
+}
+
+/// A measured line and its asperities, lengths over `length`.
+fn measured_line(line: &Line, length: f64) -> Profile {
+    let asperity = |a: &LineAsperity| Asperity {
+        shape: Shape::Measured(a.outline.clone()),
+        height: a.height,
+        centre: a.centre,
+        valley_radius: 0.0,
+    };
+    Profile {
+        asperities: line.asperities.iter().map(|a| asperity(a).over(length)).collect(),
+        line: Some(line.outline.scaled(length.recip()).shared()),
+    }
 }
 
 /// Prepares `scene`, which is valid, for a peak at `depth` (m): the one that it asks for, or the one at which its force is
@@ -88,6 +107,7 @@ pub(super) fn prepare_with(
     let rules = Rules {
         // a substrate that the scene gives is a part of it
         far_field: if half_space { a_priori::far_field(&metal, size) } else { 0.0 },
+        compliance: Compliance::of(scene, &units),
         area_growth: AREA_GROWTH,
         correction: Correction::PlasticShare,
     };
@@ -128,13 +148,14 @@ fn outlines(scene: &Scene) -> Result<Vec<Asperity>, SceneError> {
                 (Shape::Cone { tan_slope: slope.tan(), tip_radius }, valley_radius)
             }
             AsperityForm::Sphere { radius, .. } => (Shape::Sphere { radius }, 0.0),
+            AsperityForm::Measured { ref outline, .. } => (Shape::Measured(outline.clone()), 0.0),
         };
-        let half = form.base_radius();
+        let [left, right] = form.feet();
         // a curved tool comes down at 0: over the first summit
         let at_zero = index == 0 && (!plane || curved);
-        let centre = if at_zero { 0.0 } else { edge + half };
+        let centre = if at_zero { 0.0 } else { edge + left };
         outlines.push(Asperity { shape, height: form.height(), centre, valley_radius });
-        edge = centre + half + asperity.spacing.map_or(0.0, |s| s.0);
+        edge = centre + right + asperity.spacing.map_or(0.0, |s| s.0);
     }
     Ok(outlines)
 }
@@ -147,19 +168,7 @@ fn tool_over(form: ToolForm, length: f64) -> Tool {
             Tool::Cone { tan_slope: slope.tan(), tip_radius: tip_radius / length }
         }
         ToolForm::Sphere { radius } => Tool::Sphere { radius: radius / length },
-    }
-}
-
-fn scale(a: &Asperity, length: f64) -> Asperity {
-    let shape = match a.shape {
-        Shape::Cone { tan_slope, tip_radius } => Shape::Cone { tan_slope, tip_radius: tip_radius / length },
-        Shape::Sphere { radius } => Shape::Sphere { radius: radius / length },
-    };
-    Asperity {
-        shape,
-        height: a.height / length,
-        centre: a.centre / length,
-        valley_radius: a.valley_radius / length,
+        ToolForm::Measured(outline) => Tool::Measured(outline.scaled(length.recip()).shared()),
     }
 }
 
@@ -185,14 +194,14 @@ fn automatic_size(numbers: &Discretisation, profile: &Profile, half_widths: &[f6
 /// Left and right end of the row of asperities with the gaps beside it, lengths over `length`; of a flat body some contact widths.
 fn extent(scene: &Scene, profile: &Profile, half_widths: &[f64], length: f64) -> [f64; 2] {
     let end_gap = scene.end_gap() / length;
-    let right = profile.asperities.last().map_or(0.0, |a| a.centre + a.half_width(a.height)) + end_gap;
+    let right = profile.asperities.last().map_or(0.0, |a| a.centre + a.feet()[1]) + end_gap;
     match scene.symmetry {
         Symmetry::Axisymmetric => [0.0, right],
         Symmetry::PlaneStrain if profile.asperities.is_empty() => {
             [-10.0, 10.0].map(|w| w * widest(half_widths))
         }
         Symmetry::PlaneStrain => {
-            [profile.asperities.first().map_or(0.0, |a| a.centre - a.half_width(a.height)) - end_gap, right]
+            [profile.asperities.first().map_or(0.0, |a| a.centre - a.feet()[0]) - end_gap, right]
         }
     }
 }
@@ -245,13 +254,18 @@ fn build_mesh(
     };
     let contacts: Vec<Contact> = if profile.asperities.is_empty() {
         let widest = widest(half_widths);
-        vec![Contact { centre: 0.0, half_width: widest, foot: 10.0 * widest, slope: 0.0 }]
+        vec![Contact { centre: 0.0, half_width: widest, foot: 10.0 * widest, sides: [1.0; 2], slope: 0.0 }]
     } else {
-        let contact = |(a, w): (&Asperity, &f64)| Contact {
-            centre: a.centre,
-            half_width: *w,
-            foot: a.half_width(a.height),
-            slope: steepest(a),
+        let contact = |(a, w): (&Asperity, &f64)| {
+            let sides = a.feet();
+            let foot = sides[0].max(sides[1]);
+            Contact {
+                centre: a.centre,
+                half_width: *w,
+                foot,
+                sides: sides.map(|side| side / foot),
+                slope: a.steepest(),
+            }
         };
         profile.asperities.iter().zip(half_widths).map(contact).collect()
     };
@@ -264,23 +278,15 @@ fn build_mesh(
     Ok(build(&Plan { profile: profile.clone(), contacts, row, width, depth, grading, kind }))
 }
 
-/// Steepest slope that a mesh under the asperity must follow: that at the foot of a cap.
-fn steepest(asperity: &Asperity) -> f64 {
-    match asperity.shape {
-        Shape::Cone { tan_slope, .. } => tan_slope,
-        Shape::Sphere { radius } => asperity.half_width(asperity.height) / (radius - asperity.height),
-    }
-}
-
 /// Fillets must leave a part of both their sides straight.
 fn check_valleys(profile: &Profile, length: f64) -> Result<(), SceneError> {
     for (index, asperity) in profile.asperities.iter().enumerate() {
         let Some([own, beyond]) = profile.valley_reach(index) else { continue };
-        let foot = asperity.half_width(asperity.height);
+        let foot = asperity.feet()[1];
         let next = profile.asperities.get(index + 1);
         let room = next.map_or(f64::INFINITY, |b| {
-            let gap = b.centre - b.half_width(b.height) - asperity.centre - foot;
-            if gap > 1e-9 * foot { gap } else { b.half_width(b.height) - b.cap_radius() }
+            let gap = b.centre - b.feet()[0] - asperity.centre - foot;
+            if gap > 1e-9 * foot { gap } else { b.feet()[0] - b.cap_radius() }
         });
         if own > foot - asperity.cap_radius() || beyond > room {
             let largest = asperity.valley_radius * ((foot - asperity.cap_radius()) / own).min(room / beyond);

@@ -6,6 +6,7 @@ use crate::contact::tool::Tool;
 use crate::point::kinematics::Symmetry;
 use crate::point::material::Metal;
 use crate::run::a_priori::expected_pressure;
+use crate::run::compliance::Compliance;
 use crate::run::discretisation::Discretisation;
 use crate::run::equilibrium::Equilibrium;
 use crate::scene::{ContactMethod, Lateral};
@@ -72,6 +73,8 @@ pub enum Correction {
 pub struct Rules {
     /// Depth that a substrate of finite size takes away per force and that is added to the depth; 0: not corrected.
     pub far_field: f64,
+    /// How tool and machine give way, which is added to the depth.
+    pub compliance: Compliance,
     /// An increment in which the contact area grows by more than this factor is halved, as long as halvings are left.
     pub area_growth: f64,
     /// How the penetration is taken off the travel.
@@ -119,10 +122,16 @@ impl Problem {
     /// # Errors
     /// An element of the mesh that is inside out.
     pub fn equilibrium(&self) -> Result<Equilibrium<'_>, Failure> {
-        let contact = ToolContact { tool: self.tool, penalty: self.penalty };
+        let contact = ToolContact { tool: self.tool.clone(), penalty: self.penalty };
         let fixed = |node: usize| self.held[node];
         Body::new(&self.mesh, self.symmetry, self.metal.clone(), fixed, Some(contact))
             .and_then(Equilibrium::new)
+    }
+
+    /// E* of the contact: that of the body, with an elastic tool in series.
+    pub fn reduced_modulus(&self) -> f64 {
+        let (body, tool) = (self.metal.elastic.reduced_modulus(), self.rules.compliance.tool);
+        if tool > 0.0 { (body.recip() + tool).recip() } else { body }
     }
 
     /// Contact pressure per penetration at `travel`: the penetration is the same share of every depth, so that early contact is as
@@ -133,9 +142,14 @@ impl Problem {
         self.penalty * pressure(depth) / (pressure(1.0) * depth)
     }
 
-    /// Penetration at the peak to be expected before the first increment shows it; 0 with multipliers.
+    /// Travel beyond the depth at the peak to be expected before the first increment shows it; 0 with multipliers.
     pub fn expected_penetration(&self) -> f64 {
         match (self.numbers.contact, self.goal) {
+            // what tool and machine give way is no travel
+            (method, Goal::Depth(depth)) if !self.rules.compliance.is_none() => {
+                let penalty = method == ContactMethod::Penalty;
+                1.0 - depth + if penalty { 0.9 * self.numbers.penetration } else { 0.0 }
+            }
             (ContactMethod::Augmented, _) => 0.0,
             (ContactMethod::Penalty, Goal::Depth(depth)) => 0.9 * self.numbers.penetration * depth,
             (ContactMethod::Penalty, _) => 0.9 * self.numbers.penetration,

@@ -69,6 +69,8 @@ pub struct CurveRow {
     pub contact_energy: f64,
     /// Pressure-weighted mean penetration, m.
     pub penetration: f64,
+    /// Part of the depth by which tool and machine gave way, m.
+    pub given_way: f64,
     /// Newton iterations spent since the last row.
     pub newton_iterations: usize,
     /// Sum of the nodal forces, N (N/m), in equilibrium with the stresses: what energies and works are made of.
@@ -187,7 +189,7 @@ pub struct Summary {
     /// The evaluation of the curve after Oliver and Pharr; `None` without unloading, under a plane, in plane
     /// strain.
     pub oliver_pharr: Option<OliverPharr>,
-    /// E/(1 - ν²), Pa.
+    /// E/(1 - ν²), of an elastic tool in series with that of the tool, Pa.
     pub reduced_modulus: f64,
     /// elastic_work / total_work.
     pub elastic_fraction: Option<f64>,
@@ -213,7 +215,9 @@ pub struct Summary {
 pub(super) fn work_along(rows: &[CurveRow]) -> f64 {
     let step = |pair: &[CurveRow]| {
         let (from, to) = (pair[0], pair[1]);
-        let sunk = work([from.force_nodal, to.force_nodal], to.penetration - from.penetration);
+        // what tool and machine give way is depth, but no travel
+        let sunk = to.penetration - from.penetration - (to.given_way - from.given_way);
+        let sunk = work([from.force_nodal, to.force_nodal], sunk);
         to.external_work - from.external_work - sunk
     };
     rows.windows(2).map(step).sum()

@@ -116,6 +116,7 @@ impl<'p> Recorder<'p> {
             plastic_work: 0.0,
             contact_energy: 0.0,
             penetration: 0.0,
+            given_way: 0.0,
             newton_iterations: 0,
             force_nodal: 0.0,
             force_error: None,
@@ -177,6 +178,7 @@ impl<'p> Recorder<'p> {
             plastic_work: energy(|e| e.plastic),
             contact_energy: (contact.energy - model.state().remeasured_energy()) * u.energy,
             penetration: contact.penetration * u.length,
+            given_way: increment.way * u.length,
             newton_iterations: increment.newton_iterations,
             force_nodal: contact.force * u.force,
             force_error: None,
@@ -233,7 +235,7 @@ impl<'p> Recorder<'p> {
     /// The asperity whose contact holds the axis: the first one, or the flat body without asperities.
     fn on_axis(&self) -> Option<usize> {
         let first = self.problem.profile.asperities.first();
-        let holds = first.is_none_or(|a| a.centre < a.half_width(a.height));
+        let holds = first.is_none_or(|a| a.centre < a.feet()[0]);
         (self.problem.symmetry == Symmetry::Axisymmetric && holds).then_some(0)
     }
 
@@ -290,8 +292,7 @@ impl<'p> Recorder<'p> {
         if self.problem.metal.hardening.is_none() {
             return;
         }
-        let feet =
-            [first.centre - first.half_width(first.height), last.centre + last.half_width(last.height)];
+        let feet = [first.centre - first.feet()[0], last.centre + last.feet()[1]];
         let found = islands(
             model.body(),
             model.state(),
@@ -383,7 +384,7 @@ impl<'p> Recorder<'p> {
             elastic_work,
             plastic_work: peak.plastic_work,
             oliver_pharr: None,
-            reduced_modulus: self.problem.metal.elastic.reduced_modulus() * u.stress,
+            reduced_modulus: self.problem.reduced_modulus() * u.stress,
             elastic_fraction: elastic_work.map(|w| w / total_work),
             energy_balance_error: balance_error(&self.rows),
             estimated_error: f64::NAN,
@@ -417,7 +418,7 @@ fn groups(problem: &Problem) -> Vec<usize> {
         .map(|&edge| {
             let ([a, b], _) = mesh.edge_nodes(edge);
             let r = 0.5 * (mesh.nodes[a as usize][0] + mesh.nodes[b as usize][0]);
-            let distance = |a: &Asperity| (r - a.centre).abs() - a.half_width(a.height);
+            let distance = |a: &Asperity| (r - a.centre).abs() - a.feet()[usize::from(r > a.centre)];
             let asperities = &problem.profile.asperities;
             (0..asperities.len())
                 .min_by(|&i, &j| distance(&asperities[i]).total_cmp(&distance(&asperities[j])))

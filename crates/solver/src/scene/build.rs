@@ -1,8 +1,8 @@
 //! Scenes built in code: what a kind of part needs, and nothing for the rest.
 
 use super::{
-    Accuracy, Asperity, HardeningChoice, Lateral, Loading, Material, Numerics, Output, Scene, Substrate,
-    Symmetry, Tool, ToolForce, ToolShape,
+    Accuracy, Asperity, HardeningChoice, Lateral, Loading, Material, Numerics, Output, Points, Scene,
+    Substrate, Symmetry, Tool, ToolForce, ToolShape,
 };
 use asperity_law::HardeningMode;
 use asperity_law::StressMeasure;
@@ -17,6 +17,7 @@ impl Scene {
             lateral: Lateral::Free,
             material,
             asperity: Vec::new(),
+            profile: Vec::new(),
             substrate: None,
             tool,
             loading,
@@ -88,14 +89,12 @@ impl Material {
 impl Asperity {
     /// A sharp cone (wedge in plane strain) of this height and slope against its base plane in degrees.
     pub fn cone(height: Length, slope_deg: f64) -> Asperity {
-        Asperity {
-            height: Some(height),
-            slope_deg: Some(slope_deg),
-            tip_radius: None,
-            valley_radius: None,
-            spacing: None,
-            radius: None,
-        }
+        Asperity { height: Some(height), slope_deg: Some(slope_deg), ..Asperity::default() }
+    }
+
+    /// A measured outline through places and heights in metres: half of it from its axis outward, or the whole of a ridge.
+    pub fn measured(points: Vec<[f64; 2]>) -> Asperity {
+        Asperity { points: Some(Points::new(points)), ..Asperity::default() }
     }
 
     /// The cone with a rounded tip.
@@ -108,7 +107,24 @@ impl Asperity {
 impl Tool {
     /// A rigid plane.
     pub fn plane() -> Tool {
-        Tool { shape: ToolShape::Plane, slope_deg: None, tip_radius: None, radius: None }
+        Tool {
+            shape: ToolShape::Plane,
+            slope_deg: None,
+            half_apex_deg: None,
+            tip_radius: None,
+            radius: None,
+            file: None,
+            points: None,
+            tolerance: None,
+            youngs_modulus: None,
+            poissons_ratio: None,
+            machine_compliance: None,
+        }
+    }
+
+    /// A measured outline through places and heights in metres, from its apex on the axis outward, z up.
+    pub fn measured(points: Vec<[f64; 2]>) -> Tool {
+        Tool { shape: ToolShape::Profile, points: Some(Points::new(points)), ..Tool::plane() }
     }
 
     /// A sharp cone whose flank has this angle to the horizontal, degrees.

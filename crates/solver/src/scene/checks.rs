@@ -3,7 +3,7 @@
 use super::geometry::HIGHEST_CAP;
 use super::range::{Check, error, length, not_negative, positive, slope, within};
 use super::{
-    Asperity, AsperityForm, Lateral, Loading, Numerics, Scene, SceneError, Substrate, Symmetry, Target, Tool,
+    Asperity, AsperityForm, Lateral, Loading, Numerics, Scene, SceneError, Substrate, Symmetry, Target,
     ToolForce, ToolForm,
 };
 use asperity_law::units::Length;
@@ -21,6 +21,8 @@ enum End {
     Height,
     /// The widest circle of a sphere.
     Radius,
+    /// The end of a measured tool.
+    Outline,
     /// The held bottom of the body.
     Bottom,
 }
@@ -49,16 +51,43 @@ impl Scene {
             }
             mesh.unit.map_or(Ok(()), |u| positive("mesh.unit", "the length of 1 in the mesh file", u))?;
         }
+        self.check_line()?;
+        self.check_tool_compliance()?;
         self.check_body()?;
         self.loading.check().map_err(|e| inside("loading", e))?;
         self.check_loading()?;
         self.numerics.check().map_err(|e| inside("numerics", e))
     }
 
+    /// A measured line must be the only surface, in plane strain.
+    fn check_line(&self) -> Check {
+        for (i, line) in self.profile.iter().enumerate() {
+            let table = format!("profile[{i}]");
+            not_negative("tolerance", "the tolerance", line.tolerance).map_err(|e| inside(&table, e))?;
+            line.line().map_err(|e| inside(&table, e))?;
+        }
+        let Some(_) = self.profile.first() else { return Ok(()) };
+        let fault = if self.symmetry == Symmetry::Axisymmetric {
+            "is a line of ridges, which belongs to plane strain: set symmetry = \"plane-strain\", or give an [[asperity]] with `profile`"
+        } else if self.profile.len() > 1 {
+            "must be one: join the lines, or crush each in a scene of its own"
+        } else if !self.asperity.is_empty() {
+            "is the whole surface: remove [[asperity]], or give each as an [[asperity]] with `profile`"
+        } else {
+            return Ok(());
+        };
+        Err(error("profile", fault))
+    }
+
+    /// Whether anything stands on the substrate.
+    fn is_flat(&self) -> bool {
+        self.asperity.is_empty() && self.profile.is_empty()
+    }
+
     /// Asperities, substrate and mesh must make one body that the tool can touch.
     fn check_body(&self) -> Check {
         let flattens = matches!(self.tool.form(), Ok(ToolForm::Plane));
-        if self.asperity.is_empty() && flattens && self.mesh.is_some() {
+        if self.is_flat() && flattens && self.mesh.is_some() {
             return Err(error(
                 "mesh",
                 "does not say how steep its summit is, from which the expected pressure follows: add the [[asperity]] that it holds",
@@ -67,7 +96,7 @@ impl Scene {
         if self.mesh.is_some() {
             return Ok(());
         }
-        if self.asperity.is_empty() && flattens {
+        if self.is_flat() && flattens {
             return Err(error(
                 "asperity",
                 "a plane needs something to crush: give at least one [[asperity]], or a tool that is a cone or a sphere",
@@ -88,7 +117,7 @@ impl Scene {
                     format!("`depth` is missing: {why}, so give depth = \"2 mm\""),
                 ));
             }
-            if substrate.radius.is_none() && (self.lateral == Lateral::Free || self.asperity.is_empty()) {
+            if substrate.radius.is_none() && (self.lateral == Lateral::Free || self.is_flat()) {
                 return Err(error(
                     "substrate",
                     format!("`radius` (half the width) is missing: {why}, so give radius = \"2 mm\""),
@@ -117,6 +146,7 @@ impl Scene {
         let own = match self.tool.form() {
             Ok(ToolForm::Plane) if highest > 0.0 => Some((End::Height, highest)),
             Ok(ToolForm::Sphere { radius }) => Some((End::Radius, radius)),
+            Ok(ToolForm::Measured(outline)) => Some((End::Outline, outline.lowest())),
             _ => None,
         };
         let bottom = self.substrate.and_then(|s| s.depth).map(|d| (End::Bottom, highest + d.0));
@@ -127,7 +157,7 @@ impl Scene {
     pub fn deepest(&self) -> f64 {
         self.ends()
             .map(|(end, depth)| match end {
-                End::Height | End::Radius => depth,
+                End::Height | End::Radius | End::Outline => depth,
                 // a hair above the bottom, which itself is refused
                 End::Bottom => 0.999 * depth,
             })
@@ -163,6 +193,11 @@ impl Scene {
                 length(most),
                 length(depth.0)
             )),
+            End::Outline if depth.0 > most => Some(format!(
+                "the tool is known up to {} above its apex, so it can go no deeper, not {}: ask for less, or measure more of it",
+                length(most),
+                length(depth.0)
+            )),
             End::Bottom if depth.0 >= most => Some(format!(
                 "the tool would go {} deep into a body {} high: ask for less",
                 length(depth.0),
@@ -177,6 +212,7 @@ impl Scene {
 impl Asperity {
     /// Ranges of one asperity; paths relative to its table.
     fn check(&self) -> Check {
+        not_negative("tolerance", "the tolerance", self.tolerance)?;
         let form = self.form()?;
         not_negative("spacing", "the spacing", self.spacing)?;
         if let Some(height) = self.height {
@@ -230,15 +266,6 @@ impl Asperity {
             ));
         }
         Ok(())
-    }
-}
-
-impl Tool {
-    fn check(&self) -> Check {
-        self.form()?;
-        slope("slope_deg", self.slope_deg)?;
-        not_negative("tip_radius", "the tip radius", self.tip_radius)?;
-        self.radius.map_or(Ok(()), |r| positive("radius", "the radius", r))
     }
 }
 

@@ -1,12 +1,16 @@
 //! The bodies of a scene: asperities, substrate, tool.
 
-use super::{Lateral, Scene, SceneError, Symmetry};
+use super::measured::{self, Points};
+use super::{Lateral, LineProfile, Scene, SceneError, Symmetry};
 use asperity_law::units::Length;
+use asperity_mesh::outline::Outline;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::path::PathBuf;
+use std::sync::Arc;
 
-/// One asperity as written: a cone (`height`, `slope_deg`, …) or a sphere (`radius`).
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+/// One asperity as written: a cone (`height`, `slope_deg`, …), a sphere (`radius`) or a measured outline (`profile`).
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Asperity {
     /// Base plane to the real (rounded) summit.
@@ -34,6 +38,21 @@ pub struct Asperity {
     #[schemars(example = "50 um")]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub radius: Option<Length>,
+    /// A measured outline instead of the keys above but `spacing`: a csv file, relative to the scene file, with columns such as
+    /// r_um,z_um (or nm, mm, m), z up. Half of it from its axis outward, in plane strain also the whole ridge from foot to foot.
+    /// A resolved scene has `points` in its place.
+    #[schemars(example = "asperity.csv")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub profile: Option<PathBuf>,
+    /// Instead of `profile`: r and z, point by point.
+    #[schemars(extend("examples" = [[["0 um", "20 um"], ["114 um", "0 um"]]]))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub points: Option<Points>,
+    /// Of a measured outline: standard deviation of its heights that is smoothed away; absent: as far as neighbouring points
+    /// scatter.
+    #[schemars(example = "10 nm")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tolerance: Option<Length>,
 }
 
 /// Height over radius of a spherical asperity whose height is not given: its foot is 41 degrees steep.
@@ -43,7 +62,7 @@ pub const CAP_HEIGHT: f64 = 0.25;
 pub const HIGHEST_CAP: f64 = 0.5;
 
 /// The shape of an asperity, complete. Lengths in metres.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum AsperityForm {
     /// A cone (a wedge in plane strain), sharp or rounded.
     Cone {
@@ -63,25 +82,47 @@ pub enum AsperityForm {
         /// Base plane to summit, m.
         height: f64,
     },
+    /// A measured outline.
+    Measured {
+        /// Seen from its summit, from foot to foot, m.
+        outline: Arc<Outline>,
+        /// Base plane to summit, m.
+        height: f64,
+    },
 }
 
 impl AsperityForm {
     /// Base plane to summit, m.
     pub fn height(&self) -> f64 {
         match *self {
-            AsperityForm::Cone { height, .. } | AsperityForm::Sphere { height, .. } => height,
+            AsperityForm::Cone { height, .. }
+            | AsperityForm::Sphere { height, .. }
+            | AsperityForm::Measured { height, .. } => height,
         }
     }
 
-    /// Half width of the foot on the base plane, fillets left out, m.
+    /// Half width of the foot on the base plane, fillets left out, m; of an outline that is not symmetric the mean of both
+    /// sides.
     pub fn base_radius(&self) -> f64 {
-        match *self {
+        let [left, right] = self.feet();
+        if left == right { left } else { 0.5 * (left + right) }
+    }
+
+    /// Widths of its left and right side on the base plane, fillets left out, m.
+    pub fn feet(&self) -> [f64; 2] {
+        if let AsperityForm::Measured { outline, .. } = self {
+            let [left, right] = outline.ends();
+            return [-left, right];
+        }
+        let half = match *self {
             // the flanks meet R (1/cos β - 1) above the rounded summit
             AsperityForm::Cone { height, slope, tip_radius, .. } => {
                 (height + tip_radius * (slope.cos().recip() - 1.0)) / slope.tan()
             }
             AsperityForm::Sphere { radius, height } => (height * (2.0 * radius - height)).sqrt(),
-        }
+            AsperityForm::Measured { .. } => f64::NAN,
+        };
+        [half; 2]
     }
 }
 
@@ -100,57 +141,6 @@ pub struct Substrate {
     pub depth: Option<Length>,
 }
 
-/// Outline of the rigid tool.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum ToolShape {
-    /// A plane that flattens the summits.
-    Plane,
-    /// A cone (wedge) on the axis.
-    Cone,
-    /// A sphere (cylinder) on the axis.
-    Sphere,
-}
-
-/// The tool as written.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Tool {
-    /// Its outline.
-    pub shape: ToolShape,
-    /// Cone: angle between its flank and the horizontal, degrees.
-    #[schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 90))]
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub slope_deg: Option<f64>,
-    /// Cone: tip radius; absent or 0: sharp.
-    #[schemars(example = "1 um")]
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub tip_radius: Option<Length>,
-    /// Sphere: its radius.
-    #[schemars(example = "1 mm")]
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub radius: Option<Length>,
-}
-
-/// The shape of a tool, complete. Lengths in metres.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum ToolForm {
-    /// A horizontal plane.
-    Plane,
-    /// A cone (wedge) pointing down.
-    Cone {
-        /// Angle between flank and horizontal, radians.
-        slope: f64,
-        /// Tip radius, m; 0: sharp.
-        tip_radius: f64,
-    },
-    /// A sphere (cylinder).
-    Sphere {
-        /// Radius, m.
-        radius: f64,
-    },
-}
-
 impl Asperity {
     /// The shape that the keys describe.
     ///
@@ -159,6 +149,12 @@ impl Asperity {
     /// checked by [`super::Scene::validate`].
     pub fn form(&self) -> Result<AsperityForm, SceneError> {
         let error = |path: &str, message: &str| SceneError { path: path.into(), message: message.into() };
+        if self.profile.is_some() || self.points.is_some() {
+            return self.measured_form();
+        }
+        if self.tolerance.is_some() {
+            return Err(error("tolerance", "belongs to a measured outline: remove it, or give `profile`"));
+        }
         if let Some(radius) = self.radius {
             let others = [
                 ("slope_deg", self.slope_deg.is_some()),
@@ -191,66 +187,50 @@ impl Asperity {
             valley_radius: self.valley_radius.map_or(0.0, |r| r.0),
         })
     }
-}
 
-impl Tool {
-    /// The shape that the keys describe.
-    ///
-    /// # Errors
-    /// Keys that are missing or belong to another shape; the path is relative to the tool's table. Ranges are
-    /// checked by [`super::Scene::validate`].
-    pub fn form(&self) -> Result<ToolForm, SceneError> {
-        let error = |path: &str, message: String| SceneError { path: path.into(), message };
-        let (shape, allowed): (&str, &[&str]) = match self.shape {
-            ToolShape::Plane => ("plane", &[]),
-            ToolShape::Cone => ("cone", &["slope_deg", "tip_radius"]),
-            ToolShape::Sphere => ("sphere", &["radius"]),
-        };
-        let given = [
+    /// The measured outline that the keys give.
+    fn measured_form(&self) -> Result<AsperityForm, SceneError> {
+        let error = |path: &str, message: &str| SceneError { path: path.into(), message: message.into() };
+        let others = [
+            ("height", self.height.is_some()),
             ("slope_deg", self.slope_deg.is_some()),
             ("tip_radius", self.tip_radius.is_some()),
+            ("valley_radius", self.valley_radius.is_some()),
             ("radius", self.radius.is_some()),
         ];
-        if let Some((key, _)) = given.iter().find(|(key, given)| *given && !allowed.contains(key)) {
-            let keys = if allowed.is_empty() {
-                "has no size".into()
-            } else {
-                format!("takes {}", allowed.join(" and "))
-            };
+        if let Some((key, _)) = others.iter().find(|(_, given)| *given) {
             return Err(error(
                 key,
-                format!("does not belong to a {shape}, which {keys}: remove it, or change `shape`"),
+                "does not go with a measured outline, which has its own: remove one of the two",
             ));
         }
-        match self.shape {
-            ToolShape::Plane => Ok(ToolForm::Plane),
-            ToolShape::Cone => {
-                let slope_deg = self.slope_deg.ok_or_else(|| {
-                    error("", "`slope_deg` of the cone is missing: give slope_deg = 19.7".into())
-                })?;
-                Ok(ToolForm::Cone {
-                    slope: slope_deg.to_radians(),
-                    tip_radius: self.tip_radius.map_or(0.0, |r| r.0),
-                })
-            }
-            ToolShape::Sphere => {
-                let radius = self.radius.ok_or_else(|| {
-                    error("", "`radius` of the sphere is missing: give radius = \"1 mm\"".into())
-                })?;
-                Ok(ToolForm::Sphere { radius: radius.0 })
-            }
+        let Some(points) = &self.points else {
+            return Err(error("profile", "was not read: give `points`, or read the scene with its files"));
+        };
+        if self.profile.is_some() {
+            return Err(error("profile", "does not go with `points`: remove one of the two"));
         }
+        let (outline, height) = measured::asperity(points, self.tolerance)?;
+        Ok(AsperityForm::Measured { outline, height })
     }
 }
 
 impl Scene {
     /// From the axis to the outermost foot of the asperities, in plane strain half their whole width; m.
     pub(super) fn extent(&self) -> f64 {
+        if let Some(Ok(line)) = self.profile.first().map(LineProfile::line) {
+            let [left, right] = line.outline.ends();
+            return 0.5 * (right - left);
+        }
         let last = self.asperity.len().saturating_sub(1);
         let widths = self.asperity.iter().enumerate().filter_map(|(i, a)| {
-            let base = a.form().ok()?.base_radius();
+            let form = a.form().ok()?;
             // half of the first asperity lies beyond the axis
-            let own = if i == 0 && self.symmetry == Symmetry::Axisymmetric { base } else { 2.0 * base };
+            let own = if i == 0 && self.symmetry == Symmetry::Axisymmetric {
+                form.feet()[1]
+            } else {
+                2.0 * form.base_radius()
+            };
             Some(own + if i < last { a.spacing.map_or(0.0, |s| s.0) } else { 0.0 })
         });
         let total: f64 = widths.sum();
@@ -259,7 +239,7 @@ impl Scene {
 
     /// Whether symmetric sides repeat the asperities.
     pub(crate) fn has_repeated_asperities(&self) -> bool {
-        self.lateral == Lateral::Symmetric && !self.asperity.is_empty()
+        self.lateral == Lateral::Symmetric && !(self.asperity.is_empty() && self.profile.is_empty())
     }
 
     /// Width of the body of repeated asperities beyond the last of them: half of the last gap, m.
@@ -268,8 +248,16 @@ impl Scene {
         last.and_then(|a| a.spacing).map_or(0.0, |s| 0.5 * s.0)
     }
 
+    /// Number of asperities, those of a measured line included.
+    pub fn asperity_count(&self) -> usize {
+        let line = self.profile.first().and_then(|p| p.line().ok()).map_or(0, |line| line.asperities.len());
+        self.asperity.len() + line
+    }
+
     /// Height of the highest asperity, m.
-    pub(super) fn highest(&self) -> f64 {
-        self.asperity.iter().filter_map(|a| a.form().ok()).map(|f| f.height()).fold(0.0, f64::max)
+    pub fn highest(&self) -> f64 {
+        let line = self.profile.first().and_then(|p| p.line().ok()).map(|line| line.height);
+        let forms = self.asperity.iter().filter_map(|a| a.form().ok());
+        forms.map(|f| f.height()).chain(line).fold(0.0, f64::max)
     }
 }

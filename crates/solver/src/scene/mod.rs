@@ -7,13 +7,19 @@ mod accuracy;
 mod build;
 mod checks;
 mod geometry;
+mod line;
 mod material;
+mod measured;
 mod range;
+mod tool;
 mod warnings;
 
 pub use accuracy::{Accuracy, AccuracyError, Level};
-pub use geometry::{Asperity, AsperityForm, Substrate, Tool, ToolForm, ToolShape};
+pub use geometry::{Asperity, AsperityForm, Substrate};
+pub use line::{Line, LineAsperity, LineProfile};
 pub use material::{HardeningChoice, Material};
+pub use measured::{Points, Smoothing};
+pub use tool::{Tool, ToolForm, ToolShape};
 
 pub use crate::point::kinematics::Symmetry;
 
@@ -60,10 +66,13 @@ pub struct Scene {
     /// From the axis (left side in plane strain) outward. May be empty under a cone or sphere.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub asperity: Vec<Asperity>,
+    /// A measured line instead of asperities, in plane strain: one.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub profile: Vec<LineProfile>,
     /// The body under the asperities; absent in axisymmetry: sized from the contact.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub substrate: Option<Substrate>,
-    /// The rigid, frictionless tool.
+    /// The frictionless tool, rigid unless it has a modulus.
     pub tool: Tool,
     /// How far it goes: exactly one of `depth` and `force`.
     pub loading: Loading,

@@ -22,6 +22,7 @@ fn scene() -> Scene {
             kinematic_share: None,
         },
         asperity: vec![cone()],
+        profile: Vec::new(),
         substrate: None,
         tool: plane(),
         loading: Loading { depth: Some(Length(5e-6)), force: None, unload: true, reloads: 0 },
@@ -36,9 +37,7 @@ fn cone() -> Asperity {
         height: Some(Length(20e-6)),
         slope_deg: Some(10.0),
         tip_radius: Some(Length(10e-6)),
-        valley_radius: None,
-        spacing: None,
-        radius: None,
+        ..Asperity::default()
     }
 }
 
@@ -48,7 +47,7 @@ fn ball(radius: f64) -> Asperity {
 }
 
 fn plane() -> Tool {
-    Tool { shape: ToolShape::Plane, slope_deg: None, tip_radius: None, radius: None }
+    Tool::plane()
 }
 
 fn um(value: f64) -> Option<Length> {
@@ -92,7 +91,7 @@ fn the_ends_of_the_ranges_are_allowed() {
         }),
         ("cone on a flat", |s| {
             s.asperity.clear();
-            s.tool = Tool { shape: ToolShape::Cone, slope_deg: Some(19.7), tip_radius: None, radius: None };
+            s.tool = Tool::cone(19.7);
         }),
         ("mesh of the asperity", |s| {
             s.mesh = Some(MeshFile { file: "body.msh".into(), unit: um(1.0) });
@@ -254,12 +253,12 @@ fn what_makes_no_sense_is_refused_with_place_value_and_range() {
         (|s| s.tool.radius = um(1.0), "tool.radius", &["does not belong to a plane"]),
         (|s| s.tool.shape = ToolShape::Cone, "tool", &["`slope_deg` of the cone is missing"]),
         (
-            |s| s.tool = Tool { shape: ToolShape::Cone, slope_deg: Some(90.0), ..s.tool },
+            |s| s.tool = Tool { shape: ToolShape::Cone, slope_deg: Some(90.0), ..s.tool.clone() },
             "tool.slope_deg",
             &["below 90"],
         ),
         (
-            |s| s.tool = Tool { shape: ToolShape::Sphere, radius: um(4.0), ..s.tool },
+            |s| s.tool = Tool { shape: ToolShape::Sphere, radius: um(4.0), ..s.tool.clone() },
             "loading.depth",
             &["at most", "4 um"],
         ),

@@ -34,13 +34,12 @@ impl Section {
     pub fn new(frame: &FieldFrame, scene: &Scene, reach: Reach) -> Result<Section, String> {
         let mesh = DeformedMesh::new(frame);
         let revolved = scene.symmetry == Symmetry::Axisymmetric;
-        let mirrored = revolved && scene.asperity.len() < 2;
+        let mirrored = revolved && scene.asperity_count() < 2;
         let tool = outline(&scene.tool.form().map_err(|e| e.to_string())?);
         let tips = mesh.pressed().map(|[r, z]| z - rise(&tool, r));
         let tip = tips.reduce(f64::max);
-        let heights = scene.asperity.iter().filter_map(|a| a.form().ok());
-        let height = heights.map(|form| form.height() / MICROMETRE).fold(0.0, f64::max);
-        let row = AsperityRow { feet: mesh.feet(height), height, count: scene.asperity.len() };
+        let height = scene.highest() / MICROMETRE;
+        let row = AsperityRow { feet: mesh.feet(height), height, count: scene.asperity_count() };
         let window = Window::around(&mesh, mirrored, revolved, reach, &row);
         let yield_stress = scene.material.yield_stress.map(|s| s.0 / MEGAPASCAL);
         Ok(Section { mesh, window, tool, tip, mirrored, revolved, yield_stress })
@@ -57,14 +56,15 @@ impl Section {
 
 /// Height of the tool's face above its lowest point, at a distance `r` from the axis, both in µm.
 fn rise(tool: &Option<Asperity>, r: f64) -> f64 {
-    tool.map_or(0.0, |tool| tool.drop(r))
+    tool.as_ref().map_or(0.0, |tool| tool.drop(r))
 }
 
 /// The tool as an asperity of the same outline, lengths in µm; `None` for a plane.
 fn outline(tool: &ToolForm) -> Option<Asperity> {
-    let tool = match *tool {
+    let tool = match tool {
         ToolForm::Plane => Tool::Plane,
         ToolForm::Sphere { radius } => Tool::Sphere { radius: radius / MICROMETRE },
+        ToolForm::Measured(outline) => Tool::Measured(outline.scaled(MICROMETRE.recip()).shared()),
         ToolForm::Cone { slope, tip_radius } => {
             Tool::Cone { tan_slope: slope.tan(), tip_radius: tip_radius / MICROMETRE }
         }

@@ -1,7 +1,8 @@
 //! Loading: along a schedule of depths, or to a travel, a depth or a force at once.
 
 use super::increment::{Increment, Observer, Stop};
-use super::path::{Enough, NEVER, Path};
+use super::path::{Borne, Enough, NEVER, Path};
+use crate::body::energy::ContactSums;
 use crate::run::problem::Goal;
 use crate::run::record::Phase;
 
@@ -34,6 +35,14 @@ impl Path<'_> {
         self.follow(problem.goal, &problem.numbers.schedule(), problem.expected_penetration(), observer)
     }
 
+    /// How much longer than the depth the travel is, over the depth: of a goal that is a depth with all that gives way.
+    fn share(&self, goal: Goal, travel: f64, sums: &ContactSums) -> f64 {
+        if self.rules().compliance.is_none() || !matches!(goal, Goal::Depth(_)) {
+            return sums.penetration / (travel - sums.penetration);
+        }
+        travel / self.depth(travel, Borne::of(sums)) - 1.0
+    }
+
     /// Loads to `goal` along `fractions` of its depth; `penetration` is the expected one.
     fn follow(
         &mut self,
@@ -46,7 +55,7 @@ impl Path<'_> {
             Goal::Travel(travel) => (travel, travel, NEVER),
             Goal::Depth(depth) => (depth, depth, Enough { depth, ..NEVER }),
             Goal::Force { force, expected_depth, limit } => {
-                (expected_depth, limit, Enough { depth: limit, force })
+                (expected_depth, limit, Enough { depth: limit, force, of_body: true })
             }
         };
         self.asked = if let Goal::Depth(depth) = goal { Some(depth) } else { None };
@@ -70,7 +79,7 @@ impl Path<'_> {
                 let travel = self.home_in(goal, travel, sums)?;
                 return self.accept(travel, Phase::Load, observer);
             }
-            share = if expects { sums.penetration / (travel - sums.penetration) } else { 0.0 };
+            share = if expects { self.share(goal, travel, &sums) } else { 0.0 };
             self.accept(travel, Phase::Load, observer)?;
             if (fraction * depth >= limit || travel != planned) && matches!(goal, Goal::Force { .. }) {
                 return Err(Stop::ForceNotReached);

@@ -28,10 +28,26 @@ pub(super) const MET: f64 = 1e-9;
 pub(super) struct Enough {
     pub depth: f64,
     pub force: f64,
+    /// Whether the depth is that of the body, without the way of tool and machine.
+    pub of_body: bool,
 }
 
 /// Every part is to be taken.
-pub(super) const NEVER: Enough = Enough { depth: f64::INFINITY, force: f64::INFINITY };
+pub(super) const NEVER: Enough = Enough { depth: f64::INFINITY, force: f64::INFINITY, of_body: false };
+
+/// What a contact bears, as far as the depth asks.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Borne {
+    pub penetration: f64,
+    pub force: f64,
+    pub area: f64,
+}
+
+impl Borne {
+    pub fn of(sums: &ContactSums) -> Borne {
+        Borne { penetration: sums.penetration, force: sums.force, area: sums.area }
+    }
+}
 
 /// A body on its way, with the counts of the run.
 pub struct Path<'p> {
@@ -99,7 +115,7 @@ impl<'p> Path<'p> {
         })
     }
 
-    fn rules(&self) -> &'p Rules {
+    pub(super) fn rules(&self) -> &'p Rules {
         &self.problem.rules
     }
 
@@ -112,9 +128,34 @@ impl<'p> Path<'p> {
         self.travel
     }
 
-    /// Depth at a `travel` of which a `penetration` is to be taken off, under a `force`.
-    pub(super) fn depth(&self, travel: f64, penetration: f64, force: f64) -> f64 {
+    /// Depth of the body at a `travel` of which a `penetration` is to be taken off, under a `force`.
+    fn body_depth(&self, travel: f64, penetration: f64, force: f64) -> f64 {
         travel - penetration + self.rules().far_field * force
+    }
+
+    /// Depth at a `travel` under what the contact bears: that of the body and the way of tool and machine.
+    pub(super) fn depth(&self, travel: f64, borne: Borne) -> f64 {
+        let way = self.rules().compliance.way(borne.force, borne.area);
+        self.body_depth(travel, borne.penetration, borne.force) + way
+    }
+
+    /// What the contact bore at the last converged increment.
+    pub(super) fn borne(&self) -> Borne {
+        Borne { penetration: self.penetration, force: self.force, area: self.area }
+    }
+
+    /// Contact area at the last converged increment.
+    pub fn area(&self) -> f64 {
+        self.area
+    }
+
+    /// The depth that is compared with that of `enough`.
+    fn measured_for(&self, enough: &Enough, travel: f64, sums: &ContactSums) -> f64 {
+        if enough.of_body {
+            self.body_depth(travel, sums.penetration, sums.force)
+        } else {
+            self.depth(travel, Borne::of(sums))
+        }
     }
 
     /// Solves, but does not accept, the increment to `travel` with the first guess `guess` times the scaled last one.
@@ -230,13 +271,14 @@ impl<'p> Path<'p> {
         self.deepest = self.deepest.max(travel);
         self.increments += 1;
         let energies = punches.map(|punches| self.count(before, step, phase, &punches));
-        let depth = self.depth(travel, contact.penetration, contact.force);
+        let depth = self.depth(travel, Borne::of(&contact));
         let met = |asked: &f64| (depth / asked - 1.0).abs() < 2.0 * MET;
         let increment = Increment {
             phase,
             travel,
             depth: self.asked.filter(met).unwrap_or(depth),
             contact,
+            way: self.rules().compliance.way(contact.force, contact.area),
             energies,
             newton_iterations: std::mem::take(&mut self.spent),
         };
@@ -300,7 +342,7 @@ impl<'p> Path<'p> {
                 }
                 Ok(sums)
                     if next == travel
-                        || self.depth(next, sums.penetration, sums.force) >= enough.depth
+                        || self.measured_for(&enough, next, &sums) >= enough.depth
                         || sums.force >= enough.force =>
                 {
                     return Ok((next, sums));

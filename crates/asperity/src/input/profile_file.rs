@@ -1,0 +1,180 @@
+//! The measured outlines that a scene names, read into the scene.
+//!
+//! ```text
+//! # stylus, 2 um tip, 12 May
+//! r_um,z_um
+//! 0,20.0
+//! 0.5,19.98
+//! ```
+//! Places under `r` or `x` and heights under `z`, each with its unit; other columns are left out. Points may stand from the
+//! outside inward too.
+
+use crate::error::InputError;
+use crate::input::table_file::TableFile;
+use crate::input::toml_file::TomlFile;
+use asperity_law::TextTable;
+use asperity_law::units::Length;
+use asperity_solver::scene::{Points, Scene, SceneError};
+use std::path::PathBuf;
+
+/// No file of an outline is larger.
+const LARGEST: u64 = 16 << 20;
+
+/// A header that can be read.
+const HEADER: &str = "r_um,z_um";
+
+/// An outline that was read, with what is needed to point at its lines later.
+pub struct ReadProfile {
+    file: TableFile,
+    /// Table of the scene that names it.
+    table: String,
+    /// Line of each point.
+    lines: Vec<usize>,
+}
+
+/// Which table of a scene names a file, under which key.
+struct Named {
+    table: String,
+    key: &'static str,
+    file: PathBuf,
+}
+
+/// Files that the tables of a scene name and that are to be read.
+fn named(scene: &Scene) -> Vec<Named> {
+    let of = |table: String, key: &'static str, file: &Option<PathBuf>, points: &Option<Points>| {
+        let file = file.clone().filter(|_| points.is_none())?;
+        Some(Named { table, key, file })
+    };
+    let asperities = scene.asperity.iter().enumerate();
+    let asperities =
+        asperities.filter_map(|(i, a)| of(format!("asperity[{i}]"), "profile", &a.profile, &a.points));
+    let lines = scene.profile.iter().enumerate();
+    let lines = lines.filter_map(|(i, l)| of(format!("profile[{i}]"), "file", &l.file, &l.points));
+    let tool = of("tool".into(), "file", &scene.tool.file, &scene.tool.points);
+    asperities.chain(lines).chain(tool).collect()
+}
+
+/// Reads the outlines that `scene` names and puts their points in the place of the files.
+///
+/// # Errors
+/// A file that cannot be read or holds no outline, pointing at its line.
+pub fn read(scene: &mut TomlFile<Scene>) -> Result<Vec<ReadProfile>, InputError> {
+    let mut read = Vec::new();
+    for Named { table, key, file } in named(&scene.value) {
+        let file = TableFile::read(scene, &format!("{table}.{key}"), &file, LARGEST)?;
+        let (points, lines) = parse(&file.text).map_err(|(line, message)| match line {
+            Some(line) => file.at_line(line, &message),
+            None => file.refuse(scene, &message),
+        })?;
+        put(&mut scene.value, &table, Points::new(points));
+        read.push(ReadProfile { file, table, lines });
+    }
+    Ok(read)
+}
+
+/// Puts points into the table that named their file.
+fn put(scene: &mut Scene, table: &str, points: Points) {
+    let slot = |places: &str| places.strip_suffix(']').and_then(|i| i.parse::<usize>().ok());
+    let (file, values) = if let Some(i) = table.strip_prefix("asperity[").and_then(slot) {
+        let asperity = &mut scene.asperity[i];
+        (&mut asperity.profile, &mut asperity.points)
+    } else if let Some(i) = table.strip_prefix("profile[").and_then(slot) {
+        let line = &mut scene.profile[i];
+        (&mut line.file, &mut line.points)
+    } else {
+        (&mut scene.tool.file, &mut scene.tool.points)
+    };
+    (*file, *values) = (None, Some(points));
+}
+
+/// Points in metres with their lines.
+type Lines = (Vec<[f64; 2]>, Vec<usize>);
+
+/// Reads a text; an error is a line (from 1), if it has one, and a sentence for the user.
+fn parse(text: &str) -> Result<Lines, (Option<usize>, String)> {
+    let table =
+        TextTable::new(text).ok_or_else(|| (None, format!("is empty: begin it with the line {HEADER}")))?;
+    let header = |message| (Some(table.header_line), message);
+    let (place, to_place) = column(&table.header, &["r", "x"]).map_err(header)?;
+    let (height, to_height) = column(&table.header, &["z"]).map_err(header)?;
+    let pairs = table.pairs([place, height]).map_err(|(line, message)| {
+        (Some(line), format!("{message}; leave out the line of a point that was not measured"))
+    })?;
+    let (mut lines, mut points): (Vec<usize>, Vec<[f64; 2]>) =
+        pairs.into_iter().map(|(line, [x, z])| (line, [x * to_place, z * to_height])).unzip();
+    if points.windows(2).all(|p| p[1][0] < p[0][0]) {
+        points.reverse();
+        lines.reverse();
+    }
+    Ok((points, lines))
+}
+
+/// The column of one of the `names` with its unit, and what 1 in it is in metres.
+fn column(header: &[&str], names: &[&str]) -> Result<(usize, f64), String> {
+    let units = || Length::UNITS.iter().map(|(name, _)| *name).collect::<Vec<_>>().join(", ");
+    let mut without = None;
+    for (i, column) in header.iter().enumerate() {
+        let (name, unit) = column.split_once('_').unwrap_or((column, ""));
+        if !names.contains(&name) {
+            continue;
+        }
+        match Length::UNITS.iter().find(|(known, _)| *known == unit) {
+            Some((_, scale)) => return Ok((i, *scale)),
+            None => without = Some(column),
+        }
+    }
+    let name = names[0];
+    Err(match without {
+        Some(column) => {
+            format!("the column `{column}` has no unit of length: write {name}_um, or another of {}", units())
+        }
+        None => {
+            format!("a column {name}_um is missing: the first line names the columns, for example {HEADER}")
+        }
+    })
+}
+
+impl ReadProfile {
+    /// An error of the scene that is about this outline, at its line or at the key that names its file.
+    pub fn point_at(&self, scene: &TomlFile<Scene>, error: &SceneError) -> Option<InputError> {
+        self.file.point_at(scene, &format!("{}.points", self.table), &self.lines, error)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn columns_in_any_order_unit_and_direction() {
+        let expected = [[0.0, 20e-6], [5e-6, 19e-6]];
+        for text in [
+            "r_um,z_um\n0,20\n5,19\n",
+            "# a stylus\nz_nm;quality;x_mm\n20000;1;0\n19000;0.5;0.005",
+            "\u{feff}z_m\tr_m\r\n19e-6\t5e-6\r\n20e-6\t0\r\n",
+        ] {
+            let (points, lines) = parse(text).unwrap();
+            assert_eq!(lines.len(), 2);
+            for (p, e) in points.iter().zip(expected) {
+                assert!((p[0] - e[0]).abs() < 1e-18 && (p[1] - e[1]).abs() < 1e-18, "{text}: {points:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn what_cannot_be_read_is_refused_with_its_line() {
+        for (text, line, words) in [
+            ("", None, "is empty"),
+            ("0,20\n5,19\n", Some(1), "r_um is missing"),
+            ("r,z\n0,20\n", Some(1), "`r` has no unit"),
+            ("r_um,z_inch\n0,20\n", Some(1), "`z_inch` has no unit"),
+            ("r_um,z_um\n0,20\n1,\n2,19\n", Some(3), "was not measured"),
+            ("r_um,z_um\n0,20\n1,nan\n2,19\n", Some(3), "`nan`"),
+            ("r_um,z_um\n0,20\n1,19,5\n", Some(3), "decimal comma"),
+        ] {
+            let (found, message) = parse(text).unwrap_err();
+            assert_eq!(found, line, "{text}: {message}");
+            assert!(message.contains(words), "{text}: {message}");
+        }
+    }
+}

@@ -1,0 +1,287 @@
+//! From points that an instrument measured to an outline: smoothed as far as they scatter, with as few arcs as hold them, its
+//! corners kept.
+
+use super::kinks::corners;
+use super::residuals::{scatter, stretches_too_far};
+use super::spline::{Break, fit as nearest};
+use super::{Outline, Parabola};
+
+/// What the points are a section of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Span {
+    /// Half of a symmetric section, from the axis outward.
+    Half,
+    /// A whole section, from left to right.
+    Whole,
+}
+
+/// An outline with what it leaves of its points. Any unit of length.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fit {
+    /// The curve: drop from the highest point of the fit, at its place among the points.
+    pub outline: Outline,
+    /// Height of its highest point as the points count it.
+    pub summit: f64,
+    /// Standard deviation of the heights about the curve that was allowed for.
+    pub tolerance: f64,
+    /// Greatest distance of a point from the curve.
+    pub farthest: f64,
+    /// Places of the corners.
+    pub corners: Vec<f64>,
+}
+
+/// Why points are no outline.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{message}")]
+pub struct FitError {
+    /// Index of the point; `None`: all of them.
+    pub point: Option<usize>,
+    /// The fault and a way out.
+    pub message: String,
+}
+
+/// Least tolerance over the height of the outline.
+const EXACT: f64 = 1e-6;
+
+/// Most points of an outline.
+pub const MOST_POINTS: usize = 20_000;
+
+/// Rounds of division: each may halve every arc.
+const MOST_ROUNDS: usize = 24;
+
+/// How many spacings of its points the first point may be away from the axis.
+const FIRST: f64 = 1.5;
+
+/// The outline through `points` (place, height), whose heights scatter by `tolerance` (standard deviation); `None`: as far as
+/// neighbouring points tell.
+///
+/// # Errors
+/// Fewer than two points or too many, a value that is not finite, places that do not grow, a half that does not begin at the
+/// axis, no height.
+pub fn fit(points: &[[f64; 2]], span: Span, tolerance: Option<f64>) -> Result<Fit, FitError> {
+    check(points, span)?;
+    let [low, high] = range(points.iter().map(|p| p[1]));
+    let (left, width, height) = match span {
+        Span::Half => (0.0, points[points.len() - 1][0], high - low),
+        Span::Whole => (points[0][0], points[points.len() - 1][0] - points[0][0], high - low),
+    };
+    let unit: Vec<[f64; 2]> = points.iter().map(|p| [(p[0] - left) / width, (p[1] - low) / height]).collect();
+    let whole = unfolded(&unit, span);
+    let tolerance = tolerance.map_or_else(|| scatter(&whole), |t| t / height).max(EXACT);
+    let skipped = whole.len() - unit.len();
+    let found = corners(&whole, tolerance, height / width);
+    let kinks: Vec<usize> = found.iter().filter_map(|i| i.checked_sub(skipped)).collect();
+    let tip = span == Span::Half && kinks.contains(&0);
+    let level = span == Span::Half && !tip;
+    let smoothed = Points { points: &unit, kinks: &kinks, level, scatter: tolerance };
+    let arcs = smoothed.arcs().ok_or_else(|| FitError {
+        point: None,
+        message: "do not determine a smooth curve: give more points, or points further apart".into(),
+    })?;
+    let value = |x: f64| value(&arcs, x);
+    let farthest = unit.iter().fold(0.0, |m: f64, p| m.max((p[1] - value(p[0])).abs())) * height;
+    let physical = |a: &Parabola| Parabola {
+        x: left + a.x * width,
+        drop: -a.drop * height,
+        slope: -a.slope * height / width,
+        bend: -a.bend * height / (width * width),
+    };
+    let curve = Outline::new(arcs.iter().map(physical).collect(), left + width, span == Span::Half);
+    let curve = curve.ok_or_else(|| FitError {
+        point: None,
+        message: "lie too close together to be told apart: give points further apart".into(),
+    })?;
+    let top = curve.summit()[1];
+    Ok(Fit {
+        outline: curve.seen_from(0.0, top),
+        summit: low - top,
+        tolerance: tolerance * height,
+        farthest,
+        corners: kinks.iter().map(|&i| if i == 0 && tip { 0.0 } else { points[i][0] }).collect(),
+    })
+}
+
+/// Whether the points can be an outline.
+fn check(points: &[[f64; 2]], span: Span) -> Result<(), FitError> {
+    let at = |point: usize, message: String| FitError { point: Some(point), message };
+    let all = |message: String| FitError { point: None, message };
+    if points.len() < 2 || points.len() > MOST_POINTS {
+        return Err(all(format!(
+            "must be from 2 to {MOST_POINTS} points, not {}: {}",
+            points.len(),
+            if points.len() < 2 { "give the whole outline" } else { "thin them out, or cut a part out" }
+        )));
+    }
+    if let Some(i) = points.iter().position(|p| !(p[0].is_finite() && p[1].is_finite())) {
+        return Err(at(i, "must be finite numbers: leave out points that were not measured".into()));
+    }
+    if let Some(i) = (1..points.len()).find(|&i| points[i][0] <= points[i - 1][0]) {
+        return Err(at(
+            i,
+            "must lie further out than the point before it: sort the points; an outline that overhangs or stands upright cannot be meshed, cut it off or average over it"
+                .into(),
+        ));
+    }
+    if span == Span::Half {
+        let (first, spacing) = (points[0][0], points[1][0] - points[0][0]);
+        if first < 0.0 {
+            return Err(at(0, "lies on the other side of the axis: a body of revolution takes half of a section, from 0 outward".into()));
+        }
+        if first > FIRST * spacing {
+            return Err(at(
+                0,
+                "must be on the axis, at 0: what lies inside is not known; count the places from the axis"
+                    .into(),
+            ));
+        }
+    }
+    let [low, high] = range(points.iter().map(|p| p[1]));
+    let width = points[points.len() - 1][0] - points[0][0];
+    if !(high - low > 1e-9 * width && (high - low).is_finite()) {
+        return Err(all("have all the same height: an outline rises or falls".into()));
+    }
+    Ok(())
+}
+
+fn range(values: impl Iterator<Item = f64>) -> [f64; 2] {
+    values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| [low.min(v), high.max(v)])
+}
+
+/// Both halves of a symmetric section, with a point on its axis; a whole one as it is.
+fn unfolded(points: &[[f64; 2]], span: Span) -> Vec<[f64; 2]> {
+    if span == Span::Whole {
+        return points.to_vec();
+    }
+    let beside = if points[0][0] == 0.0 { &points[1..] } else { points };
+    let image = beside.iter().rev().map(|p| [-p[0], p[1]]);
+    image.chain(points.iter().copied()).collect()
+}
+
+/// Points to be smoothed: heights over places of 0 to 1, with what is known of them.
+struct Points<'a> {
+    points: &'a [[f64; 2]],
+    kinks: &'a [usize],
+    /// Whether the slope at the left end is 0.
+    level: bool,
+    scatter: f64,
+}
+
+/// Arcs between stops, what they leave of the points and the sum of its squares.
+struct Trial {
+    arcs: Vec<Parabola>,
+    residuals: Vec<f64>,
+    squares: f64,
+}
+
+impl Points<'_> {
+    fn trial(&self, stops: &[usize]) -> Option<Trial> {
+        let place = |point: usize| if point == 0 && self.level { 0.0 } else { self.points[point][0] };
+        let stop = |&point: &usize| Break { x: place(point), point, kink: self.kinks.contains(&point) };
+        let breaks: Vec<Break> = stops.iter().map(stop).collect();
+        let arcs = nearest(self.points, &breaks, self.level)?;
+        let residuals: Vec<f64> = self.points.iter().map(|p| p[1] - value(&arcs, p[0])).collect();
+        let squares = residuals.iter().map(|r| r * r).sum();
+        Some(Trial { arcs, residuals, squares })
+    }
+
+    /// The fewest arcs found that leave nothing but scatter.
+    fn arcs(&self) -> Option<Vec<Parabola>> {
+        let mut stops = self.divided()?;
+        let work = stops.len() * self.points.len();
+        for _ in 0..PASSES {
+            if work > MOST_WORK {
+                break;
+            }
+            self.move_stops(&mut stops);
+            self.drop_stops(&mut stops);
+        }
+        self.trial(&stops).map(|trial| trial.arcs)
+    }
+
+    /// Stops from halving arcs until they miss no more than scatter, or have no points left to be halved.
+    fn divided(&self) -> Option<Vec<usize>> {
+        let last = self.points.len() - 1;
+        let mut stops: Vec<usize> = self.kinks.iter().copied().filter(|i| (1..last).contains(i)).collect();
+        stops.insert(0, 0);
+        stops.push(last);
+        for _ in 0..MOST_ROUNDS {
+            let residuals = self.trial(&stops)?.residuals;
+            let far = stretches_too_far(&residuals, self.scatter);
+            let mut halves: Vec<usize> = far.iter().filter_map(|s| division(&stops, *s)).collect();
+            halves.sort_unstable();
+            halves.dedup();
+            if halves.is_empty() {
+                break;
+            }
+            stops.extend(halves);
+            stops.sort_unstable();
+        }
+        Some(stops)
+    }
+
+    /// Moves each stop that is no kink to where less is left, in steps that are halved.
+    fn move_stops(&self, stops: &mut [usize]) {
+        let Some(mut best) = self.trial(stops).map(|t| t.squares) else { return };
+        for i in 1..stops.len() - 1 {
+            let (low, high) = (stops[i - 1] + FEWEST, stops[i + 1] - FEWEST.min(stops[i + 1]));
+            let mut step = (stops[i + 1] - stops[i - 1]) / 4;
+            while step > 0 && !self.kinks.contains(&stops[i]) {
+                let from = stops[i];
+                for to in [from.saturating_sub(step), from + step] {
+                    if !(low..=high).contains(&to) {
+                        continue;
+                    }
+                    let before = std::mem::replace(&mut stops[i], to);
+                    match self.trial(stops) {
+                        Some(trial) if trial.squares < best => best = trial.squares,
+                        _ => stops[i] = before,
+                    }
+                }
+                if stops[i] == from {
+                    step /= 2;
+                }
+            }
+        }
+    }
+
+    /// Takes out stops without which nothing but scatter is left either.
+    fn drop_stops(&self, stops: &mut Vec<usize>) {
+        let mut i = 1;
+        while i + 1 < stops.len() {
+            let stop = stops.remove(i);
+            let without = self.trial(stops).filter(|_| !self.kinks.contains(&stop));
+            let enough = without.is_some_and(|t| stretches_too_far(&t.residuals, self.scatter).is_empty());
+            if !enough {
+                stops.insert(i, stop);
+                i += 1;
+            }
+        }
+    }
+}
+
+/// Spacings of points on an arc, at least.
+const FEWEST: usize = 2;
+
+/// Times that stops are moved and dropped, and the number of stops times points up to which that is done.
+const PASSES: usize = 2;
+const MOST_WORK: usize = 100_000;
+
+/// Where to divide the arc that holds the middle of a stretch, or the longest that shares points with it; at least two
+/// spacings are left on either side.
+fn division(stops: &[usize], [from, to]: [usize; 2]) -> Option<usize> {
+    let middle = (from + to) / 2;
+    let arcs = || stops.windows(2).map(|p| [p[0], p[1]]).filter(|[a, b]| b - a >= 2 * FEWEST);
+    let halved = |[a, b]: [usize; 2]| (a + b) / 2;
+    arcs()
+        .find(|[a, b]| (*a..*b).contains(&middle))
+        .or_else(|| arcs().filter(|[a, b]| *a <= to && *b >= from).max_by_key(|[a, b]| b - a))
+        .map(halved)
+}
+
+/// Height of arcs at `x`.
+fn value(arcs: &[Parabola], x: f64) -> f64 {
+    arcs[arcs.partition_point(|a| a.x <= x).saturating_sub(1)].at(x)
+}
+
+#[cfg(test)]
+mod tests;
