@@ -234,3 +234,45 @@ fn crushed_cones_agree_with_the_closure_that_was_made_from_cones() {
     assert!(again.status == 0 && again.err.contains("2 asperities of an earlier start"), "{}", again.err);
     assert_eq!(place.text("out/compared.csv"), table);
 }
+
+/// The commands of docs/profilometer.md, in their order.
+#[test]
+fn the_page_from_a_profilometer_to_a_force_curve_runs() {
+    let page = std::fs::read_to_string(
+        std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/profilometer.md"),
+    )
+    .unwrap();
+    let blocks = |kind: &str| {
+        let starts = page.split(&format!("```{kind}\n")).skip(1);
+        starts.map(|rest| rest.split("```").next().unwrap().to_string()).collect::<Vec<_>>()
+    };
+    let place = place();
+    std::fs::write(place.path("map.toml"), &blocks("toml")[0]).unwrap();
+    let mut count = 0;
+    for line in blocks("sh").iter().flat_map(|block| block.lines()) {
+        // a word in quotes holds a space
+        let words: Vec<String> = line.split('"').enumerate().fold(Vec::new(), |mut words, (i, part)| {
+            match i % 2 {
+                0 => words.extend(part.split_whitespace().map(str::to_string)),
+                _ => words.push(part.to_string()),
+            }
+            words
+        });
+        let words: Vec<&str> = words.iter().map(String::as_str).collect();
+        let done = place.run(words.strip_prefix(&["asperity"]).unwrap());
+        assert_eq!(done.status, 0, "{line}: {}", done.err);
+        count += 1;
+    }
+    assert_eq!(count, 6);
+    for file in
+        ["asperities/asperities.csv", "one/curve.csv", "line-crushed/curve.csv", "compared/compared.csv"]
+    {
+        assert!(place.text(file).lines().count() > 4, "{file}");
+    }
+    // the picture stands at the side of the page
+    for picture in page.split("](").skip(1).filter_map(|rest| rest.strip_prefix("pictures/")) {
+        let name = picture.split(')').next().unwrap();
+        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/pictures").join(name);
+        assert!(path.is_file(), "{name}");
+    }
+}
