@@ -133,7 +133,7 @@ fn what_cannot_be_taken_is_an_error_that_says_why() {
         (&["scene.toml", "--separation", "1 um", "--crush", "9"], "only 4 of 4 have a profile"),
         (&["scene.toml", "--share", "1.5"], "above 0 and below 1"),
         (&["scene.toml", "--hills", "1"], "below 1"),
-        (&["scene.toml", "--depth", "-1 um"], "must be above 0"),
+        (&["scene.toml", "--depth=-1 um"], "must be above 0"),
         (&["scene.toml", "--line", "y=900 um"], "beside the map"),
         (&["scene.toml", "--line", "z=1 um"], "x=PLACE"),
         (&["scene.toml", "--share", "0.1", "--hills"], "cannot be used with"),
@@ -243,7 +243,8 @@ fn the_page_from_a_profilometer_to_a_force_curve_runs() {
     )
     .unwrap();
     let blocks = |kind: &str| {
-        let starts = page.split(&format!("```{kind}\n")).skip(1);
+        let fence = format!("```{kind}\n");
+        let starts = page.split(fence.as_str()).skip(1);
         starts.map(|rest| rest.split("```").next().unwrap().to_string()).collect::<Vec<_>>()
     };
     let place = place();
