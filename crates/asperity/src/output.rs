@@ -76,7 +76,11 @@ impl Directory {
 
 impl Sink for Directory {
     fn path(&mut self, name: &str) -> Result<PathBuf, Error> {
-        Ok(self.0.join(name))
+        let path = self.0.join(name);
+        if let Some(folder) = path.parent() {
+            std::fs::create_dir_all(folder).map_err(|e| Error::disk(folder, e))?;
+        }
+        Ok(path)
     }
 }
 

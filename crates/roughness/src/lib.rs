@@ -29,6 +29,8 @@ mod surface;
 
 mod contact;
 
+pub mod asperities;
+
 pub mod half_space;
 
 pub mod flow;
@@ -52,3 +54,4 @@ pub use surface::height_map::{Extent, HeightMap, MapError};
 pub use surface::level::{Levelling, level};
 pub use surface::parameters::Parameters;
 pub use surface::ready::Surface;
+pub use surface::spectrum::{SpectrumPoint, spectrum};

@@ -1,6 +1,6 @@
 //! The command line: the commands and what help says of them.
 
-use super::{calibrate, crush, manual, mesh, new, reproduce, rough, schema, study, trade};
+use super::{calibrate, crush, extract, manual, mesh, new, reproduce, rough, schema, study, trade};
 use clap::{Parser, Subcommand};
 
 /// Crush rough metal, from one conical asperity to a measured surface.
@@ -25,6 +25,7 @@ const EXAMPLES: &str = "Examples:
   asperity study single.toml --vary material.hardening_exponent=0,0.1,0.2 --vary \"loading.depth=1 um..5 um/5\"
   asperity trade single.toml                       what accuracy costs on a scene, knob by knob
   asperity rough --table1                          three rough surfaces beside the paper's Table 1
+  asperity extract surface.sur --crush 20          asperities of a map, and the closures beside finite elements
   asperity schema > scene.schema.json              for editors that complete and check TOML
   asperity completions bash; asperity man crush    for shells and manuals
 
@@ -39,6 +40,8 @@ pub enum Command {
     Mesh(mesh::MeshCommand),
     /// Press a rigid plane on a rough surface and write table, load curve, maps
     Rough(rough::Rough),
+    /// Find the asperities of a measured map, write profiles and scenes of them, crush some beside the closures
+    Extract(extract::Extract),
     /// Crush cones of many slopes and metals and find the representative strain
     Calibrate(calibrate::Calibrate),
     /// Run a scene over any of its keys: grids, lists, Latin hypercubes, in one go, in parts, and on after a stop
@@ -63,6 +66,7 @@ impl Command {
         match self {
             Command::Crush(args) => args.run.threads,
             Command::Rough(args) => args.run.threads,
+            Command::Extract(args) => args.run.threads,
             Command::Calibrate(args) => args.run.threads,
             Command::Study(args) => args.run.threads,
             Command::Trade(args) => args.run.threads,

@@ -3,6 +3,7 @@
 pub mod args;
 pub mod calibrate;
 pub mod crush;
+pub mod extract;
 pub mod failure;
 pub mod flags;
 pub mod folder;
@@ -37,6 +38,7 @@ pub fn main() -> ExitCode {
         Command::Crush(args) => crush::crush(args),
         Command::Mesh(args) => mesh::mesh(args),
         Command::Rough(args) => rough::rough(args),
+        Command::Extract(args) => extract::extract(args),
         Command::Calibrate(args) => calibrate::calibrate(args),
         Command::Study(args) => study::study(args),
         Command::Trade(args) => trade::trade(args),

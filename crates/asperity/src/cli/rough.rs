@@ -1,22 +1,28 @@
 //! `asperity rough`: the contact of a rough surface with a rigid plane.
 
+use crate::cli::extract::scene_of;
 use crate::cli::flags::RunFlags;
-use crate::cli::folder::Folder;
-use crate::cli::terminal;
+use crate::cli::folder::{Folder, claim};
+use crate::cli::progress::Progress;
+use crate::cli::{interrupt, terminal};
 use crate::error::Error;
+use crate::output::Directory;
 use crate::press::table1::table1;
-use crate::press::{RoughScene, press};
+use crate::press::{RoughScene, press, press_several};
 use clap::Args;
 use std::path::{Path, PathBuf};
 
 /// Arguments of `asperity rough`.
 #[derive(Debug, Args)]
 pub struct Rough {
-    /// Scene file (TOML)
+    /// Scene (TOML) or map of heights (.sur, .x3p, …); several of them give one table
     #[arg(required_unless_present = "table1")]
-    pub scene: Option<PathBuf>,
+    pub scenes: Vec<PathBuf>,
+    /// Scene whose metal, load and treatment of the surface maps take [default: that of `asperity new rough`]
+    #[arg(long, value_name = "SCENE", conflicts_with = "table1")]
+    pub like: Option<PathBuf>,
     /// Print the paper's Table 1 beside ours: three generated surfaces, every closure; into files with --out
-    #[arg(long, conflicts_with = "scene")]
+    #[arg(long, conflicts_with = "scenes")]
     pub table1: bool,
     /// Change a value of the file, for example --set "load.pressure=100 MPa"; repeatable
     #[arg(long = "set", value_name = "KEY.PATH=VALUE", conflicts_with = "table1")]
@@ -36,19 +42,25 @@ pub struct Rough {
 /// # Errors
 /// Input that is wrong (nothing is written), or results that cannot be written.
 pub fn rough(args: &Rough) -> Result<(), Error> {
-    match &args.scene {
-        Some(scene) if !args.table1 => one_scene(scene, args),
-        _ => whole_table(&args.run),
+    match &args.scenes[..] {
+        [] => whole_table(&args.run),
+        [scene] => one_scene(scene, args),
+        scenes => several(scenes, args),
     }
 }
 
-/// `asperity rough SCENE.toml`.
-fn one_scene(path: &Path, args: &Rough) -> Result<(), Error> {
+/// A scene, or a map in a scene like another.
+fn read(path: &Path, args: &Rough, quiet: bool) -> Result<RoughScene, Error> {
     let mut overrides = args.overrides.clone();
     if args.judge || args.no_judge {
         overrides.push(format!("judge={}", args.judge));
     }
-    let scene = RoughScene::read(path, &overrides)?;
+    scene_of(path, args.like.as_deref(), &overrides, quiet)
+}
+
+/// `asperity rough SCENE.toml`.
+fn one_scene(path: &Path, args: &Rough) -> Result<(), Error> {
+    let scene = read(path, args, args.run.quiet)?;
     let rough = press(&scene, &mut |_| true)?;
     let target = args.run.target(&scene.name());
     let mut folder = Folder::create(&target, "rough", args.run.force)?;
@@ -58,6 +70,49 @@ fn one_scene(path: &Path, args: &Rough) -> Result<(), Error> {
         rough.summary.warnings.iter().for_each(terminal::warn);
     }
     args.run.say(&target, || rough.json(), || rough.text())
+}
+
+/// `asperity rough A.x3p B.x3p …`: the results of each in a folder of its name, the tables of all beside them.
+fn several(paths: &[PathBuf], args: &Rough) -> Result<(), Error> {
+    // what is not said is told once
+    let quiet = |i: usize| args.run.quiet || i > 0;
+    let scenes = paths.iter().enumerate().map(|(i, path)| read(path, args, quiet(i)));
+    let scenes = scenes.collect::<Result<Vec<_>, _>>()?;
+    let target = args.run.target("rough");
+    let mark = claim(&target, "rough", args.run.force)?;
+    interrupt::catch();
+    let progress = Progress::new(args.run.quiet);
+    let done = press_several(
+        &scenes,
+        &mut |i, closure| {
+            let share = (i as f64 + closure.share) / scenes.len() as f64;
+            progress.show(share, || format!("{}  {}", scenes[i].name(), closure.closure.name()));
+            !interrupt::requested()
+        },
+        &mut |name, rough| {
+            let mut folder = Folder::create(&target.join(name), "rough", args.run.force)?;
+            rough.write(&mut folder)?;
+            folder.publish()?;
+            if !args.run.quiet {
+                rough.summary.warnings.iter().for_each(|w| terminal::warn(&format!("{name}: {w}")));
+            }
+            Ok(())
+        },
+    )?;
+    progress.finish();
+    done.write(&mut Directory::create(&target)?)?;
+    drop(mark);
+    args.run.say(&target, || done.json(), || done.text())?;
+    let short = scenes.len() - done.surfaces.len() + done.failed().count();
+    if short > 0 {
+        let reason = format!(
+            "{short} of {} surfaces were not pressed; the others are in {}",
+            scenes.len(),
+            target.display()
+        );
+        return Err(Error::Unfinished(reason));
+    }
+    Ok(())
 }
 
 /// `asperity rough --table1`.

@@ -22,6 +22,9 @@ const BELOW: f64 = 76.0;
 /// A colour bar is at least so high, a picture at least so wide.
 const LEAST: [f64; 2] = [420.0, 110.0];
 
+/// Outlines on a map.
+const MARK: &str = "#0086c8";
+
 /// One number per cell.
 #[derive(Clone, Copy)]
 pub struct Map<'a> {
@@ -123,6 +126,21 @@ impl Grid {
         }
     }
 
+    /// An ellipse with its name beside it.
+    fn mark(&self, mark: &Mark) -> Markup {
+        let [x, y] = [self.frame.x(mark.centre[0]), self.frame.y(mark.centre[1])];
+        let scale = self.frame.size[0] / (self.frame.high[0] - self.frame.low[0]);
+        // small ones stay visible
+        let [a, b] = mark.semi_axes.map(|s| (s * scale).max(2.0));
+        // y of a picture points down
+        let turn = Short(-mark.angle.to_degrees());
+        html! {
+            ellipse rx=(Short(a)) ry=(Short(b)) transform={ "translate(" (Short(x)) " " (Short(y)) ") rotate(" (turn) ")" }
+                fill="none" stroke=(MARK) stroke-width="1.5" {}
+            text x=(Short(x + 4.0)) y=(Short(y - 4.0)) style={ "fill:" (MARK) ";font-size:11px;paint-order:stroke;stroke:#fff;stroke-width:2.5px" } { (mark.label) }
+        }
+    }
+
     /// Colours of a scale with the numbers beside the map; `nothing` counts from 1 after the colours of the scale.
     fn scaled(&self, bands: &Bands, nothing: Colour) -> (Vec<Colour>, Markup) {
         ([bands.colours.as_slice(), &[nothing]].concat(), self.frame.bar(bands, LEAST[1]))
@@ -175,6 +193,27 @@ pub fn pressure(path: &Path, map: &Map, title: &str, nominal_mpa: f64) -> std::i
 /// # Errors
 /// A disk that refuses, a picture that cannot be encoded.
 pub fn heights(path: &Path, map: &Map, title: &str) -> std::io::Result<()> {
+    asperities(path, map, title, &[])
+}
+
+/// An ellipse on a map with its name.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mark {
+    /// Its centre, µm from the corner of the map.
+    pub centre: [f64; 2],
+    /// Major and minor semi-axis, µm.
+    pub semi_axes: [f64; 2],
+    /// From x to the major axis, radians.
+    pub angle: f64,
+    /// Its name.
+    pub label: String,
+}
+
+/// Heights in µm as [`heights`], with ellipses on them.
+///
+/// # Errors
+/// A disk that refuses, a picture that cannot be encoded.
+pub fn asperities(path: &Path, map: &Map, title: &str, marks: &[Mark]) -> std::io::Result<()> {
     let grid = Grid::of(map);
     let (low, high) = map.values.iter().fold((f32::MAX, f32::MIN), |(l, h), v| (l.min(*v), h.max(*v)));
     let bands = Bands::smooth([f64::from(low), f64::from(high)]);
@@ -185,7 +224,8 @@ pub fn heights(path: &Path, map: &Map, title: &str) -> std::io::Result<()> {
         let (sum, count) = finite.fold((0.0, 0.0), |(sum, count), v| (sum + v, count + 1.0));
         if count > 0.0 { 1 + bands.band(sum / count) as u8 } else { none }
     });
-    grid.write(path, title, "height (µm)", (&palette, &indices), &key)
+    let over = html! { (grid.frame.cut(&html! { @for mark in marks { (grid.mark(mark)) } })) (key) };
+    grid.write(path, title, "height (µm)", (&palette, &indices), &over)
 }
 
 /// Contact by regime with the shares of each; a partly covered pixel is paler.

@@ -2,14 +2,15 @@
 
 use super::charts;
 use super::closures::{Body, ClosureContact};
-use super::rough::Rough;
+use super::curves;
+use super::rough::{MODEST, Rough};
 use crate::draw::chart;
 use crate::draw::rough_map::{self as picture, Map};
 use crate::error::Error;
 use crate::output::{Sink, SinkExt, write_csv};
 use crate::units::{MEGAPASCAL, MICROMETRE};
 use asperity_roughness::HeightMap;
-use asperity_roughness::formats::{CellArray, write_npy, write_vti, write_x3p};
+use asperity_roughness::formats::{Vti, write_npy, write_x3p};
 use asperity_roughness::scene::SurfaceFormat;
 
 /// One number per cell of the map, row by row, of a contact.
@@ -30,6 +31,13 @@ pub struct Layers {
 /// Cells of a map along x and y.
 fn cells(map: &HeightMap) -> [usize; 2] {
     [map.cell_columns(), map.cell_rows()]
+}
+
+/// Numbers of the nodes; beyond the last ones those of the next period.
+fn repeated(values: &[f32], map: &HeightMap, columns: usize, rows: usize) -> Vec<f32> {
+    let own = map.columns();
+    let node = |i: usize| values[i / columns % map.rows() * own + i % columns % own];
+    (0..columns * rows).map(node).collect()
 }
 
 /// Heights of the nodes in µm; beyond the last ones those of the next period.
@@ -87,13 +95,24 @@ impl Rough {
         self.write_surface(sink)
     }
 
-    /// Writes table.csv, load_curve.csv, summary.json and the charts alone.
+    /// Writes table.csv, load_curve.csv, bearing.csv, spectrum.csv, gaps.csv, summary.json and the charts alone.
     ///
     /// # Errors
     /// A disk that refuses.
     pub fn write_tables(&self, sink: &mut dyn Sink) -> Result<(), Error> {
         sink.csv("table.csv", &self.table)?;
         sink.write("load_curve.csv", |out| write_csv(out, &self.load_curve, str::to_string))?;
+        sink.csv("bearing.csv", &curves::bearing(&self.surface))?;
+        let points = self.surface.map.heights().len();
+        if self.summary.scene.output.spectrum.unwrap_or(points <= MODEST) {
+            sink.write("spectrum.csv", |out| {
+                write_csv(out, &curves::spectrum(&self.surface), str::to_string)
+            })?;
+        }
+        let gaps: Vec<_> = self.contacts.iter().flat_map(curves::gaps).collect();
+        if !gaps.is_empty() {
+            sink.csv("gaps.csv", &gaps)?;
+        }
         for (name, chart) in charts::all(&self.contacts, self.surface.parameters.mean_gradient) {
             let text = chart::svg(&chart).map_err(Error::Unfinished)?;
             sink.text(name, &text)?;
@@ -101,31 +120,33 @@ impl Rough {
         sink.text("summary.json", &self.json()?)
     }
 
-    /// Pictures and .vti of every closure.
+    /// Pictures of every closure, and contact.vti with all of them: arrays begin with the closure's name. Those of a
+    /// half-space are on the nodes, whose pixels carry them, the others on the cells between.
     fn write_maps(&self, sink: &mut dyn Sink) -> Result<(), Error> {
         let map = &self.surface.map;
         let [columns, rows] = cells(map);
-        let nodes = heights(map, columns + 1, rows + 1);
         let spacing = map.pixel().map(|p| p / MICROMETRE);
+        let file = sink.path("contact.vti")?;
+        let refused = |e: std::io::Error| Error::disk(&file, e);
+        let mut image = Vti::new();
+        image.add_points("height_um", &heights(map, columns + 1, rows + 1)).map_err(refused)?;
         for one in self.contacts.iter().filter(|one| !matches!(one.body, Body::Failed(_))) {
             let layers = self.write_pictures(sink, one, picture::LONGEST)?;
-            let file = sink.path(&format!("contact-{}.vti", one.name()))?;
-            let array = |name, values| CellArray { name, values };
-            let mut arrays = vec![
-                array("pressure_MPa", &layers.pressure[..]),
-                array("contact_fraction", &layers.contact),
-                array("regime", &layers.regime),
-            ];
-            let own;
-            let mut points = vec![array("height_um", &nodes[..])];
+            let mut add = |name: &str, values: &[f32]| {
+                let name = format!("{}_{name}", one.name());
+                match layers.gap {
+                    Some(_) => image.add_points(name, &repeated(values, map, columns + 1, rows + 1)),
+                    None => image.add_cells(name, values),
+                }
+            };
+            add("pressure_MPa", &layers.pressure).map_err(refused)?;
+            add("contact_fraction", &layers.contact).map_err(refused)?;
+            add("regime", &layers.regime).map_err(refused)?;
             if let Some(gap) = &layers.gap {
-                own = heights(map, map.columns(), map.rows());
-                points.clear();
-                arrays.extend([array("gap_um", gap), array("height_um", &own)]);
+                add("gap_um", gap).map_err(refused)?;
             }
-            write_vti(&file, layers.cells, spacing, &points, &arrays).map_err(|e| Error::disk(&file, e))?;
         }
-        Ok(())
+        image.write(&file, [columns, rows], spacing).map_err(refused)
     }
 
     /// Pressure and contact of one closure as PNG, no side longer than `longest` dots; returns the numbers they show.

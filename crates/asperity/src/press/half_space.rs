@@ -50,7 +50,7 @@ pub struct Passage {
 }
 
 /// The half-space that stands for `closure` with the metal of `scene`; None where no limit of pressure is known.
-pub(super) fn body(closure: Closure, scene: &Scene) -> Option<HalfSpace> {
+pub(crate) fn body(closure: Closure, scene: &Scene) -> Option<HalfSpace> {
     let limit = match closure {
         Closure::HalfSpace => None,
         _ => Some(scene.material.limit()?),

@@ -11,8 +11,8 @@ use asperity_roughness::{Closure, Surface};
 use std::fmt::Write;
 use std::time::Instant;
 
-/// Points of a map up to which closures are judged unless the scene says otherwise.
-const JUDGED: usize = 1024 * 1024;
+/// Points of a map up to which closures are judged and a spectrum is written unless the scene says otherwise.
+pub(super) const MODEST: usize = 1024 * 1024;
 
 /// A rough surface pressed by every closure that its scene asks for.
 #[derive(Debug)]
@@ -65,7 +65,7 @@ pub fn press(scene: &RoughScene, observer: &mut dyn FnMut(&Progress) -> bool) ->
         summary.warnings.extend(warnings);
         contacts.extend(contact);
     }
-    if tables.judge.unwrap_or(surface.map.heights().len() <= JUDGED) {
+    if tables.judge.unwrap_or(surface.map.heights().len() <= MODEST) {
         judge(&mut contacts, scene, &surface, &mut spaces);
     }
     if contacts.is_empty() && summary.warnings.iter().all(|w| w.starts_with("skipped")) {
@@ -109,7 +109,7 @@ fn doubts(surface: &Surface, scene: &Scene) -> Vec<String> {
     let spike = Some(above / parameters.sq).filter(|ratio| *ratio > SPIKE).map(|ratio| {
         format!(
             "the highest point is {ratio:.0} standard deviations above the mean: if it is dust or an error of measurement, the first \
-             touch and all at light loads are its own; remove it, or smooth with s_filter"
+             touch and all at light loads are its own; remove it (surface.outliers = 8), or smooth with s_filter"
         )
     });
     let apart = scene.load.separation.filter(|s| s.0 > above).map(|s| {
@@ -156,8 +156,14 @@ impl Rough {
         let s = &self.summary;
         let ([nx, ny], [dx, dy]) = (s.pixels, s.pixel_size_um);
         let mut text = format!(
-            "{}: {nx} x {ny} points of {dx:.4} x {dy:.4} um, {} missing; Sa {:.4} um, Sq {:.4} um, Sdq {:.4}, beta {:.3} deg (mean |grad h|)\n",
-            s.surface, s.missing, s.sa_um, s.sq_um, s.sdq, s.beta_deg,
+            "{}: {nx} x {ny} points of {dx:.4} x {dy:.4} um, {} missing{}; Sa {:.4} um, Sq {:.4} um, Sdq {:.4}, beta {:.3} deg (mean |grad h|)\n",
+            s.surface,
+            s.missing,
+            if s.outliers > 0 { format!(", {} outliers", s.outliers) } else { String::new() },
+            s.sa_um,
+            s.sq_um,
+            s.sdq,
+            s.beta_deg,
         );
         text += "closure              A/A0 %   P_m MPa     psi  peak/nom  separation um  asperities  residual um  elastic energy  A/A_hs\n";
         let shown = |v: Option<f64>, digits: usize| {

@@ -35,6 +35,36 @@ impl RoughScene {
         Ok(RoughScene::of_file(file))
     }
 
+    /// The surface of the file at `path` with metal, load and all else of the scene `like`, then overrides
+    /// `key.path=value`. Of a generated surface's scene the file is levelled by its own default.
+    ///
+    /// # Errors
+    /// A path that is no text, an override that names no key or a value of another kind.
+    pub fn of_map(path: &Path, like: &RoughScene, overrides: &[String]) -> Result<RoughScene, InputError> {
+        let mut scene = like.scene.clone();
+        let surface = &mut scene.surface;
+        (surface.generate, surface.heights) = (None, None);
+        surface.file = path.file_name().map(PathBuf::from);
+        if surface.file.as_ref().is_none_or(|name| name.to_str().is_none()) {
+            let message = format!("{}: the name of the file is no text", path.display());
+            return Err(InputError::new(message).help("rename the file"));
+        }
+        if let Some(file) = &scene.coefficient {
+            let known = like.resolve(file);
+            scene.coefficient = Some(std::path::absolute(&known).unwrap_or(known));
+        }
+        let text = to_toml(&scene).map_err(InputError::new)?;
+        TomlFile::parse(&path.with_extension(""), text, overrides).map(RoughScene::of_file)
+    }
+
+    /// The scene that stands for what is not said: the milled surface of steel that `asperity new rough` writes.
+    ///
+    /// # Errors
+    /// None: the text comes with the program.
+    pub fn usual() -> Result<RoughScene, InputError> {
+        RoughScene::from_toml(include_str!("../../scenes/rough-milled.toml"), Path::new(""))
+    }
+
     /// A scene built in code; its paths are relative to the folder `base`.
     pub fn new(scene: Scene, base: &Path) -> RoughScene {
         RoughScene { scene, source: None, base: base.into() }
@@ -103,7 +133,7 @@ impl RoughScene {
     }
 
     /// Name of the surface in tables: the kind it is generated as, or the name of its file.
-    pub(super) fn surface_name(&self) -> String {
+    pub(crate) fn surface_name(&self) -> String {
         let surface = &self.scene.surface;
         match (&surface.file, &surface.generate) {
             (Some(path), _) => {
@@ -119,7 +149,7 @@ impl RoughScene {
         self.base.join(path)
     }
 
-    pub(super) fn error(&self, error: &SceneError) -> InputError {
+    pub(crate) fn error(&self, error: &SceneError) -> InputError {
         match &self.source {
             Some(file) => file.error_at(&error.path, &error.message),
             None => InputError::new(error.to_string()),
@@ -127,21 +157,24 @@ impl RoughScene {
     }
 
     /// The calibration that the scene names, or the one that comes with the program; `None` where no closure needs it.
-    pub(super) fn coefficient(&self) -> Result<Option<Coefficient>, InputError> {
+    pub(crate) fn coefficient(&self) -> Result<Option<Coefficient>, InputError> {
         let needed = |c: &Closure| matches!(c, Closure::Fitted | Closure::Calibrated | Closure::Johnson);
         if !self.scene.closure.closures().iter().any(needed) {
             return Ok(None);
         }
+        self.calibration().map(Some)
+    }
+
+    /// The calibration that the scene names, or the one that comes with the program.
+    pub(crate) fn calibration(&self) -> Result<Coefficient, InputError> {
         let error = |key: &str, message: String| self.error(&SceneError::new(key, message));
         let Some(path) = &self.scene.coefficient else {
             let refused = |e| error("closure", format!("the calibration of this program: {e}"));
-            return Coefficient::committed().map(Some).map_err(refused);
+            return Coefficient::committed().map_err(refused);
         };
         let path = self.resolve(path);
         let text = std::fs::read_to_string(&path)
             .map_err(|e| error("coefficient", format!("{} cannot be read: {e}", path.display())))?;
-        Coefficient::from_toml(&text)
-            .map(Some)
-            .map_err(|e| error("coefficient", format!("{}: {e}", path.display())))
+        Coefficient::from_toml(&text).map_err(|e| error("coefficient", format!("{}: {e}", path.display())))
     }
 }

@@ -12,8 +12,8 @@ use std::collections::BTreeMap;
 const DEFINITIONS: [(&str, &str); 6] = [
     (
         "standards",
-        "sa, sq, ssk, sku, sz, sdq: ISO 25178-2 over the whole map, without further filters than those of the scene; \
-         ra and rq are sa and sq of the map",
+        "sa, sq, ssk, sku, sp, sv, sz, sdq, sdr: ISO 25178-2 over the whole map, without further filters than those of the scene; \
+         sdq and sdr by its derivative of seven points; ra and rq are sa and sq of the map",
     ),
     (
         "beta",
@@ -46,6 +46,8 @@ row! {
         pixel_size_um: [f64; 2] = surface.map.pixel().map(|p| p / MICROMETRE),
         /// Points that were not measured.
         missing: usize = surface.missing,
+        /// Points that `surface.outliers` took away.
+        outliers: usize = surface.outliers,
         nominal_area_um2: f64 = surface.nominal_area() / MICROMETRE / MICROMETRE,
         sa_um: f64 = surface.parameters.sa / MICROMETRE,
         sq_um: f64 = surface.parameters.sq / MICROMETRE,
@@ -53,7 +55,14 @@ row! {
         ssk: Option<f64> = finite(surface.parameters.ssk),
         sku: Option<f64> = finite(surface.parameters.sku),
         sz_um: f64 = surface.parameters.sz / MICROMETRE,
+        /// Highest point above the mean, and mean above the lowest point.
+        sp_um: f64 = surface.parameters.sp / MICROMETRE,
+        sv_um: f64 = surface.parameters.sv / MICROMETRE,
         sdq: f64 = surface.parameters.sdq,
+        /// Developed area over projected area, less 1.
+        sdr: f64 = surface.parameters.sdr,
+        /// Root mean square of |∇h| of the surface that is pressed, which is linear between the points.
+        rms_gradient: f64 = surface.parameters.rms_gradient,
         ra_um: f64 = surface.parameters.sa / MICROMETRE,
         rq_um: f64 = surface.parameters.sq / MICROMETRE,
         mean_gradient: f64 = surface.parameters.mean_gradient,

@@ -9,8 +9,10 @@ use thiserror::Error;
 
 /// The published coefficient of eqs (9)-(13).
 pub const PUBLISHED: f64 = 0.13;
-/// Eq. [18].
+/// Eq. [18], on the island.
 const JOHNSON_ELASTIC: f64 = 0.2;
+/// Contact area of an elastic cone over that of its island (Sneddon 1965).
+const ELASTIC_AREA: f64 = 4.0 / (PI * PI);
 /// Thresholds of the plasticity index printed below eq. (13).
 const THRESHOLDS: [f64; 2] = [0.6, 1.0];
 
@@ -72,7 +74,8 @@ impl Closure {
             }
             Closure::Fitted => "p = c E* tan(beta) on the island, c from the calibration",
             Closure::Johnson => {
-                "p = min(0.2 E* tan(beta), max(2/3 Y, cavity law), H) on the island (Johnson 1985, ch. 6; eqs 18-20 mended)"
+                "p = min(0.2 E* tan(beta) pi^2/4, max(2/3 Y, cavity law), H) on the contact, whose share of the island rises from 4/pi^2 at \
+                 2/3 Y to 1 at H (Johnson 1985, ch. 6; eqs 18-20 mended)"
             }
             Closure::Sneddon => {
                 "F = 2/pi^2 E* tan(beta) A_island, contact area 4/pi^2 of the island (Sneddon 1965)"
@@ -206,7 +209,7 @@ impl ClosureLaw {
                 regimes()?;
                 Law::Linear { coefficient: c, area_ratio: 1.0 }
             }
-            Closure::Sneddon => Law::Linear { coefficient: 2.0 / (PI * PI), area_ratio: 4.0 / (PI * PI) },
+            Closure::Sneddon => Law::Linear { coefficient: 0.5 * ELASTIC_AREA, area_ratio: ELASTIC_AREA },
             Closure::Johnson => {
                 let hardness = hardness.ok_or(missing("hardness or yield_stress"))?;
                 Law::Johnson { yield_stress: material.yield_stress.map_or(hardness / 3.0, |y| y.0), hardness }
@@ -273,15 +276,22 @@ impl ClosureLaw {
         Response { island_pressure, area_ratio, regime, inside }
     }
 
+    /// Eqs (18)-(20). Eq. (18) is the pressure of an elastic cone on its island; the cavity law and the hardness are pressures
+    /// on the contact. So all are taken on the contact, and the contact's share of the island goes from the elastic cone's to
+    /// the whole of it, in proportion to the pressure beyond first yield.
     fn johnson(&self, tan_beta: f64, yield_stress: f64, hardness: f64) -> Response {
         let nu = self.material.poissons_ratio;
         let x = self.material.youngs_modulus.0 * tan_beta / yield_stress;
-        let elastic = JOHNSON_ELASTIC * self.reduced_modulus * tan_beta;
+        let elastic = JOHNSON_ELASTIC / ELASTIC_AREA * self.reduced_modulus * tan_beta;
         let argument = (x + 4.0 * (1.0 - 2.0 * nu)) / (6.0 * (1.0 - nu));
         let log = if argument > 0.0 { argument.ln() } else { f64::NEG_INFINITY };
         let first = 2.0 / 3.0 * yield_stress;
         let cavity = first.max(first * (1.0 + log));
-        let island_pressure = elastic.min(cavity).min(hardness);
+        let pressure = elastic.min(cavity).min(hardness);
+        // a hardness below first yield is no metal's: there the contact grows from half of it on
+        let start = first.min(0.5 * hardness);
+        let flowed = ((pressure - start) / (hardness - start)).max(0.0);
+        let area_ratio = ELASTIC_AREA + (1.0 - ELASTIC_AREA) * flowed;
         let regime = if elastic <= cavity.min(hardness) {
             Regime::Elastic
         } else if cavity < hardness {
@@ -289,12 +299,12 @@ impl ClosureLaw {
         } else {
             Regime::Plastic
         };
-        Response { island_pressure, area_ratio: 1.0, regime, inside: true }
+        Response { island_pressure: area_ratio * pressure, area_ratio, regime, inside: true }
     }
 
     fn calibrated(&self, tan_beta: f64, hardening: &Hardening, coefficient: &Coefficient) -> Response {
         if tan_beta <= 0.0 {
-            return self.response(0.0, 4.0 / (PI * PI), false);
+            return self.response(0.0, ELASTIC_AREA, false);
         }
         let stress = hardening.representative_stress(coefficient.c * tan_beta);
         let cone = coefficient.cone(tan_beta, self.reduced_modulus / stress);
@@ -306,7 +316,7 @@ impl ClosureLaw {
     pub fn elastic_pressure(&self, tan_beta: f64) -> f64 {
         let coefficient = match &self.law {
             Law::Linear { coefficient, area_ratio } => coefficient / area_ratio,
-            Law::Johnson { .. } => JOHNSON_ELASTIC,
+            Law::Johnson { .. } => JOHNSON_ELASTIC / ELASTIC_AREA,
             Law::Calibrated { .. } => 0.5, // Sneddon's, on the contact area
         };
         coefficient * self.reduced_modulus * tan_beta
@@ -345,7 +355,8 @@ mod tests {
             let p = model(Closure::Published).respond(tan).island_pressure;
             assert!((p / published - 1.0).abs() < 1e-3);
             assert!((model(Closure::Published).elastic_pressure(tan) / 1280.0 / index - 1.0).abs() < 1e-3);
-            let p = model(Closure::Johnson).respond(tan).island_pressure;
+            let found = model(Closure::Johnson).respond(tan);
+            let p = found.island_pressure / found.area_ratio;
             assert!((p / johnson - 1.0).abs() < 1e-3, "{p} {johnson}");
         }
     }
@@ -353,14 +364,21 @@ mod tests {
     #[test]
     fn johnson_is_continuous_monotone_and_capped() {
         let model = ClosureLaw::new(Closure::Johnson, &steel(), None).unwrap();
-        let mut last = 0.0;
+        let (mut last, mut share) = (0.0, 0.0);
         for i in 0..4000 {
             let tan = 1e-5 * 1.003f64.powi(i);
-            let p = model.respond(tan).island_pressure;
-            assert!(p >= last && p <= 1280.0 && (i < 1 || p - last < 0.0031 * p.max(1e-3)));
-            last = p;
+            let found = model.respond(tan);
+            let p = found.island_pressure;
+            // elastic it rises with the slope; beyond, the share of the island adds its own rise
+            assert!(p >= last && p <= 1280.0 && (i < 1 || p - last < 0.0062 * p.max(1e-3)));
+            assert!(found.area_ratio >= share && found.area_ratio <= 1.0);
+            (last, share) = (p, found.area_ratio);
         }
-        assert_eq!(last, 1280.0);
+        assert_eq!((last, share), (1280.0, 1.0));
+        // an elastic cone: 0.2 is 2/π² to 1.3 %, as eq. [18] has it
+        let elastic = model.respond(1e-3);
+        assert_eq!(elastic.area_ratio, 4.0 / PI / PI);
+        assert!((elastic.island_pressure / (0.2 * 210e3 / 0.91 * 1e-3) - 1.0).abs() < 1e-12);
         assert_eq!(model.respond(1.0).regime, Regime::Plastic);
         assert_eq!(model.respond(1e-3).regime, Regime::Elastic);
     }

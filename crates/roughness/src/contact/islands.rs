@@ -331,6 +331,22 @@ impl Islands {
         self.homes.iter_mut().for_each(|home| home.island = kept[home.island as usize]);
     }
 
+    /// Calls `each` with island, row and columns of all neighbouring nodes that belong to an island, row by row.
+    pub(crate) fn spans(&self, mut each: impl FnMut(u32, usize, Range<usize>)) {
+        for (run, home) in self.runs.list.iter().zip(&self.homes).filter(|(_, home)| home.island != u32::MAX)
+        {
+            each(home.island, run.row as usize, run.start as usize..run.end as usize);
+        }
+    }
+
+    /// The island that holds the node at column and row `node`, if any does.
+    pub fn holding(&self, [column, row]: [usize; 2]) -> Option<&Island> {
+        let first = *self.runs.first.get(row)?;
+        let runs = self.runs.first.get(row + 1).map(|_| self.runs.row(row))?;
+        let at = runs.iter().position(|run| (run.start as usize..run.end as usize).contains(&column))?;
+        self.islands.get(self.homes[first + at].island as usize)
+    }
+
     /// The pieces of the islands of cell row `row`, from left to right; pieces of one cell follow each other.
     pub(crate) fn pieces(&self, map: &HeightMap, row: usize, mut each: impl FnMut(Piece)) {
         let inverse_pixel = map.inverse_pixel();

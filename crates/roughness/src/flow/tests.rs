@@ -70,7 +70,7 @@ fn a_rough_gap_balances_and_closes_with_the_load() {
     let body = HalfSpace { reduced_modulus: 1e11, limit: None, tolerance: 1e-5 };
     let mut last = f64::INFINITY;
     for share in [0.02, 0.06, 0.1] {
-        let load = Load::Pressure(share * 1e11 * surface.parameters.sdq);
+        let load = Load::Pressure(share * 1e11 * surface.parameters.rms_gradient);
         let found = body.press(&surface, load).unwrap();
         let map = Gap::of(&surface.map, &found.gaps);
         for axis in [Axis::X, Axis::Y] {

@@ -3,6 +3,7 @@
 //! Lengths are in pixels (the root of a pixel's area), pressures such that E* is 1.
 
 use super::real::Real;
+use crate::surface::fft::good_length;
 use rayon::prelude::*;
 use realfft::num_complex::Complex;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
@@ -46,19 +47,6 @@ pub(super) struct Convolution<T: Real> {
     spectrum: Vec<Complex<T>>,
     /// The same after the columns, in blocks of columns: a task owns its block.
     blocks: Vec<Complex<T>>,
-}
-
-/// The least even length of factors 2, 3 and 5 that holds `least`.
-pub(crate) fn good_length(least: usize) -> usize {
-    let smooth = |mut n: usize| {
-        for factor in [2, 3, 5] {
-            while n.is_multiple_of(factor) {
-                n /= factor;
-            }
-        }
-        n == 1
-    };
-    (least.max(2)..).find(|n| n.is_multiple_of(2) && smooth(*n)).unwrap_or(least)
 }
 
 impl<T: Real> Convolution<T> {

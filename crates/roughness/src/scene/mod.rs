@@ -112,6 +112,9 @@ pub struct Output {
     /// The surface as pressed (levelled, filtered), as surface.x3p or surface.npy.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub surface: Option<SurfaceFormat>,
+    /// The power spectrum of the surface, as spectrum.csv: by default of maps of up to 1024 x 1024 points.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub spectrum: Option<bool>,
 }
 
 /// Formats in which a surface is written; both in metres.
@@ -126,7 +129,7 @@ pub enum SurfaceFormat {
 
 impl Default for Output {
     fn default() -> Self {
-        Output { maps: true, surface: None }
+        Output { maps: true, surface: None, spectrum: None }
     }
 }
 

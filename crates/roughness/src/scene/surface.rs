@@ -7,6 +7,7 @@ use crate::surface::formats::{self, Measured, Spacing};
 use crate::surface::generate;
 use crate::surface::height_map::HeightMap;
 use crate::surface::level::{self, Levelling};
+use crate::surface::outliers;
 use crate::surface::ready::Surface;
 use asperity_law::units::Length;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
@@ -88,6 +89,10 @@ pub struct SurfaceScene {
     /// Missing points.
     #[serde(default)]
     pub missing: Missing,
+    /// Points further from the median of their eight neighbours than so many standard deviations count as missing; at least 3.
+    #[schemars(extend("minimum" = 3))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub outliers: Option<f64>,
     /// Cut-off of the Gaussian S-filter (removes what is shorter).
     #[schemars(example = "5 um")]
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -120,6 +125,11 @@ impl SurfaceScene {
             }
             made.request()?;
         }
+        if let Some(limit) = self.outliers.filter(|limit| limit.is_nan() || *limit < 3.0) {
+            let message =
+                format!("{limit} must be at least 3: closer points belong to the surface; for example 8");
+            return error("surface.outliers", message);
+        }
         for (path, length) in [("surface.s_filter", self.s_filter), ("surface.l_filter", self.l_filter)] {
             if length.is_some_and(|l| l.0 <= 0.0) {
                 return error(path, "a cut-off must be above 0: leave the key out for no filter");
@@ -138,7 +148,7 @@ impl SurfaceScene {
         }
     }
 
-    /// Reads or makes the surface and prepares it: holes, S-filter, levelling, L-filter, in this order.
+    /// Reads or makes the surface and prepares it: outliers, holes, S-filter, levelling, L-filter, in this order.
     ///
     /// `resolve` turns a path of the scene into one that can be opened.
     ///
@@ -165,9 +175,13 @@ impl SurfaceScene {
         };
         let mut map = map.with_periodic(self.periodic);
         let missing = map.missing();
+        let mut outliers = 0;
+        if let Some(limit) = self.outliers {
+            (map, outliers) = outliers::without(map, limit);
+        }
         let fill = self.missing == Missing::Fill;
         if let Err(e) = map.extent()
-            && !(fill && missing < map.heights().len())
+            && !(fill && map.missing() < map.heights().len())
         {
             return error(source, e);
         }
@@ -182,7 +196,7 @@ impl SurfaceScene {
         if let Some(cutoff) = self.l_filter {
             map = filter::l_filter(&map, cutoff.0).map_err(at("surface.l_filter"))?;
         }
-        let surface = Surface { missing, ..Surface::of(map).map_err(at(source))? };
+        let surface = Surface { missing, outliers, ..Surface::of(map).map_err(at(source))? };
         let parameters = &surface.parameters;
         if ![parameters.sa, parameters.sdq, parameters.mean].iter().all(|v| v.is_finite()) {
             return error(source, "the heights are too large to compute with: check height_unit");

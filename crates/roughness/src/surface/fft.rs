@@ -3,7 +3,20 @@
 use rayon::prelude::*;
 use rustfft::{FftDirection, FftPlanner};
 
-pub(crate) use rustfft::num_complex::Complex64;
+use rustfft::num_complex::Complex64;
+
+/// The least even length of factors 2, 3 and 5 that holds `least`.
+pub(crate) fn good_length(least: usize) -> usize {
+    let smooth = |mut n: usize| {
+        for factor in [2, 3, 5] {
+            while n.is_multiple_of(factor) {
+                n /= factor;
+            }
+        }
+        n == 1
+    };
+    (least.max(2)..).find(|n| n.is_multiple_of(2) && smooth(*n)).unwrap_or(least)
+}
 
 /// Rows become columns.
 pub(crate) fn transposed<T: Copy + Send + Sync + Default>(data: &[T], columns: usize) -> Vec<T> {

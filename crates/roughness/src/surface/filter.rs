@@ -1,10 +1,8 @@
 //! Gaussian areal filters (ISO 16610-61) and the filling of holes.
 
-use crate::surface::fft::{Complex64, transposed};
+use crate::surface::gaussian::Gaussian;
 use crate::surface::height_map::{HeightMap, MapError};
 use rayon::prelude::*;
-use rustfft::FftPlanner;
-use std::f64::consts::{LN_2, PI};
 use thiserror::Error;
 
 /// Why a filter cannot be applied.
@@ -55,54 +53,37 @@ pub fn l_filter(map: &HeightMap, cutoff: f64) -> Result<HeightMap, FilterError> 
 
 /// Mean of the measured heights around each measured node, weighted by the Gaussian of `cutoff`.
 ///
-/// Height and weight travel as real and imaginary part through the same convolution, along x and then along y;
-/// beyond an edge and in a hole the weight is 0, so that the mean is of what was measured.
+/// Beyond an edge and in a hole the weight is 0, so that the mean is of what was measured. Without holes the weights are those
+/// of a row times those of a column.
 fn smoothed(map: &HeightMap, cutoff: f64) -> Vec<f64> {
+    let (columns, rows) = (map.columns(), map.rows());
     let reference = map.heights().iter().copied().find(|z| !z.is_nan()).unwrap_or(0.0);
-    let data: Vec<Complex64> = map
-        .heights()
-        .par_iter()
-        .map(|z| if z.is_nan() { Complex64::new(0.0, 0.0) } else { Complex64::new(z - reference, 1.0) })
-        .collect();
-    let lines = convolved(data, map.columns(), cutoff / map.pixel()[0], map.periodic());
-    let lines =
-        convolved(transposed(&lines, map.columns()), map.rows(), cutoff / map.pixel()[1], map.periodic());
-    let mean = transposed(&lines, map.rows());
-    let restored =
-        |(z, mean): (&f64, &Complex64)| if z.is_nan() { f64::NAN } else { reference + mean.re / mean.im };
-    map.heights().par_iter().zip(&mean).map(restored).collect()
-}
-
-/// Every line of `length` numbers convolved with the Gaussian of `cutoff` (in pixels).
-fn convolved(mut data: Vec<Complex64>, length: usize, cutoff: f64, periodic: bool) -> Vec<Complex64> {
-    let alpha = (LN_2 / PI).sqrt();
-    // at one cut-off from its middle the weight is 7e-7
-    let reach = cutoff.ceil() as usize;
-    let padded = if periodic { length } else { length + reach };
-    let mut planner = FftPlanner::new();
-    let (forward, inverse) = (planner.plan_fft_forward(padded), planner.plan_fft_inverse(padded));
-    let mut kernel = vec![Complex64::new(0.0, 0.0); padded];
-    let mut sum = 0.0;
-    for k in -(reach as i64)..=reach as i64 {
-        let u = k as f64 / (alpha * cutoff);
-        let weight = (-PI * u * u).exp();
-        kernel[k.rem_euclid(padded as i64) as usize] += weight;
-        sum += weight;
+    let [along_x, along_y] = map.pixel().map(|pixel| Gaussian::of(cutoff / pixel));
+    let blurred = |mut data: Vec<f64>| {
+        along_x.along_rows(&mut data, columns, map.periodic());
+        along_y.along_columns(data, columns, map.periodic())
+    };
+    let over_measured = |value: &(dyn Fn(f64) -> f64 + Sync)| -> Vec<f64> {
+        map.heights().par_iter().map(|z| if z.is_nan() { 0.0 } else { value(*z) }).collect()
+    };
+    let mut mean = blurred(over_measured(&|z| z - reference));
+    if map.missing() > 0 {
+        let weights = blurred(over_measured(&|_| 1.0));
+        mean.par_iter_mut().zip(&weights).zip(map.heights()).for_each(|((mean, weight), z)| {
+            *mean = if z.is_nan() { f64::NAN } else { reference + *mean / weight };
+        });
+        return mean;
     }
-    forward.process(&mut kernel);
-    let scale = 1.0 / (sum * padded as f64);
-    data.par_chunks_mut(length).for_each_init(
-        || vec![Complex64::new(0.0, 0.0); padded],
-        |buffer, line| {
-            buffer[..length].copy_from_slice(line);
-            buffer[length..].fill(Complex64::new(0.0, 0.0));
-            forward.process(buffer);
-            buffer.iter_mut().zip(&kernel).for_each(|(b, k)| *b *= k.re * scale);
-            inverse.process(buffer);
-            line.copy_from_slice(&buffer[..length]);
-        },
-    );
-    data
+    let weights = |gaussian: &Gaussian, length: usize| {
+        let mut line = vec![1.0; length];
+        gaussian.along_rows(&mut line, length, map.periodic());
+        line
+    };
+    let (across, down) = (weights(&along_x, columns), weights(&along_y, rows));
+    mean.par_chunks_mut(columns).zip(&down).for_each(|(line, down)| {
+        line.iter_mut().zip(&across).for_each(|(mean, across)| *mean = reference + *mean / (across * down));
+    });
+    mean
 }
 
 /// Relaxation sweeps after the first fill.

@@ -317,7 +317,8 @@ mod tests {
         let n = Parameters::of(&map, &map.extent().unwrap());
         assert!((n.mean_gradient - 0.1).abs() < 1e-12);
         assert!(
-            (n.mean_gradient / n.sdq - 0.886).abs() < 0.01 && (n.mean_slope_x / n.sdq - 0.564).abs() < 0.01
+            (n.mean_gradient / n.rms_gradient - 0.886).abs() < 0.01
+                && (n.mean_slope_x / n.rms_gradient - 0.564).abs() < 0.01
         );
         assert!((n.sa / n.sq - 0.798).abs() < 0.01 && n.ssk.abs() < 0.1 && (n.sku - 3.0).abs() < 0.2);
     }

@@ -155,6 +155,12 @@ impl HeightMap {
         self
     }
 
+    /// The same map, its missing points counted anew.
+    pub(crate) fn recounted(mut self) -> Self {
+        self.missing = self.heights.par_iter().filter(|z| z.is_nan()).count();
+        self
+    }
+
     /// The same grid and edges with these heights (one per node, NaN = missing).
     pub fn with_heights(&self, heights: Vec<f64>) -> Result<Self, MapError> {
         Ok(HeightMap::new(self.columns, self.rows, self.pixel, heights)?.with_periodic(self.periodic))

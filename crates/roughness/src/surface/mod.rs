@@ -6,10 +6,13 @@ pub(crate) mod height_map;
 
 pub(crate) mod fft;
 pub(crate) mod filter;
+mod gaussian;
 pub(crate) mod level;
+pub(crate) mod outliers;
 
 pub(crate) mod cells;
 pub(crate) mod parameters;
+pub(crate) mod spectrum;
 
 pub(crate) mod generate;
 

@@ -10,6 +10,8 @@ pub struct Surface {
     pub map: HeightMap,
     /// Points that were not measured, before any were filled.
     pub missing: usize,
+    /// Points that were taken away because they stood out, before any were filled.
+    pub outliers: usize,
     /// Extent of the map.
     pub extent: Extent,
     /// Roughness parameters of the map.
@@ -24,12 +26,40 @@ impl Surface {
     pub fn of(map: HeightMap) -> Result<Surface, MapError> {
         let extent = map.extent()?;
         let parameters = Parameters::of(&map, &extent);
-        Ok(Surface { missing: map.missing(), map, extent, parameters })
+        Ok(Surface { missing: map.missing(), outliers: 0, map, extent, parameters })
     }
 
     /// Nominal area, in m²: that of the cells with four measured corners.
     pub fn nominal_area(&self) -> f64 {
         self.extent.cells as f64 * self.map.cell_area()
+    }
+
+    /// Share of the measured points above `planes` ≥ 2 heights from the highest to the lowest: the areal material ratio of
+    /// ISO 25178-2. Heights are above the mean, in metres; a flat map has none.
+    pub fn material_ratio(&self, planes: usize) -> Vec<[f64; 2]> {
+        let (low, last) = (self.extent.low, planes.max(2) - 1);
+        let step = (self.extent.high - low) / last as f64;
+        if step.is_nan() || step <= 0.0 {
+            return Vec::new();
+        }
+        // bin k: above plane k - 1, not above plane k
+        let parts = self.map.parts(|part| {
+            let mut counts = vec![0usize; last + 1];
+            for z in part.iter().filter(|z| !z.is_nan()) {
+                let place = (z - low) / step;
+                let below = place as usize;
+                counts[(below + usize::from((below as f64) < place)).min(last)] += 1;
+            }
+            counts
+        });
+        let points = (self.map.heights().len() - self.map.missing()) as f64;
+        let mut above = 0;
+        let plane = |k: usize| {
+            let found = [low + k as f64 * step - self.parameters.mean, above as f64 / points];
+            above += parts.iter().map(|counts| counts[k]).sum::<usize>();
+            found
+        };
+        (0..=last).rev().map(plane).collect()
     }
 
     /// Root mean square step across the seam of a periodic map over that between neighbours: far above 1 where the map is no
@@ -62,6 +92,19 @@ impl Surface {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_material_ratio_of_a_ramp_is_a_line() {
+        let z = (0..101 * 3).map(|i| (i % 101) as f64).collect();
+        let ramp = Surface::of(HeightMap::new(101, 3, [1.0, 1.0], z).unwrap()).unwrap();
+        let found = ramp.material_ratio(11);
+        for (k, [height, share]) in found.iter().enumerate() {
+            assert!((height - (50.0 - 10.0 * k as f64)).abs() < 1e-12);
+            assert!((share - 10.0 * k as f64 / 101.0).abs() < 1e-12, "{found:?}");
+        }
+        let flat = Surface::of(HeightMap::new(3, 3, [1.0, 1.0], vec![1.0; 9]).unwrap()).unwrap();
+        assert!(flat.material_ratio(11).is_empty());
+    }
 
     #[test]
     fn a_ramp_has_a_seam_and_a_wave_has_none() {

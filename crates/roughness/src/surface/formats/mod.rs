@@ -13,7 +13,7 @@ mod x3p;
 
 pub use measured::{Measured, ReadError, Spacing};
 pub use npy::write_npy;
-pub use vti::{CellArray, write_vti};
+pub use vti::Vti;
 pub use x3p::write_x3p;
 
 use std::fs::File;

@@ -1,0 +1,20 @@
+//! From a measured map to finite elements: the asperities of a map, the bodies that stand for them, ready scenes, and the
+//! closures held against what crushing them gives.
+
+mod settings;
+
+mod rows;
+mod scenes;
+
+mod run;
+
+mod closures;
+mod compare;
+
+mod files;
+mod picture;
+
+pub use compare::{Compared, Comparison, Progress};
+pub use rows::{AsperityRow, ComparedRow, FINITE_ELEMENTS, Summary};
+pub use run::{Body, Extracted, Line, extract};
+pub use settings::{Extraction, LineAt, Parts};

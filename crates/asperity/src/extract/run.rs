@@ -1,0 +1,292 @@
+//! The asperities of a map, the bodies of revolution of the highest of them, and lines.
+
+use super::rows::{AsperityRow, Summary};
+use super::scenes;
+use super::settings::{Extraction, LineAt, Parts};
+use crate::error::{Error, InputError};
+use crate::press::RoughScene;
+use crate::units::MICROMETRE;
+use asperity_roughness::asperities::{
+    Asperity, Direction, FindError, RadialProfile, Segmentation, find, line,
+};
+use asperity_roughness::scene::{Scene, SceneError};
+use asperity_roughness::{Closure, ClosureLaw, Load, Surface, press};
+
+/// A body of revolution that stands for an asperity, with its scene.
+#[derive(Clone, Debug)]
+pub struct Body {
+    /// Number of the asperity, from 1 at the highest.
+    pub number: usize,
+    /// The asperity on the map.
+    pub asperity: Asperity,
+    /// The mean height around its summit.
+    pub profile: RadialProfile,
+    /// Depth to which it is to be crushed, m.
+    pub depth: f64,
+    /// Text of its scene; the profile lies in ../profiles/NNN.csv.
+    pub scene: String,
+}
+
+/// A line of the map with its scene in plane strain.
+#[derive(Clone, Debug)]
+pub struct Line {
+    /// Name of its files, such as `line-y-200um`.
+    pub name: String,
+    /// Which way it runs.
+    pub direction: Direction,
+    /// Where it lies, across that, m.
+    pub at: f64,
+    /// Way along it and height above its lowest point, m.
+    pub points: Vec<[f64; 2]>,
+    /// Depth to which its highest point is to be crushed, m.
+    pub depth: f64,
+    /// Text of its scene; the profile lies in ../profiles.
+    pub scene: String,
+}
+
+impl Line {
+    /// From its first to its last point, m.
+    pub fn length(&self) -> f64 {
+        match &self.points[..] {
+            [first, .., last] => last[0] - first[0],
+            _ => 0.0,
+        }
+    }
+}
+
+/// What was taken from a map.
+#[derive(Clone, Debug)]
+pub struct Extracted {
+    /// Name of the map.
+    pub name: String,
+    /// The map as the scene levels and filters it.
+    pub surface: Surface,
+    /// The plane of the islands above the mean plane, m; none of hills.
+    pub separation: Option<f64>,
+    /// All asperities, from the highest down.
+    pub asperities: Vec<Asperity>,
+    /// Those with a profile and a scene.
+    pub bodies: Vec<Body>,
+    /// Lines with a profile and a scene.
+    pub lines: Vec<Line>,
+    /// One row an asperity: `asperities.csv`.
+    pub table: Vec<AsperityRow>,
+    /// Surface, metal and load as read.
+    pub scene: Scene,
+    /// Remarks on the trust in the numbers.
+    pub warnings: Vec<String>,
+}
+
+/// Takes the asperities of the surface of `scene`, the bodies that stand for the highest of them, and lines.
+///
+/// # Errors
+/// A scene that makes no sense, a surface that cannot be read, one without an asperity, a line beside it.
+///
+/// # Examples
+/// ```
+/// use asperity::RoughScene;
+/// use asperity::extract::{Extraction, extract};
+///
+/// let text = include_str!("../../scenes/rough-milled.toml").replace("[1024, 1024]", "[256, 256]");
+/// let scene = RoughScene::from_toml(&text, std::path::Path::new(""))?;
+/// let found = extract(&scene, &Extraction::default())?;
+/// assert!(found.asperities.len() > found.bodies.len() && found.bodies[0].scene.contains("profile"));
+/// # Ok::<(), asperity::Error>(())
+/// ```
+pub fn extract(scene: &RoughScene, wanted: &Extraction) -> Result<Extracted, Error> {
+    wanted.check()?;
+    scene.validate()?;
+    let tables = scene.tables();
+    let surface = tables.surface.prepare(|path| scene.resolve(path)).map_err(|e| scene.error(&e))?;
+    let name = scene.surface_name();
+    let how = segmentation(scene, &surface, wanted.parts)?;
+    let asperities = find(&surface, how).map_err(|e| not_found(&e))?;
+    if asperities.is_empty() {
+        return Err(InputError::new("no asperity was found above the plane: lower it").into());
+    }
+    let separation = match how {
+        Segmentation::Islands { separation } => Some(separation),
+        Segmentation::Hills { .. } => None,
+    };
+    let metal = &tables.material;
+    let (mut table, mut bodies, mut warnings) = (Vec::new(), Vec::new(), Vec::new());
+    for (i, one) in asperities.iter().enumerate() {
+        let number = i + 1;
+        let tried = (bodies.len() < wanted.bodies).then(|| body(&surface, number, one, wanted));
+        let status = match &tried {
+            Some(Ok(_)) => "ok".into(),
+            Some(Err(reason)) => reason.clone(),
+            None => String::new(),
+        };
+        let body = tried.and_then(Result::ok).map(|body| {
+            let scene = scenes::of_body(&body, &name, wanted.accuracy, metal);
+            Body { scene, ..body }
+        });
+        table.push(AsperityRow::new(number, one, body.as_ref(), status));
+        bodies.extend(body);
+    }
+    if bodies.len() < wanted.bodies {
+        warnings.push(few(bodies.len(), wanted.bodies, &table));
+    }
+    warnings.extend(long(&bodies));
+    let lines = wanted.lines.iter().map(|at| {
+        let line = take_line(&surface, at, separation, wanted)?;
+        let scene = scenes::of_line(&line, &name, wanted.accuracy, metal);
+        Ok(Line { scene, ..line })
+    });
+    let lines = lines.collect::<Result<Vec<_>, InputError>>()?;
+    let scene = tables.clone();
+    Ok(Extracted { name, surface, separation, asperities, bodies, lines, table, scene, warnings })
+}
+
+/// How many bodies there are, and why not more.
+fn few(found: usize, wanted: usize, table: &[AsperityRow]) -> String {
+    let mut reasons: Vec<(String, usize)> = Vec::new();
+    for row in table.iter().filter(|row| row.status != "ok" && !row.status.is_empty()) {
+        let kind = without_numbers(&row.status);
+        match reasons.iter_mut().find(|(known, _)| *known == kind) {
+            Some((_, count)) => *count += 1,
+            None => reasons.push((kind, 1)),
+        }
+    }
+    let why: Vec<String> = reasons.iter().map(|(kind, count)| format!("; {count}: {kind}")).collect();
+    format!("{found} of {} asperities have a profile, {wanted} were asked for{}", table.len(), why.concat())
+}
+
+/// A reason as it is for all that have it: they differ in numbers.
+fn without_numbers(reason: &str) -> String {
+    let number = |c: char| c.is_ascii_digit() || c == '.';
+    let words = reason.split(' ').map(|word| if word.starts_with(number) { "…" } else { word });
+    words.collect::<Vec<_>>().join(" ")
+}
+
+/// Semi-axes of ellipses over each other, on the median, above which a body of revolution says little.
+const LONG: f64 = 3.0;
+
+/// A doubt about bodies of revolution of long asperities.
+fn long(bodies: &[Body]) -> Option<String> {
+    let ratio = |body: &Body| body.asperity.ellipse.map(|e| e.semi_axes[0] / e.semi_axes[1]);
+    let mut ratios: Vec<f64> = bodies.iter().filter_map(ratio).collect();
+    ratios.sort_by(f64::total_cmp);
+    let median = ratios.get(ratios.len() / 2).filter(|ratio| **ratio > LONG)?;
+    Some(format!(
+        "the asperities are ridges ({median:.1} times as long as wide on the median), for which a body of revolution says little: take a \
+         line across them, --line \"y=PLACE\" or --line \"x=PLACE\""
+    ))
+}
+
+fn not_found(error: &FindError) -> InputError {
+    let help = match error {
+        FindError::Flat => "check units and levelling: surface.height_unit, surface.level",
+        FindError::Above { .. } | FindError::Below { .. } => {
+            "give --separation, --share 0.1 for the plane that a tenth of the points is above, or --hills"
+        }
+        FindError::Prune(_) => "for example --hills 0.05",
+    };
+    InputError::new(error.to_string()).help(help)
+}
+
+/// What the asperities are, on this surface.
+fn segmentation(scene: &RoughScene, surface: &Surface, parts: Parts) -> Result<Segmentation, InputError> {
+    let mean = surface.parameters.mean;
+    let separation = match parts {
+        Parts::Hills(prune) => return Ok(Segmentation::Hills { prune }),
+        Parts::Separation(separation) => separation.0,
+        Parts::Share(share) => plane_above(surface, share) - mean,
+        Parts::Load => match scene.tables().load.load().map_err(|e| scene.error(&e))? {
+            Load::Separation(separation) => separation,
+            load @ Load::Pressure(_) => loaded(scene, surface, load)?,
+        },
+    };
+    Ok(Segmentation::Islands { separation })
+}
+
+/// The plane that a share of the measured points is above.
+fn plane_above(surface: &Surface, share: f64) -> f64 {
+    let mut heights: Vec<f64> = surface.map.heights().iter().copied().filter(|z| !z.is_nan()).collect();
+    let k = ((1.0 - share) * heights.len() as f64) as usize;
+    let k = k.min(heights.len().saturating_sub(1));
+    *heights.select_nth_unstable_by(k, f64::total_cmp).1
+}
+
+/// The separation at which the first closure with islands carries the load.
+fn loaded(scene: &RoughScene, surface: &Surface, load: Load) -> Result<f64, InputError> {
+    let coefficient = scene.coefficient()?;
+    let islands = scene.tables().closure.closures().into_iter().find(|c| !c.is_half_space());
+    let closure = islands.unwrap_or(Closure::Sneddon);
+    let wrong = |key: &str, message: String| scene.error(&SceneError::new(key, message));
+    let law = ClosureLaw::new(closure, &scene.tables().material, coefficient.as_ref())
+        .map_err(|e| wrong("closure", e.to_string()))?;
+    let contact = press(surface, &law, load).map_err(|e| wrong("load.pressure", e.to_string()))?;
+    Ok(contact.separation)
+}
+
+/// The body of revolution of an asperity, without its scene, or why there is none.
+fn body(surface: &Surface, number: usize, one: &Asperity, wanted: &Extraction) -> Result<Body, String> {
+    if one.cut {
+        return Err("reaches the edge of the map or a point that was not measured".into());
+    }
+    let depth = wanted.depth.map_or_else(
+        || match wanted.parts {
+            // where two hills merge the lower one no longer stands alone
+            Parts::Hills(_) => 0.5 * one.rise,
+            _ => one.rise,
+        },
+        |depth| depth.0,
+    );
+    let profile = RadialProfile::around(&surface.map, one.summit, depth).map_err(|e| e.to_string())?;
+    Ok(Body { number, asperity: *one, profile, depth, scene: String::new() })
+}
+
+/// A line, without its scene.
+fn take_line(
+    surface: &Surface,
+    wanted: &LineAt,
+    separation: Option<f64>,
+    settings: &Extraction,
+) -> Result<Line, InputError> {
+    let taken = line(&surface.map, wanted.direction, wanted.at.0)
+        .map_err(|e| InputError::new(e.to_string()).help("for example --line \"y=0.1 mm\""))?;
+    let heights = || taken.points.iter().map(|p| p[1]);
+    let (low, high) = heights().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), z| (l.min(z), h.max(z)));
+    let across = if wanted.direction == Direction::X { "y" } else { "x" };
+    let place = scenes::digits((taken.at / MICROMETRE * 1e3).round() * 1e-3);
+    let name = format!("line-{across}-{place}um");
+    // the plane of the islands, or a fifth of the height of the line where it lies above the line
+    let to_plane = separation.map(|s| high - surface.parameters.mean - s).filter(|d| *d > 0.0);
+    let depth = settings.depth.map(|d| d.0).or(to_plane).unwrap_or(0.2 * (high - low)).min(high - low);
+    if depth.is_nan() || depth <= 0.0 {
+        return Err(InputError::new(format!("the line {name} is flat: take another one")));
+    }
+    let points = taken.points.iter().map(|[x, z]| [x - taken.points[0][0], z - low]).collect();
+    Ok(Line { name, direction: wanted.direction, at: taken.at, points, depth, scene: String::new() })
+}
+
+impl Extracted {
+    /// Mean over the asperities of the mean curvature of the summit, 1/m; none where no summit has one.
+    pub fn mean_tip_curvature(&self) -> Option<f64> {
+        let all: Vec<f64> =
+            self.asperities.iter().filter_map(|one| one.tip).map(|t| t.mean_curvature()).collect();
+        (!all.is_empty()).then(|| all.iter().sum::<f64>() / all.len() as f64)
+    }
+
+    /// The numbers of all together: `summary.json`.
+    pub fn summary(&self) -> Summary {
+        Summary::new(self)
+    }
+
+    /// What was found, for a person.
+    pub fn text(&self) -> String {
+        let s = self.summary();
+        let plane = s.separation_um.map_or("hills of ISO 25178-2".into(), |d| {
+            format!("islands above a plane {} µm over the mean", scenes::digits((d * 1e4).round() * 1e-4))
+        });
+        let [nx, ny] = s.pixels;
+        let mut text = format!(
+            "{}: {nx} x {ny} points; {} asperities ({plane}), {} of them cut by an edge or a hole; {:.4} per mm²\n",
+            s.surface, s.asperities, s.cut, s.density_per_mm2
+        );
+        text += &format!("{} profiles and scenes of asperities, {} of lines", s.profiles, s.lines);
+        text
+    }
+}
