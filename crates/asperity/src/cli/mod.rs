@@ -6,6 +6,7 @@ pub mod crush;
 pub mod failure;
 pub mod flags;
 pub mod folder;
+pub mod identify;
 pub mod interrupt;
 pub mod manual;
 pub mod mesh;
@@ -39,6 +40,7 @@ pub fn main() -> ExitCode {
         Command::Rough(args) => rough::rough(args),
         Command::Calibrate(args) => calibrate::calibrate(args),
         Command::Study(args) => study::study(args),
+        Command::Identify(args) => identify::identify(args),
         Command::Trade(args) => trade::trade(args),
         Command::Reproduce(args) => reproduce::reproduce(args),
         Command::New(args) => new::new(args),
