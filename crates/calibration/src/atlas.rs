@@ -186,3 +186,33 @@ impl Atlas {
 pub fn cells(text: &str) -> Vec<Cell> {
     text.lines().filter_map(Cell::of_line).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Cones between the cells, at a level of their own: 3 % of K, 5 % of the rest, the errors of both levels and the ripple that
+    /// the polynomial evens out.
+    #[test]
+    fn cones_between_the_cells_are_met() {
+        let atlas = Atlas::committed().unwrap();
+        assert!(atlas.left[0] < 0.012, "{:?}", atlas.left);
+        for (slope, ratio, exponent) in [(22.0, 120.0, 0.15), (32.0, 30.0, 0.35), (12.0, 700.0, 0.05)] {
+            let expected = Cell::solve(slope, ratio, exponent).unwrap();
+            let found = atlas.at(slope, ratio, exponent);
+            for (i, (a, b)) in found.iter().zip(expected.logarithms).enumerate().take(9) {
+                let allowed = if i == 0 { 0.03 } else { 0.05 };
+                assert!((a - b).abs() < allowed, "{slope} {ratio} {exponent}: logarithm {i} {a} {b}");
+            }
+        }
+    }
+
+    /// A perfectly plastic metal without elasticity has K in proportion to σ_y: beyond the last cell the logarithm goes on with
+    /// the slope -1, within the 5 % that elasticity still makes there.
+    #[test]
+    fn beyond_the_cells_the_atlas_goes_on_straight() {
+        let atlas = Atlas::committed().unwrap();
+        let [near, far] = [6000.0, 12000.0].map(|ratio| atlas.at(30.0, ratio, 0.0)[0]);
+        assert!(((far - near) / -2f64.ln() - 1.0).abs() < 0.05, "{near} {far}");
+    }
+}

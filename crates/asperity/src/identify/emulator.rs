@@ -40,6 +40,8 @@ pub struct Emulator {
     nodes: Vec<Node>,
     factor: Option<Cholesky<f64, Dyn>>,
     weights: DMatrix<f64>,
+    /// What a finer level adds to all of them.
+    lift: Vec<f64>,
 }
 
 /// The coordinates of a question: logarithms of E/σ_y, n (of a table: of E over stresses), ν, the law's E over that of the
@@ -119,8 +121,8 @@ impl Emulator {
     }
 
     fn new(trend: Trend, lengths: Vec<f64>, amplitudes: Vec<f64>) -> Emulator {
-        let weights = DMatrix::zeros(0, amplitudes.len());
-        Emulator { trend, lengths, amplitudes, nodes: Vec::new(), factor: None, weights }
+        let (weights, lift) = (DMatrix::zeros(0, amplitudes.len()), vec![0.0; amplitudes.len()]);
+        Emulator { trend, lengths, amplitudes, nodes: Vec::new(), factor: None, weights, lift }
     }
 
     /// Adds the answer to a question.
@@ -130,6 +132,15 @@ impl Emulator {
         let node = Response { logarithms: rest, ..response.clone() };
         self.nodes.push(Node { place: place(question), logarithms: node.logarithms, error: node.errors[0] });
         self.renew();
+    }
+
+    /// Shifts all that is expected so that it meets the answer of a finer level: levels differ by nearly the same share at metals
+    /// that are near each other.
+    pub fn meet(&mut self, question: &Question, response: &Response) {
+        let expected = self.at(question);
+        for ((lift, fine), coarse) in self.lift.iter_mut().zip(&response.logarithms).zip(expected) {
+            *lift += fine - coarse;
+        }
     }
 
     fn push(&mut self, place: Vec<f64>, response: &Response) {
@@ -171,6 +182,7 @@ impl Emulator {
     pub fn at(&self, question: &Question) -> Vec<f64> {
         let place = place(question);
         let mut value = self.trend(question, &place);
+        value.iter_mut().zip(&self.lift).for_each(|(v, lift)| *v += lift);
         if self.factor.is_some() {
             for (i, node) in self.nodes.iter().enumerate() {
                 let k = self.correlation(&place, &node.place);

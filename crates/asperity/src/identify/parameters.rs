@@ -26,7 +26,8 @@ pub enum Slot {
     TipRadius(usize),
 }
 
-/// A parameter. Its coordinate is the logarithm of its SI value where that is positive by nature, else the value.
+/// A parameter. Its coordinate is the logarithm of its SI value where that is positive by nature, else the value in the unit of the
+/// results.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Parameter {
     /// Its name in the results.
@@ -51,13 +52,13 @@ impl Parameter {
         logarithmic: bool,
         ends: [f64; 2],
     ) -> Parameter {
-        let bounds = if logarithmic { ends.map(f64::ln) } else { ends };
+        let bounds = ends.map(|x| if logarithmic { x.ln() } else { x / scale });
         Parameter { name, unit, scale, slot, logarithmic, bounds }
     }
 
     /// SI value at a coordinate.
     pub fn value(&self, coordinate: f64) -> f64 {
-        if self.logarithmic { coordinate.exp() } else { coordinate }
+        if self.logarithmic { coordinate.exp() } else { coordinate * self.scale }
     }
 
     /// Value in the unit of the results.

@@ -197,7 +197,7 @@ fn draw_map(map: &Map) -> Result<String, String> {
         .iter()
         .map(|s| (format!("{s} standard deviations"), Sample::Mark(swatch(*s), square.clone())))
         .collect();
-    legend.push(("95 % of one unknown".into(), Sample::Line(INK, [1, 0])));
+    legend.push(("95 %, the others held".into(), Sample::Line(INK, [1, 0])));
     framed((width, height), &legend, |paper| {
         let ends = [0, 1].map(|k| [map.places[k][0], map.places[k][CELLS - 1]]);
         let [x, y] = ends.map(Axis::spanning);
@@ -212,6 +212,8 @@ fn draw_map(map: &Map) -> Result<String, String> {
             let sigma = map.growth[k].max(0.0).sqrt();
             Rectangle::new([(left, low), (right, high)], swatch(sigma).filled())
         });
+        let corners = [(ends[0][0], ends[1][0]), (ends[0][1], ends[1][1])];
+        area.draw_series(std::iter::once(Rectangle::new(corners, swatch(DARKEST).filled())))?;
         area.draw_series(cells)?;
         for line in contour(map, GROWTH) {
             area.draw_series(LineSeries::new(line, INK.stroke_width(FINE)))?;

@@ -63,7 +63,7 @@ pub fn samples(
                 walkers[i] = (moved, next);
             }
         }
-        if round >= BEFORE && (round - BEFORE) % THIN == 0 {
+        if round >= BEFORE && (round - BEFORE).is_multiple_of(THIN) {
             kept.extend(walkers.iter().map(|w| w.0.clone()));
         }
     }

@@ -81,7 +81,7 @@ fn one_side(
     let goal = GROWTH.sqrt();
     let mut inner = (here, 0.0);
     let mut point = best.point.clone();
-    let mut step = deviation.clamp(1e-6, room.abs()).copysign(room);
+    let mut step = deviation.max(1e-6 * room.abs()).min(room.abs()).copysign(room);
     let mut outer = None;
     for _ in 0..STEPS[0] {
         let next = here + (inner.0 - here + step).abs().min(room.abs()).copysign(room);

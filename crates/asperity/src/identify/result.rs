@@ -54,6 +54,8 @@ pub struct StressAt {
 pub struct Residual {
     /// Sum of squares in standard deviations.
     pub chi2: f64,
+    /// Whether that is no more than chance allows.
+    pub fits: bool,
     /// Measured numbers less unknowns.
     pub degrees_of_freedom: i64,
     /// Of each measurement: name, root mean square of the relative differences of its forces (features), noise used.
@@ -173,12 +175,13 @@ fn describe(
         .into_par_iter()
         .map(|i| profile::of_coordinate(&function, best, &bounds, i, deviations[i]))
         .collect();
+    let residual = residual(experiments, unknowns, best)?;
     let parameters: IndexMap<String, Found> = unknowns
         .parameters
         .iter()
         .zip(&intervals)
         .zip(&best.point)
-        .map(|((p, i), x)| (p.name.clone(), found(p, i, *x)))
+        .map(|((p, i), x)| (p.name.clone(), found(p, i, *x, residual.fits)))
         .collect();
     let stress_strain = band(&function, unknowns, best, &bounds, &correlation, &deviations);
     let blind = blind(&objective, unknowns, &best.point);
@@ -189,7 +192,6 @@ fn describe(
     let samples =
         posterior::samples(&function, best, &deviations, &bounds, fit.tables().samples, fit.tables().seed);
     let shown = |point: &Vec<f64>| point.iter().zip(&unknowns.parameters).map(|(x, p)| p.shown(*x)).collect();
-    let residual = residual(experiments, unknowns, best)?;
     let drawn = pictures::Drawn::new(&objective, experiments, unknowns, best, &intervals);
     Some(Identification {
         verdict: words(&parameters, representative.as_ref(), blind.as_ref(), next.as_ref(), &residual),
@@ -209,13 +211,13 @@ fn describe(
     })
 }
 
-fn found(parameter: &Parameter, interval: &Interval, best: f64) -> Found {
+fn found(parameter: &Parameter, interval: &Interval, best: f64, fits: bool) -> Found {
     Found {
         value: parameter.shown(best),
         low: parameter.shown(interval.ends[0].min(best)),
         high: parameter.shown(interval.ends[1].max(best)),
         unit: parameter.unit,
-        identifiable: identifiable(parameter, interval),
+        identifiable: fits && identifiable(parameter, interval),
         at_bound: interval.bounded,
     }
 }
@@ -280,7 +282,15 @@ fn residual(experiments: &[Experiment], unknowns: &Unknowns, best: &Minimum) -> 
         Some(CurveResidual { name: e.name.clone(), rms: square.sqrt(), noise: e.noise })
     });
     let curves = curves.collect::<Option<_>>()?;
-    Some(Residual { chi2: best.chi2, degrees_of_freedom: count - unknowns.parameters.len() as i64, curves })
+    let degrees_of_freedom = count - unknowns.parameters.len() as i64;
+    Some(Residual { chi2: best.chi2, fits: fits(best.chi2, degrees_of_freedom), degrees_of_freedom, curves })
+}
+
+/// Whether a sum of squares lies within three standard deviations of what is expected of so many degrees of freedom; that of
+/// none has to be small.
+fn fits(chi2: f64, freedom: i64) -> bool {
+    let free = freedom.max(0) as f64;
+    chi2 <= free + 3.0 * (2.0 * free).sqrt() + 4.0
 }
 
 /// A number with so many digits as its interval deserves.
@@ -305,6 +315,12 @@ fn words(
     let list = |told: bool| -> Vec<&str> {
         parameters.iter().filter(|(_, f)| f.identifiable == told).map(|(name, _)| name.as_str()).collect()
     };
+    if !residual.fits {
+        return format!(
+            "not identifiable: no metal within the bounds fits the measurements within their errors (sum of squares {:.1} with {} degrees of freedom); look for a wrong unit, tool, law, bound or noise",
+            residual.chi2, residual.degrees_of_freedom
+        );
+    }
     let (told, untold) = (list(true), list(false));
     let mut text = match (&told[..], &untold[..]) {
         (_, []) => "identifiable: the measurements tell all that is sought".to_string(),
@@ -332,15 +348,6 @@ fn words(
             next.half_apex_deg,
             next.parameter,
             100.0 * next.interval_ratio
-        );
-    }
-    let free = residual.degrees_of_freedom;
-    // beyond three standard deviations of its expectation
-    if free > 0 && residual.chi2 > free as f64 + 3.0 * (2.0 * free as f64).sqrt() {
-        let _ = write!(
-            text,
-            "; the fit misses the measurements by more than their errors (sum of squares {:.1} of {free} expected): a wrong tool, unit, law or noise",
-            residual.chi2
         );
     }
     text

@@ -52,11 +52,9 @@ pub fn search(
         Found { minimum: Minimum { point: Vec::new(), chi2: f64::INFINITY }, runs: 0, notes: Vec::new() };
     design(experiments, unknowns, &mut found, observer)?;
     let mut best = everywhere(experiments, unknowns)?;
-    let mut asked: Vec<Vec<f64>> = Vec::new();
     for round in 0..ROUNDS {
         go_on(observer, 0.5 + 0.1 * round as f64, "asking finite elements at the best fit")?;
         ask(experiments, unknowns, &[best.point.clone()], Accuracy::Draft, &mut found)?;
-        asked.push(best.point.clone());
         let before = best;
         best = again(experiments, unknowns, &before.point)?;
         if moved(experiments, unknowns, &before.point, &best.point) < STAYS {
@@ -181,7 +179,7 @@ fn ask(
         let experiment = &mut experiments[*i];
         match answer {
             Ok(response) => {
-                if response.reached < 0.999 {
+                if response.reached < 0.98 {
                     found.notes.push(format!(
                         "{}: the finite elements reached {:.0} % of the depth, from which similarity gives the rest",
                         experiment.name,
@@ -189,7 +187,11 @@ fn ask(
                     ));
                 }
                 experiment.errors = response.errors;
-                experiment.emulator.add(question, &response);
+                if accuracy == Accuracy::Draft {
+                    experiment.emulator.add(question, &response);
+                } else {
+                    experiment.emulator.meet(question, &response);
+                }
                 learned[*i] = true;
             }
             Err(reason) => {

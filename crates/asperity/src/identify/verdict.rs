@@ -50,7 +50,7 @@ pub fn blind(objective: &Objective<'_>, unknowns: &Unknowns, point: &[f64]) -> O
         .zip(direction.iter())
         .map(|(p, d)| {
             let step = sign * length * d * p.width();
-            (p.name.clone(), if p.logarithmic { step.exp() } else { step / p.scale })
+            (p.name.clone(), if p.logarithmic { step.exp() } else { step })
         })
         .collect();
     let words: Vec<String> = unknowns
