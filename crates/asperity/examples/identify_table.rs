@@ -114,7 +114,8 @@ fn yields(solved: &[Solved]) -> Vec<(f64, [f64; 3])> {
 }
 
 fn main() {
-    let (mut report, words) = Report::of("identify_table", "finite elements at draft, extrapolated");
+    let (mut report, words) =
+        Report::of_package("asperity", "identify_table", "finite elements at draft, extrapolated");
     let after = |name: &str| words.iter().position(|w| w == name).and_then(|i| words.get(i + 1));
     let folder = Path::new(words.first().expect("the folder of the data"));
     let count: usize = after("--twins").map_or(40, |n| n.parse().expect("a number"));

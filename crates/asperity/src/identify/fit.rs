@@ -30,6 +30,8 @@ const NOISE: f64 = 0.01;
 const PYRAMID: f64 = 0.04;
 /// Half apex angle of the cone whose section is that of Berkovich's and of Vickers' pyramid at every depth, degrees.
 pub const PYRAMIDS_CONE: f64 = 70.3;
+/// Most unknowns of a fit.
+const MOST_UNKNOWNS: usize = 12;
 /// Most measurements of a fit.
 const MOST_CURVES: usize = 50;
 
@@ -117,6 +119,13 @@ impl Fit {
         for (experiment, i) in experiments.iter().zip(owners) {
             add_nuisances(&mut unknowns, experiment, &tables.curve[i], count)
                 .map_err(|(key, m)| file.error_at(&format!("curve[{i}].{key}"), &m))?;
+        }
+        if unknowns.parameters.len() > MOST_UNKNOWNS {
+            let message = format!(
+                "{} unknowns are more than {MOST_UNKNOWNS}, the measurements' own among them: give some of them, or fewer measurements",
+                unknowns.parameters.len()
+            );
+            return Err(file.error_at("", &message).into());
         }
         let like = tables.material.hardening_law == HardeningChoice::Swift
             && tables.material.stress_measure == StressMeasure::Cauchy;
