@@ -2,7 +2,8 @@
 //!
 //! ν 0.3, law `swift`, Cauchy's stress. The cells were solved by [`crate::indentation::solve`] at `standard`; a polynomial of
 //! least squares in ln(E/σ_y), n and β goes through them (the largest degrees are [`DEGREES`]), which evens out their
-//! ripple. It is no result: what it begins, finite elements end.
+//! ripple: a cell is foretold by a polynomial through the others to 0.4 % of K, 0.9 % of S and 2 % of the returned work (rms). It is no
+//! result: what it begins, finite elements end.
 
 use crate::indentation::{FORCES, Indentation, solve};
 use asperity_law::{Elastic, Hardening, HardeningLaw, StressMeasure};
@@ -19,7 +20,7 @@ pub const RATIOS: [f64; 9] = [5.0, 10.0, 20.0, 40.0, 80.0, 180.0, 450.0, 1300.0,
 /// Hardening exponents.
 pub const EXPONENTS: [f64; 6] = [0.0, 0.1, 0.2, 0.3, 0.45, 0.6];
 /// Largest degrees of the polynomial in ln(E/σ_y), n and β.
-pub const DEGREES: [usize; 3] = [6, 4, 4];
+pub const DEGREES: [usize; 3] = [7, 4, 7];
 
 /// Numbers of a cell: K/E, S/(E h), the elastic share of the work, the way back.
 const OUTPUTS: usize = 3 + FORCES.len();
@@ -118,7 +119,7 @@ fn basis(place: [f64; 3]) -> Vec<f64> {
             for (k, z) in c.iter().enumerate() {
                 // high powers of several coordinates at once are ripple
                 let share = [i, j, k].iter().zip(DEGREES).map(|(p, d)| *p as f64 / d as f64).sum::<f64>();
-                if share <= 1.6 {
+                if share <= 1.4 {
                     products.push(x * y * z);
                 }
             }
@@ -196,7 +197,7 @@ mod tests {
     #[test]
     fn cones_between_the_cells_are_met() {
         let atlas = Atlas::committed().unwrap();
-        assert!(atlas.left[0] < 0.012, "{:?}", atlas.left);
+        assert!(atlas.left[0] < 0.005, "{:?}", atlas.left);
         for (slope, ratio, exponent) in [(22.0, 120.0, 0.15), (32.0, 30.0, 0.35), (12.0, 700.0, 0.05)] {
             let expected = Cell::solve(slope, ratio, exponent).unwrap();
             let found = atlas.at(slope, ratio, exponent);

@@ -171,8 +171,8 @@ mod tests {
     use asperity_law::{Elastic, StressMeasure};
     use asperity_solver::point::material::Metal;
 
-    /// Sneddon's cone: F = (2/π) E* h²/tan β, and it goes back the way it came: S = 2K h, all work is returned. 3 %: the finite
-    /// slope (3°) and the draft level's error of a contact radius that the penalty widens.
+    /// Sneddon's cone: F = (2/π) E* h²/tan β, and it goes back the way it came: S = 2K h, all work is returned. 2 %: the finite
+    /// slope (3°) and the errors of the level; 4 % of S, whose contact the penalty widens.
     #[test]
     fn an_elastic_cone_returns_along_its_loading() {
         let elastic = Elastic { youngs_modulus: 1.0, poissons_ratio: 0.3 };
@@ -182,11 +182,13 @@ mod tests {
             kinematic_share: 0.0,
             stress_measure: StressMeasure::Kirchhoff,
         };
-        let (found, _) = solve(&Cone { slope_deg: 3.0, indents: true, metal }, Accuracy::Draft).unwrap();
+        let (found, _) = solve(&Cone { slope_deg: 3.0, indents: true, metal }, Accuracy::Standard).unwrap();
         let sneddon = std::f64::consts::FRAC_2_PI * elastic.reduced_modulus() / 3f64.to_radians().tan();
-        let near = |a: f64, b: f64| (a / b - 1.0).abs() < 0.03;
-        assert!(near(found.k_over_e, sneddon) && near(found.stiffness, 2.0 * sneddon), "{found:?} {sneddon}");
-        assert!(near(found.elastic_share, 1.0) && near(found.way_back[FORCES.len() - 1], 1.0), "{found:?}");
+        let near = |a: f64, b: f64, share: f64| (a / b - 1.0).abs() < share;
+        assert!(near(found.k_over_e, sneddon, 0.02), "{found:?} {sneddon}");
+        assert!(near(found.stiffness, 2.0 * sneddon, 0.04), "{found:?} {sneddon}");
+        assert!(near(found.elastic_share, 1.0, 0.02), "{found:?}");
+        assert!(near(found.way_back[FORCES.len() - 1], 1.0, 0.02), "{found:?}");
         // F = F_max (1 - u)²
         for (force, way) in FORCES.iter().zip(found.way_back) {
             assert!((way - (1.0 - force.sqrt())).abs() < 0.02, "{force} {way}");

@@ -100,7 +100,7 @@ impl Emulator {
     /// That of a sharp cone before any run of its own.
     pub fn of_a_cone(outputs: usize, like_the_atlas: bool) -> Emulator {
         let wide = if like_the_atlas { 1.0 } else { 2.0 };
-        let amplitudes = (0..outputs).map(|i| if i == 0 { 0.010 * wide } else { 0.025 * wide }).collect();
+        let amplitudes = (0..outputs).map(|i| if i == 0 { 0.006 * wide } else { 0.015 * wide }).collect();
         let lengths = vec![1.2, 0.25, 0.15, 0.5, 1.0];
         Emulator::new(Trend::Atlas, lengths, amplitudes)
     }

@@ -91,8 +91,8 @@ impl Fit {
                 let path = if key.is_empty() { format!("curve[{i}]") } else { format!("curve[{i}].{key}") };
                 file.error_at(&path, message)
             };
-            let read = measurements(&file, i, curve, &mut notes)?;
             let geometry = geometry(curve).map_err(|(key, m)| at(&key, &m))?;
+            let read = measurements(&file, i, curve, &mut notes)?;
             for (name, data, depth) in read {
                 let experiment = experiment(
                     curve,
