@@ -11,6 +11,7 @@ mod work;
 
 mod calibrate;
 mod crush;
+mod identify;
 mod press;
 mod study;
 mod trade;
@@ -30,6 +31,7 @@ fn _asperity(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(press::press, module)?)?;
     module.add_function(wrap_pyfunction!(calibrate::calibrate, module)?)?;
     module.add_function(wrap_pyfunction!(trade::trade, module)?)?;
+    module.add_function(wrap_pyfunction!(identify::identify, module)?)?;
     module.add_function(wrap_pyfunction!(study::study, module)?)?;
     Ok(())
 }

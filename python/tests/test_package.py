@@ -244,6 +244,29 @@ def test_progress_is_told_and_python_runs_on() -> None:
         asperity.crush(scene, progress=refuse)
 
 
+def test_a_metal_is_identified_from_two_cones(tmp_path: pathlib.Path) -> None:
+    cone = {"features": {"loading_curvature": "13.602 GPa"}, "noise": "2 %"}
+    fit: dict[str, Any] = {
+        "accuracy": "draft",
+        "samples": 50,
+        "material": {
+            "youngs_modulus": "50 GPa",
+            "poissons_ratio": 0.3,
+            "yield_stress": ["20 MPa", "2 GPa"],
+            "hardening_exponent": [0.0, 0.5],
+            "hardening_law": "swift",
+        },
+        "curve": [{**cone, "tool": {"shape": "cone", "half_apex_deg": 60}}],
+    }
+    found = asperity.identify(fit, out=tmp_path)
+    stress = found.parameters["yield_stress"]
+    assert stress["low"] <= stress["value"] <= stress["high"] and not stress["identifiable"]
+    assert "not identifiable" in found.verdict and len(found.samples) == 50
+    assert json.loads((tmp_path / "fit.json").read_text())["parameters"] == found.parameters
+    with pytest.raises(asperity.InputError, match="yield_stress"):
+        asperity.identify({**fit, "material": {**fit["material"], "yield_stress": ["2 GPa", "1 GPa"]}})
+
+
 def test_an_old_processor_is_refused_by_name() -> None:
     from asperity import _processor
 

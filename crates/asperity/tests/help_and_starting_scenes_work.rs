@@ -81,7 +81,7 @@ fn help_manual_completions_and_schema_are_there() {
     for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
         assert!(run(&["completions", shell]).contains("reproduce"), "{shell}");
     }
-    for kind in ["scene", "rough", "sweep", "study"] {
+    for kind in ["scene", "rough", "sweep", "study", "fit"] {
         let schema: serde_json::Value = serde_json::from_str(&run(&["schema", kind])).unwrap();
         assert!(schema["properties"].is_object(), "{kind}");
     }

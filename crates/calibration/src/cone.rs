@@ -43,11 +43,11 @@ pub fn disc_radius(increment: &Increment) -> f64 {
     (increment.contact.area / std::f64::consts::PI).sqrt()
 }
 
-fn start(problem: &Problem) -> Result<Path<'_>, CaseError> {
+pub(crate) fn start(problem: &Problem) -> Result<Path<'_>, CaseError> {
     Path::new(problem).map_err(|_| CaseError::Mesh)
 }
 
-fn go_to(path: &mut Path<'_>, travel: f64) -> Result<Increment, CaseError> {
+pub(crate) fn go_to(path: &mut Path<'_>, travel: f64) -> Result<Increment, CaseError> {
     path.advance_to(Goal::Travel(travel), &mut |_, _| true)
         .map_err(|cause| CaseError::Stopped { share: path.travel(), cause })
 }

@@ -43,3 +43,7 @@ pub mod sensitivity;
 pub mod dimensionless;
 
 pub mod unloading;
+
+pub mod indentation;
+
+pub mod atlas;

@@ -51,15 +51,26 @@ const EXPONENT_TOLERANCE: f64 = 0.06;
 const POINTS: usize = 6;
 
 /// The numbers read from one curve.
-struct Fitted {
+pub(crate) struct Fitted {
     /// Slope of √F, and its relative standard error.
-    root: f64,
+    pub root: f64,
     root_error: f64,
     /// Slope of the contact radius.
-    radius: f64,
+    pub radius: f64,
     /// Exponent of the force over the depth.
     exponent: f64,
     curve: Curve,
+}
+
+impl Fitted {
+    /// Whether the force is a parabola of the depth.
+    ///
+    /// # Errors
+    /// It is not.
+    pub fn check(&self) -> Result<(), CaseError> {
+        let similar = (self.exponent - 2.0).abs() <= EXPONENT_TOLERANCE;
+        if similar { Ok(()) } else { Err(CaseError::NotSimilar(self.exponent)) }
+    }
 }
 
 /// Solves `case` and its companion.
@@ -70,8 +81,8 @@ pub fn solve(case: &Case, discretisation: &ConeDiscretisation) -> Result<Loading
     let run = fitted(case, discretisation)?;
     // a rounded summit shifts h, which the slope of √F does not notice and the exponent does
     let sharp = discretisation.sizes.rounding == 0.0;
-    if run.exponent.is_nan() || sharp && (run.exponent - 2.0).abs() > EXPONENT_TOLERANCE {
-        return Err(CaseError::NotSimilar(run.exponent));
+    if sharp || run.exponent.is_nan() {
+        run.check()?;
     }
     let companion = companion(case, discretisation)?;
     let difference = 2.0 * (companion.root / run.root).ln();
@@ -97,15 +108,20 @@ fn companion(case: &Case, discretisation: &ConeDiscretisation) -> Result<Fitted,
 }
 
 fn fitted(case: &Case, discretisation: &ConeDiscretisation) -> Result<Fitted, CaseError> {
-    let curve = crush(case, discretisation)?;
-    let from = curve.points.iter().position(|p| p.depth >= FIT_FROM).unwrap_or(0);
+    crush(case, discretisation).map(read)
+}
+
+/// Reads slope, radius and exponent from `curve`; the depth of its last point counts as all of it.
+pub(crate) fn read(curve: Curve) -> Fitted {
+    let deepest = curve.points.last().map_or(1.0, |p| p.depth);
+    let from = curve.points.iter().position(|p| p.depth >= FIT_FROM * deepest).unwrap_or(0);
     let window = &curve.points[from..];
     let points = |of: fn(&Increment) -> [f64; 2]| window.iter().map(of).collect::<Vec<[f64; 2]>>();
     let exponent = Line::through(&points(|p| [p.depth.ln(), p.contact.force.max(0.0).ln()])).slope;
     let radius = Line::through(&points(|p| [p.depth, disc_radius(p)])).slope;
     let root =
         beside_a_ripple(&points(|p| [p.depth, p.contact.force.max(0.0).sqrt()]), radius / curve.element);
-    Ok(Fitted { root: root.slope, root_error: root.slope_error / root.slope, radius, exponent, curve })
+    Fitted { root: root.slope, root_error: root.slope_error / root.slope, radius, exponent, curve }
 }
 
 /// The straight line through `points`, beside a ripple of `frequency` periods per unit of x: as the front crosses element after

@@ -137,6 +137,16 @@ quantity!(
     LineForce, "force per length", "N/m",
     &[("N/mm", 1e3), ("N/m", 1.0), ("kN/m", 1e3), ("mN/m", 1e-3), ("kN/mm", 1e6)]
 );
+quantity!(
+    /// A stiffness, force per depth, kept in newtons per metre.
+    Stiffness, "stiffness", "N/m",
+    &[("N/um", 1e6), ("mN/nm", 1e6), ("N/m", 1.0), ("mN/um", 1e3), ("N/mm", 1e3), ("kN/mm", 1e6), ("N/µm", 1e6), ("uN/nm", 1e3), ("MN/m", 1e6)]
+);
+quantity!(
+    /// A compliance, depth per force, kept in metres per newton.
+    Compliance, "compliance", "m/N",
+    &[("nm/mN", 1e-6), ("um/N", 1e-6), ("nm/N", 1e-9), ("um/mN", 1e-3), ("µm/N", 1e-6), ("mm/kN", 1e-6), ("um/kN", 1e-9), ("m/N", 1.0)]
+);
 
 quantity!(
     /// A way per force (of a machine's frame), kept in metres per newton.

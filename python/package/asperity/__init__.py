@@ -26,11 +26,12 @@ from ._asperity import (  # noqa: E402
     UnfinishedError,
     __version__,
 )
-from ._functions import calibrate, crush, press, study, trade  # noqa: E402
+from ._functions import calibrate, crush, identify, press, study, trade  # noqa: E402
 from ._results import (  # noqa: E402
     Calibration,
     Crush,
     Fields,
+    Identification,
     Rough,
     Study,
     Table,
@@ -41,6 +42,7 @@ __all__ = [
     "Calibration",
     "Crush",
     "Fields",
+    "Identification",
     "InputError",
     "Rough",
     "RoughScene",
@@ -52,6 +54,7 @@ __all__ = [
     "__version__",
     "calibrate",
     "crush",
+    "identify",
     "press",
     "study",
     "trade",

@@ -87,6 +87,9 @@ def calibrate(
 def trade(
     scene: Scene, combinations: int, out: str | None, progress: _Progress
 ) -> tuple[_Columns, float | None, str]: ...
+def identify(
+    fit: dict[str, Any] | str, set: dict[str, Any] | None, out: str | None, progress: _Progress
+) -> tuple[dict[str, Any], _Columns, list[str | None], str]: ...
 def study(
     scene: Scene | RoughScene | str,
     vary: dict[str, Any],

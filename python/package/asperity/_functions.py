@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import _asperity
-from ._results import Calibration, Crush, FloatArray, Rough, Study, Trade
+from ._results import Calibration, Crush, FloatArray, Identification, Rough, Study, Trade
 
 if TYPE_CHECKING:
     from ._asperity import RoughScene, Scene
@@ -127,6 +127,35 @@ def trade(
     :param combinations: how many settings differ in everything at once.
     """
     return Trade(*_asperity.trade(scene, combinations, _path(out), progress))
+
+
+def identify(
+    fit: Mapping[str, Any] | PathLike,
+    *,
+    set: Mapping[str, Any] | None = None,  # noqa: A002
+    out: PathLike | None = None,
+    progress: Progress | None = None,
+) -> Identification:
+    """Finds the metal from measured force-depth curves, or from features of them.
+
+    >>> import asperity
+    >>> found = asperity.identify("fit.toml")  # doctest: +SKIP
+    >>> found.parameters["yield_stress"]["low"]  # doctest: +SKIP
+
+    :param fit: the path of a fit file, or its tables: what is known is a value, what is sought a list of two.
+    :param set: keys of the file and the value that they have instead.
+    :param out: folder for the files of ``asperity identify``; files of the same name are replaced.
+    :raises InputError: a fit or a table of readings that makes no sense.
+    """
+    if isinstance(fit, Mapping):
+        tables: dict[str, Any] | str = dict(fit)
+        if set is not None:
+            raise TypeError("set changes a file: change the tables themselves")
+    else:
+        tables = os.fspath(fit)
+    return Identification(
+        *_asperity.identify(tables, None if set is None else dict(set), _path(out), progress)
+    )
 
 
 def study(

@@ -322,3 +322,31 @@ class Study:
 
     def _repr_svg_(self) -> str | None:
         return self.picture
+
+
+class Identification:
+    """A metal found from measured curves, with intervals and a verdict whether the curves can tell."""
+
+    def __init__(
+        self,
+        fit: dict[str, Any],
+        samples: Mapping[str, Any],
+        pictures: list[str | None],
+        text: str,
+    ) -> None:
+        self.fit = fit
+        """The numbers of ``fit.json``."""
+        self.parameters: dict[str, dict[str, Any]] = fit["parameters"]
+        """What was sought: ``parameters["yield_stress"]`` has value, low, high, unit, identifiable."""
+        self.verdict: str = fit["verdict"]
+        """What the measurements tell and what they do not."""
+        self.samples = Table(samples)
+        """Samples of the posterior, a row a sample."""
+        self.curve_svg, self.stress_strain_svg, self.objective_svg = pictures
+        self._text = text
+
+    def __repr__(self) -> str:
+        return f"<Identification\n{self._text}>"
+
+    def _repr_svg_(self) -> str | None:
+        return self.curve_svg

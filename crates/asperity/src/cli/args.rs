@@ -1,6 +1,6 @@
 //! The command line: the commands and what help says of them.
 
-use super::{calibrate, crush, extract, manual, mesh, new, reproduce, rough, schema, study, trade};
+use super::{calibrate, crush, extract, identify, manual, mesh, new, reproduce, rough, schema, study, trade};
 use clap::{Parser, Subcommand};
 
 /// Crush rough metal, from one conical asperity to a measured surface.
@@ -23,6 +23,7 @@ const EXAMPLES: &str = "Examples:
   asperity mesh single.toml --format inp           the whole scene as a deck for CalculiX and Abaqus
   asperity calibrate                               the representative strain from 480 cones
   asperity study single.toml --vary material.hardening_exponent=0,0.1,0.2 --vary \"loading.depth=1 um..5 um/5\"
+  asperity new fit; asperity identify fit.toml     from measured curves to the metal
   asperity trade single.toml                       what accuracy costs on a scene, knob by knob
   asperity rough --table1                          three rough surfaces beside the paper's Table 1
   asperity extract surface.sur --crush 20          asperities of a map, and the closures beside finite elements
@@ -46,6 +47,8 @@ pub enum Command {
     Calibrate(calibrate::Calibrate),
     /// Run a scene over any of its keys: grids, lists, Latin hypercubes, in one go, in parts, and on after a stop
     Study(study::Study),
+    /// Find the metal from measured force-depth curves: E, yield stress, hardening, with intervals and a verdict
+    Identify(identify::Identify),
     /// Measure what accuracy costs on a scene: error against core seconds, knob by knob
     Trade(trade::Trade),
     /// Compute every figure and table of the paper and write a report that judges its claims
@@ -69,6 +72,7 @@ impl Command {
             Command::Extract(args) => args.run.threads,
             Command::Calibrate(args) => args.run.threads,
             Command::Study(args) => args.run.threads,
+            Command::Identify(args) => args.run.threads,
             Command::Trade(args) => args.run.threads,
             Command::Reproduce(args) => args.run.threads,
             _ => None,

@@ -7,6 +7,7 @@ pub mod extract;
 pub mod failure;
 pub mod flags;
 pub mod folder;
+pub mod identify;
 pub mod interrupt;
 pub mod manual;
 pub mod mesh;
@@ -41,6 +42,7 @@ pub fn main() -> ExitCode {
         Command::Extract(args) => extract::extract(args),
         Command::Calibrate(args) => calibrate::calibrate(args),
         Command::Study(args) => study::study(args),
+        Command::Identify(args) => identify::identify(args),
         Command::Trade(args) => trade::trade(args),
         Command::Reproduce(args) => reproduce::reproduce(args),
         Command::New(args) => new::new(args),

@@ -30,6 +30,8 @@ pub enum Start {
     Cone,
     /// a rough surface under a plane
     Rough,
+    /// a metal from measured curves
+    Fit,
 }
 
 impl Start {
@@ -40,6 +42,7 @@ impl Start {
             Start::Multi => ("multi", include_str!("../../scenes/three-identical.toml"), "crush"),
             Start::Cone => ("cone", include_str!("../../scenes/cone-indentation.toml"), "crush"),
             Start::Rough => ("rough", include_str!("../../scenes/rough-milled.toml"), "rough"),
+            Start::Fit => ("fit", include_str!("../../scenes/fit.toml"), "identify"),
         }
     }
 }

@@ -29,6 +29,8 @@ pub enum SchemaKind {
     Sweep,
     /// of `asperity study`
     Study,
+    /// of `asperity identify`
+    Fit,
 }
 
 /// Prints the schema.
@@ -47,6 +49,7 @@ fn of_kind(kind: SchemaKind) -> Schema {
         SchemaKind::Rough => of_type::<asperity_roughness::scene::Scene>(),
         SchemaKind::Sweep => of_type::<asperity_calibration::sweep::Sweep>(),
         SchemaKind::Study => of_type::<crate::study::StudyFile>(),
+        SchemaKind::Fit => of_type::<crate::identify::FitFile>(),
     }
 }
 
@@ -101,7 +104,9 @@ mod tests {
 
     #[test]
     fn every_table_is_there_closed_and_every_key_described() {
-        for (kind, count) in [(SchemaKind::Scene, 9), (SchemaKind::Rough, 8), (SchemaKind::Sweep, 1)] {
+        for (kind, count) in
+            [(SchemaKind::Scene, 9), (SchemaKind::Rough, 8), (SchemaKind::Sweep, 1), (SchemaKind::Fit, 6)]
+        {
             let schema = of_kind(kind).to_value();
             let text = schema.to_string();
             assert!(!text.contains("null") && !text.contains("$ref"), "{schema:#}");

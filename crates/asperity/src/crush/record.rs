@@ -224,6 +224,7 @@ mod tests {
             plastic_work: 8e-6,
             contact_energy: 5e-11,
             penetration: 2e-8,
+            given_way: 0.0,
             newton_iterations: 6,
             force_nodal: 5.5,
             force_error: Some(0.01),

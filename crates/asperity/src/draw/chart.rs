@@ -129,6 +129,12 @@ impl Axis {
         Axis { low, high, step, logarithmic: false }
     }
 
+    /// From one of `ends` to the other, with about seven steps.
+    pub fn spanning([low, high]: [f64; 2]) -> Self {
+        let high = if high > low { high } else { low + 1.0 };
+        Axis { low, high, step: scale::round_step(high - low, 7.0), logarithmic: false }
+    }
+
     /// Covers logarithms by whole decades, at least one.
     pub fn decades(values: impl Iterator<Item = f64>) -> Self {
         let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
@@ -147,8 +153,7 @@ impl Ranged for Axis {
     }
 
     fn key_points<Hint: KeyPointHint>(&self, _: Hint) -> Vec<f64> {
-        let count = ((self.high - self.low) / self.step).round() as usize;
-        (0..=count).map(|i| self.low + i as f64 * self.step).collect()
+        scale::multiples(self.low, self.high, self.step)
     }
 
     fn range(&self) -> std::ops::Range<f64> {

@@ -2,7 +2,7 @@
 
 mod vary;
 
-mod sobol;
+pub(crate) mod sobol;
 
 mod points;
 

@@ -30,11 +30,11 @@ const POLYNOMIALS: [(usize, u32, &[u32]); 20] = [
 ];
 
 /// Largest number of dimensions.
-pub(super) const MOST: usize = POLYNOMIALS.len() + 1;
+pub(crate) const MOST: usize = POLYNOMIALS.len() + 1;
 
 /// The sequence in so many dimensions.
 #[derive(Clone, Debug)]
-pub(super) struct Sobol {
+pub(crate) struct Sobol {
     /// Direction numbers of each dimension, the leading bit first.
     directions: Vec<[u32; BITS]>,
 }

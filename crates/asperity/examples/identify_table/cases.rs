@@ -1,0 +1,185 @@
+//! The cases: metals that are known, and the fits that are to find them.
+
+use asperity::tables::{Accuracy, HardeningChoice, Loading, Material, Scene as Tables, Symmetry, Tool};
+use asperity::{Length, Scene, Stress, crush};
+use asperity_calibration::fit::SplitMix;
+use rayon::prelude::*;
+use std::collections::HashMap;
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+
+/// A known metal and the fit that is to find it. Law `swift`.
+pub struct Case {
+    pub name: String,
+    /// GPa; of aluminium E*.
+    pub youngs_modulus: f64,
+    /// MPa.
+    pub yield_stress: f64,
+    pub exponent: f64,
+    /// Stresses of a tensile test, by plastic strain, where the law does not give them.
+    pub stresses: Vec<(f64, f64)>,
+    /// The fit file.
+    pub fit: String,
+    /// Folder of the files that it names.
+    pub folder: PathBuf,
+}
+
+impl Case {
+    /// Yield stress at a plastic strain, MPa.
+    pub fn stress(&self, strain: f64) -> f64 {
+        let given = self.stresses.iter().find(|s| s.0 == strain);
+        given.map_or_else(
+            || {
+                self.yield_stress
+                    * (1.0 + 1e3 * self.youngs_modulus * strain / self.yield_stress).powf(self.exponent)
+            },
+            |s| s.1,
+        )
+    }
+}
+
+/// The numbers of the rows of a table, by the names of its columns.
+fn rows(path: &Path) -> Vec<HashMap<String, f64>> {
+    let mut reader = csv::Reader::from_path(path).expect("the data");
+    let names: Vec<String> = reader.headers().expect("a header").iter().map(str::to_string).collect();
+    let row = |record: csv::StringRecord| {
+        names.iter().cloned().zip(record.iter().map(|c| c.parse().unwrap_or(f64::NAN))).collect()
+    };
+    reader.records().map(|r| row(r.expect("a row"))).collect()
+}
+
+/// Deepest depth of the published unloading slopes, µm: so deep that ours meet them, their text says 0.2.
+const DEPTH: f64 = 0.197;
+
+/// The published metals of one series, under 60° and (where asked) 50°; with the unloading slope where E is sought or 50° is not used.
+pub fn published(folder: &Path, [_, both]: [bool; 2], sought: bool) -> Vec<Case> {
+    let (sixty, fifty) = (rows(&folder.join("FEM_60deg.csv")), rows(&folder.join("FEM_50deg.csv")));
+    let key = |r: &HashMap<String, f64>| ["E (GPa)", "sy (GPa)", "n"].map(|k| (1e4 * r[k]).round() as i64);
+    let second: HashMap<_, f64> = fifty.iter().take(76).map(|r| (key(r), r["C (GPa)"])).collect();
+    sixty
+        .iter()
+        .take(76)
+        .map(|r| {
+            let (e, s, n) = (r["E (GPa)"], 1e3 * r["sy (GPa)"], r["n"]);
+            let modulus = if sought { "[\"5 GPa\", \"500 GPa\"]".to_string() } else { format!("\"{e} GPa\"") };
+            let mut fit = material(&modulus, 0.3, ["10 MPa", "10 GPa"]);
+            let slope = r["dP/dh (N/m)"];
+            let more = if sought || !both {
+                format!(", unloading_slope = \"{slope} N/m\", max_depth = \"{DEPTH} um\"")
+            } else {
+                String::new()
+            };
+            let noise = if sought || !both { "2 %" } else { "0.3 %" };
+            let _ = write!(
+                fit,
+                "[[curve]]\nfeatures = {{ loading_curvature = \"{} GPa\"{more} }}\ntool = {{ shape = \"cone\", half_apex_deg = 60 }}\nnoise = \"{noise}\"\nmodel_error = \"1.5 %\"\n",
+                r["C (GPa)"]
+            );
+            if let (true, Some(c)) = (both, second.get(&key(r))) {
+                let _ = write!(
+                    fit,
+                    "[[curve]]\nfeatures = {{ loading_curvature = \"{c} GPa\" }}\ntool = {{ shape = \"cone\", half_apex_deg = 50 }}\nnoise = \"0.3 %\"\nmodel_error = \"1.5 %\"\n"
+                );
+            }
+            Case {
+                name: format!("E {e} GPa, σ_y {s} MPa, n {n}"),
+                youngs_modulus: e,
+                yield_stress: s,
+                exponent: n,
+                stresses: Vec::new(),
+                fit,
+                folder: PathBuf::new(),
+            }
+        })
+        .collect()
+}
+
+fn material(modulus: &str, poissons_ratio: f64, [low, high]: [&str; 2]) -> String {
+    format!(
+        "accuracy = \"draft\"\nsamples = 0\n[material]\nyoungs_modulus = {modulus}\npoissons_ratio = {poissons_ratio}\nyield_stress = [\"{low}\", \"{high}\"]\nhardening_exponent = [0.0, 0.5]\nhardening_law = \"swift\"\n"
+    )
+}
+
+/// The six indents in aluminium: the diamond's compliance is in their E*, so the tool is rigid and E the one that gives it.
+pub fn aluminium(folder: &Path) -> Vec<Case> {
+    let of = |(i, r): (usize, &HashMap<String, f64>)| {
+        let (reduced, nu) = (r["E* (GPa)"], 0.33);
+        let modulus = reduced * (1.0 - nu * nu);
+        let mut fit = material(&format!("\"{modulus} GPa\""), nu, ["20 MPa", "2 GPa"]);
+        let _ = write!(
+            fit,
+            "[[curve]]\nfeatures = {{ loading_curvature = \"{} GPa\", unloading_slope = \"{} N/m\", plastic_work_ratio = {}, max_depth = \"{} um\" }}\ntool = {{ shape = \"berkovich\" }}\nnoise = \"2 %\"\n",
+            r["C (GPa)"], r["dP/dh (N/m)"], r["Wp/Wt"], r["hm (um)"]
+        );
+        let stress = |strain: f64, key: &str| (strain, 1e3 * r[key]);
+        Case {
+            name: format!("aluminium, test {}", i + 1),
+            youngs_modulus: reduced,
+            yield_stress: 1e3 * r["sy (GPa)"],
+            exponent: r["n"],
+            stresses: vec![
+                stress(0.033, "s0.033 (GPa)"),
+                stress(0.066, "s0.066 (GPa)"),
+                stress(0.1, "s0.1 (GPa)"),
+            ],
+            fit,
+            folder: PathBuf::new(),
+        }
+    };
+    rows(&folder.join("Al6061.csv")).iter().enumerate().map(of).collect()
+}
+
+/// Metals drawn with a fixed seed, indented by a cone of 70.3° and by a ball at `standard`, their forces with noise of 0.5 %.
+pub fn twins(count: usize) -> Vec<Case> {
+    let folder = std::env::temp_dir().join("asperity-twins");
+    std::fs::create_dir_all(&folder).expect("can be made");
+    let mut draw = SplitMix(2024);
+    let mut uniform = || (draw.bits() >> 11) as f64 / (1_u64 << 53) as f64;
+    let metals: Vec<[f64; 3]> = (0..count)
+        .map(|_| [50.0 * 4.2_f64.powf(uniform()), 40.0 * 10_f64.powf(uniform()), 0.05 + 0.4 * uniform()])
+        .collect();
+    let one = |(i, [e, ratio, n]): (usize, [f64; 3])| {
+        let (e, s, n) = ((10.0 * e).round() / 10.0, (1e3 * e / ratio).round(), (1e3 * n).round() / 1e3);
+        for (name, tool) in [("cone", Tool::cone(19.7)), ("ball", Tool::sphere(Length(10e-6)))] {
+            let file = folder.join(format!("{name}-{i}.csv"));
+            if !file.exists() {
+                std::fs::write(&file, curve([e, s, n], tool, i as u64 + 1000 * u64::from(name == "ball"))?)
+                    .ok()?;
+            }
+        }
+        let mut fit = material("[\"30 GPa\", \"300 GPa\"]", 0.3, ["50 MPa", "10 GPa"]);
+        let _ = write!(
+            fit,
+            "[[curve]]\nfile = \"cone-{i}.csv\"\ntool = {{ shape = \"cone\", half_apex_deg = 70.3 }}\nnoise = \"0.5 %\"\n[[curve]]\nfile = \"ball-{i}.csv\"\ntool = {{ shape = \"sphere\", radius = \"10 um\" }}\nnoise = \"0.5 %\"\n"
+        );
+        let fit = fit.replace("accuracy = \"draft\"", "accuracy = \"standard\"");
+        Some(Case {
+            name: format!("twin {i}"),
+            youngs_modulus: e,
+            yield_stress: s,
+            exponent: n,
+            stresses: Vec::new(),
+            fit,
+            folder: folder.clone(),
+        })
+    };
+    metals.into_par_iter().enumerate().with_max_len(1).filter_map(one).collect()
+}
+
+/// A curve with noise on its forces, as a table.
+fn curve([e, s, n]: [f64; 3], tool: Tool, seed: u64) -> Option<String> {
+    let mut metal = Material::elastic_body(Stress(1e9 * e), 0.3).yielding(Stress(1e6 * s), n);
+    metal.hardening_law = HardeningChoice::Swift;
+    let loading = Loading::to_depth(Length(1e-6)).unloaded();
+    let tables = Tables::new(Symmetry::Axisymmetric, metal, tool, loading).at(Accuracy::Standard);
+    let done = crush(&Scene::new(&tables).ok()?, &mut |_| true).ok()?;
+    let mut draw = SplitMix(seed);
+    let mut uniform = || ((draw.bits() >> 11) as f64 + 0.5) / (1_u64 << 53) as f64;
+    let mut text = "depth_um,force_mN\n".to_string();
+    for row in done.curve.iter().filter(|_| done.summary.stopped.is_none()) {
+        // Box and Muller's normal numbers
+        let normal = (-2.0 * uniform().ln()).sqrt() * (std::f64::consts::TAU * uniform()).cos();
+        let _ = writeln!(text, "{:.6},{:.8}", row.depth_um, 1e3 * row.force_N * (1.0 + 0.005 * normal));
+    }
+    (text.lines().count() > 10).then_some(text)
+}

@@ -1,0 +1,48 @@
+//! `asperity identify`: from measured curves to the metal.
+
+use crate::cli::flags::RunFlags;
+use crate::cli::folder::Folder;
+use crate::cli::progress::Progress;
+use crate::cli::{interrupt, terminal};
+use crate::error::{Error, InputError};
+use crate::identify::{Fit, identify as find};
+use clap::Args;
+use std::path::PathBuf;
+
+/// Arguments of `asperity identify`.
+#[derive(Debug, Args)]
+pub struct Identify {
+    /// Fit file (TOML); `asperity new fit` writes one
+    pub fit: Option<PathBuf>,
+    /// Change a value of the file, for example --set accuracy=draft; repeatable
+    #[arg(long = "set", value_name = "KEY.PATH=VALUE")]
+    pub overrides: Vec<String>,
+    #[command(flatten)]
+    pub run: RunFlags,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// Input that is wrong (nothing is written), or a search that could not finish.
+pub fn identify(args: &Identify) -> Result<(), Error> {
+    let Some(path) = &args.fit else {
+        let help = "asperity new fit writes fit.toml, a commented fit to start from; then: asperity identify fit.toml";
+        return Err(InputError::new("Missing fit file.").help(help).into());
+    };
+    let fit = Fit::read(path, &args.overrides)?;
+    let out = args.run.target(&fit.name());
+    let folder = Folder::create(&out, "identify", args.run.force)?;
+    interrupt::catch();
+    let progress = Progress::new(args.run.quiet);
+    let found = find(fit, &mut |share, text| {
+        progress.show(share, || text.to_string());
+        !interrupt::requested()
+    });
+    progress.finish();
+    let found = folder.fill(found, |found, sink| found.write(sink))?;
+    if !args.run.quiet {
+        found.notes.iter().for_each(terminal::warn);
+    }
+    args.run.say(&out, || found.to_json(), || found.overview())
+}

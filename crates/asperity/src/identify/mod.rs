@@ -1,0 +1,98 @@
+//! From measured force-depth curves to the metal: what E, σ_y and n it has, how sure that is, and whether these curves can tell
+//! at all.
+//!
+//! In the order of the data: the file of the fit (`file`, `sought`), the tables of instruments (`instrument`) and their curves
+//! made ready (`measured`), checked into a [`Fit`] (`fit`, `parameters`); what finite elements answer to one metal (`response`) and
+//! between metals (`emulator`); a measurement with its covariance (`experiment`), all of them (`objective`); the search
+//! (`search`, `minimise`); intervals (`profile`), samples (`posterior`), and what cannot be seen (`verdict`); the result
+//! and its files (`result`, `pictures`).
+
+mod file;
+mod sought;
+
+mod instrument;
+
+mod measured;
+
+mod parameters;
+
+mod response;
+
+mod emulator;
+
+mod experiment;
+
+mod objective;
+
+mod minimise;
+
+mod fit;
+
+mod search;
+
+mod profile;
+
+mod posterior;
+
+mod verdict;
+
+mod result;
+
+mod pictures;
+
+pub use file::{Features, FitAccuracy, FitCurve, FitFile, FitMaterial, FitShape, FitTool, Nuisance};
+pub use fit::{Fit, PYRAMIDS_CONE};
+pub use result::{Found, Identification, StressAt};
+pub use sought::{Percent, Sought};
+pub use verdict::{Blind, NextExperiment};
+
+use crate::error::Error;
+use crate::study::sobol::Sobol;
+use parameters::Parameter;
+
+/// Finds the metal of `fit`.
+///
+/// `observer` hears the share that is done and what is being done; `false` ends the run.
+///
+/// # Errors
+/// Finite elements that have no answer near the best fit, bounds without a metal, or an observer that ended the run.
+///
+/// # Examples
+/// ```
+/// use asperity::{Fit, identify};
+///
+/// // σ_y and n of a metal of known E from its loading curvatures under two cones
+/// let text = r#"
+/// accuracy = "draft"
+/// samples = 0
+/// [material]
+/// youngs_modulus = "50 GPa"
+/// poissons_ratio = 0.3
+/// yield_stress = ["50 MPa", "2 GPa"]
+/// hardening_exponent = [0.0, 0.5]
+/// hardening_law = "swift"
+/// [[curve]]
+/// features = { loading_curvature = "13.602 GPa" }
+/// tool = { shape = "cone", half_apex_deg = 60 }
+/// noise = "1 %"
+/// [[curve]]
+/// features = { loading_curvature = "7.0 GPa" }
+/// tool = { shape = "cone", half_apex_deg = 50 }
+/// noise = "1 %"
+/// "#;
+/// let fit = Fit::from_toml(text, std::path::Path::new(""))?;
+/// let found = identify(fit, &mut |_, _| true)?;
+/// let stress = &found.parameters["yield_stress"];
+/// assert!(stress.low < stress.value && stress.value < stress.high);
+/// # Ok::<(), asperity::Error>(())
+/// ```
+pub fn identify(fit: Fit, observer: &mut dyn FnMut(f64, &str) -> bool) -> Result<Identification, Error> {
+    result::identify(fit, observer)
+}
+
+/// The first `count` points of Sobol's sequence within the bounds of `parameters`, its first point left out.
+fn sobol_points(parameters: &[Parameter], count: usize) -> Vec<Vec<f64>> {
+    let Some(sobol) = Sobol::new(parameters.len()) else { return Vec::new() };
+    let coordinate = |i: usize, (k, p): (usize, &Parameter)| p.bounds[0] + p.width() * sobol.at(k, i);
+    (1..=count).map(|i| parameters.iter().enumerate().map(|k| coordinate(i, k)).collect()).collect()
+}

@@ -1,0 +1,270 @@
+//! Pictures of an identification: measured points with fit and residual, the stress-strain band, the map of the objective.
+
+use super::experiment::{Data, Experiment};
+use super::minimise::{Minimum, chi2};
+use super::objective::Objective;
+use super::parameters::Unknowns;
+use super::profile::{GROWTH, Interval};
+use super::result::StressAt;
+use crate::draw::chart::{Axis, Chart, FINE, Failure, INK, Paper, Sample, Series, axes, framed, rgb, svg};
+use crate::draw::palette::{LINES, VIRIDIS, between};
+use plotters::prelude::*;
+use rayon::prelude::*;
+
+/// Width of the axes, heights of the curves and of what is left, in pixels.
+const SIZE: (u32, [u32; 2]) = (760, [440, 220]);
+/// Cells of the map along each unknown.
+const CELLS: usize = 61;
+
+/// One measurement as it is drawn.
+#[derive(Clone, Debug, Default, PartialEq)]
+struct One {
+    name: String,
+    /// Depth (µm) and force (N) that were measured; empty of features.
+    measured: Vec<[f64; 2]>,
+    /// The fit.
+    fitted: Vec<[f64; 2]>,
+    /// Depth (of features: their number) and what is left, % (of unloading: of the deepest depth).
+    left: Vec<[f64; 2]>,
+}
+
+/// The map of the objective.
+#[derive(Clone, Debug, PartialEq)]
+struct Map {
+    names: [String; 2],
+    /// Places of the cells along both unknowns.
+    places: [Vec<f64>; 2],
+    /// Growth of the sum of squares, row by row of the second unknown.
+    growth: Vec<f64>,
+    best: [f64; 2],
+}
+
+/// What the pictures show.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Drawn {
+    ones: Vec<One>,
+    map: Option<Map>,
+}
+
+impl Drawn {
+    /// The measurements and the map at `best`.
+    pub fn new(
+        objective: &Objective<'_>,
+        experiments: &[Experiment],
+        unknowns: &Unknowns,
+        best: &Minimum,
+        intervals: &[Interval],
+    ) -> Drawn {
+        let mut number = 0;
+        let ones = experiments.iter().filter_map(|e| one(e, unknowns, &best.point, &mut number)).collect();
+        let map = (unknowns.parameters.len() > 1).then(|| map(objective, unknowns, best, intervals));
+        Drawn { ones, map }
+    }
+
+    /// Measured points, fit, and what is left, as SVG.
+    ///
+    /// # Errors
+    /// A text for a person where the drawing library fails.
+    pub fn curves(&self) -> Result<String, String> {
+        let (width, [upper, lower]) = SIZE;
+        let drawn = self.ones.iter().any(|one| !one.measured.is_empty());
+        let colour = |i: usize| rgb(LINES[i % LINES.len()]);
+        let legend: Vec<(String, Sample)> = self
+            .ones
+            .iter()
+            .enumerate()
+            .map(|(i, one)| (one.name.clone(), Sample::Line(colour(i), [1, 0])))
+            .collect();
+        let height = lower + if drawn { upper } else { 0 };
+        framed((width, height), &legend, |paper| {
+            if !drawn {
+                return self.left(paper, "Feature", &colour);
+            }
+            let (top, bottom) = paper.split_vertically(upper * FINE);
+            self.forces(&top, &colour)?;
+            self.left(&bottom, "Depth h (µm)", &colour)
+        })
+    }
+
+    fn forces(&self, paper: &Paper<'_>, colour: &dyn Fn(usize) -> RGBColor) -> Result<(), Failure> {
+        let points = || self.ones.iter().flat_map(|one| one.measured.iter().chain(&one.fitted));
+        let most = points().map(|p| p[1]).fold(0.0, f64::max);
+        let (scale, unit) = if most < 0.1 { (1e3, "mN") } else { (1.0, "N") };
+        let [x, y] = [Axis::covering(points().map(|p| p[0])), Axis::covering(points().map(|p| scale * p[1]))];
+        let mut area = axes(paper, [x, y], ["Depth h (µm)", &format!("Force F ({unit})")])?;
+        for (i, one) in self.ones.iter().enumerate() {
+            let at = |p: &[f64; 2]| (p[0], scale * p[1]);
+            area.draw_series(LineSeries::new(one.fitted.iter().map(at), colour(i).stroke_width(2 * FINE)))?;
+            let dots = one.measured.iter().map(at);
+            area.draw_series(dots.map(|p| Circle::new(p, 3 * FINE, colour(i).filled())))?;
+        }
+        Ok(())
+    }
+
+    fn left(
+        &self,
+        paper: &Paper<'_>,
+        along: &str,
+        colour: &dyn Fn(usize) -> RGBColor,
+    ) -> Result<(), Failure> {
+        let points = || self.ones.iter().flat_map(|one| &one.left);
+        let most = points().map(|p| p[1].abs()).fold(0.1, f64::max);
+        let y = Axis::covering([-1.05 * most, 1.05 * most].into_iter());
+        let mut area = axes(paper, [Axis::covering(points().map(|p| p[0])), y], [along, "Left (%)"])?;
+        for (i, one) in self.ones.iter().enumerate() {
+            let dots = one.left.iter().map(|p| (p[0], p[1]));
+            area.draw_series(dots.map(|p| Circle::new(p, 3 * FINE, colour(i).filled())))?;
+        }
+        Ok(())
+    }
+
+    /// The map of the sum of squares over two unknowns, as SVG.
+    ///
+    /// # Errors
+    /// A text for a person where the drawing library fails.
+    pub fn map(&self) -> Result<Option<String>, String> {
+        self.map.as_ref().map(draw_map).transpose()
+    }
+}
+
+fn one(experiment: &Experiment, unknowns: &Unknowns, point: &[f64], number: &mut usize) -> Option<One> {
+    let differences = experiment.differences(unknowns, point, false)?;
+    let shown = |p: &[f64; 2]| [1e6 * p[0], p[1]];
+    let name = experiment.name.clone();
+    match &experiment.data {
+        Data::Features { .. } => {
+            let left = differences.iter().map(|d| {
+                *number += 1;
+                [*number as f64, 100.0 * d]
+            });
+            Some(One { name, left: left.collect(), ..One::default() })
+        }
+        Data::Curve(measured) => {
+            let [load, back] = experiment.curve(unknowns, point, measured.peak)?;
+            let both = || measured.loading.iter().chain(&measured.unloading);
+            let left = both().zip(&differences).map(|(p, d)| [1e6 * p[0], 100.0 * d]);
+            Some(One {
+                name,
+                measured: both().map(shown).collect(),
+                fitted: load.iter().chain(&back).map(shown).collect(),
+                left: left.collect(),
+            })
+        }
+    }
+}
+
+/// The map over the two widest unknowns of the metal around the best fit.
+fn map(objective: &Objective<'_>, unknowns: &Unknowns, best: &Minimum, intervals: &[Interval]) -> Map {
+    let mut order: Vec<usize> = (0..unknowns.of_the_metal().max(2).min(unknowns.parameters.len())).collect();
+    let share = |i: usize| (intervals[i].ends[1] - intervals[i].ends[0]) / unknowns.parameters[i].width();
+    order.sort_by(|a, b| share(*b).total_cmp(&share(*a)));
+    let pair = [order[0].min(order[1]), order[0].max(order[1])];
+    let places = pair.map(|i| {
+        let (parameter, [low, high]) = (&unknowns.parameters[i], intervals[i].ends);
+        let room = (0.3 * (high - low)).max(0.01 * parameter.width());
+        let [low, high] = [(low - room).max(parameter.bounds[0]), (high + room).min(parameter.bounds[1])];
+        (0..CELLS).map(|k| low + (high - low) * k as f64 / (CELLS - 1) as f64).collect::<Vec<f64>>()
+    });
+    let function = objective.function();
+    let growth = (0..CELLS * CELLS).into_par_iter().map(|k| {
+        let mut point = best.point.clone();
+        (point[pair[0]], point[pair[1]]) = (places[0][k % CELLS], places[1][k / CELLS]);
+        chi2(&function, &point) - best.chi2
+    });
+    let growth = growth.collect();
+    let named = |i: usize| {
+        let p = &unknowns.parameters[i];
+        if p.unit.is_empty() { p.name.clone() } else { format!("{} ({})", p.name, p.unit) }
+    };
+    Map {
+        names: pair.map(named),
+        growth,
+        best: pair.map(|i| unknowns.parameters[i].shown(best.point[i])),
+        places: [0, 1].map(|k| places[k].iter().map(|x| unknowns.parameters[pair[k]].shown(*x)).collect()),
+    }
+}
+
+/// Standard deviations at which the colours of the map end.
+const DARKEST: f64 = 6.0;
+
+fn draw_map(map: &Map) -> Result<String, String> {
+    let (width, [height, _]) = SIZE;
+    let swatch = |sigma: f64| rgb(between(&VIRIDIS, 1.0 - (sigma / DARKEST).min(1.0)));
+    let square = vec![(-9, -9), (9, -9), (9, 9), (-9, 9)];
+    let square: Vec<(i32, i32)> =
+        square.into_iter().map(|(x, y)| (x * FINE as i32, y * FINE as i32)).collect();
+    let mut legend: Vec<(String, Sample)> = [0.0, 1.0, 2.0, 4.0, 6.0]
+        .iter()
+        .map(|s| (format!("{s} standard deviations"), Sample::Mark(swatch(*s), square.clone())))
+        .collect();
+    legend.push(("95 %, the others held".into(), Sample::Line(INK, [1, 0])));
+    framed((width, height), &legend, |paper| {
+        let ends = [0, 1].map(|k| [map.places[k][0], map.places[k][CELLS - 1]]);
+        let [x, y] = ends.map(Axis::spanning);
+        let mut area = axes(paper, [x, y], [&map.names[0], &map.names[1]])?;
+        let edge = |k: usize, i: usize| {
+            let places = &map.places[k];
+            let [before, after] = [places[i.saturating_sub(1)], places[(i + 1).min(CELLS - 1)]];
+            (0.5 * (before + places[i]), 0.5 * (places[i] + after))
+        };
+        let cells = (0..CELLS * CELLS).filter(|k| map.growth[*k].is_finite()).map(|k| {
+            let ((left, right), (low, high)) = (edge(0, k % CELLS), edge(1, k / CELLS));
+            let sigma = map.growth[k].max(0.0).sqrt();
+            Rectangle::new([(left, low), (right, high)], swatch(sigma).filled())
+        });
+        let corners = [(ends[0][0], ends[1][0]), (ends[0][1], ends[1][1])];
+        area.draw_series(std::iter::once(Rectangle::new(corners, swatch(DARKEST).filled())))?;
+        area.draw_series(cells)?;
+        for line in contour(map, GROWTH) {
+            area.draw_series(LineSeries::new(line, INK.stroke_width(FINE)))?;
+        }
+        area.draw_series(std::iter::once(Cross::new(
+            (map.best[0], map.best[1]),
+            6 * FINE,
+            INK.stroke_width(2 * FINE),
+        )))?;
+        Ok(())
+    })
+}
+
+/// Pieces of the line along which the growth is `level`: across each cell, between the sides that it cuts.
+fn contour(map: &Map, level: f64) -> Vec<Vec<(f64, f64)>> {
+    let at = |i: usize, j: usize| map.growth[j * CELLS + i] - level;
+    let place = |i: usize, j: usize| (map.places[0][i], map.places[1][j]);
+    let mut pieces = Vec::new();
+    for j in 0..CELLS - 1 {
+        for i in 0..CELLS - 1 {
+            let corners = [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)];
+            let cuts = (0..4).filter_map(|k| {
+                let (a, b) = (corners[k], corners[(k + 1) % 4]);
+                let (f, g) = (at(a.0, a.1), at(b.0, b.1));
+                let share = f / (f - g);
+                (f.is_finite() && g.is_finite() && (f > 0.0) != (g > 0.0)).then(|| {
+                    let (p, q) = (place(a.0, a.1), place(b.0, b.1));
+                    (p.0 + share * (q.0 - p.0), p.1 + share * (q.1 - p.1))
+                })
+            });
+            let cuts: Vec<_> = cuts.collect();
+            pieces.extend(cuts.chunks_exact(2).map(<[_]>::to_vec));
+        }
+    }
+    pieces
+}
+
+/// The stress-strain curve with its band, as SVG.
+///
+/// # Errors
+/// A text for a person where the drawing library fails.
+pub fn stress_strain(rows: &[StressAt]) -> Result<String, String> {
+    let line = rows.iter().map(|r| [100.0 * r.plastic_strain, r.value_MPa]).collect();
+    let upper = rows.iter().map(|r| [100.0 * r.plastic_strain, r.high_MPa]);
+    let lower = rows.iter().rev().map(|r| [100.0 * r.plastic_strain, r.low_MPa]);
+    let ends =
+        |pick: fn(&StressAt) -> f64| rows.iter().map(|r| [100.0 * r.plastic_strain, pick(r)]).collect();
+    let series = [
+        Series { band: upper.chain(lower).collect(), ..Series::line("best fit", line) },
+        Series { colour: Some(LINES[5]), ..Series::line("95 %, upper", ends(|r| r.high_MPa)) },
+        Series { colour: Some(LINES[5]), ..Series::line("95 %, lower", ends(|r| r.low_MPa)) },
+    ];
+    svg(&Chart::new("Plastic strain (%)", "True stress (MPa)", series))
+}

@@ -1,0 +1,157 @@
+//! `asperity identify` from its files to its files: what it finds again, what it refuses, what it says when curves cannot tell.
+//!
+//! The curves are the program's own, without noise, of E 120 GPa, σ_y 400 MPa, n 0.2 (`swift`).
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+mod common;
+
+use common::Place;
+use std::fmt::Write;
+
+const METAL: [f64; 3] = [120.0, 400.0, 0.2];
+
+const FIT: &str = r#"accuracy = "draft"
+samples = 100
+[material]
+youngs_modulus = "120 GPa"
+poissons_ratio = 0.3
+yield_stress = ["50 MPa", "2 GPa"]
+hardening_exponent = [0.0, 0.5]
+hardening_law = "swift"
+[[curve]]
+file = "cone.csv"
+tool = { shape = "cone", half_apex_deg = 70.3 }
+noise = "1 %"
+"#;
+
+/// The curve of a cone as an instrument writes it, crushed by the command; `change` makes a line of a reading.
+fn measured(place: &Place, header: &str, change: impl Fn(f64, f64) -> String) {
+    let scene = format!(
+        "symmetry = \"axisymmetric\"\naccuracy = \"draft\"\n[material]\nyoungs_modulus = \"{} GPa\"\npoissons_ratio = 0.3\nyield_stress = \"{} MPa\"\nhardening_exponent = {}\nhardening_law = \"swift\"\n[tool]\nshape = \"cone\"\nslope_deg = 19.7\n[loading]\ndepth = \"1 um\"\nunload = true\n",
+        METAL[0], METAL[1], METAL[2]
+    );
+    std::fs::write(place.path("scene.toml"), scene).unwrap();
+    if place.names("crushed").is_empty() {
+        assert_eq!(place.run(&["crush", "scene.toml", "--out", "crushed", "--quiet"]).status, 0);
+    }
+    let mut table = format!("{header}\n");
+    for line in place.text("crushed/curve.csv").lines().skip(1) {
+        let cells: Vec<&str> = line.split(',').collect();
+        let _ = writeln!(table, "{}", change(cells[2].parse().unwrap(), cells[3].parse().unwrap()));
+    }
+    std::fs::write(place.path("cone.csv"), table).unwrap();
+}
+
+fn parameters(place: &Place, out: &str) -> serde_json::Value {
+    serde_json::from_str::<serde_json::Value>(&place.text(&format!("{out}/fit.json"))).unwrap()
+}
+
+fn covers(found: &serde_json::Value, name: &str, truth: f64) -> bool {
+    let of = |key: &str| found["parameters"][name][key].as_f64().unwrap();
+    of("low") <= truth && truth <= of("high")
+}
+
+#[test]
+fn a_curve_in_nanometres_with_semicolons_gives_the_stress_of_its_metal() {
+    let place = Place::with_scene("");
+    measured(&place, "Depth (nm);Load (mN)", |h, f| format!("{};{}", 1e3 * h, 1e3 * f));
+    std::fs::write(place.path("fit.toml"), FIT).unwrap();
+    let end = place.run(&["identify", "fit.toml", "--out", "out"]);
+    assert_eq!(end.status, 0, "{}", end.err);
+    assert!(end.out.contains("yield_stress") && end.out.contains("verdict"), "{}", end.out);
+    let found = parameters(&place, "out");
+    assert!(covers(&found, "yield_stress", METAL[1]) && covers(&found, "hardening_exponent", METAL[2]));
+    // one sharp cone sees a stress at one strain: 3 %, draft's error of it
+    let row = &found["representative"];
+    let strain = row["plastic_strain"].as_f64().unwrap();
+    let truth = METAL[1] * (1.0 + 1e3 * METAL[0] * strain / METAL[1]).powf(METAL[2]);
+    assert!((row["value_MPa"].as_f64().unwrap() / truth - 1.0).abs() < 0.03, "{row} {truth}");
+    assert_eq!(place.names("out").iter().filter(|n| n.ends_with(".svg")).count(), 3);
+    assert_eq!(place.text("out/posterior.csv").lines().count(), 101);
+    // the same input, the same bits
+    place.run(&["identify", "fit.toml", "--out", "again", "--threads", "1", "--quiet"]);
+    let mut again = parameters(&place, "again");
+    again["wall_s"] = found["wall_s"].clone();
+    assert_eq!(again, found);
+}
+
+#[test]
+fn an_offset_of_the_depth_is_found_where_it_is_unknown() {
+    let place = Place::with_scene("");
+    measured(&place, "depth_um,force_mN", |h, f| format!("{},{}", h + 0.05, 1e3 * f));
+    std::fs::write(place.path("fit.toml"), format!("{FIT}unknown = [\"contact_depth\"]\n")).unwrap();
+    let end = place.run(&["identify", "fit.toml", "--out", "out", "--quiet"]);
+    assert_eq!(end.status, 0, "{}", end.err);
+    let found = parameters(&place, "out");
+    assert!(covers(&found, "contact_depth", 0.05), "{}", found["parameters"]);
+    // without it the command says where the curve seems to begin
+    std::fs::write(place.path("fit.toml"), FIT).unwrap();
+    let end = place.run(&["identify", "fit.toml", "--out", "plain"]);
+    assert!(end.err.contains("contact_depth"), "{}", end.err);
+}
+
+#[test]
+fn curves_that_cannot_be_of_the_metal_are_no_fit() {
+    let place = Place::with_scene("");
+    // nanometres taken for micrometres
+    measured(&place, "depth_um,force_mN", |h, f| format!("{},{}", 1e3 * h, 1e3 * f));
+    std::fs::write(place.path("fit.toml"), FIT).unwrap();
+    let end = place.run(&["identify", "fit.toml", "--out", "out"]);
+    assert_eq!(end.status, 0, "{}", end.err);
+    assert!(end.out.contains("no metal within the bounds fits"), "{}", end.out);
+    let found = parameters(&place, "out");
+    assert_eq!(found["parameters"]["yield_stress"]["identifiable"], false);
+}
+
+#[test]
+fn a_loading_alone_tells_no_modulus() {
+    let place = Place::with_scene("");
+    measured(&place, "depth_um,force_mN", |h, f| format!("{h},{}", 1e3 * f));
+    let table = place.text("cone.csv");
+    let force = |line: &str| line.split(',').nth(1).and_then(|f| f.parse::<f64>().ok()).unwrap_or(0.0);
+    let most = table.lines().map(force).fold(0.0, f64::max);
+    let peak = table.lines().position(|line| force(line) == most).unwrap();
+    let loading: Vec<&str> = table.lines().take(peak + 1).collect();
+    std::fs::write(place.path("cone.csv"), loading.join("\n")).unwrap();
+    let sought = FIT.replace("\"120 GPa\"", "[\"60 GPa\", \"240 GPa\"]");
+    std::fs::write(place.path("fit.toml"), sought).unwrap();
+    let end = place.run(&["identify", "fit.toml", "--out", "out"]);
+    assert!(end.status == 0 && end.err.contains("no unloading"), "{}", end.err);
+    let found = parameters(&place, "out");
+    assert_eq!(found["parameters"]["youngs_modulus"]["identifiable"], false);
+    assert!(found["next_experiment"]["interval_ratio"].as_f64().unwrap() < 1.0);
+}
+
+#[test]
+fn wrong_fits_point_at_the_line_and_write_nothing() {
+    let place = Place::with_scene("");
+    std::fs::write(place.path("cone.csv"), "depth_um,force_mN\n1,2\n").unwrap();
+    for (old, new, words) in [
+        ("yield_stress", "yeld_stress", "did you mean `yield_stress`"),
+        ("[\"50 MPa\", \"2 GPa\"]", "[\"2 GPa\", \"50 MPa\"]", "[lowest, highest]"),
+        ("[\"50 MPa\", \"2 GPa\"]", "[\"50 MPa\"]", "list of two"),
+        ("\"120 GPa\"", "120", "as a string with a unit"),
+        ("file = \"cone.csv\"", "", "holds nothing measured"),
+        ("cone.csv", "none.csv", "cannot be read"),
+        ("half_apex_deg = 70.3", "half_apex_deg = 95", "below 90"),
+        ("\"cone\", half_apex_deg = 70.3", "\"sphere\"", "`radius` of the sphere is missing"),
+        ("\"1 %\"", "\"1\"", "write it like"),
+        ("noise", "noise = \"1 %\"\nunknown = [\"tip\"]\n#", "unknown value `tip`"),
+        ("", "", "too few"),
+    ] {
+        std::fs::write(place.path("fit.toml"), FIT.replacen(old, new, 1)).unwrap();
+        let end = place.run(&["identify", "fit.toml", "--out", "out"]);
+        assert!(end.status == 2 && end.err.contains(words), "{old} {new}: {}", end.err);
+        assert!(place.names("out").is_empty(), "{old}");
+    }
+}
+
+#[test]
+fn the_fit_to_start_from_runs() {
+    let place = Place::with_scene("");
+    assert_eq!(place.run(&["new", "fit"]).status, 0);
+    let end = place.run(&["identify", "fit.toml", "--set", "accuracy=draft", "--out", "out", "--quiet"]);
+    assert_eq!((end.status, end.err.as_str()), (0, ""));
+    assert!(parameters(&place, "out")["parameters"]["yield_stress"]["value"].is_number());
+}
