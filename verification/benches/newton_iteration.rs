@@ -17,7 +17,7 @@ use asperity_solver::run::load_path::Path;
 use asperity_solver::run::prepare::prepare;
 use asperity_solver::scene::{
     Accuracy, Asperity, ElementChoice, HardeningChoice, Lateral, Loading, Material, Numerics, Output, Scene,
-    Symmetry, Tool, ToolShape,
+    Symmetry, Tool,
 };
 use asperity_verification::roofline::Roofline;
 use std::ops::ControlFlow;

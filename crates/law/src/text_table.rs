@@ -2,6 +2,9 @@
 //!
 //! Columns are parted by commas, semicolons or tabs; empty lines and lines that begin with # are comments.
 
+/// Two numbers of a line, with its place in the file (from 1).
+pub type PlacedPair = (usize, [f64; 2]);
+
 /// A table, cut into its lines.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TextTable<'t> {
@@ -35,7 +38,7 @@ impl<'t> TextTable<'t> {
     /// # Errors
     /// The first line with another number of columns than the header, or without a finite number in one of the two: its place
     /// and a sentence for the user.
-    pub fn pairs(&self, columns: [usize; 2]) -> Result<Vec<(usize, [f64; 2])>, (usize, String)> {
+    pub fn pairs(&self, columns: [usize; 2]) -> Result<Vec<PlacedPair>, (usize, String)> {
         let pair = |&(line, text): &(usize, &str)| {
             let at = |message: String| (line, message);
             let cells: Vec<&str> = text.split(self.separator).map(str::trim).collect();

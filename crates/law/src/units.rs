@@ -143,12 +143,6 @@ quantity!(
     &[("N/um", 1e6), ("mN/nm", 1e6), ("N/m", 1.0), ("mN/um", 1e3), ("N/mm", 1e3), ("kN/mm", 1e6), ("N/µm", 1e6), ("uN/nm", 1e3), ("MN/m", 1e6)]
 );
 quantity!(
-    /// A compliance, depth per force, kept in metres per newton.
-    Compliance, "compliance", "m/N",
-    &[("nm/mN", 1e-6), ("um/N", 1e-6), ("nm/N", 1e-9), ("um/mN", 1e-3), ("µm/N", 1e-6), ("mm/kN", 1e-6), ("um/kN", 1e-9), ("m/N", 1.0)]
-);
-
-quantity!(
     /// A way per force (of a machine's frame), kept in metres per newton.
     Compliance, "compliance", "m/N",
     &[("nm/mN", 1e-6), ("um/N", 1e-6), ("µm/N", 1e-6), ("μm/N", 1e-6), ("nm/N", 1e-9), ("nm/uN", 1e-3), ("um/mN", 1e-3), ("um/kN", 1e-9), ("mm/kN", 1e-6), ("mm/N", 1e-3), ("m/N", 1.0)]

@@ -6,7 +6,7 @@
 //! contact (a²/2R = 2e-10 m of 5 µm), both runs ripple alike.
 
 use asperity_law::units::Length;
-use asperity_solver::scene::{Accuracy, Scene, Substrate, Symmetry, Tool, ToolShape};
+use asperity_solver::scene::{Accuracy, Scene, Substrate, Symmetry, Tool};
 use asperity_verification::contact::hertz_force;
 use asperity_verification::single_asperity::{crush, loaded};
 

@@ -8,7 +8,7 @@
 
 use asperity_law::units::Length;
 use asperity_solver::run::crush::Outcome;
-use asperity_solver::scene::{Accuracy, Scene, Tool, ToolShape};
+use asperity_solver::scene::{Accuracy, Scene, Tool};
 use asperity_verification::contact::{cone_force, hertz_force};
 use asperity_verification::single_asperity::{crush, scene};
 

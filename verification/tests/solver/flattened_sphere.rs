@@ -21,14 +21,7 @@ fn ball(depth: f64, yields: bool) -> Scene {
     let mut scene = scene(Accuracy::Standard).unwrap();
     scene.material.yield_stress = yields.then_some(Stress(300e6));
     scene.material.hardening_exponent = yields.then_some(0.0);
-    scene.asperity = vec![Asperity {
-        radius: None,
-        height: Some(Length(0.4 * RADIUS)),
-        slope_deg: Some(20.0),
-        tip_radius: Some(Length(RADIUS)),
-        valley_radius: None,
-        spacing: None,
-    }];
+    scene.asperity = vec![Asperity::cone(Length(0.4 * RADIUS), 20.0).rounded(Length(RADIUS))];
     scene.loading.depth = Some(Length(depth));
     scene.loading.unload = false;
     scene

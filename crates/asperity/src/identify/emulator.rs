@@ -63,8 +63,8 @@ pub fn place(question: &Question) -> Vec<f64> {
 
 /// The slope of the cone that a tool is like, degrees.
 fn likened_slope(question: &Question) -> f64 {
-    match question.geometry {
-        Geometry::Sharp { slope_deg } | Geometry::Rounded { slope_deg } => slope_deg,
+    match &question.geometry {
+        Geometry::Sharp { slope_deg } | Geometry::Rounded { slope_deg } => *slope_deg,
         Geometry::Ball { radius } => (question.depth / (2.0 * radius)).sqrt().atan().to_degrees(),
         Geometry::Crush { asperity } => asperity.slope_deg.unwrap_or_else(|| {
             let radius = asperity.radius.map_or(1.0, |r| r.0);

@@ -73,7 +73,7 @@ impl Experiment {
         let own = metal.elastic.reduced_modulus();
         let together = self.tool.map_or(own, |tool| 1.0 / (1.0 / own + 1.0 / tool.reduced_modulus()));
         Some(Question {
-            geometry: self.geometry,
+            geometry: self.geometry.clone(),
             depth: self.depth,
             modulus: metal.elastic.youngs_modulus * together / own,
             metal,

@@ -97,7 +97,7 @@ impl Fit {
                 let experiment = experiment(
                     curve,
                     (experiments.len(), name),
-                    geometry,
+                    geometry.clone(),
                     data,
                     depth,
                     tables.material.stress_measure,
@@ -357,8 +357,10 @@ fn geometry(curve: &FitCurve) -> Result<Geometry, Fault> {
     };
     match tool.shape {
         FitShape::Plane => {
-            let asperity =
-                curve.asperity.ok_or_else(|| fault("", "`asperity` is missing: a plane crushes one"))?;
+            let asperity = curve
+                .asperity
+                .clone()
+                .ok_or_else(|| fault("", "`asperity` is missing: a plane crushes one"))?;
             asperity.form().map_err(|e| fault(&format!("asperity.{}", e.path), e.message))?;
             Ok(Geometry::Crush { asperity })
         }

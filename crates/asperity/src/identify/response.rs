@@ -23,7 +23,7 @@ pub const SHARES: [f64; 9] = [0.1, 0.15, 0.22, 0.32, 0.45, 0.6, 0.75, 0.88, 1.0]
 pub const AFTER: usize = 2 + FORCES.len();
 
 /// The body and tool of a measurement; lengths in m.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Geometry {
     /// A sharp cone indents a flat body: slope in degrees.
     Sharp {
@@ -121,14 +121,14 @@ fn scene(question: &Question, accuracy: Accuracy) -> Scene {
     let exponent = question.metal.hardening.exponent(question.modulus).clamp(0.0, 0.99);
     let material = elastic.yielding(Stress(strength), exponent);
     let tip = Length(question.tip_radius);
-    let (tool, asperity) = match question.geometry {
-        Geometry::Sharp { slope_deg } => (Tool::cone(slope_deg), None),
+    let (tool, asperity) = match &question.geometry {
+        Geometry::Sharp { slope_deg } => (Tool::cone(*slope_deg), None),
         Geometry::Rounded { slope_deg } => {
             let tip_radius = Some(tip).filter(|t| t.0 > 0.0);
-            (Tool { shape: ToolShape::Cone, tip_radius, ..Tool::cone(slope_deg) }, None)
+            (Tool { shape: ToolShape::Cone, tip_radius, ..Tool::cone(*slope_deg) }, None)
         }
-        Geometry::Ball { radius } => (Tool::sphere(Length(radius)), None),
-        Geometry::Crush { asperity } => (Tool::plane(), Some(asperity)),
+        Geometry::Ball { radius } => (Tool::sphere(Length(*radius)), None),
+        Geometry::Crush { asperity } => (Tool::plane(), Some(asperity.clone())),
     };
     let loading = Loading::to_depth(Length(question.depth)).unloaded();
     let scene = Scene::new(Symmetry::Axisymmetric, material, tool, loading).at(accuracy);
