@@ -41,7 +41,7 @@ pub fn schema(args: &SchemaCommand) -> Result<(), Error> {
     Ok(())
 }
 
-fn of_kind(kind: SchemaKind) -> Schema {
+pub(super) fn of_kind(kind: SchemaKind) -> Schema {
     match kind {
         SchemaKind::Scene => of_type::<asperity_solver::scene::Scene>(),
         SchemaKind::Rough => of_type::<asperity_roughness::scene::Scene>(),

@@ -10,7 +10,7 @@ mod summary;
 pub use fields::{FieldSeries, Frame};
 pub use plot::plot;
 pub use record::{AsperityRow, CurveRow, CycleRow, GapRow, Phase, SurfaceRow, read_rows, write_rows};
-pub use summary::{Instrument, Island, Summary, peak_memory_mb};
+pub use summary::{Errors, Instrument, Island, Summary, peak_memory_mb};
 
 use crate::draw::field_plot::{Panel, Reach, Section};
 use crate::error::Error;
