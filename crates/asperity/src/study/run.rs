@@ -236,7 +236,7 @@ impl Study {
             let (low, high) =
                 numbers().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
             if low <= high {
-                let _ = write!(text, "\n{column} from {low:.5} to {high:.5}");
+                let _ = write!(text, "\n{column} from {} to {}", digits(low), digits(high));
             }
         }
         text
