@@ -153,3 +153,18 @@ fn text_outside_quotations_holds_no_result() {
         assert!(!is_result(pair[0], pair[1]), "`{} {}` comes from no file", pair[0], pair[1]);
     }
 }
+
+/// The pages of the notebooks hold their cells: an edited notebook is run again with `scripts/run-notebooks --pages`.
+#[test]
+fn the_pages_of_notebooks_hold_their_cells() {
+    for name in ["a-scene-of-my-own", "the-paper-in-an-hour"] {
+        let page = text(&format!("docs/src/tutorials/{name}.md"));
+        let notebook: serde_json::Value =
+            serde_json::from_str(&text(&format!("python/notebooks/{name}.ipynb"))).unwrap();
+        for cell in notebook["cells"].as_array().unwrap() {
+            let source: String =
+                cell["source"].as_array().unwrap().iter().filter_map(|line| line.as_str()).collect();
+            assert!(page.contains(&source), "{name}: the page lacks {source}");
+        }
+    }
+}
