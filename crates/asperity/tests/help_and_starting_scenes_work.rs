@@ -9,13 +9,24 @@ use common::Place;
 #[test]
 fn every_new_scene_runs() {
     let place = Place::with_scene("");
-    for (kind, command) in [("single", "crush"), ("multi", "crush"), ("cone", "crush"), ("rough", "rough")] {
+    let kinds = [
+        ("single", "crush"),
+        ("multi", "crush"),
+        ("cone", "crush"),
+        ("ball", "crush"),
+        ("plane-strain", "crush"),
+        ("rough", "rough"),
+        ("sweep", "calibrate"),
+        ("study", "study"),
+    ];
+    for (kind, command) in kinds {
         let end = place.run(&["new", kind]);
         assert_eq!(end.status, 0, "{}", end.err);
         let file = format!("{kind}.toml");
         assert!(end.out.contains(&format!("asperity {command} {file}")), "{}", end.out);
         let quick: &[&str] = match command {
             "crush" => &["--accuracy", "draft", "--set", "output.every=0", "--set", "loading.depth=2 um"],
+            "calibrate" | "study" => &[],
             _ => &["--set", "surface.generate.pixels=[128, 128]", "--set", "closure=published"],
         };
         let out = format!("out-{kind}");

@@ -69,6 +69,7 @@ const REPRODUCE: &str = "Examples:
 
 const NEW: &str = "Examples:
   asperity new single                              single.toml
+  asperity new surface                             for a map that you measured
   asperity new rough surface.toml                  under another name";
 
 const SCHEMA: &str = "Example:

@@ -8,7 +8,7 @@ mod record;
 mod summary;
 
 pub use fields::{FieldSeries, Frame};
-pub use plot::plot;
+pub use plot::{plot, titled_plot};
 pub use record::{AsperityRow, CurveRow, CycleRow, GapRow, Phase, SurfaceRow, read_rows, write_rows};
 pub use summary::{Errors, Instrument, Island, Summary, peak_memory_mb};
 
@@ -224,7 +224,7 @@ impl Crush {
         if !self.gaps.is_empty() {
             sink.write("gaps.csv", |out| write_rows(out, &self.gaps, symmetry))?;
         }
-        let plot = plot(symmetry, &self.curve).map_err(Error::Unfinished)?;
+        let plot = titled_plot(&self.summary, &self.curve).map_err(Error::Unfinished)?;
         sink.text("curve.svg", &plot)?;
         sink.text("summary.json", &self.summary.to_json()?)?;
         for sketch in sketches {
