@@ -132,6 +132,6 @@ mod tests {
             .map(|choice| choice["const"].as_str().unwrap())
             .collect();
         assert_eq!(words, ["axisymmetric", "plane-strain"]);
-        assert_eq!(scene["required"], serde_json::json!(["symmetry", "material", "tool", "loading"]));
+        assert_eq!(scene["required"], serde_json::json!(["material", "loading"]));
     }
 }

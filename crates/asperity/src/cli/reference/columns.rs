@@ -14,7 +14,7 @@ use asperity_calibration::sweep::Sweep;
 use schemars::schema_for;
 
 const CRUSH: &str = "Lengths are in µm, forces in N, pressures in MPa, energies in µJ; in axisymmetry they are of the full body of \
-    revolution. In plane strain they are per millimetre of ridge, under the second name. A key that a scene gives no rise to, or that a \
+    revolution. In plane strain they are per millimetre of ridge, under the last name. A key that a scene gives no rise to, or that a \
     run did not reach, is `null`.";
 
 const FOLDER: &str = "`asperity crush` also writes `curve.svg`, the force over the depth. With `[output] fields`: `fields.pvd` opens \
@@ -92,9 +92,9 @@ fn of_crush<T: Described>(file: &str, about: &str) -> String {
     let row = |Column { name, about }: &Column| {
         let plane = plane_strain_name(name);
         let plane = if plane == *name { String::new() } else { code(&plane) };
-        vec![code(name), plane, words(about.trim())]
+        vec![code(name), words(about.trim()), plane]
     };
-    heading(file, about) + &table(&["name", "in plane strain", "meaning"], T::COLUMNS.iter().map(row))
+    heading(file, about) + &table(&["name", "meaning", "in plane strain"], T::COLUMNS.iter().map(row))
 }
 
 /// `cases.csv`, whose order is that of the file.

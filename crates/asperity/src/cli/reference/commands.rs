@@ -68,7 +68,7 @@ fn meaning(argument: &Arg) -> String {
     let choices: Vec<String> = argument
         .get_possible_values()
         .iter()
-        .filter(|_| argument.get_action().takes_values())
+        .filter(|_| argument.get_action().takes_values() && !argument.is_hide_possible_values_set())
         .map(|value| match value.get_help() {
             Some(help) => format!("`{}` ({})", value.get_name(), words(&help.to_string())),
             None => code(value.get_name()),

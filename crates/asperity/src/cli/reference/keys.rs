@@ -41,14 +41,11 @@ fn keys_of(schema: &Value, path: &str, title: &str) -> String {
         text += &format!("### {title}: `{path}`\n\n{}\n\n", words(about));
     }
     let row = |(key, value): &(&String, &Value)| {
-        vec![
-            code(key),
-            kind_of(value),
-            if required(key) { "required".into() } else { default_of(value) },
-            words(value["description"].as_str().unwrap_or_default()),
-        ]
+        let default = if required(key) { "required".into() } else { default_of(value) };
+        let meaning = words(value["description"].as_str().unwrap_or_default());
+        vec![code(key), meaning, kind_of(value), default]
     };
-    text += &table(&["key", "value", "default", "meaning"], keys.iter().map(row));
+    text += &table(&["key", "meaning", "value", "default"], keys.iter().map(row));
     for (key, value) in keys {
         let inner = if path.is_empty() { key.clone() } else { format!("{path}.{key}") };
         text += &keys_of(value, &format!("[{}]", inner.trim_matches(['[', ']'])), title);
@@ -76,7 +73,9 @@ fn kind_of(value: &Value) -> String {
         return code(&format!("\"{word}\""));
     }
     match value["type"].as_str() {
-        Some("string") if value["pattern"].is_string() => format!("quantity, {}", example(value)),
+        Some("string") if value["pattern"].is_string() && !example(value).is_empty() => {
+            format!("quantity, {}", example(value))
+        }
         Some("string") if value["examples"].is_array() => format!("text, {}", example(value)),
         Some("string") => "text".into(),
         Some("integer") => format!("whole number{}", range(value)),
