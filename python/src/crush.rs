@@ -142,7 +142,7 @@ impl Crush {
     }
 
     fn plot_svg(&self) -> PyResult<String> {
-        asperity::crush::plot(self.symmetry(), &self.inner.curve).map_err(wrong)
+        asperity::crush::titled_plot(&self.inner.summary, &self.inner.curve).map_err(wrong)
     }
 
     fn section_svg(&self) -> PyResult<Option<String>> {

@@ -286,4 +286,8 @@ def test_the_scripts_of_the_front_page_run(tmp_path: pathlib.Path, monkeypatch: 
     for block in blocks:
         exec(block, scope)
     assert (tmp_path / "both.png").stat().st_size > 10_000
+    front_page = (pathlib.Path(__file__).parents[2] / "README.md").read_text().split("```python\n")
+    assert len(front_page) == 2
+    exec(front_page[1].split("```")[0], scope)
+    assert 0 < scope["ball"].summary["estimated_error"] < 0.05
     assert len(scope["study"].results) == 12 and set(scope["study"].results["status"]) == {"ok"}

@@ -3,7 +3,7 @@
 //!
 //! `cargo bench -p asperity-verification` prints a table. Times are per iteration, of which only some have a new tangent: the
 //! others reuse its factors. Roofline: one Newton iteration in the strict sense, with a new tangent and every point flowing, at
-//! the arithmetic of this core (see `asperity_verification::roofline`); 3% is what `verification/PEERS.md` runs.
+//! the arithmetic of this core (see `asperity_verification::roofline`); 3% is what `docs/src/verified/peers.md` runs.
 #![allow(clippy::print_stdout, reason = "a benchmark prints")]
 
 use asperity_law::HardeningMode;

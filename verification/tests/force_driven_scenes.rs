@@ -9,7 +9,7 @@
 
 use asperity_law::units::{Length, Stress};
 use asperity_solver::run::load_path::Stop;
-use asperity_solver::scene::{Accuracy, HardeningChoice, Scene, Substrate, Symmetry, Tool, ToolShape};
+use asperity_solver::scene::{Accuracy, HardeningChoice, Scene, Substrate, Symmetry, Tool};
 use asperity_verification::contact::hertz_force;
 use asperity_verification::single_asperity::{crush, driven_by, loaded};
 

@@ -4,6 +4,9 @@
 //! The command line is a thin layer over these functions; whatever a command computes, a function returns as typed rows
 //! and summaries, named as in the files that the command writes.
 //!
+//! Tutorials, theory, the meaning of every key and column, what was verified and what is not modelled stand in the book of the
+//! repository, `docs/src`.
+//!
 //! # One crush
 //! ```
 //! use asperity::tables::{Accuracy, Asperity, Loading, Material, Scene as Tables, Symmetry, Tool};

@@ -84,21 +84,80 @@ impl Sink for Directory {
     }
 }
 
+/// A column of a table of results, or a key of a summary.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Column {
+    /// Its name in the file, unit included.
+    pub name: &'static str,
+    /// Its meaning, the docstring of the field.
+    pub about: &'static str,
+}
+
+/// Results that say what their columns mean.
+pub trait Described {
+    /// The columns in the order of the file; a table inside is one of them.
+    const COLUMNS: &'static [Column];
+}
+
+/// The name that serde gives a field, if any of its attributes gives one, else `field`.
+pub(crate) const fn name_of(given: &[&'static str], field: &'static str) -> &'static str {
+    let mut i = 0;
+    while i < given.len() {
+        if !given[i].is_empty() {
+            return given[i];
+        }
+        i += 1;
+    }
+    field
+}
+
+/// The docstring in an attribute, or nothing.
+macro_rules! about_in {
+    (doc = $text:literal) => {
+        $text
+    };
+    ($($other:tt)*) => {
+        ""
+    };
+}
+pub(crate) use about_in;
+
+/// The name in an attribute of serde, or nothing.
+macro_rules! name_in {
+    (serde(rename = $name:literal $($rest:tt)*)) => {
+        $name
+    };
+    ($($other:tt)*) => {
+        ""
+    };
+}
+pub(crate) use name_in;
+
 /// A row of a file: every field declared once, with its value in terms of what the row is made from.
 macro_rules! row {
     ($(#[$about:meta])* $row:ident($($from:ident: $record:ty),*) {
-        $($(#[$field_about:meta])* $field:ident: $kind:ty = $value:expr,)*
+        $($(#[$($field_about:tt)*])* $field:ident: $kind:ty = $value:expr,)*
     }) => {
         #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
         $(#[$about])*
         pub struct $row {
-            $($(#[$field_about])* pub $field: $kind,)*
+            $($(#[$($field_about)*])* pub $field: $kind,)*
         }
 
         impl $row {
             pub(super) fn new($($from: $record),*) -> $row {
                 $row { $($field: $value,)* }
             }
+        }
+
+        impl $crate::output::Described for $row {
+            const COLUMNS: &'static [$crate::output::Column] = &[$($crate::output::Column {
+                name: $crate::output::name_of(
+                    &[$($crate::output::name_in!($($field_about)*)),*],
+                    stringify!($field),
+                ),
+                about: concat!($($crate::output::about_in!($($field_about)*)),*),
+            }),*];
         }
     };
 }

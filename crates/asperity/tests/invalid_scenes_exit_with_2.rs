@@ -36,7 +36,7 @@ const TABLE: &[(&str, &str, &[&str])] = &[
     ("depth = \"5 um\"", "force = \"1 N/mm\"", &["scene.toml:16:", "plane strain"]),
     ("\"plane\"", "\"banana\"", &["scene.toml:14:", "unknown value `banana`", "plane, cone, sphere"]),
     ("\"plane\"", "\"cone\"", &["scene.toml:13:", "`slope_deg` of the cone is missing"]),
-    ("[tool]\nshape = \"plane\"", "", &["scene.toml", "`tool` is missing"]),
+    ("[tool]\nshape = \"plane\"", "[tool]", &["scene.toml", "`shape` is missing"]),
     ("\"axisymmetric\"", "\"plane-strain\"", &["scene.toml", "substrate", "is missing"]),
     ("steps = 8", "steps = 0", &["scene.toml:21:", "from 1 to 10000", "not 0"]),
     ("steps = 8", "steps = -8", &["scene.toml:21:", "a whole number from 0 up"]),

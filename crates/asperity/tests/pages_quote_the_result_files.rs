@@ -1,17 +1,16 @@
-//! The numbers of README.md and of the pages of the verification are those of files that programs wrote
-//! (`verification/results`, renewed by `scripts/renew`). Outside those quotations README.md states no result in figures.
+//! The numbers of README.md and of the paper are those of files that programs wrote (`verification/results`, renewed by
+//! `scripts/renew`); the book includes the files themselves. Outside quotations README.md states no result in figures.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use std::path::Path;
 
 /// Numbers that are no results: `words` of the page, and the file with its words that they are taken from.
-const GIVEN: [(&str, &str, &str); 5] = [
+const GIVEN: [(&str, &str, &str); 4] = [
     ("Rust 1.90 or later", "Cargo.toml", "rust-version = \"1.90\""),
-    ("ν 0.3,", "meshes/single-asperity.toml", "poissons_ratio = 0.3"),
-    ("n 0.3,", "meshes/single-asperity.toml", "hardening_exponent = 0.3"),
-    ("mean pressure 0.13 E*", "verification/ROUGH.md", "`published` (0.13 on the island)"),
-    ("exact 0.5 E* tan β", "verification/ROUGH.md", "the exact elastic mean pressure is 0.5 E* tan β"),
+    ("5 % of the force", "crates/solver/src/scene/accuracy.rs", "Accuracy::Draft => 0.05"),
+    ("for 1 %", "crates/solver/src/scene/accuracy.rs", "Accuracy::Standard => 0.01"),
+    ("for 0.2 %", "crates/solver/src/scene/accuracy.rs", "Accuracy::Reference => 0.002"),
 ];
 
 fn text(name: &str) -> String {
@@ -52,27 +51,44 @@ fn result(name: &str) -> String {
     format!("{}\n", section.trim_matches('\n'))
 }
 
-/// README.md and the pages of the verification.
-fn pages() -> Vec<String> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../verification");
-    let names = std::fs::read_dir(folder).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap());
-    let pages = names.filter(|name| name.ends_with(".md")).map(|name| format!("verification/{name}"));
-    pages.chain(["README.md".to_string()]).collect()
-}
+/// Pages with quotations.
+const PAGES: [&str; 2] = ["README.md", "docs/paper.md"];
 
 #[test]
 fn quotations_are_those_of_their_files() {
-    for page in pages() {
-        for (name, inside) in quotations(&text(&page)).0 {
+    for page in PAGES {
+        for (name, inside) in quotations(&text(page)).0 {
             assert!(inside == result(&name), "{page} quotes {name} otherwise: scripts/renew --quotes");
         }
     }
 }
 
 #[test]
-fn the_front_page_quotes_claims_numbers_trade_and_peers() {
-    let names: Vec<String> = quotations(&text("README.md")).0.into_iter().map(|(name, _)| name).collect();
-    assert_eq!(names, ["claims", "numbers", "peers#summary", "trade"]);
+fn the_front_page_quotes_the_overview_and_the_paper_the_numbers() {
+    let names = |page: &str| quotations(&text(page)).0.into_iter().map(|(name, _)| name).collect::<Vec<_>>();
+    assert_eq!(names("README.md"), ["overview"]);
+    assert_eq!(names("docs/paper.md"), ["overview", "numbers"]);
+}
+
+/// Every table of `verification/results` stands on a page of the book, so that none is measured for nobody.
+#[test]
+fn the_book_includes_every_result() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let mut book = String::new();
+    for folder in ["verified", "design", "tutorials"] {
+        for entry in std::fs::read_dir(root.join("docs/src").join(folder)).unwrap() {
+            let path = entry.unwrap().path();
+            if path.extension().is_some_and(|e| e == "md") {
+                book += &std::fs::read_to_string(path).unwrap();
+            }
+        }
+    }
+    for entry in std::fs::read_dir(root.join("verification/results")).unwrap() {
+        let name = entry.unwrap().file_name().into_string().unwrap();
+        let on_the_front_page = name == "overview.md" || !name.ends_with(".md");
+        let included = book.contains(&format!("{{{{#include ../../../verification/results/{name}}}}}"));
+        assert!(on_the_front_page || included, "no page of the book includes {name}");
+    }
 }
 
 #[test]
@@ -130,10 +146,25 @@ fn text_outside_quotations_holds_no_result() {
         assert!(text(file).contains(there), "{file} no longer says `{there}`");
         page = page.replace(words, "");
     }
-    // the levels' promises and the licence's version
-    page = page.replace("Apache-2.0", "").replace("Gmsh 4.1", "");
+    // the licence's version
+    page = page.replace("Apache-2.0", "");
     let words: Vec<&str> = page.split_whitespace().collect();
     for pair in words.windows(2) {
         assert!(!is_result(pair[0], pair[1]), "`{} {}` comes from no file", pair[0], pair[1]);
+    }
+}
+
+/// The pages of the notebooks hold their cells: an edited notebook is run again with `scripts/run-notebooks --pages`.
+#[test]
+fn the_pages_of_notebooks_hold_their_cells() {
+    for name in ["a-scene-of-my-own", "the-paper-in-an-hour"] {
+        let page = text(&format!("docs/src/tutorials/{name}.md"));
+        let notebook: serde_json::Value =
+            serde_json::from_str(&text(&format!("python/notebooks/{name}.ipynb"))).unwrap();
+        for cell in notebook["cells"].as_array().unwrap() {
+            let source: String =
+                cell["source"].as_array().unwrap().iter().filter_map(|line| line.as_str()).collect();
+            assert!(page.contains(&source), "{name}: the page lacks {source}");
+        }
     }
 }

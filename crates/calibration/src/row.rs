@@ -3,6 +3,7 @@
 use crate::case::Case;
 use crate::loading_curvature::LoadingCurvature;
 use asperity_law::StressMeasure;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize, Serializer};
 use std::collections::HashMap;
 use std::io;
@@ -19,7 +20,7 @@ pub struct Row {
 }
 
 /// The same as `cases.csv` has it: the names of the fields there are the columns.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct CaseRow {
     /// Slope β, degrees.
     #[serde(serialize_with = "plain")]

@@ -22,7 +22,7 @@ const NEAR_ROW: f64 = 3.0;
 ///
 /// The front of a contact crosses shell after shell, and the force ripples by a share of their width; along a shell, down
 /// from the surface, fields are smooth. So shells are thin and their cells long, the longer the deeper: against square
-/// cells the same unknowns leave a third of the error (`verification/README.md`).
+/// cells the same unknowns leave a third of the error (`docs/src/verified/single.md`).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Grading {
     /// Width of a shell over its distance from the centre, within the fine zone.

@@ -4,6 +4,8 @@
 //! tool ([`contact`]), the algebra of the system ([`algebra`]), the body with its state ([`body`]), the scene that is asked for
 //! ([`scene`]) and its run along the load path ([`run`]).
 //!
+//! The book of the repository derives what they compute, with the same symbols: `docs/src/theory`, from `kinematics.md` on.
+//!
 //! Callers need [`scene`], [`run`] and [`point`]; the folders between are open to the verification and hidden from these pages.
 //!
 //! A point alone, stretched by 1 % along z in plane strain:

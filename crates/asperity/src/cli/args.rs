@@ -1,6 +1,8 @@
 //! The command line: the commands and what help says of them.
 
-use super::{calibrate, crush, extract, identify, manual, mesh, new, reproduce, rough, schema, study, trade};
+use super::{
+    calibrate, crush, extract, identify, manual, mesh, new, reference, reproduce, rough, schema, study, trade,
+};
 use clap::{Parser, Subcommand};
 
 /// Crush rough metal, from one conical asperity to a measured surface.
@@ -32,35 +34,92 @@ const EXAMPLES: &str = "Examples:
 
 Exit status: 0 done; 1 the run could not finish (what was reached is on disk); 2 the input is wrong.";
 
+const CRUSH: &str = "Examples:
+  asperity crush single.toml                                   into out/single
+  asperity crush single.toml --accuracy draft --out out/quick  5 % instead of 1 %
+  asperity crush single.toml --set material.hardening_exponent=0.1 --out out/soft
+  asperity crush single.toml --set \"loading.depth=2 um\" --out out/shallow --json";
+
+const MESH: &str = "Examples:
+  asperity mesh single.toml -o single.vtu          for ParaView
+  asperity mesh single.toml -o single.msh          for Gmsh; a scene reads it with [mesh]
+  asperity mesh single.toml --format inp           the whole scene for CalculiX and Abaqus";
+
+const ROUGH: &str = "Examples:
+  asperity new rough && asperity rough rough.toml
+  asperity rough rough.toml --set closure=half-space --set \"load.pressure=100 MPa\" --out out/half-space
+  asperity rough --table1                          the surfaces of the paper beside its Table 1";
+
+const CALIBRATE: &str = "Examples:
+  asperity calibrate                               480 cones, into out/calibrate
+  asperity calibrate sweep.toml --accuracy reference
+  asperity calibrate sweep.toml --shard 2/8 --out part-2
+  asperity calibrate merge part-1 part-2 --out all";
+
+const STUDY: &str = "Examples:
+  asperity study single.toml --vary material.hardening_exponent=0,0.1,0.2 --vary \"loading.depth=1 um..5 um/5\"
+  asperity study single.toml --vary \"loading.depth=1 um..5 um\" --vary material.hardening_exponent=0..0.5 --sample lhs 100
+  asperity study study.toml --shard 2/8 --out part-2
+  asperity study merge part-1 part-2 --out all";
+
+const TRADE: &str = "Examples:
+  asperity trade single.toml                       every number of the discretisation around every level
+  asperity trade single.toml --combinations 0      no settings that differ in everything";
+
+const REPRODUCE: &str = "Examples:
+  asperity reproduce --accuracy draft              the whole paper, into out/reproduce/report/index.html
+  asperity reproduce --only fig6,table1            a part of it
+  asperity reproduce --list                        the names of the parts";
+
+const NEW: &str = "Examples:
+  asperity new single                              single.toml
+  asperity new surface                             for a map that you measured
+  asperity new rough surface.toml                  under another name";
+
+const SCHEMA: &str = "Example:
+  asperity schema scene > scene.schema.json";
+
 /// The subcommands.
 #[derive(Debug, Subcommand)]
 pub enum Command {
     /// Crush the asperities of a scene with a rigid tool and write curve, summary and fields
+    #[command(after_help = CRUSH)]
     Crush(crush::Crush),
     /// Mesh a scene, print sizes and quality, and write it as .vtu, .msh or .inp
+    #[command(after_help = MESH)]
     Mesh(mesh::MeshCommand),
     /// Press a rigid plane on a rough surface and write table, load curve, maps
+    #[command(after_help = ROUGH)]
     Rough(rough::Rough),
     /// Find the asperities of a measured map, write profiles and scenes of them, crush some beside the closures
     Extract(extract::Extract),
     /// Crush cones of many slopes and metals and find the representative strain
+    #[command(after_help = CALIBRATE)]
     Calibrate(calibrate::Calibrate),
     /// Run a scene over any of its keys: grids, lists, Latin hypercubes, in one go, in parts, and on after a stop
+    #[command(after_help = STUDY)]
     Study(study::Study),
     /// Find the metal from measured force-depth curves: E, yield stress, hardening, with intervals and a verdict
     Identify(identify::Identify),
     /// Measure what accuracy costs on a scene: error against core seconds, knob by knob
+    #[command(after_help = TRADE)]
     Trade(trade::Trade),
     /// Compute every figure and table of the paper and write a report that judges its claims
+    #[command(after_help = REPRODUCE)]
     Reproduce(reproduce::Reproduce),
     /// Write a commented scene to start from
+    #[command(after_help = NEW)]
     New(new::New),
     /// Print the JSON schema of a scene, a rough surface or a sweep, for editors
+    #[command(after_help = SCHEMA)]
     Schema(schema::SchemaCommand),
     /// Print the completions of a shell
     Completions(manual::Completions),
     /// Print a page of the manual
     Man(manual::ManPage),
+    /// Write the pages of the book that list commands, keys, columns and units
+    #[command(hide = true)]
+    Reference(reference::Reference),
 }
 
 impl Command {

@@ -4,14 +4,16 @@ use crate::cli::terminal;
 use crate::error::Error;
 use crate::input::scene::Scene;
 use asperity_solver::scene::{Accuracy, AccuracyError};
-use clap::Args;
+use clap::builder::{PossibleValue, TypedValueParser};
+use clap::{Arg, Args, Command};
+use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 /// Flags that change what a file says.
 #[derive(Debug, Args)]
 pub struct SceneFlags {
     /// Error of the force: draft (5 %), standard (1 %), reference (0.2 %) or a percentage like 0.5%, from 0.2% to 5% [default: what the scene says, else standard]
-    #[arg(long, value_name = "LEVEL", value_parser = parse_accuracy)]
+    #[arg(long, value_name = "LEVEL", value_parser = AccuracyParser, hide_possible_values = true)]
     pub accuracy: Option<Accuracy>,
     /// Change a value of the file, for example --set "loading.depth=2 um"; repeatable
     #[arg(long = "set", value_name = "KEY.PATH=VALUE")]
@@ -76,6 +78,27 @@ impl RunFlags {
             terminal::say(&format!("{}\nresults   {}", text().trim_end(), target.display()));
         }
         Ok(())
+    }
+}
+
+/// Reads an accuracy, and tells the shell the levels that have a name.
+#[derive(Clone, Copy, Debug)]
+pub struct AccuracyParser;
+
+impl TypedValueParser for AccuracyParser {
+    type Value = Accuracy;
+
+    fn parse_ref(
+        &self,
+        command: &Command,
+        arg: Option<&Arg>,
+        value: &OsStr,
+    ) -> Result<Accuracy, clap::Error> {
+        (parse_accuracy as fn(&str) -> Result<Accuracy, String>).parse_ref(command, arg, value)
+    }
+
+    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
+        Some(Box::new(["draft", "standard", "reference"].into_iter().map(PossibleValue::new)))
     }
 }
 

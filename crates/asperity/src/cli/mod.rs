@@ -13,6 +13,7 @@ pub mod manual;
 pub mod mesh;
 pub mod new;
 pub mod progress;
+pub mod reference;
 pub mod reproduce;
 pub mod rough;
 pub mod schema;
@@ -52,6 +53,7 @@ pub fn main() -> ExitCode {
             Ok(())
         }
         Command::Man(args) => manual::man(args, Cli::command()),
+        Command::Reference(args) => reference::reference(args, Cli::command()),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

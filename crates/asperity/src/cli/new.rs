@@ -28,8 +28,18 @@ pub enum Start {
     Multi,
     /// a flat body under a cone
     Cone,
-    /// a rough surface under a plane
+    /// a flat body under a ball
+    Ball,
+    /// three ridges of constant section under a plane
+    PlaneStrain,
+    /// a rough surface made from random numbers, under a plane
     Rough,
+    /// a measured surface under a plane
+    Surface,
+    /// cones of some slopes and metals
+    Sweep,
+    /// a scene over some of its keys
+    Study,
     /// a metal from measured curves
     Fit,
 }
@@ -41,6 +51,13 @@ impl Start {
             Start::Single => ("single", include_str!("../../scenes/single-asperity.toml"), "crush"),
             Start::Multi => ("multi", include_str!("../../scenes/three-identical.toml"), "crush"),
             Start::Cone => ("cone", include_str!("../../scenes/cone-indentation.toml"), "crush"),
+            Start::Ball => ("ball", include_str!("../../scenes/ball.toml"), "crush"),
+            Start::PlaneStrain => {
+                ("plane-strain", include_str!("../../scenes/three-identical-plane-strain.toml"), "crush")
+            }
+            Start::Surface => ("surface", include_str!("../../scenes/surface.toml"), "rough"),
+            Start::Sweep => ("sweep", include_str!("../../scenes/sweep.toml"), "calibrate"),
+            Start::Study => ("study", include_str!("../../scenes/study.toml"), "study"),
             Start::Rough => ("rough", include_str!("../../scenes/rough-milled.toml"), "rough"),
             Start::Fit => ("fit", include_str!("../../scenes/fit.toml"), "identify"),
         }

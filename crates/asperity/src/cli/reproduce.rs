@@ -1,7 +1,7 @@
 //! `asperity reproduce`: the figures and tables of the paper, computed and written up.
 
 use crate::cli::failure;
-use crate::cli::flags::{RunFlags, parse_accuracy};
+use crate::cli::flags::{AccuracyParser, RunFlags};
 use crate::cli::folder::claim;
 use crate::cli::progress::{Lines, Progress as Line};
 use crate::cli::terminal;
@@ -19,7 +19,7 @@ use std::time::Instant;
 #[derive(Debug, Args)]
 pub struct Reproduce {
     /// Error of the force: draft (5 %), standard (1 %), reference (0.2 %) or a percentage like 0.5% [default: standard]
-    #[arg(long, value_name = "LEVEL", value_parser = parse_accuracy)]
+    #[arg(long, value_name = "LEVEL", value_parser = AccuracyParser, hide_possible_values = true)]
     pub accuracy: Option<Accuracy>,
     /// Only these figures and tables, for example fig6,table1 [default: all]
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]

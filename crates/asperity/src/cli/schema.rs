@@ -43,7 +43,7 @@ pub fn schema(args: &SchemaCommand) -> Result<(), Error> {
     Ok(())
 }
 
-fn of_kind(kind: SchemaKind) -> Schema {
+pub(super) fn of_kind(kind: SchemaKind) -> Schema {
     match kind {
         SchemaKind::Scene => of_type::<asperity_solver::scene::Scene>(),
         SchemaKind::Rough => of_type::<asperity_roughness::scene::Scene>(),
@@ -137,6 +137,6 @@ mod tests {
             .map(|choice| choice["const"].as_str().unwrap())
             .collect();
         assert_eq!(words, ["axisymmetric", "plane-strain"]);
-        assert_eq!(scene["required"], serde_json::json!(["symmetry", "material", "tool", "loading"]));
+        assert_eq!(scene["required"], serde_json::json!(["material", "loading"]));
     }
 }

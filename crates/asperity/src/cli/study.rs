@@ -1,6 +1,6 @@
 //! `asperity study`: a scene over any of its keys.
 
-use crate::cli::flags::{RunFlags, parse_accuracy};
+use crate::cli::flags::{AccuracyParser, RunFlags};
 use crate::cli::folder::claim;
 use crate::cli::progress::Progress;
 use crate::cli::{interrupt, terminal};
@@ -42,7 +42,7 @@ pub struct Study {
     #[arg(long, value_name = "K/N", value_parser = clap::value_parser!(Shard))]
     pub shard: Option<Shard>,
     /// Error of the force: draft (5 %), standard (1 %), reference (0.2 %) or a percentage [default: what the scene says]
-    #[arg(long, value_name = "LEVEL", value_parser = parse_accuracy)]
+    #[arg(long, value_name = "LEVEL", value_parser = AccuracyParser, hide_possible_values = true)]
     pub accuracy: Option<Accuracy>,
     /// Change a value of the scene in all runs, for example --set "loading.depth=2 um"; repeatable
     #[arg(long = "set", value_name = "KEY.PATH=VALUE")]

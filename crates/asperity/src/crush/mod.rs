@@ -8,11 +8,11 @@ mod record;
 mod summary;
 
 pub use fields::{FieldSeries, Frame};
-pub use plot::plot;
+pub use plot::{plot, titled_plot};
 pub use record::{
     AsperityRow, CurveRow, CycleRow, GapRow, Phase, SurfaceRow, SurfaceStateRow, read_rows, write_rows,
 };
-pub use summary::{Instrument, Island, MeasuredOutline, Summary, peak_memory_mb};
+pub use summary::{Errors, Instrument, Island, MeasuredOutline, Summary, peak_memory_mb};
 
 use crate::draw::field_plot::{Panel, Reach, Section};
 use crate::error::Error;
@@ -228,7 +228,7 @@ impl Crush {
         if !self.gaps.is_empty() {
             sink.write("gaps.csv", |out| write_rows(out, &self.gaps, symmetry))?;
         }
-        let plot = plot(symmetry, &self.curve).map_err(Error::Unfinished)?;
+        let plot = titled_plot(&self.summary, &self.curve).map_err(Error::Unfinished)?;
         sink.text("curve.svg", &plot)?;
         sink.text("summary.json", &self.summary.to_json()?)?;
         for sketch in sketches {

@@ -1,7 +1,7 @@
 //! `curve.svg`: force against depth, loading and unloading.
 
 use super::record::{CurveRow, Phase};
-use super::summary::per_length;
+use super::summary::{Summary, per_length};
 use crate::draw::chart::{Chart, Dash, Series, svg};
 use crate::draw::palette::LINES;
 use asperity_solver::scene::Symmetry;
@@ -17,6 +17,24 @@ fn prefix(largest: f64, prefixes: &[(f64, &'static str)]) -> (f64, &'static str)
 /// # Errors
 /// A text for a person where the drawing library fails.
 pub fn plot(symmetry: Symmetry, rows: &[CurveRow]) -> Result<String, String> {
+    svg(&chart(symmetry, rows))
+}
+
+/// The same under a title that says accuracy and stated error.
+///
+/// # Errors
+/// Those of [`plot`].
+pub fn titled_plot(summary: &Summary, rows: &[CurveRow]) -> Result<String, String> {
+    let scene = &summary.scene;
+    let error = match summary.errors.force {
+        force if force.is_finite() => format!("; band: stated error, {:.2} %", 100.0 * force),
+        _ => String::new(),
+    };
+    let title = format!("Force over depth, accuracy {}{error}", scene.accuracy);
+    svg(&chart(scene.symmetry, rows).titled(title))
+}
+
+fn chart(symmetry: Symmetry, rows: &[CurveRow]) -> Chart {
     let largest = |value: fn(&CurveRow) -> f64| rows.iter().map(value).fold(0.0, f64::max);
     let (length, length_name) = prefix(largest(|r| r.depth_um), &[(1e3, "mm"), (1.0, "µm"), (1e-3, "nm")]);
     let (newton, newton_name) =
@@ -50,11 +68,8 @@ pub fn plot(symmetry: Symmetry, rows: &[CurveRow]) -> Result<String, String> {
     if again < rows.len() {
         series.push(branch("reloading", Dash::Dotted, again, rows.len()));
     }
-    svg(&Chart {
-        x_label: format!("Depth h ({length_name})"),
-        y_label: format!("Force F ({newton_name}{})", per_length(symmetry)),
-        series,
-    })
+    let force = format!("Force F ({newton_name}{})", per_length(symmetry));
+    Chart::new(format!("Depth h ({length_name})"), force, series)
 }
 
 #[cfg(test)]

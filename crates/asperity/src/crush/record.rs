@@ -45,9 +45,9 @@ row! {
     CurveRow(row: &record::CurveRow, units: Units) {
         /// Counted from 0, the first touch.
         increment: usize = row.increment,
-        /// Loading or unloading.
+        /// `load` or `unload`; a reload is a load, `cycles.csv` says where it begins.
         phase: Phase = row.phase.into(),
-        /// Tool travel from first touch, corrected for penetration.
+        /// Travel of the tool from first touch, less the penalty correction.
         depth_um: f64 = row.depth / MICROMETRE,
         /// Force on the tool, positive in compression, of the full body of revolution (in plane strain per mm); without the
         /// ripple of the mesh.
@@ -58,11 +58,11 @@ row! {
         contact_radius_um: f64 = row.contact_radius / MICROMETRE,
         /// Force over contact area; 0 without contact.
         mean_pressure_MPa: f64 = row.mean_pressure / MEGAPASCAL,
-        /// ∫F dh over the raw tool displacement.
+        /// ∫F dh over the raw travel of the tool, which includes `contact_energy_uJ`.
         external_work_uJ: f64 = row.external_work / units.energy,
         /// Stored elastic energy, residual stress included.
         elastic_energy_uJ: f64 = row.elastic_energy / units.energy,
-        /// Σ∫σ_y dε_p.
+        /// Work of plastic flow, Σ∫σ_y dε_p; never found by subtraction.
         plastic_work_uJ: f64 = row.plastic_work / units.energy,
         /// ½ε∫g² dA of the penalty.
         contact_energy_uJ: f64 = row.contact_energy / units.energy,
@@ -72,7 +72,8 @@ row! {
         newton_iterations: usize = row.newton_iterations,
         /// Sum of the nodal forces: the force with the ripple of the mesh, which the works are made of.
         force_nodal_N: f64 = row.force_nodal / units.force,
-        /// 95 % bound of the relative error of the force; `None` where there is no force or the bound is not known.
+        /// 95 % bound of the relative error of the force in this row; empty where there is no force or the bound is not known. While
+        /// unloading it holds the error of the residual depth, by which the curve is shifted.
         force_error: Option<f64> = row.force_error,
     }
 }

@@ -54,7 +54,8 @@ row! {
         peak_force_N: f64 = summary.peak_force / units.force,
         /// Depth at the peak.
         peak_depth_um: f64 = summary.peak_depth / MICROMETRE,
-        /// Initial summit minus the highest point of the body in equilibrium without the tool.
+        /// After unloading: how much lower the highest point of the body is than its first summit; under a cone or a sphere, how far
+        /// that tool now travels before it touches.
         residual_depth_um: Option<f64> = summary.residual_depth.map(|h| h / MICROMETRE),
         /// dF/dh at the peak from one elastic solve with the contact kept.
         unloading_stiffness_N_per_um: Option<f64> = summary.unloading_stiffness.map(|s| s / units.stiffness),
@@ -70,9 +71,10 @@ row! {
         plastic_work_uJ: f64 = summary.plastic_work / units.energy,
         /// Reading of the unloading curve by the method of Oliver and Pharr, under a tool with an apex.
         oliver_pharr: Option<Instrument> = summary.oliver_pharr.as_ref().map(|read| Instrument::new(read, summary)),
-        /// elastic_work / total_work.
+        /// Work returned on unloading over the work to the peak.
         elastic_fraction: Option<f64> = summary.elastic_fraction,
-        /// Largest |W - E_e - W_p - E_c|/W over increments with W above 1 % of its peak.
+        /// Largest |W - E_e - W_p - E_c|/W over increments with W above 1 % of its peak: bad with a few huge steps, not a measure of the
+        /// error of the force.
         #[serde(deserialize_with = "nan_for_null")]
         energy_balance_error: f64 = summary.energy_balance_error,
         /// `errors.force`; NaN (`null`) where it is not known.
@@ -102,7 +104,7 @@ row! {
         /// What was made of each measured outline; absent where there is none.
         #[serde(default, skip_serializing_if = "Vec::is_empty")]
         outlines: Vec<MeasuredOutline> = scene.smoothings().iter().map(MeasuredOutline::new).collect(),
-        /// The scene with the numbers that its accuracy stands for.
+        /// The scene as resolved, with the numbers that its accuracy stands for: enough to run it again.
         #[serde(serialize_with = "by_key")]
         scene: Box<Tables> = Box::new(scene),
         /// Version of this program.

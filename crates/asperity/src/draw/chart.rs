@@ -74,6 +74,8 @@ pub struct Chart {
     pub y_label: String,
     /// The lines, drawn in this order.
     pub series: Vec<Series>,
+    /// A sentence above the axes, which is also the name of the picture for those who cannot see it; none if empty.
+    pub title: String,
 }
 
 impl Chart {
@@ -83,7 +85,14 @@ impl Chart {
         y_label: impl Into<String>,
         series: impl IntoIterator<Item = Series>,
     ) -> Chart {
-        Chart { x_label: x_label.into(), y_label: y_label.into(), series: series.into_iter().collect() }
+        let series = series.into_iter().collect();
+        Chart { x_label: x_label.into(), y_label: y_label.into(), series, title: String::new() }
+    }
+
+    /// The same under a title.
+    #[must_use]
+    pub fn titled(self, title: impl Into<String>) -> Chart {
+        Chart { title: title.into(), ..self }
     }
 }
 
@@ -259,7 +268,31 @@ pub fn svg(chart: &Chart) -> Result<String, String> {
         (series.label.clone(), Sample::Line(colour, dashes))
     };
     let legend: Vec<_> = chart.series.iter().enumerate().map(entry).collect();
-    framed(SIZE, &legend, |paper| draw(chart, paper))
+    let drawn = framed(SIZE, &legend, |paper| draw(chart, paper))?;
+    Ok(if chart.title.is_empty() { drawn } else { below(&chart.title, &drawn).unwrap_or(drawn) })
+}
+
+/// Height of a title in pixels.
+const TITLE: u32 = 30;
+
+/// The document `drawn` of [`framed`] below a title; `None` if it is none of that.
+fn below(title: &str, drawn: &str) -> Option<String> {
+    let (head, rest) = drawn.split_once("<svg width=\"")?;
+    let (tag, body) = rest.split_once('>')?;
+    let mut numbers = tag.split(|c: char| !c.is_ascii_digit()).filter_map(|word| word.parse::<u32>().ok());
+    let (width, height) = (numbers.next()?, numbers.next()? + TITLE);
+    let title = title.replace('&', "&amp;").replace('<', "&lt;");
+    let [fine, left, line, size] = [TITLE, 84, 22, 17].map(|pixels| pixels * FINE);
+    Some(format!(
+        "{head}<svg width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {} {}\" xmlns=\"http://www.w3.org/2000/svg\" role=\"img\">\
+         <title>{title}</title><rect width=\"100%\" height=\"100%\" fill=\"#FFFFFF\"/>\
+         <text x=\"{left}\" y=\"{line}\" font-family=\"{FAMILY}\" font-size=\"{size}\" fill=\"{}\">{title}</text>\
+         <g transform=\"translate(0 {fine})\">{}</g></svg>\n",
+        width * FINE,
+        height * FINE,
+        palette::hex(palette::INK),
+        body.trim_end().strip_suffix("</svg>")?
+    ))
 }
 
 /// Axes on `paper` with their grid and names.

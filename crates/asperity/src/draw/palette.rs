@@ -128,6 +128,13 @@ impl Bands {
         Bands { labels: linear_labels(&edges), edges, colours: shades(&INFERNO, COUNT) }
     }
 
+    /// The same with its colours the other way round: dark for what is high, on a pale ground.
+    #[must_use]
+    pub fn darkening(mut self) -> Bands {
+        self.colours.reverse();
+        self
+    }
+
     /// The band of `value`, the outer ones beyond the ends.
     pub fn band(&self, value: f64) -> usize {
         self.edges.partition_point(|edge| *edge <= value).saturating_sub(1).min(self.colours.len() - 1)

@@ -172,7 +172,7 @@ fn quantile(values: &[f32], share: f64) -> f64 {
 pub fn pressure(path: &Path, map: &Map, title: &str, nominal_mpa: f64) -> std::io::Result<()> {
     let grid = Grid::of(map);
     let most = quantile(map.values, 0.99);
-    let bands = Bands::smooth([0.0, most]);
+    let bands = Bands::smooth([0.0, most]).darkening();
     let (palette, key) = grid.scaled(&bands, REGIMES[0]);
     let none = palette.len() as u8;
     // the largest pressure of the cells of a dot: small asperities stay visible

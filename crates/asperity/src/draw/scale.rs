@@ -18,6 +18,9 @@ pub fn decimals(step: f64) -> usize {
 
 /// A multiple of `step` in just the digits that it needs.
 pub fn label(value: f64, step: f64) -> String {
+    if !(1e-6..1e8).contains(&step) && value != 0.0 {
+        return format!("{value:.1e}").replace(".0e", "e");
+    }
     let text = format!("{value:.*}", decimals(step));
     if text.trim_start_matches(['-', '0', '.']).is_empty() { "0".into() } else { text }
 }
@@ -38,6 +41,7 @@ mod tests {
         assert_eq!(round_step(0.9, 7.0), 0.2);
         assert_eq!(label(0.30000000000000004, 0.1), "0.3");
         assert_eq!(label(-0.0, 2.5), "0");
+        assert_eq!((label(3e-19, 1e-19), label(0.0, 1e-19)), ("3e-19".into(), "0".into()));
         assert_eq!(label(2.5, 2.5), "2.5");
         assert_eq!(multiples(-10.0, 5.0, 5.0), [-10.0, -5.0, 0.0, 5.0]);
     }

@@ -26,6 +26,7 @@ fn closures(contacts: &[ClosureContact], mean_gradient: f64) -> Chart {
         Series::of_closure(one.law.closure, false, (0..=STEPS).map(point).collect())
     });
     Chart::new("slope of an island (degrees)", "mean pressure on its contact (MPa)", series)
+        .titled("What each closure gives an island")
 }
 
 /// Pressure against the travel of the plane from first touch.
@@ -47,6 +48,7 @@ fn load_curves(contacts: &[ClosureContact]) -> Chart {
 /// A chart of nominal pressure against the travel of the plane.
 pub(crate) fn travel_chart(series: Vec<Series>) -> Chart {
     Chart::new("travel of the plane from first touch (µm)", "nominal pressure (MPa)", series)
+        .titled("Load curve: nominal pressure over the travel of the plane")
 }
 
 /// Share of the contact area per step of pressure, against pressure over nominal pressure.
@@ -72,4 +74,5 @@ fn histogram(contacts: &[ClosureContact]) -> Chart {
         Series::of_closure(one.closure, false, points.collect())
     });
     Chart::new("pressure over nominal pressure", format!("contact area per step of {width:.2} (%)"), series)
+        .titled("Distribution of the pressure over the contact")
 }

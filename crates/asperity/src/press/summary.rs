@@ -38,45 +38,62 @@ const DEFINITIONS: [(&str, &str); 6] = [
 
 row! {
     /// The content of `summary.json`: the surface as pressed, and every closure.
-    #[allow(missing_docs, reason = "the names are those of the file, see `definitions`")]
     Summary(name: &str, surface: &Surface, scene: &Scene) {
+        /// Name of the surface.
         surface: String = name.into(),
         /// Points along x and y.
         pixels: [usize; 2] = [surface.map.columns(), surface.map.rows()],
+        /// Distance of points along x and y.
         pixel_size_um: [f64; 2] = surface.map.pixel().map(|p| p / MICROMETRE),
         /// Points that were not measured.
         missing: usize = surface.missing,
         /// Points that `surface.outliers` took away.
         outliers: usize = surface.outliers,
+        /// Area of the cells used.
         nominal_area_um2: f64 = surface.nominal_area() / MICROMETRE / MICROMETRE,
+        /// Arithmetic mean height Sa of ISO 25178-2, over the whole map.
         sa_um: f64 = surface.parameters.sa / MICROMETRE,
+        /// Root mean square height Sq.
         sq_um: f64 = surface.parameters.sq / MICROMETRE,
-        /// None of a flat map, like `sku`.
+        /// Skewness Ssk; none of a flat map, like `sku`.
         ssk: Option<f64> = finite(surface.parameters.ssk),
+        /// Kurtosis Sku.
         sku: Option<f64> = finite(surface.parameters.sku),
+        /// Largest height less smallest height.
         sz_um: f64 = surface.parameters.sz / MICROMETRE,
-        /// Highest point above the mean, and mean above the lowest point.
+        /// Highest point above the mean, Sp.
         sp_um: f64 = surface.parameters.sp / MICROMETRE,
+        /// Mean above the lowest point, Sv.
         sv_um: f64 = surface.parameters.sv / MICROMETRE,
+        /// Root mean square gradient Sdq, by the derivative of seven points of ISO 25178-2.
         sdq: f64 = surface.parameters.sdq,
-        /// Developed area over projected area, less 1.
+        /// Developed area over projected area, less 1, Sdr.
         sdr: f64 = surface.parameters.sdr,
         /// Root mean square of |∇h| of the surface that is pressed, which is linear between the points.
         rms_gradient: f64 = surface.parameters.rms_gradient,
+        /// Sa again, under the name of the scene and of the table.
         ra_um: f64 = surface.parameters.sa / MICROMETRE,
+        /// Sq again.
         rq_um: f64 = surface.parameters.sq / MICROMETRE,
+        /// Mean of |∇h|; depends on the pixel size.
         mean_gradient: f64 = surface.parameters.mean_gradient,
+        /// Mean of |dz/dx|.
         mean_slope_x: f64 = surface.parameters.mean_slope_x,
+        /// atan of `mean_gradient`, degrees.
         beta_deg: f64 = surface.parameters.beta_deg(),
+        /// What names mean that could be misread.
         definitions: BTreeMap<String, String> = DEFINITIONS.map(|(name, text)| (name.into(), text.into())).into(),
+        /// Every closure.
         closures: Vec<ClosureSummary> = Vec::new(),
         /// Area, closure to believe, gap and leak in words; none without a half-space.
         verdict: Option<String> = None,
         /// Remarks on the trust in the numbers.
         warnings: Warnings = Vec::new(),
+        /// Seconds the run took.
         wall_s: f64 = 0.0,
         /// The scene as pressed.
         scene: Scene = scene.clone(),
+        /// Version of this program.
         version: String = env!("CARGO_PKG_VERSION").into(),
     }
 }

@@ -53,16 +53,19 @@ pub fn body(item: Item, results: &Results) -> Result<Markup, String> {
         "fig11" => maps(
             results,
             "topography.png",
+            "Map of the heights",
             "Heights in µm; surfaces generated with the printed Ra and mean slope, 2 mm a side. The paper's own surfaces are not public.",
         ),
         "fig12" => maps(
             results,
             "pressure-published.png",
+            "Map of the contact pressure",
             "Pressure under a nominal 200 MPa by the paper's closure; colours end where 99 % of the loaded pixels do.",
         ),
         "fig13" => maps(
             results,
             "contact-published.png",
+            "Map of the contact, coloured by regime",
             "Contact areas by regime, by the paper's closure and its thresholds.",
         ),
         "table1" => numbers(results),
@@ -98,7 +101,7 @@ fn sketch(results: &Results, part: &str, start: &str, caption: &str) -> Markup {
 fn table(head: &[&str], rows: &[Vec<String>]) -> Markup {
     html! {
         div class="wide" { table {
-            thead { tr { @for (i, cell) in head.iter().enumerate() { th class=[(i > 0).then_some("number")] { (cell) } } } }
+            thead { tr { @for (i, cell) in head.iter().enumerate() { th scope="col" class=[(i > 0).then_some("number")] { (cell) } } } }
             tbody { @for row in rows { tr {
                 @for (i, cell) in row.iter().enumerate() { td class=[(i > 0).then_some("number")] { (cell) } }
             } } }
@@ -257,13 +260,13 @@ fn profile(results: &Results) -> Result<Markup, String> {
     ))
 }
 
-fn maps(results: &Results, name: &str, caption: &str) -> Markup {
+fn maps(results: &Results, name: &str, seen: &str, caption: &str) -> Markup {
     html! {
         div class="row" {
             @for (part, letter) in ROUGH.iter().zip(["(a)", "(b)", "(c)"]) {
                 figure {
                     @match results.png(part, name) {
-                        Some(uri) => { img src=(uri) alt={ (letter) " " (part) ", " (name) }; }
+                        Some(uri) => { img src=(uri) alt={ (seen) " of the " (part.trim_start_matches("rough-")) " surface" }; }
                         None => { p class="missing" { "not there" } }
                     }
                     figcaption { (letter) " " (part.trim_start_matches("rough-")) " surface" }

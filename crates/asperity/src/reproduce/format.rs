@@ -44,6 +44,9 @@ fn digits(value: f64, count: i32) -> String {
     if value == 0.0 || !value.is_finite() {
         return format!("{value}");
     }
+    if value.abs() < 1e-6 {
+        return format!("{value:.*e}", (count - 1).max(0) as usize);
+    }
     let decimals = (count - 1 - value.abs().log10().floor() as i32).clamp(0, 9) as usize;
     format!("{value:.decimals$}")
 }

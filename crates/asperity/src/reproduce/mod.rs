@@ -14,7 +14,7 @@ pub mod part;
 
 mod results_reader;
 
-mod format;
+pub(crate) mod format;
 
 pub mod claims;
 mod figures;

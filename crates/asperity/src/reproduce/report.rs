@@ -163,15 +163,15 @@ fn page(results: &Results, items: &[Item], claims: &[Claim], level: &str) -> Res
                     h2 id="claims" { "Claims of the paper" }
                     (tally(claims))
                     div class="wide" { table id="overview" {
-                        thead { tr { th { "claim of the paper" } th { "where" } th { "ours" } th { "verdict" } } }
+                        thead { tr { th scope="col" { "verdict" } th scope="col" { "claim of the paper" } th scope="col" { "ours" } th scope="col" { "where" } } }
                         tbody { @for claim in claims { tr {
+                            td { (verdict(claim.verdict)) }
                             td { (claim.claim) }
-                            td class="place" { a href={ "#" (claim.item) } { (claim.place) } }
                             td {
                                 (claim.ours)
                                 @if claim.verdict == Verdict::Contradicted && !claim.why.is_empty() { p class="cause" { (claim.why) } }
                             }
-                            td { (verdict(claim.verdict)) }
+                            td class="place" { a href={ "#" (claim.item) } { (claim.place) } }
                         } } }
                     } }
                     p { "“Borne out” means within the rounding of the printed number and our own error: the interval of a fit, or two standard "

@@ -7,6 +7,7 @@ use super::row::{self, Outcome, Run, columns};
 use crate::batch::{self, Batch, Options, Reached, Shard};
 use crate::error::{Error, InputError};
 use crate::output::{Sink, SinkExt, write_whole};
+use crate::reproduce::format::significant;
 use asperity_calibration::journal::fingerprint;
 use std::collections::HashMap;
 use std::fmt::{Display, Write};
@@ -236,7 +237,7 @@ impl Study {
             let (low, high) =
                 numbers().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
             if low <= high {
-                let _ = write!(text, "\n{column} from {low:.5} to {high:.5}");
+                let _ = write!(text, "\n{column} from {} to {}", significant(low), significant(high));
             }
         }
         text

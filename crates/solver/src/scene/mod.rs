@@ -54,6 +54,7 @@ impl std::error::Error for SceneError {}
 #[schemars(title = "A scene of `asperity crush` and `asperity mesh`")]
 pub struct Scene {
     /// Body of revolution, or ridges of constant section.
+    #[serde(default = "axisymmetric")]
     pub symmetry: Symmetry,
     /// Error of the force: draft 5 %, standard 1 %, reference 0.2 %, or a percentage from 0.2% to 5%.
     #[serde(default)]
@@ -72,7 +73,8 @@ pub struct Scene {
     /// The body under the asperities; absent in axisymmetry: sized from the contact.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub substrate: Option<Substrate>,
-    /// The frictionless tool, rigid unless it has a modulus.
+    /// The frictionless tool, rigid unless it has a modulus; absent: a rigid plane.
+    #[serde(default = "Tool::plane")]
     pub tool: Tool,
     /// How far it goes: exactly one of `depth` and `force`.
     pub loading: Loading,
@@ -85,6 +87,10 @@ pub struct Scene {
     /// A mesh to read instead of building one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mesh: Option<MeshFile>,
+}
+
+fn axisymmetric() -> Symmetry {
+    Symmetry::Axisymmetric
 }
 
 /// Support of the lateral side of the substrate.
