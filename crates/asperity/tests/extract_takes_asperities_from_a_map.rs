@@ -235,11 +235,11 @@ fn crushed_cones_agree_with_the_closure_that_was_made_from_cones() {
     assert_eq!(place.text("out/compared.csv"), table);
 }
 
-/// The commands of docs/profilometer.md, in their order.
+/// The commands of the tutorial on measured summits, in their order.
 #[test]
 fn the_page_from_a_profilometer_to_a_force_curve_runs() {
     let page = std::fs::read_to_string(
-        std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/profilometer.md"),
+        std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/src/tutorials/extract.md"),
     )
     .unwrap();
     let blocks = |kind: &str| {
@@ -271,9 +271,11 @@ fn the_page_from_a_profilometer_to_a_force_curve_runs() {
         assert!(place.text(file).lines().count() > 4, "{file}");
     }
     // the picture stands at the side of the page
-    for picture in page.split("](").skip(1).filter_map(|rest| rest.strip_prefix("pictures/")) {
+    for picture in page.split("](").skip(1).filter_map(|rest| rest.strip_prefix("output/")) {
         let name = picture.split(')').next().unwrap();
-        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/pictures").join(name);
+        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR"))
+            .join("../../docs/src/tutorials/output")
+            .join(name);
         assert!(path.is_file(), "{name}");
     }
 }

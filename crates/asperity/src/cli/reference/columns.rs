@@ -3,8 +3,9 @@
 use super::{code, table, words};
 use crate::calibrate::{AngleFit, Fit};
 use crate::crush::{
-    AsperityRow, CurveRow, CycleRow, Errors, GapRow, Instrument, Island, Summary, SurfaceRow,
+    AsperityRow, CurveRow, CycleRow, Errors, GapRow, Instrument, Island, MeasuredOutline, Summary, SurfaceRow,
 };
+use crate::extract;
 use crate::output::{Column, Described};
 use crate::press;
 use crate::trade::TradeRow;
@@ -30,7 +31,7 @@ const STUDY: &str = "`results.csv` has a row per run, in the order of the plan: 
     memory of its process until then. `study.svg` shows one result over one or two keys. `study.json` says what was varied, with the \
     scene, and `study.journal` holds the finished runs, from which a study goes on.";
 
-const ROUGH: &str = "`contact-CLOSURE.vti` holds the maps for ParaView, `pressure-CLOSURE.png` and `contact-CLOSURE.png` show them, \
+const ROUGH: &str = "`contact.vti` holds the maps of all closures for ParaView, compressed, `pressure-CLOSURE.png` and `contact-CLOSURE.png` show them, \
     `load_curve.svg` and `pressure_histogram.svg` compare the closures. `--table1 --out DIR` leaves `table1.txt`, the printed text, and \
     `table1.json`: for each surface the row as printed (µm, degrees, MPa, %) and, for each closure, the values of the five seeds of \
     every column.";
@@ -50,6 +51,7 @@ pub fn page() -> String {
         "summary.json: `oliver_pharr`",
         "an instrument's reading, under a cone or a sphere with unloading",
     );
+    text += &of_crush::<MeasuredOutline>("summary.json: `outlines`", "what was made of a measured outline");
     text += &of_crush::<Island>("summary.json: `elastic_islands`", "regions that never yielded");
     text += &of_crush::<AsperityRow>("asperities.csv", "the share of each of several asperities");
     text += &of_crush::<GapRow>("gaps.csv", "untouched surface between two contacts");
@@ -57,7 +59,8 @@ pub fn page() -> String {
         &of_crush::<CycleRow>("cycles.csv", "a row per loading with its unloading, where the scene reloads");
     text += &of_crush::<SurfaceRow>(
         "surface_NNNN.csv",
-        "the free surface, from the axis outward, with `[output] fields`",
+        "the free surface, from the axis outward, with `[output] fields`; `surfaces.csv` holds those of all increments, with the number \
+         of the increment first",
     );
     text += &format!("{FOLDER}\n\n## asperity calibrate\n\n");
     text += &of_cases();
@@ -70,7 +73,14 @@ pub fn page() -> String {
     text +=
         &of::<press::Summary>("summary.json", "the surface after levelling and filtering, and every closure");
     text += &of::<press::ClosureSummary>("summary.json: `closures`", "beside the columns of `table.csv`");
-    text += &format!("{ROUGH}\n\n## asperity study\n\n{STUDY}\n\n## asperity trade\n\n");
+    text += &format!("{ROUGH}\n\n## asperity extract\n\n");
+    text += &of::<extract::AsperityRow>("asperities.csv", "a row per asperity, from the highest summit down");
+    text += &of::<extract::ComparedRow>(
+        "compared.csv",
+        "a row per asperity, depth and closure, the finite elements among them",
+    );
+    text += &of::<extract::Summary>("summary.json", "the map and what was found on it");
+    text += &format!("## asperity study\n\n{STUDY}\n\n## asperity trade\n\n");
     text += &of::<TradeRow>("trade.csv", "a row per setting");
     text
 }

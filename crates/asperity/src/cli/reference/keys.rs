@@ -5,11 +5,12 @@ use crate::cli::schema::{SchemaKind, of_kind};
 use serde_json::Value;
 
 /// The files, and what to say of each.
-const FILES: [(SchemaKind, &str, &str); 4] = [
+const FILES: [(SchemaKind, &str, &str); 5] = [
     (SchemaKind::Scene, "Scene", "A scene is what `asperity crush`, `mesh` and `trade` read."),
     (SchemaKind::Rough, "Rough surface", "A scene of a rough surface is what `asperity rough` reads."),
     (SchemaKind::Sweep, "Sweep", "A sweep is what `asperity calibrate` reads. Every key is optional."),
     (SchemaKind::Study, "Study", "A study is what `asperity study` reads, beside the scene that it names."),
+    (SchemaKind::Fit, "Fit", "A fit is what `asperity identify` reads, beside the curves that it names."),
 ];
 
 /// The page.
