@@ -87,7 +87,7 @@ pub struct Extracted {
 /// use asperity::RoughScene;
 /// use asperity::extract::{Extraction, extract};
 ///
-/// let text = include_str!("../../scenes/rough-milled.toml").replace("[1024, 1024]", "[256, 256]");
+/// let text = include_str!("../../scenes/rough-sanded.toml");
 /// let scene = RoughScene::from_toml(&text, std::path::Path::new(""))?;
 /// let found = extract(&scene, &Extraction::default())?;
 /// assert!(found.asperities.len() > found.bodies.len() && found.bodies[0].scene.contains("profile"));

@@ -49,6 +49,9 @@ pub const MOST_POINTS: usize = 20_000;
 /// Rounds of division: each may halve every arc.
 const MOST_ROUNDS: usize = 24;
 
+/// Points from which neighbours tell how far heights scatter; fewer are drawn by hand, and meant as they stand.
+const SCATTERED: usize = 20;
+
 /// How many spacings of its points the first point may be away from the axis.
 const FIRST: f64 = 1.5;
 
@@ -67,7 +70,8 @@ pub fn fit(points: &[[f64; 2]], span: Span, tolerance: Option<f64>) -> Result<Fi
     };
     let unit: Vec<[f64; 2]> = points.iter().map(|p| [(p[0] - left) / width, (p[1] - low) / height]).collect();
     let whole = unfolded(&unit, span);
-    let tolerance = tolerance.map_or_else(|| scatter(&whole), |t| t / height).max(EXACT);
+    let told = || if points.len() < SCATTERED { 0.0 } else { scatter(&whole) };
+    let tolerance = tolerance.map_or_else(told, |t| t / height).max(EXACT);
     let skipped = whole.len() - unit.len();
     let found = corners(&whole, tolerance, height / width);
     let kinks: Vec<usize> = found.iter().filter_map(|i| i.checked_sub(skipped)).collect();
