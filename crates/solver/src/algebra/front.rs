@@ -183,9 +183,13 @@ impl Elimination<'_> {
                 return None;
             }
             negative += usize::from(pivot < 0.0);
-            self.scaled[j * column..][j..column].copy_from_slice(&rest[j..]);
             let inverse = pivot.recip();
-            rest[j + 1..].iter_mut().for_each(|entry| *entry *= inverse);
+            let scaled = &mut self.scaled[j * column..][j..column];
+            scaled[0] = pivot;
+            for (entry, scaled) in rest[j + 1..].iter_mut().zip(&mut scaled[1..]) {
+                *scaled = *entry;
+                *entry *= inverse;
+            }
         }
         Some(negative)
     }

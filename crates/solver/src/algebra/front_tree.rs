@@ -14,8 +14,9 @@ const ROOT: usize = usize::MAX;
 /// Share of the work that a branch has at most: so many that two to eight threads are busy to the end.
 const BRANCH: f64 = 0.07;
 
-/// Seconds of work (as [`Size::seconds`] guesses) from which a matrix has branches: a task costs some microseconds.
-const WORTH_BRANCHES: f64 = 400e-6;
+/// Seconds of work (as [`Size::seconds`] guesses) from which a matrix has branches: on smaller ones a second thread has more to do
+/// with the companion of the run.
+const WORTH_BRANCHES: f64 = 3e-3;
 
 /// Seconds of work from which a subtree is a branch; smaller ones are left to the trunk.
 const WORTH_A_TASK: f64 = 15e-6;
