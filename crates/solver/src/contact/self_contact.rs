@@ -350,7 +350,7 @@ mod tests {
     #[test]
     fn force_and_tangent_are_derivatives_of_the_energy() {
         let (edges, position) = two_faces();
-        let facing = Facing::new(&edges, &position, &vec![[0.1; 2]; 6], &Facing::default());
+        let facing = Facing::new(&edges, &position, &[[0.1; 2]; 6], &Facing::default());
         assert!(!facing.is_empty() && energy(&facing, &edges, &position) > 0.0);
         let (mut force, mut stiffness) = ([0.0; 12], [[0.0; 12]; 12]);
         for pressed in facing.press(&edges, 3.0, |n| position[n as usize]) {
@@ -398,7 +398,7 @@ mod tests {
     #[test]
     fn forces_are_in_equilibrium() {
         let (edges, position) = two_faces();
-        let facing = Facing::new(&edges, &position, &vec![[0.1; 2]; 6], &Facing::default());
+        let facing = Facing::new(&edges, &position, &[[0.1; 2]; 6], &Facing::default());
         for pressed in facing.press(&edges, 3.0, |n| position[n as usize]) {
             let nodes = || pressed.nodes[..pressed.count].iter().zip(&pressed.force);
             let sum = |i: usize| nodes().map(|(_, f)| f[i]).sum::<f64>();
@@ -428,7 +428,7 @@ mod tests {
         for x in &mut position[..3] {
             x[1] += 0.2;
         }
-        assert!(Facing::new(&edges, &position, &vec![[0.1; 2]; 6], &Facing::default()).is_empty());
+        assert!(Facing::new(&edges, &position, &[[0.1; 2]; 6], &Facing::default()).is_empty());
         let round: Vec<[f64; 2]> = (0..17)
             .map(|i| f64::from(i) / 16.0 * std::f64::consts::PI)
             .map(|angle| [2.0 + angle.cos(), angle.sin()])
@@ -439,6 +439,6 @@ mod tests {
                 ContactEdge::new([2 * e, 2 * e + 2], Some(2 * e + 1), node, Symmetry::PlaneStrain)
             })
             .collect();
-        assert!(Facing::new(&edges, &round, &vec![[0.3; 2]; 17], &Facing::default()).is_empty());
+        assert!(Facing::new(&edges, &round, &[[0.3; 2]; 17], &Facing::default()).is_empty());
     }
 }

@@ -75,7 +75,8 @@ fn corners_stay_where_the_points_have_them() {
 
 #[test]
 fn what_is_no_outline_is_refused_with_its_point() {
-    let row: [(&[[f64; 2]], Option<usize>, &str); 7] = [
+    type Case<'c> = (&'c [[f64; 2]], Option<usize>, &'c str);
+    let row: [Case; 7] = [
         (&[[0.0, 1.0]], None, "from 2 to 20000 points, not 1"),
         (&[[0.0, 1.0], [1.0, f64::NAN], [2.0, 0.0]], Some(1), "finite"),
         (&[[0.0, 1.0], [2.0, 0.5], [1.0, 0.0]], Some(2), "overhangs"),
