@@ -2,7 +2,7 @@
 //! front takes what each leaves (the multifrontal method; Duff and Reid 1983, Liu 1992).
 //!
 //! Unknowns whose columns of the factor have the same rows form a front. Small fronts are merged with the front that takes
-//! what they leave, where a few zeros more cost less than a front of its own ([`Size::seconds`]).
+//! what they leave, where a few zeros more cost less than a front of its own (`Size::seconds`).
 
 use crate::algebra::front::Size;
 use sprs::CsMat;

@@ -1,6 +1,6 @@
 //! Frictionless penalty contact of the free surface with itself: flanks that meet, flanks that lie down on the base.
 //!
-//! Energy ∫ ½ (ε/2) d² dA over the surface. ε is [`STIFFER`] times the tool's penalty, d the depth of a surface point behind the
+//! Energy ∫ ½ (ε/2) d² dA over the surface. ε is `STIFFER` times the tool's penalty, d the depth of a surface point behind the
 //! nearest of the edges that it faces, A the area of the last converged state as for the tool. Each side presses the other with
 //! half the penalty, so that two faces press with ε d. The force is the gradient of this energy, the tangent its second
 //! derivative. Integration points lie between the places where nodes of the other side were, so that two meshes that do not
@@ -8,7 +8,7 @@
 //!
 //! Which points face which edges is found once an increment, from the converged state: a point inside thin metal lies behind
 //! its other side as well, and only its past tells the two apart. An edge is faced if the two normals part by more than 60° and the
-//! point lay outside of it or less than [`DEEPEST`] of a piece behind. Pieces are the straight lines between neighbouring nodes.
+//! point lay outside of it or less than `DEEPEST` of a piece behind. Pieces are the straight lines between neighbouring nodes.
 
 use crate::contact::edge::{ContactEdge, GAUSS4};
 use crate::contact::projection::{Depth, NODES, Placed, intersection};
