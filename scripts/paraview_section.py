@@ -45,7 +45,9 @@ def peak(folder, times):
         rows = {int(row["increment"]): row for row in csv.DictReader(file)}
     # the times of the collection are depths, in the order of its files
     increments = map(int, re.findall(r"fields_(\d+)\.vtu", (folder / "fields.pvd").read_text()))
-    loading = [(t, i) for t, i in zip(times, increments, strict=True) if rows.get(i, {}).get("phase") == "load"]
+    loading = [
+        (t, i) for t, i in zip(times, increments, strict=True) if rows.get(i, {}).get("phase") == "load"
+    ]
     if not loading:
         sys.exit(f"{folder} has no field file of the loading branch")
     time, increment = loading[-1]

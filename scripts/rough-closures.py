@@ -98,7 +98,7 @@ def table(ratios):
     for closure in CLOSURES:
         for stiffness in STIFFNESS:
             cells = {load: ratios.get((closure, stiffness, load), []) for load in LOADS}
-            near = [l for l, v in cells.items() if v and all(abs(r - 1) <= NEAR for r in v)]
+            near = [load for load, v in cells.items() if v and all(abs(r - 1) <= NEAR for r in v)]
             known = [r for v in cells.values() for r in v if not math.isnan(r)]
             if not known:
                 continue
@@ -109,19 +109,25 @@ def table(ratios):
     text += "|-|-|" + "-|" * len(LOADS) + "\n"
     for closure in CLOSURES:
         for stiffness in STIFFNESS:
-            values = [[r for r in ratios.get((closure, stiffness, l), []) if not math.isnan(r)] for l in LOADS]
+            values = [
+                [r for r in ratios.get((closure, stiffness, load), []) if not math.isnan(r)] for load in LOADS
+            ]
             shown = " | ".join(f"{statistics.median(v):.2f}" if v else "" for v in values)
             text += f"| `{closure}` | {stiffness} | {shown} |\n"
     return text
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("--binary", type=pathlib.Path, default=ROOT / "target/release/asperity")
     parser.add_argument("--pixels", type=int, default=512)
     parser.add_argument("--out", type=pathlib.Path, default=ROOT / "verification/results/rough-closures.md")
     flags = parser.parse_args()
-    version = subprocess.run([flags.binary, "--version"], capture_output=True, text=True, check=True).stdout.strip()
+    version = subprocess.run(
+        [flags.binary, "--version"], capture_output=True, text=True, check=True
+    ).stdout.strip()
     body = table(measure(flags.binary, flags.pixels))
     first = f"<!-- written by `scripts/rough-closures.py --pixels {flags.pixels}`, {version}, mean slope {SLOPE:g} degrees -->"
     flags.out.write_text(f"{first}\n\n{body}")
