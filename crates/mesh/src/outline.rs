@@ -269,14 +269,14 @@ impl Parabola {
         }
         let (c, s, b) = (self.at(from) - depth, self.slope_at(from), self.bend);
         let length = to - from;
-        let root = roots(b, s, c).into_iter().flatten().filter(|t| (0.0..=length).contains(t));
+        let root = quadratic_roots(b, s, c).into_iter().flatten().filter(|t| (0.0..=length).contains(t));
         let last = root.fold(f64::NEG_INFINITY, f64::max);
         if last.is_finite() { Some(from + last) } else { (c <= 0.0).then_some(from) }
     }
 }
 
 /// Real roots of c + bt + at², without cancellation.
-fn roots(a: f64, b: f64, c: f64) -> [Option<f64>; 2] {
+pub fn quadratic_roots(a: f64, b: f64, c: f64) -> [Option<f64>; 2] {
     let discriminant = b * b - 4.0 * a * c;
     if discriminant < 0.0 {
         return [None, None];

@@ -19,20 +19,29 @@ pub struct Quality {
     pub max_size: f64,
 }
 
-/// Scaled Jacobian det[a b] / (|a| |b|) and angle in degrees between the two sides that leave a corner
-/// counterclockwise (`a`) and clockwise (`b`).
-fn corner_shape(a: [f64; 2], b: [f64; 2]) -> (f64, f64) {
-    let det = a[0] * b[1] - a[1] * b[0];
-    let dot = a[0] * b[0] + a[1] * b[1];
-    let lengths = a[0].hypot(a[1]) * b[0].hypot(b[1]);
-    if lengths > 0.0 { (det / lengths, det.atan2(dot).to_degrees()) } else { (0.0, 0.0) }
+/// det[a b] and a·b of the two sides that leave a corner counterclockwise (`a`) and clockwise (`b`).
+fn corner([a, b]: [[f64; 2]; 2]) -> [f64; 2] {
+    [a[0] * b[1] - a[1] * b[0], a[0] * b[0] + a[1] * b[1]]
+}
+
+/// Scaled Jacobian det[a b] / (|a| |b|) of a corner; 0 for a side without length.
+fn scaled_jacobian(sides: [[f64; 2]; 2]) -> f64 {
+    let lengths = sides.map(|side| side[0] * side[0] + side[1] * side[1]);
+    let product = (lengths[0] * lengths[1]).sqrt();
+    if product > 0.0 { corner(sides)[0] / product } else { 0.0 }
+}
+
+/// Angle of a corner, degrees; 0 for a side without length.
+fn angle(sides: [[f64; 2]; 2]) -> f64 {
+    let [det, dot] = corner(sides);
+    det.atan2(dot).to_degrees()
 }
 
 impl Mesh {
     /// Direction in which side `k` of a cell leaves its first corner, and arrives at its second one; curved
     /// sides by the tangent of their parabola.
-    fn side_tangents(&self, cell: &[u32], k: usize) -> ([f64; 2], [f64; 2]) {
-        let at = |i: usize| self.nodes[cell[i] as usize];
+    fn side_tangents(&self, nodes: &[[f64; 2]], cell: &[u32], k: usize) -> ([f64; 2], [f64; 2]) {
+        let at = |i: usize| nodes[cell[i] as usize];
         let (p, q) = (at(k), at((k + 1) % 4));
         match self.kind {
             ElementKind::Quad4 => {
@@ -49,14 +58,16 @@ impl Mesh {
         }
     }
 
-    /// Smallest scaled Jacobian and smallest angle (degrees) over the corners of one cell.
-    fn cell_shape(&self, cell: &[u32]) -> (f64, f64) {
-        let tangents = [0, 1, 2, 3].map(|k| self.side_tangents(cell, k));
-        (0..4).fold((f64::INFINITY, f64::INFINITY), |worst, k| {
-            let back = tangents[(k + 3) % 4].1.map(|v| -v);
-            let shape = corner_shape(tangents[k].0, back);
-            (worst.0.min(shape.0), worst.1.min(shape.1))
-        })
+    /// The two sides that leave each corner of a cell, as their directions there.
+    fn corners(&self, nodes: &[[f64; 2]], cell: &[u32]) -> [[[f64; 2]; 2]; 4] {
+        let tangents = [0, 1, 2, 3].map(|k| self.side_tangents(nodes, cell, k));
+        [0, 1, 2, 3].map(|k| [tangents[k].0, tangents[(k + 3) % 4].1.map(|v| -v)])
+    }
+
+    /// Smallest scaled Jacobian of all corners with the nodes at `nodes` instead of their own places.
+    pub fn sharpest_corner(&self, nodes: &[[f64; 2]]) -> f64 {
+        let cells = self.cells.chunks_exact(self.kind.nodes());
+        cells.flat_map(|cell| self.corners(nodes, cell)).map(scaled_jacobian).fold(f64::INFINITY, f64::min)
     }
 
     /// Shape and size of the cells; `None` for a mesh without cells.
@@ -78,10 +89,11 @@ impl Mesh {
             let sizes = [0, 1, 2, 3].map(|k| distance(cell[k], cell[(k + 1) % 4]));
             let shortest = sizes.iter().copied().fold(f64::INFINITY, f64::min);
             let longest = sizes.iter().copied().fold(0.0, f64::max);
-            let (jacobian, angle) = self.cell_shape(cell);
             aspects.push(longest / shortest);
-            quality.min_scaled_jacobian = quality.min_scaled_jacobian.min(jacobian);
-            quality.min_angle_deg = quality.min_angle_deg.min(angle);
+            for corner in self.corners(&self.nodes, cell) {
+                quality.min_scaled_jacobian = quality.min_scaled_jacobian.min(scaled_jacobian(corner));
+                quality.min_angle_deg = quality.min_angle_deg.min(angle(corner));
+            }
             quality.min_size = quality.min_size.min(shortest);
             quality.max_size = quality.max_size.max(longest);
         }

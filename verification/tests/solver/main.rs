@@ -17,6 +17,7 @@ mod full_quad;
 mod hysteresis_of_reloads;
 mod kinematic_hardening;
 mod lost_pivot;
+mod meshing_anew;
 mod newton_order;
 mod patch;
 mod penalty_keeps_the_force;

@@ -1,10 +1,10 @@
 //! `asperity extract`: from a measured map to finite elements.
 
 use crate::batch::Options;
-use crate::cli::flags::{RunFlags, parse_accuracy};
+use crate::cli::flags::{AccuracyParser, RunFlags};
 use crate::cli::folder::claim;
-use crate::cli::progress::Progress;
-use crate::cli::{interrupt, terminal};
+use crate::cli::progress::BatchProgress;
+use crate::cli::terminal;
 use crate::error::Error;
 use crate::extract::{Comparison, Extracted, Extraction, LineAt, Parts, extract as take};
 use crate::output::Directory;
@@ -48,7 +48,7 @@ pub struct Extract {
     #[arg(long, value_name = "N")]
     pub crush: Option<usize>,
     /// Error of the force of a crush: draft (5 %), standard (1 %), reference (0.2 %) or a percentage [default: standard]
-    #[arg(long, value_name = "LEVEL", value_parser = parse_accuracy)]
+    #[arg(long, value_name = "LEVEL", value_parser = AccuracyParser, hide_possible_values = true)]
     pub accuracy: Option<Accuracy>,
     /// Change a value of the rough scene, for example --set "surface.s_filter=2 um" or --set "material.yield_stress=300 MPa"; repeatable
     #[arg(long = "set", value_name = "KEY.PATH=VALUE")]
@@ -167,28 +167,14 @@ fn compare(
     count: usize,
     target: &Path,
 ) -> Result<Comparison, Error> {
-    interrupt::catch();
-    let progress = Progress::new(args.run.quiet);
+    let mut progress = BatchProgress::new(args.run.quiet, ["asperity", "asperities"], target.to_path_buf());
     let options = Options {
         threads: args.run.threads.map_or(0, usize::from),
         part: None,
         folder: Some(target.to_path_buf()),
     };
-    let mut begun = false;
-    let compared = found.crush(scene, count, &options, &mut |reached| {
-        if !begun && reached.done > 0 && !args.run.quiet {
-            terminal::complain(&format!(
-                "{} asperities of an earlier start are in {}",
-                reached.done,
-                target.display()
-            ));
-        }
-        begun = true;
-        progress.show(reached.done as f64 / reached.asperities.max(1) as f64, || {
-            format!("asperity {} of {}", reached.done, reached.asperities)
-        });
-        !interrupt::requested()
-    });
+    let compared =
+        found.crush(scene, count, &options, &mut |reached| progress.show(reached.done, reached.asperities));
     progress.finish();
     compared
 }

@@ -106,7 +106,7 @@ impl TypedValueParser for AccuracyParser {
 ///
 /// # Errors
 /// A sentence for the user.
-pub fn parse_accuracy(text: &str) -> Result<Accuracy, String> {
+fn parse_accuracy(text: &str) -> Result<Accuracy, String> {
     let accuracy: Accuracy = text.parse().map_err(|e: AccuracyError| e.to_string())?;
     accuracy.check().map_err(|e| e.message)?;
     Ok(accuracy)

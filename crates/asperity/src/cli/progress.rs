@@ -1,7 +1,9 @@
 //! One line on the terminal while a run lasts; nothing where there is no terminal to draw on.
 
+use crate::cli::{interrupt, terminal};
 use indicatif::{MultiProgress, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
+use std::path::PathBuf;
 
 /// Steps of a full bar.
 const FULL: u64 = 10_000;
@@ -38,7 +40,7 @@ impl Lines {
 
     /// Prints what is to stay, above the lines.
     pub fn say(&self, text: &str) {
-        self.lines.suspend(|| crate::cli::terminal::complain(text));
+        self.lines.suspend(|| terminal::complain(text));
     }
 }
 
@@ -68,5 +70,40 @@ impl Progress {
     /// Takes the line away.
     pub fn finish(self) {
         self.bar.finish_and_clear();
+    }
+}
+
+/// The line of runs that are kept in a folder, from which they go on after a stop.
+#[derive(Debug)]
+pub struct BatchProgress {
+    line: Progress,
+    /// Says what an earlier start left; not before the first run is known, and not if quiet.
+    greets: bool,
+    /// A run, and several.
+    names: [&'static str; 2],
+    folder: PathBuf,
+}
+
+impl BatchProgress {
+    /// A line on stderr for runs called `names` (one, several) in `folder`; silent if `quiet`. From now on an interrupt is a wish.
+    pub fn new(quiet: bool, names: [&'static str; 2], folder: PathBuf) -> Self {
+        interrupt::catch();
+        BatchProgress { line: Progress::new(quiet), greets: !quiet, names, folder }
+    }
+
+    /// Shows that `done` of `all` runs are finished. Returns whether to go on.
+    pub fn show(&mut self, done: usize, all: usize) -> bool {
+        let [one, several] = self.names;
+        if std::mem::take(&mut self.greets) && done > 0 {
+            let folder = self.folder.display();
+            terminal::complain(&format!("{done} {several} of an earlier start are in {folder}"));
+        }
+        self.line.show(done as f64 / all.max(1) as f64, || format!("{one} {done} of {all}"));
+        !interrupt::requested()
+    }
+
+    /// Takes the line away.
+    pub fn finish(self) {
+        self.line.finish();
     }
 }

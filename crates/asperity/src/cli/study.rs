@@ -2,8 +2,7 @@
 
 use crate::cli::flags::{AccuracyParser, RunFlags};
 use crate::cli::folder::claim;
-use crate::cli::progress::Progress;
-use crate::cli::{interrupt, terminal};
+use crate::cli::progress::BatchProgress;
 use crate::error::{Error, InputError};
 use crate::output::Directory;
 use crate::study::{
@@ -96,28 +95,13 @@ fn sweep(args: &Study, path: &Path) -> Result<(), Error> {
     let part = args.shard.map_or_else(String::new, Shard::suffix);
     let target = args.run.target(&format!("{name}{part}"));
     let mark = claim(&target, "study", args.run.force)?;
-    interrupt::catch();
-    let progress = Progress::new(args.run.quiet);
+    let mut progress = BatchProgress::new(args.run.quiet, ["run", "runs"], target.clone());
     let options = Options {
         threads: args.run.threads.map_or(0, usize::from),
         part: args.shard,
         folder: Some(target.clone()),
     };
-    let mut begun = false;
-    let result = run(&plan, &options, &mut |reached| {
-        if !begun && reached.done > 0 && !args.run.quiet {
-            terminal::complain(&format!(
-                "{} runs of an earlier start are in {}",
-                reached.done,
-                target.display()
-            ));
-        }
-        begun = true;
-        progress.show(reached.done as f64 / reached.runs.max(1) as f64, || {
-            format!("run {} of {}", reached.done, reached.runs)
-        });
-        !interrupt::requested()
-    });
+    let result = run(&plan, &options, &mut |reached| progress.show(reached.done, reached.runs));
     progress.finish();
     let done = finish(result, &target, &args.run);
     drop(mark);

@@ -94,6 +94,7 @@ mod tests {
             newton_iterations: 4,
             force_nodal_N: force,
             force_error: None,
+            transfer_energy_uJ: 0.0,
         };
         let mut rows: Vec<_> = (0..=24)
             .map(|i| {

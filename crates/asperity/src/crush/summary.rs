@@ -92,6 +92,8 @@ row! {
         newton_iterations: usize = summary.newton_iterations,
         /// Times an increment was halved.
         cutbacks: usize = summary.cutbacks,
+        /// Times the mesh was laid anew because it was too distorted.
+        meshed_anew: usize = summary.transfers,
         /// Regions among the asperities that never yielded, at the peak.
         elastic_islands: Vec<Island> = islands.iter().map(Island::new).collect(),
         /// Seconds the run took.

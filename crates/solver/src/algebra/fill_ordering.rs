@@ -9,7 +9,7 @@
 //! An order lists vertices, the first to be eliminated first; places are its inverse: `place[order[i]] = i`.
 
 use crate::algebra::cholesky::FactorError;
-use crate::algebra::minimum_degree::{column_counts, minimum_degree};
+use crate::algebra::minimum_degree::{elimination_tree, minimum_degree};
 use feral_metis::{CscPattern, metis_order};
 
 /// Free nodes from which nested dissection is tried: it takes ten times as long as a minimum degree, and on smaller meshes
@@ -66,8 +66,8 @@ impl Graph {
     /// Operations of a factorisation in the order `place`, in a unit of its own: Σ c² over the c entries of each column.
     fn operations(&self, place: &[usize]) -> f64 {
         let renumbered = self.renumbered(place);
-        let counts = column_counts(&renumbered.starts, &renumbered.neighbours);
-        counts.iter().map(|&c| (c as f64).powi(2)).sum()
+        let tree = elimination_tree(&renumbered.starts, &renumbered.neighbours);
+        tree.count.iter().map(|&c| (c as f64).powi(2)).sum()
     }
 }
 

@@ -5,11 +5,12 @@
 //! what they leave, where a few zeros more cost less than a front of its own (`Size::seconds`).
 
 use crate::algebra::front::Size;
+use crate::algebra::minimum_degree::{EliminationTree, elimination_tree};
 use sprs::CsMat;
 use std::ops::Range;
 
-/// No parent: the last column of a tree.
-const ROOT: usize = usize::MAX;
+/// No front, group or part yet.
+const NONE: usize = usize::MAX;
 
 /// Share of the work that a branch has at most: so many that two to eight threads are busy to the end.
 const BRANCH: f64 = 0.07;
@@ -91,7 +92,6 @@ struct Group {
     columns: Vec<usize>,
     size: Size,
     children: Vec<usize>,
-    gone: bool,
 }
 
 impl Size {
@@ -105,33 +105,11 @@ impl Size {
     }
 }
 
-/// Parent of every column in the elimination tree (Liu 1990) of a lower triangle.
-fn elimination_tree(matrix: &CsMat<f64>) -> Vec<usize> {
-    let size = matrix.cols();
-    let upper = matrix.transpose_view().to_csc();
-    let (mut parent, mut ancestor) = (vec![ROOT; size], vec![ROOT; size]);
-    for (column, entries) in upper.outer_iterator().enumerate() {
-        for (row, _) in entries.iter() {
-            // up the tree from the row, whose path is shortened on the way
-            let mut node = row;
-            while node != column {
-                let next = std::mem::replace(&mut ancestor[node], column);
-                if next == ROOT {
-                    parent[node] = column;
-                    break;
-                }
-                node = next;
-            }
-        }
-    }
-    parent
-}
-
 /// Children of every node.
-fn children_of(parent: &[usize]) -> Vec<Vec<usize>> {
+fn children_of(parent: &[Option<usize>]) -> Vec<Vec<usize>> {
     let mut children = vec![Vec::new(); parent.len()];
-    for (node, &parent) in parent.iter().enumerate() {
-        if parent != ROOT {
+    for (node, parent) in parent.iter().enumerate() {
+        if let Some(parent) = *parent {
             children[parent].push(node);
         }
     }
@@ -160,50 +138,26 @@ fn postorder(children: &[Vec<usize>], roots: impl Iterator<Item = usize>) -> Vec
     order
 }
 
-/// Rows below the diagonal in every column of the factor.
-fn rows_below(matrix: &CsMat<f64>, parent: &[usize]) -> Vec<usize> {
-    let mut seen = vec![ROOT; parent.len()];
-    let mut count = vec![0; parent.len()];
-    let upper = matrix.transpose_view().to_csc();
-    for (row, entries) in upper.outer_iterator().enumerate() {
-        // row `row` of the factor: the paths from its entries up to it
-        seen[row] = row;
-        for (mut column, _) in entries.iter() {
-            while seen[column] != row {
-                seen[column] = row;
-                count[column] += 1;
-                column = parent[column];
-            }
-        }
-    }
-    count
-}
-
 /// Groups of columns with the same rows, children before parents, and the roots among them.
 fn groups_of(matrix: &CsMat<f64>) -> (Vec<Group>, Vec<usize>) {
-    let parent = elimination_tree(matrix);
-    let below = rows_below(matrix, &parent);
+    let upper = matrix.transpose_view().to_csc();
+    let EliminationTree { parent, count } = elimination_tree(&upper.proper_indptr(), upper.indices());
     let children = children_of(&parent);
-    let roots = (0..parent.len()).filter(|&node| parent[node] == ROOT);
+    let roots = (0..parent.len()).filter(|&node| parent[node].is_none());
     let order = postorder(&children, roots);
-    let mut group_of = vec![ROOT; parent.len()];
+    let mut group_of = vec![NONE; parent.len()];
     let mut groups: Vec<Group> = Vec::new();
     for &column in &order {
         // the only column below it whose rows are this column and its rows
-        let same = children[column].iter().copied().find(|&child| below[child] == below[column] + 1);
+        let same = children[column].iter().copied().find(|&child| count[child] == count[column] + 1);
         let joined = same.map(|child| group_of[child]);
         let group = joined.unwrap_or(groups.len());
         if joined.is_none() {
-            groups.push(Group {
-                columns: vec![],
-                size: Size { pivots: 0, below: 0 },
-                children: vec![],
-                gone: false,
-            });
+            groups.push(Group { columns: vec![], size: Size { pivots: 0, below: 0 }, children: vec![] });
         }
         group_of[column] = group;
         groups[group].columns.push(column);
-        groups[group].size = Size { pivots: groups[group].columns.len(), below: below[column] };
+        groups[group].size = Size { pivots: groups[group].columns.len(), below: count[column] - 1 };
         let others: Vec<usize> =
             children[column].iter().map(|&child| group_of[child]).filter(|&child| child != group).collect();
         groups[group].children.extend(others);
@@ -226,7 +180,6 @@ fn merge(groups: &mut [Group], roots: &[usize]) {
             let best = groups[parent].children.iter().copied().max_by(|&a, &b| gain(a).total_cmp(&gain(b)));
             let Some(child) = best.filter(|&child| gain(child) > 0.0) else { break };
             groups[parent].size = with(child);
-            groups[child].gone = true;
             let columns = std::mem::take(&mut groups[child].columns);
             let adopted = std::mem::take(&mut groups[child].children);
             let family = &mut groups[parent];
@@ -287,7 +240,7 @@ impl FrontTree {
     /// Rows and entries of every front from those of its pivots and its children.
     fn find_rows(&mut self, matrix: &CsMat<f64>, unknown: &[usize]) {
         let full = Symmetric::new(matrix);
-        let mut seen = vec![ROOT; unknown.len()];
+        let mut seen = vec![NONE; unknown.len()];
         let mut place = vec![0_u32; unknown.len()];
         let mut first = 0;
         for front in 0..self.fronts.len() {
@@ -352,7 +305,7 @@ impl FrontTree {
         let total: f64 = self.fronts.iter().map(|front| front.size.seconds()).sum();
         let mut branches = 0;
         let mut front = self.fronts.len();
-        let mut part = vec![ROOT; front];
+        let mut part = vec![NONE; front];
         // parents before children; a subtree is a range of fronts that ends at its root
         while let Some(root) = front.checked_sub(1) {
             let is_branch = total >= WORTH_BRANCHES && work[root] <= BRANCH * total;

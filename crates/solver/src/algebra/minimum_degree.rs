@@ -1,4 +1,4 @@
-//! The orders of elimination that faer finds: this is the only file that names it.
+//! Orders of elimination and elimination trees, found by faer.
 
 use crate::algebra::cholesky::FactorError;
 use faer::dyn_stack::{MemBuffer, MemStack};
@@ -20,13 +20,22 @@ pub fn minimum_degree(starts: &[usize], neighbours: &[usize]) -> Result<Vec<usiz
     Ok(place)
 }
 
-/// Entries of each column of the Cholesky factor of a graph (compressed columns without the diagonal).
-pub fn column_counts(starts: &[usize], neighbours: &[usize]) -> Vec<usize> {
+/// The elimination tree of a symmetric matrix, of which the upper triangle counts (compressed columns, with its diagonal or without).
+pub struct EliminationTree {
+    /// Parent of each column; `None`: a root.
+    pub parent: Vec<Option<usize>>,
+    /// Entries of each column of the Cholesky factor, its diagonal included.
+    pub count: Vec<usize>,
+}
+
+/// The elimination tree of the pattern whose columns start at `starts` and have the rows `neighbours`.
+pub fn elimination_tree(starts: &[usize], neighbours: &[usize]) -> EliminationTree {
     let size = starts.len() - 1;
     let (mut tree, mut counts) = (vec![0_isize; size], vec![0_usize; size]);
     let request = simplicial::prefactorize_symbolic_cholesky_scratch::<usize>(size, neighbours.len());
     let mut memory = MemBuffer::new(request);
     let pattern = SymbolicSparseColMatRef::new_checked(size, size, starts, None, neighbours);
     simplicial::prefactorize_symbolic_cholesky(&mut tree, &mut counts, pattern, MemStack::new(&mut memory));
-    counts
+    let parent = tree.into_iter().map(|parent| usize::try_from(parent).ok()).collect();
+    EliminationTree { parent, count: counts }
 }

@@ -93,14 +93,14 @@ impl<'m> Body<'m> {
         Ok(Body { mesh, symmetry, material, contact, dofs, volume, points8, points4 })
     }
 
-    /// The edges of the free surface, in the order of the mesh; none without a tool.
-    pub fn surface(&self) -> Vec<ContactEdge> {
+    /// The edges of the free surface with the nodes of the mesh at `nodes`, in its order; none without a tool.
+    pub fn surface(&self, nodes: &[[f64; 2]]) -> Vec<ContactEdge> {
         let edges = self.contact.as_ref().map_or(&[][..], |_| &self.mesh.sides.surface);
         edges
             .iter()
             .map(|&edge| {
                 let (corners, middle) = self.mesh.edge_nodes(edge);
-                ContactEdge::new(corners, middle, |node| self.mesh.nodes[node as usize], self.symmetry)
+                ContactEdge::new(corners, middle, |node| nodes[node as usize], self.symmetry)
             })
             .collect()
     }

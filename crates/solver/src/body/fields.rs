@@ -11,7 +11,7 @@ use crate::point::tensor::{Sym, von_mises};
 /// Fields of one increment. Dimensionless as the model's, or in SI once scaled.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fields {
-    /// Displacement (r, z) of the nodes.
+    /// Displacement (r, z) of the metal at the nodes.
     pub displacement: Vec<[f64; 2]>,
     /// Cauchy stress at the nodes: rr, zz, θθ, rz.
     pub stress: Vec<Sym>,
@@ -90,7 +90,7 @@ pub fn fields(body: &Body<'_>, state: &State) -> Fields {
     let displacement: Vec<[f64; 2]> = state
         .position
         .iter()
-        .zip(&mesh.nodes)
+        .zip(&state.origin)
         .map(|(x, reference)| [x[0] - reference[0], x[1] - reference[1]])
         .collect();
     let stress: Vec<Sym> = sums.iter().map(|s| [s[0], s[1], s[2], s[3]]).collect();

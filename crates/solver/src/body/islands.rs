@@ -95,7 +95,7 @@ pub fn islands(body: &Body<'_>, state: &State, floor: f64, extent: [f64; 2]) -> 
     }
     let standing: Vec<bool> = cells
         .map(|cell| {
-            let [r, z] = centre(mesh, cell);
+            let [r, z] = centre(mesh, state, cell);
             bulk[cell] && z > floor && within(r)
         })
         .collect();
@@ -160,16 +160,16 @@ fn describe(body: &Body<'_>, state: &State, region: &[usize], reaches_substrate:
     };
     let mut volume = 0.0;
     for &cell in region {
-        let ([r, z], corners) = (centre(mesh, cell), mesh.cell(cell));
-        let area = section_area(corners[..4].iter().map(|&n| mesh.nodes[n as usize]));
+        let ([r, z], corners) = (centre(mesh, state, cell), mesh.cell(cell));
+        let area = section_area(corners[..4].iter().map(|&n| state.origin[n as usize]));
         island.area += area;
         island.place[0] += area * r;
         island.place[1] += area * z;
         for q in cell * POINTS..(cell + 1) * POINTS {
-            let state = &state.points.states[q];
-            let tau = stress(&body.material.elastic, &state.stretch);
+            let point = &state.points.states[q];
+            let tau = stress(&body.material.elastic, &point.stretch);
             let weight = body.volume[q];
-            let ratio = volume_ratio(&state.stretch);
+            let ratio = volume_ratio(&point.stretch);
             island.mean_pressure -= weight * hydrostatic(&tau) / ratio;
             island.mean_von_mises += weight * von_mises(&tau) / ratio;
             volume += weight;
@@ -182,9 +182,9 @@ fn describe(body: &Body<'_>, state: &State, region: &[usize], reaches_substrate:
 }
 
 /// Mean of the corners of a cell before the crush.
-fn centre(mesh: &Mesh, cell: usize) -> [f64; 2] {
+fn centre(mesh: &Mesh, state: &State, cell: usize) -> [f64; 2] {
     let corners = &mesh.cell(cell)[..4];
-    [0, 1].map(|i| corners.iter().map(|&n| mesh.nodes[n as usize][i]).sum::<f64>() / 4.0)
+    [0, 1].map(|i| corners.iter().map(|&n| state.origin[n as usize][i]).sum::<f64>() / 4.0)
 }
 
 /// Area of a polygon.

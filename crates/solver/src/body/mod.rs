@@ -14,6 +14,10 @@ mod extrapolation;
 
 mod commit;
 
+pub mod evening;
+
+mod transfer;
+
 pub mod energy;
 
 pub mod surface;

@@ -39,6 +39,8 @@ impl Points {
 /// A converged state: all that the next increment starts from.
 #[derive(Clone, Debug)]
 pub struct State {
+    /// Place before loading of the metal that is at each node now.
+    pub origin: Vec<[f64; 2]>,
     /// Node positions.
     pub position: Vec<[f64; 2]>,
     /// Displacements of the last increment.
@@ -71,6 +73,10 @@ pub struct State {
     pub load_scale: f64,
     /// Change of the contact energy by that of the area it is taken over and of the penalty, up to the last increment and after it.
     pub(super) remeasured: [f64; 2],
+    /// Change of the stored energy, the plastic work and the contact energy by all transfers to better meshes.
+    pub transferred: f64,
+    /// How many there were.
+    pub transfers: usize,
 }
 
 /// An increment that is tried from a converged state.
@@ -95,9 +101,10 @@ impl State {
     pub fn virgin(body: &Body<'_>) -> State {
         let (nodes, count) = (body.mesh.nodes.len(), body.volume.len());
         let yields = body.material.hardening.is_some() || body.material.has_back_stress();
-        let (edges, still) = (body.surface(), vec![[0.0; 2]; nodes]);
+        let (edges, still) = (body.surface(&body.mesh.nodes), vec![[0.0; 2]; nodes]);
         State {
             facing: Facing::new(&edges, &body.mesh.nodes, &still, &Facing::default()),
+            origin: body.mesh.nodes.clone(),
             position: body.mesh.nodes.clone(),
             displacement: still,
             points: Points::virgin(&body.material, count),
@@ -113,6 +120,8 @@ impl State {
             multiplier: vec![0.0; nodes],
             load_scale: 0.0,
             remeasured: [0.0; 2],
+            transferred: 0.0,
+            transfers: 0,
         }
     }
 

@@ -12,6 +12,7 @@
 use crate::contact::roots::parts_above_zero;
 use crate::contact::tool::Tool;
 use crate::point::kinematics::Symmetry;
+use asperity_mesh::outline::quadratic_roots;
 
 /// Parts of an edge, as intervals of its coordinate ξ in [-1, 1]: its middle, or both its ends.
 pub type Parts = [Option<[f64; 2]>; 2];
@@ -266,15 +267,4 @@ pub fn divide([start, end]: [f64; 2]) -> [[f64; 3]; 4] {
 
 fn quadratic_shape(xi: f64) -> [f64; 3] {
     [0.5 * xi * (xi - 1.0), 0.5 * xi * (xi + 1.0), 1.0 - xi * xi]
-}
-
-/// Real roots of c + bξ + aξ², without cancellation.
-fn quadratic_roots(a: f64, b: f64, c: f64) -> [Option<f64>; 2] {
-    let discriminant = b * b - 4.0 * a * c;
-    if discriminant < 0.0 {
-        return [None, None];
-    }
-    let q = -0.5 * (b + discriminant.sqrt().copysign(b));
-    let finite = |x: f64| Some(x).filter(|x| x.is_finite());
-    [finite(q / a), finite(c / q)]
 }

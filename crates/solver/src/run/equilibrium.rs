@@ -8,6 +8,7 @@ use crate::algebra::lbfgs::Secants;
 use crate::algebra::newton::{self, Assessment, System};
 use crate::body::assembly::{Response, Touching};
 use crate::body::discrete_body::Body;
+use crate::body::evening::{Limits, evened, is_distorted};
 use crate::body::failure::Failure;
 use crate::body::state::{State, Trial};
 use crate::body::surface::Surface;
@@ -228,6 +229,38 @@ impl<'m> Equilibrium<'m> {
         self.keep_contact = self.touching.iter().any(|p| *p != NOTHING);
         self.fraction = 0.0;
         self.jumped = [false; 2];
+    }
+
+    /// Lays the distorted mesh anew under the surface and finds the equilibrium there by `solve`, while the tool stays. Whether it
+    /// did: else all is as it was.
+    pub fn mesh_anew(&mut self, solve: impl FnOnce(&mut Self) -> Result<(), SolveFailure>) -> bool {
+        // multipliers and back stresses are not carried over
+        let carries = self.state.points.history.is_empty() && self.state.multiplier.iter().all(|m| *m == 0.0);
+        let places = evened(&self.body, &self.state).filter(|_| carries && self.state.tip.is_finite());
+        let Some((body, state)) = places.and_then(|places| self.state.moved_to(&self.body, places)) else {
+            return false;
+        };
+        let before = (std::mem::replace(&mut self.body, body), std::mem::replace(&mut self.state, state));
+        let flow =
+            (self.state.plastic.clone(), self.state.volume_change.clone(), self.state.displacement.clone());
+        (self.has_factors, self.has_tangent) = (false, false);
+        self.secants.clear();
+        self.begin(self.state.tip, 0.0, |_| [0.0; 2]);
+        if solve(self).is_err() || self.accept().is_err() {
+            (self.body, self.state) = before;
+            (self.has_factors, self.has_tangent) = (false, false);
+            self.secants.clear();
+            return false;
+        }
+        // the flow of the last increment of the load is what the next one extrapolates
+        (self.state.plastic, self.state.volume_change, self.state.displacement) = flow;
+        self.state.note_transfer(&self.body, &before.1, &before.0);
+        true
+    }
+
+    /// Whether the mesh is more distorted than the `limits` allow.
+    pub fn is_distorted(&self, limits: Limits) -> bool {
+        is_distorted(&self.body, &self.state, limits)
     }
 
     /// Accepts the increment under way.

@@ -67,6 +67,8 @@ pub struct CurveRow {
     pub plastic_work: f64,
     /// ½ε∫g² dA, J (J/m).
     pub contact_energy: f64,
+    /// Change of the three energies by all transfers to better meshes so far, J (J/m): no work of the tool.
+    pub transfer_energy: f64,
     /// Pressure-weighted mean penetration, m.
     pub penetration: f64,
     /// Part of the depth by which tool and machine gave way, m.
@@ -193,7 +195,7 @@ pub struct Summary {
     pub reduced_modulus: f64,
     /// elastic_work / total_work.
     pub elastic_fraction: Option<f64>,
-    /// Largest |W - E_e - W_p - E_c|/W over increments with W above 1 % of its peak.
+    /// Largest |W - E_e - W_p - E_c + E_t|/W, E_t what transfers to better meshes changed, over increments with W above 1 % of its peak.
     pub energy_balance_error: f64,
     /// That of the force among the errors.
     pub estimated_error: f64,
@@ -209,6 +211,8 @@ pub struct Summary {
     pub newton_iterations: usize,
     /// Times an increment was halved.
     pub cutbacks: usize,
+    /// Times the mesh was laid anew.
+    pub transfers: usize,
 }
 
 /// ∫F dh over corrected depths: the work over the travel less what the penetration took.
@@ -223,13 +227,14 @@ pub(super) fn work_along(rows: &[CurveRow]) -> f64 {
     rows.windows(2).map(step).sum()
 }
 
-/// The largest |W - E_e - W_p - E_c|/W over increments with W above 1 % of its peak.
+/// The largest |W - E_e - W_p - E_c + E_t|/W over increments with W above 1 % of its peak.
 pub(super) fn balance_error(rows: &[CurveRow]) -> f64 {
     let peak = rows.iter().fold(0.0, |m: f64, r| m.max(r.external_work));
     rows.iter()
         .filter(|r| r.external_work > 0.01 * peak)
         .map(|r| {
-            (r.external_work - r.elastic_energy - r.plastic_work - r.contact_energy).abs() / r.external_work
+            let kept = r.elastic_energy + r.plastic_work + r.contact_energy - r.transfer_energy;
+            (r.external_work - kept).abs() / r.external_work
         })
         .fold(0.0, f64::max)
 }

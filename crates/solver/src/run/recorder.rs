@@ -39,7 +39,7 @@ pub struct FieldFrame {
     pub increment: usize,
     /// Loading or unloading.
     pub phase: Phase,
-    /// The mesh before the crush, m.
+    /// The mesh before the crush, m: the places of the metal that is at the nodes now.
     pub mesh: Mesh,
     /// The fields.
     pub fields: Fields,
@@ -115,6 +115,7 @@ impl<'p> Recorder<'p> {
             elastic_energy: 0.0,
             plastic_work: 0.0,
             contact_energy: 0.0,
+            transfer_energy: 0.0,
             penetration: 0.0,
             given_way: 0.0,
             newton_iterations: 0,
@@ -178,6 +179,7 @@ impl<'p> Recorder<'p> {
             plastic_work: energy(|e| e.plastic),
             contact_energy: (contact.energy + state.self_contact_energy - state.remeasured_energy())
                 * u.energy,
+            transfer_energy: state.transferred * u.energy,
             penetration: contact.penetration * u.length,
             given_way: increment.way * u.length,
             newton_iterations: increment.newton_iterations,
@@ -257,9 +259,7 @@ impl<'p> Recorder<'p> {
         self.last_fields = Some(row.increment);
         let (l, e) = (self.problem.units.length, self.problem.units.stress);
         let mut mesh = self.problem.mesh.clone();
-        for node in &mut mesh.nodes {
-            *node = node.map(|x| x * l);
-        }
+        mesh.nodes = model.state().origin.iter().map(|x| x.map(|x| x * l)).collect();
         let raw = fields(model.body(), model.state());
         let scaled = |values: Vec<f64>| values.into_iter().map(|v| v * e).collect();
         let frame = FieldFrame {
@@ -401,6 +401,7 @@ impl<'p> Recorder<'p> {
             increments: self.rows.len() - 1,
             newton_iterations: path.iterations,
             cutbacks: path.cutbacks,
+            transfers: path.model.state().transfers,
         };
         let stopped = stopped.map(|reason| Stopped { reason, depth: last.depth, phase: last.phase });
         Outcome {

@@ -3,6 +3,7 @@
 use super::increment::{Energies, Increment, Observer, Stop};
 use crate::algebra::newton::{KEEP, Settings, solve};
 use crate::body::energy::{ContactSums, contact_sums, work, work_by_slopes, work_to_separation};
+use crate::body::evening::LOADED;
 use crate::body::failure::Failure as BodyFailure;
 use crate::body::surface::Surface;
 use crate::contact::penalty_correction::Punches;
@@ -14,6 +15,9 @@ use crate::scene::ContactMethod;
 
 /// Halvings of an increment after which the run stops.
 const MAX_HALVINGS: u32 = 7;
+
+/// Halvings of an increment after which a new mesh is tried.
+const HALVINGS_OF_A_MESH: u32 = 3;
 
 /// Share of the last increment that is a good first guess for the next: measured 0.5 to 0.9 save a fifth of the
 /// iterations, 1 saves less because it overshoots where the contact front moves from element to element.
@@ -75,6 +79,8 @@ pub struct Path<'p> {
     pub(super) asked: Option<f64>,
     external_work: f64,
     spent: usize,
+    /// Increments after which the mesh was laid anew last.
+    meshed_after: usize,
     /// Newton iterations so far, failed ones included.
     pub iterations: usize,
     /// Converged increments so far.
@@ -108,6 +114,7 @@ impl<'p> Path<'p> {
             asked: None,
             external_work: 0.0,
             spent: 0,
+            meshed_after: 0,
             iterations: 0,
             increments: 0,
             cutbacks: 0,
@@ -285,11 +292,38 @@ impl<'p> Path<'p> {
             return Err(Stop::Interrupted);
         }
         let state = self.model.state();
-        if state.facing.fold(&state.edges, &state.position).is_some() {
-            Err(Stop::FlanksMeet)
-        } else {
-            Ok(increment)
+        // a fold that lies on the flank of the tool is one of the mesh, not of the metal
+        if state.facing.fold(&state.edges, &state.position).is_some() && !self.mesh_anew() {
+            return Err(Stop::FlanksMeet);
         }
+        if phase == Phase::Load && self.model.is_distorted(LOADED) {
+            self.mesh_anew();
+        }
+        Ok(increment)
+    }
+
+    /// Lays the mesh anew where the tool stands, and takes down what the contact bears there. Whether it did.
+    pub fn mesh_anew(&mut self) -> bool {
+        if self.meshed_after == self.increments {
+            return false;
+        }
+        self.meshed_after = self.increments;
+        let tolerance = self.settings.tolerance;
+        let (settings, mut spent) = (self.settings, 0);
+        let done = self.model.mesh_anew(|model| {
+            model.guard_for(tolerance);
+            let outcome = solve(model, &settings);
+            spent = outcome.as_ref().map_or_else(|(_, spent)| *spent, |done| done.iterations);
+            outcome.map(|_| ()).map_err(|(failure, _)| failure)
+        });
+        self.iterations += spent;
+        self.spent += spent;
+        if done {
+            let punches = self.punches(&self.model.converged_surface());
+            let contact = self.corrected(punches);
+            (self.force, self.area, self.penetration) = (contact.force, contact.area, contact.penetration);
+        }
+        done
     }
 
     /// Energies at the end of an accepted increment over `step` from a force and its slope, and what the next one needs of them.
@@ -352,6 +386,12 @@ impl<'p> Path<'p> {
                     // try to take the rest in steps as long as the one that went
                     let step = self.last_step;
                     next = if (travel - next).abs() <= 1.01 * step.abs() { travel } else { next + step };
+                }
+                Err(_) if halvings == HALVINGS_OF_A_MESH && self.mesh_anew() => {
+                    self.cutbacks += 1;
+                    halvings = 0;
+                    next = travel;
+                    guess = 0.0;
                 }
                 Err(_) if halvings >= MAX_HALVINGS && stiffens => {
                     // a stiffer tangent converges slowly, and can end in a place that no smaller increment leads out of

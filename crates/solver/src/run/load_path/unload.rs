@@ -2,6 +2,8 @@
 
 use super::increment::{Observer, Stop};
 use super::path::Path;
+use crate::body::evening::UNLOADED;
+use crate::run::equilibrium::SolveFailure;
 use crate::run::problem::Goal;
 use crate::run::record::Phase;
 use crate::run::schedule::{UNLOADING_EXPONENT, unloading};
@@ -25,6 +27,9 @@ impl Path<'_> {
         steps: usize,
         observer: &mut Observer<'_>,
     ) -> Result<(), Stop> {
+        if self.model.is_distorted(UNLOADED) {
+            self.mesh_anew();
+        }
         let (peak_force, peak) = (self.force, self.travel);
         let compliance = 1.0 / stiffness.depth + self.sums().penetration / peak_force;
         let recovery = UNLOADING_EXPONENT * peak_force * compliance;
@@ -44,10 +49,20 @@ impl Path<'_> {
         if self.model.body().material.has_back_stress() {
             self.retreat_from_reverse_flow(0.03 * peak_force, steps, observer)?;
         }
-        self.model.begin(f64::INFINITY, 0.0, |_| [0.0; 2]);
-        self.iterate().map_err(|_| Stop::NoEquilibrium)?;
+        if self.take_away().is_err() {
+            if !self.mesh_anew() {
+                return Err(Stop::NoEquilibrium);
+            }
+            self.take_away().map_err(|_| Stop::NoEquilibrium)?;
+        }
         let separation = self.model.trial_surface().first_touch() - self.touch;
         self.accept(separation, Phase::Unload, observer).map(|_| ())
+    }
+
+    /// Solves, but does not accept, the body without its tool.
+    fn take_away(&mut self) -> Result<(), SolveFailure> {
+        self.model.begin(f64::INFINITY, 0.0, |_| [0.0; 2]);
+        self.iterate()
     }
 
     /// Goes on unloading down to `force` where metal flows in reverse and gives way more than elastic metal does: each

@@ -1,0 +1,105 @@
+//! Claims: a mesh laid anew without need changes little, and what it changes of the energy is known.
+//!
+//! Reference: the same path without it. Bounds: once 0.3 % of the peak force and 0.5 % of the residual depth, twenty times 1 % of
+//! each; every transfer below 1e-3 of the work, and the energies balance with their sum as well as without.
+
+use asperity_law::units::{Length, Stress};
+use asperity_solver::run::crush::run;
+use asperity_solver::run::load_path::{Increment, Path};
+use asperity_solver::run::prepare::prepare;
+use asperity_solver::run::problem::Goal;
+use asperity_solver::scene::{self, Loading, Material, Scene, Symmetry, Tool};
+use std::ops::ControlFlow;
+
+/// The asperity of the paper at the standard level.
+fn scene() -> Scene {
+    let steel = Material::elastic_body(Stress(210e9), 0.3).yielding(Stress(300e6), 0.3);
+    let loading = Loading { depth: Some(Length(5e-6)), force: None, unload: true, reloads: 0 };
+    let cone = scene::Asperity::cone(Length(20e-6), 10.0).rounded(Length(10e-6));
+    Scene::new(Symmetry::Axisymmetric, steel, Tool::plane(), loading).with(cone)
+}
+
+/// What a path comes to whose mesh is laid anew after the increments that `anew` names: peak force, residual depth, and the sum and
+/// the greatest of the energies of transfers over the work.
+struct Reached {
+    force: f64,
+    residual: f64,
+    transfers: usize,
+    largest: f64,
+    balance: f64,
+}
+
+fn reached(anew: impl Fn(usize) -> bool) -> Reached {
+    let problem = prepare(&scene(), None, 5e-6).unwrap();
+    let mut path = Path::new(&problem).unwrap();
+    let (mut largest, mut before): (f64, f64) = (0.0, 0.0);
+    let mut last: Option<Increment> = None;
+    // the travel grows as the depth that the level's own steps go through
+    let fractions = problem.numbers.schedule();
+    for (number, fraction) in fractions.iter().enumerate() {
+        let travel = fraction * (1.0 + problem.expected_penetration());
+        let increment = path.advance_to(Goal::Travel(travel), &mut |_, _| true).unwrap();
+        let state = path.model.state();
+        let work = increment.energies.unwrap().external_work;
+        largest = largest.max((state.transferred - before).abs() / work);
+        before = state.transferred;
+        last = Some(increment);
+        if anew(number) && number + 1 < fractions.len() {
+            assert!(path.mesh_anew(), "after increment {number}");
+        }
+    }
+    let peak = last.unwrap();
+    let energies = peak.energies.unwrap();
+    let state = path.model.state();
+    let kept = energies.elastic + energies.plastic + peak.contact.energy + state.self_contact_energy
+        - state.remeasured_energy()
+        - state.transferred;
+    let (transfers, balance) = (state.transfers, (1.0 - kept / energies.external_work).abs());
+    let stiffness = path.model.unloading_stiffness().unwrap();
+    let mut residual = f64::NAN;
+    path.unload(stiffness, 8, &mut |_, increment| {
+        residual = increment.depth;
+        true
+    })
+    .unwrap();
+    Reached { force: peak.contact.force, residual, transfers, largest, balance }
+}
+
+#[test]
+fn a_mesh_laid_anew_without_need_keeps_force_and_residual_depth() {
+    let as_it_is = reached(|_| false);
+    let last = prepare(&scene(), None, 5e-6).unwrap().numbers.schedule().len();
+    for (times, anew, [force, residual]) in [
+        (1, Box::new(|number| number == last / 2) as Box<dyn Fn(usize) -> bool>, [3e-3, 5e-3]),
+        (20, Box::new(|number| number + 21 >= last), [1e-2, 1e-2]),
+    ] {
+        let other = reached(anew);
+        assert_eq!(other.transfers, times);
+        let [f, d] = [other.force / as_it_is.force, other.residual / as_it_is.residual].map(|r| r - 1.0);
+        println!(
+            "{times}: force {f:.2e}, residual depth {d:.2e}, transfer {:.2e}, balance {:.2e} ({:.2e})",
+            other.largest, other.balance, as_it_is.balance
+        );
+        assert!(f.abs() < force, "{times} times: force {f:.2e}");
+        assert!(d.abs() < residual, "{times} times: residual depth {d:.2e}");
+        assert!(other.largest < 1e-3, "{times} times: a transfer changes {:.2e} of the work", other.largest);
+        // the error of the work of one increment more or less
+        assert!(other.balance < as_it_is.balance + 1e-3, "{times} times: balance {:.2e}", other.balance);
+    }
+}
+
+/// Metal under a cone of 50° half apex that does not harden slides along the flank, edge over edge: without a new mesh the surface
+/// folded at half of the depth, or the tool could not be taken away.
+#[test]
+fn perfectly_plastic_metal_lets_a_steep_cone_in_and_out() {
+    for yield_stress in [1e9, 2e9] {
+        let metal = Material::elastic_body(Stress(130e9), 0.3).yielding(Stress(yield_stress), 0.0);
+        let loading = Loading { depth: Some(Length(1e-6)), force: None, unload: true, reloads: 0 };
+        let scene = Scene::new(Symmetry::Axisymmetric, metal, Tool::cone(40.0), loading);
+        let draft = Scene { accuracy: scene::Accuracy::Draft, ..scene };
+        let outcome = run(&draft, None, &mut |_| ControlFlow::Continue(())).unwrap();
+        assert_eq!(outcome.stopped, None, "{yield_stress:e} Pa");
+        assert!(outcome.summary.transfers > 0);
+        assert!(outcome.summary.energy_balance_error < 1e-2, "{}", outcome.summary.energy_balance_error);
+    }
+}
