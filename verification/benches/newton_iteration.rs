@@ -12,7 +12,7 @@ use asperity_law::units::{Length, Stress};
 use asperity_mesh::ElementKind;
 use asperity_solver::element::kernel::POINTS;
 use asperity_solver::run::crush::run;
-use asperity_solver::run::depth_for_force::target_depth;
+use asperity_solver::run::depth_for_force::expect;
 use asperity_solver::run::load_path::Path;
 use asperity_solver::run::prepare::prepare;
 use asperity_solver::scene::{
@@ -45,6 +45,7 @@ fn single_asperity(accuracy: Accuracy, element: ElementChoice) -> Scene {
         substrate: None,
         tool: Tool::plane(),
         loading: Loading { depth: Some(Length(5e-6)), force: None, unload: true, reloads: 0 },
+        initial: None,
         output: Output::default(),
         numerics: Numerics { element: Some(element), ..Numerics::default() },
         mesh: None,
@@ -53,7 +54,7 @@ fn single_asperity(accuracy: Accuracy, element: ElementChoice) -> Scene {
 
 /// Seconds of an iteration of `scene` at the floor; `None` if it does not mesh.
 fn least(scene: &Scene, kind: ElementKind, floor: &Roofline) -> Option<f64> {
-    let problem = prepare(scene, None, target_depth(scene, None).ok()?).ok()?;
+    let problem = prepare(scene, None, expect(scene, None).ok()?).ok()?;
     let operations = Path::new(&problem).ok()?.model.operations();
     Some(floor.iteration(kind, problem.mesh.cell_count() * POINTS, operations))
 }

@@ -2,7 +2,7 @@
 
 use asperity_law::units::{Force, LineForce};
 use asperity_solver::run::crush::{CrushError, Outcome, run};
-use asperity_solver::run::depth_for_force::target_depth;
+use asperity_solver::run::depth_for_force::expect;
 use asperity_solver::run::prepare::prepare;
 use asperity_solver::run::problem::Problem;
 use asperity_solver::scene::{Accuracy, Scene, SceneError, Symmetry, ToolForce};
@@ -54,5 +54,5 @@ pub fn crush(scene: &Scene) -> Result<Outcome, CrushError> {
 /// # Errors
 /// A scene that cannot be meshed.
 pub fn prepared(scene: &Scene) -> Result<Problem, SceneError> {
-    prepare(scene, None, target_depth(scene, None)?)
+    prepare(scene, None, expect(scene, None)?)
 }

@@ -3,7 +3,7 @@
 use crate::error::Error;
 use crate::input::scene::Scene;
 use asperity_mesh::Mesh;
-use asperity_solver::run::depth_for_force::target_depth;
+use asperity_solver::run::depth_for_force::expect;
 use asperity_solver::run::prepare::prepare;
 use asperity_solver::run::problem::Problem;
 
@@ -18,7 +18,7 @@ pub fn mesh(scene: &Scene) -> Result<Mesh, Error> {
 
 /// The scene made ready for the solver.
 pub(crate) fn problem(scene: &Scene) -> Result<Problem, Error> {
-    target_depth(scene.tables(), scene.mesh())
+    expect(scene.tables(), scene.mesh())
         .and_then(|depth| prepare(scene.tables(), scene.mesh().cloned(), depth))
         .map_err(|e| scene.error(&e).into())
 }

@@ -16,6 +16,7 @@ mod flattened_sphere;
 mod full_quad;
 mod hysteresis_of_reloads;
 mod kinematic_hardening;
+mod loaded_again;
 mod lost_pivot;
 mod meshing_anew;
 mod newton_order;

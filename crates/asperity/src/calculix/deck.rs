@@ -142,6 +142,9 @@ fn check(scene: &Tables) -> Result<(), SceneError> {
         let message = "a deck has a rigid tool on a stiff machine: leave youngs_modulus, poissons_ratio and machine_compliance out";
         return Err(error("tool", message));
     }
+    if scene.initial.is_some() {
+        return Err(error("initial", "a deck starts from a virgin body: leave earlier loads out"));
+    }
     if scene.loading.reloads > 0 {
         return Err(error("loading.reloads", "a deck unloads once: leave reloads out"));
     }

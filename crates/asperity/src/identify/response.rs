@@ -10,9 +10,9 @@ use asperity_law::units::{Length, Stress};
 use asperity_law::{Elastic, StressMeasure};
 use asperity_solver::point::material::Metal as Point;
 use asperity_solver::run::cone::Cone;
-use asperity_solver::run::crush::simulate;
 use asperity_solver::run::prepare::prepare;
 use asperity_solver::run::record::{CurveRow, Phase};
+use asperity_solver::run::simulate::simulate;
 use asperity_solver::scene::{Accuracy, Asperity, Loading, Material, Scene, Symmetry, Tool, ToolShape};
 use std::ops::ControlFlow;
 

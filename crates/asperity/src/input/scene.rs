@@ -2,11 +2,15 @@
 
 use crate::crush::Summary;
 use crate::error::{Error, InputError};
-use crate::input::toml_file::{TomlFile, to_toml};
+use crate::input::toml_file::{TomlFile, read_text, to_toml};
 use crate::input::{hardening_file, profile_file};
 use asperity_mesh::{Mesh, read_msh};
 use asperity_solver::run::discretisation::Discretisation;
-use asperity_solver::scene::{Numerics, Scene as Tables, SceneError};
+use asperity_solver::scene::{
+    Asperity, EarlierLoad, Initial, Lateral, LineProfile, Material, MeshFile, Numerics, Scene as Tables,
+    SceneError, Substrate, Symmetry,
+};
+use serde::Serialize;
 use std::path::Path;
 
 /// A scene that makes sense, with the mesh and the hardening table that it names, ready to be crushed.
@@ -48,7 +52,7 @@ impl Scene {
     /// # Errors
     /// A text that is no scene or makes no sense, pointing at its line; a mesh or hardening table that cannot be read.
     pub fn from_toml(text: &str, base: &Path) -> Result<Scene, Error> {
-        Scene::checked(TomlFile::parse(&base.join("scene"), text.into(), &[])?)
+        Scene::checked(TomlFile::over(&base.join("scene"), text.into(), &[], Some(body_of))?)
     }
 
     /// The scene of the file at `path`, with overrides `key.path=value` in their order; the files that it names are
@@ -59,9 +63,9 @@ impl Scene {
     pub fn read(path: &Path, overrides: &[String]) -> Result<Scene, Error> {
         if path.extension().is_some_and(|extension| extension == "json") {
             let text = to_toml(&as_asked(Summary::read(path)?)).map_err(InputError::new)?;
-            return Scene::checked(TomlFile::parse(path, text, overrides)?);
+            return Scene::checked(TomlFile::over(path, text, overrides, Some(body_of))?);
         }
-        Scene::checked(TomlFile::read(path, overrides)?)
+        Scene::checked(TomlFile::over(path, read_text(path)?, overrides, Some(body_of))?)
     }
 
     /// The scene with more overrides `key.path=value`, such as `loading.depth=2 um`.
@@ -136,6 +140,58 @@ impl Scene {
     pub fn error(&self, error: &SceneError) -> InputError {
         self.file.error_at(&error.path, &error.message)
     }
+}
+
+/// The tables of a body that was loaded before, as TOML: those of the result at `path`, with its loads.
+fn body_of(path: &Path) -> Result<String, String> {
+    let path = if path.extension().is_some_and(|extension| extension == "json") {
+        path.to_path_buf()
+    } else {
+        path.join("summary.json")
+    };
+    let refuse = |reason: String| format!("{reason}; name the folder of a finished `asperity crush`");
+    let summary = Summary::read(&path).map_err(|e| refuse(e.to_string()))?;
+    if let Some(stopped) = summary.stopped {
+        return Err(refuse(format!("{}: that run {stopped}", path.display())));
+    }
+    // a resolved scene refers to no other result: this comes to an end
+    let scene = Scene::read(&path, &[]).map_err(|e| refuse(e.to_string()))?;
+    let Tables {
+        symmetry,
+        lateral,
+        material,
+        asperity,
+        profile,
+        substrate,
+        tool,
+        loading,
+        initial,
+        mesh,
+        ..
+    } = scene.tables().clone();
+    let mut load = initial.map_or_else(Vec::new, |initial| initial.load);
+    load.push(EarlierLoad { tool, loading });
+    let initial = Initial { from: None, load };
+    let mesh = mesh.map(|mesh| MeshFile { file: scene.resolve(&mesh.file), ..mesh });
+    to_toml(&Body { symmetry, lateral, initial, material, asperity, profile, substrate, mesh })
+        .map_err(refuse)
+}
+
+/// What a scene has of its body; in a file, tables come after values.
+#[derive(Serialize)]
+struct Body {
+    symmetry: Symmetry,
+    lateral: Lateral,
+    initial: Initial,
+    material: Material,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    asperity: Vec<Asperity>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    profile: Vec<LineProfile>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    substrate: Option<Substrate>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    mesh: Option<MeshFile>,
 }
 
 /// The scene of a run as it was asked for: numbers that follow from its accuracy are left to it again, so that another one can be

@@ -20,7 +20,14 @@ pub struct TomlFile<T> {
     pub value: T,
     path: PathBuf,
     sources: Sources,
+    under: Option<Under>,
 }
+
+/// The TOML text of the tables that lie under those of a file at this path: see [`TomlFile::over`].
+pub type Under = fn(&Path) -> Result<String, String>;
+
+/// Key whose file gives what lies under the others, and the table that is joined with its own.
+const UNDER: (&str, &str) = ("initial", "from");
 
 impl<T: DeserializeOwned> TomlFile<T> {
     /// Reads `path`, applies overrides `key.path=value` in their order, and makes a `T` of the result.
@@ -37,13 +44,30 @@ impl<T: DeserializeOwned> TomlFile<T> {
     /// # Errors
     /// As for [`TomlFile::read`].
     pub fn parse(path: &Path, text: String, overrides: &[String]) -> Result<Self, InputError> {
+        TomlFile::over(path, text, overrides, None)
+    }
+
+    /// The same; where it names a file under `initial.from`, and nothing else in that table, the tables that `under` makes of that
+    /// file are added to its own, and it may hold none of them.
+    ///
+    /// # Errors
+    /// As for [`TomlFile::read`], and what `under` says, pointing at the key.
+    pub fn over(
+        path: &Path,
+        text: String,
+        overrides: &[String],
+        under: Option<Under>,
+    ) -> Result<Self, InputError> {
         let from_input = path == Path::new(STANDARD_INPUT);
         let name = if from_input { "standard input".into() } else { path.display().to_string() };
-        let sources = Sources::new(name, text, overrides);
+        let mut sources = Sources::new(name, text, overrides);
+        if let Some(under) = under {
+            sources.put_under(path, under)?;
+        }
         let table = sources.table()?;
         let deserializer = Deserializer::from(Spanned::new(0..sources.text.len(), table));
         let value = T::deserialize(deserializer).map_err(|e| sources.toml_error(&e))?;
-        Ok(TomlFile { value, path: path.to_path_buf(), sources })
+        Ok(TomlFile { value, path: path.to_path_buf(), sources, under })
     }
 
     /// The same file with more overrides.
@@ -53,7 +77,7 @@ impl<T: DeserializeOwned> TomlFile<T> {
     pub fn with(&self, overrides: &[String]) -> Result<Self, InputError> {
         let Sources { text, overrides: before, .. } = &self.sources;
         let all: Vec<String> = before.iter().map(|(_, text)| text).chain(overrides).cloned().collect();
-        TomlFile::parse(&self.path, text.clone(), &all)
+        TomlFile::over(&self.path, text.clone(), &all, self.under)
     }
 }
 
@@ -66,7 +90,7 @@ impl<T> TomlFile<T> {
 
     /// A path of the file, which is relative to its folder.
     pub fn resolve(&self, path: &Path) -> PathBuf {
-        self.path.parent().map_or_else(|| path.to_path_buf(), |folder| folder.join(path))
+        beside(&self.path, path)
     }
 
     /// An error about the value at `path` (`asperity[0].height`), pointing at it or, where it is absent, at the
@@ -77,6 +101,11 @@ impl<T> TomlFile<T> {
         let message = if path.is_empty() { message.to_string() } else { format!("{path}: {message}") };
         self.sources.error(&message, span)
     }
+}
+
+/// The path `named` by the file at `path`.
+fn beside(path: &Path, named: &Path) -> PathBuf {
+    path.parent().map_or_else(|| named.to_path_buf(), |folder| folder.join(named))
 }
 
 /// `value` as the text of a TOML file.
@@ -91,7 +120,7 @@ pub fn to_toml(value: &impl Serialize) -> Result<String, String> {
 pub const STANDARD_INPUT: &str = "-";
 
 /// Reads a whole text file, or standard input, with errors a person can act on.
-fn read_text(path: &Path) -> Result<String, InputError> {
+pub fn read_text(path: &Path) -> Result<String, InputError> {
     let from_input = path == Path::new(STANDARD_INPUT);
     let name = if from_input { "standard input".into() } else { path.display().to_string() };
     let error = |e: std::io::Error| {
@@ -128,6 +157,8 @@ struct Sources {
     name: String,
     text: String,
     overrides: Vec<(Range<usize>, String)>,
+    /// Tables under those of the file, and the key that names where they come from.
+    under: Option<(Range<usize>, String)>,
 }
 
 impl Sources {
@@ -141,7 +172,48 @@ impl Sources {
                 (span, text.clone())
             })
             .collect();
-        Sources { name, text, overrides }
+        Sources { name, text, overrides, under: None }
+    }
+
+    /// Puts the tables of the file that is named here under the own ones.
+    fn put_under(&mut self, path: &Path, under: Under) -> Result<(), InputError> {
+        let table = self.table()?;
+        let Some(DeValue::Table(named)) = table.get(UNDER.0).map(Spanned::get_ref) else { return Ok(()) };
+        // a resolved scene holds what the file gave
+        let Some(from) = named.get(UNDER.1).filter(|_| named.len() == 1) else { return Ok(()) };
+        let (Some(file), span) = (from.get_ref().as_str(), from.span()) else { return Ok(()) };
+        let text = under(&beside(path, Path::new(file))).map_err(|reason| {
+            self.error(&format!("{}.{}: {reason}", UNDER.0, UNDER.1), Some(span.clone()))
+        })?;
+        self.under = Some((span, text));
+        Ok(())
+    }
+
+    /// Adds the tables of the file under the own ones.
+    fn add_under<'a>(&'a self, own: &mut DeTable<'a>) -> Result<(), InputError> {
+        let Some((span, text)) = &self.under else { return Ok(()) };
+        let under = DeTable::parse(text).map_err(|e| self.toml_error(&e))?.into_inner();
+        for (key, value) in under {
+            let name = key.into_inner();
+            let value = moved(value.into_inner(), span);
+            match own.get_mut(name.as_ref()) {
+                None => {
+                    own.insert(Spanned::new(span.clone(), name), value);
+                }
+                Some(table) if name == UNDER.0 => {
+                    if let (DeValue::Table(own), DeValue::Table(more)) = (table.get_mut(), value.into_inner())
+                    {
+                        own.extend(more);
+                    }
+                }
+                Some(own) => {
+                    let message =
+                        format!("{name}: the body is that of {}.{}; remove this, or that", UNDER.0, UNDER.1);
+                    return Err(self.error(&message, Some(own.span())));
+                }
+            }
+        }
+        Ok(())
     }
 
     /// The file as a table, overrides applied.
@@ -152,7 +224,10 @@ impl Sources {
             set(&mut root, text, span).map_err(|message| self.error(&message, Some(span.clone())))?;
         }
         match root.into_inner() {
-            DeValue::Table(table) => Ok(table),
+            DeValue::Table(mut table) => {
+                self.add_under(&mut table)?;
+                Ok(table)
+            }
             _ => Err(self.error("the overrides leave no table", None)),
         }
     }

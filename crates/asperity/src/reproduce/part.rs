@@ -15,7 +15,7 @@ use crate::press::{self, RoughScene, table1};
 use asperity_calibration::sweep::Sweep;
 use asperity_roughness::KindName;
 use asperity_roughness::scene::Scene as RoughTables;
-use asperity_solver::run::depth_for_force::target_depth;
+use asperity_solver::run::depth_for_force::expect;
 use asperity_solver::run::prepare::prepare;
 use asperity_solver::scene::{Accuracy, Level, Scene as Tables};
 use serde::{Deserialize, Serialize};
@@ -223,7 +223,7 @@ impl Job {
 
 /// Unknowns to a power times steps: what the time of a crush goes with.
 fn load_of(scene: &Tables) -> f64 {
-    let Ok(problem) = target_depth(scene, None).and_then(|depth| prepare(scene, None, depth)) else {
+    let Ok(problem) = expect(scene, None).and_then(|depth| prepare(scene, None, depth)) else {
         return 0.0;
     };
     let numbers = problem.numbers;

@@ -7,6 +7,7 @@ use crate::contact::self_contact::Facing;
 use crate::element::kernel::PointSlice;
 use crate::point::bdf2::PlasticIncrement;
 use crate::point::kinematic_hardening::{History, elastic_energy};
+use crate::point::kinematics::Symmetry;
 use crate::point::material::{Metal, PointState};
 
 /// States of all integration points, four to an element.
@@ -79,6 +80,33 @@ pub struct State {
     pub transfers: usize,
 }
 
+/// What a body keeps of its loads when the tool is gone: shape, hardening, residual stress. Lengths in any unit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Unloaded {
+    /// Place before all loading of the metal that is at each node now.
+    origin: Vec<[f64; 2]>,
+    /// Node positions.
+    pub position: Vec<[f64; 2]>,
+    /// Integration points.
+    pub points: Points,
+    /// Reference volume of each of them.
+    volume: Vec<f64>,
+}
+
+impl Unloaded {
+    /// The same with lengths `scale` times as large.
+    #[must_use]
+    pub fn scaled(mut self, scale: f64, symmetry: Symmetry) -> Unloaded {
+        let volumes = match symmetry {
+            Symmetry::Axisymmetric => scale.powi(3),
+            Symmetry::PlaneStrain => scale.powi(2),
+        };
+        self.origin.iter_mut().chain(&mut self.position).flatten().for_each(|x| *x *= scale);
+        self.volume.iter_mut().for_each(|v| *v *= volumes);
+        self
+    }
+}
+
 /// An increment that is tried from a converged state.
 #[derive(Clone, Debug)]
 pub struct Trial {
@@ -123,6 +151,32 @@ impl State {
             transferred: 0.0,
             transfers: 0,
         }
+    }
+
+    /// What stays when the tool is gone, of a state without one.
+    pub fn unloaded(&self, body: &Body<'_>) -> Unloaded {
+        Unloaded {
+            origin: self.origin.clone(),
+            position: self.position.clone(),
+            points: self.points.clone(),
+            volume: body.volume.clone(),
+        }
+    }
+
+    /// The body and its state out of contact, as earlier loads left it.
+    pub fn of_unloaded<'m>(mut body: Body<'m>, left: &Unloaded) -> (Body<'m>, State) {
+        body.volume.clone_from(&left.volume);
+        let virgin = State::virgin(&body);
+        let edges = body.surface(&left.position);
+        let state = State {
+            facing: Facing::new(&edges, &left.position, &virgin.displacement, &Facing::default()),
+            origin: left.origin.clone(),
+            position: left.position.clone(),
+            points: left.points.clone(),
+            edges,
+            ..virgin
+        };
+        (body, state)
     }
 
     /// Parts of each edge that touch; nothing before the first increment.

@@ -66,6 +66,8 @@ impl Cone {
                 area_growth: f64::INFINITY,
                 correction: Correction::PlasticShare,
             },
+            formed: None,
+            start: None,
         }
     }
 }

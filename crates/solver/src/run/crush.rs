@@ -1,30 +1,21 @@
 //! One crush from a scene to its records: the entry point of the solver.
 
-use crate::run::depth_for_force::target_depth;
+use crate::run::depth_for_force::expect;
 use crate::run::discretisation::Discretisation;
+use crate::run::earlier::ready;
 use crate::run::errors::{meet_force, settle};
-use crate::run::load_path::{Path, Stop};
+use crate::run::load_path::Stop;
 use crate::run::oliver_pharr::as_an_instrument;
-use crate::run::prepare::prepare_with;
+use crate::run::prepare::Expected;
 use crate::run::problem::{Goal, Problem};
-use crate::run::recorder::Recorder;
-use crate::scene::{Scene, SceneError, Target};
+use crate::run::simulate::simulate;
+use crate::scene::{Scene, Target};
 use asperity_mesh::Mesh;
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 pub use crate::run::recorder::{Event, FieldFrame, Outcome, Stopped, Watcher};
-
-/// Why a run could not begin.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum CrushError {
-    /// The scene makes no sense.
-    #[error(transparent)]
-    Scene(#[from] SceneError),
-    /// An element of the mesh is inside out.
-    #[error("the mesh has an element that is inside out or degenerate")]
-    Mesh,
-}
+pub use crate::run::simulate::CrushError;
 
 /// Runs `scene`. `mesh` (in metres) replaces the mesh that would be built.
 ///
@@ -35,12 +26,12 @@ pub enum CrushError {
 /// Only if the run cannot begin: what stops it later is in the outcome, with all that was reached.
 pub fn run(scene: &Scene, mesh: Option<Mesh>, observer: &mut Watcher<'_>) -> Result<Outcome, CrushError> {
     scene.validate()?;
-    let depth = target_depth(scene, mesh.as_ref())?;
+    let expected = expect(scene, mesh.as_ref())?;
     let coarser = mesh.as_ref().map(Mesh::with_other_element);
     let numbers = Discretisation::new(scene);
-    let problem = prepare_with(scene, numbers, mesh, depth)?;
+    let problem = ready(scene, numbers, mesh, &expected)?;
     let target = scene.loading.target()?;
-    let companion = companion(scene, numbers, coarser, depth);
+    let companion = companion(scene, numbers, coarser, &expected);
     let asks_for_depth = matches!(target, Target::Depth(_));
     let (mut outcome, ahead) = match companion.as_ref().filter(|_| asks_for_depth) {
         Some(companion) => simulate_both(&problem, companion, scene.output.interval(), observer)?,
@@ -70,8 +61,13 @@ pub fn run(scene: &Scene, mesh: Option<Mesh>, observer: &mut Watcher<'_>) -> Res
 
 /// The run that reveals the errors of another: with numbers half as good. An imported mesh, which cannot be made coarser, gives its
 /// nodes to the `other` element. `None` if it does not even begin.
-fn companion(scene: &Scene, numbers: Discretisation, other: Option<Mesh>, depth: f64) -> Option<Problem> {
-    let problem = prepare_with(scene, numbers.coarser(), other, depth).ok()?;
+fn companion(
+    scene: &Scene,
+    numbers: Discretisation,
+    other: Option<Mesh>,
+    expected: &Expected,
+) -> Option<Problem> {
+    let problem = ready(scene, numbers.coarser(), other, expected).ok()?;
     Some(Problem { reloads: 0, ..problem })
 }
 
@@ -105,55 +101,4 @@ fn simulate_both(
         outcome
     };
     Ok((outcome, ahead))
-}
-
-/// Runs `problem`: loads it to its goal, and unloads and reloads it as often as it asks.
-///
-/// The observer hears of every increment, and of fields every `interval` increments and at the peak and the end (if that is
-/// not 0); it ends the run by breaking.
-///
-/// # Errors
-/// Only if the run cannot begin: what stops it later is in the outcome, with all that was reached.
-pub fn simulate(
-    problem: &Problem,
-    interval: usize,
-    observer: &mut Watcher<'_>,
-) -> Result<Outcome, CrushError> {
-    let mut path = Path::new(problem).map_err(|_| CrushError::Mesh)?;
-    let mut recorder = Recorder::new(problem, interval, path.model.body().dofs.count);
-    recorder.draw_start(&path.model, observer);
-    let mut stopped = path.load(&mut |model, increment| recorder.record(model, increment, observer)).err();
-    recorder.peak_reached(observer, &path.model, stopped.is_none());
-    if stopped.is_none() {
-        stopped = unload_and_reload(problem, &mut path, &mut recorder, observer).err();
-    }
-    Ok(recorder.finish(&path, stopped, observer))
-}
-
-/// The path after the peak: the stiffness there, and unloading and reloading as often as the problem asks.
-fn unload_and_reload(
-    problem: &Problem,
-    path: &mut Path<'_>,
-    recorder: &mut Recorder<'_>,
-    observer: &mut Watcher<'_>,
-) -> Result<(), Stop> {
-    for cycle in 0..=problem.reloads {
-        if cycle > 0 {
-            path.reload(problem.goal, &mut |model, increment| recorder.record(model, increment, observer))?;
-        }
-        let peak = recorder.increments();
-        let stiffness = match path.model.unloading_stiffness() {
-            Ok(stiffness) => stiffness,
-            Err(_) if problem.unload => return Err(Stop::NoEquilibrium),
-            Err(_) => return Ok(()),
-        };
-        recorder.note_stiffness(problem.rules.compliance.in_series(stiffness.depth, path.area()));
-        if problem.unload {
-            path.unload(stiffness, problem.numbers.unload_steps, &mut |model, increment| {
-                recorder.record(model, increment, observer)
-            })?;
-            recorder.note_turn(peak);
-        }
-    }
-    Ok(())
 }

@@ -96,6 +96,14 @@ impl<'m> Equilibrium<'m> {
     /// A stiffness pattern that cannot be analysed.
     pub fn new(body: Body<'m>) -> Result<Self, Failure> {
         let state = State::virgin(&body);
+        Equilibrium::from_state(body, state)
+    }
+
+    /// The `body` in a `state` without a tool.
+    ///
+    /// # Errors
+    /// As for [`Equilibrium::new`].
+    pub fn from_state(body: Body<'m>, state: State) -> Result<Self, Failure> {
         let stiffness = Stiffness::new(&body.mesh.cells, body.mesh.kind.nodes(), &body.dofs);
         let factor = Factor::new(&stiffness.matrix);
         let count = body.dofs.count;

@@ -36,5 +36,12 @@ mod ripple;
 
 mod recorder;
 
+pub mod simulate;
+
+mod earlier;
+
+#[doc(hidden)]
+pub mod formed;
+
 pub mod compliance;
 pub mod crush;

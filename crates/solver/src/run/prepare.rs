@@ -6,6 +6,7 @@ use crate::point::material::Metal;
 use crate::run::a_priori;
 use crate::run::compliance::Compliance;
 use crate::run::discretisation::Discretisation;
+use crate::run::formed::Formed;
 use crate::run::problem::{Correction, Goal, Problem, Rules, Units, held_nodes};
 use crate::scene::{AsperityForm, Lateral, Line, LineAsperity, Scene, SceneError, Target, ToolForm};
 use asperity_law::Elastic;
@@ -57,14 +58,34 @@ fn measured_line(line: &Line, length: f64) -> Profile {
     }
 }
 
-/// Prepares `scene`, which is valid, for a peak at `depth` (m): the one that it asks for, or the one at which its force is
-/// expected (see [`crate::run::depth_for_force`]). `mesh` replaces the mesh that would be built (in metres). Lengths are in
-/// units of the depth.
+/// What is expected of a load before it is computed, with that of the loads before it: see [`crate::run::depth_for_force`].
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Expected {
+    /// Depth of the peak, m: the one that is asked for, or the one at which the force is expected.
+    pub depth: f64,
+    /// The surface that earlier loads left, m; `None`: that of the scene.
+    pub formed: Option<Formed>,
+    /// The same of the earlier loads, in their order.
+    pub earlier: Vec<Expected>,
+}
+
+impl From<f64> for Expected {
+    fn from(depth: f64) -> Expected {
+        Expected { depth, ..Expected::default() }
+    }
+}
+
+/// Prepares `scene`, which is valid, for its `expected` peak. `mesh` replaces the mesh that would be built (in metres). Lengths are
+/// in units of the depth. The body is virgin: [`crate::run::crush::run`] takes it through its earlier loads.
 ///
 /// # Errors
 /// A scene that cannot be meshed: path and reason.
-pub fn prepare(scene: &Scene, mesh: Option<Mesh>, depth: f64) -> Result<Problem, SceneError> {
-    prepare_with(scene, Discretisation::new(scene), mesh, depth)
+pub fn prepare(
+    scene: &Scene,
+    mesh: Option<Mesh>,
+    expected: impl Into<Expected>,
+) -> Result<Problem, SceneError> {
+    prepare_with(scene, Discretisation::new(scene), mesh, &expected.into())
 }
 
 /// [`prepare`] with other `numbers` than those of the scene.
@@ -72,8 +93,9 @@ pub(super) fn prepare_with(
     scene: &Scene,
     numbers: Discretisation,
     mesh: Option<Mesh>,
-    depth: f64,
+    expected: &Expected,
 ) -> Result<Problem, SceneError> {
+    let depth = expected.depth;
     let symmetry = scene.symmetry;
     let metal = metal(scene);
     let (profile, tool) = bodies(scene, depth)?;
@@ -86,10 +108,22 @@ pub(super) fn prepare_with(
             (Goal::Force { force: force / units.force, expected_depth: 1.0, limit }, PROBED)
         }
     };
-    let half_widths = a_priori::half_widths(&profile, &tool, reach);
-    let row = extent(scene, &profile, &half_widths, depth);
-    let size = automatic_size(&numbers, &profile, &half_widths).max(3.0 * (row[1] - row[0]));
-    let penalty = a_priori::expected_pressure(&metal, &profile, &tool, 1.0) / numbers.penetration;
+    let formed = expected.formed.as_ref().map(|formed| formed.over(depth));
+    let own = Contacts::of(&profile, &tool, formed.as_ref(), 1.0, reach);
+    let half_widths = own.half_widths.clone();
+    let mut contacts = own;
+    for (load, earlier) in scene.earlier_loads().iter().zip(&expected.earlier) {
+        let tool = tool_over(load.tool.form().map_err(|e| within("tool", e))?, depth);
+        let formed = earlier.formed.as_ref().map(|formed| formed.over(depth));
+        let deep = earlier.depth / depth;
+        contacts = contacts.and(&Contacts::of(&profile, &tool, formed.as_ref(), deep, deep));
+    }
+    let row = extent(scene, &profile, &contacts.half_widths, depth);
+    let size = automatic_size(&numbers, &profile, &contacts.half_widths).max(3.0 * (row[1] - row[0]));
+    let pressure = match &formed {
+        None => a_priori::expected_pressure(&metal, &profile, &tool, 1.0),
+        Some(formed) => formed.expected_pressure(&metal, &profile, &tool, 1.0),
+    };
     let mesh = match mesh {
         Some(mut mesh) => {
             for node in &mut mesh.nodes {
@@ -97,10 +131,7 @@ pub(super) fn prepare_with(
             }
             mesh
         }
-        None => {
-            let from = a_priori::resolved_from(&profile, &tool, 1.0, reach);
-            build_mesh(scene, &numbers, &profile, &half_widths, row, [from, size], depth)?
-        }
+        None => build_mesh(scene, &numbers, &profile, &contacts, row, size, depth)?,
     };
     let automatic = scene.mesh.is_none() && scene.substrate.as_ref().is_none_or(|s| s.depth.is_none());
     let half_space = automatic && symmetry == Symmetry::Axisymmetric && scene.lateral == Lateral::Free;
@@ -118,7 +149,7 @@ pub(super) fn prepare_with(
         profile,
         tool,
         half_widths,
-        penalty,
+        penalty: pressure / numbers.penetration,
         held: held_nodes(&mesh, symmetry, scene.lateral),
         mesh,
         numbers,
@@ -127,7 +158,49 @@ pub(super) fn prepare_with(
         unload: scene.loading.unload,
         reloads: scene.loading.reloads,
         rules,
+        formed,
+        start: None,
     })
+}
+
+/// The contacts that a mesh is made for.
+struct Contacts {
+    /// Their half widths, one for each asperity.
+    half_widths: Vec<f64>,
+    /// Half width of the widest from which it is to be resolved.
+    resolved_from: f64,
+    /// How many times finer elements are at the least half width than they would be if all had one size, over their number.
+    graded: f64,
+}
+
+impl Contacts {
+    /// Those of a tool at `reach`, resolved where it is `depth` deep.
+    fn of(profile: &Profile, tool: &Tool, formed: Option<&Formed>, depth: f64, reach: f64) -> Contacts {
+        let (half_widths, share) = match formed {
+            None => (
+                a_priori::half_widths(profile, tool, reach),
+                a_priori::resolved_from(profile, tool, depth, reach),
+            ),
+            Some(formed) => {
+                (formed.half_widths(profile, tool, reach), formed.resolved_from(profile, tool, depth, reach))
+            }
+        };
+        Contacts {
+            resolved_from: share * widest(&half_widths),
+            graded: 1.0 - (CORE * share).ln(),
+            half_widths,
+        }
+    }
+
+    /// Both on one mesh: it reaches as far as the wider and is as fine as either asks.
+    fn and(self, other: &Contacts) -> Contacts {
+        let wider = |(a, b): (&f64, &f64)| a.max(*b);
+        Contacts {
+            half_widths: self.half_widths.iter().zip(&other.half_widths).map(wider).collect(),
+            resolved_from: self.resolved_from.min(other.resolved_from),
+            graded: self.graded.min(other.graded),
+        }
+    }
 }
 
 fn within(table: &str, error: SceneError) -> SceneError {
@@ -206,15 +279,15 @@ fn extent(scene: &Scene, profile: &Profile, half_widths: &[f64], length: f64) ->
     }
 }
 
-/// The mesh of the scene over the `row` of its asperities, lengths over `length`; contacts are resolved from the share `resolved_from` of their half widths on,
-/// and the substrate has the `size` if the scene gives none.
+/// The mesh of the scene over the `row` of its asperities for these `contacts`, lengths over `length`; the substrate has the `size`
+/// if the scene gives none.
 fn build_mesh(
     scene: &Scene,
     numbers: &Discretisation,
     profile: &Profile,
-    half_widths: &[f64],
+    Contacts { half_widths, resolved_from, graded }: &Contacts,
     row: [f64; 2],
-    [resolved_from, size]: [f64; 2],
+    size: f64,
     length: f64,
 ) -> Result<Mesh, SceneError> {
     let (kind, symmetry) = (numbers.element.kind(), scene.symmetry);
@@ -245,13 +318,9 @@ fn build_mesh(
         });
     }
     // sizes over the distance from a centre, so that the contact radius holds the wanted number of elements
-    let start = CORE * resolved_from;
-    let grading = Grading {
-        fineness: (1.0 - start.ln()) / numbers.elements_in_contact as f64,
-        start,
-        fine: 1.6,
-        far: FAR_GROWTH,
-    };
+    let start = CORE * resolved_from / widest(half_widths);
+    let grading =
+        Grading { fineness: graded / numbers.elements_in_contact as f64, start, fine: 1.6, far: FAR_GROWTH };
     let contacts: Vec<Contact> = if profile.asperities.is_empty() {
         let widest = widest(half_widths);
         vec![Contact { centre: 0.0, half_width: widest, foot: 10.0 * widest, sides: [1.0; 2], slope: 0.0 }]

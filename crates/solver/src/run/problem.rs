@@ -2,6 +2,7 @@
 
 use crate::body::discrete_body::{Body, ToolContact};
 use crate::body::failure::Failure;
+use crate::body::state::{State, Unloaded};
 use crate::contact::tool::Tool;
 use crate::point::kinematics::Symmetry;
 use crate::point::material::Metal;
@@ -9,6 +10,7 @@ use crate::run::a_priori::expected_pressure;
 use crate::run::compliance::Compliance;
 use crate::run::discretisation::Discretisation;
 use crate::run::equilibrium::Equilibrium;
+use crate::run::formed::Formed;
 use crate::scene::{ContactMethod, Lateral};
 use asperity_mesh::Mesh;
 use asperity_mesh::profile::Profile;
@@ -114,18 +116,28 @@ pub struct Problem {
     pub reloads: usize,
     /// How the path goes.
     pub rules: Rules,
+    /// The surface that earlier loads left, as far as estimates need it.
+    pub formed: Option<Formed>,
+    /// The body as earlier loads left it; `None`: virgin.
+    pub start: Option<Unloaded>,
 }
 
 impl Problem {
-    /// Its body, stress-free and out of contact.
+    /// Its body out of contact: stress-free, or as earlier loads left it.
     ///
     /// # Errors
     /// An element of the mesh that is inside out.
     pub fn equilibrium(&self) -> Result<Equilibrium<'_>, Failure> {
         let contact = ToolContact { tool: self.tool.clone(), penalty: self.penalty };
         let fixed = |node: usize| self.held[node];
-        Body::new(&self.mesh, self.symmetry, self.metal.clone(), fixed, Some(contact))
-            .and_then(Equilibrium::new)
+        let body = Body::new(&self.mesh, self.symmetry, self.metal.clone(), fixed, Some(contact))?;
+        match &self.start {
+            None => Equilibrium::new(body),
+            Some(start) => {
+                let (body, state) = State::of_unloaded(body, start);
+                Equilibrium::from_state(body, state)
+            }
+        }
     }
 
     /// E* of the contact: that of the body, with an elastic tool in series.
@@ -138,7 +150,10 @@ impl Problem {
     /// good as late.
     pub fn penalty_at(&self, travel: f64) -> f64 {
         let depth = travel.max(FIRST_TOUCH);
-        let pressure = |depth| expected_pressure(&self.metal, &self.profile, &self.tool, depth);
+        let pressure = |depth| match &self.formed {
+            None => expected_pressure(&self.metal, &self.profile, &self.tool, depth),
+            Some(formed) => formed.expected_pressure(&self.metal, &self.profile, &self.tool, depth),
+        };
         self.penalty * pressure(depth) / (pressure(1.0) * depth)
     }
 

@@ -21,6 +21,7 @@ impl Scene {
             substrate: None,
             tool,
             loading,
+            initial: None,
             output: Output::default(),
             numerics: Numerics::default(),
             mesh: None,

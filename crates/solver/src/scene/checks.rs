@@ -43,7 +43,6 @@ impl Scene {
                 asperity.check_on_axis().map_err(|e| inside("asperity[0]", e))?;
             }
         }
-        self.tool.check().map_err(|e| inside("tool", e))?;
         if let Some(substrate) = &self.substrate {
             substrate.check().map_err(|e| inside("substrate", e))?;
         }
@@ -57,11 +56,18 @@ impl Scene {
             mesh.unit.map_or(Ok(()), |u| positive("mesh.unit", "the length of 1 in the mesh file", u))?;
         }
         self.check_line()?;
+        self.check_earlier_loads()?;
+        self.check_load()?;
+        self.numerics.check().map_err(|e| inside("numerics", e))
+    }
+
+    /// Whether tool and loading make sense on the body.
+    pub(super) fn check_load(&self) -> Check {
+        self.tool.check().map_err(|e| inside("tool", e))?;
         self.check_tool_compliance()?;
         self.check_body()?;
         self.loading.check().map_err(|e| inside("loading", e))?;
-        self.check_loading()?;
-        self.numerics.check().map_err(|e| inside("numerics", e))
+        self.check_loading()
     }
 
     /// A measured line must be the only surface, in plane strain.

@@ -7,6 +7,7 @@ mod accuracy;
 mod build;
 mod checks;
 mod geometry;
+mod initial;
 mod line;
 mod material;
 mod measured;
@@ -16,6 +17,7 @@ mod warnings;
 
 pub use accuracy::{Accuracy, AccuracyError, Level};
 pub use geometry::{Asperity, AsperityForm, Substrate};
+pub use initial::{EarlierLoad, Initial};
 pub use line::{Line, LineAsperity, LineProfile};
 pub use material::{HardeningChoice, Material};
 pub use measured::{Points, Smoothing};
@@ -78,6 +80,9 @@ pub struct Scene {
     pub tool: Tool,
     /// How far it goes: exactly one of `depth` and `force`.
     pub loading: Loading,
+    /// Loads that the body bore before; absent: it is virgin.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub initial: Option<Initial>,
     /// Which fields are written, and how often.
     #[serde(default)]
     pub output: Output,

@@ -26,6 +26,7 @@ fn scene() -> Scene {
         substrate: None,
         tool: plane(),
         loading: Loading { depth: Some(Length(5e-6)), force: None, unload: true, reloads: 0 },
+        initial: None,
         output: Output::default(),
         numerics: Numerics::default(),
         mesh: None,

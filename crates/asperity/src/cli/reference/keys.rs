@@ -24,22 +24,30 @@ pub fn page() -> String {
     for (kind, title, about) in FILES {
         text += &format!("## {title}\n\n{about}\n\n");
         let schema = of_kind(kind).to_value();
-        text += &keys_of(&schema, "", title);
+        text += &keys_of(&schema, &schema, "", title);
     }
     text
 }
 
-/// The keys of the table at `path` of the file `title`, then those of the tables in it.
-fn keys_of(schema: &Value, path: &str, title: &str) -> String {
+/// The keys of the table at `path`, each table with its brackets, of the file `title` with the schema `root`, then those of the
+/// tables in it.
+fn keys_of(root: &Value, schema: &Value, path: &str, title: &str) -> String {
     let Some(properties) = schema["properties"].as_object() else { return String::new() };
     let required =
         |key: &str| schema["required"].as_array().is_some_and(|all| all.iter().any(|one| one == key));
     let mut keys: Vec<(&String, &Value)> = properties.iter().collect();
     keys.sort_by_key(|(key, _)| (!required(key), key.as_str()));
     let mut text = String::new();
+    let name = path.trim_matches(['[', ']']);
     if !path.is_empty() {
         let about = schema["description"].as_str().unwrap_or_default();
         text += &format!("### {title}: `{path}`\n\n{}\n\n", words(about));
+    }
+    // a table that stands at the top too
+    if let Some((_, last)) = name.rsplit_once('.')
+        && root["properties"][last]["properties"] == schema["properties"]
+    {
+        return format!("{text}Its keys are those of `[{last}]`.\n\n");
     }
     let row = |(key, value): &(&String, &Value)| {
         let default = if required(key) { "required".into() } else { default_of(value) };
@@ -48,9 +56,9 @@ fn keys_of(schema: &Value, path: &str, title: &str) -> String {
     };
     text += &table(&["key", "meaning", "value", "default"], keys.iter().map(row));
     for (key, value) in keys {
-        let inner = if path.is_empty() { key.clone() } else { format!("{path}.{key}") };
-        text += &keys_of(value, &format!("[{}]", inner.trim_matches(['[', ']'])), title);
-        text += &keys_of(&value["items"], &format!("[[{}]]", inner.trim_matches(['[', ']'])), title);
+        let inner = if name.is_empty() { key.clone() } else { format!("{name}.{key}") };
+        text += &keys_of(root, value, &format!("[{inner}]"), title);
+        text += &keys_of(root, &value["items"], &format!("[[{inner}]]"), title);
     }
     text
 }

@@ -29,7 +29,7 @@ pub struct Increment {
 pub struct Energies {
     /// ∫F d(travel).
     pub external_work: f64,
-    /// Stored elastic energy.
+    /// Elastic energy stored since then.
     pub elastic: f64,
     /// Plastic work.
     pub plastic: f64,

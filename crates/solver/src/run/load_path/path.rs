@@ -78,6 +78,8 @@ pub struct Path<'p> {
     /// The depth that was asked for.
     pub(super) asked: Option<f64>,
     external_work: f64,
+    /// Elastic energy that earlier loads left.
+    stored_before: f64,
     spent: usize,
     /// Increments after which the mesh was laid anew last.
     meshed_after: usize,
@@ -99,7 +101,6 @@ impl<'p> Path<'p> {
         let tolerance = problem.numbers.newton_tolerance;
         Ok(Path {
             touch: model.converged_surface().first_touch(),
-            model,
             settings: Settings { tolerance, max_iterations: 40, keep: KEEP },
             problem,
             travel: 0.0,
@@ -113,11 +114,13 @@ impl<'p> Path<'p> {
             way_back: Vec::new(),
             asked: None,
             external_work: 0.0,
+            stored_before: model.state().energies(model.body())[0],
             spent: 0,
             meshed_after: 0,
             iterations: 0,
             increments: 0,
             cutbacks: 0,
+            model,
         })
     }
 
@@ -345,7 +348,7 @@ impl<'p> Path<'p> {
             let near = punches.energy / self.model.body().material.elastic.reduced_modulus();
             self.plastic_share = plastic / (near + plastic);
         }
-        Energies { external_work: self.external_work, elastic, plastic }
+        Energies { external_work: self.external_work, elastic: elastic - self.stored_before, plastic }
     }
 
     /// Goes to `travel` in as few increments as converge; accepts all but the last, which is left attempted. That may be one
