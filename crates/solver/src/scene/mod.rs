@@ -54,6 +54,7 @@ impl std::error::Error for SceneError {}
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(title = "A scene of `asperity crush` and `asperity mesh`")]
+#[schemars(extend("anyOf" = [{ "required": ["material"] }, { "required": ["initial"] }]))]
 pub struct Scene {
     /// Body of revolution, or ridges of constant section.
     #[serde(default = "axisymmetric")]
@@ -64,7 +65,8 @@ pub struct Scene {
     /// The side of the substrate: free, or a frictionless wall beyond which the body repeats.
     #[serde(default)]
     pub lateral: Lateral,
-    /// The material of asperities and substrate.
+    /// The material of asperities and substrate. A scene that starts from an earlier result has that of the result.
+    #[schemars(with = "Option<Material>")]
     pub material: Material,
     /// From the axis (left side in plane strain) outward. May be empty under a cone or sphere.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
