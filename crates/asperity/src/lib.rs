@@ -49,6 +49,8 @@ pub mod trade;
 
 pub mod draw;
 
+mod page;
+
 #[cfg(feature = "cli")]
 #[doc(hidden)]
 pub mod cli;

@@ -44,6 +44,15 @@ pub trait SinkExt: Sink {
         self.write(name, |out| out.write_all(text.as_bytes()))
     }
 
+    /// Writes `picture`, or gives why there is none.
+    ///
+    /// # Errors
+    /// A disk that refuses, or the reason.
+    fn picture(&mut self, name: &str, picture: Result<Vec<u8>, String>) -> Result<(), Error> {
+        let bytes = picture.map_err(Error::Unfinished)?;
+        self.write(name, |out| out.write_all(&bytes))
+    }
+
     /// Writes `rows` as the CSV file `name`: its columns are their fields.
     ///
     /// # Errors

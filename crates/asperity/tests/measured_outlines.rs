@@ -135,6 +135,39 @@ fn pyramids_press_as_the_cone_of_their_area_and_soft_ones_give_way() {
     assert!((reduced * (0.91 / 210.0 + 0.9951 / 1141.0) - 1.0).abs() < 1e-9, "{reduced}");
 }
 
+/// 24.5 h_c² + 2 h_c + 0.3 √h_c, h_c in um, in the place of the pyramid's own section; the run is the same.
+#[test]
+fn a_reading_goes_by_the_area_function() {
+    let flat = SCENE.replacen(ASPERITY, "", 1).replace("5 um", "1 um");
+    let with = |tool: &str| crushed(&flat.replacen(TOOL, tool, 1), "").1;
+    let sharp = with("shape = \"berkovich\"\n");
+    let worn = "shape = \"berkovich\"\narea_function = { unit = \"um\", coefficients = [24.5, 2.0, 0.3] }\n";
+    let worn = with(worn);
+    assert_eq!(worn["peak_force_N"], sharp["peak_force_N"]);
+    let read = |s: &Value, key: &str| s["oliver_pharr"][key].as_f64().unwrap();
+    let depth = read(&worn, "contact_depth_um");
+    assert_eq!(depth, read(&sharp, "contact_depth_um"));
+    let area = 24.5 * depth * depth + 2.0 * depth + 0.3 * depth.sqrt();
+    assert!((read(&worn, "contact_area_um2") / area - 1.0).abs() < 1e-12);
+    let force = worn["peak_force_N"].as_f64().unwrap();
+    assert!((read(&worn, "hardness_MPa") / (1e6 * force / area) - 1.0).abs() < 1e-12);
+    let modulus = read(&sharp, "reduced_modulus_GPa") * (read(&sharp, "contact_area_um2") / area).sqrt();
+    assert!((read(&worn, "reduced_modulus_GPa") / modulus - 1.0).abs() < 1e-12);
+    for (tool, said) in [
+        ("shape = \"plane\"\narea_function = { unit = \"nm\", coefficients = [24.5] }\n", "plane"),
+        (
+            "shape = \"berkovich\"\narea_function = { unit = \"inch\", coefficients = [24.5] }\n",
+            "must be one of",
+        ),
+        ("shape = \"berkovich\"\narea_function = { unit = \"nm\", coefficients = [] }\n", "from 1 to 9"),
+        ("shape = \"berkovich\"\narea_function = { unit = \"nm\" }\n", "coefficients"),
+    ] {
+        let place = Place::with_scene(flat.replacen(TOOL, tool, 1));
+        let end = place.run(&["crush", "scene.toml", "--out", "out"]);
+        assert!(end.status == 2 && end.err.contains(said), "{}", end.err);
+    }
+}
+
 #[test]
 fn a_line_is_the_surface_with_its_asperities() {
     let wave = |x: f64| (0.2 * x).sin() + 0.3 * (0.08 * x + 1.0).sin();

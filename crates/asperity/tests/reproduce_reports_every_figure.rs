@@ -128,11 +128,7 @@ fn the_report_stands_alone_and_its_links_resolve() {
 /// In a browser: it loads, and no picture is broken. Skipped where there is none.
 #[test]
 fn a_browser_opens_the_report() {
-    let names = ["chromium", "chromium-browser", "google-chrome"];
-    let Some(browser) = names.iter().find(|n| Command::new(n).arg("--version").output().is_ok()) else {
-        eprintln!("skipped: no chromium in the path");
-        return;
-    };
+    let Some(browser) = common::browser() else { return };
     let place = reproduced();
     // a copy that tells, as its title, how many pictures did not decode
     let probe = "<script>{let sum=0,broken=0;const tell=b=>{broken+=b;document.title='pictures '+(++sum)+' broken '+broken};\

@@ -183,3 +183,46 @@ fn drawn_points_lie_in_their_ranges() {
         assert!(column(&table, "status").iter().all(|s| s == "ok"), "{table}");
     }
 }
+
+/// The outline lies beside the scene, not where the study is run: every run finds it, and what stands in it is part of the study.
+#[test]
+fn a_scene_with_a_measured_outline_is_varied() {
+    let place = Place::with_scene("");
+    std::fs::create_dir(place.path("measured")).unwrap();
+    let cone = "[[asperity]]\nheight = \"20 um\"\nslope_deg = 10\ntip_radius = \"10 um\"\n";
+    let scene = SCENE.replace(cone, "[[asperity]]\nprofile = \"cap.csv\"\n");
+    assert_ne!(scene, SCENE);
+    std::fs::write(place.path("measured/scene.toml"), scene).unwrap();
+    let cap = |height: f64| {
+        let point = |i: i32| format!("{i},{}\n", height * (1.0 - f64::from(i * i) / 6400.0));
+        format!("r_um,z_um\n{}", (0..=80).map(point).collect::<String>())
+    };
+    std::fs::write(place.path("measured/cap.csv"), cap(20.0)).unwrap();
+    std::fs::write(place.path("measured/flat.csv"), cap(10.0)).unwrap();
+    let run = |args: &[&str]| {
+        let end = place.run(&[&["study"], args, &["--quiet"]].concat());
+        assert_eq!((end.status, end.err.as_str()), (0, ""));
+    };
+    let forces = |folder: &str| -> Vec<f64> {
+        let table = place.text(&format!("{folder}/results.csv"));
+        assert!(column(&table, "status").iter().all(|s| s == "ok"), "{table}");
+        column(&table, "peak_force_N").iter().map(|f| f.parse().unwrap()).collect()
+    };
+    run(&["measured/scene.toml", "--vary", "loading.depth=1 um,2 um", "--out", "depths"]);
+    let depths = forces("depths");
+    assert!(depths[1] > 1.9 * depths[0], "{depths:?}");
+    let file = "scene = \"measured/scene.toml\"\n[vary]\n\"loading.depth\" = [\"1 um\", \"2 um\"]\n";
+    std::fs::write(place.path("study.toml"), file).unwrap();
+    run(&["study.toml", "--out", "file"]);
+    assert_eq!(forces("file"), depths);
+    let shapes = ["--vary", "asperity[0].profile=\"cap.csv\",\"flat.csv\"", "--set", "loading.depth=2 um"];
+    let all = [&["measured/scene.toml", "--out", "shapes"], &shapes[..]].concat();
+    run(&all);
+    let found = forces("shapes");
+    assert_eq!(found[0], depths[1]);
+    assert!(found[1] > 1.2 * found[0], "a flatter cap is stiffer: {found:?}");
+    // another outline under the same name is another study
+    std::fs::write(place.path("measured/flat.csv"), cap(12.0)).unwrap();
+    let end = place.run(&[&["study"], &all[..], &["--quiet"]].concat());
+    assert!(end.status != 0 || forces("shapes")[1] != found[1], "{}", end.err);
+}

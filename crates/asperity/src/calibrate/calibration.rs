@@ -3,6 +3,7 @@
 use super::fit::{AngleFit, Fit};
 use super::pictures;
 use super::run::{Options, Progress, solve};
+use crate::draw::chart::{Chart, svg};
 use crate::error::{Error, InputError};
 use crate::output::{Sink, SinkExt};
 use asperity_calibration::dimensionless::Dimensionless;
@@ -116,11 +117,15 @@ impl Calibration {
             let text = coefficient.to_toml().map_err(|e| Error::Unfinished(e.to_string()))?;
             sink.text("coefficient.toml", &text)?;
         }
-        for (name, picture) in pictures::all(&self.data, &self.fit, self.shown) {
-            let text = picture.map_err(Error::Unfinished)?;
-            sink.text(name, &text)?;
+        for (name, chart, _) in self.charts() {
+            sink.text(name, &svg(&chart).map_err(Error::Unfinished)?)?;
         }
         Ok(())
+    }
+
+    /// File names, charts and what they show; none where nothing was fitted.
+    pub(super) fn charts(&self) -> Vec<(&'static str, Chart, &'static str)> {
+        pictures::all(&self.data, &self.fit, self.shown)
     }
 
     /// The text of fit.json.
@@ -147,8 +152,7 @@ impl Calibration {
             iterations as f64 / count,
             1e3 * seconds / iterations.max(1) as f64
         );
-        let worst = self.cases.iter().filter_map(|r| r.k_error).fold(0.0, f64::max);
-        let _ = writeln!(text, "K         error at most {:.2} %", 100.0 * worst);
+        let _ = writeln!(text, "K         error at most {:.2} %", 100.0 * self.worst());
         for row in self.cases.iter().filter(|r| r.k_over_e.is_none()).take(5) {
             let _ = writeln!(text, "failed    {}", row.line());
         }

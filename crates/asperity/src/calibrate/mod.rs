@@ -6,6 +6,7 @@ mod fit;
 
 mod calibration;
 mod pictures;
+mod report;
 
 mod merge;
 mod sensitivity;

@@ -1,13 +1,13 @@
 //! The two figures: curves of all exponents mixed into one, and the representative strain over the slope.
 
 use super::fit::{AngleFit, Fit};
-use crate::draw::chart::{Chart, Series, svg};
+use crate::draw::chart::{Chart, Series};
 use asperity_calibration::collapse::{Sample, distinct};
 use asperity_calibration::fit::Data;
 use asperity_roughness::PUBLISHED;
 
-/// File names and SVG documents; none where nothing was fitted.
-pub(super) fn all(data: &Data, fit: &Fit, shown: Option<f64>) -> Vec<(&'static str, Result<String, String>)> {
+/// File names, charts and what they show; none where nothing was fitted.
+pub(super) fn all(data: &Data, fit: &Fit, shown: Option<f64>) -> Vec<(&'static str, Chart, &'static str)> {
     let Some(c) = fit.coefficient else { return Vec::new() };
     let mut pictures = Vec::new();
     let distance = |beta: f64| shown.map_or(-beta, |wish| (beta - wish).abs());
@@ -15,10 +15,14 @@ pub(super) fn all(data: &Data, fit: &Fit, shown: Option<f64>) -> Vec<(&'static s
     if let Some(angle) = nearest {
         let tan = angle.beta_deg.to_radians().tan();
         let share = angle.representative_strain.map_or(c, |s| s / tan);
-        pictures.push(("collapse.svg", svg(&mixed(data, angle.beta_deg, share))));
+        let seen = "Curves of all hardening exponents at one slope, at the representative strain that makes them one";
+        pictures.push(("collapse.svg", mixed(data, angle.beta_deg, share), seen));
     }
-    pictures.push(("collapse_all.svg", svg(&master(data, c))));
-    pictures.push(("representative_strain.svg", svg(&strains(&fit.per_angle, c))));
+    let seen = "Loading curvature of all slopes and metals over the stiffness of the metal, both dimensionless: near one curve";
+    pictures.push(("collapse_all.svg", master(data, c), seen));
+    let seen =
+        "Representative strain of every slope with its interval, beside the fitted and the published line";
+    pictures.push(("representative_strain.svg", strains(&fit.per_angle, c), seen));
     pictures
 }
 

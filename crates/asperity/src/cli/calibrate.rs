@@ -4,7 +4,7 @@ use crate::batch::Shard;
 use crate::calibrate::{
     Calibration, Options, Progress as Done, calibrate as run, merge, read_sweep, sensitivity,
 };
-use crate::cli::flags::{RunFlags, SceneFlags};
+use crate::cli::flags::{ReportFlag, RunFlags, SceneFlags};
 use crate::cli::folder::{Folder, journal_beside};
 use crate::cli::progress::Progress;
 use crate::cli::terminal;
@@ -28,13 +28,15 @@ pub struct Calibrate {
     #[arg(long, value_name = "K/N", value_parser = clap::value_parser!(Shard))]
     pub shard: Option<Shard>,
     /// The dependence of c: a table over laws, tools, exponents and ranges of E over yield stress, from 1800 cases
-    #[arg(long, conflicts_with_all = ["sweep", "shard", "slope", "overrides"])]
+    #[arg(long, conflicts_with_all = ["sweep", "shard", "slope", "overrides", "report"])]
     pub dependence: bool,
     /// Slope in degrees that collapse.svg shows [default: the largest]
     #[arg(long, value_name = "DEGREES")]
     pub slope: Option<f64>,
     #[command(flatten)]
     pub scene_flags: SceneFlags,
+    #[command(flatten)]
+    pub page: ReportFlag,
     #[command(flatten)]
     pub run: RunFlags,
 }
@@ -56,6 +58,8 @@ pub struct Merge {
     #[arg(long, value_name = "DEGREES")]
     pub slope: Option<f64>,
     #[command(flatten)]
+    pub page: ReportFlag,
+    #[command(flatten)]
     pub run: RunFlags,
 }
 
@@ -65,10 +69,11 @@ pub struct Merge {
 /// Input that is wrong (nothing is written), or a disk that refuses (finished cases stay in the journal).
 pub fn calibrate(args: &Calibrate) -> Result<(), Error> {
     match &args.merge {
-        Some(Joining::Merge(Merge { parts, slope, run })) => {
+        Some(Joining::Merge(Merge { parts, slope, page, run })) => {
             let target = run.target("calibrate");
             let calibration = merge(parts, *slope)?;
-            finish(Ok(calibration), Folder::create(&target, "calibrate", run.force)?, run, &target)
+            let folder = Folder::create(&target, "calibrate", run.force)?;
+            finish(Ok(calibration), folder, page, run, &target)
         }
         None if args.dependence => dependence(args),
         None => sweep(args),
@@ -87,7 +92,7 @@ fn sweep(args: &Calibrate) -> Result<(), Error> {
     let folder = Folder::create(&target, "calibrate", args.run.force)?;
     let options = Options { part: args.shard, shown_slope_deg: args.slope, ..options(&args.run, &target) };
     let result = observed(&options, args.run.quiet, |observer| run(&sweep, &options, observer));
-    finish(result, folder, &args.run, &target)
+    finish(result, folder, &args.page, &args.run, &target)
 }
 
 fn dependence(args: &Calibrate) -> Result<(), Error> {
@@ -134,10 +139,14 @@ fn observed<T>(
 fn finish(
     result: Result<Calibration, Error>,
     folder: Folder,
+    page: &ReportFlag,
     flags: &RunFlags,
     target: &Path,
 ) -> Result<(), Error> {
-    let done = folder.fill(result, |calibration, folder| calibration.write(folder))?;
+    let done = folder.fill(result, |calibration, folder| {
+        calibration.write(folder)?;
+        page.write(folder, || calibration.report())
+    })?;
     done.remove_journal();
     flags.say(target, || done.json(), || done.text())
 }

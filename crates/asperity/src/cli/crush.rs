@@ -1,6 +1,6 @@
 //! `asperity crush`: one scene from its file to a folder of results.
 
-use crate::cli::flags::{RunFlags, SceneFlags};
+use crate::cli::flags::{ReportFlag, RunFlags, SceneFlags};
 use crate::cli::folder::Folder;
 use crate::cli::progress::Progress;
 use crate::cli::{interrupt, terminal};
@@ -17,6 +17,8 @@ pub struct Crush {
     pub scene: Option<PathBuf>,
     #[command(flatten)]
     pub scene_flags: SceneFlags,
+    #[command(flatten)]
+    pub page: ReportFlag,
     #[command(flatten)]
     pub run: RunFlags,
 }
@@ -49,6 +51,10 @@ pub fn crush(args: &Crush) -> Result<(), Error> {
         folder.abandon();
         return Err(error.into());
     }
+    let result = result.and_then(|crush| {
+        args.page.write(&mut folder, || crush.report())?;
+        Ok(crush)
+    });
     folder.publish()?;
     let summary = result?.summary;
     if !args.run.quiet {

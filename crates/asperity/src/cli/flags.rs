@@ -3,6 +3,7 @@
 use crate::cli::terminal;
 use crate::error::Error;
 use crate::input::scene::Scene;
+use crate::output::{Sink, SinkExt};
 use asperity_solver::scene::{Accuracy, AccuracyError};
 use clap::builder::{PossibleValue, TypedValueParser};
 use clap::{Arg, Args, Command};
@@ -78,6 +79,28 @@ impl RunFlags {
             terminal::say(&format!("{}\nresults   {}", text().trim_end(), target.display()));
         }
         Ok(())
+    }
+}
+
+/// The flag of commands whose result is a page too.
+#[derive(Debug, Args)]
+pub struct ReportFlag {
+    /// Write report.html too: a page that stands alone, with the numbers and their errors first and curves that tell their values
+    #[arg(long)]
+    pub report: bool,
+}
+
+impl ReportFlag {
+    /// Writes the page where it is asked for.
+    ///
+    /// # Errors
+    /// Those of `page`, or a disk that refuses.
+    pub fn write(
+        &self,
+        sink: &mut dyn Sink,
+        page: impl FnOnce() -> Result<String, Error>,
+    ) -> Result<(), Error> {
+        if self.report { sink.text("report.html", &page()?) } else { Ok(()) }
     }
 }
 

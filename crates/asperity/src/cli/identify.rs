@@ -1,6 +1,6 @@
 //! `asperity identify`: from measured curves to the metal.
 
-use crate::cli::flags::RunFlags;
+use crate::cli::flags::{ReportFlag, RunFlags};
 use crate::cli::folder::Folder;
 use crate::cli::progress::Progress;
 use crate::cli::{interrupt, terminal};
@@ -17,6 +17,8 @@ pub struct Identify {
     /// Change a value of the file, for example --set accuracy=draft; repeatable
     #[arg(long = "set", value_name = "KEY.PATH=VALUE")]
     pub overrides: Vec<String>,
+    #[command(flatten)]
+    pub page: ReportFlag,
     #[command(flatten)]
     pub run: RunFlags,
 }
@@ -40,7 +42,10 @@ pub fn identify(args: &Identify) -> Result<(), Error> {
         !interrupt::requested()
     });
     progress.finish();
-    let found = folder.fill(found, |found, sink| found.write(sink))?;
+    let found = folder.fill(found, |found, sink| {
+        found.write(sink)?;
+        args.page.write(sink, || found.report())
+    })?;
     if !args.run.quiet {
         found.notes.iter().for_each(terminal::warn);
     }

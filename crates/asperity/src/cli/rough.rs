@@ -1,7 +1,7 @@
 //! `asperity rough`: the contact of a rough surface with a rigid plane.
 
 use crate::cli::extract::scene_of;
-use crate::cli::flags::RunFlags;
+use crate::cli::flags::{ReportFlag, RunFlags};
 use crate::cli::folder::{Folder, claim};
 use crate::cli::progress::Progress;
 use crate::cli::{interrupt, terminal};
@@ -22,7 +22,7 @@ pub struct Rough {
     #[arg(long, value_name = "SCENE", conflicts_with = "table1")]
     pub like: Option<PathBuf>,
     /// Print the paper's Table 1 beside ours: three generated surfaces, every closure; into files with --out
-    #[arg(long, conflicts_with = "scenes")]
+    #[arg(long, conflicts_with_all = ["scenes", "report"])]
     pub table1: bool,
     /// Change a value of the file, for example --set "load.pressure=100 MPa"; repeatable
     #[arg(long = "set", value_name = "KEY.PATH=VALUE", conflicts_with = "table1")]
@@ -33,6 +33,8 @@ pub struct Rough {
     /// Do not compare closures with the half-space
     #[arg(long, conflicts_with = "table1")]
     pub no_judge: bool,
+    #[command(flatten)]
+    pub page: ReportFlag,
     #[command(flatten)]
     pub run: RunFlags,
 }
@@ -65,6 +67,7 @@ fn one_scene(path: &Path, args: &Rough) -> Result<(), Error> {
     let target = args.run.target(&scene.name());
     let mut folder = Folder::create(&target, "rough", args.run.force)?;
     rough.write(&mut folder)?;
+    args.page.write(&mut folder, || rough.report())?;
     let target = folder.publish()?;
     if !args.run.quiet {
         rough.summary.warnings.iter().for_each(terminal::warn);
@@ -92,6 +95,7 @@ fn several(paths: &[PathBuf], args: &Rough) -> Result<(), Error> {
         &mut |name, rough| {
             let mut folder = Folder::create(&target.join(name), "rough", args.run.force)?;
             rough.write(&mut folder)?;
+            args.page.write(&mut folder, || rough.report())?;
             folder.publish()?;
             if !args.run.quiet {
                 rough.summary.warnings.iter().for_each(|w| terminal::warn(&format!("{name}: {w}")));

@@ -5,6 +5,7 @@
 mod fields;
 mod plot;
 mod record;
+mod report;
 mod summary;
 
 pub use fields::{FieldSeries, Frame};

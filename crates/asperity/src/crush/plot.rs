@@ -25,21 +25,66 @@ pub fn plot(symmetry: Symmetry, rows: &[CurveRow]) -> Result<String, String> {
 /// # Errors
 /// Those of [`plot`].
 pub fn titled_plot(summary: &Summary, rows: &[CurveRow]) -> Result<String, String> {
+    svg(&titled_chart(summary, rows))
+}
+
+/// The force over the depth under that title.
+pub(super) fn titled_chart(summary: &Summary, rows: &[CurveRow]) -> Chart {
     let scene = &summary.scene;
     let error = match summary.errors.force {
         force if force.is_finite() => format!("; band: stated error, {:.2} %", 100.0 * force),
         _ => String::new(),
     };
     let title = format!("Force over depth, accuracy {}{error}", scene.accuracy);
-    svg(&chart(scene.symmetry, rows).titled(title))
+    chart(scene.symmetry, rows).titled(title)
 }
 
+/// A quantity over the depth: its name, its column, and units with their values in that of the column.
+struct Quantity {
+    name: &'static str,
+    column: fn(&CurveRow) -> f64,
+    units: &'static [(f64, &'static str)],
+    /// Whether `force_error` is its error.
+    band: bool,
+}
+
+const LENGTHS: &[(f64, &str)] = &[(1e3, "mm"), (1.0, "µm"), (1e-3, "nm")];
+const FORCE: Quantity = Quantity {
+    name: "Force F",
+    column: |r| r.force_N,
+    units: &[(1e3, "kN"), (1.0, "N"), (1e-3, "mN"), (1e-6, "µN")],
+    band: true,
+};
+const AREA: Quantity = Quantity {
+    name: "Contact area A",
+    column: |r| r.contact_area_um2,
+    units: &[(1e6, "mm²"), (1.0, "µm²"), (1e-6, "nm²")],
+    band: false,
+};
+const WIDTH: Quantity = Quantity { name: "Contact width", units: LENGTHS, ..AREA };
+const PRESSURE: Quantity = Quantity {
+    name: "Mean pressure",
+    column: |r| r.mean_pressure_MPa,
+    units: &[(1e3, "GPa"), (1.0, "MPa"), (1e-3, "kPa")],
+    band: false,
+};
+
 fn chart(symmetry: Symmetry, rows: &[CurveRow]) -> Chart {
+    over_depth(&FORCE, per_length(symmetry), rows)
+}
+
+/// The contact, and the pressure on it, over the depth.
+pub(super) fn contact_charts(symmetry: Symmetry, rows: &[CurveRow]) -> [Chart; 2] {
+    let contact = if symmetry == Symmetry::PlaneStrain { WIDTH } else { AREA };
+    [contact, PRESSURE].map(|quantity| over_depth(&quantity, "", rows))
+}
+
+fn over_depth(quantity: &Quantity, per: &str, rows: &[CurveRow]) -> Chart {
+    let column = quantity.column;
     let largest = |value: fn(&CurveRow) -> f64| rows.iter().map(value).fold(0.0, f64::max);
-    let (length, length_name) = prefix(largest(|r| r.depth_um), &[(1e3, "mm"), (1.0, "µm"), (1e-3, "nm")]);
-    let (newton, newton_name) =
-        prefix(largest(|r| r.force_N), &[(1e3, "kN"), (1.0, "N"), (1e-3, "mN"), (1e-6, "µN")]);
-    let point = |r: &CurveRow| [r.depth_um / length, r.force_N / newton];
+    let (length, length_name) = prefix(largest(|r| r.depth_um), LENGTHS);
+    let (unit, unit_name) = prefix(largest(column), quantity.units);
+    let point = |r: &CurveRow| [r.depth_um / length, column(r) / unit];
     let next = |from: usize, phase: Phase| {
         rows[from..].iter().position(|r| r.phase == phase).map_or(rows.len(), |i| from + i)
     };
@@ -48,7 +93,7 @@ fn chart(symmetry: Symmetry, rows: &[CurveRow]) -> Chart {
     // each branch begins where the one before it ends
     let edge = |r: &CurveRow, side: f64| {
         let [depth, force] = point(r);
-        r.force_error.map(|error| [depth, force * (1.0 + side * error)])
+        r.force_error.filter(|_| quantity.band).map(|error| [depth, force * (1.0 + side * error)])
     };
     // up along the upper edge of the stated error, back along the lower one
     let band = |rows: &[CurveRow]| -> Vec<[f64; 2]> {
@@ -68,8 +113,8 @@ fn chart(symmetry: Symmetry, rows: &[CurveRow]) -> Chart {
     if again < rows.len() {
         series.push(branch("reloading", Dash::Dotted, again, rows.len()));
     }
-    let force = format!("Force F ({newton_name}{})", per_length(symmetry));
-    Chart::new(format!("Depth h ({length_name})"), force, series)
+    let name = format!("{} ({unit_name}{per})", quantity.name);
+    Chart::new(format!("Depth h ({length_name})"), name, series)
 }
 
 #[cfg(test)]

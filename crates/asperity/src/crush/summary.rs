@@ -153,7 +153,7 @@ row! {
 row! {
     /// An instrument's reading of the unloading curve (Oliver and Pharr 1992), and beside it what is true.
     Instrument(read: &OliverPharr, summary: &record::Summary) {
-        /// Contact area read from the contact depth.
+        /// Contact area read from the contact depth: `tool.area_function` there, or the section of the tool.
         contact_area_um2: f64 = read.contact_area / (MICROMETRE * MICROMETRE),
         /// h - ε F/S.
         contact_depth_um: f64 = read.contact_depth / MICROMETRE,

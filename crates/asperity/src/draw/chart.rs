@@ -43,6 +43,8 @@ pub enum Dash {
     Dotted,
     /// Into long dashes.
     Long,
+    /// There is none: its points alone.
+    Hidden,
 }
 
 impl Series {
@@ -186,7 +188,7 @@ pub type Failure = Box<dyn std::error::Error>;
 pub type Paper<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 /// The sign beside a name in a legend.
 pub enum Sample {
-    /// A piece of a line of this colour with dash and gap in pixels; no gap: solid.
+    /// A piece of a line of this colour with dash and gap in pixels; no gap: solid, no dash: a dot.
     Line(RGBColor, [u32; 2]),
     /// A mark of this colour with its outline about the middle.
     Mark(RGBColor, Vec<(i32, i32)>),
@@ -225,8 +227,9 @@ fn paint(
         match sample {
             Sample::Line(colour, [dash, gap]) => {
                 let (line, style) = ([(0, y), (36 * fine, y)], colour.stroke_width(2 * FINE));
-                match gap {
-                    0 => beside.draw(&PathElement::new(line, style))?,
+                match (dash, gap) {
+                    (_, 0) => beside.draw(&PathElement::new(line, style))?,
+                    (0, _) => beside.draw(&Circle::new((18 * fine, y), 3 * FINE, colour.filled()))?,
                     _ => beside.draw(&DashedPathElement::new(line, *dash, *gap, style))?,
                 }
             }
@@ -244,7 +247,7 @@ fn paint(
     Ok(text.replacen(&header(FINE), &header(1), 1))
 }
 
-/// Colour, and pixels of dash and gap, of line `i`; no gap: solid.
+/// Colour, and pixels of dash and gap, of line `i`; no gap: solid, no dash: no line.
 fn pen(i: usize, series: &Series) -> (RGBColor, [u32; 2]) {
     const ORDER: [Dash; 4] = [Dash::Solid, Dash::Dashed, Dash::Dotted, Dash::Long];
     let placed = if series.colour.is_some() { Dash::Solid } else { ORDER[i % ORDER.len()] };
@@ -253,9 +256,19 @@ fn pen(i: usize, series: &Series) -> (RGBColor, [u32; 2]) {
         Dash::Dashed => [9, 5],
         Dash::Dotted => [3, 4],
         Dash::Long => [15, 4],
+        Dash::Hidden => [0, 1],
     };
     let colour = series.colour.unwrap_or(palette::LINES[i % palette::LINES.len()]);
     (rgb(colour), dash.map(|pixels| pixels * FINE))
+}
+
+/// Where the axes of a chart lie in its document, and what they span: left, top, right, lower end of both.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Window {
+    /// In the units of the document's view box.
+    pub frame: [f64; 4],
+    /// In the units of the axes.
+    pub range: [f64; 4],
 }
 
 /// Draws the chart as an SVG document.
@@ -263,13 +276,31 @@ fn pen(i: usize, series: &Series) -> (RGBColor, [u32; 2]) {
 /// # Errors
 /// A text for a person where the drawing library fails.
 pub fn svg(chart: &Chart) -> Result<String, String> {
+    Ok(located(chart)?.0)
+}
+
+/// The same, and where its axes lie.
+///
+/// # Errors
+/// Those of [`svg`].
+pub fn located(chart: &Chart) -> Result<(String, Window), String> {
     let entry = |(i, series): (usize, &Series)| {
         let (colour, dashes) = pen(i, series);
         (series.label.clone(), Sample::Line(colour, dashes))
     };
     let legend: Vec<_> = chart.series.iter().enumerate().map(entry).collect();
-    let drawn = framed(SIZE, &legend, |paper| draw(chart, paper))?;
-    Ok(if chart.title.is_empty() { drawn } else { below(&chart.title, &drawn).unwrap_or(drawn) })
+    let mut window = Window::default();
+    let drawn = framed(SIZE, &legend, |paper| {
+        window = draw(chart, paper)?;
+        Ok(())
+    })?;
+    if chart.title.is_empty() {
+        return Ok((drawn, window));
+    }
+    let Some(titled) = below(&chart.title, &drawn) else { return Ok((drawn, window)) };
+    window.frame[1] += f64::from(TITLE * FINE);
+    window.frame[3] += f64::from(TITLE * FINE);
+    Ok((titled, window))
 }
 
 /// Height of a title in pixels.
@@ -323,7 +354,11 @@ pub fn axes<'a>(
     Ok(area)
 }
 
-fn draw(chart: &Chart, paper: &Paper) -> Result<(), Failure> {
+/// Draws axes and lines of the chart on `paper`.
+///
+/// # Errors
+/// Those of the drawing library.
+pub fn draw(chart: &Chart, paper: &Paper) -> Result<Window, Failure> {
     let finite: Vec<Vec<(f64, f64)>> = chart
         .series
         .iter()
@@ -331,7 +366,10 @@ fn draw(chart: &Chart, paper: &Paper) -> Result<(), Failure> {
         .collect();
     let x = Axis::covering(finite.iter().flatten().map(|p| p.0));
     let y = Axis::covering(finite.iter().flatten().map(|p| p.1));
+    let range = [x.low, y.high, x.high, y.low];
     let mut area = axes(paper, [x, y], [&chart.x_label, &chart.y_label])?;
+    let (across, down) = area.plotting_area().get_pixel_range();
+    let frame = [across.start, down.start, across.end, down.end].map(f64::from);
     for (i, (series, points)) in chart.series.iter().zip(&finite).enumerate() {
         let (colour, [dash, gap]) = pen(i, series);
         if !series.band.is_empty() {
@@ -341,12 +379,12 @@ fn draw(chart: &Chart, paper: &Paper) -> Result<(), Failure> {
         let style = colour.stroke_width(2 * FINE);
         if gap == 0 {
             area.draw_series(LineSeries::new(points.iter().copied(), style))?;
-        } else {
+        } else if dash > 0 {
             area.draw_series(DashedLineSeries::new(points.iter().copied(), dash, gap, style))?;
         }
         if series.marks {
             area.draw_series(points.iter().map(|&p| Circle::new(p, 3 * FINE, colour.filled())))?;
         }
     }
-    Ok(())
+    Ok(Window { frame, range })
 }

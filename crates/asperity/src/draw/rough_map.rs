@@ -7,7 +7,6 @@ use super::frame::{Frame, LEFT, RIGHT, Short, boxes, document};
 use super::palette::{Bands, Colour, REGIMES, between};
 use super::scale;
 use maud::{Markup, html};
-use std::path::Path;
 
 /// No side of a picture is longer, unless less is asked for.
 pub const LONGEST: usize = 2048;
@@ -88,27 +87,23 @@ impl Grid {
         indices
     }
 
-    /// Writes the picture: its cells, what they mean, and `key` beside or below them.
-    fn write(
+    /// The picture as PNG: its cells, what they mean, and `key` beside or below them.
+    fn png(
         &self,
-        path: &Path,
         title: &str,
         heading: &str,
         (palette, indices): (&[Colour], &[u8]),
         key: &Markup,
-    ) -> std::io::Result<()> {
-        let picture = indexed_png(self.dots, palette, indices);
-        let drawn = picture.and_then(|picture| {
-            let body = html! {
-                text x=(Short(LEFT)) y="40" { (heading) }
-                (self.frame.image(&picture))
-                (self.frame.axes(["x (µm)", "y (µm)"], true))
-                (self.ruler())
-                (key)
-            };
-            drawing_png(&document(self.paper, title, &body), self.fine)
-        });
-        std::fs::write(path, drawn.map_err(std::io::Error::other)?)
+    ) -> Result<Vec<u8>, String> {
+        let picture = indexed_png(self.dots, palette, indices)?;
+        let body = html! {
+            text x=(Short(LEFT)) y="40" { (heading) }
+            (self.frame.image(&picture))
+            (self.frame.axes(["x (µm)", "y (µm)"], true))
+            (self.ruler())
+            (key)
+        };
+        drawing_png(&document(self.paper, title, &body), self.fine)
     }
 
     /// A bar of a round length in the lower left corner, where there is room for it.
@@ -168,8 +163,8 @@ fn quantile(values: &[f32], share: f64) -> f64 {
 /// is pale.
 ///
 /// # Errors
-/// A disk that refuses, a picture that cannot be encoded.
-pub fn pressure(path: &Path, map: &Map, title: &str, nominal_mpa: f64) -> std::io::Result<()> {
+/// A picture that cannot be encoded.
+pub fn pressure(map: &Map, title: &str, nominal_mpa: f64) -> Result<Vec<u8>, String> {
     let grid = Grid::of(map);
     let most = quantile(map.values, 0.99);
     let bands = Bands::smooth([0.0, most]).darkening();
@@ -185,15 +180,15 @@ pub fn pressure(path: &Path, map: &Map, title: &str, nominal_mpa: f64) -> std::i
         digits(most),
         digits(nominal_mpa)
     );
-    grid.write(path, title, &heading, (&palette, &indices), &key)
+    grid.png(title, &heading, (&palette, &indices), &key)
 }
 
 /// Heights in µm, from low to high; missing ones are pale.
 ///
 /// # Errors
-/// A disk that refuses, a picture that cannot be encoded.
-pub fn heights(path: &Path, map: &Map, title: &str) -> std::io::Result<()> {
-    asperities(path, map, title, &[])
+/// A picture that cannot be encoded.
+pub fn heights(map: &Map, title: &str) -> Result<Vec<u8>, String> {
+    asperities(map, title, &[])
 }
 
 /// An ellipse on a map with its name.
@@ -212,8 +207,8 @@ pub struct Mark {
 /// Heights in µm as [`heights`], with ellipses on them.
 ///
 /// # Errors
-/// A disk that refuses, a picture that cannot be encoded.
-pub fn asperities(path: &Path, map: &Map, title: &str, marks: &[Mark]) -> std::io::Result<()> {
+/// A picture that cannot be encoded.
+pub fn asperities(map: &Map, title: &str, marks: &[Mark]) -> Result<Vec<u8>, String> {
     let grid = Grid::of(map);
     let (low, high) = map.values.iter().fold((f32::MAX, f32::MIN), |(l, h), v| (l.min(*v), h.max(*v)));
     let bands = Bands::smooth([f64::from(low), f64::from(high)]);
@@ -225,20 +220,14 @@ pub fn asperities(path: &Path, map: &Map, title: &str, marks: &[Mark]) -> std::i
         if count > 0.0 { 1 + bands.band(sum / count) as u8 } else { none }
     });
     let over = html! { (grid.frame.cut(&html! { @for mark in marks { (grid.mark(mark)) } })) (key) };
-    grid.write(path, title, "height (µm)", (&palette, &indices), &over)
+    grid.png(title, "height (µm)", (&palette, &indices), &over)
 }
 
 /// Contact by regime with the shares of each; a partly covered pixel is paler.
 ///
 /// # Errors
-/// A disk that refuses, a picture that cannot be encoded.
-pub fn contact(
-    path: &Path,
-    map: &Map,
-    title: &str,
-    regime: &[f32],
-    shares: Option<[f64; 3]>,
-) -> std::io::Result<()> {
+/// A picture that cannot be encoded.
+pub fn contact(map: &Map, title: &str, regime: &[f32], shares: Option<[f64; 3]>) -> Result<Vec<u8>, String> {
     /// Shades of each regime, from none to full cover.
     const SHADES: usize = 64;
     let grid = Grid::of(map);
@@ -261,7 +250,7 @@ pub fn contact(
         (REGIMES[k + 1], format!("{name}{share}"))
     });
     let key = boxes(grid.frame.bottom() + 50.0, &names.collect::<Vec<_>>());
-    grid.write(path, title, "contact by regime", (&palette, &indices), &key)
+    grid.png(title, "contact by regime", (&palette, &indices), &key)
 }
 
 #[cfg(test)]
@@ -287,21 +276,17 @@ mod tests {
     }
 
     #[test]
-    fn a_picture_is_written_and_reads_back() {
-        let dir = tempfile::tempdir().unwrap();
-        let path = dir.path().join("p.png");
+    fn a_picture_reads_back() {
         let values: Vec<f32> = (0..64).map(|i| i as f32 / 8.0).collect();
         let map = Map { cells: [8, 8], pixel: [1e-6, 1e-6], values: &values, longest: LONGEST };
-        let size = || {
-            let file = std::io::BufReader::new(std::fs::File::open(&path).unwrap());
-            let reader = png::Decoder::new(file).read_info().unwrap();
+        let size = |picture: Vec<u8>| {
+            let reader = png::Decoder::new(std::io::Cursor::new(picture)).read_info().unwrap();
             [reader.info().width, reader.info().height]
         };
-        pressure(&path, &map, "pressure", 100.0).unwrap();
-        let first = size();
+        let first = size(pressure(&map, "pressure", 100.0).unwrap());
         assert!(first[0] > 640 && first.iter().all(|side| *side <= 2048), "{first:?}");
-        contact(&path, &map, "contact", &[3.0; 64], None).unwrap();
-        heights(&path, &Map { longest: 300, ..map }, "heights").unwrap();
-        assert!(size().iter().all(|side| *side <= 300), "{:?}", size());
+        contact(&map, "contact", &[3.0; 64], None).unwrap();
+        let small = size(heights(&Map { longest: 300, ..map }, "heights").unwrap());
+        assert!(small.iter().all(|side| *side <= 300), "{small:?}");
     }
 }

@@ -69,8 +69,7 @@ impl Extracted {
         };
         let marks: Vec<Mark> =
             self.bodies.iter().filter_map(|b| mark(b.number, &b.asperity)).take(NUMBERED).collect();
-        let file = sink.path("asperities.png")?;
-        rough_map::asperities(&file, &view, &self.name, &marks).map_err(|e| Error::disk(&file, e))
+        sink.picture("asperities.png", rough_map::asperities(&view, &self.name, &marks))
     }
 }
 

@@ -5,7 +5,7 @@
 //! made ready (`measured`), checked into a [`Fit`] (`fit`, `parameters`); what finite elements answer to one metal (`response`) and
 //! between metals (`emulator`); a measurement with its covariance (`experiment`), all of them (`objective`); the search
 //! (`search`, `minimise`); intervals (`profile`), samples (`posterior`), and what cannot be seen (`verdict`); the result
-//! and its files (`result`, `pictures`).
+//! and its files (`result`, `pictures`, `report`).
 
 mod file;
 mod sought;
@@ -39,6 +39,8 @@ mod verdict;
 mod result;
 
 mod pictures;
+
+mod report;
 
 pub use file::{Features, FitAccuracy, FitCurve, FitFile, FitMaterial, FitShape, FitTool, Nuisance};
 pub use fit::{Fit, PYRAMIDS_CONE};

@@ -6,8 +6,8 @@ use super::objective::Objective;
 use super::parameters::Unknowns;
 use super::profile::{GROWTH, Interval};
 use super::result::StressAt;
-use crate::draw::chart::{Axis, Chart, FINE, Failure, INK, Paper, Sample, Series, axes, framed, rgb, svg};
-use crate::draw::palette::{LINES, VIRIDIS, between};
+use crate::draw::chart::{Axis, Chart, Dash, FINE, INK, Sample, Series, axes, draw, framed, rgb};
+use crate::draw::palette::{Colour, LINES, VIRIDIS, between};
 use plotters::prelude::*;
 use rayon::prelude::*;
 
@@ -67,55 +67,48 @@ impl Drawn {
     /// A text for a person where the drawing library fails.
     pub fn curves(&self) -> Result<String, String> {
         let (width, [upper, lower]) = SIZE;
-        let drawn = self.ones.iter().any(|one| !one.measured.is_empty());
-        let colour = |i: usize| rgb(LINES[i % LINES.len()]);
         let legend: Vec<(String, Sample)> = self
             .ones
             .iter()
             .enumerate()
-            .map(|(i, one)| (one.name.clone(), Sample::Line(colour(i), [1, 0])))
+            .map(|(i, one)| (one.name.clone(), Sample::Line(rgb(colour(i)), [1, 0])))
             .collect();
-        let height = lower + if drawn { upper } else { 0 };
+        let forces = self.forces();
+        let height = lower + if forces.is_some() { upper } else { 0 };
         framed((width, height), &legend, |paper| {
-            if !drawn {
-                return self.left(paper, "Feature", &colour);
-            }
+            let Some(forces) = forces else { return draw(&self.left(), paper).map(|_| ()) };
             let (top, bottom) = paper.split_vertically(upper * FINE);
-            self.forces(&top, &colour)?;
-            self.left(&bottom, "Depth h (µm)", &colour)
+            draw(&forces, &top)?;
+            draw(&self.left(), &bottom).map(|_| ())
         })
     }
 
-    fn forces(&self, paper: &Paper<'_>, colour: &dyn Fn(usize) -> RGBColor) -> Result<(), Failure> {
+    /// Measured points and fit; `None` of features alone.
+    pub fn forces(&self) -> Option<Chart> {
         let points = || self.ones.iter().flat_map(|one| one.measured.iter().chain(&one.fitted));
+        self.ones.iter().find(|one| !one.measured.is_empty())?;
         let most = points().map(|p| p[1]).fold(0.0, f64::max);
         let (scale, unit) = if most < 0.1 { (1e3, "mN") } else { (1.0, "N") };
-        let [x, y] = [Axis::covering(points().map(|p| p[0])), Axis::covering(points().map(|p| scale * p[1]))];
-        let mut area = axes(paper, [x, y], ["Depth h (µm)", &format!("Force F ({unit})")])?;
-        for (i, one) in self.ones.iter().enumerate() {
-            let at = |p: &[f64; 2]| (p[0], scale * p[1]);
-            area.draw_series(LineSeries::new(one.fitted.iter().map(at), colour(i).stroke_width(2 * FINE)))?;
-            let dots = one.measured.iter().map(at);
-            area.draw_series(dots.map(|p| Circle::new(p, 3 * FINE, colour(i).filled())))?;
-        }
-        Ok(())
+        let scaled = |points: &[[f64; 2]]| points.iter().map(|p| [p[0], scale * p[1]]).collect();
+        let lines = self.ones.iter().enumerate().flat_map(|(i, one)| {
+            let fitted = Series::line(format!("{}, fit", one.name), scaled(&one.fitted));
+            let measured = Series::line(format!("{}, measured", one.name), scaled(&one.measured));
+            [
+                Series { colour: Some(colour(i)), ..fitted },
+                Series { colour: Some(colour(i)), dash: Some(Dash::Hidden), ..measured }.marked(),
+            ]
+        });
+        Some(Chart::new("Depth h (µm)", format!("Force F ({unit})"), lines))
     }
 
-    fn left(
-        &self,
-        paper: &Paper<'_>,
-        along: &str,
-        colour: &dyn Fn(usize) -> RGBColor,
-    ) -> Result<(), Failure> {
-        let points = || self.ones.iter().flat_map(|one| &one.left);
-        let most = points().map(|p| p[1].abs()).fold(0.1, f64::max);
-        let y = Axis::covering([-1.05 * most, 1.05 * most].into_iter());
-        let mut area = axes(paper, [Axis::covering(points().map(|p| p[0])), y], [along, "Left (%)"])?;
-        for (i, one) in self.ones.iter().enumerate() {
-            let dots = one.left.iter().map(|p| (p[0], p[1]));
-            area.draw_series(dots.map(|p| Circle::new(p, 3 * FINE, colour(i).filled())))?;
-        }
-        Ok(())
+    /// What is left between measurement and fit.
+    pub fn left(&self) -> Chart {
+        let dots = self.ones.iter().enumerate().map(|(i, one)| {
+            let line = Series::line(one.name.clone(), one.left.clone());
+            Series { colour: Some(colour(i)), dash: Some(Dash::Hidden), ..line }.marked()
+        });
+        let drawn = self.ones.iter().any(|one| !one.measured.is_empty());
+        Chart::new(if drawn { "Depth h (µm)" } else { "Feature" }, "Left (%)", dots)
     }
 
     /// The map of the sum of squares over two unknowns, as SVG.
@@ -125,6 +118,11 @@ impl Drawn {
     pub fn map(&self) -> Result<Option<String>, String> {
         self.map.as_ref().map(draw_map).transpose()
     }
+}
+
+/// The colour of measurement `i`.
+fn colour(i: usize) -> Colour {
+    LINES[i % LINES.len()]
 }
 
 fn one(experiment: &Experiment, unknowns: &Unknowns, point: &[f64], number: &mut usize) -> Option<One> {
@@ -251,11 +249,8 @@ fn contour(map: &Map, level: f64) -> Vec<Vec<(f64, f64)>> {
     pieces
 }
 
-/// The stress-strain curve with its band, as SVG.
-///
-/// # Errors
-/// A text for a person where the drawing library fails.
-pub fn stress_strain(rows: &[StressAt]) -> Result<String, String> {
+/// The stress-strain curve with its band.
+pub fn stress_strain(rows: &[StressAt]) -> Chart {
     let line = rows.iter().map(|r| [100.0 * r.plastic_strain, r.value_MPa]).collect();
     let upper = rows.iter().map(|r| [100.0 * r.plastic_strain, r.high_MPa]);
     let lower = rows.iter().rev().map(|r| [100.0 * r.plastic_strain, r.low_MPa]);
@@ -266,5 +261,5 @@ pub fn stress_strain(rows: &[StressAt]) -> Result<String, String> {
         Series { colour: Some(LINES[5]), ..Series::line("95 %, upper", ends(|r| r.high_MPa)) },
         Series { colour: Some(LINES[5]), ..Series::line("95 %, lower", ends(|r| r.low_MPa)) },
     ];
-    svg(&Chart::new("Plastic strain (%)", "True stress (MPa)", series))
+    Chart::new("Plastic strain (%)", "True stress (MPa)", series)
 }

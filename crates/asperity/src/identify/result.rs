@@ -9,6 +9,7 @@ use super::profile::{self, Interval};
 use super::search::{self, search};
 use super::verdict::{Blind, NextExperiment, blind, deviations, identifiable, next_experiment};
 use super::{pictures, posterior};
+use crate::draw::chart::svg;
 use crate::error::Error;
 use crate::output::{Sink, SinkExt, json};
 use indexmap::IndexMap;
@@ -401,7 +402,7 @@ impl Identification {
     /// # Errors
     /// A drawing that fails.
     pub fn stress_strain_svg(&self) -> Result<String, Error> {
-        pictures::stress_strain(&self.stress_strain).map_err(Error::Unfinished)
+        svg(&pictures::stress_strain(&self.stress_strain)).map_err(Error::Unfinished)
     }
 
     /// `objective.svg`: the map of the sum of squares over two unknowns, the others at their best; none with one unknown.

@@ -8,8 +8,8 @@ use asperity_roughness::CurvePoint;
 /// File names and charts of all closures at once; `mean_gradient` is that of the surface.
 pub(super) fn all(contacts: &[ClosureContact], mean_gradient: f64) -> [(&'static str, Chart); 3] {
     [
-        ("closures.svg", closures(contacts, mean_gradient)),
         ("load_curve.svg", load_curves(contacts)),
+        ("closures.svg", closures(contacts, mean_gradient)),
         ("pressure_histogram.svg", histogram(contacts)),
     ]
 }

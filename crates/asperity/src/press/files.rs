@@ -161,16 +161,32 @@ impl Rough {
     ) -> Result<Layers, Error> {
         let map = &self.surface.map;
         let layers = self.layers(one);
-        let title = format!("{}, {} closure", self.summary.surface, one.name());
-        let view = Map { cells: layers.cells, pixel: map.pixel(), values: &layers.pressure, longest };
-        let file = sink.path(&format!("pressure-{}.png", one.name()))?;
-        picture::pressure(&file, &view, &title, one.nominal / MEGAPASCAL)
-            .map_err(|e| Error::disk(&file, e))?;
-        let view = Map { values: &layers.contact, ..view };
-        let file = sink.path(&format!("contact-{}.png", one.name()))?;
-        picture::contact(&file, &view, &title, &layers.regime, one.shares())
-            .map_err(|e| Error::disk(&file, e))?;
+        let title = self.map_title(one);
+        sink.picture(&format!("pressure-{}.png", one.name()), self.pressure_png(one, &layers, longest))?;
+        let view = Map { cells: layers.cells, pixel: map.pixel(), values: &layers.contact, longest };
+        let drawn = picture::contact(&view, &title, &layers.regime, one.shares());
+        sink.picture(&format!("contact-{}.png", one.name()), drawn)?;
         Ok(layers)
+    }
+
+    /// The pressure of one closure as PNG, no side longer than `longest` dots.
+    ///
+    /// # Errors
+    /// A picture that cannot be encoded.
+    pub(super) fn pressure_png(
+        &self,
+        one: &ClosureContact,
+        layers: &Layers,
+        longest: usize,
+    ) -> Result<Vec<u8>, String> {
+        let pixel = self.surface.map.pixel();
+        let view = Map { cells: layers.cells, pixel, values: &layers.pressure, longest };
+        picture::pressure(&view, &self.map_title(one), one.nominal / MEGAPASCAL)
+    }
+
+    /// The title of a map of one closure.
+    fn map_title(&self, one: &ClosureContact) -> String {
+        format!("{}, {} closure", self.summary.surface, one.name())
     }
 
     /// The topography as topography.png, no side longer than `longest` dots.
@@ -178,12 +194,18 @@ impl Rough {
     /// # Errors
     /// A disk that refuses.
     pub fn write_topography(&self, sink: &mut dyn Sink, longest: usize) -> Result<(), Error> {
+        sink.picture("topography.png", self.topography_png(longest))
+    }
+
+    /// The topography as PNG.
+    ///
+    /// # Errors
+    /// A picture that cannot be encoded.
+    pub(super) fn topography_png(&self, longest: usize) -> Result<Vec<u8>, String> {
         let map = &self.surface.map;
         let cells = [map.columns(), map.rows()];
         let values = heights(map, cells[0], cells[1]);
-        let file = sink.path("topography.png")?;
-        let view = Map { cells, pixel: map.pixel(), values: &values, longest };
-        picture::heights(&file, &view, &self.summary.surface).map_err(|e| Error::disk(&file, e))
+        picture::heights(&Map { cells, pixel: map.pixel(), values: &values, longest }, &self.summary.surface)
     }
 
     /// The surface as pressed, where the scene asks for it.

@@ -17,6 +17,7 @@ mod verdict;
 
 pub(crate) mod charts;
 mod files;
+mod report;
 
 pub mod table1;
 

@@ -3,11 +3,11 @@
 //! Numbers of the paper stand here as published; ours come from the results. A number is borne out where ours
 //! lies within the paper's rounding plus our error.
 
-use super::format::{Spread, listed, significant, with_deviation};
 use super::paper::{PEAKS, ROUGH, SETS, SYMMETRIES, TABLE2};
 use super::results_reader::Results;
 use crate::calibrate::{AngleFit, Fit};
 use crate::crush::{Island, Summary};
+use crate::page::format::{Spread, listed, significant, with_deviation};
 use crate::press::table1::{self, ClosureSeeds, Seeds};
 use asperity_roughness::{Closure, PUBLISHED};
 use serde::Serialize;

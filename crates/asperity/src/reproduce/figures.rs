@@ -1,17 +1,18 @@
 //! Each figure and table of the paper: ours, beside what the paper prints.
 
-use super::format::{Spread, shown, significant, spread};
 use super::paper::{ROUGH, SETS, SYMMETRIES, TABLE2};
 use super::plan::Item;
 use super::profile::ProfilePoint;
 use super::results_reader::Results;
 use crate::crush::Summary;
 use crate::draw::chart::{self, Chart, Series};
+use crate::page;
+use crate::page::format::{Spread, shown, significant, spread};
 use crate::press::charts::travel_chart;
 use crate::press::table1::{self, ClosureSeeds, Seeds};
 use crate::press::{LoadPoint, Phase};
 use asperity_roughness::Closure;
-use maud::{Markup, PreEscaped, html};
+use maud::{Markup, html};
 
 /// The closures of Tables 1 and 2, and what they are.
 const CLOSURES: [(Closure, &str); 5] = [
@@ -78,14 +79,14 @@ pub fn body(item: Item, results: &Results) -> Result<Markup, String> {
 
 /// A drawing, or that there is none.
 fn drawing(svg: Option<String>, caption: &str) -> Markup {
-    html! {
-        figure {
-            @match svg {
-                Some(svg) => { div class="drawing" { (PreEscaped(svg)) } }
-                None => { p class="missing" { "This part is not there: it was not asked for, or could not be done." } }
+    match svg {
+        Some(svg) => page::drawing(&svg, caption, caption),
+        None => html! {
+            figure {
+                p class="missing" { "This part is not there: it was not asked for, or could not be done." }
+                figcaption { (caption) }
             }
-            figcaption { (caption) }
-        }
+        },
     }
 }
 
@@ -97,16 +98,10 @@ fn sketch(results: &Results, part: &str, start: &str, caption: &str) -> Markup {
     drawing(results.sketch(part, start), caption)
 }
 
-/// A table of a head and rows; the first column is text, the others are numbers.
-fn table(head: &[&str], rows: &[Vec<String>]) -> Markup {
-    html! {
-        div class="wide" { table {
-            thead { tr { @for (i, cell) in head.iter().enumerate() { th scope="col" class=[(i > 0).then_some("number")] { (cell) } } } }
-            tbody { @for row in rows { tr {
-                @for (i, cell) in row.iter().enumerate() { td class=[(i > 0).then_some("number")] { (cell) } }
-            } } }
-        } }
-    }
+fn table(caption: &str, head: &[&str], rows: &[Vec<String>]) -> Markup {
+    let rows: Vec<Vec<Markup>> =
+        rows.iter().map(|row| row.iter().map(|cell| html! { (cell) }).collect()).collect();
+    page::table(caption, head, &rows)
 }
 
 fn percent(value: Option<f64>) -> Option<f64> {
@@ -138,7 +133,7 @@ fn single(results: &Results) -> Markup {
     let rows = rows.map(|(name, value)| vec![name.into(), shown(value), "not printed".into()]);
     html! {
         (file(results, part, "curve.svg", "Force against depth of the paper's asperity, loading and unloading."))
-        (table(&["", "ours", "paper"], &rows))
+        (table("The paper's asperity in numbers", &["quantity", "ours", "paper"], &rows))
         (sketch(results, part, "section", "The peak: pressure of the tool, von Mises stress, plastic strain and hydrostatic pressure on the deformed section."))
     }
 }
@@ -167,7 +162,7 @@ fn zones(results: &Results) -> Markup {
         @if rows.is_empty() {
             p { "No region of the asperities stays without any plastic strain." }
         } @else {
-            (table(&["symmetry", "place r, z (µm)", "area (µm²)", "mean pressure (MPa)"], &rows))
+            (table("Regions that never yielded", &["symmetry", "place r, z (µm)", "area (µm²)", "mean pressure (MPa)"], &rows))
         }
         h3 { "The state of the whole row" }
         (sketch(results, "three-identical", "section", "Body of revolution: pressure of the tool and fields of the row."))
@@ -203,7 +198,7 @@ fn sets(results: &Results) -> Result<Markup, String> {
         @for (svg, symmetry) in figures {
             (drawing(svg, &format!("Four asperities of 20 µm, loading to 5 µm and unloading, {symmetry}. The paper's curves carry no numbers in its text.")))
         }
-        (table(&["set", "peak force", "error of the force, %", "total work, µJ or µJ/mm", "elastic share, %", "residual depth, µm"], &rows))
+        (table("The three sets in numbers", &["set", "peak force", "error of the force, %", "total work, µJ or µJ/mm", "elastic share, %", "residual depth, µm"], &rows))
     })
 }
 
@@ -227,7 +222,11 @@ fn strains(results: &Results) -> Markup {
             ]
         })
         .collect();
-    table(&["slope", "εr, ours", "95 %", "0.13 tan β (published)", "ours over published", "εr/tan β"], &rows)
+    table(
+        "Representative strain of each slope",
+        &["slope", "εr, ours", "95 %", "0.13 tan β (published)", "ours over published", "εr/tan β"],
+        &rows,
+    )
 }
 
 fn profile(results: &Results) -> Result<Markup, String> {
@@ -308,7 +307,7 @@ fn numbers(results: &Results) -> Markup {
     }
     html! {
         p { "Steel of 210 GPa, ν = 0.3, H = 1280 MPa under 200 MPa; ours are means and standard deviations of five generated surfaces." }
-        (table(&["surface, closure", "Pm, MPa", "Ar, %", "ψ", "largest over nominal pressure"], &rows))
+        (table("Table 1: the paper's line, then each closure's", &["surface, closure", "Pm, MPa", "Ar, %", "ψ", "largest over nominal pressure"], &rows))
         @if !against_itself.is_empty() {
             h3 { "The printed table against itself" }
             ul { @for line in against_itself { li { (line) } } }
@@ -363,7 +362,7 @@ fn energies(results: &Results) -> Markup {
         }
     }
     html! {
-        (table(&["surface", "residual displacement, µm", "elastic energy, %", "plastic energy, %"], &rows))
+        (table("Table 2: measured by the paper, predicted by the closures that yield", &["surface", "residual displacement, µm", "elastic energy, %", "plastic energy, %"], &rows))
         p { "Where the law of unloading returns more than the work done, on islands that are shallower than their cones, the share is cut at 100 %." }
     }
 }

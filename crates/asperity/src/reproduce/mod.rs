@@ -14,8 +14,6 @@ pub mod part;
 
 mod results_reader;
 
-pub(crate) mod format;
-
 pub mod claims;
 mod figures;
 pub mod report;

@@ -5,8 +5,9 @@ use super::figures;
 use super::plan::{Item, Part, Work, parts};
 use super::results_reader::Results;
 use crate::crush::Summary;
+use crate::page::document;
 use asperity_solver::scene::Accuracy;
-use maud::{DOCTYPE, Markup, PreEscaped, html};
+use maud::{Markup, html};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
@@ -43,7 +44,7 @@ pub(super) fn report(results: &Results, items: &[Item], accuracy: Accuracy) -> R
         "accuracy": level, "version": env!("CARGO_PKG_VERSION"), "numbers": by_name, "claims": claims,
     });
     Ok(Report {
-        html: page(results, items, &claims, &level)?.into_string(),
+        html: page(results, items, &claims, &level)?,
         claims_json: format!("{value:#}\n"),
         claims_markdown: markdown(&claims, &level),
         numbers_markdown: numbers_markdown(&numbers, &level),
@@ -128,7 +129,7 @@ fn verdict(verdict: Verdict) -> Markup {
     html! { span class={ "verdict " (class) } { (sign(verdict)) " " (verdict.words()) } }
 }
 
-fn page(results: &Results, items: &[Item], claims: &[Claim], level: &str) -> Result<Markup, String> {
+fn page(results: &Results, items: &[Item], claims: &[Claim], level: &str) -> Result<String, String> {
     let sections = items.iter().map(|item| section(*item, results, claims, level));
     let sections = sections.collect::<Result<Vec<Markup>, String>>()?;
     let parts = parts(items);
@@ -138,53 +139,42 @@ fn page(results: &Results, items: &[Item], claims: &[Claim], level: &str) -> Res
         "reference" => "0.2 %",
         percentage => percentage,
     };
-    Ok(html! {
-        (DOCTYPE)
-        html lang="en" {
-            head {
-                meta charset="utf-8";
-                meta name="viewport" content="width=device-width, initial-scale=1";
-                title { "The paper, computed" }
-                link rel="icon" href="data:,";
-                style { (PreEscaped(include_str!("style.css"))) }
-            }
-            body {
-                header {
-                    h1 { "The paper, computed" }
-                    p { (PAPER) ". What its text and figures claim, beside what this program computes from the data it prints; accuracy "
-                        strong { (level) } " (forces of the finite elements to " (promise) "), version " (env!("CARGO_PKG_VERSION")) "." }
-                }
-                nav aria-label="Contents" {
-                    a href="#claims" { "Claims" }
-                    @for item in items { a href={ "#" (item.name) } { (short(item)) } }
-                    a href="#scenes" { "Scenes" }
-                }
-                main {
-                    h2 id="claims" { "Claims of the paper" }
-                    (tally(claims))
-                    div class="wide" { table id="overview" {
-                        thead { tr { th scope="col" { "verdict" } th scope="col" { "claim of the paper" } th scope="col" { "ours" } th scope="col" { "where" } } }
-                        tbody { @for claim in claims { tr {
-                            td { (verdict(claim.verdict)) }
-                            td { (claim.claim) }
-                            td {
-                                (claim.ours)
-                                @if claim.verdict == Verdict::Contradicted && !claim.why.is_empty() { p class="cause" { (claim.why) } }
-                            }
-                            td class="place" { a href={ "#" (claim.item) } { (claim.place) } }
-                        } } }
-                    } }
-                    p { "“Borne out” means within the rounding of the printed number and our own error: the interval of a fit, or two standard "
-                        "deviations over five generated surfaces. Nothing here was adjusted to the paper." }
-                    @for section in &sections { (section) }
-                    h2 id="scenes" { "Scenes" }
-                    p { "Everything above was computed from these files and nothing else; " code { "asperity crush" } " and "
-                        code { "asperity rough" } " run them one by one." }
-                    @for part in &parts { (scene(part, results)) }
-                }
-            }
+    let body = html! {
+        header {
+            h1 { "The paper, computed" }
+            p { (PAPER) ". What its text and figures claim, beside what this program computes from the data it prints; accuracy "
+                strong { (level) } " (forces of the finite elements to " (promise) "), version " (env!("CARGO_PKG_VERSION")) "." }
         }
-    })
+        nav aria-label="Contents" {
+            a href="#claims" { "Claims" }
+            @for item in items { a href={ "#" (item.name) } { (short(item)) } }
+            a href="#scenes" { "Scenes" }
+        }
+        main {
+            h2 id="claims" { "Claims of the paper" }
+            (tally(claims))
+            div class="wide" { table id="overview" {
+                thead { tr { th scope="col" { "verdict" } th scope="col" { "claim of the paper" } th scope="col" { "ours" } th scope="col" { "where" } } }
+                tbody { @for claim in claims { tr {
+                    td { (verdict(claim.verdict)) }
+                    td { (claim.claim) }
+                    td {
+                        (claim.ours)
+                        @if claim.verdict == Verdict::Contradicted && !claim.why.is_empty() { p class="cause" { (claim.why) } }
+                    }
+                    td class="place" { a href={ "#" (claim.item) } { (claim.place) } }
+                } } }
+            } }
+            p { "“Borne out” means within the rounding of the printed number and our own error: the interval of a fit, or two standard "
+                "deviations over five generated surfaces. Nothing here was adjusted to the paper." }
+            @for section in &sections { (section) }
+            h2 id="scenes" { "Scenes" }
+            p { "Everything above was computed from these files and nothing else; " code { "asperity crush" } " and "
+                code { "asperity rough" } " run them one by one." }
+            @for part in &parts { (scene(part, results)) }
+        }
+    };
+    Ok(document("The paper, computed", &body))
 }
 
 fn tally(claims: &[Claim]) -> Markup {

@@ -1,10 +1,10 @@
 //! The results that the parts have left on disk, read back into types. A file that is not there is `None`, never a guess.
 
-use super::format::Spread;
 use super::part::{Job, Stamp};
 use crate::calibrate::Fit;
 use crate::crush::{CurveRow, Island, Phase, Summary, read_rows};
 use crate::draw::frame::data_uri;
+use crate::page::format::Spread;
 use crate::press::table1::{ClosureSeeds, ComparedRow, Seeds};
 use asperity_law::least_squares::Line;
 use asperity_roughness::Closure;

@@ -281,7 +281,8 @@ impl Plan {
 fn files(subject: &Subject, vary: &[Vary]) -> Result<Vec<(String, u64)>, InputError> {
     let mut words: BTreeSet<String> = subject.words().into_iter().collect();
     for one in vary {
-        words.extend(one.levels().unwrap_or_default());
+        let levels = one.levels().unwrap_or_default();
+        words.extend(levels.iter().map(|level| level.trim_matches('"').to_string()));
     }
     let mut found = Vec::new();
     for word in words.into_iter().filter(|word| !word.is_empty()) {

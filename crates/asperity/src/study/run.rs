@@ -7,7 +7,7 @@ use super::row::{self, Outcome, Run, columns};
 use crate::batch::{self, Batch, Options, Reached, Shard};
 use crate::error::{Error, InputError};
 use crate::output::{Sink, SinkExt, write_whole};
-use crate::reproduce::format::significant;
+use crate::page::format::significant;
 use asperity_calibration::journal::fingerprint;
 use std::collections::HashMap;
 use std::fmt::{Display, Write};

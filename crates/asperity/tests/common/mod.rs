@@ -83,3 +83,14 @@ pub struct Finished {
     pub out: String,
     pub err: String,
 }
+
+/// A browser, where there is one in the path.
+#[allow(clippy::print_stderr, reason = "a test that was skipped says so")]
+pub fn browser() -> Option<&'static str> {
+    let names = ["chromium", "chromium-browser", "google-chrome"];
+    let found = names.into_iter().find(|n| std::process::Command::new(n).arg("--version").output().is_ok());
+    if found.is_none() {
+        eprintln!("skipped: no chromium in the path");
+    }
+    found
+}

@@ -55,7 +55,8 @@ pub fn run(scene: &Scene, mesh: Option<Mesh>, observer: &mut Watcher<'_>) -> Res
         meet_force(&mut outcome, force);
     }
     // of the force and the depth that are stated
-    outcome.summary.oliver_pharr = as_an_instrument(&problem, &outcome.summary);
+    outcome.summary.oliver_pharr =
+        as_an_instrument(&problem, scene.tool.area_function.as_ref(), &outcome.summary);
     Ok(outcome)
 }
 

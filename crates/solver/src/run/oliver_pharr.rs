@@ -10,6 +10,7 @@ use crate::contact::tool::Tool;
 use crate::point::kinematics::Symmetry;
 use crate::run::problem::Problem;
 use crate::run::record::Summary;
+use crate::scene::AreaFunction;
 use std::f64::consts::{FRAC_2_PI, PI};
 
 /// The peak of an indentation, any consistent units.
@@ -58,15 +59,18 @@ pub fn geometry_factor(tool: &Tool, height: f64) -> Option<f64> {
     }
 }
 
-/// Evaluates `peak` of a tool of revolution whose section `height` above its lowest point has the radius
-/// `section(height)`. `None` for a plane, or if nothing is left of the depth.
-pub fn oliver_pharr(tool: &Tool, section: impl Fn(f64) -> f64, peak: &Peak) -> Option<OliverPharr> {
+/// Evaluates `peak` of a tool of revolution with the area function `area`. `None` for a plane, or if nothing is left of the
+/// depth or the area.
+pub fn oliver_pharr(tool: &Tool, area: impl Fn(f64) -> f64, peak: &Peak) -> Option<OliverPharr> {
     let geometry_factor = geometry_factor(tool, peak.depth)?;
     let contact_depth = peak.depth - geometry_factor * peak.force / peak.stiffness;
     if !(contact_depth > 0.0 && contact_depth.is_finite()) {
         return None;
     }
-    let contact_area = PI * section(contact_depth).powi(2);
+    let contact_area = area(contact_depth);
+    if !(contact_area > 0.0 && contact_area.is_finite()) {
+        return None;
+    }
     Some(OliverPharr {
         geometry_factor,
         contact_depth,
@@ -76,8 +80,13 @@ pub fn oliver_pharr(tool: &Tool, section: impl Fn(f64) -> f64, peak: &Peak) -> O
     })
 }
 
-/// The peak of a run that was unloaded, in SI, as an instrument evaluates it that knows force, depth and stiffness.
-pub fn as_an_instrument(problem: &Problem, summary: &Summary) -> Option<OliverPharr> {
+/// The peak of a run that was unloaded, in SI, as an instrument evaluates it that knows force, depth and stiffness; by the `area`
+/// function of its calibration, or that of the tool's outline.
+pub fn as_an_instrument(
+    problem: &Problem,
+    area: Option<&AreaFunction>,
+    summary: &Summary,
+) -> Option<OliverPharr> {
     let (tool, u) = (&problem.tool, problem.units);
     let mirrored = tool.mirrored().filter(|_| problem.symmetry == Symmetry::Axisymmetric)?;
     let stiffness = summary.unloading_stiffness.filter(|_| summary.residual_depth.is_some())?;
@@ -90,7 +99,11 @@ pub fn as_an_instrument(problem: &Problem, summary: &Summary) -> Option<OliverPh
         depth: summary.peak_depth / u.length - frame * force,
         stiffness: if frame > 0.0 { (stiffness.recip() - frame).recip() } else { stiffness },
     };
-    let read = oliver_pharr(tool, |height| mirrored.half_width(height), &peak)?;
+    let area_at = |height: f64| {
+        let outline = || PI * mirrored.half_width(height).powi(2);
+        area.map_or_else(outline, |area| area.area(height * u.length) / u.area)
+    };
+    let read = oliver_pharr(tool, area_at, &peak)?;
     Some(OliverPharr {
         geometry_factor: read.geometry_factor,
         contact_depth: read.contact_depth * u.length,
@@ -112,14 +125,14 @@ mod tests {
         let cone = Tool::Cone { tan_slope, tip_radius: 0.0 };
         let stiffness = 2.0 * FRAC_2_PI * modulus * h / tan_slope;
         let peak = Peak { force: 0.5 * stiffness * h, depth: h, stiffness };
-        let found = oliver_pharr(&cone, |z| z / tan_slope, &peak).unwrap();
+        let found = oliver_pharr(&cone, |z| PI * (z / tan_slope).powi(2), &peak).unwrap();
         let area = PI * (FRAC_2_PI * h / tan_slope).powi(2);
         assert!((found.contact_area / area - 1.0).abs() < 1e-14);
         assert!((found.reduced_modulus / modulus - 1.0).abs() < 1e-14);
 
         let stiffness = 2.0 * modulus * (radius * h).sqrt();
         let peak = Peak { force: stiffness * h / 1.5, depth: h, stiffness };
-        let found = oliver_pharr(&Tool::Sphere { radius }, |z| (2.0 * radius * z).sqrt(), &peak).unwrap();
+        let found = oliver_pharr(&Tool::Sphere { radius }, |z| PI * 2.0 * radius * z, &peak).unwrap();
         assert!((found.contact_area / (PI * radius * h) - 1.0).abs() < 1e-14);
         assert!((found.reduced_modulus / modulus - 1.0).abs() < 1e-14);
     }

@@ -120,6 +120,7 @@ impl Tool {
             youngs_modulus: None,
             poissons_ratio: None,
             machine_compliance: None,
+            area_function: None,
         }
     }
 

@@ -11,7 +11,7 @@ use asperity_law::units::Length;
 use asperity_mesh::outline::Span;
 
 /// Puts the table in front of the keys of an error.
-fn inside(table: &str, error: SceneError) -> SceneError {
+pub(super) fn inside(table: &str, error: SceneError) -> SceneError {
     let path = if error.path.is_empty() { table.to_string() } else { format!("{table}.{}", error.path) };
     SceneError { path, ..error }
 }

@@ -4,6 +4,7 @@
 //! Keys that are absent are `None`: what a run uses in their place follows from the accuracy level.
 
 mod accuracy;
+mod area_function;
 mod build;
 mod checks;
 mod geometry;
@@ -16,6 +17,7 @@ mod tool;
 mod warnings;
 
 pub use accuracy::{Accuracy, AccuracyError, Level};
+pub use area_function::AreaFunction;
 pub use geometry::{Asperity, AsperityForm, Substrate};
 pub use initial::{EarlierLoad, Initial};
 pub use line::{Line, LineAsperity, LineProfile};

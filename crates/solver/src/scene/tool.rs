@@ -1,5 +1,7 @@
 //! The tool of a scene: its shape, by keys, by name or measured, and how it gives way.
 
+use super::area_function::AreaFunction;
+use super::checks::inside;
 use super::measured::{self, Points};
 use super::range::{Check, error, not_negative, positive, slope};
 use super::{Scene, SceneError, Symmetry};
@@ -80,6 +82,9 @@ pub struct Tool {
     #[schemars(example = "0.5 nm/mN")]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub machine_compliance: Option<Compliance>,
+    /// Area function of the tip by which the reading of Oliver and Pharr goes; absent: the outline of the tool.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub area_function: Option<AreaFunction>,
 }
 
 /// The shape of a tool, complete. Lengths in metres.
@@ -251,6 +256,13 @@ impl Tool {
         not_negative("tip_radius", "the tip radius", self.tip_radius)?;
         not_negative("tolerance", "the tolerance", self.tolerance)?;
         self.radius.map_or(Ok(()), |r| positive("radius", "the radius", r))?;
+        if let Some(function) = &self.area_function {
+            if self.shape == ToolShape::Plane {
+                let message = "does not belong to a plane, which has no tip: remove it, or change `shape`";
+                return Err(error("area_function", message));
+            }
+            function.check().map_err(|e| inside("area_function", e))?;
+        }
         self.form()?;
         self.check_compliance()
     }
@@ -304,6 +316,10 @@ impl Tool {
 impl Scene {
     /// What gives way beside the body must go with the rest of the scene.
     pub(super) fn check_tool_compliance(&self) -> Check {
+        if self.symmetry == Symmetry::PlaneStrain && self.tool.area_function.is_some() {
+            let message = "belongs to a body of revolution: a wedge has no contact area; leave it out";
+            return Err(error("tool.area_function", message));
+        }
         let given = [
             ("tool.youngs_modulus", self.tool.youngs_modulus.is_some()),
             ("tool.machine_compliance", self.tool.machine_compliance.is_some()),

@@ -36,6 +36,9 @@ const ROUGH: &str = "`contact.vti` holds the maps of all closures for ParaView, 
     `table1.json`: for each surface the row as printed (µm, degrees, MPa, %) and, for each closure, the values of the five seeds of \
     every column.";
 
+const REPORT: &str = "`crush`, `calibrate`, `rough` and `identify` with `--report` leave `report.html` as well: a page that needs no \
+    network, with the numbers and their errors first, what to beware of, and curves that tell the value under the pointer.";
+
 /// The page.
 pub fn page() -> String {
     let mut text = String::from(
@@ -43,7 +46,7 @@ pub fn page() -> String {
          Units stand in the names. `errors` and `force_error` are bounds that shall hold in 95 % of scenes, against this program's own \
          limit of fine meshes and steps: see [errors](../theory/errors.md).\n\n",
     );
-    text += &format!("## asperity crush\n\n{CRUSH}\n\n");
+    text += &format!("{REPORT}\n\n## asperity crush\n\n{CRUSH}\n\n");
     text += &of_crush::<CurveRow>("curve.csv", "a row per converged increment");
     text += &of_crush::<Summary>("summary.json", "the numbers of the run");
     text += &of_crush::<Errors>("summary.json: `errors`", "bounds of the errors");

@@ -14,7 +14,12 @@ pub fn significant(value: f64) -> String {
     digits(value, 4)
 }
 
-/// The same, or a dash where there is none.
+/// Two significant digits or so, as an error deserves.
+pub fn rounded(value: f64) -> String {
+    digits(value, 2)
+}
+
+/// Four significant digits, or a dash where there is none.
 pub fn shown(value: Option<f64>) -> String {
     value.filter(|v| v.is_finite()).map_or_else(|| "–".into(), significant)
 }

@@ -1,0 +1,69 @@
+//! `report.html` of an identification.
+
+use super::pictures::stress_strain;
+use super::result::{Found, Identification};
+use crate::error::Error;
+use crate::page::format::significant;
+use crate::page::{self, Numbers, Report};
+use maud::html;
+
+impl Identification {
+    /// The identification as one page that stands alone: the verdict, every number with its interval, measured points and fit, the
+    /// stress-strain curve with its band.
+    ///
+    /// # Errors
+    /// A drawing that fails.
+    pub fn report(&self) -> Result<String, Error> {
+        let numbers = Numbers::of(self)?;
+        let parameter = |(name, found): (&String, &Found)| {
+            let at = |key: &str| numbers.shown(&format!("/parameters/{name}/{key}"), 1.0, "");
+            let unit = if found.unit.is_empty() { String::new() } else { format!(" {}", found.unit) };
+            let told = if found.identifiable { "yes" } else { "no" };
+            vec![
+                html! { (name) },
+                html! { (at("value")) (unit) },
+                html! { (at("low")) " … " (at("high")) (unit) },
+                html! { (told) },
+            ]
+        };
+        let parameters: Vec<_> = self.parameters.iter().map(parameter).collect();
+        let residual = |(i, curve): (usize, &super::result::CurveResidual)| {
+            let at = |key: &str| numbers.error(&format!("/residual/curves/{i}/{key}"), "");
+            vec![html! { (curve.name) }, at("rms"), at("noise")]
+        };
+        let residuals: Vec<_> = self.residual.curves.iter().enumerate().map(residual).collect();
+        let stress = stress_strain(&self.stress_strain);
+        let sections = html! {
+            h2 { "Numbers" }
+            (page::table(
+                "What was sought, with intervals that hold the truth in 95 % of measurements like these.",
+                &["quantity", "value", "95 % interval", "do the measurements tell it"],
+                &parameters,
+            ))
+            h2 { "Curves" }
+            @if let Some(forces) = self.drawn.forces() {
+                (page::chart(&forces, "Measured points of force over depth, and the fit through them.", "Measured points and the fit.")?)
+            }
+            (page::chart(&self.drawn.left(), "What is left between measurements and fit.", "Measured less fitted force; of unloading the depth over the deepest.")?)
+            (page::chart(&stress, "Stress over plastic strain with the band of its error.", "The stress-strain curve with its 95 % band.")?)
+            @if let Some(svg) = self.objective_svg()? {
+                (page::drawing(&svg, "Map of the sum of squares over two unknowns.", "The sum of squares over the two unknowns that are told worst: a long valley is what the measurements cannot tell."))
+            }
+            h2 { "What is left" }
+            (page::table("Root mean square of the differences to the fit, and the noise that was counted with.", &["measurement", "left", "noise"], &residuals))
+            p {
+                "Sum of squares " (numbers.shown("/residual/chi2", 1.0, "")) " with " (self.residual.degrees_of_freedom)
+                " degrees of freedom; " (self.runs) " runs of finite elements, " (significant(self.wall_s)) " s."
+            }
+        };
+        let report = Report {
+            title: "A metal identified",
+            about: "From measured indentation curves by finite elements",
+            verdict: &format!("{}.", self.verdict),
+            warnings: &self.notes,
+            sections,
+            inputs: &[],
+        };
+        Ok(report.html())
+    }
+}
