@@ -25,6 +25,7 @@ mod penalty_keeps_the_force;
 mod punch;
 mod reaches_half_height;
 mod refinement;
+mod ridges_that_press_each_other;
 mod rotation;
 mod same_bits;
 mod scaled_units;

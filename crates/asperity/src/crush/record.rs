@@ -119,8 +119,10 @@ row! {
         right_um: f64 = row.right / MICROMETRE,
         /// Distance of the two.
         width_um: f64 = (row.right - row.left) / MICROMETRE,
-        /// Largest distance from the tool in between.
+        /// Largest distance from the tool in between; from the lowest to the highest point of an enclosed gap.
         height_um: f64 = row.height / MICROMETRE,
+        /// Whether flanks that press each other close it off from the tool.
+        enclosed: bool = row.enclosed,
     }
 }
 

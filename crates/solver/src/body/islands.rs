@@ -9,18 +9,23 @@ use crate::point::kinematics::Symmetry;
 use crate::point::material::{hydrostatic, stress, volume_ratio};
 use crate::point::tensor::von_mises;
 use asperity_mesh::Mesh;
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeSet, HashMap, HashSet};
 
-/// An untouched stretch of surface between two contacts.
+/// An untouched stretch of surface between two contacts, or one that flanks enclose which press each other.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gap {
-    /// Where the contact before it ends.
+    /// Where the contact before it ends; the least place of an enclosed one.
     pub left: f64,
-    /// Where the contact after it begins.
+    /// Where the contact after it begins; the greatest place of an enclosed one.
     pub right: f64,
-    /// Largest distance from the tool in between.
+    /// Largest distance from the tool in between; from the lowest to the highest point of an enclosed one.
     pub height: f64,
+    /// Whether the surface itself closes it off from the tool.
+    pub enclosed: bool,
 }
+
+/// Section of a pore over the square of its circumference up to which it is closed: a circle has 0.08, a slit of 1:100 0.0025.
+const THINNEST: f64 = 0.0025;
 
 /// A connected region that never yielded, enclosed by material that did or standing above the substrate.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,16 +44,68 @@ pub struct Island {
     pub reaches_surface: bool,
 }
 
-/// The gaps between contacts at the iterate, from the axis (left side) outward.
-pub fn gaps(surface: &Surface<'_>) -> Vec<Gap> {
+/// The gaps of a converged state: between contacts with the tool, from the axis (left side) outward, then those that flanks enclose.
+pub fn gaps(body: &Body<'_>, state: &State) -> Vec<Gap> {
+    let surface = Surface::of_state(body, state);
+    let pressed = state.facing.pressed_edges(&state.edges, &state.position);
+    let closed_off = closed_off(&pressed, state.edges.len());
+    let mut gaps = between_contacts(&surface, |edge| closed_off[edge].is_none());
+    let pores: BTreeSet<usize> = closed_off.iter().flatten().copied().collect();
+    gaps.extend(pores.into_iter().filter_map(|pore| {
+        let own = closed_off.iter().zip(&state.edges).filter(|(of, _)| **of == Some(pore));
+        enclosed(own.map(|(_, edge)| edge.nodes.map(|node| surface.position(node))))
+    }));
+    gaps
+}
+
+/// The pore that each edge of a surface of `count` edges is part of, where flanks that press each other (`pressed`, the smaller
+/// number first) close it off: named by the narrowest pair around it. Edges that press are part of none.
+fn closed_off(pressed: &[[usize; 2]], count: usize) -> Vec<Option<usize>> {
+    let mut around = vec![None; count];
+    let mut pairs: Vec<usize> = (0..pressed.len()).collect();
+    // from the widest to the narrowest
+    pairs.sort_by_key(|&pair| std::cmp::Reverse(pressed[pair][1] - pressed[pair][0]));
+    for pair in pairs {
+        let [first, last] = pressed[pair];
+        around[first + 1..last].fill(Some(pair));
+    }
+    for edge in pressed.iter().flatten() {
+        around[*edge] = None;
+    }
+    around
+}
+
+/// A pore with these edges in its wall; `None` where nothing is left of it, as between points of flanks that press each other.
+fn enclosed(edges: impl Iterator<Item = [[f64; 2]; 3]>) -> Option<Gap> {
+    let mut ends = [[f64::INFINITY, f64::NEG_INFINITY]; 2];
+    let (mut twice_area, mut length) = (0.0, 0.0);
+    let mut wall: Vec<[f64; 2]> = Vec::new();
+    for [a, b, middle] in edges {
+        wall.extend([a, middle, b]);
+    }
+    for (i, p) in wall.iter().enumerate() {
+        let q = wall[(i + 1) % wall.len()];
+        twice_area += p[0] * q[1] - q[0] * p[1];
+        length += (q[0] - p[0]).hypot(q[1] - p[1]);
+        for (end, x) in ends.iter_mut().zip(p) {
+            *end = [end[0].min(*x), end[1].max(*x)];
+        }
+    }
+    let [[left, right], [low, high]] = ends;
+    let open = 0.5 * twice_area.abs() > THINNEST * length * length;
+    open.then_some(Gap { left, right, height: high - low, enclosed: true })
+}
+
+/// The gaps between contacts with the tool over the edges that `count`.
+fn between_contacts(surface: &Surface<'_>, count: impl Fn(usize) -> bool) -> Vec<Gap> {
     let mut gaps = Vec::new();
     let mut open: Option<Gap> = None; // since the last contact
-    for (edge, contact) in surface.edges.iter().zip(surface.contact) {
+    for (number, (edge, contact)) in surface.edges.iter().zip(surface.contact).enumerate() {
         let x = edge.nodes.map(|node| surface.position(node));
         // surface edges run inward: their second corner is the inner one
         let heights = x.map(|x| -surface.penetration_of(x));
         if contact.parts == NOTHING {
-            if let Some(gap) = &mut open {
+            if let Some(gap) = open.as_mut().filter(|_| count(number)) {
                 gap.height = heights.into_iter().fold(gap.height, f64::max);
             }
             continue;
@@ -65,9 +122,14 @@ pub fn gaps(surface: &Surface<'_>) -> Vec<Gap> {
             // both ends of a quadratic edge touch, its middle does not
             let (right, left) = (edge.point(&x, first_end)[0], edge.point(&x, second_start)[0]);
             let height = -surface.penetration_of(edge.point(&x, 0.5 * (first_end + second_start)));
-            gaps.push(Gap { left: left.min(right), right: left.max(right), height });
+            gaps.push(Gap { left: left.min(right), right: left.max(right), height, enclosed: false });
         }
-        open = Some(Gap { left: contact.reach[1], right: f64::NAN, height: heights[0].max(0.0) });
+        open = Some(Gap {
+            left: contact.reach[1],
+            right: f64::NAN,
+            height: heights[0].max(0.0),
+            enclosed: false,
+        });
     }
     gaps
 }
@@ -203,5 +265,27 @@ pub fn extent(symmetry: Symmetry, feet: [f64; 2]) -> [f64; 2] {
     match symmetry {
         Symmetry::Axisymmetric => [0.0, feet[1]],
         Symmetry::PlaneStrain => feet,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn flanks_that_press_each_other_close_off_what_lies_between_them() {
+        // edges 2 and 9 press each other, 3 and 8 too; 5 and 6 touch further down
+        let around = closed_off(&[[2, 9], [3, 8], [5, 6]], 12);
+        assert_eq!(around[4], around[7]);
+        assert!(around[4].is_some());
+        assert!([0, 1, 2, 3, 5, 6, 8, 9, 10, 11].iter().all(|&edge| around[edge].is_none()), "{around:?}");
+        let wall = |points: &[[f64; 2]]| {
+            let next = |i: usize| points[(i + 1) % points.len()];
+            let edge = |i: usize| [points[i], next(i), [0, 1].map(|k| 0.5 * (points[i][k] + next(i)[k]))];
+            enclosed((0..points.len()).map(edge))
+        };
+        let pore = wall(&[[1.0, 0.0], [2.0, -1.0], [3.0, 0.0]]).unwrap();
+        assert_eq!(pore, Gap { left: 1.0, right: 3.0, height: 1.0, enclosed: true });
+        assert_eq!(wall(&[[1.0, 0.0], [2.0, -1.0], [1.001, 0.0]]), None);
     }
 }

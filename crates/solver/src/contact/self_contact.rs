@@ -221,6 +221,17 @@ impl Facing {
         })
     }
 
+    /// The edges that press each other with the nodes at `position`, the smaller number first.
+    pub fn pressed_edges(&self, edges: &[ContactEdge], position: &[[f64; 2]]) -> Vec<[usize; 2]> {
+        let x = |node: u32| position[node as usize];
+        let pair = |point: &FacingPoint| {
+            let own = Placed { edge: &edges[point.edge], x: edges[point.edge].nodes.map(x) };
+            let (other, _) = point.depth(edges, &own, x)?;
+            Some([point.edge.min(other), point.edge.max(other)])
+        };
+        self.points.iter().filter_map(pair).collect()
+    }
+
     /// What presses where the nodes are at `x(node)`, with `penalty` ε, one entry for each point behind an edge.
     pub fn press<'a>(
         &'a self,

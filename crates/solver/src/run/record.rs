@@ -146,8 +146,10 @@ pub struct GapRow {
     pub left: f64,
     /// Where the contact after it begins, m.
     pub right: f64,
-    /// Largest distance from the tool in between, m.
+    /// Largest distance from the tool in between, m; from the lowest to the highest point of an enclosed gap.
     pub height: f64,
+    /// Whether flanks that press each other close it off from the tool.
+    pub enclosed: bool,
 }
 
 /// A connected region that never yielded, enclosed by metal that did or standing above the substrate.

@@ -3,7 +3,6 @@
 use crate::body::energy::{ContactSums, contact_sums};
 use crate::body::fields::{Fields, SurfacePoint, fields};
 use crate::body::islands::{extent, gaps, islands};
-use crate::body::surface::Surface;
 use crate::point::kinematics::Symmetry;
 use crate::run::equilibrium::{Counters, Equilibrium};
 use crate::run::load_path::{Energies, Increment, Path, Stop};
@@ -207,15 +206,14 @@ impl<'p> Recorder<'p> {
                 });
             }
         }
-        self.gaps.extend(gaps(&Surface::of_state(model.body(), model.state())).into_iter().map(|gap| {
-            GapRow {
-                increment: number,
-                phase: row.phase,
-                depth: row.depth,
-                left: gap.left * u.length,
-                right: gap.right * u.length,
-                height: gap.height * u.length,
-            }
+        self.gaps.extend(gaps(model.body(), model.state()).into_iter().map(|gap| GapRow {
+            increment: number,
+            phase: row.phase,
+            depth: row.depth,
+            left: gap.left * u.length,
+            right: gap.right * u.length,
+            height: gap.height * u.length,
+            enclosed: gap.enclosed,
         }));
         let told = observer(&Event::Increment { row: &row, planned: self.planned.max(number) });
         if self.interval > 0 && number.is_multiple_of(self.interval) && told.is_continue() {
