@@ -6,6 +6,9 @@ use crate::body::energy::ContactSums;
 use crate::run::problem::Goal;
 use crate::run::record::Phase;
 
+/// Times that the last increment is halved where it does not meet its goal.
+const MOST_PARTS: usize = 3;
+
 impl Path<'_> {
     /// Goes from the last converged increment to `goal`, in as few increments as converge, and returns the last one. The
     /// observer hears of each.
@@ -76,7 +79,7 @@ impl Path<'_> {
                 Goal::Force { force, .. } => sums.force >= force,
             };
             if last {
-                let travel = self.home_in(goal, travel, sums)?;
+                let travel = self.home_in_by_parts(goal, (travel, sums), enough, observer)?;
                 return self.accept(travel, Phase::Load, observer);
             }
             share = if expects { self.share(goal, travel, &sums) } else { 0.0 };
@@ -85,5 +88,28 @@ impl Path<'_> {
                 return Err(Stop::ForceNotReached);
             }
         }
+    }
+
+    /// [`Path::home_in`]; where that finds no equilibrium beside the one at hand, half of the increment is taken first, on a better
+    /// mesh if there is one.
+    fn home_in_by_parts(
+        &mut self,
+        goal: Goal,
+        (mut travel, mut sums): (f64, ContactSums),
+        enough: Enough,
+        observer: &mut Observer<'_>,
+    ) -> Result<f64, Stop> {
+        for _ in 0..MOST_PARTS {
+            match self.home_in(goal, travel, sums) {
+                Err(Stop::NoEquilibrium) => {}
+                met => return met,
+            }
+            self.mesh_anew();
+            let half = 0.5 * (self.travel + travel);
+            self.reach(half, Phase::Load, true, observer)?;
+            self.accept(half, Phase::Load, observer)?;
+            (travel, sums) = self.reach_depth(travel, enough, Phase::Load, true, observer)?;
+        }
+        self.home_in(goal, travel, sums)
     }
 }
