@@ -3,6 +3,7 @@
 // in a test a panic is the message
 #![allow(clippy::unwrap_used)]
 
+mod balls_reach_their_radius;
 mod confined_bar;
 mod contact_patch;
 mod curved_tool_on_an_asperity;
