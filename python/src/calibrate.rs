@@ -12,8 +12,8 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::path::{Path, PathBuf};
 
-/// Rows, fit, the text of coefficient.toml, the text for a person.
-type Calibrated<'py> = (Bound<'py, PyDict>, Bound<'py, PyAny>, Option<String>, String);
+/// Rows, fit, the text of coefficient.toml, the text for a person, the report.
+type Calibrated<'py> = (Bound<'py, PyDict>, Bound<'py, PyAny>, Option<String>, String, String);
 
 /// Crushes the cones of a sweep and fits them.
 #[pyfunction]
@@ -40,5 +40,6 @@ pub fn calibrate<'py>(
         done.write(&mut Directory::create(&folder).map_err(raised)?).map_err(raised)?;
     }
     let coefficient = done.coefficient.as_ref().and_then(|c| c.to_toml().ok());
-    Ok((of_rows(py, &done.cases)?, of_json(py, &done.json().map_err(raised)?)?, coefficient, done.text()))
+    let fit = of_json(py, &done.json().map_err(raised)?)?;
+    Ok((of_rows(py, &done.cases)?, fit, coefficient, done.text(), done.report().map_err(raised)?))
 }

@@ -21,7 +21,7 @@ pub struct Crush {
     inner: asperity::Crush,
 }
 
-/// Crushes a scene.
+/// Crushes a scene; an exception that ends the run has what was reached as `partial`.
 #[pyfunction]
 #[pyo3(signature = (scene, accuracy=None, out=None, progress=None))]
 pub fn crush(
@@ -34,7 +34,7 @@ pub fn crush(
     let changed =
         accuracy.map(|level| scene.inner.with(&[format!("accuracy={level}")])).transpose().map_err(raised)?;
     let scene = changed.as_ref().unwrap_or(&scene.inner);
-    let result = work::run(py, progress, |tell| {
+    let (result, raised_meanwhile) = work::run_to_end(py, progress, |tell| {
         asperity::crush(scene, &mut |reached| {
             let share = reached.row.increment as f64 / reached.planned.max(1) as f64;
             tell(share.min(1.0), format!("{:.4} um, {:.4} N", reached.row.depth_um, reached.row.force_N))
@@ -42,8 +42,10 @@ pub fn crush(
     })?;
     let inner = result.map_err(raised)?;
     let crush = Crush { inner };
-    out.map_or(Ok(()), |folder| crush.write(&folder))?;
-    Ok(crush)
+    let written = out.map_or(Ok(()), |folder| crush.write(&folder));
+    let Some(error) = raised_meanwhile else { return written.map(|()| crush) };
+    error.value(py).setattr("partial", Py::new(py, crush)?)?;
+    Err(error)
 }
 
 impl Crush {
@@ -151,6 +153,10 @@ impl Crush {
 
     fn text(&self) -> String {
         self.inner.summary.overview()
+    }
+
+    fn report(&self) -> PyResult<String> {
+        self.inner.report().map_err(raised)
     }
 
     #[pyo3(name = "write")]

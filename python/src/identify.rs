@@ -10,8 +10,8 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::path::{Path, PathBuf};
 
-/// fit.json, posterior.csv, the pictures (curve, stress-strain, objective), the text for a person.
-type Identified<'py> = (Bound<'py, PyAny>, Bound<'py, PyDict>, [Option<String>; 3], String);
+/// fit.json, posterior.csv, the pictures (curve, stress-strain, objective), the text for a person, the report.
+type Identified<'py> = (Bound<'py, PyAny>, Bound<'py, PyDict>, [Option<String>; 3], String, String);
 
 /// Finds the metal of a fit: tables, or the path of a file.
 #[pyfunction]
@@ -42,5 +42,5 @@ pub fn identify<'py>(
         Some(found.stress_strain_svg().map_err(raised)?),
         found.objective_svg().map_err(raised)?,
     ];
-    Ok((json, samples, pictures, found.overview()))
+    Ok((json, samples, pictures, found.overview(), found.report().map_err(raised)?))
 }

@@ -11,6 +11,7 @@ mod work;
 
 mod calibrate;
 mod crush;
+mod extract;
 mod identify;
 mod press;
 mod study;
@@ -33,5 +34,6 @@ fn _asperity(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(trade::trade, module)?)?;
     module.add_function(wrap_pyfunction!(identify::identify, module)?)?;
     module.add_function(wrap_pyfunction!(study::study, module)?)?;
+    module.add_function(wrap_pyfunction!(extract::extract, module)?)?;
     Ok(())
 }

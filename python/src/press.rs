@@ -116,6 +116,10 @@ impl Rough {
         self.inner.text()
     }
 
+    fn report(&self) -> PyResult<String> {
+        self.inner.report().map_err(raised)
+    }
+
     #[pyo3(name = "write")]
     fn write_files(&self, folder: PathBuf) -> PyResult<()> {
         self.write(&folder)

@@ -23,6 +23,19 @@ pub fn run<T: Send>(
     progress: Option<&Bound<'_, PyAny>>,
     work: impl FnOnce(&Tell<'_>) -> T + Send,
 ) -> PyResult<T> {
+    let (result, raised) = run_to_end(py, progress, work)?;
+    raised.map_or(Ok(result), Err)
+}
+
+/// The same, with the exception that ended the work beside what it came to.
+///
+/// # Errors
+/// Work that panicked.
+pub fn run_to_end<T: Send>(
+    py: Python<'_>,
+    progress: Option<&Bound<'_, PyAny>>,
+    work: impl FnOnce(&Tell<'_>) -> T + Send,
+) -> PyResult<(T, Option<PyErr>)> {
     let progress = progress.map(|callable| callable.clone().unbind());
     let (ended, news) = (AtomicBool::new(false), Mutex::new(None::<(f64, String)>));
     py.detach(|| {
@@ -55,7 +68,7 @@ pub fn run<T: Send>(
             let result = handle
                 .join()
                 .map_err(|_| PyRuntimeError::new_err("the computation panicked: please report it"));
-            raised.map_or(result, Err)
+            Ok((result?, raised))
         })
     })
 }

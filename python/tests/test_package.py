@@ -217,6 +217,76 @@ def test_ctrl_c_ends_a_run() -> None:
     assert time.monotonic() - start < 15.0
 
 
+def test_an_exception_carries_what_was_reached(tmp_path: pathlib.Path) -> None:
+    def enough(share: float, _: str) -> None:
+        if share > 0.3:
+            raise RuntimeError("enough")
+
+    scene = asperity.Scene(**SCENE).set("accuracy", "standard")
+    with pytest.raises(RuntimeError, match="enough") as ended:
+        asperity.crush(scene, progress=enough, out=tmp_path / "out")
+    partial = ended.value.__dict__["partial"]
+    assert isinstance(partial, asperity.Crush)
+    assert 2 < len(partial.curve) and 0.0 < partial.curve["depth_um"][-1] < 2.0
+    assert "stopped" in partial.summary
+    assert column(tmp_path / "out/curve.csv", "force_N") == partial.curve["force_N"].tolist()
+    # an exception before the run began carries nothing
+    with pytest.raises(asperity.InputError) as refused:
+        asperity.crush(scene, accuracy="perfect")
+    assert not hasattr(refused.value, "partial")
+
+
+def test_reports_are_those_of_the_command(tmp_path: pathlib.Path) -> None:
+    scene = asperity.Scene(**SCENE)
+    (tmp_path / "scene.toml").write_text(scene.to_toml())
+    result = asperity.crush(scene)
+    page = result.report(tmp_path / "report.html")
+    assert page == (tmp_path / "report.html").read_text(encoding="utf-8")
+    peak = f'value="{result.summary["peak_force_N"]!r}" data-place="/peak_force_N"'
+    assert peak in page and page == result.report()
+    # the light form of a notebook is not the page
+    assert len(result._repr_svg_()) < len(page) / 2
+    command(tmp_path, "crush", "scene.toml", "--out", "out", "--report")
+    assert peak in (tmp_path / "out/report.html").read_text(encoding="utf-8")
+    rough = asperity.press(
+        waves(), pixel_size_um=(1.0, 2.0), closure="sneddon", material=STEEL, load={"pressure": "50 MPa"}
+    )
+    assert 'data-place="/closures/0/contact_area_ratio"' in rough.report()
+    assert "<svg" not in rough._repr_html_()
+
+
+def test_asperities_are_taken_and_crushed(tmp_path: pathlib.Path) -> None:
+    tables: dict[str, Any] = {"material": STEEL, "load": {"pressure": "50 MPa"}, "closure": "all"}
+    # hills of the egg box that no edge cuts
+    found = asperity.extract(
+        np.roll(waves(), (16, 24), axis=(0, 1)), pixel_size_um=(1.0, 1.0), share=0.2, accuracy="draft", profiles=2,
+        **tables,
+    )  # fmt: skip
+    assert len(found.asperities) >= 2 and found.compared is None
+    assert found.summary["profiles"] == len(found.scenes) == 2
+    scene = found.scenes["001"]
+    # its profile stands in it: nothing on disk is needed any more
+    assert asperity.crush(scene.set("accuracy", "draft")).summary["peak_force_N"] > 0.0
+    kept = asperity.extract(
+        np.roll(waves(), (16, 24), axis=(0, 1)), pixel_size_um=(1.0, 1.0), share=0.2, accuracy="draft", crush=1,
+        out=tmp_path / "taken", **tables,
+    )  # fmt: skip
+    assert kept.compared is not None and (tmp_path / "taken/compared.csv").exists()
+    ratio = kept.compared["force_over_finite_elements"][kept.compared["closure"] == "finite-elements"]
+    assert np.allclose(ratio, 1.0)
+    assert "published" in kept.compared["closure"]
+    np.save(tmp_path / "box.npy", np.roll(waves(), (16, 24), axis=(0, 1)))
+    of_file = asperity.extract(
+        tmp_path / "box.npy", share=0.2, accuracy="draft", profiles=2, material=STEEL,
+        load={"pressure": "50 MPa"}, closure="all", surface={"pixel_size": ["1 um", "1 um"], "height_unit": "um"},
+    )  # fmt: skip
+    assert len(of_file.scenes) == 2 and len(of_file.asperities) == len(found.asperities)
+    with pytest.raises(asperity.InputError, match="exclude"):
+        asperity.extract(waves(), pixel_size_um=(1.0, 1.0), share=0.2, hills=0.1, **tables)
+    with pytest.raises(asperity.InputError, match="depth"):
+        asperity.extract(waves(), pixel_size_um=(1.0, 1.0), depth="deep", **tables)
+
+
 def test_progress_is_told_and_python_runs_on() -> None:
     shares: list[float] = []
     counted, ended = [0], threading.Event()

@@ -102,24 +102,34 @@ fn main() -> Result<(), Box<dyn Error>> {
         })
         .collect::<Result<_, std::io::Error>>()?;
 
-    let sound = scenes.iter().filter(|s| s.kind == Kind::Sound).count();
+    // scenes of formulas, and of measured outlines: how many are sound, and of those how many reached their depth
+    let mut reached = [[0; 2]; 2];
     let mut balances: Vec<f64> = Vec::new();
     let (mut stopped, mut faults) = (BTreeMap::<String, usize>::new(), Vec::new());
-    let (mut done, mut refused) = (0, 0);
+    let mut refused = 0;
     for (i, end, _) in &ends {
+        let one = &scenes[*i];
+        if one.kind == Kind::Sound {
+            let [sound, done] = &mut reached[usize::from(one.is_measured())];
+            *sound += 1;
+            *done += usize::from(matches!(end, End::Done(_)));
+        }
         match end {
-            End::Done(balance) => {
-                balances.push(*balance);
-                done += usize::from(scenes[*i].kind == Kind::Sound);
-            }
+            End::Done(balance) => balances.push(*balance),
             End::Stopped(reason) => *stopped.entry(reason.clone()).or_default() += 1,
             End::Refused => refused += 1,
             End::Fault(what) => faults.push(format!("scene {i}: {what}")),
         }
     }
+    let share = |[sound, done]: [usize; 2]| {
+        format!(
+            "{sound} sound, of which {done} reached their depth ({:.1} %)",
+            100.0 * done as f64 / sound.max(1) as f64
+        )
+    };
+    let [formulas, measured] = reached.map(share);
     report.line(&format!(
-        "{count} scenes of seed {seed}: {sound} sound, of which {done} reached their depth ({:.1} %); {refused} refused;",
-        100.0 * done as f64 / sound.max(1) as f64
+        "{count} scenes of seed {seed}. Of formulas: {formulas}. Of measured outlines: {measured}. {refused} refused;"
     ));
     report.line(&format!("{} ended as they must not.\n", faults.len()));
     report.table("| stopped because | scenes |");

@@ -15,7 +15,7 @@ pub mod uniaxial;
 pub mod calibration;
 
 pub mod coverage_scenes;
-pub mod measured_scenes;
+mod measured_scenes;
 
 pub mod random_scenes;
 pub mod single_asperity;

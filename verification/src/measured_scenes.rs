@@ -1,7 +1,7 @@
 //! Scenes drawn at random whose asperity or tool is a measured outline: a cone with a tip, a ball, or a power of the radius as
 //! points, few or many, with or without scatter.
 
-use crate::random_scenes::{Drawn, Kind, draw_from, log_between, material};
+use crate::random_scenes::{Drawn, Kind, log_between, material};
 use proptest::prelude::*;
 use std::fmt::Write;
 
@@ -63,7 +63,8 @@ enum Part {
     Tool,
 }
 
-fn measured() -> impl Strategy<Value = Drawn> {
+/// A scene with a measured outline. One with scatter may be refused.
+pub(crate) fn measured() -> impl Strategy<Value = Drawn> {
     let part = prop::sample::select(vec![Part::Asperity, Part::Ridge, Part::Tool]);
     let size = (log_between(0.1, 1000.0), prop_oneof![6 => log_between(1.0, 40.0), 1 => 0.1..1.0]);
     let detail =
@@ -106,12 +107,4 @@ fn measured() -> impl Strategy<Value = Drawn> {
             Drawn { text, kind }
         },
     )
-}
-
-/// The first `count` scenes of `seed` with a measured outline. Those with scatter may be refused.
-///
-/// # Errors
-/// A strategy that yields no value, which names itself.
-pub fn draw(count: usize, seed: u64) -> Result<Vec<Drawn>, String> {
-    draw_from(&measured(), count, seed)
 }

@@ -3,6 +3,7 @@
 //! A sound scene must be done (exit status 0) or say where and why it stopped (1); an unsound one must be refused with
 //! nothing written (2); a scene cut off in the middle may be either. Nothing may panic, hang, or write a number that is none.
 
+use crate::measured_scenes::measured;
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
@@ -29,6 +30,13 @@ pub struct Drawn {
     pub text: String,
     /// The end to be expected of it.
     pub kind: Kind,
+}
+
+impl Drawn {
+    /// Whether its asperity or tool is a measured outline.
+    pub fn is_measured(&self) -> bool {
+        self.text.contains("\npoints = ")
+    }
 }
 
 /// The end of a run.
@@ -168,6 +176,7 @@ fn drawn() -> impl Strategy<Value = Drawn> {
         2 => unsound,
         1 => misspelt,
         1 => cut_off,
+        3 => measured(),
     ]
 }
 
@@ -176,22 +185,11 @@ fn drawn() -> impl Strategy<Value = Drawn> {
 /// # Errors
 /// A strategy that yields no value, which names itself.
 pub fn draw(count: usize, seed: u64) -> Result<Vec<Drawn>, String> {
-    draw_from(&drawn(), count, seed)
-}
-
-/// The first `count` scenes of a `strategy` with this `seed`.
-///
-/// # Errors
-/// A strategy that yields no value, which names itself.
-pub(crate) fn draw_from(
-    strategy: &impl Strategy<Value = Drawn>,
-    count: usize,
-    seed: u64,
-) -> Result<Vec<Drawn>, String> {
     let mut bytes = [0; 32];
     bytes[..8].copy_from_slice(&seed.to_le_bytes());
     let rng = TestRng::from_seed(RngAlgorithm::ChaCha, &bytes);
     let mut runner = TestRunner::new_with_rng(Config::default(), rng);
+    let strategy = drawn();
     (0..count)
         .map(|_| strategy.new_tree(&mut runner).map(|t| t.current()).map_err(|e| e.to_string()))
         .collect()

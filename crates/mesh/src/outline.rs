@@ -11,6 +11,7 @@
 use std::sync::Arc;
 
 mod bands;
+mod bridge;
 mod distance;
 mod fit;
 mod hull;

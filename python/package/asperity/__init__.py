@@ -26,10 +26,11 @@ from ._asperity import (  # noqa: E402
     UnfinishedError,
     __version__,
 )
-from ._functions import calibrate, crush, identify, press, study, trade  # noqa: E402
+from ._functions import calibrate, crush, extract, identify, press, study, trade  # noqa: E402
 from ._results import (  # noqa: E402
     Calibration,
     Crush,
+    Extraction,
     Fields,
     Identification,
     Rough,
@@ -41,6 +42,7 @@ from ._results import (  # noqa: E402
 __all__ = [
     "Calibration",
     "Crush",
+    "Extraction",
     "Fields",
     "Identification",
     "InputError",
@@ -54,6 +56,7 @@ __all__ = [
     "__version__",
     "calibrate",
     "crush",
+    "extract",
     "identify",
     "press",
     "study",

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import os
+import tempfile
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from . import _asperity
-from ._results import Calibration, Crush, FloatArray, Identification, Rough, Study, Trade
+from ._results import Calibration, Crush, Extraction, FloatArray, Identification, Rough, Study, Trade
 
 if TYPE_CHECKING:
     from ._asperity import RoughScene, Scene
@@ -35,8 +36,17 @@ def crush(
     :param out: folder for the files of ``asperity crush``; files of the same name are replaced.
     :param progress: called with the share that is done and a text.
     :raises InputError: the run cannot begin; what stops it later is in ``summary["stopped"]``.
+
+    An exception that ends the run, that of ``progress`` or KeyboardInterrupt, has what was reached, a :class:`Crush`, as
+    ``partial``.
     """
-    return Crush(_asperity.crush(scene, accuracy, _path(out), progress))
+    try:
+        return Crush(_asperity.crush(scene, accuracy, _path(out), progress))
+    except BaseException as error:
+        reached = getattr(error, "partial", None)
+        if isinstance(reached, _asperity.Crush):
+            error.__dict__["partial"] = Crush(reached)
+        raise
 
 
 def _heights(
@@ -73,6 +83,26 @@ def _heights(
     return np.ascontiguousarray(heights), pixel_size_um
 
 
+def _surface(
+    surface: Any, pixel_size_um: tuple[float, float] | None, scene: dict[str, Any]
+) -> tuple[RoughScene, FloatArray | None, tuple[float, float] | None]:
+    """The scene of a surface however it is given, with heights in µm and their pixel where they are no file."""
+    whole = surface if isinstance(surface, _asperity.RoughScene) else None
+    if isinstance(surface, str | os.PathLike):
+        path = os.fspath(surface)
+        if path.endswith(".toml"):
+            whole = _asperity.RoughScene.from_toml(path)
+        else:
+            scene = {**scene, "surface": {"file": path, **scene.get("surface", {})}}
+            surface = None
+    if whole is not None:
+        if scene or pixel_size_um is not None:
+            raise _asperity.InputError("a RoughScene has its own tables: change it with its set")
+        return whole, None, None
+    heights, pixel = (None, None) if surface is None else _heights(surface, pixel_size_um)
+    return _asperity.RoughScene(**{"surface": {}, **scene}), heights, pixel
+
+
 def press(
     heights: Any = None,
     *,
@@ -84,7 +114,8 @@ def press(
     """Presses a rigid plane on a rough surface.
 
     :param heights: in µm, the first index along y, NaN or masked where nothing was measured; or a topography of the package
-        SurfaceTopography; or a :class:`RoughScene`; absent where the tables name or generate a surface.
+        SurfaceTopography; or a :class:`RoughScene`; or the path of a map or of a scene (``.toml``); absent where the tables name
+        or generate a surface.
     :param pixel_size_um: distance of the heights along x and y.
     :param out: folder for the files of ``asperity rough``; files of the same name are replaced.
     :param progress: called with the share that is done and a text.
@@ -92,13 +123,56 @@ def press(
         ``surface={"level": "none", "periodic": True}`` says what is done to them.
     :raises InputError: a scene that makes no sense, a load that the surface cannot carry.
     """
-    if isinstance(heights, _asperity.RoughScene):
-        if scene or pixel_size_um is not None:
-            raise _asperity.InputError("a RoughScene has its own tables: change it with its set")
-        return Rough(_asperity.press(heights, None, None, _path(out), progress))
-    surface, pixel = (None, None) if heights is None else _heights(heights, pixel_size_um)
-    tables = {"surface": {}, **scene}
-    return Rough(_asperity.press(_asperity.RoughScene(**tables), surface, pixel, _path(out), progress))
+    return Rough(_asperity.press(*_surface(heights, pixel_size_um, scene), _path(out), progress))
+
+
+def extract(
+    heights: Any = None,
+    *,
+    pixel_size_um: tuple[float, float] | None = None,
+    separation: str | None = None,
+    share: float | None = None,
+    hills: float | None = None,
+    depth: str | None = None,
+    profiles: int = 20,
+    lines: Sequence[str] = (),
+    accuracy: str = "standard",
+    crush: int = 0,
+    threads: int = 0,
+    out: PathLike | None = None,
+    progress: Progress | None = None,
+    **scene: Any,
+) -> Extraction:
+    """Finds the asperities of a map, the bodies that stand for the highest of them, and holds the closures against crushing them.
+
+    :param heights: of the map, its path, a topography, or a :class:`RoughScene` or its path, as for :func:`press`.
+    :param pixel_size_um: distance of the heights along x and y.
+    :param separation: islands above this separation from the mean plane, such as ``"1 um"``.
+    :param share: islands above the plane that this share of the points is above; 0.1 where nothing is said.
+    :param hills: hills of ISO 25178-2 that rise by at least this share of the height.
+    :param depth: how deep the scenes crush; down to the plane where nothing is said.
+    :param profiles: how many asperities get a profile and a scene.
+    :param lines: lines of the map as scenes in plane strain, ``"y=0.2 mm"``.
+    :param accuracy: of the scenes.
+    :param crush: how many asperities are crushed and compared with the closures.
+    :param out: folder for the files of ``asperity extract``; with ``crush`` a run that was stopped goes on from there.
+    :param scene: the tables of the scene, as for :func:`press`.
+    :raises InputError: a scene that makes no sense, no asperity, more to crush than have a profile.
+    """
+    wanted = {
+        "separation": separation,
+        "share": share,
+        "hills": hills,
+        "depth": depth,
+        "profiles": max(profiles, crush),
+        "lines": list(lines),
+        "accuracy": accuracy,
+    }
+    with tempfile.TemporaryDirectory() as beside:
+        folder = beside if out is None else os.fspath(out)
+        taken = _surface(heights, pixel_size_um, scene)
+        found = _asperity.extract(*taken, wanted, crush, threads, folder, progress)
+        return Extraction(*found, folder)
 
 
 def calibrate(

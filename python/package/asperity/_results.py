@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import pathlib
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
@@ -38,6 +39,13 @@ def as_json(value: object) -> str:
         return value
 
     return json.dumps(plain(value), allow_nan=False)
+
+
+def _page(html: str, path: PathLike | None) -> str:
+    """The page, which is written too where there is a path."""
+    if path is not None:
+        pathlib.Path(path).write_text(html, encoding="utf-8")
+    return html
 
 
 class Table(Mapping[str, Array]):
@@ -196,6 +204,10 @@ class Crush:
         """The section at the peak as SVG, where the run has fields of it."""
         return self._inner.section_svg()
 
+    def report(self, path: PathLike | None = None) -> str:
+        """The page of ``--report``, which stands alone; written to ``path`` too if there is one."""
+        return _page(self._inner.report(), path)
+
     def __repr__(self) -> str:
         return f"<Crush\n{self._inner.text()}>"
 
@@ -242,6 +254,10 @@ class Rough:
         """Writes the files of ``asperity rough``; files of the same name are replaced."""
         self._inner.write(os.fspath(folder))
 
+    def report(self, path: PathLike | None = None) -> str:
+        """The page of ``--report``, which stands alone; written to ``path`` too if there is one."""
+        return _page(self._inner.report(), path)
+
     def __repr__(self) -> str:
         return f"<Rough\n{self._inner.text()}>"
 
@@ -249,11 +265,45 @@ class Rough:
         return self.table._repr_html_()
 
 
+class Extraction:
+    """The asperities of a map, with profiles and scenes of the highest, and the closures beside finite elements."""
+
+    def __init__(
+        self,
+        asperities: Mapping[str, Any],
+        summary: dict[str, Any],
+        compared: Mapping[str, Any] | None,
+        text: str,
+        folder: str,
+    ) -> None:
+        from . import _asperity
+
+        self.asperities = Table(asperities)
+        """A row an asperity, from the highest down."""
+        self.summary = summary
+        """The numbers of ``summary.json``."""
+        self.compared = None if compared is None else Table(compared)
+        """Force and area of each closure beside the finite elements; None where nothing was crushed."""
+        self.scenes: dict[str, _asperity.Scene] = {}
+        """The scenes by name, ``"001"`` that of the highest asperity, each with its profile in it."""
+        for file in sorted((pathlib.Path(folder) / "scenes").glob("*.toml")):
+            # with the points of the profile in the place of its file, which need not stay
+            text_of = _asperity.Scene.from_toml(file).to_toml()
+            self.scenes[file.stem] = _asperity.Scene.from_toml(text_of)
+        self._text = text
+
+    def __repr__(self) -> str:
+        return f"<Extraction\n{self._text}>"
+
+    def _repr_html_(self) -> str:
+        return (self.asperities if self.compared is None else self.compared)._repr_html_()
+
+
 class Calibration:
     """A sweep of cones and the representative strain that makes its curves one."""
 
     def __init__(
-        self, cases: Mapping[str, Any], fit: dict[str, Any], coefficient: str | None, text: str
+        self, cases: Mapping[str, Any], fit: dict[str, Any], coefficient: str | None, text: str, report: str
     ) -> None:
         self.cases = Table(cases)
         """A row a cone."""
@@ -262,6 +312,11 @@ class Calibration:
         self.coefficient_toml = coefficient
         """The file that ``press`` reads as ``coefficient``."""
         self._text = text
+        self._report = report
+
+    def report(self, path: PathLike | None = None) -> str:
+        """The page of ``--report``, which stands alone; written to ``path`` too if there is one."""
+        return _page(self._report, path)
 
     def __repr__(self) -> str:
         return f"<Calibration\n{self._text}>"
@@ -333,6 +388,7 @@ class Identification:
         samples: Mapping[str, Any],
         pictures: list[str | None],
         text: str,
+        report: str,
     ) -> None:
         self.fit = fit
         """The numbers of ``fit.json``."""
@@ -344,6 +400,11 @@ class Identification:
         """Samples of the posterior, a row a sample."""
         self.curve_svg, self.stress_strain_svg, self.objective_svg = pictures
         self._text = text
+        self._report = report
+
+    def report(self, path: PathLike | None = None) -> str:
+        """The page of ``--report``, which stands alone; written to ``path`` too if there is one."""
+        return _page(self._report, path)
 
     def __repr__(self) -> str:
         return f"<Identification\n{self._text}>"

@@ -1,10 +1,11 @@
 //! From points that an instrument measured to an outline: smoothed as far as they scatter, with as few arcs as hold them, its
 //! corners kept.
 
+use super::bridge::{bridge, bulges};
 use super::kinks::corners;
 use super::residuals::{scatter, stretches_too_far};
 use super::spline::{Break, fit as nearest};
-use super::{Outline, Parabola};
+use super::{Outline, Parabola, deepest_dent};
 
 /// What the points are a section of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -108,21 +109,32 @@ fn smoothed(
     scatter: f64,
 ) -> Result<Vec<Parabola>, FitError> {
     let most = MISSED.max(MISSED_TOLERANCES * scatter);
+    let bulging = bulges(points, level);
     let mut missed = 0;
     for fewest in FEWEST {
         let arcs = Points { points, kinks, level, scatter, fewest }.arcs();
-        let Some(arcs) = arcs else { continue };
+        let Some(arcs) = arcs.filter(|arcs| !(bulging && dented(arcs))) else { continue };
         let (distance, point) = farthest(points, &arcs);
         missed = point;
         if distance <= COARSE.max(MISSED_TOLERANCES * scatter) || (fewest == 1 && distance <= most) {
             return Ok(arcs);
         }
     }
+    if bulging {
+        return Ok(bridge(points, kinks, level));
+    }
     Err(FitError {
         point: Some(missed),
         message: "lies off the smooth curve through its neighbours: measure more points where the outline turns, leave out an outlier, or smooth it away with a greater `tolerance`"
             .into(),
     })
+}
+
+/// Whether arcs through points that bulge outward are dented.
+fn dented(arcs: &[Parabola]) -> bool {
+    let upside_down = |a: &Parabola| Parabola { drop: -a.drop, slope: -a.slope, bend: -a.bend, ..*a };
+    let outline = Outline::new(arcs.iter().map(upside_down).collect(), 1.0, false);
+    outline.is_none_or(|outline| deepest_dent(&outline).depth > DENT)
 }
 
 /// The greatest distance of a point from arcs, and its index.
@@ -302,6 +314,9 @@ const FEWEST: [usize; 2] = [2, 1];
 const COARSE: f64 = 1e-3;
 const MISSED: f64 = 0.01;
 const MISSED_TOLERANCES: f64 = 6.0;
+
+/// Dent over the height of the outline that is rounding.
+const DENT: f64 = 1e-5;
 
 /// Times that stops are moved and dropped, and the number of stops times points up to which that is done.
 const PASSES: usize = 2;

@@ -93,3 +93,37 @@ fn what_is_no_outline_is_refused_with_its_point() {
     let two = fit(&[[0.0, 1.0], [2.0, 0.5]], Span::Half, None).unwrap();
     assert!((two.outline.depth_at(2.0) - 0.5).abs() < 1e-9);
 }
+
+/// A handful of points of a shape that bulges: the curve does too, passes them, and is near the shape between them.
+#[test]
+fn few_points_that_bulge_give_a_curve_that_does() {
+    type Shape = (&'static str, fn(f64) -> f64, f64);
+    let shapes: [Shape; 6] = [
+        ("cone", |x| 1.0 - x, 1e-6),
+        ("blunt cone", |x| if x < 0.4 { 1.0 - x * x / 0.8 } else { 1.2 - x }, 0.06),
+        ("cap", |x| (1.0 - 0.7 * x * x).sqrt(), 0.02),
+        ("steep cap", |x| (1.0 - 0.9 * x * x).sqrt(), 0.1),
+        ("power of 1.3", |x| 1.0 - x.powf(1.3), 0.06),
+        ("power of 3", |x| 1.0 - x.powi(3), 0.08),
+    ];
+    for (name, shape, off) in shapes {
+        for count in [2, 3, 4, 5, 6, 8, 12, 18] {
+            let points: Vec<[f64; 2]> = (0..=count)
+                .map(|i| 30.0 * f64::from(i) / f64::from(count))
+                .map(|x| [x, 10.0 * shape(x / 30.0)])
+                .collect();
+            let fit = fit(&points, Span::Half, None).unwrap();
+            let height = points[0][1] - points[points.len() - 1][1];
+            let dent = deepest_dent(&fit.outline);
+            assert!(dent.depth <= 1e-5 * height, "{name} of {count}: {dent:?}");
+            assert!(fit.farthest <= 1e-2 * height, "{name} of {count}: {}", fit.farthest);
+            let drop = |x: f64| fit.outline.depth_at(x) - fit.summit;
+            let missed =
+                (0..=300).map(|i| 0.1 * f64::from(i)).map(|x| (drop(x) + 10.0 * shape(x / 30.0)).abs());
+            let missed = missed.fold(0.0, f64::max);
+            // as the spacing of the points squared
+            let most = 10.0 * off * (2.0 / f64::from(count)).powi(2) + 1e-2 * height;
+            assert!(missed < most, "{name} of {count}: {missed} {most}");
+        }
+    }
+}
