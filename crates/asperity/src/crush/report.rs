@@ -70,9 +70,8 @@ impl Crush {
             None => String::new(),
         };
         let bound = Some(summary.errors.force).filter(|error| error.is_finite());
-        let bound = bound.map_or("with an error that is not known".into(), |error| {
-            format!("within {} %", rounded(100.0 * error))
-        });
+        let bound = bound
+            .map_or("its error is not known".into(), |error| format!("within {} %", rounded(100.0 * error)));
         let back = match (summary.residual_depth_um, summary.elastic_fraction) {
             (Some(residual), Some(fraction)) => format!(
                 "; unloaded, {} µm of depth stay and {} % of the work came back",
@@ -82,7 +81,7 @@ impl Crush {
             _ => String::new(),
         };
         format!(
-            "{end}{} N{per} at a depth of {} µm, {bound}{back}.",
+            "{end}{} N{per} ({bound}) at a depth of {} µm{back}.",
             significant(summary.peak_force_N),
             significant(summary.peak_depth_um)
         )
