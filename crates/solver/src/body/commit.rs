@@ -22,12 +22,7 @@ impl State {
             x[1] += du[1];
         }
         self.displacement.clone_from(&trial.displacement);
-        // the increment began with the old contact under its own penalty
-        let pressed = self.contact.iter().map(|share| share.penalty_energy).sum::<f64>();
-        let held = pressed + self.self_contact_energy + self.remeasured[1];
-        if self.penalty > 0.0 {
-            self.remeasured[1] += (trial.penalty / self.penalty - 1.0) * held;
-        }
+        self.remeasured[1] = self.work_of_changes(trial.penalty, response);
         self.penalty = trial.penalty;
         self.contact.clone_from(&response.contact);
         self.tip = trial.tip;
@@ -38,6 +33,21 @@ impl State {
         std::mem::swap(&mut self.points, &mut response.points);
         self.load_scale = self.load_scale.max(self.load().abs());
         Ok(())
+    }
+
+    /// What the change of the penalty to `penalty`, and of the area since the last increment, added to the contact energy along this
+    /// one: the mean of what they add at its start and at its end.
+    fn work_of_changes(&self, penalty: f64, response: &Response) -> f64 {
+        let before =
+            self.contact.iter().map(|share| share.penalty_energy).sum::<f64>() + self.self_contact_energy;
+        let after = response.contact.iter().map(|share| share.penalty_energy).sum::<f64>()
+            + response.pressed.iter().map(|point| point.energy).sum::<f64>();
+        let remeasured = self.remeasured[1];
+        if before <= 0.0 || before + remeasured <= 0.0 {
+            return remeasured;
+        }
+        let larger = (1.0 + remeasured / before) * penalty / self.penalty;
+        0.5 * (before * (larger - 1.0) + after * (1.0 - 1.0 / larger))
     }
 
     /// Takes down the plastic increment of each point, its work, and the change of its volume ratio.

@@ -15,6 +15,12 @@ pub fn work(force: [f64; 2], travel: f64) -> f64 {
     travel * (f + (f * g).sqrt() + g) / 3.0
 }
 
+/// ∫F dh over the last of two increments of the lengths `travel`, by the parabola through the three forces.
+pub fn work_by_parabola([before, from, to]: [f64; 3], [last, step]: [f64; 2]) -> f64 {
+    let bend = ((to - from) / step - (from - before) / last) / (last + step);
+    step * (0.5 * (from + to) - bend * step * step / 6.0)
+}
+
 /// ∫F dh between two states whose forces and slopes dF/dh are known: exact for a cubic.
 pub fn work_by_slopes(force: [f64; 2], slope: [f64; 2], travel: f64) -> f64 {
     travel * (0.5 * (force[0] + force[1]) + travel * (slope[0] - slope[1]) / 12.0)
@@ -92,6 +98,8 @@ mod tests {
 
     #[test]
     fn work_of_known_curves() {
+        // F = 1 + h², from h = 1 to 3, with h = 0 before: 32/3
+        assert!((work_by_parabola([1.0, 2.0, 10.0], [1.0, 2.0]) - 32.0 / 3.0).abs() < 1e-14);
         // F = (1 + h)², from h = 0 to 2: 26/3; F = 3 h³ from 2 back to 1: -45/4; F = 5 u^1.5 over u = 0.3
         assert!((work([1.0, 9.0], 2.0) - 26.0 / 3.0).abs() < 1e-14);
         assert!((work_by_slopes([24.0, 3.0], [36.0, 9.0], -1.0) + 11.25).abs() < 1e-14);

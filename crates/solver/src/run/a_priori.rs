@@ -84,6 +84,25 @@ pub fn expected_pressure(metal: &Metal, profile: &Profile, tool: &Tool, depth: f
     }
 }
 
+/// Share of the depth 1 that indents a body in plane strain: the rest compresses it down to the depth `size`, where it is held, by
+/// 2F/(πE*) ln(size/a) (Johnson 1985, section 2.3), of an elastic wedge most of the depth.
+pub fn share_of_contact(metal: &Metal, profile: &Profile, tool: &Tool, size: f64) -> f64 {
+    let (mut low, mut high) = (0.0, 1.0);
+    for _ in 0..40 {
+        let middle = 0.5 * (low + high);
+        let half_width = half_widths(profile, tool, middle).into_iter().fold(0.0, f64::max);
+        let force = 2.0 * half_width * expected_pressure(metal, profile, tool, middle);
+        let compressed =
+            FRAC_2_PI * force / metal.elastic.reduced_modulus() * (size / half_width).ln().max(0.0);
+        if middle + compressed < 1.0 {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    high
+}
+
 /// a tan β/h to be expected of a sharp cone of the slope `tan`: 2/π of an elastic one, up to 1.08 - 0.6 n of a fully plastic one,
 /// more where material piles up against a steep tool that `indents`, joined in X = E* tan β/σ_r (read off forty cones, within
 /// 0.1). Only the mesh is laid out with it.

@@ -109,7 +109,14 @@ pub(super) fn prepare_with(
         }
     };
     let formed = expected.formed.as_ref().map(|formed| formed.over(depth));
-    let own = Contacts::of(&profile, &tool, formed.as_ref(), 1.0, reach);
+    let below = scene.substrate.as_ref().and_then(|s| s.depth).map(|l| profile.height() + l.0 / depth);
+    let indents = match below.filter(|_| formed.is_none() && scene.lateral == Lateral::Free) {
+        Some(size) if symmetry == Symmetry::PlaneStrain => {
+            a_priori::share_of_contact(&metal, &profile, &tool, size)
+        }
+        _ => 1.0,
+    };
+    let own = Contacts::of(&profile, &tool, formed.as_ref(), indents, indents * reach);
     let half_widths = own.half_widths.clone();
     let mut contacts = own;
     for (load, earlier) in scene.earlier_loads().iter().zip(&expected.earlier) {
@@ -121,7 +128,7 @@ pub(super) fn prepare_with(
     let row = extent(scene, &profile, &contacts.half_widths, depth);
     let size = automatic_size(&numbers, &profile, &contacts.half_widths).max(3.0 * (row[1] - row[0]));
     let pressure = match &formed {
-        None => a_priori::expected_pressure(&metal, &profile, &tool, 1.0),
+        None => a_priori::expected_pressure(&metal, &profile, &tool, indents),
         Some(formed) => formed.expected_pressure(&metal, &profile, &tool, 1.0),
     };
     let mesh = match mesh {
@@ -149,7 +156,7 @@ pub(super) fn prepare_with(
         profile,
         tool,
         half_widths,
-        penalty: pressure / numbers.penetration,
+        penalty: pressure / (numbers.penetration * indents),
         held: held_nodes(&mesh, symmetry, scene.lateral),
         mesh,
         numbers,

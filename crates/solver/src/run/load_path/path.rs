@@ -2,7 +2,9 @@
 
 use super::increment::{Energies, Increment, Observer, Stop};
 use crate::algebra::newton::{KEEP, Settings, solve};
-use crate::body::energy::{ContactSums, contact_sums, work, work_by_slopes, work_to_separation};
+use crate::body::energy::{
+    ContactSums, contact_sums, work, work_by_parabola, work_by_slopes, work_to_separation,
+};
 use crate::body::evening::LOADED;
 use crate::body::failure::Failure as BodyFailure;
 use crate::body::surface::Surface;
@@ -80,6 +82,8 @@ pub struct Path<'p> {
     external_work: f64,
     /// Elastic energy that earlier loads left.
     stored_before: f64,
+    /// Force at the start of the last increment, and its length.
+    earlier: Option<[f64; 2]>,
     spent: usize,
     /// Increments after which the mesh was laid anew last.
     meshed_after: usize,
@@ -115,6 +119,7 @@ impl<'p> Path<'p> {
             asked: None,
             external_work: 0.0,
             stored_before: model.state().energies(model.body())[0],
+            earlier: None,
             spent: 0,
             meshed_after: 0,
             iterations: 0,
@@ -262,8 +267,8 @@ impl<'p> Path<'p> {
         observer: &mut Observer<'_>,
     ) -> Result<Increment, Stop> {
         let before = (self.force, self.slope);
-        // loading is close to F = (a + b h)²; unloading bends less the flatter the contact has become, so there the
-        // slope is asked for, which costs one solve
+        // loading is close to a parabola; unloading bends less the flatter the contact has become, so there the slope is asked for,
+        // which costs one solve
         let counts = self.rules().correction == Correction::PlasticShare;
         self.slope = match phase {
             Phase::Unload | Phase::Reload if counts => {
@@ -280,6 +285,7 @@ impl<'p> Path<'p> {
         self.deepest = self.deepest.max(travel);
         self.increments += 1;
         let energies = punches.map(|punches| self.count(before, step, phase, &punches));
+        self.earlier = Some([before.0, step]);
         let depth = self.depth(travel, Borne::of(&contact));
         let met = |asked: &f64| (depth / asked - 1.0).abs() < 2.0 * MET;
         let increment = Increment {
@@ -322,6 +328,7 @@ impl<'p> Path<'p> {
         self.iterations += spent;
         self.spent += spent;
         if done {
+            self.earlier = None;
             let punches = self.punches(&self.model.converged_surface());
             let contact = self.corrected(punches);
             (self.force, self.area, self.penetration) = (contact.force, contact.area, contact.penetration);
@@ -341,7 +348,12 @@ impl<'p> Path<'p> {
             (_, Some(to)) if force <= 0.0 => -work_to_separation(self.force, to, -step),
             (Some(from), _) if self.force <= 0.0 => work_to_separation(force, from, step),
             (Some(from), Some(to)) => work_by_slopes([force, self.force], [from, to], step),
-            _ => work([force, self.force], step),
+            _ => match self.earlier {
+                Some([earlier, last]) if last * step > 0.0 => {
+                    work_by_parabola([earlier, force, self.force], [last, step])
+                }
+                _ => work([force, self.force], step),
+            },
         };
         let [elastic, plastic] = self.model.state().energies(self.model.body());
         if phase == Phase::Load && plastic > 0.0 {

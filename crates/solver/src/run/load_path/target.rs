@@ -6,7 +6,7 @@ use crate::body::energy::ContactSums;
 use crate::run::problem::Goal;
 
 /// Relative residual of the increments that home in on a goal, which the depth then follows to [`MET`].
-const HOMING_TOLERANCE: f64 = 1e-8;
+pub(super) const HOMING_TOLERANCE: f64 = 1e-8;
 
 /// Increments that home in on a goal; a secant takes three or four.
 const MOST_TRIES: usize = 24;

@@ -2,6 +2,7 @@
 
 use super::increment::{Observer, Stop};
 use super::path::Path;
+use super::target::HOMING_TOLERANCE;
 use crate::body::evening::UNLOADED;
 use crate::run::equilibrium::SolveFailure;
 use crate::run::problem::Goal;
@@ -11,6 +12,9 @@ use crate::run::tool_stiffness::ToolStiffness;
 
 /// Retreats after which a tool is taken away whatever it still bears.
 const MOST_RETREATS: usize = 500;
+
+/// Share of the tolerance of the loading to which unloading increments are solved.
+const UNLOADING_TOLERANCE: f64 = 0.1;
 
 /// Share of the peak travel that may be left when the tool is taken away, which is one increment however far the metal
 /// then flows: from further off it sprang back beyond its first summit.
@@ -32,8 +36,25 @@ impl Path<'_> {
         }
         let (peak_force, peak) = (self.force, self.travel);
         let compliance = 1.0 / stiffness.depth + self.sums().penetration / peak_force;
-        let recovery = UNLOADING_EXPONENT * peak_force * compliance;
         self.slope = Some(self.follows(&stiffness));
+        // what is left of the work is the smaller, the further the tool retreats
+        let settings = self.settings;
+        self.settings.tolerance =
+            (UNLOADING_TOLERANCE * settings.tolerance).max(settings.tolerance.min(HOMING_TOLERANCE));
+        let done = self.retreat_from([peak, peak_force], compliance, steps, observer);
+        self.settings = settings;
+        done
+    }
+
+    /// Unloads from the travel and force of `peak`, where depth and penetration have this `compliance` together.
+    fn retreat_from(
+        &mut self,
+        [peak, peak_force]: [f64; 2],
+        compliance: f64,
+        steps: usize,
+        observer: &mut Observer<'_>,
+    ) -> Result<(), Stop> {
+        let recovery = UNLOADING_EXPONENT * peak_force * compliance;
         self.way_back = vec![peak];
         for travel in unloading(peak, recovery, steps, 0.3) {
             if travel >= self.travel || self.force < 0.03 * peak_force {
