@@ -369,7 +369,8 @@ pub fn draw(chart: &Chart, paper: &Paper) -> Result<Window, Failure> {
     let range = [x.low, y.high, x.high, y.low];
     let mut area = axes(paper, [x, y], [&chart.x_label, &chart.y_label])?;
     let (across, down) = area.plotting_area().get_pixel_range();
-    let frame = [across.start, down.start, across.end, down.end].map(f64::from);
+    // the ranges end one beyond their last dot
+    let frame = [across.start, down.start, across.end - 1, down.end - 1].map(f64::from);
     for (i, (series, points)) in chart.series.iter().zip(&finite).enumerate() {
         let (colour, [dash, gap]) = pen(i, series);
         if !series.band.is_empty() {

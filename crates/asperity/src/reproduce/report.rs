@@ -154,6 +154,7 @@ fn page(results: &Results, items: &[Item], claims: &[Claim], level: &str) -> Res
             h2 id="claims" { "Claims of the paper" }
             (tally(claims))
             div class="wide" { table id="overview" {
+                caption { "Each claim of the paper beside what was computed." }
                 thead { tr { th scope="col" { "verdict" } th scope="col" { "claim of the paper" } th scope="col" { "ours" } th scope="col" { "where" } } }
                 tbody { @for claim in claims { tr {
                     td { (verdict(claim.verdict)) }
