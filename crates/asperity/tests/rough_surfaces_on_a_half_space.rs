@@ -33,6 +33,30 @@ fn row(rough: &Rough, closure: Closure) -> &asperity::press::TableRow {
     rough.table.iter().find(|row| row.closure == closure).unwrap()
 }
 
+/// Pixels whose pressure is all at the limit: what a little more load is put on first must not count as contact. One point of this
+/// curve once had the whole surface in contact, each idle pixel under next to nothing.
+#[test]
+fn the_contact_grows_with_the_load_where_few_pixels_carry_it() {
+    let milled = r#"closure = "half-space-plastic"
+[surface.generate]
+kind = "milled"
+ra = "1 um"
+mean_slope_deg = 4
+size = ["0.3 mm", "0.3 mm"]
+pixels = [64, 64]
+seed = 1
+[material]
+youngs_modulus = "210 GPa"
+poissons_ratio = 0.3
+hardness = "1280 MPa"
+[load]
+pressure = "100 MPa"
+"#;
+    let rough = press(&RoughScene::from_toml(milled, Path::new("")).unwrap(), &mut |_| true).unwrap();
+    let areas: Vec<f64> = rough.load_curve.iter().map(|point| point.contact_area_ratio).collect();
+    assert!(areas.len() >= 8 && areas.is_sorted() && areas[areas.len() - 1] < 0.1, "{areas:?}");
+}
+
 #[test]
 fn every_closure_is_judged_by_the_half_space_of_its_metal() {
     let rough = pressed("closure = \"all\"", "[load]\npressure = \"150 MPa\"\nunload = true").unwrap();

@@ -115,12 +115,13 @@ impl<T: Real> Level<T> {
             let mut wrong = 0.0;
             for (p, u) in pressure[range.clone()].iter().zip(&lift[range]) {
                 let gap = (*u + at).wide();
-                wrong += if *p <= T::zero() {
-                    typical * (-gap).max(0.0)
+                wrong += if gap > 0.0 {
+                    p.wide() * gap
                 } else if *p < top {
-                    p.wide() * gap.abs()
+                    // a pressure that is next to nothing pushes nothing away
+                    p.wide().max(typical) * -gap
                 } else {
-                    p.wide() * gap.max(0.0)
+                    0.0
                 };
             }
             [wrong]
