@@ -2,7 +2,7 @@
 //! indents in aluminium, of twins made by the program itself; and two metals that one cone cannot tell apart.
 //!
 //! `cargo run --release -p asperity --example identify_table -- FOLDER [--twins N] [--every N] [--leave-out sought,twins] [--journal FILE]
-//! [--out FILE]`; FOLDER holds
+//! [--out FILE]`; without FOLDER the two metals alone. FOLDER holds
 //! FEM_60deg.csv, FEM_50deg.csv (rows 1 to 76 are used) and Al6061.csv. What the journal holds is not computed again.
 //! `--every N` takes every N-th published metal but in the fit of two cones with E known.
 
@@ -123,7 +123,12 @@ fn main() {
     let every: usize = after("--every").map_or(1, |n| n.parse().expect("a number"));
     let thinned =
         |cases: Vec<Case>| cases.into_iter().skip(every / 2).step_by(every.max(1)).collect::<Vec<_>>();
-    let folder = Path::new(words.first().expect("the folder of the data"));
+    let Some(folder) = words.first().map(Path::new) else {
+        // what needs no data of others
+        pair::section(&mut report);
+        report.finish().expect("can be written");
+        return;
+    };
     let count: usize = after("--twins").map_or(40, |n| n.parse().expect("a number"));
     let opened = after("--journal").map(|file| Journal::open(Path::new(file), 1).expect("can be written"));
     let (journal, lines) = opened.map_or((None, Vec::new()), |(journal, lines)| (Some(journal), lines));

@@ -14,6 +14,9 @@ const MOST_TRIES: usize = 24;
 /// Share of an increment by which the next try may differ to be the same increment.
 const NEAR: f64 = 0.05;
 
+/// How close a goal is to be met by increments that are solved to the tolerance of the run.
+const NEARLY_MET: f64 = 1e-7;
+
 /// Tries after which the interval around the goal is halved instead: the response leaps.
 const SECANTS: usize = 6;
 
@@ -68,7 +71,7 @@ impl Path<'_> {
             let exact = if near { self.attempt_again(next, GUESS) } else { self.attempt(next, true, GUESS) };
             let exact = exact.or_else(|_| self.attempt(next, true, 0.0));
             let found = exact.or_else(|_| {
-                met = loosely;
+                met = NEARLY_MET;
                 self.settings = settings;
                 self.attempt(next, true, GUESS)
             });
