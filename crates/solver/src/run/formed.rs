@@ -3,6 +3,7 @@
 
 use crate::contact::tool::Tool;
 use crate::point::material::Metal;
+use crate::run::a_priori;
 use crate::run::curve::COUNTS_FROM;
 use asperity_mesh::profile::{Asperity, Profile};
 
@@ -81,7 +82,7 @@ impl Formed {
 
     /// Mean contact pressure to be expected at `depth`, in units of E: that of an elastic contact of this depth and width, and 2.8
     /// times the yield stress, joined harmonically. Only the penalty is scaled with it.
-    pub fn expected_pressure(&self, metal: &Metal, profile: &Profile, tool: &Tool, depth: f64) -> f64 {
+    fn expected_pressure(&self, metal: &Metal, profile: &Profile, tool: &Tool, depth: f64) -> f64 {
         let slope = depth / self.widest(profile, tool, depth);
         let elastic = 0.5 * metal.elastic.reduced_modulus() * slope;
         match &metal.hardening {
@@ -91,6 +92,20 @@ impl Formed {
                 1.0 / (1.0 / elastic + 1.0 / (2.8 * strength))
             }
         }
+    }
+}
+
+/// Mean contact pressure to be expected at `depth`, in units of E, on the surface that earlier loads left, or else on that of `profile`.
+pub fn expected_pressure(
+    formed: Option<&Formed>,
+    metal: &Metal,
+    profile: &Profile,
+    tool: &Tool,
+    depth: f64,
+) -> f64 {
+    match formed {
+        None => a_priori::expected_pressure(metal, profile, tool, depth),
+        Some(formed) => formed.expected_pressure(metal, profile, tool, depth),
     }
 }
 

@@ -6,7 +6,7 @@ use crate::point::material::Metal;
 use crate::run::a_priori;
 use crate::run::compliance::Compliance;
 use crate::run::discretisation::Discretisation;
-use crate::run::formed::Formed;
+use crate::run::formed::{Formed, expected_pressure};
 use crate::run::problem::{Correction, Goal, Problem, Rules, Units, held_nodes};
 use crate::scene::{AsperityForm, Lateral, Line, LineAsperity, Scene, SceneError, Target, ToolForm};
 use asperity_law::Elastic;
@@ -127,10 +127,8 @@ pub(super) fn prepare_with(
     }
     let row = extent(scene, &profile, &contacts.half_widths, depth);
     let size = automatic_size(&numbers, &profile, &contacts.half_widths).max(3.0 * (row[1] - row[0]));
-    let pressure = match &formed {
-        None => a_priori::expected_pressure(&metal, &profile, &tool, indents),
-        Some(formed) => formed.expected_pressure(&metal, &profile, &tool, 1.0),
-    };
+    // on a surface that was formed `indents` is 1
+    let pressure = expected_pressure(formed.as_ref(), &metal, &profile, &tool, indents);
     let mesh = match mesh {
         Some(mut mesh) => {
             for node in &mut mesh.nodes {

@@ -6,11 +6,10 @@ use crate::body::state::{State, Unloaded};
 use crate::contact::tool::Tool;
 use crate::point::kinematics::Symmetry;
 use crate::point::material::Metal;
-use crate::run::a_priori::expected_pressure;
 use crate::run::compliance::Compliance;
 use crate::run::discretisation::Discretisation;
 use crate::run::equilibrium::Equilibrium;
-use crate::run::formed::Formed;
+use crate::run::formed::{Formed, expected_pressure};
 use crate::scene::{ContactMethod, Lateral};
 use asperity_mesh::Mesh;
 use asperity_mesh::profile::Profile;
@@ -150,10 +149,8 @@ impl Problem {
     /// good as late.
     pub fn penalty_at(&self, travel: f64) -> f64 {
         let depth = travel.max(FIRST_TOUCH);
-        let pressure = |depth| match &self.formed {
-            None => expected_pressure(&self.metal, &self.profile, &self.tool, depth),
-            Some(formed) => formed.expected_pressure(&self.metal, &self.profile, &self.tool, depth),
-        };
+        let formed = self.formed.as_ref();
+        let pressure = |depth| expected_pressure(formed, &self.metal, &self.profile, &self.tool, depth);
         self.penalty * pressure(depth) / (pressure(1.0) * depth)
     }
 
