@@ -63,6 +63,7 @@ impl Mesh {
     }
 
     /// The nodes of cell `cell`.
+    #[inline]
     pub fn cell(&self, cell: usize) -> &[u32] {
         let n = self.kind.nodes();
         &self.cells[cell * n..(cell + 1) * n]

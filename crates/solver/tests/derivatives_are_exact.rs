@@ -153,7 +153,12 @@ fn element<const N: usize>(
                 let mut du: [[f64; 2]; N] =
                     std::array::from_fn(|a| [0, 1].map(|i| amplitude * ((3 * a + 5 * i) as f64).sin()));
                 let weight = volume(symmetry);
-                let start = PointSlice { states: &[old; 4], history: &[remembered; 4], weight: &weight };
+                let start = PointSlice {
+                    updated: None,
+                    states: &[old; 4],
+                    history: &[remembered; 4],
+                    weight: &weight,
+                };
                 let run = |du: &[[f64; 2]; N]| {
                     let x = std::array::from_fn(|a| [reference[a][0] + du[a][0], reference[a][1] + du[a][1]]);
                     let mut out = ElementOutput::new(old);

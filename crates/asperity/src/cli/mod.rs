@@ -21,9 +21,13 @@ pub mod study;
 pub mod terminal;
 pub mod trade;
 
+use crate::error::Error;
 use args::{Cli, Command};
 use clap::{CommandFactory, Parser};
 use std::process::ExitCode;
+
+/// Bytes of the stack of a thread: those of the first thread of a process.
+const STACK: usize = 8 << 20;
 
 /// Reads the arguments, runs the command, gives its exit status.
 pub fn main() -> ExitCode {
@@ -32,11 +36,25 @@ pub fn main() -> ExitCode {
     let _ = miette::set_hook(Box::new(|_| {
         Box::new(miette::MietteHandlerOpts::new().wrap_lines(false).context_lines(1).build())
     }));
-    if let Some(threads) = cli.command.threads() {
-        // fails only where the pool exists already
-        let _ = rayon::ThreadPoolBuilder::new().num_threads(usize::from(threads)).build_global();
+    let threads = cli.command.threads().map_or(0, usize::from);
+    // the command runs on a thread of the pool: one outside would have to be woken whenever the others are done
+    let result = match rayon::ThreadPoolBuilder::new().num_threads(threads).stack_size(STACK).build() {
+        Ok(pool) => pool.install(|| run(&cli.command)),
+        Err(_) => run(&cli.command),
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            let code = failure::exit_code(&error);
+            terminal::complain(failure::report(error).trim_end());
+            code
+        }
     }
-    let result = match &cli.command {
+}
+
+/// Runs `command`.
+fn run(command: &Command) -> Result<(), Error> {
+    match command {
         Command::Crush(args) => crush::crush(args),
         Command::Mesh(args) => mesh::mesh(args),
         Command::Rough(args) => rough::rough(args),
@@ -54,13 +72,5 @@ pub fn main() -> ExitCode {
         }
         Command::Man(args) => manual::man(args, Cli::command()),
         Command::Reference(args) => reference::reference(args, Cli::command()),
-    };
-    match result {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            let code = failure::exit_code(&error);
-            terminal::complain(failure::report(error).trim_end());
-            code
-        }
     }
 }

@@ -2,16 +2,16 @@
 
 use crate::algebra::assemble::Stiffness;
 use crate::algebra::dofs::FIXED;
-use crate::body::discrete_body::{Body, gather};
+use crate::body::discrete_body::Body;
+use crate::body::elements::{Buffers, Motion, Start};
 use crate::body::failure::Failure;
 use crate::body::state::{Points, State, Trial};
 use crate::contact::edge::{EdgeContact, NOTHING};
 use crate::contact::self_contact::Pressed;
-use crate::element::kernel::{ElementContext, ElementOutput, PointSlice};
-use crate::element::{quad4, quad8};
-use crate::point::j2::Tangent;
+use crate::element::kernel::ElementContext;
+use crate::point::j2::{Linearisation, Tangent};
 use crate::point::material::Metal;
-use asperity_mesh::ElementKind;
+use asperity_law::real::Lanes;
 
 /// Which part of the surface is taken to touch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,7 +39,9 @@ pub struct Response {
     pub internal: Vec<[f64; 2]>,
     /// Out-of-balance forces, by the numbers of the unknowns.
     pub residual: Vec<f64>,
-    output: ElementOutput,
+    /// Response of the points of each element; empty where another stress update would give another one.
+    linearised: Vec<Linearisation<Lanes>>,
+    buffers: Buffers,
 }
 
 impl Response {
@@ -53,8 +55,14 @@ impl Response {
             pressed: Vec::new(),
             internal: vec![[0.0; 2]; body.mesh.nodes.len()],
             residual: vec![0.0; body.dofs.count],
-            output: ElementOutput::new(body.material.virgin()),
+            linearised: Vec::with_capacity(body.mesh.cell_count()),
+            buffers: Buffers::new(body),
         }
+    }
+
+    /// The points start elsewhere than they did: the response is no longer that of the trial.
+    pub fn is_outdated(&mut self) {
+        self.linearised.clear();
     }
 
     /// Force on the tool along z, positive in compression.
@@ -95,7 +103,11 @@ impl Body<'_> {
         response: &mut Response,
         stiffness: &mut Stiffness,
     ) -> Result<(), Failure> {
-        self.assemble_elements(&self.material, state, trial, tangent, response, stiffness)?;
+        if response.linearised.is_empty() {
+            self.assemble_elements(&self.material, state, trial, tangent, response, stiffness)?;
+        } else {
+            self.assemble_tangent(state, trial, tangent, response, stiffness)?;
+        }
         self.add_contact(state, tangent, response, stiffness);
         Ok(())
     }
@@ -131,21 +143,22 @@ impl Body<'_> {
         if tangent != Tangent::None {
             stiffness.clear();
         }
-        let Response { points, yielding, returns, internal, residual, output, .. } = response;
-        residual.fill(0.0);
+        let Response { points, yielding, returns, internal, linearised, buffers, .. } = response;
+        linearised.clear();
         internal.fill([0.0; 2]);
         *returns = 0;
         let context = ElementContext { symmetry: self.symmetry, metal: material, tangent };
-        for (cell, yields) in yielding.iter_mut().enumerate() {
-            let start = trial.start.slice(self, cell);
-            evaluate_cell(self, state, &trial.displacement, &start, cell, &context, output)?;
-            *yields = output.flowing > 0;
+        let motion = Motion { body: self, state, displacement: &trial.displacement, context };
+        let start = Start { points: &trial.start, updated: &[] };
+        motion.evaluate_all(&start, buffers, |cell, output| {
+            yielding[cell] = output.flowing > 0;
             *returns += output.flowing;
             let range = Body::points_of(cell);
             points.states[range.clone()].copy_from_slice(&output.states);
             if let Some(history) = points.history.get_mut(range) {
                 history.copy_from_slice(&output.history);
             }
+            linearised.extend(output.response);
             if tangent != Tangent::None {
                 stiffness.add(cell, &output.stiffness);
             }
@@ -154,7 +167,35 @@ impl Body<'_> {
                 f[0] += output.force[0][a];
                 f[1] += output.force[1][a];
             }
-        }
+        })?;
+        self.balance(response);
+        Ok(())
+    }
+
+    /// Element loop over points that have been updated: stiffness.
+    fn assemble_tangent(
+        &self,
+        state: &State,
+        trial: &Trial,
+        tangent: Tangent,
+        response: &mut Response,
+        stiffness: &mut Stiffness,
+    ) -> Result<(), Failure> {
+        stiffness.clear();
+        let Response { linearised, buffers, returns, .. } = response;
+        *returns = 0;
+        let context = ElementContext { symmetry: self.symmetry, metal: &self.material, tangent };
+        let motion = Motion { body: self, state, displacement: &trial.displacement, context };
+        let start = Start { points: &trial.start, updated: linearised };
+        motion.evaluate_all(&start, buffers, |cell, output| stiffness.add(cell, &output.stiffness))?;
+        self.balance(response);
+        Ok(())
+    }
+
+    /// Begins the residual with the internal forces.
+    fn balance(&self, response: &mut Response) {
+        let Response { internal, residual, .. } = response;
+        residual.fill(0.0);
         for (f, numbers) in internal.iter().zip(&self.dofs.number) {
             for i in 0..2 {
                 if numbers[i] != FIXED {
@@ -162,7 +203,6 @@ impl Body<'_> {
                 }
             }
         }
-        Ok(())
     }
 
     /// Contact loop over the surface edges.
@@ -240,34 +280,8 @@ impl Body<'_> {
 }
 
 /// Position of a node after the displacement from the converged state.
+#[inline(always)]
 pub fn current(position: &[[f64; 2]], displacement: &[[f64; 2]], node: u32) -> [f64; 2] {
     let (x, du) = (position[node as usize], displacement[node as usize]);
     [x[0] + du[0], x[1] + du[1]]
-}
-
-/// Evaluates one element after `displacement`, its points starting from `start`.
-pub fn evaluate_cell(
-    body: &Body<'_>,
-    state: &State,
-    displacement: &[[f64; 2]],
-    start: &PointSlice<'_>,
-    cell: usize,
-    context: &ElementContext<'_>,
-    output: &mut ElementOutput,
-) -> Result<(), Failure> {
-    let nodes = body.mesh.cell(cell);
-    let x = |a: usize| current(&state.position, displacement, nodes[a]);
-    match body.mesh.kind {
-        ElementKind::Quad8 => {
-            let du = gather::<8>(displacement, nodes);
-            let x = std::array::from_fn(x);
-            quad8::evaluate(context, &body.points8, &x, &du, start, output)
-        }
-        ElementKind::Quad4 => {
-            let du = gather::<4>(displacement, nodes);
-            let x = std::array::from_fn(x);
-            quad4::evaluate(context, &body.points4, &x, &du, start, output)
-        }
-    }
-    .map_err(|cause| Failure::Element { cell, cause })
 }

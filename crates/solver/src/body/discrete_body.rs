@@ -11,6 +11,7 @@ use crate::point::kinematics::{ShapePoint, Symmetry, motion};
 use crate::point::material::Metal;
 use asperity_law::real::Lanes;
 use asperity_mesh::{ElementKind, Mesh};
+use pulp::Arch;
 
 /// A tool in contact with the surface of the body.
 #[derive(Clone, Debug, PartialEq)]
@@ -47,6 +48,8 @@ pub struct Body<'m> {
     pub points8: ShapePoint<8, Lanes>,
     /// Integration points of the four-node element.
     pub points4: ShapePoint<4, Lanes>,
+    /// The vector registers of the processor.
+    pub(super) arch: Arch,
 }
 
 impl<'m> Body<'m> {
@@ -90,7 +93,7 @@ impl<'m> Body<'m> {
             };
             volume.extend(volumes.0);
         }
-        Ok(Body { mesh, symmetry, material, contact, dofs, volume, points8, points4 })
+        Ok(Body { mesh, symmetry, material, contact, dofs, volume, points8, points4, arch: Arch::new() })
     }
 
     /// The edges of the free surface with the nodes of the mesh at `nodes`, in its order; none without a tool.
@@ -112,6 +115,12 @@ impl<'m> Body<'m> {
 }
 
 /// The node values of a cell.
+#[inline(always)]
 pub fn gather<const N: usize>(values: &[[f64; 2]], cell: &[u32]) -> [[f64; 2]; N] {
-    std::array::from_fn(|a| values[cell[a] as usize])
+    // `array::from_fn` is not inlined into code for other registers than the program's
+    let mut out = [[0.0; 2]; N];
+    for (out, &node) in out.iter_mut().zip(cell) {
+        *out = values[node as usize];
+    }
+    out
 }

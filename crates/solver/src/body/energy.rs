@@ -1,12 +1,18 @@
 //! Energies and contact sums of a converged increment.
 
 use crate::contact::edge::EdgeContact;
+use crate::element::kernel::POINTS;
 use crate::point::kinematics::Symmetry;
 use crate::point::material::{Metal, PointState, elastic_energy};
 
 /// Stored elastic energy Σ ψ(ε_e) dV₀ over all points.
 pub fn stored(metal: &Metal, states: &[PointState], volume: &[f64]) -> f64 {
-    states.iter().zip(volume).map(|(state, v)| v * elastic_energy(&metal.elastic, &state.stretch)).sum()
+    let mut sum = 0.0;
+    for (states, volume) in states.chunks_exact(POINTS).zip(volume.chunks_exact(POINTS)) {
+        let energy = elastic_energy(&metal.elastic, &PointState::side_by_side(states).stretch);
+        volume.iter().zip(energy.0).for_each(|(v, energy)| sum += v * energy);
+    }
+    sum
 }
 
 /// ∫F dh between two states of a loading or unloading path, exact for F = (a + b h)^2.

@@ -4,9 +4,10 @@ use crate::body::assembly::Response;
 use crate::body::discrete_body::Body;
 use crate::body::flow::Flows;
 use crate::body::state::{Points, State, Trial};
+use crate::element::kernel::POINTS;
 use crate::point::bdf2::{PlasticIncrement, bounded, extrapolate, extrapolation_factor, share};
 use crate::point::kinematic_hardening;
-use crate::point::material::volume_ratio;
+use crate::point::material::{PointState, volume_ratio};
 
 /// Ĵ is kept within this share of J: an increment that overturns the volume change of the last one is no smooth path.
 const LARGEST_CHANGE: f64 = 0.1;
@@ -33,8 +34,9 @@ impl State {
             start.yield_scale =
                 now + (bounded(ratio) * change).clamp(-LARGEST_CHANGE * now, LARGEST_CHANGE * now);
         }
-        for q in 0..self.plastic.len() {
-            self.extrapolate_point(body, q, &self.plastic[q].times(trial.factor), &mut trial.start);
+        for (cell, last) in self.plastic.chunks_exact(POINTS).enumerate() {
+            let flowed = std::array::from_fn(|i| last[i].times(trial.factor));
+            self.extrapolate_cell(body, cell, &flowed, &mut trial.start);
         }
     }
 
@@ -61,26 +63,37 @@ impl State {
             let found = flows
                 .find(self, trial, response, cell)
                 .and_then(|()| flows.backward_euler(self, trial, cell));
-            for (i, q) in range.enumerate() {
-                let flowed = match &found {
-                    Ok(euler) => share(trial.factor, &self.plastic[q], &flows.flow[i], &euler[i]),
-                    Err(_) => PlasticIncrement::NONE,
-                };
-                self.extrapolate_point(body, q, &flowed, &mut trial.start);
-            }
+            let flowed = std::array::from_fn(|i| match &found {
+                Ok(euler) => share(trial.factor, &last[i], &flows.flow[i], &euler[i]),
+                Err(_) => PlasticIncrement::NONE,
+            });
+            self.extrapolate_cell(body, cell, &flowed, &mut trial.start);
         }
     }
 
-    fn extrapolate_point(&self, body: &Body<'_>, q: usize, flowed: &PlasticIncrement, start: &mut Points) {
-        let scale = start.states[q].yield_scale;
-        let state = &self.points.states[q];
-        match self.points.history.get(q) {
-            None => start.states[q] = extrapolate(&body.material, state, flowed),
-            Some(history) => {
-                (start.states[q], start.history[q]) =
-                    kinematic_hardening::extrapolate(&body.material, state, history, flowed);
+    /// Starts the points of `cell` from the converged state with `flowed` added.
+    fn extrapolate_cell(
+        &self,
+        body: &Body<'_>,
+        cell: usize,
+        flowed: &[PlasticIncrement; POINTS],
+        start: &mut Points,
+    ) {
+        let range = Body::points_of(cell);
+        let (old, new) = (&self.points.states[range.clone()], &mut start.states[range.clone()]);
+        let Some(history) = self.points.history.get(range.clone()) else {
+            let from = PointState::side_by_side(old);
+            let end = extrapolate(&body.material, &from, &PlasticIncrement::side_by_side(flowed));
+            for (i, new) in new.iter_mut().enumerate() {
+                *new = PointState { yield_scale: new.yield_scale, ..end.lane(i) };
             }
+            return;
+        };
+        for (i, q) in range.enumerate() {
+            let scale = new[i].yield_scale;
+            (new[i], start.history[q]) =
+                kinematic_hardening::extrapolate(&body.material, &old[i], &history[i], &flowed[i]);
+            new[i].yield_scale = scale;
         }
-        start.states[q].yield_scale = scale;
     }
 }

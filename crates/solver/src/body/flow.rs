@@ -1,14 +1,15 @@
 //! Plastic flow of the points of an element from the converged state to a trial: as the trial has it, which takes the elastic trial of
 //! the increment, and as backward Euler would have it.
 
-use crate::body::assembly::{Response, evaluate_cell};
+use crate::body::assembly::Response;
 use crate::body::discrete_body::Body;
+use crate::body::elements::Motion;
 use crate::body::failure::Failure;
 use crate::body::state::{State, Trial};
 use crate::element::kernel::{ElementContext, ElementOutput, POINTS, PointSlice};
 use crate::point::bdf2::{PlasticIncrement, backward_euler, plastic_increment};
 use crate::point::j2::Tangent;
-use crate::point::kinematic_hardening;
+use crate::point::kinematic_hardening::{self, History};
 use crate::point::material::{Metal, PointState, plastic_work};
 use crate::point::tensor::Sym;
 
@@ -50,20 +51,26 @@ impl<'b, 'm> Flows<'b, 'm> {
         let start = state.points.slice(body, cell);
         if start.history.is_empty() {
             let context = ElementContext { symmetry: body.symmetry, metal: elastic, tangent: Tangent::None };
-            evaluate_cell(body, state, &trial.displacement, &start, cell, &context, output)?;
+            let motion = Motion { body, state, displacement: &trial.displacement, context };
+            motion.evaluate(&start, cell, output)?;
         }
-        for (i, q) in Body::points_of(cell).enumerate() {
-            let (old, new) = (&state.points.states[q], &response.points.states[q]);
-            (flow[i], work[i]) = match (state.points.history.get(q), response.points.history.get(q)) {
-                (Some(before), Some(after)) => {
-                    kinematic_hardening::plastic_increment(&body.material, (old, before), (new, after))
-                }
-                _ => {
-                    let flow = plastic_increment(&output.states[i].stretch, old, new)
-                        .map_err(|cause| Failure::Element { cell, cause })?;
-                    (flow, plastic_work(hardening, old, new))
-                }
-            };
+        let end = response.points.slice(body, cell);
+        if let (Some(before), Some(after)) =
+            (start.history.first_chunk(), end.history.first_chunk::<POINTS>())
+        {
+            let before: &[History; POINTS] = before;
+            for i in 0..POINTS {
+                let (old, new) = ((&start.states[i], &before[i]), (&end.states[i], &after[i]));
+                (flow[i], work[i]) = kinematic_hardening::plastic_increment(&body.material, old, new);
+            }
+            return Ok(());
+        }
+        let [trial, old, new] = [&output.states[..], start.states, end.states].map(PointState::side_by_side);
+        let found = plastic_increment(&trial.stretch, &old, &new)
+            .map_err(|cause| Failure::Element { cell, cause })?;
+        for i in 0..POINTS {
+            flow[i] = found.lane(i);
+            work[i] = plastic_work(hardening, &start.states[i], &end.states[i]);
         }
         Ok(())
     }
@@ -90,14 +97,17 @@ impl<'b, 'm> Flows<'b, 'm> {
             let context =
                 ElementContext { symmetry: body.symmetry, metal: &body.material, tangent: Tangent::None };
             let start = PointSlice { states: &states, ..state.points.slice(body, cell) };
-            evaluate_cell(body, state, &trial.displacement, &start, cell, &context, output)?;
+            let motion = Motion { body, state, displacement: &trial.displacement, context };
+            motion.evaluate(&start, cell, output)?;
             for i in 0..POINTS {
                 euler[i] = std::array::from_fn(|k| output.history[i].plastic[k] - before[i].plastic[k]);
             }
         } else {
-            for i in 0..POINTS {
-                euler[i] = backward_euler(&body.material, &states[i], &output.states[i].stretch)
-                    .map_err(|cause| Failure::Element { cell, cause })?;
+            let [old, trial] = [&states, &output.states].map(|of| PointState::side_by_side(of));
+            let found = backward_euler(&body.material, &old, &trial.stretch)
+                .map_err(|cause| Failure::Element { cell, cause })?;
+            for (i, euler) in euler.iter_mut().enumerate() {
+                *euler = found.map(|e| e.0[i]);
             }
         }
         Ok(euler)

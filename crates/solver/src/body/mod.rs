@@ -8,6 +8,8 @@ pub mod state;
 
 pub mod assembly;
 
+mod elements;
+
 mod flow;
 
 mod extrapolation;

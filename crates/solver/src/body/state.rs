@@ -33,6 +33,7 @@ impl Points {
             states: &self.states[range.clone()],
             weight: &body.volume[range.clone()],
             history: self.history.get(range).unwrap_or_default(),
+            updated: None,
         }
     }
 }

@@ -1,12 +1,12 @@
 //! Shared by both quadrilaterals: the arrays they fill and the two kernels that fill them.
 
 use crate::point::failure::Failure;
-use crate::point::j2::{self, PointUpdate, Tangent};
+use crate::point::j2::{self, Linearisation, PointUpdate, Tangent};
 use crate::point::kinematic_hardening::{self, History};
 use crate::point::kinematics::Symmetry;
 use crate::point::material::{Metal, PointState};
 use crate::point::tensor::{Gradient, GradientForm, Sym};
-use asperity_law::real::{Lanes, Real};
+use asperity_law::real::{Lanes, Mask, Real};
 
 /// Integration points of every element: 2 × 2.
 pub const POINTS: usize = 4;
@@ -26,7 +26,8 @@ pub struct ElementContext<'a> {
 }
 
 impl ElementContext<'_> {
-    /// Updates the points of the element from their `start` by f - I = `increment`; their history variables go to `after`.
+    /// Stress and tangent of the points of the element, updated from their `start` by f - I = `increment`; what they are then goes to
+    /// `out`. Points that have been updated by this increment already only give the tangent that is wanted now.
     ///
     /// # Errors
     /// A strain without a logarithm.
@@ -35,12 +36,24 @@ impl ElementContext<'_> {
         &self,
         start: &PointSlice<'_>,
         increment: &Gradient<Lanes>,
-        after: &mut [History; POINTS],
-    ) -> Result<PointUpdate<Lanes>, Failure> {
+        out: &mut ElementOutput,
+    ) -> Result<(Sym<Lanes>, GradientForm<Lanes>), Failure> {
         if self.metal.has_back_stress() {
-            return self.update_by_point(start, increment, after);
+            let end = self.update_by_point(start, increment, &mut out.history)?;
+            out.note(&end.state, end.plastic);
+            return Ok((end.stress, end.tangent));
         }
-        j2::update(self.metal, &PointState::side_by_side(start.states), increment, self.tangent)
+        let response = match start.updated {
+            Some(updated) => *updated,
+            None => {
+                let end =
+                    j2::return_to_yield(self.metal, &PointState::side_by_side(start.states), increment)?;
+                out.note(&end.state, end.plastic);
+                out.response = Some(end.response);
+                end.response
+            }
+        };
+        Ok((response.stress(), response.tangent(self.metal, self.tangent)))
     }
 
     /// The points one after the other: kinematic hardening.
@@ -78,6 +91,8 @@ pub struct PointSlice<'a> {
     pub history: &'a [History],
     /// Their weights: reference volumes.
     pub weight: &'a [f64],
+    /// Their response, if they have been updated by the same increment already.
+    pub updated: Option<&'a Linearisation<Lanes>>,
 }
 
 /// Forces, stiffness and states of one element, with room for eight nodes.
@@ -93,6 +108,8 @@ pub struct ElementOutput {
     pub history: [History; POINTS],
     /// Number of points that yield.
     pub flowing: usize,
+    /// Their response; `None` for a material with a back stress.
+    pub response: Option<Linearisation<Lanes>>,
 }
 
 impl ElementOutput {
@@ -104,16 +121,17 @@ impl ElementOutput {
             states: [state; POINTS],
             history: [History::default(); POINTS],
             flowing: 0,
+            response: None,
         }
     }
 
     /// Takes the states at the end of the increment.
     #[inline(always)]
-    pub fn note(&mut self, end: &PointUpdate<Lanes>) {
+    fn note(&mut self, state: &PointState<Lanes>, plastic: Mask) {
         for q in 0..POINTS {
-            self.states[q] = end.state.lane(q);
+            self.states[q] = state.lane(q);
         }
-        self.flowing = (0..POINTS).filter(|q| Lanes::holds(end.plastic, *q)).count();
+        self.flowing = (0..POINTS).filter(|q| Lanes::holds(plastic, *q)).count();
     }
 
     /// Zeroes what is summed up for `tangent`.
@@ -151,14 +169,17 @@ impl Rows {
 
 /// The stress and the tangent of the point `q`.
 #[inline(always)]
-pub fn response_of(end: &PointUpdate<Lanes>, q: usize) -> (Sym, GradientForm) {
+pub fn response_of(
+    (stresses, tangents): &(Sym<Lanes>, GradientForm<Lanes>),
+    q: usize,
+) -> (Sym, GradientForm) {
     let (mut stress, mut form) = ([0.0; 4], [[0.0; 5]; 5]);
     for i in 0..4 {
-        stress[i] = end.stress[i].0[q];
+        stress[i] = stresses[i].0[q];
     }
     for i in 0..5 {
         for j in 0..5 {
-            form[i][j] = end.tangent[i][j].0[q];
+            form[i][j] = tangents[i][j].0[q];
         }
     }
     (stress, form)

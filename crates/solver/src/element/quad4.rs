@@ -35,6 +35,7 @@ pub fn points() -> [ShapePoint<4>; POINTS] {
 ///
 /// # Errors
 /// A point that fails, an element that turns inside out.
+#[inline(always)]
 pub fn evaluate(
     context: &ElementContext<'_>,
     points: &ShapePoint<4, Lanes>,
@@ -58,7 +59,7 @@ pub fn evaluate(
     for i in [0, 3, 4] {
         increment[i] += s1;
     }
-    let end = context.update(start, &increment, &mut out.history)?;
+    let end = context.update(start, &increment, out)?;
     let mut total_pressure = 0.0; // ∫ ⅓ tr τ dV₀
     for q in 0..POINTS {
         let rows = Rows::new(&m.rows, q);
@@ -83,17 +84,18 @@ pub fn evaluate(
     if context.tangent != Tangent::None {
         add_volume_stiffness(out, &m, &mean, current, total_pressure);
     }
-    out.note(&end);
     Ok(())
 }
 
 /// The sum over the points.
+#[inline(always)]
 fn sum(of: Lanes) -> f64 {
     of.0.iter().sum()
 }
 
 /// Adds l̄ᵀ A l̄ and the part of τ f̄ᵀ : δδf̄ that belongs to one point:
 /// p (∇N_a : ∇N_bᵀ) + 3p m_a m_b + m_a (τ:∇N_b) + (τ:∇N_a) m_b, p = ⅓ tr τ.
+#[inline(always)]
 fn add_point_stiffness(
     out: &mut ElementOutput,
     rows: &Rows,
@@ -131,6 +133,7 @@ fn add_point_stiffness(
 }
 
 /// ∇N : ∇Nᵀ of unit displacements (node a along i) and (node b along j).
+#[inline(always)]
 fn transposed_product(rows: &Rows, i: usize, a: usize, j: usize, b: usize) -> f64 {
     match (i, j) {
         (0, 0) => rows.r[a] * rows.r[b] + rows.hoop[a] * rows.hoop[b],
@@ -141,6 +144,7 @@ fn transposed_product(rows: &Rows, i: usize, a: usize, j: usize, b: usize) -> f6
 }
 
 /// Adds P (δδv/v - b̄_a b̄_b), P = ∫⅓ tr τ dV₀ and δδv = ∫ (b_a b_b - ∇N_a : ∇N_bᵀ) dv: the second variation of ln θ.
+#[inline(always)]
 fn add_volume_stiffness(
     out: &mut ElementOutput,
     motion: &PointMotion<4, Lanes>,

@@ -43,6 +43,7 @@ pub fn points() -> [ShapePoint<8>; POINTS] {
 ///
 /// # Errors
 /// A point that fails, an element that turns inside out.
+#[inline(always)]
 pub fn evaluate(
     context: &ElementContext<'_>,
     points: &ShapePoint<8, Lanes>,
@@ -53,7 +54,7 @@ pub fn evaluate(
 ) -> Result<(), Failure> {
     out.clear(context.tangent);
     let motion = motion(points, x, du, context.symmetry)?;
-    let end = context.update(start, &motion.increment, &mut out.history)?;
+    let end = context.update(start, &motion.increment, out)?;
     for q in 0..POINTS {
         let rows = Rows::new(&motion.rows, q);
         let (stress, form) = response_of(&end, q);
@@ -62,6 +63,5 @@ pub fn evaluate(
             add_stiffness(&mut out.stiffness, 8, &rows, &form, start.weight[q]);
         }
     }
-    out.note(&end);
     Ok(())
 }

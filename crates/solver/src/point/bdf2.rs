@@ -18,14 +18,37 @@
 use crate::point::failure::Failure;
 use crate::point::material::{Metal, PointState, Spectral};
 use crate::point::tensor::{Sym, contract, trace};
+use asperity_law::real::{Lanes, Real};
 
-/// The plastic increment of a point in the last increment of the load.
+/// The plastic increment of a point in the last increment of the load, or of several side by side.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PlasticIncrement {
+pub struct PlasticIncrement<T = f64> {
     /// Plastic logarithmic strain of the increment, in the frame of its end.
-    pub strain: Sym,
+    pub strain: Sym<T>,
     /// Increment of accumulated plastic strain.
-    pub accumulated: f64,
+    pub accumulated: T,
+}
+
+impl PlasticIncrement<Lanes> {
+    /// Four points side by side.
+    #[inline(always)]
+    pub fn side_by_side(points: &[PlasticIncrement; 4]) -> Self {
+        let component = |i: usize| Lanes::each(|q| points[q].strain[i]);
+        PlasticIncrement {
+            strain: [component(0), component(1), component(2), component(3)],
+            accumulated: Lanes::each(|q| points[q].accumulated),
+        }
+    }
+
+    /// The point in `lane`.
+    #[inline(always)]
+    pub fn lane(&self, lane: usize) -> PlasticIncrement {
+        let e = &self.strain;
+        PlasticIncrement {
+            strain: [e[0].0[lane], e[1].0[lane], e[2].0[lane], e[3].0[lane]],
+            accumulated: self.accumulated.0[lane],
+        }
+    }
 }
 
 impl PlasticIncrement {
@@ -62,14 +85,15 @@ pub fn extrapolation_factor(ratio: f64) -> f64 {
 ///
 /// # Errors
 /// Either is not positive definite.
-pub fn plastic_increment(
-    trial: &Sym,
-    old: &PointState,
-    end: &PointState,
-) -> Result<PlasticIncrement, Failure> {
-    let logarithm = |b: &Sym| Spectral::of(b).map(|s| s.tensor(&s.log_strain));
-    let (from, to) = (logarithm(trial)?, logarithm(&end.stretch)?);
-    let strain: Sym = std::array::from_fn(|i| from[i] - to[i]);
+#[inline(always)]
+pub fn plastic_increment<T: Real>(
+    trial: &Sym<T>,
+    old: &PointState<T>,
+    end: &PointState<T>,
+) -> Result<PlasticIncrement<T>, Failure> {
+    let (from, to) = (Spectral::of(trial)?, Spectral::of(&end.stretch)?);
+    let (from, to) = (from.tensor(&from.log_strain), to.tensor(&to.log_strain));
+    let strain = [from[0] - to[0], from[1] - to[1], from[2] - to[2], from[3] - to[3]];
     Ok(PlasticIncrement { strain, accumulated: end.plastic_strain - old.plastic_strain })
 }
 
@@ -77,20 +101,30 @@ pub fn plastic_increment(
 ///
 /// # Errors
 /// A trial that is not positive definite.
-pub fn backward_euler(metal: &Metal, old: &PointState, trial: &Sym) -> Result<Sym, Failure> {
+#[inline(always)]
+pub fn backward_euler<T: Real>(
+    metal: &Metal,
+    old: &PointState<T>,
+    trial: &Sym<T>,
+) -> Result<Sym<T>, Failure> {
+    let zero = T::splat(0.0);
     let spectral = Spectral::of(trial)?;
     let mut dev = spectral.tensor(&spectral.log_strain);
     let mean = trace(&dev) / 3.0;
-    dev[..3].iter_mut().for_each(|e| *e -= mean);
-    let (three_g, scale) = (3.0 * metal.elastic.shear_modulus(), old.yield_scale);
-    let strain = (2.0 / 3.0 * contract(&dev, &dev)).sqrt();
+    for e in &mut dev[..3] {
+        *e -= mean;
+    }
+    let (three_g, scale) = (T::splat(3.0 * metal.elastic.shear_modulus()), old.yield_scale);
+    let strain = (contract(&dev, &dev) * (2.0 / 3.0)).sqrt();
     let q = three_g * strain;
-    let Some(hardening) = metal.hardening.as_ref().filter(|_| q > scale * old.yield_stress) else {
-        return Ok([0.0; 4]);
+    let yields = q.above(scale * old.yield_stress);
+    let Some(hardening) = metal.hardening.as_ref().filter(|_| T::any(yields)) else {
+        return Ok([zero; 4]);
     };
     let end = hardening.return_to_yield(q / scale, three_g / scale, old.plastic_strain, old.yield_stress);
-    let share = (end.plastic_strain - old.plastic_strain).max(0.0) / strain;
-    Ok(dev.map(|e| share * e))
+    let flowed = (end.plastic_strain - old.plastic_strain).max(zero);
+    let share = T::select(yields, flowed / strain, zero);
+    Ok([share * dev[0], share * dev[1], share * dev[2], share * dev[3]])
 }
 
 /// The part of `factor` times the `last` plastic increment that may be extrapolated into an increment that flows by `flow` with
@@ -111,28 +145,39 @@ pub fn share(factor: f64, last: &PlasticIncrement, flow: &PlasticIncrement, eule
 }
 
 /// The state an increment starts from: `old` with the plastic increment `flowed` added.
-pub fn extrapolate(metal: &Metal, old: &PointState, flowed: &PlasticIncrement) -> PointState {
-    let Some(hardening) = metal.hardening.as_ref().filter(|_| flowed.accumulated > 0.0) else {
+#[inline(always)]
+pub fn extrapolate<T: Real>(
+    metal: &Metal,
+    old: &PointState<T>,
+    flowed: &PlasticIncrement<T>,
+) -> PointState<T> {
+    let yields = flowed.accumulated.above(T::splat(0.0));
+    let Some(hardening) = metal.hardening.as_ref().filter(|_| T::any(yields)) else {
         return *old;
     };
     let Ok(spectral) = Spectral::of(&old.stretch) else { return *old };
     let strain = spectral.tensor(&spectral.log_strain);
-    let doubled: Sym = std::array::from_fn(|i| 2.0 * (strain[i] - flowed.strain[i]));
-    let plastic_strain = old.plastic_strain + flowed.accumulated;
+    let doubled = |i: usize| (strain[i] - flowed.strain[i]) * 2.0;
+    let stretch = exponential_minus_identity(&[doubled(0), doubled(1), doubled(2), doubled(3)]);
+    let plastic_strain = old.plastic_strain + T::select(yields, flowed.accumulated, T::splat(0.0));
+    let new = |i: usize| T::select(yields, stretch[i], old.stretch[i]);
     PointState {
-        stretch: exponential_minus_identity(&doubled),
+        stretch: [new(0), new(1), new(2), new(3)],
         plastic_strain,
-        yield_stress: hardening.flow(plastic_strain).yield_stress,
+        yield_stress: T::select(yields, hardening.flow(plastic_strain).yield_stress, old.yield_stress),
         ..*old
     }
 }
 
 /// exp(a) - I of a symmetric tensor.
-pub fn exponential_minus_identity(a: &Sym) -> Sym {
-    let (mean, half) = (0.5 * (a[0] + a[1]), 0.5 * (a[0] - a[1]));
-    let radius = half.hypot(a[3]);
-    let direction = if radius > 0.0 { [half / radius, a[3] / radius] } else { [1.0, 0.0] };
-    let frame = Spectral { log_strain: [0.0; 3], double_angle: direction, shear_factor: 1.0 };
+#[inline(always)]
+pub fn exponential_minus_identity<T: Real>(a: &Sym<T>) -> Sym<T> {
+    let (zero, one) = (T::splat(0.0), T::splat(1.0));
+    let (mean, half) = ((a[0] + a[1]) * 0.5, (a[0] - a[1]) * 0.5);
+    let radius = (half * half + a[3] * a[3]).sqrt();
+    let turned = radius.above(zero);
+    let double_angle = [T::select(turned, half / radius, one), T::select(turned, a[3] / radius, zero)];
+    let frame = Spectral { log_strain: [zero; 3], double_angle, shear_factor: one };
     frame.tensor(&[(mean + radius).exp_m1(), (mean - radius).exp_m1(), a[2].exp_m1()])
 }
 

@@ -39,7 +39,32 @@ pub enum Tangent {
     WithoutCompression,
 }
 
-/// Updates a point, or several side by side, from the state `old` by f - I = `increment`.
+/// Where a stress update has led a point, or several side by side.
+#[derive(Clone, Copy, Debug)]
+pub struct Return<T: Real> {
+    /// State at the end of the increment.
+    pub state: PointState<T>,
+    /// Whether the point yielded in the increment.
+    pub plastic: T::Mask,
+    /// Stress there, and what its derivative needs.
+    pub response: Linearisation<T>,
+}
+
+/// The stress of a point, or of several side by side, and what its derivative needs, in the principal frame of the elastic trial.
+#[derive(Clone, Copy, Debug)]
+pub struct Linearisation<T> {
+    frame: Spectral<T>,
+    /// Principal Kirchhoff stresses.
+    tau: [T; 3],
+    /// Share of the trial deviator that is left.
+    left: T,
+    /// Loss of the moduli along the direction of flow.
+    drop: T,
+    /// That direction: the trial deviator over its norm.
+    direction: [T; 3],
+}
+
+/// Updates a point, or several side by side, from the state `old` by f - I = `increment`, and gives the `tangent` that is wanted.
 ///
 /// # Errors
 /// f b fᵀ that is not positive definite.
@@ -50,11 +75,25 @@ pub fn update<T: Real>(
     increment: &Gradient<T>,
     tangent: Tangent,
 ) -> Result<PointUpdate<T>, Failure> {
+    let Return { state, plastic, response } = return_to_yield(metal, old, increment)?;
+    Ok(PointUpdate { state, stress: response.stress(), plastic, tangent: response.tangent(metal, tangent) })
+}
+
+/// Steps 1 to 3 of the update from the state `old` by f - I = `increment`.
+///
+/// # Errors
+/// f b fᵀ that is not positive definite.
+#[inline(always)]
+pub fn return_to_yield<T: Real>(
+    metal: &Metal,
+    old: &PointState<T>,
+    increment: &Gradient<T>,
+) -> Result<Return<T>, Failure> {
     let zero = T::splat(0.0);
     // 1. trial
     let trial = push_forward(increment, &old.stretch);
-    let spectral = Spectral::of(&trial)?;
-    let strain = spectral.log_strain;
+    let frame = Spectral::of(&trial)?;
+    let strain = frame.log_strain;
     // 2. trial stress
     let (g, k) = (metal.elastic.shear_modulus(), metal.elastic.bulk_modulus());
     let volume = strain[0] + strain[1] + strain[2];
@@ -81,40 +120,51 @@ pub fn update<T: Real>(
         for e in &mut elastic {
             *e = ((left * *e + third) * 2.0).exp_m1();
         }
-        let returned = spectral.tensor(&elastic);
+        let returned = frame.tensor(&elastic);
         for i in 0..4 {
             state.stretch[i] = T::select(plastic, returned[i], trial[i]);
         }
         state.plastic_strain =
             T::select(plastic, flow.plastic_strain.max(old.plastic_strain), old.plastic_strain);
         state.yield_stress = T::select(plastic, flow.yield_stress, old.yield_stress);
-        // 2G(left - ĴH/(3G + ĴH)): the loss of the moduli along the direction of plastic flow
+        // 2G(left - ĴH/(3G + ĴH))
         drop = T::select(plastic, (left - slope / (three_g + slope)) * (2.0 * g), zero);
     }
     let (mean, shear) = (volume * k, left * (2.0 * g));
     let tau = [mean + shear * dev[0], mean + shear * dev[1], mean + shear * dev[2]];
-    let stress = spectral.tensor(&tau);
-    // 4. tangent
-    let form = if tangent == Tangent::None {
-        [[zero; 5]; 5]
-    } else {
-        let strained = norm.above(zero);
-        let inverse = T::select(strained, T::splat(1.0) / norm, zero);
-        let n = [dev[0] * inverse, dev[1] * inverse, dev[2] * inverse];
+    let inverse = T::select(norm.above(zero), T::splat(1.0) / norm, zero);
+    let direction = [dev[0] * inverse, dev[1] * inverse, dev[2] * inverse];
+    Ok(Return { state, plastic, response: Linearisation { frame, tau, left, drop, direction } })
+}
+
+impl<T: Real> Linearisation<T> {
+    /// Kirchhoff stress τ.
+    #[inline(always)]
+    pub fn stress(&self) -> Sym<T> {
+        self.frame.tensor(&self.tau)
+    }
+
+    /// Step 4 of the update: the second derivative of the incremental energy with respect to the current displacement gradient.
+    #[inline(always)]
+    pub fn tangent(&self, metal: &Metal, tangent: Tangent) -> GradientForm<T> {
+        let zero = T::splat(0.0);
+        let Linearisation { frame, tau, left, drop, direction } = *self;
+        let geometric = match tangent {
+            Tangent::None => return [[zero; 5]; 5],
+            Tangent::Exact => self.stress(),
+            Tangent::WithoutCompression => {
+                frame.tensor(&[tau[0].max(zero), tau[1].max(zero), tau[2].max(zero)])
+            }
+        };
+        let (g, k) = (metal.elastic.shear_modulus(), metal.elastic.bulk_modulus());
+        let shear = left * (2.0 * g);
         let mut moduli = [[zero; 3]; 3];
         for a in 0..3 {
             for b in 0..3 {
                 let identity = if a == b { 1.0 } else { 0.0 };
-                moduli[a][b] = shear * (identity - 1.0 / 3.0) + k - drop * n[a] * n[b];
+                moduli[a][b] = shear * (identity - 1.0 / 3.0) + k - drop * direction[a] * direction[b];
             }
         }
-        let geometric = match tangent {
-            Tangent::WithoutCompression => {
-                spectral.tensor(&[tau[0].max(zero), tau[1].max(zero), tau[2].max(zero)])
-            }
-            _ => stress,
-        };
-        spectral.tangent(&tau, &moduli, left * g, &geometric)
-    };
-    Ok(PointUpdate { state, stress, plastic, tangent: form })
+        frame.tangent(&tau, &moduli, left * g, &geometric)
+    }
 }

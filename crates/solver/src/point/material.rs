@@ -181,12 +181,13 @@ impl<T: Real> Spectral<T> {
 }
 
 /// Elastic energy per reference volume, ½λ(tr ε)² + G ε:ε, of the state b_e - I.
-pub fn elastic_energy(elastic: &Elastic, stretch: &Sym) -> f64 {
-    let Ok(spectral) = Spectral::of(stretch) else { return f64::NAN };
+#[inline(always)]
+pub fn elastic_energy<T: Real>(elastic: &Elastic, stretch: &Sym<T>) -> T {
+    let Ok(spectral) = Spectral::of(stretch) else { return T::splat(f64::NAN) };
     let e = spectral.log_strain;
     let volume = e[0] + e[1] + e[2];
     let (g, k) = (elastic.shear_modulus(), elastic.bulk_modulus());
-    0.5 * (k - 2.0 / 3.0 * g) * volume * volume + g * (e[0] * e[0] + e[1] * e[1] + e[2] * e[2])
+    volume * volume * (0.5 * (k - 2.0 / 3.0 * g)) + (e[0] * e[0] + e[1] * e[1] + e[2] * e[2]) * g
 }
 
 /// Plastic work per reference volume from the state `old` to `new`, Ĵ∫σ_y dε_p.

@@ -13,13 +13,15 @@ pub type Gradient<T = f64> = [T; 5];
 pub type GradientForm<T = f64> = [[T; 5]; 5];
 
 /// Trace of a symmetric tensor.
-pub fn trace(a: &Sym) -> f64 {
+#[inline(always)]
+pub fn trace<T: Real>(a: &Sym<T>) -> T {
     a[0] + a[1] + a[2]
 }
 
 /// Double contraction a : b.
-pub fn contract(a: &Sym, b: &Sym) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + 2.0 * a[3] * b[3]
+#[inline(always)]
+pub fn contract<T: Real>(a: &Sym<T>, b: &Sym<T>) -> T {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3] * 2.0
 }
 
 /// Von Mises equivalent √(3/2 s:s) of a symmetric tensor.

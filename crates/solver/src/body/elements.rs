@@ -1,0 +1,175 @@
+//! The element loop: every element of a body evaluated, with the widest vector registers of the processor at hand, on several threads
+//! where that pays. What the elements give is summed up in their order, so that the bits depend on neither.
+
+use crate::body::discrete_body::{Body, gather};
+use crate::body::failure::Failure;
+use crate::body::state::{Points, State};
+use crate::element::kernel::{ElementContext, ElementOutput, PointSlice};
+use crate::element::{quad4, quad8};
+use crate::point::j2::Linearisation;
+use asperity_law::real::Lanes;
+use asperity_mesh::ElementKind;
+use pulp::{Simd, WithSimd};
+use rayon::prelude::*;
+
+/// Elements of one task.
+const TASK: usize = 16;
+
+/// Elements that several threads evaluate while one sums up as many.
+const ROUND: usize = 128;
+
+/// Elements from which several threads pay: for a thread of the pool, and for one outside, which sleeps until a thread of the pool
+/// has woken it, round after round.
+const WORTH_THREADS: [usize; 2] = [400, 4000];
+
+/// What elements start from: the motion of the nodes, the points, the material.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Motion<'a, 'm> {
+    pub body: &'a Body<'m>,
+    /// Node positions at the start of the increment.
+    pub state: &'a State,
+    /// Displacements of the nodes from there.
+    pub displacement: &'a [[f64; 2]],
+    pub context: ElementContext<'a>,
+}
+
+/// What the points of all elements start from.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Start<'a> {
+    pub points: &'a Points,
+    /// The response of the points of each element, if they have been updated by the same increment already; else nothing.
+    pub updated: &'a [Linearisation<Lanes>],
+}
+
+/// Elements from `first` on, one for each output.
+struct Evaluation<'a, 'm, F> {
+    motion: &'a Motion<'a, 'm>,
+    /// The points that an element starts from.
+    start: F,
+    first: usize,
+    outputs: &'a mut [ElementOutput],
+}
+
+impl<'a, F: Fn(usize) -> PointSlice<'a>> WithSimd for Evaluation<'_, '_, F> {
+    type Output = Result<(), Failure>;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> Result<(), Failure> {
+        let Motion { body, state, displacement, context } = self.motion;
+        for (cell, output) in (self.first..).zip(self.outputs) {
+            let nodes = body.mesh.cell(cell);
+            let start = (self.start)(cell);
+            match body.mesh.kind {
+                ElementKind::Quad8 => {
+                    let [x, du] = moved::<8>(&state.position, displacement, nodes);
+                    quad8::evaluate(context, &body.points8, &x, &du, &start, output)
+                }
+                ElementKind::Quad4 => {
+                    let [x, du] = moved::<4>(&state.position, displacement, nodes);
+                    quad4::evaluate(context, &body.points4, &x, &du, &start, output)
+                }
+            }
+            .map_err(|cause| Failure::Element { cell, cause })?;
+        }
+        Ok(())
+    }
+}
+
+/// Current positions of the nodes of a cell, and their displacements.
+#[inline(always)]
+fn moved<const N: usize>(
+    position: &[[f64; 2]],
+    displacement: &[[f64; 2]],
+    nodes: &[u32],
+) -> [[[f64; 2]; N]; 2] {
+    let (mut x, du) = (gather::<N>(position, nodes), gather::<N>(displacement, nodes));
+    for (x, du) in x.iter_mut().zip(&du) {
+        x[0] += du[0];
+        x[1] += du[1];
+    }
+    [x, du]
+}
+
+impl Motion<'_, '_> {
+    /// Evaluates the element `cell`, its points starting from `start`.
+    ///
+    /// # Errors
+    /// An integration point that cannot be updated.
+    pub fn evaluate(
+        &self,
+        start: &PointSlice<'_>,
+        cell: usize,
+        output: &mut ElementOutput,
+    ) -> Result<(), Failure> {
+        let outputs = std::slice::from_mut(output);
+        self.body.arch.dispatch(Evaluation { motion: self, start: |_| *start, first: cell, outputs })
+    }
+
+    /// Evaluates the elements from `first` on, one for each of the `outputs`.
+    fn evaluate_some(
+        &self,
+        start: &Start<'_>,
+        first: usize,
+        outputs: &mut [ElementOutput],
+    ) -> Result<(), Failure> {
+        let start =
+            |cell| PointSlice { updated: start.updated.get(cell), ..start.points.slice(self.body, cell) };
+        self.body.arch.dispatch(Evaluation { motion: self, start, first, outputs })
+    }
+
+    /// Evaluates all elements and hands each in its order to `take`. `buffers` are work space.
+    ///
+    /// # Errors
+    /// The first element with an integration point that cannot be updated.
+    pub fn evaluate_all(
+        &self,
+        start: &Start<'_>,
+        buffers: &mut Buffers,
+        mut take: impl FnMut(usize, &ElementOutput) + Send,
+    ) -> Result<(), Failure> {
+        let cells = self.body.mesh.cell_count();
+        let outside = usize::from(rayon::current_thread_index().is_none());
+        let threads = cells >= WORTH_THREADS[outside] && rayon::current_num_threads() > 1;
+        let Buffers([now, before]) = buffers;
+        if !threads {
+            let outputs = &mut now[..TASK];
+            for first in (0..cells).step_by(TASK) {
+                let count = TASK.min(cells - first);
+                self.evaluate_some(start, first, &mut outputs[..count])?;
+                (first..).zip(&outputs[..count]).for_each(|(cell, output)| take(cell, output));
+            }
+            return Ok(());
+        }
+        let mut evaluated = 0..0;
+        for first in (0..cells).step_by(ROUND) {
+            let round = first..cells.min(first + ROUND);
+            let outputs = &mut now[..round.len()];
+            let (_, outcome) = rayon::join(
+                || evaluated.clone().zip(&*before).for_each(|(cell, output)| take(cell, output)),
+                || {
+                    let tasks = outputs.par_chunks_mut(TASK).enumerate();
+                    let outcomes =
+                        tasks.map(|(i, outputs)| self.evaluate_some(start, first + i * TASK, outputs));
+                    outcomes.reduce(|| Ok(()), Result::and)
+                },
+            );
+            outcome?;
+            std::mem::swap(now, before);
+            evaluated = round;
+        }
+        evaluated.zip(&*before).for_each(|(cell, output)| take(cell, output));
+        Ok(())
+    }
+}
+
+/// Work space of the element loop.
+#[derive(Clone, Debug)]
+pub(super) struct Buffers([Vec<ElementOutput>; 2]);
+
+impl Buffers {
+    /// For the elements of `body`.
+    pub fn new(body: &Body<'_>) -> Buffers {
+        let length = if body.mesh.cell_count() < WORTH_THREADS[0] { [TASK, 0] } else { [ROUND; 2] };
+        Buffers(length.map(|length| vec![ElementOutput::new(body.material.virgin()); length]))
+    }
+}
