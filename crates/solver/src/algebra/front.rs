@@ -68,6 +68,16 @@ fn fma<const FUSED: bool>(a: f64, b: f64, c: f64) -> f64 {
     if FUSED { a.mul_add(b, c) } else { a * b + c }
 }
 
+/// a·b + c, number by number.
+#[inline(always)]
+fn fma_each<const FUSED: bool>(a: &[f64; LANES], b: &[f64; LANES], c: &[f64; LANES]) -> [f64; LANES] {
+    let mut out = *c;
+    for ((out, &a), &b) in out.iter_mut().zip(a).zip(b) {
+        *out = fma::<FUSED>(a, b, *out);
+    }
+    out
+}
+
 /// y ← y + a x.
 #[inline(always)]
 fn axpy<const FUSED: bool>(y: &mut [f64], a: f64, x: &[f64]) {
@@ -285,10 +295,12 @@ struct Backward<'a>(Solve<'a>);
 #[inline(always)]
 fn columns(size: Size, panel: &[f64], start: usize, row: usize) -> [&[f64]; TILE] {
     let column = size.panel_column();
-    std::array::from_fn(|p| {
+    let mut out = [panel; TILE];
+    for (p, out) in out.iter_mut().enumerate() {
         let p = (start + p).min(size.pivots - 1);
-        &panel[p * column + row..(p + 1) * column]
-    })
+        *out = &panel[p * column + row..(p + 1) * column];
+    }
+    out
 }
 
 impl Forward<'_> {
@@ -329,10 +341,10 @@ impl Backward<'_> {
             let mut row = column - end;
             for y in known {
                 row -= LANES;
+                let Some(y) = y.first_chunk::<LANES>() else { break };
                 for (sums, l) in sums.iter_mut().zip(&columns) {
-                    for ((sum, &l), &y) in sums.iter_mut().zip(&l[row..row + LANES]).zip(y) {
-                        *sum = fma::<FUSED>(l, y, *sum);
-                    }
+                    let Some(l) = l[row..].first_chunk::<LANES>() else { break };
+                    *sums = fma_each::<FUSED>(l, y, sums);
                 }
             }
             for j in (start..end).rev() {
