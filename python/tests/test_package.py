@@ -337,13 +337,6 @@ def test_a_metal_is_identified_from_two_cones(tmp_path: pathlib.Path) -> None:
         asperity.identify({**fit, "material": {**fit["material"], "yield_stress": ["2 GPa", "1 GPa"]}})
 
 
-def test_an_old_processor_is_refused_by_name() -> None:
-    from asperity import _processor
-
-    assert _processor.missing("sse2 avx avx2 fma bmi1 f16c movbe") == ["bmi2"]
-    _processor.check()
-
-
 def test_the_scripts_of_the_front_page_run(tmp_path: pathlib.Path, monkeypatch: pytest.MonkeyPatch) -> None:
     matplotlib = pytest.importorskip("matplotlib")
     pytest.importorskip("pandas")

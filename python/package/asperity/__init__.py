@@ -15,19 +15,15 @@ Every function computes in a thread of its own without the interpreter's lock, e
 function of the share that is done (0 to 1) and a text.  What is wrong with a scene is an :class:`InputError` that names its key.
 """
 
-from . import _processor
-
-_processor.check()
-
-from ._asperity import (  # noqa: E402
+from ._asperity import (
     InputError,
     RoughScene,
     Scene,
     UnfinishedError,
     __version__,
 )
-from ._functions import calibrate, crush, extract, identify, press, study, trade  # noqa: E402
-from ._results import (  # noqa: E402
+from ._functions import calibrate, crush, extract, identify, press, study, trade
+from ._results import (
     Calibration,
     Crush,
     Extraction,

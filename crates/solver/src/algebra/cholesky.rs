@@ -29,7 +29,7 @@ pub struct Operations {
 
 /// Symbolic analysis, factor values and work space of one pattern.
 pub struct Factor {
-    arch: Arch,
+    pub(crate) arch: Arch,
     tree: FrontTree,
     /// Numbers of every part of the tree.
     parts: Vec<Numbers>,

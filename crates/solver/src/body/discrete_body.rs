@@ -49,7 +49,7 @@ pub struct Body<'m> {
     /// Integration points of the four-node element.
     pub points4: ShapePoint<4, Lanes>,
     /// The vector registers of the processor.
-    pub(super) arch: Arch,
+    pub(crate) arch: Arch,
 }
 
 impl<'m> Body<'m> {

@@ -42,6 +42,8 @@ pub struct Counters {
     pub factorisations: usize,
     /// Seconds in assembly, contact included.
     pub assembly_s: f64,
+    /// Those of the assemblies with tangent.
+    pub tangent_s: f64,
     /// Seconds in factorisations.
     pub factor_s: f64,
     /// Seconds in triangular solves.
@@ -137,6 +139,12 @@ impl<'m> Equilibrium<'m> {
     /// The body.
     pub fn body(&self) -> &Body<'m> {
         &self.body
+    }
+
+    /// From now on without the vector registers of the processor.
+    #[cfg(test)]
+    pub(crate) fn on_any_processor(&mut self) {
+        (self.body.arch, self.factor.arch) = (pulp::Arch::Scalar, pulp::Arch::Scalar);
     }
 
     /// The converged state.
@@ -331,7 +339,9 @@ impl<'m> Equilibrium<'m> {
         body.assemble_again(state, trial, tangent, response, stiffness)?;
         self.counters.assemblies += 1;
         self.counters.returns += self.response.returns;
-        self.counters.assembly_s += clock.elapsed().as_secs_f64();
+        let seconds = clock.elapsed().as_secs_f64();
+        self.counters.assembly_s += seconds;
+        self.counters.tangent_s += seconds;
         Ok(())
     }
 
@@ -404,7 +414,9 @@ impl System for Equilibrium<'_> {
         self.counters.assemblies += usize::from(self.has_tangent);
         self.counters.residuals += usize::from(!self.has_tangent);
         self.counters.returns += self.response.returns;
-        self.counters.assembly_s += clock.elapsed().as_secs_f64();
+        let seconds = clock.elapsed().as_secs_f64();
+        self.counters.assembly_s += seconds;
+        self.counters.tangent_s += if self.has_tangent { seconds } else { 0.0 };
         let residual = self.response.residual.iter().map(|r| r * r).sum::<f64>().sqrt();
         // forces of the fixed components and of the tool, and the largest load so far (the load itself goes to 0)
         let mut reaction = 0.0;

@@ -1,0 +1,217 @@
+//! What runs cost, beside the bounds that were set and beside the floor of their arithmetic; and where the time goes.
+//!
+//! `cargo run --release -p asperity-verification --example speed [-- --out FILE]`; the tables are `verification/results/speed.md`.
+//! Seconds are the least of several runs in one process, on as many threads as told; what compares two of them is measured side by
+//! side. The floor is that of [`asperity_verification::roofline`]: every iteration with a new tangent and every point yielding.
+
+use asperity_calibration::run::solve;
+use asperity_calibration::sweep::Sweep;
+use asperity_mesh::ElementKind;
+use asperity_solver::algebra::newton::System;
+use asperity_solver::element::kernel::POINTS;
+use asperity_solver::run::load_path::Path;
+use asperity_solver::run::problem::{Goal, Problem};
+use asperity_solver::run::simulate::simulate;
+use asperity_solver::scene::{Accuracy, ElementChoice, Scene};
+use asperity_verification::report::{Report, timed};
+use asperity_verification::roofline::Roofline;
+use asperity_verification::single_asperity::{crush, prepared, scene};
+use rayon::prelude::*;
+use std::error::Error;
+use std::ops::ControlFlow;
+use std::process::Command;
+use std::time::Duration;
+
+/// Levels with the runs of which the quickest counts.
+const LEVELS: [(&str, Accuracy, usize); 3] = [
+    ("draft", Accuracy::Draft, 5),
+    ("standard", Accuracy::Standard, 5),
+    ("reference", Accuracy::Reference, 2),
+];
+
+/// Elements across the contact of meshes of some 76,000 and 437,000 unknowns.
+const FINE: [usize; 2] = [272, 710];
+
+/// `work` on so many threads.
+fn on<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> Result<T, rayon::ThreadPoolBuildError> {
+    Ok(rayon::ThreadPoolBuilder::new().num_threads(threads).build()?.install(work))
+}
+
+/// The least seconds of `repeats` runs of `scene`.
+fn least(scene: &Scene, repeats: usize) -> f64 {
+    (0..repeats).map(|_| timed(|| crush(scene)).1).fold(f64::INFINITY, f64::min)
+}
+
+/// Seconds of an iteration of `problem` at the floor.
+fn floor_of(problem: &Problem, floor: &Roofline) -> Result<f64, Box<dyn Error>> {
+    let operations = Path::new(problem)?.model.operations();
+    Ok(floor.iteration(problem.mesh.kind, problem.mesh.cell_count() * POINTS, operations))
+}
+
+/// A row of the profile: unknowns, iterations and seconds over the floor; then the shares of its parts in the time of the run.
+fn profile(
+    name: &str,
+    accuracy: Accuracy,
+    element: ElementChoice,
+    repeats: usize,
+    floor: &Roofline,
+) -> Result<(String, f64), Box<dyn Error>> {
+    let mut scene = scene(accuracy)?;
+    scene.numerics.element = Some(element);
+    let whole = least(&scene, repeats);
+    let (problem, meshing) = timed(|| prepared(&scene));
+    let problem = problem?;
+    let (path, analysis) = timed(|| Path::new(&problem));
+    drop(path?);
+    let (run, main) = timed(|| simulate(&problem, 0, &mut |_| ControlFlow::Continue(())));
+    let run = run?;
+    let (c, s) = (run.counters, &run.summary);
+    let over = whole / (s.newton_iterations as f64 * floor_of(&problem, floor)?);
+    let residuals = c.assembly_s - c.tangent_s;
+    let rest = main - analysis - c.assembly_s - c.factor_s - c.solve_s;
+    let shares =
+        [meshing + analysis, residuals, c.tangent_s, c.factor_s, c.solve_s, rest, whole - main - meshing]
+            .map(|part| format!("{:.0}", 100.0 * part / whole))
+            .join(" | ");
+    let kind = if problem.mesh.kind == ElementKind::Quad8 { "q8r" } else { "q4" };
+    Ok((
+        format!(
+            "| `{name}` | {kind} | {} | {} | {} | {} | {shares} | {over:.1} | {whole:.3} |",
+            s.dofs,
+            s.newton_iterations,
+            c.assemblies + c.residuals,
+            c.factorisations
+        ),
+        over,
+    ))
+}
+
+/// A loading of four steps on a mesh of some 76,000 unknowns: unknowns, seconds.
+fn loading(elements: usize) -> Result<(usize, f64), Box<dyn Error + Send + Sync>> {
+    let mut scene = scene(Accuracy::Reference)?;
+    scene.numerics.elements_in_contact = Some(elements);
+    let mut problem = prepared(&scene)?;
+    (problem.goal, problem.numbers.steps) = (Goal::Depth(0.01), 4);
+    let mut path = Path::new(&problem)?;
+    path.settings.tolerance = 1e-5;
+    let (end, seconds) = timed(|| path.load(&mut |_, _| true));
+    end?;
+    Ok((path.model.body().dofs.count, seconds))
+}
+
+/// An iteration with a new tangent on a mesh of `elements` across the contact: unknowns, seconds, seconds at the floor.
+fn iteration(elements: usize, floor: &Roofline) -> Result<(usize, f64, f64), Box<dyn Error>> {
+    let mut scene = scene(Accuracy::Reference)?;
+    scene.numerics.elements_in_contact = Some(elements);
+    let problem = prepared(&scene)?;
+    let least_seconds = floor_of(&problem, floor)?;
+    let mut path = Path::new(&problem)?;
+    path.model.begin(-1e-3, 0.0, |_| [0.0; 2]);
+    let mut seconds = f64::INFINITY;
+    for _ in 0..3 {
+        let (done, taken) = timed(|| -> Result<(), Box<dyn Error>> {
+            path.model.assess(true)?;
+            path.model.renew()?;
+            path.model.find_direction();
+            Ok(())
+        });
+        done?;
+        seconds = seconds.min(taken);
+    }
+    Ok((path.model.body().dofs.count, seconds, least_seconds))
+}
+
+/// CalculiX's core seconds over ours at equal accuracy, geometric mean, from the table that `scripts/peers` writes.
+fn beside_calculix() -> Option<String> {
+    let table = std::fs::read_to_string("verification/results/peers.md").ok()?;
+    let line = table.lines().find(|line| line.contains("geometric mean"))?;
+    Some(line.split_once("geometric mean ")?.1.split([',', ';', ' ']).next()?.to_string())
+}
+
+/// The name of the processor.
+fn processor() -> String {
+    let text = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let name = text.lines().find_map(|line| line.strip_prefix("model name")?.split_once(':'));
+    name.map_or_else(|| std::env::consts::ARCH.to_string(), |(_, name)| name.trim().to_string())
+}
+
+/// Seconds in which the workspace is built from nothing without optional features.
+fn build() -> Result<Duration, Box<dyn Error>> {
+    let folder = tempfile::tempdir()?;
+    let (status, seconds) = timed(|| {
+        Command::new("cargo")
+            .args(["build", "--release", "--quiet", "-p", "asperity", "--target-dir"])
+            .arg(folder.path())
+            .status()
+    });
+    if !status?.success() {
+        return Err("the build failed".into());
+    }
+    Ok(Duration::from_secs_f64(seconds))
+}
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let (mut report, _) = Report::of("speed", "every level");
+    let floor = Roofline::measure();
+    report.line(&format!("{}, {:.0} GFLOP/s a core in a dense product.\n", processor(), 1e-9 * floor.rate()));
+
+    report.line("Shares of the time of a run on one thread, in percent:\n");
+    report.table("| level | element | unknowns | iterations | assemblies | factorisations | mesh and order | residuals | tangents | factorise | solve | rest of the run | companion | over the floor | run s |");
+    let mut over = Vec::new();
+    for (name, accuracy, repeats) in LEVELS {
+        for element in [ElementChoice::Q8r, ElementChoice::Q4] {
+            let (line, factor) =
+                on(1, || profile(name, accuracy, element, repeats, &floor).map_err(|e| e.to_string()))??;
+            report.line(&line);
+            if element == ElementChoice::Q8r {
+                over.push(format!("{factor:.1}"));
+            }
+        }
+    }
+
+    report.section("Bounds");
+    report.table("| | measured | bound | aim |");
+    let standard = scene(Accuracy::Standard)?;
+    let seconds = on(1, || least(&standard, 5))?;
+    report.line(&format!(
+        "| single asperity at `standard`, loading and unloading, core seconds | {seconds:.2} | 0.12 | 0.06 |"
+    ));
+    if let Some(ratio) = beside_calculix() {
+        report.line(&format!("| CalculiX's core seconds over ours at equal accuracy, geometric mean ([peers](peers.md)) | {ratio} | 250 | 500 |"));
+    }
+    let sweep = Sweep::default();
+    let cases = sweep.cases();
+    let (rows, seconds) =
+        timed(|| on(2, || cases.par_iter().map(|case| solve(case, sweep.accuracy)).collect::<Vec<_>>()));
+    let worst =
+        rows?.iter().map(|row| row.outcome.as_ref().map_or(f64::NAN, |k| k.error)).fold(0.0, f64::max);
+    report.line(&format!(
+        "| {} cones of the sweep, every K within {:.2} % as stated, wall seconds on 2 threads | {seconds:.1} | 12 | 6 |",
+        cases.len(),
+        100.0 * worst
+    ));
+    let reference = scene(Accuracy::Reference)?;
+    let [one, two] = [on(1, || least(&reference, 2))?, on(2, || least(&reference, 2))?];
+    report.line(&format!("| `reference`, core seconds | {one:.2} | 2.5 | 1 |"));
+    report.line(&format!(
+        "| run over its floor, draft / standard / reference | {} | 4 / 3.5 / 3 | 2 |",
+        over.join(" / ")
+    ));
+    let [(unknowns, single), (_, double)] = [
+        on(1, || loading(FINE[0]).map_err(|e| e.to_string()))??,
+        on(2, || loading(FINE[0]).map_err(|e| e.to_string()))??,
+    ];
+    report.line(&format!(
+        "| two threads over one, at {unknowns} unknowns / at `reference` | {:.2} / {:.2} | 1.5 / 1.2 | 1.8 / 1.5 |",
+        single / double,
+        one / two
+    ));
+    let (unknowns, seconds, least) = on(1, || iteration(FINE[1], &floor).map_err(|e| e.to_string()))??;
+    report.line(&format!(
+        "| an iteration at {unknowns} unknowns over its floor | {:.1} | 3 | 2 |",
+        seconds / least
+    ));
+    let minutes = build()?.as_secs_f64() / 60.0;
+    report.line(&format!("| full build of the command from nothing, minutes | {minutes:.1} | 4.5 | 3 |"));
+    Ok(report.finish()?)
+}
