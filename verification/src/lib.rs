@@ -25,3 +25,5 @@ pub mod roofline;
 pub mod single_increment;
 
 pub mod report;
+
+pub mod atlas;

@@ -19,6 +19,7 @@ mod elastic;
 mod hardening;
 pub mod least_squares;
 pub mod real;
+pub mod sobol;
 mod table;
 mod text_table;
 pub mod units;
