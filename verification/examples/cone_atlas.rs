@@ -13,6 +13,7 @@
 use asperity_calibration::cones::Row;
 use asperity_calibration::journal::Journal;
 use asperity_verification::atlas::{self, Set};
+use asperity_verification::atlas_fit::{self, solved};
 use std::path::Path;
 use std::time::{Duration, Instant};
 
@@ -26,7 +27,8 @@ fn main() {
         Some("check") => grow(Set::Fresh, folder(), count(), &words),
         Some("pack") => pack(Set::Atlas, folder()),
         Some("pack-check") => pack(Set::Fresh, folder()),
-        _ => panic!("grow, check, pack or pack-check"),
+        Some("fit") => fit(),
+        _ => panic!("grow, pack, check, pack-check or fit"),
     }
 }
 
@@ -59,6 +61,23 @@ fn grow(set: Set, folder: &Path, count: usize, words: &[String]) {
         eprintln!("{:.2} s {}", begun.elapsed().as_secs_f64(), row.line());
     }
 }
+
+fn fit() {
+    let rows = atlas::committed(Set::Atlas);
+    let cones = solved(&rows);
+    let found = atlas_fit::fit(&cones).expect("enough cones");
+    std::fs::write(FORMULA, found.atlas.text()).expect("can be written");
+    for k in 0..4 {
+        let mut left: Vec<f64> = found.left_out.iter().map(|left| left[k].abs()).collect();
+        left.sort_by(f64::total_cmp);
+        let at = |share: f64| 100.0 * left[(share * left.len() as f64) as usize];
+        let rms = 100.0 * (left.iter().map(|x| x * x).sum::<f64>() / left.len() as f64).sqrt();
+        eprintln!("{k}: rms {rms:.3} %, median {:.3} %, 95 % {:.3} %, largest {:.2} %", at(0.5), at(0.95), 100.0 * left[left.len() - 1]);
+    }
+}
+
+/// The coefficients that are compiled in.
+const FORMULA: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../crates/law/data/atlas.txt");
 
 fn pack(set: Set, folder: &Path) {
     let mut rows = atlas::committed(set);

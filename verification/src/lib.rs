@@ -27,3 +27,5 @@ pub mod single_increment;
 pub mod report;
 
 pub mod atlas;
+
+pub mod atlas_fit;

@@ -7,20 +7,12 @@
 
 use crate::case::{Case, Tool, Yielding};
 use crate::indentation::{Errors, FORCES, Indentation, solve};
+use asperity_law::atlas::{Contact, EXPONENTS, OUTPUTS, POISSONS_RATIOS, RATIOS, SLOPES, SharpCone};
 use asperity_law::sobol::Sobol;
 use asperity_law::{HardeningLaw, StressMeasure};
 use asperity_solver::scene::Accuracy;
 
-/// Slopes β, degrees; drawn evenly in their logarithm.
-pub const SLOPES: [f64; 2] = [0.5, 40.0];
-/// Young's modulus over yield stress; drawn evenly in their logarithm.
-pub const RATIOS: [f64; 2] = [5.0, 10_000.0];
-/// Hardening exponents.
-pub const EXPONENTS: [f64; 2] = [0.0, 0.6];
-/// Poisson's ratios.
-pub const POISSONS_RATIOS: [f64; 2] = [0.0, 0.49];
-
-/// Cone number `index` of the atlas: the coordinates of Sobol's point choose law and contact, slope, E/σ_y, n, ν.
+/// Cone number `index` of the atlas, slope and E/σ_y drawn evenly in their logarithms: the coordinates of Sobol's point choose law and contact, slope, E/σ_y, n, ν.
 pub fn cone(index: usize) -> Case {
     drawn(index, [0.0; 4])
 }
@@ -59,7 +51,7 @@ fn six_digits(x: f64) -> f64 {
 /// What the errors of an [`Indentation`] are at least at `standard`, in the order of [`Errors`]. Cones of all kinds were held against `reference`
 /// (the table of the atlas): beyond what their companions show, metal that hardens is off by up to 0.6 % of K, and the radius of
 /// coarse companions is uneven.
-const LEAST: [f64; 4] = [0.0065, 0.01, 0.003, 0.005];
+pub const LEAST: [f64; 4] = [0.0065, 0.01, 0.003, 0.005];
 
 /// A solved cone, or one that failed with its reason.
 #[derive(Clone, Debug, PartialEq)]
@@ -98,6 +90,21 @@ impl Row {
             case: *case,
             outcome: solve(&case.cone(), accuracy).map(stated).map_err(|e| e.to_string()),
         }
+    }
+
+    /// The cone as the formula knows it, what was found as its answer, and the errors; `None` of a cone that failed.
+    pub fn answer(&self) -> Option<(SharpCone, [f64; OUTPUTS], [f64; 4])> {
+        let (found, errors) = self.outcome.as_ref().ok()?;
+        let contact = match self.case.tool {
+            Tool::Plane => Contact::Crushed,
+            Tool::Cone => Contact::Indenting,
+        };
+        let cone = SharpCone::new(self.case.beta_deg, &self.case.elastic(), self.case.hardening()?, contact);
+        let mut answer = [0.0; OUTPUTS];
+        answer[..4].copy_from_slice(&[found.k_over_e, found.contact_ratio, found.stiffness, found.elastic_share]);
+        answer[4..].copy_from_slice(&found.way_back);
+        let Errors { loading_curvature, contact_ratio, stiffness, elastic_share, .. } = *errors;
+        Some((cone, answer, [loading_curvature, contact_ratio, stiffness, elastic_share]))
     }
 
     /// The row as a line of the table, in single precision.

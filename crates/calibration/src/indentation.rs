@@ -14,8 +14,7 @@ use asperity_solver::run::load_path::{Increment, Path, Stop};
 use asperity_solver::run::problem::Problem;
 use asperity_solver::scene::Accuracy;
 
-/// Forces over that of the peak at which the way back is read.
-pub const FORCES: [f64; 9] = [0.95, 0.85, 0.7, 0.55, 0.4, 0.25, 0.12, 0.04, 0.0];
+pub use asperity_law::atlas::FORCES;
 
 /// Steps of the way back.
 const STEPS_BACK: usize = 8;

@@ -13,6 +13,7 @@
 //! assert!((stress - 702.435).abs() < 1e-3);
 //! ```
 
+pub mod atlas;
 mod curve;
 mod curve_file;
 mod elastic;
