@@ -72,7 +72,12 @@ fn fit() {
         left.sort_by(f64::total_cmp);
         let at = |share: f64| 100.0 * left[(share * left.len() as f64) as usize];
         let rms = 100.0 * (left.iter().map(|x| x * x).sum::<f64>() / left.len() as f64).sqrt();
-        eprintln!("{k}: rms {rms:.3} %, median {:.3} %, 95 % {:.3} %, largest {:.2} %", at(0.5), at(0.95), 100.0 * left[left.len() - 1]);
+        eprintln!(
+            "{k}: rms {rms:.3} %, median {:.3} %, 95 % {:.3} %, largest {:.2} %",
+            at(0.5),
+            at(0.95),
+            100.0 * left[left.len() - 1]
+        );
     }
 }
 

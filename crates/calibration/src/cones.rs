@@ -101,7 +101,12 @@ impl Row {
         };
         let cone = SharpCone::new(self.case.beta_deg, &self.case.elastic(), self.case.hardening()?, contact);
         let mut answer = [0.0; OUTPUTS];
-        answer[..4].copy_from_slice(&[found.k_over_e, found.contact_ratio, found.stiffness, found.elastic_share]);
+        answer[..4].copy_from_slice(&[
+            found.k_over_e,
+            found.contact_ratio,
+            found.stiffness,
+            found.elastic_share,
+        ]);
         answer[4..].copy_from_slice(&found.way_back);
         let Errors { loading_curvature, contact_ratio, stiffness, elastic_share, .. } = *errors;
         Some((cone, answer, [loading_curvature, contact_ratio, stiffness, elastic_share]))

@@ -133,7 +133,12 @@ pub const ERRORS: usize = 4;
 
 impl SharpCone {
     /// A cone of the slope `slope_deg` (degrees, above 0 and below 90) against the plane.
-    pub fn new(slope_deg: f64, elastic: &Elastic, curve: impl Into<HardeningCurve>, contact: Contact) -> SharpCone {
+    pub fn new(
+        slope_deg: f64,
+        elastic: &Elastic,
+        curve: impl Into<HardeningCurve>,
+        contact: Contact,
+    ) -> SharpCone {
         SharpCone { tan: slope_deg.to_radians().tan(), elastic: *elastic, curve: curve.into(), contact }
     }
 
@@ -151,7 +156,10 @@ impl SharpCone {
     fn groups(&self) -> [f64; 2] {
         let strain = STRAIN * self.tan;
         let flow = self.curve.flow(strain);
-        [self.elastic.reduced_modulus() * self.tan / flow.yield_stress, strain * flow.slope / flow.yield_stress]
+        [
+            self.elastic.reduced_modulus() * self.tan / flow.yield_stress,
+            strain * flow.slope / flow.yield_stress,
+        ]
     }
 
     /// The same with a yield stress at the edge of the atlas where it lies beyond; a table as it is.
@@ -167,6 +175,7 @@ impl SharpCone {
     /// Where the cone lies in the formula; what lies beyond the atlas is taken to its edge.
     pub fn place(&self) -> Place {
         let [x, exponent] = self.groups();
+        let x = x.max(least_x());
         let [middle, power] = MIDDLE;
         let [gentlest, steepest] = SLOPES.map(|slope| slope.to_radians().tan());
         let x_power = x.powf(power);
@@ -209,6 +218,11 @@ impl SharpCone {
         answer[3..].iter_mut().for_each(|way| *way = way.exp() * back);
         answer
     }
+}
+
+/// X of the gentlest cone of the hardest metal.
+fn least_x() -> f64 {
+    RATIOS[0] * SLOPES[0].to_radians().tan()
 }
 
 /// Chebyshev's polynomials of 2x - 1 up to `degree`.
@@ -280,11 +294,13 @@ impl Atlas {
     /// of [`ERRORS`], and the least errors. `None` if rows are missing.
     pub fn new(values: Vec<Vec<f64>>, errors: Vec<Vec<f64>>, least: [f64; ERRORS]) -> Option<Atlas> {
         let elastic = Elastic { youngs_modulus: 1.0, poissons_ratio: 0.3 };
-        let metal = Hardening { law: HardeningLaw::Swift, yield_stress: 0.01, exponent: 0.1, youngs_modulus: 1.0 };
+        let metal =
+            Hardening { law: HardeningLaw::Swift, yield_stress: 0.01, exponent: 0.1, youngs_modulus: 1.0 };
         let place = SharpCone::new(10.0, &elastic, metal, Contact::Crushed).place();
         let [terms, terms_of_errors] = [place.terms().len(), place.terms_of_errors().len()];
         let whole = |rows: &[Vec<f64>], count: usize, terms: usize| {
-            rows.len() == count && rows.iter().all(|row| row.len() == terms && row.iter().all(|x| x.is_finite()))
+            rows.len() == count
+                && rows.iter().all(|row| row.len() == terms && row.iter().all(|x| x.is_finite()))
         };
         (whole(&values, OUTPUTS, terms) && whole(&errors, ERRORS, terms_of_errors)).then_some(Atlas {
             values,
@@ -326,7 +342,15 @@ impl Atlas {
         let place = edge.place();
         let sum = |rows: &[f64], terms: &[f64]| rows.iter().zip(terms).map(|(c, t)| c * t).sum::<f64>();
         let terms = place.terms();
-        let logarithms = std::array::from_fn(|i| sum(&self.values[i], &terms));
+        let mut logarithms: [f64; OUTPUTS] = std::array::from_fn(|i| sum(&self.values[i], &terms));
+        // toward a plane every cone is elastic: below the least X what differs from Sneddon's solution falls with X
+        let developed = (edge.groups()[0] / least_x()).min(1.0);
+        if developed < 1.0 {
+            logarithms[0] = developed * (logarithms[0] + place.trend) - place.trend;
+            // a = (2/π) h/tan β, S = 2E* a
+            let elastic = FRAC_2_PI.ln();
+            logarithms[1..3].iter_mut().for_each(|x| *x = elastic + developed * (*x - elastic));
+        }
         let mut answer = edge.of_logarithms(logarithms, place.trend);
         let terms = place.terms_of_errors();
         let errors: [f64; ERRORS] =
