@@ -5,7 +5,9 @@
 //!   a journal of FOLDER holds, each a line of a journal, so that a killed run goes on where it was. After S seconds no cone is begun.
 //! * `pack FOLDER`: joins the committed file and the journals of FOLDER to the committed file, `verification/results/atlas.csv.gz`.
 //! * `check FOLDER COUNT [--shard K/N] [--seconds S]`: the same as `grow` for cones between those of the atlas, at `reference`;
-//!   `pack-check FOLDER` joins them to `verification/results/atlas-check.csv`.
+//!   `pack-check FOLDER` joins them to `verification/results/atlas-check.csv.gz`.
+//! * `renew --out FILE`: fits the formula of `asperity_law::atlas` to the committed file, writes its coefficients, and the tables of
+//!   `verification/results/atlas.md`: cones left out of the fit, and those of `check` against it.
 
 // on committed cases
 #![allow(clippy::expect_used, clippy::print_stderr)]
@@ -13,12 +15,13 @@
 use asperity_calibration::cones::Row;
 use asperity_calibration::journal::Journal;
 use asperity_verification::atlas::{self, Set};
-use asperity_verification::atlas_fit::{self, solved};
+use asperity_verification::report::{Report, replace};
+use asperity_verification::{atlas_fit, atlas_table};
 use std::path::Path;
 use std::time::{Duration, Instant};
 
 fn main() {
-    let words: Vec<String> = std::env::args().skip(1).collect();
+    let (report, words) = Report::of("cone_atlas", "standard");
     let word = |i: usize| words.get(i).map(String::as_str);
     let folder = || Path::new(word(1).expect("a folder"));
     let count = || word(2).and_then(|count| count.parse().ok()).expect("how many cones");
@@ -27,8 +30,8 @@ fn main() {
         Some("check") => grow(Set::Fresh, folder(), count(), &words),
         Some("pack") => pack(Set::Atlas, folder()),
         Some("pack-check") => pack(Set::Fresh, folder()),
-        Some("fit") => fit(),
-        _ => panic!("grow, pack, check, pack-check or fit"),
+        Some("renew") => renew(report),
+        _ => panic!("grow, pack, check, pack-check or renew"),
     }
 }
 
@@ -62,23 +65,13 @@ fn grow(set: Set, folder: &Path, count: usize, words: &[String]) {
     }
 }
 
-fn fit() {
+fn renew(mut report: Report) {
     let rows = atlas::committed(Set::Atlas);
-    let cones = solved(&rows);
-    let found = atlas_fit::fit(&cones).expect("enough cones");
-    std::fs::write(FORMULA, found.atlas.text()).expect("can be written");
-    for k in 0..4 {
-        let mut left: Vec<f64> = found.left_out.iter().map(|left| left[k].abs()).collect();
-        left.sort_by(f64::total_cmp);
-        let at = |share: f64| 100.0 * left[(share * left.len() as f64) as usize];
-        let rms = 100.0 * (left.iter().map(|x| x * x).sum::<f64>() / left.len() as f64).sqrt();
-        eprintln!(
-            "{k}: rms {rms:.3} %, median {:.3} %, 95 % {:.3} %, largest {:.2} %",
-            at(0.5),
-            at(0.95),
-            100.0 * left[left.len() - 1]
-        );
-    }
+    let cones = atlas_fit::solved(&rows);
+    let fit = atlas_fit::fit(&cones).expect("enough cones");
+    atlas_table::write(&mut report, &rows, &cones, &fit);
+    replace(Path::new(FORMULA), &fit.atlas.text()).expect("can be written");
+    report.finish().expect("can be written");
 }
 
 /// The coefficients that are compiled in.

@@ -29,3 +29,4 @@ pub mod report;
 pub mod atlas;
 
 pub mod atlas_fit;
+pub mod atlas_table;
