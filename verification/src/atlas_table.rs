@@ -92,7 +92,7 @@ fn left_out(report: &mut Report, rows: &[Row], cones: &[Solved], fit: &Fit) {
 }
 
 /// Cones on which `asperity_calibration::cones::LEAST` was chosen.
-const CHOSEN_ON: usize = 36;
+const CHOSEN_ON: usize = 200;
 
 fn fresh(report: &mut Report, atlas: &Atlas) {
     report.section("Fresh cones at reference");
