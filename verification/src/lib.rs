@@ -25,3 +25,8 @@ pub mod roofline;
 pub mod single_increment;
 
 pub mod report;
+
+pub mod atlas;
+
+pub mod atlas_fit;
+pub mod atlas_table;

@@ -72,14 +72,19 @@ impl Case {
         ConeDiscretisation::new(self.beta_deg, self.tool == Tool::Cone, exponent, accuracy)
     }
 
-    /// The problem of the solver, loaded to the depth 1, E = 1.
-    pub fn problem(&self, discretisation: &ConeDiscretisation) -> Problem {
+    /// The sharp cone of the solver, E = 1.
+    pub fn cone(&self) -> Cone {
         let metal = Metal {
             elastic: self.elastic(),
             hardening: self.hardening().map(Into::into),
             kinematic_share: 0.0,
             stress_measure: self.stress_measure,
         };
-        Cone { slope_deg: self.beta_deg, indents: self.tool == Tool::Cone, metal }.problem(discretisation)
+        Cone { slope_deg: self.beta_deg, indents: self.tool == Tool::Cone, metal }
+    }
+
+    /// The problem of the solver, loaded to the depth 1, E = 1.
+    pub fn problem(&self, discretisation: &ConeDiscretisation) -> Problem {
+        self.cone().problem(discretisation)
     }
 }

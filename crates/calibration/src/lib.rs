@@ -47,3 +47,5 @@ pub mod unloading;
 pub mod indentation;
 
 pub mod atlas;
+
+pub mod cones;

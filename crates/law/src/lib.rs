@@ -13,12 +13,14 @@
 //! assert!((stress - 702.435).abs() < 1e-3);
 //! ```
 
+pub mod atlas;
 mod curve;
 mod curve_file;
 mod elastic;
 mod hardening;
 pub mod least_squares;
 pub mod real;
+pub mod sobol;
 mod table;
 mod text_table;
 pub mod units;

@@ -40,7 +40,7 @@ pub mod scene;
 pub use contact::closures::{
     Closure, ClosureError, ClosureLaw, PUBLISHED, Regime, Response, SINGLE_ASPERITY_EXPONENT,
 };
-pub use contact::coefficient::{Coefficient, CoefficientError, Cone, SlopeTable};
+pub use contact::coefficient::{Coefficient, CoefficientError, Nearest, SlopeTable};
 pub use contact::ellipse::Ellipse;
 pub use contact::islands::{Island, Islands};
 pub use contact::material::Material;

@@ -1,5 +1,6 @@
 //! Claims of the calibration, one file each.
 
+mod atlas;
 mod calculix_cones;
 mod coefficient_recovered;
 mod elastic_cone;

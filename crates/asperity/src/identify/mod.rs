@@ -49,7 +49,7 @@ pub use sought::{Percent, Sought};
 pub use verdict::{Blind, NextExperiment};
 
 use crate::error::Error;
-use crate::study::sobol::Sobol;
+use asperity_law::sobol::Sobol;
 use parameters::Parameter;
 
 /// Finds the metal of `fit`.

@@ -317,7 +317,7 @@ fn remarks(closure: Closure, one: &IslandContact, coefficient: Option<&Coefficie
     }
     if let Some(share) = one.contact.outside_share.filter(|s| *s > 0.0) {
         remarks.push(format!(
-            "{name}: {:.1} % of the load is on asperities outside the calibrated range",
+            "{name}: {:.1} % of the load is on asperities outside the ranges of the calibration and of the atlas of cones",
             100.0 * share
         ));
     }

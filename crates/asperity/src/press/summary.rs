@@ -115,7 +115,7 @@ row! {
         nominal_pressure_mpa: f64 = one.nominal / MEGAPASCAL,
         /// Whether the load jumps at the separation.
         load_jumps: bool = one.islands().is_some_and(|i| i.contact.jump),
-        /// Share of the load on islands outside the range of the closure.
+        /// Share of the load on islands outside the range of the closure: of `calibrated` outside both the calibration and the atlas of cones.
         load_share_outside_range: Option<f64> = one.islands().and_then(|i| i.contact.outside_share),
         /// Share of the load on islands that no ellipse describes.
         load_share_uniform: Option<f64> = one.islands().and_then(|i| i.field.uniform_share),

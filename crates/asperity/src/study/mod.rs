@@ -2,8 +2,6 @@
 
 mod vary;
 
-pub(crate) mod sobol;
-
 mod points;
 
 mod row;

@@ -1,8 +1,8 @@
 //! Which values the keys of a study take in each run: every combination, values in step, or points drawn from ranges.
 
-use super::sobol::{self, Sobol};
 use super::vary::{Values, Vary, wrong};
 use crate::error::InputError;
+use asperity_law::sobol::{self, Sobol};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use serde::{Deserialize, Serialize};

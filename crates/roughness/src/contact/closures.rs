@@ -1,6 +1,7 @@
 //! Closures: what force and contact area an island of slope tan β carries.
 
-use super::coefficient::{Coefficient, island_pressure};
+use super::calibrated::Calibrated;
+use super::coefficient::Coefficient;
 use super::material::Material;
 use asperity_law::Hardening;
 use serde::{Deserialize, Serialize};
@@ -12,7 +13,7 @@ pub const PUBLISHED: f64 = 0.13;
 /// Eq. [18], on the island.
 const JOHNSON_ELASTIC: f64 = 0.2;
 /// Contact area of an elastic cone over that of its island (Sneddon 1965).
-const ELASTIC_AREA: f64 = 4.0 / (PI * PI);
+pub(super) const ELASTIC_AREA: f64 = 4.0 / (PI * PI);
 /// Thresholds of the plasticity index printed below eq. (13).
 const THRESHOLDS: [f64; 2] = [0.6, 1.0];
 
@@ -80,7 +81,9 @@ impl Closure {
             Closure::Sneddon => {
                 "F = 2/pi^2 E* tan(beta) A_island, contact area 4/pi^2 of the island (Sneddon 1965)"
             }
-            Closure::Calibrated => "F = K(beta) h^2, area = contact_ratio^2 A_island, K from crushed cones",
+            Closure::Calibrated => {
+                "F = K(beta) h^2, area = contact_ratio^2 A_island, K from crushed cones: the calibration, beyond its range the atlas of cones"
+            }
             Closure::HalfSpace => {
                 "the whole surface on an elastic half-space, pressures from 0 up (Stanley and Kato 1997; Polonsky and Keer 1999)"
             }
@@ -178,10 +181,7 @@ enum Law {
         yield_stress: f64,
         hardness: f64,
     },
-    Calibrated {
-        hardening: Hardening,
-        coefficient: Coefficient,
-    },
+    Calibrated(Calibrated),
 }
 
 impl ClosureLaw {
@@ -226,10 +226,8 @@ impl ClosureLaw {
                     });
                 }
                 let youngs_modulus = material.youngs_modulus.0;
-                Law::Calibrated {
-                    hardening: Hardening { law, yield_stress, exponent, youngs_modulus },
-                    coefficient,
-                }
+                let hardening = Hardening { law, yield_stress, exponent, youngs_modulus };
+                Law::Calibrated(Calibrated::new(material.elastic(), hardening, coefficient))
             }
         };
         Ok(ClosureLaw {
@@ -261,7 +259,10 @@ impl ClosureLaw {
                 self.response(coefficient * self.reduced_modulus * tan_beta, *area_ratio, true)
             }
             Law::Johnson { yield_stress, hardness } => self.johnson(tan_beta, *yield_stress, *hardness),
-            Law::Calibrated { hardening, coefficient } => self.calibrated(tan_beta, hardening, coefficient),
+            Law::Calibrated(cones) => {
+                let cone = cones.respond(tan_beta);
+                self.response(cone.island_pressure, cone.area_ratio, cone.inside)
+            }
         }
     }
 
@@ -302,22 +303,12 @@ impl ClosureLaw {
         Response { island_pressure: area_ratio * pressure, area_ratio, regime, inside: true }
     }
 
-    fn calibrated(&self, tan_beta: f64, hardening: &Hardening, coefficient: &Coefficient) -> Response {
-        if tan_beta <= 0.0 {
-            return self.response(0.0, ELASTIC_AREA, false);
-        }
-        let stress = hardening.representative_stress(coefficient.c * tan_beta);
-        let cone = coefficient.cone(tan_beta, self.reduced_modulus / stress);
-        let area_ratio = cone.contact_ratio * cone.contact_ratio;
-        self.response(stress * island_pressure(&cone, tan_beta), area_ratio, cone.inside)
-    }
-
     /// Elastic pressure of the closure on its contact area at slope `tan_beta`, for the plasticity index (eq. (13)).
     pub fn elastic_pressure(&self, tan_beta: f64) -> f64 {
         let coefficient = match &self.law {
             Law::Linear { coefficient, area_ratio } => coefficient / area_ratio,
             Law::Johnson { .. } => JOHNSON_ELASTIC / ELASTIC_AREA,
-            Law::Calibrated { .. } => 0.5, // Sneddon's, on the contact area
+            Law::Calibrated(_) => 0.5, // Sneddon's, on the contact area
         };
         coefficient * self.reduced_modulus * tan_beta
     }
@@ -394,10 +385,13 @@ mod tests {
         let material =
             Material { yield_stress: Some(Stress(300.0)), hardening_exponent: Some(0.3), ..steel() };
         let model = ClosureLaw::new(Closure::Calibrated, &material, Some(&table)).unwrap();
-        // elastic limit: Sneddon's cone
+        // elastic limit: Sneddon's cone, of which the atlas leaves less than a thousandth at this slope
         let soft = model.respond(1e-5);
-        assert!((soft.island_pressure / (2.0 / PI / PI * 210e3 / 0.91 * 1e-5) - 1.0).abs() < 1e-6);
-        assert!((soft.area_ratio - 4.0 / PI / PI).abs() < 1e-6);
+        assert!(
+            (soft.island_pressure / (2.0 / PI / PI * 210e3 / 0.91 * 1e-5) - 1.0).abs() < 1e-3,
+            "{soft:?}"
+        );
+        assert!((soft.area_ratio - 4.0 / PI / PI).abs() < 1e-2);
         let swift = Material { hardening_law: Some(HardeningLaw::Swift), ..material };
         assert!(matches!(
             ClosureLaw::new(Closure::Calibrated, &swift, Some(&table)),

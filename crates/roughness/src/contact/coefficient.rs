@@ -18,7 +18,6 @@
 
 use asperity_law::HardeningLaw;
 use serde::{Deserialize, Serialize};
-use std::f64::consts::{FRAC_2_PI, PI};
 use std::fmt::Display;
 use thiserror::Error;
 
@@ -81,13 +80,15 @@ pub struct Coefficient {
     pub angles: Vec<SlopeTable>,
 }
 
-/// Force and contact of a cone as the calibration sees it.
+/// The place of the table that is nearest to a cone: inside its range the cone itself.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Cone {
-    /// K/σ_r.
-    pub k_over_stress: f64,
-    /// a tan β/h.
-    pub contact_ratio: f64,
+pub struct Nearest {
+    /// ln of Y = K tan²β/σ_r and of the contact ratio a tan β/h at that place.
+    pub logarithms: [f64; 2],
+    /// Its tan β.
+    pub tan: f64,
+    /// Its X = E* tan β/σ_r.
+    pub x: f64,
     /// Whether slope and stiffness lie inside the calibrated range.
     pub inside: bool,
 }
@@ -138,76 +139,69 @@ impl Coefficient {
         Ok(self)
     }
 
-    /// K/σ_r and contact ratio of a cone of slope `tan_beta` at stiffness `modulus_over_stress` = E*/σ_r.
+    /// What the table holds nearest to a cone of slope `tan_beta` at X = `x`.
     ///
-    /// 1. In each row of the table Y = K tan²β/σ_r is a function of X = E* tan β/σ_r; both are nearly the same for
-    ///    all slopes, so rows are read at equal X and mixed linearly in β, in logarithms.
-    /// 2. Below the first X of a row the cone is elastic: the lower of Sneddon's Y = 2X/π and the row's own line
-    ///    extrapolated. Above the last X the line is extrapolated.
-    /// 3. Slopes outside the rows take the nearest row.
-    pub fn cone(&self, tan_beta: f64, modulus_over_stress: f64) -> Cone {
+    /// In each row of the table Y = K tan²β/σ_r is a function of X = E* tan β/σ_r; both are nearly the same for all slopes, so rows
+    /// are read at equal X and mixed linearly in β, in logarithms. A slope outside the rows takes the nearest row, an X outside
+    /// the rows their nearest.
+    pub fn nearest(&self, tan_beta: f64, x: f64) -> Nearest {
         let beta = tan_beta.atan().to_degrees();
-        let x = (modulus_over_stress * tan_beta).ln();
-        let above = self.angles.iter().position(|a| a.beta_deg >= beta).unwrap_or(self.angles.len() - 1);
+        let stiffness = x / tan_beta;
+        let last = self.angles.len() - 1;
+        let above = self.angles.iter().position(|a| a.beta_deg >= beta).unwrap_or(last);
         let below = if self.angles[above].beta_deg > beta { above.saturating_sub(1) } else { above };
         let (low, high) = (&self.angles[below], &self.angles[above]);
         let width = high.beta_deg - low.beta_deg;
         let t = if width > 0.0 { ((beta - low.beta_deg) / width).clamp(0.0, 1.0) } else { 0.0 };
-        let ((y0, r0), (y1, r1)) = (low.at(x), high.at(x));
-        let within = |range: [f64; 2], v: f64| v >= range[0] && v <= range[1];
         // the table is no rectangle: every row has its own range
-        let in_rows = low.holds(x) && high.holds(x);
-        Cone {
-            k_over_stress: (y0 + t * (y1 - y0)).exp() / (tan_beta * tan_beta),
-            contact_ratio: (r0 + t * (r1 - r0)).exp(),
-            inside: within(self.beta_deg, beta)
-                && within(self.modulus_over_stress, modulus_over_stress)
-                && in_rows,
+        let (from, to) = (self.ends(below), self.ends(above));
+        let [first, end]: [f64; 2] = std::array::from_fn(|i| from[i] + t * (to[i] - from[i]));
+        // to a rounding
+        let in_rows = x.ln() >= first - 1e-9 && x.ln() <= end + 1e-9;
+        let at = if first < end { x.ln().clamp(first, end) } else { 0.5 * (first + end) };
+        let (from, to) = (low.at(at), high.at(at));
+        let within = |range: [f64; 2], v: f64| v >= range[0] && v <= range[1];
+        let in_slopes = within([self.angles[0].beta_deg, self.angles[last].beta_deg], beta);
+        Nearest {
+            logarithms: std::array::from_fn(|i| from[i] + t * (to[i] - from[i])),
+            tan: if in_slopes { tan_beta } else { high.beta_deg.to_radians().tan() },
+            x: if in_rows { x } else { at.exp() },
+            inside: in_rows
+                && in_slopes
+                && within(self.beta_deg, beta)
+                && within(self.modulus_over_stress, stiffness),
         }
+    }
+
+    /// ln X of the first and last place that row `i` and those beside it hold: what lies on lines between such ends is held by both rows.
+    fn ends(&self, i: usize) -> [f64; 2] {
+        let beside = &self.angles[i.saturating_sub(1)..(i + 2).min(self.angles.len())];
+        let ends = beside.iter().map(SlopeTable::ends);
+        ends.reduce(|a, b| [a[0].max(b[0]), a[1].min(b[1])]).unwrap_or([f64::NAN; 2])
     }
 }
 
 impl SlopeTable {
-    /// Whether ln X = `x` lies between the first and the last of the row, to a rounding.
-    fn holds(&self, x: f64) -> bool {
+    /// ln X of its first and last place.
+    fn ends(&self) -> [f64; 2] {
         let tan = self.beta_deg.to_radians().tan();
         let end = |v: Option<&f64>| v.map_or(f64::NAN, |v| (v * tan).ln());
-        x >= end(self.modulus_over_stress.first()) - 1e-9 && x <= end(self.modulus_over_stress.last()) + 1e-9
+        [end(self.modulus_over_stress.first()), end(self.modulus_over_stress.last())]
     }
 
-    /// ln Y and ln of the contact ratio at ln X = `x`.
-    fn at(&self, x: f64) -> (f64, f64) {
+    /// ln Y and ln of the contact ratio at ln X = `x`, between lines from place to place.
+    fn at(&self, x: f64) -> [f64; 2] {
         let tan = self.beta_deg.to_radians().tan();
         let node = |i: usize| {
-            (
-                (self.modulus_over_stress[i] * tan).ln(),
-                (self.k_over_stress[i] * tan * tan).ln(),
-                self.contact_ratio[i].ln(),
-            )
+            let (y, ratio) = (self.k_over_stress[i] * tan * tan, self.contact_ratio[i]);
+            ((self.modulus_over_stress[i] * tan).ln(), [y.ln(), ratio.ln()])
         };
-        let sneddon = |x: f64| x + FRAC_2_PI.ln();
         let last = self.modulus_over_stress.len() - 1;
-        let (x0, y0, r0) = node(0);
-        if last == 0 || x < x0 {
-            // the row's first line carried down until it meets the elastic one
-            let slope = if last == 0 { 0.0 } else { ((node(1).1 - y0) / (node(1).0 - x0)).clamp(0.0, 0.95) };
-            let (line, elastic) = (y0 + slope * (x - x0), sneddon(x));
-            let meets = (x0 - (sneddon(x0) - y0).max(0.0) / (1.0 - slope)).min(x0);
-            let t = if x < x0 && meets < x0 { ((x0 - x) / (x0 - meets)).clamp(0.0, 1.0) } else { 0.0 };
-            let t = if x < x0 && meets >= x0 { 1.0 } else { t };
-            return (line.min(elastic), r0 + t * (FRAC_2_PI.ln() - r0));
-        }
-        let i = (0..last).find(|i| x <= node(i + 1).0).unwrap_or(last - 1);
-        let ((xa, ya, ra), (xb, yb, rb)) = (node(i), node(i + 1));
-        let t = (x - xa) / (xb - xa);
-        // the contact ratio is not carried beyond the table: it would leave the range of possible values
-        (ya + t * (yb - ya), ra + t.min(1.0) * (rb - ra))
+        let Some(i) = (0..last).find(|i| x <= node(i + 1).0) else { return node(last).1 };
+        let ((xa, a), (xb, b)) = (node(i), node(i + 1));
+        let t = ((x - xa) / (xb - xa)).max(0.0);
+        std::array::from_fn(|k| a[k] + t * (b[k] - a[k]))
     }
-}
-
-/// Mean pressure over the island in units of σ_r, K tan²β/(π σ_r).
-pub fn island_pressure(cone: &Cone, tan_beta: f64) -> f64 {
-    cone.k_over_stress * tan_beta * tan_beta / PI
 }
 
 #[cfg(test)]
@@ -240,22 +234,16 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn the_table_is_met_joins_the_elastic_cone_and_reads_back() {
+    fn the_table_is_met_and_reads_back() {
         let table = master_curve();
         let tan = 2.5f64.to_radians().tan();
-        let y = |x: f64| table.cone(tan, x / tan).k_over_stress * tan * tan;
-        assert!((y(20.0) / 6.787 - 1.0).abs() < 1e-9);
-        assert!((y(0.1) / (0.1 * FRAC_2_PI) - 1.0).abs() < 1e-9);
-        assert!((table.cone(tan, 0.01 / tan).contact_ratio - FRAC_2_PI).abs() < 1e-9);
-        // monotone and without a jump
-        let xs: Vec<f64> = (0..2000).map(|i| 0.1 * 1.005f64.powi(i)).collect();
-        for w in xs.windows(2) {
-            let (a, b) = (y(w[0]), y(w[1]));
-            assert!(b > a && b < 1.011 * a, "{w:?} {a} {b}");
-            let (a, b) =
-                (table.cone(tan, w[0] / tan).contact_ratio, table.cone(tan, w[1] / tan).contact_ratio);
-            assert!((b / a - 1.0).abs() < 0.02);
-        }
+        let found = table.nearest(tan, 20.0);
+        assert!((found.logarithms[0].exp() / 6.787 - 1.0).abs() < 1e-9 && found.inside);
+        assert_eq!((found.tan, found.x), (tan, 20.0));
+        // beyond it the nearest place
+        let steep = table.nearest(20f64.to_radians().tan(), 1e3);
+        assert!((steep.x - 200.0).abs() < 1e-9 && (steep.tan - 10f64.to_radians().tan()).abs() < 1e-12);
+        assert!((steep.logarithms[0].exp() / 11.471 - 1.0).abs() < 1e-9 && !steep.inside);
         assert_eq!(Coefficient::from_toml(&table.to_toml().unwrap()).unwrap(), table);
     }
 

@@ -5,6 +5,7 @@ pub(crate) mod ellipse;
 pub(crate) mod bearing_area;
 pub(crate) mod islands;
 
+pub(crate) mod calibrated;
 pub(crate) mod coefficient;
 pub(crate) mod material;
 

@@ -30,11 +30,11 @@ const POLYNOMIALS: [(usize, u32, &[u32]); 20] = [
 ];
 
 /// Largest number of dimensions.
-pub(crate) const MOST: usize = POLYNOMIALS.len() + 1;
+pub const MOST: usize = POLYNOMIALS.len() + 1;
 
 /// The sequence in so many dimensions.
 #[derive(Clone, Debug)]
-pub(crate) struct Sobol {
+pub struct Sobol {
     /// Direction numbers of each dimension, the leading bit first.
     directions: Vec<[u32; BITS]>,
 }
