@@ -3,14 +3,13 @@
 //! K is the square of the slope of √F over h. The companion is the same cone with every number of the discretisation half as good,
 //! and costs a sixth. D = ln(K_companion/K) holds what mesh, load steps, penalty and substrate do.
 //! * `ORDER` of D is taken off ln K: Richardson's extrapolation of errors of second order.
-//! * What is left is bounded by `REMAINS` of D and the standard errors of both slopes. On 27 cones of 1° to 20°, E/σ_y 50 to
-//!   3000 and n 0 to 0.5, crushed or indenting, against meshes of 30 to 40 elements and 82 steps, 26 lay within that
-//!   bound and one at it; the median of the bound over the error was 3.1, the mean error 0.10 % ± 0.27 %. Without the
-//!   extrapolation the mean would be 0.3 %.
+//! * What is left is bounded by `REMAINS` of D, twice the standard errors of both slopes and, under an indenting cone, `LEAST`, added
+//!   in squares. Against `reference`, 123 of 124 crushed cones drawn from the default sweep lay within that bound at `standard`, with a
+//!   mean error of 0.05 % ± 0.14 %, and 55 of 60 as indenters. Without the extrapolation the mean would be 0.27 %.
 //!
 //! The bound says nothing of what both runs share: the law of the material, the stress that yields, a frictionless tool.
 
-use crate::case::Case;
+use crate::case::{Case, Tool};
 use crate::cone::{CaseError, Curve, crush, disc_radius};
 use asperity_law::least_squares::{Line, solve as least_squares, value};
 use asperity_solver::run::discretisation::ConeDiscretisation;
@@ -40,6 +39,9 @@ const ORDER_OF_RADIUS: f64 = 0.547;
 
 /// Share of the difference between run and companion that may be left.
 const REMAINS: f64 = 0.4;
+
+/// What is left at least under an indenting cone, whose runs differ less than they err. Chosen on 60 cones.
+const LEAST: f64 = 0.003;
 
 /// Share of the final depth from which the lines are fitted: by then what the longer first steps left behind has faded.
 const FIT_FROM: f64 = 0.43;
@@ -88,9 +90,10 @@ pub fn solve(case: &Case, discretisation: &ConeDiscretisation) -> Result<Loading
     let difference = 2.0 * (companion.root / run.root).ln();
     // K is the square
     let [own, other] = [run.root_error, companion.root_error].map(|error| 2.0 * error);
+    let least = if case.tool == Tool::Cone { LEAST } else { 0.0 };
     Ok(LoadingCurvature {
         k_over_e: run.root * run.root * (-ORDER * difference).exp(),
-        error: REMAINS * difference.abs() + own.hypot(ORDER * other),
+        error: (REMAINS * difference).hypot(2.0 * own.hypot(ORDER * other)).hypot(least),
         contact_ratio: run.radius * (run.radius / companion.radius).powf(ORDER_OF_RADIUS) * case.tan_beta(),
         increments: run.curve.increments + companion.curve.increments,
         iterations: run.curve.iterations + companion.curve.iterations,
