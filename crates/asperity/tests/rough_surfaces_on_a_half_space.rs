@@ -129,3 +129,48 @@ fn a_fluid_leaks_by_the_gap_and_more_load_leaks_less() {
         assert!(message.contains(place), "{message}");
     }
 }
+
+/// Metal of known hardening bears under its patches what the atlas of cones has at their slope: near 3 σ_y without hardening, more with
+/// it; the summary says which limit it was. A hardness is taken as it is.
+#[test]
+fn the_limit_of_pressure_knows_the_hardening() {
+    let one = |metal: &str| {
+        let text = format!(
+            r#"closure = "half-space-plastic"
+[surface]
+periodic = true
+[surface.generate]
+kind = "self-affine"
+ra = "0.3 um"
+hurst = 0.8
+rolloff = "30 um"
+cutoff = "8 um"
+size = ["96 um", "96 um"]
+pixels = [96, 96]
+seed = 1
+[material]
+youngs_modulus = "210 GPa"
+poissons_ratio = 0.3
+yield_stress = "300 MPa"
+{metal}
+[load]
+pressure = "50 MPa""#
+        );
+        let rough = press(&RoughScene::from_toml(&text, Path::new("")).unwrap(), &mut |_| true).unwrap();
+        let limit = rough.summary.closures[0].limit_mpa.unwrap();
+        let from = rough.summary.closures[0].limit_from.clone().unwrap();
+        let area = rough.table[0].contact_area_ratio;
+        println!("{metal}: {limit} {from} {:?} {area}", rough.summary.closures[0].limit_slope_deg);
+        (limit, from, area, rough.summary.verdict.unwrap())
+    };
+    let (unknown, from, ..) = one("");
+    assert_eq!((unknown, from.as_str()), (900.0, "3 yield_stress"));
+    let (perfect, from, wide, verdict) = one("hardening_exponent = 0.0");
+    // 3 under gentle cones, a tenth less toward 10°
+    assert!((0.88..1.02).contains(&(perfect / 900.0)) && from == "atlas of cones", "{perfect}");
+    assert!(verdict.contains("plateau of the atlas of cones"), "{verdict}");
+    let (hardening, _, narrow, _) = one("hardening_exponent = 0.3");
+    assert!(hardening > 1.5 * perfect && narrow < 0.8 * wide, "{hardening} {narrow} {wide}");
+    let (hardness, from, ..) = one("hardness = \"1100 MPa\"\nhardening_exponent = 0.3");
+    assert_eq!((hardness, from.as_str()), (1100.0, "hardness"));
+}

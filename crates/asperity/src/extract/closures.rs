@@ -4,7 +4,9 @@ use super::rows::Carried;
 use super::run::Body;
 use crate::error::InputError;
 use crate::press::{RoughScene, half_space_of};
-use asperity_roughness::half_space::HalfSpace;
+use asperity_law::HardeningLaw;
+use asperity_roughness::half_space::{HalfSpace, PressureLimit};
+use asperity_roughness::scene::Scene;
 use asperity_roughness::{Closure, ClosureLaw, Islands, Load, Surface};
 use std::f64::consts::PI;
 
@@ -17,7 +19,9 @@ const MARGIN: f64 = 1.25;
 #[derive(Debug)]
 pub(super) struct Closures {
     laws: Vec<ClosureLaw>,
-    spaces: Vec<(Closure, HalfSpace)>,
+    spaces: Vec<Closure>,
+    scene: Scene,
+    law: HardeningLaw,
     /// Why the others are not there.
     pub skipped: Vec<String>,
 }
@@ -42,7 +46,8 @@ impl Closures {
         let (mut laws, mut spaces, mut skipped) = (Vec::new(), Vec::new(), Vec::new());
         for closure in Closure::ALL {
             if closure.is_half_space() {
-                spaces.extend(half_space_of(closure, tables).map(|body| (closure, body)));
+                let known = closure == Closure::HalfSpace || tables.material.limit().is_some();
+                spaces.extend(known.then_some(closure));
                 continue;
             }
             match ClosureLaw::new(closure, &tables.material, Some(&coefficient)) {
@@ -50,7 +55,7 @@ impl Closures {
                 Err(e) => skipped.push(format!("skipped: {e}")),
             }
         }
-        Ok(Closures { laws, spaces, skipped })
+        Ok(Closures { laws, spaces, scene: tables.clone(), law: scene.hardening_law()?, skipped })
     }
 
     /// What each gives for `body` on `surface` at `depth` (m).
@@ -65,9 +70,15 @@ impl Closures {
             island: island.map(|island| carried(law, island.area, island.slope)),
         });
         let half_width = MARGIN * (area / PI).sqrt();
-        let spaces = self.spaces.iter().map(|(closure, space)| Given {
-            closure: *closure,
-            body: on_half_space(space, body, half_width, depth),
+        let limit = PressureLimit::at_slope(&self.scene.material, self.law, slope).map(|l| l.pressure);
+        let spaces = self.spaces.iter().map(|&closure| Given {
+            closure,
+            body: on_half_space(
+                &half_space_of(&self.scene, limit.filter(|_| closure != Closure::HalfSpace)),
+                body,
+                half_width,
+                depth,
+            ),
             island: None,
         });
         cones.chain(spaces).collect()

@@ -3,7 +3,7 @@
 use super::half_space::{self, SpaceContact};
 use super::scene::RoughScene;
 use crate::error::InputError;
-use asperity_roughness::half_space::{HalfSpace, HalfSpaceContact, HalfSpaceError};
+use asperity_roughness::half_space::{HalfSpace, HalfSpaceContact, HalfSpaceError, PressureLimit};
 use asperity_roughness::scene::{Choice, SceneError};
 use asperity_roughness::{
     Closure, ClosureLaw, Coefficient, Contact, ContactError, CurvePoint, Load, PressureField,
@@ -179,9 +179,13 @@ pub(super) fn press_by(
     // on the contact an elastic cone of the mean slope has half of E* tan β
     let sneddon = 0.5 * tables.material.elastic().reduced_modulus() * surface.parameters.mean_gradient;
     if closure.is_half_space() {
-        let Some(body) = half_space::body(closure, tables) else {
+        let limit = match closure {
+            Closure::HalfSpace => None,
+            _ => spaces.limit(scene, surface, load)?,
+        };
+        if limit.is_none() && closure != Closure::HalfSpace {
             let message = format!(
-                "closure \"{}\" needs hardness (or yield_stress, H = 3 σ_y) in [material]: add it, or choose \"half-space\"",
+                "closure \"{}\" needs hardness or yield_stress in [material]: add it, or choose \"half-space\"",
                 closure.name()
             );
             return if all {
@@ -189,9 +193,11 @@ pub(super) fn press_by(
             } else {
                 Err(wrong("closure", message))
             };
-        };
+        }
+        let body = half_space::body(tables, limit.map(|l| l.pressure));
         let found = spaces.contact(&body, surface, load);
-        let pressed = found.and_then(|found| SpaceContact::of(body, surface, tables, found));
+        let source = limit.map(|l| l.source);
+        let pressed = found.and_then(|found| SpaceContact::of(body, source, surface, tables, found));
         return match pressed {
             Ok(one) => {
                 let nominal = if asked > 0.0 { asked } else { one.contact.pressure };
@@ -241,13 +247,32 @@ fn press_islands(
     Ok(IslandContact { law, contact, field, unloading })
 }
 
-/// Contacts on half-spaces that were found, for those that are asked for again.
+/// Contacts on half-spaces that were found, for those that are asked for again, and the limit of pressure of the metal on this surface.
 #[derive(Default)]
 pub(super) struct Spaces {
+    limit: Option<Option<PressureLimit>>,
     found: Vec<(HalfSpace, Result<HalfSpaceContact, HalfSpaceError>)>,
 }
 
 impl Spaces {
+    /// The largest pressure that the metal bears under the patches of `surface` at `load`; None where nothing of its strength is known.
+    ///
+    /// # Errors
+    /// A calibration that cannot be read, of metal whose law of hardening is that of the calibration.
+    pub fn limit(
+        &mut self,
+        scene: &RoughScene,
+        surface: &Surface,
+        load: Load,
+    ) -> Result<Option<PressureLimit>, InputError> {
+        if let Some(known) = self.limit {
+            return Ok(known);
+        }
+        let limit = PressureLimit::of(&scene.tables().material, scene.hardening_law()?, surface, load);
+        self.limit = Some(limit);
+        Ok(limit)
+    }
+
     /// The contact of `surface` at `load`, found once.
     pub fn contact(
         &mut self,
@@ -264,8 +289,8 @@ impl Spaces {
     }
 }
 
-/// Area and mean pressure of each closure over those of the half-space with the same metal: elastic for "sneddon", with the
-/// hardness for the others.
+/// Area and mean pressure of each closure over those of the half-space with the same metal: elastic for "sneddon", with its
+/// limit of pressure for the others.
 pub(super) fn judge(
     contacts: &mut [ClosureContact],
     scene: &RoughScene,
@@ -276,8 +301,10 @@ pub(super) fn judge(
     let Ok(load) = tables.load.load() else { return };
     for one in contacts.iter_mut() {
         let elastic = matches!(one.closure, Closure::Sneddon | Closure::HalfSpace);
-        let reference = if elastic { Closure::HalfSpace } else { Closure::HalfSpacePlastic };
-        let found = half_space::body(reference, tables).map(|body| spaces.contact(&body, surface, load));
+        let limit = if elastic { None } else { spaces.limit(scene, surface, load).ok().flatten() };
+        let known = elastic || limit.is_some();
+        let body = half_space::body(tables, limit.map(|l| l.pressure));
+        let found = known.then(|| spaces.contact(&body, surface, load));
         if let (Some(Ok(found)), Some(area)) = (found, one.area_ratio())
             && let (Some(pressure), Some(mean)) = (found.mean_pressure(), one.mean_pressure())
         {

@@ -1,9 +1,9 @@
 //! The contact of a surface on a half-space with its load curve, unloading, gap and leak.
 
 use asperity_roughness::flow::{Axis, Constriction, Gap, Leak, constriction, leak};
-use asperity_roughness::half_space::{HalfSpace, HalfSpaceContact, HalfSpaceError, patches};
+use asperity_roughness::half_space::{HalfSpace, HalfSpaceContact, HalfSpaceError, LimitSource, patches};
 use asperity_roughness::scene::Scene;
-use asperity_roughness::{Closure, CurvePoint, Load, Surface};
+use asperity_roughness::{CurvePoint, Load, Surface};
 
 /// Residual of the points of a load curve before its last: areas to a few per mille.
 const CURVE_TOLERANCE: f64 = 1e-4;
@@ -13,6 +13,8 @@ const CURVE_TOLERANCE: f64 = 1e-4;
 pub struct SpaceContact {
     /// The half-space.
     pub body: HalfSpace,
+    /// Where its limit of pressure comes from; None of an elastic one.
+    pub limit: Option<LimitSource>,
     /// The contact at the load.
     pub contact: HalfSpaceContact,
     /// From first touch to the load.
@@ -49,20 +51,17 @@ pub struct Passage {
     pub leak: Option<Leak>,
 }
 
-/// The half-space that stands for `closure` with the metal of `scene`; None where no limit of pressure is known.
-pub(crate) fn body(closure: Closure, scene: &Scene) -> Option<HalfSpace> {
-    let limit = match closure {
-        Closure::HalfSpace => None,
-        _ => Some(scene.material.limit()?),
-    };
+/// The half-space with the metal of `scene` and the limit of pressure `limit`; None of an elastic one.
+pub(crate) fn body(scene: &Scene, limit: Option<f64>) -> HalfSpace {
     let reduced_modulus = scene.material.elastic().reduced_modulus();
-    Some(HalfSpace { reduced_modulus, limit, tolerance: scene.half_space.tolerance(limit.is_some()) })
+    HalfSpace { reduced_modulus, limit, tolerance: scene.half_space.tolerance(limit.is_some()) }
 }
 
 impl SpaceContact {
     /// The results that a scene asks for of the contact `found` of `body` on `surface`.
     pub(super) fn of(
         body: HalfSpace,
+        limit: Option<LimitSource>,
         surface: &Surface,
         scene: &Scene,
         found: HalfSpaceContact,
@@ -83,7 +82,7 @@ impl SpaceContact {
         };
         let (x, y) = rayon::join(|| passage(Axis::X), || passage(Axis::Y));
         let patches = patches(&surface.map, &found.pressures);
-        Ok(SpaceContact { body, contact: found, curve, unloading, passages: [x, y], flows, patches })
+        Ok(SpaceContact { body, limit, contact: found, curve, unloading, passages: [x, y], flows, patches })
     }
 }
 
@@ -91,6 +90,24 @@ impl SpaceContact {
     /// Flux times viscosity over pressure difference along an axis, m³; 0 where nothing passes; None where it was not asked for.
     pub fn leak(&self, axis: usize) -> Option<f64> {
         self.flows.then(|| self.passages[axis].leak.map_or(0.0, |l| l.conductance))
+    }
+
+    /// Where the limit of pressure comes from, in words.
+    pub(super) fn limit_from(&self) -> Option<String> {
+        let words = match self.limit? {
+            LimitSource::Hardness => "hardness",
+            LimitSource::YieldStress => "3 yield_stress",
+            LimitSource::Atlas(_) => "atlas of cones",
+        };
+        Some(words.into())
+    }
+
+    /// Slope at which the atlas was read, degrees.
+    pub(super) fn limit_slope_deg(&self) -> Option<f64> {
+        match self.limit? {
+            LimitSource::Atlas(tan) => Some(tan.atan().to_degrees()),
+            _ => None,
+        }
     }
 
     /// Relative error of the load where `asked` is what was asked for, in Pa.

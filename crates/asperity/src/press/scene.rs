@@ -3,6 +3,7 @@
 use crate::error::InputError;
 use crate::input::toml_file::{TomlFile, to_toml};
 use asperity_calibration::journal::fingerprint;
+use asperity_law::HardeningLaw;
 use asperity_roughness::formats::{Measured, Spacing};
 use asperity_roughness::scene::{Scene, SceneError};
 use asperity_roughness::{Closure, Coefficient};
@@ -163,6 +164,21 @@ impl RoughScene {
             return Ok(None);
         }
         self.calibration().map(Some)
+    }
+
+    /// The law of hardening of the metal: by default that of the calibration. Metal without an exponent has none, and any serves.
+    ///
+    /// # Errors
+    /// A calibration that cannot be read.
+    pub(crate) fn hardening_law(&self) -> Result<HardeningLaw, InputError> {
+        let material = &self.scene.material;
+        match material.hardening_law {
+            Some(law) => Ok(law),
+            None if material.hardness.is_some() || material.hardening_exponent.is_none() => {
+                Ok(HardeningLaw::Hollomon)
+            }
+            None => Ok(self.calibration()?.law),
+        }
     }
 
     /// The calibration that the scene names, or the one that comes with the program.

@@ -128,6 +128,10 @@ row! {
         /// Largest pressure that a pixel of the half-space bears, MPa.
         #[serde(rename = "limit_MPa")]
         limit_mpa: Option<f64> = one.space().and_then(|s| s.body.limit).map(|l| l / MEGAPASCAL),
+        /// Where that limit comes from: the hardness, 3 yield_stress, or the atlas of cones.
+        limit_from: Option<String> = one.space().and_then(|s| s.limit_from()),
+        /// Slope of the patches of contact at which the atlas of cones was read, degrees.
+        limit_slope_deg: Option<f64> = one.space().and_then(|s| s.limit_slope_deg()),
         /// Convolutions on the finest grid of the half-space.
         convolutions: Option<usize> = one.space().map(|s| s.contact.convolutions),
         /// Root mean square height of the surface after unloading, µm.

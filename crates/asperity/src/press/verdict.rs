@@ -3,7 +3,7 @@
 use super::closures::ClosureContact;
 use super::half_space::SpaceContact;
 use super::rough::Rough;
-use crate::units::MICROMETRE;
+use crate::units::{MEGAPASCAL, MICROMETRE};
 use asperity_roughness::Closure;
 use asperity_roughness::flow::Axis;
 use asperity_roughness::scene::Fluid;
@@ -27,6 +27,13 @@ impl Rough {
             100.0 * area.corrected,
             100.0 * area.error
         );
+        if let (Some(limit), Some(slope)) = (space.body.limit, space.limit_slope_deg()) {
+            let _ = write!(
+                text,
+                "; no point bears more than {:.0} MPa, the plateau of the atlas of cones at the {slope:.1}° of the patches",
+                limit / MEGAPASCAL
+            );
+        }
         if let Some(belief) = belief(&self.contacts, area.ratio) {
             let _ = write!(text, "; {belief}");
         }

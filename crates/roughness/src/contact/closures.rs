@@ -88,7 +88,7 @@ impl Closure {
                 "the whole surface on an elastic half-space, pressures from 0 up (Stanley and Kato 1997; Polonsky and Keer 1999)"
             }
             Closure::HalfSpacePlastic => {
-                "the same with pressures from 0 to the hardness, else 3 yield_stress (Almqvist et al. 2007)"
+                "the same with pressures from 0 to the hardness, else to the plateau of the atlas of cones (Almqvist et al. 2007)"
             }
         }
     }

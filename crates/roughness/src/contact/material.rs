@@ -15,7 +15,7 @@ pub struct Material {
     /// Poisson's ratio ν.
     #[schemars(extend("exclusiveMinimum" = -1, "exclusiveMaximum" = 0.5))]
     pub poissons_ratio: f64,
-    /// Hardness H.
+    /// Hardness H. Without it H is 3 σ_y, and the limit of `half-space-plastic` that of the atlas of cones where n is known.
     #[schemars(example = "1280 MPa")]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hardness: Option<Stress>,

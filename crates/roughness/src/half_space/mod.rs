@@ -24,7 +24,10 @@ mod stiffness;
 
 mod press;
 
+mod limit;
+
 pub use area::{Area, patches};
+pub use limit::{LimitSource, PressureLimit, patch_slope};
 pub use press::{FINEST, HalfSpace, HalfSpaceContact, HalfSpaceError, TOLERANCE, TOLERANCE_LIMITED};
 
 #[cfg(test)]

@@ -72,7 +72,7 @@ pub enum Choice {
     Calibrated,
     /// The whole surface on an elastic half-space.
     HalfSpace,
-    /// The same with pressures up to the hardness.
+    /// The same with pressures up to the limit of the metal.
     HalfSpacePlastic,
     /// Every closure the material allows.
     All,

@@ -60,6 +60,36 @@ pub(crate) fn share_above(a: f64, b: f64, c: f64) -> f64 {
     }
 }
 
+/// ∫h over the part of a triangle of unit area that lies above 0, from the heights of its vertices.
+#[inline]
+fn volume_above(a: f64, b: f64, c: f64) -> f64 {
+    let whole = (a + b + c) / 3.0;
+    // the corner cut off at a vertex is a pyramid; a corner below has a volume below 0
+    let corner = |tip: f64, u: f64, v: f64| (tip / (tip - u)) * (tip / (tip - v)) * tip / 3.0;
+    match (a > 0.0, b > 0.0, c > 0.0) {
+        (false, false, false) => 0.0,
+        (true, true, true) => whole,
+        (true, false, false) => corner(a, b, c),
+        (false, true, false) => corner(b, c, a),
+        (false, false, true) => corner(c, a, b),
+        (false, true, true) => whole - corner(a, b, c),
+        (true, false, true) => whole - corner(b, c, a),
+        (true, true, false) => whole - corner(c, a, b),
+    }
+}
+
+/// Mean height above 0 of the part of a cell that lies above; 0 where nothing does.
+pub(crate) fn mean_above(corners: &[f64; 4]) -> f64 {
+    let middle = centre(corners);
+    let (mut area, mut volume) = (0.0, 0.0);
+    for s in 0..4 {
+        let (a, b) = (corners[s], corners[(s + 1) % 4]);
+        area += share_above(a, b, middle);
+        volume += volume_above(a, b, middle);
+    }
+    if area > 0.0 { volume / area } else { 0.0 }
+}
+
 /// Area above 0 and ∫|∇h| over it, in cells, of a cell whose corner heights are relative to the plane.
 #[inline]
 pub(crate) fn above(corners: &[f64; 4], inverse_pixel: [f64; 2]) -> (f64, f64) {
