@@ -147,7 +147,7 @@ impl Row {
                 )
             }
             Err(reason) => {
-                format!("{place}{},{}", ",".repeat(13 + FORCES.len()), reason.replace([',', '\n', '"'], ";"))
+                format!("{place}{},{}", ",".repeat(14 + FORCES.len()), reason.replace([',', '\n', '"'], ";"))
             }
         }
     }
