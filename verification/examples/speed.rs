@@ -71,7 +71,7 @@ fn profile(
     let rest = main - analysis - c.assembly_s - c.factor_s - c.solve_s;
     let shares =
         [meshing + analysis, residuals, c.tangent_s, c.factor_s, c.solve_s, rest, whole - main - meshing]
-            .map(|part| format!("{:.0}", 100.0 * part / whole))
+            .map(|part| format!("{:.0}", 100.0 * part.max(0.0) / whole))
             .join(" | ");
     let kind = if problem.mesh.kind == ElementKind::Quad8 { "q8r" } else { "q4" };
     Ok((
