@@ -7,20 +7,13 @@
 use asperity_law::least_squares::Line;
 use asperity_solver::algebra::newton::System;
 use asperity_solver::run::load_path::Path;
-use asperity_solver::run::problem::Goal;
-use asperity_solver::scene::Accuracy;
 use asperity_verification::report::{Report, timed};
-use asperity_verification::single_asperity::{prepared, scene};
+use asperity_verification::single_asperity::{FRACTION, STEPS, finely_meshed};
 use std::error::Error;
 use std::process::Command;
 
 /// Elements across the contact, for 3,000 to 300,000 unknowns and once beyond.
 const ELEMENTS: [usize; 8] = [40, 64, 104, 168, 272, 440, 580, 710];
-
-/// Load steps, and how far they go as a share of the depth for which the mesh is made. Further, long steps pass so many
-/// elements of a fine mesh at once that they are halved, and the number of steps would not be fixed.
-const STEPS: usize = 4;
-const FRACTION: f64 = 0.01;
 
 /// Peak resident memory of this process, MB.
 fn peak_memory() -> Option<f64> {
@@ -31,11 +24,8 @@ fn peak_memory() -> Option<f64> {
 
 /// Prints unknowns, operations of a factorisation, seconds of assembly, factorisation and solution of one iteration at the
 /// peak, seconds and iterations of the whole loading, and memory, separated by blanks.
-fn one(elements: usize) -> Result<(), Box<dyn Error>> {
-    let mut scene = scene(Accuracy::Reference)?;
-    scene.numerics.elements_in_contact = Some(elements);
-    let mut problem = prepared(&scene)?;
-    (problem.goal, problem.numbers.steps) = (Goal::Depth(FRACTION), STEPS);
+fn one(elements: usize) -> Result<(), Box<dyn Error + Send + Sync>> {
+    let problem = finely_meshed(elements)?;
     let mut path = Path::new(&problem)?;
     path.settings.tolerance = 1e-5;
     let (end, whole) = timed(|| path.load(&mut |_, _| true));
@@ -77,7 +67,7 @@ fn slope(rows: &[[f64; 3]], column: usize) -> f64 {
     Line::through(&points).slope
 }
 
-fn main() -> Result<(), Box<dyn Error>> {
+fn main() -> Result<(), Box<dyn Error + Send + Sync>> {
     let (mut report, words) = Report::of("scaling", "reference, on one core");
     if let Some(elements) = words.first() {
         return one(elements.parse()?);

@@ -1,4 +1,4 @@
-//! What runs cost, beside the bounds that were set and beside the floor of their arithmetic; and where the time goes.
+//! Cost of runs, beside the bounds that were set and beside the floor of their arithmetic; and where the time goes.
 //!
 //! `cargo run --release -p asperity-verification --example speed [-- --out FILE]`; the tables are `verification/results/speed.md`.
 //! Seconds are the least of several runs in one process, on as many threads as told; what compares two of them is measured side by
@@ -10,17 +10,16 @@ use asperity_mesh::ElementKind;
 use asperity_solver::algebra::newton::System;
 use asperity_solver::element::kernel::POINTS;
 use asperity_solver::run::load_path::Path;
-use asperity_solver::run::problem::{Goal, Problem};
+use asperity_solver::run::problem::Problem;
 use asperity_solver::run::simulate::simulate;
 use asperity_solver::scene::{Accuracy, ElementChoice, Scene};
 use asperity_verification::report::{Report, timed};
 use asperity_verification::roofline::Roofline;
-use asperity_verification::single_asperity::{crush, prepared, scene};
+use asperity_verification::single_asperity::{crush, finely_meshed, prepared, scene};
 use rayon::prelude::*;
 use std::error::Error;
 use std::ops::ControlFlow;
 use std::process::Command;
-use std::time::Duration;
 
 /// Levels with the runs of which the quickest counts.
 const LEVELS: [(&str, Accuracy, usize); 3] = [
@@ -88,10 +87,7 @@ fn profile(
 
 /// A loading of four steps on a mesh of some 76,000 unknowns: unknowns, seconds.
 fn loading(elements: usize) -> Result<(usize, f64), Box<dyn Error + Send + Sync>> {
-    let mut scene = scene(Accuracy::Reference)?;
-    scene.numerics.elements_in_contact = Some(elements);
-    let mut problem = prepared(&scene)?;
-    (problem.goal, problem.numbers.steps) = (Goal::Depth(0.01), 4);
+    let problem = finely_meshed(elements)?;
     let mut path = Path::new(&problem)?;
     path.settings.tolerance = 1e-5;
     let (end, seconds) = timed(|| path.load(&mut |_, _| true));
@@ -101,9 +97,7 @@ fn loading(elements: usize) -> Result<(usize, f64), Box<dyn Error + Send + Sync>
 
 /// An iteration with a new tangent on a mesh of `elements` across the contact: unknowns, seconds, seconds at the floor.
 fn iteration(elements: usize, floor: &Roofline) -> Result<(usize, f64, f64), Box<dyn Error>> {
-    let mut scene = scene(Accuracy::Reference)?;
-    scene.numerics.elements_in_contact = Some(elements);
-    let problem = prepared(&scene)?;
+    let problem = finely_meshed(elements).map_err(|e| e.to_string())?;
     let least_seconds = floor_of(&problem, floor)?;
     let mut path = Path::new(&problem)?;
     path.model.begin(-1e-3, 0.0, |_| [0.0; 2]);
@@ -135,8 +129,8 @@ fn processor() -> String {
     name.map_or_else(|| std::env::consts::ARCH.to_string(), |(_, name)| name.trim().to_string())
 }
 
-/// Seconds in which the workspace is built from nothing without optional features.
-fn build() -> Result<Duration, Box<dyn Error>> {
+/// Minutes in which the workspace is built from nothing without optional features.
+fn build() -> Result<f64, Box<dyn Error>> {
     let folder = tempfile::tempdir()?;
     let (status, seconds) = timed(|| {
         Command::new("cargo")
@@ -147,7 +141,7 @@ fn build() -> Result<Duration, Box<dyn Error>> {
     if !status?.success() {
         return Err("the build failed".into());
     }
-    Ok(Duration::from_secs_f64(seconds))
+    Ok(seconds / 60.0)
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -211,7 +205,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         "| an iteration at {unknowns} unknowns over its floor | {:.1} | 3 | 2 |",
         seconds / least
     ));
-    let minutes = build()?.as_secs_f64() / 60.0;
+    let minutes = build()?;
     report.line(&format!("| full build of the command from nothing, minutes | {minutes:.1} | 4.5 | 3 |"));
     Ok(report.finish()?)
 }

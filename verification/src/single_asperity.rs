@@ -4,8 +4,9 @@ use asperity_law::units::{Force, LineForce};
 use asperity_solver::run::crush::{CrushError, Outcome, run};
 use asperity_solver::run::depth_for_force::expect;
 use asperity_solver::run::prepare::prepare;
-use asperity_solver::run::problem::Problem;
+use asperity_solver::run::problem::{Goal, Problem};
 use asperity_solver::scene::{Accuracy, Scene, SceneError, Symmetry, ToolForce};
+use std::error::Error;
 use std::ops::ControlFlow;
 
 /// The scene of the first figure of the paper, at `accuracy`, without field output.
@@ -39,6 +40,24 @@ pub fn driven_by(scene: &Scene, force: f64) -> Scene {
         Symmetry::PlaneStrain => ToolForce::PerLength(LineForce(force)),
     });
     driven
+}
+
+/// Load steps of [`finely_meshed`], and how far they go as a share of the depth for which the mesh is made. Further, long steps
+/// pass so many elements of a fine mesh at once that they are halved, and the number of steps would not be fixed.
+pub const STEPS: usize = 4;
+/// See [`STEPS`].
+pub const FRACTION: f64 = 0.01;
+
+/// The asperity at `reference` with so many elements across the contact, loaded a little.
+///
+/// # Errors
+/// The committed scene file does not read, or cannot be meshed.
+pub fn finely_meshed(elements: usize) -> Result<Problem, Box<dyn Error + Send + Sync>> {
+    let mut scene = scene(Accuracy::Reference)?;
+    scene.numerics.elements_in_contact = Some(elements);
+    let mut problem = prepared(&scene)?;
+    (problem.goal, problem.numbers.steps) = (Goal::Depth(FRACTION), STEPS);
+    Ok(problem)
 }
 
 /// Runs `scene` without an observer.

@@ -7,6 +7,10 @@ use asperity_roughness::Closure;
 use std::path::Path;
 
 fn pressed(top: &str, rest: &str) -> Result<Rough, asperity::Error> {
+    pressed_metal("hardness = \"2 GPa\"", top, rest)
+}
+
+fn pressed_metal(strength: &str, top: &str, rest: &str) -> Result<Rough, asperity::Error> {
     let text = format!(
         r#"{top}
 [surface]
@@ -23,7 +27,7 @@ seed = 1
 [material]
 youngs_modulus = "210 GPa"
 poissons_ratio = 0.3
-hardness = "2 GPa"
+{strength}
 {rest}"#
     );
     press(&RoughScene::from_toml(&text, Path::new("")).unwrap(), &mut |_| true)
@@ -135,32 +139,12 @@ fn a_fluid_leaks_by_the_gap_and_more_load_leaks_less() {
 #[test]
 fn the_limit_of_pressure_knows_the_hardening() {
     let one = |metal: &str| {
-        let text = format!(
-            r#"closure = "half-space-plastic"
-[surface]
-periodic = true
-[surface.generate]
-kind = "self-affine"
-ra = "0.3 um"
-hurst = 0.8
-rolloff = "30 um"
-cutoff = "8 um"
-size = ["96 um", "96 um"]
-pixels = [96, 96]
-seed = 1
-[material]
-youngs_modulus = "210 GPa"
-poissons_ratio = 0.3
-yield_stress = "300 MPa"
-{metal}
-[load]
-pressure = "50 MPa""#
-        );
-        let rough = press(&RoughScene::from_toml(&text, Path::new("")).unwrap(), &mut |_| true).unwrap();
+        let strength = format!("yield_stress = \"300 MPa\"\n{metal}");
+        let load = "[load]\npressure = \"50 MPa\"";
+        let rough = pressed_metal(&strength, "closure = \"half-space-plastic\"", load).unwrap();
         let limit = rough.summary.closures[0].limit_mpa.unwrap();
         let from = rough.summary.closures[0].limit_from.clone().unwrap();
         let area = rough.table[0].contact_area_ratio;
-        println!("{metal}: {limit} {from} {:?} {area}", rough.summary.closures[0].limit_slope_deg);
         (limit, from, area, rough.summary.verdict.unwrap())
     };
     let (unknown, from, ..) = one("");

@@ -52,7 +52,7 @@ pub struct Errors {
     pub stiffness: f64,
     /// Of the elastic share of the work and of the way back.
     pub elastic_share: f64,
-    /// What the errors are read from: ln of the run's over the companion's K, contact radius, S, elastic share; NaN without a
+    /// ln of the run's over the companion's K, contact radius, S, elastic share; NaN without a
     /// companion.
     pub differences: [f64; 4],
 }
@@ -94,21 +94,17 @@ pub fn solve(cone: &Cone, accuracy: Accuracy) -> Result<(Indentation, Errors), C
         return Ok((run, ALONE));
     };
     let carried = |fine: f64, coarse: f64, order: f64| fine * (fine / coarse).powf(order);
-    let error = |fine: f64, coarse: f64| (REMAINS * (fine / coarse).ln().abs()).hypot(SCATTER);
+    let differences = [
+        (run.k_over_e / companion.k_over_e).ln(),
+        (run.contact_ratio / companion.contact_ratio).ln(),
+        (run.stiffness / companion.stiffness).ln(),
+        (run.elastic_share / companion.elastic_share).ln(),
+    ];
+    let [loading_curvature, contact_ratio, stiffness, elastic_share] =
+        differences.map(|difference| (REMAINS * difference).hypot(SCATTER));
     let elastic = run.elastic_share.clamp(0.0, 1.0).cbrt();
     let radius = ORDERS_OF_RADIUS[0] + elastic * (ORDERS_OF_RADIUS[1] - ORDERS_OF_RADIUS[0]);
-    let errors = Errors {
-        loading_curvature: error(run.k_over_e, companion.k_over_e),
-        contact_ratio: error(run.contact_ratio, companion.contact_ratio),
-        stiffness: error(run.stiffness, companion.stiffness),
-        elastic_share: error(run.elastic_share, companion.elastic_share),
-        differences: [
-            (run.k_over_e / companion.k_over_e).ln(),
-            (run.contact_ratio / companion.contact_ratio).ln(),
-            (run.stiffness / companion.stiffness).ln(),
-            (run.elastic_share / companion.elastic_share).ln(),
-        ],
-    };
+    let errors = Errors { loading_curvature, contact_ratio, stiffness, elastic_share, differences };
     let found = Indentation {
         k_over_e: carried(run.k_over_e, companion.k_over_e, ORDER),
         contact_ratio: carried(run.contact_ratio, companion.contact_ratio, radius),

@@ -40,7 +40,7 @@ const ORDER_OF_RADIUS: f64 = 0.547;
 /// Share of the difference between run and companion that may be left.
 const REMAINS: f64 = 0.4;
 
-/// What is left at least under an indenting cone, whose runs differ less than they err. Chosen on 60 cones.
+/// Least error under an indenting cone, whose runs differ less than they err. Chosen on 60 cones.
 const LEAST: f64 = 0.003;
 
 /// Share of the final depth from which the lines are fitted: by then what the longer first steps left behind has faded.

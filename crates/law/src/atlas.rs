@@ -225,7 +225,7 @@ fn least_x() -> f64 {
     RATIOS[0] * SLOPES[0].to_radians().tan()
 }
 
-/// Chebyshev's polynomials of 2x - 1 up to `degree`.
+/// Chebyshev's polynomials of 2x - 1 up to `degree`, 1 at least.
 fn chebyshev(x: f64, degree: usize) -> Vec<f64> {
     let x = 2.0 * x - 1.0;
     let mut series = vec![1.0, x];
@@ -245,10 +245,10 @@ impl Place {
         for ((degrees, most), factor) in BLOCKS.iter().zip(factors) {
             let series: [Vec<f64>; 4] = std::array::from_fn(|i| chebyshev(coordinates[i], degrees[i]));
             let share = |axis: usize, power: usize| power as f64 / degrees[axis] as f64;
-            for (i, a) in series[0].iter().enumerate().take(degrees[0] + 1) {
-                for (j, b) in series[1].iter().enumerate().take(degrees[1] + 1) {
-                    for (k, c) in series[2].iter().enumerate().take(degrees[2] + 1) {
-                        for (l, d) in series[3].iter().enumerate().take(degrees[3] + 1) {
+            for (i, a) in series[0].iter().enumerate() {
+                for (j, b) in series[1].iter().enumerate() {
+                    for (k, c) in series[2].iter().enumerate() {
+                        for (l, d) in series[3].iter().enumerate() {
                             if share(0, i) + share(1, j) + share(2, k) + share(3, l) <= most + 1e-9 {
                                 terms.push(factor * a * b * c * d);
                             }

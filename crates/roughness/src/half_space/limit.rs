@@ -207,7 +207,6 @@ mod tests {
             (surface.parameters.mean_gradient, limit(&metal(0.3), &surface, 60e6))
         };
         let found = [4, 2, 1].map(of);
-        eprintln!("{found:?}");
         for pair in found.windows(2) {
             assert!(pair[1].0 > 1.15 * pair[0].0, "{found:?}");
             assert!((pair[1].1.pressure / pair[0].1.pressure - 1.0).abs() < 0.03, "{found:?}");

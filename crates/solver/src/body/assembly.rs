@@ -39,7 +39,7 @@ pub struct Response {
     pub internal: Vec<[f64; 2]>,
     /// Out-of-balance forces, by the numbers of the unknowns.
     pub residual: Vec<f64>,
-    /// Response of the points of each element; empty where another stress update would give another one.
+    /// Response of the points of each element to the trial; empty where they have to be updated again.
     linearised: Vec<Linearisation<Lanes>>,
     buffers: Buffers,
 }
@@ -60,8 +60,8 @@ impl Response {
         }
     }
 
-    /// The points start elsewhere than they did: the response is no longer that of the trial.
-    pub fn is_outdated(&mut self) {
+    /// Forgets the response of the points, which start elsewhere than they did.
+    pub fn forget_points(&mut self) {
         self.linearised.clear();
     }
 
@@ -87,7 +87,7 @@ impl Body<'_> {
     ) -> Result<(), Failure> {
         self.assemble_elements(&self.material, state, trial, tangent, response, stiffness)?;
         self.integrate_contact(state, trial, touching, response);
-        self.add_contact(state, tangent, response, stiffness);
+        self.balance(state, tangent, response, stiffness);
         Ok(())
     }
 
@@ -108,7 +108,7 @@ impl Body<'_> {
         } else {
             self.assemble_tangent(state, trial, tangent, response, stiffness)?;
         }
-        self.add_contact(state, tangent, response, stiffness);
+        self.balance(state, tangent, response, stiffness);
         Ok(())
     }
 
@@ -126,7 +126,7 @@ impl Body<'_> {
         let elastic = self.material.elastic_part();
         self.assemble_elements(&elastic, state, trial, Tangent::Exact, response, stiffness)?;
         self.integrate_contact(state, trial, Touching::Kept, response);
-        self.add_contact(state, Tangent::Exact, response, stiffness);
+        self.balance(state, Tangent::Exact, response, stiffness);
         Ok(())
     }
 
@@ -167,9 +167,7 @@ impl Body<'_> {
                 f[0] += output.force[0][a];
                 f[1] += output.force[1][a];
             }
-        })?;
-        self.balance(response);
-        Ok(())
+        })
     }
 
     /// Element loop over points that have been updated: stiffness.
@@ -187,22 +185,7 @@ impl Body<'_> {
         let context = ElementContext { symmetry: self.symmetry, metal: &self.material, tangent };
         let motion = Motion { body: self, state, displacement: &trial.displacement, context };
         let start = Start { points: &trial.start, updated: linearised };
-        motion.evaluate_all(&start, buffers, |cell, output| stiffness.add(cell, &output.stiffness))?;
-        self.balance(response);
-        Ok(())
-    }
-
-    /// Begins the residual with the internal forces.
-    fn balance(&self, response: &mut Response) {
-        let Response { internal, residual, .. } = response;
-        residual.fill(0.0);
-        for (f, numbers) in internal.iter().zip(&self.dofs.number) {
-            for i in 0..2 {
-                if numbers[i] != FIXED {
-                    residual[numbers[i] as usize] += f[i];
-                }
-            }
-        }
+        motion.evaluate_all(&start, buffers, |cell, output| stiffness.add(cell, &output.stiffness))
     }
 
     /// Contact loop over the surface edges.
@@ -226,15 +209,17 @@ impl Body<'_> {
         }
     }
 
-    /// Adds the contact of `response` to its residual, and to the stiffness if `tangent` is one.
-    fn add_contact(
-        &self,
-        state: &State,
-        tangent: Tangent,
-        response: &mut Response,
-        stiffness: &mut Stiffness,
-    ) {
-        let Response { contact, pressed, residual, .. } = response;
+    /// Makes the residual of the internal forces and the contact of `response`, and adds the contact to the stiffness if `tangent` is one.
+    fn balance(&self, state: &State, tangent: Tangent, response: &mut Response, stiffness: &mut Stiffness) {
+        let Response { contact, pressed, internal, residual, .. } = response;
+        residual.fill(0.0);
+        for (f, numbers) in internal.iter().zip(&self.dofs.number) {
+            for i in 0..2 {
+                if numbers[i] != FIXED {
+                    residual[numbers[i] as usize] += f[i];
+                }
+            }
+        }
         let stiffness = &mut Some(stiffness).filter(|_| tangent != Tangent::None);
         for (edge, share) in state.edges.iter().zip(contact).filter(|(_, s)| s.parts != NOTHING) {
             self.add_nodal(

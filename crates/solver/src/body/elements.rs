@@ -1,6 +1,7 @@
 //! The element loop: every element of a body evaluated, with the widest vector registers of the processor at hand, on several threads
 //! where that pays. What the elements give is summed up in their order, so that the bits depend on neither.
 
+use crate::body::assembly::current;
 use crate::body::discrete_body::{Body, gather};
 use crate::body::failure::Failure;
 use crate::body::state::{Points, State};
@@ -22,7 +23,7 @@ const ROUND: usize = 128;
 /// has woken it, round after round.
 const WORTH_THREADS: [usize; 2] = [400, 4000];
 
-/// What elements start from: the motion of the nodes, the points, the material.
+/// Motion of the nodes in an increment, and the material.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Motion<'a, 'm> {
     pub body: &'a Body<'m>,
@@ -33,7 +34,7 @@ pub(super) struct Motion<'a, 'm> {
     pub context: ElementContext<'a>,
 }
 
-/// What the points of all elements start from.
+/// States of the points of all elements at the start of an increment.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Start<'a> {
     pub points: &'a Points,
@@ -82,12 +83,11 @@ fn moved<const N: usize>(
     displacement: &[[f64; 2]],
     nodes: &[u32],
 ) -> [[[f64; 2]; N]; 2] {
-    let (mut x, du) = (gather::<N>(position, nodes), gather::<N>(displacement, nodes));
-    for (x, du) in x.iter_mut().zip(&du) {
-        x[0] += du[0];
-        x[1] += du[1];
+    let mut x = [[0.0; 2]; N];
+    for (x, &node) in x.iter_mut().zip(nodes) {
+        *x = current(position, displacement, node);
     }
-    [x, du]
+    [x, gather(displacement, nodes)]
 }
 
 impl Motion<'_, '_> {

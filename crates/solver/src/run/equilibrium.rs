@@ -434,7 +434,7 @@ impl System for Equilibrium<'_> {
         let guards = self.unguarded && residual <= self.nearly * scale && !self.kept_contact;
         if guards {
             self.state.guard(&self.body, &mut self.trial, &self.response);
-            self.response.is_outdated();
+            self.response.forget_points();
             self.jumped[0] = true;
             self.unguarded = false;
         }
