@@ -86,7 +86,7 @@ struct Body {
 
 /// One to three asperities of one kind, lengths in `unit`.
 fn body(unit: &'static str) -> impl Strategy<Value = Body> {
-    let slope = prop_oneof![6 => log_between(1.0, 45.0), 1 => 0.1..1.0, 1 => 45.0..60.0];
+    let slope = prop_oneof![6 => log_between(1.0, 45.0), 1 => 0.1..1.0, 1 => 45.0..75.0];
     let count = prop_oneof![5 => Just(1usize), 2 => 2usize..4];
     (log_between(0.1, 1000.0), slope, 0.0..0.9, count, any::<bool>(), 0.0..2.0, 0..5, 0..5).prop_map(
         move |(height, slope, roundness, count, ridges, spacing, kind, sharp)| {

@@ -16,7 +16,9 @@ mod extrapolation;
 
 mod commit;
 
+mod cell_shapes;
 pub mod evening;
+mod surface_curve;
 
 mod transfer;
 

@@ -117,7 +117,7 @@ impl<'a> Lookup<'a> {
     }
 
     /// The element that holds `x`, or the one that it lies least outside of; `guess` is looked at first.
-    fn find(&self, x: [f64; 2], guess: usize) -> Option<Place> {
+    fn find(&self, x: [f64; 2], guess: usize) -> Place {
         let outside = |xi: [f64; 2]| xi[0].abs().max(xi[1].abs()) - 1.0;
         let mut nearest: Option<(f64, Place)> = None;
         let boxed = |cell: &usize| {
@@ -133,15 +133,43 @@ impl<'a> Lookup<'a> {
                 break;
             }
         }
-        nearest.filter(|(far, _)| *far < BESIDE).map(|(_, place)| place)
+        nearest.filter(|(far, _)| *far < BESIDE).map_or_else(|| self.beside(x, guess), |(_, place)| place)
+    }
+
+    /// The place nearest to a point that no element holds: where two parts of the surface enclosed a gap that was cut off.
+    fn beside(&self, x: [f64; 2], guess: usize) -> Place {
+        let mut nearest = (f64::INFINITY, Place { cell: guess, xi: [0.0; 2] });
+        for cell in 0..self.boxes.len() {
+            let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
+            for (xi, &node) in corners.into_iter().zip(self.mesh.cell(cell)) {
+                let at = self.position[node as usize];
+                let far = (at[0] - x[0]).hypot(at[1] - x[1]);
+                if far < nearest.0 {
+                    nearest = (far, Place { cell, xi });
+                }
+            }
+        }
+        nearest.1
     }
 }
 
-/// Weights of the four integration points at (ξ, η).
-fn weights([xi, eta]: [f64; 2]) -> [f64; POINTS] {
+/// Share of a plastic strain that its extrapolation beyond the integration points may change it by. Without a limit an element that
+/// is crushed flat has points of very different strains, which transfer after transfer drives apart without bound.
+const BEYOND: f64 = 0.25;
+
+/// Weights of the four integration points at (ξ, η): bilinear, and beyond them as far as `BEYOND` lets the plastic strains of `points`.
+fn weights([xi, eta]: [f64; 2], points: &[PointState]) -> [f64; POINTS] {
     let signs = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
-    let [s, t] = [xi, eta].map(|x| x.clamp(-1.0, 1.0) / GAUSS);
-    signs.map(|[a, b]| 0.25 * (1.0 + a * s) * (1.0 + b * t))
+    let bilinear = |[s, t]: [f64; 2]| signs.map(|[a, b]| 0.25 * (1.0 + a * s) * (1.0 + b * t));
+    let at = [xi, eta].map(|x| x.clamp(-1.0, 1.0) / GAUSS);
+    let (between, beyond) = (bilinear(at.map(|s| s.clamp(-1.0, 1.0))), bilinear(at));
+    let plastic_strain = |weights: &[f64; POINTS]| -> f64 {
+        weights.iter().zip(points).map(|(weight, point)| weight * point.plastic_strain).sum()
+    };
+    let [near, far] = [between, beyond].map(|weights| plastic_strain(&weights));
+    let change = (far - near).abs();
+    let share = if change > 0.0 { (BEYOND * near / change).min(1.0) } else { 1.0 };
+    std::array::from_fn(|i| between[i] + share * (beyond[i] - between[i]))
 }
 
 /// Reference volumes of the points of a cell: current ones over the volume ratios.
@@ -183,7 +211,8 @@ fn interpolated(body: &Body<'_>, state: &State, place: Place) -> Option<PointSta
     let range = Body::points_of(place.cell);
     let mut strain: Sym = [0.0; 4];
     let (mut plastic_strain, mut share) = (0.0, 0.0);
-    for (point, weight) in state.points.states[range].iter().zip(weights(place.xi)) {
+    let points = &state.points.states[range];
+    for (point, weight) in points.iter().zip(weights(place.xi, points)) {
         let spectral = Spectral::of(&point.stretch).ok()?;
         let logarithm = spectral.tensor(&spectral.log_strain);
         for i in 0..4 {
@@ -214,8 +243,8 @@ fn interpolated(body: &Body<'_>, state: &State, place: Place) -> Option<PointSta
     })
 }
 
-/// The state of `body` with its nodes at `places` instead of where `state` has them; `None` where a point is in no old element, or
-/// a new cell is inside out.
+/// The state of `body` with its nodes at `places` instead of where `state` has them; `None` where a new cell
+/// is inside out.
 fn carried_over(body: &Body<'_>, state: &State, places: &[[f64; 2]]) -> Option<Carried> {
     let mesh = body.mesh;
     let lookup = Lookup::new(mesh, &state.position);
@@ -239,7 +268,7 @@ fn carried_over(body: &Body<'_>, state: &State, places: &[[f64; 2]]) -> Option<C
                 continue;
             }
             looked_up[node] = true;
-            let place = lookup.find(places[node], cell)?;
+            let place = lookup.find(places[node], cell);
             let (value, _) = shape(mesh.kind, place.xi);
             let old = mesh.cell(place.cell);
             let at = |values: &[[f64; 2]]| {
@@ -252,10 +281,11 @@ fn carried_over(body: &Body<'_>, state: &State, places: &[[f64; 2]]) -> Option<C
         for ((q, xi), volume) in Body::points_of(cell).zip(gauss).zip(volumes) {
             let (value, _) = shape(mesh.kind, xi);
             let x = [0, 1].map(|i| nodes.iter().zip(value).map(|(&n, v)| v * places[n as usize][i]).sum());
-            let place = lookup.find(x, cell)?;
+            let place = lookup.find(x, cell);
             carried.states[q] = interpolated(body, state, place)?;
             carried.volume[q] = volume / volume_ratio(&carried.states[q].stretch);
-            let (old, weights) = (Body::points_of(place.cell), weights(place.xi));
+            let old = Body::points_of(place.cell);
+            let weights = weights(place.xi, &state.points.states[old.clone()]);
             if let (Some(flow), Some(last)) = (carried.plastic.get_mut(q), state.plastic.get(old.clone())) {
                 let sum = |of: &dyn Fn(&PlasticIncrement) -> f64| -> f64 {
                     last.iter().zip(weights).map(|(flow, weight)| weight * of(flow)).sum()
@@ -290,7 +320,7 @@ impl State {
     }
 
     /// The body and its state with the nodes at `places`, in touch with the same tool where it stands. It is not in equilibrium.
-    /// `None` where a point is in no old element, or a new cell is inside out.
+    /// `None` where a new cell is inside out.
     pub fn moved_to<'m>(&self, body: &Body<'m>, places: Vec<[f64; 2]>) -> Option<(Body<'m>, State)> {
         let carried = carried_over(body, self, &places)?;
         let mut state = self.clone();
