@@ -16,8 +16,9 @@
 
 use crate::grading::{Grading, divide};
 use crate::profile::Profile;
+use crate::smoothing::{Freedom, improve};
 use crate::{Edge, ElementKind, Mesh};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 mod grid;
 mod row;
@@ -287,6 +288,48 @@ fn fade_depth(plan: &Plan) -> f64 {
     (1.5 * row::rectangle(plan).depth).max(2.0 * plan.profile.height()).min(plan.depth)
 }
 
+/// Smallest scaled Jacobian of a corner below which the nodes around are moved.
+const SOUND: f64 = 0.02;
+
+/// Rings of cells around a corner that is sharper, whose nodes may move.
+const RINGS: usize = 3;
+
+/// A mesh of four-node cells whose corners the shear under a steep flank may have turned inside out, with the inner nodes around them
+/// where the cells have better shapes.
+fn sound(mesh: Mesh) -> Mesh {
+    let is_sharp = |cell: &usize| mesh.sharpest_corner(&mesh.nodes, *cell) < SOUND;
+    let nodes_of = |cells: &[usize]| -> HashSet<u32> {
+        cells.iter().flat_map(|&cell| mesh.cell(cell)).copied().collect()
+    };
+    let mut cells: Vec<usize> = (0..mesh.cell_count()).filter(is_sharp).collect();
+    if cells.is_empty() {
+        return mesh;
+    }
+    for _ in 0..RINGS {
+        let nodes = nodes_of(&cells);
+        cells = (0..mesh.cell_count())
+            .filter(|&cell| mesh.cell(cell).iter().any(|node| nodes.contains(node)))
+            .collect();
+    }
+    let mut freedom = vec![Freedom::None; mesh.nodes.len()];
+    for node in nodes_of(&cells) {
+        freedom[node as usize] = Freedom::Full;
+    }
+    let mut limit = |edges: &[Edge], to: Freedom| {
+        for node in edges.iter().flat_map(|&edge| mesh.edge_nodes(edge).0) {
+            let freedom = &mut freedom[node as usize];
+            *freedom = if *freedom == Freedom::None { Freedom::None } else { to };
+        }
+    };
+    limit(&mesh.sides.axis, Freedom::Axial);
+    [&mesh.sides.outer, &mesh.sides.base, &mesh.sides.surface]
+        .iter()
+        .for_each(|edges| limit(edges, Freedom::None));
+    let mut places = mesh.nodes.clone();
+    improve(&mesh, &mut places, &freedom);
+    Mesh { nodes: places, ..mesh }
+}
+
 /// Shears the flat grid under a surface of the height `z(r)`, less and less down to the depth `fade`, drops welded nodes and
 /// adds mid-side nodes.
 fn finish(mut grid: Grid, kind: ElementKind, fade: f64, z: impl Fn(f64) -> f64) -> Mesh {
@@ -301,9 +344,15 @@ fn finish(mut grid: Grid, kind: ElementKind, fade: f64, z: impl Fn(f64) -> f64) 
             (nodes.len() - 1) as u32
         });
     }
-    let sides = grid.sides;
+    let corners = Mesh {
+        kind: ElementKind::Quad4,
+        nodes,
+        cells: grid.cells.as_flattened().to_vec(),
+        sides: grid.sides,
+    };
+    let Mesh { mut nodes, cells, sides, .. } = sound(corners);
     if kind == ElementKind::Quad4 {
-        return Mesh { kind, nodes, cells: grid.cells.into_flattened(), sides };
+        return Mesh { kind, nodes, cells, sides };
     }
     let mut middle: HashMap<(u32, u32), u32> = HashMap::new();
     let mut cells = Vec::with_capacity(8 * grid.cells.len());

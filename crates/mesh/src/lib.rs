@@ -27,6 +27,7 @@ mod msh;
 pub mod outline;
 pub mod profile;
 mod quality;
+pub mod smoothing;
 mod vtu;
 
 pub use inp::{Section, write_inp, write_inp_side};

@@ -64,10 +64,9 @@ impl Mesh {
         [0, 1, 2, 3].map(|k| [tangents[k].0, tangents[(k + 3) % 4].1.map(|v| -v)])
     }
 
-    /// Smallest scaled Jacobian of all corners with the nodes at `nodes` instead of their own places.
-    pub fn sharpest_corner(&self, nodes: &[[f64; 2]]) -> f64 {
-        let cells = self.cells.chunks_exact(self.kind.nodes());
-        cells.flat_map(|cell| self.corners(nodes, cell)).map(scaled_jacobian).fold(f64::INFINITY, f64::min)
+    /// Smallest scaled Jacobian of the corners of a cell with the nodes at `nodes` instead of their own places.
+    pub fn sharpest_corner(&self, nodes: &[[f64; 2]], cell: usize) -> f64 {
+        self.corners(nodes, self.cell(cell)).map(scaled_jacobian).into_iter().fold(f64::INFINITY, f64::min)
     }
 
     /// Shape and size of the cells; `None` for a mesh without cells.

@@ -8,12 +8,12 @@
 //! and at its ends), and w from 1 around the contact to 0. A node of the surface stays on it, except where a lip is thinner than an
 //! element: it is cut off. Nodes below go where cells have the best shape.
 
-use crate::body::cell_shapes::{Freedom, improve};
 use crate::body::discrete_body::Body;
 use crate::body::state::State;
 use crate::body::surface_curve::SurfaceCurve;
 use crate::contact::edge::{ContactEdge, NOTHING};
-use asperity_mesh::{ElementKind, Mesh};
+use asperity_mesh::Mesh;
+use asperity_mesh::smoothing::{Freedom, improve, straighten};
 
 /// Widths of the contact beside it within which nodes are spread all the way, and beyond which they stay.
 const AROUND: [f64; 2] = [1.5, 4.0];
@@ -55,7 +55,16 @@ fn length(position: &[[f64; 2]], edge: &ContactEdge) -> f64 {
     (b[0] - a[0]).hypot(b[1] - a[1])
 }
 
-/// Whether edges in the contact are drawn out, or corners of cells sharper, than the `limits` allow.
+/// Smallest scaled Jacobian of the corners of cells that are sharper than they were.
+fn sharpened(mesh: &Mesh, position: &[[f64; 2]]) -> f64 {
+    let sharper = |cell: usize| {
+        let now = mesh.sharpest_corner(position, cell);
+        Some(now).filter(|now| *now < mesh.sharpest_corner(&mesh.nodes, cell))
+    };
+    (0..mesh.cell_count()).filter_map(sharper).fold(f64::INFINITY, f64::min)
+}
+
+/// Whether edges in the contact are drawn out, or corners of cells become sharper, than the `limits` allow.
 pub fn is_distorted(body: &Body<'_>, state: &State, limits: Limits) -> bool {
     let touching = state.edges.iter().zip(&state.contact).filter(|(_, contact)| contact.parts != NOTHING);
     let lengths: Vec<[f64; 2]> =
@@ -64,7 +73,7 @@ pub fn is_distorted(body: &Body<'_>, state: &State, limits: Limits) -> bool {
     lengths.iter().any(|[now, first]| {
         let stretch = now / first;
         stretch > limits.drawn_out || stretch > DRAWN_OVER && *now > COVERED * whole
-    }) || body.mesh.sharpest_corner(&state.position) < limits.sharpest
+    }) || sharpened(body.mesh, &state.position) < limits.sharpest
 }
 
 /// Whether the surface turns sharply from edge to edge, at the inner end of each.
@@ -169,32 +178,18 @@ pub fn evened(body: &Body<'_>, state: &State) -> Option<Vec<[f64; 2]>> {
         .collect();
     improve(mesh, &mut places, &freedom);
     straighten(mesh, &state.position, &on_surface, &mut places);
-    let (before, after) = (mesh.sharpest_corner(&state.position), mesh.sharpest_corner(&places));
+    let changed = |cell: &usize| {
+        mesh.cell(*cell).iter().any(|&node| places[node as usize] != state.position[node as usize])
+    };
+    let sharpest = |position: &[[f64; 2]]| {
+        let cells = (0..mesh.cell_count()).filter(changed);
+        cells.map(|cell| mesh.sharpest_corner(position, cell)).fold(f64::INFINITY, f64::min)
+    };
+    let (before, after) = (sharpest(&state.position), sharpest(&places));
     (after > before.clamp(UNLOADED.sharpest, 0.3)).then_some(places)
 }
 
 /// The edge above `r` on a surface that is a function of r; the nearest one beyond its end.
 fn above(edges: &[ContactEdge], position: &[[f64; 2]], r: f64) -> usize {
     edges.partition_point(|edge| position[edge.nodes[0] as usize][0] < r).min(edges.len() - 1)
-}
-
-/// Puts the mid-side nodes of sides whose ends moved halfway between them, except on the surface.
-fn straighten(mesh: &Mesh, before: &[[f64; 2]], on_surface: &[bool], places: &mut [[f64; 2]]) {
-    if mesh.kind != ElementKind::Quad8 {
-        return;
-    }
-    for cell in 0..mesh.cell_count() {
-        let nodes = mesh.cell(cell);
-        for k in 0..4 {
-            let [a, b, middle] = [nodes[k], nodes[(k + 1) % 4], nodes[4 + k]].map(|node| node as usize);
-            if on_surface[middle] {
-                continue;
-            }
-            places[middle] = if places[a] == before[a] && places[b] == before[b] {
-                before[middle]
-            } else {
-                [0, 1].map(|i| 0.5 * (places[a][i] + places[b][i]))
-            };
-        }
-    }
 }

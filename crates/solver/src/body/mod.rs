@@ -16,7 +16,6 @@ mod extrapolation;
 
 mod commit;
 
-mod cell_shapes;
 pub mod evening;
 mod surface_curve;
 

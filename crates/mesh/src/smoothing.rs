@@ -9,7 +9,7 @@
 //! Source: P. Knupp, Algebraic mesh quality metrics, SIAM J. Sci. Comput. 23 (2001); χ from J. Escobar et al., Simultaneous
 //! untangling and smoothing of tetrahedral meshes, Comput. Methods Appl. Mech. Engrg. 192 (2003).
 
-use asperity_mesh::Mesh;
+use crate::{ElementKind, Mesh};
 
 /// δ of each round, and the sweeps over the nodes in it.
 const ROUNDS: [(f64, usize); 5] = [(0.5, 10), (0.2, 10), (0.05, 20), (0.01, 20), (1e-3, 40)];
@@ -22,7 +22,7 @@ const SETTLED: f64 = 0.02;
 
 /// How a node may move.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Freedom {
+pub enum Freedom {
     /// Not at all.
     None,
     /// Along z.
@@ -112,8 +112,9 @@ fn step(
     if far > size { newton.map(|x| x * size / far) } else { newton }
 }
 
-/// Moves the corner nodes that are free to where the cells around them have the best shape, beginning at `places`.
-pub(super) fn improve(mesh: &Mesh, places: &mut [[f64; 2]], freedom: &[Freedom]) {
+/// Moves the corner nodes that are free to where the cells of `mesh` have the best shape, beginning at `places`; `freedom` is that of
+/// each node. Lengths in the unit of the mesh. Sides that were inside out may stay so.
+pub fn improve(mesh: &Mesh, places: &mut [[f64; 2]], freedom: &[Freedom]) {
     let mut around: Vec<Around> = vec![Vec::new(); mesh.nodes.len()];
     let length = |a: u32, b: u32| {
         let [a, b] = [a, b].map(|node| mesh.nodes[node as usize]);
@@ -156,6 +157,28 @@ pub(super) fn improve(mesh: &Mesh, places: &mut [[f64; 2]], freedom: &[Freedom])
             if farthest < SETTLED {
                 break;
             }
+        }
+    }
+}
+
+/// Puts the mid-side nodes of sides whose ends are no longer where they were `before` halfway between them, except those of `on_surface`.
+/// All are by the number of the node.
+pub fn straighten(mesh: &Mesh, before: &[[f64; 2]], on_surface: &[bool], places: &mut [[f64; 2]]) {
+    if mesh.kind != ElementKind::Quad8 {
+        return;
+    }
+    for cell in 0..mesh.cell_count() {
+        let nodes = mesh.cell(cell);
+        for k in 0..4 {
+            let [a, b, middle] = [nodes[k], nodes[(k + 1) % 4], nodes[4 + k]].map(|node| node as usize);
+            if on_surface[middle] {
+                continue;
+            }
+            places[middle] = if places[a] == before[a] && places[b] == before[b] {
+                before[middle]
+            } else {
+                [0, 1].map(|i| 0.5 * (places[a][i] + places[b][i]))
+            };
         }
     }
 }
