@@ -24,6 +24,10 @@ const BELOW: [f64; 2] = [4.0, 6.0];
 /// Cosine of the turn from edge to edge of the first surface beyond which the node between them stays: 10°.
 const KINK: f64 = 0.985;
 
+/// Shares of the bulge of an edge of the surface that are tried, and the smallest scaled Jacobian of its cell that is room for it.
+const BULGES: [f64; 4] = [1.0, 0.67, 0.33, 0.0];
+const ROOM: f64 = 0.2;
+
 /// How distorted a mesh may be.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
@@ -178,6 +182,7 @@ pub fn evened(body: &Body<'_>, state: &State) -> Option<Vec<[f64; 2]>> {
         .collect();
     improve(mesh, &mut places, &freedom);
     straighten(mesh, &state.position, &on_surface, &mut places);
+    flatten(mesh, &state.position, &mut places);
     let changed = |cell: &usize| {
         mesh.cell(*cell).iter().any(|&node| places[node as usize] != state.position[node as usize])
     };
@@ -192,4 +197,24 @@ pub fn evened(body: &Body<'_>, state: &State) -> Option<Vec<[f64; 2]>> {
 /// The edge above `r` on a surface that is a function of r; the nearest one beyond its end.
 fn above(edges: &[ContactEdge], position: &[[f64; 2]], r: f64) -> usize {
     edges.partition_point(|edge| position[edge.nodes[0] as usize][0] < r).min(edges.len() - 1)
+}
+
+/// Moves the mid-side nodes of the surface that left their places `before` towards the straight line where their cells have no room
+/// for the bulge: of a lip that turns round within one edge.
+fn flatten(mesh: &Mesh, before: &[[f64; 2]], places: &mut [[f64; 2]]) {
+    for edge in &mesh.sides.surface {
+        let (ends, Some(middle)) = mesh.edge_nodes(*edge) else { continue };
+        let middle = middle as usize;
+        if places[middle] == before[middle] {
+            continue;
+        }
+        let straight = [0, 1].map(|i| 0.5 * ends.iter().map(|&node| places[node as usize][i]).sum::<f64>());
+        let bulge = [0, 1].map(|i| places[middle][i] - straight[i]);
+        for share in BULGES {
+            places[middle] = [0, 1].map(|i| straight[i] + share * bulge[i]);
+            if mesh.sharpest_corner(places, edge.cell as usize) > ROOM {
+                break;
+            }
+        }
+    }
 }
