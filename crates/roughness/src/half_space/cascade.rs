@@ -11,10 +11,8 @@ use rayon::prelude::*;
 const COARSEST: usize = 64;
 /// Residual of the coarse grids.
 const COARSE: f64 = 1e-3;
-/// The least residual that `f32` is asked for, and the same in units of its rounding where displacements are larger than heights:
-/// it stagnates below.
+/// The least residual that `f32` is asked for: it stagnates below.
 const SINGLE: f64 = 1e-6;
-const ROUNDING: f64 = 4.0;
 /// Iterations of one grid.
 const ITERATIONS: usize = 400;
 
@@ -131,7 +129,7 @@ impl Task {
             let measured = lift[range.clone()].iter().zip(&self.heights[range]).filter(|(_, h)| !h.is_nan());
             measured.fold([0.0, 0.0], |[s, n], (u, _)| [s + u.wide() * u.wide(), n + 1.0])
         });
-        ROUNDING * f64::from(f32::EPSILON) * (squares / n).sqrt() / self.rms
+        f64::from(f32::EPSILON) * (squares / n).sqrt() / self.rms
     }
 
     /// The pressure that `hold` brings about, from `start` or from coarser grids, to `tolerance`.
