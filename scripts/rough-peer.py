@@ -127,9 +127,7 @@ def asperity(flags, z, pressure, closure, judge="false"):
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder)
         np.save(folder / "z.npy", z * z.shape[0] * PIXEL)
-        surface = (
-            'file = "z.npy"\npixel_size = ["1 um", "1 um"]\nheight_unit = "m"\nlevel = "mean"\n'
-        )
+        surface = 'file = "z.npy"\npixel_size = ["1 um", "1 um"]\nheight_unit = "m"\nlevel = "mean"\n'
         return run(flags.binary, scene(closure, surface, pressure, judge), folder)[:2]
 
 
@@ -208,7 +206,12 @@ def main():
     say([compared(flags, LARGE, flags.large, "saturated", flags.large_iterations)])
     say(["", "What the program needs, one core:", "", "| | measured | at most |", "|-|-|-|", *costs])
     say(["", "Area of a closure over that of the half-space with the same metal:", ""])
-    say(["| map | H | roll-off | p/(E* h') | H/p | published | fitted | johnson | sneddon |", "|-|-|-|-|-|-|-|-|-|"])
+    say(
+        [
+            "| map | H | roll-off | p/(E* h') | H/p | published | fitted | johnson | sneddon |",
+            "|-|-|-|-|-|-|-|-|-|",
+        ]
+    )
     for k in range(len(MAPS)):
         say([judged(flags, k, flags.pixels)])
     if flags.out:

@@ -32,7 +32,12 @@ ELASTIC = {"youngs_modulus": "210 GPa", "poissons_ratio": 0.3}
 # name, metal, nominal pressure in MPa, closure of the half-space
 METALS = [
     ("elastic", ELASTIC, 800, "half-space"),
-    ("σ_y 300 MPa", ELASTIC | {"yield_stress": "300 MPa", "hardening_exponent": 0}, 300, "half-space-plastic"),
+    (
+        "σ_y 300 MPa",
+        ELASTIC | {"yield_stress": "300 MPa", "hardening_exponent": 0},
+        300,
+        "half-space-plastic",
+    ),
     (
         "σ_y 300 MPa, n 0.3",
         ELASTIC | {"yield_stress": "300 MPa", "hardening_exponent": 0.3},
@@ -92,7 +97,13 @@ def finite_elements(flags, folder, x, z, metal, pressure):
     r, height = (np.array([float(row[name]) for row in surface]) for name in ("r_um", "z_um"))
     gap = (-summary["peak_depth_um"] - height).clip(0.0)
     mean = float((np.diff(r) * (gap[1:] + gap[:-1]) / 2).sum() / (r[-1] - r[0]))
-    return summary["contact_width_um"] / LENGTH, summary["errors"]["contact_area"], touching, len(ridges), mean
+    return (
+        summary["contact_width_um"] / LENGTH,
+        summary["errors"]["contact_area"],
+        touching,
+        len(ridges),
+        mean,
+    )
 
 
 def others(flags, folder, z, metal, pressure):
@@ -116,9 +127,7 @@ def measured(flags, seed, name, metal, pressure, judge):
         width, error, touching, ridges, gap = finite_elements(flags, folder, x, z, metal, pressure)
         every = others(flags, folder, z, metal, pressure)
     space = every[judge]
-    found, patches, mean = (
-        float(space[key]) for key in ("contact_area_ratio", "asperities", "mean_gap_um")
-    )
+    found, patches, mean = (float(space[key]) for key in ("contact_area_ratio", "asperities", "mean_gap_um"))
     # a patch in the map has its image, unless it lies on a wall
     row = (
         f"| {seed} | {name} | {pressure} | {100 * width:.2f} ± {100 * error * width:.2f} | {100 * found:.2f} | {found / width:.3f} | "
