@@ -54,7 +54,7 @@ pub struct Passage {
 /// The half-space with the metal of `scene` and the limit of pressure `limit`; None of an elastic one.
 pub(crate) fn body(scene: &Scene, limit: Option<f64>) -> HalfSpace {
     let reduced_modulus = scene.material.elastic().reduced_modulus();
-    HalfSpace { reduced_modulus, limit, tolerance: scene.half_space.tolerance(limit.is_some()) }
+    HalfSpace { reduced_modulus, limit, tolerance: scene.half_space.tolerance() }
 }
 
 impl SpaceContact {

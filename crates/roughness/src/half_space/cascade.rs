@@ -11,8 +11,8 @@ use rayon::prelude::*;
 const COARSEST: usize = 64;
 /// Residual of the coarse grids.
 const COARSE: f64 = 1e-3;
-/// The least residual that `f32` is asked for: it stagnates a decade below.
-pub(super) const SINGLE: f64 = 1e-6;
+/// The least residual that `f32` is asked for: it stagnates below.
+const SINGLE: f64 = 1e-6;
 /// Iterations of one grid.
 const ITERATIONS: usize = 400;
 
@@ -120,6 +120,18 @@ impl Task {
         self.heights.iter().map(|h| if h.is_nan() { 0.0 } else { value as f32 }).collect()
     }
 
+    /// The residual that `f32` leaves by rounding the displacements of a pressure: a free map sinks as a whole, and by far more
+    /// than its heights where it is large or rough from pixel to pixel.
+    fn rounding(&self, level: &mut Level<f32>, pressure: &[f32]) -> f64 {
+        let mut lift = vec![0.0; pressure.len()];
+        level.lift(pressure, &mut lift);
+        let [squares, n] = sums(lift.len(), |range| {
+            let measured = lift[range.clone()].iter().zip(&self.heights[range]).filter(|(_, h)| !h.is_nan());
+            measured.fold([0.0, 0.0], |[s, n], (u, _)| [s + u.wide() * u.wide(), n + 1.0])
+        });
+        f64::from(f32::EPSILON) * (squares / n).sqrt() / self.rms
+    }
+
     /// The pressure that `hold` brings about, from `start` or from coarser grids, to `tolerance`.
     pub fn solve(&self, hold: Hold, start: Option<&[f64]>, tolerance: f64) -> Answer {
         let start = match start {
@@ -128,11 +140,12 @@ impl Task {
         };
         let mut level = self.level::<f32>();
         let start = allowed(&level, hold, start);
-        let found = search(&mut level, hold, start, tolerance.max(SINGLE), ITERATIONS);
+        let reachable = tolerance.max(SINGLE).max(self.rounding(&mut level, &start));
+        let found = search(&mut level, hold, start, reachable, ITERATIONS);
         let single = level.convolutions;
         drop(level);
         let start: Vec<f64> = found.pressure.par_iter().map(|p| f64::from(*p)).collect();
-        if tolerance >= SINGLE {
+        if tolerance >= reachable {
             let lift = found.lift.par_iter().map(|u| f64::from(*u)).collect();
             let (plane, residual) = (found.plane, found.residual);
             return Answer { pressure: start, lift, plane, residual, convolutions: single };

@@ -28,7 +28,7 @@ mod limit;
 
 pub use area::{Area, patches};
 pub use limit::{LimitSource, PressureLimit, patch_slope};
-pub use press::{FINEST, HalfSpace, HalfSpaceContact, HalfSpaceError, TOLERANCE, TOLERANCE_LIMITED};
+pub use press::{FINEST, HalfSpace, HalfSpaceContact, HalfSpaceError, TOLERANCE};
 
 #[cfg(test)]
 mod tests;

@@ -9,10 +9,9 @@ use crate::{HeightMap, Load, Surface};
 use rayon::prelude::*;
 use thiserror::Error;
 
-/// Residual of the complementarity conditions to which the contact is found unless said otherwise: areas to 0.05 %.
-pub const TOLERANCE: f64 = 1e-5;
-/// The same with a limit of pressure, where the area converges later.
-pub const TOLERANCE_LIMITED: f64 = 1e-6;
+/// Residual of the complementarity conditions to which the contact is found unless said otherwise: the pixels in contact are
+/// then those of 1e-8 but for a few in a million, or with a limit of pressure a few in ten thousand.
+pub const TOLERANCE: f64 = 1e-6;
 /// The least residual that can be asked for.
 pub const FINEST: f64 = 1e-10;
 

@@ -1,7 +1,7 @@
 //! `[half_space]`: how the half-space is solved.
 
 use super::error::{SceneError, error};
-use crate::half_space::{FINEST, TOLERANCE, TOLERANCE_LIMITED};
+use crate::half_space::{FINEST, TOLERANCE};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -14,7 +14,7 @@ const SMALL: usize = 512 * 512;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct HalfSpaceScene {
-    /// Residual of the complementarity conditions: 1e-5 by default, 1e-6 with a limit of pressure.
+    /// Residual of the complementarity conditions: 1e-6 by default.
     #[schemars(extend("minimum" = 1e-10, "maximum" = 1e-2))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tolerance: Option<f64>,
@@ -33,9 +33,9 @@ impl HalfSpaceScene {
         *self == HalfSpaceScene::default()
     }
 
-    /// The residual to be reached, with a limit of pressure or without.
-    pub fn tolerance(&self, limited: bool) -> f64 {
-        self.tolerance.unwrap_or(if limited { TOLERANCE_LIMITED } else { TOLERANCE })
+    /// The residual to be reached.
+    pub fn tolerance(&self) -> f64 {
+        self.tolerance.unwrap_or(TOLERANCE)
     }
 
     /// Points of the load curve of a map of so many nodes.
@@ -45,7 +45,7 @@ impl HalfSpaceScene {
 
     pub(super) fn validate(&self) -> Result<(), SceneError> {
         if let Some(t) = self.tolerance.filter(|t| !(FINEST..=1e-2).contains(t)) {
-            let message = format!("{t:e} must be between 1e-10 and 0.01: leave the key out for 1e-5");
+            let message = format!("{t:e} must be between 1e-10 and 0.01: leave the key out for 1e-6");
             return error("half_space.tolerance", message);
         }
         match self.load_points {
