@@ -46,8 +46,9 @@ pub fn crush(args: &Crush) -> Result<(), Error> {
     let progress = Progress::new(args.run.quiet);
     let symmetry = scene.tables().symmetry;
     let checkpoints = Checkpoints { folder: journal_beside(&out), every: BETWEEN_CHECKPOINTS };
-    if checkpoints.folder.exists() && !args.run.quiet {
-        terminal::complain(&format!("going on from {}", checkpoints.folder.display()));
+    if checkpoints.exist() && !args.run.quiet {
+        let place = checkpoints.folder.display();
+        terminal::complain(&format!("the solves of a stopped run in {place} are used as far as they fit"));
     }
     let result = crush_with(&scene, Some(&checkpoints), &mut folder, &[Sketch::PEAK], &mut |reached| {
         let share = reached.row.increment as f64 / reached.planned.max(1) as f64;
@@ -65,9 +66,9 @@ pub fn crush(args: &Crush) -> Result<(), Error> {
     });
     folder.publish()?;
     let summary = result?.summary;
-    let kept = interrupt::requested() && checkpoints.folder.exists();
+    let kept = interrupt::requested() && checkpoints.exist();
     if !kept {
-        let _ = std::fs::remove_dir_all(&checkpoints.folder);
+        checkpoints.remove();
     }
     if !args.run.quiet {
         summary.warnings().iter().for_each(terminal::warn);

@@ -109,7 +109,8 @@ pub fn crush_into(
 }
 
 /// [`crush_into`], which goes on from the `checkpoints` that a stopped run of the same scene left, and writes its own while it lasts. The
-/// results have the same bits as those of a run that nothing stopped; the observer hears of all increments once more.
+/// results have the same bits as those of a run that nothing stopped; the observer hears of all increments once more. The
+/// checkpoints stay until they are removed.
 ///
 /// # Errors
 /// As for [`crush_into`].

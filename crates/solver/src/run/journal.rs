@@ -30,8 +30,32 @@ pub struct Checkpoints {
     pub every: Duration,
 }
 
+impl Checkpoints {
+    /// Whether there are any.
+    pub fn exist(&self) -> bool {
+        self.folder.join(SOLVER).exists()
+    }
+
+    /// Removes them, which are of no use once the results of the run are in their place.
+    pub fn remove(&self) {
+        for name in [SOLVER, PARTIAL, SOLVES] {
+            let _ = fs::remove_file(self.folder.join(name));
+        }
+        // only if it is empty
+        let _ = fs::remove_dir(&self.folder);
+    }
+}
+
+/// The files: what the solver remembers, the same while it is written, and the solves.
+const SOLVER: &str = "solver";
+const PARTIAL: &str = "solver.partial";
+const SOLVES: &str = "solves";
+
 /// Writing takes at most this share of the time.
 const SHARE: f64 = 0.01;
+
+/// Bytes of solves that are held before they go to their file.
+const HELD: usize = 4 << 20;
 
 /// A number for a text that is never held as a whole.
 struct Digest(DefaultHasher);
@@ -68,7 +92,7 @@ pub(in crate::run) struct Journal<'p> {
     done: u64,
     length: u64,
     /// Solves that are not there yet.
-    pending: u64,
+    held: u64,
     bytes: Vec<u8>,
     written: Instant,
     pause: Duration,
@@ -102,7 +126,7 @@ impl<'p> Journal<'p> {
             recalled: None,
             done: 0,
             length: 0,
-            pending: 0,
+            held: 0,
             bytes: Vec::new(),
             written: Instant::now(),
             pause: checkpoints.every,
@@ -117,11 +141,11 @@ impl<'p> Journal<'p> {
 
     /// What an earlier run of the same problem left.
     fn left_before(&self) -> io::Result<Option<Recalled>> {
-        let mut solver = BufReader::new(File::open(self.file("solver"))?);
+        let mut solver = BufReader::new(File::open(self.file(SOLVER))?);
         let mut words = [[0; 8]; 2];
         words.iter_mut().try_for_each(|word| solver.read_exact(word))?;
         let [problem, left] = words.map(u64::from_le_bytes);
-        let solves = BufReader::new(File::open(self.file("solves"))?);
+        let solves = BufReader::new(File::open(self.file(SOLVES))?);
         Ok((problem == number(self.problem) && left > 0).then_some(Recalled { solves, left, solver }))
     }
 
@@ -151,39 +175,46 @@ impl<'p> Journal<'p> {
     /// Takes down the solve of `model` that ended with `outcome`, and writes if it is time.
     fn note(&mut self, model: &mut Equilibrium<'_>, outcome: Outcome) -> io::Result<()> {
         model.solved(outcome).write(&mut self.bytes)?;
-        self.pending += 1;
-        if self.written.elapsed() < self.pause { Ok(()) } else { self.write(model) }
+        self.held += 1;
+        if self.written.elapsed() >= self.pause {
+            return self.write(model);
+        }
+        if self.bytes.len() > HELD { self.append().map(drop) } else { Ok(()) }
     }
 
     /// Writes what is not there yet, of a run that ends here and is long enough to keep.
     pub fn interrupted(&mut self, model: &Equilibrium<'_>) {
-        let kept = self.done > 0 || self.written.elapsed() >= self.checkpoints.every;
-        if kept && self.pending > 0 {
+        let kept = self.checkpoints.exist() || self.written.elapsed() >= self.checkpoints.every;
+        if kept && self.recalled.is_none() {
             // the checkpoint before stays
             let _ = self.write(model);
         }
     }
 
-    fn write(&mut self, model: &Equilibrium<'_>) -> io::Result<()> {
-        let start = Instant::now();
+    /// Puts the solves that are held into their file, behind those that are there.
+    fn append(&mut self) -> io::Result<File> {
         fs::create_dir_all(&self.checkpoints.folder)?;
         let mut solves =
-            OpenOptions::new().write(true).create(true).truncate(false).open(self.file("solves"))?;
+            OpenOptions::new().write(true).create(true).truncate(false).open(self.file(SOLVES))?;
         solves.set_len(self.length)?;
         solves.seek(SeekFrom::End(0))?;
         solves.write_all(&self.bytes)?;
-        solves.sync_data()?;
-        self.done += std::mem::take(&mut self.pending);
+        self.done += std::mem::take(&mut self.held);
         self.length += self.bytes.len() as u64;
         self.bytes.clear();
-        let (partial, place) = (self.file("solver.partial"), self.file("solver"));
-        let mut solver = BufWriter::new(File::create(&partial)?);
+        Ok(solves)
+    }
+
+    fn write(&mut self, model: &Equilibrium<'_>) -> io::Result<()> {
+        let start = Instant::now();
+        self.append()?.sync_data()?;
+        let mut solver = BufWriter::new(File::create(self.file(PARTIAL))?);
         for word in [number(self.problem), self.done] {
             solver.write_all(&word.to_le_bytes())?;
         }
         model.write_memory(&mut solver)?;
         solver.into_inner()?.sync_data()?;
-        fs::rename(partial, place)?;
+        fs::rename(self.file(PARTIAL), self.file(SOLVER))?;
         self.written = Instant::now();
         self.pause = self.checkpoints.every.max(start.elapsed().div_f64(SHARE));
         Ok(())
