@@ -201,8 +201,8 @@ impl Equilibrium<'_> {
             write_numbers(to, change)?;
             write_numbers(to, &[inverse])?;
         }
-        let factors = self.factor.values().filter(|_| self.has_factors);
-        factors.map(|values| write_numbers(to, values)).collect()
+        let mut factors = self.factor.values().filter(|_| self.has_factors);
+        factors.try_for_each(|values| write_numbers(to, values))
     }
 
     /// Reads what [`Equilibrium::write_memory`] wrote of this body at the same solve.
