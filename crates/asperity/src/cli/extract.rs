@@ -127,15 +127,7 @@ pub fn scene_of(
             usual
         }
     };
-    RoughScene::of_map(path, &like, overrides).map_err(|e| {
-        let unsaid = ["height_unit", "pixel_size"].iter().any(|key| e.message.contains(key));
-        if !unsaid || e.help.is_some() {
-            return e.into();
-        }
-        let help = "--set surface.height_unit=um --set 'surface.pixel_size=[\"1 um\", \"1 um\"]' say so of a map on its own; \
-                    asperity new surface writes a scene that holds them";
-        e.help(help).into()
-    })
+    Ok(RoughScene::of_map(path, &like, overrides)?)
 }
 
 fn wanted(args: &Extract) -> Extraction {

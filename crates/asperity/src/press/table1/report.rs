@@ -121,7 +121,8 @@ mod tests {
 
     #[test]
     fn the_page_says_which_trends_hold() {
-        let rows = TABLE.iter().enumerate().map(|(i, (surface, paper))| {
+        let table = TABLE;
+        let rows = table.iter().enumerate().map(|(i, (surface, paper))| {
             let mut one = ClosureSeeds::new(Closure::Published);
             one.pressure = Seeds(vec![100.0, 102.0 + i as f64]);
             one.area = Seeds(vec![20.0 - i as f64]);
