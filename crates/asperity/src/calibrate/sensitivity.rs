@@ -1,5 +1,7 @@
 //! c for both laws, both tools and parts of the range of materials.
 
+mod report;
+
 use super::run::{Options, Progress, solve};
 use crate::error::Error;
 use crate::output::{Sink, SinkExt, row};
@@ -60,6 +62,19 @@ row! {
         /// Upper end.
         high_developed: Option<f64> = line.developed.map(|s| rounded(s.ci95[1])),
     }
+}
+
+impl SensitivityLine {
+    /// c with the ends of its interval, of all cases and of those in which plasticity is developed; `None`: not determined.
+    fn coefficients(&self) -> [Option<[f64; 3]>; 2] {
+        let whole = |c: Option<f64>, low: Option<f64>, high: Option<f64>| Some([c?, low?, high?]);
+        [whole(self.c, self.low, self.high), whole(self.c_developed, self.low_developed, self.high_developed)]
+    }
+}
+
+/// What others found.
+fn published() -> String {
+    format!("published: Tabor and Johnson 0.2, Bucaille 0.105 (indentation), Jourani {PUBLISHED} (crush)")
 }
 
 /// To five decimals.
@@ -135,10 +150,10 @@ impl Sensitivity {
             "| tool, law | n | E/σ_y | c (95 %) | c where E* tan β/σ_r ≥ {DEVELOPED} |\n|-|-|-|-|-|\n"
         );
         for l in &self.lines {
-            let shown = |c: Option<f64>, low: Option<f64>, high: Option<f64>| match (c, low, high) {
-                (Some(c), Some(low), Some(high)) => format!("{c:.3} ({low:.3}-{high:.3})"),
-                _ => "not determined".into(),
-            };
+            let [all, developed] = l.coefficients().map(|c| match c {
+                Some([c, low, high]) => format!("{c:.3} ({low:.3}-{high:.3})"),
+                None => "not determined".into(),
+            });
             let _ = writeln!(
                 text,
                 "| {}, {} | {}-{} | {}-{} | {} | {} |",
@@ -148,12 +163,11 @@ impl Sensitivity {
                 l.n_largest,
                 l.e_over_sy_least,
                 l.e_over_sy_largest,
-                shown(l.c, l.low, l.high),
-                shown(l.c_developed, l.low_developed, l.high_developed)
+                all,
+                developed
             );
         }
-        let indentation = "published: Tabor and Johnson 0.2, Bucaille 0.105 (indentation)";
-        let _ = writeln!(text, "{indentation}, Jourani {PUBLISHED} (crush)");
+        let _ = writeln!(text, "{}", published());
         text
     }
 }

@@ -28,7 +28,7 @@ pub struct Calibrate {
     #[arg(long, value_name = "K/N", value_parser = clap::value_parser!(Shard))]
     pub shard: Option<Shard>,
     /// The dependence of c: a table over laws, tools, exponents and ranges of E over yield stress, from 1800 cases
-    #[arg(long, conflicts_with_all = ["sweep", "shard", "slope", "overrides", "report"])]
+    #[arg(long, conflicts_with_all = ["sweep", "shard", "slope", "overrides"])]
     pub dependence: bool,
     /// Slope in degrees that collapse.svg shows [default: the largest]
     #[arg(long, value_name = "DEGREES")]
@@ -101,7 +101,10 @@ fn dependence(args: &Calibrate) -> Result<(), Error> {
     let options = options(&args.run, &target);
     let accuracy = args.scene_flags.accuracy.unwrap_or_default();
     let result = observed(&options, args.run.quiet, |observer| sensitivity(accuracy, &options, observer));
-    let found = folder.fill(result, |found, folder| found.write(folder))?;
+    let found = folder.fill(result, |found, folder| {
+        found.write(folder)?;
+        args.page.write(folder, || found.report())
+    })?;
     found.remove_journals();
     args.run.say(&target, || found.json(), || found.text())
 }

@@ -1,14 +1,18 @@
 //! `asperity crush`: one scene from its file to a folder of results.
 
 use crate::cli::flags::{ReportFlag, RunFlags, SceneFlags};
-use crate::cli::folder::Folder;
+use crate::cli::folder::{Folder, journal_beside};
 use crate::cli::progress::Progress;
 use crate::cli::{interrupt, terminal};
-use crate::crush::{CurveRow, Phase, Sketch, crush_into};
+use crate::crush::{Checkpoints, CurveRow, Phase, Sketch, crush_with};
 use crate::error::{Error, InputError};
 use asperity_solver::scene::Symmetry;
 use clap::Args;
 use std::path::PathBuf;
+use std::time::Duration;
+
+/// A killed run loses at most this much.
+const BETWEEN_CHECKPOINTS: Duration = Duration::from_secs(30);
 
 /// Arguments of `asperity crush`.
 #[derive(Debug, Args)]
@@ -41,7 +45,12 @@ pub fn crush(args: &Crush) -> Result<(), Error> {
     interrupt::catch();
     let progress = Progress::new(args.run.quiet);
     let symmetry = scene.tables().symmetry;
-    let result = crush_into(&scene, &mut folder, &[Sketch::PEAK], &mut |reached| {
+    let checkpoints = Checkpoints { folder: journal_beside(&out), every: BETWEEN_CHECKPOINTS };
+    if checkpoints.exist() && !args.run.quiet {
+        let place = checkpoints.folder.display();
+        terminal::complain(&format!("the solves of a stopped run in {place} are used as far as they fit"));
+    }
+    let result = crush_with(&scene, Some(&checkpoints), &mut folder, &[Sketch::PEAK], &mut |reached| {
         let share = reached.row.increment as f64 / reached.planned.max(1) as f64;
         progress.show(share, || progress_line(reached.row, symmetry));
         !interrupt::requested()
@@ -57,12 +66,19 @@ pub fn crush(args: &Crush) -> Result<(), Error> {
     });
     folder.publish()?;
     let summary = result?.summary;
+    let kept = interrupt::requested() && checkpoints.exist();
+    if !kept {
+        checkpoints.remove();
+    }
     if !args.run.quiet {
         summary.warnings().iter().for_each(terminal::warn);
     }
     args.run.say(&out, || summary.to_json(), || summary.overview())?;
     match summary.stopped {
-        Some(reason) => Err(Error::Unfinished(format!("{reason}; what was reached is in {}", out.display()))),
+        Some(reason) => {
+            let again = if kept { "; the same command goes on from there" } else { "" };
+            Err(Error::Unfinished(format!("{reason}; what was reached is in {}{again}", out.display())))
+        }
         None => Ok(()),
     }
 }

@@ -1,7 +1,7 @@
 //! Flags that several commands share.
 
 use crate::cli::terminal;
-use crate::error::Error;
+use crate::error::{Error, InputError};
 use crate::input::scene::Scene;
 use crate::output::{Sink, SinkExt};
 use asperity_solver::scene::{Accuracy, AccuracyError};
@@ -33,7 +33,22 @@ impl SceneFlags {
     /// # Errors
     /// A scene that cannot be read or makes no sense, pointing at the line.
     pub fn read(&self, path: &Path) -> Result<Scene, Error> {
-        Scene::read(path, &self.changes())
+        let name = path.display();
+        let help = format!(
+            "a map of heights is pressed by asperity rough {name}; asperity extract {name} makes scenes of its asperities"
+        );
+        Scene::read(path, &self.changes()).map_err(|e| told_of_table(e, path, help))
+    }
+}
+
+/// An error of reading `path`, which by its name may be measured data where a TOML file is expected: then `help` is the way out.
+pub fn told_of_table(error: Error, path: &Path, help: String) -> Error {
+    let data = path.extension().is_some_and(|end| end != "toml" && end != "json");
+    match error {
+        Error::Input(_) if data && path.is_file() => {
+            InputError::new(format!("{} is no TOML file", path.display())).help(help).into()
+        }
+        error => error,
     }
 }
 

@@ -1,6 +1,6 @@
 //! `asperity identify`: from measured curves to the metal.
 
-use crate::cli::flags::{ReportFlag, RunFlags};
+use crate::cli::flags::{ReportFlag, RunFlags, told_of_table};
 use crate::cli::folder::Folder;
 use crate::cli::progress::Progress;
 use crate::cli::{interrupt, terminal};
@@ -32,7 +32,12 @@ pub fn identify(args: &Identify) -> Result<(), Error> {
         let help = "asperity new fit writes fit.toml, a commented fit to start from; then: asperity identify fit.toml";
         return Err(InputError::new("Missing fit file.").help(help).into());
     };
-    let fit = Fit::read(path, &args.overrides)?;
+    let fit = Fit::read(path, &args.overrides).map_err(|e| {
+        let name = path.display();
+        let help =
+            format!("asperity new fit writes a commented fit.toml; give a [[curve]] of it file = \"{name}\"");
+        told_of_table(e, path, help)
+    })?;
     let out = args.run.target(&fit.name());
     let folder = Folder::create(&out, "identify", args.run.force)?;
     interrupt::catch();

@@ -75,7 +75,9 @@ pub fn new(args: &New) -> Result<(), Error> {
     options.write(true).create(true).truncate(true).create_new(!args.force);
     let error = |e: std::io::Error| {
         let help = if e.kind() == std::io::ErrorKind::AlreadyExists {
-            format!("give another name, asperity new {name} FILE, or --force to replace it")
+            format!(
+                "FILE is the scene to write: give another name, asperity new {name} FILE, or --force to replace it"
+            )
         } else {
             "give a file in a folder you may write to".into()
         };

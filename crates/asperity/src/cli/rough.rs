@@ -21,8 +21,8 @@ pub struct Rough {
     /// Scene whose metal, load and treatment of the surface maps take [default: that of `asperity new rough`]
     #[arg(long, value_name = "SCENE", conflicts_with = "table1")]
     pub like: Option<PathBuf>,
-    /// Print the paper's Table 1 beside ours: three generated surfaces, every closure; into files with --out
-    #[arg(long, conflicts_with_all = ["scenes", "report"])]
+    /// Print the paper's Table 1 beside ours: three generated surfaces, every closure; into files with --out or --report
+    #[arg(long, conflicts_with = "scenes")]
     pub table1: bool,
     /// Change a value of the file, for example --set "load.pressure=100 MPa"; repeatable
     #[arg(long = "set", value_name = "KEY.PATH=VALUE", conflicts_with = "table1")]
@@ -45,7 +45,7 @@ pub struct Rough {
 /// Input that is wrong (nothing is written), or results that cannot be written.
 pub fn rough(args: &Rough) -> Result<(), Error> {
     match &args.scenes[..] {
-        [] => whole_table(&args.run),
+        [] => whole_table(&args.page, &args.run),
         [scene] => one_scene(scene, args),
         scenes => several(scenes, args),
     }
@@ -120,11 +120,13 @@ fn several(paths: &[PathBuf], args: &Rough) -> Result<(), Error> {
 }
 
 /// `asperity rough --table1`.
-fn whole_table(flags: &RunFlags) -> Result<(), Error> {
+fn whole_table(page: &ReportFlag, flags: &RunFlags) -> Result<(), Error> {
+    let kept = flags.out.is_some() || page.report;
+    let folder = kept.then(|| Folder::create(&flags.target("table1"), "rough", flags.force)).transpose()?;
     let table = table1()?;
-    if let Some(out) = &flags.out {
-        let mut folder = Folder::create(out, "rough", flags.force)?;
+    if let Some(mut folder) = folder {
         table.write(&mut folder)?;
+        page.write(&mut folder, || table.report())?;
         folder.publish()?;
     }
     if flags.json {

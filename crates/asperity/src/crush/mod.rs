@@ -21,7 +21,8 @@ use crate::input::scene::Scene;
 use crate::output::{Sink, SinkExt};
 use crate::units::{MICROMETRE, Units};
 use asperity_mesh::Mesh;
-use asperity_solver::run::crush::{CrushError, Event, FieldFrame, Outcome, run};
+use asperity_solver::run::crush::{CrushError, Event, FieldFrame, Outcome, run_with};
+pub use asperity_solver::run::journal::Checkpoints;
 use asperity_solver::run::record as si;
 use asperity_solver::scene::SceneError;
 use std::ops::ControlFlow;
@@ -88,7 +89,7 @@ pub fn crush(scene: &Scene, observer: &mut dyn FnMut(&Progress<'_>) -> bool) -> 
         frames.push(frame);
         Ok(())
     };
-    let (crush, _) = simulate(scene, observer, keep)?;
+    let (crush, _) = simulate(scene, None, observer, keep)?;
     Ok(Crush { frames, ..crush })
 }
 
@@ -104,8 +105,24 @@ pub fn crush_into(
     sketches: &[Sketch],
     observer: &mut dyn FnMut(&Progress<'_>) -> bool,
 ) -> Result<Crush, Error> {
+    crush_with(scene, None, sink, sketches, observer)
+}
+
+/// [`crush_into`], which goes on from the `checkpoints` that a stopped run of the same scene left, and writes its own while it lasts. The
+/// results have the same bits as those of a run that nothing stopped; the observer hears of all increments once more. The
+/// checkpoints stay until they are removed.
+///
+/// # Errors
+/// As for [`crush_into`].
+pub fn crush_with(
+    scene: &Scene,
+    checkpoints: Option<&Checkpoints>,
+    sink: &mut dyn Sink,
+    sketches: &[Sketch],
+    observer: &mut dyn FnMut(&Progress<'_>) -> bool,
+) -> Result<Crush, Error> {
     let mut series = FieldSeries::default();
-    let (crush, failure) = simulate(scene, observer, &mut |frame| series.add(sink, &frame))?;
+    let (crush, failure) = simulate(scene, checkpoints, observer, &mut |frame| series.add(sink, &frame))?;
     let written = series.write_surfaces(sink).and_then(|()| crush.write_records(sink, sketches));
     // of two failures to write, the first says more
     failure.map_or(written, Err).map(|()| crush)
@@ -114,6 +131,7 @@ pub fn crush_into(
 /// Runs `scene`, hands its fields to `keep`, and gives the result with the failure of `keep`, if it failed.
 fn simulate(
     scene: &Scene,
+    checkpoints: Option<&Checkpoints>,
     observer: &mut dyn FnMut(&Progress<'_>) -> bool,
     keep: &mut dyn FnMut(Frame) -> Result<(), Error>,
 ) -> Result<(Crush, Option<Error>), Error> {
@@ -146,7 +164,7 @@ fn simulate(
         }
         !ended && failure.is_none()
     };
-    let outcome = run(tables, scene.mesh().cloned(), &mut |event| match hear(event) {
+    let outcome = run_with(tables, scene.mesh().cloned(), checkpoints, &mut |event| match hear(event) {
         true => ControlFlow::Continue(()),
         false => ControlFlow::Break(()),
     });

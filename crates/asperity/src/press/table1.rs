@@ -1,5 +1,7 @@
 //! The paper's Table 1 beside ours, with the contradictions named.
 
+mod report;
+
 use super::rough::press;
 use super::scene::RoughScene;
 use crate::error::Error;
@@ -239,7 +241,7 @@ impl Table1 {
             }
             let _ = writeln!(text, "  {}", row.against_itself);
         }
-        text += &trends(&self.rows);
+        text += &trends_text(&self.rows);
         for note in self.rows.iter().flat_map(|row| &row.notes) {
             let _ = writeln!(text, "note: {note}");
         }
@@ -275,26 +277,28 @@ fn contradictions(row: &Printed) -> String {
     text
 }
 
-/// Whether A_r falls and P_m rises with the slope, per closure.
-fn trends(rows: &[ComparedRow]) -> String {
-    let mut text = String::from("\ntrend from ground to sanded (the paper: A_r falls, P_m rises):\n");
-    for o in rows.first().map_or(&[][..], |row| &row.closures) {
+/// Per closure, whether A_r falls and P_m rises with the slope, as in the paper.
+fn trends(rows: &[ComparedRow]) -> Vec<(Closure, [bool; 2])> {
+    let one = |o: &ClosureSeeds| {
         let column = |of: fn(&ClosureSeeds) -> f64| -> Vec<f64> {
             rows.iter()
                 .filter_map(|row| row.closures.iter().find(|x| x.closure == o.closure).map(of))
                 .collect()
         };
-        let (area, pressure) = (column(|x| x.area.mean()), column(|x| x.pressure.mean()));
-        let holds =
-            |v: &[f64], sign: f64| v.len() == rows.len() && v.windows(2).all(|w| sign * (w[1] - w[0]) > 0.0);
-        let say = |ok: bool| if ok { "holds" } else { "does not hold" };
-        let _ = writeln!(
-            text,
-            "  {:<18} A_r falls: {}; P_m rises: {}",
-            o.closure.name(),
-            say(holds(&area, -1.0)),
-            say(holds(&pressure, 1.0))
-        );
+        let rises = |v: &[f64]| v.len() == rows.len() && v.windows(2).all(|w| w[1] > w[0]);
+        let columns = [column(|x| -x.area.mean()), column(|x| x.pressure.mean())];
+        (o.closure, columns.map(|v| rises(&v)))
+    };
+    rows.first().map_or(&[][..], |row| &row.closures).iter().map(one).collect()
+}
+
+/// [`trends`] for a reader.
+fn trends_text(rows: &[ComparedRow]) -> String {
+    let mut text = String::from("\ntrend from ground to sanded (the paper: A_r falls, P_m rises):\n");
+    let say = |ok: bool| if ok { "holds" } else { "does not hold" };
+    for (closure, [falls, rises]) in trends(rows) {
+        let _ =
+            writeln!(text, "  {:<18} A_r falls: {}; P_m rises: {}", closure.name(), say(falls), say(rises));
     }
     text
 }

@@ -6,7 +6,7 @@
 //! new factors cost an assembly and a factorisation.
 
 /// Pairs kept: older ones tell of another tangent.
-const PAIRS: usize = 6;
+pub const PAIRS: usize = 6;
 
 /// A pair whose curvature is below this share of |s||y| says nothing, or that the potential bends down.
 const LEAST_CURVATURE: f64 = 1e-8;
@@ -55,6 +55,19 @@ impl Secants {
             self.inverse_curvature[self.count] = 1.0 / curvature;
             self.count += 1;
         }
+    }
+
+    /// The pairs that count, oldest first, each with its 1/(s·y).
+    pub fn noted(&self) -> impl ExactSizeIterator<Item = (&[f64], &[f64], f64)> {
+        let pairs = self.pairs[..self.count].iter().zip(&self.inverse_curvature);
+        pairs.map(|((s, y), &inverse)| (&s[..], &y[..], inverse))
+    }
+
+    /// Those of [`Secants::noted`] again.
+    pub fn of_noted(noted: Vec<(Vec<f64>, Vec<f64>, f64)>) -> Secants {
+        let count = noted.len();
+        let (pairs, inverse_curvature) = noted.into_iter().map(|(s, y, inverse)| ((s, y), inverse)).unzip();
+        Secants { pairs, inverse_curvature, count }
     }
 
     /// Replaces the right-hand side `rhs` by the solution; `solve` does so with the factors alone.

@@ -4,11 +4,12 @@ use crate::run::depth_for_force::expect;
 use crate::run::discretisation::Discretisation;
 use crate::run::earlier::ready;
 use crate::run::errors::{meet_force, settle};
+use crate::run::journal::Checkpoints;
 use crate::run::load_path::Stop;
 use crate::run::oliver_pharr::as_an_instrument;
 use crate::run::prepare::Expected;
 use crate::run::problem::{Goal, Problem};
-use crate::run::simulate::simulate;
+use crate::run::simulate::{simulate, simulate_with};
 use crate::scene::{Scene, Target};
 use asperity_mesh::Mesh;
 use std::ops::ControlFlow;
@@ -25,6 +26,20 @@ pub use crate::run::simulate::CrushError;
 /// # Errors
 /// Only if the run cannot begin: what stops it later is in the outcome, with all that was reached.
 pub fn run(scene: &Scene, mesh: Option<Mesh>, observer: &mut Watcher<'_>) -> Result<Outcome, CrushError> {
+    run_with(scene, mesh, None, observer)
+}
+
+/// [`run`], which goes on from the `checkpoints` that an earlier run of the same scene left, and writes its own. The result has the
+/// same bits as that of a run that nothing stopped.
+///
+/// # Errors
+/// As for [`run`].
+pub fn run_with(
+    scene: &Scene,
+    mesh: Option<Mesh>,
+    checkpoints: Option<&Checkpoints>,
+    observer: &mut Watcher<'_>,
+) -> Result<Outcome, CrushError> {
     scene.validate()?;
     let expected = expect(scene, mesh.as_ref())?;
     let coarser = mesh.as_ref().map(Mesh::with_other_element);
@@ -33,9 +48,10 @@ pub fn run(scene: &Scene, mesh: Option<Mesh>, observer: &mut Watcher<'_>) -> Res
     let target = scene.loading.target()?;
     let companion = companion(scene, numbers, coarser, &expected);
     let asks_for_depth = matches!(target, Target::Depth(_));
+    let mut main = || simulate_with(&problem, scene.output.interval(), checkpoints, observer);
     let (mut outcome, ahead) = match companion.as_ref().filter(|_| asks_for_depth) {
-        Some(companion) => simulate_both(&problem, companion, scene.output.interval(), observer)?,
-        None => (simulate(&problem, scene.output.interval(), observer)?, None),
+        Some(companion) => simulate_both(&mut main, companion)?,
+        None => (main()?, None),
     };
     let interrupted = outcome.stopped.as_ref().is_some_and(|s| s.reason == Stop::Interrupted);
     // what ended early, or was looking for a force, is compared as far as it came
@@ -72,17 +88,15 @@ fn companion(
     Some(Problem { reloads: 0, ..problem })
 }
 
-/// Runs `problem` and its `companion`, on two threads where there are two. The bits do not depend on that.
+/// Runs `main` and its `companion`, on two threads where there are two. The bits do not depend on that.
 fn simulate_both(
-    problem: &Problem,
+    main: &mut dyn FnMut() -> Result<Outcome, CrushError>,
     companion: &Problem,
-    interval: usize,
-    observer: &mut Watcher<'_>,
 ) -> Result<(Outcome, Option<Outcome>), CrushError> {
     let ended = AtomicBool::new(false);
     let mut ahead = None;
     let mut main = || {
-        let outcome = simulate(problem, interval, observer);
+        let outcome = main();
         ended.store(!matches!(&outcome, Ok(Outcome { stopped: None, .. })), Ordering::Relaxed);
         outcome
     };

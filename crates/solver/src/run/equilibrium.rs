@@ -1,6 +1,8 @@
 //! The equilibrium of one increment after the other: the body as Newton sees it, with what a solver remembers between
 //! iterates and increments (factors, secants, the contact that was kept), none of which belongs to the body.
 
+pub(super) mod memory;
+
 use crate::algebra::assemble::Stiffness;
 use crate::algebra::cholesky::{Factor, Operations};
 use crate::algebra::dofs::FIXED;
@@ -85,6 +87,8 @@ pub struct Equilibrium<'m> {
     /// Whether what the points extrapolate is still to be guarded (see [`State::guard`]), and at which relative residual.
     unguarded: bool,
     nearly: f64,
+    /// The displacement where it was guarded last.
+    guarded_at: Option<Vec<[f64; 2]>>,
     /// Whether that changed the residual at the last assessed iterate, and at the one before.
     jumped: [bool; 2],
     /// Work done so far.
@@ -129,6 +133,7 @@ impl<'m> Equilibrium<'m> {
             stiffens: true,
             unguarded: false,
             nearly: NEARLY,
+            guarded_at: None,
             jumped: [false; 2],
             counters: Counters::default(),
             body,
@@ -435,6 +440,7 @@ impl System for Equilibrium<'_> {
         if guards {
             self.state.guard(&self.body, &mut self.trial, &self.response);
             self.response.forget_points();
+            self.guarded_at = Some(self.trial.displacement.clone());
             self.jumped[0] = true;
             self.unguarded = false;
         }

@@ -36,6 +36,8 @@ mod ripple;
 
 mod recorder;
 
+pub mod journal;
+
 pub mod simulate;
 
 mod earlier;

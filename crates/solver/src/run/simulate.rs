@@ -1,5 +1,6 @@
 //! A problem from first touch to its end: loading, unloading, reloading, and what is recorded on the way.
 
+use crate::run::journal::{Checkpoints, Journal};
 use crate::run::load_path::{Path, Stop};
 use crate::run::problem::Problem;
 use crate::run::recorder::{Outcome, Recorder, Watcher};
@@ -28,7 +29,24 @@ pub fn simulate(
     interval: usize,
     observer: &mut Watcher<'_>,
 ) -> Result<Outcome, CrushError> {
-    let (path, recorder, stopped) = follow(problem, interval, observer)?;
+    simulate_with(problem, interval, None, observer)
+}
+
+/// [`simulate`], which goes on from the `checkpoints` that an earlier run of the same problem left, and writes its own.
+///
+/// # Errors
+/// As for [`simulate`].
+pub fn simulate_with(
+    problem: &Problem,
+    interval: usize,
+    checkpoints: Option<&Checkpoints>,
+    observer: &mut Watcher<'_>,
+) -> Result<Outcome, CrushError> {
+    let journal = checkpoints.map(|checkpoints| Journal::open(checkpoints, problem));
+    let (mut path, recorder, stopped) = follow(problem, interval, journal, observer)?;
+    if let (Some(journal), Some(Stop::Interrupted)) = (&mut path.journal, &stopped) {
+        journal.interrupted(&path.model);
+    }
     Ok(recorder.finish(&path, stopped, observer))
 }
 
@@ -39,9 +57,11 @@ pub fn simulate(
 pub(super) fn follow<'p>(
     problem: &'p Problem,
     interval: usize,
+    journal: Option<Journal<'p>>,
     observer: &mut Watcher<'_>,
 ) -> Result<(Path<'p>, Recorder<'p>, Option<Stop>), CrushError> {
     let mut path = Path::new(problem).map_err(|_| CrushError::Mesh)?;
+    path.journal = journal;
     let mut recorder = Recorder::new(problem, interval, path.model.body().dofs.count);
     recorder.draw_start(&path.model, observer);
     let mut stopped = path.load(&mut |model, increment| recorder.record(model, increment, observer)).err();

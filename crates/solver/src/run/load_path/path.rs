@@ -1,7 +1,7 @@
 //! A body on its path: one attempted increment, and halved ones where it does not converge.
 
 use super::increment::{Energies, Increment, Observer, Stop};
-use crate::algebra::newton::{KEEP, Settings, solve};
+use crate::algebra::newton::{KEEP, Settings};
 use crate::body::energy::{
     ContactSums, contact_sums, work, work_by_parabola, work_by_slopes, work_to_separation,
 };
@@ -10,6 +10,7 @@ use crate::body::failure::Failure as BodyFailure;
 use crate::body::surface::Surface;
 use crate::contact::penalty_correction::Punches;
 use crate::run::equilibrium::{Equilibrium, SolveFailure};
+use crate::run::journal::{Journal, solve_or_recall};
 use crate::run::problem::{Correction, Problem, Rules};
 use crate::run::record::Phase;
 use crate::run::tool_stiffness::ToolStiffness;
@@ -60,6 +61,8 @@ pub struct Path<'p> {
     pub model: Equilibrium<'p>,
     /// How each increment is solved.
     pub settings: Settings,
+    /// The solves of this path on disk.
+    pub(in crate::run) journal: Option<Journal<'p>>,
     pub(super) problem: &'p Problem,
     /// Travel at which the tool touches first, in the coordinates of the mesh.
     pub(super) touch: f64,
@@ -106,6 +109,7 @@ impl<'p> Path<'p> {
         Ok(Path {
             touch: model.converged_surface().first_touch(),
             settings: Settings { tolerance, max_iterations: 40, keep: KEEP },
+            journal: None,
             problem,
             travel: 0.0,
             deepest: 0.0,
@@ -225,11 +229,8 @@ impl<'p> Path<'p> {
 
     pub(super) fn iterate(&mut self) -> Result<(), SolveFailure> {
         self.model.guard_for(self.settings.tolerance);
-        let outcome = solve(&mut self.model, &self.settings);
-        let spent = match &outcome {
-            Ok(done) => done.iterations,
-            Err((_, spent)) => *spent,
-        };
+        let outcome = solve_or_recall(&mut self.model, &self.settings, &mut self.journal);
+        let (Ok(spent) | Err((_, spent))) = outcome;
         self.iterations += spent;
         self.spent += spent;
         outcome.map(|_| ()).map_err(|(failure, _)| failure)
@@ -318,11 +319,12 @@ impl<'p> Path<'p> {
         }
         self.meshed_after = self.increments;
         let tolerance = self.settings.tolerance;
-        let (settings, mut spent) = (self.settings, 0);
+        let (settings, journal, mut spent) = (self.settings, &mut self.journal, 0);
         let done = self.model.mesh_anew(|model| {
             model.guard_for(tolerance);
-            let outcome = solve(model, &settings);
-            spent = outcome.as_ref().map_or_else(|(_, spent)| *spent, |done| done.iterations);
+            let outcome = solve_or_recall(model, &settings, journal);
+            let (Ok(iterations) | Err((_, iterations))) = outcome;
+            spent = iterations;
             outcome.map(|_| ()).map_err(|(failure, _)| failure)
         });
         self.iterations += spent;
