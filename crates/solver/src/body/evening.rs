@@ -38,7 +38,7 @@ pub struct Limits {
 }
 
 /// Length of an edge over its first length, and its share of the contact, beyond which the contact has too few edges.
-const DRAWN_OVER: f64 = 2.0;
+const DRAWN_OVER: f64 = 4.0;
 const COVERED: f64 = 0.3;
 
 /// While the tool advances. Each transfer takes some tenths of a percent of the force away for some increments, and metal drawn out
