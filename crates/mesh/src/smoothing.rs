@@ -182,3 +182,49 @@ pub fn straighten(mesh: &Mesh, before: &[[f64; 2]], on_surface: &[bool], places:
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Sides;
+
+    /// Four unit squares around node 4.
+    fn squares() -> Mesh {
+        let nodes = (0..9).map(|i| [f64::from(i % 3), f64::from(i / 3)]).collect();
+        let cells = vec![0, 1, 4, 3, 1, 2, 5, 4, 3, 4, 7, 6, 4, 5, 8, 7];
+        Mesh { kind: ElementKind::Quad4, nodes, cells, sides: Sides::default() }
+    }
+
+    #[test]
+    fn the_gradient_is_the_derivative_inside_out_and_not() {
+        let corner = Corner { nodes: [0, 1, 2], length: [1.0, 2.0] };
+        for places in [[[0.1, 0.2], [1.3, 0.1], [-0.2, 1.7]], [[0.1, 0.2], [1.3, 0.1], [0.3, -0.9]]] {
+            for of in 0..3 {
+                let (_, gradient) = corner.shape(&places, 0.1, of);
+                for (i, exact) in gradient.into_iter().enumerate() {
+                    let at = |step: f64| {
+                        let mut moved = places;
+                        moved[of][i] += step;
+                        corner.shape(&moved, 0.1, of).0
+                    };
+                    let slope = (at(1e-6) - at(-1e-6)) / 2e-6;
+                    // rounding of the difference
+                    assert!((slope - exact).abs() < 1e-7 * exact.abs().max(1.0), "{of} {i}: {slope} {exact}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_node_outside_of_its_cells_comes_back_to_their_middle() {
+        let mesh = squares();
+        let mut places = mesh.nodes.clone();
+        places[4] = [2.6, 1.4];
+        let mut freedom = [Freedom::None; 9];
+        freedom[4] = Freedom::Full;
+        improve(&mesh, &mut places, &freedom);
+        let far = (places[4][0] - 1.0).hypot(places[4][1] - 1.0);
+        assert!(far < SETTLED, "{:?}", places[4]);
+        assert_eq!(places[..4], mesh.nodes[..4]);
+    }
+}
