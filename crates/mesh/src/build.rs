@@ -18,7 +18,7 @@ use crate::grading::{Grading, divide};
 use crate::profile::Profile;
 use crate::smoothing::{Freedom, improve};
 use crate::{Edge, ElementKind, Mesh};
-use std::collections::{HashMap, HashSet};
+use std::collections::HashSet;
 
 mod grid;
 mod row;
@@ -344,31 +344,16 @@ fn finish(mut grid: Grid, kind: ElementKind, fade: f64, z: impl Fn(f64) -> f64) 
             (nodes.len() - 1) as u32
         });
     }
-    let corners = Mesh {
+    let corners = sound(Mesh {
         kind: ElementKind::Quad4,
         nodes,
-        cells: grid.cells.as_flattened().to_vec(),
+        cells: grid.cells.into_flattened(),
         sides: grid.sides,
-    };
-    let Mesh { mut nodes, cells, sides, .. } = sound(corners);
+    });
     if kind == ElementKind::Quad4 {
-        return Mesh { kind, nodes, cells, sides };
+        return corners;
     }
-    let mut middle: HashMap<(u32, u32), u32> = HashMap::new();
-    let mut cells = Vec::with_capacity(8 * grid.cells.len());
-    for cell in &grid.cells {
-        cells.extend_from_slice(cell);
-        for k in 0..4 {
-            let (a, b) = (cell[k], cell[(k + 1) % 4]);
-            let id = *middle.entry((a.min(b), a.max(b))).or_insert_with(|| {
-                let (p, q) = (nodes[a as usize], nodes[b as usize]);
-                nodes.push([0.5 * (p[0] + q[0]), 0.5 * (p[1] + q[1])]);
-                (nodes.len() - 1) as u32
-            });
-            cells.push(id);
-        }
-    }
-    let mut mesh = Mesh { kind, nodes, cells, sides };
+    let mut mesh = corners.with_other_element();
     for edge in mesh.sides.surface.clone() {
         if let (_, Some(node)) = mesh.edge_nodes(edge) {
             let r = mesh.nodes[node as usize][0];

@@ -75,17 +75,16 @@ fn sum(around: &Around, places: &[[f64; 2]], delta: f64) -> (f64, [f64; 2]) {
     })
 }
 
-/// A Newton step of the node towards the least sum: down the gradient where the sum is not convex.
+/// A Newton step of the node towards the least sum, of the gradient `g`: down it where the sum is not convex.
 fn step(
     around: &Around,
     places: &mut [[f64; 2]],
-    node: usize,
-    freedom: Freedom,
+    (node, freedom): (usize, Freedom),
     delta: f64,
     size: f64,
+    g: [f64; 2],
 ) -> [f64; 2] {
     let at = places[node];
-    let (_, g) = sum(around, places, delta);
     let h = 1e-5 * size;
     let mut hessian = [[0.0; 2]; 2];
     for i in 0..2 {
@@ -141,8 +140,8 @@ pub fn improve(mesh: &Mesh, places: &mut [[f64; 2]], freedom: &[Freedom]) {
                 let lengths = around.iter().flat_map(|(corner, _)| corner.length);
                 let size = lengths.fold(f64::INFINITY, f64::min);
                 let at = places[node];
-                let (value, _) = sum(around, places, delta);
-                let way = step(around, places, node, freedom[node], delta, size);
+                let (value, gradient) = sum(around, places, delta);
+                let way = step(around, places, (node, freedom[node]), delta, size, gradient);
                 let mut share = 1.0;
                 let better = (0..HALVINGS).any(|_| {
                     places[node] = [0, 1].map(|i| at[i] + share * way[i]);
