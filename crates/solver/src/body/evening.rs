@@ -59,13 +59,12 @@ fn length(position: &[[f64; 2]], edge: &ContactEdge) -> f64 {
     (b[0] - a[0]).hypot(b[1] - a[1])
 }
 
-/// Smallest scaled Jacobian of the corners of cells that are sharper than they were.
-fn sharpened(mesh: &Mesh, position: &[[f64; 2]]) -> f64 {
-    let sharper = |cell: usize| {
+/// Whether a corner of a cell has become sharper than a scaled Jacobian of `sharpest`, and than it was.
+fn has_sharper_corner(mesh: &Mesh, position: &[[f64; 2]], sharpest: f64) -> bool {
+    (0..mesh.cell_count()).any(|cell| {
         let now = mesh.sharpest_corner(position, cell);
-        Some(now).filter(|now| *now < mesh.sharpest_corner(&mesh.nodes, cell))
-    };
-    (0..mesh.cell_count()).filter_map(sharper).fold(f64::INFINITY, f64::min)
+        now < sharpest && now < mesh.sharpest_corner(&mesh.nodes, cell)
+    })
 }
 
 /// Whether edges in the contact are drawn out, or corners of cells become sharper, than the `limits` allow.
@@ -77,7 +76,7 @@ pub fn is_distorted(body: &Body<'_>, state: &State, limits: Limits) -> bool {
     lengths.iter().any(|[now, first]| {
         let stretch = now / first;
         stretch > limits.drawn_out || stretch > DRAWN_OVER && *now > COVERED * whole
-    }) || sharpened(body.mesh, &state.position) < limits.sharpest
+    }) || has_sharper_corner(body.mesh, &state.position, limits.sharpest)
 }
 
 /// Whether the surface turns sharply from edge to edge, at the inner end of each.

@@ -87,8 +87,8 @@ pub struct Equilibrium<'m> {
     /// Whether what the points extrapolate is still to be guarded (see [`State::guard`]), and at which relative residual.
     unguarded: bool,
     nearly: f64,
-    /// The displacement where it was guarded last.
-    guarded_at: Option<Vec<[f64; 2]>>,
+    /// The displacement where this solve guarded it; empty before.
+    guarded_at: Vec<[f64; 2]>,
     /// Whether that changed the residual at the last assessed iterate, and at the one before.
     jumped: [bool; 2],
     /// Work done so far.
@@ -133,7 +133,7 @@ impl<'m> Equilibrium<'m> {
             stiffens: true,
             unguarded: false,
             nearly: NEARLY,
-            guarded_at: None,
+            guarded_at: Vec::new(),
             jumped: [false; 2],
             counters: Counters::default(),
             body,
@@ -440,7 +440,7 @@ impl System for Equilibrium<'_> {
         if guards {
             self.state.guard(&self.body, &mut self.trial, &self.response);
             self.response.forget_points();
-            self.guarded_at = Some(self.trial.displacement.clone());
+            self.guarded_at.clone_from(&self.trial.displacement);
             self.jumped[0] = true;
             self.unguarded = false;
         }

@@ -139,18 +139,16 @@ impl Solved {
 impl Equilibrium<'_> {
     /// The solve that has just ended with `outcome`.
     pub fn solved(&mut self, outcome: Outcome) -> Solved {
-        let guarded_at = self.guarded_at.take();
-        let [guarded_at, displacement] = match outcome {
-            Ok(_) => [guarded_at, Some(self.trial.displacement.clone())],
-            Err(_) => [None, None],
-        };
-        Solved {
+        let goes_on = outcome.is_ok();
+        let solved = Solved {
             outcome,
             residual: self.residual_norm(),
             tangent: self.has_tangent,
-            guarded_at,
-            displacement: displacement.unwrap_or_default(),
-        }
+            guarded_at: (goes_on && !self.guarded_at.is_empty()).then(|| self.guarded_at.clone()),
+            displacement: if goes_on { self.trial.displacement.clone() } else { Vec::new() },
+        };
+        self.guarded_at.clear();
+        solved
     }
 
     /// Goes to the end of a `solved` increment, of which the beginning was made. `None` if this body is not in equilibrium there as that
@@ -173,6 +171,8 @@ impl Equilibrium<'_> {
             self.keep_contact = false;
             residual = self.assess(tangent).ok().map(|assessed| assessed.residual);
         }
+        // the next solve may guard nothing
+        self.guarded_at.clear();
         if residual.is_some_and(|residual| residual.to_bits() == solved.residual.to_bits()) {
             return Some(solved.outcome);
         }
