@@ -121,6 +121,18 @@ fn main() -> Result<(), Box<dyn Error>> {
             End::Fault(what) => faults.push(format!("scene {i}: {what}")),
         }
     }
+    let [sound, done] = [0, 1].map(|i| reached[0][i] + reached[1][i]);
+    let beyond = stopped
+        .iter()
+        .filter(|(reason, _)| reason.contains("Hencky"))
+        .map(|(_, scenes)| scenes)
+        .sum::<usize>();
+    let percent = |done: usize, sound: usize| 100.0 * done as f64 / sound.max(1) as f64;
+    let together = format!(
+        "Together {:.2} % of {sound}; without the {beyond} whose elastic strain went beyond what the law of elasticity carries, {:.2} %.",
+        percent(done, sound),
+        percent(done, sound - beyond),
+    );
     let share = |[sound, done]: [usize; 2]| {
         format!(
             "{sound} sound, of which {done} reached their depth ({:.1} %)",
@@ -131,7 +143,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     report.line(&format!(
         "{count} scenes of seed {seed}. Of formulas: {formulas}. Of measured outlines: {measured}. {refused} refused;"
     ));
-    report.line(&format!("{} ended as they must not.\n", faults.len()));
+    report.line(&format!("{} ended as they must not. {together}\n", faults.len()));
     report.table("| stopped because | scenes |");
     stopped.iter().for_each(|(reason, scenes)| report.line(&format!("| {reason} | {scenes} |")));
     report.line("");

@@ -8,7 +8,7 @@ use crate::element::kernel::PointSlice;
 use crate::point::bdf2::PlasticIncrement;
 use crate::point::kinematic_hardening::{History, elastic_energy};
 use crate::point::kinematics::Symmetry;
-use crate::point::material::{Metal, PointState};
+use crate::point::material::{Metal, PointState, Spectral};
 
 /// States of all integration points, four to an element.
 #[derive(Clone, Debug, PartialEq)]
@@ -206,6 +206,14 @@ impl State {
     /// Force on the tool along z, positive in compression.
     pub fn load(&self) -> f64 {
         self.contact.iter().map(|e| e.load).sum()
+    }
+
+    /// The largest elastic logarithmic strain in a principal direction, without its sign.
+    pub fn largest_elastic_strain(&self) -> f64 {
+        let elastic = self.points.states.iter().filter_map(|point| Spectral::of(&point.stretch).ok());
+        elastic
+            .flat_map(|spectral| spectral.log_strain)
+            .fold(0.0, |largest, strain| largest.max(strain.abs()))
     }
 
     /// Stored elastic energy and plastic work.

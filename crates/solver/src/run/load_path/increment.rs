@@ -44,6 +44,11 @@ pub enum Stop {
     /// No equilibrium was found however small the increment.
     #[error("no equilibrium was found with the smallest increment")]
     NoEquilibrium,
+    /// No equilibrium, in a body whose elastic strain is beyond what its law of elasticity can carry.
+    #[error(
+        "an elastic strain beyond 1/3, where Hencky's elasticity ends: give a yield stress, or press less deep"
+    )]
+    ElasticStrain,
     /// A force that the tool does not find as deep as it can go.
     #[error("target force not reached at maximum depth: ask for less force, or for a depth")]
     ForceNotReached,

@@ -3,7 +3,7 @@
 use super::increment::{Energies, Increment, Observer, Stop};
 use crate::algebra::newton::{KEEP, Settings};
 use crate::body::energy::{
-    ContactSums, contact_sums, work, work_by_parabola, work_by_slopes, work_to_separation,
+    ContactSums, PARTING, TOUCHING, contact_sums, work, work_by_parabola, work_by_power, work_by_slopes,
 };
 use crate::body::evening::LOADED;
 use crate::body::failure::Failure as BodyFailure;
@@ -21,6 +21,9 @@ const MAX_HALVINGS: u32 = 7;
 
 /// Halvings of an increment after which a new mesh is tried.
 const HALVINGS_OF_A_MESH: u32 = 3;
+
+/// Elastic logarithmic strain up to which Hencky's law is elliptic (Bruhns, Xiao, Meyers: J. Elasticity 64 (2001)).
+const ELLIPTIC: f64 = 1.0 / 3.0;
 
 /// Growth of the travel before a better mesh is looked for again where there was none: each look costs.
 const FARTHER: f64 = 1.1;
@@ -274,15 +277,12 @@ impl<'p> Path<'p> {
         observer: &mut Observer<'_>,
     ) -> Result<Increment, Stop> {
         let before = (self.force, self.slope);
-        // loading is close to a parabola; unloading bends less the flatter the contact has become, so there the slope is asked for,
-        // which costs one solve
+        // loading is close to a parabola but at its start, whose power only the slope tells (1 of a ridge, 2 of a cone); unloading
+        // bends less the flatter the contact has become; so there the slope is asked for, which costs one solve
         let counts = self.rules().correction == Correction::PlasticShare;
-        self.slope = match phase {
-            Phase::Unload | Phase::Reload if counts => {
-                self.model.tool_stiffness().ok().map(|s| self.follows(&s))
-            }
-            _ => None,
-        };
+        let starts = phase == Phase::Load && before.0 <= 0.0;
+        let asked = counts && (starts || phase != Phase::Load);
+        self.slope = asked.then(|| self.model.tool_stiffness().ok().map(|s| self.follows(&s))).flatten();
         self.model.accept().map_err(|_| Stop::Distorted)?;
         let punches = self.punches(&self.model.converged_surface());
         let contact = self.corrected(punches);
@@ -354,8 +354,8 @@ impl<'p> Path<'p> {
         punches: &Punches,
     ) -> Energies {
         self.external_work += match (slope, self.slope) {
-            (_, Some(to)) if force <= 0.0 => -work_to_separation(self.force, to, -step),
-            (Some(from), _) if self.force <= 0.0 => work_to_separation(force, from, step),
+            (_, Some(to)) if force <= 0.0 => work_by_power(self.force, to, step, TOUCHING),
+            (Some(from), _) if self.force <= 0.0 => work_by_power(force, from, step, PARTING),
             (Some(from), Some(to)) => work_by_slopes([force, self.force], [from, to], step),
             _ => match self.earlier {
                 Some([earlier, last]) if last * step > 0.0 => {
@@ -426,10 +426,7 @@ impl<'p> Path<'p> {
                 }
                 Err(failure) => {
                     if halvings >= MAX_HALVINGS {
-                        return Err(match failure {
-                            SolveFailure::System(BodyFailure::Element { .. }) => Stop::Distorted,
-                            _ => Stop::NoEquilibrium,
-                        });
+                        return Err(self.stop(&failure));
                     }
                     halvings += 1;
                     self.cutbacks += 1;
@@ -437,6 +434,15 @@ impl<'p> Path<'p> {
                     guess = 0.0;
                 }
             }
+        }
+    }
+
+    /// Why the path ends where the smallest increment has no equilibrium.
+    fn stop(&self, failure: &SolveFailure) -> Stop {
+        match failure {
+            _ if self.model.state().largest_elastic_strain() > ELLIPTIC => Stop::ElasticStrain,
+            SolveFailure::System(BodyFailure::Element { .. }) => Stop::Distorted,
+            _ => Stop::NoEquilibrium,
         }
     }
 
