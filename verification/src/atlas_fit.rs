@@ -15,10 +15,11 @@ pub struct Solved {
     pub errors: [f64; ERRORS],
 }
 
-/// The cones of `rows` that have a result.
+/// The cones of `rows` that have a result which the formula can hold: one goes back as the tool retreats, and a metal without
+/// hardening that sinks in once more as it does has no logarithm.
 pub fn solved(rows: &[Row]) -> Vec<Solved> {
     let of = |row: &Row| row.answer().map(|(cone, answer, errors)| Solved { cone, answer, errors });
-    rows.iter().filter_map(of).collect()
+    rows.iter().filter_map(of).filter(|solved| solved.answer.iter().all(|value| *value > 0.0)).collect()
 }
 
 /// Parts that are left out in turn.

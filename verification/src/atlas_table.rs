@@ -47,6 +47,12 @@ fn held(report: &mut Report, rows: &[Row], cones: &[Solved]) {
         }
     }
     reasons.iter().for_each(|(reason, count)| report.line(&format!("* {count}: {reason}")));
+    let left = rows.iter().filter(|row| row.outcome.is_ok()).count() - cones.len();
+    if left > 0 {
+        report.line(&format!(
+            "* {left}: sank in once more as the tool retreated, which the formula cannot hold"
+        ));
+    }
     report.line("");
     report.line("Errors that the cones state of themselves (95 %):\n");
     report.table("| | median | 95 % of the cones below |");
