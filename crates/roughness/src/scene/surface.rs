@@ -11,7 +11,10 @@ use crate::surface::outliers;
 use crate::surface::ready::Surface;
 use asperity_law::units::Length;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
-use serde::{Deserialize, Serialize};
+use serde::de::value::SeqAccessDeserializer;
+use serde::de::{self, IntoDeserializer, SeqAccess, Visitor};
+use serde::{Deserialize, Deserializer, Serialize};
+use std::fmt::{self, Formatter};
 use std::path::{Path, PathBuf};
 
 /// Treatment of missing points.
@@ -31,6 +34,33 @@ pub enum Missing {
 pub struct HeightUnit {
     name: String,
     metres: f64,
+}
+
+/// How [`SurfaceScene::pixel_size`] is written.
+#[derive(JsonSchema)]
+#[schemars(untagged, inline)]
+#[allow(dead_code, reason = "the schema alone is wanted")]
+enum PixelSize {
+    Each([Length; 2]),
+    Both(Length),
+}
+
+/// Two lengths, or one that is meant twice.
+fn pixel_size<'de, D: Deserializer<'de>>(from: D) -> Result<Option<[Length; 2]>, D::Error> {
+    struct Lengths;
+    impl<'de> Visitor<'de> for Lengths {
+        type Value = [Length; 2];
+        fn expecting(&self, to: &mut Formatter<'_>) -> fmt::Result {
+            to.write_str("a length, \"1 um\", or two, [\"1 um\", \"2 um\"]")
+        }
+        fn visit_str<E: de::Error>(self, length: &str) -> Result<[Length; 2], E> {
+            Length::deserialize(length.into_deserializer()).map(|length| [length; 2])
+        }
+        fn visit_seq<A: SeqAccess<'de>>(self, lengths: A) -> Result<[Length; 2], A::Error> {
+            <[Length; 2]>::deserialize(SeqAccessDeserializer::new(lengths))
+        }
+    }
+    from.deserialize_any(Lengths).map(Some)
 }
 
 /// The names of all units of length.
@@ -73,8 +103,9 @@ pub struct SurfaceScene {
     /// Heights in memory instead of a file, for surfaces that a program holds.
     #[serde(skip)]
     pub heights: Option<Measured>,
-    /// Distance of the points along x and y, where the file does not say.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    /// Distance of the points along x and y, or one for both, where the file does not say.
+    #[schemars(with = "Option<PixelSize>")]
+    #[serde(default, deserialize_with = "pixel_size", skip_serializing_if = "Option::is_none")]
     pub pixel_size: Option<[Length; 2]>,
     /// Unit of the heights, where the file does not say.
     #[schemars(schema_with = "unit_schema")]
@@ -218,7 +249,8 @@ impl SurfaceScene {
             (_, Some(scene)) => scene.metres,
             (Some(file), None) => file,
             (None, None) => {
-                let message = "the file does not name the unit of its heights: add height_unit = \"um\"";
+                let message = "the file does not name the unit of its heights: add height_unit = \"um\" to [surface], or --set \
+                               surface.height_unit=um";
                 return error("surface", message);
             }
         };
@@ -238,7 +270,8 @@ impl SurfaceScene {
             (_, Some(scene)) => scene,
             (Some(file), None) => file,
             (None, None) => {
-                let message = "the file does not say how far its points are apart: add pixel_size = [\"1 um\", \"1 um\"]";
+                let message = "the file does not say how far its points are apart: add pixel_size = \"1 um\" to [surface], or --set \
+                               'surface.pixel_size=\"1 um\"'";
                 return error("surface", message);
             }
         };

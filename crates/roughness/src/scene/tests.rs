@@ -108,6 +108,8 @@ fn units_and_pixels_are_demanded_and_contradictions_refused() {
         let message = surface(&text).prepare(resolve).err().unwrap().to_string();
         assert!(message.contains(place), "{message}");
     }
+    let square = surface(&format!("file = \"z.npy\"\n{unit}pixel_size = \"2 um\"\n"));
+    assert_eq!(square.pixel_size, surface(&format!("file = \"z.npy\"\n{unit}{pixel}")).pixel_size);
     let forced = surface(&format!("file = \"z.x3p\"\n{unit}{pixel}override = true\nlevel = \"none\""))
         .prepare(resolve)
         .unwrap();
