@@ -21,7 +21,7 @@ fn crush(
     observer: &mut dyn FnMut(&Progress<'_>) -> bool,
 ) -> usize {
     let scene = Scene::from_toml(text, "".as_ref()).unwrap();
-    let checkpoints = Checkpoints { folder: place.path(kept), every: Duration::ZERO };
+    let checkpoints = Checkpoints { folder: place.path(kept), every: Duration::ZERO, largest: u64::MAX };
     let mut sink = Directory::create(&place.path(name)).unwrap();
     crush_with(&scene, Some(&checkpoints), &mut sink, &[], observer).unwrap().summary.newton_iterations
 }
@@ -66,6 +66,24 @@ fn an_interrupted_crush_ends_with_the_same_bytes() {
             assert!(whole == out, "{name} of {text}");
         }
     }
+}
+
+#[test]
+fn a_journal_that_may_not_grow_is_taken_up_from_where_it_ended() {
+    let text = &scenes()[0];
+    let place = Place::with_scene(text);
+    let scene = Scene::from_toml(text, "".as_ref()).unwrap();
+    let limit = 50_000;
+    for name in ["whole", "again"] {
+        let checkpoints = Checkpoints { folder: place.path("kept"), every: Duration::ZERO, largest: limit };
+        let mut sink = Directory::create(&place.path(name)).unwrap();
+        crush_with(&scene, Some(&checkpoints), &mut sink, &[], &mut |_| true).unwrap();
+        let length = fs::metadata(place.path("kept/solves")).unwrap().len();
+        // at most one solve past the limit
+        assert!((limit..2 * limit).contains(&length), "{length}");
+    }
+    let [whole, again] = ["whole", "again"].map(|dir| fs::read(place.path(dir).join("curve.csv")).unwrap());
+    assert!(whole == again);
 }
 
 #[test]

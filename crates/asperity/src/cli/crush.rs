@@ -14,6 +14,9 @@ use std::time::Duration;
 /// A killed run loses at most this much.
 const BETWEEN_CHECKPOINTS: Duration = Duration::from_secs(30);
 
+/// Bytes that the solves of a run take on the disk at most; a run that needs more is taken up where it had as many.
+const LARGEST_JOURNAL: u64 = 2 << 30;
+
 /// Arguments of `asperity crush`.
 #[derive(Debug, Args)]
 pub struct Crush {
@@ -45,7 +48,8 @@ pub fn crush(args: &Crush) -> Result<(), Error> {
     interrupt::catch();
     let progress = Progress::new(args.run.quiet);
     let symmetry = scene.tables().symmetry;
-    let checkpoints = Checkpoints { folder: journal_beside(&out), every: BETWEEN_CHECKPOINTS };
+    let checkpoints =
+        Checkpoints { folder: journal_beside(&out), every: BETWEEN_CHECKPOINTS, largest: LARGEST_JOURNAL };
     if checkpoints.exist() && !args.run.quiet {
         let place = checkpoints.folder.display();
         terminal::complain(&format!("the solves of a stopped run in {place} are used as far as they fit"));

@@ -7,7 +7,7 @@
 //!
 //! The folder holds `solves`, one after the other, and `solver`: the number of the problem, how many solves there are, and what the
 //! solver remembered after the last of them. The second is replaced in one move, so that the two agree whenever the run is killed.
-//! Whatever does not agree is solved anew; a folder that cannot be written keeps nothing and stops no run.
+//! Past a length that the caller says no more solves are kept. Whatever does not agree is solved anew; a folder that cannot be written keeps nothing and stops no run.
 
 use crate::algebra::newton::{Settings, solve};
 use crate::run::equilibrium::Equilibrium;
@@ -28,6 +28,8 @@ pub struct Checkpoints {
     pub folder: PathBuf,
     /// Time to the first of them and between two; a shorter run writes none.
     pub every: Duration,
+    /// Bytes of solves from which on no more of them are kept: a longer run is taken up where it had as many.
+    pub largest: u64,
 }
 
 impl Checkpoints {
@@ -174,18 +176,28 @@ impl<'p> Journal<'p> {
 
     /// Takes down the solve of `model` that ended with `outcome`, and writes if it is time.
     fn note(&mut self, model: &mut Equilibrium<'_>, outcome: Outcome) -> io::Result<()> {
+        if self.is_full() {
+            return Ok(());
+        }
         model.solved(outcome).write(&mut self.bytes)?;
         self.held += 1;
-        if self.written.elapsed() >= self.pause {
+        if self.written.elapsed() >= self.pause
+            || self.length + self.bytes.len() as u64 >= self.checkpoints.largest
+        {
             return self.write(model);
         }
         if self.bytes.len() > HELD { self.append().map(drop) } else { Ok(()) }
     }
 
+    /// Whether no more solves are kept: what the solver remembered after the last of them stays as it is.
+    fn is_full(&self) -> bool {
+        self.length >= self.checkpoints.largest
+    }
+
     /// Writes what is not there yet, of a run that ends here and is long enough to keep.
     pub fn interrupted(&mut self, model: &Equilibrium<'_>) {
         let kept = self.checkpoints.exist() || self.written.elapsed() >= self.checkpoints.every;
-        if kept && self.recalled.is_none() {
+        if kept && self.recalled.is_none() && !self.is_full() {
             // the checkpoint before stays
             let _ = self.write(model);
         }
