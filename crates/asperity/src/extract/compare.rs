@@ -118,7 +118,8 @@ impl Extracted {
             self.asperities.len()
         );
         let help = self.warnings.last().cloned().unwrap_or_else(|| "ask for more profiles".into());
-        Err(InputError::new(message).help(format!("crush fewer, or lower the plane; {help}")))
+        Err(InputError::new(message)
+            .help(format!("crush fewer, lower the plane, or take --hills or --line; {help}")))
     }
 
     /// All that the rows depend on beside scene and profile.
