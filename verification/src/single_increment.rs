@@ -101,7 +101,7 @@ pub fn stresses(model: &Equilibrium<'_>) -> Vec<Sym> {
         .points
         .states
         .iter()
-        .map(|state| stress(&model.body().material.elastic, &state.stretch))
+        .map(|state| stress(&model.body().material.elastic, &state.b_minus_i))
         .collect()
 }
 

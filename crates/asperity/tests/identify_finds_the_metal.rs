@@ -151,7 +151,7 @@ fn wrong_fits_point_at_the_line_and_write_nothing() {
 fn the_fit_to_start_from_runs() {
     let place = Place::with_scene("");
     assert_eq!(place.run(&["new", "fit"]).status, 0);
-    let end = place.run(&["identify", "fit.toml", "--set", "accuracy=draft", "--out", "out", "--quiet"]);
+    let end = place.run(&["identify", "fit.toml", "--accuracy", "draft", "--out", "out", "--quiet"]);
     assert_eq!((end.status, end.err.as_str()), (0, ""));
     assert!(parameters(&place, "out")["parameters"]["yield_stress"]["value"].is_number());
 }

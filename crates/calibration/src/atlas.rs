@@ -46,7 +46,7 @@ pub fn logarithms(found: &Indentation, tan: f64) -> [f64; OUTPUTS] {
     logs[0] = (found.k_over_e * tan * tan).ln();
     logs[1] = (found.stiffness * tan).ln();
     logs[2] = found.elastic_share.ln();
-    for (log, way) in logs[3..].iter_mut().zip(found.way_back) {
+    for (log, way) in logs[3..].iter_mut().zip(found.recovery) {
         *log = way.ln();
     }
     logs

@@ -107,7 +107,7 @@ impl Row {
             found.stiffness,
             found.elastic_share,
         ]);
-        answer[4..].copy_from_slice(&found.way_back);
+        answer[4..].copy_from_slice(&found.recovery);
         let Errors { loading_curvature, contact_ratio, stiffness, elastic_share, .. } = *errors;
         Some((cone, answer, [loading_curvature, contact_ratio, stiffness, elastic_share]))
     }
@@ -138,7 +138,7 @@ impl Row {
                     .iter()
                     .map(|(value, error)| format!(",{},{:.5}", digits(*value, 7), error))
                     .collect();
-                let back: String = found.way_back.iter().map(|way| format!(",{}", digits(*way, 5))).collect();
+                let back: String = found.recovery.iter().map(|way| format!(",{}", digits(*way, 5))).collect();
                 let differences: String = errors.differences.iter().map(|d| format!(",{d:.5}")).collect();
                 format!(
                     "{place}{numbers}{back}{differences},{},{},ok",
@@ -173,14 +173,14 @@ impl Row {
                 let numbers: Vec<f64> = numbers.iter().map(|x| x.parse().ok()).collect::<Option<_>>()?;
                 let ([k, k_error, ratio, ratio_error, s, s_error, share, share_error], numbers) =
                     numbers.split_first_chunk::<8>()?;
-                let (way_back, numbers) = numbers.split_first_chunk::<{ FORCES.len() }>()?;
+                let (recovery, numbers) = numbers.split_first_chunk::<{ FORCES.len() }>()?;
                 let (differences, numbers) = numbers.split_first_chunk::<4>()?;
                 let [reached, iterations] = numbers else { return None };
                 let found = Indentation {
                     k_over_e: *k,
                     contact_ratio: *ratio,
                     stiffness: *s,
-                    way_back: *way_back,
+                    recovery: *recovery,
                     elastic_share: *share,
                     reached: *reached,
                     iterations: *iterations as usize,

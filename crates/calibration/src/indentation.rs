@@ -31,8 +31,8 @@ pub struct Indentation {
     pub contact_ratio: f64,
     /// S/(E h), the slope where unloading begins.
     pub stiffness: f64,
-    /// The way back from the peak to each of [`FORCES`], over the depth of the peak.
-    pub way_back: [f64; FORCES.len()],
+    /// Elastic recovery h_peak - h at each of [`FORCES`], over the depth of the peak.
+    pub recovery: [f64; FORCES.len()],
     /// Share of the work of loading that unloading returns.
     pub elastic_share: f64,
     /// Share of the planned depth that was reached; below 1 the path stopped there.
@@ -148,7 +148,7 @@ pub fn indent(cone: &Cone, discretisation: &ConeDiscretisation) -> Result<Indent
         k_over_e,
         contact_ratio: fitted.radius * cone.slope_deg.to_radians().tan(),
         stiffness: stiffness.depth / peak.depth * line,
-        way_back: FORCES.map(|force| way_back(&shares, force)),
+        recovery: FORCES.map(|force| recovery(&shares, force)),
         elastic_share: 3.0 * work(&shares),
         reached: reached.min(1.0),
         iterations: path.iterations,
@@ -179,7 +179,7 @@ fn work(shares: &[[f64; 2]]) -> f64 {
 }
 
 /// The way back to `force`, linear between points in F^(2/3): unloading goes as (1 - u/u₀)^1.5 nearly.
-fn way_back(shares: &[[f64; 2]], force: f64) -> f64 {
+fn recovery(shares: &[[f64; 2]], force: f64) -> f64 {
     let bent = |f: f64| f.max(0.0).powf(2.0 / 3.0);
     let pair = shares.windows(2).find(|pair| pair[1][1] <= force);
     match pair {
@@ -216,9 +216,9 @@ mod tests {
         assert!(near(found.k_over_e, sneddon, 0.02), "{found:?} {sneddon}");
         assert!(near(found.stiffness, 2.0 * found.k_over_e, 0.04), "{found:?}");
         assert!(near(found.elastic_share, 1.0, 0.02), "{found:?}");
-        assert!(near(found.way_back[FORCES.len() - 1], 1.0, 0.02), "{found:?}");
+        assert!(near(found.recovery[FORCES.len() - 1], 1.0, 0.02), "{found:?}");
         // F = F_max (1 - u)²; below a quarter of the force the steps are long, and lines between them are off by 0.024
-        for (force, way) in FORCES.iter().zip(found.way_back).filter(|(force, _)| **force >= 0.25) {
+        for (force, way) in FORCES.iter().zip(found.recovery).filter(|(force, _)| **force >= 0.25) {
             assert!((way - (1.0 - force.sqrt())).abs() < 0.01, "{force} {way}");
         }
     }

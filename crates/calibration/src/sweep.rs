@@ -24,7 +24,7 @@ pub struct Sweep {
     /// Hardening exponents n.
     #[schemars(length(min = 1), inner(range(min = 0, max = 0.9)))]
     pub hardening_exponent: Vec<f64>,
-    /// Which strain hardens.
+    /// Hardening law: `hollomon` (power law in total strain) or `swift` (power law in plastic strain).
     pub hardening_law: HardeningLaw,
     /// Poisson's ratio.
     #[schemars(extend("exclusiveMinimum" = -1, "exclusiveMaximum" = 0.5))]

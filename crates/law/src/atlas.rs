@@ -85,8 +85,8 @@ pub struct Answer {
     pub stiffness: Estimate,
     /// Share of the work of loading that unloading returns.
     pub elastic_share: Estimate,
-    /// The way back from the peak to each of [`FORCES`], over the depth of the peak; its error is that of the elastic share.
-    pub way_back: [f64; FORCES.len()],
+    /// Elastic recovery h_peak - h at each of [`FORCES`], over the depth of the peak; its error is that of the elastic share.
+    pub recovery: [f64; FORCES.len()],
     /// σ_r/E at ε_r = [`STRAIN`] tan β.
     pub stress_over_e: f64,
     /// Whether the cone lies inside the atlas; else the answer is carried on from its edge.
@@ -367,7 +367,7 @@ impl Atlas {
             contact_ratio: estimate(1),
             stiffness: estimate(2),
             elastic_share: estimate(3),
-            way_back: std::array::from_fn(|i| answer[4 + i]),
+            recovery: std::array::from_fn(|i| answer[4 + i]),
             stress_over_e: cone.curve.flow(strain).yield_stress / cone.elastic.youngs_modulus,
             inside: cone.is_inside(),
         }

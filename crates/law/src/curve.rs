@@ -1,6 +1,6 @@
 //! Yield stress over accumulated plastic strain, whichever way a scene gives it.
 
-use crate::hardening::{Flow, Hardening};
+use crate::hardening::{Hardening, HardeningPoint};
 use crate::real::Real;
 use crate::table::HardeningTable;
 use schemars::JsonSchema;
@@ -61,7 +61,7 @@ impl HardeningCurve {
 
     /// Yield stress and slope at accumulated plastic strain `plastic_strain` ≥ 0.
     #[inline(always)]
-    pub fn flow<T: Real>(&self, plastic_strain: T) -> Flow<T> {
+    pub fn flow<T: Real>(&self, plastic_strain: T) -> HardeningPoint<T> {
         match self {
             HardeningCurve::Power(law) => law.flow(plastic_strain),
             HardeningCurve::Table(table) => by_lane(|lane| table.flow(plastic_strain.lane(lane))),
@@ -77,7 +77,7 @@ impl HardeningCurve {
         three_g: T,
         old_plastic_strain: T,
         old_yield_stress: T,
-    ) -> Flow<T> {
+    ) -> HardeningPoint<T> {
         match self {
             HardeningCurve::Power(law) => {
                 law.return_to_yield(q_trial, three_g, old_plastic_strain, old_yield_stress)
@@ -89,7 +89,7 @@ impl HardeningCurve {
     }
 
     /// Plastic work per volume, ∫₀^{ε_p} σ dε_p, at a state of the curve, in the unit of the stresses.
-    pub fn plastic_work(&self, flow: &Flow) -> f64 {
+    pub fn plastic_work(&self, flow: &HardeningPoint) -> f64 {
         match self {
             HardeningCurve::Power(law) => law.plastic_work(flow),
             HardeningCurve::Table(table) => table.plastic_work(flow.plastic_strain),
@@ -134,10 +134,10 @@ impl HardeningCurve {
 }
 
 /// The flow that is `of(lane)` in each lane.
-fn by_lane<T: Real>(of: impl Fn(usize) -> Flow) -> Flow<T> {
-    let mut flows = [Flow { plastic_strain: 0.0, yield_stress: 0.0, slope: 0.0 }; 4];
+fn by_lane<T: Real>(of: impl Fn(usize) -> HardeningPoint) -> HardeningPoint<T> {
+    let mut flows = [HardeningPoint { plastic_strain: 0.0, yield_stress: 0.0, slope: 0.0 }; 4];
     (0..T::LANES).for_each(|lane| flows[lane] = of(lane));
-    Flow {
+    HardeningPoint {
         plastic_strain: T::each(|lane| flows[lane].plastic_strain),
         yield_stress: T::each(|lane| flows[lane].yield_stress),
         slope: T::each(|lane| flows[lane].slope),

@@ -41,14 +41,14 @@ pub struct Hardening {
     pub youngs_modulus: f64,
 }
 
-/// A point on the hardening curve.
+/// A point on the hardening curve: plastic strain, yield stress and hardening modulus.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Flow<T = f64> {
+pub struct HardeningPoint<T = f64> {
     /// Accumulated plastic strain ε_p.
     pub plastic_strain: T,
     /// Yield stress at that strain, in the unit of E.
     pub yield_stress: T,
-    /// dσ/dε_p, in the unit of E.
+    /// Hardening modulus dσ/dε_p, in the unit of E.
     pub slope: T,
 }
 
@@ -73,7 +73,7 @@ impl Hardening {
 
     /// The point of the curve at strain measure `e`, where the stress is `sigma`.
     #[inline(always)]
-    fn flow_at<T: Real>(&self, [e, sigma]: [T; 2]) -> Flow<T> {
+    fn flow_at<T: Real>(&self, [e, sigma]: [T; 2]) -> HardeningPoint<T> {
         let slope_e = sigma * self.exponent / e; // dσ/de
         let (strain, slope) = match self.law {
             HardeningLaw::Hollomon => {
@@ -82,12 +82,12 @@ impl Hardening {
             }
             HardeningLaw::Swift => (e - self.yield_strain(), slope_e),
         };
-        Flow { plastic_strain: strain.max(T::splat(0.0)), yield_stress: sigma, slope }
+        HardeningPoint { plastic_strain: strain.max(T::splat(0.0)), yield_stress: sigma, slope }
     }
 
     /// Yield stress and slope at accumulated plastic strain `plastic_strain` ≥ 0.
     #[inline(always)]
-    pub fn flow<T: Real>(&self, plastic_strain: T) -> Flow<T> {
+    pub fn flow<T: Real>(&self, plastic_strain: T) -> HardeningPoint<T> {
         let e = match self.law {
             HardeningLaw::Swift => {
                 let e = plastic_strain + self.yield_strain();
@@ -100,7 +100,7 @@ impl Hardening {
                 self.solve(T::splat(1.0), compliance, plastic_strain, [e, self.stress(e)])
             }
         };
-        Flow { plastic_strain, ..self.flow_at(e) }
+        HardeningPoint { plastic_strain, ..self.flow_at(e) }
     }
 
     /// Radial return: the flow state at which `q_trial - 3G (ε_p - ε_p,old) = σ(ε_p)`.
@@ -114,7 +114,7 @@ impl Hardening {
         three_g: T,
         old_plastic_strain: T,
         old_yield_stress: T,
-    ) -> Flow<T> {
+    ) -> HardeningPoint<T> {
         // 3G (e - elastic - ε_p,old) + σ = q with the elastic part of e
         let (elastic, c, rhs) = match self.law {
             HardeningLaw::Hollomon => {
@@ -171,7 +171,7 @@ impl Hardening {
     }
 
     /// Plastic work per volume, ∫₀^{ε_p} σ dε_p, at a state of the curve, in the unit of E.
-    pub fn plastic_work(&self, flow: &Flow) -> f64 {
+    pub fn plastic_work(&self, flow: &HardeningPoint) -> f64 {
         let (n, e_y) = (self.exponent, self.yield_strain());
         let power = |e: f64, sigma: f64| (sigma * e - self.yield_stress * e_y) / (n + 1.0); // ∫ R eⁿ de from ε_y
         match self.law {

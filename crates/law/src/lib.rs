@@ -28,6 +28,6 @@ pub mod units;
 pub use curve::{HardeningCurve, HardeningMode, StressMeasure};
 pub use curve_file::{CurveFile, CurveFileError};
 pub use elastic::Elastic;
-pub use hardening::{Flow, Hardening, HardeningLaw};
+pub use hardening::{Hardening, HardeningLaw, HardeningPoint};
 pub use table::{HardeningTable, LARGEST_TABLE, TableError};
 pub use text_table::TextTable;

@@ -5,7 +5,7 @@
 //! monotone the segment is found by bisection over the points. The slope at a kink is that of the segment the return
 //! ended on; the incremental energy stays convex there, so that Newton's method with a line search passes it.
 
-use crate::hardening::Flow;
+use crate::hardening::HardeningPoint;
 
 /// Most points that a table may have.
 pub const LARGEST_TABLE: usize = 100_000;
@@ -89,10 +89,10 @@ impl HardeningTable {
     }
 
     /// The point of the curve at `plastic_strain` on the segment that begins at point `index`.
-    fn on_segment(&self, index: usize, plastic_strain: f64) -> Flow {
+    fn on_segment(&self, index: usize, plastic_strain: f64) -> HardeningPoint {
         let slope = self.slope(index);
         let yield_stress = self.stress[index] + slope * (plastic_strain - self.strain[index]);
-        Flow { plastic_strain, yield_stress, slope }
+        HardeningPoint { plastic_strain, yield_stress, slope }
     }
 
     /// The segment that holds `plastic_strain` ≥ 0: the index of the point it begins at.
@@ -101,14 +101,14 @@ impl HardeningTable {
     }
 
     /// Yield stress and slope at accumulated plastic strain `plastic_strain` ≥ 0; at a kink the slope ahead.
-    pub fn flow(&self, plastic_strain: f64) -> Flow {
+    pub fn flow(&self, plastic_strain: f64) -> HardeningPoint {
         self.on_segment(self.segment(plastic_strain), plastic_strain)
     }
 
     /// Radial return: the flow state at which `q_trial - 3G (ε_p - ε_p,old) = σ(ε_p)`.
     ///
     /// `q_trial` is at or above the yield stress at `old_plastic_strain`; `three_g` is 3G.
-    pub fn return_to_yield(&self, q_trial: f64, three_g: f64, old_plastic_strain: f64) -> Flow {
+    pub fn return_to_yield(&self, q_trial: f64, three_g: f64, old_plastic_strain: f64) -> HardeningPoint {
         // σ + 3G (ε_p - ε_p,old) grows with ε_p: the segment begins at the last point where it is below q
         let (mut low, mut high) = (self.segment(old_plastic_strain), self.strain.len());
         while high - low > 1 {

@@ -45,7 +45,7 @@ fn reached(anew: impl Fn(usize) -> bool) -> Reached {
         before = state.transferred;
         last = Some(increment);
         if anew(number) && number + 1 < fractions.len() {
-            assert!(path.mesh_anew(), "after increment {number}");
+            assert!(path.remesh(), "after increment {number}");
         }
     }
     let peak = last.unwrap();

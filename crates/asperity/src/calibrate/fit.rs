@@ -28,7 +28,7 @@ row! {
         coefficient_least_squares: Option<f64> = all.map(|a| a.c),
         /// The mean of ε_r/tan β: all slopes count alike.
         coefficient_mean_ratio: Option<f64> = all.map(|a| a.mean_ratio),
-        /// 95 % interval of the arithmetic: cases drawn anew, K shifted by its error, the same choice of cases and law.
+        /// 95 % bootstrap interval of c: cases drawn again with replacement, K shifted by its error, the same choice of cases and law.
         ci95: Option<[f64; 2]> = all.map(|a| a.ci95),
         /// Interval of the model: least and largest c that other choices of metals and slopes give.
         model_interval: Option<[f64; 2]> = all.map(|a| model_interval(a.c, choices)),

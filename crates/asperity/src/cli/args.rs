@@ -110,7 +110,7 @@ pub enum Command {
     /// Write a commented scene to start from
     #[command(after_help = NEW)]
     New(new::New),
-    /// Print the JSON schema of a scene, a rough surface or a sweep, for editors
+    /// Print the JSON schema of an input file (scene, rough surface, sweep, study, fit), for editors
     #[command(after_help = SCHEMA)]
     Schema(schema::SchemaCommand),
     /// Print the completions of a shell

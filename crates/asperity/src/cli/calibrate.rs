@@ -27,7 +27,7 @@ pub struct Calibrate {
     /// Solve only part K of N, for the tasks of an array job; join the folders with `asperity calibrate merge`
     #[arg(long, value_name = "K/N", value_parser = clap::value_parser!(Shard))]
     pub shard: Option<Shard>,
-    /// The dependence of c: a table over laws, tools, exponents and ranges of E over yield stress, from 1800 cases
+    /// Sensitivity of c: a table over laws, tools, exponents and ranges of E over yield stress, from 1800 cases
     #[arg(long, conflicts_with_all = ["sweep", "shard", "slope", "overrides"])]
     pub dependence: bool,
     /// Slope in degrees that collapse.svg shows [default: the largest]

@@ -29,7 +29,7 @@ pub struct Extract {
     /// Islands above this separation from the mean plane, for example "1 um" [default: --share 0.1 of a map, the load of a scene]
     #[arg(long, value_name = "LENGTH", group = "parts", allow_hyphen_values = true)]
     pub separation: Option<Length>,
-    /// Islands above the plane that this share of the measured points is above
+    /// Islands above the plane that leaves this share of the measured points above it (the material ratio)
     #[arg(long, value_name = "SHARE", group = "parts")]
     pub share: Option<f64>,
     /// Hills of ISO 25178-2 that rise by at least this share of the surface's height above their highest saddle

@@ -14,7 +14,10 @@ use std::path::PathBuf;
 pub struct Identify {
     /// Fit file (TOML); `asperity new fit` writes one
     pub fit: Option<PathBuf>,
-    /// Change a value of the file, for example --set accuracy=draft; repeatable
+    /// Finite elements that give the answer: draft (1 % of a cone's force) or standard (0.5 %) [default: what the file says, else standard]
+    #[arg(long, value_name = "LEVEL", value_parser = ["draft", "standard"], hide_possible_values = true)]
+    pub accuracy: Option<String>,
+    /// Change a value of the file, for example --set material.poissons_ratio=0.3; repeatable
     #[arg(long = "set", value_name = "KEY.PATH=VALUE")]
     pub overrides: Vec<String>,
     #[command(flatten)]
@@ -32,7 +35,9 @@ pub fn identify(args: &Identify) -> Result<(), Error> {
         let help = "asperity new fit writes fit.toml, a commented fit to start from; then: asperity identify fit.toml";
         return Err(InputError::new("Missing fit file.").help(help).into());
     };
-    let fit = Fit::read(path, &args.overrides).map_err(|e| {
+    let accuracy = args.accuracy.iter().map(|level| format!("accuracy={level}"));
+    let changes: Vec<String> = args.overrides.iter().cloned().chain(accuracy).collect();
+    let fit = Fit::read(path, &changes).map_err(|e| {
         let name = path.display();
         let help =
             format!("asperity new fit writes a commented fit.toml; give a [[curve]] of it file = \"{name}\"");

@@ -64,7 +64,7 @@ row! {
         elastic_energy_uJ: f64 = row.elastic_energy / units.energy,
         /// Work of plastic flow, Σ∫σ_y dε_p; never found by subtraction.
         plastic_work_uJ: f64 = row.plastic_work / units.energy,
-        /// ½ε∫g² dA of the penalty.
+        /// Energy stored in the penalty, ½ε∫d² dA with the penetration d: an artefact of the method, no energy of the metal.
         contact_energy_uJ: f64 = row.contact_energy / units.energy,
         /// Mean penetration, weighted by the pressure.
         penetration_um: f64 = row.penetration / MICROMETRE,
@@ -229,7 +229,7 @@ mod tests {
             plastic_work: 8e-6,
             contact_energy: 5e-11,
             penetration: 2e-8,
-            given_way: 0.0,
+            compliance_depth: 0.0,
             newton_iterations: 6,
             force_nodal: 5.5,
             force_error: Some(0.01),

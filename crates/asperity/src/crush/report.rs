@@ -24,9 +24,9 @@ impl Crush {
             h2 { "Numbers" }
             (self.numbers()?)
             h2 { "Curves" }
-            (page::chart(&titled_chart(summary, &self.curve), &self.finding(), "Force over depth; the band is the stated error.")?)
-            (page::chart(&area, "Contact over depth, loading and unloading.", "The contact, projected along the axis of the tool.")?)
-            (page::chart(&pressure, "Mean pressure over depth, loading and unloading.", "Force over contact.")?)
+            (page::chart(&titled_chart(summary, &self.curve), &self.finding(), "Force against depth; the band is the stated error.")?)
+            (page::chart(&area, "Contact against depth, loading and unloading.", "The contact, projected along the axis of the tool.")?)
+            (page::chart(&pressure, "Mean pressure against depth, loading and unloading.", "Force over contact.")?)
             @if let Some(svg) = section {
                 h2 { "Section at the peak" }
                 (page::drawing(
@@ -42,7 +42,7 @@ impl Crush {
             h2 { "How it was computed" }
             p {
                 (summary.elements) " elements, " (summary.dofs) " unknowns, " (summary.increments) " increments, "
-                (summary.newton_iterations) " Newton iterations; " (summary.cutbacks) " increments were halved, the mesh was laid anew "
+                (summary.newton_iterations) " Newton iterations; " (summary.cutbacks) " increments were halved, the body was remeshed "
                 (summary.meshed_anew) " times; " (significant(summary.wall_s)) " s."
             }
         };

@@ -73,8 +73,8 @@ row! {
         oliver_pharr: Option<Instrument> = summary.oliver_pharr.as_ref().map(|read| Instrument::new(read, summary)),
         /// Work returned on unloading over the work to the peak.
         elastic_fraction: Option<f64> = summary.elastic_fraction,
-        /// Largest |W - E_e - W_p - E_c|/W over increments with W above 1 % of its peak: bad with a few huge steps, not a measure of the
-        /// error of the force.
+        /// Largest |W - E_e - W_p - E_c + E_t|/W over increments with W above 1 % of its peak, E_t what remeshing changed: large with
+        /// coarse steps, not a measure of the error of the force.
         #[serde(deserialize_with = "nan_for_null")]
         energy_balance_error: f64 = summary.energy_balance_error,
         /// `errors.force`; NaN (`null`) where it is not known.
@@ -92,7 +92,7 @@ row! {
         newton_iterations: usize = summary.newton_iterations,
         /// Times an increment was halved.
         cutbacks: usize = summary.cutbacks,
-        /// Times the mesh was laid anew because it was too distorted.
+        /// Number of remeshings: the mesh was too distorted.
         meshed_anew: usize = summary.transfers,
         /// Regions among the asperities that never yielded, at the peak.
         elastic_islands: Vec<Island> = islands.iter().map(Island::new).collect(),
@@ -103,7 +103,7 @@ row! {
         /// Half apex angle of the cone that stands for a pyramid: that of the same projected area; absent of other tools.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         equivalent_half_apex_deg: Option<f64> = scene.tool.shape.equivalent_half_apex_deg(),
-        /// What was made of each measured outline; absent where there is none.
+        /// Smoothing of each measured outline; absent where there is none.
         #[serde(default, skip_serializing_if = "Vec::is_empty")]
         outlines: Vec<MeasuredOutline> = scene.smoothings().iter().map(MeasuredOutline::new).collect(),
         /// The scene as resolved, with the numbers that its accuracy stands for: enough to run it again.
@@ -127,7 +127,7 @@ row! {
         place_um: [f64; 2] = row.place.map(|x| x / MICROMETRE),
         /// Whether it hangs together with the elastic bulk of the substrate.
         reaches_substrate: bool = row.reaches_substrate,
-        /// Whether it holds a part of the free surface: a leak path.
+        /// Whether it reaches the free surface; the paper takes such a region for a possible leak path.
         reaches_surface: bool = row.reaches_surface,
     }
 }
@@ -204,7 +204,7 @@ impl Summary {
             } else if error > promise {
                 let [error, promise] = [error, promise].map(|share| 100.0 * share);
                 warnings.push(format!(
-                    "the {what} is exact to {error:.2} %, not to the {promise} % of the accuracy: ask for a finer one if that matters"
+                    "the stated error of the {what} is {error:.2} %, above the {promise} % of the accuracy: ask for a finer one if that matters"
                 ));
             }
         }

@@ -91,7 +91,7 @@ impl Extraction {
                 "share = {share} is not possible: it must be above 0 and below 1, for example 0.1"
             )),
             Parts::Hills(prune) if !(0.0..1.0).contains(&prune) => error(format!(
-                "prune = {prune} is not possible: it must be at least 0 and below 1, for example 0.05"
+                "hills = {prune} is not possible: it must be at least 0 and below 1, for example 0.05"
             )),
             _ => match self.depth {
                 Some(depth) if depth.0.is_nan() || depth.0 <= 0.0 => error(format!(

@@ -153,7 +153,7 @@ impl Experiment {
         let top = peak[0] - expected.contact_depth - expected.compliance * peak[1];
         let loading = &expected.logarithms[..self.of_the_loading()];
         let most = expected.modulus * top * top * loading.last().map_or(0.0, |l| l.exp());
-        let way = way_back(&expected.logarithms, force / most);
+        let way = recovery(&expected.logarithms, force / most);
         top - way * self.depth + expected.contact_depth + expected.compliance * force
     }
 
@@ -245,7 +245,7 @@ impl Experiment {
 }
 
 /// Way back over the deepest depth to a share of the peak force.
-fn way_back(logarithms: &[f64], share: f64) -> f64 {
+fn recovery(logarithms: &[f64], share: f64) -> f64 {
     // straight in F^(2/3) nearly, from no way at the peak
     let bent = |share: f64| -share.max(0.0).powf(2.0 / 3.0);
     let ways = &logarithms[logarithms.len() - (AFTER - 2)..];
@@ -257,5 +257,5 @@ fn way_back(logarithms: &[f64], share: f64) -> f64 {
 /// How fast the way back grows as the share of the force falls.
 fn slope_back(logarithms: &[f64], share: f64) -> f64 {
     let (high, low) = ((share + 0.02).min(1.0), (share - 0.02).max(0.0));
-    (way_back(logarithms, low) - way_back(logarithms, high)) / (high - low)
+    (recovery(logarithms, low) - recovery(logarithms, high)) / (high - low)
 }

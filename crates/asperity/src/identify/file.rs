@@ -60,7 +60,7 @@ pub struct FitMaterial {
     /// Hardening exponent n in [0, 1).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hardening_exponent: Option<Sought<f64>>,
-    /// Which strain hardens, or that a table says it.
+    /// Hardening law: `hollomon` (power law in total strain), `swift` (power law in plastic strain) or `table`.
     #[serde(default = "hollomon")]
     pub hardening_law: HardeningChoice,
     /// For hardening_law = "table": plastic strain, from 0, and yield stress (known or sought), point by point.

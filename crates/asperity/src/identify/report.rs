@@ -47,7 +47,7 @@ impl Identification {
             (page::chart(&self.drawn.left(), "What is left between measurements and fit.", "Measured less fitted force; of unloading the depth over the deepest.")?)
             (page::chart(&stress, "Stress over plastic strain with the band of its error.", "The stress-strain curve with its 95 % band.")?)
             @if let Some(svg) = self.objective_svg()? {
-                (page::drawing(&svg, "Map of the sum of squares over two unknowns.", "The sum of squares over the two unknowns that are told worst: a long valley is what the measurements cannot tell."))
+                (page::drawing(&svg, "Map of the sum of squares over two unknowns.", "The sum of squares over the two unknowns that are determined worst: along a long valley the measurements do not distinguish."))
             }
             h2 { "What is left" }
             (page::table("Root mean square of the differences to the fit, and the noise that was counted with.", &["measurement", "left", "noise"], &residuals))

@@ -111,7 +111,7 @@ fn sharp(question: &Question, slope_deg: f64, accuracy: Accuracy) -> Result<Resp
 
 fn of_cone(found: &Indentation) -> Vec<f64> {
     let numbers = [found.k_over_e, found.stiffness, found.elastic_share];
-    numbers.iter().chain(&found.way_back).map(|x| x.max(1e-12).ln()).collect()
+    numbers.iter().chain(&found.recovery).map(|x| x.max(1e-12).ln()).collect()
 }
 
 /// The scene of a tool that is no sharp cone, unloaded from its deepest depth.
@@ -154,7 +154,7 @@ fn body(question: &Question, accuracy: Accuracy) -> Result<Response, String> {
     let share = summary.elastic_fraction.ok_or("no unloading")?;
     let (modulus, depth) = (question.modulus, question.depth);
     let loading = loading(&outcome.rows, modulus, depth);
-    let back = way_back(&outcome.rows, depth);
+    let back = recovery(&outcome.rows, depth);
     let after =
         [stiffness / (modulus * depth), share].into_iter().chain(back).map(|x: f64| x.max(1e-12).ln());
     let promise = if accuracy == Accuracy::Draft { 0.02 } else { 0.005 };
@@ -175,8 +175,8 @@ fn loading(rows: &[CurveRow], modulus: f64, depth: f64) -> Vec<f64> {
     SHARES.iter().map(|share| between(&points, share.ln())).collect()
 }
 
-/// The way back over the depth at each of [`FORCES`].
-fn way_back(rows: &[CurveRow], depth: f64) -> Vec<f64> {
+/// Elastic recovery over the depth at each of [`FORCES`].
+fn recovery(rows: &[CurveRow], depth: f64) -> Vec<f64> {
     let peak = rows.iter().rposition(|r| r.phase == Phase::Load).unwrap_or(0);
     let top = rows.get(peak).map_or(1.0, |r| r.force);
     // in F^(2/3) the way is nearly a straight line

@@ -318,27 +318,27 @@ fn words(
     };
     if !residual.fits {
         return format!(
-            "not identifiable: no metal within the bounds fits the measurements within their errors (sum of squares {:.1} with {} degrees of freedom); look for a wrong unit, tool, law, bound or noise",
+            "not identifiable: no metal within the bounds fits the measurements within their errors, so the model is rejected (χ² {:.1}, {} degrees of freedom); look for a wrong unit, tool, law, bound or noise",
             residual.chi2, residual.degrees_of_freedom
         );
     }
     let (told, untold) = (list(true), list(false));
     let mut text = match (&told[..], &untold[..]) {
-        (_, []) => "identifiable: the measurements tell all that is sought".to_string(),
-        ([], _) => format!("not identifiable: the measurements do not tell {}", untold.join(", ")),
+        (_, []) => "identifiable: the measurements determine all that is sought".to_string(),
+        ([], _) => format!("not identifiable: the measurements do not determine {}", untold.join(", ")),
         _ => format!(
-            "partly identifiable: the measurements tell {}, but not {}",
+            "partly identifiable: the measurements determine {}, but not {}",
             told.join(", "),
             untold.join(", ")
         ),
     };
     if let (false, Some(blind)) = (untold.is_empty(), blind) {
-        let _ = write!(text, "; they hardly notice {}", blind.text);
+        let _ = write!(text, "; they are least sensitive to {}", blind.text);
     }
     if let (false, Some(s)) = (untold.is_empty(), representative) {
         let _ = write!(
             text,
-            "; what they tell best is the stress at a plastic strain of {}: {:.0} ({:.0} to {:.0}) MPa",
+            "; what they determine best is the stress at a plastic strain of {}: {:.0} ({:.0} to {:.0}) MPa",
             s.plastic_strain, s.value_MPa, s.low_MPa, s.high_MPa
         );
     }

@@ -95,7 +95,7 @@ impl Rough {
         let head = [
             "closure",
             "true contact",
-            "less the rims of pixels",
+            "corrected for pixels",
             "mean pressure on it, MPa",
             "separation, µm",
             "largest over nominal pressure",

@@ -61,9 +61,9 @@ row! {
         sku: Option<f64> = finite(surface.parameters.sku),
         /// Largest height less smallest height.
         sz_um: f64 = surface.parameters.sz / MICROMETRE,
-        /// Highest point above the mean, Sp.
+        /// Maximum peak height Sp: highest point above the mean, µm.
         sp_um: f64 = surface.parameters.sp / MICROMETRE,
-        /// Mean above the lowest point, Sv.
+        /// Maximum pit height Sv: mean above the lowest point, µm.
         sv_um: f64 = surface.parameters.sv / MICROMETRE,
         /// Root mean square gradient Sdq, by the derivative of seven points of ISO 25178-2.
         sdq: f64 = surface.parameters.sdq,
@@ -81,7 +81,7 @@ row! {
         mean_slope_x: f64 = surface.parameters.mean_slope_x,
         /// atan of `mean_gradient`, degrees.
         beta_deg: f64 = surface.parameters.beta_deg(),
-        /// What names mean that could be misread.
+        /// Definitions of keys that are easily misread.
         definitions: BTreeMap<String, String> = DEFINITIONS.map(|(name, text)| (name.into(), text.into())).into(),
         /// Every closure.
         closures: Vec<ClosureSummary> = Vec::new(),

@@ -56,7 +56,7 @@ row! {
                 |s| s.unloading.as_ref().and_then(|u| u.elastic_share),
             )
             .flatten(),
-        /// Contact area ratio with the rim of the pixels taken off.
+        /// Contact area ratio, corrected for the perimeter of the pixels (Yastrebov et al. 2017).
         contact_area_ratio_corrected: Option<f64> = one.space().map(|s| s.contact.area.corrected),
         /// Uncertainty of the corrected ratio.
         area_error: Option<f64> = one.space().map(|s| s.contact.area.error),
@@ -64,7 +64,7 @@ row! {
         residual: Option<f64> = one.space().map(|s| s.contact.residual),
         /// Mean distance of plane and surface, µm.
         mean_gap_um: Option<f64> = one.space().map(|s| s.contact.mean_gap / MICROMETRE),
-        /// -dp/d(mean gap).
+        /// Normal contact stiffness per unit of area, -dp/d(mean gap), MPa/µm.
         #[serde(rename = "stiffness_MPa_per_um")]
         stiffness_mpa_per_um: Option<f64> =
             one.space().and_then(|s| s.contact.stiffness).map(|k| k / MEGAPASCAL * MICROMETRE),
@@ -78,7 +78,7 @@ row! {
         /// The same along y.
         critical_gap_y_um: Option<f64> =
             one.space().and_then(|s| s.passages[1].narrowest).map(|c| c.gap / MICROMETRE),
-        /// Volume flux times viscosity over pressure difference along x, m³; 0 where tight, none where not asked for.
+        /// Volumetric flow rate times viscosity over pressure difference along x, m³; 0 where tight, none where not asked for.
         leak_x_m3: Option<f64> = one.space().and_then(|s| s.leak(0)),
         /// The same along y.
         leak_y_m3: Option<f64> = one.space().and_then(|s| s.leak(1)),

@@ -1,4 +1,4 @@
-//! Closures: what force and contact area an island of slope tan β carries.
+//! Closures, the contact laws of single asperities: force and contact area of an island of slope tan β.
 
 use super::calibrated::Calibrated;
 use super::coefficient::Coefficient;
@@ -33,7 +33,7 @@ pub enum Closure {
     Calibrated,
     /// No closure: the whole surface on an elastic half-space, interaction included.
     HalfSpace,
-    /// The same with a limit of pressure.
+    /// The same with a pressure cut-off: elastic and perfectly plastic, p ≤ H.
     HalfSpacePlastic,
 }
 

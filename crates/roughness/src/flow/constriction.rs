@@ -1,7 +1,7 @@
 //! The narrowest place of the widest path through a gap.
 
-use super::gap::{Axis, Gap, Oriented};
-use rayon::prelude::*;
+use super::gap::{Axis, Gap};
+use std::collections::BinaryHeap;
 
 /// The critical constriction: all of a flow must pass a gap no wider than this one.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,66 +14,94 @@ pub struct Constriction {
 
 /// The critical constriction along `axis`; None where no open path crosses the map.
 ///
-/// Pixels are opened from the widest gap to the narrowest and joined with open neighbours over their sides; the pixel that
-/// first joins both ends is the constriction.
+/// The map is flooded from its entry through gaps no narrower than the narrowest that had to be passed yet; where the flood ends,
+/// it goes on through the widest pixel at its shore. Each pixel is met once.
 pub fn constriction(gap: &Gap, axis: Axis) -> Option<Constriction> {
-    let map = gap.along(axis);
-    let mut order: Vec<u32> = (0..map.gaps.len() as u32).filter(|i| map.gaps[*i as usize] > 0.0).collect();
-    // equal gaps in the order of the map, so that the answer does not depend on threads
-    order.par_sort_unstable_by(|a, b| map.gaps[*b as usize].total_cmp(&map.gaps[*a as usize]).then(a.cmp(b)));
-    let narrowest = first_crossing(&map, &order)?;
-    let (along, line) = (narrowest % map.long, narrowest / map.long);
-    let at = if axis == Axis::X { [along, line] } else { [line, along] };
-    Some(Constriction { gap: map.gaps[narrowest], at })
-}
-
-/// The pixel of `order` with which the open ones first reach from end to end.
-fn first_crossing(map: &Oriented, order: &[u32]) -> Option<usize> {
-    let n = map.gaps.len();
-    // two nodes more: the ends
-    let (entry, exit) = (n, n + 1);
-    let mut parent: Vec<u32> = (0..n as u32 + 2).collect();
-    let mut open = vec![false; n];
-    for &i in order {
-        let i = i as usize;
-        open[i] = true;
-        let column = i % map.long;
-        if column == 0 {
-            join(&mut parent, i, entry);
+    let map = Lines::of(gap, axis);
+    let mut seen = vec![false; gap.values.len()];
+    let mut inside: Vec<u32> = Vec::new();
+    let mut shore: BinaryHeap<u64> = (0..map.wide).filter_map(|line| map.width(map.at(0, line))).collect();
+    (0..map.wide).for_each(|line| seen[map.at(0, line)] = true);
+    let mut narrowest = u64::MAX;
+    loop {
+        let i = match inside.pop() {
+            Some(i) => i as usize,
+            None => {
+                narrowest = shore.pop()?;
+                place(narrowest)
+            }
+        };
+        let [along, line] = map.along_and_line(i);
+        if along + 1 == map.long {
+            let i = place(narrowest);
+            let at = [i % gap.nodes[0], i / gap.nodes[0]];
+            return Some(Constriction { gap: f64::from(gap.values[i]), at });
         }
-        if column + 1 == map.long {
-            join(&mut parent, i, exit);
-        }
-        let before = [
-            (column > 0).then(|| i.wrapping_sub(1)),
-            if i >= map.long {
-                Some(i - map.long)
-            } else {
-                (map.periodic && map.wide > 1).then(|| n - map.long + i)
-            },
-        ];
-        for j in before.into_iter().chain([map.ahead(i), map.beside(i)]).flatten() {
-            if open[j] {
-                join(&mut parent, i, j);
+        // the last one is looked at first: ahead
+        for j in map.neighbours(along, line).into_iter().flatten() {
+            if std::mem::replace(&mut seen[j], true) {
+                continue;
+            }
+            match map.width(j) {
+                Some(width) if width > narrowest => inside.push(j as u32),
+                Some(width) => shore.push(width),
+                None => {}
             }
         }
-        if root(&mut parent, entry) == root(&mut parent, exit) {
-            return Some(i);
-        }
     }
-    None
 }
 
-/// The root of a node, links to it halved on the way.
-fn root(parent: &mut [u32], mut i: usize) -> usize {
-    while parent[i] as usize != i {
-        parent[i] = parent[parent[i] as usize];
-        i = parent[i] as usize;
-    }
-    i
+/// The pixel of a [`Lines::width`].
+fn place(width: u64) -> usize {
+    (u32::MAX - width as u32) as usize
 }
 
-fn join(parent: &mut [u32], a: usize, b: usize) {
-    let (a, b) = (root(parent, a), root(parent, b));
-    parent[a.max(b)] = a.min(b) as u32;
+/// A map of gaps as lines along a flow.
+struct Lines<'a> {
+    values: &'a [f32],
+    periodic: bool,
+    /// Pixels along the flow, and lines beside each other.
+    long: usize,
+    wide: usize,
+    /// Pixels of a row of the map, and whether the flow goes along it.
+    row: usize,
+    along_rows: bool,
+}
+
+impl<'a> Lines<'a> {
+    fn of(gap: &Gap<'a>, axis: Axis) -> Lines<'a> {
+        let ([nx, ny], along_rows) = (gap.nodes, axis == Axis::X);
+        let (long, wide) = if along_rows { (nx, ny) } else { (ny, nx) };
+        Lines { values: gap.values, periodic: gap.periodic, long, wide, row: nx, along_rows }
+    }
+
+    fn at(&self, along: usize, line: usize) -> usize {
+        if self.along_rows { line * self.row + along } else { along * self.row + line }
+    }
+
+    fn along_and_line(&self, i: usize) -> [usize; 2] {
+        let (x, y) = (i % self.row, i / self.row);
+        if self.along_rows { [x, y] } else { [y, x] }
+    }
+
+    /// A number that is the greater the wider the gap, and of equal gaps the earlier the pixel: they never tie, so that the answer
+    /// depends on nothing else. None of a pixel that is closed or was not measured.
+    fn width(&self, i: usize) -> Option<u64> {
+        // the bits of positive numbers rise with them
+        (self.values[i] > 0.0)
+            .then(|| u64::from(self.values[i].to_bits()) << 32 | u64::from(u32::MAX - i as u32))
+    }
+
+    /// The pixels around one: behind, beside, ahead.
+    fn neighbours(&self, along: usize, line: usize) -> [Option<usize>; 4] {
+        let ring = self.periodic && self.wide > 1;
+        let before = if line > 0 { Some(line - 1) } else { ring.then(|| self.wide - 1) };
+        let after = if line + 1 < self.wide { Some(line + 1) } else { ring.then_some(0) };
+        [
+            along.checked_sub(1).map(|along| self.at(along, line)),
+            before.map(|line| self.at(along, line)),
+            after.map(|line| self.at(along, line)),
+            (along + 1 < self.long).then(|| self.at(along + 1, line)),
+        ]
+    }
 }

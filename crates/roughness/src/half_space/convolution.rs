@@ -15,6 +15,9 @@ use std::sync::Arc;
 const BLOCK: usize = 16;
 /// Rows that one task transforms.
 const ROWS: usize = 16;
+/// Rows that are turned into columns at once: the pieces of columns are whole cache lines, as the columns of a map of 2ⁿ rows
+/// share the places that their lines may take in a cache.
+const TILE: usize = 8;
 
 /// Which way between pressure and displacement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,13 +28,14 @@ pub(super) enum Way {
     Stiffness,
 }
 
-/// The response of the half-space to one wave.
-enum Response<T> {
-    /// 2/|q| (Westergaard; Johnson 1985, ch. 13), from the squares of the two wave numbers; a periodic surface.
-    Periodic { x2: Vec<f64>, y2: Vec<f64>, least: f64 },
-    /// Transform of the displacement around one loaded pixel (Love 1929), column by column for waves 0..=n/2 along y; a
-    /// surface that stands free.
-    Free { table: Vec<T>, rows: usize },
+/// The response of the half-space to one wave: the displacement per pressure. It is even in both wave numbers, so that the
+/// quarter of waves 0..=n/2 along x and y is enough.
+struct Response<T> {
+    /// Column by column for waves 0..`rows` along y.
+    table: Vec<T>,
+    rows: usize,
+    /// Whether an even pressure displaces nothing: of a periodic surface, whose displacements count from their mean.
+    from_the_mean: bool,
 }
 
 /// Transforms of one grid with the half-space's response.
@@ -56,19 +60,17 @@ impl<T: Real> Convolution<T> {
         let mut real = RealFftPlanner::new();
         let mut complex = FftPlanner::new();
         let width = padded[0] / 2 + 1;
-        let mut made = Convolution {
+        Convolution {
             nodes,
             padded,
             along_x: real.plan_fft_forward(padded[0]),
             back_x: real.plan_fft_inverse(padded[0]),
             along_y: complex.plan_fft_forward(padded[1]),
             back_y: complex.plan_fft_inverse(padded[1]),
-            response: Response::Free { table: Vec::new(), rows: 0 },
+            response: if periodic { waves(nodes, sides) } else { free(padded, sides) },
             spectrum: vec![Complex::default(); width * nodes[1]],
             blocks: vec![Complex::default(); width.div_ceil(BLOCK) * BLOCK * nodes[1]],
-        };
-        made.response = if periodic { waves(nodes, sides) } else { free(padded, sides) };
-        made
+        }
     }
 
     /// `output` = response (or its inverse) applied to `input`, both one number per node.
@@ -98,9 +100,13 @@ impl<T: Real> Convolution<T> {
                 let first = b * BLOCK;
                 let count = BLOCK.min(width - first);
                 let used = &mut columns[..count * py];
-                for row in 0..ny {
-                    let from = &spectrum[row * width + first..][..count];
-                    from.iter().enumerate().for_each(|(k, value)| used[k * py + row] = *value);
+                for first_row in (0..ny).step_by(TILE) {
+                    let rows = first_row..(first_row + TILE).min(ny);
+                    for k in 0..count {
+                        let line = &mut used[k * py..][rows.clone()];
+                        let from = spectrum[first_row * width + first + k..].iter().step_by(width);
+                        line.iter_mut().zip(from).for_each(|(to, value)| *to = *value);
+                    }
                 }
                 for line in used.chunks_mut(py) {
                     line[ny..].fill(Complex::default());
@@ -110,9 +116,13 @@ impl<T: Real> Convolution<T> {
                     response.multiply(way, first + k, line, scale);
                 }
                 back_y.process_with_scratch(used, scratch);
-                for row in 0..ny {
-                    let to = &mut out[row * BLOCK..][..count];
-                    to.iter_mut().enumerate().for_each(|(k, value)| *value = used[k * py + row]);
+                for first_row in (0..ny).step_by(TILE) {
+                    let rows = first_row..(first_row + TILE).min(ny);
+                    for k in 0..count {
+                        let to = out[first_row * BLOCK + k..].iter_mut().step_by(BLOCK);
+                        let line = &used[k * py..][rows.clone()];
+                        to.zip(line).for_each(|(to, value)| *to = *value);
+                    }
                 }
             },
         );
@@ -138,16 +148,22 @@ impl<T: Real> Convolution<T> {
     }
 }
 
-/// Squares of the wave numbers of a periodic grid.
-fn waves<T>(nodes: [usize; 2], sides: [f64; 2]) -> Response<T> {
-    let number = |n: usize, side: f64, k: usize| {
-        let signed = if 2 * k > n { k as f64 - n as f64 } else { k as f64 };
-        (TAU * signed / (n as f64 * side)).powi(2)
-    };
-    let x2: Vec<f64> = (0..nodes[0] / 2 + 1).map(|k| number(nodes[0], sides[0], k)).collect();
-    let y2: Vec<f64> = (0..nodes[1]).map(|k| number(nodes[1], sides[1], k)).collect();
-    let least = [x2.get(1), y2.get(1)].into_iter().flatten().fold(f64::INFINITY, |a, b| a.min(*b));
-    Response::Periodic { x2, y2, least: if least.is_finite() { 0.5 * least.sqrt() } else { 1.0 } }
+/// 2/|q| (Westergaard; Johnson 1985, ch. 13) of a periodic grid; of the even pressure that of half the least wave number, for
+/// what preconditions.
+fn waves<T: Real>(nodes: [usize; 2], sides: [f64; 2]) -> Response<T> {
+    let number = |axis: usize, k: usize| TAU * k as f64 / (nodes[axis] as f64 * sides[axis]);
+    let longest = [0, 1].into_iter().filter(|axis| nodes[*axis] > 1).map(|axis| number(axis, 1));
+    let least = longest.fold(f64::INFINITY, f64::min);
+    let least = if least.is_finite() { 0.5 * least } else { 1.0 };
+    let rows = nodes[1] / 2 + 1;
+    let mut table = vec![T::zero(); (nodes[0] / 2 + 1) * rows];
+    table.par_chunks_mut(rows).enumerate().for_each(|(kx, column)| {
+        let x2 = number(0, kx).powi(2);
+        for (ky, gain) in column.iter_mut().enumerate() {
+            *gain = T::of(2.0 / (x2 + number(1, ky).powi(2)).sqrt().max(least));
+        }
+    });
+    Response { table, rows, from_the_mean: true }
 }
 
 /// ∫∫ dA/r over a rectangle with one corner at the origin: second differences give it over any rectangle.
@@ -155,7 +171,7 @@ fn corner(x: f64, y: f64) -> f64 {
     x * (y / x.abs()).asinh() + y * (x / y.abs()).asinh()
 }
 
-/// Transform of the displacement around one pixel.
+/// Transform of the displacement around one loaded pixel (Love 1929), of a surface that stands free.
 fn free<T: Real>(padded: [usize; 2], sides: [f64; 2]) -> Response<T> {
     let [px, py] = padded;
     let (wide, high) = (px / 2 + 1, py / 2 + 1);
@@ -187,32 +203,26 @@ fn free<T: Real>(padded: [usize; 2], sides: [f64; 2]) -> Response<T> {
         let _ = along_y.process(&mut line, &mut wave);
         out.iter_mut().zip(&wave).for_each(|(to, value)| *to = T::of(value.re));
     });
-    Response::Free { table, rows: high }
+    Response { table, rows: high, from_the_mean: false }
 }
 
 impl<T: Real> Response<T> {
-    /// Multiplies the waves of column `kx` by the response and `scale`.
+    /// Multiplies the waves of column `kx` by the response, or by its inverse, and by `scale`.
     fn multiply(&self, way: Way, kx: usize, line: &mut [Complex<T>], scale: f64) {
-        match self {
-            Response::Periodic { x2, y2, least } => {
-                let x2 = x2[kx];
-                let first = if x2 == 0.0 && way == Way::Compliance { 1 } else { 0 };
-                line[..first].fill(Complex::default());
-                for (value, y2) in line.iter_mut().zip(y2).skip(first) {
-                    let number = (x2 + y2).sqrt().max(*least);
-                    let gain = if way == Way::Compliance { 2.0 / number } else { 0.5 * number };
-                    *value = value.scale(T::of(gain * scale));
-                }
-            }
-            Response::Free { table, rows } => {
-                let (n, table) = (line.len(), &table[kx * rows..(kx + 1) * rows]);
-                for (k, value) in line.iter_mut().enumerate() {
-                    let gain = table[k.min(n - k)];
-                    let gain = if way == Way::Compliance { gain } else { gain.abs().recip() };
-                    *value = value.scale(gain * T::of(scale));
-                }
-            }
+        let n = line.len();
+        let (half, scale) = (n / 2 + 1, T::of(scale));
+        let table = &self.table[kx * self.rows..][..self.rows];
+        let gain = |value: T| match way {
+            Way::Compliance => value * scale,
+            Way::Stiffness => scale / value.abs(),
+        };
+        if kx == 0 && way == Way::Compliance && self.from_the_mean {
+            line[0] = Complex::default();
         }
+        let (rising, falling) = line.split_at_mut(half.min(n));
+        rising.iter_mut().zip(table).for_each(|(value, g)| *value = value.scale(gain(*g)));
+        // wave k of the second half is wave n - k the other way
+        falling.iter_mut().rev().zip(&table[1..]).for_each(|(value, g)| *value = value.scale(gain(*g)));
     }
 }
 

@@ -1,4 +1,4 @@
-//! The contact of a surface with a plane when the body is a half-space: elastic, or with a limit of pressure.
+//! The contact of a surface with a plane when the body is a half-space: elastic, or elastic with a pressure cut-off (p ≤ H).
 
 use super::area::Area;
 use super::cascade::{Answer, Task, spread};

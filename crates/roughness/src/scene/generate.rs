@@ -26,7 +26,7 @@ pub struct GenerateScene {
     /// Points along x and y, at least 2.
     #[schemars(extend("examples" = [[1024, 1024]]))]
     pub pixels: [usize; 2],
-    /// Start of the random numbers.
+    /// Seed of the random numbers.
     #[serde(default = "one")]
     pub seed: u64,
     /// Hurst exponent, of "self-affine".

@@ -55,7 +55,7 @@ impl State {
         for (change, (old, new)) in
             self.volume_change.iter_mut().zip(self.points.states.iter().zip(&response.points.states))
         {
-            *change = volume_ratio(&new.stretch) - volume_ratio(&old.stretch);
+            *change = volume_ratio(&new.b_minus_i) - volume_ratio(&old.b_minus_i);
         }
         let (before, after) = (&self.points.states, &response.points.states);
         let yields = |q: usize| after[q].plastic_strain > before[q].plastic_strain;

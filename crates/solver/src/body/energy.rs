@@ -9,7 +9,7 @@ use crate::point::material::{Metal, PointState, elastic_energy};
 pub fn stored(metal: &Metal, states: &[PointState], volume: &[f64]) -> f64 {
     let mut sum = 0.0;
     for (states, volume) in states.chunks_exact(POINTS).zip(volume.chunks_exact(POINTS)) {
-        let energy = elastic_energy(&metal.elastic, &PointState::side_by_side(states).stretch);
+        let energy = elastic_energy(&metal.elastic, &PointState::side_by_side(states).b_minus_i);
         volume.iter().zip(energy.0).for_each(|(v, energy)| sum += v * energy);
     }
     sum

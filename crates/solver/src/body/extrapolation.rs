@@ -30,7 +30,7 @@ impl State {
         for ((start, state), change) in
             trial.start.states.iter_mut().zip(&self.points.states).zip(&self.volume_change)
         {
-            let now = volume_ratio(&state.stretch);
+            let now = volume_ratio(&state.b_minus_i);
             start.yield_scale =
                 now + (bounded(ratio) * change).clamp(-LARGEST_CHANGE * now, LARGEST_CHANGE * now);
         }

@@ -59,8 +59,8 @@ pub fn fields(body: &Body<'_>, state: &State) -> Fields {
         let yielded = states.iter().any(|s| s.plastic_strain > 0.0);
         plastic_zone.push(if state.yielding[cell] { 2.0 } else { f64::from(u8::from(yielded)) });
         let values: [[f64; 5]; POINTS] = std::array::from_fn(|q| {
-            let j = volume_ratio(&states[q].stretch);
-            let [rr, zz, tt, rz] = stress(elastic, &states[q].stretch).map(|t| t / j);
+            let j = volume_ratio(&states[q].b_minus_i);
+            let [rr, zz, tt, rz] = stress(elastic, &states[q].b_minus_i).map(|t| t / j);
             [rr, zz, tt, rz, states[q].plastic_strain]
         });
         let volume: f64 = body.volume[Body::points_of(cell)].iter().sum();

@@ -66,7 +66,7 @@ impl<'b, 'm> Flows<'b, 'm> {
             return Ok(());
         }
         let [trial, old, new] = [&output.states[..], start.states, end.states].map(PointState::side_by_side);
-        let found = plastic_increment(&trial.stretch, &old, &new)
+        let found = plastic_increment(&trial.b_minus_i, &old, &new)
             .map_err(|cause| Failure::Element { cell, cause })?;
         for i in 0..POINTS {
             flow[i] = found.lane(i);
@@ -104,7 +104,7 @@ impl<'b, 'm> Flows<'b, 'm> {
             }
         } else {
             let [old, trial] = [&states, &output.states].map(|of| PointState::side_by_side(of));
-            let found = backward_euler(&body.material, &old, &trial.stretch)
+            let found = backward_euler(&body.material, &old, &trial.b_minus_i)
                 .map_err(|cause| Failure::Element { cell, cause })?;
             for (i, euler) in euler.iter_mut().enumerate() {
                 *euler = found.map(|e| e.0[i]);

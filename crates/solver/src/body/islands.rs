@@ -229,9 +229,9 @@ fn describe(body: &Body<'_>, state: &State, region: &[usize], reaches_substrate:
         island.place[1] += area * z;
         for q in cell * POINTS..(cell + 1) * POINTS {
             let point = &state.points.states[q];
-            let tau = stress(&body.material.elastic, &point.stretch);
+            let tau = stress(&body.material.elastic, &point.b_minus_i);
             let weight = body.volume[q];
-            let ratio = volume_ratio(&point.stretch);
+            let ratio = volume_ratio(&point.b_minus_i);
             island.mean_pressure -= weight * hydrostatic(&tau) / ratio;
             island.mean_von_mises += weight * von_mises(&tau) / ratio;
             volume += weight;

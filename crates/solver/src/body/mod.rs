@@ -16,7 +16,7 @@ mod extrapolation;
 
 mod commit;
 
-pub mod evening;
+pub mod remesh;
 mod surface_curve;
 
 mod transfer;

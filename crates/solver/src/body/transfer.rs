@@ -213,7 +213,7 @@ fn interpolated(body: &Body<'_>, state: &State, place: Place) -> Option<PointSta
     let (mut plastic_strain, mut share) = (0.0, 0.0);
     let points = &state.points.states[range];
     for (point, weight) in points.iter().zip(weights(place.xi, points)) {
-        let spectral = Spectral::of(&point.stretch).ok()?;
+        let spectral = Spectral::of(&point.b_minus_i).ok()?;
         let logarithm = spectral.tensor(&spectral.log_strain);
         for i in 0..4 {
             strain[i] += weight * logarithm[i];
@@ -236,7 +236,7 @@ fn interpolated(body: &Body<'_>, state: &State, place: Place) -> Option<PointSta
     let mut doubled = deviator(&strain).map(|e| 2.0 * left * e);
     doubled[..3].iter_mut().for_each(|e| *e += 2.0 / 3.0 * trace(&strain));
     Some(PointState {
-        stretch: exponential_minus_identity(&doubled),
+        b_minus_i: exponential_minus_identity(&doubled),
         plastic_strain,
         yield_stress,
         yield_scale: scale,
@@ -283,7 +283,7 @@ fn carried_over(body: &Body<'_>, state: &State, places: &[[f64; 2]]) -> Option<C
             let x = [0, 1].map(|i| nodes.iter().zip(value).map(|(&n, v)| v * places[n as usize][i]).sum());
             let place = lookup.find(x, cell);
             carried.states[q] = interpolated(body, state, place)?;
-            carried.volume[q] = volume / volume_ratio(&carried.states[q].stretch);
+            carried.volume[q] = volume / volume_ratio(&carried.states[q].b_minus_i);
             let old = Body::points_of(place.cell);
             let weights = weights(place.xi, &state.points.states[old.clone()]);
             if let (Some(flow), Some(last)) = (carried.plastic.get_mut(q), state.plastic.get(old.clone())) {

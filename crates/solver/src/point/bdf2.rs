@@ -81,7 +81,7 @@ pub fn extrapolation_factor(ratio: f64) -> f64 {
     ratio * ratio / (1.0 + 2.0 * ratio)
 }
 
-/// Flow between the elastic trial b_e - I (`trial`, from the last converged state) and the state `end`, of which `old` is the start.
+/// HardeningPoint between the elastic trial b_e - I (`trial`, from the last converged state) and the state `end`, of which `old` is the start.
 ///
 /// # Errors
 /// Either is not positive definite.
@@ -91,7 +91,7 @@ pub fn plastic_increment<T: Real>(
     old: &PointState<T>,
     end: &PointState<T>,
 ) -> Result<PlasticIncrement<T>, Failure> {
-    let (from, to) = (Spectral::of(trial)?, Spectral::of(&end.stretch)?);
+    let (from, to) = (Spectral::of(trial)?, Spectral::of(&end.b_minus_i)?);
     let (from, to) = (from.tensor(&from.log_strain), to.tensor(&to.log_strain));
     let strain = [from[0] - to[0], from[1] - to[1], from[2] - to[2], from[3] - to[3]];
     Ok(PlasticIncrement { strain, accumulated: end.plastic_strain - old.plastic_strain })
@@ -155,14 +155,14 @@ pub fn extrapolate<T: Real>(
     let Some(hardening) = metal.hardening.as_ref().filter(|_| T::any(yields)) else {
         return *old;
     };
-    let Ok(spectral) = Spectral::of(&old.stretch) else { return *old };
+    let Ok(spectral) = Spectral::of(&old.b_minus_i) else { return *old };
     let strain = spectral.tensor(&spectral.log_strain);
     let doubled = |i: usize| (strain[i] - flowed.strain[i]) * 2.0;
     let stretch = exponential_minus_identity(&[doubled(0), doubled(1), doubled(2), doubled(3)]);
     let plastic_strain = old.plastic_strain + T::select(yields, flowed.accumulated, T::splat(0.0));
-    let new = |i: usize| T::select(yields, stretch[i], old.stretch[i]);
+    let new = |i: usize| T::select(yields, stretch[i], old.b_minus_i[i]);
     PointState {
-        stretch: [new(0), new(1), new(2), new(3)],
+        b_minus_i: [new(0), new(1), new(2), new(3)],
         plastic_strain,
         yield_stress: T::select(yields, hardening.flow(plastic_strain).yield_stress, old.yield_stress),
         ..*old

@@ -56,11 +56,11 @@ pub struct Linearisation<T> {
     frame: Spectral<T>,
     /// Principal Kirchhoff stresses.
     tau: [T; 3],
-    /// Share of the trial deviator that is left.
-    left: T,
-    /// Loss of the moduli along the direction of flow.
-    drop: T,
-    /// That direction: the trial deviator over its norm.
+    /// Deviator after the return over that of the trial: 1 of an elastic point.
+    deviator_scale: T,
+    /// What the return takes from the consistent moduli along n⊗n.
+    modulus_drop: T,
+    /// Direction of flow n: the trial deviator over its norm.
     direction: [T; 3],
 }
 
@@ -91,7 +91,7 @@ pub fn return_to_yield<T: Real>(
 ) -> Result<Return<T>, Failure> {
     let zero = T::splat(0.0);
     // 1. trial
-    let trial = push_forward(increment, &old.stretch);
+    let trial = push_forward(increment, &old.b_minus_i);
     let frame = Spectral::of(&trial)?;
     let strain = frame.log_strain;
     // 2. trial stress
@@ -103,8 +103,8 @@ pub fn return_to_yield<T: Real>(
     let q = norm * (6.0_f64.sqrt() * g);
     // 3. return
     let scale = old.yield_scale;
-    let mut state = PointState { stretch: trial, ..*old };
-    let (mut left, mut drop) = (T::splat(1.0), zero);
+    let mut state = PointState { b_minus_i: trial, ..*old };
+    let (mut deviator_scale, mut modulus_drop) = (T::splat(1.0), zero);
     let plastic = match &metal.hardening {
         Some(_) => q.above(scale * old.yield_stress),
         None => zero.above(zero),
@@ -115,26 +115,30 @@ pub fn return_to_yield<T: Real>(
         let (strain, stress) = (old.plastic_strain, old.yield_stress);
         let flow = hardening.return_to_yield(q / scale, three_g / scale, strain, stress);
         let slope = scale * flow.slope;
-        left = T::select(plastic, scale * flow.yield_stress / q, left);
+        deviator_scale = T::select(plastic, scale * flow.yield_stress / q, deviator_scale);
         let mut elastic = dev;
         for e in &mut elastic {
-            *e = ((left * *e + third) * 2.0).exp_m1();
+            *e = ((deviator_scale * *e + third) * 2.0).exp_m1();
         }
         let returned = frame.tensor(&elastic);
         for i in 0..4 {
-            state.stretch[i] = T::select(plastic, returned[i], trial[i]);
+            state.b_minus_i[i] = T::select(plastic, returned[i], trial[i]);
         }
         state.plastic_strain =
             T::select(plastic, flow.plastic_strain.max(old.plastic_strain), old.plastic_strain);
         state.yield_stress = T::select(plastic, flow.yield_stress, old.yield_stress);
-        // 2G(left - ĴH/(3G + ĴH))
-        drop = T::select(plastic, (left - slope / (three_g + slope)) * (2.0 * g), zero);
+        // 2G(deviator_scale - ĴH/(3G + ĴH))
+        modulus_drop = T::select(plastic, (deviator_scale - slope / (three_g + slope)) * (2.0 * g), zero);
     }
-    let (mean, shear) = (volume * k, left * (2.0 * g));
+    let (mean, shear) = (volume * k, deviator_scale * (2.0 * g));
     let tau = [mean + shear * dev[0], mean + shear * dev[1], mean + shear * dev[2]];
     let inverse = T::select(norm.above(zero), T::splat(1.0) / norm, zero);
     let direction = [dev[0] * inverse, dev[1] * inverse, dev[2] * inverse];
-    Ok(Return { state, plastic, response: Linearisation { frame, tau, left, drop, direction } })
+    Ok(Return {
+        state,
+        plastic,
+        response: Linearisation { frame, tau, deviator_scale, modulus_drop, direction },
+    })
 }
 
 impl<T: Real> Linearisation<T> {
@@ -148,7 +152,7 @@ impl<T: Real> Linearisation<T> {
     #[inline(always)]
     pub fn tangent(&self, metal: &Metal, tangent: Tangent) -> GradientForm<T> {
         let zero = T::splat(0.0);
-        let Linearisation { frame, tau, left, drop, direction } = *self;
+        let Linearisation { frame, tau, deviator_scale, modulus_drop, direction } = *self;
         let geometric = match tangent {
             Tangent::None => return [[zero; 5]; 5],
             Tangent::Exact => self.stress(),
@@ -157,14 +161,15 @@ impl<T: Real> Linearisation<T> {
             }
         };
         let (g, k) = (metal.elastic.shear_modulus(), metal.elastic.bulk_modulus());
-        let shear = left * (2.0 * g);
+        let shear = deviator_scale * (2.0 * g);
         let mut moduli = [[zero; 3]; 3];
         for a in 0..3 {
             for b in 0..3 {
                 let identity = if a == b { 1.0 } else { 0.0 };
-                moduli[a][b] = shear * (identity - 1.0 / 3.0) + k - drop * direction[a] * direction[b];
+                moduli[a][b] =
+                    shear * (identity - 1.0 / 3.0) + k - modulus_drop * direction[a] * direction[b];
             }
         }
-        frame.tangent(&tau, &moduli, left * g, &geometric)
+        frame.tangent(&tau, &moduli, deviator_scale * g, &geometric)
     }
 }

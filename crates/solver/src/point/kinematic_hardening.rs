@@ -93,7 +93,7 @@ pub fn update(
     t[..3].iter_mut().for_each(|t| *t += pressure);
     let stress = strain.to_current(&strain.kirchhoff(&t));
     let state = PointState {
-        stretch: hencky_stretch(&metal.elastic, &stress),
+        b_minus_i: hencky_stretch(&metal.elastic, &stress),
         plastic_strain: old.plastic_strain + length,
         yield_stress: flow.map_or(old.yield_stress, |(flow, _)| flow.yield_stress),
         yield_scale: scale,

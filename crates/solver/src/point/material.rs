@@ -6,7 +6,7 @@
 use crate::point::failure::Failure;
 use crate::point::tensor::{GradientForm, Sym, trace};
 use asperity_law::real::{Lanes, Real};
-use asperity_law::{Elastic, Flow, HardeningCurve, StressMeasure};
+use asperity_law::{Elastic, HardeningCurve, HardeningPoint, StressMeasure};
 
 /// Elastic constants and, for a material that yields, its hardening curve; all in units of E.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,8 +24,8 @@ pub struct Metal {
 /// State of a material point, or of several side by side.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PointState<T = f64> {
-    /// b_e - I, current frame.
-    pub stretch: Sym<T>,
+    /// b_e - I of the elastic left Cauchy-Green tensor b_e, current frame.
+    pub b_minus_i: Sym<T>,
     /// Accumulated plastic strain ε_p.
     pub plastic_strain: T,
     /// Yield stress at that strain, in the measure of the material.
@@ -39,9 +39,9 @@ impl PointState<Lanes> {
     /// Four points side by side.
     #[inline(always)]
     pub fn side_by_side(points: &[PointState]) -> Self {
-        let component = |i: usize| Lanes::each(|q| points[q].stretch[i]);
+        let component = |i: usize| Lanes::each(|q| points[q].b_minus_i[i]);
         PointState {
-            stretch: [component(0), component(1), component(2), component(3)],
+            b_minus_i: [component(0), component(1), component(2), component(3)],
             plastic_strain: Lanes::each(|q| points[q].plastic_strain),
             yield_stress: Lanes::each(|q| points[q].yield_stress),
             yield_scale: Lanes::each(|q| points[q].yield_scale),
@@ -51,9 +51,9 @@ impl PointState<Lanes> {
     /// The point in `lane`.
     #[inline(always)]
     pub fn lane(&self, lane: usize) -> PointState {
-        let b = &self.stretch;
+        let b = &self.b_minus_i;
         PointState {
-            stretch: [b[0].0[lane], b[1].0[lane], b[2].0[lane], b[3].0[lane]],
+            b_minus_i: [b[0].0[lane], b[1].0[lane], b[2].0[lane], b[3].0[lane]],
             plastic_strain: self.plastic_strain.0[lane],
             yield_stress: self.yield_stress.0[lane],
             yield_scale: self.yield_scale.0[lane],
@@ -80,11 +80,11 @@ impl Metal {
     /// The stress-free virgin state.
     pub fn virgin(&self) -> PointState {
         let yield_stress = self.hardening.as_ref().map_or(f64::INFINITY, HardeningCurve::yield_stress);
-        PointState { stretch: [0.0; 4], plastic_strain: 0.0, yield_stress, yield_scale: 1.0 }
+        PointState { b_minus_i: [0.0; 4], plastic_strain: 0.0, yield_stress, yield_scale: 1.0 }
     }
 }
 
-/// A left stretch tensor in its principal frame: b = I + Σ μ_A m_A.
+/// A left Cauchy-Green tensor in its principal frame: b = I + Σ μ_A m_A.
 #[derive(Clone, Copy, Debug)]
 pub struct Spectral<T = f64> {
     /// Logarithmic strains ½ ln(1 + μ): two in the plane, then hoop.
@@ -101,25 +101,25 @@ impl<T: Real> Spectral<T> {
     /// # Errors
     /// A tensor b that is not positive definite.
     #[inline(always)]
-    pub fn of(stretch: &Sym<T>) -> Result<Spectral<T>, Failure> {
+    pub fn of(b_minus_i: &Sym<T>) -> Result<Spectral<T>, Failure> {
         let (zero, one) = (T::splat(0.0), T::splat(1.0));
-        let (mean, half) = ((stretch[0] + stretch[1]) * 0.5, (stretch[0] - stretch[1]) * 0.5);
-        let radius = (half * half + stretch[3] * stretch[3]).sqrt();
+        let (mean, half) = ((b_minus_i[0] + b_minus_i[1]) * 0.5, (b_minus_i[0] - b_minus_i[1]) * 0.5);
+        let radius = (half * half + b_minus_i[3] * b_minus_i[3]).sqrt();
         let x = radius / (mean + 1.0);
-        let area = stretch[0] + stretch[1] + stretch[0] * stretch[1] - stretch[3] * stretch[3];
-        let sound = mean.above(-one) & one.above(x) & stretch[2].above(-one) & area.above(-one);
+        let area = b_minus_i[0] + b_minus_i[1] + b_minus_i[0] * b_minus_i[1] - b_minus_i[3] * b_minus_i[3];
+        let sound = mean.above(-one) & one.above(x) & b_minus_i[2].above(-one) & area.above(-one);
         if !T::all(sound & T::splat(f64::INFINITY).above(radius)) {
             return Err(Failure::NotPositive);
         }
         let turned = radius.above(zero);
         let double_angle =
-            [T::select(turned, half / radius, one), T::select(turned, stretch[3] / radius, zero)];
+            [T::select(turned, half / radius, one), T::select(turned, b_minus_i[3] / radius, zero)];
         // 2 atanh x = ln(1 + 2x/(1 - x)) loses nothing for small x, nor does its quotient by x
         let twice = (x * 2.0 / (one - x)).ln_1p();
         let shear_factor = T::select(turned, twice * 0.5 / x, one);
         let (middle, difference) = (area.ln_1p() * 0.25, twice * 0.25);
         Ok(Spectral {
-            log_strain: [middle + difference, middle - difference, stretch[2].ln_1p() * 0.5],
+            log_strain: [middle + difference, middle - difference, b_minus_i[2].ln_1p() * 0.5],
             double_angle,
             shear_factor,
         })
@@ -182,8 +182,8 @@ impl<T: Real> Spectral<T> {
 
 /// Elastic energy per reference volume, ½λ(tr ε)² + G ε:ε, of the state b_e - I.
 #[inline(always)]
-pub fn elastic_energy<T: Real>(elastic: &Elastic, stretch: &Sym<T>) -> T {
-    let Ok(spectral) = Spectral::of(stretch) else { return T::splat(f64::NAN) };
+pub fn elastic_energy<T: Real>(elastic: &Elastic, b_minus_i: &Sym<T>) -> T {
+    let Ok(spectral) = Spectral::of(b_minus_i) else { return T::splat(f64::NAN) };
     let e = spectral.log_strain;
     let volume = e[0] + e[1] + e[2];
     let (g, k) = (elastic.shear_modulus(), elastic.bulk_modulus());
@@ -194,14 +194,14 @@ pub fn elastic_energy<T: Real>(elastic: &Elastic, stretch: &Sym<T>) -> T {
 pub fn plastic_work(hardening: &HardeningCurve, old: &PointState, new: &PointState) -> f64 {
     let work = |state: &PointState| {
         let PointState { plastic_strain, yield_stress, .. } = *state;
-        hardening.plastic_work(&Flow { plastic_strain, yield_stress, slope: 0.0 })
+        hardening.plastic_work(&HardeningPoint { plastic_strain, yield_stress, slope: 0.0 })
     };
     new.yield_scale * (work(new) - work(old))
 }
 
 /// Kirchhoff stress of the state b_e - I.
-pub fn stress(elastic: &Elastic, stretch: &Sym) -> Sym {
-    let Ok(spectral) = Spectral::of(stretch) else { return [f64::NAN; 4] };
+pub fn stress(elastic: &Elastic, b_minus_i: &Sym) -> Sym {
+    let Ok(spectral) = Spectral::of(b_minus_i) else { return [f64::NAN; 4] };
     let e = spectral.log_strain;
     let (g, k) = (elastic.shear_modulus(), elastic.bulk_modulus());
     let volume = (k - 2.0 / 3.0 * g) * (e[0] + e[1] + e[2]);
@@ -209,9 +209,9 @@ pub fn stress(elastic: &Elastic, stretch: &Sym) -> Sym {
 }
 
 /// Elastic volume ratio J = det F (plastic flow keeps volume) of the state b_e - I.
-pub fn volume_ratio(stretch: &Sym) -> f64 {
-    let plane = (1.0 + stretch[0]) * (1.0 + stretch[1]) - stretch[3] * stretch[3];
-    (plane * (1.0 + stretch[2])).sqrt()
+pub fn volume_ratio(b_minus_i: &Sym) -> f64 {
+    let plane = (1.0 + b_minus_i[0]) * (1.0 + b_minus_i[1]) - b_minus_i[3] * b_minus_i[3];
+    (plane * (1.0 + b_minus_i[2])).sqrt()
 }
 
 /// Mean of the principal stresses, negative in compression.

@@ -1,21 +1,21 @@
-//! How a tool and the frame of its machine give way under the force, which the depth then holds.
+//! Deflection of the tool and of the machine frame under the force, which the depth includes.
 //!
 //! The tool is an elastic half space under the pressure of the contact. To first order in its compliance the depth grows by
 //! ∂U/∂F of its energy U (Castigliano); what an elastic contact gains in pressure is the pressure of a flat punch as wide as the
 //! contact (Johnson 1985, eq. 3.34), so whatever the shape
 //!   δ = F/(2 E* a),   E* = E/(1 - ν²),   a = √(A/π)
 //! with the tool's E*, and 1/S grows by 1/(2 E* a). Under the even pressure of fully plastic metal what is gained is a rim, whose
-//! way is 8/π² = 0.81 of that: a fifth of the correction is its own error there.
+//! deflection is 8/π² = 0.81 of that: a fifth of the correction is its own error there.
 
 use crate::point::kinematics::Symmetry;
 use crate::run::problem::Units;
 use crate::scene::Scene;
 use std::f64::consts::PI;
 
-/// What gives way, dimensionless.
+/// Compliance of the tool and of the machine frame, dimensionless.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Compliance {
-    /// Way of the machine per force.
+    /// Deflection of the machine frame per force.
     pub machine: f64,
     /// 1/E* of the tool.
     pub tool: f64,
@@ -35,19 +35,19 @@ impl Compliance {
         Compliance { machine, tool }
     }
 
-    /// Whether nothing gives way.
+    /// Whether both are rigid.
     pub fn is_none(&self) -> bool {
         *self == Compliance::NONE
     }
 
-    /// Way per force of all that gives way, over a contact of this area.
+    /// Deflection per force over a contact of this area.
     fn per_force(&self, area: f64) -> f64 {
         let tool = if self.tool > 0.0 && area > 0.0 { 0.5 * self.tool / (area / PI).sqrt() } else { 0.0 };
         self.machine + tool
     }
 
-    /// How far tool and machine give way under `force` over a contact of this area.
-    pub fn way(&self, force: f64, area: f64) -> f64 {
+    /// Deflection of tool and machine under `force` over a contact of this area.
+    pub fn deflection(&self, force: f64, area: f64) -> f64 {
         if self.is_none() { 0.0 } else { force * self.per_force(area) }
     }
 
@@ -72,8 +72,8 @@ mod tests {
         let (alone, both) = (h(1.0, force), h(1.0 / (1.0 + tool), force));
         let radius = FRAC_2_PI * alone / tan;
         let compliance = Compliance { machine: 0.0, tool };
-        let way = compliance.way(force, PI * radius * radius);
-        assert!((way / (both - alone) - 1.0).abs() < 1e-5);
+        let deflection = compliance.deflection(force, PI * radius * radius);
+        assert!((deflection / (both - alone) - 1.0).abs() < 1e-5);
         let stiffness = compliance.in_series(2.0 * radius, PI * radius * radius);
         assert!((stiffness / (2.0 * radius / (1.0 + tool)) - 1.0).abs() < 1e-12);
     }

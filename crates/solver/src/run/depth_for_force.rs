@@ -122,7 +122,7 @@ fn depth_of(scene: &Scene, force: f64, guess: f64, expected: &Expected) -> f64 {
     depth
 }
 
-/// Whether tool or machine give way.
+/// Whether tool or machine are elastic.
 fn gives_way(scene: &Scene) -> bool {
     scene.tool.youngs_modulus.is_some() || scene.tool.machine_compliance.is_some()
 }
@@ -132,7 +132,8 @@ fn depth_of_body(scene: &Scene, asked: f64, expected: &Expected) -> f64 {
     let mut depth = asked;
     for _ in 0..MOST_CRUSHES {
         let total = coarse(scene, &at(expected, depth), |problem, contact| {
-            Compliance::of(scene, &problem.units).way(contact.force, contact.area) * problem.units.length
+            Compliance::of(scene, &problem.units).deflection(contact.force, contact.area)
+                * problem.units.length
         });
         let Some(found) = total.and_then(|way| body_depth(&way, asked)) else { break };
         let fine = found * TOO_DEEP >= depth;

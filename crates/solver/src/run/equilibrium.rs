@@ -10,8 +10,8 @@ use crate::algebra::lbfgs::Secants;
 use crate::algebra::newton::{self, Assessment, System};
 use crate::body::assembly::{Response, Touching};
 use crate::body::discrete_body::Body;
-use crate::body::evening::{Limits, evened, is_distorted};
 use crate::body::failure::Failure;
+use crate::body::remesh::{Limits, evened, is_distorted};
 use crate::body::state::{State, Trial};
 use crate::body::surface::Surface;
 use crate::contact::edge::{EdgeContact, NOTHING, Parts};
@@ -252,9 +252,9 @@ impl<'m> Equilibrium<'m> {
         self.jumped = [false; 2];
     }
 
-    /// Lays the distorted mesh anew under the surface and finds the equilibrium there by `solve`, while the tool stays. Whether it
+    /// Remeshes the distorted body under its surface and finds the equilibrium there by `solve`, while the tool stays. Whether it
     /// did: else all is as it was.
-    pub fn mesh_anew(&mut self, solve: impl FnOnce(&mut Self) -> Result<(), SolveFailure>) -> bool {
+    pub fn remesh(&mut self, solve: impl FnOnce(&mut Self) -> Result<(), SolveFailure>) -> bool {
         // multipliers and back stresses are not carried over
         let carries = self.state.points.history.is_empty() && self.state.multiplier.iter().all(|m| *m == 0.0);
         let places = evened(&self.body, &self.state).filter(|_| carries && self.state.tip.is_finite());

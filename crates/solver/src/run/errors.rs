@@ -1,10 +1,10 @@
 //! Errors of a run, measured by the run itself: its companion is the same scene with every number of the discretisation half as
-//! good, and costs a tenth.
+//! good, and costs a fifth.
 //!
 //! With Q the force or the contact area at a depth, D = ln(Q_companion/Q) holds what mesh, load step, penalty and substrate do, each
 //! of first order at least, and the ripple of both. A parabola through D over ln h is the smooth part.
-//! * Were all errors of the order p, D/(2ᵖ - 1) of it would be left in Q. With p = 3/2 it is taken off (Richardson's extrapolation):
-//!   observed orders lie between 1 and 2, for which a third of the smooth part at most is left.
+//! * Were all errors of the order p, ln Q would be off by D/(2ᵖ - 1). With p = 3/2 it is taken off (Richardson's extrapolation):
+//!   observed orders lie between 1 and 2, for which 0.45 (p = 1) to -0.21 (p = 2) of the smooth part is left, half of what the bound allows.
 //! * The bound of what is left is `REMAINS` times the largest smooth part and the largest rest, from a fifth of the depth on. The
 //!   rest is that of D, or that of the run from a smooth curve of its own where it is less: the companion ripples more.
 //! * Penetration and mesh pull the area in opposite directions, and two runs may agree by chance: `HIDDEN` is added in squares.

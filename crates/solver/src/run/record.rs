@@ -65,14 +65,14 @@ pub struct CurveRow {
     pub elastic_energy: f64,
     /// Σ∫σ_y dε_p, J (J/m).
     pub plastic_work: f64,
-    /// ½ε∫g² dA, J (J/m).
+    /// Energy stored in the penalty, ½ε∫d² dA with the penetration d, J (J/m): an artefact of the method.
     pub contact_energy: f64,
     /// Change of the three energies by all transfers to better meshes so far, J (J/m): no work of the tool.
     pub transfer_energy: f64,
     /// Pressure-weighted mean penetration, m.
     pub penetration: f64,
-    /// Part of the depth by which tool and machine gave way, m.
-    pub given_way: f64,
+    /// Deflection of tool and machine frame, a part of the depth, m.
+    pub compliance_depth: f64,
     /// Newton iterations spent since the last row.
     pub newton_iterations: usize,
     /// Sum of the nodal forces, N (N/m), in equilibrium with the stresses: what energies and works are made of.
@@ -213,7 +213,7 @@ pub struct Summary {
     pub newton_iterations: usize,
     /// Times an increment was halved.
     pub cutbacks: usize,
-    /// Times the mesh was laid anew.
+    /// Remeshings.
     pub transfers: usize,
 }
 
@@ -221,8 +221,8 @@ pub struct Summary {
 pub(super) fn work_along(rows: &[CurveRow]) -> f64 {
     let step = |pair: &[CurveRow]| {
         let (from, to) = (pair[0], pair[1]);
-        // what tool and machine give way is depth, but no travel
-        let sunk = to.penetration - from.penetration - (to.given_way - from.given_way);
+        // the deflection of tool and machine is depth, but no travel
+        let sunk = to.penetration - from.penetration - (to.compliance_depth - from.compliance_depth);
         let sunk = work([from.force_nodal, to.force_nodal], sunk);
         to.external_work - from.external_work - sunk
     };

@@ -25,7 +25,7 @@ enum End {
     Radius,
     /// The end of a measured tool.
     Outline,
-    /// The held bottom of the body.
+    /// The fixed base of the body.
     Bottom,
 }
 

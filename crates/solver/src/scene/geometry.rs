@@ -135,7 +135,7 @@ pub struct Substrate {
     #[schemars(example = "2 mm")]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub radius: Option<Length>,
-    /// From the base plane of the asperities down to the held bottom. Absent in axisymmetry: sized from the contact.
+    /// From the base plane of the asperities down to the fixed base. Absent in axisymmetry: sized from the contact.
     #[schemars(example = "2 mm")]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub depth: Option<Length>,

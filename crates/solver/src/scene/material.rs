@@ -27,7 +27,7 @@ pub struct Material {
     #[schemars(extend("minimum" = 0, "exclusiveMaximum" = 1))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hardening_exponent: Option<f64>,
-    /// Which strain hardens, or that a table says it.
+    /// Hardening law: `hollomon` (power law in total strain), `swift` (power law in plastic strain) or `table`.
     #[serde(default = "hollomon")]
     pub hardening_law: HardeningChoice,
     /// For hardening_law = "table": a csv file, relative to the scene file, whose first line is plastic_strain,yield_stress_MPa;

@@ -84,7 +84,7 @@ pub struct Scene {
     pub tool: Tool,
     /// How far it goes: exactly one of `depth` and `force`.
     pub loading: Loading,
-    /// Loads that the body bore before; absent: it is virgin.
+    /// Earlier loads of the body; absent: it starts undeformed and free of stress.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub initial: Option<Initial>,
     /// Which fields are written, and how often.

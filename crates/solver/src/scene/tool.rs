@@ -69,8 +69,8 @@ pub struct Tool {
     #[schemars(example = "10 nm")]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tolerance: Option<Length>,
-    /// Young's modulus of the tool; absent: rigid. It gives way as a half space under the force: depths, stiffness and the
-    /// reduced modulus of Oliver and Pharr hold it.
+    /// Young's modulus of the tool; absent: rigid. Its deflection as a half-space is part of depth, stiffness and the reduced
+    /// modulus of Oliver and Pharr.
     #[schemars(example = "1141 GPa")]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub youngs_modulus: Option<Stress>,
@@ -78,7 +78,7 @@ pub struct Tool {
     #[schemars(extend("exclusiveMinimum" = -1, "exclusiveMaximum" = 0.5))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub poissons_ratio: Option<f64>,
-    /// Way of the machine's frame per force, which the depths then hold.
+    /// Compliance of the load frame, displacement per force; reported depths include its deflection.
     #[schemars(example = "0.5 nm/mN")]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub machine_compliance: Option<Compliance>,

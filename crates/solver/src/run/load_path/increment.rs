@@ -16,8 +16,8 @@ pub struct Increment {
     pub depth: f64,
     /// Sums over the contact.
     pub contact: ContactSums,
-    /// Part of the depth by which tool and machine gave way.
-    pub way: f64,
+    /// Deflection of tool and machine, a part of the depth.
+    pub compliance_depth: f64,
     /// Energies, where the rules need them.
     pub energies: Option<Energies>,
     /// Newton iterations since the last increment.

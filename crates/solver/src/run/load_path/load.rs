@@ -1,7 +1,7 @@
 //! Loading: along a schedule of depths, or to a travel, a depth or a force at once.
 
 use super::increment::{Increment, Observer, Stop};
-use super::path::{Borne, Enough, NEVER, Path};
+use super::path::{ContactLoad, NEVER, Path, StopAt};
 use crate::body::energy::ContactSums;
 use crate::run::problem::Goal;
 use crate::run::record::Phase;
@@ -43,7 +43,7 @@ impl Path<'_> {
         if self.rules().compliance.is_none() || !matches!(goal, Goal::Depth(_)) {
             return sums.penetration / (travel - sums.penetration);
         }
-        travel / self.depth(travel, Borne::of(sums)) - 1.0
+        travel / self.depth(travel, ContactLoad::of(sums)) - 1.0
     }
 
     /// Loads to `goal` along `fractions` of its depth; `penetration` is the expected one.
@@ -54,11 +54,11 @@ impl Path<'_> {
         penetration: f64,
         observer: &mut Observer<'_>,
     ) -> Result<Increment, Stop> {
-        let (depth, limit, enough) = match goal {
+        let (depth, limit, stop_at) = match goal {
             Goal::Travel(travel) => (travel, travel, NEVER),
-            Goal::Depth(depth) => (depth, depth, Enough { depth, ..NEVER }),
+            Goal::Depth(depth) => (depth, depth, StopAt { depth, ..NEVER }),
             Goal::Force { force, expected_depth, limit } => {
-                (expected_depth, limit, Enough { depth: limit, force, of_body: true })
+                (expected_depth, limit, StopAt { depth: limit, force, of_body: true })
             }
         };
         self.asked = if let Goal::Depth(depth) = goal { Some(depth) } else { None };
@@ -73,13 +73,13 @@ impl Path<'_> {
             fraction = fractions.get(index).copied().unwrap_or(fraction * growth);
             index += 1;
             let planned = (fraction * depth).min(limit) * (1.0 + share);
-            let (travel, sums) = self.reach_depth(planned, enough, Phase::Load, true, observer)?;
+            let (travel, sums) = self.reach_depth(planned, stop_at, Phase::Load, true, observer)?;
             let last = match goal {
                 Goal::Travel(_) | Goal::Depth(_) => index == fractions.len() || travel != planned,
                 Goal::Force { force, .. } => sums.force >= force,
             };
             if last {
-                let travel = self.home_in_by_parts(goal, (travel, sums), enough, observer)?;
+                let travel = self.home_in_by_parts(goal, (travel, sums), stop_at, observer)?;
                 return self.accept(travel, Phase::Load, observer);
             }
             share = if expects { self.share(goal, travel, &sums) } else { 0.0 };
@@ -96,7 +96,7 @@ impl Path<'_> {
         &mut self,
         goal: Goal,
         (mut travel, mut sums): (f64, ContactSums),
-        enough: Enough,
+        stop_at: StopAt,
         observer: &mut Observer<'_>,
     ) -> Result<f64, Stop> {
         for _ in 0..MOST_PARTS {
@@ -104,11 +104,11 @@ impl Path<'_> {
                 Err(Stop::NoEquilibrium) => {}
                 met => return met,
             }
-            self.mesh_anew();
+            self.remesh();
             let half = 0.5 * (self.travel + travel);
             self.reach(half, Phase::Load, true, observer)?;
             self.accept(half, Phase::Load, observer)?;
-            (travel, sums) = self.reach_depth(travel, enough, Phase::Load, true, observer)?;
+            (travel, sums) = self.reach_depth(travel, stop_at, Phase::Load, true, observer)?;
         }
         self.home_in(goal, travel, sums)
     }

@@ -5,8 +5,8 @@ use crate::algebra::newton::{KEEP, Settings};
 use crate::body::energy::{
     ContactSums, PARTING, TOUCHING, contact_sums, work, work_by_parabola, work_by_power, work_by_slopes,
 };
-use crate::body::evening::LOADED;
 use crate::body::failure::Failure as BodyFailure;
+use crate::body::remesh::LOADED;
 use crate::body::surface::Surface;
 use crate::contact::penalty_correction::Punches;
 use crate::run::equilibrium::{Equilibrium, SolveFailure};
@@ -35,29 +35,29 @@ pub(super) const GUESS: f64 = 0.7;
 /// How far the end of loading may be from the depth or from the root of the force that was asked for, relative to it.
 pub(super) const MET: f64 = 1e-9;
 
-/// Where an increment that is taken in parts need not go on.
+/// Depth and force at which an increment that is taken in parts ends early.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Enough {
+pub(super) struct StopAt {
     pub depth: f64,
     pub force: f64,
-    /// Whether the depth is that of the body, without the way of tool and machine.
+    /// Whether the depth is that of the body, without the deflection of tool and machine.
     pub of_body: bool,
 }
 
 /// Every part is to be taken.
-pub(super) const NEVER: Enough = Enough { depth: f64::INFINITY, force: f64::INFINITY, of_body: false };
+pub(super) const NEVER: StopAt = StopAt { depth: f64::INFINITY, force: f64::INFINITY, of_body: false };
 
-/// What a contact bears, as far as the depth asks.
+/// Penetration, force and area of the contact: all that the depth depends on beside the travel.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Borne {
+pub(super) struct ContactLoad {
     pub penetration: f64,
     pub force: f64,
     pub area: f64,
 }
 
-impl Borne {
-    pub fn of(sums: &ContactSums) -> Borne {
-        Borne { penetration: sums.penetration, force: sums.force, area: sums.area }
+impl ContactLoad {
+    pub fn of(sums: &ContactSums) -> ContactLoad {
+        ContactLoad { penetration: sums.penetration, force: sums.force, area: sums.area }
     }
 }
 
@@ -85,7 +85,7 @@ pub struct Path<'p> {
     /// dF per travel, known while unloading and reloading.
     pub(super) slope: Option<f64>,
     /// Travels of the last unloading, from its peak on.
-    pub(super) way_back: Vec<f64>,
+    pub(super) unloading_travels: Vec<f64>,
     /// The depth that was asked for.
     pub(super) asked: Option<f64>,
     external_work: f64,
@@ -94,7 +94,7 @@ pub struct Path<'p> {
     /// Force at the start of the last increment, and its length.
     earlier: Option<[f64; 2]>,
     spent: usize,
-    /// Increments after which the mesh was laid anew last.
+    /// Increments before the last remeshing.
     meshed_after: usize,
     /// Travel at which no better mesh was found last.
     in_vain: f64,
@@ -127,7 +127,7 @@ impl<'p> Path<'p> {
             penetration: 0.0,
             plastic_share: 0.0,
             slope: None,
-            way_back: Vec::new(),
+            unloading_travels: Vec::new(),
             asked: None,
             external_work: 0.0,
             stored_before: model.state().energies(model.body())[0],
@@ -160,15 +160,15 @@ impl<'p> Path<'p> {
         travel - penetration + self.rules().far_field * force
     }
 
-    /// Depth at a `travel` under what the contact bears: that of the body and the way of tool and machine.
-    pub(super) fn depth(&self, travel: f64, borne: Borne) -> f64 {
-        let way = self.rules().compliance.way(borne.force, borne.area);
-        self.body_depth(travel, borne.penetration, borne.force) + way
+    /// Depth at a `travel` under what the contact bears: that of the body and the deflection of tool and machine.
+    pub(super) fn depth(&self, travel: f64, contact_load: ContactLoad) -> f64 {
+        let deflection = self.rules().compliance.deflection(contact_load.force, contact_load.area);
+        self.body_depth(travel, contact_load.penetration, contact_load.force) + deflection
     }
 
     /// What the contact bore at the last converged increment.
-    pub(super) fn borne(&self) -> Borne {
-        Borne { penetration: self.penetration, force: self.force, area: self.area }
+    pub(super) fn contact_load(&self) -> ContactLoad {
+        ContactLoad { penetration: self.penetration, force: self.force, area: self.area }
     }
 
     /// Contact area at the last converged increment.
@@ -176,12 +176,12 @@ impl<'p> Path<'p> {
         self.area
     }
 
-    /// The depth that is compared with that of `enough`.
-    fn measured_for(&self, enough: &Enough, travel: f64, sums: &ContactSums) -> f64 {
-        if enough.of_body {
+    /// The depth that is compared with that of `stop_at`.
+    fn measured_for(&self, stop_at: &StopAt, travel: f64, sums: &ContactSums) -> f64 {
+        if stop_at.of_body {
             self.body_depth(travel, sums.penetration, sums.force)
         } else {
-            self.depth(travel, Borne::of(sums))
+            self.depth(travel, ContactLoad::of(sums))
         }
     }
 
@@ -293,14 +293,14 @@ impl<'p> Path<'p> {
         self.increments += 1;
         let energies = punches.map(|punches| self.count(before, step, phase, &punches));
         self.earlier = Some([before.0, step]);
-        let depth = self.depth(travel, Borne::of(&contact));
+        let depth = self.depth(travel, ContactLoad::of(&contact));
         let met = |asked: &f64| (depth / asked - 1.0).abs() < 2.0 * MET;
         let increment = Increment {
             phase,
             travel,
             depth: self.asked.filter(met).unwrap_or(depth),
             contact,
-            way: self.rules().compliance.way(contact.force, contact.area),
+            compliance_depth: self.rules().compliance.deflection(contact.force, contact.area),
             energies,
             newton_iterations: std::mem::take(&mut self.spent),
         };
@@ -309,25 +309,25 @@ impl<'p> Path<'p> {
         }
         let state = self.model.state();
         // a fold that lies on the flank of the tool is one of the mesh, not of the metal
-        if state.facing.fold(&state.edges, &state.position).is_some() && !self.mesh_anew() {
+        if state.facing.fold(&state.edges, &state.position).is_some() && !self.remesh() {
             return Err(Stop::FlanksMeet);
         }
         let looks = phase == Phase::Load && self.travel > FARTHER * self.in_vain;
-        if looks && self.model.is_distorted(LOADED) && !self.mesh_anew() {
+        if looks && self.model.is_distorted(LOADED) && !self.remesh() {
             self.in_vain = self.travel;
         }
         Ok(increment)
     }
 
-    /// Lays the mesh anew where the tool stands, and takes down what the contact bears there. Whether it did.
-    pub fn mesh_anew(&mut self) -> bool {
+    /// Remeshes where the tool stands, and records the contact there. Whether it did.
+    pub fn remesh(&mut self) -> bool {
         if self.meshed_after == self.increments {
             return false;
         }
         self.meshed_after = self.increments;
         let tolerance = self.settings.tolerance;
         let (settings, journal, mut spent) = (self.settings, &mut self.journal, 0);
-        let done = self.model.mesh_anew(|model| {
+        let done = self.model.remesh(|model| {
             model.guard_for(tolerance);
             let outcome = solve_or_recall(model, &settings, journal);
             let (Ok(iterations) | Err((_, iterations))) = outcome;
@@ -373,12 +373,12 @@ impl<'p> Path<'p> {
     }
 
     /// Goes to `travel` in as few increments as converge; accepts all but the last, which is left attempted. That may be one
-    /// before `travel` that already is `enough`: where an asperity vanishes into its base the penetration falls, and
+    /// before `travel` that already reaches `stop_at`: where an asperity vanishes into its base the penetration falls, and
     /// the travel planned with the one before would crush the base itself.
     pub(super) fn reach_depth(
         &mut self,
         travel: f64,
-        enough: Enough,
+        stop_at: StopAt,
         phase: Phase,
         carry: bool,
         observer: &mut Observer<'_>,
@@ -400,8 +400,8 @@ impl<'p> Path<'p> {
                 }
                 Ok(sums)
                     if next == travel
-                        || self.measured_for(&enough, next, &sums) >= enough.depth
-                        || sums.force >= enough.force =>
+                        || self.measured_for(&stop_at, next, &sums) >= stop_at.depth
+                        || sums.force >= stop_at.force =>
                 {
                     return Ok((next, sums));
                 }
@@ -411,7 +411,7 @@ impl<'p> Path<'p> {
                     let step = self.last_step;
                     next = if (travel - next).abs() <= 1.01 * step.abs() { travel } else { next + step };
                 }
-                Err(_) if halvings == HALVINGS_OF_A_MESH && self.mesh_anew() => {
+                Err(_) if halvings == HALVINGS_OF_A_MESH && self.remesh() => {
                     self.cutbacks += 1;
                     halvings = 0;
                     next = travel;

@@ -1,7 +1,7 @@
 //! The last increment of a loading: the travel at which the depth or the force is the one that was asked for.
 
 use super::increment::Stop;
-use super::path::{Borne, GUESS, MET, Path};
+use super::path::{ContactLoad, GUESS, MET, Path};
 use crate::body::energy::ContactSums;
 use crate::run::problem::Goal;
 
@@ -22,11 +22,11 @@ const SECANTS: usize = 6;
 
 impl Path<'_> {
     /// How far a travel is from `goal`, relative to it; of a force the root.
-    fn miss(&self, goal: Goal, travel: f64, borne: Borne) -> f64 {
+    fn miss(&self, goal: Goal, travel: f64, contact_load: ContactLoad) -> f64 {
         match goal {
             Goal::Travel(asked) => travel / asked - 1.0,
-            Goal::Depth(asked) => self.depth(travel, borne) / asked - 1.0,
-            Goal::Force { force: asked, .. } => (borne.force.max(0.0) / asked).sqrt() - 1.0,
+            Goal::Depth(asked) => self.depth(travel, contact_load) / asked - 1.0,
+            Goal::Force { force: asked, .. } => (contact_load.force.max(0.0) / asked).sqrt() - 1.0,
         }
     }
 
@@ -40,10 +40,10 @@ impl Path<'_> {
         self.settings.tolerance = settings.tolerance.min(HOMING_TOLERANCE);
         // travel and miss: of the last tries, and of the nearest on either side of the goal; the converged state is the first
         // of them for a force, while the depth follows the travel closely from the start
-        let mut now = (travel, self.miss(goal, travel, Borne::of(&sums)));
+        let mut now = (travel, self.miss(goal, travel, ContactLoad::of(&sums)));
         let mut last = match goal {
             Goal::Travel(depth) | Goal::Depth(depth) => (travel - depth, now.1 - 1.0),
-            Goal::Force { .. } => (self.travel, self.miss(goal, self.travel, self.borne())),
+            Goal::Force { .. } => (self.travel, self.miss(goal, self.travel, self.contact_load())),
         };
         let mut short = matches!(goal, Goal::Force { .. }).then_some(last);
         let mut beyond: Option<(f64, f64)> = None;
@@ -80,7 +80,7 @@ impl Path<'_> {
                 return Err(Stop::NoEquilibrium);
             };
             last = now;
-            now = (next, self.miss(goal, next, Borne::of(&sums)));
+            now = (next, self.miss(goal, next, ContactLoad::of(&sums)));
         }
         self.settings = settings;
         if now.1.abs() <= loosely { Ok(now.0) } else { Err(Stop::NoEquilibrium) }

@@ -3,7 +3,7 @@
 use super::increment::{Observer, Stop};
 use super::path::Path;
 use super::target::HOMING_TOLERANCE;
-use crate::body::evening::UNLOADED;
+use crate::body::remesh::UNLOADED;
 use crate::run::equilibrium::SolveFailure;
 use crate::run::problem::Goal;
 use crate::run::record::Phase;
@@ -32,7 +32,7 @@ impl Path<'_> {
         observer: &mut Observer<'_>,
     ) -> Result<(), Stop> {
         if self.model.is_distorted(UNLOADED) {
-            self.mesh_anew();
+            self.remesh();
         }
         let (peak_force, peak) = (self.force, self.travel);
         let compliance = 1.0 / stiffness.depth + self.sums().penetration / peak_force;
@@ -54,9 +54,9 @@ impl Path<'_> {
         steps: usize,
         observer: &mut Observer<'_>,
     ) -> Result<(), Stop> {
-        let recovery = UNLOADING_EXPONENT * peak_force * compliance;
-        self.way_back = vec![peak];
-        for travel in unloading(peak, recovery, steps, 0.3) {
+        let unloading_travels = UNLOADING_EXPONENT * peak_force * compliance;
+        self.unloading_travels = vec![peak];
+        for travel in unloading(peak, unloading_travels, steps, 0.3) {
             if travel >= self.travel || self.force < 0.03 * peak_force {
                 continue;
             }
@@ -65,13 +65,13 @@ impl Path<'_> {
                 break; // beyond separation: the equilibrium without the tool comes next
             }
             self.accept(travel, Phase::Unload, observer)?;
-            self.way_back.push(travel);
+            self.unloading_travels.push(travel);
         }
         if self.model.body().material.has_back_stress() {
             self.retreat_from_reverse_flow(0.03 * peak_force, steps, observer)?;
         }
         if self.take_away().is_err() {
-            if !self.mesh_anew() {
+            if !self.remesh() {
                 return Err(Stop::NoEquilibrium);
             }
             self.take_away().map_err(|_| Stop::NoEquilibrium)?;
@@ -95,7 +95,7 @@ impl Path<'_> {
         steps: usize,
         observer: &mut Observer<'_>,
     ) -> Result<(), Stop> {
-        let peak = self.way_back.first().copied().unwrap_or(self.travel);
+        let peak = self.unloading_travels.first().copied().unwrap_or(self.travel);
         for _ in 0..MOST_RETREATS {
             let slope = self.slope.unwrap_or(0.0);
             let left = UNLOADING_EXPONENT * self.force / slope;
@@ -108,7 +108,7 @@ impl Path<'_> {
                 break;
             }
             self.accept(travel, Phase::Unload, observer)?;
-            self.way_back.push(travel);
+            self.unloading_travels.push(travel);
         }
         Ok(())
     }
@@ -116,7 +116,7 @@ impl Path<'_> {
     /// Goes back to `goal`, the end of the first loading, along the travels of the last unloading in reverse: metal that
     /// stays elastic then passes through the same states, and what its work differs by is hysteresis alone.
     pub fn reload(&mut self, goal: Goal, observer: &mut Observer<'_>) -> Result<(), Stop> {
-        let mut travels = std::mem::take(&mut self.way_back);
+        let mut travels = std::mem::take(&mut self.unloading_travels);
         let peak = if travels.is_empty() { self.travel } else { travels.remove(0) };
         for travel in travels.into_iter().rev() {
             // metal that flows while it is unloaded may leave the summit above the last of them
