@@ -60,6 +60,54 @@ fn a_wall_is_tight_and_a_hole_in_it_is_the_constriction() {
     assert!(leak(&gap([2, 2], true, &nothing), Axis::X).is_none());
 }
 
+/// A wave over the open pixels that are at least so wide, one step at a time: whether it crosses.
+fn crosses(map: &Gap<'_>, axis: Axis, least: f32) -> bool {
+    let [nx, ny] = map.nodes;
+    let wide = |i: usize| map.values[i] >= least && map.values[i] > 0.0;
+    let entry = |i: usize| if axis == Axis::X { i % nx == 0 } else { i / nx == 0 };
+    let exit = |i: usize| if axis == Axis::X { i % nx == nx - 1 } else { i / nx == ny - 1 };
+    let joined = |i: usize, j: usize| {
+        let apart = |a: usize, b: usize, n: usize, ring: bool| {
+            let d = a.abs_diff(b);
+            if ring { d.min(n - d) } else { d }
+        };
+        let ring = |other: Axis| map.periodic && axis == other;
+        apart(i % nx, j % nx, nx, ring(Axis::Y)) + apart(i / nx, j / nx, ny, ring(Axis::X)) == 1
+    };
+    let mut wet: Vec<bool> = (0..nx * ny).map(|i| wide(i) && entry(i)).collect();
+    loop {
+        let next =
+            (0..nx * ny).find(|i| wide(*i) && !wet[*i] && (0..nx * ny).any(|j| wet[j] && joined(*i, j)));
+        match next {
+            Some(i) => wet[i] = true,
+            None => return (0..nx * ny).any(|i| wet[i] && exit(i)),
+        }
+    }
+}
+
+/// Against the definition, on maps of few gaps that are often equal: a path crosses as wide as the constriction, none wider.
+#[test]
+fn no_path_is_wider_than_the_constriction() {
+    let mut state = 7u32;
+    let mut drawn = |n: u32| {
+        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        (state >> 16) % n
+    };
+    for _ in 0..200 {
+        let nodes = [1 + drawn(6) as usize, 1 + drawn(6) as usize];
+        let values: Vec<f32> = (0..nodes[0] * nodes[1]).map(|_| drawn(6) as f32).collect();
+        let map = gap(nodes, drawn(2) == 0, &values);
+        for axis in [Axis::X, Axis::Y] {
+            let widest = (1..6).rev().map(|k| k as f32).find(|least| crosses(&map, axis, *least));
+            let found = constriction(&map, axis);
+            assert_eq!(found.map(|c| c.gap as f32), widest, "{map:?} {axis:?}");
+            if let Some(Constriction { at: [x, y], gap }) = found {
+                assert_eq!(f64::from(values[y * nodes[0] + x]), gap);
+            }
+        }
+    }
+}
+
 /// The gap of a rough surface: what enters leaves, the constriction bounds the path, more load leaks less.
 #[test]
 fn a_rough_gap_balances_and_closes_with_the_load() {

@@ -140,8 +140,12 @@ impl<T: Real> Convolution<T> {
                     if px.is_multiple_of(2) {
                         wave[width - 1].im = T::zero();
                     }
-                    let _ = back_x.process_with_scratch(wave, line, scratch);
-                    out.copy_from_slice(&line[..nx]);
+                    if px == nx {
+                        let _ = back_x.process_with_scratch(wave, out, scratch);
+                    } else {
+                        let _ = back_x.process_with_scratch(wave, line, scratch);
+                        out.copy_from_slice(&line[..nx]);
+                    }
                 }
             },
         );

@@ -1,6 +1,7 @@
 //! The contact on one grid: what is known, what is looked for, and how far a pressure is from it.
 
 use super::convolution::{Convolution, Way};
+use super::nodes::Nodes;
 use super::real::{CHUNK, Real, sums, total};
 use rayon::prelude::*;
 
@@ -69,62 +70,64 @@ impl<T: Real> Level<T> {
             .for_each(|(lift, heights)| lift.iter_mut().zip(heights).for_each(|(u, h)| *u = *u - *h));
     }
 
-    /// The height of the plane that `hold` leaves: where a pressure is given, that with a mean gap of 0 over the nodes
-    /// that are free to change.
-    pub fn plane(&self, hold: Hold, pressure: &[T], lift: &[T], last: Option<f64>) -> f64 {
+    /// The height of the plane that `hold` leaves (where a pressure is given, that with a mean gap of 0 over the nodes that are
+    /// free to change), and the nodes that it touches or overlaps. `touching` are those under pressure.
+    pub fn plane(
+        &self,
+        hold: Hold,
+        [pressure, lift]: [&[T]; 2],
+        touching: &Nodes,
+        last: Option<f64>,
+    ) -> (f64, Nodes) {
         let top = self.top();
-        let mean = |chosen: &(dyn Fn(T, T) -> bool + Sync)| {
-            let [sum, n] = sums(pressure.len(), |range| {
-                let (mut sum, mut n) = (0.0, 0.0);
-                for (p, u) in pressure[range.clone()].iter().zip(&lift[range]) {
-                    if chosen(*p, *u) {
-                        (sum, n) = (sum + u.wide(), n + 1.0);
-                    }
-                }
-                [sum, n]
-            });
+        let mean = |nodes: &Nodes, chosen: &(dyn Fn(usize) -> bool + Sync)| {
+            let [sum, n] = nodes.sums(|i| if chosen(i) { [lift[i].wide(), 1.0] } else { [0.0, 0.0] });
             (n > 0.0).then(|| -sum / n)
         };
         if let Hold::Plane(plane) = hold {
-            return plane;
+            return (plane, self.near([pressure, lift], plane));
         }
-        let first = mean(&|p, _| p > T::zero() && p < top)
+        let first = mean(touching, &|i| pressure[i] < top)
             .or(last)
-            .or_else(|| mean(&|p, _| p > T::zero()))
+            .or_else(|| mean(touching, &|_| true))
             .unwrap_or(0.0);
-        let at = T::of(first);
-        mean(&|p, u| is_free(p, u + at, top)).unwrap_or(first)
+        let (at, near) = (T::of(first), self.near([pressure, lift], first));
+        let plane = mean(&near, &|i| is_free(pressure[i], lift[i] + at, top)).unwrap_or(first);
+        // a lower plane overlaps more
+        let near = if plane < first { self.near([pressure, lift], plane) } else { near };
+        (plane, near)
+    }
+
+    /// The nodes under pressure, and those that overlap the plane at a height.
+    pub fn near(&self, [pressure, lift]: [&[T]; 2], plane: f64) -> Nodes {
+        let at = T::of(plane);
+        Nodes::of(pressure.len(), |i| pressure[i] > T::zero() || lift[i] + at < T::zero())
     }
 
     /// How far pressure and gap are from complementarity, over the load times the rms height: gap under pressure,
-    /// overlap without it, and overlap that a pressure below the limit would have to push away.
-    pub fn residual(&self, pressure: &[T], lift: &[T], plane: f64) -> f64 {
-        let top = self.top();
-        let [load, touching] = sums(pressure.len(), |range| {
-            pressure[range].iter().fold([0.0, 0.0], |[load, n], p| {
-                [load + p.wide(), n + if *p > T::zero() { 1.0 } else { 0.0 }]
-            })
+    /// overlap without it, and overlap that a pressure below the limit would have to push away. `near` holds all nodes under
+    /// pressure or overlapping the plane.
+    pub fn residual(&self, [pressure, lift]: [&[T]; 2], plane: f64, near: &Nodes) -> f64 {
+        let (top, at) = (self.top(), T::of(plane));
+        let [load, touching, overlapping] = near.sums(|i| {
+            let flag = |holds: bool| if holds { 1.0 } else { 0.0 };
+            [pressure[i].wide(), flag(pressure[i] > T::zero()), flag(lift[i] + at < T::zero())]
         });
-        let at = T::of(plane);
         if load <= 0.0 {
             // without pressure any overlap is all wrong
-            return if lift.par_iter().any(|u| *u + at < T::zero()) { 1.0 } else { 0.0 };
+            return if overlapping > 0.0 { 1.0 } else { 0.0 };
         }
         let typical = load / touching;
-        let [wrong] = sums(pressure.len(), |range| {
-            let mut wrong = 0.0;
-            for (p, u) in pressure[range.clone()].iter().zip(&lift[range]) {
-                let gap = (*u + at).wide();
-                wrong += if gap > 0.0 {
-                    p.wide() * gap
-                } else if *p < top {
-                    // a pressure that is next to nothing pushes nothing away
-                    p.wide().max(typical) * -gap
-                } else {
-                    0.0
-                };
-            }
-            [wrong]
+        let [wrong] = near.sums(|i| {
+            let (p, gap) = (pressure[i], (lift[i] + at).wide());
+            [if gap > 0.0 {
+                p.wide() * gap
+            } else if p < top {
+                // a pressure that is next to nothing pushes nothing away
+                p.wide().max(typical) * -gap
+            } else {
+                0.0
+            }]
         });
         wrong / (load * self.rms)
     }
@@ -167,6 +170,18 @@ impl<T: Real> Level<T> {
                 return;
             }
         }
+    }
+
+    /// The same where all pressure is on the nodes `touching`; those on which it is then.
+    pub fn rescale_on(&self, touching: Nodes, pressure: &mut [T], wanted: f64) -> Nodes {
+        let [load] = touching.sums(|i| [pressure[i].wide()]);
+        if load > 0.0 && self.limit.is_infinite() {
+            let by = T::of(wanted * pressure.len() as f64 / load);
+            touching.set(pressure, |_, p| p * by);
+            return touching;
+        }
+        self.rescale(pressure, wanted);
+        Nodes::of(pressure.len(), |i| pressure[i] > T::zero())
     }
 
     /// Adds `missing` load, evenly on the nodes without any pressure: those under pressure are all at the limit.

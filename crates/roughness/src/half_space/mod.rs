@@ -12,6 +12,8 @@ mod real;
 
 mod convolution;
 
+mod nodes;
+
 mod level;
 
 mod conjugate_gradients;

@@ -35,7 +35,7 @@ pub(super) fn projected_gradient<T: Real>(
             }
         }
         let (next, plane) = projected(level, hold, &p, &u, alpha);
-        let residual = level.residual(&p, &u, plane);
+        let residual = level.residual([&p, &u], plane, &level.near([&p, &u], plane));
         let better = best.as_ref().is_none_or(|b| residual < b.residual);
         if better {
             best = Some(Search { pressure: p.clone(), lift: u.clone(), plane, residual });

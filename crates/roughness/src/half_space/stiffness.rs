@@ -5,8 +5,8 @@ use super::convolution::Way;
 use super::level::Level;
 use super::real::{Real, sums};
 
-/// Residual at which the search ends; the stiffness is its square better.
-const TOLERANCE: f64 = 1e-3;
+/// Residual at which the search ends: the stiffness is its square better, 1e-4, while pixels change it by percents.
+const TOLERANCE: f64 = 1e-2;
 /// Iterations at most.
 const ITERATIONS: usize = 200;
 
@@ -42,23 +42,24 @@ pub(super) fn stiffness(task: &Task, pressure: &[f64]) -> Option<f64> {
             sums(n, |range| [a[range.clone()].iter().zip(&b[range]).map(|(a, b)| a.wide() * b.wide()).sum()]);
         sum
     };
-    // centred on the contact: sums of what is added to the pressure stay 0
-    let centred = |values: &mut [f32]| {
+    // of a displacement, what is not even on the contact: sums of what is added to the pressure stay 0
+    let uneven = |values: &[f32], out: &mut [f32]| {
         let shift = mean(values);
-        values
-            .iter_mut()
+        out.iter_mut()
+            .zip(values)
             .zip(&inside)
-            .for_each(|(v, i)| *v = if *i { (v.wide() - shift) as f32 } else { 0.0 });
+            .for_each(|((o, v), i)| *o = if *i { (v.wide() - shift) as f32 } else { 0.0 });
     };
-    let mut x: Vec<f32> = inside.iter().map(|i| if *i { (n as f64 / count) as f32 } else { 0.0 }).collect();
-    let [mut r, mut z, mut q] = [(); 3].map(|()| vec![0f32; n]);
-    level.apply(Way::Compliance, &x, &mut r);
-    centred(&mut r);
-    let mut t = vec![0f32; n];
+    let mut t: Vec<f32> = inside.iter().map(|i| if *i { (n as f64 / count) as f32 } else { 0.0 }).collect();
+    // u: displacement of the change of pressure, even at first; r: what of it is uneven
+    let [mut u, mut r, mut z, mut q] = [(); 4].map(|()| vec![0f32; n]);
+    level.apply(Way::Compliance, &t, &mut u);
+    t.fill(0.0);
     let (mut last, mut first) = (0.0, None);
     for _ in 0..ITERATIONS {
-        level.apply(Way::Stiffness, &r, &mut z);
-        centred(&mut z);
+        uneven(&u, &mut r);
+        level.apply(Way::Stiffness, &r, &mut q);
+        uneven(&q, &mut z);
         let now = dot(&r, &z);
         if now <= TOLERANCE * TOLERANCE * *first.get_or_insert(now) {
             break;
@@ -67,20 +68,17 @@ pub(super) fn stiffness(task: &Task, pressure: &[f64]) -> Option<f64> {
         last = now;
         t.iter_mut().zip(&z).for_each(|(t, z)| *t = *z + beta * *t);
         level.apply(Way::Compliance, &t, &mut q);
-        centred(&mut q);
         let work = dot(&t, &q);
         if work <= 0.0 {
             break;
         }
         let step = (now / work) as f32;
-        x.iter_mut().zip(&t).for_each(|(x, t)| *x -= step * *t);
-        r.iter_mut().zip(&q).for_each(|(r, q)| *r -= step * *q);
+        u.iter_mut().zip(&q).for_each(|(u, q)| *u -= step * *q);
     }
     // the plane comes down by what the contact yields, the surface beside it by its own displacement
-    level.apply(Way::Compliance, &x, &mut q);
-    let plane = mean(&q);
+    let plane = mean(&u);
     let [beside] = sums(n, |range| {
-        [q[range.clone()].iter().zip(&open[range]).filter(|(_, o)| **o).map(|(v, _)| plane - v.wide()).sum()]
+        [u[range.clone()].iter().zip(&open[range]).filter(|(_, o)| **o).map(|(v, _)| plane - v.wide()).sum()]
     });
     // beside is the loss of gap per unit of mean pressure, summed over the open nodes
     let change = beside / measured;
