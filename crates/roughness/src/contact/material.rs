@@ -15,7 +15,7 @@ pub struct Material {
     /// Poisson's ratio ν.
     #[schemars(extend("exclusiveMinimum" = -1, "exclusiveMaximum" = 0.5))]
     pub poissons_ratio: f64,
-    /// Hardness H. Without it H is 3 σ_y, and the limit of `half-space-plastic` that of the atlas of cones where n is known.
+    /// Hardness H: force over projected area (Meyer's). A Vickers number HV is H = 10.58 HV in MPa. Without it H is 3 σ_y, and the limit of `half-space-plastic` that of the atlas of cones where n is known.
     #[schemars(example = "1280 MPa")]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hardness: Option<Stress>,
