@@ -64,7 +64,7 @@ fn a_wall_is_tight_and_a_hole_in_it_is_the_constriction() {
 fn crosses(map: &Gap<'_>, axis: Axis, least: f32) -> bool {
     let [nx, ny] = map.nodes;
     let wide = |i: usize| map.values[i] >= least && map.values[i] > 0.0;
-    let entry = |i: usize| if axis == Axis::X { i % nx == 0 } else { i / nx == 0 };
+    let entry = |i: usize| if axis == Axis::X { i.is_multiple_of(nx) } else { i < nx };
     let exit = |i: usize| if axis == Axis::X { i % nx == nx - 1 } else { i / nx == ny - 1 };
     let joined = |i: usize, j: usize| {
         let apart = |a: usize, b: usize, n: usize, ring: bool| {

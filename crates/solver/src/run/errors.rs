@@ -11,8 +11,9 @@
 //!
 //! The two constants were chosen on nine scenes (crushed, indented, ridges, rings; n of 0 to 0.3, elastic), not those of the coverage.
 //!
-//! Values read at the peak or after it are not extrapolated. Their bound is the difference itself, and what the errors of force and
-//! stiffness would do to it, since two runs may agree by chance.
+//! The mean pressure is force over area: its bound is the sum of theirs. Values read at the peak or after it are not extrapolated.
+//! Their bound is the difference itself, and what the stated errors of force and stiffness (in squares) would do to it, since two runs
+//! may agree by chance.
 
 use crate::point::kinematics::Symmetry;
 use crate::run::curve::{COUNTS_FROM, Curve};
@@ -132,14 +133,11 @@ pub(super) fn settle(run: &mut Outcome, companion: &Outcome, symmetry: Symmetry,
     else {
         return;
     };
-    let pressure = force.points.iter().zip(&area.points).map(|([x, f], [_, a])| [*x, f - a]);
-    let ripple = force.ripple.iter().zip(&area.ripple).map(|(f, a)| f - a);
-    let Some(pressure) = Difference::new(pressure.collect(), ripple.collect(), area.hidden) else { return };
-
     let summary = &run.summary;
     let relative = |own: Option<f64>, other: Option<f64>| Some((other? / own? - 1.0).abs());
     let unloading_stiffness = relative(summary.unloading_stiffness, companion.summary.unloading_stiffness);
-    let indirect = force.whole() + unloading_stiffness.unwrap_or(0.0);
+    let unloading_stiffness = unloading_stiffness.map(|s| s + 0.5 * area.whole());
+    let indirect = force.whole().hypot(unloading_stiffness.unwrap_or(0.0));
     let difference = |own: Option<f64>, other: Option<f64>| Some((other? - own?).abs());
     let share = |x: f64| x * (1.0 - x) * indirect;
     let residual = summary.residual_depth.map(|depth| (depth / summary.peak_depth).clamp(0.0, 1.0));
@@ -147,14 +145,15 @@ pub(super) fn settle(run: &mut Outcome, companion: &Outcome, symmetry: Symmetry,
     let errors = Errors {
         force: force.whole(),
         contact_area: area.whole(),
-        mean_pressure: pressure.whole(),
+        // force and area may err in opposite directions
+        mean_pressure: force.whole() + area.whole(),
         residual_depth: difference(summary.residual_depth, companion.summary.residual_depth)
             .zip(residual)
             .map(|(d, r)| d / summary.peak_depth + share(r)),
         elastic_fraction: difference(summary.elastic_fraction, companion.summary.elastic_fraction)
             .zip(elastic)
             .map(|(d, e)| d + share(e)),
-        unloading_stiffness: unloading_stiffness.map(|s| s + 0.5 * area.whole()),
+        unloading_stiffness,
     };
     let residual_depth = summary.residual_depth.unwrap_or(0.0);
     let moved = errors.residual_depth.unwrap_or(0.0) * summary.peak_depth;
