@@ -163,6 +163,15 @@ pub struct Lanes(
 #[repr(align(32))]
 pub struct Mask([u64; 4]);
 
+impl Lanes {
+    /// The sum of the numbers of each of four.
+    #[inline(always)]
+    pub fn sums(of: [Lanes; 4]) -> Lanes {
+        let [first, second, third, fourth] = four!(lane => Lanes(four!(i => of[i].0[lane])));
+        (first + second) + (third + fourth)
+    }
+}
+
 /// All bits if `truth`.
 #[inline(always)]
 fn bits(truth: bool) -> u64 {

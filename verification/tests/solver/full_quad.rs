@@ -8,7 +8,7 @@ use asperity_solver::algebra::cholesky::Factor;
 use asperity_solver::algebra::dofs::{Dofs, FIXED};
 use asperity_solver::algebra::newton::{Assessment, System};
 use asperity_solver::body::failure::Failure;
-use asperity_solver::element::kernel::{ElementOutput, Rows, add_force, add_stiffness};
+use asperity_solver::element::kernel::{entries, force, next_columns, stiffness_of_nodes, stress_of_node};
 use asperity_solver::element::quad4;
 use asperity_solver::point::j2::{Tangent, update};
 use asperity_solver::point::kinematics::{ShapePoint, Symmetry, motion};
@@ -85,23 +85,30 @@ impl<'m> FullQuad<'m> {
             let x = self.position[nodes[a] as usize];
             [x[0] + du[a][0], x[1] + du[a][1]]
         });
-        let mut out = ElementOutput::new(self.metal.virgin());
         let inverted = |cause| Failure::Element { cell, cause };
         for (q, point) in self.points.iter().enumerate() {
             let motion = motion(point, &x, &du, Symmetry::Axisymmetric).map_err(inverted)?;
             let index = 4 * cell + q;
             let end =
                 update(&self.metal, &self.old[index], &motion.increment, Tangent::Exact).map_err(inverted)?;
-            let rows = Rows::new(&motion.rows, 0);
-            add_force(&mut out.force, &rows, &end.stress, self.volume[index]);
-            add_stiffness(&mut out.stiffness, 4, &rows, &end.tangent, self.volume[index]);
-            self.new[index] = end.state;
-        }
-        self.stiffness.add(cell, &out.stiffness);
-        for (a, &node) in nodes.iter().enumerate() {
-            for i in 0..2 {
-                self.internal[node as usize][i] += out.force[i][a];
+            let (rows, volume) = (&motion.rows, self.volume[index]);
+            let forces = force(rows, &end.stress, volume);
+            for (a, &node) in nodes.iter().enumerate() {
+                for i in 0..2 {
+                    self.internal[node as usize][i] += forces[i][a];
+                }
             }
+            let mut triangle = [0.0; entries(4)];
+            let mut rest = &mut triangle[..];
+            for b in 0..4 {
+                let stress = stress_of_node(&end.tangent, &rows[b], volume);
+                let mut columns = next_columns(&mut rest, 4 - b);
+                for a in b..4 {
+                    columns.put(a - b, &stiffness_of_nodes(&rows[a], &stress));
+                }
+            }
+            self.stiffness.add(cell, &triangle);
+            self.new[index] = end.state;
         }
         Ok(())
     }

@@ -78,30 +78,13 @@ impl Stiffness {
         self.matrix.data_mut().fill(0.0);
     }
 
-    /// Adds the lower triangle of the symmetric stiffness of element `cell`.
-    pub fn add(&mut self, cell: usize, stiffness: &[[[f64; 8]; 2]; 16]) {
+    /// Adds the lower triangle of the symmetric stiffness of element `cell`, column by column.
+    pub fn add(&mut self, cell: usize, stiffness: &[f64]) {
         let length = self.size * (self.size + 1) / 2;
-        let mut places = self.places[cell * length..(cell + 1) * length].iter();
         let values = self.matrix.data_mut();
-        let mut add = |entry: f64| {
-            if let Some(&place) = places.next()
-                && place != NOWHERE
-            {
+        for (&place, &entry) in self.places[cell * length..(cell + 1) * length].iter().zip(stiffness) {
+            if place != NOWHERE {
                 values[place as usize] += entry;
-            }
-        };
-        for (b, columns) in stiffness[..self.size].chunks_exact(2).enumerate() {
-            let [along_r, along_z] = columns else { continue };
-            add(along_r[0][b]);
-            add(along_r[1][b]);
-            for a in b + 1..self.size / 2 {
-                add(along_r[0][a]);
-                add(along_r[1][a]);
-            }
-            add(along_z[1][b]);
-            for a in b + 1..self.size / 2 {
-                add(along_z[0][a]);
-                add(along_z[1][a]);
             }
         }
     }

@@ -5,10 +5,10 @@ use crate::body::assembly::current;
 use crate::body::discrete_body::{Body, gather};
 use crate::body::failure::Failure;
 use crate::body::state::{Points, State};
-use crate::element::kernel::{ElementContext, ElementOutput, PointSlice};
+use crate::element::kernel::{ENTRIES, ElementContext, ElementOutput, PointSlice};
 use crate::element::{quad4, quad8};
 use crate::point::j2::Linearisation;
-use asperity_law::real::Lanes;
+use asperity_law::real::{Lanes, Real};
 use asperity_mesh::ElementKind;
 use pulp::{Simd, WithSimd};
 use rayon::prelude::*;
@@ -57,17 +57,18 @@ impl<'a, F: Fn(usize) -> PointSlice<'a>> WithSimd for Evaluation<'_, '_, F> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) -> Result<(), Failure> {
         let Motion { body, state, displacement, context } = self.motion;
+        let mut triangle = [Lanes::splat(0.0); ENTRIES];
         for (cell, output) in (self.first..).zip(self.outputs) {
             let nodes = body.mesh.cell(cell);
             let start = (self.start)(cell);
             match body.mesh.kind {
                 ElementKind::Quad8 => {
                     let [x, du] = moved::<8>(&state.position, displacement, nodes);
-                    quad8::evaluate(context, &body.points8, &x, &du, &start, output)
+                    quad8::evaluate(context, &body.points8, &x, &du, &start, &mut triangle, output)
                 }
                 ElementKind::Quad4 => {
                     let [x, du] = moved::<4>(&state.position, displacement, nodes);
-                    quad4::evaluate(context, &body.points4, &x, &du, &start, output)
+                    quad4::evaluate(context, &body.points4, &x, &du, &start, &mut triangle, output)
                 }
             }
             .map_err(|cause| Failure::Element { cell, cause })?;

@@ -7,7 +7,9 @@ use crate::body::state::{Points, State, Trial};
 use crate::element::kernel::POINTS;
 use crate::point::bdf2::{PlasticIncrement, bounded, extrapolate, extrapolation_factor, share};
 use crate::point::kinematic_hardening;
-use crate::point::material::{PointState, volume_ratio};
+use crate::point::material::{Metal, PointState, volume_ratio};
+use asperity_law::real::Lanes;
+use pulp::{Simd, WithSimd};
 
 /// Ĵ is kept within this share of J: an increment that overturns the volume change of the last one is no smooth path.
 const LARGEST_CHANGE: f64 = 0.1;
@@ -24,7 +26,12 @@ impl State {
         guess: impl Fn(usize) -> [f64; 2],
         trial: &mut Trial,
     ) {
-        self.begin_again(tip, guess, trial);
+        trial.tip = tip;
+        trial.multiplier.clone_from(&self.multiplier);
+        if tip == f64::INFINITY {
+            trial.multiplier.fill(0.0);
+        }
+        trial.displacement.iter_mut().enumerate().for_each(|(node, du)| *du = guess(node));
         trial.factor = extrapolation_factor(ratio);
         trial.start.clone_from(&self.points);
         for ((start, state), change) in
@@ -38,16 +45,6 @@ impl State {
             let flowed = std::array::from_fn(|i| last[i].times(trial.factor));
             self.extrapolate_cell(body, cell, &flowed, &mut trial.start);
         }
-    }
-
-    /// Begins the trial once more, with another `tip` and `guess`: its points start as they did.
-    pub fn begin_again(&self, tip: f64, guess: impl Fn(usize) -> [f64; 2], trial: &mut Trial) {
-        trial.tip = tip;
-        trial.multiplier.clone_from(&self.multiplier);
-        if tip == f64::INFINITY {
-            trial.multiplier.fill(0.0);
-        }
-        trial.displacement.iter_mut().enumerate().for_each(|(node, du)| *du = guess(node));
     }
 
     /// Takes back what the nearly converged `trial`, of which `response` is the answer, extrapolates beyond backward Euler (see
@@ -83,7 +80,8 @@ impl State {
         let (old, new) = (&self.points.states[range.clone()], &mut start.states[range.clone()]);
         let Some(history) = self.points.history.get(range.clone()) else {
             let from = PointState::side_by_side(old);
-            let end = extrapolate(&body.material, &from, &PlasticIncrement::side_by_side(flowed));
+            let flowed = PlasticIncrement::side_by_side(flowed);
+            let end = body.arch.dispatch(Extrapolation { metal: &body.material, from, flowed });
             for (i, new) in new.iter_mut().enumerate() {
                 *new = PointState { yield_scale: new.yield_scale, ..end.lane(i) };
             }
@@ -95,5 +93,21 @@ impl State {
                 kinematic_hardening::extrapolate(&body.material, &old[i], &history[i], &flowed[i]);
             new[i].yield_scale = scale;
         }
+    }
+}
+
+/// [`extrapolate`] of the points of an element. (A closure would not be inlined into code for the registers at hand.)
+struct Extrapolation<'a> {
+    metal: &'a Metal,
+    from: PointState<Lanes>,
+    flowed: PlasticIncrement<Lanes>,
+}
+
+impl WithSimd for Extrapolation<'_> {
+    type Output = PointState<Lanes>;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> PointState<Lanes> {
+        extrapolate(self.metal, &self.from, &self.flowed)
     }
 }

@@ -8,10 +8,13 @@ use crate::body::failure::Failure;
 use crate::body::state::{State, Trial};
 use crate::element::kernel::{ElementContext, ElementOutput, POINTS, PointSlice};
 use crate::point::bdf2::{PlasticIncrement, backward_euler, plastic_increment};
+use crate::point::failure::Failure as PointFailure;
 use crate::point::j2::Tangent;
 use crate::point::kinematic_hardening::{self, History};
 use crate::point::material::{Metal, PointState, plastic_work};
 use crate::point::tensor::Sym;
+use asperity_law::real::Lanes;
+use pulp::{Simd, WithSimd};
 
 /// Work space and results for one element after the other.
 pub(super) struct Flows<'b, 'm> {
@@ -66,7 +69,9 @@ impl<'b, 'm> Flows<'b, 'm> {
             return Ok(());
         }
         let [trial, old, new] = [&output.states[..], start.states, end.states].map(PointState::side_by_side);
-        let found = plastic_increment(&trial.b_minus_i, &old, &new)
+        let found = body
+            .arch
+            .dispatch(Found { trial: trial.b_minus_i, old, new })
             .map_err(|cause| Failure::Element { cell, cause })?;
         for i in 0..POINTS {
             flow[i] = found.lane(i);
@@ -104,12 +109,46 @@ impl<'b, 'm> Flows<'b, 'm> {
             }
         } else {
             let [old, trial] = [&states, &output.states].map(|of| PointState::side_by_side(of));
-            let found = backward_euler(&body.material, &old, &trial.b_minus_i)
+            let found = body
+                .arch
+                .dispatch(Euler { metal: &body.material, old, trial: trial.b_minus_i })
                 .map_err(|cause| Failure::Element { cell, cause })?;
             for (i, euler) in euler.iter_mut().enumerate() {
                 *euler = found.map(|e| e.0[i]);
             }
         }
         Ok(euler)
+    }
+}
+
+/// [`plastic_increment`] of the points of an element.
+struct Found {
+    trial: Sym<Lanes>,
+    old: PointState<Lanes>,
+    new: PointState<Lanes>,
+}
+
+impl WithSimd for Found {
+    type Output = Result<PlasticIncrement<Lanes>, PointFailure>;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> Self::Output {
+        plastic_increment(&self.trial, &self.old, &self.new)
+    }
+}
+
+/// [`backward_euler`] of the points of an element.
+struct Euler<'a> {
+    metal: &'a Metal,
+    old: PointState<Lanes>,
+    trial: Sym<Lanes>,
+}
+
+impl WithSimd for Euler<'_> {
+    type Output = Result<Sym<Lanes>, PointFailure>;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> Self::Output {
+        backward_euler(self.metal, &self.old, &self.trial)
     }
 }

@@ -1,4 +1,5 @@
-//! Shared by both quadrilaterals: the arrays they fill and the two kernels that fill them.
+//! Shared by both quadrilaterals: the arrays they fill and the kernels that fill them, all four points side by side. The sum over
+//! the points comes last.
 
 use crate::point::failure::Failure;
 use crate::point::j2::{self, Linearisation, PointUpdate, Tangent};
@@ -95,13 +96,27 @@ pub struct PointSlice<'a> {
     pub updated: Option<&'a Linearisation<Lanes>>,
 }
 
+impl PointSlice<'_> {
+    /// The weights side by side.
+    #[inline(always)]
+    pub fn weights(&self) -> Lanes {
+        Lanes::each(|q| self.weight[q])
+    }
+}
+
+/// Numbers of the lower triangle of the stiffness of eight nodes.
+pub const ENTRIES: usize = 16 * 17 / 2;
+
+/// The lower triangle of the stiffness of an element, point by point, before it is summed: work space.
+pub type Triangle = [Lanes; ENTRIES];
+
 /// Forces, stiffness and states of one element, with room for eight nodes.
 #[derive(Clone, Debug)]
 pub struct ElementOutput {
     /// Internal nodal forces f_r, f_z.
     pub force: [[f64; 8]; 2],
-    /// ∂f_i,a/∂u_j,b as `stiffness[2b + j][i][a]`: the inner index runs over nodes so that it vectorises.
-    pub stiffness: [[[f64; 8]; 2]; 16],
+    /// Column by column of its lower triangle, ∂f_i,a/∂u_j,b with row 2a + i and column 2b + j.
+    pub stiffness: [f64; ENTRIES],
     /// States at the end of the increment.
     pub states: [PointState; POINTS],
     /// History variables then, for a material with a back stress.
@@ -117,7 +132,7 @@ impl ElementOutput {
     pub fn new(state: PointState) -> Self {
         ElementOutput {
             force: [[0.0; 8]; 2],
-            stiffness: [[[0.0; 8]; 2]; 16],
+            stiffness: [0.0; ENTRIES],
             states: [state; POINTS],
             history: [History::default(); POINTS],
             flowing: 0,
@@ -134,100 +149,98 @@ impl ElementOutput {
         self.flowing = (0..POINTS).filter(|q| Lanes::holds(plastic, *q)).count();
     }
 
-    /// Zeroes what is summed up for `tangent`.
-    pub fn clear(&mut self, tangent: Tangent) {
-        self.force = [[0.0; 8]; 2];
-        if tangent != Tangent::None {
-            self.stiffness = [[[0.0; 8]; 2]; 16];
-        }
-    }
-}
-
-/// Gradient operator rows of all nodes, node index innermost: ∂N/∂r, ∂N/∂z, N/r.
-#[derive(Clone, Copy, Debug)]
-pub struct Rows {
-    /// ∂N_a/∂r.
-    pub r: [f64; 8],
-    /// ∂N_a/∂z.
-    pub z: [f64; 8],
-    /// N_a/r, or 0 in plane strain.
-    pub hoop: [f64; 8],
-}
-
-impl Rows {
-    /// Regroups the rows of the point in lane `q` of a motion; places beyond N stay zero.
+    /// Takes the forces of the first N nodes, summed over the points.
     #[inline(always)]
-    pub fn new<T: Real, const N: usize>(rows: &[[T; 3]; N], q: usize) -> Rows {
-        let mut out = Rows { r: [0.0; 8], z: [0.0; 8], hoop: [0.0; 8] };
-        for a in 0..N {
-            let [r, z, hoop] = &rows[a];
-            (out.r[a], out.z[a], out.hoop[a]) = (r.lane(q), z.lane(q), hoop.lane(q));
+    pub fn sum_force<const N: usize>(&mut self, force: &[[Lanes; N]; 2]) {
+        for (sums, force) in self.force.iter_mut().zip(force) {
+            sum_points(force, sums);
         }
-        out
+    }
+
+    /// Takes the stiffness of N nodes, summed over the points.
+    #[inline(always)]
+    pub fn sum_stiffness<const N: usize>(&mut self, triangle: &Triangle) {
+        sum_points(&triangle[..entries(N)], &mut self.stiffness);
     }
 }
 
-/// The stress and the tangent of the point `q`.
+/// Numbers of the lower triangle of the stiffness of so many nodes.
+pub const fn entries(nodes: usize) -> usize {
+    nodes * (2 * nodes + 1)
+}
+
+/// The sums over the points of a multiple of four numbers.
 #[inline(always)]
-pub fn response_of(
-    (stresses, tangents): &(Sym<Lanes>, GradientForm<Lanes>),
-    q: usize,
-) -> (Sym, GradientForm) {
-    let (mut stress, mut form) = ([0.0; 4], [[0.0; 5]; 5]);
-    for i in 0..4 {
-        stress[i] = stresses[i].0[q];
+fn sum_points(of: &[Lanes], sums: &mut [f64]) {
+    for (of, sums) in of.chunks_exact(4).zip(sums.chunks_exact_mut(4)) {
+        sums.copy_from_slice(&Lanes::sums([of[0], of[1], of[2], of[3]]).0);
     }
+}
+
+/// Rows ∂N/∂r, ∂N/∂z, N/r (0 in plane strain) of each node, at one point or at several side by side.
+pub type Rows<T, const N: usize> = [[T; 3]; N];
+
+/// w τ : ∇N_a: the nodal forces f_r, f_z of one point, or of several side by side.
+#[inline(always)]
+pub fn force<T: Real, const N: usize>(rows: &Rows<T, N>, stress: &Sym<T>, weight: T) -> [[T; N]; 2] {
+    let [rr, zz, tt, rz] = [stress[0] * weight, stress[1] * weight, stress[2] * weight, stress[3] * weight];
+    let mut force = [[T::splat(0.0); N]; 2];
+    for a in 0..N {
+        let [r, z, hoop] = rows[a];
+        force[0][a] = rr * r + rz * z + tt * hoop;
+        force[1][a] = rz * r + zz * z;
+    }
+    force
+}
+
+/// w A G_b: what a displacement of the node with `row` along r, along z, makes of the five components of the stress that do work on
+/// gradients.
+#[inline(always)]
+pub fn stress_of_node<T: Real>(form: &GradientForm<T>, row: &[T; 3], weight: T) -> [[T; 5]; 2] {
+    let (d, e, h) = (weight * row[0], weight * row[1], weight * row[2]);
+    let mut stress = [[T::splat(0.0); 5]; 2];
     for i in 0..5 {
-        for j in 0..5 {
-            form[i][j] = tangents[i][j].0[q];
-        }
+        stress[0][i] = form[i][0] * d + form[i][1] * e + form[i][4] * h;
+        stress[1][i] = form[i][2] * d + form[i][3] * e;
     }
-    (stress, form)
+    stress
 }
 
-/// f_a += w τ : ∇N_a.
+/// G_aᵀ t of the node with `row`, for both `stress` t of another node: ∂f_i,a/∂u_j,b at \[i\]\[j\].
 #[inline(always)]
-pub fn add_force(force: &mut [[f64; 8]; 2], rows: &Rows, stress: &Sym, weight: f64) {
-    let [rr, zz, tt, rz] = stress.map(|s| s * weight);
-    for a in 0..8 {
-        force[0][a] += rr * rows.r[a] + rz * rows.z[a] + tt * rows.hoop[a];
-        force[1][a] += rz * rows.r[a] + zz * rows.z[a];
-    }
+pub fn stiffness_of_nodes<T: Real>(row: &[T; 3], stress: &[[T; 5]; 2]) -> [[T; 2]; 2] {
+    let ([r, z, hoop], [s, t]) = (*row, stress);
+    [
+        [r * s[0] + z * s[1] + hoop * s[4], r * t[0] + z * t[1] + hoop * t[4]],
+        [r * s[2] + z * s[3], r * t[2] + z * t[3]],
+    ]
 }
 
-/// K += w Gᵀ A G with G_a the gradient of a unit displacement of node a: the entries of node b with the nodes of its half of the
-/// element and beyond, of which only those from b on are read.
+/// The columns of one node in the lower triangle of a stiffness: of its displacements along r and along z. (Not a closure for each
+/// pair of nodes: it would not be inlined into code for other registers than the program's.)
+pub struct NodeColumns<'a, T> {
+    along_r: &'a mut [T],
+    along_z: &'a mut [T],
+}
+
+/// Takes the columns of the next node off the `rest` of a triangle; with it there are so many `nodes` left.
 #[inline(always)]
-pub fn add_stiffness(
-    stiffness: &mut [[[f64; 8]; 2]; 16],
-    nodes: usize,
-    rows: &Rows,
-    form: &GradientForm,
-    weight: f64,
-) {
-    for b in 0..nodes {
-        let (d, e, h) = (weight * rows.r[b], weight * rows.z[b], weight * rows.hoop[b]);
-        let mut t = [[0.0; 5]; 2]; // A G_b for a displacement of b along r, along z
-        for i in 0..5 {
-            t[0][i] = form[i][0] * d + form[i][1] * e + form[i][4] * h;
-            t[1][i] = form[i][2] * d + form[i][3] * e;
+pub fn next_columns<'a, T>(rest: &mut &'a mut [T], nodes: usize) -> NodeColumns<'a, T> {
+    let (along_r, others) = std::mem::take(rest).split_at_mut(2 * nodes);
+    let (along_z, others) = others.split_at_mut(2 * nodes - 1);
+    *rest = others;
+    NodeColumns { along_r, along_z }
+}
+
+impl<T: Copy> NodeColumns<'_, T> {
+    /// Puts the `block` \[i\]\[j\] of the node that comes so many nodes `after` into its place.
+    #[inline(always)]
+    pub fn put(&mut self, after: usize, block: &[[T; 2]; 2]) {
+        let [[rr, rz], [zr, zz]] = *block;
+        (self.along_r[2 * after], self.along_r[2 * after + 1]) = (rr, zr);
+        if after > 0 {
+            self.along_z[2 * after - 1] = rz;
         }
-        for j in 0..2 {
-            let t = &t[j];
-            let [along_r, along_z] = &mut stiffness[2 * b + j];
-            let mut add = |from: usize| {
-                for a in from..from + 4 {
-                    let (r, z, hoop) = (rows.r[a], rows.z[a], rows.hoop[a]);
-                    along_r[a] += r * t[0] + z * t[1] + hoop * t[4];
-                    along_z[a] += r * t[2] + z * t[3];
-                }
-            };
-            if b < 4 {
-                add(0);
-            }
-            if nodes > 4 {
-                add(4);
-            }
-        }
+        self.along_z[2 * after] = zz;
     }
 }

@@ -1,7 +1,8 @@
 //! Eight-node serendipity quadrilateral with reduced 2 × 2 integration.
 
 use crate::element::kernel::{
-    ElementContext, ElementOutput, GAUSS, POINTS, PointSlice, Rows, add_force, add_stiffness, response_of,
+    ElementContext, ElementOutput, GAUSS, POINTS, PointSlice, Triangle, force, next_columns,
+    stiffness_of_nodes, stress_of_node,
 };
 use crate::point::failure::Failure;
 use crate::point::j2::Tangent;
@@ -37,7 +38,7 @@ pub fn points() -> [ShapePoint<8>; POINTS] {
     [[-GAUSS, -GAUSS], [GAUSS, -GAUSS], [GAUSS, GAUSS], [-GAUSS, GAUSS]].map(|[s, t]| shape(s, t, 1.0))
 }
 
-/// Internal forces, stiffness and new states. `start` are the points the increment starts from.
+/// Internal forces, stiffness and new states. `start` are the points the increment starts from, `triangle` is work space.
 ///
 /// f_a = ∫ τ : ∇N_a dV₀, K = ∂f/∂u.
 ///
@@ -50,18 +51,23 @@ pub fn evaluate(
     x: &[[f64; 2]; 8],
     du: &[[f64; 2]; 8],
     start: &PointSlice<'_>,
+    triangle: &mut Triangle,
     out: &mut ElementOutput,
 ) -> Result<(), Failure> {
-    out.clear(context.tangent);
     let motion = motion(points, x, du, context.symmetry)?;
-    let end = context.update(start, &motion.increment, out)?;
-    for q in 0..POINTS {
-        let rows = Rows::new(&motion.rows, q);
-        let (stress, form) = response_of(&end, q);
-        add_force(&mut out.force, &rows, &stress, start.weight[q]);
-        if context.tangent != Tangent::None {
-            add_stiffness(&mut out.stiffness, 8, &rows, &form, start.weight[q]);
+    let (stress, form) = context.update(start, &motion.increment, out)?;
+    let weight = start.weights();
+    out.sum_force(&force(&motion.rows, &stress, weight));
+    if context.tangent != Tangent::None {
+        let mut rest = &mut triangle[..];
+        for b in 0..8 {
+            let stress = stress_of_node(&form, &motion.rows[b], weight);
+            let mut columns = next_columns(&mut rest, 8 - b);
+            for a in b..8 {
+                columns.put(a - b, &stiffness_of_nodes(&motion.rows[a], &stress));
+            }
         }
+        out.sum_stiffness::<8>(triangle);
     }
     Ok(())
 }

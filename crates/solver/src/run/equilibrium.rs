@@ -89,8 +89,8 @@ pub struct Equilibrium<'m> {
     nearly: f64,
     /// The displacement where this solve guarded it; empty before.
     guarded_at: Vec<[f64; 2]>,
-    /// Whether that changed the residual at the last assessed iterate, and at the one before.
-    jumped: [bool; 2],
+    /// Whether that changed the residual at the last assessed iterate: no secant leads there.
+    jumped: bool,
     /// Work done so far.
     pub counters: Counters,
 }
@@ -134,7 +134,7 @@ impl<'m> Equilibrium<'m> {
             unguarded: false,
             nearly: NEARLY,
             guarded_at: Vec::new(),
-            jumped: [false; 2],
+            jumped: false,
             counters: Counters::default(),
             body,
             state,
@@ -233,11 +233,14 @@ impl<'m> Equilibrium<'m> {
         self.nearly = NEARLY.min(1e3 * tolerance);
     }
 
-    /// Starts the increment once more, a little longer or shorter: its points start as they did, so that the response is a smooth
-    /// function of `tip`.
-    pub fn begin_again(&mut self, tip: f64, guess: impl Fn(usize) -> [f64; 2]) {
-        self.state.begin_again(tip, guess, &mut self.trial);
-        self.keep_converged_contact();
+    /// Moves the tool of the increment under way to `tip`. Its points start as they did, so that the response is a smooth function of
+    /// `tip`; the iterate stays, and with it the contact.
+    pub fn move_tool(&mut self, tip: f64) {
+        self.trial.tip = tip;
+        self.trial.multiplier.clone_from(&self.state.multiplier);
+        self.keep_contact = false;
+        self.fraction = 0.0;
+        self.jumped = false;
     }
 
     /// The first iterate of an increment keeps the contact of the converged state, and is no step of the last increment.
@@ -249,7 +252,7 @@ impl<'m> Equilibrium<'m> {
         }
         self.keep_contact = self.touching.iter().any(|p| *p != NOTHING);
         self.fraction = 0.0;
-        self.jumped = [false; 2];
+        self.jumped = false;
     }
 
     /// Remeshes the distorted body under its surface and finds the equilibrium there by `solve`, while the tool stays. Whether it
@@ -336,18 +339,49 @@ impl<'m> Equilibrium<'m> {
         }))
     }
 
-    /// Assembles another tangent at the last assessed iterate, with the same contact.
+    /// Assembles the last assessed iterate once more, with the same contact.
     fn assemble_again(&mut self, tangent: Tangent) -> Result<(), Failure> {
+        self.timed(tangent, |s| {
+            s.body.assemble_again(&s.state, &s.trial, tangent, &mut s.response, &mut s.stiffness)
+        })
+    }
+
+    /// Counts what `assemble` does for the `tangent`.
+    fn timed(
+        &mut self,
+        tangent: Tangent,
+        assemble: impl FnOnce(&mut Self) -> Result<(), Failure>,
+    ) -> Result<(), Failure> {
         let clock = Instant::now();
-        self.has_tangent = true;
-        let Self { body, state, trial, response, stiffness, .. } = self;
-        body.assemble_again(state, trial, tangent, response, stiffness)?;
-        self.counters.assemblies += 1;
-        self.counters.returns += self.response.returns;
+        self.has_tangent = tangent != Tangent::None;
+        assemble(self)?;
         let seconds = clock.elapsed().as_secs_f64();
-        self.counters.assembly_s += seconds;
-        self.counters.tangent_s += seconds;
+        let counters = &mut self.counters;
+        counters.assemblies += usize::from(self.has_tangent);
+        counters.residuals += usize::from(!self.has_tangent);
+        counters.returns += self.response.returns;
+        counters.assembly_s += seconds;
+        counters.tangent_s += if self.has_tangent { seconds } else { 0.0 };
         Ok(())
+    }
+
+    /// How far the last assembled iterate is from equilibrium.
+    fn out_of_balance(&self, changed: bool) -> Assessment {
+        let residual = self.response.residual.iter().map(|r| r * r).sum::<f64>().sqrt();
+        // forces of the fixed components and of the tool, and the largest load so far (the load itself goes to 0)
+        let mut reaction = 0.0;
+        for (f, numbers) in self.response.internal.iter().zip(&self.body.dofs.number) {
+            for i in 0..2 {
+                if numbers[i] == FIXED {
+                    reaction += f[i] * f[i];
+                }
+            }
+        }
+        for edge in &self.response.contact {
+            reaction += edge.force.iter().flatten().map(|f| f * f).sum::<f64>();
+        }
+        let scale = reaction.sqrt().max(self.state.load_scale).max(f64::MIN_POSITIVE);
+        Assessment { residual, scale, changed }
     }
 
     /// Factorises the stiffness, or what [`Self::factorise_indefinite`] puts in its place if a pivot is lost.
@@ -408,43 +442,23 @@ impl System for Equilibrium<'_> {
     type Error = Failure;
 
     fn assess(&mut self, tangent: bool) -> Result<Assessment, Failure> {
-        let clock = Instant::now();
-        self.has_tangent = tangent;
-        let touching = if self.keep_contact { Touching::Kept } else { Touching::Found };
         let tangent = if tangent { Tangent::Exact } else { Tangent::None };
-        let Self { body, state, trial, response, stiffness, .. } = self;
-        body.assemble(state, trial, tangent, touching, response, stiffness)?;
+        let touching = if self.keep_contact { Touching::Kept } else { Touching::Found };
+        self.timed(tangent, |s| {
+            s.body.assemble(&s.state, &s.trial, tangent, touching, &mut s.response, &mut s.stiffness)
+        })?;
         self.kept_contact = std::mem::take(&mut self.keep_contact);
         let changed = self.contact_changed() || self.kept_contact;
-        self.counters.assemblies += usize::from(self.has_tangent);
-        self.counters.residuals += usize::from(!self.has_tangent);
-        self.counters.returns += self.response.returns;
-        let seconds = clock.elapsed().as_secs_f64();
-        self.counters.assembly_s += seconds;
-        self.counters.tangent_s += if self.has_tangent { seconds } else { 0.0 };
-        let residual = self.response.residual.iter().map(|r| r * r).sum::<f64>().sqrt();
-        // forces of the fixed components and of the tool, and the largest load so far (the load itself goes to 0)
-        let mut reaction = 0.0;
-        for (f, numbers) in self.response.internal.iter().zip(&self.body.dofs.number) {
-            for i in 0..2 {
-                if numbers[i] == FIXED {
-                    reaction += f[i] * f[i];
-                }
-            }
+        let assessed = self.out_of_balance(changed);
+        if !self.unguarded || self.kept_contact || assessed.residual > self.nearly * assessed.scale {
+            return Ok(assessed);
         }
-        for edge in &self.response.contact {
-            reaction += edge.force.iter().flatten().map(|f| f * f).sum::<f64>();
-        }
-        let scale = reaction.sqrt().max(self.state.load_scale).max(f64::MIN_POSITIVE);
-        let guards = self.unguarded && residual <= self.nearly * scale && !self.kept_contact;
-        if guards {
-            self.state.guard(&self.body, &mut self.trial, &self.response);
-            self.response.forget_points();
-            self.guarded_at.clone_from(&self.trial.displacement);
-            self.jumped[0] = true;
-            self.unguarded = false;
-        }
-        Ok(Assessment { residual, scale, changed: changed || guards })
+        self.state.guard(&self.body, &mut self.trial, &self.response);
+        self.response.forget_points();
+        self.guarded_at.clone_from(&self.trial.displacement);
+        (self.jumped, self.unguarded) = (true, false);
+        self.assemble_again(tangent)?;
+        Ok(self.out_of_balance(changed))
     }
 
     fn renew(&mut self) -> Result<(), Failure> {
@@ -465,11 +479,11 @@ impl System for Equilibrium<'_> {
     fn find_direction(&mut self) {
         let clock = Instant::now();
         let residual = &self.response.residual;
-        if self.fraction > 0.0 && !self.jumped[1] {
+        if self.fraction > 0.0 && !self.jumped {
             self.secants.note(-self.fraction, &self.direction, &self.residual_before, residual);
         }
         self.fraction = 0.0;
-        self.jumped = [false, self.jumped[0]];
+        self.jumped = false;
         self.residual_before.copy_from_slice(residual);
         self.direction.copy_from_slice(residual);
         self.secants.solve(&mut self.direction, |rhs| self.factor.solve(rhs));

@@ -191,7 +191,7 @@ impl Equilibrium<'_> {
     /// # Errors
     /// A disk that refuses.
     pub fn write_memory(&self, to: &mut dyn Write) -> io::Result<()> {
-        let flags = [self.jumped[0], self.jumped[1], self.has_factors].map(u64::from);
+        let flags = [self.jumped, self.has_factors].map(u64::from);
         write_words(to, &flags)?;
         write_words(to, &[self.secants.noted().len() as u64, self.fraction.to_bits()])?;
         write_numbers(to, &self.direction)?;
@@ -211,11 +211,11 @@ impl Equilibrium<'_> {
     /// A file that ends early: the next solve then begins with a tangent of its own.
     pub fn read_memory(&mut self, from: &mut dyn Read) -> io::Result<()> {
         self.has_factors = false;
-        let [first, second, has_factors, pairs, fraction] = read_words(from)?;
+        let [jumped, has_factors, pairs, fraction] = read_words(from)?;
         if pairs > PAIRS as u64 {
             return Err(damaged());
         }
-        (self.jumped, self.fraction) = ([first == 1, second == 1], f64::from_bits(fraction));
+        (self.jumped, self.fraction) = (jumped == 1, f64::from_bits(fraction));
         read_numbers(from, &mut self.direction)?;
         read_numbers(from, &mut self.residual_before)?;
         let mut noted = Vec::new();

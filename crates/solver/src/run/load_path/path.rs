@@ -201,10 +201,9 @@ impl<'p> Path<'p> {
         self.solve_attempted()
     }
 
-    /// Solves the increment that was attempted last to a `travel` nearby.
-    pub(super) fn attempt_again(&mut self, travel: f64, guess: f64) -> Result<ContactSums, SolveFailure> {
-        let guess = self.scaled(guess * self.ratio(travel));
-        self.model.begin_again(-(self.touch + travel), guess);
+    /// Solves the increment that was attempted last to a `travel` nearby, from where that stands.
+    pub(super) fn attempt_again(&mut self, travel: f64) -> Result<ContactSums, SolveFailure> {
+        self.model.move_tool(-(self.touch + travel));
         self.solve_attempted()
     }
 

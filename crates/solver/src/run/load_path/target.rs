@@ -68,7 +68,7 @@ impl Path<'_> {
                 _ => secant,
             };
             let near = (next - now.0).abs() <= NEAR * (now.0 - self.travel).abs();
-            let exact = if near { self.attempt_again(next, GUESS) } else { self.attempt(next, true, GUESS) };
+            let exact = if near { self.attempt_again(next) } else { self.attempt(next, true, GUESS) };
             let exact = exact.or_else(|_| self.attempt(next, true, 0.0));
             let found = exact.or_else(|_| {
                 met = NEARLY_MET;
