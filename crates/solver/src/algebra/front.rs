@@ -84,24 +84,42 @@ fn axpy<const FUSED: bool>(y: &mut [f64], a: f64, x: &[f64]) {
     y.iter_mut().zip(x).for_each(|(y, &x)| *y = fma::<FUSED>(a, x, *y));
 }
 
-/// Rows `row..row + LANES` of the columns of `target`, N of them `stride` apart: C ← C − L Wᵀ over `depth` columns.
-///
-/// `l` starts at row `row` of L, `w` at the row of W that is the first of the N columns; columns of both are `column` apart.
+/// Rows of a tile in the registers, column by column.
+type Tile<const N: usize> = [[f64; LANES]; N];
+
+/// Rows `row..row + LANES` of the first N columns of `from`, which are `stride` apart.
 #[inline(always)]
-fn tile<const N: usize, const FUSED: bool>(
-    target: &mut [f64],
-    stride: usize,
-    row: usize,
+fn load<const N: usize>(from: &[f64], stride: usize, row: usize) -> Tile<N> {
+    let mut c = [[0.0; LANES]; N];
+    for (j, c) in c.iter_mut().enumerate() {
+        if let Some(from) = from[j * stride + row..].first_chunk() {
+            *c = *from;
+        }
+    }
+    c
+}
+
+/// The tile `c` back to where [`load`] takes it from.
+#[inline(always)]
+fn store<const N: usize>(c: &Tile<N>, to: &mut [f64], stride: usize, row: usize) {
+    for (j, c) in c.iter().enumerate() {
+        if let Some(to) = to[j * stride + row..].first_chunk_mut() {
+            *to = *c;
+        }
+    }
+}
+
+/// C ← C − L Wᵀ over `depth` columns.
+///
+/// `l` starts at the first row of the tile in L, `w` at the row of W that is the first of its columns; columns of both are `column`
+/// apart.
+#[inline(always)]
+fn take<const N: usize, const FUSED: bool>(
+    c: &mut Tile<N>,
     [l, w]: [&[f64]; 2],
     column: usize,
     depth: usize,
 ) {
-    let mut c = [[0.0; LANES]; N];
-    for (j, c) in c.iter_mut().enumerate() {
-        if let Some(from) = target[j * stride + row..].first_chunk() {
-            *c = *from;
-        }
-    }
     for (l, w) in l.chunks(column).zip(w.chunks(column)).take(depth) {
         let (Some(l), Some(w)) = (l.first_chunk::<LANES>(), w.first_chunk::<N>()) else { break };
         for (c, &w) in c.iter_mut().zip(w) {
@@ -110,11 +128,20 @@ fn tile<const N: usize, const FUSED: bool>(
             }
         }
     }
-    for (j, c) in c.iter().enumerate() {
-        if let Some(to) = target[j * stride + row..].first_chunk_mut() {
-            *to = *c;
-        }
-    }
+}
+
+/// The tile of `panel` from `row` on, from which the product of the `depth` columns of L and W is taken.
+#[inline(always)]
+fn taken_from<const N: usize, const FUSED: bool>(
+    panel: &[f64],
+    column: usize,
+    row: usize,
+    [l, w]: [&[f64]; 2],
+    depth: usize,
+) -> Tile<N> {
+    let mut c = load::<N>(panel, column, row);
+    take::<N, FUSED>(&mut c, [l.get(row..).unwrap_or_default(), w], column, depth);
+    c
 }
 
 /// Columns of a matrix from which products are taken away.
@@ -137,7 +164,9 @@ impl Columns<'_> {
         depth: usize,
     ) {
         for row in self.rows.clone().step_by(LANES) {
-            tile::<N, FUSED>(self.target, self.stride, row, [&l[row..], w], column, depth);
+            let mut c = load::<N>(self.target, self.stride, row);
+            take::<N, FUSED>(&mut c, [&l[row..], w], column, depth);
+            store(&c, self.target, self.stride, row);
         }
     }
 
@@ -168,56 +197,121 @@ struct Elimination<'a> {
     pivots: Pivots,
 }
 
-impl Elimination<'_> {
-    /// The pivots `start..end` of the panel, which earlier ones have been taken from. Negative ones are counted.
+/// A block of N pivots: what the rows below it take from it.
+struct Block<const N: usize> {
+    /// Its part of W: the entry of column p in row j of the block at \[p\]\[j\].
+    scaled: [[f64; N]; N],
+    /// 1/D.
+    inverse: [f64; N],
+    /// Pivots below zero.
+    negative: usize,
+}
+
+impl<const N: usize> Block<N> {
+    /// Eliminates the block: `a` is row by row its lower triangle, and becomes L with D on the diagonal.
     #[inline(always)]
-    fn block<const FUSED: bool>(&mut self, start: usize, end: usize) -> Option<usize> {
-        let column = self.size.panel_column();
-        let mut negative = 0;
-        for j in start..end {
-            let (done, rest) = self.panel.split_at_mut(j * column);
-            let rest = &mut rest[..column];
-            for p in start..j {
-                axpy::<FUSED>(
-                    &mut rest[j..],
-                    -self.scaled[p * column + j],
-                    &done[p * column + j..][..column - j],
-                );
+    fn eliminate<const FUSED: bool>(a: &mut [[f64; N]; N], pivots: Pivots) -> Option<Block<N>> {
+        let mut block = Block { scaled: [[0.0; N]; N], inverse: [0.0; N], negative: 0 };
+        for j in 0..N {
+            for p in 0..N {
+                for i in 0..N {
+                    if p < j && i >= j {
+                        a[i][j] = fma::<FUSED>(-block.scaled[p][j], a[i][p], a[i][j]);
+                    }
+                }
             }
-            let pivot = rest[j];
-            let accepted = match self.pivots {
+            let pivot = a[j][j];
+            let accepted = match pivots {
                 Pivots::Positive => pivot > 0.0,
                 Pivots::Any => pivot != 0.0,
             };
             if !(accepted && pivot.is_finite()) {
                 return None;
             }
-            negative += usize::from(pivot < 0.0);
-            let inverse = pivot.recip();
-            let scaled = &mut self.scaled[j * column..][j..column];
-            scaled[0] = pivot;
-            for (entry, scaled) in rest[j + 1..].iter_mut().zip(&mut scaled[1..]) {
-                *scaled = *entry;
-                *entry *= inverse;
+            block.negative += usize::from(pivot < 0.0);
+            block.inverse[j] = pivot.recip();
+            for i in 0..N {
+                if i >= j {
+                    block.scaled[j][i] = a[i][j];
+                }
+                if i > j {
+                    a[i][j] *= block.inverse[j];
+                }
             }
         }
-        Some(negative)
+        Some(block)
     }
 
-    /// The pivots `start..end`, from which those before `taken` have been taken.
+    /// Rows below the block: W and L of the tile `c`.
+    #[inline(always)]
+    fn below<const FUSED: bool>(&self, mut c: Tile<N>) -> [Tile<N>; 2] {
+        let mut l = c;
+        for j in 0..N {
+            for p in 0..N {
+                if p < j {
+                    for i in 0..LANES {
+                        c[j][i] = fma::<FUSED>(-self.scaled[p][j], l[p][i], c[j][i]);
+                    }
+                }
+            }
+            for i in 0..LANES {
+                l[j][i] = c[j][i] * self.inverse[j];
+            }
+        }
+        [c, l]
+    }
+}
+
+impl Elimination<'_> {
+    /// The N pivots from `start` on, from which those before `taken` have been taken. Negative ones are counted.
+    #[inline(always)]
+    fn block<const N: usize, const FUSED: bool>(&mut self, taken: usize, start: usize) -> Option<usize> {
+        let (column, depth) = (self.size.panel_column(), start - taken);
+        let (done, panel) = self.panel.split_at_mut(start * column);
+        let (earlier, scaled) = self.scaled.split_at_mut(start * column);
+        let (l, w) = (&done[taken * column..], earlier.get(taken * column + start..).unwrap_or_default());
+        let first = start / LANES * LANES;
+        // what stands above the diagonal in the first tile is never read
+        let c = taken_from::<N, FUSED>(panel, column, first, [l, w], depth);
+        store(&c, panel, column, first);
+        let mut a = [[0.0; N]; N];
+        for i in 0..N {
+            for j in 0..N {
+                a[i][j] = panel[j * column + start + i];
+            }
+        }
+        let block = Block::eliminate::<FUSED>(&mut a, self.pivots)?;
+        let [below, lower] = block.below::<FUSED>(c);
+        store(&below, scaled, column, first);
+        store(&lower, panel, column, first);
+        for j in 0..N {
+            for i in 0..N {
+                if i >= j {
+                    panel[j * column + start + i] = a[i][j];
+                    scaled[j * column + start + i] = block.scaled[j][i];
+                }
+            }
+        }
+        for row in (first + LANES..column).step_by(LANES) {
+            let c = taken_from::<N, FUSED>(panel, column, row, [l, w], depth);
+            let [below, lower] = block.below::<FUSED>(c);
+            store(&below, scaled, column, row);
+            store(&lower, panel, column, row);
+        }
+        Some(block.negative)
+    }
+
+    /// The pivots of `range`, from which those before `taken` have been taken.
     #[inline(always)]
     fn pivots<const FUSED: bool>(&mut self, taken: usize, range: Range<usize>) -> Option<usize> {
-        let column = self.size.panel_column();
         let mut negative = 0;
         for start in range.clone().step_by(TILE) {
-            let end = range.end.min(start + TILE);
-            if start > taken {
-                let (done, rest) = self.panel.split_at_mut(start * column);
-                let (l, w) = (&done[taken * column..], &self.scaled[taken * column + start..]);
-                let mut block = Columns { target: rest, stride: column, rows: start / LANES * LANES..column };
-                block.subtract_some::<FUSED>(end - start, [l, w], column, start - taken);
-            }
-            negative += self.block::<FUSED>(start, end)?;
+            negative += match range.end - start {
+                1 => self.block::<1, FUSED>(taken, start)?,
+                2 => self.block::<2, FUSED>(taken, start)?,
+                3 => self.block::<3, FUSED>(taken, start)?,
+                _ => self.block::<TILE, FUSED>(taken, start)?,
+            };
         }
         Some(negative)
     }
