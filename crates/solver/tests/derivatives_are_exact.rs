@@ -5,6 +5,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
+use asperity_law::real::{Lanes, Real};
 use asperity_law::{Elastic, Hardening, HardeningLaw, HardeningTable, StressMeasure};
 use asperity_mesh::outline::{Outline, Parabola};
 use asperity_solver::contact::edge::{ContactContext, ContactEdge};

@@ -1,7 +1,7 @@
 //! The pattern of the stiffness matrix (lower triangle, compressed columns) and where each element's entries go.
 
 use crate::algebra::dofs::{Dofs, FIXED};
-use sprs::{CsMat, TriMat};
+use sprs::CsMat;
 
 /// No place: the row or column is fixed.
 const NOWHERE: u32 = u32::MAX;
@@ -22,20 +22,9 @@ fn numbers_of(cell: &[u32], dofs: &Dofs) -> Vec<u32> {
     cell.iter().flat_map(|&node| dofs.number[node as usize]).collect()
 }
 
-/// The lower triangle of a matrix of zeros where `groups` of nodes couple unknowns.
-fn pattern<'a>(groups: impl Iterator<Item = &'a [u32]>, dofs: &Dofs) -> CsMat<f64> {
-    let mut pattern = TriMat::new((dofs.count, dofs.count));
-    for group in groups {
-        let numbers = numbers_of(group, dofs);
-        for &col in &numbers {
-            for &row in &numbers {
-                if row != FIXED && col != FIXED && row >= col {
-                    pattern.add_triplet(row as usize, col as usize, 0.0);
-                }
-            }
-        }
-    }
-    pattern.to_csc()
+/// Index of the entry of row `row` and column `column` among those of a lower triangle of `size` columns, column by column.
+fn index_in_triangle(row: usize, column: usize, size: usize) -> usize {
+    column * (2 * size - column - 1) / 2 + row
 }
 
 impl Stiffness {
@@ -47,19 +36,52 @@ impl Stiffness {
     /// Analyses elements of `nodes_per_cell` nodes and further groups of nodes that act on each other.
     pub fn coupled(cells: &[u32], nodes_per_cell: usize, groups: &[Vec<u32>], dofs: &Dofs) -> Stiffness {
         let size = 2 * nodes_per_cell;
-        let matrix =
-            pattern(cells.chunks_exact(nodes_per_cell).chain(groups.iter().map(Vec::as_slice)), dofs);
-        let mut places = Vec::with_capacity(cells.len() * (size + 1));
-        for cell in cells.chunks_exact(nodes_per_cell) {
-            let numbers = numbers_of(cell, dofs);
-            for (first, &col) in numbers.iter().enumerate() {
-                for &row in &numbers[first..] {
-                    let (row, col) = (row.max(col), row.min(col));
-                    let place = matrix.nnz_index(row as usize, col as usize).filter(|_| row != FIXED);
-                    places.push(place.map_or(NOWHERE, |i| i.0 as u32));
+        let length = size * (size + 1) / 2;
+        let members: Vec<&[u32]> =
+            cells.chunks_exact(nodes_per_cell).chain(groups.iter().map(Vec::as_slice)).collect();
+        let (mut node_of, mut found_in) = (vec![0; dofs.count], vec![Vec::new(); dofs.number.len()]);
+        for (node, numbers) in dofs.number.iter().enumerate() {
+            numbers.iter().filter(|&&n| n != FIXED).for_each(|&n| node_of[n as usize] = node);
+        }
+        for (group, nodes) in members.iter().enumerate() {
+            nodes.iter().for_each(|&node| found_in[node as usize].push(group));
+        }
+        let numbers: Vec<Vec<u32>> = members.iter().map(|nodes| numbers_of(nodes, dofs)).collect();
+        let cell_count = cells.len() / nodes_per_cell;
+        let mut places = vec![NOWHERE; cell_count * length];
+        let (mut starts, mut indices) = (vec![0], Vec::new());
+        // of each row the last column that has it, and its place there
+        let mut seen = vec![(FIXED, NOWHERE); dofs.count];
+        let mut rows = Vec::new();
+        for column in 0..dofs.count as u32 {
+            let groups = &found_in[node_of[column as usize]];
+            rows.clear();
+            for &group in groups {
+                for &row in numbers[group].iter().filter(|&&row| row != FIXED && row >= column) {
+                    if seen[row as usize].0 != column {
+                        seen[row as usize].0 = column;
+                        rows.push(row);
+                    }
+                }
+            }
+            rows.sort_unstable();
+            for (place, &row) in (indices.len()..).zip(&rows) {
+                seen[row as usize].1 = place as u32;
+            }
+            indices.extend(rows.iter().map(|&row| row as usize));
+            starts.push(indices.len());
+            for &cell in groups.iter().filter(|&&group| group < cell_count) {
+                let Some(own) = numbers[cell].iter().position(|&n| n == column) else { continue };
+                for (other, &row) in numbers[cell].iter().enumerate() {
+                    if row != FIXED && row >= column {
+                        let index = index_in_triangle(own.max(other), own.min(other), size);
+                        places[cell * length + index] = seen[row as usize].1;
+                    }
                 }
             }
         }
+        let values = vec![0.0; indices.len()];
+        let matrix = CsMat::new_csc((dofs.count, dofs.count), starts, indices, values);
         Stiffness { matrix, places, size }
     }
 
