@@ -68,22 +68,6 @@ fn fma<const FUSED: bool>(a: f64, b: f64, c: f64) -> f64 {
     if FUSED { a.mul_add(b, c) } else { a * b + c }
 }
 
-/// a·b + c, number by number.
-#[inline(always)]
-fn fma_each<const FUSED: bool>(a: &[f64; LANES], b: &[f64; LANES], c: &[f64; LANES]) -> [f64; LANES] {
-    let mut out = *c;
-    for ((out, &a), &b) in out.iter_mut().zip(a).zip(b) {
-        *out = fma::<FUSED>(a, b, *out);
-    }
-    out
-}
-
-/// y ← y + a x.
-#[inline(always)]
-fn axpy<const FUSED: bool>(y: &mut [f64], a: f64, x: &[f64]) {
-    y.iter_mut().zip(x).for_each(|(y, &x)| *y = fma::<FUSED>(a, x, *y));
-}
-
 /// Rows of a tile in the registers, column by column.
 type Tile<const N: usize> = [[f64; LANES]; N];
 
@@ -384,67 +368,127 @@ struct Forward<'a>(Solve<'a>);
 /// y ← L⁻ᵀ y in the rows of pivots, from the rows below.
 struct Backward<'a>(Solve<'a>);
 
-/// Columns `start..` of a panel, as many as a block has, from row `row` on. A block with fewer columns repeats its last one,
-/// which then counts for nothing.
-#[inline(always)]
-fn columns(size: Size, panel: &[f64], start: usize, row: usize) -> [&[f64]; TILE] {
-    let column = size.panel_column();
-    let mut out = [panel; TILE];
-    for (p, out) in out.iter_mut().enumerate() {
-        let p = (start + p).min(size.pivots - 1);
-        *out = &panel[p * column + row..(p + 1) * column];
+impl<'a> Solve<'a> {
+    /// The columns of the N pivots from `start` on, from the row `from` on.
+    #[inline(always)]
+    fn columns<const N: usize>(&self, start: usize, from: usize) -> [&'a [f64]; N] {
+        let column = self.size.panel_column();
+        let mut out = [self.panel; N];
+        for (p, out) in out.iter_mut().enumerate() {
+            *out = &self.panel[(start + p) * column + from..(start + p + 1) * column];
+        }
+        out
     }
-    out
+}
+
+/// Rows from `row` on that come before the next whole tile of [`TILE`] rows.
+const fn before_tiles(row: usize) -> usize {
+    row.next_multiple_of(TILE) - row
+}
+
+/// The tile of [`TILE`] numbers from `row` on.
+#[inline(always)]
+fn four(of: &[f64], row: usize) -> [f64; TILE] {
+    of[row..].first_chunk().copied().unwrap_or_default()
 }
 
 impl Forward<'_> {
+    /// The N pivots from `start` on.
     #[inline(always)]
-    fn run<const FUSED: bool>(self) {
-        let Solve { size, panel, local } = self.0;
-        let column = size.panel_column();
-        for start in (0..size.pivots).step_by(TILE) {
-            let end = size.pivots.min(start + TILE);
-            let [a, b, c, d] = columns(size, panel, start, end);
-            let mut y = [0.0; TILE];
-            for j in start..end {
-                y[j - start] = -local[j];
-                axpy::<FUSED>(&mut local[j + 1..end], y[j - start], &panel[j * column + j + 1..]);
+    fn block<const N: usize, const FUSED: bool>(&mut self, start: usize) {
+        let end = start + N;
+        let own = self.0.columns::<N>(start, start);
+        let columns = self.0.columns::<N>(start, end);
+        let (pivots, below) = self.0.local[start..].split_at_mut(N);
+        let mut y = [0.0; N];
+        y.copy_from_slice(pivots);
+        for j in 0..N {
+            for i in 0..N {
+                if i > j {
+                    y[i] = fma::<FUSED>(-own[j][i], y[j], y[i]);
+                }
             }
-            for ((((row, &a), &b), &c), &d) in local[end..].iter_mut().zip(a).zip(b).zip(c).zip(d) {
-                let near = fma::<FUSED>(a, y[0], fma::<FUSED>(b, y[1], *row));
-                *row = fma::<FUSED>(c, y[2], fma::<FUSED>(d, y[3], near));
+        }
+        pivots.copy_from_slice(&y);
+        let first = before_tiles(end).min(below.len());
+        for row in 0..first {
+            for j in 0..N {
+                below[row] = fma::<FUSED>(-columns[j][row], y[j], below[row]);
+            }
+        }
+        for row in (first..below.len()).step_by(TILE) {
+            let mut c = four(below, row);
+            for j in 0..N {
+                let l = four(columns[j], row);
+                for i in 0..TILE {
+                    c[i] = fma::<FUSED>(-l[i], y[j], c[i]);
+                }
+            }
+            below[row..row + TILE].copy_from_slice(&c);
+        }
+    }
+
+    #[inline(always)]
+    fn run<const FUSED: bool>(mut self) {
+        let pivots = self.0.size.pivots;
+        for start in (0..pivots).step_by(TILE) {
+            match pivots - start {
+                1 => self.block::<1, FUSED>(start),
+                2 => self.block::<2, FUSED>(start),
+                3 => self.block::<3, FUSED>(start),
+                _ => self.block::<TILE, FUSED>(start),
             }
         }
     }
 }
 
 impl Backward<'_> {
+    /// The N pivots from `start` on.
     #[inline(always)]
-    fn run<const FUSED: bool>(self) {
-        let Solve { size, panel, local } = self.0;
-        let column = size.panel_column();
-        for start in (0..size.pivots).step_by(TILE).rev() {
-            let end = size.pivots.min(start + TILE);
-            let columns = columns(size, panel, start, end);
-            let mut sums = [[0.0; LANES]; TILE];
-            let known = local[end..].rchunks_exact(LANES);
-            let length = known.remainder().len();
-            for (sums, l) in sums.iter_mut().zip(&columns) {
-                sums.iter_mut().zip(&l[..length]).zip(known.remainder()).for_each(|((s, l), y)| *s = l * y);
+    fn block<const N: usize, const FUSED: bool>(&mut self, start: usize) {
+        let end = start + N;
+        let own = self.0.columns::<N>(start, start);
+        let columns = self.0.columns::<N>(start, end);
+        let (pivots, below) = self.0.local[start..].split_at_mut(N);
+        let mut sums = [[0.0; TILE]; N];
+        let first = before_tiles(end).min(below.len());
+        for row in 0..first {
+            for j in 0..N {
+                sums[j][0] = fma::<FUSED>(columns[j][row], below[row], sums[j][0]);
             }
-            let mut row = column - end;
-            for y in known {
-                row -= LANES;
-                let Some(y) = y.first_chunk::<LANES>() else { break };
-                for (sums, l) in sums.iter_mut().zip(&columns) {
-                    let Some(l) = l[row..].first_chunk::<LANES>() else { break };
-                    *sums = fma_each::<FUSED>(l, y, sums);
+        }
+        for row in (first..below.len()).step_by(TILE) {
+            let y = four(below, row);
+            for j in 0..N {
+                let l = four(columns[j], row);
+                for i in 0..TILE {
+                    sums[j][i] = fma::<FUSED>(l[i], y[i], sums[j][i]);
                 }
             }
-            for j in (start..end).rev() {
-                let l = &panel[j * column + j + 1..j * column + end];
-                let near = l.iter().zip(&local[j + 1..end]).map(|(l, y)| l * y).sum::<f64>();
-                local[j] -= near + sums[j - start].iter().sum::<f64>();
+        }
+        let mut y = [0.0; N];
+        y.copy_from_slice(pivots);
+        for j in (0..N).rev() {
+            let [a, b, c, d] = sums[j];
+            y[j] -= (a + b) + (c + d);
+            for i in 0..N {
+                if i > j {
+                    y[j] = fma::<FUSED>(-own[j][i], y[i], y[j]);
+                }
+            }
+        }
+        pivots.copy_from_slice(&y);
+    }
+
+    #[inline(always)]
+    fn run<const FUSED: bool>(mut self) {
+        let pivots = self.0.size.pivots;
+        for start in (0..pivots).step_by(TILE).rev() {
+            match pivots - start {
+                1 => self.block::<1, FUSED>(start),
+                2 => self.block::<2, FUSED>(start),
+                3 => self.block::<3, FUSED>(start),
+                _ => self.block::<TILE, FUSED>(start),
             }
         }
     }

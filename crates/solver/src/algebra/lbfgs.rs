@@ -5,6 +5,8 @@
 //! the last pairs; Matthies & Strang (1979) brought it to finite elements. A pair costs four products of vectors, where
 //! new factors cost an assembly and a factorisation.
 
+use crate::algebra::vectors::dot;
+
 /// Pairs kept: older ones tell of another tangent.
 pub const PAIRS: usize = 6;
 
@@ -20,10 +22,6 @@ pub struct Secants {
     inverse_curvature: Vec<f64>,
     /// Pairs that count.
     count: usize,
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 fn add(to: &mut [f64], factor: f64, what: &[f64]) {

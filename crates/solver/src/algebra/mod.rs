@@ -16,6 +16,8 @@ pub mod front_tree;
 
 pub mod cholesky;
 
+pub mod vectors;
+
 pub mod lbfgs;
 
 pub mod newton;

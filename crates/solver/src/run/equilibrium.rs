@@ -8,6 +8,7 @@ use crate::algebra::cholesky::{Factor, Operations};
 use crate::algebra::dofs::FIXED;
 use crate::algebra::lbfgs::Secants;
 use crate::algebra::newton::{self, Assessment, System};
+use crate::algebra::vectors::{dot, norm};
 use crate::body::assembly::{Response, Touching};
 use crate::body::discrete_body::Body;
 use crate::body::failure::Failure;
@@ -367,7 +368,7 @@ impl<'m> Equilibrium<'m> {
 
     /// How far the last assembled iterate is from equilibrium.
     fn out_of_balance(&self, changed: bool) -> Assessment {
-        let residual = self.response.residual.iter().map(|r| r * r).sum::<f64>().sqrt();
+        let residual = norm(&self.response.residual);
         // forces of the fixed components and of the tool, and the largest load so far (the load itself goes to 0)
         let mut reaction = 0.0;
         for (f, numbers) in self.response.internal.iter().zip(&self.body.dofs.number) {
@@ -493,7 +494,7 @@ impl System for Equilibrium<'_> {
     }
 
     fn slope(&self) -> f64 {
-        -self.response.residual.iter().zip(&self.direction).map(|(r, d)| r * d).sum::<f64>()
+        -dot(&self.response.residual, &self.direction)
     }
 
     fn advance(&mut self, fraction: f64) {

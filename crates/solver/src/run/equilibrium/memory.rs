@@ -7,6 +7,7 @@
 use super::{Equilibrium, SolveFailure};
 use crate::algebra::lbfgs::{PAIRS, Secants};
 use crate::algebra::newton::{Failure as NewtonFailure, System};
+use crate::algebra::vectors::norm;
 use crate::body::failure::Failure;
 use crate::point::failure::Failure as PointFailure;
 use std::io::{self, Read, Write};
@@ -183,7 +184,7 @@ impl Equilibrium<'_> {
     }
 
     fn residual_norm(&self) -> f64 {
-        self.response.residual.iter().map(|r| r * r).sum::<f64>().sqrt()
+        norm(&self.response.residual)
     }
 
     /// Writes what the next solve takes from those before it, beside the state of the body.
