@@ -41,6 +41,9 @@ pub trait System {
     fn renew(&mut self) -> Result<(), Self::Error>;
     /// Whether there are factors of an earlier iterate that are worth a try.
     fn has_factors(&self) -> bool;
+    /// Whether they are of another branch than that of the last assessed iterate: its tangent is not close to theirs, however near
+    /// it lies.
+    fn factors_are_stale(&self) -> bool;
     /// Drops them.
     fn forget(&mut self);
     /// Solves for the direction at the last assessed iterate with the factors at hand.
@@ -58,8 +61,8 @@ pub struct Settings {
     pub tolerance: f64,
     /// Iterations after which it is given up.
     pub max_iterations: usize,
-    /// Factors are kept while a step leaves at most this share of the residual: an old tangent corrected by secants
-    /// costs a fraction of a new one. 0: a new tangent in every iteration, Newton-Raphson in the strict sense.
+    /// Factors are kept while a step leaves at most this share of the residual and stays on their branch: an old tangent
+    /// corrected by secants costs a fraction of a new one. 0: a new tangent in every iteration, Newton-Raphson in the strict sense.
     pub keep: f64,
 }
 
@@ -149,7 +152,7 @@ fn iterate<S: System>(system: &mut S, settings: &Settings) -> Result<Converged, 
         if last.residual <= settings.tolerance * last.scale && !last.changed {
             return Ok(Converged { iterations: iteration, history });
         }
-        renew = keep == 0.0 || last.residual > keep * before;
+        renew = keep == 0.0 || last.residual > keep * before || system.factors_are_stale();
     }
     Err((Failure::NotConverged, settings.max_iterations))
 }
@@ -229,6 +232,9 @@ mod tests {
         }
         fn has_factors(&self) -> bool {
             self.tangent.is_some()
+        }
+        fn factors_are_stale(&self) -> bool {
+            false
         }
         fn forget(&mut self) {
             self.tangent = None;

@@ -82,6 +82,8 @@ pub struct Equilibrium<'m> {
     touching: Vec<Parts>,
     /// Whether the factors are of the tangent of some iterate of this body.
     has_factors: bool,
+    /// Whether each point yielded there.
+    yielded: Vec<bool>,
     /// Whether the stiffness is that of the last assessed iterate.
     has_tangent: bool,
     stiffens: bool,
@@ -136,6 +138,7 @@ impl<'m> Equilibrium<'m> {
             nearly: NEARLY,
             guarded_at: Vec::new(),
             jumped: false,
+            yielded: Vec::new(),
             counters: Counters::default(),
             body,
             state,
@@ -396,8 +399,17 @@ impl<'m> Equilibrium<'m> {
             Err(_) => self.factorise_indefinite(),
         };
         self.has_factors = outcome.is_ok();
+        self.note_yielding();
         self.counters.factor_s += clock.elapsed().as_secs_f64();
         outcome
+    }
+
+    /// Notes which points yield where the factors are made.
+    fn note_yielding(&mut self) {
+        let mut yielded = std::mem::take(&mut self.yielded);
+        yielded.clear();
+        yielded.extend(self.yielding_points());
+        self.yielded = yielded;
     }
 
     /// A tangent without the compressive geometric term; else LDLᵀ of the exact one if it is nearly definite; else a stiffer one.
@@ -471,6 +483,11 @@ impl System for Equilibrium<'_> {
 
     fn has_factors(&self) -> bool {
         self.has_factors
+    }
+
+    /// Where a point yields that did not, or the other way, its modulus has leapt.
+    fn factors_are_stale(&self) -> bool {
+        !self.yielding_points().eq(self.yielded.iter().copied())
     }
 
     fn forget(&mut self) {

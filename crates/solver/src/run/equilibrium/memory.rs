@@ -202,8 +202,12 @@ impl Equilibrium<'_> {
             write_numbers(to, change)?;
             write_numbers(to, &[inverse])?;
         }
-        let mut factors = self.factor.values().filter(|_| self.has_factors);
-        factors.try_for_each(|values| write_numbers(to, values))
+        if self.has_factors {
+            self.factor.values().try_for_each(|values| write_numbers(to, values))?;
+            let yielded: Vec<f64> = self.yielded.iter().map(|&yielded| f64::from(u8::from(yielded))).collect();
+            write_numbers(to, &yielded)?;
+        }
+        Ok(())
     }
 
     /// Reads what [`Equilibrium::write_memory`] wrote of this body at the same solve.
@@ -231,6 +235,9 @@ impl Equilibrium<'_> {
         self.secants = Secants::of_noted(noted);
         if has_factors == 1 {
             self.factor.values_mut().try_for_each(|values| read_numbers(from, values))?;
+            let mut yielded = vec![0.0; self.response.points.states.len()];
+            read_numbers(from, &mut yielded)?;
+            self.yielded = yielded.iter().map(|&yielded| yielded > 0.5).collect();
             self.has_factors = true;
         }
         Ok(())
