@@ -144,6 +144,10 @@ impl System for FullQuad<'_> {
         false
     }
 
+    fn factors_are_stale(&self) -> bool {
+        false
+    }
+
     fn forget(&mut self) {}
 
     fn find_direction(&mut self) {

@@ -39,6 +39,9 @@ impl System for Watched<'_, '_> {
     fn has_factors(&self) -> bool {
         self.model.has_factors()
     }
+    fn factors_are_stale(&self) -> bool {
+        self.model.factors_are_stale()
+    }
     fn forget(&mut self) {
         self.model.forget()
     }
