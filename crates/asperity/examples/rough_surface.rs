@@ -1,4 +1,4 @@
-//! Presses a plane on a generated surface by four closures and prints the table.
+//! Presses a plane on a generated surface by every closure and prints the table.
 //!
 //! `cargo run --release -p asperity --example rough_surface`
 

@@ -47,12 +47,13 @@ row! {
         increment: usize = row.increment,
         /// `load` or `unload`; a reload is a load, `cycles.csv` says where it begins.
         phase: Phase = row.phase.into(),
-        /// Travel of the tool from first touch, less the penalty correction.
+        /// Travel of the tool from first touch, less the penalty correction, plus the far field of the half-space and the deflection of
+        /// an elastic tool and of the machine.
         depth_um: f64 = row.depth / MICROMETRE,
         /// Force on the tool, positive in compression, of the full body of revolution (in plane strain per mm); without the
-        /// ripple of the mesh.
+        /// ripple of the mesh, and extrapolated with the companion run.
         force_N: f64 = row.force / units.force,
-        /// Projected current area under pressure (in plane strain its width in µm); without the ripple of the mesh.
+        /// Projected current area under pressure (in plane strain its width in µm); without the ripple of the mesh, and extrapolated.
         contact_area_um2: f64 = row.contact_area / units.area,
         /// Radius of the disc of the area of the contact that holds the axis; in plane strain half the contact width.
         contact_radius_um: f64 = row.contact_radius / MICROMETRE,
@@ -139,7 +140,8 @@ row! {
         peak_depth_um: f64 = row.peak_depth / MICROMETRE,
         /// Force at the peak.
         peak_force_N: f64 = row.peak_force / units.force,
-        /// Initial summit minus the highest point of the body in equilibrium without the tool.
+        /// Initial summit minus the highest point of the body in equilibrium without the tool; of an indent, the depth at which the
+        /// tool touches again.
         residual_depth_um: f64 = row.residual_depth / MICROMETRE,
         /// ∫F dh on the way in, over the corrected depth.
         work_in_uJ: f64 = row.work_in / units.energy,

@@ -1,7 +1,8 @@
 //! Factorisation of the sparse stiffness, front by front: the symbolic analysis once per mesh, numbers in place, nothing allocated
 //! per factorisation or solve.
 
-use crate::algebra::front::{Pivots, eliminate, padded, solve_backward, solve_forward};
+use crate::algebra::front::{Pivots, eliminate, padded};
+use crate::algebra::front_solve::{solve_backward, solve_forward};
 use crate::algebra::front_tree::{Front, FrontTree, Part};
 use pulp::Arch;
 use rayon::prelude::*;

@@ -1,4 +1,4 @@
-//! The dense algebra of one front: elimination of its pivots, and the solves with the columns that result.
+//! The dense algebra of one front: elimination of its pivots. (The solves with the columns that result: `front_solve`.)
 //!
 //! A front is the dense symmetric matrix of the unknowns that meet when its pivots are eliminated. Its *panel* holds the columns
 //! of the k pivots: k rows of pivots, then n rows below. Its *update* is what elimination leaves of the n × n rest. Both are stored
@@ -17,7 +17,7 @@ use std::ops::Range;
 pub const LANES: usize = 8;
 
 /// Columns of a tile, and of the blocks in which pivots are eliminated.
-const TILE: usize = 4;
+pub(super) const TILE: usize = 4;
 
 /// Pivots of a large front that are eliminated before a product takes them from the next ones.
 const LARGE_BLOCK: usize = 64;
@@ -64,7 +64,7 @@ pub enum Pivots {
 
 /// a·b + c, in one operation if `FUSED`.
 #[inline(always)]
-fn fma<const FUSED: bool>(a: f64, b: f64, c: f64) -> f64 {
+pub(super) fn fma<const FUSED: bool>(a: f64, b: f64, c: f64) -> f64 {
     if FUSED { a.mul_add(b, c) } else { a * b + c }
 }
 
@@ -353,169 +353,4 @@ pub fn eliminate(
     pivots: Pivots,
 ) -> Option<usize> {
     arch.dispatch(Elimination { size, panel, update, scaled, pivots })
-}
-
-/// Solves with the columns of a front: `local` holds the right-hand side in its rows.
-struct Solve<'a> {
-    size: Size,
-    panel: &'a [f64],
-    local: &'a mut [f64],
-}
-
-/// y ← L⁻¹ y, with what that takes from the rows below.
-struct Forward<'a>(Solve<'a>);
-
-/// y ← L⁻ᵀ y in the rows of pivots, from the rows below.
-struct Backward<'a>(Solve<'a>);
-
-impl<'a> Solve<'a> {
-    /// The columns of the N pivots from `start` on, from the row `from` on.
-    #[inline(always)]
-    fn columns<const N: usize>(&self, start: usize, from: usize) -> [&'a [f64]; N] {
-        let column = self.size.panel_column();
-        let mut out = [self.panel; N];
-        for (p, out) in out.iter_mut().enumerate() {
-            *out = &self.panel[(start + p) * column + from..(start + p + 1) * column];
-        }
-        out
-    }
-}
-
-/// Rows from `row` on that come before the next whole tile of [`TILE`] rows.
-const fn before_tiles(row: usize) -> usize {
-    row.next_multiple_of(TILE) - row
-}
-
-/// The tile of [`TILE`] numbers from `row` on.
-#[inline(always)]
-fn four(of: &[f64], row: usize) -> [f64; TILE] {
-    of[row..].first_chunk().copied().unwrap_or_default()
-}
-
-impl Forward<'_> {
-    /// The N pivots from `start` on.
-    #[inline(always)]
-    fn block<const N: usize, const FUSED: bool>(&mut self, start: usize) {
-        let end = start + N;
-        let own = self.0.columns::<N>(start, start);
-        let columns = self.0.columns::<N>(start, end);
-        let (pivots, below) = self.0.local[start..].split_at_mut(N);
-        let mut y = [0.0; N];
-        y.copy_from_slice(pivots);
-        for j in 0..N {
-            for i in 0..N {
-                if i > j {
-                    y[i] = fma::<FUSED>(-own[j][i], y[j], y[i]);
-                }
-            }
-        }
-        pivots.copy_from_slice(&y);
-        let first = before_tiles(end).min(below.len());
-        for row in 0..first {
-            for j in 0..N {
-                below[row] = fma::<FUSED>(-columns[j][row], y[j], below[row]);
-            }
-        }
-        for row in (first..below.len()).step_by(TILE) {
-            let mut c = four(below, row);
-            for j in 0..N {
-                let l = four(columns[j], row);
-                for i in 0..TILE {
-                    c[i] = fma::<FUSED>(-l[i], y[j], c[i]);
-                }
-            }
-            below[row..row + TILE].copy_from_slice(&c);
-        }
-    }
-
-    #[inline(always)]
-    fn run<const FUSED: bool>(mut self) {
-        let pivots = self.0.size.pivots;
-        for start in (0..pivots).step_by(TILE) {
-            match pivots - start {
-                1 => self.block::<1, FUSED>(start),
-                2 => self.block::<2, FUSED>(start),
-                3 => self.block::<3, FUSED>(start),
-                _ => self.block::<TILE, FUSED>(start),
-            }
-        }
-    }
-}
-
-impl Backward<'_> {
-    /// The N pivots from `start` on.
-    #[inline(always)]
-    fn block<const N: usize, const FUSED: bool>(&mut self, start: usize) {
-        let end = start + N;
-        let own = self.0.columns::<N>(start, start);
-        let columns = self.0.columns::<N>(start, end);
-        let (pivots, below) = self.0.local[start..].split_at_mut(N);
-        let mut sums = [[0.0; TILE]; N];
-        let first = before_tiles(end).min(below.len());
-        for row in 0..first {
-            for j in 0..N {
-                sums[j][0] = fma::<FUSED>(columns[j][row], below[row], sums[j][0]);
-            }
-        }
-        for row in (first..below.len()).step_by(TILE) {
-            let y = four(below, row);
-            for j in 0..N {
-                let l = four(columns[j], row);
-                for i in 0..TILE {
-                    sums[j][i] = fma::<FUSED>(l[i], y[i], sums[j][i]);
-                }
-            }
-        }
-        let mut y = [0.0; N];
-        y.copy_from_slice(pivots);
-        for j in (0..N).rev() {
-            let [a, b, c, d] = sums[j];
-            y[j] -= (a + b) + (c + d);
-            for i in 0..N {
-                if i > j {
-                    y[j] = fma::<FUSED>(-own[j][i], y[i], y[j]);
-                }
-            }
-        }
-        pivots.copy_from_slice(&y);
-    }
-
-    #[inline(always)]
-    fn run<const FUSED: bool>(mut self) {
-        let pivots = self.0.size.pivots;
-        for start in (0..pivots).step_by(TILE).rev() {
-            match pivots - start {
-                1 => self.block::<1, FUSED>(start),
-                2 => self.block::<2, FUSED>(start),
-                3 => self.block::<3, FUSED>(start),
-                _ => self.block::<TILE, FUSED>(start),
-            }
-        }
-    }
-}
-
-macro_rules! dispatched {
-    ($what:ident) => {
-        impl WithSimd for $what<'_> {
-            type Output = ();
-
-            #[inline(always)]
-            fn with_simd<S: Simd>(self, _: S) {
-                if S::IS_SCALAR { self.run::<false>() } else { self.run::<true>() }
-            }
-        }
-    };
-}
-
-dispatched!(Forward);
-dispatched!(Backward);
-
-/// y ← L⁻¹ y: `local` has the rows of the panel.
-pub fn solve_forward(arch: Arch, size: Size, panel: &[f64], local: &mut [f64]) {
-    arch.dispatch(Forward(Solve { size, panel, local }));
-}
-
-/// y ← L⁻ᵀ y: `local` has the rows of the panel, those below the pivots are known.
-pub fn solve_backward(arch: Arch, size: Size, panel: &[f64], local: &mut [f64]) {
-    arch.dispatch(Backward(Solve { size, panel, local }));
 }

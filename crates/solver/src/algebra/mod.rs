@@ -10,6 +10,8 @@ pub mod minimum_degree;
 
 pub mod front;
 
+pub mod front_solve;
+
 pub mod large_front;
 
 pub mod front_tree;

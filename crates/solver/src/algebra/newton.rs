@@ -25,7 +25,7 @@ impl<E> From<E> for Failure<E> {
 pub struct Assessment {
     /// Norm of the residual.
     pub residual: f64,
-    /// The force that the residual is compared with, in the same unit.
+    /// What the residual is compared with, in the same unit.
     pub scale: f64,
     /// Whether anything discrete changed since the last iterate: then a small residual is not yet convergence.
     pub changed: bool,
@@ -75,7 +75,7 @@ pub struct Converged {
     pub history: Vec<f64>,
 }
 
-/// [`Settings::keep`] of the runs of scenes and of calibrated cones: measured, see the table of the benchmark.
+/// [`Settings::keep`] of the runs of scenes and of calibrated cones: 0.1 to 0.7 take the same time within 2 %.
 pub const KEEP: f64 = 0.2;
 
 /// How closely a step looks for the least potential along its direction.
@@ -91,7 +91,7 @@ struct LineSearch {
 /// Newton's steps are mostly good as they are: looking costs an assembly.
 const LOOSE: LineSearch = LineSearch { overshoot: 0.6, smallest: 0.03 };
 
-/// Where a whole edge touches and leaves again, loose steps jump between the two for ever.
+/// Where a branch is entered and left again as a whole, loose steps jump between the two for ever.
 const CLOSE: LineSearch = LineSearch { overshoot: 0.05, smallest: 0.003 };
 
 /// Iterations after which the line search is a close one. Sound increments take half of them.
@@ -99,7 +99,7 @@ const PATIENCE: usize = 15;
 
 /// Solves `system`; also returns the iterations spent when it fails.
 ///
-/// 1. assess; converged when residual ≤ tolerance × scale and nothing discrete changed;
+/// 1. assess; after one iteration at least, converged when residual ≤ tolerance × scale and nothing discrete changed;
 /// 2. factorise the tangent, unless the last step did well enough without (see [`Settings::keep`]); find the direction;
 /// 3. with a new tangent: full step, shortened by regula falsi on the slope of the potential while it overshoots, halved
 ///    while the iterate fails, and closely so once the iterations are many. Not after the first iteration, in which the

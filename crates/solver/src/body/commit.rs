@@ -1,4 +1,4 @@
-//! Acceptance of a converged increment: the only place where the state of a body changes.
+//! Acceptance of a converged increment: the only place where a load changes the state of a body (remeshing transfers it).
 
 use crate::body::assembly::Response;
 use crate::body::discrete_body::Body;

@@ -81,7 +81,7 @@ pub fn extrapolation_factor(ratio: f64) -> f64 {
     ratio * ratio / (1.0 + 2.0 * ratio)
 }
 
-/// HardeningPoint between the elastic trial b_e - I (`trial`, from the last converged state) and the state `end`, of which `old` is the start.
+/// Plastic strain between the elastic trial b_e - I (`trial`, from the last converged state) and the state `end`, of which `old` is the start.
 ///
 /// # Errors
 /// Either is not positive definite.

@@ -114,7 +114,7 @@ impl Discretisation {
         }
     }
 
-    /// Numbers half as good: half the elements and steps, twice the penetration, half the substrate.
+    /// Numbers half as good: half the elements and steps, twice the penetration, half the substrate; the tolerance stays.
     #[must_use]
     pub fn coarser(&self) -> Discretisation {
         Discretisation {
@@ -181,7 +181,7 @@ fn softness(scene: &Scene) -> f64 {
 }
 
 /// (1 - n)/0.7 of metal that hardens less than n = 0.3, else 1: the error of the load step grows with its square and is
-/// of second order in the step, the ripple of the mesh grows with it nearly and is of first order (see `error_estimate`).
+/// of second order in the step, the ripple of the mesh grows with it nearly and is of first order.
 fn softness_of(exponent: f64) -> f64 {
     ((1.0 - exponent) / 0.7).max(1.0)
 }
@@ -275,7 +275,7 @@ impl ConeDiscretisation {
         }
     }
 
-    /// Numbers half as good, those of the lead included; cells grow faster by half.
+    /// Numbers half as good, those of the lead included; cells grow faster by half, the tolerance stays.
     #[must_use]
     pub fn coarser(&self) -> ConeDiscretisation {
         let mut numbers = self.numbers.coarser();

@@ -30,7 +30,8 @@ pub struct CycleRow {
     pub peak_depth: f64,
     /// Force at the peak, N (N/m).
     pub peak_force: f64,
-    /// Initial summit minus the highest point of the body in equilibrium without the tool, m.
+    /// Initial summit minus the highest point of the body in equilibrium without the tool; of an indent, the depth at which the
+    /// tool touches again, m.
     pub residual_depth: f64,
     /// ∫F dh on the way in, over the corrected depth, J (J/m).
     pub work_in: f64,
@@ -40,17 +41,17 @@ pub struct CycleRow {
     pub plastic_work: f64,
 }
 
-/// One row of `curve.csv`.
+/// One converged increment in SI: what `curve.csv` has in its units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CurveRow {
     /// Counted from 0, the first touch.
     pub increment: usize,
     /// Loading or unloading.
     pub phase: Phase,
-    /// Tool travel from first touch less the penetration, m.
+    /// Tool travel from first touch, less the penalty correction, plus far field and deflection of tool and machine, m.
     pub depth: f64,
-    /// Force on the tool, positive in compression, N (N/m). Once the run has ended without the ripple of the mesh, and so
-    /// are the contact area and what follows from the two; as they are for an observer.
+    /// Force on the tool, positive in compression, N (N/m). Once the run has ended without the ripple of the mesh and
+    /// extrapolated with the companion, as are the contact area and what follows from the two; as they are for an observer.
     pub force: f64,
     /// Projected current area under pressure, m² (width, m).
     pub contact_area: f64,
@@ -176,7 +177,8 @@ pub struct Summary {
     pub peak_force: f64,
     /// Depth at the peak, m.
     pub peak_depth: f64,
-    /// Initial summit minus the highest point of the body in equilibrium without the tool, m.
+    /// Initial summit minus the highest point of the body in equilibrium without the tool; of an indent, the depth at which the
+    /// tool touches again, m.
     pub residual_depth: Option<f64>,
     /// dF/dh at the peak from one elastic solve with the contact kept, N/m (N/m²).
     pub unloading_stiffness: Option<f64>,

@@ -204,7 +204,8 @@ impl Equilibrium<'_> {
         }
         if self.has_factors {
             self.factor.values().try_for_each(|values| write_numbers(to, values))?;
-            let yielded: Vec<f64> = self.yielded.iter().map(|&yielded| f64::from(u8::from(yielded))).collect();
+            let yielded: Vec<f64> =
+                self.yielded.iter().map(|&yielded| f64::from(u8::from(yielded))).collect();
             write_numbers(to, &yielded)?;
         }
         Ok(())
