@@ -61,6 +61,30 @@ pressure = "100 MPa"
     assert!(areas.len() >= 8 && areas.is_sorted() && areas[areas.len() - 1] < 0.1, "{areas:?}");
 }
 
+/// Heights a thousand times too large or too small make a slope that no machined surface has.
+#[test]
+fn a_map_in_the_wrong_unit_is_doubted() {
+    let folder = tempfile::tempdir().unwrap();
+    let rows: Vec<String> = (0..24)
+        .map(|j| {
+            let heights = (0..24).map(|i| format!("{:.4}", 0.3 * f64::from(i * j % 7)));
+            heights.collect::<Vec<_>>().join(",")
+        })
+        .collect();
+    std::fs::write(folder.path().join("map.csv"), rows.join("\n")).unwrap();
+    let doubted = |unit: &str| {
+        let text = format!(
+            r#"closure = "published"
+surface = {{ file = "map.csv", pixel_size = ["10 um", "10 um"], height_unit = "{unit}" }}
+material = {{ youngs_modulus = "210 GPa", poissons_ratio = 0.3, hardness = "2 GPa" }}
+load = {{ pressure = "0.5 MPa" }}"#
+        );
+        let rough = press(&RoughScene::from_toml(&text, folder.path()).unwrap(), &mut |_| true).unwrap();
+        rough.summary.warnings.iter().any(|warning| warning.contains("height_unit"))
+    };
+    assert!(!doubted("um") && doubted("mm") && doubted("nm"));
+}
+
 #[test]
 fn every_closure_is_judged_by_the_half_space_of_its_metal() {
     let rough = pressed("closure = \"all\"", "[load]\npressure = \"150 MPa\"\nunload = true").unwrap();

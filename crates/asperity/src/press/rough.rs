@@ -96,6 +96,10 @@ const SEAM: f64 = 4.0;
 /// Standard deviations above the mean beyond which the highest point looks like an error of measurement.
 const SPIKE: f64 = 8.0;
 
+/// Mean slopes (degrees) beyond which a map looks like one in the wrong unit: lapped and polished surfaces lie above the lower, ground
+/// and blasted ones below the upper.
+const SLOPES: [f64; 2] = [0.02, 45.0];
+
 /// Doubts about the surface and the load.
 fn doubts(surface: &Surface, scene: &Scene) -> Vec<String> {
     let seam = surface.seam().filter(|ratio| *ratio > SEAM).map(|ratio| {
@@ -112,13 +116,19 @@ fn doubts(surface: &Surface, scene: &Scene) -> Vec<String> {
              touch and all at light loads are its own; remove it (surface.outliers = 8), or smooth with s_filter"
         )
     });
+    let [flat, steep] = SLOPES;
+    let unit = Some(parameters.beta_deg()).filter(|beta| *beta > 0.0 && !(flat..=steep).contains(beta)).map(|beta| {
+        format!(
+            "the mean slope is {beta:.3} deg; machined surfaces have {flat} to {steep}: look whether height_unit and pixel_size are right"
+        )
+    });
     let apart = scene.load.separation.filter(|s| s.0 > above).map(|s| {
         format!(
             "load.separation = {s} is above the highest point ({:.4} um above the mean): nothing touches",
             above / MICROMETRE
         )
     });
-    [seam, spike, apart].into_iter().flatten().collect()
+    [seam, spike, unit, apart].into_iter().flatten().collect()
 }
 
 impl Rough {

@@ -13,7 +13,7 @@ const RIM: f64 = (PI - 1.0 + LN_2) / 24.0;
 pub struct Area {
     /// Pixels under pressure.
     pub ratio: f64,
-    /// The same less what the rim of the contact adds.
+    /// The same less what the rim of the contact adds, but no less than carries the load at the limit of pressure.
     pub corrected: f64,
     /// How much of the corrected ratio is uncertain: the size of the correction.
     pub error: f64,
@@ -22,13 +22,15 @@ pub struct Area {
 }
 
 impl Area {
-    /// Of `touching` pixels under pressure of `pixels` used.
-    pub(super) fn of(map: &HeightMap, pressures: &[f32], touching: usize, pixels: usize) -> Area {
+    /// Of `touching` pixels under pressure of `pixels` used, of which the share `least` carries the load with all of them at the limit
+    /// of pressure.
+    pub(super) fn of(map: &HeightMap, pressures: &[f32], [touching, pixels]: [usize; 2], least: f64) -> Area {
         let edges = edges(map, pressures);
         let n = pixels as f64;
         let ratio = touching as f64 / n;
-        let error = RIM * edges as f64 / n;
-        Area { ratio, corrected: (ratio - error).max(0.0), error, edges }
+        // the rule of the rim is for pressures that fall to nothing there; at the limit they end as they are
+        let corrected = (ratio - RIM * edges as f64 / n).max(least).min(ratio);
+        Area { ratio, corrected, error: ratio - corrected, edges }
     }
 }
 

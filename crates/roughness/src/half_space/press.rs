@@ -275,7 +275,7 @@ impl HalfSpace {
             pressure: load * units.stress / n,
             separation: plane * units.height + units.low - units.mean,
             mean_gap: gaps * units.height / n,
-            area: Area::of(map, &pressures, touching as usize, pixels),
+            area: Area::of(map, &pressures, [touching as usize, pixels], load / limit / n),
             limited_share: if touching > 0.0 { limited / touching } else { 0.0 },
             largest_pressure: pressure.par_iter().copied().reduce(|| 0.0, f64::max) * units.stress,
             stiffness: slope.map(|s| s * units.stress / units.height / units.used),

@@ -184,6 +184,14 @@ fn bounds_and_load_hold_and_the_flattened_surface_carries_the_same() {
     close("load", found.pressure, 0.2 * limit, 1e-9);
     assert!(found.pressures.iter().all(|p| (0.0..=(limit * (1.0 + 1e-6)) as f32).contains(p)));
     assert!(found.limited_share > 0.1 && found.limited_share < 1.0 && found.plastic_work > 0.0);
+    // no area bears more than the limit, however soft the metal
+    let softest = HalfSpace { limit: Some(0.1 * limit), ..elastic(1e-7) };
+    for (body, share) in [(&soft, 0.2), (&softest, 0.02)] {
+        let limit = body.limit.unwrap_or(f64::INFINITY);
+        let area = body.press(&surface, Load::Pressure(share * limit)).unwrap().area;
+        // the load is met to 1e-7
+        assert!(area.corrected >= share * (1.0 - 1e-6) && area.corrected <= area.ratio, "{area:?}");
+    }
     // unloading is elastic on what the flow left: the load is carried by the same pressures, none of them above the limit
     let left = found.flattened_surface(&surface).unwrap();
     let again = elastic(1e-7).press(&left, load).unwrap();
