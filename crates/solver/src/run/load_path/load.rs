@@ -75,7 +75,7 @@ impl Path<'_> {
         loop {
             fraction = fractions.get(index).copied().unwrap_or(fraction * growth);
             let wanted = (fraction * depth).min(limit) * (1.0 + share);
-            if wanted <= self.travel && index + 1 < fractions.len() {
+            if self.problem.cut_off > 0.0 && wanted <= self.travel && index + 1 < fractions.len() {
                 index += 1;
                 continue; // above a tip that was cut off
             }
