@@ -15,7 +15,9 @@ use asperity_law::units::{Length, Stress};
 use asperity_solver::run::crush::Outcome;
 use asperity_solver::run::curve::Curve;
 use asperity_solver::run::record::Phase;
-use asperity_solver::scene::{Accuracy, ContactMethod, ElementChoice, HardeningChoice, Scene, Substrate};
+use asperity_solver::scene::{
+    Accuracy, ContactMethod, ElementChoice, HardeningChoice, Scene, Substrate, ToolShape,
+};
 use asperity_verification::calibration::PEERS;
 use asperity_verification::contact::{cone_force, hertz_force};
 use asperity_verification::single_asperity::{crush, loaded};
@@ -96,6 +98,13 @@ fn against_peer(name: &'static str, slope_deg: f64, exponent: f64, e_over_sy: f6
 /// The force against that of another scene.
 fn against(name: &'static str, scene: Scene, other: Scene, bound: f64) -> Row {
     row(name, scene, bound, move |o| peak(o) / force(&other))
+}
+
+/// Against the same scene with the other element, whose mesh differs as well: two draft runs, each of which promises 5 %.
+fn beside_other_element(name: &'static str, scene: Scene, element: ElementChoice) -> Row {
+    let mut other = scene.clone();
+    other.numerics.element = Some(element);
+    against(name, scene, other, 0.05)
 }
 
 fn rows() -> Vec<Row> {
@@ -245,6 +254,18 @@ fn rows() -> Vec<Row> {
         row("slope 60°, to half its height, Q4: radius of the cut cone", q4(steep_cone()), 0.6, |o| {
             o.summary.contact_radius / (10e-6 / 60f64.to_radians().tan())
         }),
+        beside_other_element(
+            "slope 60°, to 95 % of its height, beside Q4",
+            nearly_flat(60.0),
+            ElementChoice::Q4,
+        ),
+        beside_other_element(
+            "slope 75°, to 95 % of its height, beside Q4",
+            nearly_flat(75.0),
+            ElementChoice::Q4,
+        ),
+        beside_other_element("a ball pressed in to its radius, beside Q4", ball(), ElementChoice::Q4),
+        beside_other_element("a cone of 50° pressed in, beside Q8R", steep_tool(), ElementChoice::Q8r),
         against("10000 steps", steps(10_000), paper(), 0.05),
         scaled("lengths of 1e-12", 1e-12, 1.0),
         scaled("lengths of 1e12", 1e12, 1.0),
@@ -277,6 +298,34 @@ fn steep_cone() -> Scene {
         s.asperity[0].slope_deg = Some(60.0);
         s.asperity[0].tip_radius = None;
         s.loading.depth = Some(Length(10e-6));
+    })
+}
+
+/// A sharp cone of this slope, to 95 % of its height.
+fn nearly_flat(slope_deg: f64) -> Scene {
+    changed(|s| {
+        s.asperity[0].slope_deg = Some(slope_deg);
+        s.asperity[0].tip_radius = None;
+        s.loading.depth = Some(Length(19e-6));
+    })
+}
+
+/// A ball pressed into a flat body to its own radius.
+fn ball() -> Scene {
+    changed(|s| {
+        s.asperity.clear();
+        s.tool.shape = ToolShape::Sphere;
+        s.tool.radius = Some(Length(20e-6));
+        s.loading.depth = Some(Length(20e-6));
+    })
+}
+
+/// A sharp cone pressed into a flat body.
+fn steep_tool() -> Scene {
+    changed(|s| {
+        s.asperity.clear();
+        s.tool.shape = ToolShape::Cone;
+        s.tool.slope_deg = Some(50.0);
     })
 }
 

@@ -36,6 +36,11 @@ pub struct Grading {
 }
 
 impl Grading {
+    /// Width of the column in the middle of the core under a contact of the half width `contact`.
+    pub fn middle_column(&self, contact: f64) -> f64 {
+        COLUMN_GROWTH * self.fineness * self.start * contact
+    }
+
     /// Rows of cells from the surface down to the base of a core, as shares of its depth.
     pub(crate) fn rows(&self, kind: ElementKind) -> Vec<f64> {
         let linear = match kind {

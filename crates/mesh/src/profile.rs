@@ -125,6 +125,24 @@ impl Asperity {
         }
     }
 
+    /// The asperity with its tip cut off by an arc of at least the half width `width`: its flanks stay where they are, its summit is
+    /// lower. Spheres and measured outlines stay as they are.
+    #[must_use]
+    pub fn blunted(&self, width: f64) -> Asperity {
+        match self.shape {
+            Shape::Cone { tan_slope, tip_radius: sharper } if self.cap_radius() < width => {
+                let secant = tan_slope.hypot(1.0);
+                let tip_radius = width * secant / tan_slope;
+                Asperity {
+                    shape: Shape::Cone { tan_slope, tip_radius },
+                    height: self.height - (tip_radius - sharper) * (secant - 1.0),
+                    ..*self
+                }
+            }
+            _ => self.clone(),
+        }
+    }
+
     /// The asperity with every length over `length`.
     #[must_use]
     pub fn over(&self, length: f64) -> Asperity {
@@ -281,6 +299,24 @@ mod tests {
         );
         assert!(profile.z(2.0) > -1.0 && profile.z(10.0) > -1.0);
         assert!((profile.z(2.0 - left - 1e-9) - profile.z(2.0 - left + 1e-9)).abs() < 1e-8);
+    }
+
+    #[test]
+    fn blunting_lowers_the_summit_and_leaves_the_flanks() {
+        let sharp = Asperity {
+            shape: Shape::Cone { tan_slope: 2.0, tip_radius: 0.1 },
+            height: 3.0,
+            centre: 1.0,
+            valley_radius: 0.0,
+        };
+        let blunt = sharp.blunted(0.4);
+        assert!((blunt.cap_radius() - 0.4).abs() < 1e-15);
+        let lost = sharp.height - blunt.height;
+        assert!(lost > 0.0 && lost < sharp.drop(0.4));
+        for x in [0.4, 0.7, 1.5] {
+            assert!((sharp.drop(x) - blunt.drop(x) - lost).abs() < 1e-15);
+        }
+        assert_eq!(sharp.blunted(0.05), sharp);
     }
 
     /// Height 20 µm, slope 10°, tip 10 µm: the base radius is 114.30 µm.

@@ -57,6 +57,7 @@ impl Cone {
             mesh,
             numbers,
             automatic_size: Some(domain),
+            cut_off: 0.0,
             goal: Goal::Depth(1.0),
             unload: false,
             reloads: 0,

@@ -10,10 +10,10 @@ use crate::run::formed::{Formed, expected_pressure};
 use crate::run::problem::{Correction, Goal, Problem, Rules, Units, held_nodes};
 use crate::scene::{AsperityForm, Lateral, Line, LineAsperity, Scene, SceneError, Target, ToolForm};
 use asperity_law::Elastic;
-use asperity_mesh::Mesh;
 use asperity_mesh::build::{Contact, Plan, build};
 use asperity_mesh::grading::Grading;
 use asperity_mesh::profile::{Asperity, Profile, Shape};
+use asperity_mesh::{ElementKind, Mesh};
 
 /// How far a run that is driven by a force may go beyond the depth at which it is expected.
 const PROBED: f64 = 1.3;
@@ -129,14 +129,24 @@ pub(super) fn prepare_with(
     let size = automatic_size(&numbers, &profile, &contacts.half_widths).max(3.0 * (row[1] - row[0]));
     // on a surface that was formed `indents` is 1
     let pressure = expected_pressure(formed.as_ref(), &metal, &profile, &tool, indents);
-    let mesh = match mesh {
+    let (mesh, cut_off) = match mesh {
         Some(mut mesh) => {
             for node in &mut mesh.nodes {
                 *node = node.map(|x| x / depth);
             }
-            mesh
+            (mesh, 0.0)
         }
-        None => build_mesh(scene, &numbers, &profile, &contacts, row, size, depth)?,
+        None => {
+            let grading = contacts.grading(&numbers);
+            // a body that is loaded again keeps the mesh of its first load
+            let once = expected.earlier.is_empty() && expected.formed.is_none();
+            let meshed =
+                if once { blunted(&profile, &contacts.half_widths, &grading) } else { profile.clone() };
+            check_valleys(&profile, depth)?;
+            let sizes = (grading, numbers.element.kind());
+            let mesh = build_mesh(scene, sizes, &meshed, &contacts.half_widths, row, size, depth)?;
+            (mesh, profile.height() - meshed.height())
+        }
     };
     let automatic = scene.mesh.is_none() && scene.substrate.as_ref().is_none_or(|s| s.depth.is_none());
     let half_space = automatic && symmetry == Symmetry::Axisymmetric && scene.lateral == Lateral::Free;
@@ -159,6 +169,7 @@ pub(super) fn prepare_with(
         mesh,
         numbers,
         automatic_size: automatic.then_some(size),
+        cut_off,
         goal,
         unload: scene.loading.unload,
         reloads: scene.loading.reloads,
@@ -194,6 +205,16 @@ impl Contacts {
             resolved_from: share * widest(&half_widths),
             graded: 1.0 - (CORE * share).ln(),
             half_widths,
+        }
+    }
+
+    /// Sizes over the distance from a centre, so that the contact radius holds the wanted number of elements.
+    fn grading(&self, numbers: &Discretisation) -> Grading {
+        Grading {
+            fineness: self.graded / numbers.elements_in_contact as f64,
+            start: CORE * self.resolved_from / widest(&self.half_widths),
+            fine: 1.6,
+            far: FAR_GROWTH,
         }
     }
 
@@ -284,19 +305,40 @@ fn extent(scene: &Scene, profile: &Profile, half_widths: &[f64], length: f64) ->
     }
 }
 
-/// The mesh of the scene over the `row` of its asperities for these `contacts`, lengths over `length`; the substrate has the `size`
-/// if the scene gives none.
+/// Slope (tangent) of a flank beyond which a sharp tip is cut off in the mesh: the cell below it would be higher than wide.
+const STEEP_FLANK: f64 = 1.0;
+
+/// Half width of the arc that a steep flank ends in at least, over the width of the first column of cells.
+const BLUNT: f64 = 0.2;
+
+/// The profile as it is meshed. A plane that comes down on the tip of a steep flank touches one node of a high and narrow cell: a
+/// pressure of ten yield stresses there crushes the cell before the contact is as wide as it. What an arc half a column wide takes off
+/// such a tip is crushed before the contact is resolved in any case.
+fn blunted(profile: &Profile, half_widths: &[f64], grading: &Grading) -> Profile {
+    let blunt = |(asperity, half_width): (&Asperity, &f64)| match asperity.shape {
+        Shape::Cone { tan_slope, .. } if tan_slope > STEEP_FLANK => {
+            asperity.blunted(BLUNT * grading.middle_column(*half_width))
+        }
+        _ => asperity.clone(),
+    };
+    Profile {
+        asperities: profile.asperities.iter().zip(half_widths).map(blunt).collect(),
+        line: profile.line.clone(),
+    }
+}
+
+/// The mesh of the scene over the `row` of its asperities for contacts of these `half_widths`, lengths over `length`; the substrate has
+/// the `size` if the scene gives none.
 fn build_mesh(
     scene: &Scene,
-    numbers: &Discretisation,
+    (grading, kind): (Grading, ElementKind),
     profile: &Profile,
-    Contacts { half_widths, resolved_from, graded }: &Contacts,
+    half_widths: &[f64],
     row: [f64; 2],
     size: f64,
     length: f64,
 ) -> Result<Mesh, SceneError> {
-    let (kind, symmetry) = (numbers.element.kind(), scene.symmetry);
-    check_valleys(profile, length)?;
+    let symmetry = scene.symmetry;
     let substrate = scene.substrate.as_ref();
     let size_of = |given: Option<asperity_law::units::Length>| given.map_or(size, |l| l.0 / length);
     let depth = profile.height() + size_of(substrate.and_then(|s| s.depth));
@@ -322,10 +364,6 @@ fn build_mesh(
             ),
         });
     }
-    // sizes over the distance from a centre, so that the contact radius holds the wanted number of elements
-    let start = CORE * resolved_from / widest(half_widths);
-    let grading =
-        Grading { fineness: graded / numbers.elements_in_contact as f64, start, fine: 1.6, far: FAR_GROWTH };
     let contacts: Vec<Contact> = if profile.asperities.is_empty() {
         let widest = widest(half_widths);
         vec![Contact { centre: 0.0, half_width: widest, foot: 10.0 * widest, sides: [1.0; 2], slope: 0.0 }]

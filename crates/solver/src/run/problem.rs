@@ -107,6 +107,8 @@ pub struct Problem {
     pub numbers: Discretisation,
     /// Size of the substrate if the program chose it; else it is part of what was asked for.
     pub automatic_size: Option<f64>,
+    /// Height of what the mesh cuts off a steep tip: the tool touches the mesh where it is that deep.
+    pub cut_off: f64,
     /// Where the first loading ends: the estimated depth there is 1.
     pub goal: Goal,
     /// Whether the tool then retreats to zero force.

@@ -9,6 +9,9 @@ use crate::run::record::Phase;
 /// Times that the last increment is halved where it does not meet its goal.
 const MOST_PARTS: usize = 3;
 
+/// Travel at the end of the first increment at most over the travel at which the tool touches a tip that was cut off.
+const FIRST_INCREMENT: f64 = 2.0;
+
 impl Path<'_> {
     /// Goes from the last converged increment to `goal`, in as few increments as converge, and returns the last one. The
     /// observer hears of each.
@@ -71,8 +74,18 @@ impl Path<'_> {
         let mut fraction = 0.0;
         loop {
             fraction = fractions.get(index).copied().unwrap_or(fraction * growth);
-            index += 1;
-            let planned = (fraction * depth).min(limit) * (1.0 + share);
+            let wanted = (fraction * depth).min(limit) * (1.0 + share);
+            if self.problem.cut_off > 0.0 && wanted <= self.travel && index + 1 < fractions.len() {
+                index += 1;
+                continue; // above a tip that was cut off
+            }
+            // such a tip is met by an increment that is short beside what was cut off
+            let planned = if self.increments == 0 && self.travel > 0.0 {
+                wanted.min(FIRST_INCREMENT * self.travel)
+            } else {
+                wanted
+            };
+            index += usize::from(planned == wanted);
             let (travel, sums) = self.reach_depth(planned, stop_at, Phase::Load, true, observer)?;
             let last = match goal {
                 Goal::Travel(_) | Goal::Depth(_) => index == fractions.len() || travel != planned,
@@ -84,7 +97,9 @@ impl Path<'_> {
             }
             share = if expects { self.share(goal, travel, &sums) } else { 0.0 };
             self.accept(travel, Phase::Load, observer)?;
-            if (fraction * depth >= limit || travel != planned) && matches!(goal, Goal::Force { .. }) {
+            let whole = planned == wanted;
+            if (whole && fraction * depth >= limit || travel != planned) && matches!(goal, Goal::Force { .. })
+            {
                 return Err(Stop::ForceNotReached);
             }
         }

@@ -70,7 +70,7 @@ pub struct Path<'p> {
     /// The solves of this path on disk.
     pub(in crate::run) journal: Option<Journal<'p>>,
     pub(super) problem: &'p Problem,
-    /// Travel at which the tool touches first, in the coordinates of the mesh.
+    /// Place of the tool at the travel 0, in the coordinates of the mesh: it touches there, or above a tip that the mesh cuts off.
     pub(super) touch: f64,
     pub(super) travel: f64,
     /// Largest travel so far.
@@ -114,12 +114,13 @@ impl<'p> Path<'p> {
     pub fn new(problem: &'p Problem) -> Result<Path<'p>, BodyFailure> {
         let model = problem.equilibrium()?;
         let tolerance = problem.numbers.newton_tolerance;
+        let cut_off = if problem.start.is_none() { problem.cut_off } else { 0.0 };
         Ok(Path {
-            touch: model.converged_surface().first_touch(),
+            touch: model.converged_surface().first_touch() - cut_off,
             settings: Settings { tolerance, max_iterations: 40, keep: KEEP },
             journal: None,
             problem,
-            travel: 0.0,
+            travel: cut_off,
             deepest: 0.0,
             last_step: 0.0,
             force: 0.0,
@@ -309,7 +310,7 @@ impl<'p> Path<'p> {
         let state = self.model.state();
         // a fold that lies on the flank of the tool is one of the mesh, not of the metal
         if state.facing.fold(&state.edges, &state.position).is_some() && !self.remesh() {
-            return Err(Stop::FlanksMeet);
+            return Err(self.because(Stop::FlanksMeet));
         }
         let looks = phase == Phase::Load && self.travel > FARTHER * self.in_vain;
         if looks && self.model.is_distorted(LOADED) && !self.remesh() {
@@ -438,11 +439,15 @@ impl<'p> Path<'p> {
 
     /// Why the path ends where the smallest increment has no equilibrium.
     fn stop(&self, failure: &SolveFailure) -> Stop {
-        match failure {
-            _ if self.model.state().largest_elastic_strain() > ELLIPTIC => Stop::ElasticStrain,
+        self.because(match failure {
             SolveFailure::System(BodyFailure::Element { .. }) => Stop::Distorted,
             _ => Stop::NoEquilibrium,
-        }
+        })
+    }
+
+    /// The `stop`, or what led to it: beyond its limit the law of elasticity lets metal fold and turn inside out.
+    fn because(&self, stop: Stop) -> Stop {
+        if self.model.state().largest_elastic_strain() > ELLIPTIC { Stop::ElasticStrain } else { stop }
     }
 
     /// [`Path::reach_depth`] all the way.
