@@ -109,7 +109,7 @@ pub struct LoadScene {
 pub struct Output {
     /// Pictures and .vti of pressure and contact.
     pub maps: bool,
-    /// The surface as pressed (levelled, filtered), as surface.x3p or surface.npy.
+    /// The surface as pressed (levelled, filtered), as surface.x3p or surface.npy (heights in metres: `height_unit = "m"`).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub surface: Option<SurfaceFormat>,
     /// The power spectrum of the surface, as spectrum.csv: by default of maps of up to 1024 x 1024 points.
