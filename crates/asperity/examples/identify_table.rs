@@ -139,6 +139,7 @@ fn main() {
     }
     score::times(&mut report, times);
     beside::section(&mut report, &ratios);
+    beside::finer(&mut report, &book, &metals);
     misses(&mut report, &both, &ratios);
     if !own.is_empty() {
         score::twins(&mut report, &own);

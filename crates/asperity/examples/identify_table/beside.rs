@@ -30,9 +30,10 @@ impl Ratios {
 }
 
 /// K/E and S/(E h) under a cone of this slope; none where the path stopped.
-fn cone(book: &Book, p: &Published, slope_deg: f64) -> Option<[f64; 2]> {
+fn cone(book: &Book, p: &Published, slope_deg: f64, accuracy: Accuracy) -> Option<[f64; 2]> {
     let (ratio, exponent) = (p.youngs_modulus / p.yield_stress, p.exponent);
-    let found = book.recall(&format!("cone {slope_deg} {ratio} {exponent}"), || {
+    let level = if accuracy == Accuracy::Standard { "" } else { " finer" };
+    let found = book.recall(&format!("cone {slope_deg} {ratio} {exponent}{level}"), || {
         let law =
             Hardening { law: HardeningLaw::Swift, yield_stress: 1.0 / ratio, exponent, youngs_modulus: 1.0 };
         let metal = Metal {
@@ -41,7 +42,7 @@ fn cone(book: &Book, p: &Published, slope_deg: f64) -> Option<[f64; 2]> {
             kinematic_share: 0.0,
             stress_measure: StressMeasure::Cauchy,
         };
-        let found = solve(&Cone { slope_deg, indents: true, metal }, Accuracy::Standard).ok()?.0;
+        let found = solve(&Cone { slope_deg, indents: true, metal }, accuracy).ok()?.0;
         Some(json!([found.k_over_e, found.stiffness]))
     })?;
     Some([found[0].as_f64()?, found[1].as_f64()?])
@@ -50,7 +51,7 @@ fn cone(book: &Book, p: &Published, slope_deg: f64) -> Option<[f64; 2]> {
 /// The ratios of all metals.
 pub fn ratios(book: &Book, metals: &[Published]) -> Vec<Ratios> {
     let one = |p: &Published| {
-        let under = [30.0, 40.0].map(|slope| cone(book, p, slope));
+        let under = [30.0, 40.0].map(|slope| cone(book, p, slope, Accuracy::Standard));
         let curvature = |k: usize| Some(under[k]?[0] * p.youngs_modulus / p.curvatures[k]?);
         Ratios {
             exponent: p.exponent,
@@ -92,5 +93,28 @@ pub fn section(report: &mut Report, ratios: &[Ratios]) {
                 spread(own.iter().filter_map(|r| r.slope))
             ));
         }
+    }
+}
+
+/// Metals whose curvature under 50° is computed at `reference` too: n, E/σ_y.
+const FINER: [[f64; 2]; 5] =
+    [[0.0, 100.0], [0.0, 1000.0 / 3.0], [0.1, 100.0], [0.1, 1000.0 / 3.0], [0.5, 1000.0 / 3.0]];
+
+/// Writes whether the differences under 50° are those of the level.
+pub fn finer(report: &mut Report, book: &Book, metals: &[Published]) {
+    report.section("Loading curvature under 50° at two levels");
+    report.table("| n | E/σ_y | standard, % above the published | reference, % above |");
+    for [exponent, ratio] in FINER {
+        let like = |p: &&Published| {
+            p.exponent == exponent && (p.youngs_modulus / p.yield_stress / ratio - 1.0).abs() < 1e-3
+        };
+        let Some(p) = metals.iter().find(like) else { continue };
+        let above = |accuracy| {
+            let k = cone(book, p, 40.0, accuracy)?[0] * p.youngs_modulus / p.curvatures[1]?;
+            Some(format!("{:+.1}", 100.0 * (k - 1.0)))
+        };
+        let [standard, reference] = [Accuracy::Standard, Accuracy::Reference]
+            .map(|accuracy| above(accuracy).unwrap_or_else(|| "stopped".into()));
+        report.line(&format!("| {exponent} | {ratio:.0} | {standard} | {reference} |"));
     }
 }
