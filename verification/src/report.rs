@@ -24,7 +24,7 @@ impl Report {
     /// The same of an example of another `package`.
     pub fn of_package(package: &str, name: &str, accuracy: &str) -> (Report, Vec<String>) {
         let (file, rest) = arguments(std::env::args().skip(1));
-        let words: String = rest.iter().flat_map(|word| [" ", word]).collect();
+        let words: String = rest.iter().flat_map(|word| [" ", shown(word)]).collect();
         let separator = if rest.is_empty() { "" } else { " --" };
         let text = format!(
             "<!-- written by `cargo run --release -p {package} --example {name}{separator}{words}`, asperity {}, {accuracy} -->\n\n",
@@ -58,6 +58,12 @@ impl Report {
     pub fn finish(self) -> io::Result<()> {
         self.file.map_or(Ok(()), |file| replace(&file, &self.text))
     }
+}
+
+/// A word of the command; of a path from the root its last part, for the folders before it are of one machine.
+fn shown(word: &str) -> &str {
+    let path = Path::new(word);
+    path.file_name().filter(|_| path.is_absolute()).and_then(|name| name.to_str()).unwrap_or(word)
 }
 
 /// The file of `--out FILE`, and the other words.

@@ -100,6 +100,8 @@ fn curves_that_cannot_be_of_the_metal_are_no_fit() {
     let end = place.run(&["identify", "fit.toml", "--out", "out"]);
     assert_eq!(end.status, 0, "{}", end.err);
     assert!(end.out.contains("no metal within the bounds fits"), "{}", end.out);
+    // no interval is offered for a quotation
+    assert!(end.out.contains("no fit") && !end.out.contains("(95 %)"), "{}", end.out);
     let found = parameters(&place, "out");
     assert_eq!(found["parameters"]["yield_stress"]["identifiable"], false);
 }
@@ -121,6 +123,100 @@ fn a_loading_alone_tells_no_modulus() {
     let found = parameters(&place, "out");
     assert_eq!(found["parameters"]["youngs_modulus"]["identifiable"], false);
     assert!(found["next_experiment"]["interval_ratio"].as_f64().unwrap() < 1.0);
+}
+
+/// Readings of depth and force of the crushed cone, and the number of its peak.
+fn readings(place: &Place) -> (Vec<[f64; 2]>, usize) {
+    measured(place, "depth_um,force_mN", |h, f| format!("{h},{}", 1e3 * f));
+    let cell = |line: &str, k: usize| line.split(',').nth(k).and_then(|c| c.parse().ok()).unwrap();
+    let all: Vec<[f64; 2]> =
+        place.text("cone.csv").lines().skip(1).map(|line| [cell(line, 0), cell(line, 1)]).collect();
+    let peak = (0..all.len()).max_by(|a, b| all[*a][1].total_cmp(&all[*b][1])).unwrap();
+    (all, peak)
+}
+
+fn table(header: &str, readings: &[[f64; 2]]) -> String {
+    readings.iter().fold(format!("{header}\n"), |text, [h, f]| text + &format!("{h},{f}\n"))
+}
+
+/// What a first user may bring: each is an error that names the file or the line and a way out, and nothing is written.
+#[test]
+fn tables_that_are_no_curve_are_refused_with_a_way_out() {
+    let place = Place::with_scene("");
+    let (all, peak) = readings(&place);
+    let header = "depth_um,force_mN";
+    let changed = |change: fn([f64; 2]) -> [f64; 2]| -> String {
+        table(header, &all.iter().map(|p| change(*p)).collect::<Vec<_>>())
+    };
+    for (case, text, words) in [
+        ("nothing", String::new(), "no header that names a depth"),
+        ("a header alone", format!("{header}\n"), "without readings below it"),
+        ("no units", table("depth,force", &all), "no unit that is known"),
+        ("other units", table("Depth (inch),Load (lbf)", &all), "no unit that is known"),
+        ("a single point", table(header, &all[peak..=peak]), "too few for a curve"),
+        ("the way back alone", table(header, &all[peak..]), "the loading must come first"),
+        ("negative depths", changed(|[h, f]| [-h, f]), "turn their sign"),
+        ("negative forces", changed(|[h, f]| [h, -f]), "turn their sign"),
+        ("no force", changed(|[h, _]| [h, 0.0]), "no positive force"),
+        ("one depth", changed(|[_, f]| [1.0, f]), "goes nowhere"),
+        ("one force", changed(|[h, _]| [h, 5.0]), "goes nowhere"),
+        ("decimal commas", format!("{header}\n0,1,0,2\n0,2,0,8\n"), "decimal commas"),
+    ] {
+        std::fs::write(place.path("cone.csv"), text).unwrap();
+        std::fs::write(place.path("fit.toml"), FIT).unwrap();
+        let end = place.run(&["identify", "fit.toml", "--out", "out"]);
+        assert!(end.status == 2 && end.err.contains(words), "{case}: {}", end.err);
+        assert!(end.err.contains("cone.csv"), "{case}: {}", end.err);
+        assert!(place.names("out").is_empty(), "{case}");
+    }
+}
+
+/// The load is held while the depth grows by 3 %: the contact is wider by 3 %, and as much stiffer, under the same force.
+#[test]
+fn a_hold_leaves_the_modulus_alone() {
+    let place = Place::with_scene("");
+    let (all, peak) = readings(&place);
+    let [deepest, most] = all[peak];
+    let mut held = all[..=peak].to_vec();
+    held.extend((1..=15).map(|i| [deepest * (1.0 + 0.002 * f64::from(i)), most]));
+    held.extend(all[peak + 1..].iter().map(|[h, f]| [1.03 * deepest - (deepest - h) / 1.03, *f]));
+    let sought = FIT.replace("\"120 GPa\"", "[\"60 GPa\", \"240 GPa\"]");
+    std::fs::write(place.path("fit.toml"), sought).unwrap();
+    let mut moduli = Vec::new();
+    for (out, readings) in [("plain", &all), ("held", &held)] {
+        std::fs::write(place.path("cone.csv"), table("depth_um,force_mN", readings)).unwrap();
+        let end = place.run(&["identify", "fit.toml", "--out", out]);
+        assert_eq!(end.status, 0, "{}", end.err);
+        assert_eq!(end.err.contains("a hold of the load"), out == "held", "{}", end.err);
+        let found = parameters(&place, out);
+        assert!(covers(&found, "youngs_modulus", METAL[0]), "{out}: {}", found["parameters"]);
+        moduli.push(found["parameters"]["youngs_modulus"]["value"].as_f64().unwrap());
+    }
+    assert!((moduli[1] / moduli[0] - 1.0).abs() < 0.05, "{moduli:?}");
+}
+
+#[test]
+fn tests_of_one_file_are_curves_of_their_own_or_one_is_picked() {
+    let place = Place::with_scene("");
+    let (all, peak) = readings(&place);
+    let header = "depth_um,force_mN";
+    let two = table(header, &all) + "\n" + &table(header, &all);
+    std::fs::write(place.path("cone.csv"), two).unwrap();
+    for (more, curves) in [("", 2), ("test = 2\n", 1)] {
+        std::fs::write(place.path("fit.toml"), format!("{FIT}{more}")).unwrap();
+        let end = place.run(&["identify", "fit.toml", "--out", "out", "--force", "--quiet"]);
+        assert_eq!(end.status, 0, "{}", end.err);
+        assert_eq!(parameters(&place, "out")["residual"]["curves"].as_array().unwrap().len(), curves);
+    }
+    std::fs::write(place.path("fit.toml"), format!("{FIT}test = 3\n")).unwrap();
+    let end = place.run(&["identify", "fit.toml", "--out", "third"]);
+    assert!(end.status == 2 && end.err.contains("from 1 to 2"), "{}", end.err);
+    // one of them that is no curve is named
+    let broken = table(header, &all) + "\n" + &table(header, &all[..peak.min(2)]);
+    std::fs::write(place.path("cone.csv"), broken).unwrap();
+    std::fs::write(place.path("fit.toml"), FIT).unwrap();
+    let end = place.run(&["identify", "fit.toml", "--out", "broken"]);
+    assert!(end.status == 2 && end.err.contains("test 2"), "{}", end.err);
 }
 
 #[test]

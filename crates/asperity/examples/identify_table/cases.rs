@@ -48,55 +48,85 @@ fn rows(path: &Path) -> Vec<HashMap<String, f64>> {
     reader.records().map(|r| row(r.expect("a row"))).collect()
 }
 
-/// Deepest depth of the published unloading slopes, µm: so deep that ours meet them, their text says 0.2.
-const DEPTH: f64 = 0.197;
+/// Deepest depth of the published unloading slopes, µm, by their text.
+pub const DEPTH: f64 = 0.2;
 
-/// The published metals of one series, under 60° and (where asked) 50°; with the unloading slope where E is sought or 50° is not used.
-pub fn published(folder: &Path, [_, both]: [bool; 2], sought: bool) -> Vec<Case> {
+/// Published results of one metal under a cone of 60° half apex angle, and under one of 50° where there are.
+pub struct Published {
+    /// GPa.
+    pub youngs_modulus: f64,
+    /// GPa.
+    pub yield_stress: f64,
+    pub exponent: f64,
+    /// Loading curvatures under 60° and 50°, GPa.
+    pub curvatures: [Option<f64>; 2],
+    /// Unloading slope under 60°, N/m.
+    pub slope: f64,
+}
+
+/// The published metals of one series.
+pub fn series(folder: &Path) -> Vec<Published> {
     let (sixty, fifty) = (rows(&folder.join("FEM_60deg.csv")), rows(&folder.join("FEM_50deg.csv")));
     let key = |r: &HashMap<String, f64>| ["E (GPa)", "sy (GPa)", "n"].map(|k| (1e4 * r[k]).round() as i64);
-    let second: HashMap<_, f64> = fifty.iter().take(76).map(|r| (key(r), r["C (GPa)"])).collect();
-    sixty
-        .iter()
-        .take(76)
-        .map(|r| {
-            let (e, s, n) = (r["E (GPa)"], 1e3 * r["sy (GPa)"], r["n"]);
-            let modulus = if sought { "[\"5 GPa\", \"500 GPa\"]".to_string() } else { format!("\"{e} GPa\"") };
-            let mut fit = material(&modulus, 0.3, ["10 MPa", "10 GPa"]);
-            let slope = r["dP/dh (N/m)"];
-            let more = if sought || !both {
-                format!(", unloading_slope = \"{slope} N/m\", max_depth = \"{DEPTH} um\"")
-            } else {
-                String::new()
-            };
-            let noise = if sought || !both { "2 %" } else { "0.3 %" };
+    let second: HashMap<_, f64> = fifty.iter().take(SERIES).map(|r| (key(r), r["C (GPa)"])).collect();
+    let metal = |r: &HashMap<String, f64>| Published {
+        youngs_modulus: r["E (GPa)"],
+        yield_stress: r["sy (GPa)"],
+        exponent: r["n"],
+        curvatures: [Some(r["C (GPa)"]), second.get(&key(r)).copied()],
+        slope: r["dP/dh (N/m)"],
+    };
+    sixty.iter().take(SERIES).map(metal).collect()
+}
+
+/// Rows of the published tables that are one series.
+const SERIES: usize = 76;
+
+/// What a fit of the published metals is given and asked.
+#[derive(Clone, Copy, PartialEq)]
+pub enum Asked {
+    /// Curvatures under two cones; E is known.
+    TwoCones,
+    /// Curvature and unloading slope under 60°; E is known.
+    OneCone,
+    /// Curvatures under two cones and the unloading slope under 60°; E is sought.
+    Modulus,
+}
+
+/// Fits of the published metals.
+pub fn published(metals: &[Published], asked: Asked) -> Vec<Case> {
+    let one = |p: &Published| {
+        let (e, s, n) = (p.youngs_modulus, 1e3 * p.yield_stress, p.exponent);
+        let known = format!("\"{e} GPa\"");
+        let modulus = if asked == Asked::Modulus { "[\"5 GPa\", \"500 GPa\"]" } else { &known };
+        let mut fit = material(modulus, 0.3, ["10 MPa", "10 GPa"]);
+        let slope = format!(", unloading_slope = \"{} N/m\", max_depth = \"{DEPTH} um\"", p.slope);
+        let sixty = if asked == Asked::TwoCones { "" } else { &slope };
+        let noise = if asked == Asked::TwoCones { "0.3 %" } else { "2 %" };
+        let fifty = p.curvatures[1].filter(|_| asked != Asked::OneCone).map(|c| (50, c, "", "0.3 %"));
+        let first = p.curvatures[0].map(|c| (60, c, sixty, noise));
+        for (angle, curvature, more, noise) in first.into_iter().chain(fifty) {
             let _ = write!(
                 fit,
-                "[[curve]]\nfeatures = {{ loading_curvature = \"{} GPa\"{more} }}\ntool = {{ shape = \"cone\", half_apex_deg = 60 }}\nnoise = \"{noise}\"\nmodel_error = \"1.5 %\"\n",
-                r["C (GPa)"]
+                "[[curve]]\nfeatures = {{ loading_curvature = \"{curvature} GPa\"{more} }}\ntool = {{ shape = \"cone\", half_apex_deg = {angle} }}\nnoise = \"{noise}\"\nmodel_error = \"1.5 %\"\n"
             );
-            if let (true, Some(c)) = (both, second.get(&key(r))) {
-                let _ = write!(
-                    fit,
-                    "[[curve]]\nfeatures = {{ loading_curvature = \"{c} GPa\" }}\ntool = {{ shape = \"cone\", half_apex_deg = 50 }}\nnoise = \"0.3 %\"\nmodel_error = \"1.5 %\"\n"
-                );
-            }
-            Case {
-                name: format!("E {e} GPa, σ_y {s} MPa, n {n}"),
-                youngs_modulus: e,
-                yield_stress: s,
-                exponent: n,
-                stresses: Vec::new(),
-                fit,
-                folder: PathBuf::new(),
-            }
-        })
-        .collect()
+        }
+        Case {
+            name: format!("E {e} GPa, σ_y {s} MPa, n {n}"),
+            youngs_modulus: e,
+            yield_stress: s,
+            exponent: n,
+            stresses: Vec::new(),
+            fit,
+            folder: PathBuf::new(),
+        }
+    };
+    metals.iter().map(one).collect()
 }
 
 fn material(modulus: &str, poissons_ratio: f64, [low, high]: [&str; 2]) -> String {
     format!(
-        "accuracy = \"draft\"\nsamples = 0\n[material]\nyoungs_modulus = {modulus}\npoissons_ratio = {poissons_ratio}\nyield_stress = [\"{low}\", \"{high}\"]\nhardening_exponent = [0.0, 0.5]\nhardening_law = \"swift\"\n"
+        "accuracy = \"standard\"\nsamples = 0\n[material]\nyoungs_modulus = {modulus}\npoissons_ratio = {poissons_ratio}\nyield_stress = [\"{low}\", \"{high}\"]\nhardening_exponent = [0.0, 0.5]\nhardening_law = \"swift\"\n"
     )
 }
 
@@ -131,7 +161,7 @@ pub fn aluminium(folder: &Path) -> Vec<Case> {
 
 /// Metals drawn with a fixed seed, indented by a cone of 70.3° and by a ball at `standard`, their forces with noise of 0.5 %.
 pub fn twins(count: usize) -> Vec<Case> {
-    let folder = std::env::temp_dir().join("asperity-twins");
+    let folder = std::env::temp_dir().join(concat!("asperity-twins-", env!("CARGO_PKG_VERSION")));
     std::fs::create_dir_all(&folder).expect("can be made");
     let mut draw = SplitMix(2024);
     let mut uniform = || (draw.bits() >> 11) as f64 / (1_u64 << 53) as f64;
@@ -152,7 +182,6 @@ pub fn twins(count: usize) -> Vec<Case> {
             fit,
             "[[curve]]\nfile = \"cone-{i}.csv\"\ntool = {{ shape = \"cone\", half_apex_deg = 70.3 }}\nnoise = \"0.5 %\"\n[[curve]]\nfile = \"ball-{i}.csv\"\ntool = {{ shape = \"sphere\", radius = \"10 um\" }}\nnoise = \"0.5 %\"\n"
         );
-        let fit = fit.replace("accuracy = \"draft\"", "accuracy = \"standard\"");
         Some(Case {
             name: format!("twin {i}"),
             youngs_modulus: e,

@@ -3,7 +3,7 @@
 use super::emulator::{Emulator, by_the_atlas};
 use super::measured::Measured;
 use super::parameters::{Slot, Unknowns};
-use super::response::{AFTER, Geometry, Question, between};
+use super::response::{AFTER, Geometry, Question, between, smooth};
 use asperity_calibration::indentation::FORCES;
 use asperity_law::{Elastic, StressMeasure};
 use nalgebra::DMatrix;
@@ -82,6 +82,11 @@ impl Experiment {
         })
     }
 
+    /// Whether the tool is a sharp cone, for which there is an atlas.
+    pub fn is_sharp(&self) -> bool {
+        matches!(self.geometry, Geometry::Sharp { .. })
+    }
+
     /// Numbers of the loading in a response.
     pub fn of_the_loading(&self) -> usize {
         self.geometry.shares().len()
@@ -122,7 +127,7 @@ impl Experiment {
                 let back = measured
                     .unloading
                     .iter()
-                    .map(|p| (p[0] - self.depth_back(&expected, measured.peak, p[1])) / self.depth);
+                    .map(|p| (p[0] - self.depth_back(&expected, measured.turn(), p[1])) / self.depth);
                 load.chain(back).collect()
             }
         })
@@ -145,15 +150,21 @@ impl Experiment {
         let shares = self.geometry.shares();
         let points: Vec<[f64; 2]> =
             shares.iter().zip(&expected.logarithms).map(|(s, l)| [s.ln(), *l]).collect();
-        expected.modulus * depth * depth * between(&points, (depth / self.depth).ln()).exp()
+        expected.modulus * depth * depth * smooth(&points, (depth / self.depth).ln()).exp()
     }
 
-    /// Reading of the depth expected on the way back at `force`.
-    fn depth_back(&self, expected: &Expected, peak: [f64; 2], force: f64) -> f64 {
-        let top = peak[0] - expected.contact_depth - expected.compliance * peak[1];
+    /// Reading of the depth expected on the way back at `force`, from a turn of which the depths where the loading ended and where
+    /// the way back began were read under a force.
+    ///
+    /// A hold between them makes the contact wider under the same force. The slope where unloading begins goes with the width, so with the
+    /// depth; the whole way with the force over it.
+    fn depth_back(&self, expected: &Expected, [loaded, turned, held]: [f64; 3], force: f64) -> f64 {
+        let less = expected.contact_depth + expected.compliance * held;
+        let (loaded, top) = (loaded - less, turned - less);
         let loading = &expected.logarithms[..self.of_the_loading()];
-        let most = expected.modulus * top * top * loading.last().map_or(0.0, |l| l.exp());
-        let way = recovery(&expected.logarithms, force / most);
+        let curvature = loading.last().map_or(0.0, |l| l.exp());
+        let most = expected.modulus * loaded * loaded * curvature;
+        let way = recovery(&expected.logarithms, force / most) * (loaded / top).powi(2);
         top - way * self.depth + expected.contact_depth + expected.compliance * force
     }
 
@@ -173,7 +184,7 @@ impl Experiment {
         let most = load.last().map_or(0.0, |p| p[1]);
         let back = (0..=40).rev().map(|i| {
             let force = most * f64::from(i) / 40.0;
-            [self.depth_back(&expected, [peak[0], most], force), force]
+            [self.depth_back(&expected, [peak[0], peak[0], most], force), force]
         });
         let back = back.collect();
         Some([load, back])

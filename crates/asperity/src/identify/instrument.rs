@@ -74,6 +74,13 @@ pub fn read(text: &str) -> Result<Tests, TableFault> {
         rest = &body[end..];
     }
     if tests.iter().all(|(_, readings)| readings.is_empty()) {
+        if let Some((line, _)) = lines.iter().find(|(_, line)| is_header(line)) {
+            return Err(TableFault {
+                line: Some(*line),
+                message: "is a header without readings below it: give a row of numbers for each reading"
+                    .into(),
+            });
+        }
         return Err(TableFault {
             line: lines.iter().find(|(_, line)| !line.is_empty()).map(|(i, _)| *i),
             message: "has no header that names a depth and a force with their units: write a first line like depth_um,force_mN, or Depth (nm);Load (mN)".into(),
@@ -195,6 +202,17 @@ fn block(
             continue;
         }
         let row = cells(text, mark);
+        let more = row.get(names.len()..).filter(|more| mark == ',' && more.iter().any(|c| !c.is_empty()));
+        if let Some(more) = more {
+            return Err(TableFault {
+                line: Some(*line),
+                message: format!(
+                    "has {} cells below {} of the header: decimal commas need columns that semicolons or tabs separate; else give every column a name",
+                    names.len() + more.len(),
+                    names.len()
+                ),
+            });
+        }
         for (k, pair) in pairs.iter().enumerate() {
             let Some(point) = point(*line, &row, pair, mark)? else { continue };
             let label = match test.and_then(|t| row.get(t)) {
@@ -303,6 +321,8 @@ mod tests {
             ("a\nDepth (furlong),Load (mN)\n1,2\n", 2, "furlong"),
             ("depth_um,force_mN\n1,2\n1,x\n", 3, "no number"),
             ("1,2\n3,4\n", 1, "header"),
+            ("depth_um,force_mN\n\n", 1, "without readings"),
+            ("depth_um,force_mN\n0,1,0,2\n0,2,0,8\n", 2, "decimal commas"),
         ] {
             let fault = read(text).unwrap_err();
             assert!(fault.line == Some(line) && fault.message.contains(word), "{fault:?}");

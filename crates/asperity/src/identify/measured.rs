@@ -12,6 +12,8 @@ pub struct Measured {
     pub unloading: Vec<[f64; 2]>,
     /// Depth and force where the way back begins.
     pub peak: [f64; 2],
+    /// Depth where the loading ended: less than that of the peak where the load was held there.
+    pub loaded: f64,
     /// Depth reading at which the tool seems to touch: where the line through √F meets zero.
     pub touches: f64,
     /// Remarks.
@@ -27,6 +29,13 @@ const BACK: [f64; 2] = [0.1, 0.97];
 const FEWEST: usize = 6;
 /// Share of the peak force from which readings belong to the peak or its hold.
 const TOP: f64 = 0.995;
+/// Share of the largest force from which a reading may be the deepest one: noise makes the largest force, not the turn of the path.
+const HIGH: f64 = 0.8;
+/// Share of the largest depth from which readings belong to the turn.
+const TURN: f64 = 0.999;
+/// Growth of the force over that of the depth, both relative, below which readings are a hold: a loading grows with the power 1.5 of the
+/// depth at least.
+const HELD: f64 = 0.5;
 
 impl Measured {
     /// Makes `readings` ready.
@@ -34,6 +43,7 @@ impl Measured {
     /// # Errors
     /// What is wrong with the curve, with a way out.
     pub fn new(readings: &Readings) -> Result<Measured, String> {
+        let given = readings.len();
         let readings: Readings =
             readings.iter().copied().filter(|p| p.iter().all(|x| x.is_finite())).collect();
         let most = readings.iter().map(|p| p[1]).fold(f64::NEG_INFINITY, f64::max);
@@ -48,9 +58,7 @@ impl Measured {
                 "has no positive force: forces must be positive in compression; turn their sign".into()
             );
         }
-        let first = readings.iter().position(|p| p[1] >= TOP * most).unwrap_or(0);
-        let last = readings.iter().rposition(|p| p[1] >= TOP * most).unwrap_or(0);
-        let peak = readings[last];
+        let Turn { first, last, peak } = turn(&readings, most);
         if peak[0] <= 0.0 {
             return Err(format!(
                 "has its largest force at a depth of {:.4} um, which is not positive: depths must grow into the metal from 0 at first touch; turn their sign, or shift them",
@@ -58,6 +66,12 @@ impl Measured {
             ));
         }
         let mut notes = Vec::new();
+        if readings.len() < given {
+            notes.push(format!(
+                "{} readings that are no finite numbers were left out",
+                given - readings.len()
+            ));
+        }
         let loading = envelope(&readings[..=first], &mut notes);
         if loading.len() < FEWEST {
             return Err(format!(
@@ -66,20 +80,58 @@ impl Measured {
             ));
         }
         let start = loading[loading.len() - 1];
-        if peak[0] > 1.003 * start[0] {
+        let held = peak[0] > 1.003 * start[0] && is_held(&readings[first..=last], peak);
+        if held {
             notes.push(format!(
                 "a hold of the load from {:.4} to {:.4} um was cut; the loading before it counts",
                 1e6 * start[0],
                 1e6 * peak[0]
             ));
         }
+        let loaded = if held { start[0] } else { peak[0] };
         let unloading = falling(&readings[last..], peak);
         if unloading.is_empty() {
             notes.push("there is no unloading: the elastic modulus is hardly seen".into());
         }
         let touches = touches(&loading);
-        Ok(Measured { loading: thinned(&loading), unloading, peak, touches, notes })
+        Ok(Measured { loading: thinned(&loading), unloading, peak, loaded, touches, notes })
     }
+
+    /// Depths where the loading ended and where the way back began, and the force there.
+    pub fn turn(&self) -> [f64; 3] {
+        [self.loaded, self.peak[0], self.peak[1]]
+    }
+}
+
+/// Where a path turns.
+struct Turn {
+    /// The reading with which the loading ends: a hold may follow.
+    first: usize,
+    /// The last reading before the way back.
+    last: usize,
+    /// Depth there, and the mean force of the readings at that depth.
+    peak: [f64; 2],
+}
+
+/// The turn of a path whose largest force is `most`: it lies at the largest depth, for depths are read more exactly than forces.
+fn turn(readings: &[[f64; 2]], most: f64) -> Turn {
+    let high = |p: &[f64; 2]| p[1] >= HIGH * most;
+    let deepest = readings.iter().filter(|p| high(p)).map(|p| p[0]).fold(f64::NEG_INFINITY, f64::max);
+    let at_the_turn = |p: &[f64; 2]| high(p) && p[0] >= deepest - (1.0 - TURN) * deepest.abs();
+    let turned: Vec<f64> = readings.iter().filter(|p| at_the_turn(p)).map(|p| p[1]).collect();
+    let force = turned.iter().sum::<f64>() / turned.len().max(1) as f64;
+    let last = readings.iter().rposition(|p| at_the_turn(p)).unwrap_or(0);
+    let first = readings.iter().position(|p| p[1] >= TOP * force).unwrap_or(0).min(last);
+    Turn { first, last, peak: [readings[last][0], force] }
+}
+
+/// Whether the force stayed while the depth grew over `readings`, up to the `peak`.
+fn is_held(readings: &[[f64; 2]], peak: [f64; 2]) -> bool {
+    let mean =
+        |part: &[[f64; 2]], k: usize| part.iter().map(|p| p[k]).sum::<f64>() / part.len().max(1) as f64;
+    let (before, after) = readings.split_at(readings.len() / 2);
+    let grown = |k: usize| (mean(after, k) - mean(before, k)) / peak[k];
+    readings.len() > 2 && grown(1) < HELD * grown(0)
 }
 
 /// The points deeper than all before them, under a force.
@@ -88,7 +140,10 @@ fn envelope(readings: &[[f64; 2]], notes: &mut Vec<String>) -> Vec<[f64; 2]> {
     let (mut deepest, mut back) = (0.0_f64, 0.0_f64);
     let mut kept = Vec::new();
     for p in readings {
-        back = back.max(deepest - p[0]);
+        // before first touch a tool may come from anywhere
+        if deepest > 0.0 {
+            back = back.max(deepest - p[0]);
+        }
         if p[0] > deepest && p[1] > 0.0 {
             deepest = p[0];
             kept.push(*p);
@@ -198,5 +253,25 @@ mod tests {
         let notes = measured.notes.join("; ");
         assert!(notes.contains("cycles") && notes.contains("hold"), "{notes}");
         assert!(measured.loading.windows(2).all(|w| w[0][0] < w[1][0]));
+    }
+
+    /// Noise that lifts a force before the turn does not move the turn there; a mean of the forces at the turn stands for its force.
+    #[test]
+    fn the_turn_lies_at_the_largest_depth_not_at_the_largest_force() {
+        let mut readings = loaded(40);
+        readings[38][1] *= 1.06;
+        readings.extend((1..20).map(|i| [1e-6 - 4e-9 * f64::from(i), 5e-3 * (1.0 - f64::from(i) / 20.0)]));
+        assert!(readings[38][1] > readings[39][1], "the case of this test");
+        let measured = Measured::new(&readings).unwrap();
+        assert_eq!((measured.peak, measured.loaded), ([1e-6, 5e-3], 1e-6));
+        assert!(measured.notes.is_empty(), "{:?}", measured.notes);
+    }
+
+    #[test]
+    fn an_approach_is_no_cycle() {
+        let mut readings: Readings = (0..30).map(|i| [-0.5e-6 + 1e-8 * f64::from(i), 0.0]).collect();
+        readings.extend(loaded(60));
+        let measured = Measured::new(&readings).unwrap();
+        assert!(!measured.notes.iter().any(|note| note.contains("cycles")), "{:?}", measured.notes);
     }
 }

@@ -5,14 +5,14 @@
 //! shares [`FORCES`] of the peak force. A sharp cone has one number for its loading.
 
 use super::parameters::Metal;
+use asperity_calibration::atlas::Atlas;
 use asperity_calibration::indentation::{FORCES, Indentation, solve};
 use asperity_law::units::{Length, Stress};
 use asperity_law::{Elastic, StressMeasure};
 use asperity_solver::point::material::Metal as Point;
 use asperity_solver::run::cone::Cone;
-use asperity_solver::run::prepare::prepare;
+use asperity_solver::run::crush::run_of;
 use asperity_solver::run::record::{CurveRow, Phase};
-use asperity_solver::run::simulate::simulate;
 use asperity_solver::scene::{Accuracy, Asperity, Loading, Material, Scene, Symmetry, Tool, ToolShape};
 use std::ops::ControlFlow;
 
@@ -53,6 +53,9 @@ impl Geometry {
         if matches!(self, Geometry::Sharp { .. }) { &SHARES[SHARES.len() - 1..] } else { &SHARES }
     }
 }
+
+/// Relative error of a run whose companion came to no end.
+const UNKNOWN: f64 = 0.05;
 
 /// What finite elements are asked.
 #[derive(Clone, Debug)]
@@ -102,11 +105,21 @@ fn point(question: &Question) -> Point {
 fn sharp(question: &Question, slope_deg: f64, accuracy: Accuracy) -> Result<Response, String> {
     let cone = Cone { slope_deg, indents: true, metal: point(question) };
     let (found, errors) = solve(&cone, accuracy).map_err(|e| e.to_string())?;
+    let stated = [errors.loading_curvature, errors.stiffness, errors.elastic_share];
+    let ripple = ripple(accuracy);
     Ok(Response {
         logarithms: of_cone(&found),
-        errors: [errors.loading_curvature, errors.stiffness, errors.elastic_share],
+        errors: std::array::from_fn(|i| stated[i].hypot(2.0 * ripple[i])),
         reached: found.reached,
     })
+}
+
+/// Standard deviation of one run of a sharp cone about the smooth function of the metal, of loading, slope and returned work. One
+/// companion cannot tell it, for two runs may agree by chance: it is what the cells of the atlas, at `standard`, have beside a
+/// polynomial, and grows with the size of the elements, which are twice as large at `draft`.
+fn ripple(accuracy: Accuracy) -> [f64; 3] {
+    let coarser = if accuracy == Accuracy::Draft { 2.0 } else { 1.0 };
+    std::array::from_fn(|i| Atlas::committed().map_or(UNKNOWN, |atlas| coarser * atlas.left[i]))
 }
 
 fn of_cone(found: &Indentation) -> Vec<f64> {
@@ -138,10 +151,9 @@ fn scene(question: &Question, accuracy: Accuracy) -> Scene {
 fn body(question: &Question, accuracy: Accuracy) -> Result<Response, String> {
     let scene = scene(question, accuracy);
     scene.validate().map_err(|e| e.to_string())?;
-    let mut problem = prepare(&scene, None, question.depth).map_err(|e| e.to_string())?;
     // the scene stands for the mesh; the metal is this one exactly
-    problem.metal = point(question);
-    let outcome = simulate(&problem, 0, &mut |_| ControlFlow::Continue(())).map_err(|e| e.to_string())?;
+    let outcome =
+        run_of(&scene, &point(question), &mut |_| ControlFlow::Continue(())).map_err(|e| e.to_string())?;
     if let Some(stopped) = &outcome.stopped {
         return Err(format!(
             "stopped at {:.2} of the depth: {}",
@@ -157,10 +169,16 @@ fn body(question: &Question, accuracy: Accuracy) -> Result<Response, String> {
     let back = recovery(&outcome.rows, depth);
     let after =
         [stiffness / (modulus * depth), share].into_iter().chain(back).map(|x: f64| x.max(1e-12).ln());
-    let promise = if accuracy == Accuracy::Draft { 0.02 } else { 0.005 };
+    let errors = summary.errors;
+    // of the returned work, relative; an error that is not known is that which draft aims at
+    let known = |error: Option<f64>| error.filter(|e| e.is_finite()).unwrap_or(UNKNOWN);
     Ok(Response {
         logarithms: loading.into_iter().chain(after).collect(),
-        errors: [promise, 1.5 * promise, 1.5 * promise],
+        errors: [
+            known(Some(errors.force)),
+            known(errors.unloading_stiffness),
+            known(errors.elastic_fraction.map(|e| e / share.max(1e-12))),
+        ],
         reached: 1.0,
     })
 }
@@ -194,9 +212,36 @@ pub fn between(points: &[[f64; 2]], x: f64) -> f64 {
     if x1 == x0 { y0 } else { y0 + (x - x0) / (x1 - x0) * (y1 - y0) }
 }
 
+/// A cubic through the four of `points` of rising x around `x`; linear where there are fewer, and beyond their ends.
+pub fn smooth(points: &[[f64; 2]], x: f64) -> f64 {
+    let count = points.len();
+    let beyond = |p: &[f64; 2], sign: f64| sign * (x - p[0]) > 0.0;
+    if count < 4 || beyond(&points[count - 1], 1.0) || beyond(&points[0], -1.0) {
+        return between(points, x);
+    }
+    let k = points.iter().take_while(|p| p[0] <= x).count();
+    let four = &points[k.saturating_sub(2).min(count - 4)..][..4];
+    let weight = |i: usize| {
+        let others = (0..4).filter(|&j| j != i);
+        others.map(|j| (x - four[j][0]) / (four[i][0] - four[j][0])).product::<f64>()
+    };
+    (0..4).map(|i| weight(i) * four[i][1]).sum()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_cubic_is_met_between_points_and_left_along_a_line() {
+        let cubic = |x: f64| 1.0 + x * (0.5 + x * (0.3 - 0.2 * x));
+        let points = [-1.0, -0.4, 0.1, 0.5, 1.2, 2.0].map(|x| [x, cubic(x)]);
+        for x in [-1.0, -0.7, 0.0, 0.3, 0.8, 1.9, 2.0] {
+            assert!((smooth(&points, x) - cubic(x)).abs() < 1e-12, "{x}");
+        }
+        assert_eq!(smooth(&points, 3.0), between(&points, 3.0));
+        assert_eq!(smooth(&points[..1], 3.0), points[0][1]);
+    }
 
     #[test]
     fn values_between_points_and_beyond_them_lie_on_straight_lines() {

@@ -366,7 +366,17 @@ impl Identification {
     /// A few lines for a person, the first of which can be quoted.
     pub fn overview(&self) -> String {
         let all: Vec<String> = self.parameters.iter().map(|(name, f)| quoted(name, f)).collect();
-        let mut text = format!("found     {} (95 %)\n", all.join(", "));
+        let mut text = match self.residual.fits {
+            true => format!("found     {} (95 %)\n", all.join(", ")),
+            // intervals about a point that does not fit say nothing of the metal
+            false => {
+                let nearest = self
+                    .parameters
+                    .iter()
+                    .map(|(name, f)| format!("{name} {:.3} {}", f.value, f.unit).trim_end().to_string());
+                format!("no fit    nearest: {}\n", nearest.collect::<Vec<_>>().join(", "))
+            }
+        };
         let _ = writeln!(text, "verdict   {}", self.verdict);
         let _ = write!(
             text,

@@ -6,7 +6,7 @@ use super::experiment::Experiment;
 use super::minimise::{Minimum, Residuals, chi2, jacobian, minimise};
 use super::objective::{Objective, roughly};
 use super::parameters::Unknowns;
-use super::response::{Geometry, Question, Response, respond};
+use super::response::{Question, Response, respond};
 use super::sobol_points;
 use crate::error::Error;
 use asperity_solver::scene::Accuracy;
@@ -52,10 +52,12 @@ pub fn search(
         Found { minimum: Minimum { point: Vec::new(), chi2: f64::INFINITY }, runs: 0, notes: Vec::new() };
     design(experiments, unknowns, &mut found, observer)?;
     let mut best = everywhere(experiments, unknowns)?;
+    // the atlas of sharp cones is as exact as `accuracy`, and coarser runs would only blur it; other tools have coarse runs all about
+    let early = |e: &Experiment| if e.is_sharp() { accuracy } else { Accuracy::Draft };
     let mut asked = Vec::new();
     for round in 0..ROUNDS {
         go_on(observer, 0.5 + 0.1 * round as f64, "asking finite elements at the best fit")?;
-        ask(experiments, unknowns, &[best.point.clone()], Accuracy::Draft, &mut found)?;
+        ask(experiments, unknowns, &[best.point.clone()], early, &mut found)?;
         let before = best;
         asked.clone_from(&before.point);
         best = again(experiments, unknowns, &before.point)?;
@@ -63,17 +65,21 @@ pub fn search(
             break;
         }
     }
-    go_on(observer, 0.85, "asking finite elements where the curves see least")?;
-    let beside = beside(experiments, unknowns, &best.point);
-    ask(experiments, unknowns, &beside, Accuracy::Draft, &mut found)?;
-    best = again(experiments, unknowns, &best.point)?;
+    let sharp = experiments.iter().all(Experiment::is_sharp);
+    if !sharp {
+        go_on(observer, 0.85, "asking finite elements where the curves see least")?;
+        let beside = beside(experiments, unknowns, &best.point);
+        ask(experiments, unknowns, &beside, early, &mut found)?;
+        best = again(experiments, unknowns, &best.point)?;
+    }
     // the answer is that of finite elements at this point, or so near to it that they say the same
-    if accuracy == Accuracy::Draft && moved(experiments, unknowns, &asked, &best.point) < STAYS {
+    let answered = sharp || accuracy == Accuracy::Draft;
+    if answered && moved(experiments, unknowns, &asked, &best.point) < STAYS {
         found.minimum = best;
         return Ok(found);
     }
     go_on(observer, 0.95, "the final answer")?;
-    ask(experiments, unknowns, &[best.point.clone()], accuracy, &mut found)?;
+    ask(experiments, unknowns, &[best.point.clone()], |_| accuracy, &mut found)?;
     found.minimum = again(experiments, unknowns, &best.point)?;
     Ok(found)
 }
@@ -170,16 +176,17 @@ fn ask(
     experiments: &mut [Experiment],
     unknowns: &Unknowns,
     points: &[Vec<f64>],
-    accuracy: Accuracy,
+    accuracy: impl Fn(&Experiment) -> Accuracy,
     found: &mut Found,
 ) -> Result<(), Error> {
+    let levels: Vec<Accuracy> = experiments.iter().map(accuracy).collect();
     let questions: Vec<(usize, Question)> = experiments
         .iter()
         .enumerate()
         .flat_map(|(i, e)| points.iter().filter_map(move |p| Some((i, e.question(unknowns, p)?))))
         .collect();
     let answers: Vec<Result<Response, String>> =
-        questions.par_iter().with_max_len(1).map(|(_, q)| respond(q, accuracy)).collect();
+        questions.par_iter().with_max_len(1).map(|(i, q)| respond(q, levels[*i])).collect();
     let mut learned = vec![false; experiments.len()];
     for ((i, question), answer) in questions.iter().zip(answers) {
         found.runs += 1;
@@ -194,7 +201,8 @@ fn ask(
                     ));
                 }
                 experiment.errors = response.errors;
-                if accuracy == Accuracy::Draft {
+                // what was asked of a body before was asked of the coarsest level
+                if experiment.is_sharp() || levels[*i] == Accuracy::Draft {
                     experiment.emulator.add(question, &response);
                 } else {
                     experiment.emulator.meet(question, &response);
@@ -224,9 +232,7 @@ fn design(
     found: &mut Found,
     observer: &mut Observer<'_>,
 ) -> Result<(), Error> {
-    let bodies: Vec<usize> = (0..experiments.len())
-        .filter(|&i| !matches!(experiments[i].geometry, Geometry::Sharp { .. }))
-        .collect();
+    let bodies: Vec<usize> = (0..experiments.len()).filter(|&i| !experiments[i].is_sharp()).collect();
     if bodies.is_empty() {
         return Ok(());
     }

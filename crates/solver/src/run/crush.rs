@@ -1,5 +1,6 @@
 //! One crush from a scene to its records: the entry point of the solver.
 
+use crate::point::material::Metal;
 use crate::run::depth_for_force::expect;
 use crate::run::discretisation::Discretisation;
 use crate::run::earlier::ready;
@@ -40,13 +41,36 @@ pub fn run_with(
     checkpoints: Option<&Checkpoints>,
     observer: &mut Watcher<'_>,
 ) -> Result<Outcome, CrushError> {
+    crush(scene, mesh, None, checkpoints, observer)
+}
+
+/// [`run`] of a metal that the keys of a scene cannot say: `metal` (E = 1, that of the scene is its unit) takes the place of the
+/// scene's in the run and in its companion, while the mesh and the penalty are laid out for the scene's.
+///
+/// # Errors
+/// As for [`run`].
+pub fn run_of(scene: &Scene, metal: &Metal, observer: &mut Watcher<'_>) -> Result<Outcome, CrushError> {
+    crush(scene, None, Some(metal), None, observer)
+}
+
+fn crush(
+    scene: &Scene,
+    mesh: Option<Mesh>,
+    metal: Option<&Metal>,
+    checkpoints: Option<&Checkpoints>,
+    observer: &mut Watcher<'_>,
+) -> Result<Outcome, CrushError> {
     scene.validate()?;
     let expected = expect(scene, mesh.as_ref())?;
     let coarser = mesh.as_ref().map(Mesh::with_other_element);
     let numbers = Discretisation::new(scene);
-    let problem = ready(scene, numbers, mesh, &expected)?;
+    let of_metal = |problem: Problem| match metal {
+        Some(metal) => Problem { metal: metal.clone(), ..problem },
+        None => problem,
+    };
+    let problem = of_metal(ready(scene, numbers, mesh, &expected)?);
     let target = scene.loading.target()?;
-    let companion = companion(scene, numbers, coarser, &expected);
+    let companion = companion(scene, numbers, coarser, &expected).map(of_metal);
     let asks_for_depth = matches!(target, Target::Depth(_));
     let mut main = || simulate_with(&problem, scene.output.interval(), checkpoints, observer);
     let (mut outcome, ahead) = match companion.as_ref().filter(|_| asks_for_depth) {
