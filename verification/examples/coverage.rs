@@ -20,7 +20,7 @@
 use asperity_solver::scene::Accuracy;
 use asperity_verification::coverage_scenes::{Case, Kind};
 use asperity_verification::report::Report;
-use asperity_verification::truth::{Answer, Each, QUANTITIES, RECIPES, Recipe, Truth, Truths};
+use asperity_verification::truth::{Answer, Each, QUANTITIES, RECIPES, Recipe, SOFTER, Truth, Truths};
 use rayon::prelude::*;
 use std::error::Error;
 use std::ops::Range;
@@ -188,15 +188,14 @@ fn write(report: &mut Report, rows: &[Row], ends: &[End]) {
         ],
     );
     report.section("Truths");
-    report.table(
-        "| truths of | elements over those of `reference` | steps | penetration | substrate | number | mean cost, s |",
-    );
+    report.table("| truths of | elements, steps and substrate over those of `reference` | penetration | number | mean cost, s |");
     for (name, level, _) in LEVELS {
-        let Recipe { elements, steps, penetration, domain, .. } = Recipe::of(level);
+        let Recipe(finer) = Recipe::of(level);
         let seconds: Vec<f64> = those(rows, |row| own(row, level)).iter().map(|row| row.seconds).collect();
         let mean = seconds.iter().sum::<f64>() / seconds.len() as f64;
         report.line(&format!(
-            "| {name} | {elements} | {steps} | {penetration} | {domain} | {} | {mean:.0} |",
+            "| {name} | {finer} | {:.2} | {} | {mean:.0} |",
+            finer.powf(SOFTER),
             seconds.len()
         ));
     }
@@ -310,7 +309,8 @@ fn options(words: &[String]) -> Result<Options, Box<dyn Error>> {
         Some((word, rest)) if word == "recipes" => (Task::Recipes, rest),
         _ => (Task::Measure, words),
     };
-    let mut options = Options { task, cache, scenes: SCENES, scene: None, level: None, budget: f64::INFINITY };
+    let mut options =
+        Options { task, cache, scenes: SCENES, scene: None, level: None, budget: f64::INFINITY };
     for pair in words.chunks(2) {
         let [key, value] = pair else { return Err(format!("{} needs a value", pair[0]).into()) };
         match key.as_str() {
@@ -349,7 +349,8 @@ fn main() -> Result<(), Box<dyn Error>> {
             return Ok(());
         }
         Task::Recipes => {
-            let finest: Vec<Case> = cases.into_iter().filter(|case| case.scene.accuracy == Accuracy::Reference).collect();
+            let finest: Vec<Case> =
+                cases.into_iter().filter(|case| case.scene.accuracy == Accuracy::Reference).collect();
             compare(&mut report, &finest, &truths);
             report.finish()?;
             return Ok(());
