@@ -2,12 +2,14 @@
 //! good, and costs a fifth.
 //!
 //! With Q the force or the contact area at a depth, D = ln(Q_companion/Q) holds what mesh, load step, penalty and substrate do, each
-//! of first order at least, and the ripple of both. A parabola through D over ln h is the smooth part.
-//! * Were all errors of the order p, ln Q would be off by D/(2ᵖ - 1). With p = 3/2 it is taken off (Richardson's extrapolation):
-//!   observed orders lie between 1 and 2, for which 0.45 (p = 1) to -0.21 (p = 2) of the smooth part is left, half of what the bound allows.
+//! of first order nearly or better, and the ripple of both. A parabola through D over ln h is the smooth part.
+//! * Were all errors of the order p, ln Q would be off by D/(2ᵖ - 1), which is taken off (Richardson's extrapolation): with p = 3/2 of
+//!   the force, whose observed orders lie between 1 and 2. The area is narrowed by a coarse mesh, of the same orders, and widened by
+//!   the penetration, of an order between 0.8 and 1.5 (the rim that it adds is thinner than an element): p = 1 where it comes out
+//!   wider in the companion. 0.45 to -0.45 of the smooth part is left, half of what the bound allows.
 //! * The bound of what is left is `REMAINS` times the largest smooth part and the largest rest, from a fifth of the depth on. The
 //!   rest is that of D, or that of the run from a smooth curve of its own where it is less: the companion ripples more.
-//! * Penetration and mesh pull the area in opposite directions, and two runs may agree by chance: `HIDDEN` is added in squares.
+//! * Penetration and mesh pull the area in opposite directions, and two runs may agree by chance: what they may hide (`Quantity::hidden`) is added in squares.
 //!
 //! The two constants were chosen on nine scenes (crushed, indented, ridges, rings; n of 0 to 0.3, elastic), not those of the coverage.
 //!
@@ -22,18 +24,29 @@ use crate::run::recorder::Outcome;
 use crate::run::schedule::UNLOADING_EXPONENT;
 use asperity_law::least_squares::{powers, solve, value};
 
-/// 1/(2ᵖ - 1) for the order p = 3/2.
-const ORDER: f64 = 0.547;
+/// Of force or area, what is known of its errors before a run.
+#[derive(Clone, Copy)]
+struct Quantity {
+    /// Share of the smooth part that is taken off where the companion has more, and where it has less: 1/(2ᵖ - 1) for an order p.
+    taken_off: [f64; 2],
+    /// Relative error per penetration over depth that mesh and penetration may hide from each other.
+    hidden: f64,
+}
 
-/// Largest logarithm that is taken off: a companion that differs by more is in no asymptotic range.
-const MOST: f64 = 0.03;
+/// 1/(2ᵖ - 1) for the orders p = 1 and p = 3/2.
+const FIRST: f64 = 1.0;
+const THREE_HALVES: f64 = 0.547;
+
+const FORCE: Quantity = Quantity { taken_off: [THREE_HALVES, THREE_HALVES], hidden: 0.4 };
+
+/// The penetration widens a contact, by 4 to 8 times its share of the depth, and the mesh narrows it.
+const AREA: Quantity = Quantity { taken_off: [FIRST, THREE_HALVES], hidden: 1.2 };
+
+/// Largest smooth part of which a share is taken off: a companion that differs by more is in no asymptotic range.
+const MOST: f64 = 0.055;
 
 /// Share of the smooth part and of the rest of the difference that bounds the error.
 const REMAINS: f64 = 0.9;
-
-/// Relative errors of force and area per penetration over depth that mesh and penetration may hide from each other: the penetration
-/// widens a contact, by 4 to 8 times its share of the depth, and the mesh narrows it.
-const HIDDEN: [f64; 2] = [0.4, 1.2];
 
 /// Depths at which curves are compared, equally spaced in the logarithm.
 const DEPTHS: usize = 81;
@@ -51,15 +64,18 @@ struct Difference {
     smooth: [f64; 3],
     /// ln Q less a smooth curve of its own, at the same places.
     ripple: Vec<f64>,
+    taken_off: [f64; 2],
     /// The error that mesh and penetration may hide.
     hidden: f64,
 }
 
 impl Difference {
-    fn new(points: Vec<[f64; 2]>, ripple: Vec<f64>, hidden: f64) -> Option<Difference> {
+    /// Of a run whose penetration is this share of the depth.
+    fn new(points: Vec<[f64; 2]>, ripple: Vec<f64>, of: Quantity, penetration: f64) -> Option<Difference> {
         let rows: Vec<_> = points.iter().map(|[x, d]| (powers(*x), *d, 1.0)).collect();
         let smooth = solve(&rows).filter(|c| c.iter().all(|c| c.is_finite()))?;
-        Some(Difference { points, smooth, ripple, hidden })
+        let Quantity { taken_off, hidden } = of;
+        Some(Difference { points, smooth, ripple, taken_off, hidden: hidden * penetration })
     }
 
     /// The smooth part at x = ln(h/h_peak); that of the first depth before it.
@@ -69,21 +85,28 @@ impl Difference {
 
     /// The correction that is added to ln Q.
     fn correction(&self, x: f64) -> f64 {
-        -(ORDER * self.smooth(x)).clamp(-MOST, MOST)
+        let smooth = self.smooth(x);
+        -self.share(smooth) * smooth.clamp(-MOST, MOST)
+    }
+
+    /// The share of the smooth part that is taken off where it is this.
+    fn share(&self, smooth: f64) -> f64 {
+        let [more, less] = self.taken_off;
+        if smooth > 0.0 { more } else { less }
     }
 
     /// The bound of what is left near x.
     fn bound(&self, from: f64, to: f64) -> f64 {
         let within = self.points.iter().zip(&self.ripple).filter(|([x, _], _)| (from..=to).contains(x));
-        let largest = |[smooth, rest, own]: [f64; 3], ([x, d], ripple): (&[f64; 2], &f64)| {
+        let largest = |[smooth, rest, own, beyond]: [f64; 4], ([x, d], ripple): (&[f64; 2], &f64)| {
             let even = self.smooth(*x);
-            [smooth.max(even.abs()), rest.max((d - even).abs()), own.max(ripple.abs())]
+            // what was not taken off stays
+            let left = self.share(even) * (even.abs() - MOST);
+            [smooth.max(even.abs()), rest.max((d - even).abs()), own.max(ripple.abs()), beyond.max(left)]
         };
-        let [smooth, rest, own] = within.fold([0.0; 3], largest);
+        let [smooth, rest, own, beyond] = within.fold([0.0; 4], largest);
         // the companion ripples more; the run itself has kinks that are no ripple
         let rest = rest.min(own);
-        // what was not taken off stays
-        let beyond = (ORDER * smooth - MOST).max(0.0);
         (REMAINS * (smooth + rest)).hypot(self.hidden) + beyond
     }
 
@@ -119,7 +142,7 @@ pub(super) fn settle(run: &mut Outcome, companion: &Outcome, symmetry: Symmetry,
     let peak = end.min(other);
     let depths = (0..DEPTHS).map(|i| COUNTS_FROM.ln() * i as f64 / (DEPTHS - 1) as f64).rev();
     let depths: Vec<f64> = depths.collect();
-    let difference = |[own, other]: &[Curve; 2], hidden: f64| {
+    let difference = |[own, other]: &[Curve; 2], of: Quantity| {
         let smooth = own.smooth(peak);
         let at = |x: &f64| {
             let depth = peak * x.exp();
@@ -127,10 +150,9 @@ pub(super) fn settle(run: &mut Outcome, companion: &Outcome, symmetry: Symmetry,
             ([*x, other.logarithm_at(depth) - value], value - smooth.at(depth).ln())
         };
         let (points, ripple) = depths.iter().map(at).unzip();
-        Difference::new(points, ripple, hidden * penetration)
+        Difference::new(points, ripple, of, penetration)
     };
-    let (Some(force), Some(area)) = (difference(&curves[0], HIDDEN[0]), difference(&curves[1], HIDDEN[1]))
-    else {
+    let (Some(force), Some(area)) = (difference(&curves[0], FORCE), difference(&curves[1], AREA)) else {
         return;
     };
     let summary = &run.summary;
