@@ -68,7 +68,7 @@ pub fn run_with(
         settle(&mut outcome, &companion, scene.symmetry, numbers.penetration);
     }
     if let (Target::Force(force), None) = (target, &outcome.stopped) {
-        meet_force(&mut outcome, force);
+        meet_force(&mut outcome, force, scene.symmetry);
     }
     // of the force and the depth that are stated
     outcome.summary.oliver_pharr =
