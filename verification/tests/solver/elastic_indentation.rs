@@ -1,5 +1,6 @@
 //! Claim: an elastic flat body follows Hertz under a sphere and Sneddon under a cone of 1 degree to 1 % in force, and what
-//! the method of Oliver and Pharr makes of the two curves is the true reduced modulus to 2 % and the true contact area to 4 %.
+//! the method of Oliver and Pharr makes of the two curves is the true reduced modulus to 2 % and the true contact area to 4 %. At the
+//! numbers of a level the contact area is true within the error that the run states.
 //!
 //! Source: `contact` (Johnson 1985; Sneddon 1965); Oliver and Pharr 1992, whose h_c is exact for both. Tolerance 1 %: as in
 //! `elastic_flattening`, compared from a fifth of the peak on. Modulus: unloading stiffness 1 %, and half the 2 % of the
