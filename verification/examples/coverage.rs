@@ -148,10 +148,13 @@ fn summary(name: &str, rows: &[&Row], quantity: usize) -> Option<String> {
 /// A table of each quantity over groups of rows.
 fn tables(report: &mut Report, groups: &[(&str, Vec<&Row>)]) {
     for (quantity, name) in QUANTITIES.iter().enumerate() {
-        report.line(&format!("\n{name}:\n"));
-        report.table(COLUMNS);
-        let lines = groups.iter().filter_map(|(name, rows)| summary(name, rows, quantity));
-        lines.for_each(|line| report.line(&line));
+        let lines: Vec<String> =
+            groups.iter().filter_map(|(name, rows)| summary(name, rows, quantity)).collect();
+        if !lines.is_empty() {
+            report.line(&format!("\n{name}:\n"));
+            report.table(COLUMNS);
+            lines.iter().for_each(|line| report.line(line));
+        }
     }
 }
 
