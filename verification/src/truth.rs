@@ -4,8 +4,8 @@
 //! [`RECIPES`] says how fine it is. Truths are kept as files in a folder while they are found, so that what was stopped goes on there,
 //! and packed into one file that is committed, so that each session adds to it.
 
-// a scene and a truth are plain data
-#![allow(clippy::expect_used)]
+// a scene and a truth are plain data; searches that take minutes say how far they are
+#![allow(clippy::expect_used, clippy::print_stderr)]
 
 use crate::coverage_scenes::Case;
 use crate::report::{replace, timed};
