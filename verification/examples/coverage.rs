@@ -4,12 +4,12 @@
 //! [--budget SECONDS] [--out FILE]`, or `--scene N` for the text of one scene and its row. The table is
 //! `verification/results/coverage.md`.
 //!
-//! The truth of a scene is a run of it beyond `reference`: 1.6 times its elements and steps, half its penetration, twice its
-//! substrate, extrapolated by a companion of its own as every run is; of some scenes with the other element. One takes some 100 s of
-//! a core, all of them ten hours of two. Each is kept as a file in the folder of `--cache` (`target/coverage` unless told) under the number and a hash of the scene, so that
-//! what was stopped goes on there; a truth that was not reached is kept too, and tried again once its file is removed. After the
-//! seconds of `--budget` no new truth is begun, and the table is of what there is. `--level` runs all scenes at one level instead of
-//! at their own: the truths are the same.
+//! The truth of a scene is a finer run of it ([`RECIPES`]), extrapolated by a companion of its own as every run is; of some scenes
+//! with the other element. Those that were found are in `verification/results/coverage-truths.json.gz`; the others are searched for
+//! and kept in the folder of `--cache` (`target/coverage` unless told) under the number and a hash of the scene, so that what was
+//! stopped goes on there. A truth that was not reached is kept too. After the seconds of `--budget` no new truth is begun, and the
+//! table is of what there is. `--level` runs all scenes at one level instead of at their own. Before all of these words: `pack` puts
+//! all truths into the committed file; `recipes` holds the truths of draft and standard runs against those of `reference` runs.
 //!
 //! An error is the largest over 0.2 ≤ h/h_peak ≤ 1 for force, contact area and mean pressure, relative; the residual depth is over
 //! the peak depth, the elastic fraction absolute, the stiffness relative.
@@ -17,71 +17,21 @@
 // on scenes of its own, for hours
 #![allow(clippy::expect_used, clippy::print_stderr, clippy::print_stdout)]
 
-use asperity_solver::run::crush::{Outcome, run};
-use asperity_solver::run::curve::{COUNTS_FROM, Curve};
-use asperity_solver::run::discretisation::Discretisation;
-use asperity_solver::run::record::{Errors, Phase};
-use asperity_solver::scene::{Accuracy, ElementChoice, Numerics, Scene};
+use asperity_solver::scene::Accuracy;
 use asperity_verification::coverage_scenes::{Case, Kind};
-use asperity_verification::report::{Report, replace, timed};
+use asperity_verification::report::Report;
+use asperity_verification::truth::{Answer, Each, QUANTITIES, RECIPES, Recipe, SOFTER, Truth, Truths};
 use rayon::prelude::*;
-use serde::{Deserialize, Serialize};
 use std::error::Error;
-use std::ops::{ControlFlow, Range};
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 /// Scenes unless told: every kind as often as every level with it.
 const SCENES: Range<usize> = 0..630;
 
-/// Elements and steps of a truth over those of `reference`.
-const FINER: f64 = 1.6;
-
-/// Linear elements in the place of quadratic ones, whose errors are independent of theirs, over those of `reference`: they cost more.
-const FINER_LINEAR: f64 = 1.2;
-
-/// Its penetration and its substrate over those of `reference`.
-const SOFTER: f64 = 0.5;
-const WIDER: f64 = 2.0;
-
-/// Depths at which curves are compared.
-const DEPTHS: usize = 81;
-
-/// Largest share of the depth by which the end of a complete run may miss it.
-const SHORT: f64 = 1e-3;
-
-/// The quantities whose errors are stated, in the order of [`stated`].
-const QUANTITIES: [&str; 6] =
-    ["force", "contact area", "mean pressure", "residual depth", "elastic fraction", "unloading stiffness"];
-
-/// A value or a bound of each of [`QUANTITIES`], `None` where it is not known.
-type Each = [Option<f64>; 6];
-
-/// The results of a run of a scene.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-struct Answer {
-    /// Depth over the peak depth, force (N, N/m), contact area (m², m).
-    curve: Vec<[f64; 3]>,
-    /// Over the peak depth.
-    residual_depth: Option<f64>,
-    elastic_fraction: Option<f64>,
-    /// N/m (N/m²).
-    unloading_stiffness: Option<f64>,
-    /// The errors that it states, of [`QUANTITIES`].
-    stated: Each,
-    energy_balance: f64,
-}
-
-/// The truth of a scene, and how it was found.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-struct Truth {
-    scene: usize,
-    /// With another element than that of the scene.
-    other_element: bool,
-    numerics: Numerics,
-    seconds: f64,
-    answer: Answer,
-}
+/// The committed truths.
+const PACKED: &str = "verification/results/coverage-truths.json.gz";
 
 /// The truth of a scene against its level.
 struct Row {
@@ -92,136 +42,8 @@ struct Row {
     stated: Each,
     doubt: Each,
     energy_balance: f64,
-}
-
-fn stated(errors: &Errors) -> Each {
-    let known = |x: f64| Some(x).filter(|x| x.is_finite());
-    [
-        known(errors.force),
-        known(errors.contact_area),
-        known(errors.mean_pressure),
-        errors.residual_depth.and_then(known),
-        errors.elastic_fraction.and_then(known),
-        errors.unloading_stiffness.and_then(known),
-    ]
-}
-
-impl Answer {
-    /// Of a run that reached its depth, or why there is none.
-    fn of(outcome: &Outcome, depth: f64) -> Result<Answer, String> {
-        let summary = &outcome.summary;
-        if let Some(stopped) = &outcome.stopped {
-            let way = if stopped.phase == Phase::Load { "" } else { ", unloading" };
-            return Err(format!("{} at {:.2} of the depth{way}", stopped.reason, stopped.depth / depth));
-        }
-        let loading = outcome.rows.iter().filter(|row| row.phase == Phase::Load);
-        let force = Curve::force(&outcome.rows);
-        let area = Curve::new(loading.map(|row| [row.depth, row.contact_area]));
-        if (force.end() / depth - 1.0).abs() > SHORT {
-            return Err(format!("ends at {:.4} of the depth", force.end() / depth));
-        }
-        let share = |i: usize| COUNTS_FROM + (1.0 - COUNTS_FROM) * i as f64 / (DEPTHS - 1) as f64;
-        let at = |share: f64| {
-            let h = (share * depth).min(force.end());
-            [share, force.at(h), area.at(h)]
-        };
-        let curve: Vec<[f64; 3]> = (0..DEPTHS).map(|i| at(share(i))).collect();
-        if curve.iter().flatten().any(|x| !x.is_finite()) {
-            return Err("the curve is not known at every depth".into());
-        }
-        Ok(Answer {
-            curve,
-            residual_depth: summary.residual_depth.map(|h| h / summary.peak_depth),
-            elastic_fraction: summary.elastic_fraction,
-            unloading_stiffness: summary.unloading_stiffness,
-            stated: stated(&summary.errors),
-            energy_balance: summary.energy_balance_error,
-        })
-    }
-
-    /// Its errors against `truth`.
-    fn error(&self, truth: &Answer) -> Each {
-        let worst = |of: fn(&[f64; 3]) -> f64| {
-            let pairs = self.curve.iter().zip(&truth.curve);
-            Some(pairs.map(|(own, other)| (of(own) / of(other) - 1.0).abs()).fold(0.0, f64::max))
-        };
-        let difference = |own: Option<f64>, other: Option<f64>| Some((own? - other?).abs());
-        let stiffness = difference(self.unloading_stiffness, truth.unloading_stiffness);
-        [
-            worst(|p| p[1]),
-            worst(|p| p[2]),
-            worst(|p| p[1] / p[2]),
-            difference(self.residual_depth, truth.residual_depth),
-            difference(self.elastic_fraction, truth.elastic_fraction),
-            stiffness.zip(truth.unloading_stiffness).map(|(d, s)| d / s),
-        ]
-    }
-}
-
-fn answer(scene: &Scene, mesh: Option<asperity_mesh::Mesh>) -> Result<Answer, String> {
-    let depth = scene.loading.depth.ok_or("the scene is not driven by depth")?.0;
-    let outcome = run(scene, mesh, &mut |_| ControlFlow::Continue(())).map_err(|e| e.to_string())?;
-    Answer::of(&outcome, depth)
-}
-
-/// The scene beyond `reference`.
-fn beyond(scene: &Scene, element: ElementChoice) -> Scene {
-    let mut finer = Scene { accuracy: Accuracy::Reference, ..scene.clone() };
-    finer.numerics = Numerics { element: Some(element), ..Numerics::default() };
-    let reference = Discretisation::new(&finer);
-    let other = element == ElementChoice::Q4 && Discretisation::new(scene).element != element;
-    let more = |count: usize, factor: f64| Some((count as f64 * factor).ceil() as usize);
-    let elements = if other { FINER_LINEAR } else { FINER };
-    finer.numerics.elements_in_contact = more(reference.elements_in_contact, elements);
-    finer.numerics.steps = more(reference.steps, FINER);
-    finer.numerics.penetration = Some(reference.penetration * SOFTER);
-    finer.numerics.domain = Some((reference.domain * WIDER).min(Numerics::DOMAIN[1]));
-    finer
-}
-
-/// Finds the truth with the element that the scene is to be judged by, or where that does not reach the depth with its own.
-fn find(case: &Case) -> Result<Truth, String> {
-    let own = Discretisation::new(&case.scene).element;
-    let with = |element: ElementChoice| {
-        let finer = beyond(&case.scene, element);
-        let (answer, seconds) = timed(|| answer(&finer, None));
-        let (scene, numerics) = (case.number, finer.numerics);
-        answer.map(|answer| Truth { scene, other_element: element != own, numerics, seconds, answer })
-    };
-    match case.element_of_truth() {
-        element if element == own => with(own),
-        other => with(other).or_else(|_| with(own)),
-    }
-}
-
-/// The key of a truth, which depends not on the level, nor on the numbers of `reference`, as these are only to be surpassed.
-fn text(case: &Case) -> String {
-    let same = Scene { accuracy: Accuracy::Reference, ..case.scene.clone() };
-    let element = case.element_of_truth();
-    let recipe = format!("{element:?} {FINER} {FINER_LINEAR} {SOFTER} {WIDER}");
-    toml::to_string(&same).expect("a scene is a table") + &recipe
-}
-
-/// FNV-1a.
-fn hash(text: &str) -> u64 {
-    text.bytes().fold(0xcbf2_9ce4_8422_2325, |h, b| (h ^ u64::from(b)).wrapping_mul(0x0100_0000_01b3))
-}
-
-/// The truth of `case` from `cache`, or found and put there if `search`; `None` if it is not there.
-fn truth(case: &Case, cache: &Path, search: bool) -> Option<Result<Truth, String>> {
-    let file = cache.join(format!("{:04}-{:016x}.json", case.number, hash(&text(case))));
-    let kept = std::fs::read_to_string(&file).ok().and_then(|text| serde_json::from_str(&text).ok());
-    if kept.is_some() || !search {
-        return kept;
-    }
-    let (found, seconds) = timed(|| find(case));
-    let text = serde_json::to_string(&found).expect("a truth is plain data");
-    if let Err(error) = replace(&file, &text) {
-        eprintln!("{} is not kept: {error}", file.display());
-    }
-    let end = found.as_ref().err().map_or(String::new(), |reason| format!(": {reason}"));
-    eprintln!("truth of scene {} ({}): {seconds:.0} s{end}", case.number, case.kind.name());
-    Some(found)
+    /// That the truth took.
+    seconds: f64,
 }
 
 /// The outcome of a scene.
@@ -235,13 +57,13 @@ enum End {
     Measured(Box<Row>),
 }
 
-fn measure(case: Case, cache: &Path, search: bool) -> End {
-    let truth = match truth(&case, cache, search) {
+fn measure(case: Case, truths: &Truths, search: bool) -> End {
+    let truth = match truths.of(&case, search) {
         None => return End::Open,
         Some(Err(reason)) => return End::NoTruth(Box::new(case), reason),
         Some(Ok(truth)) => truth,
     };
-    let run = case.mesh().map_err(|e| e.to_string()).and_then(|mesh| answer(&case.scene, mesh));
+    let run = case.mesh().map_err(|e| e.to_string()).and_then(|mesh| Answer::to(&case.scene, mesh));
     match run {
         Err(reason) => End::Stopped(Box::new(case), reason),
         Ok(run) => End::Measured(Box::new(Row {
@@ -250,6 +72,7 @@ fn measure(case: Case, cache: &Path, search: bool) -> End {
             doubt: truth.answer.stated,
             energy_balance: run.energy_balance,
             other_element: truth.other_element,
+            seconds: truth.seconds,
             case,
         })),
     }
@@ -325,10 +148,13 @@ fn summary(name: &str, rows: &[&Row], quantity: usize) -> Option<String> {
 /// A table of each quantity over groups of rows.
 fn tables(report: &mut Report, groups: &[(&str, Vec<&Row>)]) {
     for (quantity, name) in QUANTITIES.iter().enumerate() {
-        report.line(&format!("\n{name}:\n"));
-        report.table(COLUMNS);
-        let lines = groups.iter().filter_map(|(name, rows)| summary(name, rows, quantity));
-        lines.for_each(|line| report.line(&line));
+        let lines: Vec<String> =
+            groups.iter().filter_map(|(name, rows)| summary(name, rows, quantity)).collect();
+        if !lines.is_empty() {
+            report.line(&format!("\n{name}:\n"));
+            report.table(COLUMNS);
+            lines.iter().for_each(|line| report.line(line));
+        }
     }
 }
 
@@ -356,7 +182,7 @@ fn write(report: &mut Report, rows: &[Row], ends: &[End]) {
     report.section("Kinds");
     let kinds = Kind::ALL.map(|kind| (kind.name(), those(rows, |row| row.case.kind == kind)));
     tables(report, &kinds);
-    report.section("Truth");
+    report.section("Element of the truth");
     tables(
         report,
         &[
@@ -364,13 +190,26 @@ fn write(report: &mut Report, rows: &[Row], ends: &[End]) {
             ("truth of the other element", those(rows, |row| row.other_element)),
         ],
     );
+    report.section("Truths");
+    report.table("| truths of | elements, steps and substrate over those of `reference` | penetration | number | mean cost, s |");
+    for (name, level, _) in LEVELS {
+        let Recipe(finer) = Recipe::of(level);
+        let seconds: Vec<f64> = those(rows, |row| own(row, level)).iter().map(|row| row.seconds).collect();
+        let mean = seconds.iter().sum::<f64>() / seconds.len() as f64;
+        report.line(&format!(
+            "| {name} | {finer} | {:.2} | {} | {mean:.0} |",
+            finer.powf(SOFTER),
+            seconds.len()
+        ));
+    }
     report.section("Energy balance");
-    report.table("| level | number | most that it may be | above, scenes | largest |");
+    report.table("| level | number | most that it may be | within, % | largest |");
     for (name, level, most) in LEVELS {
         let values: Vec<f64> = those(rows, |row| own(row, level)).iter().map(|r| r.energy_balance).collect();
-        let above = values.iter().filter(|b| **b > most).count();
+        let within = values.iter().filter(|b| **b <= most).count();
+        let within = 100.0 * within as f64 / values.len() as f64;
         let largest = values.iter().fold(0.0, |m: f64, b| m.max(*b));
-        report.line(&format!("| {name} | {} | {most:.0e} | {above} | {largest:.1e} |", values.len()));
+        report.line(&format!("| {name} | {} | {most:.0e} | {within:.1} | {largest:.1e} |", values.len()));
     }
     report.section("Misses");
     report.table("| scene | kind | level | quantity | true, % | stated, % | the truth states of itself, % |");
@@ -400,13 +239,13 @@ fn title(case: &Case) -> String {
 }
 
 /// Prints the text of a scene and what is measured of it.
-fn show(case: Case, cache: &Path) {
+fn show(case: Case, truths: &Truths) {
     if case.kind == Kind::ImportedMesh {
         println!("# given the mesh that is built for it");
     }
     println!("{}", toml::to_string(&case.scene).expect("a scene is a table"));
     println!("{}, {}", case.kind.name(), case.scene.accuracy);
-    match measure(case, cache, true) {
+    match measure(case, truths, true) {
         End::Open => {}
         End::NoTruth(_, reason) => println!("no truth: {reason}"),
         End::Stopped(_, reason) => println!("{reason}"),
@@ -422,8 +261,43 @@ fn show(case: Case, cache: &Path) {
     }
 }
 
+/// The truths of coarser levels against those of `reference` runs, of the cases that have one.
+fn compare(report: &mut Report, cases: &[Case], truths: &Truths) {
+    report.table(
+        "| truths of | scenes | mean cost, s | that of `reference` runs, s | quantity | median difference, % | 90 % below, % | promise, % |",
+    );
+    for ((name, level, _), recipe) in LEVELS.iter().zip(RECIPES).take(2) {
+        let pairs = cases.iter().filter_map(|case| {
+            let best = truths.of(case, false)?.ok()?;
+            Some((recipe.find(case).ok()?, best))
+        });
+        let pairs: Vec<(Truth, Truth)> = pairs.collect();
+        let mean = |of: fn(&(Truth, Truth)) -> f64| pairs.iter().map(of).sum::<f64>() / pairs.len() as f64;
+        let [cost, best] = [mean(|p| p.0.seconds), mean(|p| p.1.seconds)];
+        for (quantity, what) in QUANTITIES.iter().enumerate() {
+            let differences: Vec<f64> =
+                pairs.iter().filter_map(|(own, best)| own.answer.error(&best.answer)[quantity]).collect();
+            let [median, most] = [0.5, 0.9].map(|share| 100.0 * quantile(differences.clone(), share));
+            let promise = 100.0 * level.promise();
+            report.line(&format!(
+                "| {name} | {} | {cost:.0} | {best:.0} | {what} | {median:.3} | {most:.3} | {promise} |",
+                pairs.len()
+            ));
+        }
+    }
+}
+
+/// What is to be done with the scenes.
+#[derive(Clone, Copy, PartialEq)]
+enum Task {
+    Measure,
+    Pack,
+    Recipes,
+}
+
 /// The words of the command line.
 struct Options {
+    task: Task,
     cache: PathBuf,
     scenes: Range<usize>,
     scene: Option<usize>,
@@ -433,7 +307,13 @@ struct Options {
 
 fn options(words: &[String]) -> Result<Options, Box<dyn Error>> {
     let cache = PathBuf::from("target/coverage");
-    let mut options = Options { cache, scenes: SCENES, scene: None, level: None, budget: f64::INFINITY };
+    let (task, words) = match words.split_first() {
+        Some((word, rest)) if word == "pack" => (Task::Pack, rest),
+        Some((word, rest)) if word == "recipes" => (Task::Recipes, rest),
+        _ => (Task::Measure, words),
+    };
+    let mut options =
+        Options { task, cache, scenes: SCENES, scene: None, level: None, budget: f64::INFINITY };
     for pair in words.chunks(2) {
         let [key, value] = pair else { return Err(format!("{} needs a value", pair[0]).into()) };
         match key.as_str() {
@@ -459,11 +339,26 @@ fn main() -> Result<(), Box<dyn Error>> {
         case.scene.accuracy = options.level.unwrap_or(case.scene.accuracy);
         Ok::<Case, String>(case)
     };
+    let truths = Truths::open(Path::new(PACKED), &options.cache)?;
     if let Some(number) = options.scene {
-        show(make(number)?, &options.cache);
+        show(make(number)?, &truths);
         return Ok(());
     }
     let cases: Vec<Case> = options.scenes.clone().map(make).collect::<Result<_, _>>()?;
+    match options.task {
+        Task::Measure => {}
+        Task::Pack => {
+            println!("{} truths", truths.pack(&cases, Path::new(PACKED))?);
+            return Ok(());
+        }
+        Task::Recipes => {
+            let finest: Vec<Case> =
+                cases.into_iter().filter(|case| case.scene.accuracy == Accuracy::Reference).collect();
+            compare(&mut report, &finest, &truths);
+            report.finish()?;
+            return Ok(());
+        }
+    }
     let (count, clock) = (cases.len(), Instant::now());
     // in order, so that what is done in a budget holds every kind
     let mut ends: Vec<(usize, End)> = cases
@@ -471,7 +366,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         .par_bridge()
         .map(|case| {
             let search = clock.elapsed().as_secs_f64() < options.budget;
-            (case.number, measure(case, &options.cache, search))
+            (case.number, measure(case, &truths, search))
         })
         .collect();
     ends.sort_by_key(|(number, _)| *number);

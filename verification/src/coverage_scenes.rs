@@ -166,13 +166,15 @@ impl Case {
     }
 
     /// The element that the truth is to be found with: that of the levels or, of some scenes and of those that ask for the linear
-    /// one, the other.
+    /// one, the other. Quadratic elements in plane strain are not judged by linear ones: the mesh far from the contact, which no level
+    /// refines, is part of the depth there, and linear elements on it are too stiff by 0.8 % of the force of a ridge.
     pub fn element_of_truth(&self) -> ElementChoice {
         let own = Discretisation::new(&self.scene).element;
         let other = self.kind == Kind::LinearElement || self.number % OTHER_ELEMENT == OTHER_ELEMENT / 2;
         match own {
             _ if !other => own,
             ElementChoice::Q4 => ElementChoice::Q8r,
+            ElementChoice::Q8r if self.scene.symmetry == Symmetry::PlaneStrain => own,
             ElementChoice::Q8r => ElementChoice::Q4,
         }
     }
@@ -429,7 +431,7 @@ mod tests {
         let count = |of: &dyn Fn(&Case) -> bool| battery.iter().filter(|case| of(case)).count();
         assert_eq!(count(&|case| case.scene.accuracy == Accuracy::Reference), 90);
         let other = count(&|case| Discretisation::new(&case.scene).element != case.element_of_truth());
-        assert!((60..100).contains(&other), "{other}");
+        assert!((50..80).contains(&other), "{other}");
         assert_eq!(count(&|case| case.mesh().unwrap().is_some()), 35);
         assert!(count(&|case| case.scene.unused().iter().any(|e| e.path != "numerics.domain")) == 0);
     }

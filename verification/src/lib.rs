@@ -2,7 +2,7 @@
 //!
 //! The claims are in `tests/`, one a file; what was reached is in `results/`, in tables that the programs of `examples/` write
 //! with `report`. Closed forms: `contact` (elastic), `uniaxial`, `simple_shear`, `thick_wall`,
-//! `manufactured`. Other codes: `calibration`. Bodies: `coverage_scenes`, `test_meshes`, `single_asperity`. `single_increment` solves one
+//! `manufactured`. Other codes: `calibration`. Bodies: `coverage_scenes` (with their `truth`), `test_meshes`, `single_asperity`. `single_increment` solves one
 //! increment.
 
 pub mod contact;
@@ -16,6 +16,7 @@ pub mod calibration;
 
 pub mod coverage_scenes;
 mod measured_scenes;
+pub mod truth;
 
 pub mod random_scenes;
 pub mod single_asperity;

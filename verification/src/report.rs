@@ -79,17 +79,17 @@ fn arguments(mut words: impl Iterator<Item = String>) -> (Option<PathBuf>, Vec<S
     (file, rest)
 }
 
-/// Writes `text` beside `file` and puts it in its place, so that a reader sees the old file or the new one.
+/// Writes `content` beside `file` and puts it in its place, so that a reader sees the old file or the new one.
 ///
 /// # Errors
 /// The folder cannot be made or the file not be written.
-pub fn replace(file: &Path, text: &str) -> io::Result<()> {
+pub fn replace(file: &Path, content: impl AsRef<[u8]>) -> io::Result<()> {
     if let Some(folder) = file.parent() {
         std::fs::create_dir_all(folder)?;
     }
     let mut part = file.as_os_str().to_owned();
     part.push(".part");
-    std::fs::write(&part, text)?;
+    std::fs::write(&part, content)?;
     std::fs::rename(&part, file)
 }
 

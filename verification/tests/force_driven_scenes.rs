@@ -57,6 +57,13 @@ fn the_force_of_a_depth_leads_back_to_the_depth() {
         assert!((by_force.peak_force / by_depth.peak_force - 1.0).abs() < 1e-8, "{name}");
         let ratio = by_force.peak_depth / by_depth.peak_depth;
         assert!((ratio - 1.0).abs() < 0.05, "{name}: {ratio}");
+        // the disc, or the width, of the radius
+        let area = match scene.symmetry {
+            Symmetry::Axisymmetric => std::f64::consts::PI * by_force.contact_radius.powi(2),
+            Symmetry::PlaneStrain => 2.0 * by_force.contact_radius,
+        };
+        let ratio = by_force.contact_area / area;
+        assert!((ratio - 1.0).abs() < 1e-9, "{name}: area over that of the radius {ratio}");
     }
 }
 

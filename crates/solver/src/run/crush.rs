@@ -92,7 +92,7 @@ fn crush(
         settle(&mut outcome, &companion, scene.symmetry, numbers.penetration);
     }
     if let (Target::Force(force), None) = (target, &outcome.stopped) {
-        meet_force(&mut outcome, force);
+        meet_force(&mut outcome, force, scene.symmetry);
     }
     // of the force and the depth that are stated
     outcome.summary.oliver_pharr =
