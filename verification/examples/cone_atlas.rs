@@ -70,7 +70,7 @@ fn renew(mut report: Report) {
     let cones = atlas_fit::solved(&rows);
     let fit = atlas_fit::fit(&cones).expect("enough cones");
     atlas_table::write(&mut report, &rows, &cones, &fit);
-    replace(Path::new(FORMULA), &fit.atlas.text()).expect("can be written");
+    replace(Path::new(FORMULA), fit.atlas.text()).expect("can be written");
     report.finish().expect("can be written");
 }
 

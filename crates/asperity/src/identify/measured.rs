@@ -120,7 +120,7 @@ fn turn(readings: &[[f64; 2]], most: f64) -> Turn {
     let at_the_turn = |p: &[f64; 2]| high(p) && p[0] >= deepest - (1.0 - TURN) * deepest.abs();
     let turned: Vec<f64> = readings.iter().filter(|p| at_the_turn(p)).map(|p| p[1]).collect();
     let force = turned.iter().sum::<f64>() / turned.len().max(1) as f64;
-    let last = readings.iter().rposition(|p| at_the_turn(p)).unwrap_or(0);
+    let last = readings.iter().rposition(at_the_turn).unwrap_or(0);
     let first = readings.iter().position(|p| p[1] >= TOP * force).unwrap_or(0).min(last);
     Turn { first, last, peak: [readings[last][0], force] }
 }
