@@ -19,10 +19,12 @@ pub struct Interval {
     pub bounded: [bool; 2],
 }
 
-/// The interval of coordinate `i`; `deviation` is its size by the curvature at the minimum.
+/// The interval of coordinate `i`; `deviation` is its size by the curvature at the minimum. Where the sum of squares has several
+/// valleys, minima in the `others` count too: the interval reaches from the first end to the last.
 pub fn of_coordinate(
     residuals: &Residuals<'_>,
     best: &Minimum,
+    others: &[Minimum],
     bounds: &[[f64; 2]],
     i: usize,
     deviation: f64,
@@ -34,7 +36,18 @@ pub fn of_coordinate(
         start[i] = x;
         minimise(residuals, &start, &held)
     };
-    let ends = [0, 1].map(|side| one_side(&at, best, best.point[i], bounds[i][side], deviation));
+    let end = |from: &Minimum, side: usize| {
+        one_side(&at, from, best.chi2, from.point[i], bounds[i][side], deviation)
+    };
+    let mut ends = [0, 1].map(|side| end(best, side));
+    for other in others {
+        if other.point[i] < ends[0].0 {
+            ends[0] = end(other, 0);
+        }
+        if other.point[i] > ends[1].0 {
+            ends[1] = end(other, 1);
+        }
+    }
     Interval { ends: ends.map(|e| e.0), bounded: ends.map(|e| e.1) }
 }
 
@@ -60,14 +73,16 @@ pub fn of_number(
         Minimum { point, chi2 }
     };
     let far = 40.0;
-    let ends = [-far, far].map(|side| one_side(&at, best, here, here + side, deviation));
+    let ends = [-far, far].map(|side| one_side(&at, best, best.chi2, here, here + side, deviation));
     Some(Interval { ends: ends.map(|e| e.0), bounded: ends.map(|e| e.1) })
 }
 
-/// The end of the interval from `here` toward `limit`, and whether it is that.
+/// The end of the interval from `here`, where the minimum `from` lies, toward `limit`, and whether it is that. The sum of squares
+/// grows from `lowest`.
 fn one_side(
     at: &dyn Fn(f64, &[f64]) -> Minimum,
-    best: &Minimum,
+    from: &Minimum,
+    lowest: f64,
     here: f64,
     limit: f64,
     deviation: f64,
@@ -77,10 +92,10 @@ fn one_side(
         return (limit, true);
     }
     // the root of the growth is nearly a straight line
-    let root = |minimum: &Minimum| (minimum.chi2 - best.chi2).max(0.0).sqrt();
+    let root = |minimum: &Minimum| (minimum.chi2 - lowest).max(0.0).sqrt();
     let goal = GROWTH.sqrt();
-    let mut inner = (here, 0.0);
-    let mut point = best.point.clone();
+    let mut inner = (here, root(from));
+    let mut point = from.point.clone();
     let mut step = deviation.max(1e-6 * room.abs()).min(room.abs()).copysign(room);
     let mut outer = None;
     for _ in 0..STEPS[0] {
@@ -125,10 +140,10 @@ mod tests {
     fn an_interval_follows_the_curve_and_ends_at_a_bound() {
         let residuals = |p: &[f64]| Some(vec![(p[0].exp() - 1.0) / 0.1]);
         let best = Minimum { point: vec![0.0], chi2: 0.0 };
-        let free = of_coordinate(&residuals, &best, &[[-2.0, 2.0]], 0, 0.1);
+        let free = of_coordinate(&residuals, &best, &[], &[[-2.0, 2.0]], 0, 0.1);
         assert!((free.ends[0] - (1.0 - 0.196_f64).ln()).abs() < 2e-3, "{free:?}");
         assert!((free.ends[1] - (1.0 + 0.196_f64).ln()).abs() < 2e-3 && free.bounded == [false; 2]);
-        let tight = of_coordinate(&residuals, &best, &[[-0.05, 2.0]], 0, 0.1);
+        let tight = of_coordinate(&residuals, &best, &[], &[[-0.05, 2.0]], 0, 0.1);
         assert!(tight.ends[0] == -0.05 && tight.bounded == [true, false]);
     }
 
@@ -140,7 +155,19 @@ mod tests {
         let bounds = [[-1.0, 1.0], [-1.0, 1.0]];
         let sum = of_number(&residuals, &best, &bounds, &|p| Some(p[0] + p[1]), 0.1).unwrap();
         assert!((sum.ends[1] - 0.196).abs() < 2e-3 && (sum.ends[0] + 0.196).abs() < 2e-3, "{sum:?}");
-        let one = of_coordinate(&residuals, &best, &bounds, 0, 0.1);
+        let one = of_coordinate(&residuals, &best, &[], &bounds, 0, 0.1);
         assert_eq!((one.ends, one.bounded), ([-1.0, 1.0], [true, true]));
+    }
+
+    /// x² measured as 1 ± 0.1: from the minimum at 1 alone the one at -1 is out of reach.
+    #[test]
+    fn an_interval_reaches_over_every_valley_that_the_measurements_allow() {
+        let residuals = |p: &[f64]| Some(vec![(p[0] * p[0] - 1.0) / 0.1]);
+        let [best, other] = [1.0, -1.0].map(|x| Minimum { point: vec![x], chi2: 0.0 });
+        let [near, far] = [0.804_f64, 1.196].map(f64::sqrt);
+        let alone = of_coordinate(&residuals, &best, &[], &[[-3.0, 3.0]], 0, 0.05);
+        assert!((alone.ends[0] - near).abs() < 2e-3 && (alone.ends[1] - far).abs() < 2e-3, "{alone:?}");
+        let both = of_coordinate(&residuals, &best, &[other], &[[-3.0, 3.0]], 0, 0.05);
+        assert!((both.ends[0] + far).abs() < 2e-3 && (both.ends[1] - far).abs() < 2e-3, "{both:?}");
     }
 }

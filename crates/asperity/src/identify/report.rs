@@ -36,7 +36,7 @@ impl Identification {
         let sections = html! {
             h2 { "Numbers" }
             (page::table(
-                "What was sought, with intervals that hold the truth in 95 % of measurements like these.",
+                "What was sought, with 95 % intervals by the fit (how often they held for known metals: page Metals found again of the book).",
                 &["quantity", "value", "95 % interval", "do the measurements tell it"],
                 &parameters,
             ))

@@ -7,7 +7,7 @@ use super::objective::Objective;
 use super::parameters::{Parameter, Slot, Unknowns};
 use super::profile::{self, Interval};
 use super::search::{self, search};
-use super::verdict::{Blind, NextExperiment, blind, deviations, identifiable, next_experiment};
+use super::verdict::{Blind, NextExperiment, blind, deviations, identified, next_experiment};
 use super::{pictures, posterior};
 use crate::draw::chart::svg;
 use crate::error::Error;
@@ -30,7 +30,8 @@ pub struct Found {
     pub high: f64,
     /// Unit of the three.
     pub unit: &'static str,
-    /// Whether the measurements tell it: an interval within ±15 % (±0.05 of n) that no bound cuts.
+    /// Whether the measurements tell it: an interval within ±15 % (±0.05 of n) that no bound cuts, neither its own nor that of an
+    /// unknown it is tied to.
     pub identifiable: bool,
     /// Whether the lower and the upper end are the bounds of the search.
     pub at_bound: [bool; 2],
@@ -172,21 +173,24 @@ fn describe(
     let function = objective.function();
     let bounds = objective.bounds();
     let (deviations, correlation) = deviations(&objective, unknowns, &best.point);
+    let others = search::valleys(&objective, unknowns, best.chi2 + profile::GROWTH);
     let intervals: Vec<Interval> = (0..bounds.len())
         .into_par_iter()
-        .map(|i| profile::of_coordinate(&function, best, &bounds, i, deviations[i]))
+        .map(|i| profile::of_coordinate(&function, best, &others, &bounds, i, deviations[i]))
         .collect();
     let residual = residual(experiments, unknowns, best)?;
+    let identified = identified(&unknowns.parameters, &intervals, &correlation);
     let parameters: IndexMap<String, Found> = unknowns
         .parameters
         .iter()
         .zip(&intervals)
         .zip(&best.point)
-        .map(|((p, i), x)| (p.name.clone(), found(p, i, *x, residual.fits)))
+        .zip(&identified)
+        .map(|(((p, i), x), told)| (p.name.clone(), found(p, i, *x, residual.fits && *told)))
         .collect();
     let stress_strain = band(&function, unknowns, best, &bounds, &correlation, &deviations);
     let blind = blind(&objective, unknowns, &best.point);
-    let widest = widest(unknowns, &intervals);
+    let widest = widest(unknowns, &intervals, &identified);
     let next = widest.and_then(|of| next_experiment(&objective, experiments, unknowns, &best.point, of));
     let width = |s: &StressAt| (s.high_MPa / s.low_MPa).ln();
     let representative = stress_strain.iter().copied().min_by(|a, b| width(a).total_cmp(&width(b)));
@@ -212,27 +216,25 @@ fn describe(
     })
 }
 
-fn found(parameter: &Parameter, interval: &Interval, best: f64, fits: bool) -> Found {
+fn found(parameter: &Parameter, interval: &Interval, best: f64, identifiable: bool) -> Found {
     Found {
         value: parameter.shown(best),
         low: parameter.shown(interval.ends[0].min(best)),
         high: parameter.shown(interval.ends[1].max(best)),
         unit: parameter.unit,
-        identifiable: fits && identifiable(parameter, interval),
+        identifiable,
         at_bound: interval.bounded,
     }
 }
 
 /// The unknown of the metal with the widest interval among those that are not told.
-fn widest(unknowns: &Unknowns, intervals: &[Interval]) -> Option<usize> {
+fn widest(unknowns: &Unknowns, intervals: &[Interval], identified: &[bool]) -> Option<usize> {
     let size = |i: &usize| {
         let half = 0.5 * (intervals[*i].ends[1] - intervals[*i].ends[0]);
         let scale = if unknowns.parameters[*i].slot == Slot::HardeningExponent { 3.0 } else { 1.0 };
         half * scale
     };
-    (0..unknowns.of_the_metal())
-        .filter(|&i| !identifiable(&unknowns.parameters[i], &intervals[i]))
-        .max_by(|a, b| size(a).total_cmp(&size(b)))
+    (0..unknowns.of_the_metal()).filter(|&i| !identified[i]).max_by(|a, b| size(a).total_cmp(&size(b)))
 }
 
 /// The stress-strain curve with its band.

@@ -102,17 +102,26 @@ fn everywhere(experiments: &[Experiment], unknowns: &Unknowns) -> Result<Minimum
     let rough = roughly(experiments, unknowns, ROUGH);
     let first = least(&*rough, &points).ok_or_else(no_metal)?;
     let objective = Objective::new(experiments, unknowns, &first).ok_or_else(no_metal)?;
-    let function = objective.function();
-    let mut ranked: Vec<(f64, &Vec<f64>)> = points.par_iter().map(|p| (chi2(&function, p), p)).collect();
-    ranked.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let bounds = objective.bounds();
-    let starts: Vec<Minimum> =
-        ranked[..STARTS.min(ranked.len())].par_iter().map(|(_, p)| minimise(&function, p, &bounds)).collect();
-    starts
+    minima(&objective, &points)
         .into_iter()
         .min_by(|a, b| a.chi2.total_cmp(&b.chi2))
         .filter(|m| m.chi2.is_finite())
         .ok_or_else(no_metal)
+}
+
+/// Minima from the best of `points`.
+fn minima(objective: &Objective<'_>, points: &[Vec<f64>]) -> Vec<Minimum> {
+    let (function, bounds) = (objective.function(), objective.bounds());
+    let mut ranked: Vec<(f64, &Vec<f64>)> = points.par_iter().map(|p| (chi2(&function, p), p)).collect();
+    ranked.sort_by(|a, b| a.0.total_cmp(&b.0));
+    ranked[..STARTS.min(ranked.len())].par_iter().map(|(_, p)| minimise(&function, p, &bounds)).collect()
+}
+
+/// Minima anywhere within the bounds whose sum of squares is less than `chi2`: other metals that the measurements allow.
+pub fn valleys(objective: &Objective<'_>, unknowns: &Unknowns, chi2: f64) -> Vec<Minimum> {
+    let mut found = minima(objective, &sobol_points(&unknowns.parameters, LOOKS));
+    found.retain(|minimum| minimum.chi2 < chi2);
+    found
 }
 
 fn least(residuals: &Residuals<'_>, points: &[Vec<f64>]) -> Option<Vec<f64>> {

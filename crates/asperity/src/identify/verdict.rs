@@ -14,17 +14,32 @@ use serde::Serialize;
 /// Relative half width of the interval of a stress, of n, within which a number counts as found.
 const FOUND: [f64; 2] = [0.15, 0.05];
 
-/// Whether the interval of `parameter` is narrow and not cut by a bound.
-pub fn identifiable(parameter: &Parameter, interval: &Interval) -> bool {
-    let half = 0.5 * (interval.ends[1] - interval.ends[0]);
+/// Correlation of two unknowns from which a bound on the one decides the other.
+const TIED: f64 = 0.9;
+
+/// Whether a bound of the search, not the measurements, ends the interval of `parameter`. (n ≥ 0 is no choice.)
+fn is_cut(parameter: &Parameter, interval: &Interval) -> bool {
     let natural = matches!(parameter.slot, Slot::HardeningExponent) && interval.ends[0] <= 0.0;
-    let cut = interval.bounded[1] || (interval.bounded[0] && !natural);
+    interval.bounded[1] || (interval.bounded[0] && !natural)
+}
+
+/// Which of the unknowns the measurements tell: those of narrow intervals that no bound cuts, neither their own nor that of an
+/// unknown they are tied to.
+pub fn identified(parameters: &[Parameter], intervals: &[Interval], correlation: &[Vec<f64>]) -> Vec<bool> {
+    let cut = |j: usize| is_cut(&parameters[j], &intervals[j]);
+    let tied = |i: usize| (0..parameters.len()).any(|j| correlation[i][j].abs() > TIED && cut(j));
+    (0..parameters.len()).map(|i| is_narrow(&parameters[i], &intervals[i]) && !tied(i)).collect()
+}
+
+/// Whether the interval of `parameter` is narrow.
+fn is_narrow(parameter: &Parameter, interval: &Interval) -> bool {
+    let half = 0.5 * (interval.ends[1] - interval.ends[0]);
     let allowed = match parameter.slot {
         Slot::HardeningExponent | Slot::PoissonsRatio => FOUND[1],
         Slot::ContactDepth(_) | Slot::Compliance(_) => 0.25 * parameter.width(),
         _ => FOUND[0],
     };
-    half <= allowed && !cut
+    half <= allowed
 }
 
 /// A change of the unknowns that the measurements do not notice.
