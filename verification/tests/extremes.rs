@@ -100,7 +100,8 @@ fn against(name: &'static str, scene: Scene, other: Scene, bound: f64) -> Row {
     row(name, scene, bound, move |o| peak(o) / force(&other))
 }
 
-/// Against the same scene with the other element, whose mesh differs as well: two draft runs, each of which promises 5 %.
+/// Against the same scene with the other element, whose mesh differs as well: draft promises 5 %, and flanks that lie down at last are
+/// known to 2 to 9 % at standard, as these runs state.
 fn beside_other_element(name: &'static str, scene: Scene, element: ElementChoice) -> Row {
     let mut other = scene.clone();
     other.numerics.element = Some(element);
@@ -255,12 +256,12 @@ fn rows() -> Vec<Row> {
             o.summary.contact_radius / (10e-6 / 60f64.to_radians().tan())
         }),
         beside_other_element(
-            "slope 60°, to 95 % of its height, beside Q4",
+            "slope 60°, to 95 % of its height, at standard beside Q4",
             nearly_flat(60.0),
             ElementChoice::Q4,
         ),
         beside_other_element(
-            "slope 75°, to 95 % of its height, beside Q4",
+            "slope 75°, to 95 % of its height, at standard beside Q4",
             nearly_flat(75.0),
             ElementChoice::Q4,
         ),
@@ -301,9 +302,10 @@ fn steep_cone() -> Scene {
     })
 }
 
-/// A sharp cone of this slope, to 95 % of its height.
+/// A sharp cone of this slope, to 95 % of its height. (Draft states 6 to 16 % there.)
 fn nearly_flat(slope_deg: f64) -> Scene {
     changed(|s| {
+        s.accuracy = Accuracy::Standard;
         s.asperity[0].slope_deg = Some(slope_deg);
         s.asperity[0].tip_radius = None;
         s.loading.depth = Some(Length(19e-6));
