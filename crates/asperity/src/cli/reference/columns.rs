@@ -44,7 +44,7 @@ const REPORT: &str = "`crush`, `calibrate`, `rough` and `identify` with `--repor
 pub fn page() -> String {
     let mut text = String::from(
         "# Columns and keys of the results\n\nEvery folder of results holds text that any program reads: tables as CSV, summaries as JSON. \
-         Units stand in the names. `errors` and `force_error` are bounds that hold in 95 % of scenes, against this program's own \
+         Units stand in the names. `errors` and `force_error` are bounds meant for 95 % of scenes ([how often they hold](../verified/errors.md)), against this program's own \
          limit of fine meshes and steps: see [errors](../theory/errors.md).\n\n",
     );
     text += &format!("{REPORT}\n\n## asperity crush\n\n{CRUSH}\n\n");
