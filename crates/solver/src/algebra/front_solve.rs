@@ -80,14 +80,8 @@ impl Forward<'_> {
 
     #[inline(always)]
     fn run<const FUSED: bool>(mut self) {
-        let pivots = self.0.size.pivots;
-        for start in (0..pivots).step_by(TILE) {
-            match pivots - start {
-                1 => self.block::<1, FUSED>(start),
-                2 => self.block::<2, FUSED>(start),
-                3 => self.block::<3, FUSED>(start),
-                _ => self.block::<TILE, FUSED>(start),
-            }
+        for start in (0..self.0.size.pivots).step_by(TILE) {
+            self.next_block::<FUSED>(start);
         }
     }
 }
@@ -132,20 +126,27 @@ impl Backward<'_> {
 
     #[inline(always)]
     fn run<const FUSED: bool>(mut self) {
-        let pivots = self.0.size.pivots;
-        for start in (0..pivots).step_by(TILE).rev() {
-            match pivots - start {
-                1 => self.block::<1, FUSED>(start),
-                2 => self.block::<2, FUSED>(start),
-                3 => self.block::<3, FUSED>(start),
-                _ => self.block::<TILE, FUSED>(start),
-            }
+        for start in (0..self.0.size.pivots).step_by(TILE).rev() {
+            self.next_block::<FUSED>(start);
         }
     }
 }
 
 macro_rules! dispatched {
     ($what:ident) => {
+        impl $what<'_> {
+            /// The block of pivots from `start` on, as many as a tile has columns or are left.
+            #[inline(always)]
+            fn next_block<const FUSED: bool>(&mut self, start: usize) {
+                match self.0.size.pivots - start {
+                    1 => self.block::<1, FUSED>(start),
+                    2 => self.block::<2, FUSED>(start),
+                    3 => self.block::<3, FUSED>(start),
+                    _ => self.block::<TILE, FUSED>(start),
+                }
+            }
+        }
+
         impl WithSimd for $what<'_> {
             type Output = ();
 
