@@ -2,6 +2,7 @@
 //! * three ridges between symmetric sides carry three times what one carries in a cell of its own width: 1e-8;
 //!   and the forces of the three sum to the whole: 1e-10;
 //! * with free sides they do so to 1 % when the pitch is four depths of the substrate;
+//! * the contact widths that the mesh of a row is made for are those that a run finds: 20 %;
 //! * a neighbour that is never touched changes the force by at most 0.5 %;
 //! * a touched ring of line load P sinks the centre by 2P/E* at any radius: 2 %;
 //! * over a substrate of fixed depth D on a rigid base a ring beyond 4 D leaves the central curve alone: 1 %;
@@ -12,11 +13,12 @@
 //! 1e-11. 1 % and 0.5 %: what is asked. 2 %: a contact is not small against its distance (0.6 % measured). 5 %: the shift is
 //! a difference of two curves that ripple differently.
 
+use asperity_law::units::Length;
 use asperity_solver::scene::{Accuracy, Lateral, Scene, Symmetry};
 use asperity_verification::several::{
     FOOT, LOW, Member, PAPER, at, depth_at, of_asperity, row, three_over_one, whole, worst_difference,
 };
-use asperity_verification::single_asperity::crush;
+use asperity_verification::single_asperity::{crush, prepared};
 
 #[test]
 fn three_ridges_between_symmetric_sides_carry_three_times_one() {
@@ -47,6 +49,31 @@ fn three_ridges_between_symmetric_sides_carry_three_times_one() {
 fn three_free_ridges_at_four_depths_carry_three_times_one() {
     let difference = three_over_one(800e-6, 200e-6, Accuracy::Draft).unwrap();
     assert!(difference < 0.01, "{difference:e}");
+}
+
+/// Flat caps on rings, most of whose depth goes into the body at large: the cut of the plane is up to eight times as wide. 20 %: the
+/// mesh is as fine as asked for within that.
+#[test]
+fn the_mesh_of_a_row_is_made_for_the_contacts_that_a_run_finds() {
+    let mut scene = row(Symmetry::Axisymmetric, Lateral::Free, &[PAPER; 3], None).unwrap();
+    for (asperity, (height, slope, tip)) in
+        scene.asperity.iter_mut().zip([(18.1e-6, 8.0, 40e-6), (20e-6, 9.0, 1e-3), (18.9e-6, 4.0, 1e-3)])
+    {
+        asperity.height = Some(Length(height));
+        asperity.slope_deg = Some(slope);
+        asperity.tip_radius = Some(Length(tip));
+    }
+    scene.loading.depth = Some(Length(2.5e-6));
+    let prepared = prepared(&scene).unwrap();
+    let outcome = crush(&scene).unwrap();
+    let last = outcome.asperities.last().unwrap().increment;
+    let found = outcome.asperities.iter().filter(|row| row.increment == last);
+    for (row, expected) in found.zip(&prepared.half_widths) {
+        let expected = expected * prepared.units.length;
+        let width = 0.5 * (row.contact_right - row.contact_left);
+        let found = if width.is_nan() { 0.0 } else { width };
+        assert!((found - expected).abs() <= 0.2 * expected, "{found:e} m, expected {expected:e} m");
+    }
 }
 
 #[test]

@@ -4,30 +4,58 @@
 use crate::contact::tool::Tool;
 use crate::point::kinematics::Symmetry;
 use crate::point::material::Metal;
-use crate::run::curve::COUNTS_FROM;
-use asperity_mesh::profile::{Asperity, Profile, Shape};
+use crate::run::lowering::area;
+use asperity_mesh::profile::{Asperity, Profile};
 use std::f64::consts::FRAC_2_PI;
 
 /// Contact half width of a crushed asperity over the half width of the cut at the same depth: 0.64 (elastic cone,
 /// 2/π) to 1.06 (perfectly plastic), 0.89 for the single asperity.
 const SPREAD: f64 = 0.9;
 
-/// Contact half widths at `depth` below the highest summit.
-pub fn half_widths(profile: &Profile, tool: &Tool, depth: f64) -> Vec<f64> {
-    let mirrored = tool.mirrored();
-    if let (Some(mirrored), true) = (&mirrored, profile.asperities.is_empty()) {
-        return vec![SPREAD * mirrored.half_width(depth)];
-    }
-    let top = profile.height();
-    let width = |a: &Asperity| {
-        // a curved tool lies higher over the asperities beside the one that it comes down on
-        let below = top - a.height + mirrored.as_ref().map_or(0.0, |m| m.drop(a.centre));
-        SPREAD * half_width_under(a, mirrored.as_ref(), (depth - below).max(0.0))
-    };
-    profile.asperities.iter().map(width).collect()
+/// How a tool and an asperity meet, or a curved tool and a flat body.
+pub struct Meeting<'p> {
+    /// `None`: a flat body.
+    asperity: Option<&'p Asperity>,
+    mirrored: Option<&'p Asperity>,
+    /// Of the contact.
+    pub centre: f64,
+    /// Depth of the tool at which it begins.
+    pub below: f64,
 }
 
-/// Relative change of slope up to which a measured flank is straight.
+impl Meeting<'_> {
+    /// Contact half width at the depth `own` below its beginning.
+    pub fn half_width(&self, own: f64) -> f64 {
+        match (self.asperity, self.mirrored) {
+            (Some(asperity), mirrored) => SPREAD * half_width_under(asperity, mirrored, own),
+            (None, mirrored) => mirrored.map_or(0.0, |tool| SPREAD * tool.half_width(own)),
+        }
+    }
+
+    /// Steepest slope (tangent) of the outlines at the half width of the contact.
+    pub fn slope(&self, half_width: f64) -> f64 {
+        let outlines = self.mirrored.into_iter().chain(self.asperity);
+        outlines.map(|outline| outline.slope_at(half_width)).fold(0.0, f64::max)
+    }
+}
+
+/// One for each asperity of `profile`, or for a flat body under the curved tool whose outline is `mirrored`.
+pub fn meetings<'p>(profile: &'p Profile, mirrored: Option<&'p Asperity>) -> Vec<Meeting<'p>> {
+    if profile.asperities.is_empty() {
+        return vec![Meeting { asperity: None, mirrored, centre: 0.0, below: 0.0 }];
+    }
+    let top = profile.height();
+    let of = |a: &'p Asperity| Meeting {
+        asperity: Some(a),
+        mirrored,
+        centre: a.centre,
+        // a curved tool lies higher over the asperities beside the one that it comes down on
+        below: top - a.height + mirrored.map_or(0.0, |m| m.drop(a.centre)),
+    };
+    profile.asperities.iter().map(of).collect()
+}
+
+/// Relative change of slope up to which a flank is straight.
 const STRAIGHT: f64 = 0.1;
 
 /// Half width over which the outlines of `asperity` and of the tool above it overlap at `depth`.
@@ -47,60 +75,44 @@ fn half_width_under(asperity: &Asperity, mirrored: Option<&Asperity>, depth: f64
     high
 }
 
-/// Share of the contact half width at `reach`, for which the mesh is made, from which the contact must be resolved: the half
-/// width at the depth from which the error of the force is promised, a share of `depth`. Under a flank that is the share of
-/// the depth, whatever the tip that was crushed before; under a tip that is still round there it is larger, and the same
-/// elements lie closer.
-pub fn resolved_from(profile: &Profile, tool: &Tool, depth: f64, reach: f64) -> f64 {
-    let first = COUNTS_FROM * depth;
-    let highest = profile.asperities.iter().max_by(|a, b| a.height.total_cmp(&b.height));
-    let tool = tool.mirrored();
-    if let (Some(tool), Some(asperity)) = (&tool, highest) {
-        let under = |depth: f64| half_width_under(asperity, Some(tool), depth);
-        return under(first) / under(reach);
-    }
-    let Some(outline) = tool.as_ref().or(highest) else { return first / reach };
-    let half_width = outline.half_width(first);
-    let under_a_flank = match &outline.shape {
-        Shape::Cone { .. } => half_width >= outline.cap_radius(),
-        Shape::Sphere { .. } => false,
-        Shape::Measured(_) => {
-            let slope = |depth: f64| outline.slope_at(outline.half_width(depth));
-            (slope(first) / slope(reach) - 1.0).abs() < STRAIGHT
-        }
-    };
-    if under_a_flank { first / reach } else { half_width / outline.half_width(reach) }
+/// Contact half widths where each contact indents its surroundings as deep as `own` says.
+pub fn half_widths(profile: &Profile, tool: &Tool, own: &[f64]) -> Vec<f64> {
+    let mirrored = tool.mirrored();
+    meetings(profile, mirrored.as_ref()).iter().zip(own).map(|(m, own)| m.half_width(*own)).collect()
 }
 
-/// Mean contact pressure to be expected at `depth`, in units of E: ½E* tan β of the elastic cone and 2.8 σ_r of full
-/// plasticity (ε_r ≈ 0.1 tan β), joined harmonically. Only the penalty is scaled with it.
+/// Share of its half width at the peak, for which the mesh is made, from which a contact must be resolved: the half width where the error of
+/// the force begins to be promised. `first` and `last` are the depths to which contacts indent their surroundings there and at the
+/// peak; the deepest one there counts. Under a flank the share is that of the depths, whatever the tip that was crushed before; under a
+/// tip that is still round there it is larger, and the same elements lie closer.
+pub fn resolved_from(profile: &Profile, tool: &Tool, first: &[f64], last: &[f64]) -> f64 {
+    let mirrored = tool.mirrored();
+    let meetings = meetings(profile, mirrored.as_ref());
+    let depths = meetings.iter().zip(first.iter().zip(last));
+    let Some((meeting, (&first, &last))) = depths.max_by(|(_, a), (_, b)| a.0.total_cmp(b.0)) else {
+        return 1.0;
+    };
+    let [from, to] = [first, last].map(|depth| meeting.half_width(depth));
+    let is_flank = (meeting.slope(from) / meeting.slope(to) - 1.0).abs() < STRAIGHT;
+    let share = if is_flank { first / last } else { from / to };
+    // neighbours may unload a contact
+    if share < 1.0 { share } else { 1.0 }
+}
+
+/// Mean contact pressure to be expected at `depth`, in units of E. Only the penalty is scaled with it.
 pub fn expected_pressure(metal: &Metal, profile: &Profile, tool: &Tool, depth: f64) -> f64 {
     let slope_of = |a: &Asperity| a.slope_at(SPREAD * a.half_width(depth));
-    let slope = tool.mirrored().iter().chain(&profile.asperities).map(slope_of).fold(0.0, f64::max);
+    pressure_under(metal, tool.mirrored().iter().chain(&profile.asperities).map(slope_of).fold(0.0, f64::max))
+}
+
+/// Mean contact pressure to be expected under outlines of this slope (tangent) at the edge of the contact, in units of E: ½E* tan β of the
+/// elastic cone and 2.8 σ_r of full plasticity (ε_r ≈ 0.1 tan β), joined harmonically.
+pub fn pressure_under(metal: &Metal, slope: f64) -> f64 {
     let elastic = 0.5 * metal.elastic.reduced_modulus() * slope;
     match &metal.hardening {
         None => elastic,
         Some(h) => 1.0 / (1.0 / elastic + 1.0 / (2.8 * h.representative_stress(0.1 * slope))),
     }
-}
-
-/// Share of the depth 1 that indents a body in plane strain: the rest compresses it down to the depth `size`, where it is held, by
-/// 2F/(πE*) ln(size/a) (Johnson 1985, section 2.3), of an elastic wedge most of the depth.
-pub fn share_of_contact(metal: &Metal, profile: &Profile, tool: &Tool, size: f64) -> f64 {
-    let (mut low, mut high) = (0.0, 1.0);
-    for _ in 0..40 {
-        let middle = 0.5 * (low + high);
-        let half_width = half_widths(profile, tool, middle).into_iter().fold(0.0, f64::max);
-        let force = 2.0 * half_width * expected_pressure(metal, profile, tool, middle);
-        let compressed =
-            FRAC_2_PI * force / metal.elastic.reduced_modulus() * (size / half_width).ln().max(0.0);
-        if middle + compressed < 1.0 {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    high
 }
 
 /// a tan β/h to be expected of a sharp cone of the slope `tan`: 2/π of an elastic one, up to 1.08 - 0.6 n of a fully plastic one,
@@ -131,18 +143,13 @@ pub fn expected_depth(
     tool: &Tool,
     force: f64,
 ) -> f64 {
+    let mirrored = tool.mirrored();
+    let meetings = meetings(profile, mirrored.as_ref());
     let carried = |depth: f64| {
         let pressure = modulus * expected_pressure(metal, profile, tool, depth);
-        let area: f64 = half_widths(profile, tool, depth)
-            .iter()
-            .zip(std::iter::once(0.0).chain(profile.asperities.iter().skip(1).map(|a| a.centre)))
-            .map(|(w, centre)| match symmetry {
-                Symmetry::PlaneStrain => 2.0 * w,
-                Symmetry::Axisymmetric if centre == 0.0 => std::f64::consts::PI * w * w,
-                Symmetry::Axisymmetric => 4.0 * std::f64::consts::PI * centre * w,
-            })
-            .sum();
-        pressure * area
+        let areas =
+            meetings.iter().map(|m| area(symmetry, m.centre, m.half_width((depth - m.below).max(0.0))));
+        pressure * areas.sum::<f64>()
     };
     // the carried force grows with the depth: bisection in the logarithm over any physical size
     let (mut low, mut high) = (1e-15_f64.ln(), 1e6_f64.ln());

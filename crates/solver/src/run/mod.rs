@@ -5,6 +5,8 @@ pub mod discretisation;
 #[doc(hidden)]
 pub mod a_priori;
 
+mod lowering;
+
 #[doc(hidden)]
 pub mod schedule;
 
