@@ -43,8 +43,8 @@ struct Choice {
 /// The levels from coarse to fine: the promised error, and in the order of [`Choice`] the numbers that keep it.
 const LEVELS: [(Accuracy, [f64; 6]); 3] = [
     (Accuracy::Draft, [12.0, 36.0, 6.0, 1e-3, 40.0, 0.008]),
-    (Accuracy::Standard, [24.0, 72.0, 10.0, 3e-4, 60.0, 0.0042]),
-    (Accuracy::Reference, [48.0, 180.0, 24.0, 1e-5, 200.0, 0.002]),
+    (Accuracy::Standard, [24.0, 72.0, 10.0, 1e-3, 60.0, 0.0042]),
+    (Accuracy::Reference, [48.0, 180.0, 24.0, 1e-4, 200.0, 0.002]),
 ];
 
 impl Choice {
