@@ -62,6 +62,19 @@ impl<'a> Surface<'a> {
         }
     }
 
+    /// The same surface under a tool whose lowest point is at height `tip`.
+    #[must_use]
+    pub fn under_tool_at(self, tip: f64) -> Surface<'a> {
+        Surface { tip, ..self }
+    }
+
+    /// Way between the tool and the nearest node that lies between two `sides`: 0 or less where it touches.
+    pub fn clearance(&self, [left, right]: [f64; 2]) -> f64 {
+        let places = self.edges.iter().flat_map(|edge| edge.nodes).map(|node| self.position(node));
+        let within = places.filter(|x| (left..=right).contains(&x[0]));
+        within.map(|x| -self.penetration_of(x)).fold(f64::INFINITY, f64::min)
+    }
+
     /// Penetration of the point `x` into the tool where it stands; -∞ without a tool.
     pub fn penetration_of(&self, x: [f64; 2]) -> f64 {
         match &self.body.contact {

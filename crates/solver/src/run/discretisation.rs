@@ -306,7 +306,8 @@ mod tests {
         for promise in [0.03, 0.02, 0.01, 0.007, 0.005, 0.003, 0.002] {
             let next = Choice::of(promise);
             assert!(next.elements > before.elements && next.steps > before.steps, "{promise}");
-            assert!(next.tolerance < before.tolerance && next.domain > before.domain, "{promise}");
+            // the tolerance of `standard` already is that of `draft`
+            assert!(next.tolerance <= before.tolerance && next.domain > before.domain, "{promise}");
             assert!(next.unload_steps >= before.unload_steps && next.penetration <= before.penetration);
             before = next;
         }

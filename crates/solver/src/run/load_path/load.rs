@@ -2,6 +2,7 @@
 
 use super::increment::{Increment, Observer, Stop};
 use super::path::{ContactLoad, NEVER, Path, StopAt};
+use super::touches::Touches;
 use crate::body::energy::ContactSums;
 use crate::run::problem::Goal;
 use crate::run::record::Phase;
@@ -70,6 +71,12 @@ impl Path<'_> {
         let mut share = if expects { penetration / depth } else { 0.0 };
         let growth =
             fractions.last().copied().unwrap_or(1.0) / fractions.iter().rev().nth(1).copied().unwrap_or(0.5);
+        let mut touches = if self.increments == 0 && fractions.len() > 1 {
+            let surface = self.model.converged_surface().under_tool_at(-self.touch);
+            Touches::new(self.problem, &surface)
+        } else {
+            Touches::default()
+        };
         let mut index = 0;
         let mut fraction = 0.0;
         loop {
@@ -83,7 +90,7 @@ impl Path<'_> {
             let planned = if self.increments == 0 && self.travel > 0.0 {
                 wanted.min(FIRST_INCREMENT * self.travel)
             } else {
-                wanted
+                touches.stop_before(wanted)
             };
             index += usize::from(planned == wanted);
             let (travel, sums) = self.reach_depth(planned, stop_at, Phase::Load, true, observer)?;
@@ -97,6 +104,7 @@ impl Path<'_> {
             }
             share = if expects { self.share(goal, travel, &sums) } else { 0.0 };
             self.accept(travel, Phase::Load, observer)?;
+            touches.observe(travel, (growth - 1.0) * travel, &self.model.converged_surface());
             let whole = planned == wanted;
             if (whole && fraction * depth >= limit || travel != planned) && matches!(goal, Goal::Force { .. })
             {

@@ -4,6 +4,7 @@ mod increment;
 mod load;
 mod path;
 mod target;
+mod touches;
 mod unload;
 
 pub use increment::{Energies, Increment, Observer, Stop};
