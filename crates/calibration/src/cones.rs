@@ -48,7 +48,7 @@ fn six_digits(x: f64) -> f64 {
     format!("{x:.5e}").parse().unwrap_or(x)
 }
 
-/// What the errors of an [`Indentation`] are at least at `standard`, in the order of [`Errors`]. Chosen on the first 200 cones of [`fresh`], held
+/// Least errors of an [`Indentation`] at `standard`, in the order of [`Errors`]. Chosen on the first 200 cones of [`fresh`], held
 /// against `reference`: beyond what their companions show, K of metal that hardens is off by up to 0.6 %, the radius of
 /// coarse companions is uneven, S has what is left of both, and the work of unloading is 0.5 % too large.
 pub const LEAST: [f64; 4] = [0.0065, 0.01, 0.01, 0.009];
@@ -60,7 +60,7 @@ pub struct Row {
     pub index: usize,
     /// The cone.
     pub case: Case,
-    /// What was found.
+    /// The result.
     pub outcome: Result<(Indentation, Errors), String>,
 }
 

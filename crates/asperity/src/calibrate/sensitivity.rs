@@ -72,7 +72,7 @@ impl SensitivityLine {
     }
 }
 
-/// What others found.
+/// Published values.
 fn published() -> String {
     format!("published: Tabor and Johnson 0.2, Bucaille 0.105 (indentation), Jourani {PUBLISHED} (crush)")
 }

@@ -62,7 +62,7 @@ impl Crush {
         Ok(report.html())
     }
 
-    /// What was found, in a sentence.
+    /// The result in a sentence.
     fn finding(&self) -> String {
         let (summary, per) = (&self.summary, per_length(self.summary.scene.symmetry));
         let end = match &summary.stopped {

@@ -54,7 +54,7 @@ impl Line {
     }
 }
 
-/// What was taken from a map.
+/// Asperities and lines of a map.
 #[derive(Clone, Debug)]
 pub struct Extracted {
     /// Name of the map.
@@ -186,7 +186,7 @@ fn not_found(error: &FindError) -> InputError {
     InputError::new(error.to_string()).help(help)
 }
 
-/// What the asperities are, on this surface.
+/// The rule that divides this surface into asperities.
 fn segmentation(scene: &RoughScene, surface: &Surface, parts: Parts) -> Result<Segmentation, InputError> {
     let mean = surface.parameters.mean;
     let separation = match parts {
@@ -275,7 +275,7 @@ impl Extracted {
         Summary::new(self)
     }
 
-    /// What was found, for a person.
+    /// The result in a few lines.
     pub fn text(&self) -> String {
         let s = self.summary();
         let plane = s.separation_um.map_or("hills of ISO 25178-2".into(), |d| {

@@ -177,7 +177,7 @@ fn body_of(path: &Path) -> Result<String, String> {
         .map_err(refuse)
 }
 
-/// What a scene has of its body; in a file, tables come after values.
+/// The keys of a scene that describe its body; in a file, tables come after values.
 #[derive(Serialize)]
 struct Body {
     symmetry: Symmetry,

@@ -8,7 +8,7 @@ use crate::contact::islands::Islands;
 use crate::surface::ready::Surface;
 use thiserror::Error;
 
-/// What counts as one asperity.
+/// Rule by which the surface is divided into asperities.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Segmentation {
     /// A connected part of the surface above a plane.

@@ -139,7 +139,7 @@ impl Coefficient {
         Ok(self)
     }
 
-    /// What the table holds nearest to a cone of slope `tan_beta` at X = `x`.
+    /// The entry of the table nearest to a cone of slope `tan_beta` at X = `x`.
     ///
     /// In each row of the table Y = K tan²β/σ_r is a function of X = E* tan β/σ_r; both are nearly the same for all slopes, so rows
     /// are read at equal X and mixed linearly in β, in logarithms. A slope outside the rows takes the nearest row, an X outside

@@ -59,7 +59,7 @@ pub struct Linearisation<T> {
     tau: [T; 3],
     /// Deviator after the return over that of the trial: 1 of an elastic point.
     deviator_scale: T,
-    /// What the return takes from the consistent moduli along n⊗n.
+    /// Reduction of the consistent moduli along n⊗n by the return mapping.
     modulus_drop: T,
     /// Direction of flow n: the trial deviator over its norm.
     direction: [T; 3],

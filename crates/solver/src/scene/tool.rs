@@ -314,7 +314,7 @@ impl Tool {
 }
 
 impl Scene {
-    /// What gives way beside the body must go with the rest of the scene.
+    /// Checks the compliance of tool and machine against the rest of the scene.
     pub(super) fn check_tool_compliance(&self) -> Check {
         if self.symmetry == Symmetry::PlaneStrain && self.tool.area_function.is_some() {
             let message = "belongs to a body of revolution: a wedge has no contact area; leave it out";
