@@ -136,7 +136,7 @@ fn a_fluid_leaks_by_the_gap_and_more_load_leaks_less() {
         let flux = row.leak_x_m3.unwrap() * 1e6 / 1e-3;
         assert!(rough.summary.verdict.unwrap().contains(&format!("{flux:.2e} m³/s")));
         assert!(row.hydraulic_gap_x_um.unwrap() < row.mean_gap_um.unwrap() && row.percolates_x == Some(true));
-        (row.leak_x_m3.unwrap(), row.stiffness_mpa_per_um.unwrap())
+        (row.leak_x_m3.unwrap(), row.stiffness_MPa_per_um.unwrap())
     };
     let (light, heavy) = (leak("20 MPa"), leak("100 MPa"));
     assert!(heavy.0 < light.0 && heavy.1 > light.1, "{light:?} {heavy:?}");
@@ -166,7 +166,7 @@ fn the_limit_of_pressure_knows_the_hardening() {
         let strength = format!("yield_stress = \"300 MPa\"\n{metal}");
         let load = "[load]\npressure = \"50 MPa\"";
         let rough = pressed_metal(&strength, "closure = \"half-space-plastic\"", load).unwrap();
-        let limit = rough.summary.closures[0].limit_mpa.unwrap();
+        let limit = rough.summary.closures[0].limit_MPa.unwrap();
         let from = rough.summary.closures[0].limit_from.clone().unwrap();
         let area = rough.table[0].contact_area_ratio;
         (limit, from, area, rough.summary.verdict.unwrap())
