@@ -13,10 +13,14 @@ pub use generate::GenerateScene;
 pub use half_space::HalfSpaceScene;
 pub use surface::{HeightUnit, Missing, SurfaceScene};
 
+pub use crate::contact::material::Material;
+pub use crate::contact::pressure::PressureProfile;
+pub use crate::surface::formats::{Measured, Spacing};
+pub use crate::surface::generate::KindName;
+pub use crate::surface::level::Levelling;
+
 use crate::contact::closures::Closure;
-use crate::contact::material::Material;
 use crate::contact::press::Load;
-use crate::contact::pressure::PressureProfile;
 use asperity_law::units::{Length, Stress};
 use error::error;
 use schemars::JsonSchema;
@@ -134,6 +138,22 @@ impl Default for Output {
 }
 
 impl Scene {
+    /// A scene of these parts under `closure`; the other keys are absent.
+    pub fn new(closure: Choice, surface: SurfaceScene, material: Material, load: LoadScene) -> Scene {
+        Scene {
+            closure,
+            coefficient: None,
+            pressure_profile: PressureProfile::default(),
+            judge: None,
+            surface,
+            material,
+            load,
+            half_space: HalfSpaceScene::default(),
+            fluid: None,
+            output: Output::default(),
+        }
+    }
+
     /// Checks every value that can be checked without reading files.
     ///
     /// # Errors

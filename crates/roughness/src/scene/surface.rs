@@ -91,7 +91,7 @@ impl From<HeightUnit> for String {
 }
 
 /// Where the surface comes from and what is done to it before the contact.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SurfaceScene {
     /// A file, relative to the scene.

@@ -26,6 +26,7 @@ pub use measured::{Points, Smoothing};
 pub use tool::{Tool, ToolForm, ToolShape};
 
 pub use crate::point::kinematics::Symmetry;
+pub use asperity_law::{HardeningMode, StressMeasure};
 
 use asperity_law::units::{Force, Length, LineForce, UnitError, quantity_schema};
 use asperity_mesh::ElementKind;
