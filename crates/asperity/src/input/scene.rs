@@ -3,7 +3,7 @@
 use crate::crush::Summary;
 use crate::error::{Error, InputError};
 use crate::input::toml_file::{TomlFile, read_text, to_toml};
-use crate::input::{hardening_file, profile_file};
+use crate::input::{RELATIVE, hardening_file, profile_file};
 use asperity_mesh::{Mesh, read_msh};
 use asperity_solver::run::discretisation::Discretisation;
 use asperity_solver::scene::{
@@ -210,7 +210,7 @@ fn read_mesh(file: &TomlFile<Tables>) -> Result<Option<Mesh>, InputError> {
         file.error_at("mesh.file", &format!("{}: {reason}", path.display()))
             .help("a mesh is a Gmsh MSH 4.1 ASCII file of quadrangles with physical curves axis, base, surface, outer")
     };
-    let bytes = std::fs::read(&path).map_err(|e| error(format!("cannot be read: {e}")))?;
+    let bytes = std::fs::read(&path).map_err(|e| error(format!("cannot be read: {e}; {RELATIVE}")))?;
     let mut mesh = read_msh(&bytes).map_err(|e| error(e.to_string()))?;
     let scale = named.unit.map_or(1.0, |unit| unit.0);
     let summit = mesh.nodes.iter().map(|node| node[1]).fold(f64::NEG_INFINITY, f64::max);

@@ -28,7 +28,7 @@ pub use tool::{Tool, ToolForm, ToolShape};
 pub use crate::point::kinematics::Symmetry;
 pub use asperity_law::{HardeningMode, StressMeasure};
 
-use asperity_law::units::{Force, Length, LineForce, UnitError, quantity_schema};
+use asperity_law::units::{Force, Length, LineForce, UnitError, from_text, quantity_schema};
 use asperity_mesh::ElementKind;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -191,19 +191,10 @@ impl Serialize for ToolForce {
 
 impl<'de> Deserialize<'de> for ToolForce {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Visitor;
-        impl serde::de::Visitor<'_> for Visitor {
-            type Value = ToolForce;
-            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str(
-                    "a force as a string with a unit, for example \"4 N\" (\"4 N/mm\" in plane strain)",
-                )
-            }
-            fn visit_str<E: serde::de::Error>(self, text: &str) -> Result<ToolForce, E> {
-                text.parse().map_err(E::custom)
-            }
-        }
-        deserializer.deserialize_any(Visitor)
+        from_text(
+            deserializer,
+            "a force as a string with a unit, for example \"4 N\" (\"4 N/mm\" in plane strain)",
+        )
     }
 }
 
