@@ -32,15 +32,18 @@ impl Scene {
     /// # Examples
     /// A cone of steel under a plane:
     /// ```
-    /// use asperity::tables::{Asperity, Loading, Material, Symmetry, Tool, Scene as Tables};
-    /// use asperity::{Length, Scene, Stress};
+    /// use asperity::tables::{Asperity, Loading, Material, Scene as Tables, Symmetry, Tool, ToolForce};
+    /// use asperity::{Force, Length, Scene, Stress};
     ///
     /// let steel = Material::elastic_body(Stress(210e9), 0.3).yielding(Stress(300e6), 0.3);
     /// let tables = Tables::new(Symmetry::Axisymmetric, steel, Tool::plane(), Loading::to_depth(Length(5e-6)));
     /// assert!(Scene::new(&tables).unwrap_err().to_string().contains("at least one [[asperity]]"));
     ///
     /// let cone = Asperity::cone(Length(20e-6), 10.0).rounded(Length(10e-6));
-    /// assert!(Scene::new(&tables.with(cone)).is_ok());
+    /// let to_depth = tables.with(cone);
+    /// assert!(Scene::new(&to_depth).is_ok());
+    /// let to_force = Tables { loading: Loading::to_force(ToolForce::Total(Force(4.0))), ..to_depth };
+    /// assert!(Scene::new(&to_force).is_ok());
     /// ```
     pub fn new(tables: &Tables) -> Result<Scene, Error> {
         let text = to_toml(tables).map_err(InputError::new)?;
