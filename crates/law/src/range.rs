@@ -2,6 +2,24 @@
 //! out behind it.
 
 use crate::units::Stress;
+use thiserror::Error;
+
+/// A value of a file that makes no sense.
+#[derive(Clone, Debug, Error, PartialEq, Eq)]
+#[error("{path}: {message}")]
+pub struct SceneError {
+    /// Where: keys joined by dots, tables of an array by index, for example `asperity[0].height`.
+    pub path: String,
+    /// The fault: names the value, the allowed range and a way out.
+    pub message: String,
+}
+
+impl SceneError {
+    /// An error of the value at `path`.
+    pub fn new(path: impl Into<String>, message: impl ToString) -> SceneError {
+        SceneError { path: path.into(), message: message.to_string() }
+    }
+}
 
 /// Young's modulus over yield stress.
 pub const MODULUS_OVER_YIELD: [f64; 2] = [5.0, 1e6];

@@ -26,6 +26,7 @@ pub use measured::{Points, Smoothing};
 pub use tool::{Tool, ToolForm, ToolShape};
 
 pub use crate::point::kinematics::Symmetry;
+pub use asperity_law::range::SceneError;
 pub use asperity_law::{HardeningMode, StressMeasure};
 
 use asperity_law::units::{Force, Length, LineForce, UnitError, from_text, quantity_schema};
@@ -33,25 +34,7 @@ use asperity_mesh::ElementKind;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::borrow::Cow;
-use std::fmt;
 use std::path::PathBuf;
-
-/// A value of a scene that makes no sense.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct SceneError {
-    /// Where: keys joined by dots, tables of an array by index, for example `asperity[0].height`.
-    pub path: String,
-    /// The fault: names the value, the allowed range and a way out.
-    pub message: String,
-}
-
-impl fmt::Display for SceneError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {}", self.path, self.message)
-    }
-}
-
-impl std::error::Error for SceneError {}
 
 /// Everything that defines a run: what `asperity crush` and `asperity mesh` read.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
