@@ -172,7 +172,7 @@ fn error<T>(path: &str, message: impl ToString) -> Result<T, SceneError> {
 
 fn check_material(material: &Material) -> Result<(), SceneError> {
     let e = material.youngs_modulus;
-    let at = |key: &str, m: String| SceneError::new(&format!("material.{key}"), m);
+    let at = |key: &str, m: String| SceneError::new(format!("material.{key}"), m);
     range::youngs_modulus(e).map_err(|m| at("youngs_modulus", m + ": steel has 210 GPa"))?;
     range::poissons_ratio(material.poissons_ratio)
         .map_err(|m| at("poissons_ratio", m + ": metals have 0.25 to 0.35"))?;
