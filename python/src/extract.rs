@@ -8,7 +8,7 @@ use crate::work;
 use asperity::batch::Options;
 use asperity::extract::{Extraction, LineAt, Parts};
 use asperity::output::Directory;
-use asperity::{Length, extract as take};
+use asperity::{Closure, Length, extract as take};
 use numpy::PyReadonlyArray2;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -25,6 +25,7 @@ struct Wanted {
     separation: Option<String>,
     share: Option<f64>,
     hills: Option<f64>,
+    closure: Option<String>,
     depth: Option<String>,
     profiles: usize,
     lines: Vec<String>,
@@ -44,15 +45,17 @@ impl Wanted {
         let length = |name: &str, text: &Option<String>| -> PyResult<Option<Length>> {
             text.as_deref().map(|text| parsed(name, text)).transpose()
         };
+        let closure = self.closure.as_deref().map(|name| parsed::<Closure>("closure", name)).transpose()?;
         let parts = [
             length("separation", &self.separation)?.map(Parts::Separation),
             self.share.map(Parts::Share),
             self.hills.map(Parts::Hills),
+            closure.map(|closure| Parts::Load(Some(closure))),
         ];
         let mut given = parts.into_iter().flatten();
         let parts = given.next().unwrap_or(Extraction::default().parts);
         if given.next().is_some() {
-            return Err(wrong("separation, share and hills exclude each other: give one of them"));
+            return Err(wrong("separation, share, hills and closure exclude each other: give one of them"));
         }
         Ok(Extraction {
             parts,

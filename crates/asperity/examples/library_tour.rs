@@ -48,7 +48,7 @@ fn main() -> Result<(), Error> {
         ..Sweep::default()
     };
     let swept = calibrate(&sweep, &Options::default(), &mut |_| true)?;
-    swept.cases.iter().for_each(|case| println!("K/E {}", case.k_over_e.unwrap_or(f64::NAN)));
+    swept.cases.iter().for_each(|case| println!("K/E {}", case.K_over_E.unwrap_or(f64::NAN)));
     for angle in &swept.fit.per_angle {
         println!("scatter {}", angle.scatter);
     }

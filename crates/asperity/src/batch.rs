@@ -3,7 +3,7 @@
 //! Every finished run is a line of the journal, forced to the disk, under a key that says which run it is. A run that is
 //! found there is not run again, so that a killed batch resumes and a batch that has grown runs only what is new.
 
-use crate::error::Error;
+use crate::error::{Error, InputError};
 use crate::output::open_journal;
 use asperity_calibration::journal::Journal;
 use serde::Serialize;
@@ -196,6 +196,49 @@ fn refused(journal: Option<&Path>, error: &io::Error) -> Error {
     Error::Unfinished(format!(
         "cannot write the journal{name}: {error}; it keeps every finished case, and the same command resumes from it"
     ))
+}
+
+/// The definition that all of `parts` share, and what each of them holds. `read` gives both of a folder.
+///
+/// # Errors
+/// Those of `read`, parts of different definitions, or none.
+pub(crate) fn parts<D: PartialEq, R>(
+    parts: &[PathBuf],
+    read: impl Fn(&Path) -> Result<(D, Vec<R>), InputError>,
+) -> Result<(D, Vec<R>), InputError> {
+    let mut joined: Option<(D, Vec<R>)> = None;
+    for part in parts {
+        let (definition, rows) = read(part)?;
+        match &mut joined {
+            Some((known, _)) if *known != definition => {
+                let message = format!("{} is a part of another whole than those before", part.display());
+                return Err(InputError::new(message).help("give the folders of one sweep or study"));
+            }
+            Some((_, all)) => all.extend(rows),
+            None => joined = Some((definition, rows)),
+        }
+    }
+    joined.ok_or_else(|| InputError::new("no parts were given"))
+}
+
+/// Whether every one of `keys` is among the `found` runs of the parts.
+///
+/// # Errors
+/// How many are missing, and the first of them.
+pub(crate) fn all_found<R>(keys: &[String], found: &HashMap<String, R>) -> Result<(), InputError> {
+    let missing: Vec<&String> = keys.iter().filter(|key| !found.contains_key(*key)).collect();
+    let Some(first) = missing.first() else { return Ok(()) };
+    let message =
+        format!("{} of {} runs are in none of the parts; the first is {first}", missing.len(), keys.len());
+    let help =
+        "give the folders of all parts; one that was killed goes on where it was when it is started again";
+    Err(InputError::new(message).help(help))
+}
+
+/// The `file` of a folder is none of a part that `command` wrote.
+pub(crate) fn not_a_part(command: &str, part: &Path, file: &str, why: impl Display) -> InputError {
+    InputError::new(format!("{}: {why}", part.join(file).display()))
+        .help(format!("give the folders that `asperity {command} --shard K/N` has written"))
 }
 
 /// The results that the journal at `path` holds of the batch of this definition, by their keys.

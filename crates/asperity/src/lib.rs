@@ -24,8 +24,64 @@
 //! assert_eq!(result.curve.last().map(|row| row.force_N), Some(summary.peak_force_N));
 //! # Ok::<(), asperity::Error>(())
 //! ```
-//! The same scene as text is read by [`Scene::from_toml`], and [`crush::Crush::write`] leaves the files of the command in
-//! a [`output::Directory`].
+//! # A sweep of cones
+//! ```
+//! use asperity::calibrate::{Options, Tool};
+//! use asperity::tables::Accuracy;
+//! use asperity::{HardeningLaw, Stress, Sweep, calibrate};
+//!
+//! let sweep = Sweep {
+//!     slopes_deg: vec![8.0],
+//!     youngs_modulus: vec![Stress(210e9)],
+//!     yield_stress: vec![Stress(300e6)],
+//!     hardening_exponent: vec![0.2],
+//!     hardening_law: HardeningLaw::Swift,
+//!     tool: Tool::Cone,
+//!     accuracy: Accuracy::Draft,
+//!     ..Sweep::default()
+//! };
+//! let swept = calibrate(&sweep, &Options::default(), &mut |_| true)?;
+//! assert!(swept.cases[0].K_over_E.is_some());
+//! # Ok::<(), asperity::Error>(())
+//! ```
+//!
+//! # A rough surface
+//! ```
+//! use asperity::press::tables::{Choice, GenerateScene, KindName, LoadScene, Material, Scene, SurfaceScene};
+//! use asperity::{Closure, Length, RoughScene, Stress, press};
+//! use std::path::Path;
+//!
+//! let sanded = GenerateScene {
+//!     kind: KindName::Sanded,
+//!     ra: Some(Length(1e-6)),
+//!     mean_slope_deg: Some(8.0),
+//!     size: [Length(0.2e-3); 2],
+//!     pixels: [128; 2],
+//!     seed: 1,
+//!     hurst: None,
+//!     rolloff: None,
+//!     cutoff: None,
+//! };
+//! let surface = SurfaceScene { generate: Some(sanded), ..SurfaceScene::default() };
+//! let steel = Material {
+//!     youngs_modulus: Stress(210e9),
+//!     poissons_ratio: 0.3,
+//!     hardness: Some(Stress(1280e6)),
+//!     yield_stress: None,
+//!     hardening_exponent: None,
+//!     hardening_law: None,
+//! };
+//! let load = LoadScene { pressure: Some(Stress(100e6)), separation: None, unload: false };
+//! let scene = RoughScene::new(Scene::new(Choice::Johnson, surface, steel, load), Path::new(""));
+//! let pressed = press(&scene, &mut |_| true)?;
+//! assert_eq!(pressed.table[0].closure, Closure::Johnson);
+//! assert!((0.05..0.3).contains(&pressed.table[0].contact_area_ratio));
+//! # Ok::<(), asperity::Error>(())
+//! ```
+//!
+//! # Files
+//! Scenes as text are read by [`Scene::from_toml`] and [`RoughScene::from_toml`], files of sweeps by
+//! [`calibrate::read_sweep`]. [`crush::Crush::write`] and its like leave the files of the command in a [`output::Directory`].
 
 pub mod error;
 pub mod output;
@@ -55,7 +111,10 @@ mod page;
 #[doc(hidden)]
 pub mod cli;
 
-pub use asperity_law::units::{Force, Length, Stress};
+pub use asperity_law::units::{Compliance, Force, Length, LineForce, Stiffness, Stress};
+pub use asperity_law::{HardeningLaw, HardeningMode, StressMeasure};
+pub use asperity_mesh::Mesh;
+pub use asperity_roughness::Closure;
 pub use asperity_solver::scene as tables;
 pub use calibrate::{Calibration, Sweep, calibrate};
 pub use crush::{Crush, crush, crush_into};
@@ -66,3 +125,10 @@ pub use input::scene::Scene;
 pub use mesh::mesh;
 pub use press::{Rough, RoughScene, press};
 pub use study::{Study, study};
+
+/// The crates below, for their types in the signatures here: a program needs no other dependency.
+#[doc(no_inline)]
+pub use {
+    asperity_calibration as calibration, asperity_law as law, asperity_roughness as roughness,
+    asperity_solver as solver,
+};

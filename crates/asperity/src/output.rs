@@ -108,18 +108,6 @@ pub trait Described {
     const COLUMNS: &'static [Column];
 }
 
-/// The name that serde gives a field, if any of its attributes gives one, else `field`.
-pub(crate) const fn name_of(given: &[&'static str], field: &'static str) -> &'static str {
-    let mut i = 0;
-    while i < given.len() {
-        if !given[i].is_empty() {
-            return given[i];
-        }
-        i += 1;
-    }
-    field
-}
-
 /// The docstring in an attribute, or nothing.
 macro_rules! about_in {
     (doc = $text:literal) => {
@@ -131,18 +119,7 @@ macro_rules! about_in {
 }
 pub(crate) use about_in;
 
-/// The name in an attribute of serde, or nothing.
-macro_rules! name_in {
-    (serde(rename = $name:literal $($rest:tt)*)) => {
-        $name
-    };
-    ($($other:tt)*) => {
-        ""
-    };
-}
-pub(crate) use name_in;
-
-/// A row of a file: every field declared once, with its value in terms of what the row is made from.
+/// A row of a file: every field declared once under its name in the file, with its value in terms of what the row is made from.
 macro_rules! row {
     ($(#[$about:meta])* $row:ident($($from:ident: $record:ty),*) {
         $($(#[$($field_about:tt)*])* $field:ident: $kind:ty = $value:expr,)*
@@ -161,10 +138,7 @@ macro_rules! row {
 
         impl $crate::output::Described for $row {
             const COLUMNS: &'static [$crate::output::Column] = &[$($crate::output::Column {
-                name: $crate::output::name_of(
-                    &[$($crate::output::name_in!($($field_about)*)),*],
-                    stringify!($field),
-                ),
+                name: stringify!($field),
                 about: concat!($($crate::output::about_in!($($field_about)*)),*),
             }),*];
         }

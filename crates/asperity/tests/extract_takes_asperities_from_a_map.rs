@@ -235,6 +235,39 @@ fn crushed_cones_agree_with_the_closure_that_was_made_from_cones() {
     assert_eq!(place.text("out/compared.csv"), table);
 }
 
+/// Of a scene under \"all\" the plane is that of the first closure, which the summary names, or that of the one that is asked for.
+#[test]
+fn the_plane_is_that_of_a_named_closure() {
+    let place = place();
+    let plane = |args: &[&str]| {
+        let words =
+            [&["extract", "scene.toml", "--profiles", "1", "--out", "out", "--force"][..], args].concat();
+        let done = place.run(&words);
+        assert_eq!(done.status, 0, "{}", done.err);
+        let summary: serde_json::Value = serde_json::from_str(&place.text("out/summary.json")).unwrap();
+        (summary["separation_closure"].clone(), summary["separation_um"].as_f64().unwrap(), done.out)
+    };
+    let (first, published, text) = plane(&[]);
+    assert!(
+        first == "published" && text.contains("where closure \"published\" carries 20 MPa"),
+        "{first} {text}"
+    );
+    let (named, sneddon, text) = plane(&["--closure", "sneddon"]);
+    assert!(named == "sneddon" && text.contains("closure \"sneddon\" carries"), "{named} {text}");
+    // a cone of Sneddon carries more at the same depth (0.32 E* for 0.13 E*), so that its plane is higher
+    assert!(sneddon > published, "{sneddon} {published}");
+    assert!(plane(&["--share", "0.1"]).0.is_null());
+    for (args, word) in [
+        (&["--closure", "half-space"][..], "published, fitted, johnson, sneddon, calibrated"),
+        (&["--closure", "sneddon", "--share", "0.1"], "cannot be used with"),
+        (&["--closure", "sneddon", "--set", "load={ separation = \"1 um\" }"], "load.separation"),
+        (&["--depth", "-1 um"], "must be above 0"),
+    ] {
+        let done = place.run(&[&["extract", "scene.toml", "--out", "other"][..], args].concat());
+        assert!(done.status == 2 && done.err.contains(word), "{word}: {}", done.err);
+    }
+}
+
 /// The commands of the tutorial on measured summits, in their order.
 #[test]
 fn the_page_from_a_profilometer_to_a_force_curve_runs() {

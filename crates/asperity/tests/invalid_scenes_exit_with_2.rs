@@ -32,6 +32,7 @@ const TABLE: &[(&str, &str, &[&str])] = &[
     ("\"300 MPa\"", "\"300 GPa\"", &["scene.toml:6:", "from 0.21 to 42000 MPa", "not 300000 MPa"]),
     ("\"5 um\"", "\"500 um\"", &["scene.toml:16:", "at most 20 um", "not 500 um"]),
     ("\"5 um\"", "\"inf um\"", &["scene.toml:16:", "not a finite number"]),
+    ("\"plane\"", "\"berkovich\"\narea_function = [1]", &["scene.toml:15:", "a unit of length as a word"]),
     ("\"5 um\"", "\"5 um\"\nforce = \"1 N\"", &["scene.toml:17:", "does not go with `depth`"]),
     ("depth = \"5 um\"", "force = \"1 N/mm\"", &["scene.toml:16:", "plane strain"]),
     ("\"plane\"", "\"banana\"", &["scene.toml:14:", "unknown value `banana`", "plane, cone, sphere"]),
@@ -123,6 +124,72 @@ fn what_is_no_scene_at_all_is_refused() {
         &["cannot write nowhere/mesh.msh"],
         "no folder",
     );
+}
+
+/// A piece of the rough scene, what it is replaced by, and what the error must say.
+const ROUGH: &[(&str, &str, &[&str])] = &[
+    (
+        "viscosity = \"1 mPa s\"",
+        "viscosity = 1",
+        &["scene.toml:16:", "a viscosity as a string with a unit, for example \"1 mPa s\""],
+    ),
+    ("viscosity = \"1 mPa s\"", "viscosity = \"1 mm\"", &["scene.toml:16:", "mPa s, Pa s or cP"]),
+    ("\"hertz\"", "\"flat\"", &["scene.toml:2:", "unknown value `flat`", "hertz, cone, uniform"]),
+    ("outliers = 8", "outliers = 1", &["scene.toml:5:", "1 must be at least 3"]),
+    ("poissons_ratio = 0.3", "poissons_ratio = 0.5", &["scene.toml:8:", "above -1 and below 0.5, not 0.5"]),
+    ("\"210 GPa\"", "\"0 GPa\"", &["scene.toml:7:", "above 0, not 0 GPa"]),
+    ("\"1280 MPa\"", "\"1280 GPa\"", &["scene.toml:9:", "at most 210000 MPa, not 1280000 MPa", "unit"]),
+    ("\"100 MPa\"", "\"-1 MPa\"", &["scene.toml:11:", "0 or above, not -1 MPa"]),
+    (
+        "outliers",
+        "pixel_size = \"1 um\"\noutliers",
+        &["none.npy", "cannot be read", "relative to the folder"],
+    ),
+];
+
+#[test]
+fn a_rough_scene_is_checked_too() {
+    let scene = "closure = \"published\"\npressure_profile = \"hertz\"\n[surface]\nfile = \"none.npy\"\noutliers = 8\n\
+                 [material]\nyoungs_modulus = \"210 GPa\"\npoissons_ratio = 0.3\nhardness = \"1280 MPa\"\n[load]\n\
+                 pressure = \"100 MPa\"\nunload = false\n[output]\nmaps = false\n[fluid]\nviscosity = \"1 mPa s\"\n\
+                 pressures = [\"1 MPa\", \"0 MPa\"]\n";
+    for (old, new, words) in ROUGH {
+        assert!(scene.contains(old), "{old}");
+        let place = Place::with_scene(scene.replacen(old, new, 1));
+        refused(&place, &["rough", "scene.toml", "--out", "out"], words, new);
+        refused(&place, &["extract", "scene.toml", "--out", "out"], words, new);
+    }
+    // a map on the command line is not shown as a scene that nobody wrote
+    let words = ["cannot read none.npy", "give a map of heights"];
+    refused(&Place::with_scene(scene), &["extract", "none.npy", "--out", "out"], &words, "no map");
+}
+
+#[test]
+fn a_sweep_and_a_fit_are_checked_too() {
+    let fit = "[material]\nyoungs_modulus = \"70 GPa\"\npoissons_ratio = 0.33\nyield_stress = [\"50 MPa\", \"2 GPa\"]\n\
+               hardening_exponent = 0.2\n[[curve]]\nfeatures = { loading_curvature = \"27.41 GPa\" }\n\
+               tool = { shape = \"berkovich\" }\nnoise = \"2 %\"\n";
+    let cases: &[(&str, &str, &str, &[&str])] = &[
+        ("identify", "\"2 %\"", "0.5", &["scene.toml:9:", "a percentage as a string, for example \"0.5 %\""]),
+        ("identify", "\"2 %\"", "\"2\"", &["scene.toml:9:", "\"2\" is no percentage"]),
+        ("identify", "\"2 %\"", "\"200 %\"", &["scene.toml:9:", "from 0 % to 50 %, not 200 %"]),
+        (
+            "identify",
+            "yield_stress = [\"50 MPa\", \"2 GPa\"]",
+            "",
+            &["scene.toml:1:", "material: `yield_stress` is missing"],
+        ),
+    ];
+    for (command, old, new, words) in cases {
+        let place = Place::with_scene(fit.replacen(old, new, 1));
+        refused(&place, &[command, "scene.toml", "--out", "out"], words, new);
+    }
+    for (value, words) in [
+        ("poissons_ratio = 0.6", ["above -1 and below 0.5, not 0.6", "metals have"]),
+        ("yield_stress = [\"300 GPa\"]", ["from 0.07 to 14000 MPa", "with E = 70 GPa"]),
+    ] {
+        refused(&Place::with_scene(value), &["calibrate", "scene.toml", "--out", "out"], &words, value);
+    }
 }
 
 #[test]

@@ -70,7 +70,8 @@ fn the_front_page_quotes_the_overview_and_the_paper_the_numbers() {
     assert_eq!(names("docs/paper.md"), ["overview", "numbers"]);
 }
 
-/// Every table of `verification/results` stands on a page of the book, so that none is measured for nobody.
+/// Every table of `verification/results` stands on a page of the book, so that none is measured for nobody, above a link for those who
+/// read the page in the repository, where an include shows nothing.
 #[test]
 fn the_book_includes_every_result() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
@@ -86,8 +87,10 @@ fn the_book_includes_every_result() {
     for entry in std::fs::read_dir(root.join("verification/results")).unwrap() {
         let name = entry.unwrap().file_name().into_string().unwrap();
         let on_the_front_page = name == "overview.md" || !name.ends_with(".md");
-        let included = book.contains(&format!("{{{{#include ../../../verification/results/{name}}}}}"));
-        assert!(on_the_front_page || included, "no page of the book includes {name}");
+        let file = format!("../../../verification/results/{name}");
+        let included =
+            book.contains(&format!("{{{{#include {file}}}}}\n\n<a class=\"file\" href=\"{file}\">"));
+        assert!(on_the_front_page || included, "no page of the book includes {name} with its link");
     }
 }
 

@@ -136,7 +136,7 @@ fn a_fluid_leaks_by_the_gap_and_more_load_leaks_less() {
         let flux = row.leak_x_m3.unwrap() * 1e6 / 1e-3;
         assert!(rough.summary.verdict.unwrap().contains(&format!("{flux:.2e} m³/s")));
         assert!(row.hydraulic_gap_x_um.unwrap() < row.mean_gap_um.unwrap() && row.percolates_x == Some(true));
-        (row.leak_x_m3.unwrap(), row.stiffness_mpa_per_um.unwrap())
+        (row.leak_x_m3.unwrap(), row.stiffness_MPa_per_um.unwrap())
     };
     let (light, heavy) = (leak("20 MPa"), leak("100 MPa"));
     assert!(heavy.0 < light.0 && heavy.1 > light.1, "{light:?} {heavy:?}");
@@ -166,7 +166,7 @@ fn the_limit_of_pressure_knows_the_hardening() {
         let strength = format!("yield_stress = \"300 MPa\"\n{metal}");
         let load = "[load]\npressure = \"50 MPa\"";
         let rough = pressed_metal(&strength, "closure = \"half-space-plastic\"", load).unwrap();
-        let limit = rough.summary.closures[0].limit_mpa.unwrap();
+        let limit = rough.summary.closures[0].limit_MPa.unwrap();
         let from = rough.summary.closures[0].limit_from.clone().unwrap();
         let area = rough.table[0].contact_area_ratio;
         (limit, from, area, rough.summary.verdict.unwrap())
@@ -181,4 +181,38 @@ fn the_limit_of_pressure_knows_the_hardening() {
     assert!(hardening > 1.5 * perfect && narrow < 0.8 * wide, "{hardening} {narrow} {wide}");
     let (hardness, from, ..) = one("hardness = \"1100 MPa\"\nhardening_exponent = 0.3");
     assert_eq!((hardness, from.as_str()), (1100.0, "hardness"));
+}
+
+/// A map of waves with one spike, pressed with `keys` of the surface and `top` keys.
+fn spiked(top: &str, keys: &str) -> Rough {
+    const NODES: usize = 64;
+    let wave = |i: usize| (i as f64 * 0.4).sin();
+    let mut heights: Vec<f64> =
+        (0..NODES * NODES).map(|i| 0.2e-6 * wave(i % NODES) * wave(i / NODES)).collect();
+    heights[20 * NODES + 30] = 5e-6;
+    let text = format!(
+        "closure = \"published\"\n{top}\n[surface]\nlevel = \"none\"\n{keys}\n[material]\nyoungs_modulus = \"210 GPa\"\n\
+         poissons_ratio = 0.3\nhardness = \"2 GPa\"\n[load]\npressure = \"100 MPa\"\n"
+    );
+    let scene = RoughScene::from_toml(&text, Path::new("")).unwrap();
+    press(&scene.with_heights(NODES, [1e-6; 2], heights), &mut |_| true).unwrap()
+}
+
+#[test]
+fn a_spike_counts_as_missing_where_outliers_are_limited() {
+    assert_eq!(spiked("", "").summary.outliers, 0);
+    let without = spiked("", "outliers = 8");
+    assert_eq!((without.summary.outliers, without.summary.missing), (1, 0));
+    assert!(without.summary.sz_um < 1.0, "{}", without.summary.sz_um);
+}
+
+/// The pressure of an island is even, an ellipsoid (3/2 of the mean at most) or that of a cone, which peaks higher.
+#[test]
+fn the_peak_goes_by_the_pressure_profile() {
+    let peak = |profile: &str| {
+        let rough = spiked(&format!("pressure_profile = \"{profile}\""), "outliers = 8");
+        row(&rough, Closure::Published).max_pressure_over_nominal.unwrap()
+    };
+    let [even, ellipsoid, cone] = ["uniform", "hertz", "cone"].map(peak);
+    assert!(even < ellipsoid && ellipsoid < cone, "{even} {ellipsoid} {cone}");
 }

@@ -9,6 +9,7 @@ use crate::case::{Case, Tool, Yielding};
 use crate::indentation::{Errors, FORCES, Indentation, solve};
 use asperity_law::atlas::{Contact, EXPONENTS, OUTPUTS, POISSONS_RATIOS, RATIOS, SLOPES, SharpCone};
 use asperity_law::sobol::Sobol;
+use asperity_law::units::rounded;
 use asperity_law::{HardeningLaw, StressMeasure};
 use asperity_solver::scene::Accuracy;
 
@@ -29,26 +30,22 @@ fn drawn(index: usize, moved: [f64; 4]) -> Case {
     let share = |i: usize| (at(i + 1) + moved[i]).fract();
     let even = |[low, high]: [f64; 2], share: f64| low + share * (high - low);
     // six digits, so that a table of the cones says exactly which they are
-    let logarithmic = |range: [f64; 2], share: f64| six_digits(even(range.map(f64::ln), share).exp());
+    let logarithmic = |range: [f64; 2], share: f64| rounded(even(range.map(f64::ln), share).exp(), 6);
     let combination = (4.0 * at(0)) as usize;
     Case {
         beta_deg: logarithmic(SLOPES, share(0)),
         yielding: Some(Yielding {
             law: [HardeningLaw::Hollomon, HardeningLaw::Swift][combination & 1],
             e_over_sy: logarithmic(RATIOS, share(1)),
-            exponent: six_digits(even(EXPONENTS, share(2))),
+            exponent: rounded(even(EXPONENTS, share(2)), 6),
         }),
-        poissons_ratio: six_digits(even(POISSONS_RATIOS, share(3))),
+        poissons_ratio: rounded(even(POISSONS_RATIOS, share(3)), 6),
         tool: [Tool::Plane, Tool::Cone][combination >> 1],
         stress_measure: StressMeasure::Cauchy,
     }
 }
 
-fn six_digits(x: f64) -> f64 {
-    format!("{x:.5e}").parse().unwrap_or(x)
-}
-
-/// What the errors of an [`Indentation`] are at least at `standard`, in the order of [`Errors`]. Chosen on the first 200 cones of [`fresh`], held
+/// Least errors of an [`Indentation`] at `standard`, in the order of [`Errors`]. Chosen on the first 200 cones of [`fresh`], held
 /// against `reference`: beyond what their companions show, K of metal that hardens is off by up to 0.6 %, the radius of
 /// coarse companions is uneven, S has what is left of both, and the work of unloading is 0.5 % too large.
 pub const LEAST: [f64; 4] = [0.0065, 0.01, 0.01, 0.009];
@@ -60,7 +57,7 @@ pub struct Row {
     pub index: usize,
     /// The cone.
     pub case: Case,
-    /// What was found.
+    /// The result.
     pub outcome: Result<(Indentation, Errors), String>,
 }
 

@@ -70,7 +70,7 @@ const ORDERS_OF_RADIUS: [f64; 2] = [0.4, 1.25];
 /// Share of that difference that may be left.
 const REMAINS: f64 = 0.4;
 
-/// What the scatter about the lines leaves at least.
+/// Least error left by the scatter about the lines.
 const SCATTER: f64 = 0.002;
 
 /// Errors of a run without a companion.

@@ -17,7 +17,7 @@
 //! let row = CaseRow::from(&solve(&cone, Accuracy::Draft));
 //! // softer than an elastic cone, K = (2/π) E*/tan β (Sneddon 1965)
 //! let elastic = std::f64::consts::FRAC_2_PI * cone.elastic().reduced_modulus() / cone.tan_beta();
-//! assert!(row.k_over_e.is_some_and(|k| k > 0.0 && k < elastic));
+//! assert!(row.K_over_E.is_some_and(|k| k > 0.0 && k < elastic));
 //! ```
 
 pub mod case;

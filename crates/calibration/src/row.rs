@@ -1,5 +1,7 @@
 //! One row of `cases.csv`: a case and what came of it.
 
+#![expect(non_snake_case, reason = "a name holds its symbols, as in the files")]
+
 use crate::case::Case;
 use crate::loading_curvature::LoadingCurvature;
 use asperity_law::StressMeasure;
@@ -31,16 +33,16 @@ pub struct CaseRow {
     #[serde(serialize_with = "plain")]
     pub n: f64,
     /// Young's modulus over yield stress.
-    #[serde(rename = "E_over_sy", serialize_with = "plain")]
-    pub e_over_sy: f64,
+    #[serde(serialize_with = "plain")]
+    pub E_over_sy: f64,
     /// Which stress yields, `cauchy` or `kirchhoff`. Files of versions without this column are refused: they do not say.
     pub stress_measure: StressMeasure,
     /// F/(E h²); none of a case that failed, like the next four.
-    #[serde(rename = "K_over_E", serialize_with = "plain")]
-    pub k_over_e: Option<f64>,
+    #[serde(serialize_with = "plain")]
+    pub K_over_E: Option<f64>,
     /// Relative 95 % bound of what mesh, load steps, penalty and substrate leave in K.
-    #[serde(rename = "K_error", serialize_with = "plain")]
-    pub k_error: Option<f64>,
+    #[serde(serialize_with = "plain")]
+    pub K_error: Option<f64>,
     /// a tan β/h.
     #[serde(serialize_with = "plain")]
     pub contact_ratio: Option<f64>,
@@ -71,10 +73,10 @@ impl From<&Row> for CaseRow {
             beta_deg: row.case.beta_deg,
             hardening_law: yielding.map_or("elastic", |y| y.law.name()).into(),
             n: yielding.map_or(0.0, |y| y.exponent),
-            e_over_sy: yielding.map_or(f64::INFINITY, |y| y.e_over_sy),
+            E_over_sy: yielding.map_or(f64::INFINITY, |y| y.e_over_sy),
             stress_measure: row.case.stress_measure,
-            k_over_e: found.map(|k| k.k_over_e),
-            k_error: found.map(|k| k.error),
+            K_over_E: found.map(|k| k.k_over_e),
+            K_error: found.map(|k| k.error),
             contact_ratio: found.map(|k| k.contact_ratio),
             increments: found.map(|k| k.increments),
             newton_iterations: found.map(|k| k.iterations),
@@ -88,12 +90,12 @@ impl From<&Row> for CaseRow {
 impl CaseRow {
     /// Names the case; the grid supplies Poisson's ratio and the tool.
     pub fn key(&self) -> String {
-        let CaseRow { beta_deg, hardening_law, n, e_over_sy, stress_measure, .. } = self;
+        let CaseRow { beta_deg, hardening_law, n, E_over_sy, stress_measure, .. } = self;
         let stress_measure = match stress_measure {
             StressMeasure::Cauchy => "cauchy",
             StressMeasure::Kirchhoff => "kirchhoff",
         };
-        format!("{beta_deg},{hardening_law},{n},{e_over_sy},{stress_measure}")
+        format!("{beta_deg},{hardening_law},{n},{E_over_sy},{stress_measure}")
     }
 
     /// The row as a line of the file, without its end.
@@ -122,8 +124,8 @@ impl CaseRow {
             return Some(Err(self.status.clone()));
         }
         Some(Ok(LoadingCurvature {
-            k_over_e: self.k_over_e?,
-            error: self.k_error?,
+            k_over_e: self.K_over_E?,
+            error: self.K_error?,
             contact_ratio: self.contact_ratio?,
             increments: self.increments?,
             iterations: self.newton_iterations?,

@@ -1,8 +1,8 @@
 //! The grid of a calibration: which cones of which materials.
 
 use crate::case::{Case, Tool, Yielding};
-use asperity_law::units::Stress;
-use asperity_law::{HardeningLaw, StressMeasure};
+use asperity_law::units::{Stress, rounded};
+use asperity_law::{HardeningLaw, StressMeasure, range};
 use asperity_solver::scene::{Accuracy, SceneError};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -86,18 +86,14 @@ impl Sweep {
             |n| (0.0..=0.9).contains(&n),
             || "must lie from 0 (perfect plasticity) to 0.9".into(),
         )?;
-        if !(self.poissons_ratio > -1.0 && self.poissons_ratio < 0.5) {
-            return Err(error("poissons_ratio", "must lie above -1 and below 0.5"));
-        }
-        for (i, s) in yields.iter().enumerate() {
-            for e in &moduli {
-                let ratio = e / s;
-                if !(5.0..=1e6).contains(&ratio) {
-                    let message = format!(
-                        "E over yield stress is {ratio:.4} for one material: it must lie from 5 to 1e6"
-                    );
-                    return Err(SceneError { path: format!("yield_stress[{i}]"), message });
-                }
+        range::poissons_ratio(self.poissons_ratio)
+            .map_err(|m| error("poissons_ratio", &(m + ": metals have 0.25 to 0.35")))?;
+        for (i, s) in self.yield_stress.iter().enumerate() {
+            for e in &self.youngs_modulus {
+                range::yield_stress(*s, *e).map_err(|m| {
+                    let message = format!("{m}, with E = {} GPa: check its unit", e.in_unit("GPa"));
+                    error(&format!("yield_stress[{i}]"), &message)
+                })?;
             }
         }
         self.accuracy.check()?;
@@ -115,7 +111,8 @@ impl Sweep {
             for e in &self.youngs_modulus {
                 for s in &self.yield_stress {
                     for &exponent in &self.hardening_exponent {
-                        let y = Yielding { law: self.hardening_law, exponent, e_over_sy: ratio(e.0, s.0) };
+                        let y =
+                            Yielding { law: self.hardening_law, exponent, e_over_sy: rounded(e.0 / s.0, 12) };
                         cases.push(Case {
                             beta_deg,
                             yielding: Some(y),
@@ -129,11 +126,6 @@ impl Sweep {
         }
         cases
     }
-}
-
-/// a/b to twelve digits: 210 GPa over 300 MPa is 700, whichever units it was written in, and equal materials are equal.
-fn ratio(a: f64, b: f64) -> f64 {
-    format!("{:.11e}", a / b).parse().unwrap_or(a / b)
 }
 
 fn error(path: &str, message: &str) -> SceneError {

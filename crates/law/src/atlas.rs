@@ -74,7 +74,7 @@ pub struct Estimate {
     pub error: f64,
 }
 
-/// What the atlas says of a cone.
+/// Values of the atlas for a cone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Answer {
     /// K/E of F = K h².
@@ -195,7 +195,7 @@ impl SharpCone {
         }
     }
 
-    /// What the formula has for an answer of K/E, contact ratio, S/(E h), elastic share and way back.
+    /// The formula's form of K/E, contact ratio, S/(E h), elastic share and way back.
     pub fn logarithms(&self, answer: [f64; OUTPUTS]) -> [f64; OUTPUTS] {
         let modulus = self.elastic.reduced_modulus() / self.elastic.youngs_modulus;
         let [k, ratio, stiffness, ..] = answer;
@@ -279,7 +279,7 @@ pub struct Atlas {
     values: Vec<Vec<f64>>,
     /// One row for each of [`ERRORS`].
     errors: Vec<Vec<f64>>,
-    /// What the errors of the computed cones are at least, added in squares.
+    /// Least errors of the computed cones, added in squares.
     least: [f64; ERRORS],
 }
 

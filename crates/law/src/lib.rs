@@ -19,6 +19,7 @@ mod curve_file;
 mod elastic;
 mod hardening;
 pub mod least_squares;
+pub mod range;
 pub mod real;
 pub mod sobol;
 mod table;

@@ -3,7 +3,9 @@
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::borrow::Cow;
-use std::fmt;
+use std::fmt::{self, Display};
+use std::marker::PhantomData;
+use std::str::FromStr;
 
 /// Why a quantity could not be read.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -49,6 +51,33 @@ pub fn quantity_schema<'u>(units: impl IntoIterator<Item = &'u (&'u str, f64)>) 
         "pattern": format!(r"^\s*{number}\s*({})\s*$", units.join("|")),
         "examples": [format!("1 {}", units.first().unwrap_or(&""))],
     })
+}
+
+/// Reads a value from a text; where none stands, the error says that `expected` should.
+///
+/// # Errors
+/// Something else than a text, or a text that is no such value.
+pub fn from_text<'de, T, D>(deserializer: D, expected: impl Display) -> Result<T, D::Error>
+where
+    T: FromStr<Err: Display>,
+    D: Deserializer<'de>,
+{
+    struct Text<T, E>(PhantomData<T>, E);
+    impl<T: FromStr<Err: Display>, E: Display> serde::de::Visitor<'_> for Text<T, E> {
+        type Value = T;
+        fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+            self.1.fmt(f)
+        }
+        fn visit_str<R: serde::de::Error>(self, text: &str) -> Result<T, R> {
+            text.parse().map_err(R::custom)
+        }
+    }
+    deserializer.deserialize_any(Text(PhantomData, expected))
+}
+
+/// `value` to so many significant digits: 210 GPa over 300 MPa is 700, whichever units they were written in.
+pub fn rounded(value: f64, digits: usize) -> f64 {
+    format!("{value:.*e}", digits.saturating_sub(1)).parse().unwrap_or(value)
 }
 
 macro_rules! quantity {
@@ -101,17 +130,8 @@ macro_rules! quantity {
 
         impl<'de> Deserialize<'de> for $name {
             fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-                struct Visitor;
-                impl serde::de::Visitor<'_> for Visitor {
-                    type Value = $name;
-                    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                        write!(f, "a {} as a string with a unit, for example \"1 {}\"", $dimension, $name::UNITS[0].0)
-                    }
-                    fn visit_str<E: serde::de::Error>(self, text: &str) -> Result<$name, E> {
-                        text.parse().map_err(E::custom)
-                    }
-                }
-                deserializer.deserialize_any(Visitor)
+                let unit = $name::UNITS[0].0;
+                from_text(deserializer, format_args!("a {} as a string with a unit, for example \"1 {unit}\"", $dimension))
             }
         }
     };

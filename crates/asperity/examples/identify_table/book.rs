@@ -1,4 +1,4 @@
-//! What was computed before, and what is computed now.
+//! Journal of computed results, which later runs read.
 
 use crate::cases::Case;
 use crate::score::Row;

@@ -82,7 +82,7 @@ pub fn series(folder: &Path) -> Vec<Published> {
 /// Rows of the published tables that are one series.
 const SERIES: usize = 76;
 
-/// What a fit of the published metals is given and asked.
+/// Inputs and unknowns of a fit of the published metals.
 #[derive(Clone, Copy, PartialEq)]
 pub enum Asked {
     /// Curvatures under two cones; E is known.

@@ -6,7 +6,7 @@ use asperity_verification::report::Report;
 /// A true number, and value, low and high of what was found.
 pub type Row = (f64, [f64; 3]);
 
-/// What is asked of a row, in percent.
+/// Largest error that a row may have, in percent.
 pub struct Bound {
     /// Most of the mean absolute error.
     pub mean: f64,

@@ -153,7 +153,7 @@ impl Calibration {
             1e3 * seconds / iterations.max(1) as f64
         );
         let _ = writeln!(text, "K         error at most {:.2} %", 100.0 * self.worst());
-        for row in self.cases.iter().filter(|r| r.k_over_e.is_none()).take(5) {
+        for row in self.cases.iter().filter(|r| r.K_over_E.is_none()).take(5) {
             let _ = writeln!(text, "failed    {}", row.line());
         }
         if self.whole {

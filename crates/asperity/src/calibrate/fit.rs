@@ -1,5 +1,7 @@
 //! `fit.json`: the representative strain of every slope, the coefficient, and the force as a formula.
 
+#![expect(non_snake_case, reason = "a name holds its symbols, as in the files")]
+
 use crate::output::{nan_for_null, row};
 use asperity_calibration::case::Tool;
 use asperity_calibration::dimensionless::{Dimensionless, Formula};
@@ -135,8 +137,7 @@ row! {
         /// Hardening exponent.
         n: Option<f64> = unloaded.case.yielding.map(|y| y.exponent),
         /// Young's modulus over yield stress.
-        #[serde(rename = "E_over_sy")]
-        e_over_sy: Option<f64> = unloaded.case.yielding.map(|y| y.e_over_sy),
+        E_over_sy: Option<f64> = unloaded.case.yielding.map(|y| y.e_over_sy),
         /// m.
         exponent: f64 = unloaded.exponent,
     }

@@ -1,6 +1,7 @@
 //! The sweep file, and the parts of a sweep joined.
 
 use super::calibration::Calibration;
+use crate::batch::{self, all_found, not_a_part};
 use crate::error::{Error, InputError};
 use crate::input::toml_file::TomlFile;
 use asperity_calibration::row::{CaseRow, Row};
@@ -31,40 +32,23 @@ pub fn read_sweep(path: Option<&Path>, overrides: &[String]) -> Result<Sweep, In
 /// Folders that hold no parts, parts of different sweeps, or cases that are in none of them.
 pub fn merge(parts: &[PathBuf], shown_slope_deg: Option<f64>) -> Result<Calibration, Error> {
     let start = Instant::now();
-    let mut sweep: Option<Sweep> = None;
-    let mut found: Vec<CaseRow> = Vec::new();
-    for part in parts {
-        let of_part: Sweep =
-            serde_json::from_reader(open(part, "sweep.json")?).map_err(|e| wrong(part, "sweep.json", e))?;
-        if sweep.as_ref().is_some_and(|s| *s != of_part) {
-            return Err(wrong(part, "sweep.json", "is another sweep than that of the parts before").into());
-        }
-        sweep = Some(of_part);
-        let rows = CaseRow::read(open(part, "cases.csv")?).map_err(|e| wrong(part, "cases.csv", e))?;
-        found.extend(rows);
-    }
-    let Some(sweep) = sweep else { return Err(InputError::new("no parts were given").into()) };
+    let wrong = |part: &Path, file: &str, why: &dyn Display| not_a_part("calibrate", part, file, why);
+    let open = |part: &Path, file: &str| {
+        File::open(part.join(file)).map_err(|e| wrong(part, file, &format!("cannot be read: {e}")))
+    };
+    let (sweep, found): (Sweep, Vec<CaseRow>) = batch::parts(parts, |part| {
+        let sweep = serde_json::from_reader(open(part, "sweep.json")?);
+        let rows = CaseRow::read(open(part, "cases.csv")?);
+        Ok((
+            sweep.map_err(|e| wrong(part, "sweep.json", &e))?,
+            rows.map_err(|e| wrong(part, "cases.csv", &e))?,
+        ))
+    })?;
     let cases = sweep.cases();
     let rows: HashMap<String, Row> =
         Row::of_cases(&cases, found).into_iter().map(|row| (Row::key(&row.case), row)).collect();
-    let missing: Vec<String> = cases.iter().map(Row::key).filter(|key| !rows.contains_key(key)).collect();
-    if let Some(first) = missing.first() {
-        let message = format!(
-            "{} of {} cases are in none of the parts; the first is {first}",
-            missing.len(),
-            cases.len()
-        );
-        return Err(InputError::new(message).help("give the folders of all parts").into());
-    }
-    let rows = cases.iter().filter_map(|case| rows.get(&Row::key(case)).cloned()).collect();
+    let keys: Vec<String> = cases.iter().map(Row::key).collect();
+    all_found(&keys, &rows)?;
+    let rows = keys.iter().filter_map(|key| rows.get(key).cloned()).collect();
     Ok(Calibration::of(&sweep, rows, start.elapsed().as_secs_f64(), shown_slope_deg))
-}
-
-fn wrong(part: &Path, file: &str, why: impl Display) -> InputError {
-    InputError::new(format!("{}: {why}", part.join(file).display()))
-        .help("give the folders that `asperity calibrate --shard K/N` has written")
-}
-
-fn open(part: &Path, file: &str) -> Result<File, InputError> {
-    File::open(part.join(file)).map_err(|e| wrong(part, file, format!("cannot be read: {e}")))
 }

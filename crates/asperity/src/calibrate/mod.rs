@@ -11,6 +11,7 @@ mod report;
 mod merge;
 mod sensitivity;
 
+pub use asperity_calibration::case::Tool;
 pub use asperity_calibration::row::CaseRow;
 pub use asperity_calibration::sweep::Sweep;
 pub use calibration::{Calibration, calibrate};

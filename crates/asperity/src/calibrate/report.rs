@@ -32,7 +32,7 @@ impl Calibration {
                 (rounded(100.0 * self.worst())) " % or better in each."
             }
         };
-        let failed = self.cases.iter().filter(|row| row.k_over_e.is_none()).map(|row| row.line());
+        let failed = self.cases.iter().filter(|row| row.K_over_E.is_none()).map(|row| row.line());
         let warnings: Vec<String> = failed.map(|line| format!("no result: {line}")).collect();
         let report = Report {
             title: "A sweep of cones",
@@ -47,7 +47,7 @@ impl Calibration {
 
     /// Largest error of a K, relative.
     pub(super) fn worst(&self) -> f64 {
-        self.cases.iter().filter_map(|r| r.k_error).fold(0.0, f64::max)
+        self.cases.iter().filter_map(|r| r.K_error).fold(0.0, f64::max)
     }
 
     fn finding(&self) -> String {

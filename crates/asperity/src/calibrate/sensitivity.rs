@@ -1,5 +1,7 @@
 //! c for both laws, both tools and parts of the range of materials.
 
+#![expect(non_snake_case, reason = "a name holds its symbols, as in the files")]
+
 mod report;
 
 use super::run::{Options, Progress, solve};
@@ -44,11 +46,9 @@ row! {
         /// Largest n.
         n_largest: f64 = line.exponents[1],
         /// Smallest E/σ_y.
-        #[serde(rename = "E_over_sy_least")]
-        e_over_sy_least: f64 = line.ratios[0],
+        E_over_sy_least: f64 = line.ratios[0],
         /// Largest E/σ_y.
-        #[serde(rename = "E_over_sy_largest")]
-        e_over_sy_largest: f64 = line.ratios[1],
+        E_over_sy_largest: f64 = line.ratios[1],
         /// c.
         c: Option<f64> = line.all.map(|s| rounded(s.c)),
         /// Lower end.
@@ -72,7 +72,7 @@ impl SensitivityLine {
     }
 }
 
-/// What others found.
+/// Published values.
 fn published() -> String {
     format!("published: Tabor and Johnson 0.2, Bucaille 0.105 (indentation), Jourani {PUBLISHED} (crush)")
 }
@@ -161,8 +161,8 @@ impl Sensitivity {
                 l.hardening_law.name(),
                 l.n_least,
                 l.n_largest,
-                l.e_over_sy_least,
-                l.e_over_sy_largest,
+                l.E_over_sy_least,
+                l.E_over_sy_largest,
                 all,
                 developed
             );

@@ -10,8 +10,10 @@ use crate::extract::{Comparison, Extracted, Extraction, LineAt, Parts, extract a
 use crate::output::Directory;
 use crate::press::RoughScene;
 use asperity_law::units::Length;
+use asperity_roughness::Closure;
 use asperity_solver::scene::Accuracy;
 use clap::Args;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -35,8 +37,11 @@ pub struct Extract {
     /// Hills of ISO 25178-2 that rise by at least this share of the surface's height above their highest saddle
     #[arg(long, value_name = "SHARE", group = "parts", num_args = 0..=1, default_missing_value = PRUNE)]
     pub hills: Option<f64>,
+    /// Islands above the plane at which this closure carries the pressure of the scene [default of a scene: its first closure of islands, of "all" published]
+    #[arg(long, value_name = "NAME", group = "parts", value_parser = closures_of_islands())]
+    pub closure: Option<Closure>,
     /// Depth to which scenes crush [default: down to the separation; half the rise of a hill]
-    #[arg(long, value_name = "LENGTH")]
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
     pub depth: Option<Length>,
     /// Asperities, from the highest down, that get a profile and a scene [default: 20, at least those of --crush]
     #[arg(long, value_name = "N")]
@@ -55,6 +60,12 @@ pub struct Extract {
     pub overrides: Vec<String>,
     #[command(flatten)]
     pub run: RunFlags,
+}
+
+/// The closures that have islands, by their names.
+fn closures_of_islands() -> impl TypedValueParser<Value = Closure> {
+    let islands = Closure::ALL.into_iter().filter(|closure| !closure.is_half_space());
+    PossibleValuesParser::new(islands.map(Closure::name)).try_map(|name| name.parse())
 }
 
 /// Runs the command.
@@ -114,30 +125,33 @@ pub fn scene_of(
     if path.extension().is_some_and(|end| end == "toml") {
         return Ok(RoughScene::read(path, overrides)?);
     }
-    let like = match like {
-        Some(like) => RoughScene::read(like, &[])?,
-        None => {
-            let usual = RoughScene::usual()?;
-            if !quiet {
-                terminal::warn(&format!(
-                    "metal and load of {} are those that `asperity new rough` writes: give your own with --like SCENE.toml or --set",
-                    path.display()
-                ));
-            }
-            usual
-        }
-    };
-    Ok(RoughScene::of_map(path, &like, overrides)?)
+    let given = like.map_or_else(RoughScene::usual, |like| RoughScene::read(like, &[]))?;
+    let scene = RoughScene::of_map(path, &given, overrides)?;
+    if like.is_none() && !quiet {
+        terminal::warn(&format!(
+            "metal and load of {} are those that `asperity new rough` writes: give your own with --like SCENE.toml or --set",
+            path.display()
+        ));
+    }
+    Ok(scene)
 }
 
 fn wanted(args: &Extract) -> Extraction {
     let usual = Extraction::default();
-    let given =
-        [args.separation.map(Parts::Separation), args.share.map(Parts::Share), args.hills.map(Parts::Hills)];
+    let given = [
+        args.separation.map(Parts::Separation),
+        args.share.map(Parts::Share),
+        args.hills.map(Parts::Hills),
+        args.closure.map(|closure| Parts::Load(Some(closure))),
+    ];
     let of_scene = args.like.is_some() || args.surface.extension().is_some_and(|end| end == "toml");
     let bodies = args.profiles.unwrap_or(usual.bodies).max(args.crush.unwrap_or(0));
     Extraction {
-        parts: given.into_iter().flatten().next().unwrap_or(if of_scene { Parts::Load } else { usual.parts }),
+        parts: given.into_iter().flatten().next().unwrap_or(if of_scene {
+            Parts::Load(None)
+        } else {
+            usual.parts
+        }),
         depth: args.depth,
         bodies,
         lines: args.line.clone(),

@@ -1,6 +1,6 @@
 //! `asperity study`: a scene over any of its keys.
 
-use crate::cli::flags::{AccuracyParser, RunFlags};
+use crate::cli::flags::{RunFlags, SceneFlags};
 use crate::cli::folder::claim;
 use crate::cli::progress::BatchProgress;
 use crate::error::{Error, InputError};
@@ -9,7 +9,6 @@ use crate::study::{
     Options, Plan, SampleKind, SampleTable, Shard, Study as Runs, StudyFile, Subject, Vary, merge,
     study as run,
 };
-use asperity_solver::scene::Accuracy;
 use clap::{Args, Subcommand};
 use std::path::{Path, PathBuf};
 
@@ -40,12 +39,8 @@ pub struct Study {
     /// Run only part K of N, for the tasks of an array job; join the folders with `asperity study merge`
     #[arg(long, value_name = "K/N", value_parser = clap::value_parser!(Shard))]
     pub shard: Option<Shard>,
-    /// Error of the force: draft (5 %), standard (1 %), reference (0.2 %) or a percentage [default: what the scene says]
-    #[arg(long, value_name = "LEVEL", value_parser = AccuracyParser, hide_possible_values = true)]
-    pub accuracy: Option<Accuracy>,
-    /// Change a value of the scene in all runs, for example --set "loading.depth=2 um"; repeatable
-    #[arg(long = "set", value_name = "KEY.PATH=VALUE")]
-    pub overrides: Vec<String>,
+    #[command(flatten)]
+    pub scene_flags: SceneFlags,
     #[command(flatten)]
     pub run: RunFlags,
 }
@@ -109,9 +104,7 @@ fn sweep(args: &Study, path: &Path) -> Result<(), Error> {
 }
 
 fn plan(args: &Study, file: &StudyFile) -> Result<Plan, Error> {
-    let accuracy = args.accuracy.map(|level| format!("accuracy={level}"));
-    let overrides: Vec<String> =
-        file.overrides().into_iter().chain(args.overrides.iter().cloned()).chain(accuracy).collect();
+    let overrides = [file.overrides(), args.scene_flags.changes()].concat();
     let subject = Subject::read(&file.scene, &overrides)?;
     let given = args.vary.iter().map(|text| Vary::parse(text)).collect::<Result<Vec<_>, _>>()?;
     let mut vary = file.vary()?;

@@ -62,7 +62,7 @@ impl Crush {
         Ok(report.html())
     }
 
-    /// What was found, in a sentence.
+    /// The result in a sentence.
     fn finding(&self) -> String {
         let (summary, per) = (&self.summary, per_length(self.summary.scene.symmetry));
         let end = match &summary.stopped {
@@ -123,7 +123,7 @@ impl Crush {
         }
         rows.push(line("Work less energies", "energy_balance_error", 100.0, " % of the work", None));
         let caption =
-            "Errors are bounds against the limit of fine meshes and steps that hold in 95 % of scenes.";
+            "Errors are bounds against the limit of fine meshes and steps, meant to hold in 95 % of scenes.";
         Ok(page::table(caption, &["quantity", "value", "error below"], &rows))
     }
 

@@ -6,6 +6,7 @@ use super::record::row;
 use crate::error::{Error, InputError};
 use crate::output::nan_for_null;
 use crate::units::{GIGAPASCAL, MEGAPASCAL, MICROMETRE, Units, axisymmetric_name, file_name};
+use asperity_solver::body::islands;
 use asperity_solver::run::oliver_pharr::OliverPharr;
 use asperity_solver::run::record;
 use asperity_solver::scene::{Scene as Tables, Smoothing, Symmetry};
@@ -44,7 +45,7 @@ row! {
     /// [`crate::units::plane_strain_name`], and so has what is serialised.
     #[serde(remote = "Self")]
     Summary(
-        summary: &record::Summary, islands: &[record::IslandRow], units: Units, scene: Tables,
+        summary: &record::Summary, islands: &[islands::Island], units: Units, scene: Tables,
         stopped: Option<String>, wall_s: f64
     ) {
         /// Why and where the run ended before its target; absent if it did not.
@@ -116,7 +117,7 @@ row! {
 
 row! {
     /// A connected region that never yielded, enclosed by material that did or standing above the substrate.
-    Island(row: &record::IslandRow) {
+    Island(row: &islands::Island) {
         /// Area of its section before the crush.
         area_um2: f64 = row.area / (MICROMETRE * MICROMETRE),
         /// Mean hydrostatic pressure, positive in compression.

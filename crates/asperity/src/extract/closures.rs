@@ -1,4 +1,4 @@
-//! What each closure gives for one asperity pressed by a plane to a depth.
+//! Force and contact area of each closure for one asperity pressed by a plane to a depth.
 
 use super::rows::Carried;
 use super::run::Body;
@@ -26,7 +26,7 @@ pub(super) struct Closures {
     pub skipped: Vec<String>,
 }
 
-/// What one closure gives.
+/// Force and contact area of one closure.
 pub(super) struct Given {
     pub closure: Closure,
     /// For the body of revolution, or why nothing.
@@ -58,7 +58,7 @@ impl Closures {
         Ok(Closures { laws, spaces, scene: tables.clone(), law: scene.hardening_law()?, skipped })
     }
 
-    /// What each gives for `body` on `surface` at `depth` (m).
+    /// Force and contact area of each for `body` on `surface` at `depth` (m).
     pub fn at(&self, body: &Body, surface: &Surface, depth: f64) -> Vec<Given> {
         let (area, slope) = body.profile.within(depth);
         let top = surface.map.row(body.asperity.summit[1])[body.asperity.summit[0]];

@@ -6,6 +6,7 @@ use super::run::{Body, Extracted};
 use crate::crush::{CurveRow, Summary as CrushSummary};
 use crate::output::row;
 use crate::units::{MEGAPASCAL, MICROMETRE};
+use asperity_roughness::Closure;
 use asperity_roughness::asperities::Asperity;
 use asperity_roughness::scene::Scene;
 
@@ -117,6 +118,8 @@ row! {
         pixel_size_um: [f64; 2] = done.surface.map.pixel().map(|p| p / MICROMETRE),
         /// Plane of islands above the mean plane; none of hills.
         separation_um: Option<f64> = done.separation.map(|s| s / MICROMETRE),
+        /// The closure that carries the pressure of the scene at that plane; none where the plane was given.
+        separation_closure: Option<Closure> = done.closure,
         /// Asperities found.
         asperities: usize = done.asperities.len(),
         /// Those that reach the edge of the map or a point that was not measured.

@@ -54,7 +54,7 @@ impl Line {
     }
 }
 
-/// What was taken from a map.
+/// Asperities and lines of a map.
 #[derive(Clone, Debug)]
 pub struct Extracted {
     /// Name of the map.
@@ -63,6 +63,8 @@ pub struct Extracted {
     pub surface: Surface,
     /// The plane of the islands above the mean plane, m; none of hills.
     pub separation: Option<f64>,
+    /// The closure that carries the pressure of the scene at that plane; none where the plane was given.
+    pub closure: Option<Closure>,
     /// All asperities, from the highest down.
     pub asperities: Vec<Asperity>,
     /// Those with a profile and a scene.
@@ -99,7 +101,7 @@ pub fn extract(scene: &RoughScene, wanted: &Extraction) -> Result<Extracted, Err
     let tables = scene.tables();
     let surface = tables.surface.prepare(|path| scene.resolve(path)).map_err(|e| scene.error(&e))?;
     let name = scene.surface_name();
-    let how = segmentation(scene, &surface, wanted.parts)?;
+    let (how, closure) = segmentation(scene, &surface, wanted.parts)?;
     let asperities = find(&surface, how).map_err(|e| not_found(&e))?;
     if asperities.is_empty() {
         return Err(InputError::new("no asperity was found above the plane: lower it").into());
@@ -136,7 +138,7 @@ pub fn extract(scene: &RoughScene, wanted: &Extraction) -> Result<Extracted, Err
     });
     let lines = lines.collect::<Result<Vec<_>, InputError>>()?;
     let scene = tables.clone();
-    Ok(Extracted { name, surface, separation, asperities, bodies, lines, table, scene, warnings })
+    Ok(Extracted { name, surface, separation, closure, asperities, bodies, lines, table, scene, warnings })
 }
 
 /// How many bodies there are, and why not more.
@@ -186,19 +188,36 @@ fn not_found(error: &FindError) -> InputError {
     InputError::new(error.to_string()).help(help)
 }
 
-/// What the asperities are, on this surface.
-fn segmentation(scene: &RoughScene, surface: &Surface, parts: Parts) -> Result<Segmentation, InputError> {
+/// The rule that divides this surface into asperities, with the closure that says where its plane is.
+fn segmentation(
+    scene: &RoughScene,
+    surface: &Surface,
+    parts: Parts,
+) -> Result<(Segmentation, Option<Closure>), InputError> {
     let mean = surface.parameters.mean;
+    let mut carries = None;
     let separation = match parts {
-        Parts::Hills(prune) => return Ok(Segmentation::Hills { prune }),
+        Parts::Hills(prune) => return Ok((Segmentation::Hills { prune }, None)),
         Parts::Separation(separation) => separation.0,
         Parts::Share(share) => plane_above(surface, share) - mean,
-        Parts::Load => match scene.tables().load.load().map_err(|e| scene.error(&e))? {
-            Load::Separation(separation) => separation,
-            load @ Load::Pressure(_) => loaded(scene, surface, load)?,
+        Parts::Load(closure) => match (scene.tables().load.load().map_err(|e| scene.error(&e))?, closure) {
+            (Load::Separation(separation), None) => separation,
+            (Load::Separation(_), Some(closure)) => {
+                let message = format!(
+                    "the scene gives the plane, so that closure \"{}\" has no say in it",
+                    closure.name()
+                );
+                let help = "leave --closure out, or give [load] pressure in place of separation";
+                return Err(scene.error(&SceneError::new("load.separation", message)).help(help));
+            }
+            (load @ Load::Pressure(_), closure) => {
+                let closure = closure.unwrap_or_else(|| first_of_islands(scene));
+                carries = Some(closure);
+                loaded(scene, surface, load, closure)?
+            }
         },
     };
-    Ok(Segmentation::Islands { separation })
+    Ok((Segmentation::Islands { separation }, carries))
 }
 
 /// The plane that a share of the measured points is above.
@@ -209,11 +228,15 @@ fn plane_above(surface: &Surface, share: f64) -> f64 {
     *heights.select_nth_unstable_by(k, f64::total_cmp).1
 }
 
-/// The separation at which the first closure with islands carries the load.
-fn loaded(scene: &RoughScene, surface: &Surface, load: Load) -> Result<f64, InputError> {
-    let coefficient = scene.coefficient()?;
+/// The first closure of the scene that presses islands; the elastic cone where it names a half-space.
+fn first_of_islands(scene: &RoughScene) -> Closure {
     let islands = scene.tables().closure.closures().into_iter().find(|c| !c.is_half_space());
-    let closure = islands.unwrap_or(Closure::Sneddon);
+    islands.unwrap_or(Closure::Sneddon)
+}
+
+/// The separation at which `closure` carries the load.
+fn loaded(scene: &RoughScene, surface: &Surface, load: Load, closure: Closure) -> Result<f64, InputError> {
+    let coefficient = scene.coefficient_of(&[closure])?;
     let wrong = |key: &str, message: String| scene.error(&SceneError::new(key, message));
     let law = ClosureLaw::new(closure, &scene.tables().material, coefficient.as_ref())
         .map_err(|e| wrong("closure", e.to_string()))?;
@@ -275,11 +298,19 @@ impl Extracted {
         Summary::new(self)
     }
 
-    /// What was found, for a person.
+    /// The result in a few lines.
     pub fn text(&self) -> String {
         let s = self.summary();
         let plane = s.separation_um.map_or("hills of ISO 25178-2".into(), |d| {
-            format!("islands above a plane {} µm over the mean", scenes::digits((d * 1e4).round() * 1e-4))
+            let plane = format!(
+                "islands above a plane {} µm over the mean",
+                scenes::digits((d * 1e4).round() * 1e-4)
+            );
+            let pressure = self.scene.load.pressure.map_or(f64::NAN, |p| p.in_unit("MPa"));
+            self.closure.map_or_else(
+                || plane.clone(),
+                |c| format!("{plane}, where closure \"{}\" carries {pressure} MPa", c.name()),
+            )
         });
         let [nx, ny] = s.pixels;
         let mut text = format!(

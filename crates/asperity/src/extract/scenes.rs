@@ -2,6 +2,7 @@
 
 use super::run::{Body, Line};
 use crate::units::{GIGAPASCAL, MEGAPASCAL, MICROMETRE};
+use asperity_law::units::rounded;
 use asperity_roughness::Material;
 use asperity_roughness::asperities::Direction;
 use asperity_solver::scene::Accuracy;
@@ -14,7 +15,7 @@ const DEPTH: f64 = 1.0;
 
 /// Seven digits: more than any instrument has, and none of rounding.
 pub(super) fn digits(value: f64) -> String {
-    format!("{:.6e}", value).parse::<f64>().map_or_else(|_| value.to_string(), |v| v.to_string())
+    rounded(value, 7).to_string()
 }
 
 fn um(metres: f64) -> String {

@@ -1,16 +1,18 @@
-//! What is to be taken from a map.
+//! Settings of an extraction.
 
 use crate::error::InputError;
 use asperity_law::units::Length;
+use asperity_roughness::Closure;
 use asperity_roughness::asperities::Direction;
 use asperity_solver::scene::Accuracy;
 use std::str::FromStr;
 
-/// What counts as one asperity.
+/// Rule by which the map is divided into asperities.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Parts {
-    /// Islands above the separation of the scene's load: its own, or the one at which the first closure carries its pressure.
-    Load,
+    /// Islands above the separation of the scene's load: its own, or the one at which this closure carries its pressure; none named:
+    /// the first of the scene that presses islands (of "all" `published`).
+    Load(Option<Closure>),
     /// Islands above this separation from the mean plane.
     Separation(Length),
     /// Islands above the plane that this share of the measured points is above.
@@ -46,10 +48,10 @@ impl FromStr for LineAt {
     }
 }
 
-/// What is to be taken from a map.
+/// Settings of an extraction.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Extraction {
-    /// What counts as one asperity.
+    /// Rule by which the map is divided into asperities.
     pub parts: Parts,
     /// Depth to which the asperities are to be crushed; absent: down to the plane of islands, half the rise of hills.
     pub depth: Option<Length>,

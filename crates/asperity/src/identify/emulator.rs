@@ -22,7 +22,7 @@ struct Node {
     error: f64,
 }
 
-/// What the answers are expected to be before any is near.
+/// Mean function of the answers, where none is near.
 #[derive(Clone, Debug)]
 enum Trend {
     Atlas,
@@ -40,7 +40,7 @@ pub struct Emulator {
     nodes: Vec<Node>,
     factor: Option<Cholesky<f64, Dyn>>,
     weights: DMatrix<f64>,
-    /// What a finer level adds to all of them.
+    /// Correction by a finer level, added to all of them.
     lift: Vec<f64>,
 }
 

@@ -8,7 +8,7 @@ use asperity_calibration::indentation::FORCES;
 use asperity_law::{Elastic, StressMeasure};
 use nalgebra::DMatrix;
 
-/// What was measured, SI.
+/// Measured values, SI.
 #[derive(Clone, Debug)]
 pub enum Data {
     /// Numbers of a curve.
@@ -57,7 +57,7 @@ pub struct Experiment {
     pub emulator: Emulator,
 }
 
-/// What is expected of a measurement.
+/// Predicted values of a measurement.
 struct Expected {
     /// E for the contact.
     modulus: f64,

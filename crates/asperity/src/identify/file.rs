@@ -101,7 +101,7 @@ pub struct FitCurve {
     /// cone, 0 of others.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub model_error: Option<Percent>,
-    /// What else is unknown of this measurement.
+    /// Further unknowns of this measurement.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub unknown: Vec<Nuisance>,
 }
@@ -128,7 +128,7 @@ pub struct Features {
     pub max_depth: Option<Length>,
 }
 
-/// What may be unknown of a measurement beside the metal.
+/// Unknowns of a measurement beside the metal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Nuisance {

@@ -9,6 +9,7 @@ use super::parameters::Unknowns;
 use super::response::{AFTER, Geometry};
 use super::sought::Sought;
 use crate::error::{Error, InputError};
+use crate::input::RELATIVE;
 use crate::input::toml_file::TomlFile;
 use asperity_law::{Elastic, StressMeasure};
 use asperity_solver::scene::{Accuracy, HardeningChoice};
@@ -228,13 +229,10 @@ fn measurements(
                 ("max_depth", f.max_depth.map(|v| v.0)),
             ];
             for (key, value) in positive {
-                if value
-                    .is_some_and(|v| !(v > 0.0 && v.is_finite()) || (key == "plastic_work_ratio" && v >= 1.0))
-                {
-                    return Err(at(
-                        &format!(".features.{key}"),
-                        "must be above 0 (a work ratio also below 1)",
-                    ));
+                let most = if key == "plastic_work_ratio" { 1.0 } else { f64::INFINITY };
+                if let Some(v) = value.filter(|v| !(*v > 0.0 && *v < most)) {
+                    let message = format!("must be above 0 (a work ratio also below 1), not {v} in SI units");
+                    return Err(at(&format!(".features.{key}"), &message));
                 }
             }
             if positive[..3].iter().all(|(_, value)| value.is_none()) {
@@ -254,7 +252,7 @@ fn measurements(
             let path = file.resolve(path);
             let shown = path.display().to_string();
             let text = std::fs::read_to_string(&path)
-                .map_err(|e| at(".file", &format!("{shown}: cannot be read as text: {e}")))?;
+                .map_err(|e| at(".file", &format!("{shown}: cannot be read as text: {e}; {RELATIVE}")))?;
             let tests = instrument::read(&text).map_err(|fault| match fault.line {
                 Some(line) => {
                     let start = text.split_inclusive('\n').take(line - 1).map(str::len).sum();
@@ -387,8 +385,8 @@ fn experiment(
     stress_measure: StressMeasure,
 ) -> Result<Experiment, Fault> {
     for (key, share) in [("noise", curve.noise), ("model_error", curve.model_error)] {
-        if share.is_some_and(|s| !(s.0 >= 0.0 && s.0 <= 0.5)) {
-            return Err(fault(key, "must be from 0 % to 50 %"));
+        if let Some(share) = share.filter(|s| !(0.0..=0.5).contains(&s.0)) {
+            return Err(fault(key, format!("must be from 0 % to 50 %, not {} %", 100.0 * share.0)));
         }
     }
     let pyramid = matches!(curve.tool.shape, FitShape::Berkovich | FitShape::Vickers);

@@ -41,7 +41,7 @@ impl Measured {
     /// Makes `readings` ready.
     ///
     /// # Errors
-    /// What is wrong with the curve, with a way out.
+    /// The fault of the curve, with a way out.
     pub fn new(readings: &Readings) -> Result<Measured, String> {
         let given = readings.len();
         let readings: Readings =

@@ -1,11 +1,11 @@
-//! What is sought: parameters with bounds, and the metal and tools that belong to their values.
+//! Unknowns: parameters with bounds, and the metal and tools that belong to their values.
 
 use super::file::FitMaterial;
 use super::sought::Sought;
 use asperity_law::{Elastic, Hardening, HardeningCurve, HardeningLaw, HardeningTable};
 use asperity_solver::scene::HardeningChoice;
 
-/// What a parameter is of.
+/// Quantity that a parameter stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Slot {
     /// E.
@@ -36,7 +36,7 @@ pub struct Parameter {
     pub unit: &'static str,
     /// SI value of that unit.
     pub scale: f64,
-    /// What it is of.
+    /// Quantity that it stands for.
     pub slot: Slot,
     /// Whether the coordinate is a logarithm.
     pub logarithmic: bool,

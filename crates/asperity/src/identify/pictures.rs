@@ -39,7 +39,7 @@ struct Map {
     best: [f64; 2],
 }
 
-/// What the pictures show.
+/// Contents of the pictures.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Drawn {
     ones: Vec<One>,
@@ -101,7 +101,7 @@ impl Drawn {
         Some(Chart::new("Depth h (µm)", format!("Force F ({unit})"), lines))
     }
 
-    /// What is left between measurement and fit.
+    /// Residuals of the fit.
     pub fn left(&self) -> Chart {
         let dots = self.ones.iter().enumerate().map(|(i, one)| {
             let line = Series::line(one.name.clone(), one.left.clone());

@@ -57,7 +57,7 @@ impl Geometry {
 /// Relative error of a run whose companion came to no end.
 const UNKNOWN: f64 = 0.05;
 
-/// What finite elements are asked.
+/// Inputs of a run of finite elements.
 #[derive(Clone, Debug)]
 pub struct Question {
     /// Body and tool.

@@ -51,7 +51,7 @@ pub struct StressAt {
     pub high_MPa: f64,
 }
 
-/// What is left between measurements and fit.
+/// Residual of the fit.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Residual {
     /// Sum of squares in standard deviations.
@@ -64,7 +64,7 @@ pub struct Residual {
     pub curves: Vec<CurveResidual>,
 }
 
-/// What is left of one measurement.
+/// Residual of one measurement.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct CurveResidual {
     /// Its name.
@@ -78,7 +78,7 @@ pub struct CurveResidual {
 /// The result.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Identification {
-    /// What was sought, by its name.
+    /// The unknowns, by their names.
     pub parameters: IndexMap<String, Found>,
     /// Correlations of the unknowns in their order, by the curvature at the best fit.
     pub correlation: Vec<Vec<f64>>,
@@ -92,7 +92,7 @@ pub struct Identification {
     pub stress_strain: Vec<StressAt>,
     /// The stress that is told best.
     pub representative: Option<StressAt>,
-    /// What is left.
+    /// The residual.
     pub residual: Residual,
     /// Remarks: holds cut, runs that stopped early, noise that was assumed.
     pub notes: Vec<String>,

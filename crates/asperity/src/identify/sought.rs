@@ -1,5 +1,6 @@
 //! A quantity that is known, a number, or sought, a range of two; and a share in percent.
 
+use asperity_law::units::from_text;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::value::{F64Deserializer, StrDeserializer};
 use serde::de::{Error, IntoDeserializer, SeqAccess, Visitor};
@@ -7,6 +8,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::borrow::Cow;
 use std::fmt;
 use std::marker::PhantomData;
+use std::str::FromStr;
 
 /// A quantity of a fit.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -105,12 +107,19 @@ impl Serialize for Percent {
 
 impl<'de> Deserialize<'de> for Percent {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let text = String::deserialize(deserializer)?;
+        from_text(deserializer, "a percentage as a string, for example \"0.5 %\"")
+    }
+}
+
+impl FromStr for Percent {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Percent, String> {
         let number = text.trim().strip_suffix('%').and_then(|number| number.trim().parse::<f64>().ok());
         number
             .filter(|n| n.is_finite())
             .map(|n| Percent(n / 100.0))
-            .ok_or_else(|| D::Error::custom(format!("\"{text}\" is no percentage: write it like \"0.5 %\"")))
+            .ok_or_else(|| format!("\"{text}\" is no percentage: write it like \"0.5 %\""))
     }
 }
 

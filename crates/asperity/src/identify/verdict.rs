@@ -45,7 +45,7 @@ fn is_narrow(parameter: &Parameter, interval: &Interval) -> bool {
 /// A change of the unknowns that the measurements do not notice.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Blind {
-    /// What changes by how much, for a sum of squares that grows by 1: a factor of what is positive, else a difference.
+    /// Names of the unknowns and their changes for a sum of squares that grows by 1: a factor of positive ones, else a difference.
     pub change: Vec<(String, f64)>,
     /// The same in words.
     pub text: String,
@@ -85,7 +85,7 @@ pub fn blind(objective: &Objective<'_>, unknowns: &Unknowns, point: &[f64]) -> O
 pub struct NextExperiment {
     /// Half apex angle of the sharp cone, degrees.
     pub half_apex_deg: f64,
-    /// What would be measured.
+    /// Quantities to be measured.
     pub features: Vec<String>,
     /// The unknown that it is for.
     pub parameter: String,

@@ -3,7 +3,7 @@
 use crate::crush::Summary;
 use crate::error::{Error, InputError};
 use crate::input::toml_file::{TomlFile, read_text, to_toml};
-use crate::input::{hardening_file, profile_file};
+use crate::input::{RELATIVE, hardening_file, profile_file};
 use asperity_mesh::{Mesh, read_msh};
 use asperity_solver::run::discretisation::Discretisation;
 use asperity_solver::scene::{
@@ -32,15 +32,18 @@ impl Scene {
     /// # Examples
     /// A cone of steel under a plane:
     /// ```
-    /// use asperity::tables::{Asperity, Loading, Material, Symmetry, Tool, Scene as Tables};
-    /// use asperity::{Length, Scene, Stress};
+    /// use asperity::tables::{Asperity, Loading, Material, Scene as Tables, Symmetry, Tool, ToolForce};
+    /// use asperity::{Force, Length, Scene, Stress};
     ///
     /// let steel = Material::elastic_body(Stress(210e9), 0.3).yielding(Stress(300e6), 0.3);
     /// let tables = Tables::new(Symmetry::Axisymmetric, steel, Tool::plane(), Loading::to_depth(Length(5e-6)));
     /// assert!(Scene::new(&tables).unwrap_err().to_string().contains("at least one [[asperity]]"));
     ///
     /// let cone = Asperity::cone(Length(20e-6), 10.0).rounded(Length(10e-6));
-    /// assert!(Scene::new(&tables.with(cone)).is_ok());
+    /// let to_depth = tables.with(cone);
+    /// assert!(Scene::new(&to_depth).is_ok());
+    /// let to_force = Tables { loading: Loading::to_force(ToolForce::Total(Force(4.0))), ..to_depth };
+    /// assert!(Scene::new(&to_force).is_ok());
     /// ```
     pub fn new(tables: &Tables) -> Result<Scene, Error> {
         let text = to_toml(tables).map_err(InputError::new)?;
@@ -177,7 +180,7 @@ fn body_of(path: &Path) -> Result<String, String> {
         .map_err(refuse)
 }
 
-/// What a scene has of its body; in a file, tables come after values.
+/// The keys of a scene that describe its body; in a file, tables come after values.
 #[derive(Serialize)]
 struct Body {
     symmetry: Symmetry,
@@ -210,7 +213,7 @@ fn read_mesh(file: &TomlFile<Tables>) -> Result<Option<Mesh>, InputError> {
         file.error_at("mesh.file", &format!("{}: {reason}", path.display()))
             .help("a mesh is a Gmsh MSH 4.1 ASCII file of quadrangles with physical curves axis, base, surface, outer")
     };
-    let bytes = std::fs::read(&path).map_err(|e| error(format!("cannot be read: {e}")))?;
+    let bytes = std::fs::read(&path).map_err(|e| error(format!("cannot be read: {e}; {RELATIVE}")))?;
     let mut mesh = read_msh(&bytes).map_err(|e| error(e.to_string()))?;
     let scale = named.unit.map_or(1.0, |unit| unit.0);
     let summit = mesh.nodes.iter().map(|node| node[1]).fold(f64::NEG_INFINITY, f64::max);

@@ -1,6 +1,7 @@
 //! Tables of numbers that a scene names, with what is needed to point at their lines later.
 
 use crate::error::InputError;
+use crate::input::RELATIVE;
 use crate::input::toml_file::TomlFile;
 use asperity_solver::scene::{Scene, SceneError};
 use std::io::Read;
@@ -29,8 +30,9 @@ impl TableFile {
     ) -> Result<TableFile, InputError> {
         let path = scene.resolve(named);
         let mut table = TableFile { name: path.display().to_string(), text: String::new(), key: key.into() };
-        let unreadable =
-            |e: std::io::Error| scene.error_at(key, &format!("{}: cannot be read: {e}", path.display()));
+        let unreadable = |e: std::io::Error| {
+            scene.error_at(key, &format!("{}: cannot be read: {e}; {RELATIVE}", path.display()))
+        };
         let opened = std::fs::File::open(&path).map_err(unreadable)?;
         opened.take(limit + 1).read_to_string(&mut table.text).map_err(unreadable)?;
         if table.text.len() as u64 > limit {

@@ -96,6 +96,8 @@ impl<T> TomlFile<T> {
     /// An error about the value at `path` (`asperity[0].height`), pointing at it or, where it is absent, at the
     /// innermost table that lacks it.
     pub fn error_at(&self, path: &str, message: &str) -> InputError {
+        // `material.` is said of a key that the table lacks
+        let path = path.trim_end_matches('.');
         let keys = path_keys(path).unwrap_or_default();
         let span = self.sources.table().ok().and_then(|table| find(&table, &keys));
         let message = if path.is_empty() { message.to_string() } else { format!("{path}: {message}") };

@@ -31,13 +31,13 @@ pub(crate) fn document(title: &str, body: &Markup) -> String {
 
 /// The report of one run.
 pub(crate) struct Report<'a> {
-    /// What was computed.
+    /// Name of the computation.
     pub title: &'a str,
-    /// Of what, and how exactly.
+    /// Its object, and how exact it is.
     pub about: &'a str,
-    /// What to take home, in a sentence or two.
+    /// The main result, in a sentence or two.
     pub verdict: &'a str,
-    /// What to beware of.
+    /// Doubts about the numbers.
     pub warnings: &'a [String],
     /// The numbers and the pictures.
     pub sections: Markup,

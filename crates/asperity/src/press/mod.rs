@@ -21,6 +21,9 @@ mod report;
 
 pub mod table1;
 
+/// Tables of a rough scene.
+pub use asperity_roughness::scene as tables;
+
 pub use crate::crush::Phase;
 pub use closures::{Body, ClosureContact, IslandContact};
 pub use curves::{BearingRow, GapShare, SpectrumRow};

@@ -185,7 +185,7 @@ impl Rough {
                 "{:<18} {:>8} {:>9} {:>7} {:>9} {:>14} {:>11} {:>12} {:>15} {:>7}",
                 row.closure.name(),
                 shown(Some(100.0 * row.contact_area_ratio), 3),
-                shown(row.mean_pressure_mpa, 1),
+                shown(row.mean_pressure_MPa, 1),
                 shown(row.plasticity_index, 3),
                 shown(row.max_pressure_over_nominal, 2),
                 shown(Some(row.separation_um), 4),

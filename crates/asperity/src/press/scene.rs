@@ -1,6 +1,7 @@
 //! A scene of `asperity rough` with the files that it names.
 
 use crate::error::InputError;
+use crate::input::RELATIVE;
 use crate::input::toml_file::{TomlFile, to_toml};
 use asperity_calibration::journal::fingerprint;
 use asperity_law::HardeningLaw;
@@ -42,6 +43,10 @@ impl RoughScene {
     /// # Errors
     /// A path that is no text, an override that names no key or a value of another kind.
     pub fn of_map(path: &Path, like: &RoughScene, overrides: &[String]) -> Result<RoughScene, InputError> {
+        if let Err(e) = std::fs::metadata(path) {
+            let help = "give a map of heights (.sur, .x3p, .al3d, .sdf, .npy, .csv, .xyz) or a scene of `asperity rough` (.toml)";
+            return Err(InputError::new(format!("cannot read {}: {e}", path.display())).help(help));
+        }
         let mut scene = like.scene.clone();
         let surface = &mut scene.surface;
         (surface.generate, surface.heights) = (None, None);
@@ -159,8 +164,13 @@ impl RoughScene {
 
     /// The calibration that the scene names, or the one that comes with the program; `None` where no closure needs it.
     pub(crate) fn coefficient(&self) -> Result<Option<Coefficient>, InputError> {
+        self.coefficient_of(&self.scene.closure.closures())
+    }
+
+    /// The same for these closures.
+    pub(crate) fn coefficient_of(&self, closures: &[Closure]) -> Result<Option<Coefficient>, InputError> {
         let needed = |c: &Closure| matches!(c, Closure::Fitted | Closure::Calibrated | Closure::Johnson);
-        if !self.scene.closure.closures().iter().any(needed) {
+        if !closures.iter().any(needed) {
             return Ok(None);
         }
         self.calibration().map(Some)
@@ -189,8 +199,9 @@ impl RoughScene {
             return Coefficient::committed().map_err(refused);
         };
         let path = self.resolve(path);
-        let text = std::fs::read_to_string(&path)
-            .map_err(|e| error("coefficient", format!("{} cannot be read: {e}", path.display())))?;
+        let text = std::fs::read_to_string(&path).map_err(|e| {
+            error("coefficient", format!("{}: cannot be read: {e}; {RELATIVE}", path.display()))
+        })?;
         Coefficient::from_toml(&text).map_err(|e| error("coefficient", format!("{}: {e}", path.display())))
     }
 }

@@ -145,7 +145,7 @@ impl Several {
                 row.surface,
                 row.closure.name(),
                 shown(Some(100.0 * row.contact_area_ratio), 3),
-                shown(row.mean_pressure_mpa, 1),
+                shown(row.mean_pressure_MPa, 1),
                 shown(Some(row.separation_um), 4),
                 shown(row.area_over_half_space, 3),
             );

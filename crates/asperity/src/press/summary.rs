@@ -1,5 +1,7 @@
 //! `summary.json` of a pressed surface.
 
+#![expect(non_snake_case, reason = "a name ends in its unit, as in the files")]
+
 use super::closures::{ClosureContact, Warnings};
 use super::table::TableRow;
 use crate::output::row;
@@ -111,8 +113,7 @@ row! {
         /// Where the closure comes from.
         source: String = one.closure.source().into(),
         /// The pressure asked for, or carried at the separation asked for, MPa.
-        #[serde(rename = "nominal_pressure_MPa")]
-        nominal_pressure_mpa: f64 = one.nominal / MEGAPASCAL,
+        nominal_pressure_MPa: f64 = one.nominal / MEGAPASCAL,
         /// Whether the load jumps at the separation.
         load_jumps: bool = one.islands().is_some_and(|i| i.contact.jump),
         /// Share of the load on islands outside the range of the closure: of `calibrated` outside both the calibration and the atlas of cones.
@@ -126,8 +127,7 @@ row! {
         load_share_return_limited: Option<f64> =
             one.islands().and_then(|i| i.unloading.as_ref()).and_then(|u| u.limited_share),
         /// Largest pressure that a pixel of the half-space bears, MPa.
-        #[serde(rename = "limit_MPa")]
-        limit_mpa: Option<f64> = one.space().and_then(|s| s.body.limit).map(|l| l / MEGAPASCAL),
+        limit_MPa: Option<f64> = one.space().and_then(|s| s.body.limit).map(|l| l / MEGAPASCAL),
         /// Where that limit comes from: the hardness, 3 yield_stress, or the atlas of cones.
         limit_from: Option<String> = one.space().and_then(|s| s.limit_from()),
         /// Slope of the patches of contact at which the atlas of cones was read, degrees.

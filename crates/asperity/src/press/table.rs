@@ -1,5 +1,7 @@
 //! Rows of `table.csv` and `load_curve.csv`.
 
+#![expect(non_snake_case, reason = "a name ends in its unit, as in the files")]
+
 use super::closures::ClosureContact;
 use crate::crush::Phase;
 use crate::output::{nan_for_null, row};
@@ -18,8 +20,7 @@ row! {
         /// atan of the mean |∇h|, degrees.
         beta_deg: f64 = surface.parameters.beta_deg(),
         /// Load over contact area, MPa; none without contact.
-        #[serde(rename = "mean_pressure_MPa")]
-        mean_pressure_mpa: Option<f64> = one.mean_pressure().map(|p| p / MEGAPASCAL),
+        mean_pressure_MPa: Option<f64> = one.mean_pressure().map(|p| p / MEGAPASCAL),
         /// Contact area over nominal area; NaN where `status` says why.
         #[serde(deserialize_with = "nan_for_null")]
         contact_area_ratio: f64 = one.area_ratio().unwrap_or(f64::NAN),
@@ -65,8 +66,7 @@ row! {
         /// Mean distance of plane and surface, µm.
         mean_gap_um: Option<f64> = one.space().map(|s| s.contact.mean_gap / MICROMETRE),
         /// Normal contact stiffness per unit of area, -dp/d(mean gap), MPa/µm.
-        #[serde(rename = "stiffness_MPa_per_um")]
-        stiffness_mpa_per_um: Option<f64> =
+        stiffness_MPa_per_um: Option<f64> =
             one.space().and_then(|s| s.contact.stiffness).map(|k| k / MEGAPASCAL * MICROMETRE),
         /// Whether an open path crosses the map along x.
         percolates_x: Option<bool> = one.space().map(|s| s.passages[0].narrowest.is_some()),
@@ -113,8 +113,7 @@ row! {
         /// The plane above the mean height, µm.
         separation_um: f64 = point.separation / MICROMETRE,
         /// Nominal pressure, MPa.
-        #[serde(rename = "pressure_MPa")]
-        pressure_mpa: f64 = point.pressure / MEGAPASCAL,
+        pressure_MPa: f64 = point.pressure / MEGAPASCAL,
         /// Contact area over nominal area.
         contact_area_ratio: f64 = point.area_ratio,
     }

@@ -160,7 +160,7 @@ pub fn measure(kind: KindName, row: &Printed) -> Result<ComparedRow, Error> {
                 table.len() - 1
             });
             let ours = &mut table[at];
-            ours.pressure.0.extend(one.row.mean_pressure_mpa);
+            ours.pressure.0.extend(one.row.mean_pressure_MPa);
             ours.area.0.push(100.0 * one.row.contact_area_ratio);
             ours.index.0.extend(one.row.plasticity_index);
             ours.peak.0.extend(one.row.max_pressure_over_nominal);

@@ -326,7 +326,7 @@ fn unloading(results: &Results) -> Result<Markup, String> {
             };
             let Some(first) = of(Phase::Load).next().map(|p| p.separation_um) else { continue };
             for (phase, unloading) in [(Phase::Load, false), (Phase::Unload, true)] {
-                let travel = of(phase).map(|p| [first - p.separation_um, p.pressure_mpa]).collect();
+                let travel = of(phase).map(|p| [first - p.separation_um, p.pressure_MPa]).collect();
                 series.push(Series::of_closure(closure, unloading, travel));
             }
         }

@@ -4,7 +4,7 @@ use super::picture;
 use super::plan::{Definition, Plan};
 use super::points::Points;
 use super::row::{self, Outcome, Run, columns};
-use crate::batch::{self, Batch, Options, Reached, Shard};
+use crate::batch::{self, Batch, Options, Reached, Shard, all_found, not_a_part};
 use crate::error::{Error, InputError};
 use crate::output::{Sink, SinkExt, write_whole};
 use crate::page::format::significant;
@@ -261,45 +261,23 @@ impl Study {
 /// Folders that hold no parts, parts of different studies, or runs that are in none of them.
 pub fn merge(parts: &[PathBuf]) -> Result<Study, Error> {
     let start = Instant::now();
-    let mut definition: Option<Definition> = None;
-    let mut found: HashMap<String, Outcome> = HashMap::new();
-    for part in parts {
-        let text =
-            std::fs::read_to_string(part.join(DEFINITION)).map_err(|e| not_a_part(part, DEFINITION, e))?;
-        let of_part: Definition = serde_json::from_str(&text).map_err(|e| not_a_part(part, DEFINITION, e))?;
-        if definition.as_ref().is_some_and(|d| *d != of_part) {
-            return Err(not_a_part(part, DEFINITION, "is another study than that of the parts before").into());
-        }
-        let rows = batch::read::<(Vec<String>, Outcome)>(&part.join(JOURNAL), &of_part.of_run())
-            .map_err(|e| not_a_part(part, JOURNAL, e))?;
-        found.extend(rows.into_iter().map(|(key, (_, outcome))| (key, outcome)));
-        definition = Some(of_part);
-    }
-    let Some(definition) = definition else { return Err(InputError::new("no parts were given").into()) };
+    let wrong = |part: &Path, file: &str, why: &dyn Display| not_a_part("study", part, file, why);
+    let (definition, found) = batch::parts(parts, |part| {
+        let text = std::fs::read_to_string(part.join(DEFINITION)).map_err(|e| wrong(part, DEFINITION, &e))?;
+        let definition: Definition = serde_json::from_str(&text).map_err(|e| wrong(part, DEFINITION, &e))?;
+        let rows = batch::read::<(Vec<String>, Outcome)>(&part.join(JOURNAL), &definition.of_run());
+        Ok((definition, rows.map_err(|e| wrong(part, JOURNAL, &e))?))
+    })?;
+    let found: HashMap<String, Outcome> =
+        found.into_iter().map(|(key, (_, outcome))| (key, outcome)).collect();
     let points = Points::new(&definition.vary, definition.sample)?;
     let all: Vec<Vec<String>> = (0..points.len()).map(|i| points.get(i)).collect();
-    let missing: Vec<&Vec<String>> =
-        all.iter().filter(|values| !found.contains_key(&key(&definition, values))).collect();
-    if let Some(first) = missing.first() {
-        let message = format!(
-            "{} of {} runs are in none of the parts; the first is {}",
-            missing.len(),
-            all.len(),
-            key(&definition, first)
-        );
-        return Err(InputError::new(message)
-            .help("give the folders of all parts; one that was killed goes on where it was when it is started again")
-            .into());
-    }
+    let keys: Vec<String> = all.iter().map(|values| key(&definition, values)).collect();
+    all_found(&keys, &found)?;
     let run = |values: Vec<String>| {
         let outcome = found.get(&key(&definition, &values))?.clone();
         Some(Run::new(values, outcome))
     };
     let runs = all.into_iter().filter_map(run).collect();
     Ok(Study { wall_s: start.elapsed().as_secs_f64(), ..Study::new(definition, runs) })
-}
-
-fn not_a_part(part: &Path, file: &str, why: impl Display) -> InputError {
-    InputError::new(format!("{}: {why}", part.join(file).display()))
-        .help("give the folders that `asperity study --shard K/N` has written")
 }

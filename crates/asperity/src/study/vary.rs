@@ -1,7 +1,7 @@
 //! A key of a scene and the values that it takes: a list, or a range that is cut into steps or drawn from.
 
 use crate::error::InputError;
-use asperity_law::units::{Force, Length, Stress};
+use asperity_law::units::{Force, Length, Stress, rounded};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
@@ -181,10 +181,8 @@ fn ratio(unit: &str, other: &str) -> Option<f64> {
     of(Length::UNITS).or_else(|| of(Stress::UNITS)).or_else(|| of(Force::UNITS))
 }
 
-/// The value to twelve digits: what arithmetic leaves behind them is in no file.
-fn twelve_digits(value: f64) -> f64 {
-    format!("{value:.11e}").parse().unwrap_or(value)
-}
+/// Digits of the values of a range: those behind are left by arithmetic.
+const DIGITS: usize = 12;
 
 impl Range {
     /// Reads `A..B`, `A..B/N` or `A..B/N log`; `None` where the text is no range at all.
@@ -218,7 +216,7 @@ impl Range {
             _ => {
                 let ratio = ratio(unit, low_unit)
                     .ok_or_else(|| format!("the ends of `{text}` have units that do not go together"))?;
-                (twelve_digits(high * ratio), low_unit)
+                (rounded(high * ratio, DIGITS), low_unit)
             }
         };
         if low == high {
@@ -242,7 +240,7 @@ impl Range {
             _ if self.logarithmic => low * (high / low).powf(share),
             _ => low + (high - low) * share,
         };
-        format!("{} {}", twelve_digits(value), self.unit).trim_end().into()
+        format!("{} {}", rounded(value, DIGITS), self.unit).trim_end().into()
     }
 }
 

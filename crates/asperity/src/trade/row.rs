@@ -1,5 +1,7 @@
 //! Rows of `trade.csv`.
 
+#![expect(non_snake_case, reason = "a name ends in its unit, as in the files")]
+
 use super::case::{Finished, Measured};
 use super::converged::{Converged, Errors};
 use super::pareto_front::pareto_front;
@@ -46,8 +48,7 @@ row! {
         /// Unknowns.
         dofs: Option<usize> = run.map(|r| r.dofs),
         /// Largest resident memory of the process, MB of 10⁶ bytes; absent where the system does not say.
-        #[serde(rename = "peak_memory_MB")]
-        peak_memory_mb: Option<f64> = run.and_then(|r| r.peak_memory_mb),
+        peak_memory_MB: Option<f64> = run.and_then(|r| r.peak_memory_mb),
         /// The error of the force that the run states itself.
         estimated_error: Option<f64> = run.and_then(|r| r.estimated_error),
         /// Whether no other setting has a smaller error of the force at no higher cost.

@@ -6,11 +6,10 @@ use super::overview::overview;
 use super::picture;
 use super::row::{TradeRow, rows};
 use super::settings::{Knob, Setting, converged, settings};
+use crate::batch::{self, Batch};
 use crate::error::{Error, InputError};
-use crate::output::{Sink, SinkExt, open_journal};
-use asperity_calibration::journal::Journal;
+use crate::output::{Sink, SinkExt};
 use asperity_solver::scene::Scene;
-use rayon::prelude::*;
 use std::path::Path;
 use std::sync::{Mutex, PoisonError};
 
@@ -86,73 +85,51 @@ pub fn trade(
     Ok(Trade { rows: rows(&finished, &converged), converged_to: finer_differ.then_some(converged.doubt) })
 }
 
-/// The state that the threads of a trade share.
-struct Shared<'a> {
-    journal: Option<Journal>,
-    observer: &'a mut (dyn FnMut(&Progress) -> bool + Send),
-    weight: f64,
-    finished: usize,
-    stopped: bool,
-}
-
 /// Runs the settings that the journal does not hold yet, the longest first; outcomes in the order of the settings.
 fn measure_all(
     scene: &Scene,
     options: &Options<'_>,
     observer: &mut (dyn FnMut(&Progress) -> bool + Send),
 ) -> Result<Vec<Finished>, Error> {
-    let mut settings = [&converged(scene)[..], &settings(scene, options.combinations)].concat();
-    let definition = format!("{} {scene:?} {settings:?}", env!("CARGO_PKG_VERSION"));
-    let (journal, lines) = open_journal(options.journal, &definition)?;
-    let mut finished: Vec<Finished> =
-        lines.iter().filter_map(|line| serde_json::from_str(line).ok()).collect();
-    let mut open: Vec<&Setting> =
-        settings.iter().filter(|s| !finished.iter().any(|f| f.setting == **s)).collect();
-    open.sort_by(|a, b| b.weight().total_cmp(&a.weight()));
-    let whole: f64 = settings.iter().map(Setting::weight).sum();
-    let weight = whole - open.iter().map(|s| s.weight()).sum::<f64>();
-    let stopped = !observer(&Progress { share: weight / whole, finished: finished.len(), knob: None });
-    let shared = Mutex::new(Shared { journal, observer, weight, finished: finished.len(), stopped });
-    let lock = || shared.lock().unwrap_or_else(PoisonError::into_inner);
-    // a bridge hands the cases out in their order, which keeps the longest first
-    let new: Result<Vec<Option<Finished>>, Error> = open
-        .into_iter()
-        .par_bridge()
-        .map(|setting| {
-            if lock().stopped {
-                return Ok(None);
-            }
-            let outcome = (options.runner)(setting, scene);
-            let mut shared = lock();
-            // a process that died may do better the next time
-            let kept = !matches!(outcome, Err(Failed::Process(_)));
-            let finished = Finished { setting: *setting, outcome: outcome.map_err(|e| e.to_string()) };
-            if let (Some(journal), true) = (&mut shared.journal, kept) {
-                let line = serde_json::to_string(&finished).map_err(std::io::Error::from);
-                line.and_then(|line| journal.append(&line)).map_err(|e| disk(options.journal, &e))?;
-            }
-            shared.weight += setting.weight();
-            shared.finished += 1;
-            let progress = Progress {
-                share: shared.weight / whole,
-                finished: shared.finished,
-                knob: Some(setting.knob),
-            };
-            let go_on = (shared.observer)(&progress);
-            shared.stopped |= !go_on;
-            Ok(Some(finished))
-        })
-        .collect();
-    finished.extend(new?.into_iter().flatten());
-    settings.retain(|s| finished.iter().any(|f| f.setting == *s));
-    Ok(settings.iter().filter_map(|s| finished.iter().find(|f| f.setting == *s).cloned()).collect())
-}
-
-fn disk(journal: Option<&Path>, error: &std::io::Error) -> Error {
-    let name = journal.map_or_else(String::new, |path| format!(" {}", path.display()));
-    Error::Unfinished(format!(
-        "cannot write the journal{name}: {error}; finished runs are cached there, and the same command resumes"
-    ))
+    let settings = [&converged(scene)[..], &settings(scene, options.combinations)].concat();
+    let mut order: Vec<usize> = (0..settings.len()).collect();
+    order.sort_by(|a, b| settings[*b].weight().total_cmp(&settings[*a].weight()));
+    let weights = order.iter().scan(0.0, |sum, i| {
+        *sum += settings[*i].weight();
+        Some(*sum)
+    });
+    // share of the work of the first runs in their order
+    let weights: Vec<f64> = std::iter::once(0.0).chain(weights).collect();
+    // a process that died may do better the next time: it is in no journal
+    let died: Mutex<Vec<(usize, Finished)>> = Mutex::default();
+    let lock = || died.lock().unwrap_or_else(PoisonError::into_inner);
+    let solve = |i: &usize, _: &dyn Fn() -> bool| {
+        let outcome = (options.runner)(&settings[*i], scene);
+        let lost = matches!(outcome, Err(Failed::Process(_)));
+        let finished = Finished { setting: settings[*i], outcome: outcome.map_err(|e| e.to_string()) };
+        if lost {
+            lock().push((*i, finished));
+            return None;
+        }
+        Some(finished)
+    };
+    let batch = Batch {
+        definition: &format!("{} {scene:?} {settings:?}", env!("CARGO_PKG_VERSION")),
+        cases: &order,
+        key: &|i: &usize| format!("{:?}", settings[*i]),
+        solve: &solve,
+        threads: 0,
+        journal: options.journal,
+    };
+    let done = batch::run(&batch, &mut |reached| {
+        let share = weights[reached.done] / weights[settings.len()];
+        observer(&Progress { share, finished: reached.done, knob: reached.row.map(|row| row.setting.knob) })
+    })?;
+    let mut finished: Vec<(usize, Finished)> =
+        done.rows.into_iter().map(|(k, row)| (order[k], row)).collect();
+    finished.append(&mut lock());
+    finished.sort_by_key(|(i, _)| *i);
+    Ok(finished.into_iter().map(|(_, row)| row).collect())
 }
 
 impl Trade {

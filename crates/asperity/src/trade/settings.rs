@@ -1,5 +1,6 @@
 //! Which discretisations a trade runs: each number by itself around each level, and combinations that fill the space.
 
+use asperity_law::units::rounded;
 use asperity_solver::run::discretisation::Discretisation;
 use asperity_solver::scene::{Accuracy, ContactMethod, ElementChoice, Numerics, Scene};
 use serde::{Deserialize, Serialize};
@@ -171,11 +172,7 @@ fn scale(value: &mut Option<usize>, factor: f64, [low, high]: [f64; 2]) {
 
 fn scale_real(value: &mut Option<f64>, factor: f64, [low, high]: [f64; 2]) {
     // three digits are enough to name a number that was multiplied
-    *value = value.map(|v| rounded(v * factor).clamp(low, high));
-}
-
-fn rounded(value: f64) -> f64 {
-    format!("{value:.2e}").parse().unwrap_or(value)
+    *value = value.map(|v| rounded(v * factor, 3).clamp(low, high));
 }
 
 /// Combination `i`: a point of the additive recurrence of the generalised golden ratio in seven dimensions (the real root
@@ -197,9 +194,9 @@ fn mixed(scene: &Scene, i: usize) -> Setting {
         elements_in_contact: Some(elements.round() as usize),
         steps: Some(steps),
         contact: Some(if at(7) < 0.2 { ContactMethod::Augmented } else { ContactMethod::Penalty }),
-        penetration: Some(rounded(logs(3, 0.0005, 0.016))),
-        newton_tolerance: Some(rounded(logs(4, 1e-8, 1e-4))),
-        domain: Some(rounded(logs(5, 30.0, 800.0))),
+        penetration: Some(rounded(logs(3, 0.0005, 0.016), 3)),
+        newton_tolerance: Some(rounded(logs(4, 1e-8, 1e-4), 3)),
+        domain: Some(rounded(logs(5, 30.0, 800.0), 3)),
     };
     Setting { knob: Knob::Mixed, numerics, ..level(scene, accuracy) }
 }

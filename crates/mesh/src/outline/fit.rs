@@ -7,7 +7,7 @@ use super::residuals::{scatter, stretches_too_far};
 use super::spline::{Break, fit as nearest};
 use super::{Outline, Parabola, deepest_dent};
 
-/// What the points are a section of.
+/// Part of the section that the points cover.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Span {
     /// Half of a symmetric section, from the axis outward.

@@ -6,9 +6,10 @@ use super::{NONE, hills};
 use crate::contact::ellipse::Ellipse;
 use crate::contact::islands::Islands;
 use crate::surface::ready::Surface;
+use asperity_law::units::rounded;
 use thiserror::Error;
 
-/// What counts as one asperity.
+/// Rule by which the surface is divided into asperities.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Segmentation {
     /// A connected part of the surface above a plane.
@@ -123,7 +124,7 @@ fn of_islands(surface: &Surface, separation: f64) -> Result<Vec<Asperity>, FindE
     let (map, mean) = (&surface.map, surface.parameters.mean);
     let plane = mean + separation;
     let [separation_um, highest_um, lowest_um] =
-        [separation, surface.extent.high - mean, surface.extent.low - mean].map(|h| h * 1e6);
+        [separation, surface.extent.high - mean, surface.extent.low - mean].map(|h| rounded(h * 1e6, 5));
     if plane.is_nan() || plane >= surface.extent.high {
         return Err(FindError::Above { separation_um, highest_um });
     }

@@ -1,4 +1,4 @@
-//! What the nodes and cells of each asperity add up to.
+//! Sums over the nodes and cells of each asperity.
 
 use super::NONE;
 use super::hills::Neighbours;

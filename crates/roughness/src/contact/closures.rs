@@ -6,6 +6,7 @@ use super::material::Material;
 use asperity_law::Hardening;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
+use std::str::FromStr;
 use thiserror::Error;
 
 /// The published coefficient of eqs (9)-(13).
@@ -103,6 +104,16 @@ pub enum Regime {
     Elastoplastic,
     /// Fully plastic.
     Plastic,
+}
+
+impl FromStr for Closure {
+    type Err = String;
+
+    fn from_str(name: &str) -> Result<Closure, String> {
+        let names = || Closure::ALL.map(Closure::name).join(", ");
+        let found = Closure::ALL.into_iter().find(|closure| closure.name() == name);
+        found.ok_or_else(|| format!("\"{name}\" is no closure: take one of {}", names()))
+    }
 }
 
 /// Why a closure cannot be used.

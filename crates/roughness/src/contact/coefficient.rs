@@ -16,7 +16,7 @@
 //! contact_ratio = [0.65, 0.8]          # a tan β/h
 //! ```
 
-use asperity_law::HardeningLaw;
+use asperity_law::{HardeningLaw, range};
 use serde::{Deserialize, Serialize};
 use std::fmt::Display;
 use thiserror::Error;
@@ -124,7 +124,7 @@ impl Coefficient {
         let (c, m, nu) = (self.c, self.unloading_exponent, self.poissons_ratio);
         check(c.is_finite() && c > 0.0 && c < 10.0, "c", &c, "between 0 and 10")?;
         check((1.0..=3.0).contains(&m), "unloading_exponent", &m, "between 1 and 3")?;
-        check(nu > -1.0 && nu < 0.5, "poissons_ratio", &nu, "in (-1, 0.5)")?;
+        check(range::poissons_ratio(nu).is_ok(), "poissons_ratio", &nu, "in (-1, 0.5)")?;
         let slopes: Vec<f64> = self.angles.iter().map(|a| a.beta_deg).collect();
         let slopes_fit = positive(&slopes) && ascending(&slopes) && slopes.iter().all(|b| *b < 90.0);
         let allowed = "one or more slopes between 0 and 90, ascending";
@@ -139,7 +139,7 @@ impl Coefficient {
         Ok(self)
     }
 
-    /// What the table holds nearest to a cone of slope `tan_beta` at X = `x`.
+    /// The entry of the table nearest to a cone of slope `tan_beta` at X = `x`.
     ///
     /// In each row of the table Y = K tan²β/σ_r is a function of X = E* tan β/σ_r; both are nearly the same for all slopes, so rows
     /// are read at equal X and mixed linearly in β, in logarithms. A slope outside the rows takes the nearest row, an X outside

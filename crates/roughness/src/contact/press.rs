@@ -7,6 +7,7 @@ use super::islands::Islands;
 use super::load::Carrying;
 use crate::surface::height_map::Extent;
 use crate::surface::ready::Surface;
+use asperity_law::units::rounded;
 use thiserror::Error;
 
 /// Points of the load curve.
@@ -118,11 +119,11 @@ pub fn press(surface: &Surface, model: &ClosureLaw, load: Load) -> Result<Contac
 fn plane_for(surface: &Surface, model: &ClosureLaw, pressure: f64) -> Result<(f64, bool), ContactError> {
     let Extent { low, high, cells } = surface.extent;
     if high <= low || surface.parameters.mean_gradient == 0.0 {
-        return Err(ContactError::Flat { wanted_mpa: pressure * 1e-6 });
+        return Err(ContactError::Flat { wanted_mpa: rounded(pressure * 1e-6, 6) });
     }
     let unreachable = |largest: f64| ContactError::Unreachable {
-        wanted_mpa: pressure * 1e-6,
-        largest_mpa: largest * 1e-6,
+        wanted_mpa: rounded(pressure * 1e-6, 6),
+        largest_mpa: rounded(largest * 1e-6, 6),
         closure: model.closure.name(),
     };
     match model.linear() {

@@ -6,6 +6,7 @@ use super::level::Hold;
 use super::real::sums;
 use super::stiffness::stiffness;
 use crate::{HeightMap, Load, Surface};
+use asperity_law::units::rounded;
 use rayon::prelude::*;
 use thiserror::Error;
 
@@ -151,7 +152,10 @@ impl HalfSpace {
         let hold = match load {
             Load::Pressure(p) => {
                 if let Some(limit) = self.limit.filter(|limit| p >= *limit) {
-                    return Err(HalfSpaceError::Limit { wanted_mpa: p * 1e-6, limit_mpa: limit * 1e-6 });
+                    return Err(HalfSpaceError::Limit {
+                        wanted_mpa: rounded(p * 1e-6, 6),
+                        limit_mpa: rounded(limit * 1e-6, 6),
+                    });
                 }
                 Hold::Pressure(p / units.stress * units.used)
             }

@@ -1,9 +1,10 @@
 //! `[fluid]`: what may leak through the gap.
 
-use super::error::{SceneError, error};
-use asperity_law::units::Stress;
+use super::{SceneError, error};
+use asperity_law::units::{Stress, from_text};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize};
+use std::str::FromStr;
 
 /// A fluid in the gap between surface and plane.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -17,43 +18,51 @@ pub struct Fluid {
 }
 
 /// A dynamic viscosity as it was written, in Pa s.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(try_from = "String", into = "String")]
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(into = "String")]
 pub struct Viscosity {
     text: String,
     /// In Pa s.
     pub pascal_seconds: f64,
 }
 
-/// Units of viscosity, in Pa s.
-const UNITS: [(&str, f64); 7] = [
-    ("mPa s", 1e-3),
-    ("Pa s", 1.0),
-    ("mPa.s", 1e-3),
-    ("Pa.s", 1.0),
-    ("mPa·s", 1e-3),
-    ("Pa·s", 1.0),
-    ("cP", 1e-3),
-];
+impl Viscosity {
+    /// The units it may be written in, in Pa s.
+    pub const UNITS: &'static [(&'static str, f64)] = &[
+        ("mPa s", 1e-3),
+        ("Pa s", 1.0),
+        ("mPa.s", 1e-3),
+        ("Pa.s", 1.0),
+        ("mPa·s", 1e-3),
+        ("Pa·s", 1.0),
+        ("cP", 1e-3),
+    ];
+}
 
 fn viscosity_schema(_: &mut SchemaGenerator) -> Schema {
     json_schema!({"type": "string", "examples": ["1 mPa s", "18e-6 Pa s"]})
 }
 
-impl TryFrom<String> for Viscosity {
-    type Error = String;
+impl FromStr for Viscosity {
+    type Err = String;
 
-    fn try_from(text: String) -> Result<Viscosity, String> {
+    fn from_str(text: &str) -> Result<Viscosity, String> {
         let read = |(unit, scale): &(&str, f64)| {
             let number = text.trim().strip_suffix(unit)?.trim().parse::<f64>().ok()?;
             Some(number * scale)
         };
-        match UNITS.iter().find_map(read) {
-            Some(pascal_seconds) => Ok(Viscosity { pascal_seconds, text }),
+        match Viscosity::UNITS.iter().find_map(read) {
+            Some(pascal_seconds) => Ok(Viscosity { pascal_seconds, text: text.into() }),
             None => Err(format!(
                 "\"{text}\" is not a viscosity: write a number with mPa s, Pa s or cP, for example \"1 mPa s\""
             )),
         }
+    }
+}
+
+impl<'de> Deserialize<'de> for Viscosity {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Viscosity, D::Error> {
+        from_text(deserializer, "a viscosity as a string with a unit, for example \"1 mPa s\"")
     }
 }
 

@@ -1,6 +1,6 @@
 //! The table of a generated surface.
 
-use super::error::{SceneError, error};
+use super::{SceneError, error};
 use crate::surface::generate::{Grid, Kind, KindName, Target};
 use asperity_law::units::Length;
 use schemars::JsonSchema;

@@ -1,6 +1,6 @@
 //! `[half_space]`: how the half-space is solved.
 
-use super::error::{SceneError, error};
+use super::{SceneError, error};
 use crate::half_space::{FINEST, TOLERANCE};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -1,24 +1,26 @@
 //! The tables of a rough scene, the checks of their values, and the surface they describe.
 
-mod error;
-
 mod fluid;
 mod generate;
 mod half_space;
 mod surface;
 
-pub use error::SceneError;
+pub use asperity_law::range::SceneError;
 pub use fluid::{Fluid, Viscosity};
 pub use generate::GenerateScene;
 pub use half_space::HalfSpaceScene;
 pub use surface::{HeightUnit, Missing, SurfaceScene};
 
+pub use crate::contact::material::Material;
+pub use crate::contact::pressure::PressureProfile;
+pub use crate::surface::formats::{Measured, Spacing};
+pub use crate::surface::generate::KindName;
+pub use crate::surface::level::Levelling;
+
 use crate::contact::closures::Closure;
-use crate::contact::material::Material;
 use crate::contact::press::Load;
-use crate::contact::pressure::PressureProfile;
-use asperity_law::units::{Length, Stress};
-use error::error;
+use asperity_law::range;
+use asperity_law::units::{Length, Stress, rounded};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
@@ -134,6 +136,22 @@ impl Default for Output {
 }
 
 impl Scene {
+    /// A scene of these parts under `closure`; the other keys are absent.
+    pub fn new(closure: Choice, surface: SurfaceScene, material: Material, load: LoadScene) -> Scene {
+        Scene {
+            closure,
+            coefficient: None,
+            pressure_profile: PressureProfile::default(),
+            judge: None,
+            surface,
+            material,
+            load,
+            half_space: HalfSpaceScene::default(),
+            fluid: None,
+            output: Output::default(),
+        }
+    }
+
     /// Checks every value that can be checked without reading files.
     ///
     /// # Errors
@@ -147,33 +165,32 @@ impl Scene {
     }
 }
 
+/// An error of the value at `path` as an answer.
+fn error<T>(path: &str, message: impl ToString) -> Result<T, SceneError> {
+    Err(SceneError::new(path, message))
+}
+
 fn check_material(material: &Material) -> Result<(), SceneError> {
-    let (e, nu) = (material.youngs_modulus, material.poissons_ratio);
-    if e.0.is_nan() || e.0 <= 0.0 {
-        let message = format!("{e} must be above 0, for example \"210 GPa\"");
-        return error("material.youngs_modulus", message);
-    }
-    if !(nu > -1.0 && nu < 0.5) {
-        let message = format!("{nu} must be above -1 and below 0.5, for example 0.3");
-        return error("material.poissons_ratio", message);
-    }
+    let e = material.youngs_modulus;
+    let at = |key: &str, m: String| SceneError::new(format!("material.{key}"), m);
+    range::youngs_modulus(e).map_err(|m| at("youngs_modulus", m + ": steel has 210 GPa"))?;
+    range::poissons_ratio(material.poissons_ratio)
+        .map_err(|m| at("poissons_ratio", m + ": metals have 0.25 to 0.35"))?;
     let strengths = [
         ("material.yield_stress", material.yield_stress, e.0 / 5.0),
         ("material.hardness", material.hardness, e.0),
     ];
     for (path, value, most) in strengths {
         if let Some(v) = value.filter(|v| !(v.0 > 0.0 && v.0 <= most)) {
-            let message = format!("{v} must be above 0 and at most {most:?} Pa: check its unit");
+            let [v, most] = [v.0, most].map(|v| rounded(v * 1e-6, 6));
+            let message = format!("must be above 0 and at most {most} MPa, not {v} MPa: check its unit");
             return error(path, message);
         }
     }
-    match material.hardening_exponent {
-        Some(n) if !(0.0..1.0).contains(&n) => {
-            let message = format!("{n} must be at least 0 and below 1, for example 0.3");
-            error("material.hardening_exponent", message)
-        }
-        _ => Ok(()),
-    }
+    material
+        .hardening_exponent
+        .map_or(Ok(()), range::hardening_exponent)
+        .map_err(|m| at("hardening_exponent", m + ": 0 is perfect plasticity"))
 }
 
 impl LoadScene {
@@ -185,7 +202,11 @@ impl LoadScene {
         match (self.pressure, self.separation) {
             (Some(p), None) if p.0 >= 0.0 => Ok(Load::Pressure(p.0)),
             (Some(p), None) => {
-                error("load.pressure", format!("{p} must be 0 or above (compression counts positive)"))
+                let p = p.in_unit("MPa");
+                error(
+                    "load.pressure",
+                    format!("must be 0 or above, not {p} MPa: compression counts positive"),
+                )
             }
             (None, Some(d)) => Ok(Load::Separation(d.0)),
             (None, None) => error("load", "give pressure = \"200 MPa\" or separation = \"1 um\""),

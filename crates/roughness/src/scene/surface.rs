@@ -1,7 +1,7 @@
 //! The table of a surface: where it comes from, and what is done to it.
 
-use super::error::{SceneError, error};
 use super::generate::GenerateScene;
+use super::{SceneError, error};
 use crate::surface::filter;
 use crate::surface::formats::{self, Measured, Spacing};
 use crate::surface::generate;
@@ -91,7 +91,7 @@ impl From<HeightUnit> for String {
 }
 
 /// Where the surface comes from and what is done to it before the contact.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SurfaceScene {
     /// A file, relative to the scene.

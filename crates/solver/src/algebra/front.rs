@@ -300,7 +300,7 @@ impl Elimination<'_> {
         Some(negative)
     }
 
-    /// What the pivots leave of the update.
+    /// Subtracts the pivots' products from the update.
     #[inline(always)]
     fn rest<const FUSED: bool>(&mut self) {
         let Size { pivots, below } = self.size;

@@ -95,7 +95,7 @@ struct Group {
 }
 
 impl Size {
-    /// What a front costs: to set up, per entry that is cleared and added to its parent, per operation. Measured on one core;
+    /// Seconds of a front: to set it up, per entry that is cleared and added to its parent, per operation. Measured on one core;
     /// only their ratios count.
     fn seconds(self) -> f64 {
         let (k, n) = (self.pivots as f64, self.below as f64);

@@ -25,7 +25,7 @@ impl<E> From<E> for Failure<E> {
 pub struct Assessment {
     /// Norm of the residual.
     pub residual: f64,
-    /// What the residual is compared with, in the same unit.
+    /// Force that the residual is compared with, in the same unit.
     pub scale: f64,
     /// Whether anything discrete changed since the last iterate: then a small residual is not yet convergence.
     pub changed: bool,

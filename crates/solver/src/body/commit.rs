@@ -35,8 +35,8 @@ impl State {
         Ok(())
     }
 
-    /// What the change of the penalty to `penalty`, and of the area since the last increment, added to the contact energy along this
-    /// one: the mean of what they add at its start and at its end.
+    /// Contact energy added along this increment by the change of the penalty to `penalty` and of the area since the last increment:
+    /// the mean of the values at its start and at its end.
     fn work_of_changes(&self, penalty: f64, response: &Response) -> f64 {
         let before =
             self.contact.iter().map(|share| share.penalty_energy).sum::<f64>() + self.self_contact_energy;

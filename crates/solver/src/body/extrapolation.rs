@@ -49,7 +49,7 @@ impl State {
 
     /// Takes back what the nearly converged `trial`, of which `response` is the answer, extrapolates beyond backward Euler (see
     /// `point::bdf2`), and freezes the rest.
-    pub fn guard(&self, body: &Body<'_>, trial: &mut Trial, response: &Response) {
+    pub fn limit_extrapolation(&self, body: &Body<'_>, trial: &mut Trial, response: &Response) {
         let mut flows = Flows::new(body);
         for cell in 0..self.yielding.len() {
             let range = Body::points_of(cell);

@@ -129,7 +129,7 @@ fn spread(
 
 /// Better places of the nodes of the converged `state`, in touch with its tool; `None` where there are none: no cells of a better shape
 /// were found.
-pub fn evened(body: &Body<'_>, state: &State) -> Option<Vec<[f64; 2]>> {
+pub fn smoothed_places(body: &Body<'_>, state: &State) -> Option<Vec<[f64; 2]>> {
     let mesh = body.mesh;
     let first = SurfaceCurve::new(&state.edges, &mesh.nodes);
     let mut now = SurfaceCurve::new(&state.edges, &state.position);

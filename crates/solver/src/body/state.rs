@@ -81,7 +81,7 @@ pub struct State {
     pub transfers: usize,
 }
 
-/// What a body keeps of its loads when the tool is gone: shape, hardening, residual stress. Lengths in any unit.
+/// A body after its loads, the tool gone: shape, hardening, residual stress. Lengths in any unit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Unloaded {
     /// Place before all loading of the metal that is at each node now.
@@ -154,7 +154,7 @@ impl State {
         }
     }
 
-    /// What stays when the tool is gone, of a state without one.
+    /// The body after its loads, of a state without a tool.
     pub fn unloaded(&self, body: &Body<'_>) -> Unloaded {
         Unloaded {
             origin: self.origin.clone(),

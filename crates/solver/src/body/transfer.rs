@@ -16,7 +16,7 @@ use crate::point::material::{PointState, Spectral, volume_ratio};
 use crate::point::tensor::{Sym, contract, trace};
 use asperity_mesh::{ElementKind, Mesh};
 
-/// What is carried over to new places of the nodes.
+/// Quantities that are transferred to new places of the nodes.
 struct Carried {
     /// First place of the metal at each node.
     origin: Vec<[f64; 2]>,
@@ -200,7 +200,7 @@ fn equivalent_stress(body: &Body<'_>, strain: &Sym) -> f64 {
     2.0 * body.material.elastic.shear_modulus() * (1.5 * contract(&dev, &dev)).sqrt()
 }
 
-/// What a Kirchhoff stress yields at over the yield stress: J, or 1.
+/// Kirchhoff's stress at yield over the yield stress: J, or 1.
 fn measure(body: &Body<'_>, strain: &Sym) -> f64 {
     if body.material.yields_by_true_stress() { trace(strain).exp() } else { 1.0 }
 }

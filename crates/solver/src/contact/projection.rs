@@ -11,7 +11,7 @@ use crate::contact::edge::ContactEdge;
 /// Most nodes of two edges.
 pub const NODES: usize = 6;
 
-/// Iterations after which a projection that has not settled is taken as it is: three to five do.
+/// Iterations after which a projection that has not converged is taken as it is: three to five do.
 const MAX_ITERATIONS: usize = 20;
 
 /// An edge with the current positions of its nodes.
@@ -121,9 +121,9 @@ impl Placed<'_> {
             // far inside the bend the nearest point is not unique: a step along the tangent still goes downhill
             let step = dot(from, along) / if slope > 0.0 { slope } else { dot(along, along) };
             let next = (xi + step).clamp(-1.0, 1.0);
-            let settled = (next - xi).abs() < 1e-15;
+            let converged = (next - xi).abs() < 1e-15;
             xi = next;
-            if settled {
+            if converged {
                 break;
             }
         }

@@ -57,7 +57,7 @@ pub struct Facing {
     points: Vec<FacingPoint>,
 }
 
-/// What a point that lies behind a piece adds.
+/// Force and stiffness of a point that lies behind a piece.
 #[derive(Clone, Copy, Debug)]
 pub struct Pressed {
     /// Nodes: those of the edge of the point, then those of the other edge.
@@ -232,7 +232,7 @@ impl Facing {
         self.points.iter().filter_map(pair).collect()
     }
 
-    /// What presses where the nodes are at `x(node)`, with `penalty` ε, one entry for each point behind an edge.
+    /// The pressed points where the nodes are at `x(node)`, with `penalty` ε, one entry for each point behind an edge.
     pub fn press<'a>(
         &'a self,
         edges: &'a [ContactEdge],
@@ -405,7 +405,7 @@ mod tests {
         }
     }
 
-    /// What one side receives the other gives, and the moment vanishes as well: the force on a pair of flanks is their own affair.
+    /// The forces on both sides are opposite and their moment vanishes: a pair of flanks is in equilibrium by itself.
     #[test]
     fn forces_are_in_equilibrium() {
         let (edges, position) = two_faces();

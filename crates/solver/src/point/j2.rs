@@ -4,7 +4,7 @@
 //! Peric, Owen, Computational Methods for Plasticity, ch. 14):
 //! 1. trial b_e = f b_e,old fᵀ, ε = ½ ln b_e in its principal frame;
 //! 2. τ = K tr ε + 2G dev ε, q = √(3/2)|dev τ|;
-//! 3. q ≤ Ĵσ_y: elastic (with back stress the same condition stands in `kinematic_hardening`, for the guard of the extrapolation in
+//! 3. q ≤ Ĵσ_y: elastic (with back stress the same condition stands in `kinematic_hardening`, for the limit of the extrapolation in
 //!    `bdf2`); else q - 3G Δε_p = Ĵσ_y(ε_p + Δε_p) and the deviator shrinks by Ĵσ_y/q;
 //! 4. consistent moduli D = ∂τ_A/∂ε_B and the spatial tangent.
 //!
@@ -59,7 +59,7 @@ pub struct Linearisation<T> {
     tau: [T; 3],
     /// Deviator after the return over that of the trial: 1 of an elastic point.
     deviator_scale: T,
-    /// What the return takes from the consistent moduli along n⊗n.
+    /// Reduction of the consistent moduli along n⊗n by the return mapping.
     modulus_drop: T,
     /// Direction of flow n: the trial deviator over its norm.
     direction: [T; 3],

@@ -19,7 +19,7 @@
 
 use crate::point::failure::Failure;
 use crate::point::material::Spectral;
-use crate::point::tensor::{Gradient, GradientForm, Sym};
+use crate::point::tensor::{Gradient, GradientForm, Sym, with_geometric_term};
 
 /// Components 11, 22, 33, 12 in a principal frame.
 pub type Framed = [f64; 4];
@@ -140,19 +140,7 @@ impl LogStrain {
                 form[i][j] = (0..4).map(|b| half[b] * rows[b][j]).sum();
             }
         }
-        form[0][0] += geometric[0];
-        form[1][0] += geometric[3];
-        form[1][1] += geometric[1];
-        form[2][2] += geometric[0];
-        form[3][2] += geometric[3];
-        form[3][3] += geometric[1];
-        form[4][4] += geometric[2];
-        for i in 0..5 {
-            for j in i + 1..5 {
-                form[i][j] = form[j][i];
-            }
-        }
-        form
+        with_geometric_term(form, geometric)
     }
 }
 

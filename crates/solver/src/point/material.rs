@@ -4,7 +4,7 @@
 //! strains keep their digits.
 
 use crate::point::failure::Failure;
-use crate::point::tensor::{GradientForm, Sym, trace};
+use crate::point::tensor::{GradientForm, Sym, trace, with_geometric_term};
 use asperity_law::real::{Lanes, Real};
 use asperity_law::{Elastic, HardeningCurve, HardeningPoint, StressMeasure};
 
@@ -164,19 +164,7 @@ impl<T: Real> Spectral<T> {
             form[4][i] = moduli[0][2] * first[i] + moduli[1][2] * second[i];
         }
         form[4][4] = moduli[2][2] - tau[2] * 2.0;
-        form[0][0] += geometric[0];
-        form[1][0] += geometric[3];
-        form[1][1] += geometric[1];
-        form[2][2] += geometric[0];
-        form[3][2] += geometric[3];
-        form[3][3] += geometric[1];
-        form[4][4] += geometric[2];
-        for i in 0..5 {
-            for j in i + 1..5 {
-                form[i][j] = form[j][i];
-            }
-        }
-        form
+        with_geometric_term(form, geometric)
     }
 }
 

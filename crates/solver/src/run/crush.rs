@@ -4,7 +4,7 @@ use crate::point::material::Metal;
 use crate::run::depth_for_force::expect;
 use crate::run::discretisation::Discretisation;
 use crate::run::earlier::ready;
-use crate::run::errors::{meet_force, settle};
+use crate::run::errors::{extrapolate_and_bound, rescale_to_force};
 use crate::run::journal::Checkpoints;
 use crate::run::load_path::Stop;
 use crate::run::oliver_pharr::as_an_instrument;
@@ -89,10 +89,10 @@ fn crush(
         }),
     };
     if let Some(companion) = compared {
-        settle(&mut outcome, &companion, scene.symmetry, numbers.penetration);
+        extrapolate_and_bound(&mut outcome, &companion, scene.symmetry, numbers.penetration);
     }
     if let (Target::Force(force), None) = (target, &outcome.stopped) {
-        meet_force(&mut outcome, force, scene.symmetry);
+        rescale_to_force(&mut outcome, force, scene.symmetry);
     }
     // of the force and the depth that are stated
     outcome.summary.oliver_pharr =

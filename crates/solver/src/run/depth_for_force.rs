@@ -33,7 +33,7 @@ const TOO_DEEP: f64 = 2.0;
 /// How far beyond the expected depth a crush goes, so that the force is passed and not just missed.
 const BEYOND: f64 = 1.1;
 
-/// What is expected of `scene`, which is valid: the depth of its peak is the one that it asks for, or else the one at which it
+/// Estimates of `scene`, which is valid: the depth of its peak is the one that it asks for, or else the one at which it
 /// carries its force, at most the deepest that its tool can go. `mesh` (in metres) holds the size of the body where plane strain
 /// asks for one. Earlier loads are computed coarsely, for the surface that they leave.
 ///

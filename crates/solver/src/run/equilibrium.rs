@@ -13,7 +13,7 @@ use crate::algebra::vectors::{dot, norm};
 use crate::body::assembly::{Response, Touching};
 use crate::body::discrete_body::Body;
 use crate::body::failure::Failure;
-use crate::body::remesh::{Limits, evened, is_distorted};
+use crate::body::remesh::{Limits, is_distorted, smoothed_places};
 use crate::body::state::{State, Trial};
 use crate::body::surface::Surface;
 use crate::contact::edge::{EdgeContact, NOTHING, Parts};
@@ -81,11 +81,11 @@ pub struct Equilibrium<'m> {
     /// Whether the stiffness is that of the last assessed iterate.
     has_tangent: bool,
     stiffens: bool,
-    /// Whether what the points extrapolate is still to be guarded (see [`State::guard`]), and at which relative residual.
-    unguarded: bool,
+    /// Whether what the points extrapolate is still to be limited (see [`State::limit_extrapolation`]), and at which relative residual.
+    unlimited: bool,
     nearly: f64,
-    /// The displacement where this solve guarded it; empty before.
-    guarded_at: Vec<[f64; 2]>,
+    /// The displacement where this solve limited it; empty before.
+    limited_at: Vec<[f64; 2]>,
     /// Whether that changed the residual at the last assessed iterate: no secant leads there.
     jumped: bool,
     /// Work done so far.
@@ -128,9 +128,9 @@ impl<'m> Equilibrium<'m> {
             has_factors: false,
             has_tangent: false,
             stiffens: true,
-            unguarded: false,
+            unlimited: false,
             nearly: NEARLY,
-            guarded_at: Vec::new(),
+            limited_at: Vec::new(),
             jumped: false,
             yielded: Vec::new(),
             counters: Counters::default(),
@@ -217,7 +217,7 @@ impl<'m> Equilibrium<'m> {
         self.couple_what_faces();
         self.state.begin(&self.body, tip, ratio, guess, &mut self.trial);
         self.keep_converged_contact();
-        self.unguarded = self.trial.factor > 0.0 && !self.state.plastic.is_empty();
+        self.unlimited = self.trial.factor > 0.0 && !self.state.plastic.is_empty();
     }
 
     /// Contact pressure per penetration from the next increment on.
@@ -227,7 +227,7 @@ impl<'m> Equilibrium<'m> {
 
     /// From now on increments are solved to the relative residual `tolerance`: the closer, the less what is frozen on the way may
     /// depend on that way.
-    pub fn guard_for(&mut self, tolerance: f64) {
+    pub fn set_tolerance(&mut self, tolerance: f64) {
         self.nearly = NEARLY.min(1e3 * tolerance);
     }
 
@@ -258,7 +258,8 @@ impl<'m> Equilibrium<'m> {
     pub fn remesh(&mut self, solve: impl FnOnce(&mut Self) -> Result<(), SolveFailure>) -> bool {
         // multipliers and back stresses are not carried over
         let carries = self.state.points.history.is_empty() && self.state.multiplier.iter().all(|m| *m == 0.0);
-        let places = evened(&self.body, &self.state).filter(|_| carries && self.state.tip.is_finite());
+        let places =
+            smoothed_places(&self.body, &self.state).filter(|_| carries && self.state.tip.is_finite());
         let Some((body, state)) = places.and_then(|places| self.state.moved_to(&self.body, places)) else {
             return false;
         };
@@ -406,13 +407,13 @@ impl System for Equilibrium<'_> {
         self.kept_contact = std::mem::take(&mut self.keep_contact);
         let changed = self.contact_changed() || self.kept_contact;
         let assessed = self.out_of_balance(changed);
-        if !self.unguarded || self.kept_contact || assessed.residual > self.nearly * assessed.scale {
+        if !self.unlimited || self.kept_contact || assessed.residual > self.nearly * assessed.scale {
             return Ok(assessed);
         }
-        self.state.guard(&self.body, &mut self.trial, &self.response);
+        self.state.limit_extrapolation(&self.body, &mut self.trial, &self.response);
         self.response.forget_points();
-        self.guarded_at.clone_from(&self.trial.displacement);
-        (self.jumped, self.unguarded) = (true, false);
+        self.limited_at.clone_from(&self.trial.displacement);
+        (self.jumped, self.unlimited) = (true, false);
         self.assemble_again(tangent)?;
         Ok(self.out_of_balance(changed))
     }

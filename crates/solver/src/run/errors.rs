@@ -139,7 +139,12 @@ fn top(rows: &[CurveRow]) -> Option<&CurveRow> {
 
 /// Takes the errors that the `companion` reveals off force and area of `run`, and states what is left. `penetration` is that of the
 /// run over the depth.
-pub(super) fn settle(run: &mut Outcome, companion: &Outcome, symmetry: Symmetry, penetration: f64) {
+pub(super) fn extrapolate_and_bound(
+    run: &mut Outcome,
+    companion: &Outcome,
+    symmetry: Symmetry,
+    penetration: f64,
+) {
     let of = [|row: &CurveRow| row.force, |row: &CurveRow| row.contact_area];
     let Some(&last_loaded) = top(&run.rows).filter(|row| row.force > 0.0 && row.contact_area > 0.0) else {
         return;
@@ -257,7 +262,7 @@ fn note_peak(run: &mut Outcome) {
 
 /// Moves the curve of a run that ended where the sum of its nodal forces was `asked` along itself to where its force is: a
 /// power of the depth near the peak.
-pub(super) fn meet_force(run: &mut Outcome, asked: f64, symmetry: Symmetry) {
+pub(super) fn rescale_to_force(run: &mut Outcome, asked: f64, symmetry: Symmetry) {
     let Some(&last) = top(&run.rows).filter(|row| row.force > 0.0 && row.contact_area > 0.0) else { return };
     let exponent =
         |of: fn(&CurveRow) -> f64| -curve(&run.rows, &last, of).logarithm_at(0.9) / (1.0_f64 / 0.9).ln();

@@ -81,7 +81,7 @@ fn number(problem: &Problem) -> u64 {
 struct Recalled {
     solves: BufReader<File>,
     left: u64,
-    /// What the solver remembered after the last of them.
+    /// Memory of the solver after the last of them.
     solver: BufReader<File>,
 }
 
@@ -141,7 +141,7 @@ impl<'p> Journal<'p> {
         self.checkpoints.folder.join(name)
     }
 
-    /// What an earlier run of the same problem left.
+    /// Solves of an earlier run of the same problem.
     fn left_before(&self) -> io::Result<Option<Recalled>> {
         let mut solver = BufReader::new(File::open(self.file(SOLVER))?);
         let mut words = [[0; 8]; 2];

@@ -62,7 +62,7 @@ fn measured_line(line: &Line, length: f64) -> Profile {
     }
 }
 
-/// What is expected of a load before it is computed, with that of the loads before it: see [`crate::run::depth_for_force`].
+/// Estimates of a load before it is computed, and of the loads before it: see [`crate::run::depth_for_force`].
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Expected {
     /// Depth of the peak, m: the one that is asked for, or the one at which the force is expected.

@@ -153,23 +153,6 @@ pub struct GapRow {
     pub enclosed: bool,
 }
 
-/// A connected region that never yielded, enclosed by metal that did or standing above the substrate.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct IslandRow {
-    /// Centroid (r, z) of its section before the crush, m.
-    pub place: [f64; 2],
-    /// Area of its section before the crush, m².
-    pub area: f64,
-    /// Mean hydrostatic pressure, positive in compression, Pa.
-    pub mean_pressure: f64,
-    /// Mean von Mises stress, Pa.
-    pub mean_von_mises: f64,
-    /// Whether it hangs together with the elastic bulk of the substrate.
-    pub reaches_substrate: bool,
-    /// Whether it holds a part of the free surface.
-    pub reaches_surface: bool,
-}
-
 /// `summary.json`. `None` where the scene did not ask for it (unloading) or the run did not reach it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Summary {

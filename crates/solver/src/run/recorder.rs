@@ -2,13 +2,13 @@
 
 use crate::body::energy::{ContactSums, contact_sums};
 use crate::body::fields::{Fields, SurfacePoint, fields};
-use crate::body::islands::{extent, gaps, islands};
+use crate::body::islands::{Island, extent, gaps, islands};
 use crate::point::kinematics::Symmetry;
 use crate::run::equilibrium::{Counters, Equilibrium};
 use crate::run::load_path::{Energies, Increment, Path, Stop};
 use crate::run::problem::{Goal, Problem};
 use crate::run::record::{
-    AsperityRow, CurveRow, CycleRow, Errors, GapRow, IslandRow, Phase, Summary, balance_error, work_along,
+    AsperityRow, CurveRow, CycleRow, Errors, GapRow, Phase, Summary, balance_error, work_along,
 };
 use crate::run::ripple::{Ends, ends, remove};
 use asperity_mesh::Mesh;
@@ -67,7 +67,7 @@ pub struct Outcome {
     /// The loading and the reloads, each with its unloading, as far as they are complete.
     pub cycles: Vec<CycleRow>,
     /// Regions that never yielded among the asperities, at the peak; empty for an elastic body.
-    pub elastic_islands: Vec<IslandRow>,
+    pub elastic_islands: Vec<Island>,
     /// The summary.
     pub summary: Summary,
     /// `None` if the run reached its end.
@@ -89,7 +89,7 @@ pub(super) struct Recorder<'p> {
     ends: Vec<Ends>,
     asperities: Vec<AsperityRow>,
     gaps: Vec<GapRow>,
-    islands: Vec<IslandRow>,
+    islands: Vec<Island>,
     peak: usize,
     /// Rows of each peak and of the end of the unloading after it.
     turns: Vec<[usize; 2]>,
@@ -307,13 +307,12 @@ impl<'p> Recorder<'p> {
         let l = self.problem.units.length;
         self.islands = found
             .into_iter()
-            .map(|island| IslandRow {
+            .map(|island| Island {
                 place: island.place.map(|x| x * l),
                 area: island.area * l * l,
                 mean_pressure: island.mean_pressure * self.problem.units.stress,
                 mean_von_mises: island.mean_von_mises * self.problem.units.stress,
-                reaches_substrate: island.reaches_substrate,
-                reaches_surface: island.reaches_surface,
+                ..island
             })
             .collect();
     }

@@ -2,6 +2,7 @@
 
 use super::SceneError;
 use super::range::error;
+use asperity_law::units::from_text;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::borrow::Cow;
@@ -134,17 +135,10 @@ impl Serialize for Accuracy {
 
 impl<'de> Deserialize<'de> for Accuracy {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Visitor;
-        impl serde::de::Visitor<'_> for Visitor {
-            type Value = Accuracy;
-            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str("an accuracy as a string: \"draft\", \"standard\", \"reference\" or a percentage like \"0.5%\"")
-            }
-            fn visit_str<E: serde::de::Error>(self, text: &str) -> Result<Accuracy, E> {
-                text.parse().map_err(E::custom)
-            }
-        }
-        deserializer.deserialize_any(Visitor)
+        from_text(
+            deserializer,
+            "an accuracy as a string: \"draft\", \"standard\", \"reference\" or a percentage like \"0.5%\"",
+        )
     }
 }
 

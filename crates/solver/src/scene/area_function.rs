@@ -1,9 +1,9 @@
 //! The area function of a tool as an instrument was calibrated: its projected area over the contact depth.
 
 use super::range::{Check, error};
-use asperity_law::units::Length;
+use asperity_law::units::{Length, from_text};
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize};
 
 /// A(h) = C0 h² + C1 h + C2 h^½ + C3 h^¼ + …, up to h^(1/128): Oliver, Pharr, J. Mater. Res. 7 (1992) 1564, eq. 22.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -11,10 +11,15 @@ use serde::{Deserialize, Serialize};
 pub struct AreaFunction {
     /// Unit of the depths that the coefficients are for, as a word: areas come in its square.
     #[schemars(example = &"nm")]
+    #[serde(deserialize_with = "word")]
     pub unit: String,
     /// C0, C1, C2, …: one to nine.
     #[schemars(extend("minItems" = 1, "maxItems" = 9, "examples" = [[24.5, 310.0]]))]
     pub coefficients: Vec<f64>,
+}
+
+fn word<'de, D: Deserializer<'de>>(deserializer: D) -> Result<String, D::Error> {
+    from_text(deserializer, "a unit of length as a word, for example \"nm\"")
 }
 
 /// Coefficients at most: eq. 22 ends with h^(1/128).

@@ -5,7 +5,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
-/// What a body went through before it is loaded: it starts deformed and hardened, with its residual stress.
+/// Earlier loads of a body: it starts deformed and hardened, with its residual stress.
 ///
 /// Asperities, material and substrate are those before the first load. Every earlier load is taken off before the next.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]

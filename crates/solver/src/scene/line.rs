@@ -102,7 +102,7 @@ impl LineProfile {
         Ok(Line { outline: outline.shared(), height, asperities })
     }
 
-    /// What was made of its points.
+    /// The curve fitted to its points, in numbers.
     pub(super) fn smoothing(&self, table: String) -> Option<Smoothing> {
         let points = self.points.as_ref()?;
         let fit = points.fit(Span::Whole, self.tolerance, false).ok()?;

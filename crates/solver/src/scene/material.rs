@@ -3,7 +3,7 @@
 use super::range::{Check, error};
 use asperity_law::units::Stress;
 use asperity_law::{
-    Elastic, Hardening, HardeningCurve, HardeningLaw, HardeningMode, HardeningTable, StressMeasure,
+    Elastic, Hardening, HardeningCurve, HardeningLaw, HardeningMode, HardeningTable, StressMeasure, range,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -120,22 +120,12 @@ impl Material {
 impl Material {
     /// Ranges; paths relative to the material table.
     pub(super) fn check(&self) -> Check {
-        let e = self.youngs_modulus.0;
-        if !(e > 0.0 && e.is_finite()) {
-            return Err(error(
-                "youngs_modulus",
-                format!("must be finite and above 0, not {} GPa", self.youngs_modulus.in_unit("GPa")),
-            ));
-        }
-        let nu = self.poissons_ratio;
-        if !(nu > -1.0 && nu < 0.5) {
-            return Err(error(
-                "poissons_ratio",
-                format!(
-                    "must be above -1 and below 0.5, not {nu}: metals have 0.25 to 0.35; for a nearly incompressible body take 0.4999"
-                ),
-            ));
-        }
+        range::youngs_modulus(self.youngs_modulus)
+            .map_err(|m| error("youngs_modulus", m + ": steel has 210 GPa"))?;
+        range::poissons_ratio(self.poissons_ratio).map_err(|m| {
+            let known = ": metals have 0.25 to 0.35; for a nearly incompressible body take 0.4999";
+            error("poissons_ratio", m + known)
+        })?;
         if self.hardening_mode == HardeningMode::Kinematic && !self.yields() {
             return Err(error(
                 "hardening_mode",
@@ -174,17 +164,15 @@ impl Material {
             self.check_yield_stress("yield_stress", yield_stress, "for an elastic body leave it out")?;
         }
         match self.hardening_exponent {
-            Some(n) if !(0.0..1.0).contains(&n) => Err(error(
-                "hardening_exponent",
-                format!(
-                    "must be at least 0 and below 1, not {n}: 0 is perfect plasticity; for an elastic body leave yield_stress out"
-                ),
-            )),
+            Some(n) => range::hardening_exponent(n).map_err(|m| {
+                let known = ": 0 is perfect plasticity; for an elastic body leave yield_stress out";
+                error("hardening_exponent", m + known)
+            }),
             None if self.yield_stress.is_some() => Err(error(
                 "",
                 "`hardening_exponent` is missing beside yield_stress: give one from 0 (perfect plasticity) to below 1",
             )),
-            _ => Ok(()),
+            None => Ok(()),
         }
     }
 
@@ -233,20 +221,7 @@ impl Material {
     }
 
     fn check_yield_stress(&self, path: &str, yield_stress: Stress, way_out: &str) -> Check {
-        let (low, high) = (5.0, 1e6); // of E over σ_y
-        let ratio = self.youngs_modulus.0 / yield_stress.0;
-        if yield_stress.0 > 0.0 && (low..=high).contains(&ratio) {
-            return Ok(());
-        }
-        let e = self.youngs_modulus.in_unit("MPa");
-        Err(error(
-            path,
-            format!(
-                "must be from {} to {} MPa (E/{high:e} to E/{low}), not {} MPa: {way_out}",
-                e / high,
-                e / low,
-                yield_stress.in_unit("MPa")
-            ),
-        ))
+        range::yield_stress(yield_stress, self.youngs_modulus)
+            .map_err(|m| error(path, format!("{m}: {way_out}")))
     }
 }

@@ -17,7 +17,7 @@ pub struct Points {
     found: Arc<OnceLock<(Asked, Found)>>,
 }
 
-/// What a curve was asked for: the span, the bits of the tolerance, and whether the outline is that of a tool.
+/// Key of a fitted curve: the span, the bits of the tolerance, and whether the outline is that of a tool.
 type Asked = (Span, Option<u64>, bool);
 
 type Found = Result<Arc<Fit>, FitError>;
@@ -64,7 +64,7 @@ impl From<Points> for Vec<(Length, Length)> {
     }
 }
 
-/// What was made of measured points.
+/// The curve fitted to measured points, in numbers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Smoothing {
     /// Table of the scene that names the points: `asperity[0]`, `tool`.
@@ -231,7 +231,7 @@ pub(super) fn tool(points: &Points, tolerance: Option<Length>) -> Result<Arc<Out
 const STEEPEST_TOOL: f64 = 12.0;
 
 impl Scene {
-    /// What was made of each outline of the scene that was measured.
+    /// The fitted curve of each measured outline of the scene, in numbers.
     pub fn smoothings(&self) -> Vec<Smoothing> {
         let asperity = |(i, a): (usize, &Asperity)| {
             let points = a.points.as_ref()?;

@@ -26,31 +26,15 @@ pub use measured::{Points, Smoothing};
 pub use tool::{Tool, ToolForm, ToolShape};
 
 pub use crate::point::kinematics::Symmetry;
+pub use asperity_law::range::SceneError;
+pub use asperity_law::{HardeningMode, StressMeasure};
 
-use asperity_law::units::{Force, Length, LineForce, UnitError, quantity_schema};
+use asperity_law::units::{Force, Length, LineForce, UnitError, from_text, quantity_schema};
 use asperity_mesh::ElementKind;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::borrow::Cow;
-use std::fmt;
 use std::path::PathBuf;
-
-/// A value of a scene that makes no sense.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct SceneError {
-    /// Where: keys joined by dots, tables of an array by index, for example `asperity[0].height`.
-    pub path: String,
-    /// The fault: names the value, the allowed range and a way out.
-    pub message: String,
-}
-
-impl fmt::Display for SceneError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {}", self.path, self.message)
-    }
-}
-
-impl std::error::Error for SceneError {}
 
 /// Everything that defines a run: what `asperity crush` and `asperity mesh` read.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -190,19 +174,10 @@ impl Serialize for ToolForce {
 
 impl<'de> Deserialize<'de> for ToolForce {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Visitor;
-        impl serde::de::Visitor<'_> for Visitor {
-            type Value = ToolForce;
-            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str(
-                    "a force as a string with a unit, for example \"4 N\" (\"4 N/mm\" in plane strain)",
-                )
-            }
-            fn visit_str<E: serde::de::Error>(self, text: &str) -> Result<ToolForce, E> {
-                text.parse().map_err(E::custom)
-            }
-        }
-        deserializer.deserialize_any(Visitor)
+        from_text(
+            deserializer,
+            "a force as a string with a unit, for example \"4 N\" (\"4 N/mm\" in plane strain)",
+        )
     }
 }
 

@@ -8,7 +8,7 @@ pub(super) type Check = Result<(), SceneError>;
 
 /// An error at a path.
 pub(super) fn error(path: impl Into<String>, message: impl Into<String>) -> SceneError {
-    SceneError { path: path.into(), message: message.into() }
+    SceneError::new(path, message.into())
 }
 
 /// A length as a person writes it: "20 um".

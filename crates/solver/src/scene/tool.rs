@@ -5,8 +5,8 @@ use super::checks::inside;
 use super::measured::{self, Points};
 use super::range::{Check, error, not_negative, positive, slope};
 use super::{Scene, SceneError, Symmetry};
-use asperity_law::Elastic;
 use asperity_law::units::{Compliance, Length, Stress};
+use asperity_law::{Elastic, range};
 use asperity_mesh::outline::Outline;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -268,24 +268,13 @@ impl Tool {
     }
 
     fn check_compliance(&self) -> Check {
-        if let Some(modulus) = self.youngs_modulus
-            && !(modulus.0 > 0.0 && modulus.0.is_finite())
-        {
-            let value = modulus.in_unit("GPa");
-            return Err(error(
-                "youngs_modulus",
-                format!(
-                    "must be finite and above 0, not {value} GPa: diamond has 1141 GPa; leave it out for a rigid tool"
-                ),
-            ));
-        }
+        self.youngs_modulus.map_or(Ok(()), range::youngs_modulus).map_err(|m| {
+            error("youngs_modulus", m + ": diamond has 1141 GPa; leave it out for a rigid tool")
+        })?;
+        self.poissons_ratio
+            .map_or(Ok(()), range::poissons_ratio)
+            .map_err(|m| error("poissons_ratio", m + ": diamond has 0.07"))?;
         match self.poissons_ratio {
-            Some(nu) if !(nu > -1.0 && nu < 0.5) => {
-                return Err(error(
-                    "poissons_ratio",
-                    format!("must be above -1 and below 0.5, not {nu}: diamond has 0.07"),
-                ));
-            }
             Some(_) if self.youngs_modulus.is_none() => {
                 return Err(error(
                     "poissons_ratio",
@@ -314,7 +303,7 @@ impl Tool {
 }
 
 impl Scene {
-    /// What gives way beside the body must go with the rest of the scene.
+    /// Checks the compliance of tool and machine against the rest of the scene.
     pub(super) fn check_tool_compliance(&self) -> Check {
         if self.symmetry == Symmetry::PlaneStrain && self.tool.area_function.is_some() {
             let message = "belongs to a body of revolution: a wedge has no contact area; leave it out";

@@ -50,7 +50,7 @@ fn kind(lines: &[SensitivityLine]) -> Markup {
             Some([c, low, high]) => format!("{c:.3} ({low:.3} … {high:.3})"),
             None => "–".into(),
         });
-        let ratios = format!("{} … {}", line.e_over_sy_least, line.e_over_sy_largest);
+        let ratios = format!("{} … {}", line.E_over_sy_least, line.E_over_sy_largest);
         let exponents = format!("{} … {}", line.n_least, line.n_largest);
         vec![html! { "n " (exponents) }, html! { (ratios) }, html! { (all) }, html! { (developed) }]
     };
@@ -76,8 +76,8 @@ mod tests {
             hardening_law: HardeningLaw::Hollomon,
             n_least: 0.1,
             n_largest: 0.5,
-            e_over_sy_least: 100.0,
-            e_over_sy_largest: 350.0,
+            E_over_sy_least: 100.0,
+            E_over_sy_largest: 350.0,
             c,
             low: c.map(|c| c - 0.01),
             high: c.map(|c| c + 0.01),

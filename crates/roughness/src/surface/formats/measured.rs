@@ -6,7 +6,7 @@ use thiserror::Error;
 #[derive(Debug, Error)]
 pub enum ReadError {
     /// The file cannot be opened or read.
-    #[error("cannot be read: {0}")]
+    #[error("cannot be read: {0}; a path is relative to the folder of the file that names it")]
     Io(#[from] std::io::Error),
     /// No reader knows it.
     #[error("{found}; a surface is a .npy, .x3p, .sdf, .sur, .al3d, .xyz or .csv file")]

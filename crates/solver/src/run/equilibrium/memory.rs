@@ -26,9 +26,9 @@ pub struct Solved {
     residual: f64,
     /// Whether the last assembly had a tangent.
     tangent: bool,
-    /// Displacements of the nodes: where the points were guarded, and at the end. Empty for a solve that failed, from which nothing
+    /// Displacements of the nodes: where their extrapolation was limited, and at the end. Empty for a solve that failed, from which nothing
     /// goes on.
-    guarded_at: Option<Vec<[f64; 2]>>,
+    limited_at: Option<Vec<[f64; 2]>>,
     displacement: Vec<[f64; 2]>,
 }
 
@@ -110,9 +110,9 @@ impl Solved {
     /// A disk that refuses.
     pub fn write(&self, to: &mut dyn Write) -> io::Result<()> {
         write_words(to, &coded(&self.outcome))?;
-        let flags = [self.tangent, self.guarded_at.is_some()].map(u64::from);
+        let flags = [self.tangent, self.limited_at.is_some()].map(u64::from);
         write_words(to, &[flags[0], flags[1], self.residual.to_bits()])?;
-        for places in self.guarded_at.iter().chain([&self.displacement]) {
+        for places in self.limited_at.iter().chain([&self.displacement]) {
             write_numbers(to, places.as_flattened())?;
         }
         Ok(())
@@ -124,14 +124,14 @@ impl Solved {
     /// A file that ends early, or that holds something else.
     pub fn read(from: &mut dyn Read, nodes: usize) -> io::Result<Solved> {
         let outcome = decoded(read_words(from)?)?;
-        let [tangent, guarded, residual] = read_words(from)?;
-        let guarded_at = if guarded == 1 { Some(read_places(from, nodes)?) } else { None };
+        let [tangent, limited, residual] = read_words(from)?;
+        let limited_at = if limited == 1 { Some(read_places(from, nodes)?) } else { None };
         let displacement = if outcome.is_ok() { read_places(from, nodes)? } else { Vec::new() };
         Ok(Solved {
             outcome,
             residual: f64::from_bits(residual),
             tangent: tangent == 1,
-            guarded_at,
+            limited_at,
             displacement,
         })
     }
@@ -145,10 +145,10 @@ impl Equilibrium<'_> {
             outcome,
             residual: self.residual_norm(),
             tangent: self.has_tangent,
-            guarded_at: (goes_on && !self.guarded_at.is_empty()).then(|| self.guarded_at.clone()),
+            limited_at: (goes_on && !self.limited_at.is_empty()).then(|| self.limited_at.clone()),
             displacement: if goes_on { self.trial.displacement.clone() } else { Vec::new() },
         };
-        self.guarded_at.clear();
+        self.limited_at.clear();
         solved
     }
 
@@ -160,9 +160,9 @@ impl Equilibrium<'_> {
             return Some(solved.outcome);
         }
         let before = (self.trial.clone(), self.touching.clone());
-        let flags = (self.keep_contact, self.unguarded, self.jumped);
+        let flags = (self.keep_contact, self.unlimited, self.jumped);
         let met = solved
-            .guarded_at
+            .limited_at
             .iter()
             .map(|places| (places, false))
             .chain([(&solved.displacement, solved.tangent)]);
@@ -172,13 +172,13 @@ impl Equilibrium<'_> {
             self.keep_contact = false;
             residual = self.assess(tangent).ok().map(|assessed| assessed.residual);
         }
-        // the next solve may guard nothing
-        self.guarded_at.clear();
+        // the next solve may limit nothing
+        self.limited_at.clear();
         if residual.is_some_and(|residual| residual.to_bits() == solved.residual.to_bits()) {
             return Some(solved.outcome);
         }
         (self.trial, self.touching) = before;
-        (self.keep_contact, self.unguarded, self.jumped) = flags;
+        (self.keep_contact, self.unlimited, self.jumped) = flags;
         (self.has_factors, self.has_tangent) = (false, false);
         None
     }

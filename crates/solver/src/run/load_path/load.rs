@@ -99,7 +99,7 @@ impl Path<'_> {
                 Goal::Force { force, .. } => sums.force >= force,
             };
             if last {
-                let travel = self.home_in_by_parts(goal, (travel, sums), stop_at, observer)?;
+                let travel = self.solve_for_goal_by_parts(goal, (travel, sums), stop_at, observer)?;
                 return self.accept(travel, Phase::Load, observer);
             }
             share = if expects { self.share(goal, travel, &sums) } else { 0.0 };
@@ -113,9 +113,9 @@ impl Path<'_> {
         }
     }
 
-    /// [`Path::home_in`]; where that finds no equilibrium beside the one at hand, half of the increment is taken first, on a better
+    /// [`Path::solve_for_goal`]; where that finds no equilibrium beside the one at hand, half of the increment is taken first, on a better
     /// mesh if there is one.
-    fn home_in_by_parts(
+    fn solve_for_goal_by_parts(
         &mut self,
         goal: Goal,
         (mut travel, mut sums): (f64, ContactSums),
@@ -123,7 +123,7 @@ impl Path<'_> {
         observer: &mut Observer<'_>,
     ) -> Result<f64, Stop> {
         for _ in 0..MOST_PARTS {
-            match self.home_in(goal, travel, sums) {
+            match self.solve_for_goal(goal, travel, sums) {
                 Err(Stop::NoEquilibrium) => {}
                 met => return met,
             }
@@ -133,6 +133,6 @@ impl Path<'_> {
             self.accept(half, Phase::Load, observer)?;
             (travel, sums) = self.reach_depth(travel, stop_at, Phase::Load, true, observer)?;
         }
-        self.home_in(goal, travel, sums)
+        self.solve_for_goal(goal, travel, sums)
     }
 }

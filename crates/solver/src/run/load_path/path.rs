@@ -167,7 +167,7 @@ impl<'p> Path<'p> {
         self.body_depth(travel, contact_load.penetration, contact_load.force) + deflection
     }
 
-    /// What the contact bore at the last converged increment.
+    /// Penetration, force and area of the contact at the last converged increment.
     pub(super) fn contact_load(&self) -> ContactLoad {
         ContactLoad { penetration: self.penetration, force: self.force, area: self.area }
     }
@@ -237,7 +237,7 @@ impl<'p> Path<'p> {
     }
 
     pub(super) fn iterate(&mut self) -> Result<(), SolveFailure> {
-        self.model.guard_for(self.settings.tolerance);
+        self.model.set_tolerance(self.settings.tolerance);
         let outcome = solve_or_recall(&mut self.model, &self.settings, &mut self.journal);
         let (Ok(spent) | Err((_, spent))) = outcome;
         self.iterations += spent;
@@ -328,7 +328,7 @@ impl<'p> Path<'p> {
         let tolerance = self.settings.tolerance;
         let (settings, journal, mut spent) = (self.settings, &mut self.journal, 0);
         let done = self.model.remesh(|model| {
-            model.guard_for(tolerance);
+            model.set_tolerance(tolerance);
             let outcome = solve_or_recall(model, &settings, journal);
             let (Ok(iterations) | Err((_, iterations))) = outcome;
             spent = iterations;

@@ -5,10 +5,10 @@ use super::path::{ContactLoad, GUESS, MET, Path};
 use crate::body::energy::ContactSums;
 use crate::run::problem::Goal;
 
-/// Relative residual of the increments that home in on a goal, which the depth then follows to [`MET`].
-pub(super) const HOMING_TOLERANCE: f64 = 1e-8;
+/// Relative residual of the increments of the secant iteration for a goal, which the depth then follows to [`MET`].
+pub(super) const GOAL_TOLERANCE: f64 = 1e-8;
 
-/// Increments that home in on a goal; a secant takes three or four.
+/// Increments of the secant iteration for a goal; it takes three or four.
 const MOST_TRIES: usize = 24;
 
 /// Share of an increment by which the next try may differ to be the same increment.
@@ -35,9 +35,9 @@ impl Path<'_> {
     ///
     /// Metal that hardly hardens may not come so close to equilibrium that the force is known to that, or may leap over the
     /// goal from one state to another: then the goal is met to the tolerance of the run.
-    pub(super) fn home_in(&mut self, goal: Goal, travel: f64, sums: ContactSums) -> Result<f64, Stop> {
+    pub(super) fn solve_for_goal(&mut self, goal: Goal, travel: f64, sums: ContactSums) -> Result<f64, Stop> {
         let settings = self.settings;
-        self.settings.tolerance = settings.tolerance.min(HOMING_TOLERANCE);
+        self.settings.tolerance = settings.tolerance.min(GOAL_TOLERANCE);
         // travel and miss: of the last tries, and of the nearest on either side of the goal; the converged state is the first
         // of them for a force, while the depth follows the travel closely from the start
         let mut now = (travel, self.miss(goal, travel, ContactLoad::of(&sums)));

@@ -2,7 +2,7 @@
 
 use super::increment::{Observer, Stop};
 use super::path::Path;
-use super::target::HOMING_TOLERANCE;
+use super::target::GOAL_TOLERANCE;
 use crate::body::remesh::UNLOADED;
 use crate::run::equilibrium::SolveFailure;
 use crate::run::problem::Goal;
@@ -40,7 +40,7 @@ impl Path<'_> {
         // what is left of the work is the smaller, the further the tool retreats
         let settings = self.settings;
         self.settings.tolerance =
-            (UNLOADING_TOLERANCE * settings.tolerance).max(settings.tolerance.min(HOMING_TOLERANCE));
+            (UNLOADING_TOLERANCE * settings.tolerance).max(settings.tolerance.min(GOAL_TOLERANCE));
         let done = self.retreat_from([peak, peak_force], compliance, steps, observer);
         self.settings = settings;
         done
@@ -127,7 +127,7 @@ impl Path<'_> {
             self.accept(travel, Phase::Reload, observer)?;
         }
         let sums = self.reach(peak, Phase::Reload, true, observer)?;
-        let travel = self.home_in(goal, peak, sums)?;
+        let travel = self.solve_for_goal(goal, peak, sums)?;
         self.accept(travel, Phase::Reload, observer).map(|_| ())
     }
 }
