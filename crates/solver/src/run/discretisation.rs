@@ -79,8 +79,6 @@ impl Discretisation {
         let numerics = &scene.numerics;
         let Choice { elements, steps, unload_steps, tolerance, domain, penetration } =
             Choice::of(scene.accuracy.promise());
-        let tolerance =
-            if scene.material.hardening().is_some() { tolerance } else { ELASTIC_TOLERANCE * tolerance };
         let element = numerics.element.unwrap_or_else(|| {
             element_under(match scene.tool.form() {
                 Ok(ToolForm::Cone { slope, .. }) => Some(slope),
@@ -145,10 +143,6 @@ impl Discretisation {
         }
     }
 }
-
-/// Share of the tolerance that is left where nothing yields: all of the work comes back, so that what little of it is left in the
-/// end shows each residual. It costs five to ten iterations in a hundred.
-const ELASTIC_TOLERANCE: f64 = 0.1;
 
 /// Slope of an indenting cone, degrees, beyond which linear elements are used.
 const STEEP: f64 = 11.0;

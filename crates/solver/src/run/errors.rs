@@ -17,7 +17,7 @@
 //!
 //! The mean pressure is force over area: its bound is the sum of theirs. Values read at the peak or after it are not extrapolated.
 //! Their bound is the difference itself, and what the stated errors of force and stiffness (in squares) would do to it, since two runs
-//! may agree by chance.
+//! may agree by chance. That of the elastic fraction also has the work that the energies of the run do not account for.
 
 use crate::point::kinematics::Symmetry;
 use crate::run::curve::{COUNTS_FROM, Curve};
@@ -190,7 +190,7 @@ pub(super) fn extrapolate_and_bound(
             .map(|(d, r)| d / summary.peak_depth + share(r)),
         elastic_fraction: difference(summary.elastic_fraction, companion.summary.elastic_fraction)
             .zip(elastic)
-            .map(|(d, e)| d + share(e)),
+            .map(|(d, e)| d + share(e) + unaccounted(&run.rows)),
         unloading_stiffness,
     };
     let residual_depth = summary.residual_depth.unwrap_or(0.0);
@@ -240,6 +240,12 @@ pub(super) fn extrapolate_and_bound(
     note_peak(run);
     run.summary.errors = errors;
     run.summary.estimated_error = errors.force;
+}
+
+/// Work at the end of a run that its energies do not account for, over that at the peak.
+fn unaccounted(rows: &[CurveRow]) -> f64 {
+    let peak = rows.iter().fold(0.0, |peak: f64, row| peak.max(row.external_work));
+    rows.last().map_or(0.0, |row| row.unaccounted_work().abs() / peak)
 }
 
 /// Factor of a radius, or of half a width, whose area grows by the factor `wider`.

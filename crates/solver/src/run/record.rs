@@ -82,6 +82,14 @@ pub struct CurveRow {
     pub force_error: Option<f64>,
 }
 
+impl CurveRow {
+    /// Work that none of the energies accounts for, J (J/m): what increments, Newton's method and the penalty leave.
+    pub fn unaccounted_work(&self) -> f64 {
+        let kept = self.elastic_energy + self.plastic_work + self.contact_energy - self.transfer_energy;
+        self.external_work - kept
+    }
+}
+
 /// 95 % bounds of the errors of a run against its own converged limit, over 0.2 ≤ h/h_peak ≤ 1; NaN where they are not known.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Errors {
@@ -219,9 +227,6 @@ pub(super) fn balance_error(rows: &[CurveRow]) -> f64 {
     let peak = rows.iter().fold(0.0, |m: f64, r| m.max(r.external_work));
     rows.iter()
         .filter(|r| r.external_work > 0.01 * peak)
-        .map(|r| {
-            let kept = r.elastic_energy + r.plastic_work + r.contact_energy - r.transfer_energy;
-            (r.external_work - kept).abs() / r.external_work
-        })
+        .map(|r| r.unaccounted_work().abs() / r.external_work)
         .fold(0.0, f64::max)
 }

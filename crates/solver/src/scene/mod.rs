@@ -292,7 +292,7 @@ pub struct Numerics {
     #[schemars(range(min = 1e-6, max = 0.1))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub penetration: Option<f64>,
-    /// Relative residual at which Newton stops.
+    /// Relative residual at which Newton stops; a tenth of it counts while nothing yields.
     #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 1e-3))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub newton_tolerance: Option<f64>,

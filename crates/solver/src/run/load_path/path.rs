@@ -81,7 +81,7 @@ pub struct Path<'p> {
     /// Correction of the travel for the penetration.
     pub(super) penetration: f64,
     /// Share of the work that went into flow while the body was loaded first: see [`crate::contact::penalty_correction`].
-    plastic_share: f64,
+    pub(super) plastic_share: f64,
     /// dF per travel, known while unloading and reloading.
     pub(super) slope: Option<f64>,
     /// Travels of the last unloading, from its peak on.
