@@ -25,10 +25,11 @@ tool = { shape = "cone", half_apex_deg = 70.3 }
 noise = "1 %"
 "#;
 
-/// The curve of a cone as an instrument writes it, crushed by the command; `change` makes a line of a reading.
+/// The curve of a cone as an instrument writes it, crushed by the command at a finer level than that of the fit, whose errors are not the
+/// curve's; `change` makes a line of a reading.
 fn measured(place: &Place, header: &str, change: impl Fn(f64, f64) -> String) {
     let scene = format!(
-        "symmetry = \"axisymmetric\"\naccuracy = \"draft\"\n[material]\nyoungs_modulus = \"{} GPa\"\npoissons_ratio = 0.3\nyield_stress = \"{} MPa\"\nhardening_exponent = {}\nhardening_law = \"swift\"\n[tool]\nshape = \"cone\"\nslope_deg = 19.7\n[loading]\ndepth = \"1 um\"\nunload = true\n",
+        "symmetry = \"axisymmetric\"\naccuracy = \"standard\"\n[material]\nyoungs_modulus = \"{} GPa\"\npoissons_ratio = 0.3\nyield_stress = \"{} MPa\"\nhardening_exponent = {}\nhardening_law = \"swift\"\n[tool]\nshape = \"cone\"\nslope_deg = 19.7\n[loading]\ndepth = \"1 um\"\nunload = true\n",
         METAL[0], METAL[1], METAL[2]
     );
     std::fs::write(place.path("scene.toml"), scene).unwrap();

@@ -59,7 +59,7 @@ impl Left {
         let [of_the_difference, at_least] = match (discretisation.numbers.element, indents) {
             (ElementChoice::Q4, _) => {
                 let size = 24.0 / discretisation.numbers.elements_in_contact as f64;
-                [0.15, (0.001 * size.powi(4)).hypot(0.012 * remeshing(tan_beta))]
+                [0.15, (0.001 * size.powi(4)).hypot(0.024 * remeshing(tan_beta))]
             }
             (ElementChoice::Q8r, true) => [0.4, 0.005],
             (ElementChoice::Q8r, false) => [0.4, 0.045 * tan_beta.powi(4)],
