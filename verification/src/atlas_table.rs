@@ -97,7 +97,7 @@ fn left_out(report: &mut Report, rows: &[Row], cones: &[Solved], fit: &Fit) {
     ));
 }
 
-/// Cones on which `asperity_calibration::cones::LEAST` was chosen.
+/// Cones on which the least errors of the formula were chosen.
 const CHOSEN_ON: usize = 200;
 
 /// Share of the cones that a stated error should cover.

@@ -45,11 +45,6 @@ fn drawn(index: usize, moved: [f64; 4]) -> Case {
     }
 }
 
-/// Least errors of an [`Indentation`] at `standard`, in the order of [`Errors`]. Chosen on the first 200 cones of [`fresh`], held
-/// against `reference`: beyond what their companions show, K of metal that hardens is off by up to 0.6 %, the radius of
-/// coarse companions is uneven, S has what is left of both, and the work of unloading is 0.5 % too large.
-pub const LEAST: [f64; 4] = [0.0065, 0.01, 0.01, 0.009];
-
 /// A solved cone, or one that failed with its reason.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Row {
@@ -69,24 +64,7 @@ pub const HEADER: &str = "index,slope_deg,E_over_sy,n,nu,law,contact,K_over_E,K_
 impl Row {
     /// Solves `case`.
     pub fn solve(index: usize, case: &Case, accuracy: Accuracy) -> Row {
-        let stated = |(found, errors): (Indentation, Errors)| {
-            // the least errors belong to `standard` and fall with the promise
-            let share = accuracy.promise() / Accuracy::Standard.promise();
-            let [k, radius, stiffness, work] = LEAST.map(|least| share * least);
-            let errors = Errors {
-                loading_curvature: errors.loading_curvature.hypot(k),
-                contact_ratio: errors.contact_ratio.hypot(radius),
-                stiffness: errors.stiffness.hypot(stiffness),
-                elastic_share: errors.elastic_share.hypot(work),
-                ..errors
-            };
-            (found, errors)
-        };
-        Row {
-            index,
-            case: *case,
-            outcome: solve(&case.cone(), accuracy).map(stated).map_err(|e| e.to_string()),
-        }
+        Row { index, case: *case, outcome: solve(&case.cone(), accuracy).map_err(|e| e.to_string()) }
     }
 
     /// The cone as the formula knows it, what was found as its answer, and the errors; `None` of a cone that failed.

@@ -57,6 +57,20 @@ pub struct Experiment {
     pub emulator: Emulator,
 }
 
+/// Logarithms of the depth over which the force that a body is expected to need is too large or too small alike. That of a sharp cone is
+/// one number, K, off alike at every depth.
+const ALIKE: f64 = 1.0;
+
+/// What the errors of the expected force and of the way back do to the difference at a point of a curve.
+struct ErrorOfAPoint {
+    /// Logarithm of the depth over the deepest; the way back begins there.
+    place: f64,
+    /// Of a relative error of the force.
+    by_the_force: f64,
+    /// Of a relative error of the way back.
+    by_the_way: f64,
+}
+
 /// Predicted values of a measurement.
 struct Expected {
     /// E for the contact.
@@ -221,27 +235,32 @@ impl Experiment {
         measured: &Measured,
         common: [f64; 3],
     ) -> DMatrix<f64> {
-        let (load, back) = (measured.loading.len(), measured.unloading.len());
-        // the error of the loading shifts all of it, and more alike the nearer in ln h
-        let place = |i: usize| (measured.loading[i][0] / self.depth).abs().max(1e-3).ln();
-        let way = |i: usize| (measured.peak[0] - measured.unloading[i][0]).max(0.0) / self.depth;
-        let mut matrix = DMatrix::zeros(load + back, load + back);
-        for i in 0..load {
-            for j in 0..load {
-                let near = (-0.5 * (place(i) - place(j)).powi(2)).exp();
-                matrix[(i, j)] = common[0].powi(2) * near;
-            }
-            matrix[(i, i)] += self.noise.powi(2);
-        }
-        for i in 0..back {
-            for j in 0..back {
-                matrix[(load + i, load + j)] = common[2].powi(2) * way(i) * way(j);
-            }
-            let share = measured.unloading[i][1] / measured.peak[1];
-            let slope = slope_back(&expected.logarithms, share);
-            matrix[(load + i, load + i)] += (self.noise * (share * slope).max(0.02)).powi(2).max(1e-10);
-        }
-        matrix
+        let load = measured.loading.len();
+        let length = if self.is_sharp() { f64::INFINITY } else { ALIKE };
+        // a force that is expected too large takes from each difference of the loading, and adds to each of the way back
+        let of_the_loading = measured.loading.iter().map(|p| {
+            let place = (p[0] / self.depth).abs().max(1e-3).ln();
+            ErrorOfAPoint { place, by_the_force: -1.0, by_the_way: 0.0 }
+        });
+        let shares: Vec<f64> = measured.unloading.iter().map(|p| p[1] / measured.peak[1]).collect();
+        let slopes: Vec<f64> =
+            shares.iter().map(|share| share * slope_back(&expected.logarithms, *share)).collect();
+        let of_the_way_back = measured.unloading.iter().zip(&slopes).map(|(p, slope)| {
+            let way = (measured.peak[0] - p[0]).max(0.0) / self.depth;
+            ErrorOfAPoint { place: 0.0, by_the_force: *slope, by_the_way: way }
+        });
+        let errors: Vec<ErrorOfAPoint> = of_the_loading.chain(of_the_way_back).collect();
+        let noise = |i: usize| {
+            let of_a_depth = |slope: &f64| (self.noise * slope.max(0.02)).powi(2).max(1e-10);
+            i.checked_sub(load).map_or(self.noise.powi(2), |back| of_a_depth(&slopes[back]))
+        };
+        DMatrix::from_fn(errors.len(), errors.len(), |i, j| {
+            let (a, b) = (&errors[i], &errors[j]);
+            let near = (-0.5 * ((a.place - b.place) / length).powi(2)).exp();
+            let shared = common[0].powi(2) * near * a.by_the_force * b.by_the_force
+                + common[2].powi(2) * a.by_the_way * b.by_the_way;
+            shared + if i == j { noise(i) } else { 0.0 }
+        })
     }
 
     /// Peak of the curve that is drawn: that of the data, or of a feature at its depth.

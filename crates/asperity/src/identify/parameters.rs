@@ -2,8 +2,9 @@
 
 use super::file::FitMaterial;
 use super::sought::Sought;
+use asperity_law::units::Stress;
 use asperity_law::{Elastic, Hardening, HardeningCurve, HardeningLaw, HardeningTable};
-use asperity_solver::scene::HardeningChoice;
+use asperity_solver::scene::{HardeningChoice, Material};
 
 /// Quantity that a parameter stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -177,6 +178,27 @@ impl Unknowns {
         let over = modulus / hardening.yield_stress();
         let elastic = Elastic { youngs_modulus: modulus, poissons_ratio: ratio };
         (RATIOS[0]..=RATIOS[1]).contains(&over).then_some(Metal { elastic, hardening })
+    }
+
+    /// The metal at `point` as a scene gives it, to five digits; `None` where there is none.
+    pub fn material(&self, point: &[f64]) -> Option<Material> {
+        let Metal { elastic, hardening } = self.metal(point)?;
+        let five = |x: f64| format!("{x:.4e}").parse().unwrap_or(x);
+        let modulus = Stress(five(elastic.youngs_modulus));
+        let body = Material {
+            hardening_law: self.material.hardening_law,
+            stress_measure: self.material.stress_measure,
+            ..Material::elastic_body(modulus, five(elastic.poissons_ratio))
+        };
+        Some(match hardening {
+            HardeningCurve::Power(law) => body.yielding(Stress(five(law.yield_stress)), five(law.exponent)),
+            HardeningCurve::Table(_) => {
+                let strains = self.material.hardening_table.iter().flatten().map(|(strain, _)| *strain);
+                let points =
+                    strains.map(|strain| (strain, Stress(five(hardening.flow(strain).yield_stress))));
+                Material { hardening_table: Some(points.collect()), ..body }
+            }
+        })
     }
 
     /// `point` within the bounds.

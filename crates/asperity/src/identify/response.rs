@@ -5,7 +5,6 @@
 //! shares [`FORCES`] of the peak force. A sharp cone has one number for its loading.
 
 use super::parameters::Metal;
-use asperity_calibration::atlas::Atlas;
 use asperity_calibration::indentation::{FORCES, Indentation, solve};
 use asperity_law::units::{Length, Stress};
 use asperity_law::{Elastic, StressMeasure};
@@ -105,21 +104,11 @@ fn point(question: &Question) -> Point {
 fn sharp(question: &Question, slope_deg: f64, accuracy: Accuracy) -> Result<Response, String> {
     let cone = Cone { slope_deg, indents: true, metal: point(question) };
     let (found, errors) = solve(&cone, accuracy).map_err(|e| e.to_string())?;
-    let stated = [errors.loading_curvature, errors.stiffness, errors.elastic_share];
-    let ripple = ripple(accuracy);
     Ok(Response {
         logarithms: of_cone(&found),
-        errors: std::array::from_fn(|i| stated[i].hypot(2.0 * ripple[i])),
+        errors: [errors.loading_curvature, errors.stiffness, errors.elastic_share],
         reached: found.reached,
     })
-}
-
-/// Standard deviation of one run of a sharp cone about the smooth function of the metal, of loading, slope and returned work. One
-/// companion cannot tell it, for two runs may agree by chance: it is what the cells of the atlas, at `standard`, have beside a
-/// polynomial, and grows with the size of the elements, which are twice as large at `draft`.
-fn ripple(accuracy: Accuracy) -> [f64; 3] {
-    let coarser = if accuracy == Accuracy::Draft { 2.0 } else { 1.0 };
-    std::array::from_fn(|i| Atlas::committed().map_or(UNKNOWN, |atlas| coarser * atlas.left[i]))
 }
 
 fn of_cone(found: &Indentation) -> Vec<f64> {

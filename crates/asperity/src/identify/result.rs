@@ -11,7 +11,9 @@ use super::verdict::{Blind, NextExperiment, blind, deviations, identified, next_
 use super::{pictures, posterior};
 use crate::draw::chart::svg;
 use crate::error::Error;
+use crate::input::toml_file::to_toml;
 use crate::output::{Sink, SinkExt, json};
+use asperity_solver::scene::Material;
 use indexmap::IndexMap;
 use nalgebra::DVector;
 use rayon::prelude::*;
@@ -102,6 +104,9 @@ pub struct Identification {
     pub wall_s: f64,
     /// The program.
     pub version: &'static str,
+    /// The metal at the best values, as the `[material]` of a scene has it.
+    #[serde(skip)]
+    pub material: Material,
     /// Samples of the posterior, in the units of the parameters.
     #[serde(skip)]
     pub samples: Vec<Vec<f64>>,
@@ -211,6 +216,7 @@ fn describe(
         runs: 0,
         wall_s: 0.0,
         version: env!("CARGO_PKG_VERSION"),
+        material: unknowns.material(&best.point)?,
         samples: samples.iter().map(shown).collect(),
         drawn,
     })
@@ -385,6 +391,9 @@ impl Identification {
             "solved    {} runs of finite elements, sum of squares {:.2} with {} degrees of freedom",
             self.runs, self.residual.chi2, self.residual.degrees_of_freedom
         );
+        if self.residual.fits {
+            text += "\nhand on   material.toml is the [material] of a scene for asperity crush";
+        }
         text
     }
 
@@ -399,6 +408,20 @@ impl Identification {
             text += &(sample.iter().map(|x| format!("{x:?}")).collect::<Vec<_>>().join(",") + "\n");
         }
         text
+    }
+
+    /// `material.toml`: the metal as the table of a scene, for `asperity crush`, with what it is worth.
+    ///
+    /// # Errors
+    /// None that is known.
+    pub fn material_toml(&self) -> Result<String, Error> {
+        let tables = IndexMap::from([("material", &self.material)]);
+        let text = to_toml(&tables).map_err(Error::Unfinished)?;
+        let worth =
+            if self.residual.fits { "best values of" } else { "nearest values, though no metal fits, of" };
+        Ok(format!(
+            "# {worth} asperity identify; fit.json has their intervals. Paste it into a scene in place of its [material].\n{text}"
+        ))
     }
 
     /// `curve.svg`: measured points, the fit, and what is left.
@@ -431,6 +454,7 @@ impl Identification {
     /// A disk that refuses.
     pub fn write(&self, sink: &mut dyn Sink) -> Result<(), Error> {
         sink.text("fit.json", &self.to_json()?)?;
+        sink.text("material.toml", &self.material_toml()?)?;
         if !self.samples.is_empty() {
             sink.text("posterior.csv", &self.posterior_csv())?;
         }

@@ -82,6 +82,16 @@ pub struct Rules {
     pub correction: Correction,
 }
 
+impl Rules {
+    /// dF/dh of a half space under tool and machine, from that of the meshed body over a contact of this `area`: the depth holds what the
+    /// substrate of finite size takes away and how tool and machine give way, so the slope holds both.
+    pub fn whole_stiffness(&self, of_the_mesh: f64, area: f64) -> f64 {
+        let half_space =
+            if self.far_field > 0.0 { (of_the_mesh.recip() + self.far_field).recip() } else { of_the_mesh };
+        self.compliance.in_series(half_space, area)
+    }
+}
+
 /// A problem made ready, dimensionless.
 #[derive(Clone, Debug)]
 pub struct Problem {

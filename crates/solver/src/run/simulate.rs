@@ -89,7 +89,7 @@ fn unload_and_reload(
             Err(_) if problem.unload => return Err(Stop::NoEquilibrium),
             Err(_) => return Ok(()),
         };
-        recorder.note_stiffness(problem.rules.compliance.in_series(stiffness.depth, path.area()));
+        recorder.note_stiffness(problem.rules.whole_stiffness(stiffness.depth, path.area()));
         if problem.unload {
             path.unload(stiffness, problem.numbers.unload_steps, &mut |model, increment| {
                 recorder.record(model, increment, observer)
