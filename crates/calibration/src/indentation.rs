@@ -7,7 +7,7 @@
 //! radius at the last step to the line through all of them.
 
 use crate::cone::{CaseError, Curve, disc_radius, go_to, start};
-use crate::loading_curvature::{Fitted, Left, ORDER, read, remeshing};
+use crate::loading_curvature::{Fitted, Left, ORDER, companion, read, remeshing};
 use asperity_solver::run::cone::Cone;
 use asperity_solver::run::discretisation::ConeDiscretisation;
 use asperity_solver::run::load_path::{Increment, Path, Stop};
@@ -95,12 +95,13 @@ const ALONE: Errors = Errors {
 /// Solves `cone` at `accuracy` and with every number of the discretisation half as good, and extrapolates.
 ///
 /// # Errors
-/// Those of [`indent`] of the finer run; a companion that fails leaves its result as it is, with a wide error.
+/// Those of [`indent`] of the finer run, or its force is no parabola of the depth; a companion that fails leaves its result as it is, with a wide error.
 pub fn solve(cone: &Cone, accuracy: Accuracy) -> Result<(Indentation, Errors), CaseError> {
     let exponent = cone.metal.hardening.as_ref().map(|h| h.exponent(cone.metal.elastic.youngs_modulus));
     let discretisation = ConeDiscretisation::new(cone.slope_deg, cone.indents, exponent, accuracy);
     let (run, curve) = indent(cone, &discretisation)?;
-    let Ok((companion, coarse_curve)) = indent(cone, &discretisation.coarser()) else {
+    curve.check()?;
+    let Ok((companion, coarse_curve)) = companion(&discretisation, |coarser| indent(cone, coarser)) else {
         return Ok((run, ALONE));
     };
     let (element, tan_beta) = (discretisation.numbers.element, cone.slope_deg.to_radians().tan());
@@ -136,7 +137,7 @@ pub fn solve(cone: &Cone, accuracy: Accuracy) -> Result<(Indentation, Errors), C
 /// Loads `cone` to its depth, or as deep as it goes, and unloads it.
 ///
 /// # Errors
-/// A path that stopped before its slope could be read, or a force that is no parabola of the depth.
+/// A path that stopped before its slope could be read.
 fn indent(cone: &Cone, discretisation: &ConeDiscretisation) -> Result<(Indentation, Fitted), CaseError> {
     let problem = cone.problem(discretisation);
     let mut path = start(&problem)?;
@@ -148,7 +149,6 @@ fn indent(cone: &Cone, discretisation: &ConeDiscretisation) -> Result<(Indentati
     let peak = *points.last().ok_or(CaseError::NotSimilar(f64::NAN))?;
     let element = problem.half_widths[0] / problem.numbers.elements_in_contact as f64;
     let fitted = read(Curve { points, element, increments: 0, iterations: 0 });
-    fitted.check()?;
     let failed = |cause: Stop| CaseError::Stopped { share: reached, cause };
     let stiffness = path.model.unloading_stiffness().map_err(|_| failed(Stop::NoEquilibrium))?;
     let mut back = vec![[peak.depth, peak.contact.force]];

@@ -126,7 +126,7 @@ pub fn solve(case: &Case, discretisation: &ConeDiscretisation) -> Result<Loading
     if sharp || run.exponent.is_nan() {
         run.check()?;
     }
-    let companion = companion(case, discretisation)?;
+    let companion = companion(discretisation, |coarser| fitted(case, coarser))?;
     let [k_over_e, error] =
         run.extrapolated(&companion, &Left::of(case.tan_beta(), case.tool == Tool::Cone, discretisation));
     Ok(LoadingCurvature {
@@ -138,13 +138,17 @@ pub fn solve(case: &Case, discretisation: &ConeDiscretisation) -> Result<Loading
     })
 }
 
-/// The companion; if it does not come to its end, that with as many steps as the run, whose difference says less of the steps.
-fn companion(case: &Case, discretisation: &ConeDiscretisation) -> Result<Fitted, CaseError> {
+/// What `solved` makes of the companion of `discretisation`; if that does not come to its end, of that with as many steps as the run, whose
+/// difference says less of the steps.
+pub(crate) fn companion<T>(
+    discretisation: &ConeDiscretisation,
+    solved: impl Fn(&ConeDiscretisation) -> Result<T, CaseError>,
+) -> Result<T, CaseError> {
     let mut coarser = discretisation.coarser();
-    fitted(case, &coarser).or_else(|_| {
+    solved(&coarser).or_else(|_| {
         coarser.numbers.steps = discretisation.numbers.steps;
         coarser.numbers.spacing = discretisation.numbers.spacing;
-        fitted(case, &coarser)
+        solved(&coarser)
     })
 }
 
