@@ -18,7 +18,7 @@ use std::str::FromStr;
 /// Asperities, summary, the comparison where there is one, the texts for a person.
 type Taken<'py> = (Bound<'py, PyDict>, Bound<'py, PyAny>, Option<Bound<'py, PyDict>>, String);
 
-/// What is to be taken.
+/// Parts to be taken.
 #[derive(Debug, FromPyObject)]
 #[pyo3(from_item_all)]
 struct Wanted {

@@ -287,7 +287,7 @@ fn compare(report: &mut Report, cases: &[Case], truths: &Truths) {
     }
 }
 
-/// What is to be done with the scenes.
+/// Action on the scenes.
 #[derive(Clone, Copy, PartialEq)]
 enum Task {
     Measure,

@@ -49,7 +49,7 @@ impl Set {
         format!("{}-{part}-of-{parts}.journal", self.name())
     }
 
-    /// What the rows of a journal depend on.
+    /// Inputs that the rows of a journal depend on.
     pub fn identity(self) -> u64 {
         fingerprint(format!("{} {self:?} {HEADER} {:?}", env!("CARGO_PKG_VERSION"), self.cone(1)))
     }

@@ -22,7 +22,7 @@ pub fn solved(rows: &[Row]) -> Vec<Solved> {
     rows.iter().filter_map(of).filter(|solved| solved.answer.iter().all(|value| *value > 0.0)).collect()
 }
 
-/// What the errors of the formula are at least, in the order of [`Solved::errors`]. Chosen on the first 200 cones of
+/// Least errors of the formula, in the order of [`Solved::errors`]. Chosen on the first 200 cones of
 /// [`asperity_calibration::cones::fresh`], held against `reference`: beyond what the companions of the committed cones show, K of metal that
 /// hardens is off by up to 0.6 %, the radius of coarse companions is uneven, S has what is left of both, and the work of unloading is
 /// 0.5 % too large.
@@ -108,7 +108,7 @@ impl Equations {
     }
 }
 
-/// What is added before the logarithm of a residual is taken: below it a residual says nothing.
+/// Summand before the logarithm of a residual is taken: below it a residual says nothing.
 const NOTHING: f64 = 1e-4;
 
 /// Share of the cones left out that lie within the error.

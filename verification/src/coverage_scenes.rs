@@ -5,7 +5,7 @@
 //! is drawn from the number.
 
 use crate::single_asperity::{loaded, prepared};
-use asperity_law::units::{Length, Stress};
+use asperity_law::units::{Length, Stress, rounded};
 use asperity_law::{HardeningLaw, HardeningMode};
 use asperity_mesh::Mesh;
 use asperity_solver::run::discretisation::Discretisation;
@@ -363,7 +363,7 @@ impl Draw {
 
 /// `x` to three digits, as a person would write it.
 fn digits(x: f64) -> f64 {
-    format!("{x:.2e}").parse().unwrap_or(x)
+    rounded(x, 3)
 }
 
 /// A scene with what it is called in a table.

@@ -55,7 +55,7 @@ fn errors(seed: u64) -> impl FnMut() -> f64 {
     }
 }
 
-/// What an outline is for.
+/// Use of an outline.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Part {
     Asperity,

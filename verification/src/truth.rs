@@ -9,6 +9,7 @@
 
 use crate::coverage_scenes::Case;
 use crate::report::{replace, timed};
+use asperity_law::units::rounded;
 use asperity_mesh::Mesh;
 use asperity_solver::run::crush::{Outcome, run};
 use asperity_solver::run::curve::{COUNTS_FROM, Curve};
@@ -99,7 +100,7 @@ fn stated(errors: &Errors) -> Each {
 
 /// `x` to the seven digits that a truth is kept with.
 fn single(x: f64) -> f64 {
-    format!("{x:.6e}").parse().unwrap_or(x)
+    rounded(x, 7)
 }
 
 impl Answer {

@@ -150,7 +150,7 @@ fn table(header: &str, readings: &[[f64; 2]]) -> String {
     readings.iter().fold(format!("{header}\n"), |text, [h, f]| text + &format!("{h},{f}\n"))
 }
 
-/// What a first user may bring: each is an error that names the file or the line and a way out, and nothing is written.
+/// Faulty inputs of a first user: each is an error that names the file or the line and a way out, and nothing is written.
 #[test]
 fn tables_that_are_no_curve_are_refused_with_a_way_out() {
     let place = Place::with_scene("");

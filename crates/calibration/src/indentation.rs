@@ -74,7 +74,7 @@ const ELASTIC: f64 = 1.2;
 /// Share of the difference between run and companion that may be left of the contact radius, S and the elastic share of the work.
 const REMAINS: [f64; 3] = [0.4, 0.4, 0.8];
 
-/// What is left of them at least at `standard`, in proportion to the promise at other levels: with linear and with quadratic elements, and
+/// Least errors left of them at `standard`, in proportion to the promise at other levels: with linear and with quadratic elements, and
 /// of the first where the body is remeshed as often as under a cone of 40°.
 ///
 /// Chosen on 80 cones of all kinds (3° to 45°, n 0 to 0.5, E/σ_y 1 to 2000) that were also computed at `reference`. At `standard` what is

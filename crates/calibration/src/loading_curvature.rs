@@ -42,7 +42,7 @@ pub(crate) const ORDER: f64 = 1.0 / 3.0;
 /// The same for the contact radius, which the penalty widens: p = 3/2 takes its mean error from 0.9 % to -0.1 %.
 const ORDER_OF_RADIUS: f64 = 0.547;
 
-/// What may be left of K: a share of the difference between run and companion, and something at least.
+/// Bound of the error left in K: a share of the difference between run and companion, and something at least.
 pub(crate) struct Left {
     /// The share.
     of_the_difference: f64,
@@ -138,7 +138,7 @@ pub fn solve(case: &Case, discretisation: &ConeDiscretisation) -> Result<Loading
     })
 }
 
-/// What `solved` makes of the companion of `discretisation`; if that does not come to its end, of that with as many steps as the run, whose
+/// Result of `solved` for the companion of `discretisation`; if that does not come to its end, of that with as many steps as the run, whose
 /// difference says less of the steps.
 pub(crate) fn companion<T>(
     discretisation: &ConeDiscretisation,

@@ -19,7 +19,7 @@ fn scene() -> Scene {
     Scene::new(Symmetry::Axisymmetric, steel, Tool::plane(), loading).with(cone)
 }
 
-/// What a path comes to whose mesh is laid anew after the increments that `anew` names: peak force, residual depth, and the sum and
+/// Result of a path whose body is remeshed after the increments that `anew` names: peak force, residual depth, and the sum and
 /// the greatest of the energies of transfers over the work.
 struct Reached {
     force: f64,

@@ -57,7 +57,7 @@ impl Book {
         Book { journal: Mutex::new(journal), known }
     }
 
-    /// What the journal holds under `name`, else what `compute` gives, which is added.
+    /// The result under `name` in the journal, else that of `compute`, which is added.
     pub fn recall(&self, name: &str, compute: impl FnOnce() -> Option<Value>) -> Option<Value> {
         let key = fingerprint(name);
         if let Some(known) = self.known.get(&key) {

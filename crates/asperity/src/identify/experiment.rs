@@ -61,7 +61,7 @@ pub struct Experiment {
 /// one number, K, off alike at every depth.
 const ALIKE: f64 = 1.0;
 
-/// What the errors of the expected force and of the way back do to the difference at a point of a curve.
+/// Effect on the difference at a point of a curve of errors of the expected force and of the way back.
 struct ErrorOfAPoint {
     /// Logarithm of the depth over the deepest; the way back begins there.
     place: f64,

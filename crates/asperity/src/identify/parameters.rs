@@ -2,7 +2,7 @@
 
 use super::file::FitMaterial;
 use super::sought::Sought;
-use asperity_law::units::Stress;
+use asperity_law::units::{Stress, rounded};
 use asperity_law::{Elastic, Hardening, HardeningCurve, HardeningLaw, HardeningTable};
 use asperity_solver::scene::{HardeningChoice, Material};
 
@@ -183,7 +183,7 @@ impl Unknowns {
     /// The metal at `point` as a scene gives it, to five digits; `None` where there is none.
     pub fn material(&self, point: &[f64]) -> Option<Material> {
         let Metal { elastic, hardening } = self.metal(point)?;
-        let five = |x: f64| format!("{x:.4e}").parse().unwrap_or(x);
+        let five = |x: f64| rounded(x, 5);
         let modulus = Stress(five(elastic.youngs_modulus));
         let body = Material {
             hardening_law: self.material.hardening_law,

@@ -4,9 +4,8 @@
 use crate::contact::tool::Tool;
 use crate::point::kinematics::Symmetry;
 use crate::point::material::Metal;
-use crate::run::lowering::area;
 use asperity_mesh::profile::{Asperity, Profile};
-use std::f64::consts::FRAC_2_PI;
+use std::f64::consts::{FRAC_2_PI, PI};
 
 /// Contact half width of a crushed asperity over the half width of the cut at the same depth: 0.64 (elastic cone,
 /// 2/π) to 1.06 (perfectly plastic), 0.89 for the single asperity.
@@ -73,6 +72,15 @@ fn half_width_under(asperity: &Asperity, mirrored: Option<&Asperity>, depth: f64
         }
     }
     high
+}
+
+/// Area of a contact of this centre and half width; its width in plane strain.
+pub fn area(symmetry: Symmetry, centre: f64, half_width: f64) -> f64 {
+    match symmetry {
+        Symmetry::PlaneStrain => 2.0 * half_width,
+        Symmetry::Axisymmetric if centre == 0.0 => PI * half_width * half_width,
+        Symmetry::Axisymmetric => 4.0 * PI * centre * half_width,
+    }
 }
 
 /// Contact half widths where each contact indents its surroundings as deep as `own` says.

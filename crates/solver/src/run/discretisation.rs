@@ -3,6 +3,7 @@
 
 use crate::run::schedule::{Spacing, loading};
 use crate::scene::{Accuracy, ContactMethod, ElementChoice, Numerics, Scene, Symmetry, ToolForm};
+use asperity_law::units::rounded;
 use asperity_mesh::build::Sizes;
 use asperity_mesh::grading::LINEAR;
 use asperity_mesh::outline::Outline;
@@ -58,7 +59,7 @@ impl Choice {
         let [elements, steps, unload_steps, tolerance, domain, penetration] =
             std::array::from_fn(|i| ends[0].1[i].powf(1.0 - share) * ends[1].1[i].powf(share));
         let whole = |x: f64| x.round() as usize;
-        let digits = |x: f64| format!("{x:.2e}").parse().unwrap_or(x);
+        let digits = |x: f64| rounded(x, 3);
         Choice {
             elements: whole(elements),
             steps: whole(steps),

@@ -21,7 +21,7 @@
 
 use crate::point::kinematics::Symmetry;
 use crate::run::curve::{COUNTS_FROM, Curve};
-use crate::run::record::{CurveRow, Errors, Phase};
+use crate::run::record::{CurveRow, Errors, Phase, largest_work};
 use crate::run::recorder::Outcome;
 use crate::run::schedule::UNLOADING_EXPONENT;
 use asperity_law::least_squares::{powers, solve, value};
@@ -244,8 +244,7 @@ pub(super) fn extrapolate_and_bound(
 
 /// Work at the end of a run that its energies do not account for, over that at the peak.
 fn unaccounted(rows: &[CurveRow]) -> f64 {
-    let peak = rows.iter().fold(0.0, |peak: f64, row| peak.max(row.external_work));
-    rows.last().map_or(0.0, |row| row.unaccounted_work().abs() / peak)
+    rows.last().map_or(0.0, |row| row.unaccounted_work().abs() / largest_work(rows))
 }
 
 /// Factor of a radius, or of half a width, whose area grows by the factor `wider`.

@@ -15,7 +15,7 @@
 use crate::contact::tool::Tool;
 use crate::point::kinematics::Symmetry;
 use crate::point::material::Metal;
-use crate::run::a_priori::{Meeting, meetings, pressure_under};
+use crate::run::a_priori::{Meeting, area, meetings, pressure_under};
 use asperity_mesh::profile::Profile;
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -88,15 +88,6 @@ fn root(excess: impl Fn(f64) -> f64, mut high: f64) -> f64 {
         }
     }
     high
-}
-
-/// Area of a contact of this centre and half width; its width in plane strain.
-pub fn area(symmetry: Symmetry, centre: f64, half_width: f64) -> f64 {
-    match symmetry {
-        Symmetry::PlaneStrain => 2.0 * half_width,
-        Symmetry::Axisymmetric if centre == 0.0 => PI * half_width * half_width,
-        Symmetry::Axisymmetric => 4.0 * PI * centre * half_width,
-    }
 }
 
 impl Support {

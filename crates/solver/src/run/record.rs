@@ -222,9 +222,14 @@ pub(super) fn work_along(rows: &[CurveRow]) -> f64 {
     rows.windows(2).map(step).sum()
 }
 
+/// External work at the peak.
+pub(super) fn largest_work(rows: &[CurveRow]) -> f64 {
+    rows.iter().fold(0.0, |largest: f64, row| largest.max(row.external_work))
+}
+
 /// The largest |W - E_e - W_p - E_c + E_t|/W over increments with W above 1 % of its peak.
 pub(super) fn balance_error(rows: &[CurveRow]) -> f64 {
-    let peak = rows.iter().fold(0.0, |m: f64, r| m.max(r.external_work));
+    let peak = largest_work(rows);
     rows.iter()
         .filter(|r| r.external_work > 0.01 * peak)
         .map(|r| r.unaccounted_work().abs() / r.external_work)

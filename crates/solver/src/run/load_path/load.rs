@@ -14,7 +14,7 @@ const MOST_PARTS: usize = 3;
 const FIRST_INCREMENT: f64 = 2.0;
 
 /// Share of the tolerance that is left where nothing yields: all of the work comes back, so that what little of it is left in the end shows
-/// each residual. Of a ridge that hardly yields 0.05 % of the work was lost without it,.
+/// each residual. Of a ridge that hardly yields 0.05 % of the work was lost without it.
 const ELASTIC: f64 = 0.1;
 
 /// Tolerance that is never made smaller.

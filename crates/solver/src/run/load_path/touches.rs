@@ -5,7 +5,7 @@
 //! short and grow.
 
 use crate::body::surface::Surface;
-use crate::run::lowering::area;
+use crate::run::a_priori::area;
 use crate::run::problem::Problem;
 
 /// Share of all contact at the peak that is expected of an asperity whose touch counts.
