@@ -95,7 +95,7 @@ const ALONE: Errors = Errors {
 /// Solves `cone` at `accuracy` and with every number of the discretisation half as good, and extrapolates.
 ///
 /// # Errors
-/// Those of [`indent`] of the finer run, or its force is no parabola of the depth; a companion that fails leaves its result as it is, with a wide error.
+/// A path of the finer run that stopped before its slope could be read, or its force is no parabola of the depth; a companion that fails leaves its result as it is, with a wide error.
 pub fn solve(cone: &Cone, accuracy: Accuracy) -> Result<(Indentation, Errors), CaseError> {
     let exponent = cone.metal.hardening.as_ref().map(|h| h.exponent(cone.metal.elastic.youngs_modulus));
     let discretisation = ConeDiscretisation::new(cone.slope_deg, cone.indents, exponent, accuracy);
