@@ -25,7 +25,7 @@ struct Wanted {
     separation: Option<String>,
     share: Option<f64>,
     hills: Option<f64>,
-    closure: Option<String>,
+    plane_of: Option<String>,
     depth: Option<String>,
     profiles: usize,
     lines: Vec<String>,
@@ -45,7 +45,7 @@ impl Wanted {
         let length = |name: &str, text: &Option<String>| -> PyResult<Option<Length>> {
             text.as_deref().map(|text| parsed(name, text)).transpose()
         };
-        let closure = self.closure.as_deref().map(|name| parsed::<Closure>("closure", name)).transpose()?;
+        let closure = self.plane_of.as_deref().map(|name| parsed::<Closure>("plane_of", name)).transpose()?;
         let parts = [
             length("separation", &self.separation)?.map(Parts::Separation),
             self.share.map(Parts::Share),
@@ -55,7 +55,7 @@ impl Wanted {
         let mut given = parts.into_iter().flatten();
         let parts = given.next().unwrap_or(Extraction::default().parts);
         if given.next().is_some() {
-            return Err(wrong("separation, share, hills and closure exclude each other: give one of them"));
+            return Err(wrong("separation, share, hills and plane_of exclude each other: give one of them"));
         }
         Ok(Extraction {
             parts,

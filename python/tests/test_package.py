@@ -281,6 +281,10 @@ def test_asperities_are_taken_and_crushed(tmp_path: pathlib.Path) -> None:
         load={"pressure": "50 MPa"}, closure="all", surface={"pixel_size": ["1 um", "1 um"], "height_unit": "um"},
     )  # fmt: skip
     assert len(of_file.scenes) == 2 and len(of_file.asperities) == len(found.asperities)
+    at_load = asperity.extract(
+        waves(), pixel_size_um=(1.0, 1.0), plane_of="sneddon", accuracy="draft", profiles=1, **tables
+    )
+    assert len(at_load.scenes) == 1
     with pytest.raises(asperity.InputError, match="exclude"):
         asperity.extract(waves(), pixel_size_um=(1.0, 1.0), share=0.2, hills=0.1, **tables)
     with pytest.raises(asperity.InputError, match="depth"):

@@ -133,7 +133,7 @@ def extract(
     separation: str | None = None,
     share: float | None = None,
     hills: float | None = None,
-    closure: str | None = None,
+    plane_of: str | None = None,
     depth: str | None = None,
     profiles: int = 20,
     lines: Sequence[str] = (),
@@ -151,7 +151,7 @@ def extract(
     :param separation: islands above this separation from the mean plane, such as ``"1 um"``.
     :param share: islands above the plane that this share of the points is above; 0.1 where nothing is said.
     :param hills: hills of ISO 25178-2 that rise by at least this share of the height.
-    :param closure: islands above the plane at which this closure carries the pressure of the scene, such as ``"sneddon"``.
+    :param plane_of: islands above the plane at which this closure carries the pressure of the scene, such as ``"sneddon"``.
     :param depth: how deep the scenes crush; down to the plane where nothing is said.
     :param profiles: how many asperities get a profile and a scene.
     :param lines: lines of the map as scenes in plane strain, ``"y=0.2 mm"``.
@@ -165,7 +165,7 @@ def extract(
         "separation": separation,
         "share": share,
         "hills": hills,
-        "closure": closure,
+        "plane_of": plane_of,
         "depth": depth,
         "profiles": max(profiles, crush),
         "lines": list(lines),
