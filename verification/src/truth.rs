@@ -31,7 +31,7 @@ use std::path::{Path, PathBuf};
 pub struct Recipe(pub f64);
 
 /// Those of the truths of draft, standard and reference runs.
-pub const RECIPES: [Recipe; 3] = [Recipe(0.7), Recipe(1.0), Recipe(1.6)];
+pub const RECIPES: [Recipe; 3] = [Recipe(1.2), Recipe(1.6), Recipe(1.8)];
 
 /// Penetration and mesh pull the area in opposite directions, and more of the first is left at `reference`.
 pub const SOFTER: f64 = -1.5;

@@ -2,8 +2,8 @@
 //! good, and costs a fifth.
 //!
 //! With Q the force or the contact area at a depth, D = ln(Q_companion/Q) holds what mesh, load step, penalty and substrate do, each
-//! of first order nearly or better, and the ripple of both. A parabola through D over ln h is the smooth part; of the area, which
-//! ripples more, a line.
+//! of first order nearly or better, and the ripple of both. A parabola through D over ln h is the smooth part; of the area, whose
+//! companion ripples more than it differs, the mean.
 //! * Were all errors of the order p, ln Q would be off by D/(2ᵖ - 1), which is taken off (Richardson's extrapolation): with p = 3/2 of
 //!   the force, whose observed orders lie between 1 and 2. The area is narrowed by a coarse mesh, of the same orders, and widened by
 //!   the penetration, whose rim is thinner than an element, of an order near 1: p = 1 where the companion has more of it. For orders
@@ -44,8 +44,10 @@ const THREE_HALVES: f64 = 0.547;
 const FORCE: Quantity =
     Quantity { smooth: polynomial::<3>, taken_off: [THREE_HALVES, THREE_HALVES], hidden: 0.4 };
 
-/// The penetration widens a contact, by 4 to 8 times its share of the depth, and the mesh narrows it.
-const AREA: Quantity = Quantity { smooth: polynomial::<2>, taken_off: [FIRST, THREE_HALVES], hidden: 1.2 };
+/// The penetration widens a contact, by 1 to 8 times its share of the depth, mostly 6 times, and the mesh narrows it. Where the two cancel
+/// in D, as much as a third of either is left, for orders between 0.8 and 1.
+const AREA: Quantity =
+    Quantity { smooth: polynomial::<1>, taken_off: [FIRST, THREE_HALVES], hidden: 6.0 / 3.0 };
 
 /// Largest smooth part of which a share is taken off: a companion that differs by more is in no asymptotic range.
 const MOST: f64 = 0.055;
@@ -318,7 +320,9 @@ mod tests {
     fn errors_of_the_assumed_order_are_taken_off_whole() {
         for (of, order, sign) in [(FORCE, 1.5, 1.0), (FORCE, 1.5, -1.0), (AREA, 1.0, 1.0), (AREA, 1.5, -1.0)]
         {
-            let error = |x: f64| sign * (0.008 + 0.002 * x);
+            // that of the area is taken as even over the depth
+            let slope = if order == 1.5 && of.hidden == FORCE.hidden { 0.002 } else { 0.0 };
+            let error = |x: f64| sign * (0.008 + slope * x);
             let companion = difference(of, |x| (2_f64.powf(order) - 1.0) * error(x));
             for x in [COUNTS_FROM.ln(), -0.8, -0.2, 0.0] {
                 let left = error(x) + companion.correction(x);
