@@ -48,7 +48,8 @@ fn the_tool_that_comes_back_finds_the_reload_of_one_run() {
         let residual = once.summary.residual_depth.unwrap();
         let again = crushed(&scene.loaded_again(Tool::plane(), to(5e-6 - residual))).summary;
         near(again.peak_force, reload.force, 0.015);
-        near(again.contact_area, reload.contact_area, 0.015);
+        // both are known to a third of an element, of 24 across the contact
+        near(again.contact_area, reload.contact_area, 0.03);
         near(again.unloading_stiffness.unwrap(), once.summary.unloading_stiffness.unwrap(), 0.01);
     }
 }

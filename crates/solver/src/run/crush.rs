@@ -4,7 +4,7 @@ use crate::point::material::Metal;
 use crate::run::depth_for_force::expect;
 use crate::run::discretisation::Discretisation;
 use crate::run::earlier::ready;
-use crate::run::errors::{extrapolate_and_bound, rescale_to_force};
+use crate::run::errors::{Setting, extrapolate_and_bound, rescale_to_force};
 use crate::run::journal::Checkpoints;
 use crate::run::load_path::Stop;
 use crate::run::oliver_pharr::as_an_instrument;
@@ -62,7 +62,8 @@ fn crush(
 ) -> Result<Outcome, CrushError> {
     scene.validate()?;
     let expected = expect(scene, mesh.as_ref())?;
-    let coarser = mesh.as_ref().map(Mesh::with_other_element);
+    let other = mesh.as_ref().map(Mesh::with_other_element);
+    let same_mesh = other.is_some();
     let numbers = Discretisation::new(scene);
     let of_metal = |problem: Problem| match metal {
         Some(metal) => Problem { metal: metal.clone(), ..problem },
@@ -70,7 +71,7 @@ fn crush(
     };
     let problem = of_metal(ready(scene, numbers, mesh, &expected)?);
     let target = scene.loading.target()?;
-    let companion = companion(scene, numbers, coarser, &expected).map(of_metal);
+    let companion = companion(scene, numbers, other, &expected).map(of_metal);
     let asks_for_depth = matches!(target, Target::Depth(_));
     let mut main = || simulate_with(&problem, scene.output.interval(), checkpoints, observer);
     let (mut outcome, ahead) = match companion.as_ref().filter(|_| asks_for_depth) {
@@ -89,7 +90,9 @@ fn crush(
         }),
     };
     if let Some(companion) = compared {
-        extrapolate_and_bound(&mut outcome, &companion, scene.symmetry, numbers.penetration);
+        let Discretisation { element, penetration, steps, .. } = numbers;
+        let setting = Setting { symmetry: scene.symmetry, element, penetration, steps, same_mesh };
+        extrapolate_and_bound(&mut outcome, &companion, setting);
     }
     if let (Target::Force(force), None) = (target, &outcome.stopped) {
         rescale_to_force(&mut outcome, force, scene.symmetry);
