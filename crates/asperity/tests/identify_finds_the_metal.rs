@@ -70,7 +70,8 @@ fn a_curve_in_nanometres_with_semicolons_gives_the_stress_of_its_metal() {
     assert!((row["value_MPa"].as_f64().unwrap() / truth - 1.0).abs() < 0.03, "{row} {truth}");
     assert_eq!(place.names("out").iter().filter(|n| n.ends_with(".svg")).count(), 3);
     assert_eq!(place.text("out/posterior.csv").lines().count(), 101);
-    // what was found goes into a scene as it stands
+    // what was found goes into a scene as it stands, with the law of the fit
+    assert!(place.text("out/material.toml").contains("hardening_law = \"swift\""));
     let head = "symmetry = \"axisymmetric\"\naccuracy = \"draft\"\n[tool]\nshape = \"cone\"\nslope_deg = 19.7\n[loading]\ndepth = \"1 um\"\n";
     std::fs::write(place.path("next.toml"), format!("{head}{}", place.text("out/material.toml"))).unwrap();
     let crushed = place.run(&["crush", "next.toml", "--out", "next", "--quiet"]);

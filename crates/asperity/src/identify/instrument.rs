@@ -228,28 +228,41 @@ fn block(
     Ok(())
 }
 
+/// The columns of `what`, those that `unit_of` knows, with their units. One without a unit, like the error of a force, is left out
+/// beside one with.
+fn of_known_unit(
+    at: usize,
+    names: &[String],
+    what: &str,
+    units: &str,
+    unit_of: &dyn Fn(usize) -> Option<Option<f64>>,
+) -> Result<Vec<(usize, f64)>, TableFault> {
+    let all: Vec<(usize, Option<f64>)> =
+        (0..names.len()).filter_map(|i| unit_of(i).map(|unit| (i, unit))).collect();
+    let known: Vec<(usize, f64)> = all.iter().filter_map(|(i, unit)| Some((*i, (*unit)?))).collect();
+    match all.first() {
+        Some((i, _)) if known.is_empty() => Err(TableFault {
+            line: Some(at),
+            message: format!(
+                "the {what} \"{}\" has no unit that is known: write it in the header, one of {units}, like {what}_{}",
+                names[*i],
+                units.split(", ").nth(2).unwrap_or(units)
+            ),
+        }),
+        _ => Ok(known),
+    }
+}
+
 /// The pairs of depth and force, each force with the depth before or after it.
 fn pairs(at: usize, names: &[String], columns: &[Column]) -> Result<Vec<Pair>, TableFault> {
-    let missing = |i: usize, what: &str, units: &str| TableFault {
-        line: Some(at),
-        message: format!(
-            "the {what} \"{}\" has no unit that is known: write it in the header, one of {units}, like {what}_{}",
-            names[i],
-            units.split(", ").nth(2).unwrap_or(units)
-        ),
-    };
-    let (mut depths, mut forces) = (Vec::new(), Vec::new());
-    for (i, column) in columns.iter().enumerate() {
-        match column {
-            Column::Depth(unit) => {
-                depths.push((i, unit.ok_or_else(|| missing(i, "depth", "pm, nm, um, mm, m"))?));
-            }
-            Column::Force(unit) => {
-                forces.push((i, unit.ok_or_else(|| missing(i, "force", "nN, uN, mN, N, kN, gf"))?));
-            }
-            _ => {}
-        }
-    }
+    let depths = of_known_unit(at, names, "depth", "pm, nm, um, mm, m", &|i| match columns[i] {
+        Column::Depth(unit) => Some(unit),
+        _ => None,
+    })?;
+    let forces = of_known_unit(at, names, "force", "nN, uN, mN, N, kN, gf", &|i| match columns[i] {
+        Column::Force(unit) => Some(unit),
+        _ => None,
+    })?;
     // one depth may serve several forces only where there are as many of both
     let count = if depths.len() == forces.len() { depths.len() } else { 1 };
     Ok(depths.into_iter().zip(forces).take(count).map(|(depth, force)| Pair { depth, force }).collect())
@@ -290,7 +303,7 @@ mod tests {
             "Instrument X\nDate;today\nDisplacement [nm];Load [uN]\n100,0;2000,0\n200,0;8000,0\n",
             "\u{feff}Time\tDepth\tForce\ns\tnm\tmN\n0\t100\t2\n1\t200\t8\n",
             "# a note\nh/nm P/mN\n100 2\n200 8\n",
-            "increment,phase,depth_um,force_N,contact_area_um2,force_nodal_N\n1,load,0.1,0.002,1,3\n2,load,0.2,0.008,1,3\n",
+            "increment,phase,depth_um,force_N,contact_area_um2,force_nodal_N,force_error\n1,load,0.1,0.002,1,3,0.01\n2,load,0.2,0.008,1,3,0.01\n",
         ] {
             let tests = read(text).unwrap().tests;
             assert_eq!(tests.len(), 1, "{text}");

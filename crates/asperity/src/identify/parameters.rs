@@ -191,7 +191,10 @@ impl Unknowns {
             ..Material::elastic_body(modulus, five(elastic.poissons_ratio))
         };
         Some(match hardening {
-            HardeningCurve::Power(law) => body.yielding(Stress(five(law.yield_stress)), five(law.exponent)),
+            HardeningCurve::Power(law) => Material {
+                hardening_law: body.hardening_law,
+                ..body.yielding(Stress(five(law.yield_stress)), five(law.exponent))
+            },
             HardeningCurve::Table(_) => {
                 let strains = self.material.hardening_table.iter().flatten().map(|(strain, _)| *strain);
                 let points =
