@@ -9,7 +9,7 @@ use crate::run::curve::COUNTS_FROM;
 use crate::run::discretisation::Discretisation;
 use crate::run::formed::{Formed, expected_pressure};
 use crate::run::lowering::{Support, own_depths};
-use crate::run::problem::{Correction, Goal, Problem, Rules, Units, held_nodes};
+use crate::run::problem::{Goal, Problem, Rules, Units, held_nodes};
 use crate::scene::{
     AsperityForm, ElementChoice, Lateral, Line, LineAsperity, Scene, SceneError, Target, ToolForm,
 };
@@ -164,7 +164,6 @@ pub(super) fn prepare_with(
         far_field: if half_space { a_priori::far_field(&metal, size) } else { 0.0 },
         compliance: Compliance::of(scene, &units),
         area_growth: AREA_GROWTH,
-        correction: Correction::PlasticShare,
     };
     Ok(Problem {
         units,
@@ -177,7 +176,6 @@ pub(super) fn prepare_with(
         held: held_nodes(&mesh, symmetry, scene.lateral),
         mesh,
         numbers,
-        automatic_size: automatic.then_some(size),
         cut_off,
         goal,
         unload: scene.loading.unload,

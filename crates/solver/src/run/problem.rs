@@ -60,15 +60,6 @@ pub enum Goal {
     },
 }
 
-/// How the penetration of the penalty is taken off the travel: see [`crate::contact::penalty_correction`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Correction {
-    /// By its mean, weighted with the pressure.
-    Mean,
-    /// Between that of an elastic body and the mean, as the plastic work decides: energies are computed for it.
-    PlasticShare,
-}
-
 /// How a load path goes and what it counts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rules {
@@ -78,8 +69,6 @@ pub struct Rules {
     pub compliance: Compliance,
     /// An increment in which the contact area grows by more than this factor is halved, as long as halvings are left.
     pub area_growth: f64,
-    /// How the penetration is taken off the travel.
-    pub correction: Correction,
 }
 
 impl Rules {
@@ -115,8 +104,6 @@ pub struct Problem {
     pub held: Vec<[bool; 2]>,
     /// The discretisation used.
     pub numbers: Discretisation,
-    /// Size of the substrate if the program chose it; else it is part of what was asked for.
-    pub automatic_size: Option<f64>,
     /// Height of what the mesh cuts off a steep tip: the tool touches the mesh where it is that deep.
     pub cut_off: f64,
     /// Where the first loading ends: the estimated depth there is 1.
