@@ -47,7 +47,8 @@ pub fn own_depths(metal: &Metal, profile: &Profile, tool: &Tool, support: &Suppo
     }
     let load = |meeting: &Meeting<'_>, own: f64| {
         let half_width = meeting.half_width(own);
-        pressure_under(metal, meeting.slope(half_width)) * area(support.symmetry, meeting.centre, half_width)
+        pressure_under(metal, meeting.slope(half_width), 0.0)
+            * area(support.symmetry, meeting.centre, half_width)
     };
     let mut own = vec![0.0; free.len()];
     let mut loads = vec![0.0; free.len()];
