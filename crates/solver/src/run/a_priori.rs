@@ -4,6 +4,7 @@
 use crate::contact::tool::Tool;
 use crate::point::kinematics::Symmetry;
 use crate::point::material::Metal;
+use asperity_law::bisection::bisect;
 use asperity_mesh::profile::{Asperity, Profile};
 use std::f64::consts::{FRAC_2_PI, PI};
 
@@ -60,18 +61,10 @@ const STRAIGHT: f64 = 0.1;
 /// Half width over which the outlines of `asperity` and of the tool above it overlap at `depth`.
 fn half_width_under(asperity: &Asperity, mirrored: Option<&Asperity>, depth: f64) -> f64 {
     let Some(tool) = mirrored else { return asperity.half_width(depth) };
-    let (mut low, mut high) = (0.0, asperity.half_width(depth).min(tool.half_width(depth)));
-    for _ in 0..60 {
-        let middle = 0.5 * (low + high);
-        // of an outline that is not symmetric, on the side where the two overlap further
-        let drop = asperity.drop(middle).min(asperity.drop(-middle));
-        if drop + tool.drop(middle) < depth {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    high
+    let widest = asperity.half_width(depth).min(tool.half_width(depth));
+    // of an outline that is not symmetric, on the side where the two overlap further
+    let overlap = |x: f64| asperity.drop(x).min(asperity.drop(-x)) + tool.drop(x) < depth;
+    bisect([0.0, widest], 60, overlap)[1]
 }
 
 /// Area of a contact of this centre and half width; its width in plane strain.
@@ -171,14 +164,6 @@ pub fn expected_depth(
         pressure * areas.sum::<f64>()
     };
     // the carried force grows with the depth: bisection in the logarithm over any physical size
-    let (mut low, mut high) = (1e-15_f64.ln(), 1e6_f64.ln());
-    for _ in 0..200 {
-        let middle = 0.5 * (low + high);
-        if carried(middle.exp()) < force {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
+    let [low, high] = bisect([1e-15_f64.ln(), 1e6_f64.ln()], 200, |depth| carried(depth.exp()) < force);
     (0.5 * (low + high)).exp()
 }
