@@ -132,6 +132,9 @@ fn least(residuals: &Residuals<'_>, points: &[Vec<f64>]) -> Option<Vec<f64>> {
 }
 
 /// The minimum near `point` with what is expected now; twice, for the covariances move with it.
+///
+/// # Errors
+/// No metal there that can be computed.
 pub fn again(experiments: &[Experiment], unknowns: &Unknowns, point: &[f64]) -> Result<Minimum, Error> {
     let mut minimum = Minimum { point: point.to_vec(), chi2: f64::INFINITY };
     for _ in 0..2 {
