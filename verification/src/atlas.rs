@@ -2,7 +2,7 @@
 //! journals from which they grow.
 
 use asperity_calibration::case::Case;
-use asperity_calibration::cones::{self, HEADER, Row};
+use asperity_calibration::cones::{self, Row, header};
 use asperity_calibration::journal::{Journal, fingerprint};
 use asperity_solver::scene::Accuracy;
 use flate2::Compression;
@@ -51,7 +51,7 @@ impl Set {
 
     /// Inputs that the rows of a journal depend on.
     pub fn identity(self) -> u64 {
-        fingerprint(format!("{} {self:?} {HEADER} {:?}", env!("CARGO_PKG_VERSION"), self.cone(1)))
+        fingerprint(format!("{} {self:?} {} {:?}", env!("CARGO_PKG_VERSION"), header(), self.cone(1)))
     }
 
     /// The committed file.
@@ -93,7 +93,7 @@ pub fn journals(set: Set, folder: &Path) -> Vec<Row> {
 /// It cannot be written.
 pub fn write(set: Set, rows: &[Row]) -> io::Result<()> {
     let mut gzip = GzEncoder::new(Vec::new(), Compression::best());
-    writeln!(gzip, "{HEADER}")?;
+    writeln!(gzip, "{}", header())?;
     for row in rows {
         writeln!(gzip, "{}", row.line())?;
     }

@@ -4,6 +4,8 @@
 //! D. R. J. Owen, Computational Methods for Plasticity (2008), examples 7.5.1 and 7.5.2. Exact for the sphere; for the
 //! cylinder the axial stress is taken to stay intermediate, which costs a few tenths of a percent.
 
+use asperity_law::bisection::bisect;
+
 /// Which wall.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shape {
@@ -57,15 +59,7 @@ impl ThickWall {
 
     /// Plastic front at `pressure` (bisection), a below first yield, b from the limit pressure on.
     pub fn front(&self, pressure: f64) -> f64 {
-        let (mut low, mut high) = (self.inner, self.outer);
-        for _ in 0..100 {
-            let middle = 0.5 * (low + high);
-            if self.pressure(middle) < pressure {
-                low = middle;
-            } else {
-                high = middle;
-            }
-        }
+        let [low, high] = bisect([self.inner, self.outer], 100, |front| self.pressure(front) < pressure);
         0.5 * (low + high)
     }
 

@@ -53,9 +53,6 @@ pub fn logarithms(found: &Indentation, tan: f64) -> [f64; OUTPUTS] {
 }
 
 impl Cell {
-    /// The columns of the file.
-    pub const HEADER: &str = "slope_deg,E_over_sy,n,K,S,elastic,back_0.95,back_0.85,back_0.7,back_0.55,back_0.4,back_0.25,back_0.12,back_0.04,back_0";
-
     /// Solves a cone.
     ///
     /// # Errors
@@ -78,12 +75,6 @@ impl Cell {
         let found = solve(&cone, Accuracy::Standard).map_err(|e| e.to_string())?.0;
         let tan = slope_deg.to_radians().tan();
         Ok(Cell { place: [slope_deg, e_over_sy, exponent], logarithms: logarithms(&found, tan) })
-    }
-
-    /// The cell as a line of the file.
-    pub fn line(&self) -> String {
-        let place = self.place.iter().map(f64::to_string);
-        place.chain(self.logarithms.iter().map(|log| format!("{log:.5}"))).collect::<Vec<_>>().join(",")
     }
 
     fn of_line(line: &str) -> Option<Cell> {

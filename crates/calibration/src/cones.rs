@@ -56,10 +56,14 @@ pub struct Row {
     pub outcome: Result<(Indentation, Errors), String>,
 }
 
-/// The columns of a row.
-pub const HEADER: &str = "index,slope_deg,E_over_sy,n,nu,law,contact,K_over_E,K_error,contact_ratio,contact_ratio_error,S_over_Eh,\
-    S_error,elastic_share,elastic_share_error,back_0.95,back_0.85,back_0.7,back_0.55,back_0.4,back_0.25,back_0.12,back_0.04,back_0,\
-    K_difference,contact_ratio_difference,S_difference,elastic_share_difference,reached,iterations,status";
+/// The columns of a row: the elastic recovery has one for each of [`FORCES`].
+pub fn header() -> String {
+    let back = FORCES.map(|force| format!("back_{force}")).join(",");
+    format!(
+        "index,slope_deg,E_over_sy,n,nu,law,contact,K_over_E,K_error,contact_ratio,contact_ratio_error,S_over_Eh,S_error,elastic_share,\
+         elastic_share_error,{back},K_difference,contact_ratio_difference,S_difference,elastic_share_difference,reached,iterations,status"
+    )
+}
 
 impl Row {
     /// Solves `case`.
@@ -111,13 +115,14 @@ impl Row {
                 ];
                 let numbers: String = pairs
                     .iter()
-                    .map(|(value, error)| format!(",{},{:.5}", digits(*value, 7), error))
+                    .map(|(value, error)| format!(",{},{:.5}", rounded(*value, 7), error))
                     .collect();
-                let back: String = found.recovery.iter().map(|way| format!(",{}", digits(*way, 5))).collect();
+                let back: String =
+                    found.recovery.iter().map(|way| format!(",{}", rounded(*way, 5))).collect();
                 let differences: String = errors.differences.iter().map(|d| format!(",{d:.5}")).collect();
                 format!(
                     "{place}{numbers}{back}{differences},{},{},ok",
-                    digits(found.reached, 3),
+                    rounded(found.reached, 3),
                     found.iterations
                 )
             }
@@ -175,11 +180,6 @@ impl Row {
     }
 }
 
-/// So many significant digits.
-fn digits(x: f64, count: usize) -> f64 {
-    format!("{x:.*e}", count - 1).parse().unwrap_or(x)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -215,7 +215,7 @@ mod tests {
             Row { index, case, outcome: Err("stopped; at 0.3".into()) },
         ] {
             let line = row.line();
-            assert_eq!(line.matches(',').count(), HEADER.matches(',').count(), "{line}");
+            assert_eq!(line.matches(',').count(), header().matches(',').count(), "{line}");
             assert_eq!(Row::of_line(&line).unwrap().line(), line);
         }
         assert_eq!(Row::of_line("17,3"), None);

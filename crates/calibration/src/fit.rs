@@ -264,9 +264,7 @@ fn quantiles(values: &mut [f64]) -> [f64; 2] {
 /// error of mesh and step is no noise, it depends on n, and so it is what would shift ε_r unseen.
 fn resample(exponents: &[f64]) -> Vec<Vec<[f64; 2]>> {
     let mut random = SplitMix(SEED);
-    let mut kinds = exponents.to_vec();
-    kinds.sort_by(f64::total_cmp);
-    kinds.dedup();
+    let kinds = distinct(exponents.iter().copied());
     (0..RESAMPLES)
         .map(|_| {
             let shifts: Vec<f64> = kinds.iter().map(|_| 0.5 * random.normal()).collect();
@@ -309,10 +307,7 @@ impl SplitMix {
 pub fn developed(data: &Data, c: f64, least: f64) -> Data {
     let mut kept = data.filtered(|tan, s| data.developed(tan, s, c) >= least);
     kept.slopes.retain(|(_, samples)| {
-        let mut exponents: Vec<f64> = samples.iter().map(|s| s.hardening.exponent).collect();
-        exponents.sort_by(f64::total_cmp);
-        exponents.dedup();
-        samples.len() >= 8 && exponents.len() >= 3
+        samples.len() >= 8 && distinct(samples.iter().map(|s| s.hardening.exponent)).len() >= 3
     });
     kept
 }

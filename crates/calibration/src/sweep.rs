@@ -76,6 +76,7 @@ impl Sweep {
             |b| b > 0.0 && b <= slope_limit,
             || format!("a slope must lie above 0 and at most at {slope_limit} degrees"),
         )?;
+        let [flat, steepest] = range::VARIED_EXPONENTS;
         let moduli: Vec<f64> = self.youngs_modulus.iter().map(|s| s.0).collect();
         let yields: Vec<f64> = self.yield_stress.iter().map(|s| s.0).collect();
         check_list("youngs_modulus", &moduli, |e| e > 0.0, || "must be above 0".into())?;
@@ -83,8 +84,8 @@ impl Sweep {
         check_list(
             "hardening_exponent",
             &self.hardening_exponent,
-            |n| (0.0..=0.9).contains(&n),
-            || "must lie from 0 (perfect plasticity) to 0.9".into(),
+            |n| (flat..=steepest).contains(&n),
+            || format!("must lie from {flat} (perfect plasticity) to {steepest}"),
         )?;
         range::poissons_ratio(self.poissons_ratio)
             .map_err(|m| error("poissons_ratio", &(m + ": metals have 0.25 to 0.35")))?;

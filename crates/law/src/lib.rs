@@ -14,6 +14,7 @@
 //! ```
 
 pub mod atlas;
+pub mod bisection;
 mod curve;
 mod curve_file;
 mod elastic;

@@ -24,6 +24,15 @@ impl SceneError {
 /// Young's modulus over yield stress.
 pub const MODULUS_OVER_YIELD: [f64; 2] = [5.0, 1e6];
 
+/// Young's moduli of a fit, GPa.
+pub const FITTED_MODULI_GPA: [f64; 2] = [1e-6, 1e4];
+/// Poisson's ratios of a fit: what a single scene allows, less the ends, where nothing can be computed.
+pub const FITTED_POISSONS_RATIOS: [f64; 2] = [-0.9, 0.4999];
+/// Yield stresses of a fit, MPa.
+pub const FITTED_YIELD_STRESSES_MPA: [f64; 2] = [1e-6, 1e6];
+/// Hardening exponents of a sweep or a fit: less than the 1 of a single scene, where the metal would not yield at all.
+pub const VARIED_EXPONENTS: [f64; 2] = [0.0, 0.9];
+
 /// Checks a Young's modulus: finite, above 0.
 ///
 /// # Errors

@@ -37,7 +37,7 @@ fn contact_pressure_is_uniform_and_that_of_the_bar() {
             }
             // F = ε d π R²
             let force = penalty * depth * std::f64::consts::PI;
-            assert!((model.response().load() / force - 1.0).abs() < 1e-10);
+            assert!((model.state().load() / force - 1.0).abs() < 1e-10);
             let axial = (1.0 - travel + depth).ln();
             for stress in stresses(&model) {
                 let expected = [0.0, axial, 0.0, 0.0];

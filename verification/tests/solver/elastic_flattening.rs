@@ -75,7 +75,7 @@ fn unloading_retraces_loading() {
     let travels = [0.1, 0.2, 0.4, 0.6, 0.8, 1.0];
     let mut force = |travel: f64| {
         increment(&mut model, -travel, &settings, |_| [0.0; 2]).unwrap();
-        model.response().load()
+        model.state().load()
     };
     let loading = travels.map(&mut force);
     let mut back = travels;

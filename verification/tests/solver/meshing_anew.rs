@@ -40,7 +40,7 @@ fn reached(anew: impl Fn(usize) -> bool) -> Reached {
         let travel = fraction * (1.0 + problem.expected_penetration());
         let increment = path.advance_to(Goal::Travel(travel), &mut |_, _| true).unwrap();
         let state = path.model.state();
-        let work = increment.energies.unwrap().external_work;
+        let work = increment.energies.external_work;
         largest = largest.max((state.transferred - before).abs() / work);
         before = state.transferred;
         last = Some(increment);
@@ -49,7 +49,7 @@ fn reached(anew: impl Fn(usize) -> bool) -> Reached {
         }
     }
     let peak = last.unwrap();
-    let energies = peak.energies.unwrap();
+    let energies = peak.energies;
     let state = path.model.state();
     let kept = energies.elastic + energies.plastic + peak.contact.energy + state.self_contact_energy
         - state.remeasured_energy()

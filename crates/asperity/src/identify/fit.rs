@@ -11,7 +11,8 @@ use super::sought::Sought;
 use crate::error::{Error, InputError};
 use crate::input::RELATIVE;
 use crate::input::toml_file::TomlFile;
-use asperity_law::{Elastic, StressMeasure};
+use asperity_law::units::Stress;
+use asperity_law::{Elastic, StressMeasure, range};
 use asperity_solver::scene::{Accuracy, HardeningChoice};
 use std::path::Path;
 
@@ -145,7 +146,7 @@ fn fault(key: &str, message: impl Into<String>) -> Fault {
 }
 
 /// A range or a number within what is allowed.
-fn check_number(key: &str, sought: Sought<f64>, low: f64, high: f64, unit: &str) -> Result<(), Fault> {
+fn check_number(key: &str, sought: Sought<f64>, [low, high]: [f64; 2], unit: &str) -> Result<(), Fault> {
     let inside = |v: f64| v >= low && v <= high;
     match sought {
         Sought::Known(value) if !inside(value) => {
@@ -162,8 +163,9 @@ fn check_number(key: &str, sought: Sought<f64>, low: f64, high: f64, unit: &str)
 }
 
 fn check_material(material: &FitMaterial) -> Result<(), Fault> {
-    check_number("youngs_modulus", material.youngs_modulus.map(|e| e.in_unit("GPa")), 1e-6, 1e4, " GPa")?;
-    check_number("poissons_ratio", material.poissons_ratio, -0.9, 0.4999, "")?;
+    let modulus = material.youngs_modulus.map(|e| e.in_unit("GPa"));
+    check_number("youngs_modulus", modulus, range::FITTED_MODULI_GPA, " GPa")?;
+    check_number("poissons_ratio", material.poissons_ratio, range::FITTED_POISSONS_RATIOS, "")?;
     if material.hardening_law == HardeningChoice::Table {
         return check_table(material);
     }
@@ -176,9 +178,13 @@ fn check_material(material: &FitMaterial) -> Result<(), Fault> {
     let missing =
         |key: &str| fault("", format!("`{key}` is missing: give a number, or a range [lowest, highest]"));
     let stress = material.yield_stress.ok_or_else(|| missing("yield_stress"))?;
-    check_number("yield_stress", stress.map(|s| s.in_unit("MPa")), 1e-6, 1e6, " MPa")?;
+    check_stress("yield_stress", stress)?;
     let exponent = material.hardening_exponent.ok_or_else(|| missing("hardening_exponent"))?;
-    check_number("hardening_exponent", exponent, 0.0, 0.9, "")
+    check_number("hardening_exponent", exponent, range::VARIED_EXPONENTS, "")
+}
+
+fn check_stress(key: &str, sought: Sought<Stress>) -> Result<(), Fault> {
+    check_number(key, sought.map(|s| s.in_unit("MPa")), range::FITTED_YIELD_STRESSES_MPA, " MPa")
 }
 
 fn check_table(material: &FitMaterial) -> Result<(), Fault> {
@@ -201,7 +207,7 @@ fn check_table(material: &FitMaterial) -> Result<(), Fault> {
         return Err(fault("hardening_table", "plastic strains must rise from point to point"));
     }
     for (i, (_, sought)) in table.iter().enumerate() {
-        check_number(&format!("hardening_table[{i}]"), sought.map(|s| s.in_unit("MPa")), 1e-6, 1e6, " MPa")?;
+        check_stress(&format!("hardening_table[{i}]"), *sought)?;
     }
     Ok(())
 }

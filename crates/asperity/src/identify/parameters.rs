@@ -3,7 +3,7 @@
 use super::file::FitMaterial;
 use super::sought::Sought;
 use asperity_law::units::{Stress, rounded};
-use asperity_law::{Elastic, Hardening, HardeningCurve, HardeningLaw, HardeningTable};
+use asperity_law::{Elastic, Hardening, HardeningCurve, HardeningLaw, HardeningTable, range};
 use asperity_solver::scene::{HardeningChoice, Material};
 
 /// Quantity that a parameter stands for.
@@ -97,9 +97,6 @@ pub struct Unknowns {
     pub parameters: Vec<Parameter>,
 }
 
-/// E/σ_y within which a metal can be computed.
-const RATIOS: [f64; 2] = [5.0, 1e6];
-
 const GPA: (&str, f64) = ("GPa", 1e9);
 const MPA: (&str, f64) = ("MPa", 1e6);
 
@@ -177,7 +174,8 @@ impl Unknowns {
         };
         let over = modulus / hardening.yield_stress();
         let elastic = Elastic { youngs_modulus: modulus, poissons_ratio: ratio };
-        (RATIOS[0]..=RATIOS[1]).contains(&over).then_some(Metal { elastic, hardening })
+        let [least, most] = range::MODULUS_OVER_YIELD;
+        (least..=most).contains(&over).then_some(Metal { elastic, hardening })
     }
 
     /// The metal at `point` as a scene gives it, to five digits; `None` where there is none.

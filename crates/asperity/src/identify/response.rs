@@ -84,7 +84,10 @@ pub struct Response {
     pub reached: f64,
 }
 
-/// Answers `question` at `accuracy`, or says why there is no answer.
+/// Answers `question` at `accuracy`.
+///
+/// # Errors
+/// Why there is no answer.
 pub fn respond(question: &Question, accuracy: Accuracy) -> Result<Response, String> {
     match question.geometry {
         Geometry::Sharp { slope_deg } => sharp(question, slope_deg, accuracy),

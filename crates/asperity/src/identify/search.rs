@@ -9,6 +9,7 @@ use super::parameters::Unknowns;
 use super::response::{Question, Response, respond};
 use super::sobol_points;
 use crate::error::Error;
+use asperity_law::range;
 use asperity_solver::scene::Accuracy;
 use nalgebra::{DMatrix, SymmetricEigen};
 use rayon::prelude::*;
@@ -89,10 +90,10 @@ fn go_on(observer: &mut Observer<'_>, share: f64, text: &str) -> Result<(), Erro
 }
 
 fn no_metal() -> Error {
-    Error::Unfinished(
-        "no metal within the bounds can be computed: E/σ_y must be from 5 to 1e6, and tables must not fall"
-            .into(),
-    )
+    let [low, high] = range::MODULUS_OVER_YIELD;
+    Error::Unfinished(format!(
+        "no metal within the bounds can be computed: E/σ_y must be from {low} to {high:e}, and tables must not fall"
+    ))
 }
 
 /// The lowest minimum from points all over the bounds.
@@ -131,6 +132,9 @@ fn least(residuals: &Residuals<'_>, points: &[Vec<f64>]) -> Option<Vec<f64>> {
 }
 
 /// The minimum near `point` with what is expected now; twice, for the covariances move with it.
+///
+/// # Errors
+/// No metal there that can be computed.
 pub fn again(experiments: &[Experiment], unknowns: &Unknowns, point: &[f64]) -> Result<Minimum, Error> {
     let mut minimum = Minimum { point: point.to_vec(), chi2: f64::INFINITY };
     for _ in 0..2 {

@@ -121,7 +121,10 @@ pub fn to_toml(value: &impl Serialize) -> Result<String, String> {
 /// Stands for standard input.
 pub const STANDARD_INPUT: &str = "-";
 
-/// Reads a whole text file, or standard input, with errors a person can act on.
+/// Reads a whole text file, or standard input.
+///
+/// # Errors
+/// Text that cannot be read: its name and what to give instead.
 pub fn read_text(path: &Path) -> Result<String, InputError> {
     let from_input = path == Path::new(STANDARD_INPUT);
     let name = if from_input { "standard input".into() } else { path.display().to_string() };

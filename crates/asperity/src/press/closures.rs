@@ -274,6 +274,9 @@ impl Spaces {
     }
 
     /// The contact of `surface` at `load`, found once.
+    ///
+    /// # Errors
+    /// Why the half-space has none.
     pub fn contact(
         &mut self,
         body: &HalfSpace,

@@ -45,8 +45,6 @@ pub struct SurfaceLine {
     pub points: Vec<[f64; 2]>,
     /// Where the line lies, across its direction, m.
     pub at: f64,
-    /// Points that were not measured and lie straight between their neighbours.
-    pub filled: usize,
 }
 
 /// The row (column) of nodes nearest to `at` (m) across it. Single missing points lie straight between those beside them.
@@ -75,5 +73,5 @@ pub fn line(map: &HeightMap, direction: Direction, at: f64) -> Result<SurfaceLin
         return Err(LineError::Missing { at_um: at * 1e6, missing, nodes });
     }
     // a line through the points beside a gap fills it without points of its own
-    Ok(SurfaceLine { points: measured, at: number as f64 * pixel[across], filled: missing })
+    Ok(SurfaceLine { points: measured, at: number as f64 * pixel[across] })
 }

@@ -3,6 +3,7 @@
 use super::closures::ELASTIC_AREA;
 use super::coefficient::{Coefficient, Nearest};
 use asperity_law::atlas::{Atlas, Contact, SharpCone};
+use asperity_law::bisection::bisect;
 use asperity_law::{Elastic, Hardening};
 use std::f64::consts::PI;
 
@@ -109,13 +110,8 @@ impl Calibrated {
 /// The yield stress with which a metal like `hardening` has the representative stress `stress` at the strain `strain`: the root of
 /// σ_y (1 + E ε/σ_y)ⁿ = `stress`, whose left side grows with σ_y.
 fn yield_stress(hardening: &Hardening, strain: f64, stress: f64) -> f64 {
-    let (mut low, mut high) = (0.0, stress);
-    for _ in 0..200 {
-        let middle = 0.5 * (low + high);
-        let metal = Hardening { yield_stress: middle, ..*hardening };
-        if metal.representative_stress(strain) > stress { high = middle } else { low = middle }
-    }
-    high
+    let of = |yield_stress: f64| Hardening { yield_stress, ..*hardening }.representative_stress(strain);
+    bisect([0.0, stress], 200, |yield_stress| of(yield_stress) <= stress)[1]
 }
 
 #[cfg(test)]

@@ -34,7 +34,7 @@ pub enum Closure {
     Calibrated,
     /// No closure: the whole surface on an elastic half-space, interaction included.
     HalfSpace,
-    /// The same with a pressure cut-off: elastic and perfectly plastic, p ≤ H.
+    /// The same with pressures up to the hardness, else to the plateau of the atlas of cones: elastic and perfectly plastic.
     HalfSpacePlastic,
 }
 
@@ -197,6 +197,9 @@ enum Law {
 
 impl ClosureLaw {
     /// The closure for one material; `coefficient` is the calibration's result.
+    ///
+    /// # Errors
+    /// What of the material or of the calibration is missing, or a closure without islands.
     pub fn new(
         closure: Closure,
         material: &Material,

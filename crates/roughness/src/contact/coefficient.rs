@@ -98,11 +98,17 @@ const COMMITTED: &str = include_str!("../../data/coefficient.toml");
 
 impl Coefficient {
     /// The result of the default sweep that comes with the program; `asperity calibrate` regenerates it.
+    ///
+    /// # Errors
+    /// As for [`Coefficient::from_toml`]: only if the file is damaged.
     pub fn committed() -> Result<Coefficient, CoefficientError> {
         Coefficient::from_toml(COMMITTED)
     }
 
     /// Reads and checks the TOML text of a coefficient file.
+    ///
+    /// # Errors
+    /// Text that is no such file, or the first value that makes no sense with the allowed range.
     pub fn from_toml(text: &str) -> Result<Coefficient, CoefficientError> {
         let read: Coefficient =
             toml::from_str(text).map_err(|e| CoefficientError::Syntax(e.message().into()))?;
@@ -110,6 +116,9 @@ impl Coefficient {
     }
 
     /// The TOML text of this coefficient.
+    ///
+    /// # Errors
+    /// A number that TOML cannot write.
     pub fn to_toml(&self) -> Result<String, CoefficientError> {
         toml::to_string(self).map_err(|e| CoefficientError::Syntax(e.to_string()))
     }

@@ -104,6 +104,9 @@ impl Contact {
 }
 
 /// Presses a plane on `surface` until it carries `load`.
+///
+/// # Errors
+/// A load that no plane carries, with the largest that one does.
 pub fn press(surface: &Surface, model: &ClosureLaw, load: Load) -> Result<Contact, ContactError> {
     let (plane, jump, wanted) = match load {
         Load::Separation(separation) => (surface.parameters.mean + separation, false, None),

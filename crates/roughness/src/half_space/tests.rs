@@ -4,6 +4,7 @@
 
 use super::*;
 use crate::{Grid, HeightMap, Kind, Load, Surface, Target, generate};
+use asperity_law::bisection::bisect;
 use std::f64::consts::PI;
 
 const MODULUS: f64 = 2e11;
@@ -146,11 +147,7 @@ fn saturated_rings(limit: f64, force: f64, outer: f64) -> (f64, f64) {
         }
         p.iter().enumerate().map(|(j, p)| p * ring(j)).sum::<f64>()
     };
-    let (mut low, mut high) = (0.0, outer * outer);
-    for _ in 0..40 {
-        let depth = 0.5 * (low + high);
-        if carried(&mut p, depth) < force { low = depth } else { high = depth }
-    }
+    let [_, high] = bisect([0.0, outer * outer], 40, |depth| carried(&mut p, depth) < force);
     // towards the rim the square of the pressure falls linearly
     let last = p.iter().rposition(|p| *p > 1e-3 * limit).unwrap();
     let (inner, here) = (p[last - 1].powi(2), p[last].powi(2));

@@ -177,7 +177,7 @@ fn check_material(material: &Material) -> Result<(), SceneError> {
     range::poissons_ratio(material.poissons_ratio)
         .map_err(|m| at("poissons_ratio", m + ": metals have 0.25 to 0.35"))?;
     let strengths = [
-        ("material.yield_stress", material.yield_stress, e.0 / 5.0),
+        ("material.yield_stress", material.yield_stress, e.0 / range::MODULUS_OVER_YIELD[0]),
         ("material.hardness", material.hardness, e.0),
     ];
     for (path, value, most) in strengths {

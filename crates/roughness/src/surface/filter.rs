@@ -39,12 +39,18 @@ fn checked(map: &HeightMap, name: &'static str, cutoff: f64) -> Result<(), Filte
 }
 
 /// S-filter: removes what is shorter than `cutoff` (m); a wave of that length keeps half its height.
+///
+/// # Errors
+/// A wavelength shorter than the map resolves or longer than it holds.
 pub fn s_filter(map: &HeightMap, cutoff: f64) -> Result<HeightMap, FilterError> {
     checked(map, "s_filter", cutoff)?;
     Ok(map.with_heights(smoothed(map, cutoff))?)
 }
 
 /// L-filter: removes what is longer than `cutoff` (m); a wave of that length keeps half its height.
+///
+/// # Errors
+/// A wavelength shorter than the map resolves or longer than it holds.
 pub fn l_filter(map: &HeightMap, cutoff: f64) -> Result<HeightMap, FilterError> {
     checked(map, "l_filter", cutoff)?;
     let waviness = smoothed(map, cutoff);
@@ -91,6 +97,9 @@ const SWEEPS: usize = 60;
 
 /// Fills the holes smoothly from their rims: coarser and coarser means, then relaxation towards the mean of the
 /// neighbours. A map without any height stays as it is.
+///
+/// # Errors
+/// None for a map that exists: its grid is kept.
 pub fn fill(map: &HeightMap) -> Result<HeightMap, MapError> {
     if map.missing() == 0 || map.missing() == map.heights().len() {
         return Ok(map.clone());

@@ -119,6 +119,9 @@ fn noise(seed: u64, count: usize) -> Vec<f64> {
 }
 
 /// A surface on a grid; it repeats beyond its edges (but for milled feed marks).
+///
+/// # Errors
+/// Waves that the grid does not hold, or a height and a slope that no surface of the kind has together.
 pub fn generate(kind: Kind, grid: &Grid, target: Target) -> Result<HeightMap, GenerateError> {
     let noise = noise(grid.seed, grid.nodes[0].saturating_mul(grid.nodes[1]));
     let (shape, wanted) = match (kind, target) {

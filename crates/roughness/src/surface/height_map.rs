@@ -72,6 +72,9 @@ impl HeightMap {
     /// A map of `columns` nodes along x and `rows` along y; `heights` (m) row by row, `pixel` = spacing along x and y (m).
     ///
     /// Heights that are not finite count as missing.
+    ///
+    /// # Errors
+    /// A number of heights that is not that of the nodes or too large, or a spacing that is not finite and above 0.
     pub fn new(
         columns: usize,
         rows: usize,
@@ -162,6 +165,9 @@ impl HeightMap {
     }
 
     /// The same grid and edges with these heights (one per node, NaN = missing).
+    ///
+    /// # Errors
+    /// A number of heights that is not that of the nodes.
     pub fn with_heights(&self, heights: Vec<f64>) -> Result<Self, MapError> {
         Ok(HeightMap::new(self.columns, self.rows, self.pixel, heights)?.with_periodic(self.periodic))
     }
@@ -201,7 +207,10 @@ impl HeightMap {
         }
     }
 
-    /// Lowest and highest node, and the number of used cells; an error where there is no cell.
+    /// Lowest and highest node, and the number of used cells.
+    ///
+    /// # Errors
+    /// A map without a cell whose corners were all measured.
     pub fn extent(&self) -> Result<Extent, MapError> {
         // a missing height compares with nothing
         let widened = |(low, high): (f64, f64), z: &f64| {

@@ -73,7 +73,8 @@ impl Graph {
 
 /// The `free` nodes in the order in which to eliminate them; `cells` are elements of `nodes_per_cell` nodes.
 ///
-/// Fails where the graph has more edges than can be counted.
+/// # Errors
+/// A graph with more edges than can be counted.
 pub fn elimination_order(
     cells: &[u32],
     nodes_per_cell: usize,

@@ -97,7 +97,7 @@ const CLOSE: LineSearch = LineSearch { overshoot: 0.05, smallest: 0.003 };
 /// Iterations after which the line search is a close one. Sound increments take half of them.
 const PATIENCE: usize = 15;
 
-/// Solves `system`; also returns the iterations spent when it fails.
+/// Solves `system`.
 ///
 /// 1. assess; after one iteration at least, converged when residual ≤ tolerance × scale and nothing discrete changed;
 /// 2. factorise the tangent, unless the last step did well enough without (see [`Settings::keep`]); find the direction;
@@ -106,6 +106,9 @@ const PATIENCE: usize = 15;
 ///    system may still be a simplified one;
 /// 4. with a kept one: full step. If it overshoots or leaves a larger residual it is taken back, and from there on every
 ///    iteration has a new tangent, so that hard increments are solved by Newton-Raphson in the strict sense.
+///
+/// # Errors
+/// Why it failed, and the iterations spent on it.
 pub fn solve<S: System>(
     system: &mut S,
     settings: &Settings,

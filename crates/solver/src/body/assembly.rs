@@ -64,11 +64,6 @@ impl Response {
     pub fn forget_points(&mut self) {
         self.linearised.clear();
     }
-
-    /// Force on the tool along z, positive in compression.
-    pub fn load(&self) -> f64 {
-        self.contact.iter().map(|e| e.load).sum()
-    }
 }
 
 impl Body<'_> {

@@ -78,22 +78,33 @@ impl<'m> Body<'m> {
         let dofs = Dofs::new(nodes, &order, fixed);
         let points8 = ShapePoint::side_by_side(&quad8::points());
         let points4 = ShapePoint::side_by_side(&quad4::points());
-        let mut volume = Vec::with_capacity(mesh.cell_count() * POINTS);
+        let volume = Vec::with_capacity(mesh.cell_count() * POINTS);
+        let mut body =
+            Body { mesh, symmetry, material, contact, dofs, volume, points8, points4, arch: Arch::new() };
         for cell in 0..mesh.cell_count() {
-            let inside_out = |cause| Failure::Element { cell, cause };
-            let volumes = match mesh.kind {
-                ElementKind::Quad8 => {
-                    let x = gather::<8>(&mesh.nodes, mesh.cell(cell));
-                    motion(&points8, &x, &[[0.0; 2]; 8], symmetry).map_err(inside_out)?.volume
-                }
-                ElementKind::Quad4 => {
-                    let x = gather::<4>(&mesh.nodes, mesh.cell(cell));
-                    motion(&points4, &x, &[[0.0; 2]; 4], symmetry).map_err(inside_out)?.volume
-                }
-            };
-            volume.extend(volumes.0);
+            let volumes = body.volumes_at(&mesh.nodes, cell)?;
+            body.volume.extend(volumes);
         }
-        Ok(Body { mesh, symmetry, material, contact, dofs, volume, points8, points4, arch: Arch::new() })
+        Ok(body)
+    }
+
+    /// Volumes of the integration points of `cell` with the nodes of the mesh at `position`.
+    ///
+    /// # Errors
+    /// The element is inside out there.
+    pub fn volumes_at(&self, position: &[[f64; 2]], cell: usize) -> Result<[f64; POINTS], Failure> {
+        let nodes = self.mesh.cell(cell);
+        let volume = match self.mesh.kind {
+            ElementKind::Quad8 => {
+                let x = gather::<8>(position, nodes);
+                motion(&self.points8, &x, &[[0.0; 2]; 8], self.symmetry).map(|motion| motion.volume)
+            }
+            ElementKind::Quad4 => {
+                let x = gather::<4>(position, nodes);
+                motion(&self.points4, &x, &[[0.0; 2]; 4], self.symmetry).map(|motion| motion.volume)
+            }
+        };
+        volume.map(|volume| volume.0).map_err(|cause| Failure::Element { cell, cause })
     }
 
     /// The edges of the free surface with the nodes of the mesh at `nodes`, in its order; none without a tool.

@@ -4,14 +4,13 @@
 //! interpolated there from the four points of that element, bilinearly, and so is the first place of its metal from the nodes. A cell
 //! that stays keeps its state to the bit.
 
-use crate::body::discrete_body::{Body, gather};
+use crate::body::discrete_body::Body;
 use crate::body::energy::contact_sums;
 use crate::body::state::State;
 use crate::contact::self_contact::Facing;
 use crate::element::kernel::{GAUSS, POINTS};
 use crate::element::{quad4, quad8};
 use crate::point::bdf2::{PlasticIncrement, exponential_minus_identity};
-use crate::point::kinematics::motion;
 use crate::point::material::{PointState, Spectral, volume_ratio};
 use crate::point::tensor::{Sym, contract, trace};
 use asperity_mesh::{ElementKind, Mesh};
@@ -172,22 +171,6 @@ fn weights([xi, eta]: [f64; 2], points: &[PointState]) -> [f64; POINTS] {
     std::array::from_fn(|i| between[i] + share * (beyond[i] - between[i]))
 }
 
-/// Reference volumes of the points of a cell: current ones over the volume ratios.
-fn current_volumes(body: &Body<'_>, position: &[[f64; 2]], cell: usize) -> Option<[f64; POINTS]> {
-    let nodes = body.mesh.cell(cell);
-    let volume = match body.mesh.kind {
-        ElementKind::Quad8 => {
-            let x = gather::<8>(position, nodes);
-            motion(&body.points8, &x, &[[0.0; 2]; 8], body.symmetry).ok()?.volume
-        }
-        ElementKind::Quad4 => {
-            let x = gather::<4>(position, nodes);
-            motion(&body.points4, &x, &[[0.0; 2]; 4], body.symmetry).ok()?.volume
-        }
-    };
-    Some(volume.0)
-}
-
 /// Deviator of a strain.
 fn deviator(strain: &Sym) -> Sym {
     let mean = trace(strain) / 3.0;
@@ -276,7 +259,7 @@ fn carried_over(body: &Body<'_>, state: &State, places: &[[f64; 2]]) -> Option<C
             };
             (carried.origin[node], carried.displacement[node]) = (at(&state.origin), at(&state.displacement));
         }
-        let volumes = current_volumes(body, places, cell)?;
+        let volumes = body.volumes_at(places, cell).ok()?;
         let gauss = [[-GAUSS, -GAUSS], [GAUSS, -GAUSS], [GAUSS, GAUSS], [-GAUSS, GAUSS]];
         for ((q, xi), volume) in Body::points_of(cell).zip(gauss).zip(volumes) {
             let (value, _) = shape(mesh.kind, xi);

@@ -4,6 +4,7 @@
 use crate::contact::tool::Tool;
 use crate::point::kinematics::Symmetry;
 use crate::point::material::Metal;
+use asperity_law::bisection::bisect;
 use asperity_mesh::profile::{Asperity, Profile};
 use std::f64::consts::{FRAC_2_PI, PI};
 
@@ -60,18 +61,10 @@ const STRAIGHT: f64 = 0.1;
 /// Half width over which the outlines of `asperity` and of the tool above it overlap at `depth`.
 fn half_width_under(asperity: &Asperity, mirrored: Option<&Asperity>, depth: f64) -> f64 {
     let Some(tool) = mirrored else { return asperity.half_width(depth) };
-    let (mut low, mut high) = (0.0, asperity.half_width(depth).min(tool.half_width(depth)));
-    for _ in 0..60 {
-        let middle = 0.5 * (low + high);
-        // of an outline that is not symmetric, on the side where the two overlap further
-        let drop = asperity.drop(middle).min(asperity.drop(-middle));
-        if drop + tool.drop(middle) < depth {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    high
+    let widest = asperity.half_width(depth).min(tool.half_width(depth));
+    // of an outline that is not symmetric, on the side where the two overlap further
+    let overlap = |x: f64| asperity.drop(x).min(asperity.drop(-x)) + tool.drop(x) < depth;
+    bisect([0.0, widest], 60, overlap)[1]
 }
 
 /// Area of a contact of this centre and half width; its width in plane strain.
@@ -110,16 +103,27 @@ pub fn resolved_from(profile: &Profile, tool: &Tool, first: &[f64], last: &[f64]
 /// Mean contact pressure to be expected at `depth`, in units of E. Only the penalty is scaled with it.
 pub fn expected_pressure(metal: &Metal, profile: &Profile, tool: &Tool, depth: f64) -> f64 {
     let slope_of = |a: &Asperity| a.slope_at(SPREAD * a.half_width(depth));
-    pressure_under(metal, tool.mirrored().iter().chain(&profile.asperities).map(slope_of).fold(0.0, f64::max))
+    let slope = tool.mirrored().iter().chain(&profile.asperities).map(slope_of).fold(0.0, f64::max);
+    pressure_under(metal, slope, 0.0)
 }
 
+/// Mean pressure of a fully plastic contact over σ_r (Tabor, The Hardness of Metals, 1951).
+const FULLY_PLASTIC: f64 = 2.8;
+
+/// Representative strain ε_r over tan β, rounded: estimates need no more.
+const STRAIN_PER_SLOPE: f64 = 0.1;
+
 /// Mean contact pressure to be expected under outlines of this slope (tangent) at the edge of the contact, in units of E: ½E* tan β of the
-/// elastic cone and 2.8 σ_r of full plasticity (ε_r ≈ 0.1 tan β), joined harmonically.
-pub fn pressure_under(metal: &Metal, slope: f64) -> f64 {
+/// elastic cone and that of full plasticity, joined harmonically. Earlier loads `hardened` the metal to this yield stress, 0 where it
+/// is virgin.
+pub fn pressure_under(metal: &Metal, slope: f64, hardened: f64) -> f64 {
     let elastic = 0.5 * metal.elastic.reduced_modulus() * slope;
     match &metal.hardening {
         None => elastic,
-        Some(h) => 1.0 / (1.0 / elastic + 1.0 / (2.8 * h.representative_stress(0.1 * slope))),
+        Some(h) => {
+            let strength = h.representative_stress(STRAIN_PER_SLOPE * slope).max(hardened);
+            1.0 / (1.0 / elastic + 1.0 / (FULLY_PLASTIC * strength))
+        }
     }
 }
 
@@ -129,7 +133,7 @@ pub fn pressure_under(metal: &Metal, slope: f64) -> f64 {
 pub fn contact_ratio(metal: &Metal, tan: f64, indents: bool) -> f64 {
     let Some(hardening) = &metal.hardening else { return FRAC_2_PI };
     let exponent = hardening.exponent(metal.elastic.youngs_modulus);
-    let x = metal.elastic.reduced_modulus() * tan / hardening.representative_stress(0.1 * tan);
+    let x = metal.elastic.reduced_modulus() * tan / hardening.representative_stress(STRAIN_PER_SLOPE * tan);
     let pile_up = if indents { 0.3 * (1.0 - exponent) * tan } else { 0.0 };
     let plastic = 1.08 - 0.6 * exponent + pile_up;
     FRAC_2_PI + (plastic - FRAC_2_PI) * (x / (x + 6.0)).powi(2)
@@ -160,14 +164,6 @@ pub fn expected_depth(
         pressure * areas.sum::<f64>()
     };
     // the carried force grows with the depth: bisection in the logarithm over any physical size
-    let (mut low, mut high) = (1e-15_f64.ln(), 1e6_f64.ln());
-    for _ in 0..200 {
-        let middle = 0.5 * (low + high);
-        if carried(middle.exp()) < force {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
+    let [low, high] = bisect([1e-15_f64.ln(), 1e6_f64.ln()], 200, |depth| carried(depth.exp()) < force);
     (0.5 * (low + high)).exp()
 }

@@ -7,7 +7,7 @@ use crate::point::material::Metal;
 use crate::run::a_priori::{contact_ratio, expected_pressure, far_field};
 use crate::run::compliance::Compliance;
 use crate::run::discretisation::ConeDiscretisation;
-use crate::run::problem::{Correction, Goal, Problem, Rules, Units, held_nodes};
+use crate::run::problem::{Goal, Problem, Rules, Units, held_nodes};
 use crate::scene::Lateral;
 use asperity_mesh::build::{SelfSimilar, self_similar};
 use asperity_mesh::profile::{Asperity, Profile, Shape};
@@ -24,7 +24,7 @@ pub struct Cone {
 }
 
 impl Cone {
-    /// Loading to the depth 1. Energies are not kept and a far field is added to the depth: the mesh is a part of a half space.
+    /// Loading to the depth 1. A far field is added to the depth: the mesh is a part of a half space.
     pub fn problem(&self, discretisation: &ConeDiscretisation) -> Problem {
         let ConeDiscretisation { numbers, sizes, .. } = *discretisation;
         let tan = self.slope_deg.to_radians().tan();
@@ -56,7 +56,6 @@ impl Cone {
             held: held_nodes(&mesh, symmetry, Lateral::Free),
             mesh,
             numbers,
-            automatic_size: Some(domain),
             cut_off: 0.0,
             goal: Goal::Depth(1.0),
             unload: false,
@@ -65,7 +64,6 @@ impl Cone {
                 far_field: far_field(&self.metal, domain),
                 compliance: Compliance::NONE,
                 area_growth: f64::INFINITY,
-                correction: Correction::PlasticShare,
             },
             formed: None,
             start: None,

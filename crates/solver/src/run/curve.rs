@@ -70,15 +70,6 @@ impl Curve {
         Some(if v1 > v0 { h0 + (h1 - h0) * (root - v0) / (v1 - v0) } else { h1 })
     }
 
-    /// Largest exponent p of value ∝ depthᵖ within a tenth of the peak depth, over depths that count: 2 for a sharp cone,
-    /// far more where flat metal comes into contact at once.
-    pub fn steepness(&self) -> f64 {
-        let (peak, span) = (self.end(), 0.1 * self.end());
-        let exponent = |to: f64| (self.at(to) / self.at(to - span)).ln() / (to / (to - span)).ln();
-        let ends = (0..=28).map(|i| peak * (COUNTS_FROM + 0.1 + 0.025 * f64::from(i)));
-        ends.map(exponent).filter(|p| p.is_finite()).fold(0.0, f64::max)
-    }
-
     /// The relative differences from `reference`, over depths of 0.2 to 1 of `peak`.
     pub fn differences(&self, reference: impl Fn(f64) -> f64, peak: f64) -> impl Iterator<Item = f64> {
         (0..=160).map(move |i| {

@@ -80,18 +80,11 @@ impl Formed {
         self.widest(profile, tool, COUNTS_FROM * depth) / self.widest(profile, tool, reach)
     }
 
-    /// Mean contact pressure to be expected at `depth`, in units of E: that of an elastic contact of this depth and width, and 2.8
-    /// times the yield stress, joined harmonically. Only the penalty is scaled with it.
+    /// Mean contact pressure to be expected at `depth`, in units of E: that of a contact of this depth and
+    /// width in metal of its yield stress. Only the penalty is scaled with it.
     fn expected_pressure(&self, metal: &Metal, profile: &Profile, tool: &Tool, depth: f64) -> f64 {
         let slope = depth / self.widest(profile, tool, depth);
-        let elastic = 0.5 * metal.elastic.reduced_modulus() * slope;
-        match &metal.hardening {
-            None => elastic,
-            Some(h) => {
-                let strength = h.representative_stress(0.1 * slope).max(self.yield_stress);
-                1.0 / (1.0 / elastic + 1.0 / (2.8 * strength))
-            }
-        }
+        a_priori::pressure_under(metal, slope, self.yield_stress)
     }
 }
 

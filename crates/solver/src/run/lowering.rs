@@ -16,6 +16,7 @@ use crate::contact::tool::Tool;
 use crate::point::kinematics::Symmetry;
 use crate::point::material::Metal;
 use crate::run::a_priori::{Meeting, area, meetings, pressure_under};
+use asperity_law::bisection::bisect;
 use asperity_mesh::profile::Profile;
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -47,7 +48,8 @@ pub fn own_depths(metal: &Metal, profile: &Profile, tool: &Tool, support: &Suppo
     }
     let load = |meeting: &Meeting<'_>, own: f64| {
         let half_width = meeting.half_width(own);
-        pressure_under(metal, meeting.slope(half_width)) * area(support.symmetry, meeting.centre, half_width)
+        pressure_under(metal, meeting.slope(half_width), 0.0)
+            * area(support.symmetry, meeting.centre, half_width)
     };
     let mut own = vec![0.0; free.len()];
     let mut loads = vec![0.0; free.len()];
@@ -77,17 +79,8 @@ pub fn own_depths(metal: &Metal, profile: &Profile, tool: &Tool, support: &Suppo
 }
 
 /// Where `excess`, which grows, is 0 between 0 and `high`.
-fn root(excess: impl Fn(f64) -> f64, mut high: f64) -> f64 {
-    let mut low = 0.0;
-    for _ in 0..60 {
-        let middle = 0.5 * (low + high);
-        if excess(middle) < 0.0 {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    high
+fn root(excess: impl Fn(f64) -> f64, high: f64) -> f64 {
+    bisect([0.0, high], 60, |x| excess(x) < 0.0)[1]
 }
 
 impl Support {

@@ -9,7 +9,7 @@ use crate::run::curve::COUNTS_FROM;
 use crate::run::discretisation::Discretisation;
 use crate::run::formed::{Formed, expected_pressure};
 use crate::run::lowering::{Support, own_depths};
-use crate::run::problem::{Correction, Goal, Problem, Rules, Units, held_nodes};
+use crate::run::problem::{Goal, Problem, Rules, Units, held_nodes};
 use crate::scene::{
     AsperityForm, ElementChoice, Lateral, Line, LineAsperity, Scene, SceneError, Target, ToolForm,
 };
@@ -104,14 +104,7 @@ pub(super) fn prepare_with(
     let metal = metal(scene);
     let (profile, tool) = bodies(scene, depth)?;
     let units = Units::new(depth, scene.material.elastic().youngs_modulus, symmetry);
-    // a force may be found somewhat deeper than expected: the mesh reaches as far
-    let (goal, reach) = match scene.loading.target().map_err(|e| within("loading", e))? {
-        Target::Depth(asked) => (Goal::Depth(asked / depth), 1.0),
-        Target::Force(force) => {
-            let limit = PROBED.min(scene.deepest() / depth);
-            (Goal::Force { force: force / units.force, expected_depth: 1.0, limit }, PROBED)
-        }
-    };
+    let (goal, reach) = goal_and_reach(scene, &units)?;
     let formed = expected.formed.as_ref().map(|formed| formed.over(depth));
     let substrate = scene.substrate.as_ref().and_then(|s| s.depth);
     let support = Support {
@@ -119,7 +112,8 @@ pub(super) fn prepare_with(
         cell: scene.has_repeated_asperities().then(|| extent(scene, &profile, &[], depth)),
         depth: substrate.map(|l| profile.height() + l.0 / depth),
     };
-    let own_depths_at = |depth: f64| own_depths(&metal, &profile, &tool, &support, depth);
+    let own_depths_under = |tool: &Tool, depth: f64| own_depths(&metal, &profile, tool, &support, depth);
+    let own_depths_at = |depth: f64| own_depths_under(&tool, depth);
     // on a surface that was formed the whole depth
     let indents = match formed {
         None => own_depths_at(1.0).into_iter().fold(0.0, f64::max),
@@ -127,14 +121,7 @@ pub(super) fn prepare_with(
     };
     let own = Contacts::of(&profile, &tool, formed.as_ref(), &own_depths_at, [1.0, reach]);
     let half_widths = own.half_widths.clone();
-    let mut contacts = own;
-    for (load, earlier) in scene.earlier_loads().iter().zip(&expected.earlier) {
-        let tool = tool_over(load.tool.form().map_err(|e| within("tool", e))?, depth);
-        let formed = earlier.formed.as_ref().map(|formed| formed.over(depth));
-        let deep = earlier.depth / depth;
-        let own_depths_at = |depth: f64| own_depths(&metal, &profile, &tool, &support, depth);
-        contacts = contacts.and(&Contacts::of(&profile, &tool, formed.as_ref(), &own_depths_at, [deep; 2]));
-    }
+    let contacts = with_earlier_contacts(own, scene, expected, &profile, &own_depths_under)?;
     let row = extent(scene, &profile, &contacts.half_widths, depth);
     let size = automatic_size(&numbers, &profile, &contacts.half_widths).max(3.0 * (row[1] - row[0]));
     let pressure = expected_pressure(formed.as_ref(), &metal, &profile, &tool, indents);
@@ -164,7 +151,6 @@ pub(super) fn prepare_with(
         far_field: if half_space { a_priori::far_field(&metal, size) } else { 0.0 },
         compliance: Compliance::of(scene, &units),
         area_growth: AREA_GROWTH,
-        correction: Correction::PlasticShare,
     };
     Ok(Problem {
         units,
@@ -177,7 +163,6 @@ pub(super) fn prepare_with(
         held: held_nodes(&mesh, symmetry, scene.lateral),
         mesh,
         numbers,
-        automatic_size: automatic.then_some(size),
         cut_off,
         goal,
         unload: scene.loading.unload,
@@ -188,13 +173,43 @@ pub(super) fn prepare_with(
     })
 }
 
+/// Where loading ends, and how deep the mesh is to reach over the expected depth: a force may be found somewhat deeper than expected.
+fn goal_and_reach(scene: &Scene, units: &Units) -> Result<(Goal, f64), SceneError> {
+    Ok(match scene.loading.target().map_err(|e| within("loading", e))? {
+        Target::Depth(asked) => (Goal::Depth(asked / units.length), 1.0),
+        Target::Force(force) => {
+            let limit = PROBED.min(scene.deepest() / units.length);
+            (Goal::Force { force: force / units.force, expected_depth: 1.0, limit }, PROBED)
+        }
+    })
+}
+
+/// `contacts` and those of the earlier loads of `scene` on one mesh, lengths over the depth that is `expected` now.
+fn with_earlier_contacts(
+    mut contacts: Contacts,
+    scene: &Scene,
+    expected: &Expected,
+    profile: &Profile,
+    own_depths_under: &dyn Fn(&Tool, f64) -> Vec<f64>,
+) -> Result<Contacts, SceneError> {
+    for (load, earlier) in scene.earlier_loads().iter().zip(&expected.earlier) {
+        let tool = tool_over(load.tool.form().map_err(|e| within("tool", e))?, expected.depth);
+        let formed = earlier.formed.as_ref().map(|formed| formed.over(expected.depth));
+        let deep = earlier.depth / expected.depth;
+        let own_depths_at = |depth: f64| own_depths_under(&tool, depth);
+        contacts = contacts.and(&Contacts::of(profile, &tool, formed.as_ref(), &own_depths_at, [deep; 2]));
+    }
+    Ok(contacts)
+}
+
 /// The contacts that a mesh is made for.
 struct Contacts {
     /// Their half widths, one for each asperity.
     half_widths: Vec<f64>,
     /// Half width of the widest from which it is to be resolved.
     resolved_from: f64,
-    /// How many times finer elements are at the least half width than they would be if all had one size, over their number.
+    /// Elements in the half width times the width of a shell of them over its distance from the centre: 1 for the core, and the logarithm
+    /// of the half width over that of the core for the shells around it.
     graded: f64,
 }
 

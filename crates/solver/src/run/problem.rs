@@ -7,6 +7,7 @@ use crate::contact::tool::Tool;
 use crate::point::kinematics::Symmetry;
 use crate::point::material::Metal;
 use crate::run::compliance::Compliance;
+use crate::run::curve::COUNTS_FROM;
 use crate::run::discretisation::Discretisation;
 use crate::run::equilibrium::Equilibrium;
 use crate::run::formed::{Formed, expected_pressure};
@@ -60,15 +61,6 @@ pub enum Goal {
     },
 }
 
-/// How the penetration of the penalty is taken off the travel: see [`crate::contact::penalty_correction`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Correction {
-    /// By its mean, weighted with the pressure.
-    Mean,
-    /// Between that of an elastic body and the mean, as the plastic work decides: energies are computed for it.
-    PlasticShare,
-}
-
 /// How a load path goes and what it counts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rules {
@@ -78,8 +70,6 @@ pub struct Rules {
     pub compliance: Compliance,
     /// An increment in which the contact area grows by more than this factor is halved, as long as halvings are left.
     pub area_growth: f64,
-    /// How the penetration is taken off the travel.
-    pub correction: Correction,
 }
 
 impl Rules {
@@ -115,8 +105,6 @@ pub struct Problem {
     pub held: Vec<[bool; 2]>,
     /// The discretisation used.
     pub numbers: Discretisation,
-    /// Size of the substrate if the program chose it; else it is part of what was asked for.
-    pub automatic_size: Option<f64>,
     /// Height of what the mesh cuts off a steep tip: the tool touches the mesh where it is that deep.
     pub cut_off: f64,
     /// Where the first loading ends: the estimated depth there is 1.
@@ -157,16 +145,17 @@ impl Problem {
         if tool > 0.0 { (body.recip() + tool).recip() } else { body }
     }
 
-    /// Contact pressure per penetration at `travel`: the penetration is the same share of every depth, so that early contact is as
-    /// good as late.
+    /// Contact pressure per penetration at `travel`: the penetration is the same share of every depth from which errors count,
+    /// so that early contact is as good as late.
     pub fn penalty_at(&self, travel: f64) -> f64 {
-        let depth = travel.max(FIRST_TOUCH);
+        let depth = travel.max(COUNTS_FROM);
         let formed = self.formed.as_ref();
         let pressure = |depth| expected_pressure(formed, &self.metal, &self.profile, &self.tool, depth);
         self.penalty * pressure(depth) / (pressure(1.0) * depth)
     }
 
-    /// Travel beyond the depth at the peak to be expected before the first increment shows it; 0 with multipliers.
+    /// Travel less the depth at the peak, to be expected before the first increment shows it: the penetration, 0 with multipliers, less
+    /// what tool and machine give way.
     pub fn expected_penetration(&self) -> f64 {
         match (self.numbers.contact, self.goal) {
             // what tool and machine give way is no travel
@@ -180,9 +169,6 @@ impl Problem {
         }
     }
 }
-
-/// Share of the peak depth below which the penalty is no longer stiffened: errors are promised from there on, elements grow no smaller.
-const FIRST_TOUCH: f64 = 0.2;
 
 /// Which displacement components of each node are fixed: both at the base, that across at the axis and at symmetric sides.
 pub fn held_nodes(mesh: &Mesh, symmetry: Symmetry, lateral: Lateral) -> Vec<[bool; 2]> {

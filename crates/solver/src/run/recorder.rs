@@ -5,7 +5,7 @@ use crate::body::fields::{Fields, SurfacePoint, fields};
 use crate::body::islands::{Island, extent, gaps, islands};
 use crate::point::kinematics::Symmetry;
 use crate::run::equilibrium::{Counters, Equilibrium};
-use crate::run::load_path::{Energies, Increment, Path, Stop};
+use crate::run::load_path::{Increment, Path, Stop};
 use crate::run::problem::{Goal, Problem};
 use crate::run::record::{
     AsperityRow, CurveRow, CycleRow, Errors, GapRow, Phase, Summary, balance_error, work_along,
@@ -163,8 +163,7 @@ impl<'p> Recorder<'p> {
     ) -> bool {
         let (u, contact, state) = (self.problem.units, &increment.contact, model.state());
         let number = self.rows.len();
-        let energies = increment.energies;
-        let energy = |of: fn(&Energies) -> f64| energies.as_ref().map_or(f64::NAN, of) * u.energy;
+        let energies = &increment.energies;
         let row = CurveRow {
             increment: number,
             phase: increment.phase,
@@ -173,9 +172,9 @@ impl<'p> Recorder<'p> {
             contact_area: contact.area * u.area,
             contact_radius: self.radius(model, contact) * u.length,
             mean_pressure: if contact.area > 0.0 { contact.force / contact.area * u.stress } else { 0.0 },
-            external_work: energy(|e| e.external_work),
-            elastic_energy: energy(|e| e.elastic),
-            plastic_work: energy(|e| e.plastic),
+            external_work: energies.external_work * u.energy,
+            elastic_energy: energies.elastic * u.energy,
+            plastic_work: energies.plastic * u.energy,
             contact_energy: (contact.energy + state.self_contact_energy - state.remeasured_energy())
                 * u.energy,
             transfer_energy: state.transferred * u.energy,

@@ -24,6 +24,9 @@ use std::path::Path;
 type Reader = fn(&Path) -> Result<Measured, ReadError>;
 
 /// Reads a surface file, told apart by its first bytes, else by its name.
+///
+/// # Errors
+/// A file that cannot be read, is of no known format, or is damaged.
 pub fn read(path: &Path) -> Result<Measured, ReadError> {
     let mut start = Vec::new();
     File::open(path)?.take(16).read_to_end(&mut start)?;

@@ -18,8 +18,8 @@ pub struct Increment {
     pub contact: ContactSums,
     /// Deflection of tool and machine, a part of the depth.
     pub compliance_depth: f64,
-    /// Energies, where the rules need them.
-    pub energies: Option<Energies>,
+    /// Energies since the first touch.
+    pub energies: Energies,
     /// Newton iterations since the last increment.
     pub newton_iterations: usize,
 }

@@ -4,7 +4,7 @@ use super::increment::{Increment, Observer, Stop};
 use super::path::{ContactLoad, NEVER, Path, StopAt};
 use super::touches::Touches;
 use crate::body::energy::ContactSums;
-use crate::run::problem::{Correction, Goal};
+use crate::run::problem::Goal;
 use crate::run::record::Phase;
 
 /// Times that the last increment is halved where it does not meet its goal.
@@ -61,13 +61,8 @@ impl Path<'_> {
     /// that went into flow.
     fn tolerance(&self) -> f64 {
         let asked = self.problem.numbers.newton_tolerance;
-        match self.rules().correction {
-            Correction::PlasticShare => {
-                let share = ELASTIC + (1.0 - ELASTIC) * self.plastic_share;
-                (share * asked).max(asked.min(FINEST))
-            }
-            _ => asked,
-        }
+        let share = ELASTIC + (1.0 - ELASTIC) * self.plastic_share;
+        (share * asked).max(asked.min(FINEST))
     }
 
     /// Loads to `goal` along `fractions` of its depth; `penetration` is the expected one.

@@ -7,11 +7,10 @@ use crate::body::energy::{
 };
 use crate::body::failure::Failure as BodyFailure;
 use crate::body::remesh::LOADED;
-use crate::body::surface::Surface;
 use crate::contact::penalty_correction::Punches;
 use crate::run::equilibrium::{Equilibrium, SolveFailure};
 use crate::run::journal::{Journal, solve_or_recall};
-use crate::run::problem::{Correction, Problem, Rules};
+use crate::run::problem::{Problem, Rules};
 use crate::run::record::Phase;
 use crate::run::tool_stiffness::ToolStiffness;
 use crate::scene::ContactMethod;
@@ -246,21 +245,14 @@ impl<'p> Path<'p> {
     }
 
     pub(super) fn sums(&self) -> ContactSums {
-        self.corrected(self.punches(&self.model.trial_surface()))
-    }
-
-    /// Punches under `surface`, where the correction of the penetration asks for them.
-    fn punches(&self, surface: &Surface<'_>) -> Option<Punches> {
-        (self.rules().correction == Correction::PlasticShare).then(|| surface.under_punches())
+        self.corrected(&self.model.trial_surface().under_punches())
     }
 
     /// The sums over the contact, their penetration that to be taken off the travel.
-    fn corrected(&self, punches: Option<Punches>) -> ContactSums {
+    fn corrected(&self, punches: &Punches) -> ContactSums {
         let mut sums = contact_sums(self.model.contacts().iter(), self.model.body().symmetry);
-        if let Some(punches) = punches {
-            sums.penetration =
-                punches.penetration + self.plastic_share * (sums.penetration - punches.penetration);
-        }
+        sums.penetration =
+            punches.penetration + self.plastic_share * (sums.penetration - punches.penetration);
         sums
     }
 
@@ -279,19 +271,17 @@ impl<'p> Path<'p> {
         let before = (self.force, self.slope);
         // loading is close to a parabola but at its start, whose power only the slope tells (1 of a ridge, 2 of a cone); unloading
         // bends less the flatter the contact has become; so there the slope is asked for, which costs one solve
-        let counts = self.rules().correction == Correction::PlasticShare;
-        let starts = phase == Phase::Load && before.0 <= 0.0;
-        let asked = counts && (starts || phase != Phase::Load);
+        let asked = before.0 <= 0.0 || phase != Phase::Load;
         self.slope = asked.then(|| self.model.tool_stiffness().ok().map(|s| self.follows(&s))).flatten();
         self.model.accept().map_err(|_| Stop::Distorted)?;
-        let punches = self.punches(&self.model.converged_surface());
-        let contact = self.corrected(punches);
+        let punches = self.model.converged_surface().under_punches();
+        let contact = self.corrected(&punches);
         let step = travel - self.travel;
         (self.travel, self.last_step, self.force, self.area) = (travel, step, contact.force, contact.area);
         self.penetration = contact.penetration;
         self.deepest = self.deepest.max(travel);
         self.increments += 1;
-        let energies = punches.map(|punches| self.count(before, step, phase, &punches));
+        let energies = self.count(before, step, phase, &punches);
         self.earlier = Some([before.0, step]);
         let depth = self.depth(travel, ContactLoad::of(&contact));
         let met = |asked: &f64| (depth / asked - 1.0).abs() < 2.0 * MET;
@@ -338,8 +328,7 @@ impl<'p> Path<'p> {
         self.spent += spent;
         if done {
             self.earlier = None;
-            let punches = self.punches(&self.model.converged_surface());
-            let contact = self.corrected(punches);
+            let contact = self.corrected(&self.model.converged_surface().under_punches());
             (self.force, self.area, self.penetration) = (contact.force, contact.area, contact.penetration);
         }
         done

@@ -25,6 +25,9 @@ impl Path<'_> {
     /// alone: there the force is zero and the depth that of its highest point. `stiffness` is that of the peak.
     ///
     /// Travels follow F ∝ (1 - u/u₀)^1.25 with u₀ = 1.25 F/S; the last few percent of the force are not chased.
+    ///
+    /// # Errors
+    /// Why it stopped on its way.
     pub fn unload(
         &mut self,
         stiffness: ToolStiffness,
@@ -115,6 +118,9 @@ impl Path<'_> {
 
     /// Goes back to `goal`, the end of the first loading, along the travels of the last unloading in reverse: metal that
     /// stays elastic then passes through the same states, and what its work differs by is hysteresis alone.
+    ///
+    /// # Errors
+    /// Why it stopped on its way.
     pub fn reload(&mut self, goal: Goal, observer: &mut Observer<'_>) -> Result<(), Stop> {
         let mut travels = std::mem::take(&mut self.unloading_travels);
         let peak = if travels.is_empty() { self.travel } else { travels.remove(0) };
