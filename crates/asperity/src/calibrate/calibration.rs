@@ -198,7 +198,7 @@ fn fit_text(fit: &Fit) -> String {
             );
             writeln!(
                 text,
-                "          {model} model: other ranges of metals and slopes; the law is {law} in all of them"
+                "          {model} model: over parts of these metals and slopes; the law is {law} in all of them"
             )
         }
         _ => writeln!(text, "c         {}", fit.reason.as_deref().unwrap_or_default()),

@@ -99,7 +99,7 @@ fn coefficients(numbers: &Numbers) -> Markup {
     };
     let mut rows = vec![
         one("c by least squares; other cases drawn, K shifted by its error", "/coefficient", Some("/ci95")),
-        one("the same; other ranges of metals and slopes", "/coefficient", Some("/model_interval")),
+        one("the same; over parts of the metals and slopes", "/coefficient", Some("/model_interval")),
         one("c as the mean of εᵣ/tan β", "/coefficient_mean_ratio", None),
         one("c where plasticity is developed", "/developed/coefficient", Some("/developed/ci95")),
         one("c as published", "/published", None),

@@ -94,7 +94,7 @@ fn numbers(results: &Results) -> Vec<Number> {
         ("coefficient_high", "to", interval.map(|i| i[1]), 3),
         (
             "coefficient_model_low",
-            "interval of the model (other ranges of metals and slopes), from",
+            "interval of the model (over parts of the metals and slopes), from",
             model.map(|i| i[0]),
             3,
         ),
