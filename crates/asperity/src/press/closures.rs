@@ -4,7 +4,7 @@ use super::half_space::{self, SpaceContact};
 use super::scene::RoughScene;
 use crate::error::InputError;
 use asperity_roughness::half_space::{HalfSpace, HalfSpaceContact, HalfSpaceError, PressureLimit};
-use asperity_roughness::scene::{Choice, SceneError};
+use asperity_roughness::scene::{Choice, Scene, SceneError};
 use asperity_roughness::{
     Closure, ClosureLaw, Coefficient, Contact, ContactError, CurvePoint, Load, PressureField,
     SINGLE_ASPERITY_EXPONENT, Surface, Unloading, press, unload,
@@ -201,7 +201,7 @@ pub(super) fn press_by(
         return match pressed {
             Ok(one) => {
                 let nominal = if asked > 0.0 { asked } else { one.contact.pressure };
-                let warnings = space_remarks(closure, &one);
+                let warnings = space_remarks(closure, &one, tables);
                 Ok((Some(made(Body::HalfSpace(Box::new(one)), sneddon, nominal)), warnings))
             }
             Err(e) if all => Ok((
@@ -316,7 +316,7 @@ pub(super) fn judge(
     }
 }
 
-fn space_remarks(closure: Closure, one: &SpaceContact) -> Warnings {
+fn space_remarks(closure: Closure, one: &SpaceContact, scene: &Scene) -> Warnings {
     let leaks = one.passages.iter().filter_map(|p| p.leak);
     let unbalanced = leaks.filter(|l| l.imbalance > 1e-2).map(|l| {
         format!(
@@ -333,7 +333,14 @@ fn space_remarks(closure: Closure, one: &SpaceContact) -> Warnings {
             100.0 * area.error / area.ratio
         )
     });
-    unbalanced.chain(coarse).collect()
+    let ends = (one.has_ends_only() && scene.half_space.load_points.is_none()).then(|| {
+        format!(
+            "{}: on so large a map the load curve has first touch and the load alone: for points between them give half_space.load_points \
+             (--set half_space.load_points=6), each of which takes about as long as the load",
+            closure.name()
+        )
+    });
+    unbalanced.chain(coarse).chain(ends).collect()
 }
 
 fn remarks(closure: Closure, one: &IslandContact, coefficient: Option<&Coefficient>) -> Warnings {
