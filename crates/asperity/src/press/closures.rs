@@ -343,6 +343,9 @@ fn space_remarks(closure: Closure, one: &SpaceContact, scene: &Scene) -> Warning
     unbalanced.chain(coarse).chain(ends).collect()
 }
 
+/// Share of the load below which nothing is said of it: no number moves by more.
+const SEEN: f64 = 5e-3;
+
 fn remarks(closure: Closure, one: &IslandContact, coefficient: Option<&Coefficient>) -> Warnings {
     let name = closure.name();
     let mut remarks = Vec::new();
@@ -352,7 +355,7 @@ fn remarks(closure: Closure, one: &IslandContact, coefficient: Option<&Coefficie
             one.contact.load_error.unwrap_or(0.0)
         ));
     }
-    if let Some(share) = one.contact.outside_share.filter(|s| *s > 0.0) {
+    if let Some(share) = one.contact.outside_share.filter(|s| *s > SEEN) {
         remarks.push(format!(
             "{name}: {:.1} % of the load is on asperities outside the ranges of the calibration and of the atlas of cones",
             100.0 * share
@@ -367,10 +370,15 @@ fn remarks(closure: Closure, one: &IslandContact, coefficient: Option<&Coefficie
     if let Some(unloading) = &one.unloading
         && let Some(law) = unloading.elastic_share_by_law.filter(|share| *share > 1.0)
     {
+        let limited = unloading.limited_share.filter(|s| *s > SEEN).map_or_else(String::new, |share| {
+            format!(
+                " ({:.0} % of the load is on ones pressed by less than their cones would return)",
+                100.0 * share
+            )
+        });
         remarks.push(format!(
-            "{name}: the unloading law, made for cones, returns {law:.2} times the work done on asperities that are long or flat ({:.0} % of \
-             the load is on ones pressed by less than their cones would return): elastic_energy_share is limited to 1, plastic work is not resolved",
-            100.0 * unloading.limited_share.unwrap_or(0.0)
+            "{name}: the unloading law, made for cones, returns {law:.2} times the work done on asperities that are long or \
+             flat{limited}: elastic_energy_share is limited to 1, plastic work is not resolved"
         ));
     }
     remarks
