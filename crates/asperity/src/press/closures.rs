@@ -3,6 +3,7 @@
 use super::half_space::{self, SpaceContact};
 use super::scene::RoughScene;
 use crate::error::InputError;
+use crate::units::MEGAPASCAL;
 use asperity_roughness::half_space::{HalfSpace, HalfSpaceContact, HalfSpaceError, PressureLimit};
 use asperity_roughness::scene::{Choice, Scene, SceneError};
 use asperity_roughness::{
@@ -23,6 +24,8 @@ pub struct ClosureContact {
     pub nominal: f64,
     /// Area and mean pressure over those of the half-space with the same metal.
     pub judged: Option<[f64; 2]>,
+    /// The largest nominal pressure that it carries, in Pa, where that is less than was asked for.
+    pub largest_load: Option<f64>,
 }
 
 /// The model that presses a surface, with its contact.
@@ -171,6 +174,7 @@ pub(super) fn press_by(
         plasticity_index: hardness.map(|h| elastic / h),
         nominal,
         judged: None,
+        largest_load: None,
     };
     let asked = match load {
         Load::Pressure(p) => p,
@@ -204,10 +208,15 @@ pub(super) fn press_by(
                 let warnings = space_remarks(closure, &one, tables);
                 Ok((Some(made(Body::HalfSpace(Box::new(one)), sneddon, nominal)), warnings))
             }
-            Err(e) if all => Ok((
-                Some(made(Body::Failed(e.to_string()), sneddon, asked)),
-                vec![format!("{}: {e}", closure.name())],
-            )),
+            Err(e) if all => {
+                let largest_load = match e {
+                    HalfSpaceError::Limit { limit_mpa, .. } => Some(limit_mpa * MEGAPASCAL),
+                    _ => None,
+                };
+                let failed = made(Body::Failed(e.to_string()), sneddon, asked);
+                let warnings = vec![format!("{}: {e}", closure.name())];
+                Ok((Some(ClosureContact { largest_load, ..failed }), warnings))
+            }
             Err(e @ HalfSpaceError::Closed { .. }) => Err(wrong("load.separation", e.to_string())),
             Err(e) => Err(wrong("load.pressure", e.to_string())),
         };
@@ -224,10 +233,12 @@ pub(super) fn press_by(
             let nominal = if asked > 0.0 { asked } else { one.contact.pressure };
             Ok((Some(made(Body::Islands(Box::new(one)), elastic, nominal)), warnings))
         }
-        Err(e @ ContactError::Unreachable { .. }) if all => Ok((
-            Some(made(Body::Failed(e.to_string()), elastic, asked)),
-            vec![format!("{}: {e}", closure.name())],
-        )),
+        Err(e @ ContactError::Unreachable { largest_mpa, .. }) if all => {
+            let failed = made(Body::Failed(e.to_string()), elastic, asked);
+            let warnings = vec![format!("{}: {e}", closure.name())];
+            let largest_load = Some(largest_mpa * MEGAPASCAL);
+            Ok((Some(ClosureContact { largest_load, ..failed }), warnings))
+        }
         Err(e) => Err(wrong("load.pressure", e.to_string())),
     }
 }

@@ -3,6 +3,7 @@
 use super::closures::ClosureContact;
 use super::half_space::SpaceContact;
 use super::rough::Rough;
+use crate::page::format::{rounded, significant};
 use crate::units::{MEGAPASCAL, MICROMETRE};
 use asperity_roughness::Closure;
 use asperity_roughness::flow::Axis;
@@ -18,8 +19,15 @@ const KNOWN: f64 = 0.05;
 const OUTSIDE: f64 = 0.2;
 
 impl Rough {
-    /// The verdict of the half-space, in words; `None` where no half-space was pressed.
+    /// The verdict of the half-space, in words, or the load that could be carried where no closure of islands carries that asked
+    /// for; `None` where there is neither.
     pub fn verdict(&self) -> Option<String> {
+        let said = [self.of_half_space(), overload(&self.contacts)];
+        let said: Vec<String> = said.into_iter().flatten().collect();
+        (!said.is_empty()).then(|| said.join(" "))
+    }
+
+    fn of_half_space(&self) -> Option<String> {
         let best = self
             .contact(Closure::HalfSpacePlastic)
             .filter(|one| one.space().is_some())
@@ -49,6 +57,21 @@ impl Rough {
         text.push('.');
         Some(text)
     }
+}
+
+/// What could be carried, where no closure of islands carries the load.
+fn overload(contacts: &[ClosureContact]) -> Option<String> {
+    let islands = || contacts.iter().filter(|one| !one.closure.is_half_space());
+    if islands().any(|one| one.islands().is_some()) {
+        return None;
+    }
+    let loads = islands().filter_map(|one| Some((one.name(), one.largest_load?)));
+    let (name, largest) = loads.max_by(|a, b| a.1.total_cmp(&b.1))?;
+    Some(format!(
+        "No closure of islands carries the load; the most that one carries is {} MPa ({name}): try --set load.pressure=\"{} MPa\".",
+        significant(largest / MEGAPASCAL),
+        rounded(0.5 * largest / MEGAPASCAL)
+    ))
 }
 
 /// Which closure has the area of the half-space, or why that cannot be told.
