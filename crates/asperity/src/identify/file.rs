@@ -106,6 +106,19 @@ pub struct FitCurve {
     pub unknown: Vec<Nuisance>,
 }
 
+impl FitCurve {
+    /// The name in pictures of a measurement that messages call `name`: that of its file, with the test where it has several.
+    pub(super) fn label(&self, name: &str) -> String {
+        let Some(file) = self.file.as_ref().and_then(|path| path.file_name()) else { return name.into() };
+        let file = file.to_string_lossy();
+        match (name.split_once(": "), self.test) {
+            (Some((_, test)), _) => format!("{file}, {test}"),
+            (None, Some(test)) => format!("{file}, test {test}"),
+            (None, None) => file.into_owned(),
+        }
+    }
+}
+
 /// Numbers of a curve.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]

@@ -417,6 +417,7 @@ fn experiment(
         _ => 0.0,
     };
     Ok(Experiment {
+        label: curve.label(&name),
         name,
         curve: number,
         geometry,
