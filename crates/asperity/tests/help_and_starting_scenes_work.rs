@@ -18,6 +18,7 @@ fn every_new_scene_runs() {
         ("rough", "rough"),
         ("sweep", "calibrate"),
         ("study", "study"),
+        ("fit", "identify"),
     ];
     for (kind, command) in kinds {
         let end = place.run(&["new", kind]);
@@ -26,13 +27,16 @@ fn every_new_scene_runs() {
         assert!(end.out.contains(&format!("asperity {command} {file}")), "{}", end.out);
         let quick: &[&str] = match command {
             "crush" => &["--accuracy", "draft", "--set", "output.every=0", "--set", "loading.depth=2 um"],
-            "calibrate" | "study" => &[],
+            "calibrate" | "study" | "identify" => &[],
             _ => &["--set", "surface.generate.pixels=[128, 128]", "--set", "closure=published"],
         };
         let out = format!("out-{kind}");
         let end = place.run(&[&[command, file.as_str(), "--out", &out, "--quiet"], quick].concat());
         assert_eq!((end.status, end.err.as_str()), (0, ""), "{kind}");
     }
+    let fit = std::fs::read_to_string(place.path("out-fit/fit.json")).unwrap();
+    let fit: serde_json::Value = serde_json::from_str(&fit).unwrap();
+    assert!(fit["verdict"].as_str().unwrap().starts_with("identifiable"), "{}", fit["verdict"]);
     // a file is not overwritten unless asked
     let end = place.run(&["new", "single"]);
     assert_eq!(end.status, 2);

@@ -48,6 +48,7 @@ fn mixed(data: &Data, beta_deg: f64, share: f64) -> Chart {
         Series::line(format!("n = {n}"), points).marked()
     });
     Chart::new(format!("E*/σᵣ, σᵣ at εᵣ = {share:.3} tan β (β = {beta_deg}°)"), "K/σᵣ", series)
+        .titled("Loading curvature at one slope: one curve for all hardening exponents")
 }
 
 /// All slopes: Y = K tan²β/σ_r against X = E* tan β/σ_r at ε_r = c tan β.
@@ -61,6 +62,7 @@ fn master(data: &Data, c: f64) -> Chart {
         Series::line(format!("β = {beta}°"), sorted(samples.iter().map(scaled).collect())).marked()
     });
     Chart::new(format!("E* tan β/σᵣ, σᵣ at εᵣ = {c:.3} tan β"), "K tan²β/σᵣ", series)
+        .titled("Loading curvature of all slopes and metals")
 }
 
 /// Fig. 8: ε_r of every slope with its interval, the fit, and the published line.
@@ -82,4 +84,5 @@ fn strains(angles: &[AngleFit], c: f64) -> Chart {
         Series::line(format!("published: {PUBLISHED} tan β"), line(PUBLISHED)),
     ];
     Chart::new("slope β, degrees", "representative strain εᵣ", lines)
+        .titled("Representative strain of every slope")
 }

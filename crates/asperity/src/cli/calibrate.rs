@@ -12,13 +12,15 @@ use crate::error::Error;
 use clap::{Args, Subcommand};
 use std::path::{Path, PathBuf};
 
+/// Help of the flag that changes a sweep.
+const SET: &str = "Change a value of the sweep, for example --set slopes_deg=[2,5]; repeatable";
 /// A sweep knows three resolutions, where a scene has one for every percentage.
 const ACCURACY: &str = "Error of K: draft (5 %), standard (1 %) or reference (0.2 %); a percentage takes the next finer of these \
     [default: what the sweep says, else standard]";
 
 /// Arguments of `asperity calibrate`.
 #[derive(Debug, Args)]
-#[command(args_conflicts_with_subcommands = true, mut_arg("accuracy", |a| a.help(ACCURACY)))]
+#[command(args_conflicts_with_subcommands = true, mut_arg("accuracy", |a| a.help(ACCURACY)), mut_arg("overrides", |a| a.help(SET)))]
 pub struct Calibrate {
     #[command(subcommand)]
     pub merge: Option<Joining>,

@@ -25,7 +25,7 @@ const PRUNE: &str = "0.05";
 pub struct Extract {
     /// Map of heights (.sur, .x3p, .al3d, .sdf, .npy, .csv, …), or a scene of `asperity rough` (.toml)
     pub surface: PathBuf,
-    /// Scene of `asperity rough` whose metal, load and treatment of the surface a map takes [default: that of `asperity new rough`]
+    /// Scene of `asperity rough` whose metal, load and treatment of the surface a map takes [default: that of `asperity new rough`, under the load of `asperity new surface`]
     #[arg(long, value_name = "SCENE")]
     pub like: Option<PathBuf>,
     /// Islands above this separation from the mean plane, for example "1 um" [default: --share 0.1 of a map, the load of a scene]
@@ -129,7 +129,7 @@ pub fn scene_of(
     let scene = RoughScene::of_map(path, &given, overrides)?;
     if like.is_none() && !quiet {
         terminal::warn(&format!(
-            "metal and load of {} are those that `asperity new rough` writes: give your own with --like SCENE.toml or --set",
+            "the metal of {} is that of `asperity new rough`, the load that of `asperity new surface`: give your own with --like SCENE.toml or --set",
             path.display()
         ));
     }

@@ -64,7 +64,7 @@ pub struct RunFlags {
     /// Print nothing but errors
     #[arg(long)]
     pub quiet: bool,
-    /// Allow a non-empty folder; files of the same name are overwritten
+    /// Write into a folder that holds other files too: those of the same name are overwritten; results of the same command are replaced without it
     #[arg(long)]
     pub force: bool,
     /// Print the summary as JSON on stdout

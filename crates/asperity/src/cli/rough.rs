@@ -18,7 +18,7 @@ pub struct Rough {
     /// Scene (TOML) or map of heights (.sur, .x3p, …); several of them give one table
     #[arg(required_unless_present = "table1")]
     pub scenes: Vec<PathBuf>,
-    /// Scene whose metal, load and treatment of the surface maps take [default: that of `asperity new rough`]
+    /// Scene whose metal, load and treatment of the surface maps take [default: that of `asperity new rough`, under the load of `asperity new surface`]
     #[arg(long, value_name = "SCENE", conflicts_with = "table1")]
     pub like: Option<PathBuf>,
     /// Print the paper's Table 1 beside ours: three generated surfaces, every closure; into files with --out or --report

@@ -12,9 +12,13 @@ use crate::study::{
 use clap::{Args, Subcommand};
 use std::path::{Path, PathBuf};
 
+/// Help of the flag that changes a scene of any kind.
+const SET: &str =
+    "Change a value of the scene in all runs, for example --set material.poissons_ratio=0.3; repeatable";
+
 /// Arguments of `asperity study`.
 #[derive(Debug, Args)]
-#[command(args_conflicts_with_subcommands = true)]
+#[command(args_conflicts_with_subcommands = true, mut_arg("overrides", |a| a.help(SET)))]
 pub struct Study {
     #[command(subcommand)]
     pub merge: Option<Joining>,

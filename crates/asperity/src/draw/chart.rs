@@ -303,6 +303,11 @@ pub fn located(chart: &Chart) -> Result<(String, Window), String> {
     Ok((titled, window))
 }
 
+/// The same for a drawing of [`framed`]: the document below a title.
+pub fn titled(title: &str, drawn: String) -> String {
+    below(title, &drawn).unwrap_or(drawn)
+}
+
 /// Height of a title in pixels.
 const TITLE: u32 = 30;
 

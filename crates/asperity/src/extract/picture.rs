@@ -2,7 +2,7 @@
 
 use super::compare::Comparison;
 use super::rows::ComparedRow;
-use crate::draw::chart::{Axis, FINE, Failure, INK, Paper, Sample, axes, framed, rgb};
+use crate::draw::chart::{Axis, FINE, Failure, INK, Paper, Sample, axes, framed, rgb, titled};
 use crate::draw::palette;
 use asperity_roughness::Closure;
 use plotters::prelude::*;
@@ -28,12 +28,12 @@ pub(super) fn compared(found: &Comparison) -> Result<Option<String>, String> {
         let outline = turns.map(|t| ((scale * t.cos()) as i32, (scale * t.sin()) as i32)).collect();
         (c.name().to_string(), Sample::Mark(rgb(palette::closure(*c)), outline))
     });
-    framed(SIZE, &legend.collect::<Vec<_>>(), |paper: &Paper| {
+    let drawn = framed(SIZE, &legend.collect::<Vec<_>>(), |paper: &Paper| {
         let (above, below) = paper.split_vertically(SIZE.1 / 2 * FINE);
         panel(&above, found, &closures, "force over finite elements", |r| r.force_over_finite_elements)?;
         panel(&below, found, &closures, "contact area over finite elements", |r| r.area_over_finite_elements)
-    })
-    .map(Some)
+    })?;
+    Ok(Some(titled("Every closure beside finite elements", drawn)))
 }
 
 fn panel(

@@ -128,7 +128,8 @@ pub fn extract(scene: &RoughScene, wanted: &Extraction) -> Result<Extracted, Err
         bodies.extend(body);
     }
     if bodies.len() < wanted.bodies {
-        warnings.push(few(bodies.len(), wanted.bodies, &table));
+        let way_out = if bodies.is_empty() { way_out(&surface, wanted) } else { None };
+        warnings.push(few(bodies.len(), wanted.bodies, &table) + &way_out.unwrap_or_default());
     }
     warnings.extend(long(&bodies));
     let lines = wanted.lines.iter().map(|at| {
@@ -152,7 +153,50 @@ fn few(found: usize, wanted: usize, table: &[AsperityRow]) -> String {
         }
     }
     let why: Vec<String> = reasons.iter().map(|(kind, count)| format!("; {count}: {kind}")).collect();
-    format!("{found} of {} asperities have a profile, {wanted} were asked for{}", table.len(), why.concat())
+    let have = if table.len() == 1 { "asperity has" } else { "asperities have" };
+    format!("{found} of {} {have} a profile, {wanted} were asked for{}", table.len(), why.concat())
+}
+
+/// Rules that are tried where one leaves no profile: the higher the plane, the fewer islands reach the edge.
+const RULES: [Parts; 7] = [
+    Parts::Share(0.1),
+    Parts::Share(0.05),
+    Parts::Share(0.02),
+    Parts::Share(0.01),
+    Parts::Share(0.005),
+    Parts::Hills(0.05),
+    Parts::Hills(0.2),
+];
+
+/// What else could be asked for: the rule that gives the most profiles; none where no rule gives one.
+fn way_out(surface: &Surface, wanted: &Extraction) -> Option<String> {
+    let mut best = (0, None);
+    for parts in RULES {
+        let count = profiles_by(surface, &Extraction { parts, ..wanted.clone() });
+        if count > best.0 {
+            best = (count, Some(parts));
+        }
+    }
+    let flag = match best.1? {
+        Parts::Share(share) => format!("--share {share}"),
+        Parts::Hills(prune) => format!("--hills {prune}"),
+        Parts::Load(_) | Parts::Separation(_) => return None,
+    };
+    let profiles = if best.0 == 1 { "profile" } else { "profiles" };
+    Some(format!("; {flag} would give {} {profiles}", best.0))
+}
+
+/// How many of the profiles that are asked for there would be.
+fn profiles_by(surface: &Surface, wanted: &Extraction) -> usize {
+    let how = match wanted.parts {
+        Parts::Share(share) => {
+            Segmentation::Islands { separation: plane_above(surface, share) - surface.parameters.mean }
+        }
+        Parts::Hills(prune) => Segmentation::Hills { prune },
+        Parts::Load(_) | Parts::Separation(_) => return 0,
+    };
+    let found = find(surface, how).unwrap_or_default();
+    found.iter().filter(|one| body(surface, 1, one, wanted).is_ok()).take(wanted.bodies).count()
 }
 
 /// A reason as it is for all that have it: they differ in numbers.
@@ -162,19 +206,30 @@ fn without_numbers(reason: &str) -> String {
     words.collect::<Vec<_>>().join(" ")
 }
 
-/// Semi-axes of ellipses over each other, on the median, above which a body of revolution says little.
+/// Length over width of half the area from which a body of revolution says little.
 const LONG: f64 = 3.0;
 
-/// A doubt about bodies of revolution of long asperities.
+/// A doubt about bodies of revolution of long asperities; by area, for many small round ones bear little.
 fn long(bodies: &[Body]) -> Option<String> {
-    let ratio = |body: &Body| body.asperity.ellipse.map(|e| e.semi_axes[0] / e.semi_axes[1]);
-    let mut ratios: Vec<f64> = bodies.iter().filter_map(ratio).collect();
-    ratios.sort_by(f64::total_cmp);
-    let median = ratios.get(ratios.len() / 2).filter(|ratio| **ratio > LONG)?;
+    let shape =
+        |body: &Body| body.asperity.ellipse.map(|e| (e.semi_axes[0] / e.semi_axes[1], body.asperity.area));
+    let ratio = median_by_area(bodies.iter().filter_map(shape).collect()).filter(|ratio| *ratio > LONG)?;
     Some(format!(
-        "the asperities are ridges ({median:.1} times as long as wide on the median), for which a body of revolution says little: take a \
-         line across them, --line \"y=PLACE\" or --line \"x=PLACE\""
+        "the asperities are ridges (half of their area is on ones at least {ratio:.1} times as long as wide), for which a body of \
+         revolution says little: take a line across them, --line \"y=PLACE\" or --line \"x=PLACE\""
     ))
+}
+
+/// The value with half of the area at it or above; none of nothing.
+fn median_by_area(mut shapes: Vec<(f64, f64)>) -> Option<f64> {
+    shapes.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let half = 0.5 * shapes.iter().map(|s| s.1).sum::<f64>();
+    let mut above = 0.0;
+    let reached = shapes.iter().find(|(_, area)| {
+        above += area;
+        above >= half
+    });
+    reached.map(|(ratio, _)| *ratio)
 }
 
 fn not_found(error: &FindError) -> InputError {
@@ -314,10 +369,27 @@ impl Extracted {
         });
         let [nx, ny] = s.pixels;
         let mut text = format!(
-            "{}: {nx} x {ny} points; {} asperities ({plane}), {} of them cut by an edge or a hole; {:.4} per mm²\n",
-            s.surface, s.asperities, s.cut, s.density_per_mm2
+            "{}: {nx} x {ny} points; {} {} ({plane}), {} of them cut by an edge or a hole; {:.4} per mm²\n",
+            s.surface,
+            s.asperities,
+            if s.asperities == 1 { "asperity" } else { "asperities" },
+            s.cut,
+            s.density_per_mm2
         );
         text += &format!("{} profiles and scenes of asperities, {} of lines", s.profiles, s.lines);
         text
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn small_round_asperities_do_not_hide_a_ridge() {
+        let crumbs = std::iter::repeat_n((1.2, 1.0), 20);
+        assert_eq!(median_by_area(crumbs.clone().chain([(8.0, 100.0)]).collect()), Some(8.0));
+        assert_eq!(median_by_area(crumbs.chain([(8.0, 10.0)]).collect()), Some(1.2));
+        assert_eq!(median_by_area(Vec::new()), None);
     }
 }

@@ -29,6 +29,8 @@ pub enum Data {
 pub struct Experiment {
     /// Its name in messages.
     pub name: String,
+    /// Its name in pictures.
+    pub label: String,
     /// Number of the measurement, for its own unknowns.
     pub curve: usize,
     /// Body and tool.

@@ -106,6 +106,19 @@ pub struct FitCurve {
     pub unknown: Vec<Nuisance>,
 }
 
+impl FitCurve {
+    /// The name in pictures of a measurement that messages call `name`: that of its file, with the test where it has several.
+    pub(super) fn label(&self, name: &str) -> String {
+        let Some(file) = self.file.as_ref().and_then(|path| path.file_name()) else { return name.into() };
+        let file = file.to_string_lossy();
+        match (name.split_once(": "), self.test) {
+            (Some((_, test)), _) => format!("{file}, {test}"),
+            (None, Some(test)) => format!("{file}, test {test}"),
+            (None, None) => file.into_owned(),
+        }
+    }
+}
+
 /// Numbers of a curve.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -126,6 +139,19 @@ pub struct Features {
     #[schemars(example = "10.4 um")]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub max_depth: Option<Length>,
+}
+
+impl Features {
+    /// Where such numbers belong.
+    pub(super) const PLACE: &str = "numbers such as loading curvature, unloading slope and work ratio go into features = { loading_curvature = \"27 GPa\", … } in place of file";
+
+    /// Whether a table that is no curve has a header of such numbers.
+    pub(super) fn are_named_in(table: &str) -> bool {
+        let header = table.lines().find(|line| !line.trim().is_empty()).unwrap_or_default().to_lowercase();
+        ["curvature", "slope", "dp/dh", "dpdh", "dp_dh", "wp/wt", "wp_wt", "work"]
+            .iter()
+            .any(|word| header.contains(word))
+    }
 }
 
 /// Unknowns of a measurement beside the metal.
@@ -187,4 +213,15 @@ pub struct FitTool {
     /// Depth per force that the machine adds; absent: none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub machine_compliance: Option<Sought<Compliance>>,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_table_of_features_is_told_from_a_curve() {
+        assert!(Features::are_named_in("\nC_GPa,dP/dh_N_per_m,Wp/Wt\n27.4,5.1e6,0.9\n"));
+        assert!(!Features::are_named_in("time_s,voltage\n1,2\n"));
+    }
 }

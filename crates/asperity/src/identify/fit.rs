@@ -2,7 +2,7 @@
 
 use super::emulator::Emulator;
 use super::experiment::{Data, Experiment};
-use super::file::{FitAccuracy, FitCurve, FitFile, FitMaterial, FitShape, FitTool, Nuisance};
+use super::file::{Features, FitAccuracy, FitCurve, FitFile, FitMaterial, FitShape, FitTool, Nuisance};
 use super::instrument;
 use super::measured::Measured;
 use super::parameters::Unknowns;
@@ -259,12 +259,15 @@ fn measurements(
             let shown = path.display().to_string();
             let text = std::fs::read_to_string(&path)
                 .map_err(|e| at(".file", &format!("{shown}: cannot be read as text: {e}; {RELATIVE}")))?;
-            let tests = instrument::read(&text).map_err(|fault| match fault.line {
-                Some(line) => {
-                    let start = text.split_inclusive('\n').take(line - 1).map(str::len).sum();
-                    InputError::new(fault.message).at(&shown, &text, start..text.len())
-                }
-                None => at(".file", &format!("{shown} {}", fault.message)),
+            let tests = instrument::read(&text).map_err(|fault| {
+                let error = match fault.line {
+                    Some(line) => {
+                        let start = text.split_inclusive('\n').take(line - 1).map(str::len).sum();
+                        InputError::new(fault.message).at(&shown, &text, start..text.len())
+                    }
+                    None => at(".file", &format!("{shown} {}", fault.message)),
+                };
+                if Features::are_named_in(&text) { error.help(Features::PLACE) } else { error }
             })?;
             chosen(tests.tests, curve.test)
                 .map_err(|m| at(".test", &m))?
@@ -417,6 +420,7 @@ fn experiment(
         _ => 0.0,
     };
     Ok(Experiment {
+        label: curve.label(&name),
         name,
         curve: number,
         geometry,

@@ -6,7 +6,7 @@ use super::objective::Objective;
 use super::parameters::Unknowns;
 use super::profile::{GROWTH, Interval};
 use super::result::StressAt;
-use crate::draw::chart::{Axis, Chart, Dash, FINE, INK, Sample, Series, axes, draw, framed, rgb};
+use crate::draw::chart::{Axis, Chart, Dash, FINE, INK, Sample, Series, axes, draw, framed, rgb, titled};
 use crate::draw::palette::{Colour, LINES, VIRIDIS, between};
 use plotters::prelude::*;
 use rayon::prelude::*;
@@ -75,12 +75,13 @@ impl Drawn {
             .collect();
         let forces = self.forces();
         let height = lower + if forces.is_some() { upper } else { 0 };
-        framed((width, height), &legend, |paper| {
+        let drawn = framed((width, height), &legend, |paper| {
             let Some(forces) = forces else { return draw(&self.left(), paper).map(|_| ()) };
             let (top, bottom) = paper.split_vertically(upper * FINE);
             draw(&forces, &top)?;
             draw(&self.left(), &bottom).map(|_| ())
-        })
+        })?;
+        Ok(titled("Measurements, their fit, and what is left", drawn))
     }
 
     /// Measured points and fit; `None` of features alone.
@@ -108,7 +109,7 @@ impl Drawn {
             Series { colour: Some(colour(i)), dash: Some(Dash::Hidden), ..line }.marked()
         });
         let drawn = self.ones.iter().any(|one| !one.measured.is_empty());
-        Chart::new(if drawn { "Depth h (µm)" } else { "Feature" }, "Left (%)", dots)
+        Chart::new(if drawn { "Depth h (µm)" } else { "Feature" }, "measured less fitted (%)", dots)
     }
 
     /// The map of the sum of squares over two unknowns, as SVG.
@@ -128,7 +129,7 @@ fn colour(i: usize) -> Colour {
 fn one(experiment: &Experiment, unknowns: &Unknowns, point: &[f64], number: &mut usize) -> Option<One> {
     let differences = experiment.differences(unknowns, point, false)?;
     let shown = |p: &[f64; 2]| [1e6 * p[0], p[1]];
-    let name = experiment.name.clone();
+    let name = experiment.label.clone();
     match &experiment.data {
         Data::Features { .. } => {
             let left = differences.iter().map(|d| {
@@ -196,7 +197,7 @@ fn draw_map(map: &Map) -> Result<String, String> {
         .map(|s| (format!("{s} standard deviations"), Sample::Mark(swatch(*s), square.clone())))
         .collect();
     legend.push(("95 %, the others held".into(), Sample::Line(INK, [1, 0])));
-    framed((width, height), &legend, |paper| {
+    let drawn = framed((width, height), &legend, |paper| {
         let ends = [0, 1].map(|k| [map.places[k][0], map.places[k][CELLS - 1]]);
         let [x, y] = ends.map(Axis::spanning);
         let mut area = axes(paper, [x, y], [&map.names[0], &map.names[1]])?;
@@ -222,7 +223,8 @@ fn draw_map(map: &Map) -> Result<String, String> {
             INK.stroke_width(2 * FINE),
         )))?;
         Ok(())
-    })
+    })?;
+    Ok(titled("How well the measurements tell two unknowns apart", drawn))
 }
 
 /// Pieces of the line along which the growth is `level`: across each cell, between the sides that it cuts.
@@ -262,4 +264,5 @@ pub fn stress_strain(rows: &[StressAt]) -> Chart {
         Series { colour: Some(LINES[5]), ..Series::line("95 %, lower", ends(|r| r.low_MPa)) },
     ];
     Chart::new("Plastic strain (%)", "True stress (MPa)", series)
+        .titled("The stress-strain curve that fits, with its 95 % band")
 }

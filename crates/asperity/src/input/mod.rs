@@ -4,6 +4,7 @@
 pub(crate) const RELATIVE: &str = "a path is relative to the folder of the file that names it";
 
 pub mod hardening_file;
+mod kind;
 pub mod profile_file;
 pub mod scene;
 pub mod suggest;

@@ -1,7 +1,7 @@
 //! Reading a TOML file into a type, with `--set` on top and errors that point at the line.
 
 use crate::error::InputError;
-use crate::input::suggest;
+use crate::input::{kind, suggest};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::io::Read;
@@ -66,7 +66,7 @@ impl<T: DeserializeOwned> TomlFile<T> {
         }
         let table = sources.table()?;
         let deserializer = Deserializer::from(Spanned::new(0..sources.text.len(), table));
-        let value = T::deserialize(deserializer).map_err(|e| sources.toml_error(&e))?;
+        let value = T::deserialize(deserializer).map_err(|e| sources.refusal::<T>(&e))?;
         Ok(TomlFile { value, path: path.to_path_buf(), sources, under })
     }
 
@@ -246,6 +246,17 @@ impl Sources {
             Some((_, text)) => InputError::new(message).at("--set", text, 0..text.len()),
             None => InputError::new(message).at(&self.name, &self.text, span),
         }
+    }
+
+    /// The error of a file that is no `T`; of a file for another command that says so too.
+    fn refusal<T: DeserializeOwned>(&self, e: &toml::de::Error) -> InputError {
+        let error = self.toml_error(e);
+        let own = DeTable::parse(&self.text).ok();
+        let Some(hint) = own.and_then(|own| kind::of_another_command::<T>(own.get_ref(), &self.name)) else {
+            return error;
+        };
+        let help = error.help.as_ref().map_or_else(String::new, |help| format!("; {help}"));
+        error.help(hint + &help)
     }
 
     fn toml_error(&self, e: &toml::de::Error) -> InputError {

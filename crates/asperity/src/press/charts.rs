@@ -1,7 +1,7 @@
 //! Charts of all closures at once.
 
 use super::closures::{Body, ClosureContact};
-use crate::draw::chart::{Chart, Series};
+use crate::draw::chart::{Chart, Dash, Series};
 use crate::units::{MEGAPASCAL, MICROMETRE};
 use asperity_roughness::CurvePoint;
 
@@ -37,12 +37,21 @@ fn load_curves(contacts: &[ClosureContact]) -> Chart {
         let points = |curve: &[CurvePoint]| {
             curve.iter().map(|p| [(first - p.separation) / MICROMETRE, p.pressure / MEGAPASCAL]).collect()
         };
-        series.push(Series::of_closure(one.closure, false, points(one.curve())));
+        let series_of = |unloading, curve| {
+            let series = Series::of_closure(one.closure, unloading, points(curve));
+            if curve.len() > 2 { series } else { ends_only(series) }
+        };
+        series.push(series_of(false, one.curve()));
         if !one.returns_everything() && !one.unloading_curve().is_empty() {
-            series.push(Series::of_closure(one.closure, true, points(one.unloading_curve())));
+            series.push(series_of(true, one.unloading_curve()));
         }
     }
     travel_chart(series)
+}
+
+/// Points alone, for nothing is known between them: a line would be read as the curve.
+fn ends_only(series: Series) -> Series {
+    Series { dash: Some(Dash::Hidden), ..series.marked() }
 }
 
 /// A chart of nominal pressure against the travel of the plane.

@@ -3,8 +3,9 @@
 use super::half_space::{self, SpaceContact};
 use super::scene::RoughScene;
 use crate::error::InputError;
+use crate::units::MEGAPASCAL;
 use asperity_roughness::half_space::{HalfSpace, HalfSpaceContact, HalfSpaceError, PressureLimit};
-use asperity_roughness::scene::{Choice, SceneError};
+use asperity_roughness::scene::{Choice, Scene, SceneError};
 use asperity_roughness::{
     Closure, ClosureLaw, Coefficient, Contact, ContactError, CurvePoint, Load, PressureField,
     SINGLE_ASPERITY_EXPONENT, Surface, Unloading, press, unload,
@@ -23,6 +24,8 @@ pub struct ClosureContact {
     pub nominal: f64,
     /// Area and mean pressure over those of the half-space with the same metal.
     pub judged: Option<[f64; 2]>,
+    /// The largest nominal pressure that it carries, in Pa, where that is less than was asked for.
+    pub largest_load: Option<f64>,
 }
 
 /// The model that presses a surface, with its contact.
@@ -171,6 +174,7 @@ pub(super) fn press_by(
         plasticity_index: hardness.map(|h| elastic / h),
         nominal,
         judged: None,
+        largest_load: None,
     };
     let asked = match load {
         Load::Pressure(p) => p,
@@ -201,13 +205,18 @@ pub(super) fn press_by(
         return match pressed {
             Ok(one) => {
                 let nominal = if asked > 0.0 { asked } else { one.contact.pressure };
-                let warnings = space_remarks(closure, &one);
+                let warnings = space_remarks(closure, &one, tables);
                 Ok((Some(made(Body::HalfSpace(Box::new(one)), sneddon, nominal)), warnings))
             }
-            Err(e) if all => Ok((
-                Some(made(Body::Failed(e.to_string()), sneddon, asked)),
-                vec![format!("{}: {e}", closure.name())],
-            )),
+            Err(e) if all => {
+                let largest_load = match e {
+                    HalfSpaceError::Limit { limit_mpa, .. } => Some(limit_mpa * MEGAPASCAL),
+                    _ => None,
+                };
+                let failed = made(Body::Failed(e.to_string()), sneddon, asked);
+                let warnings = vec![format!("{}: {e}", closure.name())];
+                Ok((Some(ClosureContact { largest_load, ..failed }), warnings))
+            }
             Err(e @ HalfSpaceError::Closed { .. }) => Err(wrong("load.separation", e.to_string())),
             Err(e) => Err(wrong("load.pressure", e.to_string())),
         };
@@ -224,10 +233,12 @@ pub(super) fn press_by(
             let nominal = if asked > 0.0 { asked } else { one.contact.pressure };
             Ok((Some(made(Body::Islands(Box::new(one)), elastic, nominal)), warnings))
         }
-        Err(e @ ContactError::Unreachable { .. }) if all => Ok((
-            Some(made(Body::Failed(e.to_string()), elastic, asked)),
-            vec![format!("{}: {e}", closure.name())],
-        )),
+        Err(e @ ContactError::Unreachable { largest_mpa, .. }) if all => {
+            let failed = made(Body::Failed(e.to_string()), elastic, asked);
+            let warnings = vec![format!("{}: {e}", closure.name())];
+            let largest_load = Some(largest_mpa * MEGAPASCAL);
+            Ok((Some(ClosureContact { largest_load, ..failed }), warnings))
+        }
         Err(e) => Err(wrong("load.pressure", e.to_string())),
     }
 }
@@ -316,7 +327,7 @@ pub(super) fn judge(
     }
 }
 
-fn space_remarks(closure: Closure, one: &SpaceContact) -> Warnings {
+fn space_remarks(closure: Closure, one: &SpaceContact, scene: &Scene) -> Warnings {
     let leaks = one.passages.iter().filter_map(|p| p.leak);
     let unbalanced = leaks.filter(|l| l.imbalance > 1e-2).map(|l| {
         format!(
@@ -333,8 +344,18 @@ fn space_remarks(closure: Closure, one: &SpaceContact) -> Warnings {
             100.0 * area.error / area.ratio
         )
     });
-    unbalanced.chain(coarse).collect()
+    let ends = (one.has_ends_only() && scene.half_space.load_points.is_none()).then(|| {
+        format!(
+            "{}: on so large a map the load curve has first touch and the load alone: for points between them give half_space.load_points \
+             (--set half_space.load_points=6), each of which takes about as long as the load",
+            closure.name()
+        )
+    });
+    unbalanced.chain(coarse).chain(ends).collect()
 }
+
+/// Share of the load below which nothing is said of it: no number moves by more.
+const SEEN: f64 = 5e-3;
 
 fn remarks(closure: Closure, one: &IslandContact, coefficient: Option<&Coefficient>) -> Warnings {
     let name = closure.name();
@@ -345,7 +366,7 @@ fn remarks(closure: Closure, one: &IslandContact, coefficient: Option<&Coefficie
             one.contact.load_error.unwrap_or(0.0)
         ));
     }
-    if let Some(share) = one.contact.outside_share.filter(|s| *s > 0.0) {
+    if let Some(share) = one.contact.outside_share.filter(|s| *s > SEEN) {
         remarks.push(format!(
             "{name}: {:.1} % of the load is on asperities outside the ranges of the calibration and of the atlas of cones",
             100.0 * share
@@ -360,10 +381,15 @@ fn remarks(closure: Closure, one: &IslandContact, coefficient: Option<&Coefficie
     if let Some(unloading) = &one.unloading
         && let Some(law) = unloading.elastic_share_by_law.filter(|share| *share > 1.0)
     {
+        let limited = unloading.limited_share.filter(|s| *s > SEEN).map_or_else(String::new, |share| {
+            format!(
+                " ({:.0} % of the load is on ones pressed by less than their cones would return)",
+                100.0 * share
+            )
+        });
         remarks.push(format!(
-            "{name}: the unloading law, made for cones, returns {law:.2} times the work done on asperities that are long or flat ({:.0} % of \
-             the load is on ones pressed by less than their cones would return): elastic_energy_share is limited to 1, plastic work is not resolved",
-            100.0 * unloading.limited_share.unwrap_or(0.0)
+            "{name}: the unloading law, made for cones, returns {law:.2} times the work done on asperities that are long or \
+             flat{limited}: elastic_energy_share is limited to 1, plastic work is not resolved"
         ));
     }
     remarks

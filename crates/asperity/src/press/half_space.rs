@@ -87,6 +87,11 @@ impl SpaceContact {
 }
 
 impl SpaceContact {
+    /// Whether the load curve is two points with nothing between them.
+    pub(super) fn has_ends_only(&self) -> bool {
+        self.curve.len() == 2
+    }
+
     /// Flux times viscosity over pressure difference along an axis, m³; 0 where nothing passes; None where it was not asked for.
     pub fn leak(&self, axis: usize) -> Option<f64> {
         self.flows.then(|| self.passages[axis].leak.map_or(0.0, |l| l.conductance))

@@ -63,12 +63,16 @@ impl RoughScene {
         TomlFile::parse(&path.with_extension(""), text, overrides).map(RoughScene::of_file)
     }
 
-    /// The scene that stands for what is not said: the milled surface of steel that `asperity new rough` writes.
+    /// The scene that stands for what is not said: the milled surface of steel that `asperity new rough` writes, under the load that
+    /// `asperity new surface` writes, which most measured surfaces carry by every closure.
     ///
     /// # Errors
     /// None: the text comes with the program.
     pub fn usual() -> Result<RoughScene, InputError> {
-        RoughScene::from_toml(include_str!("../../scenes/rough-milled.toml"), Path::new(""))
+        let at = Path::new("");
+        let measured = RoughScene::from_toml(include_str!("../../scenes/surface.toml"), at)?;
+        let scene = RoughScene::from_toml(include_str!("../../scenes/rough-milled.toml"), at)?.scene;
+        Ok(RoughScene::new(Scene { load: measured.scene.load, ..scene }, at))
     }
 
     /// A scene built in code; its paths are relative to the folder `base`.

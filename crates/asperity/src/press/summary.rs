@@ -87,7 +87,7 @@ row! {
         definitions: BTreeMap<String, String> = DEFINITIONS.map(|(name, text)| (name.into(), text.into())).into(),
         /// Every closure.
         closures: Vec<ClosureSummary> = Vec::new(),
-        /// Area, closure to believe, gap and leak in words; none without a half-space.
+        /// Area, closure to believe, gap and leak of a half-space in words; where no closure of islands carries the load, what they carry.
         verdict: Option<String> = None,
         /// Remarks on the trust in the numbers.
         warnings: Warnings = Vec::new(),

@@ -7,8 +7,8 @@ use serde::{Deserialize, Serialize};
 
 /// Most points of the load curve of a half-space.
 const MOST_POINTS: usize = 8;
-/// Nodes up to which the load curve has all its points unless the scene says otherwise.
-const SMALL: usize = 512 * 512;
+/// Points of the load curve by default on maps of up to so many nodes; on larger ones each costs minutes, and there is one.
+const USUAL_POINTS: [(usize, usize); 2] = [(512 * 512, MOST_POINTS), (1024 * 1024, 6)];
 
 /// How the half-space is solved.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -18,7 +18,7 @@ pub struct HalfSpaceScene {
     #[schemars(extend("minimum" = 1e-10, "maximum" = 1e-2))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tolerance: Option<f64>,
-    /// Points of the load curve beside first touch: by default 8, and 1 on maps of more than 512 x 512 points.
+    /// Points of the load curve beside first touch: by default 8, on maps of more than 512 x 512 points 6, of more than 1024 x 1024 points 1, which gives no curve between first touch and the load.
     #[schemars(extend("minimum" = 1, "maximum" = 8))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub load_points: Option<usize>,
@@ -40,7 +40,8 @@ impl HalfSpaceScene {
 
     /// Points of the load curve of a map of so many nodes.
     pub fn load_points(&self, nodes: usize) -> usize {
-        self.load_points.unwrap_or(if nodes <= SMALL { MOST_POINTS } else { 1 })
+        let usual = || USUAL_POINTS.iter().find(|(most, _)| nodes <= *most).map_or(1, |(_, points)| *points);
+        self.load_points.unwrap_or_else(usual)
     }
 
     pub(super) fn validate(&self) -> Result<(), SceneError> {
@@ -54,5 +55,18 @@ impl HalfSpaceScene {
             }
             _ => Ok(()),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn large_maps_have_fewer_points_unless_the_scene_says_otherwise() {
+        let usual = HalfSpaceScene::default();
+        let points = [512, 513, 1024, 1025].map(|n| usual.load_points(n * n));
+        assert_eq!(points, [8, 6, 6, 1]);
+        assert_eq!(HalfSpaceScene { load_points: Some(3), ..usual }.load_points(2048 * 2048), 3);
     }
 }
