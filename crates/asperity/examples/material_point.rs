@@ -2,9 +2,9 @@
 
 #![allow(clippy::print_stdout, reason = "an example prints its result")]
 
-use asperity_law::{Elastic, Hardening, HardeningLaw, StressMeasure};
-use asperity_solver::point::j2::{PointUpdate, Tangent, update};
-use asperity_solver::point::material::{Metal, PointState};
+use asperity::law::{Elastic, Hardening, HardeningLaw, StressMeasure};
+use asperity::solver::point::j2::{PointUpdate, Tangent, update};
+use asperity::solver::point::material::{Metal, PointState};
 
 /// Logarithmic strain of an increment.
 const STEP: f64 = 0.002;

@@ -5,7 +5,7 @@ use std::ops::Range;
 use std::path::Path;
 
 /// The two ways to fail.
-#[derive(Debug, thiserror::Error)]
+#[derive(thiserror::Error)]
 pub enum Error {
     /// A file or a value is wrong; nothing was computed.
     #[error(transparent)]
@@ -22,8 +22,25 @@ impl Error {
     }
 }
 
+/// What `main` prints that returns an error: the whole text, with the line and the way out.
+impl fmt::Debug for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Error::Input(error) => fmt::Debug::fmt(error, f),
+            Error::Unfinished(text) => f.write_str(text),
+        }
+    }
+}
+
+/// As for [`Error`].
+impl fmt::Debug for InputError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.full())
+    }
+}
+
 /// Something wrong in what the user gave, with its place in a text where it has one.
-#[derive(Debug, thiserror::Error)]
+#[derive(thiserror::Error)]
 #[error("{message}")]
 pub struct InputError {
     /// The fault, with the allowed range.
@@ -81,5 +98,21 @@ impl InputError {
         let end = span.end.clamp(start, line_end);
         self.place = Some(Box::new(Place { name: name.into(), text: text.into(), span: start..end }));
         self
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The form in which `main` prints an error that it returns.
+    #[test]
+    fn the_debug_form_of_an_error_names_line_and_way_out() {
+        let error =
+            InputError::new("bad depht").help("did you mean depth?").at("scene", "a = 1\ndepht = 2\n", 6..11);
+        assert_eq!(
+            format!("{:?}", Error::from(error)),
+            "bad depht\nscene, line 2: depht = 2\nhelp: did you mean depth?"
+        );
     }
 }

@@ -17,11 +17,15 @@
 //! let tables = Tables::new(Symmetry::Axisymmetric, steel, Tool::plane(), Loading::to_depth(Length(5e-6)))
 //!     .with(cone)
 //!     .at(Accuracy::Draft);
-//! // the observer ends the run by `false`
-//! let result = crush(&Scene::new(&tables)?, &mut |progress| progress.row.depth_um < 10.0)?;
+//! let scene = Scene::new(&tables)?;
+//! let result = crush(&scene, &mut |_| true)?;
 //! let summary = &result.summary;
 //! assert!((summary.peak_force_N / 5.5 - 1.0).abs() < summary.estimated_error);
 //! assert_eq!(result.curve.last().map(|row| row.force_N), Some(summary.peak_force_N));
+//!
+//! // the observer ends a run by `false`: what was reached stays, without a stated error
+//! let part = crush(&scene, &mut |progress| progress.row.increment < 10)?.summary;
+//! assert!(part.stopped.is_some() && part.estimated_error.is_nan());
 //! # Ok::<(), asperity::Error>(())
 //! ```
 //! # A sweep of cones

@@ -52,7 +52,8 @@ pub struct Crush {
 /// News for the observer of a crush: of every increment, and again where its fields are due.
 #[derive(Clone, Copy, Debug)]
 pub struct Progress<'a> {
-    /// The last increment.
+    /// The last increment as it was found: ripple still in, not extrapolated, without a stated error. The row of the result differs by
+    /// as much as the error that is stated there.
     pub row: &'a CurveRow,
     /// Increments that the whole run will have, as far as is known.
     pub planned: usize,
@@ -78,7 +79,8 @@ impl Sketch {
 
 /// Crushes `scene` and keeps its fields in the result.
 ///
-/// The observer hears of every increment; it ends the run by `false`, and the result is what was reached.
+/// The observer hears of every increment; it ends the run by `false`, and the result is what was reached: `summary.stopped` says
+/// where, nothing is extrapolated, and no error is stated (NaN or `None`).
 ///
 /// # Errors
 /// Only if the run cannot begin: [`Error::Input`], pointing at the line of the scene. What stops it later is in

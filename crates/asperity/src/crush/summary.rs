@@ -199,7 +199,11 @@ impl Summary {
         let promise = self.scene.accuracy.promise();
         let mut warnings = Vec::new();
         for (what, error) in [("force", self.errors.force), ("contact area", self.errors.contact_area)] {
-            if error.is_nan() {
+            if error.is_nan() && self.stopped.is_some() {
+                warnings.push(format!(
+                    "the run ended before its goal: its {what} is not extrapolated and has no stated error"
+                ));
+            } else if error.is_nan() {
                 warnings.push(format!(
                     "the error of the {what} is not known: the coarser run beside this one did not get as far"
                 ));

@@ -8,7 +8,7 @@ use crate::point::tensor::{GradientForm, Sym, trace, with_geometric_term};
 use asperity_law::real::{Lanes, Real};
 use asperity_law::{Elastic, HardeningCurve, HardeningPoint, StressMeasure};
 
-/// Elastic constants and, for a material that yields, its hardening curve; all in units of E.
+/// Elastic constants and, for a material that yields, its hardening curve; all in one unit of stress; a run takes E = 1.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Metal {
     /// Elastic constants.
