@@ -14,10 +14,10 @@ use pulp::{Simd, WithSimd};
 use rayon::prelude::*;
 
 /// Elements of one task.
-const TASK: usize = 16;
+const TASK: usize = 48;
 
 /// Elements that several threads evaluate while one sums up as many.
-const ROUND: usize = 128;
+const ROUND: usize = 384;
 
 /// Elements from which several threads pay: for a thread of the pool, and for one outside, which sleeps until a thread of the pool
 /// has woken it, round after round.
