@@ -22,7 +22,7 @@ impl Error {
     }
 }
 
-/// What `main` prints that returns an error: the whole text, with the line and the way out.
+/// The whole text, with the line and the way out: `main` prints it where it returns an error.
 impl fmt::Debug for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

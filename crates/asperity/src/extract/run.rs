@@ -168,7 +168,7 @@ const RULES: [Parts; 7] = [
     Parts::Hills(0.2),
 ];
 
-/// What else could be asked for: the rule that gives the most profiles; none where no rule gives one.
+/// The rule that gives the most profiles, to be asked for instead; none where no rule gives one.
 fn way_out(surface: &Surface, wanted: &Extraction) -> Option<String> {
     let mut best = (0, None);
     for parts in RULES {

@@ -59,7 +59,7 @@ impl Rough {
     }
 }
 
-/// What could be carried, where no closure of islands carries the load.
+/// The load that could be carried, where no closure of islands carries that asked for.
 fn overload(contacts: &[ClosureContact]) -> Option<String> {
     let islands = || contacts.iter().filter(|one| !one.closure.is_half_space());
     if islands().any(|one| one.islands().is_some()) {
@@ -96,7 +96,7 @@ struct Judged {
     outside: f64,
 }
 
-/// What is said of the closure whose area is nearest, where that of the half-space is known up to the share `error`.
+/// The sentence on the closure whose area is nearest, where that of the half-space is known up to the share `error`.
 fn judgement(judged: &[Judged], error: f64) -> Option<String> {
     let nearest = judged.iter().min_by(|a, b| a.ratio.ln().abs().total_cmp(&b.ratio.ln().abs()))?;
     let Judged { name, ratio, outside } = *nearest;

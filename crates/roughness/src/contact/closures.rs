@@ -199,7 +199,7 @@ impl ClosureLaw {
     /// The closure for one material; `coefficient` is the calibration's result.
     ///
     /// # Errors
-    /// What of the material or of the calibration is missing, or a closure without islands.
+    /// A number of the material or of the calibration that is missing, or a closure without islands.
     pub fn new(
         closure: Closure,
         material: &Material,

@@ -12,7 +12,7 @@
 //!   the largest rest, and what errors of mesh and penetration, which have opposite signs, may hide from each other by chance
 //!   (`Quantity::hidden`; of the force also what coarse steps lose). The rest is that of D, or that of the run from a smooth curve of its own where it is less: the companion
 //!   ripples more.
-//! * A companion that differs by more than `MOST` is in no asymptotic range: nothing is taken off.
+//! * A companion that differs by more than `MOST` is in no asymptotic range: no share of D is taken off.
 //! * The mesh that is given cannot be made coarser. Its companion has the other element, of which no order is known: nothing is taken
 //!   off the force, half of D off the area.
 //!
@@ -34,7 +34,7 @@ use crate::run::schedule::UNLOADING_EXPONENT;
 use crate::scene::ElementChoice;
 use asperity_law::least_squares::{powers, solve, value};
 
-/// What is known of the errors of force or area before a run.
+/// The errors of force or area, as far as they are known before a run.
 #[derive(Clone, Copy)]
 struct Quantity {
     /// The smooth part through points, as coefficients of a parabola.
@@ -49,7 +49,7 @@ struct Quantity {
     remains: f64,
 }
 
-/// What the bounds depend on beside the two curves.
+/// The numbers of a run that its bounds depend on, beside the two curves.
 #[derive(Clone, Copy)]
 pub(super) struct Setting {
     /// Of the scene.
