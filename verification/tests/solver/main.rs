@@ -23,6 +23,7 @@ mod meshing_anew;
 mod newton_order;
 mod patch;
 mod penalty_keeps_the_force;
+mod pressure_along_the_contact;
 mod punch;
 mod reaches_half_height;
 mod refinement;

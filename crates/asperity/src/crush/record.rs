@@ -165,7 +165,7 @@ row! {
         u_r_um: f64 = point.displacement[0] / MICROMETRE,
         /// Displacement along z.
         u_z_um: f64 = point.displacement[1] / MICROMETRE,
-        /// Contact pressure.
+        /// Contact pressure, without the zigzag between corners and mid-side nodes.
         pressure_MPa: f64 = point.pressure / MEGAPASCAL,
         /// 1 where the material has yielded, else 0.
         yielded: u8 = u8::from(point.yielded),
@@ -189,7 +189,7 @@ pub struct SurfaceStateRow {
     pub u_r_um: f64,
     /// Displacement along z.
     pub u_z_um: f64,
-    /// Contact pressure.
+    /// Contact pressure, without the zigzag between corners and mid-side nodes.
     pub pressure_MPa: f64,
     /// 1 where the material has yielded, else 0.
     pub yielded: u8,

@@ -370,7 +370,8 @@ pub fn draw(chart: &Chart, paper: &Paper) -> Result<Window, Failure> {
         .map(|s| s.points.iter().filter(|p| p.iter().all(|v| v.is_finite())).map(|p| (p[0], p[1])).collect())
         .collect();
     let x = Axis::covering(finite.iter().flatten().map(|p| p.0));
-    let y = Axis::covering(finite.iter().flatten().map(|p| p.1));
+    let edges = chart.series.iter().flat_map(|series| &series.band).map(|p| p[1]).filter(|y| y.is_finite());
+    let y = Axis::covering(finite.iter().flatten().map(|p| p.1).chain(edges));
     let range = [x.low, y.high, x.high, y.low];
     let mut area = axes(paper, [x, y], [&chart.x_label, &chart.y_label])?;
     let (across, down) = area.plotting_area().get_pixel_range();

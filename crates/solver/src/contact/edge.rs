@@ -20,6 +20,9 @@ pub type Parts = [Option<[f64; 2]>; 2];
 /// No part at all.
 pub const NOTHING: Parts = [None, None];
 
+/// The whole edge.
+pub const WHOLE: Parts = [Some([-1.0, 1.0]), None];
+
 /// An edge of the free surface: two corners (ξ = -1, 1) and a mid-side node (ξ = 0) where the element has one.
 #[derive(Clone, Copy, Debug)]
 pub struct ContactEdge {
@@ -69,7 +72,11 @@ pub struct EdgeContact {
     pub area: f64,
     /// Smallest and largest current radius that touches.
     pub reach: [f64; 2],
-    /// Largest current pressure (true, per current area) at the integration points.
+    /// Mean m and slope s of the current pressure (true, per current area) m + s t over a part, -1 ≤ t ≤ 1: its projection onto
+    /// a line. Of two parts, that of the second.
+    pub line: [f64; 2],
+    /// Largest current pressure of that line where it is the pressure itself, if that is a parabola: at t = ±1/√3. The pressures
+    /// of corners and mid-side nodes of one edge lie on two sides of the line.
     pub max_pressure: f64,
 }
 
@@ -173,10 +180,10 @@ impl ContactEdge {
             }
         }
         match (count, left > 0.0, right > 0.0) {
-            (0, _, _) if middle > 0.0 => [Some([-1.0, 1.0]), None],
+            (0, _, _) if middle > 0.0 => WHOLE,
             (1, true, false) => [Some([-1.0, roots[0]]), None],
             (1, false, true) => [Some([roots[0], 1.0]), None],
-            (1, true, true) => [Some([-1.0, 1.0]), None], // touches zero at one point
+            (1, true, true) => WHOLE, // touches zero at one point
             (2, true, true) => [Some([-1.0, roots[0].min(roots[1])]), Some([roots[0].max(roots[1]), 1.0])],
             (2, _, _) if middle > 0.0 || a < 0.0 => {
                 [Some([roots[0].min(roots[1]), roots[0].max(roots[1])]), None]
@@ -204,10 +211,12 @@ impl ContactEdge {
             pressure: 0.0,
             area: 0.0,
             reach: [f64::INFINITY, f64::NEG_INFINITY],
+            line: [0.0; 2],
             max_pressure: 0.0,
         };
         for [start, end] in parts.into_iter().flatten() {
             let (centre, half) = (0.5 * (start + end), 0.5 * (end - start));
+            out.line = [0.0; 2];
             for [abscissa, weight] in GAUSS4 {
                 let xi = centre + half * abscissa;
                 let n = self.shape(xi);
@@ -223,7 +232,9 @@ impl ContactEdge {
                 out.load += w * p * d.slope[1];
                 let [dr, dz] = self.tangent(x, xi);
                 let current = context.symmetry.weight(here[0].abs()) * dr.hypot(dz);
-                out.max_pressure = out.max_pressure.max(p * self.measure(xi) / current);
+                let pressure = p * self.measure(xi) / current;
+                out.line[0] += 0.5 * weight * pressure;
+                out.line[1] += 1.5 * weight * abscissa * pressure;
                 let [krr, kzz, krz] = d.curvature;
                 let [sr, sz] = d.slope;
                 let e = context.penalty;
@@ -242,6 +253,7 @@ impl ContactEdge {
                     }
                 }
             }
+            out.max_pressure = out.max_pressure.max(out.line[0] + out.line[1].abs() / 3.0_f64.sqrt());
             let (r0, r1) = (self.point(x, start)[0], self.point(x, end)[0]);
             out.area += match context.symmetry {
                 Symmetry::Axisymmetric => std::f64::consts::PI * (r1 * r1 - r0 * r0).abs(),

@@ -1,0 +1,138 @@
+//! Pictures of what the ripple of the mesh does to the curve of the paper's asperity at `standard`, and what is left of it:
+//! `cargo run --release -p asperity --example ripple_pictures -- FOLDER [--out FILE]`; FILE gets a table of the same.
+//!
+//! "As found" is an increment before the run has ended: the sum of the nodal forces over the depth, and that force over the area.
+
+// a scene that is committed
+#![allow(clippy::expect_used)]
+
+use asperity::crush::{Crush, CurveRow, Phase, SurfaceRow, titled_plot};
+use asperity::draw::chart::{Chart, Dash, Series, svg};
+use asperity::tables::{Accuracy, Asperity, Loading, Material, Scene as Tables, Symmetry, Tool};
+use asperity::{Length, Scene, Stress, crush};
+use asperity_verification::report::Report;
+use std::path::Path;
+
+/// Depth in µm from which curves are compared: a tenth of the peak.
+const FROM: f64 = 0.5;
+
+/// A column of the curve.
+type Column = fn(&CurveRow) -> f64;
+
+/// A run with its increments as they were found and its surface at the peak.
+struct Run {
+    found: Vec<CurveRow>,
+    result: Crush,
+    surface: Vec<SurfaceRow>,
+}
+
+/// The asperity of the paper: `meshes/single-asperity.toml`.
+fn run(accuracy: Accuracy) -> Run {
+    let steel = Material::elastic_body(Stress(210e9), 0.3).yielding(Stress(300e6), 0.3);
+    let cone = Asperity::cone(Length(20e-6), 10.0).rounded(Length(10e-6));
+    let loading = Loading::to_depth(Length(5e-6)).unloaded();
+    let mut tables =
+        Tables::new(Symmetry::Axisymmetric, steel, Tool::plane(), loading).with(cone).at(accuracy);
+    tables.output.every = Some(1000);
+    let scene = Scene::new(&tables).expect("a scene without contradictions");
+    let (mut found, mut surface) = (Vec::new(), Vec::new());
+    let result = crush(&scene, &mut |news| {
+        if let Some(frame) = news.frame {
+            // of those before first touch, at the peak and at the end, the one under pressure
+            if frame.surface.iter().any(|point| point.pressure_MPa > 0.0) {
+                surface.clone_from(&frame.surface);
+            }
+        } else {
+            found.push(news.row.clone());
+        }
+        true
+    })
+    .expect("the asperity of the paper can be crushed");
+    Run { found, result, surface }
+}
+
+fn loading(rows: &[CurveRow]) -> impl Iterator<Item = &CurveRow> + Clone {
+    rows.iter().filter(|row| row.phase == Phase::Load && row.depth_um > 0.0)
+}
+
+/// The column of a fine curve at a depth, by a power law between two rows.
+fn at(rows: &[CurveRow], column: Column, depth: f64) -> Option<f64> {
+    let rows: Vec<&CurveRow> = loading(rows).collect();
+    let after = rows.partition_point(|row| row.depth_um < depth).clamp(1, rows.len() - 1);
+    let (from, to) = (rows[after - 1], rows[after]);
+    let share = (depth / from.depth_um).ln() / (to.depth_um / from.depth_um).ln();
+    (share <= 1.0 + 1e-9).then(|| column(from) * (column(to) / column(from)).powf(share))
+}
+
+/// Deviation of a column from that of the fine curve in percent, over the depth.
+fn deviation(rows: &[CurveRow], fine: &[CurveRow], column: Column) -> Vec<[f64; 2]> {
+    let point =
+        |row: &CurveRow| Some([row.depth_um, 100.0 * (column(row) / at(fine, column, row.depth_um)? - 1.0)]);
+    loading(rows).filter(|row| row.depth_um >= FROM).filter_map(point).collect()
+}
+
+fn rms(points: &[[f64; 2]]) -> f64 {
+    (points.iter().map(|[_, y]| y * y).sum::<f64>() / points.len() as f64).sqrt()
+}
+
+fn largest(points: &[[f64; 2]]) -> f64 {
+    points.iter().fold(0.0, |most, [_, y]| most.max(y.abs()))
+}
+
+fn save(folder: &Path, name: &str, picture: &str) {
+    std::fs::write(folder.join(name), picture).expect("the folder can be written");
+}
+
+/// Deviations of a column as found and in the result; only the force states an error in every row.
+fn beside(name: &str, [before, after]: [Vec<[f64; 2]>; 2], stated: &[[f64; 2]]) -> String {
+    let lower = stated.iter().rev().map(|[x, y]| [*x, -y]);
+    let band: Vec<_> = stated.iter().copied().chain(lower).collect();
+    let end = if band.is_empty() { "" } else { "; band: stated error" };
+    let series = [
+        Series { dash: Some(Dash::Dashed), ..Series::line("as found", before) }.marked(),
+        Series { band, dash: Some(Dash::Solid), ..Series::line("result", after) }.marked(),
+    ];
+    let title = format!("{name} at standard, beside reference{end}");
+    svg(&Chart::new("Depth h (µm)", "Deviation (%)", series).titled(title)).expect("a chart of numbers")
+}
+
+fn main() {
+    let (mut report, words) = Report::of_package("asperity", "ripple_pictures", "standard beside reference");
+    let folder = Path::new(words.first().expect("name the folder of the pictures"));
+    let [standard, fine] = [Accuracy::Standard, Accuracy::Reference].map(run);
+    let curve = &standard.result.curve;
+    let force = titled_plot(&standard.result.summary, curve).expect("a chart of numbers");
+    save(folder, "single-force.svg", &force);
+
+    let stated = loading(curve)
+        .filter(|row| row.depth_um >= FROM)
+        .filter_map(|row| Some([row.depth_um, 100.0 * row.force_error?]));
+    let stated: Vec<[f64; 2]> = stated.collect();
+    let columns: [(&str, Column, &[[f64; 2]]); 3] = [
+        ("Force", |row| row.force_N, &stated),
+        ("Contact area", |row| row.contact_area_um2, &[]),
+        ("Mean pressure", |row| row.mean_pressure_MPa, &[]),
+    ];
+    report.table("| at standard, beside reference | as found: root mean square | largest | result: root mean square | largest |");
+    for (name, column, stated) in columns {
+        let [before, after] =
+            [&standard.found, curve].map(|rows| deviation(rows, &fine.result.curve, column));
+        let cells = [rms(&before), largest(&before), rms(&after), largest(&after)];
+        let cells = cells.map(|percent| format!("{percent:.2} %")).join(" | ");
+        report.line(&format!("| {} | {cells} |", name.to_lowercase()));
+        let file = format!("single-ripple-{}.svg", name.to_lowercase().replace(' ', "-"));
+        save(folder, &file, &beside(name, [before, after], stated));
+    }
+
+    let along = |run: &Run| {
+        let off = run.surface.iter().position(|point| point.pressure_MPa <= 0.0).unwrap_or(run.surface.len());
+        let touching = run.surface.iter().take(off + 1);
+        touching.map(|point| [point.r_um, point.pressure_MPa]).collect::<Vec<_>>()
+    };
+    let series =
+        [Series::line("standard", along(&standard)).marked(), Series::line("reference", along(&fine))];
+    let chart = Chart::new("Radius r (µm)", "Contact pressure (MPa)", series)
+        .titled("Pressure along the contact at the peak");
+    save(folder, "single-pressure.svg", &svg(&chart).expect("a chart of numbers"));
+    report.finish().expect("the file can be written");
+}
