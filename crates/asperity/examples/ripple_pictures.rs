@@ -13,8 +13,8 @@ use asperity::{Length, Scene, Stress, crush};
 use asperity_verification::report::Report;
 use std::path::Path;
 
-/// Depth in µm from which curves are compared: a tenth of the peak.
-const FROM: f64 = 0.5;
+/// Depth in µm from which curves are compared: a fifth of the peak.
+const FROM: f64 = 1.0;
 
 /// A column of the curve.
 type Column = fn(&CurveRow) -> f64;
@@ -71,12 +71,60 @@ fn deviation(rows: &[CurveRow], fine: &[CurveRow], column: Column) -> Vec<[f64; 
     loading(rows).filter(|row| row.depth_um >= FROM).filter_map(point).collect()
 }
 
+/// Deviation in percent of the slope dF/dh from that of the fine curve, of the chord between two depths around each row.
+fn slopes(
+    rows: &[CurveRow],
+    fine: &[CurveRow],
+    around: impl Fn(&[&CurveRow], usize) -> [f64; 2],
+) -> Vec<[f64; 2]> {
+    let force: Column = |row| row.force_N;
+    let loaded: Vec<&CurveRow> = loading(rows).collect();
+    let chord = |rows: &[CurveRow], [low, high]: [f64; 2]| {
+        Some((at(rows, force, high)? - at(rows, force, low)?) / (high - low))
+    };
+    let deviation = |i: usize| {
+        let ends = around(&loaded, i);
+        Some([loaded[i].depth_um, 100.0 * (chord(rows, ends)? / chord(fine, ends)? - 1.0)])
+    };
+    (1..loaded.len()).filter(|&i| loaded[i - 1].depth_um >= FROM).filter_map(deviation).collect()
+}
+
+/// The same of unloading between 95 and 20 % of the peak, between each row and the next, at the forces of both.
+fn slopes_back(rows: &[CurveRow], fine: &[CurveRow]) -> Vec<[f64; 2]> {
+    let back = |rows: &[CurveRow]| -> Vec<[f64; 2]> {
+        let from = rows.iter().position(|row| row.phase == Phase::Unload).unwrap_or(rows.len()) - 1;
+        rows[from..].iter().map(|row| [row.force_N, row.depth_um]).collect()
+    };
+    let (fine, rows) = (back(fine), back(rows));
+    let peak = fine[0][0];
+    let depth = |force: f64| {
+        let after = fine.iter().position(|[f, _]| *f <= force)?.max(1);
+        let ([f, h], [g, k]) = (fine[after - 1], fine[after]);
+        Some(h + (k - h) * (force - f) / (g - f))
+    };
+    let deviation = |pair: &[[f64; 2]]| {
+        let [[f, h], [g, k]] = [pair[0], pair[1]];
+        // a chord of the same share of the peak, however the peaks differ
+        let scale = peak / rows[0][0];
+        let theirs = (depth(f * scale)? - depth(g * scale)?) / scale;
+        Some([k, 100.0 * (theirs / (h - k) - 1.0)])
+    };
+    let inside = |pair: &&[[f64; 2]]| pair.iter().all(|[f, _]| (0.2..=0.95).contains(&(f / rows[0][0])));
+    rows.windows(2).filter(inside).filter_map(deviation).collect()
+}
+
 fn rms(points: &[[f64; 2]]) -> f64 {
     (points.iter().map(|[_, y]| y * y).sum::<f64>() / points.len() as f64).sqrt()
 }
 
 fn largest(points: &[[f64; 2]]) -> f64 {
     points.iter().fold(0.0, |most, [_, y]| most.max(y.abs()))
+}
+
+/// A row of the table: deviations as found and in the result.
+fn row(name: &str, [before, after]: &[Vec<[f64; 2]>; 2]) -> String {
+    let cells = [rms(before), largest(before), rms(after), largest(after)];
+    format!("| {name} | {} |", cells.map(|percent| format!("{percent:.2} %")).join(" | "))
 }
 
 fn save(folder: &Path, name: &str, picture: &str) {
@@ -117,11 +165,28 @@ fn main() {
     for (name, column, stated) in columns {
         let [before, after] =
             [&standard.found, curve].map(|rows| deviation(rows, &fine.result.curve, column));
-        let cells = [rms(&before), largest(&before), rms(&after), largest(&after)];
-        let cells = cells.map(|percent| format!("{percent:.2} %")).join(" | ");
-        report.line(&format!("| {} | {cells} |", name.to_lowercase()));
+        report.line(&row(&name.to_lowercase(), &[before.clone(), after.clone()]));
         let file = format!("single-ripple-{}.svg", name.to_lowercase().replace(' ', "-"));
         save(folder, &file, &beside(name, [before, after], stated));
+    }
+
+    let [found, result] = [&standard.found, curve];
+    let reference = &fine.result.curve;
+    let single =
+        |rows: &[CurveRow]| slopes(rows, reference, |rows, i| [rows[i - 1].depth_um, rows[i].depth_um]);
+    let around = |rows: &[CurveRow]| {
+        slopes(rows, reference, |rows, i| {
+            let (depth, last) = (rows[i].depth_um, rows[rows.len() - 1].depth_um);
+            [0.97 * depth, (1.03 * depth).min(last)]
+        })
+    };
+    let back = |rows: &[CurveRow]| slopes_back(rows, reference);
+    for (name, deviations) in [
+        ("slope dF/dh of single increments", [single(found), single(result)]),
+        ("slope over ±3 % of the depth", [around(found), around(result)]),
+        ("slope of unloading, 95 to 20 % of the peak", [back(found), back(result)]),
+    ] {
+        report.line(&row(name, &deviations));
     }
 
     let along = |run: &Run| {

@@ -3,7 +3,7 @@
 //! node lies within 2 % of the mean of its corners.
 //!
 //! Source: Hertz (Johnson 1985, eq. 4.22) p = p₀ √(1 - r²/a²), p₀ = 2 E* a/(π R). Tolerances: the penetration at the nodes, which
-//! is not smoothed, gives 1.3 % and 8 %; the line over an edge cannot follow the curvature of Hertz's pressure, which is 0.5 %
+//! is not smoothed, gives 1.3 % and 14 %; the line over an edge cannot follow the curvature of Hertz's pressure, which is 0.5 %
 //! over the edge at the axis.
 
 use asperity_law::units::Length;
