@@ -1,5 +1,6 @@
 //! Pictures of what the ripple of the mesh does to the curve of the paper's asperity at `standard`, and what is left of it:
-//! `cargo run --release -p asperity --example ripple_pictures -- FOLDER [--out FILE]`; FILE gets a table of the same.
+//! `cargo run --release -p asperity --example ripple_pictures -- [FOLDER] [--out FILE]`. FILE gets a table of the same, FOLDER the pictures;
+//! without them the table is printed.
 //!
 //! "As found" is an increment before the run has ended: the sum of the nodal forces over the depth, and that force over the area.
 
@@ -127,8 +128,10 @@ fn row(name: &str, [before, after]: &[Vec<[f64; 2]>; 2]) -> String {
     format!("| {name} | {} |", cells.map(|percent| format!("{percent:.2} %")).join(" | "))
 }
 
-fn save(folder: &Path, name: &str, picture: &str) {
-    std::fs::write(folder.join(name), picture).expect("the folder can be written");
+fn save(folder: Option<&String>, name: &str, picture: &str) {
+    if let Some(folder) = folder {
+        std::fs::write(Path::new(folder).join(name), picture).expect("the folder can be written");
+    }
 }
 
 /// Deviations of a column as found and in the result; only the force states an error in every row.
@@ -146,7 +149,7 @@ fn beside(name: &str, [before, after]: [Vec<[f64; 2]>; 2], stated: &[[f64; 2]]) 
 
 fn main() {
     let (mut report, words) = Report::of_package("asperity", "ripple_pictures", "standard beside reference");
-    let folder = Path::new(words.first().expect("name the folder of the pictures"));
+    let folder = words.first();
     let [standard, fine] = [Accuracy::Standard, Accuracy::Reference].map(run);
     let curve = &standard.result.curve;
     let force = titled_plot(&standard.result.summary, curve).expect("a chart of numbers");
