@@ -34,6 +34,7 @@ fn every_new_scene_runs() {
         let end = place.run(&[&[command, file.as_str(), "--out", &out, "--quiet"], quick].concat());
         assert_eq!((end.status, end.err.as_str()), (0, ""), "{kind}");
     }
+    assert!(place.path("out-sweep/coefficient.toml").exists(), "the sweep finds its coefficient");
     let fit = std::fs::read_to_string(place.path("out-fit/fit.json")).unwrap();
     let fit: serde_json::Value = serde_json::from_str(&fit).unwrap();
     assert!(fit["verdict"].as_str().unwrap().starts_with("identifiable"), "{}", fit["verdict"]);

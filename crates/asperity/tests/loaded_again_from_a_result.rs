@@ -43,6 +43,11 @@ fn a_result_is_started_from_and_started_from_again() {
     };
     run(&["crush", "again.toml", "--out", "second", "--quiet"]);
     run(&["crush", "again.toml", "--set", "initial.from=second", "--out", "third", "--quiet"]);
+    // a result is not replaced by one that starts from it
+    let end =
+        place.run(&["crush", "again.toml", "--set", "initial.from=second", "--out", "second", "--force"]);
+    assert_eq!(end.status, 2, "{}", end.err);
+    assert!(end.err.contains("starts from") && end.err.contains("--out"), "{}", end.err);
     let [first, second, third] = ["first", "second", "third"].map(|folder| summary(&place, folder));
     for key in ["material", "asperity", "symmetry"] {
         assert_eq!(first["scene"][key], second["scene"][key], "{key}");

@@ -40,5 +40,6 @@ mod step_order;
 mod system_tangent;
 mod tabulated_hardening;
 mod ten_reloads;
+mod the_tool_advances_while_it_loads;
 mod thick_walls;
 mod uniaxial_bar;

@@ -84,7 +84,7 @@ impl Calibration {
             (Some(_), Some(a)) => unloading::unload(sweep, a.c),
             _ => Vec::new(),
         };
-        let flat = "not determined: the scatter is flat in the representative strain at every slope";
+        let flat = "not determined: the scatter is flat in the representative strain at every slope; give more moduli, yield stresses and exponents";
         let reason = obstacle.or_else(|| all.is_none().then(|| flat.into()));
         let function = function.as_ref();
         let fit = Fit::new(sweep, &rows, &angles, all, &choices, developed, function, &unloaded, reason);

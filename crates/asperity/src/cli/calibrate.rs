@@ -8,7 +8,7 @@ use crate::cli::flags::{ReportFlag, RunFlags, SceneFlags};
 use crate::cli::folder::{Folder, journal_beside};
 use crate::cli::progress::Progress;
 use crate::cli::terminal;
-use crate::error::Error;
+use crate::error::{Error, InputError};
 use clap::{Args, Subcommand};
 use std::path::{Path, PathBuf};
 
@@ -86,6 +86,10 @@ fn sweep(args: &Calibrate) -> Result<(), Error> {
     let mut sweep = read_sweep(args.sweep.as_deref(), &args.scene_flags.overrides)?;
     if let Some(level) = args.scene_flags.accuracy {
         sweep.accuracy = level;
+    }
+    if let Some(slope) = args.slope.filter(|slope| !sweep.slopes_deg.contains(slope)) {
+        let help = format!("it has {:?}", sweep.slopes_deg);
+        return Err(InputError::new(format!("--slope {slope} is no slope of the sweep")).help(help).into());
     }
     let name = args.sweep.as_ref().and_then(|path| path.file_stem()).map(|stem| stem.to_string_lossy());
     let name = name.as_deref().unwrap_or("calibrate");

@@ -44,6 +44,15 @@ pub fn crush(args: &Crush) -> Result<(), Error> {
         scene.tables().unused().iter().for_each(terminal::warn);
     }
     let out = args.run.target(&scene.name());
+    let earlier = scene.tables().initial.as_ref().and_then(|initial| initial.from.as_ref());
+    if let Some(earlier) = earlier.map(|from| scene.resolve(from))
+        && earlier.canonicalize().is_ok_and(|earlier| out.canonicalize().is_ok_and(|out| out == earlier))
+    {
+        let message = format!("{} is the result that this scene starts from", out.display());
+        return Err(InputError::new(message)
+            .help("name another folder with --out, or rename the scene")
+            .into());
+    }
     let mut folder = Folder::create(&out, "crush", args.run.force)?;
     interrupt::catch();
     let progress = Progress::new(args.run.quiet);

@@ -65,7 +65,8 @@ row! {
         elastic_energy_uJ: f64 = row.elastic_energy / units.energy,
         /// Work of plastic flow, Σ∫σ_y dε_p; never found by subtraction.
         plastic_work_uJ: f64 = row.plastic_work / units.energy,
-        /// Energy stored in the penalty, ½ε∫d² dA with the penetration d: an artefact of the method, no energy of the metal.
+        /// Energy stored in the penalty, ½ε∫d² dA with the penetration d, less what it changed by so far as the contact was measured anew over
+        /// the last converged surface, which is no work of the tool: an artefact of the method, no energy of the metal.
         contact_energy_uJ: f64 = row.contact_energy / units.energy,
         /// Mean penetration, weighted by the pressure.
         penetration_um: f64 = row.penetration / MICROMETRE,

@@ -106,7 +106,7 @@ impl Crush {
         let stays = Some(["residual_depth", " of the depth"]);
         let returned = Some(["elastic_fraction", " of the work"]);
         let mut rows = vec![
-            line("Largest force", "peak_force_N", 1.0, &newton, bound("force")),
+            line("Force at the peak", "peak_force_N", 1.0, &newton, bound("force")),
             line("Depth at the peak", "peak_depth_um", 1.0, " µm", None),
             line(contact[0], "contact_area_um2", 1.0, contact[1], bound("contact_area")),
             line("Work done to the peak", "total_work_uJ", 1.0, &joule, None),

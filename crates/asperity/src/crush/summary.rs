@@ -52,7 +52,7 @@ row! {
         /// Why and where the run ended before its target; absent if it did not.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         stopped: Option<String> = stopped,
-        /// Largest force.
+        /// Force at the end of the first loading, its largest but for what gives way on the way.
         peak_force_N: f64 = summary.peak_force / units.force,
         /// Depth at the peak.
         peak_depth_um: f64 = summary.peak_depth / MICROMETRE,
@@ -174,6 +174,9 @@ row! {
     }
 }
 
+/// Share of the kinematic hardening up to which a bar does not yield in reverse before its load is gone.
+const FREE_SHARE: f64 = 0.5;
+
 impl Summary {
     /// The text of summary.json.
     ///
@@ -218,6 +221,19 @@ impl Summary {
                     "the stated error of the {what} is {error:.2} %, above the {promise} % of the accuracy: {way_out}"
                 ));
             }
+        }
+        let share = self.scene.material.moving_share();
+        if share > FREE_SHARE && self.residual_depth_um.is_some() {
+            warnings.push(format!(
+                "with {share} of the hardening kinematic the metal yields in reverse as the tool retreats, by too much where strains are large: \
+                 residual depth and elastic fraction may be far off; give material.kinematic_share of {FREE_SHARE} or less"
+            ));
+        }
+        if self.elastic_fraction.is_some_and(|fraction| fraction > 1.0) {
+            warnings.push(
+                "more work came back than was done: force and energies of this run are not to be used; press less deep, or by a blunter tool"
+                    .into(),
+            );
         }
         // the steps of a level, chosen for its force, leave up to 2e-3
         let balance = if promise > 0.01 { 1e-2 } else { 3e-3 };

@@ -8,7 +8,7 @@ use super::objective::{Objective, roughly};
 use super::parameters::Unknowns;
 use super::response::{Question, Response, respond};
 use super::sobol_points;
-use crate::error::Error;
+use crate::error::{Error, InputError};
 use asperity_law::range;
 use asperity_solver::scene::Accuracy;
 use nalgebra::{DMatrix, SymmetricEigen};
@@ -91,9 +91,10 @@ fn go_on(observer: &mut Observer<'_>, share: f64, text: &str) -> Result<(), Erro
 
 fn no_metal() -> Error {
     let [low, high] = range::MODULUS_OVER_YIELD;
-    Error::Unfinished(format!(
-        "no metal within the bounds can be computed: E/σ_y must be from {low} to {high:e}, and tables must not fall"
-    ))
+    let message = format!(
+        "no metal within the bounds of [material] can be computed: youngs_modulus over yield_stress must be from {low} to {high:e}, and tables must not fall"
+    );
+    InputError::new(message).help("check the units of youngs_modulus and yield_stress").into()
 }
 
 /// The lowest minimum from points all over the bounds.

@@ -151,7 +151,7 @@ pub fn read_text(path: &Path) -> Result<String, InputError> {
     })?;
     if text.trim().is_empty() {
         return Err(InputError::new(format!("{name} is empty"))
-            .help("it must say what to compute: see the commented files in meshes/"));
+            .help("it must say what to compute: `asperity new` writes commented files of every kind"));
     }
     Ok(text)
 }

@@ -72,6 +72,10 @@ pub fn press(scene: &RoughScene, observer: &mut dyn FnMut(&Progress) -> bool) ->
         let message = "no closure can be used with this material: add hardness or yield_stress";
         return Err(scene.error(&SceneError::new("closure", message)).into());
     }
+    if tables.fluid.is_some() && !closures.iter().any(|closure| closure.is_half_space()) {
+        let text = "[fluid] is not used: closures of islands leave no gap that can leak; add closure \"half-space\" or \"half-space-plastic\"";
+        summary.warnings.push(text.into());
+    }
     summary.warnings.extend(two_materials(tables));
     summary.warnings.extend(doubts(&surface, tables));
     let table: Vec<TableRow> = contacts.iter().map(|one| TableRow::new(&name, &surface, one)).collect();

@@ -13,7 +13,9 @@ pub enum CrushError {
     #[error(transparent)]
     Scene(#[from] SceneError),
     /// An element of the mesh is inside out.
-    #[error("the mesh has an element that is inside out or degenerate")]
+    #[error(
+        "the mesh has an element that is inside out or degenerate: give more numerics.elements_in_contact (12 or more), or a mesh of convex cells"
+    )]
     Mesh,
 }
 

@@ -97,9 +97,9 @@ impl Path<'_> {
         loop {
             fraction = fractions.get(index).copied().unwrap_or(fraction * growth);
             let wanted = (fraction * depth).min(limit) * (1.0 + share);
-            if self.problem.cut_off > 0.0 && wanted <= self.travel && index + 1 < fractions.len() {
+            if wanted <= self.travel && index + 1 < fractions.len() {
                 index += 1;
-                continue; // above a tip that was cut off
+                continue; // above a tip that was cut off, or where the penetration has become less than was expected
             }
             // such a tip is met by an increment that is short beside what was cut off
             let planned = if self.increments == 0 && self.travel > 0.0 {
