@@ -53,6 +53,10 @@ fn plastic_cone(slope_deg: f64, exponent: f64, e_over_sy: f64) -> Scene {
     })
 }
 
+fn standard(scene: Scene) -> Scene {
+    Scene { accuracy: Accuracy::Standard, ..scene }
+}
+
 fn peak(outcome: &Outcome) -> f64 {
     outcome.summary.peak_force
 }
@@ -146,9 +150,13 @@ fn rows() -> Vec<Row> {
             scene.material.hardening_law = HardeningChoice::Hollomon;
             scene
         }),
-        row("E/σ_y 1e5, n 0: F/σ_y as at 1e4", plastic_cone(10.0, 0.0, 1e5), 0.05, |o| {
-            10.0 * peak(o) / force(&plastic_cone(10.0, 0.0, 1e4))
-        }),
+        // at `standard`: the two runs of `draft` state 6 and 9 %, more than the bound
+        row(
+            "E/σ_y 1e5, n 0: F/σ_y as at 1e4, at standard",
+            standard(plastic_cone(10.0, 0.0, 1e5)),
+            0.05,
+            |o| 10.0 * peak(o) / force(&standard(plastic_cone(10.0, 0.0, 1e4))),
+        ),
         against_sneddon("slope 0.1°, elastic", elastic_cone(0.1, 0.3)),
         row(
             "slope 45°, to half its height: radius of the cut cone",
