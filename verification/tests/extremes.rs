@@ -389,7 +389,7 @@ fn half_kinematic() -> Scene {
 #[test]
 fn a_rim_that_lies_down_on_the_base_carries_on() {
     // touches at 80 % of the height of this cap with the mesh of `standard`
-    let mut scene = Scene { accuracy: Accuracy::Standard, ..cap(0.85) };
+    let mut scene = standard(cap(0.85));
     scene.material.hardening_exponent = Some(0.1);
     let outcome = crush(&scene).unwrap();
     assert!(outcome.stopped.is_none(), "{:?}", outcome.stopped);

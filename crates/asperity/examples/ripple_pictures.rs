@@ -9,9 +9,11 @@
 
 use asperity::crush::{Crush, CurveRow, Phase, SurfaceRow, titled_plot};
 use asperity::draw::chart::{Chart, Dash, Series, svg};
-use asperity::tables::{Accuracy, Asperity, Loading, Material, Scene as Tables, Symmetry, Tool};
-use asperity::{Length, Scene, Stress, crush};
+use asperity::solver::run::curve::Curve;
+use asperity::tables::Accuracy;
+use asperity::{Scene, crush};
 use asperity_verification::report::Report;
+use asperity_verification::single_asperity::scene;
 use std::path::Path;
 
 /// Depth in µm from which curves are compared: a fifth of the peak.
@@ -27,13 +29,9 @@ struct Run {
     surface: Vec<SurfaceRow>,
 }
 
-/// The asperity of the paper: `meshes/single-asperity.toml`.
+/// The asperity of the paper, without fields but the surface at the peak.
 fn run(accuracy: Accuracy) -> Run {
-    let steel = Material::elastic_body(Stress(210e9), 0.3).yielding(Stress(300e6), 0.3);
-    let cone = Asperity::cone(Length(20e-6), 10.0).rounded(Length(10e-6));
-    let loading = Loading::to_depth(Length(5e-6)).unloaded();
-    let mut tables =
-        Tables::new(Symmetry::Axisymmetric, steel, Tool::plane(), loading).with(cone).at(accuracy);
+    let mut tables = scene(accuracy).expect("the committed scene reads");
     tables.output.every = Some(1000);
     let scene = Scene::new(&tables).expect("a scene without contradictions");
     let (mut found, mut surface) = (Vec::new(), Vec::new());
@@ -52,42 +50,37 @@ fn run(accuracy: Accuracy) -> Run {
     Run { found, result, surface }
 }
 
-fn loading(rows: &[CurveRow]) -> impl Iterator<Item = &CurveRow> + Clone {
+fn loading(rows: &[CurveRow]) -> impl Iterator<Item = &CurveRow> {
     rows.iter().filter(|row| row.phase == Phase::Load && row.depth_um > 0.0)
 }
 
-/// The column of a fine curve at a depth, by a power law between two rows.
-fn at(rows: &[CurveRow], column: Column, depth: f64) -> Option<f64> {
-    let rows: Vec<&CurveRow> = loading(rows).collect();
-    let after = rows.partition_point(|row| row.depth_um < depth).clamp(1, rows.len() - 1);
-    let (from, to) = (rows[after - 1], rows[after]);
-    let share = (depth / from.depth_um).ln() / (to.depth_um / from.depth_um).ln();
-    (share <= 1.0 + 1e-9).then(|| column(from) * (column(to) / column(from)).powf(share))
+/// A column over the depth while loading; NaN beyond its last row.
+fn curve(rows: &[CurveRow], column: Column) -> Curve {
+    Curve::new(loading(rows).map(|row| [row.depth_um, column(row)]))
 }
 
 /// Deviation of a column from that of the fine curve in percent, over the depth.
 fn deviation(rows: &[CurveRow], fine: &[CurveRow], column: Column) -> Vec<[f64; 2]> {
-    let point =
-        |row: &CurveRow| Some([row.depth_um, 100.0 * (column(row) / at(fine, column, row.depth_um)? - 1.0)]);
-    loading(rows).filter(|row| row.depth_um >= FROM).filter_map(point).collect()
+    let fine = curve(fine, column);
+    let counted = loading(rows).filter(|row| row.depth_um >= FROM);
+    let points = counted
+        .map(|row| [row.depth_um, 100.0 * (column(row) / fine.logarithm_at(row.depth_um).exp() - 1.0)]);
+    points.filter(|point| point[1].is_finite()).collect()
 }
 
 /// Deviation in percent of the slope dF/dh from that of the fine curve, of the chord between two depths around each row.
-fn slopes(
-    rows: &[CurveRow],
-    fine: &[CurveRow],
-    around: impl Fn(&[&CurveRow], usize) -> [f64; 2],
-) -> Vec<[f64; 2]> {
-    let force: Column = |row| row.force_N;
-    let loaded: Vec<&CurveRow> = loading(rows).collect();
-    let chord = |rows: &[CurveRow], [low, high]: [f64; 2]| {
-        Some((at(rows, force, high)? - at(rows, force, low)?) / (high - low))
+fn slopes(rows: &[CurveRow], fine: &[CurveRow], around: impl Fn(&[f64], usize) -> [f64; 2]) -> Vec<[f64; 2]> {
+    let [own, fine] = [rows, fine].map(|rows| curve(rows, |row| row.force_N));
+    let chord = |curve: &Curve, [low, high]: [f64; 2]| {
+        (curve.logarithm_at(high).exp() - curve.logarithm_at(low).exp()) / (high - low)
     };
-    let deviation = |i: usize| {
-        let ends = around(&loaded, i);
-        Some([loaded[i].depth_um, 100.0 * (chord(rows, ends)? / chord(fine, ends)? - 1.0)])
-    };
-    (1..loaded.len()).filter(|&i| loaded[i - 1].depth_um >= FROM).filter_map(deviation).collect()
+    let depths: Vec<f64> = loading(rows).map(|row| row.depth_um).collect();
+    let counted = (1..depths.len()).filter(|&i| depths[i - 1] >= FROM);
+    let points = counted.map(|i| {
+        let ends = around(&depths, i);
+        [depths[i], 100.0 * (chord(&own, ends) / chord(&fine, ends) - 1.0)]
+    });
+    points.filter(|point| point[1].is_finite()).collect()
 }
 
 /// The same of unloading between 95 and 20 % of the peak, between each row and the next, at the forces of both.
@@ -123,7 +116,7 @@ fn largest(points: &[[f64; 2]]) -> f64 {
 }
 
 /// A row of the table: deviations as found and in the result.
-fn row(name: &str, [before, after]: &[Vec<[f64; 2]>; 2]) -> String {
+fn row(name: &str, [before, after]: [&[[f64; 2]]; 2]) -> String {
     let cells = [rms(before), largest(before), rms(after), largest(after)];
     format!("| {name} | {} |", cells.map(|percent| format!("{percent:.2} %")).join(" | "))
 }
@@ -151,11 +144,11 @@ fn main() {
     let (mut report, words) = Report::of_package("asperity", "ripple_pictures", "standard beside reference");
     let folder = words.first();
     let [standard, fine] = [Accuracy::Standard, Accuracy::Reference].map(run);
-    let curve = &standard.result.curve;
-    let force = titled_plot(&standard.result.summary, curve).expect("a chart of numbers");
+    let (found, result) = (&standard.found, &standard.result.curve);
+    let force = titled_plot(&standard.result.summary, result).expect("a chart of numbers");
     save(folder, "single-force.svg", &force);
 
-    let stated = loading(curve)
+    let stated = loading(result)
         .filter(|row| row.depth_um >= FROM)
         .filter_map(|row| Some([row.depth_um, 100.0 * row.force_error?]));
     let stated: Vec<[f64; 2]> = stated.collect();
@@ -166,31 +159,23 @@ fn main() {
     ];
     report.table("| at standard, beside reference | as found: root mean square | largest | result: root mean square | largest |");
     for (name, column, stated) in columns {
-        let [before, after] =
-            [&standard.found, curve].map(|rows| deviation(rows, &fine.result.curve, column));
-        report.line(&row(&name.to_lowercase(), &[before.clone(), after.clone()]));
+        let [before, after] = [found, result].map(|rows| deviation(rows, &fine.result.curve, column));
+        report.line(&row(&name.to_lowercase(), [&before, &after]));
         let file = format!("single-ripple-{}.svg", name.to_lowercase().replace(' ', "-"));
         save(folder, &file, &beside(name, [before, after], stated));
     }
 
-    let [found, result] = [&standard.found, curve];
     let reference = &fine.result.curve;
-    let single =
-        |rows: &[CurveRow]| slopes(rows, reference, |rows, i| [rows[i - 1].depth_um, rows[i].depth_um]);
+    let single = |rows: &[CurveRow]| slopes(rows, reference, |depths, i| [depths[i - 1], depths[i]]);
     let around = |rows: &[CurveRow]| {
-        slopes(rows, reference, |rows, i| {
-            let (depth, last) = (rows[i].depth_um, rows[rows.len() - 1].depth_um);
-            [0.97 * depth, (1.03 * depth).min(last)]
+        slopes(rows, reference, |depths, i| {
+            [0.97 * depths[i], (1.03 * depths[i]).min(depths[depths.len() - 1])]
         })
     };
     let back = |rows: &[CurveRow]| slopes_back(rows, reference);
-    for (name, deviations) in [
-        ("slope dF/dh of single increments", [single(found), single(result)]),
-        ("slope over ±3 % of the depth", [around(found), around(result)]),
-        ("slope of unloading, 95 to 20 % of the peak", [back(found), back(result)]),
-    ] {
-        report.line(&row(name, &deviations));
-    }
+    report.line(&row("slope dF/dh of single increments", [&single(found), &single(result)]));
+    report.line(&row("slope over ±3 % of the depth", [&around(found), &around(result)]));
+    report.line(&row("slope of unloading, 95 to 20 % of the peak", [&back(found), &back(result)]));
 
     let along = |run: &Run| {
         let off = run.surface.iter().position(|point| point.pressure_MPa <= 0.0).unwrap_or(run.surface.len());

@@ -313,12 +313,11 @@ fn table2(results: &Results) -> Vec<Claim> {
     let mut claims = Vec::new();
     if let Some(shares) = column(results, Closure::Johnson, |r| &r.elastic) {
         let most = shares.iter().copied().fold(0.0, f64::max);
-        let cut = match most > 100.0 {
-            true => format!(
+        let cut = (most > 100.0).then(|| {
+            format!(
                 "100 % is a cut: on that surface the unloading law, a cone's, returns {most:.0} % of the work, and plastic work is not resolved."
-            ),
-            false => String::new(),
-        };
+            )
+        });
         let shares: Vec<f64> = shares.iter().map(|s| s.min(100.0)).collect();
         let predicted = listed(&shares, |s| format!("{s:.0}"));
         claims.push(Claim::new(
@@ -337,7 +336,7 @@ fn table2(results: &Results) -> Vec<Claim> {
             "the ground surface is quasi elastic, the milled and sanded ones more plastic",
             format!("elastic share predicted {predicted} %"),
             shares[0] > 80.0 && falls(&shares),
-            cut,
+            cut.unwrap_or_default(),
         ));
     }
     if let Some(residual) = column(results, Closure::Johnson, |r| &r.residual) {
