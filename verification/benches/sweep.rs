@@ -57,7 +57,7 @@ fn measure(case: &Case, sweep: &Sweep, floor: &Roofline) -> Sums {
     let points = problem.mesh.cell_count() * POINTS;
     let (unknowns, least) = Path::new(&problem).map_or((0, 0.0), |path| {
         let operations = path.model.operations();
-        (path.model.body().dofs.count, floor.iteration(problem.mesh.kind, points, operations))
+        (path.model.body().analysis.dofs.count, floor.iteration(problem.mesh.kind, points, operations))
     });
     Sums {
         cases: 1.0,

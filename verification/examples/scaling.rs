@@ -50,7 +50,7 @@ fn one(elements: usize) -> Result<(), Box<dyn Error + Send + Sync>> {
         }
     }
     let memory = peak_memory().unwrap_or(f64::NAN);
-    let unknowns = model.body().dofs.count;
+    let unknowns = model.body().analysis.dofs.count;
     let operations = model.operations().factor;
     println!("{unknowns} {operations} {} {} {} {whole} {iterations} {memory}", least[0], least[1], least[2]);
     Ok(())

@@ -92,7 +92,7 @@ fn loading(elements: usize) -> Result<(usize, f64), Box<dyn Error + Send + Sync>
     path.settings.tolerance = 1e-5;
     let (end, seconds) = timed(|| path.load(&mut |_, _| true));
     end?;
-    Ok((path.model.body().dofs.count, seconds))
+    Ok((path.model.body().analysis.dofs.count, seconds))
 }
 
 /// An iteration with a new tangent on a mesh of `elements` across the contact: unknowns, seconds, seconds at the floor.
@@ -112,7 +112,7 @@ fn iteration(elements: usize, floor: &Roofline) -> Result<(usize, f64, f64), Box
         done?;
         seconds = seconds.min(taken);
     }
-    Ok((path.model.body().dofs.count, seconds, least_seconds))
+    Ok((path.model.body().analysis.dofs.count, seconds, least_seconds))
 }
 
 /// CalculiX's core seconds over ours at equal accuracy, geometric mean, from the table that `scripts/peers` writes.

@@ -20,7 +20,7 @@ fn factorisations_cost_no_more_than_twice_those_of_a_square_grid() {
         scene.numerics.elements_in_contact = Some(elements);
         let problem = prepared(&scene).unwrap();
         let model = problem.equilibrium().unwrap();
-        let grid = 16.0 * 829.0 / 84.0 * (model.body().dofs.count as f64 / 2.0).powf(1.5);
+        let grid = 16.0 * 829.0 / 84.0 * (model.body().analysis.dofs.count as f64 / 2.0).powf(1.5);
         let share = model.operations().factor / grid;
         assert!((0.5..2.0).contains(&share), "{elements} elements: {share:.2} of a square grid's operations");
     }

@@ -44,7 +44,7 @@ fn check(kind: ElementKind, symmetry: Symmetry) {
         model.response().contact.iter().any(|edge| edge.load > 0.0)
             && (0..mesh.cell_count()).any(|cell| model.response().yielding[cell])
     );
-    let (stiffness, numbers) = (model.stiffness().clone(), model.body().dofs.number.to_vec());
+    let (stiffness, numbers) = (model.stiffness().clone(), model.body().analysis.dofs.number.to_vec());
     let scale = stiffness.data().iter().fold(0.0, |m: f64, v| m.max(v.abs()));
     for node in 0..count {
         for i in 0..2 {

@@ -7,6 +7,7 @@ use crate::algebra::front_tree::{Front, FrontTree, Part};
 use pulp::Arch;
 use rayon::prelude::*;
 use sprs::CsMat;
+use std::sync::Arc;
 
 /// Why a matrix could not be factorised.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -31,7 +32,7 @@ pub struct Operations {
 /// Symbolic analysis, factor values and work space of one pattern.
 pub struct Factor {
     pub(crate) arch: Arch,
-    tree: FrontTree,
+    tree: Arc<FrontTree>,
     /// Numbers of every part of the tree.
     parts: Vec<Numbers>,
     /// Work space of one column of a front.
@@ -107,7 +108,11 @@ impl Numbers {
 impl Factor {
     /// Analyses the lower triangle `matrix`, whose unknowns stand in an order of little fill.
     pub fn new(matrix: &CsMat<f64>) -> Factor {
-        let tree = FrontTree::new(matrix);
+        Factor::of(Arc::new(FrontTree::new(matrix)))
+    }
+
+    /// Of the pattern that was analysed.
+    pub fn of(tree: Arc<FrontTree>) -> Factor {
         let numbers = |part: &Part| Numbers {
             values: vec![0.0; part.factor],
             stacks: part.stacks.map(|length| vec![0.0; length]),
@@ -117,7 +122,7 @@ impl Factor {
             arch: Arch::new(),
             parts: tree.parts.iter().map(numbers).collect(),
             local: vec![0.0; tree.longest_column()],
-            ordered: vec![0.0; matrix.cols()],
+            ordered: vec![0.0; tree.number.len()],
             tree,
         }
     }

@@ -24,17 +24,27 @@ struct Graph {
 
 impl Graph {
     /// The graph of `size` vertices with these `edges`, each in both directions.
-    fn new(size: usize, mut edges: Vec<[usize; 2]>) -> Graph {
-        edges.sort_unstable();
-        edges.dedup();
-        let mut starts = vec![0; size + 1];
-        for &[from, _] in &edges {
-            starts[from + 1] += 1;
-        }
+    fn new(size: usize, edges: impl Iterator<Item = [usize; 2]> + Clone) -> Graph {
+        // end of each vertex's neighbours, and while they are put there, backwards, their start
+        let mut ends = vec![0; size + 1];
+        edges.clone().for_each(|[from, _]| ends[from] += 1);
         for vertex in 0..size {
-            starts[vertex + 1] += starts[vertex];
+            ends[vertex + 1] += ends[vertex];
         }
-        Graph { starts, neighbours: edges.into_iter().map(|[_, to]| to).collect() }
+        let mut all = vec![0; ends[size]];
+        let mut begins = ends.clone();
+        for [from, to] in edges {
+            begins[from] -= 1;
+            all[begins[from]] = to;
+        }
+        let (mut starts, mut neighbours) = (vec![0], Vec::with_capacity(all.len()));
+        for vertex in 0..size {
+            let own = &mut all[begins[vertex]..ends[vertex]];
+            own.sort_unstable();
+            neighbours.extend(own.chunk_by(|a, b| a == b).map(|same| same[0]));
+            starts.push(neighbours.len());
+        }
+        Graph { starts, neighbours }
     }
 
     /// Number of vertices.
@@ -48,7 +58,7 @@ impl Graph {
             let ends = &self.neighbours[self.starts[vertex]..self.starts[vertex + 1]];
             ends.iter().map(move |&end| [place[vertex], place[end]])
         });
-        Graph::new(self.size(), edges.collect())
+        Graph::new(self.size(), edges)
     }
 
     /// For each vertex its place in an order of nested dissection, or nothing where that fails.
@@ -91,7 +101,7 @@ pub fn elimination_order(
             edges.extend(ends.iter().filter(|&&b| b != a).map(|&b| [a, b]));
         }
     }
-    let graph = Graph::new(nodes.len(), edges);
+    let graph = Graph::new(nodes.len(), edges.into_iter());
     let places = cheapest_places(&graph)?;
     let mut order = vec![0; nodes.len()];
     places.iter().zip(nodes).for_each(|(&place, node)| order[place] = node);

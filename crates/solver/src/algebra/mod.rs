@@ -18,6 +18,8 @@ pub mod front_tree;
 
 pub mod cholesky;
 
+pub mod analysis;
+
 pub mod vectors;
 
 pub mod lbfgs;

@@ -54,7 +54,7 @@ impl Response {
             contact: Vec::with_capacity(state.edges.len()),
             pressed: Vec::new(),
             internal: vec![[0.0; 2]; body.mesh.nodes.len()],
-            residual: vec![0.0; body.dofs.count],
+            residual: vec![0.0; body.analysis.dofs.count],
             linearised: Vec::with_capacity(body.mesh.cell_count()),
             buffers: Buffers::new(body),
         }
@@ -208,7 +208,7 @@ impl Body<'_> {
     fn balance(&self, state: &State, tangent: Tangent, response: &mut Response, stiffness: &mut Stiffness) {
         let Response { contact, pressed, internal, residual, .. } = response;
         residual.fill(0.0);
-        for (f, numbers) in internal.iter().zip(&self.dofs.number) {
+        for (f, numbers) in internal.iter().zip(&self.analysis.dofs.number) {
             for i in 0..2 {
                 if numbers[i] != FIXED {
                     residual[numbers[i] as usize] += f[i];
@@ -240,7 +240,7 @@ impl Body<'_> {
         stiffness: &mut Option<&mut Stiffness>,
     ) {
         for (a, &node) in nodes.iter().enumerate() {
-            let row = self.dofs.number[node as usize];
+            let row = self.analysis.dofs.number[node as usize];
             for i in 0..2 {
                 if row[i] != FIXED {
                     residual[row[i] as usize] += force[a][i];
@@ -248,7 +248,7 @@ impl Body<'_> {
             }
             let Some(stiffness) = stiffness else { continue };
             for (b, &other) in nodes.iter().enumerate() {
-                let col = self.dofs.number[other as usize];
+                let col = self.analysis.dofs.number[other as usize];
                 for i in 0..2 {
                     for j in 0..2 {
                         stiffness.add_entry(row[i], col[j], derivative[a][i][b][j]);

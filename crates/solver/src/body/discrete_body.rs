@@ -1,7 +1,6 @@
 //! The discretised body: what stays the same while it is loaded.
 
-use crate::algebra::dofs::Dofs;
-use crate::algebra::fill_ordering::elimination_order;
+use crate::algebra::analysis::Analysis;
 use crate::body::failure::Failure;
 use crate::contact::edge::{ContactContext, ContactEdge};
 use crate::contact::tool::Tool;
@@ -12,6 +11,7 @@ use crate::point::material::Metal;
 use asperity_law::real::Lanes;
 use asperity_mesh::{ElementKind, Mesh};
 use pulp::Arch;
+use std::sync::Arc;
 
 /// A tool in contact with the surface of the body.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,8 +40,8 @@ pub struct Body<'m> {
     pub material: Metal,
     /// The tool, if there is one.
     pub contact: Option<ToolContact>,
-    /// Numbers of the unknown displacement components.
-    pub dofs: Dofs,
+    /// Numbers of the unknown displacement components, and the pattern of their stiffness.
+    pub analysis: Arc<Analysis>,
     /// Reference volume of every integration point, four to an element.
     pub volume: Vec<f64>,
     /// Integration points of the eight-node element.
@@ -64,23 +64,13 @@ impl<'m> Body<'m> {
         fixed: impl Fn(usize) -> [bool; 2],
         contact: Option<ToolContact>,
     ) -> Result<Self, Failure> {
-        let nodes = mesh.nodes.len();
-        // nodes that no element uses have no stiffness and are fixed
-        let mut used = vec![false; nodes];
-        for &node in &mesh.cells {
-            used[node as usize] = true;
-        }
-        let fixed = |node: usize| if used[node] { fixed(node) } else { [true, true] };
-        let free: Vec<bool> = (0..nodes).map(|node| fixed(node) != [true, true]).collect();
-        // numbered in the order of elimination, the matrix is never permuted again
-        let order =
-            elimination_order(&mesh.cells, mesh.kind.nodes(), &free).map_err(|_| Failure::Singular)?;
-        let dofs = Dofs::new(nodes, &order, fixed);
+        let fixed: Vec<[bool; 2]> = (0..mesh.nodes.len()).map(fixed).collect();
+        let analysis = Analysis::of(&mesh.cells, mesh.kind.nodes(), &fixed).map_err(|_| Failure::Singular)?;
         let points8 = ShapePoint::side_by_side(&quad8::points());
         let points4 = ShapePoint::side_by_side(&quad4::points());
         let volume = Vec::with_capacity(mesh.cell_count() * POINTS);
         let mut body =
-            Body { mesh, symmetry, material, contact, dofs, volume, points8, points4, arch: Arch::new() };
+            Body { mesh, symmetry, material, contact, analysis, volume, points8, points4, arch: Arch::new() };
         for cell in 0..mesh.cell_count() {
             let volumes = body.volumes_at(&mesh.nodes, cell)?;
             body.volume.extend(volumes);

@@ -107,9 +107,9 @@ impl<'m> Equilibrium<'m> {
     /// # Errors
     /// As for [`Equilibrium::new`].
     pub fn from_state(body: Body<'m>, state: State) -> Result<Self, Failure> {
-        let stiffness = Stiffness::new(&body.mesh.cells, body.mesh.kind.nodes(), &body.dofs);
-        let factor = Factor::new(&stiffness.matrix);
-        let count = body.dofs.count;
+        let stiffness = body.analysis.stiffness.clone();
+        let factor = Factor::of(body.analysis.fronts.clone());
+        let count = body.analysis.dofs.count;
         Ok(Equilibrium {
             trial: state.trial(),
             response: Response::new(&body, &state),
@@ -197,7 +197,7 @@ impl<'m> Equilibrium<'m> {
         let mut grown = false;
         for (nodes, count) in state.facing.couplings(&state.edges) {
             let mut group = nodes[..count].to_vec();
-            if !self.stiffness.couples(&group, &self.body.dofs) {
+            if !self.stiffness.couples(&group, &self.body.analysis.dofs) {
                 group.sort_unstable();
                 grown |= self.coupled.insert(group);
             }
@@ -205,7 +205,8 @@ impl<'m> Equilibrium<'m> {
         if grown {
             let groups: Vec<Vec<u32>> = self.coupled.iter().cloned().collect();
             let mesh = self.body.mesh;
-            self.stiffness = Stiffness::coupled(&mesh.cells, mesh.kind.nodes(), &groups, &self.body.dofs);
+            self.stiffness =
+                Stiffness::coupled(&mesh.cells, mesh.kind.nodes(), &groups, &self.body.analysis.dofs);
             self.factor = Factor::new(&self.stiffness.matrix);
             (self.has_factors, self.has_tangent) = (false, false);
             self.secants.clear();
@@ -333,9 +334,11 @@ impl<'m> Equilibrium<'m> {
     /// A stiffness that cannot be factorised.
     pub fn tool_stiffness(&mut self) -> Result<ToolStiffness, Failure> {
         self.renew()?;
-        Ok(tool_stiffness(&self.body.dofs, self.state.edges.iter().zip(&self.response.contact), |rhs| {
-            self.factor.solve(rhs)
-        }))
+        Ok(tool_stiffness(
+            &self.body.analysis.dofs,
+            self.state.edges.iter().zip(&self.response.contact),
+            |rhs| self.factor.solve(rhs),
+        ))
     }
 
     /// Assembles the last assessed iterate once more, with the same contact.
@@ -369,7 +372,7 @@ impl<'m> Equilibrium<'m> {
         let residual = norm(&self.response.residual);
         // forces of the fixed components and of the tool, and the largest load so far (the load itself goes to 0)
         let mut reaction = 0.0;
-        for (f, numbers) in self.response.internal.iter().zip(&self.body.dofs.number) {
+        for (f, numbers) in self.response.internal.iter().zip(&self.body.analysis.dofs.number) {
             for i in 0..2 {
                 if numbers[i] == FIXED {
                     reaction += f[i] * f[i];
@@ -464,7 +467,7 @@ impl System for Equilibrium<'_> {
             self.keep_contact = self.base_kept_contact;
         }
         let displacement = self.trial.displacement.iter_mut();
-        for ((du, base), numbers) in displacement.zip(&self.base).zip(&self.body.dofs.number) {
+        for ((du, base), numbers) in displacement.zip(&self.base).zip(&self.body.analysis.dofs.number) {
             for i in 0..2 {
                 if numbers[i] != FIXED {
                     du[i] = base[i] - fraction * self.direction[numbers[i] as usize];

@@ -64,7 +64,7 @@ pub(super) fn follow<'p>(
 ) -> Result<(Path<'p>, Recorder<'p>, Option<Stop>), CrushError> {
     let mut path = Path::new(problem).map_err(|_| CrushError::Mesh)?;
     path.journal = journal;
-    let mut recorder = Recorder::new(problem, interval, path.model.body().dofs.count);
+    let mut recorder = Recorder::new(problem, interval, path.model.body().analysis.dofs.count);
     recorder.draw_start(&path.model, observer);
     let mut stopped = path.load(&mut |model, increment| recorder.record(model, increment, observer)).err();
     recorder.peak_reached(observer, &path.model, stopped.is_none());
