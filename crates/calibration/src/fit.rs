@@ -8,6 +8,7 @@ use crate::collapse::{
 };
 use crate::row::Row;
 use asperity_law::Elastic;
+use rayon::prelude::*;
 
 /// Resamples of the bootstrap and its seed, fixed so that the same rows give the same bytes.
 const RESAMPLES: usize = 800;
@@ -142,7 +143,7 @@ pub fn obstacle(data: &Data) -> Option<String> {
 pub fn angles(data: &Data) -> Vec<Angle> {
     let draws = resample(&data.materials);
     data.slopes
-        .iter()
+        .par_iter()
         .filter_map(|(beta, samples)| {
             let tan = beta.to_radians().tan();
             let collapse = Collapse::new(samples, tan, data.reduced_modulus);
