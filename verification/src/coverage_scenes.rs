@@ -1,5 +1,5 @@
-//! A battery of numbered scenes that differ in everything a scene can say: what the stated errors are held against. No constant
-//! of the program was chosen on it.
+//! A battery of numbered scenes that differ in everything a scene can say: what the stated errors are held against. Which
+//! constants of the program had seen them, the page of stated errors says.
 //!
 //! The [`Kind`]s take turns, so that the first [`Kind::ALL`] scenes hold each of them; the levels take turns too, and everything else
 //! is drawn from the number.

@@ -8,10 +8,10 @@
 //!   the force, whose observed orders lie between 1 and 2, and with p = 1 of the area.
 //! * A penetration d over the depth widens radius or half width by about 3 d, of an order near 0.85: after Richardson's extrapolation
 //!   of the first order 3 d (2 - 2^0.85) = 0.6 d is left (`WIDENED`), and taken off too.
-//! * The bound of what is left is, added in squares, a share of the largest smooth part from a fifth of the depth on, `RIPPLE` times
-//!   the largest rest, and what errors of mesh and penetration, which have opposite signs, may hide from each other by chance
-//!   (`Quantity::hidden`; of the force also what coarse steps lose). The rest is that of D, or that of the run from a smooth curve of its own where it is less: the companion
-//!   ripples more.
+//! * The bound of what is left is, added in squares, the largest smooth part from a fifth of the depth on and `RIPPLE` times
+//!   the largest rest, of the area both with Roache's factor of safety (`SAFETY`), and what errors of mesh and penetration, which have
+//!   opposite signs, may hide from each other by chance (`Quantity::hidden`; of the force also what coarse steps lose). The rest is
+//!   that of D, or that of the run from a smooth curve of its own where it is less: the companion ripples more.
 //! * A companion that differs by more than `MOST` is in no asymptotic range: no share of D is taken off.
 //! * The mesh that is given cannot be made coarser. Its companion has the other element, of which no order is known: nothing is taken
 //!   off the force, half of D off the area.
@@ -45,8 +45,8 @@ struct Quantity {
     widened: f64,
     /// Relative error that run and companion may hide.
     hidden: f64,
-    /// Share of the smooth part that bounds what is left of it.
-    remains: f64,
+    /// Factor of what is seen of the difference in the bound of what is left of it.
+    safety: f64,
 }
 
 /// The numbers of a run that its bounds depend on, beside the two curves.
@@ -78,13 +78,17 @@ const COARSE_STEPS: f64 = 12.0;
 /// The rest of the difference that the bound allows for, over the largest that is seen.
 const RIPPLE: f64 = 2.0;
 
+/// The factor of safety of the grid convergence index where the order was seen on three meshes or more (Roache, Verification and
+/// Validation in Computational Science and Engineering, 1998).
+const SAFETY: f64 = 1.25;
+
 impl Setting {
     fn force(self) -> Quantity {
         // errors of linear elements in bending and in volume have opposite signs
         let balanced = if self.element == ElementChoice::Q4 { 1.5 } else { 0.6 };
         let hidden = (balanced * self.penetration).hypot(COARSE_STEPS / (self.steps as f64).powi(2));
         let share = if self.same_mesh { 0.0 } else { THREE_HALVES };
-        Quantity { smooth: polynomial::<3>, share, widened: 0.0, hidden, remains: 1.0 }
+        Quantity { smooth: polynomial::<3>, share, widened: 0.0, hidden, safety: 1.0 }
     }
 
     fn area(self) -> Quantity {
@@ -95,7 +99,7 @@ impl Setting {
         };
         // a quarter to a half of a widening of 6 penetrations: what is of higher order shows in coarse runs
         let hidden = (1.45 + 120.0 * self.penetration) * self.penetration;
-        Quantity { smooth: even_or_line, share, widened, hidden, remains: 0.8 }
+        Quantity { smooth: even_or_line, share, widened, hidden, safety: SAFETY }
     }
 }
 
@@ -165,7 +169,7 @@ impl Difference {
     fn new(points: Vec<[f64; 2]>, ripple: Vec<f64>, of: Quantity) -> Option<Difference> {
         let smooth = (of.smooth)(&points)?;
         let largest = points.iter().map(|[x, _]| value(&smooth, &powers(*x)).abs()).fold(0.0, f64::max);
-        let of = if largest > MOST { Quantity { share: 0.0, remains: 1.0, ..of } } else { of };
+        let of = if largest > MOST { Quantity { share: 0.0, ..of } } else { of };
         Some(Difference { points, ripple, smooth, of })
     }
 
@@ -188,8 +192,8 @@ impl Difference {
         };
         let [smooth, rest, own] = within.fold([0.0; 3], largest);
         // the companion ripples more; the run itself has kinks that are no ripple
-        let parts = [self.of.remains * smooth, self.of.hidden, RIPPLE * rest.min(own)];
-        parts.into_iter().fold(0.0, f64::hypot)
+        let seen = smooth.hypot(RIPPLE * rest.min(own));
+        (self.of.safety * seen).hypot(self.of.hidden)
     }
 
     fn whole(&self) -> f64 {
