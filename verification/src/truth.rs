@@ -178,6 +178,18 @@ impl Answer {
     }
 }
 
+impl Truth {
+    /// With the elastic fraction of a body that never yields, 1, in the place of that which the run found.
+    #[must_use]
+    pub fn exact_where_known(mut self, scene: &Scene) -> Truth {
+        if !scene.material.yields() {
+            self.answer.elastic_fraction = Some(1.0);
+            self.answer.stated[4] = Some(0.0);
+        }
+        self
+    }
+}
+
 impl Recipe {
     /// That of the truth of a run at `accuracy`.
     pub fn of(accuracy: Accuracy) -> Recipe {

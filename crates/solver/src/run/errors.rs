@@ -24,11 +24,12 @@
 //!
 //! The mean pressure is force over area: its bound is the sum of theirs. Other values read at the peak or after it are not
 //! extrapolated. Their bound is the difference itself, and what the stated errors of force and stiffness (in squares) would do to it, since two runs
-//! may agree by chance; to that of the stiffness, half the bound of the area is added. That of the elastic fraction also has the work that the energies of the run do not account for.
+//! may agree by chance; to that of the stiffness, half the bound of the area is added. That of the elastic fraction also has the work over
+//! the depths that the energies of the body do not account for in the end.
 
 use crate::point::kinematics::Symmetry;
 use crate::run::curve::{COUNTS_FROM, Curve};
-use crate::run::record::{CurveRow, Errors, Phase, largest_work};
+use crate::run::record::{CurveRow, Errors, Phase, largest_work, work_along};
 use crate::run::recorder::Outcome;
 use crate::run::schedule::UNLOADING_EXPONENT;
 use crate::scene::ElementChoice;
@@ -135,6 +136,12 @@ const DEPTHS: usize = 81;
 /// Half the span of ln h over which the rest of the difference counts for a row.
 const NEAR: f64 = 0.15;
 
+/// Span of ln h before the peak in which the front crosses an edge of the coarsest companion.
+const LAST: f64 = 0.35;
+
+/// Error of a residual depth over the depth, and of an elastic fraction, below which none is stated.
+const DIGITS: f64 = 1e-5;
+
 /// Share of the depth that the companion must reach.
 const COMPARED: f64 = 0.9;
 
@@ -199,6 +206,11 @@ impl Difference {
     fn whole(&self) -> f64 {
         self.bound(f64::NEG_INFINITY, 0.0)
     }
+
+    /// The bound near the peak.
+    fn at_peak(&self) -> f64 {
+        self.bound(-LAST, 0.0)
+    }
 }
 
 /// Curve of a quantity over the first loading, both over their values in the row `top`.
@@ -245,8 +257,8 @@ pub(super) fn extrapolate_and_bound(run: &mut Outcome, companion: &Outcome, sett
     let summary = &run.summary;
     let relative = |own: Option<f64>, other: Option<f64>| Some((other? / own? - 1.0).abs());
     let unloading_stiffness = relative(summary.unloading_stiffness, companion.summary.unloading_stiffness);
-    let unloading_stiffness = unloading_stiffness.map(|s| s + 0.5 * area.whole());
-    let indirect = force.whole().hypot(unloading_stiffness.unwrap_or(0.0));
+    let unloading_stiffness = unloading_stiffness.map(|s| s + 0.5 * area.at_peak());
+    let indirect = force.at_peak().hypot(unloading_stiffness.unwrap_or(0.0));
     let difference = |own: Option<f64>, other: Option<f64>| Some((other? - own?).abs());
     let share = |x: f64| x * (1.0 - x) * indirect;
     let residual = summary.residual_depth.map(|depth| (depth / summary.peak_depth).clamp(0.0, 1.0));
@@ -258,10 +270,10 @@ pub(super) fn extrapolate_and_bound(run: &mut Outcome, companion: &Outcome, sett
         mean_pressure: force.whole() + area.whole(),
         residual_depth: difference(summary.residual_depth, companion.summary.residual_depth)
             .zip(residual)
-            .map(|(d, r)| d / summary.peak_depth + share(r)),
+            .map(|(d, r)| (d / summary.peak_depth + share(r)).max(DIGITS)),
         elastic_fraction: difference(summary.elastic_fraction, companion.summary.elastic_fraction)
             .zip(elastic)
-            .map(|(d, e)| d + share(e) + unaccounted(&run.rows)),
+            .map(|(d, e)| (d + share(e) + unaccounted(&run.rows)).max(DIGITS)),
         unloading_stiffness,
     };
     let residual_depth = summary.residual_depth.unwrap_or(0.0);
@@ -304,7 +316,7 @@ pub(super) fn extrapolate_and_bound(run: &mut Outcome, companion: &Outcome, sett
                     / (run.summary.peak_depth - residual_depth).max(f64::MIN_POSITIVE);
                 let lever = UNLOADING_EXPONENT * (1.0 - left).max(0.0) * moved;
                 let moved = lever / (row.depth - residual_depth).max(f64::MIN_POSITIVE);
-                Some((force.bound(-NEAR, 0.0) + moved).min(1.0))
+                Some((force.at_peak() + moved).min(1.0))
             }
         };
     }
@@ -315,9 +327,10 @@ pub(super) fn extrapolate_and_bound(run: &mut Outcome, companion: &Outcome, sett
     run.summary.estimated_error = errors.force;
 }
 
-/// Work at the end of a run that its energies do not account for, over that at the peak.
+/// Work over the depths of an unloaded run that the energies of its body do not account for, over the external work at the peak.
 fn unaccounted(rows: &[CurveRow]) -> f64 {
-    rows.last().map_or(0.0, |row| row.unaccounted_work().abs() / largest_work(rows))
+    let kept = |row: &CurveRow| row.elastic_energy + row.plastic_work - row.transfer_energy;
+    rows.last().map_or(0.0, |last| (work_along(rows) - kept(last)).abs() / largest_work(rows))
 }
 
 /// Takes the peak of the curve into the summary.
