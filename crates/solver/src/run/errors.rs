@@ -23,9 +23,9 @@
 //! taken off it.
 //!
 //! The mean pressure is force over area: its bound is the sum of theirs. Other values read at the peak or after it are not
-//! extrapolated. Their bound is the difference itself, and what the stated errors of force and stiffness (in squares) would do to it, since two runs
-//! may agree by chance; to that of the stiffness, half the bound of the area is added. That of the elastic fraction also has the work over
-//! the depths that the energies of the body do not account for in the end.
+//! extrapolated. Their bound is the difference itself, and what the stated errors of force and stiffness near the peak (in squares)
+//! would do to it, since two runs may agree by chance; to that of the stiffness, half the bound of the area there is added. The
+//! elastic fraction has them in squares, and with them the work over the depths that the energies of the body do not account for.
 
 use crate::point::kinematics::Symmetry;
 use crate::run::curve::{COUNTS_FROM, Curve};
@@ -73,6 +73,9 @@ const THREE_HALVES: f64 = 0.547;
 /// to 0.65 at each level, and in every kind of scene.
 const WIDENED: f64 = 0.6;
 
+/// ln of the area, per square of penetration over depth, that mesh and penetration hide from the difference of run and companion.
+const SECOND: f64 = 300.0;
+
 /// Force that steps lose at the peak, times the square of their number: 12 to 24 steps lose 3 to 8 %, and their companion no more.
 const COARSE_STEPS: f64 = 12.0;
 
@@ -98,8 +101,7 @@ impl Setting {
         } else {
             (FIRST, WIDENED * self.penetration * lengths(self.symmetry))
         };
-        // a quarter to a half of a widening of 6 penetrations: what is of higher order shows in coarse runs
-        let hidden = (1.45 + 120.0 * self.penetration) * self.penetration;
+        let hidden = SECOND * self.penetration.powi(2);
         Quantity { smooth: even_or_line, share, widened, hidden, safety: SAFETY }
     }
 }
@@ -273,7 +275,7 @@ pub(super) fn extrapolate_and_bound(run: &mut Outcome, companion: &Outcome, sett
             .map(|(d, r)| (d / summary.peak_depth + share(r)).max(DIGITS)),
         elastic_fraction: difference(summary.elastic_fraction, companion.summary.elastic_fraction)
             .zip(elastic)
-            .map(|(d, e)| (d + share(e) + unaccounted(&run.rows)).max(DIGITS)),
+            .map(|(d, e)| d.hypot(share(e)).hypot(unaccounted(&run.rows)).max(DIGITS)),
         unloading_stiffness,
     };
     let residual_depth = summary.residual_depth.unwrap_or(0.0);
