@@ -16,6 +16,7 @@ pub mod calibration;
 
 pub mod coverage_scenes;
 mod measured_scenes;
+mod random_metal;
 pub mod truth;
 
 pub mod random_scenes;

@@ -3,7 +3,10 @@
 //! A sound scene must be done (exit status 0) or say where and why it stopped (1); an unsound one must be refused with
 //! nothing written (2); a scene cut off in the middle may be either. Nothing may panic, hang, or write a number that is none.
 
+pub use crate::random_metal::{Drawn, Kind};
+
 use crate::measured_scenes::measured;
+use crate::random_metal::{log_between, material};
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
@@ -11,33 +14,6 @@ use std::fmt::Write;
 use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
-
-/// The end that a scene deserves.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
-    /// Every value is in its range.
-    Sound,
-    /// One value or key is wrong.
-    Unsound,
-    /// The text is cut off somewhere.
-    CutOff,
-}
-
-/// A scene as text.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Drawn {
-    /// TOML.
-    pub text: String,
-    /// The end to be expected of it.
-    pub kind: Kind,
-}
-
-impl Drawn {
-    /// Whether its asperity or tool is a measured outline.
-    pub fn is_measured(&self) -> bool {
-        self.text.contains("\npoints = ")
-    }
-}
 
 /// The end of a run.
 #[derive(Clone, Debug, PartialEq)]
@@ -50,28 +26,6 @@ pub enum End {
     Refused,
     /// An end that must not be, with a description.
     Fault(String),
-}
-
-pub(crate) fn log_between(low: f64, high: f64) -> impl Strategy<Value = f64> {
-    (low.ln()..high.ln()).prop_map(f64::exp)
-}
-
-/// Metals: all of the range of a law that another scene of the literature would use, and the ends of what is allowed.
-pub(crate) fn material() -> impl Strategy<Value = String> {
-    let poissons_ratio = prop_oneof![8 => 0.0..0.49, 1 => Just(0.4999), 1 => -0.9..0.0];
-    let exponent = prop_oneof![1 => Just(0.0), 4 => 0.0..0.6];
-    (log_between(1.0, 1000.0), poissons_ratio, log_between(10.0, 5000.0), exponent, any::<bool>(), 0..8)
-        .prop_map(|(modulus, poissons_ratio, ratio, exponent, swift, elastic)| {
-            let mut text = format!(
-                "[material]\nyoungs_modulus = \"{modulus} GPa\"\npoissons_ratio = {poissons_ratio}\n"
-            );
-            if elastic > 0 {
-                let law = if swift { "swift" } else { "hollomon" };
-                let _ = writeln!(text, "yield_stress = \"{} MPa\"", 1e3 * modulus / ratio);
-                let _ = writeln!(text, "hardening_exponent = {exponent}\nhardening_law = \"{law}\"");
-            }
-            text
-        })
 }
 
 /// The parts of a scene that make its body.

@@ -88,8 +88,8 @@
 //! [`calibrate::read_sweep`]. [`crush::Crush::write`] and its like leave the files of the command in a [`output::Directory`].
 
 pub mod error;
-pub mod output;
-pub mod units;
+
+mod results;
 
 pub mod batch;
 
@@ -128,6 +128,7 @@ pub use identify::{Fit, Identification, identify};
 pub use input::scene::Scene;
 pub use mesh::mesh;
 pub use press::{Rough, RoughScene, press};
+pub use results::{output, units};
 pub use study::{Study, study};
 
 /// The crates below, for their types in the signatures here: a program needs no other dependency.

@@ -14,75 +14,23 @@
 //!   base                                           the whole row lead to the far boundary.
 //! ```
 
-use crate::grading::{Grading, divide};
-use crate::profile::Profile;
+use crate::grading::divide_geometric;
 use crate::smoothing::{Freedom, improve};
 use crate::{Edge, ElementKind, Mesh};
 use std::collections::HashSet;
 
+mod contact_core;
 mod grid;
+mod plan;
 mod row;
 mod self_similar;
 
+pub use plan::{Contact, Plan};
 pub use self_similar::{SelfSimilar, Sizes, self_similar};
 
+use contact_core::{add_core, shell_limit};
 use grid::{Grid, Rectangle, Ring, Side, add_columns, sort_surface, wrap};
-
-/// A contact to be resolved.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Contact {
-    /// Its centre.
-    pub centre: f64,
-    /// Its half width at the peak; 0 if the asperity stays untouched.
-    pub half_width: f64,
-    /// Half width of the foot of the asperity: that of its cell; the wider of two.
-    pub foot: f64,
-    /// Its left and right side over that.
-    pub sides: [f64; 2],
-    /// Steepest slope (tangent) of the profile over it.
-    pub slope: f64,
-}
-
-impl Contact {
-    /// Left and right end of the shell whose wider side is `x` away from the centre: shells around a core of the half width
-    /// `half` grow towards the two feet.
-    fn shell(&self, half: f64, x: f64) -> [f64; 2] {
-        let side = |share: f64| {
-            if share == 1.0 { x } else { power([half, half], [self.foot, share * self.foot], x) }
-        };
-        [self.centre - side(self.sides[0]), self.centre + side(self.sides[1])]
-    }
-
-    /// Half width of the narrower side of its foot.
-    fn narrow(&self) -> f64 {
-        self.foot * self.sides[0].min(self.sides[1])
-    }
-
-    /// Depth over half width of the core. The diagonals on which shells turn must stay steeper than the flank, or
-    /// the shear under the profile turns their cells inside out.
-    fn depth_ratio(&self) -> f64 {
-        (1.7 * self.slope).max(1.0)
-    }
-}
-
-/// A body to mesh. Any unit of length.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Plan {
-    /// The surface.
-    pub profile: Profile,
-    /// The contacts from left to right, at least one. One on the left side at its own centre is halved by the axis.
-    pub contacts: Vec<Contact>,
-    /// Left and right end of the row of cells and blocks; beyond it shells lead to the sides of the body.
-    pub row: [f64; 2],
-    /// Left and right side of the body.
-    pub width: [f64; 2],
-    /// Depth of the body below its highest summit.
-    pub depth: f64,
-    /// Sizes.
-    pub grading: Grading,
-    /// Kind of element.
-    pub kind: ElementKind,
-}
+use plan::{contact_size, core_half_width, kinks_from, power};
 
 /// Whether there is one contact, halved by the axis: its shells reach the far boundary.
 fn stands_alone(plan: &Plan) -> bool {
@@ -147,36 +95,6 @@ fn add_lone_contact(grid: &mut Grid, plan: &Plan) {
     extend(grid, ring, plan, size);
 }
 
-/// The power of x through two points (x, y), at `x`.
-fn power(from: [f64; 2], to: [f64; 2], x: f64) -> f64 {
-    from[1] * (to[1] / from[1]).powf((x / from[0]).ln() / (to[0] / from[0]).ln())
-}
-
-/// Width of a body over its depth, or the reverse, up to which one family of shells fills it.
-const STRETCH: f64 = 2.5;
-
-/// How far shells around `inner` go: to the sides of the body, unless one is so much farther than the other that the
-/// shells would become splinters; then as far in every direction as the nearer side.
-fn shell_limit(plan: &Plan, inner: Rectangle) -> Rectangle {
-    let gaps = [inner.left - plan.width[0], plan.width[1] - inner.right];
-    let (sideways, down) = (gaps[0].max(gaps[1]), plan.depth - inner.depth);
-    let (sideways, down) = if sideways > STRETCH * down {
-        (down, down)
-    } else if sideways > 0.0 && down > STRETCH * sideways {
-        (sideways, sideways)
-    } else {
-        (sideways, down)
-    };
-    // the side itself where it is reached, not a rounded sum, beside which a splinter would be left
-    let stops = |way: f64, gap: f64| way < (1.0 - 1e-9) * gap;
-    let [left, right] = plan.width;
-    Rectangle {
-        left: if stops(sideways, gaps[0]) { inner.left - sideways } else { left },
-        right: if stops(sideways, gaps[1]) { inner.right + sideways } else { right },
-        depth: if stops(down, plan.depth - inner.depth) { inner.depth + down } else { plan.depth },
-    }
-}
-
 /// Fills what the shells left of the body: columns beside them, or rows below them. `size` is the wanted size at a
 /// distance to the right of 0.
 fn extend(grid: &mut Grid, ring: Ring, plan: &Plan, size: impl Fn(f64) -> f64) {
@@ -208,70 +126,6 @@ fn extend(grid: &mut Grid, ring: Ring, plan: &Plan, size: impl Fn(f64) -> f64) {
             .collect();
         add_columns(grid, &ids[..=left], &columns, Side::Left);
     }
-}
-
-/// Half width that the sizes around a contact follow: an untouched asperity is meshed coarsely after its foot.
-fn contact_size(contact: &Contact) -> f64 {
-    if contact.half_width > 0.0 { contact.half_width } else { 0.1 * contact.foot }
-}
-
-fn core_half_width(plan: &Plan, contact: &Contact) -> f64 {
-    let wish =
-        if contact.half_width > 0.0 { plan.grading.start * contact.half_width } else { 0.3 * contact.foot };
-    wish.min(0.6 * contact.narrow())
-}
-
-/// Distances of the kinks of the profile to the right of `centre`.
-fn kinks_from(plan: &Plan, centre: f64) -> Vec<f64> {
-    plan.profile.kinks().into_iter().filter(|&k| k > centre).map(|k| k - centre).collect()
-}
-
-/// The core under a contact, `rectangle` in size; halved by the axis where its left end is the centre.
-fn add_core(grid: &mut Grid, plan: &Plan, contact: &Contact, rectangle: Rectangle) -> Ring {
-    let halved = rectangle.left == contact.centre;
-    let to_right = plan.grading.columns(rectangle.right - contact.centre, &kinks_from(plan, contact.centre));
-    let to_left = if halved { &[] } else { &to_right[1..] };
-    let columns: Vec<f64> = to_left
-        .iter()
-        .rev()
-        .map(|x| contact.centre - x)
-        .chain(to_right.iter().map(|x| contact.centre + x))
-        .collect();
-    let rows: Vec<f64> = plan.grading.rows(plan.kind).iter().map(|t| t * rectangle.depth).collect();
-    let (elements, last) = (rows.len() - 1, columns.len() - 1);
-    let first = grid.cells.len();
-    let nodes = grid.block(&columns, &rows);
-    // graded at the surface, even at the bottom, whose cells the shells draw out
-    for (i, column) in nodes.iter().enumerate() {
-        let even = rectangle.left + (rectangle.right - rectangle.left) * i as f64 / last as f64;
-        for (id, row) in column.iter().zip(&rows) {
-            grid.nodes[*id as usize][0] += row / rectangle.depth * (even - columns[i]);
-        }
-    }
-    if halved {
-        grid.sides.axis.extend((0..elements).map(|j| Edge { cell: (first + j) as u32, side: 3 }));
-    }
-    let left = if halved { 0 } else { elements };
-    let mut ids: Vec<u32> = nodes[0][..left].to_vec();
-    ids.extend(nodes.iter().map(|column| column[elements]));
-    ids.extend(nodes[last][..elements].iter().rev());
-    Ring { ids, edges: [left, last, elements], rectangle }
-}
-
-/// Divides like `divide`, but integrates in the logarithm of the distance, so that decades are resolved.
-fn divide_geometric(from: f64, to: f64, kinks: &[f64], size: impl Fn(f64) -> f64) -> Vec<f64> {
-    let logs: Vec<f64> = kinks.iter().filter(|&&k| k > from && k < to).map(|k| k.ln()).collect();
-    let mut nodes: Vec<f64> =
-        divide(from.ln(), to.ln(), &logs, |l| size(l.exp()) / l.exp()).into_iter().map(f64::exp).collect();
-    // kinks and ends exactly, not to the rounding of the logarithm
-    for node in &mut nodes {
-        for &stop in kinks.iter().chain([&from, &to]) {
-            if (*node / stop - 1.0).abs() < 1e-12 {
-                *node = stop;
-            }
-        }
-    }
-    nodes
 }
 
 /// Flanks steeper than this (tangent) are not followed by the mesh far below a row.

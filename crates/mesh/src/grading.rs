@@ -94,6 +94,22 @@ pub fn divide(from: f64, to: f64, kinks: &[f64], size: impl Fn(f64) -> f64) -> V
     nodes
 }
 
+/// Divides like `divide`, but integrates in the logarithm of the distance, so that decades are resolved.
+pub(crate) fn divide_geometric(from: f64, to: f64, kinks: &[f64], size: impl Fn(f64) -> f64) -> Vec<f64> {
+    let logs: Vec<f64> = kinks.iter().filter(|&&k| k > from && k < to).map(|k| k.ln()).collect();
+    let mut nodes: Vec<f64> =
+        divide(from.ln(), to.ln(), &logs, |l| size(l.exp()) / l.exp()).into_iter().map(f64::exp).collect();
+    // kinks and ends exactly, not to the rounding of the logarithm
+    for node in &mut nodes {
+        for &stop in kinks.iter().chain([&from, &to]) {
+            if (*node / stop - 1.0).abs() < 1e-12 {
+                *node = stop;
+            }
+        }
+    }
+    nodes
+}
+
 /// Appends the division of one piece, without its first node.
 fn divide_piece(from: f64, to: f64, size: &impl Fn(f64) -> f64, nodes: &mut Vec<f64>) {
     const SAMPLES: usize = 400;

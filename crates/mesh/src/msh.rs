@@ -1,11 +1,13 @@
 //! Gmsh MSH 4.1 in ASCII, with the sides as physical curves and the metal as a physical surface.
 
+mod error;
 mod file;
 mod sides;
 mod write;
 
 use crate::{Edge, Mesh, Sides};
 
+pub use error::MshError;
 pub use write::write_msh;
 
 /// The physical surface that holds all cells.
@@ -26,27 +28,6 @@ impl Sides {
             "outer" => Some(&mut self.outer),
             _ => None,
         }
-    }
-}
-
-/// An MSH file that cannot be read.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{}{message}", if *line > 0 { format!("line {line}: ") } else { String::new() })]
-pub struct MshError {
-    /// Line of the file, counted from 1; 0 where no line is to blame.
-    pub line: usize,
-    /// Found and expected content.
-    pub message: String,
-}
-
-impl MshError {
-    fn new(line: usize, message: impl Into<String>) -> Self {
-        MshError { line, message: message.into() }
-    }
-
-    /// An error of the file as a whole.
-    fn whole(message: impl Into<String>) -> Self {
-        MshError::new(0, message)
     }
 }
 

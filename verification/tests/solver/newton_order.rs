@@ -6,7 +6,7 @@
 
 use asperity_solver::algebra::newton::{Assessment, Settings, System, solve};
 use asperity_solver::body::failure::Failure;
-use asperity_solver::contact::edge::{NOTHING, Parts};
+use asperity_solver::contact::parts::{NOTHING, Parts};
 use asperity_solver::run::equilibrium::Equilibrium;
 use asperity_solver::run::schedule::{Spacing, loading};
 use asperity_solver::scene::Accuracy;

@@ -2,9 +2,9 @@
 
 #![expect(non_snake_case, reason = "a name ends in its unit, as in the files")]
 
-use super::record::{CurveRow, Phase, SurfaceRow, SurfaceStateRow, write_rows};
 use crate::error::Error;
 use crate::output::{Sink, SinkExt};
+use crate::results::crush_rows::{CurveRow, Phase, SurfaceRow, SurfaceStateRow, write_rows};
 use crate::units::{MEGAPASCAL, MICROMETRE};
 use asperity_mesh::{FieldArray, Mesh, write_vtu};
 use asperity_solver::body::fields::Fields;

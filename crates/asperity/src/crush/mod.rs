@@ -4,21 +4,22 @@
 
 mod fields;
 mod plot;
-mod record;
 mod report;
-mod summary;
 
-pub use fields::{FieldSeries, Frame};
-pub use plot::{plot, titled_plot};
-pub use record::{
+pub use crate::results::crush_rows::{
     AsperityRow, CurveRow, CycleRow, GapRow, Phase, SurfaceRow, SurfaceStateRow, read_rows, write_rows,
 };
-pub use summary::{Errors, Instrument, Island, MeasuredOutline, Summary, peak_memory_mb};
+pub use crate::results::crush_summary::{
+    Errors, Instrument, Island, MeasuredOutline, Summary, peak_memory_mb,
+};
+pub use fields::{FieldSeries, Frame};
+pub use plot::{plot, titled_plot};
 
 use crate::draw::field_plot::{Panel, Reach, Section};
 use crate::error::Error;
 use crate::input::scene::Scene;
 use crate::output::{Sink, SinkExt};
+use crate::results::crush_summary::per_length;
 use crate::units::{MICROMETRE, Units};
 use asperity_mesh::Mesh;
 use asperity_solver::run::crush::{CrushError, Event, FieldFrame, Outcome, run_with};
@@ -28,7 +29,6 @@ use asperity_solver::scene::SceneError;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::time::Instant;
-use summary::per_length;
 
 /// The result of a crush.
 #[derive(Clone, Debug)]

@@ -1,9 +1,9 @@
 //! `curve.svg`: force against depth, loading and unloading.
 
-use super::record::{CurveRow, Phase};
-use super::summary::{Summary, per_length};
 use crate::draw::chart::{Chart, Dash, Series, svg};
 use crate::draw::palette::LINES;
+use crate::results::crush_rows::{CurveRow, Phase};
+use crate::results::crush_summary::{Summary, per_length};
 use asperity_solver::scene::Symmetry;
 
 /// The largest prefix whose numbers are not all below 1: (its SI value, its symbol before the unit).

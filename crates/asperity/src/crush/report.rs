@@ -1,12 +1,12 @@
 //! `report.html` of one crush.
 
 use super::plot::{contact_charts, titled_chart};
-use super::summary::per_length;
 use super::{Crush, Sketch};
 use crate::error::Error;
 use crate::input::toml_file::to_toml;
 use crate::page::format::{rounded, significant};
 use crate::page::{self, Numbers, Report};
+use crate::results::crush_summary::per_length;
 use crate::units::file_name;
 use asperity_solver::scene::Symmetry;
 use maud::{Markup, html};

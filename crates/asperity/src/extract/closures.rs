@@ -1,7 +1,7 @@
 //! Force and contact area of each closure for one asperity pressed by a plane to a depth.
 
+use super::bodies::Body;
 use super::rows::Carried;
-use super::run::Body;
 use crate::error::InputError;
 use crate::press::{RoughScene, half_space_of};
 use asperity_law::HardeningLaw;

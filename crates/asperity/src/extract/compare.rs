@@ -1,8 +1,9 @@
 //! Extracted asperities crushed by finite elements, each beside what every closure gives for it.
 
+use super::bodies::Body;
 use super::closures::Closures;
 use super::rows::{Carried, ComparedRow, FINITE_ELEMENTS};
-use super::run::{Body, Extracted};
+use super::run::Extracted;
 use super::scenes::stem;
 use crate::batch::{self, Batch, Options, Reached};
 use crate::crush::{Crush, CurveRow, Phase, crush, write_rows};
@@ -12,6 +13,7 @@ use crate::output::{Sink, SinkExt};
 use crate::press::RoughScene;
 use crate::units::MICROMETRE;
 use asperity_calibration::journal::fingerprint;
+use asperity_roughness::Closure;
 use asperity_solver::scene::Symmetry;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
@@ -237,7 +239,8 @@ impl Comparison {
         for one in self.asperities.iter().filter(|one| !one.curve.is_empty()) {
             sink.text(&format!("curves/{}.csv", stem(one.asperity)), &one.curve)?;
         }
-        let picture = super::picture::compared(self).map_err(Error::Unfinished)?;
+        let closures = Closure::ALL.map(|closure| (closure, self.at_depth(closure.name()).collect()));
+        let picture = super::picture::compared(closures.into()).map_err(Error::Unfinished)?;
         picture.map_or(Ok(()), |picture| sink.text("compared.svg", &picture))
     }
 

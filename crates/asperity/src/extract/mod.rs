@@ -3,6 +3,8 @@
 
 mod settings;
 
+mod bodies;
+
 mod rows;
 mod scenes;
 
@@ -14,7 +16,8 @@ mod compare;
 mod files;
 mod picture;
 
+pub use bodies::{Body, Line};
 pub use compare::{Compared, Comparison, Progress};
-pub use rows::{AsperityRow, ComparedRow, FINITE_ELEMENTS, Summary};
-pub use run::{Body, Extracted, Line, extract};
+pub use rows::{AsperityRow, ComparedRow, FINITE_ELEMENTS};
+pub use run::{Extracted, Summary, extract};
 pub use settings::{Extraction, LineAt, Parts};

@@ -1,6 +1,5 @@
 //! `compared.svg`: force and contact area of every closure over those of the finite elements, against the slope.
 
-use super::compare::Comparison;
 use super::rows::ComparedRow;
 use crate::draw::chart::{Axis, FINE, Failure, INK, Paper, Sample, axes, framed, rgb, titled};
 use crate::draw::palette;
@@ -12,17 +11,19 @@ const SIZE: (u32, u32) = (760, 860);
 /// Radius of a dot in pixels.
 const DOT: f64 = 4.0;
 
-/// The picture; `None` where nothing was crushed.
+/// A closure with its rows at the full depth of each asperity.
+pub(super) type AtDepth<'a> = (Closure, Vec<&'a ComparedRow>);
+
+/// The picture of the closures that have rows; `None` where none has.
 ///
 /// # Errors
 /// A text for a person where the drawing library fails.
-pub(super) fn compared(found: &Comparison) -> Result<Option<String>, String> {
-    let closures: Vec<Closure> =
-        Closure::ALL.into_iter().filter(|c| found.at_depth(c.name()).next().is_some()).collect();
+pub(super) fn compared(mut closures: Vec<AtDepth<'_>>) -> Result<Option<String>, String> {
+    closures.retain(|(_, rows)| !rows.is_empty());
     if closures.is_empty() {
         return Ok(None);
     }
-    let legend = closures.iter().map(|c| {
+    let legend = closures.iter().map(|(c, _)| {
         let turns = (0..32).map(|k| f64::from(k) * std::f64::consts::TAU / 32.0);
         let scale = DOT * f64::from(FINE);
         let outline = turns.map(|t| ((scale * t.cos()) as i32, (scale * t.sin()) as i32)).collect();
@@ -30,22 +31,20 @@ pub(super) fn compared(found: &Comparison) -> Result<Option<String>, String> {
     });
     let drawn = framed(SIZE, &legend.collect::<Vec<_>>(), |paper: &Paper| {
         let (above, below) = paper.split_vertically(SIZE.1 / 2 * FINE);
-        panel(&above, found, &closures, "force over finite elements", |r| r.force_over_finite_elements)?;
-        panel(&below, found, &closures, "contact area over finite elements", |r| r.area_over_finite_elements)
+        panel(&above, &closures, "force over finite elements", |r| r.force_over_finite_elements)?;
+        panel(&below, &closures, "contact area over finite elements", |r| r.area_over_finite_elements)
     })?;
     Ok(Some(titled("Every closure beside finite elements", drawn)))
 }
 
 fn panel(
     paper: &Paper,
-    found: &Comparison,
-    closures: &[Closure],
+    closures: &[AtDepth<'_>],
     name: &str,
     value: fn(&ComparedRow) -> Option<f64>,
 ) -> Result<(), Failure> {
-    let points = |closure: &Closure| {
-        let rows = found.at_depth(closure.name());
-        rows.filter_map(|row| Some((row.slope_deg, value(row)?))).collect::<Vec<_>>()
+    let points = |(_, rows): &AtDepth<'_>| {
+        rows.iter().filter_map(|row| Some((row.slope_deg, value(row)?))).collect::<Vec<_>>()
     };
     let all: Vec<(f64, f64)> = closures.iter().flat_map(points).collect();
     let x = Axis::covering(all.iter().map(|p| p.0));
@@ -54,7 +53,7 @@ fn panel(
     let mut area = axes(paper, [x, y], ["slope of the body down to the depth (degrees)", name])?;
     area.draw_series(LineSeries::new(one, INK.stroke_width(FINE)))?;
     for closure in closures {
-        let colour = rgb(palette::closure(*closure));
+        let colour = rgb(palette::closure(closure.0));
         let dot = |p| Circle::new(p, (DOT * f64::from(FINE)) as u32, colour.filled());
         area.draw_series(points(closure).into_iter().map(dot))?;
     }

@@ -1,14 +1,12 @@
-//! Rows of `asperities.csv` and `compared.csv`, and `summary.json` of an extraction.
+//! Rows of `asperities.csv` and `compared.csv` of an extraction.
 
 #![expect(non_snake_case, reason = "a name ends in its unit, as in the files")]
 
-use super::run::{Body, Extracted};
+use super::bodies::Body;
 use crate::crush::{CurveRow, Summary as CrushSummary};
 use crate::output::row;
 use crate::units::{MEGAPASCAL, MICROMETRE};
-use asperity_roughness::Closure;
 use asperity_roughness::asperities::Asperity;
-use asperity_roughness::scene::Scene;
 
 /// The name of the reference in the column `closure` of `compared.csv`.
 pub const FINITE_ELEMENTS: &str = "finite-elements";
@@ -59,7 +57,7 @@ row! {
 
 /// Force and contact area that a closure gives.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Carried {
+pub(crate) struct Carried {
     /// N.
     pub force: f64,
     /// m².
@@ -105,38 +103,4 @@ row! {
 
 fn ratio(a: f64, b: f64) -> Option<f64> {
     Some(a / b).filter(|r| r.is_finite())
-}
-
-row! {
-    /// The content of `summary.json`.
-    Summary(done: &Extracted) {
-        /// Name of the map.
-        surface: String = done.name.clone(),
-        /// Points along x and y.
-        pixels: [usize; 2] = [done.surface.map.columns(), done.surface.map.rows()],
-        /// Distance of the points.
-        pixel_size_um: [f64; 2] = done.surface.map.pixel().map(|p| p / MICROMETRE),
-        /// Plane of islands above the mean plane; none of hills.
-        separation_um: Option<f64> = done.separation.map(|s| s / MICROMETRE),
-        /// The closure that carries the pressure of the scene at that plane; none where the plane was given.
-        separation_closure: Option<Closure> = done.closure,
-        /// Asperities found.
-        asperities: usize = done.asperities.len(),
-        /// Those that reach the edge of the map or a point that was not measured.
-        cut: usize = done.asperities.iter().filter(|one| one.cut).count(),
-        /// Asperities per area of the map (of hills: Spd of ISO 25178-2), 1/mm².
-        density_per_mm2: f64 = done.asperities.len() as f64 / done.surface.nominal_area() * 1e-6,
-        /// Mean over the asperities of the mean curvature of the summit (of hills: Spc of ISO 25178-2), 1/µm.
-        mean_tip_curvature_per_um: Option<f64> = done.mean_tip_curvature().map(|c| c * MICROMETRE),
-        /// Asperities with a profile and a scene.
-        profiles: usize = done.bodies.len(),
-        /// Lines with a profile and a scene.
-        lines: usize = done.lines.len(),
-        /// Remarks on the trust in the numbers.
-        warnings: Vec<String> = done.warnings.clone(),
-        /// Surface, material and load as read.
-        scene: Scene = done.scene.clone(),
-        /// Version of this program.
-        version: String = env!("CARGO_PKG_VERSION").into(),
-    }
 }

@@ -1,58 +1,19 @@
 //! The asperities of a map, the bodies of revolution of the highest of them, and lines.
 
-use super::rows::{AsperityRow, Summary};
+use super::bodies::{Body, Line};
+use super::rows::AsperityRow;
 use super::scenes;
 use super::settings::{Extraction, LineAt, Parts};
 use crate::error::{Error, InputError};
+use crate::output::row;
 use crate::press::RoughScene;
+use crate::results::numbers::digits;
 use crate::units::MICROMETRE;
 use asperity_roughness::asperities::{
     Asperity, Direction, FindError, RadialProfile, Segmentation, find, line,
 };
 use asperity_roughness::scene::{Scene, SceneError};
 use asperity_roughness::{Closure, ClosureLaw, Load, Surface, press};
-
-/// A body of revolution that stands for an asperity, with its scene.
-#[derive(Clone, Debug)]
-pub struct Body {
-    /// Number of the asperity, from 1 at the highest.
-    pub number: usize,
-    /// The asperity on the map.
-    pub asperity: Asperity,
-    /// The mean height around its summit.
-    pub profile: RadialProfile,
-    /// Depth to which it is to be crushed, m.
-    pub depth: f64,
-    /// Text of its scene; the profile lies in ../profiles/NNN.csv.
-    pub scene: String,
-}
-
-/// A line of the map with its scene in plane strain.
-#[derive(Clone, Debug)]
-pub struct Line {
-    /// Name of its files, such as `line-y-200um`.
-    pub name: String,
-    /// Which way it runs.
-    pub direction: Direction,
-    /// Where it lies, across that, m.
-    pub at: f64,
-    /// Way along it and height above its lowest point, m.
-    pub points: Vec<[f64; 2]>,
-    /// Depth to which its highest point is to be crushed, m.
-    pub depth: f64,
-    /// Text of its scene; the profile lies in ../profiles.
-    pub scene: String,
-}
-
-impl Line {
-    /// From its first to its last point, m.
-    pub fn length(&self) -> f64 {
-        match &self.points[..] {
-            [first, .., last] => last[0] - first[0],
-            _ => 0.0,
-        }
-    }
-}
 
 /// Asperities and lines of a map.
 #[derive(Clone, Debug)]
@@ -77,6 +38,40 @@ pub struct Extracted {
     pub scene: Scene,
     /// Remarks on the trust in the numbers.
     pub warnings: Vec<String>,
+}
+
+row! {
+    /// The content of `summary.json`.
+    Summary(done: &Extracted) {
+        /// Name of the map.
+        surface: String = done.name.clone(),
+        /// Points along x and y.
+        pixels: [usize; 2] = [done.surface.map.columns(), done.surface.map.rows()],
+        /// Distance of the points.
+        pixel_size_um: [f64; 2] = done.surface.map.pixel().map(|p| p / MICROMETRE),
+        /// Plane of islands above the mean plane; none of hills.
+        separation_um: Option<f64> = done.separation.map(|s| s / MICROMETRE),
+        /// The closure that carries the pressure of the scene at that plane; none where the plane was given.
+        separation_closure: Option<Closure> = done.closure,
+        /// Asperities found.
+        asperities: usize = done.asperities.len(),
+        /// Those that reach the edge of the map or a point that was not measured.
+        cut: usize = done.asperities.iter().filter(|one| one.cut).count(),
+        /// Asperities per area of the map (of hills: Spd of ISO 25178-2), 1/mm².
+        density_per_mm2: f64 = done.asperities.len() as f64 / done.surface.nominal_area() * 1e-6,
+        /// Mean over the asperities of the mean curvature of the summit (of hills: Spc of ISO 25178-2), 1/µm.
+        mean_tip_curvature_per_um: Option<f64> = done.mean_tip_curvature().map(|c| c * MICROMETRE),
+        /// Asperities with a profile and a scene.
+        profiles: usize = done.bodies.len(),
+        /// Lines with a profile and a scene.
+        lines: usize = done.lines.len(),
+        /// Remarks on the trust in the numbers.
+        warnings: Vec<String> = done.warnings.clone(),
+        /// Surface, material and load as read.
+        scene: Scene = done.scene.clone(),
+        /// Version of this program.
+        version: String = env!("CARGO_PKG_VERSION").into(),
+    }
 }
 
 /// Takes the asperities of the surface of `scene`, the bodies that stand for the highest of them, and lines.
@@ -328,7 +323,7 @@ fn take_line(
     let heights = || taken.points.iter().map(|p| p[1]);
     let (low, high) = heights().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), z| (l.min(z), h.max(z)));
     let across = if wanted.direction == Direction::X { "y" } else { "x" };
-    let place = scenes::digits((taken.at / MICROMETRE * 1e3).round() * 1e-3);
+    let place = digits((taken.at / MICROMETRE * 1e3).round() * 1e-3);
     let name = format!("line-{across}-{place}um");
     // the plane of the islands, or a fifth of the height of the line where it lies above the line
     let to_plane = separation.map(|s| high - surface.parameters.mean - s).filter(|d| *d > 0.0);
@@ -357,10 +352,8 @@ impl Extracted {
     pub fn text(&self) -> String {
         let s = self.summary();
         let plane = s.separation_um.map_or("hills of ISO 25178-2".into(), |d| {
-            let plane = format!(
-                "islands above a plane {} µm over the mean",
-                scenes::digits((d * 1e4).round() * 1e-4)
-            );
+            let plane =
+                format!("islands above a plane {} µm over the mean", digits((d * 1e4).round() * 1e-4));
             let pressure = self.scene.load.pressure.map_or(f64::NAN, |p| p.in_unit("MPa"));
             self.closure.map_or_else(
                 || plane.clone(),

@@ -1,8 +1,8 @@
 //! Scenes of what was taken from a map, as commented TOML.
 
-use super::run::{Body, Line};
+use super::bodies::{Body, Line};
+use crate::results::numbers::digits;
 use crate::units::{GIGAPASCAL, MEGAPASCAL, MICROMETRE};
-use asperity_law::units::rounded;
 use asperity_roughness::Material;
 use asperity_roughness::asperities::Direction;
 use asperity_solver::scene::Accuracy;
@@ -12,11 +12,6 @@ use std::fmt::Write;
 const BESIDE: f64 = 1.0;
 /// Depth of that block over its width.
 const DEPTH: f64 = 1.0;
-
-/// Seven digits: more than any instrument has, and none of rounding.
-pub(super) fn digits(value: f64) -> String {
-    rounded(value, 7).to_string()
-}
 
 fn um(metres: f64) -> String {
     format!("\"{} um\"", digits(metres / MICROMETRE))

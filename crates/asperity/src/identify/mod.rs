@@ -5,7 +5,7 @@
 //! made ready (`measured`), checked into a [`Fit`] (`fit`, `parameters`); what finite elements answer to one metal (`response`) and
 //! between metals (`emulator`); a measurement with its covariance (`experiment`), all of them (`objective`); the search
 //! (`search`, `minimise`); intervals (`profile`), samples (`posterior`), and what cannot be seen (`verdict`); the result
-//! and its files (`result`, `pictures`, `report`).
+//! and its files (`stress_strain`, `result`, `pictures`, `report`).
 
 mod file;
 mod sought;
@@ -36,6 +36,8 @@ mod posterior;
 
 mod verdict;
 
+mod stress_strain;
+
 mod result;
 
 mod pictures;
@@ -44,13 +46,12 @@ mod report;
 
 pub use file::{Features, FitAccuracy, FitCurve, FitFile, FitMaterial, FitShape, FitTool, Nuisance};
 pub use fit::{Fit, PYRAMIDS_CONE};
-pub use result::{Found, Identification, StressAt};
+pub use result::{Found, Identification};
 pub use sought::{Percent, Sought};
+pub use stress_strain::StressAt;
 pub use verdict::{Blind, NextExperiment};
 
 use crate::error::Error;
-use asperity_law::sobol::Sobol;
-use parameters::Parameter;
 
 /// Finds the metal of `fit`.
 ///
@@ -90,11 +91,4 @@ use parameters::Parameter;
 /// ```
 pub fn identify(fit: Fit, observer: &mut dyn FnMut(f64, &str) -> bool) -> Result<Identification, Error> {
     result::identify(fit, observer)
-}
-
-/// The first `count` points of Sobol's sequence within the bounds of `parameters`, its first point left out.
-fn sobol_points(parameters: &[Parameter], count: usize) -> Vec<Vec<f64>> {
-    let Some(sobol) = Sobol::new(parameters.len()) else { return Vec::new() };
-    let coordinate = |i: usize, (k, p): (usize, &Parameter)| p.bounds[0] + p.width() * sobol.at(k, i);
-    (1..=count).map(|i| parameters.iter().enumerate().map(|k| coordinate(i, k)).collect()).collect()
 }

@@ -2,6 +2,7 @@
 
 use super::file::FitMaterial;
 use super::sought::Sought;
+use asperity_law::sobol::Sobol;
 use asperity_law::units::{Stress, rounded};
 use asperity_law::{Elastic, Hardening, HardeningCurve, HardeningLaw, HardeningTable, range};
 use asperity_solver::scene::{HardeningChoice, Material};
@@ -214,4 +215,11 @@ impl Unknowns {
         };
         self.parameters.iter().filter(|p| !nuisance(p)).count()
     }
+}
+
+/// The first `count` points of Sobol's sequence within the bounds of `parameters`, its first point left out.
+pub fn sobol_points(parameters: &[Parameter], count: usize) -> Vec<Vec<f64>> {
+    let Some(sobol) = Sobol::new(parameters.len()) else { return Vec::new() };
+    let coordinate = |i: usize, (k, p): (usize, &Parameter)| p.bounds[0] + p.width() * sobol.at(k, i);
+    (1..=count).map(|i| parameters.iter().enumerate().map(|k| coordinate(i, k)).collect()).collect()
 }

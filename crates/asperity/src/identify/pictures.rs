@@ -5,7 +5,7 @@ use super::minimise::{Minimum, chi2};
 use super::objective::Objective;
 use super::parameters::Unknowns;
 use super::profile::{GROWTH, Interval};
-use super::result::StressAt;
+use super::stress_strain::StressAt;
 use crate::draw::chart::{Axis, Chart, Dash, FINE, INK, Sample, Series, axes, draw, framed, rgb, titled};
 use crate::draw::palette::{Colour, LINES, VIRIDIS, between};
 use plotters::prelude::*;

@@ -7,6 +7,7 @@ use super::objective::Objective;
 use super::parameters::{Parameter, Slot, Unknowns};
 use super::profile::{self, Interval};
 use super::search::{self, search};
+use super::stress_strain::StressAt;
 use super::verdict::{Blind, NextExperiment, blind, deviations, identified, next_experiment};
 use super::{pictures, posterior};
 use crate::draw::chart::svg;
@@ -37,20 +38,6 @@ pub struct Found {
     pub identifiable: bool,
     /// Whether the lower and the upper end are the bounds of the search.
     pub at_bound: [bool; 2],
-}
-
-/// Yield stress at a plastic strain with its 95 % interval, MPa.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-#[allow(non_snake_case, reason = "names of the file")]
-pub struct StressAt {
-    /// Plastic strain.
-    pub plastic_strain: f64,
-    /// The best value.
-    pub value_MPa: f64,
-    /// Lower end.
-    pub low_MPa: f64,
-    /// Upper end.
-    pub high_MPa: f64,
 }
 
 /// Residual of the fit.

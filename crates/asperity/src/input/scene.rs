@@ -1,9 +1,9 @@
 //! A scene: the tables that say what to crush, checked, with the files they name and the text they stand in.
 
-use crate::crush::Summary;
 use crate::error::{Error, InputError};
 use crate::input::toml_file::{TomlFile, read_text, to_toml};
 use crate::input::{RELATIVE, hardening_file, profile_file};
+use crate::results::crush_summary::Summary;
 use asperity_mesh::{Mesh, read_msh};
 use asperity_solver::run::discretisation::Discretisation;
 use asperity_solver::scene::{

@@ -1,6 +1,5 @@
 //! One run of a study, and the two tables of all of them.
 
-use super::subject::json;
 use crate::crush::peak_memory_mb;
 use crate::error::Error;
 use indexmap::{IndexMap, IndexSet};
@@ -74,6 +73,12 @@ pub(super) fn flat<T: Serialize>(summary: &T) -> Result<Columns, Error> {
         gather(&name, value, &mut columns);
     }
     Ok(columns)
+}
+
+/// The scalars of anything that is written as JSON.
+fn json<T: Serialize>(value: &T) -> Result<IndexMap<String, Value>, Error> {
+    let text = serde_json::to_string(value).map_err(|e| Error::Unfinished(e.to_string()))?;
+    serde_json::from_str(&text).map_err(|e| Error::Unfinished(e.to_string()))
 }
 
 fn gather(name: &str, value: Value, columns: &mut Columns) {

@@ -8,7 +8,6 @@ use crate::input::toml_file::{TomlFile, to_toml};
 use crate::output::write_csv;
 use crate::press::{RoughScene, press};
 use indexmap::IndexMap;
-use serde::Serialize;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 
@@ -160,10 +159,4 @@ fn words(value: &Value, found: &mut Vec<String>) {
 pub(super) fn is_study(path: &Path) -> Result<bool, InputError> {
     let tables: TomlFile<IndexMap<String, Value>> = TomlFile::read(path, &[])?;
     Ok(["scene", "vary"].iter().any(|key| tables.value.contains_key(*key)))
-}
-
-/// The scalars of anything that is written as JSON.
-pub(super) fn json<T: Serialize>(value: &T) -> Result<IndexMap<String, Value>, Error> {
-    let text = serde_json::to_string(value).map_err(|e| Error::Unfinished(e.to_string()))?;
-    serde_json::from_str(&text).map_err(|e| Error::Unfinished(e.to_string()))
 }

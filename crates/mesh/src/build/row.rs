@@ -1,10 +1,9 @@
 //! Contacts side by side: a cell under each, plain blocks between them, and the shells around the whole row.
 
+use super::contact_core::{add_core, shell_limit};
 use super::grid::{Grid, Rectangle, Ring, name_side, sort_surface, wrap};
-use super::{
-    Plan, add_core, contact_size, core_half_width, divide_geometric, kinks_from, power, shell_limit,
-};
-use crate::grading::{Grading, divide};
+use super::plan::{Plan, contact_size, core_half_width, kinks_from, power};
+use crate::grading::{Grading, divide, divide_geometric};
 use std::collections::HashMap;
 
 /// The rectangle of a row: as deep as the geometric mean of the half widths of its cells.

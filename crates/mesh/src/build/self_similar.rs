@@ -1,9 +1,10 @@
 //! A sharp cone on its substrate, or the flat body under a cone: columns of one width under the contact, so that the force
 //! ripples with one period, and shells around them that grow to the far boundary.
 
+use super::finish;
 use super::grid::{Grid, Rectangle, Ring, wrap};
-use super::{divide_geometric, finish};
 use crate::grading::divide;
+use crate::grading::divide_geometric;
 use crate::{Edge, ElementKind, Mesh};
 
 /// Sizes of a self-similar mesh, lengths in units of the radius of the contact.

@@ -1,6 +1,6 @@
 //! The sections of an MSH 4.1 file, as they stand.
 
-use super::MshError;
+use super::error::MshError;
 use crate::ElementKind;
 use std::collections::HashMap;
 

@@ -1,6 +1,6 @@
 //! From the content of an MSH file to a mesh: one plane, one orientation, sides by name and in order.
 
-use super::MshError;
+use super::error::MshError;
 use super::file::{Curve, Element, File};
 use crate::{Edge, Mesh, Sides};
 use std::collections::HashMap;

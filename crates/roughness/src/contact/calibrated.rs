@@ -1,12 +1,13 @@
 //! The calibrated cone of one metal over all slopes: the table of the calibration, and beyond it the atlas of cones.
 
-use super::closures::ELASTIC_AREA;
 use super::coefficient::{Coefficient, Nearest};
 use asperity_law::atlas::{Atlas, Contact, SharpCone};
 use asperity_law::bisection::bisect;
 use asperity_law::{Elastic, Hardening};
 use std::f64::consts::PI;
 
+/// Contact area of an elastic cone over that of its island (Sneddon 1965).
+pub(super) const ELASTIC_AREA: f64 = 4.0 / (PI * PI);
 /// Least and largest tan β of the nodes between which the atlas is read.
 const SLOPES: [f64; 2] = [1e-5, 10.0];
 /// Nodes, 3.5 % of tan β apart: lines between them are off by 1e-4.

@@ -1,11 +1,10 @@
 //! Closures, the contact laws of single asperities: force and contact area of an island of slope tan β.
 
-use super::calibrated::Calibrated;
+use super::calibrated::{Calibrated, ELASTIC_AREA};
 use super::coefficient::Coefficient;
 use super::material::Material;
 use asperity_law::Hardening;
 use serde::{Deserialize, Serialize};
-use std::f64::consts::PI;
 use std::str::FromStr;
 use thiserror::Error;
 
@@ -13,8 +12,6 @@ use thiserror::Error;
 pub const PUBLISHED: f64 = 0.13;
 /// Eq. [18], on the island.
 const JOHNSON_ELASTIC: f64 = 0.2;
-/// Contact area of an elastic cone over that of its island (Sneddon 1965).
-pub(super) const ELASTIC_AREA: f64 = 4.0 / (PI * PI);
 /// Thresholds of the plasticity index printed below eq. (13).
 const THRESHOLDS: [f64; 2] = [0.6, 1.0];
 
@@ -336,6 +333,7 @@ mod tests {
     use super::*;
     use asperity_law::HardeningLaw;
     use asperity_law::units::Stress;
+    use std::f64::consts::PI;
 
     fn steel() -> Material {
         Material {

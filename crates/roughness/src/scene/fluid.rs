@@ -1,6 +1,7 @@
 //! `[fluid]`: what may leak through the gap.
 
-use super::{SceneError, error};
+use super::SceneError;
+use super::error::error;
 use asperity_law::units::{Stress, from_text};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Deserializer, Serialize};

@@ -1,6 +1,7 @@
 //! The table of a generated surface.
 
-use super::{SceneError, error};
+use super::SceneError;
+use super::error::error;
 use crate::surface::generate::{Grid, Kind, KindName, Target};
 use asperity_law::units::Length;
 use schemars::JsonSchema;

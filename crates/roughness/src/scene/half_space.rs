@@ -1,6 +1,7 @@
 //! `[half_space]`: how the half-space is solved.
 
-use super::{SceneError, error};
+use super::SceneError;
+use super::error::error;
 use crate::half_space::{FINEST, TOLERANCE};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -1,5 +1,6 @@
 //! The tables of a rough scene, the checks of their values, and the surface they describe.
 
+mod error;
 mod fluid;
 mod generate;
 mod half_space;
@@ -21,6 +22,7 @@ use crate::contact::closures::Closure;
 use crate::contact::press::Load;
 use asperity_law::range;
 use asperity_law::units::{Length, Stress, rounded};
+use error::error;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
@@ -163,11 +165,6 @@ impl Scene {
         self.fluid.as_ref().map_or(Ok(()), Fluid::validate)?;
         self.surface.validate()
     }
-}
-
-/// An error of the value at `path` as an answer.
-fn error<T>(path: &str, message: impl ToString) -> Result<T, SceneError> {
-    Err(SceneError::new(path, message))
 }
 
 fn check_material(material: &Material) -> Result<(), SceneError> {

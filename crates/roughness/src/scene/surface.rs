@@ -1,7 +1,8 @@
 //! The table of a surface: where it comes from, and what is done to it.
 
+use super::SceneError;
+use super::error::error;
 use super::generate::GenerateScene;
-use super::{SceneError, error};
 use crate::surface::filter;
 use crate::surface::formats::{self, Measured, Spacing};
 use crate::surface::generate;

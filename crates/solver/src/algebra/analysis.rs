@@ -5,8 +5,8 @@
 //! the analyses of the last few, so that they are made once.
 
 use crate::algebra::assemble::Stiffness;
-use crate::algebra::cholesky::FactorError;
 use crate::algebra::dofs::Dofs;
+use crate::algebra::failure::FactorError;
 use crate::algebra::fill_ordering::elimination_order;
 use crate::algebra::front_tree::FrontTree;
 use std::cell::RefCell;

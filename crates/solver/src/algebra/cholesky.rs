@@ -1,24 +1,15 @@
 //! Factorisation of the sparse stiffness, front by front: the symbolic analysis once per mesh, numbers in place, nothing allocated
 //! per factorisation or solve.
 
-use crate::algebra::front::{Pivots, eliminate, padded};
+use crate::algebra::failure::FactorError;
+use crate::algebra::front::{Pivots, eliminate};
+use crate::algebra::front_size::padded;
 use crate::algebra::front_solve::{solve_backward, solve_forward};
 use crate::algebra::front_tree::{Front, FrontTree, Part};
 use pulp::Arch;
 use rayon::prelude::*;
 use sprs::CsMat;
 use std::sync::Arc;
-
-/// Why a matrix could not be factorised.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum FactorError {
-    /// A pivot of the Cholesky factorisation is not positive: the matrix is indefinite.
-    #[error("the stiffness matrix is not positive definite")]
-    NotPositive,
-    /// The matrix is singular or not finite, or memory ran out.
-    #[error("the stiffness matrix is singular or not finite")]
-    Singular,
-}
 
 /// Floating-point operations of one solution of a sparse symmetric system.
 #[derive(Clone, Copy, Debug, PartialEq)]

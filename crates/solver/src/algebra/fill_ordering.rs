@@ -8,7 +8,7 @@
 //!
 //! An order lists vertices, the first to be eliminated first; places are its inverse: `place[order[i]] = i`.
 
-use crate::algebra::cholesky::FactorError;
+use crate::algebra::failure::FactorError;
 use crate::algebra::minimum_degree::{elimination_tree, minimum_degree};
 use feral_metis::{CscPattern, metis_order};
 

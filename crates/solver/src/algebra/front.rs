@@ -9,49 +9,16 @@
 //!
 //! Every product is fused with its sum, on processors that can, whatever processor the program was built for: the same bits.
 
+use crate::algebra::front_size::{LANES, Size, padded};
 use crate::algebra::large_front::{is_large, take_from_panel, take_from_update};
 use pulp::{Arch, Simd, WithSimd};
 use std::ops::Range;
-
-/// Rows of a tile; the length of a column is a multiple of it.
-pub const LANES: usize = 8;
 
 /// Columns of a tile, and of the blocks in which pivots are eliminated.
 pub(super) const TILE: usize = 4;
 
 /// Pivots of a large front that are eliminated before a product takes them from the next ones.
 const LARGE_BLOCK: usize = 64;
-
-/// `length` rounded up to a multiple of [`LANES`].
-pub const fn padded(length: usize) -> usize {
-    length.next_multiple_of(LANES)
-}
-
-/// Sizes of a front.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Size {
-    /// Pivots, k.
-    pub pivots: usize,
-    /// Rows below them, n.
-    pub below: usize,
-}
-
-impl Size {
-    /// Length of a column of the panel: what is read in tiles below the pivots stays inside it.
-    pub const fn panel_column(self) -> usize {
-        padded(self.pivots + padded(self.below))
-    }
-
-    /// Numbers in the panel.
-    pub const fn panel(self) -> usize {
-        self.panel_column() * self.pivots
-    }
-
-    /// Numbers in the update.
-    pub const fn update(self) -> usize {
-        padded(self.below) * self.below
-    }
-}
 
 /// Which pivots are accepted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -2,7 +2,8 @@
 //!
 //! Symbols and storage: see `front`. Every product is fused with its sum where the processor can.
 
-use crate::algebra::front::{Size, TILE, fma};
+use crate::algebra::front::{TILE, fma};
+use crate::algebra::front_size::Size;
 use pulp::{Arch, Simd, WithSimd};
 
 /// Solves with the columns of a front: `local` holds the right-hand side in its rows.

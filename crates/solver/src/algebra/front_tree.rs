@@ -4,7 +4,7 @@
 //! Unknowns whose columns of the factor have the same rows form a front. Small fronts are merged with the front that takes
 //! what they leave, where a few zeros more cost less than a front of its own (`Size::seconds`).
 
-use crate::algebra::front::Size;
+use crate::algebra::front_size::Size;
 use crate::algebra::minimum_degree::{EliminationTree, elimination_tree};
 use sprs::CsMat;
 use std::ops::Range;

@@ -1,7 +1,7 @@
 //! Elimination in fronts so large that products in cache blocks and several threads pay. The blocks do not depend on the number of
 //! threads: neither do the bits.
 
-use crate::algebra::front::{Size, padded};
+use crate::algebra::front_size::{Size, padded};
 use faer::linalg::matmul::matmul;
 use faer::{Accum, MatMut, MatRef, Par};
 

@@ -1,6 +1,6 @@
 //! Orders of elimination and elimination trees, found by faer.
 
-use crate::algebra::cholesky::FactorError;
+use crate::algebra::failure::FactorError;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::SymbolicSparseColMatRef;
 use faer::sparse::linalg::amd;

@@ -2,11 +2,15 @@
 
 pub mod dofs;
 
+pub mod failure;
+
 pub mod assemble;
 
 pub mod fill_ordering;
 
 pub mod minimum_degree;
+
+pub mod front_size;
 
 pub mod front;
 

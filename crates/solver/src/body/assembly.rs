@@ -3,10 +3,11 @@
 use crate::algebra::assemble::Stiffness;
 use crate::algebra::dofs::FIXED;
 use crate::body::discrete_body::Body;
-use crate::body::elements::{Buffers, Motion, Start};
+use crate::body::elements::{Buffers, Motion, Start, current};
 use crate::body::failure::Failure;
 use crate::body::state::{Points, State, Trial};
-use crate::contact::edge::{EdgeContact, NOTHING};
+use crate::contact::edge::EdgeContact;
+use crate::contact::parts::NOTHING;
 use crate::contact::self_contact::Pressed;
 use crate::element::kernel::ElementContext;
 use crate::point::j2::{Linearisation, Tangent};
@@ -257,11 +258,4 @@ impl Body<'_> {
             }
         }
     }
-}
-
-/// Position of a node after the displacement from the converged state.
-#[inline(always)]
-pub fn current(position: &[[f64; 2]], displacement: &[[f64; 2]], node: u32) -> [f64; 2] {
-    let (x, du) = (position[node as usize], displacement[node as usize]);
-    [x[0] + du[0], x[1] + du[1]]
 }

@@ -1,7 +1,6 @@
 //! The element loop: every element of a body evaluated, with the widest vector registers of the processor at hand, on several threads
 //! where that pays. What the elements give is summed up in their order, so that the bits depend on neither.
 
-use crate::body::assembly::current;
 use crate::body::discrete_body::{Body, gather};
 use crate::body::failure::Failure;
 use crate::body::state::{Points, State};
@@ -22,6 +21,13 @@ const ROUND: usize = 384;
 /// Elements from which several threads pay: for a thread of the pool, and for one outside, which sleeps until a thread of the pool
 /// has woken it, round after round.
 const WORTH_THREADS: [usize; 2] = [400, 4000];
+
+/// Position of a node after the displacement from the converged state.
+#[inline(always)]
+pub(super) fn current(position: &[[f64; 2]], displacement: &[[f64; 2]], node: u32) -> [f64; 2] {
+    let (x, du) = (position[node as usize], displacement[node as usize]);
+    [x[0] + du[0], x[1] + du[1]]
+}
 
 /// Motion of the nodes in an increment, and the material.
 #[derive(Clone, Copy, Debug)]

@@ -3,7 +3,7 @@
 use crate::body::discrete_body::Body;
 use crate::body::state::State;
 use crate::body::surface::Surface;
-use crate::contact::edge::NOTHING;
+use crate::contact::parts::NOTHING;
 use crate::element::kernel::POINTS;
 use crate::point::kinematics::Symmetry;
 use crate::point::material::{hydrostatic, stress, volume_ratio};

@@ -11,7 +11,8 @@
 use crate::body::discrete_body::Body;
 use crate::body::state::State;
 use crate::body::surface_curve::SurfaceCurve;
-use crate::contact::edge::{ContactEdge, NOTHING};
+use crate::contact::edge::ContactEdge;
+use crate::contact::parts::NOTHING;
 use asperity_mesh::Mesh;
 use asperity_mesh::smoothing::{Freedom, improve, straighten};
 

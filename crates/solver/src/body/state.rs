@@ -2,7 +2,8 @@
 
 use crate::body::discrete_body::Body;
 use crate::body::energy::stored;
-use crate::contact::edge::{ContactEdge, EdgeContact, NOTHING, Parts};
+use crate::contact::edge::{ContactEdge, EdgeContact};
+use crate::contact::parts::{NOTHING, Parts};
 use crate::contact::self_contact::Facing;
 use crate::element::kernel::PointSlice;
 use crate::point::bdf2::PlasticIncrement;

@@ -1,7 +1,8 @@
 //! The free surface of a body and its contact, as a converged state or a trial shows them.
 
-use crate::body::assembly::{Response, current};
+use crate::body::assembly::Response;
 use crate::body::discrete_body::Body;
+use crate::body::elements::current;
 use crate::body::state::{State, Trial};
 use crate::contact::edge::{ContactEdge, EdgeContact};
 use crate::contact::penalty_correction::{Punches, under_punches};

@@ -9,19 +9,11 @@
 //! part of its flank, where a penalty over the undeformed area fades: the apex then pierces the surface (30° cone, n = 0.1: K 15 %
 //! low, and no convergence to any mesh).
 
+use crate::contact::parts::{NOTHING, Parts, WHOLE};
 use crate::contact::roots::parts_above_zero;
 use crate::contact::tool::Tool;
 use crate::point::kinematics::Symmetry;
 use asperity_mesh::outline::quadratic_roots;
-
-/// Parts of an edge, as intervals of its coordinate ξ in [-1, 1]: its middle, or both its ends.
-pub type Parts = [Option<[f64; 2]>; 2];
-
-/// No part at all.
-pub const NOTHING: Parts = [None, None];
-
-/// The whole edge.
-pub const WHOLE: Parts = [Some([-1.0, 1.0]), None];
 
 /// An edge of the free surface: two corners (ξ = -1, 1) and a mid-side node (ξ = 0) where the element has one.
 #[derive(Clone, Copy, Debug)]

@@ -2,6 +2,8 @@
 
 pub mod tool;
 
+pub mod parts;
+
 pub mod edge;
 
 mod roots;

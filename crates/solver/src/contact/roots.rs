@@ -1,6 +1,6 @@
 //! Where a pressure along an edge is above zero: its roots, isolated between samples and found to the last digits.
 
-use crate::contact::edge::{NOTHING, Parts};
+use crate::contact::parts::{NOTHING, Parts};
 
 /// Samples along an edge, its ends included: between two of them a pressure has one extreme at most.
 const SAMPLES: usize = 9;

@@ -8,7 +8,7 @@
 //! deflection is 8/π² = 0.81 of that: a fifth of the correction is its own error there.
 
 use crate::point::kinematics::Symmetry;
-use crate::run::problem::Units;
+use crate::run::units::Units;
 use crate::scene::Scene;
 use std::f64::consts::PI;
 

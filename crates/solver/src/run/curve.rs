@@ -1,10 +1,8 @@
 //! A loading curve between its increments, without its ripple, and against another: how errors are measured.
 
+use crate::run::discretisation::COUNTS_FROM;
 use crate::run::record::{CurveRow, Phase};
 use asperity_law::least_squares::{powers, solve, value};
-
-/// Depths from which errors count, as a share of the peak.
-pub const COUNTS_FROM: f64 = 0.2;
 
 /// A quantity that grows with the depth while loading, force or contact area, in the unit it was given.
 #[derive(Clone, Debug, PartialEq)]

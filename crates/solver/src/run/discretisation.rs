@@ -8,6 +8,9 @@ use asperity_mesh::build::Sizes;
 use asperity_mesh::grading::LINEAR;
 use asperity_mesh::outline::Outline;
 
+/// Depths from which errors count, as a share of the peak.
+pub const COUNTS_FROM: f64 = 0.2;
+
 /// Every number of the discretisation, none left open.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Discretisation {

@@ -28,7 +28,8 @@
 //! elastic fraction has them in squares, and with them the work over the depths that the energies of the body do not account for.
 
 use crate::point::kinematics::Symmetry;
-use crate::run::curve::{COUNTS_FROM, Curve};
+use crate::run::curve::Curve;
+use crate::run::discretisation::COUNTS_FROM;
 use crate::run::record::{CurveRow, Errors, Phase, largest_work, work_along};
 use crate::run::recorder::Outcome;
 use crate::run::schedule::UNLOADING_EXPONENT;

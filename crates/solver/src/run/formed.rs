@@ -4,7 +4,7 @@
 use crate::contact::tool::Tool;
 use crate::point::material::Metal;
 use crate::run::a_priori;
-use crate::run::curve::COUNTS_FROM;
+use crate::run::discretisation::COUNTS_FROM;
 use asperity_mesh::profile::{Asperity, Profile};
 
 /// Places where a surface is looked at around the axis of a tool: each so many times as far away as the one before.

@@ -10,6 +10,8 @@ mod lowering;
 #[doc(hidden)]
 pub mod schedule;
 
+pub mod units;
+
 pub mod problem;
 
 pub mod prepare;

@@ -9,7 +9,7 @@
 use crate::contact::tool::Tool;
 use crate::point::kinematics::Symmetry;
 use crate::run::problem::Problem;
-use crate::run::record::Summary;
+use crate::run::record::{OliverPharr, Summary};
 use crate::scene::AreaFunction;
 use std::f64::consts::{FRAC_2_PI, PI};
 
@@ -22,21 +22,6 @@ pub struct Peak {
     pub depth: f64,
     /// Slope S = dF/dh of the unloading curve at the peak.
     pub stiffness: f64,
-}
-
-/// The evaluation of a peak after Oliver and Pharr, in the units of the peak.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct OliverPharr {
-    /// ε of the tool's shape.
-    pub geometry_factor: f64,
-    /// h_c.
-    pub contact_depth: f64,
-    /// A(h_c).
-    pub contact_area: f64,
-    /// F/A(h_c).
-    pub hardness: f64,
-    /// (√π/2) S/√A(h_c).
-    pub reduced_modulus: f64,
 }
 
 /// ε of a tool that is in contact up to about `height` above its apex; `None` for a plane, which has no tip from which a contact

@@ -5,11 +5,12 @@ use crate::point::kinematics::Symmetry;
 use crate::point::material::Metal;
 use crate::run::a_priori;
 use crate::run::compliance::Compliance;
-use crate::run::curve::COUNTS_FROM;
+use crate::run::discretisation::COUNTS_FROM;
 use crate::run::discretisation::Discretisation;
 use crate::run::formed::{Formed, expected_pressure};
 use crate::run::lowering::{Support, own_depths};
-use crate::run::problem::{Goal, Problem, Rules, Units, held_nodes};
+use crate::run::problem::{Goal, Problem, Rules, held_nodes};
+use crate::run::units::Units;
 use crate::scene::{
     AsperityForm, ElementChoice, Lateral, Line, LineAsperity, Scene, SceneError, Target, ToolForm,
 };

@@ -4,7 +4,6 @@
 //! they are per metre of ridge: N/m, m (contact width), J/m.
 
 use crate::body::energy::work;
-use crate::run::oliver_pharr::OliverPharr;
 
 /// Whether the tool advances or retreats.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -159,6 +158,21 @@ pub struct GapRow {
     pub height: f64,
     /// Whether flanks that press each other close it off from the tool.
     pub enclosed: bool,
+}
+
+/// The evaluation of a peak after Oliver and Pharr, in the units of the peak.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OliverPharr {
+    /// ε of the tool's shape.
+    pub geometry_factor: f64,
+    /// h_c.
+    pub contact_depth: f64,
+    /// A(h_c).
+    pub contact_area: f64,
+    /// F/A(h_c).
+    pub hardness: f64,
+    /// (√π/2) S/√A(h_c).
+    pub reduced_modulus: f64,
 }
 
 /// `summary.json`. `None` where the scene did not ask for it (unloading) or the run did not reach it.

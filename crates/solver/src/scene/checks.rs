@@ -2,19 +2,11 @@
 
 use super::geometry::HIGHEST_CAP;
 use super::measured::span_of;
-use super::range::{Check, error, length, not_negative, positive, slope, within};
+use super::range::{Check, error, inside, length, not_negative, positive, slope, within};
 use super::{
-    Asperity, AsperityForm, Lateral, Loading, Numerics, Scene, SceneError, Substrate, Symmetry, Target,
-    ToolForce, ToolForm,
+    Asperity, AsperityForm, Lateral, Numerics, Scene, SceneError, Substrate, Symmetry, ToolForce, ToolForm,
 };
-use asperity_law::units::Length;
 use asperity_mesh::outline::Span;
-
-/// Puts the table in front of the keys of an error.
-pub(super) fn inside(table: &str, error: SceneError) -> SceneError {
-    let path = if error.path.is_empty() { table.to_string() } else { format!("{table}.{}", error.path) };
-    SceneError { path, ..error }
-}
 
 /// Limits that a tool cannot pass.
 #[derive(Clone, Copy)]
@@ -68,6 +60,32 @@ impl Scene {
         self.check_body()?;
         self.loading.check().map_err(|e| inside("loading", e))?;
         self.check_loading()
+    }
+
+    /// Checks the compliance of tool and machine against the rest of the scene.
+    fn check_tool_compliance(&self) -> Check {
+        if self.symmetry == Symmetry::PlaneStrain && self.tool.area_function.is_some() {
+            let message = "belongs to a body of revolution: a wedge has no contact area; leave it out";
+            return Err(error("tool.area_function", message));
+        }
+        let given = [
+            ("tool.youngs_modulus", self.tool.youngs_modulus.is_some()),
+            ("tool.machine_compliance", self.tool.machine_compliance.is_some()),
+        ];
+        let Some((path, _)) = given.iter().find(|(_, given)| *given) else { return Ok(()) };
+        if self.symmetry == Symmetry::PlaneStrain {
+            return Err(error(
+                *path,
+                "belongs to a body of revolution: in plane strain a half space has no compliance and a machine no force; leave it out",
+            ));
+        }
+        if self.tool.youngs_modulus.is_some() && (self.asperity.len() > 1 || !self.profile.is_empty()) {
+            return Err(error(
+                "tool.youngs_modulus",
+                "needs a single contact: how a tool gives way under several at once is not modelled; leave it out for a rigid tool",
+            ));
+        }
+        Ok(())
     }
 
     /// A measured line must be the only surface, in plane strain.
@@ -297,44 +315,6 @@ impl Substrate {
     fn check(&self) -> Check {
         self.radius.map_or(Ok(()), |r| positive("radius", "the radius", r))?;
         self.depth.map_or(Ok(()), |d| positive("depth", "the depth", d))
-    }
-}
-
-impl Loading {
-    /// Where loading ends.
-    ///
-    /// # Errors
-    /// Neither or both of `depth` and `force`; the path is relative to the loading table.
-    pub fn target(&self) -> Result<Target, SceneError> {
-        match (self.depth, self.force) {
-            (Some(depth), None) => Ok(Target::Depth(depth.0)),
-            (None, Some(ToolForce::Total(force))) => Ok(Target::Force(force.0)),
-            (None, Some(ToolForce::PerLength(force))) => Ok(Target::Force(force.0)),
-            (Some(_), Some(_)) => Err(error("force", "does not go with `depth`: remove one of the two")),
-            (None, None) => Err(error(
-                "",
-                "set exactly one of `depth` or `force`, for example depth = \"5 um\" or force = \"4 N\"",
-            )),
-        }
-    }
-
-    fn check(&self) -> Check {
-        if self.reloads > 0 && !self.unload {
-            return Err(error(
-                "reloads",
-                "needs unload = true: a body must be unloaded before it is loaded again",
-            ));
-        }
-        let way_out = "each cycle costs as much as two unloadings";
-        within("reloads", "the number of reloads", self.reloads as f64, 0.0, 1000.0, way_out)?;
-        match self.target()? {
-            Target::Depth(depth) => positive("depth", "the depth", Length(depth)),
-            Target::Force(force) if force > 0.0 && force.is_finite() => Ok(()),
-            Target::Force(force) => Err(error(
-                "force",
-                format!("must be finite and above 0, not {force} N: compression is positive"),
-            )),
-        }
     }
 }
 

@@ -1,7 +1,7 @@
 //! Outlines that were measured: their points as a scene holds them, and the curves that a run takes of them.
 
+use super::SceneError;
 use super::range::{error, length};
-use super::{Asperity, Scene, SceneError};
 use asperity_law::units::Length;
 use asperity_mesh::outline::{Fit, FitError, Outline, Span, deepest_dent, fit};
 use schemars::JsonSchema;
@@ -229,22 +229,3 @@ pub(super) fn tool(points: &Points, tolerance: Option<Length>) -> Result<Arc<Out
 
 /// Steepest slope (tangent) of a tool.
 const STEEPEST_TOOL: f64 = 12.0;
-
-impl Scene {
-    /// The fitted curve of each measured outline of the scene, in numbers.
-    pub fn smoothings(&self) -> Vec<Smoothing> {
-        let asperity = |(i, a): (usize, &Asperity)| {
-            let points = a.points.as_ref()?;
-            let fit = points.fit(span_of(points.metres()), a.tolerance, false).ok()?;
-            Some(Smoothing::new(format!("asperity[{i}]"), points, &fit))
-        };
-        let tool = || {
-            let points = self.tool.points.as_ref()?;
-            let fit = points.fit(Span::Half, self.tool.tolerance, true).ok()?;
-            Some(Smoothing::new("tool", points, &fit))
-        };
-        let lines = self.profile.iter().enumerate();
-        let lines = lines.filter_map(|(i, line)| line.smoothing(format!("profile[{i}]")));
-        self.asperity.iter().enumerate().filter_map(asperity).chain(lines).chain(tool()).collect()
-    }
-}

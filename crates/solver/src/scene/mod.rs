@@ -7,20 +7,24 @@ mod accuracy;
 mod area_function;
 mod build;
 mod checks;
+mod earlier_loads;
 mod geometry;
 mod initial;
 mod line;
+mod loading;
 mod material;
 mod measured;
 mod range;
 mod tool;
 mod warnings;
+mod whole;
 
 pub use accuracy::{Accuracy, AccuracyError, Level};
 pub use area_function::AreaFunction;
-pub use geometry::{Asperity, AsperityForm, Substrate};
+pub use geometry::{Asperity, AsperityForm, Lateral, Substrate};
 pub use initial::{EarlierLoad, Initial};
 pub use line::{Line, LineAsperity, LineProfile};
+pub use loading::{Loading, Target, ToolForce};
 pub use material::{HardeningChoice, Material};
 pub use measured::{Points, Smoothing};
 pub use tool::{Tool, ToolForm, ToolShape};
@@ -29,11 +33,10 @@ pub use crate::point::kinematics::Symmetry;
 pub use asperity_law::range::SceneError;
 pub use asperity_law::{HardeningMode, StressMeasure};
 
-use asperity_law::units::{Force, Length, LineForce, UnitError, from_text, quantity_schema};
+use asperity_law::units::Length;
 use asperity_mesh::ElementKind;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
-use serde::{Deserialize, Deserializer, Serialize, Serializer};
-use std::borrow::Cow;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
 /// Everything that defines a run: what `asperity crush` and `asperity mesh` read.
@@ -84,101 +87,6 @@ pub struct Scene {
 
 fn axisymmetric() -> Symmetry {
     Symmetry::Axisymmetric
-}
-
-/// Support of the lateral side of the substrate.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum Lateral {
-    /// Nothing.
-    #[default]
-    Free,
-    /// A frictionless wall: the body repeats beyond it.
-    Symmetric,
-}
-
-/// How far the tool goes: exactly one of `depth` and `force`.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Loading {
-    /// Tool travel from first touch of the highest summit, corrected for penetration.
-    #[schemars(example = "5 um")]
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub depth: Option<Length>,
-    /// Force at the peak, instead of `depth`; per length of ridge in plane strain.
-    #[schemars(example = "4 N", example = "4 N/mm")]
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub force: Option<ToolForce>,
-    /// Whether the tool then retreats to zero force.
-    #[serde(default)]
-    pub unload: bool,
-    /// How often the tool then comes back to the same depth (or force) and retreats again; needs `unload`.
-    #[schemars(range(max = 1000))]
-    #[serde(default, skip_serializing_if = "is_zero")]
-    pub reloads: usize,
-}
-
-fn is_zero(count: &usize) -> bool {
-    *count == 0
-}
-
-/// Where loading ends, complete.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Target {
-    /// At this corrected depth, m.
-    Depth(f64),
-    /// At this force, N (N/m in plane strain).
-    Force(f64),
-}
-
-/// A force on a body of revolution, or per length of ridge.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum ToolForce {
-    /// On the full body of revolution.
-    Total(Force),
-    /// Per length of ridge, in plane strain.
-    PerLength(LineForce),
-}
-
-impl std::str::FromStr for ToolForce {
-    type Err = UnitError;
-    fn from_str(text: &str) -> Result<Self, UnitError> {
-        if text.contains('/') {
-            text.parse().map(ToolForce::PerLength)
-        } else {
-            text.parse().map(ToolForce::Total)
-        }
-    }
-}
-
-impl JsonSchema for ToolForce {
-    fn inline_schema() -> bool {
-        true
-    }
-    fn schema_name() -> Cow<'static, str> {
-        "ToolForce".into()
-    }
-    fn json_schema(_: &mut SchemaGenerator) -> Schema {
-        quantity_schema(Force::UNITS.iter().chain(LineForce::UNITS))
-    }
-}
-
-impl Serialize for ToolForce {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        match self {
-            ToolForce::Total(force) => force.serialize(serializer),
-            ToolForce::PerLength(force) => force.serialize(serializer),
-        }
-    }
-}
-
-impl<'de> Deserialize<'de> for ToolForce {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        from_text(
-            deserializer,
-            "a force as a string with a unit, for example \"4 N\" (\"4 N/mm\" in plane strain)",
-        )
-    }
 }
 
 /// A quantity drawn over the section.

@@ -69,3 +69,9 @@ pub(super) fn slope(path: &str, degrees: Option<f64>) -> Check {
         _ => Ok(()),
     }
 }
+
+/// Puts the table in front of the keys of an error.
+pub(super) fn inside(table: &str, error: SceneError) -> SceneError {
+    let path = if error.path.is_empty() { table.to_string() } else { format!("{table}.{}", error.path) };
+    SceneError { path, ..error }
+}

@@ -1,10 +1,9 @@
 //! The tool of a scene: its shape, by keys, by name or measured, and how it gives way.
 
+use super::SceneError;
 use super::area_function::AreaFunction;
-use super::checks::inside;
 use super::measured::{self, Points};
-use super::range::{Check, error, not_negative, positive, slope};
-use super::{Scene, SceneError, Symmetry};
+use super::range::{Check, error, inside, not_negative, positive, slope};
 use asperity_law::units::{Compliance, Length, Stress};
 use asperity_law::{Elastic, range};
 use asperity_mesh::outline::Outline;
@@ -299,33 +298,5 @@ impl Tool {
             )),
             _ => Ok(()),
         }
-    }
-}
-
-impl Scene {
-    /// Checks the compliance of tool and machine against the rest of the scene.
-    pub(super) fn check_tool_compliance(&self) -> Check {
-        if self.symmetry == Symmetry::PlaneStrain && self.tool.area_function.is_some() {
-            let message = "belongs to a body of revolution: a wedge has no contact area; leave it out";
-            return Err(error("tool.area_function", message));
-        }
-        let given = [
-            ("tool.youngs_modulus", self.tool.youngs_modulus.is_some()),
-            ("tool.machine_compliance", self.tool.machine_compliance.is_some()),
-        ];
-        let Some((path, _)) = given.iter().find(|(_, given)| *given) else { return Ok(()) };
-        if self.symmetry == Symmetry::PlaneStrain {
-            return Err(error(
-                *path,
-                "belongs to a body of revolution: in plane strain a half space has no compliance and a machine no force; leave it out",
-            ));
-        }
-        if self.tool.youngs_modulus.is_some() && (self.asperity.len() > 1 || !self.profile.is_empty()) {
-            return Err(error(
-                "tool.youngs_modulus",
-                "needs a single contact: how a tool gives way under several at once is not modelled; leave it out for a rigid tool",
-            ));
-        }
-        Ok(())
     }
 }

@@ -1,6 +1,6 @@
 //! Every column of every table and every key of every summary, from the types that write them.
 
-use super::{code, table, words};
+use super::markdown::{code, table, words};
 use crate::calibrate::{AngleFit, Fit};
 use crate::crush::{
     AsperityRow, CurveRow, CycleRow, Errors, GapRow, Instrument, Island, MeasuredOutline, Summary, SurfaceRow,

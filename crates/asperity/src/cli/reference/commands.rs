@@ -1,6 +1,6 @@
 //! The commands with their arguments, from the definition of the command line.
 
-use super::{code, table, words};
+use super::markdown::{code, table, words};
 use clap::{Arg, Command};
 
 /// The page.

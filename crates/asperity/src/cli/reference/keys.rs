@@ -1,6 +1,6 @@
 //! Every key of every file, from the schemas.
 
-use super::{code, table, words};
+use super::markdown::{code, table, words};
 use crate::cli::schema::{SchemaKind, of_kind};
 use serde_json::Value;
 

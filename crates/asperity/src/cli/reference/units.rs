@@ -1,6 +1,6 @@
 //! The units that quantities may be written in.
 
-use super::{code, table};
+use super::markdown::{code, table};
 use asperity_law::units::{Compliance, Force, Length, LineForce, Stiffness, Stress};
 use asperity_roughness::scene::Viscosity;
 

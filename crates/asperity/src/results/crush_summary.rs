@@ -2,14 +2,12 @@
 
 #![expect(non_snake_case, reason = "a name ends in its unit, as in the file")]
 
-use super::record::row;
 use crate::error::{Error, InputError};
-use crate::output::nan_for_null;
+use crate::output::{nan_for_null, row};
 use crate::page::format::significant;
 use crate::units::{GIGAPASCAL, MEGAPASCAL, MICROMETRE, Units, axisymmetric_name, file_name};
 use asperity_solver::body::islands;
-use asperity_solver::run::oliver_pharr::OliverPharr;
-use asperity_solver::run::record;
+use asperity_solver::run::record::{self, OliverPharr};
 use asperity_solver::scene::{Accuracy, Scene as Tables, Smoothing, Symmetry};
 use indexmap::IndexMap;
 use serde::de::Error as _;
@@ -289,7 +287,7 @@ fn four_digits(value: f64) -> String {
 }
 
 /// The end of a unit of force or energy.
-pub(super) fn per_length(symmetry: Symmetry) -> &'static str {
+pub(crate) fn per_length(symmetry: Symmetry) -> &'static str {
     match symmetry {
         Symmetry::Axisymmetric => "",
         Symmetry::PlaneStrain => "/mm",

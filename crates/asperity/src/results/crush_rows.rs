@@ -5,8 +5,7 @@
 #![expect(non_snake_case, reason = "a name ends in its unit, as in the files")]
 
 use crate::error::{Error, InputError};
-pub(super) use crate::output::row;
-use crate::output::{read_csv, write_csv};
+use crate::output::{read_csv, row, write_csv};
 use crate::units::{MEGAPASCAL, MICROMETRE, Units, axisymmetric_name, file_name};
 use asperity_solver::body::fields::SurfacePoint;
 use asperity_solver::run::record;

@@ -131,7 +131,7 @@ macro_rules! row {
         }
 
         impl $row {
-            pub(super) fn new($($from: $record),*) -> $row {
+            pub(crate) fn new($($from: $record),*) -> $row {
                 $row { $($field: $value,)* }
             }
         }
