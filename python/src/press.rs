@@ -5,7 +5,7 @@ use crate::scene::RoughScene;
 use crate::table::{matrix, of_json, of_rows};
 use crate::work;
 use asperity::output::Directory;
-use asperity::press::ClosureContact;
+use asperity::rough::ClosureContact;
 use asperity::units::MICROMETRE;
 use numpy::{PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::prelude::*;

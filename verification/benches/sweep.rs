@@ -6,10 +6,10 @@
 #![allow(clippy::print_stdout, reason = "a benchmark prints")]
 
 use asperity_calibration::case::Case;
-use asperity_calibration::run::solve;
+use asperity_calibration::solve_case::solve;
 use asperity_calibration::sweep::Sweep;
+use asperity_simulation::load_path::Path;
 use asperity_solver::element::kernel::POINTS;
-use asperity_solver::run::load_path::Path;
 use asperity_verification::roofline::Roofline;
 
 /// Sums over cases.

@@ -6,14 +6,14 @@
 //! * `pack FOLDER`: joins the committed file and the journals of FOLDER to the committed file, `verification/results/atlas.csv.gz`.
 //! * `check FOLDER COUNT [--shard K/N] [--seconds S]`: the same as `grow` for cones between those of the atlas, at `reference`;
 //!   `pack-check FOLDER` joins them to `verification/results/atlas-check.csv.gz`.
-//! * `renew --out FILE`: fits the formula of `asperity_law::atlas` to the committed file, writes its coefficients, and the tables of
+//! * `renew --out FILE`: fits the formula of `asperity_material::cone_atlas` to the committed file, writes its coefficients, and the tables of
 //!   `verification/results/atlas.md`: cones left out of the fit, and those of `check` against it.
 
 // on committed cases
 #![allow(clippy::expect_used, clippy::print_stderr)]
 
+use asperity::batch::journal::Journal;
 use asperity_calibration::cones::Row;
-use asperity_calibration::journal::Journal;
 use asperity_verification::atlas::{self, Set};
 use asperity_verification::report::{Report, replace};
 use asperity_verification::{atlas_fit, atlas_table};
@@ -75,7 +75,7 @@ fn renew(mut report: Report) {
 }
 
 /// The coefficients that are compiled in.
-const FORMULA: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../crates/law/data/atlas.txt");
+const FORMULA: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../crates/material/data/atlas.txt");
 
 fn pack(set: Set, folder: &Path) {
     let mut rows = atlas::committed(set);

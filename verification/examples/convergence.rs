@@ -7,9 +7,9 @@
 // on a committed scene
 #![allow(clippy::expect_used)]
 
-use asperity_solver::run::crush::Outcome;
-use asperity_solver::run::curve::{Curve, Smooth};
-use asperity_solver::scene::{Accuracy, ElementChoice, Scene};
+use asperity_simulation::record::curve::{Curve, Smooth};
+use asperity_simulation::run::Outcome;
+use asperity_simulation::scene::{Accuracy, ElementChoice, Scene};
 use asperity_verification::contact::punch_stiffness;
 use asperity_verification::report::{Report, timed};
 use asperity_verification::single_asperity::{crush, scene};

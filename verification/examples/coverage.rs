@@ -20,7 +20,7 @@
 // on scenes of its own, for hours
 #![allow(clippy::expect_used, clippy::print_stderr, clippy::print_stdout)]
 
-use asperity_solver::scene::Accuracy;
+use asperity_simulation::scene::Accuracy;
 use asperity_verification::coverage_scenes::{Case, Kind};
 use asperity_verification::report::Report;
 use asperity_verification::truth::{Answer, Each, QUANTITIES, RECIPES, Recipe, SOFTER, Truth, Truths};

@@ -4,9 +4,9 @@
 //! `cargo run --release -p asperity-verification --example cycles [-- draft] [--out FILE]`; the table is
 //! `verification/results/cycles.md`.
 
-use asperity_law::HardeningMode;
-use asperity_solver::run::crush::Outcome;
-use asperity_solver::scene::Accuracy;
+use asperity_material::HardeningMode;
+use asperity_simulation::run::Outcome;
+use asperity_simulation::scene::Accuracy;
 use asperity_verification::report::Report;
 use asperity_verification::single_asperity::{crush, scene};
 

@@ -3,11 +3,11 @@
 //!
 //! `cargo run --release -p asperity-verification --example economy [-- --out FILE]`; the table is `verification/results/economy.md`.
 
-use asperity_law::units::{Length, Stress};
-use asperity_solver::algebra::newton::KEEP;
-use asperity_solver::run::crush::{Outcome, run};
-use asperity_solver::run::load_path::Path;
-use asperity_solver::scene::{Accuracy, Scene, Substrate};
+use asperity_material::units::{Length, Stress};
+use asperity_numerics::newton::KEEP;
+use asperity_simulation::load_path::Path;
+use asperity_simulation::run::{Outcome, run};
+use asperity_simulation::scene::{Accuracy, Scene, Substrate};
 use asperity_verification::report::{Report, timed};
 use asperity_verification::single_asperity::{prepared, scene};
 use std::error::Error;

@@ -9,10 +9,10 @@
 // on scenes of its own
 #![allow(clippy::expect_used)]
 
-use asperity_solver::run::crush::Outcome;
-use asperity_solver::run::curve::{Curve, Smooth};
-use asperity_solver::run::discretisation::Discretisation;
-use asperity_solver::scene::{Accuracy, Scene};
+use asperity_simulation::record::curve::{Curve, Smooth};
+use asperity_simulation::run::Outcome;
+use asperity_simulation::scene::{Accuracy, Scene};
+use asperity_simulation::setup::discretisation::Discretisation;
 use asperity_verification::coverage_scenes::{Entry, others};
 use asperity_verification::report::Report;
 use asperity_verification::single_asperity::crush;

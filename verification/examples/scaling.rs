@@ -4,9 +4,9 @@
 //! `verification/results/scaling.md`. Each mesh runs in a process of its own, so that its peak memory is its own.
 #![allow(clippy::print_stdout, reason = "the child tells its parent")]
 
-use asperity_law::least_squares::Line;
-use asperity_solver::algebra::newton::System;
-use asperity_solver::run::load_path::Path;
+use asperity_numerics::least_squares::Line;
+use asperity_numerics::newton::System;
+use asperity_simulation::load_path::Path;
 use asperity_verification::report::{Report, timed};
 use asperity_verification::single_asperity::{FRACTION, STEPS, finely_meshed};
 use std::error::Error;

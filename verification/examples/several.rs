@@ -8,8 +8,8 @@
 // on committed scenes
 #![allow(clippy::expect_used)]
 
-use asperity_solver::run::crush::Outcome;
-use asperity_solver::scene::{Accuracy, Lateral, Scene, Symmetry};
+use asperity_simulation::run::Outcome;
+use asperity_simulation::scene::{Accuracy, Lateral, Scene, Symmetry};
 use asperity_verification::report::{Report, replace};
 use asperity_verification::several::{
     FOOT, LOW, Member, PAPER, at, depth_at, of_asperity, row, three_over_one, whole,

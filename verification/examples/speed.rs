@@ -4,15 +4,15 @@
 //! Seconds are the least of several runs in one process, on as many threads as told; what compares two of them is measured side by
 //! side. The floor is that of [`asperity_verification::roofline`]: every iteration with a new tangent and every point yielding.
 
-use asperity_calibration::run::solve;
+use asperity_calibration::solve_case::solve;
 use asperity_calibration::sweep::Sweep;
 use asperity_mesh::ElementKind;
-use asperity_solver::algebra::newton::System;
+use asperity_numerics::newton::System;
+use asperity_simulation::load_path::Path;
+use asperity_simulation::scene::{Accuracy, ElementChoice, Scene};
+use asperity_simulation::setup::problem::Problem;
+use asperity_simulation::simulate::simulate;
 use asperity_solver::element::kernel::POINTS;
-use asperity_solver::run::load_path::Path;
-use asperity_solver::run::problem::Problem;
-use asperity_solver::run::simulate::simulate;
-use asperity_solver::scene::{Accuracy, ElementChoice, Scene};
 use asperity_verification::report::{Report, timed};
 use asperity_verification::roofline::Roofline;
 use asperity_verification::single_asperity::{crush, finely_meshed, prepared, scene};

@@ -1,10 +1,10 @@
 //! The files of the atlas of cones: `results/atlas.csv.gz`, the cones it is held against in `results/atlas-check.csv.gz`, and the
 //! journals from which they grow.
 
+use asperity::batch::journal::{Journal, fingerprint};
 use asperity_calibration::case::Case;
 use asperity_calibration::cones::{self, Row, header};
-use asperity_calibration::journal::{Journal, fingerprint};
-use asperity_solver::scene::Accuracy;
+use asperity_simulation::scene::Accuracy;
 use flate2::Compression;
 use flate2::read::GzDecoder;
 use flate2::write::GzEncoder;

@@ -1,7 +1,7 @@
-//! The formula of `asperity_law::atlas` through the cones of the atlas: least squares, and what is left of cones that are left out.
+//! The formula of `asperity_material::cone_atlas` through the cones of the atlas: least squares, and what is left of cones that are left out.
 
 use asperity_calibration::cones::Row;
-use asperity_law::atlas::{Atlas, ERRORS, OUTPUTS, Place, SharpCone};
+use asperity_material::cone_atlas::{Atlas, ERRORS, OUTPUTS, Place, SharpCone};
 use nalgebra::{DMatrix, DVector};
 
 /// A cone with a result.

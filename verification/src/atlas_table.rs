@@ -5,8 +5,8 @@ use crate::atlas_fit::{Fit, Solved, differences, solved};
 use crate::report::Report;
 use asperity_calibration::case::Tool;
 use asperity_calibration::cones::Row;
-use asperity_law::atlas::{Atlas, Contact, ERRORS, SharpCone};
-use asperity_law::{Elastic, Hardening, HardeningLaw};
+use asperity_material::cone_atlas::{Atlas, Contact, ERRORS, SharpCone};
+use asperity_material::{Elastic, Hardening, HardeningLaw};
 use std::collections::BTreeMap;
 use std::f64::consts::{FRAC_2_PI, PI};
 

@@ -1,7 +1,7 @@
 //! Sharp cones of another code.
 
 use asperity_calibration::case::{Case, Tool, Yielding};
-use asperity_law::{HardeningLaw, StressMeasure};
+use asperity_material::{HardeningLaw, StressMeasure};
 
 /// A cone crushed by a plane with CalculiX 2.20 (quadratic elements with reduced integration), its own load steps
 /// extrapolated to zero; ν 0.3, law `swift`.

@@ -5,13 +5,13 @@
 //! is drawn from the number.
 
 use crate::single_asperity::{loaded, prepared};
-use asperity_law::units::{Length, Stress, rounded};
-use asperity_law::{HardeningLaw, HardeningMode};
+use asperity_material::units::{Length, Stress, rounded};
+use asperity_material::{HardeningLaw, HardeningMode};
 use asperity_mesh::Mesh;
-use asperity_solver::run::discretisation::Discretisation;
-use asperity_solver::scene::{
+use asperity_simulation::scene::{
     Accuracy, Asperity, ElementChoice, Lateral, Loading, Material, Scene, SceneError, Symmetry, Tool,
 };
+use asperity_simulation::setup::discretisation::Discretisation;
 
 /// The peculiarity of a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

@@ -5,7 +5,7 @@
 //! own pattern, those of an element from its kernel; a logarithm, an exponential or a power counts as 20.
 
 use asperity_mesh::ElementKind;
-use asperity_solver::algebra::cholesky::Operations;
+use asperity_numerics::sparse::cholesky::Operations;
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, Par};
 use std::time::Instant;

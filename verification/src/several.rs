@@ -1,10 +1,10 @@
 //! Bodies with several asperities of the paper's kind, and how their curves are compared.
 
 use crate::single_asperity::crush;
-use asperity_law::units::Length;
-use asperity_solver::run::crush::Outcome;
-use asperity_solver::run::record::Phase;
-use asperity_solver::scene::{Accuracy, Asperity, Lateral, Scene, Substrate, Symmetry};
+use asperity_material::units::Length;
+use asperity_simulation::record::rows::Phase;
+use asperity_simulation::run::Outcome;
+use asperity_simulation::scene::{Accuracy, Asperity, Lateral, Scene, Substrate, Symmetry};
 
 /// Half width of the base of the paper's asperity (20 µm, 10°, tip 10 µm), m.
 pub const FOOT: f64 = 114.30e-6;

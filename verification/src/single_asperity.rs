@@ -1,11 +1,11 @@
 //! The paper's asperity as a scene.
 
-use asperity_law::units::{Force, LineForce};
-use asperity_solver::run::crush::{CrushError, Outcome, run};
-use asperity_solver::run::depth_for_force::expect;
-use asperity_solver::run::prepare::prepare;
-use asperity_solver::run::problem::{Goal, Problem};
-use asperity_solver::scene::{Accuracy, Scene, SceneError, Symmetry, ToolForce};
+use asperity_material::units::{Force, LineForce};
+use asperity_simulation::depth_for_force::expect;
+use asperity_simulation::run::{CrushError, Outcome, run};
+use asperity_simulation::scene::{Accuracy, Scene, SceneError, Symmetry, ToolForce};
+use asperity_simulation::setup::prepare::prepare;
+use asperity_simulation::setup::problem::{Goal, Problem};
 use std::error::Error;
 use std::ops::ControlFlow;
 

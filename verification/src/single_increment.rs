@@ -1,14 +1,14 @@
 //! One increment of a model, solved and accepted.
 
 use crate::test_meshes::{mapped, nodes_of};
-use asperity_law::{Elastic, Hardening, HardeningLaw, StressMeasure};
+use asperity_material::{Elastic, Hardening, HardeningLaw, StressMeasure};
 use asperity_mesh::{ElementKind, Mesh};
-use asperity_solver::algebra::newton::{Converged, Settings, solve};
+use asperity_numerics::newton::{Converged, Settings, solve};
 use asperity_solver::body::discrete_body::{Body, ToolContact};
+use asperity_solver::equilibrium::{Equilibrium, SolveFailure};
 use asperity_solver::point::kinematics::Symmetry;
 use asperity_solver::point::material::{Metal, stress};
 use asperity_solver::point::tensor::Sym;
-use asperity_solver::run::equilibrium::{Equilibrium, SolveFailure};
 
 /// Tight enough that only rounding is left: the claims are about the equations, not about when Newton stops.
 pub const TIGHT: Settings = Settings { tolerance: 1e-12, max_iterations: 40, keep: 0.0 };

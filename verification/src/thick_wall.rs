@@ -4,7 +4,7 @@
 //! D. R. J. Owen, Computational Methods for Plasticity (2008), examples 7.5.1 and 7.5.2. Exact for the sphere; for the
 //! cylinder the axial stress is taken to stay intermediate, which costs a few tenths of a percent.
 
-use asperity_law::bisection::bisect;
+use asperity_numerics::bisection::bisect;
 
 /// Which wall.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -9,14 +9,14 @@
 
 use crate::coverage_scenes::Case;
 use crate::report::{replace, timed};
-use asperity_law::units::rounded;
+use asperity_material::units::rounded;
 use asperity_mesh::Mesh;
-use asperity_solver::run::crush::{Outcome, run};
-use asperity_solver::run::curve::Curve;
-use asperity_solver::run::discretisation::COUNTS_FROM;
-use asperity_solver::run::discretisation::Discretisation;
-use asperity_solver::run::record::{Errors, Phase};
-use asperity_solver::scene::{Accuracy, ElementChoice, Numerics, Scene};
+use asperity_simulation::record::curve::Curve;
+use asperity_simulation::record::rows::{Errors, Phase};
+use asperity_simulation::run::{Outcome, run};
+use asperity_simulation::scene::{Accuracy, ElementChoice, Numerics, Scene};
+use asperity_simulation::setup::discretisation::COUNTS_FROM;
+use asperity_simulation::setup::discretisation::Discretisation;
 use flate2::Compression;
 use flate2::read::GzDecoder;
 use flate2::write::GzEncoder;

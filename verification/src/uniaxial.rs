@@ -1,6 +1,6 @@
 //! A bar of Hencky metal under uniaxial stress or uniaxial strain.
 
-use asperity_law::{Elastic, Hardening};
+use asperity_material::{Elastic, Hardening};
 
 /// Kirchhoff stress of a bar at the total logarithmic strain `strain` > σ_y/E: eq. (1) of the paper, σ = Eⁿ σ_y^(1-n) εⁿ.
 ///
@@ -45,7 +45,7 @@ pub fn confined_flow_stress(elastic: &Elastic, yield_stress: f64, stretch: f64) 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use asperity_law::HardeningLaw;
+    use asperity_material::HardeningLaw;
 
     /// E = 210 GPa, σ_y = 300 MPa, n = 0.3: values computed by hand from eq. (1), MPa.
     #[test]

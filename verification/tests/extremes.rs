@@ -10,12 +10,12 @@
 // in a test a panic is the message, and the table is the point
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
-use asperity_law::HardeningMode;
-use asperity_law::units::{Length, Stress};
-use asperity_solver::run::crush::Outcome;
-use asperity_solver::run::curve::Curve;
-use asperity_solver::run::record::Phase;
-use asperity_solver::scene::{
+use asperity_material::HardeningMode;
+use asperity_material::units::{Length, Stress};
+use asperity_simulation::record::curve::Curve;
+use asperity_simulation::record::rows::Phase;
+use asperity_simulation::run::Outcome;
+use asperity_simulation::scene::{
     Accuracy, ContactMethod, ElementChoice, HardeningChoice, Scene, Substrate, ToolShape,
 };
 use asperity_verification::calibration::PEERS;

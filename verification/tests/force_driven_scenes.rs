@@ -7,9 +7,9 @@
 // in a test a panic is the message
 #![allow(clippy::unwrap_used)]
 
-use asperity_law::units::{Length, Stress};
-use asperity_solver::run::load_path::Stop;
-use asperity_solver::scene::{Accuracy, HardeningChoice, Scene, Substrate, Symmetry, Tool};
+use asperity_material::units::{Length, Stress};
+use asperity_simulation::load_path::Stop;
+use asperity_simulation::scene::{Accuracy, HardeningChoice, Scene, Substrate, Symmetry, Tool};
 use asperity_verification::contact::hertz_force;
 use asperity_verification::single_asperity::{crush, driven_by, loaded};
 

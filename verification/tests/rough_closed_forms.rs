@@ -8,7 +8,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
-use asperity_law::units::Stress;
+use asperity_material::units::Stress;
 use asperity_roughness::{
     Closure, ClosureLaw, Contact, HeightMap, Levelling, Load, Material, Parameters, Surface, level, press,
 };

@@ -3,9 +3,9 @@
 #![allow(clippy::print_stdout, reason = "an example prints its result")]
 
 use asperity_calibration::case::{Case, Tool, Yielding};
-use asperity_calibration::run::solve;
-use asperity_law::{HardeningLaw, StressMeasure};
-use asperity_solver::scene::Accuracy;
+use asperity_calibration::solve_case::solve;
+use asperity_material::{HardeningLaw, StressMeasure};
+use asperity_simulation::scene::Accuracy;
 
 fn main() {
     let yielding = Yielding { law: HardeningLaw::Hollomon, exponent: 0.3, e_over_sy: 300.0 };

@@ -2,7 +2,7 @@
 
 #![allow(clippy::print_stdout, reason = "an example prints its result")]
 
-use asperity::law::{Elastic, Hardening, HardeningLaw, StressMeasure};
+use asperity::material::{Elastic, Hardening, HardeningLaw, StressMeasure};
 use asperity::solver::point::j2::{PointUpdate, Tangent, update};
 use asperity::solver::point::material::{Metal, PointState};
 

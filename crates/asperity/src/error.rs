@@ -1,5 +1,6 @@
 //! Errors of the library: wrong input, or work that could not be finished.
 
+use asperity_identification::search::SearchError;
 use std::fmt;
 use std::ops::Range;
 use std::path::Path;
@@ -19,6 +20,18 @@ impl Error {
     /// A result that could not be put on disk.
     pub fn disk(path: &Path, error: impl fmt::Display) -> Self {
         Error::Unfinished(format!("cannot write {}: {error}", path.display()))
+    }
+}
+
+impl From<SearchError> for Error {
+    fn from(error: SearchError) -> Error {
+        let text = error.to_string();
+        match error {
+            SearchError::NoMetal => {
+                InputError::new(text).help("check the units of youngs_modulus and yield_stress").into()
+            }
+            SearchError::Interrupted | SearchError::NoAnswer(_) => Error::Unfinished(text),
+        }
     }
 }
 

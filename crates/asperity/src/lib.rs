@@ -51,8 +51,8 @@
 //!
 //! # A rough surface
 //! ```
-//! use asperity::press::tables::{Choice, GenerateScene, KindName, LoadScene, Material, Scene, SurfaceScene};
-//! use asperity::{Closure, Length, RoughScene, Stress, press};
+//! use asperity::rough::tables::{Choice, GenerateScene, KindName, LoadScene, Material, Scene, SurfaceScene};
+//! use asperity::{Closure, Length, RoughScene, Stress, rough};
 //! use std::path::Path;
 //!
 //! let sanded = GenerateScene {
@@ -89,9 +89,11 @@
 
 pub mod error;
 
-mod results;
+pub mod results;
 
 pub mod batch;
+
+pub mod scenes;
 
 pub mod input;
 
@@ -102,38 +104,33 @@ pub mod calibrate;
 pub mod crush;
 pub mod extract;
 pub mod identify;
-pub mod press;
-pub mod reproduce;
+pub mod rough;
 pub mod study;
 pub mod trade;
 
 pub mod draw;
 
-mod page;
+pub mod page;
 
-#[cfg(feature = "cli")]
-#[doc(hidden)]
-pub mod cli;
-
-pub use asperity_law::units::{Compliance, Force, Length, LineForce, Stiffness, Stress};
-pub use asperity_law::{HardeningLaw, HardeningMode, StressMeasure};
-pub use asperity_mesh::Mesh;
+pub use crate::rough::{Rough, RoughScene, press};
+pub use asperity_material::units::{Compliance, Force, Length, LineForce, Stiffness, Stress};
+pub use asperity_material::{HardeningLaw, HardeningMode, StressMeasure};
 pub use asperity_roughness::Closure;
-pub use asperity_solver::scene as tables;
+pub use asperity_simulation::scene as tables;
 pub use calibrate::{Calibration, Sweep, calibrate};
 pub use crush::{Crush, crush, crush_into};
 pub use error::{Error, InputError};
 pub use extract::{Extracted, Extraction, extract};
 pub use identify::{Fit, Identification, identify};
 pub use input::scene::Scene;
-pub use mesh::mesh;
-pub use press::{Rough, RoughScene, press};
+pub use mesh::{Mesh, mesh};
 pub use results::{output, units};
 pub use study::{Study, study};
 
 /// The crates below, for their types in the signatures here: a program needs no other dependency.
 #[doc(no_inline)]
 pub use {
-    asperity_calibration as calibration, asperity_law as law, asperity_roughness as roughness,
-    asperity_solver as solver,
+    asperity_calibration as calibration, asperity_formats as formats,
+    asperity_identification as identification, asperity_material as material, asperity_numerics as numerics,
+    asperity_roughness as roughness, asperity_simulation as simulation, asperity_solver as solver,
 };

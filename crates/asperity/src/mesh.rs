@@ -2,10 +2,13 @@
 
 use crate::error::Error;
 use crate::input::scene::Scene;
-use asperity_mesh::Mesh;
-use asperity_solver::run::depth_for_force::expect;
-use asperity_solver::run::prepare::prepare;
-use asperity_solver::run::problem::Problem;
+use asperity_simulation::depth_for_force::expect;
+use asperity_simulation::setup::prepare::prepare;
+use asperity_simulation::setup::problem::Problem;
+
+pub use asperity_mesh::{
+    ElementKind, FieldArray, Mesh, MshError, Quality, VtuError, read_msh, write_msh, write_vtu,
+};
 
 /// The mesh that a crush of `scene` begins with, in metres, z up and 0 at the highest summit.
 ///

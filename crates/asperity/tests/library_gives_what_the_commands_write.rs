@@ -35,7 +35,7 @@ fn heights_in_memory_give_the_table_of_their_file() {
     assert_eq!(file.load_curve, memory.load_curve);
     assert_eq!(file.table[0].separation_um, memory.table[0].separation_um);
     // summary.json reads back as its type
-    let summary: asperity::press::Summary = serde_json::from_str(&file.json().unwrap()).unwrap();
+    let summary: asperity::rough::Summary = serde_json::from_str(&file.json().unwrap()).unwrap();
     assert_eq!(summary.closures[0].row.asperities, file.table[0].asperities);
 }
 

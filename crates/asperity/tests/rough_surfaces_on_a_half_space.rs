@@ -33,7 +33,7 @@ poissons_ratio = 0.3
     press(&RoughScene::from_toml(&text, Path::new("")).unwrap(), &mut |_| true)
 }
 
-fn row(rough: &Rough, closure: Closure) -> &asperity::press::TableRow {
+fn row(rough: &Rough, closure: Closure) -> &asperity::rough::TableRow {
     rough.table.iter().find(|row| row.closure == closure).unwrap()
 }
 
@@ -117,7 +117,7 @@ fn a_closure_that_cannot_carry_the_load_fails_alone() {
     assert!(failed.status.contains("out of reach") && failed.contact_area_ratio.is_nan());
     assert_eq!(row(&rough, Closure::HalfSpace).status, "ok");
     // its row reads back from the summary
-    let summary: asperity::press::Summary = serde_json::from_str(&rough.json().unwrap()).unwrap();
+    let summary: asperity::rough::Summary = serde_json::from_str(&rough.json().unwrap()).unwrap();
     assert_eq!(summary.closures.len(), rough.table.len());
     // alone it is an error that says why
     let alone = pressed("closure = \"half-space-plastic\"", "[load]\npressure = \"2.5 GPa\"")

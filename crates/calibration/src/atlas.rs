@@ -5,15 +5,15 @@
 //! ripple: a cell is foretold by a polynomial through the others to 0.4 % of K, 0.9 % of S and 2 % of the returned work (rms). It is no
 //! result: what it begins, finite elements end.
 //!
-//! The larger atlas, [`asperity_law::atlas`], does not take its place: begun from that, 18 fits (every ninth published metal under cones of
+//! The larger atlas, [`asperity_material::cone_atlas`], does not take its place: begun from that, 18 fits (every ninth published metal under cones of
 //! 60° and 50°, E known and sought; two indents in aluminium) ended at the same metals, σ_y within 0.16 of the half width of its
 //! interval and 5 %, but took 154 runs of finite elements for 148 and a fifth more time, and it ends at 40°, short of this one's 45°.
 
 use crate::indentation::{FORCES, Indentation, solve};
-use asperity_law::{Elastic, Hardening, HardeningLaw, StressMeasure};
+use asperity_material::{Elastic, Hardening, HardeningLaw, StressMeasure};
+use asperity_simulation::scene::Accuracy;
+use asperity_simulation::setup::cone::Cone;
 use asperity_solver::point::material::Metal;
-use asperity_solver::run::cone::Cone;
-use asperity_solver::scene::Accuracy;
 use nalgebra::{DMatrix, DVector};
 use std::sync::OnceLock;
 

@@ -1,11 +1,11 @@
 //! One cone and its metal, in dimensionless groups.
 
-use asperity_law::{Elastic, Hardening, HardeningLaw, StressMeasure};
+use asperity_material::{Elastic, Hardening, HardeningLaw, StressMeasure};
+use asperity_simulation::scene::Accuracy;
+use asperity_simulation::setup::cone::Cone;
+use asperity_simulation::setup::discretisation::ConeDiscretisation;
+use asperity_simulation::setup::problem::Problem;
 use asperity_solver::point::material::Metal;
-use asperity_solver::run::cone::Cone;
-use asperity_solver::run::discretisation::ConeDiscretisation;
-use asperity_solver::run::problem::Problem;
-use asperity_solver::scene::Accuracy;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

@@ -5,8 +5,8 @@
 //! ln(K/σ_r) that the cubic explains. Where the crush is nearly elastic K hardly depends on σ_r: the scatter is then
 //! the same for every ε_r, and says so.
 
-use asperity_law::Hardening;
-use asperity_law::least_squares::{powers, solve, value};
+use asperity_material::Hardening;
+use asperity_numerics::least_squares::{powers, solve, value};
 
 /// One material crushed at one slope.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,10 +1,10 @@
 //! The loading of a cone, and its unloading: force and contact radius against depth.
 
 use crate::case::Case;
-use asperity_solver::run::discretisation::ConeDiscretisation;
-use asperity_solver::run::load_path::{Increment, Path, Stop};
-use asperity_solver::run::problem::{Goal, Problem};
-use asperity_solver::run::schedule::UNLOADING_EXPONENT;
+use asperity_simulation::load_path::{Increment, Path, Stop};
+use asperity_simulation::setup::discretisation::ConeDiscretisation;
+use asperity_simulation::setup::problem::{Goal, Problem};
+use asperity_simulation::setup::schedule::UNLOADING_EXPONENT;
 
 /// The loading curve of a cone. Lengths in units of the final depth, E = 1.
 #[derive(Clone, Debug, PartialEq)]
@@ -118,8 +118,8 @@ pub fn unloading_exponent(case: &Case, discretisation: &ConeDiscretisation) -> R
 mod tests {
     use super::*;
     use crate::case::Tool;
-    use asperity_law::StressMeasure;
-    use asperity_solver::scene::Accuracy;
+    use asperity_material::StressMeasure;
+    use asperity_simulation::scene::Accuracy;
 
     /// Sneddon's cone unloads along F = (2/π) E* h²/tan β with a = 2h/(π tan β): m = 2. 5 %, the accuracy claimed for m:
     /// the radius of a soft penalty contact is 1.3 % too large, and at the end less than two elements touch (carried on

@@ -3,15 +3,17 @@
 //! Cone i is point i of Sobol's sequence: of four successive ones each combination of hardening law and contact has one, and
 //! further ones fill the gaps, so that an atlas that was begun can be continued by any number of tasks. A row is what
 //! [`crate::indentation::solve`] finds of a cone that is loaded and unloaded, with the stated errors, or the reason why it
-//! found nothing. The function through them is [`asperity_law::atlas`].
+//! found nothing. The function through them is [`asperity_material::cone_atlas`].
 
 use crate::case::{Case, Tool, Yielding};
 use crate::indentation::{Errors, FORCES, Indentation, solve};
-use asperity_law::atlas::{Contact, EXPONENTS, OUTPUTS, POISSONS_RATIOS, RATIOS, SLOPES, SharpCone};
-use asperity_law::sobol::Sobol;
-use asperity_law::units::rounded;
-use asperity_law::{HardeningLaw, StressMeasure};
-use asperity_solver::scene::Accuracy;
+use asperity_material::cone_atlas::{
+    Contact, EXPONENTS, OUTPUTS, POISSONS_RATIOS, RATIOS, SLOPES, SharpCone,
+};
+use asperity_material::units::rounded;
+use asperity_material::{HardeningLaw, StressMeasure};
+use asperity_numerics::sobol::Sobol;
+use asperity_simulation::scene::Accuracy;
 
 /// Cone number `index` of the atlas, slope and E/σ_y drawn evenly in their logarithms: the coordinates of Sobol's point choose law and contact, slope, E/σ_y, n, ν.
 pub fn cone(index: usize) -> Case {

@@ -5,7 +5,7 @@
 //! and likewise for ln(a tan β/h). The second sum is what a finite slope adds to the curve that all slopes share.
 
 use crate::fit::Data;
-use asperity_law::least_squares::{powers, solve, value};
+use asperity_numerics::least_squares::{powers, solve, value};
 use serde::{Deserialize, Serialize};
 
 /// A fitted function of ln X and tan β.

@@ -7,7 +7,7 @@ use crate::collapse::{
     Collapse, Measure, Sample, distinct, largest_correlation, least_scatter, scatter_left,
 };
 use crate::row::Row;
-use asperity_law::Elastic;
+use asperity_material::Elastic;
 use rayon::prelude::*;
 
 /// Resamples of the bootstrap and its seed, fixed so that the same rows give the same bytes.

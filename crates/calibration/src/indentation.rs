@@ -8,13 +8,13 @@
 
 use crate::cone::{CaseError, Curve, disc_radius, go_to, start};
 use crate::loading_curvature::{Fitted, Left, ORDER, companion, read, remeshing};
-use asperity_solver::run::cone::Cone;
-use asperity_solver::run::discretisation::ConeDiscretisation;
-use asperity_solver::run::load_path::{Increment, Path, Stop};
-use asperity_solver::run::problem::Problem;
-use asperity_solver::scene::{Accuracy, ElementChoice};
+use asperity_simulation::load_path::{Increment, Path, Stop};
+use asperity_simulation::scene::{Accuracy, ElementChoice};
+use asperity_simulation::setup::cone::Cone;
+use asperity_simulation::setup::discretisation::ConeDiscretisation;
+use asperity_simulation::setup::problem::Problem;
 
-pub use asperity_law::atlas::FORCES;
+pub use asperity_material::cone_atlas::FORCES;
 
 /// Steps of the way back.
 const STEPS_BACK: usize = 8;
@@ -212,7 +212,7 @@ fn recovery(shares: &[[f64; 2]], force: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use asperity_law::{Elastic, StressMeasure};
+    use asperity_material::{Elastic, StressMeasure};
     use asperity_solver::point::material::Metal;
 
     /// Sneddon's cone: F = (2/π) E* h²/tan β, and it goes back the way it came: S = 2K h, all work is returned. 2 %: the finite

@@ -8,9 +8,9 @@
 //!
 //! ```
 //! use asperity_calibration::row::CaseRow;
-//! use asperity_calibration::run::solve;
+//! use asperity_calibration::solve_case::solve;
 //! use asperity_calibration::sweep::Sweep;
-//! use asperity_solver::scene::Accuracy;
+//! use asperity_simulation::scene::Accuracy;
 //!
 //! // the last of the 480 cones: 10 degrees, E/σ_y = 300, n = 0.5
 //! let cone = Sweep::default().cases()[479];
@@ -30,15 +30,11 @@ pub mod sweep;
 
 pub mod row;
 
-pub mod journal;
-
-pub mod run;
+pub mod solve_case;
 
 pub mod collapse;
 
 pub mod fit;
-
-pub mod sensitivity;
 
 pub mod dimensionless;
 

@@ -15,10 +15,10 @@
 
 use crate::case::{Case, Tool};
 use crate::cone::{CaseError, Curve, crush, disc_radius};
-use asperity_law::least_squares::{Line, solve as least_squares, value};
-use asperity_solver::run::discretisation::ConeDiscretisation;
-use asperity_solver::run::load_path::Increment;
-use asperity_solver::scene::ElementChoice;
+use asperity_numerics::least_squares::{Line, solve as least_squares, value};
+use asperity_simulation::load_path::Increment;
+use asperity_simulation::scene::ElementChoice;
+use asperity_simulation::setup::discretisation::ConeDiscretisation;
 use std::f64::consts::TAU;
 
 /// The result of a case.

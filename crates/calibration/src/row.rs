@@ -4,7 +4,7 @@
 
 use crate::case::Case;
 use crate::loading_curvature::LoadingCurvature;
-use asperity_law::StressMeasure;
+use asperity_material::StressMeasure;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize, Serializer};
 use std::collections::HashMap;

@@ -1,9 +1,9 @@
 //! The grid of a calibration: which cones of which materials.
 
 use crate::case::{Case, Tool, Yielding};
-use asperity_law::units::{Stress, rounded};
-use asperity_law::{HardeningLaw, StressMeasure, range};
-use asperity_solver::scene::{Accuracy, SceneError};
+use asperity_material::units::{Stress, rounded};
+use asperity_material::{HardeningLaw, StressMeasure, range};
+use asperity_simulation::scene::{Accuracy, SceneError};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

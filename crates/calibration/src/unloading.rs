@@ -5,7 +5,7 @@ use crate::collapse::distinct;
 use crate::cone::unloading_exponent;
 use crate::fit::DEVELOPED;
 use crate::sweep::Sweep;
-use asperity_solver::scene::Accuracy;
+use asperity_simulation::scene::Accuracy;
 use rayon::prelude::*;
 
 /// A cone that was unloaded.

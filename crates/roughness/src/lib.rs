@@ -6,7 +6,7 @@
 //! is found (`contact`); [`scene`] says all of it in a file. Lengths are in metres, stresses in pascals.
 //!
 //! ```
-//! use asperity_law::units::Stress;
+//! use asperity_material::units::Stress;
 //! use asperity_roughness::{Closure, ClosureLaw, Grid, Kind, Load, Material, Surface, Target, generate, press};
 //!
 //! let grid = Grid { nodes: [128, 128], pixel: [2e-6, 2e-6], seed: 1 };
@@ -38,6 +38,8 @@ pub mod flow;
 
 pub mod scene;
 
+pub use crate::contact::islands_contact::{Contact, ContactError, CurvePoint, Load, press};
+pub use crate::surface::prepared_surface::Surface;
 pub use contact::closures::{
     Closure, ClosureError, ClosureLaw, PUBLISHED, Regime, Response, SINGLE_ASPERITY_EXPONENT,
 };
@@ -45,14 +47,11 @@ pub use contact::coefficient::{Coefficient, CoefficientError, Nearest, SlopeTabl
 pub use contact::ellipse::Ellipse;
 pub use contact::islands::{Island, Islands};
 pub use contact::material::Material;
-pub use contact::press::{Contact, ContactError, CurvePoint, Load, press};
 pub use contact::pressure::{LoadedPixel, PressureField, PressureProfile};
 pub use contact::unload::{Unloading, unload};
 pub use surface::filter::{FilterError, fill, l_filter, s_filter};
-pub use surface::formats;
 pub use surface::generate::{GenerateError, Grid, Kind, KindName, Target, generate};
 pub use surface::height_map::{Extent, HeightMap, MapError};
 pub use surface::level::{Levelling, level};
 pub use surface::parameters::Parameters;
-pub use surface::ready::Surface;
 pub use surface::spectrum::{SpectrumPoint, spectrum};

@@ -1,16 +1,16 @@
-//! Axisymmetric and plane-strain large-strain elastoplastic finite elements with a rigid tool.
+//! One increment of an axisymmetric or plane-strain body at large elastoplastic strains, under a rigid tool.
 //!
 //! The folders are the theory, in reading order: an integration point ([`point`]), an element ([`element`]), contact with the
-//! tool ([`contact`]), the algebra of the system ([`algebra`]), the body with its state ([`body`]), the scene that is asked for
-//! ([`scene`]) and its run along the load path ([`run`]).
+//! tool ([`contact`]), the body with its state ([`body`]), its mesh made anew ([`remesh`]) and the equilibrium of an
+//! increment ([`equilibrium`]).
 //!
 //! The book of the repository derives what they compute, with the same symbols: `docs/src/theory`, from `kinematics.md` on.
 //!
-//! Callers need [`scene`], [`run`] and [`point`]; the folders between are open to the verification and hidden from these pages.
+//! Callers need [`point`]; the other folders are open to the crates above and hidden from these pages.
 //!
 //! A point alone, stretched by 1 % along z in plane strain:
 //! ```
-//! use asperity_law::{Elastic, Hardening, HardeningLaw, StressMeasure};
+//! use asperity_material::{Elastic, Hardening, HardeningLaw, StressMeasure};
 //! use asperity_solver::point::j2::{Tangent, update};
 //! use asperity_solver::point::material::Metal;
 //! use asperity_solver::point::tensor::von_mises;
@@ -32,11 +32,10 @@ pub mod element;
 pub mod contact;
 
 #[doc(hidden)]
-pub mod algebra;
-
-#[doc(hidden)]
 pub mod body;
 
-pub mod scene;
+#[doc(hidden)]
+pub mod remesh;
 
-pub mod run;
+#[doc(hidden)]
+pub mod equilibrium;

@@ -5,9 +5,9 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
-use asperity_law::real::{Lanes, Real};
-use asperity_law::{Elastic, Hardening, HardeningLaw, HardeningTable, StressMeasure};
+use asperity_material::{Elastic, Hardening, HardeningLaw, HardeningTable, StressMeasure};
 use asperity_mesh::outline::{Outline, Parabola};
+use asperity_numerics::lanes::{Lanes, Real};
 use asperity_solver::contact::edge::{ContactContext, ContactEdge};
 use asperity_solver::contact::tool::Tool;
 use asperity_solver::element::kernel::{ENTRIES, ElementContext, ElementOutput, PointSlice, Triangle};

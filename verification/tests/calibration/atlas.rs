@@ -5,8 +5,8 @@
 //! The committed cones at `reference` are the larger sample (`results/atlas.md`); here they must still belong to the formula.
 
 use asperity_calibration::cones::{Row, fresh};
-use asperity_law::atlas::Atlas;
-use asperity_solver::scene::Accuracy;
+use asperity_material::cone_atlas::Atlas;
+use asperity_simulation::scene::Accuracy;
 use asperity_verification::atlas::{Set, committed};
 use asperity_verification::atlas_fit::{Solved, differences, solved};
 

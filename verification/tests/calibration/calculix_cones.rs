@@ -7,8 +7,8 @@
 
 use asperity_calibration::case::Case;
 use asperity_calibration::loading_curvature::solve;
-use asperity_law::StressMeasure;
-use asperity_solver::scene::Accuracy;
+use asperity_material::StressMeasure;
+use asperity_simulation::scene::Accuracy;
 use asperity_verification::calibration::{PEERS, peer_case};
 
 /// Relative difference allowed between two codes of other elements and contact, as in the table of `--example calibration peers`.

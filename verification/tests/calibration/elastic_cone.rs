@@ -7,8 +7,8 @@
 
 use asperity_calibration::case::{Case, Tool};
 use asperity_calibration::loading_curvature::solve;
-use asperity_law::{HardeningLaw, StressMeasure};
-use asperity_solver::scene::Accuracy;
+use asperity_material::{HardeningLaw, StressMeasure};
+use asperity_simulation::scene::Accuracy;
 use asperity_verification::calibration::metal;
 use std::f64::consts::FRAC_2_PI;
 

@@ -7,9 +7,9 @@
 
 use asperity_calibration::case::{Case, Tool};
 use asperity_calibration::loading_curvature::solve;
-use asperity_law::{HardeningLaw, StressMeasure};
-use asperity_solver::run::discretisation::ConeDiscretisation;
-use asperity_solver::scene::Accuracy;
+use asperity_material::{HardeningLaw, StressMeasure};
+use asperity_simulation::scene::Accuracy;
+use asperity_simulation::setup::discretisation::ConeDiscretisation;
 use asperity_verification::calibration::metal;
 
 #[test]

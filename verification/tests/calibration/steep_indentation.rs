@@ -9,9 +9,9 @@
 
 use asperity_calibration::case::{Case, Tool};
 use asperity_calibration::loading_curvature::solve;
-use asperity_law::units::{Length, Stress};
-use asperity_law::{HardeningLaw, StressMeasure};
-use asperity_solver::scene::{Accuracy, HardeningChoice, ToolShape};
+use asperity_material::units::{Length, Stress};
+use asperity_material::{HardeningLaw, StressMeasure};
+use asperity_simulation::scene::{Accuracy, HardeningChoice, ToolShape};
 use asperity_verification::calibration::metal;
 use asperity_verification::single_asperity::{crush, scene};
 

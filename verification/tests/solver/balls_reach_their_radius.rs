@@ -4,9 +4,9 @@
 //! Source: R. T. Shield, Proc. R. Soc. A 233 (1955) 267: a smooth flat circular punch, 5.69 k = 2.85 σ_y after Tresca, 3.28 after von
 //! Mises with k = σ_y/√3. Bounds: between the two, as Tabor's 2.8 to 3.0 is, with the 5 % of the draft level beside them.
 
-use asperity_law::units::{Length, Stress};
-use asperity_solver::run::crush::run;
-use asperity_solver::scene::{Accuracy, Loading, Material, Scene, Symmetry, Tool};
+use asperity_material::units::{Length, Stress};
+use asperity_simulation::run::run;
+use asperity_simulation::scene::{Accuracy, Loading, Material, Scene, Symmetry, Tool};
 use std::ops::ControlFlow;
 
 const YIELD_STRESS: f64 = 300e6;

@@ -5,8 +5,8 @@
 //! parabolas leave (a/R)² = 0.3 %, the force of `standard` is good to 1 %; a cylinder of 1 m is flat over the
 //! contact (a²/2R = 2e-10 m of 5 µm), both runs ripple alike.
 
-use asperity_law::units::Length;
-use asperity_solver::scene::{Accuracy, Scene, Substrate, Symmetry, Tool};
+use asperity_material::units::Length;
+use asperity_simulation::scene::{Accuracy, Scene, Substrate, Symmetry, Tool};
 use asperity_verification::contact::hertz_force;
 use asperity_verification::single_asperity::{crush, loaded};
 

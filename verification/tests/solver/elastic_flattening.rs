@@ -6,10 +6,10 @@
 //! peak on, where the contact is resolved. 1e-4: an elastic state has no history but the
 //! surface over which the contact is measured, that of the increment before (3e-5).
 
-use asperity_law::units::Length;
-use asperity_solver::algebra::newton::Settings;
-use asperity_solver::run::record::CurveRow;
-use asperity_solver::scene::{Accuracy, Scene};
+use asperity_material::units::Length;
+use asperity_numerics::newton::Settings;
+use asperity_simulation::record::rows::CurveRow;
+use asperity_simulation::scene::{Accuracy, Scene};
 use asperity_verification::contact::{cone_force, hertz_force, hertz_radius};
 use asperity_verification::single_asperity::{crush, prepared, scene};
 use asperity_verification::single_increment::increment;

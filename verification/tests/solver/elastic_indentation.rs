@@ -7,9 +7,9 @@
 //! area that the force leaves uncertain through h - ε F/S. Area: twice the 1 % of the radius, which is measured to a fifth
 //! of the edge element (an eighteenth of the radius), on top of the same 2 %.
 
-use asperity_law::units::Length;
-use asperity_solver::run::crush::Outcome;
-use asperity_solver::scene::{Accuracy, Scene, Tool};
+use asperity_material::units::Length;
+use asperity_simulation::run::Outcome;
+use asperity_simulation::scene::{Accuracy, Scene, Tool};
 use asperity_verification::contact::{cone_force, cone_radius, hertz_force, hertz_radius};
 use asperity_verification::single_asperity::{crush, scene};
 use std::f64::consts::PI;

@@ -4,7 +4,7 @@
 //! Source: `Summary::energy_balance_error`, the largest |W - E_e - W_p - E_c|/W. Tolerances: what is asked; the error
 //! is that of integrating F dh and σ_y dε_p over finite increments.
 
-use asperity_solver::scene::Accuracy;
+use asperity_simulation::scene::Accuracy;
 use asperity_verification::single_asperity::{crush, scene};
 
 fn balance_error(exponent: f64, steps: Option<usize>) -> f64 {

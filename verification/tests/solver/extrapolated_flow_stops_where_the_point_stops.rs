@@ -5,13 +5,13 @@
 //! which an extrapolation without a bound turned σ_y into -σ_y. Tolerance 1e-6 of σ_y: equilibrium is solved to 1e-12, and what is
 //! frozen at a nearly converged iterate is corrected by the return; 3e-3 where the point stays elastic, from ln(1 + ε).
 
-use asperity_law::StressMeasure;
+use asperity_material::StressMeasure;
 use asperity_mesh::ElementKind;
-use asperity_solver::algebra::newton::solve;
+use asperity_numerics::newton::solve;
+use asperity_solver::equilibrium::Equilibrium;
 use asperity_solver::point::kinematics::Symmetry;
 use asperity_solver::point::material::Metal;
 use asperity_solver::point::tensor::contract;
-use asperity_solver::run::equilibrium::Equilibrium;
 use asperity_verification::single_increment::{TIGHT, hollomon, model, stresses};
 use asperity_verification::test_meshes::{boundary, mapped, nodes_of};
 

@@ -5,11 +5,11 @@
 //! bit for bit.
 
 use asperity_mesh::ElementKind;
-use asperity_solver::algebra::newton::System;
+use asperity_numerics::newton::System;
 use asperity_solver::body::discrete_body::ToolContact;
 use asperity_solver::contact::tool::Tool;
+use asperity_solver::equilibrium::Equilibrium;
 use asperity_solver::point::kinematics::Symmetry;
-use asperity_solver::run::equilibrium::Equilibrium;
 use asperity_verification::single_increment::{ELASTIC, TIGHT, increment, model};
 use asperity_verification::test_meshes::{distorted_square, nodes_of};
 

@@ -9,8 +9,8 @@
 //! are counted (measured 0.8 to 1.2 here, 0.7 to 1.4 up to 437,000 unknowns). With approximate minimum degrees alone, of the
 //! two starts, the largest mesh takes 2.3. Below 0.5 something would be left out of the count.
 
-use asperity_solver::algebra::fill_ordering::elimination_order;
-use asperity_solver::scene::Accuracy;
+use asperity_numerics::sparse::fill_ordering::elimination_order;
+use asperity_simulation::scene::Accuracy;
 use asperity_verification::single_asperity::{prepared, scene};
 
 #[test]

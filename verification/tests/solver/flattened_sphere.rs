@@ -6,10 +6,10 @@
 //! perfect plasticity is averaged over by comparing the mean over three depths near each point. Hertz: as in
 //! `elastic_flattening`.
 
-use asperity_law::units::{Length, Stress};
-use asperity_solver::run::curve::Curve;
-use asperity_solver::run::record::CurveRow;
-use asperity_solver::scene::{Accuracy, Asperity, Scene};
+use asperity_material::units::{Length, Stress};
+use asperity_simulation::record::curve::Curve;
+use asperity_simulation::record::rows::CurveRow;
+use asperity_simulation::scene::{Accuracy, Asperity, Scene};
 use asperity_verification::contact::{Flattened, hertz_force};
 use asperity_verification::single_asperity::{crush, scene};
 

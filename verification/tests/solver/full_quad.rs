@@ -3,11 +3,11 @@
 //! only `punch` uses it, to show that its claim can fail.
 
 use asperity_mesh::Mesh;
-use asperity_solver::algebra::assemble::Stiffness;
-use asperity_solver::algebra::cholesky::Factor;
-use asperity_solver::algebra::dofs::{Dofs, FIXED};
-use asperity_solver::algebra::newton::{Assessment, System};
+use asperity_numerics::newton::{Assessment, System};
+use asperity_numerics::sparse::cholesky::Factor;
+use asperity_solver::body::dofs::{Dofs, FIXED};
 use asperity_solver::body::failure::Failure;
+use asperity_solver::body::stiffness::Stiffness;
 use asperity_solver::element::kernel::{entries, force, next_columns, stiffness_of_nodes, stress_of_node};
 use asperity_solver::element::quad4;
 use asperity_solver::point::j2::{Tangent, update};

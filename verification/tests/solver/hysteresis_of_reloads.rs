@@ -8,9 +8,9 @@
 //! depth that does not depend on the step: 5 % of the depth between draft, which promises that, and standard (3 %
 //! measured; 10 % when the tool was taken away in one increment from 3 % of the force).
 
-use asperity_law::HardeningMode;
-use asperity_solver::run::crush::Outcome;
-use asperity_solver::scene::Accuracy;
+use asperity_material::HardeningMode;
+use asperity_simulation::run::Outcome;
+use asperity_simulation::scene::Accuracy;
 use asperity_verification::single_asperity::{crush, scene};
 
 fn cycled(share: Option<f64>) -> Outcome {

@@ -5,7 +5,7 @@
 //! Miehe, Apel, Lambrecht 2002). Bar with linear hardening σ_y + Hε_p: the reversed branch leaves the elastic line at
 //! τ_a - 2σ_y and goes on with EH/(E + H). Tolerances: 1e-9 for bars, as in `uniaxial_bar`; 1e-12 for points, rounding.
 
-use asperity_law::{Hardening, HardeningLaw, HardeningTable};
+use asperity_material::{Hardening, HardeningLaw, HardeningTable};
 use asperity_mesh::ElementKind;
 use asperity_solver::point::j2::{self, Tangent};
 use asperity_solver::point::kinematic_hardening::{self, History};

@@ -2,11 +2,11 @@
 //!
 //! References: the reload of one run, the load that goes on at once, the virgin body where the earlier load left no trace.
 
-use asperity_law::HardeningMode;
-use asperity_law::units::{Length, Stress};
-use asperity_solver::run::crush::{Outcome, run};
-use asperity_solver::run::record::Phase;
-use asperity_solver::scene::{Asperity, Loading, Material, Scene, Symmetry, Tool};
+use asperity_material::HardeningMode;
+use asperity_material::units::{Length, Stress};
+use asperity_simulation::record::rows::Phase;
+use asperity_simulation::run::{Outcome, run};
+use asperity_simulation::scene::{Asperity, Loading, Material, Scene, Symmetry, Tool};
 use std::ops::ControlFlow;
 
 fn crushed(scene: &Scene) -> Outcome {

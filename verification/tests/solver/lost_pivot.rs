@@ -5,14 +5,14 @@
 //! Source: the decision of `Model::factorise`. A straight strut pressed beyond Euler's load is the first case, a bar
 //! pulled beyond Considère's strain the second and third. Tolerances with the claims.
 
-use asperity_law::{Elastic, Hardening, HardeningLaw, StressMeasure};
+use asperity_material::{Elastic, Hardening, HardeningLaw, StressMeasure};
 use asperity_mesh::ElementKind;
-use asperity_solver::algebra::newton::{Settings, System};
+use asperity_numerics::newton::{Settings, System};
 use asperity_solver::body::energy::stored;
 use asperity_solver::body::failure::Failure;
+use asperity_solver::equilibrium::{Equilibrium, SolveFailure};
 use asperity_solver::point::kinematics::Symmetry;
 use asperity_solver::point::material::Metal;
-use asperity_solver::run::equilibrium::{Equilibrium, SolveFailure};
 use asperity_verification::single_increment::{ELASTIC, TIGHT, hollomon, increment, model, reaction};
 use asperity_verification::test_meshes::{mapped, nodes_of};
 

@@ -3,12 +3,12 @@
 //! Reference: the same path without it. Bounds: once 0.3 % of the peak force and 0.5 % of the residual depth, twenty times 1 % of
 //! each; every transfer below 1e-3 of the work, and the energies balance with their sum as well as without.
 
-use asperity_law::units::{Length, Stress};
-use asperity_solver::run::crush::run;
-use asperity_solver::run::load_path::{Increment, Path};
-use asperity_solver::run::prepare::prepare;
-use asperity_solver::run::problem::Goal;
-use asperity_solver::scene::{self, Loading, Material, Scene, Symmetry, Tool};
+use asperity_material::units::{Length, Stress};
+use asperity_simulation::load_path::{Increment, Path};
+use asperity_simulation::run::run;
+use asperity_simulation::scene::{self, Loading, Material, Scene, Symmetry, Tool};
+use asperity_simulation::setup::prepare::prepare;
+use asperity_simulation::setup::problem::Goal;
 use std::ops::ControlFlow;
 
 /// The asperity of the paper at the standard level.

@@ -4,12 +4,12 @@
 //! Source: p = ln(r₃/r₂)/ln(r₂/r₁) of the last three residuals above 1e-12 of their scale, below which rounding rules.
 //! 1.8 and not 2: the three residuals are not yet infinitesimal.
 
-use asperity_solver::algebra::newton::{Assessment, Settings, System, solve};
+use asperity_numerics::newton::{Assessment, Settings, System, solve};
+use asperity_simulation::scene::Accuracy;
+use asperity_simulation::setup::schedule::{Spacing, loading};
 use asperity_solver::body::failure::Failure;
 use asperity_solver::contact::parts::{NOTHING, Parts};
-use asperity_solver::run::equilibrium::Equilibrium;
-use asperity_solver::run::schedule::{Spacing, loading};
-use asperity_solver::scene::Accuracy;
+use asperity_solver::equilibrium::Equilibrium;
 use asperity_verification::single_asperity::{prepared, scene};
 
 /// Residual over scale, flowing points and touching edges of an iterate.

@@ -6,9 +6,9 @@
 //! a penetration of 0.004, 0.2 % of a ball at 0.016), 0.4 % where metal yields under an uneven pressure; 2 % where it flows, most of it
 //! ripple of the mesh. Were the mean penetration taken off everywhere, the stiff cone would miss by 3 %.
 
-use asperity_law::units::{Length, Stress};
-use asperity_solver::run::curve::Curve;
-use asperity_solver::scene::{Accuracy, ContactMethod, Scene};
+use asperity_material::units::{Length, Stress};
+use asperity_simulation::record::curve::Curve;
+use asperity_simulation::scene::{Accuracy, ContactMethod, Scene};
 use asperity_verification::single_asperity::{crush, loaded};
 
 fn cone(slope: f64, depth: f64) -> Scene {

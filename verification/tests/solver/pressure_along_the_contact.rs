@@ -6,10 +6,10 @@
 //! is not smoothed, gives 1.3 % and 14 %; the line over an edge cannot follow the curvature of Hertz's pressure, which is 0.5 %
 //! over the edge at the axis.
 
-use asperity_law::units::Length;
+use asperity_material::units::Length;
+use asperity_simulation::run::{Event, run};
+use asperity_simulation::scene::{Accuracy, Scene, Tool};
 use asperity_solver::body::fields::SurfacePoint;
-use asperity_solver::run::crush::{Event, run};
-use asperity_solver::scene::{Accuracy, Scene, Tool};
 use asperity_verification::contact::hertz_radius;
 use asperity_verification::single_asperity::loaded;
 use std::f64::consts::PI;

@@ -12,7 +12,7 @@
 
 use crate::full_quad::FullQuad;
 use asperity_mesh::{ElementKind, Mesh};
-use asperity_solver::algebra::newton::{Settings, solve};
+use asperity_numerics::newton::{Settings, solve};
 use asperity_solver::point::kinematics::Symmetry;
 use asperity_verification::single_increment::{hollomon, model, reaction, travel};
 use asperity_verification::test_meshes::{nodes_of, punch_block};

@@ -3,8 +3,8 @@
 //!
 //! Source: the limits of a mesh that is not renewed. No tolerance.
 
-use asperity_solver::run::crush::Outcome;
-use asperity_solver::scene::Accuracy;
+use asperity_simulation::run::Outcome;
+use asperity_simulation::scene::Accuracy;
 use asperity_verification::single_asperity::{crush, scene};
 
 fn toward_whole_height(slope_deg: f64) -> Outcome {

@@ -5,7 +5,7 @@
 //! elements across the half width at the peak, which is a twentieth of the blocks; below the middle p₀ falls as 1/√(1 + (z/b)²).
 
 use asperity_mesh::{Edge, ElementKind, Mesh};
-use asperity_solver::algebra::newton::Settings;
+use asperity_numerics::newton::Settings;
 use asperity_solver::body::discrete_body::ToolContact;
 use asperity_solver::contact::tool::Tool;
 use asperity_solver::element::kernel::GAUSS;

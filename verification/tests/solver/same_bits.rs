@@ -2,7 +2,7 @@
 //!
 //! Source: a case is solved by one thread with sums in a fixed order. Tolerance: none.
 
-use asperity_solver::scene::Accuracy;
+use asperity_simulation::scene::Accuracy;
 use asperity_verification::single_asperity::{crush, scene};
 
 #[test]

@@ -5,9 +5,9 @@
 //! of two changes no digit of a quotient; other factors change the last one, which the run must not enlarge beyond
 //! 1e-10 (steps as prescribed) or 1e-6 (steps that depend on convergence).
 
-use asperity_law::units::{Length, Stress};
-use asperity_solver::run::record::CurveRow;
-use asperity_solver::scene::{Accuracy, Scene};
+use asperity_material::units::{Length, Stress};
+use asperity_simulation::record::rows::CurveRow;
+use asperity_simulation::scene::{Accuracy, Scene};
 use asperity_verification::single_asperity::{crush, scene};
 
 /// The scene with lengths and stresses multiplied.

@@ -6,8 +6,8 @@
 use asperity_mesh::{ElementKind, Mesh};
 use asperity_solver::body::discrete_body::ToolContact;
 use asperity_solver::contact::tool::Tool;
+use asperity_solver::equilibrium::Equilibrium;
 use asperity_solver::point::kinematics::Symmetry;
-use asperity_solver::run::equilibrium::Equilibrium;
 use asperity_verification::single_increment::{ELASTIC, TIGHT, increment, model, stresses};
 use asperity_verification::test_meshes::{mapped, nodes_of};
 

@@ -13,8 +13,8 @@
 //! 1e-11. 1 % and 0.5 %: what is asked. 2 %: a contact is not small against its distance (0.6 % measured). 5 %: the shift is
 //! a difference of two curves that ripple differently.
 
-use asperity_law::units::Length;
-use asperity_solver::scene::{Accuracy, Lateral, Scene, Symmetry};
+use asperity_material::units::Length;
+use asperity_simulation::scene::{Accuracy, Lateral, Scene, Symmetry};
 use asperity_verification::several::{
     FOOT, LOW, Member, PAPER, at, depth_at, of_asperity, row, three_over_one, whole, worst_difference,
 };
@@ -175,8 +175,8 @@ fn a_steep_ridge_alone_has_sound_cells() {
         let mut scene = asperity_verification::single_asperity::scene(Accuracy::Draft).unwrap();
         scene.symmetry = Symmetry::PlaneStrain;
         scene.asperity[0].slope_deg = Some(slope);
-        let size = Some(asperity_law::units::Length(4e-3));
-        scene.substrate = Some(asperity_solver::scene::Substrate { radius: size, depth: size });
+        let size = Some(asperity_material::units::Length(4e-3));
+        scene.substrate = Some(asperity_simulation::scene::Substrate { radius: size, depth: size });
         let problem = asperity_verification::single_asperity::prepared(&scene).unwrap();
         let quality = problem.mesh.quality().unwrap();
         assert!(quality.min_scaled_jacobian > 0.05, "{slope}°: {quality:?}");

@@ -7,7 +7,7 @@
 //! both kinds of element. Tolerance: 0.02 of the scaled Jacobian is that of the steepest flanks on the coarsest meshes; an
 //! aspect of 1e6 is that of the narrowest gap between two feet that is drawn, a rounded sum would leave 1e15.
 
-use asperity_solver::scene::{Accuracy, Scene};
+use asperity_simulation::scene::{Accuracy, Scene};
 use asperity_verification::random_scenes::{Kind, draw};
 use asperity_verification::single_asperity::prepared;
 use rayon::prelude::*;

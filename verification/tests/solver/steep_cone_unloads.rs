@@ -5,7 +5,7 @@
 //! (971 iterations, stopped at the start of unloading); a close one after many iterations takes 334. Tolerance:
 //! the bound on iterations is twice that.
 
-use asperity_solver::scene::{Accuracy, ElementChoice, Scene};
+use asperity_simulation::scene::{Accuracy, ElementChoice, Scene};
 use asperity_verification::single_asperity::crush;
 
 #[test]

@@ -5,8 +5,8 @@
 //! three runs, p = log2(|F₂ - F₁|/|F₃ - F₂|); tolerance: at least 1.8, because the contact front enters new elements at
 //! increments that differ from run to run, which backward Euler (order 1) would not pass either.
 
-use asperity_solver::run::curve::Curve;
-use asperity_solver::scene::Accuracy;
+use asperity_simulation::record::curve::Curve;
+use asperity_simulation::scene::Accuracy;
 use asperity_verification::single_asperity::{crush, scene};
 
 fn curve(steps: usize) -> Curve {

@@ -5,11 +5,11 @@
 //! carry an error of about 1e-9, more where a point is within a step of yielding or an edge of touching.
 
 use asperity_mesh::ElementKind;
-use asperity_solver::algebra::newton::{Settings, System, solve};
+use asperity_numerics::newton::{Settings, System, solve};
 use asperity_solver::body::discrete_body::ToolContact;
 use asperity_solver::contact::tool::Tool;
+use asperity_solver::equilibrium::Equilibrium;
 use asperity_solver::point::kinematics::Symmetry;
-use asperity_solver::run::equilibrium::Equilibrium;
 use asperity_verification::single_increment::{hollomon, model};
 use asperity_verification::test_meshes::{distorted_square, nodes_of};
 

@@ -6,13 +6,13 @@
 //! Asperity: forces are sums of stresses, so that no force differs by more than the largest error of the sampled
 //! stress, besides ten times the tolerance of Newton's method.
 
-use asperity_law::units::Stress;
-use asperity_law::{Hardening, HardeningLaw, HardeningTable};
+use asperity_material::units::Stress;
+use asperity_material::{Hardening, HardeningLaw, HardeningTable};
 use asperity_mesh::ElementKind;
+use asperity_simulation::record::rows::CurveRow;
+use asperity_simulation::run::Outcome;
+use asperity_simulation::scene::{Accuracy, HardeningChoice, Material, Scene};
 use asperity_solver::point::material::Metal;
-use asperity_solver::run::crush::Outcome;
-use asperity_solver::run::record::CurveRow;
-use asperity_solver::scene::{Accuracy, HardeningChoice, Material, Scene};
 use asperity_verification::single_asperity::{crush, scene};
 use asperity_verification::single_increment::{ELASTIC, stretch_bar};
 

@@ -7,9 +7,9 @@
 //! each further cycle loses is a seventh of that. Tolerances: 1e-5 is ten times that of Newton's method; 5e-3 of the
 //! returned work is the quadrature of an unloading in six increments.
 
-use asperity_solver::run::crush::Outcome;
-use asperity_solver::run::record::Phase;
-use asperity_solver::scene::{Accuracy, ContactMethod, Scene, ToolShape};
+use asperity_simulation::record::rows::Phase;
+use asperity_simulation::run::Outcome;
+use asperity_simulation::scene::{Accuracy, ContactMethod, Scene, ToolShape};
 use asperity_verification::single_asperity::{crush, scene};
 
 const RELOADS: usize = 10;

@@ -3,9 +3,9 @@
 //! Source: none outside; a sharp cone of soft metal, whose penetration over its depth falls by a third within the first increments.
 //! Tolerance: none.
 
-use asperity_law::units::Stress;
-use asperity_solver::run::record::Phase;
-use asperity_solver::scene::Accuracy;
+use asperity_material::units::Stress;
+use asperity_simulation::record::rows::Phase;
+use asperity_simulation::scene::Accuracy;
 use asperity_verification::single_asperity::{crush, loaded};
 
 #[test]

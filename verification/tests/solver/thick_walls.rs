@@ -9,13 +9,13 @@
 //! the limit and in the plastic radius to half an element. The plastic radius is the crossing q = σ_y of the line
 //! through the two innermost elastic rings of elements, in the power of r in which q is straight.
 
-use asperity_law::Elastic;
+use asperity_material::Elastic;
 use asperity_mesh::{ElementKind, Mesh};
-use asperity_solver::algebra::newton::Settings;
+use asperity_numerics::newton::Settings;
+use asperity_solver::equilibrium::Equilibrium;
 use asperity_solver::point::kinematics::Symmetry;
 use asperity_solver::point::material::Metal;
 use asperity_solver::point::tensor::von_mises;
-use asperity_solver::run::equilibrium::Equilibrium;
 use asperity_verification::single_increment::{ELASTIC, hollomon, increment, model, reaction, stresses};
 use asperity_verification::test_meshes::{nodes_of, quarter_ring};
 use asperity_verification::thick_wall::{Shape, ThickWall};

@@ -3,7 +3,7 @@
 //! Source: `uniaxial::hollomon_stress` (Kirchhoff's stress: the law is an energy in logarithmic strain). Tolerance 1e-9: the
 //! path is straight, so that the return mapping is exact for any increment; what is left is the local solve of the law.
 
-use asperity_law::HardeningCurve;
+use asperity_material::HardeningCurve;
 use asperity_mesh::ElementKind;
 use asperity_solver::point::kinematics::Symmetry;
 use asperity_verification::single_increment::{TIGHT, hollomon, increment, model, reaction, stresses};

@@ -6,10 +6,10 @@ use crate::error::Error;
 use crate::input::scene::Scene;
 use crate::mesh::problem;
 use asperity_mesh::{Edge, Mesh, Section};
+use asperity_simulation::scene::{ContactMethod, Lateral, Scene as Tables, SceneError, Target};
+use asperity_simulation::setup::problem::Problem;
+use asperity_simulation::setup::schedule::{UNLOADING_EXPONENT, unloading};
 use asperity_solver::point::kinematics::Symmetry;
-use asperity_solver::run::problem::Problem;
-use asperity_solver::run::schedule::{UNLOADING_EXPONENT, unloading};
-use asperity_solver::scene::{ContactMethod, Lateral, Scene as Tables, SceneError, Target};
 
 /// SI value of the deck's unit of length, 1 µm: nodes are numbers near 1, which the tolerances of such codes expect.
 const LENGTH: f64 = 1e-6;

@@ -1,6 +1,6 @@
 //! A hardening law as the points of a table.
 
-use asperity_law::{Hardening, HardeningCurve, HardeningLaw};
+use asperity_material::{Hardening, HardeningCurve, HardeningLaw};
 
 /// Points of a table: CalculiX holds 200 for a material.
 pub const POINTS: usize = 200;
@@ -88,7 +88,7 @@ mod tests {
 
     #[test]
     fn a_table_stays_as_it_is() {
-        let table = asperity_law::HardeningTable::new(&[[0.0, 300e6], [0.1, 450e6]]).unwrap();
+        let table = asperity_material::HardeningTable::new(&[[0.0, 300e6], [0.1, 450e6]]).unwrap();
         let written = curve_table(&table.into(), 1e6);
         assert_eq!(written, PlasticTable { points: vec![[300.0, 0.0], [450.0, 0.1]], error: 0.0 });
     }

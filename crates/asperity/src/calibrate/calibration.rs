@@ -2,10 +2,10 @@
 
 use super::fit::{AngleFit, Fit};
 use super::pictures;
-use super::run::{Options, Progress, solve};
+use crate::calibrate::run_sweep::{Options, Progress, solve};
 use crate::draw::chart::{Chart, svg};
 use crate::error::{Error, InputError};
-use crate::output::{Sink, SinkExt};
+use crate::results::output::{Sink, SinkExt};
 use asperity_calibration::dimensionless::Dimensionless;
 use asperity_calibration::fit::{
     DEVELOPED, Data, StrainCoefficient, angles, developed, model_choices, obstacle, strain_coefficient,
@@ -108,7 +108,7 @@ impl Calibration {
     /// A disk that refuses.
     pub fn write(&self, sink: &mut dyn Sink) -> Result<(), Error> {
         sink.csv("cases.csv", &self.cases)?;
-        sink.text("sweep.json", &crate::output::json(&self.sweep)?)?;
+        sink.text("sweep.json", &crate::results::output::json(&self.sweep)?)?;
         if !self.whole {
             return Ok(());
         }
@@ -133,7 +133,7 @@ impl Calibration {
     /// # Errors
     /// None that is known: every fit is JSON.
     pub fn json(&self) -> Result<String, Error> {
-        Ok(crate::output::sorted_json(&self.fit)? + "\n")
+        Ok(crate::results::output::sorted_json(&self.fit)? + "\n")
     }
 
     /// The result for a person.

@@ -2,14 +2,14 @@
 
 #![expect(non_snake_case, reason = "a name holds its symbols, as in the files")]
 
-use crate::output::{nan_for_null, row};
+use crate::results::output::{nan_for_null, row};
 use asperity_calibration::case::Tool;
 use asperity_calibration::dimensionless::{Dimensionless, Formula};
 use asperity_calibration::fit::{Angle, DEVELOPED, ModelChoice, StrainCoefficient, model_interval};
 use asperity_calibration::row::Row;
 use asperity_calibration::sweep::Sweep;
 use asperity_calibration::unloading::{Unloaded, mean};
-use asperity_law::HardeningLaw;
+use asperity_material::HardeningLaw;
 use asperity_roughness::PUBLISHED;
 
 row! {

@@ -3,13 +3,13 @@
 #![expect(non_snake_case, reason = "a name ends in its unit, as in the files")]
 
 use crate::error::Error;
-use crate::output::{Sink, SinkExt};
 use crate::results::crush_rows::{CurveRow, Phase, SurfaceRow, SurfaceStateRow, write_rows};
-use crate::units::{MEGAPASCAL, MICROMETRE};
+use crate::results::output::{Sink, SinkExt};
+use crate::results::units::{MEGAPASCAL, MICROMETRE};
 use asperity_mesh::{FieldArray, Mesh, write_vtu};
+use asperity_simulation::run::FieldFrame;
+use asperity_simulation::scene::{Field, Scene as Tables, Symmetry};
 use asperity_solver::body::fields::Fields;
-use asperity_solver::run::crush::FieldFrame;
-use asperity_solver::scene::{Field, Scene as Tables, Symmetry};
 use std::io::{self, Write};
 use std::sync::Arc;
 

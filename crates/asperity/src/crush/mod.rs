@@ -1,10 +1,10 @@
 //! One scene crushed: the run, its result, and the files of the result.
 //!
-//! Rows, summary and fields have the units and names of the files ([`crate::units`]).
+//! Rows, summary and fields have the units and names of the files ([`crate::results::units`]).
 
+mod crush_report;
 mod fields;
 mod plot;
-mod report;
 
 pub use crate::results::crush_rows::{
     AsperityRow, CurveRow, CycleRow, GapRow, Phase, SurfaceRow, SurfaceStateRow, read_rows, write_rows,
@@ -18,14 +18,14 @@ pub use plot::{plot, titled_plot};
 use crate::draw::field_plot::{Panel, Reach, Section};
 use crate::error::Error;
 use crate::input::scene::Scene;
-use crate::output::{Sink, SinkExt};
 use crate::results::crush_summary::per_length;
-use crate::units::{MICROMETRE, Units};
+use crate::results::output::{Sink, SinkExt};
+use crate::results::units::{MICROMETRE, Units};
 use asperity_mesh::Mesh;
-use asperity_solver::run::crush::{CrushError, Event, FieldFrame, Outcome, run_with};
-pub use asperity_solver::run::journal::Checkpoints;
-use asperity_solver::run::record as si;
-use asperity_solver::scene::SceneError;
+pub use asperity_simulation::load_path::checkpoint::Checkpoints;
+use asperity_simulation::record::rows as si;
+use asperity_simulation::run::{CrushError, Event, FieldFrame, Outcome, run_with};
+use asperity_simulation::scene::SceneError;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::time::Instant;

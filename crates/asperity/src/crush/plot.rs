@@ -4,7 +4,7 @@ use crate::draw::chart::{Chart, Dash, Series, svg};
 use crate::draw::palette::LINES;
 use crate::results::crush_rows::{CurveRow, Phase};
 use crate::results::crush_summary::{Summary, per_length};
-use asperity_solver::scene::Symmetry;
+use asperity_simulation::scene::Symmetry;
 
 /// The largest prefix whose numbers are not all below 1: (its SI value, its symbol before the unit).
 fn prefix(largest: f64, prefixes: &[(f64, &'static str)]) -> (f64, &'static str) {

@@ -3,8 +3,8 @@
 use super::bodies::Body;
 use super::rows::Carried;
 use crate::error::InputError;
-use crate::press::{RoughScene, half_space_of};
-use asperity_law::HardeningLaw;
+use crate::rough::{RoughScene, half_space_of};
+use asperity_material::HardeningLaw;
 use asperity_roughness::half_space::{HalfSpace, PressureLimit};
 use asperity_roughness::scene::Scene;
 use asperity_roughness::{Closure, ClosureLaw, Islands, Load, Surface};

@@ -3,18 +3,18 @@
 use super::bodies::Body;
 use super::closures::Closures;
 use super::rows::{Carried, ComparedRow, FINITE_ELEMENTS};
-use super::run::Extracted;
 use super::scenes::stem;
+use crate::batch::journal::fingerprint;
 use crate::batch::{self, Batch, Options, Reached};
 use crate::crush::{Crush, CurveRow, Phase, crush, write_rows};
 use crate::error::{Error, InputError};
+use crate::extract::take::Extracted;
 use crate::input::scene::Scene;
-use crate::output::{Sink, SinkExt};
-use crate::press::RoughScene;
-use crate::units::MICROMETRE;
-use asperity_calibration::journal::fingerprint;
+use crate::results::output::{Sink, SinkExt};
+use crate::results::units::MICROMETRE;
+use crate::rough::RoughScene;
 use asperity_roughness::Closure;
-use asperity_solver::scene::Symmetry;
+use asperity_simulation::scene::Symmetry;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 use std::time::Instant;
@@ -235,7 +235,7 @@ impl Comparison {
     /// A disk that refuses.
     pub fn write(&self, sink: &mut dyn Sink) -> Result<(), Error> {
         let rows: Vec<&ComparedRow> = self.rows().collect();
-        sink.write("compared.csv", |out| crate::output::write_csv(out, &rows, str::to_string))?;
+        sink.write("compared.csv", |out| crate::results::output::write_csv(out, &rows, str::to_string))?;
         for one in self.asperities.iter().filter(|one| !one.curve.is_empty()) {
             sink.text(&format!("curves/{}.csv", stem(one.asperity)), &one.curve)?;
         }

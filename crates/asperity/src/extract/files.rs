@@ -1,12 +1,12 @@
 //! The files of an extraction.
 
 use super::rows::AsperityRow;
-use super::run::Extracted;
 use super::scenes::stem;
 use crate::draw::rough_map::{self, Map, Mark};
 use crate::error::Error;
-use crate::output::{Sink, SinkExt, write_csv};
-use crate::units::MICROMETRE;
+use crate::extract::take::Extracted;
+use crate::results::output::{Sink, SinkExt, write_csv};
+use crate::results::units::MICROMETRE;
 use serde::Serialize;
 
 /// Most asperities that the picture numbers.
@@ -44,7 +44,7 @@ impl Extracted {
             sink.text(&format!("scenes/{}.toml", line.name), &line.scene)?;
         }
         self.write_picture(sink)?;
-        sink.text("summary.json", &crate::output::sorted_json(&self.summary())?)
+        sink.text("summary.json", &crate::results::output::sorted_json(&self.summary())?)
     }
 
     /// The map with the asperities that have a profile.

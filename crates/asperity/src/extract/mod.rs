@@ -8,7 +8,7 @@ mod bodies;
 mod rows;
 mod scenes;
 
-mod run;
+mod take;
 
 mod closures;
 mod compare;
@@ -16,8 +16,8 @@ mod compare;
 mod files;
 mod picture;
 
+pub use crate::extract::take::{Extracted, Summary, extract};
 pub use bodies::{Body, Line};
 pub use compare::{Compared, Comparison, Progress};
 pub use rows::{AsperityRow, ComparedRow, FINITE_ELEMENTS};
-pub use run::{Extracted, Summary, extract};
 pub use settings::{Extraction, LineAt, Parts};

@@ -4,8 +4,8 @@
 
 use super::bodies::Body;
 use crate::crush::{CurveRow, Summary as CrushSummary};
-use crate::output::row;
-use crate::units::{MEGAPASCAL, MICROMETRE};
+use crate::results::output::row;
+use crate::results::units::{MEGAPASCAL, MICROMETRE};
 use asperity_roughness::asperities::Asperity;
 
 /// The name of the reference in the column `closure` of `compared.csv`.
@@ -57,7 +57,7 @@ row! {
 
 /// Force and contact area that a closure gives.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Carried {
+pub struct Carried {
     /// N.
     pub force: f64,
     /// m².

@@ -2,10 +2,10 @@
 
 use super::bodies::{Body, Line};
 use crate::results::numbers::digits;
-use crate::units::{GIGAPASCAL, MEGAPASCAL, MICROMETRE};
+use crate::results::units::{GIGAPASCAL, MEGAPASCAL, MICROMETRE};
 use asperity_roughness::Material;
 use asperity_roughness::asperities::Direction;
-use asperity_solver::scene::Accuracy;
+use asperity_simulation::scene::Accuracy;
 use std::fmt::Write;
 
 /// Width of the half of a line's block over its length: free metal beside the measured line.

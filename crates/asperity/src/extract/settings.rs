@@ -1,10 +1,10 @@
 //! Settings of an extraction.
 
 use crate::error::InputError;
-use asperity_law::units::Length;
+use asperity_material::units::Length;
 use asperity_roughness::Closure;
 use asperity_roughness::asperities::Direction;
-use asperity_solver::scene::Accuracy;
+use asperity_simulation::scene::Accuracy;
 use std::str::FromStr;
 
 /// Rule by which the map is divided into asperities.
@@ -43,7 +43,7 @@ impl FromStr for LineAt {
             "x" => Direction::Y,
             _ => return Err(form()),
         };
-        let at = place.parse().map_err(|e: asperity_law::units::UnitError| e.to_string())?;
+        let at = place.parse().map_err(|e: asperity_material::units::UnitError| e.to_string())?;
         Ok(LineAt { direction, at })
     }
 }

@@ -1,19 +1,21 @@
 //! A fit that makes sense: the unknowns, and the measurements read from their files.
 
-use super::emulator::Emulator;
-use super::experiment::{Data, Experiment};
-use super::file::{Features, FitAccuracy, FitCurve, FitFile, FitMaterial, FitShape, FitTool, Nuisance};
-use super::instrument;
-use super::measured::Measured;
-use super::parameters::Unknowns;
-use super::response::{AFTER, Geometry};
-use super::sought::Sought;
 use crate::error::{Error, InputError};
 use crate::input::RELATIVE;
 use crate::input::toml_file::TomlFile;
-use asperity_law::units::Stress;
-use asperity_law::{Elastic, StressMeasure, range};
-use asperity_solver::scene::{Accuracy, HardeningChoice};
+use asperity_formats::indentation_table;
+use asperity_identification::emulator::Emulator;
+use asperity_identification::experiment::{Data, Experiment};
+use asperity_identification::fit_file::{
+    Features, FitAccuracy, FitCurve, FitFile, FitMaterial, FitShape, FitTool, Nuisance,
+};
+use asperity_identification::known_or_unknown::Sought;
+use asperity_identification::measured_curve::Measured;
+use asperity_identification::parameters::Unknowns;
+use asperity_identification::response::{AFTER, Geometry};
+use asperity_material::units::Stress;
+use asperity_material::{Elastic, StressMeasure, range};
+use asperity_simulation::scene::{Accuracy, HardeningChoice};
 use std::path::Path;
 
 /// A fit ready to be searched.
@@ -259,7 +261,7 @@ fn measurements(
             let shown = path.display().to_string();
             let text = std::fs::read_to_string(&path)
                 .map_err(|e| at(".file", &format!("{shown}: cannot be read as text: {e}; {RELATIVE}")))?;
-            let tests = instrument::read(&text).map_err(|fault| {
+            let tests = indentation_table::read(&text).map_err(|fault| {
                 let error = match fault.line {
                     Some(line) => {
                         let start = text.split_inclusive('\n').take(line - 1).map(str::len).sum();
@@ -285,9 +287,12 @@ fn measurements(
     }
 }
 
-type Chosen = Vec<(String, super::measured::Readings, bool)>;
+type Chosen = Vec<(String, asperity_formats::indentation_table::Readings, bool)>;
 
-fn chosen(tests: Vec<(String, super::measured::Readings)>, wanted: Option<usize>) -> Result<Chosen, String> {
+fn chosen(
+    tests: Vec<(String, asperity_formats::indentation_table::Readings)>,
+    wanted: Option<usize>,
+) -> Result<Chosen, String> {
     let count = tests.len();
     match wanted {
         None => Ok(tests.into_iter().map(|(label, readings)| (label, readings, count > 1)).collect()),

@@ -7,49 +7,22 @@
 //! (`search`, `minimise`); intervals (`profile`), samples (`posterior`), and what cannot be seen (`verdict`); the result
 //! and its files (`stress_strain`, `result`, `pictures`, `report`).
 
-mod file;
-mod sought;
-
-mod instrument;
-
-mod measured;
-
-mod parameters;
-
-mod response;
-
-mod emulator;
-
-mod experiment;
-
-mod objective;
-
-mod minimise;
-
 mod fit;
-
-mod search;
-
-mod profile;
-
-mod posterior;
-
-mod verdict;
-
-mod stress_strain;
 
 mod result;
 
 mod pictures;
 
-mod report;
+mod fit_report;
 
-pub use file::{Features, FitAccuracy, FitCurve, FitFile, FitMaterial, FitShape, FitTool, Nuisance};
+pub use asperity_identification::fit_file::{
+    Features, FitAccuracy, FitCurve, FitFile, FitMaterial, FitShape, FitTool, Nuisance,
+};
+pub use asperity_identification::known_or_unknown::{Percent, Sought};
+pub use asperity_identification::stress_strain::StressAt;
+pub use asperity_identification::verdict::{Blind, NextExperiment};
 pub use fit::{Fit, PYRAMIDS_CONE};
 pub use result::{Found, Identification};
-pub use sought::{Percent, Sought};
-pub use stress_strain::StressAt;
-pub use verdict::{Blind, NextExperiment};
 
 use crate::error::Error;
 

@@ -1,13 +1,13 @@
 //! Pictures of an identification: measured points with fit and residual, the stress-strain band, the map of the objective.
 
-use super::experiment::{Data, Experiment};
-use super::minimise::{Minimum, chi2};
-use super::objective::Objective;
-use super::parameters::Unknowns;
-use super::profile::{GROWTH, Interval};
-use super::stress_strain::StressAt;
 use crate::draw::chart::{Axis, Chart, Dash, FINE, INK, Sample, Series, axes, draw, framed, rgb, titled};
 use crate::draw::palette::{Colour, LINES, VIRIDIS, between};
+use asperity_identification::experiment::{Data, Experiment};
+use asperity_identification::levenberg_marquardt::{Minimum, chi2};
+use asperity_identification::objective::Objective;
+use asperity_identification::parameters::Unknowns;
+use asperity_identification::profile_likelihood::{GROWTH, Interval};
+use asperity_identification::stress_strain::StressAt;
 use plotters::prelude::*;
 use rayon::prelude::*;
 

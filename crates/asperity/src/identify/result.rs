@@ -1,20 +1,23 @@
 //! The result of an identification: numbers with their intervals, the stress-strain curve with its band, the verdict, and the files.
 
-use super::experiment::{Data, Experiment};
 use super::fit::Fit;
-use super::minimise::{Minimum, Residuals};
-use super::objective::Objective;
-use super::parameters::{Parameter, Slot, Unknowns};
-use super::profile::{self, Interval};
-use super::search::{self, search};
-use super::stress_strain::StressAt;
-use super::verdict::{Blind, NextExperiment, blind, deviations, identified, next_experiment};
-use super::{pictures, posterior};
+use super::pictures;
 use crate::draw::chart::svg;
 use crate::error::Error;
 use crate::input::toml_file::to_toml;
-use crate::output::{Sink, SinkExt, json};
-use asperity_solver::scene::Material;
+use crate::results::output::{Sink, SinkExt, json};
+use asperity_identification::experiment::{Data, Experiment};
+use asperity_identification::levenberg_marquardt::{Minimum, Residuals};
+use asperity_identification::objective::Objective;
+use asperity_identification::parameters::{Parameter, Slot, Unknowns};
+use asperity_identification::posterior;
+use asperity_identification::profile_likelihood::{self, Interval};
+use asperity_identification::search::{self, search};
+use asperity_identification::stress_strain::StressAt;
+use asperity_identification::verdict::{
+    Blind, NextExperiment, blind, deviations, identified, next_experiment,
+};
+use asperity_simulation::scene::Material;
 use indexmap::IndexMap;
 use nalgebra::DVector;
 use rayon::prelude::*;
@@ -165,10 +168,10 @@ fn describe(
     let function = objective.function();
     let bounds = objective.bounds();
     let (deviations, correlation) = deviations(&objective, unknowns, &best.point);
-    let others = search::valleys(&objective, unknowns, best.chi2 + profile::GROWTH);
+    let others = search::valleys(&objective, unknowns, best.chi2 + profile_likelihood::GROWTH);
     let intervals: Vec<Interval> = (0..bounds.len())
         .into_par_iter()
-        .map(|i| profile::of_coordinate(&function, best, &others, &bounds, i, deviations[i]))
+        .map(|i| profile_likelihood::of_coordinate(&function, best, &others, &bounds, i, deviations[i]))
         .collect();
     let residual = residual(experiments, unknowns, best)?;
     let identified = identified(&unknowns.parameters, &intervals, &correlation);
@@ -253,7 +256,8 @@ fn band(
             .map(|k| (k / count, k % count))
             .map(|(i, j)| gradient[i] * gradient[j] * deviations[i] * deviations[j] * correlation[i][j])
             .sum();
-        let interval = profile::of_number(function, best, bounds, &number, variance.max(1e-8).sqrt())?;
+        let interval =
+            profile_likelihood::of_number(function, best, bounds, &number, variance.max(1e-8).sqrt())?;
         let [low_mpa, high_mpa] = interval.ends.map(|x| 1e-6 * x.exp());
         Some(StressAt {
             plastic_strain: *strain,

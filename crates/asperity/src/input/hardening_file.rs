@@ -3,9 +3,9 @@
 use crate::error::InputError;
 use crate::input::table_file::TableFile;
 use crate::input::toml_file::TomlFile;
-use asperity_law::units::Stress;
-use asperity_law::{CurveFile, LARGEST_TABLE};
-use asperity_solver::scene::{HardeningChoice, Material, Scene, SceneError};
+use asperity_material::units::Stress;
+use asperity_material::{CurveFile, LARGEST_TABLE};
+use asperity_simulation::scene::{HardeningChoice, Material, Scene, SceneError};
 
 /// No line of a table is longer, on average.
 const LONGEST_LINE: u64 = 100;

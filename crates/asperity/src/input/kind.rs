@@ -48,7 +48,7 @@ mod tests {
     use crate::study::StudyFile;
     use asperity_calibration::sweep::Sweep;
     use asperity_roughness::scene::Scene as Rough;
-    use asperity_solver::scene::Scene as Crush;
+    use asperity_simulation::scene::Scene as Crush;
 
     fn said<T: DeserializeOwned>(text: &str) -> Option<String> {
         of_another_command::<T>(DeTable::parse(text).unwrap().get_ref(), "f.toml")
@@ -57,11 +57,11 @@ mod tests {
     #[test]
     fn a_file_of_another_command_is_told_its_own() {
         let files = [
-            (include_str!("../../scenes/single-asperity.toml"), "crush"),
-            (include_str!("../../scenes/surface.toml"), "rough"),
-            (include_str!("../../scenes/sweep.toml"), "calibrate"),
-            (include_str!("../../scenes/study.toml"), "study"),
-            (include_str!("../../scenes/fit.toml"), "identify"),
+            (crate::scenes::SINGLE_ASPERITY, "crush"),
+            (crate::scenes::SURFACE, "rough"),
+            (crate::scenes::SWEEP, "calibrate"),
+            (crate::scenes::STUDY, "study"),
+            (crate::scenes::FIT, "identify"),
         ];
         for (text, command) in files {
             let answers = [

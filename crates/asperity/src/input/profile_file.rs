@@ -12,9 +12,9 @@
 use crate::error::InputError;
 use crate::input::table_file::TableFile;
 use crate::input::toml_file::TomlFile;
-use asperity_law::TextTable;
-use asperity_law::units::Length;
-use asperity_solver::scene::{Points, Scene, SceneError};
+use asperity_formats::text_table::TextTable;
+use asperity_material::units::Length;
+use asperity_simulation::scene::{Points, Scene, SceneError};
 use std::path::PathBuf;
 
 /// No file of an outline is larger.

@@ -5,11 +5,11 @@ use crate::input::toml_file::{TomlFile, read_text, to_toml};
 use crate::input::{RELATIVE, hardening_file, profile_file};
 use crate::results::crush_summary::Summary;
 use asperity_mesh::{Mesh, read_msh};
-use asperity_solver::run::discretisation::Discretisation;
-use asperity_solver::scene::{
+use asperity_simulation::scene::{
     Asperity, EarlierLoad, Initial, Lateral, LineProfile, Material, MeshFile, Numerics, Scene as Tables,
     SceneError, Substrate, Symmetry,
 };
+use asperity_simulation::setup::discretisation::Discretisation;
 use serde::Serialize;
 use std::path::Path;
 
@@ -32,8 +32,8 @@ impl Scene {
     /// # Examples
     /// A cone of steel under a plane:
     /// ```
-    /// use asperity::tables::{Asperity, Loading, Material, Scene as Tables, Symmetry, Tool, ToolForce};
-    /// use asperity::{Force, Length, Scene, Stress};
+    /// use crate::tables::{Asperity, Loading, Material, Scene as Tables, Symmetry, Tool, ToolForce};
+    /// use crate::{Force, Length, Scene, Stress};
     ///
     /// let steel = Material::elastic_body(Stress(210e9), 0.3).yielding(Stress(300e6), 0.3);
     /// let tables = Tables::new(Symmetry::Axisymmetric, steel, Tool::plane(), Loading::to_depth(Length(5e-6)));
@@ -122,7 +122,7 @@ impl Scene {
     }
 
     /// A path of the scene as one that can be opened.
-    pub(crate) fn resolve(&self, path: &Path) -> std::path::PathBuf {
+    pub fn resolve(&self, path: &Path) -> std::path::PathBuf {
         self.file.resolve(path)
     }
 
@@ -230,7 +230,7 @@ mod tests {
     /// A scene with some words replaced by others of it, or by extremes, is an error or a scene, never a panic.
     #[test]
     fn a_scrambled_scene_does_not_panic() {
-        let text = include_str!("../../scenes/single-asperity.toml");
+        let text = crate::scenes::SINGLE_ASPERITY;
         let lines: Vec<&str> = text.lines().map(|l| l.split('#').next().unwrap_or_default()).collect();
         let text = lines.join("\n");
         let odd = [
@@ -275,7 +275,7 @@ mod tests {
 
     #[test]
     fn a_scene_built_in_code_is_that_of_its_file() {
-        let text = include_str!("../../scenes/single-asperity.toml");
+        let text = crate::scenes::SINGLE_ASPERITY;
         let read = Scene::from_toml(text, Path::new("")).unwrap();
         let built = Scene::new(read.tables()).unwrap();
         assert_eq!(built.tables(), read.tables());
@@ -287,7 +287,7 @@ mod tests {
 
     #[test]
     fn a_value_that_is_set_is_checked() {
-        let text = include_str!("../../scenes/single-asperity.toml");
+        let text = crate::scenes::SINGLE_ASPERITY;
         let mut scene = Scene::from_toml(text, Path::new("")).unwrap();
         scene.set("loading.depth", "2 um").unwrap();
         assert_eq!(scene.tables().loading.depth, Some("2 um".parse().unwrap()));

@@ -3,7 +3,7 @@
 use crate::error::InputError;
 use crate::input::RELATIVE;
 use crate::input::toml_file::TomlFile;
-use asperity_solver::scene::{Scene, SceneError};
+use asperity_simulation::scene::{Scene, SceneError};
 use std::io::Read;
 use std::path::Path;
 

@@ -1,18 +1,18 @@
 //! Pages that stand alone: one HTML document each, which needs no network, reads on a phone, on paper and in the dark, and says in
 //! words what its pictures show. The curves tell the value under the pointer; without a script they are pictures.
 
-pub(crate) mod format;
+pub mod format;
 
 use crate::draw::chart::{Chart, located};
 use crate::error::Error;
-use crate::output::json;
+use crate::results::output::json;
 use format::{rounded, significant};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use serde::Serialize;
 use serde_json::Value;
 
 /// The document of `body` under `title`.
-pub(crate) fn document(title: &str, body: &Markup) -> String {
+pub fn document(title: &str, body: &Markup) -> String {
     let page = html! {
         (DOCTYPE)
         html lang="en" {
@@ -30,7 +30,7 @@ pub(crate) fn document(title: &str, body: &Markup) -> String {
 }
 
 /// The report of one run.
-pub(crate) struct Report<'a> {
+pub struct Report<'a> {
     /// Name of the computation.
     pub title: &'a str,
     /// Its object, and how exact it is.
@@ -103,7 +103,7 @@ impl Numbers {
 }
 
 /// A table with its caption; the first cell of a row names it, the others are numbers.
-pub(crate) fn table(caption: &str, head: &[&str], rows: &[Vec<Markup>]) -> Markup {
+pub fn table(caption: &str, head: &[&str], rows: &[Vec<Markup>]) -> Markup {
     let class = |i: usize| (i > 0).then_some("number");
     html! {
         div class="wide" { table {
@@ -119,7 +119,7 @@ pub(crate) fn table(caption: &str, head: &[&str], rows: &[Vec<Markup>]) -> Marku
 }
 
 /// The drawing `svg` with its caption; `seen` says it to those who cannot see it.
-pub(crate) fn drawing(svg: &str, seen: &str, caption: &str) -> Markup {
+pub fn drawing(svg: &str, seen: &str, caption: &str) -> Markup {
     html! { figure { div class="drawing" { (named(svg, seen)) } figcaption { (caption) } } }
 }
 
@@ -132,7 +132,7 @@ pub(crate) fn picture(png: &[u8], seen: &str, caption: &str) -> Markup {
 ///
 /// # Errors
 /// A drawing that fails.
-pub(crate) fn chart(chart: &Chart, seen: &str, caption: &str) -> Result<Markup, Error> {
+pub fn chart(chart: &Chart, seen: &str, caption: &str) -> Result<Markup, Error> {
     let (svg, window) = located(chart).map_err(Error::Unfinished)?;
     let lines = chart.series.iter().map(|line| {
         let known = line.points.iter().filter(|p| p.iter().all(|v| v.is_finite()));

@@ -1,15 +1,15 @@
 //! Rows of `curve.csv`, `asperities.csv`, `gaps.csv`, `cycles.csv` and `surface_NNNN.csv`, as they are written and read.
 //!
-//! Fields are named as the columns of an axisymmetric crush, units included; [`crate::units`] names them in plane strain.
+//! Fields are named as the columns of an axisymmetric crush, units included; [`crate::results::units`] names them in plane strain.
 
 #![expect(non_snake_case, reason = "a name ends in its unit, as in the files")]
 
 use crate::error::{Error, InputError};
-use crate::output::{read_csv, row, write_csv};
-use crate::units::{MEGAPASCAL, MICROMETRE, Units, axisymmetric_name, file_name};
+use crate::results::output::{read_csv, row, write_csv};
+use crate::results::units::{MEGAPASCAL, MICROMETRE, Units, axisymmetric_name, file_name};
+use asperity_simulation::record::rows;
+use asperity_simulation::scene::Symmetry;
 use asperity_solver::body::fields::SurfacePoint;
-use asperity_solver::run::record;
-use asperity_solver::scene::Symmetry;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::io::Write;
@@ -25,11 +25,11 @@ pub enum Phase {
     Unload,
 }
 
-impl From<record::Phase> for Phase {
-    fn from(phase: record::Phase) -> Self {
+impl From<rows::Phase> for Phase {
+    fn from(phase: rows::Phase) -> Self {
         match phase {
-            record::Phase::Load | record::Phase::Reload => Phase::Load,
-            record::Phase::Unload => Phase::Unload,
+            rows::Phase::Load | rows::Phase::Reload => Phase::Load,
+            rows::Phase::Unload => Phase::Unload,
         }
     }
 }
@@ -41,7 +41,7 @@ fn place(metres: f64) -> Option<f64> {
 
 row! {
     /// One converged increment.
-    CurveRow(row: &record::CurveRow, units: Units) {
+    CurveRow(row: &rows::CurveRow, units: Units) {
         /// Counted from 0, the first touch.
         increment: usize = row.increment,
         /// `load` or `unload`; a reload is a load, `cycles.csv` says where it begins.
@@ -83,7 +83,7 @@ row! {
 
 row! {
     /// The share of one asperity in one increment.
-    AsperityRow(row: &record::AsperityRow, units: Units) {
+    AsperityRow(row: &rows::AsperityRow, units: Units) {
         /// Increment of the curve.
         increment: usize = row.increment,
         /// Loading or unloading.
@@ -107,7 +107,7 @@ row! {
 
 row! {
     /// An untouched stretch of surface between two contacts in one increment.
-    GapRow(row: &record::GapRow) {
+    GapRow(row: &rows::GapRow) {
         /// Increment of the curve.
         increment: usize = row.increment,
         /// Loading or unloading.
@@ -129,7 +129,7 @@ row! {
 
 row! {
     /// One loading with its unloading: the first one, then the reloads.
-    CycleRow(row: &record::CycleRow, units: Units) {
+    CycleRow(row: &rows::CycleRow, units: Units) {
         /// 0: the first loading; then the reloads.
         cycle: usize = row.cycle,
         /// Increment of the peak.
@@ -218,9 +218,9 @@ mod tests {
     use super::*;
 
     fn row(symmetry: Symmetry) -> CurveRow {
-        let row = record::CurveRow {
+        let row = rows::CurveRow {
             increment: 3,
-            phase: record::Phase::Unload,
+            phase: rows::Phase::Unload,
             depth: 5.0 * 1e-6,
             force: 5.52,
             contact_area: 3e-10,
@@ -288,9 +288,9 @@ mod tests {
 
     #[test]
     fn an_asperity_out_of_contact_has_no_place() {
-        let row = record::AsperityRow {
+        let row = rows::AsperityRow {
             increment: 1,
-            phase: record::Phase::Reload,
+            phase: rows::Phase::Reload,
             asperity: 2,
             depth: 1e-6,
             force: 0.0,

@@ -3,12 +3,12 @@
 #![expect(non_snake_case, reason = "a name ends in its unit, as in the file")]
 
 use crate::error::{Error, InputError};
-use crate::output::{nan_for_null, row};
 use crate::page::format::significant;
-use crate::units::{GIGAPASCAL, MEGAPASCAL, MICROMETRE, Units, axisymmetric_name, file_name};
+use crate::results::output::{nan_for_null, row};
+use crate::results::units::{GIGAPASCAL, MEGAPASCAL, MICROMETRE, Units, axisymmetric_name, file_name};
+use asperity_simulation::record::rows::{self, OliverPharr};
+use asperity_simulation::scene::{Accuracy, Scene as Tables, Smoothing, Symmetry};
 use asperity_solver::body::islands;
-use asperity_solver::run::record::{self, OliverPharr};
-use asperity_solver::scene::{Accuracy, Scene as Tables, Smoothing, Symmetry};
 use indexmap::IndexMap;
 use serde::de::Error as _;
 use serde::ser::Error as _;
@@ -19,7 +19,7 @@ use std::path::Path;
 row! {
     /// 95 % bounds of the errors against the program's own converged limit, for 0.2 ≤ h/h_peak ≤ 1. NaN or `None`, `null` in
     /// the file, where an error is not known or the run did not unload.
-    Errors(errors: &record::Errors) {
+    Errors(errors: &rows::Errors) {
         /// Of the force, relative.
         #[serde(deserialize_with = "nan_for_null")]
         force: f64 = errors.force,
@@ -41,10 +41,10 @@ row! {
 row! {
     /// The numbers of a crush. `None`, `null` in the file, is what the scene did not ask for (unloading) or the run did not
     /// reach. Fields are named as the keys of an axisymmetric crush; the file of a crush in plane strain has the names of
-    /// [`crate::units::plane_strain_name`], and so has what is serialised.
+    /// [`crate::results::units::plane_strain_name`], and so has what is serialised.
     #[serde(remote = "Self")]
     Summary(
-        summary: &record::Summary, islands: &[islands::Island], units: Units, scene: Tables,
+        summary: &rows::Summary, islands: &[islands::Island], units: Units, scene: Tables,
         stopped: Option<String>, wall_s: f64
     ) {
         /// Why and where the run ended before its target; absent if it did not.
@@ -152,7 +152,7 @@ row! {
 
 row! {
     /// An instrument's reading of the unloading curve (Oliver and Pharr 1992), and beside it what is true.
-    Instrument(read: &OliverPharr, summary: &record::Summary) {
+    Instrument(read: &OliverPharr, summary: &rows::Summary) {
         /// Contact area read from the contact depth: `tool.area_function` there, or the section of the tool.
         contact_area_um2: f64 = read.contact_area / (MICROMETRE * MICROMETRE),
         /// h - ε F/S.
@@ -181,7 +181,7 @@ impl Summary {
     /// # Errors
     /// A scene that JSON cannot hold.
     pub fn to_json(&self) -> Result<String, Error> {
-        Ok(crate::output::json(self)? + "\n")
+        Ok(crate::results::output::json(self)? + "\n")
     }
 
     /// Reads a summary.json.

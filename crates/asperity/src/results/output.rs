@@ -1,7 +1,7 @@
 //! Where results are put, anything that can give a path to each file by its name, and rows as CSV.
 
+use crate::batch::journal::{Journal, fingerprint};
 use crate::error::{Error, InputError};
-use asperity_calibration::journal::{Journal, fingerprint};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Deserializer, Serialize};
 use std::fmt::Display;
@@ -109,6 +109,8 @@ pub trait Described {
 }
 
 /// The docstring in an attribute, or nothing.
+#[doc(hidden)]
+#[macro_export]
 macro_rules! about_in {
     (doc = $text:literal) => {
         $text
@@ -117,9 +119,10 @@ macro_rules! about_in {
         ""
     };
 }
-pub(crate) use about_in;
+pub use about_in;
 
 /// A row of a file: every field declared once under its name in the file, with its value in terms of what the row is made from.
+#[macro_export]
 macro_rules! row {
     ($(#[$about:meta])* $row:ident($($from:ident: $record:ty),*) {
         $($(#[$($field_about:tt)*])* $field:ident: $kind:ty = $value:expr,)*
@@ -131,20 +134,21 @@ macro_rules! row {
         }
 
         impl $row {
-            pub(crate) fn new($($from: $record),*) -> $row {
+            /// The row of what it is made from.
+            pub fn new($($from: $record),*) -> $row {
                 $row { $($field: $value,)* }
             }
         }
 
-        impl $crate::output::Described for $row {
-            const COLUMNS: &'static [$crate::output::Column] = &[$($crate::output::Column {
+        impl $crate::results::output::Described for $row {
+            const COLUMNS: &'static [$crate::results::output::Column] = &[$($crate::results::output::Column {
                 name: stringify!($field),
-                about: concat!($($crate::output::about_in!($($field_about)*)),*),
+                about: concat!($($crate::results::output::about_in!($($field_about)*)),*),
             }),*];
         }
     };
 }
-pub(crate) use row;
+pub use row;
 
 /// Writes beside the file and renames, so that it is whole or as it was.
 ///
@@ -158,7 +162,7 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), Error> {
 }
 
 /// The path with `ending` after its last name.
-pub(crate) fn beside(path: &Path, ending: &str) -> PathBuf {
+pub fn beside(path: &Path, ending: &str) -> PathBuf {
     let mut name = path.as_os_str().to_os_string();
     name.push(ending);
     name.into()
@@ -204,7 +208,7 @@ pub fn write_csv<T: Serialize>(
 ///
 /// # Errors
 /// A value that JSON cannot hold.
-pub(crate) fn json<T: Serialize>(value: &T) -> Result<String, Error> {
+pub fn json<T: Serialize>(value: &T) -> Result<String, Error> {
     serde_json::to_string_pretty(value).map_err(no_json)
 }
 
@@ -212,7 +216,7 @@ pub(crate) fn json<T: Serialize>(value: &T) -> Result<String, Error> {
 ///
 /// # Errors
 /// A value that JSON cannot hold.
-pub(crate) fn sorted_json<T: Serialize>(value: &T) -> Result<String, Error> {
+pub fn sorted_json<T: Serialize>(value: &T) -> Result<String, Error> {
     json(&serde_json::to_value(value).map_err(no_json)?)
 }
 

@@ -3,7 +3,7 @@
 //! The rows and summaries of this library are named as in the files of an axisymmetric crush. In plane strain forces and
 //! energies are per length of ridge and the area is a width; [`plane_strain_name`] is the one place that says so.
 
-use asperity_solver::scene::Symmetry;
+use asperity_simulation::scene::Symmetry;
 
 /// SI value of 1 µm.
 pub const MICROMETRE: f64 = 1e-6;

@@ -12,12 +12,12 @@ mod plan;
 
 mod picture;
 
-mod run;
+mod run_study;
 
 pub use crate::batch::{Options, Shard};
+pub use crate::study::run_study::{Progress, Study, merge, study};
 pub use plan::{Plan, SampleKind, SampleTable, StudyFile};
 pub use points::Sample;
 pub use row::{Columns, Run};
-pub use run::{Progress, Study, merge, study};
 pub use subject::Subject;
 pub use vary::{Range, Values, Vary};

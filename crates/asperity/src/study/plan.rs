@@ -3,9 +3,9 @@
 use super::points::{Points, Sample};
 use super::subject::{Subject, is_study};
 use super::vary::{Vary, wrong};
+use crate::batch::journal::fingerprint;
 use crate::error::{Error, InputError};
 use crate::input::toml_file::TomlFile;
-use asperity_calibration::journal::fingerprint;
 use indexmap::IndexMap;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -54,19 +54,18 @@ impl Definition {
 }
 
 /// A study file (TOML).
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
-#[cfg_attr(feature = "cli", schemars(title = "A study of `asperity study`"))]
+#[schemars(title = "A study of `asperity study`")]
 pub struct StudyFile {
     /// The scene that is varied, relative to this file.
     pub scene: PathBuf,
     /// Keys and their values: a list, or a text as behind --vary, such as "1 um..5 um/5".
-    #[cfg_attr(feature = "cli", schemars(with = "std::collections::BTreeMap<String, Value>"))]
+    #[schemars(with = "std::collections::BTreeMap<String, Value>")]
     #[serde(default)]
     pub vary: IndexMap<String, Value>,
     /// Keys and the value that they have in all runs.
-    #[cfg_attr(feature = "cli", schemars(with = "std::collections::BTreeMap<String, Value>"))]
+    #[schemars(with = "std::collections::BTreeMap<String, Value>")]
     #[serde(default)]
     pub set: IndexMap<String, Value>,
     /// How values are combined; every combination where it is absent.
@@ -81,8 +80,7 @@ pub struct StudyFile {
 }
 
 /// How values are combined, as a file says it.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SampleTable {
     /// Every combination, values in step, a Latin hypercube, or Sobol's sequence.
@@ -96,8 +94,7 @@ pub struct SampleTable {
 }
 
 /// How values are combined.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum SampleKind {
     /// Every combination.

@@ -2,7 +2,7 @@
 
 use super::vary::{Values, Vary, wrong};
 use crate::error::InputError;
-use asperity_law::sobol::{self, Sobol};
+use asperity_numerics::sobol::{self, Sobol};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use serde::{Deserialize, Serialize};

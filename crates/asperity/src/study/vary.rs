@@ -1,7 +1,7 @@
 //! A key of a scene and the values that it takes: a list, or a range that is cut into steps or drawn from.
 
 use crate::error::InputError;
-use asperity_law::units::{Force, Length, Stress, rounded};
+use asperity_material::units::{Force, Length, Stress, rounded};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
@@ -48,7 +48,7 @@ impl Vary {
     ///
     /// # Examples
     /// ```
-    /// use asperity::study::Vary;
+    /// use crate::study::Vary;
     ///
     /// let depth = Vary::parse("loading.depth=1 um..2 um/3")?;
     /// assert_eq!(depth.levels(), Some(vec!["1 um".to_string(), "1.5 um".into(), "2 um".into()]));

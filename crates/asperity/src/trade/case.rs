@@ -2,11 +2,11 @@
 
 use super::settings::Setting;
 use crate::crush::peak_memory_mb;
-use crate::output::row;
-use asperity_solver::run::crush::{Outcome, run};
-use asperity_solver::run::curve::Curve;
-use asperity_solver::run::record::Phase;
-use asperity_solver::scene::Scene;
+use crate::results::output::row;
+use asperity_simulation::record::curve::Curve;
+use asperity_simulation::record::rows::Phase;
+use asperity_simulation::run::{Outcome, run};
+use asperity_simulation::scene::Scene;
 use cpu_time::ThreadTime;
 use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;

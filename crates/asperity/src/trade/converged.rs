@@ -1,7 +1,7 @@
 //! The converged values of a scene, and the errors of a run against them.
 
 use super::case::Measured;
-use asperity_solver::run::curve::Smooth;
+use asperity_simulation::record::curve::Smooth;
 
 /// The converged values of a scene.
 #[derive(Clone, Copy, Debug)]

@@ -11,10 +11,10 @@ mod row;
 mod overview;
 mod picture;
 
-mod run;
+mod run_settings;
 
+pub use crate::trade::run_settings::{Options, Progress, Runner, Trade, trade};
 pub use row::TradeRow;
-pub use run::{Options, Progress, Runner, Trade, trade};
 
 /// The scene of a trade that names none: the asperity of the paper.
-pub const DEFAULT_SCENE: &str = include_str!("../../scenes/single-asperity.toml");
+pub const DEFAULT_SCENE: &str = crate::scenes::SINGLE_ASPERITY;

@@ -2,7 +2,7 @@
 
 use super::row::TradeRow;
 use super::settings::Knob;
-use asperity_solver::scene::{ContactMethod, ElementChoice};
+use asperity_simulation::scene::{ContactMethod, ElementChoice};
 
 /// A number, or nothing.
 fn cell<T: ToString>(value: Option<T>) -> String {

@@ -4,7 +4,7 @@ use super::row::TradeRow;
 use super::settings::{Knob, LEVELS};
 use crate::draw::chart::{Axis, FINE, Failure, INK, Paper, Sample, axes, font, framed, rgb};
 use crate::draw::palette::LINES;
-use asperity_solver::scene::Accuracy;
+use asperity_simulation::scene::Accuracy;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 

@@ -6,8 +6,8 @@ use super::case::{Finished, Measured};
 use super::converged::{Converged, Errors};
 use super::pareto_front::pareto_front;
 use super::settings::{Knob, Setting};
-use crate::output::row;
-use asperity_solver::scene::{Accuracy, ContactMethod, ElementChoice};
+use crate::results::output::row;
+use asperity_simulation::scene::{Accuracy, ContactMethod, ElementChoice};
 
 row! {
     /// One setting with its cost and its errors, relative to the converged values of the scene. Fields are named as the
@@ -76,7 +76,7 @@ pub fn rows(finished: &[Finished], converged: &Converged) -> Vec<TradeRow> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use asperity_solver::scene::Numerics;
+    use asperity_simulation::scene::Numerics;
 
     #[test]
     fn a_run_and_a_failure_fill_the_same_columns_and_read_back() {

@@ -1,8 +1,8 @@
 //! Which discretisations a trade runs: each number by itself around each level, and combinations that fill the space.
 
-use asperity_law::units::rounded;
-use asperity_solver::run::discretisation::Discretisation;
-use asperity_solver::scene::{Accuracy, ContactMethod, ElementChoice, Numerics, Scene};
+use asperity_material::units::rounded;
+use asperity_simulation::scene::{Accuracy, ContactMethod, ElementChoice, Numerics, Scene};
+use asperity_simulation::setup::discretisation::Discretisation;
 use serde::{Deserialize, Serialize};
 
 /// The number of the discretisation that was changed.
@@ -204,11 +204,11 @@ fn mixed(scene: &Scene, i: usize) -> Setting {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use asperity_solver::scene::ToolShape;
+    use asperity_simulation::scene::ToolShape;
 
     /// The default scene with something added.
     fn scene(numerics: &str) -> Scene {
-        let text = include_str!("../../scenes/single-asperity.toml").to_string() + numerics;
+        let text = crate::scenes::SINGLE_ASPERITY.to_string() + numerics;
         crate::input::toml_file::TomlFile::parse("scene.toml".as_ref(), text, &[]).unwrap().value
     }
 

@@ -5,8 +5,8 @@ use super::tip::Tip;
 use super::{NONE, hills};
 use crate::contact::ellipse::Ellipse;
 use crate::contact::islands::Islands;
-use crate::surface::ready::Surface;
-use asperity_law::units::rounded;
+use crate::surface::prepared_surface::Surface;
+use asperity_material::units::rounded;
 use thiserror::Error;
 
 /// Rule by which the surface is divided into asperities.

@@ -2,7 +2,7 @@
 
 use super::hills::Neighbours;
 use crate::surface::height_map::{HeightMap, MapError};
-use crate::surface::ready::Surface;
+use crate::surface::prepared_surface::Surface;
 use std::f64::consts::{PI, TAU};
 use thiserror::Error;
 

@@ -1,6 +1,6 @@
 use super::*;
 use crate::surface::height_map::HeightMap;
-use crate::surface::ready::Surface;
+use crate::surface::prepared_surface::Surface;
 use proptest::prelude::*;
 use std::f64::consts::PI;
 

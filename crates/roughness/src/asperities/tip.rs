@@ -1,7 +1,7 @@
 //! Curvature of a summit.
 
 use crate::surface::height_map::HeightMap;
-use asperity_law::least_squares;
+use asperity_numerics::least_squares;
 
 /// Nodes on each side of the summit that its curvature is taken from.
 const REACH: i64 = 2;

@@ -1,9 +1,9 @@
 //! The calibrated cone of one metal over all slopes: the table of the calibration, and beyond it the atlas of cones.
 
 use super::coefficient::{Coefficient, Nearest};
-use asperity_law::atlas::{Atlas, Contact, SharpCone};
-use asperity_law::bisection::bisect;
-use asperity_law::{Elastic, Hardening};
+use asperity_material::cone_atlas::{Atlas, Contact, SharpCone};
+use asperity_material::{Elastic, Hardening};
+use asperity_numerics::bisection::bisect;
 use std::f64::consts::PI;
 
 /// Contact area of an elastic cone over that of its island (Sneddon 1965).
@@ -118,7 +118,7 @@ fn yield_stress(hardening: &Hardening, strain: f64, stress: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use asperity_law::HardeningLaw;
+    use asperity_material::HardeningLaw;
 
     fn metal(yield_mpa: f64, exponent: f64) -> Calibrated {
         metal_of(yield_mpa, exponent, 0.3)

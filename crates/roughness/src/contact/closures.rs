@@ -3,7 +3,7 @@
 use super::calibrated::{Calibrated, ELASTIC_AREA};
 use super::coefficient::Coefficient;
 use super::material::Material;
-use asperity_law::Hardening;
+use asperity_material::Hardening;
 use serde::{Deserialize, Serialize};
 use std::str::FromStr;
 use thiserror::Error;
@@ -331,8 +331,8 @@ pub const SINGLE_ASPERITY_EXPONENT: f64 = 1.22;
 #[cfg(test)]
 mod tests {
     use super::*;
-    use asperity_law::HardeningLaw;
-    use asperity_law::units::Stress;
+    use asperity_material::HardeningLaw;
+    use asperity_material::units::Stress;
     use std::f64::consts::PI;
 
     fn steel() -> Material {

@@ -16,7 +16,7 @@
 //! contact_ratio = [0.65, 0.8]          # a tan β/h
 //! ```
 
-use asperity_law::{HardeningLaw, range};
+use asperity_material::{HardeningLaw, range};
 use serde::{Deserialize, Serialize};
 use std::fmt::Display;
 use thiserror::Error;

@@ -4,7 +4,7 @@ use super::bearing_area::{self, Planes};
 use super::closures::ClosureLaw;
 use super::load::Carrying;
 use crate::surface::height_map::Extent;
-use crate::surface::ready::Surface;
+use crate::surface::prepared_surface::Surface;
 
 /// Residual at which the search ends: half of what is promised.
 const RESIDUAL: f64 = 5e-7;

@@ -2,7 +2,7 @@
 
 use super::closures::ClosureLaw;
 use super::islands::{Islands, Runs};
-use crate::surface::ready::Surface;
+use crate::surface::prepared_surface::Surface;
 use rayon::prelude::*;
 
 /// Islands whose forces one task adds up: fixed, so that the sum is the same for any number of threads.

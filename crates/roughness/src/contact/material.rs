@@ -1,7 +1,7 @@
 //! The material of the rough body.
 
-use asperity_law::units::Stress;
-use asperity_law::{Elastic, HardeningLaw};
+use asperity_material::units::Stress;
+use asperity_material::{Elastic, HardeningLaw};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

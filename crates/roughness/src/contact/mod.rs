@@ -12,8 +12,8 @@ pub(crate) mod material;
 pub(crate) mod closures;
 
 mod find_separation;
+pub(crate) mod islands_contact;
 mod load;
-pub(crate) mod press;
 
 pub(crate) mod pressure;
 pub(crate) mod unload;

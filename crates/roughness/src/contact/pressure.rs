@@ -2,7 +2,7 @@
 
 use super::ellipse::Ellipse;
 use super::islands::Piece;
-use super::press::Contact;
+use crate::contact::islands_contact::Contact;
 use crate::surface::height_map::HeightMap;
 use rayon::prelude::*;
 use schemars::JsonSchema;

@@ -4,7 +4,7 @@ use crate::contact::bearing_area::tests::above_plane;
 use crate::contact::islands::Runs;
 use crate::surface::generate::{Grid, Kind, Target, generate};
 use crate::*;
-use asperity_law::units::Stress;
+use asperity_material::units::Stress;
 use std::f64::consts::PI;
 
 fn map(n: usize, pixel: f64, z: impl Fn(f64, f64) -> f64) -> HeightMap {

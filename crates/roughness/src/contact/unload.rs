@@ -1,7 +1,7 @@
 //! Elastic return of the islands when the load is taken off.
 
 use super::closures::ClosureLaw;
-use super::press::{CURVE_POINTS, Contact, CurvePoint};
+use crate::contact::islands_contact::{CURVE_POINTS, Contact, CurvePoint};
 use std::f64::consts::PI;
 
 /// Elastic return when the load is taken off.

@@ -2,9 +2,9 @@
 
 use super::conjugate_gradients::conjugate_gradients;
 use super::convolution::Convolution;
-use super::level::{Hold, Level, MISSING, Search};
 use super::projected_gradient::projected_gradient;
-use super::real::{Real, sums};
+use crate::half_space::float::{Real, sums};
+use crate::half_space::grid_level::{Hold, Level, MISSING, Search};
 use rayon::prelude::*;
 
 /// A side of more nodes is halved for the coarser grid.

@@ -1,9 +1,9 @@
 //! Projected conjugate gradients (Polonsky and Keer 1999), preconditioned on the nodes that are free to change.
 
 use super::convolution::Way;
-use super::level::{Hold, Level, Search, is_free};
 use super::nodes::Nodes;
-use super::real::Real;
+use crate::half_space::float::Real;
+use crate::half_space::grid_level::{Hold, Level, Search, is_free};
 
 /// Iterations without a better residual after which the search ends.
 const STALLED: usize = 12;

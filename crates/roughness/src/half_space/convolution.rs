@@ -2,7 +2,7 @@
 //!
 //! Lengths are in pixels (the root of a pixel's area), pressures such that E* is 1.
 
-use super::real::Real;
+use crate::half_space::float::Real;
 use crate::surface::fft::good_length;
 use rayon::prelude::*;
 use realfft::num_complex::Complex;

@@ -7,8 +7,8 @@
 
 use crate::surface::cells;
 use crate::{Island, Islands, Load, Material, Surface};
-use asperity_law::atlas::{Atlas, Contact, SharpCone};
-use asperity_law::{Hardening, HardeningLaw};
+use asperity_material::cone_atlas::{Atlas, Contact, SharpCone};
+use asperity_material::{Hardening, HardeningLaw};
 
 /// Where a limit of pressure comes from.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -138,7 +138,7 @@ fn slope(island: &Island, mean_height: f64) -> f64 {
 mod tests {
     use super::*;
     use crate::{Grid, HeightMap, Kind, Target, generate};
-    use asperity_law::units::Stress;
+    use asperity_material::units::Stress;
 
     fn metal(exponent: f64) -> Material {
         Material {

@@ -8,13 +8,13 @@
 //! Sources: Stanley and Kato 1997 (periodic half-space), Polonsky and Keer 1999 (conjugate gradients), Almqvist et al. 2007
 //! (limit of pressure), Vollebregt 2014 (preconditioner), Yastrebov et al. 2017 (area from pixels).
 
-mod real;
+mod float;
 
 mod convolution;
 
 mod nodes;
 
-mod level;
+mod grid_level;
 
 mod conjugate_gradients;
 mod projected_gradient;
@@ -24,13 +24,15 @@ mod cascade;
 mod area;
 mod stiffness;
 
-mod press;
+mod half_space_contact;
 
 mod limit;
 
+pub use crate::half_space::half_space_contact::{
+    FINEST, HalfSpace, HalfSpaceContact, HalfSpaceError, TOLERANCE,
+};
 pub use area::{Area, patches};
 pub use limit::{LimitSource, PressureLimit, patch_slope};
-pub use press::{FINEST, HalfSpace, HalfSpaceContact, HalfSpaceError, TOLERANCE};
 
 #[cfg(test)]
 mod tests;

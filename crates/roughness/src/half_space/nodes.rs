@@ -1,6 +1,6 @@
 //! Some nodes of a map: a contact takes a few percent of it, and most of the work is about them alone.
 
-use super::real::{CHUNK, total};
+use crate::half_space::float::{CHUNK, total};
 use rayon::prelude::*;
 
 /// Nodes by chunks of [`CHUNK`], in rising order.

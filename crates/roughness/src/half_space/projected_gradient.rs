@@ -1,7 +1,7 @@
 //! Projected gradients with steps after Barzilai and Borwein, for contacts where most of the metal flows.
 
-use super::level::{Hold, Level, MISSING, Search};
-use super::real::{CHUNK, Real, total};
+use crate::half_space::float::{CHUNK, Real, total};
+use crate::half_space::grid_level::{Hold, Level, MISSING, Search};
 use rayon::prelude::*;
 
 /// Passes of the search for the shift of a projection.

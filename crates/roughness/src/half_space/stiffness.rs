@@ -2,8 +2,8 @@
 
 use super::cascade::Task;
 use super::convolution::Way;
-use super::level::Level;
-use super::real::{Real, sums};
+use crate::half_space::float::{Real, sums};
+use crate::half_space::grid_level::Level;
 
 /// Residual at which the search ends: the stiffness is its square better, 1e-4, while pixels change it by percents.
 const TOLERANCE: f64 = 1e-2;

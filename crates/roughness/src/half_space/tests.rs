@@ -4,7 +4,7 @@
 
 use super::*;
 use crate::{Grid, HeightMap, Kind, Load, Surface, Target, generate};
-use asperity_law::bisection::bisect;
+use asperity_numerics::bisection::bisect;
 use std::f64::consts::PI;
 
 const MODULUS: f64 = 2e11;

@@ -2,7 +2,7 @@
 
 use super::SceneError;
 use super::error::error;
-use asperity_law::units::{Stress, from_text};
+use asperity_material::units::{Stress, from_text};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Deserializer, Serialize};
 use std::str::FromStr;

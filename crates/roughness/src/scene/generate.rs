@@ -3,7 +3,7 @@
 use super::SceneError;
 use super::error::error;
 use crate::surface::generate::{Grid, Kind, KindName, Target};
-use asperity_law::units::Length;
+use asperity_material::units::Length;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

@@ -6,7 +6,7 @@ mod generate;
 mod half_space;
 mod surface;
 
-pub use asperity_law::range::SceneError;
+pub use asperity_material::range::SceneError;
 pub use fluid::{Fluid, Viscosity};
 pub use generate::GenerateScene;
 pub use half_space::HalfSpaceScene;
@@ -14,14 +14,14 @@ pub use surface::{HeightUnit, Missing, SurfaceScene};
 
 pub use crate::contact::material::Material;
 pub use crate::contact::pressure::PressureProfile;
-pub use crate::surface::formats::{Measured, Spacing};
 pub use crate::surface::generate::KindName;
 pub use crate::surface::level::Levelling;
+pub use asperity_formats::surface::{Measured, Spacing};
 
 use crate::contact::closures::Closure;
-use crate::contact::press::Load;
-use asperity_law::range;
-use asperity_law::units::{Length, Stress, rounded};
+use crate::contact::islands_contact::Load;
+use asperity_material::range;
+use asperity_material::units::{Length, Stress, rounded};
 use error::error;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

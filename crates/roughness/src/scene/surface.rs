@@ -4,13 +4,13 @@ use super::SceneError;
 use super::error::error;
 use super::generate::GenerateScene;
 use crate::surface::filter;
-use crate::surface::formats::{self, Measured, Spacing};
 use crate::surface::generate;
 use crate::surface::height_map::HeightMap;
 use crate::surface::level::{self, Levelling};
 use crate::surface::outliers;
-use crate::surface::ready::Surface;
-use asperity_law::units::Length;
+use crate::surface::prepared_surface::Surface;
+use asperity_formats::surface::{self, Measured, Spacing};
+use asperity_material::units::Length;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::value::SeqAccessDeserializer;
 use serde::de::{self, IntoDeserializer, SeqAccess, Visitor};
@@ -194,7 +194,7 @@ impl SurfaceScene {
         let map = match (&self.file, &self.heights, &self.generate) {
             (Some(file), ..) => {
                 let path = resolve(file);
-                let measured = formats::read(&path)
+                let measured = surface::read(&path)
                     .map_err(|e| SceneError::new(source, format!("{}: {e}", path.display())))?;
                 self.in_metres(measured)?
             }

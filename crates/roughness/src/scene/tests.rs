@@ -1,7 +1,7 @@
 //! Claims about scenes.
 
 use super::*;
-use crate::formats;
+use asperity_formats::surface;
 use std::path::Path;
 
 const GOOD: &str = r#"
@@ -94,8 +94,8 @@ fn units_and_pixels_are_demanded_and_contradictions_refused() {
     let folder = tempfile::tempdir().unwrap();
     let resolve = |p: &Path| folder.path().join(p);
     let heights: Vec<f64> = (0..25).map(|i| f64::from(i * i % 7)).collect();
-    formats::write_npy(&resolve(Path::new("z.npy")), 5, 5, &heights).unwrap();
-    formats::write_x3p(&resolve(Path::new("z.x3p")), 5, 5, [1e-6, 1e-6], &heights).unwrap();
+    surface::write_npy(&resolve(Path::new("z.npy")), 5, 5, &heights).unwrap();
+    surface::write_x3p(&resolve(Path::new("z.x3p")), 5, 5, [1e-6, 1e-6], &heights).unwrap();
     let unit = "height_unit = \"um\"\n";
     let pixel = "pixel_size = [\"2 um\", \"2 um\"]\n";
     for (text, place) in [
@@ -127,7 +127,7 @@ fn a_map_without_a_height_is_refused_and_one_with_few_is_filled() {
     {
         let mut heights = vec![f64::NAN; 16];
         heights[..measured].fill(1.0);
-        formats::write_npy(&resolve(Path::new("z.npy")), 4, 4, &heights).unwrap();
+        surface::write_npy(&resolve(Path::new("z.npy")), 4, 4, &heights).unwrap();
         let answer = surface(&format!("{rest}missing = \"{missing}\"")).prepare(resolve);
         assert_eq!(answer.is_ok(), good, "{measured} {missing}");
     }

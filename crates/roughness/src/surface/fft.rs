@@ -1,5 +1,6 @@
 //! Discrete Fourier transforms of lines and maps.
 
+use asperity_numerics::transpose::transposed;
 use rayon::prelude::*;
 use rustfft::{FftDirection, FftPlanner};
 
@@ -16,22 +17,6 @@ pub(crate) fn good_length(least: usize) -> usize {
         n == 1
     };
     (least.max(2)..).find(|n| n.is_multiple_of(2) && smooth(*n)).unwrap_or(least)
-}
-
-/// Rows become columns.
-pub(crate) fn transposed<T: Copy + Send + Sync + Default>(data: &[T], columns: usize) -> Vec<T> {
-    let rows = data.len() / columns;
-    let mut out = vec![T::default(); data.len()];
-    // strips of columns keep both sides in the cache
-    out.par_chunks_mut(rows * 16).enumerate().for_each(|(strip, part)| {
-        let first = strip * 16;
-        for row in 0..rows {
-            for (k, line) in part.chunks_mut(rows).enumerate() {
-                line[row] = data[row * columns + first + k];
-            }
-        }
-    });
-    out
 }
 
 /// Both passes of a transform of a map with rows of `columns` numbers; the result is transposed. There and back

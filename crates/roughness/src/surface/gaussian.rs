@@ -3,7 +3,8 @@
 //! Narrow Gaussians are summed directly, wide ones multiplied in the spectrum of real lines, padded to lengths that transform
 //! fast.
 
-use super::fft::{good_length, transposed};
+use super::fft::good_length;
+use asperity_numerics::transpose::transposed;
 use rayon::prelude::*;
 use realfft::RealFftPlanner;
 use realfft::num_complex::Complex64;

@@ -5,7 +5,7 @@
 
 use crate::surface::fft;
 use crate::surface::height_map::{HeightMap, MapError};
-use crate::surface::ready::Surface;
+use crate::surface::prepared_surface::Surface;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use schemars::JsonSchema;

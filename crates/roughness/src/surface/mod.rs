@@ -1,7 +1,5 @@
 //! Height maps: read or generated, levelled, filtered, with their roughness parameters.
 
-pub mod formats;
-
 pub(crate) mod height_map;
 
 pub(crate) mod fft;
@@ -16,4 +14,4 @@ pub(crate) mod spectrum;
 
 pub(crate) mod generate;
 
-pub(crate) mod ready;
+pub(crate) mod prepared_surface;

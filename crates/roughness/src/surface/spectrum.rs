@@ -4,9 +4,9 @@
 //! profiles along x and y, with 2∫ C df = Sq² over the positive ones (Jacobs, Junge, Pastewka 2017). A map that is not periodic is
 //! weighted with a Hann window first, whose loss of power is made up for.
 
-use crate::surface::fft::transposed;
 use crate::surface::filter::fill;
 use crate::surface::height_map::{HeightMap, MapError};
+use asperity_numerics::transpose::transposed;
 use rayon::prelude::*;
 use realfft::RealFftPlanner;
 use realfft::num_complex::Complex64;

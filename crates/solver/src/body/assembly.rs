@@ -1,18 +1,18 @@
 //! Assembly of a trial: internal forces, contact, out-of-balance forces, new point states, stiffness.
 
-use crate::algebra::assemble::Stiffness;
-use crate::algebra::dofs::FIXED;
 use crate::body::discrete_body::Body;
+use crate::body::dofs::FIXED;
 use crate::body::elements::{Buffers, Motion, Start, current};
 use crate::body::failure::Failure;
 use crate::body::state::{Points, State, Trial};
+use crate::body::stiffness::Stiffness;
 use crate::contact::edge::EdgeContact;
 use crate::contact::parts::NOTHING;
 use crate::contact::self_contact::Pressed;
 use crate::element::kernel::ElementContext;
 use crate::point::j2::{Linearisation, Tangent};
 use crate::point::material::Metal;
-use asperity_law::real::Lanes;
+use asperity_numerics::lanes::Lanes;
 
 /// Which part of the surface is taken to touch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,6 +1,6 @@
 //! The discretised body: what stays the same while it is loaded.
 
-use crate::algebra::analysis::Analysis;
+use crate::body::analysis::Analysis;
 use crate::body::failure::Failure;
 use crate::contact::edge::{ContactContext, ContactEdge};
 use crate::contact::tool::Tool;
@@ -8,8 +8,8 @@ use crate::element::kernel::POINTS;
 use crate::element::{quad4, quad8};
 use crate::point::kinematics::{ShapePoint, Symmetry, motion};
 use crate::point::material::Metal;
-use asperity_law::real::Lanes;
 use asperity_mesh::{ElementKind, Mesh};
+use asperity_numerics::lanes::Lanes;
 use pulp::Arch;
 use std::sync::Arc;
 

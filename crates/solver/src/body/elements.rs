@@ -7,8 +7,8 @@ use crate::body::state::{Points, State};
 use crate::element::kernel::{ENTRIES, ElementContext, ElementOutput, PointSlice};
 use crate::element::{quad4, quad8};
 use crate::point::j2::Linearisation;
-use asperity_law::real::{Lanes, Real};
 use asperity_mesh::ElementKind;
+use asperity_numerics::lanes::{Lanes, Real};
 use pulp::{Simd, WithSimd};
 use rayon::prelude::*;
 

@@ -8,7 +8,7 @@ use crate::element::kernel::POINTS;
 use crate::point::bdf2::{PlasticIncrement, bounded, extrapolate, extrapolation_factor, share};
 use crate::point::kinematic_hardening;
 use crate::point::material::{Metal, PointState, volume_ratio};
-use asperity_law::real::Lanes;
+use asperity_numerics::lanes::Lanes;
 use pulp::{Simd, WithSimd};
 
 /// Ĵ is kept within this share of J: an increment that overturns the volume change of the last one is no smooth path.

@@ -13,7 +13,7 @@ use crate::point::j2::Tangent;
 use crate::point::kinematic_hardening::{self, History};
 use crate::point::material::{Metal, PointState, plastic_work};
 use crate::point::tensor::Sym;
-use asperity_law::real::Lanes;
+use asperity_numerics::lanes::Lanes;
 use pulp::{Simd, WithSimd};
 
 /// Work space and results for one element after the other.

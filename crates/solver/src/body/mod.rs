@@ -2,6 +2,12 @@
 
 pub mod failure;
 
+pub mod dofs;
+
+pub mod stiffness;
+
+pub mod analysis;
+
 pub mod discrete_body;
 
 pub mod state;
@@ -15,11 +21,6 @@ mod flow;
 mod extrapolation;
 
 mod commit;
-
-pub mod remesh;
-mod surface_curve;
-
-mod transfer;
 
 pub mod energy;
 

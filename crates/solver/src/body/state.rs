@@ -75,7 +75,7 @@ pub struct State {
     /// Largest load so far.
     pub load_scale: f64,
     /// Change of the contact energy by that of the area it is taken over and of the penalty, up to the last increment and after it.
-    pub(super) remeasured: [f64; 2],
+    pub remeasured: [f64; 2],
     /// Change of the stored energy, the plastic work and the contact energy by all transfers to better meshes.
     pub transferred: f64,
     /// How many there were.

@@ -7,7 +7,7 @@ use crate::point::kinematic_hardening::{self, History};
 use crate::point::kinematics::Symmetry;
 use crate::point::material::{Metal, PointState};
 use crate::point::tensor::{Gradient, GradientForm, Sym};
-use asperity_law::real::{Lanes, Mask, Real};
+use asperity_numerics::lanes::{Lanes, Mask, Real};
 
 /// Integration points of every element: 2 × 2.
 pub const POINTS: usize = 4;

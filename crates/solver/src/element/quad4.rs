@@ -11,7 +11,7 @@ use crate::point::failure::Failure;
 use crate::point::j2::Tangent;
 use crate::point::kinematics::{ShapePoint, motion};
 use crate::point::tensor::{trace, volume_change};
-use asperity_law::real::{Lanes, Real};
+use asperity_numerics::lanes::{Lanes, Real};
 
 /// Shape functions at (ξ, η).
 pub fn shape(xi: f64, eta: f64, weight: f64) -> ShapePoint<4> {

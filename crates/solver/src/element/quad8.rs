@@ -7,7 +7,7 @@ use crate::element::kernel::{
 use crate::point::failure::Failure;
 use crate::point::j2::Tangent;
 use crate::point::kinematics::{ShapePoint, motion};
-use asperity_law::real::Lanes;
+use asperity_numerics::lanes::Lanes;
 
 /// Corners, then mid-sides, of the reference square.
 const NODES: [[f64; 2]; 8] =

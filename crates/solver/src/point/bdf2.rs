@@ -18,7 +18,7 @@
 use crate::point::failure::Failure;
 use crate::point::material::{Metal, PointState, Spectral};
 use crate::point::tensor::{Sym, contract, trace};
-use asperity_law::real::{Lanes, Real};
+use asperity_numerics::lanes::{Lanes, Real};
 
 /// The plastic increment of a point in the last increment of the load, or of several side by side.
 #[derive(Clone, Copy, Debug, PartialEq)]

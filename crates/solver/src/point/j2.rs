@@ -14,7 +14,7 @@
 use crate::point::failure::Failure;
 use crate::point::material::{Metal, PointState, Spectral};
 use crate::point::tensor::{Gradient, GradientForm, Sym, push_forward};
-use asperity_law::real::Real;
+use asperity_numerics::lanes::Real;
 
 /// Outcome of a stress update.
 #[derive(Clone, Copy, Debug)]

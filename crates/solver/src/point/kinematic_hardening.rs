@@ -26,7 +26,7 @@ use crate::point::j2::{PointUpdate, Tangent};
 use crate::point::log_space::{LogStrain, compose};
 use crate::point::material::{Metal, PointState, Spectral, plastic_work};
 use crate::point::tensor::{Gradient, Sym, contract, trace};
-use asperity_law::{Elastic, HardeningCurve};
+use asperity_material::{Elastic, HardeningCurve};
 
 /// History variables of a point beside its [`PointState`], all in the undeformed configuration.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -5,7 +5,7 @@
 
 use crate::point::failure::Failure;
 use crate::point::tensor::Gradient;
-use asperity_law::real::{Lanes, Real};
+use asperity_numerics::lanes::{Lanes, Real};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

@@ -5,8 +5,8 @@
 
 use crate::point::failure::Failure;
 use crate::point::tensor::{GradientForm, Sym, trace, with_geometric_term};
-use asperity_law::real::{Lanes, Real};
-use asperity_law::{Elastic, HardeningCurve, HardeningPoint, StressMeasure};
+use asperity_material::{Elastic, HardeningCurve, HardeningPoint, StressMeasure};
+use asperity_numerics::lanes::{Lanes, Real};
 
 /// Elastic constants and, for a material that yields, its hardening curve; all in one unit of stress; a run takes E = 1.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,7 +1,7 @@
 //! The two small arrays everything is written in. Both live in the (r, z) plane plus the hoop direction θ;
 //! in plane strain r reads x and θ the direction out of the plane.
 
-use asperity_law::real::Real;
+use asperity_numerics::lanes::Real;
 
 /// A symmetric tensor: components rr, zz, θθ, rz; of one point, or of several side by side.
 pub type Sym<T = f64> = [T; 4];

@@ -1,9 +1,9 @@
 //! The mesh of a converged state where it is now, cut into flat facets fine enough for smooth contours.
 
-use crate::units::{MEGAPASCAL, MICROMETRE};
+use crate::results::units::{MEGAPASCAL, MICROMETRE};
 use asperity_mesh::{Edge, Mesh};
+use asperity_simulation::run::FieldFrame;
 use asperity_solver::element::{quad4, quad8};
-use asperity_solver::run::crush::FieldFrame;
 
 /// Fields of a facet: von Mises stress, hydrostatic pressure (MPa), accumulated plastic strain.
 pub type Values = [f64; 3];

@@ -2,11 +2,11 @@
 
 use super::deformed_mesh::DeformedMesh;
 use super::window::{AsperityRow, Reach, Window};
-use crate::units::{MEGAPASCAL, MICROMETRE};
+use crate::results::units::{MEGAPASCAL, MICROMETRE};
 use asperity_mesh::profile::Asperity;
+use asperity_simulation::run::FieldFrame;
+use asperity_simulation::scene::{Scene, Symmetry, ToolForm};
 use asperity_solver::contact::tool::Tool;
-use asperity_solver::run::crush::FieldFrame;
-use asperity_solver::scene::{Scene, Symmetry, ToolForm};
 
 /// The tool and the body of one converged state, ready to be drawn. Lengths in µm, stresses in MPa.
 pub struct Section {

@@ -2,14 +2,14 @@
 
 use super::*;
 use crate::input::toml_file::TomlFile;
-use crate::units::MEGAPASCAL;
-use asperity_solver::run::crush::{Event, FieldFrame, run};
-use asperity_solver::run::record::Phase;
-use asperity_solver::scene::Scene;
+use crate::results::units::MEGAPASCAL;
+use asperity_simulation::record::rows::Phase;
+use asperity_simulation::run::{Event, FieldFrame, run};
+use asperity_simulation::scene::Scene;
 use std::ops::ControlFlow;
 
 fn peak(change: &str) -> (Scene, FieldFrame) {
-    let text = include_str!("../../../scenes/single-asperity.toml").replace("\"standard\"", "\"draft\"");
+    let text = crate::scenes::SINGLE_ASPERITY.replace("\"standard\"", "\"draft\"");
     let overrides = ["output.every=100000", change].map(String::from);
     let scene: Scene = TomlFile::parse("scene.toml".as_ref(), text, &overrides).unwrap().value;
     let mut peak = None;

@@ -1,0 +1,146 @@
+//! `report.html` of one crush.
+
+use super::plot::{contact_charts, titled_chart};
+use super::{Crush, Sketch};
+use crate::error::Error;
+use crate::input::toml_file::to_toml;
+use crate::page::format::{rounded, significant};
+use crate::page::{self, Numbers, Report};
+use crate::results::crush_summary::per_length;
+use crate::results::units::file_name;
+use asperity_simulation::scene::Symmetry;
+use maud::{Markup, html};
+
+impl Crush {
+    /// The run as one page that stands alone: what was found and how exactly, what to beware of, curves that tell their values.
+    ///
+    /// # Errors
+    /// A drawing that fails.
+    pub fn report(&self) -> Result<String, Error> {
+        let (summary, scene) = (&self.summary, &self.summary.scene);
+        let [area, pressure] = contact_charts(scene.symmetry, &self.curve);
+        let section = self.section(&Sketch::PEAK)?;
+        let sections = html! {
+            h2 { "Numbers" }
+            (self.numbers()?)
+            h2 { "Curves" }
+            (page::chart(&titled_chart(summary, &self.curve), &self.finding(), "Force against depth; the band is the stated error.")?)
+            (page::chart(&area, "Contact against depth, loading and unloading.", "The contact, projected along the axis of the tool.")?)
+            (page::chart(&pressure, "Mean pressure against depth, loading and unloading.", "Force over contact.")?)
+            @if let Some(svg) = section {
+                h2 { "Section at the peak" }
+                (page::drawing(
+                    &svg,
+                    "Section of the deformed body with the pressure of the tool, and stress and plastic strain in colour.",
+                    "The body at the peak of the loading.",
+                ))
+            }
+            @if !self.cycles.is_empty() {
+                h2 { "Cycles" }
+                (self.cycle_table())
+            }
+            h2 { "How it was computed" }
+            p {
+                (summary.elements) " elements, " (summary.dofs) " unknowns, " (summary.increments) " increments, "
+                (summary.newton_iterations) " Newton iterations; " (summary.cutbacks) " increments were halved, the body was remeshed "
+                (summary.meshed_anew) " times; " (significant(summary.wall_s)) " s."
+            }
+        };
+        let about = format!(
+            "One scene crushed; accuracy {}, which is to keep forces within {} %",
+            scene.accuracy,
+            100.0 * scene.accuracy.promise()
+        );
+        let report = Report {
+            title: "A crush",
+            about: &about,
+            verdict: &self.finding(),
+            warnings: &summary.warnings(),
+            sections,
+            inputs: &[("The scene, to run it again", to_toml(scene).map_err(Error::Unfinished)?)],
+        };
+        Ok(report.html())
+    }
+
+    /// The result in a sentence.
+    fn finding(&self) -> String {
+        let (summary, per) = (&self.summary, per_length(self.summary.scene.symmetry));
+        let end = match &summary.stopped {
+            Some(reason) => format!("The run {reason}. What it reached: "),
+            None => String::new(),
+        };
+        let bound = Some(summary.errors.force).filter(|error| error.is_finite());
+        let bound = bound
+            .map_or("its error is not known".into(), |error| format!("within {} %", rounded(100.0 * error)));
+        let back = match (summary.residual_depth_um, summary.elastic_fraction) {
+            (Some(residual), Some(fraction)) => format!(
+                "; unloaded, {} µm of depth stay and {} % of the work came back",
+                significant(residual),
+                significant(100.0 * fraction)
+            ),
+            _ => String::new(),
+        };
+        format!(
+            "{end}{} N{per} ({bound}) at a depth of {} µm{back}.",
+            significant(summary.peak_force_N),
+            significant(summary.peak_depth_um)
+        )
+    }
+
+    /// The numbers of the summary with their errors.
+    fn numbers(&self) -> Result<Markup, Error> {
+        let symmetry = self.summary.scene.symmetry;
+        let numbers = Numbers::of(&self.summary)?;
+        let per = per_length(symmetry);
+        let [newton, joule, stiff] = ["N", "µJ", "N/µm"].map(|unit| format!(" {unit}{per}"));
+        let contact = match symmetry {
+            Symmetry::Axisymmetric => ["Contact area at the peak", " µm²"],
+            Symmetry::PlaneStrain => ["Contact width at the peak", " µm"],
+        };
+        let line = |name: &str, key: &str, scale: f64, unit: &str, error: Option<[&str; 2]>| {
+            let value = numbers.shown(&format!("/{}", file_name(key, symmetry)), scale, unit);
+            let error = error.map(|[key, of]| numbers.error(&format!("/errors/{key}"), of));
+            vec![html! { (name) }, value, error.unwrap_or_default()]
+        };
+        let bound = |key| Some([key, ""]);
+        let stays = Some(["residual_depth", " of the depth"]);
+        let returned = Some(["elastic_fraction", " of the work"]);
+        let mut rows = vec![
+            line("Force at the peak", "peak_force_N", 1.0, &newton, bound("force")),
+            line("Depth at the peak", "peak_depth_um", 1.0, " µm", None),
+            line(contact[0], "contact_area_um2", 1.0, contact[1], bound("contact_area")),
+            line("Work done to the peak", "total_work_uJ", 1.0, &joule, None),
+            line("Plastic work", "plastic_work_uJ", 1.0, &joule, None),
+        ];
+        if self.summary.residual_depth_um.is_some() {
+            let stiffness = "unloading_stiffness_N_per_um";
+            rows.extend([
+                line("Depth that stays after unloading", "residual_depth_um", 1.0, " µm", stays),
+                line("Stiffness of unloading", stiffness, 1.0, &stiff, bound("unloading_stiffness")),
+                line("Work returned", "elastic_work_uJ", 1.0, &joule, None),
+                line("Share of the work returned", "elastic_fraction", 100.0, " %", returned),
+            ]);
+        }
+        rows.push(line("Work less energies", "energy_balance_error", 100.0, " % of the work", None));
+        let caption =
+            "Errors are bounds against the limit of fine meshes and steps, meant to hold in 95 % of scenes.";
+        Ok(page::table(caption, &["quantity", "value", "error below"], &rows))
+    }
+
+    fn cycle_table(&self) -> Markup {
+        let per = per_length(self.summary.scene.symmetry);
+        let row = |c: &super::CycleRow| {
+            let [force, residual, lost] =
+                [c.peak_force_N, c.residual_depth_um, c.hysteresis_uJ].map(significant);
+            vec![html! { (c.cycle) }, html! { (force) }, html! { (residual) }, html! { (lost) }]
+        };
+        let head = [
+            "cycle".to_string(),
+            format!("peak force, N{per}"),
+            "residual depth, µm".into(),
+            format!("work lost, µJ{per}"),
+        ];
+        let rows: Vec<_> = self.cycles.iter().map(row).collect();
+        page::table("The first loading, then the reloads.", &head.each_ref().map(String::as_str), &rows)
+    }
+}

@@ -1,5 +1,0 @@
-//! The asperity command line.
-
-fn main() -> std::process::ExitCode {
-    asperity::cli::main()
-}

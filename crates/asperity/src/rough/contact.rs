@@ -1,0 +1,208 @@
+//! A rough surface pressed by every closure that its scene asks for.
+
+use super::summary::{ClosureSummary, Summary};
+use super::table::{LoadPoint, TableRow};
+use crate::error::Error;
+use crate::results::units::MICROMETRE;
+use crate::rough::closure_contact::{Body, ClosureContact, Spaces, judge, press_by};
+use crate::rough::rough_scene::RoughScene;
+use asperity_roughness::scene::{Scene, SceneError};
+use asperity_roughness::{Closure, Surface};
+use std::fmt::Write;
+use std::time::Instant;
+
+/// Points of a map up to which closures are judged and a spectrum is written unless the scene says otherwise.
+pub(super) const MODEST: usize = 1024 * 1024;
+
+/// A rough surface pressed by every closure that its scene asks for.
+#[derive(Debug)]
+pub struct Rough {
+    /// One row per closure: `table.csv`.
+    pub table: Vec<TableRow>,
+    /// From first touch to the load and back: `load_curve.csv`.
+    pub load_curve: Vec<LoadPoint>,
+    /// The surface and every closure: `summary.json`.
+    pub summary: Summary,
+    /// The surface as pressed, levelled and filtered.
+    pub surface: Surface,
+    /// The contacts with their islands and pressures, one per row of the table.
+    pub contacts: Vec<ClosureContact>,
+}
+
+/// How far a press has come.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Progress {
+    /// Share of the work that is done, 0 to 1.
+    pub share: f64,
+    /// The closure that comes next.
+    pub closure: Closure,
+}
+
+/// Presses a rigid plane on the surface of `scene` by every closure that it asks for.
+///
+/// `observer` is asked before each closure; `false` ends the run, which keeps the closures that were done.
+///
+/// # Errors
+/// A scene that makes no sense, a surface that cannot be read, a closure without its material or its calibration, a
+/// load that the surface cannot carry. Of a scene with all closures those that cannot be used are warnings.
+pub fn press(scene: &RoughScene, observer: &mut dyn FnMut(&Progress) -> bool) -> Result<Rough, Error> {
+    let start = Instant::now();
+    scene.validate()?;
+    let coefficient = scene.coefficient()?;
+    let tables = scene.tables();
+    let surface = tables.surface.prepare(|path| scene.resolve(path)).map_err(|e| scene.error(&e))?;
+    let name = scene.surface_name();
+    let mut summary = Summary::new(&name, &surface, tables);
+    let mut contacts = Vec::new();
+    let mut spaces = Spaces::default();
+    let closures = tables.closure.closures();
+    for (i, &closure) in closures.iter().enumerate() {
+        if !observer(&Progress { share: i as f64 / closures.len() as f64, closure }) {
+            summary.warnings.push(format!("stopped before closure \"{}\"", closure.name()));
+            break;
+        }
+        let (contact, warnings) = press_by(closure, scene, &surface, coefficient.as_ref(), &mut spaces)?;
+        summary.warnings.extend(warnings);
+        contacts.extend(contact);
+    }
+    if tables.judge.unwrap_or(surface.map.heights().len() <= MODEST) {
+        judge(&mut contacts, scene, &surface, &mut spaces);
+    }
+    if contacts.is_empty() && summary.warnings.iter().all(|w| w.starts_with("skipped")) {
+        let message = "no closure can be used with this material: add hardness or yield_stress";
+        return Err(scene.error(&SceneError::new("closure", message)).into());
+    }
+    if tables.fluid.is_some() && !closures.iter().any(|closure| closure.is_half_space()) {
+        let text = "[fluid] is not used: closures of islands leave no gap that can leak; add closure \"half-space\" or \"half-space-plastic\"";
+        summary.warnings.push(text.into());
+    }
+    summary.warnings.extend(two_materials(tables));
+    summary.warnings.extend(doubts(&surface, tables));
+    let table: Vec<TableRow> = contacts.iter().map(|one| TableRow::new(&name, &surface, one)).collect();
+    summary.closures =
+        table.iter().zip(&contacts).map(|(row, one)| ClosureSummary::new(row.clone(), one)).collect();
+    let load_curve = contacts.iter().flat_map(LoadPoint::curve).collect();
+    summary.wall_s = start.elapsed().as_secs_f64();
+    let mut rough = Rough { table, load_curve, summary, surface, contacts };
+    rough.summary.verdict = rough.verdict();
+    Ok(rough)
+}
+
+/// A hardness that is not that of the yield stress.
+fn two_materials(scene: &Scene) -> Option<String> {
+    let ratio = scene.material.hardness?.0 / (3.0 * scene.material.yield_stress?.0);
+    let text = format!("hardness is {ratio:.2} times 3 yield_stress (eq. 20 says 1): two different metals?");
+    (!(0.8..=1.25).contains(&ratio)).then_some(text)
+}
+
+/// The largest step across the seam of a periodic map, over that between neighbours, that is taken without a word.
+const SEAM: f64 = 4.0;
+/// Standard deviations above the mean beyond which the highest point looks like an error of measurement.
+const SPIKE: f64 = 8.0;
+
+/// Mean slopes (degrees) beyond which a map looks like one in the wrong unit: lapped and polished surfaces lie above the lower, ground
+/// and blasted ones below the upper.
+const SLOPES: [f64; 2] = [0.02, 45.0];
+
+/// Doubts about the surface and the load.
+fn doubts(surface: &Surface, scene: &Scene) -> Vec<String> {
+    let seam = surface.seam().filter(|ratio| *ratio > SEAM).map(|ratio| {
+        format!(
+            "surface.periodic: the steps across the seam are {ratio:.0} times those between neighbours: the map is no period of a \
+             surface; leave periodic out, and it stands free"
+        )
+    });
+    let parameters = &surface.parameters;
+    let above = surface.extent.high - parameters.mean;
+    let spike = Some(above / parameters.sq).filter(|ratio| *ratio > SPIKE).map(|ratio| {
+        format!(
+            "the highest point is {ratio:.0} standard deviations above the mean: if it is dust or an error of measurement, the first \
+             touch and all at light loads are its own; remove it (surface.outliers = 8), or smooth with s_filter"
+        )
+    });
+    let [flat, steep] = SLOPES;
+    let unit = Some(parameters.beta_deg()).filter(|beta| *beta > 0.0 && !(flat..=steep).contains(beta)).map(|beta| {
+        format!(
+            "the mean slope is {beta:.3} deg; machined surfaces have {flat} to {steep}: look whether height_unit and pixel_size are right"
+        )
+    });
+    let apart = scene.load.separation.filter(|s| s.0 > above).map(|s| {
+        format!(
+            "load.separation = {s} is above the highest point ({:.4} um above the mean): nothing touches",
+            above / MICROMETRE
+        )
+    });
+    [seam, spike, unit, apart].into_iter().flatten().collect()
+}
+
+impl Rough {
+    /// The contact by one closure; `None` where the scene does not ask for it or it could not be used.
+    pub fn contact(&self, closure: Closure) -> Option<&ClosureContact> {
+        self.contacts.iter().find(|one| one.closure == closure)
+    }
+
+    /// Distance of plane and surface at each node, m, row by row: 0 in contact, NaN where nothing was measured or the closure has
+    /// no contact. On a half-space the surface is the deformed one; closures with islands move no metal beside them, so there
+    /// it is the surface before it was pressed.
+    pub fn gap(&self, one: &ClosureContact) -> Vec<f64> {
+        let heights = self.surface.map.heights();
+        match &one.body {
+            Body::Islands(islands) => {
+                let plane = self.surface.parameters.mean + islands.contact.separation;
+                // a maximum that lets a missing height through
+                heights.iter().map(|z| if plane - z < 0.0 { 0.0 } else { plane - z }).collect()
+            }
+            Body::HalfSpace(space) => space.contact.gaps.iter().map(|gap| f64::from(*gap)).collect(),
+            Body::Failed(_) => vec![f64::NAN; heights.len()],
+        }
+    }
+
+    /// The text of summary.json.
+    ///
+    /// # Errors
+    /// None that is known: every summary is JSON.
+    pub fn json(&self) -> Result<String, Error> {
+        crate::results::output::sorted_json(&self.summary)
+    }
+
+    /// The table for a person.
+    pub fn text(&self) -> String {
+        let s = &self.summary;
+        let ([nx, ny], [dx, dy]) = (s.pixels, s.pixel_size_um);
+        let mut text = format!(
+            "{}: {nx} x {ny} points of {dx:.4} x {dy:.4} um, {} missing{}; Sa {:.4} um, Sq {:.4} um, Sdq {:.4}, beta {:.3} deg (mean |grad h|)\n",
+            s.surface,
+            s.missing,
+            if s.outliers > 0 { format!(", {} outliers", s.outliers) } else { String::new() },
+            s.sa_um,
+            s.sq_um,
+            s.sdq,
+            s.beta_deg,
+        );
+        text += "closure              A/A0 %   P_m MPa     psi  peak/nom  separation um  asperities  residual um  elastic energy  A/A_hs\n";
+        let shown = |v: Option<f64>, digits: usize| {
+            v.filter(|v| v.is_finite()).map_or_else(|| "-".into(), |v| format!("{v:.digits$}"))
+        };
+        for row in &self.table {
+            let _ = writeln!(
+                text,
+                "{:<18} {:>8} {:>9} {:>7} {:>9} {:>14} {:>11} {:>12} {:>15} {:>7}",
+                row.closure.name(),
+                shown(Some(100.0 * row.contact_area_ratio), 3),
+                shown(row.mean_pressure_MPa, 1),
+                shown(row.plasticity_index, 3),
+                shown(row.max_pressure_over_nominal, 2),
+                shown(Some(row.separation_um), 4),
+                row.asperities.map_or_else(|| "-".into(), |n| n.to_string()),
+                shown(row.residual_displacement_um, 4),
+                shown(row.elastic_energy_share, 3),
+                shown(row.area_over_half_space, 3),
+            );
+        }
+        if let Some(verdict) = self.verdict() {
+            text += &verdict;
+            text.push('\n');
+        }
+        text
+    }
+}

@@ -1,0 +1,131 @@
+//! Rows of `table.csv` and `load_curve.csv`.
+
+#![expect(non_snake_case, reason = "a name ends in its unit, as in the files")]
+
+use crate::crush::Phase;
+use crate::results::output::{nan_for_null, row};
+use crate::results::units::{MEGAPASCAL, MICROMETRE};
+use crate::rough::closure_contact::ClosureContact;
+use asperity_roughness::{Closure, CurvePoint, Surface};
+
+row! {
+    /// A row of `table.csv`: one closure at the load. Shares are of the contact area.
+    TableRow(name: &str, surface: &Surface, one: &ClosureContact) {
+        /// Name of the surface.
+        surface: String = name.into(),
+        /// The closure.
+        closure: Closure = one.closure,
+        /// Sa of the map, µm.
+        ra_um: f64 = surface.parameters.sa / MICROMETRE,
+        /// atan of the mean |∇h|, degrees.
+        beta_deg: f64 = surface.parameters.beta_deg(),
+        /// Load over contact area, MPa; none without contact.
+        mean_pressure_MPa: Option<f64> = one.mean_pressure().map(|p| p / MEGAPASCAL),
+        /// Contact area over nominal area; NaN where `status` says why.
+        #[serde(deserialize_with = "nan_for_null")]
+        contact_area_ratio: f64 = one.area_ratio().unwrap_or(f64::NAN),
+        /// Elastic pressure of the closure at the mean slope over hardness (eq. (13)).
+        plasticity_index: Option<f64> = one.plasticity_index,
+        /// Elastic share.
+        elastic_share: Option<f64> = share(one, 0),
+        /// Elastoplastic share.
+        elastoplastic_share: Option<f64> = share(one, 1),
+        /// Plastic share.
+        plastic_share: Option<f64> = share(one, 2),
+        /// Largest pressure on a pixel over nominal pressure.
+        max_pressure_over_nominal: Option<f64> = one.peak_ratio().filter(|_| one.area_ratio() > Some(0.0)),
+        /// The plane above the mean height, µm.
+        #[serde(deserialize_with = "nan_for_null")]
+        separation_um: f64 =
+            one.either(|i| i.contact.separation, |s| s.contact.separation).unwrap_or(f64::NAN) / MICROMETRE,
+        /// |ΣF_j/(P A_nom) - 1|; none where no pressure was asked for.
+        load_error: Option<f64> = one.either(|i| i.contact.load_error, |s| s.load_error(one.nominal)).flatten(),
+        /// Islands in contact; patches of pixels on a half-space.
+        asperities: Option<usize> = one.either(|i| i.contact.islands.islands.len(), |s| s.patches),
+        /// Displacement that stays after unloading, µm.
+        residual_displacement_um: Option<f64> = one
+            .either(
+                |i| i.unloading.as_ref().map(|u| u.residual_displacement),
+                |s| s.unloading.as_ref().map(|u| u.residual_displacement),
+            )
+            .flatten()
+            .map(|u| u / MICROMETRE),
+        /// Work returned over work done.
+        elastic_energy_share: Option<f64> = one
+            .either(
+                |i| i.unloading.as_ref().and_then(|u| u.elastic_share),
+                |s| s.unloading.as_ref().and_then(|u| u.elastic_share),
+            )
+            .flatten(),
+        /// Contact area ratio, corrected for the perimeter of the pixels (Yastrebov et al. 2017).
+        contact_area_ratio_corrected: Option<f64> = one.space().map(|s| s.contact.area.corrected),
+        /// Uncertainty of the corrected ratio.
+        area_error: Option<f64> = one.space().map(|s| s.contact.area.error),
+        /// Residual of the complementarity conditions of the half-space.
+        residual: Option<f64> = one.space().map(|s| s.contact.residual),
+        /// Mean distance of plane and surface, µm.
+        mean_gap_um: Option<f64> = one.space().map(|s| s.contact.mean_gap / MICROMETRE),
+        /// Normal contact stiffness per unit of area, -dp/d(mean gap), MPa/µm.
+        stiffness_MPa_per_um: Option<f64> =
+            one.space().and_then(|s| s.contact.stiffness).map(|k| k / MEGAPASCAL * MICROMETRE),
+        /// Whether an open path crosses the map along x.
+        percolates_x: Option<bool> = one.space().map(|s| s.passages[0].narrowest.is_some()),
+        /// The same along y.
+        percolates_y: Option<bool> = one.space().map(|s| s.passages[1].narrowest.is_some()),
+        /// Gap of the critical constriction along x, µm.
+        critical_gap_x_um: Option<f64> =
+            one.space().and_then(|s| s.passages[0].narrowest).map(|c| c.gap / MICROMETRE),
+        /// The same along y.
+        critical_gap_y_um: Option<f64> =
+            one.space().and_then(|s| s.passages[1].narrowest).map(|c| c.gap / MICROMETRE),
+        /// Volumetric flow rate times viscosity over pressure difference along x, m³; 0 where tight, none where not asked for.
+        leak_x_m3: Option<f64> = one.space().and_then(|s| s.leak(0)),
+        /// The same along y.
+        leak_y_m3: Option<f64> = one.space().and_then(|s| s.leak(1)),
+        /// Gap between parallel planes that leak as much along x, µm.
+        hydraulic_gap_x_um: Option<f64> =
+            one.space().and_then(|s| s.passages[0].leak).map(|l| l.hydraulic_gap / MICROMETRE),
+        /// The same along y.
+        hydraulic_gap_y_um: Option<f64> =
+            one.space().and_then(|s| s.passages[1].leak).map(|l| l.hydraulic_gap / MICROMETRE),
+        /// Area over that of the half-space with the same metal.
+        area_over_half_space: Option<f64> = one.judged.map(|j| j[0]),
+        /// Mean pressure over that of the half-space with the same metal.
+        pressure_over_half_space: Option<f64> = one.judged.map(|j| j[1]),
+        /// `ok`, or why there are no numbers.
+        status: String = one.status().into(),
+    }
+}
+
+/// Share of the contact area in a regime; none where no hardness tells the regimes apart.
+fn share(one: &ClosureContact, regime: usize) -> Option<f64> {
+    one.shares().map(|shares| shares[regime])
+}
+
+row! {
+    /// A row of `load_curve.csv`: 64 points a closure from first touch to the load, and as many back; up to 9 of a half-space.
+    #[derive(Copy)]
+    LoadPoint(closure: Closure, phase: Phase, point: &CurvePoint) {
+        /// The closure.
+        closure: Closure = closure,
+        /// Whether the plane goes down or up.
+        phase: Phase = phase,
+        /// The plane above the mean height, µm.
+        separation_um: f64 = point.separation / MICROMETRE,
+        /// Nominal pressure, MPa.
+        pressure_MPa: f64 = point.pressure / MEGAPASCAL,
+        /// Contact area over nominal area.
+        contact_area_ratio: f64 = point.area_ratio,
+    }
+}
+
+impl LoadPoint {
+    /// Both phases of a contact.
+    pub(super) fn curve(one: &ClosureContact) -> impl Iterator<Item = LoadPoint> {
+        let point = |phase: Phase| move |p: &CurvePoint| LoadPoint::new(one.closure, phase, p);
+        one.curve()
+            .iter()
+            .map(point(Phase::Load))
+            .chain(one.unloading_curve().iter().map(point(Phase::Unload)))
+    }
+}

@@ -1,0 +1,174 @@
+//! The sentence at the end of a run: area, the closure to believe, gap, and whether and how much it leaks.
+
+use super::half_space::SpaceContact;
+use crate::page::format::{rounded, significant};
+use crate::results::units::{MEGAPASCAL, MICROMETRE};
+use crate::rough::closure_contact::ClosureContact;
+use crate::rough::contact::Rough;
+use asperity_roughness::Closure;
+use asperity_roughness::flow::Axis;
+use asperity_roughness::half_space::Area;
+use asperity_roughness::scene::Fluid;
+use std::fmt::Write;
+
+/// A closure whose area is nearer than this to the half-space's may be believed.
+const BELIEVED: f64 = 0.1;
+/// Relative error of the half-space's area above which it is no measure of closures: half of what they may be off.
+const KNOWN: f64 = 0.05;
+/// Share of a closure's load outside its range above which an area that fits is chance.
+const OUTSIDE: f64 = 0.2;
+
+impl Rough {
+    /// The verdict of the half-space, in words, or the load that could be carried where no closure of islands carries that asked
+    /// for; `None` where there is neither.
+    pub fn verdict(&self) -> Option<String> {
+        let said = [self.of_half_space(), overload(&self.contacts)];
+        let said: Vec<String> = said.into_iter().flatten().collect();
+        (!said.is_empty()).then(|| said.join(" "))
+    }
+
+    fn of_half_space(&self) -> Option<String> {
+        let best = self
+            .contact(Closure::HalfSpacePlastic)
+            .filter(|one| one.space().is_some())
+            .or_else(|| self.contact(Closure::HalfSpace))?;
+        let space = best.space()?;
+        let area = &space.contact.area;
+        let mut text = format!(
+            "{}: true contact on {:.3} ± {:.3} % of the area",
+            best.name(),
+            100.0 * area.corrected,
+            100.0 * area.error
+        );
+        if let (Some(limit), Some(slope)) = (space.body.limit, space.limit_slope_deg()) {
+            let _ = write!(
+                text,
+                "; no point bears more than {:.0} MPa, the plateau of the atlas of cones at the {slope:.1}° of the patches",
+                limit / MEGAPASCAL
+            );
+        }
+        if let Some(belief) = belief(&self.contacts, area) {
+            let _ = write!(text, "; {belief}");
+        }
+        let _ = write!(text, "; mean gap {} µm", short(space.contact.mean_gap / MICROMETRE));
+        for (k, axis) in [Axis::X, Axis::Y].into_iter().enumerate() {
+            let _ = write!(text, "; {}", passage(space, k, axis, self.summary.scene.fluid.as_ref()));
+        }
+        text.push('.');
+        Some(text)
+    }
+}
+
+/// The load that could be carried, where no closure of islands carries that asked for.
+fn overload(contacts: &[ClosureContact]) -> Option<String> {
+    let islands = || contacts.iter().filter(|one| !one.closure.is_half_space());
+    if islands().any(|one| one.islands().is_some()) {
+        return None;
+    }
+    let loads = islands().filter_map(|one| Some((one.name(), one.largest_load?)));
+    let (name, largest) = loads.max_by(|a, b| a.1.total_cmp(&b.1))?;
+    Some(format!(
+        "No closure of islands carries the load; the most that one carries is {} MPa ({name}): try --set load.pressure=\"{} MPa\".",
+        significant(largest / MEGAPASCAL),
+        rounded(0.5 * largest / MEGAPASCAL)
+    ))
+}
+
+/// Which closure has the area of the half-space, or why that cannot be told.
+fn belief(contacts: &[ClosureContact], area: &Area) -> Option<String> {
+    let islands = contacts.iter().filter_map(|one| Some((one.name(), one.islands()?)));
+    let judged = islands.map(|(name, one)| Judged {
+        name,
+        ratio: one.contact.area_ratio / area.corrected,
+        outside: one.contact.outside_share.unwrap_or(0.0),
+    });
+    let judged: Vec<Judged> = judged.filter(|one| one.ratio.is_finite() && one.ratio > 0.0).collect();
+    judgement(&judged, area.error / area.corrected)
+}
+
+/// A closure beside the half-space.
+#[derive(Clone, Copy, Debug)]
+struct Judged {
+    name: &'static str,
+    /// Its area over the corrected one of the half-space.
+    ratio: f64,
+    /// Share of its load on islands outside the range that it was made for.
+    outside: f64,
+}
+
+/// The sentence on the closure whose area is nearest, where that of the half-space is known up to the share `error`.
+fn judgement(judged: &[Judged], error: f64) -> Option<String> {
+    let nearest = judged.iter().min_by(|a, b| a.ratio.ln().abs().total_cmp(&b.ratio.ln().abs()))?;
+    let Judged { name, ratio, outside } = *nearest;
+    let off = 100.0 * (ratio - 1.0);
+    if error > KNOWN {
+        return Some(format!(
+            "which closure to believe cannot be judged here: that area is uncertain by {:.0} %, more than {:.0} % (measure finer, or smooth \
+             with s_filter; the nearest, {name}, has an area {off:+.0} % off)",
+            100.0 * error,
+            100.0 * KNOWN
+        ));
+    }
+    if (ratio - 1.0).abs() > BELIEVED {
+        return Some(format!(
+            "believe none of the closures here (the nearest, {name}, has an area {off:+.0} % off)"
+        ));
+    }
+    if outside > OUTSIDE {
+        return Some(format!(
+            "which closure to believe cannot be judged here: the nearest, {name}, has an area {off:+.0} % off, but {:.0} % of its load is on \
+             asperities outside the range that it was made for",
+            100.0 * outside
+        ));
+    }
+    Some(format!("of the closures believe {name} here (its area is {off:+.0} % off)"))
+}
+
+fn passage(space: &SpaceContact, k: usize, axis: Axis, fluid: Option<&Fluid>) -> String {
+    let name = if axis == Axis::X { "x" } else { "y" };
+    let Some(narrowest) = space.passages[k].narrowest else {
+        return format!("no open path crosses along {name}: tight there, as far as the pixels see");
+    };
+    let mut text = format!(
+        "an open path crosses along {name}, {} µm at its narrowest",
+        short(narrowest.gap / MICROMETRE)
+    );
+    if let Some(leak) = space.passages[k].leak {
+        let _ = write!(
+            text,
+            ", and leaks {:.2e} m³ × pressure difference / viscosity, as parallel planes {} µm apart",
+            leak.conductance,
+            short(leak.hydraulic_gap / MICROMETRE)
+        );
+        if let Some(fluid) = fluid {
+            let difference = fluid.pressures[0].0 - fluid.pressures[1].0;
+            let flux = leak.conductance * difference / fluid.viscosity.pascal_seconds;
+            let _ = write!(text, ": {flux:.2e} m³/s of this fluid");
+        }
+    }
+    text
+}
+
+/// Three digits.
+fn short(value: f64) -> String {
+    let digits = if value > 0.0 { (2.0 - value.log10().floor()).clamp(0.0, 9.0) as usize } else { 0 };
+    format!("{value:.digits$}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_closure_is_believed_only_where_area_and_range_allow() {
+        let one = |name, ratio, outside| Judged { name, ratio, outside };
+        let said = |ratio, outside, error| {
+            judgement(&[one("far", 2.0, 0.0), one("near", ratio, outside)], error).unwrap()
+        };
+        assert!(said(0.95, 0.0, 0.02).starts_with("of the closures believe near"));
+        assert!(said(0.8, 0.0, 0.02).starts_with("believe none"));
+        assert!(said(0.95, 0.0, 0.22).contains("uncertain by 22 %"));
+        assert!(said(0.95, 0.6, 0.02).contains("60 % of its load"));
+        assert_eq!(judgement(&[], 0.0), None);
+    }
+}

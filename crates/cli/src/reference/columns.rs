@@ -1,0 +1,128 @@
+//! Every column of every table and every key of every summary, from the types that write them.
+
+use super::markdown::{code, table, words};
+use asperity::calibrate::{AngleFit, Fit};
+use asperity::calibration::row::{CaseRow, Row};
+use asperity::calibration::sweep::Sweep;
+use asperity::crush::{
+    AsperityRow, CurveRow, CycleRow, Errors, GapRow, Instrument, Island, MeasuredOutline, Summary, SurfaceRow,
+};
+use asperity::extract;
+use asperity::output::{Column, Described};
+use asperity::rough;
+use asperity::trade::TradeRow;
+use asperity::units::plane_strain_name;
+use schemars::schema_for;
+
+const CRUSH: &str = "Lengths are in µm, forces in N, pressures in MPa, energies in µJ; in axisymmetry they are of the full body of \
+    revolution. In plane strain they are per millimetre of ridge, under the last name. A key that a scene gives no rise to, or that a \
+    run did not reach, is `null`.";
+
+const FOLDER: &str = "`asperity crush` also writes `curve.svg`, the force over the depth. With `[output] fields`: `fields.pvd` opens \
+    all increments in ParaView; `fields_NNNN.vtu` holds stress, displacement and the rest at the nodes, averaged from the integration \
+    points, and `plastic_zone` of each cell (0 never yielded, 1 has yielded, 2 yields in this increment); `section_NNNN.svg` \
+    shows them at the peak. A run that lasts keeps checkpoints beside its folder, in `DIR.journal`: after Ctrl-C or a kill the same \
+    command goes on from the last one, 30 seconds old at most, to the same bytes. They are removed when the run has ended.";
+
+const STUDY: &str = "`results.csv` has a row per run, in the order of the plan: the varied keys as the scene has them, every number of \
+    the run's summary under its key (those of a table behind its name and a point, `errors.force`; of a rough scene with several \
+    closures behind the closure's name, `sneddon.contact_area_ratio`), `status` (`ok`, or the reason why there is no result or not the \
+    whole one), and `curve`, the file of its curve, where curves are kept. A number that a run does not have is an empty cell. The \
+    bytes are the same on any number of threads, in parts, and after a stop. `times.csv` has the seconds of each run and the largest \
+    memory of its process until then. `study.svg` shows one result over one or two keys. `study.json` says what was varied, with the \
+    scene, and `study.journal` holds the finished runs, from which a study goes on.";
+
+const ROUGH: &str = "`contact.vti` holds the maps of all closures for ParaView, compressed, `pressure-CLOSURE.png` and `contact-CLOSURE.png` show them, \
+    `load_curve.svg` and `pressure_histogram.svg` compare the closures. `--table1 --out DIR` leaves `table1.txt`, the printed text, and \
+    `table1.json`: for each surface the row as printed (µm, degrees, MPa, %) and, for each closure, the values of the five seeds of \
+    every column.";
+
+const REPORT: &str = "`crush`, `calibrate`, `rough` and `identify` with `--report` leave `report.html` as well: a page that needs no \
+    network, with the numbers and their errors first, what to beware of, and curves that tell the value under the pointer.";
+
+/// The page.
+pub fn page() -> String {
+    let mut text = String::from(
+        "# Columns and keys of the results\n\nEvery folder of results holds text that any program reads: tables as CSV, summaries as JSON. \
+         Units stand in the names. `errors` and `force_error` are bounds meant for 95 % of scenes ([how often they hold](../verified/errors.md)), against this program's own \
+         limit of fine meshes and steps: see [errors](../theory/errors.md).\n\n",
+    );
+    text += &format!("{REPORT}\n\n## asperity crush\n\n{CRUSH}\n\n");
+    text += &of_crush::<CurveRow>("curve.csv", "a row per converged increment");
+    text += &of_crush::<Summary>("summary.json", "the numbers of the run");
+    text += &of_crush::<Errors>("summary.json: `errors`", "bounds of the errors");
+    text += &of_crush::<Instrument>(
+        "summary.json: `oliver_pharr`",
+        "an instrument's reading, under a cone or a sphere with unloading",
+    );
+    text += &of_crush::<MeasuredOutline>("summary.json: `outlines`", "what was made of a measured outline");
+    text += &of_crush::<Island>("summary.json: `elastic_islands`", "regions that never yielded");
+    text += &of_crush::<AsperityRow>("asperities.csv", "the share of each of several asperities");
+    text += &of_crush::<GapRow>("gaps.csv", "untouched surface between two contacts");
+    text +=
+        &of_crush::<CycleRow>("cycles.csv", "a row per loading with its unloading, where the scene reloads");
+    text += &of_crush::<SurfaceRow>(
+        "surface_NNNN.csv",
+        "the free surface, from the axis outward, with `[output] fields`; `surfaces.csv` holds those of all increments, with the number \
+         of the increment first",
+    );
+    text += &format!("{FOLDER}\n\n## asperity calibrate\n\n");
+    text += &of_cases();
+    text += &of::<Fit>("fit.json", "the representative strain and its coefficient");
+    text += &of::<AngleFit>("fit.json: `per_angle`", "one slope");
+    text += "`coefficient.toml` is what `asperity rough` reads; `collapse.svg` and `representative_strain.svg` show both.\n\n";
+    text += "## asperity rough\n\n";
+    text += &of::<rough::TableRow>("table.csv", "a row per closure");
+    text += &of::<rough::LoadPoint>("load_curve.csv", "the load curve of each closure");
+    text +=
+        &of::<rough::Summary>("summary.json", "the surface after levelling and filtering, and every closure");
+    text += &of::<rough::ClosureSummary>("summary.json: `closures`", "beside the columns of `table.csv`");
+    text += &format!("{ROUGH}\n\n## asperity extract\n\n");
+    text += &of::<extract::AsperityRow>("asperities.csv", "a row per asperity, from the highest summit down");
+    text += &of::<extract::ComparedRow>(
+        "compared.csv",
+        "a row per asperity, depth and closure, the finite elements among them",
+    );
+    text += &of::<extract::Summary>("summary.json", "the map and what was found on it");
+    text += &format!("## asperity study\n\n{STUDY}\n\n## asperity trade\n\n");
+    text += &of::<TradeRow>("trade.csv", "a row per setting");
+    text
+}
+
+fn heading(file: &str, about: &str) -> String {
+    let file = if file.contains('`') { file.to_string() } else { code(file) };
+    format!("### {file}\n\n{}{}.\n\n", about[..1].to_uppercase(), &about[1..])
+}
+
+/// Columns whose names do not depend on the symmetry. Tables inside have their own.
+fn of<T: Described>(file: &str, about: &str) -> String {
+    let shown = T::COLUMNS.iter().filter(|column| column.name != "row");
+    let rows = shown.map(|Column { name, about }| vec![code(name), words(about.trim())]);
+    heading(file, about) + &table(&["name", "meaning"], rows)
+}
+
+/// Columns with their names in plane strain, where they differ.
+fn of_crush<T: Described>(file: &str, about: &str) -> String {
+    let row = |Column { name, about }: &Column| {
+        let plane = plane_strain_name(name);
+        let plane = if plane == *name { String::new() } else { code(&plane) };
+        vec![code(name), words(about.trim()), plane]
+    };
+    heading(file, about) + &table(&["name", "meaning", "in plane strain"], T::COLUMNS.iter().map(row))
+}
+
+/// `cases.csv`, whose order is that of the file.
+fn of_cases() -> String {
+    let schema = schema_for!(CaseRow).to_value();
+    let about =
+        |name: &str| schema["properties"][name]["description"].as_str().unwrap_or_default().to_string();
+    let head = Sweep::default().cases().first().map(|case| {
+        let row = CaseRow::from(&Row { case: *case, outcome: Err(String::new()), wall_s: 0.0 });
+        let mut table = csv::Writer::from_writer(Vec::new());
+        let bytes = table.serialize(row).ok().and_then(|()| table.into_inner().ok()).unwrap_or_default();
+        String::from_utf8_lossy(&bytes).lines().next().unwrap_or_default().to_string()
+    });
+    let head = head.unwrap_or_default();
+    let rows = head.split(',').map(|name| vec![code(name), words(&about(name))]);
+    heading("cases.csv", "a row per cone") + &table(&["name", "meaning"], rows)
+}

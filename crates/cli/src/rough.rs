@@ -1,0 +1,138 @@
+//! `asperity rough`: the contact of a rough surface with a rigid plane.
+
+use crate::extract::scene_of;
+use crate::flags::{ReportFlag, RunFlags};
+use crate::folder::{Folder, claim};
+use crate::progress::Progress;
+use crate::{interrupt, terminal};
+use asperity::error::Error;
+use asperity::output::Directory;
+use asperity::rough::{RoughScene, press, press_several};
+use asperity_paper::table1::table1;
+use clap::Args;
+use std::path::{Path, PathBuf};
+
+/// Arguments of `asperity rough`.
+#[derive(Debug, Args)]
+pub struct Rough {
+    /// Scene (TOML) or map of heights (.sur, .x3p, …); several of them give one table
+    #[arg(required_unless_present = "table1")]
+    pub scenes: Vec<PathBuf>,
+    /// Scene whose metal, load and treatment of the surface maps take [default: that of `asperity new rough`, under the load of `asperity new surface`]
+    #[arg(long, value_name = "SCENE", conflicts_with = "table1")]
+    pub like: Option<PathBuf>,
+    /// Print the paper's Table 1 beside ours: three generated surfaces, every closure; into files with --out or --report
+    #[arg(long, conflicts_with = "scenes")]
+    pub table1: bool,
+    /// Change a value of the file, for example --set "load.pressure=100 MPa"; repeatable
+    #[arg(long = "set", value_name = "KEY.PATH=VALUE", conflicts_with = "table1")]
+    pub overrides: Vec<String>,
+    /// Compare every closure with the half-space (default on maps of up to 1024 x 1024 points)
+    #[arg(long, conflicts_with_all = ["table1", "no_judge"])]
+    pub judge: bool,
+    /// Do not compare closures with the half-space
+    #[arg(long, conflicts_with = "table1")]
+    pub no_judge: bool,
+    #[command(flatten)]
+    pub page: ReportFlag,
+    #[command(flatten)]
+    pub run: RunFlags,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// Input that is wrong (nothing is written), or results that cannot be written.
+pub fn rough(args: &Rough) -> Result<(), Error> {
+    match &args.scenes[..] {
+        [] => whole_table(&args.page, &args.run),
+        [scene] => one_scene(scene, args),
+        scenes => several(scenes, args),
+    }
+}
+
+/// A scene, or a map in a scene like another.
+fn read(path: &Path, args: &Rough, quiet: bool) -> Result<RoughScene, Error> {
+    let mut overrides = args.overrides.clone();
+    if args.judge || args.no_judge {
+        overrides.push(format!("judge={}", args.judge));
+    }
+    scene_of(path, args.like.as_deref(), &overrides, quiet)
+}
+
+/// `asperity rough SCENE.toml`.
+fn one_scene(path: &Path, args: &Rough) -> Result<(), Error> {
+    let scene = read(path, args, args.run.quiet)?;
+    let rough = press(&scene, &mut |_| true)?;
+    let target = args.run.target(&scene.name());
+    let mut folder = Folder::create(&target, "rough", args.run.force)?;
+    rough.write(&mut folder)?;
+    args.page.write(&mut folder, || rough.report())?;
+    let target = folder.publish()?;
+    if !args.run.quiet {
+        rough.summary.warnings.iter().for_each(terminal::warn);
+    }
+    args.run.say(&target, || rough.json(), || rough.text())
+}
+
+/// `asperity rough A.x3p B.x3p …`: the results of each in a folder of its name, the tables of all beside them.
+fn several(paths: &[PathBuf], args: &Rough) -> Result<(), Error> {
+    // what is not said is told once
+    let quiet = |i: usize| args.run.quiet || i > 0;
+    let scenes = paths.iter().enumerate().map(|(i, path)| read(path, args, quiet(i)));
+    let scenes = scenes.collect::<Result<Vec<_>, _>>()?;
+    let target = args.run.target("rough");
+    let mark = claim(&target, "rough", args.run.force)?;
+    interrupt::catch();
+    let progress = Progress::new(args.run.quiet);
+    let done = press_several(
+        &scenes,
+        &mut |i, closure| {
+            let share = (i as f64 + closure.share) / scenes.len() as f64;
+            progress.show(share, || format!("{}  {}", scenes[i].name(), closure.closure.name()));
+            !interrupt::requested()
+        },
+        &mut |name, rough| {
+            let mut folder = Folder::create(&target.join(name), "rough", args.run.force)?;
+            rough.write(&mut folder)?;
+            args.page.write(&mut folder, || rough.report())?;
+            folder.publish()?;
+            if !args.run.quiet {
+                rough.summary.warnings.iter().for_each(|w| terminal::warn(&format!("{name}: {w}")));
+            }
+            Ok(())
+        },
+    )?;
+    progress.finish();
+    done.write(&mut Directory::create(&target)?)?;
+    drop(mark);
+    args.run.say(&target, || done.json(), || done.text())?;
+    let short = scenes.len() - done.surfaces.len() + done.failed().count();
+    if short > 0 {
+        let reason = format!(
+            "{short} of {} surfaces were not pressed; the others are in {}",
+            scenes.len(),
+            target.display()
+        );
+        return Err(Error::Unfinished(reason));
+    }
+    Ok(())
+}
+
+/// `asperity rough --table1`.
+fn whole_table(page: &ReportFlag, flags: &RunFlags) -> Result<(), Error> {
+    let kept = flags.out.is_some() || page.report;
+    let folder = kept.then(|| Folder::create(&flags.target("table1"), "rough", flags.force)).transpose()?;
+    let table = table1()?;
+    if let Some(mut folder) = folder {
+        table.write(&mut folder)?;
+        page.write(&mut folder, || table.report())?;
+        folder.publish()?;
+    }
+    if flags.json {
+        terminal::say(&table.json()?);
+    } else if !flags.quiet {
+        terminal::say(table.text().trim_end());
+    }
+    Ok(())
+}

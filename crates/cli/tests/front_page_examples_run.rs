@@ -1,0 +1,53 @@
+//! The examples of README.md run as they stand: the commands here, the Rust program as the example `front_page`, the Python one in the
+//! tests of the package.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+mod common;
+
+use assert_cmd::Command;
+use common::Place;
+use std::path::Path;
+
+fn readme() -> String {
+    std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("../../README.md")).unwrap()
+}
+
+/// The code blocks of the front page in `language`.
+fn blocks(language: &str) -> Vec<String> {
+    let fence = format!("```{language}\n");
+    readme().split(fence.as_str()).skip(1).map(|rest| rest.split("```").next().unwrap().to_string()).collect()
+}
+
+#[test]
+fn the_commands_of_the_front_page_run() {
+    let place = Place::with_scene("");
+    let block = blocks("sh").into_iter().find(|block| block.contains("asperity new")).unwrap();
+    for line in block.lines() {
+        let words: Vec<&str> = line.split_whitespace().collect();
+        assert_eq!(words[0], "asperity");
+        let end = place.run(&words[1..]);
+        assert_eq!(end.status, 0, "{line}: {}", end.err);
+    }
+    let summary: serde_json::Value = serde_json::from_str(&place.text("out/single/summary.json")).unwrap();
+    for error in ["force", "contact_area", "residual_depth"] {
+        assert!(summary["errors"][error].as_f64().is_some_and(|e| e > 0.0 && e < 0.1), "{error}");
+    }
+}
+
+#[test]
+fn the_rust_program_of_the_front_page_is_an_example_that_runs() {
+    let example = include_str!("../../asperity/examples/front_page.rs");
+    assert_eq!(
+        blocks("rust"),
+        [example.split_once("\n\nuse ").map(|(_, rest)| format!("use {rest}")).unwrap()]
+    );
+    let run = Command::new(env!("CARGO"))
+        .args(["run", "--release", "--quiet", "-p", "asperity", "--example", "front_page"])
+        .output()
+        .unwrap();
+    let printed = String::from_utf8(run.stdout).unwrap();
+    let force: f64 = printed.strip_suffix(" N\n").unwrap().parse().unwrap();
+    // the force of the paper's asperity at 5 um, from two other codes: 5.51 N
+    assert!((force / 5.51 - 1.0).abs() < 0.01, "{force}");
+}

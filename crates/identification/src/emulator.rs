@@ -1,0 +1,273 @@
+//! The answers of finite elements to one measurement between the metals that were computed: a trend, and a Gaussian process
+//! for what is left of it.
+//!
+//! The trend of a sharp cone is the atlas of cones, that of other tools a polynomial through a design of runs. Every further run
+//! draws the process to itself; where none is near, the process says how much may be left, and that is part of the
+//! covariance of the fit (Kennedy and O'Hagan, Biometrika 87 (2000) 1, with one run a level).
+
+use super::response::{Geometry, Question, Response, SHARES};
+use asperity_calibration::atlas::{Atlas, POISSONS_RATIO};
+use asperity_material::HardeningCurve;
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
+
+/// Plastic strain, over the slope of a cone, at which the metal of a cell of the atlas is as strong as the metal in question.
+const LIKENED: f64 = 0.13;
+
+/// A computed metal.
+#[derive(Clone, Debug)]
+struct Node {
+    place: Vec<f64>,
+    logarithms: Vec<f64>,
+    /// Relative error of the answer.
+    error: f64,
+}
+
+/// Mean function of the answers, where none is near.
+#[derive(Clone, Debug)]
+enum Trend {
+    Atlas,
+    Polynomial(Polynomial),
+}
+
+/// The answers to one measurement as a function of the metal.
+#[derive(Clone, Debug)]
+pub struct Emulator {
+    trend: Trend,
+    /// Lengths of the coordinates over which what is left of the trend varies.
+    lengths: Vec<f64>,
+    /// How much is left of the trend, one for each logarithm.
+    amplitudes: Vec<f64>,
+    nodes: Vec<Node>,
+    factor: Option<Cholesky<f64, Dyn>>,
+    weights: DMatrix<f64>,
+    /// Correction by a finer level, added to all of them.
+    lift: Vec<f64>,
+}
+
+/// The coordinates of a question: logarithms of E/σ_y, n (of a table: of E over stresses), ν, the law's E over that of the
+/// contact, tip over depth.
+pub fn place(question: &Question) -> Vec<f64> {
+    let curve = &question.metal.hardening;
+    let mut place = match curve {
+        HardeningCurve::Power(law) => vec![(question.modulus / law.yield_stress).ln(), law.exponent],
+        HardeningCurve::Table(_) => [0.0, 0.01, 0.03, 0.1, 0.3]
+            .iter()
+            .map(|strain| (question.modulus / curve.flow(*strain).yield_stress).ln())
+            .collect(),
+    };
+    place.push(question.metal.elastic.poissons_ratio);
+    place.push((question.metal.elastic.youngs_modulus / question.modulus).ln());
+    place.push((question.tip_radius / question.depth).max(1e-4).ln());
+    place
+}
+
+/// The slope of the cone that a tool is like, degrees.
+fn likened_slope(question: &Question) -> f64 {
+    match &question.geometry {
+        Geometry::Sharp { slope_deg } | Geometry::Rounded { slope_deg } => *slope_deg,
+        Geometry::Ball { radius } => (question.depth / (2.0 * radius)).sqrt().atan().to_degrees(),
+        Geometry::Crush { asperity } => asperity.slope_deg.unwrap_or_else(|| {
+            let radius = asperity.radius.map_or(1.0, |r| r.0);
+            (question.depth / (2.0 * radius)).sqrt().atan().to_degrees()
+        }),
+    }
+}
+
+/// The logarithms that the atlas has for a tool like the one in question.
+pub fn by_the_atlas(question: &Question) -> Vec<f64> {
+    let slope = likened_slope(question);
+    let tan = slope.to_radians().tan();
+    let curve = &question.metal.hardening;
+    let (first, strain) = (curve.yield_stress(), LIKENED * tan);
+    let over = question.modulus / first;
+    let exponent = (curve.flow(strain).yield_stress / first).ln() / (1.0 + over * strain).ln();
+    let nu = question.metal.elastic.poissons_ratio;
+    // a half space knows E and ν as E* nearly
+    let stiffer = (1.0 - POISSONS_RATIO * POISSONS_RATIO) / (1.0 - nu * nu);
+    let Some(atlas) = Atlas::committed() else { return vec![f64::NAN; 3] };
+    let found = atlas.at(slope, over * stiffer, exponent);
+    let shift = [stiffer.ln() - 2.0 * tan.ln(), stiffer.ln() - tan.ln()];
+    let loading = found[0] + shift[0];
+    let after = std::iter::once(found[1] + shift[1]).chain(found[2..].iter().copied());
+    match question.geometry {
+        Geometry::Sharp { .. } => std::iter::once(loading).chain(after).collect(),
+        // a ball presses with the square root of the depth less
+        _ => SHARES.iter().map(|share| loading - 0.9 * share.ln()).chain(after).collect(),
+    }
+}
+
+impl Emulator {
+    /// That of a sharp cone before any run of its own.
+    pub fn of_a_cone(outputs: usize, like_the_atlas: bool) -> Emulator {
+        let wide = if like_the_atlas { 1.0 } else { 2.0 };
+        let amplitudes = (0..outputs).map(|i| if i == 0 { 0.006 * wide } else { 0.015 * wide }).collect();
+        let lengths = vec![1.2, 0.25, 0.15, 0.5, 1.0];
+        Emulator::new(Trend::Atlas, lengths, amplitudes)
+    }
+
+    /// A polynomial through `runs`.
+    pub fn through(runs: &[(Vec<f64>, Response)]) -> Option<Emulator> {
+        let places: Vec<&[f64]> = runs.iter().map(|(place, _)| place.as_slice()).collect();
+        let values: Vec<&[f64]> = runs.iter().map(|(_, r)| r.logarithms.as_slice()).collect();
+        let (polynomial, left) = Polynomial::through(&places, &values)?;
+        let lengths = polynomial.widths.iter().map(|w| if *w > 0.0 { 0.8 * w } else { 1.0 }).collect();
+        let amplitudes = left.iter().map(|l| l.max(0.003)).collect();
+        let mut emulator = Emulator::new(Trend::Polynomial(polynomial), lengths, amplitudes);
+        for (place, response) in runs {
+            emulator.push(place.clone(), response);
+        }
+        emulator.renew();
+        Some(emulator)
+    }
+
+    fn new(trend: Trend, lengths: Vec<f64>, amplitudes: Vec<f64>) -> Emulator {
+        let (weights, lift) = (DMatrix::zeros(0, amplitudes.len()), vec![0.0; amplitudes.len()]);
+        Emulator { trend, lengths, amplitudes, nodes: Vec::new(), factor: None, weights, lift }
+    }
+
+    /// Adds the answer to a question.
+    pub fn add(&mut self, question: &Question, response: &Response) {
+        let trend = self.trend(question, &place(question));
+        let rest = response.logarithms.iter().zip(&trend).map(|(a, b)| a - b).collect();
+        let node = Response { logarithms: rest, ..response.clone() };
+        self.nodes.push(Node { place: place(question), logarithms: node.logarithms, error: node.errors[0] });
+        self.renew();
+    }
+
+    /// Shifts all that is expected so that it meets the answer of a finer level: levels differ by nearly the same share at metals
+    /// that are near each other.
+    pub fn meet(&mut self, question: &Question, response: &Response) {
+        let expected = self.at(question);
+        for ((lift, fine), coarse) in self.lift.iter_mut().zip(&response.logarithms).zip(expected) {
+            *lift += fine - coarse;
+        }
+    }
+
+    fn push(&mut self, place: Vec<f64>, response: &Response) {
+        let Trend::Polynomial(polynomial) = &self.trend else { return };
+        let trend = polynomial.at(&place);
+        let logarithms = response.logarithms.iter().zip(&trend).map(|(a, b)| a - b).collect();
+        self.nodes.push(Node { place, logarithms, error: response.errors[0] });
+    }
+
+    fn trend(&self, question: &Question, place: &[f64]) -> Vec<f64> {
+        match &self.trend {
+            Trend::Atlas => by_the_atlas(question),
+            Trend::Polynomial(polynomial) => polynomial.at(place),
+        }
+    }
+
+    fn correlation(&self, a: &[f64], b: &[f64]) -> f64 {
+        let square = |((a, b), l): ((&f64, &f64), &f64)| ((a - b) / l).powi(2);
+        (-0.5 * a.iter().zip(b).zip(&self.lengths).map(square).sum::<f64>()).exp()
+    }
+
+    fn renew(&mut self) {
+        let count = self.nodes.len();
+        let first = self.amplitudes.first().copied().unwrap_or(0.01);
+        let mut matrix = DMatrix::from_fn(count, count, |i, j| {
+            self.correlation(&self.nodes[i].place, &self.nodes[j].place)
+        });
+        for i in 0..count {
+            // half of a 95 % bound, and not less than what rounding takes
+            matrix[(i, i)] += (0.5 * self.nodes[i].error / first).powi(2).max(1e-6);
+        }
+        let rest = DMatrix::from_fn(count, self.amplitudes.len(), |i, j| self.nodes[i].logarithms[j]);
+        self.factor = matrix.cholesky();
+        self.weights =
+            self.factor.as_ref().map_or(DMatrix::zeros(count, self.amplitudes.len()), |f| f.solve(&rest));
+    }
+
+    /// The logarithms to be expected.
+    pub fn at(&self, question: &Question) -> Vec<f64> {
+        let place = place(question);
+        let mut value = self.trend(question, &place);
+        value.iter_mut().zip(&self.lift).for_each(|(v, lift)| *v += lift);
+        if self.factor.is_some() {
+            for (i, node) in self.nodes.iter().enumerate() {
+                let k = self.correlation(&place, &node.place);
+                for (j, v) in value.iter_mut().enumerate() {
+                    *v += k * self.weights[(i, j)];
+                }
+            }
+        }
+        value
+    }
+
+    /// Standard deviations of what may be left, of loading, slope and way back.
+    pub fn left(&self, question: &Question, loading: usize) -> [f64; 3] {
+        let place = place(question);
+        let k = DVector::from_fn(self.nodes.len(), |i, _| self.correlation(&place, &self.nodes[i].place));
+        let known = self.factor.as_ref().map_or(0.0, |factor| k.dot(&factor.solve(&k)));
+        let share = (1.0 - known).clamp(0.0, 1.0).sqrt();
+        let of = |i: usize| share * self.amplitudes.get(i).copied().unwrap_or(0.0);
+        [of(loading - 1), of(loading), of(loading + 1)]
+    }
+}
+
+/// A polynomial of the second degree, of the third where there are points for it, in the coordinates that vary.
+#[derive(Clone, Debug)]
+struct Polynomial {
+    middle: Vec<f64>,
+    /// Half widths; 0 of a coordinate that does not vary.
+    widths: Vec<f64>,
+    cubic: bool,
+    coefficients: DMatrix<f64>,
+}
+
+impl Polynomial {
+    fn through(places: &[&[f64]], values: &[&[f64]]) -> Option<(Polynomial, Vec<f64>)> {
+        let dimensions = places.first()?.len();
+        let end =
+            |i: usize, pick: fn(f64, f64) -> f64, from: f64| places.iter().map(|p| p[i]).fold(from, pick);
+        let (low, high): (Vec<f64>, Vec<f64>) = (0..dimensions)
+            .map(|i| (end(i, f64::min, f64::INFINITY), end(i, f64::max, f64::NEG_INFINITY)))
+            .unzip();
+        let middle = low.iter().zip(&high).map(|(l, h)| 0.5 * (l + h)).collect();
+        let widths: Vec<f64> =
+            low.iter().zip(&high).map(|(l, h)| if h - l > 1e-9 { 0.5 * (h - l) } else { 0.0 }).collect();
+        let mut polynomial = Polynomial { middle, widths, cubic: true, coefficients: DMatrix::zeros(0, 0) };
+        if 3 * places.len() < 5 * polynomial.terms(places[0]).len() {
+            polynomial.cubic = false;
+        }
+        let rows: Vec<Vec<f64>> = places.iter().map(|p| polynomial.terms(p)).collect();
+        let count = rows[0].len();
+        if places.len() <= count {
+            return None;
+        }
+        let matrix = DMatrix::from_fn(places.len(), count, |i, j| rows[i][j]);
+        let goal = DMatrix::from_fn(places.len(), values[0].len(), |i, j| values[i][j]);
+        let mut normal = matrix.tr_mul(&matrix);
+        for i in 0..count {
+            normal[(i, i)] += 1e-9;
+        }
+        polynomial.coefficients = normal.cholesky()?.solve(&matrix.tr_mul(&goal));
+        let rest = &goal - &matrix * &polynomial.coefficients;
+        let free = (places.len() - count) as f64;
+        let left = rest.column_iter().map(|c| (c.norm_squared() / free).sqrt()).collect();
+        Some((polynomial, left))
+    }
+
+    fn terms(&self, place: &[f64]) -> Vec<f64> {
+        let x: Vec<f64> = (0..place.len())
+            .filter(|&i| self.widths[i] > 0.0)
+            .map(|i| ((place[i] - self.middle[i]) / self.widths[i]).clamp(-1.5, 1.5))
+            .collect();
+        let mut terms = vec![1.0];
+        for i in 0..x.len() {
+            terms.push(x[i]);
+            for j in i..x.len() {
+                terms.push(x[i] * x[j]);
+                if self.cubic {
+                    terms.extend(x[j..].iter().map(|z| x[i] * x[j] * z));
+                }
+            }
+        }
+        terms
+    }
+
+    fn at(&self, place: &[f64]) -> Vec<f64> {
+        let terms = DVector::from_vec(self.terms(place));
+        self.coefficients.tr_mul(&terms).iter().copied().collect()
+    }
+}

@@ -1,0 +1,293 @@
+//! One measurement: what was measured, what the finite elements expect, and how far the two may differ.
+
+use super::emulator::{Emulator, by_the_atlas};
+use super::parameters::{Slot, Unknowns};
+use super::response::{AFTER, Geometry, Question, between, smooth};
+use crate::measured_curve::Measured;
+use asperity_calibration::indentation::FORCES;
+use asperity_material::{Elastic, StressMeasure};
+use nalgebra::DMatrix;
+
+/// Measured values, SI.
+#[derive(Clone, Debug)]
+pub enum Data {
+    /// Numbers of a curve.
+    Features {
+        /// F/h² of the loading, Pa.
+        loading_curvature: Option<f64>,
+        /// dF/dh where unloading begins, N/m.
+        unloading_slope: Option<f64>,
+        /// Share of the work that is not returned.
+        plastic_work_ratio: Option<f64>,
+    },
+    /// A curve.
+    Curve(Measured),
+}
+
+/// One measurement.
+#[derive(Clone, Debug)]
+pub struct Experiment {
+    /// Its name in messages.
+    pub name: String,
+    /// Its name in pictures.
+    pub label: String,
+    /// Number of the measurement, for its own unknowns.
+    pub curve: usize,
+    /// Body and tool.
+    pub geometry: Geometry,
+    /// Elasticity of the tool; `None`: rigid.
+    pub tool: Option<Elastic>,
+    /// Radius of the tip where it is known, m.
+    pub tip_radius: f64,
+    /// Compliance of the machine where it is known, m/N.
+    pub compliance: f64,
+    /// Deepest depth, m; 1 where nothing hangs on it.
+    pub depth: f64,
+    /// Which stress yields.
+    pub stress_measure: StressMeasure,
+    /// The data.
+    pub data: Data,
+    /// Relative standard deviation of the force.
+    pub noise: f64,
+    /// Whether that was given, and not taken from the scatter.
+    pub noise_given: bool,
+    /// Relative standard deviation of what the model leaves out.
+    pub model_error: f64,
+    /// Relative 95 % errors of the finite elements: loading, slope, way back.
+    pub errors: [f64; 3],
+    /// The answers to be expected.
+    pub emulator: Emulator,
+}
+
+/// Logarithms of the depth over which the force that a body is expected to need is too large or too small alike. That of a sharp cone is
+/// one number, K, off alike at every depth.
+const ALIKE: f64 = 1.0;
+
+/// Effect on the difference at a point of a curve of errors of the expected force and of the way back.
+struct ErrorOfAPoint {
+    /// Logarithm of the depth over the deepest; the way back begins there.
+    place: f64,
+    /// Of a relative error of the force.
+    by_the_force: f64,
+    /// Of a relative error of the way back.
+    by_the_way: f64,
+}
+
+/// Predicted values of a measurement.
+struct Expected {
+    /// E for the contact.
+    modulus: f64,
+    logarithms: Vec<f64>,
+    contact_depth: f64,
+    compliance: f64,
+}
+
+impl Experiment {
+    /// The question to the finite elements at `point`; `None` where there is no metal.
+    pub fn question(&self, unknowns: &Unknowns, point: &[f64]) -> Option<Question> {
+        let metal = unknowns.metal(point)?;
+        let own = metal.elastic.reduced_modulus();
+        let together = self.tool.map_or(own, |tool| 1.0 / (1.0 / own + 1.0 / tool.reduced_modulus()));
+        Some(Question {
+            geometry: self.geometry.clone(),
+            depth: self.depth,
+            modulus: metal.elastic.youngs_modulus * together / own,
+            metal,
+            tip_radius: unknowns.sought(point, Slot::TipRadius(self.curve)).unwrap_or(self.tip_radius),
+            stress_measure: self.stress_measure,
+        })
+    }
+
+    /// Whether the tool is a sharp cone, for which there is an atlas.
+    pub fn is_sharp(&self) -> bool {
+        matches!(self.geometry, Geometry::Sharp { .. })
+    }
+
+    /// Numbers of the loading in a response.
+    pub fn of_the_loading(&self) -> usize {
+        self.geometry.shares().len()
+    }
+
+    fn expected(&self, unknowns: &Unknowns, point: &[f64], roughly: bool) -> Option<Expected> {
+        let question = self.question(unknowns, point)?;
+        let logarithms = if roughly { by_the_atlas(&question) } else { self.emulator.at(&question) };
+        let own = |slot, known| unknowns.sought(point, slot).unwrap_or(known);
+        Some(Expected {
+            modulus: question.modulus,
+            logarithms,
+            contact_depth: own(Slot::ContactDepth(self.curve), 0.0),
+            compliance: own(Slot::Compliance(self.curve), self.compliance),
+        })
+    }
+
+    /// Measured less expected, each over what it is measured in: logarithms of forces and slopes, shares of the work,
+    /// depths of unloading over the deepest. `roughly`: by the atlas of cones alone.
+    pub fn differences(&self, unknowns: &Unknowns, point: &[f64], roughly: bool) -> Option<Vec<f64>> {
+        let expected = self.expected(unknowns, point, roughly)?;
+        Some(match &self.data {
+            Data::Features { loading_curvature, unloading_slope, plastic_work_ratio } => {
+                let [curvature, slope, plastic] = self.features(&expected);
+                let logarithm = |data: &Option<f64>, model: f64| data.map(|d| (d / model).ln());
+                let all = [
+                    logarithm(loading_curvature, curvature),
+                    logarithm(unloading_slope, slope),
+                    plastic_work_ratio.map(|data| (data - plastic) / data),
+                ];
+                all.into_iter().flatten().collect()
+            }
+            Data::Curve(measured) => {
+                let load = measured.loading.iter().map(|p| {
+                    let model = self.force(&expected, p[0] - expected.contact_depth, p[1]);
+                    (p[1] / model).ln()
+                });
+                let back = measured
+                    .unloading
+                    .iter()
+                    .map(|p| (p[0] - self.depth_back(&expected, measured.turn(), p[1])) / self.depth);
+                load.chain(back).collect()
+            }
+        })
+    }
+
+    /// Loading curvature (Pa), unloading slope (N/m) and plastic share that are expected.
+    fn features(&self, expected: &Expected) -> [f64; 3] {
+        let loading = self.of_the_loading();
+        let [curvature, slope, share] =
+            [loading - 1, loading, loading + 1].map(|i| expected.logarithms[i].exp());
+        let (curvature, slope) = (expected.modulus * curvature, expected.modulus * self.depth * slope);
+        // the machine takes its part of the depth
+        let longer = 1.0 + expected.compliance * curvature * self.depth;
+        [curvature / (longer * longer), slope / (1.0 + expected.compliance * slope), 1.0 - share]
+    }
+
+    /// Force expected at a reading of the depth from contact, under the force that was measured there.
+    fn force(&self, expected: &Expected, reading: f64, force: f64) -> f64 {
+        let depth = (reading - expected.compliance * force).max(1e-4 * self.depth);
+        let shares = self.geometry.shares();
+        let points: Vec<[f64; 2]> =
+            shares.iter().zip(&expected.logarithms).map(|(s, l)| [s.ln(), *l]).collect();
+        expected.modulus * depth * depth * smooth(&points, (depth / self.depth).ln()).exp()
+    }
+
+    /// Reading of the depth expected on the way back at `force`, from a turn of which the depths where the loading ended and where
+    /// the way back began were read under a force.
+    ///
+    /// A hold between them makes the contact wider under the same force. The slope where unloading begins goes with the width, so with the
+    /// depth; the whole way with the force over it.
+    fn depth_back(&self, expected: &Expected, [loaded, turned, held]: [f64; 3], force: f64) -> f64 {
+        let less = expected.contact_depth + expected.compliance * held;
+        let (loaded, top) = (loaded - less, turned - less);
+        let loading = &expected.logarithms[..self.of_the_loading()];
+        let curvature = loading.last().map_or(0.0, |l| l.exp());
+        let most = expected.modulus * loaded * loaded * curvature;
+        let way = recovery(&expected.logarithms, force / most) * (loaded / top).powi(2);
+        top - way * self.depth + expected.contact_depth + expected.compliance * force
+    }
+
+    /// The curve expected at `point`: readings of depth and force, loading then unloading.
+    pub fn curve(&self, unknowns: &Unknowns, point: &[f64], peak: [f64; 2]) -> Option<[Vec<[f64; 2]>; 2]> {
+        let expected = self.expected(unknowns, point, false)?;
+        let top = peak[0] - expected.contact_depth;
+        let load = (1..=60).map(|i| {
+            let depth = top * f64::from(i) / 60.0;
+            let mut force = self.force(&expected, depth, 0.0);
+            for _ in 0..20 {
+                force = 0.5 * (force + self.force(&expected, depth, force));
+            }
+            [depth + expected.contact_depth, force]
+        });
+        let load: Vec<[f64; 2]> = load.collect();
+        let most = load.last().map_or(0.0, |p| p[1]);
+        let back = (0..=40).rev().map(|i| {
+            let force = most * f64::from(i) / 40.0;
+            [self.depth_back(&expected, [peak[0], peak[0], most], force), force]
+        });
+        let back = back.collect();
+        Some([load, back])
+    }
+
+    /// Covariance of the differences at `point`.
+    pub fn covariance(&self, unknowns: &Unknowns, point: &[f64]) -> Option<DMatrix<f64>> {
+        let question = self.question(unknowns, point)?;
+        let expected = self.expected(unknowns, point, false)?;
+        let left = self.emulator.left(&question, self.of_the_loading());
+        // the stated errors are 95 % bounds
+        let model = [self.model_error; 3];
+        let common: [f64; 3] = std::array::from_fn(|i| (0.5 * self.errors[i]).hypot(left[i]).hypot(model[i]));
+        Some(match &self.data {
+            Data::Features { loading_curvature, unloading_slope, plastic_work_ratio } => {
+                let share = 1.0 - self.features(&expected)[2];
+                let of = [
+                    loading_curvature.map(|_| common[0]),
+                    unloading_slope.map(|_| common[1]),
+                    // what is said of the returned work is said of its complement, less
+                    plastic_work_ratio.map(|data| common[2] * share / data),
+                ];
+                let variances: Vec<f64> =
+                    of.into_iter().flatten().map(|c| c.hypot(self.noise).powi(2)).collect();
+                DMatrix::from_diagonal(&variances.into())
+            }
+            Data::Curve(measured) => self.covariance_of_a_curve(&expected, measured, common),
+        })
+    }
+
+    fn covariance_of_a_curve(
+        &self,
+        expected: &Expected,
+        measured: &Measured,
+        common: [f64; 3],
+    ) -> DMatrix<f64> {
+        let load = measured.loading.len();
+        let length = if self.is_sharp() { f64::INFINITY } else { ALIKE };
+        // a force that is expected too large takes from each difference of the loading, and adds to each of the way back
+        let of_the_loading = measured.loading.iter().map(|p| {
+            let place = (p[0] / self.depth).abs().max(1e-3).ln();
+            ErrorOfAPoint { place, by_the_force: -1.0, by_the_way: 0.0 }
+        });
+        let shares: Vec<f64> = measured.unloading.iter().map(|p| p[1] / measured.peak[1]).collect();
+        let slopes: Vec<f64> =
+            shares.iter().map(|share| share * slope_back(&expected.logarithms, *share)).collect();
+        let of_the_way_back = measured.unloading.iter().zip(&slopes).map(|(p, slope)| {
+            let way = (measured.peak[0] - p[0]).max(0.0) / self.depth;
+            ErrorOfAPoint { place: 0.0, by_the_force: *slope, by_the_way: way }
+        });
+        let errors: Vec<ErrorOfAPoint> = of_the_loading.chain(of_the_way_back).collect();
+        let noise = |i: usize| {
+            let of_a_depth = |slope: &f64| (self.noise * slope.max(0.02)).powi(2).max(1e-10);
+            i.checked_sub(load).map_or(self.noise.powi(2), |back| of_a_depth(&slopes[back]))
+        };
+        DMatrix::from_fn(errors.len(), errors.len(), |i, j| {
+            let (a, b) = (&errors[i], &errors[j]);
+            let near = (-0.5 * ((a.place - b.place) / length).powi(2)).exp();
+            let shared = common[0].powi(2) * near * a.by_the_force * b.by_the_force
+                + common[2].powi(2) * a.by_the_way * b.by_the_way;
+            shared + if i == j { noise(i) } else { 0.0 }
+        })
+    }
+
+    /// Peak of the curve that is drawn: that of the data, or of a feature at its depth.
+    pub fn peak(&self) -> Option<[f64; 2]> {
+        match &self.data {
+            Data::Curve(measured) => Some(measured.peak),
+            Data::Features { loading_curvature, .. } => {
+                loading_curvature.map(|k| [self.depth, k * self.depth * self.depth])
+            }
+        }
+    }
+}
+
+/// Way back over the deepest depth to a share of the peak force.
+fn recovery(logarithms: &[f64], share: f64) -> f64 {
+    // straight in F^(2/3) nearly, from no way at the peak
+    let bent = |share: f64| -share.max(0.0).powf(2.0 / 3.0);
+    let ways = &logarithms[logarithms.len() - (AFTER - 2)..];
+    let mut points = vec![[bent(1.0), 0.0]];
+    points.extend(FORCES.iter().zip(ways).map(|(force, way)| [bent(*force), way.exp()]));
+    between(&points, bent(share))
+}
+
+/// How fast the way back grows as the share of the force falls.
+fn slope_back(logarithms: &[f64], share: f64) -> f64 {
+    let (high, low) = ((share + 0.02).min(1.0), (share - 0.02).max(0.0));
+    (recovery(logarithms, low) - recovery(logarithms, high)) / (high - low)
+}

@@ -1,0 +1,227 @@
+//! The content of a fit file: the metal with what is known and sought of it, and the measurements.
+
+use crate::known_or_unknown::{Percent, Sought};
+use asperity_material::StressMeasure;
+use asperity_material::units::{Compliance, Length, Stiffness, Stress};
+use asperity_simulation::scene::{Asperity, HardeningChoice};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::path::PathBuf;
+
+/// Everything that defines an identification: what `asperity identify` reads.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(title = "A fit of `asperity identify`")]
+pub struct FitFile {
+    /// The metal: a number is known, a range of two is sought.
+    pub material: FitMaterial,
+    /// The measurements.
+    #[serde(default)]
+    pub curve: Vec<FitCurve>,
+    /// Level of the finite elements that give the answer: draft or standard.
+    #[serde(default)]
+    pub accuracy: FitAccuracy,
+    /// Samples of the posterior in posterior.csv; 0: no file.
+    #[schemars(range(max = 100_000))]
+    #[serde(default = "samples")]
+    pub samples: usize,
+    /// Seed of these samples.
+    #[serde(default)]
+    pub seed: u64,
+}
+
+fn samples() -> usize {
+    1000
+}
+
+/// Level of the finite elements of a fit.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum FitAccuracy {
+    /// About 1 % of the force of a cone.
+    Draft,
+    /// About 0.5 %.
+    #[default]
+    Standard,
+}
+
+/// The metal of a fit.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct FitMaterial {
+    /// Young's modulus E.
+    #[schemars(example = "210 GPa")]
+    pub youngs_modulus: Sought<Stress>,
+    /// Poisson's ratio ν, in (-1, 0.5).
+    pub poissons_ratio: Sought<f64>,
+    /// Initial yield stress σ_y.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub yield_stress: Option<Sought<Stress>>,
+    /// Hardening exponent n in [0, 1).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub hardening_exponent: Option<Sought<f64>>,
+    /// Hardening law: `hollomon` (power law in total strain), `swift` (power law in plastic strain) or `table`.
+    #[serde(default = "hollomon")]
+    pub hardening_law: HardeningChoice,
+    /// For hardening_law = "table": plastic strain, from 0, and yield stress (known or sought), point by point.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub hardening_table: Option<Vec<(f64, Sought<Stress>)>>,
+    /// Which stress the yield stress means: true stress, or Kirchhoff's.
+    #[serde(default)]
+    pub stress_measure: StressMeasure,
+}
+
+fn hollomon() -> HardeningChoice {
+    HardeningChoice::Hollomon
+}
+
+/// A measurement: a force-depth curve in a file, or features of one.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct FitCurve {
+    /// CSV of depth and force, relative to the fit file.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub file: Option<PathBuf>,
+    /// Which test of a file of several, from 1; absent: every test is a curve of its own.
+    #[schemars(range(min = 1))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub test: Option<usize>,
+    /// Numbers of a curve in its place.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub features: Option<Features>,
+    /// The tool.
+    pub tool: FitTool,
+    /// The asperity that a plane crushes; absent: a flat body.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub asperity: Option<Asperity>,
+    /// Standard deviation of the force (of each feature); absent: from the scatter about the fit, 1 % of features.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub noise: Option<Percent>,
+    /// Standard deviation of what the model leaves out, common to the whole curve; absent: 4 % of a pyramid taken as a
+    /// cone, 0 of others.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub model_error: Option<Percent>,
+    /// Further unknowns of this measurement.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub unknown: Vec<Nuisance>,
+}
+
+impl FitCurve {
+    /// The name in pictures of a measurement that messages call `name`: that of its file, with the test where it has several.
+    pub fn label(&self, name: &str) -> String {
+        let Some(file) = self.file.as_ref().and_then(|path| path.file_name()) else { return name.into() };
+        let file = file.to_string_lossy();
+        match (name.split_once(": "), self.test) {
+            (Some((_, test)), _) => format!("{file}, {test}"),
+            (None, Some(test)) => format!("{file}, test {test}"),
+            (None, None) => file.into_owned(),
+        }
+    }
+}
+
+/// Numbers of a curve.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Features {
+    /// F/h² of the loading.
+    #[schemars(example = "27.4 GPa")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub loading_curvature: Option<Stress>,
+    /// dF/dh where unloading begins, at `max_depth`.
+    #[schemars(example = "5.15e6 N/m")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub unloading_slope: Option<Stiffness>,
+    /// Share of the work of loading that unloading does not return.
+    #[schemars(range(min = 0, max = 1))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub plastic_work_ratio: Option<f64>,
+    /// The largest depth.
+    #[schemars(example = "10.4 um")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub max_depth: Option<Length>,
+}
+
+impl Features {
+    /// Where such numbers belong.
+    pub const PLACE: &str = "numbers such as loading curvature, unloading slope and work ratio go into features = { loading_curvature = \"27 GPa\", … } in place of file";
+
+    /// Whether a table that is no curve has a header of such numbers.
+    pub fn are_named_in(table: &str) -> bool {
+        let header = table.lines().find(|line| !line.trim().is_empty()).unwrap_or_default().to_lowercase();
+        ["curvature", "slope", "dp/dh", "dpdh", "dp_dh", "wp/wt", "wp_wt", "work"]
+            .iter()
+            .any(|word| header.contains(word))
+    }
+}
+
+/// Unknowns of a measurement beside the metal.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Nuisance {
+    /// The depth reading at which the tool touches.
+    ContactDepth,
+    /// The compliance of the machine.
+    MachineCompliance,
+    /// The radius of the rounded tip.
+    TipRadius,
+}
+
+/// Outline of a tool.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum FitShape {
+    /// A plane that flattens an asperity.
+    Plane,
+    /// A cone.
+    Cone,
+    /// A cone with a rounded tip.
+    Conospherical,
+    /// A ball.
+    Sphere,
+    /// Berkovich's pyramid, taken as the cone of 70.3° half apex angle, which has the same section at every depth.
+    Berkovich,
+    /// Vickers' pyramid, likewise.
+    Vickers,
+}
+
+/// The tool of a measurement.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct FitTool {
+    /// Its outline.
+    pub shape: FitShape,
+    /// Cone: angle between flank and horizontal, degrees.
+    #[schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 90))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub slope_deg: Option<f64>,
+    /// Cone: angle between flank and axis, degrees, instead of `slope_deg`.
+    #[schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 90))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub half_apex_deg: Option<f64>,
+    /// Radius of the tip; absent or 0: sharp.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tip_radius: Option<Sought<Length>>,
+    /// Radius of the ball.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub radius: Option<Length>,
+    /// Young's modulus of the tool; absent: rigid.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub youngs_modulus: Option<Stress>,
+    /// Poisson's ratio of the tool.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub poissons_ratio: Option<f64>,
+    /// Depth per force that the machine adds; absent: none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub machine_compliance: Option<Sought<Compliance>>,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_table_of_features_is_told_from_a_curve() {
+        assert!(Features::are_named_in("\nC_GPa,dP/dh_N_per_m,Wp/Wt\n27.4,5.1e6,0.9\n"));
+        assert!(!Features::are_named_in("time_s,voltage\n1,2\n"));
+    }
+}

@@ -1,0 +1,35 @@
+//! From measured force-depth curves to the metal: E, σ_y and n with their intervals, and whether the curves can tell at all.
+//!
+//! In the order of the data: the keys of a fit ([`fit_file`], [`known_or_unknown`]), measured curves made ready
+//! ([`measured_curve`]), the unknowns ([`parameters`]); what finite elements answer to one metal ([`response`]) and between
+//! metals ([`emulator`]); a measurement with its covariance ([`experiment`]), all of them ([`objective`]); the search
+//! ([`mod@search`], [`levenberg_marquardt`]); intervals ([`profile_likelihood`]), samples ([`posterior`]) and what cannot be
+//! seen ([`verdict`]).
+
+pub mod known_or_unknown;
+
+pub mod fit_file;
+
+pub mod measured_curve;
+
+pub mod parameters;
+
+pub mod response;
+
+pub mod emulator;
+
+pub mod experiment;
+
+pub mod levenberg_marquardt;
+
+pub mod objective;
+
+pub mod search;
+
+pub mod profile_likelihood;
+
+pub mod posterior;
+
+pub mod verdict;
+
+pub mod stress_strain;

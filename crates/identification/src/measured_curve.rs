@@ -1,0 +1,276 @@
+//! A measured curve made ready: its loading and its last unloading, thinned by averaging; holds and other cycles cut.
+
+use asperity_formats::indentation_table::Readings;
+
+/// A curve made ready.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Measured {
+    /// Loading, rising in depth.
+    pub loading: Vec<[f64; 2]>,
+    /// The way back from the peak, falling in force; empty where there is none.
+    pub unloading: Vec<[f64; 2]>,
+    /// Depth and force where the way back begins.
+    pub peak: [f64; 2],
+    /// Depth where the loading ended: less than that of the peak where the load was held there.
+    pub loaded: f64,
+    /// Depth reading at which the tool seems to touch: where the line through √F meets zero.
+    pub touches: f64,
+    /// Remarks.
+    pub notes: Vec<String>,
+}
+
+/// Points that are kept of loading and unloading.
+const KEPT: [usize; 2] = [30, 20];
+/// Shares of the deepest depth from which loading counts, and of the peak force between which unloading counts.
+const FROM: f64 = 0.1;
+const BACK: [f64; 2] = [0.1, 0.97];
+/// Fewest points of a loading.
+const FEWEST: usize = 6;
+/// Share of the peak force from which readings belong to the peak or its hold.
+const TOP: f64 = 0.995;
+/// Share of the largest force from which a reading may be the deepest one: noise makes the largest force, not the turn of the path.
+const HIGH: f64 = 0.8;
+/// Share of the largest depth from which readings belong to the turn.
+const TURN: f64 = 0.999;
+/// Growth of the force over that of the depth, both relative, below which readings are a hold: a loading grows with the power 1.5 of the
+/// depth at least.
+const HELD: f64 = 0.5;
+
+impl Measured {
+    /// Makes `readings` ready.
+    ///
+    /// # Errors
+    /// The fault of the curve, with a way out.
+    pub fn new(readings: &Readings) -> Result<Measured, String> {
+        let given = readings.len();
+        let readings: Readings =
+            readings.iter().copied().filter(|p| p.iter().all(|x| x.is_finite())).collect();
+        let most = readings.iter().map(|p| p[1]).fold(f64::NEG_INFINITY, f64::max);
+        if readings.len() < FEWEST {
+            return Err(format!(
+                "has {} points, too few for a curve: give at least {FEWEST} of the loading, or `features` instead of a file",
+                readings.len()
+            ));
+        }
+        if most.is_nan() || most <= 0.0 {
+            return Err(
+                "has no positive force: forces must be positive in compression; turn their sign".into()
+            );
+        }
+        let Turn { first, last, peak } = turn(&readings, most);
+        if peak[0] <= 0.0 {
+            return Err(format!(
+                "has its largest force at a depth of {:.4} um, which is not positive: depths must grow into the metal from 0 at first touch; turn their sign, or shift them",
+                1e6 * peak[0]
+            ));
+        }
+        let mut notes = Vec::new();
+        if readings.len() < given {
+            notes.push(format!(
+                "{} readings that are no finite numbers were left out",
+                given - readings.len()
+            ));
+        }
+        let loading = envelope(&readings[..=first], &mut notes);
+        if loading.len() < FEWEST {
+            return Err(format!(
+                "goes nowhere: only {} points before its largest force lie deeper than those before them; the loading must come first and needs {FEWEST}",
+                loading.len()
+            ));
+        }
+        let start = loading[loading.len() - 1];
+        let held = peak[0] > 1.003 * start[0] && is_held(&readings[first..=last], peak);
+        if held {
+            notes.push(format!(
+                "a hold of the load from {:.4} to {:.4} um was cut; the loading before it counts",
+                1e6 * start[0],
+                1e6 * peak[0]
+            ));
+        }
+        let loaded = if held { start[0] } else { peak[0] };
+        let unloading = falling(&readings[last..], peak);
+        if unloading.is_empty() {
+            notes.push("there is no unloading: the elastic modulus is hardly seen".into());
+        }
+        let touches = touches(&loading);
+        Ok(Measured { loading: thinned(&loading), unloading, peak, loaded, touches, notes })
+    }
+
+    /// Depths where the loading ended and where the way back began, and the force there.
+    pub fn turn(&self) -> [f64; 3] {
+        [self.loaded, self.peak[0], self.peak[1]]
+    }
+}
+
+/// Where a path turns.
+struct Turn {
+    /// The reading with which the loading ends: a hold may follow.
+    first: usize,
+    /// The last reading before the way back.
+    last: usize,
+    /// Depth there, and the mean force of the readings at that depth.
+    peak: [f64; 2],
+}
+
+/// The turn of a path whose largest force is `most`: it lies at the largest depth, for depths are read more exactly than forces.
+fn turn(readings: &[[f64; 2]], most: f64) -> Turn {
+    let high = |p: &[f64; 2]| p[1] >= HIGH * most;
+    let deepest = readings.iter().filter(|p| high(p)).map(|p| p[0]).fold(f64::NEG_INFINITY, f64::max);
+    let at_the_turn = |p: &[f64; 2]| high(p) && p[0] >= deepest - (1.0 - TURN) * deepest.abs();
+    let turned: Vec<f64> = readings.iter().filter(|p| at_the_turn(p)).map(|p| p[1]).collect();
+    let force = turned.iter().sum::<f64>() / turned.len().max(1) as f64;
+    let last = readings.iter().rposition(at_the_turn).unwrap_or(0);
+    let first = readings.iter().position(|p| p[1] >= TOP * force).unwrap_or(0).min(last);
+    Turn { first, last, peak: [readings[last][0], force] }
+}
+
+/// Whether the force stayed while the depth grew over `readings`, up to the `peak`.
+fn is_held(readings: &[[f64; 2]], peak: [f64; 2]) -> bool {
+    let mean =
+        |part: &[[f64; 2]], k: usize| part.iter().map(|p| p[k]).sum::<f64>() / part.len().max(1) as f64;
+    let (before, after) = readings.split_at(readings.len() / 2);
+    let grown = |k: usize| (mean(after, k) - mean(before, k)) / peak[k];
+    readings.len() > 2 && grown(1) < HELD * grown(0)
+}
+
+/// The points deeper than all before them, under a force.
+fn envelope(readings: &[[f64; 2]], notes: &mut Vec<String>) -> Vec<[f64; 2]> {
+    let most = readings.iter().map(|p| p[1]).fold(0.0, f64::max);
+    let (mut deepest, mut back) = (0.0_f64, 0.0_f64);
+    let mut kept = Vec::new();
+    for p in readings {
+        // before first touch a tool may come from anywhere
+        if deepest > 0.0 {
+            back = back.max(deepest - p[0]);
+        }
+        if p[0] > deepest && p[1] > 0.0 {
+            deepest = p[0];
+            kept.push(*p);
+        }
+    }
+    if back > 0.05 * deepest && kept.iter().any(|p| p[1] < 0.9 * most) {
+        notes.push("there are several cycles: their outer loading and the last unloading count".into());
+    }
+    kept
+}
+
+/// The way back between the shares of the peak force, averaged.
+fn falling(readings: &[[f64; 2]], peak: [f64; 2]) -> Vec<[f64; 2]> {
+    let inside: Vec<[f64; 2]> = readings
+        .iter()
+        .copied()
+        .filter(|p| p[1] >= BACK[0] * peak[1] && p[1] <= BACK[1] * peak[1] && p[0] < peak[0] * 1.001)
+        .collect();
+    averaged(&inside, KEPT[1], |p| (peak[1] - p[1]) / peak[1], |x| x)
+}
+
+fn thinned(loading: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    let deepest = loading.last().map_or(1.0, |p| p[0]);
+    let inside: Vec<[f64; 2]> = loading.iter().copied().filter(|p| p[0] >= FROM * deepest).collect();
+    // in logarithms loading is nearly straight, so that its average lies on it
+    let logs: Vec<[f64; 2]> = inside.iter().map(|p| p.map(f64::ln)).collect();
+    averaged(&logs, KEPT[0], |p| p[0].exp() / deepest, f64::exp)
+}
+
+/// Averages of `points` over at most `count` equal parts of `place`, which goes from 0 to 1.
+fn averaged(
+    points: &[[f64; 2]],
+    count: usize,
+    place: impl Fn(&[f64; 2]) -> f64,
+    of_mean: impl Fn(f64) -> f64,
+) -> Vec<[f64; 2]> {
+    let mut parts = vec![(0.0, [0.0; 2]); count];
+    for p in points {
+        let part = &mut parts[((place(p) * count as f64) as usize).min(count - 1)];
+        part.0 += 1.0;
+        part.1 = [part.1[0] + p[0], part.1[1] + p[1]];
+    }
+    parts.iter().filter(|p| p.0 > 0.0).map(|(n, sum)| sum.map(|s| of_mean(s / n))).collect()
+}
+
+/// Where the straight line through √F over the upper half of the loading meets zero force.
+fn touches(loading: &[[f64; 2]]) -> f64 {
+    let deepest = loading.last().map_or(1.0, |p| p[0]);
+    let upper: Vec<[f64; 2]> =
+        loading.iter().filter(|p| p[0] > 0.4 * deepest).map(|p| [p[1].sqrt(), p[0]]).collect();
+    let n = upper.len() as f64;
+    let mean = |k: usize| upper.iter().map(|p| p[k]).sum::<f64>() / n;
+    mean(1) - asperity_numerics::least_squares::Line::through(&upper).slope * mean(0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn loaded(count: usize) -> Readings {
+        (1..=count).map(|i| i as f64 / count as f64).map(|s| [1e-6 * s, 5e-3 * s * s]).collect()
+    }
+
+    #[test]
+    fn a_curve_is_thinned_to_points_that_lie_on_it() {
+        let mut readings = loaded(3000);
+        readings
+            .extend((0..500).map(|i| 1.0 - f64::from(i) / 500.0).map(|s| [0.9e-6 + 0.1e-6 * s, 5e-3 * s]));
+        let measured = Measured::new(&readings).unwrap();
+        assert!(measured.loading.len() <= KEPT[0] && measured.loading.len() >= 20);
+        assert!(measured.unloading.len() >= 15 && measured.touches.abs() < 1e-9);
+        for p in &measured.loading {
+            assert!((p[1] / (5e9 * p[0] * p[0]) - 1.0).abs() < 1e-9, "{p:?}");
+        }
+        for p in &measured.unloading {
+            assert!(((p[0] - 0.9e-6) / 0.1e-6 * 5e-3 / p[1] - 1.0).abs() < 1e-6, "{p:?}");
+        }
+    }
+
+    #[test]
+    fn what_is_no_curve_is_refused_with_a_way_out() {
+        let single = vec![[1e-6, 1e-3]];
+        let negative: Readings = loaded(50).iter().map(|p| [-p[0], p[1]]).collect();
+        let pulled: Readings = loaded(50).iter().map(|p| [p[0], -p[1]]).collect();
+        let flat: Readings = (0..50).map(|i| [1e-6, 1e-3 * f64::from(i)]).collect();
+        for (readings, word) in [
+            (single, "too few"),
+            (negative, "turn their sign"),
+            (pulled, "positive force"),
+            (flat, "goes nowhere"),
+        ] {
+            let error = Measured::new(&readings).unwrap_err();
+            assert!(error.contains(word), "{error}");
+        }
+        assert!(Measured::new(&loaded(50)).unwrap().notes[0].contains("no unloading"));
+    }
+
+    #[test]
+    fn holds_and_inner_cycles_are_cut() {
+        let mut readings = loaded(60);
+        readings.truncate(40);
+        // back to half of the force, and again
+        readings.extend((0..20).map(|i| [0.6e-6 - 1e-9 * f64::from(i), 2.2e-3 - 1e-4 * f64::from(i)]));
+        readings.extend(loaded(60)[35..].iter());
+        readings.extend((1..30).map(|i| [1e-6 + 1e-9 * f64::from(i), 5e-3]));
+        let measured = Measured::new(&readings).unwrap();
+        let notes = measured.notes.join("; ");
+        assert!(notes.contains("cycles") && notes.contains("hold"), "{notes}");
+        assert!(measured.loading.windows(2).all(|w| w[0][0] < w[1][0]));
+    }
+
+    /// Noise that lifts a force before the turn does not move the turn there; a mean of the forces at the turn stands for its force.
+    #[test]
+    fn the_turn_lies_at_the_largest_depth_not_at_the_largest_force() {
+        let mut readings = loaded(40);
+        readings[38][1] *= 1.06;
+        readings.extend((1..20).map(|i| [1e-6 - 4e-9 * f64::from(i), 5e-3 * (1.0 - f64::from(i) / 20.0)]));
+        assert!(readings[38][1] > readings[39][1], "the case of this test");
+        let measured = Measured::new(&readings).unwrap();
+        assert_eq!((measured.peak, measured.loaded), ([1e-6, 5e-3], 1e-6));
+        assert!(measured.notes.is_empty(), "{:?}", measured.notes);
+    }
+
+    #[test]
+    fn an_approach_is_no_cycle() {
+        let mut readings: Readings = (0..30).map(|i| [-0.5e-6 + 1e-8 * f64::from(i), 0.0]).collect();
+        readings.extend(loaded(60));
+        let measured = Measured::new(&readings).unwrap();
+        assert!(!measured.notes.iter().any(|note| note.contains("cycles")), "{:?}", measured.notes);
+    }
+}

@@ -1,0 +1,245 @@
+//! The answer of finite elements to one tool on one metal, as logarithms that vary smoothly with the metal.
+//!
+//! Everything is over the elastic modulus E, the deepest depth h_max and F/h²: loading F/(E h²) at shares of h_max, the slope
+//! S/(E h_max) where unloading begins, the share of the work that is returned, and the way back over h_max at the
+//! shares [`FORCES`] of the peak force. A sharp cone has one number for its loading.
+
+use super::parameters::Metal;
+use asperity_calibration::indentation::{FORCES, Indentation, solve};
+use asperity_material::units::{Length, Stress};
+use asperity_material::{Elastic, StressMeasure};
+use asperity_simulation::record::rows::{CurveRow, Phase};
+use asperity_simulation::run::run_of;
+use asperity_simulation::scene::{Accuracy, Asperity, Loading, Material, Scene, Symmetry, Tool, ToolShape};
+use asperity_simulation::setup::cone::Cone;
+use asperity_solver::point::material::Metal as Point;
+use std::ops::ControlFlow;
+
+/// Shares of the deepest depth at which loading is read.
+pub const SHARES: [f64; 9] = [0.1, 0.15, 0.22, 0.32, 0.45, 0.6, 0.75, 0.88, 1.0];
+
+/// Numbers after those of the loading: slope, work, way back.
+pub const AFTER: usize = 2 + FORCES.len();
+
+/// The body and tool of a measurement; lengths in m.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Geometry {
+    /// A sharp cone indents a flat body: slope in degrees.
+    Sharp {
+        /// Angle between flank and surface, degrees.
+        slope_deg: f64,
+    },
+    /// A cone with a rounded tip indents a flat body.
+    Rounded {
+        /// Angle between flank and surface, degrees.
+        slope_deg: f64,
+    },
+    /// A ball indents a flat body.
+    Ball {
+        /// Its radius, m.
+        radius: f64,
+    },
+    /// A plane crushes an asperity.
+    Crush {
+        /// The asperity.
+        asperity: Asperity,
+    },
+}
+
+impl Geometry {
+    /// Shares of the deepest depth at which its loading is read.
+    pub fn shares(&self) -> &'static [f64] {
+        if matches!(self, Geometry::Sharp { .. }) { &SHARES[SHARES.len() - 1..] } else { &SHARES }
+    }
+}
+
+/// Relative error of a run whose companion came to no end.
+const UNKNOWN: f64 = 0.05;
+
+/// Inputs of a run of finite elements.
+#[derive(Clone, Debug)]
+pub struct Question {
+    /// Body and tool.
+    pub geometry: Geometry,
+    /// Deepest depth, m.
+    pub depth: f64,
+    /// The metal, the elasticity of the tool left out.
+    pub metal: Metal,
+    /// E of a body under a rigid tool that is as stiff as this one under this one.
+    pub modulus: f64,
+    /// Radius of the tip, m.
+    pub tip_radius: f64,
+    /// Which stress yields.
+    pub stress_measure: StressMeasure,
+}
+
+/// The answer.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Response {
+    /// The logarithms: loading, slope, share of the work, way back.
+    pub logarithms: Vec<f64>,
+    /// Relative 95 % errors of the loading, of the slope, of what unloading returns.
+    pub errors: [f64; 3],
+    /// Share of the depth that was reached, below 1 where the path stopped.
+    pub reached: f64,
+}
+
+/// Answers `question` at `accuracy`.
+///
+/// # Errors
+/// Why there is no answer.
+pub fn respond(question: &Question, accuracy: Accuracy) -> Result<Response, String> {
+    match question.geometry {
+        Geometry::Sharp { slope_deg } => sharp(question, slope_deg, accuracy),
+        _ => body(question, accuracy),
+    }
+}
+
+fn point(question: &Question) -> Point {
+    Point {
+        elastic: Elastic { youngs_modulus: 1.0, ..question.metal.elastic },
+        hardening: Some(question.metal.hardening.over(question.modulus)),
+        kinematic_share: 0.0,
+        stress_measure: question.stress_measure,
+    }
+}
+
+fn sharp(question: &Question, slope_deg: f64, accuracy: Accuracy) -> Result<Response, String> {
+    let cone = Cone { slope_deg, indents: true, metal: point(question) };
+    let (found, errors) = solve(&cone, accuracy).map_err(|e| e.to_string())?;
+    Ok(Response {
+        logarithms: of_cone(&found),
+        errors: [errors.loading_curvature, errors.stiffness, errors.elastic_share],
+        reached: found.reached,
+    })
+}
+
+fn of_cone(found: &Indentation) -> Vec<f64> {
+    let numbers = [found.k_over_e, found.stiffness, found.elastic_share];
+    numbers.iter().chain(&found.recovery).map(|x| x.max(1e-12).ln()).collect()
+}
+
+/// The scene of a tool that is no sharp cone, unloaded from its deepest depth.
+fn scene(question: &Question, accuracy: Accuracy) -> Scene {
+    let elastic = Material::elastic_body(Stress(question.modulus), question.metal.elastic.poissons_ratio);
+    let strength = question.metal.hardening.yield_stress().min(0.19 * question.modulus);
+    let exponent = question.metal.hardening.exponent(question.modulus).clamp(0.0, 0.99);
+    let material = elastic.yielding(Stress(strength), exponent);
+    let tip = Length(question.tip_radius);
+    let (tool, asperity) = match &question.geometry {
+        Geometry::Sharp { slope_deg } => (Tool::cone(*slope_deg), None),
+        Geometry::Rounded { slope_deg } => {
+            let tip_radius = Some(tip).filter(|t| t.0 > 0.0);
+            (Tool { shape: ToolShape::Cone, tip_radius, ..Tool::cone(*slope_deg) }, None)
+        }
+        Geometry::Ball { radius } => (Tool::sphere(Length(*radius)), None),
+        Geometry::Crush { asperity } => (Tool::plane(), Some(asperity.clone())),
+    };
+    let loading = Loading::to_depth(Length(question.depth)).unloaded();
+    let scene = Scene::new(Symmetry::Axisymmetric, material, tool, loading).at(accuracy);
+    asperity.into_iter().fold(scene, Scene::with)
+}
+
+fn body(question: &Question, accuracy: Accuracy) -> Result<Response, String> {
+    let scene = scene(question, accuracy);
+    scene.validate().map_err(|e| e.to_string())?;
+    // the scene stands for the mesh; the metal is this one exactly
+    let outcome =
+        run_of(&scene, &point(question), &mut |_| ControlFlow::Continue(())).map_err(|e| e.to_string())?;
+    if let Some(stopped) = &outcome.stopped {
+        return Err(format!(
+            "stopped at {:.2} of the depth: {}",
+            stopped.depth / question.depth,
+            stopped.reason
+        ));
+    }
+    let summary = &outcome.summary;
+    let stiffness = summary.unloading_stiffness.ok_or("no unloading stiffness")?;
+    let share = summary.elastic_fraction.ok_or("no unloading")?;
+    let (modulus, depth) = (question.modulus, question.depth);
+    let loading = loading(&outcome.rows, modulus, depth);
+    let back = recovery(&outcome.rows, depth);
+    let after =
+        [stiffness / (modulus * depth), share].into_iter().chain(back).map(|x: f64| x.max(1e-12).ln());
+    let errors = summary.errors;
+    // of the returned work, relative; an error that is not known is that which draft aims at
+    let known = |error: Option<f64>| error.filter(|e| e.is_finite()).unwrap_or(UNKNOWN);
+    Ok(Response {
+        logarithms: loading.into_iter().chain(after).collect(),
+        errors: [
+            known(Some(errors.force)),
+            known(errors.unloading_stiffness),
+            known(errors.elastic_fraction.map(|e| e / share.max(1e-12))),
+        ],
+        reached: 1.0,
+    })
+}
+
+/// ln(F/(E h²)) at the shares of the depth, linear in ln h between rows.
+fn loading(rows: &[CurveRow], modulus: f64, depth: f64) -> Vec<f64> {
+    let points: Vec<[f64; 2]> = rows
+        .iter()
+        .filter(|r| r.phase == Phase::Load && r.depth > 0.0 && r.force > 0.0)
+        .map(|r| [(r.depth / depth).ln(), (r.force / (modulus * r.depth * r.depth)).ln()])
+        .collect();
+    SHARES.iter().map(|share| between(&points, share.ln())).collect()
+}
+
+/// Elastic recovery over the depth at each of [`FORCES`].
+fn recovery(rows: &[CurveRow], depth: f64) -> Vec<f64> {
+    let peak = rows.iter().rposition(|r| r.phase == Phase::Load).unwrap_or(0);
+    let top = rows.get(peak).map_or(1.0, |r| r.force);
+    // in F^(2/3) the way is nearly a straight line
+    let bent = |share: f64| -share.max(0.0).powf(2.0 / 3.0);
+    let points: Vec<[f64; 2]> =
+        rows[peak..].iter().map(|r| [bent(r.force / top), 1.0 - r.depth / depth]).collect();
+    FORCES.iter().map(|force| between(&points, bent(*force))).collect()
+}
+
+/// Linear between `points` of rising x, and on beyond their ends.
+pub fn between(points: &[[f64; 2]], x: f64) -> f64 {
+    let Some(last) = points.len().checked_sub(2) else { return points.first().map_or(f64::NAN, |p| p[1]) };
+    let k = points[1..=last].iter().take_while(|p| p[0] <= x).count();
+    let ([x0, y0], [x1, y1]) = (points[k], points[k + 1]);
+    if x1 == x0 { y0 } else { y0 + (x - x0) / (x1 - x0) * (y1 - y0) }
+}
+
+/// A cubic through the four of `points` of rising x around `x`; linear where there are fewer, and beyond their ends.
+pub fn smooth(points: &[[f64; 2]], x: f64) -> f64 {
+    let count = points.len();
+    let beyond = |p: &[f64; 2], sign: f64| sign * (x - p[0]) > 0.0;
+    if count < 4 || beyond(&points[count - 1], 1.0) || beyond(&points[0], -1.0) {
+        return between(points, x);
+    }
+    let k = points.iter().take_while(|p| p[0] <= x).count();
+    let four = &points[k.saturating_sub(2).min(count - 4)..][..4];
+    let weight = |i: usize| {
+        let others = (0..4).filter(|&j| j != i);
+        others.map(|j| (x - four[j][0]) / (four[i][0] - four[j][0])).product::<f64>()
+    };
+    (0..4).map(|i| weight(i) * four[i][1]).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_cubic_is_met_between_points_and_left_along_a_line() {
+        let cubic = |x: f64| 1.0 + x * (0.5 + x * (0.3 - 0.2 * x));
+        let points = [-1.0, -0.4, 0.1, 0.5, 1.2, 2.0].map(|x| [x, cubic(x)]);
+        for x in [-1.0, -0.7, 0.0, 0.3, 0.8, 1.9, 2.0] {
+            assert!((smooth(&points, x) - cubic(x)).abs() < 1e-12, "{x}");
+        }
+        assert_eq!(smooth(&points, 3.0), between(&points, 3.0));
+        assert_eq!(smooth(&points[..1], 3.0), points[0][1]);
+    }
+
+    #[test]
+    fn values_between_points_and_beyond_them_lie_on_straight_lines() {
+        let points = [[0.0, 0.0], [1.0, 2.0], [3.0, 3.0]];
+        let at = |x| between(&points, x);
+        assert_eq!([at(0.5), at(1.0), at(2.0), at(4.0), at(-1.0)], [1.0, 2.0, 2.5, 3.5, -2.0]);
+        assert_eq!(between(&points[..1], 7.0), 0.0);
+    }
+}

@@ -1,0 +1,330 @@
+//! The search: from points all over the bounds, on what finite elements are expected to answer; then they are asked at the
+//! best point, which changes what is expected, until the best point stays.
+
+use super::emulator::{Emulator, place};
+use super::experiment::Experiment;
+use super::objective::{Objective, roughly};
+use super::parameters::{Unknowns, sobol_points};
+use super::response::{Question, Response, respond};
+use crate::levenberg_marquardt::{Minimum, Residuals, chi2, jacobian, minimise};
+use asperity_material::range;
+use asperity_simulation::scene::Accuracy;
+use nalgebra::{DMatrix, SymmetricEigen};
+use rayon::prelude::*;
+use thiserror::Error;
+
+/// Why a search found no metal.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum SearchError {
+    /// The observer ended it.
+    #[error("the run was interrupted")]
+    Interrupted,
+    /// None within the bounds can be computed.
+    #[error(
+        "no metal within the bounds of [material] can be computed: youngs_modulus over yield_stress must be from {} to {:e}, and tables must not fall",
+        range::MODULUS_OVER_YIELD[0],
+        range::MODULUS_OVER_YIELD[1]
+    )]
+    NoMetal,
+    /// The finite elements of an experiment have no answer where one is needed.
+    #[error("{0}")]
+    NoAnswer(String),
+}
+
+/// Points of the first look.
+const LOOKS: usize = 512;
+/// Best of them from which a minimum is sought.
+const STARTS: usize = 6;
+/// Most rounds of asking at the best point.
+const ROUNDS: usize = 4;
+/// Standard deviations of the best point within which it stays.
+const STAYS: f64 = 0.25;
+/// Relative error of a ball taken as a cone.
+const ROUGH: f64 = 0.35;
+
+/// Tells how far the search is, and whether it goes on.
+pub type Observer<'a> = dyn FnMut(f64, &str) -> bool + 'a;
+
+/// The best point and what is known around it.
+#[derive(Clone, Debug)]
+pub struct Found {
+    /// The best point.
+    pub minimum: Minimum,
+    /// Runs of finite elements.
+    pub runs: usize,
+    /// Remarks on runs that stopped early.
+    pub notes: Vec<String>,
+}
+
+/// Searches; the emulators of the experiments learn on the way.
+///
+/// # Errors
+/// No metal of the bounds that could be computed, or an observer that ended the search.
+pub fn search(
+    experiments: &mut [Experiment],
+    unknowns: &Unknowns,
+    accuracy: Accuracy,
+    observer: &mut Observer<'_>,
+) -> Result<Found, SearchError> {
+    let mut found =
+        Found { minimum: Minimum { point: Vec::new(), chi2: f64::INFINITY }, runs: 0, notes: Vec::new() };
+    design(experiments, unknowns, &mut found, observer)?;
+    let mut best = everywhere(experiments, unknowns)?;
+    // the atlas of sharp cones is as exact as `accuracy`, and coarser runs would only blur it; other tools have coarse runs all about
+    let early = |e: &Experiment| if e.is_sharp() { accuracy } else { Accuracy::Draft };
+    let mut asked = Vec::new();
+    for round in 0..ROUNDS {
+        go_on(observer, 0.5 + 0.1 * round as f64, "asking finite elements at the best fit")?;
+        ask(experiments, unknowns, &[best.point.clone()], early, &mut found)?;
+        let before = best;
+        asked.clone_from(&before.point);
+        best = again(experiments, unknowns, &before.point)?;
+        if moved(experiments, unknowns, &before.point, &best.point) < STAYS {
+            break;
+        }
+    }
+    let sharp = experiments.iter().all(Experiment::is_sharp);
+    if !sharp {
+        go_on(observer, 0.85, "asking finite elements where the curves see least")?;
+        let beside = beside(experiments, unknowns, &best.point);
+        ask(experiments, unknowns, &beside, early, &mut found)?;
+        best = again(experiments, unknowns, &best.point)?;
+    }
+    // the answer is that of finite elements at this point, or so near to it that they say the same
+    let answered = sharp || accuracy == Accuracy::Draft;
+    if answered && moved(experiments, unknowns, &asked, &best.point) < STAYS {
+        found.minimum = best;
+        return Ok(found);
+    }
+    go_on(observer, 0.95, "the final answer")?;
+    ask(experiments, unknowns, &[best.point.clone()], |_| accuracy, &mut found)?;
+    found.minimum = again(experiments, unknowns, &best.point)?;
+    Ok(found)
+}
+
+fn go_on(observer: &mut Observer<'_>, share: f64, text: &str) -> Result<(), SearchError> {
+    if observer(share, text) { Ok(()) } else { Err(SearchError::Interrupted) }
+}
+
+/// The lowest minimum from points all over the bounds.
+fn everywhere(experiments: &[Experiment], unknowns: &Unknowns) -> Result<Minimum, SearchError> {
+    let points = sobol_points(&unknowns.parameters, LOOKS);
+    // covariances hang on the point weakly: those of the best rough point serve the first look
+    let rough = roughly(experiments, unknowns, ROUGH);
+    let first = least(&*rough, &points).ok_or(SearchError::NoMetal)?;
+    let objective = Objective::new(experiments, unknowns, &first).ok_or(SearchError::NoMetal)?;
+    minima(&objective, &points)
+        .into_iter()
+        .min_by(|a, b| a.chi2.total_cmp(&b.chi2))
+        .filter(|m| m.chi2.is_finite())
+        .ok_or(SearchError::NoMetal)
+}
+
+/// Minima from the best of `points`.
+fn minima(objective: &Objective<'_>, points: &[Vec<f64>]) -> Vec<Minimum> {
+    let (function, bounds) = (objective.function(), objective.bounds());
+    let mut ranked: Vec<(f64, &Vec<f64>)> = points.par_iter().map(|p| (chi2(&function, p), p)).collect();
+    ranked.sort_by(|a, b| a.0.total_cmp(&b.0));
+    ranked[..STARTS.min(ranked.len())].par_iter().map(|(_, p)| minimise(&function, p, &bounds)).collect()
+}
+
+/// Minima anywhere within the bounds whose sum of squares is less than `chi2`: other metals that the measurements allow.
+pub fn valleys(objective: &Objective<'_>, unknowns: &Unknowns, chi2: f64) -> Vec<Minimum> {
+    let mut found = minima(objective, &sobol_points(&unknowns.parameters, LOOKS));
+    found.retain(|minimum| minimum.chi2 < chi2);
+    found
+}
+
+fn least(residuals: &Residuals<'_>, points: &[Vec<f64>]) -> Option<Vec<f64>> {
+    let ranked: Vec<(f64, &Vec<f64>)> = points.par_iter().map(|p| (chi2(residuals, p), p)).collect();
+    let best = ranked.into_iter().min_by(|a, b| a.0.total_cmp(&b.0))?;
+    best.0.is_finite().then(|| best.1.clone())
+}
+
+/// The minimum near `point` with what is expected now; twice, for the covariances move with it.
+///
+/// # Errors
+/// No metal there that can be computed.
+pub fn again(experiments: &[Experiment], unknowns: &Unknowns, point: &[f64]) -> Result<Minimum, SearchError> {
+    let mut minimum = Minimum { point: point.to_vec(), chi2: f64::INFINITY };
+    for _ in 0..2 {
+        let objective = Objective::new(experiments, unknowns, &minimum.point).ok_or(SearchError::NoMetal)?;
+        minimum = minimise(&objective.function(), &minimum.point, &objective.bounds());
+    }
+    Ok(minimum)
+}
+
+/// Distance between two points in standard deviations.
+fn moved(experiments: &[Experiment], unknowns: &Unknowns, a: &[f64], b: &[f64]) -> f64 {
+    let Some(objective) = Objective::new(experiments, unknowns, b) else { return f64::INFINITY };
+    let function = objective.function();
+    match (function(a), function(b)) {
+        (Some(a), Some(b)) => a.iter().zip(&b).map(|(x, y)| (x - y).powi(2)).sum::<f64>().sqrt(),
+        _ => f64::INFINITY,
+    }
+}
+
+/// Curvature of half the sum of squares, coordinates over the widths of their bounds, with its eigenvalues and directions.
+pub fn curvature(objective: &Objective<'_>, point: &[f64]) -> Option<SymmetricEigen<f64, nalgebra::Dyn>> {
+    let bounds = objective.bounds();
+    let mut slopes = jacobian(&objective.function(), point, &bounds)?;
+    for (mut column, [low, high]) in slopes.column_iter_mut().zip(&bounds) {
+        column *= high - low;
+    }
+    let normal: DMatrix<f64> = slopes.tr_mul(&slopes);
+    Some(normal.symmetric_eigen())
+}
+
+/// Two points on both sides of `point` along the direction that the measurements see least, at most 1.5 standard deviations and a
+/// third of the bounds away.
+fn beside(experiments: &[Experiment], unknowns: &Unknowns, point: &[f64]) -> Vec<Vec<f64>> {
+    let seen = Objective::new(experiments, unknowns, point).and_then(|o| curvature(&o, point));
+    let Some(seen) = seen else { return Vec::new() };
+    let weakest = seen.eigenvalues.imin();
+    let length = (1.5 / seen.eigenvalues[weakest].max(1e-12).sqrt()).min(0.33);
+    let direction = seen.eigenvectors.column(weakest);
+    [-1.0, 1.0]
+        .iter()
+        .map(|side| {
+            let widths = unknowns.parameters.iter().zip(direction.iter());
+            let step: Vec<f64> = widths.map(|(p, d)| side * length * d * p.width()).collect();
+            unknowns.within(&point.iter().zip(step).map(|(x, s)| x + s).collect::<Vec<_>>())
+        })
+        .filter(|other| unknowns.metal(other).is_some())
+        .collect()
+}
+
+/// Asks the finite elements of every experiment at `points`, and the emulators learn the answers.
+fn ask(
+    experiments: &mut [Experiment],
+    unknowns: &Unknowns,
+    points: &[Vec<f64>],
+    accuracy: impl Fn(&Experiment) -> Accuracy,
+    found: &mut Found,
+) -> Result<(), SearchError> {
+    let levels: Vec<Accuracy> = experiments.iter().map(accuracy).collect();
+    let questions: Vec<(usize, Question)> = experiments
+        .iter()
+        .enumerate()
+        .flat_map(|(i, e)| points.iter().filter_map(move |p| Some((i, e.question(unknowns, p)?))))
+        .collect();
+    let answers: Vec<Result<Response, String>> =
+        questions.par_iter().with_max_len(1).map(|(i, q)| respond(q, levels[*i])).collect();
+    let mut learned = vec![false; experiments.len()];
+    for ((i, question), answer) in questions.iter().zip(answers) {
+        found.runs += 1;
+        let experiment = &mut experiments[*i];
+        match answer {
+            Ok(response) => {
+                if response.reached < 0.98 {
+                    found.notes.push(format!(
+                        "{}: the finite elements reached {:.0} % of the depth, from which similarity gives the rest",
+                        experiment.name,
+                        100.0 * response.reached
+                    ));
+                }
+                experiment.errors = response.errors;
+                // what was asked of a body before was asked of the coarsest level
+                if experiment.is_sharp() || levels[*i] == Accuracy::Draft {
+                    experiment.emulator.add(question, &response);
+                } else {
+                    experiment.emulator.meet(question, &response);
+                }
+                learned[*i] = true;
+            }
+            Err(reason) => {
+                found.notes.push(format!("{}: a run of finite elements {reason}", experiment.name))
+            }
+        }
+    }
+    let silent = learned.iter().position(|l| !l).filter(|_| points.len() == 1);
+    match silent {
+        Some(i) => Err(SearchError::NoAnswer(format!(
+            "{}: no answer of the finite elements near the best fit: {}",
+            experiments[i].name,
+            found.notes.last().cloned().unwrap_or_default()
+        ))),
+        None => Ok(()),
+    }
+}
+
+/// Gives every tool that is no sharp cone runs at metals that may fit at all.
+fn design(
+    experiments: &mut [Experiment],
+    unknowns: &Unknowns,
+    found: &mut Found,
+    observer: &mut Observer<'_>,
+) -> Result<(), SearchError> {
+    let bodies: Vec<usize> = (0..experiments.len()).filter(|&i| !experiments[i].is_sharp()).collect();
+    if bodies.is_empty() {
+        return Ok(());
+    }
+    let points = plausible(experiments, unknowns)?;
+    for (k, i) in bodies.iter().enumerate() {
+        let share = 0.5 * k as f64 / bodies.len() as f64;
+        go_on(
+            observer,
+            share,
+            &format!("{}: runs of finite elements over plausible metals", experiments[*i].name),
+        )?;
+        let questions: Vec<Question> =
+            points.iter().filter_map(|p| experiments[*i].question(unknowns, p)).collect();
+        let answers: Vec<Result<Response, String>> =
+            questions.par_iter().with_max_len(1).map(|q| respond(q, Accuracy::Draft)).collect();
+        found.runs += answers.len();
+        let reason = answers.iter().find_map(|a| a.as_ref().err().cloned()).unwrap_or_default();
+        let runs: Vec<(Vec<f64>, Response)> =
+            questions.iter().zip(answers).filter_map(|(q, a)| Some((place(q), a.ok()?))).collect();
+        experiments[*i].emulator = Emulator::through(&runs).ok_or_else(|| {
+            SearchError::NoAnswer(format!(
+                "{}: too few runs of finite elements came to an end: {reason}",
+                experiments[*i].name
+            ))
+        })?;
+    }
+    Ok(())
+}
+
+/// Points far from each other among those that the rough look does not rule out.
+fn plausible(experiments: &[Experiment], unknowns: &Unknowns) -> Result<Vec<Vec<f64>>, SearchError> {
+    let candidates = sobol_points(&unknowns.parameters, 8 * LOOKS);
+    let rough = roughly(experiments, unknowns, ROUGH);
+    let ranked: Vec<(f64, &Vec<f64>)> = candidates.par_iter().map(|p| (chi2(&*rough, p), p)).collect();
+    let lowest = ranked.iter().map(|r| r.0).fold(f64::INFINITY, f64::min);
+    if !lowest.is_finite() {
+        return Err(SearchError::NoMetal);
+    }
+    let mut ranked: Vec<_> = ranked.into_iter().filter(|r| r.0.is_finite()).collect();
+    ranked.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let varied = unknowns.parameters.len();
+    let wanted = [10, 12, 20, 32, 48][varied.min(4)];
+    let allowed =
+        ranked.iter().take_while(|r| r.0 <= lowest + 12.0).count().max(4 * wanted).min(ranked.len());
+    let open: Vec<&Vec<f64>> = ranked[..allowed].iter().map(|r| r.1).collect();
+    Ok(far_apart(&open, unknowns, wanted))
+}
+
+/// `count` of `points`, each the one farthest from those taken before, the first one first.
+fn far_apart(points: &[&Vec<f64>], unknowns: &Unknowns, count: usize) -> Vec<Vec<f64>> {
+    let span: Vec<f64> = (0..unknowns.parameters.len())
+        .map(|i| {
+            let of = points.iter().map(|p| p[i]);
+            of.clone().fold(f64::NEG_INFINITY, f64::max) - of.fold(f64::INFINITY, f64::min)
+        })
+        .collect();
+    let distance = |a: &[f64], b: &[f64]| {
+        let square = |((a, b), s): ((&f64, &f64), &f64)| if *s > 0.0 { ((a - b) / s).powi(2) } else { 0.0 };
+        a.iter().zip(b).zip(&span).map(square).sum::<f64>()
+    };
+    let mut nearest = vec![f64::INFINITY; points.len()];
+    let mut taken: Vec<Vec<f64>> = Vec::new();
+    let mut next = 0;
+    while taken.len() < count.min(points.len()) {
+        taken.push(points[next].clone());
+        for (near, point) in nearest.iter_mut().zip(points) {
+            *near = near.min(distance(point, points[next]));
+        }
+        next = (0..points.len()).max_by(|a, b| nearest[*a].total_cmp(&nearest[*b])).unwrap_or(0);
+    }
+    taken
+}

@@ -1,0 +1,179 @@
+//! Whether the measurements can tell the unknowns, in which direction they see nothing, and which cone would see it best.
+
+use super::emulator::by_the_atlas;
+use super::experiment::Experiment;
+use super::objective::Objective;
+use super::parameters::{Parameter, Slot, Unknowns};
+use super::response::{Geometry, Question};
+use super::search::curvature;
+use crate::levenberg_marquardt::jacobian;
+use crate::profile_likelihood::Interval;
+use nalgebra::{DMatrix, DVector};
+use serde::Serialize;
+
+/// Relative half width of the interval of a stress, of n, within which a number counts as found.
+const FOUND: [f64; 2] = [0.15, 0.05];
+
+/// Correlation of two unknowns from which a bound on the one decides the other.
+const TIED: f64 = 0.9;
+
+/// Whether a bound of the search, not the measurements, ends the interval of `parameter`. (n ≥ 0 is no choice.)
+fn is_cut(parameter: &Parameter, interval: &Interval) -> bool {
+    let natural = matches!(parameter.slot, Slot::HardeningExponent) && interval.ends[0] <= 0.0;
+    interval.bounded[1] || (interval.bounded[0] && !natural)
+}
+
+/// Which of the unknowns the measurements tell: those of narrow intervals that no bound cuts, neither their own nor that of an
+/// unknown they are tied to.
+pub fn identified(parameters: &[Parameter], intervals: &[Interval], correlation: &[Vec<f64>]) -> Vec<bool> {
+    let cut = |j: usize| is_cut(&parameters[j], &intervals[j]);
+    let tied = |i: usize| (0..parameters.len()).any(|j| correlation[i][j].abs() > TIED && cut(j));
+    (0..parameters.len()).map(|i| is_narrow(&parameters[i], &intervals[i]) && !tied(i)).collect()
+}
+
+/// Whether the interval of `parameter` is narrow.
+fn is_narrow(parameter: &Parameter, interval: &Interval) -> bool {
+    let half = 0.5 * (interval.ends[1] - interval.ends[0]);
+    let allowed = match parameter.slot {
+        Slot::HardeningExponent | Slot::PoissonsRatio => FOUND[1],
+        Slot::ContactDepth(_) | Slot::Compliance(_) => 0.25 * parameter.width(),
+        _ => FOUND[0],
+    };
+    half <= allowed
+}
+
+/// A change of the unknowns that the measurements do not notice.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Blind {
+    /// Names of the unknowns and their changes for a sum of squares that grows by 1: a factor of positive ones, else a difference.
+    pub change: Vec<(String, f64)>,
+    /// The same in words.
+    pub text: String,
+}
+
+/// The direction that the measurements see least.
+pub fn blind(objective: &Objective<'_>, unknowns: &Unknowns, point: &[f64]) -> Option<Blind> {
+    let seen = curvature(objective, point)?;
+    let weakest = seen.eigenvalues.imin();
+    let length = (1.0 / seen.eigenvalues[weakest].max(1e-12).sqrt()).min(0.5);
+    let direction = seen.eigenvectors.column(weakest);
+    let lead = direction.iamax();
+    let sign = direction[lead].signum();
+    let change: Vec<(String, f64)> = unknowns
+        .parameters
+        .iter()
+        .zip(direction.iter())
+        .map(|(p, d)| {
+            let step = sign * length * d * p.width();
+            (p.name.clone(), if p.logarithmic { step.exp() } else { step })
+        })
+        .collect();
+    let words: Vec<String> = unknowns
+        .parameters
+        .iter()
+        .zip(&change)
+        .map(|(p, (name, by))| match p.logarithmic {
+            true => format!("{name} times {by:.3}"),
+            false => format!("{name} {by:+.3}{}{}", if p.unit.is_empty() { "" } else { " " }, p.unit),
+        })
+        .collect();
+    Some(Blind { text: words.join(" with "), change })
+}
+
+/// Another experiment and what it would do.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct NextExperiment {
+    /// Half apex angle of the sharp cone, degrees.
+    pub half_apex_deg: f64,
+    /// Quantities to be measured.
+    pub features: Vec<String>,
+    /// The unknown that it is for.
+    pub parameter: String,
+    /// Width of the interval of that unknown with it, over that without.
+    pub interval_ratio: f64,
+}
+
+/// Half apex angles that are looked at.
+const ANGLES: [f64; 8] = [45.0, 50.0, 55.0, 60.0, 65.0, 75.0, 80.0, 85.0];
+/// Noise of a next experiment where no measurement states its own.
+const NOISE: f64 = 0.01;
+/// Angles nearer than this to one that was measured are no other experiment, degrees.
+const NEAR: f64 = 4.0;
+
+/// The sharp cone whose loading curvature, unloading slope and work ratio would narrow the interval of unknown `of` most, by
+/// the atlas of cones.
+pub fn next_experiment(
+    objective: &Objective<'_>,
+    experiments: &[Experiment],
+    unknowns: &Unknowns,
+    point: &[f64],
+    of: usize,
+) -> Option<NextExperiment> {
+    let bounds = objective.bounds();
+    let slopes = jacobian(&objective.function(), point, &bounds)?;
+    // the bounds themselves are a weak measurement, without which nothing that is not seen had a width
+    let mut normal = slopes.tr_mul(&slopes);
+    for (i, parameter) in unknowns.parameters.iter().enumerate() {
+        normal[(i, i)] += 12.0 / parameter.width().powi(2).max(1e-12);
+    }
+    let width = |matrix: &DMatrix<f64>| Some(matrix.clone().try_inverse()?[(of, of)].sqrt());
+    let now = width(&normal)?;
+    let first = experiments.first()?.question(unknowns, point)?;
+    let noise = experiments.iter().map(|e| e.noise).fold(NOISE, f64::max);
+    let measured = |angle: f64| {
+        experiments.iter().any(|e| match e.geometry {
+            Geometry::Sharp { slope_deg } => (90.0 - slope_deg - angle).abs() < NEAR,
+            _ => false,
+        })
+    };
+    let ratio = |angle: f64| {
+        let slope_deg = 90.0 - angle;
+        let at = |point: &[f64]| {
+            let metal = unknowns.metal(point)?;
+            let question = Question {
+                geometry: Geometry::Sharp { slope_deg },
+                modulus: metal.elastic.youngs_modulus,
+                metal,
+                ..first.clone()
+            };
+            let logs = by_the_atlas(&question);
+            let modulus = question.modulus.ln();
+            let error = noise.hypot(0.01);
+            Some(vec![
+                (logs[0] + modulus) / error,
+                (logs[1] + modulus) / (2.0 * error),
+                logs[2] / (3.0 * error),
+            ])
+        };
+        let more = jacobian(&at, point, &bounds)?;
+        Some((angle, width(&(&normal + more.tr_mul(&more)))? / now))
+    };
+    let angles = ANGLES.iter().copied().filter(|a| !measured(*a));
+    let best = angles.filter_map(ratio).min_by(|a, b| a.1.total_cmp(&b.1))?;
+    Some(NextExperiment {
+        half_apex_deg: best.0,
+        features: ["loading_curvature", "unloading_slope", "plastic_work_ratio"].map(String::from).to_vec(),
+        parameter: unknowns.parameters[of].name.clone(),
+        interval_ratio: best.1,
+    })
+}
+
+/// Standard deviations of the coordinates and their correlations by the curvature at the minimum; a direction that is not seen has
+/// the width of the bounds.
+pub fn deviations(
+    objective: &Objective<'_>,
+    unknowns: &Unknowns,
+    point: &[f64],
+) -> (Vec<f64>, Vec<Vec<f64>>) {
+    let count = unknowns.parameters.len();
+    let widths = DVector::from_fn(count, |i, _| unknowns.parameters[i].width());
+    let inverse = curvature(objective, point).map(|seen| {
+        let values = seen.eigenvalues.map(|v| 1.0 / (v + 3.0));
+        &seen.eigenvectors * DMatrix::from_diagonal(&values) * seen.eigenvectors.transpose()
+    });
+    let covariance = inverse.unwrap_or_else(|| DMatrix::identity(count, count));
+    let deviation = |i: usize| covariance[(i, i)].max(1e-18).sqrt();
+    let correlation = |i: usize, j: usize| covariance[(i, j)] / (deviation(i) * deviation(j));
+    let rows = (0..count).map(|i| (0..count).map(|j| correlation(i, j)).collect()).collect();
+    ((0..count).map(|i| deviation(i) * widths[i]).collect(), rows)
+}

@@ -1,0 +1,351 @@
+//! Factorisation of the sparse stiffness, front by front: the symbolic analysis once per mesh, numbers in place, nothing allocated
+//! per factorisation or solve.
+
+use crate::sparse::failure::FactorError;
+use crate::sparse::front::{Pivots, eliminate};
+use crate::sparse::front_size::padded;
+use crate::sparse::front_solve::{solve_backward, solve_forward};
+use crate::sparse::front_tree::{Front, FrontTree, Part};
+use pulp::Arch;
+use rayon::prelude::*;
+use sprs::CsMat;
+use std::sync::Arc;
+
+/// Floating-point operations of one solution of a sparse symmetric system.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Operations {
+    /// Of the factorisation.
+    pub factor: f64,
+    /// Of a solve with the factors.
+    pub solve: f64,
+}
+
+/// Symbolic analysis, factor values and work space of one pattern.
+pub struct Factor {
+    arch: Arch,
+    tree: Arc<FrontTree>,
+    /// Numbers of every part of the tree.
+    parts: Vec<Numbers>,
+    /// Work space of one column of a front.
+    local: Vec<f64>,
+    /// Work space: a right-hand side in the order of elimination.
+    ordered: Vec<f64>,
+}
+
+/// Numbers of one part of the tree.
+struct Numbers {
+    /// The panels of its fronts.
+    values: Vec<f64>,
+    /// Updates of fronts whose parent is still to come, by parity.
+    stacks: [Vec<f64>; 2],
+    /// Work space of one panel.
+    scaled: Vec<f64>,
+}
+
+/// Adds the update of a child, whose row i has the place `places[i]` in its parent, to the parent's panel and update.
+fn add_child(child: &[f64], places: &[u32], front: &Front, panel: &mut [f64], update: &mut [f64]) {
+    let stride = padded(places.len());
+    let pivots = front.size.pivots;
+    let (column_length, update_length) = (front.size.panel_column(), padded(front.size.below));
+    for (j, &column) in places.iter().enumerate() {
+        let (column, from) = (column as usize, &child[j * stride + j..][..places.len() - j]);
+        if column < pivots {
+            let to = &mut panel[column * column_length..][..column_length];
+            from.iter().zip(&places[j..]).for_each(|(value, &row)| to[row as usize] += value);
+        } else {
+            let to = &mut update[(column - pivots) * update_length..][..update_length];
+            from.iter().zip(&places[j..]).for_each(|(value, &row)| to[row as usize - pivots] += value);
+        }
+    }
+}
+
+impl Numbers {
+    /// Eliminates the fronts of part `part`, whose children are in it or in `branches`. Returns the number of negative pivots,
+    /// nothing where a pivot is not accepted.
+    fn eliminate(
+        &mut self,
+        arch: Arch,
+        tree: &FrontTree,
+        part: usize,
+        branches: &[Numbers],
+        matrix: &[f64],
+        pivots: Pivots,
+    ) -> Option<usize> {
+        let [even, odd] = &mut self.stacks;
+        let mut negative = 0;
+        for &front in &tree.parts[part].fronts {
+            let front = &tree.fronts[front as usize];
+            let (own, others) = if front.parity == 0 { (&mut *even, &*odd) } else { (&mut *odd, &*even) };
+            let panel = &mut self.values[front.panel..][..front.size.panel()];
+            let update = &mut own[front.update..][..front.size.update()];
+            panel.fill(0.0);
+            update.fill(0.0);
+            for entry in &tree.entries[front.entries.clone()] {
+                panel[entry.place as usize] = matrix[entry.value as usize];
+            }
+            for &child in &tree.children[front.children.clone()] {
+                let child = &tree.fronts[child as usize];
+                let stack =
+                    if child.part == part { others } else { &branches[child.part].stacks[child.parity] };
+                let left = &stack[child.update..][..child.size.update()];
+                add_child(left, &tree.places[child.rows.clone()], front, panel, update);
+            }
+            negative += eliminate(arch, front.size, [panel, update, &mut self.scaled], pivots)?;
+        }
+        Some(negative)
+    }
+}
+
+impl Factor {
+    /// From now on without the vector registers of the processor, as a test on any processor.
+    #[doc(hidden)]
+    pub fn without_vector_registers(&mut self) {
+        self.arch = Arch::Scalar;
+    }
+
+    /// Analyses the lower triangle `matrix`, whose unknowns stand in an order of little fill.
+    pub fn new(matrix: &CsMat<f64>) -> Factor {
+        Factor::of(Arc::new(FrontTree::new(matrix)))
+    }
+
+    /// Of the pattern that was analysed.
+    pub fn of(tree: Arc<FrontTree>) -> Factor {
+        let numbers = |part: &Part| Numbers {
+            values: vec![0.0; part.factor],
+            stacks: part.stacks.map(|length| vec![0.0; length]),
+            scaled: vec![0.0; part.panel],
+        };
+        Factor {
+            arch: Arch::new(),
+            parts: tree.parts.iter().map(numbers).collect(),
+            local: vec![0.0; tree.longest_column()],
+            ordered: vec![0.0; tree.number.len()],
+            tree,
+        }
+    }
+
+    /// L D Lᵀ of a matrix with the analysed pattern, all pivots positive.
+    ///
+    /// # Errors
+    /// A pivot that is not positive.
+    pub fn cholesky(&mut self, matrix: &CsMat<f64>) -> Result<(), FactorError> {
+        self.factorise(matrix.data(), Pivots::Positive).map(|_| ()).ok_or(FactorError::NotPositive)
+    }
+
+    /// L D Lᵀ without pivoting; returns the number of negative pivots.
+    ///
+    /// # Errors
+    /// A pivot of zero, or one that is not finite.
+    pub fn ldlt(&mut self, matrix: &CsMat<f64>) -> Result<usize, FactorError> {
+        self.factorise(matrix.data(), Pivots::Any).ok_or(FactorError::Singular)
+    }
+
+    /// Factorises; returns the number of negative pivots, nothing where a pivot is not accepted.
+    fn factorise(&mut self, matrix: &[f64], pivots: Pivots) -> Option<usize> {
+        let Factor { arch, tree, parts, .. } = self;
+        let (trunk, branches) = parts.split_last_mut()?;
+        let negative: usize = branches
+            .par_iter_mut()
+            .enumerate()
+            .map(|(part, numbers)| numbers.eliminate(*arch, tree, part, &[], matrix, pivots))
+            .sum::<Option<usize>>()?;
+        let last = branches.len();
+        Some(negative + trunk.eliminate(*arch, tree, last, branches, matrix, pivots)?)
+    }
+
+    /// The numbers of the last factorisation, part by part.
+    pub fn values(&self) -> impl Iterator<Item = &[f64]> {
+        self.parts.iter().map(|numbers| &numbers.values[..])
+    }
+
+    /// The same, to put those of an earlier factorisation with the same pattern in their place.
+    pub fn values_mut(&mut self) -> impl Iterator<Item = &mut [f64]> {
+        self.parts.iter_mut().map(|numbers| &mut numbers.values[..])
+    }
+
+    /// Operations of a factorisation and a solve: a column with n entries below its diagonal takes n(n + 1) products and sums
+    /// of its outer product and n divisions; a solve passes twice over every entry. Zeros that merged fronts hold are counted.
+    pub fn operations(&self) -> Operations {
+        let mut sum = Operations { factor: 0.0, solve: 0.0 };
+        for front in &self.tree.fronts {
+            for j in 0..front.size.pivots {
+                let n = (front.size.pivots - 1 - j + front.size.below) as f64;
+                sum.factor += n * (n + 2.0);
+                sum.solve += 4.0 * (n + 1.0);
+            }
+        }
+        sum
+    }
+
+    /// Solves in place with the last factorisation.
+    pub fn solve(&mut self, rhs: &mut [f64]) {
+        let Factor { arch, tree, parts, local, ordered } = self;
+        rhs.iter().zip(&tree.number).for_each(|(&value, &number)| ordered[number] = value);
+        for front in &tree.fronts {
+            let panel = &parts[front.part].values[front.panel..][..front.size.panel()];
+            let rows = &tree.rows[front.rows.clone()];
+            let (column, pivots) = (front.size.panel_column(), front.size.pivots);
+            let local = &mut local[..column];
+            local[pivots..].fill(0.0);
+            local[..pivots].copy_from_slice(&ordered[front.first..][..pivots]);
+            solve_forward(*arch, front.size, panel, local);
+            for j in 0..pivots {
+                ordered[front.first + j] = local[j];
+            }
+            rows.iter().zip(&local[pivots..]).for_each(|(&row, taken)| ordered[row as usize] += taken);
+        }
+        for front in tree.fronts.iter().rev() {
+            let panel = &parts[front.part].values[front.panel..][..front.size.panel()];
+            let rows = &tree.rows[front.rows.clone()];
+            let (column, pivots) = (front.size.panel_column(), front.size.pivots);
+            let local = &mut local[..column];
+            local[pivots..].fill(0.0);
+            for j in 0..pivots {
+                local[j] = ordered[front.first + j] / panel[j * column + j];
+            }
+            local[pivots..].iter_mut().zip(rows).for_each(|(value, &row)| *value = ordered[row as usize]);
+            solve_backward(*arch, front.size, panel, local);
+            ordered[front.first..][..pivots].copy_from_slice(&local[..pivots]);
+        }
+        rhs.iter_mut().zip(&tree.number).for_each(|(value, &number)| *value = ordered[number]);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sparse::fill_ordering::elimination_order;
+    use crate::sparse::large_front::is_large;
+    use std::collections::BTreeSet;
+
+    /// The lower triangle of the matrix that couples the two unknowns of all nodes of a cell, its nodes in `order`: all zero.
+    fn coupled(cells: &[[u32; 4]], order: &[usize]) -> CsMat<f64> {
+        let mut place = vec![0; order.len()];
+        order.iter().enumerate().for_each(|(k, &node)| place[node] = k);
+        let mut rows = vec![BTreeSet::new(); 2 * order.len()];
+        for cell in cells {
+            let unknowns: Vec<usize> =
+                cell.iter().flat_map(|&node| [0, 1].map(|c| 2 * place[node as usize] + c)).collect();
+            for &column in &unknowns {
+                rows[column].extend(unknowns.iter().filter(|&&row| row >= column));
+            }
+        }
+        let mut starts = vec![0];
+        rows.iter().for_each(|column| starts.push(starts[starts.len() - 1] + column.len()));
+        let rows: Vec<usize> = rows.into_iter().flatten().collect();
+        let zeros = vec![0.0; rows.len()];
+        CsMat::new_csc((2 * order.len(), 2 * order.len()), starts, rows, zeros)
+    }
+
+    /// A grid of square elements with two unknowns a node, in an order of little fill: its lower triangle, in which every entry off the
+    /// diagonal is some number between -1 and 1, and the diagonal is `excess` larger than the sum of their sizes in its row.
+    fn grid(side: usize, excess: f64) -> CsMat<f64> {
+        let node = |i: usize, j: usize| (j * (side + 1) + i) as u32;
+        let cells: Vec<[u32; 4]> = (0..side * side)
+            .map(|cell| (cell % side, cell / side))
+            .map(|(i, j)| [node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)])
+            .collect();
+        let nodes = (side + 1) * (side + 1);
+        let order = elimination_order(cells.as_flattened(), 4, &vec![true; nodes]).unwrap();
+        let mut matrix = coupled(&cells, &order);
+        let mut sums = vec![0.0_f64; matrix.cols()];
+        let mut random = 1_u64;
+        for (column, mut entries) in matrix.outer_iterator_mut().enumerate() {
+            for (row, entry) in entries.iter_mut().filter(|(row, _)| *row != column) {
+                random =
+                    random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+                *entry = (random >> 11) as f64 / 2f64.powi(52) - 1.0;
+                sums[row] += entry.abs();
+                sums[column] += entry.abs();
+            }
+        }
+        for (column, mut entries) in matrix.outer_iterator_mut().enumerate() {
+            entries
+                .iter_mut()
+                .filter(|(row, _)| *row == column)
+                .for_each(|(_, e)| *e = sums[column] + excess);
+        }
+        matrix
+    }
+
+    /// Largest entry of K x − b over that of b.
+    fn relative_residual(lower: &CsMat<f64>, x: &[f64], b: &[f64]) -> f64 {
+        let mut residual: Vec<f64> = b.iter().map(|b| -b).collect();
+        for (column, entries) in lower.outer_iterator().enumerate() {
+            for (row, &entry) in entries.iter() {
+                residual[row] += entry * x[column];
+                if row != column {
+                    residual[column] += entry * x[row];
+                }
+            }
+        }
+        let largest = |v: &[f64]| v.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+        largest(&residual) / largest(b)
+    }
+
+    fn right_hand_side(size: usize) -> Vec<f64> {
+        (0..size).map(|i| (i * 7919 % 1000) as f64 - 499.5).collect()
+    }
+
+    /// One front to several thousand, with branches and with fronts that are eliminated in large blocks.
+    #[test]
+    fn the_solution_satisfies_the_equations_at_every_size() {
+        for side in [1, 2, 3, 7, 20, 45, 160] {
+            let matrix = grid(side, 1.0);
+            let mut factor = Factor::new(&matrix);
+            factor.cholesky(&matrix).unwrap();
+            let b = right_hand_side(matrix.cols());
+            let mut x = b.clone();
+            factor.solve(&mut x);
+            // rounding of a diagonally dominant matrix of condition below 100
+            assert!(relative_residual(&matrix, &x, &b) < 1e-13, "side {side}");
+        }
+        let tree = FrontTree::new(&grid(160, 1.0));
+        assert!(tree.parts.len() > 2, "no branches");
+        assert!(tree.fronts.iter().any(|front| is_large(front.size)), "no large front");
+    }
+
+    #[test]
+    fn every_number_of_threads_gives_the_same_bits() {
+        let matrix = grid(160, 1.0);
+        let solution = |threads: usize| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| {
+                let mut factor = Factor::new(&matrix);
+                factor.cholesky(&matrix).unwrap();
+                let mut x = right_hand_side(matrix.cols());
+                factor.solve(&mut x);
+                x
+            })
+        };
+        assert!(solution(1) == solution(3));
+    }
+
+    /// A diagonal shifted through eigenvalues: the number of negative pivots is that of negative eigenvalues (Sylvester).
+    #[test]
+    fn negative_pivots_are_counted_and_refused_by_cholesky() {
+        let matrix = grid(6, -8.0);
+        let mut factor = Factor::new(&matrix);
+        let dense = nalgebra::DMatrix::from_fn(matrix.rows(), matrix.cols(), |i, j| {
+            matrix.get(i.max(j), i.min(j)).copied().unwrap_or(0.0)
+        });
+        let negative = dense.symmetric_eigenvalues().iter().filter(|&&value| value < 0.0).count();
+        assert!(negative > 0, "the shift is too small");
+        assert_eq!(factor.ldlt(&matrix), Ok(negative));
+        assert_eq!(factor.cholesky(&matrix), Err(FactorError::NotPositive));
+        let b = right_hand_side(matrix.cols());
+        let mut x = b.clone();
+        factor.ldlt(&matrix).unwrap();
+        factor.solve(&mut x);
+        assert!(relative_residual(&matrix, &x, &b) < 1e-9);
+    }
+
+    #[test]
+    fn a_matrix_that_is_not_finite_is_refused() {
+        let mut matrix = grid(5, 1.0);
+        let mut factor = Factor::new(&matrix);
+        matrix.data_mut()[17] = f64::NAN;
+        assert_eq!(factor.cholesky(&matrix), Err(FactorError::NotPositive));
+        assert_eq!(factor.ldlt(&matrix), Err(FactorError::Singular));
+    }
+}

@@ -1,0 +1,29 @@
+//! The figures and tables of the paper, computed and judged.
+//!
+//! Parts of the work (`plan`) run side by side, each into a folder of its own with a stamp that says it is done (`part`);
+//! the report reads those folders (`results_reader`), judges the paper's claims (`claims`) and shows its figures
+//! (`figures`, `report`).
+
+mod paper;
+
+pub mod plan;
+
+mod profile;
+
+pub mod part;
+
+mod results_reader;
+
+pub mod table1;
+
+pub mod sensitivity;
+mod sensitivity_parts;
+
+pub mod claims;
+mod figures;
+pub mod paper_report;
+
+mod reproduction;
+
+pub use crate::reproduction::{Options, Planned, Progress, Reproduction, reproduce};
+pub use sensitivity::sensitivity;

@@ -1,0 +1,127 @@
+//! The results that the parts have left on disk, read back into types. A file that is not there is `None`, never a guess.
+
+use super::part::{Job, Stamp};
+use crate::table1::{ClosureSeeds, ComparedRow, Seeds};
+use asperity::calibrate::Fit;
+use asperity::crush::{CurveRow, Island, Phase, Summary, read_rows};
+use asperity::draw::frame::data_uri;
+use asperity::numerics::least_squares::Line;
+use asperity::page::format::Spread;
+use asperity::roughness::Closure;
+use serde::de::DeserializeOwned;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+/// The folders of the parts that are done.
+pub struct Results {
+    parts: PathBuf,
+    stamps: BTreeMap<&'static str, Stamp>,
+}
+
+impl Results {
+    /// The results of `jobs` in `parts`.
+    pub fn read(parts: &Path, jobs: &[Job]) -> Results {
+        let stamps = jobs.iter().filter_map(|job| Some((job.part.name, job.done()?))).collect();
+        Results { parts: parts.to_path_buf(), stamps }
+    }
+
+    /// The stamp of a part that is done.
+    pub fn stamp(&self, part: &str) -> Option<&Stamp> {
+        self.stamps.get(part)
+    }
+
+    fn bytes(&self, part: &str, file: &str) -> Option<Vec<u8>> {
+        self.stamp(part)?;
+        std::fs::read(self.parts.join(part).join(file)).ok()
+    }
+
+    fn json<T: DeserializeOwned>(&self, part: &str, file: &str) -> Option<T> {
+        serde_json::from_slice(&self.bytes(part, file)?).ok()
+    }
+
+    /// The rows of a CSV file of a part.
+    pub fn rows<T: DeserializeOwned>(&self, part: &str, file: &str) -> Option<Vec<T>> {
+        self.stamp(part)?;
+        read_rows(&self.parts.join(part).join(file)).ok()
+    }
+
+    /// A text file of a part.
+    pub fn text(&self, part: &str, file: &str) -> Option<String> {
+        String::from_utf8(self.bytes(part, file)?).ok()
+    }
+
+    /// The summary of a crush.
+    pub fn summary(&self, part: &str) -> Option<Summary> {
+        self.json(part, "summary.json")
+    }
+
+    /// The curve of a crush.
+    pub fn curve(&self, part: &str) -> Option<Vec<CurveRow>> {
+        self.rows(part, "curve.csv")
+    }
+
+    /// Depth (µm) and force of a crush while loading.
+    fn loading(&self, part: &str) -> Option<Vec<[f64; 2]>> {
+        let rows = self.curve(part)?.into_iter().filter(|row| row.phase == Phase::Load);
+        Some(rows.map(|row| [row.depth_um, row.force_N]).collect())
+    }
+
+    /// The fit of the sweep.
+    pub fn fit(&self) -> Option<Fit> {
+        self.json("calibrate", "fit.json")
+    }
+
+    /// The row of Table 1 of a rough surface.
+    pub fn table1(&self, part: &str) -> Option<ComparedRow> {
+        self.json(part, "table1.json")
+    }
+
+    /// One quantity of Table 1 by a closure.
+    pub fn rough(
+        &self,
+        part: &str,
+        closure: Closure,
+        quantity: fn(&ClosureSeeds) -> &Seeds,
+    ) -> Option<Spread> {
+        let table = self.table1(part)?;
+        let seeds = quantity(table.closures.iter().find(|row| row.closure == closure)?);
+        (!seeds.0.is_empty()).then(|| Spread { mean: seeds.mean(), deviation: seeds.deviation() })
+    }
+
+    /// A PNG of a part as a data URI.
+    pub fn png(&self, part: &str, file: &str) -> Option<String> {
+        self.bytes(part, file).map(|png| data_uri(&png))
+    }
+
+    /// The SVG of a part whose name starts with `start` and ends in the number of an increment.
+    pub fn sketch(&self, part: &str, start: &str) -> Option<String> {
+        self.stamp(part)?;
+        let entries = std::fs::read_dir(self.parts.join(part)).ok()?;
+        let names = entries.filter_map(|e| e.ok()?.file_name().into_string().ok());
+        let name = names.filter(|n| n.starts_with(&format!("{start}_")) && n.ends_with(".svg")).max()?;
+        self.text(part, &name)
+    }
+
+    /// Force at `depth` (µm) of the loading branch, √F interpolated.
+    pub fn force_at(&self, part: &str, depth: f64) -> Option<f64> {
+        let loading = self.loading(part)?;
+        let pair = loading.windows(2).find(|w| w[0][0] < depth && depth <= w[1][0])?;
+        let share = (depth - pair[0][0]) / (pair[1][0] - pair[0][0]);
+        let root = |i: usize| pair[i][1].max(0.0).sqrt();
+        Some((root(0) + share * (root(1) - root(0))).powi(2))
+    }
+
+    /// Slope of ln F against ln h of the single asperity over the upper half of the depth.
+    pub fn force_exponent(&self) -> Option<f64> {
+        let loading = self.loading("single-asperity")?;
+        let peak = loading.last()?[0];
+        let upper = loading.iter().filter(|p| p[0] >= 0.5 * peak && p[1] > 0.0);
+        let logs: Vec<[f64; 2]> = upper.map(|p| p.map(f64::ln)).collect();
+        Some(Line::through(&logs).slope).filter(|slope| slope.is_finite())
+    }
+
+    /// Regions of a crush that never yielded and do not belong to the bulk.
+    pub fn islands(&self, part: &str) -> Option<Vec<Island>> {
+        Some(self.summary(part)?.elastic_islands.into_iter().filter(|i| !i.reaches_substrate).collect())
+    }
+}

@@ -1,0 +1,202 @@
+//! The contact on one grid: what is known, what is looked for, and how far a pressure is from it.
+
+use super::convolution::{Convolution, Way};
+use super::nodes::Nodes;
+use crate::half_space::float::{CHUNK, Real, sums, total};
+use rayon::prelude::*;
+
+/// Height of a point that was not measured, in units of the range: no plane reaches it.
+pub(super) const MISSING: f64 = -1e6;
+
+/// Plane held at a height, or pushed by a mean pressure over all nodes of the grid.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Hold {
+    /// Mean pressure.
+    Pressure(f64),
+    /// Height of the plane.
+    Plane(f64),
+}
+
+/// A grid with its heights; E* and a pixel are 1, so that a pressure is a slope.
+pub(super) struct Level<T: Real> {
+    /// Heights in units of the range of heights, row by row; a missing one is [`MISSING`].
+    pub heights: Vec<T>,
+    /// Largest pressure; infinite where the half-space is elastic.
+    pub limit: f64,
+    /// Root mean square height, the unit of gaps in the residual.
+    pub rms: f64,
+    /// The half-space.
+    pub space: Convolution<T>,
+    /// Convolutions done.
+    pub convolutions: usize,
+}
+
+/// A pressure with the gaps that it leaves.
+pub(super) struct Search<T> {
+    /// Pressure on each node.
+    pub pressure: Vec<T>,
+    /// Displacement minus height; plus `plane` it is the gap.
+    pub lift: Vec<T>,
+    /// Height of the plane.
+    pub plane: f64,
+    /// Residual of the complementarity conditions.
+    pub residual: f64,
+}
+
+/// Whether a node may change its pressure: between the bounds, or pushed away from its bound by the gap.
+#[inline]
+pub(super) fn is_free<T: Real>(pressure: T, gap: T, limit: T) -> bool {
+    if pressure <= T::zero() { gap < T::zero() } else { pressure < limit || gap > T::zero() }
+}
+
+impl<T: Real> Level<T> {
+    /// The limit in the number type.
+    pub fn top(&self) -> T {
+        if self.limit.is_finite() { T::of(self.limit) } else { T::infinity() }
+    }
+
+    /// `output` = compliance or stiffness of `input`.
+    pub fn apply(&mut self, way: Way, input: &[T], output: &mut [T]) {
+        self.convolutions += 1;
+        self.space.apply(way, input, output);
+    }
+
+    /// `lift` of a pressure.
+    pub fn lift(&mut self, pressure: &[T], lift: &mut [T]) {
+        self.apply(Way::Compliance, pressure, lift);
+        let heights = &self.heights;
+        lift.par_chunks_mut(CHUNK)
+            .zip(heights.par_chunks(CHUNK))
+            .for_each(|(lift, heights)| lift.iter_mut().zip(heights).for_each(|(u, h)| *u = *u - *h));
+    }
+
+    /// The height of the plane that `hold` leaves (where a pressure is given, that with a mean gap of 0 over the nodes that are
+    /// free to change), and the nodes that it touches or overlaps. `touching` are those under pressure.
+    pub fn plane(
+        &self,
+        hold: Hold,
+        [pressure, lift]: [&[T]; 2],
+        touching: &Nodes,
+        last: Option<f64>,
+    ) -> (f64, Nodes) {
+        let top = self.top();
+        let mean = |nodes: &Nodes, chosen: &(dyn Fn(usize) -> bool + Sync)| {
+            let [sum, n] = nodes.sums(|i| if chosen(i) { [lift[i].wide(), 1.0] } else { [0.0, 0.0] });
+            (n > 0.0).then(|| -sum / n)
+        };
+        if let Hold::Plane(plane) = hold {
+            return (plane, self.near([pressure, lift], plane));
+        }
+        let first = mean(touching, &|i| pressure[i] < top)
+            .or(last)
+            .or_else(|| mean(touching, &|_| true))
+            .unwrap_or(0.0);
+        let (at, near) = (T::of(first), self.near([pressure, lift], first));
+        let plane = mean(&near, &|i| is_free(pressure[i], lift[i] + at, top)).unwrap_or(first);
+        // a lower plane overlaps more
+        let near = if plane < first { self.near([pressure, lift], plane) } else { near };
+        (plane, near)
+    }
+
+    /// The nodes under pressure, and those that overlap the plane at a height.
+    pub fn near(&self, [pressure, lift]: [&[T]; 2], plane: f64) -> Nodes {
+        let at = T::of(plane);
+        Nodes::of(pressure.len(), |i| pressure[i] > T::zero() || lift[i] + at < T::zero())
+    }
+
+    /// How far pressure and gap are from complementarity, over the load times the rms height: gap under pressure,
+    /// overlap without it, and overlap that a pressure below the limit would have to push away. `near` holds all nodes under
+    /// pressure or overlapping the plane.
+    pub fn residual(&self, [pressure, lift]: [&[T]; 2], plane: f64, near: &Nodes) -> f64 {
+        let (top, at) = (self.top(), T::of(plane));
+        let [load, touching, overlapping] = near.sums(|i| {
+            let flag = |holds: bool| if holds { 1.0 } else { 0.0 };
+            [pressure[i].wide(), flag(pressure[i] > T::zero()), flag(lift[i] + at < T::zero())]
+        });
+        if load <= 0.0 {
+            // without pressure any overlap is all wrong
+            return if overlapping > 0.0 { 1.0 } else { 0.0 };
+        }
+        let typical = load / touching;
+        let [wrong] = near.sums(|i| {
+            let (p, gap) = (pressure[i], (lift[i] + at).wide());
+            [if gap > 0.0 {
+                p.wide() * gap
+            } else if p < top {
+                // a pressure that is next to nothing pushes nothing away
+                p.wide().max(typical) * -gap
+            } else {
+                0.0
+            }]
+        });
+        wrong / (load * self.rms)
+    }
+
+    /// `pressure` brought to the mean pressure wanted without leaving its bounds: scaled, and where a limit cuts that, shifted
+    /// on the nodes in contact.
+    pub fn rescale(&self, pressure: &mut [T], wanted: f64) {
+        let nodes = pressure.len() as f64;
+        let (limit, target) = (self.limit, wanted * nodes);
+        for _ in 0..60 {
+            // capped scaling: what is below the limit takes the rest of the load
+            let parts: Vec<[f64; 2]> = pressure
+                .par_chunks(CHUNK)
+                .map(|part| {
+                    part.iter().fold([0.0, 0.0], |[below, full], p| {
+                        let p = p.wide();
+                        if p >= limit { [below, full + limit] } else { [below + p, full] }
+                    })
+                })
+                .collect();
+            let [below, full] = total(&parts);
+            if (below + full - target).abs() <= 1e-12 * target {
+                return;
+            }
+            let (factor, all) = if below > 0.0 && target > full {
+                ((target - full) / below, false)
+            } else if target < full + below {
+                (target / (full + below), true)
+            } else {
+                self.spread(pressure, target - full);
+                continue;
+            };
+            let (by, top) = (T::of(factor), self.top());
+            pressure.par_chunks_mut(CHUNK).for_each(|part| {
+                for p in part.iter_mut().filter(|p| all || **p < top) {
+                    *p = (*p * by).min(top);
+                }
+            });
+            if factor <= 1.0 || limit.is_infinite() {
+                return;
+            }
+        }
+    }
+
+    /// The same where all pressure is on the nodes `touching`; those on which it is then.
+    pub fn rescale_on(&self, touching: Nodes, pressure: &mut [T], wanted: f64) -> Nodes {
+        let [load] = touching.sums(|i| [pressure[i].wide()]);
+        if load > 0.0 && self.limit.is_infinite() {
+            let by = T::of(wanted * pressure.len() as f64 / load);
+            touching.set(pressure, |_, p| p * by);
+            return touching;
+        }
+        self.rescale(pressure, wanted);
+        Nodes::of(pressure.len(), |i| pressure[i] > T::zero())
+    }
+
+    /// Adds `missing` load, evenly on the nodes without any pressure: those under pressure are all at the limit.
+    fn spread(&self, pressure: &mut [T], missing: f64) {
+        let hole = T::of(MISSING);
+        let idle = |p: T, h: T| p <= T::zero() && h > hole;
+        let [n] = sums(pressure.len(), |range| {
+            let pairs = pressure[range.clone()].iter().zip(&self.heights[range]);
+            [pairs.filter(|(p, h)| idle(**p, **h)).count() as f64]
+        });
+        let share = if n > 0.0 { T::of(missing / n).min(self.top()) } else { T::zero() };
+        pressure
+            .par_iter_mut()
+            .zip(&self.heights)
+            .filter(|(p, h)| idle(**p, **h))
+            .for_each(|(p, _)| *p = share);
+    }
+}

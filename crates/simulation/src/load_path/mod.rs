@@ -1,0 +1,13 @@
+//! The path of the tool, the only one: adaptive increments to a travel, a depth or a force, back to zero force, and again.
+
+pub mod checkpoint;
+
+mod increment;
+mod load;
+mod path;
+mod target;
+mod touches;
+mod unload;
+
+pub use increment::{Energies, Increment, Observer, Stop};
+pub use path::Path;

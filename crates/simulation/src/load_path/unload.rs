@@ -1,0 +1,139 @@
+//! Unloading, and loading again a body that was unloaded.
+
+use super::increment::{Observer, Stop};
+use super::path::Path;
+use super::target::GOAL_TOLERANCE;
+use crate::record::rows::Phase;
+use crate::setup::problem::Goal;
+use crate::setup::schedule::{UNLOADING_EXPONENT, unloading};
+use asperity_solver::equilibrium::SolveFailure;
+use asperity_solver::equilibrium::tool_stiffness::ToolStiffness;
+use asperity_solver::remesh::distortion::UNLOADED;
+
+/// Retreats after which a tool is taken away whatever it still bears.
+const MOST_RETREATS: usize = 500;
+
+/// Share of the tolerance of the loading to which unloading increments are solved.
+const UNLOADING_TOLERANCE: f64 = 0.1;
+
+/// Share of the peak travel that may be left when the tool is taken away, which is one increment however far the metal
+/// then flows: from further off it sprang back beyond its first summit.
+const LAST_RETREAT: f64 = 0.02;
+
+impl Path<'_> {
+    /// Unloads to zero force in about `steps` increments, then removes the tool and finds the equilibrium of the body
+    /// alone: there the force is zero and the depth that of its highest point. `stiffness` is that of the peak.
+    ///
+    /// Travels follow F ∝ (1 - u/u₀)^1.25 with u₀ = 1.25 F/S; the last few percent of the force are not chased.
+    ///
+    /// # Errors
+    /// Why it stopped on its way.
+    pub fn unload(
+        &mut self,
+        stiffness: ToolStiffness,
+        steps: usize,
+        observer: &mut Observer<'_>,
+    ) -> Result<(), Stop> {
+        if self.model.is_distorted(UNLOADED) {
+            self.remesh();
+        }
+        let (peak_force, peak) = (self.force, self.travel);
+        let compliance = 1.0 / stiffness.depth + self.sums().penetration / peak_force;
+        self.slope = Some(self.follows(&stiffness));
+        // what is left of the work is the smaller, the further the tool retreats
+        let settings = self.settings;
+        self.settings.tolerance =
+            (UNLOADING_TOLERANCE * settings.tolerance).max(settings.tolerance.min(GOAL_TOLERANCE));
+        let done = self.retreat_from([peak, peak_force], compliance, steps, observer);
+        self.settings = settings;
+        done
+    }
+
+    /// Unloads from the travel and force of `peak`, where depth and penetration have this `compliance` together.
+    fn retreat_from(
+        &mut self,
+        [peak, peak_force]: [f64; 2],
+        compliance: f64,
+        steps: usize,
+        observer: &mut Observer<'_>,
+    ) -> Result<(), Stop> {
+        let unloading_travels = UNLOADING_EXPONENT * peak_force * compliance;
+        self.unloading_travels = vec![peak];
+        for travel in unloading(peak, unloading_travels, steps, 0.3) {
+            if travel >= self.travel || self.force < 0.03 * peak_force {
+                continue;
+            }
+            let sums = self.reach(travel, Phase::Unload, false, observer)?;
+            if sums.force <= 0.0 {
+                break; // beyond separation: the equilibrium without the tool comes next
+            }
+            self.accept(travel, Phase::Unload, observer)?;
+            self.unloading_travels.push(travel);
+        }
+        if self.model.body().material.has_back_stress() {
+            self.retreat_from_reverse_flow(0.03 * peak_force, steps, observer)?;
+        }
+        if self.take_away().is_err() {
+            if !self.remesh() {
+                return Err(Stop::NoEquilibrium);
+            }
+            self.take_away().map_err(|_| Stop::NoEquilibrium)?;
+        }
+        let separation = self.model.trial_surface().first_touch() - self.touch;
+        self.accept(separation, Phase::Unload, observer).map(|_| ())
+    }
+
+    /// Solves, but does not accept, the body without its tool.
+    fn take_away(&mut self) -> Result<(), SolveFailure> {
+        self.model.begin(f64::INFINITY, 0.0, |_| [0.0; 2]);
+        self.iterate()
+    }
+
+    /// Goes on unloading down to `force` where metal flows in reverse and gives way more than elastic metal does: each
+    /// step takes off a share of the force that the slope foretells, `steps` of which would take off all; and further while
+    /// metal that has little force left still has far to go.
+    fn retreat_from_reverse_flow(
+        &mut self,
+        force: f64,
+        steps: usize,
+        observer: &mut Observer<'_>,
+    ) -> Result<(), Stop> {
+        let peak = self.unloading_travels.first().copied().unwrap_or(self.travel);
+        for _ in 0..MOST_RETREATS {
+            let slope = self.slope.unwrap_or(0.0);
+            let left = UNLOADING_EXPONENT * self.force / slope;
+            if slope <= 0.0 || (self.force <= force && left <= LAST_RETREAT * peak) {
+                break;
+            }
+            let travel = self.travel - left / steps as f64;
+            let sums = self.reach(travel, Phase::Unload, false, observer)?;
+            if sums.force <= 0.0 {
+                break;
+            }
+            self.accept(travel, Phase::Unload, observer)?;
+            self.unloading_travels.push(travel);
+        }
+        Ok(())
+    }
+
+    /// Goes back to `goal`, the end of the first loading, along the travels of the last unloading in reverse: metal that
+    /// stays elastic then passes through the same states, and what its work differs by is hysteresis alone.
+    ///
+    /// # Errors
+    /// Why it stopped on its way.
+    pub fn reload(&mut self, goal: Goal, observer: &mut Observer<'_>) -> Result<(), Stop> {
+        let mut travels = std::mem::take(&mut self.unloading_travels);
+        let peak = if travels.is_empty() { self.travel } else { travels.remove(0) };
+        for travel in travels.into_iter().rev() {
+            // metal that flows while it is unloaded may leave the summit above the last of them
+            if travel <= self.travel {
+                continue;
+            }
+            self.reach(travel, Phase::Reload, true, observer)?;
+            self.accept(travel, Phase::Reload, observer)?;
+        }
+        let sums = self.reach(peak, Phase::Reload, true, observer)?;
+        let travel = self.solve_for_goal(goal, peak, sums)?;
+        self.accept(travel, Phase::Reload, observer).map(|_| ())
+    }
+}

@@ -1,0 +1,11 @@
+//! What a run leaves: its rows and summary in SI, read off the converged increments and freed of the ripple of the mesh.
+
+pub mod rows;
+
+pub mod curve;
+
+mod mesh_ripple;
+
+pub mod oliver_pharr;
+
+pub(crate) mod recorder;

@@ -1,0 +1,251 @@
+//! Results of a run: one row per converged increment, and the summary. SI units throughout.
+//!
+//! In axisymmetry forces are in N, areas in m², energies in J, of the full body of revolution. In plane strain
+//! they are per metre of ridge: N/m, m (contact width), J/m.
+
+use asperity_solver::body::energy::work;
+
+/// Whether the tool advances or retreats.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Phase {
+    /// The tool advances.
+    Load,
+    /// The tool retreats.
+    Unload,
+    /// The tool advances again to where it has been.
+    Reload,
+}
+
+/// One load and the unloading after it: a row of `cycles.csv`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CycleRow {
+    /// 0: the first loading; then the reloads.
+    pub cycle: usize,
+    /// Increment of the peak.
+    pub peak_increment: usize,
+    /// Increment at which the tool is gone.
+    pub end_increment: usize,
+    /// Depth at the peak, m.
+    pub peak_depth: f64,
+    /// Force at the peak, N (N/m).
+    pub peak_force: f64,
+    /// Initial summit minus the highest point of the body in equilibrium without the tool; of an indent, the depth at which the
+    /// tool touches again, m.
+    pub residual_depth: f64,
+    /// ∫F dh on the way in, over the corrected depth, J (J/m).
+    pub work_in: f64,
+    /// Work returned on the way out, J (J/m).
+    pub work_out: f64,
+    /// Plastic work of both ways, J (J/m).
+    pub plastic_work: f64,
+}
+
+/// One converged increment in SI: what `curve.csv` has in its units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CurveRow {
+    /// Counted from 0, the first touch.
+    pub increment: usize,
+    /// Loading or unloading.
+    pub phase: Phase,
+    /// Tool travel from first touch, less the penalty correction, plus far field and deflection of tool and machine, m.
+    pub depth: f64,
+    /// Force on the tool, positive in compression, N (N/m). Once the run has ended without the ripple of the mesh and
+    /// extrapolated with the companion, as are the contact area and what follows from the two; as they are for an observer.
+    pub force: f64,
+    /// Projected current area under pressure, m² (width, m).
+    pub contact_area: f64,
+    /// Radius of the disc of the area of the contact that holds the axis, m: its outer edge, where no gap is open in it
+    /// (plane strain: half the contact width).
+    pub contact_radius: f64,
+    /// Force over contact area, Pa; 0 without contact.
+    pub mean_pressure: f64,
+    /// ∫F dh over the raw tool displacement, J (J/m).
+    pub external_work: f64,
+    /// Stored elastic energy, residual stress included, J (J/m).
+    pub elastic_energy: f64,
+    /// Σ∫σ_y dε_p, J (J/m).
+    pub plastic_work: f64,
+    /// Energy stored in the penalty, ½ε∫d² dA with the penetration d, J (J/m): an artefact of the method.
+    pub contact_energy: f64,
+    /// Change of the three energies by all transfers to better meshes so far, J (J/m): no work of the tool.
+    pub transfer_energy: f64,
+    /// Pressure-weighted mean penetration, m.
+    pub penetration: f64,
+    /// Deflection of tool and machine frame, a part of the depth, m.
+    pub compliance_depth: f64,
+    /// Newton iterations spent since the last row.
+    pub newton_iterations: usize,
+    /// Sum of the nodal forces, N (N/m), in equilibrium with the stresses: what energies and works are made of.
+    pub force_nodal: f64,
+    /// 95 % bound of the relative error of the force; `None` where it is not known or there is no force.
+    pub force_error: Option<f64>,
+}
+
+impl CurveRow {
+    /// Work that none of the energies accounts for, J (J/m): what increments, Newton's method and the penalty leave.
+    pub fn unaccounted_work(&self) -> f64 {
+        let kept = self.elastic_energy + self.plastic_work + self.contact_energy - self.transfer_energy;
+        self.external_work - kept
+    }
+}
+
+/// 95 % bounds of the errors of a run against its own converged limit, over 0.2 ≤ h/h_peak ≤ 1; NaN where they are not known.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Errors {
+    /// Of the force, relative.
+    pub force: f64,
+    /// Of the contact area, relative.
+    pub contact_area: f64,
+    /// Of the mean pressure, relative.
+    pub mean_pressure: f64,
+    /// Of the residual depth, over the peak depth; `None` without unloading.
+    pub residual_depth: Option<f64>,
+    /// Of the elastic fraction, absolute; `None` without unloading.
+    pub elastic_fraction: Option<f64>,
+    /// Of the unloading stiffness, relative.
+    pub unloading_stiffness: Option<f64>,
+}
+
+impl Errors {
+    /// Nothing is known.
+    pub const UNKNOWN: Errors = Errors {
+        force: f64::NAN,
+        contact_area: f64::NAN,
+        mean_pressure: f64::NAN,
+        residual_depth: None,
+        elastic_fraction: None,
+        unloading_stiffness: None,
+    };
+}
+
+/// The share of one asperity in one increment: a row of `asperities.csv`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AsperityRow {
+    /// Increment of the curve.
+    pub increment: usize,
+    /// Loading or unloading.
+    pub phase: Phase,
+    /// Counted from 0, from the axis (left side) outward.
+    pub asperity: usize,
+    /// As in the curve, m.
+    pub depth: f64,
+    /// Force on this asperity, N (N/m).
+    pub force: f64,
+    /// Its contact area, m² (width, m).
+    pub contact_area: f64,
+    /// Innermost (leftmost) point of its contact, m; NaN without contact.
+    pub contact_left: f64,
+    /// Outermost point of its contact, m; NaN without contact.
+    pub contact_right: f64,
+    /// Largest contact pressure on it, Pa.
+    pub max_pressure: f64,
+}
+
+/// An untouched stretch of surface between two contacts in one increment: a row of `gaps.csv`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GapRow {
+    /// Increment of the curve.
+    pub increment: usize,
+    /// Loading or unloading.
+    pub phase: Phase,
+    /// As in the curve, m.
+    pub depth: f64,
+    /// Where the contact before the gap ends, m.
+    pub left: f64,
+    /// Where the contact after it begins, m.
+    pub right: f64,
+    /// Largest distance from the tool in between, m; from the lowest to the highest point of an enclosed gap.
+    pub height: f64,
+    /// Whether flanks that press each other close it off from the tool.
+    pub enclosed: bool,
+}
+
+/// The evaluation of a peak after Oliver and Pharr, in the units of the peak.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OliverPharr {
+    /// ε of the tool's shape.
+    pub geometry_factor: f64,
+    /// h_c.
+    pub contact_depth: f64,
+    /// A(h_c).
+    pub contact_area: f64,
+    /// F/A(h_c).
+    pub hardness: f64,
+    /// (√π/2) S/√A(h_c).
+    pub reduced_modulus: f64,
+}
+
+/// `summary.json`. `None` where the scene did not ask for it (unloading) or the run did not reach it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Summary {
+    /// Largest force, N (N/m).
+    pub peak_force: f64,
+    /// Depth at the peak, m.
+    pub peak_depth: f64,
+    /// Initial summit minus the highest point of the body in equilibrium without the tool; of an indent, the depth at which the
+    /// tool touches again, m.
+    pub residual_depth: Option<f64>,
+    /// dF/dh at the peak from one elastic solve with the contact kept, N/m (N/m²).
+    pub unloading_stiffness: Option<f64>,
+    /// Contact area at the peak, m² (m).
+    pub contact_area: f64,
+    /// Contact radius at the peak, m.
+    pub contact_radius: f64,
+    /// ∫F dh to the peak, over the corrected depth, J (J/m).
+    pub total_work: f64,
+    /// Work returned on unloading to F = 0, J (J/m).
+    pub elastic_work: Option<f64>,
+    /// Plastic work at the end of loading, J (J/m).
+    pub plastic_work: f64,
+    /// The evaluation of the curve after Oliver and Pharr; `None` without unloading, under a plane, in plane
+    /// strain.
+    pub oliver_pharr: Option<OliverPharr>,
+    /// E/(1 - ν²), of an elastic tool in series with that of the tool, Pa.
+    pub reduced_modulus: f64,
+    /// elastic_work / total_work.
+    pub elastic_fraction: Option<f64>,
+    /// Largest |W - E_e - W_p - E_c + E_t|/W, E_t what transfers to better meshes changed, over increments with W above 1 % of its peak.
+    pub energy_balance_error: f64,
+    /// That of the force among the errors.
+    pub estimated_error: f64,
+    /// Bounds of the errors, where they are known.
+    pub errors: Errors,
+    /// Number of elements.
+    pub elements: usize,
+    /// Number of unknowns.
+    pub dofs: usize,
+    /// Converged increments.
+    pub increments: usize,
+    /// Newton iterations of the whole run, failed ones included.
+    pub newton_iterations: usize,
+    /// Times an increment was halved.
+    pub cutbacks: usize,
+    /// Remeshings.
+    pub transfers: usize,
+}
+
+/// ∫F dh over corrected depths: the work over the travel less what the penetration took.
+pub fn work_along(rows: &[CurveRow]) -> f64 {
+    let step = |pair: &[CurveRow]| {
+        let (from, to) = (pair[0], pair[1]);
+        // the deflection of tool and machine is depth, but no travel
+        let sunk = to.penetration - from.penetration - (to.compliance_depth - from.compliance_depth);
+        let sunk = work([from.force_nodal, to.force_nodal], sunk);
+        to.external_work - from.external_work - sunk
+    };
+    rows.windows(2).map(step).sum()
+}
+
+/// External work at the peak.
+pub fn largest_work(rows: &[CurveRow]) -> f64 {
+    rows.iter().fold(0.0, |largest: f64, row| largest.max(row.external_work))
+}
+
+/// The largest |W - E_e - W_p - E_c + E_t|/W over increments with W above 1 % of its peak.
+pub(super) fn balance_error(rows: &[CurveRow]) -> f64 {
+    let peak = largest_work(rows);
+    rows.iter()
+        .filter(|r| r.external_work > 0.01 * peak)
+        .map(|r| r.unaccounted_work().abs() / r.external_work)
+        .fold(0.0, f64::max)
+}

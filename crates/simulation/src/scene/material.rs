@@ -1,0 +1,227 @@
+//! The metal of a scene: what it may hold, and which values make sense.
+
+use super::range::{Check, error};
+use asperity_material::units::Stress;
+use asperity_material::{
+    Elastic, Hardening, HardeningCurve, HardeningLaw, HardeningMode, HardeningTable, StressMeasure, range,
+};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::path::PathBuf;
+
+/// Isotropic metal: Hencky elasticity, von Mises plasticity, hardening by a power law or a table.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Material {
+    /// Young's modulus E.
+    #[schemars(example = "210 GPa")]
+    pub youngs_modulus: Stress,
+    /// Poisson's ratio ν, in (-1, 0.5).
+    #[schemars(extend("exclusiveMinimum" = -1, "exclusiveMaximum" = 0.5))]
+    pub poissons_ratio: f64,
+    /// Initial yield stress σ_y; absent without a table: the body stays elastic.
+    #[schemars(example = "300 MPa")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub yield_stress: Option<Stress>,
+    /// Hardening exponent n in [0, 1), 0: perfect plasticity; required beside a yield stress.
+    #[schemars(extend("minimum" = 0, "exclusiveMaximum" = 1))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub hardening_exponent: Option<f64>,
+    /// Hardening law: `hollomon` (power law in total strain), `swift` (power law in plastic strain) or `table`.
+    #[serde(default = "hollomon")]
+    pub hardening_law: HardeningChoice,
+    /// For hardening_law = "table": a csv file, relative to the scene file, whose first line is plastic_strain,yield_stress_MPa;
+    /// linear between its points, constant beyond the last. A resolved scene has `hardening_table` in its place.
+    #[schemars(example = "curve.csv")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub hardening_file: Option<PathBuf>,
+    /// Instead of `hardening_file`: accumulated plastic strain, from 0, and yield stress, point by point.
+    #[schemars(extend("examples" = [[[0, "300 MPa"], [0.1, "450 MPa"]]]))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub hardening_table: Option<Vec<(f64, Stress)>>,
+    /// Which stress the yield stress and the hardening curve mean: true stress, or Kirchhoff's, which is J times that.
+    #[serde(default)]
+    pub stress_measure: StressMeasure,
+    /// Whether the yield surface grows or moves with plastic flow; they differ in unloading and reloading.
+    #[serde(default = "isotropic")]
+    pub hardening_mode: HardeningMode,
+    /// Share of the hardening that moves the yield surface in the kinematic mode, in (0, 1]; absent: all of it.
+    #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 1))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub kinematic_share: Option<f64>,
+}
+
+fn hollomon() -> HardeningChoice {
+    HardeningChoice::Hollomon
+}
+
+fn isotropic() -> HardeningMode {
+    HardeningMode::Isotropic
+}
+
+/// How the curve of hardening is given.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum HardeningChoice {
+    /// By eq. (1) in the total strain.
+    Hollomon,
+    /// By a power law in the plastic strain.
+    Swift,
+    /// By a table of yield stress over plastic strain.
+    Table,
+}
+
+impl From<HardeningLaw> for HardeningChoice {
+    fn from(law: HardeningLaw) -> Self {
+        match law {
+            HardeningLaw::Hollomon => HardeningChoice::Hollomon,
+            HardeningLaw::Swift => HardeningChoice::Swift,
+        }
+    }
+}
+
+impl Material {
+    /// Elastic constants, in Pa.
+    pub fn elastic(&self) -> Elastic {
+        Elastic { youngs_modulus: self.youngs_modulus.0, poissons_ratio: self.poissons_ratio }
+    }
+
+    /// Whether the metal yields at any stress.
+    pub fn yields(&self) -> bool {
+        self.yield_stress.is_some() || self.hardening_law == HardeningChoice::Table
+    }
+
+    /// The curve of hardening, in Pa; `None` for an elastic body.
+    pub fn hardening(&self) -> Option<HardeningCurve> {
+        let law = match self.hardening_law {
+            HardeningChoice::Hollomon => HardeningLaw::Hollomon,
+            HardeningChoice::Swift => HardeningLaw::Swift,
+            HardeningChoice::Table => return HardeningTable::new(&self.points()?).ok().map(Into::into),
+        };
+        let (yield_stress, exponent) = (self.yield_stress?.0, self.hardening_exponent?);
+        Some(Hardening { law, yield_stress, exponent, youngs_modulus: self.youngs_modulus.0 }.into())
+    }
+
+    /// Share of the hardening that moves the yield surface: 0 for isotropic hardening.
+    pub fn moving_share(&self) -> f64 {
+        match self.hardening_mode {
+            HardeningMode::Isotropic => 0.0,
+            HardeningMode::Kinematic => self.kinematic_share.unwrap_or(1.0),
+        }
+    }
+
+    /// The points of the table, in Pa.
+    fn points(&self) -> Option<Vec<[f64; 2]>> {
+        let table = self.hardening_table.as_ref()?;
+        Some(table.iter().map(|(strain, stress)| [*strain, stress.0]).collect())
+    }
+}
+
+impl Material {
+    /// Ranges; paths relative to the material table.
+    pub(super) fn check(&self) -> Check {
+        range::youngs_modulus(self.youngs_modulus)
+            .map_err(|m| error("youngs_modulus", m + ": steel has 210 GPa"))?;
+        range::poissons_ratio(self.poissons_ratio).map_err(|m| {
+            let known = ": metals have 0.25 to 0.35; for a nearly incompressible body take 0.4999";
+            error("poissons_ratio", m + known)
+        })?;
+        if self.hardening_mode == HardeningMode::Kinematic && !self.yields() {
+            return Err(error(
+                "hardening_mode",
+                "needs a metal that yields: give yield_stress and hardening_exponent, or a table, or leave it out",
+            ));
+        }
+        match self.kinematic_share {
+            Some(_) if self.hardening_mode == HardeningMode::Isotropic => {
+                return Err(error(
+                    "kinematic_share",
+                    "needs hardening_mode = \"kinematic\" beside it: add that, or remove it",
+                ));
+            }
+            Some(share) if !(share > 0.0 && share <= 1.0) => {
+                return Err(error(
+                    "kinematic_share",
+                    format!(
+                        "must be above 0 and at most 1, not {share}: for isotropic hardening leave hardening_mode out"
+                    ),
+                ));
+            }
+            _ => {}
+        }
+        if self.hardening_law == HardeningChoice::Table {
+            return self.check_table();
+        }
+        for (path, given) in [
+            ("hardening_file", self.hardening_file.is_some()),
+            ("hardening_table", self.hardening_table.is_some()),
+        ] {
+            if given {
+                return Err(error(path, "needs hardening_law = \"table\" beside it: add that, or remove it"));
+            }
+        }
+        if let Some(yield_stress) = self.yield_stress {
+            self.check_yield_stress("yield_stress", yield_stress, "for an elastic body leave it out")?;
+        }
+        match self.hardening_exponent {
+            Some(n) => range::hardening_exponent(n).map_err(|m| {
+                let known = ": 0 is perfect plasticity; for an elastic body leave yield_stress out";
+                error("hardening_exponent", m + known)
+            }),
+            None if self.yield_stress.is_some() => Err(error(
+                "",
+                "`hardening_exponent` is missing beside yield_stress: give one from 0 (perfect plasticity) to below 1",
+            )),
+            None => Ok(()),
+        }
+    }
+
+    /// A table stands alone, hardens, and begins where a yield stress may lie.
+    fn check_table(&self) -> Check {
+        let law = [
+            ("yield_stress", self.yield_stress.is_some()),
+            ("hardening_exponent", self.hardening_exponent.is_some()),
+        ];
+        for (path, given) in law {
+            if given {
+                return Err(error(
+                    path,
+                    "does not go with hardening_law = \"table\", whose first point is the yield stress: remove it, or take \"hollomon\" or \"swift\"",
+                ));
+            }
+        }
+        let (Some(table), Some(points)) = (&self.hardening_table, self.points()) else {
+            return Err(match self.hardening_file {
+                None => error(
+                    "hardening_law",
+                    "\"table\" needs the table: give hardening_file = \"curve.csv\", or hardening_table = [[0, \"300 MPa\"], [0.1, \"450 MPa\"]]",
+                ),
+                Some(_) => error("hardening_file", "has not been read: put its points into hardening_table"),
+            });
+        };
+        if self.hardening_file.is_some() {
+            return Err(error("hardening_file", "does not go with `hardening_table`: remove one of the two"));
+        }
+        HardeningTable::new(&points).map_err(|e| {
+            let path = e.point.map_or("hardening_table".into(), |point| format!("hardening_table[{point}]"));
+            error(path, e.message)
+        })?;
+        self.check_yield_stress("hardening_table[0]", table[0].1, "correct it, or its unit")?;
+        match table.iter().position(|(_, stress)| stress.0 > self.youngs_modulus.0) {
+            None => Ok(()),
+            Some(point) => Err(error(
+                format!("hardening_table[{point}]"),
+                format!(
+                    "the yield stress must be at most Young's modulus, {} MPa, not {} MPa: correct it, or its unit",
+                    self.youngs_modulus.in_unit("MPa"),
+                    table[point].1.in_unit("MPa")
+                ),
+            )),
+        }
+    }
+
+    fn check_yield_stress(&self, path: &str, yield_stress: Stress, way_out: &str) -> Check {
+        range::yield_stress(yield_stress, self.youngs_modulus)
+            .map_err(|m| error(path, format!("{m}: {way_out}")))
+    }
+}

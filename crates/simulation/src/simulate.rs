@@ -1,0 +1,103 @@
+//! A problem from first touch to its end: loading, unloading, reloading, and what is recorded on the way.
+
+use crate::load_path::checkpoint::{Checkpoints, Journal};
+use crate::load_path::{Path, Stop};
+use crate::record::recorder::{Outcome, Recorder, Watcher};
+use crate::scene::SceneError;
+use crate::setup::problem::Problem;
+
+/// Why a run could not begin.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum CrushError {
+    /// The scene makes no sense.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// An element of the mesh is inside out.
+    #[error(
+        "the mesh has an element that is inside out or degenerate: give more numerics.elements_in_contact (12 or more), or a mesh of convex cells"
+    )]
+    Mesh,
+}
+
+/// Runs `problem`: loads it to its goal, and unloads and reloads it as often as it asks.
+///
+/// The observer hears of every increment, and of fields every `interval` increments and at the peak and the end (if that is
+/// not 0); it ends the run by breaking.
+///
+/// # Errors
+/// Only if the run cannot begin: what stops it later is in the outcome, with all that was reached.
+pub fn simulate(
+    problem: &Problem,
+    interval: usize,
+    observer: &mut Watcher<'_>,
+) -> Result<Outcome, CrushError> {
+    simulate_with(problem, interval, None, observer)
+}
+
+/// [`simulate`], which goes on from the `checkpoints` that an earlier run of the same problem left, and writes its own.
+///
+/// # Errors
+/// As for [`simulate`].
+pub fn simulate_with(
+    problem: &Problem,
+    interval: usize,
+    checkpoints: Option<&Checkpoints>,
+    observer: &mut Watcher<'_>,
+) -> Result<Outcome, CrushError> {
+    let journal = checkpoints.map(|checkpoints| Journal::open(checkpoints, problem));
+    let (mut path, recorder, stopped) = follow(problem, interval, journal, observer)?;
+    if let (Some(journal), Some(Stop::Interrupted)) = (&mut path.journal, &stopped) {
+        journal.interrupted(&path.model);
+    }
+    Ok(recorder.finish(&path, stopped, observer))
+}
+
+/// [`simulate`] up to its end, with the path as it stands there, and why it ended before its goal, if it did.
+///
+/// # Errors
+/// As for [`simulate`].
+pub(super) fn follow<'p>(
+    problem: &'p Problem,
+    interval: usize,
+    journal: Option<Journal<'p>>,
+    observer: &mut Watcher<'_>,
+) -> Result<(Path<'p>, Recorder<'p>, Option<Stop>), CrushError> {
+    let mut path = Path::new(problem).map_err(|_| CrushError::Mesh)?;
+    path.journal = journal;
+    let mut recorder = Recorder::new(problem, interval, path.model.body().analysis.dofs.count);
+    recorder.draw_start(&path.model, observer);
+    let mut stopped = path.load(&mut |model, increment| recorder.record(model, increment, observer)).err();
+    recorder.peak_reached(observer, &path.model, stopped.is_none());
+    if stopped.is_none() {
+        stopped = unload_and_reload(problem, &mut path, &mut recorder, observer).err();
+    }
+    Ok((path, recorder, stopped))
+}
+
+/// The path after the peak: the stiffness there, and unloading and reloading as often as the problem asks.
+fn unload_and_reload(
+    problem: &Problem,
+    path: &mut Path<'_>,
+    recorder: &mut Recorder<'_>,
+    observer: &mut Watcher<'_>,
+) -> Result<(), Stop> {
+    for cycle in 0..=problem.reloads {
+        if cycle > 0 {
+            path.reload(problem.goal, &mut |model, increment| recorder.record(model, increment, observer))?;
+        }
+        let peak = recorder.increments();
+        let stiffness = match path.model.unloading_stiffness() {
+            Ok(stiffness) => stiffness,
+            Err(_) if problem.unload => return Err(Stop::NoEquilibrium),
+            Err(_) => return Ok(()),
+        };
+        recorder.note_stiffness(problem.rules.whole_stiffness(stiffness.depth, path.area()));
+        if problem.unload {
+            path.unload(stiffness, problem.numbers.unload_steps, &mut |model, increment| {
+                recorder.record(model, increment, observer)
+            })?;
+            recorder.note_turn(peak);
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,16 @@
+//! The system of equations: numbering, assembly, order of elimination, factors, secants, Newton-Raphson.
+
+
+
+
+
+
+
+
+
+
+
+
+
+
+

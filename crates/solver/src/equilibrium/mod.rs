@@ -1,0 +1,481 @@
+//! The equilibrium of one increment after the other: the body as Newton sees it, with what a solver remembers between
+//! iterates and increments (factors, secants, the contact that was kept), none of which belongs to the body.
+
+mod factors;
+pub mod solved;
+pub mod tool_stiffness;
+
+use crate::body::assembly::{Response, Touching};
+use crate::body::discrete_body::Body;
+use crate::body::dofs::FIXED;
+use crate::body::failure::Failure;
+use crate::body::state::{State, Trial};
+use crate::body::stiffness::Stiffness;
+use crate::body::surface::Surface;
+use crate::contact::edge::EdgeContact;
+use crate::contact::parts::{NOTHING, Parts};
+use crate::equilibrium::tool_stiffness::{ToolStiffness, tool_stiffness};
+use crate::point::j2::Tangent;
+use crate::remesh::distortion::{Limits, is_distorted, smoothed_places};
+use asperity_numerics::newton::{self, Assessment, System};
+use asperity_numerics::secants::Secants;
+use asperity_numerics::sparse::cholesky::{Factor, Operations};
+use asperity_numerics::vectors::{dot, norm};
+use std::collections::BTreeSet;
+use std::time::Instant;
+
+/// Relative residual at which a displacement is good enough to tell which points stop yielding.
+const NEARLY: f64 = 0.1;
+
+/// Why an increment has no equilibrium.
+pub type SolveFailure = newton::Failure<Failure>;
+
+/// Counters of the work done.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Counters {
+    /// Element loops with tangent.
+    pub assemblies: usize,
+    /// Element loops without.
+    pub residuals: usize,
+    /// Factorisations.
+    pub factorisations: usize,
+    /// Seconds in assembly, contact included.
+    pub assembly_s: f64,
+    /// Those of the assemblies with tangent.
+    pub tangent_s: f64,
+    /// Seconds in factorisations.
+    pub factor_s: f64,
+    /// Seconds in triangular solves.
+    pub solve_s: f64,
+    /// Factorisations that lost a pivot.
+    pub lost_pivots: usize,
+    /// Points returned to the yield surface.
+    pub returns: usize,
+}
+
+/// A body, its converged state, and the increment under way.
+pub struct Equilibrium<'m> {
+    body: Body<'m>,
+    state: State,
+    trial: Trial,
+    response: Response,
+    stiffness: Stiffness,
+    /// Groups of nodes that the stiffness couples beside those of the elements.
+    coupled: BTreeSet<Vec<u32>>,
+    factor: Factor,
+    secants: Secants,
+    direction: Vec<f64>,
+    /// Where the direction was found: displacement, residual, and whether the contact was kept there.
+    base: Vec<[f64; 2]>,
+    residual_before: Vec<f64>,
+    base_kept_contact: bool,
+    /// Share of the direction that was gone since.
+    fraction: f64,
+    /// Whether the next assembly keeps the contact of the converged state, and whether the last one did.
+    keep_contact: bool,
+    kept_contact: bool,
+    /// Parts that touched at the last assessed iterate.
+    touching: Vec<Parts>,
+    /// Whether the factors are of the tangent of some iterate of this body.
+    has_factors: bool,
+    /// Whether each point yielded there.
+    yielded: Vec<bool>,
+    /// Whether the stiffness is that of the last assessed iterate.
+    has_tangent: bool,
+    stiffens: bool,
+    /// Whether what the points extrapolate is still to be limited (see [`State::limit_extrapolation`]), and at which relative residual.
+    unlimited: bool,
+    nearly: f64,
+    /// The displacement where this solve limited it; empty before.
+    limited_at: Vec<[f64; 2]>,
+    /// Whether that changed the residual at the last assessed iterate: no secant leads there.
+    jumped: bool,
+    /// Work done so far.
+    pub counters: Counters,
+}
+
+impl<'m> Equilibrium<'m> {
+    /// The stress-free `body`.
+    ///
+    /// # Errors
+    /// A stiffness pattern that cannot be analysed.
+    pub fn new(body: Body<'m>) -> Result<Self, Failure> {
+        let state = State::virgin(&body);
+        Equilibrium::from_state(body, state)
+    }
+
+    /// The `body` in a `state` without a tool.
+    ///
+    /// # Errors
+    /// As for [`Equilibrium::new`].
+    pub fn from_state(body: Body<'m>, state: State) -> Result<Self, Failure> {
+        let stiffness = body.analysis.stiffness.clone();
+        let factor = Factor::of(body.analysis.fronts.clone());
+        let count = body.analysis.dofs.count;
+        Ok(Equilibrium {
+            trial: state.trial(),
+            response: Response::new(&body, &state),
+            stiffness,
+            coupled: BTreeSet::new(),
+            factor,
+            secants: Secants::default(),
+            direction: vec![0.0; count],
+            base: vec![[0.0; 2]; body.mesh.nodes.len()],
+            residual_before: vec![0.0; count],
+            base_kept_contact: false,
+            fraction: 0.0,
+            keep_contact: false,
+            kept_contact: false,
+            touching: vec![NOTHING; state.edges.len()],
+            has_factors: false,
+            has_tangent: false,
+            stiffens: true,
+            unlimited: false,
+            nearly: NEARLY,
+            limited_at: Vec::new(),
+            jumped: false,
+            yielded: Vec::new(),
+            counters: Counters::default(),
+            body,
+            state,
+        })
+    }
+
+    /// The body.
+    pub fn body(&self) -> &Body<'m> {
+        &self.body
+    }
+
+    /// From now on without the vector registers of the processor, as a test on any processor.
+    #[doc(hidden)]
+    pub fn without_vector_registers(&mut self) {
+        self.body.arch = pulp::Arch::Scalar;
+        self.factor.without_vector_registers();
+    }
+
+    /// The converged state.
+    pub fn state(&self) -> &State {
+        &self.state
+    }
+
+    /// The response of the body at the last assessed iterate.
+    pub fn response(&self) -> &Response {
+        &self.response
+    }
+
+    /// The surface of the converged state.
+    pub fn converged_surface(&self) -> Surface<'_> {
+        Surface::of_state(&self.body, &self.state)
+    }
+
+    /// The surface at the last assessed iterate, until that is accepted.
+    pub fn trial_surface(&self) -> Surface<'_> {
+        Surface::of_trial(&self.body, &self.state, &self.trial, &self.response)
+    }
+
+    /// Contact of every surface edge at the last assessed iterate, in the order of the mesh.
+    pub fn contacts(&self) -> &[EdgeContact] {
+        &self.response.contact
+    }
+
+    /// Stiffness at the last assessed iterate with a tangent: lower triangle, by the numbers of the unknowns.
+    pub fn stiffness(&self) -> &sprs::CsMat<f64> {
+        &self.stiffness.matrix
+    }
+
+    /// Whether each point yields at the last assessed iterate.
+    pub fn yielding_points(&self) -> impl Iterator<Item = bool> + '_ {
+        let (new, start) = (&self.response.points.states, &self.trial.start.states);
+        new.iter().zip(start).map(|(new, start)| new.plastic_strain > start.plastic_strain)
+    }
+
+    /// Operations of a factorisation of the stiffness and of a solve.
+    pub fn operations(&self) -> Operations {
+        self.factor.operations()
+    }
+
+    /// Gives the stiffness the places of what the surface may press of itself in the increments to come.
+    fn couple_what_faces(&mut self) {
+        let state = &self.state;
+        let mut grown = false;
+        for (nodes, count) in state.facing.couplings(&state.edges) {
+            let mut group = nodes[..count].to_vec();
+            if !self.stiffness.couples(&group, &self.body.analysis.dofs) {
+                group.sort_unstable();
+                grown |= self.coupled.insert(group);
+            }
+        }
+        if grown {
+            let groups: Vec<Vec<u32>> = self.coupled.iter().cloned().collect();
+            let mesh = self.body.mesh;
+            self.stiffness =
+                Stiffness::coupled(&mesh.cells, mesh.kind.nodes(), &groups, &self.body.analysis.dofs);
+            self.factor = Factor::new(&self.stiffness.matrix);
+            (self.has_factors, self.has_tangent) = (false, false);
+            self.secants.clear();
+        }
+    }
+
+    /// Starts an increment: see [`State::begin`]. Its first iterate keeps the contact of the converged state.
+    pub fn begin(&mut self, tip: f64, ratio: f64, guess: impl Fn(usize) -> [f64; 2]) {
+        self.couple_what_faces();
+        self.state.begin(&self.body, tip, ratio, guess, &mut self.trial);
+        self.keep_converged_contact();
+        self.unlimited = self.trial.factor > 0.0 && !self.state.plastic.is_empty();
+    }
+
+    /// Contact pressure per penetration from the next increment on.
+    pub fn press_with(&mut self, penalty: f64) {
+        self.trial.penalty = penalty;
+    }
+
+    /// From now on increments are solved to the relative residual `tolerance`: the closer, the less what is frozen on the way may
+    /// depend on that way.
+    pub fn set_tolerance(&mut self, tolerance: f64) {
+        self.nearly = NEARLY.min(1e3 * tolerance);
+    }
+
+    /// Moves the tool of the increment under way to `tip`. Its points start as they did, so that the response is a smooth function of
+    /// `tip`; the iterate stays, and with it the contact.
+    pub fn move_tool(&mut self, tip: f64) {
+        self.trial.tip = tip;
+        self.trial.multiplier.clone_from(&self.state.multiplier);
+        self.keep_contact = false;
+        self.fraction = 0.0;
+        self.jumped = false;
+    }
+
+    /// The first iterate of an increment keeps the contact of the converged state, and is no step of the last increment.
+    fn keep_converged_contact(&mut self) {
+        let free = self.trial.tip == f64::INFINITY;
+        self.touching.fill(NOTHING);
+        if !free {
+            self.touching.iter_mut().zip(self.state.parts()).for_each(|(parts, kept)| *parts = kept);
+        }
+        self.keep_contact = self.touching.iter().any(|p| *p != NOTHING);
+        self.fraction = 0.0;
+        self.jumped = false;
+    }
+
+    /// Remeshes the distorted body under its surface and finds the equilibrium there by `solve`, while the tool stays. Whether it
+    /// did: else all is as it was.
+    pub fn remesh(&mut self, solve: impl FnOnce(&mut Self) -> Result<(), SolveFailure>) -> bool {
+        // multipliers and back stresses are not carried over
+        let carries = self.state.points.history.is_empty() && self.state.multiplier.iter().all(|m| *m == 0.0);
+        let places =
+            smoothed_places(&self.body, &self.state).filter(|_| carries && self.state.tip.is_finite());
+        let Some((body, state)) = places.and_then(|places| self.state.moved_to(&self.body, places)) else {
+            return false;
+        };
+        let before = (std::mem::replace(&mut self.body, body), std::mem::replace(&mut self.state, state));
+        let flow =
+            (self.state.plastic.clone(), self.state.volume_change.clone(), self.state.displacement.clone());
+        (self.has_factors, self.has_tangent) = (false, false);
+        self.secants.clear();
+        self.begin(self.state.tip, 0.0, |_| [0.0; 2]);
+        if solve(self).is_err() || self.accept().is_err() {
+            (self.body, self.state) = before;
+            (self.has_factors, self.has_tangent) = (false, false);
+            self.secants.clear();
+            return false;
+        }
+        // the flow of the last increment of the load is what the next one extrapolates
+        (self.state.plastic, self.state.volume_change, self.state.displacement) = flow;
+        self.state.note_transfer(&self.body, &before.1, &before.0);
+        true
+    }
+
+    /// Whether the mesh is more distorted than the `limits` allow.
+    pub fn is_distorted(&self, limits: Limits) -> bool {
+        is_distorted(&self.body, &self.state, limits)
+    }
+
+    /// Accepts the increment under way.
+    ///
+    /// # Errors
+    /// See [`State::commit`].
+    pub fn accept(&mut self) -> Result<(), Failure> {
+        self.state.commit(&self.body, &self.trial, &mut self.response)
+    }
+
+    /// Augmented Lagrange update at the nodes, λ ← max(0, λ + ε d), from the converged iterate.
+    pub fn augment(&mut self) {
+        let Some(contact) = &self.body.contact else { return };
+        let mut multiplier = self.trial.multiplier.clone();
+        let surface = self.trial_surface();
+        for edge in surface.edges {
+            for &node in &edge.nodes[..edge.node_count()] {
+                let depth = contact.tool.penetration(surface.position(node), self.trial.tip).depth;
+                multiplier[node as usize] =
+                    (self.trial.multiplier[node as usize] + self.trial.penalty * depth).max(0.0);
+            }
+        }
+        self.trial.multiplier = multiplier;
+        self.keep_contact = false;
+    }
+
+    /// Whether tangents that are far from definite are stiffened, or fail.
+    pub fn stiffen(&mut self, stiffens: bool) {
+        self.stiffens = stiffens;
+    }
+
+    /// dF/dh at the converged state with every point elastic and the contact kept.
+    ///
+    /// # Errors
+    /// A stiffness that cannot be factorised.
+    pub fn unloading_stiffness(&mut self) -> Result<ToolStiffness, Failure> {
+        self.begin(self.state.tip, 0.0, |_| [0.0; 2]);
+        self.body.assemble_elastic(&self.state, &self.trial, &mut self.response, &mut self.stiffness)?;
+        self.has_tangent = true;
+        self.keep_contact = false;
+        self.tool_stiffness()
+    }
+
+    /// How the force answers the travel of the tool at the last assessed iterate.
+    ///
+    /// # Errors
+    /// A stiffness that cannot be factorised.
+    pub fn tool_stiffness(&mut self) -> Result<ToolStiffness, Failure> {
+        self.renew()?;
+        Ok(tool_stiffness(
+            &self.body.analysis.dofs,
+            self.state.edges.iter().zip(&self.response.contact),
+            |rhs| self.factor.solve(rhs),
+        ))
+    }
+
+    /// Assembles the last assessed iterate once more, with the same contact.
+    fn assemble_again(&mut self, tangent: Tangent) -> Result<(), Failure> {
+        self.timed(tangent, |s| {
+            s.body.assemble_again(&s.state, &s.trial, tangent, &mut s.response, &mut s.stiffness)
+        })
+    }
+
+    /// Counts what `assemble` does for the `tangent`.
+    fn timed(
+        &mut self,
+        tangent: Tangent,
+        assemble: impl FnOnce(&mut Self) -> Result<(), Failure>,
+    ) -> Result<(), Failure> {
+        let clock = Instant::now();
+        self.has_tangent = tangent != Tangent::None;
+        assemble(self)?;
+        let seconds = clock.elapsed().as_secs_f64();
+        let counters = &mut self.counters;
+        counters.assemblies += usize::from(self.has_tangent);
+        counters.residuals += usize::from(!self.has_tangent);
+        counters.returns += self.response.returns;
+        counters.assembly_s += seconds;
+        counters.tangent_s += if self.has_tangent { seconds } else { 0.0 };
+        Ok(())
+    }
+
+    /// How far the last assembled iterate is from equilibrium.
+    fn out_of_balance(&self, changed: bool) -> Assessment {
+        let residual = norm(&self.response.residual);
+        // forces of the fixed components and of the tool, and the largest load so far (the load itself goes to 0)
+        let mut reaction = 0.0;
+        for (f, numbers) in self.response.internal.iter().zip(&self.body.analysis.dofs.number) {
+            for i in 0..2 {
+                if numbers[i] == FIXED {
+                    reaction += f[i] * f[i];
+                }
+            }
+        }
+        for edge in &self.response.contact {
+            reaction += edge.force.iter().flatten().map(|f| f * f).sum::<f64>();
+        }
+        let scale = reaction.sqrt().max(self.state.load_scale).max(f64::MIN_POSITIVE);
+        Assessment { residual, scale, changed }
+    }
+
+    /// Whether the parts that touch changed since the last assessed iterate.
+    fn contact_changed(&mut self) -> bool {
+        let shape_of = |parts: &Parts| parts.map(|p| p.is_some());
+        let mut changed = false;
+        for (before, now) in self.touching.iter_mut().zip(&self.response.contact) {
+            changed |= shape_of(before) != shape_of(&now.parts);
+            *before = now.parts;
+        }
+        changed
+    }
+}
+
+impl System for Equilibrium<'_> {
+    type Error = Failure;
+
+    fn assess(&mut self, tangent: bool) -> Result<Assessment, Failure> {
+        let tangent = if tangent { Tangent::Exact } else { Tangent::None };
+        let touching = if self.keep_contact { Touching::Kept } else { Touching::Found };
+        self.timed(tangent, |s| {
+            s.body.assemble(&s.state, &s.trial, tangent, touching, &mut s.response, &mut s.stiffness)
+        })?;
+        self.kept_contact = std::mem::take(&mut self.keep_contact);
+        let changed = self.contact_changed() || self.kept_contact;
+        let assessed = self.out_of_balance(changed);
+        if !self.unlimited || self.kept_contact || assessed.residual > self.nearly * assessed.scale {
+            return Ok(assessed);
+        }
+        self.state.limit_extrapolation(&self.body, &mut self.trial, &self.response);
+        self.response.forget_points();
+        self.limited_at.clone_from(&self.trial.displacement);
+        (self.jumped, self.unlimited) = (true, false);
+        self.assemble_again(tangent)?;
+        Ok(self.out_of_balance(changed))
+    }
+
+    fn renew(&mut self) -> Result<(), Failure> {
+        if !self.has_tangent {
+            self.assemble_again(Tangent::Exact)?;
+        }
+        self.factorise()
+    }
+
+    fn has_factors(&self) -> bool {
+        self.has_factors
+    }
+
+    /// Where a point yields that did not, or the other way, its modulus has leapt.
+    fn factors_are_stale(&self) -> bool {
+        !self.yielding_points().eq(self.yielded.iter().copied())
+    }
+
+    fn forget(&mut self) {
+        self.has_factors = false;
+    }
+
+    fn find_direction(&mut self) {
+        let clock = Instant::now();
+        let residual = &self.response.residual;
+        if self.fraction > 0.0 && !self.jumped {
+            self.secants.note(-self.fraction, &self.direction, &self.residual_before, residual);
+        }
+        self.fraction = 0.0;
+        self.jumped = false;
+        self.residual_before.copy_from_slice(residual);
+        self.direction.copy_from_slice(residual);
+        self.secants.solve(&mut self.direction, |rhs| self.factor.solve(rhs));
+        self.base.clone_from(&self.trial.displacement);
+        self.base_kept_contact = self.kept_contact;
+        self.counters.solve_s += clock.elapsed().as_secs_f64();
+    }
+
+    fn slope(&self) -> f64 {
+        -dot(&self.response.residual, &self.direction)
+    }
+
+    fn advance(&mut self, fraction: f64) {
+        self.fraction = fraction;
+        if fraction == 0.0 {
+            self.keep_contact = self.base_kept_contact;
+        }
+        let displacement = self.trial.displacement.iter_mut();
+        for ((du, base), numbers) in displacement.zip(&self.base).zip(&self.body.analysis.dofs.number) {
+            for i in 0..2 {
+                if numbers[i] != FIXED {
+                    du[i] = base[i] - fraction * self.direction[numbers[i] as usize];
+                }
+            }
+        }
+    }
+}

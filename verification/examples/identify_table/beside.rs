@@ -1,0 +1,120 @@
+//! The published finite elements beside those of the program, at metals that are known: what a fit of them can be off by.
+
+use crate::Book;
+use crate::cases::{DEPTH, Published};
+use asperity_calibration::indentation::solve;
+use asperity_material::{Elastic, Hardening, HardeningLaw, StressMeasure};
+use asperity_simulation::scene::Accuracy;
+use asperity_simulation::setup::cone::Cone;
+use asperity_solver::point::material::Metal;
+use asperity_verification::report::Report;
+use rayon::prelude::*;
+use serde_json::json;
+
+/// Numbers of the program over the published ones.
+#[derive(Clone, Copy)]
+pub struct Ratios {
+    pub exponent: f64,
+    pub e_over_sy: f64,
+    /// Loading curvatures under 60° and 50°.
+    pub curvatures: [Option<f64>; 2],
+    /// Unloading slope under 60°.
+    pub slope: Option<f64>,
+}
+
+impl Ratios {
+    /// Whether both curvatures agree within `share`.
+    pub fn agree(&self, share: f64) -> bool {
+        self.curvatures.iter().all(|k| k.is_some_and(|k| (k - 1.0).abs() <= share))
+    }
+}
+
+/// K/E and S/(E h) under a cone of this slope; none where the path stopped.
+fn cone(book: &Book, p: &Published, slope_deg: f64, accuracy: Accuracy) -> Option<[f64; 2]> {
+    let (ratio, exponent) = (p.youngs_modulus / p.yield_stress, p.exponent);
+    let level = if accuracy == Accuracy::Standard { "" } else { " finer" };
+    let found = book.recall(&format!("cone {slope_deg} {ratio} {exponent}{level}"), || {
+        let law =
+            Hardening { law: HardeningLaw::Swift, yield_stress: 1.0 / ratio, exponent, youngs_modulus: 1.0 };
+        let metal = Metal {
+            elastic: Elastic { youngs_modulus: 1.0, poissons_ratio: 0.3 },
+            hardening: Some(law.into()),
+            kinematic_share: 0.0,
+            stress_measure: StressMeasure::Cauchy,
+        };
+        let found = solve(&Cone { slope_deg, indents: true, metal }, accuracy).ok()?.0;
+        Some(json!([found.k_over_e, found.stiffness]))
+    })?;
+    Some([found[0].as_f64()?, found[1].as_f64()?])
+}
+
+/// The ratios of all metals.
+pub fn ratios(book: &Book, metals: &[Published]) -> Vec<Ratios> {
+    let one = |p: &Published| {
+        let under = [30.0, 40.0].map(|slope| cone(book, p, slope, Accuracy::Standard));
+        let curvature = |k: usize| Some(under[k]?[0] * p.youngs_modulus / p.curvatures[k]?);
+        Ratios {
+            exponent: p.exponent,
+            e_over_sy: p.youngs_modulus / p.yield_stress,
+            curvatures: [curvature(0), curvature(1)],
+            // GPa times µm is kN/m
+            slope: under[0].map(|[_, s]| 1e3 * s * p.youngs_modulus * DEPTH / p.slope),
+        }
+    };
+    metals.par_iter().with_max_len(1).map(one).collect()
+}
+
+/// Mean, least and largest of some ratios less 1, in percent.
+fn spread(values: impl Iterator<Item = f64>) -> String {
+    let values: Vec<f64> = values.map(|v| 100.0 * (v - 1.0)).collect();
+    let mean = values.iter().sum::<f64>() / values.len().max(1) as f64;
+    let (least, most) =
+        values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |a, v| (a.0.min(*v), a.1.max(*v)));
+    format!("{mean:+.1} ({least:+.1} to {most:+.1})")
+}
+
+/// Writes the table of what the two differ by.
+pub fn section(report: &mut Report, ratios: &[Ratios]) {
+    report.section("The program's finite elements beside the published ones");
+    report.table(
+        "| n | E/σ_y | metals | K under 60°, % above the published | K under 50°, % above | unloading slope under 60°, % above |",
+    );
+    for exponent in [0.0, 0.1, 0.3, 0.5] {
+        for (name, low, high) in [("up to 80", 0.0, 80.0), ("above 80", 80.0, f64::INFINITY)] {
+            let own: Vec<&Ratios> = ratios
+                .iter()
+                .filter(|r| r.exponent == exponent && r.e_over_sy > low && r.e_over_sy <= high)
+                .collect();
+            report.line(&format!(
+                "| {exponent} | {name} | {} | {} | {} | {} |",
+                own.len(),
+                spread(own.iter().filter_map(|r| r.curvatures[0])),
+                spread(own.iter().filter_map(|r| r.curvatures[1])),
+                spread(own.iter().filter_map(|r| r.slope))
+            ));
+        }
+    }
+}
+
+/// Metals whose curvature under 50° is computed at `reference` too: n, E/σ_y.
+const FINER: [[f64; 2]; 5] =
+    [[0.0, 100.0], [0.0, 1000.0 / 3.0], [0.1, 100.0], [0.1, 1000.0 / 3.0], [0.5, 1000.0 / 3.0]];
+
+/// Writes whether the differences under 50° are those of the level.
+pub fn finer(report: &mut Report, book: &Book, metals: &[Published]) {
+    report.section("Loading curvature under 50° at two levels");
+    report.table("| n | E/σ_y | standard, % above the published | reference, % above |");
+    for [exponent, ratio] in FINER {
+        let like = |p: &&Published| {
+            p.exponent == exponent && (p.youngs_modulus / p.yield_stress / ratio - 1.0).abs() < 1e-3
+        };
+        let Some(p) = metals.iter().find(like) else { continue };
+        let above = |accuracy| {
+            let k = cone(book, p, 40.0, accuracy)?[0] * p.youngs_modulus / p.curvatures[1]?;
+            Some(format!("{:+.1}", 100.0 * (k - 1.0)))
+        };
+        let [standard, reference] = [Accuracy::Standard, Accuracy::Reference]
+            .map(|accuracy| above(accuracy).unwrap_or_else(|| "stopped".into()));
+        report.line(&format!("| {exponent} | {ratio:.0} | {standard} | {reference} |"));
+    }
+}

@@ -1,0 +1,176 @@
+//! How well `identify` finds metals again: of public finite-element results under cones of 60° and 50° half apex angle, of
+//! indents in aluminium, of twins made by the program itself; what a fit costs; and two metals that one cone cannot tell apart.
+//!
+//! `cargo run --release -p asperity --example identify_table -- FOLDER [--twins N] [--every N] [--leave-out sought,twins] [--journal FILE]
+//! [--out FILE]`; without FOLDER the two metals alone. FOLDER holds
+//! FEM_60deg.csv, FEM_50deg.csv (rows 1 to 76 are used) and Al6061.csv. What the journal holds is not computed again.
+//! `--every N` takes every N-th published metal but in the fit of two cones with E known.
+
+// on committed cases
+#![allow(clippy::expect_used)]
+
+mod beside;
+mod book;
+mod cases;
+mod pair;
+mod score;
+
+use asperity_verification::report::Report;
+use beside::Ratios;
+use book::{Book, Solved};
+use cases::{Asked, Case, aluminium, published, series, twins};
+use score::{ANY, Bound, HEAD, Row, line};
+use std::path::Path;
+
+/// Agreement of a curvature with the published one, within which a metal counts as computed alike: two of the 1.5 % that the covariance of
+/// the published finite elements holds.
+const ALIKE: f64 = 0.03;
+
+fn stresses(solved: &[Solved], strain: f64) -> Vec<Row> {
+    solved.iter().map(|s| (s.case.stress(strain), s.stress(strain))).collect()
+}
+
+fn of(solved: &[Solved], name: &str, truth: fn(&Case) -> f64) -> Vec<Row> {
+    solved.iter().map(|s| (truth(&s.case), s.parameter(name))).collect()
+}
+
+fn yields(solved: &[Solved]) -> Vec<Row> {
+    of(solved, "yield_stress", |c| c.yield_stress)
+}
+
+/// Those whose interval is within so many percent of its middle.
+fn narrow(rows: &[Row], share: f64) -> Vec<Row> {
+    rows.iter().copied().filter(|(_, [value, low, high])| 0.5 * (high - low) <= share * value).collect()
+}
+
+fn main() {
+    let (mut report, words) =
+        Report::of_package("asperity", "identify_table", "finite elements at standard, extrapolated");
+    let after = |name: &str| words.iter().position(|w| w == name).and_then(|i| words.get(i + 1));
+    let left_out = |part: &str| after("--leave-out").is_some_and(|list| list.split(',').any(|w| w == part));
+    let every: usize = after("--every").map_or(1, |n| n.parse().expect("a number"));
+    let thinned =
+        |cases: Vec<Case>| cases.into_iter().skip(every / 2).step_by(every.max(1)).collect::<Vec<_>>();
+    let Some(folder) = words.first().map(Path::new) else {
+        // what needs no data of others
+        pair::section(&mut report);
+        report.finish().expect("can be written");
+        return;
+    };
+    let count: usize = after("--twins").map_or(200, |n| n.parse().expect("a number"));
+    let book = Book::open(after("--journal").map(Path::new));
+    let metals = series(folder);
+
+    let indents = aluminium(folder);
+    let own = if left_out("twins") { Vec::new() } else { twins(count) };
+    let times = [book.time(&indents[0]), own.first().and_then(|twin| book.time(twin))];
+
+    report.table(HEAD);
+    let work = "60° and 50°, E known";
+    let both = book.solve(published(&metals, Asked::TwoCones));
+    let ratios = beside::ratios(&book, &metals);
+    let stress =
+        Bound { mean: 4.0, worst: 10.0, covers: [90.0, 100.0], asked: "4 mean, 10 worst, covers 90" };
+    let covers = Bound { covers: [90.0, 100.0], asked: "covers 90", ..ANY };
+    let tenth = stresses(&both, 0.1);
+    line(&mut report, work, "stress at ε_p 0.1", &tenth, both.len(), &stress);
+    line(&mut report, work, "σ_y", &yields(&both), both.len(), &covers);
+    let alike = |rows: &[Row]| -> Vec<Row> {
+        rows.iter().zip(&ratios).filter(|(_, r)| r.agree(ALIKE)).map(|(row, _)| *row).collect()
+    };
+    let what = format!("of them those whose curvatures agree within {:.0} %: ", 100.0 * ALIKE);
+    line(&mut report, work, &format!("{what}stress at ε_p 0.1"), &alike(&tenth), both.len(), &ANY);
+    line(&mut report, work, &format!("{what}σ_y"), &alike(&yields(&both)), both.len(), &ANY);
+
+    let work = "60° and 50°, unloading slope at 60°, E sought";
+    if left_out("sought") {
+        report.line(&format!("| {work} | not run | | | | | 5 mean | |"));
+    } else {
+        let open = book.solve(thinned(published(&metals, Asked::Modulus)));
+        let modulus = of(&open, "youngs_modulus", |c| c.youngs_modulus);
+        let bound = Bound { mean: 5.0, asked: "5 mean", ..ANY };
+        let what = "E* where its interval is below ±10 %";
+        line(&mut report, work, what, &narrow(&modulus, 0.1), open.len(), &bound);
+        line(&mut report, work, "E*, all", &modulus, open.len(), &ANY);
+    }
+
+    let work = "60° alone, curvature and slope";
+    let single = book.solve(thinned(published(&metals, Asked::OneCone)));
+    let best: Vec<Row> = single.iter().map(Solved::told_best).collect();
+    let bound = Bound { mean: 4.0, asked: "4 mean", ..ANY };
+    line(&mut report, work, "σ_r, the stress told best", &best, single.len(), &bound);
+    let all = yields(&single);
+    line(
+        &mut report,
+        work,
+        "σ_y where its interval is below ±15 %",
+        &narrow(&all, 0.15),
+        single.len(),
+        &covers,
+    );
+    line(&mut report, work, "σ_y, all", &all, single.len(), &ANY);
+
+    let work = "aluminium 6061-T6511, Berkovich as a cone";
+    let metal = book.solve(indents);
+    let bound = Bound { mean: 7.0, covers: [100.0, 100.0], asked: "7 mean, covers", ..ANY };
+    line(&mut report, work, "stress at ε_p 0.033", &stresses(&metal, 0.033), metal.len(), &bound);
+    line(&mut report, work, "σ_y", &yields(&metal), metal.len(), &ANY);
+
+    let work = "twins, cone and ball, noise 0.5 %";
+    let own = book.solve(own);
+    if own.is_empty() {
+        report.line(&format!("| {work} | not run | | | | | 5 mean, covers 90 to 98 | |"));
+    } else {
+        let bound = Bound { mean: 5.0, covers: [90.0, 98.0], asked: "5 mean, covers 90 to 98", ..ANY };
+        line(&mut report, work, "σ_y", &yields(&own), count, &bound);
+        let bound = Bound { covers: [90.0, 98.0], asked: "covers 90 to 98", ..ANY };
+        line(&mut report, work, "E", &of(&own, "youngs_modulus", |c| c.youngs_modulus), count, &bound);
+        // errors of n are differences, not shares: 1 + n stands for it
+        let n: Vec<Row> = of(&own, "hardening_exponent", |c| c.exponent)
+            .iter()
+            .map(|(truth, found)| (1.0, found.map(|n| 1.0 + n - truth)))
+            .collect();
+        line(&mut report, work, "n (differences, not shares)", &n, count, &bound);
+    }
+    score::times(&mut report, times);
+    beside::section(&mut report, &ratios);
+    beside::finer(&mut report, &book, &metals);
+    misses(&mut report, &both, &ratios);
+    if !own.is_empty() {
+        score::twins(&mut report, &own);
+    }
+    pair::section(&mut report);
+    report.finish().expect("can be written");
+}
+
+/// The metals whose stress at ε_p 0.1 lies outside its interval.
+fn misses(report: &mut Report, solved: &[Solved], ratios: &[Ratios]) {
+    report.section("Metals whose stress at ε_p 0.1 lies outside its interval, two cones, E known");
+    report.table(
+        "| E, GPa | σ_y, MPa | n | error, % | interval, % | found n | K under 60° and under 50°, % above the published |",
+    );
+    let error = |s: &Solved| s.stress(0.1)[0] / s.case.stress(0.1) - 1.0;
+    let mut rows: Vec<(&Solved, &Ratios)> = solved
+        .iter()
+        .zip(ratios)
+        .filter(|(s, _)| !(s.stress(0.1)[1]..=s.stress(0.1)[2]).contains(&s.case.stress(0.1)))
+        .collect();
+    rows.sort_by(|a, b| error(b.0).abs().total_cmp(&error(a.0).abs()));
+    for (s, r) in rows {
+        let (truth, [_, low, high]) = (s.case.stress(0.1), s.stress(0.1));
+        let above =
+            |k: Option<f64>| k.map_or("stopped".to_string(), |k| format!("{:+.1}", 100.0 * (k - 1.0)));
+        report.line(&format!(
+            "| {} | {} | {} | {:+.1} | {:+.1} to {:+.1} | {:.3} | {} and {} |",
+            s.case.youngs_modulus,
+            s.case.yield_stress,
+            s.case.exponent,
+            100.0 * error(s),
+            100.0 * (low / truth - 1.0),
+            100.0 * (high / truth - 1.0),
+            s.parameter("hardening_exponent")[0],
+            above(r.curvatures[0]),
+            above(r.curvatures[1])
+        ));
+    }
+}
