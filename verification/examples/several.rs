@@ -3,7 +3,7 @@
 //!
 //! `cargo run --release -p asperity-verification --example several [-- approach.csv] [--out FILE]` (about two minutes of one
 //! core); the tables are `verification/results/several.md`. The argument `convergence` prints only that; another names a file
-//! for the approach, which `scripts/figures.py` draws.
+//! for the approach, which `verification/measure/draw-fig6` draws.
 
 // on committed scenes
 #![allow(clippy::expect_used)]

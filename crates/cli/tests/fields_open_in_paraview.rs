@@ -1,4 +1,4 @@
-//! The state scripts for ParaView open what a crush leaves and draw it.
+//! The state script for ParaView opens what a crush leaves and draws its fields.
 //!
 //! Needs `pvpython` in the path and a display or `xvfb-run`; says so and passes where there is none.
 
@@ -43,14 +43,14 @@ fn both_views_show_the_whole_scale() {
     }
     let place = Place::with_scene(SCENE.replace("every = 0", "every = 4"));
     assert_eq!(place.run(&["crush", "scene.toml", "--out", "out"]).status, 0);
-    for (name, least) in [("peak", [68, 8, 90]), ("plastic", [222, 228, 234])] {
-        let script = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../../scripts/paraview-{name}.py"));
+    for (name, least) in [("von-mises", [68, 8, 90]), ("plastic-strain", [222, 228, 234])] {
+        let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../contrib/paraview/section.py");
         let picture = place.path(&format!("{name}.png"));
         let output = paraview()
             .unwrap()
             .arg(script)
             .arg(place.path("out"))
-            .arg("--to")
+            .args(["--field", name, "--to"])
             .arg(&picture)
             .output()
             .unwrap();

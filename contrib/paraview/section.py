@@ -1,6 +1,12 @@
-"""The view that the scripts `paraview-*.py` share: a field on the deformed section, at the peak of the load.
+"""State script for ParaView 5.11 or later: a field of a crush on its deformed section, at the peak of the load.
 
-It is that of the program's own picture of one asperity, `section_*.svg`: the same part of the section, the same bands of
+    pvpython contrib/paraview/section.py out/single-asperity --to peak.png
+    pvpython contrib/paraview/section.py out/single-asperity --field plastic-strain --to plastic.png
+    paraview --script=contrib/paraview/section.py     # then ASPERITY_RESULTS names the folder, ASPERITY_FIELD the field
+
+Crush with fields first, for example: asperity crush meshes/single-asperity.toml. A body of revolution is mirrored.
+
+The view is that of the program's own picture of one asperity, `section_*.svg`: the same part of the section, the same bands of
 colour. Of several asperities it shows what has yielded, not the whole row.
 """
 
@@ -23,11 +29,13 @@ RISING = ["440154", "472d7b", "3b528b", "2c728e", "21918c", "28ae80", "5ec962", 
 ELASTIC = "dee4ea"
 
 
-def results_folder():
-    """The folder of a crush and the picture to write, from the arguments or from ASPERITY_RESULTS."""
-    parser = argparse.ArgumentParser(description=sys.modules["__main__"].__doc__)
-    parser.formatter_class = argparse.RawDescriptionHelpFormatter
+def chosen():
+    """The folder of a crush, the field and the picture to write, from the arguments or from the environment."""
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("results", nargs="?", default=os.environ.get("ASPERITY_RESULTS"), type=pathlib.Path)
+    parser.add_argument("--field", choices=FIELDS, default=os.environ.get("ASPERITY_FIELD", "von-mises"))
     parser.add_argument("--to", type=pathlib.Path, help="PNG to write; without it only the view is set up")
     arguments, _ = parser.parse_known_args()
     if arguments.results is None:
@@ -165,11 +173,23 @@ def within(body, ends):
     return body
 
 
-def main(field, title, edges, pale=False):
-    """Shows `field` of the nodes in bands between `edges(largest)`."""
+# array of the nodes, title of the key, edges of the bands, whether what has not yielded is pale
+FIELDS = {
+    "von-mises": ("von_mises_MPa", "von Mises stress (MPa)", even_edges, False),
+    "plastic-strain": (
+        "plastic_strain",
+        "accumulated plastic strain; pale: elastic",
+        strain_edges,
+        True,
+    ),
+}
+
+
+def main():
     if simple.GetParaViewVersion() < tuple(map(int, OLDEST.split("."))):
         sys.exit(f"this is ParaView {simple.GetParaViewVersion()}; {OLDEST} or later is needed")
-    arguments = results_folder()
+    arguments = chosen()
+    field, title, edges, pale = FIELDS[arguments.field]
     simple._DisableFirstRenderCameraReset()
     reader = simple.PVDReader(FileName=str((arguments.results / "fields.pvd").resolve()))
     reader.UpdatePipelineInformation()
@@ -201,3 +221,6 @@ def main(field, title, edges, pale=False):
     if arguments.to:
         simple.SaveScreenshot(str(arguments.to), view)
         print(f"written {arguments.to}")
+
+
+main()
