@@ -1,11 +1,7 @@
-//! Crushes rough metal on the computer, from one conical asperity to a whole measured surface, and says how far each number
-//! can be trusted.
+#![doc = include_str!("../README.md")]
 //!
 //! The command line is a thin layer over these functions; whatever a command computes, a function returns as typed rows
 //! and summaries, named as in the files that the command writes.
-//!
-//! Tutorials, theory, the meaning of every key and column, what was verified and what is not modelled stand in the book of the
-//! repository, `docs/src`.
 //!
 //! # One crush
 //! ```

@@ -1,14 +1,7 @@
-//! Files that instruments and people write, read into columns and maps with their units. No mechanics.
+#![doc = include_str!("../README.md")]
 //!
-//! Quantities with units ([`units`]), tables of numbers under a header ([`text_table`]), tables of indentation instruments
-//! ([`indentation_table`]), maps of surfaces ([`surface`]).
-//!
-//! ```
-//! use asperity_formats::text_table::TextTable;
-//!
-//! let table = TextTable::new("r_um,z_um\n0,20\n5,19").unwrap();
-//! assert_eq!(table.pairs([0, 1]).unwrap()[1], (3, [5.0, 19.0]));
-//! ```
+//! In order: quantities with units ([`units`]), tables of numbers under a header ([`text_table`]), tables of indentation
+//! instruments ([`indentation_table`]), maps of surfaces ([`surface`]).
 
 pub mod units;
 

@@ -1,4 +1,4 @@
-//! From measured force-depth curves to the metal: E, σ_y and n with their intervals, and whether the curves can tell at all.
+#![doc = include_str!("../README.md")]
 //!
 //! In the order of the data: the keys of a fit ([`fit_file`], [`known_or_unknown`]), measured curves made ready
 //! ([`measured_curve`]), the unknowns ([`parameters`]); what finite elements answer to one metal ([`response`]) and between

@@ -1,4 +1,4 @@
-//! The figures and tables of the paper, computed and judged.
+#![doc = include_str!("../README.md")]
 //!
 //! Parts of the work (`plan`) run side by side, each into a folder of its own with a stamp that says it is done (`part`);
 //! the report reads those folders (`results_reader`), judges the paper's claims (`claims`) and shows its figures

@@ -18,3 +18,6 @@ pub mod front_tree;
 pub mod front_solve;
 
 pub mod cholesky;
+
+/// A matrix of compressed rows or columns, of the crate sprs.
+pub use sprs::CsMat;

@@ -1,7 +1,7 @@
 //! The pattern of the stiffness matrix (lower triangle, compressed columns) and where each element's entries go.
 
 use crate::body::dofs::{Dofs, FIXED};
-use sprs::CsMat;
+use asperity_numerics::sparse::CsMat;
 
 /// No place: the row or column is fixed.
 const NOWHERE: u32 = u32::MAX;

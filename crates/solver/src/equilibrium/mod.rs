@@ -179,7 +179,7 @@ impl<'m> Equilibrium<'m> {
     }
 
     /// Stiffness at the last assessed iterate with a tangent: lower triangle, by the numbers of the unknowns.
-    pub fn stiffness(&self) -> &sprs::CsMat<f64> {
+    pub fn stiffness(&self) -> &asperity_numerics::sparse::CsMat<f64> {
         &self.stiffness.matrix
     }
 
