@@ -1,5 +1,5 @@
 //! Pictures of what the ripple of the mesh does to the curve of the paper's asperity at `standard`, and what is left of it:
-//! `cargo run --release -p asperity --example ripple_pictures -- [FOLDER] [--out FILE]`. FILE gets a table of the same, FOLDER the pictures;
+//! `cargo run --release -p asperity-verification --example ripple_pictures -- [FOLDER] [--out FILE]`. FILE gets a table of the same, FOLDER the pictures;
 //! without them the table is printed.
 //!
 //! "As found" is an increment before the run has ended: the sum of the nodal forces over the depth, and that force over the area.
@@ -141,7 +141,7 @@ fn beside(name: &str, [before, after]: [Vec<[f64; 2]>; 2], stated: &[[f64; 2]]) 
 }
 
 fn main() {
-    let (mut report, words) = Report::of_package("asperity", "ripple_pictures", "standard beside reference");
+    let (mut report, words) = Report::of("ripple_pictures", "standard beside reference");
     let folder = words.first();
     let [standard, fine] = [Accuracy::Standard, Accuracy::Reference].map(run);
     let (found, result) = (&standard.found, &standard.result.curve);

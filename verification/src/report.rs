@@ -18,16 +18,11 @@ impl Report {
     /// Of the example `name`, run with the rest of its arguments, which are returned: all but `--out FILE`. The first line of
     /// the file names the program, its version and `accuracy`, what the runs have in common.
     pub fn of(name: &str, accuracy: &str) -> (Report, Vec<String>) {
-        Report::of_package("asperity-verification", name, accuracy)
-    }
-
-    /// The same of an example of another `package`.
-    pub fn of_package(package: &str, name: &str, accuracy: &str) -> (Report, Vec<String>) {
         let (file, rest) = arguments(std::env::args().skip(1));
         let words: String = rest.iter().flat_map(|word| [" ", shown(word)]).collect();
         let separator = if rest.is_empty() { "" } else { " --" };
         let text = format!(
-            "<!-- written by `cargo run --release -p {package} --example {name}{separator}{words}`, asperity {}, {accuracy} -->\n\n",
+            "<!-- written by `cargo run --release -p asperity-verification --example {name}{separator}{words}`, asperity {}, {accuracy} -->\n\n",
             env!("CARGO_PKG_VERSION")
         );
         (Report { text, file }, rest)

@@ -1,7 +1,7 @@
 //! How well `identify` finds metals again: of public finite-element results under cones of 60° and 50° half apex angle, of
 //! indents in aluminium, of twins made by the program itself; what a fit costs; and two metals that one cone cannot tell apart.
 //!
-//! `cargo run --release -p asperity --example identify_table -- FOLDER [--twins N] [--every N] [--leave-out sought,twins] [--journal FILE]
+//! `cargo run --release -p asperity-verification --example identify_table -- FOLDER [--twins N] [--every N] [--leave-out sought,twins] [--journal FILE]
 //! [--out FILE]`; without FOLDER the two metals alone. FOLDER holds
 //! FEM_60deg.csv, FEM_50deg.csv (rows 1 to 76 are used) and Al6061.csv. What the journal holds is not computed again.
 //! `--every N` takes every N-th published metal but in the fit of two cones with E known.
@@ -44,8 +44,7 @@ fn narrow(rows: &[Row], share: f64) -> Vec<Row> {
 }
 
 fn main() {
-    let (mut report, words) =
-        Report::of_package("asperity", "identify_table", "finite elements at standard, extrapolated");
+    let (mut report, words) = Report::of("identify_table", "finite elements at standard, extrapolated");
     let after = |name: &str| words.iter().position(|w| w == name).and_then(|i| words.get(i + 1));
     let left_out = |part: &str| after("--leave-out").is_some_and(|list| list.split(',').any(|w| w == part));
     let every: usize = after("--every").map_or(1, |n| n.parse().expect("a number"));
