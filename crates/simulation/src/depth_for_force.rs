@@ -77,7 +77,7 @@ fn target_depth(scene: &Scene, mesh: Option<&Mesh>, expected: &Expected) -> Resu
 fn formed(scene: &Scene, expected: &Expected) -> Option<Formed> {
     let problem = coarse_problem(scene, expected)?;
     let problem = Problem { unload: true, reloads: 0, ..problem };
-    let (path, _, stopped) = follow(&problem, 0, None, &mut |_| ControlFlow::Continue(())).ok()?;
+    let (path, _, stopped) = follow(&problem, 0, &mut |_| ControlFlow::Continue(())).ok()?;
     let state = path.model.state();
     let nodes = state.edges.iter().flat_map(|edge| edge.nodes).map(|node| state.position[node as usize]);
     let points = nodes.map(|x| x.map(|x| x * problem.units.length)).collect();

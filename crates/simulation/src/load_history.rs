@@ -30,7 +30,7 @@ pub(super) fn ready(
         // of the same substrate, which is a given one for a mesh that is given
         load.rules.far_field = problem.rules.far_field * own / length;
         load.start = left.map(|left| left.scaled(length / own, symmetry));
-        let (path, _, stopped) = follow(&load, 0, None, &mut |_| ControlFlow::Continue(()))?;
+        let (path, _, stopped) = follow(&load, 0, &mut |_| ControlFlow::Continue(()))?;
         if let Some(reason) = stopped {
             let path = format!("initial.load[{index}]");
             return Err(SceneError { path, message: format!("stopped on its way: {reason}") }.into());

@@ -4,13 +4,12 @@ use crate::depth_for_force::expect;
 use crate::error_estimate::{Setting, extrapolate_and_bound, rescale_to_force};
 use crate::load_history::ready;
 use crate::load_path::Stop;
-use crate::load_path::checkpoint::Checkpoints;
 use crate::record::oliver_pharr::as_an_instrument;
 use crate::scene::{Scene, Target};
 use crate::setup::discretisation::Discretisation;
 use crate::setup::prepare::Expected;
 use crate::setup::problem::{Goal, Problem};
-use crate::simulate::{simulate, simulate_with};
+use crate::simulate::simulate;
 use asperity_mesh::Mesh;
 use asperity_solver::point::material::Metal;
 use std::ops::ControlFlow;
@@ -27,21 +26,7 @@ pub use crate::simulate::CrushError;
 /// # Errors
 /// Only if the run cannot begin: what stops it later is in the outcome, with all that was reached.
 pub fn run(scene: &Scene, mesh: Option<Mesh>, observer: &mut Watcher<'_>) -> Result<Outcome, CrushError> {
-    run_with(scene, mesh, None, observer)
-}
-
-/// [`run`], which goes on from the `checkpoints` that an earlier run of the same scene left, and writes its own. The result has the
-/// same bits as that of a run that nothing stopped.
-///
-/// # Errors
-/// As for [`run`].
-pub fn run_with(
-    scene: &Scene,
-    mesh: Option<Mesh>,
-    checkpoints: Option<&Checkpoints>,
-    observer: &mut Watcher<'_>,
-) -> Result<Outcome, CrushError> {
-    crush(scene, mesh, None, checkpoints, observer)
+    crush(scene, mesh, None, observer)
 }
 
 /// [`run`] of a metal that the keys of a scene cannot say: `metal` (E = 1, that of the scene is its unit) takes the place of the
@@ -50,14 +35,13 @@ pub fn run_with(
 /// # Errors
 /// As for [`run`].
 pub fn run_of(scene: &Scene, metal: &Metal, observer: &mut Watcher<'_>) -> Result<Outcome, CrushError> {
-    crush(scene, None, Some(metal), None, observer)
+    crush(scene, None, Some(metal), observer)
 }
 
 fn crush(
     scene: &Scene,
     mesh: Option<Mesh>,
     metal: Option<&Metal>,
-    checkpoints: Option<&Checkpoints>,
     observer: &mut Watcher<'_>,
 ) -> Result<Outcome, CrushError> {
     scene.validate()?;
@@ -73,7 +57,7 @@ fn crush(
     let target = scene.loading.target()?;
     let companion = companion(scene, numbers, other, &expected).map(of_metal);
     let asks_for_depth = matches!(target, Target::Depth(_));
-    let mut main = || simulate_with(&problem, scene.output.interval(), checkpoints, observer);
+    let mut main = || simulate(&problem, scene.output.interval(), observer);
     let (mut outcome, ahead) = match companion.as_ref().filter(|_| asks_for_depth) {
         Some(companion) => simulate_both(&mut main, companion)?,
         None => (main()?, None),

@@ -1,6 +1,5 @@
 //! A problem from first touch to its end: loading, unloading, reloading, and what is recorded on the way.
 
-use crate::load_path::checkpoint::{Checkpoints, Journal};
 use crate::load_path::{Path, Stop};
 use crate::record::recorder::{Outcome, Recorder, Watcher};
 use crate::scene::SceneError;
@@ -31,24 +30,7 @@ pub fn simulate(
     interval: usize,
     observer: &mut Watcher<'_>,
 ) -> Result<Outcome, CrushError> {
-    simulate_with(problem, interval, None, observer)
-}
-
-/// [`simulate`], which goes on from the `checkpoints` that an earlier run of the same problem left, and writes its own.
-///
-/// # Errors
-/// As for [`simulate`].
-pub fn simulate_with(
-    problem: &Problem,
-    interval: usize,
-    checkpoints: Option<&Checkpoints>,
-    observer: &mut Watcher<'_>,
-) -> Result<Outcome, CrushError> {
-    let journal = checkpoints.map(|checkpoints| Journal::open(checkpoints, problem));
-    let (mut path, recorder, stopped) = follow(problem, interval, journal, observer)?;
-    if let (Some(journal), Some(Stop::Interrupted)) = (&mut path.journal, &stopped) {
-        journal.interrupted(&path.model);
-    }
+    let (path, recorder, stopped) = follow(problem, interval, observer)?;
     Ok(recorder.finish(&path, stopped, observer))
 }
 
@@ -59,11 +41,9 @@ pub fn simulate_with(
 pub(super) fn follow<'p>(
     problem: &'p Problem,
     interval: usize,
-    journal: Option<Journal<'p>>,
     observer: &mut Watcher<'_>,
 ) -> Result<(Path<'p>, Recorder<'p>, Option<Stop>), CrushError> {
     let mut path = Path::new(problem).map_err(|_| CrushError::Mesh)?;
-    path.journal = journal;
     let mut recorder = Recorder::new(problem, interval, path.model.body().analysis.dofs.count);
     recorder.draw_start(&path.model, observer);
     let mut stopped = path.load(&mut |model, increment| recorder.record(model, increment, observer)).err();

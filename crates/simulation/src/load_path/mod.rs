@@ -1,7 +1,5 @@
 //! The path of the tool, the only one: adaptive increments to a travel, a depth or a force, back to zero force, and again.
 
-pub mod checkpoint;
-
 mod increment;
 mod load;
 mod path;

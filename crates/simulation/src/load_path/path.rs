@@ -1,11 +1,10 @@
 //! A body on its path: one attempted increment, and halved ones where it does not converge.
 
 use super::increment::{Energies, Increment, Observer, Stop};
-use crate::load_path::checkpoint::{Journal, solve_or_recall};
 use crate::record::rows::Phase;
 use crate::scene::ContactMethod;
 use crate::setup::problem::{Problem, Rules};
-use asperity_numerics::newton::{KEEP, Settings};
+use asperity_numerics::newton::{KEEP, Settings, solve};
 use asperity_solver::body::energy::{
     ContactSums, PARTING, TOUCHING, contact_sums, work, work_by_parabola, work_by_power, work_by_slopes,
 };
@@ -66,8 +65,6 @@ pub struct Path<'p> {
     pub model: Equilibrium<'p>,
     /// How each increment is solved.
     pub settings: Settings,
-    /// The solves of this path on disk.
-    pub(crate) journal: Option<Journal<'p>>,
     pub(super) problem: &'p Problem,
     /// Place of the tool at the travel 0, in the coordinates of the mesh: it touches there, or above a tip that the mesh cuts off.
     pub(super) touch: f64,
@@ -117,7 +114,6 @@ impl<'p> Path<'p> {
         Ok(Path {
             touch: model.converged_surface().first_touch() - cut_off,
             settings: Settings { tolerance, max_iterations: 40, keep: KEEP },
-            journal: None,
             problem,
             travel: cut_off,
             deepest: 0.0,
@@ -237,7 +233,7 @@ impl<'p> Path<'p> {
 
     pub(super) fn iterate(&mut self) -> Result<(), SolveFailure> {
         self.model.set_tolerance(self.settings.tolerance);
-        let outcome = solve_or_recall(&mut self.model, &self.settings, &mut self.journal);
+        let outcome = solve(&mut self.model, &self.settings).map(|done| done.iterations);
         let (Ok(spent) | Err((_, spent))) = outcome;
         self.iterations += spent;
         self.spent += spent;
@@ -316,10 +312,10 @@ impl<'p> Path<'p> {
         }
         self.meshed_after = self.increments;
         let tolerance = self.settings.tolerance;
-        let (settings, journal, mut spent) = (self.settings, &mut self.journal, 0);
+        let (settings, mut spent) = (self.settings, 0);
         let done = self.model.remesh(|model| {
             model.set_tolerance(tolerance);
-            let outcome = solve_or_recall(model, &settings, journal);
+            let outcome = solve(model, &settings).map(|done| done.iterations);
             let (Ok(iterations) | Err((_, iterations))) = outcome;
             spent = iterations;
             outcome.map(|_| ()).map_err(|(failure, _)| failure)

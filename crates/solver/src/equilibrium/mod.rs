@@ -2,7 +2,6 @@
 //! iterates and increments (factors, secants, the contact that was kept), none of which belongs to the body.
 
 mod factors;
-pub mod solved;
 pub mod tool_stiffness;
 
 use crate::body::assembly::{Response, Touching};
@@ -86,8 +85,6 @@ pub struct Equilibrium<'m> {
     /// Whether what the points extrapolate is still to be limited (see [`State::limit_extrapolation`]), and at which relative residual.
     unlimited: bool,
     nearly: f64,
-    /// The displacement where this solve limited it; empty before.
-    limited_at: Vec<[f64; 2]>,
     /// Whether that changed the residual at the last assessed iterate: no secant leads there.
     jumped: bool,
     /// Work done so far.
@@ -132,7 +129,6 @@ impl<'m> Equilibrium<'m> {
             stiffens: true,
             unlimited: false,
             nearly: NEARLY,
-            limited_at: Vec::new(),
             jumped: false,
             yielded: Vec::new(),
             counters: Counters::default(),
@@ -418,7 +414,6 @@ impl System for Equilibrium<'_> {
         }
         self.state.limit_extrapolation(&self.body, &mut self.trial, &self.response);
         self.response.forget_points();
-        self.limited_at.clone_from(&self.trial.displacement);
         (self.jumped, self.unlimited) = (true, false);
         self.assemble_again(tangent)?;
         Ok(self.out_of_balance(changed))
