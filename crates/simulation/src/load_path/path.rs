@@ -2,7 +2,6 @@
 
 use super::increment::{Energies, Increment, Observer, Stop};
 use crate::record::rows::Phase;
-use crate::scene::ContactMethod;
 use crate::setup::problem::{Problem, Rules};
 use asperity_numerics::newton::{KEEP, Settings, solve};
 use asperity_solver::body::energy::{
@@ -10,7 +9,6 @@ use asperity_solver::body::energy::{
 };
 use asperity_solver::body::failure::Failure as BodyFailure;
 use asperity_solver::contact::penalty_correction::Punches;
-use asperity_solver::equilibrium::tool_stiffness::ToolStiffness;
 use asperity_solver::equilibrium::{Equilibrium, SolveFailure};
 use asperity_solver::remesh::distortion::LOADED;
 
@@ -142,10 +140,6 @@ impl<'p> Path<'p> {
         &self.problem.rules
     }
 
-    fn augmented(&self) -> bool {
-        self.problem.numbers.contact == ContactMethod::Augmented
-    }
-
     /// Travel of the tool at the last converged increment, from first touch.
     pub fn travel(&self) -> f64 {
         self.travel
@@ -217,17 +211,6 @@ impl<'p> Path<'p> {
 
     fn solve_attempted(&mut self) -> Result<ContactSums, SolveFailure> {
         self.iterate()?;
-        if self.augmented() {
-            // λ ← max(0, λ + ε d) until the penetration is a thousandth of what the penalty alone leaves
-            let first = self.sums().penetration;
-            for _ in 0..20 {
-                self.model.augment();
-                self.iterate()?;
-                if self.sums().penetration.abs() <= 1e-3 * first {
-                    break;
-                }
-            }
-        }
         Ok(self.sums())
     }
 
@@ -252,11 +235,6 @@ impl<'p> Path<'p> {
         sums
     }
 
-    /// Slope of the force over the travel: multipliers leave no penetration that would follow the force.
-    pub(super) fn follows(&self, stiffness: &ToolStiffness) -> f64 {
-        if self.augmented() { stiffness.depth } else { stiffness.travel }
-    }
-
     /// Accepts the attempted increment to `travel`.
     pub(super) fn accept(
         &mut self,
@@ -268,7 +246,7 @@ impl<'p> Path<'p> {
         // loading is close to a parabola but at its start, whose power only the slope tells (1 of a ridge, 2 of a cone); unloading
         // bends less the flatter the contact has become; so there the slope is asked for, which costs one solve
         let asked = before.0 <= 0.0 || phase != Phase::Load;
-        self.slope = asked.then(|| self.model.tool_stiffness().ok().map(|s| self.follows(&s))).flatten();
+        self.slope = asked.then(|| self.model.tool_stiffness().ok().map(|s| s.travel)).flatten();
         self.model.accept().map_err(|_| Stop::Distorted)?;
         let punches = self.model.converged_surface().under_punches();
         let contact = self.corrected(&punches);

@@ -39,7 +39,7 @@ impl Path<'_> {
         }
         let (peak_force, peak) = (self.force, self.travel);
         let compliance = 1.0 / stiffness.depth + self.sums().penetration / peak_force;
-        self.slope = Some(self.follows(&stiffness));
+        self.slope = Some(stiffness.travel);
         // what is left of the work is the smaller, the further the tool retreats
         let settings = self.settings;
         self.settings.tolerance =

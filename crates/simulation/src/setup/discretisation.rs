@@ -1,7 +1,7 @@
 //! The numbers of the discretisation that an accuracy chooses for a scene and for a self-similar cone: elements, steps, penalty,
 //! tolerance, size of the substrate.
 
-use crate::scene::{Accuracy, ContactMethod, ElementChoice, Numerics, Scene, Symmetry, ToolForm};
+use crate::scene::{Accuracy, ElementChoice, Numerics, Scene, Symmetry, ToolForm};
 use crate::setup::schedule::{Spacing, loading};
 use asperity_material::units::rounded;
 use asperity_mesh::build::Sizes;
@@ -24,8 +24,6 @@ pub struct Discretisation {
     pub spacing: Spacing,
     /// Steps back to zero force.
     pub unload_steps: usize,
-    /// Penalty or augmented Lagrangian.
-    pub contact: ContactMethod,
     /// Mean penetration over depth.
     pub penetration: f64,
     /// Relative residual at which Newton stops.
@@ -109,7 +107,6 @@ impl Discretisation {
             steps: numerics.steps.unwrap_or(steps),
             spacing: Spacing::Geometric { from },
             unload_steps,
-            contact: numerics.contact.unwrap_or(ContactMethod::Penalty),
             penetration: numerics.penetration.unwrap_or(penetration),
             newton_tolerance: numerics.newton_tolerance.unwrap_or(tolerance),
             domain: numerics.domain.unwrap_or(domain),
@@ -140,7 +137,6 @@ impl Discretisation {
             element: Some(self.element),
             elements_in_contact: Some(self.elements_in_contact),
             steps: Some(self.steps),
-            contact: Some(self.contact),
             penetration: Some(self.penetration),
             newton_tolerance: Some(self.newton_tolerance),
             domain: Some(self.domain),
@@ -258,7 +254,6 @@ impl ConeDiscretisation {
                 steps: lead + steps,
                 spacing: Spacing::Equal { lead, from: EQUAL_FROM },
                 unload_steps: 0,
-                contact: ContactMethod::Penalty,
                 penetration: if quadratic && indents { INDENTED * penetration } else { penetration },
                 newton_tolerance: tolerance,
                 domain,

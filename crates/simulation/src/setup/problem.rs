@@ -1,6 +1,6 @@
 //! The input of the solver: mesh, material, tool, and the rules of its path. Inside the solver E = 1.
 
-use crate::scene::{ContactMethod, Lateral};
+use crate::scene::Lateral;
 use crate::setup::compliance::Compliance;
 use crate::setup::deformed_surface::{Formed, expected_pressure};
 use crate::setup::discretisation::{COUNTS_FROM, Discretisation};
@@ -126,18 +126,16 @@ impl Problem {
         self.penalty * pressure(depth) / (pressure(1.0) * depth)
     }
 
-    /// Travel less the depth at the peak, to be expected before the first increment shows it: the penetration, 0 with multipliers, less
-    /// what tool and machine give way.
+    /// Travel less the depth at the peak, to be expected before the first increment shows it: the penetration, less what tool
+    /// and machine give way.
     pub fn expected_penetration(&self) -> f64 {
-        match (self.numbers.contact, self.goal) {
+        match self.goal {
             // what tool and machine give way is no travel
-            (method, Goal::Depth(depth)) if !self.rules.compliance.is_none() => {
-                let penalty = method == ContactMethod::Penalty;
-                1.0 - depth + if penalty { 0.9 * self.numbers.penetration } else { 0.0 }
+            Goal::Depth(depth) if !self.rules.compliance.is_none() => {
+                1.0 - depth + 0.9 * self.numbers.penetration
             }
-            (ContactMethod::Augmented, _) => 0.0,
-            (ContactMethod::Penalty, Goal::Depth(depth)) => 0.9 * self.numbers.penetration * depth,
-            (ContactMethod::Penalty, _) => 0.9 * self.numbers.penetration,
+            Goal::Depth(depth) => 0.9 * self.numbers.penetration * depth,
+            _ => 0.9 * self.numbers.penetration,
         }
     }
 }

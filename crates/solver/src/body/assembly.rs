@@ -196,12 +196,11 @@ impl Body<'_> {
         let context = contact.at(trial.tip, trial.penalty, self.symmetry);
         for (edge, kept) in state.edges.iter().zip(state.parts()) {
             let x = edge.nodes.map(|node| current(&state.position, &trial.displacement, node));
-            let multiplier = edge.nodes.map(|node| trial.multiplier[node as usize]);
             let parts = match touching {
                 Touching::Kept => kept,
-                Touching::Found => edge.touching(&context, &x, &multiplier),
+                Touching::Found => edge.touching(&context, &x),
             };
-            response.contact.push(edge.integrate(&context, parts, &x, &multiplier));
+            response.contact.push(edge.integrate(&context, parts, &x));
         }
     }
 

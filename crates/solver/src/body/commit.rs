@@ -26,7 +26,6 @@ impl State {
         self.penalty = trial.penalty;
         self.contact.clone_from(&response.contact);
         self.tip = trial.tip;
-        self.multiplier.clone_from(&trial.multiplier);
         self.remeasure_contact(body);
         self.face_anew(response);
         self.yielding.clone_from(&response.yielding);
@@ -93,8 +92,7 @@ impl State {
         let mut change = 0.0;
         for (edge, share) in self.edges.iter_mut().zip(&self.contact) {
             edge.reference = edge.nodes.map(|node| self.position[node as usize]);
-            let multiplier = edge.nodes.map(|node| self.multiplier[node as usize]);
-            let anew = edge.integrate(&context, share.parts, &edge.reference, &multiplier);
+            let anew = edge.integrate(&context, share.parts, &edge.reference);
             change += anew.penalty_energy - share.penalty_energy;
         }
         // the sums of this increment are still over the old area

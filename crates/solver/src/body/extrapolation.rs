@@ -27,10 +27,6 @@ impl State {
         trial: &mut Trial,
     ) {
         trial.tip = tip;
-        trial.multiplier.clone_from(&self.multiplier);
-        if tip == f64::INFINITY {
-            trial.multiplier.fill(0.0);
-        }
         trial.displacement.iter_mut().enumerate().for_each(|(node, du)| *du = guess(node));
         trial.factor = extrapolation_factor(ratio);
         trial.start.clone_from(&self.points);

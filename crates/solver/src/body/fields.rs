@@ -140,7 +140,7 @@ fn contact_pressure(body: &Body<'_>, state: &State) -> Vec<f64> {
             continue;
         }
         for (node, xi) in edge.nodes.into_iter().zip([-1.0, 1.0, 0.0]).take(edge.node_count()) {
-            pressure[node as usize] = surface.nodal_pressure(edge, node, xi).max(0.0);
+            pressure[node as usize] = surface.nodal_pressure(edge, xi).max(0.0);
         }
     }
     let whole: Vec<bool> = surface.contact.iter().map(|contact| contact.parts == WHOLE).collect();

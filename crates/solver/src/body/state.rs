@@ -70,8 +70,6 @@ pub struct State {
     pub facing: Facing,
     /// Energy of the contact of the surface with itself.
     pub self_contact_energy: f64,
-    /// Augmented Lagrange multipliers at the nodes.
-    pub multiplier: Vec<f64>,
     /// Largest load so far.
     pub load_scale: f64,
     /// Change of the contact energy by that of the area it is taken over and of the penalty, up to the last increment and after it.
@@ -118,8 +116,6 @@ pub struct Trial {
     pub penalty: f64,
     /// Displacement of each node from the converged state.
     pub displacement: Vec<[f64; 2]>,
-    /// Augmented Lagrange multipliers at the nodes.
-    pub multiplier: Vec<f64>,
     /// States that the points start from: the converged ones with the last plastic increment extrapolated.
     pub start: Points,
     /// κ of that extrapolation.
@@ -129,9 +125,9 @@ pub struct Trial {
 impl State {
     /// The stress-free state of `body`.
     pub fn virgin(body: &Body<'_>) -> State {
-        let (nodes, count) = (body.mesh.nodes.len(), body.volume.len());
+        let count = body.volume.len();
         let yields = body.material.hardening.is_some() || body.material.has_back_stress();
-        let (edges, still) = (body.surface(&body.mesh.nodes), vec![[0.0; 2]; nodes]);
+        let (edges, still) = (body.surface(&body.mesh.nodes), vec![[0.0; 2]; body.mesh.nodes.len()]);
         State {
             facing: Facing::new(&edges, &body.mesh.nodes, &still, &Facing::default()),
             origin: body.mesh.nodes.clone(),
@@ -147,7 +143,6 @@ impl State {
             edges,
             contact: Vec::new(),
             self_contact_energy: 0.0,
-            multiplier: vec![0.0; nodes],
             load_scale: 0.0,
             remeasured: [0.0; 2],
             transferred: 0.0,
@@ -192,7 +187,6 @@ impl State {
             tip: f64::INFINITY,
             penalty: self.penalty,
             displacement: vec![[0.0; 2]; self.position.len()],
-            multiplier: vec![0.0; self.position.len()],
             start: self.points.clone(),
             factor: 0.0,
         }

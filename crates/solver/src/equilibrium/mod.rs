@@ -235,7 +235,6 @@ impl<'m> Equilibrium<'m> {
     /// `tip`; the iterate stays, and with it the contact.
     pub fn move_tool(&mut self, tip: f64) {
         self.trial.tip = tip;
-        self.trial.multiplier.clone_from(&self.state.multiplier);
         self.keep_contact = false;
         self.fraction = 0.0;
         self.jumped = false;
@@ -256,8 +255,8 @@ impl<'m> Equilibrium<'m> {
     /// Remeshes the distorted body under its surface and finds the equilibrium there by `solve`, while the tool stays. Whether it
     /// did: else all is as it was.
     pub fn remesh(&mut self, solve: impl FnOnce(&mut Self) -> Result<(), SolveFailure>) -> bool {
-        // multipliers and back stresses are not carried over
-        let carries = self.state.points.history.is_empty() && self.state.multiplier.iter().all(|m| *m == 0.0);
+        // back stresses are not carried over
+        let carries = self.state.points.history.is_empty();
         let places =
             smoothed_places(&self.body, &self.state).filter(|_| carries && self.state.tip.is_finite());
         let Some((body, state)) = places.and_then(|places| self.state.moved_to(&self.body, places)) else {
@@ -292,22 +291,6 @@ impl<'m> Equilibrium<'m> {
     /// See [`State::commit`].
     pub fn accept(&mut self) -> Result<(), Failure> {
         self.state.commit(&self.body, &self.trial, &mut self.response)
-    }
-
-    /// Augmented Lagrange update at the nodes, λ ← max(0, λ + ε d), from the converged iterate.
-    pub fn augment(&mut self) {
-        let Some(contact) = &self.body.contact else { return };
-        let mut multiplier = self.trial.multiplier.clone();
-        let surface = self.trial_surface();
-        for edge in surface.edges {
-            for &node in &edge.nodes[..edge.node_count()] {
-                let depth = contact.tool.penetration(surface.position(node), self.trial.tip).depth;
-                multiplier[node as usize] =
-                    (self.trial.multiplier[node as usize] + self.trial.penalty * depth).max(0.0);
-            }
-        }
-        self.trial.multiplier = multiplier;
-        self.keep_contact = false;
     }
 
     /// Whether tangents that are far from definite are stiffened, or fail.

@@ -317,8 +317,7 @@ impl State {
             let context = contact.at(self.tip, self.penalty, body.symmetry);
             let integrate = |edge: &crate::contact::edge::ContactEdge| {
                 let x = edge.nodes.map(|node| places[node as usize]);
-                let multiplier = [0.0; 3];
-                edge.integrate(&context, edge.touching(&context, &x, &multiplier), &x, &multiplier)
+                edge.integrate(&context, edge.touching(&context, &x), &x)
             };
             state.contact = state.edges.iter().map(integrate).collect();
         }
