@@ -13,7 +13,7 @@ use asperity_material::units::rounded;
 use asperity_mesh::Mesh;
 use asperity_simulation::record::curve::Curve;
 use asperity_simulation::record::rows::{Errors, Phase};
-use asperity_simulation::run::{Outcome, run};
+use asperity_simulation::run::{Outcome, Run};
 use asperity_simulation::scene::{Accuracy, ElementChoice, Numerics, Scene};
 use asperity_simulation::setup::discretisation::COUNTS_FROM;
 use asperity_simulation::setup::discretisation::Discretisation;
@@ -143,7 +143,9 @@ impl Answer {
     /// Why the run does not begin or does not reach its depth.
     pub fn to(scene: &Scene, mesh: Option<Mesh>) -> Result<Answer, String> {
         let depth = scene.loading.depth.ok_or("the scene is not driven by depth")?.0;
-        let outcome = run(scene, mesh, &mut |_| ControlFlow::Continue(())).map_err(|e| e.to_string())?;
+        let outcome = Run { mesh, ..Run::new(scene) }
+            .run(&mut |_| ControlFlow::Continue(()))
+            .map_err(|e| e.to_string())?;
         Answer::of(&outcome, depth)
     }
 

@@ -11,10 +11,11 @@
 //! use asperity_calibration::solve_case::solve;
 //! use asperity_calibration::sweep::Sweep;
 //! use asperity_simulation::scene::Accuracy;
+//! use asperity_solver::body::analysis::Analyses;
 //!
 //! // the last of the 480 cones: 10 degrees, E/σ_y = 300, n = 0.5
 //! let cone = Sweep::default().cases()[479];
-//! let row = CaseRow::from(&solve(&cone, Accuracy::Draft));
+//! let row = CaseRow::from(&solve(&cone, Accuracy::Draft, &Analyses::default()));
 //! // softer than an elastic cone, K = (2/π) E*/tan β (Sneddon 1965)
 //! let elastic = std::f64::consts::FRAC_2_PI * cone.elastic().reduced_modulus() / cone.tan_beta();
 //! assert!(row.K_over_E.is_some_and(|k| k > 0.0 && k < elastic));

@@ -5,10 +5,11 @@
 
 use asperity_material::units::{Length, Stress};
 use asperity_simulation::load_path::{Increment, Path};
-use asperity_simulation::run::run;
+use asperity_simulation::run::Run;
 use asperity_simulation::scene::{self, Loading, Material, Scene, Symmetry, Tool};
 use asperity_simulation::setup::prepare::prepare;
 use asperity_simulation::setup::problem::Goal;
+use asperity_solver::body::analysis::Analyses;
 use std::ops::ControlFlow;
 
 /// The asperity of the paper at the standard level.
@@ -31,7 +32,7 @@ struct Reached {
 
 fn reached(anew: impl Fn(usize) -> bool) -> Reached {
     let problem = prepare(&scene(), None, 5e-6).unwrap();
-    let mut path = Path::new(&problem).unwrap();
+    let mut path = Path::new(&problem, &Analyses::default()).unwrap();
     let (mut largest, mut before): (f64, f64) = (0.0, 0.0);
     let mut last: Option<Increment> = None;
     // the travel grows as the depth that the level's own steps go through
@@ -97,7 +98,7 @@ fn perfectly_plastic_metal_lets_a_steep_cone_in_and_out() {
         let loading = Loading { depth: Some(Length(1e-6)), force: None, unload: true, reloads: 0 };
         let scene = Scene::new(Symmetry::Axisymmetric, metal, Tool::cone(40.0), loading);
         let draft = Scene { accuracy: scene::Accuracy::Draft, ..scene };
-        let outcome = run(&draft, None, &mut |_| ControlFlow::Continue(())).unwrap();
+        let outcome = Run::new(&draft).run(&mut |_| ControlFlow::Continue(())).unwrap();
         assert_eq!(outcome.stopped, None, "{yield_stress:e} Pa");
         assert!(outcome.summary.transfers > 0);
         assert!(outcome.summary.energy_balance_error < 1e-2, "{}", outcome.summary.energy_balance_error);

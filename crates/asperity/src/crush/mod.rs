@@ -23,8 +23,9 @@ use crate::results::output::{Sink, SinkExt};
 use crate::results::units::{MICROMETRE, Units};
 use asperity_mesh::Mesh;
 use asperity_simulation::record::rows as si;
-use asperity_simulation::run::{CrushError, Event, FieldFrame, Outcome, run};
+use asperity_simulation::run::{CrushError, Event, FieldFrame, Outcome, Run};
 use asperity_simulation::scene::SceneError;
+use asperity_solver::body::analysis::Analyses;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::time::Instant;
@@ -85,12 +86,24 @@ impl Sketch {
 /// Only if the run cannot begin: [`Error::Input`], pointing at the line of the scene. What stops it later is in
 /// `summary.stopped`.
 pub fn crush(scene: &Scene, observer: &mut dyn FnMut(&Progress<'_>) -> bool) -> Result<Crush, Error> {
+    crush_sharing(scene, &Analyses::default(), observer)
+}
+
+/// [`crush`] for one of many scenes, which share `analyses` of their meshes.
+///
+/// # Errors
+/// As for [`crush`].
+pub(crate) fn crush_sharing(
+    scene: &Scene,
+    analyses: &Analyses,
+    observer: &mut dyn FnMut(&Progress<'_>) -> bool,
+) -> Result<Crush, Error> {
     let mut frames = Vec::new();
     let keep = &mut |frame: Frame| {
         frames.push(frame);
         Ok(())
     };
-    let (crush, _) = simulate(scene, observer, keep)?;
+    let (crush, _) = simulate(scene, analyses, observer, keep)?;
     Ok(Crush { frames, ..crush })
 }
 
@@ -107,7 +120,8 @@ pub fn crush_into(
     observer: &mut dyn FnMut(&Progress<'_>) -> bool,
 ) -> Result<Crush, Error> {
     let mut series = FieldSeries::default();
-    let (crush, failure) = simulate(scene, observer, &mut |frame| series.add(sink, &frame))?;
+    let (crush, failure) =
+        simulate(scene, &Analyses::default(), observer, &mut |frame| series.add(sink, &frame))?;
     let written = series.write_surfaces(sink).and_then(|()| crush.write_records(sink, sketches));
     // of two failures to write, the first says more
     failure.map_or(written, Err).map(|()| crush)
@@ -116,6 +130,7 @@ pub fn crush_into(
 /// Runs `scene`, hands its fields to `keep`, and gives the result with the failure of `keep`, if it failed.
 fn simulate(
     scene: &Scene,
+    analyses: &Analyses,
     observer: &mut dyn FnMut(&Progress<'_>) -> bool,
     keep: &mut dyn FnMut(Frame) -> Result<(), Error>,
 ) -> Result<(Crush, Option<Error>), Error> {
@@ -148,7 +163,8 @@ fn simulate(
         }
         !ended && failure.is_none()
     };
-    let outcome = run(tables, scene.mesh().cloned(), &mut |event| match hear(event) {
+    let run = Run { mesh: scene.mesh().cloned(), analyses: analyses.clone(), ..Run::new(tables) };
+    let outcome = run.run(&mut |event| match hear(event) {
         true => ControlFlow::Continue(()),
         false => ControlFlow::Break(()),
     });

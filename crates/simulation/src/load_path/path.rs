@@ -4,6 +4,7 @@ use super::increment::{Energies, Increment, Observer, Stop};
 use crate::record::rows::Phase;
 use crate::setup::problem::{Problem, Rules};
 use asperity_numerics::newton::{KEEP, Settings, solve};
+use asperity_solver::body::analysis::Analyses;
 use asperity_solver::body::energy::{
     ContactSums, PARTING, TOUCHING, contact_sums, work, work_by_parabola, work_by_power, work_by_slopes,
 };
@@ -101,12 +102,12 @@ pub struct Path<'p> {
 }
 
 impl<'p> Path<'p> {
-    /// A path that starts where the tool of `problem` touches its body first.
+    /// A path that starts where the tool of `problem` touches its body first. The mesh is analysed unless it is one of `analyses`.
     ///
     /// # Errors
     /// An element of the mesh is inside out.
-    pub fn new(problem: &'p Problem) -> Result<Path<'p>, BodyFailure> {
-        let model = problem.equilibrium()?;
+    pub fn new(problem: &'p Problem, analyses: &Analyses) -> Result<Path<'p>, BodyFailure> {
+        let model = problem.equilibrium(analyses)?;
         let tolerance = problem.numbers.newton_tolerance;
         let cut_off = if problem.start.is_none() { problem.cut_off } else { 0.0 };
         Ok(Path {

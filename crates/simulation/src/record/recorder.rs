@@ -430,7 +430,7 @@ fn group_sums(model: &Equilibrium<'_>, groups: &[usize], group: usize) -> Contac
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::run::run;
+    use crate::run::Run;
     use crate::scene::{self, Loading, Material, Numerics, Scene, Tool};
     use asperity_material::units::{Length, Stress};
 
@@ -442,7 +442,7 @@ mod tests {
         let numerics = Numerics { elements_in_contact: Some(16), steps: Some(60), ..Numerics::default() };
         let scene = Scene::new(scene::Symmetry::Axisymmetric, steel, Tool::plane(), loading).with(cone);
         let mut live = vec![0.0];
-        let outcome = run(&Scene { numerics, ..scene }, None, &mut |event| {
+        let outcome = Run::new(&Scene { numerics, ..scene }).run(&mut |event| {
             if let Event::Increment { row, .. } = event {
                 live.push(row.force);
             }

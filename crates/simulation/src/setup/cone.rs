@@ -78,6 +78,7 @@ mod tests {
     use crate::load_path::Path;
     use crate::scene::Accuracy;
     use asperity_material::{Elastic, Hardening, HardeningCurve, HardeningLaw, StressMeasure};
+    use asperity_solver::body::analysis::Analyses;
 
     /// Elements give the same bits, a factorisation without fused multiply-add rounds otherwise: with steps of given lengths and
     /// as many iterations the difference stays that of rounding, magnified by the condition of the tangent.
@@ -101,7 +102,7 @@ mod tests {
             let problem =
                 cone.problem(&ConeDiscretisation::new(slope_deg, indents, exponent, Accuracy::Draft));
             let force = |any: bool| {
-                let mut path = Path::new(&problem).unwrap();
+                let mut path = Path::new(&problem, &Analyses::default()).unwrap();
                 if any {
                     path.model.without_vector_registers();
                 }

@@ -81,7 +81,7 @@ impl From<f64> for Expected {
 }
 
 /// Prepares `scene`, which is valid, for its `expected` peak. `mesh` replaces the mesh that would be built (in metres). Lengths are
-/// in units of the depth. The body is virgin: [`crate::run::run`] takes it through its earlier loads.
+/// in units of the depth. The body is virgin: [`crate::run::Run`] takes it through its earlier loads.
 ///
 /// # Errors
 /// A scene that cannot be meshed: path and reason.

@@ -7,6 +7,7 @@ use crate::setup::discretisation::{COUNTS_FROM, Discretisation};
 use crate::setup::units::Units;
 use asperity_mesh::Mesh;
 use asperity_mesh::profile::Profile;
+use asperity_solver::body::analysis::Analyses;
 use asperity_solver::body::discrete_body::{Body, ToolContact};
 use asperity_solver::body::failure::Failure;
 use asperity_solver::body::state::{State, Unloaded};
@@ -94,14 +95,14 @@ pub struct Problem {
 }
 
 impl Problem {
-    /// Its body out of contact: stress-free, or as earlier loads left it.
+    /// Its body out of contact: stress-free, or as earlier loads left it. Its mesh is analysed unless it is one of `analyses`.
     ///
     /// # Errors
     /// An element of the mesh that is inside out.
-    pub fn equilibrium(&self) -> Result<Equilibrium<'_>, Failure> {
+    pub fn equilibrium(&self, analyses: &Analyses) -> Result<Equilibrium<'_>, Failure> {
         let contact = ToolContact { tool: self.tool.clone(), penalty: self.penalty };
         let fixed = |node: usize| self.held[node];
-        let body = Body::new(&self.mesh, self.symmetry, self.metal.clone(), fixed, Some(contact))?;
+        let body = Body::new(analyses, &self.mesh, self.symmetry, self.metal.clone(), fixed, Some(contact))?;
         match &self.start {
             None => Equilibrium::new(body),
             Some(start) => {
