@@ -31,7 +31,7 @@ fn one(elements: usize) -> Result<(), Box<dyn Error + Send + Sync>> {
     path.settings.tolerance = 1e-5;
     let (end, whole) = timed(|| path.load(&mut |_, _| true));
     end?;
-    let iterations = path.iterations;
+    let iterations = path.counts.iterations;
     let model = &mut path.model;
     let before = model.state().displacement.to_vec();
     model.begin(-(FRACTION * (1.0 + problem.numbers.penetration)), 0.0, |node| before[node].map(|u| 0.1 * u));

@@ -72,7 +72,7 @@ pub fn crush(
     let mut path = start(&problem, analyses)?;
     let points = load(&mut path, &problem)?;
     let element = problem.half_widths[0] / problem.numbers.elements_in_contact as f64;
-    Ok(Curve { points, element, increments: path.increments, iterations: path.iterations })
+    Ok(Curve { points, element, increments: path.counts.increments, iterations: path.counts.iterations })
 }
 
 /// Share of the peak force at which unloading ends; what is left of the way is extrapolated.

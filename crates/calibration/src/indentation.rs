@@ -178,7 +178,7 @@ fn indent(
         recovery: FORCES.map(|force| recovery(&shares, force)),
         elastic_share: 3.0 * work(&shares),
         reached: reached.min(1.0),
-        iterations: path.iterations,
+        iterations: path.counts.iterations,
     };
     Ok((found, fitted))
 }

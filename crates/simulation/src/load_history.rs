@@ -21,7 +21,7 @@ pub(super) fn ready(
     expected: &Expected,
     analyses: &Analyses,
 ) -> Result<Problem, CrushError> {
-    let problem = prepare_with(scene, numbers, mesh, expected)?;
+    let mut problem = prepare_with(scene, numbers, mesh, expected)?;
     let (length, symmetry) = (problem.units.length, problem.symmetry);
     let mut left: Option<Unloaded> = None;
     for (index, expected) in expected.earlier.iter().enumerate() {
@@ -31,7 +31,7 @@ pub(super) fn ready(
         let own = load.units.length;
         // of the same substrate, which is a given one for a mesh that is given
         load.rules.far_field = problem.rules.far_field * own / length;
-        load.start = left.map(|left| left.scaled(length / own, symmetry));
+        load.specimen.earlier = left.map(|left| left.scaled(length / own, symmetry));
         let simulation = simulate(&load, analyses, 0, &mut |_| ControlFlow::Continue(()))?;
         if let Some(reason) = simulation.stopped {
             let path = format!("initial.load[{index}]");
@@ -40,5 +40,6 @@ pub(super) fn ready(
         let model = &simulation.path.model;
         left = Some(model.state().unloaded(model.body()).scaled(own / length, symmetry));
     }
-    Ok(Problem { start: left, ..problem })
+    problem.specimen.earlier = left;
+    Ok(problem)
 }

@@ -42,8 +42,8 @@ fn reached(anew: impl Fn(usize) -> bool) -> Reached {
         let increment = path.advance_to(Goal::Travel(travel), &mut |_, _| true).unwrap();
         let state = path.model.state();
         let work = increment.energies.external_work;
-        largest = largest.max((state.transferred - before).abs() / work);
-        before = state.transferred;
+        largest = largest.max((state.ledger.transferred - before).abs() / work);
+        before = state.ledger.transferred;
         last = Some(increment);
         if anew(number) && number + 1 < fractions.len() {
             assert!(path.remesh(), "after increment {number}");
@@ -52,10 +52,10 @@ fn reached(anew: impl Fn(usize) -> bool) -> Reached {
     let peak = last.unwrap();
     let energies = peak.energies;
     let state = path.model.state();
-    let kept = energies.elastic + energies.plastic + peak.contact.energy + state.self_contact_energy
+    let kept = energies.elastic + energies.plastic + peak.contact.energy + state.ledger.self_contact
         - state.remeasured_energy()
-        - state.transferred;
-    let (transfers, balance) = (state.transfers, (1.0 - kept / energies.external_work).abs());
+        - state.ledger.transferred;
+    let (transfers, balance) = (state.ledger.transfers, (1.0 - kept / energies.external_work).abs());
     let stiffness = path.model.unloading_stiffness().unwrap();
     let mut residual = f64::NAN;
     path.unload(stiffness, 8, &mut |_, increment| {

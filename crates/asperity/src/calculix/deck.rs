@@ -99,7 +99,7 @@ impl Deck {
             Section::PlaneStrain => 0.0,
         };
         // depth counts from the summit of the scene, of which the mesh may cut off the tip
-        let lowest = first_touch(&problem.mesh, &drop) + problem.cut_off;
+        let lowest = first_touch(&problem.mesh, &drop) + problem.specimen.cut_off;
         let ends = span(&problem.mesh, &contact, 1.0, (section == Section::Axisymmetric).then_some(hole));
         let outline = outline(&problem.tool, ends);
         let travels = travels(scene, problem);

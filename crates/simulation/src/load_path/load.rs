@@ -32,11 +32,11 @@ impl Path<'_> {
     pub fn advance_to(&mut self, goal: Goal, observer: &mut Observer<'_>) -> Result<Increment, Stop> {
         match goal {
             Goal::Travel(travel) => {
-                let phase = if travel < self.travel { Phase::Unload } else { Phase::Load };
+                let phase = if travel < self.stand.travel { Phase::Unload } else { Phase::Load };
                 self.reach(travel, phase, phase == Phase::Load, observer)?;
                 self.accept(travel, phase, observer)
             }
-            _ => self.follow(goal, &[1.0], self.penetration, observer),
+            _ => self.follow(goal, &[1.0], self.stand.contact.penetration, observer),
         }
     }
 
@@ -54,14 +54,14 @@ impl Path<'_> {
         if self.rules().compliance.is_none() || !matches!(goal, Goal::Depth(_)) {
             return sums.penetration / (travel - sums.penetration);
         }
-        travel / self.depth(travel, ContactLoad::of(sums)) - 1.0
+        travel / self.depth(travel, ContactLoad::from_sums(sums)) - 1.0
     }
 
     /// Newton's tolerance while the body is loaded: that of the problem, down to [`ELASTIC`] of it the smaller the share of the work
     /// that went into flow.
     fn tolerance(&self) -> f64 {
         let asked = self.problem.numbers.newton_tolerance;
-        let share = ELASTIC + (1.0 - ELASTIC) * self.plastic_share;
+        let share = ELASTIC + (1.0 - ELASTIC) * self.account.plastic_share();
         (share * asked).max(asked.min(FINEST))
     }
 
@@ -86,7 +86,7 @@ impl Path<'_> {
         let mut share = if expects { penetration / depth } else { 0.0 };
         let growth =
             fractions.last().copied().unwrap_or(1.0) / fractions.iter().rev().nth(1).copied().unwrap_or(0.5);
-        let mut touches = if self.increments == 0 && fractions.len() > 1 {
+        let mut touches = if self.counts.increments == 0 && fractions.len() > 1 {
             let surface = self.model.converged_surface().under_tool_at(-self.touch);
             Touches::new(self.problem, &surface)
         } else {
@@ -97,13 +97,13 @@ impl Path<'_> {
         loop {
             fraction = fractions.get(index).copied().unwrap_or(fraction * growth);
             let wanted = (fraction * depth).min(limit) * (1.0 + share);
-            if wanted <= self.travel && index + 1 < fractions.len() {
+            if wanted <= self.stand.travel && index + 1 < fractions.len() {
                 index += 1;
                 continue; // above a tip that was cut off, or where the penetration has become less than was expected
             }
             // such a tip is met by an increment that is short beside what was cut off
-            let planned = if self.increments == 0 && self.travel > 0.0 {
-                wanted.min(FIRST_INCREMENT * self.travel)
+            let planned = if self.counts.increments == 0 && self.stand.travel > 0.0 {
+                wanted.min(FIRST_INCREMENT * self.stand.travel)
             } else {
                 touches.stop_before(wanted)
             };
@@ -144,7 +144,7 @@ impl Path<'_> {
                 met => return met,
             }
             self.remesh();
-            let half = 0.5 * (self.travel + travel);
+            let half = 0.5 * (self.stand.travel + travel);
             self.reach(half, Phase::Load, true, observer)?;
             self.accept(half, Phase::Load, observer)?;
             (travel, sums) = self.reach_depth(travel, stop_at, Phase::Load, true, observer)?;

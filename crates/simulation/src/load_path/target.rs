@@ -40,10 +40,10 @@ impl Path<'_> {
         self.settings.tolerance = settings.tolerance.min(GOAL_TOLERANCE);
         // travel and miss: of the last tries, and of the nearest on either side of the goal; the converged state is the first
         // of them for a force, while the depth follows the travel closely from the start
-        let mut now = (travel, self.miss(goal, travel, ContactLoad::of(&sums)));
+        let mut now = (travel, self.miss(goal, travel, ContactLoad::from_sums(&sums)));
         let mut last = match goal {
             Goal::Travel(depth) | Goal::Depth(depth) => (travel - depth, now.1 - 1.0),
-            Goal::Force { .. } => (self.travel, self.miss(goal, self.travel, self.contact_load())),
+            Goal::Force { .. } => (self.stand.travel, self.miss(goal, self.stand.travel, self.stand.contact)),
         };
         let mut short = matches!(goal, Goal::Force { .. }).then_some(last);
         let mut beyond: Option<(f64, f64)> = None;
@@ -67,7 +67,7 @@ impl Path<'_> {
                 }
                 _ => secant,
             };
-            let near = (next - now.0).abs() <= NEAR * (now.0 - self.travel).abs();
+            let near = (next - now.0).abs() <= NEAR * (now.0 - self.stand.travel).abs();
             let exact = if near { self.attempt_again(next) } else { self.attempt(next, true, GUESS) };
             let exact = exact.or_else(|_| self.attempt(next, true, 0.0));
             let found = exact.or_else(|_| {
@@ -80,7 +80,7 @@ impl Path<'_> {
                 return Err(Stop::NoEquilibrium);
             };
             last = now;
-            now = (next, self.miss(goal, next, ContactLoad::of(&sums)));
+            now = (next, self.miss(goal, next, ContactLoad::from_sums(&sums)));
         }
         self.settings = settings;
         if now.1.abs() <= loosely { Ok(now.0) } else { Err(Stop::NoEquilibrium) }

@@ -175,9 +175,9 @@ impl<'p> Recorder<'p> {
             external_work: energies.external_work * u.energy,
             elastic_energy: energies.elastic * u.energy,
             plastic_work: energies.plastic * u.energy,
-            contact_energy: (contact.energy + state.self_contact_energy - state.remeasured_energy())
+            contact_energy: (contact.energy + state.ledger.self_contact - state.remeasured_energy())
                 * u.energy,
-            transfer_energy: state.transferred * u.energy,
+            transfer_energy: state.ledger.transferred * u.energy,
             penetration: contact.penetration * u.length,
             compliance_depth: increment.compliance_depth * u.length,
             newton_iterations: increment.newton_iterations,
@@ -385,9 +385,9 @@ impl<'p> Recorder<'p> {
             elements: self.problem.mesh.cell_count(),
             dofs: self.unknowns,
             increments: self.rows.len() - 1,
-            newton_iterations: path.iterations,
-            cutbacks: path.cutbacks,
-            transfers: path.model.state().transfers,
+            newton_iterations: path.counts.iterations,
+            cutbacks: path.counts.cutbacks,
+            transfers: path.model.state().ledger.transfers,
         };
         let stopped = stopped.map(|reason| Stopped { reason, depth: last.depth, phase: last.phase });
         Outcome {

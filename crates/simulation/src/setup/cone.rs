@@ -5,7 +5,7 @@ use crate::scene::Lateral;
 use crate::setup::compliance::Compliance;
 use crate::setup::contact_estimate::{contact_ratio, expected_pressure, far_field};
 use crate::setup::discretisation::ConeDiscretisation;
-use crate::setup::problem::{Goal, Problem, Rules, held_nodes};
+use crate::setup::problem::{Goal, Problem, Rules, Specimen, held_nodes};
 use crate::setup::units::Units;
 use asperity_mesh::build::{SelfSimilar, self_similar};
 use asperity_mesh::profile::{Asperity, Profile, Shape};
@@ -54,10 +54,13 @@ impl Cone {
             profile,
             tool,
             half_widths: vec![radius],
-            held: held_nodes(&mesh, symmetry, Lateral::Free),
+            specimen: Specimen {
+                held: held_nodes(&mesh, symmetry, Lateral::Free),
+                cut_off: 0.0,
+                earlier: None,
+            },
             mesh,
             numbers,
-            cut_off: 0.0,
             goal: Goal::Depth(1.0),
             unload: false,
             reloads: 0,
@@ -67,7 +70,6 @@ impl Cone {
                 area_growth: f64::INFINITY,
             },
             formed: None,
-            start: None,
         }
     }
 }

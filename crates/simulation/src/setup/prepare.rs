@@ -9,7 +9,7 @@ use crate::setup::contact_interaction::{Support, own_depths};
 use crate::setup::deformed_surface::{Formed, expected_pressure};
 use crate::setup::discretisation::COUNTS_FROM;
 use crate::setup::discretisation::Discretisation;
-use crate::setup::problem::{Goal, Problem, Rules, held_nodes};
+use crate::setup::problem::{Goal, Problem, Rules, Specimen, held_nodes};
 use crate::setup::units::Units;
 use asperity_material::Elastic;
 use asperity_mesh::build::{Contact, Plan, build};
@@ -161,16 +161,14 @@ pub fn prepare_with(
         tool,
         half_widths,
         penalty: pressure / (numbers.penetration * indents),
-        held: held_nodes(&mesh, symmetry, scene.lateral),
+        specimen: Specimen { held: held_nodes(&mesh, symmetry, scene.lateral), cut_off, earlier: None },
         mesh,
         numbers,
-        cut_off,
         goal,
         unload: scene.loading.unload,
         reloads: scene.loading.reloads,
         rules,
         formed,
-        start: None,
     })
 }
 

@@ -55,6 +55,17 @@ impl Rules {
     }
 }
 
+/// How a body is held, and what it went through before.
+#[derive(Clone, Debug)]
+pub struct Specimen {
+    /// Fixed displacement components of each node.
+    pub held: Vec<[bool; 2]>,
+    /// Height of what the mesh cuts off a steep tip: the tool touches the mesh where it is that deep.
+    pub cut_off: f64,
+    /// The body as earlier loads left it; `None`: virgin.
+    pub earlier: Option<Unloaded>,
+}
+
 /// A problem made ready, dimensionless.
 #[derive(Clone, Debug)]
 pub struct Problem {
@@ -74,12 +85,10 @@ pub struct Problem {
     pub penalty: f64,
     /// The mesh.
     pub mesh: Mesh,
-    /// Fixed displacement components of each node.
-    pub held: Vec<[bool; 2]>,
+    /// What is known of the body beside its mesh and its metal.
+    pub specimen: Specimen,
     /// The discretisation used.
     pub numbers: Discretisation,
-    /// Height of what the mesh cuts off a steep tip: the tool touches the mesh where it is that deep.
-    pub cut_off: f64,
     /// Where the first loading ends: the estimated depth there is 1.
     pub goal: Goal,
     /// Whether the tool then retreats to zero force.
@@ -90,8 +99,6 @@ pub struct Problem {
     pub rules: Rules,
     /// The surface that earlier loads left, as far as estimates need it.
     pub formed: Option<Formed>,
-    /// The body as earlier loads left it; `None`: virgin.
-    pub start: Option<Unloaded>,
 }
 
 impl Problem {
@@ -101,12 +108,12 @@ impl Problem {
     /// An element of the mesh that is inside out.
     pub fn equilibrium(&self, analyses: &Analyses) -> Result<Equilibrium<'_>, Failure> {
         let contact = ToolContact { tool: self.tool.clone(), penalty: self.penalty };
-        let fixed = |node: usize| self.held[node];
+        let fixed = |node: usize| self.specimen.held[node];
         let body = Body::new(analyses, &self.mesh, self.symmetry, self.metal.clone(), fixed, Some(contact))?;
-        match &self.start {
+        match &self.specimen.earlier {
             None => Equilibrium::new(body),
-            Some(start) => {
-                let (body, state) = State::of_unloaded(body, start);
+            Some(left) => {
+                let (body, state) = State::of_unloaded(body, left);
                 Equilibrium::from_state(body, state)
             }
         }

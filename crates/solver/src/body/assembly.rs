@@ -46,6 +46,12 @@ pub struct Response {
 }
 
 impl Response {
+    /// Whether each point yields, which started as in `trial`.
+    pub fn yielding_points<'a>(&'a self, trial: &'a Trial) -> impl Iterator<Item = bool> + use<'a> {
+        let started = &trial.start.states;
+        self.points.states.iter().zip(started).map(|(new, start)| new.plastic_strain > start.plastic_strain)
+    }
+
     /// Arrays for the responses of `body` from `state`.
     pub fn new(body: &Body<'_>, state: &State) -> Response {
         Response {

@@ -22,7 +22,7 @@ impl State {
             x[1] += du[1];
         }
         self.displacement.clone_from(&trial.displacement);
-        self.remeasured[1] = self.work_of_changes(trial.penalty, response);
+        self.ledger.remeasured[1] = self.work_of_changes(trial.penalty, response);
         self.penalty = trial.penalty;
         self.contact.clone_from(&response.contact);
         self.tip = trial.tip;
@@ -38,10 +38,10 @@ impl State {
     /// the mean of the values at its start and at its end.
     fn work_of_changes(&self, penalty: f64, response: &Response) -> f64 {
         let before =
-            self.contact.iter().map(|share| share.penalty_energy).sum::<f64>() + self.self_contact_energy;
+            self.contact.iter().map(|share| share.penalty_energy).sum::<f64>() + self.ledger.self_contact;
         let after = response.contact.iter().map(|share| share.penalty_energy).sum::<f64>()
             + response.pressed.iter().map(|point| point.energy).sum::<f64>();
-        let remeasured = self.remeasured[1];
+        let remeasured = self.ledger.remeasured[1];
         if before <= 0.0 || before + remeasured <= 0.0 {
             return remeasured;
         }
@@ -69,7 +69,7 @@ impl State {
                 work += if yields(q) { body.volume[q] * flows.work[i] } else { 0.0 };
             }
         }
-        self.plastic_work += work;
+        self.ledger.plastic_work += work;
         Ok(())
     }
 
@@ -80,8 +80,8 @@ impl State {
         self.facing = Facing::new(&self.edges, &self.position, &self.displacement, &self.facing);
         let x = |node: u32| self.position[node as usize];
         let after: f64 = self.facing.press(&self.edges, self.penalty, x).map(|point| point.energy).sum();
-        self.self_contact_energy = before;
-        self.remeasured[1] += after - before;
+        self.ledger.self_contact = before;
+        self.ledger.remeasured[1] += after - before;
     }
 
     /// Takes the contact energy over the surface as it is now, which the tool has stretched; what that adds to the energy is no
@@ -96,6 +96,6 @@ impl State {
             change += anew.penalty_energy - share.penalty_energy;
         }
         // the sums of this increment are still over the old area
-        self.remeasured = [self.remeasured_energy() + self.remeasured[1], change];
+        self.ledger.remeasured = [self.remeasured_energy() + self.ledger.remeasured[1], change];
     }
 }

@@ -54,8 +54,6 @@ pub struct State {
     pub plastic: Vec<PlasticIncrement>,
     /// Change of each point's volume ratio J in the last increment; empty where the yield stress does not depend on it.
     pub volume_change: Vec<f64>,
-    /// Plastic work so far.
-    pub plastic_work: f64,
     /// Whether each element yielded in the last increment.
     pub yielding: Vec<bool>,
     /// Height of the tool's lowest point; infinite without a tool.
@@ -68,10 +66,19 @@ pub struct State {
     pub contact: Vec<EdgeContact>,
     /// Which points of the surface face other parts of it.
     pub facing: Facing,
-    /// Energy of the contact of the surface with itself.
-    pub self_contact_energy: f64,
     /// Largest load so far.
     pub load_scale: f64,
+    /// Energies that are counted along the way.
+    pub ledger: Ledger,
+}
+
+/// Energies that no state alone tells: they are counted along the way.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Ledger {
+    /// Plastic work so far.
+    pub plastic_work: f64,
+    /// Energy of the contact of the surface with itself.
+    pub self_contact: f64,
     /// Change of the contact energy by that of the area it is taken over and of the penalty, up to the last increment and after it.
     pub remeasured: [f64; 2],
     /// Change of the stored energy, the plastic work and the contact energy by all transfers to better meshes.
@@ -136,17 +143,13 @@ impl State {
             points: Points::virgin(&body.material, count),
             plastic: vec![PlasticIncrement::NONE; if yields { count } else { 0 }],
             volume_change: vec![0.0; if yields && body.material.yields_by_true_stress() { count } else { 0 }],
-            plastic_work: 0.0,
             yielding: vec![false; body.mesh.cell_count()],
             tip: f64::INFINITY,
             penalty: body.contact.as_ref().map_or(0.0, |contact| contact.penalty),
             edges,
             contact: Vec::new(),
-            self_contact_energy: 0.0,
             load_scale: 0.0,
-            remeasured: [0.0; 2],
-            transferred: 0.0,
-            transfers: 0,
+            ledger: Ledger::default(),
         }
     }
 
@@ -195,7 +198,7 @@ impl State {
     /// Change of the contact energy that is no work of the tool: by that of the area it is taken over and of the penalty, up to the
     /// last increment.
     pub fn remeasured_energy(&self) -> f64 {
-        self.remeasured[0]
+        self.ledger.remeasured[0]
     }
 
     /// Force on the tool along z, positive in compression.
@@ -220,6 +223,6 @@ impl State {
             let of = |(history, v): (&History, &f64)| v * elastic_energy(&body.material.elastic, history);
             points.history.iter().zip(&body.volume).map(of).sum()
         };
-        [elastic, self.plastic_work]
+        [elastic, self.ledger.plastic_work]
     }
 }

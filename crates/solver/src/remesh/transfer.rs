@@ -293,13 +293,14 @@ impl State {
     fn balanced_energy(&self, body: &Body<'_>) -> f64 {
         let [elastic, plastic] = self.energies(body);
         let contact = contact_sums(self.contact.iter(), body.symmetry).energy;
-        elastic + plastic + contact + self.self_contact_energy - self.remeasured_energy()
+        elastic + plastic + contact + self.ledger.self_contact - self.remeasured_energy()
     }
 
     /// Takes down that a transfer from the state `before`, of the body `old`, ended here.
     pub fn note_transfer(&mut self, body: &Body<'_>, before: &State, old: &Body<'_>) {
-        self.transferred = before.transferred + self.balanced_energy(body) - before.balanced_energy(old);
-        self.transfers = before.transfers + 1;
+        self.ledger.transferred =
+            before.ledger.transferred + self.balanced_energy(body) - before.balanced_energy(old);
+        self.ledger.transfers = before.ledger.transfers + 1;
     }
 
     /// The body and its state with the nodes at `places`, in touch with the same tool where it stands. It is not in equilibrium.
@@ -323,7 +324,7 @@ impl State {
         }
         state.facing = Facing::new(&state.edges, &places, &state.displacement, &Facing::default());
         state.position = places;
-        state.remeasured[1] = 0.0;
+        state.ledger.remeasured[1] = 0.0;
         Some((anew, state))
     }
 }
