@@ -30,3 +30,5 @@ pub mod record;
 mod companion;
 
 pub mod error_estimate;
+
+mod fitted;

@@ -64,10 +64,10 @@ impl<'a> Run<'a> {
         if let Some(companion) = compared {
             let Discretisation { element, penetration, steps, .. } = numbers;
             let setting = Setting { symmetry: scene.symmetry, element, penetration, steps, same_mesh };
-            extrapolate_and_bound(&mut outcome, &companion, setting);
+            outcome = extrapolate_and_bound(outcome, &companion, setting);
         }
         if let (Target::Force(force), None) = (target, &outcome.stopped) {
-            rescale_to_force(&mut outcome, force, scene.symmetry);
+            outcome = rescale_to_force(outcome, force, scene.symmetry);
         }
         // of the force and the depth that are stated
         outcome.summary.oliver_pharr =
