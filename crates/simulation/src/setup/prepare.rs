@@ -1,9 +1,6 @@
 //! From a scene and its depth to what the solver computes with: unit of length, profile, tool, mesh, penalty.
 
-use crate::scene::{
-    AsperityForm, ElementChoice, Lateral, Line, LineAsperity, Scene, SceneError, Target, ToolForm,
-};
-use crate::setup::compliance::Compliance;
+use crate::scene::{AsperityForm, ElementChoice, Line, LineAsperity, Scene, SceneError, Target, ToolForm};
 use crate::setup::contact_estimate;
 use crate::setup::contact_interaction::{Support, own_depths};
 use crate::setup::deformed_surface::{Formed, expected_pressure};
@@ -22,10 +19,6 @@ use asperity_solver::point::material::Metal;
 
 /// How far a run that is driven by a force may go beyond the depth at which it is expected.
 const PROBED: f64 = 1.3;
-
-/// A path that grows the contact area by more than this factor in one increment halves it: flat metal comes into contact all
-/// at once when an asperity vanishes into its base. The schedule of the draft level grows it by 1.5.
-const AREA_GROWTH: f64 = 2.5;
 
 /// The material of `scene`, E = 1.
 pub fn metal(scene: &Scene) -> Metal {
@@ -145,15 +138,8 @@ pub fn prepare_with(
             (mesh, profile.height() - meshed.height())
         }
     };
-    let automatic = scene.mesh.is_none() && scene.substrate.as_ref().is_none_or(|s| s.depth.is_none());
-    let half_space = automatic && symmetry == Symmetry::Axisymmetric && scene.lateral == Lateral::Free;
-    let rules = Rules {
-        // a substrate that the scene gives is a part of it
-        far_field: if half_space { contact_estimate::far_field(&metal, size) } else { 0.0 },
-        compliance: Compliance::of(scene, &units),
-        area_growth: AREA_GROWTH,
-    };
     Ok(Problem {
+        rules: Rules::new(scene, &metal, &units, size),
         units,
         symmetry,
         metal,
@@ -167,7 +153,6 @@ pub fn prepare_with(
         goal,
         unload: scene.loading.unload,
         reloads: scene.loading.reloads,
-        rules,
         formed,
     })
 }

@@ -1,7 +1,8 @@
 //! The input of the solver: mesh, material, tool, and the rules of its path. Inside the solver E = 1.
 
-use crate::scene::Lateral;
+use crate::scene::{Lateral, Scene};
 use crate::setup::compliance::Compliance;
+use crate::setup::contact_estimate::far_field;
 use crate::setup::deformed_surface::{Formed, expected_pressure};
 use crate::setup::discretisation::{COUNTS_FROM, Discretisation};
 use crate::setup::units::Units;
@@ -45,7 +46,24 @@ pub struct Rules {
     pub area_growth: f64,
 }
 
+/// A path that grows the contact area by more than this factor in one increment halves it: flat metal comes into contact all
+/// at once when an asperity vanishes into its base. The schedule of the draft level grows it by 1.5.
+const AREA_GROWTH: f64 = 2.5;
+
 impl Rules {
+    /// Those of a path of `scene` in a body of this `size`.
+    pub fn new(scene: &Scene, metal: &Metal, units: &Units, size: f64) -> Rules {
+        let automatic = scene.mesh.is_none() && scene.substrate.as_ref().is_none_or(|s| s.depth.is_none());
+        let half_space =
+            automatic && scene.symmetry == Symmetry::Axisymmetric && scene.lateral == Lateral::Free;
+        Rules {
+            // a substrate that the scene gives is a part of it
+            far_field: if half_space { far_field(metal, size) } else { 0.0 },
+            compliance: Compliance::of(scene, units),
+            area_growth: AREA_GROWTH,
+        }
+    }
+
     /// dF/dh of a half space under tool and machine, from that of the meshed body over a contact of this `area`: the depth holds what the
     /// substrate of finite size takes away and how tool and machine give way, so the slope holds both.
     pub fn whole_stiffness(&self, of_the_mesh: f64, area: f64) -> f64 {
