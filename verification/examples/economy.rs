@@ -4,7 +4,7 @@
 //! `cargo run --release -p asperity-verification --example economy [-- --out FILE]`; the table is `verification/results/economy.md`.
 
 use asperity_material::units::{Length, Stress};
-use asperity_numerics::newton::KEEP;
+use asperity_numerics::newton::KEPT_FACTORS_REDUCTION;
 use asperity_simulation::load_path::Path;
 use asperity_simulation::run::{Outcome, Run};
 use asperity_simulation::scene::{Accuracy, Scene, Substrate};
@@ -84,7 +84,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     shallow_deep.substrate = deep.substrate;
     row(&mut report, "the same at a depth of 0.2 um", &fastest(&shallow_deep)?, &fastest(&shallow)?);
 
-    let (every, kept) = (loaded(&paper, 0.0)?, loaded(&paper, KEEP)?);
+    let (every, kept) = (loaded(&paper, 0.0)?, loaded(&paper, KEPT_FACTORS_REDUCTION)?);
     report.line(&format!(
         "| new tangents while secants serve ({} to {} factorisations) | | | {:.2} to {:.2} | {:.0} % | {:+.1e} |",
         every.2,

@@ -15,8 +15,8 @@ use asperity_simulation::record::curve::Curve;
 use asperity_simulation::record::rows::{Errors, Phase};
 use asperity_simulation::run::{Outcome, Run};
 use asperity_simulation::scene::{Accuracy, ElementChoice, Numerics, Scene};
-use asperity_simulation::setup::discretisation::COUNTS_FROM;
 use asperity_simulation::setup::discretisation::Discretisation;
+use asperity_simulation::setup::discretisation::LEAST_COUNTED_DEPTH;
 use flate2::Compression;
 use flate2::read::GzDecoder;
 use flate2::write::GzEncoder;
@@ -119,7 +119,7 @@ impl Answer {
             return Err(format!("ends at {:.4} of the depth", force.end() / depth));
         }
         let at = |i: usize| {
-            let share = COUNTS_FROM + (1.0 - COUNTS_FROM) * i as f64 / (DEPTHS - 1) as f64;
+            let share = LEAST_COUNTED_DEPTH + (1.0 - LEAST_COUNTED_DEPTH) * i as f64 / (DEPTHS - 1) as f64;
             let depth = (share * depth).min(force.end());
             [force.at(depth), area.at(depth)]
         };

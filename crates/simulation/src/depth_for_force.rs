@@ -22,17 +22,17 @@ use asperity_solver::body::energy::ContactSums;
 use std::ops::ControlFlow;
 
 /// Elements across the contact and load steps of a coarse crush.
-const ELEMENTS: usize = 6;
-const STEPS: usize = 12;
+const COARSE_ELEMENTS: usize = 6;
+const COARSE_STEPS: usize = 12;
 
 /// Crushes after which the last answer is taken.
 const MOST_CRUSHES: usize = 6;
 
 /// A crush that goes further than this many times the depth of the force has too few elements in contact there.
-const TOO_DEEP: f64 = 2.0;
+const LARGEST_DEPTH_RATIO: f64 = 2.0;
 
 /// How far beyond the expected depth a crush goes, so that the force is passed and not just missed.
-const BEYOND: f64 = 1.1;
+const PASSED_DEPTH_RATIO: f64 = 1.1;
 
 /// Estimates of `scene`, which is valid: the depth of its peak is the one that it asks for, or else the one at which it
 /// carries its force, at most the deepest that its tool can go. `mesh` (in metres) holds the size of the body where plane strain
@@ -114,8 +114,8 @@ fn depth_of(scene: &Scene, force: f64, guess: f64, expected: &Expected, analyses
         };
         let end = curve.end();
         match curve.depth_of(force) {
-            Some(found) if TOO_DEEP * found >= end => return found,
-            Some(found) => depth = BEYOND * found,
+            Some(found) if LARGEST_DEPTH_RATIO * found >= end => return found,
+            Some(found) => depth = PASSED_DEPTH_RATIO * found,
             // stopped on its way, or as deep as it can be
             None if end < 0.999 * depth || depth >= deepest => break,
             None => {
@@ -124,7 +124,7 @@ fn depth_of(scene: &Scene, force: f64, guess: f64, expected: &Expected, analyses
                 if !growth.is_finite() {
                     break;
                 }
-                depth = (BEYOND * growth * end).min(deepest);
+                depth = (PASSED_DEPTH_RATIO * growth * end).min(deepest);
             }
         }
     }
@@ -145,7 +145,7 @@ fn depth_of_body(scene: &Scene, asked: f64, expected: &Expected, analyses: &Anal
                 * problem.units.length
         });
         let Some(found) = total.and_then(|way| body_depth(&way, asked)) else { break };
-        let fine = found * TOO_DEEP >= depth;
+        let fine = found * LARGEST_DEPTH_RATIO >= depth;
         depth = found;
         if fine {
             break;
@@ -169,8 +169,11 @@ fn to_depth(expected: &Expected, depth: f64) -> Expected {
 
 /// A coarse crush of `scene` to its expected depth, ready to go, after coarse earlier loads. Tool and machine are stiff.
 fn coarse_problem(scene: &Scene, expected: &Expected, analyses: &Analyses) -> Option<Problem> {
-    let numerics =
-        Numerics { elements_in_contact: Some(ELEMENTS), steps: Some(STEPS), ..Numerics::default() };
+    let numerics = Numerics {
+        elements_in_contact: Some(COARSE_ELEMENTS),
+        steps: Some(COARSE_STEPS),
+        ..Numerics::default()
+    };
     let loading = Loading { depth: Some(Length(expected.depth)), force: None, unload: false, reloads: 0 };
     let probe = Scene {
         accuracy: Accuracy::Draft,

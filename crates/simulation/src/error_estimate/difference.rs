@@ -2,7 +2,7 @@
 
 use crate::fitted::FITTED;
 use crate::scene::ElementChoice;
-use crate::setup::discretisation::COUNTS_FROM;
+use crate::setup::discretisation::LEAST_COUNTED_DEPTH;
 use asperity_numerics::least_squares::{powers, solve, value};
 use asperity_solver::point::kinematics::Symmetry;
 
@@ -111,7 +111,7 @@ impl Difference {
 
     /// The smooth part at x = ln(h/h_peak); that of the first depth before it.
     fn smooth(&self, x: f64) -> f64 {
-        value(&self.smooth, &powers(x.clamp(COUNTS_FROM.ln(), 0.0)))
+        value(&self.smooth, &powers(x.clamp(LEAST_COUNTED_DEPTH.ln(), 0.0)))
     }
 
     /// The correction that is added to ln Q.
@@ -158,7 +158,7 @@ mod tests {
 
     /// A companion that differs by `d(x)` from a run without ripple.
     fn difference(of: Quantity, d: impl Fn(f64) -> f64) -> Difference {
-        let depths = (0..DEPTHS).map(|i| COUNTS_FROM.ln() * (1.0 - i as f64 / (DEPTHS - 1) as f64));
+        let depths = (0..DEPTHS).map(|i| LEAST_COUNTED_DEPTH.ln() * (1.0 - i as f64 / (DEPTHS - 1) as f64));
         let points: Vec<[f64; 2]> = depths.map(|x| [x, d(x)]).collect();
         Difference::new(points, vec![0.0; DEPTHS], of).unwrap()
     }
@@ -170,7 +170,7 @@ mod tests {
             for sign in [1.0, -1.0] {
                 let error = |x: f64| sign * (0.008 + 0.002 * x);
                 let companion = difference(of, |x| (2_f64.powf(order) - 1.0) * error(x));
-                for x in [COUNTS_FROM.ln(), -0.8, -0.2, 0.0] {
+                for x in [LEAST_COUNTED_DEPTH.ln(), -0.8, -0.2, 0.0] {
                     let left = error(x) + companion.correction(x);
                     assert!(left.abs() < 2e-5, "order {order}, sign {sign}: {left:e} at {x}");
                 }

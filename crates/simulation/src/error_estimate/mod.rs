@@ -35,7 +35,7 @@ pub(super) use rescale::rescale_to_force;
 use crate::record::curve::Curve;
 use crate::record::recorder::Outcome;
 use crate::record::rows::{AsperityRow, CurveRow, Errors, Phase, Summary, largest_work, work_along};
-use crate::setup::discretisation::COUNTS_FROM;
+use crate::setup::discretisation::LEAST_COUNTED_DEPTH;
 use crate::setup::schedule::UNLOADING_EXPONENT;
 use asperity_solver::point::kinematics::Symmetry;
 use difference::{Difference, Quantity, longer};
@@ -160,11 +160,11 @@ impl Comparison {
         }
         let x = self.logarithmic_depth(row);
         match row.phase {
-            Phase::Load if x < COUNTS_FROM.ln() => {
+            Phase::Load if x < LEAST_COUNTED_DEPTH.ln() => {
                 let depth = row.depth / self.depth;
                 let [run, companion] = self.force_curves.each_ref().map(|curve| curve.logarithm_at(depth));
                 let own = (companion - run).abs();
-                let first = self.force.bound(f64::NEG_INFINITY, COUNTS_FROM.ln() + HALF_SPAN_OF_ROW);
+                let first = self.force.bound(f64::NEG_INFINITY, LEAST_COUNTED_DEPTH.ln() + HALF_SPAN_OF_ROW);
                 Some(if own.is_finite() { first.max(own) } else { first.max(1.0) })
             }
             Phase::Load => Some(self.force.bound(x - HALF_SPAN_OF_ROW, x + HALF_SPAN_OF_ROW)),
@@ -186,7 +186,7 @@ impl Comparison {
 fn difference([own, other]: &[Curve; 2], peak: f64, of: Quantity) -> Option<Difference> {
     let smooth = own.smooth(peak);
     let last = (COMPARED_DEPTHS - 1) as f64;
-    let places = (0..COMPARED_DEPTHS).map(|i| COUNTS_FROM.ln() * i as f64 / last).rev();
+    let places = (0..COMPARED_DEPTHS).map(|i| LEAST_COUNTED_DEPTH.ln() * i as f64 / last).rev();
     let compared = |x: f64| {
         let depth = peak * x.exp();
         let value = own.logarithm_at(depth);

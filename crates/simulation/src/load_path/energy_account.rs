@@ -3,7 +3,7 @@
 use super::increment::Energies;
 use crate::record::rows::Phase;
 use asperity_solver::body::energy::{
-    PARTING, TOUCHING, work, work_by_parabola, work_by_power, work_by_slopes,
+    FIRST_TOUCH_EXPONENTS, SEPARATION_EXPONENTS, work, work_by_parabola, work_by_power, work_by_slopes,
 };
 
 /// A force, and its slope over the travel where that is known.
@@ -39,8 +39,8 @@ impl EnergyAccount {
     /// Adds the work of an increment over `step` between two forces.
     pub fn add_work(&mut self, [(before, from), (after, to)]: [SlopedForce; 2], step: f64) {
         self.external_work += match (from, to) {
-            (_, Some(to)) if before <= 0.0 => work_by_power(after, to, step, TOUCHING),
-            (Some(from), _) if after <= 0.0 => work_by_power(before, from, step, PARTING),
+            (_, Some(to)) if before <= 0.0 => work_by_power(after, to, step, FIRST_TOUCH_EXPONENTS),
+            (Some(from), _) if after <= 0.0 => work_by_power(before, from, step, SEPARATION_EXPONENTS),
             (Some(from), Some(to)) => work_by_slopes([before, after], [from, to], step),
             _ => match self.earlier {
                 Some([earlier, last]) if last * step > 0.0 => {

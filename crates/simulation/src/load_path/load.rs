@@ -1,24 +1,24 @@
 //! Loading: along a schedule of depths, or to a travel, a depth or a force at once.
 
 use super::increment::{Increment, Observer, Stop};
-use super::path::{ContactLoad, NEVER, Path, StopAt};
+use super::path::{ContactLoad, NO_EARLY_END, Path, StopAt};
 use super::touches::Touches;
 use crate::record::rows::Phase;
 use crate::setup::problem::Goal;
 use asperity_solver::body::energy::ContactSums;
 
 /// Times that the last increment is halved where it does not meet its goal.
-const MOST_PARTS: usize = 3;
+const MOST_HALVINGS_AT_GOAL: usize = 3;
 
 /// Travel at the end of the first increment at most over the travel at which the tool touches a tip that was cut off.
-const FIRST_INCREMENT: f64 = 2.0;
+const FIRST_TRAVEL_RATIO: f64 = 2.0;
 
 /// Share of the tolerance that is left where nothing yields: all of the work comes back, so that what little of it is left in the end shows
 /// each residual. Of a ridge that hardly yields 0.05 % of the work was lost without it.
-const ELASTIC: f64 = 0.1;
+const ELASTIC_TOLERANCE_SHARE: f64 = 0.1;
 
 /// Tolerance that is never made smaller.
-const FINEST: f64 = 1e-6;
+const FINEST_TOLERANCE: f64 = 1e-6;
 
 impl Path<'_> {
     /// Goes from the last converged increment to `goal`, in as few increments as converge, and returns the last one. The
@@ -57,12 +57,12 @@ impl Path<'_> {
         travel / self.depth(travel, ContactLoad::from_sums(sums)) - 1.0
     }
 
-    /// Newton's tolerance while the body is loaded: that of the problem, down to [`ELASTIC`] of it the smaller the share of the work
+    /// Newton's tolerance while the body is loaded: that of the problem, down to [`ELASTIC_TOLERANCE_SHARE`] of it the smaller the share of the work
     /// that went into flow.
     fn tolerance(&self) -> f64 {
         let asked = self.problem.numbers.newton_tolerance;
-        let share = ELASTIC + (1.0 - ELASTIC) * self.account.plastic_share();
-        (share * asked).max(asked.min(FINEST))
+        let share = ELASTIC_TOLERANCE_SHARE + (1.0 - ELASTIC_TOLERANCE_SHARE) * self.account.plastic_share();
+        (share * asked).max(asked.min(FINEST_TOLERANCE))
     }
 
     /// Loads to `goal` along `fractions` of its depth; `penetration` is the expected one.
@@ -74,8 +74,8 @@ impl Path<'_> {
         observer: &mut Observer<'_>,
     ) -> Result<Increment, Stop> {
         let (depth, limit, stop_at) = match goal {
-            Goal::Travel(travel) => (travel, travel, NEVER),
-            Goal::Depth(depth) => (depth, depth, StopAt { depth, ..NEVER }),
+            Goal::Travel(travel) => (travel, travel, NO_EARLY_END),
+            Goal::Depth(depth) => (depth, depth, StopAt { depth, ..NO_EARLY_END }),
             Goal::Force { force, expected_depth, limit } => {
                 (expected_depth, limit, StopAt { depth: limit, force, of_body: true })
             }
@@ -103,7 +103,7 @@ impl Path<'_> {
             }
             // such a tip is met by an increment that is short beside what was cut off
             let planned = if self.counts.increments == 0 && self.stand.travel > 0.0 {
-                wanted.min(FIRST_INCREMENT * self.stand.travel)
+                wanted.min(FIRST_TRAVEL_RATIO * self.stand.travel)
             } else {
                 touches.stop_before(wanted)
             };
@@ -138,7 +138,7 @@ impl Path<'_> {
         stop_at: StopAt,
         observer: &mut Observer<'_>,
     ) -> Result<f64, Stop> {
-        for _ in 0..MOST_PARTS {
+        for _ in 0..MOST_HALVINGS_AT_GOAL {
             match self.solve_for_goal(goal, travel, sums) {
                 Err(Stop::NoEquilibrium) => {}
                 met => return met,

@@ -4,32 +4,32 @@ use super::energy_account::EnergyAccount;
 use super::increment::{Increment, Observer, Stop};
 use crate::record::rows::Phase;
 use crate::setup::problem::{Problem, Rules};
-use asperity_numerics::newton::{KEEP, Settings, solve};
+use asperity_numerics::newton::{KEPT_FACTORS_REDUCTION, Settings, solve};
 use asperity_solver::body::analysis::Analyses;
 use asperity_solver::body::energy::{ContactSums, contact_sums};
 use asperity_solver::body::failure::Failure as BodyFailure;
 use asperity_solver::contact::penalty_correction::Punches;
 use asperity_solver::equilibrium::{Equilibrium, SolveFailure};
-use asperity_solver::remesh::distortion::LOADED;
+use asperity_solver::remesh::distortion::LIMITS_WHILE_LOADING;
 
 /// Halvings of an increment after which the run stops.
 const MAX_HALVINGS: u32 = 7;
 
 /// Halvings of an increment after which a new mesh is tried.
-const HALVINGS_OF_A_MESH: u32 = 3;
+const HALVINGS_BEFORE_REMESHING: u32 = 3;
 
 /// Elastic logarithmic strain up to which Hencky's law is elliptic (Bruhns, Xiao, Meyers: J. Elasticity 64 (2001)).
-const ELLIPTIC: f64 = 1.0 / 3.0;
+const LARGEST_ELASTIC_STRAIN: f64 = 1.0 / 3.0;
 
 /// Growth of the travel before a better mesh is looked for again where there was none: each look costs.
-const FARTHER: f64 = 1.1;
+const REMESHING_TRAVEL_RATIO: f64 = 1.1;
 
 /// Share of the last increment that is a good first guess for the next: measured 0.5 to 0.9 save a fifth of the
 /// iterations, 1 saves less because it overshoots where the contact front moves from element to element.
-pub(super) const GUESS: f64 = 0.7;
+pub(super) const FIRST_GUESS_SHARE: f64 = 0.7;
 
 /// How far the end of loading may be from the depth or from the root of the force that was asked for, relative to it.
-pub(super) const MET: f64 = 1e-9;
+pub(super) const GOAL_DISTANCE: f64 = 1e-9;
 
 /// Depth and force at which an increment that is taken in parts ends early.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,7 +41,7 @@ pub(super) struct StopAt {
 }
 
 /// Every part is to be taken.
-pub(super) const NEVER: StopAt = StopAt { depth: f64::INFINITY, force: f64::INFINITY, of_body: false };
+pub(super) const NO_EARLY_END: StopAt = StopAt { depth: f64::INFINITY, force: f64::INFINITY, of_body: false };
 
 /// Penetration, force and area of the contact: all that the depth depends on beside the travel.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -153,7 +153,7 @@ impl<'p> Path<'p> {
         let cut_off = if specimen.earlier.is_none() { specimen.cut_off } else { 0.0 };
         Ok(Path {
             touch: model.converged_surface().first_touch() - cut_off,
-            settings: Settings { tolerance, max_iterations: 40, keep: KEEP },
+            settings: Settings { tolerance, max_iterations: 40, keep: KEPT_FACTORS_REDUCTION },
             problem,
             stand: Stand::new(cut_off),
             account: EnergyAccount::new(model.state().energies(model.body())[0]),
@@ -274,7 +274,7 @@ impl<'p> Path<'p> {
         let near = punches.energy / body.material.elastic.reduced_modulus();
         let energies = self.account.balance(self.model.state().energies(body), near, phase);
         let depth = self.depth(travel, ContactLoad::from_sums(&contact));
-        let met = |asked: &f64| (depth / asked - 1.0).abs() < 2.0 * MET;
+        let met = |asked: &f64| (depth / asked - 1.0).abs() < 2.0 * GOAL_DISTANCE;
         let increment = Increment {
             phase,
             travel,
@@ -292,8 +292,9 @@ impl<'p> Path<'p> {
         if state.facing.fold(&state.edges, &state.position).is_some() && !self.remesh() {
             return Err(self.because(Stop::FlanksMeet));
         }
-        let looks = phase == Phase::Load && self.stand.travel > FARTHER * self.remeshing.in_vain;
-        if looks && self.model.is_distorted(LOADED) && !self.remesh() {
+        let looks =
+            phase == Phase::Load && self.stand.travel > REMESHING_TRAVEL_RATIO * self.remeshing.in_vain;
+        if looks && self.model.is_distorted(LIMITS_WHILE_LOADING) && !self.remesh() {
             self.remeshing.in_vain = self.stand.travel;
         }
         Ok(increment)
@@ -338,7 +339,7 @@ impl<'p> Path<'p> {
         let mut stiffens = true;
         self.model.stiffen(true);
         let mut next = travel;
-        let mut guess = if carry { GUESS } else { 0.0 };
+        let mut guess = if carry { FIRST_GUESS_SHARE } else { 0.0 };
         loop {
             match self.attempt(next, carry, guess) {
                 Ok(sums)
@@ -362,7 +363,7 @@ impl<'p> Path<'p> {
                     let step = self.stand.last_step;
                     next = if (travel - next).abs() <= 1.01 * step.abs() { travel } else { next + step };
                 }
-                Err(_) if halvings == HALVINGS_OF_A_MESH && self.remesh() => {
+                Err(_) if halvings == HALVINGS_BEFORE_REMESHING && self.remesh() => {
                     self.counts.cutbacks += 1;
                     halvings = 0;
                     next = travel;
@@ -398,7 +399,11 @@ impl<'p> Path<'p> {
 
     /// The `stop`, or what led to it: beyond its limit the law of elasticity lets metal fold and turn inside out.
     fn because(&self, stop: Stop) -> Stop {
-        if self.model.state().largest_elastic_strain() > ELLIPTIC { Stop::ElasticStrain } else { stop }
+        if self.model.state().largest_elastic_strain() > LARGEST_ELASTIC_STRAIN {
+            Stop::ElasticStrain
+        } else {
+            stop
+        }
     }
 
     /// [`Path::reach_depth`] all the way.
@@ -409,6 +414,6 @@ impl<'p> Path<'p> {
         carry: bool,
         observer: &mut Observer<'_>,
     ) -> Result<ContactSums, Stop> {
-        self.reach_depth(travel, NEVER, phase, carry, observer).map(|(_, sums)| sums)
+        self.reach_depth(travel, NO_EARLY_END, phase, carry, observer).map(|(_, sums)| sums)
     }
 }

@@ -8,17 +8,17 @@ use crate::setup::problem::Goal;
 use crate::setup::schedule::{UNLOADING_EXPONENT, unloading};
 use asperity_solver::equilibrium::SolveFailure;
 use asperity_solver::equilibrium::tool_stiffness::ToolStiffness;
-use asperity_solver::remesh::distortion::UNLOADED;
+use asperity_solver::remesh::distortion::LIMITS_BEFORE_UNLOADING;
 
 /// Retreats after which a tool is taken away whatever it still bears.
 const MOST_RETREATS: usize = 500;
 
 /// Share of the tolerance of the loading to which unloading increments are solved.
-const UNLOADING_TOLERANCE: f64 = 0.1;
+const UNLOADING_TOLERANCE_SHARE: f64 = 0.1;
 
 /// Share of the peak travel that may be left when the tool is taken away, which is one increment however far the metal
 /// then flows: from further off it sprang back beyond its first summit.
-const LAST_RETREAT: f64 = 0.02;
+const LAST_RETREAT_SHARE: f64 = 0.02;
 
 impl Path<'_> {
     /// Unloads to zero force in about `steps` increments, then removes the tool and finds the equilibrium of the body
@@ -34,7 +34,7 @@ impl Path<'_> {
         steps: usize,
         observer: &mut Observer<'_>,
     ) -> Result<(), Stop> {
-        if self.model.is_distorted(UNLOADED) {
+        if self.model.is_distorted(LIMITS_BEFORE_UNLOADING) {
             self.remesh();
         }
         let (peak_force, peak) = (self.stand.contact.force, self.stand.travel);
@@ -43,7 +43,7 @@ impl Path<'_> {
         // what is left of the work is the smaller, the further the tool retreats
         let settings = self.settings;
         self.settings.tolerance =
-            (UNLOADING_TOLERANCE * settings.tolerance).max(settings.tolerance.min(GOAL_TOLERANCE));
+            (UNLOADING_TOLERANCE_SHARE * settings.tolerance).max(settings.tolerance.min(GOAL_TOLERANCE));
         let done = self.retreat_from([peak, peak_force], compliance, steps, observer);
         self.settings = settings;
         done
@@ -102,7 +102,7 @@ impl Path<'_> {
         for _ in 0..MOST_RETREATS {
             let slope = self.stand.slope.unwrap_or(0.0);
             let left = UNLOADING_EXPONENT * self.stand.contact.force / slope;
-            if slope <= 0.0 || (self.stand.contact.force <= force && left <= LAST_RETREAT * peak) {
+            if slope <= 0.0 || (self.stand.contact.force <= force && left <= LAST_RETREAT_SHARE * peak) {
                 break;
             }
             let travel = self.stand.travel - left / steps as f64;

@@ -1,7 +1,7 @@
 //! A loading curve between its increments, without its ripple, and against another: how errors are measured.
 
 use crate::record::rows::{CurveRow, Phase};
-use crate::setup::discretisation::COUNTS_FROM;
+use crate::setup::discretisation::LEAST_COUNTED_DEPTH;
 use asperity_numerics::least_squares::{powers, solve, value};
 
 /// A quantity that grows with the depth while loading, force or contact area, in the unit it was given.
@@ -71,7 +71,7 @@ impl Curve {
     /// The relative differences from `reference`, over depths of 0.2 to 1 of `peak`.
     pub fn differences(&self, reference: impl Fn(f64) -> f64, peak: f64) -> impl Iterator<Item = f64> {
         (0..=160).map(move |i| {
-            let depth = peak * (COUNTS_FROM + (1.0 - COUNTS_FROM) * f64::from(i) / 160.0);
+            let depth = peak * (LEAST_COUNTED_DEPTH + (1.0 - LEAST_COUNTED_DEPTH) * f64::from(i) / 160.0);
             self.at(depth) / reference(depth) - 1.0
         })
     }
@@ -94,8 +94,8 @@ impl Curve {
             let x = from * (1.0 - f64::from(i) / 400.0);
             (powers(x), self.at(peak * x.exp()).ln(), 1.0)
         };
-        let rows: Vec<([f64; TERMS], f64, f64)> = (0..=400).map(row).collect();
-        Smooth { peak, coefficients: solve(&rows).unwrap_or([f64::NAN; TERMS]) }
+        let rows: Vec<([f64; CURVE_TERMS], f64, f64)> = (0..=400).map(row).collect();
+        Smooth { peak, coefficients: solve(&rows).unwrap_or([f64::NAN; CURVE_TERMS]) }
     }
 }
 
@@ -106,10 +106,10 @@ impl Curve {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Smooth {
     peak: f64,
-    coefficients: [f64; TERMS],
+    coefficients: [f64; CURVE_TERMS],
 }
 
-const TERMS: usize = 5;
+const CURVE_TERMS: usize = 5;
 
 impl Smooth {
     /// The value at `depth`.

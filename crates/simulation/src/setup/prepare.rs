@@ -4,8 +4,8 @@ use crate::scene::{AsperityForm, ElementChoice, Line, LineAsperity, Scene, Scene
 use crate::setup::contact_estimate;
 use crate::setup::contact_interaction::{Support, own_depths};
 use crate::setup::deformed_surface::{Formed, expected_pressure};
-use crate::setup::discretisation::COUNTS_FROM;
 use crate::setup::discretisation::Discretisation;
+use crate::setup::discretisation::LEAST_COUNTED_DEPTH;
 use crate::setup::problem::{Goal, Problem, Rules, Specimen, held_nodes};
 use crate::setup::units::Units;
 use asperity_material::Elastic;
@@ -18,7 +18,7 @@ use asperity_solver::point::kinematics::Symmetry;
 use asperity_solver::point::material::Metal;
 
 /// How far a run that is driven by a force may go beyond the depth at which it is expected.
-const PROBED: f64 = 1.3;
+const PROBED_DEPTH_RATIO: f64 = 1.3;
 
 /// The material of `scene`, E = 1.
 pub fn metal(scene: &Scene) -> Metal {
@@ -162,8 +162,8 @@ fn goal_and_reach(scene: &Scene, units: &Units) -> Result<(Goal, f64), SceneErro
     Ok(match scene.loading.target().map_err(|e| within("loading", e))? {
         Target::Depth(asked) => (Goal::Depth(asked / units.length), 1.0),
         Target::Force(force) => {
-            let limit = PROBED.min(scene.deepest() / units.length);
-            (Goal::Force { force: force / units.force, expected_depth: 1.0, limit }, PROBED)
+            let limit = PROBED_DEPTH_RATIO.min(scene.deepest() / units.length);
+            (Goal::Force { force: force / units.force, expected_depth: 1.0, limit }, PROBED_DEPTH_RATIO)
         }
     })
 }
@@ -208,7 +208,7 @@ impl Contacts {
     ) -> Contacts {
         let (half_widths, share) = match formed {
             None => {
-                let [first, last] = [COUNTS_FROM * depth, reach].map(own_depths_at);
+                let [first, last] = [LEAST_COUNTED_DEPTH * depth, reach].map(own_depths_at);
                 let share = contact_estimate::resolved_from(profile, tool, &first, &last);
                 (contact_estimate::half_widths(profile, tool, &last), share)
             }
@@ -218,7 +218,7 @@ impl Contacts {
         };
         Contacts {
             resolved_from: share * widest(&half_widths),
-            graded: 1.0 - (CORE * share).ln(),
+            graded: 1.0 - (CORE_WIDTH_RATIO * share).ln(),
             half_widths,
         }
     }
@@ -227,11 +227,11 @@ impl Contacts {
     fn grading(&self, numbers: &Discretisation) -> Grading {
         Grading {
             fineness: self.graded / numbers.elements_in_contact as f64,
-            start: CORE * self.resolved_from / widest(&self.half_widths),
+            start: CORE_WIDTH_RATIO * self.resolved_from / widest(&self.half_widths),
             fine: 1.6,
             far: match numbers.element {
-                ElementChoice::Q8r => FAR_GROWTH,
-                ElementChoice::Q4 => FAR_GROWTH / LINEAR,
+                ElementChoice::Q8r => FAR_GROWTH_SHARE,
+                ElementChoice::Q4 => FAR_GROWTH_SHARE / LINEAR,
             },
         }
     }
@@ -295,12 +295,12 @@ fn widest(half_widths: &[f64]) -> f64 {
 
 /// Half width of the core over that from which a contact is to be resolved: an elastic contact is 0.7 times as wide as expected
 /// (see `a_priori`), and the columns of the core are wide.
-const CORE: f64 = 0.7;
+const CORE_WIDTH_RATIO: f64 = 0.7;
 
 /// Growth of the shells far from the contact, as a share of the distance, of quadratic elements. With linear ones of this growth a ridge
 /// and a cylinder in plane strain were too stiff by 0.5 % and 0.8 %, with [`LINEAR`] times as many shells by 0.1 %; quadratic ones of
 /// half of it change the force by 0.01 %.
-const FAR_GROWTH: f64 = 0.4;
+const FAR_GROWTH_SHARE: f64 = 0.4;
 
 /// Size of an automatic substrate: so many radii of the loaded region, which is the contact of a single asperity and
 /// the whole row of several, whose forces add up far away.
@@ -326,18 +326,18 @@ fn extent(scene: &Scene, profile: &Profile, half_widths: &[f64], length: f64) ->
 }
 
 /// Slope (tangent) of a flank beyond which a sharp tip is cut off in the mesh: the cell below it would be higher than wide.
-const STEEP_FLANK: f64 = 1.0;
+const STEEP_FLANK_SLOPE: f64 = 1.0;
 
 /// Half width of the arc that a steep flank ends in at least, over the width of the first column of cells.
-const BLUNT: f64 = 0.2;
+const BLUNT_WIDTH_RATIO: f64 = 0.2;
 
 /// The profile as it is meshed. A plane that comes down on the tip of a steep flank touches one node of a high and narrow cell: a
 /// pressure of ten yield stresses there crushes the cell before the contact is as wide as it. What an arc half a column wide takes off
 /// such a tip is crushed before the contact is resolved in any case.
 fn blunted(profile: &Profile, half_widths: &[f64], grading: &Grading) -> Profile {
     let blunt = |(asperity, half_width): (&Asperity, &f64)| match asperity.shape {
-        Shape::Cone { tan_slope, .. } if tan_slope > STEEP_FLANK => {
-            asperity.blunted(BLUNT * grading.middle_column(*half_width))
+        Shape::Cone { tan_slope, .. } if tan_slope > STEEP_FLANK_SLOPE => {
+            asperity.blunted(BLUNT_WIDTH_RATIO * grading.middle_column(*half_width))
         }
         _ => asperity.clone(),
     };

@@ -4,7 +4,7 @@ use crate::scene::{Lateral, Scene};
 use crate::setup::compliance::Compliance;
 use crate::setup::contact_estimate::far_field;
 use crate::setup::deformed_surface::{Formed, expected_pressure};
-use crate::setup::discretisation::{COUNTS_FROM, Discretisation};
+use crate::setup::discretisation::{Discretisation, LEAST_COUNTED_DEPTH};
 use crate::setup::units::Units;
 use asperity_mesh::Mesh;
 use asperity_mesh::profile::Profile;
@@ -146,7 +146,7 @@ impl Problem {
     /// Contact pressure per penetration at `travel`: the penetration is the same share of every depth from which errors count,
     /// so that early contact is as good as late.
     pub fn penalty_at(&self, travel: f64) -> f64 {
-        let depth = travel.max(COUNTS_FROM);
+        let depth = travel.max(LEAST_COUNTED_DEPTH);
         let formed = self.formed.as_ref();
         let pressure = |depth| expected_pressure(formed, &self.metal, &self.profile, &self.tool, depth);
         self.penalty * pressure(depth) / (pressure(1.0) * depth)

@@ -68,11 +68,11 @@ impl PlasticIncrement {
 }
 
 /// Largest ratio of an increment to the last one with which flow is extrapolated.
-const LARGEST_RATIO: f64 = 2.4;
+const LARGEST_STEP_RATIO: f64 = 2.4;
 
 /// ω within its bound.
 pub fn bounded(ratio: f64) -> f64 {
-    ratio.min(LARGEST_RATIO)
+    ratio.min(LARGEST_STEP_RATIO)
 }
 
 /// κ for the ratio ω = (next step)/(last step).

@@ -64,7 +64,7 @@ struct Lookup<'a> {
 }
 
 /// How far outside an element, in its coordinates, a point beside a curved surface may lie.
-const BESIDE: f64 = 0.5;
+const LARGEST_WAY_OUTSIDE: f64 = 0.5;
 
 impl<'a> Lookup<'a> {
     fn new(mesh: &'a Mesh, position: &'a [[f64; 2]]) -> Self {
@@ -132,7 +132,9 @@ impl<'a> Lookup<'a> {
                 break;
             }
         }
-        nearest.filter(|(far, _)| *far < BESIDE).map_or_else(|| self.beside(x, guess), |(_, place)| place)
+        nearest
+            .filter(|(far, _)| *far < LARGEST_WAY_OUTSIDE)
+            .map_or_else(|| self.beside(x, guess), |(_, place)| place)
     }
 
     /// The place nearest to a point that no element holds: where two parts of the surface enclosed a gap that was cut off.
@@ -154,9 +156,9 @@ impl<'a> Lookup<'a> {
 
 /// Share of a plastic strain that its extrapolation beyond the integration points may change it by. Without a limit an element that
 /// is crushed flat has points of very different strains, which transfer after transfer drives apart without bound.
-const BEYOND: f64 = 0.25;
+const LARGEST_EXTRAPOLATED_SHARE: f64 = 0.25;
 
-/// Weights of the four integration points at (ξ, η): bilinear, and beyond them as far as `BEYOND` lets the plastic strains of `points`.
+/// Weights of the four integration points at (ξ, η): bilinear, and beyond them as far as `LARGEST_EXTRAPOLATED_SHARE` lets the plastic strains of `points`.
 fn weights([xi, eta]: [f64; 2], points: &[PointState]) -> [f64; POINTS] {
     let signs = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
     let bilinear = |[s, t]: [f64; 2]| signs.map(|[a, b]| 0.25 * (1.0 + a * s) * (1.0 + b * t));
@@ -167,7 +169,7 @@ fn weights([xi, eta]: [f64; 2], points: &[PointState]) -> [f64; POINTS] {
     };
     let [near, far] = [between, beyond].map(|weights| plastic_strain(&weights));
     let change = (far - near).abs();
-    let share = if change > 0.0 { (BEYOND * near / change).min(1.0) } else { 1.0 };
+    let share = if change > 0.0 { (LARGEST_EXTRAPOLATED_SHARE * near / change).min(1.0) } else { 1.0 };
     std::array::from_fn(|i| between[i] + share * (beyond[i] - between[i]))
 }
 
