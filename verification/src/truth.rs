@@ -121,7 +121,7 @@ impl Answer {
         let at = |i: usize| {
             let share = LEAST_COUNTED_DEPTH + (1.0 - LEAST_COUNTED_DEPTH) * i as f64 / (DEPTHS - 1) as f64;
             let depth = (share * depth).min(force.end());
-            [force.at(depth), area.at(depth)]
+            [force.value(depth), area.value(depth)]
         };
         let curve: Vec<[f64; 2]> = (0..DEPTHS).map(at).collect();
         if curve.iter().flatten().any(|x| !x.is_finite()) {

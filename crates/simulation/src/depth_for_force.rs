@@ -119,8 +119,8 @@ fn depth_of(scene: &Scene, force: f64, guess: f64, expected: &Expected, analyses
             // stopped on its way, or as deep as it can be
             None if end < 0.999 * depth || depth >= deepest => break,
             None => {
-                let exponent = (curve.at(end) / curve.at(0.5 * end)).log2().clamp(0.7, 4.0);
-                let growth = (force / curve.at(end)).powf(1.0 / exponent);
+                let exponent = (curve.value(end) / curve.value(0.5 * end)).log2().clamp(0.7, 4.0);
+                let growth = (force / curve.value(end)).powf(1.0 / exponent);
                 if !growth.is_finite() {
                     break;
                 }
@@ -141,7 +141,7 @@ fn depth_of_body(scene: &Scene, asked: f64, expected: &Expected, analyses: &Anal
     let mut depth = asked;
     for _ in 0..MOST_CRUSHES {
         let total = coarse(scene, &to_depth(expected, depth), analyses, |problem, contact| {
-            Compliance::of(scene, &problem.units).deflection(contact.force, contact.area)
+            Compliance::new(scene, &problem.units).deflection(contact.force, contact.area)
                 * problem.units.length
         });
         let Some(found) = total.and_then(|way| body_depth(&way, asked)) else { break };

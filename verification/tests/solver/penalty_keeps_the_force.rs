@@ -51,7 +51,7 @@ fn a_soft_penalty_gives_the_force_of_a_hard_one() {
         let penalty = Curve::force(&crush(&scene).unwrap().rows);
         scene.numerics.penetration = Some(HARD);
         let hard = Curve::force(&crush(&scene).unwrap().rows);
-        let worst = penalty.worst_difference(|h| hard.at(h), hard.end());
+        let worst = penalty.worst_difference(|h| hard.value(h), hard.end());
         assert!(worst < tolerance, "{name}: {worst:e}");
     }
 }

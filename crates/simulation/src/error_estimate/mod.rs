@@ -190,7 +190,7 @@ fn difference([own, other]: &[Curve; 2], peak: f64, of: Quantity) -> Option<Diff
     let compared = |x: f64| {
         let depth = peak * x.exp();
         let value = own.logarithm_at(depth);
-        ([x, other.logarithm_at(depth) - value], value - smooth.at(depth).ln())
+        ([x, other.logarithm_at(depth) - value], value - smooth.value(depth).ln())
     };
     let (points, ripple) = places.map(compared).unzip();
     Difference::new(points, ripple, of)

@@ -30,7 +30,7 @@ impl Curve {
 
     /// The value at `depth`: the cubic in √value through the four nearest increments, whose error is far below the
     /// curve's own. NaN outside the curve.
-    pub fn at(&self, depth: f64) -> f64 {
+    pub fn value(&self, depth: f64) -> f64 {
         self.interpolated(depth, |x| x).powi(2)
     }
 
@@ -72,7 +72,7 @@ impl Curve {
     pub fn differences(&self, reference: impl Fn(f64) -> f64, peak: f64) -> impl Iterator<Item = f64> {
         (0..=160).map(move |i| {
             let depth = peak * (LEAST_COUNTED_DEPTH + (1.0 - LEAST_COUNTED_DEPTH) * f64::from(i) / 160.0);
-            self.at(depth) / reference(depth) - 1.0
+            self.value(depth) / reference(depth) - 1.0
         })
     }
 
@@ -92,7 +92,7 @@ impl Curve {
         let from = 0.15_f64.ln();
         let row = |i: i32| {
             let x = from * (1.0 - f64::from(i) / 400.0);
-            (powers(x), self.at(peak * x.exp()).ln(), 1.0)
+            (powers(x), self.value(peak * x.exp()).ln(), 1.0)
         };
         let rows: Vec<([f64; CURVE_TERMS], f64, f64)> = (0..=400).map(row).collect();
         Smooth { peak, coefficients: solve(&rows).unwrap_or([f64::NAN; CURVE_TERMS]) }
@@ -113,7 +113,7 @@ const CURVE_TERMS: usize = 5;
 
 impl Smooth {
     /// The value at `depth`.
-    pub fn at(&self, depth: f64) -> f64 {
+    pub fn value(&self, depth: f64) -> f64 {
         let x = (depth / self.peak).ln();
         value(&self.coefficients, &powers(x)).exp()
     }
@@ -141,11 +141,11 @@ mod tests {
         let curve = Curve::new(depths.map(|h| [h, force(h)]));
         let fit = curve.smooth(5e-6);
         for h in [1e-6, 1.7e-6, 3.3e-6, 4.999e-6] {
-            assert!((curve.at(h) / force(h) - 1.0).abs() < 1e-9);
-            assert!((fit.at(h) / force(h) - 1.0).abs() < 1e-4);
+            assert!((curve.value(h) / force(h) - 1.0).abs() < 1e-9);
+            assert!((fit.value(h) / force(h) - 1.0).abs() < 1e-4);
             assert!((curve.logarithm_at(h) - force(h).ln()).abs() < 1e-6);
         }
-        assert!(curve.at(6e-6).is_nan());
+        assert!(curve.value(6e-6).is_nan());
         assert!((curve.depth_of(force(3e-6)).unwrap() / 3e-6 - 1.0).abs() < 1e-9);
         assert!(curve.depth_of(0.1 * force(1e-9)).unwrap() < 1e-7 && curve.depth_of(force(6e-6)).is_none());
         // a hundredth more in the reference is 1/101 less here, everywhere

@@ -30,7 +30,7 @@ impl Formed {
 
     /// The same with lengths over `length`.
     #[must_use]
-    pub fn over(&self, length: f64) -> Formed {
+    pub fn in_units_of(&self, length: f64) -> Formed {
         Formed { points: self.points.iter().map(|x| x.map(|x| x / length)).collect(), ..*self }
     }
 

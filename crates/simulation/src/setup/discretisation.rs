@@ -52,7 +52,7 @@ const LEVELS: [(Accuracy, [f64; 6]); 3] = [
 impl Choice {
     /// Between two levels every number is a power of the promise, as every part of the error is a power of its number:
     /// each part then falls with the promise.
-    fn of(promise: f64) -> Choice {
+    fn for_promise(promise: f64) -> Choice {
         let [coarse, middle, fine] = LEVELS;
         let ends = if promise > middle.0.promise() { [coarse, middle] } else { [middle, fine] };
         let [from, to] = ends.map(|(level, _)| level.promise());
@@ -80,7 +80,7 @@ impl Discretisation {
     pub fn new(scene: &Scene) -> Discretisation {
         let numerics = &scene.numerics;
         let Choice { elements, steps, unload_steps, tolerance, domain, penetration } =
-            Choice::of(scene.accuracy.promise());
+            Choice::for_promise(scene.accuracy.promise());
         let element = numerics.element.unwrap_or_else(|| {
             element_under(match scene.tool.form() {
                 Ok(ToolForm::Cone { slope, .. }) => Some(slope),
@@ -302,10 +302,10 @@ mod tests {
 
     #[test]
     fn a_smaller_error_is_promised_by_finer_numbers() {
-        let mut before = Choice::of(0.05);
+        let mut before = Choice::for_promise(0.05);
         assert_eq!((before.elements, before.steps, before.tolerance), (12, 36, 1e-3));
         for promise in [0.03, 0.02, 0.01, 0.007, 0.005, 0.003, 0.002] {
-            let next = Choice::of(promise);
+            let next = Choice::for_promise(promise);
             assert!(next.elements > before.elements && next.steps > before.steps, "{promise}");
             // the tolerance of `standard` already is that of `draft`
             assert!(next.tolerance <= before.tolerance && next.domain > before.domain, "{promise}");

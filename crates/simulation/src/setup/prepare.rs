@@ -33,9 +33,9 @@ pub fn metal(scene: &Scene) -> Metal {
 
 /// The asperities and the tool of `scene`, lengths over `length` (m).
 pub fn bodies(scene: &Scene, length: f64) -> Result<(Profile, Tool), SceneError> {
-    let tool = tool_over(scene.tool.form().map_err(|e| within("tool", e))?, length);
+    let tool = tool_over(scene.tool.form().map_err(|e| in_table("tool", e))?, length);
     if let Some(line) = scene.profile.first() {
-        let profile = measured_line(&line.line().map_err(|e| within("profile[0]", e))?, length);
+        let profile = measured_line(&line.line().map_err(|e| in_table("profile[0]", e))?, length);
         return Ok((profile, tool));
     }
     let asperities = outlines(scene)?.iter().map(|a| a.over(length)).collect();
@@ -99,7 +99,7 @@ pub fn prepare_with(
     let (profile, tool) = bodies(scene, depth)?;
     let units = Units::new(depth, scene.material.elastic().youngs_modulus, symmetry);
     let (goal, reach) = goal_and_reach(scene, &units)?;
-    let formed = expected.formed.as_ref().map(|formed| formed.over(depth));
+    let formed = expected.formed.as_ref().map(|formed| formed.in_units_of(depth));
     let substrate = scene.substrate.as_ref().and_then(|s| s.depth);
     let support = Support {
         symmetry,
@@ -113,7 +113,7 @@ pub fn prepare_with(
         None => own_depths_at(1.0).into_iter().fold(0.0, f64::max),
         Some(_) => 1.0,
     };
-    let own = Contacts::of(&profile, &tool, formed.as_ref(), &own_depths_at, [1.0, reach]);
+    let own = Contacts::new(&profile, &tool, formed.as_ref(), &own_depths_at, [1.0, reach]);
     let half_widths = own.half_widths.clone();
     let contacts = with_earlier_contacts(own, scene, expected, &profile, &own_depths_under)?;
     let row = extent(scene, &profile, &contacts.half_widths, depth);
@@ -159,7 +159,7 @@ pub fn prepare_with(
 
 /// Where loading ends, and how deep the mesh is to reach over the expected depth: a force may be found somewhat deeper than expected.
 fn goal_and_reach(scene: &Scene, units: &Units) -> Result<(Goal, f64), SceneError> {
-    Ok(match scene.loading.target().map_err(|e| within("loading", e))? {
+    Ok(match scene.loading.target().map_err(|e| in_table("loading", e))? {
         Target::Depth(asked) => (Goal::Depth(asked / units.length), 1.0),
         Target::Force(force) => {
             let limit = PROBED_DEPTH_RATIO.min(scene.deepest() / units.length);
@@ -177,11 +177,11 @@ fn with_earlier_contacts(
     own_depths_under: &dyn Fn(&Tool, f64) -> Vec<f64>,
 ) -> Result<Contacts, SceneError> {
     for (load, earlier) in scene.earlier_loads().iter().zip(&expected.earlier) {
-        let tool = tool_over(load.tool.form().map_err(|e| within("tool", e))?, expected.depth);
-        let formed = earlier.formed.as_ref().map(|formed| formed.over(expected.depth));
+        let tool = tool_over(load.tool.form().map_err(|e| in_table("tool", e))?, expected.depth);
+        let formed = earlier.formed.as_ref().map(|formed| formed.in_units_of(expected.depth));
         let deep = earlier.depth / expected.depth;
         let own_depths_at = |depth: f64| own_depths_under(&tool, depth);
-        contacts = contacts.and(&Contacts::of(profile, &tool, formed.as_ref(), &own_depths_at, [deep; 2]));
+        contacts = contacts.and(&Contacts::new(profile, &tool, formed.as_ref(), &own_depths_at, [deep; 2]));
     }
     Ok(contacts)
 }
@@ -199,7 +199,7 @@ struct Contacts {
 
 impl Contacts {
     /// Those of a tool at `reach`, resolved where it is `depth` deep; `own_depths_at` tells how deep each then indents its surroundings.
-    fn of(
+    fn new(
         profile: &Profile,
         tool: &Tool,
         formed: Option<&Formed>,
@@ -247,7 +247,7 @@ impl Contacts {
     }
 }
 
-fn within(table: &str, error: SceneError) -> SceneError {
+fn in_table(table: &str, error: SceneError) -> SceneError {
     let path = if error.path.is_empty() { table.to_string() } else { format!("{table}.{}", error.path) };
     SceneError { path, message: error.message }
 }
@@ -259,7 +259,7 @@ fn outlines(scene: &Scene) -> Result<Vec<Asperity>, SceneError> {
     let curved = !matches!(scene.tool.form(), Ok(ToolForm::Plane));
     let mut edge = 0.0; // where the next asperity may begin
     for (index, asperity) in scene.asperity.iter().enumerate() {
-        let form = asperity.form().map_err(|e| within(&format!("asperity[{index}]"), e))?;
+        let form = asperity.form().map_err(|e| in_table(&format!("asperity[{index}]"), e))?;
         let (shape, valley_radius) = match form {
             AsperityForm::Cone { slope, tip_radius, valley_radius, .. } => {
                 (Shape::Cone { tan_slope: slope.tan(), tip_radius }, valley_radius)

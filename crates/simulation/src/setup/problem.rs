@@ -59,7 +59,7 @@ impl Rules {
         Rules {
             // a substrate that the scene gives is a part of it
             far_field: if half_space { far_field(metal, size) } else { 0.0 },
-            compliance: Compliance::of(scene, units),
+            compliance: Compliance::new(scene, units),
             area_growth: AREA_GROWTH,
         }
     }

@@ -199,7 +199,7 @@ impl Body<'_> {
             response.pressed.extend(state.facing.press(&state.edges, trial.penalty, x));
         }
         let Some(contact) = self.contact.as_ref().filter(|_| trial.tip.is_finite()) else { return };
-        let context = contact.at(trial.tip, trial.penalty, self.symmetry);
+        let context = contact.context(trial.tip, trial.penalty, self.symmetry);
         for (edge, kept) in state.edges.iter().zip(state.parts()) {
             let x = edge.nodes.map(|node| current(&state.position, &trial.displacement, node));
             let parts = match touching {

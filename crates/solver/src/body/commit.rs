@@ -88,7 +88,7 @@ impl State {
     /// work of the tool and is kept apart.
     fn remeasure_contact(&mut self, body: &Body<'_>) {
         let Some(contact) = &body.contact else { return };
-        let context = contact.at(self.tip, self.penalty, body.symmetry);
+        let context = contact.context(self.tip, self.penalty, body.symmetry);
         let mut change = 0.0;
         for (edge, share) in self.edges.iter_mut().zip(&self.contact) {
             edge.reference = edge.nodes.map(|node| self.position[node as usize]);

@@ -24,7 +24,7 @@ pub struct ToolContact {
 
 impl ToolContact {
     /// The contact with the tool's tip at height `tip`.
-    pub fn at(&self, tip: f64, penalty: f64, symmetry: Symmetry) -> ContactContext<'_> {
+    pub fn context(&self, tip: f64, penalty: f64, symmetry: Symmetry) -> ContactContext<'_> {
         ContactContext { tool: &self.tool, tip, penalty, symmetry }
     }
 }

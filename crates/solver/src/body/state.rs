@@ -208,7 +208,7 @@ impl State {
 
     /// The largest elastic logarithmic strain in a principal direction, without its sign.
     pub fn largest_elastic_strain(&self) -> f64 {
-        let elastic = self.points.states.iter().filter_map(|point| Spectral::of(&point.b_minus_i).ok());
+        let elastic = self.points.states.iter().filter_map(|point| Spectral::new(&point.b_minus_i).ok());
         elastic
             .flat_map(|spectral| spectral.log_strain)
             .fold(0.0, |largest, strain| largest.max(strain.abs()))

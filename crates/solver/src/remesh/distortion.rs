@@ -154,7 +154,7 @@ pub fn smoothed_places(body: &Body<'_>, state: &State) -> Option<Vec<[f64; 2]>> 
     for (edge, s) in state.edges.iter().zip(&arcs) {
         for (&node, &s) in edge.nodes.iter().zip(s).take(edge.node_count()) {
             on_surface[node as usize] = true;
-            places[node as usize] = now.at(s);
+            places[node as usize] = now.point(s);
         }
     }
     // what lies below
@@ -166,7 +166,7 @@ pub fn smoothed_places(body: &Body<'_>, state: &State) -> Option<Vec<[f64; 2]>> 
         .iter()
         .enumerate()
         .map(|(node, x)| {
-            let edge = &state.edges[above(&state.edges, &mesh.nodes, x[0])];
+            let edge = &state.edges[edge_over(&state.edges, &mesh.nodes, x[0])];
             let [outer, inner, _] = edge.nodes;
             let depth = mesh.nodes[outer as usize][1].min(mesh.nodes[inner as usize][1]) - x[1];
             if on_surface[node] || depth >= below || !(moved(outer) || moved(inner)) {
@@ -195,7 +195,7 @@ pub fn smoothed_places(body: &Body<'_>, state: &State) -> Option<Vec<[f64; 2]>> 
 }
 
 /// The edge above `r` on a surface that is a function of r; the nearest one beyond its end.
-fn above(edges: &[ContactEdge], position: &[[f64; 2]], r: f64) -> usize {
+fn edge_over(edges: &[ContactEdge], position: &[[f64; 2]], r: f64) -> usize {
     edges.partition_point(|edge| position[edge.nodes[0] as usize][0] < r).min(edges.len() - 1)
 }
 

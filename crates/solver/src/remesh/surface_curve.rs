@@ -74,7 +74,7 @@ impl<'a> SurfaceCurve<'a> {
     }
 
     /// The place at arc length `s`; the nearest end beyond its own.
-    pub fn at(&self, s: f64) -> [f64; 2] {
+    pub fn point(&self, s: f64) -> [f64; 2] {
         let piece = self.arc.partition_point(|end| *end < s).clamp(1, self.cut.len()) - 1;
         let [from, to] = [self.arc[piece], self.arc[piece + 1]];
         let share = if to > from { ((s - from) / (to - from)).clamp(0.0, 1.0) } else { 0.0 };

@@ -86,7 +86,7 @@ impl<'a> Lookup<'a> {
     }
 
     /// Coordinates of the point `x` in an element; `None` where Newton does not find them.
-    fn within(&self, cell: usize, x: [f64; 2]) -> Option<[f64; 2]> {
+    fn coordinates_inside(&self, cell: usize, x: [f64; 2]) -> Option<[f64; 2]> {
         let mut xi = [0.0; 2];
         for _ in 0..30 {
             let (value, slope) = shape(self.mesh.kind, xi);
@@ -123,7 +123,7 @@ impl<'a> Lookup<'a> {
             (0..2).all(|i| (self.boxes[*cell][i][0]..=self.boxes[*cell][i][1]).contains(&x[i]))
         };
         for cell in std::iter::once(guess).chain(0..self.boxes.len()).filter(boxed) {
-            let Some(xi) = self.within(cell, x) else { continue };
+            let Some(xi) = self.coordinates_inside(cell, x) else { continue };
             let far = outside(xi);
             if nearest.is_none_or(|(least, _)| far < least) {
                 nearest = Some((far, Place { cell, xi }));
@@ -134,11 +134,11 @@ impl<'a> Lookup<'a> {
         }
         nearest
             .filter(|(far, _)| *far < LARGEST_WAY_OUTSIDE)
-            .map_or_else(|| self.beside(x, guess), |(_, place)| place)
+            .map_or_else(|| self.nearest_place(x, guess), |(_, place)| place)
     }
 
     /// The place nearest to a point that no element holds: where two parts of the surface enclosed a gap that was cut off.
-    fn beside(&self, x: [f64; 2], guess: usize) -> Place {
+    fn nearest_place(&self, x: [f64; 2], guess: usize) -> Place {
         let mut nearest = (f64::INFINITY, Place { cell: guess, xi: [0.0; 2] });
         for cell in 0..self.boxes.len() {
             let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
@@ -198,7 +198,7 @@ fn interpolated(body: &Body<'_>, state: &State, place: Place) -> Option<PointSta
     let (mut plastic_strain, mut share) = (0.0, 0.0);
     let points = &state.points.states[range];
     for (point, weight) in points.iter().zip(weights(place.xi, points)) {
-        let spectral = Spectral::of(&point.b_minus_i).ok()?;
+        let spectral = Spectral::new(&point.b_minus_i).ok()?;
         let logarithm = spectral.tensor(&spectral.log_strain);
         for i in 0..4 {
             strain[i] += weight * logarithm[i];
@@ -317,7 +317,7 @@ impl State {
         state.edges = body.surface(&places);
         state.displacement = carried.displacement;
         if let Some(contact) = body.contact.as_ref().filter(|_| self.tip.is_finite()) {
-            let context = contact.at(self.tip, self.penalty, body.symmetry);
+            let context = contact.context(self.tip, self.penalty, body.symmetry);
             let integrate = |edge: &crate::contact::edge::ContactEdge| {
                 let x = edge.nodes.map(|node| places[node as usize]);
                 edge.integrate(&context, edge.touching(&context, &x), &x)
