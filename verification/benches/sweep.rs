@@ -9,6 +9,7 @@ use asperity_calibration::case::Case;
 use asperity_calibration::solve_case::solve;
 use asperity_calibration::sweep::Sweep;
 use asperity_simulation::load_path::Path;
+use asperity_solver::body::analysis::Analyses;
 use asperity_solver::element::kernel::POINTS;
 use asperity_verification::roofline::Roofline;
 
@@ -50,12 +51,12 @@ impl Sums {
     }
 }
 
-fn measure(case: &Case, sweep: &Sweep, floor: &Roofline) -> Sums {
+fn measure(case: &Case, sweep: &Sweep, floor: &Roofline, analyses: &Analyses) -> Sums {
     let problem = case.problem(&case.discretisation(sweep.accuracy));
-    let row = solve(case, sweep.accuracy);
+    let row = solve(case, sweep.accuracy, analyses);
     let (increments, iterations) = row.outcome.map_or((0, 0), |k| (k.increments, k.iterations));
     let points = problem.mesh.cell_count() * POINTS;
-    let (unknowns, least) = Path::new(&problem).map_or((0, 0.0), |path| {
+    let (unknowns, least) = Path::new(&problem, analyses).map_or((0, 0.0), |path| {
         let operations = path.model.operations();
         (path.model.body().analysis.dofs.count, floor.iteration(problem.mesh.kind, points, operations))
     });
@@ -71,6 +72,7 @@ fn measure(case: &Case, sweep: &Sweep, floor: &Roofline) -> Sums {
 
 fn main() {
     let floor = Roofline::measure();
+    let analyses = Analyses::default();
     let sweep = Sweep::default();
     let cases: Vec<Case> = sweep.cases().into_iter().skip(2).step_by(10).collect();
     println!(
@@ -80,7 +82,7 @@ fn main() {
     let mut all = Sums::default();
     for slope in &sweep.slopes_deg {
         let own = cases.iter().filter(|case| case.beta_deg == *slope);
-        let sums = own.map(|case| measure(case, &sweep, &floor)).fold(Sums::default(), Sums::add);
+        let sums = own.map(|case| measure(case, &sweep, &floor, &analyses)).fold(Sums::default(), Sums::add);
         if sums.cases > 0.0 {
             sums.print(&format!("{slope}°"));
             all = all.add(sums);

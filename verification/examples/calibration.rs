@@ -17,13 +17,14 @@ use asperity_calibration::sweep::Sweep;
 use asperity_material::{HardeningLaw, StressMeasure};
 use asperity_simulation::scene::Accuracy;
 use asperity_simulation::setup::discretisation::ConeDiscretisation;
+use asperity_solver::body::analysis::Analyses;
 use asperity_verification::calibration::{PEERS, metal, peer_case};
 use asperity_verification::report::Report;
 use rayon::prelude::*;
 
 fn all(cases: &[Case], accuracy: Accuracy) -> Vec<LoadingCurvature> {
     let one = |case: &Case| {
-        let row = solve(case, accuracy);
+        let row = solve(case, accuracy, &Analyses::default());
         tell(&row);
         row.outcome.expect("committed cases run")
     };
@@ -81,9 +82,12 @@ fn peers(report: &mut Report) {
     for ((p, s), r) in PEERS.iter().zip(&standard).zip(&reference) {
         let case = peer_case(p);
         let resolution = case.discretisation(Accuracy::Standard);
-        let cauchy =
-            loading_curvature::solve(&Case { stress_measure: StressMeasure::Cauchy, ..case }, &resolution)
-                .expect("committed cases run");
+        let cauchy = loading_curvature::solve(
+            &Case { stress_measure: StressMeasure::Cauchy, ..case },
+            &resolution,
+            &Analyses::default(),
+        )
+        .expect("committed cases run");
         let off = |k: &LoadingCurvature| 100.0 * (k.k_over_e / p.k_over_e - 1.0);
         report.line(&format!(
             "| {} | {} | {} | {:.4} | {:.4} | {:.4} | {:+.2} | {:.2} | {:+.2} | {:+.2} |",
@@ -113,7 +117,12 @@ fn elastic(report: &mut Report) {
                 tool,
                 stress_measure: StressMeasure::Kirchhoff,
             };
-            let k = loading_curvature::solve(&case, &case.discretisation(Accuracy::Standard)).expect("runs");
+            let k = loading_curvature::solve(
+                &case,
+                &case.discretisation(Accuracy::Standard),
+                &Analyses::default(),
+            )
+            .expect("runs");
             let sneddon = std::f64::consts::FRAC_2_PI * case.elastic().reduced_modulus() / case.tan_beta();
             report.line(&format!(
                 "| {tool:?} | {} | {:.3} | {:+.2} | {:+.2} |",
@@ -152,7 +161,7 @@ fn lengths(report: &mut Report) {
     let k = |case: &Case, change: Change| {
         let mut resolution = case.discretisation(Accuracy::Standard);
         change(&mut resolution);
-        loading_curvature::solve(case, &resolution).expect("runs").k_over_e
+        loading_curvature::solve(case, &resolution, &Analyses::default()).expect("runs").k_over_e
     };
     for (name, change) in changes {
         let off = cases.each_ref().map(|case| 100.0 * (k(case, change) / k(case, |_| ()) - 1.0));
@@ -175,10 +184,11 @@ fn indentation(report: &mut Report) {
                     stress_measure: StressMeasure::Kirchhoff,
                 };
                 let resolution = case.discretisation(Accuracy::Standard);
-                let k = loading_curvature::solve(&case, &resolution).expect("runs");
+                let k = loading_curvature::solve(&case, &resolution, &Analyses::default()).expect("runs");
                 let cauchy = loading_curvature::solve(
                     &Case { stress_measure: StressMeasure::Cauchy, ..case },
                     &resolution,
+                    &Analyses::default(),
                 )
                 .expect("runs")
                 .k_over_e;
@@ -210,7 +220,10 @@ fn published(report: &mut Report, file: &str, beta_deg: f64) {
         let yielding = Some(metal(HardeningLaw::Swift, *exponent, *ratio));
         let case = Case { beta_deg, yielding, poissons_ratio: 0.3, tool: Tool::Cone, stress_measure };
         let resolution = case.discretisation(Accuracy::Standard);
-        100.0 * (loading_curvature::solve(&case, &resolution).expect("runs").k_over_e / k_over_e - 1.0)
+        100.0
+            * (loading_curvature::solve(&case, &resolution, &Analyses::default()).expect("runs").k_over_e
+                / k_over_e
+                - 1.0)
     };
     let half = metals.len().div_ceil(2);
     let differences: Vec<[f64; 2]> = std::thread::scope(|scope| {

@@ -14,6 +14,7 @@
 
 use asperity::batch::journal::Journal;
 use asperity_calibration::cones::Row;
+use asperity_solver::body::analysis::Analyses;
 use asperity_verification::atlas::{self, Set};
 use asperity_verification::report::{Report, replace};
 use asperity_verification::{atlas_fit, atlas_table};
@@ -54,12 +55,13 @@ fn grow(set: Set, folder: &Path, count: usize, words: &[String]) {
     rows.iter().filter(|row| row.index < count).for_each(|row| known[row.index] = true);
     let path = folder.join(set.journal(part, parts));
     let (mut journal, _) = Journal::open(&path, set.identity()).expect("the journal");
+    let analyses = Analyses::default();
     for index in (part - 1..count).step_by(parts).filter(|&index| !known[index]) {
         if clock.elapsed() > Duration::from_secs(seconds) {
             break;
         }
         let begun = Instant::now();
-        let row = Row::solve(index, &set.cone(index), set.accuracy());
+        let row = Row::solve(index, &set.cone(index), set.accuracy(), &analyses);
         journal.append(&row.line()).expect("room on the disk");
         eprintln!("{:.2} s {}", begun.elapsed().as_secs_f64(), row.line());
     }

@@ -87,11 +87,11 @@ fn row(report: &mut Report, run: &Run, converged: &Smooth) {
     report.line(&format!(
         "| {} | {:.4} | {:.4} | {:.4} | {:.2} | {:+.2} | {:.4} | {:.2} | {} | {} | {} | {:.1} |",
         run.name,
-        curve.at(1e-6),
-        curve.at(2e-6),
-        curve.at(PEAK),
-        100.0 * curve.worst_difference(|h| converged.at(h), PEAK),
-        100.0 * curve.mean_difference(|h| converged.at(h), PEAK),
+        curve.value(1e-6),
+        curve.value(2e-6),
+        curve.value(PEAK),
+        100.0 * curve.worst_difference(|h| converged.value(h), PEAK),
+        100.0 * curve.mean_difference(|h| converged.value(h), PEAK),
         1e6 * summary.residual_depth.unwrap_or(f64::NAN),
         100.0 * summary.elastic_fraction.unwrap_or(f64::NAN),
         summary.elements,
@@ -104,7 +104,7 @@ fn row(report: &mut Report, run: &Run, converged: &Smooth) {
 fn level(report: &mut Report, run: &Run, converged: &Smooth) {
     let summary = &run.outcome.summary;
     let curve = force(run);
-    let worst = curve.worst_difference(|h| converged.at(h), PEAK);
+    let worst = curve.worst_difference(|h| converged.value(h), PEAK);
     let modulus = 210e9 / (1.0 - 0.09);
     let ratio =
         summary.unloading_stiffness.unwrap_or(f64::NAN) / punch_stiffness(modulus, summary.contact_radius);
@@ -112,7 +112,7 @@ fn level(report: &mut Report, run: &Run, converged: &Smooth) {
         "| {} | {:.2} | {:+.2} | {:.1e} | {:.3} | {} | {} | {:.1} |",
         run.name,
         100.0 * worst,
-        100.0 * curve.mean_difference(|h| converged.at(h), PEAK),
+        100.0 * curve.mean_difference(|h| converged.value(h), PEAK),
         summary.energy_balance_error,
         ratio,
         summary.elements,
@@ -138,7 +138,7 @@ fn converged_values(report: &mut Report, quadratic: &[Run], linear: &[Run]) -> S
     report.table("| h, µm | converged F, N | ± % | Q4 extrapolated, N |");
     for h in [1.0, 2.0, 5.0] {
         let [f, a, b, fine, coarse] =
-            [&converged, &finest[0], &finest[1], &q4[0], &q4[1]].map(|curve| curve.at(h * 1e-6));
+            [&converged, &finest[0], &finest[1], &q4[0], &q4[1]].map(|curve| curve.value(h * 1e-6));
         // observed: the error of the linear element falls with its size
         let extrapolated = 2.0 * fine - coarse;
         let interval = (a - b).abs().max(0.5 * (extrapolated - f).abs()) / f;

@@ -4,10 +4,11 @@
 //! `cargo run --release -p asperity-verification --example economy [-- --out FILE]`; the table is `verification/results/economy.md`.
 
 use asperity_material::units::{Length, Stress};
-use asperity_numerics::newton::KEEP;
+use asperity_numerics::newton::KEPT_FACTORS_REDUCTION;
 use asperity_simulation::load_path::Path;
-use asperity_simulation::run::{Outcome, run};
+use asperity_simulation::run::{Outcome, Run};
 use asperity_simulation::scene::{Accuracy, Scene, Substrate};
+use asperity_solver::body::analysis::Analyses;
 use asperity_verification::report::{Report, timed};
 use asperity_verification::single_asperity::{prepared, scene};
 use std::error::Error;
@@ -18,7 +19,7 @@ use std::time::Instant;
 fn fastest(scene: &Scene) -> Result<(f64, Outcome), Box<dyn Error>> {
     let mut best: Option<(f64, Outcome)> = None;
     for _ in 0..3 {
-        let (outcome, seconds) = timed(|| run(scene, None, &mut |_| ControlFlow::Continue(())));
+        let (outcome, seconds) = timed(|| Run::new(scene).run(&mut |_| ControlFlow::Continue(())));
         let outcome = outcome?;
         if best.as_ref().is_none_or(|b| seconds < b.0) {
             best = Some((seconds, outcome));
@@ -45,7 +46,7 @@ fn row(report: &mut Report, what: &str, with: &(f64, Outcome), without: &(f64, O
 /// Seconds and force of the loading of `scene` where factors are kept as `keep` says.
 fn loaded(scene: &Scene, keep: f64) -> Result<(f64, f64, usize), Box<dyn Error>> {
     let problem = prepared(scene)?;
-    let mut path = Path::new(&problem)?;
+    let mut path = Path::new(&problem, &Analyses::default())?;
     path.settings.keep = keep;
     let clock = Instant::now();
     let last = path.load(&mut |_, _| true)?;
@@ -83,7 +84,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     shallow_deep.substrate = deep.substrate;
     row(&mut report, "the same at a depth of 0.2 um", &fastest(&shallow_deep)?, &fastest(&shallow)?);
 
-    let (every, kept) = (loaded(&paper, 0.0)?, loaded(&paper, KEEP)?);
+    let (every, kept) = (loaded(&paper, 0.0)?, loaded(&paper, KEPT_FACTORS_REDUCTION)?);
     report.line(&format!(
         "| new tangents while secants serve ({} to {} factorisations) | | | {:.2} to {:.2} | {:.0} % | {:+.1e} |",
         every.2,

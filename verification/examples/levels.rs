@@ -46,11 +46,11 @@ fn row(entry: &Entry) -> Result<String, String> {
         .iter()
         .zip(&runs)
         .map(|(curve, run)| {
-            let error = curve.worst_difference(|h| converged.at(h), peak);
+            let error = curve.worst_difference(|h| converged.value(h), peak);
             format!(" {:.2} | {:.2} |", 100.0 * error, 100.0 * run.summary.estimated_error)
         })
         .collect();
-    let doubt = [0.2, 0.4, 0.7, 1.0].map(|s| (a.at(s * peak) / b.at(s * peak) - 1.0).abs());
+    let doubt = [0.2, 0.4, 0.7, 1.0].map(|s| (a.value(s * peak) / b.value(s * peak) - 1.0).abs());
     Ok(format!("| {} |{cells} {:.2} |", entry.name, 50.0 * doubt.iter().fold(0.0, |m: f64, d| m.max(*d))))
 }
 

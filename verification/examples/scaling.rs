@@ -7,6 +7,7 @@
 use asperity_numerics::least_squares::Line;
 use asperity_numerics::newton::System;
 use asperity_simulation::load_path::Path;
+use asperity_solver::body::analysis::Analyses;
 use asperity_verification::report::{Report, timed};
 use asperity_verification::single_asperity::{FRACTION, STEPS, finely_meshed};
 use std::error::Error;
@@ -26,11 +27,11 @@ fn peak_memory() -> Option<f64> {
 /// peak, seconds and iterations of the whole loading, and memory, separated by blanks.
 fn one(elements: usize) -> Result<(), Box<dyn Error + Send + Sync>> {
     let problem = finely_meshed(elements)?;
-    let mut path = Path::new(&problem)?;
+    let mut path = Path::new(&problem, &Analyses::default())?;
     path.settings.tolerance = 1e-5;
     let (end, whole) = timed(|| path.load(&mut |_, _| true));
     end?;
-    let iterations = path.iterations;
+    let iterations = path.counts.iterations;
     let model = &mut path.model;
     let before = model.state().displacement.to_vec();
     model.begin(-(FRACTION * (1.0 + problem.numbers.penetration)), 0.0, |node| before[node].map(|u| 0.1 * u));

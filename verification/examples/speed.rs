@@ -9,9 +9,11 @@ use asperity_calibration::sweep::Sweep;
 use asperity_mesh::ElementKind;
 use asperity_numerics::newton::System;
 use asperity_simulation::load_path::Path;
+use asperity_simulation::run::Watcher;
 use asperity_simulation::scene::{Accuracy, ElementChoice, Scene};
 use asperity_simulation::setup::problem::Problem;
 use asperity_simulation::simulate::simulate;
+use asperity_solver::body::analysis::Analyses;
 use asperity_solver::element::kernel::POINTS;
 use asperity_verification::report::{Report, timed};
 use asperity_verification::roofline::Roofline;
@@ -43,7 +45,7 @@ fn least(scene: &Scene, repeats: usize) -> f64 {
 
 /// Seconds of an iteration of `problem` at the floor.
 fn floor_of(problem: &Problem, floor: &Roofline) -> Result<f64, Box<dyn Error>> {
-    let operations = Path::new(problem)?.model.operations();
+    let operations = Path::new(problem, &Analyses::default())?.model.operations();
     Ok(floor.iteration(problem.mesh.kind, problem.mesh.cell_count() * POINTS, operations))
 }
 
@@ -60,9 +62,12 @@ fn profile(
     let whole = least(&scene, repeats);
     let (problem, meshing) = timed(|| prepared(&scene));
     let problem = problem?;
-    let (path, analysis) = timed(|| Path::new(&problem));
+    let (path, analysis) = timed(|| Path::new(&problem, &Analyses::default()));
     drop(path?);
-    let (run, main) = timed(|| simulate(&problem, 0, &mut |_| ControlFlow::Continue(())));
+    let observer: &mut Watcher<'_> = &mut |_| ControlFlow::Continue(());
+    let (run, main) = timed(|| {
+        simulate(&problem, &Analyses::default(), 0, observer).map(|simulation| simulation.outcome(observer))
+    });
     let run = run?;
     let (c, s) = (run.counters, &run.summary);
     let over = whole / (s.newton_iterations as f64 * floor_of(&problem, floor)?);
@@ -88,7 +93,7 @@ fn profile(
 /// A loading of four steps on a mesh of some 76,000 unknowns: unknowns, seconds.
 fn loading(elements: usize) -> Result<(usize, f64), Box<dyn Error + Send + Sync>> {
     let problem = finely_meshed(elements)?;
-    let mut path = Path::new(&problem)?;
+    let mut path = Path::new(&problem, &Analyses::default())?;
     path.settings.tolerance = 1e-5;
     let (end, seconds) = timed(|| path.load(&mut |_, _| true));
     end?;
@@ -99,7 +104,7 @@ fn loading(elements: usize) -> Result<(usize, f64), Box<dyn Error + Send + Sync>
 fn iteration(elements: usize, floor: &Roofline) -> Result<(usize, f64, f64), Box<dyn Error>> {
     let problem = finely_meshed(elements).map_err(|e| e.to_string())?;
     let least_seconds = floor_of(&problem, floor)?;
-    let mut path = Path::new(&problem)?;
+    let mut path = Path::new(&problem, &Analyses::default())?;
     path.model.begin(-1e-3, 0.0, |_| [0.0; 2]);
     let mut seconds = f64::INFINITY;
     for _ in 0..3 {
@@ -175,8 +180,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
     let sweep = Sweep::default();
     let cases = sweep.cases();
-    let (rows, seconds) =
-        timed(|| on(2, || cases.par_iter().map(|case| solve(case, sweep.accuracy)).collect::<Vec<_>>()));
+    let (rows, seconds) = timed(|| {
+        let analyses = Analyses::for_threads(2);
+        on(2, || cases.par_iter().map(|case| solve(case, sweep.accuracy, &analyses)).collect::<Vec<_>>())
+    });
     let worst =
         rows?.iter().map(|row| row.outcome.as_ref().map_or(f64::NAN, |k| k.error)).fold(0.0, f64::max);
     report.line(&format!(

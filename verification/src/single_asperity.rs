@@ -1,10 +1,8 @@
 //! The paper's asperity as a scene.
 
 use asperity_material::units::{Force, LineForce};
-use asperity_simulation::depth_for_force::expect;
-use asperity_simulation::run::{CrushError, Outcome, run};
+use asperity_simulation::run::{CrushError, Outcome, Run};
 use asperity_simulation::scene::{Accuracy, Scene, SceneError, Symmetry, ToolForce};
-use asperity_simulation::setup::prepare::prepare;
 use asperity_simulation::setup::problem::{Goal, Problem};
 use std::error::Error;
 use std::ops::ControlFlow;
@@ -65,7 +63,7 @@ pub fn finely_meshed(elements: usize) -> Result<Problem, Box<dyn Error + Send + 
 /// # Errors
 /// The run could not begin.
 pub fn crush(scene: &Scene) -> Result<Outcome, CrushError> {
-    run(scene, None, &mut |_| ControlFlow::Continue(()))
+    Run::new(scene).run(&mut |_| ControlFlow::Continue(()))
 }
 
 /// `scene` as the solver sees it.
@@ -73,5 +71,5 @@ pub fn crush(scene: &Scene) -> Result<Outcome, CrushError> {
 /// # Errors
 /// A scene that cannot be meshed.
 pub fn prepared(scene: &Scene) -> Result<Problem, SceneError> {
-    prepare(scene, None, expect(scene, None)?)
+    Run::new(scene).problem()
 }

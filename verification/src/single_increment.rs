@@ -4,6 +4,7 @@ use crate::test_meshes::{mapped, nodes_of};
 use asperity_material::{Elastic, Hardening, HardeningLaw, StressMeasure};
 use asperity_mesh::{ElementKind, Mesh};
 use asperity_numerics::newton::{Converged, Settings, solve};
+use asperity_solver::body::analysis::Analyses;
 use asperity_solver::body::discrete_body::{Body, ToolContact};
 use asperity_solver::equilibrium::{Equilibrium, SolveFailure};
 use asperity_solver::point::kinematics::Symmetry;
@@ -38,7 +39,8 @@ pub fn model<'m>(
     held: &[[bool; 2]],
     contact: Option<ToolContact>,
 ) -> Result<Equilibrium<'m>, SolveFailure> {
-    Ok(Body::new(mesh, symmetry, metal, |node| held[node], contact).and_then(Equilibrium::new)?)
+    Ok(Body::new(&Analyses::default(), mesh, symmetry, metal, |node| held[node], contact)
+        .and_then(Equilibrium::new)?)
 }
 
 /// Solves the increment with the tool at `tip` (infinite: none) from `guess`, whose held components are kept, and

@@ -13,10 +13,10 @@ use asperity_material::units::rounded;
 use asperity_mesh::Mesh;
 use asperity_simulation::record::curve::Curve;
 use asperity_simulation::record::rows::{Errors, Phase};
-use asperity_simulation::run::{Outcome, run};
+use asperity_simulation::run::{Outcome, Run};
 use asperity_simulation::scene::{Accuracy, ElementChoice, Numerics, Scene};
-use asperity_simulation::setup::discretisation::COUNTS_FROM;
 use asperity_simulation::setup::discretisation::Discretisation;
+use asperity_simulation::setup::discretisation::LEAST_COUNTED_DEPTH;
 use flate2::Compression;
 use flate2::read::GzDecoder;
 use flate2::write::GzEncoder;
@@ -119,9 +119,9 @@ impl Answer {
             return Err(format!("ends at {:.4} of the depth", force.end() / depth));
         }
         let at = |i: usize| {
-            let share = COUNTS_FROM + (1.0 - COUNTS_FROM) * i as f64 / (DEPTHS - 1) as f64;
+            let share = LEAST_COUNTED_DEPTH + (1.0 - LEAST_COUNTED_DEPTH) * i as f64 / (DEPTHS - 1) as f64;
             let depth = (share * depth).min(force.end());
-            [force.at(depth), area.at(depth)]
+            [force.value(depth), area.value(depth)]
         };
         let curve: Vec<[f64; 2]> = (0..DEPTHS).map(at).collect();
         if curve.iter().flatten().any(|x| !x.is_finite()) {
@@ -143,7 +143,9 @@ impl Answer {
     /// Why the run does not begin or does not reach its depth.
     pub fn to(scene: &Scene, mesh: Option<Mesh>) -> Result<Answer, String> {
         let depth = scene.loading.depth.ok_or("the scene is not driven by depth")?.0;
-        let outcome = run(scene, mesh, &mut |_| ControlFlow::Continue(())).map_err(|e| e.to_string())?;
+        let outcome = Run { mesh, ..Run::new(scene) }
+            .run(&mut |_| ControlFlow::Continue(()))
+            .map_err(|e| e.to_string())?;
         Answer::of(&outcome, depth)
     }
 

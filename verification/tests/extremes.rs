@@ -15,9 +15,7 @@ use asperity_material::units::{Length, Stress};
 use asperity_simulation::record::curve::Curve;
 use asperity_simulation::record::rows::Phase;
 use asperity_simulation::run::Outcome;
-use asperity_simulation::scene::{
-    Accuracy, ContactMethod, ElementChoice, HardeningChoice, Scene, Substrate, ToolShape,
-};
+use asperity_simulation::scene::{Accuracy, ElementChoice, HardeningChoice, Scene, Substrate, ToolShape};
 use asperity_verification::calibration::PEERS;
 use asperity_verification::contact::{cone_force, hertz_force};
 use asperity_verification::single_asperity::{crush, loaded};
@@ -197,12 +195,6 @@ fn rows() -> Vec<Row> {
         ),
         against("penetration 0.03 of the depth", penetration(0.03), paper(), 0.05),
         against("penetration 1e-6 of the depth", penetration(1e-6), paper(), 0.05),
-        against(
-            "augmented Lagrangian",
-            changed(|s| s.numerics.contact = Some(ContactMethod::Augmented)),
-            paper(),
-            0.05,
-        ),
         row("depth 100 % of the height", changed(|s| s.loading.depth = s.asperity[0].height), 1e-6, |o| {
             o.summary.peak_depth / 20e-6
         }),

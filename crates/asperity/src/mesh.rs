@@ -2,8 +2,7 @@
 
 use crate::error::Error;
 use crate::input::scene::Scene;
-use asperity_simulation::depth_for_force::expect;
-use asperity_simulation::setup::prepare::prepare;
+use asperity_simulation::run::Run;
 use asperity_simulation::setup::problem::Problem;
 
 pub use asperity_mesh::{
@@ -21,7 +20,6 @@ pub fn mesh(scene: &Scene) -> Result<Mesh, Error> {
 
 /// The scene made ready for the solver.
 pub(crate) fn problem(scene: &Scene) -> Result<Problem, Error> {
-    expect(scene.tables(), scene.mesh())
-        .and_then(|depth| prepare(scene.tables(), scene.mesh().cloned(), depth))
-        .map_err(|e| scene.error(&e).into())
+    let run = Run { mesh: scene.mesh().cloned(), ..Run::new(scene.tables()) };
+    run.problem().map_err(|e| scene.error(&e).into())
 }

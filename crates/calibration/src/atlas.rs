@@ -13,6 +13,7 @@ use crate::indentation::{FORCES, Indentation, solve};
 use asperity_material::{Elastic, Hardening, HardeningLaw, StressMeasure};
 use asperity_simulation::scene::Accuracy;
 use asperity_simulation::setup::cone::Cone;
+use asperity_solver::body::analysis::Analyses;
 use asperity_solver::point::material::Metal;
 use nalgebra::{DMatrix, DVector};
 use std::sync::OnceLock;
@@ -72,7 +73,7 @@ impl Cell {
             stress_measure: StressMeasure::Cauchy,
         };
         let cone = Cone { slope_deg, indents: true, metal };
-        let found = solve(&cone, Accuracy::Standard).map_err(|e| e.to_string())?.0;
+        let found = solve(&cone, Accuracy::Standard, &Analyses::default()).map_err(|e| e.to_string())?.0;
         let tan = slope_deg.to_radians().tan();
         Ok(Cell { place: [slope_deg, e_over_sy, exponent], logarithms: logarithms(&found, tan) })
     }

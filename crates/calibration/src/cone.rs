@@ -5,6 +5,7 @@ use asperity_simulation::load_path::{Increment, Path, Stop};
 use asperity_simulation::setup::discretisation::ConeDiscretisation;
 use asperity_simulation::setup::problem::{Goal, Problem};
 use asperity_simulation::setup::schedule::UNLOADING_EXPONENT;
+use asperity_solver::body::analysis::Analyses;
 
 /// The loading curve of a cone. Lengths in units of the final depth, E = 1.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,8 +44,8 @@ pub fn disc_radius(increment: &Increment) -> f64 {
     (increment.contact.area / std::f64::consts::PI).sqrt()
 }
 
-pub(crate) fn start(problem: &Problem) -> Result<Path<'_>, CaseError> {
-    Path::new(problem).map_err(|_| CaseError::Mesh)
+pub(crate) fn start<'p>(problem: &'p Problem, analyses: &Analyses) -> Result<Path<'p>, CaseError> {
+    Path::new(problem, analyses).map_err(|_| CaseError::Mesh)
 }
 
 pub(crate) fn go_to(path: &mut Path<'_>, travel: f64) -> Result<Increment, CaseError> {
@@ -58,16 +59,20 @@ fn load(path: &mut Path<'_>, problem: &Problem) -> Result<Vec<Increment>, CaseEr
     numbers.schedule().into_iter().map(|depth| go_to(path, depth + numbers.penetration)).collect()
 }
 
-/// Crushes (or indents) `case`.
+/// Crushes (or indents) `case`. Its mesh is analysed unless it is one of `analyses`.
 ///
 /// # Errors
 /// The increment that would not converge however small.
-pub fn crush(case: &Case, discretisation: &ConeDiscretisation) -> Result<Curve, CaseError> {
+pub fn crush(
+    case: &Case,
+    discretisation: &ConeDiscretisation,
+    analyses: &Analyses,
+) -> Result<Curve, CaseError> {
     let problem = case.problem(discretisation);
-    let mut path = start(&problem)?;
+    let mut path = start(&problem, analyses)?;
     let points = load(&mut path, &problem)?;
     let element = problem.half_widths[0] / problem.numbers.elements_in_contact as f64;
-    Ok(Curve { points, element, increments: path.increments, iterations: path.iterations })
+    Ok(Curve { points, element, increments: path.counts.increments, iterations: path.counts.iterations })
 }
 
 /// Share of the peak force at which unloading ends; what is left of the way is extrapolated.
@@ -79,9 +84,13 @@ const LIFTED: f64 = 0.02;
 ///
 /// # Errors
 /// The increment that would not converge however small.
-pub fn unloading_exponent(case: &Case, discretisation: &ConeDiscretisation) -> Result<f64, CaseError> {
+pub fn unloading_exponent(
+    case: &Case,
+    discretisation: &ConeDiscretisation,
+    analyses: &Analyses,
+) -> Result<f64, CaseError> {
     let problem = case.problem(discretisation);
-    let mut path = start(&problem)?;
+    let mut path = start(&problem, analyses)?;
     let of = |increment: Increment| (increment.depth, increment.contact.force);
     let not_found = |share: f64| CaseError::Stopped { share, cause: Stop::NoEquilibrium };
     let peak = load(&mut path, &problem)?.pop().ok_or(not_found(0.0))?;
@@ -133,7 +142,8 @@ mod tests {
             tool: Tool::Plane,
             stress_measure: StressMeasure::Kirchhoff,
         };
-        let m = unloading_exponent(&case, &case.discretisation(Accuracy::Standard)).unwrap();
+        let m = unloading_exponent(&case, &case.discretisation(Accuracy::Standard), &Analyses::default())
+            .unwrap();
         assert!((m / 2.0 - 1.0).abs() < 0.05, "{m}");
     }
 }

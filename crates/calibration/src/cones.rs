@@ -14,6 +14,7 @@ use asperity_material::units::rounded;
 use asperity_material::{HardeningLaw, StressMeasure};
 use asperity_numerics::sobol::Sobol;
 use asperity_simulation::scene::Accuracy;
+use asperity_solver::body::analysis::Analyses;
 
 /// Cone number `index` of the atlas, slope and E/σ_y drawn evenly in their logarithms: the coordinates of Sobol's point choose law and contact, slope, E/σ_y, n, ν.
 pub fn cone(index: usize) -> Case {
@@ -68,9 +69,10 @@ pub fn header() -> String {
 }
 
 impl Row {
-    /// Solves `case`.
-    pub fn solve(index: usize, case: &Case, accuracy: Accuracy) -> Row {
-        Row { index, case: *case, outcome: solve(&case.cone(), accuracy).map_err(|e| e.to_string()) }
+    /// Solves `case`; cones of one sweep share `analyses` of their meshes.
+    pub fn solve(index: usize, case: &Case, accuracy: Accuracy, analyses: &Analyses) -> Row {
+        let outcome = solve(&case.cone(), accuracy, analyses).map_err(|e| e.to_string());
+        Row { index, case: *case, outcome }
     }
 
     /// The cone as the formula knows it, what was found as its answer, and the errors; `None` of a cone that failed.
@@ -213,7 +215,7 @@ mod tests {
     fn rows_read_back() {
         let (index, case) = (17, cone(17));
         for row in [
-            Row::solve(index, &case, Accuracy::Draft),
+            Row::solve(index, &case, Accuracy::Draft, &Analyses::default()),
             Row { index, case, outcome: Err("stopped; at 0.3".into()) },
         ] {
             let line = row.line();

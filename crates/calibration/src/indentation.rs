@@ -13,6 +13,7 @@ use asperity_simulation::scene::{Accuracy, ElementChoice};
 use asperity_simulation::setup::cone::Cone;
 use asperity_simulation::setup::discretisation::ConeDiscretisation;
 use asperity_simulation::setup::problem::Problem;
+use asperity_solver::body::analysis::Analyses;
 
 pub use asperity_material::cone_atlas::FORCES;
 
@@ -92,16 +93,22 @@ const ALONE: Errors = Errors {
     differences: [f64::NAN; 4],
 };
 
-/// Solves `cone` at `accuracy` and with every number of the discretisation half as good, and extrapolates.
+/// Solves `cone` at `accuracy` and with every number of the discretisation half as good, and extrapolates. Their meshes are analysed
+/// unless they are among `analyses`.
 ///
 /// # Errors
 /// A path of the finer run that stopped before its slope could be read, or its force is no parabola of the depth; a companion that fails leaves its result as it is, with a wide error.
-pub fn solve(cone: &Cone, accuracy: Accuracy) -> Result<(Indentation, Errors), CaseError> {
+pub fn solve(
+    cone: &Cone,
+    accuracy: Accuracy,
+    analyses: &Analyses,
+) -> Result<(Indentation, Errors), CaseError> {
     let exponent = cone.metal.hardening.as_ref().map(|h| h.exponent(cone.metal.elastic.youngs_modulus));
     let discretisation = ConeDiscretisation::new(cone.slope_deg, cone.indents, exponent, accuracy);
-    let (run, curve) = indent(cone, &discretisation)?;
+    let (run, curve) = indent(cone, &discretisation, analyses)?;
     curve.check()?;
-    let Ok((companion, coarse_curve)) = companion(&discretisation, |coarser| indent(cone, coarser)) else {
+    let Ok((companion, coarse_curve)) = companion(&discretisation, |coarser| indent(cone, coarser, analyses))
+    else {
         return Ok((run, ALONE));
     };
     let (element, tan_beta) = (discretisation.numbers.element, cone.slope_deg.to_radians().tan());
@@ -138,9 +145,13 @@ pub fn solve(cone: &Cone, accuracy: Accuracy) -> Result<(Indentation, Errors), C
 ///
 /// # Errors
 /// A path that stopped before its slope could be read.
-fn indent(cone: &Cone, discretisation: &ConeDiscretisation) -> Result<(Indentation, Fitted), CaseError> {
+fn indent(
+    cone: &Cone,
+    discretisation: &ConeDiscretisation,
+    analyses: &Analyses,
+) -> Result<(Indentation, Fitted), CaseError> {
     let problem = cone.problem(discretisation);
-    let mut path = start(&problem)?;
+    let mut path = start(&problem, analyses)?;
     let (points, stop) = load(&mut path, &problem);
     let reached = points.last().map_or(0.0, |p| p.depth);
     if let Some(cause) = stop.filter(|_| reached < REACHED) {
@@ -167,7 +178,7 @@ fn indent(cone: &Cone, discretisation: &ConeDiscretisation) -> Result<(Indentati
         recovery: FORCES.map(|force| recovery(&shares, force)),
         elastic_share: 3.0 * work(&shares),
         reached: reached.min(1.0),
-        iterations: path.iterations,
+        iterations: path.counts.iterations,
     };
     Ok((found, fitted))
 }
@@ -227,7 +238,9 @@ mod tests {
             kinematic_share: 0.0,
             stress_measure: StressMeasure::Kirchhoff,
         };
-        let (found, _) = solve(&Cone { slope_deg: 3.0, indents: true, metal }, Accuracy::Standard).unwrap();
+        let (found, _) =
+            solve(&Cone { slope_deg: 3.0, indents: true, metal }, Accuracy::Standard, &Analyses::default())
+                .unwrap();
         let sneddon = std::f64::consts::FRAC_2_PI * elastic.reduced_modulus() / 3f64.to_radians().tan();
         let near = |a: f64, b: f64, share: f64| (a / b - 1.0).abs() < share;
         assert!(near(found.k_over_e, sneddon, 0.02), "{found:?} {sneddon}");

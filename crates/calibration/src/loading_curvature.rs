@@ -19,6 +19,7 @@ use asperity_numerics::least_squares::{Line, solve as least_squares, value};
 use asperity_simulation::load_path::Increment;
 use asperity_simulation::scene::ElementChoice;
 use asperity_simulation::setup::discretisation::ConeDiscretisation;
+use asperity_solver::body::analysis::Analyses;
 use std::f64::consts::TAU;
 
 /// The result of a case.
@@ -115,18 +116,22 @@ impl Fitted {
     }
 }
 
-/// Solves `case` and its companion.
+/// Solves `case` and its companion. Their meshes are analysed unless they are among `analyses`.
 ///
 /// # Errors
 /// No equilibrium, or a force that is no parabola of the depth.
-pub fn solve(case: &Case, discretisation: &ConeDiscretisation) -> Result<LoadingCurvature, CaseError> {
-    let run = fitted(case, discretisation)?;
+pub fn solve(
+    case: &Case,
+    discretisation: &ConeDiscretisation,
+    analyses: &Analyses,
+) -> Result<LoadingCurvature, CaseError> {
+    let run = fitted(case, discretisation, analyses)?;
     // a rounded summit shifts h, which the slope of √F does not notice and the exponent does
     let sharp = discretisation.sizes.rounding == 0.0;
     if sharp || run.exponent.is_nan() {
         run.check()?;
     }
-    let companion = companion(discretisation, |coarser| fitted(case, coarser))?;
+    let companion = companion(discretisation, |coarser| fitted(case, coarser, analyses))?;
     let [k_over_e, error] =
         run.extrapolated(&companion, &Left::of(case.tan_beta(), case.tool == Tool::Cone, discretisation));
     Ok(LoadingCurvature {
@@ -152,8 +157,12 @@ pub(crate) fn companion<T>(
     })
 }
 
-fn fitted(case: &Case, discretisation: &ConeDiscretisation) -> Result<Fitted, CaseError> {
-    crush(case, discretisation).map(read)
+fn fitted(
+    case: &Case,
+    discretisation: &ConeDiscretisation,
+    analyses: &Analyses,
+) -> Result<Fitted, CaseError> {
+    crush(case, discretisation, analyses).map(read)
 }
 
 /// Reads slope, radius and exponent from `curve`; the depth of its last point counts as all of it.

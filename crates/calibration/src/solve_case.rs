@@ -5,12 +5,14 @@ use crate::loading_curvature;
 use crate::row::Row;
 use crate::sweep::Sweep;
 use asperity_simulation::scene::Accuracy;
+use asperity_solver::body::analysis::Analyses;
 use std::time::Instant;
 
-/// Solves one case; a case that fails is a row too.
-pub fn solve(case: &Case, accuracy: Accuracy) -> Row {
+/// Solves one case; a case that fails is a row too. The cases of a sweep share `analyses` of their meshes: see [`Analyses`].
+pub fn solve(case: &Case, accuracy: Accuracy, analyses: &Analyses) -> Row {
     let clock = Instant::now();
-    let outcome = loading_curvature::solve(case, &case.discretisation(accuracy)).map_err(|e| e.to_string());
+    let outcome =
+        loading_curvature::solve(case, &case.discretisation(accuracy), analyses).map_err(|e| e.to_string());
     Row { case: *case, outcome, wall_s: clock.elapsed().as_secs_f64() }
 }
 

@@ -6,6 +6,7 @@ use crate::cone::unloading_exponent;
 use crate::fit::DEVELOPED;
 use crate::sweep::Sweep;
 use asperity_simulation::scene::Accuracy;
+use asperity_solver::body::analysis::Analyses;
 use rayon::prelude::*;
 
 /// A cone that was unloaded.
@@ -43,8 +44,9 @@ pub fn unload(sweep: &Sweep, c: f64) -> Vec<Unloaded> {
         let stress = case.hardening().map_or(f64::INFINITY, |h| h.representative_stress(c * t));
         case.elastic().reduced_modulus() * t / stress >= DEVELOPED
     });
+    let analyses = Analyses::for_threads(rayon::current_num_threads());
     let solve = |case: &Case| {
-        let exponent = unloading_exponent(case, &case.discretisation(Accuracy::Standard)).ok()?;
+        let exponent = unloading_exponent(case, &case.discretisation(Accuracy::Standard), &analyses).ok()?;
         Some(Unloaded { case: *case, exponent })
     };
     cases.par_iter().filter_map(solve).collect()

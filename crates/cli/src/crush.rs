@@ -1,21 +1,14 @@
 //! `asperity crush`: one scene from its file to a folder of results.
 
 use crate::flags::{ReportFlag, RunFlags, SceneFlags};
-use crate::folder::{Folder, journal_beside};
+use crate::folder::Folder;
 use crate::progress::Progress;
 use crate::{interrupt, terminal};
-use asperity::crush::{Checkpoints, CurveRow, Phase, Sketch, crush_with};
+use asperity::crush::{CurveRow, Phase, Sketch, crush_into};
 use asperity::error::{Error, InputError};
 use asperity::simulation::scene::Symmetry;
 use clap::Args;
 use std::path::PathBuf;
-use std::time::Duration;
-
-/// A killed run loses at most this much.
-const BETWEEN_CHECKPOINTS: Duration = Duration::from_secs(30);
-
-/// Bytes that the solves of a run take on the disk at most; a run that needs more is taken up where it had as many.
-const LARGEST_JOURNAL: u64 = 2 << 30;
 
 /// Arguments of `asperity crush`.
 #[derive(Debug, Args)]
@@ -57,13 +50,7 @@ pub fn crush(args: &Crush) -> Result<(), Error> {
     interrupt::catch();
     let progress = Progress::new(args.run.quiet);
     let symmetry = scene.tables().symmetry;
-    let checkpoints =
-        Checkpoints { folder: journal_beside(&out), every: BETWEEN_CHECKPOINTS, largest: LARGEST_JOURNAL };
-    if checkpoints.exist() && !args.run.quiet {
-        let place = checkpoints.folder.display();
-        terminal::complain(&format!("the solves of a stopped run in {place} are used as far as they fit"));
-    }
-    let result = crush_with(&scene, Some(&checkpoints), &mut folder, &[Sketch::PEAK], &mut |reached| {
+    let result = crush_into(&scene, &mut folder, &[Sketch::PEAK], &mut |reached| {
         let share = reached.row.increment as f64 / reached.planned.max(1) as f64;
         progress.show(share, || progress_line(reached.row, symmetry));
         !interrupt::requested()
@@ -79,19 +66,12 @@ pub fn crush(args: &Crush) -> Result<(), Error> {
     });
     folder.publish()?;
     let summary = result?.summary;
-    let kept = interrupt::requested() && checkpoints.exist();
-    if !kept {
-        checkpoints.remove();
-    }
     if !args.run.quiet {
         summary.warnings().iter().for_each(terminal::warn);
     }
     args.run.say(&out, || summary.to_json(), || summary.overview())?;
     match summary.stopped {
-        Some(reason) => {
-            let again = if kept { "; the same command goes on from there" } else { "" };
-            Err(Error::Unfinished(format!("{reason}; what was reached is in {}{again}", out.display())))
-        }
+        Some(reason) => Err(Error::Unfinished(format!("{reason}; what was reached is in {}", out.display()))),
         None => Ok(()),
     }
 }

@@ -9,9 +9,10 @@ use asperity_calibration::indentation::{FORCES, Indentation, solve};
 use asperity_material::units::{Length, Stress};
 use asperity_material::{Elastic, StressMeasure};
 use asperity_simulation::record::rows::{CurveRow, Phase};
-use asperity_simulation::run::run_of;
+use asperity_simulation::run::Run;
 use asperity_simulation::scene::{Accuracy, Asperity, Loading, Material, Scene, Symmetry, Tool, ToolShape};
 use asperity_simulation::setup::cone::Cone;
+use asperity_solver::body::analysis::Analyses;
 use asperity_solver::point::material::Metal as Point;
 use std::ops::ControlFlow;
 
@@ -84,14 +85,14 @@ pub struct Response {
     pub reached: f64,
 }
 
-/// Answers `question` at `accuracy`.
+/// Answers `question` at `accuracy`. Questions of one search share `analyses` of their meshes.
 ///
 /// # Errors
 /// Why there is no answer.
-pub fn respond(question: &Question, accuracy: Accuracy) -> Result<Response, String> {
+pub fn respond(question: &Question, accuracy: Accuracy, analyses: &Analyses) -> Result<Response, String> {
     match question.geometry {
-        Geometry::Sharp { slope_deg } => sharp(question, slope_deg, accuracy),
-        _ => body(question, accuracy),
+        Geometry::Sharp { slope_deg } => sharp(question, slope_deg, accuracy, analyses),
+        _ => body(question, accuracy, analyses),
     }
 }
 
@@ -104,9 +105,14 @@ fn point(question: &Question) -> Point {
     }
 }
 
-fn sharp(question: &Question, slope_deg: f64, accuracy: Accuracy) -> Result<Response, String> {
+fn sharp(
+    question: &Question,
+    slope_deg: f64,
+    accuracy: Accuracy,
+    analyses: &Analyses,
+) -> Result<Response, String> {
     let cone = Cone { slope_deg, indents: true, metal: point(question) };
-    let (found, errors) = solve(&cone, accuracy).map_err(|e| e.to_string())?;
+    let (found, errors) = solve(&cone, accuracy, analyses).map_err(|e| e.to_string())?;
     Ok(Response {
         logarithms: of_cone(&found),
         errors: [errors.loading_curvature, errors.stiffness, errors.elastic_share],
@@ -140,12 +146,13 @@ fn scene(question: &Question, accuracy: Accuracy) -> Scene {
     asperity.into_iter().fold(scene, Scene::with)
 }
 
-fn body(question: &Question, accuracy: Accuracy) -> Result<Response, String> {
+fn body(question: &Question, accuracy: Accuracy, analyses: &Analyses) -> Result<Response, String> {
     let scene = scene(question, accuracy);
     scene.validate().map_err(|e| e.to_string())?;
     // the scene stands for the mesh; the metal is this one exactly
-    let outcome =
-        run_of(&scene, &point(question), &mut |_| ControlFlow::Continue(())).map_err(|e| e.to_string())?;
+    let metal = point(question);
+    let run = Run { metal: Some(&metal), analyses: analyses.clone(), ..Run::new(&scene) };
+    let outcome = run.run(&mut |_| ControlFlow::Continue(())).map_err(|e| e.to_string())?;
     if let Some(stopped) = &outcome.stopped {
         return Err(format!(
             "stopped at {:.2} of the depth: {}",

@@ -9,6 +9,7 @@ use super::response::{Question, Response, respond};
 use crate::levenberg_marquardt::{Minimum, Residuals, chi2, jacobian, minimise};
 use asperity_material::range;
 use asperity_simulation::scene::Accuracy;
+use asperity_solver::body::analysis::Analyses;
 use nalgebra::{DMatrix, SymmetricEigen};
 use rayon::prelude::*;
 use thiserror::Error;
@@ -68,14 +69,15 @@ pub fn search(
 ) -> Result<Found, SearchError> {
     let mut found =
         Found { minimum: Minimum { point: Vec::new(), chi2: f64::INFINITY }, runs: 0, notes: Vec::new() };
-    design(experiments, unknowns, &mut found, observer)?;
+    let analyses = &Analyses::for_threads(rayon::current_num_threads());
+    design(experiments, unknowns, analyses, &mut found, observer)?;
     let mut best = everywhere(experiments, unknowns)?;
     // the atlas of sharp cones is as exact as `accuracy`, and coarser runs would only blur it; other tools have coarse runs all about
     let early = |e: &Experiment| if e.is_sharp() { accuracy } else { Accuracy::Draft };
     let mut asked = Vec::new();
     for round in 0..ROUNDS {
         go_on(observer, 0.5 + 0.1 * round as f64, "asking finite elements at the best fit")?;
-        ask(experiments, unknowns, &[best.point.clone()], early, &mut found)?;
+        ask(experiments, unknowns, &[best.point.clone()], early, analyses, &mut found)?;
         let before = best;
         asked.clone_from(&before.point);
         best = again(experiments, unknowns, &before.point)?;
@@ -87,7 +89,7 @@ pub fn search(
     if !sharp {
         go_on(observer, 0.85, "asking finite elements where the curves see least")?;
         let beside = beside(experiments, unknowns, &best.point);
-        ask(experiments, unknowns, &beside, early, &mut found)?;
+        ask(experiments, unknowns, &beside, early, analyses, &mut found)?;
         best = again(experiments, unknowns, &best.point)?;
     }
     // the answer is that of finite elements at this point, or so near to it that they say the same
@@ -97,7 +99,7 @@ pub fn search(
         return Ok(found);
     }
     go_on(observer, 0.95, "the final answer")?;
-    ask(experiments, unknowns, &[best.point.clone()], |_| accuracy, &mut found)?;
+    ask(experiments, unknowns, &[best.point.clone()], |_| accuracy, analyses, &mut found)?;
     found.minimum = again(experiments, unknowns, &best.point)?;
     Ok(found)
 }
@@ -200,6 +202,7 @@ fn ask(
     unknowns: &Unknowns,
     points: &[Vec<f64>],
     accuracy: impl Fn(&Experiment) -> Accuracy,
+    analyses: &Analyses,
     found: &mut Found,
 ) -> Result<(), SearchError> {
     let levels: Vec<Accuracy> = experiments.iter().map(accuracy).collect();
@@ -209,7 +212,7 @@ fn ask(
         .flat_map(|(i, e)| points.iter().filter_map(move |p| Some((i, e.question(unknowns, p)?))))
         .collect();
     let answers: Vec<Result<Response, String>> =
-        questions.par_iter().with_max_len(1).map(|(i, q)| respond(q, levels[*i])).collect();
+        questions.par_iter().with_max_len(1).map(|(i, q)| respond(q, levels[*i], analyses)).collect();
     let mut learned = vec![false; experiments.len()];
     for ((i, question), answer) in questions.iter().zip(answers) {
         found.runs += 1;
@@ -252,6 +255,7 @@ fn ask(
 fn design(
     experiments: &mut [Experiment],
     unknowns: &Unknowns,
+    analyses: &Analyses,
     found: &mut Found,
     observer: &mut Observer<'_>,
 ) -> Result<(), SearchError> {
@@ -270,7 +274,7 @@ fn design(
         let questions: Vec<Question> =
             points.iter().filter_map(|p| experiments[*i].question(unknowns, p)).collect();
         let answers: Vec<Result<Response, String>> =
-            questions.par_iter().with_max_len(1).map(|q| respond(q, Accuracy::Draft)).collect();
+            questions.par_iter().with_max_len(1).map(|q| respond(q, Accuracy::Draft, analyses)).collect();
         found.runs += answers.len();
         let reason = answers.iter().find_map(|a| a.as_ref().err().cloned()).unwrap_or_default();
         let runs: Vec<(Vec<f64>, Response)> =

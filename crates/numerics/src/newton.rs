@@ -76,7 +76,7 @@ pub struct Converged {
 }
 
 /// [`Settings::keep`] of the runs of scenes and of calibrated cones: 0.1 to 0.7 take the same time within 2 %.
-pub const KEEP: f64 = 0.2;
+pub const KEPT_FACTORS_REDUCTION: f64 = 0.2;
 
 /// How closely a step looks for the least potential along its direction.
 #[derive(Clone, Copy)]
@@ -89,13 +89,13 @@ struct LineSearch {
 }
 
 /// Newton's steps are mostly good as they are: looking costs an assembly.
-const LOOSE: LineSearch = LineSearch { overshoot: 0.6, smallest: 0.03 };
+const LINE_SEARCH_LOOSE: LineSearch = LineSearch { overshoot: 0.6, smallest: 0.03 };
 
 /// Where a branch is entered and left again as a whole, loose steps jump between the two for ever.
-const CLOSE: LineSearch = LineSearch { overshoot: 0.05, smallest: 0.003 };
+const LINE_SEARCH_CLOSE: LineSearch = LineSearch { overshoot: 0.05, smallest: 0.003 };
 
 /// Iterations after which the line search is a close one. Sound increments take half of them.
-const PATIENCE: usize = 15;
+const LINE_SEARCH_PATIENCE: usize = 15;
 
 /// Solves `system`.
 ///
@@ -132,8 +132,8 @@ fn iterate<S: System>(system: &mut S, settings: &Settings) -> Result<Converged, 
         }
         let line = match iteration {
             1 => None,
-            _ if iteration <= PATIENCE => Some(LOOSE),
-            _ => Some(CLOSE),
+            _ if iteration <= LINE_SEARCH_PATIENCE => Some(LINE_SEARCH_LOOSE),
+            _ => Some(LINE_SEARCH_CLOSE),
         };
         let step = if renew {
             system.renew().map_err(|f| (f.into(), iteration))?;
@@ -187,7 +187,7 @@ fn search<S: System>(
             }
             _ => Some(0.5),
         };
-        let smallest = line.unwrap_or(LOOSE).smallest;
+        let smallest = line.unwrap_or(LINE_SEARCH_LOOSE).smallest;
         match shorter {
             Some(factor) if fraction * factor > smallest => fraction *= factor,
             _ => return outcome,

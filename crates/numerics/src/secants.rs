@@ -8,7 +8,7 @@
 use crate::vectors::dot;
 
 /// Pairs kept: older ones tell of another tangent.
-pub const PAIRS: usize = 6;
+const PAIRS: usize = 6;
 
 /// A pair whose curvature is below this share of |s||y| says nothing, or that the potential bends down.
 const LEAST_CURVATURE: f64 = 1e-8;
@@ -53,19 +53,6 @@ impl Secants {
             self.inverse_curvature[self.count] = 1.0 / curvature;
             self.count += 1;
         }
-    }
-
-    /// The pairs that count, oldest first, each with its 1/(s·y).
-    pub fn noted(&self) -> impl ExactSizeIterator<Item = (&[f64], &[f64], f64)> {
-        let pairs = self.pairs[..self.count].iter().zip(&self.inverse_curvature);
-        pairs.map(|((s, y), &inverse)| (&s[..], &y[..], inverse))
-    }
-
-    /// Those of [`Secants::noted`] again.
-    pub fn of_noted(noted: Vec<(Vec<f64>, Vec<f64>, f64)>) -> Secants {
-        let count = noted.len();
-        let (pairs, inverse_curvature) = noted.into_iter().map(|(s, y, inverse)| ((s, y), inverse)).unzip();
-        Secants { pairs, inverse_curvature, count }
     }
 
     /// Replaces the right-hand side `rhs` by the solution; `solve` does so with the factors alone.

@@ -16,9 +16,8 @@ use asperity::output::{Directory, Sink, SinkExt, write_csv, write_whole};
 use asperity::rough::{self, RoughScene};
 use asperity::roughness::KindName;
 use asperity::roughness::scene::Scene as RoughTables;
-use asperity::simulation::depth_for_force::expect;
+use asperity::simulation::run::Run;
 use asperity::simulation::scene::{Accuracy, Level, Scene as Tables};
-use asperity::simulation::setup::prepare::prepare;
 use serde::{Deserialize, Serialize};
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
@@ -224,7 +223,7 @@ impl Job {
 
 /// Unknowns to a power times steps: what the time of a crush goes with.
 fn load_of(scene: &Tables) -> f64 {
-    let Ok(problem) = expect(scene, None).and_then(|depth| prepare(scene, None, depth)) else {
+    let Ok(problem) = Run::new(scene).problem() else {
         return 0.0;
     };
     let numbers = problem.numbers;
@@ -243,12 +242,7 @@ pub fn yardstick() -> Result<(f64, f64), Error> {
     let mut fastest = f64::INFINITY;
     for _ in 0..3 {
         let start = Instant::now();
-        let outcome =
-            asperity::simulation::run::run(
-                scene.tables(),
-                None,
-                &mut |_| std::ops::ControlFlow::Continue(()),
-            );
+        let outcome = Run::new(scene.tables()).run(&mut |_| std::ops::ControlFlow::Continue(()));
         embedded("single-asperity", outcome)?;
         fastest = fastest.min(start.elapsed().as_secs_f64());
     }

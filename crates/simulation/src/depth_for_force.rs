@@ -14,24 +14,25 @@ use crate::setup::deformed_surface::Formed;
 use crate::setup::discretisation::Discretisation;
 use crate::setup::prepare::{Expected, bodies, metal};
 use crate::setup::problem::Problem;
-use crate::simulate::follow;
+use crate::simulate::simulate;
 use asperity_material::units::Length;
 use asperity_mesh::Mesh;
+use asperity_solver::body::analysis::Analyses;
 use asperity_solver::body::energy::ContactSums;
 use std::ops::ControlFlow;
 
 /// Elements across the contact and load steps of a coarse crush.
-const ELEMENTS: usize = 6;
-const STEPS: usize = 12;
+const COARSE_ELEMENTS: usize = 6;
+const COARSE_STEPS: usize = 12;
 
 /// Crushes after which the last answer is taken.
 const MOST_CRUSHES: usize = 6;
 
 /// A crush that goes further than this many times the depth of the force has too few elements in contact there.
-const TOO_DEEP: f64 = 2.0;
+const LARGEST_DEPTH_RATIO: f64 = 2.0;
 
 /// How far beyond the expected depth a crush goes, so that the force is passed and not just missed.
-const BEYOND: f64 = 1.1;
+const PASSED_DEPTH_RATIO: f64 = 1.1;
 
 /// Estimates of `scene`, which is valid: the depth of its peak is the one that it asks for, or else the one at which it
 /// carries its force, at most the deepest that its tool can go. `mesh` (in metres) holds the size of the body where plane strain
@@ -39,13 +40,13 @@ const BEYOND: f64 = 1.1;
 ///
 /// # Errors
 /// Bodies that make no sense, an earlier load that does not come back: path and reason.
-pub fn expect(scene: &Scene, mesh: Option<&Mesh>) -> Result<Expected, SceneError> {
+pub fn expect(scene: &Scene, mesh: Option<&Mesh>, analyses: &Analyses) -> Result<Expected, SceneError> {
     let mut expected = Expected::default();
     for index in 0..scene.earlier_loads().len() {
         let within = |e: SceneError| SceneError { path: format!("initial.load[{index}].{}", e.path), ..e };
         let load = with_body_of(&scene.at_load(index), mesh);
-        expected.depth = target_depth(&load, mesh, &expected).map_err(within)?;
-        let formed = formed(&load, &expected).ok_or_else(|| {
+        expected.depth = target_depth(&load, mesh, &expected, analyses).map_err(within)?;
+        let formed = formed(&load, &expected, analyses).ok_or_else(|| {
             let message = "does not come back from its depth: ask for less";
             within(SceneError { path: "loading".into(), message: message.into() })
         })?;
@@ -53,37 +54,42 @@ pub fn expect(scene: &Scene, mesh: Option<&Mesh>) -> Result<Expected, SceneError
         earlier.push(expected);
         expected = Expected { depth: 0.0, formed: Some(formed), earlier };
     }
-    expected.depth = target_depth(scene, mesh, &expected)?;
+    expected.depth = target_depth(scene, mesh, &expected, analyses)?;
     Ok(expected)
 }
 
 /// Depth (m) of the peak of `scene` after the loads that are `expected` before it.
-fn target_depth(scene: &Scene, mesh: Option<&Mesh>, expected: &Expected) -> Result<f64, SceneError> {
+fn target_depth(
+    scene: &Scene,
+    mesh: Option<&Mesh>,
+    expected: &Expected,
+    analyses: &Analyses,
+) -> Result<f64, SceneError> {
     match scene.loading.target()? {
         Target::Depth(depth) if gives_way(scene) => {
-            Ok(depth_of_body(&with_body_of(scene, mesh), depth, expected))
+            Ok(depth_of_body(&with_body_of(scene, mesh), depth, expected, analyses))
         }
         Target::Depth(depth) => Ok(depth),
         Target::Force(force) => {
             let (profile, tool) = bodies(scene, 1.0)?;
             let modulus = scene.material.elastic().youngs_modulus;
             let guess = expected_depth(&metal(scene), modulus, scene.symmetry, &profile, &tool, force);
-            Ok(depth_of(&with_body_of(scene, mesh), force, guess, expected))
+            Ok(depth_of(&with_body_of(scene, mesh), force, guess, expected, analyses))
         }
     }
 }
 
 /// The surface (m) that `scene` leaves, from a coarse crush; `None` where it does not come back.
-fn formed(scene: &Scene, expected: &Expected) -> Option<Formed> {
-    let problem = coarse_problem(scene, expected)?;
+fn formed(scene: &Scene, expected: &Expected, analyses: &Analyses) -> Option<Formed> {
+    let problem = coarse_problem(scene, expected, analyses)?;
     let problem = Problem { unload: true, reloads: 0, ..problem };
-    let (path, _, stopped) = follow(&problem, 0, None, &mut |_| ControlFlow::Continue(())).ok()?;
-    let state = path.model.state();
+    let simulation = simulate(&problem, analyses, 0, &mut |_| ControlFlow::Continue(())).ok()?;
+    let state = simulation.path.model.state();
     let nodes = state.edges.iter().flat_map(|edge| edge.nodes).map(|node| state.position[node as usize]);
     let points = nodes.map(|x| x.map(|x| x * problem.units.length)).collect();
     let reached = state.points.states.iter().map(|point| point.yield_stress);
     let hardest = if problem.metal.hardening.is_some() { reached.fold(0.0, f64::max) } else { 0.0 };
-    stopped.is_none().then(|| Formed::new(points, hardest))
+    simulation.stopped.is_none().then(|| Formed::new(points, hardest))
 }
 
 /// `scene` with the size of the body that `mesh` (m) holds, where plane strain asks for one.
@@ -97,25 +103,28 @@ fn with_body_of(scene: &Scene, mesh: Option<&Mesh>) -> Scene {
 }
 
 /// Depth (m) at which `scene` carries `force` (N, or N/m in plane strain), from the first guess `guess`.
-fn depth_of(scene: &Scene, force: f64, guess: f64, expected: &Expected) -> f64 {
+fn depth_of(scene: &Scene, force: f64, guess: f64, expected: &Expected, analyses: &Analyses) -> f64 {
     let deepest = scene.deepest();
     let mut depth = guess.min(deepest);
     for _ in 0..MOST_CRUSHES {
         let force_of = |problem: &Problem, contact: &ContactSums| contact.force * problem.units.force;
-        let Some(curve) = coarse(scene, &at(expected, depth), force_of).map(Curve::new) else { break };
+        let Some(curve) = coarse(scene, &to_depth(expected, depth), analyses, force_of).map(Curve::new)
+        else {
+            break;
+        };
         let end = curve.end();
         match curve.depth_of(force) {
-            Some(found) if TOO_DEEP * found >= end => return found,
-            Some(found) => depth = BEYOND * found,
+            Some(found) if LARGEST_DEPTH_RATIO * found >= end => return found,
+            Some(found) => depth = PASSED_DEPTH_RATIO * found,
             // stopped on its way, or as deep as it can be
             None if end < 0.999 * depth || depth >= deepest => break,
             None => {
-                let exponent = (curve.at(end) / curve.at(0.5 * end)).log2().clamp(0.7, 4.0);
-                let growth = (force / curve.at(end)).powf(1.0 / exponent);
+                let exponent = (curve.value(end) / curve.value(0.5 * end)).log2().clamp(0.7, 4.0);
+                let growth = (force / curve.value(end)).powf(1.0 / exponent);
                 if !growth.is_finite() {
                     break;
                 }
-                depth = (BEYOND * growth * end).min(deepest);
+                depth = (PASSED_DEPTH_RATIO * growth * end).min(deepest);
             }
         }
     }
@@ -128,15 +137,15 @@ fn gives_way(scene: &Scene) -> bool {
 }
 
 /// Depth (m) of the body where it is `asked` (m) with what tool and machine give way.
-fn depth_of_body(scene: &Scene, asked: f64, expected: &Expected) -> f64 {
+fn depth_of_body(scene: &Scene, asked: f64, expected: &Expected, analyses: &Analyses) -> f64 {
     let mut depth = asked;
     for _ in 0..MOST_CRUSHES {
-        let total = coarse(scene, &at(expected, depth), |problem, contact| {
-            Compliance::of(scene, &problem.units).deflection(contact.force, contact.area)
+        let total = coarse(scene, &to_depth(expected, depth), analyses, |problem, contact| {
+            Compliance::new(scene, &problem.units).deflection(contact.force, contact.area)
                 * problem.units.length
         });
         let Some(found) = total.and_then(|way| body_depth(&way, asked)) else { break };
-        let fine = found * TOO_DEEP >= depth;
+        let fine = found * LARGEST_DEPTH_RATIO >= depth;
         depth = found;
         if fine {
             break;
@@ -154,14 +163,17 @@ fn body_depth(way: &[[f64; 2]], asked: f64) -> Option<f64> {
 }
 
 /// The same with its peak at `depth` (m).
-fn at(expected: &Expected, depth: f64) -> Expected {
+fn to_depth(expected: &Expected, depth: f64) -> Expected {
     Expected { depth, ..expected.clone() }
 }
 
 /// A coarse crush of `scene` to its expected depth, ready to go, after coarse earlier loads. Tool and machine are stiff.
-fn coarse_problem(scene: &Scene, expected: &Expected) -> Option<Problem> {
-    let numerics =
-        Numerics { elements_in_contact: Some(ELEMENTS), steps: Some(STEPS), ..Numerics::default() };
+fn coarse_problem(scene: &Scene, expected: &Expected, analyses: &Analyses) -> Option<Problem> {
+    let numerics = Numerics {
+        elements_in_contact: Some(COARSE_ELEMENTS),
+        steps: Some(COARSE_STEPS),
+        ..Numerics::default()
+    };
     let loading = Loading { depth: Some(Length(expected.depth)), force: None, unload: false, reloads: 0 };
     let probe = Scene {
         accuracy: Accuracy::Draft,
@@ -172,7 +184,7 @@ fn coarse_problem(scene: &Scene, expected: &Expected) -> Option<Problem> {
         ..scene.clone()
     };
     probe.validate().ok()?;
-    ready(&probe, Discretisation::new(&probe), None, expected).ok()
+    ready(&probe, Discretisation::new(&probe), None, expected, analyses).ok()
 }
 
 /// Depth (m) and what `of` makes of the contact in the increments of a coarse crush to the expected depth, from 0 on; as far as it
@@ -180,12 +192,13 @@ fn coarse_problem(scene: &Scene, expected: &Expected) -> Option<Problem> {
 fn coarse(
     scene: &Scene,
     expected: &Expected,
+    analyses: &Analyses,
     of: impl Fn(&Problem, &ContactSums) -> f64,
 ) -> Option<Vec<[f64; 2]>> {
-    let problem = coarse_problem(scene, expected)?;
+    let problem = coarse_problem(scene, expected, analyses)?;
     let mut points = vec![[0.0; 2]];
     // a path that stops early has a curve too
-    let _ = Path::new(&problem).ok()?.load(&mut |_, increment| {
+    let _ = Path::new(&problem, analyses).ok()?.load(&mut |_, increment| {
         points.push([increment.depth * problem.units.length, of(&problem, &increment.contact)]);
         true
     });

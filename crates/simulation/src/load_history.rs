@@ -4,8 +4,9 @@ use crate::scene::{Scene, SceneError};
 use crate::setup::discretisation::Discretisation;
 use crate::setup::prepare::{Expected, prepare_with};
 use crate::setup::problem::Problem;
-use crate::simulate::{CrushError, follow};
+use crate::simulate::{CrushError, simulate};
 use asperity_mesh::Mesh;
+use asperity_solver::body::analysis::Analyses;
 use asperity_solver::body::state::Unloaded;
 use std::ops::ControlFlow;
 
@@ -18,8 +19,9 @@ pub(super) fn ready(
     numbers: Discretisation,
     mesh: Option<Mesh>,
     expected: &Expected,
+    analyses: &Analyses,
 ) -> Result<Problem, CrushError> {
-    let problem = prepare_with(scene, numbers, mesh, expected)?;
+    let mut problem = prepare_with(scene, numbers, mesh, expected)?;
     let (length, symmetry) = (problem.units.length, problem.symmetry);
     let mut left: Option<Unloaded> = None;
     for (index, expected) in expected.earlier.iter().enumerate() {
@@ -29,13 +31,15 @@ pub(super) fn ready(
         let own = load.units.length;
         // of the same substrate, which is a given one for a mesh that is given
         load.rules.far_field = problem.rules.far_field * own / length;
-        load.start = left.map(|left| left.scaled(length / own, symmetry));
-        let (path, _, stopped) = follow(&load, 0, None, &mut |_| ControlFlow::Continue(()))?;
-        if let Some(reason) = stopped {
+        load.specimen.earlier = left.map(|left| left.scaled(length / own, symmetry));
+        let simulation = simulate(&load, analyses, 0, &mut |_| ControlFlow::Continue(()))?;
+        if let Some(reason) = simulation.stopped {
             let path = format!("initial.load[{index}]");
             return Err(SceneError { path, message: format!("stopped on its way: {reason}") }.into());
         }
-        left = Some(path.model.state().unloaded(path.model.body()).scaled(own / length, symmetry));
+        let model = &simulation.path.model;
+        left = Some(model.state().unloaded(model.body()).scaled(own / length, symmetry));
     }
-    Ok(Problem { start: left, ..problem })
+    problem.specimen.earlier = left;
+    Ok(problem)
 }

@@ -1,146 +1,86 @@
-//! One crush from a scene to its records: the entry point of the solver.
+//! One run: a scene from its keys to its outcome. The only entry; each line of [`Run::run`] is a stage with a file of its own.
 
+use crate::companion::{companion, run_beside};
 use crate::depth_for_force::expect;
 use crate::error_estimate::{Setting, extrapolate_and_bound, rescale_to_force};
 use crate::load_history::ready;
-use crate::load_path::Stop;
-use crate::load_path::checkpoint::Checkpoints;
 use crate::record::oliver_pharr::as_an_instrument;
-use crate::scene::{Scene, Target};
+use crate::scene::{Scene, SceneError, Target};
 use crate::setup::discretisation::Discretisation;
-use crate::setup::prepare::Expected;
-use crate::setup::problem::{Goal, Problem};
-use crate::simulate::{simulate, simulate_with};
+use crate::setup::prepare::prepare;
+use crate::setup::problem::Problem;
+use crate::simulate::simulate;
 use asperity_mesh::Mesh;
+use asperity_solver::body::analysis::Analyses;
 use asperity_solver::point::material::Metal;
-use std::ops::ControlFlow;
-use std::sync::atomic::{AtomicBool, Ordering};
 
 pub use crate::record::recorder::{Event, FieldFrame, Outcome, Stopped, Watcher};
 pub use crate::simulate::CrushError;
 
-/// Runs `scene`. `mesh` (in metres) replaces the mesh that would be built.
-///
-/// The observer hears of every increment, and of fields every `output.every` increments and at the peak and the end
-/// (if `output.every` is not 0); it ends the run by breaking.
-///
-/// # Errors
-/// Only if the run cannot begin: what stops it later is in the outcome, with all that was reached.
-pub fn run(scene: &Scene, mesh: Option<Mesh>, observer: &mut Watcher<'_>) -> Result<Outcome, CrushError> {
-    run_with(scene, mesh, None, observer)
+/// What is run. Without more than its scene: `Run::new(&scene).run(…)`.
+#[derive(Clone, Debug)]
+pub struct Run<'a> {
+    /// The scene.
+    pub scene: &'a Scene,
+    /// A mesh, in metres, in the place of the one that would be built.
+    pub mesh: Option<Mesh>,
+    /// A metal that the keys of a scene cannot say (E = 1, that of the scene is its unit), in the place of the scene's in the run and in
+    /// its companion; the mesh and the penalty are laid out for the scene's.
+    pub metal: Option<&'a Metal>,
+    /// Analyses of meshes that other runs may have made: a clone of theirs spares making them again.
+    pub analyses: Analyses,
 }
 
-/// [`run`], which goes on from the `checkpoints` that an earlier run of the same scene left, and writes its own. The result has the
-/// same bits as that of a run that nothing stopped.
-///
-/// # Errors
-/// As for [`run`].
-pub fn run_with(
-    scene: &Scene,
-    mesh: Option<Mesh>,
-    checkpoints: Option<&Checkpoints>,
-    observer: &mut Watcher<'_>,
-) -> Result<Outcome, CrushError> {
-    crush(scene, mesh, None, checkpoints, observer)
-}
-
-/// [`run`] of a metal that the keys of a scene cannot say: `metal` (E = 1, that of the scene is its unit) takes the place of the
-/// scene's in the run and in its companion, while the mesh and the penalty are laid out for the scene's.
-///
-/// # Errors
-/// As for [`run`].
-pub fn run_of(scene: &Scene, metal: &Metal, observer: &mut Watcher<'_>) -> Result<Outcome, CrushError> {
-    crush(scene, None, Some(metal), None, observer)
-}
-
-fn crush(
-    scene: &Scene,
-    mesh: Option<Mesh>,
-    metal: Option<&Metal>,
-    checkpoints: Option<&Checkpoints>,
-    observer: &mut Watcher<'_>,
-) -> Result<Outcome, CrushError> {
-    scene.validate()?;
-    let expected = expect(scene, mesh.as_ref())?;
-    let other = mesh.as_ref().map(Mesh::with_other_element);
-    let same_mesh = other.is_some();
-    let numbers = Discretisation::new(scene);
-    let of_metal = |problem: Problem| match metal {
-        Some(metal) => Problem { metal: metal.clone(), ..problem },
-        None => problem,
-    };
-    let problem = of_metal(ready(scene, numbers, mesh, &expected)?);
-    let target = scene.loading.target()?;
-    let companion = companion(scene, numbers, other, &expected).map(of_metal);
-    let asks_for_depth = matches!(target, Target::Depth(_));
-    let mut main = || simulate_with(&problem, scene.output.interval(), checkpoints, observer);
-    let (mut outcome, ahead) = match companion.as_ref().filter(|_| asks_for_depth) {
-        Some(companion) => simulate_both(&mut main, companion)?,
-        None => (main()?, None),
-    };
-    let interrupted = outcome.stopped.as_ref().is_some_and(|s| s.reason == Stop::Interrupted);
-    // what ended early, or was looking for a force, is compared as far as it came
-    let compared = match (ahead, &outcome.stopped) {
-        _ if interrupted => None,
-        (Some(ahead), None) => Some(ahead),
-        _ => companion.and_then(|mut companion| {
-            companion.goal = Goal::Depth(outcome.summary.peak_depth / companion.units.length);
-            companion.unload &= outcome.summary.residual_depth.is_some();
-            simulate(&companion, 0, &mut |_| ControlFlow::Continue(())).ok()
-        }),
-    };
-    if let Some(companion) = compared {
-        let Discretisation { element, penetration, steps, .. } = numbers;
-        let setting = Setting { symmetry: scene.symmetry, element, penetration, steps, same_mesh };
-        extrapolate_and_bound(&mut outcome, &companion, setting);
+impl<'a> Run<'a> {
+    /// The run of a scene as it stands.
+    pub fn new(scene: &'a Scene) -> Run<'a> {
+        Run { scene, mesh: None, metal: None, analyses: Analyses::default() }
     }
-    if let (Target::Force(force), None) = (target, &outcome.stopped) {
-        rescale_to_force(&mut outcome, force, scene.symmetry);
+
+    /// Runs it.
+    ///
+    /// The observer hears of every increment, and of fields every `output.every` increments and at the peak and the end
+    /// (if `output.every` is not 0); it ends the run by breaking.
+    ///
+    /// # Errors
+    /// Only if the run cannot begin: what stops it later is in the outcome, with all that was reached.
+    pub fn run(self, observer: &mut Watcher<'_>) -> Result<Outcome, CrushError> {
+        let Run { scene, mesh, metal, analyses } = self;
+        scene.validate()?;
+        let target = scene.loading.target()?;
+        let expected = expect(scene, mesh.as_ref(), &analyses)?;
+        let other = mesh.as_ref().map(Mesh::with_other_element);
+        let same_mesh = other.is_some();
+        let numbers = Discretisation::new(scene);
+        let with_metal = |problem: Problem| match metal {
+            Some(metal) => Problem { metal: metal.clone(), ..problem },
+            None => problem,
+        };
+        let problem = with_metal(ready(scene, numbers, mesh, &expected, &analyses)?);
+        let companion = companion(scene, numbers, other, &expected, &analyses).map(with_metal);
+        let (mut outcome, compared) = run_beside(companion, target, &analyses, || {
+            Ok(simulate(&problem, &analyses, scene.output.interval(), observer)?.outcome(observer))
+        })?;
+        if let Some(companion) = compared {
+            let Discretisation { element, penetration, steps, .. } = numbers;
+            let setting = Setting { symmetry: scene.symmetry, element, penetration, steps, same_mesh };
+            outcome = extrapolate_and_bound(outcome, &companion, setting);
+        }
+        if let (Target::Force(force), None) = (target, &outcome.stopped) {
+            outcome = rescale_to_force(outcome, force, scene.symmetry);
+        }
+        // of the force and the depth that are stated
+        outcome.summary.oliver_pharr =
+            as_an_instrument(&problem, scene.tool.area_function.as_ref(), &outcome.summary);
+        Ok(outcome)
     }
-    // of the force and the depth that are stated
-    outcome.summary.oliver_pharr =
-        as_an_instrument(&problem, scene.tool.area_function.as_ref(), &outcome.summary);
-    Ok(outcome)
-}
 
-/// The run that reveals the errors of another: with numbers half as good. An imported mesh, which cannot be made coarser, gives its
-/// nodes to the `other` element. `None` if it does not even begin.
-fn companion(
-    scene: &Scene,
-    numbers: Discretisation,
-    other: Option<Mesh>,
-    expected: &Expected,
-) -> Option<Problem> {
-    let problem = ready(scene, numbers.coarser(), other, expected).ok()?;
-    Some(Problem { reloads: 0, ..problem })
-}
-
-/// Runs `main` and its `companion`, on two threads where there are two. The bits do not depend on that.
-fn simulate_both(
-    main: &mut dyn FnMut() -> Result<Outcome, CrushError>,
-    companion: &Problem,
-) -> Result<(Outcome, Option<Outcome>), CrushError> {
-    let ended = AtomicBool::new(false);
-    let mut ahead = None;
-    let mut main = || {
-        let outcome = main();
-        ended.store(!matches!(&outcome, Ok(Outcome { stopped: None, .. })), Ordering::Relaxed);
-        outcome
-    };
-    let mut follow = || {
-        let go_on =
-            || if ended.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
-        ahead = simulate(companion, 0, &mut |_| go_on()).ok();
-    };
-    let outcome = if rayon::current_num_threads() > 1 {
-        rayon::in_place_scope(|scope| {
-            scope.spawn(|_| follow());
-            main()
-        })?
-    } else {
-        let outcome = main()?;
-        follow();
-        outcome
-    };
-    Ok((outcome, ahead))
+    /// The problem that it solves first; of a metal or a body of its own it has the scene's, without earlier loads.
+    ///
+    /// # Errors
+    /// A scene that cannot be meshed: path and reason.
+    pub fn problem(self) -> Result<Problem, SceneError> {
+        let expected = expect(self.scene, self.mesh.as_ref(), &self.analyses)?;
+        prepare(self.scene, self.mesh, expected)
+    }
 }

@@ -1,10 +1,10 @@
 //! A problem from first touch to its end: loading, unloading, reloading, and what is recorded on the way.
 
-use crate::load_path::checkpoint::{Checkpoints, Journal};
 use crate::load_path::{Path, Stop};
 use crate::record::recorder::{Outcome, Recorder, Watcher};
 use crate::scene::SceneError;
 use crate::setup::problem::Problem;
+use asperity_solver::body::analysis::Analyses;
 
 /// Why a run could not begin.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -19,51 +19,30 @@ pub enum CrushError {
     Mesh,
 }
 
-/// Runs `problem`: loads it to its goal, and unloads and reloads it as often as it asks.
+/// A problem that was simulated, as far as it came.
+pub struct Simulation<'p> {
+    /// The path as it stands at its end.
+    pub path: Path<'p>,
+    /// Why it ended before its goal, if it did.
+    pub stopped: Option<Stop>,
+    recorder: Recorder<'p>,
+}
+
+/// Takes `problem` along its path: loads it to its goal, and unloads and reloads it as often as it asks. Its mesh is analysed unless
+/// it is one of `analyses`.
 ///
 /// The observer hears of every increment, and of fields every `interval` increments and at the peak and the end (if that is
 /// not 0); it ends the run by breaking.
 ///
 /// # Errors
-/// Only if the run cannot begin: what stops it later is in the outcome, with all that was reached.
-pub fn simulate(
-    problem: &Problem,
-    interval: usize,
-    observer: &mut Watcher<'_>,
-) -> Result<Outcome, CrushError> {
-    simulate_with(problem, interval, None, observer)
-}
-
-/// [`simulate`], which goes on from the `checkpoints` that an earlier run of the same problem left, and writes its own.
-///
-/// # Errors
-/// As for [`simulate`].
-pub fn simulate_with(
-    problem: &Problem,
-    interval: usize,
-    checkpoints: Option<&Checkpoints>,
-    observer: &mut Watcher<'_>,
-) -> Result<Outcome, CrushError> {
-    let journal = checkpoints.map(|checkpoints| Journal::open(checkpoints, problem));
-    let (mut path, recorder, stopped) = follow(problem, interval, journal, observer)?;
-    if let (Some(journal), Some(Stop::Interrupted)) = (&mut path.journal, &stopped) {
-        journal.interrupted(&path.model);
-    }
-    Ok(recorder.finish(&path, stopped, observer))
-}
-
-/// [`simulate`] up to its end, with the path as it stands there, and why it ended before its goal, if it did.
-///
-/// # Errors
-/// As for [`simulate`].
-pub(super) fn follow<'p>(
+/// Only if the run cannot begin: what stops it later is in the simulation, with all that was reached.
+pub fn simulate<'p>(
     problem: &'p Problem,
+    analyses: &Analyses,
     interval: usize,
-    journal: Option<Journal<'p>>,
     observer: &mut Watcher<'_>,
-) -> Result<(Path<'p>, Recorder<'p>, Option<Stop>), CrushError> {
-    let mut path = Path::new(problem).map_err(|_| CrushError::Mesh)?;
-    path.journal = journal;
+) -> Result<Simulation<'p>, CrushError> {
+    let mut path = Path::new(problem, analyses).map_err(|_| CrushError::Mesh)?;
     let mut recorder = Recorder::new(problem, interval, path.model.body().analysis.dofs.count);
     recorder.draw_start(&path.model, observer);
     let mut stopped = path.load(&mut |model, increment| recorder.record(model, increment, observer)).err();
@@ -71,7 +50,14 @@ pub(super) fn follow<'p>(
     if stopped.is_none() {
         stopped = unload_and_reload(problem, &mut path, &mut recorder, observer).err();
     }
-    Ok((path, recorder, stopped))
+    Ok(Simulation { path, stopped, recorder })
+}
+
+impl Simulation<'_> {
+    /// What was recorded of it; the observer hears of the fields of its end, if they are due.
+    pub fn outcome(self, observer: &mut Watcher<'_>) -> Outcome {
+        self.recorder.finish(&self.path, self.stopped, observer)
+    }
 }
 
 /// The path after the peak: the stiffness there, and unloading and reloading as often as the problem asks.

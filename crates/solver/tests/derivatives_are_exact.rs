@@ -258,9 +258,7 @@ fn contact() {
                         ContactEdge::new([0, 1], quadratic.then_some(2), |n| reference[n as usize], symmetry);
                     let mut x = reference;
                     x[2][1] = middle;
-                    let run = |x: &[[f64; 2]; 3]| {
-                        edge.integrate(&context, edge.touching(&context, x, &[0.0; 3]), x, &[0.0; 3])
-                    };
+                    let run = |x: &[[f64; 2]; 3]| edge.integrate(&context, edge.touching(&context, x), x);
                     let here = run(&x);
                     let scale = here
                         .stiffness

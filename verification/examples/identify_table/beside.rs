@@ -6,6 +6,7 @@ use asperity_calibration::indentation::solve;
 use asperity_material::{Elastic, Hardening, HardeningLaw, StressMeasure};
 use asperity_simulation::scene::Accuracy;
 use asperity_simulation::setup::cone::Cone;
+use asperity_solver::body::analysis::Analyses;
 use asperity_solver::point::material::Metal;
 use asperity_verification::report::Report;
 use rayon::prelude::*;
@@ -42,7 +43,7 @@ fn cone(book: &Book, p: &Published, slope_deg: f64, accuracy: Accuracy) -> Optio
             kinematic_share: 0.0,
             stress_measure: StressMeasure::Cauchy,
         };
-        let found = solve(&Cone { slope_deg, indents: true, metal }, accuracy).ok()?.0;
+        let found = solve(&Cone { slope_deg, indents: true, metal }, accuracy, &Analyses::default()).ok()?.0;
         Some(json!([found.k_over_e, found.stiffness]))
     })?;
     Some([found[0].as_f64()?, found[1].as_f64()?])

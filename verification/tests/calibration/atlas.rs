@@ -7,6 +7,7 @@
 use asperity_calibration::cones::{Row, fresh};
 use asperity_material::cone_atlas::Atlas;
 use asperity_simulation::scene::Accuracy;
+use asperity_solver::body::analysis::Analyses;
 use asperity_verification::atlas::{Set, committed};
 use asperity_verification::atlas_fit::{Solved, differences, solved};
 
@@ -25,7 +26,9 @@ fn over_stated(cones: &[Solved]) -> Vec<[f64; 2]> {
 
 #[test]
 fn fresh_cones_lie_within_the_stated_errors() {
-    let rows: Vec<Row> = (1000..1024).map(|i| Row::solve(i, &fresh(i), Accuracy::Standard)).collect();
+    let analyses = Analyses::default();
+    let rows: Vec<Row> =
+        (1000..1024).map(|i| Row::solve(i, &fresh(i), Accuracy::Standard, &analyses)).collect();
     let cones = solved(&rows);
     assert_eq!(cones.len(), rows.len());
     let over = over_stated(&cones);
@@ -50,9 +53,12 @@ fn the_committed_fresh_cones_lie_within_the_stated_errors() {
 fn k_of_the_atlas_is_that_of_the_calibration() {
     for index in [5, 11] {
         let case = fresh(index);
-        let row = Row::solve(index, &case, Accuracy::Draft);
-        let other =
-            asperity_calibration::loading_curvature::solve(&case, &case.discretisation(Accuracy::Draft));
+        let row = Row::solve(index, &case, Accuracy::Draft, &Analyses::default());
+        let other = asperity_calibration::loading_curvature::solve(
+            &case,
+            &case.discretisation(Accuracy::Draft),
+            &Analyses::default(),
+        );
         let [k, other] = [row.outcome.unwrap().0.k_over_e, other.unwrap().k_over_e];
         assert!((k / other - 1.0).abs() < 1e-9, "{k} {other}");
     }

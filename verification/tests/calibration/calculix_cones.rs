@@ -9,6 +9,7 @@ use asperity_calibration::case::Case;
 use asperity_calibration::loading_curvature::solve;
 use asperity_material::StressMeasure;
 use asperity_simulation::scene::Accuracy;
+use asperity_solver::body::analysis::Analyses;
 use asperity_verification::calibration::{PEERS, peer_case};
 
 /// Relative difference allowed between two codes of other elements and contact, as in the table of `--example calibration peers`.
@@ -20,7 +21,8 @@ fn cones_agree_with_calculix() {
         let (peer, case) = (PEERS[i], peer_case(&PEERS[i]));
         let resolution = case.discretisation(Accuracy::Standard);
         for (stress, measure) in [(StressMeasure::Cauchy, 0.0), (StressMeasure::Kirchhoff, 0.01)] {
-            let kick = solve(&Case { stress_measure: stress, ..case }, &resolution).unwrap();
+            let kick =
+                solve(&Case { stress_measure: stress, ..case }, &resolution, &Analyses::default()).unwrap();
             let off = (kick.k_over_e / peer.k_over_e - 1.0).abs();
             assert!(off <= kick.error + peer.error + CODES + measure, "{peer:?}: {kick:?}");
         }

@@ -9,6 +9,7 @@ use asperity_calibration::case::{Case, Tool};
 use asperity_calibration::loading_curvature::solve;
 use asperity_material::{HardeningLaw, StressMeasure};
 use asperity_simulation::scene::Accuracy;
+use asperity_solver::body::analysis::Analyses;
 use asperity_verification::calibration::metal;
 use std::f64::consts::FRAC_2_PI;
 
@@ -23,7 +24,7 @@ fn elastic_cones_follow_sneddon() {
                 tool,
                 stress_measure: StressMeasure::Kirchhoff,
             };
-            let kick = solve(&case, &case.discretisation(Accuracy::Standard)).unwrap();
+            let kick = solve(&case, &case.discretisation(Accuracy::Standard), &Analyses::default()).unwrap();
             let sneddon = FRAC_2_PI * case.elastic().reduced_modulus() / case.tan_beta();
             assert!((kick.k_over_e / sneddon - 1.0).abs() < 0.01, "{tool:?}: {} {sneddon}", kick.k_over_e);
             assert!((kick.contact_ratio / FRAC_2_PI - 1.0).abs() < 0.03, "{tool:?}: {}", kick.contact_ratio);

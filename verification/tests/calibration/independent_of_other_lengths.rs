@@ -10,6 +10,7 @@ use asperity_calibration::loading_curvature::solve;
 use asperity_material::{HardeningLaw, StressMeasure};
 use asperity_simulation::scene::Accuracy;
 use asperity_simulation::setup::discretisation::ConeDiscretisation;
+use asperity_solver::body::analysis::Analyses;
 use asperity_verification::calibration::metal;
 
 #[test]
@@ -27,7 +28,7 @@ fn tip_height_and_substrate_do_not_change_k() {
     let k = |change: Change| {
         let mut changed = standard;
         change(&mut changed);
-        solve(&case, &changed).unwrap().k_over_e
+        solve(&case, &changed, &Analyses::default()).unwrap().k_over_e
     };
     let sharp = k(|_| ());
     let changes: [(&str, Change); 3] = [

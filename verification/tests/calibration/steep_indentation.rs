@@ -12,6 +12,7 @@ use asperity_calibration::loading_curvature::solve;
 use asperity_material::units::{Length, Stress};
 use asperity_material::{HardeningLaw, StressMeasure};
 use asperity_simulation::scene::{Accuracy, HardeningChoice, ToolShape};
+use asperity_solver::body::analysis::Analyses;
 use asperity_verification::calibration::metal;
 use asperity_verification::single_asperity::{crush, scene};
 
@@ -32,7 +33,7 @@ fn k_of_a_steep_cone_does_not_depend_on_the_mesh() {
     let draft = case.discretisation(Accuracy::Draft);
     let mut coarse = draft;
     (coarse.numbers.elements_in_contact, coarse.sizes.at_axis) = (8, 1);
-    let [fine, coarse] = [draft, coarse].map(|r| solve(&case, &r).unwrap());
+    let [fine, coarse] = [draft, coarse].map(|r| solve(&case, &r, &Analyses::default()).unwrap());
     let difference = (coarse.k_over_e / fine.k_over_e - 1.0).abs();
     assert!(difference < 0.05 && difference < fine.error + coarse.error, "{coarse:?} {fine:?}");
 }
@@ -42,7 +43,7 @@ fn vickers_equivalent_cone_follows_dao() {
     for (exponent, e_over_sy) in [(0.1, 250.0), (0.3, 350.0), (0.3, 100.0), (0.5, 250.0)] {
         let case = Case { stress_measure: StressMeasure::Cauchy, ..cone(19.7, exponent, e_over_sy) };
         let resolution = case.discretisation(Accuracy::Standard);
-        let kick = solve(&case, &resolution).unwrap();
+        let kick = solve(&case, &resolution, &Analyses::default()).unwrap();
         let stress = case.hardening().unwrap().representative_stress(0.033);
         let l = (case.elastic().reduced_modulus() / stress).ln();
         let dao = stress * (-1.131 * l.powi(3) + 13.635 * l * l - 30.594 * l + 29.267);
@@ -67,7 +68,8 @@ fn a_scene_with_a_steep_cone_goes_down_and_comes_back() {
         assert_eq!(outcome.stopped, None, "{beta_deg} degrees, n {exponent}");
         let k = outcome.summary.peak_force / (scene.material.youngs_modulus.0 * depth * depth);
         let case = cone(beta_deg, exponent, e_over_sy);
-        let kick = solve(&case, &case.discretisation(Accuracy::Draft)).unwrap().k_over_e;
+        let kick =
+            solve(&case, &case.discretisation(Accuracy::Draft), &Analyses::default()).unwrap().k_over_e;
         assert!((k / kick - 1.0).abs() < 0.05, "{beta_deg} degrees, n {exponent}: {k} {kick}");
     }
 }

@@ -5,7 +5,7 @@
 //! Mises with k = σ_y/√3. Bounds: between the two, as Tabor's 2.8 to 3.0 is, with the 5 % of the draft level beside them.
 
 use asperity_material::units::{Length, Stress};
-use asperity_simulation::run::run;
+use asperity_simulation::run::Run;
 use asperity_simulation::scene::{Accuracy, Loading, Material, Scene, Symmetry, Tool};
 use std::ops::ControlFlow;
 
@@ -18,7 +18,7 @@ fn a_ball_goes_in_to_its_radius_and_comes_back() {
         let loading = Loading::to_depth(Length(9.9e-6)).unloaded();
         let ball = Tool::sphere(Length(10e-6));
         let scene = Scene::new(Symmetry::Axisymmetric, metal, ball, loading).at(Accuracy::Draft);
-        let outcome = run(&scene, None, &mut |_| ControlFlow::Continue(())).unwrap();
+        let outcome = Run::new(&scene).run(&mut |_| ControlFlow::Continue(())).unwrap();
         assert!(outcome.stopped.is_none(), "n = {exponent}: {:?}", outcome.stopped);
         let summary = outcome.summary;
         let residual = summary.residual_depth.unwrap() / summary.peak_depth;

@@ -10,6 +10,7 @@ use asperity_material::units::Length;
 use asperity_numerics::newton::Settings;
 use asperity_simulation::record::rows::CurveRow;
 use asperity_simulation::scene::{Accuracy, Scene};
+use asperity_solver::body::analysis::Analyses;
 use asperity_verification::contact::{cone_force, hertz_force, hertz_radius};
 use asperity_verification::single_asperity::{crush, prepared, scene};
 use asperity_verification::single_increment::increment;
@@ -70,7 +71,7 @@ fn unloading_retraces_loading() {
     let mut scene = elastic(10.0, Some(100e-6), 0.5e-6);
     scene.numerics.domain = Some(60.0);
     let problem = prepared(&scene).unwrap();
-    let mut model = problem.equilibrium().unwrap();
+    let mut model = problem.equilibrium(&Analyses::default()).unwrap();
     let settings = Settings { tolerance: 1e-10, max_iterations: 40, keep: 0.0 };
     let travels = [0.1, 0.2, 0.4, 0.6, 0.8, 1.0];
     let mut force = |travel: f64| {

@@ -15,9 +15,10 @@ use asperity_verification::test_meshes::{distorted_square, nodes_of};
 
 fn seen(model: &Equilibrium<'_>) -> (f64, Vec<f64>, Vec<[f64; 2]>) {
     let surface = model.converged_surface();
-    let pressures = surface.edges.iter().flat_map(|edge| {
-        [surface.nodal_pressure(edge, edge.nodes[0], -1.0), surface.nodal_pressure(edge, edge.nodes[1], 1.0)]
-    });
+    let pressures = surface
+        .edges
+        .iter()
+        .flat_map(|edge| [surface.nodal_pressure(edge, -1.0), surface.nodal_pressure(edge, 1.0)]);
     (model.state().load(), pressures.collect(), model.state().position.clone())
 }
 

@@ -11,6 +11,7 @@
 
 use asperity_numerics::sparse::fill_ordering::elimination_order;
 use asperity_simulation::scene::Accuracy;
+use asperity_solver::body::analysis::Analyses;
 use asperity_verification::single_asperity::{prepared, scene};
 
 #[test]
@@ -19,7 +20,7 @@ fn factorisations_cost_no_more_than_twice_those_of_a_square_grid() {
     for elements in [28, 104, 240, 400] {
         scene.numerics.elements_in_contact = Some(elements);
         let problem = prepared(&scene).unwrap();
-        let model = problem.equilibrium().unwrap();
+        let model = problem.equilibrium(&Analyses::default()).unwrap();
         let grid = 16.0 * 829.0 / 84.0 * (model.body().analysis.dofs.count as f64 / 2.0).powf(1.5);
         let share = model.operations().factor / grid;
         assert!((0.5..2.0).contains(&share), "{elements} elements: {share:.2} of a square grid's operations");

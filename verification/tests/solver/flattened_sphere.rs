@@ -36,7 +36,7 @@ fn rows(scene: &Scene) -> Vec<CurveRow> {
 /// Force over `law`, the mean at 0.95, 1 and 1.05 of `depth`.
 fn ratio(rows: &[CurveRow], depth: f64, law: impl Fn(f64) -> f64) -> f64 {
     let curve = Curve::force(rows);
-    let at = |share: f64| curve.at(share * depth) / law(share * depth);
+    let at = |share: f64| curve.value(share * depth) / law(share * depth);
     (at(0.95) + at(1.0) + at(1.05)) / 3.0
 }
 

@@ -5,12 +5,12 @@
 use asperity_material::HardeningMode;
 use asperity_material::units::{Length, Stress};
 use asperity_simulation::record::rows::Phase;
-use asperity_simulation::run::{Outcome, run};
+use asperity_simulation::run::{Outcome, Run};
 use asperity_simulation::scene::{Asperity, Loading, Material, Scene, Symmetry, Tool};
 use std::ops::ControlFlow;
 
 fn crushed(scene: &Scene) -> Outcome {
-    let outcome = run(scene, None, &mut |_| ControlFlow::Continue(())).unwrap();
+    let outcome = Run::new(scene).run(&mut |_| ControlFlow::Continue(())).unwrap();
     assert!(outcome.stopped.is_none(), "{:?}", outcome.stopped);
     outcome
 }

@@ -5,10 +5,11 @@
 
 use asperity_material::units::{Length, Stress};
 use asperity_simulation::load_path::{Increment, Path};
-use asperity_simulation::run::run;
+use asperity_simulation::run::Run;
 use asperity_simulation::scene::{self, Loading, Material, Scene, Symmetry, Tool};
 use asperity_simulation::setup::prepare::prepare;
 use asperity_simulation::setup::problem::Goal;
+use asperity_solver::body::analysis::Analyses;
 use std::ops::ControlFlow;
 
 /// The asperity of the paper at the standard level.
@@ -31,7 +32,7 @@ struct Reached {
 
 fn reached(anew: impl Fn(usize) -> bool) -> Reached {
     let problem = prepare(&scene(), None, 5e-6).unwrap();
-    let mut path = Path::new(&problem).unwrap();
+    let mut path = Path::new(&problem, &Analyses::default()).unwrap();
     let (mut largest, mut before): (f64, f64) = (0.0, 0.0);
     let mut last: Option<Increment> = None;
     // the travel grows as the depth that the level's own steps go through
@@ -41,8 +42,8 @@ fn reached(anew: impl Fn(usize) -> bool) -> Reached {
         let increment = path.advance_to(Goal::Travel(travel), &mut |_, _| true).unwrap();
         let state = path.model.state();
         let work = increment.energies.external_work;
-        largest = largest.max((state.transferred - before).abs() / work);
-        before = state.transferred;
+        largest = largest.max((state.ledger.transferred - before).abs() / work);
+        before = state.ledger.transferred;
         last = Some(increment);
         if anew(number) && number + 1 < fractions.len() {
             assert!(path.remesh(), "after increment {number}");
@@ -51,10 +52,10 @@ fn reached(anew: impl Fn(usize) -> bool) -> Reached {
     let peak = last.unwrap();
     let energies = peak.energies;
     let state = path.model.state();
-    let kept = energies.elastic + energies.plastic + peak.contact.energy + state.self_contact_energy
+    let kept = energies.elastic + energies.plastic + peak.contact.energy + state.ledger.self_contact
         - state.remeasured_energy()
-        - state.transferred;
-    let (transfers, balance) = (state.transfers, (1.0 - kept / energies.external_work).abs());
+        - state.ledger.transferred;
+    let (transfers, balance) = (state.ledger.transfers, (1.0 - kept / energies.external_work).abs());
     let stiffness = path.model.unloading_stiffness().unwrap();
     let mut residual = f64::NAN;
     path.unload(stiffness, 8, &mut |_, increment| {
@@ -97,7 +98,7 @@ fn perfectly_plastic_metal_lets_a_steep_cone_in_and_out() {
         let loading = Loading { depth: Some(Length(1e-6)), force: None, unload: true, reloads: 0 };
         let scene = Scene::new(Symmetry::Axisymmetric, metal, Tool::cone(40.0), loading);
         let draft = Scene { accuracy: scene::Accuracy::Draft, ..scene };
-        let outcome = run(&draft, None, &mut |_| ControlFlow::Continue(())).unwrap();
+        let outcome = Run::new(&draft).run(&mut |_| ControlFlow::Continue(())).unwrap();
         assert_eq!(outcome.stopped, None, "{yield_stress:e} Pa");
         assert!(outcome.summary.transfers > 0);
         assert!(outcome.summary.energy_balance_error < 1e-2, "{}", outcome.summary.energy_balance_error);

@@ -7,6 +7,7 @@
 use asperity_numerics::newton::{Assessment, Settings, System, solve};
 use asperity_simulation::scene::Accuracy;
 use asperity_simulation::setup::schedule::{Spacing, loading};
+use asperity_solver::body::analysis::Analyses;
 use asperity_solver::body::failure::Failure;
 use asperity_solver::contact::parts::{NOTHING, Parts};
 use asperity_solver::equilibrium::Equilibrium;
@@ -70,7 +71,7 @@ fn order(seen: &[Iterate]) -> Option<f64> {
 fn quadratic_where_the_discrete_sets_rest() {
     let scene = scene(Accuracy::Draft).unwrap();
     let problem = prepared(&scene).unwrap();
-    let mut model = problem.equilibrium().unwrap();
+    let mut model = problem.equilibrium(&Analyses::default()).unwrap();
     let settings = Settings { tolerance: 1e-13, max_iterations: 40, keep: 0.0 };
     let mut orders = Vec::new();
     let mut last = [0.0; 2];

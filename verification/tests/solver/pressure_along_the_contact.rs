@@ -7,7 +7,7 @@
 //! over the edge at the axis.
 
 use asperity_material::units::Length;
-use asperity_simulation::run::{Event, run};
+use asperity_simulation::run::{Event, Run};
 use asperity_simulation::scene::{Accuracy, Scene, Tool};
 use asperity_solver::body::fields::SurfacePoint;
 use asperity_verification::contact::hertz_radius;
@@ -19,13 +19,14 @@ use std::ops::ControlFlow;
 fn surface(mut scene: Scene) -> Vec<SurfacePoint> {
     (scene.output.every, scene.output.fields) = (Some(1000), None);
     let mut last = Vec::new();
-    run(&scene, None, &mut |event| {
-        if let Event::Fields(frame) = event {
-            last.clone_from(&frame.fields.surface);
-        }
-        ControlFlow::Continue(())
-    })
-    .unwrap();
+    Run::new(&scene)
+        .run(&mut |event| {
+            if let Event::Fields(frame) = event {
+                last.clone_from(&frame.fields.surface);
+            }
+            ControlFlow::Continue(())
+        })
+        .unwrap();
     last
 }
 

@@ -19,7 +19,7 @@ fn curve(steps: usize) -> Curve {
 
 /// The bias of the step, without the ripple of the front.
 fn difference(a: &Curve, b: &Curve) -> f64 {
-    a.mean_difference(|h| b.at(h), 0.999 * 5e-6)
+    a.mean_difference(|h| b.value(h), 0.999 * 5e-6)
 }
 
 #[test]

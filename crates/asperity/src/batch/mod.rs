@@ -167,10 +167,15 @@ pub(crate) fn run<C: Sync, R: Clone + Send + Sync + Serialize + DeserializeOwned
     Ok(Finished { stopped: rows.len() < cases, rows })
 }
 
+/// Threads where `asked` are asked for: 0 stands for all cores.
+pub(crate) fn thread_count(asked: usize) -> usize {
+    if asked == 0 { rayon::current_num_threads() } else { asked }
+}
+
 /// The results of `one` for all of `open`, each on one thread: what a run does side by side in itself is done one after the
 /// other, unless there are fewer runs than threads. `threads` is how many, 0 for all cores.
 fn side_by_side<T: Send>(threads: usize, open: &[usize], one: &(dyn Fn(usize) -> T + Sync)) -> Vec<T> {
-    let threads = if threads == 0 { rayon::current_num_threads() } else { threads };
+    let threads = thread_count(threads);
     let workers = threads.min(open.len()).max(1);
     let next = AtomicUsize::new(0);
     // a pool of its own for each: a thread of a common pool that waits for a part of its run would begin another run

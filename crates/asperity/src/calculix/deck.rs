@@ -6,7 +6,7 @@ use crate::error::Error;
 use crate::input::scene::Scene;
 use crate::mesh::problem;
 use asperity_mesh::{Edge, Mesh, Section};
-use asperity_simulation::scene::{ContactMethod, Lateral, Scene as Tables, SceneError, Target};
+use asperity_simulation::scene::{Lateral, Scene as Tables, SceneError, Target};
 use asperity_simulation::setup::problem::Problem;
 use asperity_simulation::setup::schedule::{UNLOADING_EXPONENT, unloading};
 use asperity_solver::point::kinematics::Symmetry;
@@ -50,8 +50,6 @@ pub struct Deck {
     pub(super) penalty: f64,
     /// Penetration for which the penalty is made, as a share of the depth.
     pub(super) penetration: f64,
-    /// Whether the scene asks for multipliers, for which a deck has a penalty only.
-    pub(super) augmented: bool,
     /// Whether the lateral sides are held sideways.
     pub(super) symmetric: bool,
     /// Edges that may touch the tool.
@@ -101,7 +99,7 @@ impl Deck {
             Section::PlaneStrain => 0.0,
         };
         // depth counts from the summit of the scene, of which the mesh may cut off the tip
-        let lowest = first_touch(&problem.mesh, &drop) + problem.cut_off;
+        let lowest = first_touch(&problem.mesh, &drop) + problem.specimen.cut_off;
         let ends = span(&problem.mesh, &contact, 1.0, (section == Section::Axisymmetric).then_some(hole));
         let outline = outline(&problem.tool, ends);
         let travels = travels(scene, problem);
@@ -115,7 +113,6 @@ impl Deck {
             table: hardening.map(|curve| table::curve_table(&curve, STRESS)),
             penalty: problem.penalty * problem.units.stress / STRESS / um,
             penetration: problem.numbers.penetration,
-            augmented: problem.numbers.contact == ContactMethod::Augmented,
             symmetric: scene.lateral == Lateral::Symmetric,
             contact,
             outline: outline.into_iter().map(|[x, z]| [um * x, um * (z + lowest)]).collect(),

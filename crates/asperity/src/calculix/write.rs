@@ -58,9 +58,6 @@ impl Deck {
             100.0 * self.penetration,
             self.depth
         )?;
-        if self.augmented {
-            writeln!(out, "** The scene asks for augmented contact; this is the penalty it starts from.")?;
-        }
         if self.mesh.kind == ElementKind::Quad4 {
             writeln!(
                 out,

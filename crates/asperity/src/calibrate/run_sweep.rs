@@ -6,6 +6,7 @@ use asperity_calibration::case::Case;
 use asperity_calibration::row::{CaseRow, Row};
 use asperity_calibration::solve_case::{definition, solve as solve_case};
 use asperity_calibration::sweep::Sweep;
+use asperity_solver::body::analysis::Analyses;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
@@ -68,12 +69,14 @@ impl TryFrom<String> for Kept {
 pub fn solve(sweep: &Sweep, options: &Options, observer: &mut Observer) -> Result<Solved, Error> {
     let all = sweep.cases();
     let cases: Vec<Case> = Shard::of(options.part, all.len()).map(|i| all[i]).collect();
+    // its meshes are of few topologies
+    let analyses = Analyses::for_threads(batch::thread_count(options.threads));
     let batch = Batch {
         definition: &definition(sweep, &cases),
         cases: &cases,
         key: &Row::key,
         solve: &|case: &Case, _: &dyn Fn() -> bool| {
-            Some(Kept(CaseRow::from(&solve_case(case, sweep.accuracy))))
+            Some(Kept(CaseRow::from(&solve_case(case, sweep.accuracy, &analyses))))
         },
         threads: options.threads,
         journal: options.journal.as_deref(),

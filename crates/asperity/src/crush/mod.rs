@@ -22,10 +22,10 @@ use crate::results::crush_summary::per_length;
 use crate::results::output::{Sink, SinkExt};
 use crate::results::units::{MICROMETRE, Units};
 use asperity_mesh::Mesh;
-pub use asperity_simulation::load_path::checkpoint::Checkpoints;
 use asperity_simulation::record::rows as si;
-use asperity_simulation::run::{CrushError, Event, FieldFrame, Outcome, run_with};
+use asperity_simulation::run::{CrushError, Event, FieldFrame, Outcome, Run};
 use asperity_simulation::scene::SceneError;
+use asperity_solver::body::analysis::Analyses;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::time::Instant;
@@ -86,12 +86,24 @@ impl Sketch {
 /// Only if the run cannot begin: [`Error::Input`], pointing at the line of the scene. What stops it later is in
 /// `summary.stopped`.
 pub fn crush(scene: &Scene, observer: &mut dyn FnMut(&Progress<'_>) -> bool) -> Result<Crush, Error> {
+    crush_sharing(scene, &Analyses::default(), observer)
+}
+
+/// [`crush`] for one of many scenes, which share `analyses` of their meshes.
+///
+/// # Errors
+/// As for [`crush`].
+pub(crate) fn crush_sharing(
+    scene: &Scene,
+    analyses: &Analyses,
+    observer: &mut dyn FnMut(&Progress<'_>) -> bool,
+) -> Result<Crush, Error> {
     let mut frames = Vec::new();
     let keep = &mut |frame: Frame| {
         frames.push(frame);
         Ok(())
     };
-    let (crush, _) = simulate(scene, None, observer, keep)?;
+    let (crush, _) = simulate(scene, analyses, observer, keep)?;
     Ok(Crush { frames, ..crush })
 }
 
@@ -107,24 +119,9 @@ pub fn crush_into(
     sketches: &[Sketch],
     observer: &mut dyn FnMut(&Progress<'_>) -> bool,
 ) -> Result<Crush, Error> {
-    crush_with(scene, None, sink, sketches, observer)
-}
-
-/// [`crush_into`], which goes on from the `checkpoints` that a stopped run of the same scene left, and writes its own while it lasts. The
-/// results have the same bits as those of a run that nothing stopped; the observer hears of all increments once more. The
-/// checkpoints stay until they are removed.
-///
-/// # Errors
-/// As for [`crush_into`].
-pub fn crush_with(
-    scene: &Scene,
-    checkpoints: Option<&Checkpoints>,
-    sink: &mut dyn Sink,
-    sketches: &[Sketch],
-    observer: &mut dyn FnMut(&Progress<'_>) -> bool,
-) -> Result<Crush, Error> {
     let mut series = FieldSeries::default();
-    let (crush, failure) = simulate(scene, checkpoints, observer, &mut |frame| series.add(sink, &frame))?;
+    let (crush, failure) =
+        simulate(scene, &Analyses::default(), observer, &mut |frame| series.add(sink, &frame))?;
     let written = series.write_surfaces(sink).and_then(|()| crush.write_records(sink, sketches));
     // of two failures to write, the first says more
     failure.map_or(written, Err).map(|()| crush)
@@ -133,7 +130,7 @@ pub fn crush_with(
 /// Runs `scene`, hands its fields to `keep`, and gives the result with the failure of `keep`, if it failed.
 fn simulate(
     scene: &Scene,
-    checkpoints: Option<&Checkpoints>,
+    analyses: &Analyses,
     observer: &mut dyn FnMut(&Progress<'_>) -> bool,
     keep: &mut dyn FnMut(Frame) -> Result<(), Error>,
 ) -> Result<(Crush, Option<Error>), Error> {
@@ -166,7 +163,8 @@ fn simulate(
         }
         !ended && failure.is_none()
     };
-    let outcome = run_with(tables, scene.mesh().cloned(), checkpoints, &mut |event| match hear(event) {
+    let run = Run { mesh: scene.mesh().cloned(), analyses: analyses.clone(), ..Run::new(tables) };
+    let outcome = run.run(&mut |event| match hear(event) {
         true => ControlFlow::Continue(()),
         false => ControlFlow::Break(()),
     });

@@ -13,12 +13,24 @@ pub fn nearest<'a>(word: &str, candidates: &[&'a str]) -> Option<&'a str> {
     candidates.iter().filter(near).min_by_key(|c| distance(&word, c)).copied()
 }
 
+/// Keys that went, each with a key of the table it stood in, and what to do.
+const GONE: [(&str, &str, &str); 1] = [(
+    "contact",
+    "newton_tolerance",
+    "the tool pushes by a penalty, for whose penetration the depth is corrected: leave numerics.contact out",
+)];
+
 /// A message of serde in the words of a scene, and help where there is some.
 pub fn reword(message: &str) -> (String, Option<String>) {
     // serde quotes names in backticks: `unknown field `colour`, expected one of `symmetry`, `accuracy``
     let quoted: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
     let what = [("unknown field", "key"), ("unknown variant", "value")];
     let unknown = what.iter().find(|(start, _)| message.starts_with(start));
+    if let (Some(_), [word, known @ ..]) = (unknown, quoted.as_slice())
+        && let Some((_, _, help)) = GONE.iter().find(|(key, table, _)| key == word && known.contains(table))
+    {
+        return (format!("the key `{word}` is gone"), Some((*help).into()));
+    }
     match (unknown, quoted.as_slice()) {
         (Some((_, noun)), [word, known @ ..]) => {
             let list = known.join(", ");
@@ -59,6 +71,11 @@ mod tests {
         let (message, help) = reword("unknown field `depht`, expected one of `depth`, `force`");
         assert_eq!(message, "unknown key `depht`");
         assert_eq!(help.unwrap(), "did you mean `depth`? Known here: depth, force");
+        let (message, help) =
+            reword("unknown field `contact`, expected one of `element`, `newton_tolerance`");
+        assert_eq!(message, "the key `contact` is gone");
+        assert!(help.unwrap().contains("leave numerics.contact out"));
+        assert!(reword("unknown field `contact`, expected `tool`").0.contains("unknown key"));
         assert_eq!(reword("missing field `tool`").0, "`tool` is missing");
         assert_eq!(
             reword("invalid type: string \"x\", expected f64").0,

@@ -9,6 +9,7 @@ use crate::batch::{self, Batch, Options, Reached, Shard, all_found, not_a_part};
 use crate::error::{Error, InputError};
 use crate::page::format::significant;
 use crate::results::output::{Sink, SinkExt, write_whole};
+use asperity_solver::body::analysis::Analyses;
 use std::collections::HashMap;
 use std::fmt::{Display, Write};
 use std::path::{Path, PathBuf};
@@ -87,11 +88,14 @@ pub fn study(
     let values: Vec<Vec<String>> =
         Shard::of(options.part, plan.points.len()).map(|i| plan.points.get(i)).collect();
     let journal = folder.map(|folder| folder.join(JOURNAL));
+    let analyses = Analyses::for_threads(batch::thread_count(options.threads));
     let batch = Batch {
         definition: &definition.of_run(),
         cases: &values,
         key: &|values: &Vec<String>| key(definition, values),
-        solve: &|values: &Vec<String>, go_on: &dyn Fn() -> bool| solve(plan, values, folder, go_on),
+        solve: &|values: &Vec<String>, go_on: &dyn Fn() -> bool| {
+            solve(plan, values, folder, &analyses, go_on)
+        },
         threads: options.threads,
         journal: journal.as_deref(),
     };
@@ -118,12 +122,13 @@ fn solve(
     plan: &Plan,
     values: &[String],
     folder: Option<&Path>,
+    analyses: &Analyses,
     go_on: &dyn Fn() -> bool,
 ) -> Option<(Vec<String>, Outcome)> {
     let start = Instant::now();
     let definition = &plan.definition;
     let outcome = match plan.subject.with(&definition.overrides(values)) {
-        Ok(scene) => scene.run(definition.curves, go_on)?,
+        Ok(scene) => scene.run(definition.curves, analyses, go_on)?,
         Err(e) => Outcome::new(Default::default(), e.to_string()),
     };
     let mut outcome = Outcome { wall_s: start.elapsed().as_secs_f64(), ..outcome };

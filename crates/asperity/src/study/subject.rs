@@ -1,12 +1,13 @@
 //! The scene that a study varies, of any kind that can be run.
 
 use super::row::{Outcome, flat};
-use crate::crush::{crush, write_rows};
+use crate::crush::{crush_sharing, write_rows};
 use crate::error::{Error, InputError};
 use crate::input::scene::Scene;
 use crate::input::toml_file::{TomlFile, to_toml};
 use crate::results::output::write_csv;
 use crate::rough::{RoughScene, press};
+use asperity_solver::body::analysis::Analyses;
 use indexmap::IndexMap;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
@@ -101,15 +102,15 @@ impl Subject {
         }
     }
 
-    /// Runs it, with its curve as the text of a file if `curve`; `None` where `go_on` ended it.
-    pub(super) fn run(&self, curve: bool, go_on: &dyn Fn() -> bool) -> Option<Outcome> {
+    /// Runs it, with its curve as the text of a file if `curve`; `None` where `go_on` ended it. Runs of one study share `analyses`.
+    pub(super) fn run(&self, curve: bool, analyses: &Analyses, go_on: &dyn Fn() -> bool) -> Option<Outcome> {
         let mut ended = false;
         let mut observe = || {
             ended = ended || !go_on();
             !ended
         };
         let outcome = match self {
-            Subject::Crush(scene) => crush(scene, &mut |_| observe()).and_then(|crush| {
+            Subject::Crush(scene) => crush_sharing(scene, analyses, &mut |_| observe()).and_then(|crush| {
                 let status = crush.summary.stopped.clone().unwrap_or_else(|| "ok".into());
                 let symmetry = crush.summary.scene.symmetry;
                 let text = written(curve, |out| write_rows(out, &crush.curve, symmetry))?;

@@ -5,7 +5,7 @@ use crate::crush::peak_memory_mb;
 use crate::results::output::row;
 use asperity_simulation::record::curve::Curve;
 use asperity_simulation::record::rows::Phase;
-use asperity_simulation::run::{Outcome, run};
+use asperity_simulation::run::{Outcome, Run};
 use asperity_simulation::scene::Scene;
 use cpu_time::ThreadTime;
 use serde::{Deserialize, Serialize};
@@ -87,7 +87,7 @@ pub fn measure(setting: &Setting, scene: &Scene) -> Result<Measured, Failed> {
 /// Where and why the run stopped.
 pub fn solve(scene: &Scene) -> Result<Measured, String> {
     let (clock, core) = (Instant::now(), ThreadTime::now());
-    let outcome = run(scene, None, &mut |_| ControlFlow::Continue(())).map_err(|e| e.to_string())?;
+    let outcome = Run::new(scene).run(&mut |_| ControlFlow::Continue(())).map_err(|e| e.to_string())?;
     let (core_s, wall_s) = (core.elapsed().as_secs_f64(), clock.elapsed().as_secs_f64());
     if let Some(stopped) = &outcome.stopped {
         return Err(format!("stopped at {:.4} um: {}", stopped.depth * 1e6, stopped.reason));

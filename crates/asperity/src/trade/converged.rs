@@ -23,7 +23,7 @@ impl Converged {
         let mean = |x: Option<f64>, y: Option<f64>| Some(0.5 * (x? + y?));
         let [first, second] = forces.map(|curve| curve.smooth(peak));
         let apart = (0..=8).map(|i| peak * (0.2 + 0.1 * f64::from(i)));
-        let doubt = apart.map(|h| 0.5 * (first.at(h) / second.at(h) - 1.0).abs()).fold(0.0, f64::max);
+        let doubt = apart.map(|h| 0.5 * (first.value(h) / second.value(h) - 1.0).abs()).fold(0.0, f64::max);
         let [area_a, area_b] = areas.map(|curve| curve.smooth(peak));
         Converged {
             peak,
@@ -41,8 +41,8 @@ impl Converged {
         let peak = force.end().min(self.peak);
         let off = |x: Option<f64>, y: Option<f64>| Some((x? - y?).abs());
         Errors {
-            force: force.worst_difference(|h| self.force.at(h), peak),
-            area: area.worst_difference(|h| self.area.at(h), peak),
+            force: force.worst_difference(|h| self.force.value(h), peak),
+            area: area.worst_difference(|h| self.area.value(h), peak),
             residual_depth: off(run.residual_depth, self.residual_depth).map(|e| e / self.peak),
             elastic_fraction: off(run.elastic_fraction, self.elastic_fraction),
         }

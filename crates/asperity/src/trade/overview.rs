@@ -2,7 +2,7 @@
 
 use super::row::TradeRow;
 use super::settings::Knob;
-use asperity_simulation::scene::{ContactMethod, ElementChoice};
+use asperity_simulation::scene::ElementChoice;
 
 /// A number, or nothing.
 fn cell<T: ToString>(value: Option<T>) -> String {
@@ -16,10 +16,8 @@ fn percent(share: Option<f64>) -> String {
 /// The numbers of a setting in words.
 fn setting(row: &TradeRow) -> String {
     let element = if row.element == Some(ElementChoice::Q4) { "q4" } else { "q8r" };
-    // the penalty goes without saying
-    let contact = if row.contact == Some(ContactMethod::Augmented) { ", augmented Lagrange" } else { "" };
     format!(
-        "front: {element}{contact}, {} elements, {} steps, penetration {}, tolerance {}, domain {}",
+        "front: {element}, {} elements, {} steps, penetration {}, tolerance {}, domain {}",
         cell(row.elements_in_contact),
         cell(row.steps),
         cell(row.penetration),

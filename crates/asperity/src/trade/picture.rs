@@ -27,12 +27,11 @@ const fn mark(knob: Knob, name: &'static str, corners: i32, start: f64, inner: f
 }
 
 /// The knobs in the order of the legend. They differ in shape and in colour, so that either alone tells them apart.
-const MARKS: [Mark; 7] = [
+const MARKS: [Mark; 6] = [
     mark(Knob::Mesh, "mesh", 32, 0.0, 1.0),
     mark(Knob::Step, "load step", 4, 45.0, 1.0),
     mark(Knob::Element, "other element", 3, 90.0, 1.0),
     mark(Knob::Penetration, "penetration", 4, 0.0, 1.0),
-    mark(Knob::Contact, "augmented Lagrange", 3, -90.0, 1.0),
     mark(Knob::Domain, "size of the body", 10, 90.0, 0.45),
     mark(Knob::Tolerance, "Newton's tolerance", 6, 0.0, 1.0),
 ];

@@ -7,7 +7,7 @@ use super::converged::{Converged, Errors};
 use super::pareto_front::pareto_front;
 use super::settings::{Knob, Setting};
 use crate::results::output::row;
-use asperity_simulation::scene::{Accuracy, ContactMethod, ElementChoice};
+use asperity_simulation::scene::{Accuracy, ElementChoice};
 
 row! {
     /// One setting with its cost and its errors, relative to the converged values of the scene. Fields are named as the
@@ -23,8 +23,6 @@ row! {
         elements_in_contact: Option<usize> = setting.numerics.elements_in_contact,
         /// Load steps.
         steps: Option<usize> = setting.numerics.steps,
-        /// Contact method.
-        contact: Option<ContactMethod> = setting.numerics.contact,
         /// Penetration over depth, which sets the penalty.
         penetration: Option<f64> = setting.numerics.penetration,
         /// Tolerance of Newton's method.

@@ -1,7 +1,7 @@
 //! Which discretisations a trade runs: each number by itself around each level, and combinations that fill the space.
 
 use asperity_material::units::rounded;
-use asperity_simulation::scene::{Accuracy, ContactMethod, ElementChoice, Numerics, Scene};
+use asperity_simulation::scene::{Accuracy, ElementChoice, Numerics, Scene};
 use asperity_simulation::setup::discretisation::Discretisation;
 use serde::{Deserialize, Serialize};
 
@@ -17,8 +17,6 @@ pub enum Knob {
     Mesh,
     /// Load steps.
     Step,
-    /// Augmented Lagrange instead of the penalty.
-    Contact,
     /// The penetration that sets the penalty.
     Penetration,
     /// Where Newton's method stops.
@@ -72,8 +70,7 @@ impl Setting {
         let or = |value: Option<f64>| value.unwrap_or(1.0);
         let elements = or(n.elements_in_contact.map(|e| e as f64));
         let fineness = if n.element == Some(ElementChoice::Q4) { 1.0 / LINEAR_FINENESS } else { 1.0 };
-        let augmented = if n.contact == Some(ContactMethod::Augmented) { 3.0 } else { 1.0 };
-        augmented * (elements * fineness).powf(1.8) * or(n.steps.map(|s| s as f64)).powf(0.7)
+        (elements * fineness).powf(1.8) * or(n.steps.map(|s| s as f64)).powf(0.7)
     }
 }
 
@@ -115,7 +112,6 @@ fn fixed(scene: &Scene, setting: Setting) -> Setting {
         element: said.element.or(own.element),
         elements_in_contact: said.elements_in_contact.or(own.elements_in_contact),
         steps: said.steps.or(own.steps),
-        contact: said.contact.or(own.contact),
         penetration: said.penetration.or(own.penetration),
         newton_tolerance: said.newton_tolerance.or(own.newton_tolerance),
         domain: said.domain.or(own.domain),
@@ -126,7 +122,7 @@ fn fixed(scene: &Scene, setting: Setting) -> Setting {
 /// A level and each of its numbers changed by itself.
 ///
 /// Around the finest level, whose runs are the longest, only to the cheaper side: finer than that is the converged value
-/// alone, and what the other element and multipliers cost shows at the other levels.
+/// alone, and what the other element costs shows at the other levels.
 fn around(scene: &Scene, accuracy: Accuracy) -> Vec<Setting> {
     let base = level(scene, accuracy);
     let finest = accuracy == Accuracy::Reference;
@@ -145,7 +141,6 @@ fn around(scene: &Scene, accuracy: Accuracy) -> Vec<Setting> {
             n.element = Some(other);
             scale(&mut n.elements_in_contact, factor, Numerics::ELEMENTS);
         });
-        add(Knob::Contact, &|n| n.contact = Some(ContactMethod::Augmented));
     }
     for factor in if finest { [0.6, 0.8] } else { [0.67, 1.5] } {
         add(Knob::Mesh, &|n| scale(&mut n.elements_in_contact, factor, Numerics::ELEMENTS));
@@ -176,7 +171,7 @@ fn scale_real(value: &mut Option<f64>, factor: f64, [low, high]: [f64; 2]) {
 }
 
 /// Combination `i`: a point of the additive recurrence of the generalised golden ratio in seven dimensions (the real root
-/// g of x⁸ = x + 1, steps g⁻ᵏ), which fills the cube evenly however many points are taken.
+/// g of x⁸ = x + 1, steps g⁻ᵏ), which fills the cube evenly however many points are taken; six of them are numbers.
 fn mixed(scene: &Scene, i: usize) -> Setting {
     let golden = (0..60).fold(1.5_f64, |x, _| (1.0 + x).powf(1.0 / 8.0));
     let at = |k: i32| (0.5 + (i + 1) as f64 * golden.powi(-k)).fract();
@@ -193,7 +188,6 @@ fn mixed(scene: &Scene, i: usize) -> Setting {
         element: Some(if linear { ElementChoice::Q4 } else { ElementChoice::Q8r }),
         elements_in_contact: Some(elements.round() as usize),
         steps: Some(steps),
-        contact: Some(if at(7) < 0.2 { ContactMethod::Augmented } else { ContactMethod::Penalty }),
         penetration: Some(rounded(logs(3, 0.0005, 0.016), 3)),
         newton_tolerance: Some(rounded(logs(4, 1e-8, 1e-4), 3)),
         domain: Some(rounded(logs(5, 30.0, 800.0), 3)),
@@ -218,7 +212,7 @@ mod tests {
         let settings = settings(&scene, 30);
         assert_eq!(settings.iter().filter(|s| s.knob == Knob::Mixed).count(), 30);
         assert_eq!(settings.iter().filter(|s| s.knob == Knob::Level).count(), 7);
-        assert!(settings.len() >= 55);
+        assert!(settings.len() >= 60);
         for setting in settings.iter().chain(&converged(&scene)) {
             setting.scene(&scene).validate().unwrap();
         }

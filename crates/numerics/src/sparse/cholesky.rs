@@ -153,16 +153,6 @@ impl Factor {
         Some(negative + trunk.eliminate(*arch, tree, last, branches, matrix, pivots)?)
     }
 
-    /// The numbers of the last factorisation, part by part.
-    pub fn values(&self) -> impl Iterator<Item = &[f64]> {
-        self.parts.iter().map(|numbers| &numbers.values[..])
-    }
-
-    /// The same, to put those of an earlier factorisation with the same pattern in their place.
-    pub fn values_mut(&mut self) -> impl Iterator<Item = &mut [f64]> {
-        self.parts.iter_mut().map(|numbers| &mut numbers.values[..])
-    }
-
     /// Operations of a factorisation and a solve: a column with n entries below its diagonal takes n(n + 1) products and sums
     /// of its outer product and n divisions; a solve passes twice over every entry. Zeros that merged fronts hold are counted.
     pub fn operations(&self) -> Operations {

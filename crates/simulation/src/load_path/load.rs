@@ -1,24 +1,24 @@
 //! Loading: along a schedule of depths, or to a travel, a depth or a force at once.
 
 use super::increment::{Increment, Observer, Stop};
-use super::path::{ContactLoad, NEVER, Path, StopAt};
+use super::path::{ContactLoad, NO_EARLY_END, Path, StopAt};
 use super::touches::Touches;
 use crate::record::rows::Phase;
 use crate::setup::problem::Goal;
 use asperity_solver::body::energy::ContactSums;
 
 /// Times that the last increment is halved where it does not meet its goal.
-const MOST_PARTS: usize = 3;
+const MOST_HALVINGS_AT_GOAL: usize = 3;
 
 /// Travel at the end of the first increment at most over the travel at which the tool touches a tip that was cut off.
-const FIRST_INCREMENT: f64 = 2.0;
+const FIRST_TRAVEL_RATIO: f64 = 2.0;
 
 /// Share of the tolerance that is left where nothing yields: all of the work comes back, so that what little of it is left in the end shows
 /// each residual. Of a ridge that hardly yields 0.05 % of the work was lost without it.
-const ELASTIC: f64 = 0.1;
+const ELASTIC_TOLERANCE_SHARE: f64 = 0.1;
 
 /// Tolerance that is never made smaller.
-const FINEST: f64 = 1e-6;
+const FINEST_TOLERANCE: f64 = 1e-6;
 
 impl Path<'_> {
     /// Goes from the last converged increment to `goal`, in as few increments as converge, and returns the last one. The
@@ -32,11 +32,11 @@ impl Path<'_> {
     pub fn advance_to(&mut self, goal: Goal, observer: &mut Observer<'_>) -> Result<Increment, Stop> {
         match goal {
             Goal::Travel(travel) => {
-                let phase = if travel < self.travel { Phase::Unload } else { Phase::Load };
+                let phase = if travel < self.stand.travel { Phase::Unload } else { Phase::Load };
                 self.reach(travel, phase, phase == Phase::Load, observer)?;
                 self.accept(travel, phase, observer)
             }
-            _ => self.follow(goal, &[1.0], self.penetration, observer),
+            _ => self.follow(goal, &[1.0], self.stand.contact.penetration, observer),
         }
     }
 
@@ -54,15 +54,15 @@ impl Path<'_> {
         if self.rules().compliance.is_none() || !matches!(goal, Goal::Depth(_)) {
             return sums.penetration / (travel - sums.penetration);
         }
-        travel / self.depth(travel, ContactLoad::of(sums)) - 1.0
+        travel / self.depth(travel, ContactLoad::from_sums(sums)) - 1.0
     }
 
-    /// Newton's tolerance while the body is loaded: that of the problem, down to [`ELASTIC`] of it the smaller the share of the work
+    /// Newton's tolerance while the body is loaded: that of the problem, down to [`ELASTIC_TOLERANCE_SHARE`] of it the smaller the share of the work
     /// that went into flow.
     fn tolerance(&self) -> f64 {
         let asked = self.problem.numbers.newton_tolerance;
-        let share = ELASTIC + (1.0 - ELASTIC) * self.plastic_share;
-        (share * asked).max(asked.min(FINEST))
+        let share = ELASTIC_TOLERANCE_SHARE + (1.0 - ELASTIC_TOLERANCE_SHARE) * self.account.plastic_share();
+        (share * asked).max(asked.min(FINEST_TOLERANCE))
     }
 
     /// Loads to `goal` along `fractions` of its depth; `penetration` is the expected one.
@@ -74,8 +74,8 @@ impl Path<'_> {
         observer: &mut Observer<'_>,
     ) -> Result<Increment, Stop> {
         let (depth, limit, stop_at) = match goal {
-            Goal::Travel(travel) => (travel, travel, NEVER),
-            Goal::Depth(depth) => (depth, depth, StopAt { depth, ..NEVER }),
+            Goal::Travel(travel) => (travel, travel, NO_EARLY_END),
+            Goal::Depth(depth) => (depth, depth, StopAt { depth, ..NO_EARLY_END }),
             Goal::Force { force, expected_depth, limit } => {
                 (expected_depth, limit, StopAt { depth: limit, force, of_body: true })
             }
@@ -86,7 +86,7 @@ impl Path<'_> {
         let mut share = if expects { penetration / depth } else { 0.0 };
         let growth =
             fractions.last().copied().unwrap_or(1.0) / fractions.iter().rev().nth(1).copied().unwrap_or(0.5);
-        let mut touches = if self.increments == 0 && fractions.len() > 1 {
+        let mut touches = if self.counts.increments == 0 && fractions.len() > 1 {
             let surface = self.model.converged_surface().under_tool_at(-self.touch);
             Touches::new(self.problem, &surface)
         } else {
@@ -97,13 +97,13 @@ impl Path<'_> {
         loop {
             fraction = fractions.get(index).copied().unwrap_or(fraction * growth);
             let wanted = (fraction * depth).min(limit) * (1.0 + share);
-            if wanted <= self.travel && index + 1 < fractions.len() {
+            if wanted <= self.stand.travel && index + 1 < fractions.len() {
                 index += 1;
                 continue; // above a tip that was cut off, or where the penetration has become less than was expected
             }
             // such a tip is met by an increment that is short beside what was cut off
-            let planned = if self.increments == 0 && self.travel > 0.0 {
-                wanted.min(FIRST_INCREMENT * self.travel)
+            let planned = if self.counts.increments == 0 && self.stand.travel > 0.0 {
+                wanted.min(FIRST_TRAVEL_RATIO * self.stand.travel)
             } else {
                 touches.stop_before(wanted)
             };
@@ -138,13 +138,13 @@ impl Path<'_> {
         stop_at: StopAt,
         observer: &mut Observer<'_>,
     ) -> Result<f64, Stop> {
-        for _ in 0..MOST_PARTS {
+        for _ in 0..MOST_HALVINGS_AT_GOAL {
             match self.solve_for_goal(goal, travel, sums) {
                 Err(Stop::NoEquilibrium) => {}
                 met => return met,
             }
             self.remesh();
-            let half = 0.5 * (self.travel + travel);
+            let half = 0.5 * (self.stand.travel + travel);
             self.reach(half, Phase::Load, true, observer)?;
             self.accept(half, Phase::Load, observer)?;
             (travel, sums) = self.reach_depth(travel, stop_at, Phase::Load, true, observer)?;

@@ -1,7 +1,6 @@
 //! The path of the tool, the only one: adaptive increments to a travel, a depth or a force, back to zero force, and again.
 
-pub mod checkpoint;
-
+mod energy_account;
 mod increment;
 mod load;
 mod path;
@@ -10,4 +9,4 @@ mod touches;
 mod unload;
 
 pub use increment::{Energies, Increment, Observer, Stop};
-pub use path::Path;
+pub use path::{Counts, Path};

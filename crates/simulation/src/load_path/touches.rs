@@ -9,14 +9,14 @@ use crate::setup::problem::Problem;
 use asperity_solver::body::surface::Surface;
 
 /// Share of all contact at the peak that is expected of an asperity whose touch counts.
-const COUNTS: f64 = 0.05;
+const LEAST_CONTACT_SHARE: f64 = 0.05;
 
 /// Length of the first increment after a touch over the planned one, and that of each over the one before it.
-const FIRST: f64 = 0.125;
-const LONGER: f64 = 2.0;
+const FIRST_STEP_SHARE: f64 = 0.125;
+const STEP_GROWTH: f64 = 2.0;
 
 /// Share of an increment within which a touch is at hand.
-const HAND: f64 = 0.5 * FIRST;
+const TOUCH_STEP_SHARE: f64 = 0.5 * FIRST_STEP_SHARE;
 
 /// An asperity that the tool has not touched yet.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -47,7 +47,7 @@ impl Touches {
         let widths = problem.half_widths.iter();
         let areas: Vec<f64> =
             asperities.iter().zip(widths).map(|(a, w)| area(problem.symmetry, a.centre, *w)).collect();
-        let least = COUNTS * areas.iter().sum::<f64>();
+        let least = LEAST_CONTACT_SHARE * areas.iter().sum::<f64>();
         let waiting = asperities.iter().zip(&areas).filter(|(_, area)| **area >= least).map(|(a, _)| {
             let [left, right] = a.feet();
             let sides = [a.centre - left, a.centre + right];
@@ -59,16 +59,16 @@ impl Touches {
     /// Takes note of where the tool stands at `travel`; the next increment is planned to be `step` long.
     pub fn observe(&mut self, travel: f64, step: f64, surface: &Surface<'_>) {
         let way = travel - self.travel;
-        self.short = self.short.map(|short| LONGER * short).filter(|short| *short < step);
+        self.short = self.short.map(|short| STEP_GROWTH * short).filter(|short| *short < step);
         for waiting in &mut self.waiting {
             let clearance = surface.clearance(waiting.sides);
             let rate = (waiting.clearance - clearance) / way;
             *waiting = Waiting { clearance, rate: if rate > 0.0 { rate } else { 1.0 }, ..*waiting };
         }
         let before = self.waiting.len();
-        self.waiting.retain(|waiting| waiting.clearance > HAND * step * waiting.rate);
+        self.waiting.retain(|waiting| waiting.clearance > TOUCH_STEP_SHARE * step * waiting.rate);
         if self.waiting.len() < before {
-            self.short = Some(FIRST * step);
+            self.short = Some(FIRST_STEP_SHARE * step);
         }
         self.travel = travel;
     }
@@ -77,7 +77,7 @@ impl Touches {
     pub fn stop_before(&self, wanted: f64) -> f64 {
         let touches = self.waiting.iter().map(|waiting| self.travel + waiting.clearance / waiting.rate);
         // of one that is as good as touched nothing is to be gained
-        let touches = touches.filter(|touch| touch - self.travel > HAND * (wanted - self.travel));
+        let touches = touches.filter(|touch| touch - self.travel > TOUCH_STEP_SHARE * (wanted - self.travel));
         let shortened = self.short.map(|short| self.travel + short);
         touches.chain(shortened).fold(wanted, f64::min)
     }

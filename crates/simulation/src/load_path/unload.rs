@@ -8,17 +8,17 @@ use crate::setup::problem::Goal;
 use crate::setup::schedule::{UNLOADING_EXPONENT, unloading};
 use asperity_solver::equilibrium::SolveFailure;
 use asperity_solver::equilibrium::tool_stiffness::ToolStiffness;
-use asperity_solver::remesh::distortion::UNLOADED;
+use asperity_solver::remesh::distortion::LIMITS_BEFORE_UNLOADING;
 
 /// Retreats after which a tool is taken away whatever it still bears.
 const MOST_RETREATS: usize = 500;
 
 /// Share of the tolerance of the loading to which unloading increments are solved.
-const UNLOADING_TOLERANCE: f64 = 0.1;
+const UNLOADING_TOLERANCE_SHARE: f64 = 0.1;
 
 /// Share of the peak travel that may be left when the tool is taken away, which is one increment however far the metal
 /// then flows: from further off it sprang back beyond its first summit.
-const LAST_RETREAT: f64 = 0.02;
+const LAST_RETREAT_SHARE: f64 = 0.02;
 
 impl Path<'_> {
     /// Unloads to zero force in about `steps` increments, then removes the tool and finds the equilibrium of the body
@@ -34,16 +34,16 @@ impl Path<'_> {
         steps: usize,
         observer: &mut Observer<'_>,
     ) -> Result<(), Stop> {
-        if self.model.is_distorted(UNLOADED) {
+        if self.model.is_distorted(LIMITS_BEFORE_UNLOADING) {
             self.remesh();
         }
-        let (peak_force, peak) = (self.force, self.travel);
+        let (peak_force, peak) = (self.stand.contact.force, self.stand.travel);
         let compliance = 1.0 / stiffness.depth + self.sums().penetration / peak_force;
-        self.slope = Some(self.follows(&stiffness));
+        self.stand.slope = Some(stiffness.travel);
         // what is left of the work is the smaller, the further the tool retreats
         let settings = self.settings;
         self.settings.tolerance =
-            (UNLOADING_TOLERANCE * settings.tolerance).max(settings.tolerance.min(GOAL_TOLERANCE));
+            (UNLOADING_TOLERANCE_SHARE * settings.tolerance).max(settings.tolerance.min(GOAL_TOLERANCE));
         let done = self.retreat_from([peak, peak_force], compliance, steps, observer);
         self.settings = settings;
         done
@@ -60,7 +60,7 @@ impl Path<'_> {
         let unloading_travels = UNLOADING_EXPONENT * peak_force * compliance;
         self.unloading_travels = vec![peak];
         for travel in unloading(peak, unloading_travels, steps, 0.3) {
-            if travel >= self.travel || self.force < 0.03 * peak_force {
+            if travel >= self.stand.travel || self.stand.contact.force < 0.03 * peak_force {
                 continue;
             }
             let sums = self.reach(travel, Phase::Unload, false, observer)?;
@@ -98,14 +98,14 @@ impl Path<'_> {
         steps: usize,
         observer: &mut Observer<'_>,
     ) -> Result<(), Stop> {
-        let peak = self.unloading_travels.first().copied().unwrap_or(self.travel);
+        let peak = self.unloading_travels.first().copied().unwrap_or(self.stand.travel);
         for _ in 0..MOST_RETREATS {
-            let slope = self.slope.unwrap_or(0.0);
-            let left = UNLOADING_EXPONENT * self.force / slope;
-            if slope <= 0.0 || (self.force <= force && left <= LAST_RETREAT * peak) {
+            let slope = self.stand.slope.unwrap_or(0.0);
+            let left = UNLOADING_EXPONENT * self.stand.contact.force / slope;
+            if slope <= 0.0 || (self.stand.contact.force <= force && left <= LAST_RETREAT_SHARE * peak) {
                 break;
             }
-            let travel = self.travel - left / steps as f64;
+            let travel = self.stand.travel - left / steps as f64;
             let sums = self.reach(travel, Phase::Unload, false, observer)?;
             if sums.force <= 0.0 {
                 break;
@@ -123,10 +123,10 @@ impl Path<'_> {
     /// Why it stopped on its way.
     pub fn reload(&mut self, goal: Goal, observer: &mut Observer<'_>) -> Result<(), Stop> {
         let mut travels = std::mem::take(&mut self.unloading_travels);
-        let peak = if travels.is_empty() { self.travel } else { travels.remove(0) };
+        let peak = if travels.is_empty() { self.stand.travel } else { travels.remove(0) };
         for travel in travels.into_iter().rev() {
             // metal that flows while it is unloaded may leave the summit above the last of them
-            if travel <= self.travel {
+            if travel <= self.stand.travel {
                 continue;
             }
             self.reach(travel, Phase::Reload, true, observer)?;

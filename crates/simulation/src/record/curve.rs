@@ -1,7 +1,7 @@
 //! A loading curve between its increments, without its ripple, and against another: how errors are measured.
 
 use crate::record::rows::{CurveRow, Phase};
-use crate::setup::discretisation::COUNTS_FROM;
+use crate::setup::discretisation::LEAST_COUNTED_DEPTH;
 use asperity_numerics::least_squares::{powers, solve, value};
 
 /// A quantity that grows with the depth while loading, force or contact area, in the unit it was given.
@@ -30,7 +30,7 @@ impl Curve {
 
     /// The value at `depth`: the cubic in √value through the four nearest increments, whose error is far below the
     /// curve's own. NaN outside the curve.
-    pub fn at(&self, depth: f64) -> f64 {
+    pub fn value(&self, depth: f64) -> f64 {
         self.interpolated(depth, |x| x).powi(2)
     }
 
@@ -71,8 +71,8 @@ impl Curve {
     /// The relative differences from `reference`, over depths of 0.2 to 1 of `peak`.
     pub fn differences(&self, reference: impl Fn(f64) -> f64, peak: f64) -> impl Iterator<Item = f64> {
         (0..=160).map(move |i| {
-            let depth = peak * (COUNTS_FROM + (1.0 - COUNTS_FROM) * f64::from(i) / 160.0);
-            self.at(depth) / reference(depth) - 1.0
+            let depth = peak * (LEAST_COUNTED_DEPTH + (1.0 - LEAST_COUNTED_DEPTH) * f64::from(i) / 160.0);
+            self.value(depth) / reference(depth) - 1.0
         })
     }
 
@@ -92,10 +92,10 @@ impl Curve {
         let from = 0.15_f64.ln();
         let row = |i: i32| {
             let x = from * (1.0 - f64::from(i) / 400.0);
-            (powers(x), self.at(peak * x.exp()).ln(), 1.0)
+            (powers(x), self.value(peak * x.exp()).ln(), 1.0)
         };
-        let rows: Vec<([f64; TERMS], f64, f64)> = (0..=400).map(row).collect();
-        Smooth { peak, coefficients: solve(&rows).unwrap_or([f64::NAN; TERMS]) }
+        let rows: Vec<([f64; CURVE_TERMS], f64, f64)> = (0..=400).map(row).collect();
+        Smooth { peak, coefficients: solve(&rows).unwrap_or([f64::NAN; CURVE_TERMS]) }
     }
 }
 
@@ -106,14 +106,14 @@ impl Curve {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Smooth {
     peak: f64,
-    coefficients: [f64; TERMS],
+    coefficients: [f64; CURVE_TERMS],
 }
 
-const TERMS: usize = 5;
+const CURVE_TERMS: usize = 5;
 
 impl Smooth {
     /// The value at `depth`.
-    pub fn at(&self, depth: f64) -> f64 {
+    pub fn value(&self, depth: f64) -> f64 {
         let x = (depth / self.peak).ln();
         value(&self.coefficients, &powers(x)).exp()
     }
@@ -141,11 +141,11 @@ mod tests {
         let curve = Curve::new(depths.map(|h| [h, force(h)]));
         let fit = curve.smooth(5e-6);
         for h in [1e-6, 1.7e-6, 3.3e-6, 4.999e-6] {
-            assert!((curve.at(h) / force(h) - 1.0).abs() < 1e-9);
-            assert!((fit.at(h) / force(h) - 1.0).abs() < 1e-4);
+            assert!((curve.value(h) / force(h) - 1.0).abs() < 1e-9);
+            assert!((fit.value(h) / force(h) - 1.0).abs() < 1e-4);
             assert!((curve.logarithm_at(h) - force(h).ln()).abs() < 1e-6);
         }
-        assert!(curve.at(6e-6).is_nan());
+        assert!(curve.value(6e-6).is_nan());
         assert!((curve.depth_of(force(3e-6)).unwrap() / 3e-6 - 1.0).abs() < 1e-9);
         assert!(curve.depth_of(0.1 * force(1e-9)).unwrap() < 1e-7 && curve.depth_of(force(6e-6)).is_none());
         // a hundredth more in the reference is 1/101 less here, everywhere

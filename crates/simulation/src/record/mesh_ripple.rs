@@ -16,6 +16,7 @@
 //! so that they look like a slow change (three rows per period and the third harmonic, two and the second) cannot be told from
 //! the curve and stay out.
 
+use crate::fitted::FITTED;
 use crate::record::rows::{AsperityRow, CurveRow};
 use asperity_numerics::least_squares::Columns;
 use asperity_solver::contact::edge::{ContactEdge, EdgeContact};
@@ -23,35 +24,15 @@ use asperity_solver::point::kinematics::Symmetry;
 use std::f64::consts::TAU;
 
 /// Fewest rows, and periods that a front passes, in which a ripple is looked for.
-const ROWS: usize = 14;
-const PERIODS: f64 = 3.0;
+const LEAST_ROWS: usize = 14;
+const LEAST_PERIODS: f64 = 3.0;
 
 /// Most harmonics, and highest power of t in their amplitudes.
-const HARMONICS: usize = 4;
-const POWER: usize = 3;
-
-/// Rows and periods per interval of the spline: fewer, and it would follow the ripple.
-const ROWS_PER_KNOT: usize = 4;
-const PERIODS_PER_KNOT: f64 = 1.1;
+const MOST_HARMONICS: usize = 4;
+const HIGHEST_POWER: usize = 3;
 
 /// Rows that a fit has more than columns.
-const FREEDOM: usize = 5;
-
-/// Share of a harmonic that must lie outside all splines, and outside the splines and the harmonics before it.
-const APART_FROM_SPLINE: f64 = 0.75;
-const APART: f64 = 0.1;
-
-/// A ripple is taken off if the mean square error of rows left out falls below this share of that of the best spline. Where
-/// curves have chance errors and no ripple, that happens twice in a hundred times.
-const BETTER: f64 = 0.6;
-
-/// Weight of a fit in the mean of all: its mean square error of rows left out to minus this power per row. Half would be that of
-/// its likelihood; less takes in more fits, whose errors differ.
-const SELECTIVE: f64 = 0.2;
-
-/// Edges that the front passes per ln h stay within this factor of those at the peak: elsewhere the mesh has another grading,
-/// or the contact has just begun, and the ripple another amplitude.
-const STEADY: f64 = 1.67;
+const FREE_ROWS: usize = 5;
 
 /// Both ends of a contact along the surface: edges from the first one of the surface, the touched share of an edge included.
 /// NaN without contact.
@@ -165,11 +146,12 @@ fn periodic_part(depth: &[f64], value: &[f64], ends: &[Ends]) -> Option<(usize, 
         ends[begin..].iter().map(|[inner, _]| -inner).collect(),
         ends[begin..].iter().map(|[_, outer]| *outer).collect(),
     ];
-    let fronts: Vec<Vec<f64>> = outward.into_iter().filter(|s: &Vec<f64>| travelled(s) > PERIODS).collect();
+    let fronts: Vec<Vec<f64>> =
+        outward.into_iter().filter(|s: &Vec<f64>| travelled(s) > LEAST_PERIODS).collect();
     let skipped = fronts.iter().map(|s| steady_from(&x, s)).max()?;
     let (x, first) = (&x[skipped..], begin + skipped);
     let fronts: Vec<&[f64]> = fronts.iter().map(|s| &s[skipped..]).collect();
-    if x.len() < ROWS || fronts.iter().any(|s| travelled(s) < PERIODS) {
+    if x.len() < LEAST_ROWS || fronts.iter().any(|s| travelled(s) < LEAST_PERIODS) {
         return None;
     }
     let y: Vec<f64> = value[first..].iter().map(|v| v.ln()).collect();
@@ -193,7 +175,7 @@ fn travelled(front: &[f64]) -> f64 {
 fn steady_from(x: &[f64], front: &[f64]) -> usize {
     let last = front.len() - 1;
     let rate = |from: usize, to: usize| (front[to] - front[from]) / (x[to] - x[from]);
-    let Some(back) = (0..last).rev().find(|&i| front[i] <= front[last] - PERIODS) else { return last };
+    let Some(back) = (0..last).rev().find(|&i| front[i] <= front[last] - LEAST_PERIODS) else { return last };
     let end_rate = rate(back, last);
     let mut first = last;
     while first > 0 {
@@ -202,7 +184,7 @@ fn steady_from(x: &[f64], front: &[f64]) -> usize {
         // over a period, as it moves by jerks
         let steady = (i + 1..=last).find(|&j| front[j] >= front[i] + 1.0).is_none_or(|j| {
             let share = rate(i, j) / end_rate;
-            share > 1.0 / STEADY && share < STEADY
+            share > 1.0 / FITTED.ripple.steady && share < FITTED.ripple.steady
         });
         if !advances || !steady {
             break;
@@ -214,8 +196,9 @@ fn steady_from(x: &[f64], front: &[f64]) -> usize {
 
 /// The periodic part of the fits of all sizes, averaged; `None` if none is clearly better than a spline alone.
 fn average_fit(x: &[f64], y: &[f64], fronts: &[Vec<f64>]) -> Option<Vec<f64>> {
+    let fitted = FITTED.ripple;
     let periods = fronts.iter().map(|s| travelled(s)).fold(0.0, f64::max);
-    let most = (x.len() / ROWS_PER_KNOT).min((periods / PERIODS_PER_KNOT) as usize).max(1);
+    let most = (x.len() / fitted.rows_per_knot).min((periods / fitted.periods_per_knot) as usize).max(1);
     let [from, to] = [x[0], x[x.len() - 1]];
     let t: Vec<f64> = x.iter().map(|x| 2.0 * (x - from) / (to - from) - 1.0).collect();
     let mut without = f64::INFINITY;
@@ -223,15 +206,15 @@ fn average_fit(x: &[f64], y: &[f64], fronts: &[Vec<f64>]) -> Option<Vec<f64>> {
     for intervals in 1..=most {
         let smooth = spline(x, intervals);
         without = without.min(smooth.left_out_error(y));
-        for power in 0..=POWER {
+        for power in 0..=HIGHEST_POWER {
             let mut fit = smooth.clone();
-            for harmonic in 1..=HARMONICS {
+            for harmonic in 1..=MOST_HARMONICS {
                 for column in waves(fronts, &t, harmonic, power) {
-                    if smooth.independence(&column) > APART_FROM_SPLINE {
-                        fit.add(column, APART);
+                    if smooth.independence(&column) > fitted.apart_from_spline {
+                        fit.add(column, fitted.apart);
                     }
                 }
-                if x.len() < fit.count() + FREEDOM {
+                if x.len() < fit.count() + FREE_ROWS {
                     break;
                 }
                 if fit.count() > smooth.count() {
@@ -241,12 +224,12 @@ fn average_fit(x: &[f64], y: &[f64], fronts: &[Vec<f64>]) -> Option<Vec<f64>> {
         }
     }
     let least = fits.iter().map(|(error, _)| *error).fold(f64::INFINITY, f64::min);
-    if fits.is_empty() || least >= BETTER * without {
+    if fits.is_empty() || least >= fitted.better * without {
         return None;
     }
     // a fit without error takes all of the weight
     let least = least.max(f64::MIN_POSITIVE);
-    let weight = |error: f64| (least / error.max(least)).powf(SELECTIVE * x.len() as f64);
+    let weight = |error: f64| (least / error.max(least)).powf(fitted.selective * x.len() as f64);
     let all: f64 = fits.iter().map(|(error, _)| weight(*error)).sum();
     let mut part = vec![0.0; y.len()];
     for (error, own) in &fits {
@@ -366,7 +349,7 @@ mod tests {
         let ends = front(4.0);
         let value: Vec<f64> = ends.iter().map(|e| wave(e[1], 0.0).exp()).collect();
         let depth = depths();
-        for count in 0..ROWS {
+        for count in 0..LEAST_ROWS {
             let from = ROWS_OF_CURVE - count;
             assert!(ripple(&depth[from..], &value[from..], &ends[from..]).iter().all(|r| *r == 0.0));
         }

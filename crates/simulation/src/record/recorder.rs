@@ -175,9 +175,9 @@ impl<'p> Recorder<'p> {
             external_work: energies.external_work * u.energy,
             elastic_energy: energies.elastic * u.energy,
             plastic_work: energies.plastic * u.energy,
-            contact_energy: (contact.energy + state.self_contact_energy - state.remeasured_energy())
+            contact_energy: (contact.energy + state.ledger.self_contact - state.remeasured_energy())
                 * u.energy,
-            transfer_energy: state.transferred * u.energy,
+            transfer_energy: state.ledger.transferred * u.energy,
             penetration: contact.penetration * u.length,
             compliance_depth: increment.compliance_depth * u.length,
             newton_iterations: increment.newton_iterations,
@@ -385,9 +385,9 @@ impl<'p> Recorder<'p> {
             elements: self.problem.mesh.cell_count(),
             dofs: self.unknowns,
             increments: self.rows.len() - 1,
-            newton_iterations: path.iterations,
-            cutbacks: path.cutbacks,
-            transfers: path.model.state().transfers,
+            newton_iterations: path.counts.iterations,
+            cutbacks: path.counts.cutbacks,
+            transfers: path.model.state().ledger.transfers,
         };
         let stopped = stopped.map(|reason| Stopped { reason, depth: last.depth, phase: last.phase });
         Outcome {
@@ -430,7 +430,7 @@ fn group_sums(model: &Equilibrium<'_>, groups: &[usize], group: usize) -> Contac
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::run::run;
+    use crate::run::Run;
     use crate::scene::{self, Loading, Material, Numerics, Scene, Tool};
     use asperity_material::units::{Length, Stress};
 
@@ -442,7 +442,7 @@ mod tests {
         let numerics = Numerics { elements_in_contact: Some(16), steps: Some(60), ..Numerics::default() };
         let scene = Scene::new(scene::Symmetry::Axisymmetric, steel, Tool::plane(), loading).with(cone);
         let mut live = vec![0.0];
-        let outcome = run(&Scene { numerics, ..scene }, None, &mut |event| {
+        let outcome = Run::new(&Scene { numerics, ..scene }).run(&mut |event| {
             if let Event::Increment { row, .. } = event {
                 live.push(row.force);
             }

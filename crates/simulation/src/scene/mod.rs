@@ -168,16 +168,6 @@ impl ElementChoice {
     }
 }
 
-/// How the tool pushes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum ContactMethod {
-    /// Penalty, its effect on the depth corrected.
-    Penalty,
-    /// Augmented Lagrangian: no penetration.
-    Augmented,
-}
-
 /// Discretisation by hand; each value overrides what `accuracy` chooses.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -193,9 +183,6 @@ pub struct Numerics {
     #[schemars(range(min = 1, max = 10_000))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub steps: Option<usize>,
-    /// Penalty or augmented Lagrangian.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub contact: Option<ContactMethod>,
     /// Mean penetration over depth that sets the penalty.
     #[schemars(range(min = 1e-6, max = 0.1))]
     #[serde(default, skip_serializing_if = "Option::is_none")]

@@ -112,7 +112,6 @@ fn the_ends_of_the_ranges_are_allowed() {
                 element: Some(ElementChoice::Q4),
                 elements_in_contact: Some(2),
                 steps: Some(10_000),
-                contact: Some(ContactMethod::Augmented),
                 penetration: Some(0.1),
                 newton_tolerance: Some(1e-13),
                 domain: Some(3.0),

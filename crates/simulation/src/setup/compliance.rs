@@ -26,7 +26,7 @@ impl Compliance {
     pub const NONE: Compliance = Compliance { machine: 0.0, tool: 0.0 };
 
     /// That of a scene, in `units`.
-    pub fn of(scene: &Scene, units: &Units) -> Compliance {
+    pub fn new(scene: &Scene, units: &Units) -> Compliance {
         if scene.symmetry == Symmetry::PlaneStrain {
             return Compliance::NONE;
         }

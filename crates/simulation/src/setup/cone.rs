@@ -5,7 +5,7 @@ use crate::scene::Lateral;
 use crate::setup::compliance::Compliance;
 use crate::setup::contact_estimate::{contact_ratio, expected_pressure, far_field};
 use crate::setup::discretisation::ConeDiscretisation;
-use crate::setup::problem::{Goal, Problem, Rules, held_nodes};
+use crate::setup::problem::{Goal, Problem, Rules, Specimen, held_nodes};
 use crate::setup::units::Units;
 use asperity_mesh::build::{SelfSimilar, self_similar};
 use asperity_mesh::profile::{Asperity, Profile, Shape};
@@ -54,10 +54,13 @@ impl Cone {
             profile,
             tool,
             half_widths: vec![radius],
-            held: held_nodes(&mesh, symmetry, Lateral::Free),
+            specimen: Specimen {
+                held: held_nodes(&mesh, symmetry, Lateral::Free),
+                cut_off: 0.0,
+                earlier: None,
+            },
             mesh,
             numbers,
-            cut_off: 0.0,
             goal: Goal::Depth(1.0),
             unload: false,
             reloads: 0,
@@ -67,7 +70,6 @@ impl Cone {
                 area_growth: f64::INFINITY,
             },
             formed: None,
-            start: None,
         }
     }
 }
@@ -78,6 +80,7 @@ mod tests {
     use crate::load_path::Path;
     use crate::scene::Accuracy;
     use asperity_material::{Elastic, Hardening, HardeningCurve, HardeningLaw, StressMeasure};
+    use asperity_solver::body::analysis::Analyses;
 
     /// Elements give the same bits, a factorisation without fused multiply-add rounds otherwise: with steps of given lengths and
     /// as many iterations the difference stays that of rounding, magnified by the condition of the tangent.
@@ -101,7 +104,7 @@ mod tests {
             let problem =
                 cone.problem(&ConeDiscretisation::new(slope_deg, indents, exponent, Accuracy::Draft));
             let force = |any: bool| {
-                let mut path = Path::new(&problem).unwrap();
+                let mut path = Path::new(&problem, &Analyses::default()).unwrap();
                 if any {
                     path.model.without_vector_registers();
                 }

@@ -10,7 +10,7 @@ use std::f64::consts::{FRAC_2_PI, PI};
 
 /// Contact half width of a crushed asperity over the half width of the cut at the same depth: 0.64 (elastic cone,
 /// 2/π) to 1.06 (perfectly plastic), 0.89 for the single asperity.
-const SPREAD: f64 = 0.9;
+const CONTACT_WIDTH_RATIO: f64 = 0.9;
 
 /// How a tool and an asperity meet, or a curved tool and a flat body.
 pub struct Meeting<'p> {
@@ -27,8 +27,8 @@ impl Meeting<'_> {
     /// Contact half width at the depth `own` below its beginning.
     pub fn half_width(&self, own: f64) -> f64 {
         match (self.asperity, self.mirrored) {
-            (Some(asperity), mirrored) => SPREAD * half_width_under(asperity, mirrored, own),
-            (None, mirrored) => mirrored.map_or(0.0, |tool| SPREAD * tool.half_width(own)),
+            (Some(asperity), mirrored) => CONTACT_WIDTH_RATIO * half_width_under(asperity, mirrored, own),
+            (None, mirrored) => mirrored.map_or(0.0, |tool| CONTACT_WIDTH_RATIO * tool.half_width(own)),
         }
     }
 
@@ -56,7 +56,7 @@ pub fn meetings<'p>(profile: &'p Profile, mirrored: Option<&'p Asperity>) -> Vec
 }
 
 /// Relative change of slope up to which a flank is straight.
-const STRAIGHT: f64 = 0.1;
+const LARGEST_SLOPE_CHANGE: f64 = 0.1;
 
 /// Half width over which the outlines of `asperity` and of the tool above it overlap at `depth`.
 fn half_width_under(asperity: &Asperity, mirrored: Option<&Asperity>, depth: f64) -> f64 {
@@ -94,7 +94,7 @@ pub fn resolved_from(profile: &Profile, tool: &Tool, first: &[f64], last: &[f64]
         return 1.0;
     };
     let [from, to] = [first, last].map(|depth| meeting.half_width(depth));
-    let is_flank = (meeting.slope(from) / meeting.slope(to) - 1.0).abs() < STRAIGHT;
+    let is_flank = (meeting.slope(from) / meeting.slope(to) - 1.0).abs() < LARGEST_SLOPE_CHANGE;
     let share = if is_flank { first / last } else { from / to };
     // neighbours may unload a contact
     if share < 1.0 { share } else { 1.0 }
@@ -102,13 +102,13 @@ pub fn resolved_from(profile: &Profile, tool: &Tool, first: &[f64], last: &[f64]
 
 /// Mean contact pressure to be expected at `depth`, in units of E. Only the penalty is scaled with it.
 pub fn expected_pressure(metal: &Metal, profile: &Profile, tool: &Tool, depth: f64) -> f64 {
-    let slope_of = |a: &Asperity| a.slope_at(SPREAD * a.half_width(depth));
+    let slope_of = |a: &Asperity| a.slope_at(CONTACT_WIDTH_RATIO * a.half_width(depth));
     let slope = tool.mirrored().iter().chain(&profile.asperities).map(slope_of).fold(0.0, f64::max);
     pressure_under(metal, slope, 0.0)
 }
 
 /// Mean pressure of a fully plastic contact over σ_r (Tabor, The Hardness of Metals, 1951).
-const FULLY_PLASTIC: f64 = 2.8;
+const TABOR_RATIO: f64 = 2.8;
 
 /// Representative strain ε_r over tan β, rounded: estimates need no more.
 const STRAIN_PER_SLOPE: f64 = 0.1;
@@ -122,7 +122,7 @@ pub fn pressure_under(metal: &Metal, slope: f64, hardened: f64) -> f64 {
         None => elastic,
         Some(h) => {
             let strength = h.representative_stress(STRAIN_PER_SLOPE * slope).max(hardened);
-            1.0 / (1.0 / elastic + 1.0 / (FULLY_PLASTIC * strength))
+            1.0 / (1.0 / elastic + 1.0 / (TABOR_RATIO * strength))
         }
     }
 }

@@ -31,8 +31,8 @@ pub struct Support {
 }
 
 /// Sweeps over the row, and the change of a depth over that of the tool at which they end.
-const SWEEPS: usize = 200;
-const UNMOVED: f64 = 1e-10;
+const MOST_SWEEPS: usize = 200;
+const LEAST_DEPTH_CHANGE: f64 = 1e-10;
 
 /// Depth that each contact of `profile` (one entry for a flat body) indents its surroundings where the tool is `depth` below the
 /// highest summit; 0 where it does not touch.
@@ -53,7 +53,7 @@ pub fn own_depths(metal: &Metal, profile: &Profile, tool: &Tool, support: &Suppo
     };
     let mut own = vec![0.0; free.len()];
     let mut loads = vec![0.0; free.len()];
-    for _ in 0..SWEEPS {
+    for _ in 0..MOST_SWEEPS {
         let mut moved = 0.0_f64;
         for (i, meeting) in meetings.iter().enumerate() {
             let others =
@@ -71,7 +71,7 @@ pub fn own_depths(metal: &Metal, profile: &Profile, tool: &Tool, support: &Suppo
             own[i] = next;
             loads[i] = load(meeting, next);
         }
-        if moved < UNMOVED * depth {
+        if moved < LEAST_DEPTH_CHANGE * depth {
             break;
         }
     }

@@ -2,14 +2,14 @@
 //! None of it stands in a result, as for [`crate::setup::contact_estimate`].
 
 use crate::setup::contact_estimate;
-use crate::setup::discretisation::COUNTS_FROM;
+use crate::setup::discretisation::LEAST_COUNTED_DEPTH;
 use asperity_mesh::profile::{Asperity, Profile};
 use asperity_solver::contact::tool::Tool;
 use asperity_solver::point::material::Metal;
 
 /// Places where a surface is looked at around the axis of a tool: each so many times as far away as the one before.
-const CLOSER: f64 = 0.9;
-const PLACES: usize = 120;
+const PLACE_RATIO: f64 = 0.9;
+const PLACE_COUNT: usize = 120;
 
 /// A surface that earlier loads left. Lengths in any unit.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,7 +30,7 @@ impl Formed {
 
     /// The same with lengths over `length`.
     #[must_use]
-    pub fn over(&self, length: f64) -> Formed {
+    pub fn in_units_of(&self, length: f64) -> Formed {
         Formed { points: self.points.iter().map(|x| x.map(|x| x / length)).collect(), ..*self }
     }
 
@@ -47,7 +47,7 @@ impl Formed {
     fn clearances(&self, tool: &Tool) -> Vec<[f64; 2]> {
         let drop = tool.mirrored();
         let reach = self.points.iter().map(|point| point[0].abs()).fold(0.0, f64::max);
-        let around = (0..PLACES).map(|i| reach * CLOSER.powi(i as i32)).flat_map(|x| [-x, x]);
+        let around = (0..PLACE_COUNT).map(|i| reach * PLACE_RATIO.powi(i as i32)).flat_map(|x| [-x, x]);
         let mut places: Vec<f64> =
             self.points.iter().map(|point| point[0]).chain(around).chain([0.0]).collect();
         places.sort_by(f64::total_cmp);
@@ -77,7 +77,7 @@ impl Formed {
 
     /// Share of the contact half width at `reach` from which the contact must be resolved: see [`crate::setup::contact_estimate::resolved_from`].
     pub fn resolved_from(&self, profile: &Profile, tool: &Tool, depth: f64, reach: f64) -> f64 {
-        self.widest(profile, tool, COUNTS_FROM * depth) / self.widest(profile, tool, reach)
+        self.widest(profile, tool, LEAST_COUNTED_DEPTH * depth) / self.widest(profile, tool, reach)
     }
 
     /// Mean contact pressure to be expected at `depth`, in units of E: that of a contact of this depth and
@@ -121,6 +121,6 @@ mod tests {
         let ball = Tool::Sphere { radius: 1.0 };
         assert!((width(&ball, 0.02) / (0.02_f64 * 1.98).sqrt() - 1.0).abs() < 0.11);
         let share = plateau().resolved_from(&flat, &ball, 0.02, 0.02);
-        assert!((share / COUNTS_FROM.sqrt() - 1.0).abs() < 0.15, "{share}");
+        assert!((share / LEAST_COUNTED_DEPTH.sqrt() - 1.0).abs() < 0.15, "{share}");
     }
 }

@@ -1,7 +1,7 @@
 //! The numbers of the discretisation that an accuracy chooses for a scene and for a self-similar cone: elements, steps, penalty,
 //! tolerance, size of the substrate.
 
-use crate::scene::{Accuracy, ContactMethod, ElementChoice, Numerics, Scene, Symmetry, ToolForm};
+use crate::scene::{Accuracy, ElementChoice, Numerics, Scene, Symmetry, ToolForm};
 use crate::setup::schedule::{Spacing, loading};
 use asperity_material::units::rounded;
 use asperity_mesh::build::Sizes;
@@ -9,7 +9,7 @@ use asperity_mesh::grading::LINEAR;
 use asperity_mesh::outline::Outline;
 
 /// Depths from which errors count, as a share of the peak.
-pub const COUNTS_FROM: f64 = 0.2;
+pub const LEAST_COUNTED_DEPTH: f64 = 0.2;
 
 /// Every number of the discretisation, none left open.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,8 +24,6 @@ pub struct Discretisation {
     pub spacing: Spacing,
     /// Steps back to zero force.
     pub unload_steps: usize,
-    /// Penalty or augmented Lagrangian.
-    pub contact: ContactMethod,
     /// Mean penetration over depth.
     pub penetration: f64,
     /// Relative residual at which Newton stops.
@@ -54,7 +52,7 @@ const LEVELS: [(Accuracy, [f64; 6]); 3] = [
 impl Choice {
     /// Between two levels every number is a power of the promise, as every part of the error is a power of its number:
     /// each part then falls with the promise.
-    fn of(promise: f64) -> Choice {
+    fn for_promise(promise: f64) -> Choice {
         let [coarse, middle, fine] = LEVELS;
         let ends = if promise > middle.0.promise() { [coarse, middle] } else { [middle, fine] };
         let [from, to] = ends.map(|(level, _)| level.promise());
@@ -75,14 +73,14 @@ impl Choice {
 }
 
 /// Fewest elements, load steps and unloading steps of a companion: fewer make no curve.
-const FEWEST: [usize; 3] = [3, 8, 3];
+const FEWEST_OF_COMPANION: [usize; 3] = [3, 8, 3];
 
 impl Discretisation {
     /// The numbers of `scene`: those of its numerics, and of its accuracy where they are silent.
     pub fn new(scene: &Scene) -> Discretisation {
         let numerics = &scene.numerics;
         let Choice { elements, steps, unload_steps, tolerance, domain, penetration } =
-            Choice::of(scene.accuracy.promise());
+            Choice::for_promise(scene.accuracy.promise());
         let element = numerics.element.unwrap_or_else(|| {
             element_under(match scene.tool.form() {
                 Ok(ToolForm::Cone { slope, .. }) => Some(slope),
@@ -109,7 +107,6 @@ impl Discretisation {
             steps: numerics.steps.unwrap_or(steps),
             spacing: Spacing::Geometric { from },
             unload_steps,
-            contact: numerics.contact.unwrap_or(ContactMethod::Penalty),
             penetration: numerics.penetration.unwrap_or(penetration),
             newton_tolerance: numerics.newton_tolerance.unwrap_or(tolerance),
             domain: numerics.domain.unwrap_or(domain),
@@ -120,9 +117,9 @@ impl Discretisation {
     #[must_use]
     pub fn coarser(&self) -> Discretisation {
         Discretisation {
-            elements_in_contact: self.elements_in_contact.div_ceil(2).max(FEWEST[0]),
-            steps: self.steps.div_ceil(2).max(FEWEST[1]),
-            unload_steps: self.unload_steps.div_ceil(2).max(FEWEST[2]),
+            elements_in_contact: self.elements_in_contact.div_ceil(2).max(FEWEST_OF_COMPANION[0]),
+            steps: self.steps.div_ceil(2).max(FEWEST_OF_COMPANION[1]),
+            unload_steps: self.unload_steps.div_ceil(2).max(FEWEST_OF_COMPANION[2]),
             penetration: 2.0 * self.penetration,
             domain: 0.5 * self.domain,
             ..*self
@@ -140,7 +137,6 @@ impl Discretisation {
             element: Some(self.element),
             elements_in_contact: Some(self.elements_in_contact),
             steps: Some(self.steps),
-            contact: Some(self.contact),
             penetration: Some(self.penetration),
             newton_tolerance: Some(self.newton_tolerance),
             domain: Some(self.domain),
@@ -149,13 +145,13 @@ impl Discretisation {
 }
 
 /// Slope of an indenting cone, degrees, beyond which linear elements are used.
-const STEEP: f64 = 11.0;
+const STEEP_SLOPE_DEG: f64 = 11.0;
 
 /// The quadratic element gives the smaller error for its cost. Under a steep indenter, though, the material at the axis is drawn out
 /// along the flank until four points no longer hold the shape of its cells: perfectly plastic material of E/σ_y 500 went to
 /// 0.6 of the depth under a cone of 20° and did not come back from one of 14°. With linear elements it does both, up to 40°.
 fn element_under(indenter: Option<f64>) -> ElementChoice {
-    if indenter.is_some_and(|slope| slope > STEEP.to_radians()) {
+    if indenter.is_some_and(|slope| slope > STEEP_SLOPE_DEG.to_radians()) {
         ElementChoice::Q4
     } else {
         ElementChoice::Q8r
@@ -163,13 +159,13 @@ fn element_under(indenter: Option<f64>) -> ElementChoice {
 }
 
 /// Slope at half way out over that at the end from which a measured tool is a cone: that of a ball is a half at most.
-const CONICAL: f64 = 0.75;
+const CONICAL_SLOPE_RATIO: f64 = 0.75;
 
 /// Slope (radians) of the flank of a measured tool that is conical.
 fn conical_slope(outline: &Outline) -> Option<f64> {
     let [_, end] = outline.ends();
     let [middle, last] = [0.5 * end, end].map(|x| outline.at(x)[1]);
-    (middle > CONICAL * last).then(|| last.atan())
+    (middle > CONICAL_SLOPE_RATIO * last).then(|| last.atan())
 }
 
 /// The [softness](softness_of) of the metal of `scene`.
@@ -196,10 +192,10 @@ pub struct ConeDiscretisation {
 }
 
 /// Share of the final depth to which longer steps lead, and from which they are equal.
-pub const EQUAL_FROM: f64 = 0.3;
+pub const EQUAL_STEPS_FROM: f64 = 0.3;
 
 /// Numbers of a cone of metal that hardens with n = 0.3 or more, at draft, standard and reference: elements across the contact, of
-/// which so many are one column at the axis, steps to [`EQUAL_FROM`] and from there; depth of the core, growth of its rows, first
+/// which so many are one column at the axis, steps to [`EQUAL_STEPS_FROM`] and from there; depth of the core, growth of its rows, first
 /// shell in elements, growth of the shells, substrate and foot of the cone in contact radii; penetration over depth, tolerance;
 /// powers of the [softness](softness_of) in the numbers of elements and of steps, with which the difference between run and
 /// companion is about the same for all n: without hardening, flow gathers where the mesh lets it.
@@ -207,7 +203,7 @@ type ConeLevels = [([usize; 4], [f64; 6], [f64; 2], [f64; 2]); 3];
 
 /// Quadratic elements. A companion of four elements across the contact tells little of the error of eight: of 124 cones of the default
 /// sweep 59 % lay within the bound that these gave at standard, 99 % with 12 and 6.
-const QUADRATIC: ConeLevels = [
+const QUADRATIC_LEVELS: ConeLevels = [
     ([10, 1, 3, 14], [0.4, 0.5, 1.0, 0.5, 64.0, 8.0], [0.008, 1e-3], [0.3, 2.0]),
     ([12, 1, 5, 20], [0.4, 0.4, 1.0, 0.4, 32.0, 8.0], [0.008, 1e-3], [0.3, 1.4]),
     ([18, 1, 12, 60], [0.8, 0.2, 1.0, 0.25, 200.0, 12.0], [0.004, 1e-6], [1.6, 2.0]),
@@ -215,14 +211,14 @@ const QUADRATIC: ConeLevels = [
 
 /// Linear elements under a steep cone: they want finer meshes, and a wide column at the axis leaves room to what is stretched along
 /// the flank.
-const STEEP_LINEAR: ConeLevels = [
+const STEEP_LINEAR_LEVELS: ConeLevels = [
     ([16, 2, 6, 36], [0.6, 0.15, 1.0, 0.15, 100.0, 8.0], [0.002, 1e-3], [0.0; 2]),
     ([24, 4, 8, 60], [0.6, 0.15, 1.0, 0.1, 100.0, 8.0], [0.001, 1e-4], [0.0; 2]),
     ([36, 6, 12, 96], [0.8, 0.08, 1.0, 0.05, 200.0, 8.0], [0.0005, 1e-6], [0.0; 2]),
 ];
 
 /// Penetration of a cone that indents a flat body with quadratic elements over that of a crushed one: it costs more of the depth.
-const INDENTED: f64 = 0.5;
+const INDENTED_PENETRATION_RATIO: f64 = 0.5;
 
 /// How much faster cells grow with the distance from the contact in a companion. With quadratic elements the error of that growth is of
 /// the fourth order nearly, so that twice as much of it would tell of nothing else; with linear ones it is of the second (growth
@@ -242,7 +238,7 @@ impl ConeDiscretisation {
     ) -> ConeDiscretisation {
         let element = element_under(indents.then_some(slope_deg.to_radians()));
         let quadratic = element == ElementChoice::Q8r;
-        let levels = if quadratic { QUADRATIC } else { STEEP_LINEAR };
+        let levels = if quadratic { QUADRATIC_LEVELS } else { STEEP_LINEAR_LEVELS };
         let (counts, lengths, [penetration, tolerance], powers) = levels[accuracy.level() as usize];
         let [elements, at_axis, lead, steps] = counts;
         let [core_depth, row_growth, first_shell, growth, domain, foot] = lengths;
@@ -256,10 +252,13 @@ impl ConeDiscretisation {
                 element,
                 elements_in_contact: elements,
                 steps: lead + steps,
-                spacing: Spacing::Equal { lead, from: EQUAL_FROM },
+                spacing: Spacing::Equal { lead, from: EQUAL_STEPS_FROM },
                 unload_steps: 0,
-                contact: ContactMethod::Penalty,
-                penetration: if quadratic && indents { INDENTED * penetration } else { penetration },
+                penetration: if quadratic && indents {
+                    INDENTED_PENETRATION_RATIO * penetration
+                } else {
+                    penetration
+                },
                 newton_tolerance: tolerance,
                 domain,
             },
@@ -283,7 +282,7 @@ impl ConeDiscretisation {
         if let Spacing::Equal { lead, from } = self.numbers.spacing {
             let equal = self.numbers.steps.saturating_sub(lead);
             let lead = lead.div_ceil(2);
-            numbers.steps = lead + equal.div_ceil(2).max(FEWEST[0]);
+            numbers.steps = lead + equal.div_ceil(2).max(FEWEST_OF_COMPANION[0]);
             numbers.spacing = Spacing::Equal { lead, from };
         }
         let faster = faster(numbers.element);
@@ -303,10 +302,10 @@ mod tests {
 
     #[test]
     fn a_smaller_error_is_promised_by_finer_numbers() {
-        let mut before = Choice::of(0.05);
+        let mut before = Choice::for_promise(0.05);
         assert_eq!((before.elements, before.steps, before.tolerance), (12, 36, 1e-3));
         for promise in [0.03, 0.02, 0.01, 0.007, 0.005, 0.003, 0.002] {
-            let next = Choice::of(promise);
+            let next = Choice::for_promise(promise);
             assert!(next.elements > before.elements && next.steps > before.steps, "{promise}");
             // the tolerance of `standard` already is that of `draft`
             assert!(next.tolerance <= before.tolerance && next.domain > before.domain, "{promise}");

@@ -1,15 +1,12 @@
 //! From a scene and its depth to what the solver computes with: unit of length, profile, tool, mesh, penalty.
 
-use crate::scene::{
-    AsperityForm, ElementChoice, Lateral, Line, LineAsperity, Scene, SceneError, Target, ToolForm,
-};
-use crate::setup::compliance::Compliance;
+use crate::scene::{AsperityForm, ElementChoice, Line, LineAsperity, Scene, SceneError, Target, ToolForm};
 use crate::setup::contact_estimate;
 use crate::setup::contact_interaction::{Support, own_depths};
 use crate::setup::deformed_surface::{Formed, expected_pressure};
-use crate::setup::discretisation::COUNTS_FROM;
 use crate::setup::discretisation::Discretisation;
-use crate::setup::problem::{Goal, Problem, Rules, held_nodes};
+use crate::setup::discretisation::LEAST_COUNTED_DEPTH;
+use crate::setup::problem::{Goal, Problem, Rules, Specimen, held_nodes};
 use crate::setup::units::Units;
 use asperity_material::Elastic;
 use asperity_mesh::build::{Contact, Plan, build};
@@ -21,11 +18,7 @@ use asperity_solver::point::kinematics::Symmetry;
 use asperity_solver::point::material::Metal;
 
 /// How far a run that is driven by a force may go beyond the depth at which it is expected.
-const PROBED: f64 = 1.3;
-
-/// A path that grows the contact area by more than this factor in one increment halves it: flat metal comes into contact all
-/// at once when an asperity vanishes into its base. The schedule of the draft level grows it by 1.5.
-const AREA_GROWTH: f64 = 2.5;
+const PROBED_DEPTH_RATIO: f64 = 1.3;
 
 /// The material of `scene`, E = 1.
 pub fn metal(scene: &Scene) -> Metal {
@@ -40,9 +33,9 @@ pub fn metal(scene: &Scene) -> Metal {
 
 /// The asperities and the tool of `scene`, lengths over `length` (m).
 pub fn bodies(scene: &Scene, length: f64) -> Result<(Profile, Tool), SceneError> {
-    let tool = tool_over(scene.tool.form().map_err(|e| within("tool", e))?, length);
+    let tool = tool_over(scene.tool.form().map_err(|e| in_table("tool", e))?, length);
     if let Some(line) = scene.profile.first() {
-        let profile = measured_line(&line.line().map_err(|e| within("profile[0]", e))?, length);
+        let profile = measured_line(&line.line().map_err(|e| in_table("profile[0]", e))?, length);
         return Ok((profile, tool));
     }
     let asperities = outlines(scene)?.iter().map(|a| a.over(length)).collect();
@@ -81,7 +74,7 @@ impl From<f64> for Expected {
 }
 
 /// Prepares `scene`, which is valid, for its `expected` peak. `mesh` replaces the mesh that would be built (in metres). Lengths are
-/// in units of the depth. The body is virgin: [`crate::run::run`] takes it through its earlier loads.
+/// in units of the depth. The body is virgin: [`crate::run::Run`] takes it through its earlier loads.
 ///
 /// # Errors
 /// A scene that cannot be meshed: path and reason.
@@ -106,7 +99,7 @@ pub fn prepare_with(
     let (profile, tool) = bodies(scene, depth)?;
     let units = Units::new(depth, scene.material.elastic().youngs_modulus, symmetry);
     let (goal, reach) = goal_and_reach(scene, &units)?;
-    let formed = expected.formed.as_ref().map(|formed| formed.over(depth));
+    let formed = expected.formed.as_ref().map(|formed| formed.in_units_of(depth));
     let substrate = scene.substrate.as_ref().and_then(|s| s.depth);
     let support = Support {
         symmetry,
@@ -120,7 +113,7 @@ pub fn prepare_with(
         None => own_depths_at(1.0).into_iter().fold(0.0, f64::max),
         Some(_) => 1.0,
     };
-    let own = Contacts::of(&profile, &tool, formed.as_ref(), &own_depths_at, [1.0, reach]);
+    let own = Contacts::new(&profile, &tool, formed.as_ref(), &own_depths_at, [1.0, reach]);
     let half_widths = own.half_widths.clone();
     let contacts = with_earlier_contacts(own, scene, expected, &profile, &own_depths_under)?;
     let row = extent(scene, &profile, &contacts.half_widths, depth);
@@ -145,15 +138,8 @@ pub fn prepare_with(
             (mesh, profile.height() - meshed.height())
         }
     };
-    let automatic = scene.mesh.is_none() && scene.substrate.as_ref().is_none_or(|s| s.depth.is_none());
-    let half_space = automatic && symmetry == Symmetry::Axisymmetric && scene.lateral == Lateral::Free;
-    let rules = Rules {
-        // a substrate that the scene gives is a part of it
-        far_field: if half_space { contact_estimate::far_field(&metal, size) } else { 0.0 },
-        compliance: Compliance::of(scene, &units),
-        area_growth: AREA_GROWTH,
-    };
     Ok(Problem {
+        rules: Rules::new(scene, &metal, &units, size),
         units,
         symmetry,
         metal,
@@ -161,26 +147,23 @@ pub fn prepare_with(
         tool,
         half_widths,
         penalty: pressure / (numbers.penetration * indents),
-        held: held_nodes(&mesh, symmetry, scene.lateral),
+        specimen: Specimen { held: held_nodes(&mesh, symmetry, scene.lateral), cut_off, earlier: None },
         mesh,
         numbers,
-        cut_off,
         goal,
         unload: scene.loading.unload,
         reloads: scene.loading.reloads,
-        rules,
         formed,
-        start: None,
     })
 }
 
 /// Where loading ends, and how deep the mesh is to reach over the expected depth: a force may be found somewhat deeper than expected.
 fn goal_and_reach(scene: &Scene, units: &Units) -> Result<(Goal, f64), SceneError> {
-    Ok(match scene.loading.target().map_err(|e| within("loading", e))? {
+    Ok(match scene.loading.target().map_err(|e| in_table("loading", e))? {
         Target::Depth(asked) => (Goal::Depth(asked / units.length), 1.0),
         Target::Force(force) => {
-            let limit = PROBED.min(scene.deepest() / units.length);
-            (Goal::Force { force: force / units.force, expected_depth: 1.0, limit }, PROBED)
+            let limit = PROBED_DEPTH_RATIO.min(scene.deepest() / units.length);
+            (Goal::Force { force: force / units.force, expected_depth: 1.0, limit }, PROBED_DEPTH_RATIO)
         }
     })
 }
@@ -194,11 +177,11 @@ fn with_earlier_contacts(
     own_depths_under: &dyn Fn(&Tool, f64) -> Vec<f64>,
 ) -> Result<Contacts, SceneError> {
     for (load, earlier) in scene.earlier_loads().iter().zip(&expected.earlier) {
-        let tool = tool_over(load.tool.form().map_err(|e| within("tool", e))?, expected.depth);
-        let formed = earlier.formed.as_ref().map(|formed| formed.over(expected.depth));
+        let tool = tool_over(load.tool.form().map_err(|e| in_table("tool", e))?, expected.depth);
+        let formed = earlier.formed.as_ref().map(|formed| formed.in_units_of(expected.depth));
         let deep = earlier.depth / expected.depth;
         let own_depths_at = |depth: f64| own_depths_under(&tool, depth);
-        contacts = contacts.and(&Contacts::of(profile, &tool, formed.as_ref(), &own_depths_at, [deep; 2]));
+        contacts = contacts.and(&Contacts::new(profile, &tool, formed.as_ref(), &own_depths_at, [deep; 2]));
     }
     Ok(contacts)
 }
@@ -216,7 +199,7 @@ struct Contacts {
 
 impl Contacts {
     /// Those of a tool at `reach`, resolved where it is `depth` deep; `own_depths_at` tells how deep each then indents its surroundings.
-    fn of(
+    fn new(
         profile: &Profile,
         tool: &Tool,
         formed: Option<&Formed>,
@@ -225,7 +208,7 @@ impl Contacts {
     ) -> Contacts {
         let (half_widths, share) = match formed {
             None => {
-                let [first, last] = [COUNTS_FROM * depth, reach].map(own_depths_at);
+                let [first, last] = [LEAST_COUNTED_DEPTH * depth, reach].map(own_depths_at);
                 let share = contact_estimate::resolved_from(profile, tool, &first, &last);
                 (contact_estimate::half_widths(profile, tool, &last), share)
             }
@@ -235,7 +218,7 @@ impl Contacts {
         };
         Contacts {
             resolved_from: share * widest(&half_widths),
-            graded: 1.0 - (CORE * share).ln(),
+            graded: 1.0 - (CORE_WIDTH_RATIO * share).ln(),
             half_widths,
         }
     }
@@ -244,11 +227,11 @@ impl Contacts {
     fn grading(&self, numbers: &Discretisation) -> Grading {
         Grading {
             fineness: self.graded / numbers.elements_in_contact as f64,
-            start: CORE * self.resolved_from / widest(&self.half_widths),
+            start: CORE_WIDTH_RATIO * self.resolved_from / widest(&self.half_widths),
             fine: 1.6,
             far: match numbers.element {
-                ElementChoice::Q8r => FAR_GROWTH,
-                ElementChoice::Q4 => FAR_GROWTH / LINEAR,
+                ElementChoice::Q8r => FAR_GROWTH_SHARE,
+                ElementChoice::Q4 => FAR_GROWTH_SHARE / LINEAR,
             },
         }
     }
@@ -264,7 +247,7 @@ impl Contacts {
     }
 }
 
-fn within(table: &str, error: SceneError) -> SceneError {
+fn in_table(table: &str, error: SceneError) -> SceneError {
     let path = if error.path.is_empty() { table.to_string() } else { format!("{table}.{}", error.path) };
     SceneError { path, message: error.message }
 }
@@ -276,7 +259,7 @@ fn outlines(scene: &Scene) -> Result<Vec<Asperity>, SceneError> {
     let curved = !matches!(scene.tool.form(), Ok(ToolForm::Plane));
     let mut edge = 0.0; // where the next asperity may begin
     for (index, asperity) in scene.asperity.iter().enumerate() {
-        let form = asperity.form().map_err(|e| within(&format!("asperity[{index}]"), e))?;
+        let form = asperity.form().map_err(|e| in_table(&format!("asperity[{index}]"), e))?;
         let (shape, valley_radius) = match form {
             AsperityForm::Cone { slope, tip_radius, valley_radius, .. } => {
                 (Shape::Cone { tan_slope: slope.tan(), tip_radius }, valley_radius)
@@ -312,12 +295,12 @@ fn widest(half_widths: &[f64]) -> f64 {
 
 /// Half width of the core over that from which a contact is to be resolved: an elastic contact is 0.7 times as wide as expected
 /// (see `a_priori`), and the columns of the core are wide.
-const CORE: f64 = 0.7;
+const CORE_WIDTH_RATIO: f64 = 0.7;
 
 /// Growth of the shells far from the contact, as a share of the distance, of quadratic elements. With linear ones of this growth a ridge
 /// and a cylinder in plane strain were too stiff by 0.5 % and 0.8 %, with [`LINEAR`] times as many shells by 0.1 %; quadratic ones of
 /// half of it change the force by 0.01 %.
-const FAR_GROWTH: f64 = 0.4;
+const FAR_GROWTH_SHARE: f64 = 0.4;
 
 /// Size of an automatic substrate: so many radii of the loaded region, which is the contact of a single asperity and
 /// the whole row of several, whose forces add up far away.
@@ -343,18 +326,18 @@ fn extent(scene: &Scene, profile: &Profile, half_widths: &[f64], length: f64) ->
 }
 
 /// Slope (tangent) of a flank beyond which a sharp tip is cut off in the mesh: the cell below it would be higher than wide.
-const STEEP_FLANK: f64 = 1.0;
+const STEEP_FLANK_SLOPE: f64 = 1.0;
 
 /// Half width of the arc that a steep flank ends in at least, over the width of the first column of cells.
-const BLUNT: f64 = 0.2;
+const BLUNT_WIDTH_RATIO: f64 = 0.2;
 
 /// The profile as it is meshed. A plane that comes down on the tip of a steep flank touches one node of a high and narrow cell: a
 /// pressure of ten yield stresses there crushes the cell before the contact is as wide as it. What an arc half a column wide takes off
 /// such a tip is crushed before the contact is resolved in any case.
 fn blunted(profile: &Profile, half_widths: &[f64], grading: &Grading) -> Profile {
     let blunt = |(asperity, half_width): (&Asperity, &f64)| match asperity.shape {
-        Shape::Cone { tan_slope, .. } if tan_slope > STEEP_FLANK => {
-            asperity.blunted(BLUNT * grading.middle_column(*half_width))
+        Shape::Cone { tan_slope, .. } if tan_slope > STEEP_FLANK_SLOPE => {
+            asperity.blunted(BLUNT_WIDTH_RATIO * grading.middle_column(*half_width))
         }
         _ => asperity.clone(),
     };

@@ -1,12 +1,14 @@
 //! The input of the solver: mesh, material, tool, and the rules of its path. Inside the solver E = 1.
 
-use crate::scene::{ContactMethod, Lateral};
+use crate::scene::{Lateral, Scene};
 use crate::setup::compliance::Compliance;
+use crate::setup::contact_estimate::far_field;
 use crate::setup::deformed_surface::{Formed, expected_pressure};
-use crate::setup::discretisation::{COUNTS_FROM, Discretisation};
+use crate::setup::discretisation::{Discretisation, LEAST_COUNTED_DEPTH};
 use crate::setup::units::Units;
 use asperity_mesh::Mesh;
 use asperity_mesh::profile::Profile;
+use asperity_solver::body::analysis::Analyses;
 use asperity_solver::body::discrete_body::{Body, ToolContact};
 use asperity_solver::body::failure::Failure;
 use asperity_solver::body::state::{State, Unloaded};
@@ -44,7 +46,24 @@ pub struct Rules {
     pub area_growth: f64,
 }
 
+/// A path that grows the contact area by more than this factor in one increment halves it: flat metal comes into contact all
+/// at once when an asperity vanishes into its base. The schedule of the draft level grows it by 1.5.
+const AREA_GROWTH: f64 = 2.5;
+
 impl Rules {
+    /// Those of a path of `scene` in a body of this `size`.
+    pub fn new(scene: &Scene, metal: &Metal, units: &Units, size: f64) -> Rules {
+        let automatic = scene.mesh.is_none() && scene.substrate.as_ref().is_none_or(|s| s.depth.is_none());
+        let half_space =
+            automatic && scene.symmetry == Symmetry::Axisymmetric && scene.lateral == Lateral::Free;
+        Rules {
+            // a substrate that the scene gives is a part of it
+            far_field: if half_space { far_field(metal, size) } else { 0.0 },
+            compliance: Compliance::new(scene, units),
+            area_growth: AREA_GROWTH,
+        }
+    }
+
     /// dF/dh of a half space under tool and machine, from that of the meshed body over a contact of this `area`: the depth holds what the
     /// substrate of finite size takes away and how tool and machine give way, so the slope holds both.
     pub fn whole_stiffness(&self, of_the_mesh: f64, area: f64) -> f64 {
@@ -52,6 +71,17 @@ impl Rules {
             if self.far_field > 0.0 { (of_the_mesh.recip() + self.far_field).recip() } else { of_the_mesh };
         self.compliance.in_series(half_space, area)
     }
+}
+
+/// How a body is held, and what it went through before.
+#[derive(Clone, Debug)]
+pub struct Specimen {
+    /// Fixed displacement components of each node.
+    pub held: Vec<[bool; 2]>,
+    /// Height of what the mesh cuts off a steep tip: the tool touches the mesh where it is that deep.
+    pub cut_off: f64,
+    /// The body as earlier loads left it; `None`: virgin.
+    pub earlier: Option<Unloaded>,
 }
 
 /// A problem made ready, dimensionless.
@@ -73,12 +103,10 @@ pub struct Problem {
     pub penalty: f64,
     /// The mesh.
     pub mesh: Mesh,
-    /// Fixed displacement components of each node.
-    pub held: Vec<[bool; 2]>,
+    /// What is known of the body beside its mesh and its metal.
+    pub specimen: Specimen,
     /// The discretisation used.
     pub numbers: Discretisation,
-    /// Height of what the mesh cuts off a steep tip: the tool touches the mesh where it is that deep.
-    pub cut_off: f64,
     /// Where the first loading ends: the estimated depth there is 1.
     pub goal: Goal,
     /// Whether the tool then retreats to zero force.
@@ -89,23 +117,21 @@ pub struct Problem {
     pub rules: Rules,
     /// The surface that earlier loads left, as far as estimates need it.
     pub formed: Option<Formed>,
-    /// The body as earlier loads left it; `None`: virgin.
-    pub start: Option<Unloaded>,
 }
 
 impl Problem {
-    /// Its body out of contact: stress-free, or as earlier loads left it.
+    /// Its body out of contact: stress-free, or as earlier loads left it. Its mesh is analysed unless it is one of `analyses`.
     ///
     /// # Errors
     /// An element of the mesh that is inside out.
-    pub fn equilibrium(&self) -> Result<Equilibrium<'_>, Failure> {
+    pub fn equilibrium(&self, analyses: &Analyses) -> Result<Equilibrium<'_>, Failure> {
         let contact = ToolContact { tool: self.tool.clone(), penalty: self.penalty };
-        let fixed = |node: usize| self.held[node];
-        let body = Body::new(&self.mesh, self.symmetry, self.metal.clone(), fixed, Some(contact))?;
-        match &self.start {
+        let fixed = |node: usize| self.specimen.held[node];
+        let body = Body::new(analyses, &self.mesh, self.symmetry, self.metal.clone(), fixed, Some(contact))?;
+        match &self.specimen.earlier {
             None => Equilibrium::new(body),
-            Some(start) => {
-                let (body, state) = State::of_unloaded(body, start);
+            Some(left) => {
+                let (body, state) = State::of_unloaded(body, left);
                 Equilibrium::from_state(body, state)
             }
         }
@@ -120,24 +146,22 @@ impl Problem {
     /// Contact pressure per penetration at `travel`: the penetration is the same share of every depth from which errors count,
     /// so that early contact is as good as late.
     pub fn penalty_at(&self, travel: f64) -> f64 {
-        let depth = travel.max(COUNTS_FROM);
+        let depth = travel.max(LEAST_COUNTED_DEPTH);
         let formed = self.formed.as_ref();
         let pressure = |depth| expected_pressure(formed, &self.metal, &self.profile, &self.tool, depth);
         self.penalty * pressure(depth) / (pressure(1.0) * depth)
     }
 
-    /// Travel less the depth at the peak, to be expected before the first increment shows it: the penetration, 0 with multipliers, less
-    /// what tool and machine give way.
+    /// Travel less the depth at the peak, to be expected before the first increment shows it: the penetration, less what tool
+    /// and machine give way.
     pub fn expected_penetration(&self) -> f64 {
-        match (self.numbers.contact, self.goal) {
+        match self.goal {
             // what tool and machine give way is no travel
-            (method, Goal::Depth(depth)) if !self.rules.compliance.is_none() => {
-                let penalty = method == ContactMethod::Penalty;
-                1.0 - depth + if penalty { 0.9 * self.numbers.penetration } else { 0.0 }
+            Goal::Depth(depth) if !self.rules.compliance.is_none() => {
+                1.0 - depth + 0.9 * self.numbers.penetration
             }
-            (ContactMethod::Augmented, _) => 0.0,
-            (ContactMethod::Penalty, Goal::Depth(depth)) => 0.9 * self.numbers.penetration * depth,
-            (ContactMethod::Penalty, _) => 0.9 * self.numbers.penetration,
+            Goal::Depth(depth) => 0.9 * self.numbers.penetration * depth,
+            _ => 0.9 * self.numbers.penetration,
         }
     }
 }

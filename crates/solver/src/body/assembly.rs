@@ -46,6 +46,12 @@ pub struct Response {
 }
 
 impl Response {
+    /// Whether each point yields, which started as in `trial`.
+    pub fn yielding_points<'a>(&'a self, trial: &'a Trial) -> impl Iterator<Item = bool> + use<'a> {
+        let started = &trial.start.states;
+        self.points.states.iter().zip(started).map(|(new, start)| new.plastic_strain > start.plastic_strain)
+    }
+
     /// Arrays for the responses of `body` from `state`.
     pub fn new(body: &Body<'_>, state: &State) -> Response {
         Response {
@@ -193,15 +199,14 @@ impl Body<'_> {
             response.pressed.extend(state.facing.press(&state.edges, trial.penalty, x));
         }
         let Some(contact) = self.contact.as_ref().filter(|_| trial.tip.is_finite()) else { return };
-        let context = contact.at(trial.tip, trial.penalty, self.symmetry);
+        let context = contact.context(trial.tip, trial.penalty, self.symmetry);
         for (edge, kept) in state.edges.iter().zip(state.parts()) {
             let x = edge.nodes.map(|node| current(&state.position, &trial.displacement, node));
-            let multiplier = edge.nodes.map(|node| trial.multiplier[node as usize]);
             let parts = match touching {
                 Touching::Kept => kept,
-                Touching::Found => edge.touching(&context, &x, &multiplier),
+                Touching::Found => edge.touching(&context, &x),
             };
-            response.contact.push(edge.integrate(&context, parts, &x, &multiplier));
+            response.contact.push(edge.integrate(&context, parts, &x));
         }
     }
 

@@ -22,11 +22,10 @@ impl State {
             x[1] += du[1];
         }
         self.displacement.clone_from(&trial.displacement);
-        self.remeasured[1] = self.work_of_changes(trial.penalty, response);
+        self.ledger.remeasured[1] = self.work_of_changes(trial.penalty, response);
         self.penalty = trial.penalty;
         self.contact.clone_from(&response.contact);
         self.tip = trial.tip;
-        self.multiplier.clone_from(&trial.multiplier);
         self.remeasure_contact(body);
         self.face_anew(response);
         self.yielding.clone_from(&response.yielding);
@@ -39,10 +38,10 @@ impl State {
     /// the mean of the values at its start and at its end.
     fn work_of_changes(&self, penalty: f64, response: &Response) -> f64 {
         let before =
-            self.contact.iter().map(|share| share.penalty_energy).sum::<f64>() + self.self_contact_energy;
+            self.contact.iter().map(|share| share.penalty_energy).sum::<f64>() + self.ledger.self_contact;
         let after = response.contact.iter().map(|share| share.penalty_energy).sum::<f64>()
             + response.pressed.iter().map(|point| point.energy).sum::<f64>();
-        let remeasured = self.remeasured[1];
+        let remeasured = self.ledger.remeasured[1];
         if before <= 0.0 || before + remeasured <= 0.0 {
             return remeasured;
         }
@@ -70,7 +69,7 @@ impl State {
                 work += if yields(q) { body.volume[q] * flows.work[i] } else { 0.0 };
             }
         }
-        self.plastic_work += work;
+        self.ledger.plastic_work += work;
         Ok(())
     }
 
@@ -81,23 +80,22 @@ impl State {
         self.facing = Facing::new(&self.edges, &self.position, &self.displacement, &self.facing);
         let x = |node: u32| self.position[node as usize];
         let after: f64 = self.facing.press(&self.edges, self.penalty, x).map(|point| point.energy).sum();
-        self.self_contact_energy = before;
-        self.remeasured[1] += after - before;
+        self.ledger.self_contact = before;
+        self.ledger.remeasured[1] += after - before;
     }
 
     /// Takes the contact energy over the surface as it is now, which the tool has stretched; what that adds to the energy is no
     /// work of the tool and is kept apart.
     fn remeasure_contact(&mut self, body: &Body<'_>) {
         let Some(contact) = &body.contact else { return };
-        let context = contact.at(self.tip, self.penalty, body.symmetry);
+        let context = contact.context(self.tip, self.penalty, body.symmetry);
         let mut change = 0.0;
         for (edge, share) in self.edges.iter_mut().zip(&self.contact) {
             edge.reference = edge.nodes.map(|node| self.position[node as usize]);
-            let multiplier = edge.nodes.map(|node| self.multiplier[node as usize]);
-            let anew = edge.integrate(&context, share.parts, &edge.reference, &multiplier);
+            let anew = edge.integrate(&context, share.parts, &edge.reference);
             change += anew.penalty_energy - share.penalty_energy;
         }
         // the sums of this increment are still over the old area
-        self.remeasured = [self.remeasured_energy() + self.remeasured[1], change];
+        self.ledger.remeasured = [self.remeasured_energy() + self.ledger.remeasured[1], change];
     }
 }

@@ -1,6 +1,6 @@
 //! The discretised body: what stays the same while it is loaded.
 
-use crate::body::analysis::Analysis;
+use crate::body::analysis::{Analyses, Analysis};
 use crate::body::failure::Failure;
 use crate::contact::edge::{ContactContext, ContactEdge};
 use crate::contact::tool::Tool;
@@ -24,7 +24,7 @@ pub struct ToolContact {
 
 impl ToolContact {
     /// The contact with the tool's tip at height `tip`.
-    pub fn at(&self, tip: f64, penalty: f64, symmetry: Symmetry) -> ContactContext<'_> {
+    pub fn context(&self, tip: f64, penalty: f64, symmetry: Symmetry) -> ContactContext<'_> {
         ContactContext { tool: &self.tool, tip, penalty, symmetry }
     }
 }
@@ -53,11 +53,13 @@ pub struct Body<'m> {
 }
 
 impl<'m> Body<'m> {
-    /// The body of `mesh` whose displacement components named by `fixed(node)` are prescribed.
+    /// The body of `mesh` whose displacement components named by `fixed(node)` are prescribed; its topology is analysed unless it is
+    /// one of `analyses`.
     ///
     /// # Errors
     /// An element that is inside out in the mesh.
     pub fn new(
+        analyses: &Analyses,
         mesh: &'m Mesh,
         symmetry: Symmetry,
         material: Metal,
@@ -65,7 +67,8 @@ impl<'m> Body<'m> {
         contact: Option<ToolContact>,
     ) -> Result<Self, Failure> {
         let fixed: Vec<[bool; 2]> = (0..mesh.nodes.len()).map(fixed).collect();
-        let analysis = Analysis::of(&mesh.cells, mesh.kind.nodes(), &fixed).map_err(|_| Failure::Singular)?;
+        let analysis =
+            analyses.analyse(&mesh.cells, mesh.kind.nodes(), &fixed).map_err(|_| Failure::Singular)?;
         let points8 = ShapePoint::side_by_side(&quad8::points());
         let points4 = ShapePoint::side_by_side(&quad4::points());
         let volume = Vec::with_capacity(mesh.cell_count() * POINTS);

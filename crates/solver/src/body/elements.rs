@@ -13,14 +13,14 @@ use pulp::{Simd, WithSimd};
 use rayon::prelude::*;
 
 /// Elements of one task.
-const TASK: usize = 48;
+const ELEMENTS_PER_TASK: usize = 48;
 
 /// Elements that several threads evaluate while one sums up as many.
-const ROUND: usize = 384;
+const ELEMENTS_PER_ROUND: usize = 384;
 
 /// Elements from which several threads pay: for a thread of the pool, and for one outside, which sleeps until a thread of the pool
 /// has woken it, round after round.
-const WORTH_THREADS: [usize; 2] = [400, 4000];
+const ELEMENTS_WORTH_THREADS: [usize; 2] = [400, 4000];
 
 /// Position of a node after the displacement from the converged state.
 #[inline(always)]
@@ -136,27 +136,28 @@ impl Motion<'_, '_> {
     ) -> Result<(), Failure> {
         let cells = self.body.mesh.cell_count();
         let outside = usize::from(rayon::current_thread_index().is_none());
-        let threads = cells >= WORTH_THREADS[outside] && rayon::current_num_threads() > 1;
+        let threads = cells >= ELEMENTS_WORTH_THREADS[outside] && rayon::current_num_threads() > 1;
         let Buffers([now, before]) = buffers;
         if !threads {
-            let outputs = &mut now[..TASK];
-            for first in (0..cells).step_by(TASK) {
-                let count = TASK.min(cells - first);
+            let outputs = &mut now[..ELEMENTS_PER_TASK];
+            for first in (0..cells).step_by(ELEMENTS_PER_TASK) {
+                let count = ELEMENTS_PER_TASK.min(cells - first);
                 self.evaluate_some(start, first, &mut outputs[..count])?;
                 (first..).zip(&outputs[..count]).for_each(|(cell, output)| take(cell, output));
             }
             return Ok(());
         }
         let mut evaluated = 0..0;
-        for first in (0..cells).step_by(ROUND) {
-            let round = first..cells.min(first + ROUND);
+        for first in (0..cells).step_by(ELEMENTS_PER_ROUND) {
+            let round = first..cells.min(first + ELEMENTS_PER_ROUND);
             let outputs = &mut now[..round.len()];
             let (_, outcome) = rayon::join(
                 || evaluated.clone().zip(&*before).for_each(|(cell, output)| take(cell, output)),
                 || {
-                    let tasks = outputs.par_chunks_mut(TASK).enumerate();
-                    let outcomes =
-                        tasks.map(|(i, outputs)| self.evaluate_some(start, first + i * TASK, outputs));
+                    let tasks = outputs.par_chunks_mut(ELEMENTS_PER_TASK).enumerate();
+                    let outcomes = tasks.map(|(i, outputs)| {
+                        self.evaluate_some(start, first + i * ELEMENTS_PER_TASK, outputs)
+                    });
                     outcomes.reduce(|| Ok(()), Result::and)
                 },
             );
@@ -176,7 +177,11 @@ pub(super) struct Buffers([Vec<ElementOutput>; 2]);
 impl Buffers {
     /// For the elements of `body`.
     pub fn new(body: &Body<'_>) -> Buffers {
-        let length = if body.mesh.cell_count() < WORTH_THREADS[0] { [TASK, 0] } else { [ROUND; 2] };
+        let length = if body.mesh.cell_count() < ELEMENTS_WORTH_THREADS[0] {
+            [ELEMENTS_PER_TASK, 0]
+        } else {
+            [ELEMENTS_PER_ROUND; 2]
+        };
         Buffers(length.map(|length| vec![ElementOutput::new(body.material.virgin()); length]))
     }
 }

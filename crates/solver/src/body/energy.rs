@@ -33,10 +33,10 @@ pub fn work_by_slopes(force: [f64; 2], slope: [f64; 2], travel: f64) -> f64 {
 }
 
 /// Exponents that a force has near separation as the tool retreats: 1 under a flat punch, 2 under a cone.
-pub const PARTING: [f64; 2] = [1.0, 2.0];
+pub const SEPARATION_EXPONENTS: [f64; 2] = [1.0, 2.0];
 
 /// Exponents that a force has after first touch: 1/2 of a plastic ridge with a round summit, 2 of a cone.
-pub const TOUCHING: [f64; 2] = [0.5, 2.0];
+pub const FIRST_TOUCH_EXPONENTS: [f64; 2] = [0.5, 2.0];
 
 /// ∫F dh between separation and a state of this force and slope that lies `travel` from it: F ∝ (distance to separation)^m.
 ///
@@ -117,9 +117,11 @@ mod tests {
         assert!((work([1.0, 9.0], 2.0) - 26.0 / 3.0).abs() < 1e-14);
         assert!((work_by_slopes([24.0, 3.0], [36.0, 9.0], -1.0) + 11.25).abs() < 1e-14);
         let (force, slope) = (5.0 * 0.3_f64.powf(1.5), 7.5 * 0.3_f64.sqrt());
-        assert!((work_by_power(force, slope, -0.3, PARTING) + 2.0 * 0.3_f64.powf(2.5)).abs() < 1e-14);
+        assert!(
+            (work_by_power(force, slope, -0.3, SEPARATION_EXPONENTS) + 2.0 * 0.3_f64.powf(2.5)).abs() < 1e-14
+        );
         // F = √h up to h = 4: 16/3; as a tool parts, no power below 1 is taken: 4
-        assert!((work_by_power(2.0, 0.25, 4.0, TOUCHING) - 16.0 / 3.0).abs() < 1e-14);
-        assert!((work_by_power(2.0, 0.25, 4.0, PARTING) - 4.0).abs() < 1e-14);
+        assert!((work_by_power(2.0, 0.25, 4.0, FIRST_TOUCH_EXPONENTS) - 16.0 / 3.0).abs() < 1e-14);
+        assert!((work_by_power(2.0, 0.25, 4.0, SEPARATION_EXPONENTS) - 4.0).abs() < 1e-14);
     }
 }

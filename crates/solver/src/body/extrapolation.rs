@@ -12,7 +12,7 @@ use asperity_numerics::lanes::Lanes;
 use pulp::{Simd, WithSimd};
 
 /// Ĵ is kept within this share of J: an increment that overturns the volume change of the last one is no smooth path.
-const LARGEST_CHANGE: f64 = 0.1;
+const LARGEST_VOLUME_CHANGE: f64 = 0.1;
 
 impl State {
     /// Begins the trial with the tool's lowest point at `tip` (infinite: without a tool) and the first guess `guess` of the
@@ -27,10 +27,6 @@ impl State {
         trial: &mut Trial,
     ) {
         trial.tip = tip;
-        trial.multiplier.clone_from(&self.multiplier);
-        if tip == f64::INFINITY {
-            trial.multiplier.fill(0.0);
-        }
         trial.displacement.iter_mut().enumerate().for_each(|(node, du)| *du = guess(node));
         trial.factor = extrapolation_factor(ratio);
         trial.start.clone_from(&self.points);
@@ -38,8 +34,8 @@ impl State {
             trial.start.states.iter_mut().zip(&self.points.states).zip(&self.volume_change)
         {
             let now = volume_ratio(&state.b_minus_i);
-            start.yield_scale =
-                now + (bounded(ratio) * change).clamp(-LARGEST_CHANGE * now, LARGEST_CHANGE * now);
+            start.yield_scale = now
+                + (bounded(ratio) * change).clamp(-LARGEST_VOLUME_CHANGE * now, LARGEST_VOLUME_CHANGE * now);
         }
         for (cell, last) in self.plastic.chunks_exact(POINTS).enumerate() {
             let flowed = std::array::from_fn(|i| last[i].times(trial.factor));

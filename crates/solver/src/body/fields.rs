@@ -42,22 +42,47 @@ pub struct SurfacePoint {
     pub yielded: bool,
 }
 
-/// Point values are extrapolated linearly to the corners of their element and averaged by volume over the elements
-/// that share a node; mid-side nodes take the mean of their corners.
+/// The fields of a converged `state`. Stress and plastic strain at the nodes: see [`averaged_at_nodes`].
 pub fn fields(body: &Body<'_>, state: &State) -> Fields {
+    let averages = averaged_at_nodes(body, state);
+    let zone = |cell: usize| {
+        let yielded = state.points.states[Body::points_of(cell)].iter().any(|s| s.plastic_strain > 0.0);
+        if state.yielding[cell] { 2.0 } else { f64::from(u8::from(yielded)) }
+    };
+    let displacement: Vec<[f64; 2]> = state
+        .position
+        .iter()
+        .zip(&state.origin)
+        .map(|(x, reference)| [x[0] - reference[0], x[1] - reference[1]])
+        .collect();
+    let stress: Vec<Sym> = averages.iter().map(|s| [s[0], s[1], s[2], s[3]]).collect();
+    let mut fields = Fields {
+        von_mises: stress.iter().map(von_mises).collect(),
+        pressure: stress.iter().map(|s| -hydrostatic(s)).collect(),
+        displacement,
+        stress,
+        plastic_strain: averages.iter().map(|s| s[4].max(0.0)).collect(),
+        contact_pressure: contact_pressure(body, state),
+        plastic_zone: (0..body.mesh.cell_count()).map(zone).collect(),
+        surface: Vec::new(),
+    };
+    fields.surface = surface_points(body, state, &fields);
+    fields
+}
+
+/// Cauchy stress and plastic strain at the nodes. Point values are extrapolated linearly to the corners of their element and averaged by volume over the elements
+/// that share a node; mid-side nodes take the mean of their corners.
+fn averaged_at_nodes(body: &Body<'_>, state: &State) -> Vec<[f64; 5]> {
     let mesh = body.mesh;
     let nodes = mesh.nodes.len();
-    let mut sums = vec![[0.0; 5]; nodes]; // Cauchy stress and plastic strain
+    let mut sums = vec![[0.0; 5]; nodes];
     let mut weights = vec![0.0; nodes];
-    let mut plastic_zone = Vec::with_capacity(mesh.cell_count());
     let elastic = &body.material.elastic;
     // corner value from the points: √3 times their bilinear coordinates
     let root = 3.0_f64.sqrt();
     let (near, side, far) = (0.25 * (1.0 + root).powi(2), 0.25 * (1.0 - 3.0), 0.25 * (1.0 - root).powi(2));
     for cell in 0..mesh.cell_count() {
         let states = &state.points.states[Body::points_of(cell)];
-        let yielded = states.iter().any(|s| s.plastic_strain > 0.0);
-        plastic_zone.push(if state.yielding[cell] { 2.0 } else { f64::from(u8::from(yielded)) });
         let values: [[f64; 5]; POINTS] = std::array::from_fn(|q| {
             let j = volume_ratio(&states[q].b_minus_i);
             let [rr, zz, tt, rz] = stress(elastic, &states[q].b_minus_i).map(|t| t / j);
@@ -86,19 +111,15 @@ pub fn fields(body: &Body<'_>, state: &State) -> Fields {
             sums[middle as usize] = std::array::from_fn(|i| 0.5 * (sums[a][i] + sums[b][i]));
         }
     }
-    let contact_pressure = contact_pressure(body, state);
-    let displacement: Vec<[f64; 2]> = state
-        .position
-        .iter()
-        .zip(&state.origin)
-        .map(|(x, reference)| [x[0] - reference[0], x[1] - reference[1]])
-        .collect();
-    let stress: Vec<Sym> = sums.iter().map(|s| [s[0], s[1], s[2], s[3]]).collect();
-    let plastic_strain: Vec<f64> = sums.iter().map(|s| s[4].max(0.0)).collect();
+    sums
+}
+
+/// The nodes of the free surface, from its outer end inwards, with the `fields` there.
+fn surface_points(body: &Body<'_>, state: &State, fields: &Fields) -> Vec<SurfacePoint> {
     let mut surface: Vec<SurfacePoint> = Vec::new();
-    for &edge in &mesh.sides.surface {
+    for &edge in &body.mesh.sides.surface {
         // the edge runs counterclockwise around the body: from its outer to its inner corner
-        let (corners, middle) = mesh.edge_nodes(edge);
+        let (corners, middle) = body.mesh.edge_nodes(edge);
         let mut along = vec![corners[1]];
         along.extend(middle);
         along.push(corners[0]);
@@ -106,25 +127,16 @@ pub fn fields(body: &Body<'_>, state: &State) -> Fields {
             let i = node as usize;
             let point = SurfacePoint {
                 position: state.position[i],
-                displacement: displacement[i],
-                pressure: contact_pressure[i],
-                yielded: plastic_strain[i] > 0.0,
+                displacement: fields.displacement[i],
+                pressure: fields.contact_pressure[i],
+                yielded: fields.plastic_strain[i] > 0.0,
             };
             if surface.last() != Some(&point) {
                 surface.push(point);
             }
         }
     }
-    Fields {
-        von_mises: stress.iter().map(von_mises).collect(),
-        pressure: stress.iter().map(|s| -hydrostatic(s)).collect(),
-        displacement,
-        stress,
-        plastic_strain,
-        contact_pressure,
-        plastic_zone,
-        surface,
-    }
+    surface
 }
 
 /// Current pressure at the surface nodes: penalty times penetration, per current area.
@@ -140,7 +152,7 @@ fn contact_pressure(body: &Body<'_>, state: &State) -> Vec<f64> {
             continue;
         }
         for (node, xi) in edge.nodes.into_iter().zip([-1.0, 1.0, 0.0]).take(edge.node_count()) {
-            pressure[node as usize] = surface.nodal_pressure(edge, node, xi).max(0.0);
+            pressure[node as usize] = surface.nodal_pressure(edge, xi).max(0.0);
         }
     }
     let whole: Vec<bool> = surface.contact.iter().map(|contact| contact.parts == WHOLE).collect();

@@ -25,7 +25,7 @@ pub struct Gap {
 }
 
 /// Section of a pore over the square of its circumference up to which it is closed: a circle has 0.08, a slit of 1:100 0.0025.
-const THINNEST: f64 = 0.0025;
+const CLOSED_PORE_SECTION: f64 = 0.0025;
 
 /// A connected region that never yielded, enclosed by material that did or standing above the substrate.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -92,7 +92,7 @@ fn enclosed(edges: impl Iterator<Item = [[f64; 2]; 3]>) -> Option<Gap> {
         }
     }
     let [[left, right], [low, high]] = ends;
-    let open = 0.5 * twice_area.abs() > THINNEST * length * length;
+    let open = 0.5 * twice_area.abs() > CLOSED_PORE_SECTION * length * length;
     open.then_some(Gap { left, right, height: high - low, enclosed: true })
 }
 

@@ -54,8 +54,6 @@ pub struct State {
     pub plastic: Vec<PlasticIncrement>,
     /// Change of each point's volume ratio J in the last increment; empty where the yield stress does not depend on it.
     pub volume_change: Vec<f64>,
-    /// Plastic work so far.
-    pub plastic_work: f64,
     /// Whether each element yielded in the last increment.
     pub yielding: Vec<bool>,
     /// Height of the tool's lowest point; infinite without a tool.
@@ -68,12 +66,19 @@ pub struct State {
     pub contact: Vec<EdgeContact>,
     /// Which points of the surface face other parts of it.
     pub facing: Facing,
-    /// Energy of the contact of the surface with itself.
-    pub self_contact_energy: f64,
-    /// Augmented Lagrange multipliers at the nodes.
-    pub multiplier: Vec<f64>,
     /// Largest load so far.
     pub load_scale: f64,
+    /// Energies that are counted along the way.
+    pub ledger: Ledger,
+}
+
+/// Energies that no state alone tells: they are counted along the way.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Ledger {
+    /// Plastic work so far.
+    pub plastic_work: f64,
+    /// Energy of the contact of the surface with itself.
+    pub self_contact: f64,
     /// Change of the contact energy by that of the area it is taken over and of the penalty, up to the last increment and after it.
     pub remeasured: [f64; 2],
     /// Change of the stored energy, the plastic work and the contact energy by all transfers to better meshes.
@@ -118,8 +123,6 @@ pub struct Trial {
     pub penalty: f64,
     /// Displacement of each node from the converged state.
     pub displacement: Vec<[f64; 2]>,
-    /// Augmented Lagrange multipliers at the nodes.
-    pub multiplier: Vec<f64>,
     /// States that the points start from: the converged ones with the last plastic increment extrapolated.
     pub start: Points,
     /// κ of that extrapolation.
@@ -129,9 +132,9 @@ pub struct Trial {
 impl State {
     /// The stress-free state of `body`.
     pub fn virgin(body: &Body<'_>) -> State {
-        let (nodes, count) = (body.mesh.nodes.len(), body.volume.len());
+        let count = body.volume.len();
         let yields = body.material.hardening.is_some() || body.material.has_back_stress();
-        let (edges, still) = (body.surface(&body.mesh.nodes), vec![[0.0; 2]; nodes]);
+        let (edges, still) = (body.surface(&body.mesh.nodes), vec![[0.0; 2]; body.mesh.nodes.len()]);
         State {
             facing: Facing::new(&edges, &body.mesh.nodes, &still, &Facing::default()),
             origin: body.mesh.nodes.clone(),
@@ -140,18 +143,13 @@ impl State {
             points: Points::virgin(&body.material, count),
             plastic: vec![PlasticIncrement::NONE; if yields { count } else { 0 }],
             volume_change: vec![0.0; if yields && body.material.yields_by_true_stress() { count } else { 0 }],
-            plastic_work: 0.0,
             yielding: vec![false; body.mesh.cell_count()],
             tip: f64::INFINITY,
             penalty: body.contact.as_ref().map_or(0.0, |contact| contact.penalty),
             edges,
             contact: Vec::new(),
-            self_contact_energy: 0.0,
-            multiplier: vec![0.0; nodes],
             load_scale: 0.0,
-            remeasured: [0.0; 2],
-            transferred: 0.0,
-            transfers: 0,
+            ledger: Ledger::default(),
         }
     }
 
@@ -192,7 +190,6 @@ impl State {
             tip: f64::INFINITY,
             penalty: self.penalty,
             displacement: vec![[0.0; 2]; self.position.len()],
-            multiplier: vec![0.0; self.position.len()],
             start: self.points.clone(),
             factor: 0.0,
         }
@@ -201,7 +198,7 @@ impl State {
     /// Change of the contact energy that is no work of the tool: by that of the area it is taken over and of the penalty, up to the
     /// last increment.
     pub fn remeasured_energy(&self) -> f64 {
-        self.remeasured[0]
+        self.ledger.remeasured[0]
     }
 
     /// Force on the tool along z, positive in compression.
@@ -211,7 +208,7 @@ impl State {
 
     /// The largest elastic logarithmic strain in a principal direction, without its sign.
     pub fn largest_elastic_strain(&self) -> f64 {
-        let elastic = self.points.states.iter().filter_map(|point| Spectral::of(&point.b_minus_i).ok());
+        let elastic = self.points.states.iter().filter_map(|point| Spectral::new(&point.b_minus_i).ok());
         elastic
             .flat_map(|spectral| spectral.log_strain)
             .fold(0.0, |largest, strain| largest.max(strain.abs()))
@@ -226,6 +223,6 @@ impl State {
             let of = |(history, v): (&History, &f64)| v * elastic_energy(&body.material.elastic, history);
             points.history.iter().zip(&body.volume).map(of).sum()
         };
-        [elastic, self.plastic_work]
+        [elastic, self.ledger.plastic_work]
     }
 }

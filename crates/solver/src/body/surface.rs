@@ -20,7 +20,6 @@ pub struct Surface<'a> {
     displacement: Option<&'a [[f64; 2]]>,
     tip: f64,
     penalty: f64,
-    multiplier: &'a [f64],
 }
 
 impl<'a> Surface<'a> {
@@ -34,7 +33,6 @@ impl<'a> Surface<'a> {
             displacement: None,
             tip: state.tip,
             penalty: state.penalty,
-            multiplier: &state.multiplier,
         }
     }
 
@@ -50,7 +48,6 @@ impl<'a> Surface<'a> {
             displacement: Some(&trial.displacement),
             tip: trial.tip,
             penalty: trial.penalty,
-            multiplier: &trial.multiplier,
             ..Surface::of_state(body, state)
         }
     }
@@ -116,11 +113,11 @@ impl<'a> Surface<'a> {
         travel
     }
 
-    /// Contact pressure per current area at the node of `edge` that lies at ξ, negative off the contact; 0 without a tool.
-    pub fn nodal_pressure(&self, edge: &ContactEdge, node: u32, xi: f64) -> f64 {
+    /// Contact pressure per current area at ξ of `edge`, negative off the contact; 0 without a tool.
+    pub fn nodal_pressure(&self, edge: &ContactEdge, xi: f64) -> f64 {
         let Some(contact) = &self.body.contact else { return 0.0 };
         let x = edge.nodes.map(|node| self.position(node));
         let depth = contact.tool.penetration(edge.point(&x, xi), self.tip).depth;
-        (self.multiplier[node as usize] + self.penalty * depth) / edge.stretch(&x, xi)
+        self.penalty * depth / edge.stretch(&x, xi)
     }
 }

@@ -1,9 +1,8 @@
 //! Frictionless penalty contact of surface edges with a rigid tool, integrated over exactly the part that touches.
 //!
-//! Energy ∫ p²/(2ε) dA over a reference area, p = λ + ε d with the penetration d and the augmented Lagrange
-//! multiplier λ (zero for plain penalty). Each edge is clipped where p = 0 and Gauss points are laid on the clipped
-//! part: force and contact radius move smoothly as the front crosses an element, and because p vanishes at the clip
-//! the tangent is the exact derivative of the force.
+//! Energy ∫ p²/(2ε) dA over a reference area, p = ε d with the penetration d. Each edge is clipped where p = 0 and Gauss points are
+//! laid on the clipped part: force and contact radius move smoothly as the front crosses an element, and because p vanishes at
+//! the clip the tangent is the exact derivative of the force.
 //!
 //! The reference is the surface of the last converged state. A steep tool stretches the surface under its apex over a large
 //! part of its flank, where a penalty over the undeformed area fades: the apex then pierces the surface (30° cone, n = 0.1: K 15 %
@@ -54,7 +53,7 @@ pub struct EdgeContact {
     pub load: f64,
     /// ∫ p²/(2ε) dA.
     pub energy: f64,
-    /// ∫ ½ε d² dA: what the penalty holds (the same without multipliers).
+    /// ∫ ½ε d² dA: the same but for rounding.
     pub penalty_energy: f64,
     /// ∫ p d dA, for the pressure-weighted mean penetration.
     pub pressure_penetration: f64,
@@ -137,13 +136,10 @@ impl ContactEdge {
         if reference > 0.0 { current / reference } else { 1.0 }
     }
 
-    /// Parts where λ + ε d ≥ 0, from nodal multipliers.
-    pub fn touching(&self, context: &ContactContext<'_>, x: &[[f64; 2]; 3], multiplier: &[f64; 3]) -> Parts {
-        let pressure = |xi: f64| {
-            let n = self.shape(xi);
-            let lambda = n[0] * multiplier[0] + n[1] * multiplier[1] + n[2] * multiplier[2];
-            lambda + context.penalty * context.tool.penetration(self.point(x, xi), context.tip).depth
-        };
+    /// Parts where ε d ≥ 0.
+    pub fn touching(&self, context: &ContactContext<'_>, x: &[[f64; 2]; 3]) -> Parts {
+        let pressure =
+            |xi: f64| context.penalty * context.tool.penetration(self.point(x, xi), context.tip).depth;
         if matches!(context.tool, Tool::Measured(_)) {
             return parts_above_zero(pressure);
         }
@@ -185,13 +181,7 @@ impl ContactEdge {
     }
 
     /// Integrates pressure over `parts`, wherever it may be negative there (a kept contact set may pull).
-    pub fn integrate(
-        &self,
-        context: &ContactContext<'_>,
-        parts: Parts,
-        x: &[[f64; 2]; 3],
-        multiplier: &[f64; 3],
-    ) -> EdgeContact {
+    pub fn integrate(&self, context: &ContactContext<'_>, parts: Parts, x: &[[f64; 2]; 3]) -> EdgeContact {
         let mut out = EdgeContact {
             parts,
             force: [[0.0; 2]; 3],
@@ -214,8 +204,7 @@ impl ContactEdge {
                 let n = self.shape(xi);
                 let here = self.point(x, xi);
                 let d = context.tool.penetration(here, context.tip);
-                let lambda = n[0] * multiplier[0] + n[1] * multiplier[1] + n[2] * multiplier[2];
-                let p = lambda + context.penalty * d.depth;
+                let p = context.penalty * d.depth;
                 let w = half * weight * self.measure(xi);
                 out.energy += w * p * p / (2.0 * context.penalty);
                 out.penalty_energy += 0.5 * w * context.penalty * d.depth * d.depth;

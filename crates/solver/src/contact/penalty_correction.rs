@@ -25,7 +25,7 @@ struct Piece {
 }
 
 /// Gaps below this share of the larger radius are none.
-const TOUCHING: f64 = 1e-9;
+const LEAST_GAP: f64 = 1e-9;
 
 /// Penalty correction if the material is elastic, and the elastic energy near the contacts times E*.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -40,7 +40,7 @@ pub struct Punches {
 fn extent(pieces: &[Piece], symmetry: Symmetry) -> ([f64; 2], bool) {
     let (first, last) = (pieces.first(), pieces.last());
     let [left, right] = [first.map_or(0.0, |p| p.ends[0]), last.map_or(0.0, |p| p.ends[1])];
-    ([left, right], symmetry == Symmetry::Axisymmetric && left <= TOUCHING * right)
+    ([left, right], symmetry == Symmetry::Axisymmetric && left <= LEAST_GAP * right)
 }
 
 /// Mean penetration of pieces that touch each other under the pressure of a flat punch.
@@ -88,7 +88,7 @@ pub fn under_punches<'a>(
     // an edge that touches in a point carries nothing
     pieces.retain(|p| p.ends[0] < p.ends[1] && p.force.is_finite());
     pieces.sort_by(|a, b| a.ends[0].total_cmp(&b.ends[0]));
-    let joined = |a: &Piece, b: &Piece| (b.ends[0] - a.ends[1]).abs() <= TOUCHING * b.ends[0].abs();
+    let joined = |a: &Piece, b: &Piece| (b.ends[0] - a.ends[1]).abs() <= LEAST_GAP * b.ends[0].abs();
     let (mut sums, mut force) = (Punches::default(), 0.0);
     for contact in pieces.chunk_by(joined) {
         let carried: f64 = contact.iter().map(|p| p.force).sum();

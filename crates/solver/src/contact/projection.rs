@@ -9,10 +9,10 @@
 use crate::contact::edge::ContactEdge;
 
 /// Most nodes of two edges.
-pub const NODES: usize = 6;
+pub const NODES_OF_TWO_EDGES: usize = 6;
 
 /// Iterations after which a projection that has not converged is taken as it is: three to five do.
-const MAX_ITERATIONS: usize = 20;
+const MOST_PROJECTION_ITERATIONS: usize = 20;
 
 /// An edge with the current positions of its nodes.
 #[derive(Clone, Copy, Debug)]
@@ -42,13 +42,13 @@ pub struct Depth {
     /// Depth behind the surface.
     pub depth: f64,
     /// First derivatives.
-    pub slope: [[f64; 2]; NODES],
+    pub slope: [[f64; 2]; NODES_OF_TWO_EDGES],
     /// Second derivatives, `[node a][i][node b][j]`.
-    pub curvature: [[[[f64; 2]; NODES]; 2]; NODES],
+    pub curvature: [[[[f64; 2]; NODES_OF_TWO_EDGES]; 2]; NODES_OF_TWO_EDGES],
 }
 
 /// A linear form of the displacements of the nodes.
-type Form = [[f64; 2]; NODES];
+type Form = [[f64; 2]; NODES_OF_TWO_EDGES];
 
 fn difference(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
     [a[0] - b[0], a[1] - b[1]]
@@ -63,8 +63,13 @@ fn cross(a: [f64; 2], b: [f64; 2]) -> f64 {
 }
 
 /// Adds `factor` (a ⊗ b + b ⊗ a)/2.
-fn add_product(to: &mut [[[[f64; 2]; NODES]; 2]; NODES], factor: f64, a: &Form, b: &Form) {
-    for (k, l) in (0..NODES).flat_map(|k| (0..NODES).map(move |l| (k, l))) {
+fn add_product(
+    to: &mut [[[[f64; 2]; NODES_OF_TWO_EDGES]; 2]; NODES_OF_TWO_EDGES],
+    factor: f64,
+    a: &Form,
+    b: &Form,
+) {
+    for (k, l) in (0..NODES_OF_TWO_EDGES).flat_map(|k| (0..NODES_OF_TWO_EDGES).map(move |l| (k, l))) {
         for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
             to[k][i][l][j] += 0.5 * factor * (a[k][i] * b[l][j] + b[k][i] * a[l][j]);
         }
@@ -115,7 +120,7 @@ impl Placed<'_> {
     /// The point of the edge nearest to `here`.
     pub fn nearest(&self, here: [f64; 2]) -> Nearest {
         let (mut xi, bend) = (self.start(here), self.bend());
-        for _ in 0..MAX_ITERATIONS {
+        for _ in 0..MOST_PROJECTION_ITERATIONS {
             let (from, along) = (difference(here, self.point(xi)), self.edge.tangent(&self.x, xi));
             let slope = dot(along, along) - dot(from, bend);
             // far inside the bend the nearest point is not unique: a step along the tangent still goes downhill
@@ -154,8 +159,8 @@ impl Placed<'_> {
         let from = difference(self.point(xi), other.point(nearest.xi));
         let mut out = Depth {
             depth: nearest.distance,
-            slope: [[0.0; 2]; NODES],
-            curvature: [[[[0.0; 2]; NODES]; 2]; NODES],
+            slope: [[0.0; 2]; NODES_OF_TWO_EDGES],
+            curvature: [[[[0.0; 2]; NODES_OF_TWO_EDGES]; 2]; NODES_OF_TWO_EDGES],
         };
         let of_other = other.edge.shape(nearest.xi);
         if nearest.end.is_some() {
@@ -198,7 +203,7 @@ mod tests {
     }
 
     /// A body below a quadratic or straight edge that runs towards the axis; a point that its own edge carries.
-    fn depth(x: &[[f64; 2]; NODES], quadratic: bool) -> Option<Depth> {
+    fn depth(x: &[[f64; 2]; NODES_OF_TWO_EDGES], quadratic: bool) -> Option<Depth> {
         let (first, second) = (edge(true), edge(quadratic));
         let point = Placed { edge: &first, x: [x[0], x[1], x[2]] };
         let other = Placed { edge: &second, x: [x[3], x[4], x[5]] };
@@ -207,16 +212,16 @@ mod tests {
     }
 
     /// Central differences with a step of 1e-5 are good to 1e-9.
-    fn check(x: [[f64; 2]; NODES], quadratic: bool) {
+    fn check(x: [[f64; 2]; NODES_OF_TWO_EDGES], quadratic: bool) {
         let here = depth(&x, quadratic).expect("the point lies behind the edge");
-        for (k, i) in (0..NODES).flat_map(|k| [(k, 0), (k, 1)]) {
+        for (k, i) in (0..NODES_OF_TWO_EDGES).flat_map(|k| [(k, 0), (k, 1)]) {
             let [after, before] = [1e-5, -1e-5].map(|step| {
                 let mut x = x;
                 x[k][i] += step;
                 depth(&x, quadratic).unwrap()
             });
             assert!((here.slope[k][i] - (after.depth - before.depth) / 2e-5).abs() < 1e-8, "{k} {i}");
-            for (l, j) in (0..NODES).flat_map(|l| [(l, 0), (l, 1)]) {
+            for (l, j) in (0..NODES_OF_TWO_EDGES).flat_map(|l| [(l, 0), (l, 1)]) {
                 let slope = (after.slope[l][j] - before.slope[l][j]) / 2e-5;
                 assert!((here.curvature[k][i][l][j] - slope).abs() < 1e-7, "{k} {i} {l} {j}");
                 assert!((here.curvature[k][i][l][j] - here.curvature[l][j][k][i]).abs() < 1e-13);

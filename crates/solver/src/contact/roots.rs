@@ -3,16 +3,16 @@
 use crate::contact::parts::{NOTHING, Parts};
 
 /// Samples along an edge, its ends included: between two of them a pressure has one extreme at most.
-const SAMPLES: usize = 9;
+const SAMPLES_PER_EDGE: usize = 9;
 
 /// Halvings of an interval around a root or an extreme.
-const MOST_STEPS: usize = 100;
+const MOST_HALVINGS: usize = 100;
 
 /// Parts of [-1, 1] where `pressure` is above zero: one, or both ends or any two; a gap that would leave three is closed, the
 /// narrowest first.
 pub fn parts_above_zero(pressure: impl Fn(f64) -> f64) -> Parts {
-    let mut at: Vec<[f64; 2]> = (0..SAMPLES)
-        .map(|i| -1.0 + 2.0 * i as f64 / (SAMPLES - 1) as f64)
+    let mut at: Vec<[f64; 2]> = (0..SAMPLES_PER_EDGE)
+        .map(|i| -1.0 + 2.0 * i as f64 / (SAMPLES_PER_EDGE - 1) as f64)
         .map(|x| [x, pressure(x)])
         .collect();
     // an extreme of the other sign between samples of one sign parts two roots
@@ -51,7 +51,7 @@ pub fn parts_above_zero(pressure: impl Fn(f64) -> f64) -> Parts {
 /// The root between two places of different sign: secants, halved where they stay on one side (the Illinois rule).
 fn root(pressure: &impl Fn(f64) -> f64, from: [f64; 2], to: [f64; 2]) -> f64 {
     let ([mut a, mut fa], [mut b, mut fb]) = (from, to);
-    for _ in 0..MOST_STEPS {
+    for _ in 0..MOST_HALVINGS {
         let x = b - fb * (b - a) / (fb - fa);
         if (x - b).abs() <= 1e-15 {
             break;
@@ -72,22 +72,22 @@ fn root(pressure: &impl Fn(f64) -> f64, from: [f64; 2], to: [f64; 2]) -> f64 {
 
 /// The place in [a, b] where `pressure` is least (if it is `positive`) or greatest, by golden sections.
 fn extreme(pressure: &impl Fn(f64) -> f64, mut a: f64, mut b: f64, positive: bool) -> [f64; 2] {
-    const SHARE: f64 = 0.618_033_988_749_894_9;
+    const GOLDEN_SHARE: f64 = 0.618_033_988_749_894_9;
     let sign = if positive { 1.0 } else { -1.0 };
     let value = |x: f64| sign * pressure(x);
-    let (mut c, mut d) = (b - SHARE * (b - a), a + SHARE * (b - a));
+    let (mut c, mut d) = (b - GOLDEN_SHARE * (b - a), a + GOLDEN_SHARE * (b - a));
     let (mut fc, mut fd) = (value(c), value(d));
-    for _ in 0..MOST_STEPS {
+    for _ in 0..MOST_HALVINGS {
         if fc.min(fd) <= 0.0 || b - a < 1e-9 {
             break;
         }
         if fc < fd {
             (b, d, fd) = (d, c, fc);
-            c = b - SHARE * (b - a);
+            c = b - GOLDEN_SHARE * (b - a);
             fc = value(c);
         } else {
             (a, c, fc) = (c, d, fd);
-            d = a + SHARE * (b - a);
+            d = a + GOLDEN_SHARE * (b - a);
             fd = value(d);
         }
     }

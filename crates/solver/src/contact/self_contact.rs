@@ -1,6 +1,6 @@
 //! Frictionless penalty contact of the free surface with itself: flanks that meet, flanks that lie down on the base.
 //!
-//! Energy ∫ ½ (ε/2) d² dA over the surface. ε is `STIFFER` times the tool's penalty, d the depth of a surface point behind the
+//! Energy ∫ ½ (ε/2) d² dA over the surface. ε is `PENALTY_RATIO` times the tool's penalty, d the depth of a surface point behind the
 //! nearest of the edges that it faces, A the area of the last converged state as for the tool. Each side presses the other with
 //! half the penalty, so that two faces press with ε d. The force is the gradient of this energy, the tangent its second
 //! derivative. Integration points lie between the places where nodes of the other side were, so that two meshes that do not
@@ -8,26 +8,26 @@
 //!
 //! Which points face which edges is found once an increment, from the converged state: a point inside thin metal lies behind
 //! its other side as well, and only its past tells the two apart. An edge is faced if the two normals part by more than 60° and the
-//! point lay outside of it or less than `DEEPEST` of a piece behind. Pieces are the straight lines between neighbouring nodes.
+//! point lay outside of it or less than `LARGEST_OVERLAP` of a piece behind. Pieces are the straight lines between neighbouring nodes.
 
 use crate::contact::edge::{ContactEdge, GAUSS4};
-use crate::contact::projection::{Depth, NODES, Placed, intersection};
+use crate::contact::projection::{Depth, NODES_OF_TWO_EDGES, Placed, intersection};
 
 /// Share of the length of a piece up to which a point may lie behind it: more would be the other side of thin metal.
-const DEEPEST: f64 = 0.25;
+const LARGEST_OVERLAP: f64 = 0.25;
 
 /// The penalty over that of the tool, which is softer than the metal by an order of magnitude so that Newton follows a front that
 /// runs over many edges; a fold grows slowly, and lies where elements are as coarse as the tool's penetration is deep.
-const STIFFER: f64 = 4.0;
+const PENALTY_RATIO: f64 = 4.0;
 
 /// The same for an edge that the piece faced before: there is no doubt which side it came from.
-const LOST: f64 = 2.0;
+const LARGEST_OVERLAP_OF_FACED: f64 = 2.0;
 
 /// Cosine between outward normals from which on two pieces do not face each other.
-const FACING: f64 = 0.5;
+const FACING_COSINE: f64 = 0.5;
 
 /// Displacements of the last increment within which the next one may bring two pieces together.
-const REACH: f64 = 3.0;
+const REACH_IN_DISPLACEMENTS: f64 = 3.0;
 
 /// A straight piece of the surface between two neighbouring nodes, the body on its left.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -61,15 +61,15 @@ pub struct Facing {
 #[derive(Clone, Copy, Debug)]
 pub struct Pressed {
     /// Nodes: those of the edge of the point, then those of the other edge.
-    pub nodes: [u32; NODES],
+    pub nodes: [u32; NODES_OF_TWO_EDGES],
     /// How many of them there are.
     pub count: usize,
     /// Energy.
     pub energy: f64,
     /// Nodal forces, the gradient of the energy.
-    pub force: [[f64; 2]; NODES],
+    pub force: [[f64; 2]; NODES_OF_TWO_EDGES],
     /// Second derivative of the energy, `[node a][i][node b][j]`.
-    pub stiffness: [[[[f64; 2]; NODES]; 2]; NODES],
+    pub stiffness: [[[[f64; 2]; NODES_OF_TWO_EDGES]; 2]; NODES_OF_TWO_EDGES],
 }
 
 impl Piece {
@@ -98,7 +98,7 @@ impl Piece {
     /// Whether the two normals part so far that the pieces may press each other.
     fn faces(&self, other: &Piece) -> bool {
         let (s, t) = (self.direction(), other.direction());
-        !self.touches(other) && s[0] * t[0] + s[1] * t[1] < FACING
+        !self.touches(other) && s[0] * t[0] + s[1] * t[1] < FACING_COSINE
     }
 }
 
@@ -151,7 +151,7 @@ impl Facing {
         let nodes = edges.iter().flat_map(|edge| edge.nodes);
         let moved = nodes.map(|n| displacement[n as usize]).fold(0.0, |m: f64, [r, z]| m.max(r.hypot(z)));
         let mut partners: Vec<Vec<usize>> = vec![Vec::new(); pieces.len()];
-        for [a, b] in close_pairs(&pieces, REACH * moved, Piece::faces) {
+        for [a, b] in close_pairs(&pieces, REACH_IN_DISPLACEMENTS * moved, Piece::faces) {
             partners[a].push(b);
             partners[b].push(a);
         }
@@ -172,7 +172,11 @@ impl Facing {
                     let xi = from + half * (1.0 + abscissa);
                     let outside = |&&other: &&usize| {
                         let nearest = placed(other).nearest(own.point(xi));
-                        let share = if before.knows(piece, other) { LOST } else { DEEPEST };
+                        let share = if before.knows(piece, other) {
+                            LARGEST_OVERLAP_OF_FACED
+                        } else {
+                            LARGEST_OVERLAP
+                        };
                         let limit = share * piece.length().min(0.5 * placed(other).length());
                         !nearest.behind || (nearest.end.is_none() && nearest.distance < limit)
                     };
@@ -215,7 +219,7 @@ impl Facing {
     pub fn couplings<'a>(
         &'a self,
         edges: &'a [ContactEdge],
-    ) -> impl Iterator<Item = ([u32; NODES], usize)> + 'a {
+    ) -> impl Iterator<Item = ([u32; NODES_OF_TWO_EDGES], usize)> + 'a {
         self.points.iter().flat_map(move |point| {
             point.faced.iter().map(move |&other| together(&edges[point.edge], &edges[other]))
         })
@@ -239,7 +243,7 @@ impl Facing {
         penalty: f64,
         x: impl Fn(u32) -> [f64; 2] + Copy + 'a,
     ) -> impl Iterator<Item = Pressed> + 'a {
-        self.points.iter().filter_map(move |point| point.press(edges, 0.5 * STIFFER * penalty, x))
+        self.points.iter().filter_map(move |point| point.press(edges, 0.5 * PENALTY_RATIO * penalty, x))
     }
 }
 
@@ -262,9 +266,9 @@ fn parts(own: &Placed<'_>, [from, to]: [f64; 2], nodes: impl Iterator<Item = [f6
 }
 
 /// The nodes of two edges, and how many they are.
-fn together(edge: &ContactEdge, other: &ContactEdge) -> ([u32; NODES], usize) {
+fn together(edge: &ContactEdge, other: &ContactEdge) -> ([u32; NODES_OF_TWO_EDGES], usize) {
     let (own, others) = (edge.node_count(), other.node_count());
-    let mut nodes = [0; NODES];
+    let mut nodes = [0; NODES_OF_TWO_EDGES];
     nodes[..own].copy_from_slice(&edge.nodes[..own]);
     nodes[own..own + others].copy_from_slice(&other.nodes[..others]);
     (nodes, own + others)

@@ -59,16 +59,7 @@ pub fn evaluate(
             mean[a][i] = sum(m.volume * divergence[a][i]) / current;
         }
     }
-    // f̄ - I = s (f - I) + (s - 1) I
-    let theta = (change / (current - change)).ln_1p();
-    let s1 = ((-j.ln_1p() + theta) / 3.0).exp_m1();
-    let mut increment = m.increment;
-    for i in 0..5 {
-        increment[i] += s1 * increment[i];
-    }
-    for i in [0, 3, 4] {
-        increment[i] += s1;
-    }
+    let increment = with_mean_dilatation(m.increment, j, change / (current - change));
     let (stress, form) = context.update(start, &increment, out)?;
     let weight = start.weights();
     let mut shift = [[Lanes::splat(0.0); 2]; 4]; // m_a
@@ -91,17 +82,11 @@ pub fn evaluate(
     let total = sum(weight * three_p) / 3.0; // P
     let of_volume = m.volume * (total / current);
     let of_gradients = weight * three_p / 3.0 - of_volume;
-    // A I and I A I, I = (1, 0, 0, 1, 1)
-    let mut ai = [Lanes::splat(0.0); 5];
-    for i in 0..5 {
-        ai[i] = form[i][0] + form[i][3] + form[i][4];
-    }
+    let ai = times_identity(&form); // and I A I
     let of_shifts = ai[0] + ai[3] + ai[4] + three_p;
-    let mut cross = [[Lanes::splat(0.0); 2]; 4]; // (A I) : ∇N_a + τ : ∇N_a
+    let mut cross = [[Lanes::splat(0.0); 2]; 4];
     for a in 0..4 {
-        let [r, z, hoop] = m.rows[a];
-        cross[a][0] = (ai[0] + stress[0]) * r + (ai[1] + stress[3]) * z + (ai[4] + stress[2]) * hoop;
-        cross[a][1] = (ai[2] + stress[3]) * r + (ai[3] + stress[1]) * z;
+        cross[a] = cross_terms(&ai, &stress, &m.rows[a]);
     }
     let mut rest = &mut triangle[..];
     for b in 0..4 {
@@ -124,6 +109,39 @@ pub fn evaluate(
     }
     out.sum_stiffness::<4>(triangle);
     Ok(())
+}
+
+/// f̄ - I = s (f - I) + (s - 1) I of the increment f - I, whose volume changes by `j` at the points and by `mean` in the element.
+#[inline(always)]
+fn with_mean_dilatation(mut increment: [Lanes; 5], j: Lanes, mean: f64) -> [Lanes; 5] {
+    let theta = mean.ln_1p();
+    let s1 = ((-j.ln_1p() + theta) / 3.0).exp_m1();
+    for i in 0..5 {
+        increment[i] += s1 * increment[i];
+    }
+    for i in [0, 3, 4] {
+        increment[i] += s1;
+    }
+    increment
+}
+
+/// A I, I = (1, 0, 0, 1, 1).
+#[inline(always)]
+fn times_identity(form: &[[Lanes; 5]; 5]) -> [Lanes; 5] {
+    let mut ai = [Lanes::splat(0.0); 5];
+    for i in 0..5 {
+        ai[i] = form[i][0] + form[i][3] + form[i][4];
+    }
+    ai
+}
+
+/// (A I) : ∇N_a + τ : ∇N_a of unit displacements of the node with these rows.
+#[inline(always)]
+fn cross_terms(ai: &[Lanes; 5], stress: &[Lanes; 4], [r, z, hoop]: &[Lanes; 3]) -> [Lanes; 2] {
+    [
+        (ai[0] + stress[0]) * *r + (ai[1] + stress[3]) * *z + (ai[4] + stress[2]) * *hoop,
+        (ai[2] + stress[3]) * *r + (ai[3] + stress[1]) * *z,
+    ]
 }
 
 /// The sum over the points.

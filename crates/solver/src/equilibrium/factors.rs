@@ -1,66 +1,41 @@
-//! Factors of the tangent, and of what takes its place where it is not definite.
+//! The factors of a tangent, and what corrects them since.
 
-use super::Equilibrium;
-use crate::body::failure::Failure;
-use crate::point::j2::Tangent;
-use std::time::Instant;
+use asperity_numerics::secants::Secants;
+use asperity_numerics::sparse::cholesky::Factor;
+use asperity_numerics::sparse::front_tree::FrontTree;
+use std::sync::Arc;
 
-/// Negative pivots with which an LDLᵀ step is still taken: a limit point or a bifurcation has one or two; more mean
-/// that the iterate is far from any equilibrium.
-const TOLERATED_NEGATIVE_PIVOTS: usize = 2;
+/// The factors of a tangent, and what corrects them since it was made.
+pub(super) struct Factors {
+    pub factor: Factor,
+    pub secants: Secants,
+    /// Whether they are of the tangent of some iterate of this body.
+    pub valid: bool,
+    /// Whether each point yielded there.
+    yielded: Vec<bool>,
+}
 
-/// Shares of the diagonal that are added to it, one after the other, until the tangent is definite.
-const STIFFER: [f64; 2] = [1e-2, 1e-1];
+impl Factors {
+    /// None yet, of a stiffness whose fronts are known.
+    pub fn new(fronts: Arc<FrontTree>) -> Factors {
+        Factors { factor: Factor::of(fronts), secants: Secants::default(), valid: false, yielded: Vec::new() }
+    }
 
-impl Equilibrium<'_> {
-    /// Factorises the stiffness, or what [`Self::factorise_indefinite`] puts in its place if a pivot is lost.
-    pub(super) fn factorise(&mut self) -> Result<(), Failure> {
-        let clock = Instant::now();
-        self.counters.factorisations += 1;
+    /// They are of another body.
+    pub fn discard(&mut self) {
+        self.valid = false;
         self.secants.clear();
-        self.fraction = 0.0;
-        let outcome = match self.factor.cholesky(&self.stiffness.matrix) {
-            Ok(()) => Ok(()),
-            Err(_) => self.factorise_indefinite(),
-        };
-        self.has_factors = outcome.is_ok();
-        self.note_yielding();
-        self.counters.factor_s += clock.elapsed().as_secs_f64();
-        outcome
     }
 
-    /// Notes which points yield where the factors are made.
-    fn note_yielding(&mut self) {
-        let mut yielded = std::mem::take(&mut self.yielded);
-        yielded.clear();
-        yielded.extend(self.yielding_points());
-        self.yielded = yielded;
+    /// Takes down which points are `yielding` where they are made.
+    pub fn note_yielding(&mut self, yielding: impl Iterator<Item = bool>) {
+        self.yielded.clear();
+        self.yielded.extend(yielding);
     }
 
-    /// A tangent without the compressive geometric term; else LDLᵀ of the exact one if it is nearly definite; else a stiffer one.
-    fn factorise_indefinite(&mut self) -> Result<(), Failure> {
-        self.counters.lost_pivots += 1;
-        self.assemble_again(Tangent::WithoutCompression)?;
-        if self.factor.cholesky(&self.stiffness.matrix).is_ok() {
-            return Ok(());
-        }
-        self.assemble_again(Tangent::Exact)?;
-        match self.factor.ldlt(&self.stiffness.matrix) {
-            Ok(negative) if negative <= TOLERATED_NEGATIVE_PIVOTS => Ok(()),
-            _ if self.stiffens => self.factorise_stiffened(),
-            _ => Err(Failure::Singular),
-        }
-    }
-
-    /// The exact tangent with a stiffer diagonal, as little as makes it definite: directions that go down, where a
-    /// perfectly plastic body gives way and Newton's go anywhere.
-    fn factorise_stiffened(&mut self) -> Result<(), Failure> {
-        for share in STIFFER {
-            self.stiffness.stiffen(share);
-            if self.factor.cholesky(&self.stiffness.matrix).is_ok() {
-                return Ok(());
-            }
-        }
-        Err(Failure::Singular)
+    /// Whether other points are `yielding` than where they were made: where a point yields that did not, or the other way, its modulus has
+    /// leapt.
+    pub fn are_stale(&self, yielding: impl Iterator<Item = bool>) -> bool {
+        !yielding.eq(self.yielded.iter().copied())
     }
 }

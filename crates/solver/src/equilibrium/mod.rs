@@ -1,11 +1,13 @@
 //! The equilibrium of one increment after the other: the body as Newton sees it, with what a solver remembers between
 //! iterates and increments (factors, secants, the contact that was kept), none of which belongs to the body.
 
+mod contact_set;
+mod factorise;
 mod factors;
-pub mod solved;
+mod line_search;
 pub mod tool_stiffness;
 
-use crate::body::assembly::{Response, Touching};
+use crate::body::assembly::Response;
 use crate::body::discrete_body::Body;
 use crate::body::dofs::FIXED;
 use crate::body::failure::Failure;
@@ -13,19 +15,20 @@ use crate::body::state::{State, Trial};
 use crate::body::stiffness::Stiffness;
 use crate::body::surface::Surface;
 use crate::contact::edge::EdgeContact;
-use crate::contact::parts::{NOTHING, Parts};
+use crate::equilibrium::contact_set::ContactSet;
+use crate::equilibrium::factors::Factors;
+use crate::equilibrium::line_search::LineSearch;
 use crate::equilibrium::tool_stiffness::{ToolStiffness, tool_stiffness};
 use crate::point::j2::Tangent;
 use crate::remesh::distortion::{Limits, is_distorted, smoothed_places};
 use asperity_numerics::newton::{self, Assessment, System};
-use asperity_numerics::secants::Secants;
 use asperity_numerics::sparse::cholesky::{Factor, Operations};
-use asperity_numerics::vectors::{dot, norm};
+use asperity_numerics::vectors::norm;
 use std::collections::BTreeSet;
 use std::time::Instant;
 
 /// Relative residual at which a displacement is good enough to tell which points stop yielding.
-const NEARLY: f64 = 0.1;
+const YIELDING_KNOWN_AT: f64 = 0.1;
 
 /// Why an increment has no equilibrium.
 pub type SolveFailure = newton::Failure<Failure>;
@@ -62,34 +65,16 @@ pub struct Equilibrium<'m> {
     stiffness: Stiffness,
     /// Groups of nodes that the stiffness couples beside those of the elements.
     coupled: BTreeSet<Vec<u32>>,
-    factor: Factor,
-    secants: Secants,
-    direction: Vec<f64>,
-    /// Where the direction was found: displacement, residual, and whether the contact was kept there.
-    base: Vec<[f64; 2]>,
-    residual_before: Vec<f64>,
-    base_kept_contact: bool,
-    /// Share of the direction that was gone since.
-    fraction: f64,
-    /// Whether the next assembly keeps the contact of the converged state, and whether the last one did.
-    keep_contact: bool,
-    kept_contact: bool,
-    /// Parts that touched at the last assessed iterate.
-    touching: Vec<Parts>,
-    /// Whether the factors are of the tangent of some iterate of this body.
-    has_factors: bool,
-    /// Whether each point yielded there.
-    yielded: Vec<bool>,
+    factors: Factors,
+    search: LineSearch,
+    contact_set: ContactSet,
     /// Whether the stiffness is that of the last assessed iterate.
     has_tangent: bool,
+    /// Whether tangents that are far from definite are stiffened.
     stiffens: bool,
     /// Whether what the points extrapolate is still to be limited (see [`State::limit_extrapolation`]), and at which relative residual.
     unlimited: bool,
-    nearly: f64,
-    /// The displacement where this solve limited it; empty before.
-    limited_at: Vec<[f64; 2]>,
-    /// Whether that changed the residual at the last assessed iterate: no secant leads there.
-    jumped: bool,
+    limited_at: f64,
     /// Work done so far.
     pub counters: Counters,
 }
@@ -110,31 +95,20 @@ impl<'m> Equilibrium<'m> {
     /// As for [`Equilibrium::new`].
     pub fn from_state(body: Body<'m>, state: State) -> Result<Self, Failure> {
         let stiffness = body.analysis.stiffness.clone();
-        let factor = Factor::of(body.analysis.fronts.clone());
-        let count = body.analysis.dofs.count;
+        let factors = Factors::new(body.analysis.fronts.clone());
+        let search = LineSearch::new(body.mesh.nodes.len(), body.analysis.dofs.count);
         Ok(Equilibrium {
             trial: state.trial(),
             response: Response::new(&body, &state),
             stiffness,
             coupled: BTreeSet::new(),
-            factor,
-            secants: Secants::default(),
-            direction: vec![0.0; count],
-            base: vec![[0.0; 2]; body.mesh.nodes.len()],
-            residual_before: vec![0.0; count],
-            base_kept_contact: false,
-            fraction: 0.0,
-            keep_contact: false,
-            kept_contact: false,
-            touching: vec![NOTHING; state.edges.len()],
-            has_factors: false,
+            factors,
+            search,
+            contact_set: ContactSet::new(state.edges.len()),
             has_tangent: false,
             stiffens: true,
             unlimited: false,
-            nearly: NEARLY,
-            limited_at: Vec::new(),
-            jumped: false,
-            yielded: Vec::new(),
+            limited_at: YIELDING_KNOWN_AT,
             counters: Counters::default(),
             body,
             state,
@@ -150,7 +124,7 @@ impl<'m> Equilibrium<'m> {
     #[doc(hidden)]
     pub fn without_vector_registers(&mut self) {
         self.body.arch = pulp::Arch::Scalar;
-        self.factor.without_vector_registers();
+        self.factors.factor.without_vector_registers();
     }
 
     /// The converged state.
@@ -185,13 +159,12 @@ impl<'m> Equilibrium<'m> {
 
     /// Whether each point yields at the last assessed iterate.
     pub fn yielding_points(&self) -> impl Iterator<Item = bool> + '_ {
-        let (new, start) = (&self.response.points.states, &self.trial.start.states);
-        new.iter().zip(start).map(|(new, start)| new.plastic_strain > start.plastic_strain)
+        self.response.yielding_points(&self.trial)
     }
 
     /// Operations of a factorisation of the stiffness and of a solve.
     pub fn operations(&self) -> Operations {
-        self.factor.operations()
+        self.factors.factor.operations()
     }
 
     /// Gives the stiffness the places of what the surface may press of itself in the increments to come.
@@ -210,9 +183,8 @@ impl<'m> Equilibrium<'m> {
             let mesh = self.body.mesh;
             self.stiffness =
                 Stiffness::coupled(&mesh.cells, mesh.kind.nodes(), &groups, &self.body.analysis.dofs);
-            self.factor = Factor::new(&self.stiffness.matrix);
-            (self.has_factors, self.has_tangent) = (false, false);
-            self.secants.clear();
+            self.factors.factor = Factor::new(&self.stiffness.matrix);
+            self.discard_factors();
         }
     }
 
@@ -232,36 +204,35 @@ impl<'m> Equilibrium<'m> {
     /// From now on increments are solved to the relative residual `tolerance`: the closer, the less what is frozen on the way may
     /// depend on that way.
     pub fn set_tolerance(&mut self, tolerance: f64) {
-        self.nearly = NEARLY.min(1e3 * tolerance);
+        self.limited_at = YIELDING_KNOWN_AT.min(1e3 * tolerance);
     }
 
     /// Moves the tool of the increment under way to `tip`. Its points start as they did, so that the response is a smooth function of
     /// `tip`; the iterate stays, and with it the contact.
     pub fn move_tool(&mut self, tip: f64) {
         self.trial.tip = tip;
-        self.trial.multiplier.clone_from(&self.state.multiplier);
-        self.keep_contact = false;
-        self.fraction = 0.0;
-        self.jumped = false;
+        self.contact_set.set_keeping(false);
+        self.search.restart();
     }
 
     /// The first iterate of an increment keeps the contact of the converged state, and is no step of the last increment.
     fn keep_converged_contact(&mut self) {
-        let free = self.trial.tip == f64::INFINITY;
-        self.touching.fill(NOTHING);
-        if !free {
-            self.touching.iter_mut().zip(self.state.parts()).for_each(|(parts, kept)| *parts = kept);
-        }
-        self.keep_contact = self.touching.iter().any(|p| *p != NOTHING);
-        self.fraction = 0.0;
-        self.jumped = false;
+        let edges = if self.trial.tip == f64::INFINITY { 0 } else { self.state.edges.len() };
+        self.contact_set.keep(self.state.parts().take(edges));
+        self.search.restart();
+    }
+
+    /// The factors and the tangent are of another body.
+    fn discard_factors(&mut self) {
+        self.factors.discard();
+        self.has_tangent = false;
     }
 
     /// Remeshes the distorted body under its surface and finds the equilibrium there by `solve`, while the tool stays. Whether it
     /// did: else all is as it was.
     pub fn remesh(&mut self, solve: impl FnOnce(&mut Self) -> Result<(), SolveFailure>) -> bool {
-        // multipliers and back stresses are not carried over
-        let carries = self.state.points.history.is_empty() && self.state.multiplier.iter().all(|m| *m == 0.0);
+        // back stresses are not carried over
+        let carries = self.state.points.history.is_empty();
         let places =
             smoothed_places(&self.body, &self.state).filter(|_| carries && self.state.tip.is_finite());
         let Some((body, state)) = places.and_then(|places| self.state.moved_to(&self.body, places)) else {
@@ -270,13 +241,11 @@ impl<'m> Equilibrium<'m> {
         let before = (std::mem::replace(&mut self.body, body), std::mem::replace(&mut self.state, state));
         let flow =
             (self.state.plastic.clone(), self.state.volume_change.clone(), self.state.displacement.clone());
-        (self.has_factors, self.has_tangent) = (false, false);
-        self.secants.clear();
+        self.discard_factors();
         self.begin(self.state.tip, 0.0, |_| [0.0; 2]);
         if solve(self).is_err() || self.accept().is_err() {
             (self.body, self.state) = before;
-            (self.has_factors, self.has_tangent) = (false, false);
-            self.secants.clear();
+            self.discard_factors();
             return false;
         }
         // the flow of the last increment of the load is what the next one extrapolates
@@ -298,22 +267,6 @@ impl<'m> Equilibrium<'m> {
         self.state.commit(&self.body, &self.trial, &mut self.response)
     }
 
-    /// Augmented Lagrange update at the nodes, λ ← max(0, λ + ε d), from the converged iterate.
-    pub fn augment(&mut self) {
-        let Some(contact) = &self.body.contact else { return };
-        let mut multiplier = self.trial.multiplier.clone();
-        let surface = self.trial_surface();
-        for edge in surface.edges {
-            for &node in &edge.nodes[..edge.node_count()] {
-                let depth = contact.tool.penetration(surface.position(node), self.trial.tip).depth;
-                multiplier[node as usize] =
-                    (self.trial.multiplier[node as usize] + self.trial.penalty * depth).max(0.0);
-            }
-        }
-        self.trial.multiplier = multiplier;
-        self.keep_contact = false;
-    }
-
     /// Whether tangents that are far from definite are stiffened, or fail.
     pub fn stiffen(&mut self, stiffens: bool) {
         self.stiffens = stiffens;
@@ -327,7 +280,7 @@ impl<'m> Equilibrium<'m> {
         self.begin(self.state.tip, 0.0, |_| [0.0; 2]);
         self.body.assemble_elastic(&self.state, &self.trial, &mut self.response, &mut self.stiffness)?;
         self.has_tangent = true;
-        self.keep_contact = false;
+        self.contact_set.set_keeping(false);
         self.tool_stiffness()
     }
 
@@ -340,7 +293,7 @@ impl<'m> Equilibrium<'m> {
         Ok(tool_stiffness(
             &self.body.analysis.dofs,
             self.state.edges.iter().zip(&self.response.contact),
-            |rhs| self.factor.solve(rhs),
+            |rhs| self.factors.factor.solve(rhs),
         ))
     }
 
@@ -388,17 +341,6 @@ impl<'m> Equilibrium<'m> {
         let scale = reaction.sqrt().max(self.state.load_scale).max(f64::MIN_POSITIVE);
         Assessment { residual, scale, changed }
     }
-
-    /// Whether the parts that touch changed since the last assessed iterate.
-    fn contact_changed(&mut self) -> bool {
-        let shape_of = |parts: &Parts| parts.map(|p| p.is_some());
-        let mut changed = false;
-        for (before, now) in self.touching.iter_mut().zip(&self.response.contact) {
-            changed |= shape_of(before) != shape_of(&now.parts);
-            *before = now.parts;
-        }
-        changed
-    }
 }
 
 impl System for Equilibrium<'_> {
@@ -406,20 +348,20 @@ impl System for Equilibrium<'_> {
 
     fn assess(&mut self, tangent: bool) -> Result<Assessment, Failure> {
         let tangent = if tangent { Tangent::Exact } else { Tangent::None };
-        let touching = if self.keep_contact { Touching::Kept } else { Touching::Found };
+        let touching = self.contact_set.next();
         self.timed(tangent, |s| {
             s.body.assemble(&s.state, &s.trial, tangent, touching, &mut s.response, &mut s.stiffness)
         })?;
-        self.kept_contact = std::mem::take(&mut self.keep_contact);
-        let changed = self.contact_changed() || self.kept_contact;
+        let changed = self.contact_set.note(&self.response.contact);
         let assessed = self.out_of_balance(changed);
-        if !self.unlimited || self.kept_contact || assessed.residual > self.nearly * assessed.scale {
+        let is_far = assessed.residual > self.limited_at * assessed.scale;
+        if !self.unlimited || self.contact_set.was_kept() || is_far {
             return Ok(assessed);
         }
         self.state.limit_extrapolation(&self.body, &mut self.trial, &self.response);
         self.response.forget_points();
-        self.limited_at.clone_from(&self.trial.displacement);
-        (self.jumped, self.unlimited) = (true, false);
+        self.search.note_jump();
+        self.unlimited = false;
         self.assemble_again(tangent)?;
         Ok(self.out_of_balance(changed))
     }
@@ -432,48 +374,39 @@ impl System for Equilibrium<'_> {
     }
 
     fn has_factors(&self) -> bool {
-        self.has_factors
+        self.factors.valid
     }
 
-    /// Where a point yields that did not, or the other way, its modulus has leapt.
     fn factors_are_stale(&self) -> bool {
-        !self.yielding_points().eq(self.yielded.iter().copied())
+        self.factors.are_stale(self.yielding_points())
     }
 
     fn forget(&mut self) {
-        self.has_factors = false;
+        self.factors.valid = false;
     }
 
     fn find_direction(&mut self) {
         let clock = Instant::now();
-        let residual = &self.response.residual;
-        if self.fraction > 0.0 && !self.jumped {
-            self.secants.note(-self.fraction, &self.direction, &self.residual_before, residual);
-        }
-        self.fraction = 0.0;
-        self.jumped = false;
-        self.residual_before.copy_from_slice(residual);
-        self.direction.copy_from_slice(residual);
-        self.secants.solve(&mut self.direction, |rhs| self.factor.solve(rhs));
-        self.base.clone_from(&self.trial.displacement);
-        self.base_kept_contact = self.kept_contact;
+        let Factors { factor, secants, .. } = &mut self.factors;
+        let kept_contact = self.contact_set.was_kept();
+        let (residual, displacement) = (&self.response.residual, &self.trial.displacement);
+        self.search.find_direction(residual, displacement, kept_contact, secants, |rhs| factor.solve(rhs));
         self.counters.solve_s += clock.elapsed().as_secs_f64();
     }
 
     fn slope(&self) -> f64 {
-        -dot(&self.response.residual, &self.direction)
+        self.search.slope(&self.response.residual)
     }
 
     fn advance(&mut self, fraction: f64) {
-        self.fraction = fraction;
-        if fraction == 0.0 {
-            self.keep_contact = self.base_kept_contact;
+        if let Some(keep) = self.search.advance(fraction) {
+            self.contact_set.set_keeping(keep);
         }
-        let displacement = self.trial.displacement.iter_mut();
-        for ((du, base), numbers) in displacement.zip(&self.base).zip(&self.body.analysis.dofs.number) {
+        let displacement = self.trial.displacement.iter_mut().enumerate();
+        for ((node, du), numbers) in displacement.zip(&self.body.analysis.dofs.number) {
             for i in 0..2 {
                 if numbers[i] != FIXED {
-                    du[i] = base[i] - fraction * self.direction[numbers[i] as usize];
+                    du[i] = self.search.displacement(node, i, numbers[i]);
                 }
             }
         }

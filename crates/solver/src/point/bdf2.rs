@@ -68,11 +68,11 @@ impl PlasticIncrement {
 }
 
 /// Largest ratio of an increment to the last one with which flow is extrapolated.
-const LARGEST_RATIO: f64 = 2.4;
+const LARGEST_STEP_RATIO: f64 = 2.4;
 
 /// ω within its bound.
 pub fn bounded(ratio: f64) -> f64 {
-    ratio.min(LARGEST_RATIO)
+    ratio.min(LARGEST_STEP_RATIO)
 }
 
 /// κ for the ratio ω = (next step)/(last step).
@@ -91,7 +91,7 @@ pub fn plastic_increment<T: Real>(
     old: &PointState<T>,
     end: &PointState<T>,
 ) -> Result<PlasticIncrement<T>, Failure> {
-    let (from, to) = (Spectral::of(trial)?, Spectral::of(&end.b_minus_i)?);
+    let (from, to) = (Spectral::new(trial)?, Spectral::new(&end.b_minus_i)?);
     let (from, to) = (from.tensor(&from.log_strain), to.tensor(&to.log_strain));
     let strain = [from[0] - to[0], from[1] - to[1], from[2] - to[2], from[3] - to[3]];
     Ok(PlasticIncrement { strain, accumulated: end.plastic_strain - old.plastic_strain })
@@ -108,7 +108,7 @@ pub fn backward_euler<T: Real>(
     trial: &Sym<T>,
 ) -> Result<Sym<T>, Failure> {
     let zero = T::splat(0.0);
-    let spectral = Spectral::of(trial)?;
+    let spectral = Spectral::new(trial)?;
     let mut dev = spectral.tensor(&spectral.log_strain);
     let mean = trace(&dev) / 3.0;
     for e in &mut dev[..3] {
@@ -155,7 +155,7 @@ pub fn extrapolate<T: Real>(
     let Some(hardening) = metal.hardening.as_ref().filter(|_| T::any(yields)) else {
         return *old;
     };
-    let Ok(spectral) = Spectral::of(&old.b_minus_i) else { return *old };
+    let Ok(spectral) = Spectral::new(&old.b_minus_i) else { return *old };
     let strain = spectral.tensor(&spectral.log_strain);
     let doubled = |i: usize| (strain[i] - flowed.strain[i]) * 2.0;
     let stretch = exponential_minus_identity(&[doubled(0), doubled(1), doubled(2), doubled(3)]);
@@ -188,7 +188,7 @@ mod tests {
     #[test]
     fn exponential_undoes_the_logarithm() {
         let b = [0.3, -0.2, 0.1, 0.25];
-        let spectral = Spectral::of(&b).unwrap();
+        let spectral = Spectral::new(&b).unwrap();
         let doubled = spectral.tensor(&spectral.log_strain.map(|e| 2.0 * e));
         let back = exponential_minus_identity(&doubled);
         assert!((0..4).all(|i| (back[i] - b[i]).abs() < 1e-15));

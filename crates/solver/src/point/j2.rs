@@ -93,7 +93,7 @@ pub fn return_to_yield<T: Real>(
     let zero = T::splat(0.0);
     // 1. trial
     let trial = push_forward(increment, &old.b_minus_i);
-    let frame = Spectral::of(&trial)?;
+    let frame = Spectral::new(&trial)?;
     let strain = frame.log_strain;
     // 2. trial stress
     let (g, k) = (metal.elastic.shear_modulus(), metal.elastic.bulk_modulus());

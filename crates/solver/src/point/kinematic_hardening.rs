@@ -56,7 +56,7 @@ pub fn update(
     tangent: Tangent,
 ) -> Result<(PointUpdate, History), Failure> {
     let deformation = compose(increment, &memory.deformation);
-    let strain = LogStrain::of(&deformation)?;
+    let strain = LogStrain::new(&deformation)?;
     let (g, k) = (metal.elastic.shear_modulus(), metal.elastic.bulk_modulus());
     let [e1, e2, e3] = strain.principal;
     let volume = e1 + e2 + e3;
@@ -172,7 +172,7 @@ pub fn plastic_increment(
 
 /// Elastic energy per reference volume, ½K(tr E)² + G|dev(E - E_p)|²; NaN where C is not positive definite.
 pub fn elastic_energy(elastic: &Elastic, memory: &History) -> f64 {
-    let Ok(strain) = LogStrain::of(&memory.deformation) else { return f64::NAN };
+    let Ok(strain) = LogStrain::new(&memory.deformation) else { return f64::NAN };
     let plastic = strain.into_frame(&memory.plastic);
     let volume: f64 = strain.principal.iter().sum();
     let mut dev: Sym = plastic.map(|e| -e);

@@ -54,7 +54,7 @@ impl LogStrain {
     ///
     /// # Errors
     /// C that is not positive definite.
-    pub fn of(d: &Gradient) -> Result<LogStrain, Failure> {
+    pub fn new(d: &Gradient) -> Result<LogStrain, Failure> {
         let [rr, rz, zr, zz, tt] = *d;
         let c_minus_one = [
             2.0 * rr + rr * rr + zr * zr,
@@ -62,7 +62,7 @@ impl LogStrain {
             2.0 * tt + tt * tt,
             rz + zr + rr * rz + zr * zz,
         ];
-        let spectral = Spectral::of(&c_minus_one)?;
+        let spectral = Spectral::new(&c_minus_one)?;
         // F = R U: F_zr - F_rz = sin ω tr U, F_rr + F_zz = cos ω tr U in the plane
         let (sine, cosine) = (zr - rz, 2.0 + rr + zz);
         let length = sine.hypot(cosine);
@@ -193,13 +193,13 @@ mod tests {
     #[test]
     fn frames_turn_there_and_back() {
         let d = [0.3, -0.2, 0.5, 0.1, 0.2];
-        let strain = LogStrain::of(&d).unwrap();
+        let strain = LogStrain::new(&d).unwrap();
         let a = [0.3, -0.4, 0.2, 0.7];
         let back = strain.out_of_frame(&strain.into_frame(&a));
         assert!((0..4).all(|i| (a[i] - back[i]).abs() < 1e-15));
         // the current frame is that of b = F Fᵀ, whose logarithm has the same principal values
         let b = crate::point::tensor::push_forward(&d, &[0.0; 4]);
-        let left = Spectral::of(&b).unwrap();
+        let left = Spectral::new(&b).unwrap();
         let [e1, e2, e3] = strain.principal;
         let (ours, theirs) = (strain.to_current(&[e1, e2, e3, 0.0]), left.tensor(&left.log_strain));
         assert!((0..4).all(|i| (ours[i] - theirs[i]).abs() < 1e-14), "{ours:?} {theirs:?}");

@@ -101,7 +101,7 @@ impl<T: Real> Spectral<T> {
     /// # Errors
     /// A tensor b that is not positive definite.
     #[inline(always)]
-    pub fn of(b_minus_i: &Sym<T>) -> Result<Spectral<T>, Failure> {
+    pub fn new(b_minus_i: &Sym<T>) -> Result<Spectral<T>, Failure> {
         let (zero, one) = (T::splat(0.0), T::splat(1.0));
         let (mean, half) = ((b_minus_i[0] + b_minus_i[1]) * 0.5, (b_minus_i[0] - b_minus_i[1]) * 0.5);
         let radius = (half * half + b_minus_i[3] * b_minus_i[3]).sqrt();
@@ -171,7 +171,7 @@ impl<T: Real> Spectral<T> {
 /// Elastic energy per reference volume, ½λ(tr ε)² + G ε:ε, of the state b_e - I.
 #[inline(always)]
 pub fn elastic_energy<T: Real>(elastic: &Elastic, b_minus_i: &Sym<T>) -> T {
-    let Ok(spectral) = Spectral::of(b_minus_i) else { return T::splat(f64::NAN) };
+    let Ok(spectral) = Spectral::new(b_minus_i) else { return T::splat(f64::NAN) };
     let e = spectral.log_strain;
     let volume = e[0] + e[1] + e[2];
     let (g, k) = (elastic.shear_modulus(), elastic.bulk_modulus());
@@ -189,7 +189,7 @@ pub fn plastic_work(hardening: &HardeningCurve, old: &PointState, new: &PointSta
 
 /// Kirchhoff stress of the state b_e - I.
 pub fn stress(elastic: &Elastic, b_minus_i: &Sym) -> Sym {
-    let Ok(spectral) = Spectral::of(b_minus_i) else { return [f64::NAN; 4] };
+    let Ok(spectral) = Spectral::new(b_minus_i) else { return [f64::NAN; 4] };
     let e = spectral.log_strain;
     let (g, k) = (elastic.shear_modulus(), elastic.bulk_modulus());
     let volume = (k - 2.0 / 3.0 * g) * (e[0] + e[1] + e[2]);

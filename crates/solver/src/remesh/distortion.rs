@@ -17,17 +17,17 @@ use asperity_mesh::Mesh;
 use asperity_mesh::smoothing::{Freedom, improve, straighten};
 
 /// Widths of the contact beside it within which nodes are spread all the way, and beyond which they stay.
-const AROUND: [f64; 2] = [1.5, 4.0];
+const WIDTHS_BESIDE: [f64; 2] = [1.5, 4.0];
 
 /// Widths of the contact, and its edges if that is more, down to which nodes move.
-const BELOW: [f64; 2] = [4.0, 6.0];
+const WIDTHS_BELOW: [f64; 2] = [4.0, 6.0];
 
 /// Cosine of the turn from edge to edge of the first surface beyond which the node between them stays: 10°.
-const KINK: f64 = 0.985;
+const KINK_COSINE: f64 = 0.985;
 
 /// Shares of the bulge of an edge of the surface that are tried, and the smallest scaled Jacobian of its cell that is room for it.
-const BULGES: [f64; 4] = [1.0, 0.67, 0.33, 0.0];
-const ROOM: f64 = 0.2;
+const BULGE_SHARES: [f64; 4] = [1.0, 0.67, 0.33, 0.0];
+const LEAST_JACOBIAN: f64 = 0.2;
 
 /// How distorted a mesh may be.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,15 +39,15 @@ pub struct Limits {
 }
 
 /// Length of an edge over its first length, and its share of the contact, beyond which the contact has too few edges.
-const DRAWN_OVER: f64 = 4.0;
-const COVERED: f64 = 0.3;
+const LARGEST_EDGE_STRETCH: f64 = 4.0;
+const LARGEST_EDGE_SHARE: f64 = 0.3;
 
 /// While the tool advances. Each transfer takes some tenths of a percent of the force away for some increments, and metal drawn out
 /// smoothly costs less than that (50° half apex, n = 0.1: 0.05 % up to here).
-pub const LOADED: Limits = Limits { drawn_out: 10.0, sharpest: 0.02 };
+pub const LIMITS_WHILE_LOADING: Limits = Limits { drawn_out: 10.0, sharpest: 0.02 };
 
 /// Before the tool retreats, when it no longer presses a distorted mesh flat.
-pub const UNLOADED: Limits = Limits { drawn_out: 3.0, sharpest: 0.1 };
+pub const LIMITS_BEFORE_UNLOADING: Limits = Limits { drawn_out: 3.0, sharpest: 0.1 };
 
 /// From 1 at `from` to 0 at `to`, with level ends.
 fn fall([from, to]: [f64; 2], at: f64) -> f64 {
@@ -76,7 +76,7 @@ pub fn is_distorted(body: &Body<'_>, state: &State, limits: Limits) -> bool {
     let whole: f64 = lengths.iter().map(|[now, _]| now).sum();
     lengths.iter().any(|[now, first]| {
         let stretch = now / first;
-        stretch > limits.drawn_out || stretch > DRAWN_OVER && *now > COVERED * whole
+        stretch > limits.drawn_out || stretch > LARGEST_EDGE_STRETCH && *now > LARGEST_EDGE_SHARE * whole
     }) || has_sharper_corner(body.mesh, &state.position, limits.sharpest)
 }
 
@@ -89,7 +89,7 @@ fn kinks(edges: &[ContactEdge], position: &[[f64; 2]]) -> Vec<bool> {
     };
     let turns = edges.windows(2).map(|pair| {
         let (a, b) = (direction(&pair[0], -1.0), direction(&pair[1], 1.0));
-        a[0] * b[0] + a[1] * b[1] < KINK
+        a[0] * b[0] + a[1] * b[1] < KINK_COSINE
     });
     std::iter::once(true).chain(turns).collect()
 }
@@ -141,11 +141,11 @@ pub fn smoothed_places(body: &Body<'_>, state: &State) -> Option<Vec<[f64; 2]>> 
         touching.iter().map(|&edge| length(&mesh.nodes, &state.edges[edge])).fold(f64::INFINITY, f64::min);
     let contact = |curve: &SurfaceCurve<'_>| [curve.arcs(inmost)[1], curve.arcs(outmost)[0]];
     let [left, right] = contact(&now);
-    let reach = AROUND[1] * (right - left);
+    let reach = WIDTHS_BESIDE[1] * (right - left);
     now.cut_lips([left - reach, right + reach], [left, right], element);
     let [left, right] = contact(&now);
     let width = right - left;
-    let weight = |s: f64| fall(AROUND, (s - right).max(left - s).max(0.0) / width);
+    let weight = |s: f64| fall(WIDTHS_BESIDE, (s - right).max(left - s).max(0.0) / width);
     let arcs = spread(&first, &now, &kinks(&state.edges, &mesh.nodes), weight)?;
 
     // the surface
@@ -154,11 +154,11 @@ pub fn smoothed_places(body: &Body<'_>, state: &State) -> Option<Vec<[f64; 2]>> 
     for (edge, s) in state.edges.iter().zip(&arcs) {
         for (&node, &s) in edge.nodes.iter().zip(s).take(edge.node_count()) {
             on_surface[node as usize] = true;
-            places[node as usize] = now.at(s);
+            places[node as usize] = now.point(s);
         }
     }
     // what lies below
-    let below = (BELOW[0] * width).max(BELOW[1] * element);
+    let below = (WIDTHS_BELOW[0] * width).max(WIDTHS_BELOW[1] * element);
     let sides = mesh.extent().map(|corner| corner[0]);
     let moved = |node: u32| places[node as usize] != state.position[node as usize];
     let freedom: Vec<Freedom> = mesh
@@ -166,7 +166,7 @@ pub fn smoothed_places(body: &Body<'_>, state: &State) -> Option<Vec<[f64; 2]>> 
         .iter()
         .enumerate()
         .map(|(node, x)| {
-            let edge = &state.edges[above(&state.edges, &mesh.nodes, x[0])];
+            let edge = &state.edges[edge_over(&state.edges, &mesh.nodes, x[0])];
             let [outer, inner, _] = edge.nodes;
             let depth = mesh.nodes[outer as usize][1].min(mesh.nodes[inner as usize][1]) - x[1];
             if on_surface[node] || depth >= below || !(moved(outer) || moved(inner)) {
@@ -191,11 +191,11 @@ pub fn smoothed_places(body: &Body<'_>, state: &State) -> Option<Vec<[f64; 2]>> 
         cells.map(|cell| mesh.sharpest_corner(position, cell)).fold(f64::INFINITY, f64::min)
     };
     let (before, after) = (sharpest(&state.position), sharpest(&places));
-    (after > before.clamp(UNLOADED.sharpest, 0.3)).then_some(places)
+    (after > before.clamp(LIMITS_BEFORE_UNLOADING.sharpest, 0.3)).then_some(places)
 }
 
 /// The edge above `r` on a surface that is a function of r; the nearest one beyond its end.
-fn above(edges: &[ContactEdge], position: &[[f64; 2]], r: f64) -> usize {
+fn edge_over(edges: &[ContactEdge], position: &[[f64; 2]], r: f64) -> usize {
     edges.partition_point(|edge| position[edge.nodes[0] as usize][0] < r).min(edges.len() - 1)
 }
 
@@ -210,9 +210,9 @@ fn flatten(mesh: &Mesh, before: &[[f64; 2]], places: &mut [[f64; 2]]) {
         }
         let straight = [0, 1].map(|i| 0.5 * ends.iter().map(|&node| places[node as usize][i]).sum::<f64>());
         let bulge = [0, 1].map(|i| places[middle][i] - straight[i]);
-        for share in BULGES {
+        for share in BULGE_SHARES {
             places[middle] = [0, 1].map(|i| straight[i] + share * bulge[i]);
-            if mesh.sharpest_corner(places, edge.cell as usize) > ROOM {
+            if mesh.sharpest_corner(places, edge.cell as usize) > LEAST_JACOBIAN {
                 break;
             }
         }

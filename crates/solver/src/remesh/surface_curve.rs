@@ -4,10 +4,10 @@ use crate::contact::edge::ContactEdge;
 use crate::contact::projection::intersection;
 
 /// Straight pieces that a curved edge is measured in.
-const PIECES: usize = 8;
+const PIECES_PER_EDGE: usize = 8;
 
 /// Arc length of a lip over its thickness from which on it is cut off: 4 is a wedge of 29°.
-const THIN: f64 = 4.0;
+const LIP_SLENDERNESS: f64 = 4.0;
 
 /// A surface, from its inner end outward.
 #[derive(Clone, Debug)]
@@ -46,7 +46,7 @@ fn encloses_metal(points: &[[f64; 2]]) -> bool {
 impl<'a> SurfaceCurve<'a> {
     /// Of `edges`, each of which begins where the one before ends, with the nodes at `position`.
     pub fn new(edges: &'a [ContactEdge], position: &'a [[f64; 2]]) -> SurfaceCurve<'a> {
-        let pieces = if edges.iter().any(|edge| edge.quadratic) { PIECES } else { 1 };
+        let pieces = if edges.iter().any(|edge| edge.quadratic) { PIECES_PER_EDGE } else { 1 };
         let mut curve =
             SurfaceCurve { edges, position, pieces, ends: Vec::new(), arc: Vec::new(), cut: Vec::new() };
         for edge in 0..edges.len() {
@@ -74,7 +74,7 @@ impl<'a> SurfaceCurve<'a> {
     }
 
     /// The place at arc length `s`; the nearest end beyond its own.
-    pub fn at(&self, s: f64) -> [f64; 2] {
+    pub fn point(&self, s: f64) -> [f64; 2] {
         let piece = self.arc.partition_point(|end| *end < s).clamp(1, self.cut.len()) - 1;
         let [from, to] = [self.arc[piece], self.arc[piece + 1]];
         let share = if to > from { ((s - from) / (to - from)).clamp(0.0, 1.0) } else { 0.0 };
@@ -90,7 +90,7 @@ impl<'a> SurfaceCurve<'a> {
         (start + 2..=to).rev().find(|&end| {
             let across = distance(self.ends[start], self.ends[end]);
             let along = self.arc[end] - self.arc[start];
-            across <= thickness && along > THIN * across && encloses_metal(&self.ends[start..=end])
+            across <= thickness && along > LIP_SLENDERNESS * across && encloses_metal(&self.ends[start..=end])
         })
     }
 

@@ -64,7 +64,7 @@ struct Lookup<'a> {
 }
 
 /// How far outside an element, in its coordinates, a point beside a curved surface may lie.
-const BESIDE: f64 = 0.5;
+const LARGEST_WAY_OUTSIDE: f64 = 0.5;
 
 impl<'a> Lookup<'a> {
     fn new(mesh: &'a Mesh, position: &'a [[f64; 2]]) -> Self {
@@ -86,7 +86,7 @@ impl<'a> Lookup<'a> {
     }
 
     /// Coordinates of the point `x` in an element; `None` where Newton does not find them.
-    fn within(&self, cell: usize, x: [f64; 2]) -> Option<[f64; 2]> {
+    fn coordinates_inside(&self, cell: usize, x: [f64; 2]) -> Option<[f64; 2]> {
         let mut xi = [0.0; 2];
         for _ in 0..30 {
             let (value, slope) = shape(self.mesh.kind, xi);
@@ -123,7 +123,7 @@ impl<'a> Lookup<'a> {
             (0..2).all(|i| (self.boxes[*cell][i][0]..=self.boxes[*cell][i][1]).contains(&x[i]))
         };
         for cell in std::iter::once(guess).chain(0..self.boxes.len()).filter(boxed) {
-            let Some(xi) = self.within(cell, x) else { continue };
+            let Some(xi) = self.coordinates_inside(cell, x) else { continue };
             let far = outside(xi);
             if nearest.is_none_or(|(least, _)| far < least) {
                 nearest = Some((far, Place { cell, xi }));
@@ -132,11 +132,13 @@ impl<'a> Lookup<'a> {
                 break;
             }
         }
-        nearest.filter(|(far, _)| *far < BESIDE).map_or_else(|| self.beside(x, guess), |(_, place)| place)
+        nearest
+            .filter(|(far, _)| *far < LARGEST_WAY_OUTSIDE)
+            .map_or_else(|| self.nearest_place(x, guess), |(_, place)| place)
     }
 
     /// The place nearest to a point that no element holds: where two parts of the surface enclosed a gap that was cut off.
-    fn beside(&self, x: [f64; 2], guess: usize) -> Place {
+    fn nearest_place(&self, x: [f64; 2], guess: usize) -> Place {
         let mut nearest = (f64::INFINITY, Place { cell: guess, xi: [0.0; 2] });
         for cell in 0..self.boxes.len() {
             let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
@@ -154,9 +156,9 @@ impl<'a> Lookup<'a> {
 
 /// Share of a plastic strain that its extrapolation beyond the integration points may change it by. Without a limit an element that
 /// is crushed flat has points of very different strains, which transfer after transfer drives apart without bound.
-const BEYOND: f64 = 0.25;
+const LARGEST_EXTRAPOLATED_SHARE: f64 = 0.25;
 
-/// Weights of the four integration points at (ξ, η): bilinear, and beyond them as far as `BEYOND` lets the plastic strains of `points`.
+/// Weights of the four integration points at (ξ, η): bilinear, and beyond them as far as `LARGEST_EXTRAPOLATED_SHARE` lets the plastic strains of `points`.
 fn weights([xi, eta]: [f64; 2], points: &[PointState]) -> [f64; POINTS] {
     let signs = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
     let bilinear = |[s, t]: [f64; 2]| signs.map(|[a, b]| 0.25 * (1.0 + a * s) * (1.0 + b * t));
@@ -167,7 +169,7 @@ fn weights([xi, eta]: [f64; 2], points: &[PointState]) -> [f64; POINTS] {
     };
     let [near, far] = [between, beyond].map(|weights| plastic_strain(&weights));
     let change = (far - near).abs();
-    let share = if change > 0.0 { (BEYOND * near / change).min(1.0) } else { 1.0 };
+    let share = if change > 0.0 { (LARGEST_EXTRAPOLATED_SHARE * near / change).min(1.0) } else { 1.0 };
     std::array::from_fn(|i| between[i] + share * (beyond[i] - between[i]))
 }
 
@@ -196,7 +198,7 @@ fn interpolated(body: &Body<'_>, state: &State, place: Place) -> Option<PointSta
     let (mut plastic_strain, mut share) = (0.0, 0.0);
     let points = &state.points.states[range];
     for (point, weight) in points.iter().zip(weights(place.xi, points)) {
-        let spectral = Spectral::of(&point.b_minus_i).ok()?;
+        let spectral = Spectral::new(&point.b_minus_i).ok()?;
         let logarithm = spectral.tensor(&spectral.log_strain);
         for i in 0..4 {
             strain[i] += weight * logarithm[i];
@@ -293,13 +295,14 @@ impl State {
     fn balanced_energy(&self, body: &Body<'_>) -> f64 {
         let [elastic, plastic] = self.energies(body);
         let contact = contact_sums(self.contact.iter(), body.symmetry).energy;
-        elastic + plastic + contact + self.self_contact_energy - self.remeasured_energy()
+        elastic + plastic + contact + self.ledger.self_contact - self.remeasured_energy()
     }
 
     /// Takes down that a transfer from the state `before`, of the body `old`, ended here.
     pub fn note_transfer(&mut self, body: &Body<'_>, before: &State, old: &Body<'_>) {
-        self.transferred = before.transferred + self.balanced_energy(body) - before.balanced_energy(old);
-        self.transfers = before.transfers + 1;
+        self.ledger.transferred =
+            before.ledger.transferred + self.balanced_energy(body) - before.balanced_energy(old);
+        self.ledger.transfers = before.ledger.transfers + 1;
     }
 
     /// The body and its state with the nodes at `places`, in touch with the same tool where it stands. It is not in equilibrium.
@@ -314,17 +317,16 @@ impl State {
         state.edges = body.surface(&places);
         state.displacement = carried.displacement;
         if let Some(contact) = body.contact.as_ref().filter(|_| self.tip.is_finite()) {
-            let context = contact.at(self.tip, self.penalty, body.symmetry);
+            let context = contact.context(self.tip, self.penalty, body.symmetry);
             let integrate = |edge: &crate::contact::edge::ContactEdge| {
                 let x = edge.nodes.map(|node| places[node as usize]);
-                let multiplier = [0.0; 3];
-                edge.integrate(&context, edge.touching(&context, &x, &multiplier), &x, &multiplier)
+                edge.integrate(&context, edge.touching(&context, &x), &x)
             };
             state.contact = state.edges.iter().map(integrate).collect();
         }
         state.facing = Facing::new(&state.edges, &places, &state.displacement, &Facing::default());
         state.position = places;
-        state.remeasured[1] = 0.0;
+        state.ledger.remeasured[1] = 0.0;
         Some((anew, state))
     }
 }

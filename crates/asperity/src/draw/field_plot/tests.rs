@@ -4,7 +4,7 @@ use super::*;
 use crate::input::toml_file::TomlFile;
 use crate::results::units::MEGAPASCAL;
 use asperity_simulation::record::rows::Phase;
-use asperity_simulation::run::{Event, FieldFrame, run};
+use asperity_simulation::run::{Event, FieldFrame, Run};
 use asperity_simulation::scene::Scene;
 use std::ops::ControlFlow;
 
@@ -13,15 +13,16 @@ fn peak(change: &str) -> (Scene, FieldFrame) {
     let overrides = ["output.every=100000", change].map(String::from);
     let scene: Scene = TomlFile::parse("scene.toml".as_ref(), text, &overrides).unwrap().value;
     let mut peak = None;
-    run(&scene, None, &mut |event| {
-        if let Event::Fields(frame) = event
-            && frame.phase == Phase::Load
-        {
-            peak = Some((*frame).clone());
-        }
-        ControlFlow::Continue(())
-    })
-    .unwrap();
+    Run::new(&scene)
+        .run(&mut |event| {
+            if let Event::Fields(frame) = event
+                && frame.phase == Phase::Load
+            {
+                peak = Some((*frame).clone());
+            }
+            ControlFlow::Continue(())
+        })
+        .unwrap();
     (scene, peak.unwrap())
 }
 

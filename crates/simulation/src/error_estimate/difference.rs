@@ -1,0 +1,216 @@
+//! How a quantity of a run differs from that of its companion over the depth: what of that is taken off, and the bound of what is left.
+
+use crate::fitted::FITTED;
+use crate::scene::ElementChoice;
+use crate::setup::discretisation::LEAST_COUNTED_DEPTH;
+use asperity_numerics::least_squares::{powers, solve, value};
+use asperity_solver::point::kinematics::Symmetry;
+
+/// The errors of force or area, as far as they are known before a run.
+#[derive(Clone, Copy)]
+pub(super) struct Quantity {
+    /// The smooth part through points, as coefficients of a parabola.
+    smooth: fn(&[[f64; 2]]) -> Option<[f64; 3]>,
+    /// Share of the smooth part that is taken off: 1/(2ᵖ - 1) for an order p.
+    share: f64,
+    /// ln Q that the penetration is known to add beyond that.
+    widened: f64,
+    /// Relative error that run and companion may hide.
+    hidden: f64,
+    /// Factor of what is seen of the difference in the bound of what is left of it.
+    safety: f64,
+}
+
+/// The numbers of a run that its bounds depend on, beside the two curves.
+#[derive(Clone, Copy)]
+pub(crate) struct Setting {
+    /// Of the scene.
+    pub symmetry: Symmetry,
+    /// That of the run.
+    pub element: ElementChoice,
+    /// Penetration of the run over its depth.
+    pub penetration: f64,
+    /// Load steps of the run.
+    pub steps: usize,
+    /// The companion has the other element on the same mesh.
+    pub same_mesh: bool,
+}
+
+/// The factor of safety of the grid convergence index where the order was seen on three meshes or more (Roache, Verification and
+/// Validation in Computational Science and Engineering, 1998).
+const GRID_CONVERGENCE_SAFETY: f64 = 1.25;
+
+/// Span of ln h before the peak in which the front crosses an edge of the coarsest companion.
+const SPAN_BEFORE_PEAK: f64 = 0.35;
+
+impl Setting {
+    pub(super) fn force(self) -> Quantity {
+        let fitted = FITTED.errors;
+        let balanced = fitted.hidden_force_of(self.element);
+        let hidden = (balanced * self.penetration).hypot(fitted.lost_by_steps / (self.steps as f64).powi(2));
+        let share = if self.same_mesh { 0.0 } else { fitted.force_share };
+        Quantity { smooth: polynomial::<3>, share, widened: 0.0, hidden, safety: 1.0 }
+    }
+
+    pub(super) fn area(self) -> Quantity {
+        let fitted = FITTED.errors;
+        let (share, widened) = if self.same_mesh {
+            (fitted.area_share_of_other_element, 0.0)
+        } else {
+            (fitted.area_share, fitted.widened * self.penetration * lengths(self.symmetry))
+        };
+        let hidden = fitted.hidden_area * self.penetration.powi(2);
+        Quantity { smooth: even_or_line, share, widened, hidden, safety: GRID_CONVERGENCE_SAFETY }
+    }
+}
+
+/// Lengths that an area is a product of.
+fn lengths(symmetry: Symmetry) -> f64 {
+    match symmetry {
+        Symmetry::Axisymmetric => 2.0,
+        Symmetry::PlaneStrain => 1.0,
+    }
+}
+
+/// Factor of a radius, or of half a width, whose area grows by the factor `wider`.
+pub(super) fn longer(symmetry: Symmetry, wider: f64) -> f64 {
+    wider.powf(1.0 / lengths(symmetry))
+}
+
+/// Least squares of `TERMS` coefficients, of which the others are 0.
+fn polynomial<const TERMS: usize>(points: &[[f64; 2]]) -> Option<[f64; 3]> {
+    let rows: Vec<_> = points.iter().map(|[x, d]| (powers::<TERMS>(*x), *d, 1.0)).collect();
+    let found = solve(&rows).filter(|c| c.iter().all(|c| c.is_finite()))?;
+    Some(std::array::from_fn(|i| found.get(i).copied().unwrap_or(0.0)))
+}
+
+/// The mean, or a line where it explains nearly all.
+fn even_or_line(points: &[[f64; 2]]) -> Option<[f64; 3]> {
+    let [mean, line] = [polynomial::<1>(points)?, polynomial::<2>(points)?];
+    let left = |c: &[f64; 3]| points.iter().map(|[x, d]| (d - value(c, &powers(*x))).powi(2)).sum::<f64>();
+    Some(if left(&line) < FITTED.errors.line * left(&mean) { line } else { mean })
+}
+
+/// Difference of one quantity between companion and run.
+pub(super) struct Difference {
+    /// ln(h/h_peak) and ln(Q_companion/Q).
+    points: Vec<[f64; 2]>,
+    /// ln Q less a smooth curve of its own, at the same places.
+    ripple: Vec<f64>,
+    smooth: [f64; 3],
+    of: Quantity,
+}
+
+impl Difference {
+    pub fn new(points: Vec<[f64; 2]>, ripple: Vec<f64>, of: Quantity) -> Option<Difference> {
+        let smooth = (of.smooth)(&points)?;
+        let largest = points.iter().map(|[x, _]| value(&smooth, &powers(*x)).abs()).fold(0.0, f64::max);
+        let of = if largest > FITTED.errors.asymptotic { Quantity { share: 0.0, ..of } } else { of };
+        Some(Difference { points, ripple, smooth, of })
+    }
+
+    /// The smooth part at x = ln(h/h_peak); that of the first depth before it.
+    fn smooth(&self, x: f64) -> f64 {
+        value(&self.smooth, &powers(x.clamp(LEAST_COUNTED_DEPTH.ln(), 0.0)))
+    }
+
+    /// The correction that is added to ln Q.
+    pub fn correction(&self, x: f64) -> f64 {
+        -self.of.share * self.smooth(x) - self.of.widened
+    }
+
+    /// The bound of what is left near x.
+    pub fn bound(&self, from: f64, to: f64) -> f64 {
+        let within = self.points.iter().zip(&self.ripple).filter(|([x, _], _)| (from..=to).contains(x));
+        let largest = |[smooth, rest, own]: [f64; 3], ([x, d], ripple): (&[f64; 2], &f64)| {
+            let even = self.smooth(*x);
+            [smooth.max(even.abs()), rest.max((d - even).abs()), own.max(ripple.abs())]
+        };
+        let [smooth, rest, own] = within.fold([0.0; 3], largest);
+        // the companion ripples more; the run itself has kinks that are no ripple
+        let seen = smooth.hypot(FITTED.errors.rest_in_bound * rest.min(own));
+        (self.of.safety * seen).hypot(self.of.hidden)
+    }
+
+    pub fn whole(&self) -> f64 {
+        self.bound(f64::NEG_INFINITY, 0.0)
+    }
+
+    /// The bound near the peak.
+    pub fn near_peak(&self) -> f64 {
+        self.bound(-SPAN_BEFORE_PEAK, 0.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const DEPTHS: usize = 81;
+
+    const SETTING: Setting = Setting {
+        symmetry: Symmetry::Axisymmetric,
+        element: ElementChoice::Q8r,
+        penetration: 0.0,
+        steps: 1000,
+        same_mesh: false,
+    };
+
+    /// A companion that differs by `d(x)` from a run without ripple.
+    fn difference(of: Quantity, d: impl Fn(f64) -> f64) -> Difference {
+        let depths = (0..DEPTHS).map(|i| LEAST_COUNTED_DEPTH.ln() * (1.0 - i as f64 / (DEPTHS - 1) as f64));
+        let points: Vec<[f64; 2]> = depths.map(|x| [x, d(x)]).collect();
+        Difference::new(points, vec![0.0; DEPTHS], of).unwrap()
+    }
+
+    /// Errors of the orders that are assumed vanish: ln Q is off by e and that of the companion by 2ᵖ e.
+    #[test]
+    fn errors_of_the_assumed_order_are_taken_off_whole() {
+        for (of, order) in [(SETTING.force(), 1.5), (SETTING.area(), 1.0)] {
+            for sign in [1.0, -1.0] {
+                let error = |x: f64| sign * (0.008 + 0.002 * x);
+                let companion = difference(of, |x| (2_f64.powf(order) - 1.0) * error(x));
+                for x in [LEAST_COUNTED_DEPTH.ln(), -0.8, -0.2, 0.0] {
+                    let left = error(x) + companion.correction(x);
+                    assert!(left.abs() < 2e-5, "order {order}, sign {sign}: {left:e} at {x}");
+                }
+            }
+        }
+    }
+
+    /// A radius that a penetration of 0.004 widens by three times that, of the order 0.85, and a mesh narrows at the first order.
+    #[test]
+    fn what_penetration_and_mesh_do_to_the_area_is_taken_off() {
+        for narrowed in [0.0, 0.01, 0.03] {
+            let widened = 2.0 * 3.0 * 0.004;
+            let d = (2_f64.powf(0.85) - 1.0) * widened - narrowed;
+            let companion = difference(Setting { penetration: 0.004, ..SETTING }.area(), |_| d);
+            let left = widened - narrowed + companion.correction(0.0);
+            assert!(left.abs() < 2e-4, "{left:e} of {widened} - {narrowed}");
+        }
+    }
+
+    /// The companion of a ripple that swings about a constant, and of a line.
+    #[test]
+    fn a_line_is_followed_and_a_ripple_is_not() {
+        let ripple = |x: f64| 0.01 + 0.02 * (9.0 * x).sin() + 0.002 * x;
+        let [mean, line] = [&ripple as &dyn Fn(f64) -> f64, &|x| 0.01 + 0.02 * x + 1e-3 * (9.0 * x).sin()]
+            .map(|d| difference(SETTING.area(), d));
+        assert_eq!(mean.correction(-1.0).to_bits(), mean.correction(0.0).to_bits());
+        assert!((line.correction(0.0) + 0.01).abs() < 1e-3 && (line.correction(-1.0) - 0.01).abs() < 1e-3);
+    }
+
+    /// Of other orders the rest is bounded, within the asymptotic range.
+    #[test]
+    fn what_is_left_is_bounded() {
+        for (of, orders) in [(SETTING.force(), [1.0, 2.0]), (SETTING.area(), [0.8, 1.5])] {
+            for (order, size) in orders.into_iter().flat_map(|p| [(p, 0.01), (p, 0.04)]) {
+                for error in [size, -size] {
+                    let companion = difference(of, |_| (2_f64.powf(order) - 1.0) * error);
+                    let left = (error + companion.correction(-0.5)).abs();
+                    assert!(left > 1e-4 && left <= companion.whole(), "order {order}: {left} of {error}");
+                }
+            }
+        }
+    }
+}

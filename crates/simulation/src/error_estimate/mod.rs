@@ -1,0 +1,234 @@
+//! Errors of a run, measured by the run itself: its companion is the same scene with every number of the discretisation half as
+//! good, and costs a fifth.
+//!
+//! With Q the force or the contact area at a depth, D = ln(Q_companion/Q) holds what mesh, load step, penalty and substrate do, each
+//! of first order nearly or better, and the ripple of both. The smooth part of D over ln h is a parabola for the force; for the area,
+//! whose companion ripples more than it differs, the mean, or a line where D is one.
+//! * Were all errors of the order p, ln Q would be off by D/(2ᵖ - 1), which is taken off (Richardson's extrapolation): with p = 3/2 of
+//!   the force, whose observed orders lie between 1 and 2, and with p = 1 of the area.
+//! * A penetration d over the depth widens radius or half width by about 3 d, of an order near 0.85: after Richardson's extrapolation
+//!   of the first order 3 d (2 - 2^0.85) = 0.6 d is left, and taken off too.
+//! * The bound of what is left is, added in squares, the largest smooth part from a fifth of the depth on and twice
+//!   the largest rest, of the area both with Roache's factor of safety, and what errors of mesh and penetration, which have
+//!   opposite signs, may hide from each other by chance (of the force also what coarse steps lose). The rest is
+//!   that of D, or that of the run from a smooth curve of its own where it is less: the companion ripples more.
+//! * A companion that differs too much is in no asymptotic range: no share of D is taken off.
+//! * The mesh that is given cannot be made coarser. Its companion has the other element, of which no order is known: nothing is taken
+//!   off the force, half of D off the area.
+//!
+//! Numbers that were chosen on measured scenes stand in `fitted.rs`.
+//!
+//! The stiffness of the first unloading is that of a punch, 2 E* a: half of what is taken off the area of an axisymmetric contact is
+//! taken off it.
+//!
+//! The mean pressure is force over area: its bound is the sum of theirs. Other values read at the peak or after it are not
+//! extrapolated. Their bound is the difference itself, and what the stated errors of force and stiffness near the peak (in squares)
+//! would do to it, since two runs may agree by chance; to that of the stiffness, half the bound of the area there is added. The
+//! elastic fraction has them in squares, and with them the work over the depths that the energies of the body do not account for.
+
+mod difference;
+mod rescale;
+
+pub(super) use difference::Setting;
+pub(super) use rescale::rescale_to_force;
+
+use crate::record::curve::Curve;
+use crate::record::recorder::Outcome;
+use crate::record::rows::{AsperityRow, CurveRow, Errors, Phase, Summary, largest_work, work_along};
+use crate::setup::discretisation::LEAST_COUNTED_DEPTH;
+use crate::setup::schedule::UNLOADING_EXPONENT;
+use asperity_solver::point::kinematics::Symmetry;
+use difference::{Difference, Quantity, longer};
+use rescale::{last_loaded, loading_curve, note_peak};
+
+/// Depths at which curves are compared, equally spaced in the logarithm.
+const COMPARED_DEPTHS: usize = 81;
+
+/// Half the span of ln h over which the rest of the difference counts for a row.
+const HALF_SPAN_OF_ROW: f64 = 0.15;
+
+/// Error of a residual depth over the depth, and of an elastic fraction, below which none is stated.
+const LEAST_STATED_ERROR: f64 = 1e-5;
+
+/// Share of the depth that the companion must reach.
+const LEAST_COMPANION_DEPTH: f64 = 0.9;
+
+/// Factor of the unloading stiffness where the area grows by the factor `wider`: 2 E* a of a punch. That of a strip depends on its
+/// width by a logarithm.
+fn stiffer(symmetry: Symmetry, wider: f64) -> f64 {
+    match symmetry {
+        Symmetry::Axisymmetric => wider.sqrt(),
+        Symmetry::PlaneStrain => 1.0,
+    }
+}
+
+/// What a companion reveals of the errors of a run.
+struct Comparison {
+    force: Difference,
+    area: Difference,
+    /// Force of run and companion over the first loading.
+    force_curves: [Curve; 2],
+    /// Depth of the last row of the first loading.
+    depth: f64,
+    symmetry: Symmetry,
+}
+
+impl Comparison {
+    /// Of `run` and `companion`; `None` where the two cannot be compared: a companion that stopped early says nothing of what comes
+    /// after.
+    fn new(run: &Outcome, companion: &Outcome, setting: Setting) -> Option<Comparison> {
+        let of = [|row: &CurveRow| row.force, |row: &CurveRow| row.contact_area];
+        let top = last_loaded(&run.rows).filter(|row| row.force > 0.0 && row.contact_area > 0.0)?;
+        let [force_curves, area_curves] =
+            of.map(|of| [&run.rows, &companion.rows].map(|rows| loading_curve(rows, top, of)));
+        let (end, other) = (force_curves[0].end(), force_curves[1].end());
+        if other < LEAST_COMPANION_DEPTH * end {
+            return None;
+        }
+        let peak = end.min(other);
+        Some(Comparison {
+            force: difference(&force_curves, peak, setting.force())?,
+            area: difference(&area_curves, peak, setting.area())?,
+            force_curves,
+            depth: top.depth,
+            symmetry: setting.symmetry,
+        })
+    }
+
+    /// ln(h/h_peak) of a row of the first loading; that of the peak after it.
+    fn logarithmic_depth(&self, row: &CurveRow) -> f64 {
+        match row.phase {
+            Phase::Load if row.depth > 0.0 => (row.depth / self.depth).ln(),
+            _ => 0.0,
+        }
+    }
+
+    /// The errors of what is stated of `run`, before anything is taken off it.
+    fn errors(&self, run: &Outcome, companion: &Summary) -> Errors {
+        let summary = &run.summary;
+        let relative = |own: Option<f64>, other: Option<f64>| Some((other? / own? - 1.0).abs());
+        let unloading_stiffness = relative(summary.unloading_stiffness, companion.unloading_stiffness);
+        let unloading_stiffness = unloading_stiffness.map(|s| s + 0.5 * self.area.near_peak());
+        let indirect = self.force.near_peak().hypot(unloading_stiffness.unwrap_or(0.0));
+        let difference = |own: Option<f64>, other: Option<f64>| Some((other? - own?).abs());
+        let share = |x: f64| x * (1.0 - x) * indirect;
+        let residual = summary.residual_depth.map(|depth| (depth / summary.peak_depth).clamp(0.0, 1.0));
+        let elastic = summary.elastic_fraction.map(|fraction| fraction.clamp(0.0, 1.0));
+        Errors {
+            force: self.force.whole(),
+            contact_area: self.area.whole(),
+            // force and area may err in opposite directions
+            mean_pressure: self.force.whole() + self.area.whole(),
+            residual_depth: difference(summary.residual_depth, companion.residual_depth)
+                .zip(residual)
+                .map(|(d, r)| (d / summary.peak_depth + share(r)).max(LEAST_STATED_ERROR)),
+            elastic_fraction: difference(summary.elastic_fraction, companion.elastic_fraction)
+                .zip(elastic)
+                .map(|(d, e)| d.hypot(share(e)).hypot(unaccounted(&run.rows)).max(LEAST_STATED_ERROR)),
+            unloading_stiffness,
+        }
+    }
+
+    /// The row without the errors that are known.
+    fn corrected(&self, row: &CurveRow) -> CurveRow {
+        let x = self.logarithmic_depth(row);
+        let widened = self.area.correction(x).exp();
+        CurveRow {
+            force: row.force * self.force.correction(x).exp(),
+            contact_area: row.contact_area * widened,
+            contact_radius: row.contact_radius * longer(self.symmetry, widened),
+            mean_pressure: row.mean_pressure * (self.force.correction(x) - self.area.correction(x)).exp(),
+            ..*row
+        }
+    }
+
+    /// The share of an asperity in `row` without the errors that are known.
+    fn corrected_share(&self, share: &AsperityRow, row: &CurveRow) -> AsperityRow {
+        let x = self.logarithmic_depth(row);
+        AsperityRow {
+            force: share.force * self.force.correction(x).exp(),
+            contact_area: share.contact_area * self.area.correction(x).exp(),
+            ..*share
+        }
+    }
+
+    /// Bound of the error of the force in a `row` of the run that `summary` is of, the `errors` of which are known; `None` where there is no
+    /// force.
+    fn force_error(&self, row: &CurveRow, summary: &Summary, errors: &Errors) -> Option<f64> {
+        if row.depth <= 0.0 || row.force <= 0.0 {
+            return None;
+        }
+        let x = self.logarithmic_depth(row);
+        match row.phase {
+            Phase::Load if x < LEAST_COUNTED_DEPTH.ln() => {
+                let depth = row.depth / self.depth;
+                let [run, companion] = self.force_curves.each_ref().map(|curve| curve.logarithm_at(depth));
+                let own = (companion - run).abs();
+                let first = self.force.bound(f64::NEG_INFINITY, LEAST_COUNTED_DEPTH.ln() + HALF_SPAN_OF_ROW);
+                Some(if own.is_finite() { first.max(own) } else { first.max(1.0) })
+            }
+            Phase::Load => Some(self.force.bound(x - HALF_SPAN_OF_ROW, x + HALF_SPAN_OF_ROW)),
+            // a curve that is moved by the error of the residual depth: dF/F = m dh/(h - h_residual)
+            _ => {
+                let residual_depth = summary.residual_depth.unwrap_or(0.0);
+                let moved = errors.residual_depth.unwrap_or(0.0) * summary.peak_depth;
+                let left = (row.depth - residual_depth)
+                    / (summary.peak_depth - residual_depth).max(f64::MIN_POSITIVE);
+                let lever = UNLOADING_EXPONENT * (1.0 - left).max(0.0) * moved;
+                let moved = lever / (row.depth - residual_depth).max(f64::MIN_POSITIVE);
+                Some((self.force.near_peak() + moved).min(1.0))
+            }
+        }
+    }
+}
+
+/// Difference of a quantity between the curves of run and companion, up to the depth `peak` that both reached.
+fn difference([own, other]: &[Curve; 2], peak: f64, of: Quantity) -> Option<Difference> {
+    let smooth = own.smooth(peak);
+    let last = (COMPARED_DEPTHS - 1) as f64;
+    let places = (0..COMPARED_DEPTHS).map(|i| LEAST_COUNTED_DEPTH.ln() * i as f64 / last).rev();
+    let compared = |x: f64| {
+        let depth = peak * x.exp();
+        let value = own.logarithm_at(depth);
+        ([x, other.logarithm_at(depth) - value], value - smooth.value(depth).ln())
+    };
+    let (points, ripple) = places.map(compared).unzip();
+    Difference::new(points, ripple, of)
+}
+
+/// The `run` without the errors that its `companion` reveals of force, area and stiffness, and with the bounds of what is left; as it was
+/// where the two cannot be compared.
+pub(super) fn extrapolate_and_bound(run: Outcome, companion: &Outcome, setting: Setting) -> Outcome {
+    let Some(found) = Comparison::new(&run, companion, setting) else { return run };
+    let errors = found.errors(&run, &companion.summary);
+    let stiffer = stiffer(setting.symmetry, found.area.correction(0.0).exp());
+    let mut asperities = run.asperities;
+    for share in &mut asperities {
+        if let Some(row) = run.rows.get(share.increment) {
+            *share = found.corrected_share(share, row);
+        }
+    }
+    let mut cycles = run.cycles;
+    cycles.iter_mut().for_each(|cycle| cycle.peak_force *= found.force.correction(0.0).exp());
+    let mut rows: Vec<CurveRow> = run.rows.iter().map(|row| found.corrected(row)).collect();
+    let last = rows.len() - 1;
+    for (index, row) in rows.iter_mut().enumerate() {
+        // at the end of an unloading there is no force
+        let is_end = index == last && row.phase != Phase::Load;
+        row.force_error = if is_end { None } else { found.force_error(row, &run.summary, &errors) };
+    }
+    let summary = Summary {
+        unloading_stiffness: run.summary.unloading_stiffness.map(|s| s * stiffer),
+        estimated_error: errors.force,
+        errors,
+        ..run.summary
+    };
+    let summary = note_peak(summary, &rows);
+    Outcome { rows, asperities, cycles, summary, ..run }
+}
+
+/// Work over the depths of an unloaded run that the energies of its body do not account for, over the external work at the peak.
+fn unaccounted(rows: &[CurveRow]) -> f64 {
+    let kept = |row: &CurveRow| row.elastic_energy + row.plastic_work - row.transfer_energy;
+    rows.last().map_or(0.0, |last| (work_along(rows) - kept(last)).abs() / largest_work(rows))
+}
