@@ -243,7 +243,7 @@ fn published(report: &mut Report, file: &str, beta_deg: f64) {
 }
 
 fn main() {
-    let (mut report, words) = Report::of("calibration", "standard");
+    let (mut report, words) = Report::of_example("calibration", "standard");
     let words: Vec<&str> = words.iter().map(String::as_str).collect();
     match words[..] {
         ["random"] => random(&mut report),

@@ -21,7 +21,7 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 fn main() {
-    let (report, words) = Report::of("cone_atlas", "standard");
+    let (report, words) = Report::of_example("cone_atlas", "standard");
     let word = |i: usize| words.get(i).map(String::as_str);
     let folder = || Path::new(word(1).expect("a folder"));
     let count = || word(2).and_then(|count| count.parse().ok()).expect("how many cones");

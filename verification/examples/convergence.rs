@@ -165,7 +165,7 @@ fn energy_balance(report: &mut Report) {
 }
 
 fn main() {
-    let (mut report, words) = Report::of("convergence", "all levels");
+    let (mut report, words) = Report::of_example("convergence", "all levels");
     if words.iter().all(|word| word != "energy") {
         studies(&mut report);
     }

@@ -23,7 +23,9 @@
 use asperity_simulation::scene::Accuracy;
 use asperity_verification::coverage_scenes::{Case, Kind};
 use asperity_verification::report::Report;
-use asperity_verification::truth::{Answer, Each, QUANTITIES, RECIPES, Recipe, SOFTER, Truth, Truths};
+use asperity_verification::truth::{
+    Answer, Each, QUANTITIES, RECIPES, Recipe, SOFTER_PENALTY, Truth, Truths,
+};
 use rayon::prelude::*;
 use std::error::Error;
 use std::ops::Range;
@@ -61,12 +63,12 @@ enum End {
 }
 
 fn measure(case: Case, truths: &Truths, search: bool) -> End {
-    let truth = match truths.of(&case, search) {
+    let truth = match truths.find_or_compute(&case, search) {
         None => return End::Open,
         Some(Err(reason)) => return End::NoTruth(Box::new(case), reason),
         Some(Ok(truth)) => truth.exact_where_known(&case.scene),
     };
-    let run = case.mesh().map_err(|e| e.to_string()).and_then(|mesh| Answer::to(&case.scene, mesh));
+    let run = case.mesh().map_err(|e| e.to_string()).and_then(|mesh| Answer::compute(&case.scene, mesh));
     match run {
         Err(reason) => End::Stopped(Box::new(case), reason),
         Ok(run) => End::Measured(Box::new(Row {
@@ -196,12 +198,12 @@ fn write(report: &mut Report, rows: &[Row], ends: &[End]) {
     report.section("Truths");
     report.table("| truths of | elements, steps and substrate over those of `reference` | penetration | number | mean cost, s |");
     for (name, level, _) in LEVELS {
-        let Recipe(finer) = Recipe::of(level);
+        let Recipe(finer) = Recipe::for_accuracy(level);
         let seconds: Vec<f64> = those(rows, |row| own(row, level)).iter().map(|row| row.seconds).collect();
         let mean = seconds.iter().sum::<f64>() / seconds.len() as f64;
         report.line(&format!(
             "| {name} | {finer} | {:.2} | {} | {mean:.0} |",
-            finer.powf(SOFTER),
+            finer.powf(SOFTER_PENALTY),
             seconds.len()
         ));
     }
@@ -271,7 +273,7 @@ fn compare(report: &mut Report, cases: &[Case], truths: &Truths) {
     );
     for ((name, level, _), recipe) in LEVELS.iter().zip(RECIPES).take(2) {
         let pairs = cases.iter().filter_map(|case| {
-            let best = truths.of(case, false)?.ok()?;
+            let best = truths.find_or_compute(case, false)?.ok()?;
             Some((recipe.find(case).ok()?, best))
         });
         let pairs: Vec<(Truth, Truth)> = pairs.collect();
@@ -335,7 +337,7 @@ fn options(words: &[String]) -> Result<Options, Box<dyn Error>> {
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let (mut report, words) = Report::of("coverage", "every level against finer runs");
+    let (mut report, words) = Report::of_example("coverage", "every level against finer runs");
     let options = options(&words)?;
     let make = |number: usize| {
         let mut case = Case::new(number).map_err(|e| format!("scene {number}: {e}"))?;

@@ -31,7 +31,7 @@ fn table(report: &mut Report, name: &str, outcome: &Outcome) {
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let draft = std::env::args().any(|a| a == "draft");
     let (level, named) = if draft { (Accuracy::Draft, "draft") } else { (Accuracy::Standard, "standard") };
-    let (mut report, _) = Report::of("cycles", named);
+    let (mut report, _) = Report::of_example("cycles", named);
     report.table(
         "| hardening | cycle | peak force, N | residual depth, µm | work returned, % | hysteresis, % | plastic work, % |"
     );

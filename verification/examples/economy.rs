@@ -4,7 +4,7 @@
 //! `cargo run --release -p asperity-verification --example economy [-- --out FILE]`; the table is `verification/results/economy.md`.
 
 use asperity_material::units::{Length, Stress};
-use asperity_numerics::newton::KEEP;
+use asperity_numerics::newton::FACTOR_KEPT_BELOW;
 use asperity_simulation::load_path::Path;
 use asperity_simulation::run::{Outcome, run};
 use asperity_simulation::scene::{Accuracy, Scene, Substrate};
@@ -55,7 +55,7 @@ fn loaded(scene: &Scene, keep: f64) -> Result<(f64, f64, usize), Box<dyn Error>>
 fn main() -> Result<(), Box<dyn Error>> {
     let mut paper = scene(Accuracy::Standard)?;
     paper.loading.unload = false;
-    let (mut report, _) = Report::of("economy", "standard, the least seconds of three runs");
+    let (mut report, _) = Report::of_example("economy", "standard, the least seconds of three runs");
     report.table("| left out | unknowns | returns to the yield surface | seconds | saved | force |");
 
     let mut elastic = paper.clone();
@@ -83,7 +83,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     shallow_deep.substrate = deep.substrate;
     row(&mut report, "the same at a depth of 0.2 um", &fastest(&shallow_deep)?, &fastest(&shallow)?);
 
-    let (every, kept) = (loaded(&paper, 0.0)?, loaded(&paper, KEEP)?);
+    let (every, kept) = (loaded(&paper, 0.0)?, loaded(&paper, FACTOR_KEPT_BELOW)?);
     report.line(&format!(
         "| new tangents while secants serve ({} to {} factorisations) | | | {:.2} to {:.2} | {:.0} % | {:+.1e} |",
         every.2,

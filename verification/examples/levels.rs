@@ -55,7 +55,7 @@ fn row(entry: &Entry) -> Result<String, String> {
 }
 
 fn main() {
-    let (mut report, words) = Report::of("levels", "draft, standard and reference");
+    let (mut report, words) = Report::of_example("levels", "draft, standard and reference");
     let rows: Vec<usize> = words.iter().map(|a| a.parse().expect("a row is a number")).collect();
     let entries = others().expect("the committed scene reads").into_iter().enumerate();
     let entries: Vec<Entry> =

@@ -76,7 +76,7 @@ fn run(program: &Path, kept: &Path, index: usize, drawn: &Drawn) -> Result<(End,
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let (mut report, words) = Report::of("random_scenes", "draft");
+    let (mut report, words) = Report::of_example("random_scenes", "draft");
     let count: usize = words.first().map_or(Ok(10_000), |a| a.parse())?;
     let seed: u64 = words.get(1).map_or(Ok(1), |a| a.parse())?;
     let (program, kept) = (program()?, PathBuf::from("out/random-scenes"));

@@ -128,7 +128,7 @@ fn save(folder: Option<&String>, name: &str, picture: &str) {
 }
 
 /// Deviations of a column as found and in the result; only the force states an error in every row.
-fn beside(name: &str, [before, after]: [Vec<[f64; 2]>; 2], stated: &[[f64; 2]]) -> String {
+fn deviation_chart(name: &str, [before, after]: [Vec<[f64; 2]>; 2], stated: &[[f64; 2]]) -> String {
     let lower = stated.iter().rev().map(|[x, y]| [*x, -y]);
     let band: Vec<_> = stated.iter().copied().chain(lower).collect();
     let end = if band.is_empty() { "" } else { "; band: stated error" };
@@ -162,7 +162,7 @@ fn main() {
         let [before, after] = [found, result].map(|rows| deviation(rows, &fine.result.curve, column));
         report.line(&row(&name.to_lowercase(), [&before, &after]));
         let file = format!("single-ripple-{}.svg", name.to_lowercase().replace(' ', "-"));
-        save(folder, &file, &beside(name, [before, after], stated));
+        save(folder, &file, &deviation_chart(name, [before, after], stated));
     }
 
     let reference = &fine.result.curve;

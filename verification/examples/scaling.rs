@@ -64,11 +64,11 @@ fn exponent(x: [f64; 2], y: [f64; 2]) -> f64 {
 /// Least-squares slope of the logarithm of column `column` over that of the first one.
 fn slope(rows: &[[f64; 3]], column: usize) -> f64 {
     let points: Vec<[f64; 2]> = rows.iter().map(|row| [row[0].ln(), row[column].ln()]).collect();
-    Line::through(&points).slope
+    Line::fit(&points).slope
 }
 
 fn main() -> Result<(), Box<dyn Error + Send + Sync>> {
-    let (mut report, words) = Report::of("scaling", "reference, on one core");
+    let (mut report, words) = Report::of_example("scaling", "reference, on one core");
     if let Some(elements) = words.first() {
         return one(elements.parse()?);
     }

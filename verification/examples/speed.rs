@@ -32,7 +32,10 @@ const LEVELS: [(&str, Accuracy, usize); 3] = [
 const FINE: [usize; 2] = [272, 710];
 
 /// `work` on so many threads.
-fn on<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> Result<T, rayon::ThreadPoolBuildError> {
+fn on_threads<T: Send>(
+    threads: usize,
+    work: impl FnOnce() -> T + Send,
+) -> Result<T, rayon::ThreadPoolBuildError> {
     Ok(rayon::ThreadPoolBuilder::new().num_threads(threads).build()?.install(work))
 }
 
@@ -145,7 +148,7 @@ fn build() -> Result<f64, Box<dyn Error>> {
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let (mut report, _) = Report::of("speed", "every level");
+    let (mut report, _) = Report::of_example("speed", "every level");
     let floor = Roofline::measure();
     report.line(&format!("{}, {:.0} GFLOP/s a core in a dense product.\n", processor(), 1e-9 * floor.rate()));
 
@@ -154,8 +157,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut over = Vec::new();
     for (name, accuracy, repeats) in LEVELS {
         for element in [ElementChoice::Q8r, ElementChoice::Q4] {
-            let (line, factor) =
-                on(1, || profile(name, accuracy, element, repeats, &floor).map_err(|e| e.to_string()))??;
+            let (line, factor) = on_threads(1, || {
+                profile(name, accuracy, element, repeats, &floor).map_err(|e| e.to_string())
+            })??;
             report.line(&line);
             if element == ElementChoice::Q8r {
                 over.push(format!("{factor:.1}"));
@@ -166,7 +170,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     report.section("Bounds");
     report.table("| | measured | bound | aim |");
     let standard = scene(Accuracy::Standard)?;
-    let seconds = on(1, || least(&standard, 5))?;
+    let seconds = on_threads(1, || least(&standard, 5))?;
     report.line(&format!(
         "| single asperity at `standard`, loading and unloading, core seconds | {seconds:.2} | 0.12 | 0.06 |"
     ));
@@ -175,8 +179,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
     let sweep = Sweep::default();
     let cases = sweep.cases();
-    let (rows, seconds) =
-        timed(|| on(2, || cases.par_iter().map(|case| solve(case, sweep.accuracy)).collect::<Vec<_>>()));
+    let (rows, seconds) = timed(|| {
+        on_threads(2, || cases.par_iter().map(|case| solve(case, sweep.accuracy)).collect::<Vec<_>>())
+    });
     let worst =
         rows?.iter().map(|row| row.outcome.as_ref().map_or(f64::NAN, |k| k.error)).fold(0.0, f64::max);
     report.line(&format!(
@@ -185,22 +190,23 @@ fn main() -> Result<(), Box<dyn Error>> {
         100.0 * worst
     ));
     let reference = scene(Accuracy::Reference)?;
-    let [one, two] = [on(1, || least(&reference, 2))?, on(2, || least(&reference, 2))?];
+    let [one, two] = [on_threads(1, || least(&reference, 2))?, on_threads(2, || least(&reference, 2))?];
     report.line(&format!("| `reference`, core seconds | {one:.2} | 2.5 | 1 |"));
     report.line(&format!(
         "| run over its floor, draft / standard / reference | {} | 4 / 3.5 / 3 | 2 |",
         over.join(" / ")
     ));
     let [(unknowns, single), (_, double)] = [
-        on(1, || loading(FINE[0]).map_err(|e| e.to_string()))??,
-        on(2, || loading(FINE[0]).map_err(|e| e.to_string()))??,
+        on_threads(1, || loading(FINE[0]).map_err(|e| e.to_string()))??,
+        on_threads(2, || loading(FINE[0]).map_err(|e| e.to_string()))??,
     ];
     report.line(&format!(
         "| two threads over one, at {unknowns} unknowns / at `reference` | {:.2} / {:.2} | 1.5 / 1.2 | 1.8 / 1.5 |",
         single / double,
         one / two
     ));
-    let (unknowns, seconds, least) = on(1, || iteration(FINE[1], &floor).map_err(|e| e.to_string()))??;
+    let (unknowns, seconds, least) =
+        on_threads(1, || iteration(FINE[1], &floor).map_err(|e| e.to_string()))??;
     report.line(&format!(
         "| an iteration at {unknowns} unknowns over its floor | {:.1} | 3 | 2 |",
         seconds / least

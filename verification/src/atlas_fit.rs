@@ -26,7 +26,7 @@ pub fn solved(rows: &[Row]) -> Vec<Solved> {
 /// [`asperity_calibration::cones::fresh`], held against `reference`: beyond what the companions of the committed cones show, K of metal that
 /// hardens is off by up to 0.6 %, the radius of coarse companions is uneven, S has what is left of both, and the work of unloading is
 /// 0.5 % too large.
-const LEAST: [f64; ERRORS] = [0.0065, 0.01, 0.01, 0.009];
+const MIN_ERRORS: [f64; ERRORS] = [0.0065, 0.01, 0.01, 0.009];
 
 /// Parts that are left out in turn.
 pub const FOLDS: usize = 5;
@@ -57,7 +57,7 @@ pub fn fit(cones: &[Solved]) -> Option<Fit> {
         }
     }
     let errors = (0..ERRORS).map(|k| errors(&places, &left_out, k)).collect::<Option<Vec<_>>>()?;
-    let atlas = Atlas::new(equations.solve(|_| true)?, errors, LEAST)?;
+    let atlas = Atlas::new(equations.solve(|_| true)?, errors, MIN_ERRORS)?;
     Some(Fit { atlas, left_out })
 }
 
@@ -109,20 +109,20 @@ impl Equations {
 }
 
 /// Summand before the logarithm of a residual is taken: below it a residual says nothing.
-const NOTHING: f64 = 1e-4;
+const NOTHING_ERROR: f64 = 1e-4;
 
 /// Share of the cones left out that lie within the error.
-const COVERED: f64 = 0.95;
+const COVERED_SHARE: f64 = 0.95;
 
 /// Coefficients of the error of number `k`: the logarithm of what is left goes with the place, and 95 % lie below.
 fn errors(places: &[Place], left: &[[f64; ERRORS]], k: usize) -> Option<Vec<f64>> {
     let rows: Vec<Vec<f64>> = places.iter().map(Place::terms_of_errors).collect();
     let terms = DMatrix::from_fn(rows.len(), rows[0].len(), |i, j| rows[i][j]);
-    let logarithms = DVector::from_fn(rows.len(), |i, _| (left[i][k].abs() + NOTHING).ln());
+    let logarithms = DVector::from_fn(rows.len(), |i, _| (left[i][k].abs() + NOTHING_ERROR).ln());
     let mut fitted = terms.tr_mul(&terms).cholesky()?.solve(&terms.tr_mul(&logarithms));
     let mut over: Vec<f64> =
         (&terms * &fitted).iter().zip(left).map(|(fitted, left)| left[k].abs().ln() - fitted).collect();
     over.sort_by(f64::total_cmp);
-    fitted[0] += over[(COVERED * over.len() as f64) as usize];
+    fitted[0] += over[(COVERED_SHARE * over.len() as f64) as usize];
     Some(fitted.iter().copied().collect())
 }

@@ -78,7 +78,7 @@ impl Kind {
     ];
 
     /// Kinds with one contact, the first ones.
-    const SINGLE: usize = 8;
+    const SINGLE_CONTACT_KINDS: usize = 8;
 
     /// Its name in a table.
     pub fn name(self) -> &'static str {
@@ -140,7 +140,7 @@ impl Case {
         let mut draw = Draw { number, count: 0 };
         let body = match kind {
             kind if (kind as usize) < Kind::ImportedMesh as usize => kind,
-            _ => Kind::ALL[draw.below(Kind::SINGLE)],
+            _ => Kind::ALL[draw.index_below(Kind::SINGLE_CONTACT_KINDS)],
         };
         let given = kind == Kind::ImportedMesh;
         let mut scene = draw.body(body, kind == Kind::Elastic, given)?;
@@ -210,11 +210,11 @@ impl Draw {
         self.share() < share
     }
 
-    fn below(&mut self, count: usize) -> usize {
+    fn index_below(&mut self, count: usize) -> usize {
         (self.share() * count as f64) as usize
     }
 
-    fn between(&mut self, low: f64, high: f64) -> f64 {
+    fn number_between(&mut self, low: f64, high: f64) -> f64 {
         digits(low + self.share() * (high - low))
     }
 
@@ -224,7 +224,7 @@ impl Draw {
 
     /// A metal with the particularity of `kind`, if that is one of the metal.
     fn metal(&mut self, kind: Kind) -> Material {
-        let body = Material::elastic_body(Stress(MODULUS), self.between(0.2, 0.4));
+        let body = Material::elastic_body(Stress(MODULUS), self.number_between(0.2, 0.4));
         if kind == Kind::Elastic {
             return body;
         }
@@ -234,15 +234,15 @@ impl Draw {
         }
         let exponent = match kind {
             Kind::PerfectlyPlastic => 0.0,
-            Kind::Kinematic => self.between(0.1, 0.6),
-            _ => self.between(0.0, 0.6),
+            Kind::Kinematic => self.number_between(0.1, 0.6),
+            _ => self.number_between(0.0, 0.6),
         };
         let law = if self.chance(0.5) { HardeningLaw::Hollomon } else { HardeningLaw::Swift };
         let mut metal = body.yielding(Stress(digits(yield_stress)), exponent);
         metal.hardening_law = law.into();
         if kind == Kind::Kinematic {
             metal.hardening_mode = HardeningMode::Kinematic;
-            metal.kinematic_share = Some(self.between(0.3, 1.0));
+            metal.kinematic_share = Some(self.number_between(0.3, 1.0));
         }
         metal
     }
@@ -251,10 +251,10 @@ impl Draw {
     fn kinks(&mut self, yield_stress: f64) -> Vec<(f64, Stress)> {
         let (mut strain, mut stress) = (0.0, yield_stress);
         let mut points = vec![(strain, Stress(stress))];
-        for _ in 0..2 + self.below(3) {
+        for _ in 0..2 + self.index_below(3) {
             strain = digits(strain + self.between_logs(0.005, 0.2));
             if !self.chance(1.0 / 3.0) {
-                stress = digits(stress * self.between(1.05, 1.6));
+                stress = digits(stress * self.number_between(1.05, 1.6));
             }
             points.push((strain, Stress(stress)));
         }
@@ -269,7 +269,7 @@ impl Draw {
 
     /// A cap between a quarter and half its radius high.
     fn cap(&mut self) -> Asperity {
-        let height = Some(Length(digits(RADIUS * self.between(0.25, 0.5))));
+        let height = Some(Length(digits(RADIUS * self.number_between(0.25, 0.5))));
         let cone = Asperity::cone(Length(HEIGHT), 1.0);
         Asperity { radius: Some(Length(RADIUS)), height, slope_deg: None, ..cone }
     }
@@ -345,15 +345,15 @@ impl Draw {
 
     /// Two to four asperities, of which one is the highest and some may not be touched at this share of the height.
     fn row(&mut self, share: f64) -> Result<Vec<Asperity>, SceneError> {
-        let count = 2 + self.below(3);
-        let highest = self.below(count);
+        let count = 2 + self.index_below(3);
+        let highest = self.index_below(count);
         let mut row = Vec::new();
         for index in 0..count {
-            let lower = if index == highest { 0.0 } else { self.between(0.0, 1.2) };
+            let lower = if index == highest { 0.0 } else { self.number_between(0.0, 1.2) };
             let slope = self.between_logs(3.0, 30.0);
             let mut one = self.rounded(digits(HEIGHT * (1.0 - lower * share)), slope);
             if self.chance(0.5) {
-                one.spacing = Some(Length(digits(one.form()?.base_radius() * self.between(0.1, 2.0))));
+                one.spacing = Some(Length(digits(one.form()?.base_radius() * self.number_between(0.1, 2.0))));
             }
             row.push(one);
         }

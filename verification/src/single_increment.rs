@@ -11,10 +11,10 @@ use asperity_solver::point::material::{Metal, stress};
 use asperity_solver::point::tensor::Sym;
 
 /// Tight enough that only rounding is left: the claims are about the equations, not about when Newton stops.
-pub const TIGHT: Settings = Settings { tolerance: 1e-12, max_iterations: 40, keep: 0.0 };
+pub const TIGHT_SETTINGS: Settings = Settings { tolerance: 1e-12, max_iterations: 40, keep: 0.0 };
 
 /// E = 1, ν = 0.3, never yields.
-pub const ELASTIC: Metal = Metal {
+pub const ELASTIC_METAL: Metal = Metal {
     elastic: Elastic { youngs_modulus: 1.0, poissons_ratio: 0.3 },
     hardening: None,
     kinematic_share: 0.0,
@@ -24,7 +24,7 @@ pub const ELASTIC: Metal = Metal {
 /// E = 1, ν = 0.3, eq. (1) with σ_y = `yield_stress` and exponent `exponent`.
 pub fn hollomon(yield_stress: f64, exponent: f64) -> Metal {
     let hardening = Hardening { law: HardeningLaw::Hollomon, yield_stress, exponent, youngs_modulus: 1.0 };
-    Metal { hardening: Some(hardening.into()), ..ELASTIC }
+    Metal { hardening: Some(hardening.into()), ..ELASTIC_METAL }
 }
 
 /// A stress-free model with the components `held` kept.
@@ -122,7 +122,7 @@ pub fn stretch_bar(kind: ElementKind, metal: &Metal, strains: &[f64]) -> Result<
     let mut axial = Vec::with_capacity(strains.len());
     for &strain in strains {
         let x = model.state().position.to_vec();
-        increment(&mut model, f64::INFINITY, &TIGHT, |node| {
+        increment(&mut model, f64::INFINITY, &TIGHT_SETTINGS, |node| {
             let [r, z] = x[node];
             // as incompressible: nearly right
             [r * (0.5 * (last - strain)).exp_m1(), z * (strain - last).exp_m1()]

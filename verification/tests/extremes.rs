@@ -100,7 +100,7 @@ fn against_peer(name: &'static str, slope_deg: f64, exponent: f64, e_over_sy: f6
 }
 
 /// The force against that of another scene.
-fn against(name: &'static str, scene: Scene, other: Scene, bound: f64) -> Row {
+fn compared(name: &'static str, scene: Scene, other: Scene, bound: f64) -> Row {
     row(name, scene, bound, move |o| peak(o) / force(&other))
 }
 
@@ -109,7 +109,7 @@ fn against(name: &'static str, scene: Scene, other: Scene, bound: f64) -> Row {
 fn beside_other_element(name: &'static str, scene: Scene, element: ElementChoice) -> Row {
     let mut other = scene.clone();
     other.numerics.element = Some(element);
-    against(name, scene, other, 0.05)
+    compared(name, scene, other, 0.05)
 }
 
 fn rows() -> Vec<Row> {
@@ -125,7 +125,7 @@ fn rows() -> Vec<Row> {
         against_sneddon("ν 0.4999999, elastic, Q8R", elastic_cone(1.0, 0.499_999_9)),
         against_sneddon("ν 0.4999999, elastic, Q4", q4(elastic_cone(1.0, 0.499_999_9))),
         against_sneddon("ν -0.9, elastic", elastic_cone(1.0, -0.9)),
-        against(
+        compared(
             "ν 0.4999999, plastic, beside 0.49",
             nearly_incompressible(0.499_999_9),
             nearly_incompressible(0.49),
@@ -195,9 +195,9 @@ fn rows() -> Vec<Row> {
             0.05,
             |o| peak(o) / hertz_force(YOUNG / 0.91, 18e-3, 2e-6),
         ),
-        against("penetration 0.03 of the depth", penetration(0.03), paper(), 0.05),
-        against("penetration 1e-6 of the depth", penetration(1e-6), paper(), 0.05),
-        against(
+        compared("penetration 0.03 of the depth", penetration(0.03), paper(), 0.05),
+        compared("penetration 1e-6 of the depth", penetration(1e-6), paper(), 0.05),
+        compared(
             "augmented Lagrangian",
             changed(|s| s.numerics.contact = Some(ContactMethod::Augmented)),
             paper(),
@@ -206,10 +206,10 @@ fn rows() -> Vec<Row> {
         row("depth 100 % of the height", changed(|s| s.loading.depth = s.asperity[0].height), 1e-6, |o| {
             o.summary.peak_depth / 20e-6
         }),
-        Row { energy: 1.0, ..against("one step", steps(1), paper(), 0.5) },
-        Row { energy: 0.1, ..against("eight steps", steps(8), paper(), 0.1) },
-        against("1000 steps", steps(1000), paper(), 0.05),
-        against(
+        Row { energy: 1.0, ..compared("one step", steps(1), paper(), 0.5) },
+        Row { energy: 0.1, ..compared("eight steps", steps(8), paper(), 0.1) },
+        compared("1000 steps", steps(1000), paper(), 0.05),
+        compared(
             "a body 1000 times wider than deep",
             changed(|s| {
                 s.substrate = Some(Substrate { radius: Some(Length(2.0)), depth: Some(Length(2e-3)) });
@@ -243,7 +243,7 @@ fn rows() -> Vec<Row> {
         against_peer("n 0, E/σ_y 100 under 3°", 3.0, 0.0, 100.0),
         against_peer("n 0.1, E/σ_y 1000 under 3°", 3.0, 0.1, 1000.0),
         against_peer("n 0.5, E/σ_y 1000 under 6°", 6.0, 0.5, 1000.0),
-        against(
+        compared(
             "ν 0.49, plastic, beside 0.4999",
             nearly_incompressible(0.49),
             nearly_incompressible(0.4999),
@@ -275,7 +275,7 @@ fn rows() -> Vec<Row> {
         ),
         beside_other_element("a ball pressed in to its radius, beside Q4", ball(), ElementChoice::Q4),
         beside_other_element("a cone of 50° pressed in, beside Q8R", steep_tool(), ElementChoice::Q8r),
-        against("10000 steps", steps(10_000), paper(), 0.05),
+        compared("10000 steps", steps(10_000), paper(), 0.05),
         scaled("lengths of 1e-12", 1e-12, 1.0),
         scaled("lengths of 1e12", 1e12, 1.0),
         scaled("stresses of 1e-12", 1.0, 1e-12),

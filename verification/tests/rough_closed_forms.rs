@@ -40,13 +40,13 @@ fn map(n: usize, size: f64, periodic: bool, z: impl Fn(f64, f64) -> f64) -> Heig
 }
 
 fn contact(map: &HeightMap, closure: Closure, load: Load) -> Contact {
-    let surface = Surface::of(map.clone()).unwrap();
+    let surface = Surface::from_map(map.clone()).unwrap();
     press(&surface, &ClosureLaw::new(closure, &steel(), None).unwrap(), load).unwrap()
 }
 
 /// The plane's height above the origin of z instead of the mean height.
 fn height(map: &HeightMap, contact: &Contact) -> f64 {
-    contact.separation + Parameters::of(map, &map.extent().unwrap()).mean
+    contact.separation + Parameters::measure(map, &map.extent().unwrap()).mean
 }
 
 /// Relative errors of `got` against `want`.
@@ -69,7 +69,7 @@ fn one_cone_has_area_force_and_ellipse_of_the_circle() {
         converges("cone", |n| {
             let map = map(n, 21e-6, false, |x, y| -tan * x.hypot(y));
             let extent = map.extent().unwrap();
-            let mean = Parameters::of(&map, &extent).mean;
+            let mean = Parameters::measure(&map, &extent).mean;
             let found = contact(&map, closure, Load::Separation(-h - mean));
             let (area, force) = (PI * h * h / tan / tan, c * MODULUS * PI * h * h / tan);
             let ellipse = found.islands.islands[0].ellipse.unwrap();
@@ -95,7 +95,7 @@ fn one_paraboloid_has_twice_the_area_of_hertz_and_two_thirds_of_its_rim_slope() 
     for (closure, c, ratio) in LINEAR {
         converges("paraboloid", |n| {
             let map = map(n, 21e-6, false, |x, y| -(x * x + y * y) / (2.0 * radius));
-            let mean = Parameters::of(&map, &map.extent().unwrap()).mean;
+            let mean = Parameters::measure(&map, &map.extent().unwrap()).mean;
             let found = contact(&map, closure, Load::Separation(-h - mean));
             let (area, slope) = (TAU * radius * h, 2.0 / 3.0 * (2.0 * h / radius).sqrt());
             errors(
@@ -178,7 +178,7 @@ fn an_inclined_plane_is_exact_on_any_grid() {
 fn a_flat_plane_carries_nothing() {
     let inclined = map(33, 1e-3, false, |x, y| 0.02 * x - 0.01 * y);
     let flat = map(33, 1e-3, false, |_, _| 7e-6);
-    let surface = Surface::of(flat).unwrap();
+    let surface = Surface::from_map(flat).unwrap();
     let model = ClosureLaw::new(Closure::Published, &steel(), None).unwrap();
     let error = press(&surface, &model, Load::Pressure(1e6)).err().unwrap();
     assert!(error.to_string().contains("largest load"), "{error}");
@@ -198,7 +198,7 @@ fn non_square_pixels_change_nothing() {
         -tan * x.hypot(y)
     };
     let map = HeightMap::new(nx, ny, pixel, (0..nx * ny).map(z).collect()).unwrap();
-    let mean = Parameters::of(&map, &map.extent().unwrap()).mean;
+    let mean = Parameters::measure(&map, &map.extent().unwrap()).mean;
     let found = contact(&map, Closure::Published, Load::Separation(-h - mean));
     let island = found.islands.islands[0];
     let ellipse = island.ellipse.unwrap();

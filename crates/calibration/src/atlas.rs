@@ -134,11 +134,11 @@ impl Atlas {
     /// The committed atlas; `None` only if its file is damaged.
     pub fn committed() -> Option<&'static Atlas> {
         static ATLAS: OnceLock<Option<Atlas>> = OnceLock::new();
-        ATLAS.get_or_init(|| Atlas::through(&cells(include_str!("../data/cones.csv")))).as_ref()
+        ATLAS.get_or_init(|| Atlas::fit(&cells(include_str!("../data/cones.csv")))).as_ref()
     }
 
     /// A polynomial through `cells`; `None` with too few.
-    pub fn through(cells: &[Cell]) -> Option<Atlas> {
+    pub fn fit(cells: &[Cell]) -> Option<Atlas> {
         let count = basis([0.0; 3]).len();
         if cells.len() < 2 * count {
             return None;
@@ -155,7 +155,7 @@ impl Atlas {
     }
 
     /// The logarithms of [`Cell`] of a cone; beyond the cells carried on along straight lines from their edge.
-    pub fn at(&self, slope_deg: f64, e_over_sy: f64, exponent: f64) -> [f64; OUTPUTS] {
+    pub fn predict(&self, slope_deg: f64, e_over_sy: f64, exponent: f64) -> [f64; OUTPUTS] {
         let place = scaled(slope_deg, e_over_sy, exponent);
         let inside = place.map(|x| x.clamp(-1.0, 1.0));
         let mut value = self.value(inside);
@@ -195,7 +195,7 @@ mod tests {
         assert!(atlas.left[0] < 0.005, "{:?}", atlas.left);
         for (slope, ratio, exponent) in [(22.0, 120.0, 0.15), (32.0, 30.0, 0.35), (12.0, 700.0, 0.05)] {
             let expected = Cell::solve(slope, ratio, exponent).unwrap();
-            let found = atlas.at(slope, ratio, exponent);
+            let found = atlas.predict(slope, ratio, exponent);
             for (i, (a, b)) in found.iter().zip(expected.logarithms).enumerate().take(9) {
                 let allowed = if i == 0 { 0.03 } else { 0.05 };
                 assert!((a - b).abs() < allowed, "{slope} {ratio} {exponent}: logarithm {i} {a} {b}");
@@ -208,7 +208,7 @@ mod tests {
     #[test]
     fn beyond_the_cells_the_atlas_goes_on_straight() {
         let atlas = Atlas::committed().unwrap();
-        let [near, far] = [6000.0, 12000.0].map(|ratio| atlas.at(30.0, ratio, 0.0)[0]);
+        let [near, far] = [6000.0, 12000.0].map(|ratio| atlas.predict(30.0, ratio, 0.0)[0]);
         assert!(((far - near) / -2f64.ln() - 1.0).abs() < 0.05, "{near} {far}");
     }
 }

@@ -30,7 +30,7 @@ const TRIALS: ([f64; 2], usize) = ([0.005, 1.2], 72);
 const CONTRAST: f64 = 1.2;
 
 /// Scatter below this is rounding.
-const ROUNDING: f64 = 1e-9;
+const ROUNDING_SCATTER: f64 = 1e-9;
 
 /// The samples of a slope at every trial strain, ready for many weightings.
 #[derive(Clone, Debug)]
@@ -135,7 +135,7 @@ fn least(measures: &[Measure], f: impl Fn(&Measure) -> f64) -> Option<f64> {
 pub fn least_scatter(measures: &[Measure]) -> Option<f64> {
     let (min, max) =
         measures.iter().fold((f64::MAX, 0.0_f64), |(a, b), m| (a.min(m.scatter), b.max(m.scatter)));
-    if max < ROUNDING || max < CONTRAST * min {
+    if max < ROUNDING_SCATTER || max < CONTRAST * min {
         return None;
     }
     least(measures, |m| m.scatter * m.scatter)

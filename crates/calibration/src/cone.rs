@@ -71,7 +71,7 @@ pub fn crush(case: &Case, discretisation: &ConeDiscretisation) -> Result<Curve, 
 }
 
 /// Share of the peak force at which unloading ends; what is left of the way is extrapolated.
-const LIFTED: f64 = 0.02;
+const LIFTED_FORCE_SHARE: f64 = 0.02;
 
 /// Exponent m of the unloading curve F = F_j (1 - u/u_j)^m whose slope at the peak is that of a punch of the contact
 /// radius, 2E* a: m = 2E* a u_j/F_j, with u_j the way from the peak to the end of contact. 2 of an elastic cone, 1 of a
@@ -97,7 +97,7 @@ pub fn unloading_exponent(case: &Case, discretisation: &ConeDiscretisation) -> R
         let travel = path.travel() - lift;
         last = of(go_to(&mut path, travel)?);
         let way = before.0 - last.0;
-        if last.1 <= LIFTED * peak_force {
+        if last.1 <= LIFTED_FORCE_SHARE * peak_force {
             // the rest of the way along the curve of the exponent itself
             let mut m = UNLOADING_EXPONENT;
             for _ in 0..30 {

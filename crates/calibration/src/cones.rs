@@ -28,7 +28,7 @@ pub fn fresh(index: usize) -> Case {
 
 fn drawn(index: usize, moved: [f64; 4]) -> Case {
     // five dimensions are there
-    let at = |dimension: usize| Sobol::new(5).map_or(0.0, |sobol| sobol.at(dimension, index));
+    let at = |dimension: usize| Sobol::new(5).map_or(0.0, |sobol| sobol.coordinate(dimension, index));
     let share = |i: usize| (at(i + 1) + moved[i]).fract();
     let even = |[low, high]: [f64; 2], share: f64| low + share * (high - low);
     // six digits, so that a table of the cones says exactly which they are

@@ -40,7 +40,7 @@ fn basis(ln_x: f64, tan_beta: f64) -> [f64; 8] {
 }
 
 impl Formula {
-    fn through(rows: &[([f64; 8], f64, f64)]) -> Option<Formula> {
+    fn fit(rows: &[([f64; 8], f64, f64)]) -> Option<Formula> {
         let coefficients = solve(rows)?;
         let rest = rows.iter().map(|(b, y, _)| (y - value(&coefficients, b)).abs());
         let rms =
@@ -49,7 +49,7 @@ impl Formula {
     }
 
     /// The value (not its logarithm) at X and tan β.
-    pub fn at(&self, x: f64, tan_beta: f64) -> f64 {
+    pub fn value(&self, x: f64, tan_beta: f64) -> f64 {
         value(&self.coefficients, &basis(x.ln(), tan_beta)).exp()
     }
 }
@@ -73,7 +73,7 @@ impl Dimensionless {
         if force.len() < 16 {
             return None;
         }
-        let (force, contact_ratio) = (Formula::through(&force)?, Formula::through(&ratio)?);
+        let (force, contact_ratio) = (Formula::fit(&force)?, Formula::fit(&ratio)?);
         Some(Dimensionless { c, force, contact_ratio, ranges })
     }
 }
@@ -108,7 +108,7 @@ mod tests {
         }
         let fit = Dimensionless::fit(&data, 0.1).unwrap();
         assert!(fit.force.largest < 1e-6 && fit.contact_ratio.largest < 1e-6, "{fit:?}");
-        assert!((fit.force.at(30.0, 0.1) / truth(30.0, 0.1) - 1.0).abs() < 1e-6);
+        assert!((fit.force.value(30.0, 0.1) / truth(30.0, 0.1) - 1.0).abs() < 1e-6);
         assert_eq!(fit.ranges.len(), 10);
     }
 }

@@ -15,10 +15,10 @@ const RESAMPLES: usize = 800;
 const SEED: u64 = 480;
 
 /// E* tan β/σ_r from which a crush counts as developed plasticity: below it K says little about σ_r.
-pub const DEVELOPED: f64 = 10.0;
+pub const DEVELOPED_PLASTICITY: f64 = 10.0;
 
 /// Share of the resamples that must have a minimum for a slope to count as determined.
-const DETERMINED: f64 = 0.9;
+const DETERMINED_SHARE: f64 = 0.9;
 
 /// The representative strain of one slope.
 #[derive(Clone, Debug, PartialEq)]
@@ -153,7 +153,7 @@ pub fn angles(data: &Data) -> Vec<Angle> {
                 .map(|d| collapse.measures(|m| d[m]).and_then(|m| least_scatter(&m)).map(f64::ln))
                 .collect();
             let share = resampled.iter().flatten().count() as f64 / resampled.len() as f64;
-            let strain = least_scatter(&curve).filter(|_| share >= DETERMINED).map(|s| s * tan);
+            let strain = least_scatter(&curve).filter(|_| share >= DETERMINED_SHARE).map(|s| s * tan);
             // a resample without a minimum says only that the strain may be anything
             let (first, last) = (curve[0].share.ln(), curve[curve.len() - 1].share.ln());
             let undecided = resampled.len() - resampled.iter().flatten().count();

@@ -20,7 +20,7 @@ pub use asperity_material::cone_atlas::FORCES;
 const STEPS_BACK: usize = 8;
 
 /// Least share of the final depth that a path must have reached for its slope to count: half of the equal steps.
-const REACHED: f64 = 0.65;
+const REACHED_SHARE: f64 = 0.65;
 
 /// All that an instrument sees of a sharp cone. Depths over the depth of the peak, E = 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -63,16 +63,16 @@ fn order_of_radius(element: ElementChoice, elastic_share: f64) -> f64 {
     let share = elastic_share.clamp(0.0, 1.0);
     match element {
         // a stiff penalty: that of the elements, and of an elastic contact, whose edge is steep, the penalty's
-        ElementChoice::Q4 => ORDER + (ELASTIC - ORDER) * share * share,
-        ElementChoice::Q8r => ELASTIC * share.sqrt(),
+        ElementChoice::Q4 => ORDER + (ELASTIC_STIFFNESS_SHARE - ORDER) * share * share,
+        ElementChoice::Q8r => ELASTIC_STIFFNESS_SHARE * share.sqrt(),
     }
 }
 
 /// That share of an elastic cone: with it S = 2K h, which is exact, is met within 0.3 % with either element.
-const ELASTIC: f64 = 1.2;
+const ELASTIC_STIFFNESS_SHARE: f64 = 1.2;
 
 /// Share of the difference between run and companion that may be left of the contact radius, S and the elastic share of the work.
-const REMAINS: [f64; 3] = [0.4, 0.4, 0.8];
+const REMAINING_SHARES: [f64; 3] = [0.4, 0.4, 0.8];
 
 /// Least errors left of them at `standard`, in proportion to the promise at other levels: with linear and with quadratic elements, and
 /// of the first where the body is remeshed as often as under a cone of 40°.
@@ -81,10 +81,10 @@ const REMAINS: [f64; 3] = [0.4, 0.4, 0.8];
 /// left of K, radius, S and work is, as root mean square, 0.14, 0.25, 0.6 and 0.2 % under the 11 indenting cones of 11° to 33°; 0.2, 0.4, 0.6
 /// and 0.3 % under the 24 gentler ones; 0.3, 0.5, 0.6 and 0.4 % of the 30 crushed cones to 22°; 0.5, 0.2, 0.6 and 1.9 % of the 10 steeper;
 /// under the 5 indenting cones above 33° 1.2, 0.5, 0.6 and 1.9 %.
-const LEAST: [[f64; 3]; 3] = [[0.004, 0.008, 0.003], [0.004, 0.011, 0.006], [0.015, 0.012, 0.03]];
+const MIN_ERRORS: [[f64; 3]; 3] = [[0.004, 0.008, 0.003], [0.004, 0.011, 0.006], [0.015, 0.012, 0.03]];
 
 /// Errors of a run without a companion.
-const ALONE: Errors = Errors {
+const ERRORS_ALONE: Errors = Errors {
     loading_curvature: 0.02,
     contact_ratio: 0.03,
     stiffness: 0.04,
@@ -102,11 +102,11 @@ pub fn solve(cone: &Cone, accuracy: Accuracy) -> Result<(Indentation, Errors), C
     let (run, curve) = indent(cone, &discretisation)?;
     curve.check()?;
     let Ok((companion, coarse_curve)) = companion(&discretisation, |coarser| indent(cone, coarser)) else {
-        return Ok((run, ALONE));
+        return Ok((run, ERRORS_ALONE));
     };
     let (element, tan_beta) = (discretisation.numbers.element, cone.slope_deg.to_radians().tan());
     let [k_over_e, loading_curvature] =
-        curve.extrapolated(&coarse_curve, &Left::of(tan_beta, cone.indents, &discretisation));
+        curve.extrapolated(&coarse_curve, &Left::for_cone(tan_beta, cone.indents, &discretisation));
     let carried = |fine: f64, coarse: f64, order: f64| fine * (fine / coarse).powf(order);
     let radius = order_of_radius(element, run.elastic_share);
     let found = Indentation {
@@ -125,10 +125,10 @@ pub fn solve(cone: &Cone, accuracy: Accuracy) -> Result<(Indentation, Errors), C
     ];
     let of_the_level = accuracy.promise() / Accuracy::Standard.promise();
     let least = |i: usize| match element {
-        ElementChoice::Q4 => (of_the_level * LEAST[0][i]).hypot(LEAST[2][i] * remeshing(tan_beta)),
-        ElementChoice::Q8r => of_the_level * LEAST[1][i],
+        ElementChoice::Q4 => (of_the_level * MIN_ERRORS[0][i]).hypot(MIN_ERRORS[2][i] * remeshing(tan_beta)),
+        ElementChoice::Q8r => of_the_level * MIN_ERRORS[1][i],
     };
-    let left = |i: usize| (REMAINS[i] * differences[i + 1]).hypot(least(i));
+    let left = |i: usize| (REMAINING_SHARES[i] * differences[i + 1]).hypot(least(i));
     let [contact_ratio, stiffness, elastic_share] = [left(0), left(1), left(2)];
     let errors = Errors { loading_curvature, contact_ratio, stiffness, elastic_share, differences };
     Ok((found, errors))
@@ -143,7 +143,7 @@ fn indent(cone: &Cone, discretisation: &ConeDiscretisation) -> Result<(Indentati
     let mut path = start(&problem)?;
     let (points, stop) = load(&mut path, &problem);
     let reached = points.last().map_or(0.0, |p| p.depth);
-    if let Some(cause) = stop.filter(|_| reached < REACHED) {
+    if let Some(cause) = stop.filter(|_| reached < REACHED_SHARE) {
         return Err(CaseError::Stopped { share: reached, cause });
     }
     let peak = *points.last().ok_or(CaseError::NotSimilar(f64::NAN))?;

@@ -55,7 +55,7 @@ impl Left {
     /// order but the penalty, which is stiff, so that the difference tells it well; what is left goes with the promise of a level,
     /// which is the fourth power of the size of elements here. Runs of quadratic elements under an indenting cone differ less than
     /// they err, and those of steep cones of metal that hardly hardens differ by other things.
-    pub(crate) fn of(tan_beta: f64, indents: bool, discretisation: &ConeDiscretisation) -> Left {
+    pub(crate) fn for_cone(tan_beta: f64, indents: bool, discretisation: &ConeDiscretisation) -> Left {
         let [of_the_difference, at_least] = match (discretisation.numbers.element, indents) {
             (ElementChoice::Q4, _) => {
                 let size = 24.0 / discretisation.numbers.elements_in_contact as f64;
@@ -127,8 +127,8 @@ pub fn solve(case: &Case, discretisation: &ConeDiscretisation) -> Result<Loading
         run.check()?;
     }
     let companion = companion(discretisation, |coarser| fitted(case, coarser))?;
-    let [k_over_e, error] =
-        run.extrapolated(&companion, &Left::of(case.tan_beta(), case.tool == Tool::Cone, discretisation));
+    let [k_over_e, error] = run
+        .extrapolated(&companion, &Left::for_cone(case.tan_beta(), case.tool == Tool::Cone, discretisation));
     Ok(LoadingCurvature {
         k_over_e,
         error,
@@ -162,8 +162,8 @@ pub(crate) fn read(curve: Curve) -> Fitted {
     let from = curve.points.iter().position(|p| p.depth >= FIT_FROM * deepest).unwrap_or(0);
     let window = &curve.points[from..];
     let points = |of: fn(&Increment) -> [f64; 2]| window.iter().map(of).collect::<Vec<[f64; 2]>>();
-    let exponent = Line::through(&points(|p| [p.depth.ln(), p.contact.force.max(0.0).ln()])).slope;
-    let radius = Line::through(&points(|p| [p.depth, disc_radius(p)])).slope;
+    let exponent = Line::fit(&points(|p| [p.depth.ln(), p.contact.force.max(0.0).ln()])).slope;
+    let radius = Line::fit(&points(|p| [p.depth, disc_radius(p)])).slope;
     let root =
         beside_a_ripple(&points(|p| [p.depth, p.contact.force.max(0.0).sqrt()]), radius / curve.element);
     Fitted { root: root.slope, root_error: root.slope_error / root.slope, radius, exponent, curve }
@@ -189,7 +189,7 @@ fn beside_a_ripple(points: &[[f64; 2]], frequency: f64) -> Line {
             let scatter: f64 = x.iter().zip(&y).map(|(x, y)| (y - slope * x).powi(2)).sum();
             Line { slope, slope_error: (scatter / (points.len() as f64 - 4.0) / sxx).sqrt() }
         }
-        _ => Line::through(points),
+        _ => Line::fit(points),
     }
 }
 
@@ -206,6 +206,6 @@ mod tests {
         let points: Vec<[f64; 2]> = (0..=17).map(point).collect();
         let line = beside_a_ripple(&points, 7.7);
         assert!((line.slope - 2.0).abs() < 1e-9 && line.slope_error < 1e-9, "{line:?}");
-        assert!((Line::through(&points).slope - 2.0).abs() > 1e-3);
+        assert!((Line::fit(&points).slope - 2.0).abs() > 1e-3);
     }
 }

@@ -3,7 +3,7 @@
 use crate::case::Case;
 use crate::collapse::distinct;
 use crate::cone::unloading_exponent;
-use crate::fit::DEVELOPED;
+use crate::fit::DEVELOPED_PLASTICITY;
 use crate::sweep::Sweep;
 use asperity_simulation::scene::Accuracy;
 use rayon::prelude::*;
@@ -41,7 +41,7 @@ pub fn unload(sweep: &Sweep, c: f64) -> Vec<Unloaded> {
     cases.retain(|case| {
         let t = case.tan_beta();
         let stress = case.hardening().map_or(f64::INFINITY, |h| h.representative_stress(c * t));
-        case.elastic().reduced_modulus() * t / stress >= DEVELOPED
+        case.elastic().reduced_modulus() * t / stress >= DEVELOPED_PLASTICITY
     });
     let solve = |case: &Case| {
         let exponent = unloading_exponent(case, &case.discretisation(Accuracy::Standard)).ok()?;

@@ -2,7 +2,7 @@
 
 use super::emulator::{Emulator, by_the_atlas};
 use super::parameters::{Slot, Unknowns};
-use super::response::{AFTER, Geometry, Question, between, smooth};
+use super::response::{DesignPoint, Geometry, NUMBERS_AFTER_LOADING, linear_between, smooth};
 use crate::measured_curve::Measured;
 use asperity_calibration::indentation::FORCES;
 use asperity_material::{Elastic, StressMeasure};
@@ -61,7 +61,7 @@ pub struct Experiment {
 
 /// Logarithms of the depth over which the force that a body is expected to need is too large or too small alike. That of a sharp cone is
 /// one number, K, off alike at every depth.
-const ALIKE: f64 = 1.0;
+const ALIKE_LOG_DEPTH: f64 = 1.0;
 
 /// Effect on the difference at a point of a curve of errors of the expected force and of the way back.
 struct ErrorOfAPoint {
@@ -84,16 +84,16 @@ struct Expected {
 
 impl Experiment {
     /// The question to the finite elements at `point`; `None` where there is no metal.
-    pub fn question(&self, unknowns: &Unknowns, point: &[f64]) -> Option<Question> {
+    pub fn design_point(&self, unknowns: &Unknowns, point: &[f64]) -> Option<DesignPoint> {
         let metal = unknowns.metal(point)?;
         let own = metal.elastic.reduced_modulus();
         let together = self.tool.map_or(own, |tool| 1.0 / (1.0 / own + 1.0 / tool.reduced_modulus()));
-        Some(Question {
+        Some(DesignPoint {
             geometry: self.geometry.clone(),
             depth: self.depth,
             modulus: metal.elastic.youngs_modulus * together / own,
             metal,
-            tip_radius: unknowns.sought(point, Slot::TipRadius(self.curve)).unwrap_or(self.tip_radius),
+            tip_radius: unknowns.unknown_value(point, Slot::TipRadius(self.curve)).unwrap_or(self.tip_radius),
             stress_measure: self.stress_measure,
         })
     }
@@ -109,9 +109,9 @@ impl Experiment {
     }
 
     fn expected(&self, unknowns: &Unknowns, point: &[f64], roughly: bool) -> Option<Expected> {
-        let question = self.question(unknowns, point)?;
-        let logarithms = if roughly { by_the_atlas(&question) } else { self.emulator.at(&question) };
-        let own = |slot, known| unknowns.sought(point, slot).unwrap_or(known);
+        let question = self.design_point(unknowns, point)?;
+        let logarithms = if roughly { by_the_atlas(&question) } else { self.emulator.predict(&question) };
+        let own = |slot, known| unknowns.unknown_value(point, slot).unwrap_or(known);
         Some(Expected {
             modulus: question.modulus,
             logarithms,
@@ -208,7 +208,7 @@ impl Experiment {
 
     /// Covariance of the differences at `point`.
     pub fn covariance(&self, unknowns: &Unknowns, point: &[f64]) -> Option<DMatrix<f64>> {
-        let question = self.question(unknowns, point)?;
+        let question = self.design_point(unknowns, point)?;
         let expected = self.expected(unknowns, point, false)?;
         let left = self.emulator.left(&question, self.of_the_loading());
         // the stated errors are 95 % bounds
@@ -238,7 +238,7 @@ impl Experiment {
         common: [f64; 3],
     ) -> DMatrix<f64> {
         let load = measured.loading.len();
-        let length = if self.is_sharp() { f64::INFINITY } else { ALIKE };
+        let length = if self.is_sharp() { f64::INFINITY } else { ALIKE_LOG_DEPTH };
         // a force that is expected too large takes from each difference of the loading, and adds to each of the way back
         let of_the_loading = measured.loading.iter().map(|p| {
             let place = (p[0] / self.depth).abs().max(1e-3).ln();
@@ -280,10 +280,10 @@ impl Experiment {
 fn recovery(logarithms: &[f64], share: f64) -> f64 {
     // straight in F^(2/3) nearly, from no way at the peak
     let bent = |share: f64| -share.max(0.0).powf(2.0 / 3.0);
-    let ways = &logarithms[logarithms.len() - (AFTER - 2)..];
+    let ways = &logarithms[logarithms.len() - (NUMBERS_AFTER_LOADING - 2)..];
     let mut points = vec![[bent(1.0), 0.0]];
     points.extend(FORCES.iter().zip(ways).map(|(force, way)| [bent(*force), way.exp()]));
-    between(&points, bent(share))
+    linear_between(&points, bent(share))
 }
 
 /// How fast the way back grows as the share of the force falls.

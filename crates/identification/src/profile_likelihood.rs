@@ -8,7 +8,7 @@ pub const GROWTH: f64 = 3.841;
 /// Steps outward until the growth is exceeded, and steps inward to its place.
 const STEPS: [usize; 2] = [14, 7];
 /// Weight of a condition beside residuals in standard deviations.
-const HARD: f64 = 1e4;
+const CONDITION_WEIGHT: f64 = 1e4;
 
 /// An interval with its ends in the coordinate of the number.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -63,7 +63,7 @@ pub fn of_number(
     let at = |x: f64, from: &[f64]| {
         let held = |point: &[f64]| {
             let mut all = residuals(point)?;
-            all.push(HARD * (number(point)? - x));
+            all.push(CONDITION_WEIGHT * (number(point)? - x));
             Some(all)
         };
         let point = minimise(&held, from, bounds).point;

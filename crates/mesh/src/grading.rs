@@ -4,7 +4,7 @@ use crate::ElementKind;
 
 /// Height of the first row of a core over its depth, for a fineness of 1. The ripple that shells leave is of first order in
 /// their width, the bias that rows leave is of second order in their height: with the root of the fineness both fall alike.
-const ROW: f64 = 0.435;
+const FIRST_ROW_HEIGHT: f64 = 0.435;
 
 /// Height of the last row of a core over that of the first.
 const ROW_GROWTH: f64 = 3.0;
@@ -13,7 +13,7 @@ const ROW_GROWTH: f64 = 3.0;
 const COLUMN_GROWTH: f64 = 5.0;
 
 /// Linear elements that are as exact as one quadratic element, along a line.
-pub const LINEAR: f64 = 8.0 / 3.0;
+pub const LINEAR_PER_QUADRATIC: f64 = 8.0 / 3.0;
 
 /// Depths of a row of contacts within which shells around it stay fine: metal yields that far below touching rows.
 const NEAR_ROW: f64 = 3.0;
@@ -45,9 +45,9 @@ impl Grading {
     pub(crate) fn rows(&self, kind: ElementKind) -> Vec<f64> {
         let linear = match kind {
             ElementKind::Quad8 => 1.0,
-            ElementKind::Quad4 => LINEAR,
+            ElementKind::Quad4 => LINEAR_PER_QUADRATIC,
         };
-        let first = ROW * (self.fineness * linear).sqrt() / linear;
+        let first = FIRST_ROW_HEIGHT * (self.fineness * linear).sqrt() / linear;
         let rows = divide(0.0, 1.0, &[], |t| first * (1.0 + (ROW_GROWTH - 1.0) * t));
         if rows.len() > 2 { rows } else { vec![0.0, 0.5, 1.0] }
     }
@@ -147,7 +147,7 @@ mod tests {
         assert_eq!(rows(2.0, ElementKind::Quad8), 2);
         let rows = of(0.02).rows(ElementKind::Quad8);
         let last = rows.len() - 1;
-        assert!((rows[1] / (ROW * 0.02_f64.sqrt()) - 1.0).abs() < 0.1, "{}", rows[1]);
+        assert!((rows[1] / (FIRST_ROW_HEIGHT * 0.02_f64.sqrt()) - 1.0).abs() < 0.1, "{}", rows[1]);
         assert!(((rows[last] - rows[last - 1]) / rows[1] / ROW_GROWTH - 1.0).abs() < 0.15);
         // the column at the end of a core is as wide as the shell beside it
         let columns = of(0.02).columns(3.0, &[]);

@@ -108,7 +108,7 @@ impl Asperity {
             Shape::Sphere { radius } => width / radius,
             Shape::Measured(outline) => {
                 let at = |x: f64| {
-                    let [drop, slope] = outline.at(x);
+                    let [drop, slope] = outline.drop_and_slope(x);
                     slope.abs().max(drop / width)
                 };
                 at(width).min(at(-width)).max(outline.depth_at(width).min(outline.depth_at(-width)) / width)
@@ -145,7 +145,7 @@ impl Asperity {
 
     /// The asperity with every length over `length`.
     #[must_use]
-    pub fn over(&self, length: f64) -> Asperity {
+    pub fn in_units_of(&self, length: f64) -> Asperity {
         let shape = match &self.shape {
             Shape::Cone { tan_slope, tip_radius } => {
                 Shape::Cone { tan_slope: *tan_slope, tip_radius: tip_radius / length }

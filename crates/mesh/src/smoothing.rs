@@ -18,7 +18,7 @@ const ROUNDS: [(f64, usize); 5] = [(0.5, 10), (0.2, 10), (0.05, 20), (0.01, 20),
 const HALVINGS: usize = 12;
 
 /// Shares of a side by which nodes still move when a round ends.
-const SETTLED: f64 = 0.02;
+const SETTLED_MOVE: f64 = 0.02;
 
 /// How a node may move.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -153,7 +153,7 @@ pub fn improve(mesh: &Mesh, places: &mut [[f64; 2]], freedom: &[Freedom]) {
                 }
                 farthest = farthest.max((places[node][0] - at[0]).hypot(places[node][1] - at[1]) / size);
             }
-            if farthest < SETTLED {
+            if farthest < SETTLED_MOVE {
                 break;
             }
         }
@@ -223,7 +223,7 @@ mod tests {
         freedom[4] = Freedom::Full;
         improve(&mesh, &mut places, &freedom);
         let far = (places[4][0] - 1.0).hypot(places[4][1] - 1.0);
-        assert!(far < SETTLED, "{:?}", places[4]);
+        assert!(far < SETTLED_MOVE, "{:?}", places[4]);
         assert_eq!(places[..4], mesh.nodes[..4]);
     }
 }

@@ -52,7 +52,7 @@ pub trait Real:
     /// x to the power `n` for x ≥ ½, good to n ln x units of the last place.
     fn powf(self, n: f64) -> Self;
     /// x > y; false where one is not a number.
-    fn above(self, y: Self) -> Self::Mask;
+    fn is_above(self, y: Self) -> Self::Mask;
     /// `yes` where `mask` holds, else `no`.
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
     /// The mask of these truths.
@@ -72,7 +72,7 @@ pub trait Real:
     /// The larger of two.
     #[inline(always)]
     fn max(self, y: Self) -> Self {
-        Self::select(self.above(y), self, y)
+        Self::select(self.is_above(y), self, y)
     }
     /// The absolute value.
     #[inline(always)]
@@ -109,7 +109,7 @@ impl Real for f64 {
         self.powf(n)
     }
     #[inline(always)]
-    fn above(self, y: f64) -> bool {
+    fn is_above(self, y: f64) -> bool {
         self > y
     }
     #[inline(always)]
@@ -238,8 +238,8 @@ const TWO_52: f64 = 4_503_599_627_370_496.0;
 
 /// Bits of √½, of 1 and of the fraction of a number.
 const HALF_ROOT: u64 = 0x3fe6_a09e_667f_3bcd;
-const ONE: u64 = 0x3ff0_0000_0000_0000;
-const FRACTION: u64 = 0x000f_ffff_ffff_ffff;
+const ONE_BITS: u64 = 0x3ff0_0000_0000_0000;
+const FRACTION_BITS: u64 = 0x000f_ffff_ffff_ffff;
 
 /// (ln(1 + f) - f + ½f²)/s in s² with s = f/(2 + f), least largest error for 1 + f in [√½, √2] (fdlibm, e_log.c).
 const LOGARITHM: [f64; 7] = [
@@ -300,10 +300,10 @@ impl Real for Lanes {
     #[inline(always)]
     fn ln_1p(self) -> Lanes {
         let sum = self + 1.0;
-        let shifted = four!(i => sum.0[i].to_bits().wrapping_add(ONE - HALF_ROOT));
+        let shifted = four!(i => sum.0[i].to_bits().wrapping_add(ONE_BITS - HALF_ROOT));
         let k = Lanes(four!(i => f64::from_bits((shifted[i] >> 52) | TWO_52.to_bits()))) - (TWO_52 + 1023.0);
         let reduced =
-            Lanes(four!(i => f64::from_bits((shifted[i] & FRACTION).wrapping_add(HALF_ROOT)))) - 1.0;
+            Lanes(four!(i => f64::from_bits((shifted[i] & FRACTION_BITS).wrapping_add(HALF_ROOT)))) - 1.0;
         let near = Mask(four!(i => bits(k.0[i] == 0.0)));
         let f = Lanes::select(near, self, reduced);
         let lost = Lanes::select(near, Lanes::splat(0.0), (self - (sum - 1.0)) / sum);
@@ -328,7 +328,7 @@ impl Real for Lanes {
         ((self - 1.0).ln_1p() * n).exp_m1() + 1.0
     }
     #[inline(always)]
-    fn above(self, y: Lanes) -> Mask {
+    fn is_above(self, y: Lanes) -> Mask {
         Mask(four!(i => bits(self.0[i] > y.0[i])))
     }
     #[inline(always)]

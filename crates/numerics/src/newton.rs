@@ -2,7 +2,7 @@
 
 /// Why a solve failed. The caller takes a smaller step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum Failure<E> {
+pub enum NewtonError<E> {
     /// The system could not be assessed or its tangent not be factorised, however short the step.
     #[error("{0}")]
     System(E),
@@ -14,9 +14,9 @@ pub enum Failure<E> {
     NotFinite,
 }
 
-impl<E> From<E> for Failure<E> {
+impl<E> From<E> for NewtonError<E> {
     fn from(error: E) -> Self {
-        Failure::System(error)
+        NewtonError::System(error)
     }
 }
 
@@ -76,7 +76,7 @@ pub struct Converged {
 }
 
 /// [`Settings::keep`] of the runs of scenes and of calibrated cones: 0.1 to 0.7 take the same time within 2 %.
-pub const KEEP: f64 = 0.2;
+pub const FACTOR_KEPT_BELOW: f64 = 0.2;
 
 /// How closely a step looks for the least potential along its direction.
 #[derive(Clone, Copy)]
@@ -89,13 +89,13 @@ struct LineSearch {
 }
 
 /// Newton's steps are mostly good as they are: looking costs an assembly.
-const LOOSE: LineSearch = LineSearch { overshoot: 0.6, smallest: 0.03 };
+const LINE_SEARCH_LOOSE: LineSearch = LineSearch { overshoot: 0.6, smallest: 0.03 };
 
 /// Where a branch is entered and left again as a whole, loose steps jump between the two for ever.
-const CLOSE: LineSearch = LineSearch { overshoot: 0.05, smallest: 0.003 };
+const LINE_SEARCH_CLOSE: LineSearch = LineSearch { overshoot: 0.05, smallest: 0.003 };
 
 /// Iterations after which the line search is a close one. Sound increments take half of them.
-const PATIENCE: usize = 15;
+const LINE_SEARCH_LOOSE_ITERATIONS: usize = 15;
 
 /// Solves `system`.
 ///
@@ -112,7 +112,7 @@ const PATIENCE: usize = 15;
 pub fn solve<S: System>(
     system: &mut S,
     settings: &Settings,
-) -> Result<Converged, (Failure<S::Error>, usize)> {
+) -> Result<Converged, (NewtonError<S::Error>, usize)> {
     let outcome = iterate(system, settings);
     if outcome.is_err() {
         // factors of a lost iterate
@@ -121,19 +121,22 @@ pub fn solve<S: System>(
     outcome
 }
 
-fn iterate<S: System>(system: &mut S, settings: &Settings) -> Result<Converged, (Failure<S::Error>, usize)> {
+fn iterate<S: System>(
+    system: &mut S,
+    settings: &Settings,
+) -> Result<Converged, (NewtonError<S::Error>, usize)> {
     let mut keep = settings.keep;
     let mut renew = keep == 0.0 || !system.has_factors();
     let mut last = system.assess(renew).map_err(|f| (f.into(), 0))?;
     let mut history = vec![last.residual / last.scale];
     for iteration in 1..=settings.max_iterations {
         if !last.residual.is_finite() {
-            return Err((Failure::NotFinite, iteration));
+            return Err((NewtonError::NotFinite, iteration));
         }
         let line = match iteration {
             1 => None,
-            _ if iteration <= PATIENCE => Some(LOOSE),
-            _ => Some(CLOSE),
+            _ if iteration <= LINE_SEARCH_LOOSE_ITERATIONS => Some(LINE_SEARCH_LOOSE),
+            _ => Some(LINE_SEARCH_CLOSE),
         };
         let step = if renew {
             system.renew().map_err(|f| (f.into(), iteration))?;
@@ -157,7 +160,7 @@ fn iterate<S: System>(system: &mut S, settings: &Settings) -> Result<Converged, 
         }
         renew = keep == 0.0 || last.residual > keep * before || system.factors_are_stale();
     }
-    Err((Failure::NotConverged, settings.max_iterations))
+    Err((NewtonError::NotConverged, settings.max_iterations))
 }
 
 impl LineSearch {
@@ -187,7 +190,7 @@ fn search<S: System>(
             }
             _ => Some(0.5),
         };
-        let smallest = line.unwrap_or(LOOSE).smallest;
+        let smallest = line.unwrap_or(LINE_SEARCH_LOOSE).smallest;
         match shorter {
             Some(factor) if fraction * factor > smallest => fraction *= factor,
             _ => return outcome,

@@ -30,12 +30,12 @@ fn stresses(solved: &[Solved], strain: f64) -> Vec<Row> {
     solved.iter().map(|s| (s.case.stress(strain), s.stress(strain))).collect()
 }
 
-fn of(solved: &[Solved], name: &str, truth: fn(&Case) -> f64) -> Vec<Row> {
+fn parameter_rows(solved: &[Solved], name: &str, truth: fn(&Case) -> f64) -> Vec<Row> {
     solved.iter().map(|s| (truth(&s.case), s.parameter(name))).collect()
 }
 
 fn yields(solved: &[Solved]) -> Vec<Row> {
-    of(solved, "yield_stress", |c| c.yield_stress)
+    parameter_rows(solved, "yield_stress", |c| c.yield_stress)
 }
 
 /// Those whose interval is within so many percent of its middle.
@@ -87,7 +87,7 @@ fn main() {
         report.line(&format!("| {work} | not run | | | | | 5 mean | |"));
     } else {
         let open = book.solve(thinned(published(&metals, Asked::Modulus)));
-        let modulus = of(&open, "youngs_modulus", |c| c.youngs_modulus);
+        let modulus = parameter_rows(&open, "youngs_modulus", |c| c.youngs_modulus);
         let bound = Bound { mean: 5.0, asked: "5 mean", ..ANY };
         let what = "E* where its interval is below ±10 %";
         line(&mut report, work, what, &narrow(&modulus, 0.1), open.len(), &bound);
@@ -124,9 +124,16 @@ fn main() {
         let bound = Bound { mean: 5.0, covers: [90.0, 98.0], asked: "5 mean, covers 90 to 98", ..ANY };
         line(&mut report, work, "σ_y", &yields(&own), count, &bound);
         let bound = Bound { covers: [90.0, 98.0], asked: "covers 90 to 98", ..ANY };
-        line(&mut report, work, "E", &of(&own, "youngs_modulus", |c| c.youngs_modulus), count, &bound);
+        line(
+            &mut report,
+            work,
+            "E",
+            &parameter_rows(&own, "youngs_modulus", |c| c.youngs_modulus),
+            count,
+            &bound,
+        );
         // errors of n are differences, not shares: 1 + n stands for it
-        let n: Vec<Row> = of(&own, "hardening_exponent", |c| c.exponent)
+        let n: Vec<Row> = parameter_rows(&own, "hardening_exponent", |c| c.exponent)
             .iter()
             .map(|(truth, found)| (1.0, found.map(|n| 1.0 + n - truth)))
             .collect();

@@ -8,7 +8,7 @@ type Metal = [f64; 3];
 
 /// Logarithms of K, S and the elastic share of the work under a cone, E of the first metal being 1.
 fn seen(atlas: &Atlas, slope: f64, [e, ratio, n]: Metal) -> [f64; 3] {
-    let logs = atlas.at(slope, ratio, n);
+    let logs = atlas.predict(slope, ratio, n);
     [logs[0] + e.ln(), logs[1] + e.ln(), logs[2]]
 }
 

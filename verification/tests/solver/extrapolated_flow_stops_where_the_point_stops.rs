@@ -12,7 +12,7 @@ use asperity_solver::equilibrium::Equilibrium;
 use asperity_solver::point::kinematics::Symmetry;
 use asperity_solver::point::material::Metal;
 use asperity_solver::point::tensor::contract;
-use asperity_verification::single_increment::{TIGHT, hollomon, model, stresses};
+use asperity_verification::single_increment::{TIGHT_SETTINGS, hollomon, model, stresses};
 use asperity_verification::test_meshes::{boundary, mapped, nodes_of};
 
 const YIELD: f64 = 1e-3;
@@ -30,7 +30,7 @@ fn metals() -> [Metal; 3] {
 /// One increment, extrapolated as for a step `ratio` times the last one.
 fn increment(model: &mut Equilibrium<'_>, ratio: f64, guess: impl Fn(usize) -> [f64; 2]) {
     model.begin(f64::INFINITY, ratio, guess);
-    solve(model, &TIGHT).map_err(|(failure, _)| failure).unwrap();
+    solve(model, &TIGHT_SETTINGS).map_err(|(failure, _)| failure).unwrap();
     model.accept().unwrap();
 }
 

@@ -11,7 +11,7 @@ use asperity_solver::point::j2::{self, Tangent};
 use asperity_solver::point::kinematic_hardening::{self, History};
 use asperity_solver::point::material::{Metal, PointState, stress, volume_ratio};
 use asperity_solver::point::tensor::{Gradient, Sym};
-use asperity_verification::single_increment::{ELASTIC, hollomon, stretch_bar};
+use asperity_verification::single_increment::{ELASTIC_METAL, hollomon, stretch_bar};
 
 const YIELD: f64 = 2e-3;
 const SLOPE: f64 = 0.05;
@@ -23,7 +23,7 @@ fn kinematic(metal: Metal) -> Metal {
 /// σ_y + H ε_p as far as the tests go.
 fn linear() -> Metal {
     let table = HardeningTable::new(&[[0.0, YIELD], [10.0, YIELD + 10.0 * SLOPE]]).unwrap();
-    Metal { hardening: Some(table.into()), ..ELASTIC }
+    Metal { hardening: Some(table.into()), ..ELASTIC_METAL }
 }
 
 /// A point under increments f - I, one after the other; its last stress and state.
@@ -41,7 +41,7 @@ fn monotone_tension_is_that_of_isotropic_hardening() {
     let strains = [0.001, 0.0016, 0.002, 0.01, 0.05, 0.1, 0.5, 1.0];
     let swift =
         Hardening { law: HardeningLaw::Swift, yield_stress: 2e-3, exponent: 0.1, youngs_modulus: 1.0 };
-    let swift = Metal { hardening: Some(swift.into()), ..ELASTIC };
+    let swift = Metal { hardening: Some(swift.into()), ..ELASTIC_METAL };
     for metal in [hollomon(300.0 / 210e3, 0.3), swift, linear()] {
         for kind in [ElementKind::Quad4, ElementKind::Quad8] {
             let grows = stretch_bar(kind, &metal, &strains).unwrap();

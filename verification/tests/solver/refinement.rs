@@ -11,13 +11,14 @@ use asperity_solver::element::quad4;
 use asperity_solver::element::quad8;
 use asperity_solver::point::kinematics::Symmetry;
 use asperity_verification::manufactured::displacement;
-use asperity_verification::single_increment::{ELASTIC, TIGHT, increment, model};
+use asperity_verification::single_increment::{ELASTIC_METAL, TIGHT_SETTINGS, increment, model};
 use asperity_verification::test_meshes::{boundary, mapped, straighten};
 
 const AMPLITUDE: f64 = 1e-9;
 
 fn exact(x: [f64; 2]) -> [f64; 2] {
-    displacement(ELASTIC.elastic.shear_modulus(), ELASTIC.elastic.poissons_ratio, x).map(|u| AMPLITUDE * u)
+    displacement(ELASTIC_METAL.elastic.shear_modulus(), ELASTIC_METAL.elastic.poissons_ratio, x)
+        .map(|u| AMPLITUDE * u)
 }
 
 /// Abscissae and weights of four Gauss points.
@@ -70,8 +71,8 @@ fn error_norm(mesh: &Mesh, u: &[[f64; 2]]) -> f64 {
 
 fn solve_on(mesh: &Mesh) -> f64 {
     let held: Vec<[bool; 2]> = boundary(mesh).iter().map(|&b| [b, b]).collect();
-    let mut model = model(mesh, Symmetry::PlaneStrain, ELASTIC, &held, None).unwrap();
-    increment(&mut model, f64::INFINITY, &TIGHT, |node| {
+    let mut model = model(mesh, Symmetry::PlaneStrain, ELASTIC_METAL, &held, None).unwrap();
+    increment(&mut model, f64::INFINITY, &TIGHT_SETTINGS, |node| {
         if held[node][0] { exact(mesh.nodes[node]) } else { [0.0; 2] }
     })
     .unwrap();

@@ -10,7 +10,7 @@ use asperity_solver::body::discrete_body::ToolContact;
 use asperity_solver::contact::tool::Tool;
 use asperity_solver::element::kernel::GAUSS;
 use asperity_solver::point::kinematics::Symmetry;
-use asperity_verification::single_increment::{ELASTIC, increment, model, stresses};
+use asperity_verification::single_increment::{ELASTIC_METAL, increment, model, stresses};
 use asperity_verification::test_meshes::{mapped, nodes_of};
 use std::f64::consts::PI;
 
@@ -53,8 +53,8 @@ fn ridges_pressed_on_each_other_bear_the_pressure_of_hertz() {
         nodes_of(&mesh, &mesh.sides.axis).iter().for_each(|&n| held[n][0] = true);
         // a tool that is out of reach gives the penalty
         let contact = ToolContact { tool: Tool::Plane, penalty: PENALTY };
-        let mut model = model(&mesh, Symmetry::PlaneStrain, ELASTIC, &held, Some(contact)).unwrap();
-        let effective = 0.5 * ELASTIC.elastic.reduced_modulus();
+        let mut model = model(&mesh, Symmetry::PlaneStrain, ELASTIC_METAL, &held, Some(contact)).unwrap();
+        let effective = 0.5 * ELASTIC_METAL.elastic.reduced_modulus();
         let [columns, rows] = counts;
         // the integration point of the lower ridge nearest to the middle of the contact
         let (cell, point) = ((rows - 1) * columns, 3);

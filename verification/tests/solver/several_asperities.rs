@@ -16,7 +16,8 @@
 use asperity_material::units::Length;
 use asperity_simulation::scene::{Accuracy, Lateral, Scene, Symmetry};
 use asperity_verification::several::{
-    FOOT, LOW, Member, PAPER, at, depth_at, of_asperity, row, three_over_one, whole, worst_difference,
+    FOOT, LOW_MEMBER, Member, PAPER, depth_at, interpolated, of_asperity, row, three_over_one, whole,
+    worst_difference,
 };
 use asperity_verification::single_asperity::{crush, prepared};
 
@@ -87,7 +88,7 @@ fn untouched_neighbours_do_not_change_the_force() {
         assert!(outcome.stopped.is_none());
         whole(&outcome)
     };
-    let difference = worst_difference(&curve(&[PAPER, LOW]), &curve(&[PAPER]));
+    let difference = worst_difference(&curve(&[PAPER, LOW_MEMBER]), &curve(&[PAPER]));
     assert!(difference <= 0.005, "{difference:e}");
 }
 
@@ -108,13 +109,13 @@ fn ring(pitch: f64, size: [f64; 2], elastic: bool) -> [f64; 2] {
         scene.accuracy = Accuracy::Standard;
         if elastic { without_yielding(scene) } else { scene }
     };
-    let alone = whole(&crush(&scene(LOW)).unwrap());
+    let alone = whole(&crush(&scene(LOW_MEMBER)).unwrap());
     let outcome = crush(&scene(PAPER)).unwrap();
     let (centre, ring) = (of_asperity(&outcome, 0), of_asperity(&outcome, 1));
     let modulus = scene(PAPER).material.elastic().reduced_modulus();
     let share = |depth: f64| {
-        let line_load = at(&ring, depth) / (std::f64::consts::TAU * pitch);
-        (depth - depth_at(&alone, at(&centre, depth))) * modulus / (2.0 * line_load)
+        let line_load = interpolated(&ring, depth) / (std::f64::consts::TAU * pitch);
+        (depth - depth_at(&alone, interpolated(&centre, depth))) * modulus / (2.0 * line_load)
     };
     let peak = centre.last().unwrap()[0];
     [mean(SHARES.map(|s| share(s * peak))), worst_difference(&centre, &alone)]

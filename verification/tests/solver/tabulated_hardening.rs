@@ -14,7 +14,7 @@ use asperity_simulation::run::Outcome;
 use asperity_simulation::scene::{Accuracy, HardeningChoice, Material, Scene};
 use asperity_solver::point::material::Metal;
 use asperity_verification::single_asperity::{crush, scene};
-use asperity_verification::single_increment::{ELASTIC, stretch_bar};
+use asperity_verification::single_increment::{ELASTIC_METAL, stretch_bar};
 
 const SWIFT: Hardening =
     Hardening { law: HardeningLaw::Swift, yield_stress: 300e6, exponent: 0.3, youngs_modulus: 210e9 };
@@ -54,7 +54,7 @@ fn swift() -> Outcome {
 fn two_points_are_linear_hardening() {
     let (first, modulus, last) = (1.5e-3, 0.02, 0.3);
     let table = HardeningTable::new(&[[0.0, first], [last, first + modulus * last]]).unwrap();
-    let metal = Metal { hardening: Some(table.into()), ..ELASTIC };
+    let metal = Metal { hardening: Some(table.into()), ..ELASTIC_METAL };
     let strains = [1e-3, 1.6e-3, 0.01, 0.1, 0.3, 0.31, 0.6, 1.0];
     for kind in [ElementKind::Quad4, ElementKind::Quad8] {
         for (stress, strain) in stretch_bar(kind, &metal, &strains).unwrap().into_iter().zip(strains) {

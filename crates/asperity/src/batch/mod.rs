@@ -39,7 +39,7 @@ impl Shard {
     }
 
     /// The numbers of its runs out of `runs`.
-    pub(crate) fn of(part: Option<Shard>, runs: usize) -> impl Iterator<Item = usize> {
+    pub(crate) fn case_numbers(part: Option<Shard>, runs: usize) -> impl Iterator<Item = usize> {
         let Shard { k, n } = part.unwrap_or(Shard { k: 1, n: 1 });
         (k - 1..runs).step_by(n)
     }
@@ -302,7 +302,7 @@ mod tests {
     #[test]
     fn every_run_is_in_one_part() {
         let mut all: Vec<usize> =
-            (1..=3).flat_map(|k| Shard::of(Shard::new(k, 3), 8).collect::<Vec<_>>()).collect();
+            (1..=3).flat_map(|k| Shard::case_numbers(Shard::new(k, 3), 8).collect::<Vec<_>>()).collect();
         all.sort_unstable();
         assert_eq!(all, (0..8).collect::<Vec<_>>());
         assert_eq!("2/3".parse(), Ok(Shard { k: 2, n: 3 }));

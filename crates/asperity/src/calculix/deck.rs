@@ -73,11 +73,16 @@ impl Deck {
     /// A scene that such a deck cannot express, pointing at its line.
     pub fn new(name: &str, scene: &Scene, reader: Reader) -> Result<Deck, Error> {
         let problem = problem(scene)?;
-        Deck::of(name, scene.tables(), &problem, reader).map_err(|e| scene.error(&e).into())
+        Deck::from_problem(name, scene.tables(), &problem, reader).map_err(|e| scene.error(&e).into())
     }
 
     /// The deck of `problem`, which was prepared from `scene`.
-    fn of(name: &str, scene: &Tables, problem: &Problem, reader: Reader) -> Result<Deck, SceneError> {
+    fn from_problem(
+        name: &str,
+        scene: &Tables,
+        problem: &Problem,
+        reader: Reader,
+    ) -> Result<Deck, SceneError> {
         if let Target::Force(_) = scene.loading.target()? {
             return Err(error(
                 "loading.force",

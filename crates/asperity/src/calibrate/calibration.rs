@@ -8,7 +8,8 @@ use crate::error::{Error, InputError};
 use crate::results::output::{Sink, SinkExt};
 use asperity_calibration::dimensionless::Dimensionless;
 use asperity_calibration::fit::{
-    DEVELOPED, Data, StrainCoefficient, angles, developed, model_choices, obstacle, strain_coefficient,
+    DEVELOPED_PLASTICITY, Data, StrainCoefficient, angles, developed, model_choices, obstacle,
+    strain_coefficient,
 };
 use asperity_calibration::row::{CaseRow, Row};
 use asperity_calibration::sweep::Sweep;
@@ -60,7 +61,7 @@ pub fn calibrate(
     sweep.validate().map_err(|e| InputError::new(e.to_string()))?;
     let solved = solve(sweep, options, observer)?;
     let wall_s = start.elapsed().as_secs_f64();
-    let calibration = Calibration::of(sweep, solved.rows, wall_s, options.shown_slope_deg);
+    let calibration = Calibration::fit(sweep, solved.rows, wall_s, options.shown_slope_deg);
     Ok(Calibration {
         whole: options.part.is_none() && !solved.stopped,
         stopped: solved.stopped,
@@ -71,14 +72,15 @@ pub fn calibrate(
 
 impl Calibration {
     /// Fits `rows`.
-    pub(super) fn of(sweep: &Sweep, rows: Vec<Row>, wall_s: f64, shown: Option<f64>) -> Calibration {
+    pub(super) fn fit(sweep: &Sweep, rows: Vec<Row>, wall_s: f64, shown: Option<f64>) -> Calibration {
         let data = Data::new(&rows);
         let obstacle = obstacle(&data);
         let angles = if obstacle.is_none() { angles(&data) } else { Vec::new() };
         let all = strain_coefficient(&angles);
         let choices = if all.is_some() { model_choices(&data) } else { Vec::new() };
-        let developed =
-            all.and_then(|a| strain_coefficient(&self::angles(&self::developed(&data, a.c, DEVELOPED))));
+        let developed = all.and_then(|a| {
+            strain_coefficient(&self::angles(&self::developed(&data, a.c, DEVELOPED_PLASTICITY)))
+        });
         let function = all.and_then(|a| Dimensionless::fit(&data, a.c));
         let unloaded = match (&function, all) {
             (Some(_), Some(a)) => unloading::unload(sweep, a.c),
@@ -205,7 +207,7 @@ fn fit_text(fit: &Fit) -> String {
     };
     if let Some(d) = &fit.developed {
         let said = format!("{:.4} {} from {} slopes", d.coefficient, within(d.ci95), d.slopes);
-        let _ = writeln!(text, "          {said} where E* tan(beta)/sigma_r >= {DEVELOPED}");
+        let _ = writeln!(text, "          {said} where E* tan(beta)/sigma_r >= {DEVELOPED_PLASTICITY}");
     }
     if let Some(f) = &fit.dimensionless_function {
         let [force, largest] = [f.force.rms, f.force.largest].map(|e| 100.0 * e);
@@ -240,8 +242,8 @@ fn coefficient(
         roughness::SlopeTable {
             beta_deg,
             modulus_over_stress: column(&|x| x / tan),
-            k_over_stress: column(&|x| function.force.at(x, tan) / (tan * tan)),
-            contact_ratio: column(&|x| function.contact_ratio.at(x, tan)),
+            k_over_stress: column(&|x| function.force.value(x, tan) / (tan * tan)),
+            contact_ratio: column(&|x| function.contact_ratio.value(x, tan)),
         }
     });
     let angles: Vec<roughness::SlopeTable> =

@@ -50,5 +50,5 @@ pub fn merge(parts: &[PathBuf], shown_slope_deg: Option<f64>) -> Result<Calibrat
     let keys: Vec<String> = cases.iter().map(Row::key).collect();
     all_found(&keys, &rows)?;
     let rows = keys.iter().filter_map(|key| rows.get(key).cloned()).collect();
-    Ok(Calibration::of(&sweep, rows, start.elapsed().as_secs_f64(), shown_slope_deg))
+    Ok(Calibration::fit(&sweep, rows, start.elapsed().as_secs_f64(), shown_slope_deg))
 }

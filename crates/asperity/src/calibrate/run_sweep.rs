@@ -67,7 +67,7 @@ impl TryFrom<String> for Kept {
 /// Solves the cases that the journal does not hold yet.
 pub fn solve(sweep: &Sweep, options: &Options, observer: &mut Observer) -> Result<Solved, Error> {
     let all = sweep.cases();
-    let cases: Vec<Case> = Shard::of(options.part, all.len()).map(|i| all[i]).collect();
+    let cases: Vec<Case> = Shard::case_numbers(options.part, all.len()).map(|i| all[i]).collect();
     let batch = Batch {
         definition: &definition(sweep, &cases),
         cases: &cases,

@@ -57,7 +57,7 @@ pub fn hex([r, g, b]: Colour) -> String {
 }
 
 /// The colour at `share` (0 to 1) of the way through `stops`.
-pub fn between(stops: &[Colour], share: f64) -> Colour {
+pub fn interpolated(stops: &[Colour], share: f64) -> Colour {
     let place = share.clamp(0.0, 1.0) * (stops.len() - 1) as f64;
     let k = (place as usize).min(stops.len() - 2);
     let t = place - k as f64;
@@ -68,7 +68,7 @@ pub fn between(stops: &[Colour], share: f64) -> Colour {
 
 /// `count` colours from the first of `stops` to the last.
 fn shades(stops: &[Colour], count: usize) -> Vec<Colour> {
-    (0..count).map(|i| between(stops, (i as f64 + 0.5) / count as f64)).collect()
+    (0..count).map(|i| interpolated(stops, (i as f64 + 0.5) / count as f64)).collect()
 }
 
 /// A scale cut into bands of one colour each.
@@ -98,7 +98,11 @@ impl Bands {
         let (first, last) = ((low / step + 1e-9).floor() as i64, (high / step - 1e-9).ceil() as i64);
         let edges: Vec<f64> = (first..=last.max(first + 1)).map(|i| i as f64 * step).collect();
         let colour = |middle: f64| {
-            if middle > 0.0 { between(&COMPRESSION, middle / high) } else { between(&TENSION, middle / low) }
+            if middle > 0.0 {
+                interpolated(&COMPRESSION, middle / high)
+            } else {
+                interpolated(&TENSION, middle / low)
+            }
         };
         let colours = edges.windows(2).map(|band| colour(0.5 * (band[0] + band[1]))).collect();
         Bands { labels: linear_labels(&edges), edges, colours }

@@ -83,7 +83,7 @@ impl Extracted {
             );
         };
         self.check_count(count)?;
-        let closures = Closures::of(scene)?;
+        let closures = Closures::for_scene(scene)?;
         let journal = folder.join(JOURNAL);
         let definition = self.definition(scene)?;
         let scenes = folder.join("scenes");
@@ -172,7 +172,7 @@ impl Extracted {
             let own =
                 Carried { force: point.force_N, area: point.contact_area_um2 * MICROMETRE * MICROMETRE };
             rows.push(ComparedRow::new(body, FINITE_ELEMENTS, point, own, None, Some(&crush.summary), "ok"));
-            for given in closures.at(body, &self.surface, point.depth_um * MICROMETRE) {
+            for given in closures.answers_at(body, &self.surface, point.depth_um * MICROMETRE) {
                 let (own, status) = match given.body {
                     Ok(own) => (own, "ok".into()),
                     Err(why) => (Carried { force: f64::NAN, area: f64::NAN }, why),

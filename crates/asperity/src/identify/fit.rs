@@ -1,7 +1,7 @@
 //! A fit that makes sense: the unknowns, and the measurements read from their files.
 
 use crate::error::{Error, InputError};
-use crate::input::RELATIVE;
+use crate::input::RELATIVE_PATH_NOTE;
 use crate::input::toml_file::TomlFile;
 use asperity_formats::indentation_table;
 use asperity_identification::emulator::Emulator;
@@ -9,10 +9,10 @@ use asperity_identification::experiment::{Data, Experiment};
 use asperity_identification::fit_file::{
     Features, FitAccuracy, FitCurve, FitFile, FitMaterial, FitShape, FitTool, Nuisance,
 };
-use asperity_identification::known_or_unknown::Sought;
+use asperity_identification::known_or_unknown::KnownOrUnknown;
 use asperity_identification::measured_curve::Measured;
 use asperity_identification::parameters::Unknowns;
-use asperity_identification::response::{AFTER, Geometry};
+use asperity_identification::response::{Geometry, NUMBERS_AFTER_LOADING};
 use asperity_material::units::Stress;
 use asperity_material::{Elastic, StressMeasure, range};
 use asperity_simulation::scene::{Accuracy, HardeningChoice};
@@ -134,7 +134,7 @@ impl Fit {
         let like = tables.material.hardening_law == HardeningChoice::Swift
             && tables.material.stress_measure == StressMeasure::Cauchy;
         for experiment in &mut experiments {
-            experiment.emulator = Emulator::of_a_cone(1 + AFTER, like);
+            experiment.emulator = Emulator::of_a_cone(1 + NUMBERS_AFTER_LOADING, like);
         }
         notes.extend(experiments.iter().filter_map(begins_elsewhere));
         Ok(Fit { file, unknowns, experiments, notes })
@@ -148,13 +148,18 @@ fn fault(key: &str, message: impl Into<String>) -> Fault {
 }
 
 /// A range or a number within what is allowed.
-fn check_number(key: &str, sought: Sought<f64>, [low, high]: [f64; 2], unit: &str) -> Result<(), Fault> {
+fn check_number(
+    key: &str,
+    sought: KnownOrUnknown<f64>,
+    [low, high]: [f64; 2],
+    unit: &str,
+) -> Result<(), Fault> {
     let inside = |v: f64| v >= low && v <= high;
     match sought {
-        Sought::Known(value) if !inside(value) => {
+        KnownOrUnknown::Known(value) if !inside(value) => {
             Err(fault(key, format!("must be from {low} to {high}{unit}, not {value}")))
         }
-        Sought::Range([a, b]) if !(inside(a) && inside(b) && a < b) => Err(fault(
+        KnownOrUnknown::Range([a, b]) if !(inside(a) && inside(b) && a < b) => Err(fault(
             key,
             format!(
                 "a range must rise and lie from {low} to {high}{unit}, not [{a}, {b}]: give [lowest, highest]"
@@ -185,7 +190,7 @@ fn check_material(material: &FitMaterial) -> Result<(), Fault> {
     check_number("hardening_exponent", exponent, range::VARIED_EXPONENTS, "")
 }
 
-fn check_stress(key: &str, sought: Sought<Stress>) -> Result<(), Fault> {
+fn check_stress(key: &str, sought: KnownOrUnknown<Stress>) -> Result<(), Fault> {
     check_number(key, sought.map(|s| s.in_unit("MPa")), range::FITTED_YIELD_STRESSES_MPA, " MPa")
 }
 
@@ -259,17 +264,18 @@ fn measurements(
         (Some(path), None) => {
             let path = file.resolve(path);
             let shown = path.display().to_string();
-            let text = std::fs::read_to_string(&path)
-                .map_err(|e| at(".file", &format!("{shown}: cannot be read as text: {e}; {RELATIVE}")))?;
+            let text = std::fs::read_to_string(&path).map_err(|e| {
+                at(".file", &format!("{shown}: cannot be read as text: {e}; {RELATIVE_PATH_NOTE}"))
+            })?;
             let tests = indentation_table::read(&text).map_err(|fault| {
                 let error = match fault.line {
                     Some(line) => {
                         let start = text.split_inclusive('\n').take(line - 1).map(str::len).sum();
-                        InputError::new(fault.message).at(&shown, &text, start..text.len())
+                        InputError::new(fault.message).pointing_at(&shown, &text, start..text.len())
                     }
                     None => at(".file", &format!("{shown} {}", fault.message)),
                 };
-                if Features::are_named_in(&text) { error.help(Features::PLACE) } else { error }
+                if Features::are_named_in(&text) { error.help(Features::FEATURES_PLACE) } else { error }
             })?;
             chosen(tests.tests, curve.test)
                 .map_err(|m| at(".test", &m))?
@@ -349,8 +355,8 @@ fn geometry(curve: &FitCurve) -> Result<Geometry, Fault> {
         ));
     }
     let blunt = match tool.tip_radius {
-        Some(Sought::Known(tip)) => tip.0 > 0.0,
-        Some(Sought::Range(_)) => true,
+        Some(KnownOrUnknown::Known(tip)) => tip.0 > 0.0,
+        Some(KnownOrUnknown::Range(_)) => true,
         None => curve.unknown.contains(&Nuisance::TipRadius),
     };
     let cone_of = |slope_deg: f64| {
@@ -420,8 +426,8 @@ fn experiment(
     if needs_depth && matches!(data, Data::Features { .. }) && depth == 1.0 {
         return Err(fault("features", "`max_depth` is missing: only features of a sharp cone do without"));
     }
-    let known = |sought: Option<Sought<f64>>| match sought {
-        Some(Sought::Known(value)) => value,
+    let known = |sought: Option<KnownOrUnknown<f64>>| match sought {
+        Some(KnownOrUnknown::Known(value)) => value,
         _ => 0.0,
     };
     Ok(Experiment {
@@ -439,7 +445,7 @@ fn experiment(
         data,
         model_error: curve.model_error.map_or(if pyramid { PYRAMID } else { 0.0 }, |m| m.0),
         errors: [0.01, 0.02, 0.02],
-        emulator: Emulator::of_a_cone(1 + AFTER, true),
+        emulator: Emulator::of_a_cone(1 + NUMBERS_AFTER_LOADING, true),
     })
 }
 
@@ -461,7 +467,7 @@ fn add_nuisances(
         unknowns.add("contact_depth", of, count, [middle - room, middle + room]);
     }
     match curve.tool.machine_compliance {
-        Some(Sought::Range(ends)) => unknowns.add("machine_compliance", of, count, ends.map(|c| c.0)),
+        Some(KnownOrUnknown::Range(ends)) => unknowns.add("machine_compliance", of, count, ends.map(|c| c.0)),
         _ if asked(Nuisance::MachineCompliance) => {
             let peak =
                 experiment.peak().ok_or_else(|| fault("unknown", "machine_compliance needs a loading"))?;
@@ -470,8 +476,8 @@ fn add_nuisances(
         _ => {}
     }
     match curve.tool.tip_radius {
-        Some(Sought::Range(ends)) => unknowns.add("tip_radius", of, count, ends.map(|l| l.0)),
-        Some(Sought::Known(tip)) if asked(Nuisance::TipRadius) => {
+        Some(KnownOrUnknown::Range(ends)) => unknowns.add("tip_radius", of, count, ends.map(|l| l.0)),
+        Some(KnownOrUnknown::Known(tip)) if asked(Nuisance::TipRadius) => {
             unknowns.add("tip_radius", of, count, [0.3 * tip.0, 3.0 * tip.0]);
         }
         None if asked(Nuisance::TipRadius) => {

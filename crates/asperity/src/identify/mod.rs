@@ -18,9 +18,9 @@ mod fit_report;
 pub use asperity_identification::fit_file::{
     Features, FitAccuracy, FitCurve, FitFile, FitMaterial, FitShape, FitTool, Nuisance,
 };
-pub use asperity_identification::known_or_unknown::{Percent, Sought};
+pub use asperity_identification::known_or_unknown::{KnownOrUnknown, Percent};
 pub use asperity_identification::stress_strain::StressAt;
-pub use asperity_identification::verdict::{Blind, NextExperiment};
+pub use asperity_identification::verdict::{NextExperiment, NullDirection};
 pub use fit::{Fit, PYRAMIDS_CONE};
 pub use result::{Found, Identification};
 

@@ -15,7 +15,7 @@ use asperity_identification::profile_likelihood::{self, Interval};
 use asperity_identification::search::{self, search};
 use asperity_identification::stress_strain::StressAt;
 use asperity_identification::verdict::{
-    Blind, NextExperiment, blind, deviations, identified, next_experiment,
+    NextExperiment, NullDirection, deviations, identified, next_experiment, null_direction,
 };
 use asperity_simulation::scene::Material;
 use indexmap::IndexMap;
@@ -77,7 +77,7 @@ pub struct Identification {
     /// In words: what the measurements tell and what they do not.
     pub verdict: String,
     /// The direction in which they see least.
-    pub blind_direction: Option<Blind>,
+    pub blind_direction: Option<NullDirection>,
     /// The sharp cone that would narrow the widest interval most; none where everything is told.
     pub next_experiment: Option<NextExperiment>,
     /// The stress-strain curve.
@@ -107,7 +107,7 @@ pub struct Identification {
 /// Plastic strains of the stress-strain curve.
 const STRAINS: [f64; 13] = [0.0, 0.002, 0.005, 0.01, 0.02, 0.033, 0.05, 0.066, 0.1, 0.15, 0.2, 0.25, 0.3];
 /// Factors by which the noise of a curve that states none may change from one round to the next without another round.
-const SETTLED: f64 = 1.15;
+const SETTLED_NOISE_FACTOR: f64 = 1.15;
 
 pub(super) fn identify(
     mut fit: Fit,
@@ -153,7 +153,7 @@ fn noise_from_scatter(experiments: &mut [Experiment], unknowns: &Unknowns, point
         let scatter = (loading.iter().map(|d| d * d).sum::<f64>() / freedom).sqrt().clamp(1e-3, 0.2);
         let ratio = (scatter / experiment.noise).max(experiment.noise / scatter);
         experiment.noise = scatter;
-        changed |= ratio > SETTLED;
+        changed |= ratio > SETTLED_NOISE_FACTOR;
     }
     changed
 }
@@ -168,7 +168,7 @@ fn describe(
     let function = objective.function();
     let bounds = objective.bounds();
     let (deviations, correlation) = deviations(&objective, unknowns, &best.point);
-    let others = search::valleys(&objective, unknowns, best.chi2 + profile_likelihood::GROWTH);
+    let others = search::secondary_minima(&objective, unknowns, best.chi2 + profile_likelihood::GROWTH);
     let intervals: Vec<Interval> = (0..bounds.len())
         .into_par_iter()
         .map(|i| profile_likelihood::of_coordinate(&function, best, &others, &bounds, i, deviations[i]))
@@ -184,7 +184,7 @@ fn describe(
         .map(|(((p, i), x), told)| (p.name.clone(), found(p, i, *x, residual.fits && *told)))
         .collect();
     let stress_strain = band(&function, unknowns, best, &bounds, &correlation, &deviations);
-    let blind = blind(&objective, unknowns, &best.point);
+    let blind = null_direction(&objective, unknowns, &best.point);
     let widest = widest(unknowns, &intervals, &identified);
     let next = widest.and_then(|of| next_experiment(&objective, experiments, unknowns, &best.point, of));
     let width = |s: &StressAt| (s.high_MPa / s.low_MPa).ln();
@@ -308,7 +308,7 @@ fn quoted(name: &str, f: &Found) -> String {
 fn words(
     parameters: &IndexMap<String, Found>,
     representative: Option<&StressAt>,
-    blind: Option<&Blind>,
+    blind: Option<&NullDirection>,
     next: Option<&NextExperiment>,
     residual: &Residual,
 ) -> String {

@@ -18,7 +18,7 @@ use asperity_simulation::scene::{Points, Scene, SceneError};
 use std::path::PathBuf;
 
 /// No file of an outline is larger.
-const LARGEST: u64 = 16 << 20;
+const MAX_BYTES: u64 = 16 << 20;
 
 /// A header that can be read.
 const HEADER: &str = "r_um,z_um";
@@ -61,7 +61,7 @@ fn named(scene: &Scene) -> Vec<Named> {
 pub fn read(scene: &mut TomlFile<Scene>) -> Result<Vec<ReadProfile>, InputError> {
     let mut read = Vec::new();
     for Named { table, key, file } in named(&scene.value) {
-        let file = TableFile::read(scene, &format!("{table}.{key}"), &file, LARGEST)?;
+        let file = TableFile::read(scene, &format!("{table}.{key}"), &file, MAX_BYTES)?;
         let (points, lines) = parse(&file.text).map_err(|(line, message)| match line {
             Some(line) => file.at_line(line, &message),
             None => file.refuse(scene, &message),

@@ -2,7 +2,7 @@
 
 use crate::error::{Error, InputError};
 use crate::input::toml_file::{TomlFile, read_text, to_toml};
-use crate::input::{RELATIVE, hardening_file, profile_file};
+use crate::input::{RELATIVE_PATH_NOTE, hardening_file, profile_file};
 use crate::results::crush_summary::Summary;
 use asperity_mesh::{Mesh, read_msh};
 use asperity_simulation::scene::{
@@ -55,7 +55,7 @@ impl Scene {
     /// # Errors
     /// A text that is no scene or makes no sense, pointing at its line; a mesh or hardening table that cannot be read.
     pub fn from_toml(text: &str, base: &Path) -> Result<Scene, Error> {
-        Scene::checked(TomlFile::over(&base.join("scene"), text.into(), &[], Some(body_of))?)
+        Scene::checked(TomlFile::parse_over(&base.join("scene"), text.into(), &[], Some(body_of))?)
     }
 
     /// The scene of the file at `path`, with overrides `key.path=value` in their order; the files that it names are
@@ -66,9 +66,9 @@ impl Scene {
     pub fn read(path: &Path, overrides: &[String]) -> Result<Scene, Error> {
         if path.extension().is_some_and(|extension| extension == "json") {
             let text = to_toml(&as_asked(Summary::read(path)?)).map_err(InputError::new)?;
-            return Scene::checked(TomlFile::over(path, text, overrides, Some(body_of))?);
+            return Scene::checked(TomlFile::parse_over(path, text, overrides, Some(body_of))?);
         }
-        Scene::checked(TomlFile::over(path, read_text(path)?, overrides, Some(body_of))?)
+        Scene::checked(TomlFile::parse_over(path, read_text(path)?, overrides, Some(body_of))?)
     }
 
     /// The scene with more overrides `key.path=value`, such as `loading.depth=2 um`.
@@ -213,7 +213,8 @@ fn read_mesh(file: &TomlFile<Tables>) -> Result<Option<Mesh>, InputError> {
         file.error_at("mesh.file", &format!("{}: {reason}", path.display()))
             .help("a mesh is a Gmsh MSH 4.1 ASCII file of quadrangles with physical curves axis, base, surface, outer")
     };
-    let bytes = std::fs::read(&path).map_err(|e| error(format!("cannot be read: {e}; {RELATIVE}")))?;
+    let bytes =
+        std::fs::read(&path).map_err(|e| error(format!("cannot be read: {e}; {RELATIVE_PATH_NOTE}")))?;
     let mut mesh = read_msh(&bytes).map_err(|e| error(e.to_string()))?;
     let scale = named.unit.map_or(1.0, |unit| unit.0);
     let summit = mesh.nodes.iter().map(|node| node[1]).fold(f64::NEG_INFINITY, f64::max);

@@ -59,7 +59,7 @@ pub(crate) fn body(scene: &Scene, limit: Option<f64>) -> HalfSpace {
 
 impl SpaceContact {
     /// The results that a scene asks for of the contact `found` of `body` on `surface`.
-    pub(super) fn of(
+    pub(super) fn evaluate(
         body: HalfSpace,
         limit: Option<LimitSource>,
         surface: &Surface,
@@ -71,7 +71,7 @@ impl SpaceContact {
         let curve = curve(&body, surface, &found, points, high)?;
         let unloading =
             scene.load.unload.then(|| unload(&body, surface, &found, &curve, points)).transpose()?;
-        let gap = Gap::of(&surface.map, &found.gaps);
+        let gap = Gap::new(&surface.map, &found.gaps);
         // in a comparison of closures the flow is a cost that only a fluid asks for
         let asked = scene.fluid.is_some() || scene.closure.closures().len() == 1;
         let flows = scene.half_space.leak.unwrap_or(asked);

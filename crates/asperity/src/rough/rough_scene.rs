@@ -2,7 +2,7 @@
 
 use crate::batch::journal::fingerprint;
 use crate::error::InputError;
-use crate::input::RELATIVE;
+use crate::input::RELATIVE_PATH_NOTE;
 use crate::input::toml_file::{TomlFile, to_toml};
 use asperity_formats::surface::{Measured, Spacing};
 use asperity_material::HardeningLaw;
@@ -204,7 +204,7 @@ impl RoughScene {
         };
         let path = self.resolve(path);
         let text = std::fs::read_to_string(&path).map_err(|e| {
-            error("coefficient", format!("{}: cannot be read: {e}; {RELATIVE}", path.display()))
+            error("coefficient", format!("{}: cannot be read: {e}; {RELATIVE_PATH_NOTE}", path.display()))
         })?;
         Coefficient::from_toml(&text).map_err(|e| error("coefficient", format!("{}: {e}", path.display())))
     }

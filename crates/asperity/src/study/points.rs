@@ -30,7 +30,7 @@ pub enum Sample {
 }
 
 /// More runs than this are a slip of the pen.
-const MOST: usize = 10_000_000;
+const MAX_RUNS: usize = 10_000_000;
 
 /// The points of a study.
 #[derive(Clone, Debug)]
@@ -95,15 +95,15 @@ impl Points {
                 let sobol = Sobol::new(vary.len()).ok_or_else(|| {
                     InputError::new(format!(
                         "Sobol's sequence is there for {} keys, not for {}: take a Latin hypercube, --sample lhs N",
-                        sobol::MOST,
+                        sobol::MAX_DIMENSIONS,
                         vary.len()
                     ))
                 })?;
                 (Kind::Sobol(sobol), points)
             }
         };
-        if len > MOST {
-            return Err(InputError::new(format!("the study has more than {MOST} runs")));
+        if len > MAX_RUNS {
+            return Err(InputError::new(format!("the study has more than {MAX_RUNS} runs")));
         }
         Ok(Points { vary: vary.to_vec(), kind, len })
     }
@@ -116,7 +116,7 @@ impl Points {
     /// The values of all keys in run `i`.
     pub fn get(&self, i: usize) -> Vec<String> {
         let drawn = |share: &dyn Fn(usize) -> f64| {
-            self.vary.iter().enumerate().map(|(key, one)| one.at(share(key))).collect()
+            self.vary.iter().enumerate().map(|(key, one)| one.value_at(share(key))).collect()
         };
         match &self.kind {
             Kind::Grid(levels) => {
@@ -135,7 +135,7 @@ impl Points {
             }
             Kind::List(levels) => levels.iter().map(|values| values[i].clone()).collect(),
             Kind::Lhs(shares) => drawn(&|key| shares[key][i]),
-            Kind::Sobol(sobol) => drawn(&|key| sobol.at(key, i)),
+            Kind::Sobol(sobol) => drawn(&|key| sobol.coordinate(key, i)),
         }
     }
 }
@@ -149,8 +149,8 @@ fn check_drawn(vary: &[Vary], points: usize) -> Result<(), InputError> {
     if points == 0 {
         return Err(InputError::new("a sample needs at least 1 point"));
     }
-    if points > MOST {
-        return Err(InputError::new(format!("the study has more than {MOST} runs")));
+    if points > MAX_RUNS {
+        return Err(InputError::new(format!("the study has more than {MAX_RUNS} runs")));
     }
     let counted = |one: &&Vary| matches!(&one.values, Values::Range(range) if range.count.is_some());
     match vary.iter().find(counted) {

@@ -85,7 +85,7 @@ pub fn study(
         write_whole(&folder.join(DEFINITION), crate::results::output::json(definition)?.as_bytes())?;
     }
     let values: Vec<Vec<String>> =
-        Shard::of(options.part, plan.points.len()).map(|i| plan.points.get(i)).collect();
+        Shard::case_numbers(options.part, plan.points.len()).map(|i| plan.points.get(i)).collect();
     let journal = folder.map(|folder| folder.join(JOURNAL));
     let batch = Batch {
         definition: &definition.of_run(),
@@ -148,10 +148,10 @@ impl Study {
 
     /// The column that the picture shows.
     pub fn shown(&self) -> Option<&str> {
-        const USUAL: [&str; 3] = ["peak_force_N", "peak_force_N_per_mm", "contact_area_ratio"];
+        const USUAL_COLUMNS: [&str; 3] = ["peak_force_N", "peak_force_N_per_mm", "contact_area_ratio"];
         let columns = columns(&self.runs);
         let usual = || {
-            let named = USUAL.into_iter().find_map(|name| columns.get(name));
+            let named = USUAL_COLUMNS.into_iter().find_map(|name| columns.get(name));
             named.or_else(|| columns.iter().find(|name| name.ends_with(".contact_area_ratio")))
         };
         match &self.definition.show {

@@ -106,15 +106,15 @@ impl Vary {
             Values::List(values) => Some(values.clone()),
             Values::Range(range) => {
                 let last = range.count? - 1;
-                Some((0..=last).map(|i| range.at(i as f64 / last as f64)).collect())
+                Some((0..=last).map(|i| range.value_at(i as f64 / last as f64)).collect())
             }
         }
     }
 
     /// The value at `share` (0 to 1) of the way through the values.
-    pub(super) fn at(&self, share: f64) -> String {
+    pub(super) fn value_at(&self, share: f64) -> String {
         match &self.values {
-            Values::Range(range) => range.at(share),
+            Values::Range(range) => range.value_at(share),
             Values::List(values) => {
                 values[((share * values.len() as f64) as usize).min(values.len() - 1)].clone()
             }
@@ -232,7 +232,7 @@ impl Range {
     }
 
     /// The value at `share` (0 to 1) of the way, to twelve digits.
-    fn at(&self, share: f64) -> String {
+    fn value_at(&self, share: f64) -> String {
         let [low, high] = self.ends;
         let value = match share {
             0.0 => low,

@@ -64,7 +64,7 @@ pub struct Finished {
 
 /// Why a setting has no result.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum Failed {
+pub enum TradeError {
     /// The run stopped, and would again.
     #[error("{0}")]
     Run(String),
@@ -77,8 +77,8 @@ pub enum Failed {
 ///
 /// # Errors
 /// A run that stopped.
-pub fn measure(setting: &Setting, scene: &Scene) -> Result<Measured, Failed> {
-    solve(&setting.scene(scene)).map_err(Failed::Run)
+pub fn measure(setting: &Setting, scene: &Scene) -> Result<Measured, TradeError> {
+    solve(&setting.scene(scene)).map_err(TradeError::Run)
 }
 
 /// Runs `scene` as it is.

@@ -1,6 +1,6 @@
 //! A trade from the scene to its rows and files.
 
-use super::case::{self, Failed, Finished, Measured};
+use super::case::{self, Finished, Measured, TradeError};
 use super::converged::Converged;
 use super::overview::overview;
 use super::picture;
@@ -14,7 +14,7 @@ use std::path::Path;
 use std::sync::{Mutex, PoisonError};
 
 /// Runs one setting of a scene.
-pub type Runner = dyn Fn(&Setting, &Scene) -> Result<Measured, Failed> + Sync;
+pub type Runner = dyn Fn(&Setting, &Scene) -> Result<Measured, TradeError> + Sync;
 
 /// How a trade is run.
 pub struct Options<'a> {
@@ -105,7 +105,7 @@ fn measure_all(
     let lock = || died.lock().unwrap_or_else(PoisonError::into_inner);
     let solve = |i: &usize, _: &dyn Fn() -> bool| {
         let outcome = (options.runner)(&settings[*i], scene);
-        let lost = matches!(outcome, Err(Failed::Process(_)));
+        let lost = matches!(outcome, Err(TradeError::Process(_)));
         let finished = Finished { setting: settings[*i], outcome: outcome.map_err(|e| e.to_string()) };
         if lost {
             lock().push((*i, finished));

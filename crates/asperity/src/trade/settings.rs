@@ -46,7 +46,7 @@ pub struct Setting {
 pub const LEVELS: [Accuracy; 3] = [Accuracy::Draft, Accuracy::Standard, Accuracy::Reference];
 
 /// Accuracies between the levels, run as they are; to the last digit what "0.7%" is read as, by which a journal finds them.
-const BETWEEN: [Accuracy; 4] = [
+const ACCURACIES_BETWEEN: [Accuracy; 4] = [
     Accuracy::Within(3.0 / 100.0),
     Accuracy::Within(2.0 / 100.0),
     Accuracy::Within(0.7 / 100.0),
@@ -79,8 +79,8 @@ impl Setting {
 
 /// The runs of `scene` whose cost and error are compared. Numbers that the scene fixes are not varied.
 pub fn settings(scene: &Scene, combinations: usize) -> Vec<Setting> {
-    let levels = LEVELS.into_iter().flat_map(|level| around(scene, level));
-    let between = BETWEEN.into_iter().map(|accuracy| level(scene, accuracy));
+    let levels = LEVELS.into_iter().flat_map(|level| settings_around(scene, level));
+    let between = ACCURACIES_BETWEEN.into_iter().map(|accuracy| level(scene, accuracy));
     let mixed = (0..combinations).map(|i| mixed(scene, i));
     let mut settings: Vec<Setting> = Vec::new();
     for setting in levels.chain(between).chain(mixed).map(|s| fixed(scene, s)) {
@@ -127,7 +127,7 @@ fn fixed(scene: &Scene, setting: Setting) -> Setting {
 ///
 /// Around the finest level, whose runs are the longest, only to the cheaper side: finer than that is the converged value
 /// alone, and what the other element and multipliers cost shows at the other levels.
-fn around(scene: &Scene, accuracy: Accuracy) -> Vec<Setting> {
+fn settings_around(scene: &Scene, accuracy: Accuracy) -> Vec<Setting> {
     let base = level(scene, accuracy);
     let finest = accuracy == Accuracy::Reference;
     let mut settings = vec![base];

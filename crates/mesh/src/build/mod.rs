@@ -129,21 +129,21 @@ fn extend(grid: &mut Grid, ring: Ring, plan: &Plan, size: impl Fn(f64) -> f64) {
 }
 
 /// Flanks steeper than this (tangent) are not followed by the mesh far below a row.
-const STEEP: f64 = 0.75;
+const STEEP_SLOPE: f64 = 0.75;
 
 /// Depth at which the mesh no longer follows the profile: that of the body; below a row of steep flanks sooner, for there
 /// the shells around the row spread sideways, and cells sheared by more than they spread turn inside out. Deep enough
 /// that cells below a valley keep half their height.
 fn fade_depth(plan: &Plan) -> f64 {
     let steepest = plan.contacts.iter().fold(0.0, |m: f64, c| m.max(c.slope));
-    if stands_alone(plan) || steepest < STEEP {
+    if stands_alone(plan) || steepest < STEEP_SLOPE {
         return plan.depth;
     }
     (1.5 * row::rectangle(plan).depth).max(2.0 * plan.profile.height()).min(plan.depth)
 }
 
 /// Smallest scaled Jacobian of a corner below which the nodes around are moved.
-const SOUND: f64 = 0.02;
+const SOUND_JACOBIAN: f64 = 0.02;
 
 /// Rings of cells around a corner that is sharper, whose nodes may move.
 const RINGS: usize = 3;
@@ -151,7 +151,7 @@ const RINGS: usize = 3;
 /// A mesh of four-node cells whose corners the shear under a steep flank may have turned inside out, with the inner nodes around them
 /// where the cells have better shapes.
 fn sound(mesh: Mesh) -> Mesh {
-    let is_sharp = |cell: &usize| mesh.sharpest_corner(&mesh.nodes, *cell) < SOUND;
+    let is_sharp = |cell: &usize| mesh.sharpest_corner(&mesh.nodes, *cell) < SOUND_JACOBIAN;
     let nodes_of = |cells: &[usize]| -> HashSet<u32> {
         cells.iter().flat_map(|&cell| mesh.cell(cell)).copied().collect()
     };

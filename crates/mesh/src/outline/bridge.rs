@@ -4,10 +4,10 @@
 use super::Parabola;
 
 /// A slope may change so much more on one half of an arc than on the other; beyond that the arcs meet at an angle.
-const LOPSIDED: f64 = 3.0;
+const LOPSIDED_RATIO: f64 = 3.0;
 
 /// Rounding of a slope, over the steepest.
-const ROUNDING: f64 = 1e-9;
+const ROUNDING_SLOPE: f64 = 1e-9;
 
 /// Slopes between neighbours.
 fn chords(points: &[[f64; 2]]) -> Vec<f64> {
@@ -17,7 +17,7 @@ fn chords(points: &[[f64; 2]]) -> Vec<f64> {
 /// Whether `points` fall ever more steeply; `level`: from a slope of 0 on.
 pub fn bulges(points: &[[f64; 2]], level: bool) -> bool {
     let chords = chords(points);
-    let rounding = ROUNDING * chords.iter().fold(0.0, |m: f64, c| m.max(c.abs()));
+    let rounding = ROUNDING_SLOPE * chords.iter().fold(0.0, |m: f64, c| m.max(c.abs()));
     chords.windows(2).all(|c| c[1] <= c[0] + rounding) && (!level || chords[0] <= rounding)
 }
 
@@ -51,7 +51,7 @@ pub fn bridge(points: &[[f64; 2]], kinks: &[usize], level: bool) -> Vec<Parabola
         };
         // how much the slope falls on either half; the middle slope is the chord's
         let [mut before, mut after] = [(from - chord).max(0.0), (chord - to).max(0.0)];
-        [before, after] = [before.min(LOPSIDED * after), after.min(LOPSIDED * before)];
+        [before, after] = [before.min(LOPSIDED_RATIO * after), after.min(LOPSIDED_RATIO * before)];
         if i == 0 && x > 0.0 {
             let slope = chord + before;
             let bend = if level { 0.5 * slope / x } else { 0.0 };
@@ -109,7 +109,7 @@ mod tests {
                         for [x, z] in points.iter().copied() {
                             assert!((curve.depth_at(x) + z).abs() < 1e-12, "{name} {count} {x}");
                         }
-                        assert!(!level || first == 0 || curve.at(0.0)[1].abs() < 1e-12);
+                        assert!(!level || first == 0 || curve.drop_and_slope(0.0)[1].abs() < 1e-12);
                     }
                 }
             }

@@ -23,7 +23,7 @@ pub fn deepest_dent(outline: &Outline) -> Dent {
         let (from, to) = (outline.arcs[index].x, outline.end_of(index));
         points.extend((0..SAMPLES).map(|k| {
             let x = from + (to - from) * k as f64 / SAMPLES as f64;
-            [x, outline.arcs[index].at(x)]
+            [x, outline.arcs[index].drop_at(x)]
         }));
     }
     points.push([end, outline.depth_at(end)]);

@@ -105,11 +105,11 @@ impl Factor {
 
     /// Analyses the lower triangle `matrix`, whose unknowns stand in an order of little fill.
     pub fn new(matrix: &CsMat<f64>) -> Factor {
-        Factor::of(Arc::new(FrontTree::new(matrix)))
+        Factor::with_tree(Arc::new(FrontTree::new(matrix)))
     }
 
     /// Of the pattern that was analysed.
-    pub fn of(tree: Arc<FrontTree>) -> Factor {
+    pub fn with_tree(tree: Arc<FrontTree>) -> Factor {
         let numbers = |part: &Part| Numbers {
             values: vec![0.0; part.factor],
             stacks: part.stacks.map(|length| vec![0.0; length]),

@@ -195,7 +195,7 @@ impl<const N: usize> Block<N> {
 
     /// Rows below the block: W and L of the tile `c`.
     #[inline(always)]
-    fn below<const FUSED: bool>(&self, mut c: Tile<N>) -> [Tile<N>; 2] {
+    fn rows_below<const FUSED: bool>(&self, mut c: Tile<N>) -> [Tile<N>; 2] {
         let mut l = c;
         for j in 0..N {
             for p in 0..N {
@@ -232,7 +232,7 @@ impl Elimination<'_> {
             }
         }
         let block = Block::eliminate::<FUSED>(&mut a, self.pivots)?;
-        let [below, lower] = block.below::<FUSED>(c);
+        let [below, lower] = block.rows_below::<FUSED>(c);
         store(&below, scaled, column, first);
         store(&lower, panel, column, first);
         for j in 0..N {
@@ -245,7 +245,7 @@ impl Elimination<'_> {
         }
         for row in (first + LANES..column).step_by(LANES) {
             let c = taken_from::<N, FUSED>(panel, column, row, [l, w], depth);
-            let [below, lower] = block.below::<FUSED>(c);
+            let [below, lower] = block.rows_below::<FUSED>(c);
             store(&below, scaled, column, row);
             store(&lower, panel, column, row);
         }

@@ -10,10 +10,10 @@ use sprs::CsMat;
 use std::ops::Range;
 
 /// No front, group or part yet.
-const NONE: usize = usize::MAX;
+const NO_INDEX: usize = usize::MAX;
 
 /// Share of the work that a branch has at most: so many that two to eight threads are busy to the end.
-const BRANCH: f64 = 0.07;
+const MAX_BRANCH_SHARE: f64 = 0.07;
 
 /// Seconds of work (as [`Size::seconds`] guesses) from which a matrix has branches: on smaller ones a second thread has more to do
 /// with the companion of the run.
@@ -145,7 +145,7 @@ fn groups_of(matrix: &CsMat<f64>) -> (Vec<Group>, Vec<usize>) {
     let children = children_of(&parent);
     let roots = (0..parent.len()).filter(|&node| parent[node].is_none());
     let order = postorder(&children, roots);
-    let mut group_of = vec![NONE; parent.len()];
+    let mut group_of = vec![NO_INDEX; parent.len()];
     let mut groups: Vec<Group> = Vec::new();
     for &column in &order {
         // the only column below it whose rows are this column and its rows
@@ -240,7 +240,7 @@ impl FrontTree {
     /// Rows and entries of every front from those of its pivots and its children.
     fn find_rows(&mut self, matrix: &CsMat<f64>, unknown: &[usize]) {
         let full = Symmetric::new(matrix);
-        let mut seen = vec![NONE; unknown.len()];
+        let mut seen = vec![NO_INDEX; unknown.len()];
         let mut place = vec![0_u32; unknown.len()];
         let mut first = 0;
         for front in 0..self.fronts.len() {
@@ -292,7 +292,7 @@ impl FrontTree {
         }
     }
 
-    /// Cuts the branches off the trunk: the largest subtrees of at most [`BRANCH`] of the work, if they are worth a task.
+    /// Cuts the branches off the trunk: the largest subtrees of at most [`MAX_BRANCH_SHARE`] of the work, if they are worth a task.
     fn find_parts(&mut self) {
         let mut work: Vec<f64> = self.fronts.iter().map(|front| front.size.seconds()).collect();
         let mut first: Vec<usize> = (0..self.fronts.len()).collect();
@@ -305,10 +305,10 @@ impl FrontTree {
         let total: f64 = self.fronts.iter().map(|front| front.size.seconds()).sum();
         let mut branches = 0;
         let mut front = self.fronts.len();
-        let mut part = vec![NONE; front];
+        let mut part = vec![NO_INDEX; front];
         // parents before children; a subtree is a range of fronts that ends at its root
         while let Some(root) = front.checked_sub(1) {
-            let is_branch = total >= WORTH_BRANCHES && work[root] <= BRANCH * total;
+            let is_branch = total >= WORTH_BRANCHES && work[root] <= MAX_BRANCH_SHARE * total;
             front = root;
             if is_branch && work[root] >= WORTH_A_TASK {
                 part[first[root]..=root].fill(branches);

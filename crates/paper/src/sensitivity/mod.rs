@@ -7,13 +7,13 @@ mod sensitivity_report;
 use crate::sensitivity_parts::{Line, lines, sweeps};
 use asperity::calibrate::run_sweep::{Options, Progress, solve};
 use asperity::calibration::case::Tool;
-use asperity::calibration::fit::DEVELOPED;
+use asperity::calibration::fit::DEVELOPED_PLASTICITY;
 use asperity::calibration::row::CaseRow;
 use asperity::calibration::sweep::Sweep;
 use asperity::error::Error;
 use asperity::material::HardeningLaw;
 use asperity::output::{Sink, SinkExt, row};
-use asperity::roughness::PUBLISHED;
+use asperity::roughness::PUBLISHED_COEFFICIENT;
 use asperity::simulation::scene::Accuracy;
 use serde::{Deserialize, Serialize};
 use std::fmt::Write;
@@ -74,7 +74,9 @@ impl SensitivityLine {
 
 /// Published values.
 fn published() -> String {
-    format!("published: Tabor and Johnson 0.2, Bucaille 0.105 (indentation), Jourani {PUBLISHED} (crush)")
+    format!(
+        "published: Tabor and Johnson 0.2, Bucaille 0.105 (indentation), Jourani {PUBLISHED_COEFFICIENT} (crush)"
+    )
 }
 
 /// To five decimals.
@@ -101,8 +103,12 @@ pub fn sensitivity(
     options: &Options,
     observer: &mut (dyn FnMut(&Progress) -> bool + Send),
 ) -> Result<Sensitivity, Error> {
-    let mut found =
-        Sensitivity { lines: Vec::new(), published: PUBLISHED, sweeps: Vec::new(), journals: Vec::new() };
+    let mut found = Sensitivity {
+        lines: Vec::new(),
+        published: PUBLISHED_COEFFICIENT,
+        sweeps: Vec::new(),
+        journals: Vec::new(),
+    };
     for sweep in sweeps(accuracy) {
         let name = format!("{}-{}", tool_name(sweep.tool), sweep.hardening_law.name());
         let journal = options.journal.as_ref().map(|path| path.with_extension(format!("{name}.journal")));
@@ -147,7 +153,7 @@ impl Sensitivity {
     /// The lines as a table of Markdown.
     pub fn text(&self) -> String {
         let mut text = format!(
-            "| tool, law | n | E/σ_y | c (95 %) | c where E* tan β/σ_r ≥ {DEVELOPED} |\n|-|-|-|-|-|\n"
+            "| tool, law | n | E/σ_y | c (95 %) | c where E* tan β/σ_r ≥ {DEVELOPED_PLASTICITY} |\n|-|-|-|-|-|\n"
         );
         for l in &self.lines {
             let [all, developed] = l.coefficients().map(|c| match c {

@@ -1,6 +1,6 @@
 //! Sums over the nodes and cells of each asperity.
 
-use super::NONE;
+use super::NO_ASPERITY;
 use super::hills::Neighbours;
 use crate::surface::cells::{self, Moments};
 use crate::surface::height_map::HeightMap;
@@ -21,19 +21,19 @@ pub(super) struct Nodes {
 /// The nodes of each of `count` asperities.
 pub(super) fn nodes(map: &HeightMap, labels: &[u32], count: usize) -> Vec<Option<Nodes>> {
     let z = map.heights();
-    let neighbours = Neighbours::of(map);
+    let neighbours = Neighbours::new(map);
     let mut found: Vec<Option<Nodes>> = vec![None; count];
-    for (node, label) in labels.iter().enumerate().filter(|(_, label)| **label != NONE) {
+    for (node, label) in labels.iter().enumerate().filter(|(_, label)| **label != NO_ASPERITY) {
         let start = Nodes { summit: node, count: 0, cut: false, saddle: f64::NEG_INFINITY };
         let sum = found[*label as usize].get_or_insert(start);
         sum.count += 1;
         if z[node] > z[sum.summit] {
             sum.summit = node;
         }
-        for (beside, _) in neighbours.around(node) {
+        for (beside, _) in neighbours.around_node(node) {
             match beside {
                 Some(n) if !z[n].is_nan() => {
-                    if labels[n] != *label && labels[n] != NONE {
+                    if labels[n] != *label && labels[n] != NO_ASPERITY {
                         sum.saddle = sum.saddle.max(z[n].min(z[node]));
                     }
                 }

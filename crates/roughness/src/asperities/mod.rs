@@ -7,7 +7,7 @@
 //! Sources: ISO 25178-2 (hills, pruning), Wolf 1991 (the tree of summits and saddles), Scott 2004 (its use on surfaces).
 
 /// The number of a node that belongs to no asperity.
-const NONE: u32 = u32::MAX;
+const NO_ASPERITY: u32 = u32::MAX;
 
 mod hills;
 

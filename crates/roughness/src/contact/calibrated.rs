@@ -87,7 +87,7 @@ impl Calibrated {
             return Cone { island_pressure: 0.0, area_ratio: ELASTIC_AREA, inside: false };
         }
         let near = self.nearest(tan);
-        let beyond = self.beyond(tan);
+        let beyond = self.shift_beyond(tan);
         let y = (near.logarithms[0] + beyond[0]).exp();
         let ratio = (near.logarithms[1] + beyond[1]).exp();
         Cone {
@@ -97,7 +97,7 @@ impl Calibrated {
         }
     }
 
-    fn beyond(&self, tan: f64) -> [f64; 2] {
+    fn shift_beyond(&self, tan: f64) -> [f64; 2] {
         let [low, high] = SLOPES.map(f64::ln);
         let at = ((tan.ln() - low) / (high - low)).clamp(0.0, 1.0) * (NODES - 1) as f64;
         let i = (at as usize).min(NODES - 2);

@@ -9,7 +9,7 @@ use std::str::FromStr;
 use thiserror::Error;
 
 /// The published coefficient of eqs (9)-(13).
-pub const PUBLISHED: f64 = 0.13;
+pub const PUBLISHED_COEFFICIENT: f64 = 0.13;
 /// Eq. [18], on the island.
 const JOHNSON_ELASTIC: f64 = 0.2;
 /// Thresholds of the plasticity index printed below eq. (13).
@@ -213,7 +213,7 @@ impl ClosureLaw {
             }
             Closure::Published => {
                 regimes()?;
-                Law::Linear { coefficient: PUBLISHED, area_ratio: 1.0 }
+                Law::Linear { coefficient: PUBLISHED_COEFFICIENT, area_ratio: 1.0 }
             }
             Closure::Fitted => {
                 let c = calibration()?.c;

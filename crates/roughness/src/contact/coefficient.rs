@@ -94,7 +94,7 @@ pub struct Nearest {
 }
 
 /// The coefficient file of the default sweep, as `asperity calibrate` writes it.
-const COMMITTED: &str = include_str!("../../data/coefficient.toml");
+const COMMITTED_FILE: &str = include_str!("../../data/coefficient.toml");
 
 impl Coefficient {
     /// The result of the default sweep that comes with the program; `asperity calibrate` regenerates it.
@@ -102,7 +102,7 @@ impl Coefficient {
     /// # Errors
     /// As for [`Coefficient::from_toml`]: only if the file is damaged.
     pub fn committed() -> Result<Coefficient, CoefficientError> {
-        Coefficient::from_toml(COMMITTED)
+        Coefficient::from_toml(COMMITTED_FILE)
     }
 
     /// Reads and checks the TOML text of a coefficient file.
@@ -168,7 +168,7 @@ impl Coefficient {
         // to a rounding
         let in_rows = x.ln() >= first - 1e-9 && x.ln() <= end + 1e-9;
         let at = if first < end { x.ln().clamp(first, end) } else { 0.5 * (first + end) };
-        let (from, to) = (low.at(at), high.at(at));
+        let (from, to) = (low.interpolated(at), high.interpolated(at));
         let within = |range: [f64; 2], v: f64| v >= range[0] && v <= range[1];
         let in_slopes = within([self.angles[0].beta_deg, self.angles[last].beta_deg], beta);
         Nearest {
@@ -199,7 +199,7 @@ impl SlopeTable {
     }
 
     /// ln Y and ln of the contact ratio at ln X = `x`, between lines from place to place.
-    fn at(&self, x: f64) -> [f64; 2] {
+    fn interpolated(&self, x: f64) -> [f64; 2] {
         let tan = self.beta_deg.to_radians().tan();
         let node = |i: usize| {
             let (y, ratio) = (self.k_over_stress[i] * tan * tan, self.contact_ratio[i]);

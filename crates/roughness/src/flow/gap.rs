@@ -29,13 +29,13 @@ pub struct Gap<'a> {
 
 impl<'a> Gap<'a> {
     /// `values` (m), one per node of `map`.
-    pub fn of(map: &HeightMap, values: &'a [f32]) -> Gap<'a> {
+    pub fn new(map: &HeightMap, values: &'a [f32]) -> Gap<'a> {
         let nodes = [map.columns(), map.rows()];
         Gap { nodes, pixel: map.pixel(), periodic: map.periodic(), values }
     }
 
     /// The gaps with the flow along their first axis: what is open, lines of the flow's direction one after the other.
-    pub(super) fn along(&self, axis: Axis) -> Oriented {
+    pub(super) fn oriented(&self, axis: Axis) -> Oriented {
         let [nx, ny] = self.nodes;
         let open = |z: f32| if z > 0.0 { f64::from(z) } else { 0.0 };
         match axis {
@@ -72,7 +72,7 @@ pub(super) struct Oriented {
 
 impl Oriented {
     /// The pixel beside `i` on the next line, if there is one.
-    pub fn beside(&self, i: usize) -> Option<usize> {
+    pub fn next_line(&self, i: usize) -> Option<usize> {
         let next = i + self.long;
         if next < self.gaps.len() {
             Some(next)

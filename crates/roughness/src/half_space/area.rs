@@ -24,7 +24,12 @@ pub struct Area {
 impl Area {
     /// Of `touching` pixels under pressure of `pixels` used, of which the share `least` carries the load with all of them at the limit
     /// of pressure.
-    pub(super) fn of(map: &HeightMap, pressures: &[f32], [touching, pixels]: [usize; 2], least: f64) -> Area {
+    pub(super) fn from_pixels(
+        map: &HeightMap,
+        pressures: &[f32],
+        [touching, pixels]: [usize; 2],
+        least: f64,
+    ) -> Area {
         let edges = edges(map, pressures);
         let n = pixels as f64;
         let ratio = touching as f64 / n;

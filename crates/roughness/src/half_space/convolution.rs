@@ -75,9 +75,16 @@ impl<T: Real> Convolution<T> {
 
     /// `output` = response (or its inverse) applied to `input`, both one number per node.
     pub fn apply(&mut self, way: Way, input: &[T], output: &mut [T]) {
-        let ([nx, ny], [px, py]) = (self.nodes, self.padded);
+        self.transform_rows(input);
+        self.respond_in_columns(way);
+        self.transform_back(output);
+    }
+
+    /// Waves along x of the rows of `input`, into the spectrum.
+    fn transform_rows(&mut self, input: &[T]) {
+        let (nx, px) = (self.nodes[0], self.padded[0]);
         let width = px / 2 + 1;
-        let (along_x, back_x) = (&self.along_x, &self.back_x);
+        let along_x = &self.along_x;
         self.spectrum.par_chunks_mut(width * ROWS).enumerate().for_each_init(
             || (vec![T::zero(); px], along_x.make_scratch_vec()),
             |(line, scratch), (k, rows)| {
@@ -90,6 +97,12 @@ impl<T: Real> Convolution<T> {
                 }
             },
         );
+    }
+
+    /// The response to every wave: the columns of the spectrum along y and back, into the blocks.
+    fn respond_in_columns(&mut self, way: Way) {
+        let (ny, [px, py]) = (self.nodes[1], self.padded);
+        let width = px / 2 + 1;
         let (spectrum, along_y, back_y, response) =
             (&self.spectrum, &self.along_y, &self.back_y, &self.response);
         let scale = 1.0 / (px as f64 * py as f64);
@@ -126,6 +139,13 @@ impl<T: Real> Convolution<T> {
                 }
             },
         );
+    }
+
+    /// The rows of the blocks back from their waves along x, into `output`.
+    fn transform_back(&self, output: &mut [T]) {
+        let ([nx, ny], px) = (self.nodes, self.padded[0]);
+        let width = px / 2 + 1;
+        let back_x = &self.back_x;
         let blocks = &self.blocks;
         output.par_chunks_mut(nx * ROWS).enumerate().for_each_init(
             || (vec![T::zero(); px], vec![Complex::<T>::default(); width], back_x.make_scratch_vec()),
@@ -164,7 +184,7 @@ fn waves<T: Real>(nodes: [usize; 2], sides: [f64; 2]) -> Response<T> {
     table.par_chunks_mut(rows).enumerate().for_each(|(kx, column)| {
         let x2 = number(0, kx).powi(2);
         for (ky, gain) in column.iter_mut().enumerate() {
-            *gain = T::of(2.0 / (x2 + number(1, ky).powi(2)).sqrt().max(least));
+            *gain = T::nearest(2.0 / (x2 + number(1, ky).powi(2)).sqrt().max(least));
         }
     });
     Response { table, rows, from_the_mean: true }
@@ -205,7 +225,7 @@ fn free<T: Real>(padded: [usize; 2], sides: [f64; 2]) -> Response<T> {
         let mut line: Vec<f64> = (0..py).map(|j| rows[j.min(py - j)][kx]).collect();
         let mut wave = along_y.make_output_vec();
         let _ = along_y.process(&mut line, &mut wave);
-        out.iter_mut().zip(&wave).for_each(|(to, value)| *to = T::of(value.re));
+        out.iter_mut().zip(&wave).for_each(|(to, value)| *to = T::nearest(value.re));
     });
     Response { table, rows: high, from_the_mean: false }
 }
@@ -214,7 +234,7 @@ impl<T: Real> Response<T> {
     /// Multiplies the waves of column `kx` by the response, or by its inverse, and by `scale`.
     fn multiply(&self, way: Way, kx: usize, line: &mut [Complex<T>], scale: f64) {
         let n = line.len();
-        let (half, scale) = (n / 2 + 1, T::of(scale));
+        let (half, scale) = (n / 2 + 1, T::nearest(scale));
         let table = &self.table[kx * self.rows..][..self.rows];
         let gain = |value: T| match way {
             Way::Compliance => value * scale,

@@ -14,7 +14,7 @@ use thiserror::Error;
 /// then those of 1e-8 but for a few in a million, or with a limit of pressure a few in ten thousand.
 pub const TOLERANCE: f64 = 1e-6;
 /// The least residual that can be asked for.
-pub const FINEST: f64 = 1e-10;
+pub const FINEST_TOLERANCE: f64 = 1e-10;
 
 /// Why a half-space cannot carry a load.
 #[derive(Clone, Debug, Error, PartialEq)]
@@ -200,7 +200,7 @@ impl HalfSpace {
         if !(self.reduced_modulus > 0.0 && self.reduced_modulus.is_finite()) {
             return error("reduced_modulus", self.reduced_modulus, "it must be finite and above 0");
         }
-        if !(FINEST..=1e-2).contains(&self.tolerance) {
+        if !(FINEST_TOLERANCE..=1e-2).contains(&self.tolerance) {
             return error("tolerance", self.tolerance, "between 1e-10 and 0.01");
         }
         match self.limit {
@@ -279,7 +279,7 @@ impl HalfSpace {
             pressure: load * units.stress / n,
             separation: plane * units.height + units.low - units.mean,
             mean_gap: gaps * units.height / n,
-            area: Area::of(map, &pressures, [touching as usize, pixels], load / limit / n),
+            area: Area::from_pixels(map, &pressures, [touching as usize, pixels], load / limit / n),
             limited_share: if touching > 0.0 { limited / touching } else { 0.0 },
             largest_pressure: pressure.par_iter().copied().reduce(|| 0.0, f64::max) * units.stress,
             stiffness: slope.map(|s| s * units.stress / units.height / units.used),
@@ -319,6 +319,6 @@ impl HalfSpaceContact {
             return Ok(surface.clone());
         }
         let heights = surface.map.heights().iter().zip(&self.flattened).map(|(z, f)| z - f64::from(*f));
-        Surface::of(surface.map.with_heights(heights.collect())?)
+        Surface::from_map(surface.map.with_heights(heights.collect())?)
     }
 }

@@ -31,8 +31,8 @@ pub struct PressureLimit {
 }
 
 /// Times that the slope is read anew with the limit of the last, and the change of the limit at which that ends.
-const ROUNDS: usize = 8;
-const SETTLED: f64 = 1e-3;
+const LIMIT_ROUNDS: usize = 8;
+const SETTLED_LIMIT_CHANGE: f64 = 1e-3;
 
 impl PressureLimit {
     /// That of `material`, of hardening law `law` where it names none, under patches of the slope `tan`; None where nothing of
@@ -60,7 +60,7 @@ impl PressureLimit {
 
     /// The same under the patches of `surface` at `load`: the islands that carry it, were each at the limit; of a separation,
     /// those above the plane.
-    pub fn of(
+    pub fn on_surface(
         material: &Material,
         law: HardeningLaw,
         surface: &Surface,
@@ -71,7 +71,7 @@ impl PressureLimit {
         if idle || limit.source == LimitSource::Hardness || material.hardening_exponent.is_none() {
             return Some(limit);
         }
-        for _ in 0..ROUNDS {
+        for _ in 0..LIMIT_ROUNDS {
             let plane = match load {
                 Load::Separation(separation) => surface.parameters.mean + separation,
                 Load::Pressure(pressure) => plane_above(surface, pressure / limit.pressure),
@@ -80,7 +80,7 @@ impl PressureLimit {
             let next = PressureLimit::at_slope(material, law, tan)?;
             let change = (next.pressure / limit.pressure - 1.0).abs();
             limit = next;
-            if change < SETTLED {
+            if change < SETTLED_LIMIT_CHANGE {
                 break;
             }
         }
@@ -106,7 +106,7 @@ fn plane_above(surface: &Surface, share: f64) -> f64 {
 
 /// tan β of the islands of `surface` above `plane`, each counted by its area; None where nothing lies above.
 pub fn patch_slope(surface: &Surface, plane: f64) -> Option<f64> {
-    let islands = Islands::above(&surface.map, plane);
+    let islands = Islands::above_plane(&surface.map, plane);
     let map = &surface.map;
     let mut volumes = vec![0.0; islands.islands.len()];
     for row in 0..map.cell_rows() {
@@ -152,14 +152,14 @@ mod tests {
     }
 
     fn limit(material: &Material, surface: &Surface, load: f64) -> PressureLimit {
-        PressureLimit::of(material, HardeningLaw::Hollomon, surface, Load::Pressure(load)).unwrap()
+        PressureLimit::on_surface(material, HardeningLaw::Hollomon, surface, Load::Pressure(load)).unwrap()
     }
 
     fn cones(tan: [f64; 2]) -> Surface {
         let n = 201;
         let at = |i: usize| i as f64 - 100.0;
         let z = (0..n * n).map(|i| -(at(i % n) * tan[0]).hypot(at(i / n) * tan[1]) * 1e-6).collect();
-        Surface::of(HeightMap::new(n, n, [1e-6; 2], z).unwrap()).unwrap()
+        Surface::from_map(HeightMap::new(n, n, [1e-6; 2], z).unwrap()).unwrap()
     }
 
     /// A cone has its slope, an elliptic one its mean gradient, as the island has it too.
@@ -168,7 +168,7 @@ mod tests {
         for (tan, plane) in [([0.1, 0.1], -6e-6), ([0.05, 0.2], -4e-6)] {
             let surface = cones(tan);
             let found = patch_slope(&surface, plane).unwrap();
-            let island = Islands::above(&surface.map, plane).islands[0].slope;
+            let island = Islands::above_plane(&surface.map, plane).islands[0].slope;
             // what the grid takes off the tip and the rim, and 0.1 % of Ramanujan's formula
             assert!((found / island - 1.0).abs() < 0.01, "{found} {island}");
             assert!(tan[0] != tan[1] || (found / tan[0] - 1.0).abs() < 0.01, "{found}");
@@ -203,7 +203,7 @@ mod tests {
             let n = 512 / step;
             let z = (0..n * n).map(|i| fine.row(i / n * step)[i % n * step]).collect();
             let map = HeightMap::new(n, n, [0.5e-6 * step as f64; 2], z).unwrap().with_periodic(true);
-            let surface = Surface::of(map).unwrap();
+            let surface = Surface::from_map(map).unwrap();
             (surface.parameters.mean_gradient, limit(&metal(0.3), &surface, 60e6))
         };
         let found = [4, 2, 1].map(of);

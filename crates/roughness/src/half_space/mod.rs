@@ -29,7 +29,7 @@ mod half_space_contact;
 mod limit;
 
 pub use crate::half_space::half_space_contact::{
-    FINEST, HalfSpace, HalfSpaceContact, HalfSpaceError, TOLERANCE,
+    FINEST_TOLERANCE, HalfSpace, HalfSpaceContact, HalfSpaceError, TOLERANCE,
 };
 pub use area::{Area, patches};
 pub use limit::{LimitSource, PressureLimit, patch_slope};

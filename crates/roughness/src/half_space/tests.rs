@@ -20,7 +20,7 @@ fn round(n: usize, pixel: f64, height: impl Fn(f64) -> f64) -> Surface {
         let (x, y) = ((i % n) as f64 - middle, (i / n) as f64 - middle);
         height(pixel * (x * x + y * y).sqrt())
     };
-    Surface::of(HeightMap::new(n, n, [pixel, pixel], (0..n * n).map(at).collect()).unwrap()).unwrap()
+    Surface::from_map(HeightMap::new(n, n, [pixel, pixel], (0..n * n).map(at).collect()).unwrap()).unwrap()
 }
 
 fn close(name: &str, found: f64, wanted: f64, tolerance: f64) {
@@ -68,7 +68,7 @@ fn a_wave_follows_westergaard() {
             amplitude * (2.0 * PI * (phase + 0.3 / n as f64)).cos()
         };
         let map = HeightMap::new(n, rows, [pixel, pixel], (0..n * rows).map(z).collect()).unwrap();
-        let surface = Surface::of(map.with_periodic(true)).unwrap();
+        let surface = Surface::from_map(map.with_periodic(true)).unwrap();
         let length = n as f64 * pixel / f64::hypot(waves[0] as f64, waves[1] as f64 * n as f64 / rows as f64);
         let full = PI * MODULUS * amplitude / length;
         for share in [0.05f64, 0.3, 0.8] {
@@ -205,7 +205,7 @@ fn bounds_and_load_hold_and_the_flattened_surface_carries_the_same() {
 fn rough(n: usize, periodic: bool) -> Surface {
     let grid = Grid { nodes: [n, n], pixel: [1e-6, 1e-6], seed: 7 };
     let kind = Kind::SelfAffine { hurst: 0.8, rolloff: 40e-6, cutoff: 6e-6 };
-    Surface::of(generate(kind, &grid, Target::Height(0.3e-6)).unwrap().with_periodic(periodic)).unwrap()
+    Surface::from_map(generate(kind, &grid, Target::Height(0.3e-6)).unwrap().with_periodic(periodic)).unwrap()
 }
 
 /// A free map without long waves sinks by a hundred times its heights: rounding in `f32` leaves more than the tolerance.
@@ -213,7 +213,7 @@ fn rough(n: usize, periodic: bool) -> Surface {
 fn a_map_that_sinks_far_is_found_to_the_tolerance() {
     let grid = Grid { nodes: [256, 256], pixel: [1e-6, 1e-6], seed: 3 };
     let kind = Kind::SelfAffine { hurst: 0.2, rolloff: 4e-6, cutoff: 2e-6 };
-    let surface = Surface::of(generate(kind, &grid, Target::Slope(0.07)).unwrap()).unwrap();
+    let surface = Surface::from_map(generate(kind, &grid, Target::Slope(0.07)).unwrap()).unwrap();
     let found = elastic(TOLERANCE).press(&surface, Load::Pressure(0.01 * MODULUS)).unwrap();
     assert!(found.residual <= TOLERANCE && found.convolutions < 400, "{found:?}");
 }
@@ -238,7 +238,7 @@ fn holes_carry_nothing_and_extremes_have_an_answer() {
     let surface = rough(64, false);
     let mut heights = surface.map.heights().to_vec();
     heights[..64 * 20].fill(f64::NAN);
-    let holed = Surface::of(surface.map.with_heights(heights).unwrap()).unwrap();
+    let holed = Surface::from_map(surface.map.with_heights(heights).unwrap()).unwrap();
     let found = elastic(1e-6).press(&holed, Load::Pressure(1e9)).unwrap();
     assert!(found.pressures[..64 * 20].iter().all(|p| *p == 0.0) && found.gaps[0].is_nan());
     close("load on what is used", found.pressure, 1e9, 1e-6);
@@ -252,7 +252,7 @@ fn holes_carry_nothing_and_extremes_have_an_answer() {
     let periodic = rough(64, true);
     let below = elastic(1e-6).press(&periodic, Load::Separation(-1e-7));
     assert!(matches!(below, Err(HalfSpaceError::Closed { .. })));
-    let flat = Surface::of(HeightMap::new(40, 3, [1e-6, 1e-3], vec![1e-6; 120]).unwrap()).unwrap();
+    let flat = Surface::from_map(HeightMap::new(40, 3, [1e-6, 1e-3], vec![1e-6; 120]).unwrap()).unwrap();
     assert_eq!(elastic(1e-6).press(&flat, Load::Pressure(1e6)).unwrap().area.ratio, 1.0);
     for bad in [HalfSpace { reduced_modulus: f64::NAN, ..soft }, HalfSpace { tolerance: 0.0, ..soft }] {
         assert!(matches!(bad.press(&surface, Load::Pressure(1e6)), Err(HalfSpaceError::Value { .. })));

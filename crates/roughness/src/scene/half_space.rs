@@ -2,7 +2,7 @@
 
 use super::SceneError;
 use super::error::error;
-use crate::half_space::{FINEST, TOLERANCE};
+use crate::half_space::{FINEST_TOLERANCE, TOLERANCE};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -46,7 +46,7 @@ impl HalfSpaceScene {
     }
 
     pub(super) fn validate(&self) -> Result<(), SceneError> {
-        if let Some(t) = self.tolerance.filter(|t| !(FINEST..=1e-2).contains(t)) {
+        if let Some(t) = self.tolerance.filter(|t| !(FINEST_TOLERANCE..=1e-2).contains(t)) {
             let message = format!("{t:e} must be between 1e-10 and 0.01: leave the key out for 1e-6");
             return error("half_space.tolerance", message);
         }

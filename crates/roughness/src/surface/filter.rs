@@ -64,7 +64,7 @@ pub fn l_filter(map: &HeightMap, cutoff: f64) -> Result<HeightMap, FilterError> 
 fn smoothed(map: &HeightMap, cutoff: f64) -> Vec<f64> {
     let (columns, rows) = (map.columns(), map.rows());
     let reference = map.heights().iter().copied().find(|z| !z.is_nan()).unwrap_or(0.0);
-    let [along_x, along_y] = map.pixel().map(|pixel| Gaussian::of(cutoff / pixel));
+    let [along_x, along_y] = map.pixel().map(|pixel| Gaussian::with_cutoff(cutoff / pixel));
     let blurred = |mut data: Vec<f64>| {
         along_x.along_rows(&mut data, columns, map.periodic());
         along_y.along_columns(data, columns, map.periodic())

@@ -4,9 +4,9 @@ use crate::surface::height_map::HeightMap;
 use rayon::prelude::*;
 
 /// 1.4826 times the median of the absolute values of a normal variable is its standard deviation.
-const ROBUST: f64 = 1.4826;
+const ROBUST_DEVIATION: f64 = 1.4826;
 /// Points that the scatter is taken from, at most.
-const SAMPLED: usize = 1 << 20;
+const SAMPLED_POINTS: usize = 1 << 20;
 
 /// The map without outliers, which become missing, and how many there were.
 ///
@@ -21,7 +21,7 @@ pub(crate) fn without(map: HeightMap, limit: f64) -> (HeightMap, usize) {
             (0..columns).map(move |column| off_median(map, column, row))
         })
         .collect();
-    let stride = (off.len() / SAMPLED).max(1);
+    let stride = (off.len() / SAMPLED_POINTS).max(1);
     let mut sample: Vec<f64> = off.iter().step_by(stride).map(|d| d.abs()).filter(|d| !d.is_nan()).collect();
     if sample.is_empty() {
         return (map, 0);
@@ -30,7 +30,7 @@ pub(crate) fn without(map: HeightMap, limit: f64) -> (HeightMap, usize) {
     let median = *sample.select_nth_unstable_by(middle, f64::total_cmp).1;
     // of a map that is mostly flat, the root mean square in its place
     let rms = (sample.iter().map(|d| d * d).sum::<f64>() / sample.len() as f64).sqrt();
-    let deviation = if median > 0.0 { ROBUST * median } else { rms };
+    let deviation = if median > 0.0 { ROBUST_DEVIATION * median } else { rms };
     let most = limit * deviation;
     let count = off.par_iter().filter(|d| d.abs() > most).count();
     let cleaned = map.mapped(|row, heights| {

@@ -5,7 +5,7 @@ use crate::load_path::checkpoint::{Journal, solve_or_recall};
 use crate::record::rows::Phase;
 use crate::scene::ContactMethod;
 use crate::setup::problem::{Problem, Rules};
-use asperity_numerics::newton::{KEEP, Settings};
+use asperity_numerics::newton::{FACTOR_KEPT_BELOW, Settings};
 use asperity_solver::body::energy::{
     ContactSums, PARTING, TOUCHING, contact_sums, work, work_by_parabola, work_by_power, work_by_slopes,
 };
@@ -116,7 +116,7 @@ impl<'p> Path<'p> {
         let cut_off = if problem.start.is_none() { problem.cut_off } else { 0.0 };
         Ok(Path {
             touch: model.converged_surface().first_touch() - cut_off,
-            settings: Settings { tolerance, max_iterations: 40, keep: KEEP },
+            settings: Settings { tolerance, max_iterations: 40, keep: FACTOR_KEPT_BELOW },
             journal: None,
             problem,
             travel: cut_off,

@@ -28,7 +28,7 @@ use std::time::Instant;
 const NEARLY: f64 = 0.1;
 
 /// Why an increment has no equilibrium.
-pub type SolveFailure = newton::Failure<Failure>;
+pub type SolveFailure = newton::NewtonError<Failure>;
 
 /// Counters of the work done.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -110,7 +110,7 @@ impl<'m> Equilibrium<'m> {
     /// As for [`Equilibrium::new`].
     pub fn from_state(body: Body<'m>, state: State) -> Result<Self, Failure> {
         let stiffness = body.analysis.stiffness.clone();
-        let factor = Factor::of(body.analysis.fronts.clone());
+        let factor = Factor::with_tree(body.analysis.fronts.clone());
         let count = body.analysis.dofs.count;
         Ok(Equilibrium {
             trial: state.trial(),

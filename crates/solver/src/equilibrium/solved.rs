@@ -7,7 +7,7 @@
 use super::{Equilibrium, SolveFailure};
 use crate::body::failure::Failure;
 use crate::point::failure::Failure as PointFailure;
-use asperity_numerics::newton::{Failure as NewtonFailure, System};
+use asperity_numerics::newton::{NewtonError as NewtonFailure, System};
 use asperity_numerics::secants::{PAIRS, Secants};
 use asperity_numerics::vectors::norm;
 use std::io::{self, Read, Write};

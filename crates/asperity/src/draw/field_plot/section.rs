@@ -40,7 +40,7 @@ impl Section {
         let tip = tips.reduce(f64::max);
         let height = scene.highest() / MICROMETRE;
         let row = AsperityRow { feet: mesh.feet(height), height, count: scene.asperity_count() };
-        let window = Window::around(&mesh, mirrored, revolved, reach, &row);
+        let window = Window::around_contact(&mesh, mirrored, revolved, reach, &row);
         let yield_stress = scene.material.yield_stress.map(|s| s.0 / MEGAPASCAL);
         Ok(Section { mesh, window, tool, tip, mirrored, revolved, yield_stress })
     }

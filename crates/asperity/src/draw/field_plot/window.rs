@@ -38,7 +38,7 @@ pub fn range(values: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
 
 impl Window {
     /// The part of the body that `reach` asks for.
-    pub fn around(
+    pub fn around_contact(
         mesh: &DeformedMesh,
         mirrored: bool,
         revolved: bool,

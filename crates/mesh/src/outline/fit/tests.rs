@@ -70,7 +70,7 @@ fn corners_stay_where_the_points_have_them() {
     let tip: Vec<[f64; 2]> = (0..=50).map(f64::from).map(|r| [r, 10.0 - 0.2 * r]).collect();
     let fit = fit(&tip, Span::Half, None).unwrap();
     assert_eq!((fit.corners.as_slice(), fit.outline.arc_count()), (&[0.0][..], 1));
-    assert!((fit.outline.at(1e-9)[1] - 0.2).abs() < 1e-9);
+    assert!((fit.outline.drop_and_slope(1e-9)[1] - 0.2).abs() < 1e-9);
 }
 
 #[test]
