@@ -1,21 +1,23 @@
-//! How well the errors that a run states bound the true ones: 630 scenes at all levels. The page of
+//! Test of the errors that a run states against the true ones: 630 scenes at all levels. The page of
 //! stated errors says which constants had seen them.
 //!
-//! `cargo run --release -p asperity-verification --example coverage -- [--scenes FROM..TO] [--level LEVEL] [--cache DIR]
-//! [--budget SECONDS] [--out FILE]`, or `--scene N` for the text of one scene and its row. The table is
-//! `verification/results/coverage.md`.
+//! `cargo run --release -p asperity-verification --example coverage -- [--scenes FROM..TO] [--level LEVEL]
+//! [--cache DIR] [--budget SECONDS] [--out FILE]`, or `--scene N` for the text of one scene and its row. The
+//! table is `verification/results/coverage.md`.
 //!
-//! The truth of a scene is a finer run of it ([`RECIPES`]), extrapolated by a companion of its own as every run is; of some scenes
-//! with the other element. Those that were found are in `verification/results/coverage-truths.json.gz`; the others are searched for
-//! and kept in the folder of `--cache` (`target/coverage` unless told) under the number and a hash of the scene, so that what was
-//! stopped goes on there. A truth that was not reached is kept too. After the seconds of `--budget` no new truth is begun, and the
-//! table is of what there is. `--level` runs all scenes at one level instead of at their own. Before all of these words: `pack` puts
-//! all truths into the committed file; `recipes` holds the truths of draft and standard runs against those of `reference` runs.
+//! The truth of a scene is a finer run of it ([`RECIPES`]), extrapolated by a companion of its own as every
+//! run is; of some scenes with the other element. Those that were found are in
+//! `verification/results/coverage-truths.json.gz`; the others are searched for and kept in the folder of
+//! `--cache` (`target/coverage` unless told) under the number and a hash of the scene, so that what was
+//! stopped goes on there. A truth that was not reached is kept too. After the seconds of `--budget` no new
+//! truth is begun, and the table is of what there is. `--level` runs all scenes at one level instead of at
+//! their own. Before all of these words: `pack` puts all truths into the committed file; `recipes` holds the
+//! truths of draft and standard runs against those of `reference` runs.
 //!
 //! All work comes back from a body that never yields: there the truth of the elastic fraction is 1.
 //!
-//! An error is the largest over 0.2 ≤ h/h_peak ≤ 1 for force, contact area and mean pressure, relative; the residual depth is over
-//! the peak depth, the elastic fraction absolute, the stiffness relative.
+//! An error is the largest over 0.2 ≤ h/h_peak ≤ 1 for force, contact area and mean pressure, relative; the
+//! residual depth is over the peak depth, the elastic fraction absolute, the stiffness relative.
 
 // on scenes of its own, for hours
 #![allow(clippy::expect_used, clippy::print_stderr, clippy::print_stdout)]

@@ -1,5 +1,5 @@
-//! The single asperity, crushed and then unloaded and loaded again ten times, with a yield surface that grows and with one
-//! that moves.
+//! The single asperity, crushed and then unloaded and loaded again ten times, with a yield surface that grows
+//! and with one that moves.
 //!
 //! `cargo run --release -p asperity-verification --example cycles [-- draft] [--out FILE]`; the table is
 //! `verification/results/cycles.md`.

@@ -1,7 +1,9 @@
-//! Work that a scene does not need and is not done, the time that saves and the change of the force: elastic bodies without plasticity,
-//! a substrate of the size that the accuracy asks for, a far field of few cells, old factors where they still serve.
+//! Work that a scene does not need and is not done, the time that saves and the change of the force: elastic
+//! bodies without plasticity, a substrate of the size that the accuracy asks for, a far field of few cells,
+//! old factors where they still serve.
 //!
-//! `cargo run --release -p asperity-verification --example economy [-- --out FILE]`; the table is `verification/results/economy.md`.
+//! `cargo run --release -p asperity-verification --example economy [-- --out FILE]`; the table is
+//! `verification/results/economy.md`.
 
 use asperity_material::units::{Length, Stress};
 use asperity_numerics::newton::FACTOR_KEPT_BELOW;

@@ -1,8 +1,9 @@
-//! Pictures of what the ripple of the mesh does to the curve of the paper's asperity at `standard`, and what is left of it:
-//! `cargo run --release -p asperity --example ripple_pictures -- [FOLDER] [--out FILE]`. FILE gets a table of the same, FOLDER the pictures;
-//! without them the table is printed.
+//! Pictures of what the ripple of the mesh does to the curve of the paper's asperity at `standard`, and what
+//! is left of it: `cargo run --release -p asperity --example ripple_pictures -- [FOLDER] [--out FILE]`. FILE
+//! gets a table of the same, FOLDER the pictures; without them the table is printed.
 //!
-//! "As found" is an increment before the run has ended: the sum of the nodal forces over the depth, and that force over the area.
+//! "As found" is an increment before the run has ended: the sum of the nodal forces over the depth, and that
+//! force over the area.
 
 // a scene that is committed
 #![allow(clippy::expect_used)]
@@ -68,7 +69,8 @@ fn deviation(rows: &[CurveRow], fine: &[CurveRow], column: Column) -> Vec<[f64; 
     points.filter(|point| point[1].is_finite()).collect()
 }
 
-/// Deviation in percent of the slope dF/dh from that of the fine curve, of the chord between two depths around each row.
+/// Deviation in percent of the slope dF/dh from that of the fine curve, of the chord between two depths
+/// around each row.
 fn slopes(rows: &[CurveRow], fine: &[CurveRow], around: impl Fn(&[f64], usize) -> [f64; 2]) -> Vec<[f64; 2]> {
     let [own, fine] = [rows, fine].map(|rows| curve(rows, |row| row.force_N));
     let chord = |curve: &Curve, [low, high]: [f64; 2]| {
@@ -83,7 +85,8 @@ fn slopes(rows: &[CurveRow], fine: &[CurveRow], around: impl Fn(&[f64], usize) -
     points.filter(|point| point[1].is_finite()).collect()
 }
 
-/// The same of unloading between 95 and 20 % of the peak, between each row and the next, at the forces of both.
+/// The same of unloading between 95 and 20 % of the peak, between each row and the next, at the forces of
+/// both.
 fn slopes_back(rows: &[CurveRow], fine: &[CurveRow]) -> Vec<[f64; 2]> {
     let back = |rows: &[CurveRow]| -> Vec<[f64; 2]> {
         let from = rows.iter().position(|row| row.phase == Phase::Unload).unwrap_or(rows.len()) - 1;

@@ -1,7 +1,9 @@
-//! How one Newton iteration, its memory and a whole loading grow with the number of unknowns, on the single asperity.
+//! Growth of one Newton iteration, its memory and a whole loading with the number of unknowns, on the single
+//! asperity.
 //!
 //! `cargo run --release -p asperity-verification --example scaling [-- --out FILE]`; the table is
-//! `verification/results/scaling.md`. Each mesh runs in a process of its own, so that its peak memory is its own.
+//! `verification/results/scaling.md`. Each mesh runs in a process of its own, so that its peak memory is its
+//! own.
 #![allow(clippy::print_stdout, reason = "the child tells its parent")]
 
 use asperity_numerics::least_squares::Line;
@@ -22,8 +24,8 @@ fn peak_memory() -> Option<f64> {
     line.split_whitespace().nth(1)?.parse::<f64>().ok().map(|kilobytes| kilobytes / 1024.0)
 }
 
-/// Prints unknowns, operations of a factorisation, seconds of assembly, factorisation and solution of one iteration at the
-/// peak, seconds and iterations of the whole loading, and memory, separated by blanks.
+/// Prints unknowns, operations of a factorisation, seconds of assembly, factorisation and solution of one
+/// iteration at the peak, seconds and iterations of the whole loading, and memory, separated by blanks.
 fn one(elements: usize) -> Result<(), Box<dyn Error + Send + Sync>> {
     let problem = finely_meshed(elements)?;
     let mut path = Path::new(&problem)?;

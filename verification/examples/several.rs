@@ -1,9 +1,10 @@
 //! Asperities side by side: how three ridges approach three times one, what
-//! a ring adds to the depth of the centre, the eight committed rows, and the convergence of those of three equal asperities.
+//! a ring adds to the depth of the centre, the eight committed rows, and the convergence of those of three
+//! equal asperities.
 //!
-//! `cargo run --release -p asperity-verification --example several [-- approach.csv] [--out FILE]` (about two minutes of one
-//! core); the tables are `verification/results/several.md`. The argument `convergence` prints only that; another names a file
-//! for the approach, which `scripts/figures.py` draws.
+//! `cargo run --release -p asperity-verification --example several [-- approach.csv] [--out FILE]` (about two
+//! minutes of one core); the tables are `verification/results/several.md`. The argument `convergence` prints
+//! only that; another names a file for the approach, which `scripts/figures.py` draws.
 
 // on committed scenes
 #![allow(clippy::expect_used)]

@@ -1,8 +1,10 @@
-//! Cost of runs, beside the bounds that were set and beside the floor of their arithmetic; and where the time goes.
+//! Cost of runs, beside the bounds that were set and beside the floor of their arithmetic; and where the time
+//! goes.
 //!
-//! `cargo run --release -p asperity-verification --example speed [-- --out FILE]`; the tables are `verification/results/speed.md`.
-//! Seconds are the least of several runs in one process, on as many threads as told; what compares two of them is measured side by
-//! side. The floor is that of [`asperity_verification::roofline`]: every iteration with a new tangent and every point yielding.
+//! `cargo run --release -p asperity-verification --example speed [-- --out FILE]`; the tables are
+//! `verification/results/speed.md`. Seconds are the least of several runs in one process, on as many threads
+//! as told; what compares two of them is measured side by side. The floor is that of
+//! [`asperity_verification::roofline`]: every iteration with a new tangent and every point yielding.
 
 use asperity_calibration::solve_case::solve;
 use asperity_calibration::sweep::Sweep;
@@ -50,7 +52,8 @@ fn floor_of(problem: &Problem, floor: &Roofline) -> Result<f64, Box<dyn Error>> 
     Ok(floor.iteration(problem.mesh.kind, problem.mesh.cell_count() * POINTS, operations))
 }
 
-/// A row of the profile: unknowns, iterations and seconds over the floor; then the shares of its parts in the time of the run.
+/// A row of the profile: unknowns, iterations and seconds over the floor; then the shares of its parts in the
+/// time of the run.
 fn profile(
     name: &str,
     accuracy: Accuracy,
@@ -98,7 +101,8 @@ fn loading(elements: usize) -> Result<(usize, f64), Box<dyn Error + Send + Sync>
     Ok((path.model.body().analysis.dofs.count, seconds))
 }
 
-/// An iteration with a new tangent on a mesh of `elements` across the contact: unknowns, seconds, seconds at the floor.
+/// An iteration with a new tangent on a mesh of `elements` across the contact: unknowns, seconds, seconds at
+/// the floor.
 fn iteration(elements: usize, floor: &Roofline) -> Result<(usize, f64, f64), Box<dyn Error>> {
     let problem = finely_meshed(elements).map_err(|e| e.to_string())?;
     let least_seconds = floor_of(&problem, floor)?;
@@ -118,7 +122,8 @@ fn iteration(elements: usize, floor: &Roofline) -> Result<(usize, f64, f64), Box
     Ok((path.model.body().analysis.dofs.count, seconds, least_seconds))
 }
 
-/// CalculiX's core seconds over ours at equal accuracy, geometric mean, from the table that `scripts/peers` writes.
+/// CalculiX's core seconds over ours at equal accuracy, geometric mean, from the table that `scripts/peers`
+/// writes.
 fn beside_calculix() -> Option<String> {
     let table = std::fs::read_to_string("verification/results/peers.md").ok()?;
     let line = table.lines().find(|line| line.contains("geometric mean"))?;

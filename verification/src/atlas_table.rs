@@ -1,4 +1,5 @@
-//! The tables of `results/atlas.md`: what the atlas of cones holds, how well its formula foretells, and what it shows.
+//! The tables of `results/atlas.md`: what the atlas of cones holds, how well its formula foretells, and what
+//! it shows.
 
 use crate::atlas::{self, Set};
 use crate::atlas_fit::{Fit, Solved, differences, solved};

@@ -1,8 +1,8 @@
-//! A battery of numbered scenes that differ in everything a scene can say: what the stated errors are held against. Which
-//! constants of the program had seen them, the page of stated errors says.
+//! A battery of numbered scenes that differ in everything a scene can say: what the stated errors are held
+//! against. Which constants of the program had seen them, the page of stated errors says.
 //!
-//! The [`Kind`]s take turns, so that the first [`Kind::ALL`] scenes hold each of them; the levels take turns too, and everything else
-//! is drawn from the number.
+//! The [`Kind`]s take turns, so that the first [`Kind::ALL`] scenes hold each of them; the levels take turns
+//! too, and everything else is drawn from the number.
 
 use crate::single_asperity::{loaded, prepared};
 use asperity_material::units::{Length, Stress, rounded};
@@ -55,7 +55,8 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// In the order of the numbers; first those with one contact, then those with several, then the particular ones.
+    /// In the order of the numbers; first those with one contact, then those with several, then the
+    /// particular ones.
     pub const ALL: [Kind; 18] = [
         Kind::SharpCone,
         Kind::RoundedCone,
@@ -165,9 +166,10 @@ impl Case {
         Ok(Some(problem.mesh.scaled(problem.units.length)))
     }
 
-    /// The element that the truth is to be found with: that of the levels or, of some scenes and of those that ask for the linear
-    /// one, the other. Quadratic elements in plane strain are not judged by linear ones: the mesh far from the contact, which no level
-    /// refines, is part of the depth there, and linear elements on it are too stiff by 0.8 % of the force of a ridge.
+    /// The element that the truth is to be found with: that of the levels or, of some scenes and of those
+    /// that ask for the linear one, the other. Quadratic elements in plane strain are not judged by linear
+    /// ones: the mesh far from the contact, which no level refines, is part of the depth there, and linear
+    /// elements on it are too stiff by 0.8 % of the force of a ridge.
     pub fn element_of_truth(&self) -> ElementChoice {
         let own = Discretisation::new(&self.scene).element;
         let other = self.kind == Kind::LinearElement || self.number % OTHER_ELEMENT == OTHER_ELEMENT / 2;
@@ -274,7 +276,8 @@ impl Draw {
         Asperity { radius: Some(Length(RADIUS)), height, slope_deg: None, ..cone }
     }
 
-    /// The scene of a body and a tool; `gentle` for what never yields, `sized` if the size of the body must be said.
+    /// The scene of a body and a tool; `gentle` for what never yields, `sized` if the size of the body must
+    /// be said.
     fn body(&mut self, kind: Kind, gentle: bool, sized: bool) -> Result<Scene, SceneError> {
         let deepest = if gentle { 0.2 } else { 0.6 };
         let curved = [Kind::IndentingCone, Kind::IndentingBall, Kind::IndentingWedge, Kind::ToolOnAsperity];
@@ -343,7 +346,8 @@ impl Draw {
         Ok(scene)
     }
 
-    /// Two to four asperities, of which one is the highest and some may not be touched at this share of the height.
+    /// Two to four asperities, of which one is the highest and some may not be touched at this share of the
+    /// height.
     fn row(&mut self, share: f64) -> Result<Vec<Asperity>, SceneError> {
         let count = 2 + self.index_below(3);
         let highest = self.index_below(count);
@@ -375,8 +379,8 @@ pub struct Entry {
     pub scene: Scene,
 }
 
-/// Ten scenes that no level was chosen by: name, slope (degrees; 0: a ball), tip radius (µm), E/σ_y (0: elastic), n,
-/// depth (µm) of a height of 20 µm.
+/// Ten scenes that no level was chosen by: name, slope (degrees; 0: a ball), tip radius (µm), E/σ_y (0:
+/// elastic), n, depth (µm) of a height of 20 µm.
 const OTHERS: [(&str, f64, f64, f64, f64, f64); 10] = [
     ("sharp cone 3°, n 0.3", 3.0, 0.0, 700.0, 0.3, 4.0),
     ("sharp cone 10°, n 0.1", 10.0, 0.0, 300.0, 0.1, 5.0),

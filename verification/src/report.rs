@@ -1,4 +1,5 @@
-//! Shared by the programs of `examples/`: their arguments, the tables they write to `verification/results`, times.
+//! Shared by the programs of `examples/`: their arguments, the tables they write to `verification/results`,
+//! times.
 
 // tables are printed as they grow, because some take hours
 #![allow(clippy::print_stdout)]
@@ -15,8 +16,9 @@ pub struct Report {
 }
 
 impl Report {
-    /// Of the example `name`, run with the rest of its arguments, which are returned: all but `--out FILE`. The first line of
-    /// the file names the program, its version and `accuracy`, what the runs have in common.
+    /// Of the example `name`, run with the rest of its arguments, which are returned: all but `--out FILE`.
+    /// The first line of the file names the program, its version and `accuracy`, what the runs have in
+    /// common.
     pub fn of_example(name: &str, accuracy: &str) -> (Report, Vec<String>) {
         Report::of_package("asperity-verification", name, accuracy)
     }
@@ -60,7 +62,8 @@ impl Report {
     }
 }
 
-/// A word of the command; of a path from the root its last part, for the folders before it are of one machine.
+/// A word of the command; of a path from the root its last part, for the folders before it are of one
+/// machine.
 fn shown(word: &str) -> &str {
     let path = Path::new(word);
     path.file_name().filter(|_| path.is_absolute()).and_then(|name| name.to_str()).unwrap_or(word)
@@ -79,7 +82,8 @@ fn arguments(mut words: impl Iterator<Item = String>) -> (Option<PathBuf>, Vec<S
     (file, rest)
 }
 
-/// Writes `content` beside `file` and puts it in its place, so that a reader sees the old file or the new one.
+/// Writes `content` beside `file` and puts it in its place, so that a reader sees the old file or the new
+/// one.
 ///
 /// # Errors
 /// The folder cannot be made or the file not be written.

@@ -24,8 +24,8 @@ pub const PAPER: Member = Member { height: 20e-6, spacing: 0.0 };
 /// An asperity too low to be touched.
 pub const LOW_MEMBER: Member = Member { height: 12e-6, spacing: 0.0 };
 
-/// A row of asperities of 10° with tips of 10 µm, crushed to 5 µm at draft accuracy without unloading; `substrate` is
-/// its half width (radius) and depth, m.
+/// A row of asperities of 10° with tips of 10 µm, crushed to 5 µm at draft accuracy without unloading;
+/// `substrate` is its half width (radius) and depth, m.
 ///
 /// # Errors
 /// The committed scene file does not read.
@@ -100,8 +100,8 @@ pub fn worst_difference(curve: &[[f64; 2]], reference: &[[f64; 2]]) -> f64 {
         )
 }
 
-/// Three ridges of this pitch over a free layer of this depth (m) on a rigid base against three times one: the largest
-/// difference of the force.
+/// Three ridges of this pitch over a free layer of this depth (m) on a rigid base against three times one:
+/// the largest difference of the force.
 ///
 /// # Errors
 /// The reason why the solver refused.

@@ -41,8 +41,8 @@ pub fn model<'m>(
     Ok(Body::new(mesh, symmetry, metal, |node| held[node], contact).and_then(Equilibrium::new)?)
 }
 
-/// Solves the increment with the tool at `tip` (infinite: none) from `guess`, whose held components are kept, and
-/// accepts it. Backward Euler: no flow is carried on.
+/// Solves the increment with the tool at `tip` (infinite: none) from `guess`, whose held components are kept,
+/// and accepts it. Backward Euler: no flow is carried on.
 ///
 /// # Errors
 /// Newton did not converge.
@@ -58,8 +58,8 @@ pub fn increment(
     Ok(done)
 }
 
-/// Moves the held components by `whole(node)` in as few increments as converge: an increment that fails is halved.
-/// Each starts from the last one, scaled. Backward Euler.
+/// Moves the held components by `whole(node)` in as few increments as converge: an increment that fails is
+/// halved. Each starts from the last one, scaled. Backward Euler.
 ///
 /// # Errors
 /// The failure of an increment of less than a hundredth of the whole.
@@ -105,8 +105,8 @@ pub fn stresses(model: &Equilibrium<'_>) -> Vec<Sym> {
         .collect()
 }
 
-/// Axial Kirchhoff stress of a bar of one element at each of the total logarithmic strains it is stretched to, one
-/// increment each.
+/// Axial Kirchhoff stress of a bar of one element at each of the total logarithmic strains it is stretched
+/// to, one increment each.
 ///
 /// # Errors
 /// Newton did not converge.

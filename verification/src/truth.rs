@@ -1,8 +1,10 @@
-//! The truths of the battery of [`coverage_scenes`](crate::coverage_scenes): answers of finer runs, found once and kept.
+//! The truths of the battery of [`coverage_scenes`](crate::coverage_scenes): answers of finer runs, found
+//! once and kept.
 //!
-//! A truth must be better than the run that it judges, not more: its own error is to be small beside the promise of that level.
-//! [`RECIPES`] says how fine it is. Truths are kept as files in a folder while they are found, so that what was stopped goes on there,
-//! and packed into one file that is committed, so that each session adds to it.
+//! A truth must be better than the run that it judges, not more: its own error is to be small beside the
+//! promise of that level. [`RECIPES`] says how fine it is. Truths are kept as files in a folder while they
+//! are found, so that what was stopped goes on there, and packed into one file that is committed, so that
+//! each session adds to it.
 
 // a scene and a truth are plain data; searches that take minutes say how far they are
 #![allow(clippy::expect_used, clippy::print_stderr)]
@@ -26,8 +28,9 @@ use std::io::{self, Read, Write};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
-/// How fine a truth is: its elements across the contact, its load steps and the size of its substrate over those of `reference`; its
-/// penetration over that of `reference` is this to the power of [`SOFTER_PENALTY`].
+/// The fineness of a truth: its elements across the contact, its load steps and the size of its substrate
+/// over those of `reference`; its penetration over that of `reference` is this to the power of
+/// [`SOFTER_PENALTY`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Recipe(pub f64);
 
@@ -37,7 +40,8 @@ pub const RECIPES: [Recipe; 3] = [Recipe(1.2), Recipe(1.6), Recipe(1.8)];
 /// Penetration and mesh pull the area in opposite directions, and more of the first is left at `reference`.
 pub const SOFTER_PENALTY: f64 = -1.5;
 
-/// Share of the elements where linear ones take the place of quadratic ones, whose errors are independent of theirs: they cost more.
+/// Share of the elements where linear ones take the place of quadratic ones, whose errors are independent of
+/// theirs: they cost more.
 const LINEAR_SHARE: f64 = 0.75;
 
 /// Depths at which curves are compared.
@@ -140,15 +144,16 @@ impl Answer {
     /// Of `scene`, on `mesh` if one is given.
     ///
     /// # Errors
-    /// Why the run does not begin or does not reach its depth.
+    /// The reason why the run does not begin or does not reach its depth.
     pub fn compute(scene: &Scene, mesh: Option<Mesh>) -> Result<Answer, String> {
         let depth = scene.loading.depth.ok_or("the scene is not driven by depth")?.0;
         let outcome = run(scene, mesh, &mut |_| ControlFlow::Continue(())).map_err(|e| e.to_string())?;
         Answer::from_outcome(&outcome, depth)
     }
 
-    /// Its errors against `truth`: the largest over the depths for force, contact area and mean pressure, relative; the residual
-    /// depth over the peak depth, the elastic fraction absolute, the stiffness relative.
+    /// Its errors against `truth`: the largest over the depths for force, contact area and mean pressure,
+    /// relative; the residual depth over the peak depth, the elastic fraction absolute, the stiffness
+    /// relative.
     pub fn error(&self, truth: &Answer) -> Each {
         let worst = |of: fn(&[f64; 2]) -> f64| {
             let pairs = self.curve.iter().zip(&truth.curve);
@@ -213,10 +218,11 @@ impl Recipe {
         finer
     }
 
-    /// Finds the truth with the element that the scene is to be judged by, or where that does not reach the depth with its own.
+    /// Finds the truth with the element that the scene is to be judged by, or where that does not reach the
+    /// depth with its own.
     ///
     /// # Errors
-    /// Why it was not reached.
+    /// The reason why it was not reached.
     pub fn find(&self, case: &Case) -> Found {
         let own = Discretisation::new(&case.scene).element;
         let with = |element: ElementChoice| {
@@ -232,8 +238,8 @@ impl Recipe {
         }
     }
 
-    /// The key of a truth: the number of the scene with a hash of it and of the recipe. It depends not on the level, nor on the
-    /// numbers of `reference`.
+    /// The key of a truth: the number of the scene with a hash of it and of the recipe. It depends not on the
+    /// level, nor on the numbers of `reference`.
     fn key(&self, case: &Case) -> String {
         let same = Scene { accuracy: Accuracy::Reference, ..case.scene.clone() };
         let recipe = format!("{:?} {} {SOFTER_PENALTY} {LINEAR_SHARE}", case.element_of_truth(), self.0);
@@ -287,7 +293,8 @@ impl Truths {
         file.and_then(|text| serde_json::from_str(&text).ok()).or_else(|| self.packed.get(key).cloned())
     }
 
-    /// The truth of `case`, found and kept if it is not there and `search`. That of a finer recipe than its own is as good.
+    /// The truth of `case`, found and kept if it is not there and `search`. That of a finer recipe than its
+    /// own is as good.
     pub fn find_or_compute(&self, case: &Case, search: bool) -> Option<Found> {
         let level = case.scene.accuracy.level() as usize;
         let kept: Vec<Found> = RECIPES[level..].iter().filter_map(|r| self.kept(&r.key(case))).collect();

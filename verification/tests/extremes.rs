@@ -1,11 +1,12 @@
-//! Claim: at the extremes of every parameter a crush converges to a value that is known otherwise, or stops with a reason that
-//! is named; never NaN, never a hang. `cargo test --release -p asperity-verification --test extremes -- --nocapture` prints
-//! the table.
+//! Claim: at the extremes of every parameter a crush converges to a value that is known otherwise, or stops
+//! with a reason that is named; never NaN, never a hang. `cargo test --release -p asperity-verification
+//! --test extremes -- --nocapture` prints the table.
 //!
-//! Sources: Sneddon 1965 (elastic cone, F = (2/π) E* h²/tan β for small slopes), Hertz; sharp cones of another code (the
-//! table of `asperity_verification::calibration::PEERS`); the same scene away from the extreme. Draft accuracy promises
-//! 5 %, which is the tolerance wherever a force is compared with a value from elsewhere; energy balances to 3 % (draft: 0.8 % on
-//! the committed scene), to 10 % where the steps themselves are the extreme.
+//! Sources: Sneddon 1965 (elastic cone, F = (2/π) E* h²/tan β for small slopes), Hertz; sharp cones of
+//! another code (the table of `asperity_verification::calibration::PEERS`); the same scene away from the
+//! extreme. Draft accuracy promises 5 %, which is the tolerance wherever a force is compared with a value
+//! from elsewhere; energy balances to 3 % (draft: 0.8 % on the committed scene), to 10 % where the steps
+//! themselves are the extreme.
 
 // in a test a panic is the message, and the table is the point
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
@@ -104,14 +105,15 @@ fn compared(name: &'static str, scene: Scene, other: Scene, bound: f64) -> Row {
     row(name, scene, bound, move |o| peak(o) / force(&other))
 }
 
-/// Against the same scene with the other element, whose mesh differs as well: draft promises 5 %, and flanks that lie down at last are
-/// known to 2 to 9 % at standard, as these runs state.
+/// Against the same scene with the other element, whose mesh differs as well: draft promises 5 %, and flanks
+/// that lie down at last are known to 2 to 9 % at standard, as these runs state.
 fn beside_other_element(name: &'static str, scene: Scene, element: ElementChoice) -> Row {
     let mut other = scene.clone();
     other.numerics.element = Some(element);
     compared(name, scene, other, 0.05)
 }
 
+#[expect(clippy::too_many_lines, reason = "a table: a row per entry")]
 fn rows() -> Vec<Row> {
     let paper = || changed(|_| {});
     let steps = |count: usize| changed(|s| s.numerics.steps = Some(count));
@@ -358,7 +360,8 @@ fn cap(share: f64) -> Scene {
     })
 }
 
-/// The paper's asperity `length` times as large, of a metal `stress` times as stiff: the force in its own units.
+/// The paper's asperity `length` times as large, of a metal `stress` times as stiff: the force in its own
+/// units.
 fn scaled(name: &'static str, length: f64, stress: f64) -> Row {
     let times = |x: Option<Length>| x.map(|x| Length(length * x.0));
     let scene = changed(|s| {

@@ -1,10 +1,12 @@
-//! Claim: area, force, ellipse and separation of bodies with a closed form are met, and more closely on finer maps.
+//! Claim: area, force, ellipse and separation of bodies with a closed form are met, and more closely on finer
+//! maps.
 //!
-//! Sources: geometry, beside each test (areas and gradients of cone, paraboloid, sinusoid, plane). Tolerance: 1 % at 64 pixels
-//! across, at least three times closer at 256 (the cells are of second order); 1e-9 where the map is a plane, which the
-//! cells hold exactly.
+//! Sources: geometry, beside each test (areas and gradients of cone, paraboloid, sinusoid, plane). Tolerance:
+//! 1 % at 64 pixels across, at least three times closer at 256 (the cells are of second order); 1e-9 where
+//! the map is a plane, which the cells hold exactly.
 //!
-//! E* = E/(1-ν²); a closure linear in tan β has p = c E* tan β on the island: c = 0.13 (`published`), 2/π² (`sneddon`).
+//! E* = E/(1-ν²); a closure linear in tan β has p = c E* tan β on the island: c = 0.13 (`published`), 2/π²
+//! (`sneddon`).
 
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
@@ -31,7 +33,8 @@ fn steel() -> Material {
     }
 }
 
-/// n x n nodes over `size` (m) of z(x, y) with x, y from the middle; periodic maps end one pixel before `size`.
+/// n x n nodes over `size` (m) of z(x, y) with x, y from the middle; periodic maps end one pixel before
+/// `size`.
 fn map(n: usize, size: f64, periodic: bool, z: impl Fn(f64, f64) -> f64) -> HeightMap {
     let pixel = size / if periodic { n } else { n - 1 } as f64;
     let at = |i: usize| i as f64 * pixel - 0.5 * size;
@@ -54,7 +57,8 @@ fn errors<const N: usize>(got: [f64; N], want: [f64; N]) -> f64 {
     got.iter().zip(want).map(|(g, w)| (g / w - 1.0).abs()).fold(0.0, f64::max)
 }
 
-/// Runs a claim at 64 and 256 pixels across: at most 1 %, and at least three times better when four times finer.
+/// Runs a claim at 64 and 256 pixels across: at most 1 %, and at least three times better when four times
+/// finer.
 fn converges(what: &str, error: impl Fn(usize) -> f64) {
     let (coarse, fine) = (error(64), error(256));
     assert!(coarse <= 0.01, "{what}: {coarse} at 64 pixels");
@@ -88,7 +92,8 @@ fn one_cone_has_area_force_and_ellipse_of_the_circle() {
     assert!((sneddon / FRAC_2_PI - 1.0).abs() < 1e-15);
 }
 
-/// One paraboloid z = -(x²+y²)/2R: island 2πRh (twice Hertz's contact), mean gradient (2/3) a/R with a² = 2Rh.
+/// One paraboloid z = -(x²+y²)/2R: island 2πRh (twice Hertz's contact), mean gradient (2/3) a/R with a² =
+/// 2Rh.
 #[test]
 fn one_paraboloid_has_twice_the_area_of_hertz_and_two_thirds_of_its_rim_slope() {
     let (radius, h) = (50e-6, 1e-6); // the island has radius 10 µm

@@ -60,7 +60,7 @@ pub struct InputError {
     pub message: String,
     /// A way out.
     pub help: Option<String>,
-    /// Where it stands.
+    /// Its place.
     pub place: Option<Box<Place>>,
 }
 
@@ -103,7 +103,8 @@ impl InputError {
         text
     }
 
-    /// Points at `span` (bytes) of `text`, which is called `name`; of a span over several lines, at its first one.
+    /// Points at `span` (bytes) of `text`, which is called `name`; of a span over several lines, at its first
+    /// one.
     #[must_use]
     pub fn pointing_at(mut self, name: &str, text: &str, span: Range<usize>) -> Self {
         let start = span.start.min(text.len());

@@ -1,13 +1,15 @@
-//! The atlas of cones: sharp cones over slope, E/σ_y and n as one smooth function, from which a search begins.
+//! The atlas of cones: sharp cones over slope, E/σ_y and n as one smooth function, from which a search
+//! begins.
 //!
-//! ν 0.3, law `swift`, Cauchy's stress. The cells were solved by [`crate::indentation::solve`] at `standard`; a polynomial of
-//! least squares in ln(E/σ_y), n and β goes through them (the largest degrees are [`DEGREES`]), which evens out their
-//! ripple: a cell is foretold by a polynomial through the others to 0.4 % of K, 0.9 % of S and 2 % of the returned work (rms). It is no
-//! result: what it begins, finite elements end.
+//! ν 0.3, law `swift`, Cauchy's stress. The cells were solved by [`crate::indentation::solve`] at `standard`;
+//! a polynomial of least squares in ln(E/σ_y), n and β goes through them (the largest degrees are
+//! [`DEGREES`]), which evens out their ripple: a cell is foretold by a polynomial through the others to 0.4 %
+//! of K, 0.9 % of S and 2 % of the returned work (rms). It is no result: what it begins, finite elements end.
 //!
-//! The larger atlas, [`asperity_material::cone_atlas`], does not take its place: begun from that, 18 fits (every ninth published metal under cones of
-//! 60° and 50°, E known and sought; two indents in aluminium) ended at the same metals, σ_y within 0.16 of the half width of its
-//! interval and 5 %, but took 154 runs of finite elements for 148 and a fifth more time, and it ends at 40°, short of this one's 45°.
+//! The larger atlas, [`asperity_material::cone_atlas`], does not take its place: begun from that, 18 fits
+//! (every ninth published metal under cones of 60° and 50°, E known and sought; two indents in aluminium)
+//! ended at the same metals, σ_y within 0.16 of the half width of its interval and 5 %, but took 154 runs of
+//! finite elements for 148 and a fifth more time, and it ends at 40°, short of this one's 45°.
 
 use crate::indentation::{FORCES, Indentation, solve};
 use asperity_material::{Elastic, Hardening, HardeningLaw, StressMeasure};
@@ -56,7 +58,7 @@ impl Cell {
     /// Solves a cone.
     ///
     /// # Errors
-    /// Why it has no result.
+    /// The reason why it has no result.
     pub fn solve(slope_deg: f64, e_over_sy: f64, exponent: f64) -> Result<Cell, String> {
         let hardening = Hardening {
             law: HardeningLaw::Swift,
@@ -154,7 +156,8 @@ impl Atlas {
         Some(Atlas { coefficients, left })
     }
 
-    /// The logarithms of [`Cell`] of a cone; beyond the cells carried on along straight lines from their edge.
+    /// The logarithms of [`Cell`] of a cone; beyond the cells carried on along straight lines from their
+    /// edge.
     pub fn predict(&self, slope_deg: f64, e_over_sy: f64, exponent: f64) -> [f64; OUTPUTS] {
         let place = scaled(slope_deg, e_over_sy, exponent);
         let inside = place.map(|x| x.clamp(-1.0, 1.0));
@@ -187,8 +190,8 @@ pub fn cells(text: &str) -> Vec<Cell> {
 mod tests {
     use super::*;
 
-    /// Cones between the cells, at a level of their own: 3 % of K, 5 % of the rest, the errors of both levels and the ripple that
-    /// the polynomial evens out.
+    /// Cones between the cells, at a level of their own: 3 % of K, 5 % of the rest, the errors of both levels
+    /// and the ripple that the polynomial evens out.
     #[test]
     fn cones_between_the_cells_are_met() {
         let atlas = Atlas::committed().unwrap();
@@ -203,8 +206,8 @@ mod tests {
         }
     }
 
-    /// A perfectly plastic metal without elasticity has K in proportion to σ_y: beyond the last cell the logarithm goes on with
-    /// the slope -1, within the 5 % that elasticity still makes there.
+    /// A perfectly plastic metal without elasticity has K in proportion to σ_y: beyond the last cell the
+    /// logarithm goes on with the slope -1, within the 5 % that elasticity still makes there.
     #[test]
     fn beyond_the_cells_the_atlas_goes_on_straight() {
         let atlas = Atlas::committed().unwrap();

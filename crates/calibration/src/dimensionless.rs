@@ -1,8 +1,10 @@
-//! The fitted dimensionless function Π of eq. (7): K/σ_r of any material and slope as a formula, and the contact ratio.
+//! The fitted dimensionless function Π of eq. (7): K/σ_r of any material and slope as a formula, and the
+//! contact ratio.
 //!
 //! With X = E* tan β/σ_r, Y = K tan²β/σ_r and σ_r taken at ε_r = c tan β,
 //!   ln Y = Σ_{k<5} a_k (ln X)^k + tan β Σ_{k<3} b_k (ln X)^k,
-//! and likewise for ln(a tan β/h). The second sum is what a finite slope adds to the curve that all slopes share.
+//! and likewise for ln(a tan β/h). The second sum is what a finite slope adds to the curve that all slopes
+//! share.
 
 use crate::fit::Data;
 use asperity_numerics::least_squares::{powers, solve, value};
@@ -55,7 +57,8 @@ impl Formula {
 }
 
 impl Dimensionless {
-    /// Fits all samples of `data` with σ_r at ε_r = `c` tan β; `None` with too few slopes or materials for it.
+    /// Fits all samples of `data` with σ_r at ε_r = `c` tan β; `None` with too few slopes or materials for
+    /// it.
     pub fn fit(data: &Data, c: f64) -> Option<Dimensionless> {
         let (mut force, mut ratio, mut ranges) = (Vec::new(), Vec::new(), Vec::new());
         for (beta, samples) in data.slopes.iter().filter(|s| !s.1.is_empty()) {

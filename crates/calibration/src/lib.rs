@@ -2,9 +2,9 @@
 //! (Jourani et al., section 3.3).
 //!
 //! In the order of the data: a case (`case`), its path (`cone`) and its constant
-//! (`loading_curvature`); the grid (`sweep`), its rows on disk (`row`, `journal`) and the run of a case (`run`); the representative strain of a
-//! slope (`collapse`), of all (`fit`) and of parts (`sensitivity`), the force as a formula (`dimensionless`) and
-//! the way back (`unloading`).
+//! (`loading_curvature`); the grid (`sweep`), its rows on disk (`row`, `journal`) and the run of a case
+//! (`run`); the representative strain of a slope (`collapse`), of all (`fit`) and of parts (`sensitivity`),
+//! the force as a formula (`dimensionless`) and the way back (`unloading`).
 //!
 //! ```
 //! use asperity_calibration::row::CaseRow;

@@ -17,9 +17,10 @@ pub struct Unloaded {
     pub exponent: f64,
 }
 
-/// Unloads the gentlest, the middle and the steepest cone of the sweep, of its middle stiffness over yield stress, with
-/// its smallest and its largest hardening exponent, as far as plasticity is developed at ε_r = `c` tan β: a nearly
-/// elastic cone goes back with the exponent 2. Those that do not come to an end are left out.
+/// Unloads the gentlest, the middle and the steepest cone of the sweep, of its middle stiffness over yield
+/// stress, with its smallest and its largest hardening exponent, as far as plasticity is developed at ε_r =
+/// `c` tan β: a nearly elastic cone goes back with the exponent 2. Those that do not come to an end are left
+/// out.
 pub fn unload(sweep: &Sweep, c: f64) -> Vec<Unloaded> {
     let mut cases = sweep.cases();
     if cases.is_empty() {

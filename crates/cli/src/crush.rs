@@ -14,7 +14,8 @@ use std::time::Duration;
 /// A killed run loses at most this much.
 const BETWEEN_CHECKPOINTS: Duration = Duration::from_secs(30);
 
-/// Bytes that the solves of a run take on the disk at most; a run that needs more is taken up where it had as many.
+/// Bytes that the solves of a run take on the disk at most; a run that needs more is taken up where it had as
+/// many.
 const LARGEST_JOURNAL: u64 = 2 << 30;
 
 /// Arguments of `asperity crush`.

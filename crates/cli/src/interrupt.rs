@@ -18,7 +18,7 @@ pub fn catch() {
     });
 }
 
-/// Whether the user has asked for the end.
+/// True where the user has asked for the end.
 pub fn requested() -> bool {
     STOP_REQUESTED.load(Ordering::Relaxed)
 }

@@ -39,7 +39,8 @@ pub struct Trade {
 /// Runs the command.
 ///
 /// # Errors
-/// Input that is wrong (nothing is written), a scene whose converged value cannot be computed, or a disk that refuses.
+/// Input that is wrong (nothing is written), a scene whose converged value cannot be computed, or a disk that
+/// refuses.
 pub fn trade(args: &Trade) -> Result<(), Error> {
     if args.case {
         return answer();

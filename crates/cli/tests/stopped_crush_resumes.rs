@@ -1,4 +1,5 @@
-//! A crush that was interrupted or killed goes on from its checkpoint and ends with the bytes of one that nothing stopped.
+//! A crush that was interrupted or killed goes on from its checkpoint and ends with the bytes of one that
+//! nothing stopped.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
@@ -12,7 +13,8 @@ use std::fs;
 use std::path::Path;
 use std::time::Duration;
 
-/// Crushes `text` into the folder `name` with checkpoints in `kept`; the observer ends it by `false`. Returns Newton's iterations.
+/// Crushes `text` into the folder `name` with checkpoints in `kept`; the observer ends it by `false`. Returns
+/// Newton's iterations.
 fn crush(
     place: &Place,
     text: &str,
@@ -35,8 +37,8 @@ fn copy(from: &Path, to: &Path) {
     }
 }
 
-/// Loaded, unloaded and loaded again; hardening by back stress, which keeps a history; augmented contact, which solves an increment
-/// several times; a force that is looked for.
+/// Loaded, unloaded and loaded again; hardening by back stress, which keeps a history; augmented contact,
+/// which solves an increment several times; a force that is looked for.
 fn scenes() -> Vec<String> {
     let base = SCENE.replace("every = 0", "every = 4");
     let reloaded = base.replace("unload = true", "unload = true\nreloads = 1");

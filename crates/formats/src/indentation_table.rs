@@ -1,5 +1,6 @@
-//! Tables as instruments write them: comma, semicolon, tab or blanks between columns, decimal commas, a preamble, units in the
-//! header or in the line below it, several tests side by side, below each other or under a number.
+//! Tables as instruments write them: comma, semicolon, tab or blanks between columns, decimal commas, a
+//! preamble, units in the header or in the line below it, several tests side by side, below each other or
+//! under a number.
 
 /// Depth and force, m and N, as they were read, one after the other in time.
 pub type Readings = Vec<[f64; 2]>;
@@ -11,7 +12,7 @@ pub struct Tests {
     pub tests: Vec<(String, Readings)>,
 }
 
-/// Why a table cannot be read: the line (from 1) where it has one, and a sentence with a way out.
+/// The reason why a table cannot be read: the line (from 1) where it has one, and a sentence with a way out.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TableError {
     /// Line, from 1.
@@ -229,8 +230,8 @@ fn block(
     Ok(())
 }
 
-/// The columns of `what`, those that `unit_of` knows, with their units. One without a unit, like the error of a force, is left out
-/// beside one with.
+/// The columns of `what`, those that `unit_of` knows, with their units. One without a unit, like the error of
+/// a force, is left out beside one with.
 fn of_known_unit(
     at: usize,
     names: &[String],

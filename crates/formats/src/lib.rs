@@ -1,7 +1,7 @@
 //! Files that instruments and people write, read into columns and maps with their units. No mechanics.
 //!
-//! Quantities with units ([`units`]), tables of numbers under a header ([`text_table`]), tables of indentation instruments
-//! ([`indentation_table`]), maps of surfaces ([`surface`]).
+//! Quantities with units ([`units`]), tables of numbers under a header ([`text_table`]), tables of
+//! indentation instruments ([`indentation_table`]), maps of surfaces ([`surface`]).
 //!
 //! ```
 //! use asperity_formats::text_table::TextTable;

@@ -1,16 +1,18 @@
-//! The answers of finite elements to one measurement between the metals that were computed: a trend, and a Gaussian process
-//! for what is left of it.
+//! The answers of finite elements to one measurement between the metals that were computed: a trend, and a
+//! Gaussian process for what is left of it.
 //!
-//! The trend of a sharp cone is the atlas of cones, that of other tools a polynomial through a design of runs. Every further run
-//! draws the process to itself; where none is near, the process says how much may be left, and that is part of the
-//! covariance of the fit (Kennedy and O'Hagan, Biometrika 87 (2000) 1, with one run a level).
+//! The trend of a sharp cone is the atlas of cones, that of other tools a polynomial through a design of
+//! runs. Every further run draws the process to itself; where none is near, the process says how much may be
+//! left, and that is part of the covariance of the fit (Kennedy and O'Hagan, Biometrika 87 (2000) 1, with one
+//! run a level).
 
 use super::response::{DesignPoint, Geometry, Response, SHARES};
 use asperity_calibration::atlas::{Atlas, POISSONS_RATIO};
 use asperity_material::HardeningCurve;
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
-/// Plastic strain, over the slope of a cone, at which the metal of a cell of the atlas is as strong as the metal in question.
+/// Plastic strain, over the slope of a cone, at which the metal of a cell of the atlas is as strong as the
+/// metal in question.
 const LIKENED_STRAIN: f64 = 0.13;
 
 /// A computed metal.
@@ -35,7 +37,7 @@ pub struct Emulator {
     trend: Trend,
     /// Lengths of the coordinates over which what is left of the trend varies.
     lengths: Vec<f64>,
-    /// How much is left of the trend, one for each logarithm.
+    /// The scatter that is left of the trend, one for each logarithm.
     amplitudes: Vec<f64>,
     nodes: Vec<Node>,
     factor: Option<Cholesky<f64, Dyn>>,
@@ -44,8 +46,8 @@ pub struct Emulator {
     lift: Vec<f64>,
 }
 
-/// The coordinates of a question: logarithms of E/σ_y, n (of a table: of E over stresses), ν, the law's E over that of the
-/// contact, tip over depth.
+/// The coordinates of a question: logarithms of E/σ_y, n (of a table: of E over stresses), ν, the law's E
+/// over that of the contact, tip over depth.
 pub fn features(question: &DesignPoint) -> Vec<f64> {
     let curve = &question.metal.hardening;
     let mut place = match curve {
@@ -138,8 +140,8 @@ impl Emulator {
         self.renew();
     }
 
-    /// Shifts all that is expected so that it meets the answer of a finer level: levels differ by nearly the same share at metals
-    /// that are near each other.
+    /// Shifts all that is expected so that it meets the answer of a finer level: levels differ by nearly the
+    /// same share at metals that are near each other.
     pub fn meet(&mut self, question: &DesignPoint, response: &Response) {
         let expected = self.predict(question);
         for ((lift, fine), coarse) in self.lift.iter_mut().zip(&response.logarithms).zip(expected) {
@@ -209,7 +211,8 @@ impl Emulator {
     }
 }
 
-/// A polynomial of the second degree, of the third where there are points for it, in the coordinates that vary.
+/// A polynomial of the second degree, of the third where there are points for it, in the coordinates that
+/// vary.
 #[derive(Clone, Debug)]
 struct Polynomial {
     middle: Vec<f64>,

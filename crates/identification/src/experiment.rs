@@ -43,13 +43,13 @@ pub struct Experiment {
     pub compliance: f64,
     /// Deepest depth, m; 1 where nothing hangs on it.
     pub depth: f64,
-    /// Which stress yields.
+    /// The stress that yields.
     pub stress_measure: StressMeasure,
     /// The data.
     pub data: Data,
     /// Relative standard deviation of the force.
     pub noise: f64,
-    /// Whether that was given, and not taken from the scatter.
+    /// True where that was given, and not taken from the scatter.
     pub noise_given: bool,
     /// Relative standard deviation of what the model leaves out.
     pub model_error: f64,
@@ -59,8 +59,8 @@ pub struct Experiment {
     pub emulator: Emulator,
 }
 
-/// Logarithms of the depth over which the force that a body is expected to need is too large or too small alike. That of a sharp cone is
-/// one number, K, off alike at every depth.
+/// Logarithms of the depth over which the force that a body is expected to need is too large or too small
+/// alike. That of a sharp cone is one number, K, off alike at every depth.
 const ALIKE_LOG_DEPTH: f64 = 1.0;
 
 /// Effect on the difference at a point of a curve of errors of the expected force and of the way back.
@@ -98,7 +98,7 @@ impl Experiment {
         })
     }
 
-    /// Whether the tool is a sharp cone, for which there is an atlas.
+    /// True where the tool is a sharp cone, for which there is an atlas.
     pub fn is_sharp(&self) -> bool {
         matches!(self.geometry, Geometry::Sharp { .. })
     }
@@ -120,8 +120,8 @@ impl Experiment {
         })
     }
 
-    /// Measured less expected, each over what it is measured in: logarithms of forces and slopes, shares of the work,
-    /// depths of unloading over the deepest. `roughly`: by the atlas of cones alone.
+    /// Measured less expected, each over what it is measured in: logarithms of forces and slopes, shares of
+    /// the work, depths of unloading over the deepest. `roughly`: by the atlas of cones alone.
     pub fn differences(&self, unknowns: &Unknowns, point: &[f64], roughly: bool) -> Option<Vec<f64>> {
         let expected = self.expected(unknowns, point, roughly)?;
         Some(match &self.data {
@@ -169,11 +169,11 @@ impl Experiment {
         expected.modulus * depth * depth * smooth(&points, (depth / self.depth).ln()).exp()
     }
 
-    /// Reading of the depth expected on the way back at `force`, from a turn of which the depths where the loading ended and where
-    /// the way back began were read under a force.
+    /// Reading of the depth expected on the way back at `force`, from a turn of which the depths where the
+    /// loading ended and where the way back began were read under a force.
     ///
-    /// A hold between them makes the contact wider under the same force. The slope where unloading begins goes with the width, so with the
-    /// depth; the whole way with the force over it.
+    /// A hold between them makes the contact wider under the same force. The slope where unloading begins
+    /// goes with the width, so with the depth; the whole way with the force over it.
     fn depth_back(&self, expected: &Expected, [loaded, turned, held]: [f64; 3], force: f64) -> f64 {
         let less = expected.contact_depth + expected.compliance * held;
         let (loaded, top) = (loaded - less, turned - less);
@@ -239,7 +239,8 @@ impl Experiment {
     ) -> DMatrix<f64> {
         let load = measured.loading.len();
         let length = if self.is_sharp() { f64::INFINITY } else { ALIKE_LOG_DEPTH };
-        // a force that is expected too large takes from each difference of the loading, and adds to each of the way back
+        // a force that is expected too large takes from each difference of the loading, and adds to each of
+        // the way back
         let of_the_loading = measured.loading.iter().map(|p| {
             let place = (p[0] / self.depth).abs().max(1e-3).ln();
             ErrorOfAPoint { place, by_the_force: -1.0, by_the_way: 0.0 }
@@ -286,7 +287,7 @@ fn recovery(logarithms: &[f64], share: f64) -> f64 {
     linear_between(&points, bent(share))
 }
 
-/// How fast the way back grows as the share of the force falls.
+/// The growth of the way back as the share of the force falls.
 fn slope_back(logarithms: &[f64], share: f64) -> f64 {
     let (high, low) = ((share + 0.02).min(1.0), (share - 0.02).max(0.0));
     (recovery(logarithms, low) - recovery(logarithms, high)) / (high - low)

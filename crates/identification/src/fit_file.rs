@@ -107,7 +107,8 @@ pub struct FitCurve {
 }
 
 impl FitCurve {
-    /// The name in pictures of a measurement that messages call `name`: that of its file, with the test where it has several.
+    /// The name in pictures of a measurement that messages call `name`: that of its file, with the test where
+    /// it has several.
     pub fn label(&self, name: &str) -> String {
         let Some(file) = self.file.as_ref().and_then(|path| path.file_name()) else { return name.into() };
         let file = file.to_string_lossy();
@@ -142,10 +143,10 @@ pub struct Features {
 }
 
 impl Features {
-    /// Where such numbers belong.
+    /// The table that such numbers belong to.
     pub const FEATURES_PLACE: &str = "numbers such as loading curvature, unloading slope and work ratio go into features = { loading_curvature = \"27 GPa\", … } in place of file";
 
-    /// Whether a table that is no curve has a header of such numbers.
+    /// True where a table that is no curve has a header of such numbers.
     pub fn are_named_in(table: &str) -> bool {
         let header = table.lines().find(|line| !line.trim().is_empty()).unwrap_or_default().to_lowercase();
         ["curvature", "slope", "dp/dh", "dpdh", "dp_dh", "wp/wt", "wp_wt", "work"]

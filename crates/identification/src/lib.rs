@@ -1,10 +1,11 @@
-//! From measured force-depth curves to the metal: E, σ_y and n with their intervals, and whether the curves can tell at all.
+//! From measured force-depth curves to the metal: E, σ_y and n with their intervals, and whether the curves
+//! can tell at all.
 //!
-//! In the order of the data: the keys of a fit ([`fit_file`], [`known_or_unknown`]), measured curves made ready
-//! ([`measured_curve`]), the unknowns ([`parameters`]); what finite elements answer to one metal ([`response`]) and between
-//! metals ([`emulator`]); a measurement with its covariance ([`experiment`]), all of them ([`objective`]); the search
-//! ([`mod@search`], [`levenberg_marquardt`]); intervals ([`profile_likelihood`]), samples ([`posterior`]) and what cannot be
-//! seen ([`verdict`]).
+//! In the order of the data: the keys of a fit ([`fit_file`], [`known_or_unknown`]), measured curves made
+//! ready ([`measured_curve`]), the unknowns ([`parameters`]); what finite elements answer to one metal
+//! ([`response`]) and between metals ([`emulator`]); a measurement with its covariance ([`experiment`]), all
+//! of them ([`objective`]); the search ([`mod@search`], [`levenberg_marquardt`]); intervals
+//! ([`profile_likelihood`]), samples ([`posterior`]) and what cannot be seen ([`verdict`]).
 
 pub mod known_or_unknown;
 

@@ -1,4 +1,5 @@
-//! A measured curve made ready: its loading and its last unloading, thinned by averaging; holds and other cycles cut.
+//! A measured curve made ready: its loading and its last unloading, thinned by averaging; holds and other
+//! cycles cut.
 
 use asperity_formats::indentation_table::Readings;
 
@@ -21,19 +22,21 @@ pub struct Measured {
 
 /// Points that are kept of loading and unloading.
 const KEPT_POINTS: [usize; 2] = [30, 20];
-/// Shares of the deepest depth from which loading counts, and of the peak force between which unloading counts.
+/// Shares of the deepest depth from which loading counts, and of the peak force between which unloading
+/// counts.
 const LOADING_DEPTH_SHARE: f64 = 0.1;
 const UNLOADING_FORCE_SHARES: [f64; 2] = [0.1, 0.97];
 /// Fewest points of a loading.
 const MIN_LOADING_POINTS: usize = 6;
 /// Share of the peak force from which readings belong to the peak or its hold.
 const PEAK_FORCE_SHARE: f64 = 0.995;
-/// Share of the largest force from which a reading may be the deepest one: noise makes the largest force, not the turn of the path.
+/// Share of the largest force from which a reading may be the deepest one: noise makes the largest force, not
+/// the turn of the path.
 const DEEPEST_FORCE_SHARE: f64 = 0.8;
 /// Share of the largest depth from which readings belong to the turn.
 const TURN_DEPTH_SHARE: f64 = 0.999;
-/// Growth of the force over that of the depth, both relative, below which readings are a hold: a loading grows with the power 1.5 of the
-/// depth at least.
+/// Growth of the force over that of the depth, both relative, below which readings are a hold: a loading
+/// grows with the power 1.5 of the depth at least.
 const HOLD_GROWTH: f64 = 0.5;
 
 impl Measured {
@@ -102,7 +105,7 @@ impl Measured {
     }
 }
 
-/// Where a path turns.
+/// The point at which a path turns.
 struct Turn {
     /// The reading with which the loading ends: a hold may follow.
     first: usize,
@@ -112,7 +115,8 @@ struct Turn {
     peak: [f64; 2],
 }
 
-/// The turn of a path whose largest force is `most`: it lies at the largest depth, for depths are read more exactly than forces.
+/// The turn of a path whose largest force is `most`: it lies at the largest depth, for depths are read more
+/// exactly than forces.
 fn turn(readings: &[[f64; 2]], most: f64) -> Turn {
     let high = |p: &[f64; 2]| p[1] >= DEEPEST_FORCE_SHARE * most;
     let deepest = readings.iter().filter(|p| high(p)).map(|p| p[0]).fold(f64::NEG_INFINITY, f64::max);
@@ -124,7 +128,7 @@ fn turn(readings: &[[f64; 2]], most: f64) -> Turn {
     Turn { first, last, peak: [readings[last][0], force] }
 }
 
-/// Whether the force stayed while the depth grew over `readings`, up to the `peak`.
+/// True where the force stayed while the depth grew over `readings`, up to the `peak`.
 fn is_held(readings: &[[f64; 2]], peak: [f64; 2]) -> bool {
     let mean =
         |part: &[[f64; 2]], k: usize| part.iter().map(|p| p[k]).sum::<f64>() / part.len().max(1) as f64;
@@ -193,7 +197,7 @@ fn averaged(
     parts.iter().filter(|p| p.0 > 0.0).map(|(n, sum)| sum.map(|s| of_mean(s / n))).collect()
 }
 
-/// Where the straight line through √F over the upper half of the loading meets zero force.
+/// The depth at which the straight line through √F over the upper half of the loading meets zero force.
 fn touches(loading: &[[f64; 2]]) -> f64 {
     let deepest = loading.last().map_or(1.0, |p| p[0]);
     let upper: Vec<[f64; 2]> =
@@ -259,7 +263,8 @@ mod tests {
         assert!(measured.loading.windows(2).all(|w| w[0][0] < w[1][0]));
     }
 
-    /// Noise that lifts a force before the turn does not move the turn there; a mean of the forces at the turn stands for its force.
+    /// Noise that lifts a force before the turn does not move the turn there; a mean of the forces at the
+    /// turn stands for its force.
     #[test]
     fn the_turn_lies_at_the_largest_depth_not_at_the_largest_force() {
         let mut readings = loaded(40);

@@ -28,8 +28,8 @@ pub enum Slot {
     TipRadius(usize),
 }
 
-/// A parameter. Its coordinate is the logarithm of its SI value where that is positive by nature, else the value in the unit of the
-/// results.
+/// A parameter. Its coordinate is the logarithm of its SI value where that is positive by nature, else the
+/// value in the unit of the results.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Parameter {
     /// Its name in the results.
@@ -40,7 +40,7 @@ pub struct Parameter {
     pub scale: f64,
     /// Quantity that it stands for.
     pub slot: Slot,
-    /// Whether the coordinate is a logarithm.
+    /// True where the coordinate is a logarithm.
     pub logarithmic: bool,
     /// Bounds of the coordinate.
     pub bounds: [f64; 2],
@@ -149,7 +149,8 @@ impl Unknowns {
         }
     }
 
-    /// The metal at `point`; `None` where there is none: yield beyond what can be computed, a table that falls.
+    /// The metal at `point`; `None` where there is none: yield beyond what can be computed, a table that
+    /// falls.
     pub fn metal(&self, point: &[f64]) -> Option<Metal> {
         let given = &self.material;
         let modulus = self.number(point, Slot::YoungsModulus, given.youngs_modulus.map(|e| e.0));

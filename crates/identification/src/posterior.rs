@@ -1,5 +1,5 @@
-//! Samples of the posterior: flat in the coordinates within their bounds, by the stretch moves of Goodman and Weare (Comm. App.
-//! Math. Comp. Sci. 5 (2010) 65).
+//! Samples of the posterior: flat in the coordinates within their bounds, by the stretch moves of Goodman and
+//! Weare (Comm. App. Math. Comp. Sci. 5 (2010) 65).
 
 use crate::levenberg_marquardt::{Minimum, Residuals, chi2};
 use rand_chacha::ChaCha8Rng;

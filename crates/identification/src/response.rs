@@ -1,8 +1,8 @@
 //! The answer of finite elements to one tool on one metal, as logarithms that vary smoothly with the metal.
 //!
-//! Everything is over the elastic modulus E, the deepest depth h_max and F/h²: loading F/(E h²) at shares of h_max, the slope
-//! S/(E h_max) where unloading begins, the share of the work that is returned, and the way back over h_max at the
-//! shares [`FORCES`] of the peak force. A sharp cone has one number for its loading.
+//! Everything is over the elastic modulus E, the deepest depth h_max and F/h²: loading F/(E h²) at shares of
+//! h_max, the slope S/(E h_max) where unloading begins, the share of the work that is returned, and the way
+//! back over h_max at the shares [`FORCES`] of the peak force. A sharp cone has one number for its loading.
 
 use super::parameters::Metal;
 use asperity_calibration::indentation::{FORCES, Indentation, solve};
@@ -69,7 +69,7 @@ pub struct DesignPoint {
     pub modulus: f64,
     /// Radius of the tip, m.
     pub tip_radius: f64,
-    /// Which stress yields.
+    /// The stress that yields.
     pub stress_measure: StressMeasure,
 }
 
@@ -87,7 +87,7 @@ pub struct Response {
 /// Answers `question` at `accuracy`.
 ///
 /// # Errors
-/// Why there is no answer.
+/// The reason why there is no answer.
 pub fn respond(question: &DesignPoint, accuracy: Accuracy) -> Result<Response, String> {
     match question.geometry {
         Geometry::Sharp { slope_deg } => sharp(question, slope_deg, accuracy),
@@ -204,7 +204,8 @@ pub fn linear_between(points: &[[f64; 2]], x: f64) -> f64 {
     if x1 == x0 { y0 } else { y0 + (x - x0) / (x1 - x0) * (y1 - y0) }
 }
 
-/// A cubic through the four of `points` of rising x around `x`; linear where there are fewer, and beyond their ends.
+/// A cubic through the four of `points` of rising x around `x`; linear where there are fewer, and beyond
+/// their ends.
 pub fn smooth(points: &[[f64; 2]], x: f64) -> f64 {
     let count = points.len();
     let beyond = |p: &[f64; 2], sign: f64| sign * (x - p[0]) > 0.0;

@@ -1,5 +1,5 @@
-//! The search: from points all over the bounds, on what finite elements are expected to answer; then they are asked at the
-//! best point, which changes what is expected, until the best point stays.
+//! The search: from points all over the bounds, on what finite elements are expected to answer; then they are
+//! asked at the best point, which changes what is expected, until the best point stays.
 
 use super::emulator::{Emulator, features};
 use super::experiment::Experiment;
@@ -13,7 +13,7 @@ use nalgebra::{DMatrix, SymmetricEigen};
 use rayon::prelude::*;
 use thiserror::Error;
 
-/// Why a search found no metal.
+/// The reason why a search found no metal.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum SearchError {
     /// The observer ended it.
@@ -70,7 +70,8 @@ pub fn search(
         Found { minimum: Minimum { point: Vec::new(), chi2: f64::INFINITY }, runs: 0, notes: Vec::new() };
     design(experiments, unknowns, &mut found, observer)?;
     let mut best = everywhere(experiments, unknowns)?;
-    // the atlas of sharp cones is as exact as `accuracy`, and coarser runs would only blur it; other tools have coarse runs all about
+    // the atlas of sharp cones is as exact as `accuracy`, and coarser runs would only blur it; other tools
+    // have coarse runs all about
     let early = |e: &Experiment| if e.is_sharp() { accuracy } else { Accuracy::Draft };
     let mut asked = Vec::new();
     for round in 0..ROUNDS {
@@ -128,7 +129,8 @@ fn minima(objective: &Objective<'_>, points: &[Vec<f64>]) -> Vec<Minimum> {
     ranked[..STARTS.min(ranked.len())].par_iter().map(|(_, p)| minimise(&function, p, &bounds)).collect()
 }
 
-/// Minima anywhere within the bounds whose sum of squares is less than `chi2`: other metals that the measurements allow.
+/// Minima anywhere within the bounds whose sum of squares is less than `chi2`: other metals that the
+/// measurements allow.
 pub fn secondary_minima(objective: &Objective<'_>, unknowns: &Unknowns, chi2: f64) -> Vec<Minimum> {
     let mut found = minima(objective, &sobol_points(&unknowns.parameters, FIRST_POINTS));
     found.retain(|minimum| minimum.chi2 < chi2);
@@ -164,7 +166,8 @@ fn moved(experiments: &[Experiment], unknowns: &Unknowns, a: &[f64], b: &[f64]) 
     }
 }
 
-/// Curvature of half the sum of squares, coordinates over the widths of their bounds, with its eigenvalues and directions.
+/// Curvature of half the sum of squares, coordinates over the widths of their bounds, with its eigenvalues
+/// and directions.
 pub fn curvature(objective: &Objective<'_>, point: &[f64]) -> Option<SymmetricEigen<f64, nalgebra::Dyn>> {
     let bounds = objective.bounds();
     let mut slopes = jacobian(&objective.function(), point, &bounds)?;
@@ -175,8 +178,8 @@ pub fn curvature(objective: &Objective<'_>, point: &[f64]) -> Option<SymmetricEi
     Some(normal.symmetric_eigen())
 }
 
-/// Two points on both sides of `point` along the direction that the measurements see least, at most 1.5 standard deviations and a
-/// third of the bounds away.
+/// Two points on both sides of `point` along the direction that the measurements see least, at most 1.5
+/// standard deviations and a third of the bounds away.
 fn along_null_direction(experiments: &[Experiment], unknowns: &Unknowns, point: &[f64]) -> Vec<Vec<f64>> {
     let seen = Objective::new(experiments, unknowns, point).and_then(|o| curvature(&o, point));
     let Some(seen) = seen else { return Vec::new() };

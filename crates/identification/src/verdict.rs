@@ -1,4 +1,5 @@
-//! Whether the measurements can tell the unknowns, in which direction they see nothing, and which cone would see it best.
+//! Identifiability of the unknowns, the null direction of the measurements, and the cone that would resolve
+//! it best.
 
 use super::emulator::by_the_atlas;
 use super::experiment::Experiment;
@@ -17,21 +18,22 @@ const FOUND_HALF_WIDTHS: [f64; 2] = [0.15, 0.05];
 /// Correlation of two unknowns from which a bound on the one decides the other.
 const TIED_CORRELATION: f64 = 0.9;
 
-/// Whether a bound of the search, not the measurements, ends the interval of `parameter`. (n ≥ 0 is no choice.)
+/// True where a bound of the search, not the measurements, ends the interval of `parameter`. (n ≥ 0 is no
+/// choice.)
 fn is_cut(parameter: &Parameter, interval: &Interval) -> bool {
     let natural = matches!(parameter.slot, Slot::HardeningExponent) && interval.ends[0] <= 0.0;
     interval.bounded[1] || (interval.bounded[0] && !natural)
 }
 
-/// Which of the unknowns the measurements tell: those of narrow intervals that no bound cuts, neither their own nor that of an
-/// unknown they are tied to.
+/// The unknowns that the measurements identify: those of narrow intervals that no bound cuts, neither their
+/// own nor that of an unknown they are tied to.
 pub fn identified(parameters: &[Parameter], intervals: &[Interval], correlation: &[Vec<f64>]) -> Vec<bool> {
     let cut = |j: usize| is_cut(&parameters[j], &intervals[j]);
     let tied = |i: usize| (0..parameters.len()).any(|j| correlation[i][j].abs() > TIED_CORRELATION && cut(j));
     (0..parameters.len()).map(|i| is_narrow(&parameters[i], &intervals[i]) && !tied(i)).collect()
 }
 
-/// Whether the interval of `parameter` is narrow.
+/// True where the interval of `parameter` is narrow.
 fn is_narrow(parameter: &Parameter, interval: &Interval) -> bool {
     let half = 0.5 * (interval.ends[1] - interval.ends[0]);
     let allowed = match parameter.slot {
@@ -45,7 +47,8 @@ fn is_narrow(parameter: &Parameter, interval: &Interval) -> bool {
 /// A change of the unknowns that the measurements do not notice.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct NullDirection {
-    /// Names of the unknowns and their changes for a sum of squares that grows by 1: a factor of positive ones, else a difference.
+    /// Names of the unknowns and their changes for a sum of squares that grows by 1: a factor of positive
+    /// ones, else a difference.
     pub change: Vec<(String, f64)>,
     /// The same in words.
     pub text: String,
@@ -104,8 +107,8 @@ const NOISE: f64 = 0.01;
 /// Angles nearer than this to one that was measured are no other experiment, degrees.
 const MIN_ANGLE_DISTANCE: f64 = 4.0;
 
-/// The sharp cone whose loading curvature, unloading slope and work ratio would narrow the interval of unknown `of` most, by
-/// the atlas of cones.
+/// The sharp cone whose loading curvature, unloading slope and work ratio would narrow the interval of
+/// unknown `of` most, by the atlas of cones.
 pub fn next_experiment(
     objective: &Objective<'_>,
     experiments: &[Experiment],
@@ -162,8 +165,8 @@ pub fn next_experiment(
     })
 }
 
-/// Standard deviations of the coordinates and their correlations by the curvature at the minimum; a direction that is not seen has
-/// the width of the bounds.
+/// Standard deviations of the coordinates and their correlations by the curvature at the minimum; a direction
+/// that is not seen has the width of the bounds.
 pub fn deviations(
     objective: &Objective<'_>,
     unknowns: &Unknowns,

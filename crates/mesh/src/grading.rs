@@ -1,9 +1,11 @@
-//! Sizes of elements around a contact, and positions of nodes along a line from a wanted size that varies along it.
+//! Sizes of elements around a contact, and positions of nodes along a line from a wanted size that varies
+//! along it.
 
 use crate::ElementKind;
 
-/// Height of the first row of a core over its depth, for a fineness of 1. The ripple that shells leave is of first order in
-/// their width, the bias that rows leave is of second order in their height: with the root of the fineness both fall alike.
+/// Height of the first row of a core over its depth, for a fineness of 1. The ripple that shells leave is of
+/// first order in their width, the bias that rows leave is of second order in their height: with the root of
+/// the fineness both fall alike.
 const FIRST_ROW_HEIGHT: f64 = 0.435;
 
 /// Height of the last row of a core over that of the first.
@@ -15,14 +17,15 @@ const COLUMN_GROWTH: f64 = 5.0;
 /// Linear elements that are as exact as one quadratic element, along a line.
 pub const LINEAR_PER_QUADRATIC: f64 = 8.0 / 3.0;
 
-/// Depths of a row of contacts within which shells around it stay fine: metal yields that far below touching rows.
+/// Depths of a row of contacts within which shells around it stay fine: metal yields that far below touching
+/// rows.
 const NEAR_ROW: f64 = 3.0;
 
-/// How element sizes follow the distance from a contact.
+/// Growth of element sizes with the distance from a contact.
 ///
-/// The front of a contact crosses shell after shell, and the force ripples by a share of their width; along a shell, down
-/// from the surface, fields are smooth. So shells are thin and their cells long, the longer the deeper: against square
-/// cells the same unknowns leave a third of the error (`docs/src/verified/single.md`).
+/// The front of a contact crosses shell after shell, and the force ripples by a share of their width; along a
+/// shell, down from the surface, fields are smooth. So shells are thin and their cells long, the longer the
+/// deeper: against square cells the same unknowns leave a third of the error (`docs/src/verified/single.md`).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Grading {
     /// Width of a shell over its distance from the centre, within the fine zone.
@@ -74,10 +77,11 @@ impl Grading {
     }
 }
 
-/// Divides [from, to] so that elements have about the size `size(x)`; every `kink` strictly inside becomes a node.
+/// Divides [from, to] so that elements have about the size `size(x)`; every `kink` strictly inside becomes a
+/// node.
 ///
-/// Between two kinks the number of elements is ∫dx/size, rounded to at least one, and the nodes lie at equal shares of
-/// that integral. Kinks closer than a third of an element to each other or to an end are left out.
+/// Between two kinks the number of elements is ∫dx/size, rounded to at least one, and the nodes lie at equal
+/// shares of that integral. Kinks closer than a third of an element to each other or to an end are left out.
 pub fn divide(from: f64, to: f64, kinks: &[f64], size: impl Fn(f64) -> f64) -> Vec<f64> {
     let mut stops = vec![from];
     for &kink in kinks {

@@ -1,5 +1,6 @@
-//! Numbers that a formula is written for once: one `f64`, or four of them side by side, which the compiler puts into the vector
-//! registers of whatever processor it compiles for. The bits are the same on all: no product is fused with a sum.
+//! Numbers that a formula is written for once: one `f64`, or four of them side by side, which the compiler
+//! puts into the vector registers of whatever processor it compiles for. The bits are the same on all: no
+//! product is fused with a sum.
 //!
 //! ```
 //! use asperity_numerics::lanes::{Lanes, Real};
@@ -14,8 +15,8 @@
 
 use std::ops::{Add, AddAssign, BitAnd, Div, Mul, Neg, Sub, SubAssign};
 
-/// Real numbers, one or several, with what the formulas of a material point need. Several never look at one another: each lane has
-/// the bits it would have alone.
+/// Real numbers, one or several, with what the formulas of a material point need. Several never look at one
+/// another: each lane has the bits it would have alone.
 pub trait Real:
     Copy
     + Add<Output = Self>
@@ -32,7 +33,7 @@ pub trait Real:
 {
     /// The answer to a comparison, lane by lane.
     type Mask: Copy + BitAnd<Output = Self::Mask>;
-    /// How many numbers it is.
+    /// The number of its lanes.
     const LANES: usize;
     /// The numbers `of(lane)`.
     fn each(of: impl FnMut(usize) -> f64) -> Self;
@@ -57,14 +58,14 @@ pub trait Real:
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
     /// The mask of these truths.
     fn mask(of: impl FnMut(usize) -> bool) -> Self::Mask;
-    /// Whether `mask` holds in `lane`.
+    /// True where `mask` holds in `lane`.
     fn holds(mask: Self::Mask, lane: usize) -> bool;
-    /// Whether `mask` holds in some lane.
+    /// True where `mask` holds in some lane.
     #[inline(always)]
     fn any(mask: Self::Mask) -> bool {
         (0..Self::LANES).any(|lane| Self::holds(mask, lane))
     }
-    /// Whether `mask` holds in every lane.
+    /// True where `mask` holds in every lane.
     #[inline(always)]
     fn all(mask: Self::Mask) -> bool {
         (0..Self::LANES).all(|lane| Self::holds(mask, lane))
@@ -241,7 +242,8 @@ const HALF_ROOT: u64 = 0x3fe6_a09e_667f_3bcd;
 const ONE_BITS: u64 = 0x3ff0_0000_0000_0000;
 const FRACTION_BITS: u64 = 0x000f_ffff_ffff_ffff;
 
-/// (ln(1 + f) - f + ½f²)/s in s² with s = f/(2 + f), least largest error for 1 + f in [√½, √2] (fdlibm, e_log.c).
+/// (ln(1 + f) - f + ½f²)/s in s² with s = f/(2 + f), least largest error for 1 + f in [√½, √2] (fdlibm,
+/// e_log.c).
 const LOGARITHM: [f64; 7] = [
     6.666_666_666_666_735e-1,
     3.999_999_999_940_942e-1,
@@ -296,7 +298,8 @@ impl Real for Lanes {
     fn sqrt(self) -> Lanes {
         Lanes(four!(i => self.0[i].sqrt()))
     }
-    /// 1 + x = 2ᵏ (1 + f) with 1 + f in [√½, √2]; what the sum 1 + x rounds away is put back (fdlibm, s_log1p.c).
+    /// 1 + x = 2ᵏ (1 + f) with 1 + f in [√½, √2]; what the sum 1 + x rounds away is put back (fdlibm,
+    /// s_log1p.c).
     #[inline(always)]
     fn ln_1p(self) -> Lanes {
         let sum = self + 1.0;

@@ -5,7 +5,8 @@ use nalgebra::{SMatrix, SVector};
 /// A pivot below this share of its diagonal entry is rounding: the columns depend on each other.
 const DEPENDENT_PIVOT: f64 = 1e-12;
 
-/// Coefficients that minimise Σ w (y - Σ_k c_k b_k)², `columns` numbers b per row; `None` if the columns are dependent.
+/// Coefficients that minimise Σ w (y - Σ_k c_k b_k)², `columns` numbers b per row; `None` if the columns are
+/// dependent.
 pub fn solve<const N: usize>(rows: &[([f64; N], f64, f64)]) -> Option<[f64; N]> {
     let mut normal = SMatrix::<f64, N, N>::zeros();
     let mut rhs = SVector::<f64, N>::zeros();
@@ -58,8 +59,9 @@ pub fn powers<const N: usize>(u: f64) -> [f64; N] {
 /// A column of which a smaller share than this is left beside the earlier ones is rounding.
 const ROUNDING_NORM: f64 = 1e-12;
 
-/// A least-squares problem to which columns are added one after the other, each made orthogonal to those before it: a column
-/// that depends on them is refused, and what an added one gains is known without solving anew.
+/// A least-squares problem to which columns are added one after the other, each made orthogonal to those
+/// before it: a column that depends on them is refused, and what an added one gains is known without solving
+/// anew.
 #[derive(Clone, Debug, Default)]
 pub struct Columns {
     own: Vec<Vec<f64>>,
@@ -115,8 +117,8 @@ impl Columns {
         true
     }
 
-    /// Mean square of the error with which `y` of each row is foretold by the fit to all other rows (Allen's PRESS): unlike the
-    /// residual, it grows again where columns fit what is chance.
+    /// Mean square of the error with which `y` of each row is foretold by the fit to all other rows (Allen's
+    /// PRESS): unlike the residual, it grows again where columns fit what is chance.
     pub fn left_out_error(&self, y: &[f64]) -> f64 {
         let rest = self.remainder(y);
         let error = |i: usize| {

@@ -1,5 +1,5 @@
-//! Numerical methods that name no mechanical word: lanes of numbers side by side, least squares, roots, Sobol's sequence,
-//! Newton's method with its secants, and a sparse LDLᵀ factorisation.
+//! Numerical methods that name no mechanical word: lanes of numbers side by side, least squares, roots,
+//! Sobol's sequence, Newton's method with its secants, and a sparse LDLᵀ factorisation.
 //!
 //! ```
 //! use asperity_numerics::bisection::bisect;

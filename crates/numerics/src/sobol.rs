@@ -1,11 +1,11 @@
-//! Sobol's sequence with the direction numbers of Joe and Kuo (SIAM J. Sci. Comput. 30, 2008, file new-joe-kuo-6.21201),
-//! in the order of the Gray code (Antonov and Saleev 1979).
+//! Sobol's sequence with the direction numbers of Joe and Kuo (SIAM J. Sci. Comput. 30, 2008, file
+//! new-joe-kuo-6.21201), in the order of the Gray code (Antonov and Saleev 1979).
 
 /// Bits of a coordinate.
 const BITS: usize = 32;
 
-/// Degree s, inner coefficients a, and first odd numbers m_1 to m_s of the primitive polynomial of each dimension from
-/// the second.
+/// Degree s, inner coefficients a, and first odd numbers m_1 to m_s of the primitive polynomial of each
+/// dimension from the second.
 const POLYNOMIALS: [(usize, u32, &[u32]); 20] = [
     (1, 0, &[1]),
     (2, 1, &[1, 3]),
@@ -74,7 +74,8 @@ fn directions(dimension: usize) -> [u32; BITS] {
 mod tests {
     use super::*;
 
-    /// The points that scipy 1.17.1 gives, `qmc.Sobol(21, scramble=False)`: the first four, of some dimensions.
+    /// The points that scipy 1.17.1 gives, `qmc.Sobol(21, scramble=False)`: the first four, of some
+    /// dimensions.
     #[test]
     fn the_first_points_are_those_of_the_published_numbers() {
         let sobol = Sobol::new(MAX_DIMENSIONS).unwrap();

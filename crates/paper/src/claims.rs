@@ -43,7 +43,7 @@ impl Verdict {
 pub struct Claim {
     /// Figure or table it belongs to.
     pub item: &'static str,
-    /// Where the paper says it.
+    /// The place where the paper says it.
     pub place: &'static str,
     /// The claim itself.
     pub claim: String,
@@ -51,7 +51,7 @@ pub struct Claim {
     pub ours: String,
     /// The verdict.
     pub verdict: Verdict,
-    /// Why, where there is more to say.
+    /// The reason, where there is more to say.
     pub why: String,
 }
 
@@ -81,7 +81,7 @@ pub(super) fn claims(results: &Results) -> Vec<Claim> {
     claims
 }
 
-/// Whether values go up, or down.
+/// True where values go up, or down.
 fn rises(values: &[f64]) -> bool {
     values.windows(2).all(|w| w[1] > w[0])
 }

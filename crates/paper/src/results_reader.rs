@@ -1,4 +1,5 @@
-//! The results that the parts have left on disk, read back into types. A file that is not there is `None`, never a guess.
+//! The results that the parts have left on disk, read back into types. A file that is not there is `None`,
+//! never a guess.
 
 use super::part::{Job, Stamp};
 use crate::table1::{ClosureSeeds, ComparedRow, Seeds};

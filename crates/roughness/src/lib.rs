@@ -1,9 +1,10 @@
-//! Contact of a rough surface with a smooth rigid plane: asperity by asperity (Jourani et al., section 4), or as a half-space,
-//! with the leak through the gap.
+//! Contact of a rough surface with a smooth rigid plane: asperity by asperity (Jourani et al., section 4), or
+//! as a half-space, with the leak through the gap.
 //!
-//! In the order of the data: a height map is read or generated, levelled and filtered, its parameters are taken
-//! (`surface`); a plane cuts it into islands, a closure gives each its force, and the separation that carries the load
-//! is found (`contact`); [`scene`] says all of it in a file. Lengths are in metres, stresses in pascals.
+//! In the order of the data: a height map is read or generated, levelled and filtered, its parameters are
+//! taken (`surface`); a plane cuts it into islands, a closure gives each its force, and the separation that
+//! carries the load is found (`contact`); [`scene`] says all of it in a file. Lengths are in metres, stresses
+//! in pascals.
 //!
 //! ```
 //! use asperity_material::units::Stress;

@@ -1,4 +1,5 @@
-//! Two metals that one cone cannot tell apart and another can, sought in the atlas of cones and computed by finite elements.
+//! Two metals that one cone cannot tell apart and another can, sought in the atlas of cones and computed by
+//! finite elements.
 
 use asperity_calibration::atlas::{Atlas, Cell};
 use asperity_verification::report::Report;

@@ -1,8 +1,8 @@
-//! Claim: a bar that cannot widen follows τ = (K + 4G/3) ln λ before yield and τ = K ln λ - ⅔σ_y after, to half its
-//! height, in compression, where the volume must shrink by a half.
+//! Claim: a bar that cannot widen follows τ = (K + 4G/3) ln λ before yield and τ = K ln λ - ⅔σ_y after, to
+//! half its height, in compression, where the volume must shrink by a half.
 //!
-//! Source: `uniaxial::confined_stress`, `uniaxial::confined_flow_stress`. Tolerance 1e-10: the path of the deviator is straight,
-//! so that the return mapping is exact, and only rounding is left.
+//! Source: `uniaxial::confined_stress`, `uniaxial::confined_flow_stress`. Tolerance 1e-10: the path of the
+//! deviator is straight, so that the return mapping is exact, and only rounding is left.
 
 use asperity_mesh::ElementKind;
 use asperity_solver::point::kinematics::Symmetry;

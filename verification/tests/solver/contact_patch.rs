@@ -1,8 +1,8 @@
-//! Claim: a frictionless plane presses a flat bar uniformly on a distorted mesh, by the pressure of the uniaxial bar at
-//! the travel less p/ε, with both elements and in both symmetries of the section.
+//! Claim: a frictionless plane presses a flat bar uniformly on a distorted mesh, by the pressure of the
+//! uniaxial bar at the travel less p/ε, with both elements and in both symmetries of the section.
 //!
-//! Source: R. L. Taylor, P. Papadopoulos (1991), the contact patch test. Tolerance 1e-10: clipping and Gauss points
-//! integrate a uniform pressure exactly.
+//! Source: R. L. Taylor, P. Papadopoulos (1991), the contact patch test. Tolerance 1e-10: clipping and Gauss
+//! points integrate a uniform pressure exactly.
 
 use asperity_mesh::ElementKind;
 use asperity_solver::body::discrete_body::ToolContact;

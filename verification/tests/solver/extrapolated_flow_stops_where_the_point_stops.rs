@@ -1,9 +1,11 @@
-//! Claim: the second-order flow rule never takes a point to where backward Euler would not: whether the strain is held, slows
-//! down, is reversed, turns or comes in pieces of very different length, the stress is that of a point strained that way.
+//! Claim: the second-order flow rule never takes a point to where backward Euler would not: whether the
+//! strain is held, slows down, is reversed, turns or comes in pieces of very different length, the stress is
+//! that of a point strained that way.
 //!
-//! Source: uniaxial perfect plasticity, σ = min(max(σ + E Δε, -σ_y), σ_y) in any number of steps. Increments of 10 ε_y are those at
-//! which an extrapolation without a bound turned σ_y into -σ_y. Tolerance 1e-6 of σ_y: equilibrium is solved to 1e-12, and what is
-//! frozen at a nearly converged iterate is corrected by the return; 3e-3 where the point stays elastic, from ln(1 + ε).
+//! Source: uniaxial perfect plasticity, σ = min(max(σ + E Δε, -σ_y), σ_y) in any number of steps. Increments
+//! of 10 ε_y are those at which an extrapolation without a bound turned σ_y into -σ_y. Tolerance 1e-6 of σ_y:
+//! equilibrium is solved to 1e-12, and what is frozen at a nearly converged iterate is corrected by the
+//! return; 3e-3 where the point stays elastic, from ln(1 + ε).
 
 use asperity_material::StressMeasure;
 use asperity_mesh::ElementKind;
@@ -101,8 +103,9 @@ fn a_point_that_stops_while_the_load_goes_on_keeps_its_stress() {
     }
 }
 
-/// Compression along z, then simple shear: strain at a right angle to the last. The stress of backward Euler from the same state
-/// is the judge; its flow has a tenth part along the last one (σ_y against 2G times 10 ε_y), which may be extrapolated: 10 % of σ_y.
+/// Compression along z, then simple shear: strain at a right angle to the last. The stress of backward Euler
+/// from the same state is the judge; its flow has a tenth part along the last one (σ_y against 2G times 10
+/// ε_y), which may be extrapolated: 10 % of σ_y.
 #[test]
 fn a_turn_by_a_right_angle_is_that_of_backward_euler() {
     for metal in metals() {

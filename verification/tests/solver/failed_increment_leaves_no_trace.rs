@@ -1,8 +1,9 @@
-//! Claim: an increment that was tried and not accepted changes nothing of what is read from the body afterwards: force of the
-//! contact, its edges and the pressure at its nodes are those of the last converged state, bit for bit.
+//! Claim: an increment that was tried and not accepted changes nothing of what is read from the body
+//! afterwards: force of the contact, its edges and the pressure at its nodes are those of the last converged
+//! state, bit for bit.
 //!
-//! Source: none outside; fields of a run that stopped are drawn from the model after the failed attempt. Tolerance: none,
-//! bit for bit.
+//! Source: none outside; fields of a run that stopped are drawn from the model after the failed attempt.
+//! Tolerance: none, bit for bit.
 
 use asperity_mesh::ElementKind;
 use asperity_numerics::newton::System;

@@ -1,9 +1,11 @@
-//! Claim: kinematic hardening repeats isotropic hardening in monotone tension, yields in reverse after a drop of 2σ_y,
-//! is objective, and is the metal of the isotropic update where nothing hardens and no principal direction turns.
+//! Claim: kinematic hardening repeats isotropic hardening in monotone tension, yields in reverse after a drop
+//! of 2σ_y, is objective, and is the metal of the isotropic update where nothing hardens and no principal
+//! direction turns.
 //!
-//! Source: the derivation in `asperity_solver::point::kinematic_hardening` (rule of Prager and Ziegler in the logarithmic strain space of
-//! Miehe, Apel, Lambrecht 2002). Bar with linear hardening σ_y + Hε_p: the reversed branch leaves the elastic line at
-//! τ_a - 2σ_y and goes on with EH/(E + H). Tolerances: 1e-9 for bars, as in `uniaxial_bar`; 1e-12 for points, rounding.
+//! Source: the derivation in `asperity_solver::point::kinematic_hardening` (rule of Prager and Ziegler in the
+//! logarithmic strain space of Miehe, Apel, Lambrecht 2002). Bar with linear hardening σ_y + Hε_p: the
+//! reversed branch leaves the elastic line at τ_a - 2σ_y and goes on with EH/(E + H). Tolerances: 1e-9 for
+//! bars, as in `uniaxial_bar`; 1e-12 for points, rounding.
 
 use asperity_material::{Hardening, HardeningLaw, HardeningTable};
 use asperity_mesh::ElementKind;
@@ -169,8 +171,8 @@ fn without_hardening_coaxial_paths_are_those_of_the_isotropic_update() {
     }
 }
 
-/// Where directions turn, strains that add differ from strains that multiply. In simple shear without hardening the
-/// shear stress is σ_y/√3 in the latter; measured in the former here.
+/// Where directions turn, strains that add differ from strains that multiply. In simple shear without
+/// hardening the shear stress is σ_y/√3 in the latter; measured in the former here.
 #[test]
 fn simple_shear_shows_the_limit_of_additive_strains() {
     let metal = kinematic(hollomon(YIELD, 0.0));

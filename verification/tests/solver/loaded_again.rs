@@ -1,6 +1,7 @@
 //! Claims: a body that earlier loads left goes on where they ended.
 //!
-//! References: the reload of one run, the load that goes on at once, the virgin body where the earlier load left no trace.
+//! References: the reload of one run, the load that goes on at once, the virgin body where the earlier load
+//! left no trace.
 
 use asperity_material::HardeningMode;
 use asperity_material::units::{Length, Stress};
@@ -33,8 +34,9 @@ fn assert_near(a: f64, b: f64, tolerance: f64) {
     assert!((a / b - 1.0).abs() <= tolerance, "{a} {b}");
 }
 
-/// The same tool back to the same place: the states are those of the reload, on a mesh and with a penalty of their own. The depth
-/// of the second load is the small difference of two; a thousandth of the first depth is 1 % of it, so of the force.
+/// The same tool back to the same place: the states are those of the reload, on a mesh and with a penalty of
+/// their own. The depth of the second load is the small difference of two; a thousandth of the first depth is
+/// 1 % of it, so of the force.
 #[test]
 fn the_tool_that_comes_back_finds_the_reload_of_one_run() {
     let mut kinematic = steel();
@@ -80,7 +82,8 @@ fn an_elastic_body_is_virgin_after_its_loads() {
     assert!(again.residual_depth.unwrap().abs() < 1e-10, "{again:?}");
 }
 
-/// A dent hardens: a second ball of the same size needs more force for the same small depth than on virgin metal.
+/// A dent hardens: a second ball of the same size needs more force for the same small depth than on virgin
+/// metal.
 #[test]
 fn a_ball_in_the_dent_of_another_finds_harder_and_rounder_metal() {
     let ball = || Tool::sphere(Length(50e-6));

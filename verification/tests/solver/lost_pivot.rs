@@ -1,9 +1,9 @@
-//! Claim: a stiffness that loses a pivot is answered in order: the tangent without compressive geometric stiffness; else
-//! LDLᵀ with up to two negative pivots; else a stiffer diagonal, whose direction goes down; where that is not allowed a
-//! failure that halves the step. Never a panic, never a wrong answer.
+//! Claim: a stiffness that loses a pivot is answered in order: the tangent without compressive geometric
+//! stiffness; else LDLᵀ with up to two negative pivots; else a stiffer diagonal, whose direction goes down;
+//! where that is not allowed a failure that halves the step. Never a panic, never a wrong answer.
 //!
-//! Source: the decision of `Model::factorise`. A straight strut pressed beyond Euler's load is the first case, a bar
-//! pulled beyond Considère's strain the second and third. Tolerances with the claims.
+//! Source: the decision of `Model::factorise`. A straight strut pressed beyond Euler's load is the first
+//! case, a bar pulled beyond Considère's strain the second and third. Tolerances with the claims.
 
 use asperity_material::{Elastic, Hardening, HardeningLaw, StressMeasure};
 use asperity_mesh::ElementKind;

@@ -24,7 +24,8 @@ fn multiply(f: Plane, g: Plane) -> Plane {
     [a, c, b, d]
 }
 
-/// Deforms the square by `step` `steps` times, the boundary held to it, and compares every inner node and point.
+/// Deforms the square by `step` `steps` times, the boundary held to it, and compares every inner node and
+/// point.
 fn patch(symmetry: Symmetry, step: Plane, steps: usize) {
     for kind in [ElementKind::Quad4, ElementKind::Quad8] {
         for metal in [ELASTIC_METAL, hollomon(0.01, 0.2)] {

@@ -1,10 +1,11 @@
-//! Claim: the depth does not depend on the penalty: a run with a penalty gives the force of one with multipliers, which leave no
-//! penetration, whether the metal is elastic, hardly yields or flows.
+//! Claim: the depth does not depend on the penalty: a run with a penalty gives the force of one with
+//! multipliers, which leave no penetration, whether the metal is elastic, hardly yields or flows.
 //!
-//! Source: Castigliano for elastic metal (see `asperity_solver::contact`); else the program's own augmented Lagrange run.
-//! Tolerances, of the force from a fifth of the depth on: what is left is of second order for elastic metal (0.3 % of a cone at
-//! a penetration of 0.004, 0.2 % of a ball at 0.016), 0.4 % where metal yields under an uneven pressure; 2 % where it flows, most of it
-//! ripple of the mesh. Were the mean penetration taken off everywhere, the stiff cone would miss by 3 %.
+//! Source: Castigliano for elastic metal (see `asperity_solver::contact`); else the program's own augmented
+//! Lagrange run. Tolerances, of the force from a fifth of the depth on: what is left is of second order for
+//! elastic metal (0.3 % of a cone at a penetration of 0.004, 0.2 % of a ball at 0.016), 0.4 % where metal
+//! yields under an uneven pressure; 2 % where it flows, most of it ripple of the mesh. Were the mean
+//! penetration taken off everywhere, the stiff cone would miss by 3 %.
 
 use asperity_material::units::{Length, Stress};
 use asperity_simulation::record::curve::Curve;

@@ -1,8 +1,9 @@
-//! Claims: two equal ridges that press each other, one part of the body against another, do so as Hertz says: the pressure in the
-//! middle of their contact follows from the force, and falls back with it.
+//! Claims: two equal ridges that press each other, one part of the body against another, do so as Hertz says:
+//! the pressure in the middle of their contact follows from the force, and falls back with it.
 //!
-//! Source: K. L. Johnson, Contact Mechanics (1985), §4.2(c): p₀² = F E_e/(π R_e), with 1/R_e = 2/R and 1/E_e = 2/E'. Tolerance 1 %: 9
-//! elements across the half width at the peak, which is a twentieth of the blocks; below the middle p₀ falls as 1/√(1 + (z/b)²).
+//! Source: K. L. Johnson, Contact Mechanics (1985), §4.2(c): p₀² = F E_e/(π R_e), with 1/R_e = 2/R and 1/E_e
+//! = 2/E'. Tolerance 1 %: 9 elements across the half width at the peak, which is a twentieth of the blocks;
+//! below the middle p₀ falls as 1/√(1 + (z/b)²).
 
 use asperity_mesh::{Edge, ElementKind, Mesh};
 use asperity_numerics::newton::Settings;
@@ -16,13 +17,15 @@ use std::f64::consts::PI;
 
 const RADIUS: f64 = 10.0;
 
-/// Pressure per penetration: the two faces sink into each other by less than a thousandth of what they come closer.
+/// Pressure per penetration: the two faces sink into each other by less than a thousandth of what they come
+/// closer.
 const PENALTY: f64 = 500.0;
 
 /// The claim is to 1 %.
 const SETTLED: Settings = Settings { tolerance: 1e-7, max_iterations: 40, keep: 0.0 };
 
-/// Half of two ridges, one above the other, on blocks of width and height 1 that grow finer towards the contact.
+/// Half of two ridges, one above the other, on blocks of width and height 1 that grow finer towards the
+/// contact.
 fn ridges(kind: ElementKind, counts: [usize; 2]) -> Mesh {
     let shape = |[s, t]: [f64; 2], up: f64| {
         let (x, below) = (s * s, (1.0 - t) * (1.0 - t));

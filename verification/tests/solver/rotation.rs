@@ -1,7 +1,8 @@
-//! Claim: a rigid rotation superposed on a stretch rotates the stress and leaves energy and plastic strain unchanged.
+//! Claim: a rigid rotation superposed on a stretch rotates the stress and leaves energy and plastic strain
+//! unchanged.
 //!
-//! Source: objectivity; with b ← R b Rᵀ the stress must be R τ Rᵀ. Tolerance 1e-10: nine increments of 20 degrees add
-//! only rounding.
+//! Source: objectivity; with b ← R b Rᵀ the stress must be R τ Rᵀ. Tolerance 1e-10: nine increments of 20
+//! degrees add only rounding.
 
 use asperity_mesh::ElementKind;
 use asperity_solver::point::kinematics::Symmetry;

@@ -1,7 +1,9 @@
-//! Claims: two blocks of one body that do not match press each other uniformly (patch test across the contact), and let go of each other.
+//! Claims: two blocks of one body that do not match press each other uniformly (patch test across the
+//! contact), and let go of each other.
 //!
-//! Source: R. L. Taylor, P. Papadopoulos (1991), the contact patch test, here of a surface with itself. Tolerance 1e-9: the
-//! integration points lie between the nodes of the other side, so that a uniform pressure is integrated exactly.
+//! Source: R. L. Taylor, P. Papadopoulos (1991), the contact patch test, here of a surface with itself.
+//! Tolerance 1e-9: the integration points lie between the nodes of the other side, so that a uniform pressure
+//! is integrated exactly.
 
 use asperity_mesh::{ElementKind, Mesh};
 use asperity_solver::body::discrete_body::ToolContact;
@@ -64,7 +66,8 @@ fn a_uniform_pressure_passes_between_blocks_that_do_not_match_and_falls_with_the
             for _ in 0..3 {
                 press(&mut model, &moved, -0.02);
             }
-            // a quarter of the travel is left; the penalty is taken over another surface than on the way in: a few thousandths
+            // a quarter of the travel is left; the penalty is taken over another surface than on the way in:
+            // a few thousandths
             let left = stresses(&model)[0][1] / most;
             assert!((0.23..0.25).contains(&left), "{kind:?} {symmetry:?}: {left} of the pressure is left");
         }

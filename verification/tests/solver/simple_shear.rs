@@ -1,7 +1,8 @@
-//! Claim: simple shear follows the closed form of Hencky elasticity to γ = 4, past the maximum of the shear stress at
-//! γ = 3.02.
+//! Claim: simple shear follows the closed form of Hencky elasticity to γ = 4, past the maximum of the shear
+//! stress at γ = 3.02.
 //!
-//! Source: `simple_shear` (Hoger 1987). Tolerance 1e-10: the field is uniform and elastic, whatever the increments.
+//! Source: `simple_shear` (Hoger 1987). Tolerance 1e-10: the field is uniform and elastic, whatever the
+//! increments.
 
 use asperity_mesh::ElementKind;
 use asperity_solver::body::energy::stored;

@@ -1,10 +1,10 @@
-//! Claim: a table of hardening is the law it was taken from, to the error of its sampling, and two points are linear
-//! hardening; a table with kinks costs Newton's method nothing.
+//! Claim: a table of hardening is the law it was taken from, to the error of its sampling, and two points are
+//! linear hardening; a table with kinks costs Newton's method nothing.
 //!
 //! Source: linear interpolation between the points, constant beyond, as *PLASTIC of Abaqus and CalculiX. Bar:
-//! ε = τ/E + ε_p and τ = σ_y + H ε_p give τ = (σ_y + Hε)/(1 + H/E); tolerance 1e-9, what the local solve leaves.
-//! Asperity: forces are sums of stresses, so that no force differs by more than the largest error of the sampled
-//! stress, besides ten times the tolerance of Newton's method.
+//! ε = τ/E + ε_p and τ = σ_y + H ε_p give τ = (σ_y + Hε)/(1 + H/E); tolerance 1e-9, what the local solve
+//! leaves. Asperity: forces are sums of stresses, so that no force differs by more than the largest error of
+//! the sampled stress, besides ten times the tolerance of Newton's method.
 
 use asperity_material::units::Stress;
 use asperity_material::{Hardening, HardeningLaw, HardeningTable};

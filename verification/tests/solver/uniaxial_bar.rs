@@ -1,7 +1,9 @@
-//! Claim: a bar in tension follows eq. [1] of the paper at total logarithmic strains from 0.002 to 1, force included.
+//! Claim: a bar in tension follows eq. [1] of the paper at total logarithmic strains from 0.002 to 1, force
+//! included.
 //!
-//! Source: `uniaxial::hollomon_stress` (Kirchhoff's stress: the law is an energy in logarithmic strain). Tolerance 1e-9: the
-//! path is straight, so that the return mapping is exact for any increment; what is left is the local solve of the law.
+//! Source: `uniaxial::hollomon_stress` (Kirchhoff's stress: the law is an energy in logarithmic strain).
+//! Tolerance 1e-9: the path is straight, so that the return mapping is exact for any increment; what is left
+//! is the local solve of the law.
 
 use asperity_material::HardeningCurve;
 use asperity_mesh::ElementKind;

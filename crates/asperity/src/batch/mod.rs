@@ -1,7 +1,8 @@
 //! Many runs that do not depend on each other: one journal, one resume, one way to share them among tasks.
 //!
-//! Every finished run is a line of the journal, forced to the disk, under a key that says which run it is. A run that is
-//! found there is not run again, so that a killed batch resumes and a batch that has grown runs only what is new.
+//! Every finished run is a line of the journal, forced to the disk, under a key that says which run it is. A
+//! run that is found there is not run again, so that a killed batch resumes and a batch that has grown runs
+//! only what is new.
 
 pub mod journal;
 
@@ -79,7 +80,7 @@ pub(crate) struct Batch<'a, C, R> {
     pub journal: Option<&'a Path>,
 }
 
-/// How far a batch has come.
+/// The progress of a batch.
 pub(crate) struct Reached<'a, R> {
     /// Runs that are done, those of the journal too.
     pub done: usize,
@@ -93,7 +94,7 @@ pub(crate) struct Reached<'a, R> {
 pub(crate) struct Finished<R> {
     /// One for each run that is done, with its number among the cases, in their order.
     pub rows: Vec<(usize, R)>,
-    /// Whether the observer ended it before all were done.
+    /// True where the observer ended it before all were done.
     pub stopped: bool,
 }
 
@@ -167,13 +168,14 @@ pub(crate) fn run<C: Sync, R: Clone + Send + Sync + Serialize + DeserializeOwned
     Ok(Finished { stopped: rows.len() < cases, rows })
 }
 
-/// The results of `one` for all of `open`, each on one thread: what a run does side by side in itself is done one after the
-/// other, unless there are fewer runs than threads. `threads` is how many, 0 for all cores.
+/// The results of `one` for all of `open`, each on one thread: what a run does side by side in itself is done
+/// one after the other, unless there are fewer runs than threads. `threads` is how many, 0 for all cores.
 fn side_by_side<T: Send>(threads: usize, open: &[usize], one: &(dyn Fn(usize) -> T + Sync)) -> Vec<T> {
     let threads = if threads == 0 { rayon::current_num_threads() } else { threads };
     let workers = threads.min(open.len()).max(1);
     let next = AtomicUsize::new(0);
-    // a pool of its own for each: a thread of a common pool that waits for a part of its run would begin another run
+    // a pool of its own for each: a thread of a common pool that waits for a part of its run would begin
+    // another run
     let work = || {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads / workers).build().ok();
         let taken = std::iter::from_fn(|| open.get(next.fetch_add(1, Ordering::Relaxed)).copied());
@@ -223,10 +225,10 @@ pub(crate) fn parts<D: PartialEq, R>(
     joined.ok_or_else(|| InputError::new("no parts were given"))
 }
 
-/// Whether every one of `keys` is among the `found` runs of the parts.
+/// True where every one of `keys` is among the `found` runs of the parts.
 ///
 /// # Errors
-/// How many are missing, and the first of them.
+/// The number of those that are missing, and the first of them.
 pub(crate) fn all_found<R>(keys: &[String], found: &HashMap<String, R>) -> Result<(), InputError> {
     let missing: Vec<&String> = keys.iter().filter(|key| !found.contains_key(*key)).collect();
     let Some(first) = missing.first() else { return Ok(()) };
@@ -252,7 +254,7 @@ pub(crate) fn read<R: DeserializeOwned>(path: &Path, definition: &str) -> io::Re
     Ok(lines.iter().filter_map(|line| serde_json::from_str(line).ok()).collect())
 }
 
-/// How a batch is run; its results do not depend on it.
+/// The way a batch is run; its results do not depend on it.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
     /// Threads, 0: all cores.

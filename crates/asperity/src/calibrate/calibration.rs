@@ -33,9 +33,10 @@ pub struct Calibration {
     pub coefficient: Option<Coefficient>,
     /// The content of `sweep.json`.
     pub sweep: Sweep,
-    /// Whether all cases of the sweep are there: of a part, or of a run that was stopped, only rows and sweep are written.
+    /// True where all cases of the sweep are there: of a part, or of a run that was stopped, only rows and
+    /// sweep are written.
     pub whole: bool,
-    /// Whether the observer ended the run.
+    /// True where the observer ended the run.
     pub stopped: bool,
     /// Seconds it took.
     pub wall_s: f64,
@@ -48,7 +49,8 @@ pub struct Calibration {
 
 /// Crushes the cones of `sweep` and fits them.
 ///
-/// `observer` is told of every case, from the thread that solved it; `false` ends the run, which keeps the rows it has.
+/// `observer` is told of every case, from the thread that solved it; `false` ends the run, which keeps the
+/// rows it has.
 ///
 /// # Errors
 /// Values of the sweep that make no sense; a journal that cannot be written (it keeps every finished case).

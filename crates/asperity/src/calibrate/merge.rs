@@ -12,8 +12,8 @@ use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-/// Reads the sweep file at `path` (without one the sweep of 480 cases) and applies overrides `key.path=value` in
-/// their order.
+/// Reads the sweep file at `path` (without one the sweep of 480 cases) and applies overrides `key.path=value`
+/// in their order.
 ///
 /// # Errors
 /// A file that cannot be read or values that make no sense, pointing at the line.

@@ -9,7 +9,7 @@ use asperity_calibration::sweep::Sweep;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
-/// How a sweep is run; its results do not depend on it.
+/// The way a sweep is run; its results do not depend on it.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
     /// Threads, 0: all cores.
@@ -22,7 +22,7 @@ pub struct Options {
     pub shown_slope_deg: Option<f64>,
 }
 
-/// How far a sweep has come.
+/// The progress of a sweep.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Progress {
     /// Cases that are done.
@@ -41,7 +41,7 @@ pub type Observer<'a> = dyn FnMut(&Progress) -> bool + Send + 'a;
 pub struct Solved {
     /// One row a case that was solved.
     pub rows: Vec<Row>,
-    /// Whether the observer ended the run before all cases were done.
+    /// True where the observer ended the run before all cases were done.
     pub stopped: bool,
 }
 

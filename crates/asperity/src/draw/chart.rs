@@ -1,7 +1,7 @@
 //! Line charts as SVG: labelled with units, legible in print and to colour-blind people.
 //!
-//! Lines differ in colour and in dash, so that either alone tells them apart, unless they say how they look. The legend
-//! stands beside the axes, where no data are.
+//! Lines differ in colour and in dash, so that either alone tells them apart, unless they say how they look.
+//! The legend stands beside the axes, where no data are.
 
 use super::encode::FAMILY;
 use super::palette::{self, Colour};
@@ -22,7 +22,7 @@ pub struct Series {
     pub label: String,
     /// Points (x, y) in the unit of the axes; those that are not finite are left out.
     pub points: Vec<[f64; 2]>,
-    /// Whether each point is marked with a dot.
+    /// True where each point is marked with a dot.
     pub marks: bool,
     /// Its colour; by its place among the lines where none is given.
     pub colour: Option<Colour>,
@@ -32,7 +32,7 @@ pub struct Series {
     pub band: Vec<[f64; 2]>,
 }
 
-/// How a line is broken.
+/// The way a line is broken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Dash {
     /// Not at all.
@@ -53,7 +53,8 @@ impl Series {
         Series { label: label.into(), points, ..Series::default() }
     }
 
-    /// The loading or unloading of a rough surface by a closure: its colour is that of the closure in every chart.
+    /// The loading or unloading of a rough surface by a closure: its colour is that of the closure in every
+    /// chart.
     pub fn of_closure(closure: Closure, unloading: bool, points: Vec<[f64; 2]>) -> Series {
         let (end, dash) = if unloading { (", unloading", Dash::Dashed) } else { ("", Dash::Solid) };
         let label = format!("{}{end}", closure.name());
@@ -76,7 +77,8 @@ pub struct Chart {
     pub y_label: String,
     /// The lines, drawn in this order.
     pub series: Vec<Series>,
-    /// A sentence above the axes, which is also the name of the picture for those who cannot see it; none if empty.
+    /// A sentence above the axes, which is also the name of the picture for those who cannot see it; none if
+    /// empty.
     pub title: String,
 }
 
@@ -125,7 +127,7 @@ pub struct Axis {
     /// Upper end.
     pub high: f64,
     step: f64,
-    /// Whether it holds logarithms; the powers of ten are written.
+    /// True where it holds logarithms; the powers of ten are written.
     logarithmic: bool,
 }
 
@@ -194,7 +196,8 @@ pub enum Sample {
     Mark(RGBColor, Vec<(i32, i32)>),
 }
 
-/// An SVG document: axes of so many pixels that `fill` draws on, [`FINE_PIXELS`] times finer, and the legend to their right.
+/// An SVG document: axes of so many pixels that `fill` draws on, [`FINE_PIXELS`] times finer, and the legend
+/// to their right.
 ///
 /// # Errors
 /// A text for a person where the drawing library fails.
@@ -263,7 +266,7 @@ fn pen(i: usize, series: &Series) -> (RGBColor, [u32; 2]) {
     (rgb(colour), dash.map(|pixels| pixels * FINE_PIXELS))
 }
 
-/// Where the axes of a chart lie in its document, and what they span: left, top, right, lower end of both.
+/// Place of the axes of a chart in its document, and their spans: left, top, right, lower end of both.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Window {
     /// In the units of the document's view box.

@@ -1,11 +1,13 @@
-//! The shared parts of pictures of sections and of maps: the framed window with its axes, the colour bar, the key, the document.
+//! The shared parts of pictures of sections and of maps: the framed window with its axes, the colour bar, the
+//! key, the document.
 
 use super::palette::{Bands, Colour, hex};
 use super::scale;
 use base64::Engine;
 use maud::{Markup, PreEscaped, Render, html};
 
-/// Lines take the colour of the text around them, so that they show on dark ground too; those on the body are dark.
+/// Lines take the colour of the text around them, so that they show on dark ground too; those on the body are
+/// dark.
 const STYLE: &str = ".section text{font:13px \"DejaVu Sans\",system-ui,sans-serif;fill:currentColor}.section .title{font-size:15px}\
 .section .line{fill:none;stroke:currentColor;stroke-width:1}.section .thin{fill:none;stroke:#26303a;stroke-width:.5;opacity:.6}\
 .section .grid{stroke:currentColor;stroke-width:.5;opacity:.2}.section .tool{fill:#8b95a1}.section .on-tool{fill:#fff}\
@@ -70,12 +72,12 @@ impl Frame {
         self.top + self.size[1]
     }
 
-    /// Where `x` lies on paper.
+    /// The place of `x` on paper.
     pub fn x(&self, x: f64) -> f64 {
         ROOM_LEFT + (x - self.low[0]) / (self.high[0] - self.low[0]) * self.size[0]
     }
 
-    /// Where `y` lies on paper.
+    /// The place of `y` on paper.
     pub fn y(&self, y: f64) -> f64 {
         self.top + (self.high[1] - y) / (self.high[1] - self.low[1]) * self.size[1]
     }
@@ -97,8 +99,8 @@ impl Frame {
         }
     }
 
-    /// The frame with ticks; distances from the axis have no sign. Numbers and name of the horizontal axis only on the
-    /// lowest of several windows.
+    /// The frame with ticks; distances from the axis have no sign. Numbers and name of the horizontal axis
+    /// only on the lowest of several windows.
     pub fn axes(&self, names: [&str; 2], lowest: bool) -> Markup {
         let span = [0, 1].map(|k| self.high[k] - self.low[k]);
         let most = [(self.size[0] / 70.0).clamp(2.0, 8.0), (self.size[1] / 34.0).clamp(2.0, 8.0)];

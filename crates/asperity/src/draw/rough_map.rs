@@ -1,6 +1,7 @@
 //! Maps of a rough surface as PNG: heights, pressure, contact by regime, with axes, scale bar and colour key.
 //!
-//! A map is an SVG document around an indexed picture of its cells; the PNG is that document rendered, dot for dot.
+//! A map is an SVG document around an indexed picture of its cells; the PNG is that document rendered, dot
+//! for dot.
 
 use super::encode::{drawing_png, indexed_png};
 use super::frame::{Frame, ROOM_LEFT, ROOM_RIGHT, Short, boxes, document};
@@ -37,7 +38,7 @@ pub struct Map<'a> {
     pub longest: usize,
 }
 
-/// How cells become dots: several cells a dot, or several dots a cell, so that lengths keep their ratio.
+/// The way cells become dots: several cells a dot, or several dots a cell, so that lengths keep their ratio.
 struct Grid {
     cells: [usize; 2],
     dots: [usize; 2],
@@ -138,7 +139,8 @@ impl Grid {
         }
     }
 
-    /// Colours of a scale with the numbers beside the map; `nothing` counts from 1 after the colours of the scale.
+    /// Colours of a scale with the numbers beside the map; `nothing` counts from 1 after the colours of the
+    /// scale.
     fn scaled(&self, bands: &Bands, nothing: Colour) -> (Vec<Colour>, Markup) {
         ([bands.colours.as_slice(), &[nothing]].concat(), self.frame.bar(bands, MIN_SIZE[1]))
     }
@@ -161,8 +163,8 @@ fn quantile(values: &[f32], share: f64) -> f64 {
     f64::from(*value)
 }
 
-/// Pressure in MPa under `nominal_mpa`: colours end at the pressure that 99 % of the loaded pixels do not exceed; no load
-/// is pale.
+/// Pressure in MPa under `nominal_mpa`: colours end at the pressure that 99 % of the loaded pixels do not
+/// exceed; no load is pale.
 ///
 /// # Errors
 /// A picture that cannot be encoded.

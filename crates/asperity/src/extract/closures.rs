@@ -22,7 +22,7 @@ pub(super) struct Closures {
     spaces: Vec<Closure>,
     scene: Scene,
     law: HardeningLaw,
-    /// Why the others are not there.
+    /// The reason why the others are not there.
     pub skipped: Vec<String>,
 }
 

@@ -1,4 +1,5 @@
-//! `compared.svg`: force and contact area of every closure over those of the finite elements, against the slope.
+//! `compared.svg`: force and contact area of every closure over those of the finite elements, against the
+//! slope.
 
 use super::rows::ComparedRow;
 use crate::draw::chart::{Axis, FINE_PIXELS, Failure, INK, Paper, Sample, axes, framed, rgb, titled};

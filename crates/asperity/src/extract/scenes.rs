@@ -17,7 +17,8 @@ fn um(metres: f64) -> String {
     format!("\"{} um\"", digits(metres / MICROMETRE))
 }
 
-/// The table of the metal that is crushed: that of the rough scene; of a hardness alone a third of it, without hardening.
+/// The table of the metal that is crushed: that of the rough scene; of a hardness alone a third of it,
+/// without hardening.
 fn material(material: &Material) -> String {
     let mut text = format!(
         "[material]\nyoungs_modulus = \"{} GPa\"\npoissons_ratio = {}\n",

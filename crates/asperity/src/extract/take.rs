@@ -137,7 +137,7 @@ pub fn extract(scene: &RoughScene, wanted: &Extraction) -> Result<Extracted, Err
     Ok(Extracted { name, surface, separation, closure, asperities, bodies, lines, table, scene, warnings })
 }
 
-/// How many bodies there are, and why not more.
+/// The number of bodies, and the reason why there are not more.
 fn few(found: usize, wanted: usize, table: &[AsperityRow]) -> String {
     let mut reasons: Vec<(String, usize)> = Vec::new();
     for row in table.iter().filter(|row| row.status != "ok" && !row.status.is_empty()) {
@@ -181,7 +181,7 @@ fn way_out(surface: &Surface, wanted: &Extraction) -> Option<String> {
     Some(format!("; {flag} would give {} {profiles}", best.0))
 }
 
-/// How many of the profiles that are asked for there would be.
+/// The number of profiles that there would be of those that are asked for.
 fn profiles_by(surface: &Surface, wanted: &Extraction) -> usize {
     let how = match wanted.parts {
         Parts::Share(share) => {

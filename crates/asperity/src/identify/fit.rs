@@ -32,7 +32,8 @@ pub struct Fit {
 const NOISE: f64 = 0.01;
 /// Standard deviation of the force of a pyramid taken as a cone of the same section.
 const PYRAMID: f64 = 0.04;
-/// Half apex angle of the cone whose section is that of Berkovich's and of Vickers' pyramid at every depth, degrees.
+/// Half apex angle of the cone whose section is that of Berkovich's and of Vickers' pyramid at every depth,
+/// degrees.
 pub const PYRAMIDS_CONE: f64 = 70.3;
 /// Most unknowns of a fit.
 const MOST_UNKNOWNS: usize = 12;
@@ -40,7 +41,8 @@ const MOST_UNKNOWNS: usize = 12;
 const MOST_CURVES: usize = 50;
 
 impl Fit {
-    /// The fit of the file at `path`, with overrides `key.path=value`; files that it names are relative to its folder.
+    /// The fit of the file at `path`, with overrides `key.path=value`; files that it names are relative to
+    /// its folder.
     ///
     /// # Errors
     /// A file that cannot be read or makes no sense, pointing at its line.

@@ -1,11 +1,12 @@
-//! From measured force-depth curves to the metal: what E, σ_y and n it has, how sure that is, and whether these curves can tell
-//! at all.
+//! From measured force-depth curves to the metal: what E, σ_y and n it has, how sure that is, and whether
+//! these curves can tell at all.
 //!
-//! In the order of the data: the file of the fit (`file`, `sought`), the tables of instruments (`instrument`) and their curves
-//! made ready (`measured`), checked into a [`Fit`] (`fit`, `parameters`); what finite elements answer to one metal (`response`) and
-//! between metals (`emulator`); a measurement with its covariance (`experiment`), all of them (`objective`); the search
-//! (`search`, `minimise`); intervals (`profile`), samples (`posterior`), and what cannot be seen (`verdict`); the result
-//! and its files (`stress_strain`, `result`, `pictures`, `report`).
+//! In the order of the data: the file of the fit (`file`, `sought`), the tables of instruments (`instrument`)
+//! and their curves made ready (`measured`), checked into a [`Fit`] (`fit`, `parameters`); what finite
+//! elements answer to one metal (`response`) and between metals (`emulator`); a measurement with its
+//! covariance (`experiment`), all of them (`objective`); the search (`search`, `minimise`); intervals
+//! (`profile`), samples (`posterior`), and what cannot be seen (`verdict`); the result and its files
+//! (`stress_strain`, `result`, `pictures`, `report`).
 
 mod fit;
 
@@ -31,7 +32,8 @@ use crate::error::Error;
 /// `observer` hears the share that is done and what is being done; `false` ends the run.
 ///
 /// # Errors
-/// Finite elements that have no answer near the best fit, bounds without a metal, or an observer that ended the run.
+/// Finite elements that have no answer near the best fit, bounds without a metal, or an observer that ended
+/// the run.
 ///
 /// # Examples
 /// ```

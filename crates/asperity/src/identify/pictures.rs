@@ -1,4 +1,5 @@
-//! Pictures of an identification: measured points with fit and residual, the stress-strain band, the map of the objective.
+//! Pictures of an identification: measured points with fit and residual, the stress-strain band, the map of
+//! the objective.
 
 use crate::draw::chart::{
     Axis, Chart, Dash, FINE_PIXELS, INK, Sample, Series, axes, draw, framed, rgb, titled,

@@ -1,4 +1,5 @@
-//! The result of an identification: numbers with their intervals, the stress-strain curve with its band, the verdict, and the files.
+//! The result of an identification: numbers with their intervals, the stress-strain curve with its band, the
+//! verdict, and the files.
 
 use super::fit::Fit;
 use super::pictures;
@@ -36,10 +37,10 @@ pub struct Found {
     pub high: f64,
     /// Unit of the three.
     pub unit: &'static str,
-    /// Whether the measurements tell it: an interval within ±15 % (±0.05 of n) that no bound cuts, neither its own nor that of an
-    /// unknown it is tied to.
+    /// True where the measurements tell it: an interval within ±15 % (±0.05 of n) that no bound cuts, neither
+    /// its own nor that of an unknown it is tied to.
     pub identifiable: bool,
-    /// Whether the lower and the upper end are the bounds of the search.
+    /// True where the lower and the upper end are the bounds of the search.
     pub at_bound: [bool; 2],
 }
 
@@ -48,11 +49,12 @@ pub struct Found {
 pub struct Residual {
     /// Sum of squares in standard deviations.
     pub chi2: f64,
-    /// Whether that is no more than chance allows.
+    /// True where that is no more than chance allows.
     pub fits: bool,
     /// Measured numbers less unknowns.
     pub degrees_of_freedom: i64,
-    /// Of each measurement: name, root mean square of the relative differences of its forces (features), noise used.
+    /// Of each measurement: name, root mean square of the relative differences of its forces (features),
+    /// noise used.
     pub curves: Vec<CurveResidual>,
 }
 
@@ -106,7 +108,8 @@ pub struct Identification {
 
 /// Plastic strains of the stress-strain curve.
 const STRAINS: [f64; 13] = [0.0, 0.002, 0.005, 0.01, 0.02, 0.033, 0.05, 0.066, 0.1, 0.15, 0.2, 0.25, 0.3];
-/// Factors by which the noise of a curve that states none may change from one round to the next without another round.
+/// Factors by which the noise of a curve that states none may change from one round to the next without
+/// another round.
 const SETTLED_NOISE_FACTOR: f64 = 1.15;
 
 pub(super) fn identify(
@@ -142,7 +145,8 @@ fn assumed(fit: &Fit) -> Option<String> {
     })
 }
 
-/// Takes the noise of curves that state none from the scatter of their loading about the fit; whether one changed.
+/// Takes the noise of curves that state none from the scatter of their loading about the fit; whether one
+/// changed.
 fn noise_from_scatter(experiments: &mut [Experiment], unknowns: &Unknowns, point: &[f64]) -> bool {
     let mut changed = false;
     for experiment in experiments.iter_mut().filter(|e| !e.noise_given) {
@@ -286,8 +290,8 @@ fn residual(experiments: &[Experiment], unknowns: &Unknowns, best: &Minimum) -> 
     Some(Residual { chi2: best.chi2, fits: fits(best.chi2, degrees_of_freedom), degrees_of_freedom, curves })
 }
 
-/// Whether a sum of squares lies within three standard deviations of what is expected of so many degrees of freedom; that of
-/// none has to be small.
+/// True where a sum of squares lies within three standard deviations of what is expected of so many degrees
+/// of freedom; that of none has to be small.
 fn fits(chi2: f64, freedom: i64) -> bool {
     let free = freedom.max(0) as f64;
     chi2 <= free + 3.0 * (2.0 * free).sqrt() + 4.0
@@ -431,7 +435,8 @@ impl Identification {
         svg(&pictures::stress_strain(&self.stress_strain)).map_err(Error::Unfinished)
     }
 
-    /// `objective.svg`: the map of the sum of squares over two unknowns, the others at their best; none with one unknown.
+    /// `objective.svg`: the map of the sum of squares over two unknowns, the others at their best; none with
+    /// one unknown.
     ///
     /// # Errors
     /// A drawing that fails.

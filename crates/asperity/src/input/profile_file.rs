@@ -6,8 +6,8 @@
 //! 0,20.0
 //! 0.5,19.98
 //! ```
-//! Places under `r` or `x` and heights under `z`, each with its unit; other columns are left out. Points may stand from the
-//! outside inward too.
+//! Places under `r` or `x` and heights under `z`, each with its unit; other columns are left out. Points may
+//! stand from the outside inward too.
 
 use crate::error::InputError;
 use crate::input::table_file::TableFile;
@@ -32,7 +32,7 @@ pub struct ReadProfile {
     lines: Vec<usize>,
 }
 
-/// Which table of a scene names a file, under which key.
+/// The table of a scene that names a file, and the key.
 struct Named {
     table: String,
     key: &'static str,

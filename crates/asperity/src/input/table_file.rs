@@ -52,8 +52,8 @@ impl TableFile {
         InputError::new(message).pointing_at(&self.name, &self.text, start..self.text.len())
     }
 
-    /// An error of the scene about the `values` that stand in the place of this table: at the line of its point, whose `lines`
-    /// are given, or about the table as a whole.
+    /// An error of the scene about the `values` that stand in the place of this table: at the line of its
+    /// point, whose `lines` are given, or about the table as a whole.
     pub fn point_at(
         &self,
         scene: &TomlFile<Scene>,

@@ -137,7 +137,7 @@ impl ClosureContact {
         }
     }
 
-    /// Whether unloading follows the load curve back.
+    /// True where unloading follows the load curve back.
     pub fn returns_everything(&self) -> bool {
         self.either(|i| i.law.returns_everything(), |s| s.body.limit.is_none()).unwrap_or(true)
     }

@@ -31,7 +31,7 @@ pub struct Rough {
     pub contacts: Vec<ClosureContact>,
 }
 
-/// How far a press has come.
+/// The progress of a press.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Progress {
     /// Share of the work that is done, 0 to 1.
@@ -45,8 +45,9 @@ pub struct Progress {
 /// `observer` is asked before each closure; `false` ends the run, which keeps the closures that were done.
 ///
 /// # Errors
-/// A scene that makes no sense, a surface that cannot be read, a closure without its material or its calibration, a
-/// load that the surface cannot carry. Of a scene with all closures those that cannot be used are warnings.
+/// A scene that makes no sense, a surface that cannot be read, a closure without its material or its
+/// calibration, a load that the surface cannot carry. Of a scene with all closures those that cannot be used
+/// are warnings.
 pub fn press(scene: &RoughScene, observer: &mut dyn FnMut(&Progress) -> bool) -> Result<Rough, Error> {
     let start = Instant::now();
     scene.validate()?;
@@ -91,9 +92,9 @@ impl Rough {
         self.contacts.iter().find(|one| one.closure == closure)
     }
 
-    /// Distance of plane and surface at each node, m, row by row: 0 in contact, NaN where nothing was measured or the closure has
-    /// no contact. On a half-space the surface is the deformed one; closures with islands move no metal beside them, so there
-    /// it is the surface before it was pressed.
+    /// Distance of plane and surface at each node, m, row by row: 0 in contact, NaN where nothing was
+    /// measured or the closure has no contact. On a half-space the surface is the deformed one; closures with
+    /// islands move no metal beside them, so there it is the surface before it was pressed.
     pub fn gap(&self, one: &ClosureContact) -> Vec<f64> {
         let heights = self.surface.map.heights();
         match &one.body {

@@ -95,7 +95,8 @@ impl Rough {
         self.write_surface(sink)
     }
 
-    /// Writes table.csv, load_curve.csv, bearing.csv, spectrum.csv, gaps.csv, summary.json and the charts alone.
+    /// Writes table.csv, load_curve.csv, bearing.csv, spectrum.csv, gaps.csv, summary.json and the charts
+    /// alone.
     ///
     /// # Errors
     /// A disk that refuses.
@@ -120,8 +121,8 @@ impl Rough {
         sink.text("summary.json", &self.json()?)
     }
 
-    /// Pictures of every closure, and contact.vti with all of them: arrays begin with the closure's name. Those of a
-    /// half-space are on the nodes, whose pixels carry them, the others on the cells between.
+    /// Pictures of every closure, and contact.vti with all of them: arrays begin with the closure's name.
+    /// Those of a half-space are on the nodes, whose pixels carry them, the others on the cells between.
     fn write_maps(&self, sink: &mut dyn Sink) -> Result<(), Error> {
         let map = &self.surface.map;
         let [columns, rows] = cells(map);
@@ -149,7 +150,8 @@ impl Rough {
         image.write(&file, [columns, rows], spacing).map_err(refused)
     }
 
-    /// Pressure and contact of one closure as PNG, no side longer than `longest` dots; returns the numbers they show.
+    /// Pressure and contact of one closure as PNG, no side longer than `longest` dots; returns the numbers
+    /// they show.
     ///
     /// # Errors
     /// A disk that refuses.

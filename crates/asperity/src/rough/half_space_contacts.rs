@@ -7,7 +7,8 @@ use crate::rough::rough_scene::RoughScene;
 use asperity_roughness::half_space::{HalfSpace, HalfSpaceContact, HalfSpaceError, PressureLimit};
 use asperity_roughness::{Closure, Load, Surface};
 
-/// Contacts on half-spaces that were found, for those that are asked for again, and the limit of pressure of the metal on this surface.
+/// Contacts on half-spaces that were found, for those that are asked for again, and the limit of pressure of
+/// the metal on this surface.
 #[derive(Default)]
 pub(super) struct HalfSpaceContacts {
     limit: Option<Option<PressureLimit>>,
@@ -15,7 +16,8 @@ pub(super) struct HalfSpaceContacts {
 }
 
 impl HalfSpaceContacts {
-    /// The largest pressure that the metal bears under the patches of `surface` at `load`; None where nothing of its strength is known.
+    /// The largest pressure that the metal bears under the patches of `surface` at `load`; None where nothing
+    /// of its strength is known.
     ///
     /// # Errors
     /// A calibration that cannot be read, of metal whose law of hardening is that of the calibration.
@@ -37,7 +39,7 @@ impl HalfSpaceContacts {
     /// The contact of `surface` at `load`, found once.
     ///
     /// # Errors
-    /// Why the half-space has none.
+    /// The reason why the half-space has none.
     pub fn contact(
         &mut self,
         body: &HalfSpace,
@@ -53,8 +55,8 @@ impl HalfSpaceContacts {
     }
 }
 
-/// Area and mean pressure of each closure over those of the half-space with the same metal: elastic for "sneddon", with its
-/// limit of pressure for the others.
+/// Area and mean pressure of each closure over those of the half-space with the same metal: elastic for
+/// "sneddon", with its limit of pressure for the others.
 pub(super) fn compare_with_half_space(
     contacts: &mut [ClosureContact],
     scene: &RoughScene,

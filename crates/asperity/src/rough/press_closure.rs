@@ -32,7 +32,7 @@ struct Pressed {
     warnings: Warnings,
 }
 
-/// Why a closure has no contact.
+/// The reason why a closure has no contact.
 enum PressError {
     /// The scene makes no sense, whatever its other closures do.
     Input(InputError),
@@ -50,8 +50,8 @@ enum PressError {
     },
 }
 
-/// The contact by `closure` with its warnings; of a scene with all closures, one that lacks its material is a warning alone
-/// and one that cannot carry the load says so in its row.
+/// The contact by `closure` with its warnings; of a scene with all closures, one that lacks its material is a
+/// warning alone and one that cannot carry the load says so in its row.
 pub(super) fn press_by(
     closure: Closure,
     scene: &RoughScene,
@@ -82,7 +82,7 @@ impl Task<'_> {
         self.scene.error(&SceneError::new(key, message))
     }
 
-    /// What the scene makes of a closure: its row, a row without numbers, a warning alone, or the end.
+    /// Outcome of a closure in its scene: its row, a row without numbers, a warning alone, or the end.
     fn contact_or_warning(
         &self,
         closure: Closure,

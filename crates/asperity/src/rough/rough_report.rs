@@ -14,7 +14,8 @@ use maud::{Markup, html};
 const MAX_SIDE_DOTS: usize = 800;
 
 impl Rough {
-    /// The contact as one page that stands alone: the verdict, every closure beside the others, load curves, maps.
+    /// The contact as one page that stands alone: the verdict, every closure beside the others, load curves,
+    /// maps.
     ///
     /// # Errors
     /// A drawing that fails.

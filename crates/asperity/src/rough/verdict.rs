@@ -13,14 +13,15 @@ use std::fmt::Write;
 
 /// A closure whose area is nearer than this to the half-space's may be believed.
 const BELIEVED_AREA_ERROR: f64 = 0.1;
-/// Relative error of the half-space's area above which it is no measure of closures: half of what they may be off.
+/// Relative error of the half-space's area above which it is no measure of closures: half of what they may be
+/// off.
 const KNOWN_AREA_ERROR: f64 = 0.05;
 /// Share of a closure's load outside its range above which an area that fits is chance.
 const MAX_LOAD_OUTSIDE: f64 = 0.2;
 
 impl Rough {
-    /// The verdict of the half-space, in words, or the load that could be carried where no closure of islands carries that asked
-    /// for; `None` where there is neither.
+    /// The verdict of the half-space, in words, or the load that could be carried where no closure of islands
+    /// carries that asked for; `None` where there is neither.
     pub fn verdict(&self) -> Option<String> {
         let said = [self.of_half_space(), overload(&self.contacts)];
         let said: Vec<String> = said.into_iter().flatten().collect();
@@ -74,7 +75,7 @@ fn overload(contacts: &[ClosureContact]) -> Option<String> {
     ))
 }
 
-/// Which closure has the area of the half-space, or why that cannot be told.
+/// The closure that has the area of the half-space, or the reason why that cannot be told.
 fn belief(contacts: &[ClosureContact], area: &Area) -> Option<String> {
     let islands = contacts.iter().filter_map(|one| Some((one.name(), one.islands()?)));
     let judged = islands.map(|(name, one)| ComparedClosure {
@@ -97,7 +98,8 @@ struct ComparedClosure {
     outside: f64,
 }
 
-/// The sentence on the closure whose area is nearest, where that of the half-space is known up to the share `error`.
+/// The sentence on the closure whose area is nearest, where that of the half-space is known up to the share
+/// `error`.
 fn judgement(judged: &[ComparedClosure], error: f64) -> Option<String> {
     let nearest = judged.iter().min_by(|a, b| a.ratio.ln().abs().total_cmp(&b.ratio.ln().abs()))?;
     let ComparedClosure { name, ratio, outside } = *nearest;

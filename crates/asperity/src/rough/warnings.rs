@@ -47,13 +47,14 @@ fn two_materials(scene: &Scene) -> Option<String> {
     (!(0.8..=1.25).contains(&ratio)).then_some(text)
 }
 
-/// The largest step across the seam of a periodic map, over that between neighbours, that is taken without a word.
+/// The largest step across the seam of a periodic map, over that between neighbours, that is taken without a
+/// word.
 const MAX_SEAM_STEP: f64 = 4.0;
 /// Standard deviations above the mean beyond which the highest point looks like an error of measurement.
 const SPIKE_DEVIATIONS: f64 = 8.0;
 
-/// Mean slopes (degrees) beyond which a map looks like one in the wrong unit: lapped and polished surfaces lie above the lower, ground
-/// and blasted ones below the upper.
+/// Mean slopes (degrees) beyond which a map looks like one in the wrong unit: lapped and polished surfaces
+/// lie above the lower, ground and blasted ones below the upper.
 const USUAL_SLOPES_DEG: [f64; 2] = [0.02, 45.0];
 
 /// A surface or a load that looks like a slip.

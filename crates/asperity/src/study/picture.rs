@@ -1,7 +1,8 @@
 //! `study.svg`: one result over the varied keys.
 //!
-//! One key: a line. Two: a line for each value of the second one; points in the colour of the second one where they are
-//! drawn or where it has more values than lines can be told apart. More keys: points over the first one.
+//! One key: a line. Two: a line for each value of the second one; points in the colour of the second one
+//! where they are drawn or where it has more values than lines can be told apart. More keys: points over the
+//! first one.
 
 use super::row::Run;
 use super::vary::Vary;

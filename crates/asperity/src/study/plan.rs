@@ -184,8 +184,8 @@ impl Plan {
     /// A study of `subject`.
     ///
     /// # Errors
-    /// Nothing to vary, values that cannot be combined, and a value that makes no sense with any of the others that it is
-    /// tried with; a combination that makes no sense is a row with its reason.
+    /// Nothing to vary, values that cannot be combined, and a value that makes no sense with any of the
+    /// others that it is tried with; a combination that makes no sense is a row with its reason.
     pub fn new(subject: Subject, vary: Vec<Vary>, sample: Sample) -> Result<Plan, Error> {
         let points = Points::new(&vary, sample)?;
         let (scene, heights) = subject.text()?;
@@ -216,7 +216,7 @@ impl Plan {
         self
     }
 
-    /// How many runs it has.
+    /// The number of its runs.
     pub fn runs(&self) -> usize {
         self.points.len()
     }

@@ -1,4 +1,5 @@
-//! Which values the keys of a study take in each run: every combination, values in step, or points drawn from ranges.
+//! The values that the keys of a study take in each run: every combination, values in step, or points drawn
+//! from ranges.
 
 use super::vary::{Values, Vary, wrong};
 use crate::error::InputError;
@@ -7,7 +8,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use serde::{Deserialize, Serialize};
 
-/// How the values of several keys are combined.
+/// The way the values of several keys are combined.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Sample {
     /// Every combination; the last key runs fastest.
@@ -17,14 +18,14 @@ pub enum Sample {
     List,
     /// A Latin hypercube: in every key one point in each of equally many equal parts.
     Lhs {
-        /// How many.
+        /// Their number.
         points: usize,
         /// Other seeds draw other points.
         seed: u64,
     },
     /// The first points of Sobol's sequence; more of them continue it.
     Sobol {
-        /// How many.
+        /// Their number.
         points: usize,
     },
 }
@@ -53,8 +54,8 @@ enum Kind {
 
 impl Points {
     /// # Errors
-    /// No keys, a key that stands twice, ranges with or without a number of values where they need it otherwise, lists of
-    /// different lengths, no points or too many.
+    /// No keys, a key that stands twice, ranges with or without a number of values where they need it
+    /// otherwise, lists of different lengths, no points or too many.
     pub fn new(vary: &[Vary], sample: Sample) -> Result<Points, InputError> {
         if vary.is_empty() {
             let help = "give --vary KEY=V1,V2,… or a [vary] table, for example --vary material.hardening_exponent=0,0.1,0.2";
@@ -108,7 +109,7 @@ impl Points {
         Ok(Points { vary: vary.to_vec(), kind, len })
     }
 
-    /// How many.
+    /// Their number.
     pub fn len(&self) -> usize {
         self.len
     }

@@ -21,14 +21,14 @@ pub struct Study {
     pub keys: Vec<String>,
     /// One for every run, in the order of the plan: `results.csv` and `times.csv`.
     pub runs: Vec<Run>,
-    /// Whether the observer ended the study before all runs were done.
+    /// True where the observer ended the study before all runs were done.
     pub stopped: bool,
     /// Seconds it took.
     pub wall_s: f64,
     definition: Definition,
 }
 
-/// How far a study has come.
+/// The progress of a study.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Progress {
     /// Runs that are done, those found in the folder too.
@@ -48,12 +48,12 @@ const CURVES: &str = "curves";
 
 /// Runs all that the folder of `options` does not hold yet, a thread a run.
 ///
-/// `observer` is asked at the beginning, as runs go on and when they end, from the thread that runs them; `false` ends the
-/// study, which keeps the runs that are done.
+/// `observer` is asked at the beginning, as runs go on and when they end, from the thread that runs them;
+/// `false` ends the study, which keeps the runs that are done.
 ///
 /// # Errors
-/// A folder that cannot be written (it keeps every finished run), or curves without a folder. A run that fails is a row
-/// with its reason.
+/// A folder that cannot be written (it keeps every finished run), or curves without a folder. A run that
+/// fails is a row with its reason.
 ///
 /// # Examples
 /// ```

@@ -30,9 +30,9 @@ pub struct Range {
     pub ends: [f64; 2],
     /// Their unit, empty for a pure number.
     pub unit: String,
-    /// How many values, both ends among them; none where they are drawn.
+    /// The number of values, both ends among them; none where they are drawn.
     pub count: Option<usize>,
-    /// Whether steps are equal in the logarithm.
+    /// True where steps are equal in the logarithm.
     pub logarithmic: bool,
 }
 
@@ -121,7 +121,7 @@ impl Vary {
         }
     }
 
-    /// Whether its values belong on a logarithmic axis.
+    /// True where its values belong on a logarithmic axis.
     pub(super) fn logarithmic(&self) -> bool {
         matches!(&self.values, Values::Range(range) if range.logarithmic)
     }

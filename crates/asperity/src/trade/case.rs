@@ -62,7 +62,7 @@ pub struct Finished {
     pub outcome: Result<Measured, String>,
 }
 
-/// Why a setting has no result.
+/// The reason why a setting has no result.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum TradeError {
     /// The run stopped, and would again.
@@ -84,7 +84,7 @@ pub fn measure(setting: &Setting, scene: &Scene) -> Result<Measured, TradeError>
 /// Runs `scene` as it is.
 ///
 /// # Errors
-/// Where and why the run stopped.
+/// The place where the run stopped, and the reason.
 pub fn solve(scene: &Scene) -> Result<Measured, String> {
     let (clock, core) = (Instant::now(), ThreadTime::now());
     let outcome = run(scene, None, &mut |_| ControlFlow::Continue(())).map_err(|e| e.to_string())?;

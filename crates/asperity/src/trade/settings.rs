@@ -1,4 +1,5 @@
-//! Which discretisations a trade runs: each number by itself around each level, and combinations that fill the space.
+//! The discretisations that a trade runs: each number by itself around each level, and combinations that fill
+//! the space.
 
 use asperity_material::units::rounded;
 use asperity_simulation::scene::{Accuracy, ContactMethod, ElementChoice, Numerics, Scene};
@@ -21,7 +22,7 @@ pub enum Knob {
     Contact,
     /// The penetration that sets the penalty.
     Penetration,
-    /// Where Newton's method stops.
+    /// The residual at which Newton's method stops.
     Tolerance,
     /// Size of the substrate.
     Domain,
@@ -45,7 +46,8 @@ pub struct Setting {
 /// The levels from coarse to fine.
 pub const LEVELS: [Accuracy; 3] = [Accuracy::Draft, Accuracy::Standard, Accuracy::Reference];
 
-/// Accuracies between the levels, run as they are; to the last digit what "0.7%" is read as, by which a journal finds them.
+/// Accuracies between the levels, run as they are; to the last digit what "0.7%" is read as, by which a
+/// journal finds them.
 const ACCURACIES_BETWEEN: [Accuracy; 4] = [
     Accuracy::Within(3.0 / 100.0),
     Accuracy::Within(2.0 / 100.0),
@@ -53,8 +55,8 @@ const ACCURACIES_BETWEEN: [Accuracy; 4] = [
     Accuracy::Within(0.4 / 100.0),
 ];
 
-/// An element of a linear mesh is smaller by this factor where it has as many unknowns as a quadratic one: a quadratic
-/// element brings three nodes, a linear one brings one.
+/// An element of a linear mesh is smaller by this factor where it has as many unknowns as a quadratic one: a
+/// quadratic element brings three nodes, a linear one brings one.
 const LINEAR_FINENESS: f64 = 1.732;
 
 impl Setting {
@@ -125,8 +127,8 @@ fn fixed(scene: &Scene, setting: Setting) -> Setting {
 
 /// A level and each of its numbers changed by itself.
 ///
-/// Around the finest level, whose runs are the longest, only to the cheaper side: finer than that is the converged value
-/// alone, and what the other element and multipliers cost shows at the other levels.
+/// Around the finest level, whose runs are the longest, only to the cheaper side: finer than that is the
+/// converged value alone, and what the other element and multipliers cost shows at the other levels.
 fn settings_around(scene: &Scene, accuracy: Accuracy) -> Vec<Setting> {
     let base = level(scene, accuracy);
     let finest = accuracy == Accuracy::Reference;
@@ -175,8 +177,8 @@ fn scale_real(value: &mut Option<f64>, factor: f64, [low, high]: [f64; 2]) {
     *value = value.map(|v| rounded(v * factor, 3).clamp(low, high));
 }
 
-/// Combination `i`: a point of the additive recurrence of the generalised golden ratio in seven dimensions (the real root
-/// g of x⁸ = x + 1, steps g⁻ᵏ), which fills the cube evenly however many points are taken.
+/// Combination `i`: a point of the additive recurrence of the generalised golden ratio in seven dimensions
+/// (the real root g of x⁸ = x + 1, steps g⁻ᵏ), which fills the cube evenly however many points are taken.
 fn mixed(scene: &Scene, i: usize) -> Setting {
     let golden = (0..60).fold(1.5_f64, |x, _| (1.0 + x).powf(1.0 / 8.0));
     let at = |k: i32| (0.5 + (i + 1) as f64 * golden.powi(-k)).fract();

@@ -28,7 +28,7 @@ fn shortened(word: &str) -> String {
     if start.len() < word.len() { format!("{start}…") } else { start }
 }
 
-/// Whether a line names the columns of a list of points.
+/// True where a line names the columns of a list of points.
 fn is_title(line: &str) -> bool {
     let names: Vec<String> = words(line.trim()).iter().map(|w| w.to_ascii_lowercase()).collect();
     names == ["x", "y", "z"]

@@ -23,7 +23,8 @@ struct Sides {
 }
 
 impl Sides {
-    /// Takes the sides of a block into the row: its left side is welded to the right side of the block before.
+    /// Takes the sides of a block into the row: its left side is welded to the right side of the block
+    /// before.
     fn join(&mut self, grid: &mut Grid, [left, bottom, right]: &[Vec<u32>; 3]) {
         if self.right.is_empty() {
             self.left.clone_from(left);
@@ -86,8 +87,8 @@ pub fn add(grid: &mut Grid, plan: &Plan) -> Ring {
     sides.ring(grid, plan, rectangle, depths.len() - 1)
 }
 
-/// The cell under one contact, as deep as the row: a core and the shells around it. Its nodes down the left, along the bottom and
-/// down the right.
+/// The cell under one contact, as deep as the row: a core and the shells around it. Its nodes down the left,
+/// along the bottom and down the right.
 fn cell(grid: &mut Grid, plan: &Plan, contact: &Contact, halved: bool, row_depth: f64) -> [Vec<u32>; 3] {
     let half = core_half_width(plan, contact);
     let core = Rectangle {
@@ -127,9 +128,9 @@ fn shells(plan: &Plan, contact: &Contact, halved: bool, half: f64, depths: [f64;
     stations[1..].iter().map(shell).collect()
 }
 
-/// A block of plain columns over [from, to], its nodes down the left, along the bottom and down the right; nothing if
-/// the interval is empty. Columns widen from the feet of cells at its ends; between two cells its middle is a node, so
-/// that the two halves are the blocks that symmetric sides would leave.
+/// A block of plain columns over [from, to], its nodes down the left, along the bottom and down the right;
+/// nothing if the interval is empty. Columns widen from the feet of cells at its ends; between two cells its
+/// middle is a node, so that the two halves are the blocks that symmetric sides would leave.
 fn plain_block(grid: &mut Grid, plan: &Plan, [from, to]: [f64; 2], depths: &[f64]) -> Option<[Vec<u32>; 3]> {
     let width = to - from;
     if width <= 1e-9 * (plan.row[1] - plan.row[0]) {
@@ -153,8 +154,8 @@ fn plain_block(grid: &mut Grid, plan: &Plan, [from, to]: [f64; 2], depths: &[f64
     Some([nodes[0].clone(), under, nodes[columns.len() - 1].clone()])
 }
 
-/// The rectangles around a row of cells, out to where shells end. Next to the row, where all its loads add up, they are
-/// as fine as the grading asks for.
+/// The rectangles around a row of cells, out to where shells end. Next to the row, where all its loads add
+/// up, they are as fine as the grading asks for.
 pub fn rectangles_around(plan: &Plan, inner: Rectangle) -> Vec<Rectangle> {
     let end = shell_limit(plan, inner);
     let stations =

@@ -16,15 +16,17 @@ pub struct Foot {
     pub slope: f64,
     /// Second derivative there; 0 beyond the ends.
     pub bend: f64,
-    /// Whether it is a kink, whose distance is that of a point.
+    /// True where it is a kink, whose distance is that of a point.
     pub corner: bool,
 }
 
 impl Outline {
-    /// The foot of the point (`x`, `drop`) near to it: down the gradient of the distance from the foot straight above or
-    /// below. Exact; the nearest of all where the point lies within the least radius of curvature of the curve.
+    /// The foot of the point (`x`, `drop`) near to it: down the gradient of the distance from the foot
+    /// straight above or below. Exact; the nearest of all where the point lies within the least radius of
+    /// curvature of the curve.
     ///
-    /// On a mirrored curve for points with `x` ≥ 0, whose feet lie there too; before a sharp tip its flank goes on.
+    /// On a mirrored curve for points with `x` ≥ 0, whose feet lie there too; before a sharp tip its flank
+    /// goes on.
     pub fn foot(&self, x: f64, drop: f64) -> Foot {
         // half the derivative of the squared distance along the curve
         let along = |arc: &Parabola, s: f64| (s - x) + (arc.drop_at(s) - drop) * arc.slope_at(s);
@@ -63,7 +65,8 @@ impl Outline {
         Foot { x: end + t, drop: z + slope * t, slope, bend: 0.0, corner: false }
     }
 
-    /// The foot on the arc `index`, on which it lies: the root of a cubic, by Newton's method between two bounds.
+    /// The foot on the arc `index`, on which it lies: the root of a cubic, by Newton's method between two
+    /// bounds.
     fn on_arc(&self, index: usize, x: f64, drop: f64) -> Foot {
         let arc = &self.arcs[index];
         let (mut low, mut high) = (arc.x, self.end_of(index));

@@ -6,7 +6,8 @@
 //!      __/ \__                  straight on.
 //!   __/       \__   drop
 //! ```
-//! Each arc is z + s t + b t² in the distance t from its left end, so a gap, a normal and a curvature are exact for it.
+//! Each arc is z + s t + b t² in the distance t from its left end, so a gap, a normal and a curvature are
+//! exact for it.
 
 use std::sync::Arc;
 
@@ -55,13 +56,13 @@ pub struct Outline {
     arcs: Vec<Parabola>,
     /// Right end of the last arc.
     end: f64,
-    /// Whether the left half is the mirror image of the right one, which alone is stored.
+    /// True where the left half is the mirror image of the right one, which alone is stored.
     mirrored: bool,
 }
 
 impl Outline {
-    /// Of `arcs` up to `end`; `mirrored`: they begin at 0 and the left side is their image. `None` without an arc, or where
-    /// they are not in order.
+    /// Of `arcs` up to `end`; `mirrored`: they begin at 0 and the left side is their image. `None` without an
+    /// arc, or where they are not in order.
     pub fn new(arcs: Vec<Parabola>, end: f64, mirrored: bool) -> Option<Outline> {
         let first = arcs.first()?;
         let ordered = arcs.windows(2).all(|a| a[0].x < a[1].x) && arcs.last()?.x < end;
@@ -108,8 +109,8 @@ impl Outline {
         self.drop_and_slope(x)[0]
     }
 
-    /// Distances from 0, left and right, beyond which the curve lies deeper than `depth` for good; infinite where it never
-    /// does.
+    /// Distances from 0, left and right, beyond which the curve lies deeper than `depth` for good; infinite
+    /// where it never does.
     pub fn widths(&self, depth: f64) -> [f64; 2] {
         let right = self.last_above(depth);
         if self.mirrored { [right, right] } else { [self.reversed().last_above(depth), right] }
@@ -189,8 +190,8 @@ impl Outline {
         if arcs.is_empty() { self.clone() } else { Outline { arcs, end: x.min(self.end), ..*self } }
     }
 
-    /// The curve with a straight arc that leads on from its right end to the drop `depth`, at the slope of the end or the mean
-    /// slope of its right side, whichever is steeper; as it is where it is as deep.
+    /// The curve with a straight arc that leads on from its right end to the drop `depth`, at the slope of
+    /// the end or the mean slope of its right side, whichever is steeper; as it is where it is as deep.
     #[must_use]
     pub fn down_to(&self, depth: f64) -> Outline {
         let [drop, slope] = self.drop_and_slope(self.end);
@@ -216,8 +217,8 @@ impl Outline {
         self.extremes().into_iter().fold(f64::NEG_INFINITY, |most, p| most.max(p[1]))
     }
 
-    /// Ends of arcs and the places between them where the curve is level, from left to right (of a mirrored one those of the
-    /// right half), each with its drop.
+    /// Ends of arcs and the places between them where the curve is level, from left to right (of a mirrored
+    /// one those of the right half), each with its drop.
     pub fn extremes(&self) -> Vec<[f64; 2]> {
         let mut places = Vec::new();
         for (i, arc) in self.arcs.iter().enumerate() {
@@ -237,8 +238,8 @@ impl Outline {
         self.arcs.iter().enumerate().map(ends).fold(0.0, f64::max)
     }
 
-    /// Places where the slope jumps by more than `angle`, or the curvature by more than half of its greatest value, from left to
-    /// right.
+    /// Places where the slope jumps by more than `angle`, or the curvature by more than half of its greatest
+    /// value, from left to right.
     pub fn kinks(&self, angle: f64) -> Vec<f64> {
         let sharpest = self.arcs.iter().fold(0.0, |m: f64, a| m.max(a.bend.abs()));
         let turns = |i: usize| {

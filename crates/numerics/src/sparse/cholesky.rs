@@ -1,5 +1,5 @@
-//! Factorisation of the sparse stiffness, front by front: the symbolic analysis once per mesh, numbers in place, nothing allocated
-//! per factorisation or solve.
+//! Factorisation of the sparse stiffness, front by front: the symbolic analysis once per mesh, numbers in
+//! place, nothing allocated per factorisation or solve.
 
 use crate::sparse::failure::FactorError;
 use crate::sparse::front::{Pivots, eliminate};
@@ -42,7 +42,8 @@ struct Numbers {
     scaled: Vec<f64>,
 }
 
-/// Adds the update of a child, whose row i has the place `places[i]` in its parent, to the parent's panel and update.
+/// Adds the update of a child, whose row i has the place `places[i]` in its parent, to the parent's panel and
+/// update.
 fn add_child(child: &[f64], places: &[u32], front: &Front, panel: &mut [f64], update: &mut [f64]) {
     let stride = padded(places.len());
     let pivots = front.size.pivots;
@@ -60,8 +61,8 @@ fn add_child(child: &[f64], places: &[u32], front: &Front, panel: &mut [f64], up
 }
 
 impl Numbers {
-    /// Eliminates the fronts of part `part`, whose children are in it or in `branches`. Returns the number of negative pivots,
-    /// nothing where a pivot is not accepted.
+    /// Eliminates the fronts of part `part`, whose children are in it or in `branches`. Returns the number of
+    /// negative pivots, nothing where a pivot is not accepted.
     fn eliminate(
         &mut self,
         arch: Arch,
@@ -163,8 +164,9 @@ impl Factor {
         self.parts.iter_mut().map(|numbers| &mut numbers.values[..])
     }
 
-    /// Operations of a factorisation and a solve: a column with n entries below its diagonal takes n(n + 1) products and sums
-    /// of its outer product and n divisions; a solve passes twice over every entry. Zeros that merged fronts hold are counted.
+    /// Operations of a factorisation and a solve: a column with n entries below its diagonal takes n(n + 1)
+    /// products and sums of its outer product and n divisions; a solve passes twice over every entry. Zeros
+    /// that merged fronts hold are counted.
     pub fn operations(&self) -> Operations {
         let mut sum = Operations { factor: 0.0, solve: 0.0 };
         for front in &self.tree.fronts {
@@ -218,7 +220,8 @@ mod tests {
     use crate::sparse::large_front::is_large;
     use std::collections::BTreeSet;
 
-    /// The lower triangle of the matrix that couples the two unknowns of all nodes of a cell, its nodes in `order`: all zero.
+    /// The lower triangle of the matrix that couples the two unknowns of all nodes of a cell, its nodes in
+    /// `order`: all zero.
     fn coupled(cells: &[[u32; 4]], order: &[usize]) -> CsMat<f64> {
         let mut place = vec![0; order.len()];
         order.iter().enumerate().for_each(|(k, &node)| place[node] = k);
@@ -237,8 +240,9 @@ mod tests {
         CsMat::new_csc((2 * order.len(), 2 * order.len()), starts, rows, zeros)
     }
 
-    /// A grid of square elements with two unknowns a node, in an order of little fill: its lower triangle, in which every entry off the
-    /// diagonal is some number between -1 and 1, and the diagonal is `excess` larger than the sum of their sizes in its row.
+    /// A grid of square elements with two unknowns a node, in an order of little fill: its lower triangle, in
+    /// which every entry off the diagonal is some number between -1 and 1, and the diagonal is `excess`
+    /// larger than the sum of their sizes in its row.
     fn grid(side: usize, excess: f64) -> CsMat<f64> {
         let node = |i: usize, j: usize| (j * (side + 1) + i) as u32;
         let cells: Vec<[u32; 4]> = (0..side * side)
@@ -321,7 +325,8 @@ mod tests {
         assert!(solution(1) == solution(3));
     }
 
-    /// A diagonal shifted through eigenvalues: the number of negative pivots is that of negative eigenvalues (Sylvester).
+    /// A diagonal shifted through eigenvalues: the number of negative pivots is that of negative eigenvalues
+    /// (Sylvester).
     #[test]
     fn negative_pivots_are_counted_and_refused_by_cholesky() {
         let matrix = grid(6, -8.0);

@@ -65,7 +65,8 @@ row! {
 }
 
 impl SensitivityLine {
-    /// c with the ends of its interval, of all cases and of those in which plasticity is developed; `None`: not determined.
+    /// c with the ends of its interval, of all cases and of those in which plasticity is developed; `None`:
+    /// not determined.
     fn coefficients(&self) -> [Option<[f64; 3]>; 2] {
         let whole = |c: Option<f64>, low: Option<f64>, high: Option<f64>| Some([c?, low?, high?]);
         [whole(self.c, self.low, self.high), whole(self.c_developed, self.low_developed, self.high_developed)]

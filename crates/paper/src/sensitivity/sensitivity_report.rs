@@ -7,7 +7,8 @@ use asperity::page::{self, Report};
 use maud::{Markup, html};
 
 impl Sensitivity {
-    /// The dependence of c as one page that stands alone: its range over all parts of the grid, then every part.
+    /// The dependence of c as one page that stands alone: its range over all parts of the grid, then every
+    /// part.
     ///
     /// # Errors
     /// Lines that JSON cannot hold.

@@ -19,12 +19,13 @@ pub enum Segmentation {
     },
     /// A hill of ISO 25178-2: what drains from one summit, after pruning by Wolf.
     Hills {
-        /// Least rise of a hill above its highest saddle to a higher one, as a share of the height of the surface (Sz).
+        /// Least rise of a hill above its highest saddle to a higher one, as a share of the height of the
+        /// surface (Sz).
         prune: f64,
     },
 }
 
-/// Why there are no asperities.
+/// The reason why there are no asperities.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum FindError {
     /// All heights are equal.
@@ -64,7 +65,7 @@ pub enum FindError {
 pub struct Asperity {
     /// Column and row of its highest node.
     pub summit: [usize; 2],
-    /// Where that lies, from node (0, 0).
+    /// The position of that, from node (0, 0).
     pub position: [f64; 2],
     /// Its highest node above the mean height of the surface.
     pub height: f64,
@@ -80,7 +81,7 @@ pub struct Asperity {
     pub tip: Option<Tip>,
     /// Nodes that it holds.
     pub nodes: usize,
-    /// Whether it reaches the edge of the map or a point that was not measured.
+    /// True where it reaches the edge of the map or a point that was not measured.
     pub cut: bool,
 }
 

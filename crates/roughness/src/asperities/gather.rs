@@ -10,9 +10,9 @@ use crate::surface::height_map::HeightMap;
 pub(super) struct Nodes {
     /// Its highest node.
     pub summit: usize,
-    /// How many there are.
+    /// Their number.
     pub count: usize,
-    /// Whether it reaches the edge of the map or a point that was not measured.
+    /// True where it reaches the edge of the map or a point that was not measured.
     pub cut: bool,
     /// The highest way from it to another asperity, m; that to the lowest node where there is none.
     pub saddle: f64,
@@ -44,7 +44,8 @@ pub(super) fn nodes(map: &HeightMap, labels: &[u32], count: usize) -> Vec<Option
     found
 }
 
-/// Moments of the cells of each of `count` hills about its summit, in pixels: a corner takes a quarter of its cells.
+/// Moments of the cells of each of `count` hills about its summit, in pixels: a corner takes a quarter of its
+/// cells.
 pub(super) fn moments(map: &HeightMap, labels: &[u32], nodes: &[Option<Nodes>]) -> Vec<Moments> {
     let (columns, rows) = (map.columns(), map.rows());
     let inverse_pixel = map.inverse_pixel();

@@ -1,9 +1,11 @@
-//! Hills: the parts of a map from which the steepest way up leads to the same summit (ISO 25178-2), the low ones pruned.
+//! Hills: the parts of a map from which the steepest way up leads to the same summit (ISO 25178-2), the low
+//! ones pruned.
 //!
-//! The nodes are taken from the highest down. One without a higher neighbour founds a hill; every other one belongs to the
-//! hill of its steepest way up. Where parts that were apart meet, the node is the saddle between them: the part with the
-//! lower summit ends there, and if it rises by less than the threshold, its hill goes to the hill beyond the saddle. This
-//! is the pruning of Wolf (1991) on the tree of summits and saddles, lowest branch first, done in one pass.
+//! The nodes are taken from the highest down. One without a higher neighbour founds a hill; every other one
+//! belongs to the hill of its steepest way up. Where parts that were apart meet, the node is the saddle
+//! between them: the part with the lower summit ends there, and if it rises by less than the threshold, its
+//! hill goes to the hill beyond the saddle. This is the pruning of Wolf (1991) on the tree of summits and
+//! saddles, lowest branch first, done in one pass.
 
 use super::NO_ASPERITY;
 use crate::surface::height_map::HeightMap;
@@ -73,8 +75,8 @@ impl Forest {
     }
 }
 
-/// The hill of each node, numbered from the highest summit down, [`NO_ASPERITY`] where nothing was measured; a hill rises by at
-/// least `least` (m) above the highest saddle to a higher one.
+/// The hill of each node, numbered from the highest summit down, [`NO_ASPERITY`] where nothing was measured;
+/// a hill rises by at least `least` (m) above the highest saddle to a higher one.
 pub(super) fn labels(map: &HeightMap, least: f64) -> Vec<u32> {
     let z = map.heights();
     let mut order: Vec<u32> = (0..z.len() as u32).filter(|i| !z[*i as usize].is_nan()).collect();

@@ -8,14 +8,14 @@ use thiserror::Error;
 
 /// Circles have at least so many points.
 const LEAST_POINTS: usize = 16;
-/// How far beyond the radius at the depth a profile goes, as a multiple of it.
+/// The reach of a profile, as a multiple of its radius at the depth.
 const PROFILE_REACH: f64 = 3.0;
 /// A rise by this share of the fall so far ends a profile at the valley before it.
 const VALLEY_RISE: f64 = 0.1;
 /// Points of a profile from the summit to the depth, below which it is made of too few pixels.
 const MIN_PROFILE_POINTS: usize = 4;
 
-/// Why no body of revolution stands for an asperity.
+/// The reason why no body of revolution stands for an asperity.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum ProfileError {
     /// Circles leave the map, or meet a hole, before the depth is reached.
@@ -52,8 +52,9 @@ pub struct RadialProfile {
 }
 
 impl RadialProfile {
-    /// The mean of `map` around the node `summit` (column, row) of an asperity that is to be pressed by `depth` (m). It ends
-    /// at three times the radius where it has fallen by the depth, or in the valley before that.
+    /// The mean of `map` around the node `summit` (column, row) of an asperity that is to be pressed by
+    /// `depth` (m). It ends at three times the radius where it has fallen by the depth, or in the valley
+    /// before that.
     ///
     /// # Errors
     /// A mean that does not fall by the depth, within the map or at all; fewer than four pixels until there.
@@ -137,7 +138,8 @@ impl RadialProfile {
         }
     }
 
-    /// The body alone on a map of `nodes` × `nodes` that reaches `half_width` (m) to each side of its axis, a node on it.
+    /// The body alone on a map of `nodes` × `nodes` that reaches `half_width` (m) to each side of its axis, a
+    /// node on it.
     ///
     /// # Errors
     /// A width that is not possible, fewer than two nodes.

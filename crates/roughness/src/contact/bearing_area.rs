@@ -1,7 +1,7 @@
 //! Area and slope integral above many planes at once, without naming islands.
 //!
-//! For closures linear in tan β the load needs only S(d) = ∫_{h>d} |∇h| dA. It is summed cell by cell at equally
-//! spaced heights (planes) in one pass; a cell that no plane cuts costs one addition.
+//! For closures linear in tan β the load needs only S(d) = ∫_{h>d} |∇h| dA. It is summed cell by cell at
+//! equally spaced heights (planes) in one pass; a cell that no plane cuts costs one addition.
 
 use crate::surface::cells;
 use crate::surface::height_map::{Extent, HeightMap};
@@ -46,7 +46,7 @@ pub struct Planes {
     pub low: f64,
     /// Distance of two planes, above 0.
     pub step: f64,
-    /// How many.
+    /// Their number.
     pub count: usize,
 }
 
@@ -103,7 +103,8 @@ impl Tally {
         }
     }
 
-    /// A quarter of a cell with these heights at its corners: the part above height d is quadratic in d, in two pieces.
+    /// A quarter of a cell with these heights at its corners: the part above height d is quadratic in d, in
+    /// two pieces.
     #[inline]
     fn add_triangle(&mut self, z: [f64; 3], slope: f64) {
         let (least, most) = (z[0].min(z[1]), z[0].max(z[1]));
@@ -177,7 +178,8 @@ fn above_planes_in_rows(map: &HeightMap, planes: Planes, stride: usize) -> Vec<A
     joined(planes, inverse_pixel, parts)
 }
 
-/// Bearing area above each of 64 planes over the whole height: an estimate from some of the rows of a large map.
+/// Bearing area above each of 64 planes over the whole height: an estimate from some of the rows of a large
+/// map.
 pub(crate) fn estimate(map: &HeightMap, extent: &Extent) -> (Planes, Vec<Above>) {
     let planes = Planes::evenly_spaced(extent.low, extent.high, PLANES);
     let stride = if extent.cells > LARGE_MAP_CELLS { SAMPLED_ROW_STRIDE } else { 1 };
@@ -237,12 +239,13 @@ fn is_cut(z: &[f64; 4], low: f64, high: f64) -> bool {
     z[0].max(z[1]).max(z[2].max(z[3])) > low && z[0].min(z[1]).min(z[2].min(z[3])) < high
 }
 
-/// The height d with ∫_{h>d} |∇h| dA = `wanted` (in cells), and what lies above it; None if the whole map has less.
+/// The height d with ∫_{h>d} |∇h| dA = `wanted` (in cells), and what lies above it; None if the whole map has
+/// less.
 ///
-/// 1. Estimate on 64 planes over the whole height; sum on the few planes around the load, or on all if it is not
-///    between those; take the two that bracket the load.
-/// 2. Keep the cells that this bracket cuts; narrow it on those as long as that leaves fewer (where the cells are steep,
-///    nearly all that one plane cuts are also cut by its neighbours).
+/// 1. Estimate on 64 planes over the whole height; sum on the few planes around the load, or on all if it is
+///    not between those; take the two that bracket the load.
+/// 2. Keep the cells that this bracket cuts; narrow it on those as long as that leaves fewer (where the cells
+///    are steep, nearly all that one plane cuts are also cut by its neighbours).
 /// 3. Illinois' rule of false position on those, to a relative residual of 1e-11 or neighbouring numbers.
 pub fn plane_of(map: &HeightMap, extent: &Extent, wanted: f64) -> Option<(f64, Above)> {
     if extent.high <= extent.low || !wanted.is_finite() {

@@ -21,7 +21,7 @@ use serde::{Deserialize, Serialize};
 use std::fmt::Display;
 use thiserror::Error;
 
-/// Why a coefficient cannot be used.
+/// The reason why a coefficient cannot be used.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum CoefficientError {
     /// The text is not what the file should be.
@@ -34,7 +34,7 @@ pub enum CoefficientError {
         "in the coefficient file {name} = {value}, but it must be {allowed}; `asperity calibrate` writes a new one"
     )]
     Value {
-        /// Which value.
+        /// The value.
         name: String,
         /// Its value.
         value: String,
@@ -89,7 +89,7 @@ pub struct Nearest {
     pub tan: f64,
     /// Its X = E* tan β/σ_r.
     pub x: f64,
-    /// Whether slope and stiffness lie inside the calibrated range.
+    /// True where slope and stiffness lie inside the calibrated range.
     pub inside: bool,
 }
 
@@ -150,9 +150,9 @@ impl Coefficient {
 
     /// The entry of the table nearest to a cone of slope `tan_beta` at X = `x`.
     ///
-    /// In each row of the table Y = K tan²β/σ_r is a function of X = E* tan β/σ_r; both are nearly the same for all slopes, so rows
-    /// are read at equal X and mixed linearly in β, in logarithms. A slope outside the rows takes the nearest row, an X outside
-    /// the rows their nearest.
+    /// In each row of the table Y = K tan²β/σ_r is a function of X = E* tan β/σ_r; both are nearly the same
+    /// for all slopes, so rows are read at equal X and mixed linearly in β, in logarithms. A slope outside
+    /// the rows takes the nearest row, an X outside the rows their nearest.
     pub fn nearest(&self, tan_beta: f64, x: f64) -> Nearest {
         let beta = tan_beta.atan().to_degrees();
         let stiffness = x / tan_beta;
@@ -182,7 +182,8 @@ impl Coefficient {
         }
     }
 
-    /// ln X of the first and last place that row `i` and those beside it hold: what lies on lines between such ends is held by both rows.
+    /// ln X of the first and last place that row `i` and those beside it hold: what lies on lines between
+    /// such ends is held by both rows.
     fn ends(&self, i: usize) -> [f64; 2] {
         let beside = &self.angles[i.saturating_sub(1)..(i + 2).min(self.angles.len())];
         let ends = beside.iter().map(SlopeTable::ends);

@@ -2,7 +2,8 @@
 
 use crate::surface::cells::Moments;
 
-/// The ellipse that stands for an island: π a b is its area, its axes follow from the second moments (eq. (14)).
+/// The ellipse that stands for an island: π a b is its area, its axes follow from the second moments (eq.
+/// (14)).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ellipse {
     /// Major and minor semi-axes a ≥ b, in metres.
@@ -17,7 +18,8 @@ pub struct Ellipse {
 const MIN_AXES_RATIO: f64 = 1e-6;
 
 impl Ellipse {
-    /// From the moments of the island about `origin`, in pixels of size `pixel`; None where they span no ellipse.
+    /// From the moments of the island about `origin`, in pixels of size `pixel`; None where they span no
+    /// ellipse.
     pub(crate) fn from_moments(m: &Moments, origin: [f64; 2], pixel: [f64; 2]) -> Option<Ellipse> {
         let (x, y) = (m.x / m.area, m.y / m.area);
         let xx = (m.xx / m.area - x * x) * pixel[0] * pixel[0];

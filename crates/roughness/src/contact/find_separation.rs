@@ -1,4 +1,5 @@
-//! The plane of a closure that is not linear in tan β: its islands have to be found at every plane that is tried.
+//! The plane of a closure that is not linear in tan β: its islands have to be found at every plane that is
+//! tried.
 
 use super::bearing_area::{self, Planes};
 use super::closures::ClosureLaw;
@@ -15,12 +16,15 @@ const SECANTS: usize = 12;
 /// Part of the surface's height below which a bracket is closed.
 const CLOSED_WIDTH: f64 = 1e-13;
 
-/// The plane that carries `pressure`, and whether the load jumps there; the largest load where none carries it.
+/// The plane that carries `pressure`, and whether the load jumps there; the largest load where none carries
+/// it.
 ///
-/// 1. Guess the load above each of some planes from the area and the mean slope there, as if all of it were one island.
+/// 1. Guess the load above each of some planes from the area and the mean slope there, as if all of it were
+///    one island.
 /// 2. Secants of the logarithm of the load, the first with the slope of the guess.
-/// 3. No step leaves the bracket of the planes tried; what does not converge is halved. The load of a closure is
-///    monotone in the plane (it rises with the area and with the slope integral, and merging never lowers it).
+/// 3. No step leaves the bracket of the planes tried; what does not converge is halved. The load of a closure
+///    is monotone in the plane (it rises with the area and with the slope integral, and merging never lowers
+///    it).
 pub(super) fn plane_for(surface: &Surface, model: &ClosureLaw, pressure: f64) -> Result<(f64, bool), f64> {
     let extent = &surface.extent;
     let guess = Guess::from_bearing_area(surface, model, pressure);
@@ -67,7 +71,7 @@ struct Tried {
 struct Bracket {
     low: f64,
     high: f64,
-    /// Whether the lower end is known to carry the load.
+    /// True where the lower end is known to carry the load.
     carries: bool,
     closed: f64,
 }
@@ -105,7 +109,7 @@ impl Bracket {
     }
 }
 
-/// Where the load probably lies.
+/// The separation at which the load probably lies.
 struct Guess {
     plane: f64,
     /// d(ln load)/d(plane) there, below 0.

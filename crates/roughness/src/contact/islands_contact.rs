@@ -12,7 +12,7 @@ use thiserror::Error;
 
 /// Points of the load curve.
 pub const CURVE_POINTS: usize = 64;
-/// Why a surface cannot carry a load.
+/// The reason why a surface cannot carry a load.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum ContactError {
     /// No slope, so no force at any separation.
@@ -68,7 +68,8 @@ pub struct Contact {
     pub pressure: f64,
     /// |ΣF_j/(P A_nom) - 1|; None where no pressure was asked for.
     pub load_error: Option<f64>,
-    /// The load jumps at the separation (islands of a concave closure merge): the residual is that of the nearer side.
+    /// The load jumps at the separation (islands of a concave closure merge): the residual is that of the
+    /// nearer side.
     pub jump: bool,
     /// Contact area over nominal area.
     pub area_ratio: f64,

@@ -54,20 +54,23 @@ pub struct PressureField {
     pub pixels: Vec<LoadedPixel>,
     /// Largest pressure of a pixel, in Pa.
     pub largest: f64,
-    /// Share of the load on islands whose ellipse does not describe them, so that they are uniform; None without load.
+    /// Share of the load on islands whose ellipse does not describe them, so that they are uniform; None
+    /// without load.
     pub uniform_share: Option<f64>,
 }
 
 /// Samples along a side of a pixel.
 const SAMPLES: usize = 4;
-/// An island that lies in its ellipse by less than this part of its area (a bent ridge, a ring) has no ellipse.
+/// An island that lies in its ellipse by less than this part of its area (a bent ridge, a ring) has no
+/// ellipse.
 const DESCRIBED_SHARE: f64 = 0.5;
 
 impl PressureField {
     /// Spreads the forces of `contact` on the cells of `map`.
     ///
-    /// 1. The weight of a pixel is the profile averaged over samples inside the ellipse of the true contact, times the
-    ///    part of the pixel in contact; an island without an ellipse, or mostly outside it, is uniform.
+    /// 1. The weight of a pixel is the profile averaged over samples inside the ellipse of the true contact,
+    ///    times the part of the pixel in contact; an island without an ellipse, or mostly outside it, is
+    ///    uniform.
     /// 2. The weights of an island are scaled so that they sum to its force.
     pub fn distribute(map: &HeightMap, contact: &Contact, profile: PressureProfile) -> PressureField {
         let columns = map.cell_columns() as u32;
@@ -134,7 +137,7 @@ impl PressureField {
     }
 }
 
-/// How the force of an island reaches its pixels.
+/// The way the force of an island reaches its pixels.
 #[derive(Clone, Copy)]
 enum Scale {
     /// Times the weight of the pixel.
@@ -143,7 +146,8 @@ enum Scale {
     Areas(f64),
 }
 
-/// Weight of a piece of an island, and the part of its pixel on the island and inside the ellipse of the contact.
+/// Weight of a piece of an island, and the part of its pixel on the island and inside the ellipse of the
+/// contact.
 fn weigh(piece: &Piece, contact: &Contact, profile: PressureProfile, pixel: [f64; 2]) -> (f64, f64) {
     let island = &contact.islands.islands[piece.island as usize];
     let ratio = contact.responses[piece.island as usize].area_ratio;

@@ -97,7 +97,8 @@ fn an_island_across_the_edges_of_a_periodic_map_is_one() {
     assert!(endless.len() == 1 && endless[0].ellipse.is_none());
 }
 
-/// Two diagonal nodes join only if the mean of their cell is above the plane; each then takes its own triangles.
+/// Two diagonal nodes join only if the mean of their cell is above the plane; each then takes its own
+/// triangles.
 #[test]
 fn a_saddle_joins_only_above_its_middle() {
     let n = 4;

@@ -14,8 +14,8 @@ pub struct Constriction {
 
 /// The critical constriction along `axis`; None where no open path crosses the map.
 ///
-/// The map is flooded from its entry through gaps no narrower than the narrowest that had to be passed yet; where the flood ends,
-/// it goes on through the widest pixel at its shore. Each pixel is met once.
+/// The map is flooded from its entry through gaps no narrower than the narrowest that had to be passed yet;
+/// where the flood ends, it goes on through the widest pixel at its shore. Each pixel is met once.
 pub fn constriction(gap: &Gap, axis: Axis) -> Option<Constriction> {
     let map = Lines::new(gap, axis);
     let mut seen = vec![false; gap.values.len()];
@@ -84,8 +84,8 @@ impl<'a> Lines<'a> {
         if self.along_rows { [x, y] } else { [y, x] }
     }
 
-    /// A number that is the greater the wider the gap, and of equal gaps the earlier the pixel: they never tie, so that the answer
-    /// depends on nothing else. None of a pixel that is closed or was not measured.
+    /// A number that is the greater the wider the gap, and of equal gaps the earlier the pixel: they never
+    /// tie, so that the answer depends on nothing else. None of a pixel that is closed or was not measured.
     fn width(&self, i: usize) -> Option<u64> {
         // the bits of positive numbers rise with them
         (self.values[i] > 0.0)

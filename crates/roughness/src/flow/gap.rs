@@ -21,7 +21,7 @@ pub struct Gap<'a> {
     pub nodes: [usize; 2],
     /// Sides of a pixel, in metres.
     pub pixel: [f64; 2],
-    /// Whether a flow leaves over one side and comes back over the other.
+    /// True where a flow leaves over one side and comes back over the other.
     pub periodic: bool,
     /// Gaps in metres, row by row.
     pub values: &'a [f32],
@@ -34,7 +34,8 @@ impl<'a> Gap<'a> {
         Gap { nodes, pixel: map.pixel(), periodic: map.periodic(), values }
     }
 
-    /// The gaps with the flow along their first axis: what is open, lines of the flow's direction one after the other.
+    /// The gaps with the flow along their first axis: what is open, lines of the flow's direction one after
+    /// the other.
     pub(super) fn oriented(&self, axis: Axis) -> Oriented {
         let [nx, ny] = self.nodes;
         let open = |z: f32| if z > 0.0 { f64::from(z) } else { 0.0 };
@@ -64,7 +65,7 @@ pub(super) struct Oriented {
     pub wide: usize,
     /// Sides of a pixel along and across the flow.
     pub pixel: [f64; 2],
-    /// Whether the lines are a ring.
+    /// True where the lines are a ring.
     pub periodic: bool,
     /// Gaps, `long` to a line; 0 where closed.
     pub gaps: Vec<f64>,

@@ -21,12 +21,12 @@ pub struct Leak {
     pub iterations: usize,
 }
 
-/// The flow along `axis` through `gap`, the pressure given on both sides that it joins, nothing passing the other two unless
-/// they are joined to a ring; None where nothing passes.
+/// The flow along `axis` through `gap`, the pressure given on both sides that it joins, nothing passing the
+/// other two unless they are joined to a ring; None where nothing passes.
 ///
-/// ∇·(g³/12 ∇p) = 0 on the open pixels, conductances of neighbours in series; the part of the gap that joins both sides
-/// alone. Solved by conjugate gradients, preconditioned by a multigrid cycle. A gap of the same height everywhere leaks
-/// g³/12 times width over length exactly.
+/// ∇·(g³/12 ∇p) = 0 on the open pixels, conductances of neighbours in series; the part of the gap that joins
+/// both sides alone. Solved by conjugate gradients, preconditioned by a multigrid cycle. A gap of the same
+/// height everywhere leaks g³/12 times width over length exactly.
 pub fn leak(gap: &Gap, axis: Axis) -> Option<Leak> {
     let mut map = gap.oriented(axis);
     keep_crossing(&mut map);
@@ -67,7 +67,8 @@ fn keep_crossing(map: &mut Oriented) {
     });
 }
 
-/// The network of `map` with gaps in units of `largest`, and the conductance of each cell to where the fluid enters.
+/// The network of `map` with gaps in units of `largest`, and the conductance of each cell to where the fluid
+/// enters.
 fn network(map: &Oriented, largest: f64) -> (Network, Vec<f64>) {
     let ratio = map.pixel[1] / map.pixel[0];
     let cube: Vec<f64> = map.gaps.iter().map(|g| (g / largest).powi(3)).collect();
@@ -87,7 +88,8 @@ fn network(map: &Oriented, largest: f64) -> (Network, Vec<f64>) {
     (Network::new(map.long, map.wide, ahead, beside, ends), entry)
 }
 
-/// The flow from pressure 1 at the entry to 0 at the exit, the relative difference of both, and the iterations.
+/// The flow from pressure 1 at the entry to 0 at the exit, the relative difference of both, and the
+/// iterations.
 fn solve(network: Network, entry: &[f64]) -> (f64, f64, usize) {
     let n = entry.len();
     let mut grids = Multigrid::from_network(network);

@@ -85,7 +85,8 @@ fn crosses(map: &Gap<'_>, axis: Axis, least: f32) -> bool {
     }
 }
 
-/// Against the definition, on maps of few gaps that are often equal: a path crosses as wide as the constriction, none wider.
+/// Against the definition, on maps of few gaps that are often equal: a path crosses as wide as the
+/// constriction, none wider.
 #[test]
 fn no_path_is_wider_than_the_constriction() {
     let mut state = 7u32;

@@ -16,13 +16,14 @@ const SINGLE_PRECISION_RESIDUAL: f64 = 1e-6;
 /// Iterations of one grid.
 const ITERATIONS: usize = 400;
 
-/// A grid with heights between 0 and 1, in units in which E* is 1 and the half-space has no length of its own.
+/// A grid with heights between 0 and 1, in units in which E* is 1 and the half-space has no length of its
+/// own.
 pub(super) struct Task {
     /// Nodes along x and y.
     pub nodes: [usize; 2],
     /// Sides of a pixel.
     pub sides: [f64; 2],
-    /// Whether the grid repeats; else the half-space is free around it.
+    /// True where the grid repeats; else the half-space is free around it.
     pub periodic: bool,
     /// Heights, row by row; NaN where nothing was measured.
     pub heights: Vec<f64>,
@@ -120,8 +121,8 @@ impl Task {
         self.heights.iter().map(|h| if h.is_nan() { 0.0 } else { value as f32 }).collect()
     }
 
-    /// The residual that `f32` leaves by rounding the displacements of a pressure: a free map sinks as a whole, and by far more
-    /// than its heights where it is large or rough from pixel to pixel.
+    /// The residual that `f32` leaves by rounding the displacements of a pressure: a free map sinks as a
+    /// whole, and by far more than its heights where it is large or rough from pixel to pixel.
     fn rounding(&self, level: &mut Level<f32>, pressure: &[f32]) -> f64 {
         let mut lift = vec![0.0; pressure.len()];
         level.lift(pressure, &mut lift);

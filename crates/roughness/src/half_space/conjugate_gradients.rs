@@ -1,4 +1,5 @@
-//! Projected conjugate gradients (Polonsky and Keer 1999), preconditioned on the nodes that are free to change.
+//! Projected conjugate gradients (Polonsky and Keer 1999), preconditioned on the nodes that are free to
+//! change.
 
 use super::convolution::Way;
 use super::nodes::Nodes;
@@ -10,10 +11,10 @@ const STALLED_ITERATIONS: usize = 12;
 
 /// Lowers the residual of `start` to `tolerance`, at most `iterations` times.
 ///
-/// p pressure, u = A p - h lift, d plane, g = u + d gap; the working set W are the nodes between the bounds or pushed from
-/// them. Each iteration: r = g on W; z = P F⁻¹ (|q|/2) F P r with P the projection on W (and on zero sum, where the load is
-/// held); t = z + β t with β = max(0, z·(r - r_old)/(z_old·r_old)) (Polak and Ribière); p := p - (r·t/t·At) t, cut at the
-/// bounds and scaled to the load.
+/// p pressure, u = A p - h lift, d plane, g = u + d gap; the working set W are the nodes between the bounds
+/// or pushed from them. Each iteration: r = g on W; z = P F⁻¹ (|q|/2) F P r with P the projection on W (and
+/// on zero sum, where the load is held); t = z + β t with β = max(0, z·(r - r_old)/(z_old·r_old)) (Polak and
+/// Ribière); p := p - (r·t/t·At) t, cut at the bounds and scaled to the load.
 pub(super) fn conjugate_gradients<T: Real>(
     level: &mut Level<T>,
     hold: Hold,

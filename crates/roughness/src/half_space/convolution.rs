@@ -15,11 +15,11 @@ use std::sync::Arc;
 const BLOCK: usize = 16;
 /// Rows that one task transforms.
 const ROWS: usize = 16;
-/// Rows that are turned into columns at once: the pieces of columns are whole cache lines, as the columns of a map of 2ⁿ rows
-/// share the places that their lines may take in a cache.
+/// Rows that are turned into columns at once: the pieces of columns are whole cache lines, as the columns of
+/// a map of 2ⁿ rows share the places that their lines may take in a cache.
 const TILE: usize = 8;
 
-/// Which way between pressure and displacement.
+/// The direction between pressure and displacement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Way {
     /// Displacement of a pressure.
@@ -28,13 +28,14 @@ pub(super) enum Way {
     Stiffness,
 }
 
-/// The response of the half-space to one wave: the displacement per pressure. It is even in both wave numbers, so that the
-/// quarter of waves 0..=n/2 along x and y is enough.
+/// The response of the half-space to one wave: the displacement per pressure. It is even in both wave
+/// numbers, so that the quarter of waves 0..=n/2 along x and y is enough.
 struct Response<T> {
     /// Column by column for waves 0..`rows` along y.
     table: Vec<T>,
     rows: usize,
-    /// Whether an even pressure displaces nothing: of a periodic surface, whose displacements count from their mean.
+    /// True where an even pressure displaces nothing: of a periodic surface, whose displacements count from
+    /// their mean.
     from_the_mean: bool,
 }
 
@@ -172,8 +173,8 @@ impl<T: Real> Convolution<T> {
     }
 }
 
-/// 2/|q| (Westergaard; Johnson 1985, ch. 13) of a periodic grid; of the even pressure that of half the least wave number, for
-/// what preconditions.
+/// 2/|q| (Westergaard; Johnson 1985, ch. 13) of a periodic grid; of the even pressure that of half the least
+/// wave number, for what preconditions.
 fn waves<T: Real>(nodes: [usize; 2], sides: [f64; 2]) -> Response<T> {
     let number = |axis: usize, k: usize| TAU * k as f64 / (nodes[axis] as f64 * sides[axis]);
     let longest = [0, 1].into_iter().filter(|axis| nodes[*axis] > 1).map(|axis| number(axis, 1));
@@ -271,7 +272,8 @@ mod tests {
         }
     }
 
-    /// Love 1929: 4 ln(1 + √2)/π pixels under the middle of a square pixel of unit pressure; far away that of a point force.
+    /// Love 1929: 4 ln(1 + √2)/π pixels under the middle of a square pixel of unit pressure; far away that of
+    /// a point force.
     #[test]
     fn a_loaded_pixel_sinks_as_love_says_and_nothing_returns_from_beyond_the_edge() {
         let (nodes, sides) = ([11, 7], [2.0, 0.5]);

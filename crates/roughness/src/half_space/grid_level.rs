@@ -43,7 +43,7 @@ pub(super) struct Search<T> {
     pub residual: f64,
 }
 
-/// Whether a node may change its pressure: between the bounds, or pushed away from its bound by the gap.
+/// True where a node may change its pressure: between the bounds, or pushed away from its bound by the gap.
 #[inline]
 pub(super) fn is_free<T: Real>(pressure: T, gap: T, limit: T) -> bool {
     if pressure <= T::zero() { gap < T::zero() } else { pressure < limit || gap > T::zero() }
@@ -70,8 +70,9 @@ impl<T: Real> Level<T> {
             .for_each(|(lift, heights)| lift.iter_mut().zip(heights).for_each(|(u, h)| *u = *u - *h));
     }
 
-    /// The height of the plane that `hold` leaves (where a pressure is given, that with a mean gap of 0 over the nodes that are
-    /// free to change), and the nodes that it touches or overlaps. `touching` are those under pressure.
+    /// The height of the plane that `hold` leaves (where a pressure is given, that with a mean gap of 0 over
+    /// the nodes that are free to change), and the nodes that it touches or overlaps. `touching` are those
+    /// under pressure.
     pub fn plane(
         &self,
         hold: Hold,
@@ -104,9 +105,9 @@ impl<T: Real> Level<T> {
         Nodes::select(pressure.len(), |i| pressure[i] > T::zero() || lift[i] + at < T::zero())
     }
 
-    /// How far pressure and gap are from complementarity, over the load times the rms height: gap under pressure,
-    /// overlap without it, and overlap that a pressure below the limit would have to push away. `near` holds all nodes under
-    /// pressure or overlapping the plane.
+    /// The distance of pressure and gap from complementarity, over the load times the rms height: gap under
+    /// pressure, overlap without it, and overlap that a pressure below the limit would have to push away.
+    /// `near` holds all nodes under pressure or overlapping the plane.
     pub fn residual(&self, [pressure, lift]: [&[T]; 2], plane: f64, near: &Nodes) -> f64 {
         let (top, at) = (self.top(), T::nearest(plane));
         let [load, touching, overlapping] = near.sums(|i| {
@@ -132,8 +133,8 @@ impl<T: Real> Level<T> {
         wrong / (load * self.rms)
     }
 
-    /// `pressure` brought to the mean pressure wanted without leaving its bounds: scaled, and where a limit cuts that, shifted
-    /// on the nodes in contact.
+    /// `pressure` brought to the mean pressure wanted without leaving its bounds: scaled, and where a limit
+    /// cuts that, shifted on the nodes in contact.
     pub fn rescale(&self, pressure: &mut [T], wanted: f64) {
         let nodes = pressure.len() as f64;
         let (limit, target) = (self.limit, wanted * nodes);
@@ -184,7 +185,8 @@ impl<T: Real> Level<T> {
         Nodes::select(pressure.len(), |i| pressure[i] > T::zero())
     }
 
-    /// Adds `missing` load, evenly on the nodes without any pressure: those under pressure are all at the limit.
+    /// Adds `missing` load, evenly on the nodes without any pressure: those under pressure are all at the
+    /// limit.
     fn spread(&self, pressure: &mut [T], missing: f64) {
         let hole = T::nearest(MISSING_HEIGHT);
         let idle = |p: T, h: T| p <= T::zero() && h > hole;

@@ -11,9 +11,10 @@ const LOAD_TOLERANCE: f64 = 1e-12;
 
 /// Lowers the residual of `start` to `tolerance`, at most `iterations` times; the best pressure that was met.
 ///
-/// p pressure, u = A p - h lift, P the projection on the bounds and, where it is held, on the load: one shift for all nodes,
-/// which is the plane. Each iteration: p := P(p - α u) with α = s·s/s·y or s·y/y·y in turn (Barzilai and Borwein 1988; Dai and
-/// Fletcher 2005), s and y the last changes of p and u. One convolution each, and no set of free nodes to choose.
+/// p pressure, u = A p - h lift, P the projection on the bounds and, where it is held, on the load: one shift
+/// for all nodes, which is the plane. Each iteration: p := P(p - α u) with α = s·s/s·y or s·y/y·y in turn
+/// (Barzilai and Borwein 1988; Dai and Fletcher 2005), s and y the last changes of p and u. One convolution
+/// each, and no set of free nodes to choose.
 pub(super) fn projected_gradient<T: Real>(
     level: &mut Level<T>,
     hold: Hold,
@@ -95,7 +96,8 @@ fn projected<T: Real>(level: &Level<T>, hold: Hold, p: &[T], u: &[T], alpha: f64
     (free, -shift / alpha)
 }
 
-/// The shift after which the numbers, cut to 0..`limit`, sum to `target`: Newton's method kept in its bracket.
+/// The shift after which the numbers, cut to 0..`limit`, sum to `target`: Newton's method kept in its
+/// bracket.
 fn shift<T: Real>(values: &[T], target: f64, limit: f64) -> f64 {
     // the load at a shift, and how many nodes change it
     let carried = |shift: f64| {

@@ -1,6 +1,7 @@
 //! Claims of the half-space: closed forms, bounds, the same bits for any number of threads.
 //!
-//! Sources: Johnson, Contact Mechanics (1985): Hertz ch. 4, cone ch. 5 (Sneddon 1965), wave ch. 13 (Westergaard 1939).
+//! Sources: Johnson, Contact Mechanics (1985): Hertz ch. 4, cone ch. 5 (Sneddon 1965), wave ch. 13
+//! (Westergaard 1939).
 
 use super::*;
 use crate::{Grid, HeightMap, Kind, Load, Surface, Target, generate};
@@ -56,8 +57,9 @@ fn a_cone_follows_sneddon() {
     close("depth", -(found.separation + surface.parameters.mean), PI / 2.0 * a * tan, 5e-3);
 }
 
-/// z = Δ cos(2πs/λ), contact of half width a: p = p* sin²(πa/λ), p* = πE*Δ/λ, largest pressure 2√(p p*). A row of flat
-/// strips yields by λ/(πE*) ln(p*/p), the integral of which is the mean gap Δ(1 - p/p* + p/p* ln(p/p*)).
+/// z = Δ cos(2πs/λ), contact of half width a: p = p* sin²(πa/λ), p* = πE*Δ/λ, largest pressure 2√(p p*). A
+/// row of flat strips yields by λ/(πE*) ln(p*/p), the integral of which is the mean gap Δ(1 - p/p* + p/p*
+/// ln(p/p*)).
 #[test]
 fn a_wave_follows_westergaard() {
     let (n, amplitude, pixel): (usize, f64, f64) = (256, 1e-6, 1e-6);
@@ -91,7 +93,8 @@ fn a_wave_follows_westergaard() {
     }
 }
 
-/// Complete elliptic integrals K and E of modulus k, by the arithmetic-geometric mean (Abramowitz and Stegun 17.6).
+/// Complete elliptic integrals K and E of modulus k, by the arithmetic-geometric mean (Abramowitz and Stegun
+/// 17.6).
 fn elliptic(k: f64) -> [f64; 2] {
     let (mut a, mut b, mut c, mut power, mut sum) = (1.0f64, (1.0 - k * k).sqrt(), k, 0.5, 0.0);
     while c.abs() > 1e-16 {
@@ -103,7 +106,8 @@ fn elliptic(k: f64) -> [f64; 2] {
     [first, first * (1.0 - sum)]
 }
 
-/// Displacement at `r` of a half-space with E* = 1 under unit pressure on a disc of radius `a` (Johnson 1985, ch. 3.4).
+/// Displacement at `r` of a half-space with E* = 1 under unit pressure on a disc of radius `a` (Johnson 1985,
+/// ch. 3.4).
 fn under_disc(r: f64, a: f64) -> f64 {
     if a <= 0.0 {
         return 0.0;
@@ -116,7 +120,8 @@ fn under_disc(r: f64, a: f64) -> f64 {
     4.0 * r / PI * (second - (1.0 - k * k) * first)
 }
 
-/// Area and approach of a sphere of curvature radius 1 whose pressure is limited, on rings: E* = 1, `force` given.
+/// Area and approach of a sphere of curvature radius 1 whose pressure is limited, on rings: E* = 1, `force`
+/// given.
 fn saturated_rings(limit: f64, force: f64, outer: f64) -> (f64, f64) {
     let m = 400;
     let width = outer / m as f64;
@@ -189,7 +194,8 @@ fn bounds_and_load_hold_and_the_flattened_surface_carries_the_same() {
         // the load is met to 1e-7
         assert!(area.corrected >= share * (1.0 - 1e-6) && area.corrected <= area.ratio, "{area:?}");
     }
-    // unloading is elastic on what the flow left: the load is carried by the same pressures, none of them above the limit
+    // unloading is elastic on what the flow left: the load is carried by the same pressures, none of them
+    // above the limit
     let left = found.flattened_surface(&surface).unwrap();
     let again = elastic(1e-7).press(&left, load).unwrap();
     close("area again", again.area.ratio, found.area.ratio, 2e-3);
@@ -208,7 +214,8 @@ fn rough(n: usize, periodic: bool) -> Surface {
     Surface::from_map(generate(kind, &grid, Target::Height(0.3e-6)).unwrap().with_periodic(periodic)).unwrap()
 }
 
-/// A free map without long waves sinks by a hundred times its heights: rounding in `f32` leaves more than the tolerance.
+/// A free map without long waves sinks by a hundred times its heights: rounding in `f32` leaves more than the
+/// tolerance.
 #[test]
 fn a_map_that_sinks_far_is_found_to_the_tolerance() {
     let grid = Grid { nodes: [256, 256], pixel: [1e-6, 1e-6], seed: 3 };

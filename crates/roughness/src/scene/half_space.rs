@@ -8,7 +8,8 @@ use serde::{Deserialize, Serialize};
 
 /// Most points of the load curve of a half-space.
 const MOST_POINTS: usize = 8;
-/// Points of the load curve by default on maps of up to so many nodes; on larger ones each costs minutes, and there is one.
+/// Points of the load curve by default on maps of up to so many nodes; on larger ones each costs minutes, and
+/// there is one.
 const USUAL_POINTS: [(usize, usize); 2] = [(512 * 512, MOST_POINTS), (1024 * 1024, 6)];
 
 /// How the half-space is solved.
@@ -29,7 +30,7 @@ pub struct HalfSpaceScene {
 }
 
 impl HalfSpaceScene {
-    /// Whether nothing was said.
+    /// True where nothing was said.
     pub fn is_default(&self) -> bool {
         *self == HalfSpaceScene::default()
     }

@@ -180,7 +180,8 @@ impl SurfaceScene {
         }
     }
 
-    /// Reads or makes the surface and prepares it: outliers, holes, S-filter, levelling, L-filter, in this order.
+    /// Reads or makes the surface and prepares it: outliers, holes, S-filter, levelling, L-filter, in this
+    /// order.
     ///
     /// `resolve` turns a path of the scene into one that can be opened.
     ///

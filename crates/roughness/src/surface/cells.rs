@@ -1,9 +1,9 @@
 //! One cell of the map: four triangles about the mean of its corners, cut by a plane of constant height.
 //!
-//! Corners run around the cell, (0,0), (1,0), (1,1), (0,1) in pixels; side s joins corners s and s+1, and triangle s
-//! stands on side s with its tip in the middle. Each triangle is a quarter of the cell.
+//! Corners run around the cell, (0,0), (1,0), (1,1), (0,1) in pixels; side s joins corners s and s+1, and
+//! triangle s stands on side s with its tip in the middle. Each triangle is a quarter of the cell.
 
-/// Where the corners are, in pixels.
+/// Positions of the corners, in pixels.
 const CORNERS: [[f64; 2]; 4] = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
 const CENTRE: [f64; 2] = [0.5, 0.5];
 

@@ -1,7 +1,7 @@
 //! Convolution of a map with a Gaussian, a line at a time.
 //!
-//! Narrow Gaussians are summed directly, wide ones multiplied in the spectrum of real lines, padded to lengths that transform
-//! fast.
+//! Narrow Gaussians are summed directly, wide ones multiplied in the spectrum of real lines, padded to
+//! lengths that transform fast.
 
 use super::fft::good_length;
 use asperity_numerics::transpose::transposed;
@@ -10,7 +10,8 @@ use realfft::RealFftPlanner;
 use realfft::num_complex::Complex64;
 use std::f64::consts::{LN_2, PI};
 
-/// Reach in pixels up to which the sum is quicker than the transform (measured at 4096 pixels a line: equal at about 60).
+/// Reach in pixels up to which the sum is quicker than the transform (measured at 4096 pixels a line: equal
+/// at about 60).
 const DIRECT_SUM_REACH: usize = 48;
 /// Rows that one task sums into.
 const ROWS: usize = 8;
@@ -36,7 +37,8 @@ impl Gaussian {
         self.weights.len() - 1
     }
 
-    /// Convolves every line of `length` numbers; what lies beyond its ends is the line again if `periodic`, else 0.
+    /// Convolves every line of `length` numbers; what lies beyond its ends is the line again if `periodic`,
+    /// else 0.
     pub fn along_rows(&self, data: &mut [f64], length: usize, periodic: bool) {
         if self.reach() <= DIRECT_SUM_REACH {
             self.sum_rows(data, length, periodic);

@@ -1,7 +1,8 @@
-//! Surfaces made from random numbers: self-affine, and three that look like ground, milled and sanded metal surfaces.
+//! Surfaces made from random numbers: self-affine, and three that look like ground, milled and sanded metal
+//! surfaces.
 //!
-//! Every kind is a shape that depends on one length; the length is searched so that the mean slope belongs to the
-//! arithmetic mean height, and the heights are then scaled. The random numbers depend on the seed alone.
+//! Every kind is a shape that depends on one length; the length is searched so that the mean slope belongs to
+//! the arithmetic mean height, and the heights are then scaled. The random numbers depend on the seed alone.
 
 use crate::surface::fft;
 use crate::surface::height_map::{HeightMap, MapError};
@@ -13,7 +14,7 @@ use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 use thiserror::Error;
 
-/// Why a surface cannot be made.
+/// The reason why a surface cannot be made.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum GenerateError {
     /// Height and slope do not go together on this grid.
@@ -59,7 +60,8 @@ pub enum Kind {
     Milled,
     /// Isotropic.
     Sanded,
-    /// Isotropic Gaussian, spectrum flat above the wavelength `rolloff`, (1/λ)^(-2-2H) down to `cutoff`, nothing below.
+    /// Isotropic Gaussian, spectrum flat above the wavelength `rolloff`, (1/λ)^(-2-2H) down to `cutoff`,
+    /// nothing below.
     SelfAffine {
         /// Hurst exponent H in (0, 1].
         hurst: f64,
@@ -92,18 +94,19 @@ pub struct Grid {
     pub seed: u64,
 }
 
-/// How well height and slope are met, relative.
+/// The accuracy to which height and slope are met, relative.
 const MATCH_TOLERANCE: f64 = 1e-5;
 /// Hurst exponent of the machined surfaces.
 const HURST: f64 = 0.8;
-/// How many times longer than wide the scratches of a ground surface are.
+/// Length over width of the scratches of a ground surface.
 const LAY_RATIO: f64 = 16.0;
 /// Longest over shortest wave of the machined surfaces.
 const OCTAVES: f64 = 16.0;
 /// Sq of the roughness on feed marks over that of the marks.
 const ROUGHNESS_ON_MARKS: f64 = 0.12;
 
-/// Normally distributed numbers (Box and Muller), the same for a seed on every machine up to rounding of ln and cos.
+/// Normally distributed numbers (Box and Muller), the same for a seed on every machine up to rounding of ln
+/// and cos.
 fn noise(seed: u64, count: usize) -> Vec<f64> {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let mut uniform = || (random.next_u64() >> 11) as f64 * (0.5f64).powi(53);
@@ -154,7 +157,8 @@ fn span(grid: &Grid) -> f64 {
     (grid.nodes[0] as f64 * grid.pixel[0]).min(grid.nodes[1] as f64 * grid.pixel[1])
 }
 
-/// The shape whose Ra over mean slope is `ra`/`slope`: the ratio grows with the longest wave, which is searched.
+/// The shape whose Ra over mean slope is `ra`/`slope`: the ratio grows with the longest wave, which is
+/// searched.
 fn matched(kind: Kind, grid: &Grid, noise: &[f64], ra: f64, slope: f64) -> Result<Vec<f64>, GenerateError> {
     let wanted = ra / slope;
     let ratio = |wave: f64| -> Result<(f64, Vec<f64>), GenerateError> {
@@ -213,7 +217,7 @@ fn machined(kind: Kind, grid: &Grid, noise: &[f64], wave: f64) -> Vec<f64> {
     }
 }
 
-/// How a spectrum ends at its shortest wave.
+/// The way a spectrum ends at its shortest wave.
 #[derive(Clone, Copy, PartialEq)]
 enum End {
     /// Nothing below.

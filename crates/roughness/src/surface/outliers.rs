@@ -10,8 +10,9 @@ const SAMPLED_POINTS: usize = 1 << 20;
 
 /// The map without outliers, which become missing, and how many there were.
 ///
-/// A point is an outlier if it lies further from the median of its eight neighbours than `limit` standard deviations of that
-/// distance over the map, the deviation by the median of the absolute values, which outliers do not move.
+/// A point is an outlier if it lies further from the median of its eight neighbours than `limit` standard
+/// deviations of that distance over the map, the deviation by the median of the absolute values, which
+/// outliers do not move.
 pub(crate) fn without(map: HeightMap, limit: f64) -> (HeightMap, usize) {
     let columns = map.columns();
     let off: Vec<f64> = (0..map.rows())
@@ -40,7 +41,8 @@ pub(crate) fn without(map: HeightMap, limit: f64) -> (HeightMap, usize) {
     (cleaned.recounted(), count)
 }
 
-/// Height above the median of the measured ones among the eight neighbours; NaN where the point or all of them are missing.
+/// Height above the median of the measured ones among the eight neighbours; NaN where the point or all of
+/// them are missing.
 fn off_median(map: &HeightMap, column: usize, row: usize) -> f64 {
     let mut around = [0.0; 8];
     let mut count = 0;

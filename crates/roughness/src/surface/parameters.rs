@@ -24,8 +24,8 @@ pub struct Parameters {
     pub sv: f64,
     /// Highest minus lowest node (ISO 25178-2).
     pub sz: f64,
-    /// Root mean square gradient, by the derivative of seven points (ISO 25178-2); that of the piecewise linear surface where
-    /// no node has three measured neighbours on each side along both axes.
+    /// Root mean square gradient, by the derivative of seven points (ISO 25178-2); that of the piecewise
+    /// linear surface where no node has three measured neighbours on each side along both axes.
     pub sdq: f64,
     /// Developed over projected area, less 1, by the same derivative (ISO 25178-2).
     pub sdr: f64,
@@ -134,7 +134,8 @@ fn linear_developed(map: &HeightMap, extent: &Extent) -> f64 {
 /// Weights of the nodes 1, 2 and 3 away in a derivative, times 60 (ISO 25178-2).
 const SEVEN_POINT_WEIGHTS: [f64; 3] = [45.0, -9.0, 1.0];
 
-/// 60 times the derivative along a line, per pixel; the nodes near the ends of one that is not periodic keep what they had.
+/// 60 times the derivative along a line, per pixel; the nodes near the ends of one that is not periodic keep
+/// what they had.
 fn slopes_of_seven(line: &[f64], periodic: bool, slopes: &mut [f64]) {
     let reach = SEVEN_POINT_WEIGHTS.len();
     let n = line.len();
@@ -154,8 +155,8 @@ fn slopes_of_seven(line: &[f64], periodic: bool, slopes: &mut [f64]) {
     }
 }
 
-/// Means of |∇h|² and of √(1 + |∇h|²) - 1 over the nodes with three measured neighbours on each side along both axes; `None`
-/// where there is no such node.
+/// Means of |∇h|² and of √(1 + |∇h|²) - 1 over the nodes with three measured neighbours on each side along
+/// both axes; `None` where there is no such node.
 fn seven_points(map: &HeightMap) -> Option<[f64; 2]> {
     let (columns, rows) = (map.columns(), map.rows());
     let reach = SEVEN_POINT_WEIGHTS.len();

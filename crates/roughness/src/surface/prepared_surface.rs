@@ -34,8 +34,8 @@ impl Surface {
         self.extent.cells as f64 * self.map.cell_area()
     }
 
-    /// Share of the measured points above `planes` ≥ 2 heights from the highest to the lowest: the areal material ratio of
-    /// ISO 25178-2. Heights are above the mean, in metres; a flat map has none.
+    /// Share of the measured points above `planes` ≥ 2 heights from the highest to the lowest: the areal
+    /// material ratio of ISO 25178-2. Heights are above the mean, in metres; a flat map has none.
     pub fn material_ratio(&self, planes: usize) -> Vec<[f64; 2]> {
         let (low, last) = (self.extent.low, planes.max(2) - 1);
         let step = (self.extent.high - low) / last as f64;
@@ -62,8 +62,8 @@ impl Surface {
         (0..=last).rev().map(plane).collect()
     }
 
-    /// Root mean square step across the seam of a periodic map over that between neighbours: far above 1 where the map is no
-    /// period of a surface. None of a map that is not periodic, or flat.
+    /// Root mean square step across the seam of a periodic map over that between neighbours: far above 1
+    /// where the map is no period of a surface. None of a map that is not periodic, or flat.
     pub fn seam(&self) -> Option<f64> {
         let map = &self.map;
         let (nx, ny) = (map.columns(), map.rows());

@@ -1,8 +1,9 @@
 //! Power spectral density of a map.
 //!
-//! C(f) with ∫∫ C df_x df_y = Sq² over all frequencies, averaged over the directions of equal |f|; and the densities of
-//! profiles along x and y, with 2∫ C df = Sq² over the positive ones (Jacobs, Junge, Pastewka 2017). A map that is not periodic is
-//! weighted with a Hann window first, whose loss of power is made up for.
+//! C(f) with ∫∫ C df_x df_y = Sq² over all frequencies, averaged over the directions of equal |f|; and the
+//! densities of profiles along x and y, with 2∫ C df = Sq² over the positive ones (Jacobs, Junge, Pastewka
+//! 2017). A map that is not periodic is weighted with a Hann window first, whose loss of power is made up
+//! for.
 
 use crate::surface::filter::fill;
 use crate::surface::height_map::{HeightMap, MapError};

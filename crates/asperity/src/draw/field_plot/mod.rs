@@ -1,7 +1,7 @@
 //! Pictures of the deformed section: fields as filled contours, with the tool, axes in µm and a colour bar.
 //!
-//! A picture is an SVG document of panels one below the other. Lines and letters are SVG; the contours of a panel are
-//! a small indexed PNG inside it, one colour a band, transparent outside the body.
+//! A picture is an SVG document of panels one below the other. Lines and letters are SVG; the contours of a
+//! panel are a small indexed PNG inside it, one colour a band, transparent outside the body.
 
 mod deformed_mesh;
 mod window;

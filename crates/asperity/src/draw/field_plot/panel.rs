@@ -24,7 +24,8 @@ pub enum Panel {
     PlasticStrain,
     /// Hydrostatic pressure, tension below 0.
     Pressure,
-    /// Material that never yielded, that yielded once and is elastic now, that yields; and the line of the first yield stress.
+    /// Material that never yielded, that yielded once and is elastic now, that yields; and the line of the
+    /// first yield stress.
     ElasticZones,
     /// The elements.
     Mesh,
@@ -45,8 +46,8 @@ impl Panel {
     /// Fig. 5 of the paper.
     pub const FIG5: [Panel; 2] = [Panel::ElasticZones, Panel::Pressure];
 
-    /// The panel in `frame`, whose top is below the heading, and the panel's height; the lowest one carries the numbers of the
-    /// horizontal axis.
+    /// The panel in `frame`, whose top is below the heading, and the panel's height; the lowest one carries
+    /// the numbers of the horizontal axis.
     ///
     /// # Errors
     /// A text for a person where a picture cannot be encoded.

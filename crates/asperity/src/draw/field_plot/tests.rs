@@ -25,8 +25,8 @@ fn peak(change: &str) -> (Scene, FieldFrame) {
     (scene, peak.unwrap())
 }
 
-/// The dots on both sides of the axis are the same, the body ends at the tool, and the colours reach the largest
-/// stress of the nodes but not beyond.
+/// The dots on both sides of the axis are the same, the body ends at the tool, and the colours reach the
+/// largest stress of the nodes but not beyond.
 #[test]
 fn the_picture_is_that_of_the_fields() {
     let (scene, frame) = peak("numerics.steps=8");

@@ -33,8 +33,8 @@ impl<T: DeserializeOwned> TomlFile<T> {
     /// Reads `path`, applies overrides `key.path=value` in their order, and makes a `T` of the result.
     ///
     /// # Errors
-    /// A file that cannot be read, is not text or not TOML, an override that names no place, or values that are
-    /// not those of a `T`; each with its line and, for an unknown key, the nearest known one.
+    /// A file that cannot be read, is not text or not TOML, an override that names no place, or values that
+    /// are not those of a `T`; each with its line and, for an unknown key, the nearest known one.
     pub fn read(path: &Path, overrides: &[String]) -> Result<Self, InputError> {
         TomlFile::parse(path, read_text(path)?, overrides)
     }
@@ -47,8 +47,8 @@ impl<T: DeserializeOwned> TomlFile<T> {
         TomlFile::parse_over(path, text, overrides, None)
     }
 
-    /// The same; where it names a file under `initial.from`, and nothing else in that table, the tables that `under` makes of that
-    /// file are added to its own, and it may hold none of them.
+    /// The same; where it names a file under `initial.from`, and nothing else in that table, the tables that
+    /// `under` makes of that file are added to its own, and it may hold none of them.
     ///
     /// # Errors
     /// As for [`TomlFile::read`], and what `under` says, pointing at the key.
@@ -93,8 +93,8 @@ impl<T> TomlFile<T> {
         path_beside(&self.path, path)
     }
 
-    /// An error about the value at `path` (`asperity[0].height`), pointing at it or, where it is absent, at the
-    /// innermost table that lacks it.
+    /// An error about the value at `path` (`asperity[0].height`), pointing at it or, where it is absent, at
+    /// the innermost table that lacks it.
     pub fn error_at(&self, path: &str, message: &str) -> InputError {
         // `material.` is said of a key that the table lacks
         let path = path.trim_end_matches('.');
@@ -271,7 +271,8 @@ impl Sources {
     }
 }
 
-/// The keys of a path, "asperity[0].height" or "asperity.0.height"; `None` where one is empty or has odd letters.
+/// The keys of a path, "asperity[0].height" or "asperity.0.height"; `None` where one is empty or has odd
+/// letters.
 fn path_keys(path: &str) -> Option<Vec<&str>> {
     let keys: Vec<&str> =
         path.split(['.', '[']).map(|key| key.strip_suffix(']').unwrap_or(key).trim()).collect();
@@ -279,7 +280,7 @@ fn path_keys(path: &str) -> Option<Vec<&str>> {
     keys.iter().all(|key| !key.is_empty() && letters(key)).then_some(keys)
 }
 
-/// Where the value at `keys` stands, or the innermost table on the way to it; `None` for the root.
+/// The span of the value at `keys`, or of the innermost table on the way to it; `None` for the root.
 fn find(table: &DeTable<'_>, keys: &[&str]) -> Option<Range<usize>> {
     let mut value: &Spanned<DeValue<'_>> = table.get(*keys.first()?)?;
     for key in &keys[1..] {

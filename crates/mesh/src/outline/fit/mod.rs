@@ -1,5 +1,5 @@
-//! From points that an instrument measured to an outline: smoothed as far as they scatter, with as few arcs as hold them, its
-//! corners kept.
+//! From points that an instrument measured to an outline: smoothed as far as they scatter, with as few arcs
+//! as hold them, its corners kept.
 
 use super::bridge::{bridge, bulges};
 use super::kinks::corners;
@@ -31,7 +31,7 @@ pub struct Fit {
     pub corners: Vec<f64>,
 }
 
-/// Why points are no outline.
+/// The reason why points are no outline.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{message}")]
 pub struct FitError {
@@ -50,18 +50,19 @@ pub const MOST_POINTS: usize = 20_000;
 /// Rounds of division: each may halve every arc.
 const MOST_ROUNDS: usize = 24;
 
-/// Points from which neighbours tell how far heights scatter; fewer are drawn by hand, and meant as they stand.
+/// Points from which neighbours tell how far heights scatter; fewer are drawn by hand, and meant as they
+/// stand.
 const SCATTERED_POINTS: usize = 20;
 
-/// How many spacings of its points the first point may be away from the axis.
+/// Largest distance of the first point from the axis, in spacings of the points.
 const FIRST_POINT_SPACINGS: f64 = 1.5;
 
-/// The outline through `points` (place, height), whose heights scatter by `tolerance` (standard deviation); `None`: as far as
-/// neighbouring points tell.
+/// The outline through `points` (place, height), whose heights scatter by `tolerance` (standard deviation);
+/// `None`: as far as neighbouring points tell.
 ///
 /// # Errors
-/// Fewer than two points or too many, a value that is not finite, places that do not grow, a half that does not begin at the
-/// axis, no height.
+/// Fewer than two points or too many, a value that is not finite, places that do not grow, a half that does
+/// not begin at the axis, no height.
 pub fn fit(points: &[[f64; 2]], span: Span, tolerance: Option<f64>) -> Result<Fit, FitError> {
     check(points, span)?;
     let [low, high] = range(points.iter().map(|p| p[1]));
@@ -130,7 +131,7 @@ fn smoothed(
     })
 }
 
-/// Whether arcs through points that bulge outward are dented.
+/// True where arcs through points that bulge outward are dented.
 fn dented(arcs: &[Parabola]) -> bool {
     let upside_down = |a: &Parabola| Parabola { drop: -a.drop, slope: -a.slope, bend: -a.bend, ..*a };
     let outline = Outline::new(arcs.iter().map(upside_down).collect(), 1.0, false);
@@ -144,7 +145,7 @@ fn farthest(points: &[[f64; 2]], arcs: &[Parabola]) -> (f64, usize) {
     all.fold((0.0, 0), |far, next| if next.0 > far.0 { next } else { far })
 }
 
-/// Whether the points can be an outline.
+/// True where the points can be an outline.
 fn check(points: &[[f64; 2]], span: Span) -> Result<(), FitError> {
     let at = |point: usize, message: String| FitError { point: Some(point), message };
     let all = |message: String| FitError { point: None, message };
@@ -204,7 +205,7 @@ fn unfolded(points: &[[f64; 2]], span: Span) -> Vec<[f64; 2]> {
 struct Points<'a> {
     points: &'a [[f64; 2]],
     kinks: &'a [usize],
-    /// Whether the slope at the left end is 0.
+    /// True where the slope at the left end is 0.
     level: bool,
     scatter: f64,
     /// Spacings of points on an arc, at least.
@@ -305,12 +306,12 @@ impl Points<'_> {
     }
 }
 
-/// Spacings of points on an arc, at least: with two a curve does not swing between its points. Points too far apart for that may
-/// have an arc each.
+/// Spacings of points on an arc, at least: with two a curve does not swing between its points. Points too far
+/// apart for that may have an arc each.
 const MIN_ARC_SPACINGS: [usize; 2] = [2, 1];
 
-/// Distance of a point from the curve over the height of the outline from which points count as too far apart, and the most that
-/// may be left; or so many tolerances.
+/// Distance of a point from the curve over the height of the outline from which points count as too far
+/// apart, and the most that may be left; or so many tolerances.
 const COARSE_DISTANCE: f64 = 1e-3;
 const MAX_DISTANCE: f64 = 0.01;
 const MISSED_TOLERANCES: f64 = 6.0;
@@ -322,8 +323,8 @@ const DENT_DEPTH: f64 = 1e-5;
 const PASSES: usize = 2;
 const MOST_WORK: usize = 100_000;
 
-/// Where to divide the arc that holds the middle of a stretch, or the longest that shares points with it; at least two
-/// spacings are left on either side.
+/// The places at which to divide the arc that holds the middle of a stretch, or the longest that shares
+/// points with it; at least two spacings are left on either side.
 fn division(stops: &[usize], [from, to]: [usize; 2], fewest: usize) -> Option<usize> {
     let middle = (from + to) / 2;
     let arcs = || stops.windows(2).map(|p| [p[0], p[1]]).filter(|[a, b]| b - a >= 2 * fewest);

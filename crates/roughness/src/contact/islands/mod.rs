@@ -1,10 +1,11 @@
 //! Islands: the connected parts of the surface above a plane.
 //!
 //! 1. Every row of nodes is cut into runs of neighbouring nodes above the plane.
-//! 2. Every cell with a corner above joins the runs of its corners and gives its area above to one of them. (In a
-//!    cell whose middle is not above, two diagonal corners stay apart and each takes the triangles beside it.)
-//! 3. Runs that meet are one island. A periodic map also joins across its edges, and then each run remembers how many
-//!    periods it lies from its island's first run.
+//! 2. Every cell with a corner above joins the runs of its corners and gives its area above to one of them.
+//!    (In a cell whose middle is not above, two diagonal corners stay apart and each takes the triangles
+//!    beside it.)
+//! 3. Runs that meet are one island. A periodic map also joins across its edges, and then each run remembers
+//!    how many periods it lies from its island's first run.
 
 mod runs;
 mod union_find;
@@ -47,7 +48,7 @@ pub(crate) struct Piece {
     pub island: u32,
     /// Area above the plane, in cells.
     pub area: f64,
-    /// Where corner 0 of the cell lies, in pixels; beyond the edge where a periodic island goes on there.
+    /// Position of corner 0 of the cell, in pixels; beyond the edge where a periodic island goes on there.
     pub offset: [f64; 2],
 }
 
@@ -72,12 +73,12 @@ struct Visit<'a> {
 
 /// The part of the cells that lies above the plane.
 enum Part<'a> {
-    /// All of neighbouring cells, the run along their lower side: heights of the nodes below and above them, one more
-    /// than there are cells.
+    /// All of neighbouring cells, the run along their lower side: heights of the nodes below and above them,
+    /// one more than there are cells.
     Whole([&'a [f64]; 2]),
     /// Something of some triangles of one cell.
     Cut {
-        /// Where corner 0 lies from the first node of the run.
+        /// Position of corner 0 from the first node of the run.
         offset: [i32; 2],
         corners: [f64; 4],
         sides: u8,
@@ -292,7 +293,8 @@ impl Islands {
         }
     }
 
-    /// Gives the triangles of a cell above the plane to the runs of its corners, and joins those that meet in it.
+    /// Gives the triangles of a cell above the plane to the runs of its corners, and joins those that meet in
+    /// it.
     #[inline]
     fn visit_cell(&self, cell: &CutCell, meet: &mut impl FnMut(Meeting), add: &mut impl FnMut(Visit<'_>)) {
         let CutCell { place: [row, column], next, corners, runs, .. } = *cell;
@@ -362,7 +364,8 @@ impl Islands {
         self.homes.iter_mut().for_each(|home| home.island = kept[home.island as usize]);
     }
 
-    /// Calls `each` with island, row and columns of all neighbouring nodes that belong to an island, row by row.
+    /// Calls `each` with island, row and columns of all neighbouring nodes that belong to an island, row by
+    /// row.
     pub(crate) fn spans(&self, mut each: impl FnMut(u32, usize, Range<usize>)) {
         for (run, home) in self.runs.list.iter().zip(&self.homes).filter(|(_, home)| home.island != u32::MAX)
         {

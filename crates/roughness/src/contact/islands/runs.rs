@@ -120,7 +120,8 @@ fn runs_of_span(map: &HeightMap, row: usize, span: Range<usize>, plane: f64, run
     }
 }
 
-/// Whether a cell with four measured corners holds the edge from node `column - 1` to node `column` of `row`.
+/// True where a cell with four measured corners holds the edge from node `column - 1` to node `column` of
+/// `row`.
 fn edge_is_used(map: &HeightMap, row: usize, column: usize) -> bool {
     let measured = |row: usize| {
         let heights = map.row(row);
