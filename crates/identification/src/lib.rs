@@ -5,7 +5,7 @@
 //! ready ([`measured_curve`]), the unknowns ([`parameters`]); what finite elements answer to one metal
 //! ([`response`]) and between metals ([`emulator`]); a measurement with its covariance ([`experiment`]), all
 //! of them ([`objective`]); the search ([`mod@search`], [`levenberg_marquardt`]); intervals
-//! ([`profile_likelihood`]), samples ([`posterior`]) and what cannot be seen ([`verdict`]).
+//! ([`profile_likelihood`]), samples ([`posterior`]) and the null direction ([`identifiability`]).
 
 pub mod known_or_unknown;
 
@@ -31,6 +31,6 @@ pub mod profile_likelihood;
 
 pub mod posterior;
 
-pub mod verdict;
+pub mod identifiability;
 
 pub mod stress_strain;

@@ -31,7 +31,7 @@ impl Solved {
     }
 
     /// The stress that is told best, beside the true one at its strain.
-    pub fn told_best(&self) -> Row {
+    pub fn best_identified(&self) -> Row {
         let best = &self.fit["representative"];
         (self.case.stress(best["plastic_strain"].as_f64().unwrap_or(f64::NAN)), numbers(best))
     }

@@ -123,7 +123,7 @@ fn unknown_modulus(report: &mut Report, open: Option<&[Solved]>) {
 /// One cone under each published metal.
 fn one_cone(report: &mut Report, single: &[Solved]) {
     let work = "60° alone, curvature and slope";
-    let best: Vec<Row> = single.iter().map(Solved::told_best).collect();
+    let best: Vec<Row> = single.iter().map(Solved::best_identified).collect();
     let bound = Bound { mean: 4.0, asked: "4 mean", ..ANY };
     line(report, work, "σ_r, the stress told best", &best, single.len(), &bound);
     let all = yields(single);

@@ -2,12 +2,16 @@
 //! verdict, and the files.
 
 use super::fit::Fit;
+use super::noise::noise_from_scatter;
 use super::pictures;
 use crate::draw::chart::svg;
 use crate::error::Error;
 use crate::input::toml_file::to_toml;
 use crate::results::output::{Sink, SinkExt, json};
 use asperity_identification::experiment::{Data, Experiment};
+use asperity_identification::identifiability::{
+    NextExperiment, NullDirection, deviations, identified, next_experiment, null_direction,
+};
 use asperity_identification::levenberg_marquardt::{Minimum, Residuals};
 use asperity_identification::objective::Objective;
 use asperity_identification::parameters::{Parameter, Slot, Unknowns};
@@ -15,9 +19,6 @@ use asperity_identification::posterior;
 use asperity_identification::profile_likelihood::{self, Interval};
 use asperity_identification::search::{self, search};
 use asperity_identification::stress_strain::StressAt;
-use asperity_identification::verdict::{
-    NextExperiment, NullDirection, deviations, identified, next_experiment, null_direction,
-};
 use asperity_simulation::scene::Material;
 use indexmap::IndexMap;
 use nalgebra::DVector;
@@ -108,9 +109,6 @@ pub struct Identification {
 
 /// Plastic strains of the stress-strain curve.
 const STRAINS: [f64; 13] = [0.0, 0.002, 0.005, 0.01, 0.02, 0.033, 0.05, 0.066, 0.1, 0.15, 0.2, 0.25, 0.3];
-/// Factors by which the noise of a curve that states none may change from one round to the next without
-/// another round.
-const SETTLED_NOISE_FACTOR: f64 = 1.15;
 
 pub(super) fn identify(
     mut fit: Fit,
@@ -145,23 +143,6 @@ fn assumed(fit: &Fit) -> Option<String> {
     })
 }
 
-/// Takes the noise of curves that state none from the scatter of their loading about the fit; whether one
-/// changed.
-fn noise_from_scatter(experiments: &mut [Experiment], unknowns: &Unknowns, point: &[f64]) -> bool {
-    let mut changed = false;
-    for experiment in experiments.iter_mut().filter(|e| !e.noise_given) {
-        let Data::Curve(measured) = &experiment.data else { continue };
-        let Some(differences) = experiment.differences(unknowns, point, false) else { continue };
-        let loading = &differences[..measured.loading.len()];
-        let freedom = (loading.len() as f64 - unknowns.parameters.len() as f64).max(1.0);
-        let scatter = (loading.iter().map(|d| d * d).sum::<f64>() / freedom).sqrt().clamp(1e-3, 0.2);
-        let ratio = (scatter / experiment.noise).max(experiment.noise / scatter);
-        experiment.noise = scatter;
-        changed |= ratio > SETTLED_NOISE_FACTOR;
-    }
-    changed
-}
-
 fn describe(
     fit: &Fit,
     experiments: &[Experiment],
@@ -188,7 +169,7 @@ fn describe(
         .map(|(((p, i), x), told)| (p.name.clone(), found(p, i, *x, residual.fits && *told)))
         .collect();
     let stress_strain = band(&function, unknowns, best, &bounds, &correlation, &deviations);
-    let blind = null_direction(&objective, unknowns, &best.point);
+    let null = null_direction(&objective, unknowns, &best.point);
     let widest = widest(unknowns, &intervals, &identified);
     let next = widest.and_then(|of| next_experiment(&objective, experiments, unknowns, &best.point, of));
     let width = |s: &StressAt| (s.high_MPa / s.low_MPa).ln();
@@ -198,10 +179,10 @@ fn describe(
     let shown = |point: &Vec<f64>| point.iter().zip(&unknowns.parameters).map(|(x, p)| p.shown(*x)).collect();
     let drawn = pictures::Drawn::new(&objective, experiments, unknowns, best, &intervals);
     Some(Identification {
-        verdict: words(&parameters, representative.as_ref(), blind.as_ref(), next.as_ref(), &residual),
+        verdict: words(&parameters, representative.as_ref(), null.as_ref(), next.as_ref(), &residual),
         parameters,
         correlation,
-        blind_direction: blind,
+        blind_direction: null,
         next_experiment: next,
         stress_strain,
         representative,
@@ -312,7 +293,7 @@ fn quoted(name: &str, f: &Found) -> String {
 fn words(
     parameters: &IndexMap<String, Found>,
     representative: Option<&StressAt>,
-    blind: Option<&NullDirection>,
+    null: Option<&NullDirection>,
     next: Option<&NextExperiment>,
     residual: &Residual,
 ) -> String {
@@ -325,20 +306,20 @@ fn words(
             residual.chi2, residual.degrees_of_freedom
         );
     }
-    let (told, untold) = (list(true), list(false));
-    let mut text = match (&told[..], &untold[..]) {
+    let (told, unidentified) = (list(true), list(false));
+    let mut text = match (&told[..], &unidentified[..]) {
         (_, []) => "identifiable: the measurements determine all that is sought".to_string(),
-        ([], _) => format!("not identifiable: the measurements do not determine {}", untold.join(", ")),
+        ([], _) => format!("not identifiable: the measurements do not determine {}", unidentified.join(", ")),
         _ => format!(
             "partly identifiable: the measurements determine {}, but not {}",
             told.join(", "),
-            untold.join(", ")
+            unidentified.join(", ")
         ),
     };
-    if let (false, Some(blind)) = (untold.is_empty(), blind) {
-        let _ = write!(text, "; they are least sensitive to {}", blind.text);
+    if let (false, Some(null)) = (unidentified.is_empty(), null) {
+        let _ = write!(text, "; they are least sensitive to {}", null.text);
     }
-    if let (false, Some(s)) = (untold.is_empty(), representative) {
+    if let (false, Some(s)) = (unidentified.is_empty(), representative) {
         let _ = write!(
             text,
             "; what they determine best is the stress at a plastic strain of {}: {:.0} ({:.0} to {:.0}) MPa",

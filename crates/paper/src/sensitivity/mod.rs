@@ -34,8 +34,9 @@ pub struct Sensitivity {
 }
 
 row! {
-    /// c of a part of the grid: a row of `dependence.csv`. The first three c are those of all cases, the others those of the
-    /// cases in which plasticity is developed; each with its 95 % interval, none where it is not determined.
+    /// c of a part of the grid: a row of `dependence.csv`. The first three c are those of all cases, the
+    /// others those of the cases in which plasticity is developed; each with its 95 % interval, none where
+    /// it is not determined.
     SensitivityLine(sweep: &Sweep, line: &Line) {
         /// `crush` or `indentation`.
         tool: String = tool_name(sweep.tool).into(),
