@@ -1,8 +1,9 @@
-//! The cost of a case of the default sweep: core-seconds, increments, iterations, and the floor of those iterations.
+//! The cost of a case of the default sweep: core-seconds, increments, iterations, and the floor of those
+//! iterations.
 //!
-//! `cargo bench -p asperity-verification` solves every tenth case of the grid on one thread and prints a row for each slope
-//! and the mean. Roofline: the iterations, each with a new tangent and every point flowing, at the arithmetic of this core
-//! (`asperity_verification::roofline`).
+//! `cargo bench -p asperity-verification` solves every tenth case of the grid on one thread and prints a row
+//! for each slope and the mean. Roofline: the iterations, each with a new tangent and every point flowing, at
+//! the arithmetic of this core (`asperity_verification::roofline`).
 #![allow(clippy::print_stdout, reason = "a benchmark prints")]
 
 use asperity_calibration::case::Case;

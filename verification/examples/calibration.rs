@@ -1,9 +1,10 @@
-//! The calibration of `asperity calibrate` beside itself at `reference`, sharp cones of another code, the elastic cone, the
-//! other lengths of a cone, and steep indentation.
+//! The calibration of `asperity calibrate` beside itself at `reference`, sharp cones of another code, the
+//! elastic cone, the other lengths of a cone, and steep indentation.
 //!
-//! `cargo run --release -p asperity-verification --example calibration -- random|peers|elastic|lengths|indentation [--out FILE]`,
-//! or `-- published FILE.csv SLOPE_DEG` for a file of published indentations by a cone of that slope. The tables are
-//! `verification/results/calibration-*.md`, one a word.
+//! `cargo run --release -p asperity-verification --example calibration --
+//! random|peers|elastic|lengths|indentation [--out FILE]`, or `-- published FILE.csv SLOPE_DEG` for a file of
+//! published indentations by a cone of that slope. The tables are `verification/results/calibration-*.md`,
+//! one a word.
 
 // on committed cases
 #![allow(clippy::expect_used)]
@@ -203,8 +204,8 @@ fn indentation(report: &mut Report) {
     }
 }
 
-/// Mean and standard deviation of the difference of K from a file of published indentations, in percent, with either
-/// stress: columns `Case,n,E (GPa),sy (GPa),C (GPa)`, C the curvature F/h².
+/// Mean and standard deviation of the difference of K from a file of published indentations, in percent, with
+/// either stress: columns `Case,n,E (GPa),sy (GPa),C (GPa)`, C the curvature F/h².
 fn published(report: &mut Report, file: &str, beta_deg: f64) {
     let text = std::fs::read_to_string(file).expect("the file named can be read");
     let number = |field: &str| field.trim().parse::<f64>().ok();
@@ -256,7 +257,7 @@ fn published(report: &mut Report, file: &str, beta_deg: f64) {
 }
 
 fn main() {
-    let (mut report, words) = Report::of("calibration", "standard");
+    let (mut report, words) = Report::of_example("calibration", "standard");
     let words: Vec<&str> = words.iter().map(String::as_str).collect();
     match words[..] {
         ["random"] => random(&mut report),

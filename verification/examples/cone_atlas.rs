@@ -1,13 +1,17 @@
-//! The atlas of cones: sharp cones drawn by the rule of `asperity_calibration::cones`, loaded and unloaded at `standard`.
+//! The atlas of cones: sharp cones drawn by the rule of `asperity_calibration::cones`, loaded and unloaded at
+//! `standard`.
 //!
 //! `cargo run --release -p asperity-verification --example cone_atlas -- COMMAND`:
-//! * `grow FOLDER COUNT [--shard K/N] [--seconds S]`: solves those of the first COUNT cones that neither the committed file nor
-//!   a journal of FOLDER holds, each a line of a journal, so that a killed run goes on where it was. After S seconds no cone is begun.
-//! * `pack FOLDER`: joins the committed file and the journals of FOLDER to the committed file, `verification/results/atlas.csv.gz`.
-//! * `check FOLDER COUNT [--shard K/N] [--seconds S]`: the same as `grow` for cones between those of the atlas, at `reference`;
-//!   `pack-check FOLDER` joins them to `verification/results/atlas-check.csv.gz`.
-//! * `renew --out FILE`: fits the formula of `asperity_material::cone_atlas` to the committed file, writes its coefficients, and the tables of
-//!   `verification/results/atlas.md`: cones left out of the fit, and those of `check` against it.
+//! * `grow FOLDER COUNT [--shard K/N] [--seconds S]`: solves those of the first COUNT cones that neither the
+//!   committed file nor a journal of FOLDER holds, each a line of a journal, so that a killed run goes on
+//!   where it was. After S seconds no cone is begun.
+//! * `pack FOLDER`: joins the committed file and the journals of FOLDER to the committed file,
+//!   `verification/results/atlas.csv.gz`.
+//! * `check FOLDER COUNT [--shard K/N] [--seconds S]`: the same as `grow` for cones between those of the
+//!   atlas, at `reference`; `pack-check FOLDER` joins them to `verification/results/atlas-check.csv.gz`.
+//! * `renew --out FILE`: fits the formula of `asperity_material::cone_atlas` to the committed file, writes
+//!   its coefficients, and the tables of `verification/results/atlas.md`: cones left out of the fit, and
+//!   those of `check` against it.
 
 // on committed cases
 #![allow(clippy::expect_used, clippy::print_stderr)]
@@ -22,7 +26,7 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 fn main() {
-    let (report, words) = Report::of("cone_atlas", "standard");
+    let (report, words) = Report::of_example("cone_atlas", "standard");
     let word = |i: usize| words.get(i).map(String::as_str);
     let folder = || Path::new(word(1).expect("a folder"));
     let count = || word(2).and_then(|count| count.parse().ok()).expect("how many cones");

@@ -1,8 +1,9 @@
-//! Convergence of the single asperity with mesh, step, penalty and domain, both elements, and the errors of the three levels of
-//! accuracy.
+//! Convergence of the single asperity with mesh, step, penalty and domain, both elements, and the errors of
+//! the three levels of accuracy.
 //!
-//! `cargo run --release -p asperity-verification --example convergence [-- energy] [--out FILE]` (about ten minutes of two
-//! cores); with the argument `energy` only the energy balance. The tables are `verification/results/convergence.md`.
+//! `cargo run --release -p asperity-verification --example convergence [-- energy] [--out FILE]` (about ten
+//! minutes of two cores); with the argument `energy` only the energy balance. The tables are
+//! `verification/results/convergence.md`.
 
 // on a committed scene
 #![allow(clippy::expect_used)]
@@ -165,7 +166,7 @@ fn energy_balance(report: &mut Report) {
 }
 
 fn main() {
-    let (mut report, words) = Report::of("convergence", "all levels");
+    let (mut report, words) = Report::of_example("convergence", "all levels");
     if words.iter().all(|word| word != "energy") {
         studies(&mut report);
     }

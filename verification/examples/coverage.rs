@@ -1,21 +1,23 @@
-//! How well the errors that a run states bound the true ones: 630 scenes at all levels. The page of
+//! Test of the errors that a run states against the true ones: 630 scenes at all levels. The page of
 //! stated errors says which constants had seen them.
 //!
-//! `cargo run --release -p asperity-verification --example coverage -- [--scenes FROM..TO] [--level LEVEL] [--cache DIR]
-//! [--budget SECONDS] [--out FILE]`, or `--scene N` for the text of one scene and its row. The table is
-//! `verification/results/coverage.md`.
+//! `cargo run --release -p asperity-verification --example coverage -- [--scenes FROM..TO] [--level LEVEL]
+//! [--cache DIR] [--budget SECONDS] [--out FILE]`, or `--scene N` for the text of one scene and its row. The
+//! table is `verification/results/coverage.md`.
 //!
-//! The truth of a scene is a finer run of it ([`RECIPES`]), extrapolated by a companion of its own as every run is; of some scenes
-//! with the other element. Those that were found are in `verification/results/coverage-truths.json.gz`; the others are searched for
-//! and kept in the folder of `--cache` (`target/coverage` unless told) under the number and a hash of the scene, so that what was
-//! stopped goes on there. A truth that was not reached is kept too. After the seconds of `--budget` no new truth is begun, and the
-//! table is of what there is. `--level` runs all scenes at one level instead of at their own. Before all of these words: `pack` puts
-//! all truths into the committed file; `recipes` holds the truths of draft and standard runs against those of `reference` runs.
+//! The truth of a scene is a finer run of it ([`RECIPES`]), extrapolated by a companion of its own as every
+//! run is; of some scenes with the other element. Those that were found are in
+//! `verification/results/coverage-truths.json.gz`; the others are searched for and kept in the folder of
+//! `--cache` (`target/coverage` unless told) under the number and a hash of the scene, so that what was
+//! stopped goes on there. A truth that was not reached is kept too. After the seconds of `--budget` no new
+//! truth is begun, and the table is of what there is. `--level` runs all scenes at one level instead of at
+//! their own. Before all of these words: `pack` puts all truths into the committed file; `recipes` holds the
+//! truths of draft and standard runs against those of `reference` runs.
 //!
 //! All work comes back from a body that never yields: there the truth of the elastic fraction is 1.
 //!
-//! An error is the largest over 0.2 ≤ h/h_peak ≤ 1 for force, contact area and mean pressure, relative; the residual depth is over
-//! the peak depth, the elastic fraction absolute, the stiffness relative.
+//! An error is the largest over 0.2 ≤ h/h_peak ≤ 1 for force, contact area and mean pressure, relative; the
+//! residual depth is over the peak depth, the elastic fraction absolute, the stiffness relative.
 
 // on scenes of its own, for hours
 #![allow(clippy::expect_used, clippy::print_stderr, clippy::print_stdout)]
@@ -23,7 +25,9 @@
 use asperity_simulation::scene::Accuracy;
 use asperity_verification::coverage_scenes::{Case, Kind};
 use asperity_verification::report::Report;
-use asperity_verification::truth::{Answer, Each, QUANTITIES, RECIPES, Recipe, SOFTER, Truth, Truths};
+use asperity_verification::truth::{
+    Answer, Each, QUANTITIES, RECIPES, Recipe, SOFTER_PENALTY, Truth, Truths,
+};
 use rayon::prelude::*;
 use std::error::Error;
 use std::ops::Range;
@@ -61,12 +65,12 @@ enum End {
 }
 
 fn measure(case: Case, truths: &Truths, search: bool) -> End {
-    let truth = match truths.of(&case, search) {
+    let truth = match truths.find_or_compute(&case, search) {
         None => return End::Open,
         Some(Err(reason)) => return End::NoTruth(Box::new(case), reason),
         Some(Ok(truth)) => truth.exact_where_known(&case.scene),
     };
-    let run = case.mesh().map_err(|e| e.to_string()).and_then(|mesh| Answer::to(&case.scene, mesh));
+    let run = case.mesh().map_err(|e| e.to_string()).and_then(|mesh| Answer::compute(&case.scene, mesh));
     match run {
         Err(reason) => End::Stopped(Box::new(case), reason),
         Ok(run) => End::Measured(Box::new(Row {
@@ -196,12 +200,12 @@ fn write(report: &mut Report, rows: &[Row], ends: &[End]) {
     report.section("Truths");
     report.table("| truths of | elements, steps and substrate over those of `reference` | penetration | number | mean cost, s |");
     for (name, level, _) in LEVELS {
-        let Recipe(finer) = Recipe::of(level);
+        let Recipe(finer) = Recipe::for_accuracy(level);
         let seconds: Vec<f64> = those(rows, |row| own(row, level)).iter().map(|row| row.seconds).collect();
         let mean = seconds.iter().sum::<f64>() / seconds.len() as f64;
         report.line(&format!(
             "| {name} | {finer} | {:.2} | {} | {mean:.0} |",
-            finer.powf(SOFTER),
+            finer.powf(SOFTER_PENALTY),
             seconds.len()
         ));
     }
@@ -271,7 +275,7 @@ fn compare(report: &mut Report, cases: &[Case], truths: &Truths) {
     );
     for ((name, level, _), recipe) in LEVELS.iter().zip(RECIPES).take(2) {
         let pairs = cases.iter().filter_map(|case| {
-            let best = truths.of(case, false)?.ok()?;
+            let best = truths.find_or_compute(case, false)?.ok()?;
             Some((recipe.find(case).ok()?, best))
         });
         let pairs: Vec<(Truth, Truth)> = pairs.collect();
@@ -335,7 +339,7 @@ fn options(words: &[String]) -> Result<Options, Box<dyn Error>> {
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let (mut report, words) = Report::of("coverage", "every level against finer runs");
+    let (mut report, words) = Report::of_example("coverage", "every level against finer runs");
     let options = options(&words)?;
     let make = |number: usize| {
         let mut case = Case::new(number).map_err(|e| format!("scene {number}: {e}"))?;

@@ -1,5 +1,5 @@
-//! The single asperity, crushed and then unloaded and loaded again ten times, with a yield surface that grows and with one
-//! that moves.
+//! The single asperity, crushed and then unloaded and loaded again ten times, with a yield surface that grows
+//! and with one that moves.
 //!
 //! `cargo run --release -p asperity-verification --example cycles [-- draft] [--out FILE]`; the table is
 //! `verification/results/cycles.md`.
@@ -31,7 +31,7 @@ fn table(report: &mut Report, name: &str, outcome: &Outcome) {
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let draft = std::env::args().any(|a| a == "draft");
     let (level, named) = if draft { (Accuracy::Draft, "draft") } else { (Accuracy::Standard, "standard") };
-    let (mut report, _) = Report::of("cycles", named);
+    let (mut report, _) = Report::of_example("cycles", named);
     report.table(
         "| hardening | cycle | peak force, N | residual depth, µm | work returned, % | hysteresis, % | plastic work, % |"
     );

@@ -1,7 +1,9 @@
-//! Work that a scene does not need and is not done, the time that saves and the change of the force: elastic bodies without plasticity,
-//! a substrate of the size that the accuracy asks for, a far field of few cells, old factors where they still serve.
+//! Work that a scene does not need and is not done, the time that saves and the change of the force: elastic
+//! bodies without plasticity, a substrate of the size that the accuracy asks for, a far field of few cells,
+//! old factors where they still serve.
 //!
-//! `cargo run --release -p asperity-verification --example economy [-- --out FILE]`; the table is `verification/results/economy.md`.
+//! `cargo run --release -p asperity-verification --example economy [-- --out FILE]`; the table is
+//! `verification/results/economy.md`.
 
 use asperity_material::units::{Length, Stress};
 use asperity_numerics::newton::KEPT_FACTORS_REDUCTION;
@@ -56,7 +58,7 @@ fn loaded(scene: &Scene, keep: f64) -> Result<(f64, f64, usize), Box<dyn Error>>
 fn main() -> Result<(), Box<dyn Error>> {
     let mut paper = scene(Accuracy::Standard)?;
     paper.loading.unload = false;
-    let (mut report, _) = Report::of("economy", "standard, the least seconds of three runs");
+    let (mut report, _) = Report::of_example("economy", "standard, the least seconds of three runs");
     report.table("| left out | unknowns | returns to the yield surface | seconds | saved | force |");
 
     let mut elastic = paper.clone();

@@ -1,10 +1,10 @@
-//! Errors of the levels of accuracy on ten scenes that none of them was chosen by: the true error of the force
-//! and the stated one.
+//! Errors of the levels of accuracy on ten scenes that none of them was chosen by: the true error of the
+//! force and the stated one.
 //!
-//! `cargo run --release -p asperity-verification --example levels -- [ROW …] [--out FILE]` (rows counted from 1; all of them
-//! unless told; a scene takes minutes at reference); the table is `verification/results/levels.md`.
-//! The converged force is the mean of the smoothed curves of `reference` and of a mesh finer by a quarter, so that the
-//! column of `reference` shows half of what the two differ by.
+//! `cargo run --release -p asperity-verification --example levels -- [ROW …] [--out FILE]` (rows counted from
+//! 1; all of them unless told; a scene takes minutes at reference); the table is
+//! `verification/results/levels.md`. The converged force is the mean of the smoothed curves of `reference`
+//! and of a mesh finer by a quarter, so that the column of `reference` shows half of what the two differ by.
 
 // on scenes of its own
 #![allow(clippy::expect_used)]
@@ -55,7 +55,7 @@ fn row(entry: &Entry) -> Result<String, String> {
 }
 
 fn main() {
-    let (mut report, words) = Report::of("levels", "draft, standard and reference");
+    let (mut report, words) = Report::of_example("levels", "draft, standard and reference");
     let rows: Vec<usize> = words.iter().map(|a| a.parse().expect("a row is a number")).collect();
     let entries = others().expect("the committed scene reads").into_iter().enumerate();
     let entries: Vec<Entry> =

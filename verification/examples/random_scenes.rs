@@ -1,9 +1,10 @@
 //! Ends of scenes drawn at random, crushed with the program itself.
 //!
-//! `cargo build --release && cargo run --release -p asperity-verification --example random_scenes -- [COUNT] [SEED] [--out FILE]`
-//! (10000 scenes of seed 1 unless told). A scene that ends as it must not, takes long or whose energy
-//! balances poorly, is left in `out/random-scenes` to be run again. A run that was killed goes on from `ends-SEED.tsv` there;
-//! remove that file when the program has changed. The tables are `verification/results/random-scenes.md`.
+//! `cargo build --release && cargo run --release -p asperity-verification --example random_scenes -- [COUNT]
+//! [SEED] [--out FILE]` (10000 scenes of seed 1 unless told). A scene that ends as it must not, takes long or
+//! whose energy balances poorly, is left in `out/random-scenes` to be run again. A run that was killed goes
+//! on from `ends-SEED.tsv` there; remove that file when the program has changed. The tables are
+//! `verification/results/random-scenes.md`.
 
 use asperity_verification::random_scenes::{Drawn, End, Kind, crush, draw};
 use asperity_verification::report::{Report, timed};
@@ -22,7 +23,7 @@ const LIMIT: Duration = Duration::from_secs(600);
 /// Scenes that take longer (s) are left as well.
 const SLOW: f64 = 10.0;
 
-/// How many of the slowest scenes are named.
+/// The number of the slowest scenes that are named.
 const SLOWEST: usize = 10;
 
 /// Scenes whose energy balances worse than this are left to be looked at.
@@ -76,17 +77,43 @@ fn run(program: &Path, kept: &Path, index: usize, drawn: &Drawn) -> Result<(End,
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let (mut report, words) = Report::of("random_scenes", "draft");
+    let (mut report, words) = Report::of_example("random_scenes", "draft");
     let count: usize = words.first().map_or(Ok(10_000), |a| a.parse())?;
     let seed: u64 = words.get(1).map_or(Ok(1), |a| a.parse())?;
-    let (program, kept) = (program()?, PathBuf::from("out/random-scenes"));
     let scenes = draw(count, seed)?;
+    let ends = solve(&scenes, seed)?;
+    let tally = Tally::new(&scenes, &ends);
+    report.line(&format!("{count} scenes of seed {seed}. {}", tally.summary()));
+    report.table("| stopped because | scenes |");
+    tally.stopped.iter().for_each(|(reason, scenes)| report.line(&format!("| {reason} | {scenes} |")));
+    report.line("");
+    report.table("| energy balance | scenes |");
+    let edges = [0.0, 1e-3, 3e-3, 1e-2, 3e-2, 1e-1, f64::INFINITY];
+    for pair in edges.windows(2) {
+        let within = tally.balances.iter().filter(|b| (pair[0]..pair[1]).contains(b)).count();
+        report.line(&format!("| {:.0e} to {:.0e} | {within} |", pair[0], pair[1]));
+    }
+    let total: f64 = ends.iter().map(|(.., seconds)| seconds).sum();
+    let mut slowest: Vec<(f64, usize)> = ends.iter().map(|(i, _, seconds)| (*seconds, *i)).collect();
+    slowest.sort_by(|a, b| b.0.total_cmp(&a.0));
+    report.line(&format!("\n{:.2} s a scene in the mean; the slowest:\n", total / ends.len().max(1) as f64));
+    report.table("| scene | s |");
+    slowest.iter().take(SLOWEST).for_each(|(seconds, i)| report.line(&format!("| {i} | {seconds:.1} |")));
+    tally.faults.iter().for_each(|fault| report.line(&format!("\n{fault}")));
+    report.finish()?;
+    if tally.faults.is_empty() { Ok(()) } else { Err("see the scenes in out/random-scenes".into()) }
+}
+
+/// Number, end and seconds of every scene; ends that the journal of an earlier run knows are taken from
+/// there.
+fn solve(scenes: &[Drawn], seed: u64) -> Result<Vec<(usize, End, f64)>, Box<dyn Error>> {
+    let (program, kept) = (program()?, PathBuf::from("out/random-scenes"));
     std::fs::create_dir_all(&kept)?;
     let journal = kept.join(format!("ends-{seed}.tsv"));
     let before: BTreeMap<usize, (End, f64)> =
         std::fs::read_to_string(&journal).unwrap_or_default().lines().filter_map(parse).collect();
     let journal: Mutex<File> = Mutex::new(OpenOptions::new().create(true).append(true).open(journal)?);
-    let ends: Vec<(usize, End, f64)> = scenes
+    let ends = scenes
         .par_iter()
         .with_max_len(1)
         .enumerate()
@@ -101,65 +128,65 @@ fn main() -> Result<(), Box<dyn Error>> {
             Ok((i, end, seconds))
         })
         .collect::<Result<_, std::io::Error>>()?;
+    Ok(ends)
+}
 
-    // scenes of formulas, and of measured outlines: how many are sound, and of those how many reached their depth
-    let mut reached = [[0; 2]; 2];
-    let mut balances: Vec<f64> = Vec::new();
-    let (mut stopped, mut faults) = (BTreeMap::<String, usize>::new(), Vec::new());
-    let mut refused = 0;
-    for (i, end, _) in &ends {
-        let one = &scenes[*i];
-        if one.kind == Kind::Sound {
-            let [sound, done] = &mut reached[usize::from(one.is_measured())];
-            *sound += 1;
-            *done += usize::from(matches!(end, End::Done(_)));
+/// The ends of all scenes, counted.
+#[derive(Default)]
+struct Tally {
+    /// Of scenes of formulas, and of measured outlines: sound ones, and those of them that reached their
+    /// depth.
+    reached: [[usize; 2]; 2],
+    balances: Vec<f64>,
+    /// Scenes by the reason of their end.
+    stopped: BTreeMap<String, usize>,
+    refused: usize,
+    faults: Vec<String>,
+}
+
+impl Tally {
+    fn new(scenes: &[Drawn], ends: &[(usize, End, f64)]) -> Tally {
+        let mut tally = Tally::default();
+        for (i, end, _) in ends {
+            let one = &scenes[*i];
+            if one.kind == Kind::Sound {
+                let [sound, done] = &mut tally.reached[usize::from(one.is_measured())];
+                *sound += 1;
+                *done += usize::from(matches!(end, End::Done(_)));
+            }
+            match end {
+                End::Done(balance) => tally.balances.push(*balance),
+                End::Stopped(reason) => *tally.stopped.entry(reason.clone()).or_default() += 1,
+                End::Refused => tally.refused += 1,
+                End::Fault(what) => tally.faults.push(format!("scene {i}: {what}")),
+            }
         }
-        match end {
-            End::Done(balance) => balances.push(*balance),
-            End::Stopped(reason) => *stopped.entry(reason.clone()).or_default() += 1,
-            End::Refused => refused += 1,
-            End::Fault(what) => faults.push(format!("scene {i}: {what}")),
-        }
+        tally
     }
-    let [sound, done] = [0, 1].map(|i| reached[0][i] + reached[1][i]);
-    let beyond = stopped
-        .iter()
-        .filter(|(reason, _)| reason.contains("Hencky"))
-        .map(|(_, scenes)| scenes)
-        .sum::<usize>();
-    let percent = |done: usize, sound: usize| 100.0 * done as f64 / sound.max(1) as f64;
-    let together = format!(
-        "Together {:.2} % of {sound}; without the {beyond} whose elastic strain went beyond what the law of elasticity carries, {:.2} %.",
-        percent(done, sound),
-        percent(done, sound - beyond),
-    );
-    let share = |[sound, done]: [usize; 2]| {
+
+    /// Two lines and an empty one.
+    fn summary(&self) -> String {
+        let percent = |done: usize, sound: usize| 100.0 * done as f64 / sound.max(1) as f64;
+        let [sound, done] = [0, 1].map(|i| self.reached[0][i] + self.reached[1][i]);
+        let beyond: usize = self
+            .stopped
+            .iter()
+            .filter(|(reason, _)| reason.contains("Hencky"))
+            .map(|(_, scenes)| scenes)
+            .sum();
+        let together = format!(
+            "Together {:.2} % of {sound}; without the {beyond} whose elastic strain went beyond what the law of elasticity carries, {:.2} %.",
+            percent(done, sound),
+            percent(done, sound - beyond),
+        );
+        let share = |[sound, done]: [usize; 2]| {
+            format!("{sound} sound, of which {done} reached their depth ({:.1} %)", percent(done, sound))
+        };
+        let [formulas, measured] = self.reached.map(share);
+        let (refused, faults) = (self.refused, self.faults.len());
         format!(
-            "{sound} sound, of which {done} reached their depth ({:.1} %)",
-            100.0 * done as f64 / sound.max(1) as f64
+            "Of formulas: {formulas}. Of measured outlines: {measured}. {refused} refused;\n\
+             {faults} ended as they must not. {together}\n"
         )
-    };
-    let [formulas, measured] = reached.map(share);
-    report.line(&format!(
-        "{count} scenes of seed {seed}. Of formulas: {formulas}. Of measured outlines: {measured}. {refused} refused;"
-    ));
-    report.line(&format!("{} ended as they must not. {together}\n", faults.len()));
-    report.table("| stopped because | scenes |");
-    stopped.iter().for_each(|(reason, scenes)| report.line(&format!("| {reason} | {scenes} |")));
-    report.line("");
-    report.table("| energy balance | scenes |");
-    let edges = [0.0, 1e-3, 3e-3, 1e-2, 3e-2, 1e-1, f64::INFINITY];
-    for pair in edges.windows(2) {
-        let within = balances.iter().filter(|b| (pair[0]..pair[1]).contains(b)).count();
-        report.line(&format!("| {:.0e} to {:.0e} | {within} |", pair[0], pair[1]));
     }
-    let total: f64 = ends.iter().map(|(.., seconds)| seconds).sum();
-    let mut slowest: Vec<(f64, usize)> = ends.iter().map(|(i, _, seconds)| (*seconds, *i)).collect();
-    slowest.sort_by(|a, b| b.0.total_cmp(&a.0));
-    report.line(&format!("\n{:.2} s a scene in the mean; the slowest:\n", total / ends.len().max(1) as f64));
-    report.table("| scene | s |");
-    slowest.iter().take(SLOWEST).for_each(|(seconds, i)| report.line(&format!("| {i} | {seconds:.1} |")));
-    faults.iter().for_each(|fault| report.line(&format!("\n{fault}")));
-    report.finish()?;
-    if faults.is_empty() { Ok(()) } else { Err("see the scenes in out/random-scenes".into()) }
 }

@@ -2,7 +2,8 @@
 //! `cargo run --release -p asperity-verification --example ripple_pictures -- [FOLDER] [--out FILE]`. FILE gets a table of the same, FOLDER the pictures;
 //! without them the table is printed.
 //!
-//! "As found" is an increment before the run has ended: the sum of the nodal forces over the depth, and that force over the area.
+//! "As found" is an increment before the run has ended: the sum of the nodal forces over the depth, and that
+//! force over the area.
 
 // a scene that is committed
 #![allow(clippy::expect_used)]
@@ -68,7 +69,8 @@ fn deviation(rows: &[CurveRow], fine: &[CurveRow], column: Column) -> Vec<[f64; 
     points.filter(|point| point[1].is_finite()).collect()
 }
 
-/// Deviation in percent of the slope dF/dh from that of the fine curve, of the chord between two depths around each row.
+/// Deviation in percent of the slope dF/dh from that of the fine curve, of the chord between two depths
+/// around each row.
 fn slopes(rows: &[CurveRow], fine: &[CurveRow], around: impl Fn(&[f64], usize) -> [f64; 2]) -> Vec<[f64; 2]> {
     let [own, fine] = [rows, fine].map(|rows| curve(rows, |row| row.force_N));
     let chord = |curve: &Curve, [low, high]: [f64; 2]| {
@@ -83,7 +85,8 @@ fn slopes(rows: &[CurveRow], fine: &[CurveRow], around: impl Fn(&[f64], usize) -
     points.filter(|point| point[1].is_finite()).collect()
 }
 
-/// The same of unloading between 95 and 20 % of the peak, between each row and the next, at the forces of both.
+/// The same of unloading between 95 and 20 % of the peak, between each row and the next, at the forces of
+/// both.
 fn slopes_back(rows: &[CurveRow], fine: &[CurveRow]) -> Vec<[f64; 2]> {
     let back = |rows: &[CurveRow]| -> Vec<[f64; 2]> {
         let from = rows.iter().position(|row| row.phase == Phase::Unload).unwrap_or(rows.len()) - 1;
@@ -128,7 +131,7 @@ fn save(folder: Option<&String>, name: &str, picture: &str) {
 }
 
 /// Deviations of a column as found and in the result; only the force states an error in every row.
-fn beside(name: &str, [before, after]: [Vec<[f64; 2]>; 2], stated: &[[f64; 2]]) -> String {
+fn deviation_chart(name: &str, [before, after]: [Vec<[f64; 2]>; 2], stated: &[[f64; 2]]) -> String {
     let lower = stated.iter().rev().map(|[x, y]| [*x, -y]);
     let band: Vec<_> = stated.iter().copied().chain(lower).collect();
     let end = if band.is_empty() { "" } else { "; band: stated error" };
@@ -162,7 +165,7 @@ fn main() {
         let [before, after] = [found, result].map(|rows| deviation(rows, &fine.result.curve, column));
         report.line(&row(&name.to_lowercase(), [&before, &after]));
         let file = format!("single-ripple-{}.svg", name.to_lowercase().replace(' ', "-"));
-        save(folder, &file, &beside(name, [before, after], stated));
+        save(folder, &file, &deviation_chart(name, [before, after], stated));
     }
 
     let reference = &fine.result.curve;

@@ -1,7 +1,9 @@
-//! How one Newton iteration, its memory and a whole loading grow with the number of unknowns, on the single asperity.
+//! Growth of one Newton iteration, its memory and a whole loading with the number of unknowns, on the single
+//! asperity.
 //!
 //! `cargo run --release -p asperity-verification --example scaling [-- --out FILE]`; the table is
-//! `verification/results/scaling.md`. Each mesh runs in a process of its own, so that its peak memory is its own.
+//! `verification/results/scaling.md`. Each mesh runs in a process of its own, so that its peak memory is its
+//! own.
 #![allow(clippy::print_stdout, reason = "the child tells its parent")]
 
 use asperity_numerics::least_squares::Line;
@@ -23,8 +25,8 @@ fn peak_memory() -> Option<f64> {
     line.split_whitespace().nth(1)?.parse::<f64>().ok().map(|kilobytes| kilobytes / 1024.0)
 }
 
-/// Prints unknowns, operations of a factorisation, seconds of assembly, factorisation and solution of one iteration at the
-/// peak, seconds and iterations of the whole loading, and memory, separated by blanks.
+/// Prints unknowns, operations of a factorisation, seconds of assembly, factorisation and solution of one
+/// iteration at the peak, seconds and iterations of the whole loading, and memory, separated by blanks.
 fn one(elements: usize) -> Result<(), Box<dyn Error + Send + Sync>> {
     let problem = finely_meshed(elements)?;
     let mut path = Path::new(&problem, &Analyses::default())?;
@@ -65,11 +67,11 @@ fn exponent(x: [f64; 2], y: [f64; 2]) -> f64 {
 /// Least-squares slope of the logarithm of column `column` over that of the first one.
 fn slope(rows: &[[f64; 3]], column: usize) -> f64 {
     let points: Vec<[f64; 2]> = rows.iter().map(|row| [row[0].ln(), row[column].ln()]).collect();
-    Line::through(&points).slope
+    Line::fit(&points).slope
 }
 
 fn main() -> Result<(), Box<dyn Error + Send + Sync>> {
-    let (mut report, words) = Report::of("scaling", "reference, on one core");
+    let (mut report, words) = Report::of_example("scaling", "reference, on one core");
     if let Some(elements) = words.first() {
         return one(elements.parse()?);
     }

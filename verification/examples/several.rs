@@ -1,5 +1,6 @@
 //! Asperities side by side: how three ridges approach three times one, what
-//! a ring adds to the depth of the centre, the eight committed rows, and the convergence of those of three equal asperities.
+//! a ring adds to the depth of the centre, the eight committed rows, and the convergence of those of three
+//! equal asperities.
 //!
 //! `cargo run --release -p asperity-verification --example several [-- approach.csv] [--out FILE]` (about two minutes of one
 //! core); the tables are `verification/results/several.md`. The argument `convergence` prints only that; another names a file
@@ -12,7 +13,7 @@ use asperity_simulation::run::Outcome;
 use asperity_simulation::scene::{Accuracy, Lateral, Scene, Symmetry};
 use asperity_verification::report::{Report, replace};
 use asperity_verification::several::{
-    FOOT, LOW, Member, PAPER, at, depth_at, of_asperity, row, three_over_one, whole,
+    FOOT, LOW_MEMBER, Member, PAPER, depth_at, interpolated, of_asperity, row, three_over_one, whole,
 };
 use asperity_verification::single_asperity::crush;
 use std::path::Path;
@@ -73,10 +74,10 @@ fn rings(report: &mut Report) {
                 }
                 scene
             };
-            let alone = whole(&crush(&body(LOW)).expect("the row runs"));
+            let alone = whole(&crush(&body(LOW_MEMBER)).expect("the row runs"));
             let both = crush(&body(PAPER)).expect("the row runs");
             let [depth, force] = of_asperity(&both, 0).last().copied().unwrap_or([f64::NAN; 2]);
-            let line_load = at(&of_asperity(&both, 1), depth) / (std::f64::consts::TAU * pitch);
+            let line_load = interpolated(&of_asperity(&both, 1), depth) / (std::f64::consts::TAU * pitch);
             let modulus = body(PAPER).material.elastic().reduced_modulus();
             (depth - depth_at(&alone, force)) * modulus / (2.0 * line_load)
         });
@@ -144,7 +145,7 @@ fn convergence(report: &mut Report, name: &str, text: &str) {
 }
 
 fn main() {
-    let (mut report, words) = Report::of("several", "draft and standard");
+    let (mut report, words) = Report::of_example("several", "draft and standard");
     let word = words.first().map(String::as_str);
     if word != Some("convergence") {
         let csv = approach(&mut report);

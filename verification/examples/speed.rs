@@ -1,8 +1,10 @@
-//! Cost of runs, beside the bounds that were set and beside the floor of their arithmetic; and where the time goes.
+//! Cost of runs, beside the bounds that were set and beside the floor of their arithmetic; and where the time
+//! goes.
 //!
-//! `cargo run --release -p asperity-verification --example speed [-- --out FILE]`; the tables are `verification/results/speed.md`.
-//! Seconds are the least of several runs in one process, on as many threads as told; what compares two of them is measured side by
-//! side. The floor is that of [`asperity_verification::roofline`]: every iteration with a new tangent and every point yielding.
+//! `cargo run --release -p asperity-verification --example speed [-- --out FILE]`; the tables are
+//! `verification/results/speed.md`. Seconds are the least of several runs in one process, on as many threads
+//! as told; what compares two of them is measured side by side. The floor is that of
+//! [`asperity_verification::roofline`]: every iteration with a new tangent and every point yielding.
 
 use asperity_calibration::solve_case::solve;
 use asperity_calibration::sweep::Sweep;
@@ -34,7 +36,10 @@ const LEVELS: [(&str, Accuracy, usize); 3] = [
 const FINE: [usize; 2] = [272, 710];
 
 /// `work` on so many threads.
-fn on<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> Result<T, rayon::ThreadPoolBuildError> {
+fn on_threads<T: Send>(
+    threads: usize,
+    work: impl FnOnce() -> T + Send,
+) -> Result<T, rayon::ThreadPoolBuildError> {
     Ok(rayon::ThreadPoolBuilder::new().num_threads(threads).build()?.install(work))
 }
 
@@ -49,7 +54,8 @@ fn floor_of(problem: &Problem, floor: &Roofline) -> Result<f64, Box<dyn Error>> 
     Ok(floor.iteration(problem.mesh.kind, problem.mesh.cell_count() * POINTS, operations))
 }
 
-/// A row of the profile: unknowns, iterations and seconds over the floor; then the shares of its parts in the time of the run.
+/// A row of the profile: unknowns, iterations and seconds over the floor; then the shares of its parts in the
+/// time of the run.
 fn profile(
     name: &str,
     accuracy: Accuracy,
@@ -100,7 +106,8 @@ fn loading(elements: usize) -> Result<(usize, f64), Box<dyn Error + Send + Sync>
     Ok((path.model.body().analysis.dofs.count, seconds))
 }
 
-/// An iteration with a new tangent on a mesh of `elements` across the contact: unknowns, seconds, seconds at the floor.
+/// An iteration with a new tangent on a mesh of `elements` across the contact: unknowns, seconds, seconds at
+/// the floor.
 fn iteration(elements: usize, floor: &Roofline) -> Result<(usize, f64, f64), Box<dyn Error>> {
     let problem = finely_meshed(elements).map_err(|e| e.to_string())?;
     let least_seconds = floor_of(&problem, floor)?;
@@ -150,7 +157,7 @@ fn build() -> Result<f64, Box<dyn Error>> {
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let (mut report, _) = Report::of("speed", "every level");
+    let (mut report, _) = Report::of_example("speed", "every level");
     let floor = Roofline::measure();
     report.line(&format!("{}, {:.0} GFLOP/s a core in a dense product.\n", processor(), 1e-9 * floor.rate()));
 
@@ -159,8 +166,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut over = Vec::new();
     for (name, accuracy, repeats) in LEVELS {
         for element in [ElementChoice::Q8r, ElementChoice::Q4] {
-            let (line, factor) =
-                on(1, || profile(name, accuracy, element, repeats, &floor).map_err(|e| e.to_string()))??;
+            let (line, factor) = on_threads(1, || {
+                profile(name, accuracy, element, repeats, &floor).map_err(|e| e.to_string())
+            })??;
             report.line(&line);
             if element == ElementChoice::Q8r {
                 over.push(format!("{factor:.1}"));
@@ -171,7 +179,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     report.section("Bounds");
     report.table("| | measured | bound | aim |");
     let standard = scene(Accuracy::Standard)?;
-    let seconds = on(1, || least(&standard, 5))?;
+    let seconds = on_threads(1, || least(&standard, 5))?;
     report.line(&format!(
         "| single asperity at `standard`, loading and unloading, core seconds | {seconds:.2} | 0.12 | 0.06 |"
     ));
@@ -192,22 +200,23 @@ fn main() -> Result<(), Box<dyn Error>> {
         100.0 * worst
     ));
     let reference = scene(Accuracy::Reference)?;
-    let [one, two] = [on(1, || least(&reference, 2))?, on(2, || least(&reference, 2))?];
+    let [one, two] = [on_threads(1, || least(&reference, 2))?, on_threads(2, || least(&reference, 2))?];
     report.line(&format!("| `reference`, core seconds | {one:.2} | 2.5 | 1 |"));
     report.line(&format!(
         "| run over its floor, draft / standard / reference | {} | 4 / 3.5 / 3 | 2 |",
         over.join(" / ")
     ));
     let [(unknowns, single), (_, double)] = [
-        on(1, || loading(FINE[0]).map_err(|e| e.to_string()))??,
-        on(2, || loading(FINE[0]).map_err(|e| e.to_string()))??,
+        on_threads(1, || loading(FINE[0]).map_err(|e| e.to_string()))??,
+        on_threads(2, || loading(FINE[0]).map_err(|e| e.to_string()))??,
     ];
     report.line(&format!(
         "| two threads over one, at {unknowns} unknowns / at `reference` | {:.2} / {:.2} | 1.5 / 1.2 | 1.8 / 1.5 |",
         single / double,
         one / two
     ));
-    let (unknowns, seconds, least) = on(1, || iteration(FINE[1], &floor).map_err(|e| e.to_string()))??;
+    let (unknowns, seconds, least) =
+        on_threads(1, || iteration(FINE[1], &floor).map_err(|e| e.to_string()))??;
     report.line(&format!(
         "| an iteration at {unknowns} unknowns over its floor | {:.1} | 3 | 2 |",
         seconds / least

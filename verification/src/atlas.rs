@@ -1,5 +1,5 @@
-//! The files of the atlas of cones: `results/atlas.csv.gz`, the cones it is held against in `results/atlas-check.csv.gz`, and the
-//! journals from which they grow.
+//! The files of the atlas of cones: `results/atlas.csv.gz`, the cones it is held against in
+//! `results/atlas-check.csv.gz`, and the journals from which they grow.
 
 use asperity::batch::journal::{Journal, fingerprint};
 use asperity_calibration::case::Case;
@@ -11,7 +11,7 @@ use flate2::write::GzEncoder;
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
-/// Which cones.
+/// The cones.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Set {
     /// Those of the atlas, at `standard`.

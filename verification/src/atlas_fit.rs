@@ -1,4 +1,5 @@
-//! The formula of `asperity_material::cone_atlas` through the cones of the atlas: least squares, and what is left of cones that are left out.
+//! The formula of `asperity_material::cone_atlas` through the cones of the atlas: least squares, and what is
+//! left of cones that are left out.
 
 use asperity_calibration::cones::Row;
 use asperity_material::cone_atlas::{Atlas, ERRORS, OUTPUTS, Place, SharpCone};
@@ -15,18 +16,18 @@ pub struct Solved {
     pub errors: [f64; ERRORS],
 }
 
-/// The cones of `rows` that have a result which the formula can hold: one goes back as the tool retreats, and a metal without
-/// hardening that sinks in once more as it does has no logarithm.
+/// The cones of `rows` that have a result which the formula can hold: one goes back as the tool retreats, and
+/// a metal without hardening that sinks in once more as it does has no logarithm.
 pub fn solved(rows: &[Row]) -> Vec<Solved> {
     let of = |row: &Row| row.answer().map(|(cone, answer, errors)| Solved { cone, answer, errors });
     rows.iter().filter_map(of).filter(|solved| solved.answer.iter().all(|value| *value > 0.0)).collect()
 }
 
 /// Least errors of the formula, in the order of [`Solved::errors`]. Chosen on the first 200 cones of
-/// [`asperity_calibration::cones::fresh`], held against `reference`: beyond what the companions of the committed cones show, K of metal that
-/// hardens is off by up to 0.6 %, the radius of coarse companions is uneven, S has what is left of both, and the work of unloading is
-/// 0.5 % too large.
-const LEAST: [f64; ERRORS] = [0.0065, 0.01, 0.01, 0.009];
+/// [`asperity_calibration::cones::fresh`], held against `reference`: beyond what the companions of the
+/// committed cones show, K of metal that hardens is off by up to 0.6 %, the radius of coarse companions is
+/// uneven, S has what is left of both, and the work of unloading is 0.5 % too large.
+const MIN_ERRORS: [f64; ERRORS] = [0.0065, 0.01, 0.01, 0.009];
 
 /// Parts that are left out in turn.
 pub const FOLDS: usize = 5;
@@ -39,7 +40,8 @@ const RIDGE: f64 = 1e-9;
 pub struct Fit {
     /// Through all cones.
     pub atlas: Atlas,
-    /// ln of each cone's K, contact ratio, S and elastic share over those that the formula through the other four fifths has.
+    /// ln of each cone's K, contact ratio, S and elastic share over those that the formula through the other
+    /// four fifths has.
     pub left_out: Vec<[f64; ERRORS]>,
 }
 
@@ -57,7 +59,7 @@ pub fn fit(cones: &[Solved]) -> Option<Fit> {
         }
     }
     let errors = (0..ERRORS).map(|k| errors(&places, &left_out, k)).collect::<Option<Vec<_>>>()?;
-    let atlas = Atlas::new(equations.solve(|_| true)?, errors, LEAST)?;
+    let atlas = Atlas::new(equations.solve(|_| true)?, errors, MIN_ERRORS)?;
     Some(Fit { atlas, left_out })
 }
 
@@ -79,7 +81,8 @@ impl Equations {
     fn new(cones: &[Solved], places: &[Place], logarithms: &[[f64; OUTPUTS]]) -> Equations {
         let rows: Vec<Vec<f64>> = places.iter().map(Place::terms).collect();
         let terms = DMatrix::from_fn(rows.len(), rows.first().map_or(0, Vec::len), |i, j| rows[i][j]);
-        // the root of the usual weight: stated errors are bounds, and a cone with a small one is not worth hundreds of others
+        // the root of the usual weight: stated errors are bounds, and a cone with a small one is not worth
+        // hundreds of others
         let weights = cones.iter().map(|cone| std::array::from_fn(|k| 1.0 / cone.errors[k.min(ERRORS - 1)]));
         Equations { terms, logarithms: logarithms.to_vec(), weights: weights.collect() }
     }
@@ -109,20 +112,21 @@ impl Equations {
 }
 
 /// Summand before the logarithm of a residual is taken: below it a residual says nothing.
-const NOTHING: f64 = 1e-4;
+const NOTHING_ERROR: f64 = 1e-4;
 
 /// Share of the cones left out that lie within the error.
-const COVERED: f64 = 0.95;
+const COVERED_SHARE: f64 = 0.95;
 
-/// Coefficients of the error of number `k`: the logarithm of what is left goes with the place, and 95 % lie below.
+/// Coefficients of the error of number `k`: the logarithm of what is left goes with the place, and 95 % lie
+/// below.
 fn errors(places: &[Place], left: &[[f64; ERRORS]], k: usize) -> Option<Vec<f64>> {
     let rows: Vec<Vec<f64>> = places.iter().map(Place::terms_of_errors).collect();
     let terms = DMatrix::from_fn(rows.len(), rows[0].len(), |i, j| rows[i][j]);
-    let logarithms = DVector::from_fn(rows.len(), |i, _| (left[i][k].abs() + NOTHING).ln());
+    let logarithms = DVector::from_fn(rows.len(), |i, _| (left[i][k].abs() + NOTHING_ERROR).ln());
     let mut fitted = terms.tr_mul(&terms).cholesky()?.solve(&terms.tr_mul(&logarithms));
     let mut over: Vec<f64> =
         (&terms * &fitted).iter().zip(left).map(|(fitted, left)| left[k].abs().ln() - fitted).collect();
     over.sort_by(f64::total_cmp);
-    fitted[0] += over[(COVERED * over.len() as f64) as usize];
+    fitted[0] += over[(COVERED_SHARE * over.len() as f64) as usize];
     Some(fitted.iter().copied().collect())
 }

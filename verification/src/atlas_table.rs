@@ -1,4 +1,5 @@
-//! The tables of `results/atlas.md`: what the atlas of cones holds, how well its formula foretells, and what it shows.
+//! The tables of `results/atlas.md`: what the atlas of cones holds, how well its formula foretells, and what
+//! it shows.
 
 use crate::atlas::{self, Set};
 use crate::atlas_fit::{Fit, Solved, differences, solved};
@@ -14,7 +15,7 @@ use std::f64::consts::{FRAC_2_PI, PI};
 const NUMBERS: [&str; ERRORS] = ["K", "contact ratio", "S", "elastic share"];
 
 /// Slope beyond which an indented body has linear elements, degrees.
-const STEEP: f64 = 11.0;
+const STEEP_SLOPE_DEG: f64 = 11.0;
 
 /// Writes all of them.
 pub fn write(report: &mut Report, rows: &[Row], cones: &[Solved], fit: &Fit) {
@@ -75,8 +76,8 @@ fn left_out(report: &mut Report, rows: &[Row], cones: &[Solved], fit: &Fit) {
     let kinds: [Kind; 4] = [
         ("all", |_| true),
         ("crushed", |row| row.case.tool == Tool::Plane),
-        ("under a cone to 11°", |row| row.case.tool == Tool::Cone && row.case.beta_deg <= STEEP),
-        ("under a cone above 11°", |row| row.case.tool == Tool::Cone && row.case.beta_deg > STEEP),
+        ("under a cone to 11°", |row| row.case.tool == Tool::Cone && row.case.beta_deg <= STEEP_SLOPE_DEG),
+        ("under a cone above 11°", |row| row.case.tool == Tool::Cone && row.case.beta_deg > STEEP_SLOPE_DEG),
     ];
     let solved: Vec<&Row> = rows.iter().filter(|row| row.outcome.is_ok()).collect();
     for (name, kind) in kinds {
@@ -101,7 +102,7 @@ fn left_out(report: &mut Report, rows: &[Row], cones: &[Solved], fit: &Fit) {
 const CHOSEN_ON: usize = 200;
 
 /// Share of the cones that a stated error should cover.
-const COVERED: f64 = 0.95;
+const COVERED_SHARE: f64 = 0.95;
 
 fn fresh(report: &mut Report, atlas: &Atlas) {
     report.section("Fresh cones at reference");
@@ -129,7 +130,7 @@ fn fresh(report: &mut Report, atlas: &Atlas) {
     let mut short = Vec::new();
     for (k, name) in NUMBERS.iter().enumerate() {
         let within = found.iter().filter(|(d, e)| d[k].abs() <= e[k]).count();
-        if (within as f64) < COVERED * count {
+        if (within as f64) < COVERED_SHARE * count {
             short.push(*name);
         }
         let mean = found.iter().map(|(d, _)| d[k]).sum::<f64>() / count;

@@ -3,8 +3,8 @@
 use asperity_calibration::case::{Case, Tool, Yielding};
 use asperity_material::{HardeningLaw, StressMeasure};
 
-/// A cone crushed by a plane with CalculiX 2.20 (quadratic elements with reduced integration), its own load steps
-/// extrapolated to zero; ν 0.3, law `swift`.
+/// A cone crushed by a plane with CalculiX 2.20 (quadratic elements with reduced integration), its own load
+/// steps extrapolated to zero; ν 0.3, law `swift`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Peer {
     /// Slope, degrees.

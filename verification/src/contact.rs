@@ -26,7 +26,8 @@ pub fn cone_radius(tan_slope: f64, depth: f64) -> f64 {
     2.0 * depth / (PI * tan_slope)
 }
 
-/// dF/dh of any axisymmetric contact of radius `radius` kept while the tool moves: 2 E* a. Johnson (1985), eq. (6.35).
+/// dF/dh of any axisymmetric contact of radius `radius` kept while the tool moves: 2 E* a. Johnson (1985),
+/// eq. (6.35).
 pub fn punch_stiffness(reduced_modulus: f64, radius: f64) -> f64 {
     2.0 * reduced_modulus * radius
 }
@@ -57,7 +58,8 @@ impl Flattened {
 
     /// Force and contact area at `depth` above 1.9 ω_c.
     ///
-    /// R. L. Jackson, I. Green, J. Tribol. 127 (2005) 343: fits to finite elements, 1.9 < ω/ω_c < 3000, a/R < 0.41.
+    /// R. L. Jackson, I. Green, J. Tribol. 127 (2005) 343: fits to finite elements, 1.9 < ω/ω_c < 3000, a/R <
+    /// 0.41.
     pub fn jackson_green(&self, depth: f64) -> (f64, f64) {
         let (critical, strain) = (self.critical_depth(), self.yield_stress / self.reduced_modulus);
         let w = depth / critical;
@@ -91,8 +93,8 @@ impl Flattened {
 mod tests {
     use super::*;
 
-    /// Values of the two fits at S/E* = 1.3e-3, ν = 0.3, computed apart: P/P_c, A/A_c at six depths; the critical
-    /// depths are 1.0876e-5 R and 1.0884e-5 R.
+    /// Values of the two fits at S/E* = 1.3e-3, ν = 0.3, computed apart: P/P_c, A/A_c at six depths; the
+    /// critical depths are 1.0876e-5 R and 1.0884e-5 R.
     #[test]
     fn fits_of_flattened_spheres_have_their_values() {
         let ball = Flattened { radius: 1.0, reduced_modulus: 1.0, poissons_ratio: 0.3, yield_stress: 1.3e-3 };
@@ -117,8 +119,8 @@ mod tests {
         }
     }
 
-    /// dF/dh = 2 E* a for every axisymmetric elastic contact (Pharr, Oliver, Brotzen 1992), so force and radius of
-    /// each closed form must agree in it.
+    /// dF/dh = 2 E* a for every axisymmetric elastic contact (Pharr, Oliver, Brotzen 1992), so force and
+    /// radius of each closed form must agree in it.
     #[test]
     fn force_and_radius_of_each_form_belong_together() {
         let (e, h, d) = (1.3, 0.2, 1e-5);

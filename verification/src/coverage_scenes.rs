@@ -1,8 +1,8 @@
-//! A battery of numbered scenes that differ in everything a scene can say: what the stated errors are held against. Which
-//! constants of the program had seen them, the page of stated errors says.
+//! A battery of numbered scenes that differ in everything a scene can say: what the stated errors are held
+//! against. Which constants of the program had seen them, the page of stated errors says.
 //!
-//! The [`Kind`]s take turns, so that the first [`Kind::ALL`] scenes hold each of them; the levels take turns too, and everything else
-//! is drawn from the number.
+//! The [`Kind`]s take turns, so that the first [`Kind::ALL`] scenes hold each of them; the levels take turns
+//! too, and everything else is drawn from the number.
 
 use crate::single_asperity::{loaded, prepared};
 use asperity_material::units::{Length, Stress, rounded};
@@ -55,7 +55,8 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// In the order of the numbers; first those with one contact, then those with several, then the particular ones.
+    /// In the order of the numbers; first those with one contact, then those with several, then the
+    /// particular ones.
     pub const ALL: [Kind; 18] = [
         Kind::SharpCone,
         Kind::RoundedCone,
@@ -78,7 +79,7 @@ impl Kind {
     ];
 
     /// Kinds with one contact, the first ones.
-    const SINGLE: usize = 8;
+    const SINGLE_CONTACT_KINDS: usize = 8;
 
     /// Its name in a table.
     pub fn name(self) -> &'static str {
@@ -140,7 +141,7 @@ impl Case {
         let mut draw = Draw { number, count: 0 };
         let body = match kind {
             kind if (kind as usize) < Kind::ImportedMesh as usize => kind,
-            _ => Kind::ALL[draw.below(Kind::SINGLE)],
+            _ => Kind::ALL[draw.index_below(Kind::SINGLE_CONTACT_KINDS)],
         };
         let given = kind == Kind::ImportedMesh;
         let mut scene = draw.body(body, kind == Kind::Elastic, given)?;
@@ -165,9 +166,10 @@ impl Case {
         Ok(Some(problem.mesh.scaled(problem.units.length)))
     }
 
-    /// The element that the truth is to be found with: that of the levels or, of some scenes and of those that ask for the linear
-    /// one, the other. Quadratic elements in plane strain are not judged by linear ones: the mesh far from the contact, which no level
-    /// refines, is part of the depth there, and linear elements on it are too stiff by 0.8 % of the force of a ridge.
+    /// The element that the truth is to be found with: that of the levels or, of some scenes and of those
+    /// that ask for the linear one, the other. Quadratic elements in plane strain are not judged by linear
+    /// ones: the mesh far from the contact, which no level refines, is part of the depth there, and linear
+    /// elements on it are too stiff by 0.8 % of the force of a ridge.
     pub fn element_of_truth(&self) -> ElementChoice {
         let own = Discretisation::new(&self.scene).element;
         let other = self.kind == Kind::LinearElement || self.number % OTHER_ELEMENT == OTHER_ELEMENT / 2;
@@ -210,11 +212,11 @@ impl Draw {
         self.share() < share
     }
 
-    fn below(&mut self, count: usize) -> usize {
+    fn index_below(&mut self, count: usize) -> usize {
         (self.share() * count as f64) as usize
     }
 
-    fn between(&mut self, low: f64, high: f64) -> f64 {
+    fn number_between(&mut self, low: f64, high: f64) -> f64 {
         digits(low + self.share() * (high - low))
     }
 
@@ -224,7 +226,7 @@ impl Draw {
 
     /// A metal with the particularity of `kind`, if that is one of the metal.
     fn metal(&mut self, kind: Kind) -> Material {
-        let body = Material::elastic_body(Stress(MODULUS), self.between(0.2, 0.4));
+        let body = Material::elastic_body(Stress(MODULUS), self.number_between(0.2, 0.4));
         if kind == Kind::Elastic {
             return body;
         }
@@ -234,15 +236,15 @@ impl Draw {
         }
         let exponent = match kind {
             Kind::PerfectlyPlastic => 0.0,
-            Kind::Kinematic => self.between(0.1, 0.6),
-            _ => self.between(0.0, 0.6),
+            Kind::Kinematic => self.number_between(0.1, 0.6),
+            _ => self.number_between(0.0, 0.6),
         };
         let law = if self.chance(0.5) { HardeningLaw::Hollomon } else { HardeningLaw::Swift };
         let mut metal = body.yielding(Stress(digits(yield_stress)), exponent);
         metal.hardening_law = law.into();
         if kind == Kind::Kinematic {
             metal.hardening_mode = HardeningMode::Kinematic;
-            metal.kinematic_share = Some(self.between(0.3, 1.0));
+            metal.kinematic_share = Some(self.number_between(0.3, 1.0));
         }
         metal
     }
@@ -251,10 +253,10 @@ impl Draw {
     fn kinks(&mut self, yield_stress: f64) -> Vec<(f64, Stress)> {
         let (mut strain, mut stress) = (0.0, yield_stress);
         let mut points = vec![(strain, Stress(stress))];
-        for _ in 0..2 + self.below(3) {
+        for _ in 0..2 + self.index_below(3) {
             strain = digits(strain + self.between_logs(0.005, 0.2));
             if !self.chance(1.0 / 3.0) {
-                stress = digits(stress * self.between(1.05, 1.6));
+                stress = digits(stress * self.number_between(1.05, 1.6));
             }
             points.push((strain, Stress(stress)));
         }
@@ -269,12 +271,13 @@ impl Draw {
 
     /// A cap between a quarter and half its radius high.
     fn cap(&mut self) -> Asperity {
-        let height = Some(Length(digits(RADIUS * self.between(0.25, 0.5))));
+        let height = Some(Length(digits(RADIUS * self.number_between(0.25, 0.5))));
         let cone = Asperity::cone(Length(HEIGHT), 1.0);
         Asperity { radius: Some(Length(RADIUS)), height, slope_deg: None, ..cone }
     }
 
-    /// The scene of a body and a tool; `gentle` for what never yields, `sized` if the size of the body must be said.
+    /// The scene of a body and a tool; `gentle` for what never yields, `sized` if the size of the body must
+    /// be said.
     fn body(&mut self, kind: Kind, gentle: bool, sized: bool) -> Result<Scene, SceneError> {
         let deepest = if gentle { 0.2 } else { 0.6 };
         let curved = [Kind::IndentingCone, Kind::IndentingBall, Kind::IndentingWedge, Kind::ToolOnAsperity];
@@ -343,17 +346,18 @@ impl Draw {
         Ok(scene)
     }
 
-    /// Two to four asperities, of which one is the highest and some may not be touched at this share of the height.
+    /// Two to four asperities, of which one is the highest and some may not be touched at this share of the
+    /// height.
     fn row(&mut self, share: f64) -> Result<Vec<Asperity>, SceneError> {
-        let count = 2 + self.below(3);
-        let highest = self.below(count);
+        let count = 2 + self.index_below(3);
+        let highest = self.index_below(count);
         let mut row = Vec::new();
         for index in 0..count {
-            let lower = if index == highest { 0.0 } else { self.between(0.0, 1.2) };
+            let lower = if index == highest { 0.0 } else { self.number_between(0.0, 1.2) };
             let slope = self.between_logs(3.0, 30.0);
             let mut one = self.rounded(digits(HEIGHT * (1.0 - lower * share)), slope);
             if self.chance(0.5) {
-                one.spacing = Some(Length(digits(one.form()?.base_radius() * self.between(0.1, 2.0))));
+                one.spacing = Some(Length(digits(one.form()?.base_radius() * self.number_between(0.1, 2.0))));
             }
             row.push(one);
         }
@@ -375,8 +379,8 @@ pub struct Entry {
     pub scene: Scene,
 }
 
-/// Ten scenes that no level was chosen by: name, slope (degrees; 0: a ball), tip radius (µm), E/σ_y (0: elastic), n,
-/// depth (µm) of a height of 20 µm.
+/// Ten scenes that no level was chosen by: name, slope (degrees; 0: a ball), tip radius (µm), E/σ_y (0:
+/// elastic), n, depth (µm) of a height of 20 µm.
 const OTHERS: [(&str, f64, f64, f64, f64, f64); 10] = [
     ("sharp cone 3°, n 0.3", 3.0, 0.0, 700.0, 0.3, 4.0),
     ("sharp cone 10°, n 0.1", 10.0, 0.0, 300.0, 0.1, 5.0),

@@ -1,9 +1,9 @@
 //! Closed forms with their sources, and the bodies on which the solver is held against them.
 //!
-//! The claims are in `tests/`, one a file; what was reached is in `results/`, in tables that the programs of `examples/` write
-//! with `report`. Closed forms: `contact` (elastic), `uniaxial`, `simple_shear`, `thick_wall`,
-//! `manufactured`. Other codes: `calibration`. Bodies: `coverage_scenes` (with their `truth`), `test_meshes`, `single_asperity`. `single_increment` solves one
-//! increment.
+//! The claims are in `tests/`, one a file; what was reached is in `results/`, in tables that the programs of
+//! `examples/` write with `report`. Closed forms: `contact` (elastic), `uniaxial`, `simple_shear`,
+//! `thick_wall`, `manufactured`. Other codes: `calibration`. Bodies: `coverage_scenes` (with their `truth`),
+//! `test_meshes`, `single_asperity`. `single_increment` solves one increment.
 
 pub mod contact;
 pub mod manufactured;

@@ -1,9 +1,10 @@
 //! A smooth exact solution of linear elasticity in plane strain without body forces.
 
-/// Displacement (x, z) of the potentials φ(ζ) = ψ(ζ) = e^ζ, ζ = x + iz: 2G(u + iw) = κφ - ζ φ̄' - ψ̄, κ = 3 - 4ν.
+/// Displacement (x, z) of the potentials φ(ζ) = ψ(ζ) = e^ζ, ζ = x + iz: 2G(u + iw) = κφ - ζ φ̄' - ψ̄, κ = 3 -
+/// 4ν.
 ///
-/// N. I. Muskhelishvili, Some Basic Problems of the Mathematical Theory of Elasticity (1953), §32. It has shear,
-/// dilatation and rotation everywhere.
+/// N. I. Muskhelishvili, Some Basic Problems of the Mathematical Theory of Elasticity (1953), §32. It has
+/// shear, dilatation and rotation everywhere.
 pub fn displacement(shear_modulus: f64, poissons_ratio: f64, [x, z]: [f64; 2]) -> [f64; 2] {
     let kappa = 3.0 - 4.0 * poissons_ratio;
     let (re, im) = (x.exp() * z.cos(), x.exp() * z.sin());

@@ -1,5 +1,5 @@
-//! Scenes drawn at random whose asperity or tool is a measured outline: a cone with a tip, a ball, or a power of the radius as
-//! points, few or many, with or without scatter.
+//! Scenes drawn at random whose asperity or tool is a measured outline: a cone with a tip, a ball, or a power
+//! of the radius as points, few or many, with or without scatter.
 
 use crate::random_metal::{Drawn, Kind, log_between, material};
 use proptest::prelude::*;

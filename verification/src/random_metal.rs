@@ -1,4 +1,4 @@
-//! What scenes drawn at random have in common: their text with the end it deserves, and their metals.
+//! Common parts of scenes drawn at random: their text with the end it deserves, and their metals.
 
 use proptest::prelude::*;
 use std::fmt::Write;
@@ -24,7 +24,7 @@ pub struct Drawn {
 }
 
 impl Drawn {
-    /// Whether its asperity or tool is a measured outline.
+    /// True where its asperity or tool is a measured outline.
     pub fn is_measured(&self) -> bool {
         self.text.contains("\npoints = ")
     }
@@ -34,7 +34,8 @@ pub(crate) fn log_between(low: f64, high: f64) -> impl Strategy<Value = f64> {
     (low.ln()..high.ln()).prop_map(f64::exp)
 }
 
-/// Metals: all of the range of a law that another scene of the literature would use, and the ends of what is allowed.
+/// Metals: all of the range of a law that another scene of the literature would use, and the ends of what is
+/// allowed.
 pub(crate) fn material() -> impl Strategy<Value = String> {
     let poissons_ratio = prop_oneof![8 => 0.0..0.49, 1 => Just(0.4999), 1 => -0.9..0.0];
     let exponent = prop_oneof![1 => Just(0.0), 4 => 0.0..0.6];

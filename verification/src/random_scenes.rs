@@ -1,7 +1,8 @@
 //! Scenes drawn at random, sound and unsound, and what a run of the program made of each.
 //!
-//! A sound scene must be done (exit status 0) or say where and why it stopped (1); an unsound one must be refused with
-//! nothing written (2); a scene cut off in the middle may be either. Nothing may panic, hang, or write a number that is none.
+//! A sound scene must be done (exit status 0) or say where and why it stopped (1); an unsound one must be
+//! refused with nothing written (2); a scene cut off in the middle may be either. Nothing may panic, hang, or
+//! write a number that is none.
 
 pub use crate::random_metal::{Drawn, Kind};
 
@@ -149,7 +150,8 @@ pub fn draw(count: usize, seed: u64) -> Result<Vec<Drawn>, String> {
         .collect()
 }
 
-/// Crushes `drawn` with the program `binary` at draft accuracy in the empty folder `place`, for at most `limit`.
+/// Crushes `drawn` with the program `binary` at draft accuracy in the empty folder `place`, for at most
+/// `limit`.
 pub fn crush(binary: &Path, drawn: &Drawn, place: &Path, limit: Duration) -> End {
     let scene = place.join("scene.toml");
     let out = place.join("out");
@@ -219,7 +221,7 @@ fn number(json: &str, key: &str) -> Option<f64> {
     after.split([',', '}', '\n']).next()?.trim().parse().ok()
 }
 
-/// Why a run stopped, without the numbers of the scene.
+/// The reason why a run stopped, without the numbers of the scene.
 fn reason(message: &str) -> String {
     let after = message.split_once(": stopped").map_or(message, |(_, rest)| rest);
     let after = after.split_once(": ").map_or(after, |(_, rest)| rest);

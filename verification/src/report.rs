@@ -1,4 +1,5 @@
-//! Shared by the programs of `examples/`: their arguments, the tables they write to `verification/results`, times.
+//! Shared by the programs of `examples/`: their arguments, the tables they write to `verification/results`,
+//! times.
 
 // tables are printed as they grow, because some take hours
 #![allow(clippy::print_stdout)]
@@ -55,7 +56,8 @@ impl Report {
     }
 }
 
-/// A word of the command; of a path from the root its last part, for the folders before it are of one machine.
+/// A word of the command; of a path from the root its last part, for the folders before it are of one
+/// machine.
 fn shown(word: &str) -> &str {
     let path = Path::new(word);
     path.file_name().filter(|_| path.is_absolute()).and_then(|name| name.to_str()).unwrap_or(word)
@@ -74,7 +76,8 @@ fn arguments(mut words: impl Iterator<Item = String>) -> (Option<PathBuf>, Vec<S
     (file, rest)
 }
 
-/// Writes `content` beside `file` and puts it in its place, so that a reader sees the old file or the new one.
+/// Writes `content` beside `file` and puts it in its place, so that a reader sees the old file or the new
+/// one.
 ///
 /// # Errors
 /// The folder cannot be made or the file not be written.

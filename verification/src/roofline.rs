@@ -1,8 +1,9 @@
 //! Lower bound on the time of a Newton iteration, from its operations and the peak rate of the machine.
 //!
-//! The rate is that of a product of dense matrices that fit into the second cache, measured in the same process: what a
-//! core does when nothing waits for memory. Operations of the factorisation and of the solve are counted from the factor's
-//! own pattern, those of an element from its kernel; a logarithm, an exponential or a power counts as 20.
+//! The rate is that of a product of dense matrices that fit into the second cache, measured in the same
+//! process: what a core does when nothing waits for memory. Operations of the factorisation and of the solve
+//! are counted from the factor's own pattern, those of an element from its kernel; a logarithm, an
+//! exponential or a power counts as 20.
 
 use asperity_mesh::ElementKind;
 use asperity_numerics::sparse::cholesky::Operations;
@@ -22,8 +23,9 @@ const ROWS: usize = 256;
 /// Products of which the fastest counts.
 const REPEATS: usize = 30;
 
-/// Operations of a yielding point with its tangent: per node 40 for A G_b and 160 for its columns of the stiffness, 20 for the
-/// gradients and 16 for the forces; 500 for the push forward, the spectral form, the return and the moduli.
+/// Operations of a yielding point with its tangent: per node 40 for A G_b and 160 for its columns of the
+/// stiffness, 20 for the gradients and 16 for the forces; 500 for the push forward, the spectral form, the
+/// return and the moduli.
 fn point(kind: ElementKind) -> f64 {
     500.0 + 236.0 * kind.nodes() as f64
 }
@@ -46,7 +48,8 @@ impl Roofline {
         self.rate
     }
 
-    /// Seconds of an iteration with a new tangent of `points` points of elements of `kind`, all of which yield.
+    /// Seconds of an iteration with a new tangent of `points` points of elements of `kind`, all of which
+    /// yield.
     pub fn iteration(&self, kind: ElementKind, points: usize, system: Operations) -> f64 {
         (point(kind) * points as f64 + system.factor + system.solve) / self.rate
     }

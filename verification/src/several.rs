@@ -22,10 +22,10 @@ pub struct Member {
 pub const PAPER: Member = Member { height: 20e-6, spacing: 0.0 };
 
 /// An asperity too low to be touched.
-pub const LOW: Member = Member { height: 12e-6, spacing: 0.0 };
+pub const LOW_MEMBER: Member = Member { height: 12e-6, spacing: 0.0 };
 
-/// A row of asperities of 10° with tips of 10 µm, crushed to 5 µm at draft accuracy without unloading; `substrate` is
-/// its half width (radius) and depth, m.
+/// A row of asperities of 10° with tips of 10 µm, crushed to 5 µm at draft accuracy without unloading;
+/// `substrate` is its half width (radius) and depth, m.
 ///
 /// # Errors
 /// The committed scene file does not read.
@@ -68,7 +68,7 @@ pub fn of_asperity(outcome: &Outcome, asperity: usize) -> Curve {
 }
 
 /// `y` at `x` on a curve of rising `x`, by the cubic through the four nearest points; NaN outside.
-pub fn at(curve: &[[f64; 2]], x: f64) -> f64 {
+pub fn interpolated(curve: &[[f64; 2]], x: f64) -> f64 {
     let after = curve.partition_point(|p| p[0] < x);
     if curve.len() < 4 || x < curve[0][0] || x > curve[curve.len() - 1][0] * (1.0 + 1e-9) {
         return f64::NAN;
@@ -85,7 +85,7 @@ pub fn at(curve: &[[f64; 2]], x: f64) -> f64 {
 /// Depth at which the curve carries `force`, m.
 pub fn depth_at(curve: &[[f64; 2]], force: f64) -> f64 {
     let turned: Vec<[f64; 2]> = curve.iter().map(|[h, f]| [*f, *h]).collect();
-    at(&turned, force)
+    interpolated(&turned, force)
 }
 
 /// The largest |F/F_reference - 1| from a fifth of the peak depth on.
@@ -93,15 +93,15 @@ pub fn worst_difference(curve: &[[f64; 2]], reference: &[[f64; 2]]) -> f64 {
     let peak = curve.last().map_or(0.0, |p| p[0]).min(reference.last().map_or(0.0, |p| p[0]));
     (0..=40)
         .map(|i| peak * (0.2 + 0.8 * f64::from(i) / 40.0))
-        .map(|h| (at(curve, h) / at(reference, h) - 1.0).abs())
+        .map(|h| (interpolated(curve, h) / interpolated(reference, h) - 1.0).abs())
         .fold(
             0.0,
             |worst, difference| if difference > worst || difference.is_nan() { difference } else { worst },
         )
 }
 
-/// Three ridges of this pitch over a free layer of this depth (m) on a rigid base against three times one: the largest
-/// difference of the force.
+/// Three ridges of this pitch over a free layer of this depth (m) on a rigid base against three times one:
+/// the largest difference of the force.
 ///
 /// # Errors
 /// The reason why the solver refused.

@@ -2,8 +2,9 @@
 
 /// Shear stress τ_xz = 2G asinh(γ/2)/√(1 + γ²/4).
 ///
-/// ln V has the principal values ± asinh(γ/2), in directions turned by ½ atan(2/γ) from x. It grows to 1.325487 G at
-/// γ = 3.01776 and falls slowly afterwards. Source: A. Hoger, Int. J. Solids Struct. 23 (1987) 1645 (Hencky solids).
+/// ln V has the principal values ± asinh(γ/2), in directions turned by ½ atan(2/γ) from x. It grows to
+/// 1.325487 G at γ = 3.01776 and falls slowly afterwards. Source: A. Hoger, Int. J. Solids Struct. 23 (1987)
+/// 1645 (Hencky solids).
 pub fn shear_stress(shear_modulus: f64, gamma: f64) -> f64 {
     2.0 * shear_modulus * (0.5 * gamma).asinh() / (1.0 + 0.25 * gamma * gamma).sqrt()
 }

@@ -40,8 +40,9 @@ pub fn driven_by(scene: &Scene, force: f64) -> Scene {
     driven
 }
 
-/// Load steps of [`finely_meshed`], and how far they go as a share of the depth for which the mesh is made. Further, long steps
-/// pass so many elements of a fine mesh at once that they are halved, and the number of steps would not be fixed.
+/// Load steps of [`finely_meshed`], and how far they go as a share of the depth for which the mesh is made.
+/// Further, long steps pass so many elements of a fine mesh at once that they are halved, and the number of
+/// steps would not be fixed.
 pub const STEPS: usize = 4;
 /// See [`STEPS`].
 pub const FRACTION: f64 = 0.01;

@@ -12,10 +12,10 @@ use asperity_solver::point::material::{Metal, stress};
 use asperity_solver::point::tensor::Sym;
 
 /// Tight enough that only rounding is left: the claims are about the equations, not about when Newton stops.
-pub const TIGHT: Settings = Settings { tolerance: 1e-12, max_iterations: 40, keep: 0.0 };
+pub const TIGHT_SETTINGS: Settings = Settings { tolerance: 1e-12, max_iterations: 40, keep: 0.0 };
 
 /// E = 1, ν = 0.3, never yields.
-pub const ELASTIC: Metal = Metal {
+pub const ELASTIC_METAL: Metal = Metal {
     elastic: Elastic { youngs_modulus: 1.0, poissons_ratio: 0.3 },
     hardening: None,
     kinematic_share: 0.0,
@@ -25,7 +25,7 @@ pub const ELASTIC: Metal = Metal {
 /// E = 1, ν = 0.3, eq. (1) with σ_y = `yield_stress` and exponent `exponent`.
 pub fn hollomon(yield_stress: f64, exponent: f64) -> Metal {
     let hardening = Hardening { law: HardeningLaw::Hollomon, yield_stress, exponent, youngs_modulus: 1.0 };
-    Metal { hardening: Some(hardening.into()), ..ELASTIC }
+    Metal { hardening: Some(hardening.into()), ..ELASTIC_METAL }
 }
 
 /// A stress-free model with the components `held` kept.
@@ -43,8 +43,8 @@ pub fn model<'m>(
         .and_then(Equilibrium::new)?)
 }
 
-/// Solves the increment with the tool at `tip` (infinite: none) from `guess`, whose held components are kept, and
-/// accepts it. Backward Euler: no flow is carried on.
+/// Solves the increment with the tool at `tip` (infinite: none) from `guess`, whose held components are kept,
+/// and accepts it. Backward Euler: no flow is carried on.
 ///
 /// # Errors
 /// Newton did not converge.
@@ -60,8 +60,8 @@ pub fn increment(
     Ok(done)
 }
 
-/// Moves the held components by `whole(node)` in as few increments as converge: an increment that fails is halved.
-/// Each starts from the last one, scaled. Backward Euler.
+/// Moves the held components by `whole(node)` in as few increments as converge: an increment that fails is
+/// halved. Each starts from the last one, scaled. Backward Euler.
 ///
 /// # Errors
 /// The failure of an increment of less than a hundredth of the whole.
@@ -107,8 +107,8 @@ pub fn stresses(model: &Equilibrium<'_>) -> Vec<Sym> {
         .collect()
 }
 
-/// Axial Kirchhoff stress of a bar of one element at each of the total logarithmic strains it is stretched to, one
-/// increment each.
+/// Axial Kirchhoff stress of a bar of one element at each of the total logarithmic strains it is stretched
+/// to, one increment each.
 ///
 /// # Errors
 /// Newton did not converge.
@@ -124,7 +124,7 @@ pub fn stretch_bar(kind: ElementKind, metal: &Metal, strains: &[f64]) -> Result<
     let mut axial = Vec::with_capacity(strains.len());
     for &strain in strains {
         let x = model.state().position.to_vec();
-        increment(&mut model, f64::INFINITY, &TIGHT, |node| {
+        increment(&mut model, f64::INFINITY, &TIGHT_SETTINGS, |node| {
             let [r, z] = x[node];
             // as incompressible: nearly right
             [r * (0.5 * (last - strain)).exp_m1(), z * (strain - last).exp_m1()]

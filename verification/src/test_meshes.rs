@@ -3,7 +3,8 @@
 use asperity_mesh::{Edge, ElementKind, Mesh, Sides};
 use std::f64::consts::FRAC_PI_2;
 
-/// `counts` cells of the unit square (s, t), placed by `place`, mid-side nodes at the images of their own (s, t).
+/// `counts` cells of the unit square (s, t), placed by `place`, mid-side nodes at the images of their own (s,
+/// t).
 ///
 /// Sides: `axis` s = 0, `base` t = 0, `outer` s = 1, `surface` t = 1. `place` must keep the orientation.
 pub fn mapped(kind: ElementKind, counts: [usize; 2], place: impl Fn([f64; 2]) -> [f64; 2]) -> Mesh {
@@ -41,7 +42,8 @@ pub fn mapped(kind: ElementKind, counts: [usize; 2], place: impl Fn([f64; 2]) ->
     Mesh { kind, nodes, cells, sides }
 }
 
-/// The unit square in 4 × 4 cells whose inner corners are pushed about by up to a quarter of a cell, sides straight.
+/// The unit square in 4 × 4 cells whose inner corners are pushed about by up to a quarter of a cell, sides
+/// straight.
 pub fn distorted_square(kind: ElementKind) -> Mesh {
     let mut mesh = mapped(kind, [4, 4], |x| x);
     for (k, x) in mesh.nodes.iter_mut().enumerate() {
@@ -66,8 +68,9 @@ pub fn straighten(mesh: &mut Mesh) {
     }
 }
 
-/// A quarter of an annulus, or of a hollow sphere in axisymmetry: radii `inner` to `outer`, s along the radius and t
-/// along the angle from z = 0 to r = 0. `axis` is the inner surface, `outer` the outer one, `base` z = 0, `surface` r = 0.
+/// A quarter of an annulus, or of a hollow sphere in axisymmetry: radii `inner` to `outer`, s along the
+/// radius and t along the angle from z = 0 to r = 0. `axis` is the inner surface, `outer` the outer one,
+/// `base` z = 0, `surface` r = 0.
 pub fn quarter_ring(kind: ElementKind, counts: [usize; 2], inner: f64, outer: f64) -> Mesh {
     mapped(kind, counts, |[s, t]| {
         // constant ratio of successive radii: elements keep their shape
@@ -78,8 +81,9 @@ pub fn quarter_ring(kind: ElementKind, counts: [usize; 2], inner: f64, outer: f6
     })
 }
 
-/// A flat block 0 ≤ r ≤ `size`, -`size` ≤ z ≤ 0 whose surface has `across` equal elements on 0 ≤ r ≤ 1, as fine beyond to
-/// r = 1.5; from there outward, and from the surface downward, elements grow by a constant factor.
+/// A flat block 0 ≤ r ≤ `size`, -`size` ≤ z ≤ 0 whose surface has `across` equal elements on 0 ≤ r ≤ 1, as
+/// fine beyond to r = 1.5; from there outward, and from the surface downward, elements grow by a constant
+/// factor.
 pub fn punch_block(kind: ElementKind, across: usize, size: f64) -> Mesh {
     let h = 1.0 / across as f64;
     let mut r: Vec<f64> = (0..=across + across / 2).map(|i| i as f64 * h).collect();
@@ -95,7 +99,8 @@ pub fn punch_block(kind: ElementKind, across: usize, size: f64) -> Mesh {
     mapped(kind, [r.len() - 1, depth.len() - 1], |[s, t]| [along(&r, s), -along(&depth, t)])
 }
 
-/// Adds stations to `size`, each step `factor` times the last, the first `step` long; the last step fills what is left.
+/// Adds stations to `size`, each step `factor` times the last, the first `step` long; the last step fills
+/// what is left.
 fn grow(stations: &mut Vec<f64>, mut step: f64, factor: f64, size: f64) {
     let mut x = stations[stations.len() - 1];
     while x + 1.5 * step < size {

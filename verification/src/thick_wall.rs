@@ -1,12 +1,13 @@
 //! Thick cylinder (plane strain) and thick sphere under inner pressure, perfectly plastic von Mises metal.
 //!
 //! R. Hill, The Mathematical Theory of Plasticity (1950), ch. V; numbers of E. A. de Souza Neto, D. Peric,
-//! D. R. J. Owen, Computational Methods for Plasticity (2008), examples 7.5.1 and 7.5.2. Exact for the sphere; for the
-//! cylinder the axial stress is taken to stay intermediate, which costs a few tenths of a percent.
+//! D. R. J. Owen, Computational Methods for Plasticity (2008), examples 7.5.1 and 7.5.2. Exact for the
+//! sphere; for the cylinder the axial stress is taken to stay intermediate, which costs a few tenths of a
+//! percent.
 
 use asperity_numerics::bisection::bisect;
 
-/// Which wall.
+/// The wall.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shape {
     /// Long cylinder that cannot change its length.
@@ -49,7 +50,8 @@ impl ThickWall {
         }
     }
 
-    /// Pressure whose plastic front is at radius `front`; at `front` = a that of first yield, at b that of collapse.
+    /// Pressure whose plastic front is at radius `front`; at `front` = a that of first yield, at b that of
+    /// collapse.
     ///
     /// Cylinder p = Y ln(c/a) + ½Y(1 - c²/b²); sphere p = 2Y ln(c/a) + ⅔Y(1 - c³/b³).
     pub fn pressure(&self, front: f64) -> f64 {
@@ -65,8 +67,9 @@ impl ThickWall {
 
     /// Displacement of the outer surface at `pressure`.
     ///
-    /// Below yield (Lamé): cylinder 2pb(1 - ν²)/(E(b²/a² - 1)), sphere 3pb(1 - ν)/(2E(b³/a³ - 1)). Beyond: the elastic
-    /// shell outside the front c carries the yield difference there: Yc²(1 - ν²)/(Eb) and Yc³(1 - ν)/(Eb²).
+    /// Below yield (Lamé): cylinder 2pb(1 - ν²)/(E(b²/a² - 1)), sphere 3pb(1 - ν)/(2E(b³/a³ - 1)). Beyond:
+    /// the elastic shell outside the front c carries the yield difference there: Yc²(1 - ν²)/(Eb) and Yc³(1 -
+    /// ν)/(Eb²).
     pub fn outer_displacement(&self, pressure: f64) -> f64 {
         let (a, b, e, nu) = (self.inner, self.outer, self.youngs_modulus, self.poissons_ratio);
         let c = self.front(pressure);

@@ -1,8 +1,10 @@
-//! The truths of the battery of [`coverage_scenes`](crate::coverage_scenes): answers of finer runs, found once and kept.
+//! The truths of the battery of [`coverage_scenes`](crate::coverage_scenes): answers of finer runs, found
+//! once and kept.
 //!
-//! A truth must be better than the run that it judges, not more: its own error is to be small beside the promise of that level.
-//! [`RECIPES`] says how fine it is. Truths are kept as files in a folder while they are found, so that what was stopped goes on there,
-//! and packed into one file that is committed, so that each session adds to it.
+//! A truth must be better than the run that it judges, not more: its own error is to be small beside the
+//! promise of that level. [`RECIPES`] says how fine it is. Truths are kept as files in a folder while they
+//! are found, so that what was stopped goes on there, and packed into one file that is committed, so that
+//! each session adds to it.
 
 // a scene and a truth are plain data; searches that take minutes say how far they are
 #![allow(clippy::expect_used, clippy::print_stderr)]
@@ -26,8 +28,9 @@ use std::io::{self, Read, Write};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
-/// How fine a truth is: its elements across the contact, its load steps and the size of its substrate over those of `reference`; its
-/// penetration over that of `reference` is this to the power of [`SOFTER`].
+/// The fineness of a truth: its elements across the contact, its load steps and the size of its substrate
+/// over those of `reference`; its penetration over that of `reference` is this to the power of
+/// [`SOFTER_PENALTY`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Recipe(pub f64);
 
@@ -35,16 +38,17 @@ pub struct Recipe(pub f64);
 pub const RECIPES: [Recipe; 3] = [Recipe(1.2), Recipe(1.6), Recipe(1.8)];
 
 /// Penetration and mesh pull the area in opposite directions, and more of the first is left at `reference`.
-pub const SOFTER: f64 = -1.5;
+pub const SOFTER_PENALTY: f64 = -1.5;
 
-/// Share of the elements where linear ones take the place of quadratic ones, whose errors are independent of theirs: they cost more.
-const LINEAR: f64 = 0.75;
+/// Share of the elements where linear ones take the place of quadratic ones, whose errors are independent of
+/// theirs: they cost more.
+const LINEAR_SHARE: f64 = 0.75;
 
 /// Depths at which curves are compared.
 const DEPTHS: usize = 81;
 
 /// Largest share of the depth by which the end of a complete run may miss it.
-const SHORT: f64 = 1e-3;
+const SHORT_DEPTH: f64 = 1e-3;
 
 /// The quantities whose errors are stated, in the order of [`Each`].
 pub const QUANTITIES: [&str; 6] =
@@ -106,7 +110,7 @@ fn single(x: f64) -> f64 {
 
 impl Answer {
     /// Of a run that reached its depth, or why there is none.
-    fn of(outcome: &Outcome, depth: f64) -> Result<Answer, String> {
+    fn from_outcome(outcome: &Outcome, depth: f64) -> Result<Answer, String> {
         let summary = &outcome.summary;
         if let Some(stopped) = &outcome.stopped {
             let way = if stopped.phase == Phase::Load { "" } else { ", unloading" };
@@ -115,7 +119,7 @@ impl Answer {
         let loading = outcome.rows.iter().filter(|row| row.phase == Phase::Load);
         let force = Curve::force(&outcome.rows);
         let area = Curve::new(loading.map(|row| [row.depth, row.contact_area]));
-        if (force.end() / depth - 1.0).abs() > SHORT {
+        if (force.end() / depth - 1.0).abs() > SHORT_DEPTH {
             return Err(format!("ends at {:.4} of the depth", force.end() / depth));
         }
         let at = |i: usize| {
@@ -140,8 +144,8 @@ impl Answer {
     /// Of `scene`, on `mesh` if one is given.
     ///
     /// # Errors
-    /// Why the run does not begin or does not reach its depth.
-    pub fn to(scene: &Scene, mesh: Option<Mesh>) -> Result<Answer, String> {
+    /// The reason why the run does not begin or does not reach its depth.
+    pub fn compute(scene: &Scene, mesh: Option<Mesh>) -> Result<Answer, String> {
         let depth = scene.loading.depth.ok_or("the scene is not driven by depth")?.0;
         let outcome = Run { mesh, ..Run::new(scene) }
             .run(&mut |_| ControlFlow::Continue(()))
@@ -149,8 +153,9 @@ impl Answer {
         Answer::of(&outcome, depth)
     }
 
-    /// Its errors against `truth`: the largest over the depths for force, contact area and mean pressure, relative; the residual
-    /// depth over the peak depth, the elastic fraction absolute, the stiffness relative.
+    /// Its errors against `truth`: the largest over the depths for force, contact area and mean pressure,
+    /// relative; the residual depth over the peak depth, the elastic fraction absolute, the stiffness
+    /// relative.
     pub fn error(&self, truth: &Answer) -> Each {
         let worst = |of: fn(&[f64; 2]) -> f64| {
             let pairs = self.curve.iter().zip(&truth.curve);
@@ -195,7 +200,7 @@ impl Truth {
 
 impl Recipe {
     /// That of the truth of a run at `accuracy`.
-    pub fn of(accuracy: Accuracy) -> Recipe {
+    pub fn for_accuracy(accuracy: Accuracy) -> Recipe {
         RECIPES[accuracy.level() as usize]
     }
 
@@ -207,23 +212,24 @@ impl Recipe {
         let other = element == ElementChoice::Q4 && Discretisation::new(scene).element != element;
         let more = |count: usize, factor: f64| Some((count as f64 * factor).ceil() as usize);
         let Recipe(finer_by) = *self;
-        let elements = if other { LINEAR * finer_by } else { finer_by };
+        let elements = if other { LINEAR_SHARE * finer_by } else { finer_by };
         finer.numerics.elements_in_contact = more(reference.elements_in_contact, elements);
         finer.numerics.steps = more(reference.steps, finer_by);
-        finer.numerics.penetration = Some(single(reference.penetration * finer_by.powf(SOFTER)));
+        finer.numerics.penetration = Some(single(reference.penetration * finer_by.powf(SOFTER_PENALTY)));
         finer.numerics.domain = Some((reference.domain * finer_by).min(Numerics::DOMAIN[1]));
         finer
     }
 
-    /// Finds the truth with the element that the scene is to be judged by, or where that does not reach the depth with its own.
+    /// Finds the truth with the element that the scene is to be judged by, or where that does not reach the
+    /// depth with its own.
     ///
     /// # Errors
-    /// Why it was not reached.
+    /// The reason why it was not reached.
     pub fn find(&self, case: &Case) -> Found {
         let own = Discretisation::new(&case.scene).element;
         let with = |element: ElementChoice| {
             let finer = self.scene(&case.scene, element);
-            let (answer, seconds) = timed(|| Answer::to(&finer, None));
+            let (answer, seconds) = timed(|| Answer::compute(&finer, None));
             let (scene, numerics, seconds) = (case.number, finer.numerics, (10.0 * seconds).round() / 10.0);
             let other_element = element != own;
             answer.map(|answer| Truth { scene, other_element, numerics, seconds, answer: answer.single() })
@@ -234,11 +240,11 @@ impl Recipe {
         }
     }
 
-    /// The key of a truth: the number of the scene with a hash of it and of the recipe. It depends not on the level, nor on the
-    /// numbers of `reference`.
+    /// The key of a truth: the number of the scene with a hash of it and of the recipe. It depends not on the
+    /// level, nor on the numbers of `reference`.
     fn key(&self, case: &Case) -> String {
         let same = Scene { accuracy: Accuracy::Reference, ..case.scene.clone() };
-        let recipe = format!("{:?} {} {SOFTER} {LINEAR}", case.element_of_truth(), self.0);
+        let recipe = format!("{:?} {} {SOFTER_PENALTY} {LINEAR_SHARE}", case.element_of_truth(), self.0);
         let text = toml::to_string(&same).expect("a scene is a table") + &recipe;
         format!("{:04}-{:016x}", case.number, hash(&text))
     }
@@ -289,8 +295,9 @@ impl Truths {
         file.and_then(|text| serde_json::from_str(&text).ok()).or_else(|| self.packed.get(key).cloned())
     }
 
-    /// The truth of `case`, found and kept if it is not there and `search`. That of a finer recipe than its own is as good.
-    pub fn of(&self, case: &Case, search: bool) -> Option<Found> {
+    /// The truth of `case`, found and kept if it is not there and `search`. That of a finer recipe than its
+    /// own is as good.
+    pub fn find_or_compute(&self, case: &Case, search: bool) -> Option<Found> {
         let level = case.scene.accuracy.level() as usize;
         let kept: Vec<Found> = RECIPES[level..].iter().filter_map(|r| self.kept(&r.key(case))).collect();
         if let Some(found) = kept.iter().find(|found| found.is_ok()).or(kept.first()) {
@@ -354,7 +361,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let [file, cache] = ["truths.json.gz", "cache"].map(|name| folder.path().join(name));
         let cases: Vec<Case> = (0..4).map(|number| Case::new(number).unwrap()).collect();
-        let recipe = |case: &Case| Recipe::of(case.scene.accuracy);
+        let recipe = |case: &Case| Recipe::for_accuracy(case.scene.accuracy);
         let found = [Ok(truth(0)), Ok(truth(1)), Err("no equilibrium".to_string())];
         let truths = Truths::open(&file, &cache).unwrap();
         for (case, found) in cases.iter().zip(&found) {
@@ -364,17 +371,17 @@ mod tests {
         std::fs::remove_dir_all(&cache).unwrap();
         let read = Truths::open(&file, &cache).unwrap();
         for (case, found) in cases.iter().zip(&found) {
-            assert_eq!(read.of(case, false).as_ref(), Some(found));
+            assert_eq!(read.find_or_compute(case, false).as_ref(), Some(found));
         }
-        assert!(read.of(&cases[3], false).is_none());
+        assert!(read.find_or_compute(&cases[3], false).is_none());
         // what another session adds keeps the rest
         let more = Ok(truth(3));
         replace(&read.file(&recipe(&cases[3]).key(&cases[3])), serde_json::to_string(&more).unwrap())
             .unwrap();
         assert_eq!(read.pack(&cases, &file).unwrap(), 4);
         let read = Truths::open(&file, &cache).unwrap();
-        assert_eq!(read.of(&cases[0], false).as_ref(), Some(&found[0]));
-        assert_eq!(read.of(&cases[3], false), Some(more));
+        assert_eq!(read.find_or_compute(&cases[0], false).as_ref(), Some(&found[0]));
+        assert_eq!(read.find_or_compute(&cases[3], false), Some(more));
     }
 
     #[test]
@@ -388,7 +395,7 @@ mod tests {
             [(Accuracy::Draft, true), (Accuracy::Standard, true), (Accuracy::Reference, false)]
         {
             case.scene.accuracy = accuracy;
-            assert_eq!(truths.of(&case, false).is_some(), known, "{accuracy}");
+            assert_eq!(truths.find_or_compute(&case, false).is_some(), known, "{accuracy}");
         }
     }
 }

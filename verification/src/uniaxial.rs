@@ -2,7 +2,8 @@
 
 use asperity_material::{Elastic, Hardening};
 
-/// Kirchhoff stress of a bar at the total logarithmic strain `strain` > σ_y/E: eq. (1) of the paper, σ = Eⁿ σ_y^(1-n) εⁿ.
+/// Kirchhoff stress of a bar at the total logarithmic strain `strain` > σ_y/E: eq. (1) of the paper, σ = Eⁿ
+/// σ_y^(1-n) εⁿ.
 ///
 /// The strain of eq. (1) is σ/E + ε_p, which in uniaxial stress is the logarithm of the axial stretch.
 pub fn hollomon_stress(metal: &Hardening, strain: f64) -> f64 {
@@ -11,13 +12,15 @@ pub fn hollomon_stress(metal: &Hardening, strain: f64) -> f64 {
         * strain.powf(metal.exponent)
 }
 
-/// Force over the area before deformation, from the Kirchhoff stress: the work τ dε is (F/A₀) dλ, so F/A₀ = τ/λ.
+/// Force over the area before deformation, from the Kirchhoff stress: the work τ dε is (F/A₀) dλ, so F/A₀ =
+/// τ/λ.
 pub fn nominal_stress(kirchhoff: f64, strain: f64) -> f64 {
     kirchhoff * (-strain).exp()
 }
 
-/// Penetration of a frictionless plane into the end of an elastic bar of `height` that the plane has shortened by
-/// `travel`, penetration included: the pressure per reference area ε p equals -(E ln λ)/λ of uniaxial stress.
+/// Penetration of a frictionless plane into the end of an elastic bar of `height` that the plane has
+/// shortened by `travel`, penetration included: the pressure per reference area ε p equals -(E ln λ)/λ of
+/// uniaxial stress.
 ///
 /// Newton on the monotone residual; the bar is as wide as it likes.
 pub fn penetration(elastic: &Elastic, penalty: f64, height: f64, travel: f64) -> f64 {

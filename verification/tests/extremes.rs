@@ -1,11 +1,12 @@
-//! Claim: at the extremes of every parameter a crush converges to a value that is known otherwise, or stops with a reason that
-//! is named; never NaN, never a hang. `cargo test --release -p asperity-verification --test extremes -- --nocapture` prints
-//! the table.
+//! Claim: at the extremes of every parameter a crush converges to a value that is known otherwise, or stops
+//! with a reason that is named; never NaN, never a hang. `cargo test --release -p asperity-verification
+//! --test extremes -- --nocapture` prints the table.
 //!
-//! Sources: Sneddon 1965 (elastic cone, F = (2/π) E* h²/tan β for small slopes), Hertz; sharp cones of another code (the
-//! table of `asperity_verification::calibration::PEERS`); the same scene away from the extreme. Draft accuracy promises
-//! 5 %, which is the tolerance wherever a force is compared with a value from elsewhere; energy balances to 3 % (draft: 0.8 % on
-//! the committed scene), to 10 % where the steps themselves are the extreme.
+//! Sources: Sneddon 1965 (elastic cone, F = (2/π) E* h²/tan β for small slopes), Hertz; sharp cones of
+//! another code (the table of `asperity_verification::calibration::PEERS`); the same scene away from the
+//! extreme. Draft accuracy promises 5 %, which is the tolerance wherever a force is compared with a value
+//! from elsewhere; energy balances to 3 % (draft: 0.8 % on the committed scene), to 10 % where the steps
+//! themselves are the extreme.
 
 // in a test a panic is the message, and the table is the point
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
@@ -98,18 +99,19 @@ fn against_peer(name: &'static str, slope_deg: f64, exponent: f64, e_over_sy: f6
 }
 
 /// The force against that of another scene.
-fn against(name: &'static str, scene: Scene, other: Scene, bound: f64) -> Row {
+fn compared(name: &'static str, scene: Scene, other: Scene, bound: f64) -> Row {
     row(name, scene, bound, move |o| peak(o) / force(&other))
 }
 
-/// Against the same scene with the other element, whose mesh differs as well: draft promises 5 %, and flanks that lie down at last are
-/// known to 2 to 9 % at standard, as these runs state.
+/// Against the same scene with the other element, whose mesh differs as well: draft promises 5 %, and flanks
+/// that lie down at last are known to 2 to 9 % at standard, as these runs state.
 fn beside_other_element(name: &'static str, scene: Scene, element: ElementChoice) -> Row {
     let mut other = scene.clone();
     other.numerics.element = Some(element);
-    against(name, scene, other, 0.05)
+    compared(name, scene, other, 0.05)
 }
 
+#[expect(clippy::too_many_lines, reason = "a table: a row per entry")]
 fn rows() -> Vec<Row> {
     let paper = || changed(|_| {});
     let steps = |count: usize| changed(|s| s.numerics.steps = Some(count));
@@ -123,7 +125,7 @@ fn rows() -> Vec<Row> {
         against_sneddon("ν 0.4999999, elastic, Q8R", elastic_cone(1.0, 0.499_999_9)),
         against_sneddon("ν 0.4999999, elastic, Q4", q4(elastic_cone(1.0, 0.499_999_9))),
         against_sneddon("ν -0.9, elastic", elastic_cone(1.0, -0.9)),
-        against(
+        compared(
             "ν 0.4999999, plastic, beside 0.49",
             nearly_incompressible(0.499_999_9),
             nearly_incompressible(0.49),
@@ -198,10 +200,10 @@ fn rows() -> Vec<Row> {
         row("depth 100 % of the height", changed(|s| s.loading.depth = s.asperity[0].height), 1e-6, |o| {
             o.summary.peak_depth / 20e-6
         }),
-        Row { energy: 1.0, ..against("one step", steps(1), paper(), 0.5) },
-        Row { energy: 0.1, ..against("eight steps", steps(8), paper(), 0.1) },
-        against("1000 steps", steps(1000), paper(), 0.05),
-        against(
+        Row { energy: 1.0, ..compared("one step", steps(1), paper(), 0.5) },
+        Row { energy: 0.1, ..compared("eight steps", steps(8), paper(), 0.1) },
+        compared("1000 steps", steps(1000), paper(), 0.05),
+        compared(
             "a body 1000 times wider than deep",
             changed(|s| {
                 s.substrate = Some(Substrate { radius: Some(Length(2.0)), depth: Some(Length(2e-3)) });
@@ -235,7 +237,7 @@ fn rows() -> Vec<Row> {
         against_peer("n 0, E/σ_y 100 under 3°", 3.0, 0.0, 100.0),
         against_peer("n 0.1, E/σ_y 1000 under 3°", 3.0, 0.1, 1000.0),
         against_peer("n 0.5, E/σ_y 1000 under 6°", 6.0, 0.5, 1000.0),
-        against(
+        compared(
             "ν 0.49, plastic, beside 0.4999",
             nearly_incompressible(0.49),
             nearly_incompressible(0.4999),
@@ -267,7 +269,7 @@ fn rows() -> Vec<Row> {
         ),
         beside_other_element("a ball pressed in to its radius, beside Q4", ball(), ElementChoice::Q4),
         beside_other_element("a cone of 50° pressed in, beside Q8R", steep_tool(), ElementChoice::Q8r),
-        against("10000 steps", steps(10_000), paper(), 0.05),
+        compared("10000 steps", steps(10_000), paper(), 0.05),
         scaled("lengths of 1e-12", 1e-12, 1.0),
         scaled("lengths of 1e12", 1e12, 1.0),
         scaled("stresses of 1e-12", 1.0, 1e-12),
@@ -350,7 +352,8 @@ fn cap(share: f64) -> Scene {
     })
 }
 
-/// The paper's asperity `length` times as large, of a metal `stress` times as stiff: the force in its own units.
+/// The paper's asperity `length` times as large, of a metal `stress` times as stiff: the force in its own
+/// units.
 fn scaled(name: &'static str, length: f64, stress: f64) -> Row {
     let times = |x: Option<Length>| x.map(|x| Length(length * x.0));
     let scene = changed(|s| {

@@ -1,8 +1,10 @@
-//! Claim: a scene that is driven by a force reaches it whatever the body, elastic or plastic, cone, cap or ridge, and
-//! gives the depth that a scene driven by that depth gives the force of; a force that no depth bears ends with its reason.
+//! Claim: a scene that is driven by a force reaches it whatever the body, elastic or plastic, cone, cap or
+//! ridge, and gives the depth that a scene driven by that depth gives the force of; a force that no depth
+//! bears ends with its reason.
 //!
-//! Sources: Hertz for the cap (Johnson, Contact Mechanics, 1985, eq. 4.23); else the program's own depth-driven run.
-//! Tolerance: 5 %, the promise of draft on the force, which grows with the depth or faster; the meshes of the two runs differ.
+//! Sources: Hertz for the cap (Johnson, Contact Mechanics, 1985, eq. 4.23); else the program's own
+//! depth-driven run. Tolerance: 5 %, the promise of draft on the force, which grows with the depth or faster;
+//! the meshes of the two runs differ.
 
 // in a test a panic is the message
 #![allow(clippy::unwrap_used)]
@@ -87,7 +89,8 @@ fn a_force_beyond_reach_ends_with_its_reason_as_deep_as_the_tool_can_go() {
     }
 }
 
-/// The metal beside a cone's tip gives way in leaps, so that increments are taken in parts, one of which passes the force.
+/// The metal beside a cone's tip gives way in leaps, so that increments are taken in parts, one of which
+/// passes the force.
 #[test]
 fn a_force_that_is_passed_within_an_increment_is_met() {
     let scene = changed(|s| {
@@ -101,7 +104,8 @@ fn a_force_that_is_passed_within_an_increment_is_met() {
     assert!((outcome.summary.peak_force / 4.0 - 1.0).abs() < 1e-8);
 }
 
-/// A tolerance of Newton's method that is tighter than what is asked of the goal asks nothing more of the goal.
+/// A tolerance of Newton's method that is tighter than what is asked of the goal asks nothing more of the
+/// goal.
 #[test]
 fn a_tight_tolerance_meets_its_depth() {
     let scene = changed(|s| s.numerics.newton_tolerance = Some(1e-11));

@@ -1,10 +1,12 @@
-//! Claim: area, force, ellipse and separation of bodies with a closed form are met, and more closely on finer maps.
+//! Claim: area, force, ellipse and separation of bodies with a closed form are met, and more closely on finer
+//! maps.
 //!
-//! Sources: geometry, beside each test (areas and gradients of cone, paraboloid, sinusoid, plane). Tolerance: 1 % at 64 pixels
-//! across, at least three times closer at 256 (the cells are of second order); 1e-9 where the map is a plane, which the
-//! cells hold exactly.
+//! Sources: geometry, beside each test (areas and gradients of cone, paraboloid, sinusoid, plane). Tolerance:
+//! 1 % at 64 pixels across, at least three times closer at 256 (the cells are of second order); 1e-9 where
+//! the map is a plane, which the cells hold exactly.
 //!
-//! E* = E/(1-ν²); a closure linear in tan β has p = c E* tan β on the island: c = 0.13 (`published`), 2/π² (`sneddon`).
+//! E* = E/(1-ν²); a closure linear in tan β has p = c E* tan β on the island: c = 0.13 (`published`), 2/π²
+//! (`sneddon`).
 
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
@@ -31,7 +33,8 @@ fn steel() -> Material {
     }
 }
 
-/// n x n nodes over `size` (m) of z(x, y) with x, y from the middle; periodic maps end one pixel before `size`.
+/// n x n nodes over `size` (m) of z(x, y) with x, y from the middle; periodic maps end one pixel before
+/// `size`.
 fn map(n: usize, size: f64, periodic: bool, z: impl Fn(f64, f64) -> f64) -> HeightMap {
     let pixel = size / if periodic { n } else { n - 1 } as f64;
     let at = |i: usize| i as f64 * pixel - 0.5 * size;
@@ -40,13 +43,13 @@ fn map(n: usize, size: f64, periodic: bool, z: impl Fn(f64, f64) -> f64) -> Heig
 }
 
 fn contact(map: &HeightMap, closure: Closure, load: Load) -> Contact {
-    let surface = Surface::of(map.clone()).unwrap();
+    let surface = Surface::from_map(map.clone()).unwrap();
     press(&surface, &ClosureLaw::new(closure, &steel(), None).unwrap(), load).unwrap()
 }
 
 /// The plane's height above the origin of z instead of the mean height.
 fn height(map: &HeightMap, contact: &Contact) -> f64 {
-    contact.separation + Parameters::of(map, &map.extent().unwrap()).mean
+    contact.separation + Parameters::measure(map, &map.extent().unwrap()).mean
 }
 
 /// Relative errors of `got` against `want`.
@@ -54,7 +57,8 @@ fn errors<const N: usize>(got: [f64; N], want: [f64; N]) -> f64 {
     got.iter().zip(want).map(|(g, w)| (g / w - 1.0).abs()).fold(0.0, f64::max)
 }
 
-/// Runs a claim at 64 and 256 pixels across: at most 1 %, and at least three times better when four times finer.
+/// Runs a claim at 64 and 256 pixels across: at most 1 %, and at least three times better when four times
+/// finer.
 fn converges(what: &str, error: impl Fn(usize) -> f64) {
     let (coarse, fine) = (error(64), error(256));
     assert!(coarse <= 0.01, "{what}: {coarse} at 64 pixels");
@@ -69,7 +73,7 @@ fn one_cone_has_area_force_and_ellipse_of_the_circle() {
         converges("cone", |n| {
             let map = map(n, 21e-6, false, |x, y| -tan * x.hypot(y));
             let extent = map.extent().unwrap();
-            let mean = Parameters::of(&map, &extent).mean;
+            let mean = Parameters::measure(&map, &extent).mean;
             let found = contact(&map, closure, Load::Separation(-h - mean));
             let (area, force) = (PI * h * h / tan / tan, c * MODULUS * PI * h * h / tan);
             let ellipse = found.islands.islands[0].ellipse.unwrap();
@@ -88,14 +92,15 @@ fn one_cone_has_area_force_and_ellipse_of_the_circle() {
     assert!((sneddon / FRAC_2_PI - 1.0).abs() < 1e-15);
 }
 
-/// One paraboloid z = -(x²+y²)/2R: island 2πRh (twice Hertz's contact), mean gradient (2/3) a/R with a² = 2Rh.
+/// One paraboloid z = -(x²+y²)/2R: island 2πRh (twice Hertz's contact), mean gradient (2/3) a/R with a² =
+/// 2Rh.
 #[test]
 fn one_paraboloid_has_twice_the_area_of_hertz_and_two_thirds_of_its_rim_slope() {
     let (radius, h) = (50e-6, 1e-6); // the island has radius 10 µm
     for (closure, c, ratio) in LINEAR {
         converges("paraboloid", |n| {
             let map = map(n, 21e-6, false, |x, y| -(x * x + y * y) / (2.0 * radius));
-            let mean = Parameters::of(&map, &map.extent().unwrap()).mean;
+            let mean = Parameters::measure(&map, &map.extent().unwrap()).mean;
             let found = contact(&map, closure, Load::Separation(-h - mean));
             let (area, slope) = (TAU * radius * h, 2.0 / 3.0 * (2.0 * h / radius).sqrt());
             errors(
@@ -178,7 +183,7 @@ fn an_inclined_plane_is_exact_on_any_grid() {
 fn a_flat_plane_carries_nothing() {
     let inclined = map(33, 1e-3, false, |x, y| 0.02 * x - 0.01 * y);
     let flat = map(33, 1e-3, false, |_, _| 7e-6);
-    let surface = Surface::of(flat).unwrap();
+    let surface = Surface::from_map(flat).unwrap();
     let model = ClosureLaw::new(Closure::Published, &steel(), None).unwrap();
     let error = press(&surface, &model, Load::Pressure(1e6)).err().unwrap();
     assert!(error.to_string().contains("largest load"), "{error}");
@@ -198,7 +203,7 @@ fn non_square_pixels_change_nothing() {
         -tan * x.hypot(y)
     };
     let map = HeightMap::new(nx, ny, pixel, (0..nx * ny).map(z).collect()).unwrap();
-    let mean = Parameters::of(&map, &map.extent().unwrap()).mean;
+    let mean = Parameters::measure(&map, &map.extent().unwrap()).mean;
     let found = contact(&map, Closure::Published, Load::Separation(-h - mean));
     let island = found.islands.islands[0];
     let ellipse = island.ellipse.unwrap();

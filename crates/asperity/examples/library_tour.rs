@@ -1,5 +1,5 @@
-//! A crush of a scene built in code, a sweep of six cones with its fit, and a generated surface under every closure: the
-//! numbers that the commands `crush`, `calibrate` and `rough` write.
+//! A crush of a scene built in code, a sweep of six cones with its fit, and a generated surface under every
+//! closure: the numbers that the commands `crush`, `calibrate` and `rough` write.
 //!
 //! `cargo run --release -p asperity --example library_tour`
 

@@ -7,8 +7,8 @@ use asperity::{Error, Length, Scene, Stress, crush};
 
 fn main() -> Result<(), Error> {
     let voce = |strain: f64| 600e6 - 300e6 * (-strain / 0.1).exp();
-    // linear between the points, constant beyond the last; chords of a step s lie s²/8 |σ''| below the law, which no stated error
-    // includes: a step of ε_0/100 does not show
+    // linear between the points, constant beyond the last; chords of a step s lie s²/8 |σ''| below the law,
+    // which no stated error includes: a step of ε_0/100 does not show
     let table = (0..=1200).map(|i| 0.001 * f64::from(i)).map(|strain| (strain, Stress(voce(strain))));
     let material = Material::elastic_body(Stress(210e9), 0.3).hardening_by(table);
     let loading = Loading::to_depth(Length(5e-6));

@@ -60,7 +60,7 @@ pub struct InputError {
     pub message: String,
     /// A way out.
     pub help: Option<String>,
-    /// Where it stands.
+    /// Its place.
     pub place: Option<Box<Place>>,
 }
 
@@ -103,9 +103,10 @@ impl InputError {
         text
     }
 
-    /// Points at `span` (bytes) of `text`, which is called `name`; of a span over several lines, at its first one.
+    /// Points at `span` (bytes) of `text`, which is called `name`; of a span over several lines, at its first
+    /// one.
     #[must_use]
-    pub fn at(mut self, name: &str, text: &str, span: Range<usize>) -> Self {
+    pub fn pointing_at(mut self, name: &str, text: &str, span: Range<usize>) -> Self {
         let start = span.start.min(text.len());
         let line_end = text[start..].find('\n').map_or(text.len(), |i| start + i);
         let end = span.end.clamp(start, line_end);
@@ -121,8 +122,11 @@ mod tests {
     /// The form in which `main` prints an error that it returns.
     #[test]
     fn the_debug_form_of_an_error_names_line_and_way_out() {
-        let error =
-            InputError::new("bad depht").help("did you mean depth?").at("scene", "a = 1\ndepht = 2\n", 6..11);
+        let error = InputError::new("bad depht").help("did you mean depth?").pointing_at(
+            "scene",
+            "a = 1\ndepht = 2\n",
+            6..11,
+        );
         assert_eq!(
             format!("{:?}", Error::from(error)),
             "bad depht\nscene, line 2: depht = 2\nhelp: did you mean depth?"

@@ -1,4 +1,5 @@
-//! The functions of the library against each other: a surface in memory and in a file, a sweep whole and stopped.
+//! The functions of the library against each other: a surface in memory and in a file, a sweep whole and
+//! stopped.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 

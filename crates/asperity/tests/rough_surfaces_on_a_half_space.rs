@@ -1,4 +1,5 @@
-//! `press` with the half-space: its rows, the judgement of closures, rows that fail alone, the leak, the words at the end.
+//! `press` with the half-space: its rows, the judgement of closures, rows that fail alone, the leak, the
+//! words at the end.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
@@ -37,8 +38,9 @@ fn row(rough: &Rough, closure: Closure) -> &asperity::rough::TableRow {
     rough.table.iter().find(|row| row.closure == closure).unwrap()
 }
 
-/// Pixels whose pressure is all at the limit: what a little more load is put on first must not count as contact. One point of this
-/// curve once had the whole surface in contact, each idle pixel under next to nothing.
+/// Pixels whose pressure is all at the limit: what a little more load is put on first must not count as
+/// contact. One point of this curve once had the whole surface in contact, each idle pixel under next to
+/// nothing.
 #[test]
 fn the_contact_grows_with_the_load_where_few_pixels_carry_it() {
     let milled = r#"closure = "half-space-plastic"
@@ -158,8 +160,8 @@ fn a_fluid_leaks_by_the_gap_and_more_load_leaks_less() {
     }
 }
 
-/// Metal of known hardening bears under its patches what the atlas of cones has at their slope: near 3 σ_y without hardening, more with
-/// it; the summary says which limit it was. A hardness is taken as it is.
+/// Metal of known hardening bears under its patches what the atlas of cones has at their slope: near 3 σ_y
+/// without hardening, more with it; the summary says which limit it was. A hardness is taken as it is.
 #[test]
 fn the_limit_of_pressure_knows_the_hardening() {
     let one = |metal: &str| {
@@ -206,7 +208,8 @@ fn a_spike_counts_as_missing_where_outliers_are_limited() {
     assert!(without.summary.sz_um < 1.0, "{}", without.summary.sz_um);
 }
 
-/// The pressure of an island is even, an ellipsoid (3/2 of the mean at most) or that of a cone, which peaks higher.
+/// The pressure of an island is even, an ellipsoid (3/2 of the mean at most) or that of a cone, which peaks
+/// higher.
 #[test]
 fn the_peak_goes_by_the_pressure_profile() {
     let peak = |profile: &str| {

@@ -1,13 +1,15 @@
-//! The atlas of cones: sharp cones over slope, E/σ_y and n as one smooth function, from which a search begins.
+//! The atlas of cones: sharp cones over slope, E/σ_y and n as one smooth function, from which a search
+//! begins.
 //!
-//! ν 0.3, law `swift`, Cauchy's stress. The cells were solved by [`crate::indentation::solve`] at `standard`; a polynomial of
-//! least squares in ln(E/σ_y), n and β goes through them (the largest degrees are [`DEGREES`]), which evens out their
-//! ripple: a cell is foretold by a polynomial through the others to 0.4 % of K, 0.9 % of S and 2 % of the returned work (rms). It is no
-//! result: what it begins, finite elements end.
+//! ν 0.3, law `swift`, Cauchy's stress. The cells were solved by [`crate::indentation::solve`] at `standard`;
+//! a polynomial of least squares in ln(E/σ_y), n and β goes through them (the largest degrees are
+//! [`DEGREES`]), which evens out their ripple: a cell is foretold by a polynomial through the others to 0.4 %
+//! of K, 0.9 % of S and 2 % of the returned work (rms). It is no result: what it begins, finite elements end.
 //!
-//! The larger atlas, [`asperity_material::cone_atlas`], does not take its place: begun from that, 18 fits (every ninth published metal under cones of
-//! 60° and 50°, E known and sought; two indents in aluminium) ended at the same metals, σ_y within 0.16 of the half width of its
-//! interval and 5 %, but took 154 runs of finite elements for 148 and a fifth more time, and it ends at 40°, short of this one's 45°.
+//! The larger atlas, [`asperity_material::cone_atlas`], does not take its place: begun from that, 18 fits
+//! (every ninth published metal under cones of 60° and 50°, E known and sought; two indents in aluminium)
+//! ended at the same metals, σ_y within 0.16 of the half width of its interval and 5 %, but took 154 runs of
+//! finite elements for 148 and a fifth more time, and it ends at 40°, short of this one's 45°.
 
 use crate::indentation::{FORCES, Indentation, solve};
 use asperity_material::{Elastic, Hardening, HardeningLaw, StressMeasure};
@@ -57,7 +59,7 @@ impl Cell {
     /// Solves a cone.
     ///
     /// # Errors
-    /// Why it has no result.
+    /// The reason why it has no result.
     pub fn solve(slope_deg: f64, e_over_sy: f64, exponent: f64) -> Result<Cell, String> {
         let hardening = Hardening {
             law: HardeningLaw::Swift,
@@ -135,11 +137,11 @@ impl Atlas {
     /// The committed atlas; `None` only if its file is damaged.
     pub fn committed() -> Option<&'static Atlas> {
         static ATLAS: OnceLock<Option<Atlas>> = OnceLock::new();
-        ATLAS.get_or_init(|| Atlas::through(&cells(include_str!("../data/cones.csv")))).as_ref()
+        ATLAS.get_or_init(|| Atlas::fit(&cells(include_str!("../data/cones.csv")))).as_ref()
     }
 
     /// A polynomial through `cells`; `None` with too few.
-    pub fn through(cells: &[Cell]) -> Option<Atlas> {
+    pub fn fit(cells: &[Cell]) -> Option<Atlas> {
         let count = basis([0.0; 3]).len();
         if cells.len() < 2 * count {
             return None;
@@ -155,8 +157,9 @@ impl Atlas {
         Some(Atlas { coefficients, left })
     }
 
-    /// The logarithms of [`Cell`] of a cone; beyond the cells carried on along straight lines from their edge.
-    pub fn at(&self, slope_deg: f64, e_over_sy: f64, exponent: f64) -> [f64; OUTPUTS] {
+    /// The logarithms of [`Cell`] of a cone; beyond the cells carried on along straight lines from their
+    /// edge.
+    pub fn predict(&self, slope_deg: f64, e_over_sy: f64, exponent: f64) -> [f64; OUTPUTS] {
         let place = scaled(slope_deg, e_over_sy, exponent);
         let inside = place.map(|x| x.clamp(-1.0, 1.0));
         let mut value = self.value(inside);
@@ -188,15 +191,15 @@ pub fn cells(text: &str) -> Vec<Cell> {
 mod tests {
     use super::*;
 
-    /// Cones between the cells, at a level of their own: 3 % of K, 5 % of the rest, the errors of both levels and the ripple that
-    /// the polynomial evens out.
+    /// Cones between the cells, at a level of their own: 3 % of K, 5 % of the rest, the errors of both levels
+    /// and the ripple that the polynomial evens out.
     #[test]
     fn cones_between_the_cells_are_met() {
         let atlas = Atlas::committed().unwrap();
         assert!(atlas.left[0] < 0.005, "{:?}", atlas.left);
         for (slope, ratio, exponent) in [(22.0, 120.0, 0.15), (32.0, 30.0, 0.35), (12.0, 700.0, 0.05)] {
             let expected = Cell::solve(slope, ratio, exponent).unwrap();
-            let found = atlas.at(slope, ratio, exponent);
+            let found = atlas.predict(slope, ratio, exponent);
             for (i, (a, b)) in found.iter().zip(expected.logarithms).enumerate().take(9) {
                 let allowed = if i == 0 { 0.03 } else { 0.05 };
                 assert!((a - b).abs() < allowed, "{slope} {ratio} {exponent}: logarithm {i} {a} {b}");
@@ -204,12 +207,12 @@ mod tests {
         }
     }
 
-    /// A perfectly plastic metal without elasticity has K in proportion to σ_y: beyond the last cell the logarithm goes on with
-    /// the slope -1, within the 5 % that elasticity still makes there.
+    /// A perfectly plastic metal without elasticity has K in proportion to σ_y: beyond the last cell the
+    /// logarithm goes on with the slope -1, within the 5 % that elasticity still makes there.
     #[test]
     fn beyond_the_cells_the_atlas_goes_on_straight() {
         let atlas = Atlas::committed().unwrap();
-        let [near, far] = [6000.0, 12000.0].map(|ratio| atlas.at(30.0, ratio, 0.0)[0]);
+        let [near, far] = [6000.0, 12000.0].map(|ratio| atlas.predict(30.0, ratio, 0.0)[0]);
         assert!(((far - near) / -2f64.ln() - 1.0).abs() < 0.05, "{near} {far}");
     }
 }

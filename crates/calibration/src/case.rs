@@ -35,13 +35,13 @@ pub struct Yielding {
 pub struct Case {
     /// Slope β of the cone against the plane, degrees.
     pub beta_deg: f64,
-    /// How the metal yields; `None`: it is elastic.
+    /// The way the metal yields; `None`: it is elastic.
     pub yielding: Option<Yielding>,
     /// Poisson's ratio.
     pub poissons_ratio: f64,
     /// Crush or indentation.
     pub tool: Tool,
-    /// Which stress yields.
+    /// The stress that yields.
     pub stress_measure: StressMeasure,
 }
 

@@ -1,9 +1,10 @@
-//! The representative strain of one slope: the ε_r for which K/σ_r against E*/σ_r is one curve for all materials.
+//! The representative strain of one slope: the ε_r for which K/σ_r against E*/σ_r is one curve for all
+//! materials.
 //!
-//! The measure is the scatter: the root mean square of what a cubic in ln(E*/σ_r), fitted to all materials at once,
-//! leaves of ln(K/σ_r). The second measure is the paper's, "the maximum of correlation": the share of the variance of
-//! ln(K/σ_r) that the cubic explains. Where the crush is nearly elastic K hardly depends on σ_r: the scatter is then
-//! the same for every ε_r, and says so.
+//! The measure is the scatter: the root mean square of what a cubic in ln(E*/σ_r), fitted to all materials at
+//! once, leaves of ln(K/σ_r). The second measure is the paper's, "the maximum of correlation": the share of
+//! the variance of ln(K/σ_r) that the cubic explains. Where the crush is nearly elastic K hardly depends on
+//! σ_r: the scatter is then the same for every ε_r, and says so.
 
 use asperity_material::Hardening;
 use asperity_numerics::least_squares::{powers, solve, value};
@@ -11,7 +12,7 @@ use asperity_numerics::least_squares::{powers, solve, value};
 /// One material crushed at one slope.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sample {
-    /// Which material, the same number for every slope.
+    /// The material, the same number for every slope.
     pub material: usize,
     /// Its hardening, E = 1.
     pub hardening: Hardening,
@@ -26,11 +27,12 @@ pub struct Sample {
 /// The trial strains, in units of tan β: their range and number.
 const TRIALS: ([f64; 2], usize) = ([0.005, 1.2], 72);
 
-/// Least ratio of the largest to the least scatter over the trial strains for which there is a minimum at all.
+/// Least ratio of the largest to the least scatter over the trial strains for which there is a minimum at
+/// all.
 const CONTRAST: f64 = 1.2;
 
 /// Scatter below this is rounding.
-const ROUNDING: f64 = 1e-9;
+const ROUNDING_SCATTER: f64 = 1e-9;
 
 /// The samples of a slope at every trial strain, ready for many weightings.
 #[derive(Clone, Debug)]
@@ -81,8 +83,8 @@ impl Collapse {
         }
     }
 
-    /// The measure at every trial strain with `draw(material)` for every sample: its weight, and by how many times its
-    /// 95 % bound K is shifted.
+    /// The measure at every trial strain with `draw(material)` for every sample: its weight, and by how many
+    /// times its 95 % bound K is shifted.
     ///
     /// `None` if there are too few samples for a cubic.
     pub fn measures(&self, draw: impl Fn(usize) -> [f64; 2]) -> Option<Vec<Measure>> {
@@ -118,7 +120,7 @@ impl Collapse {
     }
 }
 
-/// Where `f` is least over the trial strains, refined by a parabola in ln ε; `None` at an end of the range.
+/// The trial strain at which `f` is least, refined by a parabola in ln ε; `None` at an end of the range.
 fn least(measures: &[Measure], f: impl Fn(&Measure) -> f64) -> Option<f64> {
     let i = (0..measures.len()).min_by(|&i, &j| f(&measures[i]).total_cmp(&f(&measures[j])))?;
     if i == 0 || i + 1 >= measures.len() {
@@ -135,7 +137,7 @@ fn least(measures: &[Measure], f: impl Fn(&Measure) -> f64) -> Option<f64> {
 pub fn least_scatter(measures: &[Measure]) -> Option<f64> {
     let (min, max) =
         measures.iter().fold((f64::MAX, 0.0_f64), |(a, b), m| (a.min(m.scatter), b.max(m.scatter)));
-    if max < ROUNDING || max < CONTRAST * min {
+    if max < ROUNDING_SCATTER || max < CONTRAST * min {
         return None;
     }
     least(measures, |m| m.scatter * m.scatter)

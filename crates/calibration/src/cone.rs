@@ -20,7 +20,7 @@ pub struct Curve {
     pub iterations: usize,
 }
 
-/// Why a case has no K.
+/// The reason why a case has no K.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum CaseError {
     /// An element of the mesh is inside out.
@@ -31,7 +31,7 @@ pub enum CaseError {
     Stopped {
         /// Travel of the last converged increment, in units of the final depth.
         share: f64,
-        /// Why.
+        /// The reason.
         cause: Stop,
     },
     /// The curve is no parabola.
@@ -53,7 +53,8 @@ pub(crate) fn go_to(path: &mut Path<'_>, travel: f64) -> Result<Increment, CaseE
         .map_err(|cause| CaseError::Stopped { share: path.travel(), cause })
 }
 
-/// Goes along the schedule of `problem`. The penetration of the end is on top of every depth, so that steps remain equal.
+/// Goes along the schedule of `problem`. The penetration of the end is on top of every depth, so that steps
+/// remain equal.
 fn load(path: &mut Path<'_>, problem: &Problem) -> Result<Vec<Increment>, CaseError> {
     let numbers = &problem.numbers;
     numbers.schedule().into_iter().map(|depth| go_to(path, depth + numbers.penetration)).collect()
@@ -76,11 +77,11 @@ pub fn crush(
 }
 
 /// Share of the peak force at which unloading ends; what is left of the way is extrapolated.
-const LIFTED: f64 = 0.02;
+const LIFTED_FORCE_SHARE: f64 = 0.02;
 
-/// Exponent m of the unloading curve F = F_j (1 - u/u_j)^m whose slope at the peak is that of a punch of the contact
-/// radius, 2E* a: m = 2E* a u_j/F_j, with u_j the way from the peak to the end of contact. 2 of an elastic cone, 1 of a
-/// flat punch.
+/// Exponent m of the unloading curve F = F_j (1 - u/u_j)^m whose slope at the peak is that of a punch of the
+/// contact radius, 2E* a: m = 2E* a u_j/F_j, with u_j the way from the peak to the end of contact. 2 of an
+/// elastic cone, 1 of a flat punch.
 ///
 /// # Errors
 /// The increment that would not converge however small.
@@ -96,17 +97,19 @@ pub fn unloading_exponent(
     let peak = load(&mut path, &problem)?.pop().ok_or(not_found(0.0))?;
     let (peak_depth, peak_force) = of(peak);
     let stiffness = 2.0 * case.elastic().reduced_modulus() * disc_radius(&peak);
-    // in (F/F_j)^(1/m) the way is nearly a straight line: m of a flat punch is 1, of a cone 2, of flattened ones 1.2
+    // in (F/F_j)^(1/m) the way is nearly a straight line: m of a flat punch is 1, of a cone 2, of flattened
+    // ones 1.2
     let straight = |force: f64| (force / peak_force).powf(1.0 / UNLOADING_EXPONENT);
     let mut last = of(peak);
-    // a fifth of the way that the punch would take, then half of what the line through the last two points leaves
+    // a fifth of the way that the punch would take, then half of what the line through the last two points
+    // leaves
     let mut lift = 0.2 * peak_force / stiffness;
     loop {
         let before = last;
         let travel = path.travel() - lift;
         last = of(go_to(&mut path, travel)?);
         let way = before.0 - last.0;
-        if last.1 <= LIFTED * peak_force {
+        if last.1 <= LIFTED_FORCE_SHARE * peak_force {
             // the rest of the way along the curve of the exponent itself
             let mut m = UNLOADING_EXPONENT;
             for _ in 0..30 {
@@ -130,9 +133,9 @@ mod tests {
     use asperity_material::StressMeasure;
     use asperity_simulation::scene::Accuracy;
 
-    /// Sneddon's cone unloads along F = (2/π) E* h²/tan β with a = 2h/(π tan β): m = 2. 5 %, the accuracy claimed for m:
-    /// the radius of a soft penalty contact is 1.3 % too large, and at the end less than two elements touch (carried on
-    /// from there with the exponent 1.25 instead of m itself, 2.08 becomes 1.96).
+    /// Sneddon's cone unloads along F = (2/π) E* h²/tan β with a = 2h/(π tan β): m = 2. 5 %, the accuracy
+    /// claimed for m: the radius of a soft penalty contact is 1.3 % too large, and at the end less than two
+    /// elements touch (carried on from there with the exponent 1.25 instead of m itself, 2.08 becomes 1.96).
     #[test]
     fn an_elastic_cone_unloads_with_the_exponent_two() {
         let case = Case {

@@ -1,9 +1,10 @@
 //! The cones of the atlas: the rule that draws them, and the row of each.
 //!
-//! Cone i is point i of Sobol's sequence: of four successive ones each combination of hardening law and contact has one, and
-//! further ones fill the gaps, so that an atlas that was begun can be continued by any number of tasks. A row is what
-//! [`crate::indentation::solve`] finds of a cone that is loaded and unloaded, with the stated errors, or the reason why it
-//! found nothing. The function through them is [`asperity_material::cone_atlas`].
+//! Cone i is point i of Sobol's sequence: of four successive ones each combination of hardening law and
+//! contact has one, and further ones fill the gaps, so that an atlas that was begun can be continued by any
+//! number of tasks. A row is what [`crate::indentation::solve`] finds of a cone that is loaded and unloaded,
+//! with the stated errors, or the reason why it found nothing. The function through them is
+//! [`asperity_material::cone_atlas`].
 
 use crate::case::{Case, Tool, Yielding};
 use crate::indentation::{Errors, FORCES, Indentation, solve};
@@ -16,12 +17,14 @@ use asperity_numerics::sobol::Sobol;
 use asperity_simulation::scene::Accuracy;
 use asperity_solver::body::analysis::Analyses;
 
-/// Cone number `index` of the atlas, slope and E/σ_y drawn evenly in their logarithms: the coordinates of Sobol's point choose law and contact, slope, E/σ_y, n, ν.
+/// Cone number `index` of the atlas, slope and E/σ_y drawn evenly in their logarithms: the coordinates of
+/// Sobol's point choose law and contact, slope, E/σ_y, n, ν.
 pub fn cone(index: usize) -> Case {
     drawn(index, [0.0; 4])
 }
 
-/// Cone number `index` of those that the atlas is held against: Sobol's points moved around the range, so that none is in the atlas.
+/// Cone number `index` of those that the atlas is held against: Sobol's points moved around the range, so
+/// that none is in the atlas.
 pub fn fresh(index: usize) -> Case {
     // parts of the golden ratio's generalisation to four dimensions, which no power of two divides
     drawn(index, [0.856_675, 0.733_892, 0.628_707, 0.538_597])
@@ -29,7 +32,7 @@ pub fn fresh(index: usize) -> Case {
 
 fn drawn(index: usize, moved: [f64; 4]) -> Case {
     // five dimensions are there
-    let at = |dimension: usize| Sobol::new(5).map_or(0.0, |sobol| sobol.at(dimension, index));
+    let at = |dimension: usize| Sobol::new(5).map_or(0.0, |sobol| sobol.coordinate(dimension, index));
     let share = |i: usize| (at(i + 1) + moved[i]).fract();
     let even = |[low, high]: [f64; 2], share: f64| low + share * (high - low);
     // six digits, so that a table of the cones says exactly which they are
@@ -75,7 +78,8 @@ impl Row {
         Row { index, case: *case, outcome }
     }
 
-    /// The cone as the formula knows it, what was found as its answer, and the errors; `None` of a cone that failed.
+    /// The cone as the formula knows it, what was found as its answer, and the errors; `None` of a cone that
+    /// failed.
     pub fn answer(&self) -> Option<(SharpCone, [f64; OUTPUTS], [f64; 4])> {
         let (found, errors) = self.outcome.as_ref().ok()?;
         let contact = match self.case.tool {
@@ -189,7 +193,8 @@ mod tests {
     use super::*;
     use std::collections::HashSet;
 
-    /// Of every four successive cones each combination has one, and 64 of them lie one each in 64 parts of every range.
+    /// Of every four successive cones each combination has one, and 64 of them lie one each in 64 parts of
+    /// every range.
     #[test]
     fn the_rule_fills_the_range_evenly_for_every_law_and_contact() {
         let cases: Vec<Case> = (0..256).map(cone).collect();

@@ -1,8 +1,10 @@
-//! The fitted dimensionless function Π of eq. (7): K/σ_r of any material and slope as a formula, and the contact ratio.
+//! The fitted dimensionless function Π of eq. (7): K/σ_r of any material and slope as a formula, and the
+//! contact ratio.
 //!
 //! With X = E* tan β/σ_r, Y = K tan²β/σ_r and σ_r taken at ε_r = c tan β,
 //!   ln Y = Σ_{k<5} a_k (ln X)^k + tan β Σ_{k<3} b_k (ln X)^k,
-//! and likewise for ln(a tan β/h). The second sum is what a finite slope adds to the curve that all slopes share.
+//! and likewise for ln(a tan β/h). The second sum is what a finite slope adds to the curve that all slopes
+//! share.
 
 use crate::fit::Data;
 use asperity_numerics::least_squares::{powers, solve, value};
@@ -40,7 +42,7 @@ fn basis(ln_x: f64, tan_beta: f64) -> [f64; 8] {
 }
 
 impl Formula {
-    fn through(rows: &[([f64; 8], f64, f64)]) -> Option<Formula> {
+    fn fit(rows: &[([f64; 8], f64, f64)]) -> Option<Formula> {
         let coefficients = solve(rows)?;
         let rest = rows.iter().map(|(b, y, _)| (y - value(&coefficients, b)).abs());
         let rms =
@@ -49,13 +51,14 @@ impl Formula {
     }
 
     /// The value (not its logarithm) at X and tan β.
-    pub fn at(&self, x: f64, tan_beta: f64) -> f64 {
+    pub fn value(&self, x: f64, tan_beta: f64) -> f64 {
         value(&self.coefficients, &basis(x.ln(), tan_beta)).exp()
     }
 }
 
 impl Dimensionless {
-    /// Fits all samples of `data` with σ_r at ε_r = `c` tan β; `None` with too few slopes or materials for it.
+    /// Fits all samples of `data` with σ_r at ε_r = `c` tan β; `None` with too few slopes or materials for
+    /// it.
     pub fn fit(data: &Data, c: f64) -> Option<Dimensionless> {
         let (mut force, mut ratio, mut ranges) = (Vec::new(), Vec::new(), Vec::new());
         for (beta, samples) in data.slopes.iter().filter(|s| !s.1.is_empty()) {
@@ -73,7 +76,7 @@ impl Dimensionless {
         if force.len() < 16 {
             return None;
         }
-        let (force, contact_ratio) = (Formula::through(&force)?, Formula::through(&ratio)?);
+        let (force, contact_ratio) = (Formula::fit(&force)?, Formula::fit(&ratio)?);
         Some(Dimensionless { c, force, contact_ratio, ranges })
     }
 }
@@ -108,7 +111,7 @@ mod tests {
         }
         let fit = Dimensionless::fit(&data, 0.1).unwrap();
         assert!(fit.force.largest < 1e-6 && fit.contact_ratio.largest < 1e-6, "{fit:?}");
-        assert!((fit.force.at(30.0, 0.1) / truth(30.0, 0.1) - 1.0).abs() < 1e-6);
+        assert!((fit.force.value(30.0, 0.1) / truth(30.0, 0.1) - 1.0).abs() < 1e-6);
         assert_eq!(fit.ranges.len(), 10);
     }
 }

@@ -1,7 +1,7 @@
 //! From the rows of a sweep to ε_r of every slope, c of ε_r = c tan β, and its two intervals:
 //! * that of the arithmetic: the same choices, other cases drawn and K shifted by its error;
-//! * that of the model: the same cases, of which parts are left out. ε_r = c tan β is not exact, so c depends on the metals
-//!   and slopes that it is fitted to, by more than its arithmetic tells.
+//! * that of the model: the same cases, of which parts are left out. ε_r = c tan β is not exact, so c depends
+//!   on the metals and slopes that it is fitted to, by more than its arithmetic tells.
 
 use crate::collapse::{
     Collapse, Measure, Sample, distinct, largest_correlation, least_scatter, scatter_left,
@@ -15,10 +15,10 @@ const RESAMPLES: usize = 800;
 const SEED: u64 = 480;
 
 /// E* tan β/σ_r from which a crush counts as developed plasticity: below it K says little about σ_r.
-pub const DEVELOPED: f64 = 10.0;
+pub const DEVELOPED_PLASTICITY: f64 = 10.0;
 
 /// Share of the resamples that must have a minimum for a slope to count as determined.
-const DETERMINED: f64 = 0.9;
+const DETERMINED_SHARE: f64 = 0.9;
 
 /// The representative strain of one slope.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,7 +44,8 @@ pub struct Angle {
 /// c of ε_r = c tan β over all slopes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StrainCoefficient {
-    /// c by least squares of ε_r = c tan β, a line through the origin: Σ ε_r tan β/Σ tan²β. The steepest cones count most.
+    /// c by least squares of ε_r = c tan β, a line through the origin: Σ ε_r tan β/Σ tan²β. The steepest
+    /// cones count most.
     pub c: f64,
     /// Mean of ε_r/tan β, in which all slopes count alike.
     pub mean_ratio: f64,
@@ -57,7 +58,7 @@ pub struct StrainCoefficient {
 /// c of a part of the cases.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ModelChoice {
-    /// Which part, in words.
+    /// The part, in words.
     pub part: String,
     /// Its c by least squares.
     pub c: f64,
@@ -127,7 +128,7 @@ impl Data {
     }
 }
 
-/// Why nothing can be fitted at all, in words for a person; `None` if it can be tried.
+/// The reason why nothing can be fitted at all, in words for a person; `None` if it can be tried.
 pub fn obstacle(data: &Data) -> Option<String> {
     let samples = || data.slopes.iter().flat_map(|s| &s.1);
     if distinct(samples().map(|s| s.hardening.exponent)).len() < 2 {
@@ -153,7 +154,7 @@ pub fn angles(data: &Data) -> Vec<Angle> {
                 .map(|d| collapse.measures(|m| d[m]).and_then(|m| least_scatter(&m)).map(f64::ln))
                 .collect();
             let share = resampled.iter().flatten().count() as f64 / resampled.len() as f64;
-            let strain = least_scatter(&curve).filter(|_| share >= DETERMINED).map(|s| s * tan);
+            let strain = least_scatter(&curve).filter(|_| share >= DETERMINED_SHARE).map(|s| s * tan);
             // a resample without a minimum says only that the strain may be anything
             let (first, last) = (curve[0].share.ln(), curve[curve.len() - 1].share.ln());
             let undecided = resampled.len() - resampled.iter().flatten().count();
@@ -196,8 +197,9 @@ fn through_origin(points: &[[f64; 2]]) -> Option<f64> {
     (square > 0.0).then(|| sum(|p| p[0] * p[1]) / square)
 }
 
-/// c of parts of `data`: each half of the range of E/σ_y, each hardening exponent left out, each half of the slopes and each
-/// slope left out. Parts that determine no c are not listed. One law was swept; what another would give is in none of them.
+/// c of parts of `data`: each half of the range of E/σ_y, each hardening exponent left out, each half of the
+/// slopes and each slope left out. Parts that determine no c are not listed. One law was swept; what another
+/// would give is in none of them.
 pub fn model_choices(data: &Data) -> Vec<ModelChoice> {
     let ratio = |s: &Sample| 1.0 / s.hardening.yield_stress;
     let all = || data.slopes.iter().flat_map(|(_, samples)| samples);
@@ -259,10 +261,12 @@ fn quantiles(values: &mut [f64]) -> [f64; 2] {
     [at(0.025), at(0.975)].map(|v| v.unwrap_or(f64::NAN))
 }
 
-/// Resamples of the materials: how often each is drawn, and by how many times its 95 % bound its K is shifted.
+/// Resamples of the materials: how often each is drawn, and by how many times its 95 % bound its K is
+/// shifted.
 ///
-/// The shift is the same for all materials of one exponent and for all slopes, a standard deviation of half the bound: the
-/// error of mesh and step is no noise, it depends on n, and so it is what would shift ε_r unseen.
+/// The shift is the same for all materials of one exponent and for all slopes, a standard deviation of half
+/// the bound: the error of mesh and step is no noise, it depends on n, and so it is what would shift ε_r
+/// unseen.
 fn resample(exponents: &[f64]) -> Vec<Vec<[f64; 2]>> {
     let mut random = SplitMix(SEED);
     let kinds = distinct(exponents.iter().copied());
@@ -303,8 +307,8 @@ impl SplitMix {
     }
 }
 
-/// The developed cases alone: those with E* tan β/σ_r of at least `least` at ε_r = `c` tan β, at slopes where at least
-/// eight of them and three exponents are left.
+/// The developed cases alone: those with E* tan β/σ_r of at least `least` at ε_r = `c` tan β, at slopes where
+/// at least eight of them and three exponents are left.
 pub fn developed(data: &Data, c: f64, least: f64) -> Data {
     let mut kept = data.filtered(|tan, s| data.developed(tan, s, c) >= least);
     kept.slopes.retain(|(_, samples)| {

@@ -1,10 +1,11 @@
-//! A sharp cone that indents a flat body, or is crushed by a plane, and comes back: what an instrument sees of it, from one run by similarity.
+//! A sharp cone that indents a flat body, or is crushed by a plane, and comes back: what an instrument sees
+//! of it, from one run by similarity.
 //!
 //! Nothing but the depth h gives a sharp cone a length, so that of a material of Young's modulus E
 //!   F = K h² in loading,   S = dF/dh = S₁ E h where unloading begins,   W_e/W_t = const,
-//! and the unloading curve (F/F_max over h/h_max) has one shape for all depths. K comes from the slope of √F over many
-//! steps, beside the ripple of the mesh; S₁ from one solve with every point elastic, carried from the ripple of the contact
-//! radius at the last step to the line through all of them.
+//! and the unloading curve (F/F_max over h/h_max) has one shape for all depths. K comes from the slope of √F
+//! over many steps, beside the ripple of the mesh; S₁ from one solve with every point elastic, carried from
+//! the ripple of the contact radius at the last step to the line through all of them.
 
 use crate::cone::{CaseError, Curve, disc_radius, go_to, start};
 use crate::loading_curvature::{Fitted, Left, ORDER, companion, read, remeshing};
@@ -20,8 +21,9 @@ pub use asperity_material::cone_atlas::FORCES;
 /// Steps of the way back.
 const STEPS_BACK: usize = 8;
 
-/// Least share of the final depth that a path must have reached for its slope to count: half of the equal steps.
-const REACHED: f64 = 0.65;
+/// Least share of the final depth that a path must have reached for its slope to count: half of the equal
+/// steps.
+const REACHED_SHARE: f64 = 0.65;
 
 /// All that an instrument sees of a sharp cone. Depths over the depth of the peak, E = 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -58,34 +60,37 @@ pub struct Errors {
     pub differences: [f64; 4],
 }
 
-/// Share of the difference between run and companion that is taken off the contact radius and S, by which the penalty widens them: of
-/// metal whose elastic share of the work is W.
+/// Share of the difference between run and companion that is taken off the contact radius and S, by which the
+/// penalty widens them: of metal whose elastic share of the work is W.
 fn order_of_radius(element: ElementChoice, elastic_share: f64) -> f64 {
     let share = elastic_share.clamp(0.0, 1.0);
     match element {
-        // a stiff penalty: that of the elements, and of an elastic contact, whose edge is steep, the penalty's
-        ElementChoice::Q4 => ORDER + (ELASTIC - ORDER) * share * share,
-        ElementChoice::Q8r => ELASTIC * share.sqrt(),
+        // a stiff penalty: that of the elements, and of an elastic contact, whose edge is steep, the
+        // penalty's
+        ElementChoice::Q4 => ORDER + (ELASTIC_STIFFNESS_SHARE - ORDER) * share * share,
+        ElementChoice::Q8r => ELASTIC_STIFFNESS_SHARE * share.sqrt(),
     }
 }
 
 /// That share of an elastic cone: with it S = 2K h, which is exact, is met within 0.3 % with either element.
-const ELASTIC: f64 = 1.2;
+const ELASTIC_STIFFNESS_SHARE: f64 = 1.2;
 
-/// Share of the difference between run and companion that may be left of the contact radius, S and the elastic share of the work.
-const REMAINS: [f64; 3] = [0.4, 0.4, 0.8];
+/// Share of the difference between run and companion that may be left of the contact radius, S and the
+/// elastic share of the work.
+const REMAINING_SHARES: [f64; 3] = [0.4, 0.4, 0.8];
 
-/// Least errors left of them at `standard`, in proportion to the promise at other levels: with linear and with quadratic elements, and
-/// of the first where the body is remeshed as often as under a cone of 40°.
+/// Least errors left of them at `standard`, in proportion to the promise at other levels: with linear and
+/// with quadratic elements, and of the first where the body is remeshed as often as under a cone of 40°.
 ///
-/// Chosen on 80 cones of all kinds (3° to 45°, n 0 to 0.5, E/σ_y 1 to 2000) that were also computed at `reference`. At `standard` what is
-/// left of K, radius, S and work is, as root mean square, 0.14, 0.25, 0.6 and 0.2 % under the 11 indenting cones of 11° to 33°; 0.2, 0.4, 0.6
-/// and 0.3 % under the 24 gentler ones; 0.3, 0.5, 0.6 and 0.4 % of the 30 crushed cones to 22°; 0.5, 0.2, 0.6 and 1.9 % of the 10 steeper;
-/// under the 5 indenting cones above 33° 1.2, 0.5, 0.6 and 1.9 %.
-const LEAST: [[f64; 3]; 3] = [[0.004, 0.008, 0.003], [0.004, 0.011, 0.006], [0.015, 0.012, 0.03]];
+/// Chosen on 80 cones of all kinds (3° to 45°, n 0 to 0.5, E/σ_y 1 to 2000) that were also computed at
+/// `reference`. At `standard` what is left of K, radius, S and work is, as root mean square, 0.14, 0.25, 0.6
+/// and 0.2 % under the 11 indenting cones of 11° to 33°; 0.2, 0.4, 0.6 and 0.3 % under the 24 gentler ones;
+/// 0.3, 0.5, 0.6 and 0.4 % of the 30 crushed cones to 22°; 0.5, 0.2, 0.6 and 1.9 % of the 10 steeper; under
+/// the 5 indenting cones above 33° 1.2, 0.5, 0.6 and 1.9 %.
+const MIN_ERRORS: [[f64; 3]; 3] = [[0.004, 0.008, 0.003], [0.004, 0.011, 0.006], [0.015, 0.012, 0.03]];
 
 /// Errors of a run without a companion.
-const ALONE: Errors = Errors {
+const ERRORS_ALONE: Errors = Errors {
     loading_curvature: 0.02,
     contact_ratio: 0.03,
     stiffness: 0.04,
@@ -109,11 +114,11 @@ pub fn solve(
     curve.check()?;
     let Ok((companion, coarse_curve)) = companion(&discretisation, |coarser| indent(cone, coarser, analyses))
     else {
-        return Ok((run, ALONE));
+        return Ok((run, ERRORS_ALONE));
     };
     let (element, tan_beta) = (discretisation.numbers.element, cone.slope_deg.to_radians().tan());
     let [k_over_e, loading_curvature] =
-        curve.extrapolated(&coarse_curve, &Left::of(tan_beta, cone.indents, &discretisation));
+        curve.extrapolated(&coarse_curve, &Left::for_cone(tan_beta, cone.indents, &discretisation));
     let carried = |fine: f64, coarse: f64, order: f64| fine * (fine / coarse).powf(order);
     let radius = order_of_radius(element, run.elastic_share);
     let found = Indentation {
@@ -132,10 +137,10 @@ pub fn solve(
     ];
     let of_the_level = accuracy.promise() / Accuracy::Standard.promise();
     let least = |i: usize| match element {
-        ElementChoice::Q4 => (of_the_level * LEAST[0][i]).hypot(LEAST[2][i] * remeshing(tan_beta)),
-        ElementChoice::Q8r => of_the_level * LEAST[1][i],
+        ElementChoice::Q4 => (of_the_level * MIN_ERRORS[0][i]).hypot(MIN_ERRORS[2][i] * remeshing(tan_beta)),
+        ElementChoice::Q8r => of_the_level * MIN_ERRORS[1][i],
     };
-    let left = |i: usize| (REMAINS[i] * differences[i + 1]).hypot(least(i));
+    let left = |i: usize| (REMAINING_SHARES[i] * differences[i + 1]).hypot(least(i));
     let [contact_ratio, stiffness, elastic_share] = [left(0), left(1), left(2)];
     let errors = Errors { loading_curvature, contact_ratio, stiffness, elastic_share, differences };
     Ok((found, errors))
@@ -154,7 +159,7 @@ fn indent(
     let mut path = start(&problem, analyses)?;
     let (points, stop) = load(&mut path, &problem);
     let reached = points.last().map_or(0.0, |p| p.depth);
-    if let Some(cause) = stop.filter(|_| reached < REACHED) {
+    if let Some(cause) = stop.filter(|_| reached < REACHED_SHARE) {
         return Err(CaseError::Stopped { share: reached, cause });
     }
     let peak = *points.last().ok_or(CaseError::NotSimilar(f64::NAN))?;
@@ -226,9 +231,9 @@ mod tests {
     use asperity_material::{Elastic, StressMeasure};
     use asperity_solver::point::material::Metal;
 
-    /// Sneddon's cone: F = (2/π) E* h²/tan β, and it goes back the way it came: S = 2K h, all work is returned. 2 %: the finite
-    /// slope (3°) and the errors of the level. 4 % of S: with the contact kept it is 3 % too large here, as the contact that a
-    /// penalty widens.
+    /// Sneddon's cone: F = (2/π) E* h²/tan β, and it goes back the way it came: S = 2K h, all work is
+    /// returned. 2 %: the finite slope (3°) and the errors of the level. 4 % of S: with the contact kept it
+    /// is 3 % too large here, as the contact that a penalty widens.
     #[test]
     fn an_elastic_cone_returns_along_its_loading() {
         let elastic = Elastic { youngs_modulus: 1.0, poissons_ratio: 0.3 };
@@ -247,7 +252,8 @@ mod tests {
         assert!(near(found.stiffness, 2.0 * found.k_over_e, 0.01), "{found:?}");
         assert!(near(found.elastic_share, 1.0, 0.02), "{found:?}");
         assert!(near(found.recovery[FORCES.len() - 1], 1.0, 0.02), "{found:?}");
-        // F = F_max (1 - u)²; below a quarter of the force the steps are long, and lines between them are off by 0.024
+        // F = F_max (1 - u)²; below a quarter of the force the steps are long, and lines between them are off
+        // by 0.024
         for (force, way) in FORCES.iter().zip(found.recovery).filter(|(force, _)| **force >= 0.25) {
             assert!((way - (1.0 - force.sqrt())).abs() < 0.01, "{force} {way}");
         }

@@ -1,17 +1,21 @@
 //! Kick's law of a cone, F = K h²: its constant, its contact radius and their error, from two loading curves.
 //!
-//! K is the square of the slope of √F over h. The companion is the same cone with every number of the discretisation half as good,
-//! and costs a sixth. D = ln(K_companion/K) holds what mesh, load steps, penalty and substrate do.
+//! K is the square of the slope of √F over h. The companion is the same cone with every number of the
+//! discretisation half as good, and costs a sixth. D = ln(K_companion/K) holds what mesh, load steps, penalty
+//! and substrate do.
 //! * `ORDER` of D is taken off ln K: Richardson's extrapolation of errors of second order.
-//! * What is left is bounded by a share of D, twice the standard errors of both slopes and something at least (`Left`), added in squares.
-//!   Against `reference`, 123 of 124 crushed cones drawn from the default sweep lay within that bound at `standard`, with a
-//!   mean error of 0.05 % ± 0.14 %. Without the extrapolation the mean would be 0.27 %.
+//! * What is left is bounded by a share of D, twice the standard errors of both slopes and something at least
+//!   (`Left`), added in squares. Against `reference`, 123 of 124 crushed cones drawn from the default sweep
+//!   lay within that bound at `standard`, with a mean error of 0.05 % ± 0.14 %. Without the extrapolation the
+//!   mean would be 0.27 %.
 //!
-//! A penalty makes an error of first order, which lowers K under a steep indenting cone where the elements raise it. While the two were of
-//! one size the companion could not tell them, and K was 0.45 to 0.75 % too large (19.7° and 30°); so the penalty there is stiff. Against runs with
-//! elements a third of the size, K of four cones of 15° to 30° is met within 0.15 %.
+//! A penalty makes an error of first order, which lowers K under a steep indenting cone where the elements
+//! raise it. While the two were of one size the companion could not tell them, and K was 0.45 to 0.75 % too
+//! large (19.7° and 30°); so the penalty there is stiff. Against runs with elements a third of the size, K of
+//! four cones of 15° to 30° is met within 0.15 %.
 //!
-//! The bound says nothing of what both runs share: the law of the material, the stress that yields, a frictionless tool.
+//! The bound says nothing of what both runs share: the law of the material, the stress that yields, a
+//! frictionless tool.
 
 use crate::case::{Case, Tool};
 use crate::cone::{CaseError, Curve, crush, disc_radius};
@@ -40,7 +44,8 @@ pub struct LoadingCurvature {
 /// 1/(2ᵖ - 1) for the order p = 2.
 pub(crate) const ORDER: f64 = 1.0 / 3.0;
 
-/// The same for the contact radius, which the penalty widens: p = 3/2 takes its mean error from 0.9 % to -0.1 %.
+/// The same for the contact radius, which the penalty widens: p = 3/2 takes its mean error from 0.9 % to -0.1
+/// %.
 const ORDER_OF_RADIUS: f64 = 0.547;
 
 /// Bound of the error left in K: a share of the difference between run and companion, and something at least.
@@ -52,11 +57,12 @@ pub(crate) struct Left {
 }
 
 impl Left {
-    /// That of a cone of the slope `tan_beta` that `indents` or is crushed. With linear elements all that makes an error is of the second
-    /// order but the penalty, which is stiff, so that the difference tells it well; what is left goes with the promise of a level,
-    /// which is the fourth power of the size of elements here. Runs of quadratic elements under an indenting cone differ less than
-    /// they err, and those of steep cones of metal that hardly hardens differ by other things.
-    pub(crate) fn of(tan_beta: f64, indents: bool, discretisation: &ConeDiscretisation) -> Left {
+    /// That of a cone of the slope `tan_beta` that `indents` or is crushed. With linear elements all that
+    /// makes an error is of the second order but the penalty, which is stiff, so that the difference tells it
+    /// well; what is left goes with the promise of a level, which is the fourth power of the size of elements
+    /// here. Runs of quadratic elements under an indenting cone differ less than they err, and those of steep
+    /// cones of metal that hardly hardens differ by other things.
+    pub(crate) fn for_cone(tan_beta: f64, indents: bool, discretisation: &ConeDiscretisation) -> Left {
         let [of_the_difference, at_least] = match (discretisation.numbers.element, indents) {
             (ElementChoice::Q4, _) => {
                 let size = 24.0 / discretisation.numbers.elements_in_contact as f64;
@@ -69,12 +75,14 @@ impl Left {
     }
 }
 
-/// How often the body under a steep cone is remeshed, each time with a small jump of its force: 1 at 40°, a tenth at 30°.
+/// The number of times that the body under a steep cone is remeshed, each time with a small jump of its
+/// force: 1 at 40°, a tenth at 30°.
 pub(crate) fn remeshing(tan_beta: f64) -> f64 {
     (tan_beta / 40_f64.to_radians().tan()).powi(6)
 }
 
-/// Share of the final depth from which the lines are fitted: by then what the longer first steps left behind has faded.
+/// Share of the final depth from which the lines are fitted: by then what the longer first steps left behind
+/// has faded.
 const FIT_FROM: f64 = 0.43;
 
 /// Exponents farther from 2 than this are no sharp cone: something other than the depth gave a length.
@@ -96,7 +104,7 @@ pub(crate) struct Fitted {
 }
 
 impl Fitted {
-    /// Whether the force is a parabola of the depth.
+    /// True where the force is a parabola of the depth.
     ///
     /// # Errors
     /// It is not.
@@ -105,7 +113,8 @@ impl Fitted {
         if similar { Ok(()) } else { Err(CaseError::NotSimilar(self.exponent)) }
     }
 
-    /// K/E, carried on from the `companion` to no error of the discretisation, and what may be left of that, relative.
+    /// K/E, carried on from the `companion` to no error of the discretisation, and what may be left of that,
+    /// relative.
     pub(crate) fn extrapolated(&self, companion: &Fitted, left: &Left) -> [f64; 2] {
         // K is the square of the slope
         let difference = 2.0 * (companion.root / self.root).ln();
@@ -133,7 +142,7 @@ pub fn solve(
     }
     let companion = companion(discretisation, |coarser| fitted(case, coarser, analyses))?;
     let [k_over_e, error] =
-        run.extrapolated(&companion, &Left::of(case.tan_beta(), case.tool == Tool::Cone, discretisation));
+        run.extrapolated(&companion, &Left::for_cone(case.tan_beta(), case.tool == Tool::Cone, discretisation));
     Ok(LoadingCurvature {
         k_over_e,
         error,
@@ -143,8 +152,8 @@ pub fn solve(
     })
 }
 
-/// Result of `solved` for the companion of `discretisation`; if that does not come to its end, of that with as many steps as the run, whose
-/// difference says less of the steps.
+/// Result of `solved` for the companion of `discretisation`; if that does not come to its end, of that with
+/// as many steps as the run, whose difference says less of the steps.
 pub(crate) fn companion<T>(
     discretisation: &ConeDiscretisation,
     solved: impl Fn(&ConeDiscretisation) -> Result<T, CaseError>,
@@ -171,15 +180,16 @@ pub(crate) fn read(curve: Curve) -> Fitted {
     let from = curve.points.iter().position(|p| p.depth >= FIT_FROM * deepest).unwrap_or(0);
     let window = &curve.points[from..];
     let points = |of: fn(&Increment) -> [f64; 2]| window.iter().map(of).collect::<Vec<[f64; 2]>>();
-    let exponent = Line::through(&points(|p| [p.depth.ln(), p.contact.force.max(0.0).ln()])).slope;
-    let radius = Line::through(&points(|p| [p.depth, disc_radius(p)])).slope;
+    let exponent = Line::fit(&points(|p| [p.depth.ln(), p.contact.force.max(0.0).ln()])).slope;
+    let radius = Line::fit(&points(|p| [p.depth, disc_radius(p)])).slope;
     let root =
         beside_a_ripple(&points(|p| [p.depth, p.contact.force.max(0.0).sqrt()]), radius / curve.element);
     Fitted { root: root.slope, root_error: root.slope_error / root.slope, radius, exponent, curve }
 }
 
-/// The straight line through `points`, beside a ripple of `frequency` periods per unit of x: as the front crosses element after
-/// element, √F of a cone ripples with the same amplitude. Without the ripple where there are too few points for it.
+/// The straight line through `points`, beside a ripple of `frequency` periods per unit of x: as the front
+/// crosses element after element, √F of a cone ripples with the same amplitude. Without the ripple where
+/// there are too few points for it.
 fn beside_a_ripple(points: &[[f64; 2]], frequency: f64) -> Line {
     let ripple = |x: f64| {
         let (sin, cos) = (TAU * frequency * x).sin_cos();
@@ -198,7 +208,7 @@ fn beside_a_ripple(points: &[[f64; 2]], frequency: f64) -> Line {
             let scatter: f64 = x.iter().zip(&y).map(|(x, y)| (y - slope * x).powi(2)).sum();
             Line { slope, slope_error: (scatter / (points.len() as f64 - 4.0) / sxx).sqrt() }
         }
-        _ => Line::through(points),
+        _ => Line::fit(points),
     }
 }
 
@@ -215,6 +225,6 @@ mod tests {
         let points: Vec<[f64; 2]> = (0..=17).map(point).collect();
         let line = beside_a_ripple(&points, 7.7);
         assert!((line.slope - 2.0).abs() < 1e-9 && line.slope_error < 1e-9, "{line:?}");
-        assert!((Line::through(&points).slope - 2.0).abs() > 1e-3);
+        assert!((Line::fit(&points).slope - 2.0).abs() > 1e-3);
     }
 }

@@ -3,7 +3,7 @@
 use crate::case::Case;
 use crate::collapse::distinct;
 use crate::cone::unloading_exponent;
-use crate::fit::DEVELOPED;
+use crate::fit::DEVELOPED_PLASTICITY;
 use crate::sweep::Sweep;
 use asperity_simulation::scene::Accuracy;
 use asperity_solver::body::analysis::Analyses;
@@ -18,9 +18,10 @@ pub struct Unloaded {
     pub exponent: f64,
 }
 
-/// Unloads the gentlest, the middle and the steepest cone of the sweep, of its middle stiffness over yield stress, with
-/// its smallest and its largest hardening exponent, as far as plasticity is developed at ε_r = `c` tan β: a nearly
-/// elastic cone goes back with the exponent 2. Those that do not come to an end are left out.
+/// Unloads the gentlest, the middle and the steepest cone of the sweep, of its middle stiffness over yield
+/// stress, with its smallest and its largest hardening exponent, as far as plasticity is developed at ε_r =
+/// `c` tan β: a nearly elastic cone goes back with the exponent 2. Those that do not come to an end are left
+/// out.
 pub fn unload(sweep: &Sweep, c: f64) -> Vec<Unloaded> {
     let mut cases = sweep.cases();
     if cases.is_empty() {
@@ -42,7 +43,7 @@ pub fn unload(sweep: &Sweep, c: f64) -> Vec<Unloaded> {
     cases.retain(|case| {
         let t = case.tan_beta();
         let stress = case.hardening().map_or(f64::INFINITY, |h| h.representative_stress(c * t));
-        case.elastic().reduced_modulus() * t / stress >= DEVELOPED
+        case.elastic().reduced_modulus() * t / stress >= DEVELOPED_PLASTICITY
     });
     let analyses = Analyses::for_threads(rayon::current_num_threads());
     let solve = |case: &Case| {

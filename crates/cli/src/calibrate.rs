@@ -1,4 +1,5 @@
-//! `asperity calibrate`: the sweep of crushed cones, the representative strain, and the coefficient for `rough`.
+//! `asperity calibrate`: the sweep of crushed cones, the representative strain, and the coefficient for
+//! `rough`.
 
 use crate::flags::{ReportFlag, RunFlags, SceneFlags};
 use crate::folder::{Folder, journal_beside};

@@ -71,7 +71,8 @@ fn closures_of_islands() -> impl TypedValueParser<Value = Closure> {
 /// Runs the command.
 ///
 /// # Errors
-/// Input that is wrong (nothing is written), crushes that were ended (those that are done are kept), a disk that refuses.
+/// Input that is wrong (nothing is written), crushes that were ended (those that are done are kept), a disk
+/// that refuses.
 pub fn extract(args: &Extract) -> Result<(), Error> {
     let scene = scene_of(&args.surface, args.like.as_deref(), &args.overrides, args.run.quiet)?;
     let wanted = wanted(args);

@@ -1,4 +1,4 @@
-//! How an error is told to a person, and the exit status it gives.
+//! The way an error is told to a person, and the exit status it gives.
 
 use asperity::error::{Error, InputError};
 use miette::{Diagnostic, LabeledSpan, NamedSource, SourceCode};

@@ -41,7 +41,8 @@ impl SceneFlags {
     }
 }
 
-/// An error of reading `path`, which by its name may be measured data where a TOML file is expected: then `help` is the way out.
+/// An error of reading `path`, which by its name may be measured data where a TOML file is expected: then
+/// `help` is the way out.
 pub fn told_of_table(error: Error, path: &Path, help: String) -> Error {
     let data = path.extension().is_some_and(|end| end != "toml" && end != "json");
     match error {
@@ -78,7 +79,8 @@ impl RunFlags {
         self.out.clone().unwrap_or_else(|| Path::new("out").join(name))
     }
 
-    /// Prints the result as the flags ask: as JSON, for a person with the folder that holds it, or not at all.
+    /// Prints the result as the flags ask: as JSON, for a person with the folder that holds it, or not at
+    /// all.
     ///
     /// # Errors
     /// Those of `json`.

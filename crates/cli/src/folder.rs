@@ -1,7 +1,8 @@
 //! The folder a run leaves its results in.
 //!
 //! While a run lasts its files grow in `<folder>.partial`; [`Folder::publish`] moves them to `<folder>`. A
-//! manifest lists the files a run has made, so that a later run of the same command may replace exactly those.
+//! manifest lists the files a run has made, so that a later run of the same command may replace exactly
+//! those.
 
 use asperity::error::{Error, InputError};
 use asperity::output::{Sink, beside};
@@ -62,7 +63,8 @@ fn own_files(folder: &Path, command: &str, force: bool) -> Result<Vec<String>, I
     Ok(own)
 }
 
-/// The journal of a long run into `target`: beside the results, not in them, for a folder of results holds results.
+/// The journal of a long run into `target`: beside the results, not in them, for a folder of results holds
+/// results.
 pub fn journal_beside(target: &Path) -> PathBuf {
     target.with_file_name(beside(Path::new(target.file_name().unwrap_or_default()), ".journal"))
 }
@@ -89,8 +91,8 @@ fn lock(manifest: &Path, target: &Path) -> Result<File, InputError> {
 /// Marks `target` as the place where `command` adds to its results, and holds it as long as the mark is held.
 ///
 /// # Errors
-/// A folder that holds anything that no run of `command` made (unless `force`), that another run is filling now, or that
-/// cannot be written.
+/// A folder that holds anything that no run of `command` made (unless `force`), that another run is filling
+/// now, or that cannot be written.
 pub fn claim(target: &Path, command: &str, force: bool) -> Result<File, InputError> {
     let path = target.join(MANIFEST);
     let ours = fs::read_to_string(&path).is_ok_and(|mark| mark.starts_with(command));
@@ -109,8 +111,8 @@ impl Folder {
     /// Prepares to fill `target` with the results of `command`.
     ///
     /// # Errors
-    /// A folder that holds anything but results of an earlier run of `command` (unless `force`), that another run
-    /// is filling now, or that cannot be written.
+    /// A folder that holds anything but results of an earlier run of `command` (unless `force`), that another
+    /// run is filling now, or that cannot be written.
     pub fn create(target: &Path, command: &str, force: bool) -> Result<Self, InputError> {
         own_files(target, command, force)?;
         fs::create_dir_all(target).map_err(|e| cannot_write(target, &e))?;

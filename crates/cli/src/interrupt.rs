@@ -3,22 +3,22 @@
 use std::process::exit;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-static REQUESTED: AtomicBool = AtomicBool::new(false);
+static STOP_REQUESTED: AtomicBool = AtomicBool::new(false);
 
 /// Exit status of a program that Ctrl-C killed.
-const KILLED: i32 = 130;
+const KILLED_STATUS: i32 = 130;
 
 /// Catches Ctrl-C from now on; for a command that looks at [`requested`] as it goes.
 pub fn catch() {
     // fails only where it is caught already
     let _ = ctrlc::set_handler(|| {
-        if REQUESTED.swap(true, Ordering::Relaxed) {
-            exit(KILLED);
+        if STOP_REQUESTED.swap(true, Ordering::Relaxed) {
+            exit(KILLED_STATUS);
         }
     });
 }
 
-/// Whether the user has asked for the end.
+/// True where the user has asked for the end.
 pub fn requested() -> bool {
-    REQUESTED.load(Ordering::Relaxed)
+    STOP_REQUESTED.load(Ordering::Relaxed)
 }

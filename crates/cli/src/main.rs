@@ -37,7 +37,8 @@ fn main() -> ExitCode {
         Box::new(miette::MietteHandlerOpts::new().wrap_lines(false).context_lines(1).build())
     }));
     let threads = cli.command.threads().map_or(0, usize::from);
-    // the command runs on a thread of the pool: one outside would have to be woken whenever the others are done
+    // the command runs on a thread of the pool: one outside would have to be woken whenever the others are
+    // done
     let result = match rayon::ThreadPoolBuilder::new().num_threads(threads).stack_size(STACK).build() {
         Ok(pool) => pool.install(|| run(&cli.command)),
         Err(_) => run(&cli.command),

@@ -1,4 +1,5 @@
-//! `asperity completions` and `asperity man`: completions for shells and pages of the manual, made from the arguments.
+//! `asperity completions` and `asperity man`: completions for shells and pages of the manual, made from the
+//! arguments.
 
 use asperity::error::{Error, InputError};
 use clap::{Args, Command};

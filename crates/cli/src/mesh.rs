@@ -52,7 +52,8 @@ fn format_of(path: &Path) -> Result<MeshFormat, InputError> {
     })
 }
 
-/// Where to write what: `--format` wins over the extension, and alone writes a file with the scene's name.
+/// Path and format of the file: `--format` wins over the extension, and alone writes a file with the scene's
+/// name.
 fn target(args: &MeshCommand) -> Result<(PathBuf, MeshFormat), InputError> {
     match (&args.output, args.format) {
         (Some(path), Some(format)) => Ok((path.clone(), format)),

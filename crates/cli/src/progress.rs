@@ -14,7 +14,7 @@ pub struct Progress {
     bar: ProgressBar,
 }
 
-/// Where lines are drawn: on stderr; nowhere if `quiet` or if stderr is no terminal.
+/// Target of the lines: stderr; nothing if `quiet` or if stderr is no terminal.
 fn target(quiet: bool) -> ProgressDrawTarget {
     let shown = !quiet && std::io::stderr().is_terminal();
     if shown { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() }
@@ -58,7 +58,8 @@ impl Progress {
         Progress { bar }
     }
 
-    /// Shows that `share` (0 to 1) of the work is done, and `message`, which is made only if somebody sees it.
+    /// Shows that `share` (0 to 1) of the work is done, and `message`, which is made only if somebody sees
+    /// it.
     pub fn show(&self, share: f64, message: impl FnOnce() -> String) {
         if self.bar.is_hidden() {
             return;
@@ -85,7 +86,8 @@ pub struct BatchProgress {
 }
 
 impl BatchProgress {
-    /// A line on stderr for runs called `names` (one, several) in `folder`; silent if `quiet`. From now on an interrupt is a wish.
+    /// A line on stderr for runs called `names` (one, several) in `folder`; silent if `quiet`. From now on an
+    /// interrupt is a wish.
     pub fn new(quiet: bool, names: [&'static str; 2], folder: PathBuf) -> Self {
         interrupt::catch();
         BatchProgress { line: Progress::new(quiet), greets: !quiet, names, folder }

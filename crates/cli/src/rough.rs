@@ -75,7 +75,8 @@ fn one_scene(path: &Path, args: &Rough) -> Result<(), Error> {
     args.run.say(&target, || rough.json(), || rough.text())
 }
 
-/// `asperity rough A.x3p B.x3p …`: the results of each in a folder of its name, the tables of all beside them.
+/// `asperity rough A.x3p B.x3p …`: the results of each in a folder of its name, the tables of all beside
+/// them.
 fn several(paths: &[PathBuf], args: &Rough) -> Result<(), Error> {
     // what is not said is told once
     let quiet = |i: usize| args.run.quiet || i > 0;

@@ -1,6 +1,7 @@
 //! `asperity schema`: what a file may hold, as a JSON schema that editors complete and check with.
 //!
-//! The schemas are made from the types that read the files; the descriptions of the keys are their docstrings.
+//! The schemas are made from the types that read the files; the descriptions of the keys are their
+//! docstrings.
 
 use crate::terminal;
 use asperity::error::Error;

@@ -69,7 +69,8 @@ pub struct Merge {
 /// Runs the command.
 ///
 /// # Errors
-/// Input that is wrong (nothing is written), or a study that was ended or a disk that refuses (finished runs are kept).
+/// Input that is wrong (nothing is written), or a study that was ended or a disk that refuses (finished runs
+/// are kept).
 pub fn study(args: &Study) -> Result<(), Error> {
     match (&args.merge, &args.file) {
         (Some(Joining::Merge(Merge { parts, run })), _) => {

@@ -10,7 +10,7 @@ use asperity::error::Error;
 use asperity::input::scene::Scene;
 use asperity::output::json;
 use asperity::simulation::scene::{Scene as Tables, SceneError};
-use asperity::trade::case::{Failed, Measured, solve};
+use asperity::trade::case::{Measured, TradeError, solve};
 use asperity::trade::settings::Setting;
 use asperity::trade::{DEFAULT_SCENE, Options};
 use clap::Args;
@@ -39,7 +39,8 @@ pub struct Trade {
 /// Runs the command.
 ///
 /// # Errors
-/// Input that is wrong (nothing is written), a scene whose converged value cannot be computed, or a disk that refuses.
+/// Input that is wrong (nothing is written), a scene whose converged value cannot be computed, or a disk that
+/// refuses.
 pub fn trade(args: &Trade) -> Result<(), Error> {
     if args.case {
         return answer();
@@ -88,8 +89,8 @@ fn read_scene(args: &Trade) -> Result<(Scene, String), Error> {
 }
 
 /// Asks another instance of this program for a setting.
-fn ask(setting: &Setting, scene: &Tables) -> Result<Measured, Failed> {
-    let failed = |e: &dyn Display| Failed::Process(e.to_string());
+fn ask(setting: &Setting, scene: &Tables) -> Result<Measured, TradeError> {
+    let failed = |e: &dyn Display| TradeError::Process(e.to_string());
     let program = std::env::current_exe().map_err(|e| failed(&e))?;
     let question = serde_json::to_vec(&setting.scene(scene)).map_err(|e| failed(&e))?;
     let mut child = Command::new(program)
@@ -108,7 +109,7 @@ fn ask(setting: &Setting, scene: &Tables) -> Result<Measured, Failed> {
         return Err(failed(&output.status));
     }
     let answer: Result<Measured, String> = serde_json::from_slice(&output.stdout).map_err(|e| failed(&e))?;
-    answer.map_err(Failed::Run)
+    answer.map_err(TradeError::Run)
 }
 
 /// The other side of [`ask`]: reads a scene from stdin, runs it, writes its results to stdout.

@@ -94,7 +94,8 @@ fn the_table_is_the_law_within_the_error_it_states() {
     for pair in table.windows(2) {
         for share in [0.0, 0.25, 0.5, 0.75] {
             let [stress, strain] = [0, 1].map(|i| pair[0][i] + share * (pair[1][i] - pair[0][i]));
-            // the law at the interpolated point: the total strain that belongs to this plastic one, by fixed point
+            // the law at the interpolated point: the total strain that belongs to this plastic one, by fixed
+            // point
             let mut exact = stress;
             for _ in 0..60 {
                 exact = factor * (exact / 210e3 + strain).powf(0.3);
@@ -148,8 +149,8 @@ fn a_scene_that_a_deck_cannot_express_is_refused() {
     assert!(end.status == 2 && end.err.contains("inp"), "{}", end.err);
 }
 
-/// The first step in CalculiX: the force is that of this program's own first increment to some percent, and the
-/// body balances.
+/// The first step in CalculiX: the force is that of this program's own first increment to some percent, and
+/// the body balances.
 #[test]
 fn calculix_runs_the_first_step() {
     let place = Place::with_scene(SCENE);

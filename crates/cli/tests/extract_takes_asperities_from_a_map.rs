@@ -1,4 +1,5 @@
-//! `asperity extract`: asperities of a map, their profiles and scenes, closures beside finite elements; several maps pressed.
+//! `asperity extract`: asperities of a map, their profiles and scenes, closures beside finite elements;
+//! several maps pressed.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
@@ -184,7 +185,8 @@ fn several_maps_give_one_table_and_a_bad_one_is_named() {
     assert!(number(&bearing[0], "material_ratio") == 0.0 && bearing.len() == 201);
 }
 
-/// The calibrated closure comes from cones that this program has crushed: on a cone of the map it must find their force again.
+/// The calibrated closure comes from cones that this program has crushed: on a cone of the map it must find
+/// their force again.
 #[test]
 fn crushed_cones_agree_with_the_closure_that_was_made_from_cones() {
     let place = place();
@@ -235,7 +237,8 @@ fn crushed_cones_agree_with_the_closure_that_was_made_from_cones() {
     assert_eq!(place.text("out/compared.csv"), table);
 }
 
-/// Of a scene under \"all\" the plane is that of the first closure, which the summary names, or that of the one that is asked for.
+/// Of a scene under \"all\" the plane is that of the first closure, which the summary names, or that of the
+/// one that is asked for.
 #[test]
 fn the_plane_is_that_of_a_named_closure() {
     let place = place();

@@ -34,7 +34,8 @@ fn colours(path: &Path) -> HashSet<[u8; 3]> {
     dots[..info.buffer_size()].chunks_exact(info.color_type.samples()).map(|d| [d[0], d[1], d[2]]).collect()
 }
 
-/// The bands of the largest and of the smallest values are there, so that the view holds the contact and the far field.
+/// The bands of the largest and of the smallest values are there, so that the view holds the contact and the
+/// far field.
 #[test]
 fn both_views_show_the_whole_scale() {
     if paraview().is_none() {

@@ -1,6 +1,7 @@
 //! VTK's own reader opens the field files: cell types, names with units, numbers that agree with the curve.
 //!
-//! Needs a Python with the vtk package, `$ASPERITY_PYTHON` or `python3`; says so and passes where there is none.
+//! Needs a Python with the vtk package, `$ASPERITY_PYTHON` or `python3`; says so and passes where there is
+//! none.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 

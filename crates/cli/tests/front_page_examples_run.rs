@@ -1,5 +1,5 @@
-//! The examples of README.md run as they stand: the commands here, the Rust program as the example `front_page`, the Python one in the
-//! tests of the package.
+//! The examples of README.md run as they stand: the commands here, the Rust program as the example
+//! `front_page`, the Python one in the tests of the package.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 

@@ -1,5 +1,5 @@
-//! A scene may name a table of hardening: it is read from beside the scene, stands in the summary, which so is
-//! reproducible without the file, and a wrong one is refused at its line.
+//! A scene may name a table of hardening: it is read from beside the scene, stands in the summary, which so
+//! is reproducible without the file, and a wrong one is refused at its line.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 

@@ -1,4 +1,5 @@
-//! `asperity identify` from its files to its files: what it finds again, what it refuses, what it says when curves cannot tell.
+//! `asperity identify` from its files to its files: what it finds again, what it refuses, what it says when
+//! curves cannot tell.
 //!
 //! The curves are the program's own, without noise, of E 120 GPa, σ_y 400 MPa, n 0.2 (`swift`).
 
@@ -25,8 +26,8 @@ tool = { shape = "cone", half_apex_deg = 70.3 }
 noise = "1 %"
 "#;
 
-/// The curve of a cone as an instrument writes it, crushed by the command at a finer level than that of the fit, whose errors are not the
-/// curve's; `change` makes a line of a reading.
+/// The curve of a cone as an instrument writes it, crushed by the command at a finer level than that of the
+/// fit, whose errors are not the curve's; `change` makes a line of a reading.
 fn measured(place: &Place, header: &str, change: impl Fn(f64, f64) -> String) {
     let scene = format!(
         "symmetry = \"axisymmetric\"\naccuracy = \"standard\"\n[material]\nyoungs_modulus = \"{} GPa\"\npoissons_ratio = 0.3\nyield_stress = \"{} MPa\"\nhardening_exponent = {}\nhardening_law = \"swift\"\n[tool]\nshape = \"cone\"\nslope_deg = 19.7\n[loading]\ndepth = \"1 um\"\nunload = true\n",
@@ -151,7 +152,8 @@ fn table(header: &str, readings: &[[f64; 2]]) -> String {
     readings.iter().fold(format!("{header}\n"), |text, [h, f]| text + &format!("{h},{f}\n"))
 }
 
-/// Faulty inputs of a first user: each is an error that names the file or the line and a way out, and nothing is written.
+/// Faulty inputs of a first user: each is an error that names the file or the line and a way out, and nothing
+/// is written.
 #[test]
 fn tables_that_are_no_curve_are_refused_with_a_way_out() {
     let place = Place::with_scene("");
@@ -183,7 +185,8 @@ fn tables_that_are_no_curve_are_refused_with_a_way_out() {
     }
 }
 
-/// The load is held while the depth grows by 3 %: the contact is wider by 3 %, and as much stiffer, under the same force.
+/// The load is held while the depth grows by 3 %: the contact is wider by 3 %, and as much stiffer, under the
+/// same force.
 #[test]
 fn a_hold_leaves_the_modulus_alone() {
     let place = Place::with_scene("");

@@ -1,4 +1,5 @@
-//! Every wrong scene ends with status 2 and an error that shows the line and the allowed range; nothing is written.
+//! Every wrong scene ends with status 2 and an error that shows the line and the allowed range; nothing is
+//! written.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 

@@ -1,5 +1,5 @@
-//! The remains of a sweep when it is killed, when the disk refuses, and when it is done in parts: the same bytes, seconds
-//! excepted.
+//! The remains of a sweep when it is killed, when the disk refuses, and when it is done in parts: the same
+//! bytes, seconds excepted.
 
 #![cfg(unix)]
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]

@@ -1,8 +1,8 @@
-//! A scene may say how much of the hardening moves the yield surface and how often the body is loaded again: the records
-//! show each cycle, the loss in it, and the mode; what goes with no metal is refused at its line.
+//! A scene may say how much of the hardening moves the yield surface and how often the body is loaded again:
+//! the records show each cycle, the loss in it, and the mode; what goes with no metal is refused at its line.
 //!
-//! Bounds: the signs alone, which Bauschinger's effect fixes (Lemaitre & Chaboche, Mechanics of Solid Materials, 1990,
-//! section 5.4): a surface that moves yields earlier in reverse, so a cycle loses more.
+//! Bounds: the signs alone, which Bauschinger's effect fixes (Lemaitre & Chaboche, Mechanics of Solid
+//! Materials, 1990, section 5.4): a surface that moves yields earlier in reverse, so a cycle loses more.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 

@@ -1,6 +1,8 @@
-//! The example `library_tour`, which calls the library alone, prints the numbers that the commands write for the same inputs.
+//! The example `library_tour`, which calls the library alone, prints the numbers that the commands write for
+//! the same inputs.
 //!
-//! Equality to the last digit: the commands call the same functions. The inputs below are those of the example.
+//! Equality to the last digit: the commands call the same functions. The inputs below are those of the
+//! example.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 

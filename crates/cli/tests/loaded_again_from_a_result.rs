@@ -1,5 +1,5 @@
-//! Claims: a scene that starts from a result has its body and presses it again; the result of that can be started from too; what
-//! is no finished result, and a body given twice, is refused at its line.
+//! Claims: a scene that starts from a result has its body and presses it again; the result of that can be
+//! started from too; what is no finished result, and a body given twice, is refused at its line.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 

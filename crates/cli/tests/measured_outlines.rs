@@ -1,5 +1,6 @@
-//! Claims: an asperity and a tool given as points of a file crush and press like the formula that the points were taken from; the
-//! summary holds the points and gives the same bits without the file; what is no outline is refused at its line.
+//! Claims: an asperity and a tool given as points of a file crush and press like the formula that the points
+//! were taken from; the summary holds the points and gives the same bits without the file; what is no outline
+//! is refused at its line.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
@@ -50,7 +51,8 @@ fn crushed(scene: &str, file: &str) -> (Place, Value) {
     (place, summary)
 }
 
-/// 0.2 %, and 0.5 % of the area: six elements across the contact, whose columns may fall a little differently under the tip.
+/// 0.2 %, and 0.5 % of the area: six elements across the contact, whose columns may fall a little differently
+/// under the tip.
 fn same(a: &Value, b: &Value) {
     for (key, tolerance) in [
         ("peak_force_N", 2e-3),

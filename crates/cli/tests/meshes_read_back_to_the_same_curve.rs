@@ -64,7 +64,8 @@ fn lifted(msh: &str) -> String {
 /// Depth and force of the loading rows.
 fn load_branch(curve: &str) -> Vec<[f64; 2]> {
     let rows = curve.lines().skip(1).map(|line| line.split(',').collect::<Vec<_>>());
-    // the nodal force: the reported one is extrapolated, of a mesh that was read with the other element beside it
+    // the nodal force: the reported one is extrapolated, of a mesh that was read with the other element
+    // beside it
     rows.filter(|cells| cells[1] == "load").map(|c| [c[2].parse().unwrap(), c[13].parse().unwrap()]).collect()
 }
 

@@ -1,5 +1,6 @@
-//! The numbers of README.md and of the paper are those of files that programs wrote (`verification/results`, renewed by
-//! `scripts/renew`); the book includes the files themselves. Outside quotations README.md states no result in figures.
+//! The numbers of README.md and of the paper are those of files that programs wrote (`verification/results`,
+//! renewed by `scripts/renew`); the book includes the files themselves. Outside quotations README.md states
+//! no result in figures.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
@@ -70,8 +71,8 @@ fn the_front_page_quotes_the_overview_and_the_paper_the_numbers() {
     assert_eq!(names("docs/paper.md"), ["overview", "numbers"]);
 }
 
-/// Every table of `verification/results` stands on a page of the book, so that none is measured for nobody, above a link for those who
-/// read the page in the repository, where an include shows nothing.
+/// Every table of `verification/results` stands on a page of the book, so that none is measured for nobody,
+/// above a link for those who read the page in the repository, where an include shows nothing.
 #[test]
 fn the_book_includes_every_result() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
@@ -127,7 +128,7 @@ fn claims_and_numbers_are_of_one_report() {
     }
 }
 
-/// Whether a number with a point, a share or a multiple ends at or begins in this word.
+/// True where a number with a point, a share or a multiple ends at or begins in this word.
 fn is_result(word: &str, next: &str) -> bool {
     let bare = word.trim_matches(|c: char| !c.is_ascii_digit());
     let number = bare.contains(|c: char| c.is_ascii_digit());
@@ -157,7 +158,8 @@ fn text_outside_quotations_holds_no_result() {
     }
 }
 
-/// The pages of the notebooks hold their cells: an edited notebook is run again with `scripts/run-notebooks --pages`.
+/// The pages of the notebooks hold their cells: an edited notebook is run again with `scripts/run-notebooks
+/// --pages`.
 #[test]
 fn the_pages_of_notebooks_hold_their_cells() {
     for name in ["a-scene-of-my-own", "the-paper-in-an-hour"] {

@@ -1,7 +1,8 @@
-//! Claim: whatever scene it is given, the program is done, says where and why it stopped, or refuses the scene with a
-//! message and nothing written: no panic, no number that is none, no hang, no other exit status.
+//! Claim: whatever scene it is given, the program is done, says where and why it stopped, or refuses the
+//! scene with a message and nothing written: no panic, no number that is none, no hang, no other exit status.
 //!
-//! 300 scenes of a seed of their own; `cargo run --release -p asperity-verification --example random_scenes` runs 10,000.
+//! 300 scenes of a seed of their own; `cargo run --release -p asperity-verification --example random_scenes`
+//! runs 10,000.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 

@@ -1,4 +1,5 @@
-//! `--report` leaves a page that needs nothing beside it, says in words what it shows, and has the numbers of the summary.
+//! `--report` leaves a page that needs nothing beside it, says in words what it shows, and has the numbers of
+//! the summary.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 

@@ -1,4 +1,5 @@
-//! `asperity reproduce` writes one self-contained report, does nothing twice, and goes on where it was stopped.
+//! `asperity reproduce` writes one self-contained report, does nothing twice, and goes on where it was
+//! stopped.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
@@ -52,8 +53,8 @@ fn what_is_not_done_is_done_again() {
     assert_eq!(force(&summary), force(&place.text(&format!("{part}/summary.json"))));
 }
 
-/// Killed four times at moments drawn anew in every run of this test: no part that was done is begun again, the cases in
-/// the sweep's journal are taken as they are, seconds included.
+/// Killed four times at moments drawn anew in every run of this test: no part that was done is begun again,
+/// the cases in the sweep's journal are taken as they are, seconds included.
 #[test]
 fn a_run_killed_anywhere_goes_on() {
     let place = Place::with_scene("");

@@ -1,4 +1,4 @@
-//! Where results go, what they replace, and what they never touch.
+//! The folder that results go to, the files that they replace, and those that they never touch.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 

@@ -1,5 +1,5 @@
-//! A study over any key of any scene: the numbers of single runs, every run once whatever happens, the same bytes in parts,
-//! failures as rows, and wrong input as an error that names the key.
+//! A study over any key of any scene: the numbers of single runs, every run once whatever happens, the same
+//! bytes in parts, failures as rows, and wrong input as an error that names the key.
 
 #![cfg(unix)]
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
@@ -184,7 +184,8 @@ fn drawn_points_lie_in_their_ranges() {
     }
 }
 
-/// The outline lies beside the scene, not where the study is run: every run finds it, and what stands in it is part of the study.
+/// The outline lies beside the scene, not where the study is run: every run finds it, and what stands in it
+/// is part of the study.
 #[test]
 fn a_scene_with_a_measured_outline_is_varied() {
     let place = Place::with_scene("");

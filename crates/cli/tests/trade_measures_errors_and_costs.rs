@@ -1,4 +1,5 @@
-//! Claim: `trade` leaves a row a setting, the front is what nothing beats, and what the scene fixes is not varied.
+//! Claim: `trade` leaves a row a setting, the front is what nothing beats, and what the scene fixes is not
+//! varied.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 

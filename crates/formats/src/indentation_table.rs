@@ -1,5 +1,6 @@
-//! Tables as instruments write them: comma, semicolon, tab or blanks between columns, decimal commas, a preamble, units in the
-//! header or in the line below it, several tests side by side, below each other or under a number.
+//! Tables as instruments write them: comma, semicolon, tab or blanks between columns, decimal commas, a
+//! preamble, units in the header or in the line below it, several tests side by side, below each other or
+//! under a number.
 
 /// Depth and force, m and N, as they were read, one after the other in time.
 pub type Readings = Vec<[f64; 2]>;
@@ -11,9 +12,9 @@ pub struct Tests {
     pub tests: Vec<(String, Readings)>,
 }
 
-/// Why a table cannot be read: the line (from 1) where it has one, and a sentence with a way out.
+/// The reason why a table cannot be read: the line (from 1) where it has one, and a sentence with a way out.
 #[derive(Clone, Debug, PartialEq)]
-pub struct TableFault {
+pub struct TableError {
     /// Line, from 1.
     pub line: Option<usize>,
     /// The sentence.
@@ -59,7 +60,7 @@ enum Column {
 ///
 /// # Errors
 /// No columns of depth and force, units that are missing or unknown, cells that are no numbers.
-pub fn read(text: &str) -> Result<Tests, TableFault> {
+pub fn read(text: &str) -> Result<Tests, TableError> {
     let lines: Vec<(usize, &str)> = text
         .lines()
         .enumerate()
@@ -76,13 +77,13 @@ pub fn read(text: &str) -> Result<Tests, TableFault> {
     }
     if tests.iter().all(|(_, readings)| readings.is_empty()) {
         if let Some((line, _)) = lines.iter().find(|(_, line)| is_header(line)) {
-            return Err(TableFault {
+            return Err(TableError {
                 line: Some(*line),
                 message: "is a header without readings below it: give a row of numbers for each reading"
                     .into(),
             });
         }
-        return Err(TableFault {
+        return Err(TableError {
             line: lines.iter().find(|(_, line)| !line.is_empty()).map(|(i, _)| *i),
             message: "has no header that names a depth and a force with their units: write a first line like depth_um,force_mN, or Depth (nm);Load (mN)".into(),
         });
@@ -172,7 +173,7 @@ fn block(
     (at, header): (usize, &str),
     body: &[(usize, &str)],
     tests: &mut Vec<(String, Readings)>,
-) -> Result<(), TableFault> {
+) -> Result<(), TableError> {
     let mark = separator(header);
     let names = cells(header, mark);
     let mut body = body;
@@ -205,7 +206,7 @@ fn block(
         let row = cells(text, mark);
         let more = row.get(names.len()..).filter(|more| mark == ',' && more.iter().any(|c| !c.is_empty()));
         if let Some(more) = more {
-            return Err(TableFault {
+            return Err(TableError {
                 line: Some(*line),
                 message: format!(
                     "has {} cells below {} of the header: decimal commas need columns that semicolons or tabs separate; else give every column a name",
@@ -229,20 +230,20 @@ fn block(
     Ok(())
 }
 
-/// The columns of `what`, those that `unit_of` knows, with their units. One without a unit, like the error of a force, is left out
-/// beside one with.
+/// The columns of `what`, those that `unit_of` knows, with their units. One without a unit, like the error of
+/// a force, is left out beside one with.
 fn of_known_unit(
     at: usize,
     names: &[String],
     what: &str,
     units: &str,
     unit_of: &dyn Fn(usize) -> Option<Option<f64>>,
-) -> Result<Vec<(usize, f64)>, TableFault> {
+) -> Result<Vec<(usize, f64)>, TableError> {
     let all: Vec<(usize, Option<f64>)> =
         (0..names.len()).filter_map(|i| unit_of(i).map(|unit| (i, unit))).collect();
     let known: Vec<(usize, f64)> = all.iter().filter_map(|(i, unit)| Some((*i, (*unit)?))).collect();
     match all.first() {
-        Some((i, _)) if known.is_empty() => Err(TableFault {
+        Some((i, _)) if known.is_empty() => Err(TableError {
             line: Some(at),
             message: format!(
                 "the {what} \"{}\" has no unit that is known: write it in the header, one of {units}, like {what}_{}",
@@ -255,7 +256,7 @@ fn of_known_unit(
 }
 
 /// The pairs of depth and force, each force with the depth before or after it.
-fn pairs(at: usize, names: &[String], columns: &[Column]) -> Result<Vec<Pair>, TableFault> {
+fn pairs(at: usize, names: &[String], columns: &[Column]) -> Result<Vec<Pair>, TableError> {
     let depths = of_known_unit(at, names, "depth", "pm, nm, um, mm, m", &|i| match columns[i] {
         Column::Depth(unit) => Some(unit),
         _ => None,
@@ -270,7 +271,7 @@ fn pairs(at: usize, names: &[String], columns: &[Column]) -> Result<Vec<Pair>, T
 }
 
 /// The point of a row; `None` where its cells are empty or the row is a note.
-fn point(line: usize, row: &[String], pair: &Pair, mark: char) -> Result<Option<[f64; 2]>, TableFault> {
+fn point(line: usize, row: &[String], pair: &Pair, mark: char) -> Result<Option<[f64; 2]>, TableError> {
     let cell = |(i, _): (usize, f64)| row.get(i).map_or("", String::as_str);
     let (depth, force) = (cell(pair.depth), cell(pair.force));
     if depth.is_empty() || force.is_empty() {
@@ -278,7 +279,7 @@ fn point(line: usize, row: &[String], pair: &Pair, mark: char) -> Result<Option<
     }
     let number = |text: &str| {
         let text = if mark == ',' { text.to_string() } else { text.replace(',', ".") };
-        text.parse::<f64>().map_err(|_| TableFault {
+        text.parse::<f64>().map_err(|_| TableError {
             line: Some(line),
             message: format!(
                 "\"{text}\" is no number: leave out rows that are no readings, or begin them with #"
@@ -292,7 +293,7 @@ fn point(line: usize, row: &[String], pair: &Pair, mark: char) -> Result<Option<
 mod tests {
     use super::*;
 
-    fn near(a: f64, b: f64) -> bool {
+    fn is_near(a: f64, b: f64) -> bool {
         (a - b).abs() <= 1e-12 * b.abs()
     }
 
@@ -310,7 +311,7 @@ mod tests {
             assert_eq!(tests.len(), 1, "{text}");
             let [a, b] = [tests[0].1[0], tests[0].1[1]];
             assert!(
-                near(a[0], 1e-7) && near(a[1], 2e-3) && near(b[0], 2e-7) && near(b[1], 8e-3),
+                is_near(a[0], 1e-7) && is_near(a[1], 2e-3) && is_near(b[0], 2e-7) && is_near(b[1], 8e-3),
                 "{text} {tests:?}"
             );
         }

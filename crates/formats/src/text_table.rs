@@ -36,8 +36,8 @@ impl<'t> TextTable<'t> {
     /// The numbers of two columns in every line, with its place (from 1).
     ///
     /// # Errors
-    /// The first line with another number of columns than the header, or without a finite number in one of the two: its place
-    /// and a sentence for the user.
+    /// The first line with another number of columns than the header, or without a finite number in one of
+    /// the two: its place and a sentence for the user.
     pub fn pairs(&self, columns: [usize; 2]) -> Result<Vec<PlacedPair>, (usize, String)> {
         let pair = |&(line, text): &(usize, &str)| {
             let at = |message: String| (line, message);

@@ -7,7 +7,7 @@ use std::fmt::{self, Display};
 use std::marker::PhantomData;
 use std::str::FromStr;
 
-/// Why a quantity could not be read.
+/// The reason why a quantity could not be read.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{0}")]
 pub struct UnitError(String);
@@ -16,7 +16,8 @@ pub struct UnitError(String);
 fn parse(text: &str, dimension: &str, units: &[(&str, f64)]) -> Result<f64, UnitError> {
     let names = || units.iter().map(|(name, _)| *name).collect::<Vec<_>>().join(", ");
     let text = text.trim();
-    // the unit is the trailing run of letters; an exponent ("2e-6 m") ends in a digit and so stays with the number
+    // the unit is the trailing run of letters; an exponent ("2e-6 m") ends in a digit and so stays with the
+    // number
     let split = text
         .rfind(|c: char| !(c.is_alphabetic() || c == '/'))
         .map_or(0, |i| i + text[i..].chars().next().map_or(1, char::len_utf8));

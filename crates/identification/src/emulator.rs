@@ -1,17 +1,19 @@
-//! The answers of finite elements to one measurement between the metals that were computed: a trend, and a Gaussian process
-//! for what is left of it.
+//! The answers of finite elements to one measurement between the metals that were computed: a trend, and a
+//! Gaussian process for what is left of it.
 //!
-//! The trend of a sharp cone is the atlas of cones, that of other tools a polynomial through a design of runs. Every further run
-//! draws the process to itself; where none is near, the process says how much may be left, and that is part of the
-//! covariance of the fit (Kennedy and O'Hagan, Biometrika 87 (2000) 1, with one run a level).
+//! The trend of a sharp cone is the atlas of cones, that of other tools a polynomial through a design of
+//! runs. Every further run draws the process to itself; where none is near, the process says how much may be
+//! left, and that is part of the covariance of the fit (Kennedy and O'Hagan, Biometrika 87 (2000) 1, with one
+//! run a level).
 
-use super::response::{Geometry, Question, Response, SHARES};
+use super::response::{DesignPoint, Geometry, Response, SHARES};
 use asperity_calibration::atlas::{Atlas, POISSONS_RATIO};
 use asperity_material::HardeningCurve;
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
-/// Plastic strain, over the slope of a cone, at which the metal of a cell of the atlas is as strong as the metal in question.
-const LIKENED: f64 = 0.13;
+/// Plastic strain, over the slope of a cone, at which the metal of a cell of the atlas is as strong as the
+/// metal in question.
+const LIKENED_STRAIN: f64 = 0.13;
 
 /// A computed metal.
 #[derive(Clone, Debug)]
@@ -35,7 +37,7 @@ pub struct Emulator {
     trend: Trend,
     /// Lengths of the coordinates over which what is left of the trend varies.
     lengths: Vec<f64>,
-    /// How much is left of the trend, one for each logarithm.
+    /// The scatter that is left of the trend, one for each logarithm.
     amplitudes: Vec<f64>,
     nodes: Vec<Node>,
     factor: Option<Cholesky<f64, Dyn>>,
@@ -44,9 +46,9 @@ pub struct Emulator {
     lift: Vec<f64>,
 }
 
-/// The coordinates of a question: logarithms of E/σ_y, n (of a table: of E over stresses), ν, the law's E over that of the
-/// contact, tip over depth.
-pub fn place(question: &Question) -> Vec<f64> {
+/// The coordinates of a question: logarithms of E/σ_y, n (of a table: of E over stresses), ν, the law's E
+/// over that of the contact, tip over depth.
+pub fn features(question: &DesignPoint) -> Vec<f64> {
     let curve = &question.metal.hardening;
     let mut place = match curve {
         HardeningCurve::Power(law) => vec![(question.modulus / law.yield_stress).ln(), law.exponent],
@@ -62,7 +64,7 @@ pub fn place(question: &Question) -> Vec<f64> {
 }
 
 /// The slope of the cone that a tool is like, degrees.
-fn likened_slope(question: &Question) -> f64 {
+fn likened_slope(question: &DesignPoint) -> f64 {
     match &question.geometry {
         Geometry::Sharp { slope_deg } | Geometry::Rounded { slope_deg } => *slope_deg,
         Geometry::Ball { radius } => (question.depth / (2.0 * radius)).sqrt().atan().to_degrees(),
@@ -74,18 +76,18 @@ fn likened_slope(question: &Question) -> f64 {
 }
 
 /// The logarithms that the atlas has for a tool like the one in question.
-pub fn by_the_atlas(question: &Question) -> Vec<f64> {
+pub fn by_the_atlas(question: &DesignPoint) -> Vec<f64> {
     let slope = likened_slope(question);
     let tan = slope.to_radians().tan();
     let curve = &question.metal.hardening;
-    let (first, strain) = (curve.yield_stress(), LIKENED * tan);
+    let (first, strain) = (curve.yield_stress(), LIKENED_STRAIN * tan);
     let over = question.modulus / first;
     let exponent = (curve.flow(strain).yield_stress / first).ln() / (1.0 + over * strain).ln();
     let nu = question.metal.elastic.poissons_ratio;
     // a half space knows E and ν as E* nearly
     let stiffer = (1.0 - POISSONS_RATIO * POISSONS_RATIO) / (1.0 - nu * nu);
     let Some(atlas) = Atlas::committed() else { return vec![f64::NAN; 3] };
-    let found = atlas.at(slope, over * stiffer, exponent);
+    let found = atlas.predict(slope, over * stiffer, exponent);
     let shift = [stiffer.ln() - 2.0 * tan.ln(), stiffer.ln() - tan.ln()];
     let loading = found[0] + shift[0];
     let after = std::iter::once(found[1] + shift[1]).chain(found[2..].iter().copied());
@@ -106,10 +108,10 @@ impl Emulator {
     }
 
     /// A polynomial through `runs`.
-    pub fn through(runs: &[(Vec<f64>, Response)]) -> Option<Emulator> {
+    pub fn fit(runs: &[(Vec<f64>, Response)]) -> Option<Emulator> {
         let places: Vec<&[f64]> = runs.iter().map(|(place, _)| place.as_slice()).collect();
         let values: Vec<&[f64]> = runs.iter().map(|(_, r)| r.logarithms.as_slice()).collect();
-        let (polynomial, left) = Polynomial::through(&places, &values)?;
+        let (polynomial, left) = Polynomial::fit(&places, &values)?;
         let lengths = polynomial.widths.iter().map(|w| if *w > 0.0 { 0.8 * w } else { 1.0 }).collect();
         let amplitudes = left.iter().map(|l| l.max(0.003)).collect();
         let mut emulator = Emulator::new(Trend::Polynomial(polynomial), lengths, amplitudes);
@@ -126,18 +128,22 @@ impl Emulator {
     }
 
     /// Adds the answer to a question.
-    pub fn add(&mut self, question: &Question, response: &Response) {
-        let trend = self.trend(question, &place(question));
+    pub fn add(&mut self, question: &DesignPoint, response: &Response) {
+        let trend = self.trend(question, &features(question));
         let rest = response.logarithms.iter().zip(&trend).map(|(a, b)| a - b).collect();
         let node = Response { logarithms: rest, ..response.clone() };
-        self.nodes.push(Node { place: place(question), logarithms: node.logarithms, error: node.errors[0] });
+        self.nodes.push(Node {
+            place: features(question),
+            logarithms: node.logarithms,
+            error: node.errors[0],
+        });
         self.renew();
     }
 
-    /// Shifts all that is expected so that it meets the answer of a finer level: levels differ by nearly the same share at metals
-    /// that are near each other.
-    pub fn meet(&mut self, question: &Question, response: &Response) {
-        let expected = self.at(question);
+    /// Shifts all that is expected so that it meets the answer of a finer level: levels differ by nearly the
+    /// same share at metals that are near each other.
+    pub fn meet(&mut self, question: &DesignPoint, response: &Response) {
+        let expected = self.predict(question);
         for ((lift, fine), coarse) in self.lift.iter_mut().zip(&response.logarithms).zip(expected) {
             *lift += fine - coarse;
         }
@@ -145,15 +151,15 @@ impl Emulator {
 
     fn push(&mut self, place: Vec<f64>, response: &Response) {
         let Trend::Polynomial(polynomial) = &self.trend else { return };
-        let trend = polynomial.at(&place);
+        let trend = polynomial.predict(&place);
         let logarithms = response.logarithms.iter().zip(&trend).map(|(a, b)| a - b).collect();
         self.nodes.push(Node { place, logarithms, error: response.errors[0] });
     }
 
-    fn trend(&self, question: &Question, place: &[f64]) -> Vec<f64> {
+    fn trend(&self, question: &DesignPoint, place: &[f64]) -> Vec<f64> {
         match &self.trend {
             Trend::Atlas => by_the_atlas(question),
-            Trend::Polynomial(polynomial) => polynomial.at(place),
+            Trend::Polynomial(polynomial) => polynomial.predict(place),
         }
     }
 
@@ -179,8 +185,8 @@ impl Emulator {
     }
 
     /// The logarithms to be expected.
-    pub fn at(&self, question: &Question) -> Vec<f64> {
-        let place = place(question);
+    pub fn predict(&self, question: &DesignPoint) -> Vec<f64> {
+        let place = features(question);
         let mut value = self.trend(question, &place);
         value.iter_mut().zip(&self.lift).for_each(|(v, lift)| *v += lift);
         if self.factor.is_some() {
@@ -195,8 +201,8 @@ impl Emulator {
     }
 
     /// Standard deviations of what may be left, of loading, slope and way back.
-    pub fn left(&self, question: &Question, loading: usize) -> [f64; 3] {
-        let place = place(question);
+    pub fn left(&self, question: &DesignPoint, loading: usize) -> [f64; 3] {
+        let place = features(question);
         let k = DVector::from_fn(self.nodes.len(), |i, _| self.correlation(&place, &self.nodes[i].place));
         let known = self.factor.as_ref().map_or(0.0, |factor| k.dot(&factor.solve(&k)));
         let share = (1.0 - known).clamp(0.0, 1.0).sqrt();
@@ -205,7 +211,8 @@ impl Emulator {
     }
 }
 
-/// A polynomial of the second degree, of the third where there are points for it, in the coordinates that vary.
+/// A polynomial of the second degree, of the third where there are points for it, in the coordinates that
+/// vary.
 #[derive(Clone, Debug)]
 struct Polynomial {
     middle: Vec<f64>,
@@ -216,7 +223,7 @@ struct Polynomial {
 }
 
 impl Polynomial {
-    fn through(places: &[&[f64]], values: &[&[f64]]) -> Option<(Polynomial, Vec<f64>)> {
+    fn fit(places: &[&[f64]], values: &[&[f64]]) -> Option<(Polynomial, Vec<f64>)> {
         let dimensions = places.first()?.len();
         let end =
             |i: usize, pick: fn(f64, f64) -> f64, from: f64| places.iter().map(|p| p[i]).fold(from, pick);
@@ -266,7 +273,7 @@ impl Polynomial {
         terms
     }
 
-    fn at(&self, place: &[f64]) -> Vec<f64> {
+    fn predict(&self, place: &[f64]) -> Vec<f64> {
         let terms = DVector::from_vec(self.terms(place));
         self.coefficients.tr_mul(&terms).iter().copied().collect()
     }

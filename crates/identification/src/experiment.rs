@@ -2,7 +2,7 @@
 
 use super::emulator::{Emulator, by_the_atlas};
 use super::parameters::{Slot, Unknowns};
-use super::response::{AFTER, Geometry, Question, between, smooth};
+use super::response::{DesignPoint, Geometry, NUMBERS_AFTER_LOADING, linear_between, smooth};
 use crate::measured_curve::Measured;
 use asperity_calibration::indentation::FORCES;
 use asperity_material::{Elastic, StressMeasure};
@@ -43,13 +43,13 @@ pub struct Experiment {
     pub compliance: f64,
     /// Deepest depth, m; 1 where nothing hangs on it.
     pub depth: f64,
-    /// Which stress yields.
+    /// The stress that yields.
     pub stress_measure: StressMeasure,
     /// The data.
     pub data: Data,
     /// Relative standard deviation of the force.
     pub noise: f64,
-    /// Whether that was given, and not taken from the scatter.
+    /// True where that was given, and not taken from the scatter.
     pub noise_given: bool,
     /// Relative standard deviation of what the model leaves out.
     pub model_error: f64,
@@ -59,9 +59,9 @@ pub struct Experiment {
     pub emulator: Emulator,
 }
 
-/// Logarithms of the depth over which the force that a body is expected to need is too large or too small alike. That of a sharp cone is
-/// one number, K, off alike at every depth.
-const ALIKE: f64 = 1.0;
+/// Logarithms of the depth over which the force that a body is expected to need is too large or too small
+/// alike. That of a sharp cone is one number, K, off alike at every depth.
+const ALIKE_LOG_DEPTH: f64 = 1.0;
 
 /// Effect on the difference at a point of a curve of errors of the expected force and of the way back.
 struct ErrorOfAPoint {
@@ -84,21 +84,21 @@ struct Expected {
 
 impl Experiment {
     /// The question to the finite elements at `point`; `None` where there is no metal.
-    pub fn question(&self, unknowns: &Unknowns, point: &[f64]) -> Option<Question> {
+    pub fn design_point(&self, unknowns: &Unknowns, point: &[f64]) -> Option<DesignPoint> {
         let metal = unknowns.metal(point)?;
         let own = metal.elastic.reduced_modulus();
         let together = self.tool.map_or(own, |tool| 1.0 / (1.0 / own + 1.0 / tool.reduced_modulus()));
-        Some(Question {
+        Some(DesignPoint {
             geometry: self.geometry.clone(),
             depth: self.depth,
             modulus: metal.elastic.youngs_modulus * together / own,
             metal,
-            tip_radius: unknowns.sought(point, Slot::TipRadius(self.curve)).unwrap_or(self.tip_radius),
+            tip_radius: unknowns.unknown_value(point, Slot::TipRadius(self.curve)).unwrap_or(self.tip_radius),
             stress_measure: self.stress_measure,
         })
     }
 
-    /// Whether the tool is a sharp cone, for which there is an atlas.
+    /// True where the tool is a sharp cone, for which there is an atlas.
     pub fn is_sharp(&self) -> bool {
         matches!(self.geometry, Geometry::Sharp { .. })
     }
@@ -109,9 +109,9 @@ impl Experiment {
     }
 
     fn expected(&self, unknowns: &Unknowns, point: &[f64], roughly: bool) -> Option<Expected> {
-        let question = self.question(unknowns, point)?;
-        let logarithms = if roughly { by_the_atlas(&question) } else { self.emulator.at(&question) };
-        let own = |slot, known| unknowns.sought(point, slot).unwrap_or(known);
+        let question = self.design_point(unknowns, point)?;
+        let logarithms = if roughly { by_the_atlas(&question) } else { self.emulator.predict(&question) };
+        let own = |slot, known| unknowns.unknown_value(point, slot).unwrap_or(known);
         Some(Expected {
             modulus: question.modulus,
             logarithms,
@@ -120,8 +120,8 @@ impl Experiment {
         })
     }
 
-    /// Measured less expected, each over what it is measured in: logarithms of forces and slopes, shares of the work,
-    /// depths of unloading over the deepest. `roughly`: by the atlas of cones alone.
+    /// Measured less expected, each over what it is measured in: logarithms of forces and slopes, shares of
+    /// the work, depths of unloading over the deepest. `roughly`: by the atlas of cones alone.
     pub fn differences(&self, unknowns: &Unknowns, point: &[f64], roughly: bool) -> Option<Vec<f64>> {
         let expected = self.expected(unknowns, point, roughly)?;
         Some(match &self.data {
@@ -169,11 +169,11 @@ impl Experiment {
         expected.modulus * depth * depth * smooth(&points, (depth / self.depth).ln()).exp()
     }
 
-    /// Reading of the depth expected on the way back at `force`, from a turn of which the depths where the loading ended and where
-    /// the way back began were read under a force.
+    /// Reading of the depth expected on the way back at `force`, from a turn of which the depths where the
+    /// loading ended and where the way back began were read under a force.
     ///
-    /// A hold between them makes the contact wider under the same force. The slope where unloading begins goes with the width, so with the
-    /// depth; the whole way with the force over it.
+    /// A hold between them makes the contact wider under the same force. The slope where unloading begins
+    /// goes with the width, so with the depth; the whole way with the force over it.
     fn depth_back(&self, expected: &Expected, [loaded, turned, held]: [f64; 3], force: f64) -> f64 {
         let less = expected.contact_depth + expected.compliance * held;
         let (loaded, top) = (loaded - less, turned - less);
@@ -208,7 +208,7 @@ impl Experiment {
 
     /// Covariance of the differences at `point`.
     pub fn covariance(&self, unknowns: &Unknowns, point: &[f64]) -> Option<DMatrix<f64>> {
-        let question = self.question(unknowns, point)?;
+        let question = self.design_point(unknowns, point)?;
         let expected = self.expected(unknowns, point, false)?;
         let left = self.emulator.left(&question, self.of_the_loading());
         // the stated errors are 95 % bounds
@@ -238,8 +238,9 @@ impl Experiment {
         common: [f64; 3],
     ) -> DMatrix<f64> {
         let load = measured.loading.len();
-        let length = if self.is_sharp() { f64::INFINITY } else { ALIKE };
-        // a force that is expected too large takes from each difference of the loading, and adds to each of the way back
+        let length = if self.is_sharp() { f64::INFINITY } else { ALIKE_LOG_DEPTH };
+        // a force that is expected too large takes from each difference of the loading, and adds to each of
+        // the way back
         let of_the_loading = measured.loading.iter().map(|p| {
             let place = (p[0] / self.depth).abs().max(1e-3).ln();
             ErrorOfAPoint { place, by_the_force: -1.0, by_the_way: 0.0 }
@@ -280,13 +281,13 @@ impl Experiment {
 fn recovery(logarithms: &[f64], share: f64) -> f64 {
     // straight in F^(2/3) nearly, from no way at the peak
     let bent = |share: f64| -share.max(0.0).powf(2.0 / 3.0);
-    let ways = &logarithms[logarithms.len() - (AFTER - 2)..];
+    let ways = &logarithms[logarithms.len() - (NUMBERS_AFTER_LOADING - 2)..];
     let mut points = vec![[bent(1.0), 0.0]];
     points.extend(FORCES.iter().zip(ways).map(|(force, way)| [bent(*force), way.exp()]));
-    between(&points, bent(share))
+    linear_between(&points, bent(share))
 }
 
-/// How fast the way back grows as the share of the force falls.
+/// The growth of the way back as the share of the force falls.
 fn slope_back(logarithms: &[f64], share: f64) -> f64 {
     let (high, low) = ((share + 0.02).min(1.0), (share - 0.02).max(0.0));
     (recovery(logarithms, low) - recovery(logarithms, high)) / (high - low)

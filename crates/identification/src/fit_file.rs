@@ -1,6 +1,6 @@
 //! The content of a fit file: the metal with what is known and sought of it, and the measurements.
 
-use crate::known_or_unknown::{Percent, Sought};
+use crate::known_or_unknown::{KnownOrUnknown, Percent};
 use asperity_material::StressMeasure;
 use asperity_material::units::{Compliance, Length, Stiffness, Stress};
 use asperity_simulation::scene::{Asperity, HardeningChoice};
@@ -51,21 +51,21 @@ pub enum FitAccuracy {
 pub struct FitMaterial {
     /// Young's modulus E.
     #[schemars(example = "210 GPa")]
-    pub youngs_modulus: Sought<Stress>,
+    pub youngs_modulus: KnownOrUnknown<Stress>,
     /// Poisson's ratio ν, in (-1, 0.5).
-    pub poissons_ratio: Sought<f64>,
+    pub poissons_ratio: KnownOrUnknown<f64>,
     /// Initial yield stress σ_y.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub yield_stress: Option<Sought<Stress>>,
+    pub yield_stress: Option<KnownOrUnknown<Stress>>,
     /// Hardening exponent n in [0, 1).
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub hardening_exponent: Option<Sought<f64>>,
+    pub hardening_exponent: Option<KnownOrUnknown<f64>>,
     /// Hardening law: `hollomon` (power law in total strain), `swift` (power law in plastic strain) or `table`.
     #[serde(default = "hollomon")]
     pub hardening_law: HardeningChoice,
     /// For hardening_law = "table": plastic strain, from 0, and yield stress (known or sought), point by point.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub hardening_table: Option<Vec<(f64, Sought<Stress>)>>,
+    pub hardening_table: Option<Vec<(f64, KnownOrUnknown<Stress>)>>,
     /// Which stress the yield stress means: true stress, or Kirchhoff's.
     #[serde(default)]
     pub stress_measure: StressMeasure,
@@ -107,7 +107,8 @@ pub struct FitCurve {
 }
 
 impl FitCurve {
-    /// The name in pictures of a measurement that messages call `name`: that of its file, with the test where it has several.
+    /// The name in pictures of a measurement that messages call `name`: that of its file, with the test where
+    /// it has several.
     pub fn label(&self, name: &str) -> String {
         let Some(file) = self.file.as_ref().and_then(|path| path.file_name()) else { return name.into() };
         let file = file.to_string_lossy();
@@ -142,10 +143,10 @@ pub struct Features {
 }
 
 impl Features {
-    /// Where such numbers belong.
-    pub const PLACE: &str = "numbers such as loading curvature, unloading slope and work ratio go into features = { loading_curvature = \"27 GPa\", … } in place of file";
+    /// The table that such numbers belong to.
+    pub const FEATURES_PLACE: &str = "numbers such as loading curvature, unloading slope and work ratio go into features = { loading_curvature = \"27 GPa\", … } in place of file";
 
-    /// Whether a table that is no curve has a header of such numbers.
+    /// True where a table that is no curve has a header of such numbers.
     pub fn are_named_in(table: &str) -> bool {
         let header = table.lines().find(|line| !line.trim().is_empty()).unwrap_or_default().to_lowercase();
         ["curvature", "slope", "dp/dh", "dpdh", "dp_dh", "wp/wt", "wp_wt", "work"]
@@ -200,7 +201,7 @@ pub struct FitTool {
     pub half_apex_deg: Option<f64>,
     /// Radius of the tip; absent or 0: sharp.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub tip_radius: Option<Sought<Length>>,
+    pub tip_radius: Option<KnownOrUnknown<Length>>,
     /// Radius of the ball.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub radius: Option<Length>,
@@ -212,7 +213,7 @@ pub struct FitTool {
     pub poissons_ratio: Option<f64>,
     /// Depth per force that the machine adds; absent: none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub machine_compliance: Option<Sought<Compliance>>,
+    pub machine_compliance: Option<KnownOrUnknown<Compliance>>,
 }
 
 #[cfg(test)]

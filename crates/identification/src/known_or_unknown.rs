@@ -12,33 +12,33 @@ use std::str::FromStr;
 
 /// A quantity of a fit.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Sought<T> {
+pub enum KnownOrUnknown<T> {
     /// It is this.
     Known(T),
     /// It lies between these two, the lower one first.
     Range([T; 2]),
 }
 
-impl<T: Copy> Sought<T> {
+impl<T: Copy> KnownOrUnknown<T> {
     /// The same in other terms.
-    pub fn map<U>(self, f: impl Fn(T) -> U) -> Sought<U> {
+    pub fn map<U>(self, f: impl Fn(T) -> U) -> KnownOrUnknown<U> {
         match self {
-            Sought::Known(value) => Sought::Known(f(value)),
-            Sought::Range(ends) => Sought::Range(ends.map(f)),
+            KnownOrUnknown::Known(value) => KnownOrUnknown::Known(f(value)),
+            KnownOrUnknown::Range(ends) => KnownOrUnknown::Range(ends.map(f)),
         }
     }
 }
 
-impl<T: Serialize> Serialize for Sought<T> {
+impl<T: Serialize> Serialize for KnownOrUnknown<T> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         match self {
-            Sought::Known(value) => value.serialize(serializer),
-            Sought::Range(ends) => ends.serialize(serializer),
+            KnownOrUnknown::Known(value) => value.serialize(serializer),
+            KnownOrUnknown::Range(ends) => ends.serialize(serializer),
         }
     }
 }
 
-impl<'de, T: Deserialize<'de>> Deserialize<'de> for Sought<T> {
+impl<'de, T: Deserialize<'de>> Deserialize<'de> for KnownOrUnknown<T> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         deserializer.deserialize_any(EitherVisitor(PhantomData))
     }
@@ -47,38 +47,38 @@ impl<'de, T: Deserialize<'de>> Deserialize<'de> for Sought<T> {
 struct EitherVisitor<T>(PhantomData<T>);
 
 impl<'de, T: Deserialize<'de>> Visitor<'de> for EitherVisitor<T> {
-    type Value = Sought<T>;
+    type Value = KnownOrUnknown<T>;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str("a value that is known, or a list of two, [lowest, highest], for one that is sought")
     }
 
-    fn visit_f64<E: Error>(self, number: f64) -> Result<Sought<T>, E> {
+    fn visit_f64<E: Error>(self, number: f64) -> Result<KnownOrUnknown<T>, E> {
         let plain: F64Deserializer<E> = number.into_deserializer();
-        T::deserialize(plain).map(Sought::Known)
+        T::deserialize(plain).map(KnownOrUnknown::Known)
     }
 
-    fn visit_i64<E: Error>(self, number: i64) -> Result<Sought<T>, E> {
+    fn visit_i64<E: Error>(self, number: i64) -> Result<KnownOrUnknown<T>, E> {
         self.visit_f64(number as f64)
     }
 
-    fn visit_str<E: Error>(self, text: &str) -> Result<Sought<T>, E> {
+    fn visit_str<E: Error>(self, text: &str) -> Result<KnownOrUnknown<T>, E> {
         let plain: StrDeserializer<'_, E> = text.into_deserializer();
-        T::deserialize(plain).map(Sought::Known)
+        T::deserialize(plain).map(KnownOrUnknown::Known)
     }
 
-    fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Sought<T>, A::Error> {
+    fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<KnownOrUnknown<T>, A::Error> {
         let wrong = || A::Error::custom("a range is a list of two values, [lowest, highest]");
         let low = list.next_element()?.ok_or_else(wrong)?;
         let high = list.next_element()?.ok_or_else(wrong)?;
         match list.next_element::<T>()? {
-            None => Ok(Sought::Range([low, high])),
+            None => Ok(KnownOrUnknown::Range([low, high])),
             Some(_) => Err(wrong()),
         }
     }
 }
 
-impl<T: JsonSchema> JsonSchema for Sought<T> {
+impl<T: JsonSchema> JsonSchema for KnownOrUnknown<T> {
     fn inline_schema() -> bool {
         true
     }

@@ -1,4 +1,5 @@
-//! Least squares with bounds: Levenberg and Marquardt's method on differences (Nocedal, Wright, Numerical Optimization, 10.3).
+//! Least squares with bounds: Levenberg and Marquardt's method on differences (Nocedal, Wright, Numerical
+//! Optimization, 10.3).
 
 use nalgebra::{DMatrix, DVector};
 
@@ -115,7 +116,8 @@ fn stepped(
 mod tests {
     use super::*;
 
-    /// Rosenbrock's valley, whose minimum is at (1, 1); with the first coordinate bounded by 0.5 it is at (0.5, 0.25).
+    /// Rosenbrock's valley, whose minimum is at (1, 1); with the first coordinate bounded by 0.5 it is at
+    /// (0.5, 0.25).
     #[test]
     fn a_curved_valley_is_followed_to_its_end_and_to_a_bound() {
         let valley = |x: &[f64]| Some(vec![10.0 * (x[1] - x[0] * x[0]), 1.0 - x[0]]);

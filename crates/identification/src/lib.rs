@@ -1,10 +1,10 @@
 #![doc = include_str!("../README.md")]
 //!
-//! In the order of the data: the keys of a fit ([`fit_file`], [`known_or_unknown`]), measured curves made ready
-//! ([`measured_curve`]), the unknowns ([`parameters`]); what finite elements answer to one metal ([`response`]) and between
-//! metals ([`emulator`]); a measurement with its covariance ([`experiment`]), all of them ([`objective`]); the search
-//! ([`mod@search`], [`levenberg_marquardt`]); intervals ([`profile_likelihood`]), samples ([`posterior`]) and what cannot be
-//! seen ([`verdict`]).
+//! In the order of the data: the keys of a fit ([`fit_file`], [`known_or_unknown`]), measured curves made
+//! ready ([`measured_curve`]), the unknowns ([`parameters`]); what finite elements answer to one metal
+//! ([`response`]) and between metals ([`emulator`]); a measurement with its covariance ([`experiment`]), all
+//! of them ([`objective`]); the search ([`mod@search`], [`levenberg_marquardt`]); intervals
+//! ([`profile_likelihood`]), samples ([`posterior`]) and the null direction ([`identifiability`]).
 
 pub mod known_or_unknown;
 
@@ -30,6 +30,6 @@ pub mod profile_likelihood;
 
 pub mod posterior;
 
-pub mod verdict;
+pub mod identifiability;
 
 pub mod stress_strain;

@@ -1,4 +1,5 @@
-//! A measured curve made ready: its loading and its last unloading, thinned by averaging; holds and other cycles cut.
+//! A measured curve made ready: its loading and its last unloading, thinned by averaging; holds and other
+//! cycles cut.
 
 use asperity_formats::indentation_table::Readings;
 
@@ -20,21 +21,23 @@ pub struct Measured {
 }
 
 /// Points that are kept of loading and unloading.
-const KEPT: [usize; 2] = [30, 20];
-/// Shares of the deepest depth from which loading counts, and of the peak force between which unloading counts.
-const FROM: f64 = 0.1;
-const BACK: [f64; 2] = [0.1, 0.97];
+const KEPT_POINTS: [usize; 2] = [30, 20];
+/// Shares of the deepest depth from which loading counts, and of the peak force between which unloading
+/// counts.
+const LOADING_DEPTH_SHARE: f64 = 0.1;
+const UNLOADING_FORCE_SHARES: [f64; 2] = [0.1, 0.97];
 /// Fewest points of a loading.
-const FEWEST: usize = 6;
+const MIN_LOADING_POINTS: usize = 6;
 /// Share of the peak force from which readings belong to the peak or its hold.
-const TOP: f64 = 0.995;
-/// Share of the largest force from which a reading may be the deepest one: noise makes the largest force, not the turn of the path.
-const HIGH: f64 = 0.8;
+const PEAK_FORCE_SHARE: f64 = 0.995;
+/// Share of the largest force from which a reading may be the deepest one: noise makes the largest force, not
+/// the turn of the path.
+const DEEPEST_FORCE_SHARE: f64 = 0.8;
 /// Share of the largest depth from which readings belong to the turn.
-const TURN: f64 = 0.999;
-/// Growth of the force over that of the depth, both relative, below which readings are a hold: a loading grows with the power 1.5 of the
-/// depth at least.
-const HELD: f64 = 0.5;
+const TURN_DEPTH_SHARE: f64 = 0.999;
+/// Growth of the force over that of the depth, both relative, below which readings are a hold: a loading
+/// grows with the power 1.5 of the depth at least.
+const HOLD_GROWTH: f64 = 0.5;
 
 impl Measured {
     /// Makes `readings` ready.
@@ -46,9 +49,9 @@ impl Measured {
         let readings: Readings =
             readings.iter().copied().filter(|p| p.iter().all(|x| x.is_finite())).collect();
         let most = readings.iter().map(|p| p[1]).fold(f64::NEG_INFINITY, f64::max);
-        if readings.len() < FEWEST {
+        if readings.len() < MIN_LOADING_POINTS {
             return Err(format!(
-                "has {} points, too few for a curve: give at least {FEWEST} of the loading, or `features` instead of a file",
+                "has {} points, too few for a curve: give at least {MIN_LOADING_POINTS} of the loading, or `features` instead of a file",
                 readings.len()
             ));
         }
@@ -72,9 +75,9 @@ impl Measured {
             ));
         }
         let loading = envelope(&readings[..=first], &mut notes);
-        if loading.len() < FEWEST {
+        if loading.len() < MIN_LOADING_POINTS {
             return Err(format!(
-                "goes nowhere: only {} points before its largest force lie deeper than those before them; the loading must come first and needs {FEWEST}",
+                "goes nowhere: only {} points before its largest force lie deeper than those before them; the loading must come first and needs {MIN_LOADING_POINTS}",
                 loading.len()
             ));
         }
@@ -102,7 +105,7 @@ impl Measured {
     }
 }
 
-/// Where a path turns.
+/// The point at which a path turns.
 struct Turn {
     /// The reading with which the loading ends: a hold may follow.
     first: usize,
@@ -112,25 +115,26 @@ struct Turn {
     peak: [f64; 2],
 }
 
-/// The turn of a path whose largest force is `most`: it lies at the largest depth, for depths are read more exactly than forces.
+/// The turn of a path whose largest force is `most`: it lies at the largest depth, for depths are read more
+/// exactly than forces.
 fn turn(readings: &[[f64; 2]], most: f64) -> Turn {
-    let high = |p: &[f64; 2]| p[1] >= HIGH * most;
+    let high = |p: &[f64; 2]| p[1] >= DEEPEST_FORCE_SHARE * most;
     let deepest = readings.iter().filter(|p| high(p)).map(|p| p[0]).fold(f64::NEG_INFINITY, f64::max);
-    let at_the_turn = |p: &[f64; 2]| high(p) && p[0] >= deepest - (1.0 - TURN) * deepest.abs();
+    let at_the_turn = |p: &[f64; 2]| high(p) && p[0] >= deepest - (1.0 - TURN_DEPTH_SHARE) * deepest.abs();
     let turned: Vec<f64> = readings.iter().filter(|p| at_the_turn(p)).map(|p| p[1]).collect();
     let force = turned.iter().sum::<f64>() / turned.len().max(1) as f64;
     let last = readings.iter().rposition(at_the_turn).unwrap_or(0);
-    let first = readings.iter().position(|p| p[1] >= TOP * force).unwrap_or(0).min(last);
+    let first = readings.iter().position(|p| p[1] >= PEAK_FORCE_SHARE * force).unwrap_or(0).min(last);
     Turn { first, last, peak: [readings[last][0], force] }
 }
 
-/// Whether the force stayed while the depth grew over `readings`, up to the `peak`.
+/// True where the force stayed while the depth grew over `readings`, up to the `peak`.
 fn is_held(readings: &[[f64; 2]], peak: [f64; 2]) -> bool {
     let mean =
         |part: &[[f64; 2]], k: usize| part.iter().map(|p| p[k]).sum::<f64>() / part.len().max(1) as f64;
     let (before, after) = readings.split_at(readings.len() / 2);
     let grown = |k: usize| (mean(after, k) - mean(before, k)) / peak[k];
-    readings.len() > 2 && grown(1) < HELD * grown(0)
+    readings.len() > 2 && grown(1) < HOLD_GROWTH * grown(0)
 }
 
 /// The points deeper than all before them, under a force.
@@ -159,17 +163,22 @@ fn falling(readings: &[[f64; 2]], peak: [f64; 2]) -> Vec<[f64; 2]> {
     let inside: Vec<[f64; 2]> = readings
         .iter()
         .copied()
-        .filter(|p| p[1] >= BACK[0] * peak[1] && p[1] <= BACK[1] * peak[1] && p[0] < peak[0] * 1.001)
+        .filter(|p| {
+            p[1] >= UNLOADING_FORCE_SHARES[0] * peak[1]
+                && p[1] <= UNLOADING_FORCE_SHARES[1] * peak[1]
+                && p[0] < peak[0] * 1.001
+        })
         .collect();
-    averaged(&inside, KEPT[1], |p| (peak[1] - p[1]) / peak[1], |x| x)
+    averaged(&inside, KEPT_POINTS[1], |p| (peak[1] - p[1]) / peak[1], |x| x)
 }
 
 fn thinned(loading: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let deepest = loading.last().map_or(1.0, |p| p[0]);
-    let inside: Vec<[f64; 2]> = loading.iter().copied().filter(|p| p[0] >= FROM * deepest).collect();
+    let inside: Vec<[f64; 2]> =
+        loading.iter().copied().filter(|p| p[0] >= LOADING_DEPTH_SHARE * deepest).collect();
     // in logarithms loading is nearly straight, so that its average lies on it
     let logs: Vec<[f64; 2]> = inside.iter().map(|p| p.map(f64::ln)).collect();
-    averaged(&logs, KEPT[0], |p| p[0].exp() / deepest, f64::exp)
+    averaged(&logs, KEPT_POINTS[0], |p| p[0].exp() / deepest, f64::exp)
 }
 
 /// Averages of `points` over at most `count` equal parts of `place`, which goes from 0 to 1.
@@ -188,14 +197,14 @@ fn averaged(
     parts.iter().filter(|p| p.0 > 0.0).map(|(n, sum)| sum.map(|s| of_mean(s / n))).collect()
 }
 
-/// Where the straight line through √F over the upper half of the loading meets zero force.
+/// The depth at which the straight line through √F over the upper half of the loading meets zero force.
 fn touches(loading: &[[f64; 2]]) -> f64 {
     let deepest = loading.last().map_or(1.0, |p| p[0]);
     let upper: Vec<[f64; 2]> =
         loading.iter().filter(|p| p[0] > 0.4 * deepest).map(|p| [p[1].sqrt(), p[0]]).collect();
     let n = upper.len() as f64;
     let mean = |k: usize| upper.iter().map(|p| p[k]).sum::<f64>() / n;
-    mean(1) - asperity_numerics::least_squares::Line::through(&upper).slope * mean(0)
+    mean(1) - asperity_numerics::least_squares::Line::fit(&upper).slope * mean(0)
 }
 
 #[cfg(test)]
@@ -212,7 +221,7 @@ mod tests {
         readings
             .extend((0..500).map(|i| 1.0 - f64::from(i) / 500.0).map(|s| [0.9e-6 + 0.1e-6 * s, 5e-3 * s]));
         let measured = Measured::new(&readings).unwrap();
-        assert!(measured.loading.len() <= KEPT[0] && measured.loading.len() >= 20);
+        assert!(measured.loading.len() <= KEPT_POINTS[0] && measured.loading.len() >= 20);
         assert!(measured.unloading.len() >= 15 && measured.touches.abs() < 1e-9);
         for p in &measured.loading {
             assert!((p[1] / (5e9 * p[0] * p[0]) - 1.0).abs() < 1e-9, "{p:?}");
@@ -254,7 +263,8 @@ mod tests {
         assert!(measured.loading.windows(2).all(|w| w[0][0] < w[1][0]));
     }
 
-    /// Noise that lifts a force before the turn does not move the turn there; a mean of the forces at the turn stands for its force.
+    /// Noise that lifts a force before the turn does not move the turn there; a mean of the forces at the
+    /// turn stands for its force.
     #[test]
     fn the_turn_lies_at_the_largest_depth_not_at_the_largest_force() {
         let mut readings = loaded(40);

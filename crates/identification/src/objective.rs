@@ -48,7 +48,8 @@ impl<'a> Objective<'a> {
     }
 }
 
-/// Rough residuals by the atlas of cones, with a standard deviation of `rough` beside the noise: where to look at all.
+/// Rough residuals by the atlas of cones, with a standard deviation of `rough` beside the noise: where to
+/// look at all.
 pub fn roughly<'a>(experiments: &'a [Experiment], unknowns: &'a Unknowns, rough: f64) -> Box<Residuals<'a>> {
     Box::new(move |point: &[f64]| {
         let mut all = Vec::new();

@@ -1,7 +1,7 @@
 //! Unknowns: parameters with bounds, and the metal and tools that belong to their values.
 
 use crate::fit_file::FitMaterial;
-use crate::known_or_unknown::Sought;
+use crate::known_or_unknown::KnownOrUnknown;
 use asperity_material::units::{Stress, rounded};
 use asperity_material::{Elastic, Hardening, HardeningCurve, HardeningLaw, HardeningTable, range};
 use asperity_numerics::sobol::Sobol;
@@ -28,8 +28,8 @@ pub enum Slot {
     TipRadius(usize),
 }
 
-/// A parameter. Its coordinate is the logarithm of its SI value where that is positive by nature, else the value in the unit of the
-/// results.
+/// A parameter. Its coordinate is the logarithm of its SI value where that is positive by nature, else the
+/// value in the unit of the results.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Parameter {
     /// Its name in the results.
@@ -40,7 +40,7 @@ pub struct Parameter {
     pub scale: f64,
     /// Quantity that it stands for.
     pub slot: Slot,
-    /// Whether the coordinate is a logarithm.
+    /// True where the coordinate is a logarithm.
     pub logarithmic: bool,
     /// Bounds of the coordinate.
     pub bounds: [f64; 2],
@@ -105,8 +105,8 @@ impl Unknowns {
     /// The unknowns of `material`; those of the measurements are added later.
     pub fn new(material: &FitMaterial) -> Unknowns {
         let mut parameters = Vec::new();
-        let mut add = |name: &str, slot, unit, logarithmic, sought: Sought<f64>| {
-            if let Sought::Range(ends) = sought {
+        let mut add = |name: &str, slot, unit, logarithmic, sought: KnownOrUnknown<f64>| {
+            if let KnownOrUnknown::Range(ends) = sought {
                 parameters.push(Parameter::new(name.to_string(), slot, unit, logarithmic, ends));
             }
         };
@@ -137,19 +137,20 @@ impl Unknowns {
     }
 
     /// Value of `slot` at `point`, where it is sought.
-    pub fn sought(&self, point: &[f64], slot: Slot) -> Option<f64> {
+    pub fn unknown_value(&self, point: &[f64], slot: Slot) -> Option<f64> {
         let i = self.parameters.iter().position(|p| p.slot == slot)?;
         Some(self.parameters[i].value(point[i]))
     }
 
-    fn number(&self, point: &[f64], slot: Slot, given: Sought<f64>) -> f64 {
+    fn number(&self, point: &[f64], slot: Slot, given: KnownOrUnknown<f64>) -> f64 {
         match given {
-            Sought::Known(value) => value,
-            Sought::Range(ends) => self.sought(point, slot).unwrap_or(ends[0]),
+            KnownOrUnknown::Known(value) => value,
+            KnownOrUnknown::Range(ends) => self.unknown_value(point, slot).unwrap_or(ends[0]),
         }
     }
 
-    /// The metal at `point`; `None` where there is none: yield beyond what can be computed, a table that falls.
+    /// The metal at `point`; `None` where there is none: yield beyond what can be computed, a table that
+    /// falls.
     pub fn metal(&self, point: &[f64]) -> Option<Metal> {
         let given = &self.material;
         let modulus = self.number(point, Slot::YoungsModulus, given.youngs_modulus.map(|e| e.0));
@@ -167,10 +168,12 @@ impl Unknowns {
             }
             None => {
                 let table = given.hardening_table.as_ref()?.iter().enumerate();
-                let stress =
-                    |(i, (strain, sought)): (usize, &(f64, Sought<asperity_material::units::Stress>))| {
-                        [*strain, self.number(point, Slot::TablePoint(i), sought.map(|s| s.0))]
-                    };
+                let stress = |(i, (strain, sought)): (
+                    usize,
+                    &(f64, KnownOrUnknown<asperity_material::units::Stress>),
+                )| {
+                    [*strain, self.number(point, Slot::TablePoint(i), sought.map(|s| s.0))]
+                };
                 HardeningTable::new(&table.map(stress).collect::<Vec<_>>()).ok()?.into()
             }
         };
@@ -205,7 +208,7 @@ impl Unknowns {
     }
 
     /// `point` within the bounds.
-    pub fn within(&self, point: &[f64]) -> Vec<f64> {
+    pub fn clamped(&self, point: &[f64]) -> Vec<f64> {
         point.iter().zip(&self.parameters).map(|(x, p)| x.clamp(p.bounds[0], p.bounds[1])).collect()
     }
 
@@ -221,6 +224,6 @@ impl Unknowns {
 /// The first `count` points of Sobol's sequence within the bounds of `parameters`, its first point left out.
 pub fn sobol_points(parameters: &[Parameter], count: usize) -> Vec<Vec<f64>> {
     let Some(sobol) = Sobol::new(parameters.len()) else { return Vec::new() };
-    let coordinate = |i: usize, (k, p): (usize, &Parameter)| p.bounds[0] + p.width() * sobol.at(k, i);
+    let coordinate = |i: usize, (k, p): (usize, &Parameter)| p.bounds[0] + p.width() * sobol.coordinate(k, i);
     (1..=count).map(|i| parameters.iter().enumerate().map(|k| coordinate(i, k)).collect()).collect()
 }

@@ -1,5 +1,5 @@
-//! Samples of the posterior: flat in the coordinates within their bounds, by the stretch moves of Goodman and Weare (Comm. App.
-//! Math. Comp. Sci. 5 (2010) 65).
+//! Samples of the posterior: flat in the coordinates within their bounds, by the stretch moves of Goodman and
+//! Weare (Comm. App. Math. Comp. Sci. 5 (2010) 65).
 
 use crate::levenberg_marquardt::{Minimum, Residuals, chi2};
 use rand_chacha::ChaCha8Rng;
@@ -8,9 +8,9 @@ use rand_chacha::rand_core::{Rng, SeedableRng};
 /// Walkers.
 const WALKERS: usize = 40;
 /// Rounds before samples are kept.
-const BEFORE: usize = 150;
+const BURN_IN_ROUNDS: usize = 150;
 /// Rounds between kept samples.
-const THIN: usize = 4;
+const THINNING_ROUNDS: usize = 4;
 
 fn uniform(random: &mut ChaCha8Rng) -> f64 {
     (random.next_u64() >> 11) as f64 / (1_u64 << 53) as f64
@@ -42,7 +42,7 @@ pub fn samples(
         let chi2 = chi2(residuals, &spread);
         walkers.push((spread, chi2));
     }
-    let rounds = BEFORE + THIN * count.div_ceil(WALKERS);
+    let rounds = BURN_IN_ROUNDS + THINNING_ROUNDS * count.div_ceil(WALKERS);
     let mut kept = Vec::new();
     for round in 0..rounds {
         for i in 0..WALKERS {
@@ -63,7 +63,7 @@ pub fn samples(
                 walkers[i] = (moved, next);
             }
         }
-        if round >= BEFORE && (round - BEFORE).is_multiple_of(THIN) {
+        if round >= BURN_IN_ROUNDS && (round - BURN_IN_ROUNDS).is_multiple_of(THINNING_ROUNDS) {
             kept.extend(walkers.iter().map(|w| w.0.clone()));
         }
     }

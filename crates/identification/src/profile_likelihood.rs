@@ -1,5 +1,6 @@
-//! Intervals by the profile likelihood: how far a number may go while the others give way, until the sum of squares has grown
-//! by 3.84 (95 % of one unknown). Bounds end an interval (Raue et al., Bioinformatics 25 (2009) 1923).
+//! Intervals by the profile likelihood: how far a number may go while the others give way, until the sum of
+//! squares has grown by 3.84 (95 % of one unknown). Bounds end an interval (Raue et al., Bioinformatics 25
+//! (2009) 1923).
 
 use crate::levenberg_marquardt::{Minimum, Residuals, chi2, minimise};
 
@@ -8,19 +9,20 @@ pub const GROWTH: f64 = 3.841;
 /// Steps outward until the growth is exceeded, and steps inward to its place.
 const STEPS: [usize; 2] = [14, 7];
 /// Weight of a condition beside residuals in standard deviations.
-const HARD: f64 = 1e4;
+const CONDITION_WEIGHT: f64 = 1e4;
 
 /// An interval with its ends in the coordinate of the number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Interval {
     /// Its ends.
     pub ends: [f64; 2],
-    /// Whether each of them is a bound, not what the measurements say.
+    /// True where each of them is a bound, not what the measurements say.
     pub bounded: [bool; 2],
 }
 
-/// The interval of coordinate `i`; `deviation` is its size by the curvature at the minimum. Where the sum of squares has several
-/// valleys, minima in the `others` count too: the interval reaches from the first end to the last.
+/// The interval of coordinate `i`; `deviation` is its size by the curvature at the minimum. Where the sum of
+/// squares has several valleys, minima in the `others` count too: the interval reaches from the first end to
+/// the last.
 pub fn of_coordinate(
     residuals: &Residuals<'_>,
     best: &Minimum,
@@ -63,7 +65,7 @@ pub fn of_number(
     let at = |x: f64, from: &[f64]| {
         let held = |point: &[f64]| {
             let mut all = residuals(point)?;
-            all.push(HARD * (number(point)? - x));
+            all.push(CONDITION_WEIGHT * (number(point)? - x));
             Some(all)
         };
         let point = minimise(&held, from, bounds).point;
@@ -77,8 +79,8 @@ pub fn of_number(
     Some(Interval { ends: ends.map(|e| e.0), bounded: ends.map(|e| e.1) })
 }
 
-/// The end of the interval from `here`, where the minimum `from` lies, toward `limit`, and whether it is that. The sum of squares
-/// grows from `lowest`.
+/// The end of the interval from `here`, where the minimum `from` lies, toward `limit`, and whether it is
+/// that. The sum of squares grows from `lowest`.
 fn one_side(
     at: &dyn Fn(f64, &[f64]) -> Minimum,
     from: &Minimum,
@@ -135,7 +137,8 @@ fn one_side(
 mod tests {
     use super::*;
 
-    /// y = exp(x) measured as 1 with a deviation of 0.1: the interval of x is ln(1 ± 0.196), which is not symmetric.
+    /// y = exp(x) measured as 1 with a deviation of 0.1: the interval of x is ln(1 ± 0.196), which is not
+    /// symmetric.
     #[test]
     fn an_interval_follows_the_curve_and_ends_at_a_bound() {
         let residuals = |p: &[f64]| Some(vec![(p[0].exp() - 1.0) / 0.1]);
@@ -147,7 +150,8 @@ mod tests {
         assert!(tight.ends[0] == -0.05 && tight.bounded == [true, false]);
     }
 
-    /// Of two unknowns whose sum alone is measured, the sum has an interval and each of them ends at its bounds.
+    /// Of two unknowns whose sum alone is measured, the sum has an interval and each of them ends at its
+    /// bounds.
     #[test]
     fn a_number_that_is_seen_is_told_from_one_that_is_not() {
         let residuals = |p: &[f64]| Some(vec![(p[0] + p[1]) / 0.1]);

@@ -1,8 +1,8 @@
 //! The answer of finite elements to one tool on one metal, as logarithms that vary smoothly with the metal.
 //!
-//! Everything is over the elastic modulus E, the deepest depth h_max and F/h²: loading F/(E h²) at shares of h_max, the slope
-//! S/(E h_max) where unloading begins, the share of the work that is returned, and the way back over h_max at the
-//! shares [`FORCES`] of the peak force. A sharp cone has one number for its loading.
+//! Everything is over the elastic modulus E, the deepest depth h_max and F/h²: loading F/(E h²) at shares of
+//! h_max, the slope S/(E h_max) where unloading begins, the share of the work that is returned, and the way
+//! back over h_max at the shares [`FORCES`] of the peak force. A sharp cone has one number for its loading.
 
 use super::parameters::Metal;
 use asperity_calibration::indentation::{FORCES, Indentation, solve};
@@ -20,7 +20,7 @@ use std::ops::ControlFlow;
 pub const SHARES: [f64; 9] = [0.1, 0.15, 0.22, 0.32, 0.45, 0.6, 0.75, 0.88, 1.0];
 
 /// Numbers after those of the loading: slope, work, way back.
-pub const AFTER: usize = 2 + FORCES.len();
+pub const NUMBERS_AFTER_LOADING: usize = 2 + FORCES.len();
 
 /// The body and tool of a measurement; lengths in m.
 #[derive(Clone, Debug, PartialEq)]
@@ -55,11 +55,11 @@ impl Geometry {
 }
 
 /// Relative error of a run whose companion came to no end.
-const UNKNOWN: f64 = 0.05;
+const UNKNOWN_ERROR: f64 = 0.05;
 
 /// Inputs of a run of finite elements.
 #[derive(Clone, Debug)]
-pub struct Question {
+pub struct DesignPoint {
     /// Body and tool.
     pub geometry: Geometry,
     /// Deepest depth, m.
@@ -70,7 +70,7 @@ pub struct Question {
     pub modulus: f64,
     /// Radius of the tip, m.
     pub tip_radius: f64,
-    /// Which stress yields.
+    /// The stress that yields.
     pub stress_measure: StressMeasure,
 }
 
@@ -89,14 +89,14 @@ pub struct Response {
 ///
 /// # Errors
 /// Why there is no answer.
-pub fn respond(question: &Question, accuracy: Accuracy, analyses: &Analyses) -> Result<Response, String> {
+pub fn respond(question: &DesignPoint, accuracy: Accuracy, analyses: &Analyses) -> Result<Response, String> {
     match question.geometry {
         Geometry::Sharp { slope_deg } => sharp(question, slope_deg, accuracy, analyses),
         _ => body(question, accuracy, analyses),
     }
 }
 
-fn point(question: &Question) -> Point {
+fn point(question: &DesignPoint) -> Point {
     Point {
         elastic: Elastic { youngs_modulus: 1.0, ..question.metal.elastic },
         hardening: Some(question.metal.hardening.over(question.modulus)),
@@ -106,7 +106,7 @@ fn point(question: &Question) -> Point {
 }
 
 fn sharp(
-    question: &Question,
+    question: &DesignPoint,
     slope_deg: f64,
     accuracy: Accuracy,
     analyses: &Analyses,
@@ -126,7 +126,7 @@ fn of_cone(found: &Indentation) -> Vec<f64> {
 }
 
 /// The scene of a tool that is no sharp cone, unloaded from its deepest depth.
-fn scene(question: &Question, accuracy: Accuracy) -> Scene {
+fn scene(question: &DesignPoint, accuracy: Accuracy) -> Scene {
     let elastic = Material::elastic_body(Stress(question.modulus), question.metal.elastic.poissons_ratio);
     let strength = question.metal.hardening.yield_stress().min(0.19 * question.modulus);
     let exponent = question.metal.hardening.exponent(question.modulus).clamp(0.0, 0.99);
@@ -146,7 +146,7 @@ fn scene(question: &Question, accuracy: Accuracy) -> Scene {
     asperity.into_iter().fold(scene, Scene::with)
 }
 
-fn body(question: &Question, accuracy: Accuracy, analyses: &Analyses) -> Result<Response, String> {
+fn body(question: &DesignPoint, accuracy: Accuracy, analyses: &Analyses) -> Result<Response, String> {
     let scene = scene(question, accuracy);
     scene.validate().map_err(|e| e.to_string())?;
     // the scene stands for the mesh; the metal is this one exactly
@@ -170,7 +170,7 @@ fn body(question: &Question, accuracy: Accuracy, analyses: &Analyses) -> Result<
         [stiffness / (modulus * depth), share].into_iter().chain(back).map(|x: f64| x.max(1e-12).ln());
     let errors = summary.errors;
     // of the returned work, relative; an error that is not known is that which draft aims at
-    let known = |error: Option<f64>| error.filter(|e| e.is_finite()).unwrap_or(UNKNOWN);
+    let known = |error: Option<f64>| error.filter(|e| e.is_finite()).unwrap_or(UNKNOWN_ERROR);
     Ok(Response {
         logarithms: loading.into_iter().chain(after).collect(),
         errors: [
@@ -189,7 +189,7 @@ fn loading(rows: &[CurveRow], modulus: f64, depth: f64) -> Vec<f64> {
         .filter(|r| r.phase == Phase::Load && r.depth > 0.0 && r.force > 0.0)
         .map(|r| [(r.depth / depth).ln(), (r.force / (modulus * r.depth * r.depth)).ln()])
         .collect();
-    SHARES.iter().map(|share| between(&points, share.ln())).collect()
+    SHARES.iter().map(|share| linear_between(&points, share.ln())).collect()
 }
 
 /// Elastic recovery over the depth at each of [`FORCES`].
@@ -200,23 +200,24 @@ fn recovery(rows: &[CurveRow], depth: f64) -> Vec<f64> {
     let bent = |share: f64| -share.max(0.0).powf(2.0 / 3.0);
     let points: Vec<[f64; 2]> =
         rows[peak..].iter().map(|r| [bent(r.force / top), 1.0 - r.depth / depth]).collect();
-    FORCES.iter().map(|force| between(&points, bent(*force))).collect()
+    FORCES.iter().map(|force| linear_between(&points, bent(*force))).collect()
 }
 
 /// Linear between `points` of rising x, and on beyond their ends.
-pub fn between(points: &[[f64; 2]], x: f64) -> f64 {
+pub fn linear_between(points: &[[f64; 2]], x: f64) -> f64 {
     let Some(last) = points.len().checked_sub(2) else { return points.first().map_or(f64::NAN, |p| p[1]) };
     let k = points[1..=last].iter().take_while(|p| p[0] <= x).count();
     let ([x0, y0], [x1, y1]) = (points[k], points[k + 1]);
     if x1 == x0 { y0 } else { y0 + (x - x0) / (x1 - x0) * (y1 - y0) }
 }
 
-/// A cubic through the four of `points` of rising x around `x`; linear where there are fewer, and beyond their ends.
+/// A cubic through the four of `points` of rising x around `x`; linear where there are fewer, and beyond
+/// their ends.
 pub fn smooth(points: &[[f64; 2]], x: f64) -> f64 {
     let count = points.len();
     let beyond = |p: &[f64; 2], sign: f64| sign * (x - p[0]) > 0.0;
     if count < 4 || beyond(&points[count - 1], 1.0) || beyond(&points[0], -1.0) {
-        return between(points, x);
+        return linear_between(points, x);
     }
     let k = points.iter().take_while(|p| p[0] <= x).count();
     let four = &points[k.saturating_sub(2).min(count - 4)..][..4];
@@ -238,15 +239,15 @@ mod tests {
         for x in [-1.0, -0.7, 0.0, 0.3, 0.8, 1.9, 2.0] {
             assert!((smooth(&points, x) - cubic(x)).abs() < 1e-12, "{x}");
         }
-        assert_eq!(smooth(&points, 3.0), between(&points, 3.0));
+        assert_eq!(smooth(&points, 3.0), linear_between(&points, 3.0));
         assert_eq!(smooth(&points[..1], 3.0), points[0][1]);
     }
 
     #[test]
     fn values_between_points_and_beyond_them_lie_on_straight_lines() {
         let points = [[0.0, 0.0], [1.0, 2.0], [3.0, 3.0]];
-        let at = |x| between(&points, x);
+        let at = |x| linear_between(&points, x);
         assert_eq!([at(0.5), at(1.0), at(2.0), at(4.0), at(-1.0)], [1.0, 2.0, 2.5, 3.5, -2.0]);
-        assert_eq!(between(&points[..1], 7.0), 0.0);
+        assert_eq!(linear_between(&points[..1], 7.0), 0.0);
     }
 }

@@ -1,11 +1,11 @@
-//! The search: from points all over the bounds, on what finite elements are expected to answer; then they are asked at the
-//! best point, which changes what is expected, until the best point stays.
+//! The search: from points all over the bounds, on what finite elements are expected to answer; then they are
+//! asked at the best point, which changes what is expected, until the best point stays.
 
-use super::emulator::{Emulator, place};
+use super::emulator::{Emulator, features};
 use super::experiment::Experiment;
 use super::objective::{Objective, roughly};
 use super::parameters::{Unknowns, sobol_points};
-use super::response::{Question, Response, respond};
+use super::response::{DesignPoint, Response, respond};
 use crate::levenberg_marquardt::{Minimum, Residuals, chi2, jacobian, minimise};
 use asperity_material::range;
 use asperity_simulation::scene::Accuracy;
@@ -14,7 +14,7 @@ use nalgebra::{DMatrix, SymmetricEigen};
 use rayon::prelude::*;
 use thiserror::Error;
 
-/// Why a search found no metal.
+/// The reason why a search found no metal.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum SearchError {
     /// The observer ended it.
@@ -33,15 +33,15 @@ pub enum SearchError {
 }
 
 /// Points of the first look.
-const LOOKS: usize = 512;
+const FIRST_POINTS: usize = 512;
 /// Best of them from which a minimum is sought.
 const STARTS: usize = 6;
 /// Most rounds of asking at the best point.
 const ROUNDS: usize = 4;
 /// Standard deviations of the best point within which it stays.
-const STAYS: f64 = 0.25;
+const SETTLED_DEVIATIONS: f64 = 0.25;
 /// Relative error of a ball taken as a cone.
-const ROUGH: f64 = 0.35;
+const BALL_AS_CONE_ERROR: f64 = 0.35;
 
 /// Tells how far the search is, and whether it goes on.
 pub type Observer<'a> = dyn FnMut(f64, &str) -> bool + 'a;
@@ -72,34 +72,35 @@ pub fn search(
     let analyses = &Analyses::for_threads(rayon::current_num_threads());
     design(experiments, unknowns, analyses, &mut found, observer)?;
     let mut best = everywhere(experiments, unknowns)?;
-    // the atlas of sharp cones is as exact as `accuracy`, and coarser runs would only blur it; other tools have coarse runs all about
+    // the atlas of sharp cones is as exact as `accuracy`, and coarser runs would only blur it; other tools
+    // have coarse runs all about
     let early = |e: &Experiment| if e.is_sharp() { accuracy } else { Accuracy::Draft };
     let mut asked = Vec::new();
     for round in 0..ROUNDS {
         go_on(observer, 0.5 + 0.1 * round as f64, "asking finite elements at the best fit")?;
-        ask(experiments, unknowns, &[best.point.clone()], early, analyses, &mut found)?;
+        run_at(experiments, unknowns, &[best.point.clone()], early, analyses, &mut found)?;
         let before = best;
         asked.clone_from(&before.point);
         best = again(experiments, unknowns, &before.point)?;
-        if moved(experiments, unknowns, &before.point, &best.point) < STAYS {
+        if moved(experiments, unknowns, &before.point, &best.point) < SETTLED_DEVIATIONS {
             break;
         }
     }
     let sharp = experiments.iter().all(Experiment::is_sharp);
     if !sharp {
         go_on(observer, 0.85, "asking finite elements where the curves see least")?;
-        let beside = beside(experiments, unknowns, &best.point);
-        ask(experiments, unknowns, &beside, early, analyses, &mut found)?;
+        let beside = along_null_direction(experiments, unknowns, &best.point);
+        run_at(experiments, unknowns, &beside, early, analyses, &mut found)?;
         best = again(experiments, unknowns, &best.point)?;
     }
     // the answer is that of finite elements at this point, or so near to it that they say the same
     let answered = sharp || accuracy == Accuracy::Draft;
-    if answered && moved(experiments, unknowns, &asked, &best.point) < STAYS {
+    if answered && moved(experiments, unknowns, &asked, &best.point) < SETTLED_DEVIATIONS {
         found.minimum = best;
         return Ok(found);
     }
     go_on(observer, 0.95, "the final answer")?;
-    ask(experiments, unknowns, &[best.point.clone()], |_| accuracy, analyses, &mut found)?;
+    run_at(experiments, unknowns, &[best.point.clone()], |_| accuracy, analyses, &mut found)?;
     found.minimum = again(experiments, unknowns, &best.point)?;
     Ok(found)
 }
@@ -110,9 +111,9 @@ fn go_on(observer: &mut Observer<'_>, share: f64, text: &str) -> Result<(), Sear
 
 /// The lowest minimum from points all over the bounds.
 fn everywhere(experiments: &[Experiment], unknowns: &Unknowns) -> Result<Minimum, SearchError> {
-    let points = sobol_points(&unknowns.parameters, LOOKS);
+    let points = sobol_points(&unknowns.parameters, FIRST_POINTS);
     // covariances hang on the point weakly: those of the best rough point serve the first look
-    let rough = roughly(experiments, unknowns, ROUGH);
+    let rough = roughly(experiments, unknowns, BALL_AS_CONE_ERROR);
     let first = least(&*rough, &points).ok_or(SearchError::NoMetal)?;
     let objective = Objective::new(experiments, unknowns, &first).ok_or(SearchError::NoMetal)?;
     minima(&objective, &points)
@@ -130,9 +131,10 @@ fn minima(objective: &Objective<'_>, points: &[Vec<f64>]) -> Vec<Minimum> {
     ranked[..STARTS.min(ranked.len())].par_iter().map(|(_, p)| minimise(&function, p, &bounds)).collect()
 }
 
-/// Minima anywhere within the bounds whose sum of squares is less than `chi2`: other metals that the measurements allow.
-pub fn valleys(objective: &Objective<'_>, unknowns: &Unknowns, chi2: f64) -> Vec<Minimum> {
-    let mut found = minima(objective, &sobol_points(&unknowns.parameters, LOOKS));
+/// Minima anywhere within the bounds whose sum of squares is less than `chi2`: other metals that the
+/// measurements allow.
+pub fn secondary_minima(objective: &Objective<'_>, unknowns: &Unknowns, chi2: f64) -> Vec<Minimum> {
+    let mut found = minima(objective, &sobol_points(&unknowns.parameters, FIRST_POINTS));
     found.retain(|minimum| minimum.chi2 < chi2);
     found
 }
@@ -166,7 +168,8 @@ fn moved(experiments: &[Experiment], unknowns: &Unknowns, a: &[f64], b: &[f64]) 
     }
 }
 
-/// Curvature of half the sum of squares, coordinates over the widths of their bounds, with its eigenvalues and directions.
+/// Curvature of half the sum of squares, coordinates over the widths of their bounds, with its eigenvalues
+/// and directions.
 pub fn curvature(objective: &Objective<'_>, point: &[f64]) -> Option<SymmetricEigen<f64, nalgebra::Dyn>> {
     let bounds = objective.bounds();
     let mut slopes = jacobian(&objective.function(), point, &bounds)?;
@@ -177,9 +180,9 @@ pub fn curvature(objective: &Objective<'_>, point: &[f64]) -> Option<SymmetricEi
     Some(normal.symmetric_eigen())
 }
 
-/// Two points on both sides of `point` along the direction that the measurements see least, at most 1.5 standard deviations and a
-/// third of the bounds away.
-fn beside(experiments: &[Experiment], unknowns: &Unknowns, point: &[f64]) -> Vec<Vec<f64>> {
+/// Two points on both sides of `point` along the direction that the measurements see least, at most 1.5
+/// standard deviations and a third of the bounds away.
+fn along_null_direction(experiments: &[Experiment], unknowns: &Unknowns, point: &[f64]) -> Vec<Vec<f64>> {
     let seen = Objective::new(experiments, unknowns, point).and_then(|o| curvature(&o, point));
     let Some(seen) = seen else { return Vec::new() };
     let weakest = seen.eigenvalues.imin();
@@ -190,14 +193,14 @@ fn beside(experiments: &[Experiment], unknowns: &Unknowns, point: &[f64]) -> Vec
         .map(|side| {
             let widths = unknowns.parameters.iter().zip(direction.iter());
             let step: Vec<f64> = widths.map(|(p, d)| side * length * d * p.width()).collect();
-            unknowns.within(&point.iter().zip(step).map(|(x, s)| x + s).collect::<Vec<_>>())
+            unknowns.clamped(&point.iter().zip(step).map(|(x, s)| x + s).collect::<Vec<_>>())
         })
         .filter(|other| unknowns.metal(other).is_some())
         .collect()
 }
 
 /// Asks the finite elements of every experiment at `points`, and the emulators learn the answers.
-fn ask(
+fn run_at(
     experiments: &mut [Experiment],
     unknowns: &Unknowns,
     points: &[Vec<f64>],
@@ -206,10 +209,10 @@ fn ask(
     found: &mut Found,
 ) -> Result<(), SearchError> {
     let levels: Vec<Accuracy> = experiments.iter().map(accuracy).collect();
-    let questions: Vec<(usize, Question)> = experiments
+    let questions: Vec<(usize, DesignPoint)> = experiments
         .iter()
         .enumerate()
-        .flat_map(|(i, e)| points.iter().filter_map(move |p| Some((i, e.question(unknowns, p)?))))
+        .flat_map(|(i, e)| points.iter().filter_map(move |p| Some((i, e.design_point(unknowns, p)?))))
         .collect();
     let answers: Vec<Result<Response, String>> =
         questions.par_iter().with_max_len(1).map(|(i, q)| respond(q, levels[*i], analyses)).collect();
@@ -271,15 +274,15 @@ fn design(
             share,
             &format!("{}: runs of finite elements over plausible metals", experiments[*i].name),
         )?;
-        let questions: Vec<Question> =
-            points.iter().filter_map(|p| experiments[*i].question(unknowns, p)).collect();
+        let questions: Vec<DesignPoint> =
+            points.iter().filter_map(|p| experiments[*i].design_point(unknowns, p)).collect();
         let answers: Vec<Result<Response, String>> =
             questions.par_iter().with_max_len(1).map(|q| respond(q, Accuracy::Draft, analyses)).collect();
         found.runs += answers.len();
         let reason = answers.iter().find_map(|a| a.as_ref().err().cloned()).unwrap_or_default();
         let runs: Vec<(Vec<f64>, Response)> =
-            questions.iter().zip(answers).filter_map(|(q, a)| Some((place(q), a.ok()?))).collect();
-        experiments[*i].emulator = Emulator::through(&runs).ok_or_else(|| {
+            questions.iter().zip(answers).filter_map(|(q, a)| Some((features(q), a.ok()?))).collect();
+        experiments[*i].emulator = Emulator::fit(&runs).ok_or_else(|| {
             SearchError::NoAnswer(format!(
                 "{}: too few runs of finite elements came to an end: {reason}",
                 experiments[*i].name
@@ -291,8 +294,8 @@ fn design(
 
 /// Points far from each other among those that the rough look does not rule out.
 fn plausible(experiments: &[Experiment], unknowns: &Unknowns) -> Result<Vec<Vec<f64>>, SearchError> {
-    let candidates = sobol_points(&unknowns.parameters, 8 * LOOKS);
-    let rough = roughly(experiments, unknowns, ROUGH);
+    let candidates = sobol_points(&unknowns.parameters, 8 * FIRST_POINTS);
+    let rough = roughly(experiments, unknowns, BALL_AS_CONE_ERROR);
     let ranked: Vec<(f64, &Vec<f64>)> = candidates.par_iter().map(|p| (chi2(&*rough, p), p)).collect();
     let lowest = ranked.iter().map(|r| r.0).fold(f64::INFINITY, f64::min);
     if !lowest.is_finite() {

@@ -143,7 +143,7 @@ impl Hardening {
         let (mut found, mut root) = (T::mask(|_| false), start);
         for _ in 0..200 {
             let f = a * e + c * sigma - rhs;
-            let beyond = f.above(zero);
+            let beyond = f.is_above(zero);
             (low, high) = (T::select(beyond, low, e), T::select(beyond, e, high));
             // over e: f' = a + cσ', f'' = -(1 - n) cσ'/e with σ' = nσ/e
             let hardens = c * sigma * n / e;
@@ -152,14 +152,14 @@ impl Hardening {
             let bend = newton * hardens * (0.5 * (1.0 - n)) / slope;
             // far from the root no more than twice Newton's step
             let halley = e - e * newton / (bend.max(T::splat(-0.5)) + one);
-            let inside = halley.above(low) & high.above(halley);
-            let middle = T::select(infinity.above(high), (low + high) * 0.5, low);
+            let inside = halley.is_above(low) & high.is_above(halley);
+            let middle = T::select(infinity.is_above(high), (low + high) * 0.5, low);
             let next = T::select(inside, halley, middle);
             let change = (next - e) / e;
             // σ ∝ eⁿ to second order, which is exact to rounding: no power for the last step
             let last = [next, sigma * (change * (change * (0.5 * (n - 1.0)) + one) * n + one)];
             let least = T::select(inside, T::splat(LAST_CHANGE), T::splat(4.0 * f64::EPSILON));
-            let open = change.abs().above(least);
+            let open = change.abs().is_above(least);
             root = [T::select(found, root[0], last[0]), T::select(found, root[1], last[1])];
             found = T::mask(|lane| T::holds(found, lane) | !T::holds(open, lane));
             if T::all(found) {

@@ -1,10 +1,12 @@
-//! Sizes of elements around a contact, and positions of nodes along a line from a wanted size that varies along it.
+//! Sizes of elements around a contact, and positions of nodes along a line from a wanted size that varies
+//! along it.
 
 use crate::ElementKind;
 
-/// Height of the first row of a core over its depth, for a fineness of 1. The ripple that shells leave is of first order in
-/// their width, the bias that rows leave is of second order in their height: with the root of the fineness both fall alike.
-const ROW: f64 = 0.435;
+/// Height of the first row of a core over its depth, for a fineness of 1. The ripple that shells leave is of
+/// first order in their width, the bias that rows leave is of second order in their height: with the root of
+/// the fineness both fall alike.
+const FIRST_ROW_HEIGHT: f64 = 0.435;
 
 /// Height of the last row of a core over that of the first.
 const ROW_GROWTH: f64 = 3.0;
@@ -13,16 +15,17 @@ const ROW_GROWTH: f64 = 3.0;
 const COLUMN_GROWTH: f64 = 5.0;
 
 /// Linear elements that are as exact as one quadratic element, along a line.
-pub const LINEAR: f64 = 8.0 / 3.0;
+pub const LINEAR_PER_QUADRATIC: f64 = 8.0 / 3.0;
 
-/// Depths of a row of contacts within which shells around it stay fine: metal yields that far below touching rows.
+/// Depths of a row of contacts within which shells around it stay fine: metal yields that far below touching
+/// rows.
 const NEAR_ROW: f64 = 3.0;
 
-/// How element sizes follow the distance from a contact.
+/// Growth of element sizes with the distance from a contact.
 ///
-/// The front of a contact crosses shell after shell, and the force ripples by a share of their width; along a shell, down
-/// from the surface, fields are smooth. So shells are thin and their cells long, the longer the deeper: against square
-/// cells the same unknowns leave a third of the error (`docs/src/verified/single.md`).
+/// The front of a contact crosses shell after shell, and the force ripples by a share of their width; along a
+/// shell, down from the surface, fields are smooth. So shells are thin and their cells long, the longer the
+/// deeper: against square cells the same unknowns leave a third of the error (`docs/src/verified/single.md`).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Grading {
     /// Width of a shell over its distance from the centre, within the fine zone.
@@ -45,9 +48,9 @@ impl Grading {
     pub(crate) fn rows(&self, kind: ElementKind) -> Vec<f64> {
         let linear = match kind {
             ElementKind::Quad8 => 1.0,
-            ElementKind::Quad4 => LINEAR,
+            ElementKind::Quad4 => LINEAR_PER_QUADRATIC,
         };
-        let first = ROW * (self.fineness * linear).sqrt() / linear;
+        let first = FIRST_ROW_HEIGHT * (self.fineness * linear).sqrt() / linear;
         let rows = divide(0.0, 1.0, &[], |t| first * (1.0 + (ROW_GROWTH - 1.0) * t));
         if rows.len() > 2 { rows } else { vec![0.0, 0.5, 1.0] }
     }
@@ -74,10 +77,11 @@ impl Grading {
     }
 }
 
-/// Divides [from, to] so that elements have about the size `size(x)`; every `kink` strictly inside becomes a node.
+/// Divides [from, to] so that elements have about the size `size(x)`; every `kink` strictly inside becomes a
+/// node.
 ///
-/// Between two kinks the number of elements is ∫dx/size, rounded to at least one, and the nodes lie at equal shares of
-/// that integral. Kinks closer than a third of an element to each other or to an end are left out.
+/// Between two kinks the number of elements is ∫dx/size, rounded to at least one, and the nodes lie at equal
+/// shares of that integral. Kinks closer than a third of an element to each other or to an end are left out.
 pub fn divide(from: f64, to: f64, kinks: &[f64], size: impl Fn(f64) -> f64) -> Vec<f64> {
     let mut stops = vec![from];
     for &kink in kinks {
@@ -147,7 +151,7 @@ mod tests {
         assert_eq!(rows(2.0, ElementKind::Quad8), 2);
         let rows = of(0.02).rows(ElementKind::Quad8);
         let last = rows.len() - 1;
-        assert!((rows[1] / (ROW * 0.02_f64.sqrt()) - 1.0).abs() < 0.1, "{}", rows[1]);
+        assert!((rows[1] / (FIRST_ROW_HEIGHT * 0.02_f64.sqrt()) - 1.0).abs() < 0.1, "{}", rows[1]);
         assert!(((rows[last] - rows[last - 1]) / rows[1] / ROW_GROWTH - 1.0).abs() < 0.15);
         // the column at the end of a core is as wide as the shell beside it
         let columns = of(0.02).columns(3.0, &[]);

@@ -5,7 +5,7 @@ use crate::{Edge, ElementKind, Mesh};
 use std::collections::BTreeSet;
 use std::io::{self, Write};
 
-/// Which two-dimensional idealisation the elements get.
+/// The two-dimensional idealisation of the elements.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Section {
     /// Body of revolution about x = 0: CAX4, CAX8R.
@@ -31,8 +31,8 @@ const PER_LINE: usize = 12;
 
 /// Writes the mesh with its coordinates as they are, in `unit`; nodes and elements count from 1.
 ///
-/// The elements are the set `BODY`; each side that has edges is a node set and an element surface with its name
-/// in capitals.
+/// The elements are the set `BODY`; each side that has edges is a node set and an element surface with its
+/// name in capitals.
 ///
 /// # Errors
 /// A writer that fails.

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-/// Which quadrilateral the cells are.
+/// The kind of quadrilateral of the cells.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ElementKind {
     /// Four corner nodes.
@@ -26,7 +26,7 @@ impl ElementKind {
 pub struct Edge {
     /// Index of the cell.
     pub cell: u32,
-    /// Which of its four sides, 0 to 3.
+    /// The number of its side, 0 to 3.
     pub side: u8,
 }
 
@@ -50,7 +50,8 @@ pub struct Mesh {
     pub kind: ElementKind,
     /// Coordinates (r, z) of the nodes.
     pub nodes: Vec<[f64; 2]>,
-    /// Node indices, `kind.nodes()` to a cell: corners counterclockwise, then the mid-side nodes of sides 0 to 3.
+    /// Node indices, `kind.nodes()` to a cell: corners counterclockwise, then the mid-side nodes of sides 0
+    /// to 3.
     pub cells: Vec<u32>,
     /// Named sides.
     pub sides: Sides,
@@ -110,7 +111,8 @@ impl Mesh {
         extent(self.nodes.iter().copied())
     }
 
-    /// The nodes of an edge: its two corners counterclockwise around the cell, and its mid-side node if there is one.
+    /// The nodes of an edge: its two corners counterclockwise around the cell, and its mid-side node if there
+    /// is one.
     pub fn edge_nodes(&self, edge: Edge) -> ([u32; 2], Option<u32>) {
         let (cell, k) = (self.cell(edge.cell as usize), usize::from(edge.side));
         ([cell[k], cell[(k + 1) % 4]], cell.get(4 + k).copied())

@@ -39,7 +39,7 @@ pub struct Asperity {
 }
 
 impl Asperity {
-    /// How far the surface lies below the summit at the distance `x` from it, on the asperity continued for ever.
+    /// Depth of the surface below the summit at the distance `x` from it, on the asperity continued for ever.
     pub fn drop(&self, x: f64) -> f64 {
         match &self.shape {
             Shape::Sphere { radius } => cap_drop(*radius, x.abs()),
@@ -53,7 +53,8 @@ impl Asperity {
         }
     }
 
-    /// Half width where the asperity continued for ever is cut at `depth` below its summit, on the side where it is wider.
+    /// Half width where the asperity continued for ever is cut at `depth` below its summit, on the side where
+    /// it is wider.
     pub fn half_width(&self, depth: f64) -> f64 {
         let cap_width = |radius: f64| {
             let depth = depth.min(radius);
@@ -91,7 +92,8 @@ impl Asperity {
         }
     }
 
-    /// Radius of the tangent circle between tip and flank, 0 for a sharp tip and where there is no such circle.
+    /// Radius of the tangent circle between tip and flank, 0 for a sharp tip and where there is no such
+    /// circle.
     pub fn cap_radius(&self) -> f64 {
         match self.shape {
             Shape::Sphere { .. } | Shape::Measured(_) => 0.0,
@@ -99,8 +101,8 @@ impl Asperity {
         }
     }
 
-    /// Slope (tangent) at the edge of a contact of the half width `width`, as the estimates before a run take it; of a measured
-    /// outline at least that of the chord to its summit.
+    /// Slope (tangent) at the edge of a contact of the half width `width`, as the estimates before a run take
+    /// it; of a measured outline at least that of the chord to its summit.
     pub fn slope_at(&self, width: f64) -> f64 {
         match &self.shape {
             Shape::Cone { tan_slope, tip_radius } if *tip_radius > 0.0 => tan_slope.min(width / tip_radius),
@@ -108,7 +110,7 @@ impl Asperity {
             Shape::Sphere { radius } => width / radius,
             Shape::Measured(outline) => {
                 let at = |x: f64| {
-                    let [drop, slope] = outline.at(x);
+                    let [drop, slope] = outline.drop_and_slope(x);
                     slope.abs().max(drop / width)
                 };
                 at(width).min(at(-width)).max(outline.depth_at(width).min(outline.depth_at(-width)) / width)
@@ -125,8 +127,8 @@ impl Asperity {
         }
     }
 
-    /// The asperity with its tip cut off by an arc of at least the half width `width`: its flanks stay where they are, its summit is
-    /// lower. Spheres and measured outlines stay as they are.
+    /// The asperity with its tip cut off by an arc of at least the half width `width`: its flanks stay where
+    /// they are, its summit is lower. Spheres and measured outlines stay as they are.
     #[must_use]
     pub fn blunted(&self, width: f64) -> Asperity {
         match self.shape {
@@ -145,7 +147,7 @@ impl Asperity {
 
     /// The asperity with every length over `length`.
     #[must_use]
-    pub fn over(&self, length: f64) -> Asperity {
+    pub fn in_units_of(&self, length: f64) -> Asperity {
         let shape = match &self.shape {
             Shape::Cone { tan_slope, tip_radius } => {
                 Shape::Cone { tan_slope: *tan_slope, tip_radius: tip_radius / length }
@@ -201,8 +203,8 @@ impl Valley {
 pub struct Profile {
     /// In order from the axis (left) outward; may be empty: a flat surface.
     pub asperities: Vec<Asperity>,
-    /// The surface between the outer feet of the asperities where it was measured as one line, seen from the highest summit;
-    /// beyond its ends it is level. `None`: the asperities stand on the base plane.
+    /// The surface between the outer feet of the asperities where it was measured as one line, seen from the
+    /// highest summit; beyond its ends it is level. `None`: the asperities stand on the base plane.
     pub line: Option<Arc<Outline>>,
 }
 
@@ -247,7 +249,8 @@ impl Profile {
             .collect()
     }
 
-    /// Widths that the fillet of asperity `index` takes from its own flank and from what follows; `None` if sharp.
+    /// Widths that the fillet of asperity `index` takes from its own flank and from what follows; `None` if
+    /// sharp.
     pub fn valley_reach(&self, index: usize) -> Option<[f64; 2]> {
         let a = self.asperities.get(index)?;
         let foot = a.centre + a.half_width(a.height);
@@ -257,7 +260,8 @@ impl Profile {
         Some([length * valley.angles[0].cos(), length * valley.angles[1].cos()])
     }
 
-    /// Where the slope jumps or the curvature does: summits, edges of caps, feet of flanks, valleys; in order.
+    /// The places at which the slope jumps or the curvature does: summits, edges of caps, feet of flanks,
+    /// valleys; in order.
     pub fn kinks(&self) -> Vec<f64> {
         let mut kinks: Vec<f64> = self
             .asperities

@@ -1,11 +1,12 @@
-//! How well shaped the cells of a mesh are.
+//! Shape quality of the cells of a mesh.
 
 use crate::{ElementKind, Mesh};
 
 /// Shape and size of the cells. Lengths in the unit of the mesh.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Quality {
-    /// Smallest scaled Jacobian over all corners: 1 for a rectangle, 0 for a corner that is flat, below 0 folded.
+    /// Smallest scaled Jacobian over all corners: 1 for a rectangle, 0 for a corner that is flat, below 0
+    /// folded.
     pub min_scaled_jacobian: f64,
     /// Smallest angle at a corner, degrees.
     pub min_angle_deg: f64,
@@ -64,7 +65,8 @@ impl Mesh {
         [0, 1, 2, 3].map(|k| [tangents[k].0, tangents[(k + 3) % 4].1.map(|v| -v)])
     }
 
-    /// Smallest scaled Jacobian of the corners of a cell with the nodes at `nodes` instead of their own places.
+    /// Smallest scaled Jacobian of the corners of a cell with the nodes at `nodes` instead of their own
+    /// places.
     pub fn sharpest_corner(&self, nodes: &[[f64; 2]], cell: usize) -> f64 {
         self.corners(nodes, self.cell(cell)).map(scaled_jacobian).into_iter().fold(f64::INFINITY, f64::min)
     }

@@ -2,12 +2,13 @@
 //!
 //! Least sum over the corners of
 //!   μ = |T|² / 2χ + ½ (χ + 1/χ),   T = [a/A  b/B],   χ = ½ (τ + √(τ² + 4δ²)),   τ = det T,
-//! with a and b the sides that leave the corner, A and B their first lengths. The first part is least where the sides are
-//! perpendicular and as long, one to the other, as they were first, the second where the cell is as large. χ lets a corner that is
-//! inside out come back; δ falls to almost 0.
+//! with a and b the sides that leave the corner, A and B their first lengths. The first part is least where
+//! the sides are perpendicular and as long, one to the other, as they were first, the second where the cell
+//! is as large. χ lets a corner that is inside out come back; δ falls to almost 0.
 //!
-//! Source: P. Knupp, Algebraic mesh quality metrics, SIAM J. Sci. Comput. 23 (2001); χ from J. Escobar et al., Simultaneous
-//! untangling and smoothing of tetrahedral meshes, Comput. Methods Appl. Mech. Engrg. 192 (2003).
+//! Source: P. Knupp, Algebraic mesh quality metrics, SIAM J. Sci. Comput. 23 (2001); χ from J. Escobar et
+//! al., Simultaneous untangling and smoothing of tetrahedral meshes, Comput. Methods Appl. Mech. Engrg. 192
+//! (2003).
 
 use crate::{ElementKind, Mesh};
 
@@ -18,9 +19,9 @@ const ROUNDS: [(f64, usize); 5] = [(0.5, 10), (0.2, 10), (0.05, 20), (0.01, 20),
 const HALVINGS: usize = 12;
 
 /// Shares of a side by which nodes still move when a round ends.
-const SETTLED: f64 = 0.02;
+const SETTLED_MOVE: f64 = 0.02;
 
-/// How a node may move.
+/// The way a node may move.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Freedom {
     /// Not at all.
@@ -31,7 +32,8 @@ pub enum Freedom {
     Full,
 }
 
-/// A corner of a cell: its node, and those at the ends of the sides that leave it counterclockwise and clockwise.
+/// A corner of a cell: its node, and those at the ends of the sides that leave it counterclockwise and
+/// clockwise.
 #[derive(Clone, Copy, Debug)]
 struct Corner {
     nodes: [u32; 3],
@@ -111,8 +113,9 @@ fn step(
     if far > size { newton.map(|x| x * size / far) } else { newton }
 }
 
-/// Moves the corner nodes that are free to where the cells of `mesh` have the best shape, beginning at `places`; `freedom` is that of
-/// each node. Lengths in the unit of the mesh. Sides that were inside out may stay so.
+/// Moves the corner nodes that are free to where the cells of `mesh` have the best shape, beginning at
+/// `places`; `freedom` is that of each node. Lengths in the unit of the mesh. Sides that were inside out may
+/// stay so.
 pub fn improve(mesh: &Mesh, places: &mut [[f64; 2]], freedom: &[Freedom]) {
     let mut around: Vec<Around> = vec![Vec::new(); mesh.nodes.len()];
     let length = |a: u32, b: u32| {
@@ -153,15 +156,15 @@ pub fn improve(mesh: &Mesh, places: &mut [[f64; 2]], freedom: &[Freedom]) {
                 }
                 farthest = farthest.max((places[node][0] - at[0]).hypot(places[node][1] - at[1]) / size);
             }
-            if farthest < SETTLED {
+            if farthest < SETTLED_MOVE {
                 break;
             }
         }
     }
 }
 
-/// Puts the mid-side nodes of sides whose ends are no longer where they were `before` halfway between them, except those of `on_surface`.
-/// All are by the number of the node.
+/// Puts the mid-side nodes of sides whose ends are no longer where they were `before` halfway between them,
+/// except those of `on_surface`. All are by the number of the node.
 pub fn straighten(mesh: &Mesh, before: &[[f64; 2]], on_surface: &[bool], places: &mut [[f64; 2]]) {
     if mesh.kind != ElementKind::Quad8 {
         return;
@@ -223,7 +226,7 @@ mod tests {
         freedom[4] = Freedom::Full;
         improve(&mesh, &mut places, &freedom);
         let far = (places[4][0] - 1.0).hypot(places[4][1] - 1.0);
-        assert!(far < SETTLED, "{:?}", places[4]);
+        assert!(far < SETTLED_MOVE, "{:?}", places[4]);
         assert_eq!(places[..4], mesh.nodes[..4]);
     }
 }

@@ -19,7 +19,7 @@ pub struct FieldArray {
     pub values: Vec<f64>,
 }
 
-/// Why a VTU was not written.
+/// The reason why a VTU was not written.
 #[derive(Debug, thiserror::Error)]
 pub enum VtuError {
     /// An array does not fit the mesh.
@@ -43,7 +43,8 @@ pub enum VtuError {
     Io(#[from] std::io::Error),
 }
 
-/// Writes `mesh` with its coordinates times `scale`, arrays on nodes and cells, and numbers of the whole state, to `out`.
+/// Writes `mesh` with its coordinates times `scale`, arrays on nodes and cells, and numbers of the whole
+/// state, to `out`.
 ///
 /// The section lies in the plane z = 0 of VTK: x is r, y is the height; vectors of two components get a third
 /// that is 0. Quadratic cells stay quadratic; the data are zlib-compressed.

@@ -1,8 +1,8 @@
 //! Bisection: the place at which a condition ceases to hold.
 
-/// Halves the interval between `ends` so many times, towards where `is_below` turns from true to false on the way from the first end to
-/// the second, and returns the ends of what is left. Neither end is asked: where the condition holds all along, the second end stays,
-/// and where it holds nowhere the first.
+/// Halves the interval between `ends` so many times, towards where `is_below` turns from true to false on the
+/// way from the first end to the second, and returns the ends of what is left. Neither end is asked: where
+/// the condition holds all along, the second end stays, and where it holds nowhere the first.
 ///
 /// ```
 /// use asperity_numerics::bisection::bisect;

@@ -1,5 +1,6 @@
-//! Numbers that a formula is written for once: one `f64`, or four of them side by side, which the compiler puts into the vector
-//! registers of whatever processor it compiles for. The bits are the same on all: no product is fused with a sum.
+//! Numbers that a formula is written for once: one `f64`, or four of them side by side, which the compiler
+//! puts into the vector registers of whatever processor it compiles for. The bits are the same on all: no
+//! product is fused with a sum.
 //!
 //! ```
 //! use asperity_numerics::lanes::{Lanes, Real};
@@ -14,8 +15,8 @@
 
 use std::ops::{Add, AddAssign, BitAnd, Div, Mul, Neg, Sub, SubAssign};
 
-/// Real numbers, one or several, with what the formulas of a material point need. Several never look at one another: each lane has
-/// the bits it would have alone.
+/// Real numbers, one or several, with what the formulas of a material point need. Several never look at one
+/// another: each lane has the bits it would have alone.
 pub trait Real:
     Copy
     + Add<Output = Self>
@@ -32,7 +33,7 @@ pub trait Real:
 {
     /// The answer to a comparison, lane by lane.
     type Mask: Copy + BitAnd<Output = Self::Mask>;
-    /// How many numbers it is.
+    /// The number of its lanes.
     const LANES: usize;
     /// The numbers `of(lane)`.
     fn each(of: impl FnMut(usize) -> f64) -> Self;
@@ -52,19 +53,19 @@ pub trait Real:
     /// x to the power `n` for x ≥ ½, good to n ln x units of the last place.
     fn powf(self, n: f64) -> Self;
     /// x > y; false where one is not a number.
-    fn above(self, y: Self) -> Self::Mask;
+    fn is_above(self, y: Self) -> Self::Mask;
     /// `yes` where `mask` holds, else `no`.
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
     /// The mask of these truths.
     fn mask(of: impl FnMut(usize) -> bool) -> Self::Mask;
-    /// Whether `mask` holds in `lane`.
+    /// True where `mask` holds in `lane`.
     fn holds(mask: Self::Mask, lane: usize) -> bool;
-    /// Whether `mask` holds in some lane.
+    /// True where `mask` holds in some lane.
     #[inline(always)]
     fn any(mask: Self::Mask) -> bool {
         (0..Self::LANES).any(|lane| Self::holds(mask, lane))
     }
-    /// Whether `mask` holds in every lane.
+    /// True where `mask` holds in every lane.
     #[inline(always)]
     fn all(mask: Self::Mask) -> bool {
         (0..Self::LANES).all(|lane| Self::holds(mask, lane))
@@ -72,7 +73,7 @@ pub trait Real:
     /// The larger of two.
     #[inline(always)]
     fn max(self, y: Self) -> Self {
-        Self::select(self.above(y), self, y)
+        Self::select(self.is_above(y), self, y)
     }
     /// The absolute value.
     #[inline(always)]
@@ -109,7 +110,7 @@ impl Real for f64 {
         self.powf(n)
     }
     #[inline(always)]
-    fn above(self, y: f64) -> bool {
+    fn is_above(self, y: f64) -> bool {
         self > y
     }
     #[inline(always)]
@@ -238,10 +239,11 @@ const TWO_52: f64 = 4_503_599_627_370_496.0;
 
 /// Bits of √½, of 1 and of the fraction of a number.
 const HALF_ROOT: u64 = 0x3fe6_a09e_667f_3bcd;
-const ONE: u64 = 0x3ff0_0000_0000_0000;
-const FRACTION: u64 = 0x000f_ffff_ffff_ffff;
+const ONE_BITS: u64 = 0x3ff0_0000_0000_0000;
+const FRACTION_BITS: u64 = 0x000f_ffff_ffff_ffff;
 
-/// (ln(1 + f) - f + ½f²)/s in s² with s = f/(2 + f), least largest error for 1 + f in [√½, √2] (fdlibm, e_log.c).
+/// (ln(1 + f) - f + ½f²)/s in s² with s = f/(2 + f), least largest error for 1 + f in [√½, √2] (fdlibm,
+/// e_log.c).
 const LOGARITHM: [f64; 7] = [
     6.666_666_666_666_735e-1,
     3.999_999_999_940_942e-1,
@@ -296,14 +298,15 @@ impl Real for Lanes {
     fn sqrt(self) -> Lanes {
         Lanes(four!(i => self.0[i].sqrt()))
     }
-    /// 1 + x = 2ᵏ (1 + f) with 1 + f in [√½, √2]; what the sum 1 + x rounds away is put back (fdlibm, s_log1p.c).
+    /// 1 + x = 2ᵏ (1 + f) with 1 + f in [√½, √2]; what the sum 1 + x rounds away is put back (fdlibm,
+    /// s_log1p.c).
     #[inline(always)]
     fn ln_1p(self) -> Lanes {
         let sum = self + 1.0;
-        let shifted = four!(i => sum.0[i].to_bits().wrapping_add(ONE - HALF_ROOT));
+        let shifted = four!(i => sum.0[i].to_bits().wrapping_add(ONE_BITS - HALF_ROOT));
         let k = Lanes(four!(i => f64::from_bits((shifted[i] >> 52) | TWO_52.to_bits()))) - (TWO_52 + 1023.0);
         let reduced =
-            Lanes(four!(i => f64::from_bits((shifted[i] & FRACTION).wrapping_add(HALF_ROOT)))) - 1.0;
+            Lanes(four!(i => f64::from_bits((shifted[i] & FRACTION_BITS).wrapping_add(HALF_ROOT)))) - 1.0;
         let near = Mask(four!(i => bits(k.0[i] == 0.0)));
         let f = Lanes::select(near, self, reduced);
         let lost = Lanes::select(near, Lanes::splat(0.0), (self - (sum - 1.0)) / sum);
@@ -328,7 +331,7 @@ impl Real for Lanes {
         ((self - 1.0).ln_1p() * n).exp_m1() + 1.0
     }
     #[inline(always)]
-    fn above(self, y: Lanes) -> Mask {
+    fn is_above(self, y: Lanes) -> Mask {
         Mask(four!(i => bits(self.0[i] > y.0[i])))
     }
     #[inline(always)]

@@ -3,9 +3,10 @@
 use nalgebra::{SMatrix, SVector};
 
 /// A pivot below this share of its diagonal entry is rounding: the columns depend on each other.
-const DEPENDENT: f64 = 1e-12;
+const DEPENDENT_PIVOT: f64 = 1e-12;
 
-/// Coefficients that minimise Σ w (y - Σ_k c_k b_k)², `columns` numbers b per row; `None` if the columns are dependent.
+/// Coefficients that minimise Σ w (y - Σ_k c_k b_k)², `columns` numbers b per row; `None` if the columns are
+/// dependent.
 pub fn solve<const N: usize>(rows: &[([f64; N], f64, f64)]) -> Option<[f64; N]> {
     let mut normal = SMatrix::<f64, N, N>::zeros();
     let mut rhs = SVector::<f64, N>::zeros();
@@ -15,7 +16,7 @@ pub fn solve<const N: usize>(rows: &[([f64; N], f64, f64)]) -> Option<[f64; N]> 
         rhs += *weight * *y * basis;
     }
     let factor = normal.cholesky()?;
-    let independent = (0..N).all(|i| factor.l_dirty()[(i, i)].powi(2) > DEPENDENT * normal[(i, i)]);
+    let independent = (0..N).all(|i| factor.l_dirty()[(i, i)].powi(2) > DEPENDENT_PIVOT * normal[(i, i)]);
     independent.then(|| factor.solve(&rhs).into())
 }
 
@@ -30,7 +31,7 @@ pub struct Line {
 
 impl Line {
     /// Through points (x, y), all with the same weight; NaN of fewer than two different x.
-    pub fn through(points: &[[f64; 2]]) -> Line {
+    pub fn fit(points: &[[f64; 2]]) -> Line {
         let n = points.len() as f64;
         let mean = |k: usize| points.iter().map(|p| p[k]).sum::<f64>() / n;
         let (x, y) = (mean(0), mean(1));
@@ -56,10 +57,11 @@ pub fn powers<const N: usize>(u: f64) -> [f64; N] {
 }
 
 /// A column of which a smaller share than this is left beside the earlier ones is rounding.
-const ROUNDING: f64 = 1e-12;
+const ROUNDING_NORM: f64 = 1e-12;
 
-/// A least-squares problem to which columns are added one after the other, each made orthogonal to those before it: a column
-/// that depends on them is refused, and what an added one gains is known without solving anew.
+/// A least-squares problem to which columns are added one after the other, each made orthogonal to those
+/// before it: a column that depends on them is refused, and what an added one gains is known without solving
+/// anew.
 #[derive(Clone, Debug, Default)]
 pub struct Columns {
     own: Vec<Vec<f64>>,
@@ -106,7 +108,7 @@ impl Columns {
     pub fn add(&mut self, column: Vec<f64>, least: f64) -> bool {
         let mut rest = self.remainder(&column);
         let (left, all) = (dot(&rest, &rest), dot(&column, &column));
-        if left.is_nan() || left <= least.max(ROUNDING) * all {
+        if left.is_nan() || left <= least.max(ROUNDING_NORM) * all {
             return false;
         }
         rest.iter_mut().for_each(|r| *r /= left.sqrt());
@@ -115,8 +117,8 @@ impl Columns {
         true
     }
 
-    /// Mean square of the error with which `y` of each row is foretold by the fit to all other rows (Allen's PRESS): unlike the
-    /// residual, it grows again where columns fit what is chance.
+    /// Mean square of the error with which `y` of each row is foretold by the fit to all other rows (Allen's
+    /// PRESS): unlike the residual, it grows again where columns fit what is chance.
     pub fn left_out_error(&self, y: &[f64]) -> f64 {
         let rest = self.remainder(y);
         let error = |i: usize| {

@@ -1,8 +1,8 @@
 //! Newton-Raphson with a line search, for any system that can say how far from zero it is.
 
-/// Why a solve failed. The caller takes a smaller step.
+/// The reason why a solve failed. The caller takes a smaller step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum Failure<E> {
+pub enum NewtonError<E> {
     /// The system could not be assessed or its tangent not be factorised, however short the step.
     #[error("{0}")]
     System(E),
@@ -14,35 +14,37 @@ pub enum Failure<E> {
     NotFinite,
 }
 
-impl<E> From<E> for Failure<E> {
+impl<E> From<E> for NewtonError<E> {
     fn from(error: E) -> Self {
-        Failure::System(error)
+        NewtonError::System(error)
     }
 }
 
-/// How far an iterate is from a solution.
+/// The distance of an iterate from a solution.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Assessment {
     /// Norm of the residual.
     pub residual: f64,
     /// Force that the residual is compared with, in the same unit.
     pub scale: f64,
-    /// Whether anything discrete changed since the last iterate: then a small residual is not yet convergence.
+    /// True where anything discrete changed since the last iterate: then a small residual is not yet
+    /// convergence.
     pub changed: bool,
 }
 
 /// A nonlinear system with a current iterate.
 pub trait System {
-    /// Why an iterate cannot be assessed or its tangent not be factorised.
+    /// The reason why an iterate cannot be assessed or its tangent not be factorised.
     type Error;
-    /// Residual at the iterate; with `tangent` also what [`System::renew`] will need there, which is then cheaper.
+    /// Residual at the iterate; with `tangent` also what [`System::renew`] will need there, which is then
+    /// cheaper.
     fn assess(&mut self, tangent: bool) -> Result<Assessment, Self::Error>;
     /// Factorises the tangent at the last assessed iterate.
     fn renew(&mut self) -> Result<(), Self::Error>;
-    /// Whether there are factors of an earlier iterate that are worth a try.
+    /// True where there are factors of an earlier iterate that are worth a try.
     fn has_factors(&self) -> bool;
-    /// Whether they are of another branch than that of the last assessed iterate: its tangent is not close to theirs, however near
-    /// it lies.
+    /// True where they are of another branch than that of the last assessed iterate: its tangent is not close
+    /// to theirs, however near it lies.
     fn factors_are_stale(&self) -> bool;
     /// Drops them.
     fn forget(&mut self);
@@ -50,7 +52,8 @@ pub trait System {
     fn find_direction(&mut self);
     /// Derivative of the potential along the direction at the last assessed iterate: residual · direction.
     fn slope(&self) -> f64;
-    /// Moves the iterate by `fraction` of the direction from where the direction was found; 0 goes back there.
+    /// Moves the iterate by `fraction` of the direction from where the direction was found; 0 goes back
+    /// there.
     fn advance(&mut self, fraction: f64);
 }
 
@@ -61,8 +64,9 @@ pub struct Settings {
     pub tolerance: f64,
     /// Iterations after which it is given up.
     pub max_iterations: usize,
-    /// Factors are kept while a step leaves at most this share of the residual and stays on their branch: an old tangent
-    /// corrected by secants costs a fraction of a new one. 0: a new tangent in every iteration, Newton-Raphson in the strict sense.
+    /// Factors are kept while a step leaves at most this share of the residual and stays on their branch: an
+    /// old tangent corrected by secants costs a fraction of a new one. 0: a new tangent in every iteration,
+    /// Newton-Raphson in the strict sense.
     pub keep: f64,
 }
 
@@ -78,11 +82,11 @@ pub struct Converged {
 /// [`Settings::keep`] of the runs of scenes and of calibrated cones: 0.1 to 0.7 take the same time within 2 %.
 pub const KEPT_FACTORS_REDUCTION: f64 = 0.2;
 
-/// How closely a step looks for the least potential along its direction.
+/// The care with which a step looks for the least potential along its direction.
 #[derive(Clone, Copy)]
 struct LineSearch {
-    /// An iterate is too far along the direction when the slope of the potential there is this share of the slope at
-    /// the start, with the opposite sign.
+    /// An iterate is too far along the direction when the slope of the potential there is this share of the
+    /// slope at the start, with the opposite sign.
     overshoot: f64,
     /// Fraction of the direction below which nothing better is looked for.
     smallest: f64,
@@ -99,20 +103,23 @@ const LINE_SEARCH_PATIENCE: usize = 15;
 
 /// Solves `system`.
 ///
-/// 1. assess; after one iteration at least, converged when residual ≤ tolerance × scale and nothing discrete changed;
-/// 2. factorise the tangent, unless the last step did well enough without (see [`Settings::keep`]); find the direction;
-/// 3. with a new tangent: full step, shortened by regula falsi on the slope of the potential while it overshoots, halved
-///    while the iterate fails, and closely so once the iterations are many. Not after the first iteration, in which the
-///    system may still be a simplified one;
-/// 4. with a kept one: full step. If it overshoots or leaves a larger residual it is taken back, and from there on every
-///    iteration has a new tangent, so that hard increments are solved by Newton-Raphson in the strict sense.
+/// 1. assess; after one iteration at least, converged when residual ≤ tolerance × scale and nothing discrete
+///    changed;
+/// 2. factorise the tangent, unless the last step did well enough without (see [`Settings::keep`]); find the
+///    direction;
+/// 3. with a new tangent: full step, shortened by regula falsi on the slope of the potential while it
+///    overshoots, halved while the iterate fails, and closely so once the iterations are many. Not after the
+///    first iteration, in which the system may still be a simplified one;
+/// 4. with a kept one: full step. If it overshoots or leaves a larger residual it is taken back, and from
+///    there on every iteration has a new tangent, so that hard increments are solved by Newton-Raphson in the
+///    strict sense.
 ///
 /// # Errors
-/// Why it failed, and the iterations spent on it.
+/// The reason why it failed, and the iterations spent on it.
 pub fn solve<S: System>(
     system: &mut S,
     settings: &Settings,
-) -> Result<Converged, (Failure<S::Error>, usize)> {
+) -> Result<Converged, (NewtonError<S::Error>, usize)> {
     let outcome = iterate(system, settings);
     if outcome.is_err() {
         // factors of a lost iterate
@@ -121,14 +128,17 @@ pub fn solve<S: System>(
     outcome
 }
 
-fn iterate<S: System>(system: &mut S, settings: &Settings) -> Result<Converged, (Failure<S::Error>, usize)> {
+fn iterate<S: System>(
+    system: &mut S,
+    settings: &Settings,
+) -> Result<Converged, (NewtonError<S::Error>, usize)> {
     let mut keep = settings.keep;
     let mut renew = keep == 0.0 || !system.has_factors();
     let mut last = system.assess(renew).map_err(|f| (f.into(), 0))?;
     let mut history = vec![last.residual / last.scale];
     for iteration in 1..=settings.max_iterations {
         if !last.residual.is_finite() {
-            return Err((Failure::NotFinite, iteration));
+            return Err((NewtonError::NotFinite, iteration));
         }
         let line = match iteration {
             1 => None,
@@ -157,12 +167,12 @@ fn iterate<S: System>(system: &mut S, settings: &Settings) -> Result<Converged, 
         }
         renew = keep == 0.0 || last.residual > keep * before || system.factors_are_stale();
     }
-    Err((Failure::NotConverged, settings.max_iterations))
+    Err((NewtonError::NotConverged, settings.max_iterations))
 }
 
 impl LineSearch {
-    /// Share of the step at which the potential would be least, if the step goes too far beyond it. `start` and `end` are
-    /// the slopes of the potential at its ends.
+    /// Share of the step at which the potential would be least, if the step goes too far beyond it. `start`
+    /// and `end` are the slopes of the potential at its ends.
     fn shorten(self, start: f64, end: f64) -> Option<f64> {
         (start < 0.0 && end > -self.overshoot * start).then(|| start / (start - end))
     }

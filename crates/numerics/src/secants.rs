@@ -1,9 +1,10 @@
-//! Secant pairs that correct an older factorisation: limited-memory BFGS with the factors as the first matrix.
+//! Secant pairs that correct an older factorisation: limited-memory BFGS with the factors as the first
+//! matrix.
 //!
-//! After a step s the residual changed by y ≈ K s, whatever the tangent does in between (yielding, new contact). The two loops
-//! of Nocedal & Wright (Numerical Optimization, 2nd ed., algorithm 7.4) give the direction of the tangent that satisfies
-//! the last pairs; Matthies & Strang (1979) brought it to finite elements. A pair costs four products of vectors, where
-//! new factors cost an assembly and a factorisation.
+//! After a step s the residual changed by y ≈ K s, whatever the tangent does in between (yielding, new
+//! contact). The two loops of Nocedal & Wright (Numerical Optimization, 2nd ed., algorithm 7.4) give the
+//! direction of the tangent that satisfies the last pairs; Matthies & Strang (1979) brought it to finite
+//! elements. A pair costs four products of vectors, where new factors cost an assembly and a factorisation.
 
 use crate::vectors::dot;
 
@@ -74,8 +75,8 @@ impl Secants {
 mod tests {
     use super::*;
 
-    /// Any first matrix: with the pairs of a quadratic potential the last one is met exactly, and in two dimensions
-    /// two conjugate steps give its inverse.
+    /// Any first matrix: with the pairs of a quadratic potential the last one is met exactly, and in two
+    /// dimensions two conjugate steps give its inverse.
     #[test]
     fn the_last_pair_is_met() {
         let k = [[4.0, 1.0], [1.0, 3.0]];

@@ -1,11 +1,11 @@
-//! Sobol's sequence with the direction numbers of Joe and Kuo (SIAM J. Sci. Comput. 30, 2008, file new-joe-kuo-6.21201),
-//! in the order of the Gray code (Antonov and Saleev 1979).
+//! Sobol's sequence with the direction numbers of Joe and Kuo (SIAM J. Sci. Comput. 30, 2008, file
+//! new-joe-kuo-6.21201), in the order of the Gray code (Antonov and Saleev 1979).
 
 /// Bits of a coordinate.
 const BITS: usize = 32;
 
-/// Degree s, inner coefficients a, and first odd numbers m_1 to m_s of the primitive polynomial of each dimension from
-/// the second.
+/// Degree s, inner coefficients a, and first odd numbers m_1 to m_s of the primitive polynomial of each
+/// dimension from the second.
 const POLYNOMIALS: [(usize, u32, &[u32]); 20] = [
     (1, 0, &[1]),
     (2, 1, &[1, 3]),
@@ -30,7 +30,7 @@ const POLYNOMIALS: [(usize, u32, &[u32]); 20] = [
 ];
 
 /// Largest number of dimensions.
-pub const MOST: usize = POLYNOMIALS.len() + 1;
+pub const MAX_DIMENSIONS: usize = POLYNOMIALS.len() + 1;
 
 /// The sequence in so many dimensions.
 #[derive(Clone, Debug)]
@@ -42,11 +42,12 @@ pub struct Sobol {
 impl Sobol {
     /// `None` for more dimensions than there are numbers for.
     pub fn new(dimensions: usize) -> Option<Sobol> {
-        (dimensions <= MOST).then(|| Sobol { directions: (0..dimensions).map(directions).collect() })
+        (dimensions <= MAX_DIMENSIONS)
+            .then(|| Sobol { directions: (0..dimensions).map(directions).collect() })
     }
 
     /// Coordinate of point `i` along `dimension`, from 0 to below 1.
-    pub fn at(&self, dimension: usize, i: usize) -> f64 {
+    pub fn coordinate(&self, dimension: usize, i: usize) -> f64 {
         let gray = i ^ (i >> 1);
         let directions = &self.directions[dimension];
         let bits = (0..BITS).filter(|bit| gray >> bit & 1 == 1).fold(0, |x, bit| x ^ directions[bit]);
@@ -73,16 +74,17 @@ fn directions(dimension: usize) -> [u32; BITS] {
 mod tests {
     use super::*;
 
-    /// The points that scipy 1.17.1 gives, `qmc.Sobol(21, scramble=False)`: the first four, of some dimensions.
+    /// The points that scipy 1.17.1 gives, `qmc.Sobol(21, scramble=False)`: the first four, of some
+    /// dimensions.
     #[test]
     fn the_first_points_are_those_of_the_published_numbers() {
-        let sobol = Sobol::new(MOST).unwrap();
-        let point = |i: usize| [0, 1, 2, 3, 6, 20].map(|d| sobol.at(d, i));
+        let sobol = Sobol::new(MAX_DIMENSIONS).unwrap();
+        let point = |i: usize| [0, 1, 2, 3, 6, 20].map(|d| sobol.coordinate(d, i));
         assert_eq!(point(0), [0.0; 6]);
         assert_eq!(point(1), [0.5; 6]);
         assert_eq!(point(2), SCIPY[0]);
         assert_eq!(point(3), SCIPY[1]);
-        assert_eq!([0, 5, 20].map(|d| sobol.at(d, 1000)), SCIPY_1000);
+        assert_eq!([0, 5, 20].map(|d| sobol.coordinate(d, 1000)), SCIPY_1000);
     }
 
     const SCIPY: [[f64; 6]; 2] = [[0.75, 0.25, 0.25, 0.25, 0.25, 0.25], [0.25, 0.75, 0.75, 0.75, 0.75, 0.75]];
@@ -91,12 +93,13 @@ mod tests {
     /// Of 2^m points one lies in each of 2^m equal parts of every dimension.
     #[test]
     fn every_part_of_every_dimension_holds_one_point() {
-        let sobol = Sobol::new(MOST).unwrap();
-        for dimension in 0..MOST {
-            let mut parts: Vec<usize> = (0..256).map(|i| (sobol.at(dimension, i) * 256.0) as usize).collect();
+        let sobol = Sobol::new(MAX_DIMENSIONS).unwrap();
+        for dimension in 0..MAX_DIMENSIONS {
+            let mut parts: Vec<usize> =
+                (0..256).map(|i| (sobol.coordinate(dimension, i) * 256.0) as usize).collect();
             parts.sort_unstable();
             assert_eq!(parts, (0..256).collect::<Vec<_>>(), "{dimension}");
         }
-        assert!(Sobol::new(MOST + 1).is_none());
+        assert!(Sobol::new(MAX_DIMENSIONS + 1).is_none());
     }
 }

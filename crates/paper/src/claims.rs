@@ -9,7 +9,7 @@ use crate::table1::{self, ClosureSeeds, Seeds};
 use asperity::calibrate::{AngleFit, Fit};
 use asperity::crush::{Island, Summary};
 use asperity::page::format::{Spread, listed, significant, with_deviation};
-use asperity::roughness::{Closure, PUBLISHED};
+use asperity::roughness::{Closure, PUBLISHED_COEFFICIENT};
 use serde::Serialize;
 
 /// The fate of a claim.
@@ -43,7 +43,7 @@ impl Verdict {
 pub struct Claim {
     /// Figure or table it belongs to.
     pub item: &'static str,
-    /// Where the paper says it.
+    /// The place where the paper says it.
     pub place: &'static str,
     /// The claim itself.
     pub claim: String,
@@ -51,7 +51,7 @@ pub struct Claim {
     pub ours: String,
     /// The verdict.
     pub verdict: Verdict,
-    /// Why, where there is more to say.
+    /// The reason, where there is more to say.
     pub why: String,
 }
 
@@ -81,7 +81,7 @@ pub(super) fn claims(results: &Results) -> Vec<Claim> {
     claims
 }
 
-/// Whether values go up, or down.
+/// True where values go up, or down.
 fn rises(values: &[f64]) -> bool {
     values.windows(2).all(|w| w[1] > w[0])
 }
@@ -183,13 +183,13 @@ fn strain(fit: &Fit) -> Vec<Claim> {
             "An assumption of the paper, not a consequence of the π theorem; what is left is the scatter.",
         ));
     }
-    let [least, most] = [PUBLISHED - 0.005, PUBLISHED + 0.005];
+    let [least, most] = [PUBLISHED_COEFFICIENT - 0.005, PUBLISHED_COEFFICIENT + 0.005];
     if let (Some(c), Some(mean), Some([low, high]), Some([least_c, most_c])) =
         (fit.coefficient_least_squares, fit.coefficient_mean_ratio, fit.ci95, fit.model_interval)
     {
         claims.push(Claim::new(
             ("fig8", "eq. [9]"),
-            format!("εr = {PUBLISHED} tan β"),
+            format!("εr = {PUBLISHED_COEFFICIENT} tan β"),
             format!(
                 "c = {c:.4} by least squares, {mean:.4} as mean of εr/tan β, from {} cases; interval of the arithmetic {low:.3} to {high:.3}, of the choice of metals and slopes {least_c:.3} to {most_c:.3}",
                 fit.cases
@@ -209,7 +209,7 @@ fn strain(fit: &Fit) -> Vec<Claim> {
             ("fig8", "eq. [9]"),
             "one coefficient holds from 1° to 10°",
             format!(
-                "εr/tan β goes from {:.3} at {}° to {:.3} at {}°; {PUBLISHED} ± 0.005 meets our interval at {inside} of {} slopes",
+                "εr/tan β goes from {:.3} at {}° to {:.3} at {}°; {PUBLISHED_COEFFICIENT} ± 0.005 meets our interval at {inside} of {} slopes",
                 first.1, first.0, last.1, last.0, ratios.len()
             ),
             inside == ratios.len(),

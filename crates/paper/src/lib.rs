@@ -1,8 +1,8 @@
 #![doc = include_str!("../README.md")]
 //!
-//! Parts of the work (`plan`) run side by side, each into a folder of its own with a stamp that says it is done (`part`);
-//! the report reads those folders (`results_reader`), judges the paper's claims (`claims`) and shows its figures
-//! (`figures`, `report`).
+//! Parts of the work (`plan`) run side by side, each into a folder of its own with a stamp that says it is
+//! done (`part`); the report reads those folders (`results_reader`), judges the paper's claims (`claims`) and
+//! shows its figures (`figures`, `report`).
 
 mod paper;
 

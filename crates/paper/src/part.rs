@@ -1,7 +1,7 @@
 //! One part from its definition to a folder of files, and the stamp that says it is done.
 //!
-//! A stamp is written when the files are in their place and taken away before they change, so that a part that was
-//! killed is begun anew; the sweep resumes from its journal.
+//! A stamp is written when the files are in their place and taken away before they change, so that a part
+//! that was killed is begun anew; the sweep resumes from its journal.
 
 use super::plan::{Part, Work};
 use super::profile::profile;
@@ -33,7 +33,7 @@ pub struct Stamp {
     pub key: String,
     /// Seconds it took.
     pub wall_s: f64,
-    /// Why it ended before its target, if it did.
+    /// The reason why it ended before its target, if it did.
     pub stopped: Option<String>,
 }
 
@@ -108,7 +108,7 @@ impl Job {
         (stamp.key == self.key && self.folder.is_dir()).then_some(stamp)
     }
 
-    /// How long it takes, in crushes of the single asperity at `draft`.
+    /// Its duration, in crushes of the single asperity at `draft`.
     pub fn effort(&self, single: f64) -> f64 {
         match &self.scene {
             Resolved::Crush(scene, _) => load_of(scene.tables()) / single,
@@ -124,10 +124,12 @@ impl Job {
         }
     }
 
-    /// Computes the part and stamps it; `observer` hears of the share that is done (0 to 1) and ends the work by `false`.
+    /// Computes the part and stamps it; `observer` hears of the share that is done (0 to 1) and ends the work
+    /// by `false`.
     ///
     /// # Errors
-    /// The failure that kept it from being done. A crush that ends before its target is done: its stamp says so.
+    /// The failure that kept it from being done. A crush that ends before its target is done: its stamp says
+    /// so.
     pub fn run(&self, observer: &mut (dyn FnMut(f64, &str) -> bool + Send)) -> Result<Stamp, Error> {
         let start = Instant::now();
         let _ = std::fs::remove_file(self.stamp_path());

@@ -34,7 +34,7 @@ pub const ITEMS: [Item; 15] = [
     Item { name: "table2", title: "Table 2. Experimental results" },
 ];
 
-/// How a part is computed.
+/// The way a part is computed.
 #[derive(Clone, Copy, Debug)]
 pub enum Work {
     /// A crush of a scene with values changed, and pictures of its peak.
@@ -52,7 +52,7 @@ pub enum Work {
     Rough {
         /// The scene file.
         scene: &'static str,
-        /// Which row of Table 1.
+        /// The row of Table 1.
         kind: KindName,
     },
 }
@@ -62,9 +62,9 @@ pub enum Work {
 pub struct Part {
     /// The folder's name; for a scene that of its file.
     pub name: &'static str,
-    /// How it is computed.
+    /// The way it is computed.
     pub work: Work,
-    /// Which items need it.
+    /// The items that need it.
     pub serves: &'static [&'static str],
 }
 

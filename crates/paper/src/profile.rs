@@ -16,7 +16,8 @@ pub struct ProfilePoint {
     pub z_um: f64,
 }
 
-/// The row of the map with the largest summit: its heights, the plane, and the cones that stand for the islands on it.
+/// The row of the map with the largest summit: its heights, the plane, and the cones that stand for the
+/// islands on it.
 pub fn profile(map: &HeightMap, islands: &Islands) -> Vec<ProfilePoint> {
     let [width, height] = map.pixel();
     let most = |row: usize| map.row(row).iter().copied().fold(f64::NEG_INFINITY, f64::max);

@@ -16,13 +16,14 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// The items to reproduce, and where.
 #[derive(Clone, Copy, Debug)]
 pub struct Options<'a> {
-    /// The folder that holds the parts and the report. Completed parts are cached there; interrupted runs resume.
+    /// The folder that holds the parts and the report. Completed parts are cached there; interrupted runs
+    /// resume.
     pub out: &'a Path,
     /// Figures and tables, of [`super::plan::items`].
     pub items: &'a [Item],
     /// Accuracy of the crushes and of the sweep.
     pub accuracy: Accuracy,
-    /// Whether the observer is told how long each part takes, which costs three small crushes.
+    /// True where the observer is told how long each part takes, which costs three small crushes.
     pub estimate: bool,
 }
 
@@ -48,7 +49,7 @@ pub enum Progress<'a> {
         part: &'static str,
         /// Share that is done.
         share: f64,
-        /// Where it is.
+        /// Its place.
         message: &'a str,
     },
     /// A part has ended.
@@ -63,17 +64,18 @@ pub enum Progress<'a> {
 /// A report and the parts behind it.
 #[derive(Debug)]
 pub struct Reproduction {
-    /// Every part in the order of the plan, with its stamp or the reason why it could not be done; parts that were not begun are
-    /// absent.
+    /// Every part in the order of the plan, with its stamp or the reason why it could not be done; parts that
+    /// were not begun are absent.
     pub parts: Vec<(&'static str, Result<Stamp, Error>)>,
     /// The report with its claims, as written to `report/`.
     pub report: Report,
 }
 
-/// Computes the parts that the items need and writes `report/index.html` (with `claims.json`, `claims.md`, `numbers.md`).
+/// Computes the parts that the items need and writes `report/index.html` (with `claims.json`, `claims.md`,
+/// `numbers.md`).
 ///
-/// Parts that are done are not computed again; a part that fails is missing from the report and has its error in the result.
-/// `observer` is called from several threads; `false` begins no further parts.
+/// Parts that are done are not computed again; a part that fails is missing from the report and has its error
+/// in the result. `observer` is called from several threads; `false` begins no further parts.
 ///
 /// # Errors
 /// A folder that cannot be written, a chart that cannot be drawn.

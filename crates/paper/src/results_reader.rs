@@ -1,4 +1,5 @@
-//! The results that the parts have left on disk, read back into types. A file that is not there is `None`, never a guess.
+//! The results that the parts have left on disk, read back into types. A file that is not there is `None`,
+//! never a guess.
 
 use super::part::{Job, Stamp};
 use crate::table1::{ClosureSeeds, ComparedRow, Seeds};
@@ -117,7 +118,7 @@ impl Results {
         let peak = loading.last()?[0];
         let upper = loading.iter().filter(|p| p[0] >= 0.5 * peak && p[1] > 0.0);
         let logs: Vec<[f64; 2]> = upper.map(|p| p.map(f64::ln)).collect();
-        Some(Line::through(&logs).slope).filter(|slope| slope.is_finite())
+        Some(Line::fit(&logs).slope).filter(|slope| slope.is_finite())
     }
 
     /// Regions of a crush that never yielded and do not belong to the bulk.

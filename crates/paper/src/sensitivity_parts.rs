@@ -1,7 +1,9 @@
 //! Sensitivity of c: one grid for both laws and both tools, fitted whole and in parts.
 
 use asperity::calibration::case::Tool;
-use asperity::calibration::fit::{DEVELOPED, Data, StrainCoefficient, angles, developed, strain_coefficient};
+use asperity::calibration::fit::{
+    DEVELOPED_PLASTICITY, Data, StrainCoefficient, angles, developed, strain_coefficient,
+};
 use asperity::calibration::row::Row;
 use asperity::calibration::sweep::Sweep;
 use asperity::material::HardeningLaw;
@@ -17,7 +19,7 @@ const RANGES: [[f64; 2]; 4] = [[100.0, 350.0], [350.0, 1050.0], [100.0, 1050.0],
 
 /// Hardening exponents of the grid, and the largest of those that are fitted.
 const EXPONENTS: [f64; 5] = [0.0, 0.1, 0.2, 0.3, 0.5];
-const LARGEST: [f64; 2] = [0.3, 0.5];
+const LARGEST_EXPONENTS: [f64; 2] = [0.3, 0.5];
 
 /// The four sweeps of the grid: crush and indentation, each with both laws.
 pub fn sweeps(accuracy: Accuracy) -> Vec<Sweep> {
@@ -47,7 +49,7 @@ pub struct Line {
     pub ratios: [f64; 2],
     /// c of all cases; `None`: not determined.
     pub all: Option<StrainCoefficient>,
-    /// c where E* tan β/σ_r is at least [`DEVELOPED`].
+    /// c where E* tan β/σ_r is at least [`DEVELOPED_PLASTICITY`].
     pub developed: Option<StrainCoefficient>,
 }
 
@@ -55,7 +57,7 @@ pub struct Line {
 pub fn lines(rows: &[Row]) -> Vec<Line> {
     let data = Data::new(rows);
     let mut parts = Vec::new();
-    for largest in LARGEST {
+    for largest in LARGEST_EXPONENTS {
         for least in [0.1, 0.0] {
             parts.extend(RANGES.map(|ratios| ([least, largest], ratios)));
         }
@@ -66,7 +68,8 @@ pub fn lines(rows: &[Row]) -> Vec<Line> {
             within(exponents, s.hardening.exponent) && within(ratios, 1.0 / s.hardening.yield_stress)
         });
         let all = strain_coefficient(&angles(&part));
-        let developed = all.and_then(|s| strain_coefficient(&angles(&developed(&part, s.c, DEVELOPED))));
+        let developed =
+            all.and_then(|s| strain_coefficient(&angles(&developed(&part, s.c, DEVELOPED_PLASTICITY))));
         Line { exponents, ratios, all, developed }
     };
     parts.par_iter().map(fitted).collect()

@@ -19,7 +19,7 @@ pub mod scene;
 pub use crate::contact::islands_contact::{Contact, ContactError, CurvePoint, Load, press};
 pub use crate::surface::prepared_surface::Surface;
 pub use contact::closures::{
-    Closure, ClosureError, ClosureLaw, PUBLISHED, Regime, Response, SINGLE_ASPERITY_EXPONENT,
+    Closure, ClosureError, ClosureLaw, PUBLISHED_COEFFICIENT, Regime, Response, SINGLE_ASPERITY_EXPONENT,
 };
 pub use contact::coefficient::{Coefficient, CoefficientError, Nearest, SlopeTable};
 pub use contact::ellipse::Ellipse;

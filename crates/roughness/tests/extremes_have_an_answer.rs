@@ -1,6 +1,7 @@
-//! Surfaces and loads at the edge of sense, and files that are no surfaces: each row has an answer or a clear refusal.
-//! Expected by the definitions of rough contact in `docs/src/verified/rough.md`: a flat surface carries nothing, a plane of one slope carries
-//! p = 0.13 E* tan β on what lies above d, load 0 touches the highest point, scaling all lengths changes no ratio.
+//! Surfaces and loads at the edge of sense, and files that are no surfaces: each row has an answer or a clear
+//! refusal. Expected by the definitions of rough contact in `docs/src/verified/rough.md`: a flat surface
+//! carries nothing, a plane of one slope carries p = 0.13 E* tan β on what lies above d, load 0 touches the
+//! highest point, scaling all lengths changes no ratio.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use asperity_roughness::scene::Scene;

@@ -1,4 +1,5 @@
-//! The published finite elements beside those of the program, at metals that are known: what a fit of them can be off by.
+//! The published finite elements beside those of the program, at metals that are known: what a fit of them
+//! can be off by.
 
 use crate::Book;
 use crate::cases::{DEPTH, Published};
@@ -24,7 +25,7 @@ pub struct Ratios {
 }
 
 impl Ratios {
-    /// Whether both curvatures agree within `share`.
+    /// True where both curvatures agree within `share`.
     pub fn agree(&self, share: f64) -> bool {
         self.curvatures.iter().all(|k| k.is_some_and(|k| (k - 1.0).abs() <= share))
     }

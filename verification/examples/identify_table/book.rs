@@ -31,7 +31,7 @@ impl Solved {
     }
 
     /// The stress that is told best, beside the true one at its strain.
-    pub fn told_best(&self) -> Row {
+    pub fn best_identified(&self) -> Row {
         let best = &self.fit["representative"];
         (self.case.stress(best["plastic_strain"].as_f64().unwrap_or(f64::NAN)), numbers(best))
     }
@@ -48,7 +48,8 @@ pub struct Book {
 }
 
 impl Book {
-    /// The journal at `path`, begun anew where another version of the program wrote it; without one nothing is kept.
+    /// The journal at `path`, begun anew where another version of the program wrote it; without one nothing
+    /// is kept.
     pub fn open(path: Option<&Path>) -> Book {
         let identity = fingerprint(concat!("identify_table 2, asperity ", env!("CARGO_PKG_VERSION")));
         let opened = path.map(|path| Journal::open(path, identity).expect("can be written"));

@@ -130,7 +130,8 @@ fn material(modulus: &str, poissons_ratio: f64, [low, high]: [&str; 2]) -> Strin
     )
 }
 
-/// The six indents in aluminium: the diamond's compliance is in their E*, so the tool is rigid and E the one that gives it.
+/// The six indents in aluminium: the diamond's compliance is in their E*, so the tool is rigid and E the one
+/// that gives it.
 pub fn aluminium(folder: &Path) -> Vec<Case> {
     let of = |(i, r): (usize, &HashMap<String, f64>)| {
         let (reduced, nu) = (r["E* (GPa)"], 0.33);
@@ -159,7 +160,8 @@ pub fn aluminium(folder: &Path) -> Vec<Case> {
     rows(&folder.join("Al6061.csv")).iter().enumerate().map(of).collect()
 }
 
-/// Metals drawn with a fixed seed, indented by a cone of 70.3° and by a ball at `standard`, their forces with noise of 0.5 %.
+/// Metals drawn with a fixed seed, indented by a cone of 70.3° and by a ball at `standard`, their forces with
+/// noise of 0.5 %.
 pub fn twins(count: usize) -> Vec<Case> {
     let folder = std::env::temp_dir().join(concat!("asperity-twins-", env!("CARGO_PKG_VERSION")));
     std::fs::create_dir_all(&folder).expect("can be made");

@@ -1,5 +1,6 @@
-//! How well `identify` finds metals again: of public finite-element results under cones of 60° and 50° half apex angle, of
-//! indents in aluminium, of twins made by the program itself; what a fit costs; and two metals that one cone cannot tell apart.
+//! Test of `identify` on metals that are known: of public finite-element results under cones of 60° and 50°
+//! half apex angle, of indents in aluminium, of twins made by the program itself; what a fit costs; and two
+//! metals that one cone cannot tell apart.
 //!
 //! `cargo run --release -p asperity-verification --example identify_table -- FOLDER [--twins N] [--every N] [--leave-out sought,twins] [--journal FILE]
 //! [--out FILE]`; without FOLDER the two metals alone. FOLDER holds
@@ -22,20 +23,20 @@ use cases::{Asked, Case, aluminium, published, series, twins};
 use score::{ANY, Bound, HEAD, Row, line};
 use std::path::Path;
 
-/// Agreement of a curvature with the published one, within which a metal counts as computed alike: two of the 1.5 % that the covariance of
-/// the published finite elements holds.
+/// Agreement of a curvature with the published one, within which a metal counts as computed alike: two of the
+/// 1.5 % that the covariance of the published finite elements holds.
 const ALIKE: f64 = 0.03;
 
 fn stresses(solved: &[Solved], strain: f64) -> Vec<Row> {
     solved.iter().map(|s| (s.case.stress(strain), s.stress(strain))).collect()
 }
 
-fn of(solved: &[Solved], name: &str, truth: fn(&Case) -> f64) -> Vec<Row> {
+fn parameter_rows(solved: &[Solved], name: &str, truth: fn(&Case) -> f64) -> Vec<Row> {
     solved.iter().map(|s| (truth(&s.case), s.parameter(name))).collect()
 }
 
 fn yields(solved: &[Solved]) -> Vec<Row> {
-    of(solved, "yield_stress", |c| c.yield_stress)
+    parameter_rows(solved, "yield_stress", |c| c.yield_stress)
 }
 
 /// Those whose interval is within so many percent of its middle.
@@ -65,72 +66,15 @@ fn main() {
     let times = [book.time(&indents[0]), own.first().and_then(|twin| book.time(twin))];
 
     report.table(HEAD);
-    let work = "60° and 50°, E known";
     let both = book.solve(published(&metals, Asked::TwoCones));
     let ratios = beside::ratios(&book, &metals);
-    let stress =
-        Bound { mean: 4.0, worst: 10.0, covers: [90.0, 100.0], asked: "4 mean, 10 worst, covers 90" };
-    let covers = Bound { covers: [90.0, 100.0], asked: "covers 90", ..ANY };
-    let tenth = stresses(&both, 0.1);
-    line(&mut report, work, "stress at ε_p 0.1", &tenth, both.len(), &stress);
-    line(&mut report, work, "σ_y", &yields(&both), both.len(), &covers);
-    let alike = |rows: &[Row]| -> Vec<Row> {
-        rows.iter().zip(&ratios).filter(|(_, r)| r.agree(ALIKE)).map(|(row, _)| *row).collect()
-    };
-    let what = format!("of them those whose curvatures agree within {:.0} %: ", 100.0 * ALIKE);
-    line(&mut report, work, &format!("{what}stress at ε_p 0.1"), &alike(&tenth), both.len(), &ANY);
-    line(&mut report, work, &format!("{what}σ_y"), &alike(&yields(&both)), both.len(), &ANY);
-
-    let work = "60° and 50°, unloading slope at 60°, E sought";
-    if left_out("sought") {
-        report.line(&format!("| {work} | not run | | | | | 5 mean | |"));
-    } else {
-        let open = book.solve(thinned(published(&metals, Asked::Modulus)));
-        let modulus = of(&open, "youngs_modulus", |c| c.youngs_modulus);
-        let bound = Bound { mean: 5.0, asked: "5 mean", ..ANY };
-        let what = "E* where its interval is below ±10 %";
-        line(&mut report, work, what, &narrow(&modulus, 0.1), open.len(), &bound);
-        line(&mut report, work, "E*, all", &modulus, open.len(), &ANY);
-    }
-
-    let work = "60° alone, curvature and slope";
-    let single = book.solve(thinned(published(&metals, Asked::OneCone)));
-    let best: Vec<Row> = single.iter().map(Solved::told_best).collect();
-    let bound = Bound { mean: 4.0, asked: "4 mean", ..ANY };
-    line(&mut report, work, "σ_r, the stress told best", &best, single.len(), &bound);
-    let all = yields(&single);
-    line(
-        &mut report,
-        work,
-        "σ_y where its interval is below ±15 %",
-        &narrow(&all, 0.15),
-        single.len(),
-        &covers,
-    );
-    line(&mut report, work, "σ_y, all", &all, single.len(), &ANY);
-
-    let work = "aluminium 6061-T6511, Berkovich as a cone";
-    let metal = book.solve(indents);
-    let bound = Bound { mean: 7.0, covers: [100.0, 100.0], asked: "7 mean, covers", ..ANY };
-    line(&mut report, work, "stress at ε_p 0.033", &stresses(&metal, 0.033), metal.len(), &bound);
-    line(&mut report, work, "σ_y", &yields(&metal), metal.len(), &ANY);
-
-    let work = "twins, cone and ball, noise 0.5 %";
+    two_cones(&mut report, &both, &ratios);
+    let open = (!left_out("sought")).then(|| book.solve(thinned(published(&metals, Asked::Modulus))));
+    unknown_modulus(&mut report, open.as_deref());
+    one_cone(&mut report, &book.solve(thinned(published(&metals, Asked::OneCone))));
+    berkovich(&mut report, &book.solve(indents));
     let own = book.solve(own);
-    if own.is_empty() {
-        report.line(&format!("| {work} | not run | | | | | 5 mean, covers 90 to 98 | |"));
-    } else {
-        let bound = Bound { mean: 5.0, covers: [90.0, 98.0], asked: "5 mean, covers 90 to 98", ..ANY };
-        line(&mut report, work, "σ_y", &yields(&own), count, &bound);
-        let bound = Bound { covers: [90.0, 98.0], asked: "covers 90 to 98", ..ANY };
-        line(&mut report, work, "E", &of(&own, "youngs_modulus", |c| c.youngs_modulus), count, &bound);
-        // errors of n are differences, not shares: 1 + n stands for it
-        let n: Vec<Row> = of(&own, "hardening_exponent", |c| c.exponent)
-            .iter()
-            .map(|(truth, found)| (1.0, found.map(|n| 1.0 + n - truth)))
-            .collect();
-        line(&mut report, work, "n (differences, not shares)", &n, count, &bound);
-    }
+    noisy_twins(&mut report, &own, count);
     score::times(&mut report, times);
     beside::section(&mut report, &ratios);
     beside::finer(&mut report, &book, &metals);
@@ -140,6 +84,79 @@ fn main() {
     }
     pair::section(&mut report);
     report.finish().expect("can be written");
+}
+
+/// Cover that is asked of an interval, whatever its errors.
+const COVERS: Bound = Bound { covers: [90.0, 100.0], asked: "covers 90", ..ANY };
+
+/// Two cones under each published metal.
+fn two_cones(report: &mut Report, both: &[Solved], ratios: &[Ratios]) {
+    let work = "60° and 50°, E known";
+    let stress =
+        Bound { mean: 4.0, worst: 10.0, covers: [90.0, 100.0], asked: "4 mean, 10 worst, covers 90" };
+    let tenth = stresses(both, 0.1);
+    line(report, work, "stress at ε_p 0.1", &tenth, both.len(), &stress);
+    line(report, work, "σ_y", &yields(both), both.len(), &COVERS);
+    let alike = |rows: &[Row]| -> Vec<Row> {
+        rows.iter().zip(ratios).filter(|(_, r)| r.agree(ALIKE)).map(|(row, _)| *row).collect()
+    };
+    let what = format!("of them those whose curvatures agree within {:.0} %: ", 100.0 * ALIKE);
+    line(report, work, &format!("{what}stress at ε_p 0.1"), &alike(&tenth), both.len(), &ANY);
+    line(report, work, &format!("{what}σ_y"), &alike(&yields(both)), both.len(), &ANY);
+}
+
+/// Two cones and a slope, from which the modulus is found too; `None` where they were left out.
+fn unknown_modulus(report: &mut Report, open: Option<&[Solved]>) {
+    let work = "60° and 50°, unloading slope at 60°, E sought";
+    let Some(open) = open else {
+        report.line(&format!("| {work} | not run | | | | | 5 mean | |"));
+        return;
+    };
+    let modulus = parameter_rows(open, "youngs_modulus", |c| c.youngs_modulus);
+    let bound = Bound { mean: 5.0, asked: "5 mean", ..ANY };
+    let what = "E* where its interval is below ±10 %";
+    line(report, work, what, &narrow(&modulus, 0.1), open.len(), &bound);
+    line(report, work, "E*, all", &modulus, open.len(), &ANY);
+}
+
+/// One cone under each published metal.
+fn one_cone(report: &mut Report, single: &[Solved]) {
+    let work = "60° alone, curvature and slope";
+    let best: Vec<Row> = single.iter().map(Solved::best_identified).collect();
+    let bound = Bound { mean: 4.0, asked: "4 mean", ..ANY };
+    line(report, work, "σ_r, the stress told best", &best, single.len(), &bound);
+    let all = yields(single);
+    let what = "σ_y where its interval is below ±15 %";
+    line(report, work, what, &narrow(&all, 0.15), single.len(), &COVERS);
+    line(report, work, "σ_y, all", &all, single.len(), &ANY);
+}
+
+/// Measured indents of aluminium.
+fn berkovich(report: &mut Report, metal: &[Solved]) {
+    let work = "aluminium 6061-T6511, Berkovich as a cone";
+    let bound = Bound { mean: 7.0, covers: [100.0, 100.0], asked: "7 mean, covers", ..ANY };
+    line(report, work, "stress at ε_p 0.033", &stresses(metal, 0.033), metal.len(), &bound);
+    line(report, work, "σ_y", &yields(metal), metal.len(), &ANY);
+}
+
+/// `count` twins of random metals; none where they were left out.
+fn noisy_twins(report: &mut Report, own: &[Solved], count: usize) {
+    let work = "twins, cone and ball, noise 0.5 %";
+    if own.is_empty() {
+        report.line(&format!("| {work} | not run | | | | | 5 mean, covers 90 to 98 | |"));
+        return;
+    }
+    let bound = Bound { mean: 5.0, covers: [90.0, 98.0], asked: "5 mean, covers 90 to 98", ..ANY };
+    line(report, work, "σ_y", &yields(own), count, &bound);
+    let bound = Bound { covers: [90.0, 98.0], asked: "covers 90 to 98", ..ANY };
+    let moduli = parameter_rows(own, "youngs_modulus", |c| c.youngs_modulus);
+    line(report, work, "E", &moduli, count, &bound);
+    // errors of n are differences, not shares: 1 + n stands for it
+    let n: Vec<Row> = parameter_rows(own, "hardening_exponent", |c| c.exponent)
+        .iter()
+        .map(|(truth, found)| (1.0, found.map(|n| 1.0 + n - truth)))
+        .collect();
+    line(report, work, "n (differences, not shares)", &n, count, &bound);
 }
 
 /// The metals whose stress at ε_p 0.1 lies outside its interval.

@@ -1,4 +1,5 @@
-//! Two metals that one cone cannot tell apart and another can, sought in the atlas of cones and computed by finite elements.
+//! Two metals that one cone cannot tell apart and another can, sought in the atlas of cones and computed by
+//! finite elements.
 
 use asperity_calibration::atlas::{Atlas, Cell};
 use asperity_verification::report::Report;
@@ -8,7 +9,7 @@ type Metal = [f64; 3];
 
 /// Logarithms of K, S and the elastic share of the work under a cone, E of the first metal being 1.
 fn seen(atlas: &Atlas, slope: f64, [e, ratio, n]: Metal) -> [f64; 3] {
-    let logs = atlas.at(slope, ratio, n);
+    let logs = atlas.predict(slope, ratio, n);
     [logs[0] + e.ln(), logs[1] + e.ln(), logs[2]]
 }
 

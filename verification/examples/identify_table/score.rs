@@ -53,7 +53,8 @@ pub fn line(report: &mut Report, work: &str, what: &str, rows: &[Row], of: usize
     ));
 }
 
-/// Writes what fits cost on one thread: three features of a sharp cone, and a curve of a cone with one of a ball.
+/// Writes what fits cost on one thread: three features of a sharp cone, and a curve of a cone with one of a
+/// ball.
 pub fn times(report: &mut Report, times: [Option<[f64; 2]>; 2]) {
     report.section("What a fit costs");
     report.table("| fit | core seconds | runs of finite elements | asked, s | reached |");
@@ -69,7 +70,8 @@ pub fn times(report: &mut Report, times: [Option<[f64; 2]>; 2]) {
     }
 }
 
-/// Writes how the numbers of the twins miss, over the half width of their intervals, and the twins that are outside.
+/// Writes how the numbers of the twins miss, over the half width of their intervals, and the twins that are
+/// outside.
 pub fn twins(report: &mut Report, solved: &[Solved]) {
     report.section("Twins outside an interval");
     report.table("| twin | E, GPa | σ_y, MPa | n | E found | σ_y found | n found |");

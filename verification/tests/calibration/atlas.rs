@@ -1,8 +1,11 @@
-//! Claim: the atlas of cones foretells cones that it does not hold, within the errors it states, and says where it does not know.
+//! Claim: the atlas of cones foretells cones that it does not hold, within the errors it states, and says
+//! where it does not know.
 //!
-//! Cones between those of the atlas by its own rule, beyond the ones its errors were chosen on; at `standard`, whose own errors are part of
-//! the stated ones. 95 % of the cones lie within a bound of 95 %: of 24 one may lie outside, and none by as much again (the radius of one in hundreds is that uneven).
-//! The committed cones at `reference` are the larger sample (`results/atlas.md`); here they must still belong to the formula.
+//! Cones between those of the atlas by its own rule, beyond the ones its errors were chosen on; at
+//! `standard`, whose own errors are part of the stated ones. 95 % of the cones lie within a bound of 95 %: of
+//! 24 one may lie outside, and none by as much again (the radius of one in hundreds is that uneven). The
+//! committed cones at `reference` are the larger sample (`results/atlas.md`); here they must still belong to
+//! the formula.
 
 use asperity_calibration::cones::{Row, fresh};
 use asperity_material::cone_atlas::Atlas;

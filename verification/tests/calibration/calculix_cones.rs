@@ -1,9 +1,11 @@
-//! Claim: sharp cones crushed by a plane agree with CalculiX 2.20, its load steps extrapolated to zero, within the stated error
-//! of K and CalculiX's own, once the stress of the law is taken as Cauchy's, as CalculiX does; and with the program's own
-//! Kirchhoff stress within a further 1 %, what the difference of the two measures amounts to at E/σ_y = 100.
+//! Claim: sharp cones crushed by a plane agree with CalculiX 2.20, its load steps extrapolated to zero,
+//! within the stated error of K and CalculiX's own, once the stress of the law is taken as Cauchy's, as
+//! CalculiX does; and with the program's own Kirchhoff stress within a further 1 %, what the difference of
+//! the two measures amounts to at E/σ_y = 100.
 //!
-//! Source: the table of `asperity_verification::calibration::PEERS`. Tolerance: the two stated errors and half a percent. Four of the
-//! ten here; `--example calibration peers` prints all. The force grows with the depth to the exponent 2, or `solve` fails.
+//! Source: the table of `asperity_verification::calibration::PEERS`. Tolerance: the two stated errors and
+//! half a percent. Four of the ten here; `--example calibration peers` prints all. The force grows with the
+//! depth to the exponent 2, or `solve` fails.
 
 use asperity_calibration::case::Case;
 use asperity_calibration::loading_curvature::solve;
@@ -12,7 +14,8 @@ use asperity_simulation::scene::Accuracy;
 use asperity_solver::body::analysis::Analyses;
 use asperity_verification::calibration::{PEERS, peer_case};
 
-/// Relative difference allowed between two codes of other elements and contact, as in the table of `--example calibration peers`.
+/// Relative difference allowed between two codes of other elements and contact, as in the table of `--example
+/// calibration peers`.
 const CODES: f64 = 0.005;
 
 #[test]

@@ -1,5 +1,5 @@
-//! Claim: the collapse finds the ε_r = c tan β that data were made with, through 1 % of noise, and says "not determined" where
-//! the data are elastic and hold none.
+//! Claim: the collapse finds the ε_r = c tan β that data were made with, through 1 % of noise, and says "not
+//! determined" where the data are elastic and hold none.
 //!
 //! Source: the data are made so; their curve is that of published cone indentation (ln Y a quartic in
 //! ln X); any smooth one would do.

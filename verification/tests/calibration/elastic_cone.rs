@@ -1,9 +1,9 @@
-//! Claim: an elastic cone follows Sneddon's solution, as a cone crushed by a plane and as a flat body under a cone; so does a
-//! metal of E/σ_y = 10 at 1°, which hardly yields.
+//! Claim: an elastic cone follows Sneddon's solution, as a cone crushed by a plane and as a flat body under a
+//! cone; so does a metal of E/σ_y = 10 at 1°, which hardly yields.
 //!
 //! Source: I. N. Sneddon, Int. J. Eng. Sci. 3 (1965) 47: F = (2/π) E* h²/tan β, a = (2/π) h/tan β.
-//! Tolerance of K 1 %: the bound of `standard`; of the contact ratio 3 %: the radius is taken at the outer edge of a
-//! penalty contact, which reaches 1.3 % too far at a penetration of 1.6 % of the depth.
+//! Tolerance of K 1 %: the bound of `standard`; of the contact ratio 3 %: the radius is taken at the outer
+//! edge of a penalty contact, which reaches 1.3 % too far at a penetration of 1.6 % of the depth.
 
 use asperity_calibration::case::{Case, Tool};
 use asperity_calibration::loading_curvature::solve;

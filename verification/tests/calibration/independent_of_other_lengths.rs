@@ -1,9 +1,9 @@
-//! Claim: K of a sharp cone does not depend on the lengths that a sharp cone on a half space does not have: the radius of its
-//! tip, its height and its substrate.
+//! Claim: K of a sharp cone does not depend on the lengths that a sharp cone on a half space does not have:
+//! the radius of its tip, its height and its substrate.
 //!
 //! Source: dimensional analysis; a sharp cone on a half space has no length but the depth.
-//! Tolerance 0.5 %: the bound on mesh, step and substrate that `standard` states. What a rounded tip leaves of its effect
-//! falls with the square of its radius over the contact's.
+//! Tolerance 0.5 %: the bound on mesh, step and substrate that `standard` states. What a rounded tip leaves
+//! of its effect falls with the square of its radius over the contact's.
 
 use asperity_calibration::case::{Case, Tool};
 use asperity_calibration::loading_curvature::solve;

@@ -1,11 +1,14 @@
-//! Claim: steep indentation. K must not depend on the mesh where metal piles up and parts under the apex (n = 0.1, 30°, where a
-//! contact measured over the undeformed surface lost 15 %), and at 19.7° (Vickers' equivalent cone) it follows the published Π₁.
+//! Claim: steep indentation. K must not depend on the mesh where metal piles up and parts under the apex (n =
+//! 0.1, 30°, where a contact measured over the undeformed surface lost 15 %), and at 19.7° (Vickers'
+//! equivalent cone) it follows the published Π₁.
 //!
-//! Source: Dao et al., Acta Mater. 49 (2001) 3899, Π₁: C/σ_r = -1.131 L³ + 13.635 L² - 30.594 L + 29.267, L = ln(E*/σ_r), σ_r at the
-//! plastic strain 0.033. Their code takes the stress of the law as Cauchy's, and so does this comparison: at E/σ_y = 100 that
-//! is 1.3 % of K. A scene with such a cone, meshed for its depth and of linear elements, reaches the depth, comes back from
-//! it and gives K too, perfectly plastic metal included, where quadratic elements lose their shape at the axis.
-//! Tolerances: the stated errors of two meshes at `draft` and coarser, and 5 %, the promise of `draft`; 3 % of Π₁, its own scatter; 5 % of a scene at draft, its promise.
+//! Source: Dao et al., Acta Mater. 49 (2001) 3899, Π₁: C/σ_r = -1.131 L³ + 13.635 L² - 30.594 L + 29.267, L =
+//! ln(E*/σ_r), σ_r at the plastic strain 0.033. Their code takes the stress of the law as Cauchy's, and so
+//! does this comparison: at E/σ_y = 100 that is 1.3 % of K. A scene with such a cone, meshed for its depth
+//! and of linear elements, reaches the depth, comes back from it and gives K too, perfectly plastic metal
+//! included, where quadratic elements lose their shape at the axis. Tolerances: the stated errors of two
+//! meshes at `draft` and coarser, and 5 %, the promise of `draft`; 3 % of Π₁, its own scatter; 5 % of a scene
+//! at draft, its promise.
 
 use asperity_calibration::case::{Case, Tool};
 use asperity_calibration::loading_curvature::solve;

@@ -1,8 +1,9 @@
-//! Claims: a ball is pressed in to its radius and comes back, whatever the metal hardens by; the mean pressure under it on metal that
-//! does not harden is that of a punch.
+//! Claims: a ball is pressed in to its radius and comes back, whatever the metal hardens by; the mean
+//! pressure under it on metal that does not harden is that of a punch.
 //!
-//! Source: R. T. Shield, Proc. R. Soc. A 233 (1955) 267: a smooth flat circular punch, 5.69 k = 2.85 σ_y after Tresca, 3.28 after von
-//! Mises with k = σ_y/√3. Bounds: between the two, as Tabor's 2.8 to 3.0 is, with the 5 % of the draft level beside them.
+//! Source: R. T. Shield, Proc. R. Soc. A 233 (1955) 267: a smooth flat circular punch, 5.69 k = 2.85 σ_y
+//! after Tresca, 3.28 after von Mises with k = σ_y/√3. Bounds: between the two, as Tabor's 2.8 to 3.0 is,
+//! with the 5 % of the draft level beside them.
 
 use asperity_material::units::{Length, Stress};
 use asperity_simulation::run::Run;

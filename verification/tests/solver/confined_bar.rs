@@ -1,12 +1,12 @@
-//! Claim: a bar that cannot widen follows τ = (K + 4G/3) ln λ before yield and τ = K ln λ - ⅔σ_y after, to half its
-//! height, in compression, where the volume must shrink by a half.
+//! Claim: a bar that cannot widen follows τ = (K + 4G/3) ln λ before yield and τ = K ln λ - ⅔σ_y after, to
+//! half its height, in compression, where the volume must shrink by a half.
 //!
-//! Source: `uniaxial::confined_stress`, `uniaxial::confined_flow_stress`. Tolerance 1e-10: the path of the deviator is straight,
-//! so that the return mapping is exact, and only rounding is left.
+//! Source: `uniaxial::confined_stress`, `uniaxial::confined_flow_stress`. Tolerance 1e-10: the path of the
+//! deviator is straight, so that the return mapping is exact, and only rounding is left.
 
 use asperity_mesh::ElementKind;
 use asperity_solver::point::kinematics::Symmetry;
-use asperity_verification::single_increment::{TIGHT, hollomon, increment, model, stresses};
+use asperity_verification::single_increment::{TIGHT_SETTINGS, hollomon, increment, model, stresses};
 use asperity_verification::test_meshes::distorted_square;
 use asperity_verification::uniaxial::{confined_flow_stress, confined_stress};
 
@@ -21,7 +21,7 @@ fn confined_stress_follows_both_branches() {
             let mut model = model(&mesh, symmetry, metal.clone(), &held, None).unwrap();
             for stretch in [0.995, 0.95, 0.8, 0.65, 0.5] {
                 let x = model.state().position.clone();
-                increment(&mut model, f64::INFINITY, &TIGHT, |node| {
+                increment(&mut model, f64::INFINITY, &TIGHT_SETTINGS, |node| {
                     [0.0, stretch * mesh.nodes[node][1] - x[node][1]]
                 })
                 .unwrap();

@@ -1,14 +1,14 @@
-//! Claim: a frictionless plane presses a flat bar uniformly on a distorted mesh, by the pressure of the uniaxial bar at
-//! the travel less p/ε, with both elements and in both symmetries of the section.
+//! Claim: a frictionless plane presses a flat bar uniformly on a distorted mesh, by the pressure of the
+//! uniaxial bar at the travel less p/ε, with both elements and in both symmetries of the section.
 //!
-//! Source: R. L. Taylor, P. Papadopoulos (1991), the contact patch test. Tolerance 1e-10: clipping and Gauss points
-//! integrate a uniform pressure exactly.
+//! Source: R. L. Taylor, P. Papadopoulos (1991), the contact patch test. Tolerance 1e-10: clipping and Gauss
+//! points integrate a uniform pressure exactly.
 
 use asperity_mesh::ElementKind;
 use asperity_solver::body::discrete_body::ToolContact;
 use asperity_solver::contact::tool::Tool;
 use asperity_solver::point::kinematics::Symmetry;
-use asperity_verification::single_increment::{ELASTIC, TIGHT, increment, model, stresses};
+use asperity_verification::single_increment::{ELASTIC_METAL, TIGHT_SETTINGS, increment, model, stresses};
 use asperity_verification::test_meshes::{distorted_square, nodes_of};
 use asperity_verification::uniaxial::penetration;
 
@@ -21,14 +21,14 @@ fn contact_pressure_is_uniform_and_that_of_the_bar() {
         nodes_of(&mesh, &mesh.sides.base).iter().for_each(|&n| held[n][1] = true);
         nodes_of(&mesh, &mesh.sides.axis).iter().for_each(|&n| held[n][0] = true);
         let contact = ToolContact { tool: Tool::Plane, penalty };
-        let mut model = model(&mesh, Symmetry::Axisymmetric, ELASTIC, &held, Some(contact)).unwrap();
+        let mut model = model(&mesh, Symmetry::Axisymmetric, ELASTIC_METAL, &held, Some(contact)).unwrap();
         let travels = [0.1, 0.2, 0.3, 0.4];
         for travel in travels {
             // the contact is measured over the last converged surface, a disc of this radius
             let radius = model.state().position.iter().fold(0.0_f64, |m, x| m.max(x[0]));
             let penalty = penalty * radius * radius;
-            increment(&mut model, 1.0 - travel, &TIGHT, |_| [0.0; 2]).unwrap();
-            let depth = penetration(&ELASTIC.elastic, penalty, 1.0, travel);
+            increment(&mut model, 1.0 - travel, &TIGHT_SETTINGS, |_| [0.0; 2]).unwrap();
+            let depth = penetration(&ELASTIC_METAL.elastic, penalty, 1.0, travel);
             for edge in &model.state().edges {
                 for &node in &edge.nodes[..edge.node_count()] {
                     let here = model.state().position[node as usize][1] - (1.0 - travel);

@@ -1,9 +1,10 @@
-//! Claim: a ball on an elastic summit follows Hertz with the sum of both curvatures to 1.5 %; a tool comes down on the first
-//! summit, in plane strain too, where one that is nearly flat carries the force of a plane to 0.5 %.
+//! Claim: a ball on an elastic summit follows Hertz with the sum of both curvatures to 1.5 %; a tool comes
+//! down on the first summit, in plane strain too, where one that is nearly flat carries the force of a plane
+//! to 0.5 %.
 //!
-//! Source: K. L. Johnson, Contact Mechanics (1985), section 4.2: 1/R = 1/R₁ + 1/R₂, F = 4/3 E* √R h^1.5. Tolerance: Hertz's
-//! parabolas leave (a/R)² = 0.3 %, the force of `standard` is good to 1 %; a cylinder of 1 m is flat over the
-//! contact (a²/2R = 2e-10 m of 5 µm), both runs ripple alike.
+//! Source: K. L. Johnson, Contact Mechanics (1985), section 4.2: 1/R = 1/R₁ + 1/R₂, F = 4/3 E* √R h^1.5.
+//! Tolerance: Hertz's parabolas leave (a/R)² = 0.3 %, the force of `standard` is good to 1 %; a cylinder of 1
+//! m is flat over the contact (a²/2R = 2e-10 m of 5 µm), both runs ripple alike.
 
 use asperity_material::units::Length;
 use asperity_simulation::scene::{Accuracy, Scene, Substrate, Symmetry, Tool};

@@ -1,9 +1,9 @@
-//! Claim: an elastic rounded asperity follows Hertz to 1 % while a ≤ 0.1 R sin β, a sharp elastic cone of 1 degree follows
-//! Sneddon to 1 %, and unloading retraces loading to 1e-4 of the peak force.
+//! Claim: an elastic rounded asperity follows Hertz to 1 % while a ≤ 0.1 R sin β, a sharp elastic cone of 1
+//! degree follows Sneddon to 1 %, and unloading retraces loading to 1e-4 of the peak force.
 //!
-//! Source: `contact` (Johnson 1985; Sneddon 1965). Tolerance 1 %: small slopes (0.1 % at 1 degree), the far field at 400
-//! contact radii (0.3 %), and the clipped front within an element (0.3 % at 16 across). Compared from a fifth of the
-//! peak on, where the contact is resolved. 1e-4: an elastic state has no history but the
+//! Source: `contact` (Johnson 1985; Sneddon 1965). Tolerance 1 %: small slopes (0.1 % at 1 degree), the far
+//! field at 400 contact radii (0.3 %), and the clipped front within an element (0.3 % at 16 across). Compared
+//! from a fifth of the peak on, where the contact is resolved. 1e-4: an elastic state has no history but the
 //! surface over which the contact is measured, that of the increment before (3e-5).
 
 use asperity_material::units::Length;
@@ -56,8 +56,8 @@ fn a_rounded_tip_follows_hertz() {
 #[test]
 fn a_sharp_shallow_cone_follows_sneddon() {
     let mut scene = elastic(1.0, None, 0.2e-6);
-    // the mean penetration is taken off the depth: exact under a flat punch, twice too much under a growing elastic cone,
-    // F 2 % too high at a fifth of the peak with the penetration that the level chooses
+    // the mean penetration is taken off the depth: exact under a flat punch, twice too much under a growing
+    // elastic cone, F 2 % too high at a fifth of the peak with the penetration that the level chooses
     scene.numerics.penetration = Some(0.001);
     let outcome = crush(&scene).unwrap();
     assert!(outcome.stopped.is_none());
@@ -85,7 +85,8 @@ fn unloading_retraces_loading() {
     unloading.reverse();
     let peak = loading[5];
     for (up, down) in loading.iter().zip(unloading) {
-        // the contact is measured over the surface of the increment before, here a shallower and there a deeper one: 3e-5
+        // the contact is measured over the surface of the increment before, here a shallower and there a
+        // deeper one: 3e-5
         assert!((up - down).abs() < 1e-4 * peak, "{loading:?} {unloading:?}");
     }
 }

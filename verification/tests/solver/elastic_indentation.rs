@@ -1,11 +1,13 @@
-//! Claim: an elastic flat body follows Hertz under a sphere and Sneddon under a cone of 1 degree to 1 % in force, and what
-//! the method of Oliver and Pharr makes of the two curves is the true reduced modulus to 2 % and the true contact area to 4 %. At the
-//! numbers of a level the contact area is true within the error that the run states.
+//! Claim: an elastic flat body follows Hertz under a sphere and Sneddon under a cone of 1 degree to 1 % in
+//! force, and what the method of Oliver and Pharr makes of the two curves is the true reduced modulus to 2 %
+//! and the true contact area to 4 %. At the numbers of a level the contact area is true within the error that
+//! the run states.
 //!
-//! Source: `contact` (Johnson 1985; Sneddon 1965); Oliver and Pharr 1992, whose h_c is exact for both. Tolerance 1 %: as in
-//! `elastic_flattening`, compared from a fifth of the peak on. Modulus: unloading stiffness 1 %, and half the 2 % of the
-//! area that the force leaves uncertain through h - ε F/S. Area: twice the 1 % of the radius, which is measured to a fifth
-//! of the edge element (an eighteenth of the radius), on top of the same 2 %.
+//! Source: `contact` (Johnson 1985; Sneddon 1965); Oliver and Pharr 1992, whose h_c is exact for both.
+//! Tolerance 1 %: as in `elastic_flattening`, compared from a fifth of the peak on. Modulus: unloading
+//! stiffness 1 %, and half the 2 % of the area that the force leaves uncertain through h - ε F/S. Area: twice
+//! the 1 % of the radius, which is measured to a fifth of the edge element (an eighteenth of the radius), on
+//! top of the same 2 %.
 
 use asperity_material::units::Length;
 use asperity_simulation::run::Outcome;
@@ -26,8 +28,8 @@ fn indent(tool: Tool, depth: f64) -> (Scene, Outcome) {
     scene.numerics.domain = Some(400.0);
     scene.numerics.steps = Some(16);
     scene.numerics.elements_in_contact = Some(48);
-    // the mean penetration is taken off the depth, twice too much under a growing elastic cone: at a fifth of the peak its
-    // force is then too high by ten times the penetration over the peak depth
+    // the mean penetration is taken off the depth, twice too much under a growing elastic cone: at a fifth of
+    // the peak its force is then too high by ten times the penetration over the peak depth
     scene.numerics.penetration = Some(0.0005);
     let outcome = crush(&scene).unwrap();
     assert!(outcome.stopped.is_none());
@@ -63,7 +65,8 @@ fn a_cone_follows_sneddon() {
     check(&scene, &outcome, |h| cone_force(modulus, 1.0_f64.to_radians().tan(), h));
 }
 
-/// The contact area at the numbers of a level, against the closed forms: within the error that the run states.
+/// The contact area at the numbers of a level, against the closed forms: within the error that the run
+/// states.
 #[test]
 fn the_area_of_a_level_is_within_its_stated_error() {
     let (ball, slope) = (1e-3, 1.0);

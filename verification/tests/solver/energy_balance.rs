@@ -1,8 +1,8 @@
-//! Claim: the work of the tool is stored, dissipated or in the contact: to 1e-3 for n = 0.3 at standard accuracy, to
-//! 1e-2 for n = 0, and better with more steps.
+//! Claim: the work of the tool is stored, dissipated or in the contact: to 1e-3 for n = 0.3 at standard
+//! accuracy, to 1e-2 for n = 0, and better with more steps.
 //!
-//! Source: `Summary::energy_balance_error`, the largest |W - E_e - W_p - E_c|/W. Tolerances: what is asked; the error
-//! is that of integrating F dh and σ_y dε_p over finite increments.
+//! Source: `Summary::energy_balance_error`, the largest |W - E_e - W_p - E_c|/W. Tolerances: what is asked;
+//! the error is that of integrating F dh and σ_y dε_p over finite increments.
 
 use asperity_simulation::scene::Accuracy;
 use asperity_verification::single_asperity::{crush, scene};

@@ -1,9 +1,11 @@
-//! Claim: the second-order flow rule never takes a point to where backward Euler would not: whether the strain is held, slows
-//! down, is reversed, turns or comes in pieces of very different length, the stress is that of a point strained that way.
+//! Claim: the second-order flow rule never takes a point to where backward Euler would not: whether the
+//! strain is held, slows down, is reversed, turns or comes in pieces of very different length, the stress is
+//! that of a point strained that way.
 //!
-//! Source: uniaxial perfect plasticity, σ = min(max(σ + E Δε, -σ_y), σ_y) in any number of steps. Increments of 10 ε_y are those at
-//! which an extrapolation without a bound turned σ_y into -σ_y. Tolerance 1e-6 of σ_y: equilibrium is solved to 1e-12, and what is
-//! frozen at a nearly converged iterate is corrected by the return; 3e-3 where the point stays elastic, from ln(1 + ε).
+//! Source: uniaxial perfect plasticity, σ = min(max(σ + E Δε, -σ_y), σ_y) in any number of steps. Increments
+//! of 10 ε_y are those at which an extrapolation without a bound turned σ_y into -σ_y. Tolerance 1e-6 of σ_y:
+//! equilibrium is solved to 1e-12, and what is frozen at a nearly converged iterate is corrected by the
+//! return; 3e-3 where the point stays elastic, from ln(1 + ε).
 
 use asperity_material::StressMeasure;
 use asperity_mesh::ElementKind;
@@ -12,7 +14,7 @@ use asperity_solver::equilibrium::Equilibrium;
 use asperity_solver::point::kinematics::Symmetry;
 use asperity_solver::point::material::Metal;
 use asperity_solver::point::tensor::contract;
-use asperity_verification::single_increment::{TIGHT, hollomon, model, stresses};
+use asperity_verification::single_increment::{TIGHT_SETTINGS, hollomon, model, stresses};
 use asperity_verification::test_meshes::{boundary, mapped, nodes_of};
 
 const YIELD: f64 = 1e-3;
@@ -30,7 +32,7 @@ fn metals() -> [Metal; 3] {
 /// One increment, extrapolated as for a step `ratio` times the last one.
 fn increment(model: &mut Equilibrium<'_>, ratio: f64, guess: impl Fn(usize) -> [f64; 2]) {
     model.begin(f64::INFINITY, ratio, guess);
-    solve(model, &TIGHT).map_err(|(failure, _)| failure).unwrap();
+    solve(model, &TIGHT_SETTINGS).map_err(|(failure, _)| failure).unwrap();
     model.accept().unwrap();
 }
 
@@ -101,8 +103,9 @@ fn a_point_that_stops_while_the_load_goes_on_keeps_its_stress() {
     }
 }
 
-/// Compression along z, then simple shear: strain at a right angle to the last. The stress of backward Euler from the same state
-/// is the judge; its flow has a tenth part along the last one (σ_y against 2G times 10 ε_y), which may be extrapolated: 10 % of σ_y.
+/// Compression along z, then simple shear: strain at a right angle to the last. The stress of backward Euler
+/// from the same state is the judge; its flow has a tenth part along the last one (σ_y against 2G times 10
+/// ε_y), which may be extrapolated: 10 % of σ_y.
 #[test]
 fn a_turn_by_a_right_angle_is_that_of_backward_euler() {
     for metal in metals() {

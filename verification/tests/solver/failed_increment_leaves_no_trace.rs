@@ -1,8 +1,9 @@
-//! Claim: an increment that was tried and not accepted changes nothing of what is read from the body afterwards: force of the
-//! contact, its edges and the pressure at its nodes are those of the last converged state, bit for bit.
+//! Claim: an increment that was tried and not accepted changes nothing of what is read from the body
+//! afterwards: force of the contact, its edges and the pressure at its nodes are those of the last converged
+//! state, bit for bit.
 //!
-//! Source: none outside; fields of a run that stopped are drawn from the model after the failed attempt. Tolerance: none,
-//! bit for bit.
+//! Source: none outside; fields of a run that stopped are drawn from the model after the failed attempt.
+//! Tolerance: none, bit for bit.
 
 use asperity_mesh::ElementKind;
 use asperity_numerics::newton::System;
@@ -10,7 +11,7 @@ use asperity_solver::body::discrete_body::ToolContact;
 use asperity_solver::contact::tool::Tool;
 use asperity_solver::equilibrium::Equilibrium;
 use asperity_solver::point::kinematics::Symmetry;
-use asperity_verification::single_increment::{ELASTIC, TIGHT, increment, model};
+use asperity_verification::single_increment::{ELASTIC_METAL, TIGHT_SETTINGS, increment, model};
 use asperity_verification::test_meshes::{distorted_square, nodes_of};
 
 fn seen(model: &Equilibrium<'_>) -> (f64, Vec<f64>, Vec<[f64; 2]>) {
@@ -28,8 +29,8 @@ fn contact_is_that_of_the_last_converged_increment() {
     let mut held = vec![[false; 2]; mesh.nodes.len()];
     nodes_of(&mesh, &mesh.sides.base).iter().for_each(|&n| held[n] = [true, true]);
     let contact = ToolContact { tool: Tool::Sphere { radius: 3.0 }, penalty: 4.0 };
-    let mut model = model(&mesh, Symmetry::Axisymmetric, ELASTIC, &held, Some(contact)).unwrap();
-    increment(&mut model, 0.9, &TIGHT, |_| [0.0; 2]).unwrap();
+    let mut model = model(&mesh, Symmetry::Axisymmetric, ELASTIC_METAL, &held, Some(contact)).unwrap();
+    increment(&mut model, 0.9, &TIGHT_SETTINGS, |_| [0.0; 2]).unwrap();
     let before = seen(&model);
     assert!(before.0 > 0.0);
     for tip in [0.7, f64::INFINITY] {

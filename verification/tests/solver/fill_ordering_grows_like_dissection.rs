@@ -1,13 +1,15 @@
-//! A factorisation takes operations like unknowns^1.5 on small and large meshes: no numbering makes a large one several
-//! times dearer than its neighbours.
+//! A factorisation takes operations like unknowns^1.5 on small and large meshes: no numbering makes a large
+//! one several times dearer than its neighbours.
 //!
-//! Source: nested dissection of a square grid of m nodes with nine-point coupling (George, SIAM J. Numer. Anal. 10 (1973),
-//! pp. 345-363): 829/84 m^1.5 multiplications to leading order, from half the sum of the squared columns of its separators.
-//! With two unknowns a node and the additions counted these are 16 * 829/84 (n / 2)^1.5 = 56 n^1.5 operations of n unknowns.
+//! Source: nested dissection of a square grid of m nodes with nine-point coupling (George, SIAM J. Numer.
+//! Anal. 10 (1973), pp. 345-363): 829/84 m^1.5 multiplications to leading order, from half the sum of the
+//! squared columns of its separators. With two unknowns a node and the additions counted these are 16 *
+//! 829/84 (n / 2)^1.5 = 56 n^1.5 operations of n unknowns.
 //!
-//! The tolerance of 2: quadratic elements couple eight nodes, not four, the mesh is graded, and zeros kept for dense blocks
-//! are counted (measured 0.8 to 1.2 here, 0.7 to 1.4 up to 437,000 unknowns). With approximate minimum degrees alone, of the
-//! two starts, the largest mesh takes 2.3. Below 0.5 something would be left out of the count.
+//! The tolerance of 2: quadratic elements couple eight nodes, not four, the mesh is graded, and zeros kept
+//! for dense blocks are counted (measured 0.8 to 1.2 here, 0.7 to 1.4 up to 437,000 unknowns). With
+//! approximate minimum degrees alone, of the two starts, the largest mesh takes 2.3. Below 0.5 something
+//! would be left out of the count.
 
 use asperity_numerics::sparse::fill_ordering::elimination_order;
 use asperity_simulation::scene::Accuracy;

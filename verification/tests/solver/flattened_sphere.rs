@@ -1,10 +1,11 @@
-//! Claim: a spherical summit of metal that does not harden, flattened by a plane from 3 to 100 times the depth of first
-//! yield, carries the force of Jackson and Green, and of Kogut and Etsion, to 5 %; below first yield it follows Hertz to 1 %.
+//! Claim: a spherical summit of metal that does not harden, flattened by a plane from 3 to 100 times the
+//! depth of first yield, carries the force of Jackson and Green, and of Kogut and Etsion, to 5 %; below first
+//! yield it follows Hertz to 1 %.
 //!
-//! Source: `contact::Flattened` (J. Tribol. 127 (2005) 343; J. Appl. Mech. 69 (2002) 657), both fits to finite elements;
-//! S/E* = 1.3e-3. Tolerance 5 %: the fits differ by up to 4 % from each other, and the force is good to 1 %. The ripple of
-//! perfect plasticity is averaged over by comparing the mean over three depths near each point. Hertz: as in
-//! `elastic_flattening`.
+//! Source: `contact::Flattened` (J. Tribol. 127 (2005) 343; J. Appl. Mech. 69 (2002) 657), both fits to
+//! finite elements; S/E* = 1.3e-3. Tolerance 5 %: the fits differ by up to 4 % from each other, and the force
+//! is good to 1 %. The ripple of perfect plasticity is averaged over by comparing the mean over three depths
+//! near each point. Hertz: as in `elastic_flattening`.
 
 use asperity_material::units::{Length, Stress};
 use asperity_simulation::record::curve::Curve;
@@ -15,8 +16,8 @@ use asperity_verification::single_asperity::{crush, scene};
 
 const RADIUS: f64 = 50e-6;
 
-/// A flat cone whose rounded tip reaches out to a third of the radius, flattened to `depth`: seven times the contact
-/// radius at 110 times the depth of first yield.
+/// A flat cone whose rounded tip reaches out to a third of the radius, flattened to `depth`: seven times the
+/// contact radius at 110 times the depth of first yield.
 fn ball(depth: f64, yields: bool) -> Scene {
     let mut scene = scene(Accuracy::Standard).unwrap();
     scene.material.yield_stress = yields.then_some(Stress(300e6));

@@ -1,6 +1,6 @@
-//! A system of fully integrated four-node elements, axisymmetric: what the solver does not offer, because it locks.
-//! Source: the standard displacement formulation (T. J. R. Hughes, The Finite Element Method, §3.9). No claim of its own:
-//! only `punch` uses it, to show that its claim can fail.
+//! A system of fully integrated four-node elements, axisymmetric: what the solver does not offer, because it
+//! locks. Source: the standard displacement formulation (T. J. R. Hughes, The Finite Element Method, §3.9).
+//! No claim of its own: only `punch` uses it, to show that its claim can fail.
 
 use asperity_mesh::Mesh;
 use asperity_numerics::newton::{Assessment, System};

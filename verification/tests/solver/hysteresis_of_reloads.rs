@@ -1,12 +1,13 @@
-//! Claim: metal whose yield surface moves flows back on unloading and pays for every reload; metal whose surface only
-//! grows shakes down (`ten_reloads`). The energy of both balances.
+//! Claim: metal whose yield surface moves flows back on unloading and pays for every reload; metal whose
+//! surface only grows shakes down (`ten_reloads`). The energy of both balances.
 //!
-//! Source: Bauschinger's effect, and the remark of Jourani et al. that results differ with the hardening mode. What is
-//! held here is the order of the two modes, with tolerances far from what was measured (`verification/results/cycles.md`): force 6 %
-//! lower, residual depth 2 % smaller, hysteresis of the tenth reload 15 times larger for half of the hardening. Energy
-//! balance: 1e-2, what draft keeps for isotropic hardening. Metal that flows back far as the tool retreats has a residual
-//! depth that does not depend on the step: 5 % of the depth between draft, which promises that, and standard (3 %
-//! measured; 10 % when the tool was taken away in one increment from 3 % of the force).
+//! Source: Bauschinger's effect, and the remark of Jourani et al. that results differ with the hardening
+//! mode. What is held here is the order of the two modes, with tolerances far from what was measured
+//! (`verification/results/cycles.md`): force 6 % lower, residual depth 2 % smaller, hysteresis of the tenth
+//! reload 15 times larger for half of the hardening. Energy balance: 1e-2, what draft keeps for isotropic
+//! hardening. Metal that flows back far as the tool retreats has a residual depth that does not depend on the
+//! step: 5 % of the depth between draft, which promises that, and standard (3 % measured; 10 % when the tool
+//! was taken away in one increment from 3 % of the force).
 
 use asperity_material::HardeningMode;
 use asperity_simulation::run::Outcome;
@@ -55,12 +56,13 @@ fn residual_depth_after_reverse_yielding_is_free_of_the_step() {
     };
     let [coarse, fine] = [Accuracy::Draft, Accuracy::Standard].map(residual);
     println!("residual depth at draft {coarse:e}, at standard {fine:e}");
-    // draft promises 5 % of the depth; a tool taken away from 3 % of the force in one increment missed by 10 %
+    // draft promises 5 % of the depth; a tool taken away from 3 % of the force in one increment missed by 10
+    // %
     assert!((coarse - fine).abs() < 0.05 * 5e-6, "{coarse:e} {fine:e}");
 }
 
-/// A share of nothing is the isotropic metal, computed in the other space: what differs is where strains that add differ
-/// from strains that multiply (`kinematic_hardening`), which metal under a plane hardly sees.
+/// A share of nothing is the isotropic metal, computed in the other space: what differs is where strains that
+/// add differ from strains that multiply (`kinematic_hardening`), which metal under a plane hardly sees.
 #[test]
 fn vanishing_kinematic_share_is_isotropic_hardening() {
     let run = |share| {

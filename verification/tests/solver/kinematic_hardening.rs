@@ -1,9 +1,11 @@
-//! Claim: kinematic hardening repeats isotropic hardening in monotone tension, yields in reverse after a drop of 2σ_y,
-//! is objective, and is the metal of the isotropic update where nothing hardens and no principal direction turns.
+//! Claim: kinematic hardening repeats isotropic hardening in monotone tension, yields in reverse after a drop
+//! of 2σ_y, is objective, and is the metal of the isotropic update where nothing hardens and no principal
+//! direction turns.
 //!
-//! Source: the derivation in `asperity_solver::point::kinematic_hardening` (rule of Prager and Ziegler in the logarithmic strain space of
-//! Miehe, Apel, Lambrecht 2002). Bar with linear hardening σ_y + Hε_p: the reversed branch leaves the elastic line at
-//! τ_a - 2σ_y and goes on with EH/(E + H). Tolerances: 1e-9 for bars, as in `uniaxial_bar`; 1e-12 for points, rounding.
+//! Source: the derivation in `asperity_solver::point::kinematic_hardening` (rule of Prager and Ziegler in the
+//! logarithmic strain space of Miehe, Apel, Lambrecht 2002). Bar with linear hardening σ_y + Hε_p: the
+//! reversed branch leaves the elastic line at τ_a - 2σ_y and goes on with EH/(E + H). Tolerances: 1e-9 for
+//! bars, as in `uniaxial_bar`; 1e-12 for points, rounding.
 
 use asperity_material::{Hardening, HardeningLaw, HardeningTable};
 use asperity_mesh::ElementKind;
@@ -11,7 +13,7 @@ use asperity_solver::point::j2::{self, Tangent};
 use asperity_solver::point::kinematic_hardening::{self, History};
 use asperity_solver::point::material::{Metal, PointState, stress, volume_ratio};
 use asperity_solver::point::tensor::{Gradient, Sym};
-use asperity_verification::single_increment::{ELASTIC, hollomon, stretch_bar};
+use asperity_verification::single_increment::{ELASTIC_METAL, hollomon, stretch_bar};
 
 const YIELD: f64 = 2e-3;
 const SLOPE: f64 = 0.05;
@@ -23,7 +25,7 @@ fn kinematic(metal: Metal) -> Metal {
 /// σ_y + H ε_p as far as the tests go.
 fn linear() -> Metal {
     let table = HardeningTable::new(&[[0.0, YIELD], [10.0, YIELD + 10.0 * SLOPE]]).unwrap();
-    Metal { hardening: Some(table.into()), ..ELASTIC }
+    Metal { hardening: Some(table.into()), ..ELASTIC_METAL }
 }
 
 /// A point under increments f - I, one after the other; its last stress and state.
@@ -41,7 +43,7 @@ fn monotone_tension_is_that_of_isotropic_hardening() {
     let strains = [0.001, 0.0016, 0.002, 0.01, 0.05, 0.1, 0.5, 1.0];
     let swift =
         Hardening { law: HardeningLaw::Swift, yield_stress: 2e-3, exponent: 0.1, youngs_modulus: 1.0 };
-    let swift = Metal { hardening: Some(swift.into()), ..ELASTIC };
+    let swift = Metal { hardening: Some(swift.into()), ..ELASTIC_METAL };
     for metal in [hollomon(300.0 / 210e3, 0.3), swift, linear()] {
         for kind in [ElementKind::Quad4, ElementKind::Quad8] {
             let grows = stretch_bar(kind, &metal, &strains).unwrap();
@@ -169,8 +171,8 @@ fn without_hardening_coaxial_paths_are_those_of_the_isotropic_update() {
     }
 }
 
-/// Where directions turn, strains that add differ from strains that multiply. In simple shear without hardening the
-/// shear stress is σ_y/√3 in the latter; measured in the former here.
+/// Where directions turn, strains that add differ from strains that multiply. In simple shear without
+/// hardening the shear stress is σ_y/√3 in the latter; measured in the former here.
 #[test]
 fn simple_shear_shows_the_limit_of_additive_strains() {
     let metal = kinematic(hollomon(YIELD, 0.0));

@@ -1,6 +1,7 @@
 //! Claims: a body that earlier loads left goes on where they ended.
 //!
-//! References: the reload of one run, the load that goes on at once, the virgin body where the earlier load left no trace.
+//! References: the reload of one run, the load that goes on at once, the virgin body where the earlier load
+//! left no trace.
 
 use asperity_material::HardeningMode;
 use asperity_material::units::{Length, Stress};
@@ -19,22 +20,23 @@ fn steel() -> Material {
     Material::elastic_body(Stress(210e9), 0.3).yielding(Stress(300e6), 0.3)
 }
 
-fn to(depth: f64) -> Loading {
+fn loading_to(depth: f64) -> Loading {
     Loading::to_depth(Length(depth)).unloaded()
 }
 
 /// The asperity of the paper, 5 um deep.
 fn asperity(material: Material) -> Scene {
     let cone = Asperity::cone(Length(20e-6), 10.0).rounded(Length(10e-6));
-    Scene::new(Symmetry::Axisymmetric, material, Tool::plane(), to(5e-6)).with(cone)
+    Scene::new(Symmetry::Axisymmetric, material, Tool::plane(), loading_to(5e-6)).with(cone)
 }
 
-fn near(a: f64, b: f64, tolerance: f64) {
+fn assert_near(a: f64, b: f64, tolerance: f64) {
     assert!((a / b - 1.0).abs() <= tolerance, "{a} {b}");
 }
 
-/// The same tool back to the same place: the states are those of the reload, on a mesh and with a penalty of their own. The depth
-/// of the second load is the small difference of two; a thousandth of the first depth is 1 % of it, so of the force.
+/// The same tool back to the same place: the states are those of the reload, on a mesh and with a penalty of
+/// their own. The depth of the second load is the small difference of two; a thousandth of the first depth is
+/// 1 % of it, so of the force.
 #[test]
 fn the_tool_that_comes_back_finds_the_reload_of_one_run() {
     let mut kinematic = steel();
@@ -46,11 +48,11 @@ fn the_tool_that_comes_back_finds_the_reload_of_one_run() {
         let once = crushed(&once);
         let reload = once.rows.iter().rfind(|row| row.phase == Phase::Reload).unwrap();
         let residual = once.summary.residual_depth.unwrap();
-        let again = crushed(&scene.loaded_again(Tool::plane(), to(5e-6 - residual))).summary;
-        near(again.peak_force, reload.force, 0.015);
+        let again = crushed(&scene.loaded_again(Tool::plane(), loading_to(5e-6 - residual))).summary;
+        assert_near(again.peak_force, reload.force, 0.015);
         // both are known to a third of an element, of 24 across the contact
-        near(again.contact_area, reload.contact_area, 0.03);
-        near(again.unloading_stiffness.unwrap(), once.summary.unloading_stiffness.unwrap(), 0.01);
+        assert_near(again.contact_area, reload.contact_area, 0.03);
+        assert_near(again.unloading_stiffness.unwrap(), once.summary.unloading_stiffness.unwrap(), 0.01);
     }
 }
 
@@ -59,10 +61,10 @@ fn the_tool_that_comes_back_finds_the_reload_of_one_run() {
 fn a_deeper_second_load_joins_the_load_that_went_there_at_once() {
     let scene = asperity(steel());
     let residual = crushed(&scene).summary.residual_depth.unwrap();
-    let deep = crushed(&Scene { loading: to(7e-6), ..scene.clone() }).summary;
-    let again = crushed(&scene.loaded_again(Tool::plane(), to(7e-6 - residual))).summary;
-    near(again.peak_force, deep.peak_force, 0.01);
-    near(again.residual_depth.unwrap() + residual, deep.residual_depth.unwrap(), 0.005);
+    let deep = crushed(&Scene { loading: loading_to(7e-6), ..scene.clone() }).summary;
+    let again = crushed(&scene.loaded_again(Tool::plane(), loading_to(7e-6 - residual))).summary;
+    assert_near(again.peak_force, deep.peak_force, 0.01);
+    assert_near(again.residual_depth.unwrap() + residual, deep.residual_depth.unwrap(), 0.005);
     assert!(again.energy_balance_error < 3e-3, "{}", again.energy_balance_error);
 }
 
@@ -71,21 +73,22 @@ fn a_deeper_second_load_joins_the_load_that_went_there_at_once() {
 fn an_elastic_body_is_virgin_after_its_loads() {
     let body = Material::elastic_body(Stress(210e9), 0.3);
     let ball = Tool::sphere(Length(100e-6));
-    let virgin = Scene::new(Symmetry::Axisymmetric, body.clone(), ball.clone(), to(1e-6));
+    let virgin = Scene::new(Symmetry::Axisymmetric, body.clone(), ball.clone(), loading_to(1e-6));
     let [first, second] = [Tool::sphere(Length(300e-6)), Tool::cone(5.0)];
-    let scene = Scene::new(Symmetry::Axisymmetric, body, first, to(1e-6));
-    let again = scene.loaded_again(second, to(1e-6)).loaded_again(ball, to(1e-6));
+    let scene = Scene::new(Symmetry::Axisymmetric, body, first, loading_to(1e-6));
+    let again = scene.loaded_again(second, loading_to(1e-6)).loaded_again(ball, loading_to(1e-6));
     let (virgin, again) = (crushed(&virgin).summary, crushed(&again).summary);
-    near(again.peak_force, virgin.peak_force, 0.004);
+    assert_near(again.peak_force, virgin.peak_force, 0.004);
     assert!(again.residual_depth.unwrap().abs() < 1e-10, "{again:?}");
 }
 
-/// A dent hardens: a second ball of the same size needs more force for the same small depth than on virgin metal.
+/// A dent hardens: a second ball of the same size needs more force for the same small depth than on virgin
+/// metal.
 #[test]
 fn a_ball_in_the_dent_of_another_finds_harder_and_rounder_metal() {
     let ball = || Tool::sphere(Length(50e-6));
-    let virgin = Scene::new(Symmetry::Axisymmetric, steel(), ball(), to(2e-6));
-    let small = crushed(&Scene { loading: to(0.2e-6), ..virgin.clone() }).summary;
-    let again = crushed(&virgin.loaded_again(ball(), to(0.2e-6))).summary;
+    let virgin = Scene::new(Symmetry::Axisymmetric, steel(), ball(), loading_to(2e-6));
+    let small = crushed(&Scene { loading: loading_to(0.2e-6), ..virgin.clone() }).summary;
+    let again = crushed(&virgin.loaded_again(ball(), loading_to(0.2e-6))).summary;
     assert!(again.peak_force > 3.0 * small.peak_force, "{} {}", again.peak_force, small.peak_force);
 }

@@ -1,9 +1,9 @@
-//! Claim: a stiffness that loses a pivot is answered in order: the tangent without compressive geometric stiffness; else
-//! LDLᵀ with up to two negative pivots; else a stiffer diagonal, whose direction goes down; where that is not allowed a
-//! failure that halves the step. Never a panic, never a wrong answer.
+//! Claim: a stiffness that loses a pivot is answered in order: the tangent without compressive geometric
+//! stiffness; else LDLᵀ with up to two negative pivots; else a stiffer diagonal, whose direction goes down;
+//! where that is not allowed a failure that halves the step. Never a panic, never a wrong answer.
 //!
-//! Source: the decision of `Model::factorise`. A straight strut pressed beyond Euler's load is the first case, a bar
-//! pulled beyond Considère's strain the second and third. Tolerances with the claims.
+//! Source: the decision of `Model::factorise`. A straight strut pressed beyond Euler's load is the first
+//! case, a bar pulled beyond Considère's strain the second and third. Tolerances with the claims.
 
 use asperity_material::{Elastic, Hardening, HardeningLaw, StressMeasure};
 use asperity_mesh::ElementKind;
@@ -13,7 +13,9 @@ use asperity_solver::body::failure::Failure;
 use asperity_solver::equilibrium::{Equilibrium, SolveFailure};
 use asperity_solver::point::kinematics::Symmetry;
 use asperity_solver::point::material::Metal;
-use asperity_verification::single_increment::{ELASTIC, TIGHT, hollomon, increment, model, reaction};
+use asperity_verification::single_increment::{
+    ELASTIC_METAL, TIGHT_SETTINGS, hollomon, increment, model, reaction,
+};
 use asperity_verification::test_meshes::{mapped, nodes_of};
 
 #[test]
@@ -28,10 +30,10 @@ fn a_strut_beyond_eulers_load_loses_a_pivot_and_finds_an_equilibrium() {
         .iter()
         .filter(|&&n| mesh.nodes[n][0] == 0.0)
         .for_each(|&n| held[n][0] = true);
-    let mut strut = model(&mesh, Symmetry::PlaneStrain, ELASTIC, &held, None).unwrap();
+    let mut strut = model(&mesh, Symmetry::PlaneStrain, ELASTIC_METAL, &held, None).unwrap();
     let lost = [0.004, 0.20].map(|shortening| {
         let x = strut.state().position.clone();
-        increment(&mut strut, f64::INFINITY, &TIGHT, |node| {
+        increment(&mut strut, f64::INFINITY, &TIGHT_SETTINGS, |node| {
             [0.0, (1.0 - shortening) * mesh.nodes[node][1] - x[node][1]]
         })
         .unwrap();
@@ -39,8 +41,8 @@ fn a_strut_beyond_eulers_load_loses_a_pivot_and_finds_an_equilibrium() {
     });
     assert!(lost[0] == 0 && lost[1] > 0, "{lost:?}");
     // it may bend or stay straight, but not at a higher energy than straight: ½E*(ln λ)² in plane strain
-    let straight = 0.5 * ELASTIC.elastic.reduced_modulus() * 0.8_f64.ln().powi(2) * 10.0;
-    let energy = stored(&ELASTIC, &strut.state().points.states, &strut.body().volume);
+    let straight = 0.5 * ELASTIC_METAL.elastic.reduced_modulus() * 0.8_f64.ln().powi(2) * 10.0;
+    let energy = stored(&ELASTIC_METAL, &strut.state().points.states, &strut.body().volume);
     assert!(energy <= straight * (1.0 + 1e-9), "{energy} {straight}");
     let ends = [&mesh.sides.base, &mesh.sides.surface]
         .map(|side| reaction(&strut, &nodes_of(&mesh, side), |_| [0.0, 1.0]));

@@ -1,7 +1,8 @@
 //! Claims: a mesh laid anew without need changes little, and what it changes of the energy is known.
 //!
-//! Reference: the same path without it. Bounds: once 0.3 % of the peak force and 0.5 % of the residual depth, twenty times 1 % of
-//! each; every transfer below 1e-3 of the work, and the energies balance with their sum as well as without.
+//! Reference: the same path without it. Bounds: once 0.3 % of the peak force and 0.5 % of the residual depth,
+//! twenty times 1 % of each; every transfer below 1e-3 of the work, and the energies balance with their sum
+//! as well as without.
 
 use asperity_material::units::{Length, Stress};
 use asperity_simulation::load_path::{Increment, Path};
@@ -20,8 +21,8 @@ fn scene() -> Scene {
     Scene::new(Symmetry::Axisymmetric, steel, Tool::plane(), loading).with(cone)
 }
 
-/// Result of a path whose body is remeshed after the increments that `anew` names: peak force, residual depth, and the sum and
-/// the greatest of the energies of transfers over the work.
+/// Result of a path whose body is remeshed after the increments that `anew` names: peak force, residual
+/// depth, and the sum and the greatest of the energies of transfers over the work.
 struct Reached {
     force: f64,
     residual: f64,
@@ -89,8 +90,8 @@ fn a_mesh_laid_anew_without_need_keeps_force_and_residual_depth() {
     }
 }
 
-/// Metal under a cone of 50° half apex that does not harden slides along the flank, edge over edge: without a new mesh the surface
-/// folded at half of the depth, or the tool could not be taken away.
+/// Metal under a cone of 50° half apex that does not harden slides along the flank, edge over edge: without a
+/// new mesh the surface folded at half of the depth, or the tool could not be taken away.
 #[test]
 fn perfectly_plastic_metal_lets_a_steep_cone_in_and_out() {
     for yield_stress in [1e9, 2e9] {

@@ -1,8 +1,8 @@
-//! Claim: Newton converges quadratically: the observed order is at least 1.8, median over the increments of the single
-//! asperity whose plastic set and touching edges rest in the last three iterations.
+//! Claim: Newton converges quadratically: the observed order is at least 1.8, median over the increments of
+//! the single asperity whose plastic set and touching edges rest in the last three iterations.
 //!
-//! Source: p = ln(r₃/r₂)/ln(r₂/r₁) of the last three residuals above 1e-12 of their scale, below which rounding rules.
-//! 1.8 and not 2: the three residuals are not yet infinitesimal.
+//! Source: p = ln(r₃/r₂)/ln(r₂/r₁) of the last three residuals above 1e-12 of their scale, below which
+//! rounding rules. 1.8 and not 2: the three residuals are not yet infinitesimal.
 
 use asperity_numerics::newton::{Assessment, Settings, System, solve};
 use asperity_simulation::scene::Accuracy;

@@ -7,7 +7,9 @@
 use asperity_mesh::ElementKind;
 use asperity_solver::point::j2::{Tangent, update};
 use asperity_solver::point::kinematics::Symmetry;
-use asperity_verification::single_increment::{ELASTIC, TIGHT, hollomon, increment, model, stresses};
+use asperity_verification::single_increment::{
+    ELASTIC_METAL, TIGHT_SETTINGS, hollomon, increment, model, stresses,
+};
 use asperity_verification::test_meshes::{boundary, distorted_square};
 
 /// ∂x/∂X in the plane: rr, rz, zr, zz.
@@ -22,10 +24,11 @@ fn multiply(f: Plane, g: Plane) -> Plane {
     [a, c, b, d]
 }
 
-/// Deforms the square by `step` `steps` times, the boundary held to it, and compares every inner node and point.
+/// Deforms the square by `step` `steps` times, the boundary held to it, and compares every inner node and
+/// point.
 fn patch(symmetry: Symmetry, step: Plane, steps: usize) {
     for kind in [ElementKind::Quad4, ElementKind::Quad8] {
-        for metal in [ELASTIC, hollomon(0.01, 0.2)] {
+        for metal in [ELASTIC_METAL, hollomon(0.01, 0.2)] {
             let mesh = distorted_square(kind);
             let on = boundary(&mesh);
             let held: Vec<[bool; 2]> = on.iter().map(|&b| [b, b]).collect();
@@ -35,7 +38,7 @@ fn patch(symmetry: Symmetry, step: Plane, steps: usize) {
             let mut total = [1.0, 0.0, 0.0, 1.0];
             for _ in 0..steps {
                 let x = model.state().position.clone();
-                increment(&mut model, f64::INFINITY, &TIGHT, |node| {
+                increment(&mut model, f64::INFINITY, &TIGHT_SETTINGS, |node| {
                     let to = apply(step, x[node]);
                     // a first guess that is wrong inside: the answer must come from the equations
                     let wrong = if on[node] { 0.0 } else { 5e-3 };

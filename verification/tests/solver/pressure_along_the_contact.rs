@@ -1,10 +1,10 @@
-//! Claim: the pressure along the contact does not alternate between the corners and the mid-side nodes of the edges. Under an
-//! elastic ball it is that of Hertz to 1 % within three quarters of the contact radius; under the paper's asperity a mid-side
-//! node lies within 2 % of the mean of its corners.
+//! Claim: the pressure along the contact does not alternate between the corners and the mid-side nodes of the
+//! edges. Under an elastic ball it is that of Hertz to 1 % within three quarters of the contact radius; under
+//! the paper's asperity a mid-side node lies within 2 % of the mean of its corners.
 //!
-//! Source: Hertz (Johnson 1985, eq. 4.22) p = p₀ √(1 - r²/a²), p₀ = 2 E* a/(π R). Tolerances: the penetration at the nodes, which
-//! is not smoothed, gives 1.3 % and 14 %; the line over an edge cannot follow the curvature of Hertz's pressure, which is 0.5 %
-//! over the edge at the axis.
+//! Source: Hertz (Johnson 1985, eq. 4.22) p = p₀ √(1 - r²/a²), p₀ = 2 E* a/(π R). Tolerances: the penetration
+//! at the nodes, which is not smoothed, gives 1.3 % and 14 %; the line over an edge cannot follow the
+//! curvature of Hertz's pressure, which is 0.5 % over the edge at the axis.
 
 use asperity_material::units::Length;
 use asperity_simulation::run::{Event, Run};

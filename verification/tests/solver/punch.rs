@@ -1,14 +1,15 @@
-//! Claim: neither element locks. The mean pressure of a smooth circular punch on perfectly plastic metal comes to rest at
-//! 3.01 ± 0.06 σ_y with both; with a fully integrated four-node element it passes that and goes on rising.
+//! Claim: neither element locks. The mean pressure of a smooth circular punch on perfectly plastic metal
+//! comes to rest at 3.01 ± 0.06 σ_y with both; with a fully integrated four-node element it passes that and
+//! goes on rising.
 //!
-//! Source: the limit lies between 2.845 σ_y (R. T. Shield 1955, Tresca) and 3.285 σ_y (nested yield surfaces); 3.01 ±
-//! 0.02 is the value of quadratic elements at small strain extrapolated to elements of size zero. The pressure is too
-//! high by the share of the element at the punch edge, first order in its size, so that two meshes are extrapolated
-//! here too: measured 3.147 and 3.085 with 9 and 18 quadratic elements across, 3.129 and 3.073 with 18 and 36 linear
-//! ones. The limit is one of small strain and the solver knows no other than large: at E/σ_y = 2000 and 0.03 a its
-//! pressure over the current area is 4 % above the plateau, because the metal flows out from under the punch and its
-//! edge sinks. Hence E/σ_y = 2e6, and depths of as many yield strains. Tolerance: that of the source and of the
-//! extrapolation.
+//! Source: the limit lies between 2.845 σ_y (R. T. Shield 1955, Tresca) and 3.285 σ_y (nested yield
+//! surfaces); 3.01 ± 0.02 is the value of quadratic elements at small strain extrapolated to elements of size
+//! zero. The pressure is too high by the share of the element at the punch edge, first order in its size, so
+//! that two meshes are extrapolated here too: measured 3.147 and 3.085 with 9 and 18 quadratic elements
+//! across, 3.129 and 3.073 with 18 and 36 linear ones. The limit is one of small strain and the solver knows
+//! no other than large: at E/σ_y = 2000 and 0.03 a its pressure over the current area is 4 % above the
+//! plateau, because the metal flows out from under the punch and its edge sinks. Hence E/σ_y = 2e6, and
+//! depths of as many yield strains. Tolerance: that of the source and of the extrapolation.
 
 use crate::full_quad::FullQuad;
 use asperity_mesh::{ElementKind, Mesh};

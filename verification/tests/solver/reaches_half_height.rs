@@ -1,5 +1,6 @@
-//! Claim: crushed toward its whole height of 20 µm the paper's asperity reaches at least half of it; where that crush or
-//! one of 30 degrees cannot go on, it stops with a reason and keeps every increment that converged.
+//! Claim: crushed toward its whole height of 20 µm the paper's asperity reaches at least half of it; where
+//! that crush or one of 30 degrees cannot go on, it stops with a reason and keeps every increment that
+//! converged.
 //!
 //! Source: the limits of a mesh that is not renewed. No tolerance.
 

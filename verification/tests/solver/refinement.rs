@@ -1,23 +1,25 @@
-//! Claim: on affine elements the displacement converges in the integrated L2 norm with order 2 (four nodes) and 3 (eight
-//! nodes); on elements that are not parallelograms, however fine, the eight-node element loses what makes it cubic
-//! while the four-node one keeps its order.
+//! Claim: on affine elements the displacement converges in the integrated L2 norm with order 2 (four nodes)
+//! and 3 (eight nodes); on elements that are not parallelograms, however fine, the eight-node element loses
+//! what makes it cubic while the four-node one keeps its order.
 //!
-//! Source: theory of isoparametric elements (Strang, Fix 1973); D. N. Arnold, D. Boffi, R. S. Falk, Math. Comp. 71
-//! (2002) 909: serendipity elements need affine families. Exact field: `manufactured`, at an amplitude of 1e-9 at which
-//! the large-strain terms are 1e-9 of the displacement. Tolerance 0.15 of the order: the second term of the expansion.
+//! Source: theory of isoparametric elements (Strang, Fix 1973); D. N. Arnold, D. Boffi, R. S. Falk, Math.
+//! Comp. 71 (2002) 909: serendipity elements need affine families. Exact field: `manufactured`, at an
+//! amplitude of 1e-9 at which the large-strain terms are 1e-9 of the displacement. Tolerance 0.15 of the
+//! order: the second term of the expansion.
 
 use asperity_mesh::{ElementKind, Mesh};
 use asperity_solver::element::quad4;
 use asperity_solver::element::quad8;
 use asperity_solver::point::kinematics::Symmetry;
 use asperity_verification::manufactured::displacement;
-use asperity_verification::single_increment::{ELASTIC, TIGHT, increment, model};
+use asperity_verification::single_increment::{ELASTIC_METAL, TIGHT_SETTINGS, increment, model};
 use asperity_verification::test_meshes::{boundary, mapped, straighten};
 
 const AMPLITUDE: f64 = 1e-9;
 
 fn exact(x: [f64; 2]) -> [f64; 2] {
-    displacement(ELASTIC.elastic.shear_modulus(), ELASTIC.elastic.poissons_ratio, x).map(|u| AMPLITUDE * u)
+    displacement(ELASTIC_METAL.elastic.shear_modulus(), ELASTIC_METAL.elastic.poissons_ratio, x)
+        .map(|u| AMPLITUDE * u)
 }
 
 /// Abscissae and weights of four Gauss points.
@@ -70,8 +72,8 @@ fn error_norm(mesh: &Mesh, u: &[[f64; 2]]) -> f64 {
 
 fn solve_on(mesh: &Mesh) -> f64 {
     let held: Vec<[bool; 2]> = boundary(mesh).iter().map(|&b| [b, b]).collect();
-    let mut model = model(mesh, Symmetry::PlaneStrain, ELASTIC, &held, None).unwrap();
-    increment(&mut model, f64::INFINITY, &TIGHT, |node| {
+    let mut model = model(mesh, Symmetry::PlaneStrain, ELASTIC_METAL, &held, None).unwrap();
+    increment(&mut model, f64::INFINITY, &TIGHT_SETTINGS, |node| {
         if held[node][0] { exact(mesh.nodes[node]) } else { [0.0; 2] }
     })
     .unwrap();
@@ -88,8 +90,8 @@ fn affine(kind: ElementKind, n: usize) -> Mesh {
     mapped(kind, [n, n], |[s, t]| [s + 0.3 * t, t + 0.2 * s])
 }
 
-/// Trapezoids: every second inner line zigzags by a fixed share of an element, so that refinement never makes them
-/// parallelograms.
+/// Trapezoids: every second inner line zigzags by a fixed share of an element, so that refinement never makes
+/// them parallelograms.
 fn trapezoidal(kind: ElementKind, n: usize) -> Mesh {
     let mut mesh = mapped(kind, [n, n], |[s, t]| {
         let (column, row) = ((s * n as f64).round() as i64, (t * n as f64).round() as i64);

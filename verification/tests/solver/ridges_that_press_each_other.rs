@@ -1,8 +1,9 @@
-//! Claims: two equal ridges that press each other, one part of the body against another, do so as Hertz says: the pressure in the
-//! middle of their contact follows from the force, and falls back with it.
+//! Claims: two equal ridges that press each other, one part of the body against another, do so as Hertz says:
+//! the pressure in the middle of their contact follows from the force, and falls back with it.
 //!
-//! Source: K. L. Johnson, Contact Mechanics (1985), §4.2(c): p₀² = F E_e/(π R_e), with 1/R_e = 2/R and 1/E_e = 2/E'. Tolerance 1 %: 9
-//! elements across the half width at the peak, which is a twentieth of the blocks; below the middle p₀ falls as 1/√(1 + (z/b)²).
+//! Source: K. L. Johnson, Contact Mechanics (1985), §4.2(c): p₀² = F E_e/(π R_e), with 1/R_e = 2/R and 1/E_e
+//! = 2/E'. Tolerance 1 %: 9 elements across the half width at the peak, which is a twentieth of the blocks;
+//! below the middle p₀ falls as 1/√(1 + (z/b)²).
 
 use asperity_mesh::{Edge, ElementKind, Mesh};
 use asperity_numerics::newton::Settings;
@@ -10,19 +11,21 @@ use asperity_solver::body::discrete_body::ToolContact;
 use asperity_solver::contact::tool::Tool;
 use asperity_solver::element::kernel::GAUSS;
 use asperity_solver::point::kinematics::Symmetry;
-use asperity_verification::single_increment::{ELASTIC, increment, model, stresses};
+use asperity_verification::single_increment::{ELASTIC_METAL, increment, model, stresses};
 use asperity_verification::test_meshes::{mapped, nodes_of};
 use std::f64::consts::PI;
 
 const RADIUS: f64 = 10.0;
 
-/// Pressure per penetration: the two faces sink into each other by less than a thousandth of what they come closer.
+/// Pressure per penetration: the two faces sink into each other by less than a thousandth of what they come
+/// closer.
 const PENALTY: f64 = 500.0;
 
 /// The claim is to 1 %.
 const SETTLED: Settings = Settings { tolerance: 1e-7, max_iterations: 40, keep: 0.0 };
 
-/// Half of two ridges, one above the other, on blocks of width and height 1 that grow finer towards the contact.
+/// Half of two ridges, one above the other, on blocks of width and height 1 that grow finer towards the
+/// contact.
 fn ridges(kind: ElementKind, counts: [usize; 2]) -> Mesh {
     let shape = |[s, t]: [f64; 2], up: f64| {
         let (x, below) = (s * s, (1.0 - t) * (1.0 - t));
@@ -53,8 +56,8 @@ fn ridges_pressed_on_each_other_bear_the_pressure_of_hertz() {
         nodes_of(&mesh, &mesh.sides.axis).iter().for_each(|&n| held[n][0] = true);
         // a tool that is out of reach gives the penalty
         let contact = ToolContact { tool: Tool::Plane, penalty: PENALTY };
-        let mut model = model(&mesh, Symmetry::PlaneStrain, ELASTIC, &held, Some(contact)).unwrap();
-        let effective = 0.5 * ELASTIC.elastic.reduced_modulus();
+        let mut model = model(&mesh, Symmetry::PlaneStrain, ELASTIC_METAL, &held, Some(contact)).unwrap();
+        let effective = 0.5 * ELASTIC_METAL.elastic.reduced_modulus();
         let [columns, rows] = counts;
         // the integration point of the lower ridge nearest to the middle of the contact
         let (cell, point) = ((rows - 1) * columns, 3);

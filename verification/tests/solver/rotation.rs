@@ -1,22 +1,25 @@
-//! Claim: a rigid rotation superposed on a stretch rotates the stress and leaves energy and plastic strain unchanged.
+//! Claim: a rigid rotation superposed on a stretch rotates the stress and leaves energy and plastic strain
+//! unchanged.
 //!
-//! Source: objectivity; with b ← R b Rᵀ the stress must be R τ Rᵀ. Tolerance 1e-10: nine increments of 20 degrees add
-//! only rounding.
+//! Source: objectivity; with b ← R b Rᵀ the stress must be R τ Rᵀ. Tolerance 1e-10: nine increments of 20
+//! degrees add only rounding.
 
 use asperity_mesh::ElementKind;
 use asperity_solver::point::kinematics::Symmetry;
-use asperity_verification::single_increment::{ELASTIC, TIGHT, hollomon, increment, model, stresses};
+use asperity_verification::single_increment::{
+    ELASTIC_METAL, TIGHT_SETTINGS, hollomon, increment, model, stresses,
+};
 use asperity_verification::test_meshes::{boundary, distorted_square};
 
 #[test]
 fn stress_turns_with_the_body_and_energy_stays() {
     let turn = 20.0_f64.to_radians();
     for kind in [ElementKind::Quad4, ElementKind::Quad8] {
-        for metal in [ELASTIC, hollomon(0.01, 0.3)] {
+        for metal in [ELASTIC_METAL, hollomon(0.01, 0.3)] {
             let mesh = distorted_square(kind);
             let held: Vec<[bool; 2]> = boundary(&mesh).iter().map(|&b| [b, b]).collect();
             let mut model = model(&mesh, Symmetry::PlaneStrain, metal.clone(), &held, None).unwrap();
-            increment(&mut model, f64::INFINITY, &TIGHT, |node| {
+            increment(&mut model, f64::INFINITY, &TIGHT_SETTINGS, |node| {
                 let [x, z] = mesh.nodes[node];
                 // not uniform, so that stresses differ from point to point
                 [0.1 * x + 0.05 * x * z, -0.15 * z + 0.1 * x * x]
@@ -27,7 +30,7 @@ fn stress_turns_with_the_body_and_energy_stays() {
             let (s, c) = turn.sin_cos();
             for _ in 0..9 {
                 let x = model.state().position.clone();
-                increment(&mut model, f64::INFINITY, &TIGHT, |node| {
+                increment(&mut model, f64::INFINITY, &TIGHT_SETTINGS, |node| {
                     let [r, z] = x[node];
                     [c * r - s * z - r, s * r + c * z - z]
                 })

@@ -1,14 +1,16 @@
-//! Claims: two blocks of one body that do not match press each other uniformly (patch test across the contact), and let go of each other.
+//! Claims: two blocks of one body that do not match press each other uniformly (patch test across the
+//! contact), and let go of each other.
 //!
-//! Source: R. L. Taylor, P. Papadopoulos (1991), the contact patch test, here of a surface with itself. Tolerance 1e-9: the
-//! integration points lie between the nodes of the other side, so that a uniform pressure is integrated exactly.
+//! Source: R. L. Taylor, P. Papadopoulos (1991), the contact patch test, here of a surface with itself.
+//! Tolerance 1e-9: the integration points lie between the nodes of the other side, so that a uniform pressure
+//! is integrated exactly.
 
 use asperity_mesh::{ElementKind, Mesh};
 use asperity_solver::body::discrete_body::ToolContact;
 use asperity_solver::contact::tool::Tool;
 use asperity_solver::equilibrium::Equilibrium;
 use asperity_solver::point::kinematics::Symmetry;
-use asperity_verification::single_increment::{ELASTIC, TIGHT, increment, model, stresses};
+use asperity_verification::single_increment::{ELASTIC_METAL, TIGHT_SETTINGS, increment, model, stresses};
 use asperity_verification::test_meshes::{mapped, nodes_of};
 
 /// A block of 3 × 2 elements below one of 4 × 2, both 1 × 1; the two faces between them are the surface.
@@ -29,8 +31,13 @@ fn stacked(kind: ElementKind) -> Mesh {
 
 /// Moves the upper side by `travel`.
 fn press(model: &mut Equilibrium<'_>, moved: &[usize], travel: f64) {
-    increment(model, 1e3, &TIGHT, |node| if moved.contains(&node) { [0.0, -travel] } else { [0.0; 2] })
-        .unwrap();
+    increment(
+        model,
+        1e3,
+        &TIGHT_SETTINGS,
+        |node| if moved.contains(&node) { [0.0, -travel] } else { [0.0; 2] },
+    )
+    .unwrap();
 }
 
 #[test]
@@ -44,7 +51,7 @@ fn a_uniform_pressure_passes_between_blocks_that_do_not_match_and_falls_with_the
             nodes_of(&mesh, &mesh.sides.axis).iter().for_each(|&n| held[n][0] = true);
             // a tool that is out of reach gives the penalty
             let contact = ToolContact { tool: Tool::Plane, penalty: 4.0 };
-            let mut model = model(&mesh, symmetry, ELASTIC, &held, Some(contact)).unwrap();
+            let mut model = model(&mesh, symmetry, ELASTIC_METAL, &held, Some(contact)).unwrap();
             for _ in 0..4 {
                 press(&mut model, &moved, 0.02);
                 let stress = stresses(&model);
@@ -59,7 +66,8 @@ fn a_uniform_pressure_passes_between_blocks_that_do_not_match_and_falls_with_the
             for _ in 0..3 {
                 press(&mut model, &moved, -0.02);
             }
-            // a quarter of the travel is left; the penalty is taken over another surface than on the way in: a few thousandths
+            // a quarter of the travel is left; the penalty is taken over another surface than on the way in:
+            // a few thousandths
             let left = stresses(&model)[0][1] / most;
             assert!((0.23..0.25).contains(&left), "{kind:?} {symmetry:?}: {left} of the pressure is left");
         }

@@ -1,22 +1,24 @@
 //! Claims on asperities side by side:
-//! * three ridges between symmetric sides carry three times what one carries in a cell of its own width: 1e-8;
-//!   and the forces of the three sum to the whole: 1e-10;
+//! * three ridges between symmetric sides carry three times what one carries in a cell of its own width:
+//!   1e-8; and the forces of the three sum to the whole: 1e-10;
 //! * with free sides they do so to 1 % when the pitch is four depths of the substrate;
 //! * the contact widths that the mesh of a row is made for are those that a run finds: 20 %;
 //! * a neighbour that is never touched changes the force by at most 0.5 %;
 //! * a touched ring of line load P sinks the centre by 2P/E* at any radius: 2 %;
 //! * over a substrate of fixed depth D on a rigid base a ring beyond 4 D leaves the central curve alone: 1 %;
-//! * in plane strain twice the depth of the substrate adds (2P/πE*) ln 2 to the depth: 1 % elastic, 5 % in plastic metal.
+//! * in plane strain twice the depth of the substrate adds (2P/πE*) ln 2 to the depth: 1 % elastic, 5 % in
+//!   plastic metal.
 //!
-//! Sources: symmetry; the ring: Johnson 1985 §3.2, point loads P ds at equal distance b give u = ∫P ds/(πE* b) = 2P/E*;
-//! the depth: Johnson 1985 §2.3, u = (2P/πE*) ln(depth) + constant. 1e-8: what is asked; Newton's tolerance is set to
-//! 1e-11. 1 % and 0.5 %: what is asked. 2 %: a contact is not small against its distance (0.6 % measured). 5 %: the shift is
-//! a difference of two curves that ripple differently.
+//! Sources: symmetry; the ring: Johnson 1985 §3.2, point loads P ds at equal distance b give u = ∫P ds/(πE*
+//! b) = 2P/E*; the depth: Johnson 1985 §2.3, u = (2P/πE*) ln(depth) + constant. 1e-8: what is asked; Newton's
+//! tolerance is set to 1e-11. 1 % and 0.5 %: what is asked. 2 %: a contact is not small against its distance
+//! (0.6 % measured). 5 %: the shift is a difference of two curves that ripple differently.
 
 use asperity_material::units::Length;
 use asperity_simulation::scene::{Accuracy, Lateral, Scene, Symmetry};
 use asperity_verification::several::{
-    FOOT, LOW, Member, PAPER, at, depth_at, of_asperity, row, three_over_one, whole, worst_difference,
+    FOOT, LOW_MEMBER, Member, PAPER, depth_at, interpolated, of_asperity, row, three_over_one, whole,
+    worst_difference,
 };
 use asperity_verification::single_asperity::{crush, prepared};
 
@@ -51,8 +53,8 @@ fn three_free_ridges_at_four_depths_carry_three_times_one() {
     assert!(difference < 0.01, "{difference:e}");
 }
 
-/// Flat caps on rings, most of whose depth goes into the body at large: the cut of the plane is up to eight times as wide. 20 %: the
-/// mesh is as fine as asked for within that.
+/// Flat caps on rings, most of whose depth goes into the body at large: the cut of the plane is up to eight
+/// times as wide. 20 %: the mesh is as fine as asked for within that.
 #[test]
 fn the_mesh_of_a_row_is_made_for_the_contacts_that_a_run_finds() {
     let mut scene = row(Symmetry::Axisymmetric, Lateral::Free, &[PAPER; 3], None).unwrap();
@@ -87,7 +89,7 @@ fn untouched_neighbours_do_not_change_the_force() {
         assert!(outcome.stopped.is_none());
         whole(&outcome)
     };
-    let difference = worst_difference(&curve(&[PAPER, LOW]), &curve(&[PAPER]));
+    let difference = worst_difference(&curve(&[PAPER, LOW_MEMBER]), &curve(&[PAPER]));
     assert!(difference <= 0.005, "{difference:e}");
 }
 
@@ -97,9 +99,9 @@ fn without_yielding(mut scene: Scene) -> Scene {
     scene
 }
 
-/// A cone with a ring at `pitch` over a substrate of this radius and depth (m): the depth that the touched ring adds at
-/// the peak, over 2P/E*, and the largest difference of the central force. Beside it the same body with a ring too low to be
-/// touched, so that both meshes ripple alike.
+/// A cone with a ring at `pitch` over a substrate of this radius and depth (m): the depth that the touched
+/// ring adds at the peak, over 2P/E*, and the largest difference of the central force. Beside it the same
+/// body with a ring too low to be touched, so that both meshes ripple alike.
 fn ring(pitch: f64, size: [f64; 2], elastic: bool) -> [f64; 2] {
     let cone = Member { spacing: pitch - 2.0 * FOOT, ..PAPER };
     let scene = |ring: Member| {
@@ -108,20 +110,20 @@ fn ring(pitch: f64, size: [f64; 2], elastic: bool) -> [f64; 2] {
         scene.accuracy = Accuracy::Standard;
         if elastic { without_yielding(scene) } else { scene }
     };
-    let alone = whole(&crush(&scene(LOW)).unwrap());
+    let alone = whole(&crush(&scene(LOW_MEMBER)).unwrap());
     let outcome = crush(&scene(PAPER)).unwrap();
     let (centre, ring) = (of_asperity(&outcome, 0), of_asperity(&outcome, 1));
     let modulus = scene(PAPER).material.elastic().reduced_modulus();
     let share = |depth: f64| {
-        let line_load = at(&ring, depth) / (std::f64::consts::TAU * pitch);
-        (depth - depth_at(&alone, at(&centre, depth))) * modulus / (2.0 * line_load)
+        let line_load = interpolated(&ring, depth) / (std::f64::consts::TAU * pitch);
+        (depth - depth_at(&alone, interpolated(&centre, depth))) * modulus / (2.0 * line_load)
     };
     let peak = centre.last().unwrap()[0];
     [mean(SHARES.map(|s| share(s * peak))), worst_difference(&centre, &alone)]
 }
 
-/// Shares of the peak over which small differences of two draft curves are averaged: at one of them alone the ripple of the
-/// mesh is up to a tenth of the difference.
+/// Shares of the peak over which small differences of two draft curves are averaged: at one of them alone the
+/// ripple of the mesh is up to a tenth of the difference.
 const SHARES: [f64; 13] = [0.4, 0.45, 0.5, 0.55, 0.6, 0.65, 0.7, 0.75, 0.8, 0.85, 0.9, 0.95, 1.0];
 
 fn mean<const N: usize>(values: [f64; N]) -> f64 {
@@ -147,7 +149,8 @@ fn a_rigid_base_decouples_rings() {
 
 #[test]
 fn doubling_the_substrate_depth_adds_a_logarithm() {
-    // the load stretches a shallow body sideways, which helps its metal flow: 0.90 of the logarithm at 2 mm, 0.99 at 20
+    // the load stretches a shallow body sideways, which helps its metal flow: 0.90 of the logarithm at 2 mm,
+    // 0.99 at 20
     for (elastic, depth, tolerance) in [(true, 2e-3, 0.01), (false, 20e-3, 0.05)] {
         let scene = |depth: f64| {
             let substrate = Some([10.0 * depth, depth]);
@@ -168,7 +171,8 @@ fn doubling_the_substrate_depth_adds_a_logarithm() {
     }
 }
 
-/// The shear under a steep flank ends before the shells around the row spread sideways: no cell is inside out.
+/// The shear under a steep flank ends before the shells around the row spread sideways: no cell is inside
+/// out.
 #[test]
 fn a_steep_ridge_alone_has_sound_cells() {
     for slope in [40.0, 50.0, 60.0] {

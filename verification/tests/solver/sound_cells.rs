@@ -1,11 +1,13 @@
-//! Claim: the meshes of all sound scenes have sound cells: convex, of at least a tenth of a right angle, and no splinters.
+//! Claim: the meshes of all sound scenes have sound cells: convex, of at least a tenth of a right angle, and
+//! no splinters.
 //!
-//! Source: Strang & Fix, An Analysis of the Finite Element Method (1973), section 3.3: the map of a cell is one to one where
-//! its Jacobian is positive, which for straight sides the corners decide.
+//! Source: Strang & Fix, An Analysis of the Finite Element Method (1973), section 3.3: the map of a cell is
+//! one to one where its Jacobian is positive, which for straight sides the corners decide.
 //!
-//! Scenes drawn at random: slopes to 60°, tips to 0.9 of the height, one to three asperities on the axis or in a row,
-//! both kinds of element. Tolerance: 0.02 of the scaled Jacobian is that of the steepest flanks on the coarsest meshes; an
-//! aspect of 1e6 is that of the narrowest gap between two feet that is drawn, a rounded sum would leave 1e15.
+//! Scenes drawn at random: slopes to 60°, tips to 0.9 of the height, one to three asperities on the axis or
+//! in a row, both kinds of element. Tolerance: 0.02 of the scaled Jacobian is that of the steepest flanks on
+//! the coarsest meshes; an aspect of 1e6 is that of the narrowest gap between two feet that is drawn, a
+//! rounded sum would leave 1e15.
 
 use asperity_simulation::scene::{Accuracy, Scene};
 use asperity_verification::random_scenes::{Kind, draw};

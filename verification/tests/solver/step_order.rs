@@ -1,9 +1,10 @@
-//! Claim: the load step of the single asperity is of second order: halving it takes the force to its limit about four
-//! times closer, on average over the depths of the promise (0.2 to 1 of the peak).
+//! Claim: the load step of the single asperity is of second order: halving it takes the force to its limit
+//! about four times closer, on average over the depths of the promise (0.2 to 1 of the peak).
 //!
-//! Source: BDF2 (E. Hairer, S. P. Nørsett, G. Wanner, Solving Ordinary Differential Equations I, §III.3). Observed from
-//! three runs, p = log2(|F₂ - F₁|/|F₃ - F₂|); tolerance: at least 1.8, because the contact front enters new elements at
-//! increments that differ from run to run, which backward Euler (order 1) would not pass either.
+//! Source: BDF2 (E. Hairer, S. P. Nørsett, G. Wanner, Solving Ordinary Differential Equations I, §III.3).
+//! Observed from three runs, p = log2(|F₂ - F₁|/|F₃ - F₂|); tolerance: at least 1.8, because the contact
+//! front enters new elements at increments that differ from run to run, which backward Euler (order 1) would
+//! not pass either.
 
 use asperity_simulation::record::curve::Curve;
 use asperity_simulation::scene::Accuracy;

@@ -1,8 +1,9 @@
-//! Claim: the stiffness of the whole system is the derivative of its residual, flowing and in contact, with both elements
-//! and in both symmetries.
+//! Claim: the stiffness of the whole system is the derivative of its residual, flowing and in contact, with
+//! both elements and in both symmetries.
 //!
-//! Source: central differences, step 1e-6 of the element size. Tolerance 1e-6 of the largest entry: the differences
-//! carry an error of about 1e-9, more where a point is within a step of yielding or an edge of touching.
+//! Source: central differences, step 1e-6 of the element size. Tolerance 1e-6 of the largest entry: the
+//! differences carry an error of about 1e-9, more where a point is within a step of yielding or an edge of
+//! touching.
 
 use asperity_mesh::ElementKind;
 use asperity_numerics::newton::{Settings, System, solve};

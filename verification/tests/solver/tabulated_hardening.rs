@@ -1,10 +1,10 @@
-//! Claim: a table of hardening is the law it was taken from, to the error of its sampling, and two points are linear
-//! hardening; a table with kinks costs Newton's method nothing.
+//! Claim: a table of hardening is the law it was taken from, to the error of its sampling, and two points are
+//! linear hardening; a table with kinks costs Newton's method nothing.
 //!
 //! Source: linear interpolation between the points, constant beyond, as *PLASTIC of Abaqus and CalculiX. Bar:
-//! ε = τ/E + ε_p and τ = σ_y + H ε_p give τ = (σ_y + Hε)/(1 + H/E); tolerance 1e-9, what the local solve leaves.
-//! Asperity: forces are sums of stresses, so that no force differs by more than the largest error of the sampled
-//! stress, besides ten times the tolerance of Newton's method.
+//! ε = τ/E + ε_p and τ = σ_y + H ε_p give τ = (σ_y + Hε)/(1 + H/E); tolerance 1e-9, what the local solve
+//! leaves. Asperity: forces are sums of stresses, so that no force differs by more than the largest error of
+//! the sampled stress, besides ten times the tolerance of Newton's method.
 
 use asperity_material::units::Stress;
 use asperity_material::{Hardening, HardeningLaw, HardeningTable};
@@ -14,7 +14,7 @@ use asperity_simulation::run::Outcome;
 use asperity_simulation::scene::{Accuracy, HardeningChoice, Material, Scene};
 use asperity_solver::point::material::Metal;
 use asperity_verification::single_asperity::{crush, scene};
-use asperity_verification::single_increment::{ELASTIC, stretch_bar};
+use asperity_verification::single_increment::{ELASTIC_METAL, stretch_bar};
 
 const SWIFT: Hardening =
     Hardening { law: HardeningLaw::Swift, yield_stress: 300e6, exponent: 0.3, youngs_modulus: 210e9 };
@@ -54,7 +54,7 @@ fn swift() -> Outcome {
 fn two_points_are_linear_hardening() {
     let (first, modulus, last) = (1.5e-3, 0.02, 0.3);
     let table = HardeningTable::new(&[[0.0, first], [last, first + modulus * last]]).unwrap();
-    let metal = Metal { hardening: Some(table.into()), ..ELASTIC };
+    let metal = Metal { hardening: Some(table.into()), ..ELASTIC_METAL };
     let strains = [1e-3, 1.6e-3, 0.01, 0.1, 0.3, 0.31, 0.6, 1.0];
     for kind in [ElementKind::Quad4, ElementKind::Quad8] {
         for (stress, strain) in stretch_bar(kind, &metal, &strains).unwrap().into_iter().zip(strains) {

@@ -1,11 +1,12 @@
-//! Claim: a body that is unloaded and loaded again ten times to the same depth shakes down to elastic cycles: the force
-//! comes back, nothing ratchets, energy balances. An elastic body repeats its first loading from the first reload on.
+//! Claim: a body that is unloaded and loaded again ten times to the same depth shakes down to elastic cycles:
+//! the force comes back, nothing ratchets, energy balances. An elastic body repeats its first loading from
+//! the first reload on.
 //!
-//! Source: Melan's theorem of shakedown with isotropic hardening: each further flow widens the yield surface, so that
-//! flow on a closed path dies out. Measured on the single asperity, at draft and at standard alike: the edge of
-//! the contact flows back a little when the load is taken off, which costs the first reload 0.5 % of the force; what
-//! each further cycle loses is a seventh of that. Tolerances: 1e-5 is ten times that of Newton's method; 5e-3 of the
-//! returned work is the quadrature of an unloading in six increments.
+//! Source: Melan's theorem of shakedown with isotropic hardening: each further flow widens the yield surface,
+//! so that flow on a closed path dies out. Measured on the single asperity, at draft and at standard alike:
+//! the edge of the contact flows back a little when the load is taken off, which costs the first reload 0.5 %
+//! of the force; what each further cycle loses is a seventh of that. Tolerances: 1e-5 is ten times that of
+//! Newton's method; 5e-3 of the returned work is the quadrature of an unloading in six increments.
 
 use asperity_simulation::record::rows::Phase;
 use asperity_simulation::run::Outcome;

@@ -1,7 +1,8 @@
-//! Claim: while a body is loaded the tool never goes back, however much less the penetration is than was expected.
+//! Claim: while a body is loaded the tool never goes back, however much less the penetration is than was
+//! expected.
 //!
-//! Source: none outside; a sharp cone of soft metal, whose penetration over its depth falls by a third within the first increments.
-//! Tolerance: none.
+//! Source: none outside; a sharp cone of soft metal, whose penetration over its depth falls by a third within
+//! the first increments. Tolerance: none.
 
 use asperity_material::units::Stress;
 use asperity_simulation::record::rows::Phase;

@@ -1,12 +1,16 @@
-//! Claim: a bar in tension follows eq. [1] of the paper at total logarithmic strains from 0.002 to 1, force included.
+//! Claim: a bar in tension follows eq. [1] of the paper at total logarithmic strains from 0.002 to 1, force
+//! included.
 //!
-//! Source: `uniaxial::hollomon_stress` (Kirchhoff's stress: the law is an energy in logarithmic strain). Tolerance 1e-9: the
-//! path is straight, so that the return mapping is exact for any increment; what is left is the local solve of the law.
+//! Source: `uniaxial::hollomon_stress` (Kirchhoff's stress: the law is an energy in logarithmic strain).
+//! Tolerance 1e-9: the path is straight, so that the return mapping is exact for any increment; what is left
+//! is the local solve of the law.
 
 use asperity_material::HardeningCurve;
 use asperity_mesh::ElementKind;
 use asperity_solver::point::kinematics::Symmetry;
-use asperity_verification::single_increment::{TIGHT, hollomon, increment, model, reaction, stresses};
+use asperity_verification::single_increment::{
+    TIGHT_SETTINGS, hollomon, increment, model, reaction, stresses,
+};
 use asperity_verification::test_meshes::{mapped, nodes_of};
 use asperity_verification::uniaxial::{hollomon_stress, nominal_stress};
 
@@ -25,7 +29,7 @@ fn tension_follows_eq_1_from_strain_0_002_to_1() {
         let mut last = 0.0_f64;
         for strain in [0.002, 0.01, 0.05, 0.1, 0.5, 1.0_f64] {
             let x = model.state().position.clone();
-            increment(&mut model, f64::INFINITY, &TIGHT, |node| {
+            increment(&mut model, f64::INFINITY, &TIGHT_SETTINGS, |node| {
                 let [r, z] = x[node];
                 // as incompressible: nearly right
                 [r * (0.5 * (last - strain)).exp_m1(), z * (strain - last).exp_m1()]

@@ -1,9 +1,9 @@
-//! Finished cases on disk while many of them run: append-only lines, each forced to the disk, so that a killed run loses
-//! nothing that was finished.
+//! Finished cases on disk while many of them run: append-only lines, each forced to the disk, so that a
+//! killed run loses nothing that was finished.
 //!
-//! The first line names the work (its definition, discretisation and program version as one number); every other line
-//! is a checksum and a text of one line that the caller understands. A line that was cut short fails its checksum and is
-//! cut off when the run resumes.
+//! The first line names the work (its definition, discretisation and program version as one number); every
+//! other line is a checksum and a text of one line that the caller understands. A line that was cut short
+//! fails its checksum and is cut off when the run resumes.
 
 use std::fs::{File, OpenOptions};
 use std::io::{self, Read, Seek, SeekFrom, Write};
@@ -37,8 +37,8 @@ fn header(identity: u64) -> String {
     sealed(&format!("sweep {identity:016x}"))
 }
 
-/// The texts of the whole lines behind the header of the work `identity`, and the bytes up to the end of the last one; 0
-/// without that header.
+/// The texts of the whole lines behind the header of the work `identity`, and the bytes up to the end of the
+/// last one; 0 without that header.
 fn whole_lines(bytes: &[u8], identity: u64) -> (Vec<String>, usize) {
     let text = String::from_utf8_lossy(bytes);
     let (mut texts, mut whole) = (Vec::new(), header(identity).len());
@@ -54,7 +54,8 @@ fn whole_lines(bytes: &[u8], identity: u64) -> (Vec<String>, usize) {
 }
 
 impl Journal {
-    /// Opens the journal of the work `identity` and returns the texts it holds. A journal of other work is begun anew.
+    /// Opens the journal of the work `identity` and returns the texts it holds. A journal of other work is
+    /// begun anew.
     ///
     /// # Errors
     /// A file that cannot be read or written.
@@ -74,7 +75,8 @@ impl Journal {
         Ok((Journal { file, whole: whole as u64 }, texts))
     }
 
-    /// The texts that the journal of the work `identity` holds; none where it is of other work. It stays as it is.
+    /// The texts that the journal of the work `identity` holds; none where it is of other work. It stays as
+    /// it is.
     ///
     /// # Errors
     /// A file that cannot be read.

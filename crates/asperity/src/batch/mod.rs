@@ -1,7 +1,8 @@
 //! Many runs that do not depend on each other: one journal, one resume, one way to share them among tasks.
 //!
-//! Every finished run is a line of the journal, forced to the disk, under a key that says which run it is. A run that is
-//! found there is not run again, so that a killed batch resumes and a batch that has grown runs only what is new.
+//! Every finished run is a line of the journal, forced to the disk, under a key that says which run it is. A
+//! run that is found there is not run again, so that a killed batch resumes and a batch that has grown runs
+//! only what is new.
 
 pub mod journal;
 
@@ -39,7 +40,7 @@ impl Shard {
     }
 
     /// The numbers of its runs out of `runs`.
-    pub(crate) fn of(part: Option<Shard>, runs: usize) -> impl Iterator<Item = usize> {
+    pub(crate) fn case_numbers(part: Option<Shard>, runs: usize) -> impl Iterator<Item = usize> {
         let Shard { k, n } = part.unwrap_or(Shard { k: 1, n: 1 });
         (k - 1..runs).step_by(n)
     }
@@ -79,7 +80,7 @@ pub(crate) struct Batch<'a, C, R> {
     pub journal: Option<&'a Path>,
 }
 
-/// How far a batch has come.
+/// The progress of a batch.
 pub(crate) struct Reached<'a, R> {
     /// Runs that are done, those of the journal too.
     pub done: usize,
@@ -93,7 +94,7 @@ pub(crate) struct Reached<'a, R> {
 pub(crate) struct Finished<R> {
     /// One for each run that is done, with its number among the cases, in their order.
     pub rows: Vec<(usize, R)>,
-    /// Whether the observer ended it before all were done.
+    /// True where the observer ended it before all were done.
     pub stopped: bool,
 }
 
@@ -178,7 +179,8 @@ fn side_by_side<T: Send>(threads: usize, open: &[usize], one: &(dyn Fn(usize) ->
     let threads = thread_count(threads);
     let workers = threads.min(open.len()).max(1);
     let next = AtomicUsize::new(0);
-    // a pool of its own for each: a thread of a common pool that waits for a part of its run would begin another run
+    // a pool of its own for each: a thread of a common pool that waits for a part of its run would begin
+    // another run
     let work = || {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads / workers).build().ok();
         let taken = std::iter::from_fn(|| open.get(next.fetch_add(1, Ordering::Relaxed)).copied());
@@ -228,10 +230,10 @@ pub(crate) fn parts<D: PartialEq, R>(
     joined.ok_or_else(|| InputError::new("no parts were given"))
 }
 
-/// Whether every one of `keys` is among the `found` runs of the parts.
+/// True where every one of `keys` is among the `found` runs of the parts.
 ///
 /// # Errors
-/// How many are missing, and the first of them.
+/// The number of those that are missing, and the first of them.
 pub(crate) fn all_found<R>(keys: &[String], found: &HashMap<String, R>) -> Result<(), InputError> {
     let missing: Vec<&String> = keys.iter().filter(|key| !found.contains_key(*key)).collect();
     let Some(first) = missing.first() else { return Ok(()) };
@@ -257,7 +259,7 @@ pub(crate) fn read<R: DeserializeOwned>(path: &Path, definition: &str) -> io::Re
     Ok(lines.iter().filter_map(|line| serde_json::from_str(line).ok()).collect())
 }
 
-/// How a batch is run; its results do not depend on it.
+/// The way a batch is run; its results do not depend on it.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
     /// Threads, 0: all cores.
@@ -307,7 +309,7 @@ mod tests {
     #[test]
     fn every_run_is_in_one_part() {
         let mut all: Vec<usize> =
-            (1..=3).flat_map(|k| Shard::of(Shard::new(k, 3), 8).collect::<Vec<_>>()).collect();
+            (1..=3).flat_map(|k| Shard::case_numbers(Shard::new(k, 3), 8).collect::<Vec<_>>()).collect();
         all.sort_unstable();
         assert_eq!(all, (0..8).collect::<Vec<_>>());
         assert_eq!("2/3".parse(), Ok(Shard { k: 2, n: 3 }));

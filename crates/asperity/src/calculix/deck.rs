@@ -11,13 +11,14 @@ use asperity_simulation::setup::problem::Problem;
 use asperity_simulation::setup::schedule::{UNLOADING_EXPONENT, unloading};
 use asperity_solver::point::kinematics::Symmetry;
 
-/// SI value of the deck's unit of length, 1 µm: nodes are numbers near 1, which the tolerances of such codes expect.
+/// SI value of the deck's unit of length, 1 µm: nodes are numbers near 1, which the tolerances of such codes
+/// expect.
 const LENGTH: f64 = 1e-6;
 /// SI value of the deck's unit of stress, 1 MPa; forces are then in µN and energies in pJ.
 const STRESS: f64 = 1e6;
 
-/// Radius of the hole along the axis over the size of the first element of the surface: CalculiX finds no contact on
-/// faces that collapse onto the axis, which costs 0.5 to 1.7 % of the force; the hole costs 1e-6.
+/// Radius of the hole along the axis over the size of the first element of the surface: CalculiX finds no
+/// contact on faces that collapse onto the axis, which costs 0.5 to 1.7 % of the force; the hole costs 1e-6.
 const HOLE: f64 = 1e-3;
 
 /// Edges of the surface closer to the tool than this many depths may touch it.
@@ -58,7 +59,7 @@ pub struct Deck {
     pub(super) outline: Vec<[f64; 2]>,
     /// Travel of the tool at the end of each step, µm; the last one has left the body if the scene unloads.
     pub(super) travels: Vec<f64>,
-    /// How many of them load.
+    /// The number of them that load.
     pub(super) loading: usize,
     /// Depth of the peak, µm.
     pub(super) depth: f64,
@@ -71,11 +72,16 @@ impl Deck {
     /// A scene that such a deck cannot express, pointing at its line.
     pub fn new(name: &str, scene: &Scene, reader: Reader) -> Result<Deck, Error> {
         let problem = problem(scene)?;
-        Deck::of(name, scene.tables(), &problem, reader).map_err(|e| scene.error(&e).into())
+        Deck::from_problem(name, scene.tables(), &problem, reader).map_err(|e| scene.error(&e).into())
     }
 
     /// The deck of `problem`, which was prepared from `scene`.
-    fn of(name: &str, scene: &Tables, problem: &Problem, reader: Reader) -> Result<Deck, SceneError> {
+    fn from_problem(
+        name: &str,
+        scene: &Tables,
+        problem: &Problem,
+        reader: Reader,
+    ) -> Result<Deck, SceneError> {
         if let Target::Force(_) = scene.loading.target()? {
             return Err(error(
                 "loading.force",
@@ -179,8 +185,8 @@ fn first_width(mesh: &Mesh, edges: &[Edge]) -> f64 {
     first.map_or(0.0, |[a, b]| (a[0] - b[0]).abs())
 }
 
-/// From where to where the tool must reach: beyond the edges by what metal may be squeezed out. `axis`: where it
-/// begins in a body of revolution.
+/// From where to where the tool must reach: beyond the edges by what metal may be squeezed out. `axis`: where
+/// it begins in a body of revolution.
 fn span(mesh: &Mesh, edges: &[Edge], depth: f64, axis: Option<f64>) -> [f64; 2] {
     let xs = || edges.iter().flat_map(|&edge| ends(mesh, edge)).map(|[x, _]| x);
     let (low, high) = (xs().fold(f64::INFINITY, f64::min), xs().fold(f64::NEG_INFINITY, f64::max));
@@ -202,8 +208,8 @@ fn opened(mesh: &Mesh, section: Section, hole: f64) -> Mesh {
     mesh
 }
 
-/// Travels of the tool, loading and unloading, in the unit of `problem`: the depths of the scene's own schedule and
-/// the penetration to be expected.
+/// Travels of the tool, loading and unloading, in the unit of `problem`: the depths of the scene's own
+/// schedule and the penetration to be expected.
 fn travels(scene: &Tables, problem: &Problem) -> (Vec<f64>, Vec<f64>) {
     let penetration = problem.numbers.penetration;
     let load = problem.numbers.schedule().into_iter().map(|depth| depth + penetration).collect();
@@ -216,9 +222,9 @@ fn travels(scene: &Tables, problem: &Problem) -> (Vec<f64>, Vec<f64>) {
     (load, unload.chain([-0.1]).collect())
 }
 
-/// Estimated way from the peak to the end of contact, in the unit of `problem`: F ∝ (1 - u/u₀)^1.25 with the slope of a
-/// punch, 2E* a, at the peak: u₀ = 1.25 p A/(2E* a). Under a row of rings their sum on a punch as wide as the row is
-/// added. Only the steps are chosen by it.
+/// Estimated way from the peak to the end of contact, in the unit of `problem`: F ∝ (1 - u/u₀)^1.25 with the
+/// slope of a punch, 2E* a, at the peak: u₀ = 1.25 p A/(2E* a). Under a row of rings their sum on a punch as
+/// wide as the row is added. Only the steps are chosen by it.
 fn recovery(problem: &Problem, penetration: f64) -> f64 {
     let modulus = problem.metal.elastic.reduced_modulus();
     let pressure = problem.penalty * penetration;

@@ -1,5 +1,5 @@
-//! A scene as a complete input of CalculiX (and Abaqus): body, material, tool, contact, and a step for every point of the
-//! curve.
+//! A scene as a complete input of CalculiX (and Abaqus): body, material, tool, contact, and a step for every
+//! point of the curve.
 
 mod outline;
 

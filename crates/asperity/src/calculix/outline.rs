@@ -7,8 +7,8 @@ const FACETS: usize = 48;
 /// Largest share of the radius of a sphere that is drawn: beyond, facets would stand upright.
 const ROUND: f64 = 0.95;
 
-/// Points of the outline from left to right between the two `ends`, height 0 at the lowest point. Whatever is round
-/// becomes [`FACETS`] facets between its points, outside it by at most (Δx)²/8R.
+/// Points of the outline from left to right between the two `ends`, height 0 at the lowest point. Whatever is
+/// round becomes [`FACETS`] facets between its points, outside it by at most (Δx)²/8R.
 pub fn outline(tool: &Tool, ends: [f64; 2]) -> Vec<[f64; 2]> {
     let [low, high] = ends;
     let Some(mirrored) = tool.mirrored() else { return vec![[low, 0.0], [high, 0.0]] };

@@ -29,8 +29,8 @@ pub fn curve_table(curve: &HardeningCurve, unit: f64) -> PlasticTable {
 
 /// Samples `law` from first yield to about [`LAST_STRAIN`]; stresses in units of `unit` Pa.
 ///
-/// The points are geometric in the strain measure e of the law σ = R eⁿ, so that the error in it, n(1-n)/8 (Δ ln e)²,
-/// is the same between any two.
+/// The points are geometric in the strain measure e of the law σ = R eⁿ, so that the error in it, n(1-n)/8 (Δ
+/// ln e)², is the same between any two.
 fn plastic_table(law: &Hardening, unit: f64) -> PlasticTable {
     if law.exponent == 0.0 {
         return PlasticTable { points: vec![[law.yield_stress / unit, 0.0]], error: 0.0 };

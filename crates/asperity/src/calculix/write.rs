@@ -153,7 +153,8 @@ impl Deck {
         writeln!(out, "TOOL, 1")
     }
 
-    /// One step to `travel`; forces, contact and energy are printed at its end, fields kept at the peak and at the end.
+    /// One step to `travel`; forces, contact and energy are printed at its end, fields kept at the peak and
+    /// at the end.
     fn step(&self, out: &mut impl Write, index: usize, travel: f64) -> io::Result<()> {
         let kind = if index < self.loading { "loading" } else { "unloading" };
         writeln!(out, "** step {}, {kind} to a travel of {travel:.6} um", index + 1)?;

@@ -8,7 +8,8 @@ use crate::error::{Error, InputError};
 use crate::results::output::{Sink, SinkExt};
 use asperity_calibration::dimensionless::Dimensionless;
 use asperity_calibration::fit::{
-    DEVELOPED, Data, StrainCoefficient, angles, developed, model_choices, obstacle, strain_coefficient,
+    DEVELOPED_PLASTICITY, Data, StrainCoefficient, angles, developed, model_choices, obstacle,
+    strain_coefficient,
 };
 use asperity_calibration::row::{CaseRow, Row};
 use asperity_calibration::sweep::Sweep;
@@ -32,9 +33,10 @@ pub struct Calibration {
     pub coefficient: Option<Coefficient>,
     /// The content of `sweep.json`.
     pub sweep: Sweep,
-    /// Whether all cases of the sweep are there: of a part, or of a run that was stopped, only rows and sweep are written.
+    /// True where all cases of the sweep are there: of a part, or of a run that was stopped, only rows and
+    /// sweep are written.
     pub whole: bool,
-    /// Whether the observer ended the run.
+    /// True where the observer ended the run.
     pub stopped: bool,
     /// Seconds it took.
     pub wall_s: f64,
@@ -47,7 +49,8 @@ pub struct Calibration {
 
 /// Crushes the cones of `sweep` and fits them.
 ///
-/// `observer` is told of every case, from the thread that solved it; `false` ends the run, which keeps the rows it has.
+/// `observer` is told of every case, from the thread that solved it; `false` ends the run, which keeps the
+/// rows it has.
 ///
 /// # Errors
 /// Values of the sweep that make no sense; a journal that cannot be written (it keeps every finished case).
@@ -60,7 +63,7 @@ pub fn calibrate(
     sweep.validate().map_err(|e| InputError::new(e.to_string()))?;
     let solved = solve(sweep, options, observer)?;
     let wall_s = start.elapsed().as_secs_f64();
-    let calibration = Calibration::of(sweep, solved.rows, wall_s, options.shown_slope_deg);
+    let calibration = Calibration::fit(sweep, solved.rows, wall_s, options.shown_slope_deg);
     Ok(Calibration {
         whole: options.part.is_none() && !solved.stopped,
         stopped: solved.stopped,
@@ -71,14 +74,15 @@ pub fn calibrate(
 
 impl Calibration {
     /// Fits `rows`.
-    pub(super) fn of(sweep: &Sweep, rows: Vec<Row>, wall_s: f64, shown: Option<f64>) -> Calibration {
+    pub(super) fn fit(sweep: &Sweep, rows: Vec<Row>, wall_s: f64, shown: Option<f64>) -> Calibration {
         let data = Data::new(&rows);
         let obstacle = obstacle(&data);
         let angles = if obstacle.is_none() { angles(&data) } else { Vec::new() };
         let all = strain_coefficient(&angles);
         let choices = if all.is_some() { model_choices(&data) } else { Vec::new() };
-        let developed =
-            all.and_then(|a| strain_coefficient(&self::angles(&self::developed(&data, a.c, DEVELOPED))));
+        let developed = all.and_then(|a| {
+            strain_coefficient(&self::angles(&self::developed(&data, a.c, DEVELOPED_PLASTICITY)))
+        });
         let function = all.and_then(|a| Dimensionless::fit(&data, a.c));
         let unloaded = match (&function, all) {
             (Some(_), Some(a)) => unloading::unload(sweep, a.c),
@@ -205,7 +209,7 @@ fn fit_text(fit: &Fit) -> String {
     };
     if let Some(d) = &fit.developed {
         let said = format!("{:.4} {} from {} slopes", d.coefficient, within(d.ci95), d.slopes);
-        let _ = writeln!(text, "          {said} where E* tan(beta)/sigma_r >= {DEVELOPED}");
+        let _ = writeln!(text, "          {said} where E* tan(beta)/sigma_r >= {DEVELOPED_PLASTICITY}");
     }
     if let Some(f) = &fit.dimensionless_function {
         let [force, largest] = [f.force.rms, f.force.largest].map(|e| 100.0 * e);
@@ -240,8 +244,8 @@ fn coefficient(
         roughness::SlopeTable {
             beta_deg,
             modulus_over_stress: column(&|x| x / tan),
-            k_over_stress: column(&|x| function.force.at(x, tan) / (tan * tan)),
-            contact_ratio: column(&|x| function.contact_ratio.at(x, tan)),
+            k_over_stress: column(&|x| function.force.value(x, tan) / (tan * tan)),
+            contact_ratio: column(&|x| function.contact_ratio.value(x, tan)),
         }
     });
     let angles: Vec<roughness::SlopeTable> =

@@ -5,12 +5,14 @@
 use crate::results::output::{nan_for_null, row};
 use asperity_calibration::case::Tool;
 use asperity_calibration::dimensionless::{Dimensionless, Formula};
-use asperity_calibration::fit::{Angle, DEVELOPED, ModelChoice, StrainCoefficient, model_interval};
+use asperity_calibration::fit::{
+    Angle, DEVELOPED_PLASTICITY, ModelChoice, StrainCoefficient, model_interval,
+};
 use asperity_calibration::row::Row;
 use asperity_calibration::sweep::Sweep;
 use asperity_calibration::unloading::{Unloaded, mean};
 use asperity_material::HardeningLaw;
-use asperity_roughness::PUBLISHED;
+use asperity_roughness::PUBLISHED_COEFFICIENT;
 
 row! {
     /// The content of `fit.json`.
@@ -41,7 +43,7 @@ row! {
         /// Every slope.
         per_angle: Vec<AngleFit> = angles.iter().map(AngleFit::new).collect(),
         /// The published c.
-        published: f64 = PUBLISHED,
+        published: f64 = PUBLISHED_COEFFICIENT,
         /// c of the developed cases alone.
         developed: Option<DevelopedFit> = developed.map(DevelopedFit::new),
         /// K/σ_r and contact ratio as formulas.
@@ -104,7 +106,7 @@ row! {
     #[derive(Copy)]
     DevelopedFit(developed: StrainCoefficient) {
         /// Least E* tan β/σ_r of these cases.
-        least_modulus_tan_beta_over_stress: f64 = DEVELOPED,
+        least_modulus_tan_beta_over_stress: f64 = DEVELOPED_PLASTICITY,
         /// c.
         coefficient: f64 = developed.c,
         /// Its 95 % interval of the arithmetic.

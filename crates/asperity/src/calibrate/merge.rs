@@ -12,8 +12,8 @@ use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-/// Reads the sweep file at `path` (without one the sweep of 480 cases) and applies overrides `key.path=value` in
-/// their order.
+/// Reads the sweep file at `path` (without one the sweep of 480 cases) and applies overrides `key.path=value`
+/// in their order.
 ///
 /// # Errors
 /// A file that cannot be read or values that make no sense, pointing at the line.
@@ -50,5 +50,5 @@ pub fn merge(parts: &[PathBuf], shown_slope_deg: Option<f64>) -> Result<Calibrat
     let keys: Vec<String> = cases.iter().map(Row::key).collect();
     all_found(&keys, &rows)?;
     let rows = keys.iter().filter_map(|key| rows.get(key).cloned()).collect();
-    Ok(Calibration::of(&sweep, rows, start.elapsed().as_secs_f64(), shown_slope_deg))
+    Ok(Calibration::fit(&sweep, rows, start.elapsed().as_secs_f64(), shown_slope_deg))
 }

@@ -4,7 +4,7 @@ use super::fit::{AngleFit, Fit};
 use crate::draw::chart::{Chart, Series};
 use asperity_calibration::collapse::{Sample, distinct};
 use asperity_calibration::fit::Data;
-use asperity_roughness::PUBLISHED;
+use asperity_roughness::PUBLISHED_COEFFICIENT;
 
 /// File names, charts and what they show; none where nothing was fitted.
 pub(super) fn all(data: &Data, fit: &Fit, shown: Option<f64>) -> Vec<(&'static str, Chart, &'static str)> {
@@ -81,7 +81,7 @@ fn strains(angles: &[AngleFit], c: f64) -> Chart {
         Series::line("95 % interval, low end", bound(|a| a.low)),
         Series::line("95 % interval, high end", bound(|a| a.high)),
         Series::line(format!("fit: {c:.4} tan β"), line(c)),
-        Series::line(format!("published: {PUBLISHED} tan β"), line(PUBLISHED)),
+        Series::line(format!("published: {PUBLISHED_COEFFICIENT} tan β"), line(PUBLISHED_COEFFICIENT)),
     ];
     Chart::new("slope β, degrees", "representative strain εᵣ", lines)
         .titled("Representative strain of every slope")

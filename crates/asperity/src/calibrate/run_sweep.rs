@@ -10,7 +10,7 @@ use asperity_solver::body::analysis::Analyses;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
-/// How a sweep is run; its results do not depend on it.
+/// The way a sweep is run; its results do not depend on it.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
     /// Threads, 0: all cores.
@@ -23,7 +23,7 @@ pub struct Options {
     pub shown_slope_deg: Option<f64>,
 }
 
-/// How far a sweep has come.
+/// The progress of a sweep.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Progress {
     /// Cases that are done.
@@ -42,7 +42,7 @@ pub type Observer<'a> = dyn FnMut(&Progress) -> bool + Send + 'a;
 pub struct Solved {
     /// One row a case that was solved.
     pub rows: Vec<Row>,
-    /// Whether the observer ended the run before all cases were done.
+    /// True where the observer ended the run before all cases were done.
     pub stopped: bool,
 }
 
@@ -68,7 +68,7 @@ impl TryFrom<String> for Kept {
 /// Solves the cases that the journal does not hold yet.
 pub fn solve(sweep: &Sweep, options: &Options, observer: &mut Observer) -> Result<Solved, Error> {
     let all = sweep.cases();
-    let cases: Vec<Case> = Shard::of(options.part, all.len()).map(|i| all[i]).collect();
+    let cases: Vec<Case> = Shard::case_numbers(options.part, all.len()).map(|i| all[i]).collect();
     // its meshes are of few topologies
     let analyses = Analyses::for_threads(batch::thread_count(options.threads));
     let batch = Batch {

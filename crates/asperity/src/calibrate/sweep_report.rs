@@ -7,7 +7,8 @@ use crate::page::{self, Numbers, Report};
 use maud::{Markup, html};
 
 impl Calibration {
-    /// The sweep as one page that stands alone: the coefficient with its intervals, every slope, the curves made one, what failed.
+    /// The sweep as one page that stands alone: the coefficient with its intervals, every slope, the curves
+    /// made one, what failed.
     ///
     /// # Errors
     /// A drawing that fails.

@@ -1,7 +1,7 @@
 //! Line charts as SVG: labelled with units, legible in print and to colour-blind people.
 //!
-//! Lines differ in colour and in dash, so that either alone tells them apart, unless they say how they look. The legend
-//! stands beside the axes, where no data are.
+//! Lines differ in colour and in dash, so that either alone tells them apart, unless they say how they look.
+//! The legend stands beside the axes, where no data are.
 
 use super::encode::FAMILY;
 use super::palette::{self, Colour};
@@ -22,7 +22,7 @@ pub struct Series {
     pub label: String,
     /// Points (x, y) in the unit of the axes; those that are not finite are left out.
     pub points: Vec<[f64; 2]>,
-    /// Whether each point is marked with a dot.
+    /// True where each point is marked with a dot.
     pub marks: bool,
     /// Its colour; by its place among the lines where none is given.
     pub colour: Option<Colour>,
@@ -32,7 +32,7 @@ pub struct Series {
     pub band: Vec<[f64; 2]>,
 }
 
-/// How a line is broken.
+/// The way a line is broken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Dash {
     /// Not at all.
@@ -53,7 +53,8 @@ impl Series {
         Series { label: label.into(), points, ..Series::default() }
     }
 
-    /// The loading or unloading of a rough surface by a closure: its colour is that of the closure in every chart.
+    /// The loading or unloading of a rough surface by a closure: its colour is that of the closure in every
+    /// chart.
     pub fn of_closure(closure: Closure, unloading: bool, points: Vec<[f64; 2]>) -> Series {
         let (end, dash) = if unloading { (", unloading", Dash::Dashed) } else { ("", Dash::Solid) };
         let label = format!("{}{end}", closure.name());
@@ -76,7 +77,8 @@ pub struct Chart {
     pub y_label: String,
     /// The lines, drawn in this order.
     pub series: Vec<Series>,
-    /// A sentence above the axes, which is also the name of the picture for those who cannot see it; none if empty.
+    /// A sentence above the axes, which is also the name of the picture for those who cannot see it; none if
+    /// empty.
     pub title: String,
 }
 
@@ -101,7 +103,7 @@ impl Chart {
 /// Width and height of the axes with their names in pixels.
 const SIZE: (u32, u32) = (760, 500);
 /// The library draws at whole pixels: it gets that many to a pixel of the picture.
-pub const FINE: u32 = 8;
+pub const FINE_PIXELS: u32 = 8;
 /// Lines and letters.
 pub const INK: RGBColor = rgb(palette::INK);
 /// Lines of the grid.
@@ -114,7 +116,7 @@ pub const fn rgb([r, g, b]: Colour) -> RGBColor {
 
 /// Letters of `size` pixels.
 pub fn font(size: u32) -> TextStyle<'static> {
-    (FAMILY, size * FINE).into_font().color(&INK)
+    (FAMILY, size * FINE_PIXELS).into_font().color(&INK)
 }
 
 /// An axis with ticks at 1, 2, 2.5 or 5 times a power of ten, written with just the digits that they need.
@@ -125,7 +127,7 @@ pub struct Axis {
     /// Upper end.
     pub high: f64,
     step: f64,
-    /// Whether it holds logarithms; the powers of ten are written.
+    /// True where it holds logarithms; the powers of ten are written.
     logarithmic: bool,
 }
 
@@ -194,7 +196,8 @@ pub enum Sample {
     Mark(RGBColor, Vec<(i32, i32)>),
 }
 
-/// An SVG document: axes of so many pixels that `fill` draws on, [`FINE`] times finer, and the legend to their right.
+/// An SVG document: axes of so many pixels that `fill` draws on, [`FINE_PIXELS`] times finer, and the legend
+/// to their right.
 ///
 /// # Errors
 /// A text for a person where the drawing library fails.
@@ -217,19 +220,20 @@ fn paint(
     let letters = legend.iter().map(|(name, _)| name.chars().count()).max().unwrap_or(0) as u32;
     let whole = width + if legend.is_empty() { 0 } else { SAMPLE + 9 * letters + 14 };
     let mut text = String::new();
-    let root = SVGBackend::with_string(&mut text, (whole * FINE, height * FINE)).into_drawing_area();
+    let root =
+        SVGBackend::with_string(&mut text, (whole * FINE_PIXELS, height * FINE_PIXELS)).into_drawing_area();
     root.fill(&WHITE)?;
-    let (axes, beside) = root.split_horizontally(width * FINE);
+    let (axes, beside) = root.split_horizontally(width * FINE_PIXELS);
     fill(&axes)?;
-    let fine = FINE as i32;
+    let fine = FINE_PIXELS as i32;
     for (i, (name, sample)) in legend.iter().enumerate() {
         let y = (28 + 24 * i as i32) * fine;
         match sample {
             Sample::Line(colour, [dash, gap]) => {
-                let (line, style) = ([(0, y), (36 * fine, y)], colour.stroke_width(2 * FINE));
+                let (line, style) = ([(0, y), (36 * fine, y)], colour.stroke_width(2 * FINE_PIXELS));
                 match (dash, gap) {
                     (_, 0) => beside.draw(&PathElement::new(line, style))?,
-                    (0, _) => beside.draw(&Circle::new((18 * fine, y), 3 * FINE, colour.filled()))?,
+                    (0, _) => beside.draw(&Circle::new((18 * fine, y), 3 * FINE_PIXELS, colour.filled()))?,
                     _ => beside.draw(&DashedPathElement::new(line, *dash, *gap, style))?,
                 }
             }
@@ -244,7 +248,7 @@ fn paint(
     root.present()?;
     drop((axes, beside, root));
     let header = |scale: u32| format!("<svg width=\"{}\" height=\"{}\"", whole * scale, height * scale);
-    Ok(text.replacen(&header(FINE), &header(1), 1))
+    Ok(text.replacen(&header(FINE_PIXELS), &header(1), 1))
 }
 
 /// Colour, and pixels of dash and gap, of line `i`; no gap: solid, no dash: no line.
@@ -259,10 +263,10 @@ fn pen(i: usize, series: &Series) -> (RGBColor, [u32; 2]) {
         Dash::Hidden => [0, 1],
     };
     let colour = series.colour.unwrap_or(palette::LINES[i % palette::LINES.len()]);
-    (rgb(colour), dash.map(|pixels| pixels * FINE))
+    (rgb(colour), dash.map(|pixels| pixels * FINE_PIXELS))
 }
 
-/// Where the axes of a chart lie in its document, and what they span: left, top, right, lower end of both.
+/// Place of the axes of a chart in its document, and their spans: left, top, right, lower end of both.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Window {
     /// In the units of the document's view box.
@@ -297,35 +301,35 @@ pub fn located(chart: &Chart) -> Result<(String, Window), String> {
     if chart.title.is_empty() {
         return Ok((drawn, window));
     }
-    let Some(titled) = below(&chart.title, &drawn) else { return Ok((drawn, window)) };
-    window.frame[1] += f64::from(TITLE * FINE);
-    window.frame[3] += f64::from(TITLE * FINE);
+    let Some(titled) = below_title(&chart.title, &drawn) else { return Ok((drawn, window)) };
+    window.frame[1] += f64::from(TITLE * FINE_PIXELS);
+    window.frame[3] += f64::from(TITLE * FINE_PIXELS);
     Ok((titled, window))
 }
 
 /// The same for a drawing of [`framed`]: the document below a title.
 pub fn titled(title: &str, drawn: String) -> String {
-    below(title, &drawn).unwrap_or(drawn)
+    below_title(title, &drawn).unwrap_or(drawn)
 }
 
 /// Height of a title in pixels.
 const TITLE: u32 = 30;
 
 /// The document `drawn` of [`framed`] below a title; `None` if it is none of that.
-fn below(title: &str, drawn: &str) -> Option<String> {
+fn below_title(title: &str, drawn: &str) -> Option<String> {
     let (head, rest) = drawn.split_once("<svg width=\"")?;
     let (tag, body) = rest.split_once('>')?;
     let mut numbers = tag.split(|c: char| !c.is_ascii_digit()).filter_map(|word| word.parse::<u32>().ok());
     let (width, height) = (numbers.next()?, numbers.next()? + TITLE);
     let title = title.replace('&', "&amp;").replace('<', "&lt;");
-    let [fine, left, line, size] = [TITLE, 84, 22, 17].map(|pixels| pixels * FINE);
+    let [fine, left, line, size] = [TITLE, 84, 22, 17].map(|pixels| pixels * FINE_PIXELS);
     Some(format!(
         "{head}<svg width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {} {}\" xmlns=\"http://www.w3.org/2000/svg\" role=\"img\">\
          <title>{title}</title><rect width=\"100%\" height=\"100%\" fill=\"#FFFFFF\"/>\
          <text x=\"{left}\" y=\"{line}\" font-family=\"{FAMILY}\" font-size=\"{size}\" fill=\"{}\">{title}</text>\
          <g transform=\"translate(0 {fine})\">{}</g></svg>\n",
-        width * FINE,
-        height * FINE,
+        width * FINE_PIXELS,
+        height * FINE_PIXELS,
         palette::hex(palette::INK),
         body.trim_end().strip_suffix("</svg>")?
     ))
@@ -341,16 +345,16 @@ pub fn axes<'a>(
     names: [&str; 2],
 ) -> Result<ChartContext<'a, SVGBackend<'a>, Cartesian2d<Axis, Axis>>, Failure> {
     let mut area = ChartBuilder::on(paper)
-        .margin(14 * FINE)
-        .margin_right(26 * FINE)
-        .x_label_area_size(52 * FINE)
-        .y_label_area_size(70 * FINE)
+        .margin(14 * FINE_PIXELS)
+        .margin_right(26 * FINE_PIXELS)
+        .x_label_area_size(52 * FINE_PIXELS)
+        .y_label_area_size(70 * FINE_PIXELS)
         .build_cartesian_2d(x, y)?;
     area.configure_mesh()
         .light_line_style(TRANSPARENT)
-        .bold_line_style(GRID.stroke_width(FINE))
-        .axis_style(INK.stroke_width(FINE))
-        .set_all_tick_mark_size(5 * FINE)
+        .bold_line_style(GRID.stroke_width(FINE_PIXELS))
+        .axis_style(INK.stroke_width(FINE_PIXELS))
+        .set_all_tick_mark_size(5 * FINE_PIXELS)
         .label_style(font(15))
         .axis_desc_style(font(17))
         .x_desc(names[0])
@@ -383,14 +387,14 @@ pub fn draw(chart: &Chart, paper: &Paper) -> Result<Window, Failure> {
             let outline: Vec<_> = series.band.iter().map(|p| (p[0], p[1])).collect();
             area.draw_series(std::iter::once(Polygon::new(outline, colour.mix(0.25).filled())))?;
         }
-        let style = colour.stroke_width(2 * FINE);
+        let style = colour.stroke_width(2 * FINE_PIXELS);
         if gap == 0 {
             area.draw_series(LineSeries::new(points.iter().copied(), style))?;
         } else if dash > 0 {
             area.draw_series(DashedLineSeries::new(points.iter().copied(), dash, gap, style))?;
         }
         if series.marks {
-            area.draw_series(points.iter().map(|&p| Circle::new(p, 3 * FINE, colour.filled())))?;
+            area.draw_series(points.iter().map(|&p| Circle::new(p, 3 * FINE_PIXELS, colour.filled())))?;
         }
     }
     Ok(Window { frame, range })

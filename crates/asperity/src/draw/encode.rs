@@ -9,7 +9,8 @@ const FONT: &[u8] = include_bytes!("../../assets/DejaVuSans-subset.ttf");
 /// The family that every drawing names first, and what stands for it where it is not installed.
 pub const FAMILY: &str = "DejaVu Sans, sans-serif";
 
-/// A grid of `size` columns and rows, row by row from the top: each dot a colour of `palette` counted from 1, 0 transparent.
+/// A grid of `size` columns and rows, row by row from the top: each dot a colour of `palette` counted from 1,
+/// 0 transparent.
 ///
 /// # Errors
 /// A text for a person where the picture cannot be encoded.

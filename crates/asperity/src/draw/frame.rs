@@ -1,11 +1,13 @@
-//! The shared parts of pictures of sections and of maps: the framed window with its axes, the colour bar, the key, the document.
+//! The shared parts of pictures of sections and of maps: the framed window with its axes, the colour bar, the
+//! key, the document.
 
 use super::palette::{Bands, Colour, hex};
 use super::scale;
 use base64::Engine;
 use maud::{Markup, PreEscaped, Render, html};
 
-/// Lines take the colour of the text around them, so that they show on dark ground too; those on the body are dark.
+/// Lines take the colour of the text around them, so that they show on dark ground too; those on the body are
+/// dark.
 const STYLE: &str = ".section text{font:13px \"DejaVu Sans\",system-ui,sans-serif;fill:currentColor}.section .title{font-size:15px}\
 .section .line{fill:none;stroke:currentColor;stroke-width:1}.section .thin{fill:none;stroke:#26303a;stroke-width:.5;opacity:.6}\
 .section .grid{stroke:currentColor;stroke-width:.5;opacity:.2}.section .tool{fill:#8b95a1}.section .on-tool{fill:#fff}\
@@ -13,9 +15,9 @@ const STYLE: &str = ".section text{font:13px \"DejaVu Sans\",system-ui,sans-seri
 .section .ruler{fill:#fff;stroke:#1e1e1e;stroke-width:1}.section .on-map{fill:#1e1e1e}.section .paper{fill:#fff;fill-opacity:.8}";
 
 /// Room left of a window, for the numbers of the vertical axis.
-pub const LEFT: f64 = 72.0;
+pub const ROOM_LEFT: f64 = 72.0;
 /// Room right of it, for the colour bar.
-pub const RIGHT: f64 = 96.0;
+pub const ROOM_RIGHT: f64 = 96.0;
 
 /// A number of a drawing, to a hundredth.
 pub struct Short(pub f64);
@@ -39,7 +41,7 @@ pub fn document(size: [f64; 2], title: &str, body: &Markup) -> String {
         svg xmlns="http://www.w3.org/2000/svg" class="section" viewBox={ "0 0 " (width) " " (height) }
             width=(width) height=(height) role="img" aria-label=(title) {
             style { (PreEscaped(STYLE)) }
-            @if !title.is_empty() { text class="title" x=(Short(LEFT)) y="18" { (title) } }
+            @if !title.is_empty() { text class="title" x=(Short(ROOM_LEFT)) y="18" { (title) } }
             (body)
         }
     };
@@ -49,7 +51,7 @@ pub fn document(size: [f64; 2], title: &str, body: &Markup) -> String {
 /// A window on paper: the rectangle from `low` to `high` of a plane, in µm, at one scale in both directions.
 #[derive(Clone, Copy, Debug)]
 pub struct Frame {
-    /// Upper end on paper; its left end is at [`LEFT`].
+    /// Upper end on paper; its left end is at [`ROOM_LEFT`].
     pub top: f64,
     /// Width and height on paper.
     pub size: [f64; 2],
@@ -70,12 +72,12 @@ impl Frame {
         self.top + self.size[1]
     }
 
-    /// Where `x` lies on paper.
+    /// The place of `x` on paper.
     pub fn x(&self, x: f64) -> f64 {
-        LEFT + (x - self.low[0]) / (self.high[0] - self.low[0]) * self.size[0]
+        ROOM_LEFT + (x - self.low[0]) / (self.high[0] - self.low[0]) * self.size[0]
     }
 
-    /// Where `y` lies on paper.
+    /// The place of `y` on paper.
     pub fn y(&self, y: f64) -> f64 {
         self.top + (self.high[1] - y) / (self.high[1] - self.low[1]) * self.size[1]
     }
@@ -83,29 +85,30 @@ impl Frame {
     /// A PNG that fills the window.
     pub fn image(&self, png: &[u8]) -> Markup {
         html! {
-            image href=(data_uri(png)) x=(Short(LEFT)) y=(Short(self.top)) width=(Short(self.size[0]))
+            image href=(data_uri(png)) x=(Short(ROOM_LEFT)) y=(Short(self.top)) width=(Short(self.size[0]))
                 height=(Short(self.size[1])) preserveAspectRatio="none" {}
         }
     }
 
     /// `content` cut off at the window.
     pub fn cut(&self, content: &Markup) -> Markup {
-        let [left, top, width, height] = [LEFT, self.top, self.size[0], self.size[1]].map(Short);
+        let [left, top, width, height] = [ROOM_LEFT, self.top, self.size[0], self.size[1]].map(Short);
         html! {
             svg x=(left) y=(top) width=(width) height=(height)
                 viewBox={ (left) " " (top) " " (width) " " (height) } { (content) }
         }
     }
 
-    /// The frame with ticks; distances from the axis have no sign. Numbers and name of the horizontal axis only on the
-    /// lowest of several windows.
+    /// The frame with ticks; distances from the axis have no sign. Numbers and name of the horizontal axis
+    /// only on the lowest of several windows.
     pub fn axes(&self, names: [&str; 2], lowest: bool) -> Markup {
         let span = [0, 1].map(|k| self.high[k] - self.low[k]);
         let most = [(self.size[0] / 70.0).clamp(2.0, 8.0), (self.size[1] / 34.0).clamp(2.0, 8.0)];
         let [step_x, step_y] = [0, 1].map(|k| scale::round_step(span[k], most[k]));
-        let (bottom, middle) = (self.bottom(), [LEFT + 0.5 * self.size[0], self.top + 0.5 * self.size[1]]);
+        let (bottom, middle) =
+            (self.bottom(), [ROOM_LEFT + 0.5 * self.size[0], self.top + 0.5 * self.size[1]]);
         html! {
-            rect class="line" x=(Short(LEFT)) y=(Short(self.top)) width=(Short(self.size[0])) height=(Short(self.size[1])) {}
+            rect class="line" x=(Short(ROOM_LEFT)) y=(Short(self.top)) width=(Short(self.size[0])) height=(Short(self.size[1])) {}
             @for value in scale::multiples(self.low[1], self.high[1], step_y) {
                 (tick(self.y(value), &scale::label(value, step_y)))
             }
@@ -121,7 +124,7 @@ impl Frame {
 
     /// The colour bar beside the window, at least `least` high.
     pub fn bar(&self, bands: &Bands, least: f64) -> Markup {
-        let (x, height) = (LEFT + self.size[0] + 14.0, self.size[1].max(least));
+        let (x, height) = (ROOM_LEFT + self.size[0] + 14.0, self.size[1].max(least));
         let y = |share: f64| self.top + height * (1.0 - share);
         let count = bands.colours.len() as f64;
         // numbers closer than a line of text are left out
@@ -142,15 +145,15 @@ impl Frame {
 /// A tick of the vertical axis with its number.
 pub fn tick(y: f64, label: &str) -> Markup {
     html! {
-        path class="line" d={ "M" (Short(LEFT - 5.0)) " " (Short(y)) "h5" } {}
-        text x=(Short(LEFT - 8.0)) y=(Short(y + 4.5)) text-anchor="end" { (label) }
+        path class="line" d={ "M" (Short(ROOM_LEFT - 5.0)) " " (Short(y)) "h5" } {}
+        text x=(Short(ROOM_LEFT - 8.0)) y=(Short(y + 4.5)) text-anchor="end" { (label) }
     }
 }
 
-/// Boxes of colour in a row from (`LEFT`, `y`), each with its name.
+/// Boxes of colour in a row from (`ROOM_LEFT`, `y`), each with its name.
 pub fn boxes(y: f64, entries: &[(Colour, String)]) -> Markup {
     // room by the number of letters
-    let starts = entries.iter().scan(LEFT, |x, (_, name)| {
+    let starts = entries.iter().scan(ROOM_LEFT, |x, (_, name)| {
         let start = *x;
         *x += 38.0 + 7.6 * name.chars().count() as f64;
         Some(start)

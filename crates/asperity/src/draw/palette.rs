@@ -1,4 +1,5 @@
-//! Colours, and scales cut into bands of one colour each: even in lightness, legible to colour-blind people and in grey.
+//! Colours, and scales cut into bands of one colour each: even in lightness, legible to colour-blind people
+//! and in grey.
 
 use super::scale;
 use asperity_roughness::Closure;
@@ -6,7 +7,8 @@ use asperity_roughness::Closure;
 /// Red, green, blue.
 pub type Colour = [u8; 3];
 
-/// Colours of lines in order of use: blue, vermilion, green, purple, orange, sky, black (Okabe and Ito's palette).
+/// Colours of lines in order of use: blue, vermilion, green, purple, orange, sky, black (Okabe and Ito's
+/// palette).
 pub const LINES: [Colour; 7] =
     [[0, 114, 178], [213, 94, 0], [0, 158, 115], [204, 121, 167], [230, 159, 0], [86, 180, 233], [0, 0, 0]];
 /// Lines of axes and letters.
@@ -41,7 +43,8 @@ const COMPRESSION: [Colour; 4] = [[245, 245, 245], [143, 205, 193], [39, 125, 11
 const TENSION: [Colour; 3] = [[245, 245, 245], [216, 179, 101], [140, 81, 10]];
 /// Material that never yielded.
 pub const ELASTIC: Colour = [222, 228, 234];
-/// Zones of Fig. 5: never yielded, has yielded and is elastic now, yields; and the line of the first yield stress.
+/// Zones of Fig. 5: never yielded, has yielded and is elastic now, yields; and the line of the first yield
+/// stress.
 pub const ZONES: [Colour; 4] = [[0, 114, 178], [240, 180, 60], [226, 226, 226], [20, 20, 20]];
 /// Regimes of a rough contact: none, elastic, elastoplastic, plastic.
 pub const REGIMES: [Colour; 4] = [[236, 236, 236], [0, 114, 178], [240, 180, 30], [213, 60, 20]];
@@ -57,7 +60,7 @@ pub fn hex([r, g, b]: Colour) -> String {
 }
 
 /// The colour at `share` (0 to 1) of the way through `stops`.
-pub fn between(stops: &[Colour], share: f64) -> Colour {
+pub fn interpolated(stops: &[Colour], share: f64) -> Colour {
     let place = share.clamp(0.0, 1.0) * (stops.len() - 1) as f64;
     let k = (place as usize).min(stops.len() - 2);
     let t = place - k as f64;
@@ -68,7 +71,7 @@ pub fn between(stops: &[Colour], share: f64) -> Colour {
 
 /// `count` colours from the first of `stops` to the last.
 fn shades(stops: &[Colour], count: usize) -> Vec<Colour> {
-    (0..count).map(|i| between(stops, (i as f64 + 0.5) / count as f64)).collect()
+    (0..count).map(|i| interpolated(stops, (i as f64 + 0.5) / count as f64)).collect()
 }
 
 /// A scale cut into bands of one colour each.
@@ -98,13 +101,18 @@ impl Bands {
         let (first, last) = ((low / step + 1e-9).floor() as i64, (high / step - 1e-9).ceil() as i64);
         let edges: Vec<f64> = (first..=last.max(first + 1)).map(|i| i as f64 * step).collect();
         let colour = |middle: f64| {
-            if middle > 0.0 { between(&COMPRESSION, middle / high) } else { between(&TENSION, middle / low) }
+            if middle > 0.0 {
+                interpolated(&COMPRESSION, middle / high)
+            } else {
+                interpolated(&TENSION, middle / low)
+            }
         };
         let colours = edges.windows(2).map(|band| colour(0.5 * (band[0] + band[1]))).collect();
         Bands { labels: linear_labels(&edges), edges, colours }
     }
 
-    /// Bands of plastic strain in steps of about 2, up to at least `most`; below the first the material counts as elastic.
+    /// Bands of plastic strain in steps of about 2, up to at least `most`; below the first the material
+    /// counts as elastic.
     pub fn strain(most: f64) -> Bands {
         const LEVELS: [f64; 13] =
             [0.0005, 0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0];

@@ -1,25 +1,26 @@
 //! Maps of a rough surface as PNG: heights, pressure, contact by regime, with axes, scale bar and colour key.
 //!
-//! A map is an SVG document around an indexed picture of its cells; the PNG is that document rendered, dot for dot.
+//! A map is an SVG document around an indexed picture of its cells; the PNG is that document rendered, dot
+//! for dot.
 
 use super::encode::{drawing_png, indexed_png};
-use super::frame::{Frame, LEFT, RIGHT, Short, boxes, document};
-use super::palette::{Bands, Colour, REGIMES, between};
+use super::frame::{Frame, ROOM_LEFT, ROOM_RIGHT, Short, boxes, document};
+use super::palette::{Bands, Colour, REGIMES, interpolated};
 use super::scale;
 use maud::{Markup, html};
 
 /// No side of a picture is longer, unless less is asked for.
-pub const LONGEST: usize = 2048;
+pub const MAX_SIDE_DOTS: usize = 2048;
 /// Small maps are enlarged to about so many dots.
-const WANTED: usize = 640;
+const WANTED_DOTS: usize = 640;
 /// Longer side of a map on paper.
 const SIDE: f64 = 560.0;
 /// Room above a map for title and heading.
-const ABOVE: f64 = 54.0;
+const ROOM_ABOVE: f64 = 54.0;
 /// Room below it for its axis, and for the key.
-const BELOW: f64 = 76.0;
+const ROOM_BELOW: f64 = 76.0;
 /// A colour bar is at least so high, a picture at least so wide.
-const LEAST: [f64; 2] = [420.0, 110.0];
+const MIN_SIZE: [f64; 2] = [420.0, 110.0];
 
 /// Outlines on a map.
 const MARK: &str = "#0086c8";
@@ -37,7 +38,7 @@ pub struct Map<'a> {
     pub longest: usize,
 }
 
-/// How cells become dots: several cells a dot, or several dots a cell, so that lengths keep their ratio.
+/// The way cells become dots: several cells a dot, or several dots a cell, so that lengths keep their ratio.
 struct Grid {
     cells: [usize; 2],
     dots: [usize; 2],
@@ -49,18 +50,20 @@ struct Grid {
 }
 
 impl Grid {
-    fn of(map: &Map) -> Grid {
+    fn new(map: &Map) -> Grid {
         let size = [0, 1].map(|k| map.cells[k] as f64 * map.pixel[k] * 1e6);
         let longer = size[0].max(size[1]);
         let extent = size.map(|s| s / longer * SIDE);
-        let paper =
-            [(LEFT + extent[0] + RIGHT).max(LEAST[0]), ABOVE + extent[1].max(LEAST[1] - BELOW) + BELOW];
+        let paper = [
+            (ROOM_LEFT + extent[0] + ROOM_RIGHT).max(MIN_SIZE[0]),
+            ROOM_ABOVE + extent[1].max(MIN_SIZE[1] - ROOM_BELOW) + ROOM_BELOW,
+        ];
         let cells = map.cells[0].max(map.cells[1]);
-        let wanted = if cells >= WANTED { cells } else { cells * WANTED.div_ceil(cells.max(1)) };
+        let wanted = if cells >= WANTED_DOTS { cells } else { cells * WANTED_DOTS.div_ceil(cells.max(1)) };
         let fine = (wanted as f64 / SIDE).min(map.longest as f64 / paper[0].max(paper[1]));
         let dots = extent.map(|side| ((side * fine).round() as usize).max(1));
         // the picture's corner lies on a dot, so that its dots are those of the map
-        let top = (ABOVE * fine).round() / fine;
+        let top = (ROOM_ABOVE * fine).round() / fine;
         Grid { cells: map.cells, dots, frame: Frame::new(top, extent[0], [0.0; 2], size), paper, fine }
     }
 
@@ -97,7 +100,7 @@ impl Grid {
     ) -> Result<Vec<u8>, String> {
         let picture = indexed_png(self.dots, palette, indices)?;
         let body = html! {
-            text x=(Short(LEFT)) y="40" { (heading) }
+            text x=(Short(ROOM_LEFT)) y="40" { (heading) }
             (self.frame.image(&picture))
             (self.frame.axes(["x (µm)", "y (µm)"], true))
             (self.ruler())
@@ -115,9 +118,9 @@ impl Grid {
         let length = scale::round_step(self.frame.high[0], 6.0);
         let (on_paper, y) = (length / self.frame.high[0] * width, self.frame.bottom() - 20.0);
         html! {
-            rect class="paper" x=(Short(LEFT + 6.0)) y=(Short(y - 22.0)) width=(Short(on_paper.max(60.0) + 16.0)) height="36" {}
-            rect class="ruler" x=(Short(LEFT + 14.0)) y=(Short(y)) width=(Short(on_paper)) height="5" {}
-            text class="on-map" x=(Short(LEFT + 14.0)) y=(Short(y - 6.0)) { (scale::label(length, length)) " µm" }
+            rect class="paper" x=(Short(ROOM_LEFT + 6.0)) y=(Short(y - 22.0)) width=(Short(on_paper.max(60.0) + 16.0)) height="36" {}
+            rect class="ruler" x=(Short(ROOM_LEFT + 14.0)) y=(Short(y)) width=(Short(on_paper)) height="5" {}
+            text class="on-map" x=(Short(ROOM_LEFT + 14.0)) y=(Short(y - 6.0)) { (scale::label(length, length)) " µm" }
         }
     }
 
@@ -136,9 +139,10 @@ impl Grid {
         }
     }
 
-    /// Colours of a scale with the numbers beside the map; `nothing` counts from 1 after the colours of the scale.
+    /// Colours of a scale with the numbers beside the map; `nothing` counts from 1 after the colours of the
+    /// scale.
     fn scaled(&self, bands: &Bands, nothing: Colour) -> (Vec<Colour>, Markup) {
-        ([bands.colours.as_slice(), &[nothing]].concat(), self.frame.bar(bands, LEAST[1]))
+        ([bands.colours.as_slice(), &[nothing]].concat(), self.frame.bar(bands, MIN_SIZE[1]))
     }
 }
 
@@ -159,13 +163,13 @@ fn quantile(values: &[f32], share: f64) -> f64 {
     f64::from(*value)
 }
 
-/// Pressure in MPa under `nominal_mpa`: colours end at the pressure that 99 % of the loaded pixels do not exceed; no load
-/// is pale.
+/// Pressure in MPa under `nominal_mpa`: colours end at the pressure that 99 % of the loaded pixels do not
+/// exceed; no load is pale.
 ///
 /// # Errors
 /// A picture that cannot be encoded.
 pub fn pressure(map: &Map, title: &str, nominal_mpa: f64) -> Result<Vec<u8>, String> {
-    let grid = Grid::of(map);
+    let grid = Grid::new(map);
     let most = quantile(map.values, 0.99);
     let bands = Bands::smooth([0.0, most]).darkening();
     let (palette, key) = grid.scaled(&bands, REGIMES[0]);
@@ -209,7 +213,7 @@ pub struct Mark {
 /// # Errors
 /// A picture that cannot be encoded.
 pub fn asperities(map: &Map, title: &str, marks: &[Mark]) -> Result<Vec<u8>, String> {
-    let grid = Grid::of(map);
+    let grid = Grid::new(map);
     let (low, high) = map.values.iter().fold((f32::MAX, f32::MIN), |(l, h), v| (l.min(*v), h.max(*v)));
     let bands = Bands::smooth([f64::from(low), f64::from(high)]);
     let (palette, key) = grid.scaled(&bands, REGIMES[0]);
@@ -230,10 +234,10 @@ pub fn asperities(map: &Map, title: &str, marks: &[Mark]) -> Result<Vec<u8>, Str
 pub fn contact(map: &Map, title: &str, regime: &[f32], shares: Option<[f64; 3]>) -> Result<Vec<u8>, String> {
     /// Shades of each regime, from none to full cover.
     const SHADES: usize = 64;
-    let grid = Grid::of(map);
+    let grid = Grid::new(map);
     let shade = |i: usize| {
         let full = REGIMES[1 + i / SHADES];
-        between(&[REGIMES[0], full], (i % SHADES) as f64 / (SHADES - 1) as f64)
+        interpolated(&[REGIMES[0], full], (i % SHADES) as f64 / (SHADES - 1) as f64)
     };
     let palette: Vec<Colour> = (0..3 * SHADES).map(shade).collect();
     let indices = grid.paint(|cells| {
@@ -265,11 +269,11 @@ mod tests {
             ([100, 100], [1.0, 2.0], [0.5, 1.0]),
             ([5000, 10], [1.0, 1.0], [1.0, 0.002]),
         ] {
-            let grid = Grid::of(&Map { cells, pixel, values: &[], longest: LONGEST });
+            let grid = Grid::new(&Map { cells, pixel, values: &[], longest: MAX_SIDE_DOTS });
             let longer = grid.dots[0].max(grid.dots[1]) as f64;
             for k in 0..2 {
                 assert!((grid.dots[k] as f64 - want[k] * longer).abs() <= 1.0, "{:?}", grid.dots);
-                assert!(grid.paper[k] * grid.fine <= LONGEST as f64 + 1e-6);
+                assert!(grid.paper[k] * grid.fine <= MAX_SIDE_DOTS as f64 + 1e-6);
             }
             assert!(longer >= 640.0);
         }
@@ -278,7 +282,7 @@ mod tests {
     #[test]
     fn a_picture_reads_back() {
         let values: Vec<f32> = (0..64).map(|i| i as f32 / 8.0).collect();
-        let map = Map { cells: [8, 8], pixel: [1e-6, 1e-6], values: &values, longest: LONGEST };
+        let map = Map { cells: [8, 8], pixel: [1e-6, 1e-6], values: &values, longest: MAX_SIDE_DOTS };
         let size = |picture: Vec<u8>| {
             let reader = png::Decoder::new(std::io::Cursor::new(picture)).read_info().unwrap();
             [reader.info().width, reader.info().height]

@@ -1,4 +1,4 @@
-//! What stands for a part of a map: bodies of revolution and lines.
+//! Bodies of revolution and lines that stand for a part of a map.
 
 use asperity_roughness::asperities::{Asperity, Direction, RadialProfile};
 
@@ -22,9 +22,9 @@ pub struct Body {
 pub struct Line {
     /// Name of its files, such as `line-y-200um`.
     pub name: String,
-    /// Which way it runs.
+    /// The direction in which it runs.
     pub direction: Direction,
-    /// Where it lies, across that, m.
+    /// Its position across that, m.
     pub at: f64,
     /// Way along it and height above its lowest point, m.
     pub points: Vec<[f64; 2]>,

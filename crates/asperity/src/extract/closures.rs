@@ -22,7 +22,7 @@ pub(super) struct Closures {
     spaces: Vec<Closure>,
     scene: Scene,
     law: HardeningLaw,
-    /// Why the others are not there.
+    /// The reason why the others are not there.
     pub skipped: Vec<String>,
 }
 
@@ -40,7 +40,7 @@ impl Closures {
     ///
     /// # Errors
     /// A calibration that cannot be read.
-    pub fn of(scene: &RoughScene) -> Result<Closures, InputError> {
+    pub fn for_scene(scene: &RoughScene) -> Result<Closures, InputError> {
         let tables = scene.tables();
         let coefficient = scene.calibration()?;
         let (mut laws, mut spaces, mut skipped) = (Vec::new(), Vec::new(), Vec::new());
@@ -59,10 +59,10 @@ impl Closures {
     }
 
     /// Force and contact area of each for `body` on `surface` at `depth` (m).
-    pub fn at(&self, body: &Body, surface: &Surface, depth: f64) -> Vec<Given> {
-        let (area, slope) = body.profile.within(depth);
+    pub fn answers_at(&self, body: &Body, surface: &Surface, depth: f64) -> Vec<Given> {
+        let (area, slope) = body.profile.area_and_slope(depth);
         let top = surface.map.row(body.asperity.summit[1])[body.asperity.summit[0]];
-        let islands = Islands::above(&surface.map, top - depth);
+        let islands = Islands::above_plane(&surface.map, top - depth);
         let island = islands.holding(body.asperity.summit);
         let cones = self.laws.iter().map(|law| Given {
             closure: law.closure,

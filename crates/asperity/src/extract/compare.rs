@@ -44,13 +44,13 @@ pub struct Comparison {
     pub asperities: Vec<Compared>,
     /// Closures that the metal does not allow, with the reason.
     pub warnings: Vec<String>,
-    /// Whether the observer ended it before all were crushed.
+    /// True where the observer ended it before all were crushed.
     pub stopped: bool,
     /// Seconds it took.
     pub wall_s: f64,
 }
 
-/// How far a comparison has come.
+/// The progress of a comparison.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Progress {
     /// Asperities that are crushed, those of the journal too.
@@ -60,15 +60,15 @@ pub struct Progress {
 }
 
 impl Extracted {
-    /// Crushes the `count` highest bodies and holds every closure against them, a thread an asperity; `scene` is that of the
-    /// extraction, whose files lie in the folder of `options` ([`Extracted::write`]).
+    /// Crushes the `count` highest bodies and holds every closure against them, a thread an asperity; `scene`
+    /// is that of the extraction, whose files lie in the folder of `options` ([`Extracted::write`]).
     ///
-    /// `observer` is asked at the beginning, as runs go on and when they end; `false` ends the comparison, which keeps the
-    /// asperities that were crushed: the same call goes on from there.
+    /// `observer` is asked at the beginning, as runs go on and when they end; `false` ends the comparison,
+    /// which keeps the asperities that were crushed: the same call goes on from there.
     ///
     /// # Errors
-    /// More asperities than have a profile, no folder, or one that cannot be written. A run that fails is a row with its
-    /// reason.
+    /// More asperities than have a profile, no folder, or one that cannot be written. A run that fails is a
+    /// row with its reason.
     pub fn crush(
         &self,
         scene: &RoughScene,
@@ -83,7 +83,7 @@ impl Extracted {
             );
         };
         self.check_count(count)?;
-        let closures = Closures::of(scene)?;
+        let closures = Closures::for_scene(scene)?;
         let journal = folder.join(JOURNAL);
         let definition = self.definition(scene)?;
         let scenes = folder.join("scenes");
@@ -172,7 +172,7 @@ impl Extracted {
             let own =
                 Carried { force: point.force_N, area: point.contact_area_um2 * MICROMETRE * MICROMETRE };
             rows.push(ComparedRow::new(body, FINITE_ELEMENTS, point, own, None, Some(&crush.summary), "ok"));
-            for given in closures.at(body, &self.surface, point.depth_um * MICROMETRE) {
+            for given in closures.answers_at(body, &self.surface, point.depth_um * MICROMETRE) {
                 let (own, status) = match given.body {
                     Ok(own) => (own, "ok".into()),
                     Err(why) => (Carried { force: f64::NAN, area: f64::NAN }, why),

@@ -10,7 +10,7 @@ use crate::results::units::MICROMETRE;
 use serde::Serialize;
 
 /// Most asperities that the picture numbers.
-const NUMBERED: usize = 60;
+const MAX_NUMBERED: usize = 60;
 
 #[derive(Serialize)]
 struct RadiusRow {
@@ -55,7 +55,7 @@ impl Extracted {
             cells: [map.columns(), map.rows()],
             pixel: map.pixel(),
             values: &values,
-            longest: rough_map::LONGEST,
+            longest: rough_map::MAX_SIDE_DOTS,
         };
         let mark = |number: usize, one: &asperity_roughness::asperities::Asperity| {
             let ellipse = one.ellipse?;
@@ -68,7 +68,7 @@ impl Extracted {
             })
         };
         let marks: Vec<Mark> =
-            self.bodies.iter().filter_map(|b| mark(b.number, &b.asperity)).take(NUMBERED).collect();
+            self.bodies.iter().filter_map(|b| mark(b.number, &b.asperity)).take(MAX_NUMBERED).collect();
         sink.picture("asperities.png", rough_map::asperities(&view, &self.name, &marks))
     }
 }

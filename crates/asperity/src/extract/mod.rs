@@ -1,5 +1,5 @@
-//! From a measured map to finite elements: the asperities of a map, the bodies that stand for them, ready scenes, and the
-//! closures held against what crushing them gives.
+//! From a measured map to finite elements: the asperities of a map, the bodies that stand for them, ready
+//! scenes, and the closures held against what crushing them gives.
 
 mod settings;
 

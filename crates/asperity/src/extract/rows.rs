@@ -47,9 +47,9 @@ row! {
         /// Depth to which its scene crushes it; none without a profile, like what follows.
         depth_um: Option<f64> = body.map(|b| b.depth / MICROMETRE),
         /// Area of the body of revolution at the depth.
-        profile_area_um2: Option<f64> = body.map(|b| b.profile.within(b.depth).0 / MICROMETRE / MICROMETRE),
+        profile_area_um2: Option<f64> = body.map(|b| b.profile.area_and_slope(b.depth).0 / MICROMETRE / MICROMETRE),
         /// Slope of the body of revolution down to the depth, degrees.
-        profile_slope_deg: Option<f64> = body.map(|b| b.profile.within(b.depth).1.atan().to_degrees()),
+        profile_slope_deg: Option<f64> = body.map(|b| b.profile.area_and_slope(b.depth).1.atan().to_degrees()),
         /// `ok` with a profile, else why there is none; empty where none was asked for.
         status: String = status,
     }
@@ -77,7 +77,7 @@ row! {
         /// Depth from first touch.
         depth_um: f64 = point.depth_um,
         /// atan of the mean |dz/dr| of the body of revolution down to the depth, degrees.
-        slope_deg: f64 = body.profile.within(point.depth_um * MICROMETRE).1.atan().to_degrees(),
+        slope_deg: f64 = body.profile.area_and_slope(point.depth_um * MICROMETRE).1.atan().to_degrees(),
         /// Force on the body of revolution.
         force_N: f64 = own.force,
         /// Its contact area.

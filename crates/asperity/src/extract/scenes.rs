@@ -9,7 +9,7 @@ use asperity_simulation::scene::Accuracy;
 use std::fmt::Write;
 
 /// Width of the half of a line's block over its length: free metal beside the measured line.
-const BESIDE: f64 = 1.0;
+const WIDTH_BESIDE: f64 = 1.0;
 /// Depth of that block over its width.
 const DEPTH: f64 = 1.0;
 
@@ -17,7 +17,8 @@ fn um(metres: f64) -> String {
     format!("\"{} um\"", digits(metres / MICROMETRE))
 }
 
-/// The table of the metal that is crushed: that of the rough scene; of a hardness alone a third of it, without hardening.
+/// The table of the metal that is crushed: that of the rough scene; of a hardness alone a third of it,
+/// without hardening.
 fn material(material: &Material) -> String {
     let mut text = format!(
         "[material]\nyoungs_modulus = \"{} GPa\"\npoissons_ratio = {}\n",
@@ -86,7 +87,7 @@ pub(super) fn of_line(line: &Line, surface: &str, accuracy: Accuracy, metal: &Ma
         digits(line.at / MICROMETRE),
         material(metal),
         line.name,
-        um(BESIDE * line.length()),
+        um(WIDTH_BESIDE * line.length()),
         um(DEPTH * line.length()),
         um(line.depth),
     )

@@ -10,8 +10,8 @@ use std::str::FromStr;
 /// Rule by which the map is divided into asperities.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Parts {
-    /// Islands above the separation of the scene's load: its own, or the one at which this closure carries its pressure; none named:
-    /// the first of the scene that presses islands (of "all" `published`).
+    /// Islands above the separation of the scene's load: its own, or the one at which this closure carries
+    /// its pressure; none named: the first of the scene that presses islands (of "all" `published`).
     Load(Option<Closure>),
     /// Islands above this separation from the mean plane.
     Separation(Length),
@@ -24,9 +24,9 @@ pub enum Parts {
 /// A line of the map.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LineAt {
-    /// Which way it runs.
+    /// The direction in which it runs.
     pub direction: Direction,
-    /// Where, across that, from the first node.
+    /// Its position across that, from the first node.
     pub at: Length,
 }
 
@@ -53,7 +53,8 @@ impl FromStr for LineAt {
 pub struct Extraction {
     /// Rule by which the map is divided into asperities.
     pub parts: Parts,
-    /// Depth to which the asperities are to be crushed; absent: down to the plane of islands, half the rise of hills.
+    /// Depth to which the asperities are to be crushed; absent: down to the plane of islands, half the rise
+    /// of hills.
     pub depth: Option<Length>,
     /// Asperities, from the highest down, that get a profile and a scene.
     pub bodies: usize,

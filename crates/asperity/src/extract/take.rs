@@ -137,7 +137,7 @@ pub fn extract(scene: &RoughScene, wanted: &Extraction) -> Result<Extracted, Err
     Ok(Extracted { name, surface, separation, closure, asperities, bodies, lines, table, scene, warnings })
 }
 
-/// How many bodies there are, and why not more.
+/// The number of bodies, and the reason why there are not more.
 fn few(found: usize, wanted: usize, table: &[AsperityRow]) -> String {
     let mut reasons: Vec<(String, usize)> = Vec::new();
     for row in table.iter().filter(|row| row.status != "ok" && !row.status.is_empty()) {
@@ -181,7 +181,7 @@ fn way_out(surface: &Surface, wanted: &Extraction) -> Option<String> {
     Some(format!("; {flag} would give {} {profiles}", best.0))
 }
 
-/// How many of the profiles that are asked for there would be.
+/// The number of profiles that there would be of those that are asked for.
 fn profiles_by(surface: &Surface, wanted: &Extraction) -> usize {
     let how = match wanted.parts {
         Parts::Share(share) => {
@@ -202,13 +202,14 @@ fn without_numbers(reason: &str) -> String {
 }
 
 /// Length over width of half the area from which a body of revolution says little.
-const LONG: f64 = 3.0;
+const LONG_ASPECT_RATIO: f64 = 3.0;
 
 /// A doubt about bodies of revolution of long asperities; by area, for many small round ones bear little.
 fn long(bodies: &[Body]) -> Option<String> {
     let shape =
         |body: &Body| body.asperity.ellipse.map(|e| (e.semi_axes[0] / e.semi_axes[1], body.asperity.area));
-    let ratio = median_by_area(bodies.iter().filter_map(shape).collect()).filter(|ratio| *ratio > LONG)?;
+    let ratio = median_by_area(bodies.iter().filter_map(shape).collect())
+        .filter(|ratio| *ratio > LONG_ASPECT_RATIO)?;
     Some(format!(
         "the asperities are ridges (half of their area is on ones at least {ratio:.1} times as long as wide), for which a body of \
          revolution says little: take a line across them, --line \"y=PLACE\" or --line \"x=PLACE\""
@@ -307,7 +308,7 @@ fn body(surface: &Surface, number: usize, one: &Asperity, wanted: &Extraction) -
         },
         |depth| depth.0,
     );
-    let profile = RadialProfile::around(&surface.map, one.summit, depth).map_err(|e| e.to_string())?;
+    let profile = RadialProfile::around_summit(&surface.map, one.summit, depth).map_err(|e| e.to_string())?;
     Ok(Body { number, asperity: *one, profile, depth, scene: String::new() })
 }
 

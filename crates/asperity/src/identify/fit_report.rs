@@ -8,8 +8,8 @@ use crate::page::{self, Numbers, Report};
 use maud::html;
 
 impl Identification {
-    /// The identification as one page that stands alone: the verdict, every number with its interval, measured points and fit, the
-    /// stress-strain curve with its band.
+    /// The identification as one page that stands alone: the verdict, every number with its interval,
+    /// measured points and fit, the stress-strain curve with its band.
     ///
     /// # Errors
     /// A drawing that fails.

@@ -1,13 +1,19 @@
-//! From measured force-depth curves to the metal: what E, σ_y and n it has, how sure that is, and whether these curves can tell
-//! at all.
+//! From measured force-depth curves to the metal: what E, σ_y and n it has, how sure that is, and whether
+//! these curves can tell at all.
 //!
-//! In the order of the data: the file of the fit (`file`, `sought`), the tables of instruments (`instrument`) and their curves
-//! made ready (`measured`), checked into a [`Fit`] (`fit`, `parameters`); what finite elements answer to one metal (`response`) and
-//! between metals (`emulator`); a measurement with its covariance (`experiment`), all of them (`objective`); the search
-//! (`search`, `minimise`); intervals (`profile`), samples (`posterior`), and what cannot be seen (`verdict`); the result
-//! and its files (`stress_strain`, `result`, `pictures`, `report`).
+//! In the order of the data: the tables of a fit (`fit_file`, `known_or_unknown`), checked and with their
+//! measurements read ([`Fit`]); the answer of finite elements to one metal (`response`) and between metals
+//! (`emulator`); a measurement with its covariance (`experiment`), all of them (`objective`); the search
+//! (`search`, `levenberg_marquardt`); intervals (`profile_likelihood`), samples (`posterior`), and the null
+//! direction (`identifiability`): these are modules of `asperity_identification`. The result and its files
+//! are here.
+
+mod material_checks;
+mod measurements;
+mod tool_geometry;
 
 mod fit;
+mod noise;
 
 mod result;
 
@@ -18,11 +24,12 @@ mod fit_report;
 pub use asperity_identification::fit_file::{
     Features, FitAccuracy, FitCurve, FitFile, FitMaterial, FitShape, FitTool, Nuisance,
 };
-pub use asperity_identification::known_or_unknown::{Percent, Sought};
+pub use asperity_identification::identifiability::{NextExperiment, NullDirection};
+pub use asperity_identification::known_or_unknown::{KnownOrUnknown, Percent};
 pub use asperity_identification::stress_strain::StressAt;
-pub use asperity_identification::verdict::{Blind, NextExperiment};
-pub use fit::{Fit, PYRAMIDS_CONE};
+pub use fit::Fit;
 pub use result::{Found, Identification};
+pub use tool_geometry::PYRAMIDS_CONE;
 
 use crate::error::Error;
 
@@ -31,7 +38,8 @@ use crate::error::Error;
 /// `observer` hears the share that is done and what is being done; `false` ends the run.
 ///
 /// # Errors
-/// Finite elements that have no answer near the best fit, bounds without a metal, or an observer that ended the run.
+/// Finite elements that have no answer near the best fit, bounds without a metal, or an observer that ended
+/// the run.
 ///
 /// # Examples
 /// ```

@@ -1,7 +1,10 @@
-//! Pictures of an identification: measured points with fit and residual, the stress-strain band, the map of the objective.
+//! Pictures of an identification: measured points with fit and residual, the stress-strain band, the map of
+//! the objective.
 
-use crate::draw::chart::{Axis, Chart, Dash, FINE, INK, Sample, Series, axes, draw, framed, rgb, titled};
-use crate::draw::palette::{Colour, LINES, VIRIDIS, between};
+use crate::draw::chart::{
+    Axis, Chart, Dash, FINE_PIXELS, INK, Sample, Series, axes, draw, framed, rgb, titled,
+};
+use crate::draw::palette::{Colour, LINES, VIRIDIS, interpolated};
 use asperity_identification::experiment::{Data, Experiment};
 use asperity_identification::levenberg_marquardt::{Minimum, chi2};
 use asperity_identification::objective::Objective;
@@ -77,7 +80,7 @@ impl Drawn {
         let height = lower + if forces.is_some() { upper } else { 0 };
         let drawn = framed((width, height), &legend, |paper| {
             let Some(forces) = forces else { return draw(&self.left(), paper).map(|_| ()) };
-            let (top, bottom) = paper.split_vertically(upper * FINE);
+            let (top, bottom) = paper.split_vertically(upper * FINE_PIXELS);
             draw(&forces, &top)?;
             draw(&self.left(), &bottom).map(|_| ())
         })?;
@@ -184,14 +187,14 @@ fn map(objective: &Objective<'_>, unknowns: &Unknowns, best: &Minimum, intervals
 }
 
 /// Standard deviations at which the colours of the map end.
-const DARKEST: f64 = 6.0;
+const DARKEST_DEVIATIONS: f64 = 6.0;
 
 fn draw_map(map: &Map) -> Result<String, String> {
     let (width, [height, _]) = SIZE;
-    let swatch = |sigma: f64| rgb(between(&VIRIDIS, 1.0 - (sigma / DARKEST).min(1.0)));
+    let swatch = |sigma: f64| rgb(interpolated(&VIRIDIS, 1.0 - (sigma / DARKEST_DEVIATIONS).min(1.0)));
     let square = vec![(-9, -9), (9, -9), (9, 9), (-9, 9)];
     let square: Vec<(i32, i32)> =
-        square.into_iter().map(|(x, y)| (x * FINE as i32, y * FINE as i32)).collect();
+        square.into_iter().map(|(x, y)| (x * FINE_PIXELS as i32, y * FINE_PIXELS as i32)).collect();
     let mut legend: Vec<(String, Sample)> = [0.0, 1.0, 2.0, 4.0, 6.0]
         .iter()
         .map(|s| (format!("{s} standard deviations"), Sample::Mark(swatch(*s), square.clone())))
@@ -212,15 +215,15 @@ fn draw_map(map: &Map) -> Result<String, String> {
             Rectangle::new([(left, low), (right, high)], swatch(sigma).filled())
         });
         let corners = [(ends[0][0], ends[1][0]), (ends[0][1], ends[1][1])];
-        area.draw_series(std::iter::once(Rectangle::new(corners, swatch(DARKEST).filled())))?;
+        area.draw_series(std::iter::once(Rectangle::new(corners, swatch(DARKEST_DEVIATIONS).filled())))?;
         area.draw_series(cells)?;
         for line in contour(map, GROWTH) {
-            area.draw_series(LineSeries::new(line, INK.stroke_width(FINE)))?;
+            area.draw_series(LineSeries::new(line, INK.stroke_width(FINE_PIXELS)))?;
         }
         area.draw_series(std::iter::once(Cross::new(
             (map.best[0], map.best[1]),
-            6 * FINE,
-            INK.stroke_width(2 * FINE),
+            6 * FINE_PIXELS,
+            INK.stroke_width(2 * FINE_PIXELS),
         )))?;
         Ok(())
     })?;

@@ -1,12 +1,17 @@
-//! The result of an identification: numbers with their intervals, the stress-strain curve with its band, the verdict, and the files.
+//! The result of an identification: numbers with their intervals, the stress-strain curve with its band, the
+//! verdict, and the files.
 
 use super::fit::Fit;
+use super::noise::noise_from_scatter;
 use super::pictures;
 use crate::draw::chart::svg;
 use crate::error::Error;
 use crate::input::toml_file::to_toml;
 use crate::results::output::{Sink, SinkExt, json};
 use asperity_identification::experiment::{Data, Experiment};
+use asperity_identification::identifiability::{
+    NextExperiment, NullDirection, deviations, identified, next_experiment, null_direction,
+};
 use asperity_identification::levenberg_marquardt::{Minimum, Residuals};
 use asperity_identification::objective::Objective;
 use asperity_identification::parameters::{Parameter, Slot, Unknowns};
@@ -14,9 +19,6 @@ use asperity_identification::posterior;
 use asperity_identification::profile_likelihood::{self, Interval};
 use asperity_identification::search::{self, search};
 use asperity_identification::stress_strain::StressAt;
-use asperity_identification::verdict::{
-    Blind, NextExperiment, blind, deviations, identified, next_experiment,
-};
 use asperity_simulation::scene::Material;
 use indexmap::IndexMap;
 use nalgebra::DVector;
@@ -36,10 +38,10 @@ pub struct Found {
     pub high: f64,
     /// Unit of the three.
     pub unit: &'static str,
-    /// Whether the measurements tell it: an interval within ±15 % (±0.05 of n) that no bound cuts, neither its own nor that of an
-    /// unknown it is tied to.
+    /// True where the measurements tell it: an interval within ±15 % (±0.05 of n) that no bound cuts, neither
+    /// its own nor that of an unknown it is tied to.
     pub identifiable: bool,
-    /// Whether the lower and the upper end are the bounds of the search.
+    /// True where the lower and the upper end are the bounds of the search.
     pub at_bound: [bool; 2],
 }
 
@@ -48,11 +50,12 @@ pub struct Found {
 pub struct Residual {
     /// Sum of squares in standard deviations.
     pub chi2: f64,
-    /// Whether that is no more than chance allows.
+    /// True where that is no more than chance allows.
     pub fits: bool,
     /// Measured numbers less unknowns.
     pub degrees_of_freedom: i64,
-    /// Of each measurement: name, root mean square of the relative differences of its forces (features), noise used.
+    /// Of each measurement: name, root mean square of the relative differences of its forces (features),
+    /// noise used.
     pub curves: Vec<CurveResidual>,
 }
 
@@ -77,7 +80,7 @@ pub struct Identification {
     /// In words: what the measurements tell and what they do not.
     pub verdict: String,
     /// The direction in which they see least.
-    pub blind_direction: Option<Blind>,
+    pub blind_direction: Option<NullDirection>,
     /// The sharp cone that would narrow the widest interval most; none where everything is told.
     pub next_experiment: Option<NextExperiment>,
     /// The stress-strain curve.
@@ -106,8 +109,6 @@ pub struct Identification {
 
 /// Plastic strains of the stress-strain curve.
 const STRAINS: [f64; 13] = [0.0, 0.002, 0.005, 0.01, 0.02, 0.033, 0.05, 0.066, 0.1, 0.15, 0.2, 0.25, 0.3];
-/// Factors by which the noise of a curve that states none may change from one round to the next without another round.
-const SETTLED: f64 = 1.15;
 
 pub(super) fn identify(
     mut fit: Fit,
@@ -142,22 +143,6 @@ fn assumed(fit: &Fit) -> Option<String> {
     })
 }
 
-/// Takes the noise of curves that state none from the scatter of their loading about the fit; whether one changed.
-fn noise_from_scatter(experiments: &mut [Experiment], unknowns: &Unknowns, point: &[f64]) -> bool {
-    let mut changed = false;
-    for experiment in experiments.iter_mut().filter(|e| !e.noise_given) {
-        let Data::Curve(measured) = &experiment.data else { continue };
-        let Some(differences) = experiment.differences(unknowns, point, false) else { continue };
-        let loading = &differences[..measured.loading.len()];
-        let freedom = (loading.len() as f64 - unknowns.parameters.len() as f64).max(1.0);
-        let scatter = (loading.iter().map(|d| d * d).sum::<f64>() / freedom).sqrt().clamp(1e-3, 0.2);
-        let ratio = (scatter / experiment.noise).max(experiment.noise / scatter);
-        experiment.noise = scatter;
-        changed |= ratio > SETTLED;
-    }
-    changed
-}
-
 fn describe(
     fit: &Fit,
     experiments: &[Experiment],
@@ -168,7 +153,7 @@ fn describe(
     let function = objective.function();
     let bounds = objective.bounds();
     let (deviations, correlation) = deviations(&objective, unknowns, &best.point);
-    let others = search::valleys(&objective, unknowns, best.chi2 + profile_likelihood::GROWTH);
+    let others = search::secondary_minima(&objective, unknowns, best.chi2 + profile_likelihood::GROWTH);
     let intervals: Vec<Interval> = (0..bounds.len())
         .into_par_iter()
         .map(|i| profile_likelihood::of_coordinate(&function, best, &others, &bounds, i, deviations[i]))
@@ -184,7 +169,7 @@ fn describe(
         .map(|(((p, i), x), told)| (p.name.clone(), found(p, i, *x, residual.fits && *told)))
         .collect();
     let stress_strain = band(&function, unknowns, best, &bounds, &correlation, &deviations);
-    let blind = blind(&objective, unknowns, &best.point);
+    let null = null_direction(&objective, unknowns, &best.point);
     let widest = widest(unknowns, &intervals, &identified);
     let next = widest.and_then(|of| next_experiment(&objective, experiments, unknowns, &best.point, of));
     let width = |s: &StressAt| (s.high_MPa / s.low_MPa).ln();
@@ -194,10 +179,10 @@ fn describe(
     let shown = |point: &Vec<f64>| point.iter().zip(&unknowns.parameters).map(|(x, p)| p.shown(*x)).collect();
     let drawn = pictures::Drawn::new(&objective, experiments, unknowns, best, &intervals);
     Some(Identification {
-        verdict: words(&parameters, representative.as_ref(), blind.as_ref(), next.as_ref(), &residual),
+        verdict: words(&parameters, representative.as_ref(), null.as_ref(), next.as_ref(), &residual),
         parameters,
         correlation,
-        blind_direction: blind,
+        blind_direction: null,
         next_experiment: next,
         stress_strain,
         representative,
@@ -286,8 +271,8 @@ fn residual(experiments: &[Experiment], unknowns: &Unknowns, best: &Minimum) -> 
     Some(Residual { chi2: best.chi2, fits: fits(best.chi2, degrees_of_freedom), degrees_of_freedom, curves })
 }
 
-/// Whether a sum of squares lies within three standard deviations of what is expected of so many degrees of freedom; that of
-/// none has to be small.
+/// True where a sum of squares lies within three standard deviations of what is expected of so many degrees
+/// of freedom; that of none has to be small.
 fn fits(chi2: f64, freedom: i64) -> bool {
     let free = freedom.max(0) as f64;
     chi2 <= free + 3.0 * (2.0 * free).sqrt() + 4.0
@@ -308,7 +293,7 @@ fn quoted(name: &str, f: &Found) -> String {
 fn words(
     parameters: &IndexMap<String, Found>,
     representative: Option<&StressAt>,
-    blind: Option<&Blind>,
+    null: Option<&NullDirection>,
     next: Option<&NextExperiment>,
     residual: &Residual,
 ) -> String {
@@ -321,20 +306,20 @@ fn words(
             residual.chi2, residual.degrees_of_freedom
         );
     }
-    let (told, untold) = (list(true), list(false));
-    let mut text = match (&told[..], &untold[..]) {
+    let (told, unidentified) = (list(true), list(false));
+    let mut text = match (&told[..], &unidentified[..]) {
         (_, []) => "identifiable: the measurements determine all that is sought".to_string(),
-        ([], _) => format!("not identifiable: the measurements do not determine {}", untold.join(", ")),
+        ([], _) => format!("not identifiable: the measurements do not determine {}", unidentified.join(", ")),
         _ => format!(
             "partly identifiable: the measurements determine {}, but not {}",
             told.join(", "),
-            untold.join(", ")
+            unidentified.join(", ")
         ),
     };
-    if let (false, Some(blind)) = (untold.is_empty(), blind) {
-        let _ = write!(text, "; they are least sensitive to {}", blind.text);
+    if let (false, Some(null)) = (unidentified.is_empty(), null) {
+        let _ = write!(text, "; they are least sensitive to {}", null.text);
     }
-    if let (false, Some(s)) = (untold.is_empty(), representative) {
+    if let (false, Some(s)) = (unidentified.is_empty(), representative) {
         let _ = write!(
             text,
             "; what they determine best is the stress at a plastic strain of {}: {:.0} ({:.0} to {:.0}) MPa",
@@ -431,7 +416,8 @@ impl Identification {
         svg(&pictures::stress_strain(&self.stress_strain)).map_err(Error::Unfinished)
     }
 
-    /// `objective.svg`: the map of the sum of squares over two unknowns, the others at their best; none with one unknown.
+    /// `objective.svg`: the map of the sum of squares over two unknowns, the others at their best; none with
+    /// one unknown.
     ///
     /// # Errors
     /// A drawing that fails.

@@ -16,7 +16,8 @@ pub struct ReadCurve {
     curve: CurveFile,
 }
 
-/// The table that the scene names; `None` where it names none, or names one that it cannot use, which validation says.
+/// The table that the scene names; `None` where it names none, or names one that it cannot use, which
+/// validation says.
 ///
 /// # Errors
 /// A file that cannot be read or holds no curve of hardening, pointing at its line.

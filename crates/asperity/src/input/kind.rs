@@ -1,4 +1,4 @@
-//! Which command reads a file, by its keys: for a file that was given to another one.
+//! The command that reads a file, by its keys: for a file that was given to another one.
 
 use serde::de::DeserializeOwned;
 use toml::Spanned;
@@ -16,7 +16,8 @@ const MARKS: [(&str, &str, &str); 8] = [
     ("symmetry", "a scene to be crushed", "crush"),
 ];
 
-/// A sentence that names the command for the file `name` of these top keys, where it is not one that holds a `T`.
+/// A sentence that names the command for the file `name` of these top keys, where it is not one that holds a
+/// `T`.
 pub fn of_another_command<T: DeserializeOwned>(table: &DeTable<'_>, name: &str) -> Option<String> {
     let known = known_keys::<T>();
     if known.is_empty() {

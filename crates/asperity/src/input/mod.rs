@@ -1,7 +1,8 @@
-//! Files that users write: scenes and sweeps in TOML, tables of hardening, measured outlines, meshes; read with errors that point at the line.
+//! Files that users write: scenes and sweeps in TOML, tables of hardening, measured outlines, meshes; read
+//! with errors that point at the line.
 
 /// Behind a file that a scene names and that cannot be read.
-pub(crate) const RELATIVE: &str = "a path is relative to the folder of the file that names it";
+pub(crate) const RELATIVE_PATH_NOTE: &str = "a path is relative to the folder of the file that names it";
 
 pub mod hardening_file;
 mod kind;

@@ -6,8 +6,8 @@
 //! 0,20.0
 //! 0.5,19.98
 //! ```
-//! Places under `r` or `x` and heights under `z`, each with its unit; other columns are left out. Points may stand from the
-//! outside inward too.
+//! Places under `r` or `x` and heights under `z`, each with its unit; other columns are left out. Points may
+//! stand from the outside inward too.
 
 use crate::error::InputError;
 use crate::input::table_file::TableFile;
@@ -18,7 +18,7 @@ use asperity_simulation::scene::{Points, Scene, SceneError};
 use std::path::PathBuf;
 
 /// No file of an outline is larger.
-const LARGEST: u64 = 16 << 20;
+const MAX_BYTES: u64 = 16 << 20;
 
 /// A header that can be read.
 const HEADER: &str = "r_um,z_um";
@@ -32,7 +32,7 @@ pub struct ReadProfile {
     lines: Vec<usize>,
 }
 
-/// Which table of a scene names a file, under which key.
+/// The table of a scene that names a file, and the key.
 struct Named {
     table: String,
     key: &'static str,
@@ -61,7 +61,7 @@ fn named(scene: &Scene) -> Vec<Named> {
 pub fn read(scene: &mut TomlFile<Scene>) -> Result<Vec<ReadProfile>, InputError> {
     let mut read = Vec::new();
     for Named { table, key, file } in named(&scene.value) {
-        let file = TableFile::read(scene, &format!("{table}.{key}"), &file, LARGEST)?;
+        let file = TableFile::read(scene, &format!("{table}.{key}"), &file, MAX_BYTES)?;
         let (points, lines) = parse(&file.text).map_err(|(line, message)| match line {
             Some(line) => file.at_line(line, &message),
             None => file.refuse(scene, &message),

@@ -2,7 +2,7 @@
 
 use crate::error::{Error, InputError};
 use crate::input::toml_file::{TomlFile, read_text, to_toml};
-use crate::input::{RELATIVE, hardening_file, profile_file};
+use crate::input::{RELATIVE_PATH_NOTE, hardening_file, profile_file};
 use crate::results::crush_summary::Summary;
 use asperity_mesh::{Mesh, read_msh};
 use asperity_simulation::scene::{
@@ -15,8 +15,8 @@ use std::path::Path;
 
 /// A scene that makes sense, with the mesh and the hardening table that it names, ready to be crushed.
 ///
-/// It is read from a file ([`Scene::read`]) or a text ([`Scene::from_toml`]), or made of tables that were built in code
-/// ([`Scene::new`]). Later errors point at its text.
+/// It is read from a file ([`Scene::read`]) or a text ([`Scene::from_toml`]), or made of tables that were
+/// built in code ([`Scene::new`]). Later errors point at its text.
 #[derive(Debug)]
 pub struct Scene {
     file: TomlFile<Tables>,
@@ -24,7 +24,8 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// A scene of tables that were built in code; the files that they name are relative to the working directory.
+    /// A scene of tables that were built in code; the files that they name are relative to the working
+    /// directory.
     ///
     /// # Errors
     /// Values that make no sense, with the allowed range; a mesh or hardening table that cannot be read.
@@ -53,22 +54,24 @@ impl Scene {
     /// The scene that `text` says in TOML; the files that it names are relative to the folder `base`.
     ///
     /// # Errors
-    /// A text that is no scene or makes no sense, pointing at its line; a mesh or hardening table that cannot be read.
+    /// A text that is no scene or makes no sense, pointing at its line; a mesh or hardening table that cannot
+    /// be read.
     pub fn from_toml(text: &str, base: &Path) -> Result<Scene, Error> {
-        Scene::checked(TomlFile::over(&base.join("scene"), text.into(), &[], Some(body_of))?)
+        Scene::checked(TomlFile::parse_over(&base.join("scene"), text.into(), &[], Some(body_of))?)
     }
 
-    /// The scene of the file at `path`, with overrides `key.path=value` in their order; the files that it names are
-    /// relative to its folder. `-` is standard input; a `summary.json` of an earlier run gives the scene of that run.
+    /// The scene of the file at `path`, with overrides `key.path=value` in their order; the files that it
+    /// names are relative to its folder. `-` is standard input; a `summary.json` of an earlier run gives the
+    /// scene of that run.
     ///
     /// # Errors
     /// As for [`Scene::from_toml`], and a file that cannot be read.
     pub fn read(path: &Path, overrides: &[String]) -> Result<Scene, Error> {
         if path.extension().is_some_and(|extension| extension == "json") {
             let text = to_toml(&as_asked(Summary::read(path)?)).map_err(InputError::new)?;
-            return Scene::checked(TomlFile::over(path, text, overrides, Some(body_of))?);
+            return Scene::checked(TomlFile::parse_over(path, text, overrides, Some(body_of))?);
         }
-        Scene::checked(TomlFile::over(path, read_text(path)?, overrides, Some(body_of))?)
+        Scene::checked(TomlFile::parse_over(path, read_text(path)?, overrides, Some(body_of))?)
     }
 
     /// The scene with more overrides `key.path=value`, such as `loading.depth=2 um`.
@@ -79,8 +82,8 @@ impl Scene {
         Scene::checked(self.file.with(overrides)?)
     }
 
-    /// Sets the value at `key`, such as `loading.depth` or `asperity[0].slope_deg`; the scene stays as it was where
-    /// that makes no sense.
+    /// Sets the value at `key`, such as `loading.depth` or `asperity[0].slope_deg`; the scene stays as it was
+    /// where that makes no sense.
     ///
     /// # Errors
     /// As for [`Scene::with`].
@@ -197,8 +200,8 @@ struct Body {
     mesh: Option<MeshFile>,
 }
 
-/// The scene of a run as it was asked for: numbers that follow from its accuracy are left to it again, so that another one can be
-/// set.
+/// The scene of a run as it was asked for: numbers that follow from its accuracy are left to it again, so
+/// that another one can be set.
 fn as_asked(summary: Summary) -> Tables {
     let scene = *summary.scene;
     let open = Tables { numerics: Numerics::default(), ..scene.clone() };
@@ -213,7 +216,8 @@ fn read_mesh(file: &TomlFile<Tables>) -> Result<Option<Mesh>, InputError> {
         file.error_at("mesh.file", &format!("{}: {reason}", path.display()))
             .help("a mesh is a Gmsh MSH 4.1 ASCII file of quadrangles with physical curves axis, base, surface, outer")
     };
-    let bytes = std::fs::read(&path).map_err(|e| error(format!("cannot be read: {e}; {RELATIVE}")))?;
+    let bytes =
+        std::fs::read(&path).map_err(|e| error(format!("cannot be read: {e}; {RELATIVE_PATH_NOTE}")))?;
     let mut mesh = read_msh(&bytes).map_err(|e| error(e.to_string()))?;
     let scale = named.unit.map_or(1.0, |unit| unit.0);
     let summit = mesh.nodes.iter().map(|node| node[1]).fold(f64::NEG_INFINITY, f64::max);
@@ -227,7 +231,8 @@ fn read_mesh(file: &TomlFile<Tables>) -> Result<Option<Mesh>, InputError> {
 mod tests {
     use super::*;
 
-    /// A scene with some words replaced by others of it, or by extremes, is an error or a scene, never a panic.
+    /// A scene with some words replaced by others of it, or by extremes, is an error or a scene, never a
+    /// panic.
     #[test]
     fn a_scrambled_scene_does_not_panic() {
         let text = crate::scenes::SINGLE_ASPERITY;

@@ -1,7 +1,7 @@
 //! Tables of numbers that a scene names, with what is needed to point at their lines later.
 
 use crate::error::InputError;
-use crate::input::RELATIVE;
+use crate::input::RELATIVE_PATH_NOTE;
 use crate::input::toml_file::TomlFile;
 use asperity_simulation::scene::{Scene, SceneError};
 use std::io::Read;
@@ -31,7 +31,7 @@ impl TableFile {
         let path = scene.resolve(named);
         let mut table = TableFile { name: path.display().to_string(), text: String::new(), key: key.into() };
         let unreadable = |e: std::io::Error| {
-            scene.error_at(key, &format!("{}: cannot be read: {e}; {RELATIVE}", path.display()))
+            scene.error_at(key, &format!("{}: cannot be read: {e}; {RELATIVE_PATH_NOTE}", path.display()))
         };
         let opened = std::fs::File::open(&path).map_err(unreadable)?;
         opened.take(limit + 1).read_to_string(&mut table.text).map_err(unreadable)?;
@@ -49,11 +49,11 @@ impl TableFile {
     /// An error that shows a line (from 1) of the table.
     pub fn at_line(&self, line: usize, message: &str) -> InputError {
         let start = self.text.split_inclusive('\n').take(line - 1).map(str::len).sum();
-        InputError::new(message).at(&self.name, &self.text, start..self.text.len())
+        InputError::new(message).pointing_at(&self.name, &self.text, start..self.text.len())
     }
 
-    /// An error of the scene about the `values` that stand in the place of this table: at the line of its point, whose `lines`
-    /// are given, or about the table as a whole.
+    /// An error of the scene about the `values` that stand in the place of this table: at the line of its
+    /// point, whose `lines` are given, or about the table as a whole.
     pub fn point_at(
         &self,
         scene: &TomlFile<Scene>,

@@ -14,7 +14,8 @@ pub(super) fn all(contacts: &[ClosureContact], mean_gradient: f64) -> [(&'static
     ]
 }
 
-/// The closures themselves: pressure on the contact of an island against its slope, to three times the mean slope.
+/// The closures themselves: pressure on the contact of an island against its slope, to three times the mean
+/// slope.
 fn closures(contacts: &[ClosureContact], mean_gradient: f64) -> Chart {
     const STEPS: u32 = 120;
     let series = contacts.iter().filter_map(ClosureContact::islands).map(|one| {

@@ -2,17 +2,19 @@
 
 use super::summary::{ClosureSummary, Summary};
 use super::table::{LoadPoint, TableRow};
+use super::warnings;
 use crate::error::Error;
-use crate::results::units::MICROMETRE;
-use crate::rough::closure_contact::{Body, ClosureContact, Spaces, judge, press_by};
+use crate::rough::closure_contact::{Body, ClosureContact};
+use crate::rough::half_space_contacts::{HalfSpaceContacts, compare_with_half_space};
+use crate::rough::press_closure::press_by;
 use crate::rough::rough_scene::RoughScene;
-use asperity_roughness::scene::{Scene, SceneError};
+use asperity_roughness::scene::SceneError;
 use asperity_roughness::{Closure, Surface};
 use std::fmt::Write;
 use std::time::Instant;
 
 /// Points of a map up to which closures are judged and a spectrum is written unless the scene says otherwise.
-pub(super) const MODEST: usize = 1024 * 1024;
+pub(super) const MODEST_MAP_POINTS: usize = 1024 * 1024;
 
 /// A rough surface pressed by every closure that its scene asks for.
 #[derive(Debug)]
@@ -29,7 +31,7 @@ pub struct Rough {
     pub contacts: Vec<ClosureContact>,
 }
 
-/// How far a press has come.
+/// The progress of a press.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Progress {
     /// Share of the work that is done, 0 to 1.
@@ -43,8 +45,9 @@ pub struct Progress {
 /// `observer` is asked before each closure; `false` ends the run, which keeps the closures that were done.
 ///
 /// # Errors
-/// A scene that makes no sense, a surface that cannot be read, a closure without its material or its calibration, a
-/// load that the surface cannot carry. Of a scene with all closures those that cannot be used are warnings.
+/// A scene that makes no sense, a surface that cannot be read, a closure without its material or its
+/// calibration, a load that the surface cannot carry. Of a scene with all closures those that cannot be used
+/// are warnings.
 pub fn press(scene: &RoughScene, observer: &mut dyn FnMut(&Progress) -> bool) -> Result<Rough, Error> {
     let start = Instant::now();
     scene.validate()?;
@@ -54,30 +57,25 @@ pub fn press(scene: &RoughScene, observer: &mut dyn FnMut(&Progress) -> bool) ->
     let name = scene.surface_name();
     let mut summary = Summary::new(&name, &surface, tables);
     let mut contacts = Vec::new();
-    let mut spaces = Spaces::default();
+    let mut spaces = HalfSpaceContacts::default();
     let closures = tables.closure.closures();
     for (i, &closure) in closures.iter().enumerate() {
         if !observer(&Progress { share: i as f64 / closures.len() as f64, closure }) {
-            summary.warnings.push(format!("stopped before closure \"{}\"", closure.name()));
+            summary.warnings.push(warnings::stopped_before(closure));
             break;
         }
-        let (contact, warnings) = press_by(closure, scene, &surface, coefficient.as_ref(), &mut spaces)?;
-        summary.warnings.extend(warnings);
+        let (contact, remarks) = press_by(closure, scene, &surface, coefficient.as_ref(), &mut spaces)?;
+        summary.warnings.extend(remarks);
         contacts.extend(contact);
     }
-    if tables.judge.unwrap_or(surface.map.heights().len() <= MODEST) {
-        judge(&mut contacts, scene, &surface, &mut spaces);
+    if tables.judge.unwrap_or(surface.map.heights().len() <= MODEST_MAP_POINTS) {
+        compare_with_half_space(&mut contacts, scene, &surface, &mut spaces);
     }
-    if contacts.is_empty() && summary.warnings.iter().all(|w| w.starts_with("skipped")) {
+    if contacts.is_empty() && summary.warnings.iter().all(|w| warnings::is_skipped(w)) {
         let message = "no closure can be used with this material: add hardness or yield_stress";
         return Err(scene.error(&SceneError::new("closure", message)).into());
     }
-    if tables.fluid.is_some() && !closures.iter().any(|closure| closure.is_half_space()) {
-        let text = "[fluid] is not used: closures of islands leave no gap that can leak; add closure \"half-space\" or \"half-space-plastic\"";
-        summary.warnings.push(text.into());
-    }
-    summary.warnings.extend(two_materials(tables));
-    summary.warnings.extend(doubts(&surface, tables));
+    summary.warnings.extend(warnings::scene_warnings(&surface, tables));
     let table: Vec<TableRow> = contacts.iter().map(|one| TableRow::new(&name, &surface, one)).collect();
     summary.closures =
         table.iter().zip(&contacts).map(|(row, one)| ClosureSummary::new(row.clone(), one)).collect();
@@ -88,62 +86,15 @@ pub fn press(scene: &RoughScene, observer: &mut dyn FnMut(&Progress) -> bool) ->
     Ok(rough)
 }
 
-/// A hardness that is not that of the yield stress.
-fn two_materials(scene: &Scene) -> Option<String> {
-    let ratio = scene.material.hardness?.0 / (3.0 * scene.material.yield_stress?.0);
-    let text = format!("hardness is {ratio:.2} times 3 yield_stress (eq. 20 says 1): two different metals?");
-    (!(0.8..=1.25).contains(&ratio)).then_some(text)
-}
-
-/// The largest step across the seam of a periodic map, over that between neighbours, that is taken without a word.
-const SEAM: f64 = 4.0;
-/// Standard deviations above the mean beyond which the highest point looks like an error of measurement.
-const SPIKE: f64 = 8.0;
-
-/// Mean slopes (degrees) beyond which a map looks like one in the wrong unit: lapped and polished surfaces lie above the lower, ground
-/// and blasted ones below the upper.
-const SLOPES: [f64; 2] = [0.02, 45.0];
-
-/// Doubts about the surface and the load.
-fn doubts(surface: &Surface, scene: &Scene) -> Vec<String> {
-    let seam = surface.seam().filter(|ratio| *ratio > SEAM).map(|ratio| {
-        format!(
-            "surface.periodic: the steps across the seam are {ratio:.0} times those between neighbours: the map is no period of a \
-             surface; leave periodic out, and it stands free"
-        )
-    });
-    let parameters = &surface.parameters;
-    let above = surface.extent.high - parameters.mean;
-    let spike = Some(above / parameters.sq).filter(|ratio| *ratio > SPIKE).map(|ratio| {
-        format!(
-            "the highest point is {ratio:.0} standard deviations above the mean: if it is dust or an error of measurement, the first \
-             touch and all at light loads are its own; remove it (surface.outliers = 8), or smooth with s_filter"
-        )
-    });
-    let [flat, steep] = SLOPES;
-    let unit = Some(parameters.beta_deg()).filter(|beta| *beta > 0.0 && !(flat..=steep).contains(beta)).map(|beta| {
-        format!(
-            "the mean slope is {beta:.3} deg; machined surfaces have {flat} to {steep}: look whether height_unit and pixel_size are right"
-        )
-    });
-    let apart = scene.load.separation.filter(|s| s.0 > above).map(|s| {
-        format!(
-            "load.separation = {s} is above the highest point ({:.4} um above the mean): nothing touches",
-            above / MICROMETRE
-        )
-    });
-    [seam, spike, unit, apart].into_iter().flatten().collect()
-}
-
 impl Rough {
     /// The contact by one closure; `None` where the scene does not ask for it or it could not be used.
     pub fn contact(&self, closure: Closure) -> Option<&ClosureContact> {
         self.contacts.iter().find(|one| one.closure == closure)
     }
 
-    /// Distance of plane and surface at each node, m, row by row: 0 in contact, NaN where nothing was measured or the closure has
-    /// no contact. On a half-space the surface is the deformed one; closures with islands move no metal beside them, so there
-    /// it is the surface before it was pressed.
+    /// Distance of plane and surface at each node, m, row by row: 0 in contact, NaN where nothing was
+    /// measured or the closure has no contact. On a half-space the surface is the deformed one; closures with
+    /// islands move no metal beside them, so there it is the surface before it was pressed.
     pub fn gap(&self, one: &ClosureContact) -> Vec<f64> {
         let heights = self.surface.map.heights();
         match &one.body {

@@ -60,7 +60,8 @@ pub(super) fn spectrum(surface: &Surface) -> Vec<SpectrumRow> {
     points.iter().map(SpectrumRow::new).collect()
 }
 
-/// The rows of `gaps.csv` of one contact: at equal steps from 0 to the largest gap; none of closures with islands.
+/// The rows of `gaps.csv` of one contact: at equal steps from 0 to the largest gap; none of closures with
+/// islands.
 pub(super) fn gaps(one: &ClosureContact) -> Vec<GapShare> {
     let Body::HalfSpace(space) = &one.body else { return Vec::new() };
     let gaps = &space.contact.gaps;

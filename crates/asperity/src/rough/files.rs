@@ -8,7 +8,7 @@ use crate::error::Error;
 use crate::results::output::{Sink, SinkExt, write_csv};
 use crate::results::units::{MEGAPASCAL, MICROMETRE};
 use crate::rough::closure_contact::{Body, ClosureContact};
-use crate::rough::contact::{MODEST, Rough};
+use crate::rough::contact::{MODEST_MAP_POINTS, Rough};
 use asperity_formats::surface::{Vti, write_npy, write_x3p};
 use asperity_roughness::HeightMap;
 use asperity_roughness::scene::SurfaceFormat;
@@ -95,7 +95,8 @@ impl Rough {
         self.write_surface(sink)
     }
 
-    /// Writes table.csv, load_curve.csv, bearing.csv, spectrum.csv, gaps.csv, summary.json and the charts alone.
+    /// Writes table.csv, load_curve.csv, bearing.csv, spectrum.csv, gaps.csv, summary.json and the charts
+    /// alone.
     ///
     /// # Errors
     /// A disk that refuses.
@@ -104,7 +105,7 @@ impl Rough {
         sink.write("load_curve.csv", |out| write_csv(out, &self.load_curve, str::to_string))?;
         sink.csv("bearing.csv", &curves::bearing(&self.surface))?;
         let points = self.surface.map.heights().len();
-        if self.summary.scene.output.spectrum.unwrap_or(points <= MODEST) {
+        if self.summary.scene.output.spectrum.unwrap_or(points <= MODEST_MAP_POINTS) {
             sink.write("spectrum.csv", |out| {
                 write_csv(out, &curves::spectrum(&self.surface), str::to_string)
             })?;
@@ -120,8 +121,8 @@ impl Rough {
         sink.text("summary.json", &self.json()?)
     }
 
-    /// Pictures of every closure, and contact.vti with all of them: arrays begin with the closure's name. Those of a
-    /// half-space are on the nodes, whose pixels carry them, the others on the cells between.
+    /// Pictures of every closure, and contact.vti with all of them: arrays begin with the closure's name.
+    /// Those of a half-space are on the nodes, whose pixels carry them, the others on the cells between.
     fn write_maps(&self, sink: &mut dyn Sink) -> Result<(), Error> {
         let map = &self.surface.map;
         let [columns, rows] = cells(map);
@@ -131,7 +132,7 @@ impl Rough {
         let mut image = Vti::new();
         image.add_points("height_um", &heights(map, columns + 1, rows + 1)).map_err(refused)?;
         for one in self.contacts.iter().filter(|one| !matches!(one.body, Body::Failed(_))) {
-            let layers = self.write_pictures(sink, one, picture::LONGEST)?;
+            let layers = self.write_pictures(sink, one, picture::MAX_SIDE_DOTS)?;
             let mut add = |name: &str, values: &[f32]| {
                 let name = format!("{}_{name}", one.name());
                 match layers.gap {
@@ -149,7 +150,8 @@ impl Rough {
         image.write(&file, [columns, rows], spacing).map_err(refused)
     }
 
-    /// Pressure and contact of one closure as PNG, no side longer than `longest` dots; returns the numbers they show.
+    /// Pressure and contact of one closure as PNG, no side longer than `longest` dots; returns the numbers
+    /// they show.
     ///
     /// # Errors
     /// A disk that refuses.

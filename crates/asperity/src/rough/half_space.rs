@@ -13,7 +13,7 @@ const CURVE_TOLERANCE: f64 = 1e-4;
 pub struct SpaceContact {
     /// The half-space.
     pub body: HalfSpace,
-    /// Where its limit of pressure comes from; None of an elastic one.
+    /// The origin of its limit of pressure; None of an elastic one.
     pub limit: Option<LimitSource>,
     /// The contact at the load.
     pub contact: HalfSpaceContact,
@@ -23,7 +23,7 @@ pub struct SpaceContact {
     pub unloading: Option<SpaceUnloading>,
     /// The gap along x and along y.
     pub passages: [Passage; 2],
-    /// Whether the flow was asked for.
+    /// True where the flow was asked for.
     pub flows: bool,
     /// Patches of pixels in contact, joined over sides and corners.
     pub patches: usize,
@@ -59,7 +59,7 @@ pub(crate) fn body(scene: &Scene, limit: Option<f64>) -> HalfSpace {
 
 impl SpaceContact {
     /// The results that a scene asks for of the contact `found` of `body` on `surface`.
-    pub(super) fn of(
+    pub(super) fn evaluate(
         body: HalfSpace,
         limit: Option<LimitSource>,
         surface: &Surface,
@@ -71,7 +71,7 @@ impl SpaceContact {
         let curve = curve(&body, surface, &found, points, high)?;
         let unloading =
             scene.load.unload.then(|| unload(&body, surface, &found, &curve, points)).transpose()?;
-        let gap = Gap::of(&surface.map, &found.gaps);
+        let gap = Gap::new(&surface.map, &found.gaps);
         // in a comparison of closures the flow is a cost that only a fluid asks for
         let asked = scene.fluid.is_some() || scene.closure.closures().len() == 1;
         let flows = scene.half_space.leak.unwrap_or(asked);
@@ -87,17 +87,18 @@ impl SpaceContact {
 }
 
 impl SpaceContact {
-    /// Whether the load curve is two points with nothing between them.
+    /// True where the load curve is two points with nothing between them.
     pub(super) fn has_ends_only(&self) -> bool {
         self.curve.len() == 2
     }
 
-    /// Flux times viscosity over pressure difference along an axis, m³; 0 where nothing passes; None where it was not asked for.
+    /// Flux times viscosity over pressure difference along an axis, m³; 0 where nothing passes; None where it
+    /// was not asked for.
     pub fn leak(&self, axis: usize) -> Option<f64> {
         self.flows.then(|| self.passages[axis].leak.map_or(0.0, |l| l.conductance))
     }
 
-    /// Where the limit of pressure comes from, in words.
+    /// The origin of the limit of pressure, in words.
     pub(super) fn limit_from(&self) -> Option<String> {
         let words = match self.limit? {
             LimitSource::Hardness => "hardness",
@@ -125,7 +126,8 @@ fn point(contact: &HalfSpaceContact) -> CurvePoint {
     CurvePoint { separation: contact.separation, pressure: contact.pressure, area_ratio: contact.area.ratio }
 }
 
-/// From first touch at `high` above the mean to the load: pressures rising as squares, each started from the one before.
+/// From first touch at `high` above the mean to the load: pressures rising as squares, each started from the
+/// one before.
 fn curve(
     body: &HalfSpace,
     surface: &Surface,

@@ -5,6 +5,9 @@ pub mod rough_scene;
 mod half_space;
 
 mod closure_contact;
+mod half_space_contacts;
+mod press_closure;
+mod warnings;
 
 mod curves;
 

@@ -11,10 +11,11 @@ use crate::rough::contact::Rough;
 use maud::{Markup, html};
 
 /// No side of a map has more dots.
-const LONGEST: usize = 800;
+const MAX_SIDE_DOTS: usize = 800;
 
 impl Rough {
-    /// The contact as one page that stands alone: the verdict, every closure beside the others, load curves, maps.
+    /// The contact as one page that stands alone: the verdict, every closure beside the others, load curves,
+    /// maps.
     ///
     /// # Errors
     /// A drawing that fails.
@@ -114,10 +115,10 @@ impl Rough {
         };
         let pressed = self.contacts.iter().filter(|one| !matches!(one.body, Body::Failed(_)));
         let pressure = |one: &ClosureContact| {
-            let png = self.pressure_png(one, &self.layers(one), LONGEST);
+            let png = self.pressure_png(one, &self.layers(one), MAX_SIDE_DOTS);
             map(png, &format!("Map of the contact pressure by {}", one.name()))
         };
-        std::iter::once(map(self.topography_png(LONGEST), "Map of the heights as pressed"))
+        std::iter::once(map(self.topography_png(MAX_SIDE_DOTS), "Map of the heights as pressed"))
             .chain(pressed.map(pressure))
             .collect()
     }

@@ -2,7 +2,7 @@
 
 use crate::batch::journal::fingerprint;
 use crate::error::InputError;
-use crate::input::RELATIVE;
+use crate::input::RELATIVE_PATH_NOTE;
 use crate::input::toml_file::{TomlFile, to_toml};
 use asperity_formats::surface::{Measured, Spacing};
 use asperity_material::HardeningLaw;
@@ -63,8 +63,9 @@ impl RoughScene {
         TomlFile::parse(&path.with_extension(""), text, overrides).map(RoughScene::of_file)
     }
 
-    /// The scene that stands for what is not said: the milled surface of steel that `asperity new rough` writes, under the load that
-    /// `asperity new surface` writes, which most measured surfaces carry by every closure.
+    /// The scene that stands for what is not said: the milled surface of steel that `asperity new rough`
+    /// writes, under the load that `asperity new surface` writes, which most measured surfaces carry by every
+    /// closure.
     ///
     /// # Errors
     /// None: the text comes with the program.
@@ -84,8 +85,8 @@ impl RoughScene {
         RoughScene { scene: file.value.clone(), base: file.resolve(Path::new("")), source: Some(file) }
     }
 
-    /// The same scene with the surface of these heights (m) in place of its own, row by row, `columns` to a row, NaN
-    /// where nothing was measured; `pixel` is the distance of the points along x and y (m).
+    /// The same scene with the surface of these heights (m) in place of its own, row by row, `columns` to a
+    /// row, NaN where nothing was measured; `pixel` is the distance of the points along x and y (m).
     #[must_use]
     pub fn with_heights(mut self, columns: usize, pixel: [f64; 2], heights: Vec<f64>) -> RoughScene {
         let rows = heights.len() / columns.max(1);
@@ -96,7 +97,8 @@ impl RoughScene {
         self
     }
 
-    /// The scene with more overrides `key.path=value`, such as `load.pressure=100 MPa`; heights in memory stay.
+    /// The scene with more overrides `key.path=value`, such as `load.pressure=100 MPa`; heights in memory
+    /// stay.
     ///
     /// # Errors
     /// An override that names no key, or a value of another kind.
@@ -166,7 +168,8 @@ impl RoughScene {
         }
     }
 
-    /// The calibration that the scene names, or the one that comes with the program; `None` where no closure needs it.
+    /// The calibration that the scene names, or the one that comes with the program; `None` where no closure
+    /// needs it.
     pub(crate) fn coefficient(&self) -> Result<Option<Coefficient>, InputError> {
         self.coefficient_of(&self.scene.closure.closures())
     }
@@ -180,7 +183,8 @@ impl RoughScene {
         self.calibration().map(Some)
     }
 
-    /// The law of hardening of the metal: by default that of the calibration. Metal without an exponent has none, and any serves.
+    /// The law of hardening of the metal: by default that of the calibration. Metal without an exponent has
+    /// none, and any serves.
     ///
     /// # Errors
     /// A calibration that cannot be read.
@@ -204,7 +208,7 @@ impl RoughScene {
         };
         let path = self.resolve(path);
         let text = std::fs::read_to_string(&path).map_err(|e| {
-            error("coefficient", format!("{}: cannot be read: {e}; {RELATIVE}", path.display()))
+            error("coefficient", format!("{}: cannot be read: {e}; {RELATIVE_PATH_NOTE}", path.display()))
         })?;
         Coefficient::from_toml(&text).map_err(|e| error("coefficient", format!("{}: {e}", path.display())))
     }

@@ -59,10 +59,11 @@ pub struct Several {
     pub table: Vec<TableRow>,
 }
 
-/// Presses the surface of each of `scenes`; `take` gets each with its name and what was found, of which only the tables are
-/// kept. A surface that cannot be pressed is a row with the reason.
+/// Presses the surface of each of `scenes`; `take` gets each with its name and what was found, of which only
+/// the tables are kept. A surface that cannot be pressed is a row with the reason.
 ///
-/// `observer` is asked before each closure of each surface; `false` ends the run, which keeps the surfaces that were done.
+/// `observer` is asked before each closure of each surface; `false` ends the run, which keeps the surfaces
+/// that were done.
 ///
 /// # Errors
 /// Those of `take`.

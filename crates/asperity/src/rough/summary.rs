@@ -5,7 +5,8 @@
 use super::table::TableRow;
 use crate::results::output::row;
 use crate::results::units::{MEGAPASCAL, MICROMETRE};
-use crate::rough::closure_contact::{ClosureContact, Warnings};
+use crate::rough::closure_contact::ClosureContact;
+use crate::rough::warnings::Warnings;
 use asperity_roughness::Surface;
 use asperity_roughness::scene::Scene;
 use std::collections::BTreeMap;

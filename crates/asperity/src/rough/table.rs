@@ -103,7 +103,8 @@ fn share(one: &ClosureContact, regime: usize) -> Option<f64> {
 }
 
 row! {
-    /// A row of `load_curve.csv`: 64 points a closure from first touch to the load, and as many back; up to 9 of a half-space.
+    /// A row of `load_curve.csv`: 64 points a closure from first touch to the load, and as many back; up to 9
+    /// of a half-space.
     #[derive(Copy)]
     LoadPoint(closure: Closure, phase: Phase, point: &CurvePoint) {
         /// The closure.

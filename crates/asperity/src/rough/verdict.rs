@@ -12,15 +12,16 @@ use asperity_roughness::scene::Fluid;
 use std::fmt::Write;
 
 /// A closure whose area is nearer than this to the half-space's may be believed.
-const BELIEVED: f64 = 0.1;
-/// Relative error of the half-space's area above which it is no measure of closures: half of what they may be off.
-const KNOWN: f64 = 0.05;
+const BELIEVED_AREA_ERROR: f64 = 0.1;
+/// Relative error of the half-space's area above which it is no measure of closures: half of what they may be
+/// off.
+const KNOWN_AREA_ERROR: f64 = 0.05;
 /// Share of a closure's load outside its range above which an area that fits is chance.
-const OUTSIDE: f64 = 0.2;
+const MAX_LOAD_OUTSIDE: f64 = 0.2;
 
 impl Rough {
-    /// The verdict of the half-space, in words, or the load that could be carried where no closure of islands carries that asked
-    /// for; `None` where there is neither.
+    /// The verdict of the half-space, in words, or the load that could be carried where no closure of islands
+    /// carries that asked for; `None` where there is neither.
     pub fn verdict(&self) -> Option<String> {
         let said = [self.of_half_space(), overload(&self.contacts)];
         let said: Vec<String> = said.into_iter().flatten().collect();
@@ -74,21 +75,22 @@ fn overload(contacts: &[ClosureContact]) -> Option<String> {
     ))
 }
 
-/// Which closure has the area of the half-space, or why that cannot be told.
+/// The closure that has the area of the half-space, or the reason why that cannot be told.
 fn belief(contacts: &[ClosureContact], area: &Area) -> Option<String> {
     let islands = contacts.iter().filter_map(|one| Some((one.name(), one.islands()?)));
-    let judged = islands.map(|(name, one)| Judged {
+    let judged = islands.map(|(name, one)| ComparedClosure {
         name,
         ratio: one.contact.area_ratio / area.corrected,
         outside: one.contact.outside_share.unwrap_or(0.0),
     });
-    let judged: Vec<Judged> = judged.filter(|one| one.ratio.is_finite() && one.ratio > 0.0).collect();
+    let judged: Vec<ComparedClosure> =
+        judged.filter(|one| one.ratio.is_finite() && one.ratio > 0.0).collect();
     judgement(&judged, area.error / area.corrected)
 }
 
 /// A closure beside the half-space.
 #[derive(Clone, Copy, Debug)]
-struct Judged {
+struct ComparedClosure {
     name: &'static str,
     /// Its area over the corrected one of the half-space.
     ratio: f64,
@@ -96,25 +98,26 @@ struct Judged {
     outside: f64,
 }
 
-/// The sentence on the closure whose area is nearest, where that of the half-space is known up to the share `error`.
-fn judgement(judged: &[Judged], error: f64) -> Option<String> {
+/// The sentence on the closure whose area is nearest, where that of the half-space is known up to the share
+/// `error`.
+fn judgement(judged: &[ComparedClosure], error: f64) -> Option<String> {
     let nearest = judged.iter().min_by(|a, b| a.ratio.ln().abs().total_cmp(&b.ratio.ln().abs()))?;
-    let Judged { name, ratio, outside } = *nearest;
+    let ComparedClosure { name, ratio, outside } = *nearest;
     let off = 100.0 * (ratio - 1.0);
-    if error > KNOWN {
+    if error > KNOWN_AREA_ERROR {
         return Some(format!(
             "which closure to believe cannot be judged here: that area is uncertain by {:.0} %, more than {:.0} % (measure finer, or smooth \
              with s_filter; the nearest, {name}, has an area {off:+.0} % off)",
             100.0 * error,
-            100.0 * KNOWN
+            100.0 * KNOWN_AREA_ERROR
         ));
     }
-    if (ratio - 1.0).abs() > BELIEVED {
+    if (ratio - 1.0).abs() > BELIEVED_AREA_ERROR {
         return Some(format!(
             "believe none of the closures here (the nearest, {name}, has an area {off:+.0} % off)"
         ));
     }
-    if outside > OUTSIDE {
+    if outside > MAX_LOAD_OUTSIDE {
         return Some(format!(
             "which closure to believe cannot be judged here: the nearest, {name}, has an area {off:+.0} % off, but {:.0} % of its load is on \
              asperities outside the range that it was made for",
@@ -161,7 +164,7 @@ mod tests {
 
     #[test]
     fn a_closure_is_believed_only_where_area_and_range_allow() {
-        let one = |name, ratio, outside| Judged { name, ratio, outside };
+        let one = |name, ratio, outside| ComparedClosure { name, ratio, outside };
         let said = |ratio, outside, error| {
             judgement(&[one("far", 2.0, 0.0), one("near", ratio, outside)], error).unwrap()
         };

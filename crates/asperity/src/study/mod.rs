@@ -1,4 +1,5 @@
-//! Any scene over any of its keys: grids, lists and drawn points, a row a run, killed and resumed, in parts and joined.
+//! Any scene over any of its keys: grids, lists and drawn points, a row a run, killed and resumed, in parts
+//! and joined.
 
 mod vary;
 

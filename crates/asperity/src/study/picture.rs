@@ -1,12 +1,15 @@
 //! `study.svg`: one result over the varied keys.
 //!
-//! One key: a line. Two: a line for each value of the second one; points in the colour of the second one where they are
-//! drawn or where it has more values than lines can be told apart. More keys: points over the first one.
+//! One key: a line. Two: a line for each value of the second one; points in the colour of the second one
+//! where they are drawn or where it has more values than lines can be told apart. More keys: points over the
+//! first one.
 
 use super::row::Run;
 use super::vary::Vary;
-use crate::draw::chart::{self, Axis, Chart, FINE, Failure, INK, Paper, Sample, Series, axes, framed, rgb};
-use crate::draw::palette::{VIRIDIS, between};
+use crate::draw::chart::{
+    self, Axis, Chart, FINE_PIXELS, Failure, INK, Paper, Sample, Series, axes, framed, rgb,
+};
+use crate::draw::palette::{VIRIDIS, interpolated};
 use plotters::prelude::*;
 
 /// Most lines that a person can tell apart.
@@ -104,13 +107,15 @@ fn dots(along: &[Along], heights: &[f64], column: &str, joined: bool) -> Result<
             second.places.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(*v), h.max(*v)));
         if high > low { (second.places[i] - low) / (high - low) } else { 0.5 }
     };
-    let colour = |i: usize| shade.map_or(INK, |second| rgb(between(&VIRIDIS, 0.9 * share(second, i))));
+    let colour = |i: usize| shade.map_or(INK, |second| rgb(interpolated(&VIRIDIS, 0.9 * share(second, i))));
     let dot = |colour| {
         Sample::Mark(
             colour,
             (0..32)
                 .map(|k| k as f64 * 0.19635)
-                .map(|a| ((4.0 * a.cos() * FINE as f64) as i32, (4.0 * a.sin() * FINE as f64) as i32))
+                .map(|a| {
+                    ((4.0 * a.cos() * FINE_PIXELS as f64) as i32, (4.0 * a.sin() * FINE_PIXELS as f64) as i32)
+                })
                 .collect(),
         )
     };
@@ -133,9 +138,9 @@ fn dots(along: &[Along], heights: &[f64], column: &str, joined: bool) -> Result<
         if joined {
             let mut points: Vec<(f64, f64)> = xs().zip(heights.iter().copied()).collect();
             points.sort_by(|a, b| a.0.total_cmp(&b.0));
-            area.draw_series(LineSeries::new(points, INK.stroke_width(2 * FINE)))?;
+            area.draw_series(LineSeries::new(points, INK.stroke_width(2 * FINE_PIXELS)))?;
         }
-        let circle = |i: usize| Circle::new((place(i), heights[i]), 4 * FINE, colour(i).filled());
+        let circle = |i: usize| Circle::new((place(i), heights[i]), 4 * FINE_PIXELS, colour(i).filled());
         area.draw_series((0..heights.len()).map(circle))?;
         Ok(())
     })

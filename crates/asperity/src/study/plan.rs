@@ -176,7 +176,7 @@ fn flattened(table: &IndexMap<String, Value>) -> Vec<(String, Value)> {
 }
 
 /// Points that are tried before a study begins.
-const TRIED: usize = 200_000;
+const MAX_POINTS_TRIED: usize = 200_000;
 /// Failures after which no further points are tried.
 const FAILURES: usize = 2_000;
 
@@ -184,8 +184,8 @@ impl Plan {
     /// A study of `subject`.
     ///
     /// # Errors
-    /// Nothing to vary, values that cannot be combined, and a value that makes no sense with any of the others that it is
-    /// tried with; a combination that makes no sense is a row with its reason.
+    /// Nothing to vary, values that cannot be combined, and a value that makes no sense with any of the
+    /// others that it is tried with; a combination that makes no sense is a row with its reason.
     pub fn new(subject: Subject, vary: Vec<Vary>, sample: Sample) -> Result<Plan, Error> {
         let points = Points::new(&vary, sample)?;
         let (scene, heights) = subject.text()?;
@@ -216,7 +216,7 @@ impl Plan {
         self
     }
 
-    /// How many runs it has.
+    /// The number of its runs.
     pub fn runs(&self) -> usize {
         self.points.len()
     }
@@ -229,7 +229,7 @@ impl Plan {
         let mut bad: Vec<((usize, String), usize)> = Vec::new();
         let mut errors: Vec<InputError> = Vec::new();
         let mut seen: HashMap<(usize, String), usize> = HashMap::new();
-        for i in 0..self.points.len().min(TRIED) {
+        for i in 0..self.points.len().min(MAX_POINTS_TRIED) {
             let values = self.points.get(i);
             let levels: Vec<(usize, String)> = (0..vary.len())
                 .map(|key| (key, if listed[key] { values[key].clone() } else { String::new() }))

@@ -1,4 +1,5 @@
-//! Which values the keys of a study take in each run: every combination, values in step, or points drawn from ranges.
+//! The values that the keys of a study take in each run: every combination, values in step, or points drawn
+//! from ranges.
 
 use super::vary::{Values, Vary, wrong};
 use crate::error::InputError;
@@ -7,7 +8,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use serde::{Deserialize, Serialize};
 
-/// How the values of several keys are combined.
+/// The way the values of several keys are combined.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Sample {
     /// Every combination; the last key runs fastest.
@@ -17,20 +18,20 @@ pub enum Sample {
     List,
     /// A Latin hypercube: in every key one point in each of equally many equal parts.
     Lhs {
-        /// How many.
+        /// Their number.
         points: usize,
         /// Other seeds draw other points.
         seed: u64,
     },
     /// The first points of Sobol's sequence; more of them continue it.
     Sobol {
-        /// How many.
+        /// Their number.
         points: usize,
     },
 }
 
 /// More runs than this are a slip of the pen.
-const MOST: usize = 10_000_000;
+const MAX_RUNS: usize = 10_000_000;
 
 /// The points of a study.
 #[derive(Clone, Debug)]
@@ -53,8 +54,8 @@ enum Kind {
 
 impl Points {
     /// # Errors
-    /// No keys, a key that stands twice, ranges with or without a number of values where they need it otherwise, lists of
-    /// different lengths, no points or too many.
+    /// No keys, a key that stands twice, ranges with or without a number of values where they need it
+    /// otherwise, lists of different lengths, no points or too many.
     pub fn new(vary: &[Vary], sample: Sample) -> Result<Points, InputError> {
         if vary.is_empty() {
             let help = "give --vary KEY=V1,V2,… or a [vary] table, for example --vary material.hardening_exponent=0,0.1,0.2";
@@ -95,20 +96,20 @@ impl Points {
                 let sobol = Sobol::new(vary.len()).ok_or_else(|| {
                     InputError::new(format!(
                         "Sobol's sequence is there for {} keys, not for {}: take a Latin hypercube, --sample lhs N",
-                        sobol::MOST,
+                        sobol::MAX_DIMENSIONS,
                         vary.len()
                     ))
                 })?;
                 (Kind::Sobol(sobol), points)
             }
         };
-        if len > MOST {
-            return Err(InputError::new(format!("the study has more than {MOST} runs")));
+        if len > MAX_RUNS {
+            return Err(InputError::new(format!("the study has more than {MAX_RUNS} runs")));
         }
         Ok(Points { vary: vary.to_vec(), kind, len })
     }
 
-    /// How many.
+    /// Their number.
     pub fn len(&self) -> usize {
         self.len
     }
@@ -116,7 +117,7 @@ impl Points {
     /// The values of all keys in run `i`.
     pub fn get(&self, i: usize) -> Vec<String> {
         let drawn = |share: &dyn Fn(usize) -> f64| {
-            self.vary.iter().enumerate().map(|(key, one)| one.at(share(key))).collect()
+            self.vary.iter().enumerate().map(|(key, one)| one.value_at(share(key))).collect()
         };
         match &self.kind {
             Kind::Grid(levels) => {
@@ -135,7 +136,7 @@ impl Points {
             }
             Kind::List(levels) => levels.iter().map(|values| values[i].clone()).collect(),
             Kind::Lhs(shares) => drawn(&|key| shares[key][i]),
-            Kind::Sobol(sobol) => drawn(&|key| sobol.at(key, i)),
+            Kind::Sobol(sobol) => drawn(&|key| sobol.coordinate(key, i)),
         }
     }
 }
@@ -149,8 +150,8 @@ fn check_drawn(vary: &[Vary], points: usize) -> Result<(), InputError> {
     if points == 0 {
         return Err(InputError::new("a sample needs at least 1 point"));
     }
-    if points > MOST {
-        return Err(InputError::new(format!("the study has more than {MOST} runs")));
+    if points > MAX_RUNS {
+        return Err(InputError::new(format!("the study has more than {MAX_RUNS} runs")));
     }
     let counted = |one: &&Vary| matches!(&one.values, Values::Range(range) if range.count.is_some());
     match vary.iter().find(counted) {

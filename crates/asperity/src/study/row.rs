@@ -51,7 +51,7 @@ impl Run {
         Run { values, results, status, wall_s, peak_memory_mb, curve }
     }
 
-    /// Whether the run reached its end.
+    /// True where the run reached its end.
     pub fn ok(&self) -> bool {
         self.status == "ok"
     }

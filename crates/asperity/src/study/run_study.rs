@@ -22,14 +22,14 @@ pub struct Study {
     pub keys: Vec<String>,
     /// One for every run, in the order of the plan: `results.csv` and `times.csv`.
     pub runs: Vec<Run>,
-    /// Whether the observer ended the study before all runs were done.
+    /// True where the observer ended the study before all runs were done.
     pub stopped: bool,
     /// Seconds it took.
     pub wall_s: f64,
     definition: Definition,
 }
 
-/// How far a study has come.
+/// The progress of a study.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Progress {
     /// Runs that are done, those found in the folder too.
@@ -49,12 +49,12 @@ const CURVES: &str = "curves";
 
 /// Runs all that the folder of `options` does not hold yet, a thread a run.
 ///
-/// `observer` is asked at the beginning, as runs go on and when they end, from the thread that runs them; `false` ends the
-/// study, which keeps the runs that are done.
+/// `observer` is asked at the beginning, as runs go on and when they end, from the thread that runs them;
+/// `false` ends the study, which keeps the runs that are done.
 ///
 /// # Errors
-/// A folder that cannot be written (it keeps every finished run), or curves without a folder. A run that fails is a row
-/// with its reason.
+/// A folder that cannot be written (it keeps every finished run), or curves without a folder. A run that
+/// fails is a row with its reason.
 ///
 /// # Examples
 /// ```
@@ -86,7 +86,7 @@ pub fn study(
         write_whole(&folder.join(DEFINITION), crate::results::output::json(definition)?.as_bytes())?;
     }
     let values: Vec<Vec<String>> =
-        Shard::of(options.part, plan.points.len()).map(|i| plan.points.get(i)).collect();
+        Shard::case_numbers(options.part, plan.points.len()).map(|i| plan.points.get(i)).collect();
     let journal = folder.map(|folder| folder.join(JOURNAL));
     let analyses = Analyses::for_threads(batch::thread_count(options.threads));
     let batch = Batch {
@@ -153,10 +153,10 @@ impl Study {
 
     /// The column that the picture shows.
     pub fn shown(&self) -> Option<&str> {
-        const USUAL: [&str; 3] = ["peak_force_N", "peak_force_N_per_mm", "contact_area_ratio"];
+        const USUAL_COLUMNS: [&str; 3] = ["peak_force_N", "peak_force_N_per_mm", "contact_area_ratio"];
         let columns = columns(&self.runs);
         let usual = || {
-            let named = USUAL.into_iter().find_map(|name| columns.get(name));
+            let named = USUAL_COLUMNS.into_iter().find_map(|name| columns.get(name));
             named.or_else(|| columns.iter().find(|name| name.ends_with(".contact_area_ratio")))
         };
         match &self.definition.show {

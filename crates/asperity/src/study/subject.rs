@@ -156,7 +156,7 @@ fn words(value: &Value, found: &mut Vec<String>) {
     }
 }
 
-/// Whether a file can be told from a scene by its keys: a study names one.
+/// True where a file can be told from a scene by its keys: a study names one.
 pub(super) fn is_study(path: &Path) -> Result<bool, InputError> {
     let tables: TomlFile<IndexMap<String, Value>> = TomlFile::read(path, &[])?;
     Ok(["scene", "vary"].iter().any(|key| tables.value.contains_key(*key)))

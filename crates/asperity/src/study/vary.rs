@@ -30,9 +30,9 @@ pub struct Range {
     pub ends: [f64; 2],
     /// Their unit, empty for a pure number.
     pub unit: String,
-    /// How many values, both ends among them; none where they are drawn.
+    /// The number of values, both ends among them; none where they are drawn.
     pub count: Option<usize>,
-    /// Whether steps are equal in the logarithm.
+    /// True where steps are equal in the logarithm.
     pub logarithmic: bool,
 }
 
@@ -106,22 +106,22 @@ impl Vary {
             Values::List(values) => Some(values.clone()),
             Values::Range(range) => {
                 let last = range.count? - 1;
-                Some((0..=last).map(|i| range.at(i as f64 / last as f64)).collect())
+                Some((0..=last).map(|i| range.value_at(i as f64 / last as f64)).collect())
             }
         }
     }
 
     /// The value at `share` (0 to 1) of the way through the values.
-    pub(super) fn at(&self, share: f64) -> String {
+    pub(super) fn value_at(&self, share: f64) -> String {
         match &self.values {
-            Values::Range(range) => range.at(share),
+            Values::Range(range) => range.value_at(share),
             Values::List(values) => {
                 values[((share * values.len() as f64) as usize).min(values.len() - 1)].clone()
             }
         }
     }
 
-    /// Whether its values belong on a logarithmic axis.
+    /// True where its values belong on a logarithmic axis.
     pub(super) fn logarithmic(&self) -> bool {
         matches!(&self.values, Values::Range(range) if range.logarithmic)
     }
@@ -232,7 +232,7 @@ impl Range {
     }
 
     /// The value at `share` (0 to 1) of the way, to twelve digits.
-    fn at(&self, share: f64) -> String {
+    fn value_at(&self, share: f64) -> String {
         let [low, high] = self.ends;
         let value = match share {
             0.0 => low,

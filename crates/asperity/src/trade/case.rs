@@ -62,9 +62,9 @@ pub struct Finished {
     pub outcome: Result<Measured, String>,
 }
 
-/// Why a setting has no result.
+/// The reason why a setting has no result.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum Failed {
+pub enum TradeError {
     /// The run stopped, and would again.
     #[error("{0}")]
     Run(String),
@@ -77,14 +77,14 @@ pub enum Failed {
 ///
 /// # Errors
 /// A run that stopped.
-pub fn measure(setting: &Setting, scene: &Scene) -> Result<Measured, Failed> {
-    solve(&setting.scene(scene)).map_err(Failed::Run)
+pub fn measure(setting: &Setting, scene: &Scene) -> Result<Measured, TradeError> {
+    solve(&setting.scene(scene)).map_err(TradeError::Run)
 }
 
 /// Runs `scene` as it is.
 ///
 /// # Errors
-/// Where and why the run stopped.
+/// The place where the run stopped, and the reason.
 pub fn solve(scene: &Scene) -> Result<Measured, String> {
     let (clock, core) = (Instant::now(), ThreadTime::now());
     let outcome = Run::new(scene).run(&mut |_| ControlFlow::Continue(())).map_err(|e| e.to_string())?;

@@ -26,7 +26,8 @@ fn setting(row: &TradeRow) -> String {
     )
 }
 
-/// The levels, then the Pareto front of the force, cheapest first, as a Markdown table that reads well as text too.
+/// The levels, then the Pareto front of the force, cheapest first, as a Markdown table that reads well as
+/// text too.
 pub fn overview(rows: &[TradeRow]) -> String {
     let mut sorted: Vec<&TradeRow> = rows.iter().filter(|row| row.core_s.is_some()).collect();
     sorted.sort_by(|a, b| a.core_s.unwrap_or(0.0).total_cmp(&b.core_s.unwrap_or(0.0)));

@@ -1,7 +1,7 @@
 //! The settings that no other one beats in error and cost.
 
-/// The Pareto front of points (cost, error), cheapest first: each point of it has a smaller error than every point that
-/// costs as much or less. Points that are absent or not finite are not on it.
+/// The Pareto front of points (cost, error), cheapest first: each point of it has a smaller error than every
+/// point that costs as much or less. Points that are absent or not finite are not on it.
 pub fn pareto_front(points: &[Option<[f64; 2]>]) -> Vec<usize> {
     let finite = |p: &[f64; 2]| p.iter().all(|x| x.is_finite());
     let mut order: Vec<(usize, [f64; 2])> =

@@ -1,8 +1,9 @@
-//! `trade.svg`: error against cost, both logarithmic, what each knob buys around each level, and the Pareto front.
+//! `trade.svg`: error against cost, both logarithmic, what each knob buys around each level, and the Pareto
+//! front.
 
 use super::row::TradeRow;
 use super::settings::{Knob, LEVELS};
-use crate::draw::chart::{Axis, FINE, Failure, INK, Paper, Sample, axes, font, framed, rgb};
+use crate::draw::chart::{Axis, FINE_PIXELS, Failure, INK, Paper, Sample, axes, font, framed, rgb};
 use crate::draw::palette::LINES;
 use asperity_simulation::scene::Accuracy;
 use plotters::prelude::*;
@@ -36,7 +37,7 @@ const MARKS: [Mark; 6] = [
     mark(Knob::Tolerance, "Newton's tolerance", 6, 0.0, 1.0),
 ];
 
-const MIXED: RGBColor = RGBColor(170, 170, 170);
+const MIXED_COLOUR: RGBColor = RGBColor(170, 170, 170);
 
 /// Logarithms of a row's core seconds and of its error of the force in percent.
 fn place(row: &TradeRow) -> Option<(f64, f64)> {
@@ -52,7 +53,7 @@ pub fn draw(rows: &[TradeRow]) -> Result<String, String> {
     let dot = outline(&MARKS[0]).into_iter().map(|(x, y)| (x / 2, y / 2)).collect();
     let mut legend = vec![
         ("Pareto front".to_string(), Sample::Line(INK, [1, 0])),
-        ("all at once".to_string(), Sample::Mark(MIXED, dot)),
+        ("all at once".to_string(), Sample::Mark(MIXED_COLOUR, dot)),
     ];
     let marks = MARKS.iter().enumerate();
     legend.extend(marks.map(|(i, mark)| (mark.name.to_string(), Sample::Mark(colour(i), outline(mark)))));
@@ -75,11 +76,15 @@ fn fill(rows: &[TradeRow], paper: &Paper) -> Result<(), Failure> {
         .enumerate()
         .flat_map(|(i, p)| on_front[i.saturating_sub(1)..=i].iter().map(|before| (p.0, before.1)))
         .collect();
-    area.draw_series(LineSeries::new(stairs, INK.stroke_width(2 * FINE)))?;
-    area.draw_series(of(Knob::Mixed).filter_map(place).map(|p| Circle::new(p, 3 * FINE, MIXED.filled())))?;
+    area.draw_series(LineSeries::new(stairs, INK.stroke_width(2 * FINE_PIXELS)))?;
+    area.draw_series(
+        of(Knob::Mixed).filter_map(place).map(|p| Circle::new(p, 3 * FINE_PIXELS, MIXED_COLOUR.filled())),
+    )?;
     for (i, mark) in MARKS.iter().enumerate() {
         let arms = of(mark.knob).filter_map(|r| Some(vec![base(r.around?)?, place(r)?]));
-        area.draw_series(arms.map(|arm| PathElement::new(arm, colour(i).mix(0.6).stroke_width(FINE))))?;
+        area.draw_series(
+            arms.map(|arm| PathElement::new(arm, colour(i).mix(0.6).stroke_width(FINE_PIXELS))),
+        )?;
         let places = of(mark.knob).filter_map(place);
         area.draw_series(
             places.map(|p| EmptyElement::at(p) + Polygon::new(outline(mark), colour(i).filled())),
@@ -92,8 +97,8 @@ fn fill(rows: &[TradeRow], paper: &Paper) -> Result<(), Failure> {
         let (side, shift) = if p.0 > right { (HPos::Right, -10) } else { (HPos::Left, 10) };
         let style = font(16).pos(Pos::new(side, VPos::Top));
         area.draw_series([EmptyElement::at(p)
-            + Circle::new((0, 0), 7 * FINE as i32, INK.stroke_width(2 * FINE))
-            + Text::new(name, (shift * FINE as i32, -18 * FINE as i32), style)])?;
+            + Circle::new((0, 0), 7 * FINE_PIXELS as i32, INK.stroke_width(2 * FINE_PIXELS))
+            + Text::new(name, (shift * FINE_PIXELS as i32, -18 * FINE_PIXELS as i32), style)])?;
     }
     Ok(())
 }
@@ -104,7 +109,7 @@ fn colour(i: usize) -> RGBColor {
 
 /// Pixels around the middle of a mark.
 fn outline(&Mark { corners, start, inner, .. }: &Mark) -> Vec<(i32, i32)> {
-    let size = 6.0 * f64::from(FINE);
+    let size = 6.0 * f64::from(FINE_PIXELS);
     (0..corners)
         .map(|k| {
             let angle = f64::to_radians(start + 360.0 * f64::from(k) / f64::from(corners));

@@ -10,8 +10,8 @@ use crate::results::output::row;
 use asperity_simulation::scene::{Accuracy, ElementChoice};
 
 row! {
-    /// One setting with its cost and its errors, relative to the converged values of the scene. Fields are named as the
-    /// columns; those of a run without a result are absent.
+    /// One setting with its cost and its errors, relative to the converged values of the scene. Fields are
+    /// named as the columns; those of a run without a result are absent.
     TradeRow(setting: &Setting, run: Option<&Measured>, errors: Option<Errors>, failure: Option<&String>) {
         /// The number that was changed.
         knob: Knob = setting.knob,

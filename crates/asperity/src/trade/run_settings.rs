@@ -1,6 +1,6 @@
 //! A trade from the scene to its rows and files.
 
-use super::case::{self, Failed, Finished, Measured};
+use super::case::{self, Finished, Measured, TradeError};
 use super::converged::Converged;
 use super::overview::overview;
 use super::picture;
@@ -14,15 +14,16 @@ use std::path::Path;
 use std::sync::{Mutex, PoisonError};
 
 /// Runs one setting of a scene.
-pub type Runner = dyn Fn(&Setting, &Scene) -> Result<Measured, Failed> + Sync;
+pub type Runner = dyn Fn(&Setting, &Scene) -> Result<Measured, TradeError> + Sync;
 
-/// How a trade is run.
+/// The way a trade is run.
 pub struct Options<'a> {
-    /// How many settings differ in everything at once.
+    /// The number of settings that differ in everything at once.
     pub combinations: usize,
     /// A file that keeps every finished run; the same trade goes on from there.
     pub journal: Option<&'a Path>,
-    /// Runs one setting; [`case::measure`] in this process, where the memory of a run is that of the process so far.
+    /// Runs one setting; [`case::measure`] in this process, where the memory of a run is that of the process
+    /// so far.
     pub runner: &'a Runner,
 }
 
@@ -32,7 +33,7 @@ impl Default for Options<'_> {
     }
 }
 
-/// How far a trade has come.
+/// The progress of a trade.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Progress {
     /// Share of the work that is done, 0 to 1.
@@ -48,20 +49,20 @@ pub struct Progress {
 pub struct Trade {
     /// One row per setting: `trade.csv`.
     pub rows: Vec<TradeRow>,
-    /// Relative uncertainty of the converged force; absent where the scene fixes mesh and steps, so that nothing finer was
-    /// run and whether it is converged is not known.
+    /// Relative uncertainty of the converged force; absent where the scene fixes mesh and steps, so that
+    /// nothing finer was run and whether it is converged is not known.
     pub converged_to: Option<f64>,
 }
 
-/// Runs `scene` at many settings and compares each with the converged values of the scene. Numbers that the scene fixes
-/// are not varied.
+/// Runs `scene` at many settings and compares each with the converged values of the scene. Numbers that the
+/// scene fixes are not varied.
 ///
-/// Settings run side by side on rayon's threads. `observer` hears of every finished one; `false` starts no further ones,
-/// and the result is what was reached.
+/// Settings run side by side on rayon's threads. `observer` hears of every finished one; `false` starts no
+/// further ones, and the result is what was reached.
 ///
 /// # Errors
-/// [`Error::Input`] for a scene with a mesh of its own or a journal that cannot be written, [`Error::Unfinished`] where the
-/// converged values cannot be computed.
+/// [`Error::Input`] for a scene with a mesh of its own or a journal that cannot be written,
+/// [`Error::Unfinished`] where the converged values cannot be computed.
 pub fn trade(
     scene: &Scene,
     options: &Options<'_>,
@@ -85,7 +86,8 @@ pub fn trade(
     Ok(Trade { rows: rows(&finished, &converged), converged_to: finer_differ.then_some(converged.doubt) })
 }
 
-/// Runs the settings that the journal does not hold yet, the longest first; outcomes in the order of the settings.
+/// Runs the settings that the journal does not hold yet, the longest first; outcomes in the order of the
+/// settings.
 fn measure_all(
     scene: &Scene,
     options: &Options<'_>,
@@ -105,7 +107,7 @@ fn measure_all(
     let lock = || died.lock().unwrap_or_else(PoisonError::into_inner);
     let solve = |i: &usize, _: &dyn Fn() -> bool| {
         let outcome = (options.runner)(&settings[*i], scene);
-        let lost = matches!(outcome, Err(Failed::Process(_)));
+        let lost = matches!(outcome, Err(TradeError::Process(_)));
         let finished = Finished { setting: settings[*i], outcome: outcome.map_err(|e| e.to_string()) };
         if lost {
             lock().push((*i, finished));

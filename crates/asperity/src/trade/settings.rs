@@ -1,4 +1,5 @@
-//! Which discretisations a trade runs: each number by itself around each level, and combinations that fill the space.
+//! The discretisations that a trade runs: each number by itself around each level, and combinations that fill
+//! the space.
 
 use asperity_material::units::rounded;
 use asperity_simulation::scene::{Accuracy, ElementChoice, Numerics, Scene};
@@ -19,7 +20,7 @@ pub enum Knob {
     Step,
     /// The penetration that sets the penalty.
     Penetration,
-    /// Where Newton's method stops.
+    /// The residual at which Newton's method stops.
     Tolerance,
     /// Size of the substrate.
     Domain,
@@ -43,16 +44,17 @@ pub struct Setting {
 /// The levels from coarse to fine.
 pub const LEVELS: [Accuracy; 3] = [Accuracy::Draft, Accuracy::Standard, Accuracy::Reference];
 
-/// Accuracies between the levels, run as they are; to the last digit what "0.7%" is read as, by which a journal finds them.
-const BETWEEN: [Accuracy; 4] = [
+/// Accuracies between the levels, run as they are; to the last digit what "0.7%" is read as, by which a
+/// journal finds them.
+const ACCURACIES_BETWEEN: [Accuracy; 4] = [
     Accuracy::Within(3.0 / 100.0),
     Accuracy::Within(2.0 / 100.0),
     Accuracy::Within(0.7 / 100.0),
     Accuracy::Within(0.4 / 100.0),
 ];
 
-/// An element of a linear mesh is smaller by this factor where it has as many unknowns as a quadratic one: a quadratic
-/// element brings three nodes, a linear one brings one.
+/// An element of a linear mesh is smaller by this factor where it has as many unknowns as a quadratic one: a
+/// quadratic element brings three nodes, a linear one brings one.
 const LINEAR_FINENESS: f64 = 1.732;
 
 impl Setting {
@@ -76,8 +78,8 @@ impl Setting {
 
 /// The runs of `scene` whose cost and error are compared. Numbers that the scene fixes are not varied.
 pub fn settings(scene: &Scene, combinations: usize) -> Vec<Setting> {
-    let levels = LEVELS.into_iter().flat_map(|level| around(scene, level));
-    let between = BETWEEN.into_iter().map(|accuracy| level(scene, accuracy));
+    let levels = LEVELS.into_iter().flat_map(|level| settings_around(scene, level));
+    let between = ACCURACIES_BETWEEN.into_iter().map(|accuracy| level(scene, accuracy));
     let mixed = (0..combinations).map(|i| mixed(scene, i));
     let mut settings: Vec<Setting> = Vec::new();
     for setting in levels.chain(between).chain(mixed).map(|s| fixed(scene, s)) {
@@ -123,7 +125,7 @@ fn fixed(scene: &Scene, setting: Setting) -> Setting {
 ///
 /// Around the finest level, whose runs are the longest, only to the cheaper side: finer than that is the converged value
 /// alone, and what the other element costs shows at the other levels.
-fn around(scene: &Scene, accuracy: Accuracy) -> Vec<Setting> {
+fn settings_around(scene: &Scene, accuracy: Accuracy) -> Vec<Setting> {
     let base = level(scene, accuracy);
     let finest = accuracy == Accuracy::Reference;
     let mut settings = vec![base];

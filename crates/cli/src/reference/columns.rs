@@ -67,24 +67,32 @@ pub fn page() -> String {
     );
     text += &format!("{FOLDER}\n\n## asperity calibrate\n\n");
     text += &of_cases();
-    text += &of::<Fit>("fit.json", "the representative strain and its coefficient");
-    text += &of::<AngleFit>("fit.json: `per_angle`", "one slope");
+    text += &file_columns::<Fit>("fit.json", "the representative strain and its coefficient");
+    text += &file_columns::<AngleFit>("fit.json: `per_angle`", "one slope");
     text += "`coefficient.toml` is what `asperity rough` reads; `collapse.svg` and `representative_strain.svg` show both.\n\n";
     text += "## asperity rough\n\n";
-    text += &of::<rough::TableRow>("table.csv", "a row per closure");
-    text += &of::<rough::LoadPoint>("load_curve.csv", "the load curve of each closure");
-    text +=
-        &of::<rough::Summary>("summary.json", "the surface after levelling and filtering, and every closure");
-    text += &of::<rough::ClosureSummary>("summary.json: `closures`", "beside the columns of `table.csv`");
+    text += &file_columns::<rough::TableRow>("table.csv", "a row per closure");
+    text += &file_columns::<rough::LoadPoint>("load_curve.csv", "the load curve of each closure");
+    text += &file_columns::<rough::Summary>(
+        "summary.json",
+        "the surface after levelling and filtering, and every closure",
+    );
+    text += &file_columns::<rough::ClosureSummary>(
+        "summary.json: `closures`",
+        "beside the columns of `table.csv`",
+    );
     text += &format!("{ROUGH}\n\n## asperity extract\n\n");
-    text += &of::<extract::AsperityRow>("asperities.csv", "a row per asperity, from the highest summit down");
-    text += &of::<extract::ComparedRow>(
+    text += &file_columns::<extract::AsperityRow>(
+        "asperities.csv",
+        "a row per asperity, from the highest summit down",
+    );
+    text += &file_columns::<extract::ComparedRow>(
         "compared.csv",
         "a row per asperity, depth and closure, the finite elements among them",
     );
-    text += &of::<extract::Summary>("summary.json", "the map and what was found on it");
+    text += &file_columns::<extract::Summary>("summary.json", "the map and what was found on it");
     text += &format!("## asperity study\n\n{STUDY}\n\n## asperity trade\n\n");
-    text += &of::<TradeRow>("trade.csv", "a row per setting");
+    text += &file_columns::<TradeRow>("trade.csv", "a row per setting");
     text
 }
 
@@ -94,7 +102,7 @@ fn heading(file: &str, about: &str) -> String {
 }
 
 /// Columns whose names do not depend on the symmetry. Tables inside have their own.
-fn of<T: Described>(file: &str, about: &str) -> String {
+fn file_columns<T: Described>(file: &str, about: &str) -> String {
     let shown = T::COLUMNS.iter().filter(|column| column.name != "row");
     let rows = shown.map(|Column { name, about }| vec![code(name), words(about.trim())]);
     heading(file, about) + &table(&["name", "meaning"], rows)

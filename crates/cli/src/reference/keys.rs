@@ -29,8 +29,8 @@ pub fn page() -> String {
     text
 }
 
-/// The keys of the table at `path`, each table with its brackets, of the file `title` with the schema `root`, then those of the
-/// tables in it.
+/// The keys of the table at `path`, each table with its brackets, of the file `title` with the schema `root`,
+/// then those of the tables in it.
 fn keys_of(root: &Value, schema: &Value, path: &str, title: &str) -> String {
     let Some(properties) = schema["properties"].as_object() else { return String::new() };
     let required =

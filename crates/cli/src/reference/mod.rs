@@ -1,5 +1,5 @@
-//! `asperity reference`: the pages of the book that list commands, keys, columns and units, written from what the program knows of
-//! itself. A test holds the pages in `docs` against them.
+//! `asperity reference`: the pages of the book that list commands, keys, columns and units, written from what
+//! the program knows of itself. A test holds the pages in `docs` against them.
 
 mod columns;
 mod commands;

@@ -61,7 +61,7 @@ fn each<const N: usize>(raw: &[u8], big_endian: bool, out: &mut [f64], read: imp
 /// The kinds of numbers, each with the type that has its bytes and the value of one of those.
 macro_rules! numbers {
     ($stored:ident; $($kind:ident: $type:ty = $value:expr,)*) => {
-        /// How a number is stored.
+        /// The way a number is stored.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub(super) enum Number { $($kind,)* }
 

@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-/// Why a file is no surface.
+/// The reason why a file is no surface.
 #[derive(Debug, Error)]
 pub enum ReadError {
     /// The file cannot be opened or read.
@@ -33,7 +33,7 @@ pub enum ReadError {
     Header {
         /// Format.
         format: &'static str,
-        /// Which value.
+        /// The value.
         name: &'static str,
         /// Its value.
         value: String,

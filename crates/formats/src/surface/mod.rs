@@ -1,4 +1,5 @@
-//! Height maps in files. Readers give heights in the file's unit and say what the file says of units and pixels.
+//! Height maps in files. Readers give heights in the file's unit and say what the file says of units and
+//! pixels.
 
 mod bytes;
 mod measured;

@@ -1,4 +1,5 @@
-//! Digital Surf `.sur`: a header of 512 bytes, a comment, a private zone, 16- or 32-bit heights; little-endian.
+//! Digital Surf `.sur`: a header of 512 bytes, a comment, a private zone, 16- or 32-bit heights;
+//! little-endian.
 
 use super::bytes::{Bytes, Number};
 use super::measured::{Format, Measured, ReadError};
@@ -77,7 +78,8 @@ pub(super) fn read(path: &Path) -> Result<Measured, ReadError> {
     Ok(Measured { height_unit: Some(height_unit), ..Measured::in_metres(columns, rows, pixel, heights) })
 }
 
-/// Heights of a compressed file: a directory of zlib streams (unpacked length, packed length), then the streams.
+/// Heights of a compressed file: a directory of zlib streams (unpacked length, packed length), then the
+/// streams.
 fn inflate(file: &Bytes, start: usize, size: usize) -> Result<Vec<u8>, ReadError> {
     let streams = file.number(Number::U32, start)? as usize;
     let directory = file.slice("directory", start + 4, streams.saturating_mul(8))?;

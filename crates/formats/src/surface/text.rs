@@ -23,12 +23,12 @@ fn number(word: &str, line: usize) -> Result<f64, ReadError> {
 
 /// The beginning of a long word.
 fn shortened(word: &str) -> String {
-    const SHOWN: usize = 40;
-    let start: String = word.chars().take(SHOWN).collect();
+    const SHOWN_CHARACTERS: usize = 40;
+    let start: String = word.chars().take(SHOWN_CHARACTERS).collect();
     if start.len() < word.len() { format!("{start}…") } else { start }
 }
 
-/// Whether a line names the columns of a list of points.
+/// True where a line names the columns of a list of points.
 fn is_title(line: &str) -> bool {
     let names: Vec<String> = words(line.trim()).iter().map(|w| w.to_ascii_lowercase()).collect();
     names == ["x", "y", "z"]
@@ -111,7 +111,7 @@ fn points(text: &str) -> Result<Measured, ReadError> {
         }
         points.push(point);
     }
-    let (x, y) = (Axis::of(&points, 0)?, Axis::of(&points, 1)?);
+    let (x, y) = (Axis::from_points(&points, 0)?, Axis::from_points(&points, 1)?);
     let count = x.count as u64 * y.count as u64;
     // a grid with most of its nodes absent is a cloud of points
     if count >= MOST_NODES || count > 8 * points.len() as u64 {
@@ -144,7 +144,7 @@ struct Axis {
 }
 
 impl Axis {
-    fn of(points: &[[f64; 3]], axis: usize) -> Result<Axis, ReadError> {
+    fn from_points(points: &[[f64; 3]], axis: usize) -> Result<Axis, ReadError> {
         let mut values: Vec<f64> = points.iter().map(|p| p[axis]).collect();
         values.sort_by(f64::total_cmp);
         let (Some(&low), Some(&high)) = (values.first(), values.last()) else {

@@ -77,7 +77,8 @@ impl Vti {
     }
 }
 
-/// Number of blocks, their size, that of the last one if it is smaller, their compressed sizes, and the blocks.
+/// Number of blocks, their size, that of the last one if it is smaller, their compressed sizes, and the
+/// blocks.
 fn compressed(values: &[f32]) -> io::Result<Vec<u8>> {
     let block = |part: &[f32]| {
         let bytes: Vec<u8> = part.iter().flat_map(|v| v.to_le_bytes()).collect();

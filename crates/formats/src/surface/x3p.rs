@@ -52,7 +52,7 @@ struct Axis {
 }
 
 impl Axis {
-    fn of<'a>(root: Node<'a, 'a>, name: &'static str) -> Result<Axis, ReadError> {
+    fn read<'a>(root: Node<'a, 'a>, name: &'static str) -> Result<Axis, ReadError> {
         let get = |key: &str| text(root, &["Record1", "Axes", name, key]);
         let number = |key: &str, absent: f64| -> Result<f64, ReadError> {
             get(key).filter(|t| !t.is_empty()).map_or(Ok(absent), |t| {
@@ -87,7 +87,7 @@ pub(super) fn read(path: &Path) -> Result<Measured, ReadError> {
     let document =
         Document::parse_with_options(xml.trim_start_matches('\u{feff}'), options).map_err(damaged)?;
     let root = document.root_element();
-    let (x, y, z) = (Axis::of(root, "CX")?, Axis::of(root, "CY")?, Axis::of(root, "CZ")?);
+    let (x, y, z) = (Axis::read(root, "CX")?, Axis::read(root, "CY")?, Axis::read(root, "CZ")?);
     let feature = text(root, &["Record1", "FeatureType"]).unwrap_or("SUR");
     let refuse = |name, value: String, allowed| Err(FORMAT.header(name, value, allowed));
     if feature != "SUR" {

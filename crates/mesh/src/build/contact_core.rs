@@ -7,8 +7,8 @@ use crate::Edge;
 /// Width of a body over its depth, or the reverse, up to which one family of shells fills it.
 const STRETCH: f64 = 2.5;
 
-/// How far shells around `inner` go: to the sides of the body, unless one is so much farther than the other that the
-/// shells would become splinters; then as far in every direction as the nearer side.
+/// Reach of the shells around `inner`: to the sides of the body, unless one is so much farther than the other
+/// that the shells would become splinters; then as far in every direction as the nearer side.
 pub(super) fn shell_limit(plan: &Plan, inner: Rectangle) -> Rectangle {
     let gaps = [inner.left - plan.width[0], plan.width[1] - inner.right];
     let (sideways, down) = (gaps[0].max(gaps[1]), plan.depth - inner.depth);

@@ -1,4 +1,5 @@
-//! The flat grid that a mesh is sheared from: blocks, the shells that wrap them, columns beside them, and the named sides.
+//! The flat grid that a mesh is sheared from: blocks, the shells that wrap them, columns beside them, and the
+//! named sides.
 
 use crate::{Edge, Sides};
 
@@ -47,7 +48,8 @@ pub struct Ring {
     pub rectangle: Rectangle,
 }
 
-/// Wraps `ring` in shells up to each of `rectangles`; sides of the `body` are named where the last one reaches them.
+/// Wraps `ring` in shells up to each of `rectangles`; sides of the `body` are named where the last one
+/// reaches them.
 pub fn wrap(grid: &mut Grid, mut ring: Ring, rectangles: &[Rectangle], body: Option<Rectangle>) -> Ring {
     let [left, bottom, right] = ring.edges;
     let inner = ring.rectangle;
@@ -99,8 +101,8 @@ pub enum Side {
     Right,
 }
 
-/// Columns of cells at the places `columns`, from the nodes `inner` (from the surface down to the base) outward;
-/// on the `side` of them.
+/// Columns of cells at the places `columns`, from the nodes `inner` (from the surface down to the base)
+/// outward; on the `side` of them.
 pub fn add_columns(grid: &mut Grid, inner: &[u32], columns: &[f64], side: Side) {
     let mut before = inner.to_vec();
     for (index, &x) in columns.iter().enumerate() {

@@ -1,4 +1,5 @@
-//! Graded quadrilaterals under a profile: a fine core under every contact, shells around it that grow outward.
+//! Graded quadrilaterals under a profile: a fine core under every contact, shells around it that grow
+//! outward.
 //!
 //! ```text
 //!   axis                                           In the flat plane (ζ ≤ 0 below the surface) a core is a rectangle
@@ -32,7 +33,7 @@ use contact_core::{add_core, shell_limit};
 use grid::{Grid, Rectangle, Ring, Side, add_columns, sort_surface, wrap};
 use plan::{contact_size, core_half_width, kinks_from, power};
 
-/// Whether there is one contact, halved by the axis: its shells reach the far boundary.
+/// True where there is one contact, halved by the axis: its shells reach the far boundary.
 fn stands_alone(plan: &Plan) -> bool {
     plan.contacts.len() == 1 && plan.contacts[0].centre == plan.width[0]
 }
@@ -95,8 +96,8 @@ fn add_lone_contact(grid: &mut Grid, plan: &Plan) {
     extend(grid, ring, plan, size);
 }
 
-/// Fills what the shells left of the body: columns beside them, or rows below them. `size` is the wanted size at a
-/// distance to the right of 0.
+/// Fills what the shells left of the body: columns beside them, or rows below them. `size` is the wanted size
+/// at a distance to the right of 0.
 fn extend(grid: &mut Grid, ring: Ring, plan: &Plan, size: impl Fn(f64) -> f64) {
     let Ring { ids, edges: [left, bottom, _], rectangle } = ring;
     if rectangle.depth < plan.depth {
@@ -129,29 +130,29 @@ fn extend(grid: &mut Grid, ring: Ring, plan: &Plan, size: impl Fn(f64) -> f64) {
 }
 
 /// Flanks steeper than this (tangent) are not followed by the mesh far below a row.
-const STEEP: f64 = 0.75;
+const STEEP_SLOPE: f64 = 0.75;
 
-/// Depth at which the mesh no longer follows the profile: that of the body; below a row of steep flanks sooner, for there
-/// the shells around the row spread sideways, and cells sheared by more than they spread turn inside out. Deep enough
-/// that cells below a valley keep half their height.
+/// Depth at which the mesh no longer follows the profile: that of the body; below a row of steep flanks
+/// sooner, for there the shells around the row spread sideways, and cells sheared by more than they spread
+/// turn inside out. Deep enough that cells below a valley keep half their height.
 fn fade_depth(plan: &Plan) -> f64 {
     let steepest = plan.contacts.iter().fold(0.0, |m: f64, c| m.max(c.slope));
-    if stands_alone(plan) || steepest < STEEP {
+    if stands_alone(plan) || steepest < STEEP_SLOPE {
         return plan.depth;
     }
     (1.5 * row::rectangle(plan).depth).max(2.0 * plan.profile.height()).min(plan.depth)
 }
 
 /// Smallest scaled Jacobian of a corner below which the nodes around are moved.
-const SOUND: f64 = 0.02;
+const SOUND_JACOBIAN: f64 = 0.02;
 
 /// Rings of cells around a corner that is sharper, whose nodes may move.
 const RINGS: usize = 3;
 
-/// A mesh of four-node cells whose corners the shear under a steep flank may have turned inside out, with the inner nodes around them
-/// where the cells have better shapes.
+/// A mesh of four-node cells whose corners the shear under a steep flank may have turned inside out, with the
+/// inner nodes around them where the cells have better shapes.
 fn sound(mesh: Mesh) -> Mesh {
-    let is_sharp = |cell: &usize| mesh.sharpest_corner(&mesh.nodes, *cell) < SOUND;
+    let is_sharp = |cell: &usize| mesh.sharpest_corner(&mesh.nodes, *cell) < SOUND_JACOBIAN;
     let nodes_of = |cells: &[usize]| -> HashSet<u32> {
         cells.iter().flat_map(|&cell| mesh.cell(cell)).copied().collect()
     };
@@ -184,8 +185,8 @@ fn sound(mesh: Mesh) -> Mesh {
     Mesh { nodes: places, ..mesh }
 }
 
-/// Shears the flat grid under a surface of the height `z(r)`, less and less down to the depth `fade`, drops welded nodes and
-/// adds mid-side nodes.
+/// Shears the flat grid under a surface of the height `z(r)`, less and less down to the depth `fade`, drops
+/// welded nodes and adds mid-side nodes.
 fn finish(mut grid: Grid, kind: ElementKind, fade: f64, z: impl Fn(f64) -> f64) -> Mesh {
     let mut number: Vec<Option<u32>> = vec![None; grid.nodes.len()];
     let mut nodes: Vec<[f64; 2]> = Vec::with_capacity(grid.nodes.len());

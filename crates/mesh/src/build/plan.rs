@@ -1,4 +1,4 @@
-//! What is to be meshed: the contacts, the surface and the body.
+//! Input of the mesher: the contacts, the surface and the body.
 
 use crate::ElementKind;
 use crate::grading::Grading;
@@ -20,8 +20,8 @@ pub struct Contact {
 }
 
 impl Contact {
-    /// Left and right end of the shell whose wider side is `x` away from the centre: shells around a core of the half width
-    /// `half` grow towards the two feet.
+    /// Left and right end of the shell whose wider side is `x` away from the centre: shells around a core of
+    /// the half width `half` grow towards the two feet.
     pub(super) fn shell(&self, half: f64, x: f64) -> [f64; 2] {
         let side = |share: f64| {
             if share == 1.0 { x } else { power([half, half], [self.foot, share * self.foot], x) }
@@ -34,8 +34,8 @@ impl Contact {
         self.foot * self.sides[0].min(self.sides[1])
     }
 
-    /// Depth over half width of the core. The diagonals on which shells turn must stay steeper than the flank, or
-    /// the shear under the profile turns their cells inside out.
+    /// Depth over half width of the core. The diagonals on which shells turn must stay steeper than the
+    /// flank, or the shear under the profile turns their cells inside out.
     pub(super) fn depth_ratio(&self) -> f64 {
         (1.7 * self.slope).max(1.0)
     }
@@ -46,7 +46,8 @@ impl Contact {
 pub struct Plan {
     /// The surface.
     pub profile: Profile,
-    /// The contacts from left to right, at least one. One on the left side at its own centre is halved by the axis.
+    /// The contacts from left to right, at least one. One on the left side at its own centre is halved by the
+    /// axis.
     pub contacts: Vec<Contact>,
     /// Left and right end of the row of cells and blocks; beyond it shells lead to the sides of the body.
     pub row: [f64; 2],
@@ -65,7 +66,8 @@ pub(super) fn power(from: [f64; 2], to: [f64; 2], x: f64) -> f64 {
     from[1] * (to[1] / from[1]).powf((x / from[0]).ln() / (to[0] / from[0]).ln())
 }
 
-/// Half width that the sizes around a contact follow: an untouched asperity is meshed coarsely after its foot.
+/// Half width that the sizes around a contact follow: an untouched asperity is meshed coarsely after its
+/// foot.
 pub(super) fn contact_size(contact: &Contact) -> f64 {
     if contact.half_width > 0.0 { contact.half_width } else { 0.1 * contact.foot }
 }

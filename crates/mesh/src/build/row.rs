@@ -2,7 +2,7 @@
 
 use super::contact_core::{add_core, shell_limit};
 use super::grid::{Grid, Rectangle, Ring, name_side, sort_surface, wrap};
-use super::plan::{Plan, contact_size, core_half_width, kinks_from, power};
+use super::plan::{Contact, Plan, contact_size, core_half_width, kinks_from, power};
 use crate::grading::{Grading, divide, divide_geometric};
 use std::collections::HashMap;
 
@@ -14,29 +14,60 @@ pub fn rectangle(plan: &Plan) -> Rectangle {
     Rectangle { left: plan.row[0], right: plan.row[1], depth: mean.min(0.5 * plan.depth) }
 }
 
-/// Cells side by side with plain blocks between them; returns the ring around the whole row.
-pub fn add(grid: &mut Grid, plan: &Plan) -> Ring {
-    let rectangle = rectangle(plan);
-    let depths: Vec<f64> = plan.grading.rows(plan.kind).iter().map(|t| t * rectangle.depth).collect();
-    let rows = depths.len() - 1;
-    let (mut left, mut bottom, mut right): (Vec<u32>, Vec<u32>, Vec<u32>) =
-        (Vec::new(), Vec::new(), Vec::new());
-    // takes the sides of a block into the row: its left side is welded to the right side of the block before
-    let mut join = |grid: &mut Grid, [block_left, block_bottom, block_right]: &[Vec<u32>; 3]| {
-        if right.is_empty() {
-            left.clone_from(block_left);
-            bottom.clone_from(block_bottom);
+/// The sides of the blocks of a row so far: nodes down the left, along the bottom and down the right.
+#[derive(Default)]
+struct Sides {
+    left: Vec<u32>,
+    bottom: Vec<u32>,
+    right: Vec<u32>,
+}
+
+impl Sides {
+    /// Takes the sides of a block into the row: its left side is welded to the right side of the block
+    /// before.
+    fn join(&mut self, grid: &mut Grid, [left, bottom, right]: &[Vec<u32>; 3]) {
+        if self.right.is_empty() {
+            self.left.clone_from(left);
+            self.bottom.clone_from(bottom);
         } else {
-            let alias: HashMap<u32, u32> = block_left.iter().copied().zip(right.iter().copied()).collect();
+            let alias: HashMap<u32, u32> = left.iter().copied().zip(self.right.iter().copied()).collect();
             for node in grid.cells.iter_mut().flatten() {
                 if let Some(&other) = alias.get(node) {
                     *node = other;
                 }
             }
-            bottom.extend_from_slice(&block_bottom[1..]);
+            self.bottom.extend_from_slice(&bottom[1..]);
         }
-        right.clone_from(block_right);
-    };
+        self.right.clone_from(right);
+    }
+
+    /// The ring around the row; the sides on the edges of the body get their names.
+    fn ring(self, grid: &mut Grid, plan: &Plan, rectangle: Rectangle, rows: usize) -> Ring {
+        let Sides { left, bottom, right } = self;
+        let on_left = rectangle.left > plan.width[0];
+        let on_right = rectangle.right < plan.width[1];
+        if !on_left && plan.contacts[0].centre != plan.width[0] {
+            name_side(grid, &left, |grid| &mut grid.sides.axis);
+        }
+        if !on_right {
+            name_side(grid, &right, |grid| &mut grid.sides.outer);
+        }
+        let mut ids: Vec<u32> = if on_left { left[..rows].to_vec() } else { Vec::new() };
+        let columns = bottom.len() - 1;
+        ids.extend(bottom);
+        if on_right {
+            ids.extend(right[..rows].iter().rev());
+        }
+        let edges = [if on_left { rows } else { 0 }, columns, if on_right { rows } else { 0 }];
+        Ring { ids, edges, rectangle }
+    }
+}
+
+/// Cells side by side with plain blocks between them; returns the ring around the whole row.
+pub fn add(grid: &mut Grid, plan: &Plan) -> Ring {
+    let rectangle = rectangle(plan);
+    let depths: Vec<f64> = plan.grading.rows(plan.kind).iter().map(|t| t * rectangle.depth).collect();
+    let mut sides = Sides::default();
     let mut edge = rectangle.left;
     for (index, contact) in plan.contacts.iter().enumerate() {
         let halved = index == 0 && contact.centre == plan.width[0];
@@ -44,67 +75,62 @@ pub fn add(grid: &mut Grid, plan: &Plan) -> Ring {
             [0, 1].map(|i| contact.centre + [-1.0, 1.0][i] * contact.foot * contact.sides[i]);
         let cell_left = if halved { contact.centre } else { cell_left };
         if let Some(nodes) = plain_block(grid, plan, [edge, cell_left], &depths) {
-            join(grid, &nodes);
+            sides.join(grid, &nodes);
         }
-        let half = core_half_width(plan, contact);
-        let core = Rectangle {
-            left: if halved { contact.centre } else { contact.centre - half },
-            right: contact.centre + half,
-            depth: (half * contact.depth_ratio()).min(0.6 * rectangle.depth),
-        };
-        let start = grid.sides.surface.len();
-        let ring = add_core(grid, plan, contact, core);
-        let grading = if contact.half_width > 0.0 {
-            plan.grading
-        } else {
-            Grading { fineness: 0.5, far: 0.5, ..plan.grading }
-        };
-        let kinks: Vec<f64> =
-            kinks_from(plan, contact.centre).into_iter().filter(|&k| k < contact.foot).collect();
-        let stations =
-            divide_geometric(half, contact.foot, &kinks, |x| grading.size(x, contact_size(contact)));
-        let shells: Vec<Rectangle> = stations[1..]
-            .iter()
-            .map(|&x| {
-                let [left, right] = contact.shell(half, x);
-                Rectangle {
-                    left: if halved { contact.centre } else { left },
-                    right,
-                    depth: power([half, core.depth], [contact.foot, rectangle.depth], x),
-                }
-            })
-            .collect();
-        let ring = wrap(grid, ring, &shells, None);
-        sort_surface(grid, start);
-        let [l, b, _] = ring.edges;
-        let down: Vec<u32> = ring.ids[..=l].to_vec();
-        let up: Vec<u32> = ring.ids[l + b..].iter().rev().copied().collect();
-        join(grid, &[down, ring.ids[l..=l + b].to_vec(), up]);
+        let cell = cell(grid, plan, contact, halved, rectangle.depth);
+        sides.join(grid, &cell);
         edge = cell_right;
     }
     if let Some(nodes) = plain_block(grid, plan, [edge, rectangle.right], &depths) {
-        join(grid, &nodes);
+        sides.join(grid, &nodes);
     }
-    let on_left = rectangle.left > plan.width[0];
-    let on_right = rectangle.right < plan.width[1];
-    if !on_left && plan.contacts[0].centre != plan.width[0] {
-        name_side(grid, &left, |grid| &mut grid.sides.axis);
-    }
-    if !on_right {
-        name_side(grid, &right, |grid| &mut grid.sides.outer);
-    }
-    let mut ids: Vec<u32> = if on_left { left[..rows].to_vec() } else { Vec::new() };
-    let columns = bottom.len() - 1;
-    ids.extend(bottom);
-    if on_right {
-        ids.extend(right[..rows].iter().rev());
-    }
-    Ring { ids, edges: [if on_left { rows } else { 0 }, columns, if on_right { rows } else { 0 }], rectangle }
+    sides.ring(grid, plan, rectangle, depths.len() - 1)
 }
 
-/// A block of plain columns over [from, to], its nodes down the left, along the bottom and down the right; nothing if
-/// the interval is empty. Columns widen from the feet of cells at its ends; between two cells its middle is a node, so
-/// that the two halves are the blocks that symmetric sides would leave.
+/// The cell under one contact, as deep as the row: a core and the shells around it. Its nodes down the left,
+/// along the bottom and down the right.
+fn cell(grid: &mut Grid, plan: &Plan, contact: &Contact, halved: bool, row_depth: f64) -> [Vec<u32>; 3] {
+    let half = core_half_width(plan, contact);
+    let core = Rectangle {
+        left: if halved { contact.centre } else { contact.centre - half },
+        right: contact.centre + half,
+        depth: (half * contact.depth_ratio()).min(0.6 * row_depth),
+    };
+    let start = grid.sides.surface.len();
+    let ring = add_core(grid, plan, contact, core);
+    let shells = shells(plan, contact, halved, half, [core.depth, row_depth]);
+    let ring = wrap(grid, ring, &shells, None);
+    sort_surface(grid, start);
+    let [l, b, _] = ring.edges;
+    let down: Vec<u32> = ring.ids[..=l].to_vec();
+    let up: Vec<u32> = ring.ids[l + b..].iter().rev().copied().collect();
+    [down, ring.ids[l..=l + b].to_vec(), up]
+}
+
+/// The shells of a cell from the `half` width of its core to its foot, with the `depths` of core and row.
+fn shells(plan: &Plan, contact: &Contact, halved: bool, half: f64, depths: [f64; 2]) -> Vec<Rectangle> {
+    let grading = if contact.half_width > 0.0 {
+        plan.grading
+    } else {
+        Grading { fineness: 0.5, far: 0.5, ..plan.grading }
+    };
+    let kinks: Vec<f64> =
+        kinks_from(plan, contact.centre).into_iter().filter(|&k| k < contact.foot).collect();
+    let stations = divide_geometric(half, contact.foot, &kinks, |x| grading.size(x, contact_size(contact)));
+    let shell = |&x: &f64| {
+        let [left, right] = contact.shell(half, x);
+        Rectangle {
+            left: if halved { contact.centre } else { left },
+            right,
+            depth: power([half, depths[0]], [contact.foot, depths[1]], x),
+        }
+    };
+    stations[1..].iter().map(shell).collect()
+}
+
+/// A block of plain columns over [from, to], its nodes down the left, along the bottom and down the right;
+/// nothing if the interval is empty. Columns widen from the feet of cells at its ends; between two cells its
+/// middle is a node, so that the two halves are the blocks that symmetric sides would leave.
 fn plain_block(grid: &mut Grid, plan: &Plan, [from, to]: [f64; 2], depths: &[f64]) -> Option<[Vec<u32>; 3]> {
     let width = to - from;
     if width <= 1e-9 * (plan.row[1] - plan.row[0]) {
@@ -128,8 +154,8 @@ fn plain_block(grid: &mut Grid, plan: &Plan, [from, to]: [f64; 2], depths: &[f64
     Some([nodes[0].clone(), under, nodes[columns.len() - 1].clone()])
 }
 
-/// The rectangles around a row of cells, out to where shells end. Next to the row, where all its loads add up, they are
-/// as fine as the grading asks for.
+/// The rectangles around a row of cells, out to where shells end. Next to the row, where all its loads add
+/// up, they are as fine as the grading asks for.
 pub fn rectangles_around(plan: &Plan, inner: Rectangle) -> Vec<Rectangle> {
     let end = shell_limit(plan, inner);
     let stations =

@@ -1,5 +1,5 @@
-//! A sharp cone on its substrate, or the flat body under a cone: columns of one width under the contact, so that the force
-//! ripples with one period, and shells around them that grow to the far boundary.
+//! A sharp cone on its substrate, or the flat body under a cone: columns of one width under the contact, so
+//! that the force ripples with one period, and shells around them that grow to the far boundary.
 
 use super::finish;
 use super::grid::{Grid, Rectangle, Ring, wrap};
@@ -10,7 +10,7 @@ use crate::{Edge, ElementKind, Mesh};
 /// Sizes of a self-similar mesh, lengths in units of the radius of the contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sizes {
-    /// How many columns, from the axis, are one wide column.
+    /// The number of columns, from the axis, that are one wide column.
     pub at_axis: usize,
     /// Width of the part with columns of one size: beyond the contact by what it may be exceeded.
     pub core: f64,

@@ -1,4 +1,4 @@
-//! Why an MSH file cannot be read.
+//! The reason why an MSH file cannot be read.
 
 /// An MSH file that cannot be read.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]

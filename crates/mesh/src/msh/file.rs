@@ -277,7 +277,7 @@ impl Reader {
         lines.end("Elements")
     }
 
-    /// Which cells the mesh has; refuses those that are not quadrilaterals of one kind.
+    /// The kind of the cells of the mesh; refuses those that are not quadrilaterals of one kind.
     fn set_kind(&mut self, code: usize) -> Result<(), &'static str> {
         let kind = match code {
             3 => ElementKind::Quad4,

@@ -31,11 +31,12 @@ impl Sides {
     }
 }
 
-/// Reads a mesh of 4-node or 8-node quadrilaterals whose physical curves are named axis, base, surface, outer.
+/// Reads a mesh of 4-node or 8-node quadrilaterals whose physical curves are named axis, base, surface,
+/// outer.
 ///
 /// The section may lie in the plane z = 0 (x is r, y the height) or y = 0 (x is r, z the height). Cells are
-/// turned counterclockwise, nodes without cells are dropped, the surface is put in order from the axis outward;
-/// otherwise nodes and cells keep the order of the file, and coordinates their bits.
+/// turned counterclockwise, nodes without cells are dropped, the surface is put in order from the axis
+/// outward; otherwise nodes and cells keep the order of the file, and coordinates their bits.
 ///
 /// # Errors
 /// Anything that is not such a mesh, with the line and what was expected there.

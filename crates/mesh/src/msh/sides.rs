@@ -144,10 +144,11 @@ fn curve_edges(
     Ok(edges)
 }
 
-/// The edges of the surface in order from the axis outward; pieces that do not touch, by their innermost point.
+/// The edges of the surface in order from the axis outward; pieces that do not touch, by their innermost
+/// point.
 ///
-/// Counterclockwise around the body the surface runs inward, so each edge is followed by the one that ends where
-/// it starts.
+/// Counterclockwise around the body the surface runs inward, so each edge is followed by the one that ends
+/// where it starts.
 fn outward(mesh: &Mesh, surface: &[Edge]) -> Result<Vec<Edge>, MshError> {
     let ends = |edge: Edge| mesh.edge_nodes(edge).0;
     let by_end: HashMap<u32, Edge> = surface.iter().map(|&e| (ends(e)[1], e)).collect();

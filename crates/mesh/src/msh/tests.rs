@@ -47,8 +47,8 @@ fn a_mesh_reads_back_to_the_same_bits_and_writes_the_same_text() {
     assert_eq!(written(&back), text);
 }
 
-/// A square of four nodes as Gmsh's graphical interface may leave it: clockwise, sparse tags, points, the plane
-/// y = 0, comments, a node of no cell, a curve without a name.
+/// A square of four nodes as Gmsh's graphical interface may leave it: clockwise, sparse tags, points, the
+/// plane y = 0, comments, a node of no cell, a curve without a name.
 const FOREIGN: &str = r#"$MeshFormat
 4.1 0 8
 $EndMeshFormat
@@ -178,8 +178,8 @@ fn a_file_cut_anywhere_does_not_panic() {
     }
 }
 
-/// Every file with some words replaced by others of the file, or by extremes, is an error or a mesh that holds
-/// together, never a panic.
+/// Every file with some words replaced by others of the file, or by extremes, is an error or a mesh that
+/// holds together, never a panic.
 #[test]
 fn a_scrambled_file_does_not_panic() {
     let odd = ["-1", "0", "99999999999999999999", "1e400", "nan", "\"", "$Nodes", "$EndNodes", "\n", ""];

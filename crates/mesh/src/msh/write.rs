@@ -12,7 +12,8 @@ fn bounding_box(mesh: &Mesh, nodes: impl Iterator<Item = u32>) -> String {
 }
 
 /// Writes the mesh in the plane z = 0 with its coordinates as they are, shortest digits that read back to the
-/// same bits. Tags count from 1: nodes and cells in their order, sides as curves 1 to 4, the metal as surface 1.
+/// same bits. Tags count from 1: nodes and cells in their order, sides as curves 1 to 4, the metal as surface
+/// 1.
 ///
 /// # Errors
 /// A writer that fails.

@@ -16,7 +16,8 @@ impl Bands {
         Bands { rows: vec![[0.0; BAND]; count], rhs: vec![0.0; count] }
     }
 
-    /// Adds `weight` times the square of Σ entries - value; columns of a row may repeat and lie less than [`BAND`] apart.
+    /// Adds `weight` times the square of Σ entries - value; columns of a row may repeat and lie less than
+    /// [`BAND`] apart.
     pub fn add(&mut self, row: &[(usize, f64)], value: f64, weight: f64) {
         for &(i, a) in row {
             self.rhs[i] += weight * a * value;

@@ -1,28 +1,29 @@
-//! A curve through points that bulge outward everywhere and that bulges nowhere inward: for points so few that the nearest
-//! smooth arcs swing between them (Schumaker, SIAM J. Numer. Anal. 20 (1983) 853).
+//! A curve through points that bulge outward everywhere and that bulges nowhere inward: for points so few
+//! that the nearest smooth arcs swing between them (Schumaker, SIAM J. Numer. Anal. 20 (1983) 853).
 
 use super::Parabola;
 
-/// A slope may change so much more on one half of an arc than on the other; beyond that the arcs meet at an angle.
-const LOPSIDED: f64 = 3.0;
+/// A slope may change so much more on one half of an arc than on the other; beyond that the arcs meet at an
+/// angle.
+const LOPSIDED_RATIO: f64 = 3.0;
 
 /// Rounding of a slope, over the steepest.
-const ROUNDING: f64 = 1e-9;
+const ROUNDING_SLOPE: f64 = 1e-9;
 
 /// Slopes between neighbours.
 fn chords(points: &[[f64; 2]]) -> Vec<f64> {
     points.windows(2).map(|p| (p[1][1] - p[0][1]) / (p[1][0] - p[0][0])).collect()
 }
 
-/// Whether `points` fall ever more steeply; `level`: from a slope of 0 on.
+/// True where `points` fall ever more steeply; `level`: from a slope of 0 on.
 pub fn bulges(points: &[[f64; 2]], level: bool) -> bool {
     let chords = chords(points);
-    let rounding = ROUNDING * chords.iter().fold(0.0, |m: f64, c| m.max(c.abs()));
+    let rounding = ROUNDING_SLOPE * chords.iter().fold(0.0, |m: f64, c| m.max(c.abs()));
     chords.windows(2).all(|c| c[1] <= c[0] + rounding) && (!level || chords[0] <= rounding)
 }
 
-/// Arcs from 0 on through `points` that [`bulges`] holds for, two between neighbours; the slope jumps at `kinks`, and where no
-/// smooth curve bulges. `level`: the slope is 0 at 0.
+/// Arcs from 0 on through `points` that [`bulges`] holds for, two between neighbours; the slope jumps at
+/// `kinks`, and where no smooth curve bulges. `level`: the slope is 0 at 0.
 pub fn bridge(points: &[[f64; 2]], kinks: &[usize], level: bool) -> Vec<Parabola> {
     let (chords, last) = (chords(points), points.len() - 1);
     // the slope of the parabola through a point and its neighbours, at an end that through the last two
@@ -51,7 +52,7 @@ pub fn bridge(points: &[[f64; 2]], kinks: &[usize], level: bool) -> Vec<Parabola
         };
         // how much the slope falls on either half; the middle slope is the chord's
         let [mut before, mut after] = [(from - chord).max(0.0), (chord - to).max(0.0)];
-        [before, after] = [before.min(LOPSIDED * after), after.min(LOPSIDED * before)];
+        [before, after] = [before.min(LOPSIDED_RATIO * after), after.min(LOPSIDED_RATIO * before)];
         if i == 0 && x > 0.0 {
             let slope = chord + before;
             let bend = if level { 0.5 * slope / x } else { 0.0 };
@@ -109,7 +110,7 @@ mod tests {
                         for [x, z] in points.iter().copied() {
                             assert!((curve.depth_at(x) + z).abs() < 1e-12, "{name} {count} {x}");
                         }
-                        assert!(!level || first == 0 || curve.at(0.0)[1].abs() < 1e-12);
+                        assert!(!level || first == 0 || curve.drop_and_slope(0.0)[1].abs() < 1e-12);
                     }
                 }
             }

@@ -16,18 +16,20 @@ pub struct Foot {
     pub slope: f64,
     /// Second derivative there; 0 beyond the ends.
     pub bend: f64,
-    /// Whether it is a kink, whose distance is that of a point.
+    /// True where it is a kink, whose distance is that of a point.
     pub corner: bool,
 }
 
 impl Outline {
-    /// The foot of the point (`x`, `drop`) near to it: down the gradient of the distance from the foot straight above or
-    /// below. Exact; the nearest of all where the point lies within the least radius of curvature of the curve.
+    /// The foot of the point (`x`, `drop`) near to it: down the gradient of the distance from the foot
+    /// straight above or below. Exact; the nearest of all where the point lies within the least radius of
+    /// curvature of the curve.
     ///
-    /// On a mirrored curve for points with `x` ≥ 0, whose feet lie there too; before a sharp tip its flank goes on.
+    /// On a mirrored curve for points with `x` ≥ 0, whose feet lie there too; before a sharp tip its flank
+    /// goes on.
     pub fn foot(&self, x: f64, drop: f64) -> Foot {
         // half the derivative of the squared distance along the curve
-        let along = |arc: &Parabola, s: f64| (s - x) + (arc.at(s) - drop) * arc.slope_at(s);
+        let along = |arc: &Parabola, s: f64| (s - x) + (arc.drop_at(s) - drop) * arc.slope_at(s);
         let start = x.clamp(self.arcs[0].x, self.end);
         let mut index = self.index(start);
         if along(&self.arcs[index], start) < 0.0 {
@@ -36,7 +38,7 @@ impl Outline {
                 if along(&self.arcs[index], end) >= 0.0 {
                     return self.on_arc(index, x, drop);
                 }
-                let Some(next) = self.arcs.get(index + 1) else { return self.beyond(end, x, drop) };
+                let Some(next) = self.arcs.get(index + 1) else { return self.foot_beyond(end, x, drop) };
                 if along(next, end) > 0.0 {
                     return corner(end, next.drop);
                 }
@@ -48,7 +50,7 @@ impl Outline {
             if along(&self.arcs[index], from) <= 0.0 {
                 return self.on_arc(index, x, drop);
             }
-            let Some(before) = index.checked_sub(1) else { return self.beyond(from, x, drop) };
+            let Some(before) = index.checked_sub(1) else { return self.foot_beyond(from, x, drop) };
             if along(&self.arcs[before], from) < 0.0 {
                 return corner(from, self.arcs[index].drop);
             }
@@ -57,19 +59,20 @@ impl Outline {
     }
 
     /// The foot on the straight line that leads on from an end.
-    fn beyond(&self, end: f64, x: f64, drop: f64) -> Foot {
-        let [z, slope] = self.at(end);
+    fn foot_beyond(&self, end: f64, x: f64, drop: f64) -> Foot {
+        let [z, slope] = self.drop_and_slope(end);
         let t = ((x - end) + slope * (drop - z)) / (1.0 + slope * slope);
         Foot { x: end + t, drop: z + slope * t, slope, bend: 0.0, corner: false }
     }
 
-    /// The foot on the arc `index`, on which it lies: the root of a cubic, by Newton's method between two bounds.
+    /// The foot on the arc `index`, on which it lies: the root of a cubic, by Newton's method between two
+    /// bounds.
     fn on_arc(&self, index: usize, x: f64, drop: f64) -> Foot {
         let arc = &self.arcs[index];
         let (mut low, mut high) = (arc.x, self.end_of(index));
         let mut s = x.clamp(low, high);
         for _ in 0..MOST_STEPS {
-            let (gap, slope) = (arc.at(s) - drop, arc.slope_at(s));
+            let (gap, slope) = (arc.drop_at(s) - drop, arc.slope_at(s));
             let value = (s - x) + gap * slope;
             if value < 0.0 {
                 low = s;
@@ -83,7 +86,7 @@ impl Outline {
             }
             s = next;
         }
-        Foot { x: s, drop: arc.at(s), slope: arc.slope_at(s), bend: 2.0 * arc.bend, corner: false }
+        Foot { x: s, drop: arc.drop_at(s), slope: arc.slope_at(s), bend: 2.0 * arc.bend, corner: false }
     }
 }
 

@@ -1,21 +1,21 @@
-//! How far an outline bulges the wrong way: a tool presses with its convex side.
+//! Dents of an outline, which bulge the wrong way: a tool presses with its convex side.
 
 use super::Outline;
 
 /// Samples of an arc.
 const SAMPLES: usize = 8;
 
-/// Where a curve lies deepest inside its convex hull.
+/// The place at which a curve lies deepest inside its convex hull.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dent {
     /// Its place.
     pub x: f64,
-    /// How far the curve lies above the chord over the dent.
+    /// Distance of the curve above the chord over the dent.
     pub depth: f64,
 }
 
-/// The deepest dent of the right side of `outline`, as a tool whose drop is the rise from its apex; its depth is 0 where the
-/// curve is convex.
+/// The deepest dent of the right side of `outline`, as a tool whose drop is the rise from its apex; its depth
+/// is 0 where the curve is convex.
 pub fn deepest_dent(outline: &Outline) -> Dent {
     let [_, end] = outline.ends();
     let mut points: Vec<[f64; 2]> = Vec::new();
@@ -23,7 +23,7 @@ pub fn deepest_dent(outline: &Outline) -> Dent {
         let (from, to) = (outline.arcs[index].x, outline.end_of(index));
         points.extend((0..SAMPLES).map(|k| {
             let x = from + (to - from) * k as f64 / SAMPLES as f64;
-            [x, outline.arcs[index].at(x)]
+            [x, outline.arcs[index].drop_at(x)]
         }));
     }
     points.push([end, outline.depth_at(end)]);
@@ -68,7 +68,8 @@ mod tests {
         let arc = |x, drop, slope, bend| Parabola { x, drop, slope, bend };
         let bowl = Outline::new(vec![arc(0.0, 0.0, 0.0, 0.5), arc(1.0, 0.5, 1.0, 0.0)], 3.0, true).unwrap();
         assert!(deepest_dent(&bowl).depth < 1e-15);
-        // rises to 0.5 at 1 and goes on at half the slope to 1.5 at 3: 0.25/1.5... above the chord from 0 to the end
+        // rises to 0.5 at 1 and goes on at half the slope to 1.5 at 3: 0.25/1.5... above the chord from 0 to
+        // the end
         let rim = Outline::new(vec![arc(0.0, 0.0, 1.0, 0.0), arc(1.0, 1.0, 0.25, 0.0)], 3.0, true).unwrap();
         let dent = deepest_dent(&rim);
         assert!((dent.x - 1.0).abs() < 1e-12 && (dent.depth - 0.5).abs() < 1e-12, "{dent:?}");

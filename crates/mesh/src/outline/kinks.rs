@@ -1,5 +1,5 @@
-//! Points at which an outline has a corner: parabolas through its neighbours on either side meet there at an angle that neither the
-//! scatter nor their own curvature explains.
+//! Points at which an outline has a corner: parabolas through its neighbours on either side meet there at an
+//! angle that neither the scatter nor their own curvature explains.
 
 use super::bands::Bands;
 
@@ -7,16 +7,16 @@ use super::bands::Bands;
 const WINDOWS: [usize; 8] = [3, 4, 6, 8, 12, 16, 24, 32];
 
 /// Standard errors by which the angle must exceed 0.
-const SIGNIFICANT: f64 = 6.0;
+const SIGNIFICANT_ERRORS: f64 = 6.0;
 
-/// How many times the turn of a smooth curve over one point a corner must exceed.
-const SHARPER: f64 = 3.0;
+/// Least turn of a corner over the turn of a smooth curve over one point.
+const CORNER_TURN_RATIO: f64 = 3.0;
 
 /// Share of what a corner moves over one point that the parabolas may miss.
-const MISSED: f64 = 0.02;
+const MISSED_SHARE: f64 = 0.02;
 
 /// Jumps of slope below this are none.
-const LEAST: f64 = 0.005;
+const MIN_SLOPE_JUMP: f64 = 0.005;
 
 /// A parabola a + b t + c t² through points on one side of a place, t counted from there.
 struct Side {
@@ -60,7 +60,8 @@ impl Side {
     }
 }
 
-/// How many standard errors the angle at point `i` exceeds 0, if it is a corner as `window` points on either side see it.
+/// The number of standard errors by which the angle at point `i` exceeds 0, if it is a corner as `window`
+/// points on either side see it.
 fn corner(points: &[[f64; 2]], i: usize, window: usize, scatter: f64, least: f64) -> Option<f64> {
     let (from, to) = (i.checked_sub(window)?, i + window);
     if to >= points.len() {
@@ -74,19 +75,19 @@ fn corner(points: &[[f64; 2]], i: usize, window: usize, scatter: f64, least: f64
     let missed = ((left.missed + right.missed) / (left.spare + right.spare)).sqrt();
     let turn = 2.0 * (left.bend.abs() + right.bend.abs()) * spacing;
     let apart = (right.value - left.value).abs();
-    let meets = scatter * SIGNIFICANT * (left.variance[0] + right.variance[0]).sqrt();
+    let meets = scatter * SIGNIFICANT_ERRORS * (left.variance[0] + right.variance[0]).sqrt();
     let holds = jump > least
-        && jump > SIGNIFICANT * error
-        && jump > SHARPER * turn
-        && missed <= (1.5 * scatter).max(MISSED * jump * spacing)
-        && apart <= meets.max(5.0 * MISSED * jump * spacing);
+        && jump > SIGNIFICANT_ERRORS * error
+        && jump > CORNER_TURN_RATIO * turn
+        && missed <= (1.5 * scatter).max(MISSED_SHARE * jump * spacing)
+        && apart <= meets.max(5.0 * MISSED_SHARE * jump * spacing);
     holds.then(|| jump / error)
 }
 
-/// Indices of the corners of `points`, in order; `scatter` is that of their heights (above 0), `steepness` what a slope of 1
-/// is in their units.
+/// Indices of the corners of `points`, in order; `scatter` is that of their heights (above 0), `steepness`
+/// what a slope of 1 is in their units.
 pub fn corners(points: &[[f64; 2]], scatter: f64, steepness: f64) -> Vec<usize> {
-    let least = LEAST / steepness;
+    let least = MIN_SLOPE_JUMP / steepness;
     let best = |i: usize| {
         WINDOWS
             .iter()

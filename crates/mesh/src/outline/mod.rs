@@ -6,7 +6,8 @@
 //!      __/ \__                  straight on.
 //!   __/       \__   drop
 //! ```
-//! Each arc is z + s t + b t² in the distance t from its left end, so a gap, a normal and a curvature are exact for it.
+//! Each arc is z + s t + b t² in the distance t from its left end, so a gap, a normal and a curvature are
+//! exact for it.
 
 use std::sync::Arc;
 
@@ -38,7 +39,7 @@ pub struct Parabola {
 
 impl Parabola {
     /// Drop at `x`.
-    fn at(&self, x: f64) -> f64 {
+    fn drop_at(&self, x: f64) -> f64 {
         let t = x - self.x;
         self.drop + t * (self.slope + t * self.bend)
     }
@@ -55,13 +56,13 @@ pub struct Outline {
     arcs: Vec<Parabola>,
     /// Right end of the last arc.
     end: f64,
-    /// Whether the left half is the mirror image of the right one, which alone is stored.
+    /// True where the left half is the mirror image of the right one, which alone is stored.
     mirrored: bool,
 }
 
 impl Outline {
-    /// Of `arcs` up to `end`; `mirrored`: they begin at 0 and the left side is their image. `None` without an arc, or where
-    /// they are not in order.
+    /// Of `arcs` up to `end`; `mirrored`: they begin at 0 and the left side is their image. `None` without an
+    /// arc, or where they are not in order.
     pub fn new(arcs: Vec<Parabola>, end: f64, mirrored: bool) -> Option<Outline> {
         let first = arcs.first()?;
         let ordered = arcs.windows(2).all(|a| a[0].x < a[1].x) && arcs.last()?.x < end;
@@ -95,21 +96,21 @@ impl Outline {
     }
 
     /// Drop and its first derivative at `x`; straight on beyond the ends. At a kink those of its right side.
-    pub fn at(&self, x: f64) -> [f64; 2] {
+    pub fn drop_and_slope(&self, x: f64) -> [f64; 2] {
         let (x, sign) = self.folded(x);
         let arc = &self.arcs[self.index(x)];
         let inside = x.clamp(self.arcs[0].x, self.end);
         let slope = arc.slope_at(inside);
-        [arc.at(inside) + slope * (x - inside), sign * slope]
+        [arc.drop_at(inside) + slope * (x - inside), sign * slope]
     }
 
     /// Drop at `x`.
     pub fn depth_at(&self, x: f64) -> f64 {
-        self.at(x)[0]
+        self.drop_and_slope(x)[0]
     }
 
-    /// Distances from 0, left and right, beyond which the curve lies deeper than `depth` for good; infinite where it never
-    /// does.
+    /// Distances from 0, left and right, beyond which the curve lies deeper than `depth` for good; infinite
+    /// where it never does.
     pub fn widths(&self, depth: f64) -> [f64; 2] {
         let right = self.last_above(depth);
         if self.mirrored { [right, right] } else { [self.reversed().last_above(depth), right] }
@@ -117,7 +118,7 @@ impl Outline {
 
     /// The last place, from 0 on, where the drop is at most `depth`.
     fn last_above(&self, depth: f64) -> f64 {
-        let [bottom, slope] = self.at(self.end);
+        let [bottom, slope] = self.drop_and_slope(self.end);
         if bottom <= depth {
             return if slope > 0.0 { self.end + (depth - bottom) / slope } else { f64::INFINITY };
         }
@@ -139,7 +140,7 @@ impl Outline {
         }
         let image = |(i, arc): (usize, &Parabola)| {
             let end = self.end_of(i);
-            Parabola { x: -end, drop: arc.at(end), slope: -arc.slope_at(end), bend: arc.bend }
+            Parabola { x: -end, drop: arc.drop_at(end), slope: -arc.slope_at(end), bend: arc.bend }
         };
         let arcs = self.arcs.iter().enumerate().rev().map(image).collect();
         Outline { arcs, end: -self.arcs[0].x, mirrored: false }
@@ -166,14 +167,14 @@ impl Outline {
 
     /// The part between two places inside the ends; both sides of it are stored.
     #[must_use]
-    pub fn between(&self, from: f64, to: f64) -> Outline {
+    pub fn part_between(&self, from: f64, to: f64) -> Outline {
         let mut arcs: Vec<Parabola> = Vec::new();
         for (i, arc) in self.arcs.iter().enumerate() {
             let (left, right) = (arc.x.max(from), self.end_of(i).min(to));
             if left < right {
                 arcs.push(Parabola {
                     x: left,
-                    drop: arc.at(left),
+                    drop: arc.drop_at(left),
                     slope: arc.slope_at(left),
                     bend: arc.bend,
                 });
@@ -189,11 +190,11 @@ impl Outline {
         if arcs.is_empty() { self.clone() } else { Outline { arcs, end: x.min(self.end), ..*self } }
     }
 
-    /// The curve with a straight arc that leads on from its right end to the drop `depth`, at the slope of the end or the mean
-    /// slope of its right side, whichever is steeper; as it is where it is as deep.
+    /// The curve with a straight arc that leads on from its right end to the drop `depth`, at the slope of
+    /// the end or the mean slope of its right side, whichever is steeper; as it is where it is as deep.
     #[must_use]
     pub fn down_to(&self, depth: f64) -> Outline {
-        let [drop, slope] = self.at(self.end);
+        let [drop, slope] = self.drop_and_slope(self.end);
         let slope = slope.max(drop / self.end);
         // not a splinter for a rounded depth
         if drop >= (1.0 - 1e-6) * depth || !(slope > 0.0 && slope.is_finite()) {
@@ -216,15 +217,15 @@ impl Outline {
         self.extremes().into_iter().fold(f64::NEG_INFINITY, |most, p| most.max(p[1]))
     }
 
-    /// Ends of arcs and the places between them where the curve is level, from left to right (of a mirrored one those of the
-    /// right half), each with its drop.
+    /// Ends of arcs and the places between them where the curve is level, from left to right (of a mirrored
+    /// one those of the right half), each with its drop.
     pub fn extremes(&self) -> Vec<[f64; 2]> {
         let mut places = Vec::new();
         for (i, arc) in self.arcs.iter().enumerate() {
             places.push([arc.x, arc.drop]);
             let level = arc.x - 0.5 * arc.slope / arc.bend;
             if level > arc.x && level < self.end_of(i) {
-                places.push([level, arc.at(level)]);
+                places.push([level, arc.drop_at(level)]);
             }
         }
         places.push([self.end, self.depth_at(self.end)]);
@@ -237,8 +238,8 @@ impl Outline {
         self.arcs.iter().enumerate().map(ends).fold(0.0, f64::max)
     }
 
-    /// Places where the slope jumps by more than `angle`, or the curvature by more than half of its greatest value, from left to
-    /// right.
+    /// Places where the slope jumps by more than `angle`, or the curvature by more than half of its greatest
+    /// value, from left to right.
     pub fn kinks(&self, angle: f64) -> Vec<f64> {
         let sharpest = self.arcs.iter().fold(0.0, |m: f64, a| m.max(a.bend.abs()));
         let turns = |i: usize| {
@@ -265,10 +266,10 @@ impl Outline {
 impl Parabola {
     /// The last place in `[from, to]` where the drop is at most `depth`.
     fn last_above(&self, depth: f64, from: f64, to: f64) -> Option<f64> {
-        if self.at(to) <= depth {
+        if self.drop_at(to) <= depth {
             return Some(to);
         }
-        let (c, s, b) = (self.at(from) - depth, self.slope_at(from), self.bend);
+        let (c, s, b) = (self.drop_at(from) - depth, self.slope_at(from), self.bend);
         let length = to - from;
         let root = quadratic_roots(b, s, c).into_iter().flatten().filter(|t| (0.0..=length).contains(t));
         let last = root.fold(f64::NEG_INFINITY, f64::max);
@@ -308,7 +309,10 @@ mod tests {
             assert!((curve.widths(drop)[0] - x).abs() < 1e-14);
             assert_eq!(curve.depth_at(-x), drop);
             let slope = (curve.depth_at(x + 1e-6) - curve.depth_at(x - 1e-6)) / 2e-6;
-            assert!((curve.at(x)[1] - slope).abs() < 1e-9 && (curve.at(-x)[1] + slope).abs() < 1e-9);
+            assert!(
+                (curve.drop_and_slope(x)[1] - slope).abs() < 1e-9
+                    && (curve.drop_and_slope(-x)[1] + slope).abs() < 1e-9
+            );
         }
         assert_eq!(curve.kinks(0.01), [-2.0, 2.0]);
         assert_eq!((curve.steepest(), curve.lowest(), curve.ends()), (0.2, 1.0, [-6.0, 6.0]));
@@ -316,7 +320,7 @@ mod tests {
 
     #[test]
     fn a_part_seen_from_its_own_summit_is_the_same_curve() {
-        let part = rounded().between(1.0, 5.0).seen_from(1.0, 0.05);
+        let part = rounded().part_between(1.0, 5.0).seen_from(1.0, 0.05);
         assert_eq!(part.ends(), [0.0, 4.0]);
         assert!((part.depth_at(3.0) - (rounded().depth_at(4.0) - 0.05)).abs() < 1e-15);
         let image = part.reversed();

@@ -1,10 +1,13 @@
-//! Whether what a smooth curve leaves of its points is scatter: their means over stretches of every length are as small as those
-//! of independent errors (the multiresolution criterion of Davies and Kovac, Annals of Statistics 29 (2001) 1).
+//! True where what a smooth curve leaves of its points is scatter: their means over stretches of every length
+//! are as small as those of independent errors (the multiresolution criterion of Davies and Kovac, Annals of
+//! Statistics 29 (2001) 1).
 
-/// Standard errors within which the mean of a long stretch may lie, and that of one or two points, of which there are more.
-const MOST: [f64; 2] = [3.5, 4.5];
+/// Standard errors within which the mean of a long stretch may lie, and that of one or two points, of which
+/// there are more.
+const MAX_STANDARD_ERRORS: [f64; 2] = [3.5, 4.5];
 
-/// Stretches (first and last point) whose mean is too far from 0 for scatter of the standard deviation `scatter`.
+/// Stretches (first and last point) whose mean is too far from 0 for scatter of the standard deviation
+/// `scatter`.
 pub fn stretches_too_far(residuals: &[f64], scatter: f64) -> Vec<[usize; 2]> {
     let mut sums = vec![0.0];
     for r in residuals {
@@ -12,7 +15,7 @@ pub fn stretches_too_far(residuals: &[f64], scatter: f64) -> Vec<[usize; 2]> {
     }
     let (n, mut length, mut found) = (residuals.len(), 1, Vec::new());
     while length <= n {
-        let limit = MOST[usize::from(length <= 2)] * scatter * (length as f64).sqrt();
+        let limit = MAX_STANDARD_ERRORS[usize::from(length <= 2)] * scatter * (length as f64).sqrt();
         for start in (0..=n - length).step_by((length / 2).max(1)) {
             if (sums[start + length] - sums[start]).abs() > limit {
                 found.push([start, start + length - 1]);
@@ -23,8 +26,8 @@ pub fn stretches_too_far(residuals: &[f64], scatter: f64) -> Vec<[usize; 2]> {
     found
 }
 
-/// Standard deviation of the scatter of points about a smooth curve: from what a parabola through three points misses of the
-/// fourth, in the median, so that kinks and outliers do not count.
+/// Standard deviation of the scatter of points about a smooth curve: from what a parabola through three
+/// points misses of the fourth, in the median, so that kinks and outliers do not count.
 pub fn scatter(points: &[[f64; 2]]) -> f64 {
     let miss = |p: &[[f64; 2]]| {
         let weight = |i: usize| {

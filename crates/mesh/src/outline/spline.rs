@@ -3,14 +3,14 @@
 use super::Parabola;
 use super::bands::Bands;
 
-/// Where one arc ends and the next begins.
+/// A point at which one arc ends and the next begins.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Break {
     /// Its place.
     pub x: f64,
     /// Index of the point there.
     pub point: usize,
-    /// Whether the slope may jump there.
+    /// True where the slope may jump there.
     pub kink: bool,
 }
 
@@ -37,8 +37,8 @@ fn slopes(t: &[f64], k: usize) -> [[f64; 3]; 2] {
     [[-left, left, 0.0], [0.0, -right, right]]
 }
 
-/// The arcs between `breaks` nearest to `points` (height over place); `level`: the slope at the left end is 0. `None` where
-/// the points do not determine them.
+/// The arcs between `breaks` nearest to `points` (height over place); `level`: the slope at the left end is
+/// 0. `None` where the points do not determine them.
 pub fn fit(points: &[[f64; 2]], breaks: &[Break], level: bool) -> Option<Vec<Parabola>> {
     let t = knots(breaks);
     let shift = usize::from(level);

@@ -1,5 +1,5 @@
-//! Factorisation of the sparse stiffness, front by front: the symbolic analysis once per mesh, numbers in place, nothing allocated
-//! per factorisation or solve.
+//! Factorisation of the sparse stiffness, front by front: the symbolic analysis once per mesh, numbers in
+//! place, nothing allocated per factorisation or solve.
 
 use crate::sparse::failure::FactorError;
 use crate::sparse::front::{Pivots, eliminate};
@@ -42,7 +42,8 @@ struct Numbers {
     scaled: Vec<f64>,
 }
 
-/// Adds the update of a child, whose row i has the place `places[i]` in its parent, to the parent's panel and update.
+/// Adds the update of a child, whose row i has the place `places[i]` in its parent, to the parent's panel and
+/// update.
 fn add_child(child: &[f64], places: &[u32], front: &Front, panel: &mut [f64], update: &mut [f64]) {
     let stride = padded(places.len());
     let pivots = front.size.pivots;
@@ -60,8 +61,8 @@ fn add_child(child: &[f64], places: &[u32], front: &Front, panel: &mut [f64], up
 }
 
 impl Numbers {
-    /// Eliminates the fronts of part `part`, whose children are in it or in `branches`. Returns the number of negative pivots,
-    /// nothing where a pivot is not accepted.
+    /// Eliminates the fronts of part `part`, whose children are in it or in `branches`. Returns the number of
+    /// negative pivots, nothing where a pivot is not accepted.
     fn eliminate(
         &mut self,
         arch: Arch,
@@ -105,11 +106,11 @@ impl Factor {
 
     /// Analyses the lower triangle `matrix`, whose unknowns stand in an order of little fill.
     pub fn new(matrix: &CsMat<f64>) -> Factor {
-        Factor::of(Arc::new(FrontTree::new(matrix)))
+        Factor::with_tree(Arc::new(FrontTree::new(matrix)))
     }
 
     /// Of the pattern that was analysed.
-    pub fn of(tree: Arc<FrontTree>) -> Factor {
+    pub fn with_tree(tree: Arc<FrontTree>) -> Factor {
         let numbers = |part: &Part| Numbers {
             values: vec![0.0; part.factor],
             stacks: part.stacks.map(|length| vec![0.0; length]),
@@ -208,7 +209,8 @@ mod tests {
     use crate::sparse::large_front::is_large;
     use std::collections::BTreeSet;
 
-    /// The lower triangle of the matrix that couples the two unknowns of all nodes of a cell, its nodes in `order`: all zero.
+    /// The lower triangle of the matrix that couples the two unknowns of all nodes of a cell, its nodes in
+    /// `order`: all zero.
     fn coupled(cells: &[[u32; 4]], order: &[usize]) -> CsMat<f64> {
         let mut place = vec![0; order.len()];
         order.iter().enumerate().for_each(|(k, &node)| place[node] = k);
@@ -227,8 +229,9 @@ mod tests {
         CsMat::new_csc((2 * order.len(), 2 * order.len()), starts, rows, zeros)
     }
 
-    /// A grid of square elements with two unknowns a node, in an order of little fill: its lower triangle, in which every entry off the
-    /// diagonal is some number between -1 and 1, and the diagonal is `excess` larger than the sum of their sizes in its row.
+    /// A grid of square elements with two unknowns a node, in an order of little fill: its lower triangle, in
+    /// which every entry off the diagonal is some number between -1 and 1, and the diagonal is `excess`
+    /// larger than the sum of their sizes in its row.
     fn grid(side: usize, excess: f64) -> CsMat<f64> {
         let node = |i: usize, j: usize| (j * (side + 1) + i) as u32;
         let cells: Vec<[u32; 4]> = (0..side * side)
@@ -311,7 +314,8 @@ mod tests {
         assert!(solution(1) == solution(3));
     }
 
-    /// A diagonal shifted through eigenvalues: the number of negative pivots is that of negative eigenvalues (Sylvester).
+    /// A diagonal shifted through eigenvalues: the number of negative pivots is that of negative eigenvalues
+    /// (Sylvester).
     #[test]
     fn negative_pivots_are_counted_and_refused_by_cholesky() {
         let matrix = grid(6, -8.0);

@@ -1,6 +1,6 @@
-//! Why a matrix could not be factorised.
+//! The reason why a matrix could not be factorised.
 
-/// Why a matrix could not be factorised.
+/// The reason why a matrix could not be factorised.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum FactorError {
     /// A pivot of the Cholesky factorisation is not positive: the matrix is indefinite.

@@ -1,10 +1,11 @@
 //! The order in which the nodes of a mesh are eliminated, for little fill.
 //!
-//! Nodes are ordered instead of unknowns: a node's two components have the same neighbours, and a quarter of the graph is
-//! left. The approximate minimum degree of Amestoy, Davis and Duff (2004) is the best order of small meshes but depends on
-//! the numbering it starts from: beyond some 40,000 unknowns one start takes up to four times the operations of another.
-//! Two starts are tried therefore, and on large meshes nested dissection (Karypis and Kumar 1998), which stays near
-//! unknowns^1.5 on all of them; the order with the fewest operations is used.
+//! Nodes are ordered instead of unknowns: a node's two components have the same neighbours, and a quarter of
+//! the graph is left. The approximate minimum degree of Amestoy, Davis and Duff (2004) is the best order of
+//! small meshes but depends on the numbering it starts from: beyond some 40,000 unknowns one start takes up
+//! to four times the operations of another. Two starts are tried therefore, and on large meshes nested
+//! dissection (Karypis and Kumar 1998), which stays near unknowns^1.5 on all of them; the order with the
+//! fewest operations is used.
 //!
 //! An order lists vertices, the first to be eliminated first; places are its inverse: `place[order[i]] = i`.
 
@@ -12,8 +13,8 @@ use crate::sparse::failure::FactorError;
 use crate::sparse::minimum_degree::{elimination_tree, minimum_degree};
 use feral_metis::{CscPattern, metis_order};
 
-/// Free nodes from which nested dissection is tried: it takes ten times as long as a minimum degree, and on smaller meshes
-/// was never the better.
+/// Free nodes from which nested dissection is tried: it takes ten times as long as a minimum degree, and on
+/// smaller meshes was never the better.
 const DISSECT_FROM: usize = 10_000;
 
 /// The free nodes of a mesh and which of them share an element: a symmetric pattern without its diagonal.
@@ -73,7 +74,8 @@ impl Graph {
         Some(place)
     }
 
-    /// Operations of a factorisation in the order `place`, in a unit of its own: Σ c² over the c entries of each column.
+    /// Operations of a factorisation in the order `place`, in a unit of its own: Σ c² over the c entries of
+    /// each column.
     fn operations(&self, place: &[usize]) -> f64 {
         let renumbered = self.renumbered(place);
         let tree = elimination_tree(&renumbered.starts, &renumbered.neighbours);

@@ -1,13 +1,15 @@
-//! The dense algebra of one front: elimination of its pivots. (The solves with the columns that result: `front_solve`.)
+//! The dense algebra of one front: elimination of its pivots. (The solves with the columns that result:
+//! `front_solve`.)
 //!
-//! A front is the dense symmetric matrix of the unknowns that meet when its pivots are eliminated. Its *panel* holds the columns
-//! of the k pivots: k rows of pivots, then n rows below. Its *update* is what elimination leaves of the n × n rest. Both are stored
-//! by columns, of which only the lower triangle counts; the length of a column is a multiple of [`LANES`], and the rows that fill
-//! it up are zero or never read.
+//! A front is the dense symmetric matrix of the unknowns that meet when its pivots are eliminated. Its
+//! *panel* holds the columns of the k pivots: k rows of pivots, then n rows below. Its *update* is what
+//! elimination leaves of the n × n rest. Both are stored by columns, of which only the lower triangle counts;
+//! the length of a column is a multiple of [`LANES`], and the rows that fill it up are zero or never read.
 //!
 //! Symbols: F = L D Lᵀ with L of unit diagonal; W = L D.
 //!
-//! Every product is fused with its sum, on processors that can, whatever processor the program was built for: the same bits.
+//! Every product is fused with its sum, on processors that can, whatever processor the program was built for:
+//! the same bits.
 
 use crate::sparse::front_size::{LANES, Size, padded};
 use crate::sparse::large_front::{is_large, take_from_panel, take_from_update};
@@ -20,7 +22,7 @@ pub(super) const TILE: usize = 4;
 /// Pivots of a large front that are eliminated before a product takes them from the next ones.
 const LARGE_BLOCK: usize = 64;
 
-/// Which pivots are accepted.
+/// The pivots that are accepted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Pivots {
     /// Positive ones: the matrix is positive definite, or the elimination stops.
@@ -62,8 +64,8 @@ fn store<const N: usize>(c: &Tile<N>, to: &mut [f64], stride: usize, row: usize)
 
 /// C ← C − L Wᵀ over `depth` columns.
 ///
-/// `l` starts at the first row of the tile in L, `w` at the row of W that is the first of its columns; columns of both are `column`
-/// apart.
+/// `l` starts at the first row of the tile in L, `w` at the row of W that is the first of its columns;
+/// columns of both are `column` apart.
 #[inline(always)]
 fn take<const N: usize, const FUSED: bool>(
     c: &mut Tile<N>,
@@ -99,7 +101,7 @@ fn taken_from<const N: usize, const FUSED: bool>(
 struct Columns<'a> {
     /// The first of the columns.
     target: &'a mut [f64],
-    /// How far apart they are.
+    /// Their distance.
     stride: usize,
     /// Rows: tiles from the first on, to the last.
     rows: Range<usize>,
@@ -195,7 +197,7 @@ impl<const N: usize> Block<N> {
 
     /// Rows below the block: W and L of the tile `c`.
     #[inline(always)]
-    fn below<const FUSED: bool>(&self, mut c: Tile<N>) -> [Tile<N>; 2] {
+    fn rows_below<const FUSED: bool>(&self, mut c: Tile<N>) -> [Tile<N>; 2] {
         let mut l = c;
         for j in 0..N {
             for p in 0..N {
@@ -214,7 +216,8 @@ impl<const N: usize> Block<N> {
 }
 
 impl Elimination<'_> {
-    /// The N pivots from `start` on, from which those before `taken` have been taken. Negative ones are counted.
+    /// The N pivots from `start` on, from which those before `taken` have been taken. Negative ones are
+    /// counted.
     #[inline(always)]
     fn block<const N: usize, const FUSED: bool>(&mut self, taken: usize, start: usize) -> Option<usize> {
         let (column, depth) = (self.size.panel_column(), start - taken);
@@ -232,7 +235,7 @@ impl Elimination<'_> {
             }
         }
         let block = Block::eliminate::<FUSED>(&mut a, self.pivots)?;
-        let [below, lower] = block.below::<FUSED>(c);
+        let [below, lower] = block.rows_below::<FUSED>(c);
         store(&below, scaled, column, first);
         store(&lower, panel, column, first);
         for j in 0..N {
@@ -245,7 +248,7 @@ impl Elimination<'_> {
         }
         for row in (first + LANES..column).step_by(LANES) {
             let c = taken_from::<N, FUSED>(panel, column, row, [l, w], depth);
-            let [below, lower] = block.below::<FUSED>(c);
+            let [below, lower] = block.rows_below::<FUSED>(c);
             store(&below, scaled, column, row);
             store(&lower, panel, column, row);
         }
@@ -311,8 +314,9 @@ impl WithSimd for Elimination<'_> {
     }
 }
 
-/// Eliminates the pivots of a front: its panel becomes the columns of L with D on the diagonal, its update what is left of the
-/// rest. `scaled` is work space as large as the panel. Returns the number of negative pivots, nothing where a pivot is not accepted.
+/// Eliminates the pivots of a front: its panel becomes the columns of L with D on the diagonal, its update
+/// what is left of the rest. `scaled` is work space as large as the panel. Returns the number of negative
+/// pivots, nothing where a pivot is not accepted.
 pub fn eliminate(
     arch: Arch,
     size: Size,

@@ -1,4 +1,4 @@
-//! How much a front holds, and how its columns are filled up.
+//! Size of a front, and the way its columns are filled up.
 
 /// Rows of a tile; the length of a column is a multiple of it.
 pub const LANES: usize = 8;

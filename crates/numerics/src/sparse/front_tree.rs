@@ -1,8 +1,9 @@
-//! Symbolic analysis of a sparse symmetric matrix: which unknowns are eliminated together, in which dense front, and which
-//! front takes what each leaves (the multifrontal method; Duff and Reid 1983, Liu 1992).
+//! Symbolic analysis of a sparse symmetric matrix: which unknowns are eliminated together, in which dense
+//! front, and which front takes what each leaves (the multifrontal method; Duff and Reid 1983, Liu 1992).
 //!
-//! Unknowns whose columns of the factor have the same rows form a front. Small fronts are merged with the front that takes
-//! what they leave, where a few zeros more cost less than a front of its own (`Size::seconds`).
+//! Unknowns whose columns of the factor have the same rows form a front. Small fronts are merged with the
+//! front that takes what they leave, where a few zeros more cost less than a front of its own
+//! (`Size::seconds`).
 
 use crate::sparse::front_size::Size;
 use crate::sparse::minimum_degree::{EliminationTree, elimination_tree};
@@ -10,13 +11,13 @@ use sprs::CsMat;
 use std::ops::Range;
 
 /// No front, group or part yet.
-const NONE: usize = usize::MAX;
+const NO_INDEX: usize = usize::MAX;
 
 /// Share of the work that a branch has at most: so many that two to eight threads are busy to the end.
-const BRANCH: f64 = 0.07;
+const MAX_BRANCH_SHARE: f64 = 0.07;
 
-/// Seconds of work (as [`Size::seconds`] guesses) from which a matrix has branches: on smaller ones a second thread has more to do
-/// with the companion of the run.
+/// Seconds of work (as [`Size::seconds`] guesses) from which a matrix has branches: on smaller ones a second
+/// thread has more to do with the companion of the run.
 const WORTH_BRANCHES: f64 = 3e-3;
 
 /// Seconds of work from which a subtree is a branch; smaller ones are left to the trunk.
@@ -35,11 +36,11 @@ pub struct Front {
     pub entries: Range<usize>,
     /// Fronts whose updates it takes: places in [`FrontTree::children`].
     pub children: Range<usize>,
-    /// Which of [`FrontTree::parts`] it belongs to.
+    /// The one of [`FrontTree::parts`] that it belongs to.
     pub part: usize,
-    /// Where its panel stands in the factor of its part.
+    /// The place of its panel in the factor of its part.
     pub panel: usize,
-    /// Where its update stands, in its part's stack of its parity.
+    /// The place of its update in its part's stack of its parity.
     pub update: usize,
     /// Fronts between it and the root, odd or even: children find their parent in the other stack.
     pub parity: usize,
@@ -95,8 +96,8 @@ struct Group {
 }
 
 impl Size {
-    /// Seconds of a front: to set it up, per entry that is cleared and added to its parent, per operation. Measured on one core;
-    /// only their ratios count.
+    /// Seconds of a front: to set it up, per entry that is cleared and added to its parent, per operation.
+    /// Measured on one core; only their ratios count.
     fn seconds(self) -> f64 {
         let (k, n) = (self.pivots as f64, self.below as f64);
         let panel = k * (n + 0.5 * k);
@@ -145,7 +146,7 @@ fn groups_of(matrix: &CsMat<f64>) -> (Vec<Group>, Vec<usize>) {
     let children = children_of(&parent);
     let roots = (0..parent.len()).filter(|&node| parent[node].is_none());
     let order = postorder(&children, roots);
-    let mut group_of = vec![NONE; parent.len()];
+    let mut group_of = vec![NO_INDEX; parent.len()];
     let mut groups: Vec<Group> = Vec::new();
     for &column in &order {
         // the only column below it whose rows are this column and its rows
@@ -240,7 +241,7 @@ impl FrontTree {
     /// Rows and entries of every front from those of its pivots and its children.
     fn find_rows(&mut self, matrix: &CsMat<f64>, unknown: &[usize]) {
         let full = Symmetric::new(matrix);
-        let mut seen = vec![NONE; unknown.len()];
+        let mut seen = vec![NO_INDEX; unknown.len()];
         let mut place = vec![0_u32; unknown.len()];
         let mut first = 0;
         for front in 0..self.fronts.len() {
@@ -292,7 +293,8 @@ impl FrontTree {
         }
     }
 
-    /// Cuts the branches off the trunk: the largest subtrees of at most [`BRANCH`] of the work, if they are worth a task.
+    /// Cuts the branches off the trunk: the largest subtrees of at most [`MAX_BRANCH_SHARE`] of the work, if
+    /// they are worth a task.
     fn find_parts(&mut self) {
         let mut work: Vec<f64> = self.fronts.iter().map(|front| front.size.seconds()).collect();
         let mut first: Vec<usize> = (0..self.fronts.len()).collect();
@@ -305,10 +307,10 @@ impl FrontTree {
         let total: f64 = self.fronts.iter().map(|front| front.size.seconds()).sum();
         let mut branches = 0;
         let mut front = self.fronts.len();
-        let mut part = vec![NONE; front];
+        let mut part = vec![NO_INDEX; front];
         // parents before children; a subtree is a range of fronts that ends at its root
         while let Some(root) = front.checked_sub(1) {
-            let is_branch = total >= WORTH_BRANCHES && work[root] <= BRANCH * total;
+            let is_branch = total >= WORTH_BRANCHES && work[root] <= MAX_BRANCH_SHARE * total;
             front = root;
             if is_branch && work[root] >= WORTH_A_TASK {
                 part[first[root]..=root].fill(branches);
@@ -325,8 +327,8 @@ impl FrontTree {
         }
     }
 
-    /// Where panels and updates are stored. Updates of even and odd fronts form two stacks: those that a front takes lie on top of
-    /// the one, its own is put on the other.
+    /// Places of panels and updates. Updates of even and odd fronts form two stacks: those that a front takes
+    /// lie on top of the one, its own is put on the other.
     fn place_storage(&mut self) {
         let mut tops = vec![[0; 2]; self.parts.len()];
         for front in 0..self.fronts.len() {
@@ -361,7 +363,8 @@ fn depths(children: &[Vec<usize>], postorder: &[usize]) -> Vec<usize> {
     depth
 }
 
-/// Both triangles of a symmetric matrix: the entries of a column with their index among the values of the lower triangle.
+/// Both triangles of a symmetric matrix: the entries of a column with their index among the values of the
+/// lower triangle.
 struct Symmetric {
     starts: Vec<usize>,
     entries: Vec<(u32, u32)>,

@@ -1,5 +1,5 @@
-//! Elimination in fronts so large that products in cache blocks and several threads pay. The blocks do not depend on the number of
-//! threads: neither do the bits.
+//! Elimination in fronts so large that products in cache blocks and several threads pay. The blocks do not
+//! depend on the number of threads: neither do the bits.
 
 use crate::sparse::front_size::{Size, padded};
 use faer::linalg::matmul::matmul;
@@ -9,11 +9,11 @@ use faer::{Accum, MatMut, MatRef, Par};
 const BLOCK: usize = 192;
 
 /// Operations of an update from which it is computed here.
-const LARGE: usize = 4_000_000;
+const LARGE_UPDATE_OPERATIONS: usize = 4_000_000;
 
-/// Whether the update of a front is large.
+/// True where the update of a front is large.
 pub fn is_large(size: Size) -> bool {
-    size.pivots * size.below * size.below > LARGE
+    size.pivots * size.below * size.below > LARGE_UPDATE_OPERATIONS
 }
 
 /// C ← C − L Wᵀ by blocks.

@@ -6,7 +6,8 @@ use faer::sparse::SymbolicSparseColMatRef;
 use faer::sparse::linalg::amd;
 use faer::sparse::linalg::cholesky::simplicial;
 
-/// For each vertex of a graph (compressed columns without the diagonal) its place in an order of approximate minimum degree.
+/// For each vertex of a graph (compressed columns without the diagonal) its place in an order of approximate
+/// minimum degree.
 ///
 /// # Errors
 /// More edges than can be counted.
@@ -20,7 +21,8 @@ pub fn minimum_degree(starts: &[usize], neighbours: &[usize]) -> Result<Vec<usiz
     Ok(place)
 }
 
-/// The elimination tree of a symmetric matrix, of which the upper triangle counts (compressed columns, with its diagonal or without).
+/// The elimination tree of a symmetric matrix, of which the upper triangle counts (compressed columns, with
+/// its diagonal or without).
 pub struct EliminationTree {
     /// Parent of each column; `None`: a root.
     pub parent: Vec<Option<usize>>,

@@ -1,5 +1,5 @@
-//! A symmetric sparse matrix factorised as LDLᵀ by fronts: the order of elimination, the tree of fronts, the factor and its
-//! solves.
+//! A symmetric sparse matrix factorised as LDLᵀ by fronts: the order of elimination, the tree of fronts, the
+//! factor and its solves.
 
 pub mod failure;
 

@@ -7,13 +7,13 @@ mod sensitivity_report;
 use crate::sensitivity_parts::{Line, lines, sweeps};
 use asperity::calibrate::run_sweep::{Options, Progress, solve};
 use asperity::calibration::case::Tool;
-use asperity::calibration::fit::DEVELOPED;
+use asperity::calibration::fit::DEVELOPED_PLASTICITY;
 use asperity::calibration::row::CaseRow;
 use asperity::calibration::sweep::Sweep;
 use asperity::error::Error;
 use asperity::material::HardeningLaw;
 use asperity::output::{Sink, SinkExt, row};
-use asperity::roughness::PUBLISHED;
+use asperity::roughness::PUBLISHED_COEFFICIENT;
 use asperity::simulation::scene::Accuracy;
 use serde::{Deserialize, Serialize};
 use std::fmt::Write;
@@ -34,8 +34,9 @@ pub struct Sensitivity {
 }
 
 row! {
-    /// c of a part of the grid: a row of `dependence.csv`. The first three c are those of all cases, the others those of the
-    /// cases in which plasticity is developed; each with its 95 % interval, none where it is not determined.
+    /// c of a part of the grid: a row of `dependence.csv`. The first three c are those of all cases, the
+    /// others those of the cases in which plasticity is developed; each with its 95 % interval, none where
+    /// it is not determined.
     SensitivityLine(sweep: &Sweep, line: &Line) {
         /// `crush` or `indentation`.
         tool: String = tool_name(sweep.tool).into(),
@@ -65,7 +66,8 @@ row! {
 }
 
 impl SensitivityLine {
-    /// c with the ends of its interval, of all cases and of those in which plasticity is developed; `None`: not determined.
+    /// c with the ends of its interval, of all cases and of those in which plasticity is developed; `None`:
+    /// not determined.
     fn coefficients(&self) -> [Option<[f64; 3]>; 2] {
         let whole = |c: Option<f64>, low: Option<f64>, high: Option<f64>| Some([c?, low?, high?]);
         [whole(self.c, self.low, self.high), whole(self.c_developed, self.low_developed, self.high_developed)]
@@ -74,7 +76,9 @@ impl SensitivityLine {
 
 /// Published values.
 fn published() -> String {
-    format!("published: Tabor and Johnson 0.2, Bucaille 0.105 (indentation), Jourani {PUBLISHED} (crush)")
+    format!(
+        "published: Tabor and Johnson 0.2, Bucaille 0.105 (indentation), Jourani {PUBLISHED_COEFFICIENT} (crush)"
+    )
 }
 
 /// To five decimals.
@@ -101,8 +105,12 @@ pub fn sensitivity(
     options: &Options,
     observer: &mut (dyn FnMut(&Progress) -> bool + Send),
 ) -> Result<Sensitivity, Error> {
-    let mut found =
-        Sensitivity { lines: Vec::new(), published: PUBLISHED, sweeps: Vec::new(), journals: Vec::new() };
+    let mut found = Sensitivity {
+        lines: Vec::new(),
+        published: PUBLISHED_COEFFICIENT,
+        sweeps: Vec::new(),
+        journals: Vec::new(),
+    };
     for sweep in sweeps(accuracy) {
         let name = format!("{}-{}", tool_name(sweep.tool), sweep.hardening_law.name());
         let journal = options.journal.as_ref().map(|path| path.with_extension(format!("{name}.journal")));
@@ -147,7 +155,7 @@ impl Sensitivity {
     /// The lines as a table of Markdown.
     pub fn text(&self) -> String {
         let mut text = format!(
-            "| tool, law | n | E/σ_y | c (95 %) | c where E* tan β/σ_r ≥ {DEVELOPED} |\n|-|-|-|-|-|\n"
+            "| tool, law | n | E/σ_y | c (95 %) | c where E* tan β/σ_r ≥ {DEVELOPED_PLASTICITY} |\n|-|-|-|-|-|\n"
         );
         for l in &self.lines {
             let [all, developed] = l.coefficients().map(|c| match c {

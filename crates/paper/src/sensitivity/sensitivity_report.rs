@@ -1,13 +1,14 @@
 //! `report.html` of what the coefficient depends on.
 
 use super::{Sensitivity, SensitivityLine, published};
-use asperity::calibration::fit::DEVELOPED;
+use asperity::calibration::fit::DEVELOPED_PLASTICITY;
 use asperity::error::Error;
 use asperity::page::{self, Report};
 use maud::{Markup, html};
 
 impl Sensitivity {
-    /// The dependence of c as one page that stands alone: its range over all parts of the grid, then every part.
+    /// The dependence of c as one page that stands alone: its range over all parts of the grid, then every
+    /// part.
     ///
     /// # Errors
     /// Lines that JSON cannot hold.
@@ -55,7 +56,7 @@ fn kind(lines: &[SensitivityLine]) -> Markup {
         vec![html! { "n " (exponents) }, html! { (ratios) }, html! { (all) }, html! { (developed) }]
     };
     let rows: Vec<_> = lines.iter().map(row).collect();
-    let developed = format!("c where E* tan β/σᵣ ≥ {DEVELOPED}");
+    let developed = format!("c where E* tan β/σᵣ ≥ {DEVELOPED_PLASTICITY}");
     let caption =
         format!("{}, law {law}: c with its 95 % interval; a dash where it is not determined.", first.tool);
     html! {

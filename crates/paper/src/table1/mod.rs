@@ -6,7 +6,7 @@ use asperity::error::Error;
 use asperity::output::{Sink, SinkExt};
 use asperity::rough::contact::press;
 use asperity::rough::rough_scene::RoughScene;
-use asperity::roughness::{Closure, KindName, PUBLISHED};
+use asperity::roughness::{Closure, KindName, PUBLISHED_COEFFICIENT};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use std::fmt::Write;
@@ -253,7 +253,7 @@ impl Table1 {
 fn contradictions(row: &Printed) -> String {
     let tan = row.beta.to_radians().tan();
     let modulus = MODULUS / (1.0 - POISSON * POISSON);
-    let eq11 = PUBLISHED * modulus * tan;
+    let eq11 = PUBLISHED_COEFFICIENT * modulus * tan;
     let index = eq11 / HARDNESS;
     let balance = NOMINAL / (row.area / 100.0);
     let mut text = format!(

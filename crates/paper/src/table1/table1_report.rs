@@ -8,8 +8,8 @@ use asperity::roughness::Closure;
 use maud::{Markup, html};
 
 impl Table1 {
-    /// The table as one page that stands alone: whether the paper's trends hold, every surface with every closure beside the printed
-    /// row, and where that row contradicts itself.
+    /// The table as one page that stands alone: whether the paper's trends hold, every surface with every
+    /// closure beside the printed row, and where that row contradicts itself.
     ///
     /// # Errors
     /// A drawing that fails.

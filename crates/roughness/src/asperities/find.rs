@@ -2,7 +2,7 @@
 
 use super::gather::{self, Nodes};
 use super::tip::Tip;
-use super::{NONE, hills};
+use super::{NO_ASPERITY, hills};
 use crate::contact::ellipse::Ellipse;
 use crate::contact::islands::Islands;
 use crate::surface::prepared_surface::Surface;
@@ -19,12 +19,13 @@ pub enum Segmentation {
     },
     /// A hill of ISO 25178-2: what drains from one summit, after pruning by Wolf.
     Hills {
-        /// Least rise of a hill above its highest saddle to a higher one, as a share of the height of the surface (Sz).
+        /// Least rise of a hill above its highest saddle to a higher one, as a share of the height of the
+        /// surface (Sz).
         prune: f64,
     },
 }
 
-/// Why there are no asperities.
+/// The reason why there are no asperities.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum FindError {
     /// All heights are equal.
@@ -64,7 +65,7 @@ pub enum FindError {
 pub struct Asperity {
     /// Column and row of its highest node.
     pub summit: [usize; 2],
-    /// Where that lies, from node (0, 0).
+    /// The position of that, from node (0, 0).
     pub position: [f64; 2],
     /// Its highest node above the mean height of the surface.
     pub height: f64,
@@ -80,7 +81,7 @@ pub struct Asperity {
     pub tip: Option<Tip>,
     /// Nodes that it holds.
     pub nodes: usize,
-    /// Whether it reaches the edge of the map or a point that was not measured.
+    /// True where it reaches the edge of the map or a point that was not measured.
     pub cut: bool,
 }
 
@@ -131,8 +132,8 @@ fn of_islands(surface: &Surface, separation: f64) -> Result<Vec<Asperity>, FindE
     if plane < surface.extent.low {
         return Err(FindError::Below { separation_um, lowest_um });
     }
-    let islands = Islands::above(map, plane);
-    let mut labels = vec![NONE; map.heights().len()];
+    let islands = Islands::above_plane(map, plane);
+    let mut labels = vec![NO_ASPERITY; map.heights().len()];
     islands.spans(|island, row, columns| {
         let start = row * map.columns();
         labels[start + columns.start..start + columns.end].fill(island);
@@ -152,14 +153,14 @@ fn of_hills(surface: &Surface, prune: f64) -> Result<Vec<Asperity>, FindError> {
     }
     let (map, extent) = (&surface.map, &surface.extent);
     let labels = hills::labels(map, prune * (extent.high - extent.low));
-    let count = labels.iter().filter(|l| **l != NONE).max().map_or(0, |l| *l as usize + 1);
+    let count = labels.iter().filter(|l| **l != NO_ASPERITY).max().map_or(0, |l| *l as usize + 1);
     let nodes = gather::nodes(map, &labels, count);
     let moments = gather::moments(map, &labels, &nodes);
     let whole = |(nodes, m): (&Option<Nodes>, &crate::surface::cells::Moments)| {
         // a hill whose cells all lack a corner has no area
         let nodes = nodes.as_ref().filter(|_| m.area > 0.0)?;
         let summit = [nodes.summit % map.columns(), nodes.summit / map.columns()];
-        let ellipse = Ellipse::of(m, summit.map(|i| i as f64), map.pixel());
+        let ellipse = Ellipse::from_moments(m, summit.map(|i| i as f64), map.pixel());
         let top = map.heights()[nodes.summit];
         let foot = if nodes.saddle.is_finite() { nodes.saddle } else { extent.low };
         Some(asperity(surface, nodes, top - foot, (m.area * map.cell_area(), m.slope_area / m.area, ellipse)))
@@ -183,7 +184,7 @@ fn asperity(
         area,
         slope,
         ellipse,
-        tip: Tip::at(map, summit),
+        tip: Tip::fit(map, summit),
         nodes: nodes.count,
         cut: nodes.cut,
     }

@@ -1,6 +1,6 @@
 //! Sums over the nodes and cells of each asperity.
 
-use super::NONE;
+use super::NO_ASPERITY;
 use super::hills::Neighbours;
 use crate::surface::cells::{self, Moments};
 use crate::surface::height_map::HeightMap;
@@ -10,9 +10,9 @@ use crate::surface::height_map::HeightMap;
 pub(super) struct Nodes {
     /// Its highest node.
     pub summit: usize,
-    /// How many there are.
+    /// Their number.
     pub count: usize,
-    /// Whether it reaches the edge of the map or a point that was not measured.
+    /// True where it reaches the edge of the map or a point that was not measured.
     pub cut: bool,
     /// The highest way from it to another asperity, m; that to the lowest node where there is none.
     pub saddle: f64,
@@ -21,19 +21,19 @@ pub(super) struct Nodes {
 /// The nodes of each of `count` asperities.
 pub(super) fn nodes(map: &HeightMap, labels: &[u32], count: usize) -> Vec<Option<Nodes>> {
     let z = map.heights();
-    let neighbours = Neighbours::of(map);
+    let neighbours = Neighbours::new(map);
     let mut found: Vec<Option<Nodes>> = vec![None; count];
-    for (node, label) in labels.iter().enumerate().filter(|(_, label)| **label != NONE) {
+    for (node, label) in labels.iter().enumerate().filter(|(_, label)| **label != NO_ASPERITY) {
         let start = Nodes { summit: node, count: 0, cut: false, saddle: f64::NEG_INFINITY };
         let sum = found[*label as usize].get_or_insert(start);
         sum.count += 1;
         if z[node] > z[sum.summit] {
             sum.summit = node;
         }
-        for (beside, _) in neighbours.around(node) {
+        for (beside, _) in neighbours.around_node(node) {
             match beside {
                 Some(n) if !z[n].is_nan() => {
-                    if labels[n] != *label && labels[n] != NONE {
+                    if labels[n] != *label && labels[n] != NO_ASPERITY {
                         sum.saddle = sum.saddle.max(z[n].min(z[node]));
                     }
                 }
@@ -44,7 +44,8 @@ pub(super) fn nodes(map: &HeightMap, labels: &[u32], count: usize) -> Vec<Option
     found
 }
 
-/// Moments of the cells of each of `count` hills about its summit, in pixels: a corner takes a quarter of its cells.
+/// Moments of the cells of each of `count` hills about its summit, in pixels: a corner takes a quarter of its
+/// cells.
 pub(super) fn moments(map: &HeightMap, labels: &[u32], nodes: &[Option<Nodes>]) -> Vec<Moments> {
     let (columns, rows) = (map.columns(), map.rows());
     let inverse_pixel = map.inverse_pixel();

@@ -1,11 +1,13 @@
-//! Hills: the parts of a map from which the steepest way up leads to the same summit (ISO 25178-2), the low ones pruned.
+//! Hills: the parts of a map from which the steepest way up leads to the same summit (ISO 25178-2), the low
+//! ones pruned.
 //!
-//! The nodes are taken from the highest down. One without a higher neighbour founds a hill; every other one belongs to the
-//! hill of its steepest way up. Where parts that were apart meet, the node is the saddle between them: the part with the
-//! lower summit ends there, and if it rises by less than the threshold, its hill goes to the hill beyond the saddle. This
-//! is the pruning of Wolf (1991) on the tree of summits and saddles, lowest branch first, done in one pass.
+//! The nodes are taken from the highest down. One without a higher neighbour founds a hill; every other one
+//! belongs to the hill of its steepest way up. Where parts that were apart meet, the node is the saddle
+//! between them: the part with the lower summit ends there, and if it rises by less than the threshold, its
+//! hill goes to the hill beyond the saddle. This is the pruning of Wolf (1991) on the tree of summits and
+//! saddles, lowest branch first, done in one pass.
 
-use super::NONE;
+use super::NO_ASPERITY;
 use crate::surface::height_map::HeightMap;
 use rayon::prelude::*;
 
@@ -18,7 +20,7 @@ pub(super) struct Neighbours {
 
 impl Neighbours {
     /// Those of `map`, diagonal ones too, beyond the edges of a periodic one.
-    pub fn of(map: &HeightMap) -> Neighbours {
+    pub fn new(map: &HeightMap) -> Neighbours {
         let [dx, dy] = map.pixel();
         let step = |x: i64, y: i64| ([x, y], (x as f64 * dx).hypot(y as f64 * dy));
         let steps = [
@@ -42,7 +44,7 @@ impl Neighbours {
     }
 
     /// Neighbours of `node` and how far they are; `None` for one beyond the edge.
-    pub fn around(&self, node: usize) -> impl Iterator<Item = (Option<usize>, f64)> {
+    pub fn around_node(&self, node: usize) -> impl Iterator<Item = (Option<usize>, f64)> {
         let (x, y) = ((node % self.size[0]) as i64, (node / self.size[0]) as i64);
         self.steps.iter().map(move |([a, b], distance)| (self.node([x + a, y + b]), *distance))
     }
@@ -73,23 +75,23 @@ impl Forest {
     }
 }
 
-/// The hill of each node, numbered from the highest summit down, [`NONE`] where nothing was measured; a hill rises by at
-/// least `least` (m) above the highest saddle to a higher one.
+/// The hill of each node, numbered from the highest summit down, [`NO_ASPERITY`] where nothing was measured;
+/// a hill rises by at least `least` (m) above the highest saddle to a higher one.
 pub(super) fn labels(map: &HeightMap, least: f64) -> Vec<u32> {
     let z = map.heights();
     let mut order: Vec<u32> = (0..z.len() as u32).filter(|i| !z[*i as usize].is_nan()).collect();
     order.par_sort_unstable_by(|a, b| z[*b as usize].total_cmp(&z[*a as usize]).then(a.cmp(b)));
-    let neighbours = Neighbours::of(map);
-    let mut label = vec![NONE; z.len()];
+    let neighbours = Neighbours::new(map);
+    let mut label = vec![NO_ASPERITY; z.len()];
     // summits are founded from the highest down: of two the lower number is the higher summit
     let (mut hills, mut parts, mut summit) = (Forest(Vec::new()), Forest(Vec::new()), Vec::new());
     for &node in &order {
         let height = z[node as usize];
         let higher: Vec<(u32, f64)> = neighbours
-            .around(node as usize)
+            .around_node(node as usize)
             .filter_map(|(n, distance)| {
                 let n = n?;
-                (label[n] != NONE).then(|| (label[n], (z[n] - height) / distance))
+                (label[n] != NO_ASPERITY).then(|| (label[n], (z[n] - height) / distance))
             })
             .collect();
         let Some(&(own, _)) = higher.iter().reduce(|best, one| if one.1 > best.1 { one } else { best })
@@ -118,16 +120,16 @@ pub(super) fn labels(map: &HeightMap, least: f64) -> Vec<u32> {
 
 /// Labels of what each joined to, without gaps.
 fn numbered(mut label: Vec<u32>, mut hills: Forest) -> Vec<u32> {
-    let mut number = vec![NONE; hills.0.len()];
+    let mut number = vec![NO_ASPERITY; hills.0.len()];
     let mut next = 0;
     for k in 0..hills.0.len() as u32 {
         let root = hills.root(k) as usize;
-        if number[root] == NONE {
+        if number[root] == NO_ASPERITY {
             number[root] = next;
             next += 1;
         }
         number[k as usize] = number[root];
     }
-    label.par_iter_mut().filter(|l| **l != NONE).for_each(|l| *l = number[*l as usize]);
+    label.par_iter_mut().filter(|l| **l != NO_ASPERITY).for_each(|l| *l = number[*l as usize]);
     label
 }

@@ -3,7 +3,7 @@
 use crate::surface::height_map::HeightMap;
 use thiserror::Error;
 
-/// Which way a line runs over the map.
+/// The direction in which a line runs over the map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Direction {
     /// Along x: a row of nodes.
@@ -12,13 +12,13 @@ pub enum Direction {
     Y,
 }
 
-/// Why a line cannot be taken.
+/// The reason why a line cannot be taken.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum LineError {
     /// It lies beside the map.
     #[error("a line at {at_um} µm lies beside the map, which reaches from 0 to {most_um} µm there")]
     Beside {
-        /// Where it was asked for, µm.
+        /// The position that was asked for, µm.
         at_um: f64,
         /// Size of the map across the line, µm.
         most_um: f64,
@@ -29,7 +29,7 @@ pub enum LineError {
          line, or missing = \"fill\""
     )]
     Missing {
-        /// Where it lies, µm.
+        /// Its position, µm.
         at_um: f64,
         /// Points without a height.
         missing: usize,
@@ -43,11 +43,12 @@ pub enum LineError {
 pub struct SurfaceLine {
     /// Way along the line and height, m.
     pub points: Vec<[f64; 2]>,
-    /// Where the line lies, across its direction, m.
+    /// Position of the line across its direction, m.
     pub at: f64,
 }
 
-/// The row (column) of nodes nearest to `at` (m) across it. Single missing points lie straight between those beside them.
+/// The row (column) of nodes nearest to `at` (m) across it. Single missing points lie straight between those
+/// beside them.
 ///
 /// # Errors
 /// A line beside the map, or one with more than a tenth of its points missing.

@@ -8,14 +8,14 @@ use thiserror::Error;
 
 /// Circles have at least so many points.
 const LEAST_POINTS: usize = 16;
-/// How far beyond the radius at the depth a profile goes, as a multiple of it.
-const BEYOND: f64 = 3.0;
+/// The reach of a profile, as a multiple of its radius at the depth.
+const PROFILE_REACH: f64 = 3.0;
 /// A rise by this share of the fall so far ends a profile at the valley before it.
-const RISE: f64 = 0.1;
+const VALLEY_RISE: f64 = 0.1;
 /// Points of a profile from the summit to the depth, below which it is made of too few pixels.
-const FEWEST: usize = 4;
+const MIN_PROFILE_POINTS: usize = 4;
 
-/// Why no body of revolution stands for an asperity.
+/// The reason why no body of revolution stands for an asperity.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum ProfileError {
     /// Circles leave the map, or meet a hole, before the depth is reached.
@@ -52,12 +52,17 @@ pub struct RadialProfile {
 }
 
 impl RadialProfile {
-    /// The mean of `map` around the node `summit` (column, row) of an asperity that is to be pressed by `depth` (m). It ends
-    /// at three times the radius where it has fallen by the depth, or in the valley before that.
+    /// The mean of `map` around the node `summit` (column, row) of an asperity that is to be pressed by
+    /// `depth` (m). It ends at three times the radius where it has fallen by the depth, or in the valley
+    /// before that.
     ///
     /// # Errors
     /// A mean that does not fall by the depth, within the map or at all; fewer than four pixels until there.
-    pub fn around(map: &HeightMap, summit: [usize; 2], depth: f64) -> Result<RadialProfile, ProfileError> {
+    pub fn around_summit(
+        map: &HeightMap,
+        summit: [usize; 2],
+        depth: f64,
+    ) -> Result<RadialProfile, ProfileError> {
         let step = map.cell_area().sqrt();
         let top = map.row(summit[1])[summit[0]];
         let mut points = vec![[0.0, top]];
@@ -72,14 +77,14 @@ impl RadialProfile {
             };
             points.push([radius, mean]);
             if fall(mean) >= depth && !reach.is_finite() {
-                if k < FEWEST {
+                if k < MIN_PROFILE_POINTS {
                     return Err(ProfileError::Coarse { points: k });
                 }
-                reach = BEYOND * radius;
+                reach = PROFILE_REACH * radius;
             }
             if mean < points[lowest][1] {
                 lowest = k;
-            } else if mean - points[lowest][1] > RISE * fall(points[lowest][1]).max(depth) {
+            } else if mean - points[lowest][1] > VALLEY_RISE * fall(points[lowest][1]).max(depth) {
                 break;
             }
             if radius >= reach {
@@ -105,7 +110,7 @@ impl RadialProfile {
     }
 
     /// The part within `depth` (m) of the summit: projected area in m², and mean of |dz/dr| over it (tan β).
-    pub fn within(&self, depth: f64) -> (f64, f64) {
+    pub fn area_and_slope(&self, depth: f64) -> (f64, f64) {
         let plane = self.height() - depth;
         let (mut area, mut slope_area) = (0.0, 0.0);
         for pair in self.points.windows(2) {
@@ -133,7 +138,8 @@ impl RadialProfile {
         }
     }
 
-    /// The body alone on a map of `nodes` × `nodes` that reaches `half_width` (m) to each side of its axis, a node on it.
+    /// The body alone on a map of `nodes` × `nodes` that reaches `half_width` (m) to each side of its axis, a
+    /// node on it.
     ///
     /// # Errors
     /// A width that is not possible, fewer than two nodes.
@@ -144,13 +150,13 @@ impl RadialProfile {
             let [x, y] = [i % nodes.max(1), i / nodes.max(1)].map(|k| (k as f64 - middle) * pixel);
             self.height_at(x.hypot(y))
         };
-        Surface::of(HeightMap::new(nodes, nodes, [pixel; 2], (0..nodes * nodes).map(height).collect())?)
+        Surface::from_map(HeightMap::new(nodes, nodes, [pixel; 2], (0..nodes * nodes).map(height).collect())?)
     }
 }
 
 /// Mean height of `map` on a circle about the node `summit`; `None` where a part of it was not measured.
 fn circle(map: &HeightMap, summit: [usize; 2], radius: f64, step: f64) -> Option<f64> {
-    let neighbours = Neighbours::of(map);
+    let neighbours = Neighbours::new(map);
     let pixel = map.pixel();
     let size = [map.columns() as f64 * pixel[0], map.rows() as f64 * pixel[1]];
     // a circle that overlaps itself around a periodic map says nothing more

@@ -7,7 +7,7 @@ use std::f64::consts::PI;
 /// A map of `nx` × `ny` nodes, 1 µm × 2 µm apart, of a function of metres.
 fn surface(nx: usize, ny: usize, height: impl Fn(f64, f64) -> f64) -> Surface {
     let z = (0..nx * ny).map(|i| height((i % nx) as f64 * 1e-6, (i / nx) as f64 * 2e-6));
-    Surface::of(HeightMap::new(nx, ny, [1e-6, 2e-6], z.collect()).unwrap()).unwrap()
+    Surface::from_map(HeightMap::new(nx, ny, [1e-6, 2e-6], z.collect()).unwrap()).unwrap()
 }
 
 fn hills(surface: &Surface, prune: f64) -> Vec<Asperity> {
@@ -28,13 +28,13 @@ fn a_cone_gives_its_slope_its_ellipse_and_its_profile() {
     assert!((one.rise - 8e-6).abs() < 1e-12 && (one.height - (20e-6 - cone.parameters.mean)).abs() < 1e-12);
     let ellipse = one.ellipse.unwrap();
     assert!(ellipse.semi_axes.iter().all(|a| (a / radius - 1.0).abs() < 2e-3));
-    let profile = RadialProfile::around(&cone.map, one.summit, one.rise).unwrap();
+    let profile = RadialProfile::around_summit(&cone.map, one.summit, one.rise).unwrap();
     // chords of pixels lie below a cone by less than half a pixel times its slope
     let worst =
         profile.points[3..].iter().map(|[r, z]| (z - profile.height() + tan * r).abs()).fold(0.0, f64::max);
     assert!(worst < 0.5 * 2e-6 * tan, "{worst}");
     assert!(profile.points.last().unwrap()[1] == 0.0 && profile.height() >= one.rise);
-    let (area, slope) = profile.within(one.rise);
+    let (area, slope) = profile.area_and_slope(one.rise);
     assert!((area / (PI * radius * radius) - 1.0).abs() < 0.01 && (slope / tan - 1.0).abs() < 0.01);
 }
 
@@ -42,10 +42,10 @@ fn a_cone_gives_its_slope_its_ellipse_and_its_profile() {
 fn a_body_of_revolution_is_cut_exactly() {
     // a cone with a step of its slope at half its height
     let profile = RadialProfile { points: vec![[0.0, 3.0], [2.0, 2.0], [3.0, 0.0]] };
-    let (area, slope) = profile.within(2.0);
+    let (area, slope) = profile.area_and_slope(2.0);
     assert!((area - PI * 6.25).abs() < 1e-12);
     assert!((slope - (0.5 * 4.0 + 2.0 * 2.25) / 6.25).abs() < 1e-12);
-    assert_eq!(profile.within(0.0), (0.0, 0.0));
+    assert_eq!(profile.area_and_slope(0.0), (0.0, 0.0));
     assert_eq!([0.0, 1.0, 2.5, 3.0, 9.0].map(|r| profile.height_at(r)), [3.0, 2.5, 1.0, 0.0, 0.0]);
     let body = profile.surface(4.0, 64).unwrap();
     assert_eq!((body.extent.high, body.extent.low, body.map.heights()[32 * 64 + 32]), (3.0, 0.0, 3.0));
@@ -101,7 +101,7 @@ fn an_island_over_the_seam_of_a_periodic_map_is_whole() {
             .collect::<Vec<_>>()
     };
     assert_eq!(free(&wave), [true; 4]);
-    let endless = Surface::of(wave.map.with_periodic(true)).unwrap();
+    let endless = Surface::from_map(wave.map.with_periodic(true)).unwrap();
     assert_eq!(free(&endless), [false]);
     let [hill] = hills(&endless, 0.05)[..] else { panic!() };
     assert!((hill.area / 1.6e-9 - 1.0).abs() < 1e-12 && !hill.cut);
@@ -120,11 +120,14 @@ fn what_has_no_asperity_says_why() {
     assert!(error(&slope, islands(f64::NAN)).contains("highest point"));
     assert!(error(&slope, Segmentation::Hills { prune: 1.0 }).contains("0.05"));
     let cone = surface(61, 31, |x, y| -(x - 30e-6).hypot(y - 30e-6) * 0.1);
-    let around = |depth| RadialProfile::around(&cone.map, [30, 15], depth).unwrap_err();
+    let around = |depth| RadialProfile::around_summit(&cone.map, [30, 15], depth).unwrap_err();
     assert!(matches!(around(1e-7), ProfileError::Coarse { points: 1 }));
     assert!(matches!(around(1e-4), ProfileError::Edge { .. }));
     let dimple = surface(61, 31, |x, y| -1e-6 * (0.3e6 * (x - 30e-6).hypot(y - 30e-6)).sin().abs());
-    assert!(matches!(RadialProfile::around(&dimple.map, [30, 15], 5e-6), Err(ProfileError::Shallow { .. })));
+    assert!(matches!(
+        RadialProfile::around_summit(&dimple.map, [30, 15], 5e-6),
+        Err(ProfileError::Shallow { .. })
+    ));
 }
 
 #[test]
@@ -149,7 +152,7 @@ proptest! {
         z in prop::collection::vec(0.0..1.0f64, 12 * 9), prune in 0.0..0.6f64, periodic: bool,
     ) {
         let map = HeightMap::new(12, 9, [1.0, 1.5], z).unwrap().with_periodic(periodic);
-        let surface = Surface::of(map).unwrap();
+        let surface = Surface::from_map(map).unwrap();
         let found = hills(&surface, prune);
         prop_assert!(!found.is_empty());
         let area: f64 = found.iter().map(|h| h.area).sum();

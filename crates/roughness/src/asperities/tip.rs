@@ -26,7 +26,7 @@ impl Tip {
     }
 
     /// At the node `summit` of `map`; `None` where too few nodes were measured around it.
-    pub(super) fn at(map: &HeightMap, summit: [usize; 2]) -> Option<Tip> {
+    pub(super) fn fit(map: &HeightMap, summit: [usize; 2]) -> Option<Tip> {
         let [dx, dy] = map.pixel();
         let size = [map.columns() as i64, map.rows() as i64];
         let top = map.row(summit[1])[summit[0]];

@@ -1,7 +1,7 @@
 //! Area and slope integral above many planes at once, without naming islands.
 //!
-//! For closures linear in tan β the load needs only S(d) = ∫_{h>d} |∇h| dA. It is summed cell by cell at equally
-//! spaced heights (planes) in one pass; a cell that no plane cuts costs one addition.
+//! For closures linear in tan β the load needs only S(d) = ∫_{h>d} |∇h| dA. It is summed cell by cell at
+//! equally spaced heights (planes) in one pass; a cell that no plane cuts costs one addition.
 
 use crate::surface::cells;
 use crate::surface::height_map::{Extent, HeightMap};
@@ -10,13 +10,13 @@ use rayon::prelude::*;
 /// Planes of one pass of the search.
 const PLANES: usize = 64;
 /// Planes of a pass that narrows a bracket, and the number of cells that is few.
-const NARROWING: usize = 9;
-const FEW: usize = 256;
-/// Cells above which a first estimate looks at one in `SAMPLED` rows only.
-const LARGE: usize = 1 << 20;
-const SAMPLED: usize = 8;
+const NARROWING_PLANES: usize = 9;
+const FEW_CELLS: usize = 256;
+/// Cells above which a first estimate looks at one in `SAMPLED_ROW_STRIDE` rows only.
+const LARGE_MAP_CELLS: usize = 1 << 20;
+const SAMPLED_ROW_STRIDE: usize = 8;
 /// Relative residual at which the search for a separation ends.
-const RESIDUAL: f64 = 1e-11;
+const LOAD_RESIDUAL: f64 = 1e-11;
 
 /// Bearing area above one plane, and the integral of |∇h| over it, in cells.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -46,13 +46,13 @@ pub struct Planes {
     pub low: f64,
     /// Distance of two planes, above 0.
     pub step: f64,
-    /// How many.
+    /// Their number.
     pub count: usize,
 }
 
 impl Planes {
     /// `count` ≥ 2 planes from `low` to `high`.
-    pub fn between(low: f64, high: f64, count: usize) -> Planes {
+    pub fn evenly_spaced(low: f64, high: f64, count: usize) -> Planes {
         Planes { low, step: (high - low) / (count - 1) as f64, count }
     }
 
@@ -103,7 +103,8 @@ impl Tally {
         }
     }
 
-    /// A quarter of a cell with these heights at its corners: the part above height d is quadratic in d, in two pieces.
+    /// A quarter of a cell with these heights at its corners: the part above height d is quadratic in d, in
+    /// two pieces.
     #[inline]
     fn add_triangle(&mut self, z: [f64; 3], slope: f64) {
         let (least, most) = (z[0].min(z[1]), z[0].max(z[1]));
@@ -177,10 +178,11 @@ fn above_planes_in_rows(map: &HeightMap, planes: Planes, stride: usize) -> Vec<A
     joined(planes, inverse_pixel, parts)
 }
 
-/// Bearing area above each of 64 planes over the whole height: an estimate from some of the rows of a large map.
+/// Bearing area above each of 64 planes over the whole height: an estimate from some of the rows of a large
+/// map.
 pub(crate) fn estimate(map: &HeightMap, extent: &Extent) -> (Planes, Vec<Above>) {
-    let planes = Planes::between(extent.low, extent.high, PLANES);
-    let stride = if extent.cells > LARGE { SAMPLED } else { 1 };
+    let planes = Planes::evenly_spaced(extent.low, extent.high, PLANES);
+    let stride = if extent.cells > LARGE_MAP_CELLS { SAMPLED_ROW_STRIDE } else { 1 };
     let mut sums = above_planes_in_rows(map, planes, stride);
     // scaled by the whole area, which the lowest plane has above it
     let scale = if sums[0].area > 0.0 { extent.cells as f64 / sums[0].area } else { 1.0 };
@@ -217,7 +219,7 @@ impl Bracket {
         sums
     }
 
-    fn above(&self, plane: f64) -> Above {
+    fn above_plane(&self, plane: f64) -> Above {
         self.above_planes(Planes { low: plane, step: 1.0, count: 1 })[0]
     }
 
@@ -228,7 +230,7 @@ impl Bracket {
     }
 
     fn with_top(mut self, top: Above) -> Bracket {
-        self.base = top.minus(self.above(self.high));
+        self.base = top.minus(self.above_plane(self.high));
         self
     }
 }
@@ -237,12 +239,13 @@ fn is_cut(z: &[f64; 4], low: f64, high: f64) -> bool {
     z[0].max(z[1]).max(z[2].max(z[3])) > low && z[0].min(z[1]).min(z[2].min(z[3])) < high
 }
 
-/// The height d with ∫_{h>d} |∇h| dA = `wanted` (in cells), and what lies above it; None if the whole map has less.
+/// The height d with ∫_{h>d} |∇h| dA = `wanted` (in cells), and what lies above it; None if the whole map has
+/// less.
 ///
-/// 1. Estimate on 64 planes over the whole height; sum on the few planes around the load, or on all if it is not
-///    between those; take the two that bracket the load.
-/// 2. Keep the cells that this bracket cuts; narrow it on those as long as that leaves fewer (where the cells are steep,
-///    nearly all that one plane cuts are also cut by its neighbours).
+/// 1. Estimate on 64 planes over the whole height; sum on the few planes around the load, or on all if it is
+///    not between those; take the two that bracket the load.
+/// 2. Keep the cells that this bracket cuts; narrow it on those as long as that leaves fewer (where the cells
+///    are steep, nearly all that one plane cuts are also cut by its neighbours).
 /// 3. Illinois' rule of false position on those, to a relative residual of 1e-11 or neighbouring numbers.
 pub fn plane_of(map: &HeightMap, extent: &Extent, wanted: f64) -> Option<(f64, Above)> {
     if extent.high <= extent.low || !wanted.is_finite() {
@@ -259,9 +262,9 @@ pub fn plane_of(map: &HeightMap, extent: &Extent, wanted: f64) -> Option<(f64, A
         return None;
     }
     let mut bracket = first_bracket(map, planes, &sums, wanted);
-    while bracket.cells.len() > FEW {
+    while bracket.cells.len() > FEW_CELLS {
         let before = bracket.cells.len();
-        let planes = Planes::between(bracket.low, bracket.high, NARROWING);
+        let planes = Planes::evenly_spaced(bracket.low, bracket.high, NARROWING_PLANES);
         let sums = bracket.above_planes(planes);
         let k = plane_below(&sums, wanted);
         bracket = bracket.narrowed(planes.height(k), planes.height(k + 1), sums[k + 1]);
@@ -299,13 +302,13 @@ fn first_bracket(map: &HeightMap, planes: Planes, sums: &[Above], wanted: f64) -
 fn false_position(bracket: &Bracket, wanted: f64) -> (f64, Above) {
     let residual = |above: &Above| above.slope_area - wanted;
     let mut ends = [bracket.low, bracket.high];
-    let sums = ends.map(|plane| bracket.above(plane));
+    let sums = ends.map(|plane| bracket.above_plane(plane));
     let mut f = [residual(&sums[0]), residual(&sums[1])];
     let nearer = usize::from(f[0].abs() >= f[1].abs());
     let mut best = (ends[nearer], sums[nearer]);
     let mut last_side = None;
     for iteration in 0..200 {
-        if residual(&best.1).abs() <= RESIDUAL * wanted {
+        if residual(&best.1).abs() <= LOAD_RESIDUAL * wanted {
             break;
         }
         let [low, high] = ends;
@@ -316,7 +319,7 @@ fn false_position(bracket: &Bracket, wanted: f64) -> (f64, Above) {
         if d <= low || d >= high {
             break;
         }
-        let sum = bracket.above(d);
+        let sum = bracket.above_plane(d);
         if residual(&sum).abs() < residual(&best.1).abs() {
             best = (d, sum);
         }
@@ -351,7 +354,7 @@ pub(super) mod tests {
     fn one_pass_over_planes_agrees_with_single_planes() {
         let map = bumpy(90);
         let extent = map.extent().unwrap();
-        let planes = Planes::between(extent.low, extent.high, 33);
+        let planes = Planes::evenly_spaced(extent.low, extent.high, 33);
         for (k, sum) in above_planes(&map, planes).iter().enumerate() {
             let one = above_plane(&map, planes.height(k));
             assert!((sum.area - one.area).abs() < 1e-8 && (sum.slope_area - one.slope_area).abs() < 1e-8);

@@ -1,4 +1,5 @@
-//! The calibrated cone of one metal over all slopes: the table of the calibration, and beyond it the atlas of cones.
+//! The calibrated cone of one metal over all slopes: the table of the calibration, and beyond it the atlas of
+//! cones.
 
 use super::coefficient::{Coefficient, Nearest};
 use asperity_material::cone_atlas::{Atlas, Contact, SharpCone};
@@ -20,7 +21,7 @@ pub struct Cone {
     pub island_pressure: f64,
     /// Contact area over the island, (a tan β/h)².
     pub area_ratio: f64,
-    /// Whether slope and metal lie in the range of the calibration or of the atlas.
+    /// True where slope and metal lie in the range of the calibration or of the atlas.
     pub inside: bool,
 }
 
@@ -58,8 +59,9 @@ impl Calibrated {
         SharpCone::new(tan.atan().to_degrees(), elastic, hardening, Contact::Crushed)
     }
 
-    /// ln of K tan²β/σ_r and of the contact ratio at `tan` over those of the table's nearest place: as the atlas has them, less what the
-    /// atlas and the table differ by at that place. Toward elastic cones, which both know exactly, that difference is let go.
+    /// ln of K tan²β/σ_r and of the contact ratio at `tan` over those of the table's nearest place: as the
+    /// atlas has them, less what the atlas and the table differ by at that place. Toward elastic cones, which
+    /// both know exactly, that difference is let go.
     fn by_the_atlas(&self, atlas: &Atlas, tan: f64) -> [f64; 2] {
         let near = self.nearest(tan);
         let table = Elastic { poissons_ratio: self.coefficient.poissons_ratio, ..self.elastic };
@@ -87,7 +89,7 @@ impl Calibrated {
             return Cone { island_pressure: 0.0, area_ratio: ELASTIC_AREA, inside: false };
         }
         let near = self.nearest(tan);
-        let beyond = self.beyond(tan);
+        let beyond = self.shift_beyond(tan);
         let y = (near.logarithms[0] + beyond[0]).exp();
         let ratio = (near.logarithms[1] + beyond[1]).exp();
         Cone {
@@ -97,7 +99,7 @@ impl Calibrated {
         }
     }
 
-    fn beyond(&self, tan: f64) -> [f64; 2] {
+    fn shift_beyond(&self, tan: f64) -> [f64; 2] {
         let [low, high] = SLOPES.map(f64::ln);
         let at = ((tan.ln() - low) / (high - low)).clamp(0.0, 1.0) * (NODES - 1) as f64;
         let i = (at as usize).min(NODES - 2);
@@ -108,8 +110,8 @@ impl Calibrated {
     }
 }
 
-/// The yield stress with which a metal like `hardening` has the representative stress `stress` at the strain `strain`: the root of
-/// σ_y (1 + E ε/σ_y)ⁿ = `stress`, whose left side grows with σ_y.
+/// The yield stress with which a metal like `hardening` has the representative stress `stress` at the strain
+/// `strain`: the root of σ_y (1 + E ε/σ_y)ⁿ = `stress`, whose left side grows with σ_y.
 fn yield_stress(hardening: &Hardening, strain: f64, stress: f64) -> f64 {
     let of = |yield_stress: f64| Hardening { yield_stress, ..*hardening }.representative_stress(strain);
     bisect([0.0, stress], 200, |yield_stress| of(yield_stress) <= stress)[1]
@@ -131,8 +133,8 @@ mod tests {
         Calibrated::new(elastic, hardening, Coefficient::committed().unwrap())
     }
 
-    /// Perfectly plastic metal has a plateau of 3.0 to 3.07 σ_y on the contact in the table; carried on along lines in ln Y it had
-    /// 3.5, 4.4 and 5.1 σ_y at E/σ_y 1400, 3500 and 7000.
+    /// Perfectly plastic metal has a plateau of 3.0 to 3.07 σ_y on the contact in the table; carried on along
+    /// lines in ln Y it had 3.5, 4.4 and 5.1 σ_y at E/σ_y 1400, 3500 and 7000.
     #[test]
     fn the_pressure_of_soft_metal_stays_at_its_plateau() {
         for yield_mpa in [427.0, 150.0, 60.0, 30.0, 3.0, 0.03] {
@@ -143,7 +145,8 @@ mod tests {
         }
     }
 
-    /// The force of a cone and its pressure rise with its slope without a jump, from nearly elastic to steep and soft.
+    /// The force of a cone and its pressure rise with its slope without a jump, from nearly elastic to steep
+    /// and soft.
     #[test]
     fn no_edge_of_table_or_atlas_shows() {
         for (yield_mpa, exponent) in [(1500.0, 0.1), (300.0, 0.0), (300.0, 0.3), (60.0, 0.5), (10.0, 0.2)] {
@@ -154,7 +157,8 @@ mod tests {
                 let [force, area] =
                     [next.island_pressure / last.island_pressure, next.area_ratio / last.area_ratio]
                         .map(f64::ln);
-                // in proportion to the slope at most, that is 0.3 %; the plateau and a ripple of the formula's error take from it
+                // in proportion to the slope at most, that is 0.3 %; the plateau and a ripple of the
+                // formula's error take from it
                 let tan = 1e-5 * 1.003f64.powi(i);
                 let falls = if tan > 0.84 { -0.005 } else { -0.002 };
                 assert!(force > falls && force < 0.0045, "{yield_mpa} {exponent} {tan}: {force}");
@@ -164,7 +168,8 @@ mod tests {
         }
     }
 
-    /// Inside its range the table is met, whatever the atlas says; another ν has the share that the atlas knows.
+    /// Inside its range the table is met, whatever the atlas says; another ν has the share that the atlas
+    /// knows.
     #[test]
     fn the_calibration_feeds_the_closure_inside_its_range() {
         let tan = 5f64.to_radians().tan();

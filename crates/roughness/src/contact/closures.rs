@@ -9,13 +9,13 @@ use std::str::FromStr;
 use thiserror::Error;
 
 /// The published coefficient of eqs (9)-(13).
-pub const PUBLISHED: f64 = 0.13;
+pub const PUBLISHED_COEFFICIENT: f64 = 0.13;
 /// Eq. [18], on the island.
 const JOHNSON_ELASTIC: f64 = 0.2;
 /// Thresholds of the plasticity index printed below eq. (13).
 const THRESHOLDS: [f64; 2] = [0.6, 1.0];
 
-/// Which law gives the force of an island.
+/// The law that gives the force of an island.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Closure {
@@ -31,7 +31,8 @@ pub enum Closure {
     Calibrated,
     /// No closure: the whole surface on an elastic half-space, interaction included.
     HalfSpace,
-    /// The same with pressures up to the hardness, else to the plateau of the atlas of cones: elastic and perfectly plastic.
+    /// The same with pressures up to the hardness, else to the plateau of the atlas of cones: elastic and
+    /// perfectly plastic.
     HalfSpacePlastic,
 }
 
@@ -47,7 +48,7 @@ impl Closure {
         Closure::HalfSpacePlastic,
     ];
 
-    /// Whether the whole surface is solved at once, without islands.
+    /// True where the whole surface is solved at once, without islands.
     pub fn is_half_space(self) -> bool {
         matches!(self, Closure::HalfSpace | Closure::HalfSpacePlastic)
     }
@@ -65,7 +66,7 @@ impl Closure {
         }
     }
 
-    /// Where the closure comes from, in one line.
+    /// The origin of the closure, in one line.
     pub fn source(self) -> &'static str {
         match self {
             Closure::Published => {
@@ -113,7 +114,7 @@ impl FromStr for Closure {
     }
 }
 
-/// Why a closure cannot be used.
+/// The reason why a closure cannot be used.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum ClosureError {
     /// The material lacks a value.
@@ -161,14 +162,14 @@ pub struct Response {
     pub area_ratio: f64,
     /// Regime.
     pub regime: Regime,
-    /// Whether slope and stiffness lie inside the range of the law.
+    /// True where slope and stiffness lie inside the range of the law.
     pub inside: bool,
 }
 
 /// A closure with the numbers of one material.
 #[derive(Clone, Debug)]
 pub struct ClosureLaw {
-    /// Which closure.
+    /// The closure.
     pub closure: Closure,
     material: Material,
     /// E*, in Pa.
@@ -213,7 +214,7 @@ impl ClosureLaw {
             }
             Closure::Published => {
                 regimes()?;
-                Law::Linear { coefficient: PUBLISHED, area_ratio: 1.0 }
+                Law::Linear { coefficient: PUBLISHED_COEFFICIENT, area_ratio: 1.0 }
             }
             Closure::Fitted => {
                 let c = calibration()?.c;
@@ -258,7 +259,7 @@ impl ClosureLaw {
         }
     }
 
-    /// Whether unloading returns all the work: closures without a limit of pressure.
+    /// True where unloading returns all the work: closures without a limit of pressure.
     pub fn returns_everything(&self) -> bool {
         self.linear().is_some()
     }
@@ -288,9 +289,10 @@ impl ClosureLaw {
         Response { island_pressure, area_ratio, regime, inside }
     }
 
-    /// Eqs (18)-(20). Eq. (18) is the pressure of an elastic cone on its island; the cavity law and the hardness are pressures
-    /// on the contact. So all are taken on the contact, and the contact's share of the island goes from the elastic cone's to
-    /// the whole of it, in proportion to the pressure beyond first yield.
+    /// Eqs (18)-(20). Eq. (18) is the pressure of an elastic cone on its island; the cavity law and the
+    /// hardness are pressures on the contact. So all are taken on the contact, and the contact's share of the
+    /// island goes from the elastic cone's to the whole of it, in proportion to the pressure beyond first
+    /// yield.
     fn johnson(&self, tan_beta: f64, yield_stress: f64, hardness: f64) -> Response {
         let nu = self.material.poissons_ratio;
         let x = self.material.youngs_modulus.0 * tan_beta / yield_stress;
@@ -314,7 +316,8 @@ impl ClosureLaw {
         Response { island_pressure: area_ratio * pressure, area_ratio, regime, inside: true }
     }
 
-    /// Elastic pressure of the closure on its contact area at slope `tan_beta`, for the plasticity index (eq. (13)).
+    /// Elastic pressure of the closure on its contact area at slope `tan_beta`, for the plasticity index (eq.
+    /// (13)).
     pub fn elastic_pressure(&self, tan_beta: f64) -> f64 {
         let coefficient = match &self.law {
             Law::Linear { coefficient, area_ratio } => coefficient / area_ratio,
@@ -346,7 +349,8 @@ mod tests {
         }
     }
 
-    /// The paper's Table 1 slopes: arithmetic of eqs (11), [13], and of [18]-[20] mended, for E 210 GPa, ν 0.3, H 1280 MPa.
+    /// The paper's Table 1 slopes: arithmetic of eqs (11), [13], and of [18]-[20] mended, for E 210 GPa, ν
+    /// 0.3, H 1280 MPa.
     #[test]
     fn pressures_at_the_slopes_of_table_1() {
         let model = |c| ClosureLaw::new(c, &steel(), None).unwrap();

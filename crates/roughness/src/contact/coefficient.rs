@@ -21,7 +21,7 @@ use serde::{Deserialize, Serialize};
 use std::fmt::Display;
 use thiserror::Error;
 
-/// Why a coefficient cannot be used.
+/// The reason why a coefficient cannot be used.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum CoefficientError {
     /// The text is not what the file should be.
@@ -34,7 +34,7 @@ pub enum CoefficientError {
         "in the coefficient file {name} = {value}, but it must be {allowed}; `asperity calibrate` writes a new one"
     )]
     Value {
-        /// Which value.
+        /// The value.
         name: String,
         /// Its value.
         value: String,
@@ -89,12 +89,12 @@ pub struct Nearest {
     pub tan: f64,
     /// Its X = E* tan β/σ_r.
     pub x: f64,
-    /// Whether slope and stiffness lie inside the calibrated range.
+    /// True where slope and stiffness lie inside the calibrated range.
     pub inside: bool,
 }
 
 /// The coefficient file of the default sweep, as `asperity calibrate` writes it.
-const COMMITTED: &str = include_str!("../../data/coefficient.toml");
+const COMMITTED_FILE: &str = include_str!("../../data/coefficient.toml");
 
 impl Coefficient {
     /// The result of the default sweep that comes with the program; `asperity calibrate` regenerates it.
@@ -102,7 +102,7 @@ impl Coefficient {
     /// # Errors
     /// As for [`Coefficient::from_toml`]: only if the file is damaged.
     pub fn committed() -> Result<Coefficient, CoefficientError> {
-        Coefficient::from_toml(COMMITTED)
+        Coefficient::from_toml(COMMITTED_FILE)
     }
 
     /// Reads and checks the TOML text of a coefficient file.
@@ -150,9 +150,9 @@ impl Coefficient {
 
     /// The entry of the table nearest to a cone of slope `tan_beta` at X = `x`.
     ///
-    /// In each row of the table Y = K tan²β/σ_r is a function of X = E* tan β/σ_r; both are nearly the same for all slopes, so rows
-    /// are read at equal X and mixed linearly in β, in logarithms. A slope outside the rows takes the nearest row, an X outside
-    /// the rows their nearest.
+    /// In each row of the table Y = K tan²β/σ_r is a function of X = E* tan β/σ_r; both are nearly the same
+    /// for all slopes, so rows are read at equal X and mixed linearly in β, in logarithms. A slope outside
+    /// the rows takes the nearest row, an X outside the rows their nearest.
     pub fn nearest(&self, tan_beta: f64, x: f64) -> Nearest {
         let beta = tan_beta.atan().to_degrees();
         let stiffness = x / tan_beta;
@@ -168,7 +168,7 @@ impl Coefficient {
         // to a rounding
         let in_rows = x.ln() >= first - 1e-9 && x.ln() <= end + 1e-9;
         let at = if first < end { x.ln().clamp(first, end) } else { 0.5 * (first + end) };
-        let (from, to) = (low.at(at), high.at(at));
+        let (from, to) = (low.interpolated(at), high.interpolated(at));
         let within = |range: [f64; 2], v: f64| v >= range[0] && v <= range[1];
         let in_slopes = within([self.angles[0].beta_deg, self.angles[last].beta_deg], beta);
         Nearest {
@@ -182,7 +182,8 @@ impl Coefficient {
         }
     }
 
-    /// ln X of the first and last place that row `i` and those beside it hold: what lies on lines between such ends is held by both rows.
+    /// ln X of the first and last place that row `i` and those beside it hold: what lies on lines between
+    /// such ends is held by both rows.
     fn ends(&self, i: usize) -> [f64; 2] {
         let beside = &self.angles[i.saturating_sub(1)..(i + 2).min(self.angles.len())];
         let ends = beside.iter().map(SlopeTable::ends);
@@ -199,7 +200,7 @@ impl SlopeTable {
     }
 
     /// ln Y and ln of the contact ratio at ln X = `x`, between lines from place to place.
-    fn at(&self, x: f64) -> [f64; 2] {
+    fn interpolated(&self, x: f64) -> [f64; 2] {
         let tan = self.beta_deg.to_radians().tan();
         let node = |i: usize| {
             let (y, ratio) = (self.k_over_stress[i] * tan * tan, self.contact_ratio[i]);

@@ -2,7 +2,8 @@
 
 use crate::surface::cells::Moments;
 
-/// The ellipse that stands for an island: π a b is its area, its axes follow from the second moments (eq. (14)).
+/// The ellipse that stands for an island: π a b is its area, its axes follow from the second moments (eq.
+/// (14)).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ellipse {
     /// Major and minor semi-axes a ≥ b, in metres.
@@ -14,11 +15,12 @@ pub struct Ellipse {
 }
 
 /// Below this ratio of semi-axes the second moments are rounding noise.
-const THINNEST: f64 = 1e-6;
+const MIN_AXES_RATIO: f64 = 1e-6;
 
 impl Ellipse {
-    /// From the moments of the island about `origin`, in pixels of size `pixel`; None where they span no ellipse.
-    pub(crate) fn of(m: &Moments, origin: [f64; 2], pixel: [f64; 2]) -> Option<Ellipse> {
+    /// From the moments of the island about `origin`, in pixels of size `pixel`; None where they span no
+    /// ellipse.
+    pub(crate) fn from_moments(m: &Moments, origin: [f64; 2], pixel: [f64; 2]) -> Option<Ellipse> {
         let (x, y) = (m.x / m.area, m.y / m.area);
         let xx = (m.xx / m.area - x * x) * pixel[0] * pixel[0];
         let xy = (m.xy / m.area - x * y) * pixel[0] * pixel[1];
@@ -27,7 +29,7 @@ impl Ellipse {
         let (half_sum, half_difference) = (0.5 * (xx + yy), 0.5 * (xx - yy));
         let spread = half_difference.hypot(xy);
         let (large, small) = (half_sum + spread, half_sum - spread);
-        if !(small > large * THINNEST * THINNEST && large.is_finite()) {
+        if !(small > large * MIN_AXES_RATIO * MIN_AXES_RATIO && large.is_finite()) {
             return None;
         }
         let area = m.area * pixel[0] * pixel[1];

@@ -1,4 +1,5 @@
-//! The plane of a closure that is not linear in tan β: its islands have to be found at every plane that is tried.
+//! The plane of a closure that is not linear in tan β: its islands have to be found at every plane that is
+//! tried.
 
 use super::bearing_area::{self, Planes};
 use super::closures::ClosureLaw;
@@ -7,26 +8,29 @@ use crate::surface::height_map::Extent;
 use crate::surface::prepared_surface::Surface;
 
 /// Residual at which the search ends: half of what is promised.
-const RESIDUAL: f64 = 5e-7;
+const SOUGHT_RESIDUAL: f64 = 5e-7;
 /// Promised residual; a load that no plane meets to this jumps.
-const PROMISE: f64 = 1e-6;
+const PROMISED_RESIDUAL: f64 = 1e-6;
 /// Secants before plain halving, which closes in on a jump.
 const SECANTS: usize = 12;
 /// Part of the surface's height below which a bracket is closed.
-const CLOSED: f64 = 1e-13;
+const CLOSED_WIDTH: f64 = 1e-13;
 
-/// The plane that carries `pressure`, and whether the load jumps there; the largest load where none carries it.
+/// The plane that carries `pressure`, and whether the load jumps there; the largest load where none carries
+/// it.
 ///
-/// 1. Guess the load above each of some planes from the area and the mean slope there, as if all of it were one island.
+/// 1. Guess the load above each of some planes from the area and the mean slope there, as if all of it were
+///    one island.
 /// 2. Secants of the logarithm of the load, the first with the slope of the guess.
-/// 3. No step leaves the bracket of the planes tried; what does not converge is halved. The load of a closure is
-///    monotone in the plane (it rises with the area and with the slope integral, and merging never lowers it).
+/// 3. No step leaves the bracket of the planes tried; what does not converge is halved. The load of a closure
+///    is monotone in the plane (it rises with the area and with the slope integral, and merging never lowers
+///    it).
 pub(super) fn plane_for(surface: &Surface, model: &ClosureLaw, pressure: f64) -> Result<(f64, bool), f64> {
     let extent = &surface.extent;
-    let guess = Guess::of(surface, model, pressure);
-    let mut bracket = Bracket::within(extent);
+    let guess = Guess::from_bearing_area(surface, model, pressure);
+    let mut bracket = Bracket::whole_range(extent);
     // the runs above a plane some way below the guess serve every plane that is likely to be tried
-    let base = |plane: f64| Carrying::above(surface, model, (plane - guess.step).max(extent.low));
+    let base = |plane: f64| Carrying::new(surface, model, (plane - guess.step).max(extent.low));
     let mut carrying = base(guess.plane);
     let (mut plane, mut slope) = (guess.plane, guess.slope);
     let (mut last, mut best): (Option<Tried>, Option<Tried>) = (None, None);
@@ -34,15 +38,15 @@ pub(super) fn plane_for(surface: &Surface, model: &ClosureLaw, pressure: f64) ->
         if plane < carrying.plane() {
             carrying = base(plane);
         }
-        let load = carrying.at(plane).0;
+        let load = carrying.pressure_and_area(plane).0;
         let tried = Tried { plane, excess: (load / pressure).ln() };
-        if tried.excess < -RESIDUAL && plane <= extent.low {
+        if tried.excess < -SOUGHT_RESIDUAL && plane <= extent.low {
             return Err(load);
         }
         if best.is_none_or(|best| tried.excess.abs() < best.excess.abs()) {
             best = Some(tried);
         }
-        let enough = if step < SECANTS { RESIDUAL } else { PROMISE };
+        let enough = if step < SECANTS { SOUGHT_RESIDUAL } else { PROMISED_RESIDUAL };
         if tried.excess.abs() <= enough || !bracket.take(&tried) {
             break;
         }
@@ -53,7 +57,7 @@ pub(super) fn plane_for(surface: &Surface, model: &ClosureLaw, pressure: f64) ->
         plane = bracket.hold(if step < SECANTS { secant } else { f64::NAN });
         last = Some(tried);
     }
-    Ok(best.map_or((guess.plane, false), |best| (best.plane, best.excess.abs() > PROMISE)))
+    Ok(best.map_or((guess.plane, false), |best| (best.plane, best.excess.abs() > PROMISED_RESIDUAL)))
 }
 
 /// A plane, and ln of what it carries over what is wanted.
@@ -67,15 +71,15 @@ struct Tried {
 struct Bracket {
     low: f64,
     high: f64,
-    /// Whether the lower end is known to carry the load.
+    /// True where the lower end is known to carry the load.
     carries: bool,
     closed: f64,
 }
 
 impl Bracket {
-    fn within(extent: &Extent) -> Bracket {
+    fn whole_range(extent: &Extent) -> Bracket {
         let Extent { low, high, .. } = *extent;
-        Bracket { low, high, carries: false, closed: CLOSED * (high - low) }
+        Bracket { low, high, carries: false, closed: CLOSED_WIDTH * (high - low) }
     }
 
     /// Narrows; false once there is nothing left between the ends.
@@ -105,7 +109,7 @@ impl Bracket {
     }
 }
 
-/// Where the load probably lies.
+/// The separation at which the load probably lies.
 struct Guess {
     plane: f64,
     /// d(ln load)/d(plane) there, below 0.
@@ -115,7 +119,7 @@ struct Guess {
 }
 
 impl Guess {
-    fn of(surface: &Surface, model: &ClosureLaw, pressure: f64) -> Guess {
+    fn from_bearing_area(surface: &Surface, model: &ClosureLaw, pressure: f64) -> Guess {
         let (planes, sums) = bearing_area::estimate(&surface.map, &surface.extent);
         let cells = surface.extent.cells as f64;
         let load = |k: usize| {

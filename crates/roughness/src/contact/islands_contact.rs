@@ -12,7 +12,7 @@ use thiserror::Error;
 
 /// Points of the load curve.
 pub const CURVE_POINTS: usize = 64;
-/// Why a surface cannot carry a load.
+/// The reason why a surface cannot carry a load.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum ContactError {
     /// No slope, so no force at any separation.
@@ -68,7 +68,8 @@ pub struct Contact {
     pub pressure: f64,
     /// |ΣF_j/(P A_nom) - 1|; None where no pressure was asked for.
     pub load_error: Option<f64>,
-    /// The load jumps at the separation (islands of a concave closure merge): the residual is that of the nearer side.
+    /// The load jumps at the separation (islands of a concave closure merge): the residual is that of the
+    /// nearer side.
     pub jump: bool,
     /// Contact area over nominal area.
     pub area_ratio: f64,
@@ -144,7 +145,7 @@ fn plane_for(surface: &Surface, model: &ClosureLaw, pressure: f64) -> Result<(f6
 
 fn contact_at(surface: &Surface, model: &ClosureLaw, plane: f64, jump: bool, wanted: Option<f64>) -> Contact {
     let nominal_area = surface.extent.cells as f64 * surface.map.cell_area();
-    let islands = Islands::above(&surface.map, plane);
+    let islands = Islands::above_plane(&surface.map, plane);
     let responses: Vec<Response> = islands.islands.iter().map(|island| model.respond(island.slope)).collect();
     let mut contact = Contact {
         separation: plane - surface.parameters.mean,
@@ -186,7 +187,7 @@ fn load_curve(surface: &Surface, model: &ClosureLaw, contact: &Contact, plane: f
     if plane >= high {
         return vec![end];
     }
-    let planes = Planes::between(plane, high, CURVE_POINTS);
+    let planes = Planes::evenly_spaced(plane, high, CURVE_POINTS);
     let carried: Vec<(f64, f64)> = match model.linear() {
         Some((coefficient, area_ratio)) => {
             let (stress, cells) = (coefficient * model.reduced_modulus, surface.extent.cells as f64);
@@ -194,7 +195,7 @@ fn load_curve(surface: &Surface, model: &ClosureLaw, contact: &Contact, plane: f
             above.iter().map(|a| (stress * a.slope_area / cells, area_ratio * a.area / cells)).collect()
         }
         None => {
-            let mut within = Carrying::above(surface, model, plane);
+            let mut within = Carrying::new(surface, model, plane);
             (0..CURVE_POINTS).map(|k| within.rise_to(planes.height(k))).collect()
         }
     };

@@ -20,8 +20,8 @@ pub(super) struct Carrying<'a> {
 
 impl<'a> Carrying<'a> {
     /// Ready for planes at or above `plane`.
-    pub fn above(surface: &'a Surface, model: &'a ClosureLaw, plane: f64) -> Carrying<'a> {
-        Carrying { surface, model, plane, runs: Runs::above(&surface.map, plane) }
+    pub fn new(surface: &'a Surface, model: &'a ClosureLaw, plane: f64) -> Carrying<'a> {
+        Carrying { surface, model, plane, runs: Runs::above_plane(&surface.map, plane) }
     }
 
     /// The lowest plane.
@@ -30,7 +30,7 @@ impl<'a> Carrying<'a> {
     }
 
     /// Nominal pressure and contact area ratio at `plane`.
-    pub fn at(&self, plane: f64) -> (f64, f64) {
+    pub fn pressure_and_area(&self, plane: f64) -> (f64, f64) {
         self.carried(plane, self.runs.narrowed(&self.surface.map, plane))
     }
 

@@ -1,4 +1,5 @@
-//! Contact with a rigid plane: islands above it, what each carries by a closure, the separation that carries the load.
+//! Contact with a rigid plane: islands above it, what each carries by a closure, the separation that carries
+//! the load.
 
 pub(crate) mod ellipse;
 

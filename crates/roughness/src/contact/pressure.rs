@@ -23,7 +23,7 @@ pub enum PressureProfile {
 
 impl PressureProfile {
     /// Pressure over mean pressure at squared elliptic radius `r2` < 1.
-    fn at(self, r2: f64) -> f64 {
+    fn relative_pressure(self, r2: f64) -> f64 {
         match self {
             PressureProfile::Hertz => 1.5 * (1.0 - r2).sqrt(),
             PressureProfile::Cone => (1.0 / r2.max(1e-12).sqrt()).acosh(),
@@ -54,22 +54,25 @@ pub struct PressureField {
     pub pixels: Vec<LoadedPixel>,
     /// Largest pressure of a pixel, in Pa.
     pub largest: f64,
-    /// Share of the load on islands whose ellipse does not describe them, so that they are uniform; None without load.
+    /// Share of the load on islands whose ellipse does not describe them, so that they are uniform; None
+    /// without load.
     pub uniform_share: Option<f64>,
 }
 
 /// Samples along a side of a pixel.
 const SAMPLES: usize = 4;
-/// An island that lies in its ellipse by less than this part of its area (a bent ridge, a ring) has no ellipse.
-const DESCRIBED: f64 = 0.5;
+/// An island that lies in its ellipse by less than this part of its area (a bent ridge, a ring) has no
+/// ellipse.
+const DESCRIBED_SHARE: f64 = 0.5;
 
 impl PressureField {
     /// Spreads the forces of `contact` on the cells of `map`.
     ///
-    /// 1. The weight of a pixel is the profile averaged over samples inside the ellipse of the true contact, times the
-    ///    part of the pixel in contact; an island without an ellipse, or mostly outside it, is uniform.
+    /// 1. The weight of a pixel is the profile averaged over samples inside the ellipse of the true contact,
+    ///    times the part of the pixel in contact; an island without an ellipse, or mostly outside it, is
+    ///    uniform.
     /// 2. The weights of an island are scaled so that they sum to its force.
-    pub fn of(map: &HeightMap, contact: &Contact, profile: PressureProfile) -> PressureField {
+    pub fn distribute(map: &HeightMap, contact: &Contact, profile: PressureProfile) -> PressureField {
         let columns = map.cell_columns() as u32;
         let parts = map.chunks(|rows| {
             let mut pixels = Vec::new();
@@ -103,7 +106,7 @@ impl PressureField {
                 total += force;
                 // part of the true contact that lies on the island and inside its ellipse
                 let inside = covered * map.cell_area() / (area * contact.responses[j].area_ratio.min(1.0));
-                if *weights > 0.0 && inside >= DESCRIBED {
+                if *weights > 0.0 && inside >= DESCRIBED_SHARE {
                     return Scale::Weights(force / map.cell_area() / weights);
                 }
                 uniform += force;
@@ -134,7 +137,7 @@ impl PressureField {
     }
 }
 
-/// How the force of an island reaches its pixels.
+/// The way the force of an island reaches its pixels.
 #[derive(Clone, Copy)]
 enum Scale {
     /// Times the weight of the pixel.
@@ -143,7 +146,8 @@ enum Scale {
     Areas(f64),
 }
 
-/// Weight of a piece of an island, and the part of its pixel on the island and inside the ellipse of the contact.
+/// Weight of a piece of an island, and the part of its pixel on the island and inside the ellipse of the
+/// contact.
 fn weigh(piece: &Piece, contact: &Contact, profile: PressureProfile, pixel: [f64; 2]) -> (f64, f64) {
     let island = &contact.islands.islands[piece.island as usize];
     let ratio = contact.responses[piece.island as usize].area_ratio;
@@ -173,7 +177,7 @@ fn sample(
             let r2 = ellipse.radius_squared(at(i, 0), at(j, 1)) / ratio;
             if r2 < 1.0 {
                 inside += 1;
-                sum += profile.at(r2);
+                sum += profile.relative_pressure(r2);
             }
         }
     }

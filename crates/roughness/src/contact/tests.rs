@@ -24,7 +24,7 @@ fn steel() -> Material {
 }
 
 fn contact(map: &HeightMap, closure: Closure, load: Load) -> Contact {
-    press(&Surface::of(map.clone()).unwrap(), &ClosureLaw::new(closure, &steel(), None).unwrap(), load)
+    press(&Surface::from_map(map.clone()).unwrap(), &ClosureLaw::new(closure, &steel(), None).unwrap(), load)
         .unwrap()
 }
 
@@ -38,7 +38,7 @@ fn an_elliptic_paraboloid_gives_back_its_ellipse() {
     };
     for (pixel, tolerance) in [(1e-6, 5e-3), (0.25e-6, 4e-4)] {
         let n = (64e-6 / pixel) as usize + 1;
-        let islands = Islands::above(&map(n, pixel, |x, y| z(x - 2e-6, y + 3e-6)), -1e-6);
+        let islands = Islands::above_plane(&map(n, pixel, |x, y| z(x - 2e-6, y + 3e-6)), -1e-6);
         assert_eq!(islands.islands.len(), 1);
         let island = islands.islands[0];
         let ellipse = island.ellipse.unwrap();
@@ -73,7 +73,7 @@ fn an_island_across_the_edges_of_a_periodic_map_is_one() {
         HeightMap::new(n, n, [1e-6, 1e-6], z.collect()).unwrap().with_periodic(true)
     };
     let one = |shift| {
-        let islands = Islands::above(&bump(shift), -1.3).islands;
+        let islands = Islands::above_plane(&bump(shift), -1.3).islands;
         assert_eq!(islands.len(), 1, "{shift}");
         islands[0]
     };
@@ -87,17 +87,18 @@ fn an_island_across_the_edges_of_a_periodic_map_is_one() {
             && (a.semi_axes[1] / b.semi_axes[1] - 1.0).abs() < 1e-9
     );
     // not periodic: cut into four
-    let open = Islands::above(&bump(24).with_periodic(false), -1.3).islands;
+    let open = Islands::above_plane(&bump(24).with_periodic(false), -1.3).islands;
     assert_eq!(open.len(), 4);
     // a ridge that meets itself has no extent
     let ridge = (0..n * n).map(|i| -((i / n) as f64 - 20.0).abs()).collect();
     let ridge = HeightMap::new(n, n, [1e-6, 1e-6], ridge).unwrap();
-    assert!(Islands::above(&ridge, -3.5).islands[0].ellipse.is_some());
-    let endless = Islands::above(&ridge.with_periodic(true), -3.5).islands;
+    assert!(Islands::above_plane(&ridge, -3.5).islands[0].ellipse.is_some());
+    let endless = Islands::above_plane(&ridge.with_periodic(true), -3.5).islands;
     assert!(endless.len() == 1 && endless[0].ellipse.is_none());
 }
 
-/// Two diagonal nodes join only if the mean of their cell is above the plane; each then takes its own triangles.
+/// Two diagonal nodes join only if the mean of their cell is above the plane; each then takes its own
+/// triangles.
 #[test]
 fn a_saddle_joins_only_above_its_middle() {
     let n = 4;
@@ -105,11 +106,11 @@ fn a_saddle_joins_only_above_its_middle() {
     z[n + 1] = 0.6;
     z[2 * n + 2] = 0.6;
     let map = HeightMap::new(n, n, [1.0, 1.0], z.clone()).unwrap();
-    assert_eq!(Islands::above(&map, 0.0).islands.len(), 2);
+    assert_eq!(Islands::above_plane(&map, 0.0).islands.len(), 2);
     z[n + 1] = 1.6;
     let map = HeightMap::new(n, n, [1.0, 1.0], z).unwrap();
-    assert_eq!(Islands::above(&map, 0.0).islands.len(), 1);
-    let total: f64 = Islands::above(&map, 0.0).islands.iter().map(|i| i.area).sum();
+    assert_eq!(Islands::above_plane(&map, 0.0).islands.len(), 1);
+    let total: f64 = Islands::above_plane(&map, 0.0).islands.iter().map(|i| i.area).sum();
     assert!((total - above_plane(&map, 0.0).area).abs() < 1e-12);
 }
 
@@ -130,13 +131,14 @@ fn islands_and_cells_hold_the_same_area_and_slope() {
         let map = HeightMap::new(n, 90, [1.0, 1.0], z.collect()).unwrap().with_periodic(periodic);
         for plane in [-3.0, -0.7, 0.0, 0.4, 1.5, 2.4, 2.6] {
             let sum = above_plane(&map, plane);
-            let islands = Islands::above(&map, plane).islands;
+            let islands = Islands::above_plane(&map, plane).islands;
             let area: f64 = islands.iter().map(|i| i.area).sum();
             let slope: f64 = islands.iter().map(|i| i.area * i.slope).sum();
             assert!((area - sum.area).abs() <= 1e-9 * sum.area.max(1.0), "{periodic} {holes} {plane}");
             assert!((slope - sum.slope_area).abs() <= 1e-9 * sum.slope_area.max(1.0));
             // the islands found within what lies above a lower plane are the same, in the same order
-            let lower = Runs::above(&map, plane - 0.9).narrowed(&map, plane - 0.2).narrowed(&map, plane);
+            let lower =
+                Runs::above_plane(&map, plane - 0.9).narrowed(&map, plane - 0.2).narrowed(&map, plane);
             let sizes = Islands::sizes(&map, plane, lower);
             assert_eq!(sizes.len(), islands.len(), "{periodic} {holes} {plane}");
             for (size, island) in sizes.iter().zip(&islands) {
@@ -160,7 +162,7 @@ fn pressure_profiles_sum_to_the_load_and_peak_as_they_should() {
             (PressureProfile::Uniform, 0.99, 1.02),
             (PressureProfile::Cone, 4.0, 6.0),
         ] {
-            let field = PressureField::of(&cone, &contact, profile);
+            let field = PressureField::distribute(&cone, &contact, profile);
             let force: f64 = field.pixels.iter().map(|p| f64::from(p.pressure)).sum::<f64>() * 1e-12;
             assert!((force / (100e6 * contact.nominal_area) - 1.0).abs() < 1e-5);
             let peak = field.largest / mean;
@@ -184,7 +186,7 @@ fn one_and_many_threads_give_the_same_bits() {
             let mut bits = Vec::new();
             for closure in [Closure::Published, Closure::Johnson] {
                 let contact = contact(&map, closure, Load::Pressure(150e6));
-                let field = PressureField::of(&map, &contact, PressureProfile::Hertz);
+                let field = PressureField::distribute(&map, &contact, PressureProfile::Hertz);
                 bits.extend([contact.separation, contact.area_ratio, field.largest].map(f64::to_bits));
                 bits.extend(contact.curve.iter().map(|p| p.pressure.to_bits()));
                 bits.extend(contact.islands.islands.iter().map(|i| i.area.to_bits()));
@@ -223,7 +225,7 @@ fn extremes_have_an_answer() {
     let zero = contact(&cone(1e-6), Closure::Published, Load::Pressure(0.0));
     assert!(zero.area_ratio == 0.0 && zero.mean_pressure().is_none() && zero.shares.is_none());
     let extent = cone(1e-6).extent().unwrap();
-    assert!((zero.separation + Parameters::of(&cone(1e-6), &extent).mean - extent.high).abs() < 1e-18);
+    assert!((zero.separation + Parameters::measure(&cone(1e-6), &extent).mean - extent.high).abs() < 1e-18);
     let reference = contact(&cone(1.0), Closure::Published, Load::Pressure(200e6));
     for scale in [1e-12, 1e-9, 1e3] {
         for closure in [Closure::Published, Closure::Johnson, Closure::Sneddon] {
@@ -237,7 +239,7 @@ fn extremes_have_an_answer() {
     }
     let flat = map(9, 1.0, |_, _| 3.0);
     for (map, pressure) in [(&flat, 1.0), (&cone(1.0), 1e13)] {
-        let surface = Surface::of(map.clone()).unwrap();
+        let surface = Surface::from_map(map.clone()).unwrap();
         for closure in [Closure::Published, Closure::Johnson, Closure::Sneddon] {
             let model = ClosureLaw::new(closure, &steel(), None).unwrap();
             let message = press(&surface, &model, Load::Pressure(pressure)).err().unwrap().to_string();

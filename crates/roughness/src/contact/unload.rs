@@ -11,9 +11,11 @@ pub struct Unloading {
     pub residual_displacement: f64,
     /// Work returned over work done, at most 1; None without work.
     pub elastic_share: Option<f64>,
-    /// The same as the unloading law gives it. Above 1 where islands are shallower than the cones that stand for them.
+    /// The same as the unloading law gives it. Above 1 where islands are shallower than the cones that stand
+    /// for them.
     pub elastic_share_by_law: Option<f64>,
-    /// Share of the load on islands that the law would raise by more than they were pressed; None without load.
+    /// Share of the load on islands that the law would raise by more than they were pressed; None without
+    /// load.
     pub limited_share: Option<f64>,
     /// From the load to the last touch.
     pub curve: Vec<CurvePoint>,
@@ -21,13 +23,14 @@ pub struct Unloading {
 
 /// Takes the load off: every island returns by F = F_j (1 - u/u_j)^m with u_j = m F_j/(2 E* a_j).
 ///
-/// m is the exponent measured on unloaded cones, a_j the radius of the true contact; the stiffness at the start is that
-/// of a circular contact, 2 E* a_j, and so the contact area falls as (1 - u/u_j)^(2(m-1)). Closures without a limit of
-/// pressure are elastic and return along the load curve.
+/// m is the exponent measured on unloaded cones, a_j the radius of the true contact; the stiffness at the
+/// start is that of a circular contact, 2 E* a_j, and so the contact area falls as (1 - u/u_j)^(2(m-1)).
+/// Closures without a limit of pressure are elastic and return along the load curve.
 ///
-/// For a cone u_j stays below its depth and F_j u_j/(m+1) below its work F_j h_j/3. A long ridge, or a wide island with
-/// roughness upon it, was pressed by d_j far below h_j = tan β_j √(A_j/π): u_j is limited to d_j there, and as the work
-/// of a body that is no cone may still be less than F_j d_j/(m+1), the sum is limited to the work of the load curve.
+/// For a cone u_j stays below its depth and F_j u_j/(m+1) below its work F_j h_j/3. A long ridge, or a wide
+/// island with roughness upon it, was pressed by d_j far below h_j = tan β_j √(A_j/π): u_j is limited to d_j
+/// there, and as the work of a body that is no cone may still be less than F_j d_j/(m+1), the sum is limited
+/// to the work of the load curve.
 pub fn unload(contact: &Contact, model: &ClosureLaw, exponent: f64) -> Unloading {
     let work = contact
         .curve

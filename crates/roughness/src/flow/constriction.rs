@@ -14,14 +14,14 @@ pub struct Constriction {
 
 /// The critical constriction along `axis`; None where no open path crosses the map.
 ///
-/// The map is flooded from its entry through gaps no narrower than the narrowest that had to be passed yet; where the flood ends,
-/// it goes on through the widest pixel at its shore. Each pixel is met once.
+/// The map is flooded from its entry through gaps no narrower than the narrowest that had to be passed yet;
+/// where the flood ends, it goes on through the widest pixel at its shore. Each pixel is met once.
 pub fn constriction(gap: &Gap, axis: Axis) -> Option<Constriction> {
-    let map = Lines::of(gap, axis);
+    let map = Lines::new(gap, axis);
     let mut seen = vec![false; gap.values.len()];
     let mut inside: Vec<u32> = Vec::new();
-    let mut shore: BinaryHeap<u64> = (0..map.wide).filter_map(|line| map.width(map.at(0, line))).collect();
-    (0..map.wide).for_each(|line| seen[map.at(0, line)] = true);
+    let mut shore: BinaryHeap<u64> = (0..map.wide).filter_map(|line| map.width(map.index(0, line))).collect();
+    (0..map.wide).for_each(|line| seen[map.index(0, line)] = true);
     let mut narrowest = u64::MAX;
     loop {
         let i = match inside.pop() {
@@ -69,13 +69,13 @@ struct Lines<'a> {
 }
 
 impl<'a> Lines<'a> {
-    fn of(gap: &Gap<'a>, axis: Axis) -> Lines<'a> {
+    fn new(gap: &Gap<'a>, axis: Axis) -> Lines<'a> {
         let ([nx, ny], along_rows) = (gap.nodes, axis == Axis::X);
         let (long, wide) = if along_rows { (nx, ny) } else { (ny, nx) };
         Lines { values: gap.values, periodic: gap.periodic, long, wide, row: nx, along_rows }
     }
 
-    fn at(&self, along: usize, line: usize) -> usize {
+    fn index(&self, along: usize, line: usize) -> usize {
         if self.along_rows { line * self.row + along } else { along * self.row + line }
     }
 
@@ -84,8 +84,8 @@ impl<'a> Lines<'a> {
         if self.along_rows { [x, y] } else { [y, x] }
     }
 
-    /// A number that is the greater the wider the gap, and of equal gaps the earlier the pixel: they never tie, so that the answer
-    /// depends on nothing else. None of a pixel that is closed or was not measured.
+    /// A number that is the greater the wider the gap, and of equal gaps the earlier the pixel: they never
+    /// tie, so that the answer depends on nothing else. None of a pixel that is closed or was not measured.
     fn width(&self, i: usize) -> Option<u64> {
         // the bits of positive numbers rise with them
         (self.values[i] > 0.0)
@@ -98,10 +98,10 @@ impl<'a> Lines<'a> {
         let before = if line > 0 { Some(line - 1) } else { ring.then(|| self.wide - 1) };
         let after = if line + 1 < self.wide { Some(line + 1) } else { ring.then_some(0) };
         [
-            along.checked_sub(1).map(|along| self.at(along, line)),
-            before.map(|line| self.at(along, line)),
-            after.map(|line| self.at(along, line)),
-            (along + 1 < self.long).then(|| self.at(along + 1, line)),
+            along.checked_sub(1).map(|along| self.index(along, line)),
+            before.map(|line| self.index(along, line)),
+            after.map(|line| self.index(along, line)),
+            (along + 1 < self.long).then(|| self.index(along + 1, line)),
         ]
     }
 }

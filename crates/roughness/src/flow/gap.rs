@@ -21,7 +21,7 @@ pub struct Gap<'a> {
     pub nodes: [usize; 2],
     /// Sides of a pixel, in metres.
     pub pixel: [f64; 2],
-    /// Whether a flow leaves over one side and comes back over the other.
+    /// True where a flow leaves over one side and comes back over the other.
     pub periodic: bool,
     /// Gaps in metres, row by row.
     pub values: &'a [f32],
@@ -29,13 +29,14 @@ pub struct Gap<'a> {
 
 impl<'a> Gap<'a> {
     /// `values` (m), one per node of `map`.
-    pub fn of(map: &HeightMap, values: &'a [f32]) -> Gap<'a> {
+    pub fn new(map: &HeightMap, values: &'a [f32]) -> Gap<'a> {
         let nodes = [map.columns(), map.rows()];
         Gap { nodes, pixel: map.pixel(), periodic: map.periodic(), values }
     }
 
-    /// The gaps with the flow along their first axis: what is open, lines of the flow's direction one after the other.
-    pub(super) fn along(&self, axis: Axis) -> Oriented {
+    /// The gaps with the flow along their first axis: what is open, lines of the flow's direction one after
+    /// the other.
+    pub(super) fn oriented(&self, axis: Axis) -> Oriented {
         let [nx, ny] = self.nodes;
         let open = |z: f32| if z > 0.0 { f64::from(z) } else { 0.0 };
         match axis {
@@ -64,7 +65,7 @@ pub(super) struct Oriented {
     pub wide: usize,
     /// Sides of a pixel along and across the flow.
     pub pixel: [f64; 2],
-    /// Whether the lines are a ring.
+    /// True where the lines are a ring.
     pub periodic: bool,
     /// Gaps, `long` to a line; 0 where closed.
     pub gaps: Vec<f64>,
@@ -72,7 +73,7 @@ pub(super) struct Oriented {
 
 impl Oriented {
     /// The pixel beside `i` on the next line, if there is one.
-    pub fn beside(&self, i: usize) -> Option<usize> {
+    pub fn next_line(&self, i: usize) -> Option<usize> {
         let next = i + self.long;
         if next < self.gaps.len() {
             Some(next)

@@ -1,9 +1,9 @@
 //! A network of conductances on a grid, and a multigrid cycle that nearly solves it.
 
 /// Cells at which coarsening ends.
-const COARSEST: usize = 16;
+const COARSEST_CELLS: usize = 16;
 /// Sweeps on the coarsest grid.
-const LAST: usize = 20;
+const COARSEST_SWEEPS: usize = 20;
 /// Visits of a coarser grid in a cycle: corrections that are constant on a large cell need more than one.
 const VISITS: usize = 2;
 
@@ -90,7 +90,7 @@ impl Network {
     ///
     /// Conductances that cross between large cells add up and are halved for twice the distance.
     fn coarser(&self) -> Option<Network> {
-        if self.long * self.wide <= COARSEST {
+        if self.long * self.wide <= COARSEST_CELLS {
             return None;
         }
         let (long, wide) = (self.long.div_ceil(2), self.wide.div_ceil(2));
@@ -119,7 +119,7 @@ pub(super) struct Multigrid {
 }
 
 impl Multigrid {
-    pub fn of(network: Network) -> Multigrid {
+    pub fn from_network(network: Network) -> Multigrid {
         let mut levels = vec![network];
         while let Some(next) = levels.last().and_then(Network::coarser) {
             levels.push(next);
@@ -142,7 +142,7 @@ impl Multigrid {
         x.fill(0.0);
         network.smooth(b, x, false);
         if level + 1 == self.levels.len() {
-            for _ in 0..LAST {
+            for _ in 0..COARSEST_SWEEPS {
                 network.smooth(b, x, true);
                 network.smooth(b, x, false);
             }

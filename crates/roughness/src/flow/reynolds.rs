@@ -21,14 +21,14 @@ pub struct Leak {
     pub iterations: usize,
 }
 
-/// The flow along `axis` through `gap`, the pressure given on both sides that it joins, nothing passing the other two unless
-/// they are joined to a ring; None where nothing passes.
+/// The flow along `axis` through `gap`, the pressure given on both sides that it joins, nothing passing the
+/// other two unless they are joined to a ring; None where nothing passes.
 ///
-/// ∇·(g³/12 ∇p) = 0 on the open pixels, conductances of neighbours in series; the part of the gap that joins both sides
-/// alone. Solved by conjugate gradients, preconditioned by a multigrid cycle. A gap of the same height everywhere leaks
-/// g³/12 times width over length exactly.
+/// ∇·(g³/12 ∇p) = 0 on the open pixels, conductances of neighbours in series; the part of the gap that joins
+/// both sides alone. Solved by conjugate gradients, preconditioned by a multigrid cycle. A gap of the same
+/// height everywhere leaks g³/12 times width over length exactly.
 pub fn leak(gap: &Gap, axis: Axis) -> Option<Leak> {
-    let mut map = gap.along(axis);
+    let mut map = gap.oriented(axis);
     keep_crossing(&mut map);
     let largest = map.gaps.iter().copied().fold(0.0, f64::max);
     if largest <= 0.0 {
@@ -55,7 +55,7 @@ fn keep_crossing(map: &mut Oriented) {
             let back = (i % map.long > 0).then(|| i - 1);
             let below =
                 if i >= map.long { Some(i - map.long) } else { map.periodic.then(|| n - map.long + i) };
-            stack.extend([back, below, map.ahead(i), map.beside(i)].into_iter().flatten());
+            stack.extend([back, below, map.ahead(i), map.next_line(i)].into_iter().flatten());
         }
         seen
     };
@@ -67,14 +67,15 @@ fn keep_crossing(map: &mut Oriented) {
     });
 }
 
-/// The network of `map` with gaps in units of `largest`, and the conductance of each cell to where the fluid enters.
+/// The network of `map` with gaps in units of `largest`, and the conductance of each cell to where the fluid
+/// enters.
 fn network(map: &Oriented, largest: f64) -> (Network, Vec<f64>) {
     let ratio = map.pixel[1] / map.pixel[0];
     let cube: Vec<f64> = map.gaps.iter().map(|g| (g / largest).powi(3)).collect();
     let series = |a: f64, b: f64| if a > 0.0 && b > 0.0 { 2.0 * a * b / (a + b) } else { 0.0 };
     let n = cube.len();
     let ahead = |i: usize| map.ahead(i).map_or(0.0, |j| ratio * series(cube[i], cube[j]));
-    let beside = |i: usize| map.beside(i).map_or(0.0, |j| series(cube[i], cube[j]) / ratio);
+    let beside = |i: usize| map.next_line(i).map_or(0.0, |j| series(cube[i], cube[j]) / ratio);
     let mut entry = vec![0.0; n];
     let mut ends = vec![0.0; n];
     for line in 0..map.wide {
@@ -87,10 +88,11 @@ fn network(map: &Oriented, largest: f64) -> (Network, Vec<f64>) {
     (Network::new(map.long, map.wide, ahead, beside, ends), entry)
 }
 
-/// The flow from pressure 1 at the entry to 0 at the exit, the relative difference of both, and the iterations.
+/// The flow from pressure 1 at the entry to 0 at the exit, the relative difference of both, and the
+/// iterations.
 fn solve(network: Network, entry: &[f64]) -> (f64, f64, usize) {
     let n = entry.len();
-    let mut grids = Multigrid::of(network);
+    let mut grids = Multigrid::from_network(network);
     let mut r = entry.to_vec();
     let [mut x, mut z, mut t, mut given, mut room] = [(); 5].map(|()| vec![0.0; n]);
     let long = grids.levels[0].long;

@@ -85,7 +85,8 @@ fn crosses(map: &Gap<'_>, axis: Axis, least: f32) -> bool {
     }
 }
 
-/// Against the definition, on maps of few gaps that are often equal: a path crosses as wide as the constriction, none wider.
+/// Against the definition, on maps of few gaps that are often equal: a path crosses as wide as the
+/// constriction, none wider.
 #[test]
 fn no_path_is_wider_than_the_constriction() {
     let mut state = 7u32;
@@ -114,13 +115,13 @@ fn a_rough_gap_balances_and_closes_with_the_load() {
     let grid = Grid { nodes: [160, 130], pixel: [1e-6, 1e-6], seed: 5 };
     let kind = Kind::SelfAffine { hurst: 0.8, rolloff: 24e-6, cutoff: 8e-6 };
     let map = generate(kind, &grid, Target::Height(1e-6)).unwrap().with_periodic(true);
-    let surface = Surface::of(map).unwrap();
+    let surface = Surface::from_map(map).unwrap();
     let body = HalfSpace { reduced_modulus: 1e11, limit: None, tolerance: 1e-5 };
     let mut last = f64::INFINITY;
     for share in [0.02, 0.06, 0.1] {
         let load = Load::Pressure(share * 1e11 * surface.parameters.rms_gradient);
         let found = body.press(&surface, load).unwrap();
-        let map = Gap::of(&surface.map, &found.gaps);
+        let map = Gap::new(&surface.map, &found.gaps);
         for axis in [Axis::X, Axis::Y] {
             let flow = leak(&map, axis).unwrap();
             assert!(flow.imbalance < 1e-4 && flow.hydraulic_gap < found.mean_gap, "{flow:?}");

@@ -4,8 +4,8 @@ use crate::HeightMap;
 use crate::surface::height_map::chunks;
 use std::f64::consts::{LN_2, PI};
 
-/// Part of a pixel by which each pixel edge on the rim of the contact makes its area too large (Yastrebov, Anciaux and
-/// Molinari 2017, Tribology International 114, 161-171).
+/// Part of a pixel by which each pixel edge on the rim of the contact makes its area too large (Yastrebov,
+/// Anciaux and Molinari 2017, Tribology International 114, 161-171).
 const RIM: f64 = (PI - 1.0 + LN_2) / 24.0;
 
 /// Contact area over the area of the pixels used.
@@ -13,18 +13,24 @@ const RIM: f64 = (PI - 1.0 + LN_2) / 24.0;
 pub struct Area {
     /// Pixels under pressure.
     pub ratio: f64,
-    /// The same less what the rim of the contact adds, but no less than carries the load at the limit of pressure.
+    /// The same less what the rim of the contact adds, but no less than carries the load at the limit of
+    /// pressure.
     pub corrected: f64,
-    /// How much of the corrected ratio is uncertain: the size of the correction.
+    /// The uncertain part of the corrected ratio: the size of the correction.
     pub error: f64,
     /// Pixel edges between contact and none.
     pub edges: usize,
 }
 
 impl Area {
-    /// Of `touching` pixels under pressure of `pixels` used, of which the share `least` carries the load with all of them at the limit
-    /// of pressure.
-    pub(super) fn of(map: &HeightMap, pressures: &[f32], [touching, pixels]: [usize; 2], least: f64) -> Area {
+    /// Of `touching` pixels under pressure of `pixels` used, of which the share `least` carries the load with
+    /// all of them at the limit of pressure.
+    pub(super) fn from_pixels(
+        map: &HeightMap,
+        pressures: &[f32],
+        [touching, pixels]: [usize; 2],
+        least: f64,
+    ) -> Area {
         let edges = edges(map, pressures);
         let n = pixels as f64;
         let ratio = touching as f64 / n;

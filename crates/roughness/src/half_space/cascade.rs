@@ -4,25 +4,26 @@ use super::conjugate_gradients::conjugate_gradients;
 use super::convolution::Convolution;
 use super::projected_gradient::projected_gradient;
 use crate::half_space::float::{Real, sums};
-use crate::half_space::grid_level::{Hold, Level, MISSING, Search};
+use crate::half_space::grid_level::{Hold, Level, MISSING_HEIGHT, Search};
 use rayon::prelude::*;
 
 /// A side of more nodes is halved for the coarser grid.
-const COARSEST: usize = 64;
+const COARSEST_SIDE: usize = 64;
 /// Residual of the coarse grids.
-const COARSE: f64 = 1e-3;
+const COARSE_RESIDUAL: f64 = 1e-3;
 /// The least residual that `f32` is asked for: it stagnates below.
-const SINGLE: f64 = 1e-6;
+const SINGLE_PRECISION_RESIDUAL: f64 = 1e-6;
 /// Iterations of one grid.
 const ITERATIONS: usize = 400;
 
-/// A grid with heights between 0 and 1, in units in which E* is 1 and the half-space has no length of its own.
+/// A grid with heights between 0 and 1, in units in which E* is 1 and the half-space has no length of its
+/// own.
 pub(super) struct Task {
     /// Nodes along x and y.
     pub nodes: [usize; 2],
     /// Sides of a pixel.
     pub sides: [f64; 2],
-    /// Whether the grid repeats; else the half-space is free around it.
+    /// True where the grid repeats; else the half-space is free around it.
     pub periodic: bool,
     /// Heights, row by row; NaN where nothing was measured.
     pub heights: Vec<f64>,
@@ -33,7 +34,7 @@ pub(super) struct Task {
 }
 
 /// Projected gradients need so many times the iterations.
-const PATIENCE: usize = 5;
+const PROJECTED_ITERATIONS_FACTOR: usize = 5;
 
 /// An answer with the way to it.
 #[derive(Clone, Debug)]
@@ -53,8 +54,8 @@ pub(super) struct Answer {
 impl Task {
     /// The grid in numbers of type `T`.
     pub fn level<T: Real>(&self) -> Level<T> {
-        let missing = T::of(MISSING);
-        let converted = |h: &f64| if h.is_nan() { missing } else { T::of(*h) };
+        let missing = T::nearest(MISSING_HEIGHT);
+        let converted = |h: &f64| if h.is_nan() { missing } else { T::nearest(*h) };
         Level {
             heights: self.heights.par_iter().map(converted).collect(),
             limit: self.limit,
@@ -66,7 +67,7 @@ impl Task {
 
     /// The grid with long sides halved, heights being means; `None` of a grid that is coarse.
     fn coarser(&self) -> Option<Task> {
-        let nodes = self.nodes.map(|n| if n > COARSEST { n.div_ceil(2) } else { n });
+        let nodes = self.nodes.map(|n| if n > COARSEST_SIDE { n.div_ceil(2) } else { n });
         if nodes == self.nodes {
             return None;
         }
@@ -107,7 +108,7 @@ impl Task {
         let start = coarse.first_guess(hold);
         let mut level = coarse.level::<f32>();
         let start = allowed(&level, hold, start);
-        let found = search(&mut level, hold, start, COARSE, ITERATIONS);
+        let found = search(&mut level, hold, start, COARSE_RESIDUAL, ITERATIONS);
         self.prolonged(coarse.nodes, &found.pressure)
     }
 
@@ -120,8 +121,8 @@ impl Task {
         self.heights.iter().map(|h| if h.is_nan() { 0.0 } else { value as f32 }).collect()
     }
 
-    /// The residual that `f32` leaves by rounding the displacements of a pressure: a free map sinks as a whole, and by far more
-    /// than its heights where it is large or rough from pixel to pixel.
+    /// The residual that `f32` leaves by rounding the displacements of a pressure: a free map sinks as a
+    /// whole, and by far more than its heights where it is large or rough from pixel to pixel.
     fn rounding(&self, level: &mut Level<f32>, pressure: &[f32]) -> f64 {
         let mut lift = vec![0.0; pressure.len()];
         level.lift(pressure, &mut lift);
@@ -140,7 +141,7 @@ impl Task {
         };
         let mut level = self.level::<f32>();
         let start = allowed(&level, hold, start);
-        let reachable = tolerance.max(SINGLE).max(self.rounding(&mut level, &start));
+        let reachable = tolerance.max(SINGLE_PRECISION_RESIDUAL).max(self.rounding(&mut level, &start));
         let found = search(&mut level, hold, start, reachable, ITERATIONS);
         let single = level.convolutions;
         drop(level);
@@ -177,7 +178,7 @@ fn search<T: Real>(
         return found;
     }
     let start = allowed(level, hold, found.pressure);
-    projected_gradient(level, hold, start, tolerance, PATIENCE * iterations)
+    projected_gradient(level, hold, start, tolerance, PROJECTED_ITERATIONS_FACTOR * iterations)
 }
 
 /// `start` within the bounds and with the load.

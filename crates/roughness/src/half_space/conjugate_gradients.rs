@@ -1,4 +1,5 @@
-//! Projected conjugate gradients (Polonsky and Keer 1999), preconditioned on the nodes that are free to change.
+//! Projected conjugate gradients (Polonsky and Keer 1999), preconditioned on the nodes that are free to
+//! change.
 
 use super::convolution::Way;
 use super::nodes::Nodes;
@@ -6,14 +7,14 @@ use crate::half_space::float::Real;
 use crate::half_space::grid_level::{Hold, Level, Search, is_free};
 
 /// Iterations without a better residual after which the search ends.
-const STALLED: usize = 12;
+const STALLED_ITERATIONS: usize = 12;
 
 /// Lowers the residual of `start` to `tolerance`, at most `iterations` times.
 ///
-/// p pressure, u = A p - h lift, d plane, g = u + d gap; the working set W are the nodes between the bounds or pushed from
-/// them. Each iteration: r = g on W; z = P F⁻¹ (|q|/2) F P r with P the projection on W (and on zero sum, where the load is
-/// held); t = z + β t with β = max(0, z·(r - r_old)/(z_old·r_old)) (Polak and Ribière); p := p - (r·t/t·At) t, cut at the
-/// bounds and scaled to the load.
+/// p pressure, u = A p - h lift, d plane, g = u + d gap; the working set W are the nodes between the bounds
+/// or pushed from them. Each iteration: r = g on W; z = P F⁻¹ (|q|/2) F P r with P the projection on W (and
+/// on zero sum, where the load is held); t = z + β t with β = max(0, z·(r - r_old)/(z_old·r_old)) (Polak and
+/// Ribière); p := p - (r·t/t·At) t, cut at the bounds and scaled to the load.
 pub(super) fn conjugate_gradients<T: Real>(
     level: &mut Level<T>,
     hold: Hold,
@@ -27,8 +28,8 @@ pub(super) fn conjugate_gradients<T: Real>(
     let mut p = start;
     // r, its last one, and t are 0 beside the nodes that are free, or were
     let [mut u, mut r, mut r_old, mut z, mut t] = [(); 5].map(|()| vec![T::zero(); n]);
-    let mut touching = Nodes::of(n, |i| p[i] > T::zero());
-    let mut free = Nodes::of(0, |_| false);
+    let mut touching = Nodes::select(n, |i| p[i] > T::zero());
+    let mut free = Nodes::select(0, |_| false);
     let (mut last, mut product) = (None, 0.0);
     let mut best = f64::INFINITY;
     let mut since = 0;
@@ -40,11 +41,15 @@ pub(super) fn conjugate_gradients<T: Real>(
         let residual = level.residual([&p, &u], d, &near);
         since = if residual < 0.9 * best { 0 } else { since + 1 };
         best = best.min(residual);
-        if residual <= tolerance || iteration == iterations || since > STALLED || !residual.is_finite() {
+        if residual <= tolerance
+            || iteration == iterations
+            || since > STALLED_ITERATIONS
+            || !residual.is_finite()
+        {
             return Search { pressure: p, lift: u, plane: d, residual };
         }
         iteration += 1;
-        let at = T::of(d);
+        let at = T::nearest(d);
         // of a gap of 0 nothing is to be changed
         let freed = near.those(|i| u[i] + at != T::zero() && is_free(p[i], u[i] + at, top));
         std::mem::swap(&mut r, &mut r_old);
@@ -58,7 +63,7 @@ pub(super) fn conjugate_gradients<T: Real>(
         free.set(&mut r_old, |_, _| T::zero());
         free.set(&mut t, |i, t| if r[i] != T::zero() { t } else { T::zero() });
         free = freed;
-        let by = T::of(beta);
+        let by = T::nearest(beta);
         free.set(&mut t, |i, t| z[i] + by * t);
         if zero_sum {
             let shift = mean(&free, &t);
@@ -74,7 +79,7 @@ pub(super) fn conjugate_gradients<T: Real>(
                 continue;
             }
         }
-        let step = T::of(along / work);
+        let step = T::nearest(along / work);
         free.set(&mut p, |i, p| (p - step * t[i]).max(T::zero()).min(top));
         touching = near.those(|i| p[i] > T::zero());
         if let Hold::Pressure(wanted) = hold {
@@ -86,5 +91,5 @@ pub(super) fn conjugate_gradients<T: Real>(
 /// Mean of `values` over the nodes.
 fn mean<T: Real>(nodes: &Nodes, values: &[T]) -> T {
     let [sum, n] = nodes.sums(|i| [values[i].wide(), 1.0]);
-    if n > 0.0 { T::of(sum / n) } else { T::zero() }
+    if n > 0.0 { T::nearest(sum / n) } else { T::zero() }
 }

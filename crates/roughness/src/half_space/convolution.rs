@@ -15,11 +15,11 @@ use std::sync::Arc;
 const BLOCK: usize = 16;
 /// Rows that one task transforms.
 const ROWS: usize = 16;
-/// Rows that are turned into columns at once: the pieces of columns are whole cache lines, as the columns of a map of 2ⁿ rows
-/// share the places that their lines may take in a cache.
+/// Rows that are turned into columns at once: the pieces of columns are whole cache lines, as the columns of
+/// a map of 2ⁿ rows share the places that their lines may take in a cache.
 const TILE: usize = 8;
 
-/// Which way between pressure and displacement.
+/// The direction between pressure and displacement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Way {
     /// Displacement of a pressure.
@@ -28,13 +28,14 @@ pub(super) enum Way {
     Stiffness,
 }
 
-/// The response of the half-space to one wave: the displacement per pressure. It is even in both wave numbers, so that the
-/// quarter of waves 0..=n/2 along x and y is enough.
+/// The response of the half-space to one wave: the displacement per pressure. It is even in both wave
+/// numbers, so that the quarter of waves 0..=n/2 along x and y is enough.
 struct Response<T> {
     /// Column by column for waves 0..`rows` along y.
     table: Vec<T>,
     rows: usize,
-    /// Whether an even pressure displaces nothing: of a periodic surface, whose displacements count from their mean.
+    /// True where an even pressure displaces nothing: of a periodic surface, whose displacements count from
+    /// their mean.
     from_the_mean: bool,
 }
 
@@ -75,9 +76,16 @@ impl<T: Real> Convolution<T> {
 
     /// `output` = response (or its inverse) applied to `input`, both one number per node.
     pub fn apply(&mut self, way: Way, input: &[T], output: &mut [T]) {
-        let ([nx, ny], [px, py]) = (self.nodes, self.padded);
+        self.transform_rows(input);
+        self.respond_in_columns(way);
+        self.transform_back(output);
+    }
+
+    /// Waves along x of the rows of `input`, into the spectrum.
+    fn transform_rows(&mut self, input: &[T]) {
+        let (nx, px) = (self.nodes[0], self.padded[0]);
         let width = px / 2 + 1;
-        let (along_x, back_x) = (&self.along_x, &self.back_x);
+        let along_x = &self.along_x;
         self.spectrum.par_chunks_mut(width * ROWS).enumerate().for_each_init(
             || (vec![T::zero(); px], along_x.make_scratch_vec()),
             |(line, scratch), (k, rows)| {
@@ -90,6 +98,12 @@ impl<T: Real> Convolution<T> {
                 }
             },
         );
+    }
+
+    /// The response to every wave: the columns of the spectrum along y and back, into the blocks.
+    fn respond_in_columns(&mut self, way: Way) {
+        let (ny, [px, py]) = (self.nodes[1], self.padded);
+        let width = px / 2 + 1;
         let (spectrum, along_y, back_y, response) =
             (&self.spectrum, &self.along_y, &self.back_y, &self.response);
         let scale = 1.0 / (px as f64 * py as f64);
@@ -126,6 +140,13 @@ impl<T: Real> Convolution<T> {
                 }
             },
         );
+    }
+
+    /// The rows of the blocks back from their waves along x, into `output`.
+    fn transform_back(&self, output: &mut [T]) {
+        let ([nx, ny], px) = (self.nodes, self.padded[0]);
+        let width = px / 2 + 1;
+        let back_x = &self.back_x;
         let blocks = &self.blocks;
         output.par_chunks_mut(nx * ROWS).enumerate().for_each_init(
             || (vec![T::zero(); px], vec![Complex::<T>::default(); width], back_x.make_scratch_vec()),
@@ -152,8 +173,8 @@ impl<T: Real> Convolution<T> {
     }
 }
 
-/// 2/|q| (Westergaard; Johnson 1985, ch. 13) of a periodic grid; of the even pressure that of half the least wave number, for
-/// what preconditions.
+/// 2/|q| (Westergaard; Johnson 1985, ch. 13) of a periodic grid; of the even pressure that of half the least
+/// wave number, for what preconditions.
 fn waves<T: Real>(nodes: [usize; 2], sides: [f64; 2]) -> Response<T> {
     let number = |axis: usize, k: usize| TAU * k as f64 / (nodes[axis] as f64 * sides[axis]);
     let longest = [0, 1].into_iter().filter(|axis| nodes[*axis] > 1).map(|axis| number(axis, 1));
@@ -164,7 +185,7 @@ fn waves<T: Real>(nodes: [usize; 2], sides: [f64; 2]) -> Response<T> {
     table.par_chunks_mut(rows).enumerate().for_each(|(kx, column)| {
         let x2 = number(0, kx).powi(2);
         for (ky, gain) in column.iter_mut().enumerate() {
-            *gain = T::of(2.0 / (x2 + number(1, ky).powi(2)).sqrt().max(least));
+            *gain = T::nearest(2.0 / (x2 + number(1, ky).powi(2)).sqrt().max(least));
         }
     });
     Response { table, rows, from_the_mean: true }
@@ -205,7 +226,7 @@ fn free<T: Real>(padded: [usize; 2], sides: [f64; 2]) -> Response<T> {
         let mut line: Vec<f64> = (0..py).map(|j| rows[j.min(py - j)][kx]).collect();
         let mut wave = along_y.make_output_vec();
         let _ = along_y.process(&mut line, &mut wave);
-        out.iter_mut().zip(&wave).for_each(|(to, value)| *to = T::of(value.re));
+        out.iter_mut().zip(&wave).for_each(|(to, value)| *to = T::nearest(value.re));
     });
     Response { table, rows: high, from_the_mean: false }
 }
@@ -214,7 +235,7 @@ impl<T: Real> Response<T> {
     /// Multiplies the waves of column `kx` by the response, or by its inverse, and by `scale`.
     fn multiply(&self, way: Way, kx: usize, line: &mut [Complex<T>], scale: f64) {
         let n = line.len();
-        let (half, scale) = (n / 2 + 1, T::of(scale));
+        let (half, scale) = (n / 2 + 1, T::nearest(scale));
         let table = &self.table[kx * self.rows..][..self.rows];
         let gain = |value: T| match way {
             Way::Compliance => value * scale,
@@ -251,7 +272,8 @@ mod tests {
         }
     }
 
-    /// Love 1929: 4 ln(1 + √2)/π pixels under the middle of a square pixel of unit pressure; far away that of a point force.
+    /// Love 1929: 4 ln(1 + √2)/π pixels under the middle of a square pixel of unit pressure; far away that of
+    /// a point force.
     #[test]
     fn a_loaded_pixel_sinks_as_love_says_and_nothing_returns_from_beyond_the_edge() {
         let (nodes, sides) = ([11, 7], [2.0, 0.5]);

@@ -9,13 +9,13 @@ pub(super) const CHUNK: usize = 1 << 14;
 /// `f32` for the fast stage, `f64` for the last digits.
 pub(crate) trait Real: realfft::FftNum + num_traits::Float + Default + 'static {
     /// Nearest number of this type.
-    fn of(value: f64) -> Self;
+    fn nearest(value: f64) -> Self;
     /// The same as `f64`.
     fn wide(self) -> f64;
 }
 
 impl Real for f32 {
-    fn of(value: f64) -> f32 {
+    fn nearest(value: f64) -> f32 {
         value as f32
     }
 
@@ -25,7 +25,7 @@ impl Real for f32 {
 }
 
 impl Real for f64 {
-    fn of(value: f64) -> f64 {
+    fn nearest(value: f64) -> f64 {
         value
     }
 

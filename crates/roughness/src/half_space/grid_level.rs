@@ -6,7 +6,7 @@ use crate::half_space::float::{CHUNK, Real, sums, total};
 use rayon::prelude::*;
 
 /// Height of a point that was not measured, in units of the range: no plane reaches it.
-pub(super) const MISSING: f64 = -1e6;
+pub(super) const MISSING_HEIGHT: f64 = -1e6;
 
 /// Plane held at a height, or pushed by a mean pressure over all nodes of the grid.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,7 +19,7 @@ pub(super) enum Hold {
 
 /// A grid with its heights; E* and a pixel are 1, so that a pressure is a slope.
 pub(super) struct Level<T: Real> {
-    /// Heights in units of the range of heights, row by row; a missing one is [`MISSING`].
+    /// Heights in units of the range of heights, row by row; a missing one is [`MISSING_HEIGHT`].
     pub heights: Vec<T>,
     /// Largest pressure; infinite where the half-space is elastic.
     pub limit: f64,
@@ -43,7 +43,7 @@ pub(super) struct Search<T> {
     pub residual: f64,
 }
 
-/// Whether a node may change its pressure: between the bounds, or pushed away from its bound by the gap.
+/// True where a node may change its pressure: between the bounds, or pushed away from its bound by the gap.
 #[inline]
 pub(super) fn is_free<T: Real>(pressure: T, gap: T, limit: T) -> bool {
     if pressure <= T::zero() { gap < T::zero() } else { pressure < limit || gap > T::zero() }
@@ -52,7 +52,7 @@ pub(super) fn is_free<T: Real>(pressure: T, gap: T, limit: T) -> bool {
 impl<T: Real> Level<T> {
     /// The limit in the number type.
     pub fn top(&self) -> T {
-        if self.limit.is_finite() { T::of(self.limit) } else { T::infinity() }
+        if self.limit.is_finite() { T::nearest(self.limit) } else { T::infinity() }
     }
 
     /// `output` = compliance or stiffness of `input`.
@@ -70,8 +70,9 @@ impl<T: Real> Level<T> {
             .for_each(|(lift, heights)| lift.iter_mut().zip(heights).for_each(|(u, h)| *u = *u - *h));
     }
 
-    /// The height of the plane that `hold` leaves (where a pressure is given, that with a mean gap of 0 over the nodes that are
-    /// free to change), and the nodes that it touches or overlaps. `touching` are those under pressure.
+    /// The height of the plane that `hold` leaves (where a pressure is given, that with a mean gap of 0 over
+    /// the nodes that are free to change), and the nodes that it touches or overlaps. `touching` are those
+    /// under pressure.
     pub fn plane(
         &self,
         hold: Hold,
@@ -85,30 +86,30 @@ impl<T: Real> Level<T> {
             (n > 0.0).then(|| -sum / n)
         };
         if let Hold::Plane(plane) = hold {
-            return (plane, self.near([pressure, lift], plane));
+            return (plane, self.near_contact([pressure, lift], plane));
         }
         let first = mean(touching, &|i| pressure[i] < top)
             .or(last)
             .or_else(|| mean(touching, &|_| true))
             .unwrap_or(0.0);
-        let (at, near) = (T::of(first), self.near([pressure, lift], first));
+        let (at, near) = (T::nearest(first), self.near_contact([pressure, lift], first));
         let plane = mean(&near, &|i| is_free(pressure[i], lift[i] + at, top)).unwrap_or(first);
         // a lower plane overlaps more
-        let near = if plane < first { self.near([pressure, lift], plane) } else { near };
+        let near = if plane < first { self.near_contact([pressure, lift], plane) } else { near };
         (plane, near)
     }
 
     /// The nodes under pressure, and those that overlap the plane at a height.
-    pub fn near(&self, [pressure, lift]: [&[T]; 2], plane: f64) -> Nodes {
-        let at = T::of(plane);
-        Nodes::of(pressure.len(), |i| pressure[i] > T::zero() || lift[i] + at < T::zero())
+    pub fn near_contact(&self, [pressure, lift]: [&[T]; 2], plane: f64) -> Nodes {
+        let at = T::nearest(plane);
+        Nodes::select(pressure.len(), |i| pressure[i] > T::zero() || lift[i] + at < T::zero())
     }
 
-    /// How far pressure and gap are from complementarity, over the load times the rms height: gap under pressure,
-    /// overlap without it, and overlap that a pressure below the limit would have to push away. `near` holds all nodes under
-    /// pressure or overlapping the plane.
+    /// The distance of pressure and gap from complementarity, over the load times the rms height: gap under
+    /// pressure, overlap without it, and overlap that a pressure below the limit would have to push away.
+    /// `near` holds all nodes under pressure or overlapping the plane.
     pub fn residual(&self, [pressure, lift]: [&[T]; 2], plane: f64, near: &Nodes) -> f64 {
-        let (top, at) = (self.top(), T::of(plane));
+        let (top, at) = (self.top(), T::nearest(plane));
         let [load, touching, overlapping] = near.sums(|i| {
             let flag = |holds: bool| if holds { 1.0 } else { 0.0 };
             [pressure[i].wide(), flag(pressure[i] > T::zero()), flag(lift[i] + at < T::zero())]
@@ -132,8 +133,8 @@ impl<T: Real> Level<T> {
         wrong / (load * self.rms)
     }
 
-    /// `pressure` brought to the mean pressure wanted without leaving its bounds: scaled, and where a limit cuts that, shifted
-    /// on the nodes in contact.
+    /// `pressure` brought to the mean pressure wanted without leaving its bounds: scaled, and where a limit
+    /// cuts that, shifted on the nodes in contact.
     pub fn rescale(&self, pressure: &mut [T], wanted: f64) {
         let nodes = pressure.len() as f64;
         let (limit, target) = (self.limit, wanted * nodes);
@@ -160,7 +161,7 @@ impl<T: Real> Level<T> {
                 self.spread(pressure, target - full);
                 continue;
             };
-            let (by, top) = (T::of(factor), self.top());
+            let (by, top) = (T::nearest(factor), self.top());
             pressure.par_chunks_mut(CHUNK).for_each(|part| {
                 for p in part.iter_mut().filter(|p| all || **p < top) {
                     *p = (*p * by).min(top);
@@ -176,23 +177,24 @@ impl<T: Real> Level<T> {
     pub fn rescale_on(&self, touching: Nodes, pressure: &mut [T], wanted: f64) -> Nodes {
         let [load] = touching.sums(|i| [pressure[i].wide()]);
         if load > 0.0 && self.limit.is_infinite() {
-            let by = T::of(wanted * pressure.len() as f64 / load);
+            let by = T::nearest(wanted * pressure.len() as f64 / load);
             touching.set(pressure, |_, p| p * by);
             return touching;
         }
         self.rescale(pressure, wanted);
-        Nodes::of(pressure.len(), |i| pressure[i] > T::zero())
+        Nodes::select(pressure.len(), |i| pressure[i] > T::zero())
     }
 
-    /// Adds `missing` load, evenly on the nodes without any pressure: those under pressure are all at the limit.
+    /// Adds `missing` load, evenly on the nodes without any pressure: those under pressure are all at the
+    /// limit.
     fn spread(&self, pressure: &mut [T], missing: f64) {
-        let hole = T::of(MISSING);
+        let hole = T::nearest(MISSING_HEIGHT);
         let idle = |p: T, h: T| p <= T::zero() && h > hole;
         let [n] = sums(pressure.len(), |range| {
             let pairs = pressure[range.clone()].iter().zip(&self.heights[range]);
             [pairs.filter(|(p, h)| idle(**p, **h)).count() as f64]
         });
-        let share = if n > 0.0 { T::of(missing / n).min(self.top()) } else { T::zero() };
+        let share = if n > 0.0 { T::nearest(missing / n).min(self.top()) } else { T::zero() };
         pressure
             .par_iter_mut()
             .zip(&self.heights)

@@ -1,4 +1,5 @@
-//! The contact of a surface with a plane when the body is a half-space: elastic, or elastic with a pressure cut-off (p ≤ H).
+//! The contact of a surface with a plane when the body is a half-space: elastic, or elastic with a pressure
+//! cut-off (p ≤ H).
 
 use super::area::Area;
 use super::cascade::{Answer, Task, spread};
@@ -10,13 +11,14 @@ use asperity_material::units::rounded;
 use rayon::prelude::*;
 use thiserror::Error;
 
-/// Residual of the complementarity conditions to which the contact is found unless said otherwise: the pixels in contact are
-/// then those of 1e-8 but for a few in a million, or with a limit of pressure a few in ten thousand.
+/// Residual of the complementarity conditions to which the contact is found unless said otherwise: the pixels
+/// in contact are then those of 1e-8 but for a few in a million, or with a limit of pressure a few in ten
+/// thousand.
 pub const TOLERANCE: f64 = 1e-6;
 /// The least residual that can be asked for.
-pub const FINEST: f64 = 1e-10;
+pub const FINEST_TOLERANCE: f64 = 1e-10;
 
-/// Why a half-space cannot carry a load.
+/// The reason why a half-space cannot carry a load.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum HalfSpaceError {
     /// More than the limit on every pixel.
@@ -69,7 +71,8 @@ pub struct HalfSpace {
     pub reduced_modulus: f64,
     /// Largest pressure that the metal bears, in Pa: it flows there. None of an elastic body.
     pub limit: Option<f64>,
-    /// Residual of the complementarity conditions at which the search ends: Σ p|g| over Σ p times the rms height.
+    /// Residual of the complementarity conditions at which the search ends: Σ p|g| over Σ p times the rms
+    /// height.
     pub tolerance: f64,
 }
 
@@ -80,8 +83,8 @@ pub struct HalfSpace {
 pub struct HalfSpaceContact {
     /// Nominal pressure: force over the area of the pixels used, in Pa.
     pub pressure: f64,
-    /// Plane above the mean height, in metres; displacements count from their mean where the map is periodic, else from the
-    /// half-space far away.
+    /// Plane above the mean height, in metres; displacements count from their mean where the map is periodic,
+    /// else from the half-space far away.
     pub separation: f64,
     /// Mean distance of plane and surface over the pixels used, in metres.
     pub mean_gap: f64,
@@ -111,7 +114,7 @@ pub struct HalfSpaceContact {
     pub pressures: Vec<f32>,
     /// Distance of plane and surface, in metres; 0 in contact, NaN where nothing was measured.
     pub gaps: Vec<f32>,
-    /// How far the surface was flattened by flow, in metres; empty of an elastic body.
+    /// The depth by which flow flattened the surface, in metres; empty of an elastic body.
     pub flattened: Vec<f32>,
 }
 
@@ -200,7 +203,7 @@ impl HalfSpace {
         if !(self.reduced_modulus > 0.0 && self.reduced_modulus.is_finite()) {
             return error("reduced_modulus", self.reduced_modulus, "it must be finite and above 0");
         }
-        if !(FINEST..=1e-2).contains(&self.tolerance) {
+        if !(FINEST_TOLERANCE..=1e-2).contains(&self.tolerance) {
             return error("tolerance", self.tolerance, "between 1e-10 and 0.01");
         }
         match self.limit {
@@ -279,7 +282,7 @@ impl HalfSpace {
             pressure: load * units.stress / n,
             separation: plane * units.height + units.low - units.mean,
             mean_gap: gaps * units.height / n,
-            area: Area::of(map, &pressures, [touching as usize, pixels], load / limit / n),
+            area: Area::from_pixels(map, &pressures, [touching as usize, pixels], load / limit / n),
             limited_share: if touching > 0.0 { limited / touching } else { 0.0 },
             largest_pressure: pressure.par_iter().copied().reduce(|| 0.0, f64::max) * units.stress,
             stiffness: slope.map(|s| s * units.stress / units.height / units.used),
@@ -297,7 +300,7 @@ impl HalfSpace {
     }
 }
 
-/// How far the highest point comes down when a map is flattened.
+/// The depth by which the highest point comes down when a map is flattened.
 fn lowered(map: &HeightMap, flattened: &[f32], high: f64) -> f64 {
     let left = map.heights().par_iter().zip(flattened).filter(|(z, _)| !z.is_nan());
     let highest = left.map(|(z, f)| z - f64::from(*f)).reduce(|| f64::NEG_INFINITY, f64::max);
@@ -319,6 +322,6 @@ impl HalfSpaceContact {
             return Ok(surface.clone());
         }
         let heights = surface.map.heights().iter().zip(&self.flattened).map(|(z, f)| z - f64::from(*f));
-        Surface::of(surface.map.with_heights(heights.collect())?)
+        Surface::from_map(surface.map.with_heights(heights.collect())?)
     }
 }

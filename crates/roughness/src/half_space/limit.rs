@@ -1,16 +1,17 @@
 //! The largest pressure that a metal bears under the patches of a contact.
 //!
-//! A hardness is a limit by itself. Metal of which yield stress and hardening are known bears what the atlas of cones has for a fully
-//! plastic cone, and that rises with the slope as the metal hardens. The slope is that of the patch as a whole: of the elliptic
-//! cone with the area, the second moments and the volume of the metal above the plane. The mean gradient that closures take
-//! grows with every finer wave of the map; volume and area do not.
+//! A hardness is a limit by itself. Metal of which yield stress and hardening are known bears what the atlas
+//! of cones has for a fully plastic cone, and that rises with the slope as the metal hardens. The slope is
+//! that of the patch as a whole: of the elliptic cone with the area, the second moments and the volume of the
+//! metal above the plane. The mean gradient that closures take grows with every finer wave of the map; volume
+//! and area do not.
 
 use crate::surface::cells;
 use crate::{Island, Islands, Load, Material, Surface};
 use asperity_material::cone_atlas::{Atlas, Contact, SharpCone};
 use asperity_material::{Hardening, HardeningLaw};
 
-/// Where a limit of pressure comes from.
+/// The origin of a limit of pressure.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LimitSource {
     /// The hardness.
@@ -26,17 +27,18 @@ pub enum LimitSource {
 pub struct PressureLimit {
     /// In Pa.
     pub pressure: f64,
-    /// Where it comes from.
+    /// Its origin.
     pub source: LimitSource,
 }
 
-/// Times that the slope is read anew with the limit of the last, and the change of the limit at which that ends.
-const ROUNDS: usize = 8;
-const SETTLED: f64 = 1e-3;
+/// Times that the slope is read anew with the limit of the last, and the change of the limit at which that
+/// ends.
+const LIMIT_ROUNDS: usize = 8;
+const SETTLED_LIMIT_CHANGE: f64 = 1e-3;
 
 impl PressureLimit {
-    /// That of `material`, of hardening law `law` where it names none, under patches of the slope `tan`; None where nothing of
-    /// its strength is known.
+    /// That of `material`, of hardening law `law` where it names none, under patches of the slope `tan`; None
+    /// where nothing of its strength is known.
     pub fn at_slope(material: &Material, law: HardeningLaw, tan: f64) -> Option<PressureLimit> {
         let plain = PressureLimit::plain(material)?;
         let (LimitSource::YieldStress, Some(yield_stress), Some(exponent), Some(atlas)) =
@@ -58,9 +60,9 @@ impl PressureLimit {
         Some(PressureLimit { pressure: atlas.plateau(&cone).value, source: LimitSource::Atlas(tan) })
     }
 
-    /// The same under the patches of `surface` at `load`: the islands that carry it, were each at the limit; of a separation,
-    /// those above the plane.
-    pub fn of(
+    /// The same under the patches of `surface` at `load`: the islands that carry it, were each at the limit;
+    /// of a separation, those above the plane.
+    pub fn on_surface(
         material: &Material,
         law: HardeningLaw,
         surface: &Surface,
@@ -71,7 +73,7 @@ impl PressureLimit {
         if idle || limit.source == LimitSource::Hardness || material.hardening_exponent.is_none() {
             return Some(limit);
         }
-        for _ in 0..ROUNDS {
+        for _ in 0..LIMIT_ROUNDS {
             let plane = match load {
                 Load::Separation(separation) => surface.parameters.mean + separation,
                 Load::Pressure(pressure) => plane_above(surface, pressure / limit.pressure),
@@ -80,7 +82,7 @@ impl PressureLimit {
             let next = PressureLimit::at_slope(material, law, tan)?;
             let change = (next.pressure / limit.pressure - 1.0).abs();
             limit = next;
-            if change < SETTLED {
+            if change < SETTLED_LIMIT_CHANGE {
                 break;
             }
         }
@@ -106,7 +108,7 @@ fn plane_above(surface: &Surface, share: f64) -> f64 {
 
 /// tan β of the islands of `surface` above `plane`, each counted by its area; None where nothing lies above.
 pub fn patch_slope(surface: &Surface, plane: f64) -> Option<f64> {
-    let islands = Islands::above(&surface.map, plane);
+    let islands = Islands::above_plane(&surface.map, plane);
     let map = &surface.map;
     let mut volumes = vec![0.0; islands.islands.len()];
     for row in 0..map.cell_rows() {
@@ -125,11 +127,13 @@ pub fn patch_slope(surface: &Surface, plane: f64) -> Option<f64> {
     (area > 0.0).then(|| weighted / area)
 }
 
-/// Mean gradient of the elliptic cone that has the area, the moments and the mean height of an island. One that goes on for ever over the
-/// edges of a periodic map has no ellipse: there it is the mean gradient of the map.
+/// Mean gradient of the elliptic cone that has the area, the moments and the mean height of an island. One
+/// that goes on for ever over the edges of a periodic map has no ellipse: there it is the mean gradient of
+/// the map.
 fn slope(island: &Island, mean_height: f64) -> f64 {
     let Some(ellipse) = island.ellipse else { return island.slope };
-    // of a cone the mean height is a third; the mean gradient of an elliptic one is the perimeter of an ellipse (Ramanujan 1914)
+    // of a cone the mean height is a third; the mean gradient of an elliptic one is the perimeter of an
+    // ellipse (Ramanujan 1914)
     let [p, q] = ellipse.semi_axes.map(|axis| 3.0 * mean_height / axis);
     0.5 * (3.0 * (p + q) - ((3.0 * p + q) * (p + 3.0 * q)).sqrt())
 }
@@ -152,14 +156,14 @@ mod tests {
     }
 
     fn limit(material: &Material, surface: &Surface, load: f64) -> PressureLimit {
-        PressureLimit::of(material, HardeningLaw::Hollomon, surface, Load::Pressure(load)).unwrap()
+        PressureLimit::on_surface(material, HardeningLaw::Hollomon, surface, Load::Pressure(load)).unwrap()
     }
 
     fn cones(tan: [f64; 2]) -> Surface {
         let n = 201;
         let at = |i: usize| i as f64 - 100.0;
         let z = (0..n * n).map(|i| -(at(i % n) * tan[0]).hypot(at(i / n) * tan[1]) * 1e-6).collect();
-        Surface::of(HeightMap::new(n, n, [1e-6; 2], z).unwrap()).unwrap()
+        Surface::from_map(HeightMap::new(n, n, [1e-6; 2], z).unwrap()).unwrap()
     }
 
     /// A cone has its slope, an elliptic one its mean gradient, as the island has it too.
@@ -168,7 +172,7 @@ mod tests {
         for (tan, plane) in [([0.1, 0.1], -6e-6), ([0.05, 0.2], -4e-6)] {
             let surface = cones(tan);
             let found = patch_slope(&surface, plane).unwrap();
-            let island = Islands::above(&surface.map, plane).islands[0].slope;
+            let island = Islands::above_plane(&surface.map, plane).islands[0].slope;
             // what the grid takes off the tip and the rim, and 0.1 % of Ramanujan's formula
             assert!((found / island - 1.0).abs() < 0.01, "{found} {island}");
             assert!(tan[0] != tan[1] || (found / tan[0] - 1.0).abs() < 0.01, "{found}");
@@ -180,7 +184,8 @@ mod tests {
         let surface = cones([0.1, 0.1]);
         let [perfect, hardening] = [0.0, 0.3].map(|n| limit(&metal(n), &surface, 20e6).pressure / 300e6);
         assert!((perfect / 3.0 - 1.0).abs() < 0.1, "{perfect}");
-        // three times the stress at Tabor's strain, 8 % under the 19.7° of a Vickers pyramid; his rule is good to a tenth
+        // three times the stress at Tabor's strain, 8 % under the 19.7° of a Vickers pyramid; his rule is
+        // good to a tenth
         let tabor = 3.0 * (1.0 + 700.0 * 0.08 / 0.358 * 0.1_f64).powf(0.3);
         assert!((hardening / tabor - 1.0).abs() < 0.1, "{hardening} {tabor}");
         let hardness = Material { hardness: Some(Stress(1e9)), ..metal(0.3) };
@@ -192,8 +197,8 @@ mod tests {
         assert_eq!(limit(&unknown, &surface, 20e6).source, LimitSource::YieldStress);
     }
 
-    /// A self-affine surface has a mean gradient that grows with every halving of the pixel; the limit stays within 3 %: what the finer
-    /// waves truly change of the patches, to the power of the hardening.
+    /// A self-affine surface has a mean gradient that grows with every halving of the pixel; the limit stays
+    /// within 3 %: what the finer waves truly change of the patches, to the power of the hardening.
     #[test]
     fn a_map_that_is_sampled_finer_has_the_same_limit() {
         let grid = Grid { nodes: [512; 2], pixel: [0.5e-6; 2], seed: 3 };
@@ -203,7 +208,7 @@ mod tests {
             let n = 512 / step;
             let z = (0..n * n).map(|i| fine.row(i / n * step)[i % n * step]).collect();
             let map = HeightMap::new(n, n, [0.5e-6 * step as f64; 2], z).unwrap().with_periodic(true);
-            let surface = Surface::of(map).unwrap();
+            let surface = Surface::from_map(map).unwrap();
             (surface.parameters.mean_gradient, limit(&metal(0.3), &surface, 60e6))
         };
         let found = [4, 2, 1].map(of);

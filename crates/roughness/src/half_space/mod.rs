@@ -1,12 +1,13 @@
 //! Contact of a rough surface on a half-space: all of it at once, interaction included, no closure.
 //!
-//! A rigid plane presses the surface of an elastic half-space; every pixel carries a pressure between 0 and a limit.
-//! Displacements are convolutions done by fast Fourier transforms; the pressure is searched by preconditioned projected
-//! conjugate gradients, from coarse grids to the fine one. A periodic map is one period of an endless surface; another
-//! stands free on a half-space without load around it.
+//! A rigid plane presses the surface of an elastic half-space; every pixel carries a pressure between 0 and a
+//! limit. Displacements are convolutions done by fast Fourier transforms; the pressure is searched by
+//! preconditioned projected conjugate gradients, from coarse grids to the fine one. A periodic map is one
+//! period of an endless surface; another stands free on a half-space without load around it.
 //!
-//! Sources: Stanley and Kato 1997 (periodic half-space), Polonsky and Keer 1999 (conjugate gradients), Almqvist et al. 2007
-//! (limit of pressure), Vollebregt 2014 (preconditioner), Yastrebov et al. 2017 (area from pixels).
+//! Sources: Stanley and Kato 1997 (periodic half-space), Polonsky and Keer 1999 (conjugate gradients),
+//! Almqvist et al. 2007 (limit of pressure), Vollebregt 2014 (preconditioner), Yastrebov et al. 2017 (area
+//! from pixels).
 
 mod float;
 
@@ -29,7 +30,7 @@ mod half_space_contact;
 mod limit;
 
 pub use crate::half_space::half_space_contact::{
-    FINEST, HalfSpace, HalfSpaceContact, HalfSpaceError, TOLERANCE,
+    FINEST_TOLERANCE, HalfSpace, HalfSpaceContact, HalfSpaceError, TOLERANCE,
 };
 pub use area::{Area, patches};
 pub use limit::{LimitSource, PressureLimit, patch_slope};

@@ -8,7 +8,7 @@ pub(super) struct Nodes(Vec<Vec<u32>>);
 
 impl Nodes {
     /// Those of a map of `n` nodes for which `holds`.
-    pub fn of(n: usize, holds: impl Fn(usize) -> bool + Sync) -> Nodes {
+    pub fn select(n: usize, holds: impl Fn(usize) -> bool + Sync) -> Nodes {
         let chunk = |k: usize| {
             let range = k * CHUNK..((k + 1) * CHUNK).min(n);
             range.filter(|i| holds(*i)).map(|i| i as u32).collect()

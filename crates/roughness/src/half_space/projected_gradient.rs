@@ -1,19 +1,20 @@
 //! Projected gradients with steps after Barzilai and Borwein, for contacts where most of the metal flows.
 
 use crate::half_space::float::{CHUNK, Real, total};
-use crate::half_space::grid_level::{Hold, Level, MISSING, Search};
+use crate::half_space::grid_level::{Hold, Level, MISSING_HEIGHT, Search};
 use rayon::prelude::*;
 
 /// Passes of the search for the shift of a projection.
 const PASSES: usize = 100;
 /// Relative error of the load after a projection.
-const LOAD: f64 = 1e-12;
+const LOAD_TOLERANCE: f64 = 1e-12;
 
 /// Lowers the residual of `start` to `tolerance`, at most `iterations` times; the best pressure that was met.
 ///
-/// p pressure, u = A p - h lift, P the projection on the bounds and, where it is held, on the load: one shift for all nodes,
-/// which is the plane. Each iteration: p := P(p - α u) with α = s·s/s·y or s·y/y·y in turn (Barzilai and Borwein 1988; Dai and
-/// Fletcher 2005), s and y the last changes of p and u. One convolution each, and no set of free nodes to choose.
+/// p pressure, u = A p - h lift, P the projection on the bounds and, where it is held, on the load: one shift
+/// for all nodes, which is the plane. Each iteration: p := P(p - α u) with α = s·s/s·y or s·y/y·y in turn
+/// (Barzilai and Borwein 1988; Dai and Fletcher 2005), s and y the last changes of p and u. One convolution
+/// each, and no set of free nodes to choose.
 pub(super) fn projected_gradient<T: Real>(
     level: &mut Level<T>,
     hold: Hold,
@@ -35,7 +36,7 @@ pub(super) fn projected_gradient<T: Real>(
             }
         }
         let (next, plane) = projected(level, hold, &p, &u, alpha);
-        let residual = level.residual([&p, &u], plane, &level.near([&p, &u], plane));
+        let residual = level.residual([&p, &u], plane, &level.near_contact([&p, &u], plane));
         let better = best.as_ref().is_none_or(|b| residual < b.residual);
         if better {
             best = Some(Search { pressure: p.clone(), lift: u.clone(), plane, residual });
@@ -76,7 +77,7 @@ fn changes<T: Real>(p: [&[T]; 2], u: [&[T]; 2]) -> [f64; 3] {
 
 /// P(p - α u), and the height of the plane that the shift stands for.
 fn projected<T: Real>(level: &Level<T>, hold: Hold, p: &[T], u: &[T], alpha: f64) -> (Vec<T>, f64) {
-    let (step, limit, hole) = (T::of(alpha), level.limit, T::of(MISSING));
+    let (step, limit, hole) = (T::nearest(alpha), level.limit, T::nearest(MISSING_HEIGHT));
     let mut free = vec![T::zero(); p.len()];
     free.par_chunks_mut(CHUNK)
         .zip(p.par_chunks(CHUNK).zip(u.par_chunks(CHUNK)))
@@ -90,12 +91,13 @@ fn projected<T: Real>(level: &Level<T>, hold: Hold, p: &[T], u: &[T], alpha: f64
         Hold::Plane(plane) => -alpha * plane,
         Hold::Pressure(mean) => shift(&free, mean * p.len() as f64, limit),
     };
-    let (by, top) = (T::of(shift), level.top());
+    let (by, top) = (T::nearest(shift), level.top());
     free.par_iter_mut().for_each(|v| *v = (*v + by).max(T::zero()).min(top));
     (free, -shift / alpha)
 }
 
-/// The shift after which the numbers, cut to 0..`limit`, sum to `target`: Newton's method kept in its bracket.
+/// The shift after which the numbers, cut to 0..`limit`, sum to `target`: Newton's method kept in its
+/// bracket.
 fn shift<T: Real>(values: &[T], target: f64, limit: f64) -> f64 {
     // the load at a shift, and how many nodes change it
     let carried = |shift: f64| {
@@ -121,7 +123,7 @@ fn shift<T: Real>(values: &[T], target: f64, limit: f64) -> f64 {
     let (mut at, mut stride) = (0.0, mean);
     for _ in 0..PASSES {
         let [sum, n] = carried(at);
-        if (sum - target).abs() <= LOAD * target {
+        if (sum - target).abs() <= LOAD_TOLERANCE * target {
             break;
         }
         if sum < target {

@@ -5,16 +5,18 @@ use super::convolution::Way;
 use crate::half_space::float::{Real, sums};
 use crate::half_space::grid_level::Level;
 
-/// Residual at which the search ends: the stiffness is its square better, 1e-4, while pixels change it by percents.
+/// Residual at which the search ends: the stiffness is its square better, 1e-4, while pixels change it by
+/// percents.
 const TOLERANCE: f64 = 1e-2;
 /// Iterations at most.
 const ITERATIONS: usize = 200;
 
 /// -d(mean pressure over all nodes)/d(mean gap), in the units of the solver; None without contact or gap.
 ///
-/// On the nodes in contact that are below the limit the displacement t → A t follows the plane, on the others t is 0. The
-/// change of pressure of unit mean solves A t = const there, by preconditioned conjugate gradients on a fixed set. The plane
-/// moves by that constant, and the gap by as much as surface beside the contact does not follow.
+/// On the nodes in contact that are below the limit the displacement t → A t follows the plane, on the others
+/// t is 0. The change of pressure of unit mean solves A t = const there, by preconditioned conjugate
+/// gradients on a fixed set. The plane moves by that constant, and the gap by as much as surface beside the
+/// contact does not follow.
 pub(super) fn stiffness(task: &Task, pressure: &[f64]) -> Option<f64> {
     let mut level: Level<f32> = task.level();
     let n = pressure.len();

@@ -1,6 +1,7 @@
 //! Claims of the half-space: closed forms, bounds, the same bits for any number of threads.
 //!
-//! Sources: Johnson, Contact Mechanics (1985): Hertz ch. 4, cone ch. 5 (Sneddon 1965), wave ch. 13 (Westergaard 1939).
+//! Sources: Johnson, Contact Mechanics (1985): Hertz ch. 4, cone ch. 5 (Sneddon 1965), wave ch. 13
+//! (Westergaard 1939).
 
 use super::*;
 use crate::{Grid, HeightMap, Kind, Load, Surface, Target, generate};
@@ -20,7 +21,7 @@ fn round(n: usize, pixel: f64, height: impl Fn(f64) -> f64) -> Surface {
         let (x, y) = ((i % n) as f64 - middle, (i / n) as f64 - middle);
         height(pixel * (x * x + y * y).sqrt())
     };
-    Surface::of(HeightMap::new(n, n, [pixel, pixel], (0..n * n).map(at).collect()).unwrap()).unwrap()
+    Surface::from_map(HeightMap::new(n, n, [pixel, pixel], (0..n * n).map(at).collect()).unwrap()).unwrap()
 }
 
 fn close(name: &str, found: f64, wanted: f64, tolerance: f64) {
@@ -56,8 +57,9 @@ fn a_cone_follows_sneddon() {
     close("depth", -(found.separation + surface.parameters.mean), PI / 2.0 * a * tan, 5e-3);
 }
 
-/// z = Δ cos(2πs/λ), contact of half width a: p = p* sin²(πa/λ), p* = πE*Δ/λ, largest pressure 2√(p p*). A row of flat
-/// strips yields by λ/(πE*) ln(p*/p), the integral of which is the mean gap Δ(1 - p/p* + p/p* ln(p/p*)).
+/// z = Δ cos(2πs/λ), contact of half width a: p = p* sin²(πa/λ), p* = πE*Δ/λ, largest pressure 2√(p p*). A
+/// row of flat strips yields by λ/(πE*) ln(p*/p), the integral of which is the mean gap Δ(1 - p/p* + p/p*
+/// ln(p/p*)).
 #[test]
 fn a_wave_follows_westergaard() {
     let (n, amplitude, pixel): (usize, f64, f64) = (256, 1e-6, 1e-6);
@@ -68,7 +70,7 @@ fn a_wave_follows_westergaard() {
             amplitude * (2.0 * PI * (phase + 0.3 / n as f64)).cos()
         };
         let map = HeightMap::new(n, rows, [pixel, pixel], (0..n * rows).map(z).collect()).unwrap();
-        let surface = Surface::of(map.with_periodic(true)).unwrap();
+        let surface = Surface::from_map(map.with_periodic(true)).unwrap();
         let length = n as f64 * pixel / f64::hypot(waves[0] as f64, waves[1] as f64 * n as f64 / rows as f64);
         let full = PI * MODULUS * amplitude / length;
         for share in [0.05f64, 0.3, 0.8] {
@@ -91,7 +93,8 @@ fn a_wave_follows_westergaard() {
     }
 }
 
-/// Complete elliptic integrals K and E of modulus k, by the arithmetic-geometric mean (Abramowitz and Stegun 17.6).
+/// Complete elliptic integrals K and E of modulus k, by the arithmetic-geometric mean (Abramowitz and Stegun
+/// 17.6).
 fn elliptic(k: f64) -> [f64; 2] {
     let (mut a, mut b, mut c, mut power, mut sum) = (1.0f64, (1.0 - k * k).sqrt(), k, 0.5, 0.0);
     while c.abs() > 1e-16 {
@@ -103,7 +106,8 @@ fn elliptic(k: f64) -> [f64; 2] {
     [first, first * (1.0 - sum)]
 }
 
-/// Displacement at `r` of a half-space with E* = 1 under unit pressure on a disc of radius `a` (Johnson 1985, ch. 3.4).
+/// Displacement at `r` of a half-space with E* = 1 under unit pressure on a disc of radius `a` (Johnson 1985,
+/// ch. 3.4).
 fn under_disc(r: f64, a: f64) -> f64 {
     if a <= 0.0 {
         return 0.0;
@@ -116,7 +120,8 @@ fn under_disc(r: f64, a: f64) -> f64 {
     4.0 * r / PI * (second - (1.0 - k * k) * first)
 }
 
-/// Area and approach of a sphere of curvature radius 1 whose pressure is limited, on rings: E* = 1, `force` given.
+/// Area and approach of a sphere of curvature radius 1 whose pressure is limited, on rings: E* = 1, `force`
+/// given.
 fn saturated_rings(limit: f64, force: f64, outer: f64) -> (f64, f64) {
     let m = 400;
     let width = outer / m as f64;
@@ -189,7 +194,8 @@ fn bounds_and_load_hold_and_the_flattened_surface_carries_the_same() {
         // the load is met to 1e-7
         assert!(area.corrected >= share * (1.0 - 1e-6) && area.corrected <= area.ratio, "{area:?}");
     }
-    // unloading is elastic on what the flow left: the load is carried by the same pressures, none of them above the limit
+    // unloading is elastic on what the flow left: the load is carried by the same pressures, none of them
+    // above the limit
     let left = found.flattened_surface(&surface).unwrap();
     let again = elastic(1e-7).press(&left, load).unwrap();
     close("area again", again.area.ratio, found.area.ratio, 2e-3);
@@ -205,15 +211,16 @@ fn bounds_and_load_hold_and_the_flattened_surface_carries_the_same() {
 fn rough(n: usize, periodic: bool) -> Surface {
     let grid = Grid { nodes: [n, n], pixel: [1e-6, 1e-6], seed: 7 };
     let kind = Kind::SelfAffine { hurst: 0.8, rolloff: 40e-6, cutoff: 6e-6 };
-    Surface::of(generate(kind, &grid, Target::Height(0.3e-6)).unwrap().with_periodic(periodic)).unwrap()
+    Surface::from_map(generate(kind, &grid, Target::Height(0.3e-6)).unwrap().with_periodic(periodic)).unwrap()
 }
 
-/// A free map without long waves sinks by a hundred times its heights: rounding in `f32` leaves more than the tolerance.
+/// A free map without long waves sinks by a hundred times its heights: rounding in `f32` leaves more than the
+/// tolerance.
 #[test]
 fn a_map_that_sinks_far_is_found_to_the_tolerance() {
     let grid = Grid { nodes: [256, 256], pixel: [1e-6, 1e-6], seed: 3 };
     let kind = Kind::SelfAffine { hurst: 0.2, rolloff: 4e-6, cutoff: 2e-6 };
-    let surface = Surface::of(generate(kind, &grid, Target::Slope(0.07)).unwrap()).unwrap();
+    let surface = Surface::from_map(generate(kind, &grid, Target::Slope(0.07)).unwrap()).unwrap();
     let found = elastic(TOLERANCE).press(&surface, Load::Pressure(0.01 * MODULUS)).unwrap();
     assert!(found.residual <= TOLERANCE && found.convolutions < 400, "{found:?}");
 }
@@ -238,7 +245,7 @@ fn holes_carry_nothing_and_extremes_have_an_answer() {
     let surface = rough(64, false);
     let mut heights = surface.map.heights().to_vec();
     heights[..64 * 20].fill(f64::NAN);
-    let holed = Surface::of(surface.map.with_heights(heights).unwrap()).unwrap();
+    let holed = Surface::from_map(surface.map.with_heights(heights).unwrap()).unwrap();
     let found = elastic(1e-6).press(&holed, Load::Pressure(1e9)).unwrap();
     assert!(found.pressures[..64 * 20].iter().all(|p| *p == 0.0) && found.gaps[0].is_nan());
     close("load on what is used", found.pressure, 1e9, 1e-6);
@@ -252,7 +259,7 @@ fn holes_carry_nothing_and_extremes_have_an_answer() {
     let periodic = rough(64, true);
     let below = elastic(1e-6).press(&periodic, Load::Separation(-1e-7));
     assert!(matches!(below, Err(HalfSpaceError::Closed { .. })));
-    let flat = Surface::of(HeightMap::new(40, 3, [1e-6, 1e-3], vec![1e-6; 120]).unwrap()).unwrap();
+    let flat = Surface::from_map(HeightMap::new(40, 3, [1e-6, 1e-3], vec![1e-6; 120]).unwrap()).unwrap();
     assert_eq!(elastic(1e-6).press(&flat, Load::Pressure(1e6)).unwrap().area.ratio, 1.0);
     for bad in [HalfSpace { reduced_modulus: f64::NAN, ..soft }, HalfSpace { tolerance: 0.0, ..soft }] {
         assert!(matches!(bad.press(&surface, Load::Pressure(1e6)), Err(HalfSpaceError::Value { .. })));

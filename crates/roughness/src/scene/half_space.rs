@@ -2,13 +2,14 @@
 
 use super::SceneError;
 use super::error::error;
-use crate::half_space::{FINEST, TOLERANCE};
+use crate::half_space::{FINEST_TOLERANCE, TOLERANCE};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Most points of the load curve of a half-space.
 const MOST_POINTS: usize = 8;
-/// Points of the load curve by default on maps of up to so many nodes; on larger ones each costs minutes, and there is one.
+/// Points of the load curve by default on maps of up to so many nodes; on larger ones each costs minutes, and
+/// there is one.
 const USUAL_POINTS: [(usize, usize); 2] = [(512 * 512, MOST_POINTS), (1024 * 1024, 6)];
 
 /// How the half-space is solved.
@@ -29,7 +30,7 @@ pub struct HalfSpaceScene {
 }
 
 impl HalfSpaceScene {
-    /// Whether nothing was said.
+    /// True where nothing was said.
     pub fn is_default(&self) -> bool {
         *self == HalfSpaceScene::default()
     }
@@ -46,7 +47,7 @@ impl HalfSpaceScene {
     }
 
     pub(super) fn validate(&self) -> Result<(), SceneError> {
-        if let Some(t) = self.tolerance.filter(|t| !(FINEST..=1e-2).contains(t)) {
+        if let Some(t) = self.tolerance.filter(|t| !(FINEST_TOLERANCE..=1e-2).contains(t)) {
             let message = format!("{t:e} must be between 1e-10 and 0.01: leave the key out for 1e-6");
             return error("half_space.tolerance", message);
         }

@@ -180,14 +180,15 @@ impl SurfaceScene {
         }
     }
 
-    /// Reads or makes the surface and prepares it: outliers, holes, S-filter, levelling, L-filter, in this order.
+    /// Reads or makes the surface and prepares it: outliers, holes, S-filter, levelling, L-filter, in this
+    /// order.
     ///
     /// `resolve` turns a path of the scene into one that can be opened.
     ///
     /// # Errors
     /// A file that is no surface, units that are missing or contradict it, a filter that does not fit it.
     pub fn prepare(&self, resolve: impl Fn(&Path) -> PathBuf) -> Result<Surface, SceneError> {
-        fn at<E: ToString>(path: &'static str) -> impl Fn(E) -> SceneError {
+        fn error_at<E: ToString>(path: &'static str) -> impl Fn(E) -> SceneError {
             move |e| SceneError::new(path, e)
         }
         let source = if self.generate.is_some() { "surface.generate" } else { "surface.file" };
@@ -201,7 +202,7 @@ impl SurfaceScene {
             (None, Some(measured), _) => self.in_metres(measured.clone())?,
             (None, None, Some(made)) => {
                 let (kind, grid, target) = made.request()?;
-                generate::generate(kind, &grid, target).map_err(at(source))?
+                generate::generate(kind, &grid, target).map_err(error_at(source))?
             }
             (None, None, None) => return error("surface", "name a file, or add a [surface.generate] table"),
         };
@@ -218,17 +219,17 @@ impl SurfaceScene {
             return error(source, e);
         }
         if fill {
-            map = filter::fill(&map).map_err(at("surface.missing"))?;
+            map = filter::fill(&map).map_err(error_at("surface.missing"))?;
         }
         if let Some(cutoff) = self.s_filter {
-            map = filter::s_filter(&map, cutoff.0).map_err(at("surface.s_filter"))?;
+            map = filter::s_filter(&map, cutoff.0).map_err(error_at("surface.s_filter"))?;
         }
         let default = if self.generate.is_some() { Levelling::None } else { Levelling::Plane };
         map = level::level(map, self.level.unwrap_or(default));
         if let Some(cutoff) = self.l_filter {
-            map = filter::l_filter(&map, cutoff.0).map_err(at("surface.l_filter"))?;
+            map = filter::l_filter(&map, cutoff.0).map_err(error_at("surface.l_filter"))?;
         }
-        let surface = Surface { missing, outliers, ..Surface::of(map).map_err(at(source))? };
+        let surface = Surface { missing, outliers, ..Surface::from_map(map).map_err(error_at(source))? };
         let parameters = &surface.parameters;
         if ![parameters.sa, parameters.sdq, parameters.mean].iter().all(|v| v.is_finite()) {
             return error(source, "the heights are too large to compute with: check height_unit");

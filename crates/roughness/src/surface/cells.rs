@@ -1,9 +1,9 @@
 //! One cell of the map: four triangles about the mean of its corners, cut by a plane of constant height.
 //!
-//! Corners run around the cell, (0,0), (1,0), (1,1), (0,1) in pixels; side s joins corners s and s+1, and triangle s
-//! stands on side s with its tip in the middle. Each triangle is a quarter of the cell.
+//! Corners run around the cell, (0,0), (1,0), (1,1), (0,1) in pixels; side s joins corners s and s+1, and
+//! triangle s stands on side s with its tip in the middle. Each triangle is a quarter of the cell.
 
-/// Where the corners are, in pixels.
+/// Positions of the corners, in pixels.
 const CORNERS: [[f64; 2]; 4] = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
 const CENTRE: [f64; 2] = [0.5, 0.5];
 
@@ -92,7 +92,7 @@ pub(crate) fn mean_above(corners: &[f64; 4]) -> f64 {
 
 /// Area above 0 and ∫|∇h| over it, in cells, of a cell whose corner heights are relative to the plane.
 #[inline]
-pub(crate) fn above(corners: &[f64; 4], inverse_pixel: [f64; 2]) -> (f64, f64) {
+pub(crate) fn area_above(corners: &[f64; 4], inverse_pixel: [f64; 2]) -> (f64, f64) {
     let middle = centre(corners);
     let slope = gradients(corners, inverse_pixel);
     let mut area = 0.0;
@@ -232,7 +232,7 @@ mod tests {
         fn above_and_below_make_the_whole_cell(z in prop::array::uniform4(-1.0..1.0f64)) {
             let whole = moments_above(&z.map(|v| v + 3.0), 15, [1.0, 2.0]);
             let mut sum = moments_above(&z, 15, [1.0, 2.0]);
-            let (area, slope_area) = above(&z, [1.0, 2.0]);
+            let (area, slope_area) = area_above(&z, [1.0, 2.0]);
             prop_assert!((sum.area - area).abs() < 1e-14 && (sum.slope_area - slope_area).abs() < 1e-13);
             sum.add(&moments_above(&z.map(|v| -v), 15, [1.0, 2.0]));
             for (a, b) in [(sum.area, whole.area), (sum.slope_area, whole.slope_area), (sum.x, whole.x),

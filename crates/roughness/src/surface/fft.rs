@@ -19,8 +19,8 @@ pub(crate) fn good_length(least: usize) -> usize {
     (least.max(2)..).find(|n| n.is_multiple_of(2) && smooth(*n)).unwrap_or(least)
 }
 
-/// Both passes of a transform of a map with rows of `columns` numbers; the result is transposed. There and back
-/// multiplies by the number of nodes.
+/// Both passes of a transform of a map with rows of `columns` numbers; the result is transposed. There and
+/// back multiplies by the number of nodes.
 fn both(mut data: Vec<Complex64>, columns: usize, direction: FftDirection) -> Vec<Complex64> {
     let mut planner = FftPlanner::new();
     let rows = data.len() / columns;

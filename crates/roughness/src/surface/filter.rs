@@ -5,7 +5,7 @@ use crate::surface::height_map::{HeightMap, MapError};
 use rayon::prelude::*;
 use thiserror::Error;
 
-/// Why a filter cannot be applied.
+/// The reason why a filter cannot be applied.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum FilterError {
     /// The cut-off does not fit the map.
@@ -13,7 +13,7 @@ pub enum FilterError {
         "{name} = {cutoff_um} µm must be between two pixels ({least_um} µm) and the size of the map ({most_um} µm)"
     )]
     Cutoff {
-        /// Which filter.
+        /// The filter.
         name: &'static str,
         /// Its cut-off, µm.
         cutoff_um: f64,
@@ -59,12 +59,12 @@ pub fn l_filter(map: &HeightMap, cutoff: f64) -> Result<HeightMap, FilterError> 
 
 /// Mean of the measured heights around each measured node, weighted by the Gaussian of `cutoff`.
 ///
-/// Beyond an edge and in a hole the weight is 0, so that the mean is of what was measured. Without holes the weights are those
-/// of a row times those of a column.
+/// Beyond an edge and in a hole the weight is 0, so that the mean is of what was measured. Without holes the
+/// weights are those of a row times those of a column.
 fn smoothed(map: &HeightMap, cutoff: f64) -> Vec<f64> {
     let (columns, rows) = (map.columns(), map.rows());
     let reference = map.heights().iter().copied().find(|z| !z.is_nan()).unwrap_or(0.0);
-    let [along_x, along_y] = map.pixel().map(|pixel| Gaussian::of(cutoff / pixel));
+    let [along_x, along_y] = map.pixel().map(|pixel| Gaussian::with_cutoff(cutoff / pixel));
     let blurred = |mut data: Vec<f64>| {
         along_x.along_rows(&mut data, columns, map.periodic());
         along_y.along_columns(data, columns, map.periodic())
@@ -95,8 +95,8 @@ fn smoothed(map: &HeightMap, cutoff: f64) -> Vec<f64> {
 /// Relaxation sweeps after the first fill.
 const SWEEPS: usize = 60;
 
-/// Fills the holes smoothly from their rims: coarser and coarser means, then relaxation towards the mean of the
-/// neighbours. A map without any height stays as it is.
+/// Fills the holes smoothly from their rims: coarser and coarser means, then relaxation towards the mean of
+/// the neighbours. A map without any height stays as it is.
 ///
 /// # Errors
 /// None for a map that exists: its grid is kept.
@@ -125,7 +125,8 @@ pub fn fill(map: &HeightMap) -> Result<HeightMap, MapError> {
     map.with_heights(heights)
 }
 
-/// Heights with every hole filled from a map of half the size, in which a node is the mean of its measured four.
+/// Heights with every hole filled from a map of half the size, in which a node is the mean of its measured
+/// four.
 fn fill_from_coarser(heights: &[f64], columns: usize, rows: usize) -> Vec<f64> {
     if !heights.iter().any(|z| z.is_nan()) {
         return heights.to_vec();

@@ -1,7 +1,7 @@
 //! Convolution of a map with a Gaussian, a line at a time.
 //!
-//! Narrow Gaussians are summed directly, wide ones multiplied in the spectrum of real lines, padded to lengths that transform
-//! fast.
+//! Narrow Gaussians are summed directly, wide ones multiplied in the spectrum of real lines, padded to
+//! lengths that transform fast.
 
 use super::fft::good_length;
 use asperity_numerics::transpose::transposed;
@@ -10,8 +10,9 @@ use realfft::RealFftPlanner;
 use realfft::num_complex::Complex64;
 use std::f64::consts::{LN_2, PI};
 
-/// Reach in pixels up to which the sum is quicker than the transform (measured at 4096 pixels a line: equal at about 60).
-const DIRECT: usize = 48;
+/// Reach in pixels up to which the sum is quicker than the transform (measured at 4096 pixels a line: equal
+/// at about 60).
+const DIRECT_SUM_REACH: usize = 48;
 /// Rows that one task sums into.
 const ROWS: usize = 8;
 
@@ -22,7 +23,7 @@ pub(super) struct Gaussian {
 
 impl Gaussian {
     /// That of a filter with this cut-off, in pixels (ISO 16610-21).
-    pub fn of(cutoff: f64) -> Gaussian {
+    pub fn with_cutoff(cutoff: f64) -> Gaussian {
         let alpha = (LN_2 / PI).sqrt();
         // at one cut-off from its middle the weight is 7e-7
         let reach = cutoff.ceil() as usize;
@@ -36,9 +37,10 @@ impl Gaussian {
         self.weights.len() - 1
     }
 
-    /// Convolves every line of `length` numbers; what lies beyond its ends is the line again if `periodic`, else 0.
+    /// Convolves every line of `length` numbers; what lies beyond its ends is the line again if `periodic`,
+    /// else 0.
     pub fn along_rows(&self, data: &mut [f64], length: usize, periodic: bool) {
-        if self.reach() <= DIRECT {
+        if self.reach() <= DIRECT_SUM_REACH {
             self.sum_rows(data, length, periodic);
         } else {
             self.transform_rows(data, length, periodic);
@@ -47,7 +49,7 @@ impl Gaussian {
 
     /// The same down the columns of a map with rows of `columns` numbers.
     pub fn along_columns(&self, data: Vec<f64>, columns: usize, periodic: bool) -> Vec<f64> {
-        if self.reach() <= DIRECT {
+        if self.reach() <= DIRECT_SUM_REACH {
             return self.sum_columns(&data, columns, periodic);
         }
         let rows = data.len() / columns;
@@ -156,7 +158,7 @@ mod tests {
             (97, 40.0, true),
         ] {
             let map: Vec<f64> = (0..length * 20).map(|i| ((i * i) as f64).sin()).collect();
-            let gaussian = Gaussian::of(cutoff);
+            let gaussian = Gaussian::with_cutoff(cutoff);
             let (mut sums, mut waves) = (map.clone(), map.clone());
             gaussian.sum_rows(&mut sums, length, periodic);
             gaussian.transform_rows(&mut waves, length, periodic);

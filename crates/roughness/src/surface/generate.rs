@@ -1,7 +1,8 @@
-//! Surfaces made from random numbers: self-affine, and three that look like ground, milled and sanded metal surfaces.
+//! Surfaces made from random numbers: self-affine, and three that look like ground, milled and sanded metal
+//! surfaces.
 //!
-//! Every kind is a shape that depends on one length; the length is searched so that the mean slope belongs to the
-//! arithmetic mean height, and the heights are then scaled. The random numbers depend on the seed alone.
+//! Every kind is a shape that depends on one length; the length is searched so that the mean slope belongs to
+//! the arithmetic mean height, and the heights are then scaled. The random numbers depend on the seed alone.
 
 use crate::surface::fft;
 use crate::surface::height_map::{HeightMap, MapError};
@@ -13,7 +14,7 @@ use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 use thiserror::Error;
 
-/// Why a surface cannot be made.
+/// The reason why a surface cannot be made.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum GenerateError {
     /// Height and slope do not go together on this grid.
@@ -59,7 +60,8 @@ pub enum Kind {
     Milled,
     /// Isotropic.
     Sanded,
-    /// Isotropic Gaussian, spectrum flat above the wavelength `rolloff`, (1/λ)^(-2-2H) down to `cutoff`, nothing below.
+    /// Isotropic Gaussian, spectrum flat above the wavelength `rolloff`, (1/λ)^(-2-2H) down to `cutoff`,
+    /// nothing below.
     SelfAffine {
         /// Hurst exponent H in (0, 1].
         hurst: f64,
@@ -92,18 +94,19 @@ pub struct Grid {
     pub seed: u64,
 }
 
-/// How well height and slope are met, relative.
-const MATCH: f64 = 1e-5;
+/// The accuracy to which height and slope are met, relative.
+const MATCH_TOLERANCE: f64 = 1e-5;
 /// Hurst exponent of the machined surfaces.
 const HURST: f64 = 0.8;
-/// How many times longer than wide the scratches of a ground surface are.
-const LAY: f64 = 16.0;
+/// Length over width of the scratches of a ground surface.
+const LAY_RATIO: f64 = 16.0;
 /// Longest over shortest wave of the machined surfaces.
 const OCTAVES: f64 = 16.0;
 /// Sq of the roughness on feed marks over that of the marks.
-const MARKED: f64 = 0.12;
+const ROUGHNESS_ON_MARKS: f64 = 0.12;
 
-/// Normally distributed numbers (Box and Muller), the same for a seed on every machine up to rounding of ln and cos.
+/// Normally distributed numbers (Box and Muller), the same for a seed on every machine up to rounding of ln
+/// and cos.
 fn noise(seed: u64, count: usize) -> Vec<f64> {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let mut uniform = || (random.next_u64() >> 11) as f64 * (0.5f64).powi(53);
@@ -146,7 +149,7 @@ pub fn generate(kind: Kind, grid: &Grid, target: Target) -> Result<HeightMap, Ge
 
 /// The surface of these heights.
 fn on_grid(grid: &Grid, heights: Vec<f64>) -> Result<Surface, MapError> {
-    Surface::of(HeightMap::new(grid.nodes[0], grid.nodes[1], grid.pixel, heights)?)
+    Surface::from_map(HeightMap::new(grid.nodes[0], grid.nodes[1], grid.pixel, heights)?)
 }
 
 /// The shorter side of the map.
@@ -154,7 +157,8 @@ fn span(grid: &Grid) -> f64 {
     (grid.nodes[0] as f64 * grid.pixel[0]).min(grid.nodes[1] as f64 * grid.pixel[1])
 }
 
-/// The shape whose Ra over mean slope is `ra`/`slope`: the ratio grows with the longest wave, which is searched.
+/// The shape whose Ra over mean slope is `ra`/`slope`: the ratio grows with the longest wave, which is
+/// searched.
 fn matched(kind: Kind, grid: &Grid, noise: &[f64], ra: f64, slope: f64) -> Result<Vec<f64>, GenerateError> {
     let wanted = ra / slope;
     let ratio = |wave: f64| -> Result<(f64, Vec<f64>), GenerateError> {
@@ -180,7 +184,7 @@ fn matched(kind: Kind, grid: &Grid, noise: &[f64], ra: f64, slope: f64) -> Resul
     let mut wave = (7.0 * wanted).clamp(low, high);
     for _ in 0..60 {
         let (found, shape) = ratio(wave)?;
-        if (found / wanted - 1.0).abs() < MATCH || high - low < 1e-12 * high {
+        if (found / wanted - 1.0).abs() < MATCH_TOLERANCE || high - low < 1e-12 * high {
             return Ok(shape);
         }
         if found < wanted {
@@ -199,12 +203,12 @@ fn machined(kind: Kind, grid: &Grid, noise: &[f64], wave: f64) -> Vec<f64> {
     let pixel = grid.pixel[0].max(grid.pixel[1]);
     let waves = |longest: f64| [longest, (longest / OCTAVES).max(4.0 * pixel).min(0.9 * longest)];
     match kind {
-        Kind::Ground => self_affine(noise, grid, HURST, waves(wave), LAY, End::Fading),
+        Kind::Ground => self_affine(noise, grid, HURST, waves(wave), LAY_RATIO, End::Fading),
         Kind::Milled => {
             let marks = feed_marks(grid, wave);
             let rough = self_affine(noise, grid, HURST, waves(0.5 * wave), 1.0, End::Fading);
             let spread = |z: &[f64]| (z.iter().map(|v| v * v).sum::<f64>() / z.len() as f64).sqrt();
-            let share = MARKED * spread(&marks) / spread(&rough).max(f64::MIN_POSITIVE);
+            let share = ROUGHNESS_ON_MARKS * spread(&marks) / spread(&rough).max(f64::MIN_POSITIVE);
             marks.iter().zip(rough).map(|(m, r)| m + share * r).collect()
         }
         Kind::Sanded | Kind::SelfAffine { .. } => {
@@ -213,7 +217,7 @@ fn machined(kind: Kind, grid: &Grid, noise: &[f64], wave: f64) -> Vec<f64> {
     }
 }
 
-/// How a spectrum ends at its shortest wave.
+/// The way a spectrum ends at its shortest wave.
 #[derive(Clone, Copy, PartialEq)]
 enum End {
     /// Nothing below.
@@ -292,7 +296,7 @@ mod tests {
         {
             for seed in 1..4 {
                 let map = generate(kind, &grid(512, seed), Target::Both(ra, deg.to_radians().tan())).unwrap();
-                let numbers = Parameters::of(&map, &map.extent().unwrap());
+                let numbers = Parameters::measure(&map, &map.extent().unwrap());
                 assert!((numbers.sa / ra - 1.0).abs() < 1e-9, "{kind:?}");
                 assert!((numbers.beta_deg() / deg - 1.0).abs() < 2e-5, "{kind:?} {}", numbers.beta_deg());
                 let ratio = numbers.mean_slope_x / numbers.mean_gradient;
@@ -317,7 +321,7 @@ mod tests {
     fn a_self_affine_surface_is_gaussian_and_isotropic() {
         let kind = Kind::SelfAffine { hurst: 0.8, rolloff: 100e-6, cutoff: 20e-6 };
         let map = generate(kind, &grid(1024, 3), Target::Slope(0.1)).unwrap();
-        let n = Parameters::of(&map, &map.extent().unwrap());
+        let n = Parameters::measure(&map, &map.extent().unwrap());
         assert!((n.mean_gradient - 0.1).abs() < 1e-12);
         assert!(
             (n.mean_gradient / n.rms_gradient - 0.886).abs() < 0.01

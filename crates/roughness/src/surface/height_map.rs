@@ -13,7 +13,7 @@ pub(crate) fn chunks<T: Send>(rows: usize, of: impl Fn(Range<usize>) -> T + Sync
     (0..rows.div_ceil(ROWS_PER_CHUNK)).into_par_iter().map(chunk).collect()
 }
 
-/// Why numbers are not a height map.
+/// The reason why numbers are not a height map.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum MapError {
     /// The shape does not hold the heights.
@@ -69,12 +69,14 @@ pub struct HeightMap {
 }
 
 impl HeightMap {
-    /// A map of `columns` nodes along x and `rows` along y; `heights` (m) row by row, `pixel` = spacing along x and y (m).
+    /// A map of `columns` nodes along x and `rows` along y; `heights` (m) row by row, `pixel` = spacing along
+    /// x and y (m).
     ///
     /// Heights that are not finite count as missing.
     ///
     /// # Errors
-    /// A number of heights that is not that of the nodes or too large, or a spacing that is not finite and above 0.
+    /// A number of heights that is not that of the nodes or too large, or a spacing that is not finite and
+    /// above 0.
     pub fn new(
         columns: usize,
         rows: usize,
@@ -120,12 +122,12 @@ impl HeightMap {
         &self.heights
     }
 
-    /// How many nodes have no height.
+    /// The number of nodes that have no height.
     pub fn missing(&self) -> usize {
         self.missing
     }
 
-    /// Whether the map repeats beyond its edges.
+    /// True where the map repeats beyond its edges.
     pub fn periodic(&self) -> bool {
         self.periodic
     }

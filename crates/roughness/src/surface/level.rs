@@ -115,8 +115,8 @@ fn row_powers(x: &[f64], measured: impl Fn(usize) -> bool) -> [f64; 5] {
 
 /// Normal equations by elimination with diagonal pivots; a term the nodes cannot tell apart gets 0.
 ///
-/// `asperity_numerics::least_squares` takes a row per point: for a map of 10^8 nodes the separable sums are ten times cheaper,
-/// and it refuses dependent terms, which a single row of nodes always has.
+/// `asperity_numerics::least_squares` takes a row per point: for a map of 10^8 nodes the separable sums are
+/// ten times cheaper, and it refuses dependent terms, which a single row of nodes always has.
 fn solve(terms: usize, sums: &Sums) -> [f64; 6] {
     let mut a = [[0.0; 7]; 6];
     for i in 0..terms {

@@ -4,14 +4,15 @@ use crate::surface::height_map::HeightMap;
 use rayon::prelude::*;
 
 /// 1.4826 times the median of the absolute values of a normal variable is its standard deviation.
-const ROBUST: f64 = 1.4826;
+const ROBUST_DEVIATION: f64 = 1.4826;
 /// Points that the scatter is taken from, at most.
-const SAMPLED: usize = 1 << 20;
+const SAMPLED_POINTS: usize = 1 << 20;
 
 /// The map without outliers, which become missing, and how many there were.
 ///
-/// A point is an outlier if it lies further from the median of its eight neighbours than `limit` standard deviations of that
-/// distance over the map, the deviation by the median of the absolute values, which outliers do not move.
+/// A point is an outlier if it lies further from the median of its eight neighbours than `limit` standard
+/// deviations of that distance over the map, the deviation by the median of the absolute values, which
+/// outliers do not move.
 pub(crate) fn without(map: HeightMap, limit: f64) -> (HeightMap, usize) {
     let columns = map.columns();
     let off: Vec<f64> = (0..map.rows())
@@ -21,7 +22,7 @@ pub(crate) fn without(map: HeightMap, limit: f64) -> (HeightMap, usize) {
             (0..columns).map(move |column| off_median(map, column, row))
         })
         .collect();
-    let stride = (off.len() / SAMPLED).max(1);
+    let stride = (off.len() / SAMPLED_POINTS).max(1);
     let mut sample: Vec<f64> = off.iter().step_by(stride).map(|d| d.abs()).filter(|d| !d.is_nan()).collect();
     if sample.is_empty() {
         return (map, 0);
@@ -30,7 +31,7 @@ pub(crate) fn without(map: HeightMap, limit: f64) -> (HeightMap, usize) {
     let median = *sample.select_nth_unstable_by(middle, f64::total_cmp).1;
     // of a map that is mostly flat, the root mean square in its place
     let rms = (sample.iter().map(|d| d * d).sum::<f64>() / sample.len() as f64).sqrt();
-    let deviation = if median > 0.0 { ROBUST * median } else { rms };
+    let deviation = if median > 0.0 { ROBUST_DEVIATION * median } else { rms };
     let most = limit * deviation;
     let count = off.par_iter().filter(|d| d.abs() > most).count();
     let cleaned = map.mapped(|row, heights| {
@@ -40,7 +41,8 @@ pub(crate) fn without(map: HeightMap, limit: f64) -> (HeightMap, usize) {
     (cleaned.recounted(), count)
 }
 
-/// Height above the median of the measured ones among the eight neighbours; NaN where the point or all of them are missing.
+/// Height above the median of the measured ones among the eight neighbours; NaN where the point or all of
+/// them are missing.
 fn off_median(map: &HeightMap, column: usize, row: usize) -> f64 {
     let mut around = [0.0; 8];
     let mut count = 0;

@@ -24,8 +24,8 @@ pub struct Parameters {
     pub sv: f64,
     /// Highest minus lowest node (ISO 25178-2).
     pub sz: f64,
-    /// Root mean square gradient, by the derivative of seven points (ISO 25178-2); that of the piecewise linear surface where
-    /// no node has three measured neighbours on each side along both axes.
+    /// Root mean square gradient, by the derivative of seven points (ISO 25178-2); that of the piecewise
+    /// linear surface where no node has three measured neighbours on each side along both axes.
     pub sdq: f64,
     /// Developed over projected area, less 1, by the same derivative (ISO 25178-2).
     pub sdr: f64,
@@ -44,7 +44,7 @@ impl Parameters {
     }
 
     /// The numbers of `map`; `extent` is its own.
-    pub fn of(map: &HeightMap, extent: &Extent) -> Parameters {
+    pub fn measure(map: &HeightMap, extent: &Extent) -> Parameters {
         let nodes = (map.heights().len() - map.missing()) as f64;
         let reference = 0.5 * (extent.low + extent.high);
         let above = |part: &[f64]| part.iter().filter(|z| !z.is_nan()).map(|z| z - reference).sum::<f64>();
@@ -132,30 +132,34 @@ fn linear_developed(map: &HeightMap, extent: &Extent) -> f64 {
 }
 
 /// Weights of the nodes 1, 2 and 3 away in a derivative, times 60 (ISO 25178-2).
-const SEVEN: [f64; 3] = [45.0, -9.0, 1.0];
+const SEVEN_POINT_WEIGHTS: [f64; 3] = [45.0, -9.0, 1.0];
 
-/// 60 times the derivative along a line, per pixel; the nodes near the ends of one that is not periodic keep what they had.
+/// 60 times the derivative along a line, per pixel; the nodes near the ends of one that is not periodic keep
+/// what they had.
 fn slopes_of_seven(line: &[f64], periodic: bool, slopes: &mut [f64]) {
-    let reach = SEVEN.len();
+    let reach = SEVEN_POINT_WEIGHTS.len();
     let n = line.len();
     let inner = slopes[reach..n - reach].iter_mut().zip(line.windows(2 * reach + 1));
     inner.for_each(|(slope, z)| {
-        *slope = SEVEN[0] * (z[4] - z[2]) + SEVEN[1] * (z[5] - z[1]) + SEVEN[2] * (z[6] - z[0]);
+        *slope = SEVEN_POINT_WEIGHTS[0] * (z[4] - z[2])
+            + SEVEN_POINT_WEIGHTS[1] * (z[5] - z[1])
+            + SEVEN_POINT_WEIGHTS[2] * (z[6] - z[0]);
     });
     if periodic {
         for i in (0..reach).chain(n - reach..n) {
-            let sides =
-                (1..).zip(SEVEN).map(|(k, weight)| weight * (line[(i + k) % n] - line[(i + n - k) % n]));
+            let sides = (1..)
+                .zip(SEVEN_POINT_WEIGHTS)
+                .map(|(k, weight)| weight * (line[(i + k) % n] - line[(i + n - k) % n]));
             slopes[i] = sides.sum();
         }
     }
 }
 
-/// Means of |∇h|² and of √(1 + |∇h|²) - 1 over the nodes with three measured neighbours on each side along both axes; `None`
-/// where there is no such node.
+/// Means of |∇h|² and of √(1 + |∇h|²) - 1 over the nodes with three measured neighbours on each side along
+/// both axes; `None` where there is no such node.
 fn seven_points(map: &HeightMap) -> Option<[f64; 2]> {
     let (columns, rows) = (map.columns(), map.rows());
-    let reach = SEVEN.len();
+    let reach = SEVEN_POINT_WEIGHTS.len();
     // beyond the edges of a periodic map its other side; elsewhere a border is left out
     let border = if map.periodic() { 0 } else { reach };
     if columns <= 2 * reach || rows <= 2 * reach {
@@ -170,7 +174,7 @@ fn seven_points(map: &HeightMap) -> Option<[f64; 2]> {
             slopes_of_seven(map.row(row), map.periodic(), &mut x);
             let beside = |step: i64| map.row((row as i64 + step).rem_euclid(rows as i64) as usize);
             y.fill(0.0);
-            for (k, weight) in (1..).zip(SEVEN) {
+            for (k, weight) in (1..).zip(SEVEN_POINT_WEIGHTS) {
                 let sides = beside(k).iter().zip(beside(-k));
                 y.iter_mut().zip(sides).for_each(|(y, (a, b))| *y += weight * (a - b));
             }
@@ -233,12 +237,12 @@ mod tests {
                     (squared, developed, n) = (squared + g, developed + (1.0 + g).sqrt() - 1.0, n + 1.0);
                 }
             }
-            let r = Parameters::of(&map, &map.extent().unwrap());
+            let r = Parameters::measure(&map, &map.extent().unwrap());
             assert!((r.sdq - (squared / n).sqrt()).abs() < 1e-12, "{periodic} {holes}");
             assert!((r.sdr - developed / n).abs() < 1e-12 && r.rms_gradient != r.sdq);
         }
         let small = HeightMap::new(6, 9, [1.0, 1.0], z[..54].to_vec()).unwrap();
-        let r = Parameters::of(&small, &small.extent().unwrap());
+        let r = Parameters::measure(&small, &small.extent().unwrap());
         assert!(r.sdq == r.rms_gradient && r.sdr > 0.0);
     }
 
@@ -247,14 +251,14 @@ mod tests {
         let plane: Vec<f64> =
             (0..30 * 20).map(|i| 0.3 * (i % 30) as f64 - 0.4 * 2.0 * (i / 30) as f64).collect();
         let map = HeightMap::new(30, 20, [1.0, 2.0], plane).unwrap();
-        let r = Parameters::of(&map, &map.extent().unwrap());
+        let r = Parameters::measure(&map, &map.extent().unwrap());
         assert!((r.mean_gradient - 0.5).abs() < 1e-13 && (r.sdq - 0.5).abs() < 1e-13);
         assert!((r.sdr - (1.25f64.sqrt() - 1.0)).abs() < 1e-13 && (r.sp + r.sv - r.sz).abs() < 1e-13);
         assert!((r.mean_slope_x - 0.3).abs() < 1e-13);
         let n = 512;
         let wave = (0..n * 2).map(|i| (std::f64::consts::TAU * (i % n) as f64 / n as f64).sin()).collect();
         let map = HeightMap::new(n, 2, [1.0, 1.0], wave).unwrap().with_periodic(true);
-        let r = Parameters::of(&map, &map.extent().unwrap());
+        let r = Parameters::measure(&map, &map.extent().unwrap());
         // Sa = 2/π, Sq = 1/√2, Ssk 0, Sku 3/2, mean slope 4 amplitudes per wave
         assert!((r.sa - 2.0 / std::f64::consts::PI).abs() < 1e-4 && (r.sq - 0.5f64.sqrt()).abs() < 1e-12);
         assert!(r.ssk.abs() < 1e-12 && (r.sku - 1.5).abs() < 1e-12 && (r.sz - 2.0).abs() < 1e-4);

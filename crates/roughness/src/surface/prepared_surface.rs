@@ -23,9 +23,9 @@ impl Surface {
     ///
     /// # Errors
     /// A map without a cell of four measured corners.
-    pub fn of(map: HeightMap) -> Result<Surface, MapError> {
+    pub fn from_map(map: HeightMap) -> Result<Surface, MapError> {
         let extent = map.extent()?;
-        let parameters = Parameters::of(&map, &extent);
+        let parameters = Parameters::measure(&map, &extent);
         Ok(Surface { missing: map.missing(), outliers: 0, map, extent, parameters })
     }
 
@@ -34,8 +34,8 @@ impl Surface {
         self.extent.cells as f64 * self.map.cell_area()
     }
 
-    /// Share of the measured points above `planes` ≥ 2 heights from the highest to the lowest: the areal material ratio of
-    /// ISO 25178-2. Heights are above the mean, in metres; a flat map has none.
+    /// Share of the measured points above `planes` ≥ 2 heights from the highest to the lowest: the areal
+    /// material ratio of ISO 25178-2. Heights are above the mean, in metres; a flat map has none.
     pub fn material_ratio(&self, planes: usize) -> Vec<[f64; 2]> {
         let (low, last) = (self.extent.low, planes.max(2) - 1);
         let step = (self.extent.high - low) / last as f64;
@@ -62,8 +62,8 @@ impl Surface {
         (0..=last).rev().map(plane).collect()
     }
 
-    /// Root mean square step across the seam of a periodic map over that between neighbours: far above 1 where the map is no
-    /// period of a surface. None of a map that is not periodic, or flat.
+    /// Root mean square step across the seam of a periodic map over that between neighbours: far above 1
+    /// where the map is no period of a surface. None of a map that is not periodic, or flat.
     pub fn seam(&self) -> Option<f64> {
         let map = &self.map;
         let (nx, ny) = (map.columns(), map.rows());
@@ -96,13 +96,13 @@ mod tests {
     #[test]
     fn the_material_ratio_of_a_ramp_is_a_line() {
         let z = (0..101 * 3).map(|i| (i % 101) as f64).collect();
-        let ramp = Surface::of(HeightMap::new(101, 3, [1.0, 1.0], z).unwrap()).unwrap();
+        let ramp = Surface::from_map(HeightMap::new(101, 3, [1.0, 1.0], z).unwrap()).unwrap();
         let found = ramp.material_ratio(11);
         for (k, [height, share]) in found.iter().enumerate() {
             assert!((height - (50.0 - 10.0 * k as f64)).abs() < 1e-12);
             assert!((share - 10.0 * k as f64 / 101.0).abs() < 1e-12, "{found:?}");
         }
-        let flat = Surface::of(HeightMap::new(3, 3, [1.0, 1.0], vec![1.0; 9]).unwrap()).unwrap();
+        let flat = Surface::from_map(HeightMap::new(3, 3, [1.0, 1.0], vec![1.0; 9]).unwrap()).unwrap();
         assert!(flat.material_ratio(11).is_empty());
     }
 
@@ -111,10 +111,10 @@ mod tests {
         let n = 32;
         let map = |z: fn(usize) -> f64| {
             let heights = (0..n * n).map(|i| z(i % n) + z(i / n)).collect();
-            Surface::of(HeightMap::new(n, n, [1.0, 1.0], heights).unwrap().with_periodic(true)).unwrap()
+            Surface::from_map(HeightMap::new(n, n, [1.0, 1.0], heights).unwrap().with_periodic(true)).unwrap()
         };
         let wave = map(|i| (std::f64::consts::TAU * i as f64 / 32.0).sin());
         assert!(wave.seam().unwrap() < 1.5 && map(|i| i as f64).seam().unwrap() > 30.0);
-        assert_eq!(Surface::of(wave.map.with_periodic(false)).unwrap().seam(), None);
+        assert_eq!(Surface::from_map(wave.map.with_periodic(false)).unwrap().seam(), None);
     }
 }

@@ -1,8 +1,9 @@
 //! Power spectral density of a map.
 //!
-//! C(f) with ∫∫ C df_x df_y = Sq² over all frequencies, averaged over the directions of equal |f|; and the densities of
-//! profiles along x and y, with 2∫ C df = Sq² over the positive ones (Jacobs, Junge, Pastewka 2017). A map that is not periodic is
-//! weighted with a Hann window first, whose loss of power is made up for.
+//! C(f) with ∫∫ C df_x df_y = Sq² over all frequencies, averaged over the directions of equal |f|; and the
+//! densities of profiles along x and y, with 2∫ C df = Sq² over the positive ones (Jacobs, Junge, Pastewka
+//! 2017). A map that is not periodic is weighted with a Hann window first, whose loss of power is made up
+//! for.
 
 use crate::surface::filter::fill;
 use crate::surface::height_map::{HeightMap, MapError};
@@ -56,7 +57,7 @@ struct Bands {
 }
 
 impl Bands {
-    fn at(&mut self, frequency: f64) -> &mut [Sum; 3] {
+    fn band(&mut self, frequency: f64) -> &mut [Sum; 3] {
         let k = ((frequency / self.least).log2() * PER_OCTAVE + 0.5).max(0.0) as usize;
         let last = self.sums.len() - 1;
         &mut self.sums[k.min(last)]
@@ -93,7 +94,7 @@ pub fn spectrum(map: &HeightMap) -> Result<Vec<SpectrumPoint>, MapError> {
         for (ky, wave) in column.iter().enumerate().filter(|(ky, _)| kx > 0 || *ky > 0) {
             let signed = if 2 * ky > ny { ky as f64 - ny as f64 } else { ky as f64 };
             let frequency = (kx as f64 * steps[0]).hypot(signed * steps[1]);
-            bands.at(frequency)[0].add(frequency, wave.norm_sqr() * scale, twice(kx, nx));
+            bands.band(frequency)[0].add(frequency, wave.norm_sqr() * scale, twice(kx, nx));
         }
     }
     let point = |sums: &[Sum; 3]| {
@@ -165,7 +166,7 @@ fn profile(
     let count = (lines.len() / width) as f64;
     for (k, power) in power.iter().enumerate().skip(1) {
         let density = power / count * pixel / n as f64;
-        bands.at(k as f64 * step)[kind].add(k as f64 * step, density, 1.0);
+        bands.band(k as f64 * step)[kind].add(k as f64 * step, density, 1.0);
     }
 }
 

@@ -37,7 +37,7 @@ pub fn geometry_factor(tool: &Tool, height: f64) -> Option<f64> {
         Tool::Sphere { .. } => Some(paraboloid),
         Tool::Measured(outline) => {
             let r = outline.widths(height)[1];
-            let [rise, slope] = outline.at(r);
+            let [rise, slope] = outline.drop_and_slope(r);
             let exponent = (r * slope / rise).clamp(1.0, 2.0);
             Some(cone + (exponent - 1.0) * (paraboloid - cone))
         }

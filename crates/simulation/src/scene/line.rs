@@ -82,10 +82,10 @@ impl LineProfile {
             ));
         };
         let highest = turns.iter().skip(1).step_by(2).fold(f64::INFINITY, |m, t| m.min(t[1]));
-        let outline = fit.outline.between(first[0], last[0]).seen_from(0.0, highest);
+        let outline = fit.outline.part_between(first[0], last[0]).seen_from(0.0, highest);
         let height = outline.lowest();
         let asperity = |t: &[[f64; 2]]| LineAsperity {
-            outline: fit.outline.between(t[0][0], t[2][0]).seen_from(t[1][0], t[1][1]).shared(),
+            outline: fit.outline.part_between(t[0][0], t[2][0]).seen_from(t[1][0], t[1][1]).shared(),
             centre: t[1][0],
             height: height - (t[1][1] - highest),
         };

@@ -158,7 +158,7 @@ pub(super) fn asperity(
     if !(height > 0.0 && height.is_finite()) {
         return Err(level());
     }
-    let seen = seen.between(-to_left, to_right).down_to(height);
+    let seen = seen.part_between(-to_left, to_right).down_to(height);
     Ok((seen.reversed().down_to(height).reversed().shared(), height))
 }
 

@@ -5,7 +5,7 @@ use crate::scene::{Accuracy, ElementChoice, Numerics, Scene, Symmetry, ToolForm}
 use crate::setup::schedule::{Spacing, loading};
 use asperity_material::units::rounded;
 use asperity_mesh::build::Sizes;
-use asperity_mesh::grading::LINEAR;
+use asperity_mesh::grading::LINEAR_PER_QUADRATIC;
 use asperity_mesh::outline::Outline;
 
 /// Depths from which errors count, as a share of the peak.
@@ -99,7 +99,7 @@ impl Discretisation {
         let steps = (steps as f64 * softness).round() as usize;
         let elements = match element {
             ElementChoice::Q8r => elements,
-            ElementChoice::Q4 => (elements as f64 * LINEAR) as usize,
+            ElementChoice::Q4 => (elements as f64 * LINEAR_PER_QUADRATIC) as usize,
         };
         Discretisation {
             element,
@@ -164,7 +164,7 @@ const CONICAL_SLOPE_RATIO: f64 = 0.75;
 /// Slope (radians) of the flank of a measured tool that is conical.
 fn conical_slope(outline: &Outline) -> Option<f64> {
     let [_, end] = outline.ends();
-    let [middle, last] = [0.5 * end, end].map(|x| outline.at(x)[1]);
+    let [middle, last] = [0.5 * end, end].map(|x| outline.drop_and_slope(x)[1]);
     (middle > CONICAL_SLOPE_RATIO * last).then(|| last.atan())
 }
 

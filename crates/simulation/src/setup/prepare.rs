@@ -10,7 +10,7 @@ use crate::setup::problem::{Goal, Problem, Rules, Specimen, held_nodes};
 use crate::setup::units::Units;
 use asperity_material::Elastic;
 use asperity_mesh::build::{Contact, Plan, build};
-use asperity_mesh::grading::{Grading, LINEAR};
+use asperity_mesh::grading::{Grading, LINEAR_PER_QUADRATIC};
 use asperity_mesh::profile::{Asperity, Profile, Shape};
 use asperity_mesh::{ElementKind, Mesh};
 use asperity_solver::contact::tool::Tool;
@@ -38,7 +38,7 @@ pub fn bodies(scene: &Scene, length: f64) -> Result<(Profile, Tool), SceneError>
         let profile = measured_line(&line.line().map_err(|e| in_table("profile[0]", e))?, length);
         return Ok((profile, tool));
     }
-    let asperities = outlines(scene)?.iter().map(|a| a.over(length)).collect();
+    let asperities = outlines(scene)?.iter().map(|a| a.in_units_of(length)).collect();
     Ok((Profile { asperities, line: None }, tool))
 }
 
@@ -51,7 +51,7 @@ fn measured_line(line: &Line, length: f64) -> Profile {
         valley_radius: 0.0,
     };
     Profile {
-        asperities: line.asperities.iter().map(|a| asperity(a).over(length)).collect(),
+        asperities: line.asperities.iter().map(|a| asperity(a).in_units_of(length)).collect(),
         line: Some(line.outline.scaled(length.recip()).shared()),
     }
 }
@@ -298,7 +298,7 @@ fn widest(half_widths: &[f64]) -> f64 {
 const CORE_WIDTH_RATIO: f64 = 0.7;
 
 /// Growth of the shells far from the contact, as a share of the distance, of quadratic elements. With linear ones of this growth a ridge
-/// and a cylinder in plane strain were too stiff by 0.5 % and 0.8 %, with [`LINEAR`] times as many shells by 0.1 %; quadratic ones of
+/// and a cylinder in plane strain were too stiff by 0.5 % and 0.8 %, with [`LINEAR_PER_QUADRATIC`] times as many shells by 0.1 %; quadratic ones of
 /// half of it change the force by 0.01 %.
 const FAR_GROWTH_SHARE: f64 = 0.4;
 

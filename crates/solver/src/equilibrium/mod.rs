@@ -31,7 +31,7 @@ use std::time::Instant;
 const YIELDING_KNOWN_AT: f64 = 0.1;
 
 /// Why an increment has no equilibrium.
-pub type SolveFailure = newton::Failure<Failure>;
+pub type SolveFailure = newton::NewtonError<Failure>;
 
 /// Counters of the work done.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

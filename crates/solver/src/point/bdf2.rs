@@ -117,7 +117,7 @@ pub fn backward_euler<T: Real>(
     let (three_g, scale) = (T::splat(3.0 * metal.elastic.shear_modulus()), old.yield_scale);
     let strain = (contract(&dev, &dev) * (2.0 / 3.0)).sqrt();
     let q = three_g * strain;
-    let yields = q.above(scale * old.yield_stress);
+    let yields = q.is_above(scale * old.yield_stress);
     let Some(hardening) = metal.hardening.as_ref().filter(|_| T::any(yields)) else {
         return Ok([zero; 4]);
     };
@@ -151,7 +151,7 @@ pub fn extrapolate<T: Real>(
     old: &PointState<T>,
     flowed: &PlasticIncrement<T>,
 ) -> PointState<T> {
-    let yields = flowed.accumulated.above(T::splat(0.0));
+    let yields = flowed.accumulated.is_above(T::splat(0.0));
     let Some(hardening) = metal.hardening.as_ref().filter(|_| T::any(yields)) else {
         return *old;
     };
@@ -175,7 +175,7 @@ pub fn exponential_minus_identity<T: Real>(a: &Sym<T>) -> Sym<T> {
     let (zero, one) = (T::splat(0.0), T::splat(1.0));
     let (mean, half) = ((a[0] + a[1]) * 0.5, (a[0] - a[1]) * 0.5);
     let radius = (half * half + a[3] * a[3]).sqrt();
-    let turned = radius.above(zero);
+    let turned = radius.is_above(zero);
     let double_angle = [T::select(turned, half / radius, one), T::select(turned, a[3] / radius, zero)];
     let frame = Spectral { log_strain: [zero; 3], double_angle, shear_factor: one };
     frame.tensor(&[(mean + radius).exp_m1(), (mean - radius).exp_m1(), a[2].exp_m1()])

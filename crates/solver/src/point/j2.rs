@@ -107,8 +107,8 @@ pub fn return_to_yield<T: Real>(
     let mut state = PointState { b_minus_i: trial, ..*old };
     let (mut deviator_scale, mut modulus_drop) = (T::splat(1.0), zero);
     let plastic = match &metal.hardening {
-        Some(_) => q.above(scale * old.yield_stress),
-        None => zero.above(zero),
+        Some(_) => q.is_above(scale * old.yield_stress),
+        None => zero.is_above(zero),
     };
     if let Some(hardening) = metal.hardening.as_ref().filter(|_| T::any(plastic)) {
         // over Ĵ: q/Ĵ - 3G/Ĵ Δε_p = σ_y
@@ -133,7 +133,7 @@ pub fn return_to_yield<T: Real>(
     }
     let (mean, shear) = (volume * k, deviator_scale * (2.0 * g));
     let tau = [mean + shear * dev[0], mean + shear * dev[1], mean + shear * dev[2]];
-    let inverse = T::select(norm.above(zero), T::splat(1.0) / norm, zero);
+    let inverse = T::select(norm.is_above(zero), T::splat(1.0) / norm, zero);
     let direction = [dev[0] * inverse, dev[1] * inverse, dev[2] * inverse];
     Ok(Return {
         state,

@@ -89,8 +89,8 @@ pub fn motion<T: Real, const N: usize>(
     }
     let det = j[0][0] * j[1][1] - j[0][1] * j[1][0];
     let axisymmetric = symmetry == Symmetry::Axisymmetric;
-    let off_axis = !axisymmetric || T::all(r.above(zero) & (r - ur).above(zero));
-    if !(off_axis && T::all(det.above(zero))) {
+    let off_axis = !axisymmetric || T::all(r.is_above(zero) & (r - ur).is_above(zero));
+    if !(off_axis && T::all(det.is_above(zero))) {
         return Err(Failure::Inverted);
     }
     let inverse_r = if axisymmetric { one / r } else { zero };
@@ -107,7 +107,7 @@ pub fn motion<T: Real, const N: usize>(
         k[3] += dz * du[a][1];
     }
     let shrink = (one - k[0]) * (one - k[3]) - k[1] * k[2]; // det(I - k) = 1/det f
-    if !T::all(shrink.above(zero)) {
+    if !T::all(shrink.is_above(zero)) {
         return Err(Failure::Inverted);
     }
     let area = k[0] * k[3] - k[1] * k[2];

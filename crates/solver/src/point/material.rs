@@ -107,11 +107,11 @@ impl<T: Real> Spectral<T> {
         let radius = (half * half + b_minus_i[3] * b_minus_i[3]).sqrt();
         let x = radius / (mean + 1.0);
         let area = b_minus_i[0] + b_minus_i[1] + b_minus_i[0] * b_minus_i[1] - b_minus_i[3] * b_minus_i[3];
-        let sound = mean.above(-one) & one.above(x) & b_minus_i[2].above(-one) & area.above(-one);
-        if !T::all(sound & T::splat(f64::INFINITY).above(radius)) {
+        let sound = mean.is_above(-one) & one.is_above(x) & b_minus_i[2].is_above(-one) & area.is_above(-one);
+        if !T::all(sound & T::splat(f64::INFINITY).is_above(radius)) {
             return Err(Failure::NotPositive);
         }
-        let turned = radius.above(zero);
+        let turned = radius.is_above(zero);
         let double_angle =
             [T::select(turned, half / radius, one), T::select(turned, b_minus_i[3] / radius, zero)];
         // 2 atanh x = ln(1 + 2x/(1 - x)) loses nothing for small x, nor does its quotient by x

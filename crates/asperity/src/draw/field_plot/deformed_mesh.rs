@@ -50,12 +50,13 @@ impl DeformedMesh {
         }
     }
 
-    /// Where the nodes are that the tool presses.
+    /// Positions of the nodes that the tool presses.
     pub fn pressed(&self) -> impl Iterator<Item = [f64; 2]> + '_ {
         self.points.iter().zip(&self.contact_pressure).filter(|(_, p)| **p > 0.0).map(|(x, _)| *x)
     }
 
-    /// From the first to the last foot of asperities of this height, whose summit was at height 0 before the crush.
+    /// From the first to the last foot of asperities of this height, whose summit was at height 0 before the
+    /// crush.
     pub fn feet(&self, height: f64) -> [f64; 2] {
         let risen = self.mesh.sides.surface.iter().flat_map(|&edge| self.mesh.edge_nodes(edge).0);
         risen.map(|node| self.mesh.nodes[node as usize].map(|x| x / MICROMETRE)).fold(
@@ -93,8 +94,8 @@ impl DeformedMesh {
         })
     }
 
-    /// The point of a cell at local coordinates in [-1, 1]²: quadratic in place, bilinear in the fields, which the
-    /// solver gives at corners.
+    /// The point of a cell at local coordinates in [-1, 1]²: quadratic in place, bilinear in the fields,
+    /// which the solver gives at corners.
     fn vertex(&self, cell: usize, [x, y]: [f64; 2]) -> Vertex {
         let nodes = self.mesh.cell(cell);
         let (linear, quadratic) = (quad4::shape(x, y, 1.0).value, quad8::shape(x, y, 1.0).value);

@@ -1,7 +1,7 @@
 //! Pictures of the deformed section: fields as filled contours, with the tool, axes in µm and a colour bar.
 //!
-//! A picture is an SVG document of panels one below the other. Lines and letters are SVG; the contours of a panel are
-//! a small indexed PNG inside it, one colour a band, transparent outside the body.
+//! A picture is an SVG document of panels one below the other. Lines and letters are SVG; the contours of a
+//! panel are a small indexed PNG inside it, one colour a band, transparent outside the body.
 
 mod deformed_mesh;
 mod window;
@@ -11,7 +11,7 @@ mod section;
 
 mod panel;
 
-use crate::draw::frame::{self, Frame, LEFT, RIGHT, Short};
+use crate::draw::frame::{self, Frame, ROOM_LEFT, ROOM_RIGHT, Short};
 use maud::{Markup, html};
 use panel::HEADING;
 pub use panel::Panel;
@@ -22,7 +22,7 @@ pub use window::Reach;
 /// Width of the drawing on paper.
 const WIDTH: f64 = 640.0;
 /// Dots of the contours for a unit of the drawing.
-const FINE: f64 = 2.0;
+const DOTS_PER_UNIT: f64 = 2.0;
 /// Room for the title.
 const TITLE: f64 = 24.0;
 
@@ -33,8 +33,8 @@ impl Section {
     /// A text for a person where a picture cannot be encoded.
     pub fn svg(&self, panels: &[Panel], title: &str) -> Result<String, String> {
         let window = Frame::new(HEADING, WIDTH, self.window.low, self.window.high);
-        let dots = window.size.map(|length| ((length * FINE).round() as usize).max(1));
-        let raster = Raster::of(&self.mesh, &self.window, self.mirrored, dots);
+        let dots = window.size.map(|length| ((length * DOTS_PER_UNIT).round() as usize).max(1));
+        let raster = Raster::draw(&self.mesh, &self.window, self.mirrored, dots);
         let mut top = TITLE;
         let mut parts: Vec<Markup> = Vec::new();
         for (i, panel) in panels.iter().enumerate() {
@@ -43,7 +43,7 @@ impl Section {
             top += height;
         }
         let body = html! { @for part in &parts { (part) } };
-        Ok(frame::document([LEFT + WIDTH + RIGHT, top], title, &body))
+        Ok(frame::document([ROOM_LEFT + WIDTH + ROOM_RIGHT, top], title, &body))
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::raster::{Dot, Raster};
 use super::section::Section;
-use crate::draw::frame::{Frame, LEFT, Short, boxes, tick};
+use crate::draw::frame::{Frame, ROOM_LEFT, Short, boxes, tick};
 use crate::draw::palette::{Bands, Colour, ELASTIC, ZONES};
 use crate::draw::scale;
 use maud::{Markup, html};
@@ -24,7 +24,8 @@ pub enum Panel {
     PlasticStrain,
     /// Hydrostatic pressure, tension below 0.
     Pressure,
-    /// Material that never yielded, that yielded once and is elastic now, that yields; and the line of the first yield stress.
+    /// Material that never yielded, that yielded once and is elastic now, that yields; and the line of the
+    /// first yield stress.
     ElasticZones,
     /// The elements.
     Mesh,
@@ -45,8 +46,8 @@ impl Panel {
     /// Fig. 5 of the paper.
     pub const FIG5: [Panel; 2] = [Panel::ElasticZones, Panel::Pressure];
 
-    /// The panel in `frame`, whose top is below the heading, and the panel's height; the lowest one carries the numbers of the
-    /// horizontal axis.
+    /// The panel in `frame`, whose top is below the heading, and the panel's height; the lowest one carries
+    /// the numbers of the horizontal axis.
     ///
     /// # Errors
     /// A text for a person where a picture cannot be encoded.
@@ -66,14 +67,14 @@ impl Panel {
         let below = if lowest { 42.0 } else { 12.0 };
         let key = if contours.boxes.is_empty() { 0.0 } else { 24.0 };
         let drawing = html! {
-            text x=(Short(LEFT)) y="17" { (contours.heading) }
+            text x=(Short(ROOM_LEFT)) y="17" { (contours.heading) }
             (frame.cut(&html! {
                 (frame.image(&contours.image))
                 @if self == Panel::Mesh { path class="thin" d=(path(frame, section, section.mesh.sides().into_iter())) {} }
                 path class="line" d=(outline) {}
                 @if section.tip.is_some() { path class="tool" d=(tool_outline(section, frame)) {} }
                 @if let Some(tip) = tip {
-                    text class="on-tool" x=(Short(LEFT + 0.5 * frame.size[0])) y=(Short(0.5 * (frame.top + tip) + 5.0)) text-anchor="middle" { "rigid tool" }
+                    text class="on-tool" x=(Short(ROOM_LEFT + 0.5 * frame.size[0])) y=(Short(0.5 * (frame.top + tip) + 5.0)) text-anchor="middle" { "rigid tool" }
                 }
             }))
             (frame.axes([if section.revolved { "r (µm)" } else { "x (µm)" }, "z (µm)"], lowest))
@@ -160,7 +161,7 @@ fn path(frame: &Frame, section: &Section, sides: impl Iterator<Item = [[f64; 2];
 
 /// The tool from the top of the window down to its face.
 fn tool_outline(section: &Section, frame: &Frame) -> String {
-    let mut path = format!("M{LEFT} {}h{}", frame.top, frame.size[0]);
+    let mut path = format!("M{ROOM_LEFT} {}h{}", frame.top, frame.size[0]);
     for [r, z] in section.face() {
         let _ = write!(path, "L{:.1} {:.1}", frame.x(r), frame.y(z).max(frame.top));
     }
@@ -185,7 +186,7 @@ fn pressure_curve(section: &Section, frame: &Frame) -> (Markup, f64) {
         }
         let _ = write!(area, "L{:.1} {:.1}Z", frame.x(end[0]), y(0.0));
     }
-    let (left, width) = (Short(LEFT), Short(frame.size[0]));
+    let (left, width) = (Short(ROOM_LEFT), Short(frame.size[0]));
     let drawing = html! {
         text x=(left) y="17" { "contact pressure (MPa)" }
         @for p in scale::multiples(0.0, high, step) {

@@ -27,7 +27,7 @@ pub struct Dot {
 
 impl Raster {
     /// Paints the part of `mesh` in `window`, and its mirror image where `mirrored`.
-    pub fn of(mesh: &DeformedMesh, window: &Window, mirrored: bool, size: [usize; 2]) -> Raster {
+    pub fn draw(mesh: &DeformedMesh, window: &Window, mirrored: bool, size: [usize; 2]) -> Raster {
         let mut raster = Raster { size, dots: vec![None; size[0] * size[1]] };
         let span = window.size();
         let scale = size[0] as f64 / span[0];

@@ -18,9 +18,9 @@ pub struct Section {
     tool: Option<Asperity>,
     /// Height of the tool's lowest point; `None` if nothing touches it.
     pub(super) tip: Option<f64>,
-    /// Whether the other half of a body of revolution is drawn too.
+    /// True where the other half of a body of revolution is drawn too.
     pub(super) mirrored: bool,
-    /// Whether the body is one of revolution.
+    /// True where the body is one of revolution.
     pub(super) revolved: bool,
     /// First yield stress.
     pub(super) yield_stress: Option<f64>,
@@ -40,12 +40,13 @@ impl Section {
         let tip = tips.reduce(f64::max);
         let height = scene.highest() / MICROMETRE;
         let row = AsperityRow { feet: mesh.feet(height), height, count: scene.asperity_count() };
-        let window = Window::around(&mesh, mirrored, revolved, reach, &row);
+        let window = Window::around_contact(&mesh, mirrored, revolved, reach, &row);
         let yield_stress = scene.material.yield_stress.map(|s| s.0 / MEGAPASCAL);
         Ok(Section { mesh, window, tool, tip, mirrored, revolved, yield_stress })
     }
 
-    /// The face of the tool from the right end of the window to its left, (r, z); empty if nothing touches it.
+    /// The face of the tool from the right end of the window to its left, (r, z); empty if nothing touches
+    /// it.
     pub(super) fn face(&self) -> Vec<[f64; 2]> {
         let Some(tip) = self.tip else { return Vec::new() };
         let (left, right) = (self.window.low[0], self.window.high[0]);

@@ -26,14 +26,14 @@ fn peak(change: &str) -> (Scene, FieldFrame) {
     (scene, peak.unwrap())
 }
 
-/// The dots on both sides of the axis are the same, the body ends at the tool, and the colours reach the largest
-/// stress of the nodes but not beyond.
+/// The dots on both sides of the axis are the same, the body ends at the tool, and the colours reach the
+/// largest stress of the nodes but not beyond.
 #[test]
 fn the_picture_is_that_of_the_fields() {
     let (scene, frame) = peak("numerics.steps=8");
     let section = Section::new(&frame, &scene, Reach::Yielded).unwrap();
     let size = [300, 200];
-    let raster = Raster::of(&section.mesh, &section.window, true, size);
+    let raster = Raster::draw(&section.mesh, &section.window, true, size);
     let largest = frame.fields.von_mises.iter().copied().fold(0.0, f64::max) / MEGAPASCAL;
     let [_, high] = raster.range(0);
     assert!(high <= largest * (1.0 + 1e-6) && high > 0.9 * largest, "{high} {largest}");

@@ -1,4 +1,4 @@
-//! Which part of the section is drawn.
+//! The part of the section that is drawn.
 
 use super::deformed_mesh::DeformedMesh;
 
@@ -9,11 +9,11 @@ pub struct AsperityRow {
     pub feet: [f64; 2],
     /// Height of the highest, µm.
     pub height: f64,
-    /// How many there are.
+    /// Their number.
     pub count: usize,
 }
 
-/// How much of the body a picture shows.
+/// The part of the body that a picture shows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Reach {
     /// All that has yielded or is pressed, and its surroundings; several asperities: their whole row.
@@ -38,7 +38,7 @@ pub fn range(values: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
 
 impl Window {
     /// The part of the body that `reach` asks for.
-    pub fn around(
+    pub fn around_contact(
         mesh: &DeformedMesh,
         mirrored: bool,
         revolved: bool,
@@ -82,7 +82,7 @@ impl Window {
         [0, 1].map(|k| (self.high[k] - self.low[k]).max(f64::MIN_POSITIVE))
     }
 
-    /// Whether some of the box around `points` lies in the window.
+    /// True where some of the box around `points` lies in the window.
     pub fn meets(&self, points: &[[f64; 2]]) -> bool {
         (0..2).all(|k| {
             range(points.iter().map(|p| p[k])).is_some_and(|[a, b]| a < self.high[k] && b > self.low[k])

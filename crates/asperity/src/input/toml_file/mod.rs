@@ -23,18 +23,18 @@ pub struct TomlFile<T> {
     under: Option<Under>,
 }
 
-/// The TOML text of the tables that lie under those of a file at this path: see [`TomlFile::over`].
+/// The TOML text of the tables that lie under those of a file at this path: see [`TomlFile::parse_over`].
 pub type Under = fn(&Path) -> Result<String, String>;
 
 /// Key whose file gives what lies under the others, and the table that is joined with its own.
-const UNDER: (&str, &str) = ("initial", "from");
+const UNDER_KEY: (&str, &str) = ("initial", "from");
 
 impl<T: DeserializeOwned> TomlFile<T> {
     /// Reads `path`, applies overrides `key.path=value` in their order, and makes a `T` of the result.
     ///
     /// # Errors
-    /// A file that cannot be read, is not text or not TOML, an override that names no place, or values that are
-    /// not those of a `T`; each with its line and, for an unknown key, the nearest known one.
+    /// A file that cannot be read, is not text or not TOML, an override that names no place, or values that
+    /// are not those of a `T`; each with its line and, for an unknown key, the nearest known one.
     pub fn read(path: &Path, overrides: &[String]) -> Result<Self, InputError> {
         TomlFile::parse(path, read_text(path)?, overrides)
     }
@@ -44,15 +44,15 @@ impl<T: DeserializeOwned> TomlFile<T> {
     /// # Errors
     /// As for [`TomlFile::read`].
     pub fn parse(path: &Path, text: String, overrides: &[String]) -> Result<Self, InputError> {
-        TomlFile::over(path, text, overrides, None)
+        TomlFile::parse_over(path, text, overrides, None)
     }
 
-    /// The same; where it names a file under `initial.from`, and nothing else in that table, the tables that `under` makes of that
-    /// file are added to its own, and it may hold none of them.
+    /// The same; where it names a file under `initial.from`, and nothing else in that table, the tables that
+    /// `under` makes of that file are added to its own, and it may hold none of them.
     ///
     /// # Errors
     /// As for [`TomlFile::read`], and what `under` says, pointing at the key.
-    pub fn over(
+    pub fn parse_over(
         path: &Path,
         text: String,
         overrides: &[String],
@@ -77,7 +77,7 @@ impl<T: DeserializeOwned> TomlFile<T> {
     pub fn with(&self, overrides: &[String]) -> Result<Self, InputError> {
         let Sources { text, overrides: before, .. } = &self.sources;
         let all: Vec<String> = before.iter().map(|(_, text)| text).chain(overrides).cloned().collect();
-        TomlFile::over(&self.path, text.clone(), &all, self.under)
+        TomlFile::parse_over(&self.path, text.clone(), &all, self.under)
     }
 }
 
@@ -90,11 +90,11 @@ impl<T> TomlFile<T> {
 
     /// A path of the file, which is relative to its folder.
     pub fn resolve(&self, path: &Path) -> PathBuf {
-        beside(&self.path, path)
+        path_beside(&self.path, path)
     }
 
-    /// An error about the value at `path` (`asperity[0].height`), pointing at it or, where it is absent, at the
-    /// innermost table that lacks it.
+    /// An error about the value at `path` (`asperity[0].height`), pointing at it or, where it is absent, at
+    /// the innermost table that lacks it.
     pub fn error_at(&self, path: &str, message: &str) -> InputError {
         // `material.` is said of a key that the table lacks
         let path = path.trim_end_matches('.');
@@ -106,7 +106,7 @@ impl<T> TomlFile<T> {
 }
 
 /// The path `named` by the file at `path`.
-fn beside(path: &Path, named: &Path) -> PathBuf {
+fn path_beside(path: &Path, named: &Path) -> PathBuf {
     path.parent().map_or_else(|| named.to_path_buf(), |folder| folder.join(named))
 }
 
@@ -183,12 +183,12 @@ impl Sources {
     /// Puts the tables of the file that is named here under the own ones.
     fn put_under(&mut self, path: &Path, under: Under) -> Result<(), InputError> {
         let table = self.table()?;
-        let Some(DeValue::Table(named)) = table.get(UNDER.0).map(Spanned::get_ref) else { return Ok(()) };
+        let Some(DeValue::Table(named)) = table.get(UNDER_KEY.0).map(Spanned::get_ref) else { return Ok(()) };
         // a resolved scene holds what the file gave
-        let Some(from) = named.get(UNDER.1).filter(|_| named.len() == 1) else { return Ok(()) };
+        let Some(from) = named.get(UNDER_KEY.1).filter(|_| named.len() == 1) else { return Ok(()) };
         let (Some(file), span) = (from.get_ref().as_str(), from.span()) else { return Ok(()) };
-        let text = under(&beside(path, Path::new(file))).map_err(|reason| {
-            self.error(&format!("{}.{}: {reason}", UNDER.0, UNDER.1), Some(span.clone()))
+        let text = under(&path_beside(path, Path::new(file))).map_err(|reason| {
+            self.error(&format!("{}.{}: {reason}", UNDER_KEY.0, UNDER_KEY.1), Some(span.clone()))
         })?;
         self.under = Some((span, text));
         Ok(())
@@ -205,15 +205,17 @@ impl Sources {
                 None => {
                     own.insert(Spanned::new(span.clone(), name), value);
                 }
-                Some(table) if name == UNDER.0 => {
+                Some(table) if name == UNDER_KEY.0 => {
                     if let (DeValue::Table(own), DeValue::Table(more)) = (table.get_mut(), value.into_inner())
                     {
                         own.extend(more);
                     }
                 }
                 Some(own) => {
-                    let message =
-                        format!("{name}: the body is that of {}.{}; remove this, or that", UNDER.0, UNDER.1);
+                    let message = format!(
+                        "{name}: the body is that of {}.{}; remove this, or that",
+                        UNDER_KEY.0, UNDER_KEY.1
+                    );
                     return Err(self.error(&message, Some(own.span())));
                 }
             }
@@ -243,8 +245,8 @@ impl Sources {
             return InputError::new(format!("{}: {message}", self.name));
         };
         match self.overrides.iter().find(|(place, _)| span.start >= place.start && span.end <= place.end) {
-            Some((_, text)) => InputError::new(message).at("--set", text, 0..text.len()),
-            None => InputError::new(message).at(&self.name, &self.text, span),
+            Some((_, text)) => InputError::new(message).pointing_at("--set", text, 0..text.len()),
+            None => InputError::new(message).pointing_at(&self.name, &self.text, span),
         }
     }
 
@@ -269,7 +271,8 @@ impl Sources {
     }
 }
 
-/// The keys of a path, "asperity[0].height" or "asperity.0.height"; `None` where one is empty or has odd letters.
+/// The keys of a path, "asperity[0].height" or "asperity.0.height"; `None` where one is empty or has odd
+/// letters.
 fn path_keys(path: &str) -> Option<Vec<&str>> {
     let keys: Vec<&str> =
         path.split(['.', '[']).map(|key| key.strip_suffix(']').unwrap_or(key).trim()).collect();
@@ -277,7 +280,7 @@ fn path_keys(path: &str) -> Option<Vec<&str>> {
     keys.iter().all(|key| !key.is_empty() && letters(key)).then_some(keys)
 }
 
-/// Where the value at `keys` stands, or the innermost table on the way to it; `None` for the root.
+/// The span of the value at `keys`, or of the innermost table on the way to it; `None` for the root.
 fn find(table: &DeTable<'_>, keys: &[&str]) -> Option<Range<usize>> {
     let mut value: &Spanned<DeValue<'_>> = table.get(*keys.first()?)?;
     for key in &keys[1..] {

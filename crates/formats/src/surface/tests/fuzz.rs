@@ -1,8 +1,9 @@
-//! Damaged files: every reader answers with a map or an error, never with a panic, an endless loop or a map larger
-//! than its file.
+//! Damaged files: every reader answers with a map or an error, never with a panic, an endless loop or a map
+//! larger than its file.
 //!
-//! PROPTEST_CASES sets how many files are damaged (64 unless told), ASPERITY_FUZZ_SECONDS goes on with others for at least
-//! so much CPU time of each reader, and ASPERITY_SURFACES names a folder of instruments' files that are damaged too.
+//! PROPTEST_CASES sets how many files are damaged (64 unless told), ASPERITY_FUZZ_SECONDS goes on with others
+//! for at least so much CPU time of each reader, and ASPERITY_SURFACES names a folder of instruments' files
+//! that are damaged too.
 
 use super::*;
 use std::time::Duration;
@@ -102,13 +103,14 @@ fn cases() -> u32 {
     std::env::var("PROPTEST_CASES").ok().and_then(|n| n.parse().ok()).unwrap_or(64)
 }
 
-/// How long each reader is tried at least.
+/// The least time for which each reader is tried.
 fn duration() -> Duration {
     let told = std::env::var("ASPERITY_FUZZ_SECONDS").ok().and_then(|n| n.parse().ok());
     Duration::from_secs(told.unwrap_or(0))
 }
 
-/// CPU time of this thread, from the kernel's account of it (clock ticks of 10 ms); none where there is no such account.
+/// CPU time of this thread, from the kernel's account of it (clock ticks of 10 ms); none where there is no
+/// such account.
 fn thread_time() -> Option<Duration> {
     let account = std::fs::read_to_string("/proc/thread-self/stat").ok()?;
     // the name, in brackets, may hold blanks; user and system time are the 12th and 13th fields after it

@@ -1,5 +1,5 @@
-//! From points that an instrument measured to an outline: smoothed as far as they scatter, with as few arcs as hold them, its
-//! corners kept.
+//! From points that an instrument measured to an outline: smoothed as far as they scatter, with as few arcs
+//! as hold them, its corners kept.
 
 use super::bridge::{bridge, bulges};
 use super::kinks::corners;
@@ -31,7 +31,7 @@ pub struct Fit {
     pub corners: Vec<f64>,
 }
 
-/// Why points are no outline.
+/// The reason why points are no outline.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{message}")]
 pub struct FitError {
@@ -42,7 +42,7 @@ pub struct FitError {
 }
 
 /// Least tolerance over the height of the outline.
-const EXACT: f64 = 1e-6;
+const MIN_TOLERANCE: f64 = 1e-6;
 
 /// Most points of an outline.
 pub const MOST_POINTS: usize = 20_000;
@@ -50,18 +50,19 @@ pub const MOST_POINTS: usize = 20_000;
 /// Rounds of division: each may halve every arc.
 const MOST_ROUNDS: usize = 24;
 
-/// Points from which neighbours tell how far heights scatter; fewer are drawn by hand, and meant as they stand.
-const SCATTERED: usize = 20;
+/// Points from which neighbours tell how far heights scatter; fewer are drawn by hand, and meant as they
+/// stand.
+const SCATTERED_POINTS: usize = 20;
 
-/// How many spacings of its points the first point may be away from the axis.
-const FIRST: f64 = 1.5;
+/// Largest distance of the first point from the axis, in spacings of the points.
+const FIRST_POINT_SPACINGS: f64 = 1.5;
 
-/// The outline through `points` (place, height), whose heights scatter by `tolerance` (standard deviation); `None`: as far as
-/// neighbouring points tell.
+/// The outline through `points` (place, height), whose heights scatter by `tolerance` (standard deviation);
+/// `None`: as far as neighbouring points tell.
 ///
 /// # Errors
-/// Fewer than two points or too many, a value that is not finite, places that do not grow, a half that does not begin at the
-/// axis, no height.
+/// Fewer than two points or too many, a value that is not finite, places that do not grow, a half that does
+/// not begin at the axis, no height.
 pub fn fit(points: &[[f64; 2]], span: Span, tolerance: Option<f64>) -> Result<Fit, FitError> {
     check(points, span)?;
     let [low, high] = range(points.iter().map(|p| p[1]));
@@ -71,8 +72,8 @@ pub fn fit(points: &[[f64; 2]], span: Span, tolerance: Option<f64>) -> Result<Fi
     };
     let unit: Vec<[f64; 2]> = points.iter().map(|p| [(p[0] - left) / width, (p[1] - low) / height]).collect();
     let whole = unfolded(&unit, span);
-    let told = || if points.len() < SCATTERED { 0.0 } else { scatter(&whole) };
-    let tolerance = tolerance.map_or_else(told, |t| t / height).max(EXACT);
+    let told = || if points.len() < SCATTERED_POINTS { 0.0 } else { scatter(&whole) };
+    let tolerance = tolerance.map_or_else(told, |t| t / height).max(MIN_TOLERANCE);
     let skipped = whole.len() - unit.len();
     let found = corners(&whole, tolerance, height / width);
     let kinks: Vec<usize> = found.iter().filter_map(|i| i.checked_sub(skipped)).collect();
@@ -108,15 +109,15 @@ fn smoothed(
     level: bool,
     scatter: f64,
 ) -> Result<Vec<Parabola>, FitError> {
-    let most = MISSED.max(MISSED_TOLERANCES * scatter);
+    let most = MAX_DISTANCE.max(MISSED_TOLERANCES * scatter);
     let bulging = bulges(points, level);
     let mut missed = 0;
-    for fewest in FEWEST {
+    for fewest in MIN_ARC_SPACINGS {
         let arcs = Points { points, kinks, level, scatter, fewest }.arcs();
         let Some(arcs) = arcs.filter(|arcs| !(bulging && dented(arcs))) else { continue };
         let (distance, point) = farthest(points, &arcs);
         missed = point;
-        if distance <= COARSE.max(MISSED_TOLERANCES * scatter) || (fewest == 1 && distance <= most) {
+        if distance <= COARSE_DISTANCE.max(MISSED_TOLERANCES * scatter) || (fewest == 1 && distance <= most) {
             return Ok(arcs);
         }
     }
@@ -130,11 +131,11 @@ fn smoothed(
     })
 }
 
-/// Whether arcs through points that bulge outward are dented.
+/// True where arcs through points that bulge outward are dented.
 fn dented(arcs: &[Parabola]) -> bool {
     let upside_down = |a: &Parabola| Parabola { drop: -a.drop, slope: -a.slope, bend: -a.bend, ..*a };
     let outline = Outline::new(arcs.iter().map(upside_down).collect(), 1.0, false);
-    outline.is_none_or(|outline| deepest_dent(&outline).depth > DENT)
+    outline.is_none_or(|outline| deepest_dent(&outline).depth > DENT_DEPTH)
 }
 
 /// The greatest distance of a point from arcs, and its index.
@@ -144,7 +145,7 @@ fn farthest(points: &[[f64; 2]], arcs: &[Parabola]) -> (f64, usize) {
     all.fold((0.0, 0), |far, next| if next.0 > far.0 { next } else { far })
 }
 
-/// Whether the points can be an outline.
+/// True where the points can be an outline.
 fn check(points: &[[f64; 2]], span: Span) -> Result<(), FitError> {
     let at = |point: usize, message: String| FitError { point: Some(point), message };
     let all = |message: String| FitError { point: None, message };
@@ -170,7 +171,7 @@ fn check(points: &[[f64; 2]], span: Span) -> Result<(), FitError> {
         if first < 0.0 {
             return Err(at(0, "lies on the other side of the axis: a body of revolution takes half of a section, from 0 outward".into()));
         }
-        if first > FIRST * spacing {
+        if first > FIRST_POINT_SPACINGS * spacing {
             return Err(at(
                 0,
                 "must be on the axis, at 0: what lies inside is not known; count the places from the axis"
@@ -204,7 +205,7 @@ fn unfolded(points: &[[f64; 2]], span: Span) -> Vec<[f64; 2]> {
 struct Points<'a> {
     points: &'a [[f64; 2]],
     kinks: &'a [usize],
-    /// Whether the slope at the left end is 0.
+    /// True where the slope at the left end is 0.
     level: bool,
     scatter: f64,
     /// Spacings of points on an arc, at least.
@@ -305,25 +306,25 @@ impl Points<'_> {
     }
 }
 
-/// Spacings of points on an arc, at least: with two a curve does not swing between its points. Points too far apart for that may
-/// have an arc each.
-const FEWEST: [usize; 2] = [2, 1];
+/// Spacings of points on an arc, at least: with two a curve does not swing between its points. Points too far
+/// apart for that may have an arc each.
+const MIN_ARC_SPACINGS: [usize; 2] = [2, 1];
 
-/// Distance of a point from the curve over the height of the outline from which points count as too far apart, and the most that
-/// may be left; or so many tolerances.
-const COARSE: f64 = 1e-3;
-const MISSED: f64 = 0.01;
+/// Distance of a point from the curve over the height of the outline from which points count as too far
+/// apart, and the most that may be left; or so many tolerances.
+const COARSE_DISTANCE: f64 = 1e-3;
+const MAX_DISTANCE: f64 = 0.01;
 const MISSED_TOLERANCES: f64 = 6.0;
 
 /// Dent over the height of the outline that is rounding.
-const DENT: f64 = 1e-5;
+const DENT_DEPTH: f64 = 1e-5;
 
 /// Times that stops are moved and dropped, and the number of stops times points up to which that is done.
 const PASSES: usize = 2;
 const MOST_WORK: usize = 100_000;
 
-/// Where to divide the arc that holds the middle of a stretch, or the longest that shares points with it; at least two
-/// spacings are left on either side.
+/// The places at which to divide the arc that holds the middle of a stretch, or the longest that shares
+/// points with it; at least two spacings are left on either side.
 fn division(stops: &[usize], [from, to]: [usize; 2], fewest: usize) -> Option<usize> {
     let middle = (from + to) / 2;
     let arcs = || stops.windows(2).map(|p| [p[0], p[1]]).filter(|[a, b]| b - a >= 2 * fewest);
@@ -336,7 +337,7 @@ fn division(stops: &[usize], [from, to]: [usize; 2], fewest: usize) -> Option<us
 
 /// Height of arcs at `x`.
 fn value(arcs: &[Parabola], x: f64) -> f64 {
-    arcs[arcs.partition_point(|a| a.x <= x).saturating_sub(1)].at(x)
+    arcs[arcs.partition_point(|a| a.x <= x).saturating_sub(1)].drop_at(x)
 }
 
 #[cfg(test)]

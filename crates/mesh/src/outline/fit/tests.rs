@@ -39,7 +39,8 @@ fn exact_points_of_a_cone_with_a_tip_give_it_back() {
     assert!(fit.outline.arc_count() < 60, "{}", fit.outline.arc_count());
 }
 
-/// Scatter of 0.1 % of the height: the summit, from which the depth counts, and the flank lie within 0.75 of it.
+/// Scatter of 0.1 % of the height: the summit, from which the depth counts, and the flank lie within 0.75 of
+/// it.
 #[test]
 fn scatter_is_smoothed_and_the_summit_stays() {
     for seed in 1..20 {
@@ -70,7 +71,7 @@ fn corners_stay_where_the_points_have_them() {
     let tip: Vec<[f64; 2]> = (0..=50).map(f64::from).map(|r| [r, 10.0 - 0.2 * r]).collect();
     let fit = fit(&tip, Span::Half, None).unwrap();
     assert_eq!((fit.corners.as_slice(), fit.outline.arc_count()), (&[0.0][..], 1));
-    assert!((fit.outline.at(1e-9)[1] - 0.2).abs() < 1e-9);
+    assert!((fit.outline.drop_and_slope(1e-9)[1] - 0.2).abs() < 1e-9);
 }
 
 #[test]
@@ -94,7 +95,8 @@ fn what_is_no_outline_is_refused_with_its_point() {
     assert!((two.outline.depth_at(2.0) - 0.5).abs() < 1e-9);
 }
 
-/// A handful of points of a shape that bulges: the curve does too, passes them, and is near the shape between them.
+/// A handful of points of a shape that bulges: the curve does too, passes them, and is near the shape between
+/// them.
 #[test]
 fn few_points_that_bulge_give_a_curve_that_does() {
     type Shape = (&'static str, fn(f64) -> f64, f64);

@@ -1,10 +1,11 @@
 //! Islands: the connected parts of the surface above a plane.
 //!
 //! 1. Every row of nodes is cut into runs of neighbouring nodes above the plane.
-//! 2. Every cell with a corner above joins the runs of its corners and gives its area above to one of them. (In a
-//!    cell whose middle is not above, two diagonal corners stay apart and each takes the triangles beside it.)
-//! 3. Runs that meet are one island. A periodic map also joins across its edges, and then each run remembers how many
-//!    periods it lies from its island's first run.
+//! 2. Every cell with a corner above joins the runs of its corners and gives its area above to one of them.
+//!    (In a cell whose middle is not above, two diagonal corners stay apart and each takes the triangles
+//!    beside it.)
+//! 3. Runs that meet are one island. A periodic map also joins across its edges, and then each run remembers
+//!    how many periods it lies from its island's first run.
 
 mod runs;
 mod union_find;
@@ -47,7 +48,7 @@ pub(crate) struct Piece {
     pub island: u32,
     /// Area above the plane, in cells.
     pub area: f64,
-    /// Where corner 0 of the cell lies, in pixels; beyond the edge where a periodic island goes on there.
+    /// Position of corner 0 of the cell, in pixels; beyond the edge where a periodic island goes on there.
     pub offset: [f64; 2],
 }
 
@@ -72,16 +73,41 @@ struct Visit<'a> {
 
 /// The part of the cells that lies above the plane.
 enum Part<'a> {
-    /// All of neighbouring cells, the run along their lower side: heights of the nodes below and above them, one more
-    /// than there are cells.
+    /// All of neighbouring cells, the run along their lower side: heights of the nodes below and above them,
+    /// one more than there are cells.
     Whole([&'a [f64]; 2]),
     /// Something of some triangles of one cell.
     Cut {
-        /// Where corner 0 lies from the first node of the run.
+        /// Position of corner 0 from the first node of the run.
         offset: [i32; 2],
         corners: [f64; 4],
         sides: u8,
     },
+}
+
+/// A cell with something above the plane; its corners are numbered from the lower left one around.
+struct CutCell {
+    /// Row and column.
+    place: [usize; 2],
+    /// The column of the right corners.
+    next: usize,
+    /// True where the right, the upper corners lie beyond the edge of a periodic map.
+    wraps: [bool; 2],
+    /// Heights of the corners above the plane.
+    corners: [f64; 4],
+    /// The runs that hold the corners.
+    runs: [Option<u32>; 4],
+}
+
+impl CutCell {
+    fn is_right(corner: usize) -> bool {
+        corner == 1 || corner == 2
+    }
+
+    /// Periods along x and y between the cell and the node at its corner.
+    fn periods(&self, corner: usize) -> [i32; 2] {
+        [self.wraps[0] && CutCell::is_right(corner), self.wraps[1] && corner >= 2].map(i32::from)
+    }
 }
 
 /// Quantity that is summed over the cells of a run.
@@ -138,8 +164,8 @@ impl Tally for Moments {
 
 impl Islands {
     /// The islands of `map` above `plane` (m).
-    pub fn above(map: &HeightMap, plane: f64) -> Islands {
-        let runs = Runs::above(map, plane);
+    pub fn above_plane(map: &HeightMap, plane: f64) -> Islands {
+        let runs = Runs::above_plane(map, plane);
         let mut islands = Islands { plane, islands: Vec::new(), runs, homes: Vec::new() };
         let (moments, meetings) = islands.sums::<Moments>(map);
         let forest = UnionFind::new(islands.runs.list.len(), &meetings);
@@ -236,7 +262,7 @@ impl Islands {
                 _ if last_cell && column < cells => cells - 1,
                 _ => break,
             };
-            if let (Some(r0), Some(r3)) = (below.at(column), over.at(column)) {
+            if let (Some(r0), Some(r3)) = (below.run_at(column), over.run_at(column)) {
                 let end = self.runs.list[r0 as usize].end.min(self.runs.list[r3 as usize].end) as usize;
                 if column + 1 < end {
                     // nodes column..end of both rows are above, and so are the cells between them
@@ -254,41 +280,48 @@ impl Islands {
             let wrap_column = column + 1 == columns;
             let next = if wrap_column { 0 } else { column + 1 };
             let corners = [low[column], low[next], high[next], high[column]].map(|z| z - self.plane);
-            let at_next = |cursor: &mut Cursor| if wrap_column { cursor.first() } else { cursor.at(next) };
-            let (r0, r3) = (below.at(column), over.at(column));
+            let at_next =
+                |cursor: &mut Cursor| if wrap_column { cursor.first() } else { cursor.run_at(next) };
+            let (r0, r3) = (below.run_at(column), over.run_at(column));
             let runs = [r0, at_next(&mut below), at_next(&mut over), r3];
+            if !corners.iter().any(|z| z.is_nan()) {
+                let cell =
+                    CutCell { place: [row, column], next, wraps: [wrap_column, wrap_row], corners, runs };
+                self.visit_cell(&cell, &mut meet, &mut add);
+            }
             column += 1;
-            if corners.iter().any(|z| z.is_nan()) {
-                continue;
+        }
+    }
+
+    /// Gives the triangles of a cell above the plane to the runs of its corners, and joins those that meet in
+    /// it.
+    #[inline]
+    fn visit_cell(&self, cell: &CutCell, meet: &mut impl FnMut(Meeting), add: &mut impl FnMut(Visit<'_>)) {
+        let CutCell { place: [row, column], next, corners, runs, .. } = *cell;
+        let mut visit = |corner: usize, sides: u8| {
+            let Some(run) = runs[corner] else { return };
+            let left = if CutCell::is_right(corner) { next as i32 - 1 } else { column as i32 };
+            let offset = [left - self.runs.list[run as usize].start as i32, -i32::from(corner >= 2)];
+            let part = Part::Cut { offset, corners, sides };
+            add(Visit { run, cell: [row as u32, column as u32], part });
+        };
+        let up = corners.map(|z| z > 0.0);
+        let saddle = up[0] == up[2] && up[1] == up[3] && up[0] != up[1] && cells::centre(&corners) <= 0.0;
+        if saddle {
+            let (one, other) = if up[0] { (0, 2) } else { (1, 3) };
+            for corner in [one, other] {
+                visit(corner, (1 << corner) | (1 << ((corner + 3) % 4)));
             }
-            let on_right = |corner: usize| corner == 1 || corner == 2;
-            let periods =
-                |corner: usize| [wrap_column && on_right(corner), wrap_row && corner >= 2].map(i32::from);
-            let mut visit = |corner: usize, sides: u8| {
-                let Some(run) = runs[corner] else { return };
-                let left = if on_right(corner) { next as i32 - 1 } else { column as i32 - 1 };
-                let offset = [left - self.runs.list[run as usize].start as i32, -i32::from(corner >= 2)];
-                let part = Part::Cut { offset, corners, sides };
-                add(Visit { run, cell: [row as u32, (column - 1) as u32], part });
-            };
-            let up = corners.map(|z| z > 0.0);
-            let saddle = up[0] == up[2] && up[1] == up[3] && up[0] != up[1] && cells::centre(&corners) <= 0.0;
-            if saddle {
-                let (one, other) = if up[0] { (0, 2) } else { (1, 3) };
-                for corner in [one, other] {
-                    visit(corner, (1 << corner) | (1 << ((corner + 3) % 4)));
-                }
-                continue;
-            }
-            let Some(first) = (0..4).find(|c| up[*c]) else { continue };
-            visit(first, 15);
-            for corner in first + 1..4 {
-                if let (true, Some(a), Some(b)) = (up[corner], runs[first], runs[corner]) {
-                    let (p, q) = (periods(first), periods(corner));
-                    let shift = [q[0] - p[0], q[1] - p[1]];
-                    if a != b || shift != [0, 0] {
-                        meet(Meeting { a, b, shift });
-                    }
+            return;
+        }
+        let Some(first) = (0..4).find(|c| up[*c]) else { return };
+        visit(first, 15);
+        for corner in first + 1..4 {
+            if let (true, Some(a), Some(b)) = (up[corner], runs[first], runs[corner]) {
+                let (p, q) = (cell.periods(first), cell.periods(corner));
+                let shift = [q[0] - p[0], q[1] - p[1]];
+                if a != b || shift != [0, 0] {
+                    meet(Meeting { a, b, shift });
                 }
             }
         }
@@ -320,7 +353,7 @@ impl Islands {
         for (old, (root, moments, high)) in sums.iter().enumerate().filter(|(_, sum)| sum.1.area > 0.0) {
             kept[old] = self.islands.len() as u32;
             let origin = place(*root).map(|x| x as f64);
-            let ellipse = || Ellipse::of(moments, origin, map.pixel());
+            let ellipse = || Ellipse::from_moments(moments, origin, map.pixel());
             self.islands.push(Island {
                 area: moments.area * map.cell_area(),
                 slope: moments.slope_area / moments.area,
@@ -331,7 +364,8 @@ impl Islands {
         self.homes.iter_mut().for_each(|home| home.island = kept[home.island as usize]);
     }
 
-    /// Calls `each` with island, row and columns of all neighbouring nodes that belong to an island, row by row.
+    /// Calls `each` with island, row and columns of all neighbouring nodes that belong to an island, row by
+    /// row.
     pub(crate) fn spans(&self, mut each: impl FnMut(u32, usize, Range<usize>)) {
         for (run, home) in self.runs.list.iter().zip(&self.homes).filter(|(_, home)| home.island != u32::MAX)
         {
@@ -386,7 +420,7 @@ impl Islands {
 /// Area and slope integral above 0 of the triangles named by `sides`.
 fn part_above(corners: &[f64; 4], sides: u8, inverse_pixel: [f64; 2]) -> (f64, f64) {
     if sides == 15 {
-        cells::above(corners, inverse_pixel)
+        cells::area_above(corners, inverse_pixel)
     } else {
         let m = cells::moments_above(corners, sides, inverse_pixel);
         (m.area, m.slope_area)

@@ -34,7 +34,7 @@ impl<'a> Cursor<'a> {
     }
 
     /// The run that holds node `column`.
-    pub fn at(&mut self, column: usize) -> Option<u32> {
+    pub fn run_at(&mut self, column: usize) -> Option<u32> {
         while self.runs.get(self.at).is_some_and(|run| run.end as usize <= column) {
             self.at += 1;
         }
@@ -58,7 +58,7 @@ pub(crate) struct Runs {
 
 impl Runs {
     /// The runs of `map` above `plane`.
-    pub fn above(map: &HeightMap, plane: f64) -> Runs {
+    pub fn above_plane(map: &HeightMap, plane: f64) -> Runs {
         let whole = 0..map.columns();
         Runs::gathered(map, |row, runs| runs_of_span(map, row, whole.clone(), plane, runs))
     }
@@ -120,7 +120,8 @@ fn runs_of_span(map: &HeightMap, row: usize, span: Range<usize>, plane: f64, run
     }
 }
 
-/// Whether a cell with four measured corners holds the edge from node `column - 1` to node `column` of `row`.
+/// True where a cell with four measured corners holds the edge from node `column - 1` to node `column` of
+/// `row`.
 fn edge_is_used(map: &HeightMap, row: usize, column: usize) -> bool {
     let measured = |row: usize| {
         let heights = map.row(row);

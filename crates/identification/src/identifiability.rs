@@ -1,10 +1,11 @@
-//! Whether the measurements can tell the unknowns, in which direction they see nothing, and which cone would see it best.
+//! Identifiability of the unknowns, the null direction of the measurements, and the cone that would resolve
+//! it best.
 
 use super::emulator::by_the_atlas;
 use super::experiment::Experiment;
 use super::objective::Objective;
 use super::parameters::{Parameter, Slot, Unknowns};
-use super::response::{Geometry, Question};
+use super::response::{DesignPoint, Geometry};
 use super::search::curvature;
 use crate::levenberg_marquardt::jacobian;
 use crate::profile_likelihood::Interval;
@@ -12,47 +13,53 @@ use nalgebra::{DMatrix, DVector};
 use serde::Serialize;
 
 /// Relative half width of the interval of a stress, of n, within which a number counts as found.
-const FOUND: [f64; 2] = [0.15, 0.05];
+const FOUND_HALF_WIDTHS: [f64; 2] = [0.15, 0.05];
 
 /// Correlation of two unknowns from which a bound on the one decides the other.
-const TIED: f64 = 0.9;
+const TIED_CORRELATION: f64 = 0.9;
 
-/// Whether a bound of the search, not the measurements, ends the interval of `parameter`. (n ≥ 0 is no choice.)
+/// True where a bound of the search, not the measurements, ends the interval of `parameter`. (n ≥ 0 is no
+/// choice.)
 fn is_cut(parameter: &Parameter, interval: &Interval) -> bool {
     let natural = matches!(parameter.slot, Slot::HardeningExponent) && interval.ends[0] <= 0.0;
     interval.bounded[1] || (interval.bounded[0] && !natural)
 }
 
-/// Which of the unknowns the measurements tell: those of narrow intervals that no bound cuts, neither their own nor that of an
-/// unknown they are tied to.
+/// The unknowns that the measurements identify: those of narrow intervals that no bound cuts, neither their
+/// own nor that of an unknown they are tied to.
 pub fn identified(parameters: &[Parameter], intervals: &[Interval], correlation: &[Vec<f64>]) -> Vec<bool> {
     let cut = |j: usize| is_cut(&parameters[j], &intervals[j]);
-    let tied = |i: usize| (0..parameters.len()).any(|j| correlation[i][j].abs() > TIED && cut(j));
+    let tied = |i: usize| (0..parameters.len()).any(|j| correlation[i][j].abs() > TIED_CORRELATION && cut(j));
     (0..parameters.len()).map(|i| is_narrow(&parameters[i], &intervals[i]) && !tied(i)).collect()
 }
 
-/// Whether the interval of `parameter` is narrow.
+/// True where the interval of `parameter` is narrow.
 fn is_narrow(parameter: &Parameter, interval: &Interval) -> bool {
     let half = 0.5 * (interval.ends[1] - interval.ends[0]);
     let allowed = match parameter.slot {
-        Slot::HardeningExponent | Slot::PoissonsRatio => FOUND[1],
+        Slot::HardeningExponent | Slot::PoissonsRatio => FOUND_HALF_WIDTHS[1],
         Slot::ContactDepth(_) | Slot::Compliance(_) => 0.25 * parameter.width(),
-        _ => FOUND[0],
+        _ => FOUND_HALF_WIDTHS[0],
     };
     half <= allowed
 }
 
 /// A change of the unknowns that the measurements do not notice.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Blind {
-    /// Names of the unknowns and their changes for a sum of squares that grows by 1: a factor of positive ones, else a difference.
+pub struct NullDirection {
+    /// Names of the unknowns and their changes for a sum of squares that grows by 1: a factor of positive
+    /// ones, else a difference.
     pub change: Vec<(String, f64)>,
     /// The same in words.
     pub text: String,
 }
 
 /// The direction that the measurements see least.
-pub fn blind(objective: &Objective<'_>, unknowns: &Unknowns, point: &[f64]) -> Option<Blind> {
+pub fn null_direction(
+    objective: &Objective<'_>,
+    unknowns: &Unknowns,
+    point: &[f64],
+) -> Option<NullDirection> {
     let seen = curvature(objective, point)?;
     let weakest = seen.eigenvalues.imin();
     let length = (1.0 / seen.eigenvalues[weakest].max(1e-12).sqrt()).min(0.5);
@@ -77,7 +84,7 @@ pub fn blind(objective: &Objective<'_>, unknowns: &Unknowns, point: &[f64]) -> O
             false => format!("{name} {by:+.3}{}{}", if p.unit.is_empty() { "" } else { " " }, p.unit),
         })
         .collect();
-    Some(Blind { text: words.join(" with "), change })
+    Some(NullDirection { text: words.join(" with "), change })
 }
 
 /// Another experiment and what it would do.
@@ -98,10 +105,10 @@ const ANGLES: [f64; 8] = [45.0, 50.0, 55.0, 60.0, 65.0, 75.0, 80.0, 85.0];
 /// Noise of a next experiment where no measurement states its own.
 const NOISE: f64 = 0.01;
 /// Angles nearer than this to one that was measured are no other experiment, degrees.
-const NEAR: f64 = 4.0;
+const MIN_ANGLE_DISTANCE: f64 = 4.0;
 
-/// The sharp cone whose loading curvature, unloading slope and work ratio would narrow the interval of unknown `of` most, by
-/// the atlas of cones.
+/// The sharp cone whose loading curvature, unloading slope and work ratio would narrow the interval of
+/// unknown `of` most, by the atlas of cones.
 pub fn next_experiment(
     objective: &Objective<'_>,
     experiments: &[Experiment],
@@ -118,11 +125,11 @@ pub fn next_experiment(
     }
     let width = |matrix: &DMatrix<f64>| Some(matrix.clone().try_inverse()?[(of, of)].sqrt());
     let now = width(&normal)?;
-    let first = experiments.first()?.question(unknowns, point)?;
+    let first = experiments.first()?.design_point(unknowns, point)?;
     let noise = experiments.iter().map(|e| e.noise).fold(NOISE, f64::max);
     let measured = |angle: f64| {
         experiments.iter().any(|e| match e.geometry {
-            Geometry::Sharp { slope_deg } => (90.0 - slope_deg - angle).abs() < NEAR,
+            Geometry::Sharp { slope_deg } => (90.0 - slope_deg - angle).abs() < MIN_ANGLE_DISTANCE,
             _ => false,
         })
     };
@@ -130,7 +137,7 @@ pub fn next_experiment(
         let slope_deg = 90.0 - angle;
         let at = |point: &[f64]| {
             let metal = unknowns.metal(point)?;
-            let question = Question {
+            let question = DesignPoint {
                 geometry: Geometry::Sharp { slope_deg },
                 modulus: metal.elastic.youngs_modulus,
                 metal,
@@ -158,8 +165,8 @@ pub fn next_experiment(
     })
 }
 
-/// Standard deviations of the coordinates and their correlations by the curvature at the minimum; a direction that is not seen has
-/// the width of the bounds.
+/// Standard deviations of the coordinates and their correlations by the curvature at the minimum; a direction
+/// that is not seen has the width of the bounds.
 pub fn deviations(
     objective: &Objective<'_>,
     unknowns: &Unknowns,

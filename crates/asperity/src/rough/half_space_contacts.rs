@@ -1,0 +1,80 @@
+//! The half-spaces of a scene: each contact found once, and what closures give beside them.
+
+use super::closure_contact::ClosureContact;
+use super::half_space;
+use crate::error::InputError;
+use crate::rough::rough_scene::RoughScene;
+use asperity_roughness::half_space::{HalfSpace, HalfSpaceContact, HalfSpaceError, PressureLimit};
+use asperity_roughness::{Closure, Load, Surface};
+
+/// Contacts on half-spaces that were found, for those that are asked for again, and the limit of pressure of
+/// the metal on this surface.
+#[derive(Default)]
+pub(super) struct HalfSpaceContacts {
+    limit: Option<Option<PressureLimit>>,
+    found: Vec<(HalfSpace, Result<HalfSpaceContact, HalfSpaceError>)>,
+}
+
+impl HalfSpaceContacts {
+    /// The largest pressure that the metal bears under the patches of `surface` at `load`; None where nothing
+    /// of its strength is known.
+    ///
+    /// # Errors
+    /// A calibration that cannot be read, of metal whose law of hardening is that of the calibration.
+    pub fn limit(
+        &mut self,
+        scene: &RoughScene,
+        surface: &Surface,
+        load: Load,
+    ) -> Result<Option<PressureLimit>, InputError> {
+        if let Some(known) = self.limit {
+            return Ok(known);
+        }
+        let limit =
+            PressureLimit::on_surface(&scene.tables().material, scene.hardening_law()?, surface, load);
+        self.limit = Some(limit);
+        Ok(limit)
+    }
+
+    /// The contact of `surface` at `load`, found once.
+    ///
+    /// # Errors
+    /// The reason why the half-space has none.
+    pub fn contact(
+        &mut self,
+        body: &HalfSpace,
+        surface: &Surface,
+        load: Load,
+    ) -> Result<HalfSpaceContact, HalfSpaceError> {
+        if let Some((_, found)) = self.found.iter().find(|(known, _)| known == body) {
+            return found.clone();
+        }
+        let found = body.press(surface, load);
+        self.found.push((*body, found.clone()));
+        found
+    }
+}
+
+/// Area and mean pressure of each closure over those of the half-space with the same metal: elastic for
+/// "sneddon", with its limit of pressure for the others.
+pub(super) fn compare_with_half_space(
+    contacts: &mut [ClosureContact],
+    scene: &RoughScene,
+    surface: &Surface,
+    spaces: &mut HalfSpaceContacts,
+) {
+    let tables = scene.tables();
+    let Ok(load) = tables.load.load() else { return };
+    for one in contacts.iter_mut() {
+        let elastic = matches!(one.closure, Closure::Sneddon | Closure::HalfSpace);
+        let limit = if elastic { None } else { spaces.limit(scene, surface, load).ok().flatten() };
+        let known = elastic || limit.is_some();
+        let body = half_space::body(tables, limit.map(|l| l.pressure));
+        let found = known.then(|| spaces.contact(&body, surface, load));
+        if let (Some(Ok(found)), Some(area)) = (found, one.area_ratio())
+            && let (Some(pressure), Some(mean)) = (found.mean_pressure(), one.mean_pressure())
+        {
+            one.judged = Some([area / found.area.ratio, mean / pressure]);
+        }
+    }
+}
