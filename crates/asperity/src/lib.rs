@@ -2,7 +2,7 @@
 //! can be trusted.
 //!
 //! The command line is a thin layer over these functions; whatever a command computes, a function returns as typed rows
-//! and summaries, named as in the files that the command writes.
+//! and summaries in SI, and writes them under the names and in the units of the files of the command.
 //!
 //! Tutorials, theory, the meaning of every key and column, what was verified and what is not modelled stand in the book of the
 //! repository, `docs/src`.
@@ -20,8 +20,8 @@
 //! let scene = Scene::new(&tables)?;
 //! let result = crush(&scene, &mut |_| true)?;
 //! let summary = &result.summary;
-//! assert!((summary.peak_force_N / 5.5 - 1.0).abs() < summary.estimated_error);
-//! assert_eq!(result.curve.last().map(|row| row.force_N), Some(summary.peak_force_N));
+//! assert!((summary.peak_force / 5.5 - 1.0).abs() < summary.estimated_error);
+//! assert_eq!(result.curve.last().map(|row| row.force), Some(summary.peak_force));
 //!
 //! // the observer ends a run by `false`: what was reached stays, without a stated error
 //! let part = crush(&scene, &mut |progress| progress.row.increment < 10)?.summary;
@@ -124,7 +124,7 @@ pub use extract::{Extracted, Extraction, extract};
 pub use identify::{Fit, Identification, identify};
 pub use input::scene::Scene;
 pub use mesh::{Mesh, mesh};
-pub use results::{output, units};
+pub use results::{columns, numbers, output, units};
 pub use study::{Study, study};
 
 /// The crates below, for their types in the signatures here: a program needs no other dependency.

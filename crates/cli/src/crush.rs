@@ -4,9 +4,10 @@ use crate::flags::{ReportFlag, RunFlags, SceneFlags};
 use crate::folder::{Folder, journal_beside};
 use crate::progress::Progress;
 use crate::{interrupt, terminal};
-use asperity::crush::{Checkpoints, CurveRow, Phase, Sketch, crush_with};
+use asperity::crush::{Checkpoints, CurveRow, Sketch, crush_with};
 use asperity::error::{Error, InputError};
 use asperity::simulation::scene::Symmetry;
+use asperity::units::{MICROMETRE, Unit};
 use clap::Args;
 use std::path::PathBuf;
 use std::time::Duration;
@@ -97,10 +98,12 @@ pub fn crush(args: &Crush) -> Result<(), Error> {
 }
 
 fn progress_line(row: &CurveRow, symmetry: Symmetry) -> String {
-    let verb = match row.phase {
-        Phase::Load => "loading",
-        Phase::Unload => "unloading",
-    };
+    let verb = if row.phase.advances() { "loading" } else { "unloading" };
     let per = if symmetry == Symmetry::PlaneStrain { "/mm" } else { "" };
-    format!("{verb}  {:.3} um  {:.3} N{per}  increment {}", row.depth_um, row.force_N, row.increment)
+    format!(
+        "{verb}  {:.3} um  {:.3} N{per}  increment {}",
+        row.depth / MICROMETRE,
+        row.force / Unit::Force.value(symmetry),
+        row.increment
+    )
 }

@@ -19,6 +19,7 @@ use asperity::roughness::scene::Scene as RoughTables;
 use asperity::simulation::depth_for_force::expect;
 use asperity::simulation::scene::{Accuracy, Level, Scene as Tables};
 use asperity::simulation::setup::prepare::prepare;
+use asperity::units::MICROMETRE;
 use serde::{Deserialize, Serialize};
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
@@ -137,7 +138,7 @@ impl Job {
                 let told = &mut |reached: &Progress<'_>| {
                     let row = reached.row;
                     let share = row.increment as f64 / reached.planned.max(1) as f64;
-                    observer(share, &format!("{:.3} um  increment {}", row.depth_um, row.increment))
+                    observer(share, &format!("{:.3} um  increment {}", row.depth / MICROMETRE, row.increment))
                 };
                 crush_into(scene, sink, sketches, told).map(|crushed| crushed.summary.stopped)
             })?,
@@ -211,7 +212,7 @@ impl Job {
         }
         if let Some(one) = rough.contacts.iter().find_map(rough::ClosureContact::islands) {
             let points = profile(&rough.surface.map, &one.contact.islands);
-            sink.write("profile.csv", |out| write_csv(out, &points, str::to_string))?;
+            sink.write("profile.csv", |out| write_csv(out, &points))?;
         }
         if let Some((kind, row)) = table1::TABLE.iter().find(|(row, _)| *row == kind) {
             observer(0.2, &format!("five {name} surfaces, every closure"));

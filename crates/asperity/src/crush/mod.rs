@@ -1,31 +1,31 @@
 //! One scene crushed: the run, its result, and the files of the result.
 //!
-//! Rows, summary and fields have the units and names of the files ([`crate::results::units`]).
+//! Rows and summary are in SI; files have the names and units of [`crate::results::columns`].
 
 mod crush_report;
 mod fields;
 mod plot;
 
-pub use crate::results::crush_rows::{
-    AsperityRow, CurveRow, CycleRow, GapRow, Phase, SurfaceRow, SurfaceStateRow, read_rows, write_rows,
+pub use crate::results::columns::{read_rows, write_rows};
+pub use crate::results::crush_summary::{Summary, peak_memory};
+pub use asperity_simulation::record::rows::{
+    AsperityRow, CurveRow, CycleRow, Errors, GapRow, OliverPharr, Phase, Summary as Numbers,
 };
-pub use crate::results::crush_summary::{
-    Errors, Instrument, Island, MeasuredOutline, Summary, peak_memory_mb,
-};
+pub use asperity_simulation::scene::Smoothing;
+pub use asperity_solver::body::fields::SurfacePoint;
+pub use asperity_solver::body::islands::Island;
 pub use fields::{FieldSeries, Frame};
 pub use plot::{plot, titled_plot};
 
 use crate::draw::field_plot::{Panel, Reach, Section};
 use crate::error::Error;
 use crate::input::scene::Scene;
-use crate::results::crush_summary::per_length;
 use crate::results::output::{Sink, SinkExt};
-use crate::results::units::{MICROMETRE, Units};
+use crate::results::units::{MICROMETRE, Unit, per_length};
 use asperity_mesh::Mesh;
 pub use asperity_simulation::load_path::checkpoint::Checkpoints;
-use asperity_simulation::record::rows as si;
 use asperity_simulation::run::{CrushError, Event, FieldFrame, Outcome, run_with};
-use asperity_simulation::scene::SceneError;
+use asperity_simulation::scene::{SceneError, Symmetry};
 use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::time::Instant;
@@ -139,18 +139,17 @@ fn simulate(
 ) -> Result<(Crush, Option<Error>), Error> {
     let start = Instant::now();
     let tables = scene.tables();
-    let units = Units::of(tables.symmetry);
     let mut last = None;
     let (mut peak, mut mesh, mut failure, mut ended) = (None, None::<Arc<Mesh>>, None, false);
     let mut hear = |event: &Event<'_>| -> bool {
         let frame = match event {
             Event::Increment { row, planned } => {
-                last = Some((CurveRow::new(row, units), *planned));
+                last = Some((**row, *planned));
                 None
             }
             Event::Fields(frame) => {
                 let mesh = mesh.get_or_insert_with(|| Arc::new(frame.mesh.clone()));
-                if frame.phase == si::Phase::Load {
+                if frame.phase == Phase::Load {
                     peak = Some((*frame).clone());
                 }
                 let row = last.as_ref().map(|(row, _)| row);
@@ -176,24 +175,17 @@ fn simulate(
         None => reason(&outcome, tables.loading.depth.map(|depth| depth.0)),
     };
     let crush = Crush {
-        curve: outcome.rows.iter().map(|row| CurveRow::new(row, units)).collect(),
-        asperities: outcome.asperities.iter().map(|row| AsperityRow::new(row, units)).collect(),
-        gaps: outcome.gaps.iter().map(GapRow::new).collect(),
+        summary: Summary::new(&outcome, scene.resolved(), stopped, start.elapsed().as_secs_f64()),
+        curve: outcome.rows,
+        asperities: outcome.asperities,
+        gaps: outcome.gaps,
         // a single loading stands in the summary
         cycles: match tables.loading.reloads {
             0 => Vec::new(),
-            _ => outcome.cycles.iter().map(|row| CycleRow::new(row, units)).collect(),
+            _ => outcome.cycles,
         },
         frames: Vec::new(),
         peak,
-        summary: Summary::new(
-            &outcome.summary,
-            &outcome.elastic_islands,
-            units,
-            scene.resolved(),
-            stopped,
-            start.elapsed().as_secs_f64(),
-        ),
     };
     Ok((crush, failure))
 }
@@ -202,11 +194,11 @@ fn simulate(
 fn reason(outcome: &Outcome, target: Option<f64>) -> Option<String> {
     let stopped = outcome.stopped.as_ref()?;
     let verb = match stopped.phase {
-        si::Phase::Load => "loading",
-        si::Phase::Unload => "unloading",
-        si::Phase::Reload => "reloading",
+        Phase::Load => "loading",
+        Phase::Unload => "unloading",
+        Phase::Reload => "reloading",
     };
-    let target = target.filter(|_| stopped.phase != si::Phase::Unload);
+    let target = target.filter(|_| stopped.phase != Phase::Unload);
     let target = target.map_or(String::new(), |depth| format!(" of {:.4} um", depth / MICROMETRE));
     Some(format!("stopped {verb} at {:.4} um{target}: {}", stopped.depth / MICROMETRE, stopped.reason))
 }
@@ -278,17 +270,17 @@ impl Crush {
         }
         let scene = &self.summary.scene;
         Section::new(frame, scene, sketch.reach)
-            .and_then(|section| section.svg(sketch.panels, &title(row, per_length(scene.symmetry))))
+            .and_then(|section| section.svg(sketch.panels, &title(row, scene.symmetry)))
             .map(Some)
             .map_err(Error::Unfinished)
     }
 }
 
 /// Depth and force of a state, for people.
-fn title(row: &CurveRow, per: &str) -> String {
-    let force = row.force_N;
+fn title(row: &CurveRow, symmetry: Symmetry) -> String {
+    let (force, per) = (row.force / Unit::Force.value(symmetry), per_length(symmetry));
     let digits = (3 - force.abs().max(1e-9).log10().floor() as i32 - 1).clamp(0, 9) as usize;
-    let depth = format!("{:.4}", row.depth_um);
+    let depth = format!("{:.4}", row.depth / MICROMETRE);
     let depth = depth.trim_end_matches('0').trim_end_matches('.');
     format!("depth {depth} µm, force {force:.digits$} N{per}")
 }

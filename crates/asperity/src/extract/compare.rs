@@ -2,7 +2,7 @@
 
 use super::bodies::Body;
 use super::closures::Closures;
-use super::rows::{Carried, ComparedRow, FINITE_ELEMENTS};
+use super::rows::{Carried, ComparedRow, FINITE_ELEMENTS, written_area, written_depth};
 use super::scenes::stem;
 use crate::batch::journal::fingerprint;
 use crate::batch::{self, Batch, Options, Reached};
@@ -169,10 +169,9 @@ impl Extracted {
     fn rows(&self, body: &Body, closures: &Closures, crush: &Crush) -> Vec<ComparedRow> {
         let mut rows = Vec::new();
         for point in compared_points(&crush.curve, body.depth / MICROMETRE) {
-            let own =
-                Carried { force: point.force_N, area: point.contact_area_um2 * MICROMETRE * MICROMETRE };
+            let own = Carried { force: point.force, area: written_area(point) * MICROMETRE * MICROMETRE };
             rows.push(ComparedRow::new(body, FINITE_ELEMENTS, point, own, None, Some(&crush.summary), "ok"));
-            for given in closures.at(body, &self.surface, point.depth_um * MICROMETRE) {
+            for given in closures.at(body, &self.surface, written_depth(point)) {
                 let (own, status) = match given.body {
                     Ok(own) => (own, "ok".into()),
                     Err(why) => (Carried { force: f64::NAN, area: f64::NAN }, why),
@@ -195,10 +194,10 @@ impl Extracted {
 /// The increments of loading that are nearest to the shares of `depth` (µm), each once.
 fn compared_points(curve: &[CurveRow], depth: f64) -> Vec<&CurveRow> {
     let loading: Vec<&CurveRow> =
-        curve.iter().take_while(|row| row.phase == Phase::Load).filter(|row| row.force_N > 0.0).collect();
+        curve.iter().take_while(|row| row.phase == Phase::Load).filter(|row| row.force > 0.0).collect();
     let nearest = |share: f64| {
         loading.iter().copied().min_by(|a, b| {
-            let off = |row: &CurveRow| (row.depth_um - share * depth).abs();
+            let off = |row: &CurveRow| (row.depth / MICROMETRE - share * depth).abs();
             off(a).total_cmp(&off(b))
         })
     };
@@ -235,7 +234,7 @@ impl Comparison {
     /// A disk that refuses.
     pub fn write(&self, sink: &mut dyn Sink) -> Result<(), Error> {
         let rows: Vec<&ComparedRow> = self.rows().collect();
-        sink.write("compared.csv", |out| crate::results::output::write_csv(out, &rows, str::to_string))?;
+        sink.write("compared.csv", |out| crate::results::output::write_csv(out, &rows))?;
         for one in self.asperities.iter().filter(|one| !one.curve.is_empty()) {
             sink.text(&format!("curves/{}.csv", stem(one.asperity)), &one.curve)?;
         }

@@ -118,7 +118,7 @@ impl Several {
     /// A disk that refuses.
     pub fn write(&self, sink: &mut dyn Sink) -> Result<(), Error> {
         sink.csv("table.csv", &self.table)?;
-        sink.write("surfaces.csv", |out| write_csv(out, &self.surfaces, str::to_string))
+        sink.write("surfaces.csv", |out| write_csv(out, &self.surfaces))
     }
 
     /// Both tables as JSON.

@@ -1,7 +1,7 @@
 //! The sentence at the end of a run: area, the closure to believe, gap, and whether and how much it leaks.
 
 use super::half_space::SpaceContact;
-use crate::page::format::{rounded, significant};
+use crate::results::numbers::{rounded, significant};
 use crate::results::units::{MEGAPASCAL, MICROMETRE};
 use crate::rough::closure_contact::ClosureContact;
 use crate::rough::contact::Rough;

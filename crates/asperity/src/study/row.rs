@@ -1,6 +1,6 @@
 //! One run of a study, and the two tables of all of them.
 
-use crate::crush::peak_memory_mb;
+use crate::crush::peak_memory;
 use crate::error::Error;
 use indexmap::{IndexMap, IndexSet};
 use serde::{Deserialize, Serialize};
@@ -24,7 +24,8 @@ pub(super) struct Outcome {
 impl Outcome {
     pub fn new(results: Columns, status: String) -> Outcome {
         let status = status.replace(['\n', '\r'], " ");
-        Outcome { results, status, wall_s: 0.0, peak_memory_mb: peak_memory_mb(), curve: None }
+        let peak_memory_mb = peak_memory().map(|bytes| bytes / 1e6);
+        Outcome { results, status, wall_s: 0.0, peak_memory_mb, curve: None }
     }
 }
 

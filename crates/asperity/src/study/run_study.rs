@@ -7,7 +7,7 @@ use super::row::{self, Outcome, Run, columns};
 use crate::batch::journal::fingerprint;
 use crate::batch::{self, Batch, Options, Reached, Shard, all_found, not_a_part};
 use crate::error::{Error, InputError};
-use crate::page::format::significant;
+use crate::results::numbers::significant;
 use crate::results::output::{Sink, SinkExt, write_whole};
 use std::collections::HashMap;
 use std::fmt::{Display, Write};
