@@ -20,6 +20,7 @@ pub use plot::{plot, titled_plot};
 use crate::draw::field_plot::{Panel, Reach, Section};
 use crate::error::Error;
 use crate::input::scene::Scene;
+use crate::results::numbers::decimals;
 use crate::results::output::{Sink, SinkExt};
 use crate::results::units::{MICROMETRE, Unit, per_length};
 use asperity_mesh::Mesh;
@@ -279,7 +280,7 @@ impl Crush {
 /// Depth and force of a state, for people.
 fn title(row: &CurveRow, symmetry: Symmetry) -> String {
     let (force, per) = (row.force / Unit::Force.value(symmetry), per_length(symmetry));
-    let digits = (3 - force.abs().max(1e-9).log10().floor() as i32 - 1).clamp(0, 9) as usize;
+    let digits = decimals(force.abs().max(1e-9), 3);
     let depth = format!("{:.4}", row.depth / MICROMETRE);
     let depth = depth.trim_end_matches('0').trim_end_matches('.');
     format!("depth {depth} µm, force {force:.digits$} N{per}")

@@ -2,6 +2,7 @@
 //! page of columns, and reads the files.
 
 use crate::error::{Error, InputError};
+use crate::results::numbers::shortest;
 use crate::results::units::Unit;
 use asperity_simulation::record::rows::Phase;
 use asperity_simulation::scene::{Scene as Tables, Symmetry};
@@ -261,9 +262,7 @@ fn text(value: &Value) -> String {
     match value {
         Value::Null => String::new(),
         Value::String(text) => text.clone(),
-        Value::Number(number) if number.is_f64() => {
-            number.as_f64().map_or_else(String::new, |n| format!("{n:?}"))
-        }
+        Value::Number(number) if number.is_f64() => number.as_f64().map_or_else(String::new, shortest),
         value => value.to_string(),
     }
 }

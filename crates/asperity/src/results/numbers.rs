@@ -57,15 +57,30 @@ pub fn spread(value: Option<Spread>, digits: usize) -> String {
     if seen { format!("{:.digits$} ± {deviation}", s.mean) } else { format!("{:.digits$}", s.mean) }
 }
 
-fn with_digits(value: f64, count: i32) -> String {
+/// So many significant digits or so.
+pub(crate) fn with_digits(value: f64, count: i32) -> String {
     if value == 0.0 || !value.is_finite() {
         return format!("{value}");
     }
     if value.abs() < 1e-6 {
         return format!("{value:.*e}", (count - 1).max(0) as usize);
     }
-    let decimals = (count - 1 - value.abs().log10().floor() as i32).clamp(0, 9) as usize;
-    format!("{value:.decimals$}")
+    format!("{value:.*}", decimals(value.abs(), count))
+}
+
+/// Digits after the point with which the positive `value` has `count` digits, at most 9.
+pub(crate) fn decimals(value: f64, count: i32) -> usize {
+    (count - 1 - value.log10().floor() as i32).clamp(0, 9) as usize
+}
+
+/// A number as tables have it, in the shortest digits that read back to the same bits: `5.0`, `5e-5`, nothing for what is not finite.
+pub(crate) fn shortest(value: f64) -> String {
+    if value.is_finite() { format!("{value:?}") } else { String::new() }
+}
+
+/// A value, or nothing.
+pub(crate) fn if_any<T: ToString>(value: Option<T>) -> String {
+    value.map_or_else(String::new, |value| value.to_string())
 }
 
 #[cfg(test)]

@@ -2,6 +2,7 @@
 
 use crate::batch::journal::{Journal, fingerprint};
 use crate::error::{Error, InputError};
+use crate::results::numbers::shortest;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Deserializer, Serialize};
 use std::fmt::Display;
@@ -195,11 +196,10 @@ fn no_json(error: serde_json::Error) -> Error {
     Error::Unfinished(format!("a result is not JSON: {error}"))
 }
 
-/// The text of a value as files have it: `5.0`, `5e-5`, nothing for NaN.
+/// The text of a cell with its number, if it is one, as files have it.
 fn cell(text: &str) -> String {
     match text.parse::<f64>() {
-        Ok(value) if !value.is_finite() => String::new(),
-        Ok(value) if text.contains(['.', 'e']) => format!("{value:?}"),
+        Ok(value) if !value.is_finite() || text.contains(['.', 'e']) => shortest(value),
         _ => text.to_string(),
     }
 }
