@@ -38,15 +38,10 @@ pub fn crush(
     let symmetry = scene.tables().symmetry;
     let (result, raised_meanwhile) = work::run_to_end(py, progress, |tell| {
         asperity::crush(scene, &mut |reached| {
-            let share = reached.row.increment as f64 / reached.planned.max(1) as f64;
-            tell(
-                share.min(1.0),
-                format!(
-                    "{:.4} um, {:.4} N",
-                    reached.row.depth / MICROMETRE,
-                    reached.row.force / Unit::Force.value(symmetry)
-                ),
-            )
+            let [depth, force] = reached.news.map_or([0.0; 2], |news| {
+                [news.row.depth / MICROMETRE, news.row.force / Unit::Force.value(symmetry)]
+            });
+            tell(reached.share, format!("{depth:.4} um, {force:.4} N"))
         })
     })?;
     let inner = result.map_err(raised)?;

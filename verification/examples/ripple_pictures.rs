@@ -36,7 +36,8 @@ fn run(accuracy: Accuracy) -> Run {
     tables.output.every = Some(1000);
     let scene = Scene::new(&tables).expect("a scene without contradictions");
     let (mut found, mut surface) = (Vec::new(), Vec::new());
-    let result = crush(&scene, &mut |news| {
+    let result = crush(&scene, &mut |reached| {
+        let Some(news) = reached.news else { return true };
         if let Some(frame) = news.frame {
             // of those before first touch, at the peak and at the end, the one under pressure
             if frame.surface.iter().any(|point| point.pressure > 0.0) {

@@ -24,7 +24,7 @@
 //! assert_eq!(result.curve.last().map(|row| row.force), Some(summary.peak_force));
 //!
 //! // the observer ends a run by `false`: what was reached stays, without a stated error
-//! let part = crush(&scene, &mut |progress| progress.row.increment < 10)?.summary;
+//! let part = crush(&scene, &mut |progress| progress.done < 10)?.summary;
 //! assert!(part.stopped.is_some() && part.estimated_error.is_nan());
 //! # Ok::<(), asperity::Error>(())
 //! ```
@@ -91,6 +91,8 @@ pub mod error;
 
 pub mod results;
 
+pub mod progress;
+
 pub mod batch;
 
 pub mod scenes;
@@ -124,6 +126,7 @@ pub use extract::{Extracted, Extraction, extract};
 pub use identify::{Fit, Identification, identify};
 pub use input::scene::Scene;
 pub use mesh::{Mesh, mesh};
+pub use progress::{Observer, Progress};
 pub use results::{columns, numbers, output, units};
 pub use study::{Study, study};
 

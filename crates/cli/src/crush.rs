@@ -2,7 +2,7 @@
 
 use crate::flags::{ReportFlag, RunFlags, SceneFlags};
 use crate::folder::{Folder, journal_beside};
-use crate::progress::Progress;
+use crate::progress::Line;
 use crate::{interrupt, terminal};
 use asperity::crush::{Checkpoints, CurveRow, Sketch, crush_with};
 use asperity::error::{Error, InputError};
@@ -56,7 +56,7 @@ pub fn crush(args: &Crush) -> Result<(), Error> {
     }
     let mut folder = Folder::create(&out, "crush", args.run.force)?;
     interrupt::catch();
-    let progress = Progress::new(args.run.quiet);
+    let progress = Line::new(args.run.quiet);
     let symmetry = scene.tables().symmetry;
     let checkpoints =
         Checkpoints { folder: journal_beside(&out), every: BETWEEN_CHECKPOINTS, largest: LARGEST_JOURNAL };
@@ -65,8 +65,9 @@ pub fn crush(args: &Crush) -> Result<(), Error> {
         terminal::complain(&format!("the solves of a stopped run in {place} are used as far as they fit"));
     }
     let result = crush_with(&scene, Some(&checkpoints), &mut folder, &[Sketch::PEAK], &mut |reached| {
-        let share = reached.row.increment as f64 / reached.planned.max(1) as f64;
-        progress.show(share, || progress_line(reached.row, symmetry));
+        if let Some(increment) = reached.news {
+            progress.show(reached.share, || progress_line(increment.row, symmetry));
+        }
         !interrupt::requested()
     });
     progress.finish();

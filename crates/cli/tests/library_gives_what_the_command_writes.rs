@@ -72,8 +72,8 @@ fn an_observer_that_ends_the_run_keeps_what_was_reached() {
     let (mut told, mut seen) = (0, 0);
     let result = crush(&scene, &mut |progress| {
         told += 1;
-        seen += usize::from(progress.frame.is_some());
-        progress.row.increment < 3
+        seen += usize::from(progress.news.is_some_and(|news| news.frame.is_some()));
+        progress.done < 3
     })
     .unwrap();
     assert_eq!(result.curve.last().map(|row| row.increment), Some(3));

@@ -4,8 +4,9 @@
 
 mod common;
 
+use asperity::Progress;
 use asperity::Scene;
-use asperity::crush::{Checkpoints, Progress, crush_with};
+use asperity::crush::{Checkpoints, Increment, crush_with};
 use asperity::output::Directory;
 use common::{Place, SCENE};
 use std::fs;
@@ -18,7 +19,7 @@ fn crush(
     text: &str,
     name: &str,
     kept: &str,
-    observer: &mut dyn FnMut(&Progress<'_>) -> bool,
+    observer: &mut dyn FnMut(&Progress<'_, Increment<'_>>) -> bool,
 ) -> usize {
     let scene = Scene::from_toml(text, "".as_ref()).unwrap();
     let checkpoints = Checkpoints { folder: place.path(kept), every: Duration::ZERO, largest: u64::MAX };
@@ -57,7 +58,7 @@ fn an_interrupted_crush_ends_with_the_same_bytes() {
         let iterations = crush(&place, &text, "whole", "whole.journal", &mut |_| true);
         let increments = place.text("whole/curve.csv").lines().count() - 1;
         for stop in [1, increments / 3, increments / 2, increments - 2] {
-            crush(&place, &text, "out", "kept", &mut |progress| progress.row.increment < stop);
+            crush(&place, &text, "out", "kept", &mut |progress| progress.done < stop);
             assert!(place.path("kept/solver").exists());
         }
         assert_eq!(crush(&place, &text, "out", "kept", &mut |_| true), iterations);
@@ -91,7 +92,7 @@ fn what_a_killed_crush_left_at_any_moment_is_enough() {
     let text = &scenes()[0];
     let place = Place::with_scene(text);
     crush(&place, text, "whole", "kept", &mut |progress| {
-        let increment = progress.row.increment;
+        let increment = progress.done;
         if increment % 5 == 2 && place.path("kept/solver").exists() {
             copy(&place.path("kept"), &place.path(&format!("left-{increment}")));
         }
@@ -120,11 +121,11 @@ fn checkpoints_of_another_scene_or_damaged_ones_change_nothing() {
     let other = text.replace("yield_stress = \"300 MPa\"", "yield_stress = \"310 MPa\"");
     assert_ne!(&other, text);
     crush(&place, text, "whole", "none", &mut |_| true);
-    crush(&place, &other, "out", "kept", &mut |progress| progress.row.increment < 6);
+    crush(&place, &other, "out", "kept", &mut |progress| progress.done < 6);
     crush(&place, text, "out", "kept", &mut |_| true);
     assert_eq!(place.text("out/curve.csv"), place.text("whole/curve.csv"));
     // a solve that is none of this body is found by its residual, and solved
-    crush(&place, text, "out", "bad", &mut |progress| progress.row.increment < 6);
+    crush(&place, text, "out", "bad", &mut |progress| progress.done < 6);
     let mut bytes = fs::read(place.path("bad/solves")).unwrap();
     let half = bytes.len() / 2;
     bytes[half] ^= 0x10;

@@ -20,6 +20,7 @@ pub use plot::{plot, titled_plot};
 use crate::draw::field_plot::{Panel, Reach, Section};
 use crate::error::Error;
 use crate::input::scene::Scene;
+use crate::progress::Progress;
 use crate::results::numbers::decimals;
 use crate::results::output::{Sink, SinkExt};
 use crate::results::units::{MICROMETRE, Unit, per_length};
@@ -52,12 +53,10 @@ pub struct Crush {
 
 /// News for the observer of a crush: of every increment, and again where its fields are due.
 #[derive(Clone, Copy, Debug)]
-pub struct Progress<'a> {
+pub struct Increment<'a> {
     /// The last increment as it was found: ripple still in, not extrapolated, without a stated error. The row of the result differs by
     /// as much as the error that is stated there.
     pub row: &'a CurveRow,
-    /// Increments that the whole run will have, as far as is known.
-    pub planned: usize,
     /// The fields of the increment, where they are due.
     pub frame: Option<&'a Frame>,
 }
@@ -86,7 +85,10 @@ impl Sketch {
 /// # Errors
 /// Only if the run cannot begin: [`Error::Input`], pointing at the line of the scene. What stops it later is in
 /// `summary.stopped`.
-pub fn crush(scene: &Scene, observer: &mut dyn FnMut(&Progress<'_>) -> bool) -> Result<Crush, Error> {
+pub fn crush(
+    scene: &Scene,
+    observer: &mut dyn FnMut(&Progress<'_, Increment<'_>>) -> bool,
+) -> Result<Crush, Error> {
     let mut frames = Vec::new();
     let keep = &mut |frame: Frame| {
         frames.push(frame);
@@ -106,7 +108,7 @@ pub fn crush_into(
     scene: &Scene,
     sink: &mut dyn Sink,
     sketches: &[Sketch],
-    observer: &mut dyn FnMut(&Progress<'_>) -> bool,
+    observer: &mut dyn FnMut(&Progress<'_, Increment<'_>>) -> bool,
 ) -> Result<Crush, Error> {
     crush_with(scene, None, sink, sketches, observer)
 }
@@ -122,7 +124,7 @@ pub fn crush_with(
     checkpoints: Option<&Checkpoints>,
     sink: &mut dyn Sink,
     sketches: &[Sketch],
-    observer: &mut dyn FnMut(&Progress<'_>) -> bool,
+    observer: &mut dyn FnMut(&Progress<'_, Increment<'_>>) -> bool,
 ) -> Result<Crush, Error> {
     let mut series = FieldSeries::default();
     let (crush, failure) = simulate(scene, checkpoints, observer, &mut |frame| series.add(sink, &frame))?;
@@ -135,7 +137,7 @@ pub fn crush_with(
 fn simulate(
     scene: &Scene,
     checkpoints: Option<&Checkpoints>,
-    observer: &mut dyn FnMut(&Progress<'_>) -> bool,
+    observer: &mut dyn FnMut(&Progress<'_, Increment<'_>>) -> bool,
     keep: &mut dyn FnMut(Frame) -> Result<(), Error>,
 ) -> Result<(Crush, Option<Error>), Error> {
     let start = Instant::now();
@@ -157,10 +159,12 @@ fn simulate(
                 Some(Frame::new(frame, mesh.clone(), tables, row))
             }
         };
-        let told =
-            last.as_ref().map(|(row, planned)| Progress { row, planned: *planned, frame: frame.as_ref() });
+        let told = |(row, planned): &(CurveRow, usize)| {
+            let news = Increment { row, frame: frame.as_ref() };
+            observer(&Progress::counted(row.increment, *planned, Some(&news)))
+        };
         // a run that was ended may still hand out the fields of where it ended
-        ended = ended || told.is_some_and(|progress| !observer(&progress));
+        ended = ended || !last.as_ref().is_none_or(told);
         if let (Some(frame), None) = (frame, &failure) {
             failure = keep(frame).err();
         }

@@ -5,11 +5,12 @@ use super::closures::Closures;
 use super::rows::{Carried, ComparedRow, FINITE_ELEMENTS, written_area, written_depth};
 use super::scenes::stem;
 use crate::batch::journal::fingerprint;
-use crate::batch::{self, Batch, Options, Reached};
+use crate::batch::{self, Batch, Options};
 use crate::crush::{Crush, CurveRow, Phase, crush, write_rows};
 use crate::error::{Error, InputError};
 use crate::extract::take::Extracted;
 use crate::input::scene::Scene;
+use crate::progress::Observer;
 use crate::results::output::{Sink, SinkExt};
 use crate::results::units::MICROMETRE;
 use crate::rough::RoughScene;
@@ -50,15 +51,6 @@ pub struct Comparison {
     pub wall_s: f64,
 }
 
-/// How far a comparison has come.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Progress {
-    /// Asperities that are crushed, those of the journal too.
-    pub done: usize,
-    /// Asperities in all.
-    pub asperities: usize,
-}
-
 impl Extracted {
     /// Crushes the `count` highest bodies and holds every closure against them, a thread an asperity; `scene` is that of the
     /// extraction, whose files lie in the folder of `options` ([`Extracted::write`]).
@@ -74,7 +66,7 @@ impl Extracted {
         scene: &RoughScene,
         count: usize,
         options: &Options,
-        observer: &mut (dyn FnMut(&Progress) -> bool + Send),
+        observer: &mut Observer<'_, Compared>,
     ) -> Result<Comparison, Error> {
         let start = Instant::now();
         let Some(folder) = options.folder.as_deref() else {
@@ -95,9 +87,7 @@ impl Extracted {
             threads: options.threads,
             journal: Some(&journal),
         };
-        let finished = batch::run(&batch, &mut |reached: &Reached<'_, Compared>| {
-            observer(&Progress { done: reached.done, asperities: reached.cases })
-        })?;
+        let finished = batch::run(&batch, observer)?;
         Ok(Comparison {
             asperities: finished.rows.into_iter().map(|(_, row)| row).collect(),
             warnings: closures.skipped,
