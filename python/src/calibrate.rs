@@ -31,8 +31,7 @@ pub fn calibrate<'py>(
     let options = Options { threads, ..Options::default() };
     let result = work::run(py, progress, |tell| {
         asperity::calibrate(&file.value, &options, &mut |reached| {
-            let share = reached.done as f64 / reached.cases.max(1) as f64;
-            tell(share, format!("case {} of {}", reached.done, reached.cases))
+            tell(reached.share, format!("case {} of {}", reached.done, reached.all))
         })
     })?;
     let done = result.map_err(raised)?;

@@ -2,16 +2,17 @@
 
 use crate::error::{raised, wrong};
 use crate::scene::Scene;
-use crate::table::{matrix, of_csv, of_json, of_rows};
+use crate::table::{matrix, of_csv, of_json};
 use crate::work;
-use asperity::crush::{Sketch, write_rows};
+use asperity::columns::{Table, write_rows};
+use asperity::crush::Sketch;
 use asperity::mesh::FieldArray;
 use asperity::output::Directory;
 use asperity::tables::Symmetry;
+use asperity::units::{MICROMETRE, Unit};
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use serde::Serialize;
 use std::path::{Path, PathBuf};
 
 /// The result of a crush.
@@ -34,10 +35,13 @@ pub fn crush(
     let changed =
         accuracy.map(|level| scene.inner.with(&[format!("accuracy={level}")])).transpose().map_err(raised)?;
     let scene = changed.as_ref().unwrap_or(&scene.inner);
+    let symmetry = scene.tables().symmetry;
     let (result, raised_meanwhile) = work::run_to_end(py, progress, |tell| {
         asperity::crush(scene, &mut |reached| {
-            let share = reached.row.increment as f64 / reached.planned.max(1) as f64;
-            tell(share.min(1.0), format!("{:.4} um, {:.4} N", reached.row.depth_um, reached.row.force_N))
+            let [depth, force] = reached.news.map_or([0.0; 2], |news| {
+                [news.row.depth / MICROMETRE, news.row.force / Unit::Force.value(symmetry)]
+            });
+            tell(reached.share, format!("{depth:.4} um, {force:.4} N"))
         })
     })?;
     let inner = result.map_err(raised)?;
@@ -53,7 +57,7 @@ impl Crush {
         self.inner.summary.scene.symmetry
     }
 
-    fn rows<'py, T: Serialize>(&self, py: Python<'py>, rows: &[T]) -> PyResult<Bound<'py, PyDict>> {
+    fn rows<'py, T: Table>(&self, py: Python<'py>, rows: &[T]) -> PyResult<Bound<'py, PyDict>> {
         if rows.is_empty() {
             return Ok(PyDict::new(py));
         }
@@ -127,19 +131,16 @@ impl Crush {
     )> {
         let frame = self.inner.frames.get(i).ok_or_else(|| wrong(format!("there are no fields {i}")))?;
         let mesh = &frame.mesh;
-        let nodes = mesh.nodes.iter().flatten().map(|x| x / asperity::units::MICROMETRE).collect();
+        let nodes = mesh.nodes.iter().flatten().map(|x| x / MICROMETRE).collect();
         let cells = mesh.cells.iter().map(|node| f64::from(*node)).collect();
         Ok((
             frame.increment,
-            match frame.phase {
-                asperity::crush::Phase::Load => "load",
-                asperity::crush::Phase::Unload => "unload",
-            },
+            if frame.phase.advances() { "load" } else { "unload" },
             matrix(py, nodes, 2)?,
             matrix(py, cells, mesh.kind.nodes())?,
             arrays(py, &frame.nodes)?,
             arrays(py, &frame.cells)?,
-            of_rows(py, &frame.surface)?,
+            self.rows(py, &frame.surface)?,
         ))
     }
 

@@ -94,8 +94,7 @@ pub fn extract<'py>(
         }
         let options = Options { threads, part: None, folder: Some(folder.clone()) };
         let compared = found.crush(&scene, count, &options, &mut |reached| {
-            let share = reached.done as f64 / reached.asperities.max(1) as f64;
-            tell(share, format!("asperity {} of {}", reached.done, reached.asperities))
+            tell(reached.share, format!("asperity {} of {}", reached.done, reached.all))
         })?;
         compared.write(&mut sink)?;
         Ok((found, Some(compared)))

@@ -32,7 +32,9 @@ pub fn press(
 ) -> PyResult<Rough> {
     let scene = with_heights(scene, heights, pixel_size_um)?;
     let result = work::run(py, progress, |tell| {
-        asperity::press(&scene, &mut |reached| tell(reached.share, reached.closure.name().to_string()))
+        asperity::press(&scene, &mut |reached| {
+            tell(reached.share, reached.news.map_or("", |c| c.name()).to_string())
+        })
     })?;
     let rough = Rough { inner: result.map_err(raised)? };
     out.map_or(Ok(()), |folder| rough.write(&folder))?;

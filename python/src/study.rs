@@ -78,8 +78,7 @@ pub fn study<'py>(
     let options = Options { threads, part, folder: out.clone() };
     let result = work::run(py, progress, |tell| {
         asperity::study(&plan, &options, &mut |reached| {
-            let share = reached.done as f64 / reached.runs.max(1) as f64;
-            tell(share, format!("run {} of {}", reached.done, reached.runs))
+            tell(reached.share, format!("run {} of {}", reached.done, reached.all))
         })
     })?;
     let done = result.map_err(raised)?;

@@ -51,7 +51,7 @@ pub fn of_csv<'py>(py: Python<'py>, text: &[u8]) -> PyResult<Bound<'py, PyDict>>
 /// Rows as a dictionary of arrays.
 pub fn of_rows<'py, T: Serialize>(py: Python<'py>, rows: &[T]) -> PyResult<Bound<'py, PyDict>> {
     let mut text = Vec::new();
-    write_csv(&mut text, rows, str::to_string).map_err(unfinished)?;
+    write_csv(&mut text, rows).map_err(unfinished)?;
     of_csv(py, &text)
 }
 

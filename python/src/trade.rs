@@ -24,7 +24,7 @@ pub fn trade<'py>(
     let result = work::run(py, progress, |tell| {
         let options = Options { combinations, ..Options::default() };
         asperity::trade::trade(tables, &options, &mut |reached| {
-            tell(reached.share, format!("{} settings", reached.finished))
+            tell(reached.share, format!("{} settings", reached.done))
         })
     })?;
     let done = result.map_err(raised)?;

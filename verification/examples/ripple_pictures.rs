@@ -8,10 +8,11 @@
 // a scene that is committed
 #![allow(clippy::expect_used)]
 
-use asperity::crush::{Crush, CurveRow, Phase, SurfaceRow, titled_plot};
+use asperity::crush::{Crush, CurveRow, Phase, SurfacePoint, titled_plot};
 use asperity::draw::chart::{Chart, Dash, Series, svg};
 use asperity::simulation::record::curve::Curve;
 use asperity::tables::Accuracy;
+use asperity::units::{MEGAPASCAL, MICROMETRE};
 use asperity::{Scene, crush};
 use asperity_verification::report::Report;
 use asperity_verification::single_asperity::scene;
@@ -27,7 +28,7 @@ type Column = fn(&CurveRow) -> f64;
 struct Run {
     found: Vec<CurveRow>,
     result: Crush,
-    surface: Vec<SurfaceRow>,
+    surface: Vec<SurfacePoint>,
 }
 
 /// The asperity of the paper, without fields but the surface at the peak.
@@ -36,14 +37,15 @@ fn run(accuracy: Accuracy) -> Run {
     tables.output.every = Some(1000);
     let scene = Scene::new(&tables).expect("a scene without contradictions");
     let (mut found, mut surface) = (Vec::new(), Vec::new());
-    let result = crush(&scene, &mut |news| {
+    let result = crush(&scene, &mut |reached| {
+        let Some(news) = reached.news else { return true };
         if let Some(frame) = news.frame {
             // of those before first touch, at the peak and at the end, the one under pressure
-            if frame.surface.iter().any(|point| point.pressure_MPa > 0.0) {
+            if frame.surface.iter().any(|point| point.pressure > 0.0) {
                 surface.clone_from(&frame.surface);
             }
         } else {
-            found.push(news.row.clone());
+            found.push(*news.row);
         }
         true
     })
@@ -52,31 +54,36 @@ fn run(accuracy: Accuracy) -> Run {
 }
 
 fn loading(rows: &[CurveRow]) -> impl Iterator<Item = &CurveRow> {
-    rows.iter().filter(|row| row.phase == Phase::Load && row.depth_um > 0.0)
+    rows.iter().filter(|row| row.phase == Phase::Load && row.depth > 0.0)
+}
+
+/// Depth in µm.
+fn depth(row: &CurveRow) -> f64 {
+    row.depth / MICROMETRE
 }
 
 /// A column over the depth while loading; NaN beyond its last row.
 fn curve(rows: &[CurveRow], column: Column) -> Curve {
-    Curve::new(loading(rows).map(|row| [row.depth_um, column(row)]))
+    Curve::new(loading(rows).map(|row| [depth(row), column(row)]))
 }
 
 /// Deviation of a column from that of the fine curve in percent, over the depth.
 fn deviation(rows: &[CurveRow], fine: &[CurveRow], column: Column) -> Vec<[f64; 2]> {
     let fine = curve(fine, column);
-    let counted = loading(rows).filter(|row| row.depth_um >= FROM);
-    let points = counted
-        .map(|row| [row.depth_um, 100.0 * (column(row) / fine.logarithm_at(row.depth_um).exp() - 1.0)]);
+    let counted = loading(rows).filter(|row| depth(row) >= FROM);
+    let points =
+        counted.map(|row| [depth(row), 100.0 * (column(row) / fine.logarithm_at(depth(row)).exp() - 1.0)]);
     points.filter(|point| point[1].is_finite()).collect()
 }
 
 /// Deviation in percent of the slope dF/dh from that of the fine curve, of the chord between two depths
 /// around each row.
 fn slopes(rows: &[CurveRow], fine: &[CurveRow], around: impl Fn(&[f64], usize) -> [f64; 2]) -> Vec<[f64; 2]> {
-    let [own, fine] = [rows, fine].map(|rows| curve(rows, |row| row.force_N));
+    let [own, fine] = [rows, fine].map(|rows| curve(rows, |row| row.force));
     let chord = |curve: &Curve, [low, high]: [f64; 2]| {
         (curve.logarithm_at(high).exp() - curve.logarithm_at(low).exp()) / (high - low)
     };
-    let depths: Vec<f64> = loading(rows).map(|row| row.depth_um).collect();
+    let depths: Vec<f64> = loading(rows).map(depth).collect();
     let counted = (1..depths.len()).filter(|&i| depths[i - 1] >= FROM);
     let points = counted.map(|i| {
         let ends = around(&depths, i);
@@ -90,7 +97,7 @@ fn slopes(rows: &[CurveRow], fine: &[CurveRow], around: impl Fn(&[f64], usize) -
 fn slopes_back(rows: &[CurveRow], fine: &[CurveRow]) -> Vec<[f64; 2]> {
     let back = |rows: &[CurveRow]| -> Vec<[f64; 2]> {
         let from = rows.iter().position(|row| row.phase == Phase::Unload).unwrap_or(rows.len()) - 1;
-        rows[from..].iter().map(|row| [row.force_N, row.depth_um]).collect()
+        rows[from..].iter().map(|row| [row.force, depth(row)]).collect()
     };
     let (fine, rows) = (back(fine), back(rows));
     let peak = fine[0][0];
@@ -152,13 +159,13 @@ fn main() {
     save(folder, "single-force.svg", &force);
 
     let stated = loading(result)
-        .filter(|row| row.depth_um >= FROM)
-        .filter_map(|row| Some([row.depth_um, 100.0 * row.force_error?]));
+        .filter(|row| depth(row) >= FROM)
+        .filter_map(|row| Some([depth(row), 100.0 * row.force_error?]));
     let stated: Vec<[f64; 2]> = stated.collect();
     let columns: [(&str, Column, &[[f64; 2]]); 3] = [
-        ("Force", |row| row.force_N, &stated),
-        ("Contact area", |row| row.contact_area_um2, &[]),
-        ("Mean pressure", |row| row.mean_pressure_MPa, &[]),
+        ("Force", |row| row.force, &stated),
+        ("Contact area", |row| row.contact_area, &[]),
+        ("Mean pressure", |row| row.mean_pressure, &[]),
     ];
     report.table("| at standard, beside reference | as found: root mean square | largest | result: root mean square | largest |");
     for (name, column, stated) in columns {
@@ -181,9 +188,11 @@ fn main() {
     report.line(&row("slope of unloading, 95 to 20 % of the peak", [&back(found), &back(result)]));
 
     let along = |run: &Run| {
-        let off = run.surface.iter().position(|point| point.pressure_MPa <= 0.0).unwrap_or(run.surface.len());
+        let off = run.surface.iter().position(|point| point.pressure <= 0.0).unwrap_or(run.surface.len());
         let touching = run.surface.iter().take(off + 1);
-        touching.map(|point| [point.r_um, point.pressure_MPa]).collect::<Vec<_>>()
+        touching
+            .map(|point| [point.position[0] / MICROMETRE, point.pressure / MEGAPASCAL])
+            .collect::<Vec<_>>()
     };
     let series =
         [Series::line("standard", along(&standard)).marked(), Series::line("reference", along(&fine))];

@@ -14,6 +14,6 @@ fn main() -> Result<(), asperity::Error> {
         loading = { depth = "5 um" }
     "#;
     let scene = Scene::from_toml(text, Path::new("."))?;
-    println!("{} N", crush(&scene, &mut |_| true)?.summary.peak_force_N);
+    println!("{} N", crush(&scene, &mut |_| true)?.summary.peak_force);
     Ok(())
 }

@@ -37,7 +37,7 @@ fn main() -> Result<(), Error> {
         .with(Asperity::cone(Length(20.0 * UM), 10.0).rounded(Length(10.0 * UM)))
         .at(Accuracy::Draft);
     let crushed = crush(&Scene::new(&tables)?, &mut |_| true)?;
-    println!("peak force {} N", crushed.summary.peak_force_N);
+    println!("peak force {} N", crushed.summary.peak_force);
 
     let sweep = Sweep {
         slopes_deg: vec![8.0],

@@ -12,8 +12,8 @@ fn main() -> Result<(), Error> {
     let tables = Tables::new(Symmetry::Axisymmetric, steel, Tool::plane(), loading).with(cone);
     let result = crush(&Scene::new(&tables.at(Accuracy::Draft))?, &mut |_| true)?;
     let summary = &result.summary;
-    println!("{:.3} N at {:.3} um", summary.peak_force_N, summary.peak_depth_um);
+    println!("{:.3} N at {:.3} um", summary.peak_force, 1e6 * summary.peak_depth);
     println!("error within {:.1} %", 100.0 * summary.estimated_error);
-    println!("residual depth {:.3} um", summary.residual_depth_um.unwrap_or(f64::NAN));
+    println!("residual depth {:.3} um", 1e6 * summary.residual_depth.unwrap_or(f64::NAN));
     Ok(())
 }

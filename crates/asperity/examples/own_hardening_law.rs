@@ -16,7 +16,7 @@ fn main() -> Result<(), Error> {
         .with(Asperity::cone(Length(20e-6), 10.0).rounded(Length(10e-6)))
         .at(Accuracy::Draft);
     let summary = crush(&Scene::new(&tables)?, &mut |_| true)?.summary;
-    println!("{:.3} N at {:.3} um", summary.peak_force_N, summary.peak_depth_um);
-    println!("mean pressure {:.0} MPa", 1e6 * summary.peak_force_N / summary.contact_area_um2);
+    println!("{:.3} N at {:.3} um", summary.peak_force, 1e6 * summary.peak_depth);
+    println!("mean pressure {:.0} MPa", 1e-6 * summary.peak_force / summary.contact_area);
     Ok(())
 }

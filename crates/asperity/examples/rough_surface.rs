@@ -29,7 +29,7 @@ unload = true
 fn main() -> Result<(), asperity::Error> {
     let scene = RoughScene::from_toml(SCENE, Path::new(""))?;
     let rough = press(&scene, &mut |progress| {
-        println!("{:>3.0} %  {}", 100.0 * progress.share, progress.closure.name());
+        println!("{:>3.0} %  {}", 100.0 * progress.share, progress.news.map_or("", |c| c.name()));
         true
     })?;
     println!("{}", rough.text());

@@ -1,7 +1,7 @@
 #![doc = include_str!("../README.md")]
 //!
 //! The command line is a thin layer over these functions; whatever a command computes, a function returns as typed rows
-//! and summaries, named as in the files that the command writes.
+//! and summaries in SI, and writes them under the names and in the units of the files of the command.
 //!
 //! # One crush
 //! ```
@@ -16,11 +16,11 @@
 //! let scene = Scene::new(&tables)?;
 //! let result = crush(&scene, &mut |_| true)?;
 //! let summary = &result.summary;
-//! assert!((summary.peak_force_N / 5.5 - 1.0).abs() < summary.estimated_error);
-//! assert_eq!(result.curve.last().map(|row| row.force_N), Some(summary.peak_force_N));
+//! assert!((summary.peak_force / 5.5 - 1.0).abs() < summary.estimated_error);
+//! assert_eq!(result.curve.last().map(|row| row.force), Some(summary.peak_force));
 //!
 //! // the observer ends a run by `false`: what was reached stays, without a stated error
-//! let part = crush(&scene, &mut |progress| progress.row.increment < 10)?.summary;
+//! let part = crush(&scene, &mut |progress| progress.done < 10)?.summary;
 //! assert!(part.stopped.is_some() && part.estimated_error.is_nan());
 //! # Ok::<(), asperity::Error>(())
 //! ```
@@ -87,6 +87,8 @@ pub mod error;
 
 pub mod results;
 
+pub mod progress;
+
 pub mod batch;
 
 pub mod scenes;
@@ -120,7 +122,8 @@ pub use extract::{Extracted, Extraction, extract};
 pub use identify::{Fit, Identification, identify};
 pub use input::scene::Scene;
 pub use mesh::{Mesh, mesh};
-pub use results::{output, units};
+pub use progress::{Observer, Progress};
+pub use results::{columns, numbers, output, units};
 pub use study::{Study, study};
 
 /// The crates below, for their types in the signatures here: a program needs no other dependency.

@@ -52,7 +52,7 @@ fn an_observer_ends_a_sweep_that_keeps_its_rows_and_resumes() {
     assert!(part.stopped && !part.whole && part.cases.len() == 2);
     let mut resumed = 0;
     let whole = calibrate(&sweep, &options, &mut |p| {
-        resumed += usize::from(p.row.is_none()) * p.done;
+        resumed += usize::from(p.news.is_none()) * p.done;
         true
     })
     .unwrap();

@@ -3,11 +3,12 @@
 
 use crate::flags::{ReportFlag, RunFlags, SceneFlags};
 use crate::folder::{Folder, journal_beside};
-use crate::progress::Progress;
+use crate::progress::Line;
 use crate::terminal;
 use asperity::batch::Shard;
-use asperity::calibrate::{Calibration, Options, Progress as Done, calibrate as run, merge, read_sweep};
+use asperity::calibrate::{Calibration, CaseRow, Options, calibrate as run, merge, read_sweep};
 use asperity::error::{Error, InputError};
+use asperity::{Observer, Progress};
 use asperity_paper::sensitivity;
 use clap::{Args, Subcommand};
 use std::path::{Path, PathBuf};
@@ -121,21 +122,17 @@ fn options(flags: &RunFlags, target: &Path) -> Options {
 }
 
 /// Runs `work` with a line that shows its progress.
-fn observed<T>(
-    options: &Options,
-    quiet: bool,
-    work: impl FnOnce(&mut (dyn FnMut(&Done) -> bool + Send)) -> T,
-) -> T {
-    let progress = Progress::new(quiet);
+fn observed<T>(options: &Options, quiet: bool, work: impl FnOnce(&mut Observer<'_, CaseRow>) -> T) -> T {
+    let progress = Line::new(quiet);
     let journal = options.journal.clone().unwrap_or_default();
-    let result = work(&mut |done: &Done| {
-        match &done.row {
-            Some(row) => progress.show(done.done as f64 / done.cases.max(1) as f64, || {
-                format!("case {} of {}: {} degrees", done.done, done.cases, row.beta_deg)
+    let result = work(&mut |reached: &Progress<'_, CaseRow>| {
+        match reached.news {
+            Some(row) => progress.show(reached.share, || {
+                format!("case {} of {}: {} degrees", reached.done, reached.all, row.beta_deg)
             }),
-            None if done.done > 0 && !quiet => {
+            None if reached.done > 0 && !quiet => {
                 let kept = journal.display();
-                terminal::complain(&format!("{} cases of an earlier run are in {kept}", done.done));
+                terminal::complain(&format!("{} cases of an earlier run are in {kept}", reached.done));
             }
             None => {}
         }

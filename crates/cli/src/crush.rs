@@ -2,11 +2,12 @@
 
 use crate::flags::{ReportFlag, RunFlags, SceneFlags};
 use crate::folder::Folder;
-use crate::progress::Progress;
+use crate::progress::Line;
 use crate::{interrupt, terminal};
-use asperity::crush::{CurveRow, Phase, Sketch, crush_into};
+use asperity::crush::{CurveRow, Sketch, crush_into};
 use asperity::error::{Error, InputError};
 use asperity::simulation::scene::Symmetry;
+use asperity::units::{MICROMETRE, Unit};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -48,11 +49,12 @@ pub fn crush(args: &Crush) -> Result<(), Error> {
     }
     let mut folder = Folder::create(&out, "crush", args.run.force)?;
     interrupt::catch();
-    let progress = Progress::new(args.run.quiet);
+    let progress = Line::new(args.run.quiet);
     let symmetry = scene.tables().symmetry;
     let result = crush_into(&scene, &mut folder, &[Sketch::PEAK], &mut |reached| {
-        let share = reached.row.increment as f64 / reached.planned.max(1) as f64;
-        progress.show(share, || progress_line(reached.row, symmetry));
+        if let Some(increment) = reached.news {
+            progress.show(reached.share, || progress_line(increment.row, symmetry));
+        }
         !interrupt::requested()
     });
     progress.finish();
@@ -77,10 +79,12 @@ pub fn crush(args: &Crush) -> Result<(), Error> {
 }
 
 fn progress_line(row: &CurveRow, symmetry: Symmetry) -> String {
-    let verb = match row.phase {
-        Phase::Load => "loading",
-        Phase::Unload => "unloading",
-    };
+    let verb = if row.phase.advances() { "loading" } else { "unloading" };
     let per = if symmetry == Symmetry::PlaneStrain { "/mm" } else { "" };
-    format!("{verb}  {:.3} um  {:.3} N{per}  increment {}", row.depth_um, row.force_N, row.increment)
+    format!(
+        "{verb}  {:.3} um  {:.3} N{per}  increment {}",
+        row.depth / MICROMETRE,
+        row.force / Unit::Force.value(symmetry),
+        row.increment
+    )
 }

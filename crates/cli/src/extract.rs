@@ -189,7 +189,7 @@ fn compare(
         folder: Some(target.to_path_buf()),
     };
     let compared =
-        found.crush(scene, count, &options, &mut |reached| progress.show(reached.done, reached.asperities));
+        found.crush(scene, count, &options, &mut |reached| progress.show(reached.done, reached.all));
     progress.finish();
     compared
 }

@@ -2,7 +2,7 @@
 
 use crate::flags::{ReportFlag, RunFlags, told_of_table};
 use crate::folder::Folder;
-use crate::progress::Progress;
+use crate::progress::Line;
 use crate::{interrupt, terminal};
 use asperity::error::{Error, InputError};
 use asperity::identify::{Fit, identify as find};
@@ -46,7 +46,7 @@ pub fn identify(args: &Identify) -> Result<(), Error> {
     let out = args.run.target(&fit.name());
     let folder = Folder::create(&out, "identify", args.run.force)?;
     interrupt::catch();
-    let progress = Progress::new(args.run.quiet);
+    let progress = Line::new(args.run.quiet);
     let found = find(fit, &mut |share, text| {
         progress.show(share, || text.to_string());
         !interrupt::requested()

@@ -10,7 +10,7 @@ const FULL: u64 = 10_000;
 
 /// A line with a bar, what has been reached, and the time left.
 #[derive(Debug)]
-pub struct Progress {
+pub struct Line {
     bar: ProgressBar,
 }
 
@@ -33,9 +33,9 @@ impl Lines {
     }
 
     /// A new line that begins with `name`.
-    pub fn add(&self, name: &str) -> Progress {
+    pub fn add(&self, name: &str) -> Line {
         let template = format!("{name:<28} {{bar:24.cyan/dim}} {{percent:>3}} %  {{msg}}  {{eta}} left");
-        Progress::styled(self.lines.add(ProgressBar::new(FULL)), &template)
+        Line::styled(self.lines.add(ProgressBar::new(FULL)), &template)
     }
 
     /// Prints what is to stay, above the lines.
@@ -44,18 +44,18 @@ impl Lines {
     }
 }
 
-impl Progress {
+impl Line {
     /// A line on stderr; silent if `quiet` or if stderr is no terminal.
     pub fn new(quiet: bool) -> Self {
         let bar = ProgressBar::with_draw_target(Some(FULL), target(quiet));
-        Progress::styled(bar, "{bar:24.cyan/dim} {percent:>3} %  {msg}  {eta} left")
+        Line::styled(bar, "{bar:24.cyan/dim} {percent:>3} %  {msg}  {eta} left")
     }
 
     fn styled(bar: ProgressBar, template: &str) -> Self {
         if let Ok(style) = ProgressStyle::with_template(template) {
             bar.set_style(style.progress_chars("━╸─"));
         }
-        Progress { bar }
+        Line { bar }
     }
 
     /// Shows that `share` (0 to 1) of the work is done, and `message`, which is made only if somebody sees
@@ -77,7 +77,7 @@ impl Progress {
 /// The line of runs that are kept in a folder, from which they go on after a stop.
 #[derive(Debug)]
 pub struct BatchProgress {
-    line: Progress,
+    line: Line,
     /// Says what an earlier start left; not before the first run is known, and not if quiet.
     greets: bool,
     /// A run, and several.
@@ -90,7 +90,7 @@ impl BatchProgress {
     /// interrupt is a wish.
     pub fn new(quiet: bool, names: [&'static str; 2], folder: PathBuf) -> Self {
         interrupt::catch();
-        BatchProgress { line: Progress::new(quiet), greets: !quiet, names, folder }
+        BatchProgress { line: Line::new(quiet), greets: !quiet, names, folder }
     }
 
     /// Shows that `done` of `all` runs are finished. Returns whether to go on.

@@ -3,13 +3,13 @@
 use crate::failure;
 use crate::flags::{AccuracyParser, RunFlags};
 use crate::folder::claim;
-use crate::progress::{Lines, Progress as Line};
+use crate::progress::{Line, Lines};
 use crate::terminal;
 use asperity::error::Error;
 use asperity::simulation::scene::Accuracy;
 use asperity_paper::part::Stamp;
 use asperity_paper::plan::{ITEMS, items};
-use asperity_paper::{Options, Planned, Progress};
+use asperity_paper::{News, Options, Planned};
 use clap::Args;
 use std::collections::HashMap;
 use std::sync::{Mutex, PoisonError};
@@ -50,11 +50,11 @@ pub fn reproduce(args: &Reproduce) -> Result<(), Error> {
     let done = asperity_paper::reproduce(&options, &|progress| {
         let mut open = open.lock().unwrap_or_else(PoisonError::into_inner);
         match progress {
-            Progress::Planned(parts) => announce(parts, accuracy),
-            Progress::Reached { part, share, message } => {
+            News::Planned(parts) => announce(parts, accuracy),
+            News::Reached { part, share, message } => {
                 open.entry(*part).or_insert_with(|| lines.add(part)).show(*share, || message.to_string());
             }
-            Progress::Ended { part, outcome } => {
+            News::Ended { part, outcome } => {
                 open.remove(part).into_iter().for_each(Line::finish);
                 if !quiet {
                     lines.say(&format!("{part:<28} {}", ending(outcome)));

@@ -3,7 +3,7 @@
 use crate::extract::scene_of;
 use crate::flags::{ReportFlag, RunFlags};
 use crate::folder::{Folder, claim};
-use crate::progress::Progress;
+use crate::progress::Line;
 use crate::{interrupt, terminal};
 use asperity::error::Error;
 use asperity::output::Directory;
@@ -85,12 +85,13 @@ fn several(paths: &[PathBuf], args: &Rough) -> Result<(), Error> {
     let target = args.run.target("rough");
     let mark = claim(&target, "rough", args.run.force)?;
     interrupt::catch();
-    let progress = Progress::new(args.run.quiet);
+    let progress = Line::new(args.run.quiet);
     let done = press_several(
         &scenes,
-        &mut |i, closure| {
-            let share = (i as f64 + closure.share) / scenes.len() as f64;
-            progress.show(share, || format!("{}  {}", scenes[i].name(), closure.closure.name()));
+        &mut |i, reached| {
+            let share = (i as f64 + reached.share) / scenes.len() as f64;
+            let closure = reached.news.map_or("", |closure| closure.name());
+            progress.show(share, || format!("{}  {closure}", scenes[i].name()));
             !interrupt::requested()
         },
         &mut |name, rough| {

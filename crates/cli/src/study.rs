@@ -101,7 +101,7 @@ fn sweep(args: &Study, path: &Path) -> Result<(), Error> {
         part: args.shard,
         folder: Some(target.clone()),
     };
-    let result = run(&plan, &options, &mut |reached| progress.show(reached.done, reached.runs));
+    let result = run(&plan, &options, &mut |reached| progress.show(reached.done, reached.all));
     progress.finish();
     let done = finish(result, &target, &args.run);
     drop(mark);

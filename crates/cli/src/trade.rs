@@ -4,7 +4,7 @@
 
 use crate::flags::{RunFlags, SceneFlags};
 use crate::folder::{Folder, journal_beside};
-use crate::progress::Progress;
+use crate::progress::Line;
 use crate::terminal;
 use asperity::error::Error;
 use asperity::input::scene::Scene;
@@ -54,13 +54,13 @@ pub fn trade(args: &Trade) -> Result<(), Error> {
     let folder = Folder::create(&target, "trade", args.run.force)?;
     let journal = journal_beside(&target);
     let options = Options { combinations: args.combinations, journal: Some(&journal), runner: &ask };
-    let progress = Progress::new(args.run.quiet);
+    let progress = Line::new(args.run.quiet);
     let result = asperity::trade::trade(scene.tables(), &options, &mut |reached| {
-        match reached.knob {
+        match reached.news {
             Some(knob) => progress.show(reached.share, || format!("{knob:?}").to_lowercase()),
-            None if reached.finished > 0 && !args.run.quiet => {
+            None if reached.done > 0 && !args.run.quiet => {
                 let kept = journal.display();
-                terminal::complain(&format!("{} runs of an earlier trade are in {kept}", reached.finished));
+                terminal::complain(&format!("{} runs of an earlier trade are in {kept}", reached.done));
             }
             None => {}
         }

@@ -8,8 +8,9 @@ use super::results_reader::Results;
 use crate::table1::{self, ClosureSeeds, Seeds};
 use asperity::calibrate::{AngleFit, Fit};
 use asperity::crush::{Island, Summary};
-use asperity::page::format::{Spread, listed, significant, with_deviation};
+use asperity::numbers::{Spread, listed, significant, with_deviation};
 use asperity::roughness::{Closure, PUBLISHED_COEFFICIENT};
+use asperity::units::{MICROMETRE, Unit};
 use serde::Serialize;
 
 /// The fate of a claim.
@@ -113,12 +114,12 @@ fn elastic_areas(results: &Results, (end, symmetry): &(&str, &str)) -> Vec<Claim
         return vec![Claim::new(of, claim, "no region of the asperities that never yielded", false, why)];
     }
     let place = |island: &Island| {
-        let [r, z] = island.place_um.map(|x| format!("{x:.0}"));
+        let [r, z] = island.place.map(|x| format!("{:.0}", x / MICROMETRE));
         format!("r = {r} µm, z = {z} µm")
     };
     let places = found.iter().map(place).collect::<Vec<_>>().join(", ");
     let regions = if count == 1 { "region" } else { "regions" };
-    let pressed = found.iter().filter(|i| i.mean_pressure_MPa > 0.0).count();
+    let pressed = found.iter().filter(|i| i.mean_pressure > 0.0).count();
     vec![
         Claim::new(of, claim, format!("{count} {regions} never yielded: at {places}"), true, ""),
         Claim::new(
@@ -135,7 +136,7 @@ fn sets(results: &Results, (end, symmetry): &(&str, &str)) -> Option<Vec<Claim>>
     let of = |quantity: fn(Summary) -> Option<f64>| -> Option<Vec<f64>> {
         SETS.iter().map(|set| quantity(results.summary(&format!("{set}{end}"))?)).collect()
     };
-    let (works, shares) = (of(|s| Some(s.total_work_uJ))?, of(|s| s.elastic_fraction)?);
+    let (works, shares) = (of(|s| Some(s.written(s.total_work, Unit::Energy)))?, of(|s| s.elastic_fraction)?);
     let percent = listed(&shares, |s| format!("{:.1}", 100.0 * s));
     let unit = if end.is_empty() { "µJ" } else { "µJ/mm" };
     let claim = |claim: &str, ours: String, holds: bool, why: &str| {

@@ -7,11 +7,12 @@ use super::results_reader::Results;
 use crate::table1::{self, ClosureSeeds, Seeds};
 use asperity::crush::Summary;
 use asperity::draw::chart::{self, Chart, Series};
+use asperity::numbers::{Spread, shown, significant, spread};
 use asperity::page;
-use asperity::page::format::{Spread, shown, significant, spread};
 use asperity::rough::charts::travel_chart;
 use asperity::rough::{LoadPoint, Phase};
 use asperity::roughness::Closure;
+use asperity::units::{MEGAPASCAL, MICROMETRE, Unit};
 use maud::{Markup, html};
 
 /// The closures of Tables 1 and 2, and what they are.
@@ -124,10 +125,10 @@ fn single(results: &Results) -> Markup {
         ("force at 2 µm, N", force(2.0)),
         ("force at 5 µm, N", force(5.0)),
         ("estimated error of the force, %", percent(of(|s| Some(s.estimated_error)))),
-        ("residual depth, µm", of(|s| s.residual_depth_um)),
-        ("stiffness of unloading, N/µm", of(|s| s.unloading_stiffness_N_per_um)),
+        ("residual depth, µm", of(|s| s.residual_depth.map(|h| h / MICROMETRE))),
+        ("stiffness of unloading, N/µm", of(|s| Some(s.written(s.unloading_stiffness?, Unit::Stiffness)))),
         ("elastic share of the work, %", percent(of(|s| s.elastic_fraction))),
-        ("contact radius at 5 µm, µm", of(|s| Some(s.contact_radius_um))),
+        ("contact radius at 5 µm, µm", of(|s| Some(s.contact_radius / MICROMETRE))),
         ("exponent of F over h, upper half", results.force_exponent()),
     ];
     let rows = rows.map(|(name, value)| vec![name.into(), shown(value), "not printed".into()]);
@@ -142,10 +143,11 @@ fn zones(results: &Results) -> Markup {
     let mut rows = Vec::new();
     for (end, symmetry) in SYMMETRIES {
         for island in results.islands(&format!("three-identical{end}")).unwrap_or_default() {
-            let [area, pressure] = [island.area_um2, island.mean_pressure_MPa].map(significant);
+            let [area, pressure] =
+                [island.area / (MICROMETRE * MICROMETRE), island.mean_pressure / MEGAPASCAL].map(significant);
             rows.push(vec![
                 symmetry.to_string(),
-                island.place_um.map(significant).join(", "),
+                island.place.map(|x| significant(x / MICROMETRE)).join(", "),
                 area,
                 pressure,
             ]);
@@ -180,14 +182,16 @@ fn sets(results: &Results) -> Result<Markup, String> {
             let (Some(curve), Some(summary)) = (results.curve(&part), results.summary(&part)) else {
                 continue;
             };
-            series.push(Series::line(label, curve.iter().map(|row| [row.depth_um, row.force_N]).collect()));
+            let points =
+                curve.iter().map(|row| [row.depth / MICROMETRE, summary.written(row.force, Unit::Force)]);
+            series.push(Series::line(label, points.collect()));
             rows.push(vec![
                 format!("{label}, {symmetry}"),
-                format!("{} {unit}", significant(summary.peak_force_N)),
+                format!("{} {unit}", significant(summary.written(summary.peak_force, Unit::Force))),
                 shown(percent(Some(summary.estimated_error))),
-                significant(summary.total_work_uJ),
+                significant(summary.written(summary.total_work, Unit::Energy)),
                 shown(percent(summary.elastic_fraction)),
-                shown(summary.residual_depth_um),
+                shown(summary.residual_depth.map(|h| h / MICROMETRE)),
             ]);
         }
         let chart = Chart::new("Depth h (µm)", format!("Force F ({unit})"), series);

@@ -25,5 +25,5 @@ pub mod paper_report;
 
 mod reproduction;
 
-pub use crate::reproduction::{Options, Planned, Progress, Reproduction, reproduce};
+pub use crate::reproduction::{News, Options, Planned, Reproduction, reproduce};
 pub use sensitivity::sensitivity;

@@ -7,6 +7,7 @@ use super::results_reader::Results;
 use asperity::crush::Summary;
 use asperity::page::document;
 use asperity::simulation::scene::Accuracy;
+use asperity::units::MICROMETRE;
 use maud::{Markup, html};
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -79,7 +80,7 @@ fn numbers(results: &Results) -> Vec<Number> {
         ("force_at_2_um_N", "force at 2 µm, N", results.force_at(single, 2.0), 3),
         ("force_at_5_um_N", "force at 5 µm, N", results.force_at(single, 5.0), 3),
         ("force_error_percent", "error of the force, stated, %", percent(|s| Some(s.estimated_error)), 2),
-        ("residual_depth_um", "residual depth, µm", summary(|s| s.residual_depth_um), 3),
+        ("residual_depth_um", "residual depth, µm", summary(|s| s.residual_depth.map(|h| h / MICROMETRE)), 3),
         ("elastic_share_percent", "elastic share of the work, %", percent(|s| s.elastic_fraction), 1),
         ("unknowns", "unknowns", summary(|s| Some(s.dofs as f64)), 0),
         ("newton_iterations", "Newton iterations", summary(|s| Some(s.newton_iterations as f64)), 0),

@@ -6,9 +6,11 @@
 use super::plan::{Part, Work};
 use super::profile::profile;
 use crate::table1;
-use asperity::calibrate::{Options, Progress as Solved, calibrate};
+use asperity::Progress;
+use asperity::calibrate::{Options, calibrate};
+use asperity::calibration::row::CaseRow;
 use asperity::calibration::sweep::Sweep;
-use asperity::crush::{Progress, Sketch, crush_into};
+use asperity::crush::{Increment, Sketch, crush_into};
 use asperity::error::Error;
 use asperity::input::scene::Scene;
 use asperity::input::toml_file::TomlFile;
@@ -18,6 +20,7 @@ use asperity::roughness::KindName;
 use asperity::roughness::scene::Scene as RoughTables;
 use asperity::simulation::run::Run;
 use asperity::simulation::scene::{Accuracy, Level, Scene as Tables};
+use asperity::units::MICROMETRE;
 use serde::{Deserialize, Serialize};
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
@@ -135,10 +138,9 @@ impl Job {
         let _ = std::fs::remove_file(self.stamp_path());
         let stopped = match &self.scene {
             Resolved::Crush(scene, sketches) => self.fill(|sink| {
-                let told = &mut |reached: &Progress<'_>| {
-                    let row = reached.row;
-                    let share = row.increment as f64 / reached.planned.max(1) as f64;
-                    observer(share, &format!("{:.3} um  increment {}", row.depth_um, row.increment))
+                let told = &mut |reached: &Progress<'_, Increment<'_>>| {
+                    let depth = reached.news.map_or(0.0, |news| news.row.depth / MICROMETRE);
+                    observer(reached.share, &format!("{depth:.3} um  increment {}", reached.done))
                 };
                 crush_into(scene, sink, sketches, told).map(|crushed| crushed.summary.stopped)
             })?,
@@ -175,9 +177,8 @@ impl Job {
     ) -> Result<(), Error> {
         let journal = Some(self.folder.with_extension("journal"));
         let options = Options { threads: rayon::current_num_threads(), journal, ..Options::default() };
-        let calibration = calibrate(sweep, &options, &mut |solved: &Solved| {
-            let share = solved.done as f64 / solved.cases.max(1) as f64;
-            observer(share, &format!("case {} of {}", solved.done, solved.cases))
+        let calibration = calibrate(sweep, &options, &mut |solved: &Progress<'_, CaseRow>| {
+            observer(solved.share, &format!("case {} of {}", solved.done, solved.all))
         })?;
         self.fill(|sink| calibration.write(sink))?;
         calibration.remove_journal();
@@ -212,7 +213,7 @@ impl Job {
         }
         if let Some(one) = rough.contacts.iter().find_map(rough::ClosureContact::islands) {
             let points = profile(&rough.surface.map, &one.contact.islands);
-            sink.write("profile.csv", |out| write_csv(out, &points, str::to_string))?;
+            sink.write("profile.csv", |out| write_csv(out, &points))?;
         }
         if let Some((kind, row)) = table1::TABLE.iter().find(|(row, _)| *row == kind) {
             observer(0.2, &format!("five {name} surfaces, every closure"));

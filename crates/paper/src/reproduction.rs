@@ -40,7 +40,7 @@ pub struct Planned {
 
 /// News for the observer; parts run side by side.
 #[derive(Clone, Copy, Debug)]
-pub enum Progress<'a> {
+pub enum News<'a> {
     /// Every part, before the first begins.
     Planned(&'a [Planned]),
     /// A part has done a share (0 to 1) of its work.
@@ -81,7 +81,7 @@ pub struct Reproduction {
 /// A folder that cannot be written, a chart that cannot be drawn.
 pub fn reproduce(
     options: &Options<'_>,
-    observer: &(dyn Fn(&Progress<'_>) -> bool + Sync),
+    observer: &(dyn Fn(&News<'_>) -> bool + Sync),
 ) -> Result<Reproduction, Error> {
     let folder = options.out.join("parts");
     fs::create_dir_all(&folder).map_err(|e| Error::disk(&folder, e))?;
@@ -91,7 +91,7 @@ pub fn reproduce(
         .map(|part| Job::new(part, options.accuracy, &folder, program))
         .collect::<Result<Vec<Job>, Error>>()?;
     let planned = if options.estimate { plan(&jobs)? } else { Vec::new() };
-    let stopped = AtomicBool::new(options.estimate && !observer(&Progress::Planned(&planned)));
+    let stopped = AtomicBool::new(options.estimate && !observer(&News::Planned(&planned)));
     let mut parts: Vec<(usize, &'static str, Result<Stamp, Error>)> = jobs
         .iter()
         .enumerate()
@@ -104,9 +104,8 @@ pub fn reproduce(
             if stopped.load(Ordering::Relaxed) {
                 return None;
             }
-            let outcome =
-                job.run(&mut |share, message| observer(&Progress::Reached { part, share, message }));
-            if !observer(&Progress::Ended { part, outcome: &outcome }) {
+            let outcome = job.run(&mut |share, message| observer(&News::Reached { part, share, message }));
+            if !observer(&News::Ended { part, outcome: &outcome }) {
                 stopped.store(true, Ordering::Relaxed);
             }
             Some((i, part, outcome))

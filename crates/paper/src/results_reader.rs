@@ -6,9 +6,11 @@ use crate::table1::{ClosureSeeds, ComparedRow, Seeds};
 use asperity::calibrate::Fit;
 use asperity::crush::{CurveRow, Island, Phase, Summary, read_rows};
 use asperity::draw::frame::data_uri;
+use asperity::numbers::Spread;
 use asperity::numerics::least_squares::Line;
-use asperity::page::format::Spread;
+use asperity::output::read_csv;
 use asperity::roughness::Closure;
+use asperity::units::MICROMETRE;
 use serde::de::DeserializeOwned;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -43,7 +45,7 @@ impl Results {
     /// The rows of a CSV file of a part.
     pub fn rows<T: DeserializeOwned>(&self, part: &str, file: &str) -> Option<Vec<T>> {
         self.stamp(part)?;
-        read_rows(&self.parts.join(part).join(file)).ok()
+        read_csv(&self.parts.join(part).join(file)).ok()
     }
 
     /// A text file of a part.
@@ -58,13 +60,14 @@ impl Results {
 
     /// The curve of a crush.
     pub fn curve(&self, part: &str) -> Option<Vec<CurveRow>> {
-        self.rows(part, "curve.csv")
+        self.stamp(part)?;
+        read_rows(&self.parts.join(part).join("curve.csv")).ok()
     }
 
-    /// Depth (µm) and force of a crush while loading.
+    /// Depth (µm) and force (N) of an axisymmetric crush while loading.
     fn loading(&self, part: &str) -> Option<Vec<[f64; 2]>> {
         let rows = self.curve(part)?.into_iter().filter(|row| row.phase == Phase::Load);
-        Some(rows.map(|row| [row.depth_um, row.force_N]).collect())
+        Some(rows.map(|row| [row.depth / MICROMETRE, row.force]).collect())
     }
 
     /// The fit of the sweep.

@@ -1,6 +1,7 @@
 //! The cases: metals that are known, and the fits that are to find them.
 
 use asperity::tables::{Accuracy, HardeningChoice, Loading, Material, Scene as Tables, Symmetry, Tool};
+use asperity::units::MICROMETRE;
 use asperity::{Length, Scene, Stress, crush};
 use asperity_calibration::fit::SplitMix;
 use rayon::prelude::*;
@@ -210,7 +211,8 @@ fn curve([e, s, n]: [f64; 3], tool: Tool, seed: u64) -> Option<String> {
     for row in done.curve.iter().filter(|_| done.summary.stopped.is_none()) {
         // Box and Muller's normal numbers
         let normal = (-2.0 * uniform().ln()).sqrt() * (std::f64::consts::TAU * uniform()).cos();
-        let _ = writeln!(text, "{:.6},{:.8}", row.depth_um, 1e3 * row.force_N * (1.0 + 0.005 * normal));
+        let _ =
+            writeln!(text, "{:.6},{:.8}", row.depth / MICROMETRE, 1e3 * row.force * (1.0 + 0.005 * normal));
     }
     (text.lines().count() > 10).then_some(text)
 }

@@ -8,6 +8,7 @@ pub mod journal;
 
 use crate::batch::journal::Journal;
 use crate::error::{Error, InputError};
+use crate::progress::{Observer, Progress};
 use crate::results::output::open_journal;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -80,16 +81,6 @@ pub(crate) struct Batch<'a, C, R> {
     pub journal: Option<&'a Path>,
 }
 
-/// The progress of a batch.
-pub(crate) struct Reached<'a, R> {
-    /// Runs that are done, those of the journal too.
-    pub done: usize,
-    /// Runs in all.
-    pub cases: usize,
-    /// The run that has just ended; none at the beginning and while runs go on.
-    pub row: Option<&'a R>,
-}
-
 /// The results of a batch.
 pub(crate) struct Finished<R> {
     /// One for each run that is done, with its number among the cases, in their order.
@@ -97,9 +88,6 @@ pub(crate) struct Finished<R> {
     /// True where the observer ended it before all were done.
     pub stopped: bool,
 }
-
-/// Asked at the beginning, after every run, and by runs as they go; `false` ends the batch.
-pub(crate) type Observer<'a, R> = dyn FnMut(&Reached<'_, R>) -> bool + Send + 'a;
 
 /// The state that the threads of a batch share.
 struct Shared<'a, 'o, R> {
@@ -127,14 +115,14 @@ pub(crate) fn run<C: Sync, R: Clone + Send + Sync + Serialize + DeserializeOwned
     let mut seen = HashSet::new();
     let open: Vec<usize> =
         (0..cases).filter(|&i| !rows.contains_key(&keys[i]) && seen.insert(keys[i].as_str())).collect();
-    let stop = AtomicBool::new(!observer(&Reached { done, cases, row: None }));
+    let stop = AtomicBool::new(!observer(&Progress::counted(done, cases, None)));
     let shared = Mutex::new(Shared { journal, observer, done });
     let lock = || shared.lock().unwrap_or_else(PoisonError::into_inner);
     let go_on = || {
         if !stop.load(Ordering::Relaxed) {
             let mut shared = lock();
             let done = shared.done;
-            if !(shared.observer)(&Reached { done, cases, row: None }) {
+            if !(shared.observer)(&Progress::counted(done, cases, None)) {
                 stop.store(true, Ordering::Relaxed);
             }
         }
@@ -153,7 +141,7 @@ pub(crate) fn run<C: Sync, R: Clone + Send + Sync + Serialize + DeserializeOwned
         }
         shared.done += 1;
         let done = shared.done;
-        if !(shared.observer)(&Reached { done, cases, row: Some(&row) }) {
+        if !(shared.observer)(&Progress::counted(done, cases, Some(&row))) {
             stop.store(true, Ordering::Relaxed);
         }
         Ok(Some((i, row)))

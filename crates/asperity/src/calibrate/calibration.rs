@@ -2,9 +2,10 @@
 
 use super::fit::{AngleFit, Fit};
 use super::pictures;
-use crate::calibrate::run_sweep::{Options, Progress, solve};
+use crate::calibrate::run_sweep::{Options, solve};
 use crate::draw::chart::{Chart, svg};
 use crate::error::{Error, InputError};
+use crate::progress::Observer;
 use crate::results::output::{Sink, SinkExt};
 use asperity_calibration::dimensionless::Dimensionless;
 use asperity_calibration::fit::{
@@ -57,7 +58,7 @@ pub struct Calibration {
 pub fn calibrate(
     sweep: &Sweep,
     options: &Options,
-    observer: &mut (dyn FnMut(&Progress) -> bool + Send),
+    observer: &mut Observer<'_, CaseRow>,
 ) -> Result<Calibration, Error> {
     let start = Instant::now();
     sweep.validate().map_err(|e| InputError::new(e.to_string()))?;

@@ -10,7 +10,7 @@ mod sweep_report;
 
 mod merge;
 
-pub use crate::calibrate::run_sweep::{Options, Progress};
+pub use crate::calibrate::run_sweep::Options;
 pub use asperity_calibration::case::Tool;
 pub use asperity_calibration::row::CaseRow;
 pub use asperity_calibration::sweep::Sweep;

@@ -1,7 +1,8 @@
 //! The cases of a sweep that its journal does not hold yet, solved.
 
-use crate::batch::{self, Batch, Reached, Shard};
+use crate::batch::{self, Batch, Shard};
 use crate::error::Error;
+use crate::progress::{Observer, Progress};
 use asperity_calibration::case::Case;
 use asperity_calibration::row::{CaseRow, Row};
 use asperity_calibration::solve_case::{definition, solve as solve_case};
@@ -22,21 +23,6 @@ pub struct Options {
     /// Slope in degrees that collapse.svg shows; the largest where there is none.
     pub shown_slope_deg: Option<f64>,
 }
-
-/// The progress of a sweep.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Progress {
-    /// Cases that are done.
-    pub done: usize,
-    /// Cases in all.
-    pub cases: usize,
-    /// The case that has just been solved; none at the beginning, when `done` counts those of the journal.
-    pub row: Option<CaseRow>,
-}
-
-/// Asked after every case; `false` ends the run.
-/// Hears of the sweep; `false` ends it.
-pub type Observer<'a> = dyn FnMut(&Progress) -> bool + Send + 'a;
 
 /// The rows of a sweep, in the order of its grid.
 pub struct Solved {
@@ -66,7 +52,11 @@ impl TryFrom<String> for Kept {
 }
 
 /// Solves the cases that the journal does not hold yet.
-pub fn solve(sweep: &Sweep, options: &Options, observer: &mut Observer) -> Result<Solved, Error> {
+pub fn solve(
+    sweep: &Sweep,
+    options: &Options,
+    observer: &mut Observer<'_, CaseRow>,
+) -> Result<Solved, Error> {
     let all = sweep.cases();
     let cases: Vec<Case> = Shard::case_numbers(options.part, all.len()).map(|i| all[i]).collect();
     // its meshes are of few topologies
@@ -81,12 +71,8 @@ pub fn solve(sweep: &Sweep, options: &Options, observer: &mut Observer) -> Resul
         threads: options.threads,
         journal: options.journal.as_deref(),
     };
-    let finished = batch::run(&batch, &mut |reached: &Reached<'_, Kept>| {
-        observer(&Progress {
-            done: reached.done,
-            cases: reached.cases,
-            row: reached.row.map(|kept| kept.0.clone()),
-        })
+    let finished = batch::run(&batch, &mut |reached: &Progress<'_, Kept>| {
+        observer(&reached.telling(reached.news.map(|kept| &kept.0)))
     })?;
     let rows = Row::of_cases(&cases, finished.rows.into_iter().map(|(_, kept)| kept.0));
     Ok(Solved { rows, stopped: finished.stopped })

@@ -2,8 +2,8 @@
 
 use super::calibration::Calibration;
 use crate::error::Error;
-use crate::page::format::{rounded, significant};
 use crate::page::{self, Numbers, Report};
+use crate::results::numbers::{rounded, significant};
 use maud::{Markup, html};
 
 impl Calibration {

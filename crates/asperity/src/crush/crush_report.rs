@@ -1,13 +1,13 @@
 //! `report.html` of one crush.
 
 use super::plot::{contact_charts, titled_chart};
-use super::{Crush, Sketch};
+use super::{Crush, CycleRow, Sketch, Summary};
 use crate::error::Error;
 use crate::input::toml_file::to_toml;
-use crate::page::format::{rounded, significant};
 use crate::page::{self, Numbers, Report};
-use crate::results::crush_summary::per_length;
-use crate::results::units::file_name;
+use crate::results::columns::Described;
+use crate::results::numbers::{rounded, significant};
+use crate::results::units::{MICROMETRE, Unit, per_length};
 use asperity_simulation::scene::Symmetry;
 use maud::{Markup, html};
 
@@ -64,7 +64,7 @@ impl Crush {
 
     /// The result in a sentence.
     fn finding(&self) -> String {
-        let (summary, per) = (&self.summary, per_length(self.summary.scene.symmetry));
+        let summary = &self.summary;
         let end = match &summary.stopped {
             Some(reason) => format!("The run {reason}. What it reached: "),
             None => String::new(),
@@ -72,18 +72,19 @@ impl Crush {
         let bound = Some(summary.errors.force).filter(|error| error.is_finite());
         let bound = bound
             .map_or("its error is not known".into(), |error| format!("within {} %", rounded(100.0 * error)));
-        let back = match (summary.residual_depth_um, summary.elastic_fraction) {
+        let back = match (summary.residual_depth, summary.elastic_fraction) {
             (Some(residual), Some(fraction)) => format!(
                 "; unloaded, {} µm of depth stay and {} % of the work came back",
-                significant(residual),
+                significant(residual / MICROMETRE),
                 significant(100.0 * fraction)
             ),
             _ => String::new(),
         };
         format!(
-            "{end}{} N{per} ({bound}) at a depth of {} µm{back}.",
-            significant(summary.peak_force_N),
-            significant(summary.peak_depth_um)
+            "{end}{} N{} ({bound}) at a depth of {} µm{back}.",
+            significant(summary.written(summary.peak_force, Unit::Force)),
+            per_length(summary.scene.symmetry),
+            significant(summary.peak_depth / MICROMETRE)
         )
     }
 
@@ -98,7 +99,10 @@ impl Crush {
             Symmetry::PlaneStrain => ["Contact width at the peak", " µm"],
         };
         let line = |name: &str, key: &str, scale: f64, unit: &str, error: Option<[&str; 2]>| {
-            let value = numbers.shown(&format!("/{}", file_name(key, symmetry)), scale, unit);
+            let columns = Summary::columns();
+            let column = columns.iter().find(|column| column.quantity == key);
+            let place = column.map_or_else(String::new, |column| format!("/{}", column.name(symmetry)));
+            let value = numbers.shown(&place, scale, unit);
             let error = error.map(|[key, of]| numbers.error(&format!("/errors/{key}"), of));
             vec![html! { (name) }, value, error.unwrap_or_default()]
         };
@@ -106,18 +110,23 @@ impl Crush {
         let stays = Some(["residual_depth", " of the depth"]);
         let returned = Some(["elastic_fraction", " of the work"]);
         let mut rows = vec![
-            line("Force at the peak", "peak_force_N", 1.0, &newton, bound("force")),
-            line("Depth at the peak", "peak_depth_um", 1.0, " µm", None),
-            line(contact[0], "contact_area_um2", 1.0, contact[1], bound("contact_area")),
-            line("Work done to the peak", "total_work_uJ", 1.0, &joule, None),
-            line("Plastic work", "plastic_work_uJ", 1.0, &joule, None),
+            line("Force at the peak", "peak_force", 1.0, &newton, bound("force")),
+            line("Depth at the peak", "peak_depth", 1.0, " µm", None),
+            line(contact[0], "contact_area", 1.0, contact[1], bound("contact_area")),
+            line("Work done to the peak", "total_work", 1.0, &joule, None),
+            line("Plastic work", "plastic_work", 1.0, &joule, None),
         ];
-        if self.summary.residual_depth_um.is_some() {
-            let stiffness = "unloading_stiffness_N_per_um";
+        if self.summary.residual_depth.is_some() {
             rows.extend([
-                line("Depth that stays after unloading", "residual_depth_um", 1.0, " µm", stays),
-                line("Stiffness of unloading", stiffness, 1.0, &stiff, bound("unloading_stiffness")),
-                line("Work returned", "elastic_work_uJ", 1.0, &joule, None),
+                line("Depth that stays after unloading", "residual_depth", 1.0, " µm", stays),
+                line(
+                    "Stiffness of unloading",
+                    "unloading_stiffness",
+                    1.0,
+                    &stiff,
+                    bound("unloading_stiffness"),
+                ),
+                line("Work returned", "elastic_work", 1.0, &joule, None),
                 line("Share of the work returned", "elastic_fraction", 100.0, " %", returned),
             ]);
         }
@@ -129,9 +138,13 @@ impl Crush {
 
     fn cycle_table(&self) -> Markup {
         let per = per_length(self.summary.scene.symmetry);
-        let row = |c: &super::CycleRow| {
-            let [force, residual, lost] =
-                [c.peak_force_N, c.residual_depth_um, c.hysteresis_uJ].map(significant);
+        let row = |c: &CycleRow| {
+            let [force, residual, lost] = [
+                (c.peak_force, Unit::Force),
+                (c.residual_depth, Unit::Length),
+                (c.hysteresis(), Unit::Energy),
+            ]
+            .map(|(value, unit)| significant(self.summary.written(value, unit)));
             vec![html! { (c.cycle) }, html! { (force) }, html! { (residual) }, html! { (lost) }]
         };
         let head = [

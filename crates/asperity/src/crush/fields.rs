@@ -1,31 +1,31 @@
 //! `fields.pvd` with its `fields_NNNN.vtu` and `surface_NNNN.csv`: the fields of some increments, as they are written.
 
-#![expect(non_snake_case, reason = "a name ends in its unit, as in the files")]
-
 use crate::error::Error;
-use crate::results::crush_rows::{CurveRow, Phase, SurfaceRow, SurfaceStateRow, write_rows};
+use crate::results::columns::{Cell, Described, Table, write_rows, write_values};
 use crate::results::output::{Sink, SinkExt};
-use crate::results::units::{MEGAPASCAL, MICROMETRE};
+use crate::results::units::{MEGAPASCAL, MICROMETRE, Unit};
 use asperity_mesh::{FieldArray, Mesh, write_vtu};
+use asperity_simulation::record::rows::{CurveRow, Phase};
 use asperity_simulation::run::FieldFrame;
 use asperity_simulation::scene::{Field, Scene as Tables, Symmetry};
-use asperity_solver::body::fields::Fields;
+use asperity_solver::body::fields::{Fields, SurfacePoint};
+use serde_json::Value;
 use std::io::{self, Write};
 use std::sync::Arc;
 
-/// Fields of one increment, in the units of the files, which the arrays carry in their names.
+/// Fields of one increment; the arrays are in the units of the files, which they carry in their names.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Frame {
     /// Increment of the curve.
     pub increment: usize,
     /// Loading or unloading.
     pub phase: Phase,
-    /// Depth and force of the increment, as the observer hears of them: the curve is free of ripple once the run has ended.
-    pub depth_um: f64,
-    /// See `depth_um`; per mm in plane strain.
-    pub force_N: f64,
-    /// Whether the force is one per mm.
-    pub per_length: bool,
+    /// Depth of the increment, m, as the observer hears of it: the curve is free of ripple once the run has ended.
+    pub depth: f64,
+    /// Likewise its force, N (N/m in plane strain).
+    pub force: f64,
+    /// Symmetry of the body.
+    pub symmetry: Symmetry,
     /// The mesh before the crush, m; the frames of a run share it.
     pub mesh: Arc<Mesh>,
     /// Arrays over the nodes, such as `displacement_um`, `stress_rr_MPa`, `von_mises_MPa`, `contact_pressure_MPa`.
@@ -33,26 +33,25 @@ pub struct Frame {
     /// Arrays over the cells: `plastic_zone`, 0 never yielded, 1 has yielded, 2 yields now.
     pub cells: Vec<FieldArray>,
     /// The free surface from the axis outward.
-    pub surface: Vec<SurfaceRow>,
+    pub surface: Vec<SurfacePoint>,
 }
 
 impl Frame {
     /// The fields that `scene` asks for.
     pub(super) fn new(frame: &FieldFrame, mesh: Arc<Mesh>, scene: &Tables, row: Option<&CurveRow>) -> Frame {
         let (nodes, cells) = field_arrays(&frame.fields, scene.output.fields(), scene.symmetry);
-        let surface = frame.fields.surface.iter().map(SurfaceRow::new).collect();
         // before the first increment nothing has happened
-        let [depth_um, force_N] = row.map_or([0.0; 2], |row| [row.depth_um, row.force_N]);
+        let [depth, force] = row.map_or([0.0; 2], |row| [row.depth, row.force]);
         Frame {
             increment: frame.increment,
-            phase: frame.phase.into(),
-            depth_um,
-            force_N,
-            per_length: scene.symmetry == Symmetry::PlaneStrain,
+            phase: frame.phase,
+            depth,
+            force,
+            symmetry: scene.symmetry,
             mesh,
             nodes,
             cells,
-            surface,
+            surface: frame.fields.surface.clone(),
         }
     }
 
@@ -70,8 +69,8 @@ pub struct FieldSeries {
     times: Vec<(usize, f64)>,
     /// Depth of the last of them.
     depth_um: f64,
-    /// The surfaces so far.
-    surfaces: Vec<SurfaceStateRow>,
+    /// The rows of `surfaces.csv` so far.
+    surfaces: Vec<Vec<Value>>,
 }
 
 impl FieldSeries {
@@ -82,37 +81,32 @@ impl FieldSeries {
     pub fn add(&mut self, folder: &mut dyn Sink, frame: &Frame) -> Result<(), Error> {
         let increment = frame.increment;
         folder.write(&format!("fields_{increment:04}.vtu"), |out| {
-            let force = if frame.per_length { "force_N_per_mm" } else { "force_N" };
-            let whole = [("depth_um", frame.depth_um), (force, frame.force_N)];
+            let force = Unit::Force.name("force", frame.symmetry);
+            let whole = [
+                ("depth_um", frame.depth / MICROMETRE),
+                (&force, frame.force / Unit::Force.value(frame.symmetry)),
+            ];
             write_vtu(out, &frame.mesh, 1.0 / MICROMETRE, &frame.nodes, &frame.cells, &whole)
         })?;
         self.count(frame);
         folder.write("fields.pvd", |out| self.write_collection(out))?;
-        // the columns of a surface have one name in both symmetries
         folder.write(&format!("surface_{increment:04}.csv"), |out| {
-            write_rows(out, &frame.surface, Symmetry::Axisymmetric)
+            write_rows(out, &frame.surface, frame.symmetry)
         })
     }
 
     /// Takes down the time and the surface of a frame.
     fn count(&mut self, frame: &Frame) {
-        let way = self.times.last().map_or(0.0, |(_, time)| *time) + (frame.depth_um - self.depth_um).abs();
+        let depth_um = frame.depth / MICROMETRE;
+        let way = self.times.last().map_or(0.0, |(_, time)| *time) + (depth_um - self.depth_um).abs();
         // states of one depth keep their order
         let time = self.times.last().map_or(way, |(_, last)| way.max(last.next_up()));
         self.times.push((frame.increment, time));
-        self.depth_um = frame.depth_um;
-        let state = |point: &SurfaceRow| SurfaceStateRow {
-            increment: frame.increment,
-            phase: frame.phase,
-            depth_um: frame.depth_um,
-            r_um: point.r_um,
-            z_um: point.z_um,
-            u_r_um: point.u_r_um,
-            u_z_um: point.u_z_um,
-            pressure_MPa: point.pressure_MPa,
-            yielded: point.yielded,
-        };
-        self.surfaces.extend(frame.surface.iter().map(state));
+        self.depth_um = depth_um;
+        let phase = frame.phase.to_file(Unit::Plain, frame.symmetry);
+        let state = [Value::from(frame.increment), phase, Value::from(depth_um)];
+        let row = |point: &SurfacePoint| [&state[..], &point.values(frame.symmetry)].concat();
+        self.surfaces.extend(frame.surface.iter().map(row));
     }
 
     /// Writes the surfaces of all frames to one file, if there are any.
@@ -123,7 +117,10 @@ impl FieldSeries {
         if self.surfaces.is_empty() {
             return Ok(());
         }
-        folder.write("surfaces.csv", |out| write_rows(out, &self.surfaces, Symmetry::Axisymmetric))
+        // the columns of a surface have one name in both symmetries
+        let point = SurfacePoint::columns().into_iter().map(|column| column.name(Symmetry::Axisymmetric));
+        let names = ["increment", "phase", "depth_um"].map(String::from).into_iter().chain(point);
+        folder.write("surfaces.csv", |out| write_values(out, names, self.surfaces.iter().cloned()))
     }
 
     /// The ParaView collection; its time is the way of the depth, µm: the depth while the tool advances first, and further

@@ -1,30 +1,32 @@
 //! One scene crushed: the run, its result, and the files of the result.
 //!
-//! Rows, summary and fields have the units and names of the files ([`crate::results::units`]).
+//! Rows and summary are in SI; files have the names and units of [`crate::results::columns`].
 
 mod crush_report;
 mod fields;
 mod plot;
 
-pub use crate::results::crush_rows::{
-    AsperityRow, CurveRow, CycleRow, GapRow, Phase, SurfaceRow, SurfaceStateRow, read_rows, write_rows,
+pub use crate::results::columns::{read_rows, write_rows};
+pub use crate::results::crush_summary::{Summary, peak_memory};
+pub use asperity_simulation::record::rows::{
+    AsperityRow, CurveRow, CycleRow, Errors, GapRow, OliverPharr, Phase, Summary as Numbers,
 };
-pub use crate::results::crush_summary::{
-    Errors, Instrument, Island, MeasuredOutline, Summary, peak_memory_mb,
-};
+pub use asperity_simulation::scene::Smoothing;
+pub use asperity_solver::body::fields::SurfacePoint;
+pub use asperity_solver::body::islands::Island;
 pub use fields::{FieldSeries, Frame};
 pub use plot::{plot, titled_plot};
 
 use crate::draw::field_plot::{Panel, Reach, Section};
 use crate::error::Error;
 use crate::input::scene::Scene;
-use crate::results::crush_summary::per_length;
+use crate::progress::Progress;
+use crate::results::numbers::decimals;
 use crate::results::output::{Sink, SinkExt};
-use crate::results::units::{MICROMETRE, Units};
+use crate::results::units::{MICROMETRE, Unit, per_length};
 use asperity_mesh::Mesh;
-use asperity_simulation::record::rows as si;
 use asperity_simulation::run::{CrushError, Event, FieldFrame, Outcome, Run};
-use asperity_simulation::scene::SceneError;
+use asperity_simulation::scene::{SceneError, Symmetry};
 use asperity_solver::body::analysis::Analyses;
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -51,12 +53,10 @@ pub struct Crush {
 
 /// News for the observer of a crush: of every increment, and again where its fields are due.
 #[derive(Clone, Copy, Debug)]
-pub struct Progress<'a> {
+pub struct Increment<'a> {
     /// The last increment as it was found: ripple still in, not extrapolated, without a stated error. The row of the result differs by
     /// as much as the error that is stated there.
     pub row: &'a CurveRow,
-    /// Increments that the whole run will have, as far as is known.
-    pub planned: usize,
     /// The fields of the increment, where they are due.
     pub frame: Option<&'a Frame>,
 }
@@ -85,7 +85,7 @@ impl Sketch {
 /// # Errors
 /// Only if the run cannot begin: [`Error::Input`], pointing at the line of the scene. What stops it later is in
 /// `summary.stopped`.
-pub fn crush(scene: &Scene, observer: &mut dyn FnMut(&Progress<'_>) -> bool) -> Result<Crush, Error> {
+pub fn crush(scene: &Scene, observer: &mut dyn FnMut(&Progress<'_, Increment<'_>>) -> bool) -> Result<Crush, Error> {
     crush_sharing(scene, &Analyses::default(), observer)
 }
 
@@ -96,7 +96,7 @@ pub fn crush(scene: &Scene, observer: &mut dyn FnMut(&Progress<'_>) -> bool) -> 
 pub(crate) fn crush_sharing(
     scene: &Scene,
     analyses: &Analyses,
-    observer: &mut dyn FnMut(&Progress<'_>) -> bool,
+    observer: &mut dyn FnMut(&Progress<'_, Increment<'_>>) -> bool,
 ) -> Result<Crush, Error> {
     let mut frames = Vec::new();
     let keep = &mut |frame: Frame| {
@@ -117,7 +117,7 @@ pub fn crush_into(
     scene: &Scene,
     sink: &mut dyn Sink,
     sketches: &[Sketch],
-    observer: &mut dyn FnMut(&Progress<'_>) -> bool,
+    observer: &mut dyn FnMut(&Progress<'_, Increment<'_>>) -> bool,
 ) -> Result<Crush, Error> {
     let mut series = FieldSeries::default();
     let (crush, failure) =
@@ -131,33 +131,34 @@ pub fn crush_into(
 fn simulate(
     scene: &Scene,
     analyses: &Analyses,
-    observer: &mut dyn FnMut(&Progress<'_>) -> bool,
+    observer: &mut dyn FnMut(&Progress<'_, Increment<'_>>) -> bool,
     keep: &mut dyn FnMut(Frame) -> Result<(), Error>,
 ) -> Result<(Crush, Option<Error>), Error> {
     let start = Instant::now();
     let tables = scene.tables();
-    let units = Units::of(tables.symmetry);
     let mut last = None;
     let (mut peak, mut mesh, mut failure, mut ended) = (None, None::<Arc<Mesh>>, None, false);
     let mut hear = |event: &Event<'_>| -> bool {
         let frame = match event {
             Event::Increment { row, planned } => {
-                last = Some((CurveRow::new(row, units), *planned));
+                last = Some((**row, *planned));
                 None
             }
             Event::Fields(frame) => {
                 let mesh = mesh.get_or_insert_with(|| Arc::new(frame.mesh.clone()));
-                if frame.phase == si::Phase::Load {
+                if frame.phase == Phase::Load {
                     peak = Some((*frame).clone());
                 }
                 let row = last.as_ref().map(|(row, _)| row);
                 Some(Frame::new(frame, mesh.clone(), tables, row))
             }
         };
-        let told =
-            last.as_ref().map(|(row, planned)| Progress { row, planned: *planned, frame: frame.as_ref() });
+        let told = |(row, planned): &(CurveRow, usize)| {
+            let news = Increment { row, frame: frame.as_ref() };
+            observer(&Progress::counted(row.increment, *planned, Some(&news)))
+        };
         // a run that was ended may still hand out the fields of where it ended
-        ended = ended || told.is_some_and(|progress| !observer(&progress));
+        ended = ended || !last.as_ref().is_none_or(told);
         if let (Some(frame), None) = (frame, &failure) {
             failure = keep(frame).err();
         }
@@ -174,24 +175,17 @@ fn simulate(
         None => reason(&outcome, tables.loading.depth.map(|depth| depth.0)),
     };
     let crush = Crush {
-        curve: outcome.rows.iter().map(|row| CurveRow::new(row, units)).collect(),
-        asperities: outcome.asperities.iter().map(|row| AsperityRow::new(row, units)).collect(),
-        gaps: outcome.gaps.iter().map(GapRow::new).collect(),
+        summary: Summary::new(&outcome, scene.resolved(), stopped, start.elapsed().as_secs_f64()),
+        curve: outcome.rows,
+        asperities: outcome.asperities,
+        gaps: outcome.gaps,
         // a single loading stands in the summary
         cycles: match tables.loading.reloads {
             0 => Vec::new(),
-            _ => outcome.cycles.iter().map(|row| CycleRow::new(row, units)).collect(),
+            _ => outcome.cycles,
         },
         frames: Vec::new(),
         peak,
-        summary: Summary::new(
-            &outcome.summary,
-            &outcome.elastic_islands,
-            units,
-            scene.resolved(),
-            stopped,
-            start.elapsed().as_secs_f64(),
-        ),
     };
     Ok((crush, failure))
 }
@@ -200,11 +194,11 @@ fn simulate(
 fn reason(outcome: &Outcome, target: Option<f64>) -> Option<String> {
     let stopped = outcome.stopped.as_ref()?;
     let verb = match stopped.phase {
-        si::Phase::Load => "loading",
-        si::Phase::Unload => "unloading",
-        si::Phase::Reload => "reloading",
+        Phase::Load => "loading",
+        Phase::Unload => "unloading",
+        Phase::Reload => "reloading",
     };
-    let target = target.filter(|_| stopped.phase != si::Phase::Unload);
+    let target = target.filter(|_| stopped.phase != Phase::Unload);
     let target = target.map_or(String::new(), |depth| format!(" of {:.4} um", depth / MICROMETRE));
     Some(format!("stopped {verb} at {:.4} um{target}: {}", stopped.depth / MICROMETRE, stopped.reason))
 }
@@ -276,17 +270,17 @@ impl Crush {
         }
         let scene = &self.summary.scene;
         Section::new(frame, scene, sketch.reach)
-            .and_then(|section| section.svg(sketch.panels, &title(row, per_length(scene.symmetry))))
+            .and_then(|section| section.svg(sketch.panels, &title(row, scene.symmetry)))
             .map(Some)
             .map_err(Error::Unfinished)
     }
 }
 
 /// Depth and force of a state, for people.
-fn title(row: &CurveRow, per: &str) -> String {
-    let force = row.force_N;
-    let digits = (3 - force.abs().max(1e-9).log10().floor() as i32 - 1).clamp(0, 9) as usize;
-    let depth = format!("{:.4}", row.depth_um);
+fn title(row: &CurveRow, symmetry: Symmetry) -> String {
+    let (force, per) = (row.force / Unit::Force.value(symmetry), per_length(symmetry));
+    let digits = decimals(force.abs().max(1e-9), 3);
+    let depth = format!("{:.4}", row.depth / MICROMETRE);
     let depth = depth.trim_end_matches('0').trim_end_matches('.');
     format!("depth {depth} µm, force {force:.digits$} N{per}")
 }

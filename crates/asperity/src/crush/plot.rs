@@ -2,8 +2,9 @@
 
 use crate::draw::chart::{Chart, Dash, Series, svg};
 use crate::draw::palette::LINES;
-use crate::results::crush_rows::{CurveRow, Phase};
-use crate::results::crush_summary::{Summary, per_length};
+use crate::results::crush_summary::Summary;
+use crate::results::units::{MICROMETRE, Unit, per_length};
+use asperity_simulation::record::rows::CurveRow;
 use asperity_simulation::scene::Symmetry;
 
 /// The largest prefix whose numbers are not all below 1: (its SI value, its symbol before the unit).
@@ -39,10 +40,11 @@ pub(super) fn titled_chart(summary: &Summary, rows: &[CurveRow]) -> Chart {
     chart(scene.symmetry, rows).titled(title)
 }
 
-/// A quantity over the depth: its name, its column, and units with their values in that of the column.
+/// A quantity over the depth: its name, its column with the unit in the file, and units with their values in that one.
 struct Quantity {
     name: &'static str,
     column: fn(&CurveRow) -> f64,
+    unit: Unit,
     units: &'static [(f64, &'static str)],
     /// Whether `force_error` is its error.
     band: bool,
@@ -51,45 +53,53 @@ struct Quantity {
 const LENGTHS: &[(f64, &str)] = &[(1e3, "mm"), (1.0, "µm"), (1e-3, "nm")];
 const FORCE: Quantity = Quantity {
     name: "Force F",
-    column: |r| r.force_N,
+    column: |r| r.force,
+    unit: Unit::Force,
     units: &[(1e3, "kN"), (1.0, "N"), (1e-3, "mN"), (1e-6, "µN")],
     band: true,
 };
 const AREA: Quantity = Quantity {
     name: "Contact area A",
-    column: |r| r.contact_area_um2,
+    column: |r| r.contact_area,
+    unit: Unit::Contact,
     units: &[(1e6, "mm²"), (1.0, "µm²"), (1e-6, "nm²")],
     band: false,
 };
 const WIDTH: Quantity = Quantity { name: "Contact width", units: LENGTHS, ..AREA };
 const PRESSURE: Quantity = Quantity {
     name: "Mean pressure",
-    column: |r| r.mean_pressure_MPa,
+    column: |r| r.mean_pressure,
+    unit: Unit::Pressure,
     units: &[(1e3, "GPa"), (1.0, "MPa"), (1e-3, "kPa")],
     band: false,
 };
 
 fn chart(symmetry: Symmetry, rows: &[CurveRow]) -> Chart {
-    over_depth(&FORCE, per_length(symmetry), rows)
+    over_depth(&FORCE, symmetry, rows)
 }
 
 /// The contact, and the pressure on it, over the depth.
 pub(super) fn contact_charts(symmetry: Symmetry, rows: &[CurveRow]) -> [Chart; 2] {
     let contact = if symmetry == Symmetry::PlaneStrain { WIDTH } else { AREA };
-    [contact, PRESSURE].map(|quantity| over_depth(&quantity, "", rows))
+    [contact, PRESSURE].map(|quantity| over_depth(&quantity, symmetry, rows))
 }
 
-fn over_depth(quantity: &Quantity, per: &str, rows: &[CurveRow]) -> Chart {
-    let column = quantity.column;
-    let largest = |value: fn(&CurveRow) -> f64| rows.iter().map(value).fold(0.0, f64::max);
-    let (length, length_name) = prefix(largest(|r| r.depth_um), LENGTHS);
-    let (unit, unit_name) = prefix(largest(column), quantity.units);
-    let point = |r: &CurveRow| [r.depth_um / length, column(r) / unit];
-    let next = |from: usize, phase: Phase| {
-        rows[from..].iter().position(|r| r.phase == phase).map_or(rows.len(), |i| from + i)
+fn over_depth(quantity: &Quantity, symmetry: Symmetry, rows: &[CurveRow]) -> Chart {
+    let written = quantity.unit.value(symmetry);
+    let values = |r: &CurveRow| [r.depth / MICROMETRE, (quantity.column)(r) / written];
+    let largest = |i: usize| rows.iter().map(|row| values(row)[i]).fold(0.0, f64::max);
+    let (length, length_name) = prefix(largest(0), LENGTHS);
+    let (unit, unit_name) = prefix(largest(1), quantity.units);
+    let per = if quantity.unit == Unit::Force { per_length(symmetry) } else { "" };
+    let point = |r: &CurveRow| {
+        let [depth, value] = values(r);
+        [depth / length, value / unit]
     };
-    let peak = next(0, Phase::Unload);
-    let again = next(peak, Phase::Load);
+    let next = |from: usize, advances: bool| {
+        rows[from..].iter().position(|r| r.phase.advances() == advances).map_or(rows.len(), |i| from + i)
+    };
+    let peak = next(0, false);
+    let again = next(peak, true);
     // each branch begins where the one before it ends
     let edge = |r: &CurveRow, side: f64| {
         let [depth, force] = point(r);
@@ -120,26 +130,28 @@ fn over_depth(quantity: &Quantity, per: &str, rows: &[CurveRow]) -> Chart {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use asperity_simulation::record::rows::Phase;
 
     #[test]
     fn the_plot_names_its_axes_and_both_branches() {
         let row = |increment, phase, depth_um: f64, force: f64| CurveRow {
             increment,
             phase,
-            depth_um,
-            force_N: force,
-            contact_area_um2: 0.0,
-            contact_radius_um: 0.0,
-            mean_pressure_MPa: 0.0,
-            external_work_uJ: 0.0,
-            elastic_energy_uJ: 0.0,
-            plastic_work_uJ: 0.0,
-            contact_energy_uJ: 0.0,
-            penetration_um: 0.0,
+            depth: depth_um * MICROMETRE,
+            force,
+            contact_area: 0.0,
+            contact_radius: 0.0,
+            mean_pressure: 0.0,
+            external_work: 0.0,
+            elastic_energy: 0.0,
+            plastic_work: 0.0,
+            contact_energy: 0.0,
+            penetration: 0.0,
+            compliance_depth: 0.0,
             newton_iterations: 4,
-            force_nodal_N: force,
+            force_nodal: force,
             force_error: None,
-            transfer_energy_uJ: 0.0,
+            transfer_energy: 0.0,
         };
         let mut rows: Vec<_> = (0..=24)
             .map(|i| {
@@ -154,7 +166,7 @@ mod tests {
         let axisymmetric = plot(Symmetry::Axisymmetric, &rows).unwrap();
         assert!(!axisymmetric.contains("reloading"));
         let mut cycled = rows.clone();
-        cycled.push(row(35, Phase::Load, 5.0, 5.52));
+        cycled.push(row(35, Phase::Reload, 5.0, 5.52));
         assert!(plot(Symmetry::Axisymmetric, &cycled).unwrap().contains("reloading"));
         for text in ["Depth h (µm)", "Force F (N)", "loading", "unloading"] {
             assert!(axisymmetric.contains(text), "{text}");

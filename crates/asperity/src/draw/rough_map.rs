@@ -7,6 +7,7 @@ use super::encode::{drawing_png, indexed_png};
 use super::frame::{Frame, ROOM_LEFT, ROOM_RIGHT, Short, boxes, document};
 use super::palette::{Bands, Colour, REGIMES, interpolated};
 use super::scale;
+use crate::results::numbers::decimals;
 use maud::{Markup, html};
 
 /// No side of a picture is longer, unless less is asked for.
@@ -148,8 +149,7 @@ impl Grid {
 
 /// The three leading digits of a pressure.
 fn digits(value: f64) -> String {
-    let decimals = usize::from(value < 100.0) + usize::from(value < 10.0);
-    format!("{value:.decimals$}")
+    format!("{value:.*}", decimals(value.max(1.0), 3))
 }
 
 /// The value that a share of the loaded pixels does not exceed.

@@ -2,14 +2,15 @@
 
 use super::bodies::Body;
 use super::closures::Closures;
-use super::rows::{Carried, ComparedRow, FINITE_ELEMENTS};
+use super::rows::{Carried, ComparedRow, FINITE_ELEMENTS, written_area, written_depth};
 use super::scenes::stem;
 use crate::batch::journal::fingerprint;
-use crate::batch::{self, Batch, Options, Reached};
+use crate::batch::{self, Batch, Options};
 use crate::crush::{Crush, CurveRow, Phase, crush, write_rows};
 use crate::error::{Error, InputError};
 use crate::extract::take::Extracted;
 use crate::input::scene::Scene;
+use crate::progress::Observer;
 use crate::results::output::{Sink, SinkExt};
 use crate::results::units::MICROMETRE;
 use crate::rough::RoughScene;
@@ -50,15 +51,6 @@ pub struct Comparison {
     pub wall_s: f64,
 }
 
-/// The progress of a comparison.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Progress {
-    /// Asperities that are crushed, those of the journal too.
-    pub done: usize,
-    /// Asperities in all.
-    pub asperities: usize,
-}
-
 impl Extracted {
     /// Crushes the `count` highest bodies and holds every closure against them, a thread an asperity; `scene`
     /// is that of the extraction, whose files lie in the folder of `options` ([`Extracted::write`]).
@@ -74,7 +66,7 @@ impl Extracted {
         scene: &RoughScene,
         count: usize,
         options: &Options,
-        observer: &mut (dyn FnMut(&Progress) -> bool + Send),
+        observer: &mut Observer<'_, Compared>,
     ) -> Result<Comparison, Error> {
         let start = Instant::now();
         let Some(folder) = options.folder.as_deref() else {
@@ -95,9 +87,7 @@ impl Extracted {
             threads: options.threads,
             journal: Some(&journal),
         };
-        let finished = batch::run(&batch, &mut |reached: &Reached<'_, Compared>| {
-            observer(&Progress { done: reached.done, asperities: reached.cases })
-        })?;
+        let finished = batch::run(&batch, observer)?;
         Ok(Comparison {
             asperities: finished.rows.into_iter().map(|(_, row)| row).collect(),
             warnings: closures.skipped,
@@ -169,10 +159,9 @@ impl Extracted {
     fn rows(&self, body: &Body, closures: &Closures, crush: &Crush) -> Vec<ComparedRow> {
         let mut rows = Vec::new();
         for point in compared_points(&crush.curve, body.depth / MICROMETRE) {
-            let own =
-                Carried { force: point.force_N, area: point.contact_area_um2 * MICROMETRE * MICROMETRE };
+            let own = Carried { force: point.force, area: written_area(point) * MICROMETRE * MICROMETRE };
             rows.push(ComparedRow::new(body, FINITE_ELEMENTS, point, own, None, Some(&crush.summary), "ok"));
-            for given in closures.answers_at(body, &self.surface, point.depth_um * MICROMETRE) {
+            for given in closures.answers_at(body, &self.surface, written_depth(point)) {
                 let (own, status) = match given.body {
                     Ok(own) => (own, "ok".into()),
                     Err(why) => (Carried { force: f64::NAN, area: f64::NAN }, why),
@@ -195,10 +184,10 @@ impl Extracted {
 /// The increments of loading that are nearest to the shares of `depth` (µm), each once.
 fn compared_points(curve: &[CurveRow], depth: f64) -> Vec<&CurveRow> {
     let loading: Vec<&CurveRow> =
-        curve.iter().take_while(|row| row.phase == Phase::Load).filter(|row| row.force_N > 0.0).collect();
+        curve.iter().take_while(|row| row.phase == Phase::Load).filter(|row| row.force > 0.0).collect();
     let nearest = |share: f64| {
         loading.iter().copied().min_by(|a, b| {
-            let off = |row: &CurveRow| (row.depth_um - share * depth).abs();
+            let off = |row: &CurveRow| (row.depth / MICROMETRE - share * depth).abs();
             off(a).total_cmp(&off(b))
         })
     };
@@ -235,7 +224,7 @@ impl Comparison {
     /// A disk that refuses.
     pub fn write(&self, sink: &mut dyn Sink) -> Result<(), Error> {
         let rows: Vec<&ComparedRow> = self.rows().collect();
-        sink.write("compared.csv", |out| crate::results::output::write_csv(out, &rows, str::to_string))?;
+        sink.write("compared.csv", |out| crate::results::output::write_csv(out, &rows))?;
         for one in self.asperities.iter().filter(|one| !one.curve.is_empty()) {
             sink.text(&format!("curves/{}.csv", stem(one.asperity)), &one.curve)?;
         }

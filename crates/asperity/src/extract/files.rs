@@ -31,7 +31,7 @@ impl Extracted {
     /// A disk that refuses.
     pub fn write(&self, sink: &mut dyn Sink) -> Result<(), Error> {
         let table: &[AsperityRow] = &self.table;
-        sink.write("asperities.csv", |out| write_csv(out, table, str::to_string))?;
+        sink.write("asperities.csv", |out| write_csv(out, table))?;
         for body in &self.bodies {
             let rows = body.profile.points.iter().map(|[r, z]| RadiusRow { r_um: um(*r), z_um: um(*z) });
             let name = stem(body.number);

@@ -18,6 +18,6 @@ mod picture;
 
 pub use crate::extract::take::{Extracted, Summary, extract};
 pub use bodies::{Body, Line};
-pub use compare::{Compared, Comparison, Progress};
+pub use compare::{Compared, Comparison};
 pub use rows::{AsperityRow, ComparedRow, FINITE_ELEMENTS};
 pub use settings::{Extraction, LineAt, Parts};

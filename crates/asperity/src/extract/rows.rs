@@ -5,8 +5,9 @@
 use super::bodies::Body;
 use crate::crush::{CurveRow, Summary as CrushSummary};
 use crate::results::output::row;
-use crate::results::units::{MEGAPASCAL, MICROMETRE};
+use crate::results::units::{MEGAPASCAL, MICROMETRE, Unit};
 use asperity_roughness::asperities::Asperity;
+use asperity_simulation::scene::Symmetry;
 
 /// The name of the reference in the column `closure` of `compared.csv`.
 pub const FINITE_ELEMENTS: &str = "finite-elements";
@@ -75,9 +76,9 @@ row! {
         /// Name of the closure, or `finite-elements`.
         closure: String = closure.into(),
         /// Depth from first touch.
-        depth_um: f64 = point.depth_um,
+        depth_um: f64 = point.depth / MICROMETRE,
         /// atan of the mean |dz/dr| of the body of revolution down to the depth, degrees.
-        slope_deg: f64 = body.profile.area_and_slope(point.depth_um * MICROMETRE).1.atan().to_degrees(),
+        slope_deg: f64 = body.profile.area_and_slope(written_depth(point)).1.atan().to_degrees(),
         /// Force on the body of revolution.
         force_N: f64 = own.force,
         /// Its contact area.
@@ -85,9 +86,9 @@ row! {
         /// Force over contact area; none without contact.
         mean_pressure_MPa: Option<f64> = (own.area > 0.0).then(|| own.force / own.area / MEGAPASCAL),
         /// Force over that of the finite elements.
-        force_over_finite_elements: Option<f64> = ratio(own.force, point.force_N),
+        force_over_finite_elements: Option<f64> = ratio(own.force, point.force),
         /// Contact area over that of the finite elements.
-        area_over_finite_elements: Option<f64> = ratio(own.area / MICROMETRE / MICROMETRE, point.contact_area_um2),
+        area_over_finite_elements: Option<f64> = ratio(own.area / MICROMETRE / MICROMETRE, written_area(point)),
         /// Force of the closure on the asperity as it stands on the map, cut at the same depth; none of a half-space.
         island_force_N: Option<f64> = island.map(|i| i.force),
         /// Its contact area.
@@ -99,6 +100,16 @@ row! {
         /// `ok`, or why there are no numbers.
         status: String = status.into(),
     }
+}
+
+/// The depth of a point to the digits that its file has, m.
+pub(super) fn written_depth(point: &CurveRow) -> f64 {
+    point.depth / MICROMETRE * MICROMETRE
+}
+
+/// The contact area of a point as its file has it, µm².
+pub(super) fn written_area(point: &CurveRow) -> f64 {
+    point.contact_area / Unit::Contact.value(Symmetry::Axisymmetric)
 }
 
 fn ratio(a: f64, b: f64) -> Option<f64> {

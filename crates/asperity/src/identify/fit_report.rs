@@ -3,8 +3,8 @@
 use super::pictures::stress_strain;
 use super::result::{Found, Identification};
 use crate::error::Error;
-use crate::page::format::significant;
 use crate::page::{self, Numbers, Report};
+use crate::results::numbers::significant;
 use maud::html;
 
 impl Identification {

@@ -7,6 +7,7 @@ use super::pictures;
 use crate::draw::chart::svg;
 use crate::error::Error;
 use crate::input::toml_file::to_toml;
+use crate::results::numbers::decimals;
 use crate::results::output::{Sink, SinkExt, json};
 use asperity_identification::experiment::{Data, Experiment};
 use asperity_identification::identifiability::{
@@ -281,7 +282,7 @@ fn fits(chi2: f64, freedom: i64) -> bool {
 /// A number with so many digits as its interval deserves.
 fn digits(value: f64, low: f64, high: f64) -> usize {
     let width = (high - low).abs().max(1e-3 * value.abs()).max(1e-12);
-    (1.0 - width.log10().floor()).clamp(0.0, 6.0) as usize
+    decimals(width, 2).min(6)
 }
 
 fn quoted(name: &str, f: &Found) -> String {

@@ -1,12 +1,10 @@
 //! Pages that stand alone: one HTML document each, which needs no network, reads on a phone, on paper and in the dark, and says in
 //! words what its pictures show. The curves tell the value under the pointer; without a script they are pictures.
 
-pub mod format;
-
 use crate::draw::chart::{Chart, located};
 use crate::error::Error;
+use crate::results::numbers::{rounded, significant};
 use crate::results::output::json;
-use format::{rounded, significant};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use serde::Serialize;
 use serde_json::Value;

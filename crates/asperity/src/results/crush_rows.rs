@@ -1,226 +1,169 @@
-//! Rows of `curve.csv`, `asperities.csv`, `gaps.csv`, `cycles.csv` and `surface_NNNN.csv`, as they are written and read.
-//!
-//! Fields are named as the columns of an axisymmetric crush, units included; [`crate::results::units`] names them in plane strain.
+//! Rows of `curve.csv`, `asperities.csv`, `gaps.csv`, `cycles.csv`, and `surface_NNNN.csv`: their columns.
 
-#![expect(non_snake_case, reason = "a name ends in its unit, as in the files")]
-
-use crate::error::{Error, InputError};
-use crate::results::output::{read_csv, row, write_csv};
-use crate::results::units::{MEGAPASCAL, MICROMETRE, Units, axisymmetric_name, file_name};
-use asperity_simulation::record::rows;
+use crate::results::columns::{Cell, Column, Described, Table, columns, take};
+use crate::results::units::Unit;
+use asperity_simulation::record::rows::{AsperityRow, CurveRow, CycleRow, GapRow};
 use asperity_simulation::scene::Symmetry;
 use asperity_solver::body::fields::SurfacePoint;
-use serde::de::DeserializeOwned;
-use serde::{Deserialize, Serialize};
-use std::io::Write;
-use std::path::Path;
+use serde_json::Value;
 
-/// Whether the tool advances or retreats; `cycles.csv` says where it advances again.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Phase {
-    /// The tool advances.
-    Load,
-    /// The tool retreats.
-    Unload,
-}
-
-impl From<rows::Phase> for Phase {
-    fn from(phase: rows::Phase) -> Self {
-        match phase {
-            rows::Phase::Load | rows::Phase::Reload => Phase::Load,
-            rows::Phase::Unload => Phase::Unload,
-        }
-    }
-}
-
-/// A place in µm; `None` where there is none.
-fn place(metres: f64) -> Option<f64> {
-    Some(metres / MICROMETRE).filter(|um| um.is_finite())
-}
-
-row! {
-    /// One converged increment.
-    CurveRow(row: &rows::CurveRow, units: Units) {
+columns! {
+    CurveRow {
         /// Counted from 0, the first touch.
-        increment: usize = row.increment,
+        increment: Plain,
         /// `load` or `unload`; a reload is a load, `cycles.csv` says where it begins.
-        phase: Phase = row.phase.into(),
+        phase: Plain,
         /// Travel of the tool from first touch, less the penalty correction, plus the far field of the half-space and the deflection of
         /// an elastic tool and of the machine.
-        depth_um: f64 = row.depth / MICROMETRE,
+        depth: Length,
         /// Force on the tool, positive in compression, of the full body of revolution (in plane strain per mm); without the
         /// ripple of the mesh, and extrapolated with the companion run.
-        force_N: f64 = row.force / units.force,
+        force: Force,
         /// Projected current area under pressure (in plane strain its width in µm); without the ripple of the mesh, and extrapolated.
-        contact_area_um2: f64 = row.contact_area / units.area,
+        contact_area: Contact,
         /// Radius of the disc of the area of the contact that holds the axis; in plane strain half the contact width.
-        contact_radius_um: f64 = row.contact_radius / MICROMETRE,
+        contact_radius: Length,
         /// Force over contact area; 0 without contact.
-        mean_pressure_MPa: f64 = row.mean_pressure / MEGAPASCAL,
+        mean_pressure: Pressure,
         /// ∫F dh over the raw travel of the tool, which includes `contact_energy_uJ`.
-        external_work_uJ: f64 = row.external_work / units.energy,
+        external_work: Energy,
         /// Stored elastic energy, residual stress included.
-        elastic_energy_uJ: f64 = row.elastic_energy / units.energy,
+        elastic_energy: Energy,
         /// Work of plastic flow, Σ∫σ_y dε_p; never found by subtraction.
-        plastic_work_uJ: f64 = row.plastic_work / units.energy,
+        plastic_work: Energy,
         /// Energy stored in the penalty, ½ε∫d² dA with the penetration d, less what it changed by so far as the contact was measured anew over
         /// the last converged surface, which is no work of the tool: an artefact of the method, no energy of the metal.
-        contact_energy_uJ: f64 = row.contact_energy / units.energy,
+        contact_energy: Energy,
         /// Mean penetration, weighted by the pressure.
-        penetration_um: f64 = row.penetration / MICROMETRE,
+        penetration: Length,
         /// Newton iterations spent since the last row.
-        newton_iterations: usize = row.newton_iterations,
+        newton_iterations: Plain,
         /// Sum of the nodal forces: the force with the ripple of the mesh, which the works are made of.
-        force_nodal_N: f64 = row.force_nodal / units.force,
+        force_nodal: Force,
         /// 95 % bound of the relative error of the force in this row; empty where there is no force or the bound is not known. While
         /// unloading it holds the error of the residual depth, by which the curve is shifted.
-        force_error: Option<f64> = row.force_error,
+        force_error: Plain,
         /// Change of the elastic, plastic and contact energy by all transfers to better meshes so far, which is no work of the tool.
-        transfer_energy_uJ: f64 = row.transfer_energy / units.energy,
-    }
+        transfer_energy: Energy,
+    } absent { compliance_depth: f64::NAN }
 }
 
-row! {
-    /// The share of one asperity in one increment.
-    AsperityRow(row: &rows::AsperityRow, units: Units) {
+columns! {
+    AsperityRow {
         /// Increment of the curve.
-        increment: usize = row.increment,
+        increment: Plain,
         /// Loading or unloading.
-        phase: Phase = row.phase.into(),
+        phase: Plain,
         /// Counted from 0, from the axis (left side) outward.
-        asperity: usize = row.asperity,
+        asperity: Plain,
         /// As in the curve.
-        depth_um: f64 = row.depth / MICROMETRE,
+        depth: Length,
         /// Force on this asperity.
-        force_N: f64 = row.force / units.force,
+        force: Force,
         /// Its contact area.
-        contact_area_um2: f64 = row.contact_area / units.area,
+        contact_area: Contact,
         /// Innermost (leftmost) point of its contact; `None` without contact.
-        contact_left_um: Option<f64> = place(row.contact_left),
+        contact_left: Length,
         /// Outermost point of its contact; `None` without contact.
-        contact_right_um: Option<f64> = place(row.contact_right),
+        contact_right: Length,
         /// Largest contact pressure on it.
-        max_pressure_MPa: f64 = row.max_pressure / MEGAPASCAL,
+        max_pressure: Pressure,
     }
 }
 
-row! {
-    /// An untouched stretch of surface between two contacts in one increment.
-    GapRow(row: &rows::GapRow) {
+columns! {
+    GapRow {
         /// Increment of the curve.
-        increment: usize = row.increment,
+        increment: Plain,
         /// Loading or unloading.
-        phase: Phase = row.phase.into(),
+        phase: Plain,
         /// As in the curve.
-        depth_um: f64 = row.depth / MICROMETRE,
+        depth: Length,
         /// End of the contact before the gap.
-        left_um: f64 = row.left / MICROMETRE,
+        left: Length,
         /// Beginning of the contact after it.
-        right_um: f64 = row.right / MICROMETRE,
-        /// Distance of the two.
-        width_um: f64 = (row.right - row.left) / MICROMETRE,
+        right: Length,
+        + /// Distance of the two.
+        width: Length,
         /// Largest distance from the tool in between; from the lowest to the highest point of an enclosed gap.
-        height_um: f64 = row.height / MICROMETRE,
+        height: Length,
         /// Whether flanks that press each other close it off from the tool.
-        enclosed: bool = row.enclosed,
+        enclosed: Plain,
     }
 }
 
-row! {
-    /// One loading with its unloading: the first one, then the reloads.
-    CycleRow(row: &rows::CycleRow, units: Units) {
+columns! {
+    CycleRow {
         /// 0: the first loading; then the reloads.
-        cycle: usize = row.cycle,
+        cycle: Plain,
         /// Increment of the peak.
-        peak_increment: usize = row.peak_increment,
+        peak_increment: Plain,
         /// Increment at which the tool is gone.
-        end_increment: usize = row.end_increment,
+        end_increment: Plain,
         /// Depth at the peak.
-        peak_depth_um: f64 = row.peak_depth / MICROMETRE,
+        peak_depth: Length,
         /// Force at the peak.
-        peak_force_N: f64 = row.peak_force / units.force,
+        peak_force: Force,
         /// Initial summit minus the highest point of the body in equilibrium without the tool; of an indent, the depth at which the
         /// tool touches again.
-        residual_depth_um: f64 = row.residual_depth / MICROMETRE,
+        residual_depth: Length,
         /// ∫F dh on the way in, over the corrected depth.
-        work_in_uJ: f64 = row.work_in / units.energy,
+        work_in: Energy,
         /// Work returned on the way out.
-        work_out_uJ: f64 = row.work_out / units.energy,
-        /// The difference of the two.
-        hysteresis_uJ: f64 = (row.work_in - row.work_out) / units.energy,
+        work_out: Energy,
+        + /// The difference of the two.
+        hysteresis: Energy,
         /// Plastic work of both ways.
-        plastic_work_uJ: f64 = row.plastic_work / units.energy,
+        plastic_work: Energy,
     }
 }
 
-row! {
-    /// A node of the free surface: pile-up and sink-in. In plane strain r is x.
-    SurfaceRow(point: &SurfacePoint) {
-        /// Current radius.
-        r_um: f64 = point.position[0] / MICROMETRE,
-        /// Current height over the initial summit.
-        z_um: f64 = point.position[1] / MICROMETRE,
-        /// Displacement along r.
-        u_r_um: f64 = point.displacement[0] / MICROMETRE,
-        /// Displacement along z.
-        u_z_um: f64 = point.displacement[1] / MICROMETRE,
-        /// Contact pressure, without the zigzag between corners and mid-side nodes.
-        pressure_MPa: f64 = point.pressure / MEGAPASCAL,
-        /// 1 where the material has yielded, else 0.
-        yielded: u8 = u8::from(point.yielded),
+impl Described for SurfacePoint {
+    fn columns() -> Vec<Column> {
+        vec![
+            columns!(column r Length #[doc = "Current radius."]),
+            columns!(column z Length #[doc = "Current height over the initial summit."]),
+            columns!(column u_r Length #[doc = "Displacement along r."]),
+            columns!(column u_z Length #[doc = "Displacement along z."]),
+            columns!(column pressure Pressure #[doc = "Contact pressure, without the zigzag between corners and mid-side nodes."]),
+            columns!(column yielded Bit #[doc = "1 where the material has yielded, else 0."]),
+        ]
     }
 }
 
-/// A node of the free surface in one state: a row of `surfaces.csv`. In plane strain r is x.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct SurfaceStateRow {
-    /// Increment of the curve; 0: before the crush.
-    pub increment: usize,
-    /// Loading or unloading.
-    pub phase: Phase,
-    /// Depth of the increment.
-    pub depth_um: f64,
-    /// Current radius.
-    pub r_um: f64,
-    /// Current height over the initial summit.
-    pub z_um: f64,
-    /// Displacement along r.
-    pub u_r_um: f64,
-    /// Displacement along z.
-    pub u_z_um: f64,
-    /// Contact pressure, without the zigzag between corners and mid-side nodes.
-    pub pressure_MPa: f64,
-    /// 1 where the material has yielded, else 0.
-    pub yielded: u8,
-}
+impl Table for SurfacePoint {
+    fn values(&self, symmetry: Symmetry) -> Vec<Value> {
+        let ([r, z], [u_r, u_z]) = (self.position, self.displacement);
+        let mut values = [r, z, u_r, u_z].map(|length| length.to_file(Unit::Length, symmetry)).to_vec();
+        values.push(self.pressure.to_file(Unit::Pressure, symmetry));
+        values.push(self.yielded.to_file(Unit::Bit, symmetry));
+        values
+    }
 
-/// Writes rows as the CSV of a crush in this symmetry.
-///
-/// # Errors
-/// A writer that fails.
-pub fn write_rows<T: Serialize>(out: &mut dyn Write, rows: &[T], symmetry: Symmetry) -> csv::Result<()> {
-    write_csv(out, rows, |name| file_name(name, symmetry))
-}
-
-/// Reads the rows of a CSV file of a crush in either symmetry.
-///
-/// # Errors
-/// A file that cannot be read, or holds other rows.
-pub fn read_rows<T: DeserializeOwned>(path: &Path) -> Result<Vec<T>, Error> {
-    let error = |e: &dyn std::fmt::Display| InputError::new(format!("cannot read {}: {e}", path.display()));
-    let file = std::fs::File::open(path).map_err(|e| error(&e))?;
-    read_csv(file, axisymmetric_name).map_err(|e| error(&e).into())
+    fn from_values(symmetry: Symmetry, value: &mut dyn FnMut(&str) -> Option<Value>) -> Result<Self, String> {
+        let mut pair = |names: [&str; 2]| -> Result<[f64; 2], String> {
+            let [r, z] = names.map(|name| take(value, name, Unit::Length, symmetry));
+            Ok([r?, z?])
+        };
+        Ok(SurfacePoint {
+            position: pair(["r", "z"])?,
+            displacement: pair(["u_r", "u_z"])?,
+            pressure: take(value, "pressure", Unit::Pressure, symmetry)?,
+            yielded: take(value, "yielded", Unit::Bit, symmetry)?,
+        })
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::results::columns::{read_rows, write_rows};
+    use asperity_simulation::record::rows::Phase;
 
-    fn row(symmetry: Symmetry) -> CurveRow {
-        let row = rows::CurveRow {
+    fn row() -> CurveRow {
+        CurveRow {
             increment: 3,
-            phase: rows::Phase::Unload,
+            phase: Phase::Unload,
             depth: 5.0 * 1e-6,
             force: 5.52,
             contact_area: 3e-10,
@@ -236,11 +179,10 @@ mod tests {
             force_nodal: 5.5,
             force_error: Some(0.01),
             transfer_energy: -1e-12,
-        };
-        CurveRow::new(&row, Units::of(symmetry))
+        }
     }
 
-    fn text<T: Serialize>(symmetry: Symmetry, row: T) -> String {
+    fn text<T: Table>(symmetry: Symmetry, row: T) -> String {
         let mut out = Vec::new();
         write_rows(&mut out, &[row], symmetry).unwrap();
         String::from_utf8(out).unwrap()
@@ -248,7 +190,7 @@ mod tests {
 
     #[test]
     fn the_curve_has_the_columns_and_units_of_the_contract() {
-        let text = text(Symmetry::Axisymmetric, row(Symmetry::Axisymmetric));
+        let text = text(Symmetry::Axisymmetric, row());
         let (head, line) = text.trim_end().split_once('\n').unwrap();
         assert_eq!(
             head,
@@ -266,7 +208,7 @@ mod tests {
 
     #[test]
     fn in_plane_strain_forces_and_energies_are_per_length() {
-        let text = text(Symmetry::PlaneStrain, row(Symmetry::PlaneStrain));
+        let text = text(Symmetry::PlaneStrain, row());
         let (head, line) = text.trim_end().split_once('\n').unwrap();
         assert!(head.starts_with("increment,phase,depth_um,force_N_per_mm,contact_width_um,"));
         assert!(head.contains(",external_work_uJ_per_mm,"));
@@ -276,21 +218,22 @@ mod tests {
     }
 
     #[test]
-    fn rows_read_back_to_the_same_bits_in_both_symmetries() {
+    fn rows_read_back_to_the_same_text_in_both_symmetries() {
         let dir = tempfile::tempdir().unwrap();
         for symmetry in [Symmetry::Axisymmetric, Symmetry::PlaneStrain] {
             let path = dir.path().join("curve.csv");
-            std::fs::write(&path, text(symmetry, row(symmetry))).unwrap();
-            assert_eq!(read_rows::<CurveRow>(&path).unwrap(), [row(symmetry)]);
+            let written = text(symmetry, row());
+            std::fs::write(&path, &written).unwrap();
+            assert_eq!(text(symmetry, read_rows::<CurveRow>(&path).unwrap()[0]), written);
             assert!(read_rows::<CycleRow>(&path).unwrap_err().to_string().contains("curve.csv"));
         }
     }
 
     #[test]
     fn an_asperity_out_of_contact_has_no_place() {
-        let row = rows::AsperityRow {
+        let row = AsperityRow {
             increment: 1,
-            phase: rows::Phase::Reload,
+            phase: Phase::Reload,
             asperity: 2,
             depth: 1e-6,
             force: 0.0,
@@ -299,7 +242,6 @@ mod tests {
             contact_right: f64::NAN,
             max_pressure: 0.0,
         };
-        let row = AsperityRow::new(&row, Units::of(Symmetry::Axisymmetric));
         assert_eq!(text(Symmetry::Axisymmetric, row).lines().nth(1).unwrap(), "1,load,2,1.0,0.0,0.0,,,0.0");
     }
 }

@@ -1,174 +1,187 @@
-//! `summary.json`, as it is written and read.
-
-#![expect(non_snake_case, reason = "a name ends in its unit, as in the file")]
+//! `summary.json`: its keys, as they are written and read.
 
 use crate::error::{Error, InputError};
-use crate::page::format::significant;
-use crate::results::output::{nan_for_null, row};
-use crate::results::units::{GIGAPASCAL, MEGAPASCAL, MICROMETRE, Units, axisymmetric_name, file_name};
-use asperity_simulation::record::rows::{self, OliverPharr};
+use crate::results::columns::{Described, Table, columns, symmetry_of};
+use crate::results::numbers::four_decimals;
+use crate::results::units::{Unit, per_length};
+use asperity_simulation::record::rows::{Errors, OliverPharr, Summary as Numbers};
+use asperity_simulation::run::Outcome;
 use asperity_simulation::scene::{Accuracy, Scene as Tables, Smoothing, Symmetry};
-use asperity_solver::body::islands;
-use indexmap::IndexMap;
+use asperity_solver::body::islands::Island;
 use serde::de::Error as _;
-use serde::ser::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
-use serde_json::Value;
+use serde_json::{Map, Value};
+use std::ops::Deref;
 use std::path::Path;
 
-row! {
-    /// 95 % bounds of the errors against the program's own converged limit, for 0.2 ≤ h/h_peak ≤ 1. NaN or `None`, `null` in
-    /// the file, where an error is not known or the run did not unload.
-    Errors(errors: &rows::Errors) {
-        /// Of the force, relative.
-        #[serde(deserialize_with = "nan_for_null")]
-        force: f64 = errors.force,
-        /// Of the contact area, relative.
-        #[serde(deserialize_with = "nan_for_null")]
-        contact_area: f64 = errors.contact_area,
-        /// Of the mean pressure, relative.
-        #[serde(deserialize_with = "nan_for_null")]
-        mean_pressure: f64 = errors.mean_pressure,
-        /// Of the residual depth, over the peak depth.
-        residual_depth: Option<f64> = errors.residual_depth,
-        /// Of the elastic fraction, absolute.
-        elastic_fraction: Option<f64> = errors.elastic_fraction,
-        /// Of the unloading stiffness, relative.
-        unloading_stiffness: Option<f64> = errors.unloading_stiffness,
+/// The numbers of a crush in SI, and what they are the numbers of.
+///
+/// It is serialised as `summary.json` has it: under the names and in the units of the file. What the scene did not ask for (unloading)
+/// or the run did not reach is `None`, `null` in the file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Summary {
+    /// Why and where the run ended before its target.
+    pub stopped: Option<String>,
+    /// The numbers of the run, which the summary gives as its own.
+    pub numbers: Numbers,
+    /// Regions among the asperities that never yielded, at the peak.
+    pub elastic_islands: Vec<Island>,
+    /// Seconds the run took.
+    pub wall_s: f64,
+    /// Largest resident memory of the process so far, bytes; `None` where the system does not say.
+    pub peak_memory: Option<f64>,
+    /// The scene as resolved, with the numbers that its accuracy stands for: enough to run it again.
+    pub scene: Box<Tables>,
+    /// Version of this program.
+    pub version: String,
+}
+
+impl Deref for Summary {
+    type Target = Numbers;
+
+    fn deref(&self) -> &Numbers {
+        &self.numbers
     }
 }
 
-row! {
-    /// The numbers of a crush. `None`, `null` in the file, is what the scene did not ask for (unloading) or the run did not
-    /// reach. Fields are named as the keys of an axisymmetric crush; the file of a crush in plane strain has the names of
-    /// [`crate::results::units::plane_strain_name`], and so has what is serialised.
-    #[serde(remote = "Self")]
-    Summary(
-        summary: &rows::Summary, islands: &[islands::Island], units: Units, scene: Tables,
-        stopped: Option<String>, wall_s: f64
-    ) {
-        /// Why and where the run ended before its target; absent if it did not.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
-        stopped: Option<String> = stopped,
+columns! {
+    Errors {
+        /// Of the force, relative.
+        force: Plain,
+        /// Of the contact area, relative.
+        contact_area: Plain,
+        /// Of the mean pressure, relative.
+        mean_pressure: Plain,
+        /// Of the residual depth, over the peak depth.
+        residual_depth: Plain,
+        /// Of the elastic fraction, absolute.
+        elastic_fraction: Plain,
+        /// Of the unloading stiffness, relative.
+        unloading_stiffness: Plain,
+    }
+}
+
+columns! {
+    Numbers {
         /// Force at the end of the first loading, its largest but for what gives way on the way.
-        peak_force_N: f64 = summary.peak_force / units.force,
+        peak_force: Force,
         /// Depth at the peak.
-        peak_depth_um: f64 = summary.peak_depth / MICROMETRE,
+        peak_depth: Length,
         /// After unloading: how much lower the highest point of the body is than its first summit; under a cone or a sphere, how far
         /// that tool now travels before it touches.
-        residual_depth_um: Option<f64> = summary.residual_depth.map(|h| h / MICROMETRE),
+        residual_depth: Length,
         /// dF/dh at the peak from one elastic solve with the contact kept.
-        unloading_stiffness_N_per_um: Option<f64> = summary.unloading_stiffness.map(|s| s / units.stiffness),
+        unloading_stiffness: Stiffness,
         /// Contact area at the peak.
-        contact_area_um2: f64 = summary.contact_area / units.area,
+        contact_area: Contact,
         /// Contact radius at the peak.
-        contact_radius_um: f64 = summary.contact_radius / MICROMETRE,
+        contact_radius: Length,
         /// ∫F dh to the peak, over the corrected depth.
-        total_work_uJ: f64 = summary.total_work / units.energy,
+        total_work: Energy,
         /// Work returned on unloading to F = 0.
-        elastic_work_uJ: Option<f64> = summary.elastic_work.map(|w| w / units.energy),
+        elastic_work: Energy,
         /// Plastic work at the end of loading.
-        plastic_work_uJ: f64 = summary.plastic_work / units.energy,
+        plastic_work: Energy,
         /// Reading of the unloading curve by the method of Oliver and Pharr, under a tool with an apex.
-        oliver_pharr: Option<Instrument> = summary.oliver_pharr.as_ref().map(|read| Instrument::new(read, summary)),
+        oliver_pharr: Plain,
         /// Work returned on unloading over the work to the peak.
-        elastic_fraction: Option<f64> = summary.elastic_fraction,
+        elastic_fraction: Plain,
         /// Largest |W - E_e - W_p - E_c + E_t|/W over increments with W above 1 % of its peak, E_t what remeshing changed: large with
         /// coarse steps, not a measure of the error of the force.
-        #[serde(deserialize_with = "nan_for_null")]
-        energy_balance_error: f64 = summary.energy_balance_error,
+        energy_balance_error: Plain,
         /// `errors.force`; NaN (`null`) where it is not known.
-        #[serde(deserialize_with = "nan_for_null")]
-        estimated_error: f64 = summary.estimated_error,
+        estimated_error: Plain,
         /// 95 % bounds of the errors against the converged limit.
-        errors: Errors = Errors::new(&summary.errors),
+        errors: Plain,
         /// Number of elements.
-        elements: usize = summary.elements,
+        elements: Plain,
         /// Number of unknowns.
-        dofs: usize = summary.dofs,
+        dofs: Plain,
         /// Converged increments.
-        increments: usize = summary.increments,
+        increments: Plain,
         /// Newton iterations of the whole run, failed ones included.
-        newton_iterations: usize = summary.newton_iterations,
+        newton_iterations: Plain,
         /// Times an increment was halved.
-        cutbacks: usize = summary.cutbacks,
+        cutbacks: Plain,
         /// Number of remeshings: the mesh was too distorted.
-        meshed_anew: usize = summary.transfers,
+        meshed_anew: Plain,
+    }
+}
+
+columns! {
+    Summary {
+        /// Why and where the run ended before its target; absent if it did not.
+        stopped: Plain,
+        .. numbers: Numbers,
         /// Regions among the asperities that never yielded, at the peak.
-        elastic_islands: Vec<Island> = islands.iter().map(Island::new).collect(),
+        elastic_islands: Plain,
         /// Seconds the run took.
-        wall_s: f64 = wall_s,
+        wall_s: Plain,
         /// Largest resident memory of the process so far, MB of 10⁶ bytes; `None` where the system does not say.
-        peak_memory_MB: Option<f64> = peak_memory_mb(),
-        /// Half apex angle of the cone that stands for a pyramid: that of the same projected area; absent of other tools.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
-        equivalent_half_apex_deg: Option<f64> = scene.tool.shape.equivalent_half_apex_deg(),
-        /// Smoothing of each measured outline; absent where there is none.
-        #[serde(default, skip_serializing_if = "Vec::is_empty")]
-        outlines: Vec<MeasuredOutline> = scene.smoothings().iter().map(MeasuredOutline::new).collect(),
+        peak_memory: Memory,
+        + /// Half apex angle of the cone that stands for a pyramid: that of the same projected area; absent of other tools.
+        equivalent_half_apex_deg: Plain,
+        + /// Smoothing of each measured outline; absent where there is none.
+        outlines: Plain,
         /// The scene as resolved, with the numbers that its accuracy stands for: enough to run it again.
-        #[serde(serialize_with = "by_key")]
-        scene: Box<Tables> = Box::new(scene),
+        scene: Plain,
         /// Version of this program.
-        version: String = env!("CARGO_PKG_VERSION").into(),
+        version: Plain,
     }
 }
 
-row! {
-    /// A connected region that never yielded, enclosed by material that did or standing above the substrate.
-    Island(row: &islands::Island) {
+columns! {
+    Island {
         /// Area of its section before the crush.
-        area_um2: f64 = row.area / (MICROMETRE * MICROMETRE),
+        area: Area,
         /// Mean hydrostatic pressure, positive in compression.
-        mean_pressure_MPa: f64 = row.mean_pressure / MEGAPASCAL,
+        mean_pressure: Pressure,
         /// Mean von Mises stress.
-        mean_von_mises_MPa: f64 = row.mean_von_mises / MEGAPASCAL,
+        mean_von_mises: Pressure,
         /// Centroid (r, z) of its section before the crush.
-        place_um: [f64; 2] = row.place.map(|x| x / MICROMETRE),
+        place: Length,
         /// Whether it hangs together with the elastic bulk of the substrate.
-        reaches_substrate: bool = row.reaches_substrate,
+        reaches_substrate: Plain,
         /// Whether it reaches the free surface; the paper takes such a region for a possible leak path.
-        reaches_surface: bool = row.reaches_surface,
+        reaches_surface: Plain,
     }
 }
 
-row! {
-    /// A measured outline and the curve that stands for it.
-    MeasuredOutline(read: &Smoothing) {
+columns! {
+    Smoothing {
         /// Table of the scene that names it: `asperity[0]`, `tool`.
-        table: String = read.table.clone(),
+        table: Plain,
         /// Number of points.
-        points: usize = read.points,
+        points: Plain,
         /// Number of parabolic arcs of the curve.
-        arcs: usize = read.arcs,
+        arcs: Plain,
         /// Standard deviation of the points about the curve that was allowed for.
-        tolerance_um: f64 = read.tolerance / MICROMETRE,
+        tolerance: Length,
         /// Greatest distance of a point from the curve.
-        farthest_um: f64 = read.farthest / MICROMETRE,
+        farthest: Length,
         /// Places of the corners that were kept.
-        corners_um: Vec<f64> = read.corners.iter().map(|x| x / MICROMETRE).collect(),
+        corners: Length,
     }
 }
 
-row! {
-    /// An instrument's reading of the unloading curve (Oliver and Pharr 1992), and beside it what is true.
-    Instrument(read: &OliverPharr, summary: &rows::Summary) {
+columns! {
+    OliverPharr {
         /// Contact area read from the contact depth: `tool.area_function` there, or the section of the tool.
-        contact_area_um2: f64 = read.contact_area / (MICROMETRE * MICROMETRE),
+        contact_area: Area,
         /// h - ε F/S.
-        contact_depth_um: f64 = read.contact_depth / MICROMETRE,
+        contact_depth: Length,
         /// The geometry factor ε.
-        epsilon: f64 = read.geometry_factor,
+        epsilon: Plain,
         /// Peak force over the area that was read.
-        hardness_MPa: f64 = read.hardness / MEGAPASCAL,
+        hardness: Pressure,
         /// Reduced modulus from stiffness and area read.
-        reduced_modulus_GPa: f64 = read.reduced_modulus / GIGAPASCAL,
+        reduced_modulus: Modulus,
         /// Contact area at the peak.
-        true_contact_area_um2: f64 = summary.contact_area / (MICROMETRE * MICROMETRE),
+        true_contact_area: Area,
         /// Mean pressure at the peak.
-        true_hardness_MPa: f64 = summary.peak_force / summary.contact_area / MEGAPASCAL,
+        true_hardness: Pressure,
         /// E/(1 - ν²), with an elastic tool in series.
-        true_reduced_modulus_GPa: f64 = summary.reduced_modulus / GIGAPASCAL,
+        true_reduced_modulus: Modulus,
     }
 }
 
@@ -176,6 +189,32 @@ row! {
 const FREE_SHARE: f64 = 0.5;
 
 impl Summary {
+    /// The summary of a run of `scene`, which took `wall_s` seconds.
+    pub(crate) fn new(outcome: &Outcome, scene: Tables, stopped: Option<String>, wall_s: f64) -> Summary {
+        Summary {
+            stopped,
+            numbers: outcome.summary.clone(),
+            elastic_islands: outcome.elastic_islands.clone(),
+            wall_s,
+            peak_memory: peak_memory(),
+            scene: Box::new(scene),
+            version: env!("CARGO_PKG_VERSION").into(),
+        }
+    }
+
+    fn equivalent_half_apex_deg(&self) -> Option<f64> {
+        self.scene.tool.shape.equivalent_half_apex_deg()
+    }
+
+    fn outlines(&self) -> Vec<Smoothing> {
+        self.scene.smoothings()
+    }
+
+    /// A value of this run in the `unit` of its files.
+    pub fn written(&self, value: f64, unit: Unit) -> f64 {
+        value / unit.value(self.scene.symmetry)
+    }
+
     /// The text of summary.json.
     ///
     /// # Errors
@@ -221,7 +260,7 @@ impl Summary {
             }
         }
         let share = self.scene.material.moving_share();
-        if share > FREE_SHARE && self.residual_depth_um.is_some() {
+        if share > FREE_SHARE && self.residual_depth.is_some() {
             warnings.push(format!(
                 "with {share} of the hardening kinematic the metal yields in reverse as the tool retreats, by too much where strains are large: \
                  residual depth and elastic fraction may be far off; give material.kinematic_share of {FREE_SHARE} or less"
@@ -247,6 +286,7 @@ impl Summary {
     /// A few lines for a person.
     pub fn overview(&self) -> String {
         let per = per_length(self.scene.symmetry);
+        let shown = |value: f64, unit: Unit| four_decimals(self.written(value, unit));
         let error = match self.errors {
             Errors { force, contact_area, .. } if force.is_finite() => {
                 format!(
@@ -259,17 +299,17 @@ impl Summary {
         };
         let mut text = format!(
             "peak      {} N{per} at {} um{error}\n",
-            four_digits(self.peak_force_N),
-            four_digits(self.peak_depth_um)
+            shown(self.peak_force, Unit::Force),
+            shown(self.peak_depth, Unit::Length)
         );
         if let (Some(residual), Some(elastic), Some(fraction)) =
-            (self.residual_depth_um, self.elastic_work_uJ, self.elastic_fraction)
+            (self.residual_depth, self.elastic_work, self.elastic_fraction)
         {
             text += &format!(
                 "unloaded  residual depth {} um; work returned {} of {} uJ{per} ({:.1} %)\n",
-                four_digits(residual),
-                four_digits(elastic),
-                four_digits(self.total_work_uJ),
+                shown(residual, Unit::Length),
+                shown(elastic, Unit::Energy),
+                shown(self.total_work, Unit::Energy),
                 100.0 * fraction
             );
         }
@@ -281,56 +321,33 @@ impl Summary {
     }
 }
 
-/// Four decimals, and four significant digits of what is smaller than 1.
-fn four_digits(value: f64) -> String {
-    if value.abs() < 1.0 && value != 0.0 { significant(value) } else { format!("{value:.4}") }
-}
-
-/// The end of a unit of force or energy.
-pub(crate) fn per_length(symmetry: Symmetry) -> &'static str {
-    match symmetry {
-        Symmetry::Axisymmetric => "",
-        Symmetry::PlaneStrain => "/mm",
-    }
-}
+/// Keys that a file does not have where they have no value.
+const ABSENT: [&str; 3] = ["stopped", "equivalent_half_apex_deg", "outlines"];
 
 impl Serialize for Summary {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut text = Vec::new();
-        Summary::serialize(self, &mut serde_json::Serializer::new(&mut text)).map_err(S::Error::custom)?;
-        let entries: IndexMap<String, Value> = serde_json::from_slice(&text).map_err(S::Error::custom)?;
-        serializer.collect_map(entries.iter().map(|(key, v)| (file_name(key, self.scene.symmetry), v)))
+        let symmetry = self.scene.symmetry;
+        let names = Summary::columns().into_iter().map(|column| column.name(symmetry));
+        let nothing = |value: &Value| value.is_null() || value.as_array().is_some_and(Vec::is_empty);
+        let entries = names.zip(self.values(symmetry));
+        serializer.collect_map(entries.filter(|(name, v)| !(ABSENT.contains(&name.as_str()) && nothing(v))))
     }
 }
 
 impl<'de> Deserialize<'de> for Summary {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let entries = IndexMap::<String, Value>::deserialize(deserializer)?;
-        let entries = entries.into_iter().map(|(key, value)| (axisymmetric_name(&key).to_string(), value));
-        Summary::deserialize(Value::Object(entries.collect())).map_err(D::Error::custom)
+        let mut entries = Map::<String, Value>::deserialize(deserializer)?;
+        let symmetry = symmetry_of::<Summary>(|name| entries.contains_key(name));
+        let nothing = |name: &str| ABSENT.contains(&name).then_some(Value::Null);
+        Summary::from_values(symmetry, &mut |name| entries.remove(name).or_else(|| nothing(name)))
+            .map_err(D::Error::custom)
     }
 }
 
-/// The scene with its keys in the order of the alphabet.
-fn by_key<S: Serializer>(scene: &Tables, serializer: S) -> Result<S::Ok, S::Error> {
-    serde_json::to_value(scene).map_err(S::Error::custom)?.serialize(serializer)
-}
-
-/// Largest resident memory of this process so far, in MB of 10⁶ bytes; `None` where the system does not say.
-pub fn peak_memory_mb() -> Option<f64> {
+/// Largest resident memory of this process so far, bytes; `None` where the system does not say.
+pub fn peak_memory() -> Option<f64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find_map(|l| l.strip_prefix("VmHWM:"))?;
     let kib: f64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
-    Some(kib * 1.024e-3)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn small_numbers_keep_four_digits() {
-        let shown = [5.45981, 0.71874, 0.00166, 4.2e-5, 0.0].map(four_digits);
-        assert_eq!(shown, ["5.4598", "0.7187", "0.001660", "0.00004200", "0.0000"]);
-    }
+    Some(kib * 1024.0)
 }

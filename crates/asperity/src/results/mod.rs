@@ -1,7 +1,8 @@
 //! What results are made of: their rows and summaries as the files have them, units and numbers, and where files are put.
 
+pub mod columns;
 pub(crate) mod crush_rows;
 pub(crate) mod crush_summary;
-pub(crate) mod numbers;
+pub mod numbers;
 pub mod output;
 pub mod units;

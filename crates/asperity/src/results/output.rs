@@ -2,11 +2,12 @@
 
 use crate::batch::journal::{Journal, fingerprint};
 use crate::error::{Error, InputError};
+use crate::results::numbers::shortest;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Deserializer, Serialize};
 use std::fmt::Display;
 use std::fs::File;
-use std::io::{BufWriter, Read, Write};
+use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 /// A place that takes the files of a result, each known by its name.
@@ -93,34 +94,6 @@ impl Sink for Directory {
     }
 }
 
-/// A column of a table of results, or a key of a summary.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Column {
-    /// Its name in the file, unit included.
-    pub name: &'static str,
-    /// Its meaning, the docstring of the field.
-    pub about: &'static str,
-}
-
-/// Results that say what their columns mean.
-pub trait Described {
-    /// The columns in the order of the file; a table inside is one of them.
-    const COLUMNS: &'static [Column];
-}
-
-/// The docstring in an attribute, or nothing.
-#[doc(hidden)]
-#[macro_export]
-macro_rules! about_in {
-    (doc = $text:literal) => {
-        $text
-    };
-    ($($other:tt)*) => {
-        ""
-    };
-}
-pub use about_in;
-
 /// A row of a file: every field declared once under its name in the file, with its value in terms of what the row is made from.
 #[macro_export]
 macro_rules! row {
@@ -140,11 +113,14 @@ macro_rules! row {
             }
         }
 
-        impl $crate::results::output::Described for $row {
-            const COLUMNS: &'static [$crate::results::output::Column] = &[$($crate::results::output::Column {
-                name: stringify!($field),
-                about: concat!($($crate::results::output::about_in!($($field_about)*)),*),
-            }),*];
+        impl $crate::results::columns::Described for $row {
+            fn columns() -> Vec<$crate::results::columns::Column> {
+                vec![$($crate::results::columns::Column {
+                    quantity: stringify!($field),
+                    unit: $crate::results::units::Unit::Plain,
+                    about: concat!($($crate::results::columns::about_in!($($field_about)*)),*),
+                }),*]
+            }
         }
     };
 }
@@ -182,22 +158,18 @@ pub(crate) fn open_journal(
     Ok((Some(journal), lines))
 }
 
-/// Writes rows as CSV under the names of their fields, each changed by `name`: numbers in the shortest digits that read
-/// back to the same bits, those that are not finite as empty cells. Without rows there is no header.
+/// Writes rows as CSV under the names of their fields: numbers in the shortest digits that read back to the same bits, those
+/// that are not finite as empty cells. Without rows there is no header.
 ///
 /// # Errors
 /// A writer that fails, or rows that are not flat.
-pub fn write_csv<T: Serialize>(
-    out: impl Write,
-    rows: &[T],
-    name: impl Fn(&str) -> String,
-) -> csv::Result<()> {
+pub fn write_csv<T: Serialize>(out: impl Write, rows: &[T]) -> csv::Result<()> {
     let mut plain = csv::Writer::from_writer(Vec::new());
     rows.iter().try_for_each(|row| plain.serialize(row))?;
     let plain = plain.into_inner().map_err(|e| e.into_error())?;
     let mut records = csv::Reader::from_reader(&plain[..]);
     let mut out = csv::Writer::from_writer(out);
-    out.write_record(records.headers()?.iter().map(name))?;
+    out.write_record(records.headers()?)?;
     for record in records.records() {
         out.write_record(record?.iter().map(cell))?;
     }
@@ -224,24 +196,21 @@ fn no_json(error: serde_json::Error) -> Error {
     Error::Unfinished(format!("a result is not JSON: {error}"))
 }
 
-/// The text of a value as files have it: `5.0`, `5e-5`, nothing for NaN.
+/// The text of a cell with its number, if it is one, as files have it.
 fn cell(text: &str) -> String {
     match text.parse::<f64>() {
-        Ok(value) if !value.is_finite() => String::new(),
-        Ok(value) if text.contains(['.', 'e']) => format!("{value:?}"),
+        Ok(value) if !value.is_finite() || text.contains(['.', 'e']) => shortest(value),
         _ => text.to_string(),
     }
 }
 
-/// Reads the rows of a CSV file, the names of its columns changed by `name`.
+/// Reads the rows of a CSV file.
 ///
 /// # Errors
-/// A reader that fails, a column that is missing, a cell that is no value of its column.
-pub fn read_csv<T: DeserializeOwned>(input: impl Read, name: impl Fn(&str) -> &str) -> csv::Result<Vec<T>> {
-    let mut reader = csv::Reader::from_reader(input);
-    let names = reader.headers()?.iter().map(name).collect();
-    reader.set_headers(names);
-    reader.deserialize().collect()
+/// A file that cannot be read, a column that is missing, a cell that is no value of its column.
+pub fn read_csv<T: DeserializeOwned>(path: &Path) -> Result<Vec<T>, Error> {
+    let rows = csv::Reader::from_path(path).and_then(|reader| reader.into_deserialize().collect());
+    rows.map_err(|e| InputError::new(format!("cannot read {}: {e}", path.display())).into())
 }
 
 /// JSON has no NaN.

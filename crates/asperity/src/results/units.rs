@@ -1,7 +1,7 @@
-//! Units of the result files, and the names that quantities have there in plane strain.
+//! Units of the result files, and the endings that they give to names.
 //!
-//! The rows and summaries of this library are named as in the files of an axisymmetric crush. In plane strain forces and
-//! energies are per length of ridge and the area is a width; [`plane_strain_name`] is the one place that says so.
+//! Rows are in SI; a file has a value over [`Unit::value`] under the name that [`Unit::name`] gives. In plane strain forces and
+//! energies are per length of ridge and the contact area is a width.
 
 use asperity_simulation::scene::Symmetry;
 
@@ -12,73 +12,82 @@ pub const MEGAPASCAL: f64 = 1e6;
 /// SI value of 1 GPa.
 pub const GIGAPASCAL: f64 = 1e9;
 
-/// SI values of 1 in a file, of the quantities that depend on the symmetry.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Units {
-    /// Of a force: N, or N/mm.
-    pub force: f64,
-    /// Of an energy: µJ, or µJ/mm.
-    pub energy: f64,
-    /// Of a stiffness: N/µm, or N/µm/mm.
-    pub stiffness: f64,
-    /// Of the contact area, µm², or the contact width, µm.
-    pub area: f64,
+/// The unit of a column or key.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Unit {
+    /// None: a count, a ratio, a word, a table, or a unit that the name has already.
+    Plain,
+    /// None: 1 for true, 0 for false.
+    Bit,
+    /// µm.
+    Length,
+    /// Contact area, µm²; contact width in plane strain, µm.
+    Contact,
+    /// µm².
+    Area,
+    /// N, N/mm in plane strain.
+    Force,
+    /// µJ, µJ/mm in plane strain.
+    Energy,
+    /// N/µm, N/µm/mm in plane strain.
+    Stiffness,
+    /// MPa.
+    Pressure,
+    /// GPa.
+    Modulus,
+    /// MB of 10⁶ bytes.
+    Memory,
 }
 
-impl Units {
-    /// Those of the files of a run.
-    pub fn of(symmetry: Symmetry) -> Units {
-        match symmetry {
-            Symmetry::Axisymmetric => Units { force: 1.0, energy: 1e-6, stiffness: 1e6, area: 1e-12 },
-            Symmetry::PlaneStrain => Units { force: 1e3, energy: 1e-3, stiffness: 1e9, area: 1e-6 },
+impl Unit {
+    /// SI value of 1 of it in a file.
+    pub fn value(self, symmetry: Symmetry) -> f64 {
+        use Symmetry::{Axisymmetric, PlaneStrain};
+        match (self, symmetry) {
+            (Unit::Plain | Unit::Bit, _) => 1.0,
+            (Unit::Length, _) => MICROMETRE,
+            (Unit::Contact, Axisymmetric) => 1e-12,
+            (Unit::Contact, PlaneStrain) => 1e-6,
+            (Unit::Area, _) => MICROMETRE * MICROMETRE,
+            (Unit::Force, Axisymmetric) => 1.0,
+            (Unit::Force, PlaneStrain) => 1e3,
+            (Unit::Energy, Axisymmetric) => 1e-6,
+            (Unit::Energy, PlaneStrain) => 1e-3,
+            (Unit::Stiffness, Axisymmetric) => 1e6,
+            (Unit::Stiffness, PlaneStrain) => 1e9,
+            (Unit::Pressure, _) => MEGAPASCAL,
+            (Unit::Modulus, _) => GIGAPASCAL,
+            (Unit::Memory, _) => 1e6,
+        }
+    }
+
+    /// The name in a file of the quantity `of`.
+    pub fn name(self, of: &str, symmetry: Symmetry) -> String {
+        let end = match self {
+            Unit::Plain | Unit::Bit => "",
+            Unit::Length => "_um",
+            Unit::Contact | Unit::Area => "_um2",
+            Unit::Force => "_N",
+            Unit::Energy => "_uJ",
+            Unit::Stiffness => "_N_per_um",
+            Unit::Pressure => "_MPa",
+            Unit::Modulus => "_GPa",
+            Unit::Memory => "_MB",
+        };
+        match (self, symmetry) {
+            (Unit::Contact, Symmetry::PlaneStrain) => "contact_width_um".into(),
+            (Unit::Force | Unit::Energy | Unit::Stiffness, Symmetry::PlaneStrain) => {
+                format!("{of}{end}_per_mm")
+            }
+            _ => format!("{of}{end}"),
         }
     }
 }
 
-/// The column that an area becomes in plane strain.
-const AREA: [&str; 2] = ["contact_area_um2", "contact_width_um"];
-/// Ends of names of quantities that are per length in plane strain.
-const PER_LENGTH: [&str; 3] = ["_N", "_uJ", "_N_per_um"];
-
-/// The name in plane strain of the column or key `name` of an axisymmetric file.
-pub fn plane_strain_name(name: &str) -> String {
-    match name {
-        name if name == AREA[0] => AREA[1].to_string(),
-        name if PER_LENGTH.iter().any(|end| name.ends_with(end)) => format!("{name}_per_mm"),
-        name => name.to_string(),
-    }
-}
-
-/// The name in an axisymmetric file of the column or key `name` of either: the inverse of [`plane_strain_name`].
-pub fn axisymmetric_name(name: &str) -> &str {
-    if name == AREA[1] { AREA[0] } else { name.strip_suffix("_per_mm").unwrap_or(name) }
-}
-
-/// The name of the column or key `name` in the files of a run.
-pub fn file_name(name: &str, symmetry: Symmetry) -> String {
+/// The end of a unit of force or energy, for people.
+pub(crate) fn per_length(symmetry: Symmetry) -> &'static str {
     match symmetry {
-        Symmetry::Axisymmetric => name.to_string(),
-        Symmetry::PlaneStrain => plane_strain_name(name),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn names_of_plane_strain_lead_back() {
-        for (name, plane) in [
-            ("force_N", "force_N_per_mm"),
-            ("external_work_uJ", "external_work_uJ_per_mm"),
-            ("unloading_stiffness_N_per_um", "unloading_stiffness_N_per_um_per_mm"),
-            ("contact_area_um2", "contact_width_um"),
-            ("depth_um", "depth_um"),
-            ("mean_pressure_MPa", "mean_pressure_MPa"),
-        ] {
-            assert_eq!(plane_strain_name(name), plane);
-            assert_eq!(axisymmetric_name(plane), name);
-            assert_eq!(axisymmetric_name(name), name);
-        }
+        Symmetry::Axisymmetric => "",
+        Symmetry::PlaneStrain => "/mm",
     }
 }

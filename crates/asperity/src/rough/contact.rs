@@ -4,6 +4,8 @@ use super::summary::{ClosureSummary, Summary};
 use super::table::{LoadPoint, TableRow};
 use super::warnings;
 use crate::error::Error;
+use crate::progress::Progress;
+use crate::results::units::MICROMETRE;
 use crate::rough::closure_contact::{Body, ClosureContact};
 use crate::rough::half_space_contacts::{HalfSpaceContacts, compare_with_half_space};
 use crate::rough::press_closure::press_by;
@@ -31,24 +33,18 @@ pub struct Rough {
     pub contacts: Vec<ClosureContact>,
 }
 
-/// The progress of a press.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Progress {
-    /// Share of the work that is done, 0 to 1.
-    pub share: f64,
-    /// The closure that comes next.
-    pub closure: Closure,
-}
-
 /// Presses a rigid plane on the surface of `scene` by every closure that it asks for.
 ///
-/// `observer` is asked before each closure; `false` ends the run, which keeps the closures that were done.
+/// `observer` is asked before each closure, which is its news; `false` ends the run, which keeps the closures that were done.
 ///
 /// # Errors
 /// A scene that makes no sense, a surface that cannot be read, a closure without its material or its
 /// calibration, a load that the surface cannot carry. Of a scene with all closures those that cannot be used
 /// are warnings.
-pub fn press(scene: &RoughScene, observer: &mut dyn FnMut(&Progress) -> bool) -> Result<Rough, Error> {
+pub fn press(
+    scene: &RoughScene,
+    observer: &mut dyn FnMut(&Progress<'_, Closure>) -> bool,
+) -> Result<Rough, Error> {
     let start = Instant::now();
     scene.validate()?;
     let coefficient = scene.coefficient()?;
@@ -60,7 +56,7 @@ pub fn press(scene: &RoughScene, observer: &mut dyn FnMut(&Progress) -> bool) ->
     let mut spaces = HalfSpaceContacts::default();
     let closures = tables.closure.closures();
     for (i, &closure) in closures.iter().enumerate() {
-        if !observer(&Progress { share: i as f64 / closures.len() as f64, closure }) {
+        if !observer(&Progress::counted(i, closures.len(), Some(&closure))) {
             summary.warnings.push(warnings::stopped_before(closure));
             break;
         }

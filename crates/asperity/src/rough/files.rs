@@ -102,13 +102,11 @@ impl Rough {
     /// A disk that refuses.
     pub fn write_tables(&self, sink: &mut dyn Sink) -> Result<(), Error> {
         sink.csv("table.csv", &self.table)?;
-        sink.write("load_curve.csv", |out| write_csv(out, &self.load_curve, str::to_string))?;
+        sink.write("load_curve.csv", |out| write_csv(out, &self.load_curve))?;
         sink.csv("bearing.csv", &curves::bearing(&self.surface))?;
         let points = self.surface.map.heights().len();
         if self.summary.scene.output.spectrum.unwrap_or(points <= MODEST_MAP_POINTS) {
-            sink.write("spectrum.csv", |out| {
-                write_csv(out, &curves::spectrum(&self.surface), str::to_string)
-            })?;
+            sink.write("spectrum.csv", |out| write_csv(out, &curves::spectrum(&self.surface)))?;
         }
         let gaps: Vec<_> = self.contacts.iter().flat_map(curves::gaps).collect();
         if !gaps.is_empty() {

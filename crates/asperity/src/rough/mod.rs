@@ -27,7 +27,7 @@ pub use asperity_roughness::scene as tables;
 
 pub use crate::crush::Phase;
 pub use crate::rough::closure_contact::{Body, ClosureContact, IslandContact};
-pub use crate::rough::contact::{Progress, Rough, press};
+pub use crate::rough::contact::{Rough, press};
 pub use crate::rough::rough_scene::RoughScene;
 pub use curves::{BearingRow, GapShare, SpectrumRow};
 pub use files::Layers;

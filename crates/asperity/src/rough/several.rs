@@ -3,9 +3,11 @@
 use super::summary::Summary;
 use super::table::TableRow;
 use crate::error::Error;
+use crate::progress::Progress;
 use crate::results::output::{Sink, SinkExt, row, write_csv};
-use crate::rough::contact::{Progress, Rough, press};
+use crate::rough::contact::{Rough, press};
 use crate::rough::rough_scene::RoughScene;
+use asperity_roughness::Closure;
 use std::fmt::Write;
 
 row! {
@@ -69,7 +71,7 @@ pub struct Several {
 /// Those of `take`.
 pub fn press_several(
     scenes: &[RoughScene],
-    observer: &mut dyn FnMut(usize, &Progress) -> bool,
+    observer: &mut dyn FnMut(usize, &Progress<'_, Closure>) -> bool,
     take: &mut dyn FnMut(&str, &Rough) -> Result<(), Error>,
 ) -> Result<Several, Error> {
     let mut done = Several::default();
@@ -119,7 +121,7 @@ impl Several {
     /// A disk that refuses.
     pub fn write(&self, sink: &mut dyn Sink) -> Result<(), Error> {
         sink.csv("table.csv", &self.table)?;
-        sink.write("surfaces.csv", |out| write_csv(out, &self.surfaces, str::to_string))
+        sink.write("surfaces.csv", |out| write_csv(out, &self.surfaces))
     }
 
     /// Both tables as JSON.

@@ -1,7 +1,7 @@
 //! The sentence at the end of a run: area, the closure to believe, gap, and whether and how much it leaks.
 
 use super::half_space::SpaceContact;
-use crate::page::format::{rounded, significant};
+use crate::results::numbers::{rounded, significant, with_digits};
 use crate::results::units::{MEGAPASCAL, MICROMETRE};
 use crate::rough::closure_contact::ClosureContact;
 use crate::rough::contact::Rough;
@@ -51,7 +51,7 @@ impl Rough {
         if let Some(belief) = belief(&self.contacts, area) {
             let _ = write!(text, "; {belief}");
         }
-        let _ = write!(text, "; mean gap {} µm", short(space.contact.mean_gap / MICROMETRE));
+        let _ = write!(text, "; mean gap {} µm", with_digits(space.contact.mean_gap / MICROMETRE, 3));
         for (k, axis) in [Axis::X, Axis::Y].into_iter().enumerate() {
             let _ = write!(text, "; {}", passage(space, k, axis, self.summary.scene.fluid.as_ref()));
         }
@@ -134,14 +134,14 @@ fn passage(space: &SpaceContact, k: usize, axis: Axis, fluid: Option<&Fluid>) ->
     };
     let mut text = format!(
         "an open path crosses along {name}, {} µm at its narrowest",
-        short(narrowest.gap / MICROMETRE)
+        with_digits(narrowest.gap / MICROMETRE, 3)
     );
     if let Some(leak) = space.passages[k].leak {
         let _ = write!(
             text,
             ", and leaks {:.2e} m³ × pressure difference / viscosity, as parallel planes {} µm apart",
             leak.conductance,
-            short(leak.hydraulic_gap / MICROMETRE)
+            with_digits(leak.hydraulic_gap / MICROMETRE, 3)
         );
         if let Some(fluid) = fluid {
             let difference = fluid.pressures[0].0 - fluid.pressures[1].0;
@@ -150,12 +150,6 @@ fn passage(space: &SpaceContact, k: usize, axis: Axis, fluid: Option<&Fluid>) ->
         }
     }
     text
-}
-
-/// Three digits.
-fn short(value: f64) -> String {
-    let digits = if value > 0.0 { (2.0 - value.log10().floor()).clamp(0.0, 9.0) as usize } else { 0 };
-    format!("{value:.digits$}")
 }
 
 #[cfg(test)]

@@ -16,7 +16,7 @@ mod picture;
 mod run_study;
 
 pub use crate::batch::{Options, Shard};
-pub use crate::study::run_study::{Progress, Study, merge, study};
+pub use crate::study::run_study::{Study, merge, study};
 pub use plan::{Plan, SampleKind, SampleTable, StudyFile};
 pub use points::Sample;
 pub use row::{Columns, Run};

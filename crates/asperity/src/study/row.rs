@@ -1,7 +1,8 @@
 //! One run of a study, and the two tables of all of them.
 
-use crate::crush::peak_memory_mb;
+use crate::crush::peak_memory;
 use crate::error::Error;
+use crate::results::numbers::if_any;
 use indexmap::{IndexMap, IndexSet};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -24,7 +25,8 @@ pub(super) struct Outcome {
 impl Outcome {
     pub fn new(results: Columns, status: String) -> Outcome {
         let status = status.replace(['\n', '\r'], " ");
-        Outcome { results, status, wall_s: 0.0, peak_memory_mb: peak_memory_mb(), curve: None }
+        let peak_memory_mb = peak_memory().map(|bytes| bytes / 1e6);
+        Outcome { results, status, wall_s: 0.0, peak_memory_mb, curve: None }
     }
 }
 
@@ -104,10 +106,6 @@ pub(super) fn columns(runs: &[Run]) -> IndexSet<&str> {
     columns
 }
 
-fn cell(value: Option<&Value>) -> String {
-    value.filter(|value| !value.is_null()).map(Value::to_string).unwrap_or_default()
-}
-
 /// The text of `results.csv`, the same bytes whoever ran it.
 pub(super) fn results(keys: &[String], runs: &[Run]) -> csv::Result<String> {
     let columns = columns(runs);
@@ -117,7 +115,8 @@ pub(super) fn results(keys: &[String], runs: &[Run]) -> csv::Result<String> {
     };
     let head = keys.iter().cloned().chain(columns.iter().map(|name| name.to_string()));
     let rows = runs.iter().map(|run| {
-        let results = columns.iter().map(|name| cell(run.results.get(*name)));
+        let results =
+            columns.iter().map(|name| if_any(run.results.get(*name).filter(|value| !value.is_null())));
         let last = last(&run.status, run.curve.as_deref().unwrap_or_default());
         run.values.iter().cloned().chain(results).chain(last).collect()
     });
@@ -128,7 +127,7 @@ pub(super) fn results(keys: &[String], runs: &[Run]) -> csv::Result<String> {
 pub(super) fn times(keys: &[String], runs: &[Run]) -> csv::Result<String> {
     let head = keys.iter().cloned().chain(["wall_s", "peak_memory_MB"].map(str::to_string));
     let rows = runs.iter().map(|run| {
-        let memory = run.peak_memory_mb.map(|mb| mb.to_string()).unwrap_or_default();
+        let memory = if_any(run.peak_memory_mb);
         run.values.iter().cloned().chain([run.wall_s.to_string(), memory]).collect()
     });
     table(head.collect(), rows)

@@ -5,9 +5,10 @@ use super::plan::{Definition, Plan};
 use super::points::Points;
 use super::row::{self, Outcome, Run, columns};
 use crate::batch::journal::fingerprint;
-use crate::batch::{self, Batch, Options, Reached, Shard, all_found, not_a_part};
+use crate::batch::{self, Batch, Options, Shard, all_found, not_a_part};
 use crate::error::{Error, InputError};
-use crate::page::format::significant;
+use crate::progress::{Observer, Progress};
+use crate::results::numbers::significant;
 use crate::results::output::{Sink, SinkExt, write_whole};
 use asperity_solver::body::analysis::Analyses;
 use std::collections::HashMap;
@@ -27,17 +28,6 @@ pub struct Study {
     /// Seconds it took.
     pub wall_s: f64,
     definition: Definition,
-}
-
-/// The progress of a study.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Progress {
-    /// Runs that are done, those found in the folder too.
-    pub done: usize,
-    /// Runs in all.
-    pub runs: usize,
-    /// The run that has just ended; none at the beginning and while runs go on.
-    pub ended: Option<Run>,
 }
 
 /// The journal of a study in the folder of its results.
@@ -71,11 +61,7 @@ const CURVES: &str = "curves";
 /// assert!(study.runs.len() == 2 && force(1) > force(0));
 /// # Ok::<(), asperity::Error>(())
 /// ```
-pub fn study(
-    plan: &Plan,
-    options: &Options,
-    observer: &mut (dyn FnMut(&Progress) -> bool + Send),
-) -> Result<Study, Error> {
+pub fn study(plan: &Plan, options: &Options, observer: &mut Observer<'_, Run>) -> Result<Study, Error> {
     let start = Instant::now();
     let definition = &plan.definition;
     let folder = options.folder.as_deref();
@@ -99,9 +85,9 @@ pub fn study(
         threads: options.threads,
         journal: journal.as_deref(),
     };
-    let finished = batch::run(&batch, &mut |reached: &Reached<'_, (Vec<String>, Outcome)>| {
-        let ended = reached.row.map(|(values, outcome)| Run::new(values.clone(), outcome.clone()));
-        observer(&Progress { done: reached.done, runs: reached.cases, ended })
+    let finished = batch::run(&batch, &mut |reached: &Progress<'_, (Vec<String>, Outcome)>| {
+        let ended = reached.news.map(|(values, outcome)| Run::new(values.clone(), outcome.clone()));
+        observer(&reached.telling(ended.as_ref()))
     })?;
     let runs =
         finished.rows.into_iter().map(|(i, (_, outcome))| Run::new(values[i].clone(), outcome)).collect();

@@ -127,7 +127,7 @@ impl Subject {
                 }
                 let status =
                     if rough.table.is_empty() { rough.summary.warnings.join("; ") } else { "ok".into() };
-                let text = written(curve, |out| write_csv(out, &rough.load_curve, str::to_string))?;
+                let text = written(curve, |out| write_csv(out, &rough.load_curve))?;
                 Ok(Outcome { curve: text, ..Outcome::new(columns, status) })
             }),
         };

@@ -1,7 +1,7 @@
 //! One run of a trade.
 
 use super::settings::Setting;
-use crate::crush::peak_memory_mb;
+use crate::crush::peak_memory;
 use crate::results::output::row;
 use asperity_simulation::record::curve::Curve;
 use asperity_simulation::record::rows::Phase;
@@ -37,7 +37,7 @@ row! {
         /// Seconds of the core.
         core_s: f64 = core_s,
         /// Largest resident memory of the process, MB of 10⁶ bytes; absent where the system does not say.
-        peak_memory_mb: Option<f64> = peak_memory_mb(),
+        peak_memory_mb: Option<f64> = peak_memory().map(|bytes| bytes / 1e6),
     }
 }
 

@@ -13,7 +13,7 @@ mod picture;
 
 mod run_settings;
 
-pub use crate::trade::run_settings::{Options, Progress, Runner, Trade, trade};
+pub use crate::trade::run_settings::{Options, Runner, Trade, trade};
 pub use row::TradeRow;
 
 /// The scene of a trade that names none: the asperity of the paper.

@@ -2,15 +2,11 @@
 
 use super::row::TradeRow;
 use super::settings::Knob;
+use crate::results::numbers::if_any;
 use asperity_simulation::scene::ElementChoice;
 
-/// A number, or nothing.
-fn cell<T: ToString>(value: Option<T>) -> String {
-    value.map_or_else(String::new, |v| v.to_string())
-}
-
 fn percent(share: Option<f64>) -> String {
-    share.map_or_else(String::new, |share| format!("{:.2}", 100.0 * share))
+    if_any(share.map(|share| format!("{:.2}", 100.0 * share)))
 }
 
 /// The numbers of a setting in words.
@@ -18,11 +14,11 @@ fn setting(row: &TradeRow) -> String {
     let element = if row.element == Some(ElementChoice::Q4) { "q4" } else { "q8r" };
     format!(
         "front: {element}, {} elements, {} steps, penetration {}, tolerance {}, domain {}",
-        cell(row.elements_in_contact),
-        cell(row.steps),
-        cell(row.penetration),
-        cell(row.newton_tolerance),
-        cell(row.domain)
+        if_any(row.elements_in_contact),
+        if_any(row.steps),
+        if_any(row.penetration),
+        if_any(row.newton_tolerance),
+        if_any(row.domain)
     )
 }
 
@@ -38,9 +34,9 @@ pub fn overview(rows: &[TradeRow]) -> String {
             level.map_or_else(|| setting(row), |level| format!("`{level}`")),
             percent(row.force_error),
             percent(row.estimated_error),
-            row.core_s.map_or_else(String::new, |s| format!("{s:.2}")),
-            cell(row.newton_iterations),
-            cell(row.dofs),
+            if_any(row.core_s.map(|s| format!("{s:.2}"))),
+            if_any(row.newton_iterations),
+            if_any(row.dofs),
         ]
     };
     let mut cells =

@@ -8,6 +8,7 @@ use super::row::{TradeRow, rows};
 use super::settings::{Knob, Setting, converged, settings};
 use crate::batch::{self, Batch};
 use crate::error::{Error, InputError};
+use crate::progress::{Observer, Progress};
 use crate::results::output::{Sink, SinkExt};
 use asperity_simulation::scene::Scene;
 use std::path::Path;
@@ -33,17 +34,6 @@ impl Default for Options<'_> {
     }
 }
 
-/// The progress of a trade.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Progress {
-    /// Share of the work that is done, 0 to 1.
-    pub share: f64,
-    /// Settings with an outcome.
-    pub finished: usize,
-    /// The knob of the last one; absent at the start, when all that is finished is from the journal.
-    pub knob: Option<Knob>,
-}
-
 /// The result of a trade.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trade {
@@ -66,7 +56,7 @@ pub struct Trade {
 pub fn trade(
     scene: &Scene,
     options: &Options<'_>,
-    observer: &mut (dyn FnMut(&Progress) -> bool + Send),
+    observer: &mut Observer<'_, Knob>,
 ) -> Result<Trade, Error> {
     if scene.mesh.is_some() {
         return Err(InputError::new("a trade varies the mesh: leave [mesh] out").into());
@@ -91,7 +81,7 @@ pub fn trade(
 fn measure_all(
     scene: &Scene,
     options: &Options<'_>,
-    observer: &mut (dyn FnMut(&Progress) -> bool + Send),
+    observer: &mut Observer<'_, Knob>,
 ) -> Result<Vec<Finished>, Error> {
     let settings = [&converged(scene)[..], &settings(scene, options.combinations)].concat();
     let mut order: Vec<usize> = (0..settings.len()).collect();
@@ -123,9 +113,9 @@ fn measure_all(
         threads: 0,
         journal: options.journal,
     };
-    let done = batch::run(&batch, &mut |reached| {
+    let done = batch::run(&batch, &mut |reached: &Progress<'_, Finished>| {
         let share = weights[reached.done] / weights[settings.len()];
-        observer(&Progress { share, finished: reached.done, knob: reached.row.map(|row| row.setting.knob) })
+        observer(&Progress { share, ..reached.telling(reached.news.map(|row| &row.setting.knob)) })
     })?;
     let mut finished: Vec<(usize, Finished)> =
         done.rows.into_iter().map(|(k, row)| (order[k], row)).collect();

@@ -4,14 +4,14 @@ use super::markdown::{code, table, words};
 use asperity::calibrate::{AngleFit, Fit};
 use asperity::calibration::row::{CaseRow, Row};
 use asperity::calibration::sweep::Sweep;
+use asperity::columns::{Column, Described};
 use asperity::crush::{
-    AsperityRow, CurveRow, CycleRow, Errors, GapRow, Instrument, Island, MeasuredOutline, Summary, SurfaceRow,
+    AsperityRow, CurveRow, CycleRow, Errors, GapRow, Island, OliverPharr, Smoothing, Summary, SurfacePoint,
 };
 use asperity::extract;
-use asperity::output::{Column, Described};
 use asperity::rough;
+use asperity::tables::Symmetry;
 use asperity::trade::TradeRow;
-use asperity::units::plane_strain_name;
 use schemars::schema_for;
 
 const CRUSH: &str = "Lengths are in µm, forces in N, pressures in MPa, energies in µJ; in axisymmetry they are of the full body of \
@@ -50,17 +50,17 @@ pub fn page() -> String {
     text += &of_crush::<CurveRow>("curve.csv", "a row per converged increment");
     text += &of_crush::<Summary>("summary.json", "the numbers of the run");
     text += &of_crush::<Errors>("summary.json: `errors`", "bounds of the errors");
-    text += &of_crush::<Instrument>(
+    text += &of_crush::<OliverPharr>(
         "summary.json: `oliver_pharr`",
         "an instrument's reading, under a cone or a sphere with unloading",
     );
-    text += &of_crush::<MeasuredOutline>("summary.json: `outlines`", "what was made of a measured outline");
+    text += &of_crush::<Smoothing>("summary.json: `outlines`", "what was made of a measured outline");
     text += &of_crush::<Island>("summary.json: `elastic_islands`", "regions that never yielded");
     text += &of_crush::<AsperityRow>("asperities.csv", "the share of each of several asperities");
     text += &of_crush::<GapRow>("gaps.csv", "untouched surface between two contacts");
     text +=
         &of_crush::<CycleRow>("cycles.csv", "a row per loading with its unloading, where the scene reloads");
-    text += &of_crush::<SurfaceRow>(
+    text += &of_crush::<SurfacePoint>(
         "surface_NNNN.csv",
         "the free surface, from the axis outward, with `[output] fields`; `surfaces.csv` holds those of all increments, with the number \
          of the increment first",
@@ -103,19 +103,19 @@ fn heading(file: &str, about: &str) -> String {
 
 /// Columns whose names do not depend on the symmetry. Tables inside have their own.
 fn file_columns<T: Described>(file: &str, about: &str) -> String {
-    let shown = T::COLUMNS.iter().filter(|column| column.name != "row");
-    let rows = shown.map(|Column { name, about }| vec![code(name), words(about.trim())]);
+    let columns = T::columns().into_iter().filter(|column| column.quantity != "row");
+    let rows = columns.map(|column| vec![code(column.quantity), words(column.about.trim())]);
     heading(file, about) + &table(&["name", "meaning"], rows)
 }
 
 /// Columns with their names in plane strain, where they differ.
 fn of_crush<T: Described>(file: &str, about: &str) -> String {
-    let row = |Column { name, about }: &Column| {
-        let plane = plane_strain_name(name);
-        let plane = if plane == *name { String::new() } else { code(&plane) };
-        vec![code(name), words(about.trim()), plane]
+    let row = |column: Column| {
+        let [name, plane] = [Symmetry::Axisymmetric, Symmetry::PlaneStrain].map(|s| column.name(s));
+        let plane = if plane == name { String::new() } else { code(&plane) };
+        vec![code(&name), words(column.about.trim()), plane]
     };
-    heading(file, about) + &table(&["name", "meaning", "in plane strain"], T::COLUMNS.iter().map(row))
+    heading(file, about) + &table(&["name", "meaning", "in plane strain"], T::columns().into_iter().map(row))
 }
 
 /// `cases.csv`, whose order is that of the file.

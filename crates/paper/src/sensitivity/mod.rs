@@ -5,7 +5,8 @@
 mod sensitivity_report;
 
 use crate::sensitivity_parts::{Line, lines, sweeps};
-use asperity::calibrate::run_sweep::{Options, Progress, solve};
+use asperity::Observer;
+use asperity::calibrate::run_sweep::{Options, solve};
 use asperity::calibration::case::Tool;
 use asperity::calibration::fit::DEVELOPED_PLASTICITY;
 use asperity::calibration::row::CaseRow;
@@ -103,7 +104,7 @@ fn tool_name(tool: Tool) -> &'static str {
 pub fn sensitivity(
     accuracy: Accuracy,
     options: &Options,
-    observer: &mut (dyn FnMut(&Progress) -> bool + Send),
+    observer: &mut Observer<'_, CaseRow>,
 ) -> Result<Sensitivity, Error> {
     let mut found = Sensitivity {
         lines: Vec::new(),

@@ -14,14 +14,11 @@ use asperity_solver::point::kinematics::Symmetry;
 use std::f64::consts::{FRAC_2_PI, PI};
 
 /// The peak of an indentation, any consistent units.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Peak {
-    /// Force F.
-    pub force: f64,
-    /// Depth h.
-    pub depth: f64,
+struct Peak {
+    force: f64,
+    depth: f64,
     /// Slope S = dF/dh of the unloading curve at the peak.
-    pub stiffness: f64,
+    stiffness: f64,
 }
 
 /// ε of a tool that is in contact up to about `height` above its apex; `None` for a plane, which has no tip from which a contact
@@ -29,7 +26,7 @@ pub struct Peak {
 ///
 /// An outline that rises with r^n has ε = (1 + 1/n)(1 - Γ((n + 1)/2)/(√π Γ(n/2 + 1))) (Sneddon 1965), nearly linear in n between
 /// the cone's and the paraboloid's (within 0.001).
-pub fn geometry_factor(tool: &Tool, height: f64) -> Option<f64> {
+fn geometry_factor(tool: &Tool, height: f64) -> Option<f64> {
     let (cone, paraboloid) = (2.0 - 2.0 * FRAC_2_PI, 0.75);
     match tool {
         Tool::Plane => None,
@@ -44,11 +41,20 @@ pub fn geometry_factor(tool: &Tool, height: f64) -> Option<f64> {
     }
 }
 
+/// What an instrument reads, in the units of the peak.
+struct Reading {
+    epsilon: f64,
+    contact_depth: f64,
+    contact_area: f64,
+    hardness: f64,
+    reduced_modulus: f64,
+}
+
 /// Evaluates `peak` of a tool of revolution with the area function `area`. `None` for a plane, or if nothing is left of the
 /// depth or the area.
-pub fn oliver_pharr(tool: &Tool, area: impl Fn(f64) -> f64, peak: &Peak) -> Option<OliverPharr> {
-    let geometry_factor = geometry_factor(tool, peak.depth)?;
-    let contact_depth = peak.depth - geometry_factor * peak.force / peak.stiffness;
+fn read(tool: &Tool, area: impl Fn(f64) -> f64, peak: &Peak) -> Option<Reading> {
+    let epsilon = geometry_factor(tool, peak.depth)?;
+    let contact_depth = peak.depth - epsilon * peak.force / peak.stiffness;
     if !(contact_depth > 0.0 && contact_depth.is_finite()) {
         return None;
     }
@@ -56,8 +62,8 @@ pub fn oliver_pharr(tool: &Tool, area: impl Fn(f64) -> f64, peak: &Peak) -> Opti
     if !(contact_area > 0.0 && contact_area.is_finite()) {
         return None;
     }
-    Some(OliverPharr {
-        geometry_factor,
+    Some(Reading {
+        epsilon,
         contact_depth,
         contact_area,
         hardness: peak.force / contact_area,
@@ -88,13 +94,16 @@ pub fn as_an_instrument(
         let outline = || PI * mirrored.half_width(height).powi(2);
         area.map_or_else(outline, |area| area.area(height * u.length) / u.area)
     };
-    let read = oliver_pharr(tool, area_at, &peak)?;
+    let read = read(tool, area_at, &peak)?;
     Some(OliverPharr {
-        geometry_factor: read.geometry_factor,
-        contact_depth: read.contact_depth * u.length,
         contact_area: read.contact_area * u.area,
+        contact_depth: read.contact_depth * u.length,
+        epsilon: read.epsilon,
         hardness: read.hardness * u.stress,
         reduced_modulus: read.reduced_modulus * u.stress,
+        true_contact_area: summary.contact_area,
+        true_hardness: summary.peak_force / summary.contact_area,
+        true_reduced_modulus: problem.reduced_modulus() * u.stress,
     })
 }
 
@@ -110,14 +119,14 @@ mod tests {
         let cone = Tool::Cone { tan_slope, tip_radius: 0.0 };
         let stiffness = 2.0 * FRAC_2_PI * modulus * h / tan_slope;
         let peak = Peak { force: 0.5 * stiffness * h, depth: h, stiffness };
-        let found = oliver_pharr(&cone, |z| PI * (z / tan_slope).powi(2), &peak).unwrap();
+        let found = read(&cone, |z| PI * (z / tan_slope).powi(2), &peak).unwrap();
         let area = PI * (FRAC_2_PI * h / tan_slope).powi(2);
         assert!((found.contact_area / area - 1.0).abs() < 1e-14);
         assert!((found.reduced_modulus / modulus - 1.0).abs() < 1e-14);
 
         let stiffness = 2.0 * modulus * (radius * h).sqrt();
         let peak = Peak { force: stiffness * h / 1.5, depth: h, stiffness };
-        let found = oliver_pharr(&Tool::Sphere { radius }, |z| PI * 2.0 * radius * z, &peak).unwrap();
+        let found = read(&Tool::Sphere { radius }, |z| PI * 2.0 * radius * z, &peak).unwrap();
         assert!((found.contact_area / (PI * radius * h) - 1.0).abs() < 1e-14);
         assert!((found.reduced_modulus / modulus - 1.0).abs() < 1e-14);
     }
@@ -125,7 +134,7 @@ mod tests {
     #[test]
     fn a_plane_and_a_soft_contact_have_no_contact_depth() {
         let peak = Peak { force: 1.0, depth: 0.1, stiffness: 1.0 };
-        assert_eq!(oliver_pharr(&Tool::Plane, |z| z, &peak), None);
-        assert_eq!(oliver_pharr(&Tool::Sphere { radius: 1.0 }, |z| z, &peak), None);
+        assert!(read(&Tool::Plane, |z| z, &peak).is_none());
+        assert!(read(&Tool::Sphere { radius: 1.0 }, |z| z, &peak).is_none());
     }
 }

@@ -377,7 +377,6 @@ impl<'p> Recorder<'p> {
             elastic_work,
             plastic_work: peak.plastic_work,
             oliver_pharr: None,
-            reduced_modulus: self.problem.reduced_modulus() * u.stress,
             elastic_fraction: elastic_work.map(|w| w / total_work),
             energy_balance_error: balance_error(&self.rows),
             estimated_error: f64::NAN,
@@ -387,7 +386,7 @@ impl<'p> Recorder<'p> {
             increments: self.rows.len() - 1,
             newton_iterations: path.counts.iterations,
             cutbacks: path.counts.cutbacks,
-            transfers: path.model.state().ledger.transfers,
+            meshed_anew: path.model.state().ledger.transfers,
         };
         let stopped = stopped.map(|reason| Stopped { reason, depth: last.depth, phase: last.phase });
         Outcome {

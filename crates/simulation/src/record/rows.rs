@@ -4,16 +4,26 @@
 //! they are per metre of ridge: N/m, m (contact width), J/m.
 
 use asperity_solver::body::energy::work;
+use serde::{Deserialize, Serialize};
 
 /// Whether the tool advances or retreats.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Phase {
     /// The tool advances.
     Load,
     /// The tool retreats.
     Unload,
-    /// The tool advances again to where it has been.
+    /// The tool advances again to where it has been: `load` in a file, where `cycles.csv` says so.
+    #[serde(rename(serialize = "load"))]
     Reload,
+}
+
+impl Phase {
+    /// Whether the tool advances, for the first time or again.
+    pub fn advances(self) -> bool {
+        self != Phase::Unload
+    }
 }
 
 /// One load and the unloading after it: a row of `cycles.csv`.
@@ -38,6 +48,13 @@ pub struct CycleRow {
     pub work_out: f64,
     /// Plastic work of both ways, J (J/m).
     pub plastic_work: f64,
+}
+
+impl CycleRow {
+    /// Work that does not come back, J (J/m).
+    pub fn hysteresis(&self) -> f64 {
+        self.work_in - self.work_out
+    }
 }
 
 /// One converged increment in SI: what `curve.csv` has in its units.
@@ -160,22 +177,35 @@ pub struct GapRow {
     pub enclosed: bool,
 }
 
-/// The evaluation of a peak after Oliver and Pharr, in the units of the peak.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct OliverPharr {
-    /// ε of the tool's shape.
-    pub geometry_factor: f64,
-    /// h_c.
-    pub contact_depth: f64,
-    /// A(h_c).
-    pub contact_area: f64,
-    /// F/A(h_c).
-    pub hardness: f64,
-    /// (√π/2) S/√A(h_c).
-    pub reduced_modulus: f64,
+impl GapRow {
+    /// Distance of the two contacts, m.
+    pub fn width(&self) -> f64 {
+        self.right - self.left
+    }
 }
 
-/// `summary.json`. `None` where the scene did not ask for it (unloading) or the run did not reach it.
+/// The evaluation of the peak after Oliver and Pharr, and beside it what is true.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OliverPharr {
+    /// A(h_c), m².
+    pub contact_area: f64,
+    /// h_c, m.
+    pub contact_depth: f64,
+    /// ε of the tool's shape.
+    pub epsilon: f64,
+    /// F/A(h_c), Pa.
+    pub hardness: f64,
+    /// (√π/2) S/√A(h_c), Pa.
+    pub reduced_modulus: f64,
+    /// Contact area at the peak, m².
+    pub true_contact_area: f64,
+    /// Mean pressure at the peak, Pa.
+    pub true_hardness: f64,
+    /// E/(1 - ν²), of an elastic tool in series with that of the tool, Pa.
+    pub true_reduced_modulus: f64,
+}
+
+/// The numbers of a run. `None` where the scene did not ask for it (unloading) or the run did not reach it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Summary {
     /// Largest force, N (N/m).
@@ -200,8 +230,6 @@ pub struct Summary {
     /// The evaluation of the curve after Oliver and Pharr; `None` without unloading, under a plane, in plane
     /// strain.
     pub oliver_pharr: Option<OliverPharr>,
-    /// E/(1 - ν²), of an elastic tool in series with that of the tool, Pa.
-    pub reduced_modulus: f64,
     /// elastic_work / total_work.
     pub elastic_fraction: Option<f64>,
     /// Largest |W - E_e - W_p - E_c + E_t|/W, E_t what transfers to better meshes changed, over increments with W above 1 % of its peak.
@@ -221,7 +249,7 @@ pub struct Summary {
     /// Times an increment was halved.
     pub cutbacks: usize,
     /// Remeshings.
-    pub transfers: usize,
+    pub meshed_anew: usize,
 }
 
 /// ∫F dh over corrected depths: the work over the travel less what the penetration took.
