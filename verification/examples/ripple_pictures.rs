@@ -151,7 +151,7 @@ fn deviation_chart(name: &str, [before, after]: [Vec<[f64; 2]>; 2], stated: &[[f
 }
 
 fn main() {
-    let (mut report, words) = Report::of("ripple_pictures", "standard beside reference");
+    let (mut report, words) = Report::of_example("ripple_pictures", "standard beside reference");
     let folder = words.first();
     let [standard, fine] = [Accuracy::Standard, Accuracy::Reference].map(run);
     let (found, result) = (&standard.found, &standard.result.curve);

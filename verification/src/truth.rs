@@ -150,7 +150,7 @@ impl Answer {
         let outcome = Run { mesh, ..Run::new(scene) }
             .run(&mut |_| ControlFlow::Continue(()))
             .map_err(|e| e.to_string())?;
-        Answer::of(&outcome, depth)
+        Answer::from_outcome(&outcome, depth)
     }
 
     /// Its errors against `truth`: the largest over the depths for force, contact area and mean pressure,

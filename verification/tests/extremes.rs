@@ -195,8 +195,8 @@ fn rows() -> Vec<Row> {
             0.05,
             |o| peak(o) / hertz_force(YOUNG / 0.91, 18e-3, 2e-6),
         ),
-        against("penetration 0.03 of the depth", penetration(0.03), paper(), 0.05),
-        against("penetration 1e-6 of the depth", penetration(1e-6), paper(), 0.05),
+        compared("penetration 0.03 of the depth", penetration(0.03), paper(), 0.05),
+        compared("penetration 1e-6 of the depth", penetration(1e-6), paper(), 0.05),
         row("depth 100 % of the height", changed(|s| s.loading.depth = s.asperity[0].height), 1e-6, |o| {
             o.summary.peak_depth / 20e-6
         }),

@@ -5,7 +5,6 @@ use super::table::{LoadPoint, TableRow};
 use super::warnings;
 use crate::error::Error;
 use crate::progress::Progress;
-use crate::results::units::MICROMETRE;
 use crate::rough::closure_contact::{Body, ClosureContact};
 use crate::rough::half_space_contacts::{HalfSpaceContacts, compare_with_half_space};
 use crate::rough::press_closure::press_by;

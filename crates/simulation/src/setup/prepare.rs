@@ -231,7 +231,7 @@ impl Contacts {
             fine: 1.6,
             far: match numbers.element {
                 ElementChoice::Q8r => FAR_GROWTH_SHARE,
-                ElementChoice::Q4 => FAR_GROWTH_SHARE / LINEAR,
+                ElementChoice::Q4 => FAR_GROWTH_SHARE / LINEAR_PER_QUADRATIC,
             },
         }
     }
