@@ -42,6 +42,11 @@ const TABLE: &[(&str, &str, &[&str])] = &[
     ("\"axisymmetric\"", "\"plane-strain\"", &["scene.toml", "substrate", "is missing"]),
     ("steps = 8", "steps = 0", &["scene.toml:21:", "from 1 to 10000", "not 0"]),
     ("steps = 8", "steps = -8", &["scene.toml:21:", "a whole number from 0 up"]),
+    (
+        "steps = 8",
+        "contact = \"penalty\"",
+        &["scene.toml:21:", "`contact` is gone", "leave numerics.contact out"],
+    ),
     ("[numerics]", "[numerics", &["scene.toml:20:"]),
     ("[numerics]", "[tool]", &["scene.toml:20:"]),
     (
@@ -74,6 +79,13 @@ fn each_names_the_line_and_the_range() {
         refused(&place, &["crush", "scene.toml", "--out", "out"], words, new);
         refused(&place, &["mesh", "scene.toml", "-o", "mesh.msh"], words, new);
     }
+}
+
+#[test]
+fn a_key_that_went_is_refused_in_an_override_too() {
+    let place = Place::with_scene(SCENE.to_string());
+    let args = ["crush", "scene.toml", "--set", "numerics.contact=augmented", "--out", "out"];
+    refused(&place, &args, &["--set", "`contact` is gone", "leave numerics.contact out"], "--set");
 }
 
 /// The same with a second asperity beside the first.
