@@ -45,7 +45,7 @@ impl DeformedMesh {
             surface: fields
                 .surface
                 .iter()
-                .map(|p| [p.position[0] / MICROMETRE, p.pressure / MEGAPASCAL])
+                .map(|p| [p.r / MICROMETRE, p.pressure / MEGAPASCAL])
                 .collect(),
         }
     }
