@@ -1,8 +1,7 @@
 //! `fields.pvd` with its `fields_NNNN.vtu` and `surface_NNNN.csv`: the fields of some increments, as they are written.
 
 use crate::error::Error;
-use crate::results::columns::Unit;
-use crate::results::columns::{Described, values, write_rows, write_values};
+use crate::results::columns::{Described, Unit, values, write_rows, write_values};
 use crate::results::output::{Sink, SinkExt};
 use crate::results::units::{MEGAPASCAL, MICROMETRE};
 use asperity_mesh::{FieldArray, Mesh, write_vtu};

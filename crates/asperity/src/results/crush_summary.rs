@@ -1,8 +1,7 @@
 //! `summary.json`: its keys, as they are written and read.
 
 use crate::error::{Error, InputError};
-use crate::results::columns::Unit;
-use crate::results::columns::{Described, columns, named, symmetry_of, unnamed};
+use crate::results::columns::{Described, Unit, columns, named, symmetry_of, unnamed};
 use crate::results::numbers::four_decimals;
 use crate::results::units::per_length;
 use asperity_simulation::record::rows::{Errors, OliverPharr, Summary as Numbers};
@@ -326,7 +325,7 @@ const ABSENT: [&str; 3] = ["stopped", "equivalent_half_apex_deg", "outlines"];
 impl Serialize for Summary {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let si = Summary::serialize(self, serde_json::value::Serializer).map_err(S::Error::custom)?;
-        let si = si.as_object().cloned().unwrap_or_default();
+        let Value::Object(si) = si else { return Err(S::Error::custom("a summary is a table")) };
         let nothing = |value: &Value| value.is_null() || value.as_array().is_some_and(Vec::is_empty);
         let entries = named(si, Summary::COLUMNS, self.scene.symmetry);
         serializer.collect_map(entries.filter(|(name, v)| !(ABSENT.contains(&name.as_str()) && nothing(v))))
