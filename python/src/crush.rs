@@ -4,15 +4,16 @@ use crate::error::{raised, wrong};
 use crate::scene::Scene;
 use crate::table::{matrix, of_csv, of_json};
 use crate::work;
-use asperity::columns::{Table, write_rows};
+use asperity::columns::{Described, Unit, write_rows};
 use asperity::crush::Sketch;
 use asperity::mesh::FieldArray;
 use asperity::output::Directory;
 use asperity::tables::Symmetry;
-use asperity::units::{MICROMETRE, Unit};
+use asperity::units::MICROMETRE;
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use serde::Serialize;
 use std::path::{Path, PathBuf};
 
 /// The result of a crush.
@@ -57,7 +58,11 @@ impl Crush {
         self.inner.summary.scene.symmetry
     }
 
-    fn rows<'py, T: Table>(&self, py: Python<'py>, rows: &[T]) -> PyResult<Bound<'py, PyDict>> {
+    fn rows<'py, T: Described + Serialize>(
+        &self,
+        py: Python<'py>,
+        rows: &[T],
+    ) -> PyResult<Bound<'py, PyDict>> {
         if rows.is_empty() {
             return Ok(PyDict::new(py));
         }

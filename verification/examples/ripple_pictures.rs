@@ -190,9 +190,7 @@ fn main() {
     let along = |run: &Run| {
         let off = run.surface.iter().position(|point| point.pressure <= 0.0).unwrap_or(run.surface.len());
         let touching = run.surface.iter().take(off + 1);
-        touching
-            .map(|point| [point.position[0] / MICROMETRE, point.pressure / MEGAPASCAL])
-            .collect::<Vec<_>>()
+        touching.map(|point| [point.r / MICROMETRE, point.pressure / MEGAPASCAL]).collect::<Vec<_>>()
     };
     let series =
         [Series::line("standard", along(&standard)).marked(), Series::line("reference", along(&fine))];

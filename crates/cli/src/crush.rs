@@ -4,10 +4,11 @@ use crate::flags::{ReportFlag, RunFlags, SceneFlags};
 use crate::folder::Folder;
 use crate::progress::Line;
 use crate::{interrupt, terminal};
+use asperity::columns::Unit;
 use asperity::crush::{CurveRow, Sketch, crush_into};
 use asperity::error::{Error, InputError};
 use asperity::simulation::scene::Symmetry;
-use asperity::units::{MICROMETRE, Unit};
+use asperity::units::MICROMETRE;
 use clap::Args;
 use std::path::PathBuf;
 

@@ -4,12 +4,14 @@
 
 mod common;
 
-use asperity::columns::{Table, read_rows, write_rows};
+use asperity::columns::{Described, read_rows, write_rows};
 use asperity::crush::{AsperityRow, CurveRow, GapRow, Summary};
 use asperity::output::Directory;
 use asperity::tables::Symmetry;
 use asperity::{Scene, crush};
 use common::{Place, SCENE};
+use serde::Serialize;
+use serde::de::DeserializeOwned;
 use serde_json::Value;
 
 /// A summary without what differs from run to run.
@@ -21,7 +23,7 @@ fn lasting(text: &str) -> Value {
     summary
 }
 
-fn reads_back<T: Table>(place: &Place, file: &str, symmetry: Symmetry) {
+fn reads_back<T: Described + Serialize + DeserializeOwned>(place: &Place, file: &str, symmetry: Symmetry) {
     let path = place.path("library").join(file);
     let mut again = Vec::new();
     write_rows(&mut again, &read_rows::<T>(&path).unwrap(), symmetry).unwrap();

@@ -7,10 +7,11 @@ use super::paper::{PEAKS, ROUGH, SETS, SYMMETRIES, TABLE2};
 use super::results_reader::Results;
 use crate::table1::{self, ClosureSeeds, Seeds};
 use asperity::calibrate::{AngleFit, Fit};
+use asperity::columns::Unit;
 use asperity::crush::{Island, Summary};
 use asperity::numbers::{Spread, listed, significant, with_deviation};
 use asperity::roughness::{Closure, PUBLISHED_COEFFICIENT};
-use asperity::units::{MICROMETRE, Unit};
+use asperity::units::MICROMETRE;
 use serde::Serialize;
 
 /// The fate of a claim.

@@ -5,6 +5,7 @@ use super::plan::Item;
 use super::profile::ProfilePoint;
 use super::results_reader::Results;
 use crate::table1::{self, ClosureSeeds, Seeds};
+use asperity::columns::Unit;
 use asperity::crush::Summary;
 use asperity::draw::chart::{self, Chart, Series};
 use asperity::numbers::{Spread, shown, significant, spread};
@@ -12,7 +13,7 @@ use asperity::page;
 use asperity::rough::charts::travel_chart;
 use asperity::rough::{LoadPoint, Phase};
 use asperity::roughness::Closure;
-use asperity::units::{MEGAPASCAL, MICROMETRE, Unit};
+use asperity::units::{MEGAPASCAL, MICROMETRE};
 use maud::{Markup, html};
 
 /// The closures of Tables 1 and 2, and what they are.

@@ -5,9 +5,9 @@ use super::{Crush, CycleRow, Sketch, Summary};
 use crate::error::Error;
 use crate::input::toml_file::to_toml;
 use crate::page::{self, Numbers, Report};
-use crate::results::columns::Described;
+use crate::results::columns::{Described, Unit};
 use crate::results::numbers::{rounded, significant};
-use crate::results::units::{MICROMETRE, Unit, per_length};
+use crate::results::units::{MICROMETRE, per_length};
 use asperity_simulation::scene::Symmetry;
 use maud::{Markup, html};
 
@@ -99,8 +99,7 @@ impl Crush {
             Symmetry::PlaneStrain => ["Contact width at the peak", " µm"],
         };
         let line = |name: &str, key: &str, scale: f64, unit: &str, error: Option<[&str; 2]>| {
-            let columns = Summary::columns();
-            let column = columns.iter().find(|column| column.quantity == key);
+            let column = Summary::COLUMNS.iter().find(|column| column.quantity == key);
             let place = column.map_or_else(String::new, |column| format!("/{}", column.name(symmetry)));
             let value = numbers.shown(&place, scale, unit);
             let error = error.map(|[key, of]| numbers.error(&format!("/errors/{key}"), of));
@@ -139,12 +138,9 @@ impl Crush {
     fn cycle_table(&self) -> Markup {
         let per = per_length(self.summary.scene.symmetry);
         let row = |c: &CycleRow| {
-            let [force, residual, lost] = [
-                (c.peak_force, Unit::Force),
-                (c.residual_depth, Unit::Length),
-                (c.hysteresis(), Unit::Energy),
-            ]
-            .map(|(value, unit)| significant(self.summary.written(value, unit)));
+            let [force, residual, lost] =
+                [(c.peak_force, Unit::Force), (c.residual_depth, Unit::Length), (c.hysteresis, Unit::Energy)]
+                    .map(|(value, unit)| significant(self.summary.written(value, unit)));
             vec![html! { (c.cycle) }, html! { (force) }, html! { (residual) }, html! { (lost) }]
         };
         let head = [

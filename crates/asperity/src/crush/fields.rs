@@ -1,15 +1,15 @@
 //! `fields.pvd` with its `fields_NNNN.vtu` and `surface_NNNN.csv`: the fields of some increments, as they are written.
 
 use crate::error::Error;
-use crate::results::columns::{Cell, Described, Table, write_rows, write_values};
+use crate::results::columns::{Described, Unit, values, write_rows, write_values};
 use crate::results::output::{Sink, SinkExt};
-use crate::results::units::{MEGAPASCAL, MICROMETRE, Unit};
+use crate::results::units::{MEGAPASCAL, MICROMETRE};
 use asperity_mesh::{FieldArray, Mesh, write_vtu};
 use asperity_simulation::record::rows::{CurveRow, Phase};
 use asperity_simulation::run::FieldFrame;
 use asperity_simulation::scene::{Field, Scene as Tables, Symmetry};
 use asperity_solver::body::fields::{Fields, SurfacePoint};
-use serde_json::Value;
+use serde_json::{Value, json};
 use std::io::{self, Write};
 use std::sync::Arc;
 
@@ -69,8 +69,8 @@ pub struct FieldSeries {
     times: Vec<(usize, f64)>,
     /// Depth of the last of them.
     depth_um: f64,
-    /// The rows of `surfaces.csv` so far.
-    surfaces: Vec<Vec<Value>>,
+    /// The surfaces so far, each with increment, phase and depth in µm.
+    surfaces: Vec<([Value; 3], Vec<SurfacePoint>)>,
 }
 
 impl FieldSeries {
@@ -103,10 +103,8 @@ impl FieldSeries {
         let time = self.times.last().map_or(way, |(_, last)| way.max(last.next_up()));
         self.times.push((frame.increment, time));
         self.depth_um = depth_um;
-        let phase = frame.phase.to_file(Unit::Plain, frame.symmetry);
-        let state = [Value::from(frame.increment), phase, Value::from(depth_um)];
-        let row = |point: &SurfacePoint| [&state[..], &point.values(frame.symmetry)].concat();
-        self.surfaces.extend(frame.surface.iter().map(row));
+        self.surfaces
+            .push(([json!(frame.increment), json!(frame.phase), json!(depth_um)], frame.surface.clone()));
     }
 
     /// Writes the surfaces of all frames to one file, if there are any.
@@ -118,9 +116,13 @@ impl FieldSeries {
             return Ok(());
         }
         // the columns of a surface have one name in both symmetries
-        let point = SurfacePoint::columns().into_iter().map(|column| column.name(Symmetry::Axisymmetric));
+        let symmetry = Symmetry::Axisymmetric;
+        let point = SurfacePoint::COLUMNS.iter().map(|column| column.name(symmetry));
         let names = ["increment", "phase", "depth_um"].map(String::from).into_iter().chain(point);
-        folder.write("surfaces.csv", |out| write_values(out, names, self.surfaces.iter().cloned()))
+        let rows = self.surfaces.iter().flat_map(|(state, points)| {
+            points.iter().map(move |point| Ok([&state[..], &values(point, symmetry)?].concat()))
+        });
+        folder.write("surfaces.csv", |out| write_values(out, names, rows))
     }
 
     /// The ParaView collection; its time is the way of the depth, µm: the depth while the tool advances first, and further

@@ -6,7 +6,7 @@ mod crush_report;
 mod fields;
 mod plot;
 
-pub use crate::results::columns::{read_rows, write_rows};
+pub use crate::results::columns::{Unit, read_rows, write_rows};
 pub use crate::results::crush_summary::{Summary, peak_memory};
 pub use asperity_simulation::record::rows::{
     AsperityRow, CurveRow, CycleRow, Errors, GapRow, OliverPharr, Phase, Summary as Numbers,
@@ -23,7 +23,7 @@ use crate::input::scene::Scene;
 use crate::progress::Progress;
 use crate::results::numbers::decimals;
 use crate::results::output::{Sink, SinkExt};
-use crate::results::units::{MICROMETRE, Unit, per_length};
+use crate::results::units::{MICROMETRE, per_length};
 use asperity_mesh::Mesh;
 use asperity_simulation::run::{CrushError, Event, FieldFrame, Outcome, Run};
 use asperity_simulation::scene::{SceneError, Symmetry};

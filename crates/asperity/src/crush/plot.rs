@@ -2,8 +2,9 @@
 
 use crate::draw::chart::{Chart, Dash, Series, svg};
 use crate::draw::palette::LINES;
+use crate::results::columns::Unit;
 use crate::results::crush_summary::Summary;
-use crate::results::units::{MICROMETRE, Unit, per_length};
+use crate::results::units::{MICROMETRE, per_length};
 use asperity_simulation::record::rows::CurveRow;
 use asperity_simulation::scene::Symmetry;
 

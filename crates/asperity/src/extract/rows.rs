@@ -4,8 +4,9 @@
 
 use super::bodies::Body;
 use crate::crush::{CurveRow, Summary as CrushSummary};
+use crate::results::columns::Unit;
 use crate::results::output::row;
-use crate::results::units::{MEGAPASCAL, MICROMETRE, Unit};
+use crate::results::units::{MEGAPASCAL, MICROMETRE};
 use asperity_roughness::asperities::Asperity;
 use asperity_simulation::scene::Symmetry;
 

@@ -1,11 +1,8 @@
 //! Rows of `curve.csv`, `asperities.csv`, `gaps.csv`, `cycles.csv`, and `surface_NNNN.csv`: their columns.
 
-use crate::results::columns::{Cell, Column, Described, Table, columns, take};
-use crate::results::units::Unit;
+use crate::results::columns::columns;
 use asperity_simulation::record::rows::{AsperityRow, CurveRow, CycleRow, GapRow};
-use asperity_simulation::scene::Symmetry;
 use asperity_solver::body::fields::SurfacePoint;
-use serde_json::Value;
 
 columns! {
     CurveRow {
@@ -45,7 +42,7 @@ columns! {
         force_error: Plain,
         /// Change of the elastic, plastic and contact energy by all transfers to better meshes so far, which is no work of the tool.
         transfer_energy: Energy,
-    } absent { compliance_depth: f64::NAN }
+    }
 }
 
 columns! {
@@ -83,7 +80,7 @@ columns! {
         left: Length,
         /// Beginning of the contact after it.
         right: Length,
-        + /// Distance of the two.
+        /// Distance of the two.
         width: Length,
         /// Largest distance from the tool in between; from the lowest to the highest point of an enclosed gap.
         height: Length,
@@ -111,54 +108,37 @@ columns! {
         work_in: Energy,
         /// Work returned on the way out.
         work_out: Energy,
-        + /// The difference of the two.
+        /// The difference of the two.
         hysteresis: Energy,
         /// Plastic work of both ways.
         plastic_work: Energy,
     }
 }
 
-impl Described for SurfacePoint {
-    fn columns() -> Vec<Column> {
-        vec![
-            columns!(column r Length #[doc = "Current radius."]),
-            columns!(column z Length #[doc = "Current height over the initial summit."]),
-            columns!(column u_r Length #[doc = "Displacement along r."]),
-            columns!(column u_z Length #[doc = "Displacement along z."]),
-            columns!(column pressure Pressure #[doc = "Contact pressure, without the zigzag between corners and mid-side nodes."]),
-            columns!(column yielded Bit #[doc = "1 where the material has yielded, else 0."]),
-        ]
-    }
-}
-
-impl Table for SurfacePoint {
-    fn values(&self, symmetry: Symmetry) -> Vec<Value> {
-        let ([r, z], [u_r, u_z]) = (self.position, self.displacement);
-        let mut values = [r, z, u_r, u_z].map(|length| length.to_file(Unit::Length, symmetry)).to_vec();
-        values.push(self.pressure.to_file(Unit::Pressure, symmetry));
-        values.push(self.yielded.to_file(Unit::Bit, symmetry));
-        values
-    }
-
-    fn from_values(symmetry: Symmetry, value: &mut dyn FnMut(&str) -> Option<Value>) -> Result<Self, String> {
-        let mut pair = |names: [&str; 2]| -> Result<[f64; 2], String> {
-            let [r, z] = names.map(|name| take(value, name, Unit::Length, symmetry));
-            Ok([r?, z?])
-        };
-        Ok(SurfacePoint {
-            position: pair(["r", "z"])?,
-            displacement: pair(["u_r", "u_z"])?,
-            pressure: take(value, "pressure", Unit::Pressure, symmetry)?,
-            yielded: take(value, "yielded", Unit::Bit, symmetry)?,
-        })
+columns! {
+    SurfacePoint {
+        /// Current radius.
+        r: Length,
+        /// Current height over the initial summit.
+        z: Length,
+        /// Displacement along r.
+        u_r: Length,
+        /// Displacement along z.
+        u_z: Length,
+        /// Contact pressure, without the zigzag between corners and mid-side nodes.
+        pressure: Pressure,
+        /// 1 where the material has yielded, else 0.
+        yielded: Bit,
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::results::columns::{read_rows, write_rows};
+    use crate::results::columns::{Described, read_rows, write_rows};
     use asperity_simulation::record::rows::Phase;
+    use asperity_simulation::scene::Symmetry;
+    use serde::Serialize;
 
     fn row() -> CurveRow {
         CurveRow {
@@ -182,7 +162,7 @@ mod tests {
         }
     }
 
-    fn text<T: Table>(symmetry: Symmetry, row: T) -> String {
+    fn text<T: Described + Serialize>(symmetry: Symmetry, row: T) -> String {
         let mut out = Vec::new();
         write_rows(&mut out, &[row], symmetry).unwrap();
         String::from_utf8(out).unwrap()

@@ -1,14 +1,15 @@
 //! `summary.json`: its keys, as they are written and read.
 
 use crate::error::{Error, InputError};
-use crate::results::columns::{Described, Table, columns, symmetry_of};
+use crate::results::columns::{Described, Unit, columns, named, symmetry_of, unnamed};
 use crate::results::numbers::four_decimals;
-use crate::results::units::{Unit, per_length};
+use crate::results::units::per_length;
 use asperity_simulation::record::rows::{Errors, OliverPharr, Summary as Numbers};
 use asperity_simulation::run::Outcome;
-use asperity_simulation::scene::{Accuracy, Scene as Tables, Smoothing, Symmetry};
+use asperity_simulation::scene::{Accuracy, Scene as Tables, Smoothing};
 use asperity_solver::body::islands::Island;
 use serde::de::Error as _;
+use serde::ser::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use serde_json::{Map, Value};
 use std::ops::Deref;
@@ -18,11 +19,14 @@ use std::path::Path;
 ///
 /// It is serialised as `summary.json` has it: under the names and in the units of the file. What the scene did not ask for (unloading)
 /// or the run did not reach is `None`, `null` in the file.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(remote = "Self")]
 pub struct Summary {
     /// Why and where the run ended before its target.
+    #[serde(default)]
     pub stopped: Option<String>,
     /// The numbers of the run, which the summary gives as its own.
+    #[serde(flatten)]
     pub numbers: Numbers,
     /// Regions among the asperities that never yielded, at the peak.
     pub elastic_islands: Vec<Island>,
@@ -30,6 +34,12 @@ pub struct Summary {
     pub wall_s: f64,
     /// Largest resident memory of the process so far, bytes; `None` where the system does not say.
     pub peak_memory: Option<f64>,
+    /// Half apex angle of the cone that stands for a pyramid: that of the same projected area.
+    #[serde(default)]
+    pub equivalent_half_apex_deg: Option<f64>,
+    /// Smoothing of each measured outline.
+    #[serde(default)]
+    pub outlines: Vec<Smoothing>,
     /// The scene as resolved, with the numbers that its accuracy stands for: enough to run it again.
     pub scene: Box<Tables>,
     /// Version of this program.
@@ -62,7 +72,9 @@ columns! {
 }
 
 columns! {
-    Numbers {
+    Summary {
+        /// Why and where the run ended before its target; absent if it did not.
+        stopped: Plain,
         /// Force at the end of the first loading, its largest but for what gives way on the way.
         peak_force: Force,
         /// Depth at the peak.
@@ -83,7 +95,7 @@ columns! {
         /// Plastic work at the end of loading.
         plastic_work: Energy,
         /// Reading of the unloading curve by the method of Oliver and Pharr, under a tool with an apex.
-        oliver_pharr: Plain,
+        oliver_pharr: Table(OliverPharr::COLUMNS),
         /// Work returned on unloading over the work to the peak.
         elastic_fraction: Plain,
         /// Largest |W - E_e - W_p - E_c + E_t|/W over increments with W above 1 % of its peak, E_t what remeshing changed: large with
@@ -92,7 +104,7 @@ columns! {
         /// `errors.force`; NaN (`null`) where it is not known.
         estimated_error: Plain,
         /// 95 % bounds of the errors against the converged limit.
-        errors: Plain,
+        errors: Table(Errors::COLUMNS),
         /// Number of elements.
         elements: Plain,
         /// Number of unknowns.
@@ -105,24 +117,16 @@ columns! {
         cutbacks: Plain,
         /// Number of remeshings: the mesh was too distorted.
         meshed_anew: Plain,
-    }
-}
-
-columns! {
-    Summary {
-        /// Why and where the run ended before its target; absent if it did not.
-        stopped: Plain,
-        .. numbers: Numbers,
         /// Regions among the asperities that never yielded, at the peak.
-        elastic_islands: Plain,
+        elastic_islands: Table(Island::COLUMNS),
         /// Seconds the run took.
         wall_s: Plain,
         /// Largest resident memory of the process so far, MB of 10⁶ bytes; `None` where the system does not say.
         peak_memory: Memory,
-        + /// Half apex angle of the cone that stands for a pyramid: that of the same projected area; absent of other tools.
+        /// Half apex angle of the cone that stands for a pyramid: that of the same projected area; absent of other tools.
         equivalent_half_apex_deg: Plain,
-        + /// Smoothing of each measured outline; absent where there is none.
-        outlines: Plain,
+        /// Smoothing of each measured outline; absent where there is none.
+        outlines: Table(Smoothing::COLUMNS),
         /// The scene as resolved, with the numbers that its accuracy stands for: enough to run it again.
         scene: Plain,
         /// Version of this program.
@@ -197,17 +201,11 @@ impl Summary {
             elastic_islands: outcome.elastic_islands.clone(),
             wall_s,
             peak_memory: peak_memory(),
+            equivalent_half_apex_deg: scene.tool.shape.equivalent_half_apex_deg(),
+            outlines: scene.smoothings(),
             scene: Box::new(scene),
             version: env!("CARGO_PKG_VERSION").into(),
         }
-    }
-
-    fn equivalent_half_apex_deg(&self) -> Option<f64> {
-        self.scene.tool.shape.equivalent_half_apex_deg()
-    }
-
-    fn outlines(&self) -> Vec<Smoothing> {
-        self.scene.smoothings()
     }
 
     /// A value of this run in the `unit` of its files.
@@ -326,10 +324,10 @@ const ABSENT: [&str; 3] = ["stopped", "equivalent_half_apex_deg", "outlines"];
 
 impl Serialize for Summary {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let symmetry = self.scene.symmetry;
-        let names = Summary::columns().into_iter().map(|column| column.name(symmetry));
+        let si = Summary::serialize(self, serde_json::value::Serializer).map_err(S::Error::custom)?;
+        let Value::Object(si) = si else { return Err(S::Error::custom("a summary is a table")) };
         let nothing = |value: &Value| value.is_null() || value.as_array().is_some_and(Vec::is_empty);
-        let entries = names.zip(self.values(symmetry));
+        let entries = named(si, Summary::COLUMNS, self.scene.symmetry);
         serializer.collect_map(entries.filter(|(name, v)| !(ABSENT.contains(&name.as_str()) && nothing(v))))
     }
 }
@@ -337,10 +335,9 @@ impl Serialize for Summary {
 impl<'de> Deserialize<'de> for Summary {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let mut entries = Map::<String, Value>::deserialize(deserializer)?;
-        let symmetry = symmetry_of::<Summary>(|name| entries.contains_key(name));
-        let nothing = |name: &str| ABSENT.contains(&name).then_some(Value::Null);
-        Summary::from_values(symmetry, &mut |name| entries.remove(name).or_else(|| nothing(name)))
-            .map_err(D::Error::custom)
+        let symmetry = symmetry_of(Summary::COLUMNS, |name| entries.contains_key(name));
+        let si = unnamed(Summary::COLUMNS, symmetry, |name| entries.remove(name));
+        Summary::deserialize(Value::Object(si)).map_err(D::Error::custom)
     }
 }
 

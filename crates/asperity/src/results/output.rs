@@ -114,13 +114,11 @@ macro_rules! row {
         }
 
         impl $crate::results::columns::Described for $row {
-            fn columns() -> Vec<$crate::results::columns::Column> {
-                vec![$($crate::results::columns::Column {
-                    quantity: stringify!($field),
-                    unit: $crate::results::units::Unit::Plain,
-                    about: concat!($($crate::results::columns::about_in!($($field_about)*)),*),
-                }),*]
-            }
+            const COLUMNS: &'static [$crate::results::columns::Column] = &[$($crate::results::columns::Column {
+                quantity: stringify!($field),
+                unit: $crate::results::columns::Unit::Plain,
+                about: concat!($($crate::about_in!($($field_about)*)),*),
+            }),*];
         }
     };
 }

@@ -103,19 +103,19 @@ fn heading(file: &str, about: &str) -> String {
 
 /// Columns whose names do not depend on the symmetry. Tables inside have their own.
 fn file_columns<T: Described>(file: &str, about: &str) -> String {
-    let columns = T::columns().into_iter().filter(|column| column.quantity != "row");
+    let columns = T::COLUMNS.iter().filter(|column| column.quantity != "row");
     let rows = columns.map(|column| vec![code(column.quantity), words(column.about.trim())]);
     heading(file, about) + &table(&["name", "meaning"], rows)
 }
 
 /// Columns with their names in plane strain, where they differ.
 fn of_crush<T: Described>(file: &str, about: &str) -> String {
-    let row = |column: Column| {
+    let row = |column: &Column| {
         let [name, plane] = [Symmetry::Axisymmetric, Symmetry::PlaneStrain].map(|s| column.name(s));
         let plane = if plane == name { String::new() } else { code(&plane) };
         vec![code(&name), words(column.about.trim()), plane]
     };
-    heading(file, about) + &table(&["name", "meaning", "in plane strain"], T::columns().into_iter().map(row))
+    heading(file, about) + &table(&["name", "meaning", "in plane strain"], T::COLUMNS.iter().map(row))
 }
 
 /// `cases.csv`, whose order is that of the file.

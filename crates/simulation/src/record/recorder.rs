@@ -205,14 +205,19 @@ impl<'p> Recorder<'p> {
                 });
             }
         }
-        self.gaps.extend(gaps(model.body(), model.state()).into_iter().map(|gap| GapRow {
-            increment: number,
-            phase: row.phase,
-            depth: row.depth,
-            left: gap.left * u.length,
-            right: gap.right * u.length,
-            height: gap.height * u.length,
-            enclosed: gap.enclosed,
+        self.gaps.extend(gaps(model.body(), model.state()).into_iter().map(|gap| {
+            let [left, right, height] = [gap.left, gap.right, gap.height].map(|x| x * u.length);
+            let (width, enclosed) = (right - left, gap.enclosed);
+            GapRow {
+                increment: number,
+                phase: row.phase,
+                depth: row.depth,
+                left,
+                right,
+                width,
+                height,
+                enclosed,
+            }
         }));
         let told = observer(&Event::Increment { row: &row, planned: self.planned.max(number) });
         if self.interval > 0 && number.is_multiple_of(self.interval) && told.is_continue() {
@@ -275,10 +280,12 @@ impl<'p> Recorder<'p> {
                     .surface
                     .into_iter()
                     .map(|p| SurfacePoint {
-                        position: p.position.map(|x| x * l),
-                        displacement: p.displacement.map(|x| x * l),
+                        r: p.r * l,
+                        z: p.z * l,
+                        u_r: p.u_r * l,
+                        u_z: p.u_z * l,
                         pressure: p.pressure * e,
-                        yielded: p.yielded,
+                        ..p
                     })
                     .collect(),
             },
@@ -334,6 +341,8 @@ impl<'p> Recorder<'p> {
         let mut start = 0;
         let row = |(cycle, &[peak, end]): (usize, &[usize; 2])| {
             let (from, top, last) = (&self.rows[start], &self.rows[peak], &self.rows[end]);
+            let work_in = work_along(&self.rows[start..=peak]);
+            let work_out = -work_along(&self.rows[peak..=end]);
             let row = CycleRow {
                 cycle,
                 peak_increment: peak,
@@ -341,8 +350,9 @@ impl<'p> Recorder<'p> {
                 peak_depth: top.depth,
                 peak_force: top.force,
                 residual_depth: last.depth,
-                work_in: work_along(&self.rows[start..=peak]),
-                work_out: -work_along(&self.rows[peak..=end]),
+                work_in,
+                work_out,
+                hysteresis: work_in - work_out,
                 plastic_work: last.plastic_work - from.plastic_work,
             };
             start = end;

@@ -4,7 +4,7 @@
 //! they are per metre of ridge: N/m, m (contact width), J/m.
 
 use asperity_solver::body::energy::work;
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize};
 
 /// Whether the tool advances or retreats.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -27,7 +27,7 @@ impl Phase {
 }
 
 /// One load and the unloading after it: a row of `cycles.csv`.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CycleRow {
     /// 0: the first loading; then the reloads.
     pub cycle: usize,
@@ -46,19 +46,14 @@ pub struct CycleRow {
     pub work_in: f64,
     /// Work returned on the way out, J (J/m).
     pub work_out: f64,
+    /// The difference of the two, J (J/m).
+    pub hysteresis: f64,
     /// Plastic work of both ways, J (J/m).
     pub plastic_work: f64,
 }
 
-impl CycleRow {
-    /// Work that does not come back, J (J/m).
-    pub fn hysteresis(&self) -> f64 {
-        self.work_in - self.work_out
-    }
-}
-
 /// One converged increment in SI: what `curve.csv` has in its units.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CurveRow {
     /// Counted from 0, the first touch.
     pub increment: usize,
@@ -88,7 +83,8 @@ pub struct CurveRow {
     pub transfer_energy: f64,
     /// Pressure-weighted mean penetration, m.
     pub penetration: f64,
-    /// Deflection of tool and machine frame, a part of the depth, m.
+    /// Deflection of tool and machine frame, a part of the depth, m; no file has it.
+    #[serde(skip, default = "unknown")]
     pub compliance_depth: f64,
     /// Newton iterations spent since the last row.
     pub newton_iterations: usize,
@@ -107,13 +103,16 @@ impl CurveRow {
 }
 
 /// 95 % bounds of the errors of a run against its own converged limit, over 0.2 ≤ h/h_peak ≤ 1; NaN where they are not known.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Errors {
     /// Of the force, relative.
+    #[serde(deserialize_with = "nan_for_null")]
     pub force: f64,
     /// Of the contact area, relative.
+    #[serde(deserialize_with = "nan_for_null")]
     pub contact_area: f64,
     /// Of the mean pressure, relative.
+    #[serde(deserialize_with = "nan_for_null")]
     pub mean_pressure: f64,
     /// Of the residual depth, over the peak depth; `None` without unloading.
     pub residual_depth: Option<f64>,
@@ -136,7 +135,7 @@ impl Errors {
 }
 
 /// The share of one asperity in one increment: a row of `asperities.csv`.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AsperityRow {
     /// Increment of the curve.
     pub increment: usize,
@@ -151,15 +150,17 @@ pub struct AsperityRow {
     /// Its contact area, m² (width, m).
     pub contact_area: f64,
     /// Innermost (leftmost) point of its contact, m; NaN without contact.
+    #[serde(deserialize_with = "nan_for_null")]
     pub contact_left: f64,
     /// Outermost point of its contact, m; NaN without contact.
+    #[serde(deserialize_with = "nan_for_null")]
     pub contact_right: f64,
     /// Largest contact pressure on it, Pa.
     pub max_pressure: f64,
 }
 
 /// An untouched stretch of surface between two contacts in one increment: a row of `gaps.csv`.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct GapRow {
     /// Increment of the curve.
     pub increment: usize,
@@ -171,21 +172,16 @@ pub struct GapRow {
     pub left: f64,
     /// Where the contact after it begins, m.
     pub right: f64,
+    /// Distance of the two, m.
+    pub width: f64,
     /// Largest distance from the tool in between, m; from the lowest to the highest point of an enclosed gap.
     pub height: f64,
     /// Whether flanks that press each other close it off from the tool.
     pub enclosed: bool,
 }
 
-impl GapRow {
-    /// Distance of the two contacts, m.
-    pub fn width(&self) -> f64 {
-        self.right - self.left
-    }
-}
-
 /// The evaluation of the peak after Oliver and Pharr, and beside it what is true.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct OliverPharr {
     /// A(h_c), m².
     pub contact_area: f64,
@@ -206,7 +202,7 @@ pub struct OliverPharr {
 }
 
 /// The numbers of a run. `None` where the scene did not ask for it (unloading) or the run did not reach it.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Summary {
     /// Largest force, N (N/m).
     pub peak_force: f64,
@@ -233,8 +229,10 @@ pub struct Summary {
     /// elastic_work / total_work.
     pub elastic_fraction: Option<f64>,
     /// Largest |W - E_e - W_p - E_c + E_t|/W, E_t what transfers to better meshes changed, over increments with W above 1 % of its peak.
+    #[serde(deserialize_with = "nan_for_null")]
     pub energy_balance_error: f64,
     /// That of the force among the errors.
+    #[serde(deserialize_with = "nan_for_null")]
     pub estimated_error: f64,
     /// Bounds of the errors, where they are known.
     pub errors: Errors,
@@ -250,6 +248,15 @@ pub struct Summary {
     pub cutbacks: usize,
     /// Remeshings.
     pub meshed_anew: usize,
+}
+
+/// A number that may be unknown: files have no NaN.
+fn nan_for_null<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+    Ok(Option::deserialize(deserializer)?.unwrap_or(f64::NAN))
+}
+
+fn unknown() -> f64 {
+    f64::NAN
 }
 
 /// ∫F dh over corrected depths: the work over the travel less what the penetration took.

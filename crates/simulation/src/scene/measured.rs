@@ -65,7 +65,7 @@ impl From<Points> for Vec<(Length, Length)> {
 }
 
 /// The curve fitted to measured points, in numbers.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Smoothing {
     /// Table of the scene that names the points: `asperity[0]`, `tool`.
     pub table: String,

@@ -7,6 +7,7 @@ use crate::contact::parts::{NOTHING, WHOLE};
 use crate::element::kernel::POINTS;
 use crate::point::material::{hydrostatic, stress, volume_ratio};
 use crate::point::tensor::{Sym, von_mises};
+use serde::{Deserialize, Serialize};
 
 /// Fields of one increment. Dimensionless as the model's, or in SI once scaled.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,12 +31,16 @@ pub struct Fields {
 }
 
 /// A node of the free surface.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SurfacePoint {
-    /// Current position (r, z).
-    pub position: [f64; 2],
-    /// Displacement (r, z).
-    pub displacement: [f64; 2],
+    /// Current radius.
+    pub r: f64,
+    /// Current height over the initial summit.
+    pub z: f64,
+    /// Displacement along r.
+    pub u_r: f64,
+    /// Displacement along z.
+    pub u_z: f64,
     /// Contact pressure (current area).
     pub pressure: f64,
     /// Whether the material there has yielded.
@@ -125,9 +130,12 @@ fn surface_points(body: &Body<'_>, state: &State, fields: &Fields) -> Vec<Surfac
         along.push(corners[0]);
         for node in along {
             let i = node as usize;
+            let ([r, z], [u_r, u_z]) = (state.position[i], fields.displacement[i]);
             let point = SurfacePoint {
-                position: state.position[i],
-                displacement: fields.displacement[i],
+                r,
+                z,
+                u_r,
+                u_z,
                 pressure: fields.contact_pressure[i],
                 yielded: fields.plastic_strain[i] > 0.0,
             };

@@ -9,6 +9,7 @@ use crate::point::kinematics::Symmetry;
 use crate::point::material::{hydrostatic, stress, volume_ratio};
 use crate::point::tensor::von_mises;
 use asperity_mesh::Mesh;
+use serde::{Deserialize, Serialize};
 use std::collections::{BTreeSet, HashMap, HashSet};
 
 /// An untouched stretch of surface between two contacts, or one that flanks enclose which press each other.
@@ -28,7 +29,7 @@ pub struct Gap {
 const CLOSED_PORE_SECTION: f64 = 0.0025;
 
 /// A connected region that never yielded, enclosed by material that did or standing above the substrate.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Island {
     /// Centroid (r, z) of its section before the crush.
     pub place: [f64; 2],

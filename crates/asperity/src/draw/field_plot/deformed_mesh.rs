@@ -42,11 +42,7 @@ impl DeformedMesh {
             values: stresses.map(|((v, p), e)| [v / MEGAPASCAL, p / MEGAPASCAL, *e]).collect(),
             contact_pressure: fields.contact_pressure.clone(),
             zone: fields.plastic_zone.iter().map(|z| *z as u8).collect(),
-            surface: fields
-                .surface
-                .iter()
-                .map(|p| [p.position[0] / MICROMETRE, p.pressure / MEGAPASCAL])
-                .collect(),
+            surface: fields.surface.iter().map(|p| [p.r / MICROMETRE, p.pressure / MEGAPASCAL]).collect(),
         }
     }
 
