@@ -171,6 +171,12 @@ fn check_material(material: &FitMaterial) -> Result<(), Fault> {
     if material.hardening_law == HardeningChoice::Table {
         return check_table(material);
     }
+    if !matches!(material.hardening_law, HardeningChoice::Hollomon | HardeningChoice::Swift) {
+        return Err(fault(
+            "hardening_law",
+            "a fit takes \"hollomon\", \"swift\" or \"table\": points of a table follow any other law",
+        ));
+    }
     if material.hardening_table.is_some() {
         return Err(fault(
             "hardening_table",

@@ -57,6 +57,8 @@ impl Material {
             yield_stress: None,
             hardening_exponent: None,
             hardening_law: HardeningChoice::Hollomon,
+            saturation_stress: None,
+            saturation_strain: None,
             hardening_file: None,
             hardening_table: None,
             stress_measure: StressMeasure::Cauchy,
@@ -72,6 +74,23 @@ impl Material {
             yield_stress: Some(yield_stress),
             hardening_exponent: Some(hardening_exponent),
             hardening_law: HardeningChoice::Hollomon,
+            ..self
+        }
+    }
+
+    /// The material with Voce's law: the yield stress goes to `saturation_stress`, by all but 1/e over `saturation_strain`.
+    #[must_use]
+    pub fn saturating(
+        self,
+        yield_stress: Stress,
+        saturation_stress: Stress,
+        saturation_strain: f64,
+    ) -> Material {
+        Material {
+            yield_stress: Some(yield_stress),
+            saturation_stress: Some(saturation_stress),
+            saturation_strain: Some(saturation_strain),
+            hardening_law: HardeningChoice::Voce,
             ..self
         }
     }
