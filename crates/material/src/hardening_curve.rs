@@ -1,5 +1,6 @@
 //! Yield stress over accumulated plastic strain, whichever way a scene gives it.
 
+use crate::flow_curve::OwnLaw;
 use crate::hardening::{Hardening, HardeningPoint};
 use crate::hardening_table::HardeningTable;
 use crate::voce::Voce;
@@ -39,6 +40,8 @@ pub enum HardeningCurve {
     Voce(Voce),
     /// A table, shared between the copies of a material.
     Table(Arc<HardeningTable>),
+    /// A law that another crate hands in.
+    Own(OwnLaw),
 }
 
 impl From<Hardening> for HardeningCurve {
@@ -59,6 +62,12 @@ impl From<HardeningTable> for HardeningCurve {
     }
 }
 
+impl From<OwnLaw> for HardeningCurve {
+    fn from(law: OwnLaw) -> Self {
+        HardeningCurve::Own(law)
+    }
+}
+
 impl HardeningCurve {
     /// Stress at first yield.
     pub fn yield_stress(&self) -> f64 {
@@ -66,6 +75,7 @@ impl HardeningCurve {
             HardeningCurve::Power(law) => law.yield_stress,
             HardeningCurve::Voce(law) => law.yield_stress,
             HardeningCurve::Table(table) => table.yield_stress(),
+            HardeningCurve::Own(law) => law.flow(0.0).yield_stress,
         }
     }
 
@@ -76,6 +86,7 @@ impl HardeningCurve {
             HardeningCurve::Power(law) => law.flow(plastic_strain),
             HardeningCurve::Voce(law) => law.flow(plastic_strain),
             HardeningCurve::Table(table) => by_lane(|lane| table.flow(plastic_strain.lane(lane))),
+            HardeningCurve::Own(law) => by_lane(|lane| law.flow(plastic_strain.lane(lane))),
         }
     }
 
@@ -99,6 +110,9 @@ impl HardeningCurve {
             HardeningCurve::Table(table) => by_lane(|lane| {
                 table.return_to_yield(q_trial.lane(lane), three_g.lane(lane), old_plastic_strain.lane(lane))
             }),
+            HardeningCurve::Own(law) => by_lane(|lane| {
+                law.return_to_yield(q_trial.lane(lane), three_g.lane(lane), old_plastic_strain.lane(lane))
+            }),
         }
     }
 
@@ -108,6 +122,7 @@ impl HardeningCurve {
             HardeningCurve::Power(law) => law.plastic_work(flow),
             HardeningCurve::Voce(law) => law.plastic_work(flow.plastic_strain),
             HardeningCurve::Table(table) => table.plastic_work(flow.plastic_strain),
+            HardeningCurve::Own(law) => law.plastic_work(flow.plastic_strain),
         }
     }
 
@@ -145,6 +160,7 @@ impl HardeningCurve {
             }),
             HardeningCurve::Voce(law) => law.over(unit).into(),
             HardeningCurve::Table(table) => table.over(unit).into(),
+            HardeningCurve::Own(law) => law.over(unit).into(),
         }
     }
 }
