@@ -4,9 +4,10 @@ use super::{
     Accuracy, Asperity, HardeningChoice, Lateral, Loading, Material, Numerics, Output, Points, Scene,
     Substrate, Symmetry, Tool, ToolForce, ToolShape,
 };
-use asperity_material::HardeningMode;
-use asperity_material::StressMeasure;
 use asperity_material::units::{Length, Stress};
+use asperity_material::{FlowCurve, HardeningMode, OwnLaw, StressMeasure};
+use asperity_mesh::{OwnTool, ToolOutline};
+use std::sync::Arc;
 
 impl Scene {
     /// A scene of these parts without asperities, at `standard`, its sides free; the other keys are absent.
@@ -64,6 +65,7 @@ impl Material {
             stress_measure: StressMeasure::Cauchy,
             hardening_mode: HardeningMode::Isotropic,
             kinematic_share: None,
+            custom: None,
         }
     }
 
@@ -93,6 +95,12 @@ impl Material {
             hardening_law: HardeningChoice::Voce,
             ..self
         }
+    }
+
+    /// The material with a hardening law of another crate.
+    #[must_use]
+    pub fn hardening_as(self, law: Arc<dyn FlowCurve>) -> Material {
+        Material { hardening_law: HardeningChoice::Custom, custom: Some(OwnLaw::new(law)), ..self }
     }
 
     /// The material with the yield stress over plastic strain of a table, whose first point is first yield. It is straight between the
@@ -134,6 +142,7 @@ impl Tool {
             half_apex_deg: None,
             tip_radius: None,
             radius: None,
+            edge_radius: None,
             file: None,
             points: None,
             tolerance: None,
@@ -141,7 +150,23 @@ impl Tool {
             poissons_ratio: None,
             machine_compliance: None,
             area_function: None,
+            custom: None,
         }
+    }
+
+    /// A flat punch with an edge rounded by `edge_radius`.
+    pub fn punch(radius: Length, edge_radius: Length) -> Tool {
+        Tool {
+            shape: ToolShape::Punch,
+            radius: Some(radius),
+            edge_radius: Some(edge_radius),
+            ..Tool::plane()
+        }
+    }
+
+    /// An outline of another crate.
+    pub fn custom(outline: Arc<dyn ToolOutline>) -> Tool {
+        Tool { shape: ToolShape::Custom, custom: Some(OwnTool::new(outline)), ..Tool::plane() }
     }
 
     /// A measured outline through places and heights in metres, from its apex on the axis outward, z up.

@@ -3,8 +3,8 @@
 use super::range::{Check, error};
 use asperity_material::units::Stress;
 use asperity_material::{
-    Elastic, Hardening, HardeningCurve, HardeningLaw, HardeningMode, HardeningTable, StressMeasure, Voce,
-    range,
+    Elastic, Hardening, HardeningCurve, HardeningLaw, HardeningMode, HardeningTable, OwnLaw, StressMeasure,
+    Voce, range,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -58,6 +58,10 @@ pub struct Material {
     #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 1))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub kinematic_share: Option<f64>,
+    /// For hardening_law = "custom": the law, handed in by a program; a file cannot hold it.
+    #[schemars(skip)]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub custom: Option<OwnLaw>,
 }
 
 fn hollomon() -> HardeningChoice {
@@ -80,6 +84,9 @@ pub enum HardeningChoice {
     Voce,
     /// By a table of yield stress over plastic strain.
     Table,
+    /// By a law that a program hands in.
+    #[schemars(skip)]
+    Custom,
 }
 
 impl From<HardeningLaw> for HardeningChoice {
@@ -99,7 +106,8 @@ impl Material {
 
     /// Whether the metal yields at any stress.
     pub fn yields(&self) -> bool {
-        self.yield_stress.is_some() || self.hardening_law == HardeningChoice::Table
+        self.yield_stress.is_some()
+            || matches!(self.hardening_law, HardeningChoice::Table | HardeningChoice::Custom)
     }
 
     /// The curve of hardening, in Pa; `None` for an elastic body.
@@ -108,6 +116,7 @@ impl Material {
             HardeningChoice::Hollomon => HardeningLaw::Hollomon,
             HardeningChoice::Swift => HardeningLaw::Swift,
             HardeningChoice::Voce => return self.voce().map(Into::into),
+            HardeningChoice::Custom => return self.custom.clone().map(Into::into),
             HardeningChoice::Table => return HardeningTable::new(&self.points()?).ok().map(Into::into),
         };
         let (yield_stress, exponent) = (self.yield_stress?.0, self.hardening_exponent?);
@@ -175,6 +184,7 @@ impl Material {
             HardeningChoice::Hollomon | HardeningChoice::Swift => self.check_power_law(),
             HardeningChoice::Voce => self.check_voce(),
             HardeningChoice::Table => self.check_table(),
+            HardeningChoice::Custom => self.check_custom(),
         }
     }
 
@@ -185,6 +195,7 @@ impl Material {
             ("hardening_table", self.hardening_table.is_some(), HardeningChoice::Table, "table"),
             ("saturation_stress", self.saturation_stress.is_some(), HardeningChoice::Voce, "voce"),
             ("saturation_strain", self.saturation_strain.is_some(), HardeningChoice::Voce, "voce"),
+            ("custom", self.custom.is_some(), HardeningChoice::Custom, "custom"),
         ] {
             if given && self.hardening_law != law {
                 return Err(error(
@@ -252,6 +263,42 @@ impl Material {
                 "saturation_strain",
                 format!("must be finite and above 0, not {strain}: metals have 0.02 to 0.5"),
             ));
+        }
+        Ok(())
+    }
+
+    /// A custom law stands alone, begins where a yield stress may lie, and never softens.
+    fn check_custom(&self) -> Check {
+        for (path, given) in [
+            ("yield_stress", self.yield_stress.is_some()),
+            ("hardening_exponent", self.hardening_exponent.is_some()),
+        ] {
+            if given {
+                return Err(error(path, "does not go with the law that a program hands in: remove it"));
+            }
+        }
+        let Some(law) = &self.custom else {
+            let message = "\"custom\" is a law that a program hands in: a file takes \"hollomon\", \"swift\", \"voce\" or \"table\"";
+            return Err(error("hardening_law", message));
+        };
+        let first = Stress(law.flow(0.0).yield_stress);
+        self.check_yield_stress("custom", first, "correct the law, which speaks Pa")?;
+        let mut last = first.0;
+        for strain in [1e-4, 1e-3, 0.01, 0.1, 1.0, 10.0] {
+            let flow = law.flow(strain);
+            if !(flow.yield_stress >= last && flow.yield_stress <= self.youngs_modulus.0 && flow.slope >= 0.0)
+            {
+                let [before, given] = [last, flow.yield_stress].map(|s| Stress(s).in_unit("MPa"));
+                return Err(error(
+                    "custom",
+                    format!(
+                        "the yield stress of \"{}\" must not fall and be at most Young's modulus, but it is {given} MPa with slope {} Pa at the plastic strain {strain}, after {before} MPa",
+                        law.law().name(),
+                        flow.slope
+                    ),
+                ));
+            }
+            last = flow.yield_stress;
         }
         Ok(())
     }

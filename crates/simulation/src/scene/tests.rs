@@ -22,6 +22,7 @@ fn scene() -> Scene {
             stress_measure: StressMeasure::Cauchy,
             hardening_mode: HardeningMode::Isotropic,
             kinematic_share: None,
+            custom: None,
         },
         asperity: vec![cone()],
         profile: Vec::new(),

@@ -144,7 +144,7 @@ impl ContactEdge {
             let lambda = n[0] * multiplier[0] + n[1] * multiplier[1] + n[2] * multiplier[2];
             lambda + context.penalty * context.tool.penetration(self.point(x, xi), context.tip).depth
         };
-        if matches!(context.tool, Tool::Measured(_)) {
+        if matches!(context.tool, Tool::Measured(_) | Tool::Own(_)) {
             return parts_above_zero(pressure);
         }
         let (left, middle, right) = (pressure(-1.0), pressure(0.0), pressure(1.0));
