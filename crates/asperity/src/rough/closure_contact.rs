@@ -221,7 +221,11 @@ pub(super) fn press_by(
             Err(e) => Err(wrong("load.pressure", e.to_string())),
         };
     }
-    let law = match ClosureLaw::new(closure, &tables.material, coefficient) {
+    let own = tables.custom.as_ref().filter(|_| closure == Closure::Custom);
+    let law = match own.map_or_else(
+        || ClosureLaw::new(closure, &tables.material, coefficient),
+        |own| Ok(ClosureLaw::own(own, &tables.material)),
+    ) {
         Ok(law) => law,
         Err(e) if all => return Ok((None, vec![format!("skipped: {e}")])),
         Err(e) => return Err(wrong("closure", e.to_string())),
