@@ -112,8 +112,9 @@ pub mod page;
 
 pub use crate::rough::{Rough, RoughScene, press};
 pub use asperity_material::units::{Compliance, Force, Length, LineForce, Stiffness, Stress};
-pub use asperity_material::{HardeningLaw, HardeningMode, StressMeasure};
-pub use asperity_roughness::Closure;
+pub use asperity_material::{FlowCurve, HardeningLaw, HardeningMode, StressMeasure};
+pub use asperity_mesh::{Penetration, ToolOutline};
+pub use asperity_roughness::{Closure, IslandClosure, Regime, Response};
 pub use asperity_simulation::scene as tables;
 pub use calibrate::{Calibration, Sweep, calibrate};
 pub use crush::{Crush, crush, crush_into};

@@ -46,13 +46,13 @@ pub struct Emulator {
     lift: Vec<f64>,
 }
 
-/// The coordinates of a question: logarithms of E/σ_y, n (of a table: of E over stresses), ν, the law's E
-/// over that of the contact, tip over depth.
+/// The coordinates of a question: logarithms of E/σ_y, n (of what is no power law: of E over
+/// stresses), ν, the law's E over that of the contact, tip over depth.
 pub fn features(question: &DesignPoint) -> Vec<f64> {
     let curve = &question.metal.hardening;
     let mut place = match curve {
         HardeningCurve::Power(law) => vec![(question.modulus / law.yield_stress).ln(), law.exponent],
-        HardeningCurve::Table(_) => [0.0, 0.01, 0.03, 0.1, 0.3]
+        _ => [0.0, 0.01, 0.03, 0.1, 0.3]
             .iter()
             .map(|strain| (question.modulus / curve.flow(*strain).yield_stress).ln())
             .collect(),

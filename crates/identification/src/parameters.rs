@@ -158,7 +158,7 @@ impl Unknowns {
         let law = match given.hardening_law {
             HardeningChoice::Hollomon => Some(HardeningLaw::Hollomon),
             HardeningChoice::Swift => Some(HardeningLaw::Swift),
-            HardeningChoice::Table => None,
+            _ => None,
         };
         let hardening: HardeningCurve = match law {
             Some(law) => {
@@ -198,7 +198,7 @@ impl Unknowns {
                 hardening_law: body.hardening_law,
                 ..body.yielding(Stress(five(law.yield_stress)), five(law.exponent))
             },
-            HardeningCurve::Table(_) => {
+            _ => {
                 let strains = self.material.hardening_table.iter().flatten().map(|(strain, _)| *strain);
                 let points =
                     strains.map(|strain| (strain, Stress(five(hardening.flow(strain).yield_stress))));

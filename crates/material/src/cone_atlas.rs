@@ -109,7 +109,7 @@ pub struct Place {
     poissons_ratio: f64,
     /// 1 of an indenting cone, -1 of a crushed one.
     contact: f64,
-    /// 1 of `hollomon`, -1 of `swift`, 0 of a table.
+    /// 1 of `hollomon`, -1 of `swift`, 0 of what is no power law.
     law: f64,
     /// Logarithm of K over that of an elastic cone that joins the limits.
     trend: f64,
@@ -142,7 +142,7 @@ impl SharpCone {
         SharpCone { tan: slope_deg.to_radians().tan(), elastic: *elastic, curve: curve.into(), contact }
     }
 
-    /// Whether slope, metal and ν lie in the ranges of the atlas. No cone of the atlas was of a tabulated metal.
+    /// Whether slope, metal and ν lie in the ranges of the atlas. All cones of the atlas hardened by a power law.
     pub fn is_inside(&self) -> bool {
         let holds = |[low, high]: [f64; 2], x: f64| x >= low * (1.0 - 1e-9) && x <= high * (1.0 + 1e-9);
         let HardeningCurve::Power(law) = &self.curve else { return false };
@@ -162,7 +162,7 @@ impl SharpCone {
         ]
     }
 
-    /// The same with a yield stress at the edge of the atlas where it lies beyond; a table as it is.
+    /// The same with a yield stress at the edge of the atlas where it lies beyond; what is no power law as it is.
     fn at_the_edge(&self) -> SharpCone {
         let mut edge = self.clone();
         if let HardeningCurve::Power(law) = &mut edge.curve {
@@ -189,7 +189,7 @@ impl SharpCone {
             law: match &self.curve {
                 HardeningCurve::Power(Hardening { law: HardeningLaw::Hollomon, .. }) => 1.0,
                 HardeningCurve::Power(_) => -1.0,
-                HardeningCurve::Table(_) => 0.0,
+                _ => 0.0,
             },
             trend: -(FRAC_2_PI * x / PLATEAU).ln_1p(),
         }

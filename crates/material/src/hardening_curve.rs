@@ -1,7 +1,9 @@
 //! Yield stress over accumulated plastic strain, whichever way a scene gives it.
 
+use crate::flow_curve::OwnLaw;
 use crate::hardening::{Hardening, HardeningPoint};
 use crate::hardening_table::HardeningTable;
+use crate::voce::Voce;
 use asperity_numerics::lanes::Real;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -29,18 +31,28 @@ pub enum StressMeasure {
     Kirchhoff,
 }
 
-/// A curve of hardening: a power law, or a table.
+/// A curve of hardening: a law, or a table.
 #[derive(Clone, Debug, PartialEq)]
 pub enum HardeningCurve {
     /// A power law.
     Power(Hardening),
+    /// Voce's law, which saturates.
+    Voce(Voce),
     /// A table, shared between the copies of a material.
     Table(Arc<HardeningTable>),
+    /// A law that another crate hands in.
+    Own(OwnLaw),
 }
 
 impl From<Hardening> for HardeningCurve {
     fn from(law: Hardening) -> Self {
         HardeningCurve::Power(law)
+    }
+}
+
+impl From<Voce> for HardeningCurve {
+    fn from(law: Voce) -> Self {
+        HardeningCurve::Voce(law)
     }
 }
 
@@ -50,12 +62,20 @@ impl From<HardeningTable> for HardeningCurve {
     }
 }
 
+impl From<OwnLaw> for HardeningCurve {
+    fn from(law: OwnLaw) -> Self {
+        HardeningCurve::Own(law)
+    }
+}
+
 impl HardeningCurve {
     /// Stress at first yield.
     pub fn yield_stress(&self) -> f64 {
         match self {
             HardeningCurve::Power(law) => law.yield_stress,
+            HardeningCurve::Voce(law) => law.yield_stress,
             HardeningCurve::Table(table) => table.yield_stress(),
+            HardeningCurve::Own(law) => law.flow(0.0).yield_stress,
         }
     }
 
@@ -64,7 +84,9 @@ impl HardeningCurve {
     pub fn flow<T: Real>(&self, plastic_strain: T) -> HardeningPoint<T> {
         match self {
             HardeningCurve::Power(law) => law.flow(plastic_strain),
+            HardeningCurve::Voce(law) => law.flow(plastic_strain),
             HardeningCurve::Table(table) => by_lane(|lane| table.flow(plastic_strain.lane(lane))),
+            HardeningCurve::Own(law) => by_lane(|lane| law.flow(plastic_strain.lane(lane))),
         }
     }
 
@@ -82,8 +104,14 @@ impl HardeningCurve {
             HardeningCurve::Power(law) => {
                 law.return_to_yield(q_trial, three_g, old_plastic_strain, old_yield_stress)
             }
+            HardeningCurve::Voce(law) => {
+                law.return_to_yield(q_trial, three_g, old_plastic_strain, old_yield_stress)
+            }
             HardeningCurve::Table(table) => by_lane(|lane| {
                 table.return_to_yield(q_trial.lane(lane), three_g.lane(lane), old_plastic_strain.lane(lane))
+            }),
+            HardeningCurve::Own(law) => by_lane(|lane| {
+                law.return_to_yield(q_trial.lane(lane), three_g.lane(lane), old_plastic_strain.lane(lane))
             }),
         }
     }
@@ -92,28 +120,30 @@ impl HardeningCurve {
     pub fn plastic_work(&self, flow: &HardeningPoint) -> f64 {
         match self {
             HardeningCurve::Power(law) => law.plastic_work(flow),
+            HardeningCurve::Voce(law) => law.plastic_work(flow.plastic_strain),
             HardeningCurve::Table(table) => table.plastic_work(flow.plastic_strain),
+            HardeningCurve::Own(law) => law.plastic_work(flow.plastic_strain),
         }
     }
 
     /// Stress at a representative strain ε_r: eq. (8) of Jourani et al. for a power law (see
-    /// [`Hardening::representative_stress`]); of a table the yield stress at the plastic strain ε_r.
+    /// [`Hardening::representative_stress`]); of another curve the yield stress at the plastic strain ε_r.
     pub fn representative_stress(&self, representative_strain: f64) -> f64 {
         match self {
             HardeningCurve::Power(law) => law.representative_stress(representative_strain),
-            HardeningCurve::Table(table) => table.flow(representative_strain).yield_stress,
+            curve => curve.flow(representative_strain).yield_stress,
         }
     }
 
-    /// The hardening exponent that estimates ask for. Of a table: that of the `swift` law through first yield and the
+    /// The hardening exponent that estimates ask for. Of what is no power law: that of the `swift` law through first yield and the
     /// stress at a plastic strain of 0.1, which the material under a contact reaches; E is `youngs_modulus`.
     pub fn exponent(&self, youngs_modulus: f64) -> f64 {
         match self {
             HardeningCurve::Power(law) => law.exponent,
-            HardeningCurve::Table(table) => {
-                let first = table.yield_stress();
+            curve => {
+                let first = curve.yield_stress();
                 let (growth, strain) =
-                    (table.flow(0.1).yield_stress / first, 1.0 + 0.1 * youngs_modulus / first);
+                    (curve.flow(0.1).yield_stress / first, 1.0 + 0.1 * youngs_modulus / first);
                 (growth.ln() / strain.ln()).clamp(0.0, 1.0)
             }
         }
@@ -128,7 +158,9 @@ impl HardeningCurve {
                 youngs_modulus: law.youngs_modulus / unit,
                 ..*law
             }),
-            HardeningCurve::Table(table) => HardeningCurve::from(table.over(unit)),
+            HardeningCurve::Voce(law) => law.over(unit).into(),
+            HardeningCurve::Table(table) => table.over(unit).into(),
+            HardeningCurve::Own(law) => law.over(unit).into(),
         }
     }
 }

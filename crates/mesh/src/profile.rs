@@ -1,6 +1,7 @@
 //! The profile of a rough surface: asperities side by side on a base plane. Height 0 is the highest summit.
 
 use crate::outline::Outline;
+use crate::tool_outline::OwnTool;
 use std::sync::Arc;
 
 /// Slopes that jump by less than this are no kink for a mesh.
@@ -23,6 +24,8 @@ pub enum Shape {
     },
     /// A measured outline, seen from its summit; it ends at its feet.
     Measured(Arc<Outline>),
+    /// The mirror image of a tool that is given by functions.
+    Own(OwnTool),
 }
 
 /// One asperity on the base plane.
@@ -50,6 +53,7 @@ impl Asperity {
                 if x < cap { cap_drop(*tip_radius, x) } else { x * tan_slope - tip_radius * (secant - 1.0) }
             }
             Shape::Measured(outline) => outline.depth_at(x),
+            Shape::Own(tool) => tool.rise(x),
         }
     }
 
@@ -70,6 +74,7 @@ impl Asperity {
                     (depth + tip_radius * (secant - 1.0)) / tan_slope
                 }
             }
+            Shape::Own(tool) => tool.half_width(depth),
             // the summit itself may be found a rounding beside 0
             Shape::Measured(_) if depth <= 0.0 => 0.0,
             Shape::Measured(outline) => {
@@ -96,7 +101,7 @@ impl Asperity {
     /// circle.
     pub fn cap_radius(&self) -> f64 {
         match self.shape {
-            Shape::Sphere { .. } | Shape::Measured(_) => 0.0,
+            Shape::Sphere { .. } | Shape::Measured(_) | Shape::Own(_) => 0.0,
             Shape::Cone { tan_slope, tip_radius } => tip_radius * tan_slope / tan_slope.hypot(1.0),
         }
     }
@@ -108,6 +113,7 @@ impl Asperity {
             Shape::Cone { tan_slope, tip_radius } if *tip_radius > 0.0 => tan_slope.min(width / tip_radius),
             Shape::Cone { tan_slope, .. } => *tan_slope,
             Shape::Sphere { radius } => width / radius,
+            Shape::Own(tool) => tool.slope_at(width),
             Shape::Measured(outline) => {
                 let at = |x: f64| {
                     let [drop, slope] = outline.drop_and_slope(x);
@@ -124,6 +130,7 @@ impl Asperity {
             Shape::Cone { tan_slope, .. } => *tan_slope,
             Shape::Sphere { radius } => self.half_width(self.height) / (radius - self.height),
             Shape::Measured(outline) => outline.steepest(),
+            Shape::Own(tool) => tool.slope_of_contact(self.height),
         }
     }
 
@@ -154,6 +161,7 @@ impl Asperity {
             }
             Shape::Sphere { radius } => Shape::Sphere { radius: radius / length },
             Shape::Measured(outline) => Shape::Measured(outline.scaled(length.recip()).shared()),
+            Shape::Own(tool) => Shape::Own(tool.over(length)),
         };
         Asperity {
             shape,

@@ -25,6 +25,7 @@ pub use contact::coefficient::{Coefficient, CoefficientError, Nearest, SlopeTabl
 pub use contact::ellipse::Ellipse;
 pub use contact::islands::{Island, Islands};
 pub use contact::material::Material;
+pub use contact::own_closure::{IslandClosure, OwnClosure};
 pub use contact::pressure::{LoadedPixel, PressureField, PressureProfile};
 pub use contact::unload::{Unloading, unload};
 pub use surface::filter::{FilterError, fill, l_filter, s_filter};

@@ -1,13 +1,15 @@
 //! Claim: an elastic flat body follows Hertz under a sphere and Sneddon under a cone of 1 degree to 1 % in
 //! force, and what the method of Oliver and Pharr makes of the two curves is the true reduced modulus to 2 %
 //! and the true contact area to 4 %. At the numbers of a level the contact area is true within the error that
-//! the run states.
+//! the run states. A flat punch whose edge is rounded by 1 % of its radius has F = 2 E* a h and S = 2 E* a to
+//! 4 %.
 //!
 //! Source: `contact` (Johnson 1985; Sneddon 1965); Oliver and Pharr 1992, whose h_c is exact for both.
 //! Tolerance 1 %: as in `elastic_flattening`, compared from a fifth of the peak on. Modulus: unloading
 //! stiffness 1 %, and half the 2 % of the area that the force leaves uncertain through h - ε F/S. Area: twice
 //! the 1 % of the radius, which is measured to a fifth of the edge element (an eighteenth of the radius), on
-//! top of the same 2 %.
+//! top of the same 2 %. Punch: a lies between the radii of its flat part and of its flank, 1 % apart, and the
+//! pressure rises without end toward an edge that the mesh resolves to a part of the radius.
 
 use asperity_material::units::Length;
 use asperity_simulation::run::Outcome;
@@ -63,6 +65,27 @@ fn a_cone_follows_sneddon() {
     let (scene, outcome) = indent(tool, 0.2e-6);
     let modulus = scene.material.elastic().reduced_modulus();
     check(&scene, &outcome, |h| cone_force(modulus, 1.0_f64.to_radians().tan(), h));
+}
+
+#[test]
+fn a_punch_presses_with_its_whole_face() {
+    let (radius, depth) = (20e-6, 0.1e-6);
+    let mut scene = scene(Accuracy::Standard).unwrap();
+    scene.material.yield_stress = None;
+    scene.material.hardening_exponent = None;
+    scene.asperity.clear();
+    scene.tool = Tool::punch(Length(radius), Length(0.01 * radius));
+    scene.loading.depth = Some(Length(depth));
+    let outcome = crush(&scene).unwrap();
+    assert!(outcome.stopped.is_none());
+    let stiffness = 2.0 * scene.material.elastic().reduced_modulus() * radius;
+    for row in outcome.rows.iter().filter(|row| row.depth >= 0.2 * depth && row.force > 0.0) {
+        let error = row.force / (stiffness * row.depth) - 1.0;
+        assert!(error.abs() < 0.04, "{:?} force off by {error:e} at {:e}", row.phase, row.depth);
+    }
+    let unloading = outcome.summary.unloading_stiffness.unwrap() / stiffness - 1.0;
+    assert!(unloading.abs() < 0.04, "{unloading:e}");
+    assert!(outcome.summary.elements < 20_000, "{}", outcome.summary.elements);
 }
 
 /// The contact area at the numbers of a level, against the closed forms: within the error that the run

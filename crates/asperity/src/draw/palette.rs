@@ -11,6 +11,8 @@ pub type Colour = [u8; 3];
 /// palette).
 pub const LINES: [Colour; 7] =
     [[0, 114, 178], [213, 94, 0], [0, 158, 115], [204, 121, 167], [230, 159, 0], [86, 180, 233], [0, 0, 0]];
+/// What a program hands in.
+const CUSTOM: Colour = [120, 80, 40];
 /// Lines of axes and letters.
 pub const INK: Colour = [40, 40, 40];
 /// Lines of a grid.
@@ -51,7 +53,7 @@ pub const REGIMES: [Colour; 4] = [[236, 236, 236], [0, 114, 178], [240, 180, 30]
 
 /// The colour of a closure in every picture.
 pub fn closure(closure: Closure) -> Colour {
-    LINES[closure as usize]
+    LINES.get(closure as usize).copied().unwrap_or(CUSTOM)
 }
 
 /// A colour as SVG writes it.

@@ -43,6 +43,12 @@ pub(super) fn check_material(material: &FitMaterial) -> Result<(), KeyError> {
     if material.hardening_law == HardeningChoice::Table {
         return check_table(material);
     }
+    if !matches!(material.hardening_law, HardeningChoice::Hollomon | HardeningChoice::Swift) {
+        return Err(fault(
+            "hardening_law",
+            "a fit takes \"hollomon\", \"swift\" or \"table\": points of a table follow any other law",
+        ));
+    }
     if material.hardening_table.is_some() {
         return Err(key_error(
             "hardening_table",

@@ -4,14 +4,16 @@ use crate::error::{Error, InputError};
 use crate::input::toml_file::{TomlFile, read_text, to_toml};
 use crate::input::{RELATIVE_PATH_NOTE, hardening_file, profile_file};
 use crate::results::crush_summary::Summary;
-use asperity_mesh::{Mesh, read_msh};
+use asperity_material::{FlowCurve, OwnLaw};
+use asperity_mesh::{Mesh, OwnTool, ToolOutline, read_msh};
 use asperity_simulation::scene::{
-    Asperity, EarlierLoad, Initial, Lateral, LineProfile, Material, MeshFile, Numerics, Scene as Tables,
-    SceneError, Substrate, Symmetry,
+    Asperity, EarlierLoad, HardeningChoice, Initial, Lateral, LineProfile, Material, MeshFile, Numerics,
+    Scene as Tables, SceneError, Substrate, Symmetry, ToolShape,
 };
 use asperity_simulation::setup::discretisation::Discretisation;
 use serde::Serialize;
 use std::path::Path;
+use std::sync::Arc;
 
 /// A scene that makes sense, with the mesh and the hardening table that it names, ready to be crushed.
 ///
@@ -21,6 +23,39 @@ use std::path::Path;
 pub struct Scene {
     file: TomlFile<Tables>,
     mesh: Option<Mesh>,
+    own: Own,
+}
+
+/// What a program hands in beside the text of a scene, which cannot hold it.
+#[derive(Clone, Debug, Default)]
+struct Own {
+    law: Option<OwnLaw>,
+    tool: Option<OwnTool>,
+}
+
+impl Own {
+    /// What `tables` hold of it, taken out of them.
+    fn taken_from(tables: &mut Tables) -> Own {
+        let own = Own { law: tables.material.custom.take(), tool: tables.tool.custom.take() };
+        if own.law.is_some() {
+            tables.material.hardening_law = HardeningChoice::Hollomon;
+        }
+        if own.tool.is_some() {
+            tables.tool.shape = ToolShape::Plane;
+        }
+        own
+    }
+
+    /// Puts it into `tables`.
+    fn put_into(&self, tables: &mut Tables) {
+        if let Some(law) = &self.law {
+            let material = &mut tables.material;
+            (material.hardening_law, material.custom) = (HardeningChoice::Custom, Some(law.clone()));
+        }
+        if let Some(tool) = &self.tool {
+            (tables.tool.shape, tables.tool.custom) = (ToolShape::Custom, Some(tool.clone()));
+        }
+    }
 }
 
 impl Scene {
@@ -47,8 +82,28 @@ impl Scene {
     /// assert!(Scene::new(&to_force).is_ok());
     /// ```
     pub fn new(tables: &Tables) -> Result<Scene, Error> {
-        let text = to_toml(tables).map_err(InputError::new)?;
-        Scene::from_toml(&text, Path::new(""))
+        let mut tables = tables.clone();
+        let own = Own::taken_from(&mut tables);
+        let text = to_toml(&tables).map_err(InputError::new)?;
+        Scene::checked(TomlFile::over(Path::new("scene"), text, &[], Some(body_of))?, own)
+    }
+
+    /// The scene with a hardening law of another crate, in place of a law by keys.
+    ///
+    /// # Errors
+    /// Keys of another law, a law that falls or begins beyond the range of yield stresses.
+    pub fn with_law(self, law: Arc<dyn FlowCurve>) -> Result<Scene, Error> {
+        let own = Own { law: Some(OwnLaw::new(law)), ..self.own };
+        Scene::checked(self.file.with(&[])?, own)
+    }
+
+    /// The scene with a tool of another crate, in place of a shape by keys.
+    ///
+    /// # Errors
+    /// Keys of another shape, and what else makes no sense with the tool.
+    pub fn with_tool(self, outline: Arc<dyn ToolOutline>) -> Result<Scene, Error> {
+        let own = Own { tool: Some(OwnTool::new(outline)), ..self.own };
+        Scene::checked(self.file.with(&[])?, own)
     }
 
     /// The scene that `text` says in TOML; the files that it names are relative to the folder `base`.
@@ -57,7 +112,8 @@ impl Scene {
     /// A text that is no scene or makes no sense, pointing at its line; a mesh or hardening table that cannot
     /// be read.
     pub fn from_toml(text: &str, base: &Path) -> Result<Scene, Error> {
-        Scene::checked(TomlFile::parse_over(&base.join("scene"), text.into(), &[], Some(body_of))?)
+        let file = TomlFile::parse_over(&base.join("scene"), text.into(), &[], Some(body_of))?;
+        Scene::checked(file, Own::default())
     }
 
     /// The scene of the file at `path`, with overrides `key.path=value` in their order; the files that it
@@ -69,9 +125,9 @@ impl Scene {
     pub fn read(path: &Path, overrides: &[String]) -> Result<Scene, Error> {
         if path.extension().is_some_and(|extension| extension == "json") {
             let text = to_toml(&as_asked(Summary::read(path)?)).map_err(InputError::new)?;
-            return Scene::checked(TomlFile::parse_over(path, text, overrides, Some(body_of))?);
+            return Scene::checked(TomlFile::parse_over(path, text, overrides, Some(body_of))?, Own::default());
         }
-        Scene::checked(TomlFile::parse_over(path, read_text(path)?, overrides, Some(body_of))?)
+        Scene::checked(TomlFile::parse_over(path, read_text(path)?, overrides, Some(body_of))?, Own::default())
     }
 
     /// The scene with more overrides `key.path=value`, such as `loading.depth=2 um`.
@@ -79,7 +135,7 @@ impl Scene {
     /// # Errors
     /// As for [`Scene::from_toml`], pointing at the override where it is wrong.
     pub fn with(&self, overrides: &[String]) -> Result<Scene, Error> {
-        Scene::checked(self.file.with(overrides)?)
+        Scene::checked(self.file.with(overrides)?, self.own.clone())
     }
 
     /// Sets the value at `key`, such as `loading.depth` or `asperity[0].slope_deg`; the scene stays as it was
@@ -92,7 +148,8 @@ impl Scene {
         Ok(())
     }
 
-    fn checked(mut file: TomlFile<Tables>) -> Result<Scene, Error> {
+    fn checked(mut file: TomlFile<Tables>, own: Own) -> Result<Scene, Error> {
+        own.put_into(&mut file.value);
         let curve = hardening_file::read(&file)?;
         if let Some(curve) = &curve {
             curve.put_into(&mut file.value.material);
@@ -105,7 +162,7 @@ impl Scene {
             shown.unwrap_or_else(|| file.error_at(&e.path, &e.message))
         })?;
         let mesh = read_mesh(&file)?;
-        Ok(Scene { file, mesh })
+        Ok(Scene { file, mesh, own })
     }
 
     /// The tables of the scene, in SI, tables of hardening and outlines in the place of their files.

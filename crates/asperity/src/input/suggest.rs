@@ -33,8 +33,10 @@ pub fn reword(message: &str) -> (String, Option<String>) {
     }
     match (unknown, quoted.as_slice()) {
         (Some((_, noun)), [word, known @ ..]) => {
+            // a file never holds what a program hands in
+            let known: Vec<&str> = known.iter().copied().filter(|name| *name != "custom").collect();
             let list = known.join(", ");
-            let help = match nearest(word, known) {
+            let help = match nearest(word, &known) {
                 Some(near) => format!("did you mean `{near}`? Known here: {list}"),
                 None => format!("known here: {list}"),
             };

@@ -149,8 +149,12 @@ impl Task<'_> {
     /// Islands, each by the closure.
     fn press_islands(&self, closure: Closure) -> Result<Pressed, PressError> {
         let tables = self.scene.tables();
-        let law = ClosureLaw::new(closure, &tables.material, self.coefficient)
-            .map_err(|e| PressError::Material(e.to_string()))?;
+        let own = tables.custom.as_ref().filter(|_| closure == Closure::Custom);
+        let law = match own {
+            Some(own) => ClosureLaw::own(own, &tables.material),
+            None => ClosureLaw::new(closure, &tables.material, self.coefficient)
+                .map_err(|e| PressError::Material(e.to_string()))?,
+        };
         let elastic = law.elastic_pressure(self.surface.parameters.mean_gradient);
         let contact = press(self.surface, &law, self.load).map_err(|e| match e {
             ContactError::Unreachable { largest_mpa, .. } => PressError::Load {

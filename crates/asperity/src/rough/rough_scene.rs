@@ -6,9 +6,10 @@ use crate::input::RELATIVE_PATH_NOTE;
 use crate::input::toml_file::{TomlFile, to_toml};
 use asperity_formats::surface::{Measured, Spacing};
 use asperity_material::HardeningLaw;
-use asperity_roughness::scene::{Scene, SceneError};
-use asperity_roughness::{Closure, Coefficient};
+use asperity_roughness::scene::{Choice, OwnClosure, Scene, SceneError};
+use asperity_roughness::{Closure, Coefficient, IslandClosure};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// A rough surface, its material and its load, with the place that its paths are relative to.
 #[derive(Debug)]
@@ -59,8 +60,12 @@ impl RoughScene {
             let known = like.resolve(file);
             scene.coefficient = Some(std::path::absolute(&known).unwrap_or(known));
         }
-        let text = to_toml(&scene).map_err(InputError::new)?;
-        TomlFile::parse(&path.with_extension(""), text, overrides).map(RoughScene::of_file)
+        let text = to_toml(&RoughScene::plain(&scene)).map_err(InputError::new)?;
+        let mut read = TomlFile::parse(&path.with_extension(""), text, overrides).map(RoughScene::of_file)?;
+        if scene.custom.is_some() {
+            (read.scene.closure, read.scene.custom) = (scene.closure, scene.custom);
+        }
+        Ok(read)
     }
 
     /// The scene that stands for what is not said: the milled surface of steel that `asperity new rough`
@@ -97,6 +102,19 @@ impl RoughScene {
         self
     }
 
+    /// The same scene with a closure of another crate in place of its own.
+    #[must_use]
+    pub fn with_closure(mut self, closure: Arc<dyn IslandClosure>) -> RoughScene {
+        (self.scene.closure, self.scene.custom) = (Choice::Custom, Some(OwnClosure::new(closure)));
+        self
+    }
+
+    /// The tables as a file can hold them: without a closure of another crate.
+    fn plain(scene: &Scene) -> Scene {
+        let closure = if scene.custom.is_some() { Choice::Published } else { scene.closure };
+        Scene { closure, custom: None, ..scene.clone() }
+    }
+
     /// The scene with more overrides `key.path=value`, such as `load.pressure=100 MPa`; heights in memory
     /// stay.
     ///
@@ -106,11 +124,14 @@ impl RoughScene {
         let file = match &self.source {
             Some(file) => file.with(overrides)?,
             None => {
-                let text = to_toml(&self.scene).map_err(InputError::new)?;
+                let text = to_toml(&RoughScene::plain(&self.scene)).map_err(InputError::new)?;
                 TomlFile::parse(&self.base.join("scene"), text, overrides)?
             }
         };
         let mut scene = RoughScene::of_file(file);
+        if let Some(own) = &self.scene.custom {
+            (scene.scene.closure, scene.scene.custom) = (Choice::Custom, Some(own.clone()));
+        }
         if let Some(heights) = &self.scene.surface.heights {
             let surface = &mut scene.scene.surface;
             (surface.file, surface.generate, surface.heights) = (None, None, Some(heights.clone()));
@@ -176,8 +197,7 @@ impl RoughScene {
 
     /// The same for these closures.
     pub(crate) fn coefficient_of(&self, closures: &[Closure]) -> Result<Option<Coefficient>, InputError> {
-        let needed = |c: &Closure| matches!(c, Closure::Fitted | Closure::Calibrated | Closure::Johnson);
-        if !closures.iter().any(needed) {
+        if !closures.iter().any(|closure| closure.takes_calibration()) {
             return Ok(None);
         }
         self.calibration().map(Some)

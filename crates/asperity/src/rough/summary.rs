@@ -112,7 +112,7 @@ row! {
         #[serde(flatten)]
         row: TableRow = row,
         /// Where the closure comes from.
-        source: String = one.closure.source().into(),
+        source: String = one.islands().map_or(one.closure.source(), |i| i.law.source()).into(),
         /// The pressure asked for, or carried at the separation asked for, MPa.
         nominal_pressure_MPa: f64 = one.nominal / MEGAPASCAL,
         /// Whether the load jumps at the separation.

@@ -3,6 +3,7 @@
 use super::calibrated::{Calibrated, ELASTIC_AREA};
 use super::coefficient::Coefficient;
 use super::material::Material;
+use super::own_closure::OwnClosure;
 use asperity_material::Hardening;
 use serde::{Deserialize, Serialize};
 use std::str::FromStr;
@@ -34,10 +35,12 @@ pub enum Closure {
     /// The same with pressures up to the hardness, else to the plateau of the atlas of cones: elastic and
     /// perfectly plastic.
     HalfSpacePlastic,
+    /// A law of one island that a program hands in.
+    Custom,
 }
 
 impl Closure {
-    /// All closures, in the order of the tables.
+    /// All built-in closures, in the order of the tables.
     pub const ALL: [Closure; 7] = [
         Closure::Published,
         Closure::Fitted,
@@ -53,6 +56,11 @@ impl Closure {
         matches!(self, Closure::HalfSpace | Closure::HalfSpacePlastic)
     }
 
+    /// Whether it goes by the result of a calibration, for its law or for its unloading.
+    pub fn takes_calibration(self) -> bool {
+        matches!(self, Closure::Fitted | Closure::Johnson | Closure::Calibrated | Closure::Custom)
+    }
+
     /// The name used in scenes and files.
     pub fn name(self) -> &'static str {
         match self {
@@ -63,6 +71,7 @@ impl Closure {
             Closure::Calibrated => "calibrated",
             Closure::HalfSpace => "half-space",
             Closure::HalfSpacePlastic => "half-space-plastic",
+            Closure::Custom => "custom",
         }
     }
 
@@ -89,6 +98,7 @@ impl Closure {
             Closure::HalfSpacePlastic => {
                 "the same with pressures from 0 to the hardness, else to the plateau of the atlas of cones (Almqvist et al. 2007)"
             }
+            Closure::Custom => "handed in by a program",
         }
     }
 }
@@ -140,6 +150,9 @@ pub enum ClosureError {
         /// The closure's name.
         closure: &'static str,
     },
+    /// The closure has no law here.
+    #[error("\"custom\" is a closure that a program hands in (ClosureLaw::own): take a built-in one")]
+    Custom,
     /// The calibration was made with another law.
     #[error(
         "closure \"calibrated\": the calibration belongs to hardening_law = \"{calibrated}\", the material says \"{material}\": \
@@ -191,9 +204,33 @@ enum Law {
         hardness: f64,
     },
     Calibrated(Calibrated),
+    Own(OwnClosure),
 }
 
 impl ClosureLaw {
+    /// A closure of another crate for one material.
+    pub fn own(closure: &OwnClosure, material: &Material) -> ClosureLaw {
+        ClosureLaw::of_law(Closure::Custom, material, Law::Own(closure.clone()))
+    }
+
+    fn of_law(closure: Closure, material: &Material, law: Law) -> ClosureLaw {
+        ClosureLaw {
+            closure,
+            material: *material,
+            reduced_modulus: material.elastic().reduced_modulus(),
+            hardness: material.limit(),
+            law,
+        }
+    }
+
+    /// Where the closure comes from, in one line.
+    pub fn source(&self) -> &str {
+        match &self.law {
+            Law::Own(own) => own.closure().source(),
+            _ => self.closure.source(),
+        }
+    }
+
     /// The closure for one material; `coefficient` is the calibration's result.
     ///
     /// # Errors
@@ -212,6 +249,7 @@ impl ClosureLaw {
             Closure::HalfSpace | Closure::HalfSpacePlastic => {
                 return Err(ClosureError::Whole { closure: name });
             }
+            Closure::Custom => return Err(ClosureError::Custom),
             Closure::Published => {
                 regimes()?;
                 Law::Linear { coefficient: PUBLISHED_COEFFICIENT, area_ratio: 1.0 }
@@ -242,19 +280,16 @@ impl ClosureLaw {
                 Law::Calibrated(Calibrated::new(material.elastic(), hardening, coefficient))
             }
         };
-        Ok(ClosureLaw {
-            closure,
-            material: *material,
-            reduced_modulus: material.elastic().reduced_modulus(),
-            hardness,
-            law,
-        })
+        Ok(ClosureLaw::of_law(closure, material, law))
     }
 
     /// Force per E* and unit of ∫|∇h|dA, and contact area per island area, of a closure linear in tan β.
     pub fn linear(&self) -> Option<(f64, f64)> {
-        match self.law {
-            Law::Linear { coefficient, area_ratio } => Some((coefficient, area_ratio)),
+        match &self.law {
+            Law::Linear { coefficient, area_ratio } => Some((*coefficient, *area_ratio)),
+            Law::Own(own) => {
+                own.closure().linear().map(|[modulus, ratio]| (modulus / self.reduced_modulus, ratio))
+            }
             _ => None,
         }
     }
@@ -275,6 +310,7 @@ impl ClosureLaw {
                 let cone = cones.respond(tan_beta);
                 self.response(cone.island_pressure, cone.area_ratio, cone.inside)
             }
+            Law::Own(own) => own.closure().respond(tan_beta),
         }
     }
 
@@ -323,6 +359,7 @@ impl ClosureLaw {
             Law::Linear { coefficient, area_ratio } => coefficient / area_ratio,
             Law::Johnson { .. } => JOHNSON_ELASTIC / ELASTIC_AREA,
             Law::Calibrated(_) => 0.5, // Sneddon's, on the contact area
+            Law::Own(own) => return own.closure().elastic_pressure(tan_beta),
         };
         coefficient * self.reduced_modulus * tan_beta
     }

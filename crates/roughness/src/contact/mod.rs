@@ -9,6 +9,7 @@ pub(crate) mod islands;
 pub(crate) mod calibrated;
 pub(crate) mod coefficient;
 pub(crate) mod material;
+pub(crate) mod own_closure;
 
 pub(crate) mod closures;
 

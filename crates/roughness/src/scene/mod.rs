@@ -13,6 +13,7 @@ pub use half_space::HalfSpaceScene;
 pub use surface::{HeightUnit, Missing, SurfaceScene};
 
 pub use crate::contact::material::Material;
+pub use crate::contact::own_closure::OwnClosure;
 pub use crate::contact::pressure::PressureProfile;
 pub use crate::surface::generate::KindName;
 pub use crate::surface::level::Levelling;
@@ -58,6 +59,10 @@ pub struct Scene {
     /// Output files.
     #[serde(default)]
     pub output: Output,
+    /// For closure = "custom": the closure, handed in by a program; a file cannot hold it.
+    #[schemars(skip)]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub custom: Option<OwnClosure>,
 }
 
 /// One closure or all.
@@ -80,11 +85,17 @@ pub enum Choice {
     HalfSpacePlastic,
     /// Every closure the material allows.
     All,
+    /// A closure that a program hands in.
+    #[schemars(skip)]
+    Custom,
 }
 
 impl Choice {
     /// The closures chosen, in the order of the tables.
     pub fn closures(self) -> Vec<Closure> {
+        if self == Choice::Custom {
+            return vec![Closure::Custom];
+        }
         // the choices are the closures in their order, then all
         Closure::ALL.get(self as usize).map_or(Closure::ALL.to_vec(), |closure| vec![*closure])
     }
@@ -151,6 +162,7 @@ impl Scene {
             half_space: HalfSpaceScene::default(),
             fluid: None,
             output: Output::default(),
+            custom: None,
         }
     }
 
@@ -159,6 +171,16 @@ impl Scene {
     /// # Errors
     /// The first value that makes no sense, by the path of its key.
     pub fn validate(&self) -> Result<(), SceneError> {
+        match (self.closure, &self.custom) {
+            (Choice::Custom, None) => {
+                let message = "\"custom\" is a closure that a program hands in: a file takes a built-in one, or \"all\"";
+                return error("closure", message);
+            }
+            (choice, Some(_)) if choice != Choice::Custom => {
+                return error("custom", "needs closure = \"custom\" beside it: set that, or leave it out");
+            }
+            _ => {}
+        }
         check_material(&self.material)?;
         self.load.load()?;
         self.half_space.validate()?;

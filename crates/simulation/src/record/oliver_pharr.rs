@@ -38,6 +38,7 @@ fn geometry_factor(tool: &Tool, height: f64) -> Option<f64> {
             let exponent = (r * slope / rise).clamp(1.0, 2.0);
             Some(cone + (exponent - 1.0) * (paraboloid - cone))
         }
+        Tool::Own(tool) => Some(cone + (tool.power(height) - 1.0) * (paraboloid - cone)),
     }
 }
 

@@ -4,9 +4,10 @@ use super::{
     Accuracy, Asperity, HardeningChoice, Lateral, Loading, Material, Numerics, Output, Points, Scene,
     Substrate, Symmetry, Tool, ToolForce, ToolShape,
 };
-use asperity_material::HardeningMode;
-use asperity_material::StressMeasure;
 use asperity_material::units::{Length, Stress};
+use asperity_material::{FlowCurve, HardeningMode, OwnLaw, StressMeasure};
+use asperity_mesh::{OwnTool, ToolOutline};
+use std::sync::Arc;
 
 impl Scene {
     /// A scene of these parts without asperities, at `standard`, its sides free; the other keys are absent.
@@ -57,11 +58,14 @@ impl Material {
             yield_stress: None,
             hardening_exponent: None,
             hardening_law: HardeningChoice::Hollomon,
+            saturation_stress: None,
+            saturation_strain: None,
             hardening_file: None,
             hardening_table: None,
             stress_measure: StressMeasure::Cauchy,
             hardening_mode: HardeningMode::Isotropic,
             kinematic_share: None,
+            custom: None,
         }
     }
 
@@ -74,6 +78,29 @@ impl Material {
             hardening_law: HardeningChoice::Hollomon,
             ..self
         }
+    }
+
+    /// The material with Voce's law: the yield stress goes to `saturation_stress`, by all but 1/e over `saturation_strain`.
+    #[must_use]
+    pub fn saturating(
+        self,
+        yield_stress: Stress,
+        saturation_stress: Stress,
+        saturation_strain: f64,
+    ) -> Material {
+        Material {
+            yield_stress: Some(yield_stress),
+            saturation_stress: Some(saturation_stress),
+            saturation_strain: Some(saturation_strain),
+            hardening_law: HardeningChoice::Voce,
+            ..self
+        }
+    }
+
+    /// The material with a hardening law of another crate.
+    #[must_use]
+    pub fn hardening_as(self, law: Arc<dyn FlowCurve>) -> Material {
+        Material { hardening_law: HardeningChoice::Custom, custom: Some(OwnLaw::new(law)), ..self }
     }
 
     /// The material with the yield stress over plastic strain of a table, whose first point is first yield. It is straight between the
@@ -115,6 +142,7 @@ impl Tool {
             half_apex_deg: None,
             tip_radius: None,
             radius: None,
+            edge_radius: None,
             file: None,
             points: None,
             tolerance: None,
@@ -122,7 +150,23 @@ impl Tool {
             poissons_ratio: None,
             machine_compliance: None,
             area_function: None,
+            custom: None,
         }
+    }
+
+    /// A flat punch with an edge rounded by `edge_radius`.
+    pub fn punch(radius: Length, edge_radius: Length) -> Tool {
+        Tool {
+            shape: ToolShape::Punch,
+            radius: Some(radius),
+            edge_radius: Some(edge_radius),
+            ..Tool::plane()
+        }
+    }
+
+    /// An outline of another crate.
+    pub fn custom(outline: Arc<dyn ToolOutline>) -> Tool {
+        Tool { shape: ToolShape::Custom, custom: Some(OwnTool::new(outline)), ..Tool::plane() }
     }
 
     /// A measured outline through places and heights in metres, from its apex on the axis outward, z up.

@@ -176,6 +176,7 @@ impl Scene {
             Ok(ToolForm::Plane) if highest > 0.0 => Some((End::Height, highest)),
             Ok(ToolForm::Sphere { radius }) => Some((End::Radius, radius)),
             Ok(ToolForm::Measured(outline)) => Some((End::Outline, outline.lowest())),
+            Ok(ToolForm::Own(tool)) => Some((End::Outline, tool.outline().deepest())),
             _ => None,
         };
         let bottom = self.substrate.and_then(|s| s.depth).map(|d| (End::Bottom, highest + d.0));

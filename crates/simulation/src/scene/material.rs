@@ -3,13 +3,14 @@
 use super::range::{Check, error};
 use asperity_material::units::Stress;
 use asperity_material::{
-    Elastic, Hardening, HardeningCurve, HardeningLaw, HardeningMode, HardeningTable, StressMeasure, range,
+    Elastic, Hardening, HardeningCurve, HardeningLaw, HardeningMode, HardeningTable, OwnLaw, StressMeasure,
+    Voce, range,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
-/// Isotropic metal: Hencky elasticity, von Mises plasticity, hardening by a power law or a table.
+/// Isotropic metal: Hencky elasticity, von Mises plasticity, hardening by a law or a table.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Material {
@@ -23,13 +24,21 @@ pub struct Material {
     #[schemars(example = "300 MPa")]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub yield_stress: Option<Stress>,
-    /// Hardening exponent n in [0, 1), 0: perfect plasticity; required beside a yield stress.
+    /// Hardening exponent n in [0, 1), 0: perfect plasticity; required beside a yield stress of `hollomon` and `swift`.
     #[schemars(extend("minimum" = 0, "exclusiveMaximum" = 1))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hardening_exponent: Option<f64>,
-    /// Hardening law: `hollomon` (power law in total strain), `swift` (power law in plastic strain) or `table`.
+    /// Hardening law: `hollomon` (power law in total strain), `swift` (power law in plastic strain), `voce` (saturates) or `table`.
     #[serde(default = "hollomon")]
     pub hardening_law: HardeningChoice,
+    /// For hardening_law = "voce": the stress that the yield stress goes to, above yield_stress.
+    #[schemars(example = "600 MPa")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub saturation_stress: Option<Stress>,
+    /// For hardening_law = "voce": plastic strain, above 0, over which what the yield stress lacks of saturation_stress falls to 1/e.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub saturation_strain: Option<f64>,
     /// For hardening_law = "table": a csv file, relative to the scene file, whose first line is plastic_strain,yield_stress_MPa;
     /// linear between its points, constant beyond the last. A resolved scene has `hardening_table` in its place.
     #[schemars(example = "curve.csv")]
@@ -49,6 +58,10 @@ pub struct Material {
     #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 1))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub kinematic_share: Option<f64>,
+    /// For hardening_law = "custom": the law, handed in by a program; a file cannot hold it.
+    #[schemars(skip)]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub custom: Option<OwnLaw>,
 }
 
 fn hollomon() -> HardeningChoice {
@@ -67,8 +80,13 @@ pub enum HardeningChoice {
     Hollomon,
     /// By a power law in the plastic strain.
     Swift,
+    /// By Voce's law, an exponential in the plastic strain.
+    Voce,
     /// By a table of yield stress over plastic strain.
     Table,
+    /// By a law that a program hands in.
+    #[schemars(skip)]
+    Custom,
 }
 
 impl From<HardeningLaw> for HardeningChoice {
@@ -88,7 +106,8 @@ impl Material {
 
     /// Whether the metal yields at any stress.
     pub fn yields(&self) -> bool {
-        self.yield_stress.is_some() || self.hardening_law == HardeningChoice::Table
+        self.yield_stress.is_some()
+            || matches!(self.hardening_law, HardeningChoice::Table | HardeningChoice::Custom)
     }
 
     /// The curve of hardening, in Pa; `None` for an elastic body.
@@ -96,6 +115,8 @@ impl Material {
         let law = match self.hardening_law {
             HardeningChoice::Hollomon => HardeningLaw::Hollomon,
             HardeningChoice::Swift => HardeningLaw::Swift,
+            HardeningChoice::Voce => return self.voce().map(Into::into),
+            HardeningChoice::Custom => return self.custom.clone().map(Into::into),
             HardeningChoice::Table => return HardeningTable::new(&self.points()?).ok().map(Into::into),
         };
         let (yield_stress, exponent) = (self.yield_stress?.0, self.hardening_exponent?);
@@ -108,6 +129,15 @@ impl Material {
             HardeningMode::Isotropic => 0.0,
             HardeningMode::Kinematic => self.kinematic_share.unwrap_or(1.0),
         }
+    }
+
+    /// Voce's law, in Pa; `None` where a number is missing.
+    fn voce(&self) -> Option<Voce> {
+        Some(Voce {
+            yield_stress: self.yield_stress?.0,
+            saturation_stress: self.saturation_stress?.0,
+            saturation_strain: self.saturation_strain?,
+        })
     }
 
     /// The points of the table, in Pa.
@@ -149,17 +179,35 @@ impl Material {
             }
             _ => {}
         }
-        if self.hardening_law == HardeningChoice::Table {
-            return self.check_table();
+        self.check_keys_of_laws()?;
+        match self.hardening_law {
+            HardeningChoice::Hollomon | HardeningChoice::Swift => self.check_power_law(),
+            HardeningChoice::Voce => self.check_voce(),
+            HardeningChoice::Table => self.check_table(),
+            HardeningChoice::Custom => self.check_custom(),
         }
-        for (path, given) in [
-            ("hardening_file", self.hardening_file.is_some()),
-            ("hardening_table", self.hardening_table.is_some()),
+    }
+
+    /// No key belongs to another law.
+    fn check_keys_of_laws(&self) -> Check {
+        for (path, given, law, name) in [
+            ("hardening_file", self.hardening_file.is_some(), HardeningChoice::Table, "table"),
+            ("hardening_table", self.hardening_table.is_some(), HardeningChoice::Table, "table"),
+            ("saturation_stress", self.saturation_stress.is_some(), HardeningChoice::Voce, "voce"),
+            ("saturation_strain", self.saturation_strain.is_some(), HardeningChoice::Voce, "voce"),
+            ("custom", self.custom.is_some(), HardeningChoice::Custom, "custom"),
         ] {
-            if given {
-                return Err(error(path, "needs hardening_law = \"table\" beside it: add that, or remove it"));
+            if given && self.hardening_law != law {
+                return Err(error(
+                    path,
+                    format!("needs hardening_law = \"{name}\" beside it: add that, or remove it"),
+                ));
             }
         }
+        Ok(())
+    }
+
+    fn check_power_law(&self) -> Check {
         if let Some(yield_stress) = self.yield_stress {
             self.check_yield_stress("yield_stress", yield_stress, "for an elastic body leave it out")?;
         }
@@ -174,6 +222,85 @@ impl Material {
             )),
             None => Ok(()),
         }
+    }
+
+    /// Voce's law has its three numbers and no other, and does not soften.
+    fn check_voce(&self) -> Check {
+        if self.hardening_exponent.is_some() {
+            return Err(error(
+                "hardening_exponent",
+                "does not go with hardening_law = \"voce\", which saturates: remove it, or take \"hollomon\" or \"swift\"",
+            ));
+        }
+        for (key, given, example) in [
+            ("yield_stress", self.yield_stress.is_some(), "\"300 MPa\""),
+            ("saturation_stress", self.saturation_stress.is_some(), "\"600 MPa\""),
+            ("saturation_strain", self.saturation_strain.is_some(), "0.1"),
+        ] {
+            if !given {
+                let message =
+                    format!("`{key}` is missing beside hardening_law = \"voce\": give {key} = {example}");
+                return Err(error("", message));
+            }
+        }
+        let (Some(first), Some(last), Some(strain)) =
+            (self.yield_stress, self.saturation_stress, self.saturation_strain)
+        else {
+            return Ok(());
+        };
+        self.check_yield_stress("yield_stress", first, "correct it, or its unit")?;
+        if !(last.0 > first.0 && last.0 <= self.youngs_modulus.0) {
+            let [low, high, given] = [first, self.youngs_modulus, last].map(|s| s.in_unit("MPa"));
+            return Err(error(
+                "saturation_stress",
+                format!(
+                    "must be above yield_stress, {low} MPa, and at most Young's modulus, {high} MPa, not {given} MPa: without hardening take hardening_law = \"swift\" with hardening_exponent = 0"
+                ),
+            ));
+        }
+        if !(strain > 0.0 && strain.is_finite()) {
+            return Err(error(
+                "saturation_strain",
+                format!("must be finite and above 0, not {strain}: metals have 0.02 to 0.5"),
+            ));
+        }
+        Ok(())
+    }
+
+    /// A custom law stands alone, begins where a yield stress may lie, and never softens.
+    fn check_custom(&self) -> Check {
+        for (path, given) in [
+            ("yield_stress", self.yield_stress.is_some()),
+            ("hardening_exponent", self.hardening_exponent.is_some()),
+        ] {
+            if given {
+                return Err(error(path, "does not go with the law that a program hands in: remove it"));
+            }
+        }
+        let Some(law) = &self.custom else {
+            let message = "\"custom\" is a law that a program hands in: a file takes \"hollomon\", \"swift\", \"voce\" or \"table\"";
+            return Err(error("hardening_law", message));
+        };
+        let first = Stress(law.flow(0.0).yield_stress);
+        self.check_yield_stress("custom", first, "correct the law, which speaks Pa")?;
+        let mut last = first.0;
+        for strain in [1e-4, 1e-3, 0.01, 0.1, 1.0, 10.0] {
+            let flow = law.flow(strain);
+            if !(flow.yield_stress >= last && flow.yield_stress <= self.youngs_modulus.0 && flow.slope >= 0.0)
+            {
+                let [before, given] = [last, flow.yield_stress].map(|s| Stress(s).in_unit("MPa"));
+                return Err(error(
+                    "custom",
+                    format!(
+                        "the yield stress of \"{}\" must not fall and be at most Young's modulus, but it is {given} MPa with slope {} Pa at the plastic strain {strain}, after {before} MPa",
+                        law.law().name(),
+                        flow.slope
+                    ),
+                ));
+            }
+            last = flow.yield_stress;
+        }
+        Ok(())
     }
 
     /// A table stands alone, hardens, and begins where a yield stress may lie.

@@ -15,11 +15,14 @@ fn scene() -> Scene {
             yield_stress: Some(Stress(300e6)),
             hardening_exponent: Some(0.3),
             hardening_law: HardeningChoice::Hollomon,
+            saturation_stress: None,
+            saturation_strain: None,
             hardening_file: None,
             hardening_table: None,
             stress_measure: StressMeasure::Cauchy,
             hardening_mode: HardeningMode::Isotropic,
             kinematic_share: None,
+            custom: None,
         },
         asperity: vec![cone()],
         profile: Vec::new(),
@@ -73,6 +76,7 @@ fn the_ends_of_the_ranges_are_allowed() {
         ("E/sy = 5", |s| s.material.yield_stress = Some(Stress(42e9))),
         ("E/sy = 1e6", |s| s.material.yield_stress = Some(Stress(210e3))),
         ("n = 0.99", |s| s.material.hardening_exponent = Some(0.99)),
+        ("voce", |s| saturating(s, 6e8, 0.1)),
         ("n = 0", |s| s.material.hardening_exponent = Some(0.0)),
         ("table", |s| table_of(s, &[(0.0, 300e6), (0.1, 450e6), (0.2, 450e6)])),
         ("kinematic", |s| s.material.hardening_mode = HardeningMode::Kinematic),
@@ -134,6 +138,12 @@ fn table_of(scene: &mut Scene, points: &[(f64, f64)]) {
         hardening_table: Some(points.iter().map(|&(strain, stress)| (strain, Stress(stress))).collect()),
         ..scene.material.clone()
     };
+}
+
+/// The same metal by Voce's law.
+fn saturating(scene: &mut Scene, saturation_stress: f64, saturation_strain: f64) {
+    let metal = Material { hardening_exponent: None, ..scene.material.clone() };
+    scene.material = metal.saturating(Stress(300e6), Stress(saturation_stress), saturation_strain);
 }
 
 /// A change, the place that must be named, and words of the message: the value and the allowed range.
@@ -211,6 +221,46 @@ fn what_makes_no_sense_is_refused_with_place_value_and_range() {
             |s| s.material.hardening_file = Some("curve.csv".into()),
             "material.hardening_file",
             &["hardening_law = \"table\""],
+        ),
+        (
+            |s| s.material.saturation_stress = Some(Stress(6e8)),
+            "material.saturation_stress",
+            &["hardening_law = \"voce\""],
+        ),
+        (
+            |s| s.material.saturation_strain = Some(0.1),
+            "material.saturation_strain",
+            &["hardening_law = \"voce\""],
+        ),
+        (
+            |s| saturating(s, 2e8, 0.1),
+            "material.saturation_stress",
+            &["above yield_stress, 300 MPa", "not 200"],
+        ),
+        (|s| saturating(s, 3e11, 0.1), "material.saturation_stress", &["at most", "210000 MPa"]),
+        (|s| saturating(s, f64::NAN, 0.1), "material.saturation_stress", &["NaN"]),
+        (|s| saturating(s, 6e8, 0.0), "material.saturation_strain", &["above 0, not 0"]),
+        (|s| saturating(s, 6e8, f64::INFINITY), "material.saturation_strain", &["finite"]),
+        (
+            |s| {
+                saturating(s, 6e8, 0.1);
+                s.material.hardening_exponent = Some(0.1);
+            },
+            "material.hardening_exponent",
+            &["which saturates", "remove it"],
+        ),
+        (
+            |s| {
+                saturating(s, 6e8, 0.1);
+                s.material.saturation_strain = None;
+            },
+            "material",
+            &["`saturation_strain` is missing", "saturation_strain = 0.1"],
+        ),
+        (
+            |s| s.material.hardening_law = HardeningChoice::Voce,
+            "material.hardening_exponent",
+            &["which saturates"],
         ),
         (|s| s.asperity[0].height = um(-20.0), "asperity[0].height", &["above 0", "-20 um"]),
         (|s| s.asperity[0].height = None, "asperity[0]", &["`height` is missing"]),

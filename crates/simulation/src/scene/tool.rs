@@ -3,12 +3,14 @@
 use super::SceneError;
 use super::area_function::AreaFunction;
 use super::measured::{self, Points};
-use super::range::{Check, error, inside, not_negative, positive, slope};
+use super::range::{Check, error, inside, length, not_negative, positive, slope};
 use asperity_material::units::{Compliance, Length, Stress};
-use asperity_material::{Elastic, range};
+use asperity_material::{Elastic, range, refuse_custom, write_custom};
 use asperity_mesh::outline::Outline;
+use asperity_mesh::{OwnTool, Punch};
+use asperity_solver::contact::tool;
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::f64::consts::PI;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -31,6 +33,11 @@ pub enum ToolShape {
     Vickers,
     /// A cone by its half apex angle, with a spherical tip.
     Conospherical,
+    /// A flat-ended cylinder (block) with a rounded edge and an upright flank.
+    Punch,
+    /// An outline that a program hands in.
+    #[schemars(skip)]
+    Custom,
 }
 
 /// The tool as written.
@@ -51,10 +58,14 @@ pub struct Tool {
     #[schemars(example = "1 um")]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tip_radius: Option<Length>,
-    /// Sphere: its radius.
+    /// Sphere, punch: its radius.
     #[schemars(example = "1 mm")]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub radius: Option<Length>,
+    /// Punch: radius of the arc between its flat end and its flank, above 0 and at most `radius`.
+    #[schemars(example = "0.2 um")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub edge_radius: Option<Length>,
     /// Profile: a csv file, relative to the scene file, with columns such as r_um,z_um (or nm, mm, m): from the apex on the axis
     /// outward, z up. It must be convex. A resolved scene has `points` in its place.
     #[schemars(example = "tip.csv")]
@@ -84,6 +95,22 @@ pub struct Tool {
     /// Area function of the tip by which the reading of Oliver and Pharr goes; absent: the outline of the tool.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub area_function: Option<AreaFunction>,
+    /// For shape = "custom": the outline, handed in by a program; a file cannot hold it.
+    #[schemars(skip)]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(serialize_with = "write_outline", deserialize_with = "refuse_outline")]
+    pub custom: Option<OwnTool>,
+}
+
+fn write_outline<S: Serializer>(tool: &Option<OwnTool>, serializer: S) -> Result<S::Ok, S::Error> {
+    match tool {
+        Some(tool) => write_custom(serializer, tool.outline().name(), tool.outline().parameters()),
+        None => serializer.serialize_none(),
+    }
+}
+
+fn refuse_outline<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<OwnTool>, D::Error> {
+    Err(refuse_custom(deserializer, "tool"))
 }
 
 /// The shape of a tool, complete. Lengths in metres.
@@ -105,6 +132,23 @@ pub enum ToolForm {
     },
     /// A measured outline, as the rise from its apex, m.
     Measured(Arc<Outline>),
+    /// An outline that is given by functions, m.
+    Own(OwnTool),
+}
+
+impl ToolForm {
+    /// The tool, lengths over `length` (m).
+    pub fn over(&self, length: f64) -> tool::Tool {
+        match self {
+            ToolForm::Plane => tool::Tool::Plane,
+            ToolForm::Cone { slope, tip_radius } => {
+                tool::Tool::Cone { tan_slope: slope.tan(), tip_radius: tip_radius / length }
+            }
+            ToolForm::Sphere { radius } => tool::Tool::Sphere { radius: radius / length },
+            ToolForm::Measured(outline) => tool::Tool::Measured(outline.scaled(length.recip()).shared()),
+            ToolForm::Own(own) => tool::Tool::Own(own.over(length)),
+        }
+    }
 }
 
 /// Angle between the axis of Berkovich's pyramid (with the area of Vickers') and its faces, degrees: ISO 14577-2.
@@ -124,15 +168,18 @@ impl ToolShape {
             ToolShape::Berkovich => "berkovich",
             ToolShape::Vickers => "vickers",
             ToolShape::Conospherical => "conospherical",
+            ToolShape::Punch => "punch",
+            ToolShape::Custom => "custom tool",
         }
     }
 
     /// Keys that describe it.
     fn keys(self) -> &'static [&'static str] {
         match self {
-            ToolShape::Plane => &[],
+            ToolShape::Plane | ToolShape::Custom => &[],
             ToolShape::Cone | ToolShape::Conospherical => &["slope_deg", "half_apex_deg", "tip_radius"],
             ToolShape::Sphere => &["radius"],
+            ToolShape::Punch => &["radius", "edge_radius"],
             ToolShape::Profile => &["file", "points", "tolerance"],
             ToolShape::Berkovich | ToolShape::Vickers => &["tip_radius"],
         }
@@ -185,6 +232,12 @@ impl Tool {
                     .ok_or_else(|| error("", "`radius` of the sphere is missing: give radius = \"1 mm\""))?;
                 Ok(ToolForm::Sphere { radius: radius.0 })
             }
+            ToolShape::Punch => {
+                self.punch_of_keys().map(|punch| ToolForm::Own(OwnTool::new(Arc::new(punch))))
+            }
+            ToolShape::Custom => self.custom.clone().map(ToolForm::Own).ok_or_else(|| {
+                error("shape", "\"custom\" is an outline that a program hands in: a file takes another shape")
+            }),
             ToolShape::Profile => self.measured_outline().map(ToolForm::Measured),
             ToolShape::Berkovich | ToolShape::Vickers => {
                 let half = self.shape.equivalent_half_apex_deg().unwrap_or(90.0);
@@ -200,6 +253,7 @@ impl Tool {
             ("half_apex_deg", self.half_apex_deg.is_some()),
             ("tip_radius", self.tip_radius.is_some()),
             ("radius", self.radius.is_some()),
+            ("edge_radius", self.edge_radius.is_some()),
             ("file", self.file.is_some()),
             ("points", self.points.is_some()),
             ("tolerance", self.tolerance.is_some()),
@@ -223,6 +277,20 @@ impl Tool {
             ));
         }
         Ok(())
+    }
+
+    /// The punch that the keys give.
+    fn punch_of_keys(&self) -> Result<Punch, SceneError> {
+        let missing = |key: &str, example: &str| {
+            error("", format!("`{key}` of the punch is missing: give {key} = \"{example}\""))
+        };
+        let radius = self.radius.ok_or_else(|| missing("radius", "20 um"))?;
+        let edge_radius = self.edge_radius.ok_or_else(|| missing("edge_radius", "0.2 um"))?;
+        if edge_radius.0 > radius.0 {
+            let [most, given] = [radius, edge_radius].map(|r| length(r.0));
+            return Err(error("edge_radius", format!("must be at most `radius`, {most}, not {given}")));
+        }
+        Ok(Punch { radius: radius.0, edge_radius: edge_radius.0 })
     }
 
     /// The measured outline that the keys give.
@@ -255,6 +323,10 @@ impl Tool {
         not_negative("tip_radius", "the tip radius", self.tip_radius)?;
         not_negative("tolerance", "the tolerance", self.tolerance)?;
         self.radius.map_or(Ok(()), |r| positive("radius", "the radius", r))?;
+        self.edge_radius.map_or(Ok(()), |r| positive("edge_radius", "the radius of the edge", r))?;
+        if self.custom.is_some() && self.shape != ToolShape::Custom {
+            return Err(error("custom", "needs shape = \"custom\" beside it: set that, or leave it out"));
+        }
         if let Some(function) = &self.area_function {
             if self.shape == ToolShape::Plane {
                 let message = "does not belong to a plane, which has no tip: remove it, or change `shape`";

@@ -1,7 +1,7 @@
 //! Estimates before a crush is computed: contact widths, pressure, depth under a force. None of it stands in
 //! a result: the mesh is made for it and the penalty scaled with it.
 
-use asperity_mesh::profile::{Asperity, Profile};
+use asperity_mesh::profile::{Asperity, Profile, Shape};
 use asperity_numerics::bisection::bisect;
 use asperity_solver::contact::tool::Tool;
 use asperity_solver::point::kinematics::Symmetry;
@@ -102,7 +102,11 @@ pub fn resolved_from(profile: &Profile, tool: &Tool, first: &[f64], last: &[f64]
 
 /// Mean contact pressure to be expected at `depth`, in units of E. Only the penalty is scaled with it.
 pub fn expected_pressure(metal: &Metal, profile: &Profile, tool: &Tool, depth: f64) -> f64 {
-    let slope_of = |a: &Asperity| a.slope_at(CONTACT_WIDTH_RATIO * a.half_width(depth));
+    let slope_of = |a: &Asperity| match &a.shape {
+        // flat below the contact that it makes at its edge
+        Shape::Own(tool) => tool.slope_of_contact(depth),
+        _ => a.slope_at(CONTACT_WIDTH_RATIO * a.half_width(depth)),
+    };
     let slope = tool.mirrored().iter().chain(&profile.asperities).map(slope_of).fold(0.0, f64::max);
     pressure_under(metal, slope, 0.0)
 }

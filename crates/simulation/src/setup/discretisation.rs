@@ -85,6 +85,7 @@ impl Discretisation {
             element_under(match scene.tool.form() {
                 Ok(ToolForm::Cone { slope, .. }) => Some(slope),
                 Ok(ToolForm::Measured(outline)) => conical_slope(&outline),
+                Ok(ToolForm::Own(tool)) => tool.outline().flank().map(f64::atan),
                 _ => None,
             })
         });

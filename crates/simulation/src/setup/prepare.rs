@@ -33,7 +33,7 @@ pub fn metal(scene: &Scene) -> Metal {
 
 /// The asperities and the tool of `scene`, lengths over `length` (m).
 pub fn bodies(scene: &Scene, length: f64) -> Result<(Profile, Tool), SceneError> {
-    let tool = tool_over(scene.tool.form().map_err(|e| in_table("tool", e))?, length);
+    let tool = scene.tool.form().map_err(|e| in_table("tool", e))?.over(length);
     if let Some(line) = scene.profile.first() {
         let profile = measured_line(&line.line().map_err(|e| in_table("profile[0]", e))?, length);
         return Ok((profile, tool));
@@ -177,7 +177,7 @@ fn with_earlier_contacts(
     own_depths_under: &dyn Fn(&Tool, f64) -> Vec<f64>,
 ) -> Result<Contacts, SceneError> {
     for (load, earlier) in scene.earlier_loads().iter().zip(&expected.earlier) {
-        let tool = tool_over(load.tool.form().map_err(|e| in_table("tool", e))?, expected.depth);
+        let tool = load.tool.form().map_err(|e| in_table("tool", e))?.over(expected.depth);
         let formed = earlier.formed.as_ref().map(|formed| formed.in_units_of(expected.depth));
         let deep = earlier.depth / expected.depth;
         let own_depths_at = |depth: f64| own_depths_under(&tool, depth);
@@ -275,18 +275,6 @@ fn outlines(scene: &Scene) -> Result<Vec<Asperity>, SceneError> {
         edge = centre + right + asperity.spacing.map_or(0.0, |s| s.0);
     }
     Ok(outlines)
-}
-
-/// The tool of a scene, lengths over `length` (m).
-fn tool_over(form: ToolForm, length: f64) -> Tool {
-    match form {
-        ToolForm::Plane => Tool::Plane,
-        ToolForm::Cone { slope, tip_radius } => {
-            Tool::Cone { tan_slope: slope.tan(), tip_radius: tip_radius / length }
-        }
-        ToolForm::Sphere { radius } => Tool::Sphere { radius: radius / length },
-        ToolForm::Measured(outline) => Tool::Measured(outline.scaled(length.recip()).shared()),
-    }
 }
 
 fn widest(half_widths: &[f64]) -> f64 {

@@ -140,7 +140,7 @@ impl ContactEdge {
     pub fn touching(&self, context: &ContactContext<'_>, x: &[[f64; 2]; 3]) -> Parts {
         let pressure =
             |xi: f64| context.penalty * context.tool.penetration(self.point(x, xi), context.tip).depth;
-        if matches!(context.tool, Tool::Measured(_)) {
+        if matches!(context.tool, Tool::Measured(_) | Tool::Own(_)) {
             return parts_above_zero(pressure);
         }
         let (left, middle, right) = (pressure(-1.0), pressure(0.0), pressure(1.0));

@@ -1,5 +1,7 @@
 //! A rigid tool is a signed gap function of position, nothing more.
 
+use asperity_mesh::OwnTool;
+pub use asperity_mesh::Penetration;
 use asperity_mesh::outline::Outline;
 use asperity_mesh::profile::{Asperity, Shape};
 use std::sync::Arc;
@@ -23,17 +25,8 @@ pub enum Tool {
     },
     /// A measured outline, as the rise from its apex on the axis; it goes straight on beyond its end.
     Measured(Arc<Outline>),
-}
-
-/// How deep a point is inside the tool, and the derivatives with respect to the point.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Penetration {
-    /// Depth inside the tool; negative outside.
-    pub depth: f64,
-    /// ∂depth/∂(r, z): the direction in which the tool is left is its opposite.
-    pub slope: [f64; 2],
-    /// ∂²depth/∂r², ∂²depth/∂z², ∂²depth/∂r∂z.
-    pub curvature: [f64; 3],
+    /// An outline that is given by functions, of this program or of another crate.
+    Own(OwnTool),
 }
 
 impl Tool {
@@ -47,6 +40,7 @@ impl Tool {
             }
             Tool::Sphere { radius } => Shape::Sphere { radius: *radius },
             Tool::Measured(outline) => Shape::Measured(outline.clone()),
+            Tool::Own(tool) => Shape::Own(tool.clone()),
         };
         Some(Asperity { shape, height: f64::INFINITY, centre: 0.0, valley_radius: 0.0 })
     }
@@ -57,6 +51,7 @@ impl Tool {
             Tool::Plane => Penetration { depth: x[1] - tip, slope: [0.0, 1.0], curvature: [0.0; 3] },
             &Tool::Sphere { radius } => inside_sphere(x, tip + radius, radius),
             Tool::Measured(outline) => inside_outline(x, tip, outline),
+            Tool::Own(tool) => tool.penetration(x, tip),
             &Tool::Cone { tan_slope, tip_radius } => {
                 let (r, side) = (x[0].abs(), if x[0] < 0.0 { -1.0 } else { 1.0 });
                 let secant = tan_slope.hypot(1.0);
@@ -120,6 +115,7 @@ fn inside_sphere(x: [f64; 2], centre: f64, radius: f64) -> Penetration {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use asperity_mesh::Punch;
     use asperity_mesh::outline::Parabola;
 
     /// Slope and curvature are the derivatives of the depth (central differences, step 1e-5: error ≈ 1e-10).
@@ -132,6 +128,7 @@ mod tests {
             Tool::Cone { tan_slope: 0.4, tip_radius: 2.0 },
             Tool::Measured(bowl(true)),
             Tool::Measured(bowl(false)),
+            Tool::Own(OwnTool::new(Arc::new(Punch { radius: 1.8, edge_radius: 0.7 })).over(0.9)),
         ];
         let d = 1e-5;
         for tool in tools {

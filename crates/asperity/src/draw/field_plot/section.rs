@@ -5,8 +5,7 @@ use super::window::{AsperityRow, Reach, Window};
 use crate::results::units::{MEGAPASCAL, MICROMETRE};
 use asperity_mesh::profile::Asperity;
 use asperity_simulation::run::FieldFrame;
-use asperity_simulation::scene::{Scene, Symmetry, ToolForm};
-use asperity_solver::contact::tool::Tool;
+use asperity_simulation::scene::{Scene, Symmetry};
 
 /// The tool and the body of one converged state, ready to be drawn. Lengths in µm, stresses in MPa.
 pub struct Section {
@@ -35,7 +34,7 @@ impl Section {
         let mesh = DeformedMesh::new(frame);
         let revolved = scene.symmetry == Symmetry::Axisymmetric;
         let mirrored = revolved && scene.asperity_count() < 2;
-        let tool = outline(&scene.tool.form().map_err(|e| e.to_string())?);
+        let tool = scene.tool.form().map_err(|e| e.to_string())?.over(MICROMETRE).mirrored();
         let tips = mesh.pressed().map(|[r, z]| z - rise(&tool, r));
         let tip = tips.reduce(f64::max);
         let height = scene.highest() / MICROMETRE;
@@ -58,17 +57,4 @@ impl Section {
 /// Height of the tool's face above its lowest point, at a distance `r` from the axis, both in µm.
 fn rise(tool: &Option<Asperity>, r: f64) -> f64 {
     tool.as_ref().map_or(0.0, |tool| tool.drop(r))
-}
-
-/// The tool as an asperity of the same outline, lengths in µm; `None` for a plane.
-fn outline(tool: &ToolForm) -> Option<Asperity> {
-    let tool = match tool {
-        ToolForm::Plane => Tool::Plane,
-        ToolForm::Sphere { radius } => Tool::Sphere { radius: radius / MICROMETRE },
-        ToolForm::Measured(outline) => Tool::Measured(outline.scaled(MICROMETRE.recip()).shared()),
-        ToolForm::Cone { slope, tip_radius } => {
-            Tool::Cone { tan_slope: slope.tan(), tip_radius: tip_radius / MICROMETRE }
-        }
-    };
-    tool.mirrored()
 }
