@@ -190,7 +190,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     let cases = sweep.cases();
     let (rows, seconds) = timed(|| {
         let analyses = Analyses::for_threads(2);
-        on_threads(2, || cases.par_iter().map(|case| solve(case, sweep.accuracy, &analyses)).collect::<Vec<_>>())
+        on_threads(2, || {
+            cases.par_iter().map(|case| solve(case, sweep.accuracy, &analyses)).collect::<Vec<_>>()
+        })
     });
     let worst =
         rows?.iter().map(|row| row.outcome.as_ref().map_or(f64::NAN, |k| k.error)).fold(0.0, f64::max);

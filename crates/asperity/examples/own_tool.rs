@@ -39,6 +39,6 @@ fn main() -> Result<(), Error> {
         .at(Accuracy::Draft);
     let summary = crush(&Scene::new(&tables)?, &mut |_| true)?.summary;
     let hertz = 4.0 / 3.0 * 210e9 / 0.91 * radius.sqrt() * depth.powf(1.5);
-    println!("{:.4e} N, {:.4} of Hertz's", summary.peak_force_N, summary.peak_force_N / hertz);
+    println!("{:.4e} N, {:.4} of Hertz's", summary.peak_force, summary.peak_force / hertz);
     Ok(())
 }

@@ -141,8 +141,8 @@ pub fn solve(
         run.check()?;
     }
     let companion = companion(discretisation, |coarser| fitted(case, coarser, analyses))?;
-    let [k_over_e, error] =
-        run.extrapolated(&companion, &Left::for_cone(case.tan_beta(), case.tool == Tool::Cone, discretisation));
+    let [k_over_e, error] = run
+        .extrapolated(&companion, &Left::for_cone(case.tan_beta(), case.tool == Tool::Cone, discretisation));
     Ok(LoadingCurvature {
         k_over_e,
         error,

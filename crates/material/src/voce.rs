@@ -67,8 +67,8 @@ impl Voce {
             let gap = excess - three_g * flow + decayed * missing;
             let step = (gap / (three_g + (decayed + 1.0) * steepest)).max(zero);
             let next = flow + step;
-            flow = T::select(next.above(most), most, next);
-            if !T::any(step.above(flow * LAST_CHANGE)) {
+            flow = T::select(next.is_above(most), most, next);
+            if !T::any(step.is_above(flow * LAST_CHANGE)) {
                 break;
             }
         }

@@ -45,7 +45,8 @@ fn narrow(rows: &[Row], share: f64) -> Vec<Row> {
 }
 
 fn main() {
-    let (mut report, words) = Report::of_example("identify_table", "finite elements at standard, extrapolated");
+    let (mut report, words) =
+        Report::of_example("identify_table", "finite elements at standard, extrapolated");
     let after = |name: &str| words.iter().position(|w| w == name).and_then(|i| words.get(i + 1));
     let left_out = |part: &str| after("--leave-out").is_some_and(|list| list.split(',').any(|w| w == part));
     let every: usize = after("--every").map_or(1, |n| n.parse().expect("a number"));

@@ -85,7 +85,10 @@ impl Sketch {
 /// # Errors
 /// Only if the run cannot begin: [`Error::Input`], pointing at the line of the scene. What stops it later is in
 /// `summary.stopped`.
-pub fn crush(scene: &Scene, observer: &mut dyn FnMut(&Progress<'_, Increment<'_>>) -> bool) -> Result<Crush, Error> {
+pub fn crush(
+    scene: &Scene,
+    observer: &mut dyn FnMut(&Progress<'_, Increment<'_>>) -> bool,
+) -> Result<Crush, Error> {
     crush_sharing(scene, &Analyses::default(), observer)
 }
 

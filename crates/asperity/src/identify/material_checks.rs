@@ -44,7 +44,7 @@ pub(super) fn check_material(material: &FitMaterial) -> Result<(), KeyError> {
         return check_table(material);
     }
     if !matches!(material.hardening_law, HardeningChoice::Hollomon | HardeningChoice::Swift) {
-        return Err(fault(
+        return Err(key_error(
             "hardening_law",
             "a fit takes \"hollomon\", \"swift\" or \"table\": points of a table follow any other law",
         ));

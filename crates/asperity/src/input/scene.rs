@@ -85,7 +85,7 @@ impl Scene {
         let mut tables = tables.clone();
         let own = Own::taken_from(&mut tables);
         let text = to_toml(&tables).map_err(InputError::new)?;
-        Scene::checked(TomlFile::over(Path::new("scene"), text, &[], Some(body_of))?, own)
+        Scene::checked(TomlFile::parse_over(Path::new("scene"), text, &[], Some(body_of))?, own)
     }
 
     /// The scene with a hardening law of another crate, in place of a law by keys.
@@ -125,9 +125,15 @@ impl Scene {
     pub fn read(path: &Path, overrides: &[String]) -> Result<Scene, Error> {
         if path.extension().is_some_and(|extension| extension == "json") {
             let text = to_toml(&as_asked(Summary::read(path)?)).map_err(InputError::new)?;
-            return Scene::checked(TomlFile::parse_over(path, text, overrides, Some(body_of))?, Own::default());
+            return Scene::checked(
+                TomlFile::parse_over(path, text, overrides, Some(body_of))?,
+                Own::default(),
+            );
         }
-        Scene::checked(TomlFile::parse_over(path, read_text(path)?, overrides, Some(body_of))?, Own::default())
+        Scene::checked(
+            TomlFile::parse_over(path, read_text(path)?, overrides, Some(body_of))?,
+            Own::default(),
+        )
     }
 
     /// The scene with more overrides `key.path=value`, such as `loading.depth=2 um`.

@@ -18,7 +18,12 @@ pub(super) struct Factors {
 impl Factors {
     /// None yet, of a stiffness whose fronts are known.
     pub fn new(fronts: Arc<FrontTree>) -> Factors {
-        Factors { factor: Factor::with_tree(fronts), secants: Secants::default(), valid: false, yielded: Vec::new() }
+        Factors {
+            factor: Factor::with_tree(fronts),
+            secants: Secants::default(),
+            valid: false,
+            yielded: Vec::new(),
+        }
     }
 
     /// They are of another body.
