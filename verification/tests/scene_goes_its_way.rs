@@ -33,8 +33,13 @@ fn each_function_is_in_its_file() {
         assert_eq!(file.ends_with("(again)"), is_again, "{file}");
         let source = std::fs::read_to_string(top.join("crates").join(quoted(file))).unwrap();
         let head = format!("fn {}", quoted(function));
-        let has = source.match_indices(&head).any(|(at, _)| source[at + head.len()..].starts_with(['(', '<']));
+        let has =
+            source.match_indices(&head).any(|(at, _)| source[at + head.len()..].starts_with(['(', '<']));
         assert!(has, "{} has no function {}", quoted(file), quoted(function));
     }
-    assert!((1..=LINES).contains(&rows.len()) && again <= ENTERED_AGAIN, "{} lines, {again} again", rows.len());
+    assert!(
+        (1..=LINES).contains(&rows.len()) && again <= ENTERED_AGAIN,
+        "{} lines, {again} again",
+        rows.len()
+    );
 }
