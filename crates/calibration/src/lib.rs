@@ -27,6 +27,4 @@ pub mod unloading;
 
 pub mod indentation;
 
-pub mod atlas;
-
 pub mod cones;

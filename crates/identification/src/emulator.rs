@@ -6,14 +6,10 @@
 //! left, and that is part of the covariance of the fit (Kennedy and O'Hagan, Biometrika 87 (2000) 1, with one
 //! run a level).
 
-use super::response::{DesignPoint, Geometry, Response, SHARES};
-use asperity_calibration::atlas::{Atlas, POISSONS_RATIO};
-use asperity_material::HardeningCurve;
+use super::response::{Geometry, DesignPoint, Response, SHARES};
+use asperity_material::cone_atlas::{Atlas, Contact, SharpCone};
+use asperity_material::{Elastic, HardeningCurve};
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
-
-/// Plastic strain, over the slope of a cone, at which the metal of a cell of the atlas is as strong as the
-/// metal in question.
-const LIKENED_STRAIN: f64 = 0.13;
 
 /// A computed metal.
 #[derive(Clone, Debug)]
@@ -75,22 +71,19 @@ fn likened_slope(question: &DesignPoint) -> f64 {
     }
 }
 
-/// The logarithms that the atlas has for a tool like the one in question.
+/// The logarithms that the atlas of cones has for a tool like the one in question, carried on from its edge beyond it.
 pub fn by_the_atlas(question: &DesignPoint) -> Vec<f64> {
-    let slope = likened_slope(question);
-    let tan = slope.to_radians().tan();
-    let curve = &question.metal.hardening;
-    let (first, strain) = (curve.yield_stress(), LIKENED_STRAIN * tan);
-    let over = question.modulus / first;
-    let exponent = (curve.flow(strain).yield_stress / first).ln() / (1.0 + over * strain).ln();
-    let nu = question.metal.elastic.poissons_ratio;
-    // a half space knows E and ν as E* nearly
-    let stiffer = (1.0 - POISSONS_RATIO * POISSONS_RATIO) / (1.0 - nu * nu);
     let Some(atlas) = Atlas::committed() else { return vec![f64::NAN; 3] };
-    let found = atlas.predict(slope, over * stiffer, exponent);
-    let shift = [stiffer.ln() - 2.0 * tan.ln(), stiffer.ln() - tan.ln()];
-    let loading = found[0] + shift[0];
-    let after = std::iter::once(found[1] + shift[1]).chain(found[2..].iter().copied());
+    let contact = match question.geometry {
+        Geometry::Crush { .. } => Contact::Crushed,
+        _ => Contact::Indenting,
+    };
+    let elastic = Elastic { youngs_modulus: question.modulus, ..question.metal.elastic };
+    let hardening = question.metal.hardening.clone();
+    let found = atlas.nearest(&SharpCone::new(likened_slope(question), &elastic, hardening, contact));
+    let loading = found.k_over_e.value.ln();
+    let numbers = [found.stiffness.value, found.elastic_share.value];
+    let after = numbers.into_iter().chain(found.recovery).map(|x| x.max(1e-12).ln());
     match question.geometry {
         Geometry::Sharp { .. } => std::iter::once(loading).chain(after).collect(),
         // a ball presses with the square root of the depth less

@@ -127,7 +127,7 @@ impl Fit {
             );
             return Err(file.error_at("", &message).into());
         }
-        let like = tables.material.hardening_law == HardeningChoice::Swift
+        let like = tables.material.hardening_law != HardeningChoice::Table
             && tables.material.stress_measure == StressMeasure::Cauchy;
         for experiment in &mut experiments {
             experiment.emulator = Emulator::of_a_cone(1 + NUMBERS_AFTER_LOADING, like);
