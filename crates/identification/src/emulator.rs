@@ -44,8 +44,8 @@ pub struct Emulator {
     lift: Vec<f64>,
 }
 
-/// The coordinates of a question: logarithms of E/σ_y, n (of what is no power law: of E over stresses), ν, the law's E over that of the
-/// contact, tip over depth.
+/// The coordinates of a question: logarithms of E/σ_y, n (of what is no power law: of E over stresses), ν,
+/// the law's E over that of the contact, tip over depth.
 pub fn place(question: &Question) -> Vec<f64> {
     let curve = &question.metal.hardening;
     let mut place = match curve {
