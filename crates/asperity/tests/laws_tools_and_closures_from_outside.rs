@@ -57,7 +57,7 @@ impl ToolOutline for Cone {
     }
 }
 
-/// Johnson's closure in its elastic part and at full plasticity, for a metal whose hardness is `HARDNESS`.
+/// The published p = 0.13 E* tan β, for a metal whose hardness is `HARDNESS`.
 #[derive(Debug)]
 struct Published;
 
@@ -194,7 +194,8 @@ fn a_copy_of_a_closure_gives_its_area() {
     let [a, b] = [&exact, &own].map(|rough| &rough.table[0]);
     assert_eq!((a.closure, b.closure), (Closure::Published, Closure::Custom));
     assert!((a.contact_area_ratio / b.contact_area_ratio - 1.0).abs() < 1e-9);
-    assert!((a.mean_pressure_MPa.unwrap() / b.mean_pressure_MPa.unwrap() - 1.0).abs() < 1e-9);
+    let [mean, own_mean] = [a, b].map(|row| row.mean_pressure_MPa.unwrap());
+    assert!((mean / own_mean - 1.0).abs() < 1e-9);
     let summary = serde_json::to_value(&own.summary).unwrap();
     assert_eq!(summary["scene"]["custom"]["name"], "my-published");
     assert_eq!(summary["closures"][0]["source"], "p = 0.13 E* tan(beta)");

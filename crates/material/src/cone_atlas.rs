@@ -142,7 +142,8 @@ impl SharpCone {
         SharpCone { tan: slope_deg.to_radians().tan(), elastic: *elastic, curve: curve.into(), contact }
     }
 
-    /// Whether slope, metal and ν lie in the ranges of the atlas. All cones of the atlas hardened by a power law.
+    /// Whether slope, metal and ν lie in the ranges of the atlas. All cones of the atlas hardened by a power
+    /// law.
     pub fn is_inside(&self) -> bool {
         let holds = |[low, high]: [f64; 2], x: f64| x >= low * (1.0 - 1e-9) && x <= high * (1.0 + 1e-9);
         let HardeningCurve::Power(law) = &self.curve else { return false };
@@ -162,7 +163,8 @@ impl SharpCone {
         ]
     }
 
-    /// The same with a yield stress at the edge of the atlas where it lies beyond; what is no power law as it is.
+    /// The same with a yield stress at the edge of the atlas where it lies beyond; what is no power law as it
+    /// is.
     fn at_the_edge(&self) -> SharpCone {
         let mut edge = self.clone();
         if let HardeningCurve::Power(law) = &mut edge.curve {

@@ -135,8 +135,9 @@ impl HardeningCurve {
         }
     }
 
-    /// The hardening exponent that estimates ask for. Of what is no power law: that of the `swift` law through first yield and the
-    /// stress at a plastic strain of 0.1, which the material under a contact reaches; E is `youngs_modulus`.
+    /// The hardening exponent that estimates ask for. Of what is no power law: that of the `swift` law
+    /// through first yield and the stress at a plastic strain of 0.1, which the material under a contact
+    /// reaches; E is `youngs_modulus`.
     pub fn exponent(&self, youngs_modulus: f64) -> f64 {
         match self {
             HardeningCurve::Power(law) => law.exponent,

@@ -1,6 +1,7 @@
 //! Voce's law: the yield stress saturates, σ = σ_s - (σ_s - σ_y) exp(-ε_p/ε_s).
 //!
-//! E. Voce, The relationship between stress and strain for homogeneous deformation, J. Inst. Metals 74 (1948) 537.
+//! E. Voce, The relationship between stress and strain for homogeneous deformation, J. Inst. Metals 74 (1948)
+//! 537.
 
 use crate::hardening::HardeningPoint;
 use asperity_numerics::lanes::Real;
@@ -16,7 +17,8 @@ pub struct Voce {
     pub saturation_strain: f64,
 }
 
-/// Relative change of the plastic strain in Newton's last step: what its square leaves of the root rounds to nothing.
+/// Relative change of the plastic strain in Newton's last step: what its square leaves of the root rounds to
+/// nothing.
 const LAST_CHANGE: f64 = 3e-9;
 
 /// Steps that no return takes: from the left, Newton's steps on a concave function need a few dozen at most.
@@ -47,8 +49,9 @@ impl Voce {
     /// Radial return: the flow state at which `q_trial - 3G (ε_p - ε_p,old) = σ(ε_p)`; see
     /// [`crate::Hardening::return_to_yield`].
     ///
-    /// The function of the flow d = ε_p - ε_p,old is concave and grows: Newton's steps from 0 on come from the left and stay below
-    /// the end of the bracket, what flows without hardening. In d a tiny flow keeps its digits.
+    /// The function of the flow d = ε_p - ε_p,old is concave and grows: Newton's steps from 0 on come from
+    /// the left and stay below the end of the bracket, what flows without hardening. In d a tiny flow keeps
+    /// its digits.
     #[inline(always)]
     pub fn return_to_yield<T: Real>(
         &self,

@@ -2,10 +2,10 @@
 //! linear hardening; a table with kinks costs Newton's method nothing.
 //!
 //! Source: linear interpolation between the points, constant beyond, as *PLASTIC of Abaqus and CalculiX. Bar:
-//! ε = τ/E + ε_p and τ = σ_y + H ε_p give τ = (σ_y + Hε)/(1 + H/E); tolerance 1e-9, what the local solve leaves.
-//! A dense table of Voce's law stands beside the law itself, which the solver returns to by another way: 0.3 % of the force.
-//! Asperity: forces are sums of stresses, so that no force differs by more than the largest error of the sampled
-//! stress, besides ten times the tolerance of Newton's method.
+//! ε = τ/E + ε_p and τ = σ_y + H ε_p give τ = (σ_y + Hε)/(1 + H/E); tolerance 1e-9, what the local solve
+//! leaves. A dense table of Voce's law stands beside the law itself, which the solver returns to by another
+//! way: 0.3 % of the force. Asperity: forces are sums of stresses, so that no force differs by more than the
+//! largest error of the sampled stress, besides ten times the tolerance of Newton's method.
 
 use asperity_material::units::Stress;
 use asperity_material::{Hardening, HardeningLaw, HardeningTable, Voce};

@@ -33,8 +33,8 @@ const FIRST_SHARE: f64 = 1e-6;
 
 /// Samples `curve` from first yield to [`LAST_STRAIN`]; stresses in units of `unit` Pa.
 ///
-/// Of candidates in equal ratios, points stand where the running integral of √|dslope/dε_p| reaches equal parts: the error of a
-/// chord, step²/8 |σ''|, is then about the same everywhere.
+/// Of candidates in equal ratios, points stand where the running integral of √|dslope/dε_p| reaches equal
+/// parts: the error of a chord, step²/8 |σ''|, is then about the same everywhere.
 fn sampled(curve: &HardeningCurve, unit: f64) -> PlasticTable {
     let candidates = 40 * POINTS;
     let ratio = FIRST_SHARE.recip().powf(1.0 / (candidates - 1) as f64);

@@ -80,7 +80,8 @@ impl Material {
         }
     }
 
-    /// The material with Voce's law: the yield stress goes to `saturation_stress`, by all but 1/e over `saturation_strain`.
+    /// The material with Voce's law: the yield stress goes to `saturation_stress`, by all but 1/e over
+    /// `saturation_strain`.
     #[must_use]
     pub fn saturating(
         self,

@@ -24,18 +24,21 @@ pub struct Material {
     #[schemars(example = "300 MPa")]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub yield_stress: Option<Stress>,
-    /// Hardening exponent n in [0, 1), 0: perfect plasticity; required beside a yield stress of `hollomon` and `swift`.
+    /// Hardening exponent n in [0, 1), 0: perfect plasticity; required beside a yield stress of `hollomon`
+    /// and `swift`.
     #[schemars(extend("minimum" = 0, "exclusiveMaximum" = 1))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hardening_exponent: Option<f64>,
-    /// Hardening law: `hollomon` (power law in total strain), `swift` (power law in plastic strain), `voce` (saturates) or `table`.
+    /// Hardening law: `hollomon` (power law in total strain), `swift` (power law in plastic strain), `voce`
+    /// (saturates) or `table`.
     #[serde(default = "hollomon")]
     pub hardening_law: HardeningChoice,
     /// For hardening_law = "voce": the stress that the yield stress goes to, above yield_stress.
     #[schemars(example = "600 MPa")]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub saturation_stress: Option<Stress>,
-    /// For hardening_law = "voce": plastic strain, above 0, over which what the yield stress lacks of saturation_stress falls to 1/e.
+    /// For hardening_law = "voce": plastic strain, above 0, over which what the yield stress lacks of
+    /// saturation_stress falls to 1/e.
     #[schemars(extend("exclusiveMinimum" = 0))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub saturation_strain: Option<f64>,
