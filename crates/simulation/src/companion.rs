@@ -13,8 +13,8 @@ use asperity_solver::body::analysis::Analyses;
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// The problem of the companion of a run of `scene` with `numbers`. An imported mesh, which cannot be made coarser, gives its nodes to
-/// the `other` element. `None` if it does not even begin.
+/// The problem of the companion of a run of `scene` with `numbers`. An imported mesh, which cannot be made
+/// coarser, gives its nodes to the `other` element. `None` if it does not even begin.
 pub(super) fn companion(
     scene: &Scene,
     numbers: Discretisation,
@@ -26,8 +26,8 @@ pub(super) fn companion(
     Some(Problem { reloads: 0, ..problem })
 }
 
-/// The outcome of `main`, a run of `scene`, and that of its `companion` as far as the two can be compared. What ended early, or was looking
-/// for a force, is compared as far as it came; what the user ended is not.
+/// The outcome of `main`, a run of `scene`, and that of its `companion` as far as the two can be compared.
+/// What ended early, or was looking for a force, is compared as far as it came; what the user ended is not.
 ///
 /// # Errors
 /// Those of `main`.

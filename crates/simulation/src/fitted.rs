@@ -1,7 +1,8 @@
-//! The numbers of the error estimate and of the ripple that no theory gives: they were chosen on measured scenes.
+//! The numbers of the error estimate and of the ripple that no theory gives: they were chosen on measured
+//! scenes.
 //!
-//! Orders and what the penetration widens were found on every second round of the scenes of the coverage and hold on the others; shares
-//! of the bound were chosen on both.
+//! Orders and what the penetration widens were found on every second round of the scenes of the coverage and
+//! hold on the others; shares of the bound were chosen on both.
 
 use crate::scene::ElementChoice;
 
@@ -40,31 +41,33 @@ pub(crate) struct Fitted {
 
 /// Numbers of the error estimate.
 pub(crate) struct FittedErrors {
-    /// Share of the difference to the companion that is taken off the force: 1/(2ᵖ - 1) of the order p = 3/2. Observed orders lie between 1
-    /// and 2.
+    /// Share of the difference to the companion that is taken off the force: 1/(2ᵖ - 1) of the order p = 3/2.
+    /// Observed orders lie between 1 and 2.
     pub force_share: f64,
     /// The same of the area: p = 1.
     pub area_share: f64,
     /// The same of the area where the companion has the other element, of which no order is known.
     pub area_share_of_other_element: f64,
-    /// ln of radius or half width, per penetration over depth, that Richardson's extrapolation of the first order leaves. A penetration
-    /// widens by about 3 of it, of an order near 0.85, which leaves 3 (2 - 2^0.85). Observed are 0.5 to 0.65 at each level, and in every
-    /// kind of scene.
+    /// ln of radius or half width, per penetration over depth, that Richardson's extrapolation of the first
+    /// order leaves. A penetration widens by about 3 of it, of an order near 0.85, which leaves 3 (2 -
+    /// 2^0.85). Observed are 0.5 to 0.65 at each level, and in every kind of scene.
     pub widened: f64,
-    /// ln of the force, per penetration over depth, that mesh and penetration hide from the difference of run and companion: of quadratic
-    /// and of linear elements, whose errors in bending and in volume have opposite signs.
+    /// ln of the force, per penetration over depth, that mesh and penetration hide from the difference of run
+    /// and companion: of quadratic and of linear elements, whose errors in bending and in volume have
+    /// opposite signs.
     pub hidden_force: [f64; 2],
     /// ln of the area, per square of penetration over depth, that they hide.
     pub hidden_area: f64,
-    /// Force that steps lose at the peak, times the square of their number: 12 to 24 steps lose 3 to 8 %, and their companion no more.
+    /// Force that steps lose at the peak, times the square of their number: 12 to 24 steps lose 3 to 8 %, and
+    /// their companion no more.
     pub lost_by_steps: f64,
     /// The rest of the difference that the bound allows for, over the largest that is seen.
     pub rest_in_bound: f64,
-    /// Largest smooth part of which a share is taken off: a companion that differs by more is in no asymptotic range, and the whole
-    /// difference stays in the bound.
+    /// Largest smooth part of which a share is taken off: a companion that differs by more is in no
+    /// asymptotic range, and the whole difference stays in the bound.
     pub asymptotic: f64,
-    /// Share of the variance about the mean below which what a line leaves makes it the smooth part of the area, whose companion ripples
-    /// more than it differs.
+    /// Share of the variance about the mean below which what a line leaves makes it the smooth part of the
+    /// area, whose companion ripples more than it differs.
     pub line: f64,
 }
 
@@ -85,13 +88,13 @@ pub(crate) struct FittedRipple {
     pub apart_from_spline: f64,
     /// Share that must lie outside the splines and the harmonics before it.
     pub apart: f64,
-    /// A ripple is taken off if the mean square error of rows left out falls below this share of that of the best spline. Where
-    /// curves have chance errors and no ripple, that happens twice in a hundred times.
+    /// A ripple is taken off if the mean square error of rows left out falls below this share of that of the
+    /// best spline. Where curves have chance errors and no ripple, that happens twice in a hundred times.
     pub better: f64,
-    /// Weight of a fit in the mean of all: its mean square error of rows left out to minus this power per row. Half would be that of
-    /// its likelihood; less takes in more fits, whose errors differ.
+    /// Weight of a fit in the mean of all: its mean square error of rows left out to minus this power per
+    /// row. Half would be that of its likelihood; less takes in more fits, whose errors differ.
     pub selective: f64,
-    /// Edges that the front passes per ln h stay within this factor of those at the peak: elsewhere the mesh has another grading,
-    /// or the contact has just begun, and the ripple another amplitude.
+    /// Edges that the front passes per ln h stay within this factor of those at the peak: elsewhere the mesh
+    /// has another grading, or the contact has just begun, and the ripple another amplitude.
     pub steady: f64,
 }

@@ -1,4 +1,5 @@
-//! One run: a scene from its keys to its outcome. The only entry; each line of [`Run::run`] is a stage with a file of its own.
+//! One run: a scene from its keys to its outcome. The only entry; each line of [`Run::run`] is a stage with a
+//! file of its own.
 
 use crate::companion::{companion, run_beside};
 use crate::depth_for_force::expect;
@@ -24,8 +25,8 @@ pub struct Run<'a> {
     pub scene: &'a Scene,
     /// A mesh, in metres, in the place of the one that would be built.
     pub mesh: Option<Mesh>,
-    /// A metal that the keys of a scene cannot say (E = 1, that of the scene is its unit), in the place of the scene's in the run and in
-    /// its companion; the mesh and the penalty are laid out for the scene's.
+    /// A metal that the keys of a scene cannot say (E = 1, that of the scene is its unit), in the place of
+    /// the scene's in the run and in its companion; the mesh and the penalty are laid out for the scene's.
     pub metal: Option<&'a Metal>,
     /// Analyses of meshes that other runs may have made: a clone of theirs spares making them again.
     pub analyses: Analyses,
@@ -39,8 +40,8 @@ impl<'a> Run<'a> {
 
     /// Runs it.
     ///
-    /// The observer hears of every increment, and of fields every `output.every` increments and at the peak and the end
-    /// (if `output.every` is not 0); it ends the run by breaking.
+    /// The observer hears of every increment, and of fields every `output.every` increments and at the peak
+    /// and the end (if `output.every` is not 0); it ends the run by breaking.
     ///
     /// # Errors
     /// Only if the run cannot begin: what stops it later is in the outcome, with all that was reached.
@@ -75,7 +76,7 @@ impl<'a> Run<'a> {
         Ok(outcome)
     }
 
-    /// The problem that it solves first; of a metal or a body of its own it has the scene's, without earlier loads.
+    /// The problem as it is laid out: with the metal of the scene, and a body before all loads.
     ///
     /// # Errors
     /// A scene that cannot be meshed: path and reason.

@@ -28,11 +28,11 @@ pub struct Simulation<'p> {
     recorder: Recorder<'p>,
 }
 
-/// Takes `problem` along its path: loads it to its goal, and unloads and reloads it as often as it asks. Its mesh is analysed unless
-/// it is one of `analyses`.
+/// Takes `problem` along its path: loads it to its goal, and unloads and reloads it as often as it asks. Its
+/// mesh is analysed unless it is one of `analyses`.
 ///
-/// The observer hears of every increment, and of fields every `interval` increments and at the peak and the end (if that is
-/// not 0); it ends the run by breaking.
+/// The observer hears of every increment, and of fields every `interval` increments and at the peak and the
+/// end (if that is not 0); it ends the run by breaking.
 ///
 /// # Errors
 /// Only if the run cannot begin: what stops it later is in the simulation, with all that was reached.

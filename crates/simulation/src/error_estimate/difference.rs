@@ -1,4 +1,5 @@
-//! How a quantity of a run differs from that of its companion over the depth: what of that is taken off, and the bound of what is left.
+//! How a quantity of a run differs from that of its companion over the depth: what of that is taken off, and
+//! the bound of what is left.
 
 use crate::fitted::FITTED;
 use crate::scene::ElementChoice;
@@ -36,8 +37,8 @@ pub(crate) struct Setting {
     pub same_mesh: bool,
 }
 
-/// The factor of safety of the grid convergence index where the order was seen on three meshes or more (Roache, Verification and
-/// Validation in Computational Science and Engineering, 1998).
+/// The factor of safety of the grid convergence index where the order was seen on three meshes or more
+/// (Roache, Verification and Validation in Computational Science and Engineering, 1998).
 const GRID_CONVERGENCE_SAFETY: f64 = 1.25;
 
 /// Span of ln h before the peak in which the front crosses an edge of the coarsest companion.
@@ -178,7 +179,8 @@ mod tests {
         }
     }
 
-    /// A radius that a penetration of 0.004 widens by three times that, of the order 0.85, and a mesh narrows at the first order.
+    /// A radius that a penetration of 0.004 widens by three times that, of the order 0.85, and a mesh narrows
+    /// at the first order.
     #[test]
     fn what_penetration_and_mesh_do_to_the_area_is_taken_off() {
         for narrowed in [0.0, 0.01, 0.03] {

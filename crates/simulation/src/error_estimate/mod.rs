@@ -1,30 +1,34 @@
-//! Errors of a run, measured by the run itself: its companion is the same scene with every number of the discretisation half as
-//! good, and costs a fifth.
+//! Errors of a run, measured by the run itself: its companion is the same scene with every number of the
+//! discretisation half as good, and costs a fifth.
 //!
-//! With Q the force or the contact area at a depth, D = ln(Q_companion/Q) holds what mesh, load step, penalty and substrate do, each
-//! of first order nearly or better, and the ripple of both. The smooth part of D over ln h is a parabola for the force; for the area,
-//! whose companion ripples more than it differs, the mean, or a line where D is one.
-//! * Were all errors of the order p, ln Q would be off by D/(2ᵖ - 1), which is taken off (Richardson's extrapolation): with p = 3/2 of
-//!   the force, whose observed orders lie between 1 and 2, and with p = 1 of the area.
-//! * A penetration d over the depth widens radius or half width by about 3 d, of an order near 0.85: after Richardson's extrapolation
-//!   of the first order 3 d (2 - 2^0.85) = 0.6 d is left, and taken off too.
-//! * The bound of what is left is, added in squares, the largest smooth part from a fifth of the depth on and twice
-//!   the largest rest, of the area both with Roache's factor of safety, and what errors of mesh and penetration, which have
-//!   opposite signs, may hide from each other by chance (of the force also what coarse steps lose). The rest is
-//!   that of D, or that of the run from a smooth curve of its own where it is less: the companion ripples more.
+//! With Q the force or the contact area at a depth, D = ln(Q_companion/Q) holds what mesh, load step, penalty
+//! and substrate do, each of first order nearly or better, and the ripple of both. The smooth part of D over
+//! ln h is a parabola for the force; for the area, whose companion ripples more than it differs, the mean, or
+//! a line where D is one.
+//! * Were all errors of the order p, ln Q would be off by D/(2ᵖ - 1), which is taken off (Richardson's
+//!   extrapolation): with p = 3/2 of the force, whose observed orders lie between 1 and 2, and with p = 1 of
+//!   the area.
+//! * A penetration d over the depth widens radius or half width by about 3 d, of an order near 0.85: after
+//!   Richardson's extrapolation of the first order 3 d (2 - 2^0.85) = 0.6 d is left, and taken off too.
+//! * The bound of what is left is, added in squares, the largest smooth part from a fifth of the depth on and
+//!   twice the largest rest, of the area both with Roache's factor of safety, and what errors of mesh and
+//!   penetration, which have opposite signs, may hide from each other by chance (of the force also what
+//!   coarse steps lose). The rest is that of D, or that of the run from a smooth curve of its own where it is
+//!   less: the companion ripples more.
 //! * A companion that differs too much is in no asymptotic range: no share of D is taken off.
-//! * The mesh that is given cannot be made coarser. Its companion has the other element, of which no order is known: nothing is taken
-//!   off the force, half of D off the area.
+//! * The mesh that is given cannot be made coarser. Its companion has the other element, of which no order is
+//!   known: nothing is taken off the force, half of D off the area.
 //!
 //! Numbers that were chosen on measured scenes stand in `fitted.rs`.
 //!
-//! The stiffness of the first unloading is that of a punch, 2 E* a: half of what is taken off the area of an axisymmetric contact is
-//! taken off it.
+//! The stiffness of the first unloading is that of a punch, 2 E* a: half of what is taken off the area of an
+//! axisymmetric contact is taken off it.
 //!
-//! The mean pressure is force over area: its bound is the sum of theirs. Other values read at the peak or after it are not
-//! extrapolated. Their bound is the difference itself, and what the stated errors of force and stiffness near the peak (in squares)
-//! would do to it, since two runs may agree by chance; to that of the stiffness, half the bound of the area there is added. The
-//! elastic fraction has them in squares, and with them the work over the depths that the energies of the body do not account for.
+//! The mean pressure is force over area: its bound is the sum of theirs. Other values read at the peak or
+//! after it are not extrapolated. Their bound is the difference itself, and what the stated errors of force
+//! and stiffness near the peak (in squares) would do to it, since two runs may agree by chance; to that of
+//! the stiffness, half the bound of the area there is added. The elastic fraction has them in squares, and
+//! with them the work over the depths that the energies of the body do not account for.
 
 mod difference;
 mod rescale;
@@ -53,8 +57,8 @@ const LEAST_STATED_ERROR: f64 = 1e-5;
 /// Share of the depth that the companion must reach.
 const LEAST_COMPANION_DEPTH: f64 = 0.9;
 
-/// Factor of the unloading stiffness where the area grows by the factor `wider`: 2 E* a of a punch. That of a strip depends on its
-/// width by a logarithm.
+/// Factor of the unloading stiffness where the area grows by the factor `wider`: 2 E* a of a punch. That of a
+/// strip depends on its width by a logarithm.
 fn stiffer(symmetry: Symmetry, wider: f64) -> f64 {
     match symmetry {
         Symmetry::Axisymmetric => wider.sqrt(),
@@ -74,8 +78,8 @@ struct Comparison {
 }
 
 impl Comparison {
-    /// Of `run` and `companion`; `None` where the two cannot be compared: a companion that stopped early says nothing of what comes
-    /// after.
+    /// Of `run` and `companion`; `None` where the two cannot be compared: a companion that stopped early says
+    /// nothing of what comes after.
     fn new(run: &Outcome, companion: &Outcome, setting: Setting) -> Option<Comparison> {
         let of = [|row: &CurveRow| row.force, |row: &CurveRow| row.contact_area];
         let top = last_loaded(&run.rows).filter(|row| row.force > 0.0 && row.contact_area > 0.0)?;
@@ -152,8 +156,8 @@ impl Comparison {
         }
     }
 
-    /// Bound of the error of the force in a `row` of the run that `summary` is of, the `errors` of which are known; `None` where there is no
-    /// force.
+    /// Bound of the error of the force in a `row` of the run that `summary` is of, the `errors` of which are
+    /// known; `None` where there is no force.
     fn force_error(&self, row: &CurveRow, summary: &Summary, errors: &Errors) -> Option<f64> {
         if row.depth <= 0.0 || row.force <= 0.0 {
             return None;
@@ -182,7 +186,8 @@ impl Comparison {
     }
 }
 
-/// Difference of a quantity between the curves of run and companion, up to the depth `peak` that both reached.
+/// Difference of a quantity between the curves of run and companion, up to the depth `peak` that both
+/// reached.
 fn difference([own, other]: &[Curve; 2], peak: f64, of: Quantity) -> Option<Difference> {
     let smooth = own.smooth(peak);
     let last = (COMPARED_DEPTHS - 1) as f64;
@@ -196,8 +201,8 @@ fn difference([own, other]: &[Curve; 2], peak: f64, of: Quantity) -> Option<Diff
     Difference::new(points, ripple, of)
 }
 
-/// The `run` without the errors that its `companion` reveals of force, area and stiffness, and with the bounds of what is left; as it was
-/// where the two cannot be compared.
+/// The `run` without the errors that its `companion` reveals of force, area and stiffness, and with the
+/// bounds of what is left; as it was where the two cannot be compared.
 pub(super) fn extrapolate_and_bound(run: Outcome, companion: &Outcome, setting: Setting) -> Outcome {
     let Some(found) = Comparison::new(&run, companion, setting) else { return run };
     let errors = found.errors(&run, &companion.summary);
@@ -227,7 +232,8 @@ pub(super) fn extrapolate_and_bound(run: Outcome, companion: &Outcome, setting: 
     Outcome { rows, asperities, cycles, summary, ..run }
 }
 
-/// Work over the depths of an unloaded run that the energies of its body do not account for, over the external work at the peak.
+/// Work over the depths of an unloaded run that the energies of its body do not account for, over the
+/// external work at the peak.
 fn unaccounted(rows: &[CurveRow]) -> f64 {
     let kept = |row: &CurveRow| row.elastic_energy + row.plastic_work - row.transfer_energy;
     rows.last().map_or(0.0, |last| (work_along(rows) - kept(last)).abs() / largest_work(rows))

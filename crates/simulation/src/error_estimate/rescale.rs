@@ -31,7 +31,8 @@ pub(super) fn note_peak(summary: Summary, rows: &[CurveRow]) -> Summary {
     }
 }
 
-/// A `run` that ended where the sum of its nodal forces was `asked`, its curve moved along itself to where its force is: a power of the depth near the peak.
+/// A `run` that ended where the sum of its nodal forces was `asked`, its curve moved along itself to where
+/// its force is: a power of the depth near the peak.
 pub(crate) fn rescale_to_force(mut run: Outcome, asked: f64, symmetry: Symmetry) -> Outcome {
     let Some(&last) = last_loaded(&run.rows).filter(|row| row.force > 0.0 && row.contact_area > 0.0) else {
         return run;

@@ -16,7 +16,8 @@ pub(super) struct EnergyAccount {
     stored_before: f64,
     /// Force at the start of the last increment, and its length.
     earlier: Option<[f64; 2]>,
-    /// Share of the work that went into flow while the body was loaded first: see [`asperity_solver::contact::penalty_correction`].
+    /// Share of the work that went into flow while the body was loaded first: see
+    /// [`asperity_solver::contact::penalty_correction`].
     plastic_share: f64,
 }
 
@@ -52,8 +53,8 @@ impl EnergyAccount {
         self.earlier = Some([before, step]);
     }
 
-    /// Energies since first touch of a body that holds `elastic` and has dissipated `plastic` energy, `near` of the first beside its
-    /// contacts were it all elastic.
+    /// Energies since first touch of a body that holds `elastic` and has dissipated `plastic` energy, `near`
+    /// of the first beside its contacts were it all elastic.
     pub fn balance(&mut self, [elastic, plastic]: [f64; 2], near: f64, phase: Phase) -> Energies {
         if phase == Phase::Load && plastic > 0.0 {
             self.plastic_share = plastic / (near + plastic);

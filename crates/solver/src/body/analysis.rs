@@ -1,8 +1,9 @@
-//! What the topology of a mesh decides before any number is known: the order of elimination, the numbers of the unknowns, the pattern
-//! of the stiffness and the fronts of its factorisation.
+//! What the topology of a mesh decides before any number is known: the order of elimination, the numbers of
+//! the unknowns, the pattern of the stiffness and the fronts of its factorisation.
 //!
-//! To analyse a mesh takes a twentieth of a crush at `standard`. The cases of a sweep are meshes of few topologies: its owner keeps the
-//! last [`Analyses`] and hands them from case to case, so that each is made once.
+//! To analyse a mesh takes a twentieth of a crush at `standard`. The cases of a sweep are meshes of few
+//! topologies: its owner keeps the last [`Analyses`] and hands them from case to case, so that each is made
+//! once.
 
 use crate::body::dofs::Dofs;
 use crate::body::stiffness::Stiffness;
@@ -14,7 +15,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 /// Analyses kept for each thread: those of a run and its companion, and of the two before.
 const KEPT_PER_THREAD: usize = 4;
 
-/// Numbers of nodes in cells up to which an analysis is kept: with more, it takes memory, and little of the time of a run.
+/// Numbers of nodes in cells up to which an analysis is kept: with more, it takes memory, and little of the
+/// time of a run.
 const KEPT_NODES: usize = 40_000;
 
 /// A mesh without its geometry.
@@ -40,8 +42,8 @@ pub struct Analysis {
 /// The last analyses that were made, newest first.
 type Last = Vec<(Topology, Arc<Analysis>)>;
 
-/// The last few analyses, for meshes of the same topology. Clones share them, on any number of threads; a result does not depend on
-/// what they hold.
+/// The last few analyses, for meshes of the same topology. Clones share them, on any number of threads; a
+/// result does not depend on what they hold.
 #[derive(Clone, Debug)]
 pub struct Analyses {
     last: Arc<Mutex<Last>>,
@@ -61,7 +63,8 @@ impl Analyses {
         Analyses { last: Arc::default(), most: KEPT_PER_THREAD * threads }
     }
 
-    /// That of `cells` with `nodes_per_cell` nodes each, whose displacement components named by `fixed` for each node are prescribed.
+    /// That of `cells` with `nodes_per_cell` nodes each, whose displacement components named by `fixed` for
+    /// each node are prescribed.
     ///
     /// # Errors
     /// A pattern with more entries than can be counted.

@@ -41,8 +41,8 @@ impl ContactSet {
         if self.keep { Touching::Kept } else { Touching::Found }
     }
 
-    /// Takes down the `contact` that was assembled; the one after it finds what touches. Whether the parts that touch changed since the
-    /// last assessed iterate, or are still to be found.
+    /// Takes down the `contact` that was assembled; the one after it finds what touches. Whether the parts
+    /// that touch changed since the last assessed iterate, or are still to be found.
     pub fn note(&mut self, contact: &[EdgeContact]) -> bool {
         self.kept = std::mem::take(&mut self.keep);
         let shape_of = |parts: &Parts| parts.map(|p| p.is_some());

@@ -5,8 +5,8 @@ use crate::body::failure::Failure;
 use crate::point::j2::Tangent;
 use std::time::Instant;
 
-/// Negative pivots with which an LDLᵀ step is still taken: a limit point or a bifurcation has one or two; more mean
-/// that the iterate is far from any equilibrium.
+/// Negative pivots with which an LDLᵀ step is still taken: a limit point or a bifurcation has one or two;
+/// more mean that the iterate is far from any equilibrium.
 const TOLERATED_NEGATIVE_PIVOTS: usize = 2;
 
 /// Shares of the diagonal that are added to it, one after the other, until the tangent is definite.
@@ -29,7 +29,8 @@ impl Equilibrium<'_> {
         outcome
     }
 
-    /// A tangent without the compressive geometric term; else LDLᵀ of the exact one if it is nearly definite; else a stiffer one.
+    /// A tangent without the compressive geometric term; else LDLᵀ of the exact one if it is nearly definite;
+    /// else a stiffer one.
     fn factorise_indefinite(&mut self) -> Result<(), Failure> {
         self.counters.lost_pivots += 1;
         self.assemble_again(Tangent::WithoutCompression)?;
@@ -44,8 +45,8 @@ impl Equilibrium<'_> {
         }
     }
 
-    /// The exact tangent with a stiffer diagonal, as little as makes it definite: directions that go down, where a
-    /// perfectly plastic body gives way and Newton's go anywhere.
+    /// The exact tangent with a stiffer diagonal, as little as makes it definite: directions that go down,
+    /// where a perfectly plastic body gives way and Newton's go anywhere.
     fn factorise_stiffened(&mut self) -> Result<(), Failure> {
         for share in ADDED_DIAGONAL {
             self.stiffness.stiffen(share);

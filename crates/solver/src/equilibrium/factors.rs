@@ -33,8 +33,8 @@ impl Factors {
         self.yielded.extend(yielding);
     }
 
-    /// Whether other points are `yielding` than where they were made: where a point yields that did not, or the other way, its modulus has
-    /// leapt.
+    /// Whether other points are `yielding` than where they were made: where a point yields that did not, or
+    /// the other way, its modulus has leapt.
     pub fn are_stale(&self, yielding: impl Iterator<Item = bool>) -> bool {
         !yielding.eq(self.yielded.iter().copied())
     }

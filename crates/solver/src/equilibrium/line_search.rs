@@ -46,8 +46,9 @@ impl LineSearch {
         self.jumped = true;
     }
 
-    /// Finds the direction at `displacement`, where the residual is `residual` and whether the contact is kept there is known: `solve` does
-    /// so with the factors, which `secants` correct by what the last step has shown.
+    /// Finds the direction at `displacement`, where the residual is `residual` and whether the contact is
+    /// kept there is known: `solve` does so with the factors, which `secants` correct by what the last step
+    /// has shown.
     pub fn find_direction(
         &mut self,
         residual: &[f64],
@@ -73,8 +74,8 @@ impl LineSearch {
         -dot(residual, &self.direction)
     }
 
-    /// Goes to this `fraction` of the direction. `None` where it leads away from its start; at the start, whether the contact was kept
-    /// there.
+    /// Goes to this `fraction` of the direction. `None` where it leads away from its start; at the start,
+    /// whether the contact was kept there.
     pub fn advance(&mut self, fraction: f64) -> Option<bool> {
         self.fraction = fraction;
         (fraction == 0.0).then_some(self.kept_contact)
