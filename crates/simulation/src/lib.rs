@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 //!
-//! One scene, from its keys to its rows. [`run::Run`] is the only entry; the modules stand below in the order in which it calls them:
+//! One scene, from its keys to its rows. [`run::Run`] is the only entry; the modules stand below in the order
+//! in which it calls them:
 //!
 //! 1. [`scene`]: what is asked for, and whether it makes sense.
 //! 2. [`depth_for_force`]: the depth of the peak, from coarse crushes where a force is asked for.

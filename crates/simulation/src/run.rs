@@ -76,8 +76,7 @@ impl<'a> Run<'a> {
         Ok(outcome)
     }
 
-    /// The problem that it solves first; of a metal or a body of its own it has the scene's, without earlier
-    /// loads.
+    /// The problem as it is laid out: with the metal of the scene, and a body before all loads.
     ///
     /// # Errors
     /// A scene that cannot be meshed: path and reason.
