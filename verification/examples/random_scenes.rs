@@ -104,9 +104,12 @@ fn main() -> Result<(), Box<dyn Error>> {
     if tally.faults.is_empty() { Ok(()) } else { Err("see the scenes in out/random-scenes".into()) }
 }
 
-/// Number, end and seconds of every scene; ends that the journal of an earlier run knows are taken from
+/// Number, end and seconds of a scene.
+type Ended = (usize, End, f64);
+
+/// The end of every scene; ends that the journal of an earlier run knows are taken from
 /// there.
-fn solve(scenes: &[Drawn], seed: u64) -> Result<Vec<(usize, End, f64)>, Box<dyn Error>> {
+fn solve(scenes: &[Drawn], seed: u64) -> Result<Vec<Ended>, Box<dyn Error>> {
     let (program, kept) = (program()?, PathBuf::from("out/random-scenes"));
     std::fs::create_dir_all(&kept)?;
     let journal = kept.join(format!("ends-{seed}.tsv"));
@@ -145,7 +148,7 @@ struct Tally {
 }
 
 impl Tally {
-    fn new(scenes: &[Drawn], ends: &[(usize, End, f64)]) -> Tally {
+    fn new(scenes: &[Drawn], ends: &[Ended]) -> Tally {
         let mut tally = Tally::default();
         for (i, end, _) in ends {
             let one = &scenes[*i];
