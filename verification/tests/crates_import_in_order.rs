@@ -9,7 +9,7 @@ use std::path::Path;
 use toml::Table;
 
 /// The folder of each crate and the crates of the workspace that it may import, without their prefix `asperity-`.
-const MAY_IMPORT: [(&str, &[&str]); 13] = [
+const MAY_IMPORT: [(&str, &[&str]); 14] = [
     ("crates/numerics", &[]),
     ("crates/formats", &["numerics"]),
     ("crates/material", &["numerics", "formats"]),
@@ -22,6 +22,7 @@ const MAY_IMPORT: [(&str, &[&str]); 13] = [
         &["numerics", "formats", "material", "mesh", "solver", "simulation", "calibration"],
     ),
     ("crates/roughness", &["numerics", "formats", "material"]),
+    ("crates/draw", &["numerics", "formats", "material", "mesh", "solver", "simulation", "roughness"]),
     (
         "crates/asperity",
         &[
@@ -34,6 +35,7 @@ const MAY_IMPORT: [(&str, &[&str]); 13] = [
             "calibration",
             "identification",
             "roughness",
+            "draw",
         ],
     ),
     ("crates/paper", &["asperity"]),

@@ -106,7 +106,7 @@ pub mod rough;
 pub mod study;
 pub mod trade;
 
-pub mod draw;
+pub use asperity_draw as draw;
 
 pub mod page;
 

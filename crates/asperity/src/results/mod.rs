@@ -3,6 +3,7 @@
 pub mod columns;
 pub(crate) mod crush_rows;
 pub(crate) mod crush_summary;
-pub mod numbers;
 pub mod output;
 pub mod units;
+
+pub use asperity_draw::numbers;

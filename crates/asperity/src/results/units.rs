@@ -2,10 +2,8 @@
 
 use asperity_simulation::scene::Symmetry;
 
-/// SI value of 1 µm.
-pub const MICROMETRE: f64 = 1e-6;
-/// SI value of 1 MPa.
-pub const MEGAPASCAL: f64 = 1e6;
+pub use asperity_draw::{MEGAPASCAL, MICROMETRE};
+
 /// SI value of 1 GPa.
 pub const GIGAPASCAL: f64 = 1e9;
 

@@ -2,8 +2,8 @@
 
 use super::deformed_mesh::{DeformedMesh, Vertex};
 use super::window::{Window, range};
-use crate::draw::encode::indexed_png;
-use crate::draw::palette::Colour;
+use crate::encode::indexed_png;
+use crate::palette::Colour;
 
 /// Dots a facet covers at most along a side.
 const FACET: f64 = 6.0;

@@ -2,7 +2,7 @@
 
 use super::deformed_mesh::DeformedMesh;
 use super::window::{AsperityRow, Reach, Window};
-use crate::results::units::{MEGAPASCAL, MICROMETRE};
+use crate::{MEGAPASCAL, MICROMETRE};
 use asperity_mesh::profile::Asperity;
 use asperity_simulation::run::FieldFrame;
 use asperity_simulation::scene::{Scene, Symmetry};

@@ -11,7 +11,7 @@ mod section;
 
 mod panel;
 
-use crate::draw::frame::{self, Frame, ROOM_LEFT, ROOM_RIGHT, Short};
+use crate::frame::{self, Frame, ROOM_LEFT, ROOM_RIGHT, Short};
 use maud::{Markup, html};
 use panel::HEADING;
 pub use panel::Panel;

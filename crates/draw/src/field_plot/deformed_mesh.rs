@@ -1,6 +1,6 @@
 //! The mesh of a converged state where it is now, cut into flat facets fine enough for smooth contours.
 
-use crate::results::units::{MEGAPASCAL, MICROMETRE};
+use crate::{MEGAPASCAL, MICROMETRE};
 use asperity_mesh::{Edge, Mesh};
 use asperity_simulation::run::FieldFrame;
 use asperity_solver::element::{quad4, quad8};

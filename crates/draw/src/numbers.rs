@@ -32,7 +32,7 @@ pub fn four_decimals(value: f64) -> String {
 }
 
 /// Seven digits: more than any instrument has, and none of rounding.
-pub(crate) fn digits(value: f64) -> String {
+pub fn digits(value: f64) -> String {
     to_digits(value, 7).to_string()
 }
 
@@ -58,7 +58,7 @@ pub fn spread(value: Option<Spread>, digits: usize) -> String {
 }
 
 /// So many significant digits or so.
-pub(crate) fn with_digits(value: f64, count: i32) -> String {
+pub fn with_digits(value: f64, count: i32) -> String {
     if value == 0.0 || !value.is_finite() {
         return format!("{value}");
     }
@@ -69,17 +69,17 @@ pub(crate) fn with_digits(value: f64, count: i32) -> String {
 }
 
 /// Digits after the point with which the positive `value` has `count` digits, at most 9.
-pub(crate) fn decimals(value: f64, count: i32) -> usize {
+pub fn decimals(value: f64, count: i32) -> usize {
     (count - 1 - value.log10().floor() as i32).clamp(0, 9) as usize
 }
 
 /// A number as tables have it, in the shortest digits that read back to the same bits: `5.0`, `5e-5`, nothing for what is not finite.
-pub(crate) fn shortest(value: f64) -> String {
+pub fn shortest(value: f64) -> String {
     if value.is_finite() { format!("{value:?}") } else { String::new() }
 }
 
 /// A value, or nothing.
-pub(crate) fn if_any<T: ToString>(value: Option<T>) -> String {
+pub fn if_any<T: ToString>(value: Option<T>) -> String {
     value.map_or_else(String::new, |value| value.to_string())
 }
 

@@ -5,7 +5,7 @@ use resvg::tiny_skia::{Color, Pixmap, Transform};
 use resvg::usvg::{Options, Tree};
 
 /// DejaVu Sans, cut down to the letters of the pictures; its licence lies beside it.
-const FONT: &[u8] = include_bytes!("../../assets/DejaVuSans-subset.ttf");
+const FONT: &[u8] = include_bytes!("../assets/DejaVuSans-subset.ttf");
 /// The family that every drawing names first, and what stands for it where it is not installed.
 pub const FAMILY: &str = "DejaVu Sans, sans-serif";
 

@@ -1,17 +1,26 @@
 //! Claims about the pictures.
 
 use super::*;
-use crate::input::toml_file::TomlFile;
-use crate::results::units::MEGAPASCAL;
+use crate::MEGAPASCAL;
 use asperity_simulation::record::rows::Phase;
 use asperity_simulation::run::{Event, FieldFrame, Run};
 use asperity_simulation::scene::Scene;
 use std::ops::ControlFlow;
 
-fn peak(change: &str) -> (Scene, FieldFrame) {
-    let text = crate::scenes::SINGLE_ASPERITY.replace("\"standard\"", "\"draft\"");
-    let overrides = ["output.every=100000", change].map(String::from);
-    let scene: Scene = TomlFile::parse("scene.toml".as_ref(), text, &overrides).unwrap().value;
+/// The asperity of the paper, coarse.
+const SCENE: &str = r#"
+symmetry = "axisymmetric"
+accuracy = "draft"
+material = { youngs_modulus = "210 GPa", poissons_ratio = 0.3, yield_stress = "300 MPa", hardening_exponent = 0.3 }
+asperity = [{ height = "20 um", slope_deg = 10, tip_radius = "10 um" }]
+tool = { shape = "plane" }
+loading = { depth = "5 um", unload = true }
+output = { every = 100000 }
+numerics = { steps = 8 }
+"#;
+
+fn peak() -> (Scene, FieldFrame) {
+    let scene: Scene = toml::from_str(SCENE).unwrap();
     let mut peak = None;
     Run::new(&scene)
         .run(&mut |event| {
@@ -30,7 +39,7 @@ fn peak(change: &str) -> (Scene, FieldFrame) {
 /// largest stress of the nodes but not beyond.
 #[test]
 fn the_picture_is_that_of_the_fields() {
-    let (scene, frame) = peak("numerics.steps=8");
+    let (scene, frame) = peak();
     let section = Section::new(&frame, &scene, Reach::Yielded).unwrap();
     let size = [300, 200];
     let raster = Raster::draw(&section.mesh, &section.window, true, size);
@@ -49,7 +58,7 @@ fn the_picture_is_that_of_the_fields() {
 
 #[test]
 fn every_panel_is_drawn_with_its_unit() {
-    let (scene, frame) = peak("numerics.steps=8");
+    let (scene, frame) = peak();
     let section = Section::new(&frame, &scene, Reach::Asperities(3.0)).unwrap();
     let panels = [&Panel::PEAK[..], &Panel::FIG5, &[Panel::Mesh]].concat();
     let svg = section.svg(&panels, "a title").unwrap();
@@ -80,7 +89,7 @@ fn roxmltree_free_check(svg: &str) -> bool {
 /// An elastic body has no zones and no plastic strain, and is drawn all the same.
 #[test]
 fn an_elastic_body_is_drawn() {
-    let (mut scene, mut frame) = peak("numerics.steps=8");
+    let (mut scene, mut frame) = peak();
     scene.material.yield_stress = None;
     frame.fields.plastic_zone.iter_mut().for_each(|z| *z = 0.0);
     frame.fields.plastic_strain.iter_mut().for_each(|s| *s = 0.0);

@@ -2,9 +2,9 @@
 
 use super::raster::{Dot, Raster};
 use super::section::Section;
-use crate::draw::frame::{Frame, ROOM_LEFT, Short, boxes, tick};
-use crate::draw::palette::{Bands, Colour, ELASTIC, ZONES};
-use crate::draw::scale;
+use crate::frame::{Frame, ROOM_LEFT, Short, boxes, tick};
+use crate::palette::{Bands, Colour, ELASTIC, ZONES};
+use crate::scale;
 use maud::{Markup, html};
 use std::fmt::Write;
 

@@ -7,7 +7,7 @@ use super::encode::{drawing_png, indexed_png};
 use super::frame::{Frame, ROOM_LEFT, ROOM_RIGHT, Short, boxes, document};
 use super::palette::{Bands, Colour, REGIMES, interpolated};
 use super::scale;
-use crate::results::numbers::decimals;
+use crate::numbers::decimals;
 use maud::{Markup, html};
 
 /// No side of a picture is longer, unless less is asked for.
