@@ -172,7 +172,8 @@ mod tests {
         for text in ["Depth h (µm)", "Force F (N)", "loading", "unloading"] {
             assert!(axisymmetric.contains(text), "{text}");
         }
-        assert!(plot(Symmetry::PlaneStrain, &rows).unwrap().contains("Force F (N/mm)"));
+        // 5.52 N/m
+        assert!(plot(Symmetry::PlaneStrain, &rows).unwrap().contains("Force F (mN/mm)"));
         let start = plot(Symmetry::Axisymmetric, &rows[..1]).unwrap();
         assert!(!start.contains("unloading") && !start.contains("NaN"));
     }
