@@ -194,7 +194,7 @@ const TOO_ELASTIC: f64 = 0.9;
 fn strain_over_tan(atlas: &Atlas, slope: f64, law: HardeningLaw, ratio: f64, exponent: f64) -> Option<f64> {
     let tan = slope.to_radians().tan();
     let k = |hardening| {
-        atlas.at(&SharpCone::new(slope, &ELASTIC, hardening, Contact::Crushed)).map(|a| a.k_over_e.value)
+        atlas.answer(&SharpCone::new(slope, &ELASTIC, hardening, Contact::Crushed)).map(|a| a.k_over_e.value)
     };
     let own = k(metal(law, ratio, exponent))?;
     if own > TOO_ELASTIC * FRAC_2_PI * ELASTIC.reduced_modulus() / tan {

@@ -35,7 +35,7 @@ fn main() -> Result<(), Error> {
     let loading = Loading::to_depth(Length(5.0 * UM)).unloaded();
     let tables = Tables::new(Symmetry::Axisymmetric, steel, Tool::plane(), loading)
         .with(Asperity::cone(Length(20.0 * UM), 10.0).rounded(Length(10.0 * UM)))
-        .at(Accuracy::Draft);
+        .with_accuracy(Accuracy::Draft);
     let crushed = crush(&Scene::new(&tables)?, &mut |_| true)?;
     println!("peak force {} N", crushed.summary.peak_force);
 

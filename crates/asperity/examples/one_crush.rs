@@ -10,7 +10,7 @@ fn main() -> Result<(), Error> {
     let cone = Asperity::cone(Length(20e-6), 10.0).rounded(Length(10e-6));
     let loading = Loading::to_depth(Length(5e-6)).unloaded();
     let tables = Tables::new(Symmetry::Axisymmetric, steel, Tool::plane(), loading).with(cone);
-    let result = crush(&Scene::new(&tables.at(Accuracy::Draft))?, &mut |_| true)?;
+    let result = crush(&Scene::new(&tables.with_accuracy(Accuracy::Draft))?, &mut |_| true)?;
     let summary = &result.summary;
     println!("{:.3} N at {:.3} um", summary.peak_force, 1e6 * summary.peak_depth);
     println!("error within {:.1} %", 100.0 * summary.estimated_error);

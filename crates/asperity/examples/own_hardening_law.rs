@@ -54,7 +54,7 @@ fn main() -> Result<(), Error> {
     let tables =
         Tables::new(Symmetry::Axisymmetric, material, Tool::plane(), Loading::to_depth(Length(5e-6)))
             .with(Asperity::cone(Length(20e-6), 10.0).rounded(Length(10e-6)))
-            .at(Accuracy::Draft);
+            .with_accuracy(Accuracy::Draft);
     let summary = crush(&Scene::new(&tables)?, &mut |_| true)?.summary;
     println!("{:.3} N at {:.3} um", summary.peak_force, 1e6 * summary.peak_depth);
     Ok(())

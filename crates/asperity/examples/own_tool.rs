@@ -36,7 +36,7 @@ fn main() -> Result<(), Error> {
     let material = Material::elastic_body(Stress(210e9), 0.3);
     let tool = Tool::custom(Arc::new(Paraboloid { radius }));
     let tables = Tables::new(Symmetry::Axisymmetric, material, tool, Loading::to_depth(Length(depth)))
-        .at(Accuracy::Draft);
+        .with_accuracy(Accuracy::Draft);
     let summary = crush(&Scene::new(&tables)?, &mut |_| true)?.summary;
     let hertz = 4.0 / 3.0 * 210e9 / 0.91 * radius.sqrt() * depth.powf(1.5);
     println!("{:.4e} N, {:.4} of Hertz's", summary.peak_force, summary.peak_force / hertz);

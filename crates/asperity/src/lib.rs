@@ -12,7 +12,7 @@
 //! let cone = Asperity::cone(Length(20e-6), 10.0).rounded(Length(10e-6));
 //! let tables = Tables::new(Symmetry::Axisymmetric, steel, Tool::plane(), Loading::to_depth(Length(5e-6)))
 //!     .with(cone)
-//!     .at(Accuracy::Draft);
+//!     .with_accuracy(Accuracy::Draft);
 //! let scene = Scene::new(&tables)?;
 //! let result = crush(&scene, &mut |_| true)?;
 //! let summary = &result.summary;

@@ -102,7 +102,7 @@ fn run(tables: &Tables) -> Crush {
 fn asperity_of(material: Material) -> Tables {
     Tables::new(Symmetry::Axisymmetric, material, Tool::plane(), Loading::to_depth(Length(2e-6)).unloaded())
         .with(Asperity::cone(Length(20e-6), 10.0).rounded(Length(10e-6)))
-        .at(Accuracy::Draft)
+        .with_accuracy(Accuracy::Draft)
 }
 
 fn elastic() -> Material {
@@ -162,7 +162,7 @@ fn a_copy_of_the_cone_gives_its_force() {
     let metal = || elastic().yielding(Stress(YIELD), EXPONENT);
     let indent = |tool| {
         let loading = Loading::to_depth(Length(1e-6)).unloaded();
-        run(&Tables::new(Symmetry::Axisymmetric, metal(), tool, loading).at(Accuracy::Draft))
+        run(&Tables::new(Symmetry::Axisymmetric, metal(), tool, loading).with_accuracy(Accuracy::Draft))
     };
     let exact = indent(Tool::cone(10.0));
     let own = indent(Tool::custom(Arc::new(Cone { tan: 10f64.to_radians().tan() })));

@@ -5,7 +5,7 @@
 //! those.
 
 use asperity::error::{Error, InputError};
-use asperity::output::{Sink, beside};
+use asperity::output::{Sink, path_beside};
 use std::collections::BTreeSet;
 use std::fs::{self, File, TryLockError};
 use std::io::{self, Write};
@@ -66,7 +66,7 @@ fn own_files(folder: &Path, command: &str, force: bool) -> Result<Vec<String>, I
 /// The journal of a long run into `target`: beside the results, not in them, for a folder of results holds
 /// results.
 pub fn journal_beside(target: &Path) -> PathBuf {
-    target.with_file_name(beside(Path::new(target.file_name().unwrap_or_default()), ".journal"))
+    target.with_file_name(path_beside(Path::new(target.file_name().unwrap_or_default()), ".journal"))
 }
 
 fn cannot_write(path: &Path, e: &io::Error) -> InputError {
@@ -117,7 +117,7 @@ impl Folder {
         own_files(target, command, force)?;
         fs::create_dir_all(target).map_err(|e| cannot_write(target, &e))?;
         let target = fs::canonicalize(target).map_err(|e| cannot_write(target, &e))?;
-        let partial = beside(&target, ".partial");
+        let partial = path_beside(&target, ".partial");
         let leftovers = own_files(&partial, command, force)?;
         fs::create_dir_all(&partial).map_err(|e| cannot_write(&partial, &e))?;
         let path = partial.join(MANIFEST);

@@ -6,7 +6,7 @@
 //! left, and that is part of the covariance of the fit (Kennedy and O'Hagan, Biometrika 87 (2000) 1, with one
 //! run a level).
 
-use super::response::{Geometry, DesignPoint, Response, SHARES};
+use super::response::{DesignPoint, Geometry, Response, SHARES};
 use asperity_material::cone_atlas::{Atlas, Contact, SharpCone};
 use asperity_material::{Elastic, HardeningCurve};
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};

@@ -99,7 +99,7 @@ pub fn respond(question: &DesignPoint, accuracy: Accuracy, analyses: &Analyses) 
 fn point(question: &DesignPoint) -> Point {
     Point {
         elastic: Elastic { youngs_modulus: 1.0, ..question.metal.elastic },
-        hardening: Some(question.metal.hardening.over(question.modulus)),
+        hardening: Some(question.metal.hardening.in_units_of(question.modulus)),
         kinematic_share: 0.0,
         stress_measure: question.stress_measure,
     }
@@ -142,7 +142,7 @@ fn scene(question: &DesignPoint, accuracy: Accuracy) -> Scene {
         Geometry::Crush { asperity } => (Tool::plane(), Some(asperity.clone())),
     };
     let loading = Loading::to_depth(Length(question.depth)).unloaded();
-    let scene = Scene::new(Symmetry::Axisymmetric, material, tool, loading).at(accuracy);
+    let scene = Scene::new(Symmetry::Axisymmetric, material, tool, loading).with_accuracy(accuracy);
     asperity.into_iter().fold(scene, Scene::with)
 }
 

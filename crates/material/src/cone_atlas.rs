@@ -18,13 +18,13 @@
 //! let steel = Hardening { law: HardeningLaw::Hollomon, yield_stress: 300e6, exponent: 0.2, youngs_modulus: 210e9 };
 //! let atlas = Atlas::committed().expect("comes with the program");
 //! let cone = SharpCone::new(10.0, &elastic, steel, Contact::Crushed);
-//! let answer = atlas.at(&cone).expect("inside the atlas");
+//! let answer = atlas.answer(&cone).expect("inside the atlas");
 //! // F = K h²; an elastic cone has (2/π) E*/tan β
 //! let over_elastic = answer.k_over_e.value / (2.0 / std::f64::consts::PI / 0.91 / 10f64.to_radians().tan());
 //! assert!(over_elastic > 0.05 && over_elastic < 0.5);
 //! assert!(answer.k_over_e.error < 0.02);
 //! // no cone of the atlas is as steep
-//! assert!(atlas.at(&SharpCone::new(50.0, &elastic, steel, Contact::Crushed)).is_none());
+//! assert!(atlas.answer(&SharpCone::new(50.0, &elastic, steel, Contact::Crushed)).is_none());
 //! ```
 
 use crate::{Elastic, Hardening, HardeningCurve, HardeningLaw};
@@ -331,7 +331,7 @@ impl Atlas {
     }
 
     /// The answer of a cone inside the atlas; `None` of any other.
-    pub fn at(&self, cone: &SharpCone) -> Option<Answer> {
+    pub fn answer(&self, cone: &SharpCone) -> Option<Answer> {
         cone.is_inside().then(|| self.nearest(cone))
     }
 
@@ -438,7 +438,7 @@ mod tests {
     fn beyond_its_edge_the_atlas_says_nothing_or_that_it_is_carried_on() {
         let atlas = Atlas::committed().unwrap();
         let crushed = Contact::Crushed;
-        assert!(atlas.at(&cone(10.0, 300.0, 0.2, crushed)).is_some_and(|a| a.inside));
+        assert!(atlas.answer(&cone(10.0, 300.0, 0.2, crushed)).is_some_and(|a| a.inside));
         for outside in [
             cone(0.4, 300.0, 0.2, crushed),
             cone(41.0, 300.0, 0.2, crushed),
@@ -446,7 +446,7 @@ mod tests {
             cone(10.0, 20_000.0, 0.2, crushed),
             cone(10.0, 300.0, 0.7, crushed),
         ] {
-            assert!(atlas.at(&outside).is_none());
+            assert!(atlas.answer(&outside).is_none());
             let carried = atlas.nearest(&outside);
             assert!(!carried.inside && carried.k_over_e.value.is_finite());
         }

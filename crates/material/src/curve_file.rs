@@ -55,7 +55,8 @@ impl CurveFile {
             message: format!("is empty: begin it with the line {HEADER}"),
         })?;
         let at = |(line, message)| CurveFileError { line: Some(line), message };
-        let columns = Columns::of(&table.header).map_err(|message| at((table.header_line, message)))?;
+        let columns =
+            Columns::from_names(&table.header).map_err(|message| at((table.header_line, message)))?;
         let (lines, points) = table.pairs(columns.places).map_err(at)?.into_iter().unzip();
         let mut file = CurveFile { points, lines };
         // in the unit of the file, so that the sentence says what the reader sees
@@ -71,7 +72,7 @@ impl CurveFile {
 }
 
 impl Columns {
-    fn of(names: &[&str]) -> Result<Columns, String> {
+    fn from_names(names: &[&str]) -> Result<Columns, String> {
         let units = Stress::UNITS.iter().map(|(name, _)| *name).collect::<Vec<_>>().join(", ");
         let (mut strain, mut stress) = (None, None);
         for (place, name) in names.iter().enumerate() {

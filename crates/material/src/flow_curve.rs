@@ -142,7 +142,7 @@ impl OwnLaw {
 
     /// The same law with stresses in another unit, of which one is `unit` > 0 here.
     #[must_use]
-    pub fn over(&self, unit: f64) -> OwnLaw {
+    pub fn in_units_of(&self, unit: f64) -> OwnLaw {
         OwnLaw { law: self.law.clone(), unit: self.unit * unit }
     }
 
@@ -261,7 +261,7 @@ mod tests {
     #[test]
     fn a_law_from_outside_is_scaled_to_the_unit_of_the_computation() {
         let (own, power) = (HardeningCurve::from(OwnLaw::new(Arc::new(Copy))), HardeningCurve::from(SWIFT));
-        let [own, power] = [own, power].map(|curve| curve.over(210e9));
+        let [own, power] = [own, power].map(|curve| curve.in_units_of(210e9));
         assert!((own.yield_stress() / power.yield_stress() - 1.0).abs() < 1e-15);
         let [a, b] = [&own, &power].map(|curve| curve.return_to_yield(0.02, 1.15, 0.1, 0.0046));
         assert!((a.plastic_strain / b.plastic_strain - 1.0).abs() < 1e-12);

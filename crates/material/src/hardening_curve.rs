@@ -152,16 +152,16 @@ impl HardeningCurve {
 
     /// The same material with all stresses, E among them, in another unit, of which one is `unit` > 0 here.
     #[must_use]
-    pub fn over(&self, unit: f64) -> HardeningCurve {
+    pub fn in_units_of(&self, unit: f64) -> HardeningCurve {
         match self {
             HardeningCurve::Power(law) => HardeningCurve::Power(Hardening {
                 yield_stress: law.yield_stress / unit,
                 youngs_modulus: law.youngs_modulus / unit,
                 ..*law
             }),
-            HardeningCurve::Voce(law) => law.over(unit).into(),
-            HardeningCurve::Table(table) => table.over(unit).into(),
-            HardeningCurve::Own(law) => law.over(unit).into(),
+            HardeningCurve::Voce(law) => law.in_units_of(unit).into(),
+            HardeningCurve::Table(table) => table.in_units_of(unit).into(),
+            HardeningCurve::Own(law) => law.in_units_of(unit).into(),
         }
     }
 }
@@ -194,7 +194,7 @@ mod tests {
         let points: Vec<[f64; 2]> = [0.0, 0.05, 0.1, 0.2].map(|p| [p, law.flow(p).yield_stress]).into();
         let curve = HardeningCurve::from(HardeningTable::new(&points).unwrap());
         assert!((curve.exponent(210e3) - 0.23).abs() < 1e-12);
-        assert!((curve.over(210e3).exponent(1.0) - 0.23).abs() < 1e-12);
+        assert!((curve.in_units_of(210e3).exponent(1.0) - 0.23).abs() < 1e-12);
         assert!((curve.representative_stress(0.1) / law.representative_stress(0.1) - 1.0).abs() < 1e-12);
     }
 }

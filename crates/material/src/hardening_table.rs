@@ -64,7 +64,7 @@ impl HardeningTable {
 
     /// The same curve with stresses in another unit, of which one is `unit` > 0 here.
     #[must_use]
-    pub fn over(&self, unit: f64) -> HardeningTable {
+    pub fn in_units_of(&self, unit: f64) -> HardeningTable {
         let over = |values: &[f64]| values.iter().map(|v| v / unit).collect();
         HardeningTable { strain: self.strain.clone(), stress: over(&self.stress), work: over(&self.work) }
     }
@@ -205,7 +205,7 @@ mod tests {
         // trapezoids by hand
         for (p, work) in [(0.0, 0.0), (0.05, 0.0625), (0.1, 0.15), (0.4, 0.84), (0.5, 1.1), (1.5, 3.7)] {
             assert!((t.plastic_work(p) - work).abs() < 1e-15, "{p}");
-            assert!((t.over(2.0).plastic_work(p) - 0.5 * work).abs() < 1e-15);
+            assert!((t.in_units_of(2.0).plastic_work(p) - 0.5 * work).abs() < 1e-15);
         }
     }
 

@@ -92,7 +92,7 @@ impl Voce {
 
     /// The same law with stresses in another unit, of which one is `unit` > 0 here.
     #[must_use]
-    pub fn over(&self, unit: f64) -> Voce {
+    pub fn in_units_of(&self, unit: f64) -> Voce {
         Voce {
             yield_stress: self.yield_stress / unit,
             saturation_stress: self.saturation_stress / unit,

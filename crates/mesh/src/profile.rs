@@ -161,7 +161,7 @@ impl Asperity {
             }
             Shape::Sphere { radius } => Shape::Sphere { radius: radius / length },
             Shape::Measured(outline) => Shape::Measured(outline.scaled(length.recip()).shared()),
-            Shape::Own(tool) => Shape::Own(tool.over(length)),
+            Shape::Own(tool) => Shape::Own(tool.in_units_of(length)),
         };
         Asperity {
             shape,

@@ -156,7 +156,7 @@ impl OwnTool {
 
     /// The same tool with lengths in another unit, of which one is `unit` > 0 here.
     #[must_use]
-    pub fn over(&self, unit: f64) -> OwnTool {
+    pub fn in_units_of(&self, unit: f64) -> OwnTool {
         OwnTool { outline: self.outline.clone(), unit: self.unit * unit }
     }
 

@@ -203,7 +203,7 @@ fn curve([e, s, n]: [f64; 3], tool: Tool, seed: u64) -> Option<String> {
     let mut metal = Material::elastic_body(Stress(1e9 * e), 0.3).yielding(Stress(1e6 * s), n);
     metal.hardening_law = HardeningChoice::Swift;
     let loading = Loading::to_depth(Length(1e-6)).unloaded();
-    let tables = Tables::new(Symmetry::Axisymmetric, metal, tool, loading).at(Accuracy::Standard);
+    let tables = Tables::new(Symmetry::Axisymmetric, metal, tool, loading).with_accuracy(Accuracy::Standard);
     let done = crush(&Scene::new(&tables).ok()?, &mut |_| true).ok()?;
     let mut draw = SplitMix(seed);
     let mut uniform = || ((draw.bits() >> 11) as f64 + 0.5) / (1_u64 << 53) as f64;

@@ -20,7 +20,7 @@ use asperity_verification::atlas_fit::{Solved, differences, solved};
 fn over_stated(cones: &[Solved]) -> Vec<[f64; 2]> {
     let atlas = Atlas::committed().unwrap();
     let over = |cone: &Solved| {
-        let found = atlas.at(&cone.cone).unwrap();
+        let found = atlas.answer(&cone.cone).unwrap();
         let [k, ratio, ..] = differences(cone, atlas);
         [k.abs() / found.k_over_e.error, ratio.abs() / found.contact_ratio.error]
     };

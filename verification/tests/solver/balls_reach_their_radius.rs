@@ -18,7 +18,7 @@ fn a_ball_goes_in_to_its_radius_and_comes_back() {
         let metal = Material::elastic_body(Stress(210e9), 0.3).yielding(Stress(YIELD_STRESS), exponent);
         let loading = Loading::to_depth(Length(9.9e-6)).unloaded();
         let ball = Tool::sphere(Length(10e-6));
-        let scene = Scene::new(Symmetry::Axisymmetric, metal, ball, loading).at(Accuracy::Draft);
+        let scene = Scene::new(Symmetry::Axisymmetric, metal, ball, loading).with_accuracy(Accuracy::Draft);
         let outcome = Run::new(&scene).run(&mut |_| ControlFlow::Continue(())).unwrap();
         assert!(outcome.stopped.is_none(), "n = {exponent}: {:?}", outcome.stopped);
         let summary = outcome.summary;

@@ -16,7 +16,7 @@ impl Calibration {
         let charts = if self.whole { self.charts() } else { Vec::new() };
         let charts = charts.iter().map(|(_, chart, seen)| page::chart(chart, seen, &format!("{seen}.")));
         let charts = charts.collect::<Result<Vec<Markup>, Error>>()?;
-        let numbers = Numbers::of(&self.fit)?;
+        let numbers = Numbers::from_summary(&self.fit)?;
         let sections = html! {
             h2 { "Numbers" }
             (coefficients(&numbers))

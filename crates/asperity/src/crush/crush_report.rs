@@ -91,7 +91,7 @@ impl Crush {
     /// The numbers of the summary with their errors.
     fn numbers(&self) -> Result<Markup, Error> {
         let symmetry = self.summary.scene.symmetry;
-        let numbers = Numbers::of(&self.summary)?;
+        let numbers = Numbers::from_summary(&self.summary)?;
         let per = per_length(symmetry);
         let [newton, joule, stiff] = ["N", "µJ", "N/µm"].map(|unit| format!(" {unit}{per}"));
         let contact = match symmetry {

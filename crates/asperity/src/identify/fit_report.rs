@@ -14,7 +14,7 @@ impl Identification {
     /// # Errors
     /// A drawing that fails.
     pub fn report(&self) -> Result<String, Error> {
-        let numbers = Numbers::of(self)?;
+        let numbers = Numbers::from_summary(self)?;
         let parameter = |(name, found): (&String, &Found)| {
             let at = |key: &str| numbers.shown(&format!("/parameters/{name}/{key}"), 1.0, "");
             let unit = if found.unit.is_empty() { String::new() } else { format!(" {}", found.unit) };

@@ -75,7 +75,7 @@ impl Numbers {
     ///
     /// # Errors
     /// A summary that JSON cannot hold.
-    pub fn of(summary: &impl Serialize) -> Result<Numbers, Error> {
+    pub fn from_summary(summary: &impl Serialize) -> Result<Numbers, Error> {
         serde_json::from_str(&json(summary)?)
             .map(Numbers)
             .map_err(|e| Error::Unfinished(format!("a summary is not JSON: {e}")))

@@ -129,14 +129,14 @@ pub use row;
 /// # Errors
 /// A disk that refuses.
 pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), Error> {
-    let partial = beside(path, ".partial");
+    let partial = path_beside(path, ".partial");
     std::fs::write(&partial, bytes)
         .and_then(|()| std::fs::rename(&partial, path))
         .map_err(|e| Error::disk(path, e))
 }
 
 /// The path with `ending` after its last name.
-pub fn beside(path: &Path, ending: &str) -> PathBuf {
+pub fn path_beside(path: &Path, ending: &str) -> PathBuf {
     let mut name = path.as_os_str().to_os_string();
     name.push(ending);
     name.into()

@@ -21,7 +21,7 @@ impl Rough {
     /// A drawing that fails.
     pub fn report(&self) -> Result<String, Error> {
         let s = &self.summary;
-        let numbers = Numbers::of(s)?;
+        let numbers = Numbers::from_summary(s)?;
         let charts = charts::all(&self.contacts, self.surface.parameters.mean_gradient);
         let charts =
             charts.iter().map(|(_, chart)| page::chart(chart, &chart.title, &format!("{}.", chart.title)));

@@ -34,7 +34,7 @@ impl Section {
         let mesh = DeformedMesh::new(frame);
         let revolved = scene.symmetry == Symmetry::Axisymmetric;
         let mirrored = revolved && scene.asperity_count() < 2;
-        let tool = scene.tool.form().map_err(|e| e.to_string())?.over(MICROMETRE).mirrored();
+        let tool = scene.tool.form().map_err(|e| e.to_string())?.in_units_of(MICROMETRE).mirrored();
         let tips = mesh.pressed().map(|[r, z]| z - rise(&tool, r));
         let tip = tips.reduce(f64::max);
         let height = scene.highest() / MICROMETRE;

@@ -38,7 +38,7 @@ impl Scene {
 
     /// The scene at another accuracy.
     #[must_use]
-    pub fn at(self, accuracy: Accuracy) -> Scene {
+    pub fn with_accuracy(self, accuracy: Accuracy) -> Scene {
         Scene { accuracy, ..self }
     }
 

@@ -2,7 +2,7 @@
 
 use super::geometry::HIGHEST_CAP;
 use super::measured::span_of;
-use super::range::{Check, error, inside, length, not_negative, positive, slope, within};
+use super::range::{Check, check_range, error, inside, length, not_negative, positive, slope};
 use super::{
     Asperity, AsperityForm, Lateral, Numerics, Scene, SceneError, Substrate, Symmetry, ToolForce, ToolForm,
 };
@@ -351,7 +351,7 @@ impl Numerics {
             ("domain", "the size of the substrate in contact radii", self.domain, Numerics::DOMAIN),
         ];
         numbers.into_iter().try_for_each(|(path, what, value, [low, high])| match value {
-            Some(value) => within(path, what, value, low, high, "leave it out to let `accuracy` choose"),
+            Some(value) => check_range(path, what, value, low, high, "leave it out to let `accuracy` choose"),
             None => Ok(()),
         })
     }

@@ -1,6 +1,6 @@
 //! How far the tool goes, and by which force.
 
-use super::range::{Check, error, positive, within};
+use super::range::{Check, check_range, error, positive};
 use asperity_material::range::SceneError;
 use asperity_material::units::{Force, Length, LineForce, UnitError, from_text, quantity_schema};
 use schemars::{JsonSchema, Schema, SchemaGenerator};
@@ -117,7 +117,7 @@ impl Loading {
             ));
         }
         let way_out = "each cycle costs as much as two unloadings";
-        within("reloads", "the number of reloads", self.reloads as f64, 0.0, 1000.0, way_out)?;
+        check_range("reloads", "the number of reloads", self.reloads as f64, 0.0, 1000.0, way_out)?;
         match self.target()? {
             Target::Depth(depth) => positive("depth", "the depth", Length(depth)),
             Target::Force(force) if force > 0.0 && force.is_finite() => Ok(()),

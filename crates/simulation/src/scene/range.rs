@@ -28,7 +28,7 @@ pub(super) fn length(metres: f64) -> String {
 }
 
 /// A number in `range`, both ends included, or an error naming both.
-pub(super) fn within(path: &str, what: &str, value: f64, low: f64, high: f64, way_out: &str) -> Check {
+pub(super) fn check_range(path: &str, what: &str, value: f64, low: f64, high: f64, way_out: &str) -> Check {
     if (low..=high).contains(&value) {
         return Ok(());
     }

@@ -138,7 +138,7 @@ pub enum ToolForm {
 
 impl ToolForm {
     /// The tool, lengths over `length` (m).
-    pub fn over(&self, length: f64) -> tool::Tool {
+    pub fn in_units_of(&self, length: f64) -> tool::Tool {
         match self {
             ToolForm::Plane => tool::Tool::Plane,
             ToolForm::Cone { slope, tip_radius } => {
@@ -146,7 +146,7 @@ impl ToolForm {
             }
             ToolForm::Sphere { radius } => tool::Tool::Sphere { radius: radius / length },
             ToolForm::Measured(outline) => tool::Tool::Measured(outline.scaled(length.recip()).shared()),
-            ToolForm::Own(own) => tool::Tool::Own(own.over(length)),
+            ToolForm::Own(own) => tool::Tool::Own(own.in_units_of(length)),
         }
     }
 }

@@ -25,7 +25,7 @@ pub fn metal(scene: &Scene) -> Metal {
     let elastic = scene.material.elastic();
     Metal {
         elastic: Elastic { youngs_modulus: 1.0, ..elastic },
-        hardening: scene.material.hardening().map(|curve| curve.over(elastic.youngs_modulus)),
+        hardening: scene.material.hardening().map(|curve| curve.in_units_of(elastic.youngs_modulus)),
         kinematic_share: scene.material.moving_share(),
         stress_measure: scene.material.stress_measure,
     }
@@ -33,7 +33,7 @@ pub fn metal(scene: &Scene) -> Metal {
 
 /// The asperities and the tool of `scene`, lengths over `length` (m).
 pub fn bodies(scene: &Scene, length: f64) -> Result<(Profile, Tool), SceneError> {
-    let tool = scene.tool.form().map_err(|e| in_table("tool", e))?.over(length);
+    let tool = scene.tool.form().map_err(|e| in_table("tool", e))?.in_units_of(length);
     if let Some(line) = scene.profile.first() {
         let profile = measured_line(&line.line().map_err(|e| in_table("profile[0]", e))?, length);
         return Ok((profile, tool));
@@ -177,7 +177,7 @@ fn with_earlier_contacts(
     own_depths_under: &dyn Fn(&Tool, f64) -> Vec<f64>,
 ) -> Result<Contacts, SceneError> {
     for (load, earlier) in scene.earlier_loads().iter().zip(&expected.earlier) {
-        let tool = load.tool.form().map_err(|e| in_table("tool", e))?.over(expected.depth);
+        let tool = load.tool.form().map_err(|e| in_table("tool", e))?.in_units_of(expected.depth);
         let formed = earlier.formed.as_ref().map(|formed| formed.in_units_of(expected.depth));
         let deep = earlier.depth / expected.depth;
         let own_depths_at = |depth: f64| own_depths_under(&tool, depth);

@@ -128,7 +128,7 @@ mod tests {
             Tool::Cone { tan_slope: 0.4, tip_radius: 2.0 },
             Tool::Measured(bowl(true)),
             Tool::Measured(bowl(false)),
-            Tool::Own(OwnTool::new(Arc::new(Punch { radius: 1.8, edge_radius: 0.7 })).over(0.9)),
+            Tool::Own(OwnTool::new(Arc::new(Punch { radius: 1.8, edge_radius: 0.7 })).in_units_of(0.9)),
         ];
         let d = 1e-5;
         for tool in tools {
