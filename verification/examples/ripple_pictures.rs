@@ -1,6 +1,7 @@
-//! Pictures of what the ripple of the mesh does to the curve of the paper's asperity at `standard`, and what is left of it:
-//! `cargo run --release -p asperity-verification --example ripple_pictures -- [FOLDER] [--out FILE]`. FILE gets a table of the same, FOLDER the pictures;
-//! without them the table is printed.
+//! Pictures of what the ripple of the mesh does to the curve of the paper's asperity at `standard`, and what
+//! is left of it:
+//! `cargo run --release -p asperity-verification --example ripple_pictures -- [FOLDER] [--out FILE]`. FILE
+//! gets a table of the same, FOLDER the pictures; without them the table is printed.
 //!
 //! "As found" is an increment before the run has ended: the sum of the nodal forces over the depth, and that
 //! force over the area.

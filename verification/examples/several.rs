@@ -2,9 +2,9 @@
 //! a ring adds to the depth of the centre, the eight committed rows, and the convergence of those of three
 //! equal asperities.
 //!
-//! `cargo run --release -p asperity-verification --example several [-- approach.csv] [--out FILE]` (about two minutes of one
-//! core); the tables are `verification/results/several.md`. The argument `convergence` prints only that; another names a file
-//! for the approach, which `verification/measure/draw-fig6` draws.
+//! `cargo run --release -p asperity-verification --example several [-- approach.csv] [--out FILE]` (about two
+//! minutes of one core); the tables are `verification/results/several.md`. The argument `convergence` prints
+//! only that; another names a file for the approach, which `verification/measure/draw-fig6` draws.
 
 // on committed scenes
 #![allow(clippy::expect_used)]

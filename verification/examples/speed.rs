@@ -127,7 +127,8 @@ fn iteration(elements: usize, floor: &Roofline) -> Result<(usize, f64, f64), Box
     Ok((path.model.body().analysis.dofs.count, seconds, least_seconds))
 }
 
-/// CalculiX's core seconds over ours at equal accuracy, geometric mean, from the table that `verification/measure/peers` writes.
+/// CalculiX's core seconds over ours at equal accuracy, geometric mean, from the table that
+/// `verification/measure/peers` writes.
 fn beside_calculix() -> Option<String> {
     let table = std::fs::read_to_string("verification/results/peers.md").ok()?;
     let line = table.lines().find(|line| line.contains("geometric mean"))?;

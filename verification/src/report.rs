@@ -16,8 +16,9 @@ pub struct Report {
 }
 
 impl Report {
-    /// Of the example `name`, run with the rest of its arguments, which are returned: all but `--out FILE`. The first line of
-    /// the file names the program, its version and `accuracy`, what the runs have in common.
+    /// Of the example `name`, run with the rest of its arguments, which are returned: all but `--out FILE`.
+    /// The first line of the file names the program, its version and `accuracy`, what the runs have in
+    /// common.
     pub fn of_example(name: &str, accuracy: &str) -> (Report, Vec<String>) {
         let (file, rest) = arguments(std::env::args().skip(1));
         let words: String = rest.iter().flat_map(|word| [" ", shown(word)]).collect();

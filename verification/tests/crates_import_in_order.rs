@@ -1,6 +1,7 @@
-//! Claim: imports between the crates go one way, as the map of `docs/src/design/index.md` and the READMEs say. Cargo refuses
-//! circles alone; this test reads the manifests and refuses the rest: a ground crate that learns mechanics, a paper that reaches
-//! below the library, a second crate that names a package which one crate stands for.
+//! Claim: imports between the crates go one way, as the map of `docs/src/design/index.md` and the READMEs
+//! say. Cargo refuses circles alone; this test reads the manifests and refuses the rest: a ground crate that
+//! learns mechanics, a paper that reaches below the library, a second crate that names a package which one
+//! crate stands for.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
@@ -8,7 +9,8 @@ use std::collections::BTreeSet;
 use std::path::Path;
 use toml::Table;
 
-/// The folder of each crate and the crates of the workspace that it may import, without their prefix `asperity-`.
+/// The folder of each crate and the crates of the workspace that it may import, without their prefix
+/// `asperity-`.
 const MAY_IMPORT: [(&str, &[&str]); 14] = [
     ("crates/numerics", &[]),
     ("crates/formats", &["numerics"]),

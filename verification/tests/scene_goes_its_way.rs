@@ -1,5 +1,6 @@
-//! Claim: the page *A scene's way* (`docs/src/design/scene.md`) lists files that are there with functions that they have, marks
-//! each file that is entered again, and stays short: at most 28 lines, 13 of them entered again.
+//! Claim: the page *A scene's way* (`docs/src/design/scene.md`) lists files that are there with functions
+//! that they have, marks each file that is entered again, and stays short: at most 28 lines, 13 of them
+//! entered again.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 

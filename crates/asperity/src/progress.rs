@@ -13,7 +13,8 @@ pub struct Progress<'a, N> {
     pub news: Option<&'a N>,
 }
 
-/// Hears of many runs from the threads that run them: at the beginning, as they go on and when they end; `false` ends the work.
+/// Hears of many runs from the threads that run them: at the beginning, as they go on and when they end;
+/// `false` ends the work.
 pub type Observer<'o, N> = dyn FnMut(&Progress<'_, N>) -> bool + Send + 'o;
 
 impl<'a, N> Progress<'a, N> {

@@ -98,11 +98,12 @@ const ERRORS_ALONE: Errors = Errors {
     differences: [f64::NAN; 4],
 };
 
-/// Solves `cone` at `accuracy` and with every number of the discretisation half as good, and extrapolates. Their meshes are analysed
-/// unless they are among `analyses`.
+/// Solves `cone` at `accuracy` and with every number of the discretisation half as good, and extrapolates.
+/// Their meshes are analysed unless they are among `analyses`.
 ///
 /// # Errors
-/// A path of the finer run that stopped before its slope could be read, or its force is no parabola of the depth; a companion that fails leaves its result as it is, with a wide error.
+/// A path of the finer run that stopped before its slope could be read, or its force is no parabola of the
+/// depth; a companion that fails leaves its result as it is, with a wide error.
 pub fn solve(
     cone: &Cone,
     accuracy: Accuracy,

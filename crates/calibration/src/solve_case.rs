@@ -8,7 +8,8 @@ use asperity_simulation::scene::Accuracy;
 use asperity_solver::body::analysis::Analyses;
 use std::time::Instant;
 
-/// Solves one case; a case that fails is a row too. The cases of a sweep share `analyses` of their meshes: see [`Analyses`].
+/// Solves one case; a case that fails is a row too. The cases of a sweep share `analyses` of their meshes:
+/// see [`Analyses`].
 pub fn solve(case: &Case, accuracy: Accuracy, analyses: &Analyses) -> Row {
     let clock = Instant::now();
     let outcome =

@@ -83,7 +83,7 @@ fn each_names_the_line_and_the_range() {
 
 #[test]
 fn a_key_that_went_is_refused_in_an_override_too() {
-    let place = Place::with_scene(SCENE.to_string());
+    let place = Place::with_scene(SCENE);
     let args = ["crush", "scene.toml", "--set", "numerics.contact=augmented", "--out", "out"];
     refused(&place, &args, &["--set", "`contact` is gone", "leave numerics.contact out"], "--set");
 }

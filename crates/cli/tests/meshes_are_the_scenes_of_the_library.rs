@@ -1,5 +1,6 @@
-//! The scenes of the top folder `meshes` are those that the library holds, byte for byte: files there, so that an archive and a
-//! checkout without symbolic links have them, and files of the crate, so that the crate can be packaged whole.
+//! The scenes of the top folder `meshes` are those that the library holds, byte for byte: files there, so
+//! that an archive and a checkout without symbolic links have them, and files of the crate, so that the crate
+//! can be packaged whole.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 

@@ -73,7 +73,8 @@ pub fn decimals(value: f64, count: i32) -> usize {
     (count - 1 - value.log10().floor() as i32).clamp(0, 9) as usize
 }
 
-/// A number as tables have it, in the shortest digits that read back to the same bits: `5.0`, `5e-5`, nothing for what is not finite.
+/// A number as tables have it, in the shortest digits that read back to the same bits: `5.0`, `5e-5`, nothing
+/// for what is not finite.
 pub fn shortest(value: f64) -> String {
     if value.is_finite() { format!("{value:?}") } else { String::new() }
 }

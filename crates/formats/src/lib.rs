@@ -1,7 +1,7 @@
 #![doc = include_str!("../README.md")]
 //!
-//! In order: quantities with units ([`units`]), tables of numbers under a header ([`text_table`]), tables of indentation
-//! instruments ([`indentation_table`]), maps of surfaces ([`surface`]).
+//! In order: quantities with units ([`units`]), tables of numbers under a header ([`text_table`]), tables of
+//! indentation instruments ([`indentation_table`]), maps of surfaces ([`surface`]).
 
 pub mod units;
 

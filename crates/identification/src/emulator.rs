@@ -71,7 +71,8 @@ fn likened_slope(question: &DesignPoint) -> f64 {
     }
 }
 
-/// The logarithms that the atlas of cones has for a tool like the one in question, carried on from its edge beyond it.
+/// The logarithms that the atlas of cones has for a tool like the one in question, carried on from its edge
+/// beyond it.
 pub fn by_the_atlas(question: &DesignPoint) -> Vec<f64> {
     let Some(atlas) = Atlas::committed() else { return vec![f64::NAN; 3] };
     let contact = match question.geometry {

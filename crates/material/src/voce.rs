@@ -117,7 +117,7 @@ mod tests {
     fn the_curve_goes_from_first_yield_to_saturation() {
         let steel = Voce { yield_stress: 300.0, saturation_stress: 600.0, saturation_strain: 0.1 };
         // 600 - 300 e^(-p/0.1)
-        for (p, stress, slope) in [(0.0, 300.0, 3000.0), (0.1, 489.636_17, 1103.638_3), (9e9, 600.0, 0.0)] {
+        for (p, stress, slope) in [(0.0, 300.0, 3000.0), (0.1, 489.636_17, 1_103.638_3), (9e9, 600.0, 0.0)] {
             let flow = steel.flow(p);
             assert!((flow.yield_stress - stress).abs() < 1e-5 && (flow.slope - slope).abs() < 1e-4, "{p}");
         }

@@ -79,7 +79,8 @@ pub struct Converged {
     pub history: Vec<f64>,
 }
 
-/// [`Settings::keep`] of the runs of scenes and of calibrated cones: 0.1 to 0.7 take the same time within 2 %.
+/// [`Settings::keep`] of the runs of scenes and of calibrated cones: 0.1 to 0.7 take the same time within 2
+/// %.
 pub const KEPT_FACTORS_REDUCTION: f64 = 0.2;
 
 /// The care with which a step looks for the least potential along its direction.

@@ -1,8 +1,9 @@
 #![doc = include_str!("../README.md")]
 //!
-//! In the order of the data: a height map is read or generated, levelled and filtered, its parameters are taken (`surface`); a
-//! plane cuts it into islands, a closure gives each its force, and the separation that carries the load is found (`contact`);
-//! the whole surface as a half-space ([`half_space`]) and the leak through its gap ([`flow`]); [`scene`] says all of it in a file.
+//! In the order of the data: a height map is read or generated, levelled and filtered, its parameters are
+//! taken (`surface`); a plane cuts it into islands, a closure gives each its force, and the separation that
+//! carries the load is found (`contact`); the whole surface as a half-space ([`half_space`]) and the leak
+//! through its gap ([`flow`]); [`scene`] says all of it in a file.
 
 mod surface;
 
@@ -19,7 +20,7 @@ pub mod scene;
 pub use crate::contact::islands_contact::{Contact, ContactError, CurvePoint, Load, press};
 pub use crate::surface::prepared_surface::Surface;
 pub use contact::closures::{
-    Closure, ClosureError, ClosureLaw, PUBLISHED_COEFFICIENT, Regime, Response, SINGLE_ASPERITY_EXPONENT,
+    Closure, ClosureError, ClosureLaw, PUBLISHED_COEFFICIENT, SINGLE_ASPERITY_EXPONENT,
 };
 pub use contact::coefficient::{Coefficient, CoefficientError, Nearest, SlopeTable};
 pub use contact::ellipse::Ellipse;
@@ -27,6 +28,7 @@ pub use contact::islands::{Island, Islands};
 pub use contact::material::Material;
 pub use contact::own_closure::{IslandClosure, OwnClosure};
 pub use contact::pressure::{LoadedPixel, PressureField, PressureProfile};
+pub use contact::response::{Regime, Response};
 pub use contact::unload::{Unloading, unload};
 pub use surface::filter::{FilterError, fill, l_filter, s_filter};
 pub use surface::generate::{GenerateError, Grid, Kind, KindName, Target, generate};

@@ -2,9 +2,10 @@
 //! half apex angle, of indents in aluminium, of twins made by the program itself; what a fit costs; and two
 //! metals that one cone cannot tell apart.
 //!
-//! `cargo run --release -p asperity-verification --example identify_table -- FOLDER [--twins N] [--every N] [--leave-out sought,twins] [--journal FILE]
-//! [--out FILE]`; without FOLDER the two metals alone. FOLDER holds
-//! FEM_60deg.csv, FEM_50deg.csv (rows 1 to 76 are used) and Al6061.csv. What the journal holds is not computed again.
+//! `cargo run --release -p asperity-verification --example identify_table -- FOLDER [--twins N] [--every N]
+//! [--leave-out sought,twins] [--journal FILE] [--out FILE]`; without FOLDER the two metals alone. FOLDER
+//! holds FEM_60deg.csv, FEM_50deg.csv (rows 1 to 76 are used) and Al6061.csv. What the journal holds is not
+//! computed again.
 //! `--every N` takes every N-th published metal but in the fit of two cones with E known.
 
 // on committed cases

@@ -1,10 +1,11 @@
-//! Claim: the depth does not depend on the penalty: a run with a penalty gives the force of one whose penalty is so hard that the
-//! metal hardly penetrates, whether the metal is elastic, hardly yields or flows.
+//! Claim: the depth does not depend on the penalty: a run with a penalty gives the force of one whose penalty
+//! is so hard that the metal hardly penetrates, whether the metal is elastic, hardly yields or flows.
 //!
-//! Source: Castigliano for elastic metal (see `asperity_solver::contact`); else the program's own run with a hard penalty.
-//! Tolerances, of the force from a fifth of the depth on: what is left is of second order for elastic metal (0.3 % of a cone at
-//! a penetration of 0.004, 0.2 % of a ball at 0.016), 0.4 % where metal yields under an uneven pressure; 2 % where it flows, most of it
-//! ripple of the mesh. Were the mean penetration taken off everywhere, the stiff cone would miss by 3 %.
+//! Source: Castigliano for elastic metal (see `asperity_solver::contact`); else the program's own run with a
+//! hard penalty. Tolerances, of the force from a fifth of the depth on: what is left is of second order for
+//! elastic metal (0.3 % of a cone at a penetration of 0.004, 0.2 % of a ball at 0.016), 0.4 % where metal
+//! yields under an uneven pressure; 2 % where it flows, most of it ripple of the mesh. Were the mean
+//! penetration taken off everywhere, the stiff cone would miss by 3 %.
 
 use asperity_material::units::{Length, Stress};
 use asperity_simulation::record::curve::Curve;
@@ -35,7 +36,8 @@ fn ball() -> Scene {
     scene
 }
 
-/// Penetration over depth of the hard penalty, at most an eighth of the soft one's. The scenes differ by 0.15,
+/// Penetration over depth of the hard penalty, at most an eighth of the soft one's. The scenes differ by
+/// 0.15,
 /// 0.13, 0.16 and 1 %. Under a harder one the force ripples by more than is asked here (with 1e-4 by 0.7 % of
 /// the elastic cone and 2.4 % of the one that flows).
 const HARD_PENETRATION: f64 = 5e-4;

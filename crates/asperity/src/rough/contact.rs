@@ -34,7 +34,8 @@ pub struct Rough {
 
 /// Presses a rigid plane on the surface of `scene` by every closure that it asks for.
 ///
-/// `observer` is asked before each closure, which is its news; `false` ends the run, which keeps the closures that were done.
+/// `observer` is asked before each closure, which is its news; `false` ends the run, which keeps the closures
+/// that were done.
 ///
 /// # Errors
 /// A scene that makes no sense, a surface that cannot be read, a closure without its material or its

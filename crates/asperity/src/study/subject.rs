@@ -102,7 +102,8 @@ impl Subject {
         }
     }
 
-    /// Runs it, with its curve as the text of a file if `curve`; `None` where `go_on` ended it. Runs of one study share `analyses`.
+    /// Runs it, with its curve as the text of a file if `curve`; `None` where `go_on` ended it. Runs of one
+    /// study share `analyses`.
     pub(super) fn run(&self, curve: bool, analyses: &Analyses, go_on: &dyn Fn() -> bool) -> Option<Outcome> {
         let mut ended = false;
         let mut observe = || {

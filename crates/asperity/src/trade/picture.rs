@@ -27,7 +27,8 @@ const fn mark(knob: Knob, name: &'static str, corners: i32, start: f64, inner: f
     Mark { knob, name, corners, start, inner }
 }
 
-/// The knobs in the order of the legend. They differ in shape and in colour, so that either alone tells them apart.
+/// The knobs in the order of the legend. They differ in shape and in colour, so that either alone tells them
+/// apart.
 const MARKS: [Mark; 6] = [
     mark(Knob::Mesh, "mesh", 32, 0.0, 1.0),
     mark(Knob::Step, "load step", 4, 45.0, 1.0),

@@ -123,8 +123,8 @@ fn fixed(scene: &Scene, setting: Setting) -> Setting {
 
 /// A level and each of its numbers changed by itself.
 ///
-/// Around the finest level, whose runs are the longest, only to the cheaper side: finer than that is the converged value
-/// alone, and what the other element costs shows at the other levels.
+/// Around the finest level, whose runs are the longest, only to the cheaper side: finer than that is the
+/// converged value alone, and what the other element costs shows at the other levels.
 fn settings_around(scene: &Scene, accuracy: Accuracy) -> Vec<Setting> {
     let base = level(scene, accuracy);
     let finest = accuracy == Accuracy::Reference;
@@ -172,8 +172,9 @@ fn scale_real(value: &mut Option<f64>, factor: f64, [low, high]: [f64; 2]) {
     *value = value.map(|v| rounded(v * factor, 3).clamp(low, high));
 }
 
-/// Combination `i`: a point of the additive recurrence of the generalised golden ratio in seven dimensions (the real root
-/// g of x⁸ = x + 1, steps g⁻ᵏ), which fills the cube evenly however many points are taken; six of them are numbers.
+/// Combination `i`: a point of the additive recurrence of the generalised golden ratio in seven dimensions
+/// (the real root g of x⁸ = x + 1, steps g⁻ᵏ), which fills the cube evenly however many points are taken; six
+/// of them are numbers.
 fn mixed(scene: &Scene, i: usize) -> Setting {
     let golden = (0..60).fold(1.5_f64, |x, _| (1.0 + x).powf(1.0 / 8.0));
     let at = |k: i32| (0.5 + (i + 1) as f64 * golden.powi(-k)).fract();

@@ -154,8 +154,9 @@ impl Factor {
         Some(negative + trunk.eliminate(*arch, tree, last, branches, matrix, pivots)?)
     }
 
-    /// Operations of a factorisation and a solve: a column with n entries below its diagonal takes n(n + 1) products and sums
-    /// of its outer product and n divisions; a solve passes twice over every entry. Zeros that merged fronts hold are counted.
+    /// Operations of a factorisation and a solve: a column with n entries below its diagonal takes n(n + 1)
+    /// products and sums of its outer product and n divisions; a solve passes twice over every entry. Zeros
+    /// that merged fronts hold are counted.
     pub fn operations(&self) -> Operations {
         let mut sum = Operations { factor: 0.0, solve: 0.0 };
         for front in &self.tree.fronts {

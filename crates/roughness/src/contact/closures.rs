@@ -4,6 +4,7 @@ use super::calibrated::{Calibrated, ELASTIC_AREA};
 use super::coefficient::Coefficient;
 use super::material::Material;
 use super::own_closure::OwnClosure;
+use super::response::{Regime, Response};
 use asperity_material::Hardening;
 use serde::{Deserialize, Serialize};
 use std::str::FromStr;
@@ -103,17 +104,6 @@ impl Closure {
     }
 }
 
-/// State of an island, in the order of shares and of numbers in files.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Regime {
-    /// Returns when unloaded.
-    Elastic,
-    /// Between first yield and full plasticity.
-    Elastoplastic,
-    /// Fully plastic.
-    Plastic,
-}
-
 impl FromStr for Closure {
     type Err = String;
 
@@ -164,19 +154,6 @@ pub enum ClosureError {
         /// Law of the material.
         material: &'static str,
     },
-}
-
-/// Pressure, area and regime of an island.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Response {
-    /// Mean pressure over the island, in Pa.
-    pub island_pressure: f64,
-    /// True contact area over the island's area.
-    pub area_ratio: f64,
-    /// Regime.
-    pub regime: Regime,
-    /// True where slope and stiffness lie inside the range of the law.
-    pub inside: bool,
 }
 
 /// A closure with the numbers of one material.

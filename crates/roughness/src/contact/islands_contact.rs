@@ -1,10 +1,11 @@
 //! The separation at which the islands carry the load, and what each of them carries there.
 
 use super::bearing_area::{self, Planes};
-use super::closures::{ClosureLaw, Response};
+use super::closures::ClosureLaw;
 use super::find_separation;
 use super::islands::Islands;
 use super::load::Carrying;
+use super::response::Response;
 use crate::surface::height_map::Extent;
 use crate::surface::prepared_surface::Surface;
 use asperity_material::units::rounded;

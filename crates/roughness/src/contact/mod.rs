@@ -11,6 +11,8 @@ pub(crate) mod coefficient;
 pub(crate) mod material;
 pub(crate) mod own_closure;
 
+pub(crate) mod response;
+
 pub(crate) mod closures;
 
 mod find_separation;

@@ -1,6 +1,6 @@
 //! The door for closures of other crates: a law of one island that a program hands in.
 
-use super::closures::Response;
+use super::response::Response;
 use asperity_material::{refuse_custom, write_custom};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::fmt;

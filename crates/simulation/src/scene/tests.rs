@@ -147,6 +147,7 @@ fn saturating(scene: &mut Scene, saturation_stress: f64, saturation_strain: f64)
 }
 
 /// A change, the place that must be named, and words of the message: the value and the allowed range.
+#[expect(clippy::too_many_lines, reason = "a table of refusals, a line each")]
 #[test]
 fn what_makes_no_sense_is_refused_with_place_value_and_range() {
     type Row = (fn(&mut Scene), &'static str, &'static [&'static str]);
