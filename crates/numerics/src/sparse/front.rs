@@ -4,7 +4,7 @@
 //! A front is the dense symmetric matrix of the unknowns that meet when its pivots are eliminated. Its
 //! *panel* holds the columns of the k pivots: k rows of pivots, then n rows below. Its *update* is what
 //! elimination leaves of the n × n rest. Both are stored by columns, of which only the lower triangle counts;
-//! the length of a column is a multiple of [`LANES`], and the rows that fill it up are zero or never read.
+//! the length of a column is a multiple of `LANES`, and the rows that fill it up are zero or never read.
 //!
 //! Symbols: F = L D Lᵀ with L of unit diagonal; W = L D.
 //!

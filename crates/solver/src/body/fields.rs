@@ -47,7 +47,7 @@ pub struct SurfacePoint {
     pub yielded: bool,
 }
 
-/// The fields of a converged `state`. Stress and plastic strain at the nodes: see [`averaged_at_nodes`].
+/// The fields of a converged `state`. Stress and plastic strain at the nodes: see `averaged_at_nodes`.
 pub fn fields(body: &Body<'_>, state: &State) -> Fields {
     let averages = averaged_at_nodes(body, state);
     let zone = |cell: usize| {
