@@ -99,7 +99,7 @@ mod tests {
         let mut writer = csv::Writer::from_writer(Vec::new());
         rows.iter().for_each(|row| writer.serialize(row).unwrap());
         let text = String::from_utf8(writer.into_inner().unwrap()).unwrap();
-        assert!(text.lines().all(|line| line.split(',').count() == 21), "{text}");
+        assert!(text.lines().all(|line| line.split(',').count() == 20), "{text}");
         assert!(text.starts_with("knob,around,element,") && text.contains(",peak_memory_MB,"), "{text}");
         assert!(text.ends_with("stopped; ;inside out;\n"), "{text}");
         let back: Result<Vec<TradeRow>, _> =
