@@ -68,8 +68,8 @@ impl Scene {
     /// # Examples
     /// A cone of steel under a plane:
     /// ```
-    /// use crate::tables::{Asperity, Loading, Material, Scene as Tables, Symmetry, Tool, ToolForce};
-    /// use crate::{Force, Length, Scene, Stress};
+    /// use asperity::tables::{Asperity, Loading, Material, Scene as Tables, Symmetry, Tool, ToolForce};
+    /// use asperity::{Force, Length, Scene, Stress};
     ///
     /// let steel = Material::elastic_body(Stress(210e9), 0.3).yielding(Stress(300e6), 0.3);
     /// let tables = Tables::new(Symmetry::Axisymmetric, steel, Tool::plane(), Loading::to_depth(Length(5e-6)));

@@ -48,7 +48,7 @@ impl Vary {
     ///
     /// # Examples
     /// ```
-    /// use crate::study::Vary;
+    /// use asperity::study::Vary;
     ///
     /// let depth = Vary::parse("loading.depth=1 um..2 um/3")?;
     /// assert_eq!(depth.levels(), Some(vec!["1 um".to_string(), "1.5 um".into(), "2 um".into()]));

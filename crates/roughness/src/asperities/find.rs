@@ -102,7 +102,7 @@ pub struct Asperity {
 ///     cone(x, y, 50e-6).max(cone(x, y, 150e-6))
 /// };
 /// let map = HeightMap::new(201, 201, [1e-6, 1e-6], (0..201 * 201).map(height).collect())?;
-/// let surface = Surface::of(map)?;
+/// let surface = Surface::from_map(map)?;
 /// let found = find(&surface, Segmentation::Hills { prune: 0.05 })?;
 /// assert_eq!(found.len(), 2);
 /// assert!(found.iter().all(|one| (one.slope - 0.1).abs() < 2e-3 && (one.rise - 5e-6).abs() < 1e-12));
