@@ -48,7 +48,7 @@
 //! # A rough surface
 //! ```
 //! use asperity::rough::tables::{Choice, GenerateScene, KindName, LoadScene, Material, Scene, SurfaceScene};
-//! use asperity::{Closure, Length, RoughScene, Stress, rough};
+//! use asperity::{Closure, Length, RoughScene, Stress, press};
 //! use std::path::Path;
 //!
 //! let sanded = GenerateScene {
