@@ -10,7 +10,7 @@ use std::path::Path;
 const LINES: usize = 28;
 const ENTERED_AGAIN: usize = 13;
 
-/// What stands between backticks in a cell.
+/// The text between backticks in a cell.
 fn quoted(cell: &str) -> &str {
     cell.split('`').nth(1).unwrap()
 }

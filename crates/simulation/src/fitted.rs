@@ -72,7 +72,7 @@ pub(crate) struct FittedErrors {
 }
 
 impl FittedErrors {
-    /// What a penetration hides of the force with this `element`.
+    /// The share that a penetration hides of the force with this `element`.
     pub fn hidden_force_of(&self, element: ElementChoice) -> f64 {
         self.hidden_force[usize::from(element == ElementChoice::Q4)]
     }

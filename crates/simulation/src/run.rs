@@ -18,7 +18,7 @@ use asperity_solver::point::material::Metal;
 pub use crate::record::recorder::{Event, FieldFrame, Outcome, Stopped, Watcher};
 pub use crate::simulate::CrushError;
 
-/// What is run. Without more than its scene: `Run::new(&scene).run(…)`.
+/// A run to be made. Without more than its scene: `Run::new(&scene).run(…)`.
 #[derive(Clone, Debug)]
 pub struct Run<'a> {
     /// The scene.

@@ -26,7 +26,7 @@ pub struct Scene {
     own: Own,
 }
 
-/// What a program hands in beside the text of a scene, which cannot hold it.
+/// The parts that a program hands in beside the text of a scene, which cannot hold them.
 #[derive(Clone, Debug, Default)]
 struct Own {
     law: Option<OwnLaw>,

@@ -66,7 +66,7 @@ fn stiffer(symmetry: Symmetry, wider: f64) -> f64 {
     }
 }
 
-/// What a companion reveals of the errors of a run.
+/// The errors of a run that a companion reveals.
 struct Comparison {
     force: Difference,
     area: Difference,

@@ -137,7 +137,7 @@ pub struct Path<'p> {
     pub(super) unloading_travels: Vec<f64>,
     /// The depth that was asked for.
     pub(super) asked: Option<f64>,
-    /// What it has taken so far.
+    /// The counts so far.
     pub counts: Counts,
 }
 

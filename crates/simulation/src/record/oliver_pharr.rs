@@ -42,7 +42,7 @@ fn geometry_factor(tool: &Tool, height: f64) -> Option<f64> {
     }
 }
 
-/// What an instrument reads, in the units of the peak.
+/// The readings of an instrument, in the units of the peak.
 struct Reading {
     epsilon: f64,
     contact_depth: f64,

@@ -103,7 +103,7 @@ pub struct Problem {
     pub penalty: f64,
     /// The mesh.
     pub mesh: Mesh,
-    /// What is known of the body beside its mesh and its metal.
+    /// The facts of the body beside its mesh and its metal.
     pub specimen: Specimen,
     /// The discretisation used.
     pub numbers: Discretisation,

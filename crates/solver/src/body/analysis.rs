@@ -28,7 +28,7 @@ struct Topology {
     fixed: Vec<[bool; 2]>,
 }
 
-/// What follows from the topology.
+/// Consequences of the topology.
 #[derive(Debug)]
 pub struct Analysis {
     /// Numbers of the unknowns, in the order of elimination: the matrix is never permuted again.

@@ -36,7 +36,7 @@ impl ContactSet {
         self.kept
     }
 
-    /// What the next assembly does.
+    /// The task of the next assembly.
     pub fn next(&self) -> Touching {
         if self.keep { Touching::Kept } else { Touching::Found }
     }
