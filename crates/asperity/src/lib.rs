@@ -1,7 +1,8 @@
 #![doc = include_str!("../README.md")]
 //!
-//! The command line is a thin layer over these functions; whatever a command computes, a function returns as typed rows
-//! and summaries in SI, and writes them under the names and in the units of the files of the command.
+//! The command line is a thin layer over these functions; whatever a command computes, a function returns as
+//! typed rows and summaries in SI, and writes them under the names and in the units of the files of the
+//! command.
 //!
 //! # One crush
 //! ```
@@ -81,7 +82,8 @@
 //!
 //! # Files
 //! Scenes as text are read by [`Scene::from_toml`] and [`RoughScene::from_toml`], files of sweeps by
-//! [`calibrate::read_sweep`]. [`crush::Crush::write`] and its like leave the files of the command in a [`output::Directory`].
+//! [`calibrate::read_sweep`]. [`crush::Crush::write`] and its like leave the files of the command in a
+//! [`output::Directory`].
 
 pub mod error;
 

@@ -1,14 +1,15 @@
-//! The atlas of cones: force, contact radius and way back of a sharp cone of any slope and any power-law metal, as a formula
-//! through tens of thousands of computed cones.
+//! The atlas of cones: force, contact radius and way back of a sharp cone of any slope and any power-law
+//! metal, as a formula through tens of thousands of computed cones.
 //!
-//! A sharp cone has no length but its depth h, so F = K h² and everything else goes with h alike. With
-//! σ_r = σ(ε_r), ε_r = [`STRAIN`] tan β, taken on the curve of the metal itself, and m = d ln σ/d ln ε_p there, the answer depends on
+//! A sharp cone has no length but its depth h, so F = K h² and everything else goes with h alike. With σ_r =
+//! σ(ε_r), ε_r = [`STRAIN`] tan β, taken on the curve of the metal itself, and m = d ln σ/d ln ε_p there, the
+//! answer depends on
 //!   X = E* tan β/σ_r,   β,   m,   ν,   which body is the cone,
-//! and the law of hardening matters little beside. The logarithm of K over that of an elastic cone, (2/π) E*/tan β, less a
-//! curve that joins the two limits (0 for small X, a plateau of K tan²β/σ_r for large X), is a sum of products of Chebyshev's
-//! polynomials; likewise the other answers. The coefficients are least squares through the cones of
-//! `verification/results/atlas.csv.gz` (ν 0 to 0.49, both laws, Cauchy's stress); the book says how well cones that are not
-//! among them are met.
+//! and the law of hardening matters little beside. The logarithm of K over that of an elastic cone, (2/π)
+//! E*/tan β, less a curve that joins the two limits (0 for small X, a plateau of K tan²β/σ_r for large X), is
+//! a sum of products of Chebyshev's polynomials; likewise the other answers. The coefficients are least
+//! squares through the cones of `verification/results/atlas.csv.gz` (ν 0 to 0.49, both laws, Cauchy's
+//! stress); the book says how well cones that are not among them are met.
 //!
 //! ```
 //! use asperity_material::cone_atlas::{Atlas, Contact, SharpCone};
@@ -31,8 +32,8 @@ use crate::{Elastic, Hardening, HardeningCurve, HardeningLaw};
 use std::f64::consts::{FRAC_2_PI, PI};
 use std::sync::OnceLock;
 
-/// ε_r over tan β of the stress σ_r that the atlas is written in: between the values that `calibrate` fits, so that cones of one X are
-/// nearly alike. Any value near would do, as m is a coordinate of its own.
+/// ε_r over tan β of the stress σ_r that the atlas is written in: between the values that `calibrate` fits,
+/// so that cones of one X are nearly alike. Any value near would do, as m is a coordinate of its own.
 pub const STRAIN: f64 = 0.1;
 
 /// Slopes of the atlas, degrees.
@@ -85,7 +86,8 @@ pub struct Answer {
     pub stiffness: Estimate,
     /// Share of the work of loading that unloading returns.
     pub elastic_share: Estimate,
-    /// Elastic recovery h_peak - h at each of [`FORCES`], over the depth of the peak; its error is that of the elastic share.
+    /// Elastic recovery h_peak - h at each of [`FORCES`], over the depth of the peak; its error is that of
+    /// the elastic share.
     pub recovery: [f64; FORCES.len()],
     /// σ_r/E at ε_r = [`STRAIN`] tan β.
     pub stress_over_e: f64,
@@ -121,8 +123,8 @@ const MIDDLE: [f64; 2] = [6.0, 0.7];
 /// Plateau of K tan²β/σ_r in the trend; the polynomials make it that of the cone.
 const PLATEAU: f64 = 12.0;
 
-/// Largest degrees in plasticity, steepness, hardening and ν, and the largest sum of degrees over them: of what both contacts and
-/// laws share, of what differs between contacts, between laws.
+/// Largest degrees in plasticity, steepness, hardening and ν, and the largest sum of degrees over them: of
+/// what both contacts and laws share, of what differs between contacts, between laws.
 const BLOCKS: [([usize; 4], f64); 3] = [([9, 5, 4, 3], 1.3), ([6, 4, 3, 2], 1.3), ([5, 3, 2, 2], 1.3)];
 
 /// Degree of the formula of the errors in all coordinates together.
@@ -292,8 +294,8 @@ impl Atlas {
         ATLAS.get_or_init(|| Atlas::of_text(include_str!("../data/atlas.txt"))).as_ref()
     }
 
-    /// Of coefficients that a fit has found: a row of [`Place::terms`] for each of [`OUTPUTS`], of [`Place::terms_of_errors`] for each
-    /// of [`ERRORS`], and the least errors. `None` if rows are missing.
+    /// Of coefficients that a fit has found: a row of [`Place::terms`] for each of [`OUTPUTS`], of
+    /// [`Place::terms_of_errors`] for each of [`ERRORS`], and the least errors. `None` if rows are missing.
     pub fn new(values: Vec<Vec<f64>>, errors: Vec<Vec<f64>>, least: [f64; ERRORS]) -> Option<Atlas> {
         let elastic = Elastic { youngs_modulus: 1.0, poissons_ratio: 0.3 };
         let metal =
@@ -345,7 +347,8 @@ impl Atlas {
         let sum = |rows: &[f64], terms: &[f64]| rows.iter().zip(terms).map(|(c, t)| c * t).sum::<f64>();
         let terms = place.terms();
         let mut logarithms: [f64; OUTPUTS] = std::array::from_fn(|i| sum(&self.values[i], &terms));
-        // toward a plane every cone is elastic: below the least X what differs from Sneddon's solution falls with X
+        // toward a plane every cone is elastic: below the least X what differs from Sneddon's solution falls
+        // with X
         let developed = (edge.groups()[0] / least_x()).min(1.0);
         if developed < 1.0 {
             logarithms[0] = developed * (logarithms[0] + place.trend) - place.trend;
@@ -375,8 +378,9 @@ impl Atlas {
         }
     }
 
-    /// Mean pressure on the contact, in the unit of σ_y, that `cone` would have if its E were large: that of fully plastic metal with the same
-    /// σ_r and m under a cone of the same slope. Slopes beyond the atlas are taken to its edge.
+    /// Mean pressure on the contact, in the unit of σ_y, that `cone` would have if its E were large: that of
+    /// fully plastic metal with the same σ_r and m under a cone of the same slope. Slopes beyond the atlas
+    /// are taken to its edge.
     pub fn plateau(&self, cone: &SharpCone) -> Estimate {
         let [gentlest, steepest] = SLOPES.map(|slope| slope.to_radians().tan());
         let tan = cone.tan.clamp(gentlest, steepest);
@@ -417,8 +421,8 @@ mod tests {
         SharpCone::new(slope_deg, &elastic, metal, contact)
     }
 
-    /// Sneddon's cone: K = (2/π) E*/tan β, a = (2/π) h/tan β, S = 2K h, all work returned. The formula knows it from cones alone, within
-    /// their errors: 0.5 % of K, 2 % of the radius and of the work, 1 % of S.
+    /// Sneddon's cone: K = (2/π) E*/tan β, a = (2/π) h/tan β, S = 2K h, all work returned. The formula knows
+    /// it from cones alone, within their errors: 0.5 % of K, 2 % of the radius and of the work, 1 % of S.
     #[test]
     fn a_gentle_hard_cone_is_elastic() {
         let atlas = Atlas::committed().unwrap();
@@ -455,8 +459,9 @@ mod tests {
         assert!((plateau(1e6) / plateau(1e4) - 1.0).abs() < 1e-12);
     }
 
-    /// Perfectly plastic metal is pressed to 3 σ_y under gentle cones and to less under steep ones (slip lines: 2.97 of a flat punch,
-    /// falling with the slope). On the contact the hardening counts at Tabor's 8 % under a Vickers pyramid of 19.7°, to the few per cent that his rule is worth.
+    /// Perfectly plastic metal is pressed to 3 σ_y under gentle cones and to less under steep ones (slip
+    /// lines: 2.97 of a flat punch, falling with the slope). On the contact the hardening counts at Tabor's 8
+    /// % under a Vickers pyramid of 19.7°, to the few per cent that his rule is worth.
     #[test]
     fn the_plateau_is_near_three_and_falls_with_the_slope() {
         const TABOR: f64 = 0.08 / 0.358;

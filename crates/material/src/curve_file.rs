@@ -1,4 +1,5 @@
-//! A curve of hardening as a text file: columns for plastic strain and yield stress under a header with units.
+//! A curve of hardening as a text file: columns for plastic strain and yield stress under a header with
+//! units.
 //!
 //! ```text
 //! # quenched steel, tension test of 12 May
@@ -6,8 +7,8 @@
 //! 0,300
 //! 0.01,412.5
 //! ```
-//! Columns may change places and be parted by commas, semicolons or tabs; empty lines and lines that begin with # are
-//! comments.
+//! Columns may change places and be parted by commas, semicolons or tabs; empty lines and lines that begin
+//! with # are comments.
 
 use crate::hardening_table::HardeningTable;
 use crate::units::Stress;
@@ -47,8 +48,8 @@ impl CurveFile {
     /// Reads `text`.
     ///
     /// # Errors
-    /// No header, a column that is not known or has no unit, a line that is not numbers, or points that are no curve of
-    /// hardening (see [`HardeningTable::new`]); each with its line.
+    /// No header, a column that is not known or has no unit, a line that is not numbers, or points that are
+    /// no curve of hardening (see [`HardeningTable::new`]); each with its line.
     pub fn parse(text: &str) -> Result<CurveFile, CurveFileError> {
         let table = TextTable::new(text).ok_or_else(|| CurveFileError {
             line: None,

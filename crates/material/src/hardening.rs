@@ -1,4 +1,5 @@
-//! Power laws of hardening: the yield stress over plastic strain, the return to yield, the representative stress.
+//! Power laws of hardening: the yield stress over plastic strain, the return to yield, the representative
+//! stress.
 
 use asperity_numerics::lanes::Real;
 use schemars::JsonSchema;
@@ -26,9 +27,9 @@ impl HardeningLaw {
 
 /// Isotropic power-law hardening; n = 0 is perfect plasticity.
 ///
-/// Both laws are σ = R eⁿ in a strain measure e ≥ ε_y = σ_y/E and differ in the plastic strain that belongs to e:
-/// `hollomon` ε_p = e - σ/E, `swift` ε_p = e - σ_y/E. The equations of this file are solved for e, in which
-/// they are smooth and nearly linear for every n in [0, 1).
+/// Both laws are σ = R eⁿ in a strain measure e ≥ ε_y = σ_y/E and differ in the plastic strain that belongs
+/// to e: `hollomon` ε_p = e - σ/E, `swift` ε_p = e - σ_y/E. The equations of this file are solved for e, in
+/// which they are smooth and nearly linear for every n in [0, 1).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Hardening {
     /// Which strain hardens.
@@ -105,8 +106,9 @@ impl Hardening {
 
     /// Radial return: the flow state at which `q_trial - 3G (ε_p - ε_p,old) = σ(ε_p)`.
     ///
-    /// `q_trial` is the trial von Mises stress, at or above `old_yield_stress`, which belongs to `old_plastic_strain`; `three_g`
-    /// is 3G. Bracketed steps in e, good for n from 0 to 0.99 and any overshoot.
+    /// `q_trial` is the trial von Mises stress, at or above `old_yield_stress`, which belongs to
+    /// `old_plastic_strain`; `three_g` is 3G. Bracketed steps in e, good for n from 0 to 0.99 and any
+    /// overshoot.
     #[inline(always)]
     pub fn return_to_yield<T: Real>(
         &self,
@@ -131,9 +133,9 @@ impl Hardening {
         self.flow_at(self.solve(three_g, c, rhs, start))
     }
 
-    /// Root e ≥ ε_y of f(e) = `a e + c σ(e) - rhs`, a monotone function (convex for c < 0, concave for c > 0), and σ there, from a
-    /// `start` [e, σ(e)] on: Halley's steps, which are of third order, halved brackets where they leave those. Lanes that have
-    /// their root wait for the others.
+    /// Root e ≥ ε_y of f(e) = `a e + c σ(e) - rhs`, a monotone function (convex for c < 0, concave for c >
+    /// 0), and σ there, from a `start` [e, σ(e)] on: Halley's steps, which are of third order, halved
+    /// brackets where they leave those. Lanes that have their root wait for the others.
     #[inline(always)]
     fn solve<T: Real>(&self, a: T, c: T, rhs: T, start: [T; 2]) -> [T; 2] {
         let (zero, one, infinity) = (T::splat(0.0), T::splat(1.0), T::splat(f64::INFINITY));

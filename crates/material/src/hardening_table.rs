@@ -1,9 +1,10 @@
-//! Hardening by a table: yield stress over plastic strain, linear between its points, constant beyond the last one,
-//! as *PLASTIC of Abaqus and CalculiX reads it.
+//! Hardening by a table: yield stress over plastic strain, linear between its points, constant beyond the
+//! last one, as *PLASTIC of Abaqus and CalculiX reads it.
 //!
-//! The return map is exact: q - 3G (ε_p - ε_p,old) = σ(ε_p) is linear on each segment, and because both sides are
-//! monotone the segment is found by bisection over the points. The slope at a kink is that of the segment the return
-//! ended on; the incremental energy stays convex there, so that Newton's method with a line search passes it.
+//! The return map is exact: q - 3G (ε_p - ε_p,old) = σ(ε_p) is linear on each segment, and because both sides
+//! are monotone the segment is found by bisection over the points. The slope at a kink is that of the segment
+//! the return ended on; the incremental energy stays convex there, so that Newton's method with a line search
+//! passes it.
 
 use crate::hardening::HardeningPoint;
 
@@ -35,8 +36,9 @@ impl HardeningTable {
     /// A table through `points` (plastic strain, yield stress in any unit).
     ///
     /// # Errors
-    /// No points or too many; a plastic strain that does not start at 0 or does not grow; a yield stress that is not
-    /// positive or falls. Softening is refused because its localisation follows the mesh, not the material.
+    /// No points or too many; a plastic strain that does not start at 0 or does not grow; a yield stress that
+    /// is not positive or falls. Softening is refused because its localisation follows the mesh, not the
+    /// material.
     pub fn new(points: &[[f64; 2]]) -> Result<HardeningTable, TableError> {
         if points.is_empty() || points.len() > LARGEST_TABLE {
             let message = format!(

@@ -1,5 +1,5 @@
-//! Ranges of the values of a material, and the sentences for values outside of them. The place stands before each sentence, a way
-//! out behind it.
+//! Ranges of the values of a material, and the sentences for values outside of them. The place stands before
+//! each sentence, a way out behind it.
 
 use crate::units::Stress;
 use thiserror::Error;
@@ -30,7 +30,8 @@ pub const FITTED_MODULI_GPA: [f64; 2] = [1e-6, 1e4];
 pub const FITTED_POISSONS_RATIOS: [f64; 2] = [-0.9, 0.4999];
 /// Yield stresses of a fit, MPa.
 pub const FITTED_YIELD_STRESSES_MPA: [f64; 2] = [1e-6, 1e6];
-/// Hardening exponents of a sweep or a fit: less than the 1 of a single scene, where the metal would not yield at all.
+/// Hardening exponents of a sweep or a fit: less than the 1 of a single scene, where the metal would not
+/// yield at all.
 pub const VARIED_EXPONENTS: [f64; 2] = [0.0, 0.9];
 
 /// Checks a Young's modulus: finite, above 0.

@@ -1,8 +1,10 @@
-//! From a force to the depth that it will need: coarse crushes to growing or shrinking depths until one passes the force.
+//! From a force to the depth that it will need: coarse crushes to growing or shrinking depths until one
+//! passes the force.
 //!
-//! The mesh is fine where the contact will be, so a run that is driven by a force must know its depth beforehand. A formula
-//! is off by a factor of two between elastic and plastic asperities and by six on elastic ridges, whose depth depends on the
-//! whole body; a coarse crush takes some hundredths of a second and is off by a few percent.
+//! The mesh is fine where the contact will be, so a run that is driven by a force must know its depth
+//! beforehand. A formula is off by a factor of two between elastic and plastic asperities and by six on
+//! elastic ridges, whose depth depends on the whole body; a coarse crush takes some hundredths of a second
+//! and is off by a few percent.
 
 use crate::load_history::ready;
 use crate::load_path::Path;
@@ -28,15 +30,17 @@ const COARSE_STEPS: usize = 12;
 /// Crushes after which the last answer is taken.
 const MOST_CRUSHES: usize = 6;
 
-/// A crush that goes further than this many times the depth of the force has too few elements in contact there.
+/// A crush that goes further than this many times the depth of the force has too few elements in contact
+/// there.
 const LARGEST_DEPTH_RATIO: f64 = 2.0;
 
 /// How far beyond the expected depth a crush goes, so that the force is passed and not just missed.
 const PASSED_DEPTH_RATIO: f64 = 1.1;
 
-/// Estimates of `scene`, which is valid: the depth of its peak is the one that it asks for, or else the one at which it
-/// carries its force, at most the deepest that its tool can go. `mesh` (in metres) holds the size of the body where plane strain
-/// asks for one. Earlier loads are computed coarsely, for the surface that they leave.
+/// Estimates of `scene`, which is valid: the depth of its peak is the one that it asks for, or else the one
+/// at which it carries its force, at most the deepest that its tool can go. `mesh` (in metres) holds the size
+/// of the body where plane strain asks for one. Earlier loads are computed coarsely, for the surface that
+/// they leave.
 ///
 /// # Errors
 /// Bodies that make no sense, an earlier load that does not come back: path and reason.
@@ -167,7 +171,8 @@ fn to_depth(expected: &Expected, depth: f64) -> Expected {
     Expected { depth, ..expected.clone() }
 }
 
-/// A coarse crush of `scene` to its expected depth, ready to go, after coarse earlier loads. Tool and machine are stiff.
+/// A coarse crush of `scene` to its expected depth, ready to go, after coarse earlier loads. Tool and machine
+/// are stiff.
 fn coarse_problem(scene: &Scene, expected: &Expected, analyses: &Analyses) -> Option<Problem> {
     let numerics = Numerics {
         elements_in_contact: Some(COARSE_ELEMENTS),
@@ -187,8 +192,8 @@ fn coarse_problem(scene: &Scene, expected: &Expected, analyses: &Analyses) -> Op
     ready(&probe, Discretisation::new(&probe), None, expected, analyses).ok()
 }
 
-/// Depth (m) and what `of` makes of the contact in the increments of a coarse crush to the expected depth, from 0 on; as far as it
-/// goes.
+/// Depth (m) and what `of` makes of the contact in the increments of a coarse crush to the expected depth,
+/// from 0 on; as far as it goes.
 fn coarse(
     scene: &Scene,
     expected: &Expected,

@@ -10,10 +10,12 @@ use asperity_solver::body::analysis::Analyses;
 use asperity_solver::body::state::Unloaded;
 use std::ops::ControlFlow;
 
-/// [`prepare_with`], its body as the earlier loads of `scene` leave it. All loads share one mesh, made for all of them.
+/// [`prepare_with`], its body as the earlier loads of `scene` leave it. All loads share one mesh, made for
+/// all of them.
 ///
 /// # Errors
-/// A scene that cannot be meshed, an earlier load that cannot be brought to its end and back: path and reason.
+/// A scene that cannot be meshed, an earlier load that cannot be brought to its end and back: path and
+/// reason.
 pub(super) fn ready(
     scene: &Scene,
     numbers: Discretisation,

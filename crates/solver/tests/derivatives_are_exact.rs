@@ -181,7 +181,8 @@ fn element<const N: usize>(
                         for a in 0..N {
                             for i in 0..2 {
                                 let difference = (up[i][a] - down[i][a]) / (2.0 * STEP);
-                                // the lower triangle stands for both, so that an unsymmetric derivative is caught
+                                // the lower triangle stands for both, so that an unsymmetric derivative is
+                                // caught
                                 let ([row, m], [column, n]) =
                                     if (a, i) < (b, j) { ([b, j], [a, i]) } else { ([a, i], [b, j]) };
                                 let (row, column) = (2 * row + m, 2 * column + n);
@@ -227,7 +228,8 @@ fn quad8_with_reduced_integration() {
     });
 }
 
-/// A parabola that goes on as another one, whose half curvature is `bend`, at a place between the nodes of the edge.
+/// A parabola that goes on as another one, whose half curvature is `bend`, at a place between the nodes of
+/// the edge.
 fn measured_tip(bend: f64) -> std::sync::Arc<Outline> {
     let arcs = vec![
         Parabola { x: 0.0, drop: 0.0, slope: 0.0, bend: 0.05 },
@@ -236,9 +238,10 @@ fn measured_tip(bend: f64) -> std::sync::Arc<Outline> {
     Outline::new(arcs, 4.0, true).unwrap().shared()
 }
 
-/// Contact force and stiffness are the first and second derivative of the contact energy, clipped at one end, in the
-/// middle, and at both ends. The energy is exact for a plane (polynomial of degree 6); for curved tools it is a
-/// quadrature whose own clip derivative is about 1e-5 of the force, and more where a curvature jumps in the edge.
+/// Contact force and stiffness are the first and second derivative of the contact energy, clipped at one end,
+/// in the middle, and at both ends. The energy is exact for a plane (polynomial of degree 6); for curved
+/// tools it is a quadrature whose own clip derivative is about 1e-5 of the force, and more where a curvature
+/// jumps in the edge.
 #[test]
 fn contact() {
     let reference = [[2.0, 0.0], [1.0, 0.1], [1.5, 0.04]];

@@ -12,7 +12,8 @@ use asperity_simulation::scene::Symmetry;
 use maud::{Markup, html};
 
 impl Crush {
-    /// The run as one page that stands alone: what was found and how exactly, what to beware of, curves that tell their values.
+    /// The run as one page that stands alone: what was found and how exactly, what to beware of, curves that
+    /// tell their values.
     ///
     /// # Errors
     /// A drawing that fails.

@@ -1,4 +1,5 @@
-//! `fields.pvd` with its `fields_NNNN.vtu` and `surface_NNNN.csv`: the fields of some increments, as they are written.
+//! `fields.pvd` with its `fields_NNNN.vtu` and `surface_NNNN.csv`: the fields of some increments, as they are
+//! written.
 
 use crate::error::Error;
 use crate::results::columns::{Described, Unit, values, write_rows, write_values};
@@ -20,7 +21,8 @@ pub struct Frame {
     pub increment: usize,
     /// Loading or unloading.
     pub phase: Phase,
-    /// Depth of the increment, m, as the observer hears of it: the curve is free of ripple once the run has ended.
+    /// Depth of the increment, m, as the observer hears of it: the curve is free of ripple once the run has
+    /// ended.
     pub depth: f64,
     /// Likewise its force, N (N/m in plane strain).
     pub force: f64,
@@ -28,7 +30,8 @@ pub struct Frame {
     pub symmetry: Symmetry,
     /// The mesh before the crush, m; the frames of a run share it.
     pub mesh: Arc<Mesh>,
-    /// Arrays over the nodes, such as `displacement_um`, `stress_rr_MPa`, `von_mises_MPa`, `contact_pressure_MPa`.
+    /// Arrays over the nodes, such as `displacement_um`, `stress_rr_MPa`, `von_mises_MPa`,
+    /// `contact_pressure_MPa`.
     pub nodes: Vec<FieldArray>,
     /// Arrays over the cells: `plastic_zone`, 0 never yielded, 1 has yielded, 2 yields now.
     pub cells: Vec<FieldArray>,
@@ -74,7 +77,8 @@ pub struct FieldSeries {
 }
 
 impl FieldSeries {
-    /// Adds the fields of one increment: writes its VTU, coordinates in µm, its surface, and the collection anew.
+    /// Adds the fields of one increment: writes its VTU, coordinates in µm, its surface, and the collection
+    /// anew.
     ///
     /// # Errors
     /// A disk that refuses, arrays that do not fit the mesh.
@@ -125,8 +129,8 @@ impl FieldSeries {
         folder.write("surfaces.csv", |out| write_values(out, names, rows))
     }
 
-    /// The ParaView collection; its time is the way of the depth, µm: the depth while the tool advances first, and further
-    /// on what it retreats, so that no two states share a time.
+    /// The ParaView collection; its time is the way of the depth, µm: the depth while the tool advances
+    /// first, and further on what it retreats, so that no two states share a time.
     fn write_collection(&self, out: &mut dyn Write) -> io::Result<()> {
         writeln!(out, "<?xml version=\"1.0\"?>")?;
         writeln!(

@@ -43,7 +43,8 @@ pub struct Crush {
     pub asperities: Vec<AsperityRow>,
     /// The gaps between contacts in each increment.
     pub gaps: Vec<GapRow>,
-    /// The loading and the reloads, each with its unloading, as far as they are complete; empty without reloads.
+    /// The loading and the reloads, each with its unloading, as far as they are complete; empty without
+    /// reloads.
     pub cycles: Vec<CycleRow>,
     /// Fields of some increments, where the scene asks for them and they were not written as they came.
     pub frames: Vec<Frame>,
@@ -54,8 +55,8 @@ pub struct Crush {
 /// News for the observer of a crush: of every increment, and again where its fields are due.
 #[derive(Clone, Copy, Debug)]
 pub struct Increment<'a> {
-    /// The last increment as it was found: ripple still in, not extrapolated, without a stated error. The row of the result differs by
-    /// as much as the error that is stated there.
+    /// The last increment as it was found: ripple still in, not extrapolated, without a stated error. The row
+    /// of the result differs by as much as the error that is stated there.
     pub row: &'a CurveRow,
     /// The fields of the increment, where they are due.
     pub frame: Option<&'a Frame>,
@@ -79,12 +80,12 @@ impl Sketch {
 
 /// Crushes `scene` and keeps its fields in the result.
 ///
-/// The observer hears of every increment; it ends the run by `false`, and the result is what was reached: `summary.stopped` says
-/// where, nothing is extrapolated, and no error is stated (NaN or `None`).
+/// The observer hears of every increment; it ends the run by `false`, and the result is what was reached:
+/// `summary.stopped` says where, nothing is extrapolated, and no error is stated (NaN or `None`).
 ///
 /// # Errors
-/// Only if the run cannot begin: [`Error::Input`], pointing at the line of the scene. What stops it later is in
-/// `summary.stopped`.
+/// Only if the run cannot begin: [`Error::Input`], pointing at the line of the scene. What stops it later is
+/// in `summary.stopped`.
 pub fn crush(
     scene: &Scene,
     observer: &mut dyn FnMut(&Progress<'_, Increment<'_>>) -> bool,
@@ -110,12 +111,12 @@ pub(crate) fn crush_sharing(
     Ok(Crush { frames, ..crush })
 }
 
-/// Crushes `scene` and writes its fields to `sink` as they come, then its records and `sketches`; the result keeps no
-/// fields.
+/// Crushes `scene` and writes its fields to `sink` as they come, then its records and `sketches`; the result
+/// keeps no fields.
 ///
 /// # Errors
-/// [`Error::Input`] only if the run cannot begin, when nothing was written. [`Error::Unfinished`] if something could
-/// not be written: the run ended there, and what could be written of it was.
+/// [`Error::Input`] only if the run cannot begin, when nothing was written. [`Error::Unfinished`] if
+/// something could not be written: the run ended there, and what could be written of it was.
 pub fn crush_into(
     scene: &Scene,
     sink: &mut dyn Sink,

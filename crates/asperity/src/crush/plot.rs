@@ -14,7 +14,8 @@ fn prefix(largest: f64, prefixes: &[(f64, &'static str)]) -> (f64, &'static str)
     prefixes.iter().find(fits).or(prefixes.last()).copied().unwrap_or((1.0, ""))
 }
 
-/// Draws the curve as SVG; unloading starts at the last point of loading, reloads at the last one of unloading.
+/// Draws the curve as SVG; unloading starts at the last point of loading, reloads at the last one of
+/// unloading.
 ///
 /// # Errors
 /// A text for a person where the drawing library fails.
@@ -41,7 +42,8 @@ pub(super) fn titled_chart(summary: &Summary, rows: &[CurveRow]) -> Chart {
     chart(scene.symmetry, rows).titled(title)
 }
 
-/// A quantity over the depth: its name, its column with the unit in the file, and units with their values in that one.
+/// A quantity over the depth: its name, its column with the unit in the file, and units with their values in
+/// that one.
 struct Quantity {
     name: &'static str,
     column: fn(&CurveRow) -> f64,

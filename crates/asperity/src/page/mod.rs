@@ -1,5 +1,6 @@
-//! Pages that stand alone: one HTML document each, which needs no network, reads on a phone, on paper and in the dark, and says in
-//! words what its pictures show. The curves tell the value under the pointer; without a script they are pictures.
+//! Pages that stand alone: one HTML document each, which needs no network, reads on a phone, on paper and in
+//! the dark, and says in words what its pictures show. The curves tell the value under the pointer; without a
+//! script they are pictures.
 
 use crate::draw::chart::{Chart, located};
 use crate::error::Error;
@@ -67,7 +68,8 @@ impl Report<'_> {
     }
 }
 
-/// The numbers of a summary; what a page shows of them carries the whole number and the place it has in the file.
+/// The numbers of a summary; what a page shows of them carries the whole number and the place it has in the
+/// file.
 pub(crate) struct Numbers(Value);
 
 impl Numbers {
@@ -81,7 +83,8 @@ impl Numbers {
             .map_err(|e| Error::Unfinished(format!("a summary is not JSON: {e}")))
     }
 
-    /// The number at the JSON pointer `place` times `scale` to four digits with its unit; a dash where there is none.
+    /// The number at the JSON pointer `place` times `scale` to four digits with its unit; a dash where there
+    /// is none.
     pub fn shown(&self, place: &str, scale: f64, unit: &str) -> Markup {
         self.text(place, |value| significant(scale * value) + unit)
     }

@@ -1,5 +1,6 @@
-//! Columns of tables and keys of summaries: each is listed once with its unit and meaning, and what is listed writes CSV, JSON and the
-//! page of columns, and reads the files. In plane strain forces and energies are per length of ridge, and the contact area is a width.
+//! Columns of tables and keys of summaries: each is listed once with its unit and meaning, and what is listed
+//! writes CSV, JSON and the page of columns, and reads the files. In plane strain forces and energies are per
+//! length of ridge, and the contact area is a width.
 
 use crate::error::{Error, InputError};
 use crate::results::numbers::shortest;

@@ -10,15 +10,17 @@ columns! {
         increment: Plain,
         /// `load` or `unload`; a reload is a load, `cycles.csv` says where it begins.
         phase: Plain,
-        /// Travel of the tool from first touch, less the penalty correction, plus the far field of the half-space and the deflection of
-        /// an elastic tool and of the machine.
+        /// Travel of the tool from first touch, less the penalty correction, plus the far field of the
+        /// half-space and the deflection of an elastic tool and of the machine.
         depth: Length,
-        /// Force on the tool, positive in compression, of the full body of revolution (in plane strain per mm); without the
-        /// ripple of the mesh, and extrapolated with the companion run.
+        /// Force on the tool, positive in compression, of the full body of revolution (in plane strain per
+        /// mm); without the ripple of the mesh, and extrapolated with the companion run.
         force: Force,
-        /// Projected current area under pressure (in plane strain its width in µm); without the ripple of the mesh, and extrapolated.
+        /// Projected current area under pressure (in plane strain its width in µm); without the ripple of the
+        /// mesh, and extrapolated.
         contact_area: Contact,
-        /// Radius of the disc of the area of the contact that holds the axis; in plane strain half the contact width.
+        /// Radius of the disc of the area of the contact that holds the axis; in plane strain half the
+        /// contact width.
         contact_radius: Length,
         /// Force over contact area; 0 without contact.
         mean_pressure: Pressure,
@@ -28,8 +30,9 @@ columns! {
         elastic_energy: Energy,
         /// Work of plastic flow, Σ∫σ_y dε_p; never found by subtraction.
         plastic_work: Energy,
-        /// Energy stored in the penalty, ½ε∫d² dA with the penetration d, less what it changed by so far as the contact was measured anew over
-        /// the last converged surface, which is no work of the tool: an artefact of the method, no energy of the metal.
+        /// Energy stored in the penalty, ½ε∫d² dA with the penetration d, less what it changed by so far as
+        /// the contact was measured anew over the last converged surface, which is no work of the tool: an
+        /// artefact of the method, no energy of the metal.
         contact_energy: Energy,
         /// Mean penetration, weighted by the pressure.
         penetration: Length,
@@ -37,10 +40,12 @@ columns! {
         newton_iterations: Plain,
         /// Sum of the nodal forces: the force with the ripple of the mesh, which the works are made of.
         force_nodal: Force,
-        /// 95 % bound of the relative error of the force in this row; empty where there is no force or the bound is not known. While
-        /// unloading it holds the error of the residual depth, by which the curve is shifted.
+        /// 95 % bound of the relative error of the force in this row; empty where there is no force or the
+        /// bound is not known. While unloading it holds the error of the residual depth, by which the curve
+        /// is shifted.
         force_error: Plain,
-        /// Change of the elastic, plastic and contact energy by all transfers to better meshes so far, which is no work of the tool.
+        /// Change of the elastic, plastic and contact energy by all transfers to better meshes so far, which
+        /// is no work of the tool.
         transfer_energy: Energy,
     }
 }
@@ -82,7 +87,8 @@ columns! {
         right: Length,
         /// Distance of the two.
         width: Length,
-        /// Largest distance from the tool in between; from the lowest to the highest point of an enclosed gap.
+        /// Largest distance from the tool in between; from the lowest to the highest point of an enclosed
+        /// gap.
         height: Length,
         /// Whether flanks that press each other close it off from the tool.
         enclosed: Plain,
@@ -101,8 +107,8 @@ columns! {
         peak_depth: Length,
         /// Force at the peak.
         peak_force: Force,
-        /// Initial summit minus the highest point of the body in equilibrium without the tool; of an indent, the depth at which the
-        /// tool touches again.
+        /// Initial summit minus the highest point of the body in equilibrium without the tool; of an indent,
+        /// the depth at which the tool touches again.
         residual_depth: Length,
         /// ∫F dh on the way in, over the corrected depth.
         work_in: Energy,

@@ -17,8 +17,8 @@ use std::path::Path;
 
 /// The numbers of a crush in SI, and what they are the numbers of.
 ///
-/// It is serialised as `summary.json` has it: under the names and in the units of the file. What the scene did not ask for (unloading)
-/// or the run did not reach is `None`, `null` in the file.
+/// It is serialised as `summary.json` has it: under the names and in the units of the file. What the scene
+/// did not ask for (unloading) or the run did not reach is `None`, `null` in the file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(remote = "Self")]
 pub struct Summary {
@@ -79,8 +79,8 @@ columns! {
         peak_force: Force,
         /// Depth at the peak.
         peak_depth: Length,
-        /// After unloading: how much lower the highest point of the body is than its first summit; under a cone or a sphere, how far
-        /// that tool now travels before it touches.
+        /// After unloading: how much lower the highest point of the body is than its first summit; under a
+        /// cone or a sphere, how far that tool now travels before it touches.
         residual_depth: Length,
         /// dF/dh at the peak from one elastic solve with the contact kept.
         unloading_stiffness: Stiffness,
@@ -98,8 +98,8 @@ columns! {
         oliver_pharr: Table(OliverPharr::COLUMNS),
         /// Work returned on unloading over the work to the peak.
         elastic_fraction: Plain,
-        /// Largest |W - E_e - W_p - E_c + E_t|/W over increments with W above 1 % of its peak, E_t what remeshing changed: large with
-        /// coarse steps, not a measure of the error of the force.
+        /// Largest |W - E_e - W_p - E_c + E_t|/W over increments with W above 1 % of its peak, E_t what
+        /// remeshing changed: large with coarse steps, not a measure of the error of the force.
         energy_balance_error: Plain,
         /// `errors.force`; NaN (`null`) where it is not known.
         estimated_error: Plain,
@@ -121,9 +121,11 @@ columns! {
         elastic_islands: Table(Island::COLUMNS),
         /// Seconds the run took.
         wall_s: Plain,
-        /// Largest resident memory of the process so far, MB of 10⁶ bytes; `None` where the system does not say.
+        /// Largest resident memory of the process so far, MB of 10⁶ bytes; `None` where the system does not
+        /// say.
         peak_memory: Memory,
-        /// Half apex angle of the cone that stands for a pyramid: that of the same projected area; absent of other tools.
+        /// Half apex angle of the cone that stands for a pyramid: that of the same projected area; absent of
+        /// other tools.
         equivalent_half_apex_deg: Plain,
         /// Smoothing of each measured outline; absent where there is none.
         outlines: Table(Smoothing::COLUMNS),

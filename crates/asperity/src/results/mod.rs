@@ -1,4 +1,5 @@
-//! What results are made of: their rows and summaries as the files have them, units and numbers, and where files are put.
+//! What results are made of: their rows and summaries as the files have them, units and numbers, and where
+//! files are put.
 
 pub mod columns;
 pub(crate) mod crush_rows;

@@ -94,7 +94,8 @@ impl Sink for Directory {
     }
 }
 
-/// A row of a file: every field declared once under its name in the file, with its value in terms of what the row is made from.
+/// A row of a file: every field declared once under its name in the file, with its value in terms of what the
+/// row is made from.
 #[macro_export]
 macro_rules! row {
     ($(#[$about:meta])* $row:ident($($from:ident: $record:ty),*) {
@@ -156,8 +157,8 @@ pub(crate) fn open_journal(
     Ok((Some(journal), lines))
 }
 
-/// Writes rows as CSV under the names of their fields: numbers in the shortest digits that read back to the same bits, those
-/// that are not finite as empty cells. Without rows there is no header.
+/// Writes rows as CSV under the names of their fields: numbers in the shortest digits that read back to the
+/// same bits, those that are not finite as empty cells. Without rows there is no header.
 ///
 /// # Errors
 /// A writer that fails, or rows that are not flat.

@@ -11,8 +11,8 @@ pub struct Increment {
     pub phase: Phase,
     /// Travel of the tool from first touch, penetration included.
     pub travel: f64,
-    /// Travel less penetration, and what the rules add for the far field, tool and machine. A depth that was asked for is met to 1e-9 and
-    /// stands here as asked.
+    /// Travel less penetration, and what the rules add for the far field, tool and machine. A depth that was
+    /// asked for is met to 1e-9 and stands here as asked.
     pub depth: f64,
     /// Sums over the contact.
     pub contact: ContactSums,

@@ -10,22 +10,24 @@ use asperity_solver::body::energy::ContactSums;
 /// Times that the last increment is halved where it does not meet its goal.
 const MOST_HALVINGS_AT_GOAL: usize = 3;
 
-/// Travel at the end of the first increment at most over the travel at which the tool touches a tip that was cut off.
+/// Travel at the end of the first increment at most over the travel at which the tool touches a tip that was
+/// cut off.
 const FIRST_TRAVEL_RATIO: f64 = 2.0;
 
-/// Share of the tolerance that is left where nothing yields: all of the work comes back, so that what little of it is left in the end shows
-/// each residual. Of a ridge that hardly yields 0.05 % of the work was lost without it.
+/// Share of the tolerance that is left where nothing yields: all of the work comes back, so that what little
+/// of it is left in the end shows each residual. Of a ridge that hardly yields 0.05 % of the work was lost
+/// without it.
 const ELASTIC_TOLERANCE_SHARE: f64 = 0.1;
 
 /// Tolerance that is never made smaller.
 const FINEST_TOLERANCE: f64 = 1e-6;
 
 impl Path<'_> {
-    /// Goes from the last converged increment to `goal`, in as few increments as converge, and returns the last one. The
-    /// observer hears of each.
+    /// Goes from the last converged increment to `goal`, in as few increments as converge, and returns the
+    /// last one. The observer hears of each.
     ///
-    /// To a travel in either direction; to a depth or a force beyond the present one. A force is looked for from its expected
-    /// depth on, which is doubled until the force is exceeded.
+    /// To a travel in either direction; to a depth or a force beyond the present one. A force is looked for
+    /// from its expected depth on, which is doubled until the force is exceeded.
     ///
     /// # Errors
     /// Why it could not: the path then stands at its last converged increment.
@@ -49,7 +51,8 @@ impl Path<'_> {
         self.follow(problem.goal, &problem.numbers.schedule(), problem.expected_penetration(), observer)
     }
 
-    /// How much longer than the depth the travel is, over the depth: of a goal that is a depth with all that gives way.
+    /// How much longer than the depth the travel is, over the depth: of a goal that is a depth with all that
+    /// gives way.
     fn share(&self, goal: Goal, travel: f64, sums: &ContactSums) -> f64 {
         if self.rules().compliance.is_none() || !matches!(goal, Goal::Depth(_)) {
             return sums.penetration / (travel - sums.penetration);
@@ -57,8 +60,8 @@ impl Path<'_> {
         travel / self.depth(travel, ContactLoad::from_sums(sums)) - 1.0
     }
 
-    /// Newton's tolerance while the body is loaded: that of the problem, down to [`ELASTIC_TOLERANCE_SHARE`] of it the smaller the share of the work
-    /// that went into flow.
+    /// Newton's tolerance while the body is loaded: that of the problem, down to [`ELASTIC_TOLERANCE_SHARE`]
+    /// of it the smaller the share of the work that went into flow.
     fn tolerance(&self) -> f64 {
         let asked = self.problem.numbers.newton_tolerance;
         let share = ELASTIC_TOLERANCE_SHARE + (1.0 - ELASTIC_TOLERANCE_SHARE) * self.account.plastic_share();
@@ -129,8 +132,8 @@ impl Path<'_> {
         }
     }
 
-    /// [`Path::solve_for_goal`]; where that finds no equilibrium beside the one at hand, half of the increment is taken first, on a better
-    /// mesh if there is one.
+    /// [`Path::solve_for_goal`]; where that finds no equilibrium beside the one at hand, half of the
+    /// increment is taken first, on a better mesh if there is one.
     fn solve_for_goal_by_parts(
         &mut self,
         goal: Goal,

@@ -1,4 +1,5 @@
-//! The path of the tool, the only one: adaptive increments to a travel, a depth or a force, back to zero force, and again.
+//! The path of the tool, the only one: adaptive increments to a travel, a depth or a force, back to zero
+//! force, and again.
 
 mod energy_account;
 mod increment;

@@ -18,17 +18,19 @@ const MAX_HALVINGS: u32 = 7;
 /// Halvings of an increment after which a new mesh is tried.
 const HALVINGS_BEFORE_REMESHING: u32 = 3;
 
-/// Elastic logarithmic strain up to which Hencky's law is elliptic (Bruhns, Xiao, Meyers: J. Elasticity 64 (2001)).
+/// Elastic logarithmic strain up to which Hencky's law is elliptic (Bruhns, Xiao, Meyers: J. Elasticity 64
+/// (2001)).
 const LARGEST_ELASTIC_STRAIN: f64 = 1.0 / 3.0;
 
 /// Growth of the travel before a better mesh is looked for again where there was none: each look costs.
 const REMESHING_TRAVEL_RATIO: f64 = 1.1;
 
-/// Share of the last increment that is a good first guess for the next: measured 0.5 to 0.9 save a fifth of the
-/// iterations, 1 saves less because it overshoots where the contact front moves from element to element.
+/// Share of the last increment that is a good first guess for the next: measured 0.5 to 0.9 save a fifth of
+/// the iterations, 1 saves less because it overshoots where the contact front moves from element to element.
 pub(super) const FIRST_GUESS_SHARE: f64 = 0.7;
 
-/// How far the end of loading may be from the depth or from the root of the force that was asked for, relative to it.
+/// How far the end of loading may be from the depth or from the root of the force that was asked for,
+/// relative to it.
 pub(super) const GOAL_DISTANCE: f64 = 1e-9;
 
 /// Depth and force at which an increment that is taken in parts ends early.
@@ -128,7 +130,8 @@ pub struct Path<'p> {
     /// How each increment is solved.
     pub settings: Settings,
     pub(super) problem: &'p Problem,
-    /// Place of the tool at the travel 0, in the coordinates of the mesh: it touches there, or above a tip that the mesh cuts off.
+    /// Place of the tool at the travel 0, in the coordinates of the mesh: it touches there, or above a tip
+    /// that the mesh cuts off.
     pub(super) touch: f64,
     pub(super) stand: Stand,
     pub(super) account: EnergyAccount,
@@ -142,7 +145,8 @@ pub struct Path<'p> {
 }
 
 impl<'p> Path<'p> {
-    /// A path that starts where the tool of `problem` touches its body first. The mesh is analysed unless it is one of `analyses`.
+    /// A path that starts where the tool of `problem` touches its body first. The mesh is analysed unless it
+    /// is one of `analyses`.
     ///
     /// # Errors
     /// An element of the mesh is inside out.
@@ -179,7 +183,8 @@ impl<'p> Path<'p> {
         travel - penetration + self.rules().far_field * force
     }
 
-    /// Depth at a `travel` under what the contact bears: that of the body and the deflection of tool and machine.
+    /// Depth at a `travel` under what the contact bears: that of the body and the deflection of tool and
+    /// machine.
     pub(super) fn depth(&self, travel: f64, contact_load: ContactLoad) -> f64 {
         let deflection = self.rules().compliance.deflection(contact_load.force, contact_load.area);
         self.body_depth(travel, contact_load.penetration, contact_load.force) + deflection
@@ -199,7 +204,8 @@ impl<'p> Path<'p> {
         }
     }
 
-    /// Solves, but does not accept, the increment to `travel` with the first guess `guess` times the scaled last one.
+    /// Solves, but does not accept, the increment to `travel` with the first guess `guess` times the scaled
+    /// last one.
     pub(super) fn attempt(
         &mut self,
         travel: f64,
@@ -260,8 +266,9 @@ impl<'p> Path<'p> {
         observer: &mut Observer<'_>,
     ) -> Result<Increment, Stop> {
         let before = (self.stand.contact.force, self.stand.slope);
-        // loading is close to a parabola but at its start, whose power only the slope tells (1 of a ridge, 2 of a cone); unloading
-        // bends less the flatter the contact has become; so there the slope is asked for, which costs one solve
+        // loading is close to a parabola but at its start, whose power only the slope tells (1 of a ridge, 2
+        // of a cone); unloading bends less the flatter the contact has become; so there the slope is asked
+        // for, which costs one solve
         let asked = before.0 <= 0.0 || phase != Phase::Load;
         self.stand.slope = asked.then(|| self.model.tool_stiffness().ok().map(|s| s.travel)).flatten();
         self.model.accept().map_err(|_| Stop::Distorted)?;
@@ -324,9 +331,9 @@ impl<'p> Path<'p> {
         done
     }
 
-    /// Goes to `travel` in as few increments as converge; accepts all but the last, which is left attempted. That may be one
-    /// before `travel` that already reaches `stop_at`: where an asperity vanishes into its base the penetration falls, and
-    /// the travel planned with the one before would crush the base itself.
+    /// Goes to `travel` in as few increments as converge; accepts all but the last, which is left attempted.
+    /// That may be one before `travel` that already reaches `stop_at`: where an asperity vanishes into its
+    /// base the penetration falls, and the travel planned with the one before would crush the base itself.
     pub(super) fn reach_depth(
         &mut self,
         travel: f64,
@@ -370,7 +377,8 @@ impl<'p> Path<'p> {
                     guess = 0.0;
                 }
                 Err(_) if halvings >= MAX_HALVINGS && stiffens => {
-                    // a stiffer tangent converges slowly, and can end in a place that no smaller increment leads out of
+                    // a stiffer tangent converges slowly, and can end in a place that no smaller increment
+                    // leads out of
                     stiffens = false;
                     self.model.stiffen(false);
                     halvings = 0;
@@ -397,7 +405,8 @@ impl<'p> Path<'p> {
         })
     }
 
-    /// The `stop`, or what led to it: beyond its limit the law of elasticity lets metal fold and turn inside out.
+    /// The `stop`, or what led to it: beyond its limit the law of elasticity lets metal fold and turn inside
+    /// out.
     fn because(&self, stop: Stop) -> Stop {
         if self.model.state().largest_elastic_strain() > LARGEST_ELASTIC_STRAIN {
             Stop::ElasticStrain

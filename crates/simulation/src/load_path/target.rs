@@ -5,7 +5,8 @@ use super::path::{ContactLoad, FIRST_GUESS_SHARE, GOAL_DISTANCE, Path};
 use crate::setup::problem::Goal;
 use asperity_solver::body::energy::ContactSums;
 
-/// Relative residual of the increments of the secant iteration for a goal, which the depth then follows to [`GOAL_DISTANCE`].
+/// Relative residual of the increments of the secant iteration for a goal, which the depth then follows to
+/// [`GOAL_DISTANCE`].
 pub(super) const GOAL_TOLERANCE: f64 = 1e-8;
 
 /// Increments of the secant iteration for a goal; it takes three or four.
@@ -30,16 +31,16 @@ impl Path<'_> {
         }
     }
 
-    /// Moves the attempted increment until the goal is met to [`GOAL_DISTANCE`] (secant, held between travels on either side of the
-    /// goal; each try starts from the converged state).
+    /// Moves the attempted increment until the goal is met to [`GOAL_DISTANCE`] (secant, held between travels
+    /// on either side of the goal; each try starts from the converged state).
     ///
-    /// Metal that hardly hardens may not come so close to equilibrium that the force is known to that, or may leap over the
-    /// goal from one state to another: then the goal is met to the tolerance of the run.
+    /// Metal that hardly hardens may not come so close to equilibrium that the force is known to that, or may
+    /// leap over the goal from one state to another: then the goal is met to the tolerance of the run.
     pub(super) fn solve_for_goal(&mut self, goal: Goal, travel: f64, sums: ContactSums) -> Result<f64, Stop> {
         let settings = self.settings;
         self.settings.tolerance = settings.tolerance.min(GOAL_TOLERANCE);
-        // travel and miss: of the last tries, and of the nearest on either side of the goal; the converged state is the first
-        // of them for a force, while the depth follows the travel closely from the start
+        // travel and miss: of the last tries, and of the nearest on either side of the goal; the converged
+        // state is the first of them for a force, while the depth follows the travel closely from the start
         let mut now = (travel, self.miss(goal, travel, ContactLoad::from_sums(&sums)));
         let mut last = match goal {
             Goal::Travel(depth) | Goal::Depth(depth) => (travel - depth, now.1 - 1.0),

@@ -1,8 +1,8 @@
 //! When the tool touches the asperities that it has not touched yet.
 //!
-//! A curve has a kink where a contact begins, and an increment across it is wrong by what the contact gains in it: by a fifth of the
-//! area where a ring began to carry at `standard`. So an increment ends where a contact is about to begin, and those after it are
-//! short and grow.
+//! A curve has a kink where a contact begins, and an increment across it is wrong by what the contact gains
+//! in it: by a fifth of the area where a ring began to carry at `standard`. So an increment ends where a
+//! contact is about to begin, and those after it are short and grow.
 
 use crate::setup::contact_estimate::area;
 use crate::setup::problem::Problem;

@@ -16,15 +16,17 @@ const MOST_RETREATS: usize = 500;
 /// Share of the tolerance of the loading to which unloading increments are solved.
 const UNLOADING_TOLERANCE_SHARE: f64 = 0.1;
 
-/// Share of the peak travel that may be left when the tool is taken away, which is one increment however far the metal
-/// then flows: from further off it sprang back beyond its first summit.
+/// Share of the peak travel that may be left when the tool is taken away, which is one increment however far
+/// the metal then flows: from further off it sprang back beyond its first summit.
 const LAST_RETREAT_SHARE: f64 = 0.02;
 
 impl Path<'_> {
-    /// Unloads to zero force in about `steps` increments, then removes the tool and finds the equilibrium of the body
-    /// alone: there the force is zero and the depth that of its highest point. `stiffness` is that of the peak.
+    /// Unloads to zero force in about `steps` increments, then removes the tool and finds the equilibrium of
+    /// the body alone: there the force is zero and the depth that of its highest point. `stiffness` is that
+    /// of the peak.
     ///
-    /// Travels follow F ∝ (1 - u/u₀)^1.25 with u₀ = 1.25 F/S; the last few percent of the force are not chased.
+    /// Travels follow F ∝ (1 - u/u₀)^1.25 with u₀ = 1.25 F/S; the last few percent of the force are not
+    /// chased.
     ///
     /// # Errors
     /// Why it stopped on its way.
@@ -49,7 +51,8 @@ impl Path<'_> {
         done
     }
 
-    /// Unloads from the travel and force of `peak`, where depth and penetration have this `compliance` together.
+    /// Unloads from the travel and force of `peak`, where depth and penetration have this `compliance`
+    /// together.
     fn retreat_from(
         &mut self,
         [peak, peak_force]: [f64; 2],
@@ -89,9 +92,9 @@ impl Path<'_> {
         self.iterate()
     }
 
-    /// Goes on unloading down to `force` where metal flows in reverse and gives way more than elastic metal does: each
-    /// step takes off a share of the force that the slope foretells, `steps` of which would take off all; and further while
-    /// metal that has little force left still has far to go.
+    /// Goes on unloading down to `force` where metal flows in reverse and gives way more than elastic metal
+    /// does: each step takes off a share of the force that the slope foretells, `steps` of which would take
+    /// off all; and further while metal that has little force left still has far to go.
     fn retreat_from_reverse_flow(
         &mut self,
         force: f64,
@@ -116,8 +119,9 @@ impl Path<'_> {
         Ok(())
     }
 
-    /// Goes back to `goal`, the end of the first loading, along the travels of the last unloading in reverse: metal that
-    /// stays elastic then passes through the same states, and what its work differs by is hysteresis alone.
+    /// Goes back to `goal`, the end of the first loading, along the travels of the last unloading in reverse:
+    /// metal that stays elastic then passes through the same states, and what its work differs by is
+    /// hysteresis alone.
     ///
     /// # Errors
     /// Why it stopped on its way.

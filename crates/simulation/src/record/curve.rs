@@ -28,14 +28,14 @@ impl Curve {
         self.points.last().map_or(0.0, |p| p[0])
     }
 
-    /// The value at `depth`: the cubic in √value through the four nearest increments, whose error is far below the
-    /// curve's own. NaN outside the curve.
+    /// The value at `depth`: the cubic in √value through the four nearest increments, whose error is far
+    /// below the curve's own. NaN outside the curve.
     pub fn value(&self, depth: f64) -> f64 {
         self.interpolated(depth, |x| x).powi(2)
     }
 
-    /// The logarithm of the value at `depth`: the cubic in the logarithms through the four nearest increments, exact for powers
-    /// of the depth however far the increments are apart. NaN outside the curve.
+    /// The logarithm of the value at `depth`: the cubic in the logarithms through the four nearest
+    /// increments, exact for powers of the depth however far the increments are apart. NaN outside the curve.
     pub fn logarithm_at(&self, depth: f64) -> f64 {
         2.0 * self.interpolated(depth, f64::ln)
     }
@@ -59,7 +59,8 @@ impl Curve {
         near.iter().enumerate().map(term).sum()
     }
 
-    /// The first depth at which the value is reached, linear in √value between increments; `None` if it never is.
+    /// The first depth at which the value is reached, linear in √value between increments; `None` if it never
+    /// is.
     pub fn depth_of(&self, value: f64) -> Option<f64> {
         let root = value.sqrt();
         let after = self.points.iter().position(|p| p[1] >= root)?;
@@ -101,8 +102,9 @@ impl Curve {
 
 /// A smooth curve: the logarithm of the value as a polynomial of the fourth degree in ln(h/h_peak).
 ///
-/// The force of a mesh ripples with the period of an element as the contact front crosses it; a cone under a rounded tip
-/// has no such period, and its ln F is nearly straight. The fit averages the ripple over some ten elements.
+/// The force of a mesh ripples with the period of an element as the contact front crosses it; a cone under a
+/// rounded tip has no such period, and its ln F is nearly straight. The fit averages the ripple over some ten
+/// elements.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Smooth {
     peak: f64,
@@ -118,8 +120,8 @@ impl Smooth {
         value(&self.coefficients, &powers(x)).exp()
     }
 
-    /// The converged curve that two runs of different meshes tell: their geometric mean, in which what ripple the fits
-    /// left averages out. Both hold the same peak.
+    /// The converged curve that two runs of different meshes tell: their geometric mean, in which what ripple
+    /// the fits left averages out. Both hold the same peak.
     pub fn mean(a: &Smooth, b: &Smooth) -> Smooth {
         let coefficients = std::array::from_fn(|i| 0.5 * (a.coefficients[i] + b.coefficients[i]));
         Smooth { peak: a.peak, coefficients }

@@ -1,20 +1,20 @@
 //! Curves without the ripple of their mesh.
 //!
-//! The nodes carry the pressure of a contact, and what they make of its outermost edge depends on how much of that edge
-//! touches: force and area ripple by a period of one surface edge as the front crosses edge after edge. What repeats with the
-//! phase of the front is known as such and can be told from the curve. The logarithm of force or area over the loading rows
-//! is fitted by
+//! The nodes carry the pressure of a contact, and what they make of its outermost edge depends on how much of
+//! that edge touches: force and area ripple by a period of one surface edge as the front crosses edge after
+//! edge. What repeats with the phase of the front is known as such and can be told from the curve. The
+//! logarithm of force or area over the loading rows is fitted by
 //! ```text
 //! ln v = spline(ln h) + Σ_k [a_k cos 2πks + b_k sin 2πks] (1, t, t², t³),   k = 1 … 4
 //! ```
-//! s: edges between the middle of the contact and its front, the touched share of the last one included; t: ln h from -1 at the
-//! first row to 1 at the peak, for a shape that changes slowly. Only the periodic part is taken off, so that whatever else a
-//! curve does stays.
+//! s: edges between the middle of the contact and its front, the touched share of the last one included; t:
+//! ln h from -1 at the first row to 1 at the peak, for a shape that changes slowly. Only the periodic part is
+//! taken off, so that whatever else a curve does stays.
 //!
-//! How many knots, harmonics and powers of t there are, the curve itself decides: fits count the more the better they foretell
-//! rows left out. Nothing is taken off where that is not clearly better than the spline alone. Harmonics that the rows sample
-//! so that they look like a slow change (three rows per period and the third harmonic, two and the second) cannot be told from
-//! the curve and stay out.
+//! How many knots, harmonics and powers of t there are, the curve itself decides: fits count the more the
+//! better they foretell rows left out. Nothing is taken off where that is not clearly better than the spline
+//! alone. Harmonics that the rows sample so that they look like a slow change (three rows per period and the
+//! third harmonic, two and the second) cannot be told from the curve and stay out.
 
 use crate::fitted::FITTED;
 use crate::record::rows::{AsperityRow, CurveRow};
@@ -34,8 +34,8 @@ const HIGHEST_POWER: usize = 3;
 /// Rows that a fit has more than columns.
 const FREE_ROWS: usize = 5;
 
-/// Both ends of a contact along the surface: edges from the first one of the surface, the touched share of an edge included.
-/// NaN without contact.
+/// Both ends of a contact along the surface: edges from the first one of the surface, the touched share of an
+/// edge included. NaN without contact.
 pub(super) type Ends = [f64; 2];
 
 /// The ends of the contact of the edges that `belongs` picks by their index.
@@ -60,11 +60,13 @@ fn is_reversed(edges: &[ContactEdge], i: usize) -> bool {
     shares(edges.get(i + 1), 0) || (i > 0 && shares(edges.get(i - 1), 1))
 }
 
-/// Takes the ripple off force and area of the `rows`, and of the rows of their `asperities` if there are several.
+/// Takes the ripple off force and area of the `rows`, and of the rows of their `asperities` if there are
+/// several.
 ///
-/// `ends` holds the ends of the contact of each asperity at each row. The ripple is that of the loading, up to the row `peak`.
-/// The rows after it keep the share of the peak: what the mesh adds there is held by the metal, and the front stays where it
-/// is until most of the force is gone. So the curve does not jump at the peak, and a loop closes as before.
+/// `ends` holds the ends of the contact of each asperity at each row. The ripple is that of the loading, up
+/// to the row `peak`. The rows after it keep the share of the peak: what the mesh adds there is held by the
+/// metal, and the front stays where it is until most of the force is gone. So the curve does not jump at the
+/// peak, and a loop closes as before.
 pub(super) fn remove(
     rows: &mut [CurveRow],
     asperities: &mut [AsperityRow],
@@ -194,7 +196,8 @@ fn steady_from(x: &[f64], front: &[f64]) -> usize {
     first
 }
 
-/// The periodic part of the fits of all sizes, averaged; `None` if none is clearly better than a spline alone.
+/// The periodic part of the fits of all sizes, averaged; `None` if none is clearly better than a spline
+/// alone.
 fn average_fit(x: &[f64], y: &[f64], fronts: &[Vec<f64>]) -> Option<Vec<f64>> {
     let fitted = FITTED.ripple;
     let periods = fronts.iter().map(|s| travelled(s)).fold(0.0, f64::max);

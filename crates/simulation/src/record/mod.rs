@@ -1,4 +1,5 @@
-//! The record of a run: its rows and summary in SI, read off the converged increments and freed of the ripple of the mesh.
+//! The record of a run: its rows and summary in SI, read off the converged increments and freed of the ripple
+//! of the mesh.
 
 pub mod rows;
 

@@ -1,10 +1,11 @@
 //! The evaluation of an indentation by an instrument that knows no contact area.
 //!
-//! W. C. Oliver, G. M. Pharr, J. Mater. Res. 7 (1992) 1564 and 19 (2004) 3: from force F, depth h and stiffness S at the
-//! peak, with the area function A of the tool,
+//! W. C. Oliver, G. M. Pharr, J. Mater. Res. 7 (1992) 1564 and 19 (2004) 3: from force F, depth h and
+//! stiffness S at the peak, with the area function A of the tool,
 //!   h_c = h - ε F/S,   H = F/A(h_c),   E_r = (√π/2) S/√A(h_c).
-//! ε is that of the tool's shape, 2(π - 2)/π for a cone and 3/4 for a paraboloid, with which all three are exact for an
-//! elastic body. Metal that piles up around the tool makes the true area larger than A(h_c): hence both are given.
+//! ε is that of the tool's shape, 2(π - 2)/π for a cone and 3/4 for a paraboloid, with which all three are
+//! exact for an elastic body. Metal that piles up around the tool makes the true area larger than A(h_c):
+//! hence both are given.
 
 use crate::record::rows::{OliverPharr, Summary};
 use crate::scene::AreaFunction;
@@ -21,11 +22,11 @@ struct Peak {
     stiffness: f64,
 }
 
-/// ε of a tool that is in contact up to about `height` above its apex; `None` for a plane, which has no tip from which a contact
-/// depth could count.
+/// ε of a tool that is in contact up to about `height` above its apex; `None` for a plane, which has no tip
+/// from which a contact depth could count.
 ///
-/// An outline that rises with r^n has ε = (1 + 1/n)(1 - Γ((n + 1)/2)/(√π Γ(n/2 + 1))) (Sneddon 1965), nearly linear in n between
-/// the cone's and the paraboloid's (within 0.001).
+/// An outline that rises with r^n has ε = (1 + 1/n)(1 - Γ((n + 1)/2)/(√π Γ(n/2 + 1))) (Sneddon 1965), nearly
+/// linear in n between the cone's and the paraboloid's (within 0.001).
 fn geometry_factor(tool: &Tool, height: f64) -> Option<f64> {
     let (cone, paraboloid) = (2.0 - 2.0 * FRAC_2_PI, 0.75);
     match tool {
@@ -51,8 +52,8 @@ struct Reading {
     reduced_modulus: f64,
 }
 
-/// Evaluates `peak` of a tool of revolution with the area function `area`. `None` for a plane, or if nothing is left of the
-/// depth or the area.
+/// Evaluates `peak` of a tool of revolution with the area function `area`. `None` for a plane, or if nothing
+/// is left of the depth or the area.
 fn read(tool: &Tool, area: impl Fn(f64) -> f64, peak: &Peak) -> Option<Reading> {
     let epsilon = geometry_factor(tool, peak.depth)?;
     let contact_depth = peak.depth - epsilon * peak.force / peak.stiffness;
@@ -72,8 +73,8 @@ fn read(tool: &Tool, area: impl Fn(f64) -> f64, peak: &Peak) -> Option<Reading> 
     })
 }
 
-/// The peak of a run that was unloaded, in SI, as an instrument evaluates it that knows force, depth and stiffness; by the `area`
-/// function of its calibration, or that of the tool's outline.
+/// The peak of a run that was unloaded, in SI, as an instrument evaluates it that knows force, depth and
+/// stiffness; by the `area` function of its calibration, or that of the tool's outline.
 pub fn as_an_instrument(
     problem: &Problem,
     area: Option<&AreaFunction>,
@@ -112,7 +113,8 @@ pub fn as_an_instrument(
 mod tests {
     use super::*;
 
-    /// Sneddon's cone, F = (2/π) E* h²/tan β, a = 2h/(π tan β); Hertz's paraboloid, F = (4/3) E* √R h^1.5, a² = R h.
+    /// Sneddon's cone, F = (2/π) E* h²/tan β, a = 2h/(π tan β); Hertz's paraboloid, F = (4/3) E* √R h^1.5, a²
+    /// = R h.
     #[test]
     fn elastic_indentations_give_their_own_area_and_modulus() {
         let (modulus, h) = (1.7, 0.3);

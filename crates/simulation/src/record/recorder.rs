@@ -98,7 +98,8 @@ pub struct Recorder<'p> {
 }
 
 impl<'p> Recorder<'p> {
-    /// An empty recorder of a run of `problem`, which hands out fields every `interval` increments (0: never).
+    /// An empty recorder of a run of `problem`, which hands out fields every `interval` increments (0:
+    /// never).
     pub fn new(problem: &'p Problem, interval: usize, unknowns: usize) -> Self {
         let unload = if problem.unload { problem.numbers.unload_steps + 1 } else { 0 };
         let unload = unload * (1 + 2 * problem.reloads);
@@ -226,8 +227,9 @@ impl<'p> Recorder<'p> {
         told.is_continue()
     }
 
-    /// Radius of the disc of the area of the contact that holds the axis; half the width in plane strain. The outer edge of that
-    /// contact is not told from that of another by gaps: it opens at the axis and elsewhere.
+    /// Radius of the disc of the area of the contact that holds the axis; half the width in plane strain. The
+    /// outer edge of that contact is not told from that of another by gaps: it opens at the axis and
+    /// elsewhere.
     fn radius(&self, model: &Equilibrium<'_>, contact: &ContactSums) -> f64 {
         match (self.problem.symmetry, self.on_axis()) {
             (Symmetry::Axisymmetric, Some(asperity)) => {
@@ -293,8 +295,8 @@ impl<'p> Recorder<'p> {
         observer(&Event::Fields(&frame))
     }
 
-    /// Lists what never yielded: enclosed by metal that did, or above the base of the asperities and half their height
-    /// below it.
+    /// Lists what never yielded: enclosed by metal that did, or above the base of the asperities and half
+    /// their height below it.
     fn find_islands(&mut self, model: &Equilibrium<'_>) {
         let profile = &self.problem.profile;
         let (Some(first), Some(last)) = (profile.asperities.first(), profile.asperities.last()) else {
@@ -412,7 +414,8 @@ impl<'p> Recorder<'p> {
     }
 }
 
-/// The asperity of each surface edge: the one whose foot is nearest to the middle of the edge before the crush.
+/// The asperity of each surface edge: the one whose foot is nearest to the middle of the edge before the
+/// crush.
 fn groups(problem: &Problem) -> Vec<usize> {
     let mesh = &problem.mesh;
     mesh.sides

@@ -1,7 +1,7 @@
 //! Results of a run: one row per converged increment, and the summary. SI units throughout.
 //!
-//! In axisymmetry forces are in N, areas in m², energies in J, of the full body of revolution. In plane strain
-//! they are per metre of ridge: N/m, m (contact width), J/m.
+//! In axisymmetry forces are in N, areas in m², energies in J, of the full body of revolution. In plane
+//! strain they are per metre of ridge: N/m, m (contact width), J/m.
 
 use asperity_solver::body::energy::work;
 use serde::{Deserialize, Deserializer, Serialize};
@@ -39,8 +39,8 @@ pub struct CycleRow {
     pub peak_depth: f64,
     /// Force at the peak, N (N/m).
     pub peak_force: f64,
-    /// Initial summit minus the highest point of the body in equilibrium without the tool; of an indent, the depth at which the
-    /// tool touches again, m.
+    /// Initial summit minus the highest point of the body in equilibrium without the tool; of an indent, the
+    /// depth at which the tool touches again, m.
     pub residual_depth: f64,
     /// ∫F dh on the way in, over the corrected depth, J (J/m).
     pub work_in: f64,
@@ -59,15 +59,17 @@ pub struct CurveRow {
     pub increment: usize,
     /// Loading or unloading.
     pub phase: Phase,
-    /// Tool travel from first touch, less the penalty correction, plus far field and deflection of tool and machine, m.
+    /// Tool travel from first touch, less the penalty correction, plus far field and deflection of tool and
+    /// machine, m.
     pub depth: f64,
-    /// Force on the tool, positive in compression, N (N/m). Once the run has ended without the ripple of the mesh and
-    /// extrapolated with the companion, as are the contact area and what follows from the two; as they are for an observer.
+    /// Force on the tool, positive in compression, N (N/m). Once the run has ended without the ripple of the
+    /// mesh and extrapolated with the companion, as are the contact area and what follows from the two; as
+    /// they are for an observer.
     pub force: f64,
     /// Projected current area under pressure, m² (width, m).
     pub contact_area: f64,
-    /// Radius of the disc of the area of the contact that holds the axis, m: its outer edge, where no gap is open in it
-    /// (plane strain: half the contact width).
+    /// Radius of the disc of the area of the contact that holds the axis, m: its outer edge, where no gap is
+    /// open in it (plane strain: half the contact width).
     pub contact_radius: f64,
     /// Force over contact area, Pa; 0 without contact.
     pub mean_pressure: f64,
@@ -88,21 +90,24 @@ pub struct CurveRow {
     pub compliance_depth: f64,
     /// Newton iterations spent since the last row.
     pub newton_iterations: usize,
-    /// Sum of the nodal forces, N (N/m), in equilibrium with the stresses: what energies and works are made of.
+    /// Sum of the nodal forces, N (N/m), in equilibrium with the stresses: what energies and works are made
+    /// of.
     pub force_nodal: f64,
     /// 95 % bound of the relative error of the force; `None` where it is not known or there is no force.
     pub force_error: Option<f64>,
 }
 
 impl CurveRow {
-    /// Work that none of the energies accounts for, J (J/m): what increments, Newton's method and the penalty leave.
+    /// Work that none of the energies accounts for, J (J/m): what increments, Newton's method and the penalty
+    /// leave.
     pub fn unaccounted_work(&self) -> f64 {
         let kept = self.elastic_energy + self.plastic_work + self.contact_energy - self.transfer_energy;
         self.external_work - kept
     }
 }
 
-/// 95 % bounds of the errors of a run against its own converged limit, over 0.2 ≤ h/h_peak ≤ 1; NaN where they are not known.
+/// 95 % bounds of the errors of a run against its own converged limit, over 0.2 ≤ h/h_peak ≤ 1; NaN where
+/// they are not known.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Errors {
     /// Of the force, relative.
@@ -208,8 +213,8 @@ pub struct Summary {
     pub peak_force: f64,
     /// Depth at the peak, m.
     pub peak_depth: f64,
-    /// Initial summit minus the highest point of the body in equilibrium without the tool; of an indent, the depth at which the
-    /// tool touches again, m.
+    /// Initial summit minus the highest point of the body in equilibrium without the tool; of an indent, the
+    /// depth at which the tool touches again, m.
     pub residual_depth: Option<f64>,
     /// dF/dh at the peak from one elastic solve with the contact kept, N/m (N/m²).
     pub unloading_stiffness: Option<f64>,
@@ -228,7 +233,8 @@ pub struct Summary {
     pub oliver_pharr: Option<OliverPharr>,
     /// elastic_work / total_work.
     pub elastic_fraction: Option<f64>,
-    /// Largest |W - E_e - W_p - E_c + E_t|/W, E_t what transfers to better meshes changed, over increments with W above 1 % of its peak.
+    /// Largest |W - E_e - W_p - E_c + E_t|/W, E_t what transfers to better meshes changed, over increments
+    /// with W above 1 % of its peak.
     #[serde(deserialize_with = "nan_for_null")]
     pub energy_balance_error: f64,
     /// That of the force among the errors.

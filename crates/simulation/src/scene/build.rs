@@ -104,8 +104,9 @@ impl Material {
         Material { hardening_law: HardeningChoice::Custom, custom: Some(OwnLaw::new(law)), ..self }
     }
 
-    /// The material with the yield stress over plastic strain of a table, whose first point is first yield. It is straight between the
-    /// points: chords of a step s lie s²/8 |σ''| below a smooth law, which no stated error includes.
+    /// The material with the yield stress over plastic strain of a table, whose first point is first yield.
+    /// It is straight between the points: chords of a step s lie s²/8 |σ''| below a smooth law, which no
+    /// stated error includes.
     #[must_use]
     pub fn hardening_by(self, points: impl IntoIterator<Item = (f64, Stress)>) -> Material {
         Material {
@@ -122,7 +123,8 @@ impl Asperity {
         Asperity { height: Some(height), slope_deg: Some(slope_deg), ..Asperity::default() }
     }
 
-    /// A measured outline through places and heights in metres: half of it from its axis outward, or the whole of a ridge.
+    /// A measured outline through places and heights in metres: half of it from its axis outward, or the
+    /// whole of a ridge.
     pub fn measured(points: Vec<[f64; 2]>) -> Asperity {
         Asperity { points: Some(Points::new(points)), ..Asperity::default() }
     }

@@ -271,7 +271,8 @@ impl Asperity {
         if !(base.is_finite() && base > 0.0) {
             return Err(error("slope_deg", "makes a foot too wide to compute with: raise the slope"));
         }
-        // the cap ends where the sphere meets the flank: R sin β out from the axis, R (1 - cos β) below the summit
+        // the cap ends where the sphere meets the flank: R sin β out from the axis, R (1 - cos β) below the
+        // summit
         let cap_height = 2.0 * (0.5 * slope).sin().powi(2);
         if tip_radius * cap_height >= height {
             return Err(error(

@@ -101,8 +101,8 @@ impl AsperityForm {
         }
     }
 
-    /// Half width of the foot on the base plane, fillets left out, m; of an outline that is not symmetric the mean of both
-    /// sides.
+    /// Half width of the foot on the base plane, fillets left out, m; of an outline that is not symmetric the
+    /// mean of both sides.
     pub fn base_radius(&self) -> f64 {
         let [left, right] = self.feet();
         if left == right { left } else { 0.5 * (left + right) }

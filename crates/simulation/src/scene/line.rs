@@ -51,7 +51,8 @@ pub struct LineAsperity {
     pub height: f64,
 }
 
-/// Least height of a summit over the higher of its valleys, as a share of the height of the line: Wolf pruning of ISO 25178-2.
+/// Least height of a summit over the higher of its valleys, as a share of the height of the line: Wolf
+/// pruning of ISO 25178-2.
 const PRUNED: f64 = 0.05;
 
 /// Most asperities of a line.
@@ -61,7 +62,8 @@ impl LineProfile {
     /// The line and its asperities.
     ///
     /// # Errors
-    /// Points that are no line, or a line without a summit between two valleys; the path is relative to the table.
+    /// Points that are no line, or a line without a summit between two valleys; the path is relative to the
+    /// table.
     pub fn line(&self) -> Result<Line, SceneError> {
         let points = match (&self.points, &self.file) {
             (Some(points), None) => points,
@@ -110,8 +112,8 @@ impl LineProfile {
     }
 }
 
-/// Valleys and summits of `outline` in turn, from the first valley to the last, (place, drop), each at least `least` from its
-/// neighbours in height; empty without a summit between two valleys.
+/// Valleys and summits of `outline` in turn, from the first valley to the last, (place, drop), each at least
+/// `least` from its neighbours in height; empty without a summit between two valleys.
 fn turns(outline: &Outline, least: f64) -> Vec<[f64; 2]> {
     let mut turns: Vec<[f64; 2]> = Vec::new();
     for point in outline.extremes() {

@@ -94,7 +94,8 @@ impl Smoothing {
     }
 }
 
-/// The error of a fit of `points` in the words of a scene; paths are relative to the table, a point is `points[i]`.
+/// The error of a fit of `points` in the words of a scene; paths are relative to the table, a point is
+/// `points[i]`.
 pub(super) fn refused(points: &Points, e: FitError) -> SceneError {
     match e.point {
         Some(point) => {
@@ -119,8 +120,9 @@ pub(super) fn span_of(points: &[[f64; 2]]) -> Span {
 /// Steepest slope (tangent) that a mesh follows.
 const STEEPEST: f64 = 3.0;
 
-/// The outline of an asperity as seen from its summit, from foot to foot, and its height (m). The feet are the lowest points on
-/// either side; the side whose foot is higher goes on to the base plane, with its mean slope at least.
+/// The outline of an asperity as seen from its summit, from foot to foot, and its height (m). The feet are
+/// the lowest points on either side; the side whose foot is higher goes on to the base plane, with its mean
+/// slope at least.
 pub(super) fn asperity(
     points: &Points,
     tolerance: Option<Length>,

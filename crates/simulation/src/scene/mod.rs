@@ -1,7 +1,7 @@
 //! The content of a scene file: bodies, tool, loading, accuracy.
 //!
-//! The types say what a scene may hold; [`Scene::validate`] says which values make sense. Quantities are in SI.
-//! Keys that are absent are `None`: what a run uses in their place follows from the accuracy level.
+//! The types say what a scene may hold; [`Scene::validate`] says which values make sense. Quantities are in
+//! SI. Keys that are absent are `None`: what a run uses in their place follows from the accuracy level.
 
 mod accuracy;
 mod area_function;

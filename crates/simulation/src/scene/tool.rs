@@ -151,7 +151,8 @@ impl ToolForm {
     }
 }
 
-/// Angle between the axis of Berkovich's pyramid (with the area of Vickers') and its faces, degrees: ISO 14577-2.
+/// Angle between the axis of Berkovich's pyramid (with the area of Vickers') and its faces, degrees: ISO
+/// 14577-2.
 const BERKOVICH_FACE: f64 = 65.27;
 
 /// Angle between the axis of Vickers' pyramid and its faces, degrees: ISO 6507-1.
@@ -185,8 +186,8 @@ impl ToolShape {
         }
     }
 
-    /// Half apex angle, degrees, of the cone whose section at every height has the area of the pyramid's; `None` of what is no
-    /// pyramid.
+    /// Half apex angle, degrees, of the cone whose section at every height has the area of the pyramid's;
+    /// `None` of what is no pyramid.
     ///
     /// An equilateral triangle whose inscribed circle has the radius ρ has the area 3√3 ρ², a square 4 ρ².
     pub fn equivalent_half_apex_deg(self) -> Option<f64> {

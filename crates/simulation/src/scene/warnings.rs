@@ -4,7 +4,8 @@ use super::range::{error, length};
 use super::{Lateral, Scene, SceneError, Symmetry};
 
 impl Scene {
-    /// Values of a valid scene that its run does not use, each with what holds instead: worth a warning, no error.
+    /// Values of a valid scene that its run does not use, each with what holds instead: worth a warning, no
+    /// error.
     pub fn unused(&self) -> Vec<SceneError> {
         let mut unused = Vec::new();
         let mut note = |given: bool, path: &str, instead: String| {

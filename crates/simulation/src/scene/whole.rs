@@ -1,4 +1,5 @@
-//! Properties of a scene as a whole: its extent, its asperities, the curves that were fitted to measured outlines.
+//! Properties of a scene as a whole: its extent, its asperities, the curves that were fitted to measured
+//! outlines.
 
 use super::measured::span_of;
 use super::{Asperity, Lateral, LineProfile, Scene, Smoothing, Symmetry};

@@ -1,11 +1,12 @@
 //! Deflection of the tool and of the machine frame under the force, which the depth includes.
 //!
-//! The tool is an elastic half space under the pressure of the contact. To first order in its compliance the depth grows by
-//! ∂U/∂F of its energy U (Castigliano); what an elastic contact gains in pressure is the pressure of a flat punch as wide as the
-//! contact (Johnson 1985, eq. 3.34), so whatever the shape
+//! The tool is an elastic half space under the pressure of the contact. To first order in its compliance the
+//! depth grows by ∂U/∂F of its energy U (Castigliano); what an elastic contact gains in pressure is the
+//! pressure of a flat punch as wide as the contact (Johnson 1985, eq. 3.34), so whatever the shape
 //!   δ = F/(2 E* a),   E* = E/(1 - ν²),   a = √(A/π)
-//! with the tool's E*, and 1/S grows by 1/(2 E* a). Under the even pressure of fully plastic metal what is gained is a rim, whose
-//! deflection is 8/π² = 0.81 of that: a fifth of the correction is its own error there.
+//! with the tool's E*, and 1/S grows by 1/(2 E* a). Under the even pressure of fully plastic metal what is
+//! gained is a rim, whose deflection is 8/π² = 0.81 of that: a fifth of the correction is its own error
+//! there.
 
 use crate::scene::Scene;
 use crate::setup::units::Units;
@@ -62,8 +63,8 @@ mod tests {
     use super::*;
     use std::f64::consts::FRAC_2_PI;
 
-    /// A cone of Sneddon on a softer tool: F = (2/π) E_r h²/tan β with 1/E_r = 1/E₁ + 1/E₂. To first order in E₁/E₂ the tool adds
-    /// ½ E₁/E₂ of the depth, and the same share to 1/S at the same force.
+    /// A cone of Sneddon on a softer tool: F = (2/π) E_r h²/tan β with 1/E_r = 1/E₁ + 1/E₂. To first order in
+    /// E₁/E₂ the tool adds ½ E₁/E₂ of the depth, and the same share to 1/S at the same force.
     #[test]
     fn a_tool_gives_way_as_the_second_body_of_a_contact_does() {
         let (tan, tool) = (0.2, 1e-5);

@@ -1,5 +1,5 @@
-//! A sharp cone, crushed by a plane or indenting a flat body, as a problem. Nothing but the depth gives it a length, so its force
-//! is F = K h².
+//! A sharp cone, crushed by a plane or indenting a flat body, as a problem. Nothing but the depth gives it a
+//! length, so its force is F = K h².
 
 use crate::scene::Lateral;
 use crate::setup::compliance::Compliance;
@@ -18,7 +18,8 @@ use asperity_solver::point::material::Metal;
 pub struct Cone {
     /// Slope β of the flank against the plane, degrees.
     pub slope_deg: f64,
-    /// Whether a rigid cone indents a flat body of the material; else a cone of the material is crushed by a rigid plane.
+    /// Whether a rigid cone indents a flat body of the material; else a cone of the material is crushed by a
+    /// rigid plane.
     pub indents: bool,
     /// The material, E = 1.
     pub metal: Metal,
@@ -82,8 +83,9 @@ mod tests {
     use asperity_material::{Elastic, Hardening, HardeningCurve, HardeningLaw, StressMeasure};
     use asperity_solver::body::analysis::Analyses;
 
-    /// Elements give the same bits, a factorisation without fused multiply-add rounds otherwise: with steps of given lengths and
-    /// as many iterations the difference stays that of rounding, magnified by the condition of the tangent.
+    /// Elements give the same bits, a factorisation without fused multiply-add rounds otherwise: with steps
+    /// of given lengths and as many iterations the difference stays that of rounding, magnified by the
+    /// condition of the tangent.
     #[test]
     fn a_processor_without_vector_registers_gives_the_same_force() {
         let hardening = Hardening {

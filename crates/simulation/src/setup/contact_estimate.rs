@@ -8,8 +8,8 @@ use asperity_solver::point::kinematics::Symmetry;
 use asperity_solver::point::material::Metal;
 use std::f64::consts::{FRAC_2_PI, PI};
 
-/// Contact half width of a crushed asperity over the half width of the cut at the same depth: 0.64 (elastic cone,
-/// 2/π) to 1.06 (perfectly plastic), 0.89 for the single asperity.
+/// Contact half width of a crushed asperity over the half width of the cut at the same depth: 0.64 (elastic
+/// cone, 2/π) to 1.06 (perfectly plastic), 0.89 for the single asperity.
 const CONTACT_WIDTH_RATIO: f64 = 0.9;
 
 /// How a tool and an asperity meet, or a curved tool and a flat body.
@@ -82,10 +82,11 @@ pub fn half_widths(profile: &Profile, tool: &Tool, own: &[f64]) -> Vec<f64> {
     meetings(profile, mirrored.as_ref()).iter().zip(own).map(|(m, own)| m.half_width(*own)).collect()
 }
 
-/// Share of its half width at the peak, for which the mesh is made, from which a contact must be resolved: the half width where the error of
-/// the force begins to be promised. `first` and `last` are the depths to which contacts indent their surroundings there and at the
-/// peak; the deepest one there counts. Under a flank the share is that of the depths, whatever the tip that was crushed before; under a
-/// tip that is still round there it is larger, and the same elements lie closer.
+/// Share of its half width at the peak, for which the mesh is made, from which a contact must be resolved:
+/// the half width where the error of the force begins to be promised. `first` and `last` are the depths to
+/// which contacts indent their surroundings there and at the peak; the deepest one there counts. Under a
+/// flank the share is that of the depths, whatever the tip that was crushed before; under a tip that is still
+/// round there it is larger, and the same elements lie closer.
 pub fn resolved_from(profile: &Profile, tool: &Tool, first: &[f64], last: &[f64]) -> f64 {
     let mirrored = tool.mirrored();
     let meetings = meetings(profile, mirrored.as_ref());
@@ -117,9 +118,9 @@ const TABOR_RATIO: f64 = 2.8;
 /// Representative strain ε_r over tan β, rounded: estimates need no more.
 const STRAIN_PER_SLOPE: f64 = 0.1;
 
-/// Mean contact pressure to be expected under outlines of this slope (tangent) at the edge of the contact, in units of E: ½E* tan β of the
-/// elastic cone and that of full plasticity, joined harmonically. Earlier loads `hardened` the metal to this yield stress, 0 where it
-/// is virgin.
+/// Mean contact pressure to be expected under outlines of this slope (tangent) at the edge of the contact, in
+/// units of E: ½E* tan β of the elastic cone and that of full plasticity, joined harmonically. Earlier loads
+/// `hardened` the metal to this yield stress, 0 where it is virgin.
 pub fn pressure_under(metal: &Metal, slope: f64, hardened: f64) -> f64 {
     let elastic = 0.5 * metal.elastic.reduced_modulus() * slope;
     match &metal.hardening {
@@ -131,9 +132,9 @@ pub fn pressure_under(metal: &Metal, slope: f64, hardened: f64) -> f64 {
     }
 }
 
-/// a tan β/h to be expected of a sharp cone of the slope `tan`: 2/π of an elastic one, up to 1.08 - 0.6 n of a fully plastic one,
-/// more where material piles up against a steep tool that `indents`, joined in X = E* tan β/σ_r (read off forty cones, within
-/// 0.1). Only the mesh is laid out with it.
+/// a tan β/h to be expected of a sharp cone of the slope `tan`: 2/π of an elastic one, up to 1.08 - 0.6 n of
+/// a fully plastic one, more where material piles up against a steep tool that `indents`, joined in X = E*
+/// tan β/σ_r (read off forty cones, within 0.1). Only the mesh is laid out with it.
 pub fn contact_ratio(metal: &Metal, tan: f64, indents: bool) -> f64 {
     let Some(hardening) = &metal.hardening else { return FRAC_2_PI };
     let exponent = hardening.exponent(metal.elastic.youngs_modulus);
@@ -143,9 +144,9 @@ pub fn contact_ratio(metal: &Metal, tan: f64, indents: bool) -> f64 {
     FRAC_2_PI + (plastic - FRAC_2_PI) * (x / (x + 6.0)).powi(2)
 }
 
-/// Depth per force that a clamped substrate of this size takes away from an elastic half space: 0.39/(E* size), its depth and its
-/// radius alike. Measured from sizes of 25 to 800 contact radii: 0.387 under cones, 0.394 under balls, 0.37 to 0.40 on
-/// crushed cones.
+/// Depth per force that a clamped substrate of this size takes away from an elastic half space: 0.39/(E*
+/// size), its depth and its radius alike. Measured from sizes of 25 to 800 contact radii: 0.387 under cones,
+/// 0.394 under balls, 0.37 to 0.40 on crushed cones.
 pub fn far_field(metal: &Metal, size: f64) -> f64 {
     0.39 / (metal.elastic.reduced_modulus() * size)
 }

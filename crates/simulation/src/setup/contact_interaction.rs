@@ -1,16 +1,18 @@
-//! How deep each contact of a row indents its own surroundings, estimated before a run: what it and its neighbours press down further
-//! away is no part of that.
+//! How deep each contact of a row indents its own surroundings, estimated before a run: what it and its
+//! neighbours press down further away is no part of that.
 //!
-//! Under a row of contacts most of the depth of the tool goes into the body at large. With the depth `d` that a contact indents its
-//! own surroundings, the load `P` that it then carries and the depth `δ` of the tool below the summit,
+//! Under a row of contacts most of the depth of the tool goes into the body at large. With the depth `d` that
+//! a contact indents its own surroundings, the load `P` that it then carries and the depth `δ` of the tool
+//! below the summit,
 //! ```text
 //! d_i + Σ_j c_ij P_j(d_j) = δ_i,   d_i ≥ 0.
 //! ```
-//! The surface of an elastic half space falls under a line load q by (2q/πE*) ln(L/s) at the distance s (Johnson, Contact Mechanics,
-//! 1985, section 2.3); of a strip as wide as a contact of the half width a, s = a leaves the depth that an outline of this half
-//! width cuts off. L is the depth of a body in plane strain, eight times the radius of a ring on a half space, whose other rings
-//! and middle fall by (P/πE*)(2/π)K(m)/(c_i + c_j), m = 4c_i c_j/(c_i + c_j)². Symmetric sides mirror
-//! the loads, and make the far field a bar.
+//! The surface of an elastic half space falls under a line load q by (2q/πE*) ln(L/s) at the distance s
+//! (Johnson, Contact Mechanics, 1985, section 2.3); of a strip as wide as a contact of the half width a, s =
+//! a leaves the depth that an outline of this half width cuts off. L is the depth of a body in plane strain,
+//! eight times the radius of a ring on a half space, whose other rings and middle fall by
+//! (P/πE*)(2/π)K(m)/(c_i + c_j), m = 4c_i c_j/(c_i + c_j)². Symmetric sides mirror the loads, and make the
+//! far field a bar.
 
 use crate::setup::contact_estimate::{Meeting, area, meetings, pressure_under};
 use asperity_mesh::profile::Profile;
@@ -34,8 +36,8 @@ pub struct Support {
 const MOST_SWEEPS: usize = 200;
 const LEAST_DEPTH_CHANGE: f64 = 1e-10;
 
-/// Depth that each contact of `profile` (one entry for a flat body) indents its surroundings where the tool is `depth` below the
-/// highest summit; 0 where it does not touch.
+/// Depth that each contact of `profile` (one entry for a flat body) indents its surroundings where the tool
+/// is `depth` below the highest summit; 0 where it does not touch.
 pub fn own_depths(metal: &Metal, profile: &Profile, tool: &Tool, support: &Support, depth: f64) -> Vec<f64> {
     let mirrored = tool.mirrored();
     let meetings = meetings(profile, mirrored.as_ref());
@@ -123,13 +125,15 @@ impl Support {
         }
     }
 
-    /// Of a cell of rings: the fall of a bar as wide, less that of a half space in the mean over the cell, 2P/(πE*R).
+    /// Of a cell of rings: the fall of a bar as wide, less that of a half space in the mean over the cell,
+    /// 2P/(πE*R).
     fn confined(&self, metal: &Metal) -> f64 {
         let Some([_, radius]) = self.cell else { return 0.0 };
         self.bar(metal, PI * radius * radius) - 2.0 / (PI * metal.elastic.reduced_modulus() * radius)
     }
 
-    /// Fall per load of a bar of this section between rigid walls: depth over section and E (1 - ν)/((1 + ν)(1 - 2ν)).
+    /// Fall per load of a bar of this section between rigid walls: depth over section and E (1 - ν)/((1 +
+    /// ν)(1 - 2ν)).
     fn bar(&self, metal: &Metal, section: f64) -> f64 {
         let (modulus, nu) = (metal.elastic.youngs_modulus, metal.elastic.poissons_ratio);
         let confined = modulus * (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu));
@@ -137,8 +141,9 @@ impl Support {
     }
 }
 
-/// ln of one over the distance of the places `a` and `b` (`s` if they are one) between mirrors at the sides of the `cell`, with all
-/// images of `b`, less its mean: -ln(4 sin(π(a - b)/2W) sin(π(a + b)/2W)) from the left side, W wide.
+/// ln of one over the distance of the places `a` and `b` (`s` if they are one) between mirrors at the sides
+/// of the `cell`, with all images of `b`, less its mean: -ln(4 sin(π(a - b)/2W) sin(π(a + b)/2W)) from the
+/// left side, W wide.
 fn mirrored([left, right]: [f64; 2], a: f64, b: f64, s: f64) -> f64 {
     let turn = FRAC_PI_2 / (right - left);
     let near = if a == b { turn * s } else { (turn * (a - b)).sin().abs() };
@@ -186,8 +191,9 @@ mod tests {
         Support { symmetry, cell: None, depth }
     }
 
-    /// Johnson, Contact Mechanics, eq. (4.43) and (5.56): a² = 4qR/(πE*), δ = (q/πE*)(2 ln(2L/a) - ν/(1 - ν)). A quarter: the
-    /// pressure is that of a wedge of the slope at the edge, 1.27 times that of a cylinder.
+    /// Johnson, Contact Mechanics, eq. (4.43) and (5.56): a² = 4qR/(πE*), δ = (q/πE*)(2 ln(2L/a) - ν/(1 -
+    /// ν)). A quarter: the pressure is that of a wedge of the slope at the edge, 1.27 times that of a
+    /// cylinder.
     #[test]
     fn an_elastic_cylinder_is_as_wide_as_that_of_hertz() {
         let (radius, deep) = (1000.0, 500.0);

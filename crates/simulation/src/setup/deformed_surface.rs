@@ -1,5 +1,5 @@
-//! The surface that earlier loads left, as far as estimates before a run need it: how wide a tool meets it, and how hard it is.
-//! None of it stands in a result, as for [`crate::setup::contact_estimate`].
+//! The surface that earlier loads left, as far as estimates before a run need it: how wide a tool meets it,
+//! and how hard it is. None of it stands in a result, as for [`crate::setup::contact_estimate`].
 
 use crate::setup::contact_estimate;
 use crate::setup::discretisation::LEAST_COUNTED_DEPTH;
@@ -7,7 +7,8 @@ use asperity_mesh::profile::{Asperity, Profile};
 use asperity_solver::contact::tool::Tool;
 use asperity_solver::point::material::Metal;
 
-/// Places where a surface is looked at around the axis of a tool: each so many times as far away as the one before.
+/// Places where a surface is looked at around the axis of a tool: each so many times as far away as the one
+/// before.
 const PLACE_RATIO: f64 = 0.9;
 const PLACE_COUNT: usize = 120;
 
@@ -55,7 +56,8 @@ impl Formed {
         places.into_iter().filter_map(|x| Some([x, above(x)?])).filter(|[_, z]| z.is_finite()).collect()
     }
 
-    /// Contact half widths of the asperities of `profile` (one entry for a flat body) where the tool is at `depth`.
+    /// Contact half widths of the asperities of `profile` (one entry for a flat body) where the tool is at
+    /// `depth`.
     pub fn half_widths(&self, profile: &Profile, tool: &Tool, depth: f64) -> Vec<f64> {
         let places = self.clearances(tool);
         let top = places.iter().map(|place| place[1]).fold(f64::NEG_INFINITY, f64::max);
@@ -75,7 +77,8 @@ impl Formed {
         self.half_widths(profile, tool, depth).into_iter().fold(0.0, f64::max)
     }
 
-    /// Share of the contact half width at `reach` from which the contact must be resolved: see [`crate::setup::contact_estimate::resolved_from`].
+    /// Share of the contact half width at `reach` from which the contact must be resolved: see
+    /// [`crate::setup::contact_estimate::resolved_from`].
     pub fn resolved_from(&self, profile: &Profile, tool: &Tool, depth: f64, reach: f64) -> f64 {
         self.widest(profile, tool, LEAST_COUNTED_DEPTH * depth) / self.widest(profile, tool, reach)
     }
@@ -88,7 +91,8 @@ impl Formed {
     }
 }
 
-/// Mean contact pressure to be expected at `depth`, in units of E, on the surface that earlier loads left, or else on that of `profile`.
+/// Mean contact pressure to be expected at `depth`, in units of E, on the surface that earlier loads left, or
+/// else on that of `profile`.
 pub fn expected_pressure(
     formed: Option<&Formed>,
     metal: &Metal,

@@ -1,5 +1,5 @@
-//! The numbers of the discretisation that an accuracy chooses for a scene and for a self-similar cone: elements, steps, penalty,
-//! tolerance, size of the substrate.
+//! The numbers of the discretisation that an accuracy chooses for a scene and for a self-similar cone:
+//! elements, steps, penalty, tolerance, size of the substrate.
 
 use crate::scene::{Accuracy, ElementChoice, Numerics, Scene, Symmetry, ToolForm};
 use crate::setup::schedule::{Spacing, loading};
@@ -42,7 +42,8 @@ struct Choice {
     penetration: f64,
 }
 
-/// The levels from coarse to fine: the promised error, and in the order of [`Choice`] the numbers that keep it.
+/// The levels from coarse to fine: the promised error, and in the order of [`Choice`] the numbers that keep
+/// it.
 const LEVELS: [(Accuracy, [f64; 6]); 3] = [
     (Accuracy::Draft, [12.0, 36.0, 6.0, 1e-3, 40.0, 0.008]),
     (Accuracy::Standard, [24.0, 72.0, 10.0, 1e-3, 60.0, 0.0042]),
@@ -50,8 +51,8 @@ const LEVELS: [(Accuracy, [f64; 6]); 3] = [
 ];
 
 impl Choice {
-    /// Between two levels every number is a power of the promise, as every part of the error is a power of its number:
-    /// each part then falls with the promise.
+    /// Between two levels every number is a power of the promise, as every part of the error is a power of
+    /// its number: each part then falls with the promise.
     fn for_promise(promise: f64) -> Choice {
         let [coarse, middle, fine] = LEVELS;
         let ends = if promise > middle.0.promise() { [coarse, middle] } else { [middle, fine] };
@@ -94,7 +95,8 @@ impl Discretisation {
         let (steps, from) = if ridges { (steps + steps / 3, 0.003) } else { (steps, 0.02) };
         // unloaded, contacts part one after the other, each with a kink in the curve
         let unload_steps = if ridges { 2 * unload_steps } else { unload_steps };
-        // errors of step and mesh were made equal to the promise on metal of n 0.3 and grow as it hardens less
+        // errors of step and mesh were made equal to the promise on metal of n 0.3 and grow as it hardens
+        // less
         let softness = softness(scene);
         let elements = (elements as f64 * softness.powf(0.8)).round() as usize;
         let steps = (steps as f64 * softness).round() as usize;
@@ -114,7 +116,8 @@ impl Discretisation {
         }
     }
 
-    /// Numbers half as good: half the elements and steps, twice the penetration, half the substrate; the tolerance stays.
+    /// Numbers half as good: half the elements and steps, twice the penetration, half the substrate; the
+    /// tolerance stays.
     #[must_use]
     pub fn coarser(&self) -> Discretisation {
         Discretisation {
@@ -148,9 +151,10 @@ impl Discretisation {
 /// Slope of an indenting cone, degrees, beyond which linear elements are used.
 const STEEP_SLOPE_DEG: f64 = 11.0;
 
-/// The quadratic element gives the smaller error for its cost. Under a steep indenter, though, the material at the axis is drawn out
-/// along the flank until four points no longer hold the shape of its cells: perfectly plastic material of E/σ_y 500 went to
-/// 0.6 of the depth under a cone of 20° and did not come back from one of 14°. With linear elements it does both, up to 40°.
+/// The quadratic element gives the smaller error for its cost. Under a steep indenter, though, the material
+/// at the axis is drawn out along the flank until four points no longer hold the shape of its cells:
+/// perfectly plastic material of E/σ_y 500 went to 0.6 of the depth under a cone of 20° and did not come back
+/// from one of 14°. With linear elements it does both, up to 40°.
 fn element_under(indenter: Option<f64>) -> ElementChoice {
     if indenter.is_some_and(|slope| slope > STEEP_SLOPE_DEG.to_radians()) {
         ElementChoice::Q4
@@ -159,7 +163,8 @@ fn element_under(indenter: Option<f64>) -> ElementChoice {
     }
 }
 
-/// Slope at half way out over that at the end from which a measured tool is a cone: that of a ball is a half at most.
+/// Slope at half way out over that at the end from which a measured tool is a cone: that of a ball is a half
+/// at most.
 const CONICAL_SLOPE_RATIO: f64 = 0.75;
 
 /// Slope (radians) of the flank of a measured tool that is conical.
@@ -175,18 +180,19 @@ fn softness(scene: &Scene) -> f64 {
     scene.material.hardening().map_or(1.0, |h| softness_of(h.exponent(modulus)))
 }
 
-/// (1 - n)/0.7 of metal that hardens less than n = 0.3, else 1: the error of the load step grows with its square and is
-/// of second order in the step, the ripple of the mesh grows with it nearly and is of first order.
+/// (1 - n)/0.7 of metal that hardens less than n = 0.3, else 1: the error of the load step grows with its
+/// square and is of second order in the step, the ripple of the mesh grows with it nearly and is of first
+/// order.
 fn softness_of(exponent: f64) -> f64 {
     ((1.0 - exponent) / 0.7).max(1.0)
 }
 
-/// The discretisation of a self-similar cone, crushed or indenting, on which the slope of √F over the depth is measured: a mesh
-/// of one width and equal steps.
+/// The discretisation of a self-similar cone, crushed or indenting, on which the slope of √F over the depth
+/// is measured: a mesh of one width and equal steps.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ConeDiscretisation {
-    /// Elements across the final contact radius, all of one size, so that the ripple of the force has one period; steps,
-    /// penalty, tolerance and size of the substrate.
+    /// Elements across the final contact radius, all of one size, so that the ripple of the force has one
+    /// period; steps, penalty, tolerance and size of the substrate.
     pub numbers: Discretisation,
     /// The mesh around the contact.
     pub sizes: Sizes,
@@ -195,42 +201,46 @@ pub struct ConeDiscretisation {
 /// Share of the final depth to which longer steps lead, and from which they are equal.
 pub const EQUAL_STEPS_FROM: f64 = 0.3;
 
-/// Numbers of a cone of metal that hardens with n = 0.3 or more, at draft, standard and reference: elements across the contact, of
-/// which so many are one column at the axis, steps to [`EQUAL_STEPS_FROM`] and from there; depth of the core, growth of its rows, first
-/// shell in elements, growth of the shells, substrate and foot of the cone in contact radii; penetration over depth, tolerance;
-/// powers of the [softness](softness_of) in the numbers of elements and of steps, with which the difference between run and
+/// Numbers of a cone of metal that hardens with n = 0.3 or more, at draft, standard and reference: elements
+/// across the contact, of which so many are one column at the axis, steps to [`EQUAL_STEPS_FROM`] and from
+/// there; depth of the core, growth of its rows, first shell in elements, growth of the shells, substrate and
+/// foot of the cone in contact radii; penetration over depth, tolerance; powers of the
+/// [softness](softness_of) in the numbers of elements and of steps, with which the difference between run and
 /// companion is about the same for all n: without hardening, flow gathers where the mesh lets it.
 type ConeLevels = [([usize; 4], [f64; 6], [f64; 2], [f64; 2]); 3];
 
-/// Quadratic elements. A companion of four elements across the contact tells little of the error of eight: of 124 cones of the default
-/// sweep 59 % lay within the bound that these gave at standard, 99 % with 12 and 6.
+/// Quadratic elements. A companion of four elements across the contact tells little of the error of eight: of
+/// 124 cones of the default sweep 59 % lay within the bound that these gave at standard, 99 % with 12 and 6.
 const QUADRATIC_LEVELS: ConeLevels = [
     ([10, 1, 3, 14], [0.4, 0.5, 1.0, 0.5, 64.0, 8.0], [0.008, 1e-3], [0.3, 2.0]),
     ([12, 1, 5, 20], [0.4, 0.4, 1.0, 0.4, 32.0, 8.0], [0.008, 1e-3], [0.3, 1.4]),
     ([18, 1, 12, 60], [0.8, 0.2, 1.0, 0.25, 200.0, 12.0], [0.004, 1e-6], [1.6, 2.0]),
 ];
 
-/// Linear elements under a steep cone: they want finer meshes, and a wide column at the axis leaves room to what is stretched along
-/// the flank.
+/// Linear elements under a steep cone: they want finer meshes, and a wide column at the axis leaves room to
+/// what is stretched along the flank.
 const STEEP_LINEAR_LEVELS: ConeLevels = [
     ([16, 2, 6, 36], [0.6, 0.15, 1.0, 0.15, 100.0, 8.0], [0.002, 1e-3], [0.0; 2]),
     ([24, 4, 8, 60], [0.6, 0.15, 1.0, 0.1, 100.0, 8.0], [0.001, 1e-4], [0.0; 2]),
     ([36, 6, 12, 96], [0.8, 0.08, 1.0, 0.05, 200.0, 8.0], [0.0005, 1e-6], [0.0; 2]),
 ];
 
-/// Penetration of a cone that indents a flat body with quadratic elements over that of a crushed one: it costs more of the depth.
+/// Penetration of a cone that indents a flat body with quadratic elements over that of a crushed one: it
+/// costs more of the depth.
 const INDENTED_PENETRATION_RATIO: f64 = 0.5;
 
-/// How much faster cells grow with the distance from the contact in a companion. With quadratic elements the error of that growth is of
-/// the fourth order nearly, so that twice as much of it would tell of nothing else; with linear ones it is of the second (growth
-/// times 2, 1.5, 1/2, 1/4 under a cone of 30°: +0.85, +0.37, -0.25, -0.33 % of K), as that of the elements themselves.
+/// How much faster cells grow with the distance from the contact in a companion. With quadratic elements the
+/// error of that growth is of the fourth order nearly, so that twice as much of it would tell of nothing
+/// else; with linear ones it is of the second (growth times 2, 1.5, 1/2, 1/4 under a cone of 30°: +0.85,
+/// +0.37, -0.25, -0.33 % of K), as that of the elements themselves.
 fn faster(element: ElementChoice) -> f64 {
     if element == ElementChoice::Q4 { 2.0 } else { 1.5 }
 }
 
 impl ConeDiscretisation {
-    /// The numbers at the coarsest level that promises `accuracy`, for a cone of the slope `slope_deg` (degrees) that is crushed or
-    /// `indents`, of a material of the hardening exponent `exponent` (`None`: elastic).
+    /// The numbers at the coarsest level that promises `accuracy`, for a cone of the slope `slope_deg`
+    /// (degrees) that is crushed or `indents`, of a material of the hardening exponent `exponent` (`None`:
+    /// elastic).
     pub fn new(
         slope_deg: f64,
         indents: bool,

@@ -1,4 +1,5 @@
-//! The problem made of a scene: units, numbers of the accuracy, the contact that is expected, the mesh, the schedule.
+//! The problem made of a scene: units, numbers of the accuracy, the contact that is expected, the mesh, the
+//! schedule.
 
 pub mod units;
 

@@ -73,8 +73,9 @@ impl From<f64> for Expected {
     }
 }
 
-/// Prepares `scene`, which is valid, for its `expected` peak. `mesh` replaces the mesh that would be built (in metres). Lengths are
-/// in units of the depth. The body is virgin: [`crate::run::Run`] takes it through its earlier loads.
+/// Prepares `scene`, which is valid, for its `expected` peak. `mesh` replaces the mesh that would be built
+/// (in metres). Lengths are in units of the depth. The body is virgin: [`crate::run::Run`] takes it through
+/// its earlier loads.
 ///
 /// # Errors
 /// A scene that cannot be meshed: path and reason.
@@ -157,7 +158,8 @@ pub fn prepare_with(
     })
 }
 
-/// Where loading ends, and how deep the mesh is to reach over the expected depth: a force may be found somewhat deeper than expected.
+/// Where loading ends, and how deep the mesh is to reach over the expected depth: a force may be found
+/// somewhat deeper than expected.
 fn goal_and_reach(scene: &Scene, units: &Units) -> Result<(Goal, f64), SceneError> {
     Ok(match scene.loading.target().map_err(|e| in_table("loading", e))? {
         Target::Depth(asked) => (Goal::Depth(asked / units.length), 1.0),
@@ -168,7 +170,8 @@ fn goal_and_reach(scene: &Scene, units: &Units) -> Result<(Goal, f64), SceneErro
     })
 }
 
-/// `contacts` and those of the earlier loads of `scene` on one mesh, lengths over the depth that is `expected` now.
+/// `contacts` and those of the earlier loads of `scene` on one mesh, lengths over the depth that is
+/// `expected` now.
 fn with_earlier_contacts(
     mut contacts: Contacts,
     scene: &Scene,
@@ -192,13 +195,14 @@ struct Contacts {
     half_widths: Vec<f64>,
     /// Half width of the widest from which it is to be resolved.
     resolved_from: f64,
-    /// Elements in the half width times the width of a shell of them over its distance from the centre: 1 for the core, and the logarithm
-    /// of the half width over that of the core for the shells around it.
+    /// Elements in the half width times the width of a shell of them over its distance from the centre: 1 for
+    /// the core, and the logarithm of the half width over that of the core for the shells around it.
     graded: f64,
 }
 
 impl Contacts {
-    /// Those of a tool at `reach`, resolved where it is `depth` deep; `own_depths_at` tells how deep each then indents its surroundings.
+    /// Those of a tool at `reach`, resolved where it is `depth` deep; `own_depths_at` tells how deep each
+    /// then indents its surroundings.
     fn new(
         profile: &Profile,
         tool: &Tool,
@@ -281,24 +285,26 @@ fn widest(half_widths: &[f64]) -> f64 {
     half_widths.iter().fold(0.0, |m: f64, w| m.max(*w))
 }
 
-/// Half width of the core over that from which a contact is to be resolved: an elastic contact is 0.7 times as wide as expected
-/// (see `a_priori`), and the columns of the core are wide.
+/// Half width of the core over that from which a contact is to be resolved: an elastic contact is 0.7 times
+/// as wide as expected (see `a_priori`), and the columns of the core are wide.
 const CORE_WIDTH_RATIO: f64 = 0.7;
 
-/// Growth of the shells far from the contact, as a share of the distance, of quadratic elements. With linear ones of this growth a ridge
-/// and a cylinder in plane strain were too stiff by 0.5 % and 0.8 %, with [`LINEAR_PER_QUADRATIC`] times as many shells by 0.1 %; quadratic ones of
-/// half of it change the force by 0.01 %.
+/// Growth of the shells far from the contact, as a share of the distance, of quadratic elements. With linear
+/// ones of this growth a ridge and a cylinder in plane strain were too stiff by 0.5 % and 0.8 %, with
+/// [`LINEAR_PER_QUADRATIC`] times as many shells by 0.1 %; quadratic ones of half of it change the force by
+/// 0.01 %.
 const FAR_GROWTH_SHARE: f64 = 0.4;
 
-/// Size of an automatic substrate: so many radii of the loaded region, which is the contact of a single asperity and
-/// the whole row of several, whose forces add up far away.
+/// Size of an automatic substrate: so many radii of the loaded region, which is the contact of a single
+/// asperity and the whole row of several, whose forces add up far away.
 fn automatic_size(numbers: &Discretisation, profile: &Profile, half_widths: &[f64]) -> f64 {
     let touched = profile.asperities.iter().zip(half_widths).filter(|(_, w)| **w > 0.0);
     let loaded = touched.map(|(a, w)| a.centre + w).fold(widest(half_widths), f64::max);
     numbers.domain * loaded
 }
 
-/// Left and right end of the row of asperities with the gaps beside it, lengths over `length`; of a flat body some contact widths.
+/// Left and right end of the row of asperities with the gaps beside it, lengths over `length`; of a flat body
+/// some contact widths.
 fn extent(scene: &Scene, profile: &Profile, half_widths: &[f64], length: f64) -> [f64; 2] {
     let end_gap = scene.end_gap() / length;
     let right = profile.asperities.last().map_or(0.0, |a| a.centre + a.feet()[1]) + end_gap;
@@ -313,15 +319,17 @@ fn extent(scene: &Scene, profile: &Profile, half_widths: &[f64], length: f64) ->
     }
 }
 
-/// Slope (tangent) of a flank beyond which a sharp tip is cut off in the mesh: the cell below it would be higher than wide.
+/// Slope (tangent) of a flank beyond which a sharp tip is cut off in the mesh: the cell below it would be
+/// higher than wide.
 const STEEP_FLANK_SLOPE: f64 = 1.0;
 
 /// Half width of the arc that a steep flank ends in at least, over the width of the first column of cells.
 const BLUNT_WIDTH_RATIO: f64 = 0.2;
 
-/// The profile as it is meshed. A plane that comes down on the tip of a steep flank touches one node of a high and narrow cell: a
-/// pressure of ten yield stresses there crushes the cell before the contact is as wide as it. What an arc half a column wide takes off
-/// such a tip is crushed before the contact is resolved in any case.
+/// The profile as it is meshed. A plane that comes down on the tip of a steep flank touches one node of a
+/// high and narrow cell: a pressure of ten yield stresses there crushes the cell before the contact is as
+/// wide as it. What an arc half a column wide takes off such a tip is crushed before the contact is resolved
+/// in any case.
 fn blunted(profile: &Profile, half_widths: &[f64], grading: &Grading) -> Profile {
     let blunt = |(asperity, half_width): (&Asperity, &f64)| match asperity.shape {
         Shape::Cone { tan_slope, .. } if tan_slope > STEEP_FLANK_SLOPE => {
@@ -335,8 +343,8 @@ fn blunted(profile: &Profile, half_widths: &[f64], grading: &Grading) -> Profile
     }
 }
 
-/// The mesh of the scene over the `row` of its asperities for contacts of these `half_widths`, lengths over `length`; the substrate has
-/// the `size` if the scene gives none.
+/// The mesh of the scene over the `row` of its asperities for contacts of these `half_widths`, lengths over
+/// `length`; the substrate has the `size` if the scene gives none.
 fn build_mesh(
     scene: &Scene,
     (grading, kind): (Grading, ElementKind),

@@ -38,16 +38,19 @@ pub enum Goal {
 /// How a load path goes and what it counts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rules {
-    /// Depth that a substrate of finite size takes away per force and that is added to the depth; 0: not corrected.
+    /// Depth that a substrate of finite size takes away per force and that is added to the depth; 0: not
+    /// corrected.
     pub far_field: f64,
     /// How tool and machine give way, which is added to the depth.
     pub compliance: Compliance,
-    /// An increment in which the contact area grows by more than this factor is halved, as long as halvings are left.
+    /// An increment in which the contact area grows by more than this factor is halved, as long as halvings
+    /// are left.
     pub area_growth: f64,
 }
 
-/// A path that grows the contact area by more than this factor in one increment halves it: flat metal comes into contact all
-/// at once when an asperity vanishes into its base. The schedule of the draft level grows it by 1.5.
+/// A path that grows the contact area by more than this factor in one increment halves it: flat metal comes
+/// into contact all at once when an asperity vanishes into its base. The schedule of the draft level grows it
+/// by 1.5.
 const AREA_GROWTH: f64 = 2.5;
 
 impl Rules {
@@ -64,8 +67,9 @@ impl Rules {
         }
     }
 
-    /// dF/dh of a half space under tool and machine, from that of the meshed body over a contact of this `area`: the depth holds what the
-    /// substrate of finite size takes away and how tool and machine give way, so the slope holds both.
+    /// dF/dh of a half space under tool and machine, from that of the meshed body over a contact of this
+    /// `area`: the depth holds what the substrate of finite size takes away and how tool and machine give
+    /// way, so the slope holds both.
     pub fn whole_stiffness(&self, of_the_mesh: f64, area: f64) -> f64 {
         let half_space =
             if self.far_field > 0.0 { (of_the_mesh.recip() + self.far_field).recip() } else { of_the_mesh };
@@ -120,7 +124,8 @@ pub struct Problem {
 }
 
 impl Problem {
-    /// Its body out of contact: stress-free, or as earlier loads left it. Its mesh is analysed unless it is one of `analyses`.
+    /// Its body out of contact: stress-free, or as earlier loads left it. Its mesh is analysed unless it is
+    /// one of `analyses`.
     ///
     /// # Errors
     /// An element of the mesh that is inside out.
@@ -143,8 +148,8 @@ impl Problem {
         if tool > 0.0 { (body.recip() + tool).recip() } else { body }
     }
 
-    /// Contact pressure per penetration at `travel`: the penetration is the same share of every depth from which errors count,
-    /// so that early contact is as good as late.
+    /// Contact pressure per penetration at `travel`: the penetration is the same share of every depth from
+    /// which errors count, so that early contact is as good as late.
     pub fn penalty_at(&self, travel: f64) -> f64 {
         let depth = travel.max(LEAST_COUNTED_DEPTH);
         let formed = self.formed.as_ref();
@@ -152,8 +157,8 @@ impl Problem {
         self.penalty * pressure(depth) / (pressure(1.0) * depth)
     }
 
-    /// Travel less the depth at the peak, to be expected before the first increment shows it: the penetration, less what tool
-    /// and machine give way.
+    /// Travel less the depth at the peak, to be expected before the first increment shows it: the
+    /// penetration, less what tool and machine give way.
     pub fn expected_penetration(&self) -> f64 {
         match self.goal {
             // what tool and machine give way is no travel
@@ -166,7 +171,8 @@ impl Problem {
     }
 }
 
-/// Which displacement components of each node are fixed: both at the base, that across at the axis and at symmetric sides.
+/// Which displacement components of each node are fixed: both at the base, that across at the axis and at
+/// symmetric sides.
 pub fn held_nodes(mesh: &Mesh, symmetry: Symmetry, lateral: Lateral) -> Vec<[bool; 2]> {
     let mut held = vec![[false; 2]; mesh.nodes.len()];
     let mut hold = |edges: &[asperity_mesh::Edge], components: [bool; 2]| {

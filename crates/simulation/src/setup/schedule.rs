@@ -3,14 +3,14 @@
 /// How loading is divided into increments.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Spacing {
-    /// Three equal increments to this share of the depth, then geometric ones: the error of an increment depends on the
-    /// ratio of the depths at its ends, and below that share the work is too small to matter.
+    /// Three equal increments to this share of the depth, then geometric ones: the error of an increment
+    /// depends on the ratio of the depths at its ends, and below that share the work is too small to matter.
     Geometric {
         /// Where geometric increments begin, as a share of the peak.
         from: f64,
     },
-    /// Longer equal increments to a share of the depth, then equal ones: the error of an equal increment is the same shift of
-    /// the depth everywhere, which the slope of a curve does not notice.
+    /// Longer equal increments to a share of the depth, then equal ones: the error of an equal increment is
+    /// the same shift of the depth everywhere, which the slope of a curve does not notice.
     Equal {
         /// How many lead to `from`.
         lead: usize,
@@ -38,11 +38,12 @@ pub fn loading(steps: usize, spacing: Spacing) -> Vec<f64> {
     }
 }
 
-/// Ratio of the first slope of an unloading curve to the mean one: F ∝ (1 - u/u₀)^1.25, between a flat punch, 1, and a cone, 2.
+/// Ratio of the first slope of an unloading curve to the mean one: F ∝ (1 - u/u₀)^1.25, between a flat punch,
+/// 1, and a cone, 2.
 pub const UNLOADING_EXPONENT: f64 = 1.25;
 
-/// Travels at the ends of `steps` increments back from `peak`, each of which takes off the same force if F ∝ (1 - u/u₀)^1.25
-/// with u₀ = `recovery`. The last one leaves `rest` steps of force.
+/// Travels at the ends of `steps` increments back from `peak`, each of which takes off the same force if F ∝
+/// (1 - u/u₀)^1.25 with u₀ = `recovery`. The last one leaves `rest` steps of force.
 pub fn unloading(peak: f64, recovery: f64, steps: usize, rest: f64) -> impl Iterator<Item = f64> {
     (1..=steps).map(move |i| {
         let share = 1.0 - i as f64 / (steps as f64 + rest);

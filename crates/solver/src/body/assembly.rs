@@ -74,7 +74,8 @@ impl Response {
 }
 
 impl Body<'_> {
-    /// Assembles `trial` from `state` into `response`, and the stiffness into `stiffness` if `tangent` is one.
+    /// Assembles `trial` from `state` into `response`, and the stiffness into `stiffness` if `tangent` is
+    /// one.
     ///
     /// # Errors
     /// An integration point that cannot be updated.
@@ -114,7 +115,8 @@ impl Body<'_> {
         Ok(())
     }
 
-    /// Assembles the stiffness of unloading: every point responds elastically, the contact of the converged state is kept.
+    /// Assembles the stiffness of unloading: every point responds elastically, the contact of the converged
+    /// state is kept.
     ///
     /// # Errors
     /// An integration point that cannot be updated.
@@ -210,7 +212,8 @@ impl Body<'_> {
         }
     }
 
-    /// Makes the residual of the internal forces and the contact of `response`, and adds the contact to the stiffness if `tangent` is one.
+    /// Makes the residual of the internal forces and the contact of `response`, and adds the contact to the
+    /// stiffness if `tangent` is one.
     fn balance(&self, state: &State, tangent: Tangent, response: &mut Response, stiffness: &mut Stiffness) {
         let Response { contact, pressed, internal, residual, .. } = response;
         residual.fill(0.0);

@@ -1,4 +1,5 @@
-//! Acceptance of a converged increment: the only place where a load changes the state of a body (remeshing transfers it).
+//! Acceptance of a converged increment: the only place where a load changes the state of a body (remeshing
+//! transfers it).
 
 use crate::body::assembly::Response;
 use crate::body::discrete_body::Body;
@@ -11,10 +12,12 @@ use crate::point::bdf2::PlasticIncrement;
 use crate::point::material::volume_ratio;
 
 impl State {
-    /// Accepts the converged `trial` with its `response`, whose points are taken over; it holds no valid points afterwards.
+    /// Accepts the converged `trial` with its `response`, whose points are taken over; it holds no valid
+    /// points afterwards.
     ///
     /// # Errors
-    /// A point whose elastic trial from the old state fails; the state is then as it was in part and must not be used.
+    /// A point whose elastic trial from the old state fails; the state is then as it was in part and must not
+    /// be used.
     pub fn commit(&mut self, body: &Body<'_>, trial: &Trial, response: &mut Response) -> Result<(), Failure> {
         self.note_flow(body, trial, response)?;
         for (x, du) in self.position.iter_mut().zip(&trial.displacement) {
@@ -34,8 +37,8 @@ impl State {
         Ok(())
     }
 
-    /// Contact energy added along this increment by the change of the penalty to `penalty` and of the area since the last increment:
-    /// the mean of the values at its start and at its end.
+    /// Contact energy added along this increment by the change of the penalty to `penalty` and of the area
+    /// since the last increment: the mean of the values at its start and at its end.
     fn work_of_changes(&self, penalty: f64, response: &Response) -> f64 {
         let before =
             self.contact.iter().map(|share| share.penalty_energy).sum::<f64>() + self.ledger.self_contact;
@@ -73,8 +76,8 @@ impl State {
         Ok(())
     }
 
-    /// Finds anew which parts of the surface face each other. What the new points and their areas add to the energy is no work of
-    /// the tool.
+    /// Finds anew which parts of the surface face each other. What the new points and their areas add to the
+    /// energy is no work of the tool.
     fn face_anew(&mut self, response: &Response) {
         let before: f64 = response.pressed.iter().map(|point| point.energy).sum();
         self.facing = Facing::new(&self.edges, &self.position, &self.displacement, &self.facing);
@@ -84,8 +87,8 @@ impl State {
         self.ledger.remeasured[1] += after - before;
     }
 
-    /// Takes the contact energy over the surface as it is now, which the tool has stretched; what that adds to the energy is no
-    /// work of the tool and is kept apart.
+    /// Takes the contact energy over the surface as it is now, which the tool has stretched; what that adds
+    /// to the energy is no work of the tool and is kept apart.
     fn remeasure_contact(&mut self, body: &Body<'_>) {
         let Some(contact) = &body.contact else { return };
         let context = contact.context(self.tip, self.penalty, body.symmetry);

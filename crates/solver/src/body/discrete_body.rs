@@ -29,7 +29,8 @@ impl ToolContact {
     }
 }
 
-/// Mesh, material, fixed components and tool. Lengths are in units of the peak depth of a scene, stresses in units of E.
+/// Mesh, material, fixed components and tool. Lengths are in units of the peak depth of a scene, stresses in
+/// units of E.
 #[derive(Clone, Debug)]
 pub struct Body<'m> {
     /// The mesh before loading.
@@ -53,8 +54,8 @@ pub struct Body<'m> {
 }
 
 impl<'m> Body<'m> {
-    /// The body of `mesh` whose displacement components named by `fixed(node)` are prescribed; its topology is analysed unless it is
-    /// one of `analyses`.
+    /// The body of `mesh` whose displacement components named by `fixed(node)` are prescribed; its topology
+    /// is analysed unless it is one of `analyses`.
     ///
     /// # Errors
     /// An element that is inside out in the mesh.
@@ -100,7 +101,8 @@ impl<'m> Body<'m> {
         volume.map(|volume| volume.0).map_err(|cause| Failure::Element { cell, cause })
     }
 
-    /// The edges of the free surface with the nodes of the mesh at `nodes`, in its order; none without a tool.
+    /// The edges of the free surface with the nodes of the mesh at `nodes`, in its order; none without a
+    /// tool.
     pub fn surface(&self, nodes: &[[f64; 2]]) -> Vec<ContactEdge> {
         let edges = self.contact.as_ref().map_or(&[][..], |_| &self.mesh.sides.surface);
         edges

@@ -13,8 +13,8 @@ pub struct Dofs {
 }
 
 impl Dofs {
-    /// Numbers the components of `nodes` nodes, node after node as they stand in `order`, without those that `fixed(node)`
-    /// names. `order` has each node at most once; nodes that are not in it are fixed.
+    /// Numbers the components of `nodes` nodes, node after node as they stand in `order`, without those that
+    /// `fixed(node)` names. `order` has each node at most once; nodes that are not in it are fixed.
     pub fn new(nodes: usize, order: &[usize], fixed: impl Fn(usize) -> [bool; 2]) -> Dofs {
         let mut count = 0;
         let mut number = vec![[FIXED; 2]; nodes];

@@ -1,5 +1,6 @@
-//! The element loop: every element of a body evaluated, with the widest vector registers of the processor at hand, on several threads
-//! where that pays. What the elements give is summed up in their order, so that the bits depend on neither.
+//! The element loop: every element of a body evaluated, with the widest vector registers of the processor at
+//! hand, on several threads where that pays. What the elements give is summed up in their order, so that the
+//! bits depend on neither.
 
 use crate::body::discrete_body::{Body, gather};
 use crate::body::failure::Failure;
@@ -18,8 +19,8 @@ const ELEMENTS_PER_TASK: usize = 48;
 /// Elements that several threads evaluate while one sums up as many.
 const ELEMENTS_PER_ROUND: usize = 384;
 
-/// Elements from which several threads pay: for a thread of the pool, and for one outside, which sleeps until a thread of the pool
-/// has woken it, round after round.
+/// Elements from which several threads pay: for a thread of the pool, and for one outside, which sleeps until
+/// a thread of the pool has woken it, round after round.
 const ELEMENTS_WORTH_THREADS: [usize; 2] = [400, 4000];
 
 /// Position of a node after the displacement from the converged state.
@@ -44,7 +45,8 @@ pub(super) struct Motion<'a, 'm> {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Start<'a> {
     pub points: &'a Points,
-    /// The response of the points of each element, if they have been updated by the same increment already; else nothing.
+    /// The response of the points of each element, if they have been updated by the same increment already;
+    /// else nothing.
     pub updated: &'a [Linearisation<Lanes>],
 }
 

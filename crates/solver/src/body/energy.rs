@@ -38,7 +38,8 @@ pub const SEPARATION_EXPONENTS: [f64; 2] = [1.0, 2.0];
 /// Exponents that a force has after first touch: 1/2 of a plastic ridge with a round summit, 2 of a cone.
 pub const FIRST_TOUCH_EXPONENTS: [f64; 2] = [0.5, 2.0];
 
-/// ∫F dh between separation and a state of this force and slope that lies `travel` from it: F ∝ (distance to separation)^m.
+/// ∫F dh between separation and a state of this force and slope that lies `travel` from it: F ∝ (distance to
+/// separation)^m.
 ///
 /// `exponents` are the least and the largest m: beyond them the slope is not one of this curve.
 pub fn work_by_power(force: f64, slope: f64, travel: f64, exponents: [f64; 2]) -> f64 {

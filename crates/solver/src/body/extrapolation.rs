@@ -1,4 +1,5 @@
-//! The start of an increment: the converged states of the integration points, with the last plastic increment extrapolated.
+//! The start of an increment: the converged states of the integration points, with the last plastic increment
+//! extrapolated.
 
 use crate::body::assembly::Response;
 use crate::body::discrete_body::Body;
@@ -11,13 +12,15 @@ use crate::point::material::{Metal, PointState, volume_ratio};
 use asperity_numerics::lanes::Lanes;
 use pulp::{Simd, WithSimd};
 
-/// Ĵ is kept within this share of J: an increment that overturns the volume change of the last one is no smooth path.
+/// Ĵ is kept within this share of J: an increment that overturns the volume change of the last one is no
+/// smooth path.
 const LARGEST_VOLUME_CHANGE: f64 = 0.1;
 
 impl State {
-    /// Begins the trial with the tool's lowest point at `tip` (infinite: without a tool) and the first guess `guess` of the
-    /// displacement, which fixed components keep. The last plastic increment and volume change are extrapolated as for a step
-    /// `ratio` times the last one (0: not at all, as at the start of unloading).
+    /// Begins the trial with the tool's lowest point at `tip` (infinite: without a tool) and the first guess
+    /// `guess` of the displacement, which fixed components keep. The last plastic increment and volume change
+    /// are extrapolated as for a step `ratio` times the last one (0: not at all, as at the start of
+    /// unloading).
     pub fn begin(
         &self,
         body: &Body<'_>,
@@ -43,8 +46,8 @@ impl State {
         }
     }
 
-    /// Takes back what the nearly converged `trial`, of which `response` is the answer, extrapolates beyond backward Euler (see
-    /// `point::bdf2`), and freezes the rest.
+    /// Takes back what the nearly converged `trial`, of which `response` is the answer, extrapolates beyond
+    /// backward Euler (see `point::bdf2`), and freezes the rest.
     pub fn limit_extrapolation(&self, body: &Body<'_>, trial: &mut Trial, response: &Response) {
         let mut flows = Flows::new(body);
         for cell in 0..self.yielding.len() {
@@ -92,7 +95,8 @@ impl State {
     }
 }
 
-/// [`extrapolate`] of the points of an element. (A closure would not be inlined into code for the registers at hand.)
+/// [`extrapolate`] of the points of an element. (A closure would not be inlined into code for the registers
+/// at hand.)
 struct Extrapolation<'a> {
     metal: &'a Metal,
     from: PointState<Lanes>,

@@ -75,8 +75,9 @@ pub fn fields(body: &Body<'_>, state: &State) -> Fields {
     fields
 }
 
-/// Cauchy stress and plastic strain at the nodes. Point values are extrapolated linearly to the corners of their element and averaged by volume over the elements
-/// that share a node; mid-side nodes take the mean of their corners.
+/// Cauchy stress and plastic strain at the nodes. Point values are extrapolated linearly to the corners of
+/// their element and averaged by volume over the elements that share a node; mid-side nodes take the mean of
+/// their corners.
 fn averaged_at_nodes(body: &Body<'_>, state: &State) -> Vec<[f64; 5]> {
     let mesh = body.mesh;
     let nodes = mesh.nodes.len();
@@ -149,9 +150,9 @@ fn surface_points(body: &Body<'_>, state: &State, fields: &Fields) -> Vec<Surfac
 
 /// Current pressure at the surface nodes: penalty times penetration, per current area.
 ///
-/// Corners penetrate less than mid-side nodes: only the line through the pressure of an edge is accurate. Where an edge and its
-/// neighbours touch wholly, its nodes get that line, and a corner the mean of its two; beside the end of the contact the
-/// pressure falls too fast for a line.
+/// Corners penetrate less than mid-side nodes: only the line through the pressure of an edge is accurate.
+/// Where an edge and its neighbours touch wholly, its nodes get that line, and a corner the mean of its two;
+/// beside the end of the contact the pressure falls too fast for a line.
 fn contact_pressure(body: &Body<'_>, state: &State) -> Vec<f64> {
     let mut pressure = vec![0.0; body.mesh.nodes.len()];
     let surface = Surface::of_state(body, state);

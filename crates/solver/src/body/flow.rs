@@ -1,5 +1,5 @@
-//! Plastic flow of the points of an element from the converged state to a trial: as the trial has it, which takes the elastic trial of
-//! the increment, and as backward Euler would have it.
+//! Plastic flow of the points of an element from the converged state to a trial: as the trial has it, which
+//! takes the elastic trial of the increment, and as backward Euler would have it.
 
 use crate::body::assembly::Response;
 use crate::body::discrete_body::Body;
@@ -80,8 +80,8 @@ impl<'b, 'm> Flows<'b, 'm> {
         Ok(())
     }
 
-    /// Plastic strain of backward Euler, from the converged states with the yield stress of the increment; after [`Flows::find`] of
-    /// the same element.
+    /// Plastic strain of backward Euler, from the converged states with the yield stress of the increment;
+    /// after [`Flows::find`] of the same element.
     ///
     /// # Errors
     /// A point that cannot be updated.

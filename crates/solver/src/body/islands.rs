@@ -25,7 +25,8 @@ pub struct Gap {
     pub enclosed: bool,
 }
 
-/// Section of a pore over the square of its circumference up to which it is closed: a circle has 0.08, a slit of 1:100 0.0025.
+/// Section of a pore over the square of its circumference up to which it is closed: a circle has 0.08, a slit
+/// of 1:100 0.0025.
 const CLOSED_PORE_SECTION: f64 = 0.0025;
 
 /// A connected region that never yielded, enclosed by material that did or standing above the substrate.
@@ -37,7 +38,8 @@ pub struct Island {
     pub area: f64,
     /// Volume-weighted mean hydrostatic pressure, positive in compression.
     pub mean_pressure: f64,
-    /// Volume-weighted mean von Mises stress: far below the pressure where confinement keeps the material elastic.
+    /// Volume-weighted mean von Mises stress: far below the pressure where confinement keeps the material
+    /// elastic.
     pub mean_von_mises: f64,
     /// Whether it hangs together with the elastic bulk of the substrate.
     pub reaches_substrate: bool,
@@ -45,7 +47,8 @@ pub struct Island {
     pub reaches_surface: bool,
 }
 
-/// The gaps of a converged state: between contacts with the tool, from the axis (left side) outward, then those that flanks enclose.
+/// The gaps of a converged state: between contacts with the tool, from the axis (left side) outward, then
+/// those that flanks enclose.
 pub fn gaps(body: &Body<'_>, state: &State) -> Vec<Gap> {
     let surface = Surface::of_state(body, state);
     let pressed = state.facing.pressed_edges(&state.edges, &state.position);
@@ -59,8 +62,9 @@ pub fn gaps(body: &Body<'_>, state: &State) -> Vec<Gap> {
     gaps
 }
 
-/// The pore that each edge of a surface of `count` edges is part of, where flanks that press each other (`pressed`, the smaller
-/// number first) close it off: named by the narrowest pair around it. Edges that press are part of none.
+/// The pore that each edge of a surface of `count` edges is part of, where flanks that press each other
+/// (`pressed`, the smaller number first) close it off: named by the narrowest pair around it. Edges that
+/// press are part of none.
 fn closed_off(pressed: &[[usize; 2]], count: usize) -> Vec<Option<usize>> {
     let mut around = vec![None; count];
     let mut pairs: Vec<usize> = (0..pressed.len()).collect();
@@ -76,7 +80,8 @@ fn closed_off(pressed: &[[usize; 2]], count: usize) -> Vec<Option<usize>> {
     around
 }
 
-/// A pore with these edges in its wall; `None` where nothing is left of it, as between points of flanks that press each other.
+/// A pore with these edges in its wall; `None` where nothing is left of it, as between points of flanks that
+/// press each other.
 fn enclosed(edges: impl Iterator<Item = [[f64; 2]; 3]>) -> Option<Gap> {
     let mut ends = [[f64::INFINITY, f64::NEG_INFINITY]; 2];
     let (mut twice_area, mut length) = (0.0, 0.0);
@@ -135,8 +140,9 @@ fn between_contacts(surface: &Surface<'_>, count: impl Fn(usize) -> bool) -> Vec
     gaps
 }
 
-/// Regions of cells without plastic strain whose centroid lies within `extent` along r before the crush: those enclosed by
-/// yielded material at any depth, and of the elastic bulk what lay above `floor`. Cells hang together through common edges.
+/// Regions of cells without plastic strain whose centroid lies within `extent` along r before the crush:
+/// those enclosed by yielded material at any depth, and of the elastic bulk what lay above `floor`. Cells
+/// hang together through common edges.
 pub fn islands(body: &Body<'_>, state: &State, floor: f64, extent: [f64; 2]) -> Vec<Island> {
     let mesh = body.mesh;
     let cells = 0..mesh.cell_count();

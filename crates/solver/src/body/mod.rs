@@ -1,4 +1,5 @@
-//! The body under its tool: mesh and material, converged state, a trial and the response to it, energies, fields.
+//! The body under its tool: mesh and material, converged state, a trial and the response to it, energies,
+//! fields.
 
 pub mod failure;
 

@@ -52,7 +52,8 @@ pub struct State {
     pub points: Points,
     /// Plastic increment of each point in the last increment; empty for an elastic body.
     pub plastic: Vec<PlasticIncrement>,
-    /// Change of each point's volume ratio J in the last increment; empty where the yield stress does not depend on it.
+    /// Change of each point's volume ratio J in the last increment; empty where the yield stress does not
+    /// depend on it.
     pub volume_change: Vec<f64>,
     /// Whether each element yielded in the last increment.
     pub yielding: Vec<bool>,
@@ -79,9 +80,11 @@ pub struct Ledger {
     pub plastic_work: f64,
     /// Energy of the contact of the surface with itself.
     pub self_contact: f64,
-    /// Change of the contact energy by that of the area it is taken over and of the penalty, up to the last increment and after it.
+    /// Change of the contact energy by that of the area it is taken over and of the penalty, up to the last
+    /// increment and after it.
     pub remeasured: [f64; 2],
-    /// Change of the stored energy, the plastic work and the contact energy by all transfers to better meshes.
+    /// Change of the stored energy, the plastic work and the contact energy by all transfers to better
+    /// meshes.
     pub transferred: f64,
     /// How many there were.
     pub transfers: usize,
@@ -195,8 +198,8 @@ impl State {
         }
     }
 
-    /// Change of the contact energy that is no work of the tool: by that of the area it is taken over and of the penalty, up to the
-    /// last increment.
+    /// Change of the contact energy that is no work of the tool: by that of the area it is taken over and of
+    /// the penalty, up to the last increment.
     pub fn remeasured_energy(&self) -> f64 {
         self.ledger.remeasured[0]
     }

@@ -1,4 +1,5 @@
-//! The pattern of the stiffness matrix (lower triangle, compressed columns) and where each element's entries go.
+//! The pattern of the stiffness matrix (lower triangle, compressed columns) and where each element's entries
+//! go.
 
 use crate::body::dofs::{Dofs, FIXED};
 use asperity_numerics::sparse::CsMat;
@@ -22,7 +23,8 @@ fn numbers_of(cell: &[u32], dofs: &Dofs) -> Vec<u32> {
     cell.iter().flat_map(|&node| dofs.number[node as usize]).collect()
 }
 
-/// Index of the entry of row `row` and column `column` among those of a lower triangle of `size` columns, column by column.
+/// Index of the entry of row `row` and column `column` among those of a lower triangle of `size` columns,
+/// column by column.
 fn index_in_triangle(row: usize, column: usize, size: usize) -> usize {
     column * (2 * size - column - 1) / 2 + row
 }
@@ -120,7 +122,8 @@ impl Stiffness {
         })
     }
 
-    /// Adds `value` at (row, col) of two components in the same element; entries above the diagonal are skipped.
+    /// Adds `value` at (row, col) of two components in the same element; entries above the diagonal are
+    /// skipped.
     pub fn add_entry(&mut self, row: u32, col: u32, value: f64) {
         if row == FIXED || col == FIXED || row < col {
             return;

@@ -94,8 +94,8 @@ impl<'a> Surface<'a> {
     /// How far the tool must travel down from height 0 to touch this surface.
     pub fn first_touch(&self) -> f64 {
         let Some(contact) = &self.body.contact else { return 0.0 };
-        // the way along z to the flank, exact for planes and cones; repeated for round tools. A point beside the
-        // widest place of a ball does not see it
+        // the way along z to the flank, exact for planes and cones; repeated for round tools. A point beside
+        // the widest place of a ball does not see it
         let along_z = |inside: Penetration| inside.depth / inside.slope[1].max(0.1);
         let mut travel = 0.0;
         for _ in 0..20 {

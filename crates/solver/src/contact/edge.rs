@@ -1,12 +1,13 @@
-//! Frictionless penalty contact of surface edges with a rigid tool, integrated over exactly the part that touches.
+//! Frictionless penalty contact of surface edges with a rigid tool, integrated over exactly the part that
+//! touches.
 //!
-//! Energy ∫ p²/(2ε) dA over a reference area, p = ε d with the penetration d. Each edge is clipped where p = 0 and Gauss points are
-//! laid on the clipped part: force and contact radius move smoothly as the front crosses an element, and because p vanishes at
-//! the clip the tangent is the exact derivative of the force.
+//! Energy ∫ p²/(2ε) dA over a reference area, p = ε d with the penetration d. Each edge is clipped where p =
+//! 0 and Gauss points are laid on the clipped part: force and contact radius move smoothly as the front
+//! crosses an element, and because p vanishes at the clip the tangent is the exact derivative of the force.
 //!
-//! The reference is the surface of the last converged state. A steep tool stretches the surface under its apex over a large
-//! part of its flank, where a penalty over the undeformed area fades: the apex then pierces the surface (30° cone, n = 0.1: K 15 %
-//! low, and no convergence to any mesh).
+//! The reference is the surface of the last converged state. A steep tool stretches the surface under its
+//! apex over a large part of its flank, where a penalty over the undeformed area fades: the apex then pierces
+//! the surface (30° cone, n = 0.1: K 15 % low, and no convergence to any mesh).
 
 use crate::contact::parts::{NOTHING, Parts, WHOLE};
 use crate::contact::roots::parts_above_zero;
@@ -14,7 +15,8 @@ use crate::contact::tool::Tool;
 use crate::point::kinematics::Symmetry;
 use asperity_mesh::outline::quadratic_roots;
 
-/// An edge of the free surface: two corners (ξ = -1, 1) and a mid-side node (ξ = 0) where the element has one.
+/// An edge of the free surface: two corners (ξ = -1, 1) and a mid-side node (ξ = 0) where the element has
+/// one.
 #[derive(Clone, Copy, Debug)]
 pub struct ContactEdge {
     /// Nodes: two corners, then the mid-side node (or the first corner again).
@@ -63,11 +65,11 @@ pub struct EdgeContact {
     pub area: f64,
     /// Smallest and largest current radius that touches.
     pub reach: [f64; 2],
-    /// Mean m and slope s of the current pressure (true, per current area) m + s t over a part, -1 ≤ t ≤ 1: its projection onto
-    /// a line. Of two parts, that of the second.
+    /// Mean m and slope s of the current pressure (true, per current area) m + s t over a part, -1 ≤ t ≤ 1:
+    /// its projection onto a line. Of two parts, that of the second.
     pub line: [f64; 2],
-    /// Largest current pressure of that line where it is the pressure itself, if that is a parabola: at t = ±1/√3. The pressures
-    /// of corners and mid-side nodes of one edge lie on two sides of the line.
+    /// Largest current pressure of that line where it is the pressure itself, if that is a parabola: at t =
+    /// ±1/√3. The pressures of corners and mid-side nodes of one edge lie on two sides of the line.
     pub max_pressure: f64,
 }
 
@@ -246,8 +248,8 @@ impl ContactEdge {
     }
 }
 
-/// The part `[start, end]` of an edge as four pieces, each with an integration point in its middle place: their lengths are
-/// the weights of the points.
+/// The part `[start, end]` of an edge as four pieces, each with an integration point in its middle place:
+/// their lengths are the weights of the points.
 pub fn divide([start, end]: [f64; 2]) -> [[f64; 3]; 4] {
     let half = 0.5 * (end - start);
     let mut from = start;

@@ -1,4 +1,5 @@
-//! Contact with the rigid tool: its shape, the clipped surface edge, the penalty correction of the depth, the surface in contact with itself.
+//! Contact with the rigid tool: its shape, the clipped surface edge, the penalty correction of the depth, the
+//! surface in contact with itself.
 
 pub mod tool;
 

@@ -1,16 +1,19 @@
 //! Penalty correction from tool travel to depth: travel less this is the depth.
 //!
-//! The penalty is an elastic layer of stiffness ε per area on the tool; the layer is compressed by d = p/ε. What depth the tool
-//! would have without it depends on how the material answers:
-//! * elastic: the layer adds E_c = ∫ ½ε d² dA to the complementary energy, so to first order in 1/ε the depth grows by
-//!   dE_c/dF = ∫ d (∂p/∂F) dA (Castigliano). What an elastic contact gains in pressure is the pressure of a flat punch as wide as
-//!   the contact (Johnson, Contact Mechanics, 1985, eq. 3.34 and 2.64), whatever the shape: the mean of d under a punch. That is
-//!   ln 2 = 0.69 of the mean d under a cone, 3/4 of it under a ball;
-//! * fully plastic, under an even pressure: a layer that is compressed evenly shifts the surface of the tool by d. The mean weighted by the
-//!   pressure is taken, 2 E_c/F, which leaves out the rim where contact has just begun.
+//! The penalty is an elastic layer of stiffness ε per area on the tool; the layer is compressed by d = p/ε.
+//! What depth the tool would have without it depends on how the material answers:
+//! * elastic: the layer adds E_c = ∫ ½ε d² dA to the complementary energy, so to first order in 1/ε the depth
+//!   grows by dE_c/dF = ∫ d (∂p/∂F) dA (Castigliano). What an elastic contact gains in pressure is the
+//!   pressure of a flat punch as wide as the contact (Johnson, Contact Mechanics, 1985, eq. 3.34 and 2.64),
+//!   whatever the shape: the mean of d under a punch. That is ln 2 = 0.69 of the mean d under a cone, 3/4 of
+//!   it under a ball;
+//! * fully plastic, under an even pressure: a layer that is compressed evenly shifts the surface of the tool
+//!   by d. The mean weighted by the pressure is taken, 2 E_c/F, which leaves out the rim where contact has
+//!   just begun.
 //!
-//! Between the two the share of the plastic work decides, beside the elastic energy near the contact: F²/(3E*a) of a cone (a ball has
-//! 0.9 times that), F²/(3E*) per length of a line, whose energy further away grows with the body.
+//! Between the two the share of the plastic work decides, beside the elastic energy near the contact:
+//! F²/(3E*a) of a cone (a ball has 0.9 times that), F²/(3E*) per length of a line, whose energy further away
+//! grows with the body.
 
 use crate::contact::edge::{ContactEdge, EdgeContact, divide};
 use crate::point::kinematics::Symmetry;
@@ -106,7 +109,8 @@ pub fn under_punches<'a>(
 mod tests {
     use super::*;
 
-    /// `count` pieces of a contact from `left` to `right` that is compressed by `depth` of the share of its half width.
+    /// `count` pieces of a contact from `left` to `right` that is compressed by `depth` of the share of its
+    /// half width.
     fn patch(left: f64, right: f64, count: usize, depth: impl Fn(f64) -> f64) -> Vec<Piece> {
         let at = |i: f64| left + (right - left) * i / count as f64;
         let piece = |i: usize| {
@@ -116,9 +120,9 @@ mod tests {
         (0..count).map(piece).collect()
     }
 
-    /// Compressed as the pressures of Sneddon and of Hertz over their mean (Johnson 1985, eqs 5.8 and 3.39), the layer takes
-    /// dE_c/dF: ln 2 and 3/4 of the mean. In plane strain (eq. 4.45: p over its mean 4/π √(1 - x²)) 8/π².
-    /// An even layer takes itself. 1e-3: pieces of 1/4000.
+    /// Compressed as the pressures of Sneddon and of Hertz over their mean (Johnson 1985, eqs 5.8 and 3.39),
+    /// the layer takes dE_c/dF: ln 2 and 3/4 of the mean. In plane strain (eq. 4.45: p over its mean 4/π √(1
+    /// - x²)) 8/π². An even layer takes itself. 1e-3: pieces of 1/4000.
     #[test]
     fn an_elastic_layer_takes_the_derivative_of_its_energy() {
         let disc = Symmetry::Axisymmetric;

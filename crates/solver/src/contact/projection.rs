@@ -1,8 +1,9 @@
 //! How deep a point of one edge lies behind another edge, with first and second derivatives.
 //!
-//! Let y(ξ) be the other edge with the body on its left, t = y' with m = |t|, n its outward normal, κ = n · y'', and ξ where
-//! (x - y) · t = 0. The depth is d = -(x - y) · n. Its first variation is -n · (δx - δy), because ξ is stationary. With
-//! a = t · (δx - δy) and b = n · δt, and D = m² + κ d from δξ = (a - d b)/D, its second is
+//! Let y(ξ) be the other edge with the body on its left, t = y' with m = |t|, n its outward normal, κ = n ·
+//! y'', and ξ where (x - y) · t = 0. The depth is d = -(x - y) · n. Its first variation is -n · (δx - δy),
+//! because ξ is stationary. With a = t · (δx - δy) and b = n · δt, and D = m² + κ d from δξ = (a - d b)/D,
+//! its second is
 //!   δ²d = (κ a²/m² + 2ab - d b²)/D,
 //! a symmetric form. Behind an end v of the edge d = |x - v|.
 
@@ -123,7 +124,8 @@ impl Placed<'_> {
         for _ in 0..MOST_PROJECTION_ITERATIONS {
             let (from, along) = (difference(here, self.point(xi)), self.edge.tangent(&self.x, xi));
             let slope = dot(along, along) - dot(from, bend);
-            // far inside the bend the nearest point is not unique: a step along the tangent still goes downhill
+            // far inside the bend the nearest point is not unique: a step along the tangent still goes
+            // downhill
             let step = dot(from, along) / if slope > 0.0 { slope } else { dot(along, along) };
             let next = (xi + step).clamp(-1.0, 1.0);
             let converged = (next - xi).abs() < 1e-15;
@@ -202,7 +204,8 @@ mod tests {
         ContactEdge::new([0, 1], quadratic.then_some(2), |_| [0.0; 2], Symmetry::PlaneStrain)
     }
 
-    /// A body below a quadratic or straight edge that runs towards the axis; a point that its own edge carries.
+    /// A body below a quadratic or straight edge that runs towards the axis; a point that its own edge
+    /// carries.
     fn depth(x: &[[f64; 2]; NODES_OF_TWO_EDGES], quadratic: bool) -> Option<Depth> {
         let (first, second) = (edge(true), edge(quadratic));
         let point = Placed { edge: &first, x: [x[0], x[1], x[2]] };

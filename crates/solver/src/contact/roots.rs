@@ -1,4 +1,5 @@
-//! Where a pressure along an edge is above zero: its roots, isolated between samples and found to the last digits.
+//! Where a pressure along an edge is above zero: its roots, isolated between samples and found to the last
+//! digits.
 
 use crate::contact::parts::{NOTHING, Parts};
 
@@ -8,8 +9,8 @@ const SAMPLES_PER_EDGE: usize = 9;
 /// Halvings of an interval around a root or an extreme.
 const MOST_HALVINGS: usize = 100;
 
-/// Parts of [-1, 1] where `pressure` is above zero: one, or both ends or any two; a gap that would leave three is closed, the
-/// narrowest first.
+/// Parts of [-1, 1] where `pressure` is above zero: one, or both ends or any two; a gap that would leave
+/// three is closed, the narrowest first.
 pub fn parts_above_zero(pressure: impl Fn(f64) -> f64) -> Parts {
     let mut at: Vec<[f64; 2]> = (0..SAMPLES_PER_EDGE)
         .map(|i| -1.0 + 2.0 * i as f64 / (SAMPLES_PER_EDGE - 1) as f64)
@@ -48,7 +49,8 @@ pub fn parts_above_zero(pressure: impl Fn(f64) -> f64) -> Parts {
     }
 }
 
-/// The root between two places of different sign: secants, halved where they stay on one side (the Illinois rule).
+/// The root between two places of different sign: secants, halved where they stay on one side (the Illinois
+/// rule).
 fn root(pressure: &impl Fn(f64) -> f64, from: [f64; 2], to: [f64; 2]) -> f64 {
     let ([mut a, mut fa], [mut b, mut fb]) = (from, to);
     for _ in 0..MOST_HALVINGS {

@@ -1,23 +1,28 @@
-//! Frictionless penalty contact of the free surface with itself: flanks that meet, flanks that lie down on the base.
+//! Frictionless penalty contact of the free surface with itself: flanks that meet, flanks that lie down on
+//! the base.
 //!
-//! Energy ∫ ½ (ε/2) d² dA over the surface. ε is `PENALTY_RATIO` times the tool's penalty, d the depth of a surface point behind the
-//! nearest of the edges that it faces, A the area of the last converged state as for the tool. Each side presses the other with
-//! half the penalty, so that two faces press with ε d. The force is the gradient of this energy, the tangent its second
-//! derivative. Integration points lie between the places where nodes of the other side were, so that two meshes that do not
-//! match carry a uniform pressure exactly.
+//! Energy ∫ ½ (ε/2) d² dA over the surface. ε is `PENALTY_RATIO` times the tool's penalty, d the depth of a
+//! surface point behind the nearest of the edges that it faces, A the area of the last converged state as for
+//! the tool. Each side presses the other with half the penalty, so that two faces press with ε d. The force
+//! is the gradient of this energy, the tangent its second derivative. Integration points lie between the
+//! places where nodes of the other side were, so that two meshes that do not match carry a uniform pressure
+//! exactly.
 //!
-//! Which points face which edges is found once an increment, from the converged state: a point inside thin metal lies behind
-//! its other side as well, and only its past tells the two apart. An edge is faced if the two normals part by more than 60° and the
-//! point lay outside of it or less than `LARGEST_OVERLAP` of a piece behind. Pieces are the straight lines between neighbouring nodes.
+//! Which points face which edges is found once an increment, from the converged state: a point inside thin
+//! metal lies behind its other side as well, and only its past tells the two apart. An edge is faced if the
+//! two normals part by more than 60° and the point lay outside of it or less than `LARGEST_OVERLAP` of a
+//! piece behind. Pieces are the straight lines between neighbouring nodes.
 
 use crate::contact::edge::{ContactEdge, GAUSS4};
 use crate::contact::projection::{Depth, NODES_OF_TWO_EDGES, Placed, intersection};
 
-/// Share of the length of a piece up to which a point may lie behind it: more would be the other side of thin metal.
+/// Share of the length of a piece up to which a point may lie behind it: more would be the other side of thin
+/// metal.
 const LARGEST_OVERLAP: f64 = 0.25;
 
-/// The penalty over that of the tool, which is softer than the metal by an order of magnitude so that Newton follows a front that
-/// runs over many edges; a fold grows slowly, and lies where elements are as coarse as the tool's penetration is deep.
+/// The penalty over that of the tool, which is softer than the metal by an order of magnitude so that Newton
+/// follows a front that runs over many edges; a fold grows slowly, and lies where elements are as coarse as
+/// the tool's penetration is deep.
 const PENALTY_RATIO: f64 = 4.0;
 
 /// The same for an edge that the piece faced before: there is no doubt which side it came from.
@@ -120,8 +125,8 @@ fn pieces(edges: &[ContactEdge], position: &[[f64; 2]]) -> Vec<Piece> {
     pieces
 }
 
-/// Pairs of pieces that `count` and whose boxes, `margin` wider than they, overlap: swept along r, so that only neighbours are
-/// compared.
+/// Pairs of pieces that `count` and whose boxes, `margin` wider than they, overlap: swept along r, so that
+/// only neighbours are compared.
 fn close_pairs(pieces: &[Piece], margin: f64, count: impl Fn(&Piece, &Piece) -> bool) -> Vec<[usize; 2]> {
     let spans: Vec<_> = pieces.iter().map(|piece| [0, 1].map(|axis| piece.span(axis, margin))).collect();
     let mut order: Vec<usize> = (0..pieces.len()).collect();
@@ -139,8 +144,8 @@ fn close_pairs(pieces: &[Piece], margin: f64, count: impl Fn(&Piece, &Piece) -> 
 }
 
 impl Facing {
-    /// The points of `edges` that face other parts of the surface, which faced each other as in `before`. Nodes are at `position`, in
-    /// the last increment they moved by `displacement`.
+    /// The points of `edges` that face other parts of the surface, which faced each other as in `before`.
+    /// Nodes are at `position`, in the last increment they moved by `displacement`.
     pub fn new(
         edges: &[ContactEdge],
         position: &[[f64; 2]],
@@ -191,7 +196,8 @@ impl Facing {
         Facing { points }
     }
 
-    /// Where the surface of `edges`, whose nodes are at `position`, passed through itself: pieces cross that do not face each other.
+    /// Where the surface of `edges`, whose nodes are at `position`, passed through itself: pieces cross that
+    /// do not face each other.
     pub fn fold(&self, edges: &[ContactEdge], position: &[[f64; 2]]) -> Option<[f64; 2]> {
         let pieces = pieces(edges, position);
         let pairs = close_pairs(&pieces, 0.0, |a, b| !a.touches(b));
@@ -236,7 +242,8 @@ impl Facing {
         self.points.iter().filter_map(pair).collect()
     }
 
-    /// The pressed points where the nodes are at `x(node)`, with `penalty` ε, one entry for each point behind an edge.
+    /// The pressed points where the nodes are at `x(node)`, with `penalty` ε, one entry for each point behind
+    /// an edge.
     pub fn press<'a>(
         &'a self,
         edges: &'a [ContactEdge],
@@ -296,7 +303,8 @@ impl FacingPoint {
             return None;
         }
         if let Some(end) = nearest.end {
-            // behind an end only if behind both edges that meet there: beyond the end of a chain nothing is known
+            // behind an end only if behind both edges that meet there: beyond the end of a chain nothing is
+            // known
             let node = edges[edge].nodes[end];
             let other = self.faced.iter().find(|&&other| edges[other].nodes[1 - end] == node)?;
             if !placed(*other).nearest(here).behind {
@@ -342,7 +350,8 @@ mod tests {
     use super::*;
     use crate::point::kinematics::Symmetry;
 
-    /// Two quadratic edges, one above the other, that overlap a little: the upper side of a body and the lower side of another.
+    /// Two quadratic edges, one above the other, that overlap a little: the upper side of a body and the
+    /// lower side of another.
     fn two_faces() -> (Vec<ContactEdge>, Vec<[f64; 2]>) {
         let position = vec![
             [1.0, 0.02],
@@ -409,7 +418,8 @@ mod tests {
         }
     }
 
-    /// The forces on both sides are opposite and their moment vanishes: a pair of flanks is in equilibrium by itself.
+    /// The forces on both sides are opposite and their moment vanishes: a pair of flanks is in equilibrium by
+    /// itself.
     #[test]
     fn forces_are_in_equilibrium() {
         let (edges, position) = two_faces();
@@ -436,7 +446,8 @@ mod tests {
         assert_eq!(fold(&[[0.0, 0.0], [2.0, 1.0], [2.0, 0.0], [0.0, 1.0]]), Some([1.0, 0.5]));
     }
 
-    /// The two sides of a plate a third of a piece thick do not press each other, neighbours on a convex surface neither.
+    /// The two sides of a plate a third of a piece thick do not press each other, neighbours on a convex
+    /// surface neither.
     #[test]
     fn the_other_side_of_thin_metal_is_not_faced() {
         let (edges, mut position) = two_faces();

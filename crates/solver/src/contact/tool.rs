@@ -30,8 +30,8 @@ pub enum Tool {
 }
 
 impl Tool {
-    /// The tool as an asperity of the same outline: the contact of the two is the same to first order in the slope.
-    /// `None` for a plane.
+    /// The tool as an asperity of the same outline: the contact of the two is the same to first order in the
+    /// slope. `None` for a plane.
     pub fn mirrored(&self) -> Option<Asperity> {
         let shape = match self {
             Tool::Plane => return None,
@@ -56,7 +56,8 @@ impl Tool {
                 let (r, side) = (x[0].abs(), if x[0] < 0.0 { -1.0 } else { 1.0 });
                 let secant = tan_slope.hypot(1.0);
                 let (sine, cosine) = (tan_slope / secant, 1.0 / secant);
-                // centre of the tip sphere above its lowest point; the flank touches the sphere at the angle β
+                // centre of the tip sphere above its lowest point; the flank touches the sphere at the angle
+                // β
                 let centre = tip + tip_radius;
                 if tip_radius > 0.0 && r <= tan_slope * (centre - x[1]) {
                     return inside_sphere(x, centre, tip_radius);
@@ -69,11 +70,12 @@ impl Tool {
     }
 }
 
-/// Least of what a curvature leaves of the distance to its centre: deeper points are past it, which no contact is.
+/// Least of what a curvature leaves of the distance to its centre: deeper points are past it, which no
+/// contact is.
 const LEAST_RADIUS: f64 = 1e-3;
 
-/// Signed distance to an outline: with κ its curvature at the foot of the point and d the depth, the level lines of the depth have
-/// the curvature κ/(1 - κd) there.
+/// Signed distance to an outline: with κ its curvature at the foot of the point and d the depth, the level
+/// lines of the depth have the curvature κ/(1 - κd) there.
 fn inside_outline(x: [f64; 2], tip: f64, outline: &Outline) -> Penetration {
     let (r, side) = (x[0].abs(), if x[0] < 0.0 { -1.0 } else { 1.0 });
     let z = x[1] - tip;

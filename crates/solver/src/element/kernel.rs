@@ -1,5 +1,5 @@
-//! Shared by both quadrilaterals: the arrays they fill and the kernels that fill them, all four points side by side. The sum over
-//! the points comes last.
+//! Shared by both quadrilaterals: the arrays they fill and the kernels that fill them, all four points side
+//! by side. The sum over the points comes last.
 
 use crate::point::failure::Failure;
 use crate::point::j2::{self, Linearisation, PointUpdate, Tangent};
@@ -27,8 +27,9 @@ pub struct ElementContext<'a> {
 }
 
 impl ElementContext<'_> {
-    /// Stress and tangent of the points of the element, updated from their `start` by f - I = `increment`; what they are then goes to
-    /// `out`. Points that have been updated by this increment already only give the tangent that is wanted now.
+    /// Stress and tangent of the points of the element, updated from their `start` by f - I = `increment`;
+    /// what they are then goes to `out`. Points that have been updated by this increment already only give
+    /// the tangent that is wanted now.
     ///
     /// # Errors
     /// A strain without a logarithm.
@@ -193,8 +194,8 @@ pub fn force<T: Real, const N: usize>(rows: &Rows<T, N>, stress: &Sym<T>, weight
     force
 }
 
-/// w A G_b: what a displacement of the node with `row` along r, along z, makes of the five components of the stress that do work on
-/// gradients.
+/// w A G_b: what a displacement of the node with `row` along r, along z, makes of the five components of the
+/// stress that do work on gradients.
 #[inline(always)]
 pub fn stress_of_node<T: Real>(form: &GradientForm<T>, row: &[T; 3], weight: T) -> [[T; 5]; 2] {
     let (d, e, h) = (weight * row[0], weight * row[1], weight * row[2]);
@@ -216,8 +217,9 @@ pub fn stiffness_of_nodes<T: Real>(row: &[T; 3], stress: &[[T; 5]; 2]) -> [[T; 2
     ]
 }
 
-/// The columns of one node in the lower triangle of a stiffness: of its displacements along r and along z. (Not a closure for each
-/// pair of nodes: it would not be inlined into code for other registers than the program's.)
+/// The columns of one node in the lower triangle of a stiffness: of its displacements along r and along z.
+/// (Not a closure for each pair of nodes: it would not be inlined into code for other registers than the
+/// program's.)
 pub struct NodeColumns<'a, T> {
     along_r: &'a mut [T],
     along_z: &'a mut [T],

@@ -1,7 +1,8 @@
 //! Four-node quadrilateral with mean dilatation (Q1/P0 of Simo, Taylor, Pister 1985) in variational form.
 //!
-//! The points see f̄ = s f with s = (θ/j)^{1/3}, θ = v/v_n the volume ratio of the whole element and j = det f that of
-//! the point, hoop stretch included. The residual is the derivative of ∫ W(F̄) dV₀, and so the tangent is symmetric.
+//! The points see f̄ = s f with s = (θ/j)^{1/3}, θ = v/v_n the volume ratio of the whole element and j = det
+//! f that of the point, hoop stretch included. The residual is the derivative of ∫ W(F̄) dV₀, and so the
+//! tangent is symmetric.
 
 use crate::element::kernel::{
     ElementContext, ElementOutput, GAUSS, POINTS, PointSlice, Triangle, force, next_columns,
@@ -29,10 +30,12 @@ pub fn points() -> [ShapePoint<4>; POINTS] {
     [[-GAUSS, -GAUSS], [GAUSS, -GAUSS], [GAUSS, GAUSS], [-GAUSS, GAUSS]].map(|[s, t]| shape(s, t, 1.0))
 }
 
-/// Internal forces, stiffness and new states. `start` are the points the increment starts from, `triangle` is work space.
+/// Internal forces, stiffness and new states. `start` are the points the increment starts from, `triangle` is
+/// work space.
 ///
-/// With b_a = div N_a, b̄_a its volume average and m_a = (b̄_a - b_a)/3, a virtual displacement of node a changes f̄
-/// by l̄_a = ∇N_a + m_a I: f_a = ∫ τ : l̄_a dV₀. With p = ⅓ tr τ and P = ∫ p dV₀ the tangent is the sum over the points of
+/// With b_a = div N_a, b̄_a its volume average and m_a = (b̄_a - b_a)/3, a virtual displacement of node a
+/// changes f̄ by l̄_a = ∇N_a + m_a I: f_a = ∫ τ : l̄_a dV₀. With p = ⅓ tr τ and P = ∫ p dV₀ the tangent is
+/// the sum over the points of
 ///   l̄_aᵀ A l̄_b + p (∇N_a : ∇N_bᵀ) + 3p m_a m_b + m_a (τ:∇N_b) + (τ:∇N_a) m_b
 /// and of the second variation of ln θ, P (δδv/v - b̄_a b̄_b) with δδv = ∫ (b_a b_b - ∇N_a : ∇N_bᵀ) dv.
 ///
@@ -111,7 +114,8 @@ pub fn evaluate(
     Ok(())
 }
 
-/// f̄ - I = s (f - I) + (s - 1) I of the increment f - I, whose volume changes by `j` at the points and by `mean` in the element.
+/// f̄ - I = s (f - I) + (s - 1) I of the increment f - I, whose volume changes by `j` at the points and by
+/// `mean` in the element.
 #[inline(always)]
 fn with_mean_dilatation(mut increment: [Lanes; 5], j: Lanes, mean: f64) -> [Lanes; 5] {
     let theta = mean.ln_1p();

@@ -38,7 +38,8 @@ pub fn points() -> [ShapePoint<8>; POINTS] {
     [[-GAUSS, -GAUSS], [GAUSS, -GAUSS], [GAUSS, GAUSS], [-GAUSS, GAUSS]].map(|[s, t]| shape(s, t, 1.0))
 }
 
-/// Internal forces, stiffness and new states. `start` are the points the increment starts from, `triangle` is work space.
+/// Internal forces, stiffness and new states. `start` are the points the increment starts from, `triangle` is
+/// work space.
 ///
 /// f_a = ∫ τ : ∇N_a dV₀, K = ∂f/∂u.
 ///

@@ -1,5 +1,6 @@
-//! The equilibrium of one increment after the other: the body as Newton sees it, with what a solver remembers between
-//! iterates and increments (factors, secants, the contact that was kept), none of which belongs to the body.
+//! The equilibrium of one increment after the other: the body as Newton sees it, with what a solver remembers
+//! between iterates and increments (factors, secants, the contact that was kept), none of which belongs to
+//! the body.
 
 mod contact_set;
 mod factorise;
@@ -72,7 +73,8 @@ pub struct Equilibrium<'m> {
     has_tangent: bool,
     /// Whether tangents that are far from definite are stiffened.
     stiffens: bool,
-    /// Whether what the points extrapolate is still to be limited (see [`State::limit_extrapolation`]), and at which relative residual.
+    /// Whether what the points extrapolate is still to be limited (see [`State::limit_extrapolation`]), and
+    /// at which relative residual.
     unlimited: bool,
     limited_at: f64,
     /// Work done so far.
@@ -201,21 +203,22 @@ impl<'m> Equilibrium<'m> {
         self.trial.penalty = penalty;
     }
 
-    /// From now on increments are solved to the relative residual `tolerance`: the closer, the less what is frozen on the way may
-    /// depend on that way.
+    /// From now on increments are solved to the relative residual `tolerance`: the closer, the less what is
+    /// frozen on the way may depend on that way.
     pub fn set_tolerance(&mut self, tolerance: f64) {
         self.limited_at = YIELDING_KNOWN_AT.min(1e3 * tolerance);
     }
 
-    /// Moves the tool of the increment under way to `tip`. Its points start as they did, so that the response is a smooth function of
-    /// `tip`; the iterate stays, and with it the contact.
+    /// Moves the tool of the increment under way to `tip`. Its points start as they did, so that the response
+    /// is a smooth function of `tip`; the iterate stays, and with it the contact.
     pub fn move_tool(&mut self, tip: f64) {
         self.trial.tip = tip;
         self.contact_set.set_keeping(false);
         self.search.restart();
     }
 
-    /// The first iterate of an increment keeps the contact of the converged state, and is no step of the last increment.
+    /// The first iterate of an increment keeps the contact of the converged state, and is no step of the last
+    /// increment.
     fn keep_converged_contact(&mut self) {
         let edges = if self.trial.tip == f64::INFINITY { 0 } else { self.state.edges.len() };
         self.contact_set.keep(self.state.parts().take(edges));
@@ -228,8 +231,8 @@ impl<'m> Equilibrium<'m> {
         self.has_tangent = false;
     }
 
-    /// Remeshes the distorted body under its surface and finds the equilibrium there by `solve`, while the tool stays. Whether it
-    /// did: else all is as it was.
+    /// Remeshes the distorted body under its surface and finds the equilibrium there by `solve`, while the
+    /// tool stays. Whether it did: else all is as it was.
     pub fn remesh(&mut self, solve: impl FnOnce(&mut Self) -> Result<(), SolveFailure>) -> bool {
         // back stresses are not carried over
         let carries = self.state.points.history.is_empty();
@@ -326,7 +329,8 @@ impl<'m> Equilibrium<'m> {
     /// How far the last assembled iterate is from equilibrium.
     fn out_of_balance(&self, changed: bool) -> Assessment {
         let residual = norm(&self.response.residual);
-        // forces of the fixed components and of the tool, and the largest load so far (the load itself goes to 0)
+        // forces of the fixed components and of the tool, and the largest load so far (the load itself goes
+        // to 0)
         let mut reaction = 0.0;
         for (f, numbers) in self.response.internal.iter().zip(&self.body.analysis.dofs.number) {
             for i in 0..2 {

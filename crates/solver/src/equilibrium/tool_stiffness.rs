@@ -14,7 +14,8 @@ pub struct ToolStiffness {
 
 /// The stiffness of the tool on the `edges` in contact; `solve` replaces a right-hand side by K⁻¹ times it.
 ///
-/// With v = ∂F/∂u and c = ∂F/∂travel at fixed u: K_t = c - v K⁻¹ v, of which ∫ε δd² dA is spent in the penalty.
+/// With v = ∂F/∂u and c = ∂F/∂travel at fixed u: K_t = c - v K⁻¹ v, of which ∫ε δd² dA is spent in the
+/// penalty.
 pub fn tool_stiffness<'a>(
     dofs: &Dofs,
     edges: impl Iterator<Item = (&'a ContactEdge, &'a EdgeContact)> + Clone,

@@ -1,19 +1,22 @@
 //! Second order in the load step: the last plastic increment is extrapolated into the next one (BDF2).
 //!
-//! The radial return is backward Euler: exact along straight paths, first order where the direction of flow turns,
-//! as it does under every growing contact. The two-step backward difference formula (BDF2) is second order:
+//! The radial return is backward Euler: exact along straight paths, first order where the direction of flow
+//! turns, as it does under every growing contact. The two-step backward difference formula (BDF2) is second
+//! order:
 //!   ε_p(n+1) = ε_p(n) + κ [ε_p(n) - ε_p(n-1)] + Δγ N(n+1),   κ = ω²/(1 + 2ω), ω the ratio of the steps,
-//! which is a radial return that starts from a state in which the last plastic increment is extrapolated by κ. Nothing else
-//! changes: the yield condition holds at the end of the increment and the tangent stays symmetric. The formula is stable for steps
-//! of different lengths while ω < 1 + √2 (Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, III.5): ω is bounded.
+//! which is a radial return that starts from a state in which the last plastic increment is extrapolated by
+//! κ. Nothing else changes: the yield condition holds at the end of the increment and the tangent stays
+//! symmetric. The formula is stable for steps of different lengths while ω < 1 + √2 (Hairer, Nørsett, Wanner,
+//! Solving Ordinary Differential Equations I, III.5): ω is bounded.
 //!
-//! A point that stops or turns must not be extrapolated: its stress would be carried to the other side of the yield surface. So no
-//! point is extrapolated beyond what backward Euler flows along its last direction ([`share`]). That is known only once the
-//! increment is nearly solved; it is then frozen, and the increment keeps its potential.
+//! A point that stops or turns must not be extrapolated: its stress would be carried to the other side of the
+//! yield surface. So no point is extrapolated beyond what backward Euler flows along its last direction
+//! ([`share`]). That is known only once the increment is nearly solved; it is then frozen, and the increment
+//! keeps its potential.
 //!
-//! The extrapolated part of the accumulated plastic strain is frozen then too, so that the increment of it is the length of the flow
-//! from one converged state to the next (the sum of the two pieces would count a turn twice) and the accepted stress lies on
-//! the yield surface of that strain.
+//! The extrapolated part of the accumulated plastic strain is frozen then too, so that the increment of it is
+//! the length of the flow from one converged state to the next (the sum of the two pieces would count a turn
+//! twice) and the accepted stress lies on the yield surface of that strain.
 
 use crate::point::failure::Failure;
 use crate::point::material::{Metal, PointState, Spectral};
@@ -81,7 +84,8 @@ pub fn extrapolation_factor(ratio: f64) -> f64 {
     ratio * ratio / (1.0 + 2.0 * ratio)
 }
 
-/// Plastic strain between the elastic trial b_e - I (`trial`, from the last converged state) and the state `end`, of which `old` is the start.
+/// Plastic strain between the elastic trial b_e - I (`trial`, from the last converged state) and the state
+/// `end`, of which `old` is the start.
 ///
 /// # Errors
 /// Either is not positive definite.
@@ -127,9 +131,10 @@ pub fn backward_euler<T: Real>(
     Ok([share * dev[0], share * dev[1], share * dev[2], share * dev[3]])
 }
 
-/// The part of `factor` times the `last` plastic increment that may be extrapolated into an increment that flows by `flow` with
-/// all of it extrapolated, and by `euler` after backward Euler: not beyond `euler` in the last direction. With its accumulated
-/// strain the increment's is the length of its flow; where less is extrapolated, its part along `euler`.
+/// The part of `factor` times the `last` plastic increment that may be extrapolated into an increment that
+/// flows by `flow` with all of it extrapolated, and by `euler` after backward Euler: not beyond `euler` in
+/// the last direction. With its accumulated strain the increment's is the length of its flow; where less is
+/// extrapolated, its part along `euler`.
 pub fn share(factor: f64, last: &PlasticIncrement, flow: &PlasticIncrement, euler: &Sym) -> PlasticIncrement {
     let (along, square) = (contract(euler, &last.strain), contract(&last.strain, &last.strain));
     if !(along > 0.0 && square > 0.0) {

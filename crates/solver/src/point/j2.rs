@@ -4,12 +4,14 @@
 //! Peric, Owen, Computational Methods for Plasticity, ch. 14):
 //! 1. trial b_e = f b_e,old fᵀ, ε = ½ ln b_e in its principal frame;
 //! 2. τ = K tr ε + 2G dev ε, q = √(3/2)|dev τ|;
-//! 3. q ≤ Ĵσ_y: elastic (with back stress the same condition stands in `kinematic_hardening`, for the limit of the extrapolation in
-//!    `bdf2`); else q - 3G Δε_p = Ĵσ_y(ε_p + Δε_p) and the deviator shrinks by Ĵσ_y/q;
+//! 3. q ≤ Ĵσ_y: elastic (with back stress the same condition stands in `kinematic_hardening`, for the limit
+//!    of the extrapolation in `bdf2`); else q - 3G Δε_p = Ĵσ_y(ε_p + Δε_p) and the deviator shrinks by
+//!    Ĵσ_y/q;
 //! 4. consistent moduli D = ∂τ_A/∂ε_B and the spatial tangent.
 //!
-//! The yield stress is Cauchy's (true) or Kirchhoff's. Cauchy's times J would make the tangent unsymmetric; Ĵ is a constant of the
-//! increment, extrapolated from the last two converged states (see `bdf2`), and an increment keeps its potential.
+//! The yield stress is Cauchy's (true) or Kirchhoff's. Cauchy's times J would make the tangent unsymmetric; Ĵ
+//! is a constant of the increment, extrapolated from the last two converged states (see `bdf2`), and an
+//! increment keeps its potential.
 
 use crate::point::failure::Failure;
 use crate::point::material::{Metal, PointState, Spectral};
@@ -51,7 +53,8 @@ pub struct Return<T: Real> {
     pub response: Linearisation<T>,
 }
 
-/// The stress of a point, or of several side by side, and what its derivative needs, in the principal frame of the elastic trial.
+/// The stress of a point, or of several side by side, and what its derivative needs, in the principal frame
+/// of the elastic trial.
 #[derive(Clone, Copy, Debug)]
 pub struct Linearisation<T> {
     frame: Spectral<T>,
@@ -65,7 +68,8 @@ pub struct Linearisation<T> {
     direction: [T; 3],
 }
 
-/// Updates a point, or several side by side, from the state `old` by f - I = `increment`, and gives the `tangent` that is wanted.
+/// Updates a point, or several side by side, from the state `old` by f - I = `increment`, and gives the
+/// `tangent` that is wanted.
 ///
 /// # Errors
 /// f b fᵀ that is not positive definite.
@@ -149,7 +153,8 @@ impl<T: Real> Linearisation<T> {
         self.frame.tensor(&self.tau)
     }
 
-    /// Step 4 of the update: the second derivative of the incremental energy with respect to the current displacement gradient.
+    /// Step 4 of the update: the second derivative of the incremental energy with respect to the current
+    /// displacement gradient.
     #[inline(always)]
     pub fn tangent(&self, metal: &Metal, tangent: Tangent) -> GradientForm<T> {
         let zero = T::splat(0.0);

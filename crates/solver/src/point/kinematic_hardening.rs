@@ -1,24 +1,28 @@
 //! The stress update with kinematic hardening: the yield surface moves, and grows by what does not move it.
 //!
-//! Written in the space of Lagrangian logarithmic strains (see `log_space`), in which plastic strain E_p and back stress
-//! α are symmetric deviators of the undeformed configuration: no rotation has to be tracked, and the tangent is the
-//! second derivative of an incremental energy. (A back stress of Kirchhoff's kind, turned with each increment, has no
-//! such energy: its tangent is not symmetric.)
+//! Written in the space of Lagrangian logarithmic strains (see `log_space`), in which plastic strain E_p and
+//! back stress α are symmetric deviators of the undeformed configuration: no rotation has to be tracked, and
+//! the tangent is the second derivative of an incremental energy. (A back stress of Kirchhoff's kind, turned
+//! with each increment, has no such energy: its tangent is not symmetric.)
 //!   T = K tr E + 2G dev(E - E_p),   ξ = dev T - Ĵα,   √(3/2)|ξ| ≤ Ĵr,   ΔE_p = √(3/2) Δε_p N,   N = ξ/|ξ|,
-//! with Ĵ of `j2`: the curve of hardening speaks of Cauchy's stress, and so does the back stress.
-//! The rule of Prager and Ziegler, Δα ∥ N, with its modulus from the curve of hardening: a share m of what the curve rises by
-//! moves the surface, √(3/2)|Δα| = m [σ(ε_p + Δε_p) - σ(ε_p)], and the rest makes it grow, r = σ(ε_p) - m [σ(ε_p) - σ_y].
-//! Along a straight path α keeps pace with the curve, so that monotone tension is that of isotropic hardening, exactly
-//! and in steps of any size. Backward Euler: N at the end is that of the trial state, and
+//! with Ĵ of `j2`: the curve of hardening speaks of Cauchy's stress, and so does the back stress. The rule of
+//! Prager and Ziegler, Δα ∥ N, with its modulus from the curve of hardening: a share m of what the curve
+//! rises by moves the surface, √(3/2)|Δα| = m [σ(ε_p + Δε_p) - σ(ε_p)], and the rest makes it grow, r =
+//! σ(ε_p) - m [σ(ε_p) - σ_y]. Along a straight path α keeps pace with the curve, so that monotone tension is
+//! that of isotropic hardening, exactly and in steps of any size. Backward Euler: N at the end is that of the
+//! trial state, and
 //!   q - 3G Δε_p - Ĵm [σ(ε_p + Δε_p) - σ(ε_p)] = Ĵr(ε_p + Δε_p),   q = √(3/2)|ξ_trial|,
-//! is the return of isotropic hardening from q/Ĵ + m [σ(ε_p) - σ_y], whatever m. The moduli are those of small strains, symmetric:
+//! is the return of isotropic hardening from q/Ĵ + m [σ(ε_p) - σ_y], whatever m. The moduli are those of
+//! small strains, symmetric:
 //!   ∂T/∂E = K 1⊗1 + 2G (1 - β)(I - ⅓1⊗1) - 2G (3G/(3G + ĴH) - β) N⊗N,   β = 3G Δε_p/q.
-//! After a reversal the modulus goes on falling with ε_p: the curve says nothing of cycles. Where the back stress exceeds
-//! r, the point yields in reverse before its load is gone: with m = 1 from σ = 2σ_y on, with m ≤ ½ never.
+//! After a reversal the modulus goes on falling with ε_p: the curve says nothing of cycles. Where the back
+//! stress exceeds r, the point yields in reverse before its load is gone: with m = 1 from σ = 2σ_y on, with m
+//! ≤ ½ never.
 //!
-//! Coaxial paths are those of `j2` (with n = 0 the same material). Where principal directions turn in the material, additive
-//! strains differ from b_e: simple shear, see `verification`. The second order in the load step is that of `bdf2`, in
-//! a frame that does not turn. The plastic work is T : ΔE_p, of which ∫α : dE_p is stored and the rest heat.
+//! Coaxial paths are those of `j2` (with n = 0 the same material). Where principal directions turn in the
+//! material, additive strains differ from b_e: simple shear, see `verification`. The second order in the load
+//! step is that of `bdf2`, in a frame that does not turn. The plastic work is T : ΔE_p, of which ∫α : dE_p is
+//! stored and the rest heat.
 
 use crate::point::bdf2::{PlasticIncrement, exponential_minus_identity};
 use crate::point::failure::Failure;
@@ -44,7 +48,8 @@ fn root() -> f64 {
     1.5_f64.sqrt()
 }
 
-/// Updates a point by f - I = `increment`. Its state holds the b_e whose Hencky stress is the stress of the point.
+/// Updates a point by f - I = `increment`. Its state holds the b_e whose Hencky stress is the stress of the
+/// point.
 ///
 /// # Errors
 /// C that is not positive definite.
@@ -131,7 +136,8 @@ fn tensile_part(a: &Sym) -> Sym {
     frame.tensor(&[mean + radius, mean - radius, a[2]].map(|t| t.max(0.0)))
 }
 
-/// The state an increment starts from: `old` with the plastic increment `flowed` added, the back stress with it.
+/// The state an increment starts from: `old` with the plastic increment `flowed` added, the back stress with
+/// it.
 pub fn extrapolate(
     metal: &Metal,
     old: &PointState,

@@ -1,7 +1,7 @@
 //! Shape functions at integration points, current gradients, and the increment of deformation.
 //!
-//! Axisymmetry enters here and nowhere else: the hoop row N_a/r and the weight 2πr. In plane strain the hoop row
-//! is zero and the weight is 1.
+//! Axisymmetry enters here and nowhere else: the hoop row N_a/r and the weight 2πr. In plane strain the hoop
+//! row is zero and the weight is 1.
 
 use crate::point::failure::Failure;
 use crate::point::tensor::Gradient;
@@ -64,9 +64,11 @@ pub struct PointMotion<const N: usize, T = f64> {
     pub radius: T,
 }
 
-/// The motion at one point, or at several, from current node positions `x` and the displacement increments `du` that led there.
+/// The motion at one point, or at several, from current node positions `x` and the displacement increments
+/// `du` that led there.
 ///
-/// k = ∂Δu/∂x_{n+1} needs only current gradients; f = (I - k)⁻¹ and f - I = f k keep the digits of tiny strains.
+/// k = ∂Δu/∂x_{n+1} needs only current gradients; f = (I - k)⁻¹ and f - I = f k keep the digits of tiny
+/// strains.
 ///
 /// # Errors
 /// An element that is, or that the increment would turn, inside out.

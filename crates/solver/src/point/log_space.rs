@@ -1,12 +1,14 @@
-//! The space of Lagrangian logarithmic strains E = ½ ln C, C = FᵀF, in closed form for the (2 × 2) + 1 of a section.
+//! The space of Lagrangian logarithmic strains E = ½ ln C, C = FᵀF, in closed form for the (2 × 2) + 1 of a
+//! section.
 //!
-//! A law that is written for small strains there, W(E) with T = ∂W/∂E, is a law for large ones (Miehe, Apel, Lambrecht
-//! 2002, Comput. Methods Appl. Mech. Engrg. 191, 3383-3425): it is objective because E does not see rotations, and its
-//! tangent is symmetric because it is the second derivative of W. What is needed is E', T:E' and T:E''.
+//! A law that is written for small strains there, W(E) with T = ∂W/∂E, is a law for large ones (Miehe, Apel,
+//! Lambrecht 2002, Comput. Methods Appl. Mech. Engrg. 191, 3383-3425): it is objective because E does not see
+//! rotations, and its tangent is symmetric because it is the second derivative of W. What is needed is E',
+//! T:E' and T:E''.
 //!
-//! **Derivation.** In the frame of the principal directions N_A of C, with n_A = R N_A, a displacement gradient g of the
-//! current configuration with symmetric part d changes C by X = 2Fᵀ d F, X_AB = 2 λ_A λ_B d_AB (d in the frame n_A). The
-//! derivatives of ½ ln are divided differences of f(c) = ½ ln c,
+//! **Derivation.** In the frame of the principal directions N_A of C, with n_A = R N_A, a displacement
+//! gradient g of the current configuration with symmetric part d changes C by X = 2Fᵀ d F, X_AB = 2 λ_A λ_B
+//! d_AB (d in the frame n_A). The derivatives of ½ ln are divided differences of f(c) = ½ ln c,
 //!   `E'[X]_AB = f[c_A, c_B] X_AB,   E''[X, X']_AB = Σ_K f[c_A, c_K, c_B] (X_AK X'_KB + X'_AK X_KB)`.
 //! With y = E₁ - E₂ all that is left depends on y alone:
 //!   E'₁₁ = d₁₁, E'₂₂ = d₂₂, E'₃₃ = d₃₃, E'₁₂ = θ d₁₂,   θ = y/sinh y,
@@ -14,8 +16,8 @@
 //!   T : E'' = - 2 Σ T_AA d_AA d'_AA + ½ γ γ' {μ (T₁₁ - T₂₂) - T₁₁ - T₂₂}
 //!             - T₁₂ {(θ (d₁₁ + d₂₂) + κ (d₁₁ - d₂₂)) γ' + (θ (d'₁₁ + d'₂₂) + κ (d'₁₁ - d'₂₂)) γ},
 //!   κ = (y cosh y - sinh y)/sinh² y,   μ = (sinh y cosh y - y)/sinh² y.
-//! The second variation of C itself, Fᵀ(gᵀg' + g'ᵀg)F, adds the geometric term τ_ij g_ki g'_kj. For a coaxial T = ∂W/∂E the
-//! coefficient of γγ' is G y coth y - ½(τ₁ + τ₂), that of `material::Spectral::tangent`.
+//! The second variation of C itself, Fᵀ(gᵀg' + g'ᵀg)F, adds the geometric term τ_ij g_ki g'_kj. For a coaxial
+//! T = ∂W/∂E the coefficient of γγ' is G y coth y - ½(τ₁ + τ₂), that of `material::Spectral::tangent`.
 
 use crate::point::failure::Failure;
 use crate::point::material::Spectral;
@@ -101,8 +103,8 @@ impl LogStrain {
         turned(a, self.current)
     }
 
-    /// ∂²W/∂∇u² with the geometric term of `geometric` (Kirchhoff's stress), from T in the frame N_A and moduli
-    /// ∂T/∂E = K 1⊗1 + `shear` 2G (I - ⅓1⊗1) - `drop` N⊗N given as [K, 2G·shear, drop] and N.
+    /// ∂²W/∂∇u² with the geometric term of `geometric` (Kirchhoff's stress), from T in the frame N_A and
+    /// moduli ∂T/∂E = K 1⊗1 + `shear` 2G (I - ⅓1⊗1) - `drop` N⊗N given as [K, 2G·shear, drop] and N.
     pub fn tangent(&self, t: &Framed, moduli: [f64; 3], n: &Framed, geometric: &Sym) -> GradientForm {
         let [bulk, shear, drop] = moduli;
         let (theta, kappa, mu) = (self.theta, self.kappa, self.mu);

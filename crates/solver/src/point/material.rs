@@ -1,21 +1,23 @@
 //! Hencky elasticity: an energy in the elastic logarithmic strain ½ ln b_e. Its stress is Kirchhoff's τ.
 //!
-//! The state keeps b_e - I, not ln b_e: the update then needs one spectral decomposition instead of two, and tiny
-//! strains keep their digits.
+//! The state keeps b_e - I, not ln b_e: the update then needs one spectral decomposition instead of two, and
+//! tiny strains keep their digits.
 
 use crate::point::failure::Failure;
 use crate::point::tensor::{GradientForm, Sym, trace, with_geometric_term};
 use asperity_material::{Elastic, HardeningCurve, HardeningPoint, StressMeasure};
 use asperity_numerics::lanes::{Lanes, Real};
 
-/// Elastic constants and, for a material that yields, its hardening curve; all in one unit of stress; a run takes E = 1.
+/// Elastic constants and, for a material that yields, its hardening curve; all in one unit of stress; a run
+/// takes E = 1.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Metal {
     /// Elastic constants.
     pub elastic: Elastic,
     /// `None`: the body stays elastic and no return mapping runs.
     pub hardening: Option<HardeningCurve>,
-    /// Share of the hardening that moves the yield surface; the rest makes it grow. 0: isotropic, 1: kinematic.
+    /// Share of the hardening that moves the yield surface; the rest makes it grow. 0: isotropic, 1:
+    /// kinematic.
     pub kinematic_share: f64,
     /// Which stress the hardening curve speaks of.
     pub stress_measure: StressMeasure,
@@ -30,8 +32,8 @@ pub struct PointState<T = f64> {
     pub plastic_strain: T,
     /// Yield stress at that strain, in the measure of the material.
     pub yield_stress: T,
-    /// Ĵ: the Kirchhoff stress yields at Ĵ times the yield stress. Constant within an increment, which so keeps a potential;
-    /// 1 where the yield stress is Kirchhoff's.
+    /// Ĵ: the Kirchhoff stress yields at Ĵ times the yield stress. Constant within an increment, which so
+    /// keeps a potential; 1 where the yield stress is Kirchhoff's.
     pub yield_scale: T,
 }
 
@@ -133,11 +135,12 @@ impl<T: Real> Spectral<T> {
         [mean + half * c, mean - half * c, v[2], half * s]
     }
 
-    /// ∂²W/∂∇u²: the spatial tangent with the geometric term, from principal stresses `tau`, the moduli `moduli`
-    /// = ∂τ_A/∂ε_B, and `shear` = G times the share of the trial deviator that is left.
+    /// ∂²W/∂∇u²: the spatial tangent with the geometric term, from principal stresses `tau`, the moduli
+    /// `moduli` = ∂τ_A/∂ε_B, and `shear` = G times the share of the trial deviator that is left.
     ///
-    /// a(g, g') = Σ_AB (D_AB - 2τ_A δ_AB) g_AA g'_BB + c_s γ γ' + Σ g_iA τ_A g'_iA, with the in-plane shear modulus
-    /// c_s = (τ₁λ₂² - τ₂λ₁²)/(λ₁² - λ₂²) = G' atanh(x)/x - ½(τ₁ + τ₂) (Simo 1992; de Souza Neto et al., ch. 14).
+    /// a(g, g') = Σ_AB (D_AB - 2τ_A δ_AB) g_AA g'_BB + c_s γ γ' + Σ g_iA τ_A g'_iA, with the in-plane shear
+    /// modulus c_s = (τ₁λ₂² - τ₂λ₁²)/(λ₁² - λ₂²) = G' atanh(x)/x - ½(τ₁ + τ₂) (Simo 1992; de Souza Neto et
+    /// al., ch. 14).
     #[inline(always)]
     pub fn tangent(
         &self,

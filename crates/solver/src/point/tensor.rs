@@ -12,7 +12,8 @@ pub type Gradient<T = f64> = [T; 5];
 /// A quadratic form on gradients (symmetric).
 pub type GradientForm<T = f64> = [[T; 5]; 5];
 
-/// The form whose lower triangle is that of `form`, with the geometric term Σ g_iA τ_A g'_iA of the Kirchhoff stress `tau` added.
+/// The form whose lower triangle is that of `form`, with the geometric term Σ g_iA τ_A g'_iA of the Kirchhoff
+/// stress `tau` added.
 #[inline(always)]
 pub fn with_geometric_term<T: Real>(mut form: GradientForm<T>, tau: &Sym<T>) -> GradientForm<T> {
     for (i, j, component) in [(0, 0, 0), (1, 0, 3), (1, 1, 1), (2, 2, 0), (3, 2, 3), (3, 3, 1), (4, 4, 2)] {

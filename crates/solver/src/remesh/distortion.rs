@@ -1,12 +1,13 @@
 //! Better places for the nodes of a distorted mesh: the same cells, laid under the surface as it is now.
 //!
-//! A tool that digs in draws out the metal under its tip: one edge of the surface may come to cover most of the contact, while
-//! the metal that others stand for piles up beside it, in a lip that may hang over. Around the contact the nodes of the surface are
-//! spread along it in the proportions of its first arc length,
+//! A tool that digs in draws out the metal under its tip: one edge of the surface may come to cover most of
+//! the contact, while the metal that others stand for piles up beside it, in a lip that may hang over. Around
+//! the contact the nodes of the surface are spread along it in the proportions of its first arc length,
 //!   s = s_now + w (s_a + (s_b - s_a) (S - S_a)/(S_b - S_a) - s_now),
-//! with s the arc length now and S the first one, a and b the nearest nodes that stay (where w is 0, at kinks of the first surface
-//! and at its ends), and w from 1 around the contact to 0. A node of the surface stays on it, except where a lip is thinner than an
-//! element: it is cut off. Nodes below go where cells have the best shape.
+//! with s the arc length now and S the first one, a and b the nearest nodes that stay (where w is 0, at kinks
+//! of the first surface and at its ends), and w from 1 around the contact to 0. A node of the surface stays
+//! on it, except where a lip is thinner than an element: it is cut off. Nodes below go where cells have the
+//! best shape.
 
 use crate::body::discrete_body::Body;
 use crate::body::state::State;
@@ -25,7 +26,8 @@ const WIDTHS_BELOW: [f64; 2] = [4.0, 6.0];
 /// Cosine of the turn from edge to edge of the first surface beyond which the node between them stays: 10°.
 const KINK_COSINE: f64 = 0.985;
 
-/// Shares of the bulge of an edge of the surface that are tried, and the smallest scaled Jacobian of its cell that is room for it.
+/// Shares of the bulge of an edge of the surface that are tried, and the smallest scaled Jacobian of its cell
+/// that is room for it.
 const BULGE_SHARES: [f64; 4] = [1.0, 0.67, 0.33, 0.0];
 const LEAST_JACOBIAN: f64 = 0.2;
 
@@ -38,12 +40,13 @@ pub struct Limits {
     sharpest: f64,
 }
 
-/// Length of an edge over its first length, and its share of the contact, beyond which the contact has too few edges.
+/// Length of an edge over its first length, and its share of the contact, beyond which the contact has too
+/// few edges.
 const LARGEST_EDGE_STRETCH: f64 = 4.0;
 const LARGEST_EDGE_SHARE: f64 = 0.3;
 
-/// While the tool advances. Each transfer takes some tenths of a percent of the force away for some increments, and metal drawn out
-/// smoothly costs less than that (50° half apex, n = 0.1: 0.05 % up to here).
+/// While the tool advances. Each transfer takes some tenths of a percent of the force away for some
+/// increments, and metal drawn out smoothly costs less than that (50° half apex, n = 0.1: 0.05 % up to here).
 pub const LIMITS_WHILE_LOADING: Limits = Limits { drawn_out: 10.0, sharpest: 0.02 };
 
 /// Before the tool retreats, when it no longer presses a distorted mesh flat.
@@ -94,8 +97,8 @@ fn kinks(edges: &[ContactEdge], position: &[[f64; 2]]) -> Vec<bool> {
     std::iter::once(true).chain(turns).collect()
 }
 
-/// New arc lengths of the nodes of each edge on the curve `now`, in the proportions of the curve `first`, with the weight of that at an
-/// arc length of `now`. `None` if they are not in order.
+/// New arc lengths of the nodes of each edge on the curve `now`, in the proportions of the curve `first`,
+/// with the weight of that at an arc length of `now`. `None` if they are not in order.
 fn spread(
     first: &SurfaceCurve<'_>,
     now: &SurfaceCurve<'_>,
@@ -128,8 +131,8 @@ fn spread(
     in_order.then_some(wanted)
 }
 
-/// Better places of the nodes of the converged `state`, in touch with its tool; `None` where there are none: no cells of a better shape
-/// were found.
+/// Better places of the nodes of the converged `state`, in touch with its tool; `None` where there are none:
+/// no cells of a better shape were found.
 pub fn smoothed_places(body: &Body<'_>, state: &State) -> Option<Vec<[f64; 2]>> {
     let mesh = body.mesh;
     let first = SurfaceCurve::new(&state.edges, &mesh.nodes);
@@ -199,8 +202,8 @@ fn edge_over(edges: &[ContactEdge], position: &[[f64; 2]], r: f64) -> usize {
     edges.partition_point(|edge| position[edge.nodes[0] as usize][0] < r).min(edges.len() - 1)
 }
 
-/// Moves the mid-side nodes of the surface that left their places `before` towards the straight line where their cells have no room
-/// for the bulge: of a lip that turns round within one edge.
+/// Moves the mid-side nodes of the surface that left their places `before` towards the straight line where
+/// their cells have no room for the bulge: of a lip that turns round within one edge.
 fn flatten(mesh: &Mesh, before: &[[f64; 2]], places: &mut [[f64; 2]]) {
     for edge in &mesh.sides.surface {
         let (ends, Some(middle)) = mesh.edge_nodes(*edge) else { continue };

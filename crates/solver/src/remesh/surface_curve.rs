@@ -60,7 +60,8 @@ impl<'a> SurfaceCurve<'a> {
         curve
     }
 
-    /// The place on an edge after some of its pieces. Its coordinate falls from 1 at the inner end to -1 at the outer one.
+    /// The place on an edge after some of its pieces. Its coordinate falls from 1 at the inner end to -1 at
+    /// the outer one.
     fn on_edge(&self, edge: usize, pieces: f64) -> [f64; 2] {
         let edge = &self.edges[edge];
         let nodes = edge.nodes.map(|node| self.position[node as usize]);
@@ -101,8 +102,9 @@ impl<'a> SurfaceCurve<'a> {
         (start + 3..=to).rev().find(|&end| inside && intersection(piece(start + 1), piece(end)).is_some())
     }
 
-    /// Cuts off lips within `around` where a straight line no longer than `thickness` takes them off, and loops within the `contact`,
-    /// where nodes slid past their neighbours along the tool: no cell fits in there. Both are arc lengths.
+    /// Cuts off lips within `around` where a straight line no longer than `thickness` takes them off, and
+    /// loops within the `contact`, where nodes slid past their neighbours along the tool: no cell fits in
+    /// there. Both are arc lengths.
     pub fn cut_lips(&mut self, around: [f64; 2], contact: [f64; 2], thickness: f64) {
         let ends =
             |arcs: [f64; 2]| arcs.map(|s| self.arc.partition_point(|end| *end < s).min(self.ends.len() - 1));

@@ -1,8 +1,8 @@
 //! The state of a body carried over to other places of its nodes.
 //!
-//! A new integration point lies in some old element. Elastic logarithmic strain, plastic strain and the last plastic increment are
-//! interpolated there from the four points of that element, bilinearly, and so is the first place of its metal from the nodes. A cell
-//! that stays keeps its state to the bit.
+//! A new integration point lies in some old element. Elastic logarithmic strain, plastic strain and the last
+//! plastic increment are interpolated there from the four points of that element, bilinearly, and so is the
+//! first place of its metal from the nodes. A cell that stays keeps its state to the bit.
 
 use crate::body::discrete_body::Body;
 use crate::body::energy::contact_sums;
@@ -38,7 +38,8 @@ struct Place {
     xi: [f64; 2],
 }
 
-/// Shape functions of the corners and mid-sides at (ξ, η), and their slopes; those of an element of four nodes end early.
+/// Shape functions of the corners and mid-sides at (ξ, η), and their slopes; those of an element of four
+/// nodes end early.
 fn shape(kind: ElementKind, [xi, eta]: [f64; 2]) -> ([f64; 8], [[f64; 2]; 8]) {
     let (mut value, mut slope) = ([0.0; 8], [[0.0; 2]; 8]);
     match kind {
@@ -137,7 +138,8 @@ impl<'a> Lookup<'a> {
             .map_or_else(|| self.nearest_place(x, guess), |(_, place)| place)
     }
 
-    /// The place nearest to a point that no element holds: where two parts of the surface enclosed a gap that was cut off.
+    /// The place nearest to a point that no element holds: where two parts of the surface enclosed a gap that
+    /// was cut off.
     fn nearest_place(&self, x: [f64; 2], guess: usize) -> Place {
         let mut nearest = (f64::INFINITY, Place { cell: guess, xi: [0.0; 2] });
         for cell in 0..self.boxes.len() {
@@ -154,11 +156,13 @@ impl<'a> Lookup<'a> {
     }
 }
 
-/// Share of a plastic strain that its extrapolation beyond the integration points may change it by. Without a limit an element that
-/// is crushed flat has points of very different strains, which transfer after transfer drives apart without bound.
+/// Share of a plastic strain that its extrapolation beyond the integration points may change it by. Without a
+/// limit an element that is crushed flat has points of very different strains, which transfer after transfer
+/// drives apart without bound.
 const LARGEST_EXTRAPOLATED_SHARE: f64 = 0.25;
 
-/// Weights of the four integration points at (ξ, η): bilinear, and beyond them as far as `LARGEST_EXTRAPOLATED_SHARE` lets the plastic strains of `points`.
+/// Weights of the four integration points at (ξ, η): bilinear, and beyond them as far as
+/// `LARGEST_EXTRAPOLATED_SHARE` lets the plastic strains of `points`.
 fn weights([xi, eta]: [f64; 2], points: &[PointState]) -> [f64; POINTS] {
     let signs = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
     let bilinear = |[s, t]: [f64; 2]| signs.map(|[a, b]| 0.25 * (1.0 + a * s) * (1.0 + b * t));
@@ -190,8 +194,9 @@ fn measure(body: &Body<'_>, strain: &Sym) -> f64 {
     if body.material.yields_by_true_stress() { trace(strain).exp() } else { 1.0 }
 }
 
-/// The point at a place of the old mesh. Its stress takes the mean share of the yield stress, not the mean of the deviators, which
-/// is smaller where their directions differ: metal that flows would come out elastic, transfer after transfer.
+/// The point at a place of the old mesh. Its stress takes the mean share of the yield stress, not the mean of
+/// the deviators, which is smaller where their directions differ: metal that flows would come out elastic,
+/// transfer after transfer.
 fn interpolated(body: &Body<'_>, state: &State, place: Place) -> Option<PointState> {
     let range = Body::points_of(place.cell);
     let mut strain: Sym = [0.0; 4];
@@ -291,7 +296,8 @@ fn carried_over(body: &Body<'_>, state: &State, places: &[[f64; 2]]) -> Option<C
 }
 
 impl State {
-    /// Elastic energy, plastic work and contact energy so far, of which only the work of the tool may change the sum.
+    /// Elastic energy, plastic work and contact energy so far, of which only the work of the tool may change
+    /// the sum.
     fn balanced_energy(&self, body: &Body<'_>) -> f64 {
         let [elastic, plastic] = self.energies(body);
         let contact = contact_sums(self.contact.iter(), body.symmetry).energy;
@@ -305,8 +311,8 @@ impl State {
         self.ledger.transfers = before.ledger.transfers + 1;
     }
 
-    /// The body and its state with the nodes at `places`, in touch with the same tool where it stands. It is not in equilibrium.
-    /// `None` where a new cell is inside out.
+    /// The body and its state with the nodes at `places`, in touch with the same tool where it stands. It is
+    /// not in equilibrium. `None` where a new cell is inside out.
     pub fn moved_to<'m>(&self, body: &Body<'m>, places: Vec<[f64; 2]>) -> Option<(Body<'m>, State)> {
         let carried = carried_over(body, self, &places)?;
         let mut state = self.clone();
