@@ -36,7 +36,8 @@ fn one(elements: usize) -> Result<(), Box<dyn Error + Send + Sync>> {
     let iterations = path.counts.iterations;
     let model = &mut path.model;
     let before = model.state().displacement.to_vec();
-    model.begin(-(FRACTION * (1.0 + problem.numbers.penetration)), 0.0, |node| before[node].map(|u| 0.1 * u));
+    let travel = FRACTION * problem.depth * (1.0 + problem.numbers.penetration);
+    model.begin(-travel, 0.0, |node| before[node].map(|u| 0.1 * u));
     let repeats = 5;
     let mut least = [f64::INFINITY; 3];
     for _ in 0..repeats {

@@ -112,7 +112,7 @@ fn iteration(elements: usize, floor: &Roofline) -> Result<(usize, f64, f64), Box
     let problem = finely_meshed(elements).map_err(|e| e.to_string())?;
     let least_seconds = floor_of(&problem, floor)?;
     let mut path = Path::new(&problem, &Analyses::default())?;
-    path.model.begin(-1e-3, 0.0, |_| [0.0; 2]);
+    path.model.begin(-1e-3 * problem.depth, 0.0, |_| [0.0; 2]);
     let mut seconds = f64::INFINITY;
     for _ in 0..3 {
         let (done, taken) = timed(|| -> Result<(), Box<dyn Error>> {

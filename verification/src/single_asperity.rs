@@ -55,7 +55,7 @@ pub fn finely_meshed(elements: usize) -> Result<Problem, Box<dyn Error + Send + 
     let mut scene = scene(Accuracy::Reference)?;
     scene.numerics.elements_in_contact = Some(elements);
     let mut problem = prepared(&scene)?;
-    (problem.goal, problem.numbers.steps) = (Goal::Depth(FRACTION), STEPS);
+    (problem.goal, problem.numbers.steps) = (Goal::Depth(FRACTION * problem.depth), STEPS);
     Ok(problem)
 }
 

@@ -100,9 +100,10 @@ pub fn divide(from: f64, to: f64, kinks: &[f64], size: impl Fn(f64) -> f64) -> V
 
 /// Divides like `divide`, but integrates in the logarithm of the distance, so that decades are resolved.
 pub(crate) fn divide_geometric(from: f64, to: f64, kinks: &[f64], size: impl Fn(f64) -> f64) -> Vec<f64> {
-    let logs: Vec<f64> = kinks.iter().filter(|&&k| k > from && k < to).map(|k| k.ln()).collect();
+    let place = |log: f64| from * log.exp();
+    let logs: Vec<f64> = kinks.iter().filter(|&&k| k > from && k < to).map(|k| (k / from).ln()).collect();
     let mut nodes: Vec<f64> =
-        divide(from.ln(), to.ln(), &logs, |l| size(l.exp()) / l.exp()).into_iter().map(f64::exp).collect();
+        divide(0.0, (to / from).ln(), &logs, |l| size(place(l)) / place(l)).into_iter().map(place).collect();
     // kinks and ends exactly, not to the rounding of the logarithm
     for node in &mut nodes {
         for &stop in kinks.iter().chain([&from, &to]) {

@@ -7,6 +7,7 @@ use crate::scene::{Scene, Target};
 use crate::setup::discretisation::Discretisation;
 use crate::setup::prepare::Expected;
 use crate::setup::problem::{Goal, Problem};
+use crate::setup::units::Units;
 use crate::simulate::{CrushError, simulate};
 use asperity_mesh::Mesh;
 use asperity_solver::body::analysis::Analyses;
@@ -20,9 +21,9 @@ pub(super) fn companion(
     numbers: Discretisation,
     other: Option<Mesh>,
     expected: &Expected,
-    analyses: &Analyses,
+    shared: (Units, &Analyses),
 ) -> Option<Problem> {
-    let problem = ready(scene, numbers.coarser(), other, expected, analyses).ok()?;
+    let problem = ready(scene, numbers.coarser(), other, expected, shared).ok()?;
     Some(Problem { reloads: 0, ..problem })
 }
 

@@ -16,6 +16,7 @@ use crate::setup::deformed_surface::Formed;
 use crate::setup::discretisation::Discretisation;
 use crate::setup::prepare::{Expected, bodies, metal};
 use crate::setup::problem::Problem;
+use crate::setup::units::Units;
 use crate::simulate::simulate;
 use asperity_material::units::Length;
 use asperity_mesh::Mesh;
@@ -40,17 +41,22 @@ const PASSED_DEPTH_RATIO: f64 = 1.1;
 /// Estimates of `scene`, which is valid: the depth of its peak is the one that it asks for, or else the one
 /// at which it carries its force, at most the deepest that its tool can go. `mesh` (in metres) holds the size
 /// of the body where plane strain asks for one. Earlier loads are computed coarsely, for the surface that
-/// they leave.
+/// they leave. Lengths are in `units`.
 ///
 /// # Errors
 /// Bodies that make no sense, an earlier load that does not come back: path and reason.
-pub fn expect(scene: &Scene, mesh: Option<&Mesh>, analyses: &Analyses) -> Result<Expected, SceneError> {
+pub fn expect(
+    scene: &Scene,
+    mesh: Option<&Mesh>,
+    units: Units,
+    analyses: &Analyses,
+) -> Result<Expected, SceneError> {
     let mut expected = Expected::default();
     for index in 0..scene.earlier_loads().len() {
         let within = |e: SceneError| SceneError { path: format!("initial.load[{index}].{}", e.path), ..e };
         let load = with_body_of(&scene.at_load(index), mesh);
-        expected.depth = target_depth(&load, mesh, &expected, analyses).map_err(within)?;
-        let formed = formed(&load, &expected, analyses).ok_or_else(|| {
+        expected.depth = target_depth(&load, mesh, &expected, (units, analyses)).map_err(within)?;
+        let formed = formed(&load, &expected, (units, analyses)).ok_or_else(|| {
             let message = "does not come back from its depth: ask for less";
             within(SceneError { path: "loading".into(), message: message.into() })
         })?;
@@ -58,42 +64,46 @@ pub fn expect(scene: &Scene, mesh: Option<&Mesh>, analyses: &Analyses) -> Result
         earlier.push(expected);
         expected = Expected { depth: 0.0, formed: Some(formed), earlier };
     }
-    expected.depth = target_depth(scene, mesh, &expected, analyses)?;
+    expected.depth = target_depth(scene, mesh, &expected, (units, analyses))?;
     Ok(expected)
 }
 
-/// Depth (m) of the peak of `scene` after the loads that are `expected` before it.
+/// What each coarse crush of a search computes with.
+type Shared<'a> = (Units, &'a Analyses);
+
+/// Depth of the peak of `scene` after the loads that are `expected` before it.
 fn target_depth(
     scene: &Scene,
     mesh: Option<&Mesh>,
     expected: &Expected,
-    analyses: &Analyses,
+    shared: Shared<'_>,
 ) -> Result<f64, SceneError> {
+    let (units, _) = shared;
     match scene.loading.target()? {
         Target::Depth(depth) if gives_way(scene) => {
-            Ok(depth_of_body(&with_body_of(scene, mesh), depth, expected, analyses))
+            Ok(depth_of_body(&with_body_of(scene, mesh), depth / units.length, expected, shared))
         }
-        Target::Depth(depth) => Ok(depth),
+        Target::Depth(depth) => Ok(depth / units.length),
         Target::Force(force) => {
-            let (profile, tool) = bodies(scene, 1.0)?;
-            let modulus = scene.material.elastic().youngs_modulus;
-            let guess = expected_depth(&metal(scene), modulus, scene.symmetry, &profile, &tool, force);
-            Ok(depth_of(&with_body_of(scene, mesh), force, guess, expected, analyses))
+            let (profile, tool) = bodies(scene, units.length)?;
+            let length = Units::of_scene(scene)?.length / units.length;
+            let force = force / units.force;
+            let guess = expected_depth(&metal(scene), scene.symmetry, &profile, &tool, force, length);
+            Ok(depth_of(&with_body_of(scene, mesh), force, guess, expected, shared))
         }
     }
 }
 
-/// The surface (m) that `scene` leaves, from a coarse crush; `None` where it does not come back.
-fn formed(scene: &Scene, expected: &Expected, analyses: &Analyses) -> Option<Formed> {
-    let problem = coarse_problem(scene, expected, analyses)?;
+/// The surface that `scene` leaves, from a coarse crush; `None` where it does not come back.
+fn formed(scene: &Scene, expected: &Expected, shared: Shared<'_>) -> Option<Formed> {
+    let problem = coarse_problem(scene, expected, shared)?;
     let problem = Problem { unload: true, reloads: 0, ..problem };
-    let simulation = simulate(&problem, analyses, 0, &mut |_| ControlFlow::Continue(())).ok()?;
+    let simulation = simulate(&problem, shared.1, 0, &mut |_| ControlFlow::Continue(())).ok()?;
     let state = simulation.path.model.state();
     let nodes = state.edges.iter().flat_map(|edge| edge.nodes).map(|node| state.position[node as usize]);
-    let points = nodes.map(|x| x.map(|x| x * problem.units.length)).collect();
     let reached = state.points.states.iter().map(|point| point.yield_stress);
     let hardest = if problem.metal.hardening.is_some() { reached.fold(0.0, f64::max) } else { 0.0 };
-    simulation.stopped.is_none().then(|| Formed::new(points, hardest))
+    simulation.stopped.is_none().then(|| Formed::new(nodes.collect(), hardest))
 }
 
 /// `scene` with the size of the body that `mesh` (m) holds, where plane strain asks for one.
@@ -106,14 +116,13 @@ fn with_body_of(scene: &Scene, mesh: Option<&Mesh>) -> Scene {
     scene
 }
 
-/// Depth (m) at which `scene` carries `force` (N, or N/m in plane strain), from the first guess `guess`.
-fn depth_of(scene: &Scene, force: f64, guess: f64, expected: &Expected, analyses: &Analyses) -> f64 {
-    let deepest = scene.deepest();
+/// Depth at which `scene` carries `force`, from the first guess `guess`.
+fn depth_of(scene: &Scene, force: f64, guess: f64, expected: &Expected, shared: Shared<'_>) -> f64 {
+    let deepest = scene.deepest() / shared.0.length;
     let mut depth = guess.min(deepest);
     for _ in 0..MOST_CRUSHES {
-        let force_of = |problem: &Problem, contact: &ContactSums| contact.force * problem.units.force;
-        let Some(curve) = coarse(scene, &to_depth(expected, depth), analyses, force_of).map(Curve::new)
-        else {
+        let force_of = |_: &Problem, contact: &ContactSums| contact.force;
+        let Some(curve) = coarse(scene, &to_depth(expected, depth), shared, force_of).map(Curve::new) else {
             break;
         };
         let end = curve.end();
@@ -140,13 +149,12 @@ fn gives_way(scene: &Scene) -> bool {
     scene.tool.youngs_modulus.is_some() || scene.tool.machine_compliance.is_some()
 }
 
-/// Depth (m) of the body where it is `asked` (m) with what tool and machine give way.
-fn depth_of_body(scene: &Scene, asked: f64, expected: &Expected, analyses: &Analyses) -> f64 {
+/// Depth of the body where it is `asked` with what tool and machine give way.
+fn depth_of_body(scene: &Scene, asked: f64, expected: &Expected, shared: Shared<'_>) -> f64 {
     let mut depth = asked;
     for _ in 0..MOST_CRUSHES {
-        let total = coarse(scene, &to_depth(expected, depth), analyses, |problem, contact| {
+        let total = coarse(scene, &to_depth(expected, depth), shared, |problem, contact| {
             Compliance::new(scene, &problem.units).deflection(contact.force, contact.area)
-                * problem.units.length
         });
         let Some(found) = total.and_then(|way| body_depth(&way, asked)) else { break };
         let fine = found * LARGEST_DEPTH_RATIO >= depth;
@@ -166,20 +174,21 @@ fn body_depth(way: &[[f64; 2]], asked: f64) -> Option<f64> {
     Some(from[0] + (to[0] - from[0]) * (asked - sum(from)) / (sum(to) - sum(from)))
 }
 
-/// The same with its peak at `depth` (m).
+/// The same with its peak at `depth`.
 fn to_depth(expected: &Expected, depth: f64) -> Expected {
     Expected { depth, ..expected.clone() }
 }
 
 /// A coarse crush of `scene` to its expected depth, ready to go, after coarse earlier loads. Tool and machine
 /// are stiff.
-fn coarse_problem(scene: &Scene, expected: &Expected, analyses: &Analyses) -> Option<Problem> {
+fn coarse_problem(scene: &Scene, expected: &Expected, shared: Shared<'_>) -> Option<Problem> {
     let numerics = Numerics {
         elements_in_contact: Some(COARSE_ELEMENTS),
         steps: Some(COARSE_STEPS),
         ..Numerics::default()
     };
-    let loading = Loading { depth: Some(Length(expected.depth)), force: None, unload: false, reloads: 0 };
+    let depth = Some(Length(expected.depth * shared.0.length));
+    let loading = Loading { depth, force: None, unload: false, reloads: 0 };
     let probe = Scene {
         accuracy: Accuracy::Draft,
         numerics,
@@ -189,22 +198,22 @@ fn coarse_problem(scene: &Scene, expected: &Expected, analyses: &Analyses) -> Op
         ..scene.clone()
     };
     probe.validate().ok()?;
-    ready(&probe, Discretisation::new(&probe), None, expected, analyses).ok()
+    ready(&probe, Discretisation::new(&probe), None, expected, shared).ok()
 }
 
-/// Depth (m) and what `of` makes of the contact in the increments of a coarse crush to the expected depth,
-/// from 0 on; as far as it goes.
+/// Depth and what `of` makes of the contact in the increments of a coarse crush to the expected depth, from 0
+/// on; as far as it goes.
 fn coarse(
     scene: &Scene,
     expected: &Expected,
-    analyses: &Analyses,
+    shared: Shared<'_>,
     of: impl Fn(&Problem, &ContactSums) -> f64,
 ) -> Option<Vec<[f64; 2]>> {
-    let problem = coarse_problem(scene, expected, analyses)?;
+    let problem = coarse_problem(scene, expected, shared)?;
     let mut points = vec![[0.0; 2]];
     // a path that stops early has a curve too
-    let _ = Path::new(&problem, analyses).ok()?.load(&mut |_, increment| {
-        points.push([increment.depth * problem.units.length, of(&problem, &increment.contact)]);
+    let _ = Path::new(&problem, shared.1).ok()?.load(&mut |_, increment| {
+        points.push([increment.depth, of(&problem, &increment.contact)]);
         true
     });
     Some(points)

@@ -10,6 +10,7 @@ use crate::scene::{Scene, SceneError, Target};
 use crate::setup::discretisation::Discretisation;
 use crate::setup::prepare::prepare;
 use crate::setup::problem::Problem;
+use crate::setup::units::Units;
 use crate::simulate::simulate;
 use asperity_mesh::Mesh;
 use asperity_solver::body::analysis::Analyses;
@@ -46,10 +47,17 @@ impl<'a> Run<'a> {
     /// # Errors
     /// Only if the run cannot begin: what stops it later is in the outcome, with all that was reached.
     pub fn run(self, observer: &mut Watcher<'_>) -> Result<Outcome, CrushError> {
+        self.scene.validate()?;
+        let units = Units::of_scene(self.scene)?;
+        self.run_in(units, observer)
+    }
+
+    /// [`Run::run`] in these `units`; its scene is valid.
+    fn run_in(self, units: Units, observer: &mut Watcher<'_>) -> Result<Outcome, CrushError> {
         let Run { scene, mesh, metal, analyses } = self;
-        scene.validate()?;
         let target = scene.loading.target()?;
-        let expected = expect(scene, mesh.as_ref(), &analyses)?;
+        let expected = expect(scene, mesh.as_ref(), units, &analyses)?;
+        let mesh = mesh.map(|mesh| mesh.scaled(units.length.recip()));
         let other = mesh.as_ref().map(Mesh::with_other_element);
         let same_mesh = other.is_some();
         let numbers = Discretisation::new(scene);
@@ -57,8 +65,8 @@ impl<'a> Run<'a> {
             Some(metal) => Problem { metal: metal.clone(), ..problem },
             None => problem,
         };
-        let problem = with_metal(ready(scene, numbers, mesh, &expected, &analyses)?);
-        let companion = companion(scene, numbers, other, &expected, &analyses).map(with_metal);
+        let problem = with_metal(ready(scene, numbers, mesh, &expected, (units, &analyses))?);
+        let companion = companion(scene, numbers, other, &expected, (units, &analyses)).map(with_metal);
         let (mut outcome, compared) = run_beside(companion, target, &analyses, || {
             Ok(simulate(&problem, &analyses, scene.output.interval(), observer)?.outcome(observer))
         })?;
@@ -81,7 +89,143 @@ impl<'a> Run<'a> {
     /// # Errors
     /// A scene that cannot be meshed: path and reason.
     pub fn problem(self) -> Result<Problem, SceneError> {
-        let expected = expect(self.scene, self.mesh.as_ref(), &self.analyses)?;
-        prepare(self.scene, self.mesh, expected)
+        let Run { scene, mesh, analyses, .. } = self;
+        let units = Units::of_scene(scene)?;
+        let expected = expect(scene, mesh.as_ref(), units, &analyses)?;
+        let mesh = mesh.map(|mesh| mesh.scaled(units.length.recip()));
+        prepare(scene, Discretisation::new(scene), mesh, &expected, units)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    //! Claim: a run knows no unit of length. With the unit 1024 times as long or as short every number of its
+    //! outcome and of its fields has the same bits. Source: a power of two changes no digit of a product, a
+    //! sum or a quotient.
+    use super::*;
+    use crate::scene::{
+        Accuracy, Asperity, EarlierLoad, Initial, Lateral, Loading, Material, Numerics, Symmetry, Tool,
+        ToolForce,
+    };
+    use asperity_material::units::{Compliance, Force, Length, LineForce, Stress};
+    use std::ops::ControlFlow;
+
+    fn um(micrometres: f64) -> Length {
+        Length(micrometres * 1e-6)
+    }
+
+    /// A quick scene on steel.
+    fn scene(symmetry: Symmetry, tool: Tool, loading: Loading) -> Scene {
+        let steel = Material::elastic_body(Stress(210e9), 0.3).yielding(Stress(300e6), 0.2);
+        let mut scene = Scene::new(symmetry, steel, tool, loading).with_accuracy(Accuracy::Draft);
+        scene.numerics = Numerics {
+            elements_in_contact: Some(6),
+            steps: Some(12),
+            domain: Some(20.0),
+            ..Numerics::default()
+        };
+        scene.output.every = Some(4);
+        scene
+    }
+
+    /// All that a run gives but its seconds.
+    fn bits(scene: &Scene, shift: i32) -> String {
+        let units = Units::of_scene(scene).unwrap();
+        let length = units.length * 2.0_f64.powi(shift);
+        let mut text = String::new();
+        let outcome = Run::new(scene)
+            .run_in(Units::new(length, units.stress, scene.symmetry), &mut |event| {
+                text += &format!("{event:#?}\n");
+                ControlFlow::Continue(())
+            })
+            .unwrap();
+        assert!(outcome.stopped.is_none(), "{:?}", outcome.stopped);
+        text += &format!("{outcome:#?}");
+        text.lines().filter(|line| !line.contains("_s: ")).collect::<Vec<_>>().join("\n")
+    }
+
+    fn assert_no_unit(scene: &Scene) {
+        scene.validate().unwrap();
+        let own = bits(scene, 0);
+        for shift in [-10, 10] {
+            let other = bits(scene, shift);
+            let first = own.lines().zip(other.lines()).find(|(a, b)| a != b);
+            assert!(own == other, "unit times 2^{shift}: {first:?}");
+        }
+    }
+
+    const ROUND: Symmetry = Symmetry::Axisymmetric;
+    const PLANE: Symmetry = Symmetry::PlaneStrain;
+
+    #[test]
+    fn an_asperity_that_is_unloaded_has_no_unit() {
+        let cone = Asperity::cone(um(20.0), 10.0).rounded(um(10.0));
+        assert_no_unit(&scene(ROUND, Tool::plane(), Loading::to_depth(um(5.0)).unloaded()).with(cone));
+    }
+
+    #[test]
+    fn a_force_under_an_elastic_tool_on_a_machine_has_no_unit() {
+        let mut tool = Tool::sphere(um(30.0));
+        tool.youngs_modulus = Some(Stress(1141e9));
+        tool.poissons_ratio = Some(0.07);
+        tool.machine_compliance = Some(Compliance(1e-7));
+        for loading in
+            [Loading::to_force(ToolForce::Total(Force(0.1))), Loading::to_depth(um(0.7)).unloaded()]
+        {
+            assert_no_unit(&scene(ROUND, tool.clone(), loading));
+        }
+    }
+
+    #[test]
+    fn indenting_cones_have_no_unit() {
+        let force = || Loading::to_force(ToolForce::Total(Force(0.2)));
+        let mut rounded = Tool::cone(15.0);
+        rounded.tip_radius = Some(um(0.7));
+        for tool in [Tool::cone(8.0), Tool::cone(20.0), rounded, Tool::punch(um(9.0), um(1.0))] {
+            assert_no_unit(&scene(ROUND, tool.clone(), force()));
+            assert_no_unit(&scene(ROUND, tool, Loading::to_depth(um(0.3)).unloaded()));
+        }
+    }
+
+    #[test]
+    fn rings_and_ridges_have_no_unit() {
+        let row = |symmetry, loading| {
+            let cone = |height| Asperity { spacing: Some(um(3.0)), ..Asperity::cone(um(height), 12.0) };
+            scene(symmetry, Tool::plane(), loading)
+                .with(cone(20.0).rounded(um(4.0)))
+                .with(cone(19.0))
+                .with(cone(19.7))
+        };
+        assert_no_unit(&row(ROUND, Loading::to_depth(um(2.0)).unloaded()));
+        let block = |loading| row(PLANE, loading).on(um(900.0), um(800.0));
+        assert_no_unit(&block(Loading::to_depth(um(2.0)).unloaded()));
+        assert_no_unit(&block(Loading::to_force(ToolForce::PerLength(LineForce(8e4)))));
+        let mut mirrored = block(Loading::to_depth(um(2.0)));
+        mirrored.lateral = Lateral::Symmetric;
+        assert_no_unit(&mirrored);
+    }
+
+    #[test]
+    fn loads_that_went_before_have_no_unit() {
+        let mut scene = scene(ROUND, Tool::sphere(um(40.0)), Loading::to_depth(um(1.2)).unloaded());
+        let earlier = |tool, depth| EarlierLoad { tool, loading: Loading::to_depth(um(depth)) };
+        let load = vec![earlier(Tool::cone(9.0), 0.8), earlier(Tool::sphere(um(60.0)), 0.5)];
+        scene.initial = Some(Initial { from: None, load });
+        assert_no_unit(&scene);
+    }
+
+    #[test]
+    fn an_imported_mesh_has_no_unit() {
+        let cone = Asperity::cone(um(20.0), 10.0).rounded(um(10.0));
+        let scene = scene(ROUND, Tool::plane(), Loading::to_depth(um(3.0))).with(cone);
+        let problem = Run::new(&scene).problem().unwrap();
+        let mesh = problem.mesh.scaled(problem.units.length);
+        let forces = [-10, 0, 10].map(|shift| {
+            let units = problem.units;
+            let units = Units::new(units.length * 2.0_f64.powi(shift), units.stress, scene.symmetry);
+            let run = Run { mesh: Some(mesh.clone()), ..Run::new(&scene) };
+            run.run_in(units, &mut |_| ControlFlow::Continue(())).unwrap().summary.peak_force
+        });
+        assert_eq!([forces[0]; 3], forces);
     }
 }

@@ -73,7 +73,7 @@ fn unloading_retraces_loading() {
     let problem = prepared(&scene).unwrap();
     let mut model = problem.equilibrium(&Analyses::default()).unwrap();
     let settings = Settings { tolerance: 1e-10, max_iterations: 40, keep: 0.0 };
-    let travels = [0.1, 0.2, 0.4, 0.6, 0.8, 1.0];
+    let travels = [0.1, 0.2, 0.4, 0.6, 0.8, 1.0].map(|share| share * problem.depth);
     let mut force = |travel: f64| {
         increment(&mut model, -travel, &settings, |_| [0.0; 2]).unwrap();
         model.state().load()

@@ -8,7 +8,6 @@ use asperity_material::units::{Length, Stress};
 use asperity_simulation::load_path::{Increment, Path};
 use asperity_simulation::run::Run;
 use asperity_simulation::scene::{self, Loading, Material, Scene, Symmetry, Tool};
-use asperity_simulation::setup::prepare::prepare;
 use asperity_simulation::setup::problem::Goal;
 use asperity_solver::body::analysis::Analyses;
 use std::ops::ControlFlow;
@@ -32,14 +31,14 @@ struct Reached {
 }
 
 fn reached(anew: impl Fn(usize) -> bool) -> Reached {
-    let problem = prepare(&scene(), None, 5e-6).unwrap();
+    let problem = Run::new(&scene()).problem().unwrap();
     let mut path = Path::new(&problem, &Analyses::default()).unwrap();
     let (mut largest, mut before): (f64, f64) = (0.0, 0.0);
     let mut last: Option<Increment> = None;
     // the travel grows as the depth that the level's own steps go through
     let fractions = problem.numbers.schedule();
     for (number, fraction) in fractions.iter().enumerate() {
-        let travel = fraction * (1.0 + problem.expected_penetration());
+        let travel = fraction * (problem.depth + problem.expected_penetration());
         let increment = path.advance_to(Goal::Travel(travel), &mut |_, _| true).unwrap();
         let state = path.model.state();
         let work = increment.energies.external_work;
@@ -70,7 +69,7 @@ fn reached(anew: impl Fn(usize) -> bool) -> Reached {
 #[test]
 fn a_mesh_laid_anew_without_need_keeps_force_and_residual_depth() {
     let as_it_is = reached(|_| false);
-    let last = prepare(&scene(), None, 5e-6).unwrap().numbers.schedule().len();
+    let last = Run::new(&scene()).problem().unwrap().numbers.schedule().len();
     for (times, anew, [force, residual]) in [
         (1, Box::new(|number| number == last / 2) as Box<dyn Fn(usize) -> bool>, [3e-3, 5e-3]),
         (20, Box::new(|number| number + 21 >= last), [1e-2, 1e-2]),

@@ -75,7 +75,8 @@ fn quadratic_where_the_discrete_sets_rest() {
     let settings = Settings { tolerance: 1e-13, max_iterations: 40, keep: 0.0 };
     let mut orders = Vec::new();
     let mut last = [0.0; 2];
-    for travel in loading(64, Spacing::Geometric { from: 0.02 }) {
+    for share in loading(64, Spacing::Geometric { from: 0.02 }) {
+        let travel = share * problem.depth;
         let step = travel - last[0];
         let ratio = if last[1] > 0.0 { step / last[1] } else { 0.0 };
         let before = model.state().displacement.clone();

@@ -1,7 +1,8 @@
 //! Claim: the result knows no unit. Lengths or moduli times powers of two give the same bits; times 1e-12 to
 //! 1e12 the same dimensionless results to 1e-10.
 //!
-//! Source: inside the solver E = 1 and the depth is 1; the dimensions enter and leave as factors. Tolerances:
+//! Source: inside the solver E = 1 and the unit of length goes with the scene; the dimensions enter and leave
+//! as factors. Tolerances:
 //! a power of two changes no digit of a quotient; other factors change the last one, which the run must not
 //! enlarge beyond 1e-10 (steps as prescribed) or 1e-6 (steps that depend on convergence).
 

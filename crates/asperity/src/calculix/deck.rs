@@ -96,7 +96,7 @@ impl Deck {
             Symmetry::PlaneStrain => Section::PlaneStrain,
         };
         let drop = |x: f64| problem.tool.mirrored().map_or(0.0, |a| a.drop(x));
-        let contact = touching(&problem.mesh, &drop, 1.0);
+        let contact = touching(&problem.mesh, &drop, problem.depth);
         let hole = match section {
             Section::Axisymmetric if reader == Reader::CalculiX => {
                 HOLE * first_width(&problem.mesh, &contact)
@@ -106,7 +106,8 @@ impl Deck {
         };
         // depth counts from the summit of the scene, of which the mesh may cut off the tip
         let lowest = first_touch(&problem.mesh, &drop) + problem.specimen.cut_off;
-        let ends = span(&problem.mesh, &contact, 1.0, (section == Section::Axisymmetric).then_some(hole));
+        let ends =
+            span(&problem.mesh, &contact, problem.depth, (section == Section::Axisymmetric).then_some(hole));
         let outline = outline(&problem.tool, ends);
         let travels = travels(scene, problem);
         let hardening = scene.material.hardening();
@@ -124,7 +125,7 @@ impl Deck {
             outline: outline.into_iter().map(|[x, z]| [um * x, um * (z + lowest)]).collect(),
             loading: travels.0.len(),
             travels: travels.0.into_iter().chain(travels.1).map(|t| um * t).collect(),
-            depth: um,
+            depth: um * problem.depth,
         })
     }
 }
@@ -211,15 +212,15 @@ fn opened(mesh: &Mesh, section: Section, hole: f64) -> Mesh {
 /// Travels of the tool, loading and unloading, in the unit of `problem`: the depths of the scene's own
 /// schedule and the penetration to be expected.
 fn travels(scene: &Tables, problem: &Problem) -> (Vec<f64>, Vec<f64>) {
-    let penetration = problem.numbers.penetration;
-    let load = problem.numbers.schedule().into_iter().map(|depth| depth + penetration).collect();
+    let (depth, penetration) = (problem.depth, problem.numbers.penetration * problem.depth);
+    let load = problem.numbers.schedule().into_iter().map(|share| share * depth + penetration).collect();
     if !scene.loading.unload {
         return (load, Vec::new());
     }
     let back = recovery(problem, penetration);
-    let unload = unloading(1.0 + penetration, back, problem.numbers.unload_steps, 0.0);
+    let unload = unloading(depth + penetration, back, problem.numbers.unload_steps, 0.0);
     // far enough away that nothing touches: the body alone
-    (load, unload.chain([-0.1]).collect())
+    (load, unload.chain([-0.1 * depth]).collect())
 }
 
 /// Estimated way from the peak to the end of contact, in the unit of `problem`: F ∝ (1 - u/u₀)^1.25 with the

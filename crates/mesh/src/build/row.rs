@@ -9,8 +9,11 @@ use std::collections::HashMap;
 /// The rectangle of a row: as deep as the geometric mean of the half widths of its cells.
 pub fn rectangle(plan: &Plan) -> Rectangle {
     let contacts = &plan.contacts;
-    let logs = contacts.iter().map(|c| (c.foot * c.depth_ratio()).ln());
-    let mean = (logs.sum::<f64>() / contacts.len() as f64).exp();
+    // logarithms of ratios: those of lengths would depend on their unit
+    let depths = || contacts.iter().map(|c| c.foot * c.depth_ratio());
+    let first = depths().next().unwrap_or(1.0);
+    let mean =
+        first * (depths().map(|depth| (depth / first).ln()).sum::<f64>() / contacts.len() as f64).exp();
     Rectangle { left: plan.row[0], right: plan.row[1], depth: mean.min(0.5 * plan.depth) }
 }
 

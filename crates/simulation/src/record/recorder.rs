@@ -16,6 +16,7 @@ use asperity_solver::point::kinematics::Symmetry;
 use std::ops::ControlFlow;
 
 /// News for an observer, in SI units.
+#[derive(Clone, Copy, Debug)]
 pub enum Event<'a> {
     /// An increment converged.
     Increment {

@@ -55,6 +55,7 @@ impl Cone {
             profile,
             tool,
             half_widths: vec![radius],
+            depth: 1.0,
             specimen: Specimen {
                 held: held_nodes(&mesh, symmetry, Lateral::Free),
                 cut_off: 0.0,

@@ -151,24 +151,39 @@ pub fn far_field(metal: &Metal, size: f64) -> f64 {
     0.39 / (metal.elastic.reduced_modulus() * size)
 }
 
-/// Depth (m) at which the expected pressure over the cut area carries `force` (N, or N/m in plane strain).
+/// Ratio of a depth to the length of the scene up to which it is looked for, on either side.
+const SEARCHED_DEPTH_RATIO: f64 = (1_u64 << 50) as f64;
+
+/// Halvings of the logarithm of that ratio, down to the rounding of a double.
+const DEPTH_HALVINGS: usize = 60;
+
+/// Depth, searched around `length`, at which the expected pressure over the cut area carries `force`.
 pub fn expected_depth(
     metal: &Metal,
-    modulus: f64,
     symmetry: Symmetry,
     profile: &Profile,
     tool: &Tool,
     force: f64,
+    length: f64,
 ) -> f64 {
     let mirrored = tool.mirrored();
     let meetings = meetings(profile, mirrored.as_ref());
     let carried = |depth: f64| {
-        let pressure = modulus * expected_pressure(metal, profile, tool, depth);
+        let pressure = expected_pressure(metal, profile, tool, depth);
         let areas =
             meetings.iter().map(|m| area(symmetry, m.centre, m.half_width((depth - m.below).max(0.0))));
         pressure * areas.sum::<f64>()
     };
-    // the carried force grows with the depth: bisection in the logarithm over any physical size
-    let [low, high] = bisect([1e-15_f64.ln(), 1e6_f64.ln()], 200, |depth| carried(depth.exp()) < force);
-    (0.5 * (low + high)).exp()
+    // the carried force grows with the depth; the mean of two lengths is their geometric one, which knows no
+    // unit
+    let [mut low, mut high] = [length / SEARCHED_DEPTH_RATIO, length * SEARCHED_DEPTH_RATIO];
+    for _ in 0..DEPTH_HALVINGS {
+        let middle = low * (high / low).sqrt();
+        if carried(middle) < force {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    low * (high / low).sqrt()
 }

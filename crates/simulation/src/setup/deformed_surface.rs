@@ -12,7 +12,7 @@ use asperity_solver::point::material::Metal;
 const PLACE_RATIO: f64 = 0.9;
 const PLACE_COUNT: usize = 120;
 
-/// A surface that earlier loads left. Lengths in any unit.
+/// A surface that earlier loads left. Lengths in the unit of the scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Formed {
     /// Its highest points, from left to right.
@@ -27,12 +27,6 @@ impl Formed {
         points.sort_by(|a, b| a[0].total_cmp(&b[0]).then(b[1].total_cmp(&a[1])));
         points.dedup_by_key(|point| point[0]);
         Formed { points, yield_stress }
-    }
-
-    /// The same with lengths over `length`.
-    #[must_use]
-    pub fn in_units_of(&self, length: f64) -> Formed {
-        Formed { points: self.points.iter().map(|x| x.map(|x| x / length)).collect(), ..*self }
     }
 
     /// Height at `x`, linear between points; `None` beside them.

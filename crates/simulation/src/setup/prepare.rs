@@ -56,86 +56,68 @@ fn measured_line(line: &Line, length: f64) -> Profile {
     }
 }
 
-/// Estimates of a load before it is computed, and of the loads before it: see [`crate::depth_for_force`].
+/// Estimates of a load before it is computed, and of the loads before it, lengths in the unit of the scene:
+/// see [`crate::depth_for_force`].
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Expected {
-    /// Depth of the peak, m: the one that is asked for, or the one at which the force is expected.
+    /// Depth of the peak: the one that is asked for, or the one at which the force is expected.
     pub depth: f64,
-    /// The surface that earlier loads left, m; `None`: that of the scene.
+    /// The surface that earlier loads left; `None`: that of the scene.
     pub formed: Option<Formed>,
     /// The same of the earlier loads, in their order.
     pub earlier: Vec<Expected>,
 }
 
-impl From<f64> for Expected {
-    fn from(depth: f64) -> Expected {
-        Expected { depth, ..Expected::default() }
-    }
-}
-
-/// Prepares `scene`, which is valid, for its `expected` peak. `mesh` replaces the mesh that would be built
-/// (in metres). Lengths are in units of the depth. The body is virgin: [`crate::run::Run`] takes it through
-/// its earlier loads.
+/// Prepares `scene`, which is valid, with these `numbers` for its `expected` peak. `mesh` replaces the mesh
+/// that would be built. Lengths are in `units`. The body is virgin: [`crate::run::Run`] takes it through its
+/// earlier loads.
 ///
 /// # Errors
 /// A scene that cannot be meshed: path and reason.
 pub fn prepare(
     scene: &Scene,
-    mesh: Option<Mesh>,
-    expected: impl Into<Expected>,
-) -> Result<Problem, SceneError> {
-    prepare_with(scene, Discretisation::new(scene), mesh, &expected.into())
-}
-
-/// [`prepare`] with other `numbers` than those of the scene.
-pub fn prepare_with(
-    scene: &Scene,
     numbers: Discretisation,
     mesh: Option<Mesh>,
     expected: &Expected,
+    units: Units,
 ) -> Result<Problem, SceneError> {
     let depth = expected.depth;
+    let length = units.length;
     let symmetry = scene.symmetry;
     let metal = metal(scene);
-    let (profile, tool) = bodies(scene, depth)?;
-    let units = Units::new(depth, scene.material.elastic().youngs_modulus, symmetry);
-    let (goal, reach) = goal_and_reach(scene, &units)?;
-    let formed = expected.formed.as_ref().map(|formed| formed.in_units_of(depth));
+    let (profile, tool) = bodies(scene, length)?;
+    let (goal, reach) = goal_and_reach(scene, &units, depth)?;
+    let formed = expected.formed.clone();
     let substrate = scene.substrate.as_ref().and_then(|s| s.depth);
     let support = Support {
         symmetry,
-        cell: scene.has_repeated_asperities().then(|| extent(scene, &profile, &[], depth)),
-        depth: substrate.map(|l| profile.height() + l.0 / depth),
+        cell: scene.has_repeated_asperities().then(|| extent(scene, &profile, &[], length)),
+        depth: substrate.map(|l| profile.height() + l.0 / length),
     };
     let own_depths_under = |tool: &Tool, depth: f64| own_depths(&metal, &profile, tool, &support, depth);
     let own_depths_at = |depth: f64| own_depths_under(&tool, depth);
     // on a surface that was formed the whole depth
     let indents = match formed {
-        None => own_depths_at(1.0).into_iter().fold(0.0, f64::max),
-        Some(_) => 1.0,
+        None => own_depths_at(depth).into_iter().fold(0.0, f64::max),
+        Some(_) => depth,
     };
-    let own = Contacts::new(&profile, &tool, formed.as_ref(), &own_depths_at, [1.0, reach]);
+    let own = Contacts::new(&profile, &tool, formed.as_ref(), &own_depths_at, [depth, reach]);
     let half_widths = own.half_widths.clone();
-    let contacts = with_earlier_contacts(own, scene, expected, &profile, &own_depths_under)?;
-    let row = extent(scene, &profile, &contacts.half_widths, depth);
+    let contacts = with_earlier_contacts(own, scene, expected, &profile, (length, &own_depths_under))?;
+    let row = extent(scene, &profile, &contacts.half_widths, length);
     let size = automatic_size(&numbers, &profile, &contacts.half_widths).max(3.0 * (row[1] - row[0]));
     let pressure = expected_pressure(formed.as_ref(), &metal, &profile, &tool, indents);
     let (mesh, cut_off) = match mesh {
-        Some(mut mesh) => {
-            for node in &mut mesh.nodes {
-                *node = node.map(|x| x / depth);
-            }
-            (mesh, 0.0)
-        }
+        Some(mesh) => (mesh, 0.0),
         None => {
             let grading = contacts.grading(&numbers);
             // a body that is loaded again keeps the mesh of its first load
             let once = expected.earlier.is_empty() && expected.formed.is_none();
             let meshed =
                 if once { blunted(&profile, &contacts.half_widths, &grading) } else { profile.clone() };
-            check_valleys(&profile, depth)?;
+            check_valleys(&profile, length)?;
             let sizes = (grading, numbers.element.kind());
-            let mesh = build_mesh(scene, sizes, &meshed, &contacts.half_widths, row, size, depth)?;
+            let mesh = build_mesh(scene, sizes, &meshed, &contacts.half_widths, row, size, length)?;
             (mesh, profile.height() - meshed.height())
         }
     };
@@ -147,6 +129,7 @@ pub fn prepare_with(
         profile,
         tool,
         half_widths,
+        depth,
         penalty: pressure / (numbers.penetration * indents),
         specimen: Specimen { held: held_nodes(&mesh, symmetry, scene.lateral), cut_off, earlier: None },
         mesh,
@@ -158,33 +141,32 @@ pub fn prepare_with(
     })
 }
 
-/// Where loading ends, and how deep the mesh is to reach over the expected depth: a force may be found
-/// somewhat deeper than expected.
-fn goal_and_reach(scene: &Scene, units: &Units) -> Result<(Goal, f64), SceneError> {
+/// Where loading ends, and how deep the mesh is to reach: a force may be found somewhat deeper than the
+/// `depth` at which it is expected.
+fn goal_and_reach(scene: &Scene, units: &Units, depth: f64) -> Result<(Goal, f64), SceneError> {
     Ok(match scene.loading.target().map_err(|e| in_table("loading", e))? {
-        Target::Depth(asked) => (Goal::Depth(asked / units.length), 1.0),
+        Target::Depth(asked) => (Goal::Depth(asked / units.length), depth),
         Target::Force(force) => {
-            let limit = PROBED_DEPTH_RATIO.min(scene.deepest() / units.length);
-            (Goal::Force { force: force / units.force, expected_depth: 1.0, limit }, PROBED_DEPTH_RATIO)
+            let probed = PROBED_DEPTH_RATIO * depth;
+            let limit = probed.min(scene.deepest() / units.length);
+            (Goal::Force { force: force / units.force, expected_depth: depth, limit }, probed)
         }
     })
 }
 
-/// `contacts` and those of the earlier loads of `scene` on one mesh, lengths over the depth that is
-/// `expected` now.
+/// `contacts` and those of the earlier loads of `scene` on one mesh, lengths over `length`.
 fn with_earlier_contacts(
     mut contacts: Contacts,
     scene: &Scene,
     expected: &Expected,
     profile: &Profile,
-    own_depths_under: &dyn Fn(&Tool, f64) -> Vec<f64>,
+    (length, own_depths_under): (f64, &dyn Fn(&Tool, f64) -> Vec<f64>),
 ) -> Result<Contacts, SceneError> {
     for (load, earlier) in scene.earlier_loads().iter().zip(&expected.earlier) {
-        let tool = load.tool.form().map_err(|e| in_table("tool", e))?.in_units_of(expected.depth);
-        let formed = earlier.formed.as_ref().map(|formed| formed.in_units_of(expected.depth));
-        let deep = earlier.depth / expected.depth;
+        let tool = load.tool.form().map_err(|e| in_table("tool", e))?.in_units_of(length);
+        let (formed, deep) = (earlier.formed.as_ref(), earlier.depth);
         let own_depths_at = |depth: f64| own_depths_under(&tool, depth);
-        contacts = contacts.and(&Contacts::new(profile, &tool, formed.as_ref(), &own_depths_at, [deep; 2]));
+        contacts = contacts.and(&Contacts::new(profile, &tool, formed, &own_depths_at, [deep; 2]));
     }
     Ok(contacts)
 }

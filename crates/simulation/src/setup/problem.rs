@@ -103,7 +103,9 @@ pub struct Problem {
     pub tool: Tool,
     /// Estimated contact half width of each asperity at the peak (one entry for a flat body under a tool).
     pub half_widths: Vec<f64>,
-    /// Contact pressure per penetration at the depth 1.
+    /// Estimated depth of the peak of the first loading.
+    pub depth: f64,
+    /// Contact pressure per penetration at that depth.
     pub penalty: f64,
     /// The mesh.
     pub mesh: Mesh,
@@ -111,7 +113,7 @@ pub struct Problem {
     pub specimen: Specimen,
     /// The discretisation used.
     pub numbers: Discretisation,
-    /// Where the first loading ends: the estimated depth there is 1.
+    /// Where the first loading ends.
     pub goal: Goal,
     /// Whether the tool then retreats to zero force.
     pub unload: bool,
@@ -151,10 +153,10 @@ impl Problem {
     /// Contact pressure per penetration at `travel`: the penetration is the same share of every depth from
     /// which errors count, so that early contact is as good as late.
     pub fn penalty_at(&self, travel: f64) -> f64 {
-        let depth = travel.max(LEAST_COUNTED_DEPTH);
+        let depth = travel.max(LEAST_COUNTED_DEPTH * self.depth);
         let formed = self.formed.as_ref();
         let pressure = |depth| expected_pressure(formed, &self.metal, &self.profile, &self.tool, depth);
-        self.penalty * pressure(depth) / (pressure(1.0) * depth)
+        self.penalty * pressure(depth) / pressure(self.depth) * (self.depth / depth)
     }
 
     /// Travel less the depth at the peak, to be expected before the first increment shows it: the
@@ -163,10 +165,10 @@ impl Problem {
         match self.goal {
             // what tool and machine give way is no travel
             Goal::Depth(depth) if !self.rules.compliance.is_none() => {
-                1.0 - depth + 0.9 * self.numbers.penetration
+                self.depth - depth + 0.9 * self.numbers.penetration * self.depth
             }
             Goal::Depth(depth) => 0.9 * self.numbers.penetration * depth,
-            _ => 0.9 * self.numbers.penetration,
+            _ => 0.9 * self.numbers.penetration * self.depth,
         }
     }
 }

@@ -8,7 +8,6 @@ use crate::contact::self_contact::Facing;
 use crate::element::kernel::PointSlice;
 use crate::point::bdf2::PlasticIncrement;
 use crate::point::kinematic_hardening::{History, elastic_energy};
-use crate::point::kinematics::Symmetry;
 use crate::point::material::{Metal, PointState, Spectral};
 
 /// States of all integration points, four to an element.
@@ -101,20 +100,6 @@ pub struct Unloaded {
     pub points: Points,
     /// Reference volume of each of them.
     volume: Vec<f64>,
-}
-
-impl Unloaded {
-    /// The same with lengths `scale` times as large.
-    #[must_use]
-    pub fn scaled(mut self, scale: f64, symmetry: Symmetry) -> Unloaded {
-        let volumes = match symmetry {
-            Symmetry::Axisymmetric => scale.powi(3),
-            Symmetry::PlaneStrain => scale.powi(2),
-        };
-        self.origin.iter_mut().chain(&mut self.position).flatten().for_each(|x| *x *= scale);
-        self.volume.iter_mut().for_each(|v| *v *= volumes);
-        self
-    }
 }
 
 /// An increment that is tried from a converged state.

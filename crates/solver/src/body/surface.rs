@@ -97,6 +97,8 @@ impl<'a> Surface<'a> {
         // the way along z to the flank, exact for planes and cones; repeated for round tools. A point beside
         // the widest place of a ball does not see it
         let along_z = |inside: Penetration| inside.depth / inside.slope[1].max(0.1);
+        let ends = self.edges.iter().flat_map(|edge| edge.nodes);
+        let size = ends.flat_map(|node| self.position(node)).fold(0.0, |most: f64, x| most.max(x.abs()));
         let mut travel = 0.0;
         for _ in 0..20 {
             let depth = self
@@ -106,7 +108,7 @@ impl<'a> Surface<'a> {
                 .map(|node| along_z(contact.tool.penetration(self.position(node), -travel)))
                 .fold(f64::NEG_INFINITY, f64::max);
             travel -= depth;
-            if contact.tool == Tool::Plane || depth.abs() <= 1e-15 {
+            if contact.tool == Tool::Plane || depth.abs() <= f64::EPSILON * size {
                 break;
             }
         }
