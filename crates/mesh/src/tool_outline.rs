@@ -191,6 +191,11 @@ impl OwnTool {
         self.outline.kinks().into_iter().map(|r| r / self.unit).collect()
     }
 
+    /// Slope (tangent) of the outline at the distance `x` ≥ 0 from the axis.
+    pub fn slope(&self, x: f64) -> f64 {
+        self.outline.slope(x * self.unit)
+    }
+
     /// n of the power r^n that the outline rises with at `height`, between a cone's 1 and a paraboloid's 2.
     pub fn power(&self, height: f64) -> f64 {
         let r = self.half_width(height);

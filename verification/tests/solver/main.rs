@@ -42,4 +42,5 @@ mod tabulated_hardening;
 mod ten_reloads;
 mod the_tool_advances_while_it_loads;
 mod thick_walls;
+mod tip_within_the_first_edge;
 mod uniaxial_bar;

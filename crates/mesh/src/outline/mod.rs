@@ -217,6 +217,13 @@ impl Outline {
         self.extremes().into_iter().fold(f64::NEG_INFINITY, |most, p| most.max(p[1]))
     }
 
+    /// Places between these ends where two arcs meet: x, drop and slope of the one that begins there.
+    pub fn joints_between(&self, [from, to]: [f64; 2]) -> impl Iterator<Item = [f64; 3]> {
+        let first = self.arcs.partition_point(|arc| arc.x < from).max(1);
+        let joints = self.arcs.get(first..).unwrap_or_default().iter();
+        joints.take_while(move |arc| arc.x <= to).map(|arc| [arc.x, arc.drop, arc.slope])
+    }
+
     /// Ends of arcs and the places between them where the curve is level, from left to right (of a mirrored
     /// one those of the right half), each with its drop.
     pub fn extremes(&self) -> Vec<[f64; 2]> {

@@ -10,6 +10,7 @@
 //! the surface (30° cone, n = 0.1: K 15 % low, and no convergence to any mesh).
 
 use crate::contact::parts::{NOTHING, Parts, WHOLE};
+use crate::contact::pieces::Places;
 use crate::contact::roots::parts_above_zero;
 use crate::contact::tool::Tool;
 use crate::point::kinematics::Symmetry;
@@ -142,30 +143,23 @@ impl ContactEdge {
     pub fn touching(&self, context: &ContactContext<'_>, x: &[[f64; 2]; 3]) -> Parts {
         let pressure =
             |xi: f64| context.penalty * context.tool.penetration(self.point(x, xi), context.tip).depth;
-        if matches!(context.tool, Tool::Measured(_) | Tool::Own(_)) {
-            return parts_above_zero(pressure);
-        }
-        let (left, middle, right) = (pressure(-1.0), pressure(0.0), pressure(1.0));
-        // p(ξ) = c + bξ + aξ², exact for a plane; for curved tools the roots are polished on p itself
-        let (a, b, c) = (0.5 * (left + right) - middle, 0.5 * (right - left), middle);
-        let polish = |root: f64| {
-            if *context.tool == Tool::Plane {
-                return root;
-            }
-            let mut xi = root;
-            for _ in 0..4 {
-                let slope = b + 2.0 * a * xi;
-                if slope != 0.0 {
-                    xi = (xi - pressure(xi) / slope).clamp(-1.0, 1.0);
-                }
-            }
-            xi
+        let places = Places::of_edge(self, x, context.tool, context.tip);
+        let straight = match context.tool {
+            Tool::Plane => true,
+            Tool::Cone { tip_radius, .. } => *tip_radius == 0.0 && places.is_empty(),
+            _ => false,
         };
+        if !straight {
+            return parts_above_zero(pressure, places.as_slice());
+        }
+        // p(ξ) = c + bξ + aξ² under a plane and under a flank
+        let (left, middle, right) = (pressure(-1.0), pressure(0.0), pressure(1.0));
+        let (a, b, c) = (0.5 * (left + right) - middle, 0.5 * (right - left), middle);
         let mut roots = [0.0; 2];
         let mut count = 0;
         for root in quadratic_roots(a, b, c).into_iter().flatten() {
             if root > -1.0 && root < 1.0 {
-                roots[count] = polish(root);
+                roots[count] = root;
                 count += 1;
             }
         }
@@ -198,10 +192,16 @@ impl ContactEdge {
             line: [0.0; 2],
             max_pressure: 0.0,
         };
-        for [start, end] in parts.into_iter().flatten() {
+        let places = Places::of_edge(self, x, context.tool, context.tip);
+        for [start, end] in parts.into_iter().flatten().filter(|[start, end]| end > start) {
             let (centre, half) = (0.5 * (start + end), 0.5 * (end - start));
             out.line = [0.0; 2];
-            for [abscissa, weight] in GAUSS4 {
+            let points = places.pieces_of([start, end]).flat_map(|[from, to]| {
+                // a part in one piece keeps its bits
+                let (middle, share) = (0.5 * (from + to), 0.5 * (to - from) / half);
+                GAUSS4.map(|[abscissa, weight]| [(middle - centre) / half + share * abscissa, share * weight])
+            });
+            for [abscissa, weight] in points {
                 let xi = centre + half * abscissa;
                 let n = self.shape(xi);
                 let here = self.point(x, xi);

@@ -4,6 +4,7 @@
 pub mod tool;
 
 pub mod parts;
+pub mod pieces;
 
 pub mod edge;
 

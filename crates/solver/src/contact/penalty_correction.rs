@@ -121,8 +121,8 @@ mod tests {
     }
 
     /// Compressed as the pressures of Sneddon and of Hertz over their mean (Johnson 1985, eqs 5.8 and 3.39),
-    /// the layer takes dE_c/dF: ln 2 and 3/4 of the mean. In plane strain (eq. 4.45: p over its mean 4/π √(1
-    /// - x²)) 8/π². An even layer takes itself. 1e-3: pieces of 1/4000.
+    /// the layer takes dE_c/dF: ln 2 and 3/4 of the mean. In plane strain (eq. 4.45: p over its mean
+    /// 4/π √(1 - x²)) 8/π². An even layer takes itself. 1e-3: pieces of 1/4000.
     #[test]
     fn an_elastic_layer_takes_the_derivative_of_its_energy() {
         let disc = Symmetry::Axisymmetric;

@@ -3,19 +3,23 @@
 
 use crate::contact::parts::{NOTHING, Parts};
 
-/// Samples along an edge, its ends included: between two of them a pressure has one extreme at most.
-const SAMPLES_PER_EDGE: usize = 9;
+/// Samples along a piece on which a pressure is smooth, its ends included: between two of them it has one
+/// extreme at most.
+const SAMPLES_PER_PIECE: usize = 9;
 
 /// Halvings of an interval around a root or an extreme.
 const MOST_HALVINGS: usize = 100;
 
-/// Parts of [-1, 1] where `pressure` is above zero: one, or both ends or any two; a gap that would leave
-/// three is closed, the narrowest first.
-pub fn parts_above_zero(pressure: impl Fn(f64) -> f64) -> Parts {
-    let mut at: Vec<[f64; 2]> = (0..SAMPLES_PER_EDGE)
-        .map(|i| -1.0 + 2.0 * i as f64 / (SAMPLES_PER_EDGE - 1) as f64)
-        .map(|x| [x, pressure(x)])
-        .collect();
+/// Parts of [-1, 1] where `pressure`, which is smooth between the `places`, is above zero: one, or both ends
+/// or any two; a gap that would leave three is closed, the narrowest first.
+pub fn parts_above_zero(pressure: impl Fn(f64) -> f64, places: &[f64]) -> Parts {
+    let mut at: Vec<[f64; 2]> = vec![[-1.0, pressure(-1.0)]];
+    let mut from = -1.0;
+    for &to in places.iter().chain(&[1.0]) {
+        let sample = |i: usize| from + (to - from) * i as f64 / (SAMPLES_PER_PIECE - 1) as f64;
+        at.extend((1..SAMPLES_PER_PIECE).map(sample).map(|x| [x, pressure(x)]));
+        from = to;
+    }
     // an extreme of the other sign between samples of one sign parts two roots
     let extremes: Vec<[f64; 2]> = at
         .windows(3)
@@ -109,16 +113,17 @@ mod tests {
                 assert!((f[0] - e[0]).abs() < 1e-12 && (f[1] - e[1]).abs() < 1e-12, "{found:?}");
             }
         };
-        close(parts_above_zero(|_| 1.0), &[[-1.0, 1.0]]);
-        close(parts_above_zero(|_| -1.0), &[]);
-        close(parts_above_zero(|x| x - 0.3), &[[0.3, 1.0]]);
-        close(parts_above_zero(|x| 0.01 - (x - 0.1).powi(2)), &[[0.0, 0.2]]);
-        close(parts_above_zero(|x| (x - 0.1).powi(2) - 0.0001), &[[-1.0, 0.09], [0.11, 1.0]]);
+        let above_zero = |pressure: fn(f64) -> f64| parts_above_zero(pressure, &[]);
+        close(above_zero(|_| 1.0), &[[-1.0, 1.0]]);
+        close(above_zero(|_| -1.0), &[]);
+        close(above_zero(|x| x - 0.3), &[[0.3, 1.0]]);
+        close(above_zero(|x| 0.01 - (x - 0.1).powi(2)), &[[0.0, 0.2]]);
+        close(above_zero(|x| (x - 0.1).powi(2) - 0.0001), &[[-1.0, 0.09], [0.11, 1.0]]);
         // a bump between two samples
-        close(parts_above_zero(|x| 1e-6 - (x - 0.13).powi(2)), &[[0.129, 0.131]]);
-        close(
-            parts_above_zero(|x| (x + 0.5) * (x - 0.2) * (x - 0.3) * (x - 0.9)),
-            &[[-1.0, -0.5], [0.2, 1.0]],
-        );
+        close(above_zero(|x| 1e-6 - (x - 0.13).powi(2)), &[[0.129, 0.131]]);
+        close(above_zero(|x| (x + 0.5) * (x - 0.2) * (x - 0.3) * (x - 0.9)), &[[-1.0, -0.5], [0.2, 1.0]]);
+        // a bump that is narrow beside the samples of the edge, between two places
+        let bump = |x: f64| if (0.3..0.302).contains(&x) { 0.0005 - (x - 0.301).abs() } else { -0.0005 };
+        close(parts_above_zero(bump, &[0.3, 0.301, 0.302]), &[[0.3005, 0.3015]]);
     }
 }

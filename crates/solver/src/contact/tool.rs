@@ -29,7 +29,50 @@ pub enum Tool {
     Own(OwnTool),
 }
 
+/// A place of an outline at which its curvature jumps.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Kink {
+    /// Distance from the axis.
+    pub radius: f64,
+    /// Height above the lowest point.
+    pub rise: f64,
+    /// Slope (tangent) of the outline there.
+    pub slope: f64,
+}
+
 impl Tool {
+    /// Hands over the kinks of the outline beside which points between the radii `ends` (signed) may lie.
+    pub fn kinks_near(&self, [low, high]: [f64; 2], hear: &mut dyn FnMut(Kink)) {
+        // a point lies beside its foot, by its depth at most: the ends with as much room as they are apart
+        let width = high - low;
+        let [inner, outer] = if low >= 0.0 { [low, high] } else { [0.0, high.max(-low)] };
+        let near = |radius: f64| (inner - width..=outer + width).contains(&radius);
+        match self {
+            Tool::Plane | Tool::Sphere { .. } => {}
+            &Tool::Cone { tan_slope, tip_radius } => {
+                let secant = tan_slope.hypot(1.0);
+                let sine = tan_slope / secant;
+                // 1 - cos β without cancellation
+                let rise = tip_radius * sine * tan_slope / (1.0 + secant);
+                let slope = if tip_radius > 0.0 { tan_slope } else { 0.0 };
+                let radius = tip_radius * sine;
+                if near(radius) {
+                    hear(Kink { radius, rise, slope });
+                }
+            }
+            Tool::Measured(outline) => {
+                for [radius, rise, slope] in outline.joints_between([inner - width, outer + width]) {
+                    hear(Kink { radius, rise, slope });
+                }
+            }
+            Tool::Own(tool) => {
+                for radius in tool.kinks().into_iter().filter(|radius| near(*radius)) {
+                    hear(Kink { radius, rise: tool.rise(radius), slope: tool.slope(radius) });
+                }
+            }
+        }
+    }
+
     /// The tool as an asperity of the same outline: the contact of the two is the same to first order in the
     /// slope. `None` for a plane.
     pub fn mirrored(&self) -> Option<Asperity> {
