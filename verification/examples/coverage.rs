@@ -16,8 +16,9 @@
 //!
 //! All work comes back from a body that never yields: there the truth of the elastic fraction is 1.
 //!
-//! An error is the largest over 0.2 ≤ h/h_peak ≤ 1 for force, contact area and mean pressure, relative; the
-//! residual depth is over the peak depth, the elastic fraction absolute, the stiffness relative.
+//! Errors of force, contact area and mean pressure are those at the peak and, along the curve, the largest
+//! over 0.2 ≤ h/h_peak ≤ 1, relative; the residual depth is over the peak depth, the elastic fraction
+//! absolute, the stiffness relative.
 
 // on scenes of its own, for hours
 #![allow(clippy::expect_used, clippy::print_stderr, clippy::print_stdout)]
@@ -137,7 +138,7 @@ fn summary(name: &str, rows: &[&Row], quantity: usize) -> Option<String> {
     let misses: Vec<&Sample> = samples.iter().filter(|s| !s.bounded()).collect();
     let doubtful = misses.iter().filter(|s| s.error <= s.stated + s.doubt).count();
     let percent = |count: usize| 100.0 * count as f64 / samples.len() as f64;
-    let promised = if quantity < 2 {
+    let promised = if quantity < 2 || quantity == 6 || quantity == 7 {
         format!("{:.0}", percent(samples.iter().filter(|s| s.stated > s.promise).count()))
     } else {
         String::new()

@@ -14,7 +14,7 @@ use crate::report::{replace, timed};
 use asperity_material::units::rounded;
 use asperity_mesh::Mesh;
 use asperity_simulation::record::curve::Curve;
-use asperity_simulation::record::rows::{Errors, Phase};
+use asperity_simulation::record::rows::{Errors, ErrorsAlong, Phase};
 use asperity_simulation::run::{Outcome, Run};
 use asperity_simulation::scene::{Accuracy, ElementChoice, Numerics, Scene};
 use asperity_simulation::setup::discretisation::Discretisation;
@@ -22,7 +22,7 @@ use asperity_simulation::setup::discretisation::LEAST_COUNTED_DEPTH;
 use flate2::Compression;
 use flate2::read::GzDecoder;
 use flate2::write::GzEncoder;
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize};
 use std::collections::BTreeMap;
 use std::io::{self, Read, Write};
 use std::ops::ControlFlow;
@@ -50,12 +50,22 @@ const DEPTHS: usize = 81;
 /// Largest share of the depth by which the end of a complete run may miss it.
 const SHORT_DEPTH: f64 = 1e-3;
 
-/// The quantities whose errors are stated, in the order of [`Each`].
-pub const QUANTITIES: [&str; 6] =
-    ["force", "contact area", "mean pressure", "residual depth", "elastic fraction", "unloading stiffness"];
+/// The quantities whose errors are stated, in the order of [`Each`]: force, area and pressure at the peak and
+/// the largest along the curve.
+pub const QUANTITIES: [&str; 9] = [
+    "force",
+    "contact area",
+    "mean pressure",
+    "residual depth",
+    "elastic fraction",
+    "unloading stiffness",
+    "force along the curve",
+    "contact area along the curve",
+    "mean pressure along the curve",
+];
 
 /// A value or a bound of each of [`QUANTITIES`], `None` where it is not known.
-pub type Each = [Option<f64>; 6];
+pub type Each = [Option<f64>; 9];
 
 /// The results of a run of a scene.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -68,6 +78,7 @@ pub struct Answer {
     /// N/m (N/m²).
     unloading_stiffness: Option<f64>,
     /// The errors that it states, of [`QUANTITIES`].
+    #[serde(deserialize_with = "read_stated")]
     pub stated: Each,
     /// That of the summary.
     pub energy_balance: f64,
@@ -91,7 +102,14 @@ pub struct Truth {
 /// A truth, or why it was not reached.
 pub type Found = Result<Truth, String>;
 
-fn stated(errors: &Errors) -> Each {
+/// What is stated, of which older truths hold six: there the first three are those along the curve.
+fn read_stated<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Each, D::Error> {
+    let held = Vec::<Option<f64>>::deserialize(deserializer)?;
+    let older = held.len() == 6;
+    Ok(std::array::from_fn(|i| held.get(if older { i % 6 } else { i }).copied().flatten()))
+}
+
+fn stated(errors: &Errors, along: &ErrorsAlong) -> Each {
     let known = |x: f64| Some(x).filter(|x| x.is_finite());
     [
         known(errors.force),
@@ -100,6 +118,9 @@ fn stated(errors: &Errors) -> Each {
         errors.residual_depth.and_then(known),
         errors.elastic_fraction.and_then(known),
         errors.unloading_stiffness.and_then(known),
+        known(along.force),
+        known(along.contact_area),
+        known(along.mean_pressure),
     ]
 }
 
@@ -136,7 +157,7 @@ impl Answer {
             residual_depth: summary.residual_depth.map(|h| h / summary.peak_depth),
             elastic_fraction: summary.elastic_fraction,
             unloading_stiffness: summary.unloading_stiffness,
-            stated: stated(&summary.errors),
+            stated: stated(&summary.errors, &summary.errors_along),
             energy_balance: summary.energy_balance_error,
         })
     }
@@ -153,23 +174,28 @@ impl Answer {
         Answer::from_outcome(&outcome, depth)
     }
 
-    /// Its errors against `truth`: the largest over the depths for force, contact area and mean pressure,
-    /// relative; the residual depth over the peak depth, the elastic fraction absolute, the stiffness
-    /// relative.
+    /// Its errors against `truth`: of force, contact area and mean pressure at the peak and the largest over
+    /// the depths, relative; the residual depth over the peak depth, the elastic fraction absolute, the
+    /// stiffness relative.
     pub fn error(&self, truth: &Answer) -> Each {
-        let worst = |of: fn(&[f64; 2]) -> f64| {
+        let errors = |of: fn(&[f64; 2]) -> f64| -> Vec<f64> {
             let pairs = self.curve.iter().zip(&truth.curve);
-            Some(pairs.map(|(own, other)| (of(own) / of(other) - 1.0).abs()).fold(0.0, f64::max))
+            pairs.map(|(own, other)| (of(own) / of(other) - 1.0).abs()).collect()
         };
+        let [force, area, pressure] = [errors(|p| p[0]), errors(|p| p[1]), errors(|p| p[0] / p[1])];
+        let worst = |errors: &[f64]| Some(errors.iter().copied().fold(0.0, f64::max));
         let difference = |own: Option<f64>, other: Option<f64>| Some((own? - other?).abs());
         let stiffness = difference(self.unloading_stiffness, truth.unloading_stiffness);
         [
-            worst(|p| p[0]),
-            worst(|p| p[1]),
-            worst(|p| p[0] / p[1]),
+            force.last().copied(),
+            area.last().copied(),
+            pressure.last().copied(),
             difference(self.residual_depth, truth.residual_depth),
             difference(self.elastic_fraction, truth.elastic_fraction),
             stiffness.zip(truth.unloading_stiffness).map(|(d, s)| d / s),
+            worst(&force),
+            worst(&area),
+            worst(&pressure),
         ]
     }
 
@@ -349,7 +375,7 @@ mod tests {
             residual_depth: Some(third),
             elastic_fraction: None,
             unloading_stiffness: Some(1e7 * third),
-            stated: [Some(third), None, Some(1e-3 * third), None, Some(0.0), None],
+            stated: [Some(third), None, Some(1e-3 * third), None, Some(0.0), None, Some(third), None, None],
             energy_balance: 1e-5 * third,
         };
         let numerics = Numerics { steps: Some(7), ..Numerics::default() };

@@ -19,6 +19,9 @@ pub struct Crush {
     pub scene: Option<PathBuf>,
     #[command(flatten)]
     pub scene_flags: SceneFlags,
+    /// Run once, whatever errors it states [default: finer rounds until they are what the accuracy promises]
+    #[arg(long)]
+    pub no_refine: bool,
     #[command(flatten)]
     pub page: ReportFlag,
     #[command(flatten)]
@@ -34,7 +37,9 @@ pub fn crush(args: &Crush) -> Result<(), Error> {
         let help = "asperity new single writes single.toml, a commented scene to start from; then: asperity crush single.toml";
         return Err(InputError::new("Missing scene file.").help(help).into());
     };
-    let scene = args.scene_flags.read(path)?;
+    let mut flags = args.scene_flags.clone();
+    flags.overrides.extend(args.no_refine.then(|| "numerics.refine=false".to_string()));
+    let scene = flags.read(path)?;
     if !args.run.quiet {
         scene.tables().unused().iter().for_each(terminal::warn);
     }

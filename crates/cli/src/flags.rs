@@ -11,7 +11,7 @@ use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 /// Flags that change what a file says.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub struct SceneFlags {
     /// Error of the force: draft (5 %), standard (1 %), reference (0.2 %) or a percentage like 0.5%, from 0.2% to 5% [default: what the scene says, else standard]
     #[arg(long, value_name = "LEVEL", value_parser = AccuracyParser, hide_possible_values = true)]

@@ -201,6 +201,13 @@ impl Sink for Folder {
         }
         Ok(path)
     }
+
+    fn remove(&mut self, name: &str) -> Result<(), Error> {
+        let path = self.partial.join(name);
+        fs::remove_file(&path).map_err(|e| Error::disk(&path, e))?;
+        self.files.remove(name);
+        Ok(())
+    }
 }
 
 #[cfg(test)]

@@ -19,6 +19,8 @@ pub(crate) const FITTED: Fitted = Fitted {
         rest_in_bound: 2.0,
         asymptotic: 0.055,
         line: 0.15,
+        onset: 1.25,
+        least_share: 0.05,
     },
     ripple: FittedRipple {
         rows_per_knot: 4,
@@ -69,6 +71,12 @@ pub(crate) struct FittedErrors {
     /// Share of the variance about the mean below which what a line leaves makes it the smooth part of the
     /// area, whose companion ripples more than it differs.
     pub line: f64,
+    /// Depth up to which the onset of another contact decides the difference, over that at which it begins:
+    /// of a ring that begins at 0.4 of the depth the difference falls from 85 % to 11 % until there.
+    pub onset: f64,
+    /// Share of the force at the peak from which an asperity's onset counts, as in the steps that stop before
+    /// it.
+    pub least_share: f64,
 }
 
 impl FittedErrors {

@@ -11,6 +11,7 @@
 //!    with what is recorded on the way ([`record`]).
 //! 6. `companion`: the same with numbers half as good, beside it.
 //! 7. [`error_estimate`]: what the two say of the limit of both, and of the errors.
+//! 8. `refine`: further rounds of all that, until what is stated is what the accuracy promises.
 
 pub mod run;
 
@@ -31,5 +32,7 @@ pub mod record;
 mod companion;
 
 pub mod error_estimate;
+
+pub mod refine;
 
 mod fitted;

@@ -8,7 +8,7 @@ use crate::load_history::ready;
 use crate::record::oliver_pharr::as_an_instrument;
 use crate::scene::{Scene, SceneError, Target};
 use crate::setup::discretisation::Discretisation;
-use crate::setup::prepare::prepare;
+use crate::setup::prepare::{Expected, prepare};
 use crate::setup::problem::Problem;
 use crate::setup::units::Units;
 use crate::simulate::simulate;
@@ -39,7 +39,7 @@ impl<'a> Run<'a> {
         Run { scene, mesh: None, metal: None, analyses: Analyses::default() }
     }
 
-    /// Runs it.
+    /// Runs it once.
     ///
     /// The observer hears of every increment, and of fields every `output.every` increments and at the peak
     /// and the end (if `output.every` is not 0); it ends the run by breaking.
@@ -47,41 +47,24 @@ impl<'a> Run<'a> {
     /// # Errors
     /// Only if the run cannot begin: what stops it later is in the outcome, with all that was reached.
     pub fn run(self, observer: &mut Watcher<'_>) -> Result<Outcome, CrushError> {
-        self.scene.validate()?;
-        let units = Units::of_scene(self.scene)?;
-        self.run_in(units, observer)
+        let numbers = Discretisation::new(self.scene);
+        Ok(self.begin()?.round(numbers, None, observer)?.outcome)
     }
 
-    /// [`Run::run`] in these `units`; its scene is valid.
-    fn run_in(self, units: Units, observer: &mut Watcher<'_>) -> Result<Outcome, CrushError> {
+    /// What all rounds of it share.
+    pub(crate) fn begin(self) -> Result<Rounds<'a>, CrushError> {
+        self.scene.validate()?;
+        let units = Units::of_scene(self.scene)?;
+        self.begin_in(units)
+    }
+
+    /// [`Run::begin`] in these `units`; its scene is valid.
+    fn begin_in(self, units: Units) -> Result<Rounds<'a>, CrushError> {
         let Run { scene, mesh, metal, analyses } = self;
         let target = scene.loading.target()?;
         let expected = expect(scene, mesh.as_ref(), units, &analyses)?;
         let mesh = mesh.map(|mesh| mesh.scaled(units.length.recip()));
-        let other = mesh.as_ref().map(Mesh::with_other_element);
-        let same_mesh = other.is_some();
-        let numbers = Discretisation::new(scene);
-        let with_metal = |problem: Problem| match metal {
-            Some(metal) => Problem { metal: metal.clone(), ..problem },
-            None => problem,
-        };
-        let problem = with_metal(ready(scene, numbers, mesh, &expected, (units, &analyses))?);
-        let companion = companion(scene, numbers, other, &expected, (units, &analyses)).map(with_metal);
-        let (mut outcome, compared) = run_beside(companion, target, &analyses, || {
-            Ok(simulate(&problem, &analyses, scene.output.interval(), observer)?.outcome(observer))
-        })?;
-        if let Some(companion) = compared {
-            let Discretisation { element, penetration, steps, .. } = numbers;
-            let setting = Setting { symmetry: scene.symmetry, element, penetration, steps, same_mesh };
-            outcome = extrapolate_and_bound(outcome, &companion, setting);
-        }
-        if let (Target::Force(force), None) = (target, &outcome.stopped) {
-            outcome = rescale_to_force(outcome, force, scene.symmetry);
-        }
-        // of the force and the depth that are stated
-        outcome.summary.oliver_pharr =
-            as_an_instrument(&problem, scene.tool.area_function.as_ref(), &outcome.summary);
-        Ok(outcome)
+        Ok(Rounds { scene, target, units, expected, mesh, metal, analyses })
     }
 
     /// The problem as it is laid out: with the metal of the scene, and a body before all loads.
@@ -94,6 +77,68 @@ impl<'a> Run<'a> {
         let expected = expect(scene, mesh.as_ref(), units, &analyses)?;
         let mesh = mesh.map(|mesh| mesh.scaled(units.length.recip()));
         prepare(scene, Discretisation::new(scene), mesh, &expected, units)
+    }
+}
+
+/// A run that has begun: all but the numbers of its discretisation.
+pub(crate) struct Rounds<'a> {
+    scene: &'a Scene,
+    target: Target,
+    units: Units,
+    expected: Expected,
+    mesh: Option<Mesh>,
+    metal: Option<&'a Metal>,
+    analyses: Analyses,
+}
+
+/// A run with its companion.
+pub(crate) struct Round {
+    /// What is stated.
+    pub outcome: Outcome,
+    /// The run as it was found: a companion of one with numbers twice as fine.
+    pub main: Outcome,
+    /// Operations of both.
+    pub work: f64,
+}
+
+impl Rounds<'_> {
+    /// A run with these `numbers`, compared with a `coarser` one that has numbers half as good, or else with
+    /// a companion of its own.
+    pub fn round(
+        &self,
+        numbers: Discretisation,
+        coarser: Option<&Outcome>,
+        observer: &mut Watcher<'_>,
+    ) -> Result<Round, CrushError> {
+        let Rounds { scene, target, units, ref expected, ref analyses, .. } = *self;
+        let other = self.mesh.as_ref().map(Mesh::with_other_element);
+        let same_mesh = other.is_some();
+        let with_metal = |problem: Problem| match self.metal {
+            Some(metal) => Problem { metal: metal.clone(), ..problem },
+            None => problem,
+        };
+        let problem = with_metal(ready(scene, numbers, self.mesh.clone(), expected, (units, analyses))?);
+        let companion = match coarser {
+            Some(_) => None,
+            None => companion(scene, numbers, other, expected, (units, analyses)).map(with_metal),
+        };
+        let (main, beside) = run_beside(companion, target, analyses, || {
+            Ok(simulate(&problem, analyses, scene.output.interval(), observer)?.outcome(observer))
+        })?;
+        let work = main.operations + beside.as_ref().map_or(0.0, |companion| companion.operations);
+        let mut outcome = main.clone();
+        if let Some(companion) = beside.as_ref().or(coarser) {
+            let Discretisation { element, penetration, steps, .. } = numbers;
+            let setting = Setting { symmetry: scene.symmetry, element, penetration, steps, same_mesh };
+            outcome = extrapolate_and_bound(outcome, companion, setting);
+        }
+        if let (Target::Force(force), None) = (target, &outcome.stopped) {
+            outcome = rescale_to_force(outcome, force, scene.symmetry);
+        }
+        // of the force and the depth that are stated
+        outcome.summary.oliver_pharr =
+            as_an_instrument(&problem, scene.tool.area_function.as_ref(), &outcome.summary);
+        Ok(Round { outcome, main, work })
     }
 }
 
@@ -134,11 +179,14 @@ mod tests {
         let length = units.length * 2.0_f64.powi(shift);
         let mut text = String::new();
         let outcome = Run::new(scene)
-            .run_in(Units::new(length, units.stress, scene.symmetry), &mut |event| {
+            .begin_in(Units::new(length, units.stress, scene.symmetry))
+            .unwrap()
+            .round(Discretisation::new(scene), None, &mut |event| {
                 text += &format!("{event:#?}\n");
                 ControlFlow::Continue(())
             })
-            .unwrap();
+            .unwrap()
+            .outcome;
         assert!(outcome.stopped.is_none(), "{:?}", outcome.stopped);
         text += &format!("{outcome:#?}");
         text.lines().filter(|line| !line.contains("_s: ")).collect::<Vec<_>>().join("\n")
@@ -224,7 +272,9 @@ mod tests {
             let units = problem.units;
             let units = Units::new(units.length * 2.0_f64.powi(shift), units.stress, scene.symmetry);
             let run = Run { mesh: Some(mesh.clone()), ..Run::new(&scene) };
-            run.run_in(units, &mut |_| ControlFlow::Continue(())).unwrap().summary.peak_force
+            let rounds = run.begin_in(units).unwrap();
+            let made = rounds.round(Discretisation::new(&scene), None, &mut |_| ControlFlow::Continue(()));
+            made.unwrap().outcome.summary.peak_force
         });
         assert_eq!([forces[0]; 3], forces);
     }

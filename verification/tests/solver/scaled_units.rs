@@ -3,7 +3,8 @@
 //!
 //! Source: inside the solver E = 1 and the unit of length goes with the scene; the dimensions enter and leave
 //! as factors. Tolerances:
-//! a power of two changes no digit of a quotient; other factors change the last one, which the run must not
+//! a power of two changes no digit of a quotient; other factors change the last one, which the run, solved to
+//! 1e-12, must not
 //! enlarge beyond 1e-10 (steps as prescribed) or 1e-6 (steps that depend on convergence).
 
 use asperity_material::units::{Length, Stress};
@@ -21,7 +22,7 @@ fn scaled(length: f64, stress: f64) -> Scene {
     let material = &mut scene.material;
     material.youngs_modulus = Stress(material.youngs_modulus.0 * stress);
     material.yield_stress = material.yield_stress.map(|s| Stress(s.0 * stress));
-    scene.numerics.newton_tolerance = Some(1e-9);
+    scene.numerics.newton_tolerance = Some(1e-12);
     scene
 }
 

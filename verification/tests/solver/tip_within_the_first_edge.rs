@@ -17,8 +17,8 @@ use asperity_verification::single_asperity::crush;
 
 const DEPTH: f64 = 1e-6;
 
-/// Arc of a cone of the slope `degrees` whose half width is `share` of an edge, of which `edges` lie along the flank that is
-/// in contact if the contact is as wide as the cut.
+/// Arc of a cone of the slope `degrees` whose half width is `share` of an edge, of which `edges` lie along
+/// the flank that is in contact if the contact is as wide as the cut.
 fn tip_radius(degrees: f64, share: f64, edges: f64) -> f64 {
     let beta = degrees.to_radians();
     share * DEPTH / beta.tan() / edges / beta.sin()

@@ -99,6 +99,19 @@ impl FieldSeries {
         })
     }
 
+    /// Removes the files of its frames: a finer round has others.
+    ///
+    /// # Errors
+    /// A disk that refuses.
+    pub fn remove(self, folder: &mut dyn Sink) -> Result<(), Error> {
+        for (increment, _) in self.times {
+            for name in [format!("fields_{increment:04}.vtu"), format!("surface_{increment:04}.csv")] {
+                folder.remove(&name)?;
+            }
+        }
+        Ok(())
+    }
+
     /// Takes down the time and the surface of a frame.
     fn count(&mut self, frame: &Frame) {
         let depth_um = frame.depth / MICROMETRE;

@@ -26,7 +26,7 @@ use crate::results::output::{Sink, SinkExt};
 use crate::results::units::{MICROMETRE, per_length};
 use asperity_mesh::Mesh;
 use asperity_simulation::run::{CrushError, Event, FieldFrame, Outcome, Run};
-use asperity_simulation::scene::{SceneError, Symmetry};
+use asperity_simulation::scene::{Scene as Tables, SceneError, Symmetry};
 use asperity_solver::body::analysis::Analyses;
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -103,8 +103,11 @@ pub(crate) fn crush_sharing(
     observer: &mut dyn FnMut(&Progress<'_, Increment<'_>>) -> bool,
 ) -> Result<Crush, Error> {
     let mut frames = Vec::new();
-    let keep = &mut |frame: Frame| {
-        frames.push(frame);
+    let keep = &mut |shown: Shown| {
+        match shown {
+            Shown::Frame(frame) => frames.push(frame),
+            Shown::Anew => frames.clear(),
+        }
         Ok(())
     };
     let (crush, _) = simulate(scene, analyses, observer, keep)?;
@@ -124,11 +127,42 @@ pub fn crush_into(
     observer: &mut dyn FnMut(&Progress<'_, Increment<'_>>) -> bool,
 ) -> Result<Crush, Error> {
     let mut series = FieldSeries::default();
-    let (crush, failure) =
-        simulate(scene, &Analyses::default(), observer, &mut |frame| series.add(sink, &frame))?;
+    let (crush, failure) = simulate(scene, &Analyses::default(), observer, &mut |shown| match shown {
+        Shown::Frame(frame) => series.add(sink, &frame),
+        Shown::Anew => std::mem::take(&mut series).remove(sink),
+    })?;
     let written = series.write_surfaces(sink).and_then(|()| crush.write_records(sink, sketches));
     // of two failures to write, the first says more
     failure.map_or(written, Err).map(|()| crush)
+}
+
+/// What a run hands out of its fields.
+enum Shown {
+    /// One more frame.
+    Frame(Frame),
+    /// A later round counts: the frames so far are to be forgotten.
+    Anew,
+}
+
+/// The fields of one round.
+#[derive(Default)]
+struct RoundFields {
+    mesh: Option<Arc<Mesh>>,
+    /// Those of the peak, as far as the run has come.
+    peak: Option<FieldFrame>,
+    /// Those of a round that may come to nothing, until it is known whether it counts.
+    frames: Vec<Frame>,
+}
+
+impl RoundFields {
+    /// A frame of the run in the units of the files.
+    fn note(&mut self, frame: &FieldFrame, scene: &Tables, row: Option<&CurveRow>) -> Frame {
+        let mesh = self.mesh.get_or_insert_with(|| Arc::new(frame.mesh.clone()));
+        if frame.phase == Phase::Load {
+            self.peak = Some(frame.clone());
+        }
+        Frame::new(frame, mesh.clone(), scene, row)
+    }
 }
 
 /// Runs `scene`, hands its fields to `keep`, and gives the result with the failure of `keep`, if it failed.
@@ -136,50 +170,56 @@ fn simulate(
     scene: &Scene,
     analyses: &Analyses,
     observer: &mut dyn FnMut(&Progress<'_, Increment<'_>>) -> bool,
-    keep: &mut dyn FnMut(Frame) -> Result<(), Error>,
+    keep: &mut dyn FnMut(Shown) -> Result<(), Error>,
 ) -> Result<(Crush, Option<Error>), Error> {
     let start = Instant::now();
     let tables = scene.tables();
-    let mut last = None;
-    let (mut peak, mut mesh, mut failure, mut ended) = (None, None::<Arc<Mesh>>, None, false);
+    let (mut last, mut failure, mut ended) = (None, None, false);
+    let mut rounds = vec![RoundFields::default()];
     let mut hear = |event: &Event<'_>| -> bool {
-        let frame = match event {
-            Event::Increment { row, planned } => {
-                last = Some((**row, *planned));
-                None
+        let mut frame = None;
+        match event {
+            Event::Increment { row, planned } => last = Some((**row, *planned)),
+            Event::Round(_) => {
+                rounds.push(RoundFields::default());
+                last = None;
             }
-            Event::Fields(frame) => {
-                let mesh = mesh.get_or_insert_with(|| Arc::new(frame.mesh.clone()));
-                if frame.phase == Phase::Load {
-                    peak = Some((*frame).clone());
-                }
+            Event::Fields(fields) => {
                 let row = last.as_ref().map(|(row, _)| row);
-                Some(Frame::new(frame, mesh.clone(), tables, row))
+                frame = rounds.last_mut().map(|round| round.note(fields, tables, row));
             }
-        };
+        }
         let told = |(row, planned): &(CurveRow, usize)| {
             let news = Increment { row, frame: frame.as_ref() };
             observer(&Progress::counted(row.increment, *planned, Some(&news)))
         };
         // a run that was ended may still hand out the fields of where it ended
         ended = ended || !last.as_ref().is_none_or(told);
-        if let (Some(frame), None) = (frame, &failure) {
-            failure = keep(frame).err();
+        match (frame, &mut rounds[..]) {
+            (Some(frame), [_]) if failure.is_none() => failure = keep(Shown::Frame(frame)).err(),
+            (Some(frame), [_, .., now]) => now.frames.push(frame),
+            _ => {}
         }
         !ended && failure.is_none()
     };
     let run = Run { mesh: scene.mesh().cloned(), analyses: analyses.clone(), ..Run::new(tables) };
-    let outcome = run.run(&mut |event| match hear(event) {
+    let outcome = run.run_refined(&mut |event| match hear(event) {
         true => ControlFlow::Continue(()),
         false => ControlFlow::Break(()),
     });
     let outcome = outcome.map_err(|e| begin_error(scene, e))?;
+    let RoundFields { peak, frames, .. } = rounds.swap_remove(outcome.round - 1);
+    if outcome.round > 1 {
+        let shown = std::iter::once(Shown::Anew).chain(frames.into_iter().map(Shown::Frame));
+        failure = failure.or(shown.map(keep).find_map(Result::err));
+    }
     let stopped = match &failure {
         Some(_) => Some("its fields could not be written".to_string()),
         None => reason(&outcome, tables.loading.depth.map(|depth| depth.0)),
     };
+    let resolved = Tables { numerics: outcome.numbers.numerics(), ..tables.clone() };
     let crush = Crush {
-        summary: Summary::new(&outcome, scene.resolved(), stopped, start.elapsed().as_secs_f64()),
+        summary: Summary::new(&outcome, resolved, stopped, start.elapsed().as_secs_f64()),
         curve: outcome.rows,
         asperities: outcome.asperities,
         gaps: outcome.gaps,

@@ -154,6 +154,7 @@ mod tests {
             newton_iterations: 4,
             force_nodal: force,
             force_error: None,
+            area_error: None,
             transfer_energy: 0.0,
         };
         let mut rows: Vec<_> = (0..=24)

@@ -44,6 +44,8 @@ columns! {
         /// bound is not known. While unloading it holds the error of the residual depth, by which the curve
         /// is shifted.
         force_error: Plain,
+        /// 95 % bound of the relative error of the contact area in this row, likewise.
+        area_error: Plain,
         /// Change of the elastic, plastic and contact energy by all transfers to better meshes so far, which
         /// is no work of the tool.
         transfer_energy: Energy,
@@ -164,6 +166,7 @@ mod tests {
             newton_iterations: 6,
             force_nodal: 5.5,
             force_error: Some(0.01),
+            area_error: Some(0.02),
             transfer_energy: -1e-12,
         }
     }
@@ -181,11 +184,11 @@ mod tests {
         assert_eq!(
             head,
             "increment,phase,depth_um,force_N,contact_area_um2,contact_radius_um,mean_pressure_MPa,external_work_uJ,\
-             elastic_energy_uJ,plastic_work_uJ,contact_energy_uJ,penetration_um,newton_iterations,force_nodal_N,force_error,transfer_energy_uJ"
+             elastic_energy_uJ,plastic_work_uJ,contact_energy_uJ,penetration_um,newton_iterations,force_nodal_N,force_error,area_error,transfer_energy_uJ"
         );
         let cells: Vec<&str> = line.split(',').collect();
         assert_eq!(cells[..4], ["3", "unload", "5.0", "5.52"]);
-        assert_eq!(cells[10..], ["5e-5", "0.02", "6", "5.5", "0.01", "-1e-6"]);
+        assert_eq!(cells[10..], ["5e-5", "0.02", "6", "5.5", "0.01", "0.02", "-1e-6"]);
         for (k, value) in [(4, 300.0), (5, 10.0), (6, 18400.0), (7, 9.46), (8, 1.0 / 3.0)] {
             let got: f64 = cells[k].parse().unwrap();
             assert!((got / value - 1.0).abs() < 1e-15, "{k}: {got}");

@@ -4,9 +4,10 @@ use crate::error::{Error, InputError};
 use crate::results::columns::{Described, Unit, columns, named, symmetry_of, unnamed};
 use crate::results::numbers::four_decimals;
 use crate::results::units::per_length;
-use asperity_simulation::record::rows::{Errors, OliverPharr, Summary as Numbers};
+use asperity_simulation::record::rows::{Errors, ErrorsAlong, OliverPharr, Summary as Numbers};
+use asperity_simulation::refine::work_to_keep;
 use asperity_simulation::run::Outcome;
-use asperity_simulation::scene::{Accuracy, Scene as Tables, Smoothing};
+use asperity_simulation::scene::{Scene as Tables, Smoothing};
 use asperity_solver::body::islands::Island;
 use serde::de::Error as _;
 use serde::ser::Error as _;
@@ -62,12 +63,25 @@ columns! {
         contact_area: Plain,
         /// Of the mean pressure, relative.
         mean_pressure: Plain,
+        /// Of the depth at which a force was asked for, relative.
+        depth: Plain,
         /// Of the residual depth, over the peak depth.
         residual_depth: Plain,
         /// Of the elastic fraction, absolute.
         elastic_fraction: Plain,
         /// Of the unloading stiffness, relative.
         unloading_stiffness: Plain,
+    }
+}
+
+columns! {
+    ErrorsAlong {
+        /// Of the force, relative.
+        force: Plain,
+        /// Of the contact area, relative.
+        contact_area: Plain,
+        /// Of the mean pressure, relative.
+        mean_pressure: Plain,
     }
 }
 
@@ -103,15 +117,23 @@ columns! {
         energy_balance_error: Plain,
         /// `errors.force`; NaN (`null`) where it is not known.
         estimated_error: Plain,
-        /// 95 % bounds of the errors against the converged limit.
+        /// 95 % bounds of the errors against the converged limit, at the peak or of what they name.
         errors: Table(Errors::COLUMNS),
+        /// The largest of such bounds along the curve, over 0.2 ≤ h/h_peak ≤ 1.
+        errors_along: Table(ErrorsAlong::COLUMNS),
+        /// Whether the stated errors are what the accuracy promises: of the force along the curve (of several
+        /// contacts at the peak), of the area at the peak; `null` of a run that did not reach its goal.
+        promise_kept: Plain,
+        /// Rounds that were made, each finer than the one before: rows, fields and errors are those of the
+        /// best.
+        rounds: Plain,
         /// Number of elements.
         elements: Plain,
         /// Number of unknowns.
         dofs: Plain,
         /// Converged increments.
         increments: Plain,
-        /// Newton iterations of the whole run, failed ones included.
+        /// Newton iterations of all rounds, failed ones included.
         newton_iterations: Plain,
         /// Times an increment was halved.
         cutbacks: Plain,
@@ -237,22 +259,20 @@ impl Summary {
     /// Promises of the accuracy that this run does not keep, as far as it can tell.
     pub fn warnings(&self) -> Vec<String> {
         let promise = self.scene.accuracy.promise();
+        let stated = self.scene.stated_and_promised(&self.numbers);
+        let way_out = self.way_out(stated.map(|[stated, promised]| stated / promised));
         let mut warnings = Vec::new();
-        for (what, error) in [("force", self.errors.force), ("contact area", self.errors.contact_area)] {
+        for (what, [error, promise]) in ["force", "contact area"].into_iter().zip(stated) {
             if error.is_nan() && self.stopped.is_some() {
                 warnings.push(format!(
                     "the run ended before its goal: its {what} is not extrapolated and has no stated error"
                 ));
             } else if error.is_nan() {
                 warnings.push(format!(
-                    "the error of the {what} is not known: the coarser run beside this one did not get as far"
+                    "the error of the {what} is not known: the coarser run beside this one did not get as far; give more \
+                     numerics.elements_in_contact and numerics.steps if they are given"
                 ));
             } else if error > promise {
-                let way_out = if promise > Accuracy::Reference.promise() {
-                    "ask for a finer one if that matters"
-                } else {
-                    "none is finer by name; if that matters, set the numbers of [numerics] finer, such as numerics.elements_in_contact"
-                };
                 let [error, promise] = [error, promise].map(|share| 100.0 * share);
                 warnings.push(format!(
                     "the stated error of the {what} is {error:.2} %, above the {promise} % of the accuracy: {way_out}"
@@ -281,6 +301,22 @@ impl Summary {
             ));
         }
         warnings
+    }
+
+    /// What to do where the stated errors are these times what is promised.
+    fn way_out(&self, over: [f64; 2]) -> String {
+        let work = work_to_keep(over);
+        match self.rounds {
+            _ if self.scene.mesh.is_some() => "the mesh is given, and stays; give a finer one".into(),
+            1 => format!(
+                "the numbers of [numerics] stay as they are given; without numerics.elements_in_contact the run is refined by itself, at \
+                 about {work:.0} times the work"
+            ),
+            rounds => format!(
+                "{rounds} rounds of finer numbers did not bring it below; that would take about {work:.0} times the work of the last one, \
+                 with a larger numerics.elements_in_contact"
+            ),
+        }
     }
 
     /// A few lines for a person.

@@ -17,6 +17,15 @@ pub trait Sink {
     /// # Errors
     /// A disk that refuses.
     fn path(&mut self, name: &str) -> Result<PathBuf, Error>;
+
+    /// Removes the file `name` again, which was written.
+    ///
+    /// # Errors
+    /// A disk that refuses.
+    fn remove(&mut self, name: &str) -> Result<(), Error> {
+        let path = self.path(name)?;
+        std::fs::remove_file(&path).map_err(|e| Error::disk(&path, e))
+    }
 }
 
 /// Writing to any [`Sink`].

@@ -117,6 +117,7 @@ fn fixed(scene: &Scene, setting: Setting) -> Setting {
         penetration: said.penetration.or(own.penetration),
         newton_tolerance: said.newton_tolerance.or(own.newton_tolerance),
         domain: said.domain.or(own.domain),
+        refine: None,
     };
     Setting { numerics, ..setting }
 }
@@ -194,6 +195,7 @@ fn mixed(scene: &Scene, i: usize) -> Setting {
         penetration: Some(rounded(logs(3, 0.0005, 0.016), 3)),
         newton_tolerance: Some(rounded(logs(4, 1e-8, 1e-4), 3)),
         domain: Some(rounded(logs(5, 30.0, 800.0), 3)),
+        refine: None,
     };
     Setting { knob: Knob::Mixed, numerics, ..level(scene, accuracy) }
 }

@@ -98,33 +98,63 @@ pub(super) struct Difference {
     points: Vec<[f64; 2]>,
     /// ln Q less a smooth curve of its own, at the same places.
     ripple: Vec<f64>,
-    smooth: [f64; 3],
+    /// The stretches on which it is smooth, in their order.
+    stretches: Vec<Stretch>,
     of: Quantity,
 }
 
+/// Places of a difference between two onsets, on which it has a smooth part.
+struct Stretch {
+    ends: [f64; 2],
+    smooth: [f64; 3],
+    /// Share of the smooth part that is taken off.
+    share: f64,
+}
+
+/// Fewest places of a stretch: a parabola through fewer is no smooth part.
+const FEWEST_PLACES: usize = 9;
+
 impl Difference {
-    pub fn new(points: Vec<[f64; 2]>, ripple: Vec<f64>, of: Quantity) -> Option<Difference> {
-        let smooth = (of.smooth)(&points)?;
-        let largest = points.iter().map(|[x, _]| value(&smooth, &powers(*x)).abs()).fold(0.0, f64::max);
-        let of = if largest > FITTED.errors.asymptotic { Quantity { share: 0.0, ..of } } else { of };
-        Some(Difference { points, ripple, smooth, of })
+    /// Of these `points` and `ripple`. In the `onsets`, stretches of x in which a contact begins, nothing is
+    /// smooth; where they leave too little, they count as any other places.
+    pub fn new(
+        points: Vec<[f64; 2]>,
+        ripple: Vec<f64>,
+        onsets: &[[f64; 2]],
+        of: Quantity,
+    ) -> Option<Difference> {
+        let mut stretches = Vec::new();
+        let mut from = f64::NEG_INFINITY;
+        for &[begin, end] in onsets.iter().chain(&[[f64::INFINITY; 2]]) {
+            stretches.extend(Stretch::new(&points, [from, begin], of));
+            from = end;
+        }
+        if stretches.last().is_none_or(|last| last.ends[1] < f64::INFINITY) {
+            stretches = vec![Stretch::new(&points, [f64::NEG_INFINITY, f64::INFINITY], of)?];
+        }
+        Some(Difference { points, ripple, stretches, of })
     }
 
-    /// The smooth part at x = ln(h/h_peak); that of the first depth before it.
-    fn smooth(&self, x: f64) -> f64 {
-        value(&self.smooth, &powers(x.clamp(LEAST_COUNTED_DEPTH.ln(), 0.0)))
+    /// The smooth part at x = ln(h/h_peak), and the share of it that is taken off; that of the first depth
+    /// before it, `None` in an onset.
+    fn smooth(&self, x: f64) -> Option<[f64; 2]> {
+        let x = x.clamp(LEAST_COUNTED_DEPTH.ln(), 0.0);
+        let stretch = self.stretches.iter().find(|s| s.ends[0] <= x && x <= s.ends[1])?;
+        Some([value(&stretch.smooth, &powers(x)), stretch.share])
     }
 
     /// The correction that is added to ln Q.
     pub fn correction(&self, x: f64) -> f64 {
-        -self.of.share * self.smooth(x) - self.of.widened
+        let [smooth, share] = self.smooth(x).unwrap_or([0.0; 2]);
+        -share * smooth - self.of.widened
     }
 
     /// The bound of what is left near x.
     pub fn bound(&self, from: f64, to: f64) -> f64 {
         let within = self.points.iter().zip(&self.ripple).filter(|([x, _], _)| (from..=to).contains(x));
         let largest = |[smooth, rest, own]: [f64; 3], ([x, d], ripple): (&[f64; 2], &f64)| {
-            let even = self.smooth(*x);
+            // all of it where nothing is smooth
+            let even = self.smooth(*x).map_or(*d, |[even, _]| even);
             [smooth.max(even.abs()), rest.max((d - even).abs()), own.max(ripple.abs())]
         };
         let [smooth, rest, own] = within.fold([0.0; 3], largest);
@@ -140,6 +170,21 @@ impl Difference {
     /// The bound near the peak.
     pub fn near_peak(&self) -> f64 {
         self.bound(-SPAN_BEFORE_PEAK, 0.0)
+    }
+}
+
+impl Stretch {
+    /// The places of `points` between `ends`; `None` if there are too few.
+    fn new(points: &[[f64; 2]], ends: [f64; 2], of: Quantity) -> Option<Stretch> {
+        let within: Vec<[f64; 2]> =
+            points.iter().copied().filter(|[x, _]| ends[0] <= *x && *x <= ends[1]).collect();
+        if within.len() < FEWEST_PLACES {
+            return None;
+        }
+        let smooth = (of.smooth)(&within)?;
+        let largest = within.iter().map(|[x, _]| value(&smooth, &powers(*x)).abs()).fold(0.0, f64::max);
+        let share = if largest > FITTED.errors.asymptotic { 0.0 } else { of.share };
+        Some(Stretch { ends, smooth, share })
     }
 }
 
@@ -161,7 +206,7 @@ mod tests {
     fn difference(of: Quantity, d: impl Fn(f64) -> f64) -> Difference {
         let depths = (0..DEPTHS).map(|i| LEAST_COUNTED_DEPTH.ln() * (1.0 - i as f64 / (DEPTHS - 1) as f64));
         let points: Vec<[f64; 2]> = depths.map(|x| [x, d(x)]).collect();
-        Difference::new(points, vec![0.0; DEPTHS], of).unwrap()
+        Difference::new(points, vec![0.0; DEPTHS], &[], of).unwrap()
     }
 
     /// Errors of the orders that are assumed vanish: ln Q is off by e and that of the companion by 2ᵖ e.
@@ -200,6 +245,37 @@ mod tests {
             .map(|d| difference(SETTING.area(), d));
         assert_eq!(mean.correction(-1.0).to_bits(), mean.correction(0.0).to_bits());
         assert!((line.correction(0.0) + 0.01).abs() < 1e-3 && (line.correction(-1.0) - 0.01).abs() < 1e-3);
+    }
+
+    /// Onset of another contact between 0.4 and 0.5 of the depth, where run and companion differ by 85 %.
+    #[test]
+    fn an_onset_stays_out_of_the_bound_at_the_peak() {
+        let [begin, end] = [0.4_f64.ln(), 0.5_f64.ln()];
+        let d = |x: f64| {
+            if x < begin {
+                0.02
+            } else if x < end {
+                -0.6
+            } else {
+                0.004 + 0.004 * x
+            }
+        };
+        let depths = (0..DEPTHS).map(|i| LEAST_COUNTED_DEPTH.ln() * (1.0 - i as f64 / (DEPTHS - 1) as f64));
+        let points: Vec<[f64; 2]> = depths.map(|x| [x, d(x)]).collect();
+        for of in [SETTING.force(), SETTING.area()] {
+            let found = Difference::new(points.clone(), vec![0.0; DEPTHS], &[[begin, end]], of).unwrap();
+            assert!(
+                found.near_peak() < 0.01 && found.whole() >= 0.6,
+                "{} {}",
+                found.near_peak(),
+                found.whole()
+            );
+            assert!((found.correction(0.0) + 0.004 * of.share).abs() < 1e-3);
+            assert!(
+                (found.correction(-1.2) + 0.02 * of.share).abs() < 1e-3
+                    && found.correction(-0.8).abs() < 1e-12
+            );
+        }
     }
 
     /// Of other orders the rest is bounded, within the asymptotic range.

@@ -15,6 +15,8 @@
 //!   penetration, which have opposite signs, may hide from each other by chance (of the force also what
 //!   coarse steps lose). The rest is that of D, or that of the run from a smooth curve of its own where it is
 //!   less: the companion ripples more.
+//! * Where another asperity begins to carry, run and companion differ by what it carries: that stretch of
+//!   depths has no smooth part, parts those before and after it, and counts whole in the bound.
 //! * A companion that differs too much is in no asymptotic range: no share of D is taken off.
 //! * The mesh that is given cannot be made coarser. Its companion has the other element, of which no order is
 //!   known: nothing is taken off the force, half of D off the area.
@@ -23,6 +25,10 @@
 //!
 //! The stiffness of the first unloading is that of a punch, 2 E* a: half of what is taken off the area of an
 //! axisymmetric contact is taken off it.
+//!
+//! What is stated of the peak is the bound near it, what is stated along the curve the largest one, and a row
+//! has that of its neighbourhood. A companion that ends before the run says nothing of the peak itself: the
+//! largest bound stands for it.
 //!
 //! The mean pressure is force over area: its bound is the sum of theirs. Other values read at the peak or
 //! after it are not extrapolated. Their bound is the difference itself, and what the stated errors of force
@@ -36,9 +42,12 @@ mod rescale;
 pub(super) use difference::Setting;
 pub(super) use rescale::rescale_to_force;
 
+use crate::fitted::FITTED;
 use crate::record::curve::Curve;
 use crate::record::recorder::Outcome;
-use crate::record::rows::{AsperityRow, CurveRow, Errors, Phase, Summary, largest_work, work_along};
+use crate::record::rows::{
+    AsperityRow, CurveRow, Errors, ErrorsAlong, Phase, Summary, largest_work, work_along,
+};
 use crate::setup::discretisation::LEAST_COUNTED_DEPTH;
 use crate::setup::schedule::UNLOADING_EXPONENT;
 use asperity_solver::point::kinematics::Symmetry;
@@ -66,37 +75,58 @@ fn stiffer(symmetry: Symmetry, wider: f64) -> f64 {
     }
 }
 
+/// A quantity of a run and of its companion over the first loading, and how the two differ.
+struct Compared {
+    difference: Difference,
+    curves: [Curve; 2],
+    /// Power of F with which the quantity falls as the tool retreats.
+    power: f64,
+}
+
 /// The errors of a run that a companion reveals.
 struct Comparison {
-    force: Difference,
-    area: Difference,
-    /// Force of run and companion over the first loading.
-    force_curves: [Curve; 2],
+    force: Compared,
+    area: Compared,
     /// Depth of the last row of the first loading.
     depth: f64,
+    /// Whether the companion ended before the run, of whose peak it then says nothing of its own.
+    ended_early: bool,
     symmetry: Symmetry,
 }
+
+/// Power of the depth over the residual one with which the area falls as the tool retreats: F ∝ (h - h_r)^m
+/// and dF/dh = 2 E* a.
+const UNLOADING_AREA_EXPONENT: f64 = 2.0 * (UNLOADING_EXPONENT - 1.0);
 
 impl Comparison {
     /// Of `run` and `companion`; `None` where the two cannot be compared: a companion that stopped early says
     /// nothing of what comes after.
     fn new(run: &Outcome, companion: &Outcome, setting: Setting) -> Option<Comparison> {
-        let of = [|row: &CurveRow| row.force, |row: &CurveRow| row.contact_area];
         let top = last_loaded(&run.rows).filter(|row| row.force > 0.0 && row.contact_area > 0.0)?;
-        let [force_curves, area_curves] =
-            of.map(|of| [&run.rows, &companion.rows].map(|rows| loading_curve(rows, top, of)));
-        let (end, other) = (force_curves[0].end(), force_curves[1].end());
+        let curves =
+            |of: fn(&CurveRow) -> f64| [&run.rows, &companion.rows].map(|rows| loading_curve(rows, top, of));
+        let [force, area] = [curves(|row| row.force), curves(|row| row.contact_area)];
+        let (end, other) = (force[0].end(), force[1].end());
         if other < LEAST_COMPANION_DEPTH * end {
             return None;
         }
-        let peak = end.min(other);
+        let common = end.min(other);
+        let onsets = onsets([run, companion], top);
+        let compared = |curves: [Curve; 2], of: Quantity, power: f64| {
+            Some(Compared { difference: difference(&curves, common, &onsets, of)?, curves, power })
+        };
         Some(Comparison {
-            force: difference(&force_curves, peak, setting.force())?,
-            area: difference(&area_curves, peak, setting.area())?,
-            force_curves,
+            force: compared(force, setting.force(), UNLOADING_EXPONENT)?,
+            area: compared(area, setting.area(), UNLOADING_AREA_EXPONENT)?,
             depth: top.depth,
+            ended_early: other < end,
             symmetry: setting.symmetry,
         })
+    }
+
+    /// Bound of what is left of a quantity at the peak.
+    fn at_peak(&self, of: &Compared) -> f64 {
+        if self.ended_early { of.difference.whole() } else { of.difference.near_peak() }
     }
 
     /// ln(h/h_peak) of a row of the first loading; that of the peak after it.
@@ -112,17 +142,19 @@ impl Comparison {
         let summary = &run.summary;
         let relative = |own: Option<f64>, other: Option<f64>| Some((other? / own? - 1.0).abs());
         let unloading_stiffness = relative(summary.unloading_stiffness, companion.unloading_stiffness);
-        let unloading_stiffness = unloading_stiffness.map(|s| s + 0.5 * self.area.near_peak());
-        let indirect = self.force.near_peak().hypot(unloading_stiffness.unwrap_or(0.0));
+        let [force, area] = [&self.force, &self.area].map(|of| self.at_peak(of));
+        let unloading_stiffness = unloading_stiffness.map(|s| s + 0.5 * area);
+        let indirect = force.hypot(unloading_stiffness.unwrap_or(0.0));
         let difference = |own: Option<f64>, other: Option<f64>| Some((other? - own?).abs());
         let share = |x: f64| x * (1.0 - x) * indirect;
         let residual = summary.residual_depth.map(|depth| (depth / summary.peak_depth).clamp(0.0, 1.0));
         let elastic = summary.elastic_fraction.map(|fraction| fraction.clamp(0.0, 1.0));
         Errors {
-            force: self.force.whole(),
-            contact_area: self.area.whole(),
+            force,
+            contact_area: area,
             // force and area may err in opposite directions
-            mean_pressure: self.force.whole() + self.area.whole(),
+            mean_pressure: force + area,
+            depth: None,
             residual_depth: difference(summary.residual_depth, companion.residual_depth)
                 .zip(residual)
                 .map(|(d, r)| (d / summary.peak_depth + share(r)).max(LEAST_STATED_ERROR)),
@@ -133,15 +165,21 @@ impl Comparison {
         }
     }
 
+    /// The largest bounds along the curve.
+    fn errors_along(&self) -> ErrorsAlong {
+        let [force, contact_area] = [&self.force, &self.area].map(|of| of.difference.whole());
+        ErrorsAlong { force, contact_area, mean_pressure: force + contact_area }
+    }
+
     /// The row without the errors that are known.
     fn corrected(&self, row: &CurveRow) -> CurveRow {
         let x = self.logarithmic_depth(row);
-        let widened = self.area.correction(x).exp();
+        let [stronger, wider] = [&self.force, &self.area].map(|of| of.difference.correction(x));
         CurveRow {
-            force: row.force * self.force.correction(x).exp(),
-            contact_area: row.contact_area * widened,
-            contact_radius: row.contact_radius * longer(self.symmetry, widened),
-            mean_pressure: row.mean_pressure * (self.force.correction(x) - self.area.correction(x)).exp(),
+            force: row.force * stronger.exp(),
+            contact_area: row.contact_area * wider.exp(),
+            contact_radius: row.contact_radius * longer(self.symmetry, wider.exp()),
+            mean_pressure: row.mean_pressure * (stronger - wider).exp(),
             ..*row
         }
     }
@@ -150,15 +188,15 @@ impl Comparison {
     fn corrected_share(&self, share: &AsperityRow, row: &CurveRow) -> AsperityRow {
         let x = self.logarithmic_depth(row);
         AsperityRow {
-            force: share.force * self.force.correction(x).exp(),
-            contact_area: share.contact_area * self.area.correction(x).exp(),
+            force: share.force * self.force.difference.correction(x).exp(),
+            contact_area: share.contact_area * self.area.difference.correction(x).exp(),
             ..*share
         }
     }
 
-    /// Bound of the error of the force in a `row` of the run that `summary` is of, the `errors` of which are
+    /// Bound of the error of a quantity in a `row` of the run that `summary` is of, the `errors` of which are
     /// known; `None` where there is no force.
-    fn force_error(&self, row: &CurveRow, summary: &Summary, errors: &Errors) -> Option<f64> {
+    fn row_error(&self, of: &Compared, row: &CurveRow, summary: &Summary, errors: &Errors) -> Option<f64> {
         if row.depth <= 0.0 || row.force <= 0.0 {
             return None;
         }
@@ -166,39 +204,79 @@ impl Comparison {
         match row.phase {
             Phase::Load if x < LEAST_COUNTED_DEPTH.ln() => {
                 let depth = row.depth / self.depth;
-                let [run, companion] = self.force_curves.each_ref().map(|curve| curve.logarithm_at(depth));
+                let [run, companion] = of.curves.each_ref().map(|curve| curve.logarithm_at(depth));
                 let own = (companion - run).abs();
-                let first = self.force.bound(f64::NEG_INFINITY, LEAST_COUNTED_DEPTH.ln() + HALF_SPAN_OF_ROW);
+                let first =
+                    of.difference.bound(f64::NEG_INFINITY, LEAST_COUNTED_DEPTH.ln() + HALF_SPAN_OF_ROW);
                 Some(if own.is_finite() { first.max(own) } else { first.max(1.0) })
             }
-            Phase::Load => Some(self.force.bound(x - HALF_SPAN_OF_ROW, x + HALF_SPAN_OF_ROW)),
+            Phase::Load if self.ended_early && x > -HALF_SPAN_OF_ROW => Some(self.at_peak(of)),
+            Phase::Load => Some(of.difference.bound(x - HALF_SPAN_OF_ROW, x + HALF_SPAN_OF_ROW)),
             // a curve that is moved by the error of the residual depth: dF/F = m dh/(h - h_residual)
             _ => {
                 let residual_depth = summary.residual_depth.unwrap_or(0.0);
                 let moved = errors.residual_depth.unwrap_or(0.0) * summary.peak_depth;
                 let left = (row.depth - residual_depth)
                     / (summary.peak_depth - residual_depth).max(f64::MIN_POSITIVE);
-                let lever = UNLOADING_EXPONENT * (1.0 - left).max(0.0) * moved;
+                let lever = of.power * (1.0 - left).max(0.0) * moved;
                 let moved = lever / (row.depth - residual_depth).max(f64::MIN_POSITIVE);
-                Some((self.force.near_peak() + moved).min(1.0))
+                Some((self.at_peak(of) + moved).min(1.0))
             }
         }
     }
 }
 
-/// Difference of a quantity between the curves of run and companion, up to the depth `peak` that both
-/// reached.
-fn difference([own, other]: &[Curve; 2], peak: f64, of: Quantity) -> Option<Difference> {
-    let smooth = own.smooth(peak);
+/// Stretches of ln(h/h_peak) in which an asperity begins to carry in one of the `runs`, up to where it no
+/// longer decides how they differ. `top` is the peak of the first.
+fn onsets(runs: [&Outcome; 2], top: &CurveRow) -> Vec<[f64; 2]> {
+    let count = runs[0].asperities.iter().map(|row| row.asperity + 1).max().unwrap_or(0);
+    let mut onsets: Vec<[f64; 2]> = Vec::new();
+    let mut asperities: Vec<[f64; 2]> = (0..count)
+        .filter_map(|index| {
+            let loading = |run: &'_ Outcome| -> Vec<AsperityRow> {
+                let own = run.asperities.iter().filter(|row| row.asperity == index);
+                own.take_while(|row| row.phase == Phase::Load).copied().collect()
+            };
+            let [own, other] = runs.map(loading);
+            let counts = own.last()?.force >= FITTED.errors.least_share * top.force;
+            let touch = |rows: &[AsperityRow]| {
+                let first = rows.iter().position(|row| row.force > 0.0)?;
+                Some([rows.get(first.saturating_sub(1))?.depth, rows.get(first)?.depth])
+            };
+            let ([a, b], [c, d]) = (touch(&own)?, touch(&other)?);
+            let ends = [a.min(c), FITTED.errors.onset * b.max(d)];
+            counts.then(|| ends.map(|depth| (depth / top.depth).ln()))
+        })
+        .filter(|[_, end]| *end > LEAST_COUNTED_DEPTH.ln())
+        .collect();
+    asperities.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    for next in asperities {
+        match onsets.last_mut() {
+            Some(last) if next[0] <= last[1] => last[1] = last[1].max(next[1]),
+            _ => onsets.push(next),
+        }
+    }
+    onsets
+}
+
+/// Difference of a quantity between the curves of run and companion, up to the depth `common` that both
+/// reached, over the logarithm of the depth over that of the peak of the run.
+fn difference(
+    [own, other]: &[Curve; 2],
+    common: f64,
+    onsets: &[[f64; 2]],
+    of: Quantity,
+) -> Option<Difference> {
+    let smooth = own.smooth(common);
     let last = (COMPARED_DEPTHS - 1) as f64;
     let places = (0..COMPARED_DEPTHS).map(|i| LEAST_COUNTED_DEPTH.ln() * i as f64 / last).rev();
     let compared = |x: f64| {
-        let depth = peak * x.exp();
+        let depth = common * x.exp();
         let value = own.logarithm_at(depth);
-        ([x, other.logarithm_at(depth) - value], value - smooth.value(depth).ln())
+        ([x + common.ln(), other.logarithm_at(depth) - value], value - smooth.value(depth).ln())
     };
     let (points, ripple) = places.map(compared).unzip();
-    Difference::new(points, ripple, of)
+    Difference::new(points, ripple, onsets, of)
 }
 
 /// The `run` without the errors that its `companion` reveals of force, area and stiffness, and with the
@@ -206,7 +284,7 @@ fn difference([own, other]: &[Curve; 2], peak: f64, of: Quantity) -> Option<Diff
 pub(super) fn extrapolate_and_bound(run: Outcome, companion: &Outcome, setting: Setting) -> Outcome {
     let Some(found) = Comparison::new(&run, companion, setting) else { return run };
     let errors = found.errors(&run, &companion.summary);
-    let stiffer = stiffer(setting.symmetry, found.area.correction(0.0).exp());
+    let stiffer = stiffer(setting.symmetry, found.area.difference.correction(0.0).exp());
     let mut asperities = run.asperities;
     for share in &mut asperities {
         if let Some(row) = run.rows.get(share.increment) {
@@ -214,18 +292,22 @@ pub(super) fn extrapolate_and_bound(run: Outcome, companion: &Outcome, setting: 
         }
     }
     let mut cycles = run.cycles;
-    cycles.iter_mut().for_each(|cycle| cycle.peak_force *= found.force.correction(0.0).exp());
+    cycles.iter_mut().for_each(|cycle| cycle.peak_force *= found.force.difference.correction(0.0).exp());
     let mut rows: Vec<CurveRow> = run.rows.iter().map(|row| found.corrected(row)).collect();
     let last = rows.len() - 1;
     for (index, row) in rows.iter_mut().enumerate() {
         // at the end of an unloading there is no force
         let is_end = index == last && row.phase != Phase::Load;
-        row.force_error = if is_end { None } else { found.force_error(row, &run.summary, &errors) };
+        if !is_end {
+            row.force_error = found.row_error(&found.force, row, &run.summary, &errors);
+            row.area_error = found.row_error(&found.area, row, &run.summary, &errors);
+        }
     }
     let summary = Summary {
         unloading_stiffness: run.summary.unloading_stiffness.map(|s| s * stiffer),
         estimated_error: errors.force,
         errors,
+        errors_along: found.errors_along(),
         ..run.summary
     };
     let summary = note_peak(summary, &rows);

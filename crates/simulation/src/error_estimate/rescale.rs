@@ -67,6 +67,8 @@ pub(crate) fn rescale_to_force(mut run: Outcome, asked: f64, symmetry: Symmetry)
         cycle.peak_depth *= deeper;
         cycle.residual_depth *= deeper;
     }
+    // the force is what was asked for: what is not known of it is a depth
+    run.summary.errors.depth = Some(run.summary.errors.force / force).filter(|error| error.is_finite());
     run.summary.residual_depth = run.summary.residual_depth.map(|depth| depth * deeper);
     run.summary = note_peak(run.summary, &run.rows);
     run

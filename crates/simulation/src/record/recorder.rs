@@ -3,8 +3,9 @@
 use crate::load_path::{Increment, Path, Stop};
 use crate::record::mesh_ripple::{Ends, ends, remove};
 use crate::record::rows::{
-    AsperityRow, CurveRow, CycleRow, Errors, GapRow, Phase, Summary, balance_error, work_along,
+    AsperityRow, CurveRow, CycleRow, Errors, ErrorsAlong, GapRow, Phase, Summary, balance_error, work_along,
 };
+use crate::setup::discretisation::Discretisation;
 use crate::setup::problem::{Goal, Problem};
 use asperity_mesh::Mesh;
 use asperity_mesh::profile::Asperity;
@@ -27,6 +28,9 @@ pub enum Event<'a> {
     },
     /// Fields of the increment of the last row.
     Fields(&'a FieldFrame),
+    /// The round of this number begins, from first touch: those before did not keep the promise of the
+    /// accuracy.
+    Round(usize),
 }
 
 /// Is told of a run, which it ends by breaking.
@@ -75,6 +79,25 @@ pub struct Outcome {
     pub stopped: Option<Stopped>,
     /// Where the work went.
     pub counters: Counters,
+    /// Operations of the run, an estimate that is the same on every machine.
+    pub operations: f64,
+    /// The numbers of its discretisation.
+    pub numbers: Discretisation,
+    /// Which of its rounds this is, counted from 1.
+    pub round: usize,
+}
+
+/// Operations of a cell in an assembly with tangent and in one without, for the account of the work.
+const CELL_OPERATIONS: [f64; 2] = [2e4, 5e3];
+
+/// Operations of a run that stands at the end of its `path`.
+fn operations(path: &Path<'_>, cells: usize) -> f64 {
+    let (counters, solution) = (path.model.counters, path.model.operations());
+    let [tangent, residual] = CELL_OPERATIONS.map(|operations| operations * cells as f64);
+    counters.factorisations as f64 * solution.factor
+        + path.counts.iterations as f64 * solution.solve
+        + counters.assemblies as f64 * tangent
+        + counters.residuals as f64 * residual
 }
 
 /// Collects rows and hands out events.
@@ -122,6 +145,7 @@ impl<'p> Recorder<'p> {
             newton_iterations: 0,
             force_nodal: 0.0,
             force_error: None,
+            area_error: None,
         };
         Recorder {
             problem,
@@ -185,6 +209,7 @@ impl<'p> Recorder<'p> {
             newton_iterations: increment.newton_iterations,
             force_nodal: contact.force * u.force,
             force_error: None,
+            area_error: None,
         };
         self.rows.push(row);
         let (edges, touching) = (&model.state().edges, &model.state().contact);
@@ -394,6 +419,9 @@ impl<'p> Recorder<'p> {
             energy_balance_error: balance_error(&self.rows),
             estimated_error: f64::NAN,
             errors: Errors::UNKNOWN,
+            errors_along: ErrorsAlong::UNKNOWN,
+            promise_kept: None,
+            rounds: 1,
             elements: self.problem.mesh.cell_count(),
             dofs: self.unknowns,
             increments: self.rows.len() - 1,
@@ -411,6 +439,9 @@ impl<'p> Recorder<'p> {
             summary,
             stopped,
             counters: path.model.counters,
+            operations: operations(path, self.problem.mesh.cell_count()),
+            numbers: self.problem.numbers,
+            round: 1,
         }
     }
 }

@@ -95,6 +95,8 @@ pub struct CurveRow {
     pub force_nodal: f64,
     /// 95 % bound of the relative error of the force; `None` where it is not known or there is no force.
     pub force_error: Option<f64>,
+    /// The same of the contact area.
+    pub area_error: Option<f64>,
 }
 
 impl CurveRow {
@@ -106,8 +108,8 @@ impl CurveRow {
     }
 }
 
-/// 95 % bounds of the errors of a run against its own converged limit, over 0.2 ≤ h/h_peak ≤ 1; NaN where
-/// they are not known.
+/// 95 % bounds of the errors of a run against its own converged limit, at the peak or of what they name; NaN
+/// where they are not known.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Errors {
     /// Of the force, relative.
@@ -119,6 +121,9 @@ pub struct Errors {
     /// Of the mean pressure, relative.
     #[serde(deserialize_with = "nan_for_null")]
     pub mean_pressure: f64,
+    /// Of the depth at which a force was asked for, relative; `None` where a depth was.
+    #[serde(default)]
+    pub depth: Option<f64>,
     /// Of the residual depth, over the peak depth; `None` without unloading.
     pub residual_depth: Option<f64>,
     /// Of the elastic fraction, absolute; `None` without unloading.
@@ -133,10 +138,31 @@ impl Errors {
         force: f64::NAN,
         contact_area: f64::NAN,
         mean_pressure: f64::NAN,
+        depth: None,
         residual_depth: None,
         elastic_fraction: None,
         unloading_stiffness: None,
     };
+}
+
+/// The largest of the bounds along the curve, over 0.2 ≤ h/h_peak ≤ 1; NaN where they are not known.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ErrorsAlong {
+    /// Of the force, relative.
+    #[serde(deserialize_with = "nan_for_null")]
+    pub force: f64,
+    /// Of the contact area, relative.
+    #[serde(deserialize_with = "nan_for_null")]
+    pub contact_area: f64,
+    /// Of the mean pressure, relative.
+    #[serde(deserialize_with = "nan_for_null")]
+    pub mean_pressure: f64,
+}
+
+impl ErrorsAlong {
+    /// Nothing is known.
+    pub const UNKNOWN: ErrorsAlong =
+        ErrorsAlong { force: f64::NAN, contact_area: f64::NAN, mean_pressure: f64::NAN };
 }
 
 /// The share of one asperity in one increment: a row of `asperities.csv`.
@@ -240,15 +266,23 @@ pub struct Summary {
     /// That of the force among the errors.
     #[serde(deserialize_with = "nan_for_null")]
     pub estimated_error: f64,
-    /// Bounds of the errors, where they are known.
+    /// Bounds of the errors at the peak, where they are known.
     pub errors: Errors,
+    /// Bounds of the errors along the curve, where they are known.
+    pub errors_along: ErrorsAlong,
+    /// Whether the stated errors are what the accuracy promises: of the force along the curve (of several
+    /// contacts at the peak), of the area at the peak. `None` of a run that did not reach its goal, or was
+    /// made once.
+    pub promise_kept: Option<bool>,
+    /// Rounds that were made, each finer than the one before.
+    pub rounds: usize,
     /// Number of elements.
     pub elements: usize,
     /// Number of unknowns.
     pub dofs: usize,
     /// Converged increments.
     pub increments: usize,
-    /// Newton iterations of the whole run, failed ones included.
+    /// Newton iterations of all rounds, failed ones included.
     pub newton_iterations: usize,
     /// Times an increment was halved.
     pub cutbacks: usize,

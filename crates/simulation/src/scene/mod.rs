@@ -195,6 +195,10 @@ pub struct Numerics {
     #[schemars(range(min = 3, max = 10_000))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub domain: Option<f64>,
+    /// Whether a run that misses what `accuracy` promises is made again with finer numbers; absent: it is. With `elements_in_contact` or
+    /// a mesh by hand there is one run.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub refine: Option<bool>,
 }
 
 /// A mesh on disk, its sides named axis, base, surface, outer.

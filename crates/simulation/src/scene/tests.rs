@@ -118,6 +118,7 @@ fn the_ends_of_the_ranges_are_allowed() {
                 steps: Some(10_000),
                 penetration: Some(0.1),
                 newton_tolerance: Some(1e-13),
+                refine: None,
                 domain: Some(3.0),
             };
         }),

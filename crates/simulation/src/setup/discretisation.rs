@@ -130,6 +130,20 @@ impl Discretisation {
         }
     }
 
+    /// Numbers `factor` times as good: elements, steps, penalty, substrate. Steps back and the tolerance
+    /// stay.
+    #[must_use]
+    pub fn finer(&self, factor: f64, given: &Numerics) -> Discretisation {
+        let more = |count: usize| (factor * count as f64).round() as usize;
+        Discretisation {
+            elements_in_contact: more(self.elements_in_contact),
+            steps: if given.steps.is_some() { self.steps } else { more(self.steps) },
+            penetration: given.penetration.unwrap_or(self.penetration / factor),
+            domain: given.domain.unwrap_or(factor * self.domain),
+            ..*self
+        }
+    }
+
     /// Depths at the ends of the load steps as shares of the peak.
     pub fn schedule(&self) -> Vec<f64> {
         loading(self.steps, self.spacing)
@@ -144,6 +158,7 @@ impl Discretisation {
             penetration: Some(self.penetration),
             newton_tolerance: Some(self.newton_tolerance),
             domain: Some(self.domain),
+            refine: None,
         }
     }
 }

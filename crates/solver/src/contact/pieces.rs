@@ -1,13 +1,13 @@
 //! The pieces of an edge along which the penetration of a tool is smooth.
 //!
-//! An outline has places where its curvature jumps: where the arc of a tip meets the flank, where arcs of a measured
-//! outline meet, at the apex of a sharp tool. The penetration of a point jumps in its second derivative where the foot
-//! of the point passes such a place K, that is on the normal of the outline there,
+//! An outline has places where its curvature jumps: where the arc of a tip meets the flank, where arcs of a
+//! measured outline meet, at the apex of a sharp tool. The penetration of a point jumps in its second
+//! derivative where the foot of the point passes such a place K, that is on the normal of the outline there,
 //! ```text
 //! (r - r_K) + s_K (z - z_K) = 0,    s_K the slope of the outline at K.
 //! ```
-//! Along an edge the position is a parabola in ξ, so the places follow from a quadratic. Pressure and slope are
-//! continuous there: a division that moves adds nothing to the derivative of an integral over the pieces.
+//! Along an edge the position is a parabola in ξ, so the places follow from a quadratic. Pressure and slope
+//! are continuous there: a division that moves adds nothing to the derivative of an integral over the pieces.
 
 use crate::contact::edge::ContactEdge;
 use crate::contact::tool::{Kink, Tool};
@@ -27,7 +27,8 @@ impl Places {
     /// None.
     pub const NONE: Places = Places { xi: [0.0; MOST_PLACES], count: 0 };
 
-    /// Those at which the foot of the points of `edge`, its nodes at `x`, passes a kink of `tool`, whose lowest point is at height `tip`.
+    /// Those at which the foot of the points of `edge`, its nodes at `x`, passes a kink of `tool`, whose
+    /// lowest point is at height `tip`.
     pub fn of_edge(edge: &ContactEdge, x: &[[f64; 2]; 3], tool: &Tool, tip: f64) -> Places {
         let radii = x[..edge.node_count()].iter().map(|x| x[0]);
         let (low, high) = radii.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), r| (a.min(r), b.max(r)));

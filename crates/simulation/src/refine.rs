@@ -1,0 +1,207 @@
+//! A run that is refined until it keeps the promise of its accuracy.
+//!
+//! A round is a run with its companion. What it states is compared with what the accuracy promises; where it is more, the
+//! next round has finer numbers, as many times as the order asks for by which the stated errors fall: 3/2 of the force
+//! and 1 of the area at first (`error_estimate`), and then the order that two rounds have shown. Where all numbers are
+//! just twice as fine, the round before is the companion of the next one. Work is counted in operations, never in
+//! seconds, so that the bits are those of every machine.
+
+use crate::record::recorder::{Event, Outcome, Watcher};
+use crate::record::rows::Summary;
+use crate::run::{CrushError, Run};
+use crate::scene::Scene;
+use crate::setup::discretisation::Discretisation;
+
+/// Rounds at most.
+const MOST_ROUNDS: usize = 3;
+
+/// Work of all rounds at most, over that of the first.
+const MOST_WORK_RATIO: f64 = 12.0;
+
+/// Orders by which stated errors of force and area are expected to fall.
+const EXPECTED_ORDERS: [f64; 2] = [1.5, 1.0];
+
+/// Range of an order that two rounds show: chance may make it anything.
+const ORDERS: [f64; 2] = [0.5, 2.0];
+
+/// Power of the fineness with which the work grows: 2 of the elements, 1 of the steps.
+const WORK_EXPONENT: f64 = 3.0;
+
+/// Work of a companion over that of its run.
+const COMPANION_WORK: f64 = 0.2;
+
+/// Factors of fineness from one round to the next: less is no new round, more than twice goes by two rounds.
+const FACTORS: [f64; 2] = [1.15, 2.0];
+
+/// Factor from which the round is made twice as fine, so that the round before is its companion.
+const NEARLY_TWICE: f64 = 1.7;
+
+/// How much finer than just enough: the stated error of a finer run scatters.
+const MARGIN: f64 = 1.2;
+
+/// Smallest error of the area that an accuracy promises.
+const FINEST_AREA_PROMISE: f64 = 0.005;
+
+impl Scene {
+    /// What is promised and what `summary` states of the force (along the curve, of several contacts at the peak) and of the area (at the
+    /// peak): each as [stated, promised]; stated NaN where it is not known.
+    pub fn stated_and_promised(&self, summary: &Summary) -> [[f64; 2]; 2] {
+        let promise = self.accuracy.promise();
+        let force = if self.asperity_count() > 1 { summary.errors.force } else { summary.errors_along.force };
+        [[force, promise], [summary.errors.contact_area, promise.max(FINEST_AREA_PROMISE)]]
+    }
+
+    /// Whether a run of it may be made again with finer numbers: the user gave neither the elements nor a mesh, nor asked for one run.
+    pub fn may_refine(&self) -> bool {
+        self.numerics.refine != Some(false)
+            && self.numerics.elements_in_contact.is_none()
+            && self.mesh.is_none()
+    }
+}
+
+/// The stated errors of force and area over what is promised; infinite where none is stated.
+fn misses(scene: &Scene, outcome: &Outcome) -> [f64; 2] {
+    scene
+        .stated_and_promised(&outcome.summary)
+        .map(|[stated, promised]| if stated.is_nan() { f64::INFINITY } else { stated / promised })
+}
+
+/// Work of a run whose stated errors are just the promised ones, over that of one which states `over` times as much of force and area.
+pub fn work_to_keep(over: [f64; 2]) -> f64 {
+    wanted(over, EXPECTED_ORDERS).powf(WORK_EXPONENT)
+}
+
+fn largest(misses: [f64; 2]) -> f64 {
+    misses[0].max(misses[1])
+}
+
+/// How much finer the next round is to be, with the orders by which errors fall.
+fn wanted(misses: [f64; 2], orders: [f64; 2]) -> f64 {
+    let finer = |i: usize| (MARGIN * misses[i]).powf(orders[i].recip());
+    let factor = finer(0).max(finer(1));
+    if factor.is_finite() { factor } else { FACTORS[1] }
+}
+
+/// The orders that two rounds show, the second `factor` times as fine.
+fn observed(before: [f64; 2], after: [f64; 2], factor: f64) -> [f64; 2] {
+    std::array::from_fn(|i| {
+        let order = (before[i] / after[i]).ln() / factor.ln();
+        if order.is_finite() { order.clamp(ORDERS[0], ORDERS[1]) } else { EXPECTED_ORDERS[i] }
+    })
+}
+
+impl Run<'_> {
+    /// [`Run::run`], and where it does not keep the promise of its accuracy further rounds with finer numbers, three at most and with
+    /// twelve times the work of the first. Rows, fields and errors are those of the best round, iterations those of all;
+    /// `summary.promise_kept` and `summary.rounds` tell how it went. The observer hears of each round by [`Event::Round`]; where it
+    /// ends a later one, what the round before gave is the outcome. Numbers that the scene gives stay, as do meshes.
+    ///
+    /// # Errors
+    /// As for [`Run::run`].
+    pub fn run_refined(self, observer: &mut Watcher<'_>) -> Result<Outcome, CrushError> {
+        let scene = self.scene;
+        let run = self.begin()?;
+        let mut numbers = Discretisation::new(scene);
+        let first = run.round(numbers, None, observer)?;
+        let allowed = MOST_WORK_RATIO * first.work;
+        let mut last_miss = misses(scene, &first.outcome);
+        let mut best = Kept { miss: largest(last_miss), outcome: first.outcome.clone() };
+        let (mut before, mut work, mut iterations, mut rounds) =
+            (first.main, first.work, best.outcome.summary.newton_iterations, 1);
+        let (mut orders, mut fineness) = (EXPECTED_ORDERS, 1.0);
+        let ended = best.outcome.stopped.is_some();
+        while !ended && best.miss > 1.0 && rounds < MOST_ROUNDS && scene.may_refine() {
+            let Some(factor) = affordable(wanted(last_miss, orders), fineness, work / first.work) else {
+                break;
+            };
+            let twice = factor == FACTORS[1];
+            if observer(&Event::Round(rounds + 1)).is_break() {
+                break;
+            }
+            let next = numbers.finer(factor, &scene.numerics);
+            let mut interrupted = false;
+            let told = &mut |event: &Event<'_>| {
+                let told = observer(event);
+                interrupted |= told.is_break();
+                told
+            };
+            let found = run.round(next, twice.then_some(&before), told);
+            let Ok(found) = found else { break };
+            if interrupted {
+                break;
+            }
+            rounds += 1;
+            work += found.work;
+            iterations += found.outcome.summary.newton_iterations;
+            if found.outcome.stopped.is_some() {
+                break;
+            }
+            let miss = misses(scene, &found.outcome);
+            orders = observed(last_miss, miss, factor);
+            (numbers, fineness, last_miss, before) = (next, fineness * factor, miss, found.main);
+            if largest(miss) < best.miss {
+                let outcome = Outcome { round: rounds, numbers, ..found.outcome };
+                best = Kept { miss: largest(miss), outcome };
+            }
+            if work > allowed {
+                break;
+            }
+        }
+        let mut outcome = best.outcome;
+        outcome.summary.newton_iterations = iterations;
+        outcome.summary.rounds = rounds;
+        outcome.summary.promise_kept = outcome.stopped.is_none().then_some(best.miss <= 1.0);
+        Ok(outcome)
+    }
+}
+
+/// The best round so far.
+struct Kept {
+    miss: f64,
+    outcome: Outcome,
+}
+
+/// The factor of fineness that is made of the `wanted` one after rounds that took `spent` times the work of the first, the last of
+/// them `fineness` times as fine; `None` where what may be spent brings nothing.
+fn affordable(wanted: f64, fineness: f64, spent: f64) -> Option<f64> {
+    let wanted = if wanted > NEARLY_TWICE { FACTORS[1] } else { wanted.max(FACTORS[0]) };
+    let cost = |factor: f64| {
+        let companion = if factor == FACTORS[1] { 0.0 } else { COMPANION_WORK };
+        (fineness * factor).powf(WORK_EXPONENT) * (1.0 + companion) / (1.0 + COMPANION_WORK)
+    };
+    let left = MOST_WORK_RATIO - spent;
+    if cost(wanted) <= left {
+        return Some(wanted);
+    }
+    let factor = left.powf(WORK_EXPONENT.recip()) / fineness;
+    (factor >= FACTORS[0]).then_some(factor.min(NEARLY_TWICE))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_miss_of_the_area_by_a_third_asks_for_a_third_more_and_double_goes_by_the_round_before() {
+        let factor = affordable(wanted([0.5, 1.3], EXPECTED_ORDERS), 1.0, 1.0).unwrap();
+        assert!((factor - 1.3 * MARGIN).abs() < 1e-12);
+        assert_eq!(affordable(wanted([4.0, 1.0], EXPECTED_ORDERS), 1.0, 1.0), Some(2.0));
+        assert_eq!(affordable(wanted([f64::INFINITY, f64::INFINITY], EXPECTED_ORDERS), 1.0, 1.0), Some(2.0));
+    }
+
+    #[test]
+    fn work_is_bounded() {
+        assert_eq!(affordable(2.0, 1.0, 11.5), None);
+        // a second doubling would cost 64 times the first round
+        assert_eq!(affordable(2.0, 2.0, 8.0), None);
+        let factor = affordable(2.0, 1.0, 7.0).unwrap();
+        assert!(factor > 1.5 && factor < NEARLY_TWICE, "{factor}");
+    }
+
+    #[test]
+    fn orders_are_those_that_two_rounds_show() {
+        let [force, area] = observed([4.0, 3.0], [1.0, 3.2], 2.0);
+        assert_eq!([force, area], [2.0, ORDERS[0]]);
+        assert_eq!(observed([f64::INFINITY; 2], [1.0; 2], 2.0), EXPECTED_ORDERS);
+    }
+}
