@@ -1,7 +1,7 @@
 //! From a coarse grid to the fine one, from `f32` to `f64`: each start is the answer of the one before.
 
 use super::conjugate_gradients::conjugate_gradients;
-use super::convolution::Convolution;
+use super::convolution::{Convolution, Way};
 use super::projected_gradient::projected_gradient;
 use crate::half_space::float::{Real, sums};
 use crate::half_space::grid_level::{Hold, Level, MISSING_HEIGHT, Search};
@@ -52,13 +52,14 @@ pub(super) struct Answer {
 }
 
 impl Task {
-    /// The grid in numbers of type `T`.
-    pub fn level<T: Real>(&self) -> Level<T> {
+    /// The grid in numbers of type `T`, with pressures counted from `base`.
+    pub fn level<T: Real>(&self, base: f64) -> Level<T> {
         let missing = T::nearest(MISSING_HEIGHT);
         let converted = |h: &f64| if h.is_nan() { missing } else { T::nearest(*h) };
         Level {
             heights: self.heights.par_iter().map(converted).collect(),
             limit: self.limit,
+            base,
             rms: self.rms,
             space: Convolution::new(self.nodes, self.sides, self.periodic),
             convolutions: 0,
@@ -101,21 +102,21 @@ impl Task {
     }
 
     /// A pressure to start from, by the coarser grids.
-    fn first_guess(&self, hold: Hold) -> Vec<f32> {
+    fn first_guess(&self, hold: Hold, base: f64) -> Vec<f32> {
         let Some(coarse) = self.coarser() else {
-            return self.uniform(hold);
+            return self.uniform(hold, base);
         };
-        let start = coarse.first_guess(hold);
-        let mut level = coarse.level::<f32>();
+        let start = coarse.first_guess(hold, base);
+        let mut level = coarse.level::<f32>(base);
         let start = allowed(&level, hold, start);
         let found = search(&mut level, hold, start, COARSE_RESIDUAL, ITERATIONS);
         self.prolonged(coarse.nodes, &found.pressure)
     }
 
     /// The same pressure everywhere.
-    fn uniform(&self, hold: Hold) -> Vec<f32> {
+    fn uniform(&self, hold: Hold, base: f64) -> Vec<f32> {
         let value = match hold {
-            Hold::Pressure(p) => p,
+            Hold::Pressure(p) => p - base,
             Hold::Plane(_) => 0.0,
         };
         self.heights.iter().map(|h| if h.is_nan() { 0.0 } else { value as f32 }).collect()
@@ -135,33 +136,99 @@ impl Task {
 
     /// The pressure that `hold` brings about, from `start` or from coarser grids, to `tolerance`.
     pub fn solve(&self, hold: Hold, start: Option<&[f64]>, tolerance: f64) -> Answer {
-        let start = match start {
-            Some(pressure) => pressure.par_iter().map(|p| *p as f32).collect(),
-            None => self.first_guess(hold),
+        let (base, full) = match hold {
+            Hold::Pressure(mean) if self.may_close(mean) => (f64::from(mean as f32), Some(self.closed(mean))),
+            _ => (0.0, None),
         };
-        let mut level = self.level::<f32>();
+        if let Some(full) = full.filter(|full| self.bears(&full.pressure)) {
+            return full;
+        }
+        let start = match start {
+            Some(pressure) => pressure.par_iter().map(|p| (*p - base) as f32).collect(),
+            None => self.first_guess(hold, base),
+        };
+        let mut level = self.level::<f32>(base);
         let start = allowed(&level, hold, start);
         let reachable = tolerance.max(SINGLE_PRECISION_RESIDUAL).max(self.rounding(&mut level, &start));
         let found = search(&mut level, hold, start, reachable, ITERATIONS);
         let single = level.convolutions;
         drop(level);
         let start: Vec<f64> = found.pressure.par_iter().map(|p| f64::from(*p)).collect();
-        if tolerance >= reachable {
+        if tolerance >= reachable && found.residual <= tolerance {
             let lift = found.lift.par_iter().map(|u| f64::from(*u)).collect();
             let (plane, residual) = (found.plane, found.residual);
-            return Answer { pressure: start, lift, plane, residual, convolutions: single };
+            let pressure = self.from_zero(base, start);
+            return Answer { pressure, lift, plane, residual, convolutions: single };
         }
         drop(found);
-        let mut level = self.level::<f64>();
+        let mut level = self.level::<f64>(base);
         let start = allowed(&level, hold, start);
         let found = search(&mut level, hold, start, tolerance, ITERATIONS);
         Answer {
-            pressure: found.pressure,
+            pressure: self.from_zero(base, found.pressure),
             lift: found.lift,
             plane: found.plane,
             residual: found.residual,
             convolutions: single + level.convolutions,
         }
+    }
+
+    /// Pressures counted from 0 of those counted from `base`, those at a bound exactly there.
+    fn from_zero(&self, base: f64, mut pressure: Vec<f64>) -> Vec<f64> {
+        if base > 0.0 {
+            // the bound is that of either number type
+            let low = -base;
+            let [single, double] = [f64::from((self.limit - base) as f32), self.limit - base];
+            let top = single.min(double);
+            pressure.par_iter_mut().for_each(|p| {
+                *p = if *p <= low {
+                    0.0
+                } else if *p >= top {
+                    self.limit
+                } else {
+                    *p + base
+                }
+            });
+        }
+        pressure
+    }
+
+    /// True where a `mean` pressure might close every gap: of full contact the pressures vary by E* h'/2, root
+    /// mean square, about their mean. Steps between neighbours give no more than the true slope h'.
+    fn may_close(&self, mean: f64) -> bool {
+        let [nx, ny] = self.nodes;
+        let h = &self.heights;
+        let [squares, missing] = sums(h.len(), |range| {
+            range.fold([0.0, 0.0], |[squares, missing], i| {
+                let (x, y) = (i % nx, i / nx);
+                let right = h[y * nx + (x + 1) % nx] - h[i];
+                let above = h[(y + 1) % ny * nx + x] - h[i];
+                if h[i].is_nan() {
+                    return [squares, missing + 1.0];
+                }
+                [squares + (right / self.sides[0]).powi(2) + (above / self.sides[1]).powi(2), missing]
+            })
+        });
+        self.periodic && missing == 0.0 && mean >= 0.5 * (squares / h.len() as f64).sqrt()
+    }
+
+    /// Full contact under a `mean` pressure: p = P + F⁻¹(E* |q|/2 ĥ), whatever its bounds.
+    fn closed(&self, mean: f64) -> Answer {
+        let mut level = self.level::<f64>(mean);
+        let [plane, _] = <[f64; 2]>::from(spread(&self.heights));
+        let uneven: Vec<f64> = self.heights.par_iter().map(|h| h - plane).collect();
+        let [mut pressure, mut lift] = [(); 2].map(|()| vec![0.0; uneven.len()]);
+        level.apply(Way::Stiffness, &uneven, &mut pressure);
+        level.lift(&pressure, &mut lift);
+        let residual =
+            level.residual([&pressure, &lift], plane, &level.near_contact([&pressure, &lift], plane));
+        pressure.par_iter_mut().for_each(|p| *p += mean);
+        Answer { pressure, lift, plane, residual, convolutions: level.convolutions }
+    }
+
+    /// True where no pressure lies beyond its bounds.
+    fn bears(&self, pressure: &[f64]) -> bool {
+        pressure.par_iter().all(|p| *p > 0.0 && *p < self.limit)
     }
 }
 
@@ -183,8 +250,8 @@ fn search<T: Real>(
 
 /// `start` within the bounds and with the load.
 fn allowed<T: Real>(level: &Level<T>, hold: Hold, mut start: Vec<T>) -> Vec<T> {
-    let top = level.top();
-    start.par_iter_mut().for_each(|p| *p = p.max(T::zero()).min(top));
+    let [bottom, top] = level.bounds();
+    start.par_iter_mut().for_each(|p| *p = p.max(bottom).min(top));
     if let Hold::Pressure(wanted) = hold {
         level.rescale(&mut start, wanted);
     }

@@ -23,12 +23,12 @@ pub(super) fn conjugate_gradients<T: Real>(
     iterations: usize,
 ) -> Search<T> {
     let n = start.len();
-    let top = level.top();
+    let bounds @ [bottom, top] = level.bounds();
     let zero_sum = matches!(hold, Hold::Pressure(_));
     let mut p = start;
     // r, its last one, and t are 0 beside the nodes that are free, or were
     let [mut u, mut r, mut r_old, mut z, mut t] = [(); 5].map(|()| vec![T::zero(); n]);
-    let mut touching = Nodes::select(n, |i| p[i] > T::zero());
+    let mut touching = Nodes::select(n, |i| p[i] > bottom);
     let mut free = Nodes::select(0, |_| false);
     let (mut last, mut product) = (None, 0.0);
     let mut best = f64::INFINITY;
@@ -51,7 +51,7 @@ pub(super) fn conjugate_gradients<T: Real>(
         iteration += 1;
         let at = T::nearest(d);
         // of a gap of 0 nothing is to be changed
-        let freed = near.those(|i| u[i] + at != T::zero() && is_free(p[i], u[i] + at, top));
+        let freed = near.those(|i| u[i] + at != T::zero() && is_free(p[i], u[i] + at, bounds));
         std::mem::swap(&mut r, &mut r_old);
         freed.set(&mut r, |i, _| u[i] + at);
         level.apply(Way::Stiffness, &r, &mut z);
@@ -80,8 +80,8 @@ pub(super) fn conjugate_gradients<T: Real>(
             }
         }
         let step = T::nearest(along / work);
-        free.set(&mut p, |i, p| (p - step * t[i]).max(T::zero()).min(top));
-        touching = near.those(|i| p[i] > T::zero());
+        free.set(&mut p, |i, p| (p - step * t[i]).max(bottom).min(top));
+        touching = near.those(|i| p[i] > bottom);
         if let Hold::Pressure(wanted) = hold {
             touching = level.rescale_on(touching, &mut p, wanted);
         }

@@ -18,11 +18,17 @@ pub(super) enum Hold {
 }
 
 /// A grid with its heights; E* and a pixel are 1, so that a pressure is a slope.
+///
+/// Pressures are counted from `base`, all of them: 0, or near full contact the mean pressure, which would else
+/// take the digits of what varies about it.
 pub(super) struct Level<T: Real> {
     /// Heights in units of the range of heights, row by row; a missing one is [`MISSING_HEIGHT`].
     pub heights: Vec<T>,
-    /// Largest pressure; infinite where the half-space is elastic.
+    /// Largest pressure, counted from 0; infinite where the half-space is elastic.
     pub limit: f64,
+    /// Pressure from which those of the level are counted; above 0 on periodic grids without holes alone, where
+    /// an even pressure displaces nothing. A number of both types.
+    pub base: f64,
     /// Root mean square height, the unit of gaps in the residual.
     pub rms: f64,
     /// The half-space.
@@ -33,7 +39,7 @@ pub(super) struct Level<T: Real> {
 
 /// A pressure with the gaps that it leaves.
 pub(super) struct Search<T> {
-    /// Pressure on each node.
+    /// Pressure on each node, counted from the base of its level.
     pub pressure: Vec<T>,
     /// Displacement minus height; plus `plane` it is the gap.
     pub lift: Vec<T>,
@@ -43,16 +49,24 @@ pub(super) struct Search<T> {
     pub residual: f64,
 }
 
-/// True where a node may change its pressure: between the bounds, or pushed away from its bound by the gap.
+/// True where a node may change its pressure: between the bounds `bottom` and `top`, or pushed away from its
+/// bound by the gap.
 #[inline]
-pub(super) fn is_free<T: Real>(pressure: T, gap: T, limit: T) -> bool {
-    if pressure <= T::zero() { gap < T::zero() } else { pressure < limit || gap > T::zero() }
+pub(super) fn is_free<T: Real>(pressure: T, gap: T, [bottom, top]: [T; 2]) -> bool {
+    if pressure <= bottom { gap < T::zero() } else { pressure < top || gap > T::zero() }
 }
 
 impl<T: Real> Level<T> {
-    /// The limit in the number type.
-    pub fn top(&self) -> T {
-        if self.limit.is_finite() { T::nearest(self.limit) } else { T::infinity() }
+    /// The least and the largest pressure as the level counts them.
+    pub fn bounds(&self) -> [T; 2] {
+        let top = if self.limit.is_finite() { T::nearest(self.limit - self.base) } else { T::infinity() };
+        [T::nearest(-self.base), top]
+    }
+
+    /// A pressure of the level counted from 0.
+    #[inline]
+    pub fn full(&self, pressure: T) -> f64 {
+        pressure.wide() + self.base
     }
 
     /// `output` = compliance or stiffness of `input`.
@@ -80,7 +94,7 @@ impl<T: Real> Level<T> {
         touching: &Nodes,
         last: Option<f64>,
     ) -> (f64, Nodes) {
-        let top = self.top();
+        let bounds @ [_, top] = self.bounds();
         let mean = |nodes: &Nodes, chosen: &(dyn Fn(usize) -> bool + Sync)| {
             let [sum, n] = nodes.sums(|i| if chosen(i) { [lift[i].wide(), 1.0] } else { [0.0, 0.0] });
             (n > 0.0).then(|| -sum / n)
@@ -93,7 +107,7 @@ impl<T: Real> Level<T> {
             .or_else(|| mean(touching, &|_| true))
             .unwrap_or(0.0);
         let (at, near) = (T::nearest(first), self.near_contact([pressure, lift], first));
-        let plane = mean(&near, &|i| is_free(pressure[i], lift[i] + at, top)).unwrap_or(first);
+        let plane = mean(&near, &|i| is_free(pressure[i], lift[i] + at, bounds)).unwrap_or(first);
         // a lower plane overlaps more
         let near = if plane < first { self.near_contact([pressure, lift], plane) } else { near };
         (plane, near)
@@ -101,18 +115,18 @@ impl<T: Real> Level<T> {
 
     /// The nodes under pressure, and those that overlap the plane at a height.
     pub fn near_contact(&self, [pressure, lift]: [&[T]; 2], plane: f64) -> Nodes {
-        let at = T::nearest(plane);
-        Nodes::select(pressure.len(), |i| pressure[i] > T::zero() || lift[i] + at < T::zero())
+        let (at, [bottom, _]) = (T::nearest(plane), self.bounds());
+        Nodes::select(pressure.len(), |i| pressure[i] > bottom || lift[i] + at < T::zero())
     }
 
     /// The distance of pressure and gap from complementarity, over the load times the rms height: gap under
     /// pressure, overlap without it, and overlap that a pressure below the limit would have to push away.
     /// `near` holds all nodes under pressure or overlapping the plane.
     pub fn residual(&self, [pressure, lift]: [&[T]; 2], plane: f64, near: &Nodes) -> f64 {
-        let (top, at) = (self.top(), T::nearest(plane));
+        let ([bottom, top], at) = (self.bounds(), T::nearest(plane));
         let [load, touching, overlapping] = near.sums(|i| {
             let flag = |holds: bool| if holds { 1.0 } else { 0.0 };
-            [pressure[i].wide(), flag(pressure[i] > T::zero()), flag(lift[i] + at < T::zero())]
+            [self.full(pressure[i]), flag(pressure[i] > bottom), flag(lift[i] + at < T::zero())]
         });
         if load <= 0.0 {
             // without pressure any overlap is all wrong
@@ -122,10 +136,10 @@ impl<T: Real> Level<T> {
         let [wrong] = near.sums(|i| {
             let (p, gap) = (pressure[i], (lift[i] + at).wide());
             [if gap > 0.0 {
-                p.wide() * gap
+                self.full(p) * gap
             } else if p < top {
                 // a pressure that is next to nothing pushes nothing away
-                p.wide().max(typical) * -gap
+                self.full(p).max(typical) * -gap
             } else {
                 0.0
             }]
@@ -137,15 +151,14 @@ impl<T: Real> Level<T> {
     /// cuts that, shifted on the nodes in contact.
     pub fn rescale(&self, pressure: &mut [T], wanted: f64) {
         let nodes = pressure.len() as f64;
-        let (limit, target) = (self.limit, wanted * nodes);
+        let (target, [_, top]) = (wanted * nodes, self.bounds());
         for _ in 0..60 {
             // capped scaling: what is below the limit takes the rest of the load
             let parts: Vec<[f64; 2]> = pressure
                 .par_chunks(CHUNK)
                 .map(|part| {
                     part.iter().fold([0.0, 0.0], |[below, full], p| {
-                        let p = p.wide();
-                        if p >= limit { [below, full + limit] } else { [below + p, full] }
+                        if *p >= top { [below, full + self.limit] } else { [below + self.full(*p), full] }
                     })
                 })
                 .collect();
@@ -161,13 +174,14 @@ impl<T: Real> Level<T> {
                 self.spread(pressure, target - full);
                 continue;
             };
-            let (by, top) = (T::nearest(factor), self.top());
+            // of a factor near 1 its difference from 1 has the digits
+            let (more, base) = (T::nearest(factor - 1.0), T::nearest(self.base));
             pressure.par_chunks_mut(CHUNK).for_each(|part| {
                 for p in part.iter_mut().filter(|p| all || **p < top) {
-                    *p = (*p * by).min(top);
+                    *p = (*p + more * (*p + base)).min(top);
                 }
             });
-            if factor <= 1.0 || limit.is_infinite() {
+            if factor <= 1.0 || self.limit.is_infinite() {
                 return;
             }
         }
@@ -175,26 +189,29 @@ impl<T: Real> Level<T> {
 
     /// The same where all pressure is on the nodes `touching`; those on which it is then.
     pub fn rescale_on(&self, touching: Nodes, pressure: &mut [T], wanted: f64) -> Nodes {
-        let [load] = touching.sums(|i| [pressure[i].wide()]);
+        let [load] = touching.sums(|i| [self.full(pressure[i])]);
+        let [bottom, _] = self.bounds();
         if load > 0.0 && self.limit.is_infinite() {
-            let by = T::nearest(wanted * pressure.len() as f64 / load);
-            touching.set(pressure, |_, p| p * by);
+            let more = T::nearest(wanted * pressure.len() as f64 / load - 1.0);
+            let base = T::nearest(self.base);
+            touching.set(pressure, |_, p| p + more * (p + base));
             return touching;
         }
         self.rescale(pressure, wanted);
-        Nodes::select(pressure.len(), |i| pressure[i] > T::zero())
+        Nodes::select(pressure.len(), |i| pressure[i] > bottom)
     }
 
     /// Adds `missing` load, evenly on the nodes without any pressure: those under pressure are all at the
     /// limit.
     fn spread(&self, pressure: &mut [T], missing: f64) {
         let hole = T::nearest(MISSING_HEIGHT);
-        let idle = |p: T, h: T| p <= T::zero() && h > hole;
+        let [bottom, top] = self.bounds();
+        let idle = |p: T, h: T| p <= bottom && h > hole;
         let [n] = sums(pressure.len(), |range| {
             let pairs = pressure[range.clone()].iter().zip(&self.heights[range]);
             [pairs.filter(|(p, h)| idle(**p, **h)).count() as f64]
         });
-        let share = if n > 0.0 { T::nearest(missing / n).min(self.top()) } else { T::zero() };
+        let share = if n > 0.0 { T::nearest(missing / n - self.base).min(top) } else { bottom };
         pressure
             .par_iter_mut()
             .zip(&self.heights)

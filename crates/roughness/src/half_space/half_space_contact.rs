@@ -15,6 +15,9 @@ use thiserror::Error;
 /// in contact are then those of 1e-8 but for a few in a million, or with a limit of pressure a few in ten
 /// thousand.
 pub const TOLERANCE: f64 = 1e-6;
+/// Long side over short side of a pixel up to which the search was seen to end: the preconditioner takes the
+/// lines for neighbours that move each other.
+const LONG_PIXEL: f64 = 30.0;
 /// The least residual that can be asked for.
 pub const FINEST_TOLERANCE: f64 = 1e-10;
 
@@ -47,6 +50,20 @@ pub enum HalfSpaceError {
          check the map for spikes"
     )]
     Unfinished {
+        /// Residual reached.
+        reached: f64,
+        /// Residual asked for.
+        wanted: f64,
+    },
+    /// The search did not end on pixels far from square.
+    #[error(
+        "the contact was not found: pixels are {ratio:.0} times as long as wide, and lines so far apart hardly feel each other, so \
+         that the residual stopped at {reached:.1e} instead of {wanted:.1e}; average points along the short side until the sides are \
+         as 1 to {LONG_PIXEL:.0} or nearer, or raise half_space.tolerance"
+    )]
+    LongPixels {
+        /// Long side of a pixel over its short one.
+        ratio: f64,
         /// Residual reached.
         reached: f64,
         /// Residual asked for.
@@ -90,6 +107,8 @@ pub struct HalfSpaceContact {
     pub mean_gap: f64,
     /// Contact area, of pixels and corrected for their edges.
     pub area: Area,
+    /// Largest pressure that the metal bears, in Pa; None of an elastic half-space.
+    pub limit: Option<f64>,
     /// Share of the contact area at the limit of pressure.
     pub limited_share: f64,
     /// Largest pressure of a pixel, in Pa.
@@ -192,7 +211,14 @@ impl HalfSpace {
             start.map(|s| s.pressures.par_iter().map(|p| f64::from(*p) / units.stress).collect());
         let answer = task.solve(hold, start.as_deref(), self.tolerance);
         if answer.residual.is_nan() || answer.residual > 3.0 * self.tolerance {
-            return Err(HalfSpaceError::Unfinished { reached: answer.residual, wanted: self.tolerance });
+            let (reached, wanted) = (answer.residual, self.tolerance);
+            let [a, b] = task.sides;
+            let ratio = (a / b).max(b / a);
+            return Err(if ratio > LONG_PIXEL {
+                HalfSpaceError::LongPixels { ratio, reached, wanted }
+            } else {
+                HalfSpaceError::Unfinished { reached, wanted }
+            });
         }
         let slope = stiffness(&task, &answer.pressure);
         Ok(self.contact(surface, &task, &units, pixels, answer, slope))
@@ -283,6 +309,7 @@ impl HalfSpace {
             separation: plane * units.height + units.low - units.mean,
             mean_gap: gaps * units.height / n,
             area: Area::from_pixels(map, &pressures, [touching as usize, pixels], load / limit / n),
+            limit: self.limit,
             limited_share: if touching > 0.0 { limited / touching } else { 0.0 },
             largest_pressure: pressure.par_iter().copied().reduce(|| 0.0, f64::max) * units.stress,
             stiffness: slope.map(|s| s * units.stress / units.height / units.used),
@@ -311,6 +338,24 @@ impl HalfSpaceContact {
     /// Load over contact area, in Pa; None without contact.
     pub fn mean_pressure(&self) -> Option<f64> {
         (self.area.ratio > 0.0).then(|| self.pressure / self.area.ratio)
+    }
+
+    /// Relative change of the contact area by that of the limit of pressure `limit` (Pa), its sign turned: 1
+    /// where the area is load over limit, else at most the share of the load that is at the limit, which is
+    /// given; 0 of an elastic contact.
+    ///
+    /// A little more limit takes load from the other pixels, which lowers their pressures and moves the rim;
+    /// the rest of the load does not feel it.
+    pub fn limit_sensitivity(&self, limit: f64) -> f64 {
+        let least = self.pressure / limit;
+        if self.area.ratio <= 0.0 || !limit.is_finite() {
+            return 0.0;
+        }
+        if self.area.corrected <= least * (1.0 + 1e-6) {
+            1.0
+        } else {
+            self.limited_share * self.area.ratio / least
+        }
     }
 
     /// The surface as the flow left it, without load.

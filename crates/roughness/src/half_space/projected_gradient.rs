@@ -77,7 +77,7 @@ fn changes<T: Real>(p: [&[T]; 2], u: [&[T]; 2]) -> [f64; 3] {
 
 /// P(p - α u), and the height of the plane that the shift stands for.
 fn projected<T: Real>(level: &Level<T>, hold: Hold, p: &[T], u: &[T], alpha: f64) -> (Vec<T>, f64) {
-    let (step, limit, hole) = (T::nearest(alpha), level.limit, T::nearest(MISSING_HEIGHT));
+    let (step, hole) = (T::nearest(alpha), T::nearest(MISSING_HEIGHT));
     let mut free = vec![T::zero(); p.len()];
     free.par_chunks_mut(CHUNK)
         .zip(p.par_chunks(CHUNK).zip(u.par_chunks(CHUNK)))
@@ -89,23 +89,24 @@ fn projected<T: Real>(level: &Level<T>, hold: Hold, p: &[T], u: &[T], alpha: f64
         });
     let shift = match hold {
         Hold::Plane(plane) => -alpha * plane,
-        Hold::Pressure(mean) => shift(&free, mean * p.len() as f64, limit),
+        Hold::Pressure(mean) => shift(level, &free, mean * p.len() as f64),
     };
-    let (by, top) = (T::nearest(shift), level.top());
-    free.par_iter_mut().for_each(|v| *v = (*v + by).max(T::zero()).min(top));
+    let (by, [bottom, top]) = (T::nearest(shift), level.bounds());
+    free.par_iter_mut().for_each(|v| *v = (*v + by).max(bottom).min(top));
     (free, -shift / alpha)
 }
 
-/// The shift after which the numbers, cut to 0..`limit`, sum to `target`: Newton's method kept in its
-/// bracket.
-fn shift<T: Real>(values: &[T], target: f64, limit: f64) -> f64 {
+/// The shift after which the pressures `values`, cut at their bounds and counted from 0, sum to `target`:
+/// Newton's method kept in its bracket.
+fn shift<T: Real>(level: &Level<T>, values: &[T], target: f64) -> f64 {
+    let limit = level.limit;
     // the load at a shift, and how many nodes change it
     let carried = |shift: f64| {
         let parts: Vec<[f64; 2]> = values
             .par_chunks(CHUNK)
             .map(|part| {
                 part.iter().fold([0.0, 0.0], |[sum, n], v| {
-                    let v = v.wide() + shift;
+                    let v = level.full(*v) + shift;
                     if v <= 0.0 {
                         [sum, n]
                     } else if v >= limit {

@@ -18,7 +18,7 @@ const ITERATIONS: usize = 200;
 /// gradients on a fixed set. The plane moves by that constant, and the gap by as much as surface beside the
 /// contact does not follow.
 pub(super) fn stiffness(task: &Task, pressure: &[f64]) -> Option<f64> {
-    let mut level: Level<f32> = task.level();
+    let mut level: Level<f32> = task.level(0.0);
     let n = pressure.len();
     let inside: Vec<bool> = pressure.iter().map(|p| *p > 0.0 && *p < task.limit).collect();
     let open: Vec<bool> = pressure.iter().zip(&task.heights).map(|(p, h)| *p <= 0.0 && !h.is_nan()).collect();

@@ -281,3 +281,81 @@ fn any_load_below_the_limit_is_found() {
         }
     }
 }
+
+/// Waves z = Σ a cos(q·x): full contact has p = P + Σ E* |q|/2 a cos(q·x), whatever the load, and no gap.
+#[test]
+fn full_contact_is_its_closed_form_at_any_load() {
+    let (n, amplitude): (usize, f64) = (96, 0.1e-6);
+    for pixel in [[1e-6, 1e-6], [1e-6, 0.2e-6]] {
+        let waves = [([3.0, 1.0], 1.0), ([7.0, -5.0], 0.4), ([20.0, 11.0], 0.1)];
+        let sum = |i: usize, gain: &dyn Fn(f64) -> f64| -> f64 {
+            let wave = |(k, a): &([f64; 2], f64)| {
+                let [qx, qy] = [0, 1].map(|axis| 2.0 * PI * k[axis] / (n as f64 * pixel[axis]));
+                let phase = qx * (i % n) as f64 * pixel[0] + qy * (i / n) as f64 * pixel[1];
+                a * amplitude * gain(qx.hypot(qy)) * phase.cos()
+            };
+            waves.iter().map(wave).sum()
+        };
+        let z = (0..n * n).map(|i| sum(i, &|_| 1.0)).collect();
+        let surface = Surface::from_map(HeightMap::new(n, n, pixel, z).unwrap().with_periodic(true)).unwrap();
+        let unit = MODULUS * surface.parameters.rms_gradient;
+        for ratio in [3.0, 10.0, 30.0, 100.0, 1e6] {
+            let load = ratio * unit;
+            for limit in [None, Some(5.0 * load)] {
+                let body = HalfSpace { limit, ..elastic(TOLERANCE) };
+                let found = body.press(&surface, Load::Pressure(load)).unwrap();
+                assert!(found.convolutions <= 10 && found.residual <= TOLERANCE, "{ratio} {found:?}");
+                assert_eq!((found.area.ratio, found.area.error), (1.0, 0.0));
+                close("load", found.pressure, load, 1e-9);
+                for (i, p) in found.pressures.iter().enumerate() {
+                    let exact = load + sum(i, &|q| 0.5 * MODULUS * q);
+                    // pressures are kept with seven digits
+                    assert!(
+                        (f64::from(*p) - exact).abs() < 1e-6 * exact.max(load),
+                        "{ratio} {i} {p} {exact}"
+                    );
+                }
+            }
+        }
+    }
+}
+
+/// A narrow pit that loads far beyond the mean slope do not close: the rest is in full contact.
+#[test]
+fn a_pit_stays_open_under_loads_that_close_all_else() {
+    let n = 128;
+    let z = |i: usize| {
+        let (x, y) = ((i % n) as f64 - 40.0, (i / n) as f64 - 70.0);
+        let wave = (2.0 * PI * (3 * (i % n) + 2 * (i / n)) as f64 / n as f64).cos();
+        (1e-3 * wave - (-(x * x + y * y) / 8.0).exp()) * 1e-6
+    };
+    let map = HeightMap::new(n, n, [1e-6; 2], (0..n * n).map(z).collect()).unwrap().with_periodic(true);
+    let surface = Surface::from_map(map).unwrap();
+    let unit = MODULUS * surface.parameters.rms_gradient;
+    let mut last = 0.0;
+    for ratio in [3.0, 6.0, 10.0] {
+        let found = elastic(TOLERANCE).press(&surface, Load::Pressure(ratio * unit)).unwrap();
+        assert!(found.residual <= TOLERANCE && found.convolutions < 100, "{ratio} {found:?}");
+        assert!(found.area.ratio > last && found.area.ratio < 1.0, "{ratio} {:?}", found.area);
+        assert!(found.pressures.iter().all(|p| *p >= 0.0));
+        close("load", found.pressure, ratio * unit, 1e-7);
+        last = found.area.ratio;
+    }
+}
+
+/// Lines a thousand pixels apart are found, or refused for what they are.
+#[test]
+fn long_pixels_work_or_are_refused_with_their_reason() {
+    let rough = rough(32, true);
+    for ratio in [0.1, 10.0, 1e3] {
+        let heights = rough.map.heights().to_vec();
+        let map = HeightMap::new(32, 32, [1e-6, ratio * 1e-6], heights).unwrap().with_periodic(true);
+        let surface = Surface::from_map(map).unwrap();
+        let load = 0.02 * MODULUS * surface.parameters.rms_gradient;
+        match elastic(TOLERANCE).press(&surface, Load::Pressure(load)) {
+            Ok(found) => assert!(found.residual <= TOLERANCE),
+            Err(HalfSpaceError::LongPixels { ratio: told, .. }) => close("sides", told, 1e3, 1e-9),
+            Err(other) => panic!("{ratio}: {other}"),
+        }
+    }
+}
