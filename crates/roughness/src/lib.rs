@@ -7,6 +7,9 @@
 
 mod surface;
 
+#[cfg(test)]
+mod test_waves;
+
 mod contact;
 
 pub mod asperities;

@@ -1,12 +1,20 @@
 //! Contact area from pixels.
 
+use super::rim::Rim;
 use crate::HeightMap;
-use crate::surface::height_map::chunks;
 use std::f64::consts::{LN_2, PI};
 
 /// Part of a pixel by which each pixel edge on the rim of the contact makes its area too large (Yastrebov,
 /// Anciaux and Molinari 2017, Tribology International 114, 161-171).
 const RIM: f64 = (PI - 1.0 + LN_2) / 24.0;
+/// Share of that correction that is uncertain: it is the mean over rims that run all ways. Of 140 contacts of
+/// band-limited maps against the same refined eight times, the areas differ by -0.26 to 0.21 of it.
+const RIM_DOUBT: f64 = 0.25;
+/// The same where a rim runs straight across the map: along the grid the area is too large by 0.20 of a pixel an
+/// edge, the mean over its places between two lines, and by 0.11 to 0.15 in other directions.
+const STRAIGHT_RIM_DOUBT: f64 = 0.7;
+/// Standard deviations of a bound.
+const DEVIATIONS: f64 = 2.0;
 
 /// Contact area over the area of the pixels used.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -16,7 +24,8 @@ pub struct Area {
     /// The same less what the rim of the contact adds, but no less than carries the load at the limit of
     /// pressure.
     pub corrected: f64,
-    /// The uncertain part of the corrected ratio: the size of the correction.
+    /// 95 % bound of the error of the corrected ratio that pixels make: a quarter of the correction, and the
+    /// places that straight pieces of the rim may take between the lines of the grid.
     pub error: f64,
     /// Pixel edges between contact and none.
     pub edges: usize,
@@ -31,27 +40,17 @@ impl Area {
         [touching, pixels]: [usize; 2],
         least: f64,
     ) -> Area {
-        let edges = edges(map, pressures);
-        let n = pixels as f64;
+        let rim = Rim::new(map, pressures);
+        let (edges, n) = (rim.edges(), pixels as f64);
+        let correction = RIM * edges as f64;
         let ratio = touching as f64 / n;
         // the rule of the rim is for pressures that fall to nothing there; at the limit they end as they are
-        let corrected = (ratio - RIM * edges as f64 / n).max(least).min(ratio);
-        Area { ratio, corrected, error: ratio - corrected, edges }
+        let corrected = (ratio - correction / n).max(least).min(ratio);
+        let doubt = rim.doubt();
+        let straight = (STRAIGHT_RIM_DOUBT - RIM_DOUBT) * RIM * doubt.crossing as f64;
+        let error = (RIM_DOUBT * correction + straight + DEVIATIONS * doubt.variance.sqrt()) / n;
+        Area { ratio, corrected, error, edges }
     }
-}
-
-/// Pixel edges with contact on one side.
-fn edges(map: &HeightMap, pressures: &[f32]) -> usize {
-    let (nx, ny) = (map.columns(), map.rows());
-    let loaded = |x: usize, y: usize| pressures[y * nx + x] > 0.0;
-    let across = |x: usize, y: usize| {
-        let right = if x + 1 < nx { Some(loaded(x + 1, y)) } else { map.periodic().then(|| loaded(0, y)) };
-        let above = if y + 1 < ny { Some(loaded(x, y + 1)) } else { map.periodic().then(|| loaded(x, 0)) };
-        let here = loaded(x, y);
-        usize::from(right.is_some_and(|r| r != here)) + usize::from(above.is_some_and(|a| a != here))
-    };
-    let parts = chunks(ny, |rows| rows.map(|y| (0..nx).map(|x| across(x, y)).sum::<usize>()).sum::<usize>());
-    parts.iter().sum()
 }
 
 /// Patches of pixels under pressure, joined over sides and corners, and over the edges of a periodic map.

@@ -22,6 +22,8 @@ mod projected_gradient;
 
 mod cascade;
 
+mod rim;
+
 mod area;
 mod stiffness;
 
@@ -35,5 +37,7 @@ pub use crate::half_space::half_space_contact::{
 pub use area::{Area, patches};
 pub use limit::{LimitSource, PressureLimit, patch_slope};
 
+#[cfg(test)]
+mod area_tests;
 #[cfg(test)]
 mod tests;

@@ -1,0 +1,159 @@
+//! The rim of a contact as edges of pixels, and how far such a rim may lie from the true one.
+
+use crate::HeightMap;
+use crate::surface::height_map::chunks;
+use std::collections::BTreeMap;
+
+/// Directions of straight rims whose pixels repeat so soon that they err together. A rim along (p, q) lies on
+/// lines of the grid 1/√(p² + q²) of a pixel apart; along others the errors of its pixels cancel.
+const DIRECTIONS: [[i32; 2]; 12] =
+    [[1, 0], [0, 1], [1, 1], [1, -1], [2, 1], [2, -1], [1, 2], [1, -2], [3, 1], [3, -1], [1, 3], [1, -3]];
+
+/// p + q of a direction: the edges of a period of a straight rim along it.
+fn periods([p, q]: [i32; 2]) -> i32 {
+    p.abs() + q.abs()
+}
+
+/// How far a contact area may be off because pixels of its rim err together.
+pub(super) struct Doubt {
+    /// Variance, in pixels squared.
+    pub variance: f64,
+    /// Edges of straight pieces that cross the whole map.
+    pub crossing: usize,
+}
+
+/// The straight piece of a rim that an edge belongs to.
+#[derive(Clone, Copy, Default)]
+struct Piece {
+    /// Periods over the edges of a period.
+    length: f32,
+    /// Its direction, where it crosses the whole map.
+    along: Option<[i32; 2]>,
+}
+
+/// The edges between pixels with contact on one side, of a map of contacts.
+pub(super) struct Rim {
+    nodes: [usize; 2],
+    periodic: bool,
+    /// Of each pixel the step of the contact to the next along x, and to the next along y: 1, 0 or -1.
+    steps: [Vec<i8>; 2],
+}
+
+impl Rim {
+    /// That of the pixels under pressure.
+    pub fn new(map: &HeightMap, pressures: &[f32]) -> Rim {
+        let nodes @ [nx, ny] = [map.columns(), map.rows()];
+        let loaded = |x: usize, y: usize| i8::from(pressures[y * nx + x] > 0.0);
+        let step = |axis: usize, [x, y]: [usize; 2]| {
+            let next = [x + 1 - axis, y + axis];
+            let inside = next[axis] < nodes[axis];
+            if inside || map.periodic() { loaded(next[0] % nx, next[1] % ny) - loaded(x, y) } else { 0 }
+        };
+        let steps = [0, 1].map(|axis| {
+            let rows = chunks(ny, |rows| {
+                rows.flat_map(|y| (0..nx).map(move |x| step(axis, [x, y]))).collect::<Vec<_>>()
+            });
+            rows.concat()
+        });
+        Rim { nodes, periodic: map.periodic(), steps }
+    }
+
+    /// Number of edges.
+    pub fn edges(&self) -> usize {
+        self.steps.iter().flatten().filter(|step| **step != 0).count()
+    }
+
+    /// How far the area inside the rim may be off because its pixels err together.
+    ///
+    /// A straight piece along (p, q) of m periods may lie anywhere between two lines of the grid, which is one
+    /// pixel of area a period: its variance is m²/12. It is p + q chains of m edges, each of which repeats at
+    /// the distance (p, q); an edge that belongs to several chains counts in the one that says most. Pieces err
+    /// each for itself, but those that cross the whole map beside a contact equally wide: regular grooves are
+    /// copies of each other, and err alike.
+    pub fn doubt(&self) -> Doubt {
+        let mut doubt = Doubt { variance: 0.0, crossing: 0 };
+        for axis in [0, 1] {
+            let steps = &self.steps[axis];
+            let edges: Vec<usize> = (0..steps.len()).filter(|i| steps[*i] != 0).collect();
+            let mut pieces = vec![Piece::default(); steps.len()];
+            for direction in DIRECTIONS {
+                self.lengthen(steps, &edges, direction, &mut pieces);
+            }
+            let mut copies: BTreeMap<([i32; 2], i8, usize), f64> = BTreeMap::new();
+            for i in edges {
+                let Piece { length, along } = pieces[i];
+                match along {
+                    None => doubt.variance += f64::from(length) / 12.0,
+                    Some(along) => {
+                        doubt.crossing += 1;
+                        let key = (along, steps[i], self.width(axis, i));
+                        *copies.entry(key).or_default() += 1.0 / f64::from(periods(along));
+                    }
+                }
+            }
+            doubt.variance += copies.values().map(|length| length * length / 12.0).sum::<f64>();
+        }
+        doubt
+    }
+
+    /// Raises the pieces of the edges to those of every chain along `direction` that say more.
+    fn lengthen(&self, steps: &[i8], edges: &[usize], direction: [i32; 2], pieces: &mut [Piece]) {
+        let next = |i: usize, sign: i32| {
+            let to = self.beside(i, direction.map(|d| sign * d))?;
+            (steps[to] == steps[i]).then_some(to)
+        };
+        let leaves = |i: usize, sign: i32| self.beside(i, direction.map(|d| sign * d)).is_none();
+        let mut seen = vec![false; steps.len()];
+        let mut chain = Vec::new();
+        // chains with a beginning, then those that are rings
+        for ring in [false, true] {
+            for first in edges.iter().copied() {
+                if seen[first] || (!ring && next(first, -1).is_some()) {
+                    continue;
+                }
+                chain.clear();
+                let mut at = Some(first);
+                while let Some(i) = at.filter(|i| !std::mem::replace(&mut seen[*i], true)) {
+                    chain.push(i);
+                    at = next(i, 1);
+                }
+                let last = chain[chain.len() - 1];
+                let crosses = ring || (leaves(first, -1) && leaves(last, 1));
+                let length = chain.len() as f32 / periods(direction) as f32;
+                let piece = Piece { length, along: crosses.then_some(direction) };
+                for i in &chain {
+                    if length > pieces[*i].length {
+                        pieces[*i] = piece;
+                    }
+                }
+            }
+        }
+    }
+
+    /// Pixels of contact along `axis` from edge `i` to the next.
+    fn width(&self, axis: usize, i: usize) -> usize {
+        let steps = &self.steps[axis];
+        let sign = i32::from(steps[i]);
+        let by = if axis == 0 { [sign, 0] } else { [0, sign] };
+        let mut at = i;
+        (1..=self.nodes[axis])
+            .find(|_| match self.beside(at, by) {
+                Some(next) => {
+                    at = next;
+                    steps[next] != 0
+                }
+                None => true,
+            })
+            .unwrap_or(self.nodes[axis])
+    }
+
+    /// The pixel `by` pixels from pixel `i`, where there is one.
+    fn beside(&self, i: usize, by: [i32; 2]) -> Option<usize> {
+        let at = [i % self.nodes[0], i / self.nodes[0]];
+        let [x, y] = [0, 1].map(|axis| {
+            let (to, n) = (at[axis] as i64 + i64::from(by[axis]), self.nodes[axis] as i64);
+            if self.periodic { Some(to.rem_euclid(n)) } else { (0..n).contains(&to).then_some(to) }
+        });
+        Some(y? as usize * self.nodes[0] + x? as usize)
+    }
+}
