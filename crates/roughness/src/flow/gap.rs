@@ -1,6 +1,6 @@
 //! A map of gaps, seen along one of its axes.
 
-use crate::HeightMap;
+use crate::{HeightMap, fill};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -34,6 +34,30 @@ impl<'a> Gap<'a> {
         Gap { nodes, pixel: map.pixel(), periodic: map.periodic(), values }
     }
 
+    /// The same on pixels of twice the sides, each with the gap of equal g³ on the mean: that of its parts that
+    /// were measured, or with those that were not as `closed` ones.
+    pub(super) fn halved(&self, closed: bool) -> Halved {
+        let nodes = self.nodes.map(|n| n.div_ceil(2));
+        let pixel = [0, 1].map(|k| self.pixel[k] * self.nodes[k] as f64 / nodes[k] as f64);
+        let [nx, ny] = self.nodes;
+        let mean = |i: usize| {
+            let (x, y) = (2 * (i % nodes[0]), 2 * (i / nodes[0]));
+            let (mut cubes, mut count) = (0.0, 0.0);
+            for row in y..(y + 2).min(ny) {
+                for gap in &self.values[row * nx + x..row * nx + (x + 2).min(nx)] {
+                    if gap.is_nan() && !closed {
+                        continue;
+                    }
+                    count += 1.0;
+                    cubes += if *gap > 0.0 { f64::from(*gap).powi(3) } else { 0.0 };
+                }
+            }
+            if count > 0.0 { (cubes / count).cbrt() as f32 } else { f32::NAN }
+        };
+        let values = (0..nodes[0] * nodes[1]).map(mean).collect();
+        Halved { nodes, pixel, periodic: self.periodic, values }
+    }
+
     /// The gaps with the flow along their first axis: what is open, lines of the flow's direction one after
     /// the other.
     pub(super) fn oriented(&self, axis: Axis) -> Oriented {
@@ -55,6 +79,29 @@ impl<'a> Gap<'a> {
                 gaps: (0..nx * ny).map(|i| open(self.values[i % ny * nx + i / ny])).collect(),
             },
         }
+    }
+}
+
+/// Gaps on pixels twice as wide.
+pub(super) struct Halved {
+    nodes: [usize; 2],
+    pixel: [f64; 2],
+    periodic: bool,
+    values: Vec<f32>,
+}
+
+impl Halved {
+    /// A view of them.
+    pub fn gap(&self) -> Gap<'_> {
+        Gap { nodes: self.nodes, pixel: self.pixel, periodic: self.periodic, values: &self.values }
+    }
+
+    /// With the holes filled smoothly from their rims; None where too little is left for that.
+    pub fn filled(self) -> Option<Halved> {
+        let heights = self.values.iter().map(|gap| f64::from(*gap)).collect();
+        let map = HeightMap::new(self.nodes[0], self.nodes[1], self.pixel, heights).ok()?;
+        let filled = fill(&map).ok()?;
+        Some(Halved { values: filled.heights().iter().map(|gap| *gap as f32).collect(), ..self })
     }
 }
 
