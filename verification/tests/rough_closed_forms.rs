@@ -27,6 +27,7 @@ fn steel() -> Material {
         youngs_modulus: Stress(210e9),
         poissons_ratio: 0.3,
         hardness: Some(Stress(100e9)),
+        hardness_error: None,
         yield_stress: None,
         hardening_exponent: None,
         hardening_law: None,

@@ -68,6 +68,7 @@
 //!     youngs_modulus: Stress(210e9),
 //!     poissons_ratio: 0.3,
 //!     hardness: Some(Stress(1280e6)),
+//!     hardness_error: None,
 //!     yield_stress: None,
 //!     hardening_exponent: None,
 //!     hardening_law: None,

@@ -357,6 +357,7 @@ mod tests {
             youngs_modulus: Stress(210e3),
             poissons_ratio: 0.3,
             hardness: Some(Stress(1280.0)),
+            hardness_error: None,
             yield_stress: None,
             hardening_exponent: None,
             hardening_law: None,

@@ -19,6 +19,10 @@ pub struct Material {
     #[schemars(example = "1280 MPa")]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hardness: Option<Stress>,
+    /// Uncertainty ± of the hardness (95 %): it goes into the errors that `half-space-plastic` states. Without it, beside a yield stress and a hardening exponent, the hardness is as uncertain as it is far from the plateau of pressure that they have.
+    #[schemars(example = "50 MPa")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub hardness_error: Option<Stress>,
     /// Yield stress σ_y.
     #[schemars(example = "300 MPa")]
     #[serde(default, skip_serializing_if = "Option::is_none")]

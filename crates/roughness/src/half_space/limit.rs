@@ -29,7 +29,19 @@ pub struct PressureLimit {
     pub pressure: f64,
     /// Its origin.
     pub source: LimitSource,
+    /// Relative uncertainty (95 %).
+    pub error: f64,
+    /// The plateau in Pa that yield stress and hardening have, where the limit is a hardness that was given
+    /// beside them.
+    pub rival: Option<f64>,
 }
+
+/// Relative uncertainty of 3 σ_y: perfectly plastic cones have 3.0 to 2.7 times σ_y by their slope (atlas of
+/// cones), and what hardening would add is not known.
+const YIELD_RULE_ERROR: f64 = 0.1;
+/// Relative uncertainty of the slope of the patches: the finer waves of a map change it by as much
+/// (`a_map_that_is_sampled_finer_has_the_same_limit`: the limit by 3 % at n = 0.3).
+const SLOPE_ERROR: f64 = 0.1;
 
 /// Times that the slope is read anew with the limit of the last, and the change of the limit at which that
 /// ends.
@@ -56,8 +68,13 @@ impl PressureLimit {
             exponent,
             youngs_modulus: elastic.youngs_modulus,
         };
-        let cone = SharpCone::new(tan.atan().to_degrees(), &elastic, hardening, Contact::Crushed);
-        Some(PressureLimit { pressure: atlas.plateau(&cone).value, source: LimitSource::Atlas(tan) })
+        let plateau = |tan: f64| {
+            atlas.plateau(&SharpCone::new(tan.atan().to_degrees(), &elastic, hardening, Contact::Crushed))
+        };
+        let found = plateau(tan);
+        let steeper = plateau((1.0 + SLOPE_ERROR) * tan).value / found.value - 1.0;
+        let (pressure, error) = (found.value, found.error.hypot(steeper));
+        Some(PressureLimit { pressure, source: LimitSource::Atlas(tan), error, rival: None })
     }
 
     /// The same under the patches of `surface` at `load`: the islands that carry it, were each at the limit;
@@ -70,7 +87,15 @@ impl PressureLimit {
     ) -> Option<PressureLimit> {
         let mut limit = PressureLimit::plain(material)?;
         let idle = matches!(load, Load::Pressure(pressure) if pressure <= 0.0);
-        if idle || limit.source == LimitSource::Hardness || material.hardening_exponent.is_none() {
+        if idle || material.hardening_exponent.is_none() {
+            return Some(limit);
+        }
+        if limit.source == LimitSource::Hardness {
+            let bare = Material { hardness: None, hardness_error: None, ..*material };
+            limit.rival = PressureLimit::on_surface(&bare, law, surface, load).map(|rival| rival.pressure);
+            if material.hardness_error.is_none() {
+                limit.error = limit.contradiction();
+            }
             return Some(limit);
         }
         for _ in 0..LIMIT_ROUNDS {
@@ -90,9 +115,18 @@ impl PressureLimit {
     }
 
     fn plain(material: &Material) -> Option<PressureLimit> {
-        let source =
-            if material.hardness.is_some() { LimitSource::Hardness } else { LimitSource::YieldStress };
-        Some(PressureLimit { pressure: material.limit()?, source })
+        let pressure = material.limit()?;
+        let (source, error) = match material.hardness {
+            Some(_) => (LimitSource::Hardness, material.hardness_error.map_or(0.0, |e| e.0 / pressure)),
+            None => (LimitSource::YieldStress, YIELD_RULE_ERROR),
+        };
+        Some(PressureLimit { pressure, source, error, rival: None })
+    }
+
+    /// The share by which the plateau of yield stress and hardening is off a hardness given beside them; 0
+    /// where there is no such contradiction.
+    pub fn contradiction(&self) -> f64 {
+        self.rival.map_or(0.0, |rival| (rival / self.pressure - 1.0).abs())
     }
 }
 
@@ -149,6 +183,7 @@ mod tests {
             youngs_modulus: Stress(210e9),
             poissons_ratio: 0.3,
             hardness: None,
+            hardness_error: None,
             yield_stress: Some(Stress(300e6)),
             hardening_exponent: Some(exponent),
             hardening_law: None,
@@ -189,10 +224,15 @@ mod tests {
         let tabor = 3.0 * (1.0 + 700.0 * 0.08 / 0.358 * 0.1_f64).powf(0.3);
         assert!((hardening / tabor - 1.0).abs() < 0.1, "{hardening} {tabor}");
         let hardness = Material { hardness: Some(Stress(1e9)), ..metal(0.3) };
-        assert_eq!(
-            limit(&hardness, &surface, 20e6),
-            PressureLimit { pressure: 1e9, source: LimitSource::Hardness }
-        );
+        let given = limit(&hardness, &surface, 20e6);
+        assert_eq!((given.pressure, given.source), (1e9, LimitSource::Hardness));
+        // a hardness beside a yield stress that says otherwise is uncertain by as much, unless its ± is given
+        let plateau = limit(&metal(0.3), &surface, 20e6);
+        assert_eq!(given.rival, Some(plateau.pressure));
+        assert!((given.error - (plateau.pressure / 1e9 - 1.0).abs()).abs() < 1e-12, "{given:?}");
+        let stated = Material { hardness_error: Some(Stress(5e7)), ..hardness };
+        assert!((limit(&stated, &surface, 20e6).error - 0.05).abs() < 1e-12);
+        assert!(plateau.error > 0.02 && plateau.error < 0.1, "{plateau:?}");
         let unknown = Material { hardening_exponent: None, ..metal(0.3) };
         assert_eq!(limit(&unknown, &surface, 20e6).source, LimitSource::YieldStress);
     }
