@@ -1,12 +1,16 @@
 #![doc = include_str!("../README.md")]
 //!
-//! In order: quantities with units ([`units`]), tables of numbers under a header ([`text_table`]), tables of
-//! indentation instruments ([`indentation_table`]), maps of surfaces ([`surface`]).
+//! In order: quantities with units ([`units`]) and units of columns ([`dimension`]), memory that a
+//! file may take ([`memory`]), tables of numbers ([`text`]), curves of indentation instruments ([`indentation`]), maps of surfaces ([`surface`]).
 
 pub mod units;
 
-pub mod text_table;
+pub mod dimension;
 
-pub mod indentation_table;
+pub mod memory;
+
+pub mod text;
+
+pub mod indentation;
 
 pub mod surface;

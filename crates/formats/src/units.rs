@@ -168,6 +168,11 @@ quantity!(
     Compliance, "compliance", "m/N",
     &[("nm/mN", 1e-6), ("um/N", 1e-6), ("µm/N", 1e-6), ("μm/N", 1e-6), ("nm/N", 1e-9), ("nm/uN", 1e-3), ("um/mN", 1e-3), ("um/kN", 1e-9), ("mm/kN", 1e-6), ("mm/N", 1e-3), ("m/N", 1.0)]
 );
+quantity!(
+    /// Memory, kept in bytes.
+    Memory, "memory", "B",
+    &[("GB", 1e9), ("MB", 1e6), ("kB", 1e3), ("B", 1.0), ("GiB", 1073741824.0), ("MiB", 1048576.0)]
+);
 
 #[cfg(test)]
 mod tests {

@@ -79,9 +79,16 @@ fn hollomon() -> HardeningChoice {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FitCurve {
-    /// CSV of depth and force, relative to the fit file.
+    /// Text table of depth and force, relative to the fit file.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub file: Option<PathBuf>,
+    /// Columns of depth and force, where their names are unusual.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub columns: Option<CurveColumns>,
+    /// Number that stands for a reading that is missing, in the unit of the file.
+    #[schemars(example = -9999.0)]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub missing_value: Option<f64>,
     /// Which test of a file of several, from 1; absent: every test is a curve of its own.
     #[schemars(range(min = 1))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -104,6 +111,18 @@ pub struct FitCurve {
     /// Further unknowns of this measurement.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub unknown: Vec<Nuisance>,
+}
+
+/// The columns of a curve.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CurveColumns {
+    /// Name of the column of depth, with or without a unit in brackets, or its number from 1.
+    #[schemars(example = "Pd [nm]")]
+    pub depth: String,
+    /// That of force.
+    #[schemars(example = "Fn [mN]")]
+    pub force: String,
 }
 
 impl FitCurve {

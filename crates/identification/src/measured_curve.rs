@@ -1,7 +1,7 @@
 //! A measured curve made ready: its loading and its last unloading, thinned by averaging; holds and other
 //! cycles cut.
 
-use asperity_formats::indentation_table::Readings;
+use asperity_formats::indentation::Readings;
 
 /// A curve made ready.
 #[derive(Clone, Debug, PartialEq)]

@@ -10,7 +10,7 @@ mod hardening_table;
 pub mod range;
 mod voce;
 
-pub use curve_file::{CurveFile, CurveFileError};
+pub use curve_file::CurveFile;
 pub use elastic::Elastic;
 pub use flow_curve::{FlowCurve, OwnLaw, refuse_custom, write_custom};
 pub use hardening::{Hardening, HardeningLaw, HardeningPoint};

@@ -1,7 +1,7 @@
 //! A fit that makes sense: the unknowns, and the measurements read from their files.
 
 use super::material_checks::{KeyError, check_material, key_error};
-use super::measurements::measurements;
+use super::measurements::{Said, measurements};
 use super::tool_geometry::geometry;
 use crate::error::Error;
 use crate::input::toml_file::TomlFile;
@@ -21,6 +21,8 @@ pub struct Fit {
     file: TomlFile<FitFile>,
     pub(super) unknowns: Unknowns,
     pub(super) experiments: Vec<Experiment>,
+    /// What was understood of each file.
+    pub understood: Vec<String>,
     /// Remarks on the input.
     pub notes: Vec<String>,
 }
@@ -85,14 +87,15 @@ impl Fit {
                 "nothing is sought: give a range, for example yield_stress = [\"50 MPa\", \"2 GPa\"]";
             return Err(file.error_at("material", message).into());
         }
-        let (mut experiments, mut owners, mut notes) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut experiments, mut owners) = (Vec::new(), Vec::new());
+        let mut said = Said::default();
         for (i, curve) in tables.curve.iter().enumerate() {
             let at = |key: &str, message: &str| {
                 let path = if key.is_empty() { format!("curve[{i}]") } else { format!("curve[{i}].{key}") };
                 file.error_at(&path, message)
             };
             let geometry = geometry(curve).map_err(|(key, m)| at(&key, &m))?;
-            let read = measurements(&file, i, curve, &mut notes)?;
+            let read = measurements(&file, i, curve, &mut said)?;
             for (name, data, depth) in read {
                 let experiment = experiment(
                     curve,
@@ -132,8 +135,9 @@ impl Fit {
         for experiment in &mut experiments {
             experiment.emulator = Emulator::of_a_cone(1 + NUMBERS_AFTER_LOADING, like);
         }
+        let Said { understood, mut notes } = said;
         notes.extend(experiments.iter().filter_map(begins_elsewhere));
-        Ok(Fit { file, unknowns, experiments, notes })
+        Ok(Fit { file, unknowns, experiments, understood, notes })
     }
 }
 

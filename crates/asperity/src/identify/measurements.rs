@@ -4,17 +4,27 @@ use super::material_checks::{KeyError, key_error};
 use crate::error::InputError;
 use crate::input::RELATIVE_PATH_NOTE;
 use crate::input::toml_file::TomlFile;
-use asperity_formats::indentation_table::{self, Readings, TableError};
+use asperity_formats::indentation;
+use asperity_formats::text::{Series, TextError, decode};
 use asperity_identification::experiment::Data;
 use asperity_identification::fit_file::{Features, FitCurve, FitFile};
 use asperity_identification::measured_curve::Measured;
+
+/// What is told of the files of a fit.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Said {
+    /// What was understood of each.
+    pub understood: Vec<String>,
+    /// Remarks.
+    pub notes: Vec<String>,
+}
 
 /// The data of measurement `i`, one or several tests, each with its name and deepest depth.
 pub(super) fn measurements(
     file: &TomlFile<FitFile>,
     i: usize,
     curve: &FitCurve,
-    notes: &mut Vec<String>,
+    said: &mut Said,
 ) -> Result<Vec<(String, Data, f64)>, InputError> {
     let at = |key: &str, message: &str| file.error_at(&format!("curve[{i}]{key}"), message);
     let name = format!("curve {}", i + 1);
@@ -31,19 +41,22 @@ pub(super) fn measurements(
         (Some(path), None) => {
             let path = file.resolve(path);
             let shown = path.display().to_string();
-            let text = std::fs::read_to_string(&path).map_err(|e| {
-                at(".file", &format!("{shown}: cannot be read as text: {e}; {RELATIVE_PATH_NOTE}"))
-            })?;
-            let tests =
-                indentation_table::read(&text).map_err(|error| table_error(file, i, &shown, &text, error))?;
-            chosen(tests.tests, curve.test)
+            let bytes = std::fs::read(&path)
+                .map_err(|e| at(".file", &format!("{shown}: cannot be read: {e}; {RELATIVE_PATH_NOTE}")))?;
+            let (text, encoding) =
+                decode(&bytes).map_err(|e| at(".file", &format!("{shown} {}", e.message)))?;
+            let columns = curve.columns.as_ref().map(|c| [Some(c.depth.as_str()), Some(c.force.as_str())]);
+            let table = indentation::read(&text, columns.unwrap_or_default(), curve.missing_value)
+                .map_err(|error| table_error(file, i, &shown, &text, error))?;
+            said.understood.push(format!("{name}: {encoding} text: {}", table.understood));
+            chosen(table.series, curve.test)
                 .map_err(|m| at(".test", &m))?
                 .into_iter()
-                .map(|(label, readings, many)| {
+                .map(|(Series { label, rows, .. }, many)| {
                     let name = if many { format!("{name}: test {label}") } else { name.clone() };
-                    let measured = Measured::new(&readings)
+                    let measured = Measured::new(&rows)
                         .map_err(|m| at(".file", &format!("{shown}, test {label} {m}")))?;
-                    notes.extend(measured.notes.iter().map(|note| format!("{name}: {note}")));
+                    said.notes.extend(measured.notes.iter().map(|note| format!("{name}: {note}")));
                     let depth = measured.peak[0];
                     Ok((name, Data::Curve(measured), depth))
                 })
@@ -82,7 +95,7 @@ fn features(f: &Features) -> Result<(Data, f64), KeyError> {
 }
 
 /// The error of a table that cannot be read, at its line of `text`, the file `shown` of measurement `i`.
-fn table_error(file: &TomlFile<FitFile>, i: usize, shown: &str, text: &str, error: TableError) -> InputError {
+fn table_error(file: &TomlFile<FitFile>, i: usize, shown: &str, text: &str, error: TextError) -> InputError {
     let error = match error.line {
         Some(line) => {
             let start = text.split_inclusive('\n').take(line - 1).map(str::len).sum();
@@ -93,19 +106,16 @@ fn table_error(file: &TomlFile<FitFile>, i: usize, shown: &str, text: &str, erro
     if Features::are_named_in(text) { error.help(Features::FEATURES_PLACE) } else { error }
 }
 
-/// Tests with their labels; true where the file holds several.
-type Chosen = Vec<(String, Readings, bool)>;
+/// Tests, each with whether the file holds several.
+type Chosen = Vec<(Series<2>, bool)>;
 
-fn chosen(tests: Vec<(String, Readings)>, wanted: Option<usize>) -> Result<Chosen, String> {
+fn chosen(tests: Vec<Series<2>>, wanted: Option<usize>) -> Result<Chosen, String> {
     let count = tests.len();
     match wanted {
-        None => Ok(tests.into_iter().map(|(label, readings)| (label, readings, count > 1)).collect()),
-        Some(k) if (1..=count).contains(&k) => Ok(tests
-            .into_iter()
-            .skip(k - 1)
-            .take(1)
-            .map(|(label, readings)| (label, readings, false))
-            .collect()),
+        None => Ok(tests.into_iter().map(|test| (test, count > 1)).collect()),
+        Some(k) if (1..=count).contains(&k) => {
+            Ok(tests.into_iter().skip(k - 1).take(1).map(|test| (test, false)).collect())
+        }
         Some(k) => Err(format!(
             "there is no test {k} in the file, which has {count}: give a number from 1 to {count}"
         )),

@@ -90,6 +90,8 @@ pub struct Identification {
     pub representative: Option<StressAt>,
     /// The residual.
     pub residual: Residual,
+    /// What was understood of each file of a curve: columns, units, rows.
+    pub understood: Vec<String>,
     /// Remarks: holds cut, runs that stopped early, noise that was assumed.
     pub notes: Vec<String>,
     /// Runs of finite elements.
@@ -127,6 +129,7 @@ pub(super) fn identify(
     }
     let mut result = describe(&fit, &experiments, &unknowns, &found.minimum)
         .ok_or_else(|| Error::Unfinished("the best fit lies at a metal that cannot be computed".into()))?;
+    result.understood = std::mem::take(&mut fit.understood);
     let mut notes = std::mem::take(&mut fit.notes);
     notes.extend(found.notes);
     notes.extend(assumed(&fit));
@@ -188,6 +191,7 @@ fn describe(
         stress_strain,
         representative,
         residual,
+        understood: Vec::new(),
         notes: Vec::new(),
         runs: 0,
         wall_s: 0.0,
@@ -351,7 +355,8 @@ impl Identification {
     /// A few lines for a person, the first of which can be quoted.
     pub fn overview(&self) -> String {
         let all: Vec<String> = self.parameters.iter().map(|(name, f)| quoted(name, f)).collect();
-        let mut text = match self.residual.fits {
+        let mut text: String = self.understood.iter().map(|line| format!("read      {line}\n")).collect();
+        text += &match self.residual.fits {
             true => format!("found     {} (95 %)\n", all.join(", ")),
             // intervals about a point that does not fit say nothing of the metal
             false => {

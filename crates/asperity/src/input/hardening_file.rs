@@ -29,10 +29,7 @@ pub fn read(scene: &TomlFile<Scene>) -> Result<Option<ReadCurve>, InputError> {
     let table = TableFile::read(scene, "material.hardening_file", named, limit)?;
     match CurveFile::parse(&table.text) {
         Ok(curve) => Ok(Some(ReadCurve { table, curve })),
-        Err(error) => Err(match error.line {
-            Some(line) => table.at_line(line, &error.message),
-            None => table.refuse(scene, &error.message),
-        }),
+        Err(error) => Err(table.error(scene, &error)),
     }
 }
 

@@ -12,16 +12,42 @@
 use crate::error::InputError;
 use crate::input::table_file::TableFile;
 use crate::input::toml_file::TomlFile;
-use asperity_formats::text_table::TextTable;
-use asperity_material::units::Length;
+use asperity_formats::dimension::Dimension;
+use asperity_formats::text::{Asked, Quantity, Series, TextError, read_series};
 use asperity_simulation::scene::{Points, Scene, SceneError};
 use std::path::PathBuf;
 
 /// No file of an outline is larger.
 const MAX_BYTES: u64 = 16 << 20;
 
-/// A header that can be read.
-const HEADER: &str = "r_um,z_um";
+/// Distance from the axis, or along the profile.
+const PLACE: Quantity = Quantity {
+    name: "place r or x",
+    dimension: Dimension::Length,
+    called: &[
+        "r",
+        "x",
+        "radius",
+        "distance",
+        "position",
+        "abstand",
+        "weg",
+        "rayon",
+        "distance x",
+        "abscissa",
+    ],
+    example: "r_um",
+};
+
+/// Height over it.
+const HEIGHT: Quantity = Quantity {
+    name: "height z",
+    dimension: Dimension::Length,
+    called: &[
+        "z", "height", "profile", "hohe", "hoehe", "profil", "hauteur", "altezza", "altura", "ordinate",
+    ],
+    example: "z_um",
+};
 
 /// An outline that was read, with what is needed to point at its lines later.
 pub struct ReadProfile {
@@ -62,10 +88,7 @@ pub fn read(scene: &mut TomlFile<Scene>) -> Result<Vec<ReadProfile>, InputError>
     let mut read = Vec::new();
     for Named { table, key, file } in named(&scene.value) {
         let file = TableFile::read(scene, &format!("{table}.{key}"), &file, MAX_BYTES)?;
-        let (points, lines) = parse(&file.text).map_err(|(line, message)| match line {
-            Some(line) => file.at_line(line, &message),
-            None => file.refuse(scene, &message),
-        })?;
+        let (points, lines) = parse(&file.text).map_err(|error| file.error(scene, &error))?;
         put(&mut scene.value, &table, Points::new(points));
         read.push(ReadProfile { file, table, lines });
     }
@@ -90,48 +113,20 @@ fn put(scene: &mut Scene, table: &str, points: Points) {
 /// Points in metres with their lines.
 type Lines = (Vec<[f64; 2]>, Vec<usize>);
 
-/// Reads a text; an error is a line (from 1), if it has one, and a sentence for the user.
-fn parse(text: &str) -> Result<Lines, (Option<usize>, String)> {
-    let table =
-        TextTable::new(text).ok_or_else(|| (None, format!("is empty: begin it with the line {HEADER}")))?;
-    let header = |message| (Some(table.header_line), message);
-    let (place, to_place) = column(&table.header, &["r", "x"]).map_err(header)?;
-    let (height, to_height) = column(&table.header, &["z"]).map_err(header)?;
-    let pairs = table.pairs([place, height]).map_err(|(line, message)| {
-        (Some(line), format!("{message}; leave out the line of a point that was not measured"))
-    })?;
-    let (mut lines, mut points): (Vec<usize>, Vec<[f64; 2]>) =
-        pairs.into_iter().map(|(line, [x, z])| (line, [x * to_place, z * to_height])).unzip();
+/// Reads a text.
+fn parse(text: &str) -> Result<Lines, TextError> {
+    let named = Asked { needs_all: true, ..Asked::default() };
+    let mut table = read_series(text, &[PLACE, HEIGHT], &named)?;
+    let Series { rows: mut points, mut lines, .. } = table.series.swap_remove(0);
+    if let Some(second) = table.series.first() {
+        let message = "begins a second outline: keep one in a file";
+        return Err(TextError::new(second.lines[0], message));
+    }
     if points.windows(2).all(|p| p[1][0] < p[0][0]) {
         points.reverse();
         lines.reverse();
     }
     Ok((points, lines))
-}
-
-/// The column of one of the `names` with its unit, and what 1 in it is in metres.
-fn column(header: &[&str], names: &[&str]) -> Result<(usize, f64), String> {
-    let units = || Length::UNITS.iter().map(|(name, _)| *name).collect::<Vec<_>>().join(", ");
-    let mut without = None;
-    for (i, column) in header.iter().enumerate() {
-        let (name, unit) = column.split_once('_').unwrap_or((column, ""));
-        if !names.contains(&name) {
-            continue;
-        }
-        match Length::UNITS.iter().find(|(known, _)| *known == unit) {
-            Some((_, scale)) => return Ok((i, *scale)),
-            None => without = Some(column),
-        }
-    }
-    let name = names[0];
-    Err(match without {
-        Some(column) => {
-            format!("the column `{column}` has no unit of length: write {name}_um, or another of {}", units())
-        }
-        None => {
-            format!("a column {name}_um is missing: the first line names the columns, for example {HEADER}")
-        }
-    })
 }
 
 impl ReadProfile {
@@ -152,6 +147,8 @@ mod tests {
             "r_um,z_um\n0,20\n5,19\n",
             "# a stylus\nz_nm;quality;x_mm\n20000;1;0\n19000;0.5;0.005",
             "\u{feff}z_m\tr_m\r\n19e-6\t5e-6\r\n20e-6\t0\r\n",
+            "Taster 2 µm\nx [µm];z [µm]\n0,0;20,00\n5,0;19,00\n;\n",
+            "\"r\",\"z\"\n\"(um)\",\"(um)\"\n\"0\",\"20\"\n\"5\",\"19\"\n",
         ] {
             let (points, lines) = parse(text).unwrap();
             assert_eq!(lines.len(), 2);
@@ -164,15 +161,15 @@ mod tests {
     #[test]
     fn what_cannot_be_read_is_refused_with_its_line() {
         for (text, line, words) in [
-            ("", None, "is empty"),
-            ("0,20\n5,19\n", Some(1), "r_um is missing"),
-            ("r,z\n0,20\n", Some(1), "`r` has no unit"),
-            ("r_um,z_inch\n0,20\n", Some(1), "`z_inch` has no unit"),
+            ("", None, "r_um,z_um"),
+            ("0,20\n5,19\n", Some(1), "r_um,z_um"),
+            ("r,z\n0,20\n", Some(1), "\"r\" has no unit"),
+            ("r_um,z (furlong)\n0,20\n", Some(1), "\"furlong\""),
             ("r_um,z_um\n0,20\n1,\n2,19\n", Some(3), "was not measured"),
-            ("r_um,z_um\n0,20\n1,nan\n2,19\n", Some(3), "`nan`"),
+            ("r_um,z_um\n0,20\n1,nan\n2,19\n", Some(3), "\"nan\""),
             ("r_um,z_um\n0,20\n1,19,5\n", Some(3), "decimal comma"),
         ] {
-            let (found, message) = parse(text).unwrap_err();
+            let TextError { line: found, message } = parse(text).unwrap_err();
             assert_eq!(found, line, "{text}: {message}");
             assert!(message.contains(words), "{text}: {message}");
         }

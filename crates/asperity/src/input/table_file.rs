@@ -3,6 +3,7 @@
 use crate::error::InputError;
 use crate::input::RELATIVE_PATH_NOTE;
 use crate::input::toml_file::TomlFile;
+use asperity_formats::text::{TextError, decode};
 use asperity_simulation::scene::{Scene, SceneError};
 use std::io::Read;
 use std::path::Path;
@@ -34,16 +35,27 @@ impl TableFile {
             scene.error_at(key, &format!("{}: cannot be read: {e}; {RELATIVE_PATH_NOTE}", path.display()))
         };
         let opened = std::fs::File::open(&path).map_err(unreadable)?;
-        opened.take(limit + 1).read_to_string(&mut table.text).map_err(unreadable)?;
-        if table.text.len() as u64 > limit {
+        let mut bytes = Vec::new();
+        opened.take(limit + 1).read_to_end(&mut bytes).map_err(unreadable)?;
+        if bytes.len() as u64 > limit {
             return Err(table.refuse(scene, &format!("is larger than {} MB: thin it out", limit >> 20)));
         }
+        let decoded = decode(&bytes).map(|(text, _)| text.into_owned());
+        table.text = decoded.map_err(|e| table.refuse(scene, &e.message))?;
         Ok(table)
     }
 
     /// An error about the table as a whole, at the key that names it.
     pub fn refuse(&self, scene: &TomlFile<Scene>, reason: &str) -> InputError {
         scene.error_at(&self.key, &format!("{}: {reason}", self.name))
+    }
+
+    /// An error of the reader of tables, at its line where it has one.
+    pub fn error(&self, scene: &TomlFile<Scene>, error: &TextError) -> InputError {
+        match error.line {
+            Some(line) => self.at_line(line, &error.message),
+            None => self.refuse(scene, &error.message),
+        }
     }
 
     /// An error that shows a line (from 1) of the table.

@@ -116,13 +116,23 @@ impl Rough {
     pub fn text(&self) -> String {
         let s = &self.summary;
         let ([nx, ny], [dx, dy]) = (s.pixels, s.pixel_size_um);
-        let mut text = format!(
-            "{}: {nx} x {ny} points of {dx:.4} x {dy:.4} um, {} missing{}; Sa {:.4} um, Sq {:.4} um, Sdq {:.4}, beta {:.3} deg (mean |grad h|)\n",
+        let mut text = if s.understood.is_empty() {
+            String::new()
+        } else {
+            format!("read as {}\n", s.understood.join("; "))
+        };
+        // lengths far below a micrometre keep their digits
+        let um = |v: f64| if v != 0.0 && v.abs() < 1e-3 { format!("{v:.3e}") } else { format!("{v:.4}") };
+        let _ = writeln!(
+            text,
+            "{}: {nx} x {ny} points of {} x {} um, {} missing{}; Sa {} um, Sq {} um, Sdq {:.4}, beta {:.3} deg (mean |grad h|)",
             s.surface,
+            um(dx),
+            um(dy),
             s.missing,
             if s.outliers > 0 { format!(", {} outliers", s.outliers) } else { String::new() },
-            s.sa_um,
-            s.sq_um,
+            um(s.sa_um),
+            um(s.sq_um),
             s.sdq,
             s.beta_deg,
         );

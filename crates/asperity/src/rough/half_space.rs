@@ -3,7 +3,7 @@
 use asperity_roughness::flow::{Axis, Constriction, Gap, Leak, constriction, leak};
 use asperity_roughness::half_space::{HalfSpace, HalfSpaceContact, HalfSpaceError, LimitSource, patches};
 use asperity_roughness::scene::Scene;
-use asperity_roughness::{CurvePoint, Load, Surface};
+use asperity_roughness::{CurvePoint, Load, Surface, fill};
 
 /// Residual of the points of a load curve before its last: areas to a few per mille.
 const CURVE_TOLERANCE: f64 = 1e-4;
@@ -49,6 +49,18 @@ pub struct Passage {
     pub narrowest: Option<Constriction>,
     /// The flow; None where nothing passes or no flow was asked for.
     pub leak: Option<Leak>,
+    /// Where points without a height alone close the way.
+    pub unknown: Option<UnknownPassage>,
+}
+
+/// A way that is closed because heights are missing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct UnknownPassage {
+    /// Points without a height.
+    pub missing: usize,
+    /// The narrowest place of the widest path where they are filled from their rims; None where none crosses
+    /// then either.
+    pub filled: Option<Constriction>,
 }
 
 /// The half-space with the metal of `scene` and the limit of pressure `limit`; None of an elastic one.
@@ -78,12 +90,41 @@ impl SpaceContact {
         let passage = |axis| {
             let narrowest = constriction(&gap, axis);
             let leak = narrowest.filter(|_| flows).and_then(|_| leak(&gap, axis));
-            Passage { narrowest, leak }
+            Passage { narrowest, leak, unknown: None }
         };
-        let (x, y) = rayon::join(|| passage(Axis::X), || passage(Axis::Y));
+        let (mut x, mut y) = rayon::join(|| passage(Axis::X), || passage(Axis::Y));
+        let closed = |one: &Passage, axis| one.narrowest.is_none() && is_closed_by_missing(&gap, axis);
+        let unknown = [closed(&x, Axis::X), closed(&y, Axis::Y)];
+        if unknown != [false; 2] {
+            let filled = with_points_filled(&body, surface, found.pressure)?;
+            let tell = |axis| UnknownPassage {
+                missing: surface.map.missing(),
+                filled: constriction(&Gap::new(&surface.map, &filled.gaps), axis),
+            };
+            x.unknown = unknown[0].then(|| tell(Axis::X));
+            y.unknown = unknown[1].then(|| tell(Axis::Y));
+        }
         let patches = patches(&surface.map, &found.pressures);
         Ok(SpaceContact { body, limit, contact: found, curve, unloading, passages: [x, y], flows, patches })
     }
+}
+
+/// True where a path would cross if every point without a height were open.
+fn is_closed_by_missing(gap: &Gap<'_>, axis: Axis) -> bool {
+    let opened: Vec<f32> = gap.values.iter().map(|z| if z.is_nan() { f32::MAX } else { *z }).collect();
+    gap.values.iter().any(|z| z.is_nan()) && constriction(&Gap { values: &opened, ..*gap }, axis).is_some()
+}
+
+/// The contact at the same pressure where the holes of the surface are filled from their rims.
+fn with_points_filled(
+    body: &HalfSpace,
+    surface: &Surface,
+    pressure: f64,
+) -> Result<HalfSpaceContact, HalfSpaceError> {
+    let filled = fill(&surface.map).and_then(Surface::from_map);
+    // a map that was pressed has a cell, and so has the filled one
+    let filled = filled.unwrap_or_else(|_| surface.clone());
+    body.press(&filled, Load::Pressure(pressure))
 }
 
 impl SpaceContact {
@@ -92,10 +133,17 @@ impl SpaceContact {
         self.curve.len() == 2
     }
 
+    /// Whether an open path crosses along an axis; None where points without a height decide.
+    pub fn percolates(&self, axis: usize) -> Option<bool> {
+        let Passage { narrowest, unknown, .. } = &self.passages[axis];
+        unknown.is_none().then_some(narrowest.is_some())
+    }
+
     /// Flux times viscosity over pressure difference along an axis, m³; 0 where nothing passes; None where it
-    /// was not asked for.
+    /// was not asked for, or points without a height decide.
     pub fn leak(&self, axis: usize) -> Option<f64> {
-        self.flows.then(|| self.passages[axis].leak.map_or(0.0, |l| l.conductance))
+        let Passage { leak, unknown, .. } = &self.passages[axis];
+        (self.flows && unknown.is_none()).then(|| leak.map_or(0.0, |l| l.conductance))
     }
 
     /// The origin of the limit of pressure, in words.

@@ -98,7 +98,7 @@ impl RoughScene {
         let (spacing, height_unit) = (Spacing::Metres(pixel), Some(1.0));
         let surface = &mut self.scene.surface;
         (surface.file, surface.generate) = (None, None);
-        surface.heights = Some(Measured { columns, rows, heights, spacing, height_unit });
+        surface.heights = Some(Measured { columns, rows, heights, spacing, height_unit, notes: Vec::new() });
         self
     }
 

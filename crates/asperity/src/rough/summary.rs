@@ -50,6 +50,8 @@ row! {
         pixel_size_um: [f64; 2] = surface.map.pixel().map(|p| p / MICROMETRE),
         /// Points that were not measured.
         missing: usize = surface.missing,
+        /// What was understood of the file: dialect, columns, units, lines; and remarks on it.
+        understood: Vec<String> = surface.notes.clone(),
         /// Points that `surface.outliers` took away.
         outliers: usize = surface.outliers,
         /// Area of the cells used.

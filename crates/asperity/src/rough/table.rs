@@ -69,9 +69,9 @@ row! {
         stiffness_MPa_per_um: Option<f64> =
             one.space().and_then(|s| s.contact.stiffness).map(|k| k / MEGAPASCAL * MICROMETRE),
         /// Whether an open path crosses the map along x.
-        percolates_x: Option<bool> = one.space().map(|s| s.passages[0].narrowest.is_some()),
+        percolates_x: Option<bool> = one.space().and_then(|s| s.percolates(0)),
         /// The same along y.
-        percolates_y: Option<bool> = one.space().map(|s| s.passages[1].narrowest.is_some()),
+        percolates_y: Option<bool> = one.space().and_then(|s| s.percolates(1)),
         /// Gap of the critical constriction along x, µm.
         critical_gap_x_um: Option<f64> =
             one.space().and_then(|s| s.passages[0].narrowest).map(|c| c.gap / MICROMETRE),

@@ -129,6 +129,19 @@ fn judgement(judged: &[ComparedClosure], error: f64) -> Option<String> {
 
 fn passage(space: &SpaceContact, k: usize, axis: Axis, fluid: Option<&Fluid>) -> String {
     let name = if axis == Axis::X { "x" } else { "y" };
+    if let Some(unknown) = space.passages[k].unknown {
+        let filled = match unknown.filled {
+            Some(place) => format!(
+                "an open path crosses, {} µm at its narrowest",
+                with_digits(place.gap / MICROMETRE, 3)
+            ),
+            None => "no path crosses either".into(),
+        };
+        return format!(
+            "whether a path crosses along {name} is not known: {} points without a height close the way; with missing = \"fill\" {filled}",
+            unknown.missing
+        );
+    }
     let Some(narrowest) = space.passages[k].narrowest else {
         return format!("no open path crosses along {name}: tight there, as far as the pixels see");
     };

@@ -3,8 +3,8 @@
 use super::closure_contact::IslandContact;
 use super::half_space::SpaceContact;
 use crate::results::units::MICROMETRE;
-use asperity_roughness::scene::Scene;
-use asperity_roughness::{Closure, Coefficient, SINGLE_ASPERITY_EXPONENT, Surface};
+use asperity_roughness::scene::{Missing, Scene};
+use asperity_roughness::{Closure, Coefficient, Levelling, SINGLE_ASPERITY_EXPONENT, Surface, level};
 
 /// Remarks on the trust in the numbers.
 pub type Warnings = Vec<String>;
@@ -85,7 +85,41 @@ fn surface_warnings(surface: &Surface, scene: &Scene) -> Vec<String> {
             above / MICROMETRE
         )
     });
-    [seam, spike, unit, apart].into_iter().flatten().collect()
+    let first = [seam, spike, unit, apart].into_iter().flatten();
+    first.chain(missing_points(surface, scene)).chain(tilt(surface, scene)).collect()
+}
+
+/// Share of the points that may be missing without a word.
+const MAX_MISSING_SHARE: f64 = 0.02;
+/// Share of Sq that the plane of a surface may be without a word.
+const MAX_TILT_SHARE: f64 = 0.9;
+
+/// Points without a height that are left out.
+fn missing_points(surface: &Surface, scene: &Scene) -> Option<String> {
+    let (missing, all) = (surface.missing, surface.map.heights().len());
+    let share = missing as f64 / all as f64;
+    (share > MAX_MISSING_SHARE && scene.surface.missing == Missing::Exclude).then(|| {
+        format!(
+            "{missing} of {all} points ({:.1} %) have no height: they bear nothing and let no fluid through; measure them, or close \
+             the holes smoothly by surface.missing = \"fill\"",
+            100.0 * share
+        )
+    })
+}
+
+/// A surface that is tilted far more than it is rough.
+fn tilt(surface: &Surface, scene: &Scene) -> Option<String> {
+    if scene.surface.level != Some(Levelling::None) || scene.surface.generate.is_some() {
+        return None;
+    }
+    let level = Surface::from_map(level(surface.map.clone(), Levelling::Plane)).ok()?;
+    let share = 1.0 - level.parameters.sq / surface.parameters.sq;
+    (share > MAX_TILT_SHARE).then(|| {
+        format!(
+            "the mean plane of the map carries {:.1} % of Sq: it is tilted, not rough; surface.level = \"plane\" takes the tilt out",
+            100.0 * share
+        )
+    })
 }
 
 /// Of a contact on a half-space.

@@ -1,7 +1,7 @@
 //! Alicona `.al3d`: tags of 52 bytes, then the depth image in 32-bit floats, metres, rows padded to 8 bytes.
 
 use super::bytes::{Bytes, Number};
-use super::measured::{Format, Measured, ReadError};
+use super::measured::{Format, Measured, ReadError, Request};
 use std::path::Path;
 
 const FORMAT: Format = Format("al3d");
@@ -11,8 +11,8 @@ const VALUE: usize = 30;
 const TAG: usize = KEY + VALUE + 2;
 
 /// Reads the depth image.
-pub(super) fn read(path: &Path) -> Result<Measured, ReadError> {
-    let data = std::fs::read(path)?;
+pub(super) fn read(path: &Path, request: &Request<'_>) -> Result<Measured, ReadError> {
+    let data = request.read_file(path)?;
     let file = Bytes { format: FORMAT, data: &data };
     let tags = tags(&file)?;
     let text = |name: &'static str| {
@@ -32,7 +32,7 @@ pub(super) fn read(path: &Path) -> Result<Measured, ReadError> {
         Err(FORMAT.header(name, value.to_string(), allowed))
     };
     let (columns, rows) = (whole("Cols")?, whole("Rows")?);
-    let count = FORMAT.nodes(columns, rows)?;
+    let count = FORMAT.nodes_within(columns, rows, 4, request)?;
     let pixel = [
         FORMAT.positive("PixelSizeXMeter", number("PixelSizeXMeter")?)?,
         FORMAT.positive("PixelSizeYMeter", number("PixelSizeYMeter")?)?,

@@ -1,5 +1,8 @@
 //! The result of every reader: heights as a file holds them, or why it is no surface.
 
+use crate::memory::{default_limit, read_file};
+use crate::text::TextError;
+use std::path::Path;
 use thiserror::Error;
 
 /// The reason why a file is no surface.
@@ -40,23 +43,34 @@ pub enum ReadError {
         /// The allowed range.
         allowed: &'static str,
     },
-    /// A text file has something else than a number.
-    #[error("line {line}: {problem}")]
-    Text {
-        /// Line, from 1.
-        line: usize,
-        /// The mistake.
-        problem: String,
-    },
+    /// A text file has something else than rows of heights.
+    #[error(transparent)]
+    Text(#[from] TextError),
     /// The zip container or its XML is damaged.
     #[error("the x3p file is damaged: {0}")]
     Container(String),
-}
-
-impl ReadError {
-    pub(super) fn text(line: usize, problem: impl ToString) -> ReadError {
-        ReadError::Text { line, problem: problem.to_string() }
-    }
+    /// More memory than may be taken.
+    #[error(
+        "the {format} file holds {points} points, which take {needed:.2} GB, more than memory_limit, {limit:.2} GB (half of what is free unless told): raise it, or thin the map out"
+    )]
+    Memory {
+        /// Format.
+        format: &'static str,
+        /// Points of the map.
+        points: u64,
+        /// What they take, GB.
+        needed: f64,
+        /// What may be taken, GB.
+        limit: f64,
+    },
+    /// A format that is known by its beginning, but not read.
+    #[error("this is {found}, which is not read: {export}")]
+    Foreign {
+        /// Its name.
+        found: String,
+        /// An export that is read.
+        export: &'static str,
+    },
 }
 
 /// A format with a header, by its name in errors.
@@ -81,6 +95,25 @@ impl Format {
         count
             .map(|n| n as usize)
             .ok_or_else(|| self.header("size", format_args!("{columns} x {rows} points"), allowed))
+    }
+
+    /// The number of nodes of a map of `bytes` to a point, checked against the memory that may be taken.
+    pub fn nodes_within(
+        self,
+        columns: u64,
+        rows: u64,
+        bytes: usize,
+        request: &Request<'_>,
+    ) -> Result<usize, ReadError> {
+        let count = self.nodes(columns, rows)?;
+        // the heights as they are computed with, beside those of the file
+        let needed = count as u64 * (8 + bytes as u64);
+        let limit = request.memory();
+        if needed > limit {
+            let (needed, limit) = (needed as f64 / 1e9, limit as f64 / 1e9);
+            return Err(ReadError::Memory { format: self.0, points: count as u64, needed, limit });
+        }
+        Ok(count)
     }
 
     /// A positive finite length of the header.
@@ -114,13 +147,47 @@ pub struct Measured {
     pub spacing: Spacing,
     /// Metres per unit of height, where the file says.
     pub height_unit: Option<f64>,
+    /// What was understood of the file, and remarks on it, each a sentence without its full stop.
+    pub notes: Vec<String>,
 }
 
 impl Measured {
     /// A grid whose lengths are all in metres.
     pub(super) fn in_metres(columns: u64, rows: u64, pixel: [f64; 2], heights: Vec<f64>) -> Measured {
         let (columns, rows) = (columns as usize, rows as usize);
-        Measured { columns, rows, heights, spacing: Spacing::Metres(pixel), height_unit: Some(1.0) }
+        Measured {
+            columns,
+            rows,
+            heights,
+            spacing: Spacing::Metres(pixel),
+            height_unit: Some(1.0),
+            notes: Vec::new(),
+        }
+    }
+}
+
+/// What is asked of a file beside its name.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Request<'a> {
+    /// Columns of x, y and z in a list of points, by name or number.
+    pub columns: [Option<&'a str>; 3],
+    /// A number that means that a point was not measured, in the unit of the file.
+    pub missing_value: Option<f64>,
+    /// Whether sums that do not hold, and values that are said to be no heights, are passed over.
+    pub override_file: bool,
+    /// Bytes that may be taken; `None`: [`default_limit`].
+    pub memory_limit: Option<u64>,
+}
+
+impl Request<'_> {
+    /// Bytes that may be taken.
+    pub(super) fn memory(&self) -> u64 {
+        self.memory_limit.unwrap_or_else(default_limit)
+    }
+
+    /// The whole file.
+    pub(super) fn read_file(&self, path: &Path) -> Result<Vec<u8>, ReadError> {
+        Ok(read_file(path, self.memory())?)
     }
 }
 

@@ -5,14 +5,17 @@ mod bytes;
 mod measured;
 
 mod al3d;
+mod described;
+mod foreign;
 mod npy;
+mod points;
 mod sdf;
 mod sur;
 mod text;
 mod vti;
 mod x3p;
 
-pub use measured::{Measured, ReadError, Spacing};
+pub use measured::{Measured, ReadError, Request, Spacing};
 pub use npy::write_npy;
 pub use vti::Vti;
 pub use x3p::write_x3p;
@@ -22,69 +25,44 @@ use std::io::Read;
 use std::path::Path;
 
 /// Reader of one format.
-type Reader = fn(&Path) -> Result<Measured, ReadError>;
+type Reader = fn(&Path, &Request<'_>) -> Result<Measured, ReadError>;
 
-/// Reads a surface file, told apart by its first bytes, else by its name.
+/// Reads a surface file, told apart by its first bytes; text by its content.
 ///
 /// # Errors
-/// A file that cannot be read, is of no known format, or is damaged.
-pub fn read(path: &Path) -> Result<Measured, ReadError> {
+/// A file that cannot be read, is of no known format, is damaged, or takes more memory than it may.
+pub fn read(path: &Path, request: &Request<'_>) -> Result<Measured, ReadError> {
     let mut start = Vec::new();
-    File::open(path)?.take(16).read_to_end(&mut start)?;
+    File::open(path)?.take(foreign::LOOKED_AT).read_to_end(&mut start)?;
+    if let Some(reader) = reader(&start) {
+        return reader(path, request);
+    }
+    if let Some(error) = foreign::named(&start) {
+        return Err(error);
+    }
     let extension = path.extension().and_then(|e| e.to_str()).unwrap_or("").to_ascii_lowercase();
-    let known: [(&[u8], Reader); 10] = [
+    match extension.as_str() {
+        _ if start.is_empty() => Err(ReadError::Unknown { found: "the file is empty".into() }),
+        "npy" | "x3p" | "sdf" | "sur" | "al3d" => Err(ReadError::Unknown {
+            found: format!("the name says .{extension}, but the file does not begin like one"),
+        }),
+        _ => text::read(path, request),
+    }
+}
+
+/// The reader of a file that begins so.
+fn reader(start: &[u8]) -> Option<Reader> {
+    let known: [(&[u8], Reader); 5] = [
         (b"\x93NUMPY", npy::read),
         (b"PK\x03\x04", x3p::read),
         (b"DIGITAL SURF", sur::read),
         (b"DSCOMPRESSED", sur::read),
         (b"AliconaImaging", al3d::read),
-        (b"aISO-1.0", sdf::read),
-        (b"aBCR-1.0", sdf::read),
-        (b"bISO-1.0", sdf::read),
-        (b"bBCR-1.0", sdf::read),
-        (b" ISO-1.0", sdf::read),
     ];
-    if let Some((_, reader)) = known.iter().find(|(magic, _)| start.starts_with(magic)) {
-        return reader(path);
-    }
-    if start.is_empty() || picture(&start).is_some() {
-        return Err(ReadError::Unknown { found: describe(&start, &extension) });
-    }
-    match extension.as_str() {
-        "xyz" => text::read_points(path),
-        "csv" | "txt" | "asc" | "dat" => text::read_table(path),
-        _ => Err(ReadError::Unknown { found: describe(&start, &extension) }),
-    }
-}
-
-/// The kind of picture that begins so.
-fn picture(start: &[u8]) -> Option<&'static str> {
-    let images: [(&[u8], &str); 6] = [
-        (b"\x89PNG", "a PNG picture"),
-        (b"\xff\xd8\xff", "a JPEG picture"),
-        (b"II*\0", "a TIFF picture"),
-        (b"MM\0*", "a TIFF picture"),
-        (b"BM", "a BMP picture"),
-        (b"GIF8", "a GIF picture"),
-    ];
-    images.iter().find(|(magic, _)| start.starts_with(magic)).map(|(_, name)| *name)
-}
-
-/// Probable kind of a file that is no surface.
-fn describe(start: &[u8], extension: &str) -> String {
-    if let Some(name) = picture(start) {
-        return format!("this is {name}: colours are not heights");
-    }
-    if start.is_empty() {
-        return "the file is empty".into();
-    }
-    match extension {
-        "npy" | "x3p" | "sdf" | "sur" | "al3d" => {
-            format!("the name says .{extension}, but the file does not begin like one")
-        }
-        "" => "the file has no known beginning and no extension".into(),
-        other => format!("files of type .{other} are not known"),
-    }
+    let is_sdf = start.first().is_some_and(|kind| b"ab ".contains(kind))
+        && sdf::VERSIONS.iter().any(|version| start[1..].starts_with(version.as_bytes()));
+    let found = known.iter().find(|(magic, _)| start.starts_with(magic)).map(|(_, reader)| *reader);
+    found.or(is_sdf.then_some(sdf::read as Reader))
 }
 
 #[cfg(test)]

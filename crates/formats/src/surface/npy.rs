@@ -1,7 +1,7 @@
 //! NumPy arrays: two dimensions, axis 0 is y.
 
 use super::bytes::Number;
-use super::measured::{Format, Measured, ReadError, Spacing};
+use super::measured::{Format, Measured, ReadError, Request, Spacing};
 use asperity_numerics::transpose::transposed;
 use npyz::{DType, Endianness, NpyHeader, Order, TypeChar, WriterBuilder};
 use rayon::prelude::*;
@@ -84,7 +84,7 @@ fn number(dtype: &DType) -> Result<(Number, bool), ReadError> {
 }
 
 /// Reads an array; several tasks read and decode parts of the file at once.
-pub(super) fn read(path: &Path) -> Result<Measured, ReadError> {
+pub(super) fn read(path: &Path, request: &Request<'_>) -> Result<Measured, ReadError> {
     let length = std::fs::metadata(path)?.len();
     let bytes = header_bytes(path, length)?;
     let header = NpyHeader::from_reader(&bytes[..])
@@ -97,7 +97,8 @@ pub(super) fn read(path: &Path) -> Result<Measured, ReadError> {
             "a map has two dimensions, (y, x)",
         ));
     };
-    let count = FORMAT.nodes(columns, rows)?;
+    // parts are decoded one after the other: the bytes of the file are never held together
+    let count = FORMAT.nodes_within(columns, rows, 0, request)?;
     let start = bytes.len() as u64;
     let promised = count as u64 * number.size() as u64;
     if length - start < promised {
@@ -120,7 +121,7 @@ pub(super) fn read(path: &Path) -> Result<Measured, ReadError> {
     if header.order() == Order::Fortran {
         heights = transposed(&heights, rows);
     }
-    Ok(Measured { columns, rows, heights, spacing: Spacing::Unknown, height_unit: None })
+    Ok(Measured { columns, rows, heights, spacing: Spacing::Unknown, height_unit: None, notes: Vec::new() })
 }
 
 /// Writes heights as an array of f64, axis 0 = y.

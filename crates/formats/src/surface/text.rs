@@ -1,171 +1,194 @@
-//! Text: `.xyz` lists points x y z of a regular grid in any order, `.csv` holds one row of heights per line.
+//! Text: rows of heights, or points x y z of a regular grid in any order. The shape of a table is doubted:
+//! a profile is no map.
 
-use super::measured::{MOST_NODES, Measured, ReadError, Spacing};
+use super::described::Described;
+use super::measured::{Measured, ReadError, Request, Spacing};
+use super::points::onto_grid;
+use crate::dimension::Dimension;
+use crate::text::{Asked, Columns, Grid, Header, Quantity, TextError, decode, read_grid};
 use std::path::Path;
 
-/// A missing point in a text file.
-fn is_missing(word: &str) -> bool {
-    word.is_empty() || ["nan", "bad", "-", "na", "***"].contains(&word.to_ascii_lowercase().as_str())
+/// Most columns of a list of points: behind x, y, z may stand a quality or colours.
+const MOST_COLUMNS_OF_POINTS: usize = 8;
+/// Rows per column from which a table of up to three columns is no map.
+const ROWS_OF_NO_MAP: usize = 16;
+/// Rows from which a column that rises or falls all the way is no chance.
+const ROWS_OF_A_PROFILE: usize = 4;
+
+/// A coordinate of a list of points.
+const fn coordinate(name: &'static str, called: &'static [&'static str], example: &'static str) -> Quantity {
+    Quantity { name, dimension: Dimension::Length, called, example }
 }
 
-fn number(word: &str, line: usize) -> Result<f64, ReadError> {
-    if is_missing(word) {
-        return Ok(f64::NAN);
+const POINT: [Quantity; 3] = [
+    coordinate(
+        "x",
+        &["x", "x position", "x coordinate", "pos x", "x pos", "x koordinate", "rechtswert"],
+        "x_um",
+    ),
+    coordinate(
+        "y",
+        &["y", "y position", "y coordinate", "pos y", "y pos", "y koordinate", "hochwert"],
+        "y_um",
+    ),
+    coordinate(
+        "z",
+        &["z", "height", "z position", "z coordinate", "pos z", "z pos", "hohe", "hoehe", "hauteur"],
+        "z_um",
+    ),
+];
+
+/// Reads a table of heights or a list of points, whichever its names and its shape say.
+pub(super) fn read(path: &Path, request: &Request<'_>) -> Result<Measured, ReadError> {
+    let data = request.read_file(path)?;
+    let (text, encoding) =
+        decode(&data).map_err(|e| ReadError::Unknown { found: format!("the file {}", e.message) })?;
+    let mut grid = read_grid(&text, request.missing_value)?;
+    let mut notes = vec![format!("{encoding} {}", grid.describe())];
+    let said = Described::new(&grid.before, &grid.dialect, request)?;
+    let is_xyz = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("xyz"));
+    let named =
+        Asked { columns: request.columns, may_lack_units: true, key: Some("columns"), ..Asked::default() };
+    if let Some(columns) = named_points(&grid, &named)? {
+        notes.push(columns.said.clone());
+        return points(grid, &columns, &said, notes);
     }
-    word.parse().map_err(|_| {
-        let hint = match word.split_once(',') {
-            Some(_) => "decimals stand behind a point, not a comma",
-            None => "begin lines that hold no heights with #",
-        };
-        ReadError::text(line, format!("\"{}\" is not a number ({hint})", shortened(word)))
+    let (columns, rows) = (grid.columns, grid.rows());
+    if is_xyz && columns < 3 {
+        let problem = format!("{columns} numbers, a point has 3: x y z");
+        return Err(TextError::new(grid.lines[0], problem).into());
+    }
+    let is_points =
+        || (3..=MOST_COLUMNS_OF_POINTS).contains(&columns) && rows >= ROWS_OF_A_PROFILE && has_grid(&grid);
+    if is_xyz || is_points() {
+        notes.push("x, y, z from columns 1, 2, 3".into());
+        let header = Header { line: 1, text: "", units: None };
+        let named = Asked { columns: [Some("1"), Some("2"), Some("3")], ..named };
+        let columns = header.columns(&grid.dialect, columns, &POINT, &named)?;
+        return points(grid, &columns, &said, notes);
+    }
+    refuse_profile(&grid)?;
+    let axes = take_axes(&mut grid);
+    if axes.is_some() {
+        notes.push("the first row and column are places along x and y".into());
+    }
+    let (columns, rows) = (grid.columns, grid.rows());
+    let spacing = said.spacing(columns, rows).or(axes).unwrap_or(Spacing::Unknown);
+    notes.extend(said.notes());
+    Ok(Measured { columns, rows, heights: grid.values, spacing, height_unit: said.height_unit, notes })
+}
+
+/// The columns of x, y and z where a header or the request names them.
+fn named_points(grid: &Grid<'_>, named: &Asked<'_, 3>) -> Result<Option<Columns<3>>, ReadError> {
+    let mut units = None;
+    let lines = grid.before.iter().rev().filter(|(_, line)| !line.is_empty()).take(2);
+    for &(line, text) in lines {
+        let text = text.trim_start_matches(['#', '%', '/', ' ']);
+        if let Some(header) = Header::new(&grid.dialect, line, text, &POINT, named) {
+            let header = Header { units, ..header };
+            return Ok(Some(header.columns(&grid.dialect, grid.columns, &POINT, named)?));
+        }
+        units = Some(text);
+    }
+    if named.columns.iter().all(Option::is_none) {
+        return Ok(None);
+    }
+    let header = Header { line: grid.lines[0], text: "", units: None };
+    Ok(Some(header.columns(&grid.dialect, grid.columns, &POINT, named)?))
+}
+
+/// The map through the points whose coordinates stand in `columns`.
+fn points(
+    grid: Grid<'_>,
+    columns: &Columns<3>,
+    said: &Described,
+    mut notes: Vec<String>,
+) -> Result<Measured, ReadError> {
+    let picks = columns.picks[0];
+    let place = |k: usize| picks[k].column;
+    if (0..3).any(|k| place(k) >= grid.columns) {
+        let problem = format!("{} numbers, but the header names more columns", grid.columns);
+        return Err(TextError::new(grid.lines[0], problem).into());
+    }
+    let points: Vec<[f64; 3]> = grid
+        .values
+        .chunks_exact(grid.columns)
+        .map(|row| [row[place(0)], row[place(1)], row[place(2)]])
+        .collect();
+    let scales = [0, 1].map(|k| picks[k].scale);
+    drop(grid.values);
+    let placed = onto_grid(&points).map_err(|problem| TextError::new(grid.lines[0], problem))?;
+    notes.extend(placed.note);
+    let spacing = match scales {
+        [Some(x), Some(y)] => Spacing::Metres([placed.step[0] * x, placed.step[1] * y]),
+        [None, None] => match said.lateral_unit {
+            Some(unit) => Spacing::Metres(placed.step.map(|step| step * unit)),
+            None => Spacing::HeightUnits(placed.step),
+        },
+        _ => return Err(TextError::whole("names the unit of one of x and y: name both, or none").into()),
+    };
+    let height_unit = picks[2].scale.or(said.height_unit);
+    notes.extend(said.notes());
+    Ok(Measured {
+        columns: placed.columns,
+        rows: placed.rows,
+        heights: placed.heights,
+        spacing,
+        height_unit,
+        notes,
     })
 }
 
-/// The beginning of a long word.
-fn shortened(word: &str) -> String {
-    const SHOWN_CHARACTERS: usize = 40;
-    let start: String = word.chars().take(SHOWN_CHARACTERS).collect();
-    if start.len() < word.len() { format!("{start}…") } else { start }
+/// True where the first two columns are the places of a full grid.
+fn has_grid(grid: &Grid<'_>) -> bool {
+    let points: Vec<[f64; 3]> =
+        grid.values.chunks_exact(grid.columns).map(|row| [row[0], row[1], row[2]]).collect();
+    onto_grid(&points).is_ok_and(|placed| placed.heights.len() == points.len())
 }
 
-/// True where a line names the columns of a list of points.
-fn is_title(line: &str) -> bool {
-    let names: Vec<String> = words(line.trim()).iter().map(|w| w.to_ascii_lowercase()).collect();
-    names == ["x", "y", "z"]
+/// A column or a row of places beside one of heights is a profile.
+fn refuse_profile(grid: &Grid<'_>) -> Result<(), ReadError> {
+    let (columns, rows) = (grid.columns, grid.rows());
+    let is_monotone = |places: &[f64]| {
+        places.len() >= ROWS_OF_A_PROFILE
+            && (places.windows(2).all(|p| p[1] > p[0]) || places.windows(2).all(|p| p[1] < p[0]))
+    };
+    let first: Vec<f64> = grid.values.iter().step_by(columns).copied().collect();
+    let along = columns == 2 && is_monotone(&first) || rows == 2 && is_monotone(&grid.values[..columns]);
+    let problem = if columns.min(rows) == 1 && columns.max(rows) > 2 {
+        "holds one row or column of numbers: this is a profile, a map has at least 2 x 2 points".to_string()
+    } else if along {
+        "holds places and heights along a line: this is a profile x, z, not a map; `asperity crush` takes one as asperity.profile".into()
+    } else if columns <= 3 && rows >= ROWS_OF_NO_MAP * columns {
+        format!(
+            "has {columns} columns and {rows} rows, the shape of a list, not of a map: name the columns of points by columns = {{ x = \"1\", y = \"2\", z = \"3\" }}"
+        )
+    } else {
+        return Ok(());
+    };
+    Err(TextError::new(grid.lines[0], problem).into())
 }
 
-fn is_comment(line: &str) -> bool {
-    line.is_empty() || line.starts_with(['#', '%', '"'])
+/// Takes off a first row and a first column that are places along x and y, as an empty corner says, and gives
+/// their steps; mere numbers of rows and columns say nothing.
+fn take_axes(grid: &mut Grid<'_>) -> Option<Spacing> {
+    let (columns, rows) = (grid.columns, grid.rows());
+    if columns < 3 || rows < 3 || !grid.values[0].is_nan() {
+        return None;
+    }
+    let across = even_step(&grid.values[1..columns])?;
+    let down: Vec<f64> = grid.values.iter().step_by(columns).skip(1).copied().collect();
+    let steps = [across, even_step(&down)?];
+    let starts = [grid.values[1], down[0]];
+    grid.values = grid.values.chunks_exact(columns).skip(1).flat_map(|row| row[1..].to_vec()).collect();
+    grid.columns -= 1;
+    let are_numbers = steps == [1.0; 2] && starts.iter().all(|s| *s == 0.0 || *s == 1.0);
+    Some(if are_numbers { Spacing::Unknown } else { Spacing::HeightUnits(steps) })
 }
 
-fn words(line: &str) -> Vec<&str> {
-    let separator = [';', '\t', ','].into_iter().find(|s| line.contains(*s));
-    match separator {
-        Some(s) => line.split(s).map(str::trim).collect(),
-        None => line.split_whitespace().collect(),
-    }
-}
-
-/// Reads a table of heights, or points if its first line says x, y, z.
-pub(super) fn read_table(path: &Path) -> Result<Measured, ReadError> {
-    let data = std::fs::read(path)?;
-    let text = text_of(&data)?;
-    if text.lines().next().is_some_and(is_title) {
-        return points(text);
-    }
-    let mut table: Vec<Vec<f64>> = Vec::new();
-    let mut ends_empty = true;
-    for (i, line) in text.lines().enumerate().map(|(i, l)| (i + 1, l.trim())).filter(|(_, l)| !is_comment(l))
-    {
-        let words = words(line);
-        let columns = table.first().map_or(words.len(), Vec::len);
-        if words.len() != columns {
-            let problem = format!("{} heights, but the lines before have {columns}", words.len());
-            return Err(ReadError::text(i, problem));
-        }
-        ends_empty &= words.last() == Some(&"");
-        table.push(words.into_iter().map(|word| number(word, i)).collect::<Result<_, _>>()?);
-    }
-    if ends_empty {
-        // a separator at the end of every line makes no further column
-        for row in &mut table {
-            row.pop();
-        }
-    }
-    let (columns, rows) = (table.first().map_or(0, Vec::len), table.len());
-    let heights = table.concat();
-    if heights.is_empty() {
-        return Err(ReadError::text(1, "the file holds no heights"));
-    }
-    Ok(Measured { columns, rows, heights, spacing: Spacing::Unknown, height_unit: None })
-}
-
-/// Reads points x y z, one a line.
-pub(super) fn read_points(path: &Path) -> Result<Measured, ReadError> {
-    let data = std::fs::read(path)?;
-    points(text_of(&data)?)
-}
-
-fn text_of(data: &[u8]) -> Result<&str, ReadError> {
-    let text = std::str::from_utf8(data).map_err(|e| ReadError::Unknown {
-        found: format!("byte {} is no text: this file is not a list of numbers", e.valid_up_to()),
-    })?;
-    Ok(text.trim_start_matches('\u{feff}'))
-}
-
-/// A first line that names the columns is passed over.
-fn points(text: &str) -> Result<Measured, ReadError> {
-    let skip = usize::from(text.lines().next().is_some_and(is_title));
-    let mut points: Vec<[f64; 3]> = Vec::new();
-    for (i, line) in text.lines().enumerate().skip(skip).map(|(i, l)| (i + 1, l.trim())) {
-        if is_comment(line) {
-            continue;
-        }
-        let words = words(line);
-        let &[x, y, z] = words.as_slice() else {
-            return Err(ReadError::text(i, format!("{} numbers, a point has 3: x y z", words.len())));
-        };
-        let point = [number(x, i)?, number(y, i)?, number(z, i)?];
-        if !(point[0].is_finite() && point[1].is_finite()) {
-            return Err(ReadError::text(i, "x and y must be finite numbers"));
-        }
-        points.push(point);
-    }
-    let (x, y) = (Axis::from_points(&points, 0)?, Axis::from_points(&points, 1)?);
-    let count = x.count as u64 * y.count as u64;
-    // a grid with most of its nodes absent is a cloud of points
-    if count >= MOST_NODES || count > 8 * points.len() as u64 {
-        return Err(cloud(format!("{} points would make a grid of {} x {}", points.len(), x.count, y.count)));
-    }
-    let mut heights = vec![f64::NAN; count as usize];
-    for p in &points {
-        let node = y.node(p[1])? * x.count + x.node(p[0])?;
-        if !heights[node].is_nan() && heights[node] != p[2] {
-            return Err(cloud(format!("two heights at x = {}, y = {}", p[0], p[1])));
-        }
-        heights[node] = p[2];
-    }
-    let spacing = Spacing::HeightUnits([x.step, y.step]);
-    Ok(Measured { columns: x.count, rows: y.count, heights, spacing, height_unit: None })
-}
-
-fn cloud(why: String) -> ReadError {
-    ReadError::text(
-        1,
-        format!("the points do not form a regular grid along x and y ({why}): resample them first"),
-    )
-}
-
-/// Equally spaced coordinates.
-struct Axis {
-    low: f64,
-    step: f64,
-    count: usize,
-}
-
-impl Axis {
-    fn from_points(points: &[[f64; 3]], axis: usize) -> Result<Axis, ReadError> {
-        let mut values: Vec<f64> = points.iter().map(|p| p[axis]).collect();
-        values.sort_by(f64::total_cmp);
-        let (Some(&low), Some(&high)) = (values.first(), values.last()) else {
-            return Err(ReadError::text(1, "the file holds no points"));
-        };
-        // coordinates are printed with few digits: what differs by less than 1e-6 of the whole is the same
-        let same = 1e-6 * (high - low);
-        let count = 1 + values.windows(2).filter(|w| w[1] - w[0] > same).count();
-        if count < 2 || !(high - low).is_finite() {
-            let problem = "all points lie on one line: this is a profile, a map has at least 2 x 2 points";
-            return Err(ReadError::text(1, problem));
-        }
-        Ok(Axis { low, step: (high - low) / (count - 1) as f64, count })
-    }
-
-    fn node(&self, value: f64) -> Result<usize, ReadError> {
-        let place = (value - self.low) / self.step;
-        let node = place.round();
-        if (place - node).abs() > 0.05 {
-            return Err(cloud(format!("{value} is no multiple of the spacing {}", self.step)));
-        }
-        Ok((node as usize).min(self.count - 1))
-    }
+/// The step of places that are evenly apart.
+fn even_step(places: &[f64]) -> Option<f64> {
+    let step = (places.last()? - places.first()?) / (places.len() - 1) as f64;
+    let even = places.windows(2).all(|p| ((p[1] - p[0]) / step - 1.0).abs() < 1e-2);
+    (even && step != 0.0).then_some(step.abs())
 }

@@ -1,11 +1,12 @@
 //! x3p of ISO 25178-72: a zip with main.xml and binary heights; all lengths in metres.
 
 use super::bytes::Number;
-use super::measured::{Format, Measured, ReadError};
+use super::measured::{Format, Measured, ReadError, Request};
+use crate::memory::MOST_UNPACKED;
 use md5::{Digest, Md5};
 use roxmltree::{Document, Node, ParsingOptions};
 use std::fs::File;
-use std::io::{BufReader, Read, Write};
+use std::io::{self, BufReader, Read, Write};
 use std::path::Path;
 use zip::ZipArchive;
 use zip::write::SimpleFileOptions;
@@ -18,6 +19,9 @@ const MOST_PARTS: u32 = 1 << 23;
 
 type Zip = ZipArchive<BufReader<File>>;
 
+/// Bytes behind the promised end of a member that are looked at.
+const LONGEST_REST: u64 = 1 << 16;
+
 /// Longest tag of a main.xml: a parser compares each attribute of a tag with all others.
 const LONGEST_TAG: usize = 1 << 16;
 
@@ -25,14 +29,120 @@ fn damaged(what: impl ToString) -> ReadError {
     ReadError::Container(what.to_string())
 }
 
-/// At most `limit` bytes of a member, whatever its directory entry says.
-fn member(zip: &mut Zip, name: &str, limit: u64) -> Result<Vec<u8>, ReadError> {
-    let mut data = Vec::new();
-    // some programs write the paths of Windows
-    let stored = if zip.index_for_name(name).is_some() { name.into() } else { name.replace('\\', "/") };
-    let file = zip.by_name(&stored).map_err(|e| damaged(format!("{name}: {e}")))?;
-    file.take(limit).read_to_end(&mut data).map_err(|e| damaged(format!("{name}: {e}")))?;
-    Ok(data)
+/// The members of the archive of one surface.
+struct Archive<'r> {
+    zip: Zip,
+    /// Folder of main.xml, with its last slash.
+    folder: String,
+    request: &'r Request<'r>,
+}
+
+/// A path in an archive without what programs put before it.
+fn plain(name: &str) -> String {
+    let name = name.replace('\\', "/");
+    name.split('/').filter(|part| !part.is_empty() && *part != ".").collect::<Vec<_>>().join("/")
+}
+
+impl<'r> Archive<'r> {
+    /// Finds main.xml, in whichever folder was packed.
+    fn open(path: &Path, request: &'r Request<'r>) -> Result<Archive<'r>, ReadError> {
+        let zip = ZipArchive::new(BufReader::new(File::open(path)?)).map_err(damaged)?;
+        let names: Vec<String> = zip.file_names().filter_map(|name| Some(plain(&name.ok()?))).collect();
+        // a Mac adds a shadow of every file
+        let is_main = |name: &&String| {
+            name.rsplit('/').next().is_some_and(|last| last.eq_ignore_ascii_case("main.xml"))
+                && !name.split('/').any(|part| part == "__MACOSX")
+        };
+        let main = names.iter().filter(is_main).min_by_key(|name| name.matches('/').count());
+        let Some(main) = main else { return Err(foreign(&names)) };
+        let folder = main.rfind('/').map_or("", |end| &main[..=end]).to_string();
+        Ok(Archive { zip, folder, request })
+    }
+
+    /// The number of the member that a link names, from the folder of main.xml.
+    fn place(&self, link: &str) -> Option<usize> {
+        let link = plain(link);
+        let wanted = [format!("{}{link}", self.folder), link];
+        let is = |name: &str, wanted: &str| plain(name).eq_ignore_ascii_case(wanted);
+        let found = |wanted: &String| {
+            (0..self.zip.len()).find(|i| {
+                self.zip.name_for_index(*i).is_some_and(|name| name.is_ok_and(|name| is(&name, wanted)))
+            })
+        };
+        wanted.iter().find_map(found)
+    }
+
+    /// At most `limit` bytes of a member, whatever its directory entry says; its sum is looked at.
+    fn member(&mut self, name: &str, limit: u64) -> Result<Vec<u8>, ReadError> {
+        let at = |e: String| damaged(format!("{name}: {e}"));
+        let place = self.place(name).ok_or_else(|| at("it is not in the archive".into()))?;
+        let mut file = self.zip.by_index(place).map_err(|e| at(e.to_string()))?;
+        let mut data = Vec::new();
+        (&mut file).take(limit).read_to_end(&mut data).map_err(|e| at(e.to_string()))?;
+        if self.request.override_file {
+            return Ok(data);
+        }
+        // the sum is compared where the member ends
+        let more = io::copy(&mut file.take(LONGEST_REST), &mut io::sink()).map_err(|e| {
+            at(format!("its sum (CRC-32) does not hold ({e}); export it anew, or read it as it is with override = true"))
+        })?;
+        if more > 0 {
+            return Err(at(format!("it holds more than the {limit} bytes that main.xml promises")));
+        }
+        Ok(data)
+    }
+
+    /// Compares the MD5 sum that main.xml has of a member.
+    fn compare(&self, name: &str, data: &[u8], sum: Option<&str>) -> Result<bool, ReadError> {
+        let Some(sum) = sum.filter(|sum| sum.len() == 32 && sum.bytes().all(|b| b.is_ascii_hexdigit()))
+        else {
+            return Ok(false);
+        };
+        if self.request.override_file || md5_of(data).eq_ignore_ascii_case(sum) {
+            return Ok(true);
+        }
+        Err(damaged(format!(
+            "{name}: its sum (MD5) is not the one in main.xml; export it anew, or read it as it is with override = true"
+        )))
+    }
+
+    /// A remark where md5checksum.hex is not the sum of main.xml.
+    fn remark_on_main(&mut self, xml: &[u8]) -> Option<String> {
+        const LONGEST_SUM: u64 = 4096;
+        self.place("md5checksum.hex")?;
+        let text = self.member("md5checksum.hex", LONGEST_SUM).ok()?;
+        let text = String::from_utf8_lossy(&text);
+        let sum = text.split_whitespace().next()?;
+        (sum.len() == 32 && !md5_of(xml).eq_ignore_ascii_case(sum))
+            .then(|| "main.xml was changed after its sum (MD5) was taken".into())
+    }
+}
+
+/// The kind of an archive that is no x3p, by the names in it.
+fn foreign(names: &[String]) -> ReadError {
+    let has = |test: &dyn Fn(&str) -> bool| names.iter().any(|name| test(&name.to_ascii_lowercase()));
+    let (found, export) = if has(&|n| n.starts_with("xl/")) {
+        ("an Excel workbook (.xlsx)", "save the sheet as CSV")
+    } else if has(&|n| n.starts_with("word/")) {
+        ("a Word document", "save the table as plain text")
+    } else if has(&|n| n == "content.xml") {
+        ("an OpenDocument file", "save the sheet as CSV")
+    } else if has(&|n| n.starts_with("layer_") || n == "index.xml") {
+        (
+            "a Sensofar measurement (.plux)",
+            "export it as .sur, .x3p or .dat of points in SensoSCAN or SensoMAP",
+        )
+    } else if has(&|n| n.ends_with(".npy")) {
+        (
+            "a NumPy archive of several arrays (.npz)",
+            "save the heights alone by np.save(\"map.npy\", heights)",
+        )
+    } else {
+        let shown: Vec<&str> = names.iter().take(3).map(String::as_str).collect();
+        let found = format!("a zip archive without main.xml (it holds {})", shown.join(", "));
+        return ReadError::Foreign { found, export: "give the file of the surface itself" };
+    };
+    ReadError::Foreign { found: found.into(), export }
 }
 
 fn child<'a>(node: Node<'a, 'a>, name: &str) -> Option<Node<'a, 'a>> {
@@ -73,13 +183,11 @@ impl Axis {
 }
 
 /// Reads a surface; profiles, point clouds and layers are refused.
-pub(super) fn read(path: &Path) -> Result<Measured, ReadError> {
-    let mut zip = ZipArchive::new(BufReader::new(File::open(path)?)).map_err(damaged)?;
-    if zip.index_for_name("main.xml").is_none() {
-        return Err(damaged("it is a zip archive without main.xml, some other kind of file"));
-    }
-    let xml = member(&mut zip, "main.xml", LONGEST_XML)?;
-    let xml = String::from_utf8(xml).map_err(|_| damaged("main.xml is not UTF-8"))?;
+pub(super) fn read(path: &Path, request: &Request<'_>) -> Result<Measured, ReadError> {
+    let mut archive = Archive::open(path, request)?;
+    let bytes = archive.member("main.xml", LONGEST_XML)?;
+    let mut notes: Vec<String> = archive.remark_on_main(&bytes).into_iter().collect();
+    let xml = String::from_utf8(bytes).map_err(|_| damaged("main.xml is not UTF-8"))?;
     if xml.split('<').any(|part| part.find('>').unwrap_or(part.len()) > LONGEST_TAG) {
         return Err(damaged(format!("main.xml has a tag of more than {LONGEST_TAG} bytes")));
     }
@@ -88,69 +196,88 @@ pub(super) fn read(path: &Path) -> Result<Measured, ReadError> {
         Document::parse_with_options(xml.trim_start_matches('\u{feff}'), options).map_err(damaged)?;
     let root = document.root_element();
     let (x, y, z) = (Axis::read(root, "CX")?, Axis::read(root, "CY")?, Axis::read(root, "CZ")?);
-    let feature = text(root, &["Record1", "FeatureType"]).unwrap_or("SUR");
-    let refuse = |name, value: String, allowed| Err(FORMAT.header(name, value, allowed));
-    if feature != "SUR" {
-        return refuse(
-            "FeatureType",
-            feature.into(),
-            "only a surface (SUR) can be pressed, no profile or point cloud",
-        );
-    }
-    if x.absolute || y.absolute || child(root, "Record3").is_some_and(|r| child(r, "ListDimension").is_some())
-    {
-        return refuse("CX, CY", "absolute".into(), "points must lie on a regular grid (AxisType I)");
-    }
+    refuse_other_features(root, &x, &y)?;
     let size = |key: &'static str| {
         let value = text(root, &["Record3", "MatrixDimension", key]).unwrap_or("");
         value.parse::<u64>().map_err(|_| damaged(format!("MatrixDimension {key} = \"{value}\" is no number")))
     };
     let (columns, rows, layers) = (size("SizeX")?, size("SizeY")?, size("SizeZ")?);
     if layers != 1 {
-        return refuse("SizeZ", layers.to_string(), "only one layer can be pressed");
+        return Err(FORMAT.header("SizeZ", layers, "only one layer can be pressed"));
     }
-    let count = FORMAT.nodes(columns, rows)?;
-    let mut heights = match text(root, &["Record3", "DataLink", "PointDataLink"]) {
-        Some(name) => binary(&mut zip, name, &z.kind, count)?,
-        None => listed(root, count)?,
-    };
-    heights.iter_mut().for_each(|h| *h = *h * z.increment + z.offset);
-    if let Some(name) = text(root, &["Record3", "DataLink", "ValidPointsLink"]).filter(|n| !n.is_empty()) {
-        let mask = member(&mut zip, name, (count as u64).div_ceil(8))?;
-        if mask.len() < count.div_ceil(8) {
-            return Err(truncated("validity mask", count.div_ceil(8), mask.len()));
+    let link = |key: &str| text(root, &["Record3", "DataLink", key]).filter(|value| !value.is_empty());
+    let mut heights = match link("PointDataLink") {
+        Some(name) => {
+            let number = number_of(&z.kind)?;
+            let count = FORMAT.nodes_within(columns, rows, number.size(), request)?;
+            let raw = binary(&mut archive, name, number, count)?;
+            if !archive.compare(name, &raw, link("MD5ChecksumPointData"))? {
+                notes.push("main.xml has no sum (MD5) of the heights".into());
+            }
+            number.decode_all(&raw, count)
         }
-        heights
-            .iter_mut()
-            .enumerate()
-            .filter(|(i, _)| mask[i / 8] >> (i % 8) & 1 == 0)
-            .for_each(|(_, h)| *h = f64::NAN);
+        None => listed(root, FORMAT.nodes_within(columns, rows, 0, request)?)?,
+    };
+    let count = heights.len();
+    heights.iter_mut().for_each(|h| *h = *h * z.increment + z.offset);
+    if let Some(name) = link("ValidPointsLink") {
+        let length = count.div_ceil(8);
+        let mask = archive.member(name, length as u64)?;
+        if mask.len() < length {
+            return Err(truncated("validity mask", length, mask.len()));
+        }
+        archive.compare(name, &mask, link("MD5ChecksumValidPoints"))?;
+        let is_valid = |i: usize| mask[i / 8] >> (i % 8) & 1 == 1;
+        heights.iter_mut().enumerate().filter(|(i, _)| !is_valid(*i)).for_each(|(_, h)| *h = f64::NAN);
     }
     let pixel =
         [FORMAT.positive("CX Increment", x.increment)?, FORMAT.positive("CY Increment", y.increment)?];
-    Ok(Measured::in_metres(columns, rows, pixel, heights))
+    Ok(Measured { notes, ..Measured::in_metres(columns, rows, pixel, heights) })
+}
+
+/// Profiles and clouds of points are no maps.
+fn refuse_other_features<'a>(root: Node<'a, 'a>, x: &Axis, y: &Axis) -> Result<(), ReadError> {
+    let feature = text(root, &["Record1", "FeatureType"]).unwrap_or("SUR");
+    if feature != "SUR" {
+        let allowed = "only a surface (SUR) can be pressed, no profile or point cloud";
+        return Err(FORMAT.header("FeatureType", feature, allowed));
+    }
+    if x.absolute || y.absolute || child(root, "Record3").is_some_and(|r| child(r, "ListDimension").is_some())
+    {
+        let allowed = "points must lie on a regular grid (AxisType I)";
+        return Err(FORMAT.header("CX, CY", "absolute", allowed));
+    }
+    Ok(())
 }
 
 fn truncated(what: &'static str, promised: usize, found: usize) -> ReadError {
     FORMAT.truncated(what, promised as u64, found as u64)
 }
 
-fn binary(zip: &mut Zip, name: &str, kind: &str, count: usize) -> Result<Vec<f64>, ReadError> {
-    let number = match kind {
-        "I" => Number::I16,
-        "L" => Number::I32,
-        "F" => Number::F32,
-        "D" => Number::F64,
-        other => {
-            return Err(FORMAT.header("CZ DataType", other, "it must be I, L, F or D"));
-        }
-    };
+fn number_of(kind: &str) -> Result<Number, ReadError> {
+    match kind {
+        "I" => Ok(Number::I16),
+        "L" => Ok(Number::I32),
+        "F" => Ok(Number::F32),
+        "D" => Ok(Number::F64),
+        other => Err(FORMAT.header("CZ DataType", other, "it must be I, L, F or D")),
+    }
+}
+
+/// The bytes of `count` heights.
+fn binary(archive: &mut Archive<'_>, name: &str, number: Number, count: usize) -> Result<Vec<u8>, ReadError> {
     let promised = count * number.size();
-    let raw = member(zip, name, promised as u64)?;
+    let packed =
+        archive.place(name).and_then(|place| Some(archive.zip.by_index_raw(place).ok()?.compressed_size()));
+    let most = packed.unwrap_or(0).saturating_mul(MOST_UNPACKED);
+    if promised as u64 > most {
+        return Err(FORMAT.truncated("heights", promised as u64, most));
+    }
+    let raw = archive.member(name, promised as u64)?;
     if raw.len() < promised {
         return Err(truncated("heights", promised, raw.len()));
     }
-    Ok(number.decode_all(&raw, count))
+    Ok(raw)
 }
 
 /// Heights written in main.xml: the last number of each Datum, an empty one is missing.

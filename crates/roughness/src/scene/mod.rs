@@ -10,7 +10,7 @@ pub use asperity_material::range::SceneError;
 pub use fluid::{Fluid, Viscosity};
 pub use generate::GenerateScene;
 pub use half_space::HalfSpaceScene;
-pub use surface::{HeightUnit, Missing, SurfaceScene};
+pub use surface::{HeightUnit, Missing, PointColumns, SurfaceScene};
 
 pub use crate::contact::material::Material;
 pub use crate::contact::own_closure::OwnClosure;

@@ -9,8 +9,8 @@ use crate::surface::height_map::HeightMap;
 use crate::surface::level::{self, Levelling};
 use crate::surface::outliers;
 use crate::surface::prepared_surface::Surface;
-use asperity_formats::surface::{self, Measured, Spacing};
-use asperity_material::units::Length;
+use asperity_formats::surface::{self, Measured, Request, Spacing};
+use asperity_material::units::{Length, Memory};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::value::SeqAccessDeserializer;
 use serde::de::{self, IntoDeserializer, SeqAccess, Visitor};
@@ -44,6 +44,27 @@ pub struct HeightUnit {
 enum PixelSize {
     Each([Length; 2]),
     Both(Length),
+}
+
+/// Pixels that a surface may have, m: from below the distance of atoms to that of fields.
+const POSSIBLE_PIXELS: [f64; 2] = [1e-10, 1.0];
+/// Height of a map, m, and its mean slope, degrees, beyond which a unit is wrong.
+const MOST_HEIGHT: f64 = 1.0;
+const MOST_SLOPE_DEG: f64 = 80.0;
+
+/// Heights or slopes that no surface has.
+fn refuse_absurd(surface: &Surface) -> Result<(), SceneError> {
+    let parameters = &surface.parameters;
+    let (height, slope) = (parameters.sz, parameters.beta_deg());
+    let found = if height > MOST_HEIGHT {
+        format!("the heights go over {height:.3} m")
+    } else if slope > MOST_SLOPE_DEG {
+        format!("the mean slope is {slope:.2} degrees")
+    } else {
+        return Ok(());
+    };
+    let way = "look whether height_unit and pixel_size are right, or set override = true";
+    error("surface", format!("{found}, which no surface has: {way}"))
 }
 
 /// Two lengths, or one that is meant twice.
@@ -91,6 +112,19 @@ impl From<HeightUnit> for String {
     }
 }
 
+/// The columns of a list of points.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PointColumns {
+    /// Name of the column of x, with or without a unit in brackets, or its number from 1.
+    #[schemars(example = "X [mm]")]
+    pub x: String,
+    /// That of y.
+    pub y: String,
+    /// That of the heights.
+    pub z: String,
+}
+
 /// Where the surface comes from and what is done to it before the contact.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -112,9 +146,20 @@ pub struct SurfaceScene {
     #[schemars(schema_with = "unit_schema")]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub height_unit: Option<HeightUnit>,
-    /// Whether `pixel_size` and `height_unit` win over what the file says.
+    /// Whether `pixel_size` and `height_unit` win over what the file says, and a file is read whose sums do not hold.
     #[serde(default, rename = "override")]
     pub override_file: bool,
+    /// Number that stands for a point that was not measured, in the unit of the file (text).
+    #[schemars(example = -9999.0)]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub missing_value: Option<f64>,
+    /// Most memory that reading the file may take; half of what is free unless told.
+    #[schemars(example = "4 GB")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub memory_limit: Option<Memory>,
+    /// Columns of a list of points (text), by their names or numbers, with units where the file has none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub columns: Option<PointColumns>,
     /// Levelling: by default the plane from a file, nothing from a generated surface.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub level: Option<Levelling>,
@@ -192,11 +237,13 @@ impl SurfaceScene {
             move |e| SceneError::new(path, e)
         }
         let source = if self.generate.is_some() { "surface.generate" } else { "surface.file" };
+        let mut notes = Vec::new();
         let map = match (&self.file, &self.heights, &self.generate) {
             (Some(file), ..) => {
                 let path = resolve(file);
-                let measured = surface::read(&path)
+                let mut measured = surface::read(&path, &self.request())
                     .map_err(|e| SceneError::new(source, format!("{}: {e}", path.display())))?;
+                notes = std::mem::take(&mut measured.notes);
                 self.in_metres(measured)?
             }
             (None, Some(measured), _) => self.in_metres(measured.clone())?,
@@ -229,12 +276,27 @@ impl SurfaceScene {
         if let Some(cutoff) = self.l_filter {
             map = filter::l_filter(&map, cutoff.0).map_err(error_at("surface.l_filter"))?;
         }
-        let surface = Surface { missing, outliers, ..Surface::from_map(map).map_err(error_at(source))? };
+        let surface =
+            Surface { missing, outliers, notes, ..Surface::from_map(map).map_err(error_at(source))? };
         let parameters = &surface.parameters;
         if ![parameters.sa, parameters.sdq, parameters.mean].iter().all(|v| v.is_finite()) {
             return error(source, "the heights are too large to compute with: check height_unit");
         }
+        if self.file.is_some() && !self.override_file {
+            refuse_absurd(&surface)?;
+        }
         Ok(surface)
+    }
+
+    /// What the scene says of its file.
+    fn request(&self) -> Request<'_> {
+        let columns = self.columns.as_ref().map(|c| [&c.x, &c.y, &c.z].map(|name| Some(name.as_str())));
+        Request {
+            columns: columns.unwrap_or_default(),
+            missing_value: self.missing_value,
+            override_file: self.override_file,
+            memory_limit: self.memory_limit.map(|limit| limit.0.max(0.0) as u64),
+        }
     }
 
     /// Heights in metres, the units that came with them checked against those of the scene.
@@ -251,8 +313,8 @@ impl SurfaceScene {
             (_, Some(scene)) => scene.metres,
             (Some(file), None) => file,
             (None, None) => {
-                let message = "the file does not name the unit of its heights: add height_unit = \"um\" to [surface], or --set \
-                               surface.height_unit=um";
+                let message = "the file does not name the unit of its heights: add height_unit to [surface], which is \"nm\", \
+                               \"um\", \"mm\" or \"m\", or --set surface.height_unit=UNIT";
                 return error("surface", message);
             }
         };
@@ -278,6 +340,16 @@ impl SurfaceScene {
             }
         };
         let mut heights = measured.heights;
+        let [least, most] = POSSIBLE_PIXELS;
+        if let Some(side) = pixel.iter().find(|side| !(least..=most).contains(*side))
+            && !self.override_file
+        {
+            let message = format!(
+                "the pixels are {side:e} m: between {least:e} and {most} m is possible; look whether height_unit and pixel_size are right, \
+                 or set override = true"
+            );
+            return error("surface", message);
+        }
         if unit != 1.0 {
             heights.iter_mut().for_each(|z| *z *= unit);
         }

@@ -12,6 +12,8 @@ pub struct Surface {
     pub missing: usize,
     /// Points that were taken away because they stood out, before any were filled.
     pub outliers: usize,
+    /// What was understood of its file, and remarks on it.
+    pub notes: Vec<String>,
     /// Extent of the map.
     pub extent: Extent,
     /// Roughness parameters of the map.
@@ -26,7 +28,7 @@ impl Surface {
     pub fn from_map(map: HeightMap) -> Result<Surface, MapError> {
         let extent = map.extent()?;
         let parameters = Parameters::measure(&map, &extent);
-        Ok(Surface { missing: map.missing(), outliers: 0, map, extent, parameters })
+        Ok(Surface { missing: map.missing(), outliers: 0, notes: Vec::new(), map, extent, parameters })
     }
 
     /// Nominal area, in m²: that of the cells with four measured corners.

@@ -4,6 +4,11 @@ use super::*;
 use proptest::prelude::*;
 use std::path::PathBuf;
 
+/// A file that nothing else is known of.
+fn read_plain(path: &Path) -> Result<Measured, ReadError> {
+    read(path, &Request::default())
+}
+
 struct Folder(tempfile::TempDir);
 
 impl Folder {
@@ -150,10 +155,10 @@ fn npy_of_every_kind_and_order_is_read() {
         ("<i8", c_order(&|v| (v as i64).to_le_bytes().to_vec())),
     ];
     for (descr, data) in &cases {
-        same(&read(&folder.file("a.npy", &npy(descr, "False", "(2, 3)", data))).unwrap(), values, 1.0);
+        same(&read_plain(&folder.file("a.npy", &npy(descr, "False", "(2, 3)", data))).unwrap(), values, 1.0);
     }
     let by_column: Vec<u8> = [1.0, 4.0, 2.0, 5.0, 3.0, 6.0f64].iter().flat_map(|v| v.to_le_bytes()).collect();
-    same(&read(&folder.file("a.npy", &npy("<f8", "True", "(2, 3)", &by_column))).unwrap(), values, 1.0);
+    same(&read_plain(&folder.file("a.npy", &npy("<f8", "True", "(2, 3)", &by_column))).unwrap(), values, 1.0);
     for (descr, shape) in [
         ("<f8", "(2, 4)"),
         ("<f8", "(6,)"),
@@ -167,7 +172,7 @@ fn npy_of_every_kind_and_order_is_read() {
         ("<f8', [[[", "(2, 3)"),
     ] {
         assert!(
-            read(&folder.file("a.npy", &npy(descr, "False", shape, &cases[2].1))).is_err(),
+            read_plain(&folder.file("a.npy", &npy(descr, "False", shape, &cases[2].1))).is_err(),
             "{descr} {shape}"
         );
     }
@@ -177,17 +182,21 @@ fn npy_of_every_kind_and_order_is_read() {
 fn instrument_files_are_read_with_units_and_holes() {
     let folder = Folder::new();
     for bits in [16, 32] {
-        let found = read(&folder.file("a.sur", &sur(bits, &[10, 11, 12, 13, 8, 15]))).unwrap();
+        let found = read_plain(&folder.file("a.sur", &sur(bits, &[10, 11, 12, 13, 8, 15]))).unwrap();
         same(&found, [20.0, 22.0, 24.0, 26.0, NAN, 30.0], 1.0);
         assert_eq!(found.spacing, Spacing::Metres([0.5e-3, 0.25e-6]));
         assert_eq!(found.height_unit, Some(1e-9));
     }
-    same(&read(&folder.file("a.sur", &packed_sur())).unwrap(), [20.0, 22.0, 24.0, 26.0, NAN, 30.0], 1.0);
-    let found = read(&folder.file("a.al3d", &al3d())).unwrap();
+    same(
+        &read_plain(&folder.file("a.sur", &packed_sur())).unwrap(),
+        [20.0, 22.0, 24.0, 26.0, NAN, 30.0],
+        1.0,
+    );
+    let found = read_plain(&folder.file("a.al3d", &al3d())).unwrap();
     same(&found, [1.0, 2.0, 3.0, 4.0, NAN, 6.0], 1.0);
     assert_eq!(found.spacing, Spacing::Metres([1e-6, 2e-6]));
     for content in [SDF.as_bytes(), &sdf_binary()] {
-        let found = read(&folder.file("a.sdf", content)).unwrap();
+        let found = read_plain(&folder.file("a.sdf", content)).unwrap();
         same(&found, [1.0, 2.0, 3.0, 4.0, NAN, 6.0], 1e9);
         assert_eq!(found.spacing, Spacing::Metres([1e-6, 2e-6]));
     }
@@ -199,42 +208,43 @@ fn what_is_written_is_read_back() {
     let heights = [1e-6, -2e-6, 3.25e-6, NAN, 1.0 / 3.0, 6.0];
     let path = folder.0.path().join("a.x3p");
     write_x3p(&path, 3, 2, [0.1e-6, 1.0 / 3.0], &heights).unwrap();
-    let found = read(&path).unwrap();
+    let found = read_plain(&path).unwrap();
     same(&found, heights, 1.0);
     assert_eq!(found.spacing, Spacing::Metres([0.1e-6, 1.0 / 3.0]));
     let path = folder.0.path().join("a.npy");
     write_npy(&path, 3, 2, &heights).unwrap();
-    same(&read(&path).unwrap(), heights, 1.0);
+    same(&read_plain(&path).unwrap(), heights, 1.0);
 }
 
 #[test]
 fn text_is_read_as_table_or_points() {
     let folder = Folder::new();
     for table in ["1,2,3\n4,,6\n", "# note\n1;2;3;\n4;nan;6;\n", "1 2 3\n4 BAD 6"] {
-        let found = read(&folder.file("a.csv", table.as_bytes())).unwrap();
+        let found = read_plain(&folder.file("a.csv", table.as_bytes())).unwrap();
         same(&found, [1.0, 2.0, 3.0, 4.0, NAN, 6.0], 1.0);
         assert_eq!(found.spacing, Spacing::Unknown);
     }
     let points = "0 0 1\n1 0 2\n2.00000001 0 3\n2 0.5 6\n0 0.5 4\n";
-    let found = read(&folder.file("a.xyz", points.as_bytes())).unwrap();
+    let found = read_plain(&folder.file("a.xyz", points.as_bytes())).unwrap();
     same(&found, [1.0, 2.0, 3.0, 4.0, NAN, 6.0], 1.0);
     let Spacing::HeightUnits([dx, dy]) = found.spacing else { panic!("{:?}", found.spacing) };
     assert!((dx - 1.0).abs() < 1e-7 && dy == 0.5);
     same(
-        &read(&folder.file("a.csv", b"\xef\xbb\xbf1\t2\t3\r\n4\t\t6\r\n")).unwrap(),
+        &read_plain(&folder.file("a.csv", b"\xef\xbb\xbf1\t2\t3\r\n4\t\t6\r\n")).unwrap(),
         [1.0, 2.0, 3.0, 4.0, NAN, 6.0],
         1.0,
     );
     same(
-        &read(&folder.file("a.xyz", format!("X Y Z\n{points}").as_bytes())).unwrap(),
+        &read_plain(&folder.file("a.xyz", format!("X Y Z\n{points}").as_bytes())).unwrap(),
         [1.0, 2.0, 3.0, 4.0, NAN, 6.0],
         1.0,
     );
-    let decimals = read(&folder.file("a.csv", b"1,5;2\n3;4\n")).unwrap_err().to_string();
-    assert!(decimals.contains("comma"), "{decimals}");
     let titled = format!("x,y,z\n{}", points.replace(' ', ","));
-    let named = read(&folder.file("b.csv", titled.as_bytes())).unwrap();
-    assert_eq!(format!("{named:?}"), format!("{found:?}"));
+    let named = read_plain(&folder.file("b.csv", titled.as_bytes())).unwrap();
+    assert_eq!(
+        (format!("{:?}", named.heights), named.spacing),
+        (format!("{:?}", found.heights), found.spacing)
+    );
     for (name, bad) in [
         ("a.csv", "1,2\n3\n"),
         ("a.csv", "1,two\n"),
@@ -247,7 +257,7 @@ fn text_is_read_as_table_or_points() {
         ("a.npy", "hello"),
         ("a", ""),
     ] {
-        assert!(read(&folder.file(name, bad.as_bytes())).is_err(), "{name} {bad}");
+        assert!(read_plain(&folder.file(name, bad.as_bytes())).is_err(), "{name} {bad}");
     }
 }
 
@@ -271,10 +281,11 @@ fn an_x3p_that_lies_is_refused_and_not_unpacked() {
         }
         zip.finish().unwrap().into_inner()
     };
-    assert!(read(&folder.file("b.x3p", &content("3", "SUR", "D"))).is_ok());
+    assert!(read_plain(&folder.file("b.x3p", &content("3", "SUR", "D"))).is_ok());
     let tags: String = (0..100_000).map(|i| format!(" a{i}='1'")).collect();
-    let long =
-        read(&folder.file("b.x3p", &content("3", &format!("<b{tags}/>SUR"), "D"))).unwrap_err().to_string();
+    let long = read_plain(&folder.file("b.x3p", &content("3", &format!("<b{tags}/>SUR"), "D")))
+        .unwrap_err()
+        .to_string();
     assert!(long.contains("65536 bytes"), "{long}");
     for (size, feature, kind) in [
         ("4", "SUR", "D"),
@@ -284,10 +295,12 @@ fn an_x3p_that_lies_is_refused_and_not_unpacked() {
         ("3", "SUR", "Q"),
     ] {
         assert!(
-            read(&folder.file("b.x3p", &content(size, feature, kind))).is_err(),
+            read_plain(&folder.file("b.x3p", &content(size, feature, kind))).is_err(),
             "{size} {feature} {kind}"
         );
     }
 }
 
+mod containers;
 mod fuzz;
+mod words;

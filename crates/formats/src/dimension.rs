@@ -1,0 +1,109 @@
+//! Units of columns: symbols and words with their value in SI.
+
+use crate::units::{Force, Length, Stress};
+
+/// What a column measures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Dimension {
+    /// Metres.
+    Length,
+    /// Newtons.
+    Force,
+    /// Pascals.
+    Stress,
+    /// A pure number.
+    Ratio,
+}
+
+/// Prefixes that are written out, and those of symbols.
+pub(crate) const PREFIXES: [(&str, f64); 10] = [
+    ("pico", 1e-12),
+    ("nano", 1e-9),
+    ("micro", 1e-6),
+    ("mikro", 1e-6),
+    ("milli", 1e-3),
+    ("centi", 1e-2),
+    ("kilo", 1e3),
+    ("mega", 1e6),
+    ("giga", 1e9),
+    ("deci", 1e-1),
+];
+
+impl Dimension {
+    /// Symbols beside those of a quantity of a scene, and words, with their SI value.
+    fn further(self) -> &'static [(&'static str, f64)] {
+        const POUND: f64 = 4.448_221_615_260_5;
+        match self {
+            Dimension::Length => &[
+                ("Å", 1e-10),
+                ("å", 1e-10),
+                ("angstrom", 1e-10),
+                ("inch", 0.0254),
+                ("micron", 1e-6),
+                ("microns", 1e-6),
+            ],
+            Dimension::Force => {
+                &[("gf", 9.80665e-3), ("kgf", 9.80665), ("kp", 9.80665), ("mgf", 9.80665e-6), ("lbf", POUND)]
+            }
+            Dimension::Stress => {
+                &[("N/mm2", 1e6), ("N/mm²", 1e6), ("N/mm^2", 1e6), ("ksi", 6.894_757_293_168e6)]
+            }
+            Dimension::Ratio => &[("%", 0.01), ("1", 1.0), ("mm/mm", 1.0), ("m/m", 1.0), ("-", 1.0)],
+        }
+    }
+
+    fn symbols(self) -> &'static [(&'static str, f64)] {
+        match self {
+            Dimension::Length => Length::UNITS,
+            Dimension::Force => Force::UNITS,
+            Dimension::Stress => Stress::UNITS,
+            Dimension::Ratio => &[],
+        }
+    }
+
+    fn words(self) -> &'static [&'static str] {
+        match self {
+            Dimension::Length => &["m", "meter", "meters", "metre", "metres"],
+            Dimension::Force => &["n", "newton", "newtons"],
+            Dimension::Stress => &["pa", "pascal", "pascals"],
+            Dimension::Ratio => &[],
+        }
+    }
+
+    /// The SI value of one `unit`: a symbol, or words such as `micro N`, `micro_newton`, `nanometers`.
+    pub fn scale(self, unit: &str) -> Option<f64> {
+        let unit = unit.trim().trim_matches(['(', ')', '[', ']', '{', '}']).trim();
+        let known = |test: &dyn Fn(&str) -> bool| {
+            self.symbols().iter().chain(self.further()).find(|(name, _)| test(name)).map(|(_, scale)| *scale)
+        };
+        // MN and mN differ by their case alone: meganewtons are not measured so
+        let small = if self == Dimension::Force && unit == "MN" { Some(1e-3) } else { None };
+        small
+            .or_else(|| known(&|name| name == unit))
+            .or_else(|| self.scale_in_words(&unit.to_lowercase()))
+            .or_else(|| {
+                known(&|name| self != Dimension::Stress && name.to_lowercase() == unit.to_lowercase())
+            })
+    }
+
+    fn scale_in_words(self, unit: &str) -> Option<f64> {
+        let is_word = |word: &str| self.words().contains(&word);
+        if unit.len() > 2 && is_word(unit) {
+            return Some(1.0);
+        }
+        PREFIXES.iter().find_map(|(prefix, scale)| {
+            let base = unit.strip_prefix(prefix)?.trim_start_matches([' ', '_', '-']);
+            is_word(base).then_some(*scale)
+        })
+    }
+
+    /// Its usual units, for messages.
+    pub fn units(self) -> &'static str {
+        match self {
+            Dimension::Length => "pm, nm, um, mm, m",
+            Dimension::Force => "nN, uN, mN, N, kN, gf, kgf",
+            Dimension::Stress => "Pa, kPa, MPa, GPa, N/mm2",
+            Dimension::Ratio => "1, %",
+        }
+    }
+}

@@ -1,0 +1,309 @@
+//! What the words before the heights of a text file say of them: size, pixels, units, wavelength.
+
+use super::measured::{ReadError, Request, Spacing};
+use crate::dimension::Dimension;
+use crate::text::{Dialect, TextError, folded_name};
+
+/// What the file says of its heights, lengths in metres.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Described {
+    /// Metres per unit of height.
+    pub height_unit: Option<f64>,
+    /// Metres per unit of places along the surface.
+    pub lateral_unit: Option<f64>,
+    size: [Option<f64>; 2],
+    pixel: [Option<f64>; 2],
+    wavelength: Option<f64>,
+    height_unit_name: String,
+}
+
+/// A remark `key: value`.
+struct Remark {
+    line: usize,
+    key: String,
+    /// Unit that stands with the key.
+    key_unit: Option<String>,
+    value: String,
+}
+
+/// Names of sizes and pixels, in small letters without accents.
+const WIDTH: &[&str] = &[
+    "width",
+    "breite",
+    "largeur",
+    "larghezza",
+    "ancho",
+    "anchura",
+    "largura",
+    "šiřka",
+    "ширина",
+    "幅",
+    "너비",
+    "宽度",
+    "x width",
+    "x range",
+    "range x",
+    "x size",
+    "size x",
+    "x length",
+    "length x",
+    "x scan size",
+    "scan width",
+    "image width",
+    "xlength",
+    "xsize",
+    "lx",
+    "x real",
+];
+const HEIGHT: &[&str] = &[
+    "height",
+    "hohe",
+    "hoehe",
+    "hauteur",
+    "altezza",
+    "alto",
+    "altura",
+    "vyška",
+    "высота",
+    "高さ",
+    "높이",
+    "高度",
+    "y width",
+    "y range",
+    "range y",
+    "y size",
+    "size y",
+    "y length",
+    "length y",
+    "y scan size",
+    "scan height",
+    "image height",
+    "ylength",
+    "ysize",
+    "ly",
+    "y real",
+    "y height",
+];
+const SIZE: &[&str] =
+    &["scan size", "scan range", "field of view", "size", "image size", "fov", "bildgrosse"];
+const PIXEL: &[&str] = &[
+    "pixel size",
+    "pixelsize",
+    "pixel",
+    "pixel spacing",
+    "pixel pitch",
+    "lateral resolution",
+    "xy calibration",
+    "lateral calibration",
+    "lateral sampling",
+    "pixelgrosse",
+    "pixelgroesse",
+    "pixelabstand",
+    "punktabstand",
+    "taille de pixel",
+    "taille du pixel",
+    "taille pixel",
+    "resolution laterale",
+    "pas",
+    "spacing",
+    "sampling interval",
+    "sampling distance",
+    "sampling step",
+    "point spacing",
+    "step",
+    "step size",
+    "grid spacing",
+    "xy spacing",
+    "dimensione pixel",
+    "tamano de pixel",
+    "xy pixel size",
+    "pixel size xy",
+    "camera resolution",
+];
+const X: &[&str] =
+    &["x", "dx", "pixel width", "delta x", "pas x", "xpixelsize", "x increment", "x scale", "x pitch"];
+const Y: &[&str] =
+    &["y", "dy", "pixel height", "delta y", "pas y", "ypixelsize", "y increment", "y scale", "y pitch"];
+
+impl Described {
+    /// Reads the lines before the heights.
+    ///
+    /// # Errors
+    /// Values in a unit that is no length.
+    pub fn new(
+        before: &[(usize, &str)],
+        _dialect: &Dialect,
+        request: &Request<'_>,
+    ) -> Result<Described, ReadError> {
+        let remarks: Vec<Remark> =
+            before.iter().filter_map(|&(line, text)| Remark::new(line, text)).collect();
+        let mut said = Described::default();
+        // units first: a number may stand without one
+        for remark in &remarks {
+            said.take_unit(remark, request)?;
+        }
+        for remark in &remarks {
+            said.take_length(remark);
+        }
+        if said.height_unit.is_none() && said.size == [None; 2] {
+            said.take_by_place(&remarks);
+        }
+        Ok(said)
+    }
+
+    fn take_unit(&mut self, remark: &Remark, request: &Request<'_>) -> Result<(), ReadError> {
+        let key = remark.key.as_str();
+        if ["wavelength", "wellenlange", "wellenlaenge", "longueur d'onde"].contains(&key) {
+            let length = remark.lengths(Some(1e-9));
+            self.wavelength = length.first().copied().flatten();
+        }
+        let has = |word: &str| key.contains(word);
+        if !["unit", "einheit", "unite", "unita", "unidad", "jednotk", "единиц", "単位"]
+            .iter()
+            .any(|w| has(w))
+        {
+            return Ok(());
+        }
+        let unit = remark.value.trim_matches(['(', ')', '[', ']', ' ']);
+        let scale = Dimension::Length.scale(unit);
+        if ["x ", "y ", "xy ", "lateral", "xunit", "yunit", "unit x", "unit y", "unit xy"]
+            .iter()
+            .any(|w| key.starts_with(w))
+        {
+            self.lateral_unit = self.lateral_unit.or(scale);
+            return Ok(());
+        }
+        if self.height_unit.is_some() {
+            return Ok(());
+        }
+        let is_wave = ["wave", "waves", "wv", "wvs", "λ"].contains(&unit.to_lowercase().as_str());
+        self.height_unit = if is_wave { self.wavelength } else { scale };
+        self.height_unit_name = unit.into();
+        let is_of_heights =
+            ["value", "z", "height", "data", "wert", "valeur", "valore", "valor"].iter().any(|w| has(w));
+        if self.height_unit.is_none() && is_of_heights && !unit.is_empty() && !request.override_file {
+            let problem = if is_wave {
+                "says that its values are in waves, but not how long one is: give height_unit".to_string()
+            } else {
+                format!(
+                    "says that its values are in \"{unit}\", which is no height: export the channel of heights, or set override = true and height_unit"
+                )
+            };
+            return Err(TextError::new(remark.line, problem).into());
+        }
+        Ok(())
+    }
+
+    fn take_length(&mut self, remark: &Remark) {
+        let key = remark.key.as_str();
+        let lengths = remark.lengths(self.lateral_unit);
+        let Some(first) = lengths.first().copied().flatten() else { return };
+        let second = lengths.get(1).copied().flatten().unwrap_or(first);
+        let without = |axis: &str| {
+            let rest = key.strip_prefix(axis).or_else(|| key.strip_suffix(axis)).map(str::trim);
+            rest.is_some_and(|rest| PIXEL.contains(&rest))
+        };
+        let set = |slot: &mut Option<f64>, value: f64| *slot = slot.or(Some(value));
+        if PIXEL.contains(&key) {
+            set(&mut self.pixel[0], first);
+            set(&mut self.pixel[1], second);
+        } else if X[1..].contains(&key) || without("x") {
+            set(&mut self.pixel[0], first);
+        } else if Y[1..].contains(&key) || without("y") {
+            set(&mut self.pixel[1], first);
+        } else if SIZE.contains(&key) {
+            set(&mut self.size[0], first);
+            set(&mut self.size[1], second);
+        } else if WIDTH.contains(&key) {
+            set(&mut self.size[0], first);
+        } else if HEIGHT.contains(&key) {
+            set(&mut self.size[1], first);
+        }
+    }
+
+    /// Gwyddion writes width, height and unit of the values below each other, in any language.
+    fn take_by_place(&mut self, remarks: &[Remark]) {
+        for three in remarks.windows(3) {
+            let [width, height] = [&three[0], &three[1]].map(|r| r.lengths(None).first().copied().flatten());
+            let follow = three[1].line == three[0].line + 1 && three[2].line == three[1].line + 1;
+            if let (true, Some(width), Some(height), Some(unit)) =
+                (follow, width, height, Dimension::Length.scale(&three[2].value))
+            {
+                self.size = [Some(width), Some(height)];
+                self.height_unit = Some(unit);
+                self.height_unit_name.clone_from(&three[2].value);
+                return;
+            }
+        }
+    }
+
+    /// Distance of the points of a map of so many columns and rows.
+    pub fn spacing(&self, columns: usize, rows: usize) -> Option<Spacing> {
+        let from_size = |k: usize, count: usize| self.size[k].map(|size| size / count as f64);
+        let x = self.pixel[0].or_else(|| from_size(0, columns));
+        let y = self.pixel[1].or_else(|| from_size(1, rows));
+        // one side alone tells of square pixels
+        let (x, y) = (x.or(y)?, y.or(x)?);
+        (x > 0.0 && y > 0.0).then_some(Spacing::Metres([x, y]))
+    }
+
+    /// What was found, in words.
+    pub fn notes(&self) -> Option<String> {
+        let sizes = self.size.iter().chain(&self.pixel).any(Option::is_some);
+        let found = [
+            (sizes, "size of the map or of its pixels"),
+            (self.height_unit.is_some(), "unit of the heights"),
+        ];
+        let found: Vec<&str> = found.iter().filter(|(is, _)| *is).map(|(_, what)| *what).collect();
+        (!found.is_empty()).then(|| format!("{} from the words before the heights", found.join(" and ")))
+    }
+}
+
+impl Remark {
+    fn new(line: usize, text: &str) -> Option<Remark> {
+        let text = text.trim_start_matches(['#', '%', '/', ';', '!', '*', ' ']).replace('"', "");
+        let text = text.trim();
+        let cut =
+            text.find([':', '=']).or_else(|| text.find(['\t', ';', ','])).map(|i| (i, i + 1)).or_else(|| {
+                let i = text.find(|c: char| c.is_ascii_digit() || c == '-')?;
+                (i > 0).then_some((i, i))
+            });
+        let (end, start) = cut?;
+        let (key, key_unit) = folded_name(&text[..end]);
+        let value = text[start..].trim_matches([' ', '\t', ';', ',', '=', ':']).replace(['\t', ';'], " ");
+        (!key.is_empty() && !value.is_empty()).then_some(Remark { line, key, key_unit, value })
+    }
+
+    /// One or two lengths of the value, in metres; `unit` where none stands with them.
+    fn lengths(&self, unit: Option<f64>) -> Vec<Option<f64>> {
+        let value = self.value.replace(['×', '*'], "x");
+        let parts: Vec<(f64, Option<f64>)> = value
+            .split('x')
+            .filter_map(|part| {
+                let (number, unit) = number_and_unit(part)?;
+                let unit = unit.trim_start_matches([' ', ',', '(', '[']);
+                let unit = unit.split(['/', ')', ']', ' ']).next().unwrap_or("");
+                Some((number, Dimension::Length.scale(unit).filter(|_| !unit.is_empty())))
+            })
+            .collect();
+        let of_key = self.key_unit.as_ref().and_then(|unit| Dimension::Length.scale(unit.split('/').next()?));
+        let last = parts.last().and_then(|(_, unit)| *unit);
+        let metres = |(number, own): &(f64, Option<f64>)| Some(number * own.or(last).or(of_key).or(unit)?);
+        parts.iter().map(|part| metres(part).filter(|length| *length > 0.0)).collect()
+    }
+}
+
+/// A number, with point or comma before its decimals, and the text behind it.
+fn number_and_unit(text: &str) -> Option<(f64, &str)> {
+    let text = text.trim();
+    let is_part = |c: char| c.is_ascii_digit() || "+-.,".contains(c);
+    let mut end = text.find(|c| !is_part(c)).unwrap_or(text.len());
+    let exponent = text[end..].strip_prefix(['e', 'E']).map_or(0, |rest| {
+        1 + rest.find(|c: char| !(c.is_ascii_digit() || c == '-' || c == '+')).unwrap_or(rest.len())
+    });
+    if exponent > 1 {
+        end += exponent;
+    }
+    let number = text[..end].trim_end_matches(',').replace(',', ".");
+    Some((number.parse().ok()?, &text[end..]))
+}

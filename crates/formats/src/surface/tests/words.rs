@@ -1,0 +1,173 @@
+//! Claims about text files: what they say of themselves, and what their shape says.
+
+use super::*;
+
+const MAP: &str = "1\t2\t3\n4\tnan\t6\n";
+
+fn found(name: &str, text: &str) -> Result<Measured, String> {
+    asked(name, text, &Request::default())
+}
+
+fn asked(name: &str, text: &str, request: &Request<'_>) -> Result<Measured, String> {
+    let folder = Folder::new();
+    read(&folder.file(name, text.as_bytes()), request).map_err(|e| e.to_string())
+}
+
+#[track_caller]
+fn is_of(found: &Measured, pixel: [f64; 2], unit: f64) {
+    same(found, [1.0, 2.0, 3.0, 4.0, NAN, 6.0], 1.0);
+    let Spacing::Metres(p) = found.spacing else { panic!("{:?}", found.spacing) };
+    let near = |a: f64, b: f64| (a / b - 1.0).abs() < 1e-12;
+    assert!(near(p[0], pixel[0]) && near(p[1], pixel[1]), "{p:?}");
+    assert!(near(found.height_unit.unwrap(), unit), "{:?}", found.height_unit);
+}
+
+#[test]
+fn size_pixels_and_units_in_words_are_used() {
+    for head in [
+        // Gwyddion, in the languages of its users
+        "# Channel: Topography\n# Width: 3.00 µm\n# Height: 1.000 µm\n# Value units: nm\n",
+        "# Kanal: Topographie\n# Breite: 3,00 µm\n# Höhe: 1,000 µm\n# Value units: nm\n",
+        "# Canal : Topographie\n# Largeur : 3,00 µm\n# Hauteur : 1,000 µm\n# Unités : nm\n",
+        "# Kanál: Topografie\n# Šířka: 3.00 µm\n# Výška: 1.000 µm\n# Jednotky hodnot: nm\n",
+        "# チャンネル: Topography\n# ガガ: 3.00 µm\n# ギギ: 1.000 µm\n# ググ: nm\n",
+        // key = value
+        "x-length = 3\ny-length = 1\nx-unit = µm\nz-unit = nm\n",
+        "pixel size = 1 um x 0.5 um\nheight unit = nm\n",
+        "Scan Size\t3 µm × 1 µm\nZ units\tnm\n",
+        "\"X pixel size [um]\";\"1,0\"\n\"Y pixel size [um]\";\"0,5\"\nHöheneinheit;nm\n",
+        "dx (um): 1.0\ndy (um): 500e-3\nData unit: nanometers\n",
+        "Wavelength: 632.8 nm\nWidth: 3 um\nHeight: 1 um\nWidth of beam: 7\nunits: nm\n",
+    ] {
+        is_of(&found("a.txt", &format!("{head}{MAP}")).unwrap(), [1e-6, 0.5e-6], 1e-9);
+    }
+    let keyence =
+        "\"Measurement data\",\"Height\"\n\"XY calibration\",\"1389\",\"nm/pixel\"\n\"Unit\",\"um\"\n";
+    let keyence = found("a.csv", &format!("{keyence}\"1\",\"2\",\"3\"\n\"4\",\"\",\"6\"\n")).unwrap();
+    is_of(&keyence, [1.389e-6, 1.389e-6], 1e-6);
+    let waves = "Wavelength = 632.8 nm\nPixel size = 2 um\nValue unit = waves\n";
+    is_of(&found("a.txt", &format!("{waves}{MAP}")).unwrap(), [2e-6; 2], 632.8e-9);
+    // numbers of pixels and times are no lengths
+    let counts = "Width: 3\nHeight: 2\nDate: 12.05.2024 11:50:04\nGain = 3 um/V\n";
+    let bare = found("a.txt", &format!("{counts}{MAP}")).unwrap();
+    assert_eq!((bare.spacing, bare.height_unit), (Spacing::Unknown, None));
+}
+
+#[test]
+fn values_that_are_no_heights_are_refused_unless_forced() {
+    let phase = format!("# Width: 3.00 µm\n# Height: 1.000 µm\n# Value units: deg\n{MAP}");
+    let refused = found("a.txt", &phase).unwrap_err();
+    assert!(refused.contains("line 3") && refused.contains("\"deg\""), "{refused}");
+    assert!(asked("a.txt", &phase, &Request { override_file: true, ..Request::default() }).is_ok());
+}
+
+#[test]
+fn a_shape_that_is_no_map_is_named() {
+    let rising: String = (0..20).map(|i| format!("{}.5;{}\n", i, (i * 7) % 5)).collect();
+    let falling: String = (0..20).map(|i| format!("{}\t{}\n", 20 - i, (i * 7) % 5)).collect();
+    let single: String = (0..20).map(|i| format!("{}\n", (i * 7) % 5)).collect();
+    let across = format!(
+        "{}\n{}\n",
+        (0..20).map(|i| i.to_string()).collect::<Vec<_>>().join(" "),
+        (0..20).map(|i| ((i * 7) % 5).to_string()).collect::<Vec<_>>().join(" ")
+    );
+    for text in [&rising, &falling, &single, &across] {
+        let refused = found("a.txt", text).unwrap_err();
+        assert!(refused.contains("profile"), "{refused}");
+    }
+    let list: String = (0..60).map(|i| format!("{} {} {}\n", i * i % 17, i * i % 13, i % 3)).collect();
+    let refused = found("a.txt", &list).unwrap_err();
+    assert!(refused.contains("columns = { x"), "{refused}");
+}
+
+/// Twelve points of a grid of 4 x 3 with steps 2 and 1, as text.
+fn points(scatter: f64, unit: &str) -> String {
+    let shift = |i: i32, k: i32| scatter * f64::from((i * 37 + k * 61) % 21 - 10) / 10.0;
+    let line = |i: i32| {
+        let (x, y) = (f64::from(2 * (i % 4)) + shift(i, 1), f64::from(i / 4) + shift(i, 2));
+        format!("{x}{unit}{y}{unit}{}\n", i * i)
+    };
+    (0..12).map(line).collect()
+}
+
+fn is_the_grid(found: &Measured, step: f64) {
+    assert_eq!((found.columns, found.rows), (4, 3));
+    assert!((0..12).all(|i| found.heights[i] == (i * i) as f64), "{:?}", found.heights);
+    let (Spacing::Metres(p) | Spacing::HeightUnits(p)) = found.spacing else { panic!() };
+    assert!((p[0] / step - 2.0).abs() < 0.04 && (p[1] / step - 1.0).abs() < 0.04, "{p:?}");
+}
+
+#[test]
+fn points_are_known_by_name_by_key_or_by_their_grid() {
+    is_the_grid(&found("a.xyz", &points(0.0, " ")).unwrap(), 1.0);
+    is_the_grid(&found("a.txt", &points(0.0, ";")).unwrap(), 1.0);
+    let named = found("a.csv", &format!("X [mm],Y [mm],Z [nm]\n{}", points(0.0, ","))).unwrap();
+    is_the_grid(&named, 1e-3);
+    assert_eq!((named.height_unit, matches!(named.spacing, Spacing::Metres(_))), (Some(1e-9), true));
+    let below = found("a.csv", &format!("x,y,z\nmm,mm,nm\n{}", points(0.0, ","))).unwrap();
+    assert_eq!((below.height_unit, below.spacing), (named.height_unit, named.spacing));
+    is_the_grid(&found("a.txt", &format!("# x y z\n{}", points(0.0, " "))).unwrap(), 1.0);
+    // colours behind the heights
+    let coloured = points(0.0, " ").replace('\n', " 255 128 0\n");
+    is_the_grid(&found("a.xyz", &coloured).unwrap(), 1.0);
+    let swapped: String = points(0.0, " ")
+        .lines()
+        .map(|line| line.split(' ').rev().collect::<Vec<_>>().join(";") + ";9\n")
+        .collect();
+    let columns = ["East [um]", "North [um]", "Up [um]"].map(Some);
+    let request = Request { columns, ..Request::default() };
+    let keyed = asked("a.txt", &format!("Up;North;East;Quality\n{swapped}"), &request).unwrap();
+    is_the_grid(&keyed, 1e-6);
+    let request = Request { columns: ["3", "2", "1"].map(Some), ..Request::default() };
+    is_the_grid(&asked("a.txt", &swapped, &request).unwrap(), 1.0);
+}
+
+#[test]
+fn points_that_scatter_are_put_on_their_grid_and_clouds_refused() {
+    for share in [1e-9, 1e-4, 0.01, 0.04] {
+        let near = found("a.xyz", &points(share, " ")).unwrap();
+        is_the_grid(&near, 1.0);
+        assert_eq!(near.notes.iter().any(|n| n.contains("put on a grid")), share > 1e-3, "{:?}", near.notes);
+    }
+    for share in [0.15, 0.4] {
+        let refused = found("a.xyz", &points(share, " ")).unwrap_err();
+        assert!(refused.contains("regular grid"), "{refused}");
+    }
+    // lines of the grid may be absent, points too
+    let gap: String = points(0.001, " ")
+        .lines()
+        .enumerate()
+        .filter(|(i, _)| i % 4 != 2 && *i != 5)
+        .map(|(_, line)| format!("{line}\n"))
+        .collect();
+    let gap = found("a.xyz", &gap).unwrap();
+    assert_eq!((gap.columns, gap.rows, gap.heights.iter().filter(|z| z.is_nan()).count()), (4, 3, 4));
+}
+
+#[test]
+fn coordinates_beside_a_map_are_no_heights() {
+    let axes = found("a.csv", ";0,0;0,5;1,0\n0;1;2;3\n0,25;4;;6\n0,5;7;8;9\n").unwrap();
+    assert_eq!((axes.columns, axes.rows, axes.heights[3]), (3, 3, 4.0));
+    assert_eq!(axes.spacing, Spacing::HeightUnits([0.5, 0.25]));
+    // numbers of rows and columns, as a table of a program has them
+    let counted = found("a.csv", ",0,1,2\n0,1,2,3\n1,4,,6\n2,7,8,9\n").unwrap();
+    assert_eq!((counted.columns, counted.rows, counted.spacing), (3, 3, Spacing::Unknown));
+}
+
+#[test]
+fn a_number_for_missing_points_is_that_of_the_request() {
+    let request = Request { missing_value: Some(-9999.0), ..Request::default() };
+    let map = asked("a.txt", "1 2 3\n4 -9999 6\n", &request).unwrap();
+    same(&map, [1.0, 2.0, 3.0, 4.0, NAN, 6.0], 1.0);
+}
+
+#[test]
+fn the_notes_say_what_was_understood() {
+    let map = found("a.dat", "# Width: 3 µm\n# Value units: nm\n1,5;2\n3;4\nend\n").unwrap();
+    let said = map.notes.join("; ");
+    for words in
+        ["UTF-8", "semicolons", "decimal commas", "lines 3 to 4", "3 lines of words", "unit of the heights"]
+    {
+        assert!(said.contains(words), "{said}");
+    }
+}

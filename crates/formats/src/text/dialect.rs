@@ -1,0 +1,333 @@
+//! Cells of a line and numbers in them, as the program that wrote the file parts and writes them.
+
+use super::{TextError, shortened};
+
+/// What stands between columns.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Separator {
+    /// A character, with blanks about it or not.
+    Mark(char),
+    /// Any number of blanks.
+    Blanks,
+}
+
+/// What stands before decimals.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Decimal {
+    /// 1.5
+    Point,
+    /// 1,5
+    Comma,
+}
+
+/// The way a file writes its rows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Dialect {
+    /// Between columns.
+    pub separator: Separator,
+    /// Before decimals.
+    pub decimal: Decimal,
+}
+
+/// Rows of numbers from which the separator is told.
+const ROWS_LOOKED_AT: usize = 50;
+/// Heights and readings from here on mean that nothing was measured.
+const MISSING_FROM: f64 = 1e37;
+
+/// Words that mean that nothing was measured.
+fn is_missing_word(word: &str) -> bool {
+    const WORDS: [&str; 19] = [
+        "", "bad", "-", "--", "---", "na", "n/a", "#n/a", "#nv", "no data", "nodata", "null", "none", "void",
+        "missing", "invalid", "masked", "?", "#value!",
+    ];
+    let word = word.to_ascii_lowercase();
+    let number = word.trim_start_matches(['-', '+']);
+    WORDS.contains(&word.as_str())
+        || word.bytes().all(|b| b == b'*')
+        || number == "nan"
+        || number.starts_with("nan(")
+        || ["1.#", "1,#"].iter().any(|start| number.starts_with(start))
+}
+
+/// True of a line that is a note.
+pub(super) fn is_comment(line: &str) -> bool {
+    line.starts_with(['#', '%']) && !is_missing_word(first_word(line)) || line.starts_with("//")
+}
+
+fn first_word(line: &str) -> &str {
+    line.split(['\t', ';', ',', ' ']).next().unwrap_or("")
+}
+
+/// A number by its characters alone, whichever mark stands before its decimals.
+fn looks_like_number(word: &str) -> bool {
+    let word = word.trim_matches('"');
+    word.contains(|c: char| c.is_ascii_digit())
+        && word.chars().all(|c| c.is_ascii_digit() || "+-−.,eEdD\u{a0}\u{202f}".contains(c))
+        && !word.starts_with(['e', 'E', 'd', 'D'])
+}
+
+/// True of a row of numbers: at least half of its words are numbers, and it begins with one or with a word
+/// that means that there is none.
+pub(super) fn is_row(line: &str) -> bool {
+    let is_blank = |c: char| c == ' ' || c == '\t' || c == ';' || c == ',';
+    let mut words = line.split(is_blank).map(|word| word.trim_matches('"')).filter(|word| !word.is_empty());
+    let starts = words.clone().next().is_some_and(|word| looks_like_number(word) || is_missing_word(word));
+    if !starts && !line.to_ascii_lowercase().starts_with("no data") {
+        return false;
+    }
+    let (mut numbers, mut others) = (0, 0);
+    // a row of thousands is known by its beginning
+    for word in words.by_ref().take(64) {
+        if looks_like_number(word) { numbers += 1 } else { others += usize::from(!is_missing_word(word)) }
+    }
+    numbers > 0 && numbers >= others
+}
+
+impl Dialect {
+    /// The way `text` writes its rows of numbers; commas and points where it has none.
+    ///
+    /// # Errors
+    /// A number like `1,234`, where nothing in the file says whether its comma stands before decimals; commas
+    /// that stand both between columns and before decimals.
+    pub fn detect(text: &str) -> Result<Dialect, TextError> {
+        let rows = || {
+            let lines = text.lines().enumerate().map(|(i, line)| (i + 1, line.trim()));
+            lines.filter(|(_, line)| !is_comment(line) && is_row(line))
+        };
+        let looked_at: Vec<(usize, &str)> = rows().take(ROWS_LOOKED_AT).collect();
+        let separator = match looked_at[..] {
+            [] => ['\t', ';', ',']
+                .into_iter()
+                .find(|mark| text.contains(*mark))
+                .map_or(Separator::Blanks, Separator::Mark),
+            _ => Dialect::separator_of(&looked_at),
+        };
+        let point = Dialect { separator, decimal: Decimal::Point };
+        let mut doubtful = None;
+        if separator == Separator::Mark(',') {
+            let is_cut = |cell: &str| {
+                let digits = cell.trim_start_matches(['-', '+']);
+                digits.len() > 1 && digits.starts_with('0') && digits.bytes().all(|b| b.is_ascii_digit())
+            };
+            let cut = looked_at
+                .iter()
+                .find_map(|&(line, row)| Some((line, point.cells(row).find(|cell| is_cut(cell))?)));
+            if let Some((line, cell)) = cut {
+                let message = format!(
+                    "commas stand both between columns and before decimals, as \"{cell}\" shows: part the columns by semicolons or tabs"
+                );
+                return Err(TextError::new(line, message));
+            }
+        }
+        if !text.contains(',') || separator == Separator::Mark(',') && !text.contains('"') {
+            return Ok(point);
+        }
+        for (line, row) in rows().filter(|(_, row)| row.contains(',')) {
+            for cell in point.cells(row).filter(|cell| cell.contains(',')) {
+                match is_decimal_comma(cell) {
+                    Some(true) => return Ok(Dialect { decimal: Decimal::Comma, ..point }),
+                    Some(false) => return Ok(point),
+                    None => doubtful = doubtful.or(Some((line, cell))),
+                }
+            }
+        }
+        match doubtful {
+            None => Ok(point),
+            Some((line, cell)) => Err(TextError::new(
+                line,
+                format!(
+                    "\"{}\" may be a thousand or have decimals behind its comma, and nothing in the file tells: write a decimal point, or another number of decimals",
+                    shortened(cell)
+                ),
+            )),
+        }
+    }
+
+    fn separator_of(rows: &[(usize, &str)]) -> Separator {
+        let any = |test: &dyn Fn(&str) -> bool| rows.iter().any(|(_, row)| test(row));
+        if let Some(mark) = ['\t', ';'].into_iter().find(|mark| any(&|row| row.contains(*mark))) {
+            return Separator::Mark(mark);
+        }
+        if !any(&|row| row.contains(',')) {
+            return Separator::Blanks;
+        }
+        // quotes hold commas that part nothing
+        let unquoted = |row: &str| row.split('"').step_by(2).collect::<String>();
+        if any(&|row| row.contains('"')) && !any(&|row| unquoted(row).contains(',')) {
+            return Separator::Blanks;
+        }
+        let has_words_apart = |row: &str| {
+            row.split_whitespace()
+                .filter(|word| word.trim_matches(',').contains(|c: char| c.is_ascii_digit()))
+                .count()
+                > 1
+        };
+        let is_padded =
+            |row: &str| row.split(',').skip(1).all(|rest| rest.is_empty() || rest.starts_with(' '));
+        // 0,5 0,3 against 0.5, 0.3
+        if any(&|row| has_words_apart(row) && !is_padded(row) && !row.contains('.')) {
+            Separator::Blanks
+        } else {
+            Separator::Mark(',')
+        }
+    }
+
+    /// The cells of a line, without blanks and quotes about them.
+    pub fn cells<'l>(&self, line: &'l str) -> Cells<'l> {
+        let rest = match self.separator {
+            Separator::Blanks => line.trim(),
+            // a tab at the end is an empty cell
+            Separator::Mark(_) => line.trim_matches([' ', '\r', '\n']),
+        };
+        Cells { rest: Some(rest), separator: self.separator }
+    }
+
+    /// The number in a cell, NaN where it says that there is none; `None` where it holds something else.
+    pub fn number(&self, cell: &str) -> Option<f64> {
+        if self.decimal == Decimal::Point
+            && let Ok(value) = cell.parse::<f64>()
+        {
+            return Some(if value.abs() < MISSING_FROM { value } else { f64::NAN });
+        }
+        self.number_written_otherwise(cell)
+    }
+
+    /// Numbers with decimal commas, blanks or commas between thousands, signs of typesetters, the exponents
+    /// of Fortran, and words for missing ones.
+    fn number_written_otherwise(&self, cell: &str) -> Option<f64> {
+        if is_missing_word(cell) {
+            return Some(f64::NAN);
+        }
+        let (mark, other) = match self.decimal {
+            Decimal::Point => ('.', ','),
+            Decimal::Comma => (',', '.'),
+        };
+        if cell.contains(other) && !has_thousands(cell, mark, other) {
+            return None;
+        }
+        let mut plain = String::with_capacity(cell.len());
+        for c in cell.chars() {
+            match c {
+                _ if c == mark => plain.push('.'),
+                _ if c == other => {}
+                '−' => plain.push('-'),
+                '\u{a0}' | '\u{202f}' | '\'' => {}
+                'd' | 'D' => plain.push('e'),
+                _ => plain.push(c),
+            }
+        }
+        let value = plain.parse::<f64>().ok()?;
+        Some(if value.abs() < MISSING_FROM { value } else { f64::NAN })
+    }
+
+    /// The reason why `cell` is no number, with a way out.
+    pub fn refuse(&self, cell: &str) -> String {
+        let cell = shortened(cell);
+        match self.decimal {
+            Decimal::Point if cell.contains(',') => {
+                format!("\"{cell}\" is not a number: in this file decimals stand behind a point, not a comma")
+            }
+            Decimal::Comma if cell.contains('.') => {
+                format!("\"{cell}\" is not a number: in this file decimals stand behind a comma, not a point")
+            }
+            _ => format!("\"{cell}\" is not a number: leave out lines that hold none, or begin them with #"),
+        }
+    }
+
+    /// The dialect in words.
+    pub fn describe(&self) -> String {
+        let separator = match self.separator {
+            Separator::Mark('\t') => "tabs",
+            Separator::Mark(';') => "semicolons",
+            Separator::Mark(_) => "commas",
+            Separator::Blanks => "blanks",
+        };
+        let decimal = if self.decimal == Decimal::Comma { " and decimal commas" } else { "" };
+        format!("{separator} between columns{decimal}")
+    }
+}
+
+/// Whether the commas of a number stand before decimals; `None` where they may be those of a thousand too.
+fn is_decimal_comma(cell: &str) -> Option<bool> {
+    let (whole, decimals) = cell.rsplit_once(',')?;
+    let whole = whole.trim_start_matches(['-', '+', '−']);
+    if let Some(point) = cell.rfind('.') {
+        return Some(point < cell.len() - decimals.len());
+    }
+    if whole.contains(',') {
+        return Some(false);
+    }
+    let is_group = decimals.len() == 3 && decimals.bytes().all(|b| b.is_ascii_digit());
+    let may_be_thousand = is_group && (1..=3).contains(&whole.len()) && !whole.starts_with('0');
+    if may_be_thousand { None } else { Some(true) }
+}
+
+/// True of a number with groups of three digits that `other` parts, and decimals behind `mark`, or of
+/// several groups.
+fn has_thousands(cell: &str, mark: char, other: char) -> bool {
+    let (whole, has_mark) = cell.split_once(mark).map_or((cell, false), |(whole, _)| (whole, true));
+    let mut groups = whole.trim_start_matches(['-', '+', '−']).split(other);
+    let first = groups.next().unwrap_or("");
+    let later: Vec<&str> = groups.collect();
+    let is_digits = |group: &str| !group.is_empty() && group.bytes().all(|b| b.is_ascii_digit());
+    (has_mark || later.len() > 1)
+        && (1..=3).contains(&first.len())
+        && is_digits(first)
+        && later.iter().all(|group| group.len() == 3 && is_digits(group))
+        && cell.rsplit_once(mark).is_none_or(|(_, decimals)| !decimals.contains(other))
+}
+
+/// The cells of one line.
+#[derive(Clone, Debug)]
+pub struct Cells<'l> {
+    rest: Option<&'l str>,
+    separator: Separator,
+}
+
+impl<'l> Iterator for Cells<'l> {
+    type Item = &'l str;
+
+    fn next(&mut self) -> Option<&'l str> {
+        let rest = self.rest?;
+        if let Some(inside) = rest.strip_prefix('"')
+            && let Some(end) = inside.find('"')
+        {
+            let after = inside[end + 1..].trim_start_matches(' ');
+            self.rest = match self.separator {
+                Separator::Mark(mark) => after.find(mark).map(|i| trim_start(&after[i + 1..])),
+                Separator::Blanks => Some(after.trim_start()).filter(|after| !after.is_empty()),
+            };
+            return Some(inside[..end].trim());
+        }
+        let (cell, after) = match self.separator {
+            Separator::Mark(mark) => {
+                let end = rest.as_bytes().iter().position(|b| *b == mark as u8);
+                (&rest[..end.unwrap_or(rest.len())], end.map(|end| &rest[end + 1..]))
+            }
+            Separator::Blanks => {
+                let end = word_end(rest);
+                (&rest[..end], Some(rest[end..].trim_start()).filter(|after| !after.is_empty()))
+            }
+        };
+        self.rest = after.map(trim_start);
+        Some(cell.trim())
+    }
+}
+
+fn trim_start(text: &str) -> &str {
+    text.trim_start_matches(' ')
+}
+
+/// End of the first word; "No Data" is one.
+fn word_end(text: &str) -> usize {
+    let end = |text: &str| text.find([' ', '\t']).unwrap_or(text.len());
+    let first = end(text);
+    if text[..first].eq_ignore_ascii_case("no") {
+        let second = text[first..].trim_start();
+        let word = &second[..end(second)];
+        if word.eq_ignore_ascii_case("data") {
+            return text.len() - second.len() + word.len();
+        }
+    }
+    first
+}

@@ -1,0 +1,83 @@
+//! Text of files, whichever way their characters were written.
+
+use super::TextError;
+use std::borrow::Cow;
+
+/// Bytes that are looked at to tell UTF-16 without a mark, and text from other data.
+const LOOKED_AT: usize = 1 << 16;
+
+/// What Windows-1252 means by the bytes 0x80 to 0x9F.
+const WINDOWS_1252: [char; 32] = [
+    '€', '\u{81}', '‚', 'ƒ', '„', '…', '†', '‡', 'ˆ', '‰', 'Š', '‹', 'Œ', '\u{8d}', 'Ž', '\u{8f}', '\u{90}',
+    '‘', '’', '“', '”', '•', '–', '—', '˜', '™', 'š', '›', 'œ', '\u{9d}', 'ž', 'Ÿ',
+];
+
+/// The text of `bytes` and the name of its encoding: by the byte order mark, UTF-16 without one by its zeros,
+/// UTF-8 where it is that, else Windows-1252. Lines end in `\n` or `\r\n`.
+///
+/// # Errors
+/// Bytes that are no text.
+pub fn decode(bytes: &[u8]) -> Result<(Cow<'_, str>, &'static str), TextError> {
+    let (text, name) = decode_characters(bytes)?;
+    // old programs for the Mac end lines by a carriage return, those for DOS a file by Ctrl-Z
+    if text.contains('\r') && !text.contains('\n') {
+        return Ok((text.replace('\r', "\n").into(), name));
+    }
+    let end = text.trim_end_matches('\u{1a}').len();
+    Ok(match text {
+        Cow::Borrowed(text) => (text[..end].into(), name),
+        Cow::Owned(mut text) => {
+            text.truncate(end);
+            (text.into(), name)
+        }
+    })
+}
+
+fn decode_characters(bytes: &[u8]) -> Result<(Cow<'_, str>, &'static str), TextError> {
+    if bytes.starts_with(&[0xff, 0xfe, 0, 0]) || bytes.starts_with(&[0, 0, 0xfe, 0xff]) {
+        return Err(TextError::whole("is text in UTF-32, which is not known: save it as UTF-8"));
+    }
+    if let Some(rest) = bytes.strip_prefix(&[0xff, 0xfe]) {
+        return Ok((utf16(rest, u16::from_le_bytes).into(), "UTF-16"));
+    }
+    if let Some(rest) = bytes.strip_prefix(&[0xfe, 0xff]) {
+        return Ok((utf16(rest, u16::from_be_bytes).into(), "UTF-16"));
+    }
+    let bytes = bytes.strip_prefix(&[0xef, 0xbb, 0xbf]).unwrap_or(bytes);
+    let sample = &bytes[..bytes.len().min(LOOKED_AT)];
+    let zeros = |side: usize| sample.iter().skip(side).step_by(2).filter(|b| **b == 0).count();
+    let (even, odd) = (zeros(0), zeros(1));
+    // numbers and Latin letters are below 256 in UTF-16
+    let mostly = sample.len() / 4;
+    match (even, odd) {
+        (0, 0) => {}
+        (0, n) if n > mostly => return Ok((utf16(bytes, u16::from_le_bytes).into(), "UTF-16")),
+        (n, 0) if n > mostly => return Ok((utf16(bytes, u16::from_be_bytes).into(), "UTF-16")),
+        _ => return Err(no_text(sample, |b| b == 0)),
+    }
+    let is_control = |b: u8| b < 0x20 && !matches!(b, b'\t' | b'\n' | b'\r' | 0x0b | 0x0c | 0x1a);
+    if sample.iter().filter(|b| is_control(**b)).count() > sample.len() / 100 {
+        return Err(no_text(sample, is_control));
+    }
+    match std::str::from_utf8(bytes) {
+        Ok(text) => Ok((text.into(), "UTF-8")),
+        Err(_) => Ok((bytes.iter().map(|b| windows_1252(*b)).collect::<String>().into(), "Windows-1252")),
+    }
+}
+
+fn no_text(sample: &[u8], is_strange: impl Fn(u8) -> bool) -> TextError {
+    let place = sample.iter().position(|b| is_strange(*b)).unwrap_or(0);
+    TextError::whole(format!("is no text: byte {place} is a control character"))
+}
+
+fn utf16(bytes: &[u8], unit: fn([u8; 2]) -> u16) -> String {
+    let units = bytes.chunks_exact(2).map(|pair| unit([pair[0], pair[1]]));
+    char::decode_utf16(units).map(|c| c.unwrap_or(char::REPLACEMENT_CHARACTER)).collect()
+}
+
+fn windows_1252(byte: u8) -> char {
+    match byte {
+        0x80..=0x9f => WINDOWS_1252[usize::from(byte - 0x80)],
+        _ => char::from(byte),
+    }
+}

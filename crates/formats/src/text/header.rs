@@ -1,0 +1,267 @@
+//! The line that names columns, and the columns that are wanted of it.
+
+use super::dialect::{Dialect, Separator};
+use super::heading::{Heading, Quantity, folded};
+use super::{TextError, shortened};
+use crate::dimension::Dimension;
+
+/// What is known of a table beside its text.
+#[derive(Clone, Copy, Debug)]
+pub struct Asked<'a, const N: usize> {
+    /// Name of each column, with or without its unit, or its number from 1; `None`: by the usual names.
+    pub columns: [Option<&'a str>; N],
+    /// A number that means that nothing was measured, in the unit of the file.
+    pub missing: Option<f64>,
+    /// Whether a row with a missing number is an error.
+    pub needs_all: bool,
+    /// Whether a column may have no unit.
+    pub may_lack_units: bool,
+    /// The key that names columns, for messages.
+    pub key: Option<&'a str>,
+}
+
+impl<const N: usize> Default for Asked<'_, N> {
+    fn default() -> Self {
+        Asked { columns: [None; N], missing: None, needs_all: false, may_lack_units: false, key: None }
+    }
+}
+
+/// One wanted column.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Pick {
+    /// Its place, from 0.
+    pub column: usize,
+    /// SI value of one unit; `None` where the unit is not known and need not be.
+    pub scale: Option<f64>,
+}
+
+/// The line that names columns, with that of their units.
+#[derive(Clone, Debug)]
+pub(crate) struct Header<'t> {
+    /// Its place, from 1.
+    pub line: usize,
+    /// Its text; empty where columns have numbers only.
+    pub text: &'t str,
+    /// The text of the line of units.
+    pub units: Option<&'t str>,
+}
+
+/// The wanted columns of a header.
+#[derive(Clone, Debug)]
+pub(crate) struct Columns<const N: usize> {
+    /// Those of each test that stands beside the others.
+    pub picks: Vec<[Pick; N]>,
+    /// Columns that have a name.
+    pub width: usize,
+    /// The column that numbers tests.
+    pub test: Option<usize>,
+    /// What they were understood as.
+    pub said: String,
+}
+
+/// Names of the column that numbers tests.
+const TESTS: [&str; 8] = ["test", "specimen", "indent", "run", "sample", "probe", "versuch", "essai"];
+
+/// Cells of a header; where blanks part columns, `wanted` of them if there is a way to read so many.
+pub(crate) fn header_cells(dialect: &Dialect, text: &str, wanted: Option<usize>) -> Vec<String> {
+    let clean = |cell: &str| cell.trim().trim_matches('"').trim().to_string();
+    if dialect.separator != Separator::Blanks {
+        return dialect.cells(text).map(clean).collect();
+    }
+    if text.contains('\t') {
+        return text.split('\t').map(clean).collect();
+    }
+    let (mut words, mut groups): (Vec<String>, Vec<String>) = (Vec::new(), Vec::new());
+    for word in text.split_whitespace() {
+        // a unit in brackets belongs to the name before it
+        match words.last_mut() {
+            Some(last) if word.starts_with(['(', '[']) => *last = format!("{last} {word}"),
+            _ => words.push(clean(word)),
+        }
+        match groups.last_mut() {
+            Some(last) if !last.ends_with([')', ']']) => *last = format!("{last} {word}"),
+            _ => groups.push(word.into()),
+        }
+    }
+    let apart = text.trim().split("  ").map(clean).filter(|cell| !cell.is_empty()).collect();
+    let choices = [words, apart, groups];
+    let fits = choices.iter().position(|cells| Some(cells.len()) == wanted).unwrap_or(0);
+    choices.into_iter().nth(fits).unwrap_or_default()
+}
+
+/// The number of a column that a key gives in place of a name, from 1.
+pub(crate) fn column_number(name: &str) -> Option<usize> {
+    name.split(['[', '(']).next()?.trim().parse().ok().filter(|n| *n > 0)
+}
+
+/// True of a head that a key calls `name`, with or without the unit.
+fn is_named(head: &Heading, name: &str) -> bool {
+    let bare = name.split(['[', '(']).next().unwrap_or("");
+    let (text, asked) = (folded(&head.text), Heading::new(name).name);
+    text == folded(name) || text == folded(bare) || !asked.is_empty() && head.name == asked
+}
+
+impl<'t> Header<'t> {
+    /// The header `text` of a line, if it names all wanted columns.
+    pub fn new<const N: usize>(
+        dialect: &Dialect,
+        line: usize,
+        text: &'t str,
+        wanted: &[Quantity; N],
+        named: &Asked<'_, N>,
+    ) -> Option<Header<'t>> {
+        let heads: Vec<Heading> = header_cells(dialect, text, None).iter().map(|c| Heading::new(c)).collect();
+        // mere numbers of columns fit every line
+        let all_numbers =
+            named.columns.iter().all(|name| name.is_some_and(|name| column_number(name).is_some()));
+        let is_there = |i: usize| match named.columns[i] {
+            Some(name) if heads.iter().any(|head| is_named(head, name)) => true,
+            Some(name) => !all_numbers && column_number(name).is_some_and(|n| n <= heads.len()),
+            None => heads.iter().any(|head| head.rank(&wanted[i]).is_some()),
+        };
+        (heads.len() >= N && (0..N).all(is_there)).then_some(Header { line, text, units: None })
+    }
+
+    /// The wanted columns, above rows of `cells` cells.
+    ///
+    /// # Errors
+    /// A column that is not there, or whose unit is missing or unknown.
+    pub fn columns<const N: usize>(
+        &self,
+        dialect: &Dialect,
+        cells: usize,
+        wanted: &[Quantity; N],
+        named: &Asked<'_, N>,
+    ) -> Result<Columns<N>, TextError> {
+        let mut heads: Vec<Heading> = if self.text.is_empty() {
+            (0..cells).map(|_| Heading::new("")).collect()
+        } else {
+            header_cells(dialect, self.text, Some(cells)).iter().map(|cell| Heading::new(cell)).collect()
+        };
+        let units = self.units.map(|units| header_cells(dialect, units, Some(cells))).unwrap_or_default();
+        for (head, unit) in
+            heads.iter_mut().zip(&units).filter(|(head, unit)| head.unit.is_none() && !unit.is_empty())
+        {
+            head.unit = Some(unit.trim_matches(['(', ')', '[', ']', '{', '}']).trim().into());
+        }
+        let mut found: Vec<Vec<Pick>> = Vec::new();
+        let mut said = Vec::new();
+        for (i, quantity) in wanted.iter().enumerate() {
+            let scale = |head: &Heading| match (&head.unit, quantity.dimension) {
+                (Some(unit), dimension) => dimension.scale(unit).map(Some),
+                (None, Dimension::Ratio) => Some(Some(1.0)),
+                (None, _) => named.may_lack_units.then_some(None),
+            };
+            let picks = match named.columns[i] {
+                Some(name) => vec![self.named_column(&heads, quantity, name, &scale)?],
+                None => self.usual_columns(&heads, quantity, wanted, &scale)?,
+            };
+            let head = &heads[picks[0].column];
+            let unit = head.unit.as_deref().filter(|unit| !head.text.contains(unit));
+            said.push(format!(
+                "{} from {}{}",
+                quantity.name,
+                if head.text.is_empty() {
+                    format!("column {}", picks[0].column + 1)
+                } else {
+                    format!("\"{}\"", head.text)
+                },
+                unit.map_or(String::new(), |unit| format!(" in {unit}"))
+            ));
+            found.push(picks);
+        }
+        // one depth may serve several forces only where there are as many of both
+        let count = if found.iter().all(|f| f.len() == found[0].len()) { found[0].len() } else { 1 };
+        Ok(Columns {
+            picks: (0..count).map(|k| std::array::from_fn(|i| found[i][k])).collect(),
+            width: heads.len(),
+            test: heads.iter().position(|head| TESTS.contains(&head.name.as_str())),
+            said: said.join(", "),
+        })
+    }
+
+    /// The columns whose names are nearest to those of `quantity`. One without a unit, like the error of a
+    /// force, is left out beside one with.
+    fn usual_columns(
+        &self,
+        heads: &[Heading],
+        quantity: &Quantity,
+        wanted: &[Quantity],
+        scale: &dyn Fn(&Heading) -> Option<Option<f64>>,
+    ) -> Result<Vec<Pick>, TextError> {
+        let rank = |head: &Heading| {
+            let rank = head.rank(quantity)?;
+            // another quantity has a better claim to "Indentation load"
+            let others =
+                wanted.iter().filter(|other| *other != quantity).filter_map(|other| head.rank(other));
+            others.min().is_none_or(|other| other >= rank).then_some(rank)
+        };
+        let ranked = || heads.iter().enumerate().filter_map(|(i, head)| Some((i, head, rank(head)?)));
+        let known: Vec<(Pick, u8)> = ranked()
+            .filter_map(|(column, head, rank)| Some((Pick { column, scale: scale(head)? }, rank)))
+            .collect();
+        match (known.iter().map(|(_, rank)| rank).min(), ranked().next()) {
+            (Some(best), _) => {
+                Ok(known.iter().filter(|(_, rank)| rank == best).map(|(pick, _)| *pick).collect())
+            }
+            (None, Some((_, head, _))) => Err(self.without_unit(head, quantity)),
+            (None, None) => Err(TextError::new(self.line, format!("names no {}", quantity.name))),
+        }
+    }
+
+    /// The column that a key calls `name`.
+    fn named_column(
+        &self,
+        heads: &[Heading],
+        quantity: &Quantity,
+        name: &str,
+        scale: &dyn Fn(&Heading) -> Option<Option<f64>>,
+    ) -> Result<Pick, TextError> {
+        let exact = heads.iter().position(|head| folded(&head.text) == folded(name));
+        let column = exact.or_else(|| heads.iter().position(|head| is_named(head, name)));
+        let column = column.or_else(|| column_number(name).map(|n| n - 1).filter(|n| *n < heads.len()));
+        let column = column.ok_or_else(|| {
+            let message =
+                format!("has {} columns, but none is \"{name}\", the {}", heads.len(), quantity.name);
+            TextError::new(self.line, message)
+        })?;
+        let head = &heads[column];
+        let asked = Heading { text: name.into(), ..Heading::new(name) };
+        let given = match &asked.unit {
+            Some(unit) => {
+                Some(quantity.dimension.scale(unit).ok_or_else(|| self.without_unit(&asked, quantity))?)
+            }
+            None => None,
+        };
+        let own = head.unit.as_ref().and_then(|unit| quantity.dimension.scale(unit));
+        match (own, given) {
+            (Some(own), Some(given)) if (own / given - 1.0).abs() > 1e-9 => {
+                let message =
+                    format!("says \"{}\", but the key \"{name}\": leave the unit out of the key", head.text);
+                Err(TextError::new(self.line, message))
+            }
+            (None, Some(given)) => Ok(Pick { column, scale: Some(given) }),
+            _ => match scale(head) {
+                Some(scale) => Ok(Pick { column, scale }),
+                None => Err(self.without_unit(&Heading { text: name.into(), ..head.clone() }, quantity)),
+            },
+        }
+    }
+
+    fn without_unit(&self, head: &Heading, quantity: &Quantity) -> TextError {
+        let found = match &head.unit {
+            Some(unit) => format!("has the unit \"{}\", which is not known", shortened(unit)),
+            None => "has no unit".into(),
+        };
+        TextError::new(
+            self.line,
+            format!(
+                "the {} \"{}\" {found}: write it in the header, one of {}, like {}",
+                quantity.name,
+                shortened(&head.text),
+                quantity.dimension.units(),
+                quantity.example
+            ),
+        )
+    }
+}

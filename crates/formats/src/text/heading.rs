@@ -1,0 +1,141 @@
+//! Names and units of columns, as instruments and people write them.
+
+use crate::dimension::{Dimension, PREFIXES};
+
+/// A quantity that is wanted from a table.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Quantity {
+    /// Its name in messages and as a key.
+    pub name: &'static str,
+    /// What it measures.
+    pub dimension: Dimension,
+    /// Names of columns, in small letters without accents, words apart by blanks.
+    pub called: &'static [&'static str],
+    /// A head that can be read.
+    pub example: &'static str,
+}
+
+/// The head of a column.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Heading {
+    /// As it stands in the file.
+    pub text: String,
+    /// Its name, in small letters without accents, words apart by blanks.
+    pub name: String,
+    /// Its unit, where one stands with it.
+    pub unit: Option<String>,
+}
+
+/// Whether a text is the unit of something.
+pub(super) fn is_unit(text: &str) -> bool {
+    [Dimension::Length, Dimension::Force, Dimension::Stress].iter().any(|d| d.scale(text).is_some())
+}
+
+/// Small letters without accents, words apart by single blanks.
+pub(super) fn folded(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars().flat_map(char::to_lowercase) {
+        match c {
+            'à' | 'á' | 'â' | 'ä' | 'ã' => out.push('a'),
+            'è' | 'é' | 'ê' | 'ë' | 'ě' => out.push('e'),
+            'ì' | 'í' | 'î' | 'ï' => out.push('i'),
+            'ò' | 'ó' | 'ô' | 'ö' | 'õ' => out.push('o'),
+            'ù' | 'ú' | 'û' | 'ü' => out.push('u'),
+            'ý' => out.push('y'),
+            'ñ' => out.push('n'),
+            'ç' => out.push('c'),
+            'ß' => out.push_str("ss"),
+            '_' | '-' | '/' | ':' | ',' | '=' => out.push(' '),
+            '\u{307}' => {}
+            _ => out.push(c),
+        }
+    }
+    out.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// Name of a head, as [`folded`] writes it, and its unit.
+pub(crate) fn folded_name(text: &str) -> (String, Option<String>) {
+    let heading = Heading::new(text);
+    (heading.name, heading.unit)
+}
+
+impl Heading {
+    /// The head `text`: `depth_um`, `Depth (nm)`, `Load [mN]`, `h/nm`, `Weg in mm`, `load_micro_N`.
+    pub fn new(text: &str) -> Heading {
+        let text = text.trim();
+        let (name, unit) = parts(text);
+        let (name, unit) = (folded(&name), unit.map(|unit| unit.trim().to_string()));
+        let (name, unit) = with_prefix(name, unit);
+        // "Depth 2" is the depth of the second test
+        let name = name.trim_end_matches(|c: char| c.is_ascii_digit() || c == '.' || c == ' ');
+        let name = ["in", "en", "#"]
+            .iter()
+            .find_map(|end| name.strip_suffix(end)?.strip_suffix(' '))
+            .unwrap_or(name);
+        Heading { text: text.into(), name: name.into(), unit }
+    }
+
+    /// How well the name is that of `quantity`: 0 best.
+    pub fn rank(&self, quantity: &Quantity) -> Option<u8> {
+        const OTHERS: [&str; 12] = [
+            "rate",
+            "nodal",
+            "error",
+            "stiffness",
+            "slope",
+            "time",
+            "area",
+            "deviation",
+            "std",
+            "voltage",
+            "stress",
+            "energy",
+        ];
+        let name = self.name.as_str();
+        if quantity.called.contains(&name) {
+            return Some(0);
+        }
+        let other = |word: &str| OTHERS.contains(&word) && !quantity.called.iter().any(|c| c.contains(word));
+        if name.split(' ').any(other) {
+            return None;
+        }
+        let follows = |rest: &str| rest.is_empty() || rest.starts_with(' ');
+        let ends =
+            |called: &&str| called.len() > 1 && name.strip_suffix(*called).is_some_and(|r| r.ends_with(' '));
+        let starts = |called: &&str| called.len() > 3 && name.strip_prefix(*called).is_some_and(follows);
+        if quantity.called.iter().any(|called| ends(&called)) {
+            Some(1)
+        } else if quantity.called.iter().any(|called| starts(&called)) {
+            Some(2)
+        } else {
+            None
+        }
+    }
+}
+
+/// Name and unit of a head.
+fn parts(text: &str) -> (String, Option<String>) {
+    if let Some(open) = text.rfind(['(', '[', '{']) {
+        let inside = &text[open + 1..];
+        let close = inside.find([')', ']', '}']).unwrap_or(inside.len());
+        let after = inside.get(close + 1..).unwrap_or("");
+        return (format!("{} {after}", &text[..open]), Some(inside[..close].into()));
+    }
+    // the longest end that is a unit: micro_N before N
+    let marks = text.char_indices().filter(|(_, c)| [' ', '_', '/', ',', '-', '|'].contains(c));
+    let unit = marks.map(|(i, c)| (&text[..i], &text[i + c.len_utf8()..])).find(|(_, unit)| is_unit(unit));
+    match unit {
+        Some((name, unit)) => (name.into(), Some(unit.into())),
+        None => (text.into(), None),
+    }
+}
+
+/// A prefix that stands in the name belongs to the unit: without one behind it the unit is not known.
+fn with_prefix(name: String, unit: Option<String>) -> (String, Option<String>) {
+    let Some(prefix) = name.rsplit(' ').next().filter(|word| PREFIXES.iter().any(|(p, _)| p == word)) else {
+        return (name, unit);
+    };
+    let unit = format!("{prefix} {}", unit.as_deref().unwrap_or(""));
+    let name = name[..name.len() - prefix.len()].trim_end().to_string();
+    (name, Some(unit.trim_end().into()))
+}

@@ -1,0 +1,262 @@
+//! Numbers under the names of their columns: below each other, side by side, or under the number of a test.
+
+use super::dialect::{Dialect, Separator, is_comment, is_row};
+use super::header::{Asked, Columns, Header, Pick, column_number, header_cells};
+use super::heading::{Quantity, is_unit};
+use super::{TextError, shortened};
+
+/// The readings of one test.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Series<const N: usize> {
+    /// Its name or number.
+    pub label: String,
+    /// Readings, SI.
+    pub rows: Vec<[f64; N]>,
+    /// Line of each, from 1.
+    pub lines: Vec<usize>,
+}
+
+/// All tests of a table.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SeriesTable<const N: usize> {
+    /// Each test that has readings; at least one.
+    pub series: Vec<Series<N>>,
+    /// SI value of one in each column of the first test.
+    pub scales: [f64; N],
+    /// What was understood, in one sentence.
+    pub understood: String,
+}
+
+/// A header with the rows below it.
+struct Block<'t, const N: usize> {
+    header: Header<'t>,
+    /// `None` before the first row.
+    columns: Option<Columns<N>>,
+    /// Series before this block.
+    first: usize,
+}
+
+/// The reader as it goes down a table.
+struct Reader<'q, 't, const N: usize> {
+    dialect: Dialect,
+    wanted: &'q [Quantity; N],
+    named: &'q Asked<'q, N>,
+    block: Option<Block<'t, N>>,
+    series: Vec<Series<N>>,
+    skipped: usize,
+    /// The last line of words before a header.
+    words: Option<(usize, &'t str)>,
+    /// Columns that were understood first.
+    said: String,
+    scales: [f64; N],
+}
+
+/// Reads the columns `wanted` of `text`.
+///
+/// # Errors
+/// No header that names them, units that are missing or unknown, cells that are no numbers.
+pub fn read_series<const N: usize>(
+    text: &str,
+    wanted: &[Quantity; N],
+    named: &Asked<'_, N>,
+) -> Result<SeriesTable<N>, TextError> {
+    let dialect = Dialect::detect(text)?;
+    let (series, said) = (Vec::new(), String::new());
+    let mut reader = Reader {
+        dialect,
+        wanted,
+        named,
+        block: None,
+        series,
+        skipped: 0,
+        words: None,
+        said,
+        scales: [1.0; N],
+    };
+    for (i, line) in text.lines().enumerate() {
+        reader.take(i + 1, line)?;
+    }
+    reader.finish(text)
+}
+
+impl<'t, const N: usize> Reader<'_, 't, N> {
+    /// Takes one line.
+    fn take(&mut self, line: usize, text: &'t str) -> Result<(), TextError> {
+        let bare = text.trim();
+        if bare.is_empty() {
+            return Ok(());
+        }
+        if is_comment(bare) {
+            let content = bare.trim_start_matches(['#', '%', '/', ' ']);
+            // a header behind the sign of a comment, as NumPy writes it
+            if self.series.is_empty()
+                && let Some(header) = Header::new(&self.dialect, line, content, self.wanted, self.named)
+            {
+                self.begin(header);
+            }
+            return Ok(());
+        }
+        if !is_row(bare) {
+            if let Some(header) = Header::new(&self.dialect, line, text, self.wanted, self.named) {
+                self.begin(header);
+                return Ok(());
+            }
+            if let Some(block) =
+                self.block.as_mut().filter(|b| b.columns.is_none() && b.header.units.is_none())
+                && header_cells(&self.dialect, text, None).iter().any(|cell| is_unit(cell))
+            {
+                block.header.units = Some(text);
+                return Ok(());
+            }
+        }
+        if self.block.is_none() {
+            if !is_row(bare)
+                || !self.named.columns.iter().all(|c| c.is_some_and(|c| column_number(c).is_some()))
+            {
+                self.skipped += 1;
+                self.words = Some((line, text));
+                return Ok(());
+            }
+            let cells = Some(self.dialect.cells(text).count());
+            let title = self
+                .words
+                .filter(|(_, words)| Some(header_cells(&self.dialect, words, cells).len()) == cells);
+            let (line, text) = title.unwrap_or((line, ""));
+            self.begin(Header { line, text, units: None });
+        }
+        self.row(line, text)
+    }
+
+    fn begin(&mut self, header: Header<'t>) {
+        self.block = Some(Block { header, columns: None, first: self.series.len() });
+    }
+
+    /// Takes a row below the header.
+    fn row(&mut self, line: usize, text: &'t str) -> Result<(), TextError> {
+        let Some(Block { header, columns, first }) = self.block.take() else { return Ok(()) };
+        let row: Vec<&str> = self.dialect.cells(text).collect();
+        let has_number = || row.iter().any(|cell| self.dialect.number(cell).is_some_and(|v| !v.is_nan()));
+        let columns = match columns {
+            None if has_number() => {
+                Some(header.columns(&self.dialect, row.len(), self.wanted, self.named)?)
+            }
+            known => known,
+        };
+        let Some(columns) = columns else {
+            self.skipped += 1;
+            self.block = Some(Block { header, columns, first });
+            return Ok(());
+        };
+        let more = row.get(columns.width..).is_some_and(|more| more.iter().any(|cell| !cell.is_empty()));
+        if more && self.dialect.separator == Separator::Mark(',') {
+            let message = format!(
+                "has {} cells below {} of the header: a decimal comma needs columns that semicolons or tabs part; else give every column a name",
+                row.len(),
+                columns.width
+            );
+            return Err(TextError::new(line, message));
+        }
+        for (k, picks) in columns.picks.iter().enumerate() {
+            let Some(reading) = self.reading(line, &row, picks)? else { continue };
+            let label = match columns.test.and_then(|t| row.get(t)) {
+                Some(label) => (*label).to_string(),
+                None => format!("{}", first + k + 1),
+            };
+            let known = self.series[first..].iter().position(|series| series.label == label);
+            let place = known.map_or(self.series.len(), |k| first + k);
+            if known.is_none() {
+                self.series.push(Series { label, rows: Vec::new(), lines: Vec::new() });
+            }
+            self.series[place].rows.push(reading);
+            self.series[place].lines.push(line);
+        }
+        if self.said.is_empty() {
+            self.said.clone_from(&columns.said);
+            self.scales = columns.picks[0].map(|pick| pick.scale.unwrap_or(1.0));
+        }
+        self.block = Some(Block { header, columns: Some(columns), first });
+        Ok(())
+    }
+
+    /// The reading of a row; `None` where its cells are empty or the row is a note.
+    fn reading(
+        &mut self,
+        line: usize,
+        row: &[&str],
+        picks: &[Pick; N],
+    ) -> Result<Option<[f64; N]>, TextError> {
+        let cells = picks.map(|pick| row.get(pick.column).copied().unwrap_or(""));
+        let measured = |v: f64| if Some(v) == self.named.missing { f64::NAN } else { v };
+        let values = cells.map(|cell| self.dialect.number(cell).map(measured));
+        let count = values.iter().flatten().filter(|v| !v.is_nan()).count();
+        if count == N {
+            let si = |i: usize| values[i].unwrap_or(f64::NAN) * picks[i].scale.unwrap_or(1.0);
+            return Ok(Some(std::array::from_fn(si)));
+        }
+        let find = |test: fn(&Option<f64>) -> bool| (0..N).find(|i| test(&values[*i])).map(|i| cells[i]);
+        match (find(Option::is_none), find(|v| v.is_none_or(f64::is_nan))) {
+            (Some(word), _) if count > 0 => Err(TextError::new(line, self.dialect.refuse(word))),
+            (None, Some(cell)) if count > 0 && self.named.needs_all => {
+                let cell = shortened(cell);
+                let message = format!(
+                    "\"{cell}\" is not a finite number: leave out the line of a point that was not measured"
+                );
+                Err(TextError::new(line, message))
+            }
+            _ => {
+                self.skipped += 1;
+                Ok(None)
+            }
+        }
+    }
+
+    fn finish(self, text: &str) -> Result<SeriesTable<N>, TextError> {
+        let [Some(first), Some(last)] = [self.series.first(), self.series.last()] else {
+            return Err(self.nothing(text));
+        };
+        let count: usize = self.series.iter().map(|s| s.rows.len()).sum();
+        let plural = |n: usize, what: &str| if n > 1 { format!("{what} {n}") } else { String::new() };
+        let understood = format!(
+            "{}; {}; {count} rows{}, lines {} to {}{}",
+            self.said,
+            self.dialect.describe(),
+            plural(self.series.len(), ", tests"),
+            first.lines[0],
+            last.lines[last.lines.len() - 1],
+            if self.skipped > 0 { format!(", {} others left out", self.skipped) } else { String::new() }
+        );
+        Ok(SeriesTable { series: self.series, scales: self.scales, understood })
+    }
+
+    /// The reason why there are no readings.
+    fn nothing(&self, text: &str) -> TextError {
+        if let Some(block) = &self.block {
+            let message = "is a header without readings below it: give a row of numbers for each reading";
+            return TextError::new(block.header.line, message);
+        }
+        let list = |part: fn(&Quantity) -> &str, between| {
+            self.wanted.iter().map(part).collect::<Vec<_>>().join(between)
+        };
+        let asked: Vec<String> =
+            self.named.columns.iter().flatten().map(|name| format!("\"{name}\"")).collect();
+        let mut message = if asked.is_empty() {
+            format!(
+                "has no header that names a {} with their units: write a first line like {}",
+                list(|q| q.name, " and a "),
+                list(|q| q.example, ",")
+            )
+        } else {
+            format!("has no header with the columns {}", asked.join(" and "))
+        };
+        let lines = || text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
+        let title = lines().take_while(|(_, line)| !is_row(line.trim())).last();
+        if let (Some(key), Some((_, title))) = (self.named.key, title) {
+            let cells = header_cells(&self.dialect, title, None);
+            let cells: Vec<String> = cells.iter().take(12).map(|c| format!("\"{}\"", shortened(c))).collect();
+            let keys = list(|q| q.name, " = \"…\", ");
+            message +=
+                &format!(", or say which of {} they are: {key} = {{ {keys} = \"…\" }}", cells.join(", "));
+        }
+        TextError { line: title.or_else(|| lines().next()).map(|(i, _)| i + 1), message }
+    }
+}

@@ -1,0 +1,215 @@
+//! Claims about the reader of tables. Each text has a feature that files of a named origin have.
+
+use super::*;
+use crate::indentation;
+
+const COLUMNS: [Option<&str>; 2] = [None; 2];
+
+fn is_near(a: f64, b: f64) -> bool {
+    (a - b).abs() <= 1e-12 * b.abs()
+}
+
+/// The curve (0.1 µm, 2 mN), (0.2 µm, 8 mN) and nothing else.
+#[track_caller]
+fn is_the_curve(text: &str, columns: [Option<&str>; 2]) {
+    let table = indentation::read(text, columns, Some(-9999.0)).unwrap_or_else(|e| panic!("{text}: {e}"));
+    let rows = &table.series[0].rows;
+    assert_eq!((table.series.len(), rows.len()), (1, 2), "{text} {table:?}");
+    let near = |row: [f64; 2], want: [f64; 2]| is_near(row[0], want[0]) && is_near(row[1], want[1]);
+    assert!(near(rows[0], [1e-7, 2e-3]) && near(rows[1], [2e-7, 8e-3]), "{text} {table:?}");
+}
+
+#[test]
+fn curves_of_many_makers_are_read() {
+    for text in [
+        "depth_um,force_mN\n0.1,2\n0.2,8\n",
+        "Depth (nm),Load (mN)\n100,2\n200,8\n",
+        "Instrument X\nDate;today\nDisplacement [nm];Load [uN]\n100,0;2000,0\n200,0;8000,0\n",
+        "\u{feff}Time\tDepth\tForce\ns\tnm\tmN\n0\t100\t2\n1\t200\t8\n",
+        "# a note\nh/nm P/mN\n100 2\n200 8\n",
+        "increment,phase,depth_um,force_N,contact_area_um2,force_nodal_N,force_error\n1,load,0.1,0.002,1,3,0.01\n2,load,0.2,0.008,1,3,0.01\n",
+        // Hysitron
+        "Mon May 04 11:50:04 2015\n\nNumber of Points = 2\nDepth (nm)\tLoad (µN)\tTime (s)\tDepth (V)\tLoad (V)\n100\t2000\t0\t1\t2\n200\t8000\t1\t1\t2\n",
+        // Anton Paar
+        "Time [s]\tPd [nm]\tFn [mN]\n0\t100\t2\n1\t200\t8\n",
+        "X_Glass 1_Pd_[µm]\tY_Glass 1_Fn_[mN]\t\n0.1\t2\t\n0.2\t8\t\n",
+        // Instron
+        "\"Time\",\"Extension\",\"Load\"\n\"(s)\",\"(mm)\",\"(N)\"\n\"0.0\",\"0.0001\",\"0.002\"\n\"0.1\",\"0.0002\",\"0.008\"\n",
+        // Zwick, Fischer
+        "Eindringtiefe;Prüfkraft\nµm;mN\n0,1;2,0\n0,2;8,0\n",
+        "Standardweg in mm;Standardkraft in N\n0,0001;0,002\n0,0002;0,008\n",
+        "Profondeur (nm);Force normale (mN)\n100,0;2\n200,0;8\n",
+        // hardness testers
+        "Depth (µm),Load (gf)\n0.1,0.203943242595586\n0.2,0.815772970382343\n",
+        // prefixes that are words
+        "depth_nm,load_micro_N,time_s\n100,2000,0\n200,8000,1\n",
+        "Depth (nanometers),Force (milli Newton)\n100,2\n200,8\n",
+        // NumPy, with a header in a comment
+        "# depth_nm force_mN\n1.0e+02 2.0D+00\n2.0e+02 8.0\n",
+        // names of several words apart by blanks
+        "Indentation Depth (nm) Normal Load (mN)\n100 2\n200 8\n",
+        // spreadsheets: separators alone, a sum below
+        "depth_um,force_mN\n0.1,2\n,\n0.2,8\n,\nMean,\n",
+        "depth_um;force_mN\n0,1;2\n0,2;8\nMittelwert;\n",
+        // thousands
+        "depth_nm\tforce_uN\n100.0\t2,000.0\n200.0\t8,000.0\n",
+        "depth_nm;force_uN\n100,0;2.000,0\n200,0;8.000,0\n",
+        "depth_nm;force_uN\n100,0;2\u{a0}000,0\n200,0;8\u{202f}000,0\n",
+        // words and numbers that mean that nothing was read
+        "depth_nm,force_mN\n100,2\n150,N/A\n-1.#IND,3\n160,1e38\n170,-9999\n200,8\n",
+        "h_nm P_mN\n100 2\nNo Data No Data\n150 ***\n200 8\n",
+    ] {
+        is_the_curve(text, COLUMNS);
+    }
+}
+
+#[test]
+fn columns_named_by_a_key_are_taken() {
+    let odd = "A [nm];B [mN];C [mN]\n100;5;2\n200;5;8\n";
+    for columns in [["A", "C"], ["A [nm]", "C [mN]"], ["1", "3"], ["a", "3 [mN]"]] {
+        is_the_curve(odd, columns.map(Some));
+    }
+    is_the_curve("Weg,Last 2\n100,2\n200,8\n", [Some("Weg [nm]"), Some("Last 2 (mN)")]);
+    is_the_curve("5 100 2\n6 200 8\n", [Some("2 [nm]"), Some("3 [mN]")]);
+    for (columns, word) in [
+        (["A", "D"], "\"D\""),
+        (["A", "9"], "\"9\""),
+        (["A [um]", "C"], "leave the unit out of the key"),
+        (["A", "C [furlong]"], "furlong"),
+    ] {
+        let fault = indentation::read(odd, columns.map(Some), None).unwrap_err();
+        assert!(fault.message.contains(word), "{fault}");
+    }
+    let fault = indentation::read("Kanal 1;Kanal 2\n1;2\n", COLUMNS, None).unwrap_err();
+    assert!(fault.message.contains("columns = { depth = \"…\", force = \"…\" }"), "{fault}");
+    assert!(fault.message.contains("\"Kanal 1\", \"Kanal 2\"") && fault.line == Some(1), "{fault}");
+}
+
+#[test]
+fn characters_of_every_encoding_give_the_same_curve() {
+    let text = "Depth (µm);Load (mN)\n0,1;2,0\n0,2;8,0\n";
+    let wide = |unit: fn(u16) -> [u8; 2]| text.encode_utf16().flat_map(unit).collect::<Vec<u8>>();
+    let marked = |mark: &[u8], rest: &[u8]| [mark, rest].concat();
+    let windows: Vec<u8> = text.chars().map(|c| c as u8).collect();
+    for (bytes, name) in [
+        (text.as_bytes().to_vec(), "UTF-8"),
+        (marked(&[0xef, 0xbb, 0xbf], text.as_bytes()), "UTF-8"),
+        (wide(u16::to_le_bytes), "UTF-16"),
+        (wide(u16::to_be_bytes), "UTF-16"),
+        (marked(&[0xff, 0xfe], &wide(u16::to_le_bytes)), "UTF-16"),
+        (marked(&[0xfe, 0xff], &wide(u16::to_be_bytes)), "UTF-16"),
+        (windows, "Windows-1252"),
+        (text.replace('\n', "\r\n").into_bytes(), "UTF-8"),
+        (text.replace('\n', "\r").into_bytes(), "UTF-8"),
+        (marked(text.as_bytes(), &[0x1a]), "UTF-8"),
+    ] {
+        let (found, encoding) = decode(&bytes).unwrap();
+        assert_eq!(encoding, name);
+        is_the_curve(&found, COLUMNS);
+    }
+    for bytes in
+        [&b"\x00\x01\x02\x03\x00\x00\x07"[..], &[0xff, 0xfe, 0, 0, 65, 0, 0, 0], b"\x01\x02\x03\x04abc"]
+    {
+        assert!(decode(bytes).is_err(), "{bytes:?}");
+    }
+}
+
+#[test]
+fn several_tests_are_told_apart() {
+    for text in [
+        "Depth 1 (nm),Load 1 (mN),Depth 2 (nm),Load 2 (mN)\n100,2,50,1\n200,8,,\n",
+        "depth_nm,force_mN\n100,2\n200,8\n\ndepth_nm,force_mN\n50,1\n",
+        "test,depth_nm,force_mN\n1,100,2\n1,200,8\n2,50,1\n",
+        "X_Glass 1_Pd_[nm]\tY_Glass 1_Fn_[mN]\tX_Glass 1_Pd_[nm]\tY_Glass 1_Fn_[mN]\t\n100\t2\t50\t1\t\n200\t8\t\t\t\n",
+    ] {
+        let tests = indentation::read(text, COLUMNS, None).unwrap().series;
+        assert_eq!(tests.iter().map(|t| t.rows.len()).collect::<Vec<_>>(), [2, 1], "{text}");
+    }
+}
+
+#[test]
+fn what_cannot_be_read_names_the_line_and_a_way_out() {
+    for (text, line, word) in [
+        ("depth,force\n1,2\n", 1, "has no unit"),
+        ("a\nDepth (furlong),Load (mN)\n1,2\n", 2, "furlong"),
+        ("depth_um,force_mN\n1,2\n1,x\n", 3, "not a number"),
+        ("1,2\n3,4\n", 1, "header"),
+        ("depth_um,force_mN\n\n", 1, "without readings"),
+        ("depth_um,force_mN\n0,1,0,2\n0,2,0,8\n", 2, "decimal comma"),
+        ("depth_um;force_mN\n1,234;5\n", 2, "may be a thousand"),
+        ("depth_um;force_mN\n1,2;5\n1.234;6\n", 3, "decimals stand behind a comma"),
+        ("depth_um,load_micro\n1,2\n", 1, "\"micro\""),
+        ("depth_um,force_kilo_furlong\n1,2\n", 1, "force"),
+    ] {
+        let fault = indentation::read(text, COLUMNS, None).unwrap_err();
+        assert!(fault.line == Some(line) && fault.message.contains(word), "{text}: {fault:?}");
+    }
+}
+
+#[test]
+fn the_sentence_says_what_was_understood() {
+    let text = "Instrument X\nDepth (nm);Load (mN)\n100,0;2\n150,0;\n200,0;8\n";
+    let said = indentation::read(text, COLUMNS, None).unwrap().understood;
+    let want = "depth from \"Depth (nm)\", force from \"Load (mN)\"; semicolons between columns and decimal commas; 2 rows, lines 3 to 5, 2 others left out";
+    assert_eq!(said, want);
+}
+
+#[test]
+fn rows_of_numbers_are_read_in_every_dialect() {
+    let want = [1.5, 2.0, f64::NAN, 4.0, 5.0, 6.25];
+    for text in [
+        "1.5,2,\n4,5,6.25\n",
+        "title\nunit: none\n1.5 2 nan\n4 5 6.25",
+        "1,5;2;***\n4;5;6,25\n\nEnd of data\n",
+        "1,5\t2\tN/A\t\n4\t5\t6,25\t\n",
+        "1,5 2 -\n4 5 6,25\n",
+        "# note\n1.5, 2, Bad\n4, 5, 6.25\n",
+        "\"1,5\",\"2\",\"\"\n\"4\",\"5\",\"6,25\"\n",
+        "1.5 2 No Data\n4 5 6.25\n",
+        "1.5;2;-9999\n4;5;6.25\n",
+        "+1.5 2. 1.#QNAN\n4 0.5e1 6.25e+00\n",
+        "1.5,2,3.4e38\n% between\n4,5,6.25\n,,\n",
+        "−1.5 2 nan\n4 5 6.25".replace('−', "").as_str(),
+    ] {
+        let grid = read_grid(text, Some(-9999.0)).unwrap_or_else(|e| panic!("{text}: {e}"));
+        assert_eq!((grid.columns, grid.rows()), (3, 2), "{text}");
+        for (a, b) in grid.values.iter().zip(want) {
+            assert!(a == &b || a.is_nan() && b.is_nan(), "{text}: {:?}", grid.values);
+        }
+    }
+}
+
+#[test]
+fn rows_that_are_no_table_are_refused_at_their_line() {
+    for (text, line, word) in [
+        ("1,2\n3\n", Some(2), "1 numbers"),
+        ("1,two\n", Some(1), "\"two\""),
+        ("", None, "no rows"),
+        ("words\nand more\n", None, "no rows"),
+        ("1 2\n3 4\nsecond map\n5 6\n", Some(3), "second map"),
+        ("0,5\t1,234\n0.5\t2\n", Some(2), "comma"),
+        ("1,234\t5,678\n", Some(1), "may be a thousand"),
+        ("0,07552,0,25755\n0,1,0,2\n", Some(1), "commas stand both"),
+        ("1 2 3\n4 5 6 7\n", Some(2), "4 numbers"),
+    ] {
+        let fault = read_grid(text, None).unwrap_err();
+        assert!(fault.line == line && fault.message.contains(word), "{text}: {fault:?}");
+    }
+}
+
+#[test]
+fn a_text_of_many_parts_is_one_table() {
+    use std::fmt::Write;
+    let mut text = String::from("# many\n");
+    for i in 0..300_000 {
+        writeln!(text, "{i}.5,{}", i % 7).unwrap();
+    }
+    let grid = read_grid(&text, None).unwrap();
+    assert_eq!((grid.rows(), grid.lines), (300_000, [2, 300_001]));
+    assert!(
+        (0..300_000)
+            .all(|i| grid.values[2 * i] == i as f64 + 0.5 && grid.values[2 * i + 1] == (i % 7) as f64)
+    );
+    let fault = read_grid(&(text + "1,x\n"), None).unwrap_err();
+    assert_eq!(fault.line, Some(300_002));
+}
