@@ -1,4 +1,5 @@
-//! A curve of hardening as a text file: columns for plastic strain and yield stress under a header with units.
+//! A curve of hardening as a text file: columns for plastic strain and yield stress under a header with
+//! units.
 //!
 //! ```text
 //! # quenched steel, tension test of 12 May
@@ -6,8 +7,8 @@
 //! 0,300
 //! 0.01,412.5
 //! ```
-//! Columns may change places, stand among others and be written as the reader of tables knows; the heads may be those of
-//! other languages.
+//! Columns may change places, stand among others and be written as the reader of tables knows; the heads may
+//! be those of other languages.
 
 use crate::hardening_table::HardeningTable;
 use asperity_formats::dimension::Dimension;
@@ -76,8 +77,8 @@ impl CurveFile {
     /// Reads `text`.
     ///
     /// # Errors
-    /// No header, a column that is not there or has no unit, a line that is not numbers, or points that are no
-    /// curve of hardening (see [`HardeningTable::new`]); each with its line.
+    /// No header, a column that is not there or has no unit, a line that is not numbers, or points that are
+    /// no curve of hardening (see [`HardeningTable::new`]); each with its line.
     pub fn parse(text: &str) -> Result<CurveFile, TextError> {
         let named = Asked { needs_all: true, ..Asked::default() };
         let mut table = read_series(text, &[STRAIN, STRESS], &named)?;

@@ -1,10 +1,10 @@
 //! A run that is refined until it keeps the promise of its accuracy.
 //!
-//! A round is a run with its companion. What it states is compared with what the accuracy promises; where it is more, the
-//! next round has finer numbers, as many times as the order asks for by which the stated errors fall: 3/2 of the force
-//! and 1 of the area at first (`error_estimate`), and then the order that two rounds have shown. Where all numbers are
-//! just twice as fine, the round before is the companion of the next one. Work is counted in operations, never in
-//! seconds, so that the bits are those of every machine.
+//! A round is a run with its companion. What it states is compared with what the accuracy promises; where it
+//! is more, the next round has finer numbers, as many times as the order asks for by which the stated errors
+//! fall: 3/2 of the force and 1 of the area at first (`error_estimate`), and then the order that two rounds
+//! have shown. Where all numbers are just twice as fine, the round before is the companion of the next one.
+//! Work is counted in operations, never in seconds, so that the bits are those of every machine.
 
 use crate::record::recorder::{Event, Outcome, Watcher};
 use crate::record::rows::Summary;
@@ -43,15 +43,16 @@ const MARGIN: f64 = 1.2;
 const FINEST_AREA_PROMISE: f64 = 0.005;
 
 impl Scene {
-    /// What is promised and what `summary` states of the force (along the curve, of several contacts at the peak) and of the area (at the
-    /// peak): each as [stated, promised]; stated NaN where it is not known.
+    /// What is promised and what `summary` states of the force (along the curve, of several contacts at the
+    /// peak) and of the area (at the peak): each as [stated, promised]; stated NaN where it is not known.
     pub fn stated_and_promised(&self, summary: &Summary) -> [[f64; 2]; 2] {
         let promise = self.accuracy.promise();
         let force = if self.asperity_count() > 1 { summary.errors.force } else { summary.errors_along.force };
         [[force, promise], [summary.errors.contact_area, promise.max(FINEST_AREA_PROMISE)]]
     }
 
-    /// Whether a run of it may be made again with finer numbers: the user gave neither the elements nor a mesh, nor asked for one run.
+    /// Whether a run of it may be made again with finer numbers: the user gave neither the elements nor a
+    /// mesh, nor asked for one run.
     pub fn may_refine(&self) -> bool {
         self.numerics.refine != Some(false)
             && self.numerics.elements_in_contact.is_none()
@@ -66,7 +67,8 @@ fn misses(scene: &Scene, outcome: &Outcome) -> [f64; 2] {
         .map(|[stated, promised]| if stated.is_nan() { f64::INFINITY } else { stated / promised })
 }
 
-/// Work of a run whose stated errors are just the promised ones, over that of one which states `over` times as much of force and area.
+/// Work of a run whose stated errors are just the promised ones, over that of one which states `over` times
+/// as much of force and area.
 pub fn work_to_keep(over: [f64; 2]) -> f64 {
     wanted(over, EXPECTED_ORDERS).powf(WORK_EXPONENT)
 }
@@ -91,10 +93,11 @@ fn observed(before: [f64; 2], after: [f64; 2], factor: f64) -> [f64; 2] {
 }
 
 impl Run<'_> {
-    /// [`Run::run`], and where it does not keep the promise of its accuracy further rounds with finer numbers, three at most and with
-    /// twelve times the work of the first. Rows, fields and errors are those of the best round, iterations those of all;
-    /// `summary.promise_kept` and `summary.rounds` tell how it went. The observer hears of each round by [`Event::Round`]; where it
-    /// ends a later one, what the round before gave is the outcome. Numbers that the scene gives stay, as do meshes.
+    /// [`Run::run`], and where it does not keep the promise of its accuracy further rounds with finer
+    /// numbers, three at most and with twelve times the work of the first. Rows, fields and errors are those
+    /// of the best round, iterations those of all; `summary.promise_kept` and `summary.rounds` tell how it
+    /// went. The observer hears of each round by [`Event::Round`]; where it ends a later one, what the round
+    /// before gave is the outcome. Numbers that the scene gives stay, as do meshes.
     ///
     /// # Errors
     /// As for [`Run::run`].
@@ -161,8 +164,8 @@ struct Kept {
     outcome: Outcome,
 }
 
-/// The factor of fineness that is made of the `wanted` one after rounds that took `spent` times the work of the first, the last of
-/// them `fineness` times as fine; `None` where what may be spent brings nothing.
+/// The factor of fineness that is made of the `wanted` one after rounds that took `spent` times the work of
+/// the first, the last of them `fineness` times as fine; `None` where what may be spent brings nothing.
 fn affordable(wanted: f64, fineness: f64, spent: f64) -> Option<f64> {
     let wanted = if wanted > NEARLY_TWICE { FACTORS[1] } else { wanted.max(FACTORS[0]) };
     let cost = |factor: f64| {
