@@ -111,3 +111,45 @@ fn a_tight_tolerance_meets_its_depth() {
     let scene = changed(|s| s.numerics.newton_tolerance = Some(1e-11));
     assert_eq!(crush(&scene).unwrap().stopped, None);
 }
+
+/// Forces between what a coarse crush carries and what the body bears are reached too: a gentle perfectly
+/// plastic wedge with a short tip, a sharp one that hardens, a ridge.
+#[test]
+fn every_force_up_to_what_a_depth_bears_is_reached() {
+    let soft = |s: &mut Scene| {
+        s.material.yield_stress = Some(Stress(800e6));
+        s.material.hardening_exponent = Some(0.0);
+        s.symmetry = Symmetry::PlaneStrain;
+        s.substrate = Some(Substrate { radius: Some(Length(3e-3)), depth: Some(Length(2e-3)) });
+    };
+    let wedge = |s: &mut Scene| {
+        s.asperity.clear();
+        s.tool = Tool::cone(2.0);
+        s.tool.tip_radius = Some(Length(2e-6));
+        s.loading.depth = Some(Length(0.4e-6));
+    };
+    for (name, scene) in [
+        ("wedge", changed(|s| (soft(s), wedge(s)).0)),
+        ("ridge", changed(soft)),
+        (
+            "sharp wedge that hardens",
+            changed(|s| {
+                (soft(s), wedge(s)).0;
+                s.tool.tip_radius = None;
+                s.material.hardening_exponent = Some(0.1);
+            }),
+        ),
+    ] {
+        let by_depth = crush(&scene).unwrap();
+        assert_eq!(by_depth.stopped, None, "{name}");
+        for share in [0.3, 0.6, 0.7, 0.8, 0.95] {
+            let force = share * by_depth.summary.peak_force;
+            let outcome = crush(&driven_by(&scene, force)).unwrap();
+            assert_eq!(outcome.stopped, None, "{name} at {share} of the force");
+            assert!((outcome.summary.peak_force / force - 1.0).abs() < 1e-8);
+            assert!(outcome.summary.peak_depth < by_depth.summary.peak_depth * 1.05);
+            let error = outcome.summary.errors.depth.unwrap();
+            assert!(error > 0.0 && error < 0.1, "{name}: {error}");
+        }
+    }
+}

@@ -28,6 +28,12 @@ use std::ops::ControlFlow;
 const COARSE_ELEMENTS: usize = 6;
 const COARSE_STEPS: usize = 12;
 
+/// How many times finer a coarse crush is made where one breaks off.
+const FINER: usize = 3;
+
+/// Points of a curve, the first one included, from which nothing is extrapolated.
+const FEWEST_POINTS: usize = 3;
+
 /// Crushes after which the last answer is taken.
 const MOST_CRUSHES: usize = 6;
 
@@ -55,48 +61,64 @@ pub fn expect(
     for index in 0..scene.earlier_loads().len() {
         let within = |e: SceneError| SceneError { path: format!("initial.load[{index}].{}", e.path), ..e };
         let load = with_body_of(&scene.at_load(index), mesh);
-        expected.depth = target_depth(&load, mesh, &expected, (units, analyses)).map_err(within)?;
+        expected.expect_peak(target_depth(&load, mesh, &expected, (units, analyses)).map_err(within)?);
         let formed = formed(&load, &expected, (units, analyses)).ok_or_else(|| {
             let message = "does not come back from its depth: ask for less";
             within(SceneError { path: "loading".into(), message: message.into() })
         })?;
         let mut earlier = std::mem::take(&mut expected.earlier);
         earlier.push(expected);
-        expected = Expected { depth: 0.0, formed: Some(formed), earlier };
+        expected = Expected { formed: Some(formed), earlier, ..Expected::default() };
     }
-    expected.depth = target_depth(scene, mesh, &expected, (units, analyses))?;
+    expected.expect_peak(target_depth(scene, mesh, &expected, (units, analyses))?);
     Ok(expected)
+}
+
+impl Expected {
+    fn expect_peak(&mut self, peak: Peak) {
+        (self.depth, self.is_guessed) = (peak.depth, !peak.is_sure);
+    }
 }
 
 /// What each coarse crush of a search computes with.
 type Shared<'a> = (Units, &'a Analyses);
 
-/// Depth of the peak of `scene` after the loads that are `expected` before it.
+/// An estimate of the depth of a peak.
+struct Peak {
+    depth: f64,
+    /// Whether a coarse crush has been there.
+    is_sure: bool,
+}
+
+/// The peak of `scene` after the loads that are `expected` before it.
 fn target_depth(
     scene: &Scene,
     mesh: Option<&Mesh>,
     expected: &Expected,
     shared: Shared<'_>,
-) -> Result<f64, SceneError> {
+) -> Result<Peak, SceneError> {
     let (units, _) = shared;
     match scene.loading.target()? {
         Target::Depth(depth) if gives_way(scene) => {
-            Ok(depth_of_body(&with_body_of(scene, mesh), depth / units.length, expected, shared))
+            let asked = depth / units.length;
+            let depth = depth_of_body(&with_body_of(scene, mesh), asked, expected, shared);
+            Ok(Peak { depth, is_sure: true })
         }
-        Target::Depth(depth) => Ok(depth / units.length),
+        Target::Depth(depth) => Ok(Peak { depth: depth / units.length, is_sure: true }),
         Target::Force(force) => {
             let (profile, tool) = bodies(scene, units.length)?;
             let length = Units::of_scene(scene)?.length / units.length;
             let force = force / units.force;
             let guess = expected_depth(&metal(scene), scene.symmetry, &profile, &tool, force, length);
-            Ok(depth_of(&with_body_of(scene, mesh), force, guess, expected, shared))
+            let (depth, carried) = depth_of(&with_body_of(scene, mesh), force, guess, expected, shared);
+            Ok(Peak { depth, is_sure: carried })
         }
     }
 }
 
 /// The surface that `scene` leaves, from a coarse crush; `None` where it does not come back.
 fn formed(scene: &Scene, expected: &Expected, shared: Shared<'_>) -> Option<Formed> {
-    let problem = coarse_problem(scene, expected, shared)?;
+    let problem = coarse_problem(scene, expected, (shared, 1))?;
     let problem = Problem { unload: true, reloads: 0, ..problem };
     let simulation = simulate(&problem, shared.1, 0, &mut |_| ControlFlow::Continue(())).ok()?;
     let state = simulation.path.model.state();
@@ -116,32 +138,44 @@ fn with_body_of(scene: &Scene, mesh: Option<&Mesh>) -> Scene {
     scene
 }
 
-/// Depth at which `scene` carries `force`, from the first guess `guess`.
-fn depth_of(scene: &Scene, force: f64, guess: f64, expected: &Expected, shared: Shared<'_>) -> f64 {
+/// Depth at which `scene` carries `force`, from the first guess `guess`, and whether a coarse crush has
+/// carried it.
+///
+/// Where a coarse crush breaks off before it carries the force, a finer one is tried; where that does too,
+/// the depth is extrapolated from what it reached.
+fn depth_of(scene: &Scene, force: f64, guess: f64, expected: &Expected, shared: Shared<'_>) -> (f64, bool) {
     let deepest = scene.deepest() / shared.0.length;
     let mut depth = guess.min(deepest);
+    let mut fineness = 1;
     for _ in 0..MOST_CRUSHES {
         let force_of = |_: &Problem, contact: &ContactSums| contact.force;
-        let Some(curve) = coarse(scene, &to_depth(expected, depth), shared, force_of).map(Curve::new) else {
-            break;
+        let reached = coarse(scene, &to_depth(expected, depth), (shared, fineness), force_of);
+        let Some(curve) = reached.filter(|points| points.len() > FEWEST_POINTS).map(Curve::new) else {
+            if fineness == FINER {
+                break;
+            }
+            fineness = FINER;
+            continue;
         };
         let end = curve.end();
         match curve.depth_of(force) {
-            Some(found) if LARGEST_DEPTH_RATIO * found >= end => return found,
+            Some(found) if LARGEST_DEPTH_RATIO * found >= end => return (found, true),
             Some(found) => depth = PASSED_DEPTH_RATIO * found,
-            // stopped on its way, or as deep as it can be
-            None if end < 0.999 * depth || depth >= deepest => break,
             None => {
                 let exponent = (curve.value(end) / curve.value(0.5 * end)).log2().clamp(0.7, 4.0);
                 let growth = (force / curve.value(end)).powf(1.0 / exponent);
-                if !growth.is_finite() {
+                let broke_off = end < 0.999 * depth;
+                if growth.is_finite() {
+                    depth = (PASSED_DEPTH_RATIO * growth * end).min(deepest);
+                }
+                if !growth.is_finite() || end >= 0.999 * deepest || broke_off && fineness == FINER {
                     break;
                 }
-                depth = (PASSED_DEPTH_RATIO * growth * end).min(deepest);
+                fineness = if broke_off { FINER } else { fineness };
             }
         }
     }
-    depth
+    (depth, false)
 }
 
 /// Whether tool or machine are elastic.
@@ -153,7 +187,7 @@ fn gives_way(scene: &Scene) -> bool {
 fn depth_of_body(scene: &Scene, asked: f64, expected: &Expected, shared: Shared<'_>) -> f64 {
     let mut depth = asked;
     for _ in 0..MOST_CRUSHES {
-        let total = coarse(scene, &to_depth(expected, depth), shared, |problem, contact| {
+        let total = coarse(scene, &to_depth(expected, depth), (shared, 1), |problem, contact| {
             Compliance::new(scene, &problem.units).deflection(contact.force, contact.area)
         });
         let Some(found) = total.and_then(|way| body_depth(&way, asked)) else { break };
@@ -179,12 +213,16 @@ fn to_depth(expected: &Expected, depth: f64) -> Expected {
     Expected { depth, ..expected.clone() }
 }
 
-/// A coarse crush of `scene` to its expected depth, ready to go, after coarse earlier loads. Tool and machine
-/// are stiff.
-fn coarse_problem(scene: &Scene, expected: &Expected, shared: Shared<'_>) -> Option<Problem> {
+/// A coarse crush of `scene` to its expected depth, so many times `finer` than the coarsest, ready to go,
+/// after coarse earlier loads. Tool and machine are stiff.
+fn coarse_problem(
+    scene: &Scene,
+    expected: &Expected,
+    (shared, finer): (Shared<'_>, usize),
+) -> Option<Problem> {
     let numerics = Numerics {
-        elements_in_contact: Some(COARSE_ELEMENTS),
-        steps: Some(COARSE_STEPS),
+        elements_in_contact: Some(finer * COARSE_ELEMENTS),
+        steps: Some(finer * COARSE_STEPS),
         ..Numerics::default()
     };
     let depth = Some(Length(expected.depth * shared.0.length));
@@ -206,10 +244,10 @@ fn coarse_problem(scene: &Scene, expected: &Expected, shared: Shared<'_>) -> Opt
 fn coarse(
     scene: &Scene,
     expected: &Expected,
-    shared: Shared<'_>,
+    (shared, finer): (Shared<'_>, usize),
     of: impl Fn(&Problem, &ContactSums) -> f64,
 ) -> Option<Vec<[f64; 2]>> {
-    let problem = coarse_problem(scene, expected, shared)?;
+    let problem = coarse_problem(scene, expected, (shared, finer))?;
     let mut points = vec![[0.0; 2]];
     // a path that stops early has a curve too
     let _ = Path::new(&problem, shared.1).ok()?.load(&mut |_, increment| {

@@ -17,8 +17,10 @@ use asperity_solver::contact::tool::Tool;
 use asperity_solver::point::kinematics::Symmetry;
 use asperity_solver::point::material::Metal;
 
-/// How far a run that is driven by a force may go beyond the depth at which it is expected.
+/// How far a run that is driven by a force may go beyond the depth at which it is expected, and beyond one
+/// that no coarse run has reached.
 const PROBED_DEPTH_RATIO: f64 = 1.3;
+const PROBED_GUESS_RATIO: f64 = 3.0;
 
 /// The material of `scene`, E = 1.
 pub fn metal(scene: &Scene) -> Metal {
@@ -62,6 +64,8 @@ fn measured_line(line: &Line, length: f64) -> Profile {
 pub struct Expected {
     /// Depth of the peak: the one that is asked for, or the one at which the force is expected.
     pub depth: f64,
+    /// Whether no coarse run has carried the force there: the depth may be further off.
+    pub is_guessed: bool,
     /// The surface that earlier loads left; `None`: that of the scene.
     pub formed: Option<Formed>,
     /// The same of the earlier loads, in their order.
@@ -86,7 +90,7 @@ pub fn prepare(
     let symmetry = scene.symmetry;
     let metal = metal(scene);
     let (profile, tool) = bodies(scene, length)?;
-    let (goal, reach) = goal_and_reach(scene, &units, depth)?;
+    let (goal, reach) = goal_and_reach(scene, &units, expected)?;
     let formed = expected.formed.clone();
     let substrate = scene.substrate.as_ref().and_then(|s| s.depth);
     let support = Support {
@@ -143,11 +147,12 @@ pub fn prepare(
 
 /// Where loading ends, and how deep the mesh is to reach: a force may be found somewhat deeper than the
 /// `depth` at which it is expected.
-fn goal_and_reach(scene: &Scene, units: &Units, depth: f64) -> Result<(Goal, f64), SceneError> {
+fn goal_and_reach(scene: &Scene, units: &Units, expected: &Expected) -> Result<(Goal, f64), SceneError> {
+    let depth = expected.depth;
     Ok(match scene.loading.target().map_err(|e| in_table("loading", e))? {
         Target::Depth(asked) => (Goal::Depth(asked / units.length), depth),
         Target::Force(force) => {
-            let probed = PROBED_DEPTH_RATIO * depth;
+            let probed = depth * if expected.is_guessed { PROBED_GUESS_RATIO } else { PROBED_DEPTH_RATIO };
             let limit = probed.min(scene.deepest() / units.length);
             (Goal::Force { force: force / units.force, expected_depth: depth, limit }, probed)
         }
