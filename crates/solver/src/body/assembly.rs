@@ -7,7 +7,7 @@ use crate::body::failure::Failure;
 use crate::body::state::{Points, State, Trial};
 use crate::body::stiffness::Stiffness;
 use crate::contact::edge::EdgeContact;
-use crate::contact::parts::NOTHING;
+use crate::contact::parts::{NOTHING, Parts};
 use crate::contact::self_contact::Pressed;
 use crate::element::kernel::ElementContext;
 use crate::point::j2::{Linearisation, Tangent};
@@ -89,7 +89,7 @@ impl Body<'_> {
         stiffness: &mut Stiffness,
     ) -> Result<(), Failure> {
         self.assemble_elements(&self.material, state, trial, tangent, response, stiffness)?;
-        self.integrate_contact(state, trial, touching, response);
+        self.integrate_contact(state, trial, touching, state.parts(), response);
         self.balance(state, tangent, response, stiffness);
         Ok(())
     }
@@ -115,8 +115,8 @@ impl Body<'_> {
         Ok(())
     }
 
-    /// Assembles the stiffness of unloading: every point responds elastically, the contact of the converged
-    /// state is kept.
+    /// Assembles the stiffness of unloading: every point responds elastically, and the `kept` parts of the
+    /// edges stay in contact.
     ///
     /// # Errors
     /// An integration point that cannot be updated.
@@ -124,12 +124,13 @@ impl Body<'_> {
         &self,
         state: &State,
         trial: &Trial,
+        kept: &[Parts],
         response: &mut Response,
         stiffness: &mut Stiffness,
     ) -> Result<(), Failure> {
         let elastic = self.material.elastic_part();
         self.assemble_elements(&elastic, state, trial, Tangent::Exact, response, stiffness)?;
-        self.integrate_contact(state, trial, Touching::Kept, response);
+        self.integrate_contact(state, trial, Touching::Kept, kept.iter().copied(), response);
         self.balance(state, Tangent::Exact, response, stiffness);
         Ok(())
     }
@@ -192,8 +193,15 @@ impl Body<'_> {
         motion.evaluate_all(&start, buffers, |cell, output| stiffness.add(cell, &output.stiffness))
     }
 
-    /// Contact loop over the surface edges.
-    fn integrate_contact(&self, state: &State, trial: &Trial, touching: Touching, response: &mut Response) {
+    /// Contact loop over the surface edges, of which the `kept` parts touch where they are not found anew.
+    fn integrate_contact(
+        &self,
+        state: &State,
+        trial: &Trial,
+        touching: Touching,
+        kept: impl Iterator<Item = Parts>,
+        response: &mut Response,
+    ) {
         response.contact.clear();
         response.pressed.clear();
         if !state.facing.is_empty() {
@@ -202,7 +210,7 @@ impl Body<'_> {
         }
         let Some(contact) = self.contact.as_ref().filter(|_| trial.tip.is_finite()) else { return };
         let context = contact.context(trial.tip, trial.penalty, self.symmetry);
-        for (edge, kept) in state.edges.iter().zip(state.parts()) {
+        for (edge, kept) in state.edges.iter().zip(kept) {
             let x = edge.nodes.map(|node| current(&state.position, &trial.displacement, node));
             let parts = match touching {
                 Touching::Kept => kept,

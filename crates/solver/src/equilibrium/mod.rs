@@ -16,6 +16,7 @@ use crate::body::state::{State, Trial};
 use crate::body::stiffness::Stiffness;
 use crate::body::surface::Surface;
 use crate::contact::edge::EdgeContact;
+use crate::contact::parts::{NOTHING, Parts, around};
 use crate::equilibrium::contact_set::ContactSet;
 use crate::equilibrium::factors::Factors;
 use crate::equilibrium::line_search::LineSearch;
@@ -275,15 +276,33 @@ impl<'m> Equilibrium<'m> {
         self.stiffens = stiffens;
     }
 
-    /// dF/dh at the converged state with every point elastic and the contact kept.
+    /// dF/dh at the converged state with every point elastic and the contact kept, linear between that of the
+    /// edges which touch wholly and that of all which touch; dF per travel that of the ends as they are.
+    ///
+    /// A spring on part of an edge holds the shape of all of it: the stiffness of the ends as they are
+    /// depends on their places in their edges. Where contact ends at ends of edges, what the mesh adds is of
+    /// first order in the edge, and a companion shows it.
     ///
     /// # Errors
     /// A stiffness that cannot be factorised.
     pub fn unloading_stiffness(&mut self) -> Result<ToolStiffness, Failure> {
         self.begin(self.state.tip, 0.0, |_| [0.0; 2]);
-        self.body.assemble_elastic(&self.state, &self.trial, &mut self.response, &mut self.stiffness)?;
-        self.has_tangent = true;
+        let parts: Vec<Parts> = self.state.parts().collect();
+        let ([inner, outer], share) = around(&parts);
+        let mut depth = self.elastic_stiffness(&outer)?.depth;
+        if share > 0.0 && inner.iter().any(|touching| *touching != NOTHING) {
+            depth = (1.0 - share) * self.elastic_stiffness(&inner)?.depth + share * depth;
+        }
+        let as_it_is = self.elastic_stiffness(&parts)?;
         self.contact_set.set_keeping(false);
+        Ok(ToolStiffness { depth, ..as_it_is })
+    }
+
+    /// How the force answers the travel with every point elastic and these parts of the edges in contact.
+    fn elastic_stiffness(&mut self, parts: &[Parts]) -> Result<ToolStiffness, Failure> {
+        let Equilibrium { body, state, trial, response, stiffness, .. } = self;
+        body.assemble_elastic(state, trial, parts, response, stiffness)?;
+        self.has_tangent = true;
         self.tool_stiffness()
     }
 
