@@ -139,11 +139,16 @@ impl ContactEdge {
         if reference > 0.0 { current / reference } else { 1.0 }
     }
 
+    /// Places that part it into pieces along which the penetration is smooth.
+    fn places(&self, context: &ContactContext<'_>, x: &[[f64; 2]; 3]) -> Places {
+        Places::of_edge(&x[..self.node_count()], |xi| self.point(x, xi), context.tool, context.tip)
+    }
+
     /// Parts where ε d ≥ 0.
     pub fn touching(&self, context: &ContactContext<'_>, x: &[[f64; 2]; 3]) -> Parts {
         let pressure =
             |xi: f64| context.penalty * context.tool.penetration(self.point(x, xi), context.tip).depth;
-        let places = Places::of_edge(self, x, context.tool, context.tip);
+        let places = self.places(context, x);
         let straight = match context.tool {
             Tool::Plane => true,
             Tool::Cone { tip_radius, .. } => *tip_radius == 0.0 && places.is_empty(),
@@ -192,7 +197,7 @@ impl ContactEdge {
             line: [0.0; 2],
             max_pressure: 0.0,
         };
-        let places = Places::of_edge(self, x, context.tool, context.tip);
+        let places = self.places(context, x);
         for [start, end] in parts.into_iter().flatten().filter(|[start, end]| end > start) {
             let (centre, half) = (0.5 * (start + end), 0.5 * (end - start));
             out.line = [0.0; 2];

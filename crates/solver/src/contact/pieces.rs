@@ -9,7 +9,6 @@
 //! Along an edge the position is a parabola in ξ, so the places follow from a quadratic. Pressure and slope
 //! are continuous there: a division that moves adds nothing to the derivative of an integral over the pieces.
 
-use crate::contact::edge::ContactEdge;
 use crate::contact::tool::{Kink, Tool};
 use asperity_mesh::outline::quadratic_roots;
 
@@ -27,30 +26,30 @@ impl Places {
     /// None.
     pub const NONE: Places = Places { xi: [0.0; MOST_PLACES], count: 0 };
 
-    /// Those at which the foot of the points of `edge`, its nodes at `x`, passes a kink of `tool`, whose
-    /// lowest point is at height `tip`.
-    pub fn of_edge(edge: &ContactEdge, x: &[[f64; 2]; 3], tool: &Tool, tip: f64) -> Places {
-        let radii = x[..edge.node_count()].iter().map(|x| x[0]);
+    /// Those at which the foot of the points of an edge passes a kink of `tool`, whose lowest point is at
+    /// height `tip`. The edge has its nodes at `x`, and at ξ the `point`, a parabola in ξ.
+    pub fn of_edge(x: &[[f64; 2]], point: impl Fn(f64) -> [f64; 2], tool: &Tool, tip: f64) -> Places {
+        let radii = x.iter().map(|x| x[0]);
         let (low, high) = radii.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), r| (a.min(r), b.max(r)));
         let mut places = Places::NONE;
-        tool.kinks_near([low, high], &mut |kink| places.add(edge, x, tip, kink));
+        tool.kinks_near([low, high], &mut |kink| places.add(&point, tip, kink));
         let used = &mut places.xi[..places.count];
         used.sort_by(f64::total_cmp);
         places
     }
 
     /// Those at which the foot passes `kink`, on either side of the axis.
-    fn add(&mut self, edge: &ContactEdge, x: &[[f64; 2]; 3], tip: f64, kink: Kink) {
+    fn add(&mut self, point: &impl Fn(f64) -> [f64; 2], tip: f64, kink: Kink) {
         let sides = if kink.radius == 0.0 { [1.0, 1.0] } else { [1.0, -1.0] };
         for side in &sides[..1 + usize::from(sides[0] != sides[1])] {
             let value = |xi: f64| {
-                let [r, z] = edge.point(x, xi);
+                let [r, z] = point(xi);
                 side * r - kink.radius + kink.slope * (z - tip - kink.rise)
             };
             let (left, middle, right) = (value(-1.0), value(0.0), value(1.0));
             let (a, b) = (0.5 * (left + right) - middle, 0.5 * (right - left));
             for xi in quadratic_roots(a, b, middle).into_iter().flatten() {
-                let on_side = side * edge.point(x, xi)[0] >= 0.0;
+                let on_side = side * point(xi)[0] >= 0.0;
                 if xi > -1.0 && xi < 1.0 && on_side && self.count < MOST_PLACES {
                     self.xi[self.count] = xi;
                     self.count += 1;
