@@ -1,7 +1,8 @@
 //! Loading: along a schedule of depths, or to a travel, a depth or a force at once.
 
+use super::cutback::{NO_EARLY_END, StopAt};
 use super::increment::{Increment, Observer, Stop};
-use super::path::{ContactLoad, NO_EARLY_END, Path, StopAt};
+use super::path::{ContactLoad, Path};
 use super::touches::Touches;
 use crate::record::rows::Phase;
 use crate::setup::problem::Goal;

@@ -1,6 +1,7 @@
 //! The path of the tool, the only one: adaptive increments to a travel, a depth or a force, back to zero
 //! force, and again.
 
+mod cutback;
 mod energy_account;
 mod increment;
 mod load;

@@ -1,4 +1,4 @@
-//! A body on its path: one attempted increment, and halved ones where it does not converge.
+//! A body on its path: one attempted increment, and what follows when it is taken.
 
 use super::energy_account::EnergyAccount;
 use super::increment::{Increment, Observer, Stop};
@@ -11,12 +11,6 @@ use asperity_solver::body::failure::Failure as BodyFailure;
 use asperity_solver::contact::penalty_correction::Punches;
 use asperity_solver::equilibrium::{Equilibrium, SolveFailure};
 use asperity_solver::remesh::distortion::LIMITS_WHILE_LOADING;
-
-/// Halvings of an increment after which the run stops.
-const MAX_HALVINGS: u32 = 7;
-
-/// Halvings of an increment after which a new mesh is tried.
-const HALVINGS_BEFORE_REMESHING: u32 = 3;
 
 /// Elastic logarithmic strain up to which Hencky's law is elliptic (Bruhns, Xiao, Meyers: J. Elasticity 64
 /// (2001)).
@@ -32,18 +26,6 @@ pub(super) const FIRST_GUESS_SHARE: f64 = 0.7;
 /// How far the end of loading may be from the depth or from the root of the force that was asked for,
 /// relative to it.
 pub(super) const GOAL_DISTANCE: f64 = 1e-9;
-
-/// Depth and force at which an increment that is taken in parts ends early.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct StopAt {
-    pub depth: f64,
-    pub force: f64,
-    /// Whether the depth is that of the body, without the deflection of tool and machine.
-    pub of_body: bool,
-}
-
-/// Every part is to be taken.
-pub(super) const NO_EARLY_END: StopAt = StopAt { depth: f64::INFINITY, force: f64::INFINITY, of_body: false };
 
 /// Penetration, force and area of the contact: all that the depth depends on beside the travel.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -65,7 +47,7 @@ pub(super) struct Stand {
     /// Largest travel so far.
     deepest: f64,
     /// Length of the last increment.
-    last_step: f64,
+    pub last_step: f64,
     /// What the contact bears; its penetration is the correction of the travel.
     pub contact: ContactLoad,
     /// dF per travel, known while unloading and reloading.
@@ -179,7 +161,7 @@ impl<'p> Path<'p> {
     }
 
     /// Depth of the body at a `travel` of which a `penetration` is to be taken off, under a `force`.
-    fn body_depth(&self, travel: f64, penetration: f64, force: f64) -> f64 {
+    pub(super) fn body_depth(&self, travel: f64, penetration: f64, force: f64) -> f64 {
         travel - penetration + self.rules().far_field * force
     }
 
@@ -193,15 +175,6 @@ impl<'p> Path<'p> {
     /// Contact area at the last converged increment.
     pub fn area(&self) -> f64 {
         self.stand.contact.area
-    }
-
-    /// The depth that is compared with that of `stop_at`.
-    fn measured_for(&self, stop_at: &StopAt, travel: f64, sums: &ContactSums) -> f64 {
-        if stop_at.of_body {
-            self.body_depth(travel, sums.penetration, sums.force)
-        } else {
-            self.depth(travel, ContactLoad::from_sums(sums))
-        }
     }
 
     /// Solves, but does not accept, the increment to `travel` with the first guess `guess` times the scaled
@@ -331,98 +304,13 @@ impl<'p> Path<'p> {
         done
     }
 
-    /// Goes to `travel` in as few increments as converge; accepts all but the last, which is left attempted.
-    /// That may be one before `travel` that already reaches `stop_at`: where an asperity vanishes into its
-    /// base the penetration falls, and the travel planned with the one before would crush the base itself.
-    pub(super) fn reach_depth(
-        &mut self,
-        travel: f64,
-        stop_at: StopAt,
-        phase: Phase,
-        carry: bool,
-        observer: &mut Observer<'_>,
-    ) -> Result<(f64, ContactSums), Stop> {
-        let mut halvings = 0;
-        let mut stiffens = true;
-        self.model.stiffen(true);
-        let mut next = travel;
-        let mut guess = if carry { FIRST_GUESS_SHARE } else { 0.0 };
-        loop {
-            match self.attempt(next, carry, guess) {
-                Ok(sums)
-                    if self.area() > 0.0
-                        && sums.area > self.rules().area_growth * self.area()
-                        && halvings < MAX_HALVINGS =>
-                {
-                    halvings += 1;
-                    next = 0.5 * (self.stand.travel + next);
-                }
-                Ok(sums)
-                    if next == travel
-                        || self.measured_for(&stop_at, next, &sums) >= stop_at.depth
-                        || sums.force >= stop_at.force =>
-                {
-                    return Ok((next, sums));
-                }
-                Ok(_) => {
-                    self.accept(next, phase, observer)?;
-                    // try to take the rest in steps as long as the one that went
-                    let step = self.stand.last_step;
-                    next = if (travel - next).abs() <= 1.01 * step.abs() { travel } else { next + step };
-                }
-                Err(_) if halvings == HALVINGS_BEFORE_REMESHING && self.remesh() => {
-                    self.counts.cutbacks += 1;
-                    halvings = 0;
-                    next = travel;
-                    guess = 0.0;
-                }
-                Err(_) if halvings >= MAX_HALVINGS && stiffens => {
-                    // a stiffer tangent converges slowly, and can end in a place that no smaller increment
-                    // leads out of
-                    stiffens = false;
-                    self.model.stiffen(false);
-                    halvings = 0;
-                    next = travel;
-                }
-                Err(failure) => {
-                    if halvings >= MAX_HALVINGS {
-                        return Err(self.stop(&failure));
-                    }
-                    halvings += 1;
-                    self.counts.cutbacks += 1;
-                    next = 0.5 * (self.stand.travel + next);
-                    guess = 0.0;
-                }
-            }
-        }
-    }
-
-    /// Why the path ends where the smallest increment has no equilibrium.
-    fn stop(&self, failure: &SolveFailure) -> Stop {
-        self.because(match failure {
-            SolveFailure::System(BodyFailure::Element { .. }) => Stop::Distorted,
-            _ => Stop::NoEquilibrium,
-        })
-    }
-
     /// The `stop`, or what led to it: beyond its limit the law of elasticity lets metal fold and turn inside
     /// out.
-    fn because(&self, stop: Stop) -> Stop {
+    pub(super) fn because(&self, stop: Stop) -> Stop {
         if self.model.state().largest_elastic_strain() > LARGEST_ELASTIC_STRAIN {
             Stop::ElasticStrain
         } else {
             stop
         }
-    }
-
-    /// [`Path::reach_depth`] all the way.
-    pub(super) fn reach(
-        &mut self,
-        travel: f64,
-        phase: Phase,
-        carry: bool,
-        observer: &mut Observer<'_>,
-    ) -> Result<ContactSums, Stop> {
-        self.reach_depth(travel, NO_EARLY_END, phase, carry, observer).map(|(_, sums)| sums)
     }
 }
