@@ -80,30 +80,37 @@ pub fn mesh(args: &MeshCommand) -> Result<(), Error> {
     let (path, format) = target(args)?;
     let scene = args.scene_flags.read(&args.scene)?;
     let mesh = asperity::mesh::mesh(&scene)?;
-    let bytes = content(&scene, &mesh, format)?;
+    let (bytes, warnings) = content(&scene, &mesh, format)?;
     write_whole(&path, &bytes)
         .map_err(|e| InputError::new(e.to_string()).help("give another file with -o"))?;
     if !args.quiet {
+        warnings.iter().for_each(terminal::warn);
         terminal::say(&overview(&mesh));
         terminal::say(&format!("written    {}", path.display()));
     }
     Ok(())
 }
 
-/// The content of the file: the mesh for ParaView in µm, for Gmsh in m, or the whole scene for CalculiX.
-fn content(scene: &Scene, mesh: &Mesh, format: MeshFormat) -> Result<Vec<u8>, Error> {
+/// The content of the file: the mesh for ParaView in µm, for Gmsh in m, or the whole scene for CalculiX; and
+/// what it says worse than the scene.
+fn content(scene: &Scene, mesh: &Mesh, format: MeshFormat) -> Result<(Vec<u8>, Vec<String>), Error> {
     fn failed(e: impl Display) -> Error {
         Error::Unfinished(format!("the mesh cannot be written: {e}"))
     }
-    let deck = |reader| Deck::new(&scene.name(), scene, reader);
     let mut out = Vec::new();
+    let mut warnings = Vec::new();
+    let mut write_deck = |out: &mut Vec<u8>, reader| -> Result<(), Error> {
+        let deck = Deck::new(&scene.name(), scene, reader)?;
+        warnings = deck.warnings();
+        deck.write(out).map_err(failed)
+    };
     match format {
         MeshFormat::Vtu => write_vtu(&mut out, mesh, 1.0 / MICROMETRE, &[], &[], &[]).map_err(failed)?,
         MeshFormat::Msh => write_msh(&mut out, mesh).map_err(failed)?,
-        MeshFormat::Inp => deck(Reader::CalculiX)?.write(&mut out).map_err(failed)?,
-        MeshFormat::Abaqus => deck(Reader::Abaqus)?.write(&mut out).map_err(failed)?,
+        MeshFormat::Inp => write_deck(&mut out, Reader::CalculiX)?,
+        MeshFormat::Abaqus => write_deck(&mut out, Reader::Abaqus)?,
     }
-    Ok(out)
+    Ok((out, warnings))
 }
 
 /// Sizes and quality, a line each.

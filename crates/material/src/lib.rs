@@ -7,6 +7,7 @@ mod flow_curve;
 mod hardening;
 mod hardening_curve;
 mod hardening_table;
+mod plastic_table;
 pub mod range;
 mod voce;
 
@@ -16,6 +17,7 @@ pub use flow_curve::{FlowCurve, OwnLaw, refuse_custom, write_custom};
 pub use hardening::{Hardening, HardeningLaw, HardeningPoint};
 pub use hardening_curve::{HardeningCurve, HardeningMode, StressMeasure};
 pub use hardening_table::{HardeningTable, LARGEST_TABLE, TableError};
+pub use plastic_table::{PlasticTable, curve_table};
 pub use voce::Voce;
 
 /// Quantities with units, which stresses and lengths are written in.

@@ -1,10 +1,10 @@
 //! The content of a deck, made of a scene.
 
 use super::outline::outline;
-use super::table::{self, PlasticTable};
 use crate::error::Error;
 use crate::input::scene::Scene;
 use crate::mesh::problem;
+use asperity_material::{PlasticTable, curve_table};
 use asperity_mesh::{Edge, Mesh, Section};
 use asperity_simulation::scene::{Lateral, Scene as Tables, SceneError, Target};
 use asperity_simulation::setup::problem::Problem;
@@ -23,6 +23,12 @@ const HOLE: f64 = 1e-3;
 
 /// Edges of the surface closer to the tool than this many depths may touch it.
 const REACH: f64 = 2.0;
+
+/// Points of hardening: CalculiX holds 200 for a material.
+const POINTS: usize = 200;
+
+/// Error of a table of hardening, relative to its stress, above which a deck warns.
+const COARSE: f64 = 0.01;
 
 /// The program that a deck is written for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -117,7 +123,7 @@ impl Deck {
             mesh: opened(&problem.mesh, section, hole).scaled(um),
             section,
             elastic: [problem.units.stress / STRESS, problem.metal.elastic.poissons_ratio],
-            table: hardening.map(|curve| table::curve_table(&curve, STRESS)),
+            table: hardening.map(|curve| curve_table(&curve, STRESS, POINTS)),
             penalty: problem.penalty * problem.units.stress / STRESS / um,
             penetration: problem.numbers.penetration,
             symmetric: scene.lateral == Lateral::Symmetric,
@@ -127,6 +133,20 @@ impl Deck {
             travels: travels.0.into_iter().chain(travels.1).map(|t| um * t).collect(),
             depth: um * problem.depth,
         })
+    }
+
+    /// What the deck says worse than the scene, a sentence each.
+    pub fn warnings(&self) -> Vec<String> {
+        let coarse = self.table.as_ref().filter(|table| table.error > COARSE);
+        let message = coarse.map(|table| {
+            format!(
+                "the {} points of hardening that CalculiX holds miss the law by up to {:.1} % of its stress: \
+                 it bends too sharply for them, most of all just after first yield; take a law or a table with fewer bends",
+                table.points.len(),
+                100.0 * table.error
+            )
+        });
+        message.into_iter().collect()
     }
 }
 
@@ -138,9 +158,9 @@ fn check(scene: &Tables) -> Result<(), SceneError> {
         let message = "a deck hardens isotropically: leave hardening_mode out";
         return Err(error("material.hardening_mode", message));
     }
-    if points > table::POINTS {
-        let most = table::POINTS;
-        let message = format!("CalculiX holds {most} points of hardening, not {points}: thin the table out");
+    if points > POINTS {
+        let message =
+            format!("CalculiX holds {POINTS} points of hardening, not {points}: thin the table out");
         return Err(error("material.hardening_table", message));
     }
     if scene.tool.youngs_modulus.is_some() || scene.tool.machine_compliance.is_some() {

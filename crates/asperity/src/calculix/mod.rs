@@ -3,8 +3,6 @@
 
 mod outline;
 
-mod table;
-
 mod deck;
 
 mod write;

@@ -58,6 +58,17 @@ impl Deck {
             100.0 * self.penetration,
             self.depth
         )?;
+        if let Some(table) = self.table.as_ref().filter(|table| table.error > 0.0) {
+            writeln!(
+                out,
+                "** The table of hardening has {} points; between them, as a share of its stress, the law is met to {:.1e}",
+                table.points.len(),
+                table.error
+            )?;
+        }
+        for warning in self.warnings() {
+            writeln!(out, "** warning: {warning}")?;
+        }
         if self.mesh.kind == ElementKind::Quad4 {
             writeln!(
                 out,
@@ -108,11 +119,7 @@ impl Deck {
         let elastic = format!("*ELASTIC\n{}, {}", number(self.elastic[0]), number(self.elastic[1]));
         writeln!(out, "*MATERIAL, NAME=METAL\n{elastic}")?;
         if let Some(table) = &self.table {
-            writeln!(
-                out,
-                "** yield stress over plastic strain; between the points the law is met to {:.1e}\n*PLASTIC",
-                table.error
-            )?;
+            writeln!(out, "** yield stress over plastic strain\n*PLASTIC")?;
             for [stress, strain] in &table.points {
                 writeln!(out, "{}, {}", number(*stress), number(*strain))?;
             }
