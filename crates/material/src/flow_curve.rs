@@ -11,7 +11,9 @@ use std::sync::Arc;
 ///
 /// All stresses are Pa, whatever unit the solver computes in. The functions are pure: the same argument gives
 /// the same bits, whichever thread asks. The yield stress is finite and positive and never falls; softening
-/// would localise where the mesh lets it.
+/// would localise where the mesh lets it. The slope is finite everywhere: a law that is vertical at first
+/// yield, as K ε_p^m with m < 1, gives at 0 the large slope that it has a little further on. No result
+/// depends on that number, which the first return alone asks for.
 ///
 /// ```
 /// use asperity_material::FlowCurve;
@@ -44,14 +46,15 @@ use std::sync::Arc;
 /// assert!((1e9 - 240e9 * strain - law.flow(strain)[0]).abs() < 1.0);
 /// ```
 pub trait FlowCurve: fmt::Debug + Send + Sync {
-    /// Name of the law in results.
+    /// Name of the law in results, not one of a built-in law.
     fn name(&self) -> &str;
 
     /// Its numbers in SI by name, for results. Two curves of one name and the same numbers are taken to be
     /// the same curve.
     fn parameters(&self) -> Vec<(&str, f64)>;
 
-    /// Yield stress and hardening modulus dσ/dε_p, Pa, at accumulated plastic strain `plastic_strain` ≥ 0.
+    /// Yield stress and hardening modulus dσ/dε_p, Pa, at accumulated plastic strain `plastic_strain` ≥ 0;
+    /// both finite, at 0 too.
     fn flow(&self, plastic_strain: f64) -> [f64; 2];
 
     /// Radial return: the plastic strain ε_p at which `q_trial - 3G (ε_p - ε_p,old) = σ(ε_p)`.
@@ -80,7 +83,8 @@ fn bracketed_return(flow: impl Fn(f64) -> [f64; 2], q_trial: f64, three_g: f64, 
     let mut gap = q_trial - stress[0];
     let mut step = 0.0;
     for _ in 0..MOST_STEPS {
-        let newton = step + gap / (three_g + stress[1]);
+        // a slope without a bound would end the search where it stands
+        let newton = if stress[1].is_finite() { step + gap / (three_g + stress[1]) } else { f64::NAN };
         let inside = newton >= low && newton <= high;
         let next = if inside { newton } else { 0.5 * (low + high) };
         let change = (next - step).abs();
@@ -247,6 +251,20 @@ mod tests {
                 assert!(gap.abs() <= 1e-14 * (q + 240e9 * old), "{old} {overshoot} {gap}");
                 assert!(strain >= old);
             }
+        }
+    }
+
+    /// The slope at 0 may be anything: the flow is that of the curve.
+    #[test]
+    fn the_provided_return_leaves_a_vertical_first_yield() {
+        for slope_at_0 in [f64::INFINITY, 1e150, 1e12] {
+            let root = |strain: f64| {
+                let slope = if strain > 0.0 { 250e6 / strain.sqrt() } else { slope_at_0 };
+                [300e6 + 500e6 * strain.sqrt(), slope]
+            };
+            let strain = bracketed_return(root, 1e9, 240e9, 0.0);
+            let gap = 1e9 - 240e9 * strain - root(strain)[0];
+            assert!(strain > 0.0 && gap.abs() < 1e-5, "{slope_at_0} {strain} {gap}");
         }
     }
 

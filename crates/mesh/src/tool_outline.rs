@@ -56,7 +56,7 @@ const LEAST_SLOPE: f64 = 1e-3;
 /// assert!((tool.rise(1.0) - 0.25).abs() < 1e-15 && (tool.half_width(0.25) - 1.0).abs() < 1e-15);
 /// ```
 pub trait ToolOutline: fmt::Debug + Send + Sync {
-    /// Name of the tool in results.
+    /// Name of the tool in results, not one of a built-in tool.
     fn name(&self) -> &str;
 
     /// Its numbers in SI by name, for results. Two outlines of one name and the same numbers are taken to be
@@ -65,7 +65,8 @@ pub trait ToolOutline: fmt::Debug + Send + Sync {
 
     /// Penetration of the point (r, z), r ≥ 0, m, with its derivatives. Of a signed distance the pressure of
     /// the contact is that of the same penalty everywhere; another measure must have a slope of length near 1
-    /// at the outline.
+    /// at the outline: z less the height of the outline becomes a distance to first order where it is divided
+    /// by the length of its gradient.
     fn penetration(&self, x: [f64; 2]) -> Penetration;
 
     /// Height of the outline at the distance `r` ≥ 0 from the axis. Unless given: where the penetration is 0.

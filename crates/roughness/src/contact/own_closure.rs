@@ -39,7 +39,7 @@ use std::sync::Arc;
 /// assert_eq!(Proportional { modulus: 2e9 }.elastic_pressure(0.1), 2e8);
 /// ```
 pub trait IslandClosure: fmt::Debug + Send + Sync {
-    /// Name of the closure in results.
+    /// Name of the closure in results, not one of a built-in closure.
     fn name(&self) -> &str;
 
     /// Where it comes from, in one line.

@@ -17,6 +17,8 @@ enum End {
     Radius,
     /// The end of a measured tool.
     Outline,
+    /// The depth that an outline of functions names.
+    Own,
     /// The fixed base of the body.
     Bottom,
 }
@@ -128,7 +130,7 @@ impl Scene {
         if self.is_flat() && flattens {
             return Err(error(
                 "asperity",
-                "a plane needs something to crush: give at least one [[asperity]], or a tool that is a cone or a sphere",
+                "a plane needs something to crush: give at least one [[asperity]], or a tool that is not a plane",
             ));
         }
         let substrate = self.substrate.unwrap_or_default();
@@ -176,7 +178,7 @@ impl Scene {
             Ok(ToolForm::Plane) if highest > 0.0 => Some((End::Height, highest)),
             Ok(ToolForm::Sphere { radius }) => Some((End::Radius, radius)),
             Ok(ToolForm::Measured(outline)) => Some((End::Outline, outline.lowest())),
-            Ok(ToolForm::Own(tool)) => Some((End::Outline, tool.outline().deepest())),
+            Ok(ToolForm::Own(tool)) => Some((End::Own, tool.outline().deepest())),
             _ => None,
         };
         let bottom = self.substrate.and_then(|s| s.depth).map(|d| (End::Bottom, highest + d.0));
@@ -187,7 +189,7 @@ impl Scene {
     pub fn deepest(&self) -> f64 {
         self.ends()
             .map(|(end, depth)| match end {
-                End::Height | End::Radius | End::Outline => depth,
+                End::Height | End::Radius | End::Outline | End::Own => depth,
                 // a hair above the bottom, which itself is refused
                 End::Bottom => 0.999 * depth,
             })
@@ -225,6 +227,11 @@ impl Scene {
             )),
             End::Outline if depth.0 > most => Some(format!(
                 "the tool is known up to {} above its apex, so it can go no deeper, not {}: ask for less, or measure more of it",
+                length(most),
+                length(depth.0)
+            )),
+            End::Own if depth.0 > most => Some(format!(
+                "the tool can go at most {} deep, where its outline ends, not {}: ask for less, or take a tool whose outline goes further",
                 length(most),
                 length(depth.0)
             )),

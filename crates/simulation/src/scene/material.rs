@@ -92,6 +92,23 @@ pub enum HardeningChoice {
     Custom,
 }
 
+impl HardeningChoice {
+    /// Those that a file may name.
+    pub(super) const OF_FILES: [HardeningChoice; 4] =
+        [HardeningChoice::Hollomon, HardeningChoice::Swift, HardeningChoice::Voce, HardeningChoice::Table];
+
+    /// Name in a scene.
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            HardeningChoice::Hollomon => HardeningLaw::Hollomon.name(),
+            HardeningChoice::Swift => HardeningLaw::Swift.name(),
+            HardeningChoice::Voce => "voce",
+            HardeningChoice::Table => "table",
+            HardeningChoice::Custom => "custom",
+        }
+    }
+}
+
 impl From<HardeningLaw> for HardeningChoice {
     fn from(law: HardeningLaw) -> Self {
         match law {
@@ -193,17 +210,17 @@ impl Material {
 
     /// No key belongs to another law.
     fn check_keys_of_laws(&self) -> Check {
-        for (path, given, law, name) in [
-            ("hardening_file", self.hardening_file.is_some(), HardeningChoice::Table, "table"),
-            ("hardening_table", self.hardening_table.is_some(), HardeningChoice::Table, "table"),
-            ("saturation_stress", self.saturation_stress.is_some(), HardeningChoice::Voce, "voce"),
-            ("saturation_strain", self.saturation_strain.is_some(), HardeningChoice::Voce, "voce"),
-            ("custom", self.custom.is_some(), HardeningChoice::Custom, "custom"),
+        for (path, given, law) in [
+            ("hardening_file", self.hardening_file.is_some(), HardeningChoice::Table),
+            ("hardening_table", self.hardening_table.is_some(), HardeningChoice::Table),
+            ("saturation_stress", self.saturation_stress.is_some(), HardeningChoice::Voce),
+            ("saturation_strain", self.saturation_strain.is_some(), HardeningChoice::Voce),
+            ("custom", self.custom.is_some(), HardeningChoice::Custom),
         ] {
             if given && self.hardening_law != law {
                 return Err(error(
                     path,
-                    format!("needs hardening_law = \"{name}\" beside it: add that, or remove it"),
+                    format!("needs hardening_law = \"{}\" beside it: add that, or remove it", law.name()),
                 ));
             }
         }
@@ -281,11 +298,23 @@ impl Material {
             }
         }
         let Some(law) = &self.custom else {
-            let message = "\"custom\" is a law that a program hands in: a file takes \"hollomon\", \"swift\", \"voce\" or \"table\"";
+            let names = HardeningChoice::OF_FILES.map(|law| format!("\"{}\"", law.name())).join(", ");
+            let message = format!("\"custom\" is a law that a program hands in: a file takes one of {names}");
             return Err(error("hardening_law", message));
         };
-        let first = Stress(law.flow(0.0).yield_stress);
+        let virgin = law.flow(0.0);
+        let first = Stress(virgin.yield_stress);
         self.check_yield_stress("custom", first, "correct the law, which speaks Pa")?;
+        if !(virgin.slope.is_finite() && virgin.slope >= 0.0) {
+            return Err(error(
+                "custom",
+                format!(
+                    "the slope of \"{}\" at the plastic strain 0 must be finite and at least 0, not {} Pa: where the law is vertical there, give the slope a little further on",
+                    law.law().name(),
+                    virgin.slope
+                ),
+            ));
+        }
         let mut last = first.0;
         for strain in [1e-4, 1e-3, 0.01, 0.1, 1.0, 10.0] {
             let flow = law.flow(strain);

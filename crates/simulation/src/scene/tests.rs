@@ -1,7 +1,7 @@
 use super::*;
 use asperity_material::HardeningMode;
-use asperity_material::StressMeasure;
 use asperity_material::units::Stress;
+use std::sync::Arc;
 
 /// The asperity of the paper.
 fn scene() -> Scene {
@@ -9,21 +9,7 @@ fn scene() -> Scene {
         symmetry: Symmetry::Axisymmetric,
         accuracy: Accuracy::Standard,
         lateral: Lateral::Free,
-        material: Material {
-            youngs_modulus: Stress(210e9),
-            poissons_ratio: 0.3,
-            yield_stress: Some(Stress(300e6)),
-            hardening_exponent: Some(0.3),
-            hardening_law: HardeningChoice::Hollomon,
-            saturation_stress: None,
-            saturation_strain: None,
-            hardening_file: None,
-            hardening_table: None,
-            stress_measure: StressMeasure::Cauchy,
-            hardening_mode: HardeningMode::Isotropic,
-            kinematic_share: None,
-            custom: None,
-        },
+        material: Material::elastic_body(Stress(210e9), 0.3).yielding(Stress(300e6), 0.3),
         asperity: vec![cone()],
         profile: Vec::new(),
         substrate: None,
@@ -370,6 +356,77 @@ fn a_tool_goes_no_deeper_than_itself_and_the_body() {
     assert_eq!(ball_on_flat.validate().unwrap_err().path, "loading.depth");
     let cone_on_flat = Tool { shape: ToolShape::Cone, slope_deg: Some(20.0), ..plane() };
     assert_eq!(Scene { asperity: vec![], tool: cone_on_flat, ..scene() }.deepest(), f64::INFINITY);
+}
+
+/// A paraboloid that is known up to 3 µm, as another crate hands it in.
+#[derive(Debug)]
+struct Known;
+
+impl asperity_mesh::ToolOutline for Known {
+    fn name(&self) -> &str {
+        "known"
+    }
+    fn parameters(&self) -> Vec<(&str, f64)> {
+        Vec::new()
+    }
+    fn penetration(&self, [r, z]: [f64; 2]) -> asperity_mesh::Penetration {
+        let curvature = [-1e4, 0.0, 0.0];
+        asperity_mesh::Penetration { depth: z - 5e3 * r * r, slope: [-1e4 * r, 1.0], curvature }
+    }
+    fn deepest(&self) -> f64 {
+        3e-6
+    }
+}
+
+#[test]
+fn an_outline_of_functions_says_where_it_ends() {
+    let mut scene = Scene { asperity: vec![], tool: Tool::custom(Arc::new(Known)), ..scene() };
+    let error = scene.validate().unwrap_err();
+    assert_eq!(error.path, "loading.depth");
+    assert!(error.message.contains("at most 3 um") && !error.message.contains("measure"), "{error}");
+    scene.loading.depth = um(3.0);
+    assert_eq!(scene.validate(), Ok(()));
+}
+
+/// A law that is vertical at first yield, and says so.
+#[derive(Debug)]
+struct Vertical;
+
+impl asperity_material::FlowCurve for Vertical {
+    fn name(&self) -> &str {
+        "vertical"
+    }
+    fn parameters(&self) -> Vec<(&str, f64)> {
+        Vec::new()
+    }
+    fn flow(&self, plastic_strain: f64) -> [f64; 2] {
+        [300e6 + 500e6 * plastic_strain.sqrt(), 250e6 / plastic_strain.sqrt()]
+    }
+}
+
+#[test]
+fn a_law_without_a_slope_at_first_yield_is_refused() {
+    let material = Material::elastic_body(Stress(210e9), 0.3).hardening_as(Arc::new(Vertical));
+    let error = Scene { material, ..scene() }.validate().unwrap_err();
+    assert_eq!(error.path, "material.custom");
+    for words in ["at the plastic strain 0 must be finite", "not inf Pa", "a little further on"] {
+        assert!(error.message.contains(words), "{error}");
+    }
+}
+
+#[test]
+fn the_names_of_laws_are_those_of_a_file() {
+    for law in HardeningChoice::OF_FILES {
+        assert_eq!(serde_json::to_value(law).unwrap(), law.name());
+    }
+    // every law but that of a program
+    let schema = serde_json::to_string(&schemars::schema_for!(HardeningChoice)).unwrap();
+    assert_eq!(schema.matches("\"const\"").count(), HardeningChoice::OF_FILES.len(), "{schema}");
+    let mut unnamed = scene();
+    unnamed.material = Material::elastic_body(Stress(210e9), 0.3);
+    unnamed.material.hardening_law = HardeningChoice::Custom;
+    let error = unnamed.validate().unwrap_err();
+    assert!(HardeningChoice::OF_FILES.iter().all(|law| error.message.contains(law.name())), "{error}");
 }
 
 #[test]
