@@ -1,8 +1,8 @@
 //! The content of a fit file: the metal with what is known and sought of it, and the measurements.
 
 use crate::known_or_unknown::{KnownOrUnknown, Percent};
-use asperity_material::StressMeasure;
 use asperity_material::units::{Compliance, Length, Stiffness, Stress};
+use asperity_material::{HardeningLaw, StressMeasure};
 use asperity_simulation::scene::{Asperity, HardeningChoice};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -60,9 +60,10 @@ pub struct FitMaterial {
     /// Hardening exponent n in [0, 1).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hardening_exponent: Option<KnownOrUnknown<f64>>,
-    /// Hardening law: `hollomon` (power law in total strain), `swift` (power law in plastic strain) or `table`.
-    #[serde(default = "hollomon")]
-    pub hardening_law: HardeningChoice,
+    /// Hardening law: `hollomon` (power law in total strain), `swift` (power law in plastic strain) or `table`, whose points follow
+    /// any other law.
+    #[serde(default)]
+    pub hardening_law: FitLaw,
     /// For hardening_law = "table": plastic strain, from 0, and yield stress (known or sought), point by point.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hardening_table: Option<Vec<(f64, KnownOrUnknown<Stress>)>>,
@@ -71,8 +72,34 @@ pub struct FitMaterial {
     pub stress_measure: StressMeasure,
 }
 
-fn hollomon() -> HardeningChoice {
-    HardeningChoice::Hollomon
+/// How the curve of hardening that is sought is given.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum FitLaw {
+    /// By eq. (1) in the total strain.
+    #[default]
+    Hollomon,
+    /// By a power law in the plastic strain.
+    Swift,
+    /// By a table of yield stress over plastic strain.
+    Table,
+}
+
+impl FitLaw {
+    /// The power law; `None` of a table.
+    pub fn power_law(self) -> Option<HardeningLaw> {
+        match self {
+            FitLaw::Hollomon => Some(HardeningLaw::Hollomon),
+            FitLaw::Swift => Some(HardeningLaw::Swift),
+            FitLaw::Table => None,
+        }
+    }
+}
+
+impl From<FitLaw> for HardeningChoice {
+    fn from(law: FitLaw) -> Self {
+        law.power_law().map_or(HardeningChoice::Table, Into::into)
+    }
 }
 
 /// A measurement: a force-depth curve in a file, or features of one.

@@ -3,9 +3,9 @@
 use crate::fit_file::FitMaterial;
 use crate::known_or_unknown::KnownOrUnknown;
 use asperity_material::units::{Stress, rounded};
-use asperity_material::{Elastic, Hardening, HardeningCurve, HardeningLaw, HardeningTable, range};
+use asperity_material::{Elastic, Hardening, HardeningCurve, HardeningTable, range};
 use asperity_numerics::sobol::Sobol;
-use asperity_simulation::scene::{HardeningChoice, Material};
+use asperity_simulation::scene::Material;
 
 /// Quantity that a parameter stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -155,12 +155,7 @@ impl Unknowns {
         let given = &self.material;
         let modulus = self.number(point, Slot::YoungsModulus, given.youngs_modulus.map(|e| e.0));
         let ratio = self.number(point, Slot::PoissonsRatio, given.poissons_ratio);
-        let law = match given.hardening_law {
-            HardeningChoice::Hollomon => Some(HardeningLaw::Hollomon),
-            HardeningChoice::Swift => Some(HardeningLaw::Swift),
-            _ => None,
-        };
-        let hardening: HardeningCurve = match law {
+        let hardening: HardeningCurve = match given.hardening_law.power_law() {
             Some(law) => {
                 let yield_stress = self.number(point, Slot::YieldStress, given.yield_stress?.map(|s| s.0));
                 let exponent = self.number(point, Slot::HardeningExponent, given.hardening_exponent?);
@@ -189,7 +184,7 @@ impl Unknowns {
         let five = |x: f64| rounded(x, 5);
         let modulus = Stress(five(elastic.youngs_modulus));
         let body = Material {
-            hardening_law: self.material.hardening_law,
+            hardening_law: self.material.hardening_law.into(),
             stress_measure: self.material.stress_measure,
             ..Material::elastic_body(modulus, five(elastic.poissons_ratio))
         };

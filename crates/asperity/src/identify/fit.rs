@@ -7,12 +7,12 @@ use crate::error::Error;
 use crate::input::toml_file::TomlFile;
 use asperity_identification::emulator::Emulator;
 use asperity_identification::experiment::{Data, Experiment};
-use asperity_identification::fit_file::{FitAccuracy, FitCurve, FitFile, FitShape, Nuisance};
+use asperity_identification::fit_file::{FitAccuracy, FitCurve, FitFile, FitLaw, FitShape, Nuisance};
 use asperity_identification::known_or_unknown::KnownOrUnknown;
 use asperity_identification::parameters::Unknowns;
 use asperity_identification::response::{Geometry, NUMBERS_AFTER_LOADING};
 use asperity_material::{Elastic, StressMeasure};
-use asperity_simulation::scene::{Accuracy, HardeningChoice};
+use asperity_simulation::scene::Accuracy;
 use std::path::Path;
 
 /// A fit ready to be searched.
@@ -130,7 +130,7 @@ impl Fit {
             );
             return Err(file.error_at("", &message).into());
         }
-        let like = tables.material.hardening_law != HardeningChoice::Table
+        let like = tables.material.hardening_law != FitLaw::Table
             && tables.material.stress_measure == StressMeasure::Cauchy;
         for experiment in &mut experiments {
             experiment.emulator = Emulator::of_a_cone(1 + NUMBERS_AFTER_LOADING, like);

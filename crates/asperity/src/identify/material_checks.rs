@@ -1,10 +1,9 @@
 //! Checks of the metal of a fit.
 
-use asperity_identification::fit_file::FitMaterial;
+use asperity_identification::fit_file::{FitLaw, FitMaterial};
 use asperity_identification::known_or_unknown::KnownOrUnknown;
 use asperity_material::range;
 use asperity_material::units::Stress;
-use asperity_simulation::scene::HardeningChoice;
 
 /// A key of a table and the sentence that refuses its value.
 pub(super) type KeyError = (String, String);
@@ -40,14 +39,8 @@ pub(super) fn check_material(material: &FitMaterial) -> Result<(), KeyError> {
     let modulus = material.youngs_modulus.map(|e| e.in_unit("GPa"));
     check_number("youngs_modulus", modulus, range::FITTED_MODULI_GPA, " GPa")?;
     check_number("poissons_ratio", material.poissons_ratio, range::FITTED_POISSONS_RATIOS, "")?;
-    if material.hardening_law == HardeningChoice::Table {
+    if material.hardening_law == FitLaw::Table {
         return check_table(material);
-    }
-    if !matches!(material.hardening_law, HardeningChoice::Hollomon | HardeningChoice::Swift) {
-        return Err(key_error(
-            "hardening_law",
-            "a fit takes \"hollomon\", \"swift\" or \"table\": points of a table follow any other law",
-        ));
     }
     if material.hardening_table.is_some() {
         return Err(key_error(
