@@ -138,7 +138,7 @@ def test_scenes_go_to_toml_and_back() -> None:
     again = asperity.Scene.from_toml(scene.to_toml())
     assert again == scene and eval(repr(scene), {"Scene": asperity.Scene}) == scene
     deeper = scene.set("loading.depth", "3 um")
-    assert deeper != scene and deeper.tables["loading"]["depth"] == "3e-6 m"
+    assert deeper != scene and deeper.tables["loading"]["depth"] == "3 um"
     assert scene.set("asperity[0].slope_deg", np.float64(8.0)).tables["asperity"][0]["slope_deg"] == 8.0
 
 

@@ -81,6 +81,19 @@ pub fn rounded(value: f64, digits: usize) -> f64 {
     format!("{value:.*e}", digits.saturating_sub(1)).parse().unwrap_or(value)
 }
 
+/// The shortest text that [`parse`] reads back to the bits of `value`, which is in `si`: of several equally
+/// short ones that of the first unit. A value that is not finite has only its SI unit.
+fn shortest(value: f64, si: &str, units: &[(&str, f64)]) -> String {
+    let in_unit = |(name, scale): &(&str, f64)| {
+        let mut numbers = (1..=17).map(|digits| rounded(value / scale, digits));
+        let number = numbers.find(|number| number * scale == value)?;
+        let digits = format!("{number:?}");
+        Some(format!("{} {name}", digits.strip_suffix(".0").unwrap_or(&digits)))
+    };
+    let ascii = units.iter().filter(|(name, _)| name.is_ascii());
+    ascii.filter_map(in_unit).min_by_key(String::len).unwrap_or_else(|| format!("{value:?} {si}"))
+}
+
 macro_rules! quantity {
     ($(#[$doc:meta])* $name:ident, $dimension:literal, $si:literal, $units:expr) => {
         $(#[$doc])*
@@ -111,9 +124,9 @@ macro_rules! quantity {
         }
 
         impl fmt::Display for $name {
-            /// In the SI unit, shortest digits that read back to the same value.
+            /// The shortest text that reads back to the same bits.
             fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                write!(f, "{:?} {}", self.0, $si)
+                f.write_str(&shortest(self.0, $si, Self::UNITS))
             }
         }
 
@@ -190,8 +203,25 @@ mod tests {
 
     #[test]
     fn a_written_quantity_reads_back_to_the_same_bits() {
-        for v in [20e-6, 1.0 / 3.0, 2e-300, 1e300] {
-            assert_eq!(Length(v).to_string().parse::<Length>().unwrap().0, v);
+        let odd = [20e-6, 1.0 / 3.0, 2e-300, 1e300, f64::MAX, -0.1, 0.0];
+        let whole = (0..2000).map(|i| f64::from(i) * 1e-6);
+        let any = (0..2000).map(|i| (0.37 * f64::from(i) - 300.0).exp());
+        for v in odd.into_iter().chain(whole).chain(any) {
+            assert_eq!(Length(v).to_string().parse::<Length>().unwrap().0.to_bits(), v.to_bits(), "{v:e}");
+            assert_eq!(Stress(v).to_string().parse::<Stress>().unwrap().0.to_bits(), v.to_bits(), "{v:e}");
         }
+    }
+
+    #[test]
+    fn a_quantity_is_written_as_a_person_writes_it() {
+        for text in ["50 um", "0.3 um", "20 nm", "114.3 um", "1 mm", "1 m", "0 m", "1e-20 m"] {
+            assert_eq!(text.parse::<Length>().unwrap().to_string(), text);
+        }
+        for text in ["210 GPa", "300 MPa", "1141 GPa", "0.3 Pa"] {
+            assert_eq!(text.parse::<Stress>().unwrap().to_string(), text);
+        }
+        assert_eq!("30 uN".parse::<Force>().unwrap().to_string(), "30 uN");
+        assert_eq!(Compliance(0.5 * 1e-6).to_string(), "0.5 um/N");
+        assert_eq!(Length(f64::NAN).to_string(), "NaN m");
     }
 }

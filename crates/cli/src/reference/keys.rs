@@ -113,23 +113,10 @@ fn range(value: &Value) -> String {
     if ends.is_empty() { String::new() } else { format!(" {}", ends.join(", ").replace('<', "&lt;")) }
 }
 
-/// A default as a person writes it: whole megapascals as such.
-fn readable(value: &Value) -> Value {
-    match value {
-        Value::Array(list) => list.iter().map(readable).collect(),
-        Value::String(text) => {
-            let pascals = text.strip_suffix(" Pa").and_then(|number| number.parse::<f64>().ok());
-            let whole = pascals.filter(|p| *p >= 1e6 && p % 1e6 == 0.0);
-            whole.map_or_else(|| value.clone(), |p| format!("{} MPa", p / 1e6).into())
-        }
-        other => other.clone(),
-    }
-}
-
 fn default_of(value: &Value) -> String {
     match &value["default"] {
         Value::Null | Value::Object(_) => String::new(),
         Value::Array(list) if list.len() > 6 => String::new(),
-        default => code(&readable(default).to_string()),
+        default => code(&default.to_string()),
     }
 }
