@@ -10,7 +10,7 @@ pub mod compliance;
 #[doc(hidden)]
 pub mod contact_estimate;
 
-mod contact_interaction;
+mod neighbours;
 
 #[doc(hidden)]
 pub mod deformed_surface;

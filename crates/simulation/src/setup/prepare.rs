@@ -2,10 +2,10 @@
 
 use crate::scene::{AsperityForm, ElementChoice, Line, LineAsperity, Scene, SceneError, Target, ToolForm};
 use crate::setup::contact_estimate;
-use crate::setup::contact_interaction::{Support, own_depths};
 use crate::setup::deformed_surface::{Formed, expected_pressure};
 use crate::setup::discretisation::Discretisation;
 use crate::setup::discretisation::LEAST_COUNTED_DEPTH;
+use crate::setup::neighbours::{Support, own_depths};
 use crate::setup::problem::{Goal, Problem, Rules, Specimen, held_nodes};
 use crate::setup::units::Units;
 use asperity_material::Elastic;
