@@ -1,7 +1,7 @@
 //! How exact the force must be: a level by name, or a share in percent.
 
 use super::SceneError;
-use super::range::error;
+use super::messages::error;
 use asperity_material::units::from_text;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};

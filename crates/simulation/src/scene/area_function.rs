@@ -1,6 +1,6 @@
 //! The area function of a tool as an instrument was calibrated: its projected area over the contact depth.
 
-use super::range::{Check, error};
+use super::messages::{Check, error};
 use asperity_material::units::{Length, from_text};
 use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer, Serialize};

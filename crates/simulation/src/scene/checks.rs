@@ -2,7 +2,7 @@
 
 use super::geometry::HIGHEST_CAP;
 use super::measured::span_of;
-use super::range::{Check, check_range, error, inside, length, not_negative, positive, slope};
+use super::messages::{Check, check_range, error, inside, length, not_negative, positive, slope};
 use super::{
     Asperity, AsperityForm, Lateral, Numerics, Scene, SceneError, Substrate, Symmetry, ToolForce, ToolForm,
 };

@@ -2,7 +2,7 @@
 
 use super::SceneError;
 use super::measured::{Points, Smoothing, refused};
-use super::range::error;
+use super::messages::error;
 use asperity_material::units::Length;
 use asperity_mesh::outline::{Outline, Span};
 use schemars::JsonSchema;

@@ -1,6 +1,6 @@
 //! How far the tool goes, and by which force.
 
-use super::range::{Check, check_range, error, positive};
+use super::messages::{Check, check_range, error, positive};
 use asperity_material::range::SceneError;
 use asperity_material::units::{Force, Length, LineForce, UnitError, from_text, quantity_schema};
 use schemars::{JsonSchema, Schema, SchemaGenerator};

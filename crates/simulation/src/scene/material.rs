@@ -1,6 +1,6 @@
 //! The metal of a scene: what it may hold, and which values make sense.
 
-use super::range::{Check, error};
+use super::messages::{Check, error};
 use asperity_material::units::Stress;
 use asperity_material::{
     Elastic, Hardening, HardeningCurve, HardeningLaw, HardeningMode, HardeningTable, OwnLaw, StressMeasure,

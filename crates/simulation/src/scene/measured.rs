@@ -1,7 +1,7 @@
 //! Outlines that were measured: their points as a scene holds them, and the curves that a run takes of them.
 
 use super::SceneError;
-use super::range::{error, length};
+use super::messages::{error, length};
 use asperity_material::units::Length;
 use asperity_mesh::outline::{Fit, FitError, Outline, Span, deepest_dent, fit};
 use schemars::JsonSchema;

@@ -3,7 +3,7 @@
 use super::SceneError;
 use super::area_function::AreaFunction;
 use super::measured::{self, Points};
-use super::range::{Check, error, inside, length, not_negative, positive, slope};
+use super::messages::{Check, error, inside, length, not_negative, positive, slope};
 use asperity_material::units::{Compliance, Length, Stress};
 use asperity_material::{Elastic, range, refuse_custom, write_custom};
 use asperity_mesh::outline::Outline;

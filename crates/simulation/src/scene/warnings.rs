@@ -1,6 +1,6 @@
 //! Warnings for inputs without effect.
 
-use super::range::{error, length};
+use super::messages::{error, length};
 use super::{Lateral, Scene, SceneError, Symmetry};
 
 impl Scene {
