@@ -36,10 +36,10 @@
 //! the stiffness, half the bound of the area there is added. The elastic fraction has them in squares, and
 //! with them the work over the depths that the energies of the body do not account for.
 
-mod difference;
+mod bound;
 mod rescale;
 
-pub(super) use difference::Setting;
+pub(super) use bound::Setting;
 pub(super) use rescale::rescale_to_force;
 
 use crate::fitted::FITTED;
@@ -51,7 +51,7 @@ use crate::record::rows::{
 use crate::setup::discretisation::LEAST_COUNTED_DEPTH;
 use crate::setup::schedule::UNLOADING_EXPONENT;
 use asperity_solver::point::kinematics::Symmetry;
-use difference::{Difference, Quantity, longer};
+use bound::{Difference, Quantity, longer};
 use rescale::{last_loaded, loading_curve, note_peak};
 
 /// Depths at which curves are compared, equally spaced in the logarithm.

@@ -1,6 +1,6 @@
 //! A run whose goal was a force, moved to where its force is, and the peak of a curve.
 
-use super::difference::longer;
+use super::bound::longer;
 use crate::record::curve::Curve;
 use crate::record::recorder::Outcome;
 use crate::record::rows::{CurveRow, Phase, Summary};
