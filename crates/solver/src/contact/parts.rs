@@ -11,7 +11,7 @@ pub const WHOLE: Parts = [Some([-1.0, 1.0]), None];
 
 /// The edges that touch wholly, those that touch in any part, and the mean share of the parts of edges at the
 /// ends of contact: 0 where all touch wholly.
-pub fn around(parts: &[Parts]) -> ([Vec<Parts>; 2], f64) {
+pub fn whole_edges_around(parts: &[Parts]) -> ([Vec<Parts>; 2], f64) {
     let share = |touching: &Parts| touching.iter().flatten().map(|[from, to]| 0.5 * (to - from)).sum::<f64>();
     let wholly = |touching: &Parts| if share(touching) < 1.0 { NOTHING } else { WHOLE };
     let partly = |touching: &Parts| if share(touching) > 0.0 { WHOLE } else { NOTHING };
@@ -27,10 +27,14 @@ mod tests {
     #[test]
     fn ends_of_contacts_go_to_the_ends_of_their_edges() {
         let some = |a: f64, b: f64| [Some([a, b]), None];
-        let ([inner, outer], mean) = around(&[WHOLE, some(-1.0, 0.0), NOTHING, some(0.5, 1.0), WHOLE]);
+        let ([inner, outer], mean) =
+            whole_edges_around(&[WHOLE, some(-1.0, 0.0), NOTHING, some(0.5, 1.0), WHOLE]);
         assert_eq!(inner, [WHOLE, NOTHING, NOTHING, NOTHING, WHOLE]);
         assert_eq!(outer, [WHOLE, WHOLE, NOTHING, WHOLE, WHOLE]);
         assert_eq!(mean, 0.375);
-        assert_eq!(around(&[WHOLE, NOTHING]), ([vec![WHOLE, NOTHING], vec![WHOLE, NOTHING]], 0.0));
+        assert_eq!(
+            whole_edges_around(&[WHOLE, NOTHING]),
+            ([vec![WHOLE, NOTHING], vec![WHOLE, NOTHING]], 0.0)
+        );
     }
 }

@@ -16,7 +16,7 @@ use crate::body::state::{State, Trial};
 use crate::body::stiffness::Stiffness;
 use crate::body::surface::Surface;
 use crate::contact::edge::EdgeContact;
-use crate::contact::parts::{NOTHING, Parts, around};
+use crate::contact::parts::{NOTHING, Parts, whole_edges_around};
 use crate::equilibrium::contact_set::ContactSet;
 use crate::equilibrium::factors::Factors;
 use crate::equilibrium::line_search::LineSearch;
@@ -288,7 +288,7 @@ impl<'m> Equilibrium<'m> {
     pub fn unloading_stiffness(&mut self) -> Result<ToolStiffness, Failure> {
         self.begin(self.state.tip, 0.0, |_| [0.0; 2]);
         let parts: Vec<Parts> = self.state.parts().collect();
-        let ([inner, outer], share) = around(&parts);
+        let ([inner, outer], share) = whole_edges_around(&parts);
         let mut depth = self.elastic_stiffness(&outer)?.depth;
         if share > 0.0 && inner.iter().any(|touching| *touching != NOTHING) {
             depth = (1.0 - share) * self.elastic_stiffness(&inner)?.depth + share * depth;
