@@ -34,8 +34,8 @@ impl<'a> Gap<'a> {
         Gap { nodes, pixel: map.pixel(), periodic: map.periodic(), values }
     }
 
-    /// The same on pixels of twice the sides, each with the gap of equal g³ on the mean: that of its parts that
-    /// were measured, or with those that were not as `closed` ones.
+    /// The same on pixels of twice the sides, each with the gap of equal g³ on the mean: that of its parts
+    /// that were measured, or with those that were not as `closed` ones.
     pub(super) fn halved(&self, closed: bool) -> Halved {
         let nodes = self.nodes.map(|n| n.div_ceil(2));
         let pixel = [0, 1].map(|k| self.pixel[k] * self.nodes[k] as f64 / nodes[k] as f64);

@@ -15,8 +15,8 @@ pub struct Leak {
     pub conductance: f64,
     /// The gap between parallel planes of the same size that leaks as much, in metres.
     pub hydraulic_gap: f64,
-    /// Bound of its error by the pixels and by points without a height: the true conductance lies between this
-    /// over 1 + error and this times 1 + error. Infinite where nothing bounds it.
+    /// Bound of its error by the pixels and by points without a height: the true conductance lies between
+    /// this over 1 + error and this times 1 + error. Infinite where nothing bounds it.
     pub error: f64,
     /// Relative difference of what enters and leaves.
     pub imbalance: f64,

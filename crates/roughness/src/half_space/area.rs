@@ -10,8 +10,8 @@ const RIM: f64 = (PI - 1.0 + LN_2) / 24.0;
 /// Share of that correction that is uncertain: it is the mean over rims that run all ways. Of 140 contacts of
 /// band-limited maps against the same refined eight times, the areas differ by -0.26 to 0.21 of it.
 const RIM_DOUBT: f64 = 0.25;
-/// The same where a rim runs straight across the map: along the grid the area is too large by 0.20 of a pixel an
-/// edge, the mean over its places between two lines, and by 0.11 to 0.15 in other directions.
+/// The same where a rim runs straight across the map: along the grid the area is too large by 0.20 of a
+/// pixel an edge, the mean over its places between two lines, and by 0.11 to 0.15 in other directions.
 const STRAIGHT_RIM_DOUBT: f64 = 0.7;
 /// Standard deviations of a bound.
 const DEVIATIONS: f64 = 2.0;

@@ -22,6 +22,16 @@ pub(super) struct Doubt {
     pub crossing: usize,
 }
 
+/// The edges of a rim across one axis.
+struct Edges<'a> {
+    /// Of each pixel the step to the next.
+    steps: &'a [i8],
+    /// The pixels with one.
+    edges: Vec<usize>,
+    /// The place of a pixel among those.
+    places: Vec<u32>,
+}
+
 /// The straight piece of a rim that an edge belongs to.
 #[derive(Clone, Copy, Default)]
 struct Piece {
@@ -65,23 +75,25 @@ impl Rim {
 
     /// How far the area inside the rim may be off because its pixels err together.
     ///
-    /// A straight piece along (p, q) of m periods may lie anywhere between two lines of the grid, which is one
-    /// pixel of area a period: its variance is m²/12. It is p + q chains of m edges, each of which repeats at
-    /// the distance (p, q); an edge that belongs to several chains counts in the one that says most. Pieces err
-    /// each for itself, but those that cross the whole map beside a contact equally wide: regular grooves are
-    /// copies of each other, and err alike.
+    /// A straight piece along (p, q) of m periods may lie anywhere between two lines of the grid, which is
+    /// one pixel of area a period: its variance is m²/12. It is p + q chains of m edges, each of which
+    /// repeats at the distance (p, q); an edge that belongs to several chains counts in the one that says
+    /// most. Pieces err each for itself, but those that cross the whole map beside a contact equally wide:
+    /// regular grooves are copies of each other, and err alike.
     pub fn doubt(&self) -> Doubt {
         let mut doubt = Doubt { variance: 0.0, crossing: 0 };
         for axis in [0, 1] {
             let steps = &self.steps[axis];
             let edges: Vec<usize> = (0..steps.len()).filter(|i| steps[*i] != 0).collect();
-            let mut pieces = vec![Piece::default(); steps.len()];
+            let mut places = vec![0u32; steps.len()];
+            edges.iter().zip(0..).for_each(|(i, place)| places[*i] = place);
+            let edges = Edges { steps, edges, places };
+            let mut pieces = vec![Piece::default(); edges.edges.len()];
             for direction in DIRECTIONS {
-                self.lengthen(steps, &edges, direction, &mut pieces);
+                self.lengthen(&edges, direction, &mut pieces);
             }
             let mut copies: BTreeMap<([i32; 2], i8, usize), f64> = BTreeMap::new();
-            for i in edges {
-                let Piece { length, along } = pieces[i];
+            for (i, Piece { length, along }) in edges.edges.iter().copied().zip(pieces) {
                 match along {
                     None => doubt.variance += f64::from(length) / 12.0,
                     Some(along) => {
@@ -97,23 +109,25 @@ impl Rim {
     }
 
     /// Raises the pieces of the edges to those of every chain along `direction` that say more.
-    fn lengthen(&self, steps: &[i8], edges: &[usize], direction: [i32; 2], pieces: &mut [Piece]) {
+    fn lengthen(&self, rim: &Edges, direction: [i32; 2], pieces: &mut [Piece]) {
+        let Edges { steps, edges, places } = rim;
         let next = |i: usize, sign: i32| {
-            let to = self.beside(i, direction.map(|d| sign * d))?;
+            let to = self.neighbour(i, direction.map(|d| sign * d))?;
             (steps[to] == steps[i]).then_some(to)
         };
-        let leaves = |i: usize, sign: i32| self.beside(i, direction.map(|d| sign * d)).is_none();
-        let mut seen = vec![false; steps.len()];
+        let leaves = |i: usize, sign: i32| self.neighbour(i, direction.map(|d| sign * d)).is_none();
+        let mut seen = vec![false; edges.len()];
+        let place = |i: usize| places[i] as usize;
         let mut chain = Vec::new();
         // chains with a beginning, then those that are rings
         for ring in [false, true] {
             for first in edges.iter().copied() {
-                if seen[first] || (!ring && next(first, -1).is_some()) {
+                if seen[place(first)] || (!ring && next(first, -1).is_some()) {
                     continue;
                 }
                 chain.clear();
                 let mut at = Some(first);
-                while let Some(i) = at.filter(|i| !std::mem::replace(&mut seen[*i], true)) {
+                while let Some(i) = at.filter(|i| !std::mem::replace(&mut seen[place(*i)], true)) {
                     chain.push(i);
                     at = next(i, 1);
                 }
@@ -121,9 +135,9 @@ impl Rim {
                 let crosses = ring || (leaves(first, -1) && leaves(last, 1));
                 let length = chain.len() as f32 / periods(direction) as f32;
                 let piece = Piece { length, along: crosses.then_some(direction) };
-                for i in &chain {
-                    if length > pieces[*i].length {
-                        pieces[*i] = piece;
+                for i in chain.iter().map(|i| place(*i)) {
+                    if length > pieces[i].length {
+                        pieces[i] = piece;
                     }
                 }
             }
@@ -137,7 +151,7 @@ impl Rim {
         let by = if axis == 0 { [sign, 0] } else { [0, sign] };
         let mut at = i;
         (1..=self.nodes[axis])
-            .find(|_| match self.beside(at, by) {
+            .find(|_| match self.neighbour(at, by) {
                 Some(next) => {
                     at = next;
                     steps[next] != 0
@@ -148,7 +162,7 @@ impl Rim {
     }
 
     /// The pixel `by` pixels from pixel `i`, where there is one.
-    fn beside(&self, i: usize, by: [i32; 2]) -> Option<usize> {
+    fn neighbour(&self, i: usize, by: [i32; 2]) -> Option<usize> {
         let at = [i % self.nodes[0], i / self.nodes[0]];
         let [x, y] = [0, 1].map(|axis| {
             let (to, n) = (at[axis] as i64 + i64::from(by[axis]), self.nodes[axis] as i64);
