@@ -2,17 +2,19 @@
 
 use super::conjugate_gradients::conjugate_gradients;
 use super::convolution::{Convolution, Way};
-use super::projected_gradient::projected_gradient;
+use super::projected_gradient::{projected_gradient, proven};
 use crate::half_space::float::{Real, sums};
 use crate::half_space::grid_level::{Hold, Level, MISSING_HEIGHT, Search};
 use rayon::prelude::*;
 
 /// A side of more nodes is halved for the coarser grid.
 const COARSEST_SIDE: usize = 64;
-/// Residual of the coarse grids.
-const COARSE_RESIDUAL: f64 = 1e-3;
-/// The least residual that `f32` is asked for: it stagnates below.
-const SINGLE_PRECISION_RESIDUAL: f64 = 1e-6;
+/// Error of the coarse grids.
+const COARSE_ERROR: f64 = 1e-3;
+/// The least error that `f32` is asked for: it stagnates below.
+const SINGLE_PRECISION_ERROR: f64 = 1e-6;
+/// A tolerance so many times above what rounding leaves is proven in `f32` too.
+const ROUNDED_PROOF: f64 = 10.0;
 /// Iterations of one grid.
 const ITERATIONS: usize = 400;
 
@@ -47,6 +49,8 @@ pub(super) struct Answer {
     pub plane: f64,
     /// Residual of the complementarity conditions.
     pub residual: f64,
+    /// Proven relative error of the pressures in the norm of the energy.
+    pub error: f64,
     /// Convolutions on the finest grid.
     pub convolutions: usize,
 }
@@ -109,7 +113,7 @@ impl Task {
         let start = coarse.first_guess(hold, base);
         let mut level = coarse.level::<f32>(base);
         let start = allowed(&level, hold, start);
-        let found = search(&mut level, hold, start, COARSE_RESIDUAL, ITERATIONS);
+        let found = search(&mut level, hold, start, COARSE_ERROR, ITERATIONS);
         self.prolonged(coarse.nodes, &found.pressure)
     }
 
@@ -122,19 +126,31 @@ impl Task {
         self.heights.iter().map(|h| if h.is_nan() { 0.0 } else { value as f32 }).collect()
     }
 
-    /// The residual that `f32` leaves by rounding the displacements of a pressure: a free map sinks as a
-    /// whole, and by far more than its heights where it is large or rough from pixel to pixel.
+    /// The error that `f32` leaves by rounding the displacements of a pressure, which is white noise on the
+    /// nodes in contact: a free map sinks as a whole, and by far more than its heights where it is large or
+    /// rough from pixel to pixel.
     fn rounding(&self, level: &mut Level<f32>, pressure: &[f32]) -> f64 {
+        /// Mean of |q|/2 over the waves of a square grid.
+        const MEAN_STIFFNESS: f64 = 1.2;
         let mut lift = vec![0.0; pressure.len()];
         level.lift(pressure, &mut lift);
-        let [squares, n] = sums(lift.len(), |range| {
-            let measured = lift[range.clone()].iter().zip(&self.heights[range]).filter(|(_, h)| !h.is_nan());
-            measured.fold([0.0, 0.0], |[s, n], (u, _)| [s + u.wide() * u.wide(), n + 1.0])
+        let [bottom, _] = level.bounds();
+        let [squares, measured, touching, work] = sums(lift.len(), |range| {
+            range.filter(|i| !self.heights[*i].is_nan()).fold([0.0; 4], |mut sum, i| {
+                let (u, p) = (lift[i].wide(), pressure[i].wide());
+                sum[0] += u * u;
+                sum[1] += 1.0;
+                sum[2] += if pressure[i] > bottom { 1.0 } else { 0.0 };
+                sum[3] += p * (u + self.heights[i]);
+                sum
+            })
         });
-        f64::from(f32::EPSILON) * (squares / n).sqrt() / self.rms
+        let noise = f64::from(f32::EPSILON).powi(2) * squares / measured;
+        if work > 0.0 { (MEAN_STIFFNESS * noise * touching / work).sqrt() } else { 0.0 }
     }
 
-    /// The pressure that `hold` brings about, from `start` or from coarser grids, to `tolerance`.
+    /// The pressure that `hold` brings about, from `start` or from coarser grids, to `tolerance`: searched
+    /// for in `f32`, proven in `f64`, and searched for in `f64` as far as that does not hold.
     pub fn solve(&self, hold: Hold, start: Option<&[f64]>, tolerance: f64) -> Answer {
         let (base, full) = match hold {
             Hold::Pressure(mean) if self.may_close(mean) => (f64::from(mean as f32), Some(self.closed(mean))),
@@ -149,26 +165,32 @@ impl Task {
         };
         let mut level = self.level::<f32>(base);
         let start = allowed(&level, hold, start);
-        let reachable = tolerance.max(SINGLE_PRECISION_RESIDUAL).max(self.rounding(&mut level, &start));
-        let found = search(&mut level, hold, start, reachable, ITERATIONS);
+        let floor = self.rounding(&mut level, &start).max(SINGLE_PRECISION_ERROR);
+        let found = search(&mut level, hold, start, tolerance.max(floor), ITERATIONS);
         let single = level.convolutions;
-        drop(level);
         let start: Vec<f64> = found.pressure.par_iter().map(|p| f64::from(*p)).collect();
-        if tolerance >= reachable && found.residual <= tolerance {
-            let lift = found.lift.par_iter().map(|u| f64::from(*u)).collect();
-            let (plane, residual) = (found.plane, found.residual);
-            let pressure = self.from_zero(base, start);
-            return Answer { pressure, lift, plane, residual, convolutions: single };
+        if tolerance >= ROUNDED_PROOF * floor && found.error <= tolerance {
+            let near = level.near_contact([&found.pressure, &found.lift], found.plane);
+            return Answer {
+                residual: level.residual([&found.pressure, &found.lift], found.plane, &near),
+                pressure: self.from_zero(base, start),
+                lift: found.lift.par_iter().map(|u| f64::from(*u)).collect(),
+                plane: found.plane,
+                error: found.error,
+                convolutions: single,
+            };
         }
-        drop(found);
+        drop((level, found));
         let mut level = self.level::<f64>(base);
         let start = allowed(&level, hold, start);
         let found = search(&mut level, hold, start, tolerance, ITERATIONS);
+        let near = level.near_contact([&found.pressure, &found.lift], found.plane);
         Answer {
+            residual: level.residual([&found.pressure, &found.lift], found.plane, &near),
             pressure: self.from_zero(base, found.pressure),
             lift: found.lift,
             plane: found.plane,
-            residual: found.residual,
+            error: found.error,
             convolutions: single + level.convolutions,
         }
     }
@@ -193,8 +215,8 @@ impl Task {
         pressure
     }
 
-    /// True where a `mean` pressure might close every gap: of full contact the pressures vary by E* h'/2, root
-    /// mean square, about their mean. Steps between neighbours give no more than the true slope h'.
+    /// True where a `mean` pressure might close every gap: of full contact the pressures vary by E* h'/2,
+    /// root mean square, about their mean. Steps between neighbours give no more than the true slope h'.
     fn may_close(&self, mean: f64) -> bool {
         let [nx, ny] = self.nodes;
         let h = &self.heights;
@@ -220,10 +242,11 @@ impl Task {
         let [mut pressure, mut lift] = [(); 2].map(|()| vec![0.0; uneven.len()]);
         level.apply(Way::Stiffness, &uneven, &mut pressure);
         level.lift(&pressure, &mut lift);
-        let residual =
-            level.residual([&pressure, &lift], plane, &level.near_contact([&pressure, &lift], plane));
+        let near = level.near_contact([&pressure, &lift], plane);
+        let residual = level.residual([&pressure, &lift], plane, &near);
+        let error = proven(&mut level, Hold::Pressure(mean), [&pressure, &lift], plane);
         pressure.par_iter_mut().for_each(|p| *p += mean);
-        Answer { pressure, lift, plane, residual, convolutions: level.convolutions }
+        Answer { pressure, lift, plane, residual, error, convolutions: level.convolutions }
     }
 
     /// True where no pressure lies beyond its bounds.
@@ -232,7 +255,8 @@ impl Task {
     }
 }
 
-/// Conjugate gradients; where those stall, as they may where most of the metal flows, projected gradients.
+/// Conjugate gradients; where those stall in metal that flows, as they may where most of it does, projected
+/// gradients.
 fn search<T: Real>(
     level: &mut Level<T>,
     hold: Hold,
@@ -241,7 +265,7 @@ fn search<T: Real>(
     iterations: usize,
 ) -> Search<T> {
     let found = conjugate_gradients(level, hold, start, tolerance, iterations);
-    if found.residual <= tolerance {
+    if found.error <= tolerance || !level.limit.is_finite() {
         return found;
     }
     let start = allowed(level, hold, found.pressure);

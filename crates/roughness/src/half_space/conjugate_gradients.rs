@@ -6,10 +6,10 @@ use super::nodes::Nodes;
 use crate::half_space::float::Real;
 use crate::half_space::grid_level::{Hold, Level, Search, is_free};
 
-/// Iterations without a better residual after which the search ends.
+/// Iterations without a better error after which the search ends.
 const STALLED_ITERATIONS: usize = 12;
 
-/// Lowers the residual of `start` to `tolerance`, at most `iterations` times.
+/// Lowers the proven error of `start` to `tolerance`, at most `iterations` times.
 ///
 /// p pressure, u = A p - h lift, d plane, g = u + d gap; the working set W are the nodes between the bounds
 /// or pushed from them. Each iteration: r = g on W; z = P F⁻¹ (|q|/2) F P r with P the projection on W (and
@@ -38,23 +38,19 @@ pub(super) fn conjugate_gradients<T: Real>(
         level.lift(&p, &mut u);
         let (d, near) = level.plane(hold, [&p, &u], &touching, last);
         last = Some(d);
-        let residual = level.residual([&p, &u], d, &near);
-        since = if residual < 0.9 * best { 0 } else { since + 1 };
-        best = best.min(residual);
-        if residual <= tolerance
-            || iteration == iterations
-            || since > STALLED_ITERATIONS
-            || !residual.is_finite()
-        {
-            return Search { pressure: p, lift: u, plane: d, residual };
-        }
-        iteration += 1;
         let at = T::nearest(d);
         // of a gap of 0 nothing is to be changed
         let freed = near.those(|i| u[i] + at != T::zero() && is_free(p[i], u[i] + at, bounds));
         std::mem::swap(&mut r, &mut r_old);
         freed.set(&mut r, |i, _| u[i] + at);
         level.apply(Way::Stiffness, &r, &mut z);
+        let error = level.error(hold, [&r, &z], &freed, [&p, &u]);
+        since = if error < 0.9 * best { 0 } else { since + 1 };
+        best = best.min(error);
+        if error <= tolerance || iteration == iterations || since > STALLED_ITERATIONS || !error.is_finite() {
+            return Search { pressure: p, lift: u, plane: d, error };
+        }
+        iteration += 1;
         let shift = if zero_sum { mean(&freed, &z) } else { T::zero() };
         freed.set(&mut z, |_, z| z - shift);
         let [now, before] = freed.sums(|i| [z[i].wide() * r[i].wide(), z[i].wide() * r_old[i].wide()]);

@@ -74,6 +74,18 @@ impl<T: Real> Convolution<T> {
         }
     }
 
+    /// Pressure of an even displacement by 1, as [`Way::Stiffness`] has it, where an even pressure displaces
+    /// nothing: it is no pressure of the half-space. 0 of a surface that stands free, which sinks under one.
+    pub fn even_stiffness(&self) -> f64 {
+        if self.response.from_the_mean { 1.0 / self.response.table[0].wide() } else { 0.0 }
+    }
+
+    /// The least displacement per pressure of a wave; of a periodic surface beside the even one.
+    #[cfg(test)]
+    pub fn least_response(&self) -> f64 {
+        self.response.table.iter().map(|value| value.wide()).fold(f64::INFINITY, f64::min)
+    }
+
     /// `output` = response (or its inverse) applied to `input`, both one number per node.
     pub fn apply(&mut self, way: Way, input: &[T], output: &mut [T]) {
         self.transform_rows(input);

@@ -19,15 +19,15 @@ pub(super) enum Hold {
 
 /// A grid with its heights; E* and a pixel are 1, so that a pressure is a slope.
 ///
-/// Pressures are counted from `base`, all of them: 0, or near full contact the mean pressure, which would else
-/// take the digits of what varies about it.
+/// Pressures are counted from `base`, all of them: 0, or near full contact the mean pressure, which would
+/// else take the digits of what varies about it.
 pub(super) struct Level<T: Real> {
     /// Heights in units of the range of heights, row by row; a missing one is [`MISSING_HEIGHT`].
     pub heights: Vec<T>,
     /// Largest pressure, counted from 0; infinite where the half-space is elastic.
     pub limit: f64,
-    /// Pressure from which those of the level are counted; above 0 on periodic grids without holes alone, where
-    /// an even pressure displaces nothing. A number of both types.
+    /// Pressure from which those of the level are counted; above 0 on periodic grids without holes alone,
+    /// where an even pressure displaces nothing. A number of both types.
     pub base: f64,
     /// Root mean square height, the unit of gaps in the residual.
     pub rms: f64,
@@ -45,8 +45,8 @@ pub(super) struct Search<T> {
     pub lift: Vec<T>,
     /// Height of the plane.
     pub plane: f64,
-    /// Residual of the complementarity conditions.
-    pub residual: f64,
+    /// Proven relative error of the pressures in the norm of the energy.
+    pub error: f64,
 }
 
 /// True where a node may change its pressure: between the bounds `bottom` and `top`, or pushed away from its
@@ -145,6 +145,41 @@ impl<T: Real> Level<T> {
             }]
         });
         wrong / (load * self.rms)
+    }
+
+    /// The proven relative error √(δ·Kδ / p·Sp) of a pressure, by the gaps `wrong` on the nodes `freed`
+    /// that may change theirs and their stiffness K·`wrong`; δ is `wrong` with its sign turned, and 0
+    /// elsewhere.
+    ///
+    /// With w = gap + δ the pressure is the exact contact of the heights less δ, so that for the true
+    /// pressure p* (p - p*)·w ≤ 0 and (p - p*)·w* ≥ 0: |p - p*|²_S ≤ -δ·(p - p*) ≤ |δ|_K |p - p*|_S. Where
+    /// the load is held p - p* has no mean, and that of δ does not count.
+    pub fn error(
+        &self,
+        hold: Hold,
+        [wrong, stiff]: [&[T]; 2],
+        freed: &Nodes,
+        [pressure, lift]: [&[T]; 2],
+    ) -> f64 {
+        let [product, sum] = freed.sums(|i| [wrong[i].wide() * stiff[i].wide(), wrong[i].wide()]);
+        let even = match hold {
+            Hold::Pressure(_) => sum * sum / wrong.len() as f64 * self.space.even_stiffness(),
+            Hold::Plane(_) => 0.0,
+        };
+        let (heights, hole) = (&self.heights, T::nearest(MISSING_HEIGHT));
+        let [work] = sums(pressure.len(), |range| {
+            let measured = range.filter(|i| heights[*i] > hole);
+            [measured.map(|i| pressure[i].wide() * (lift[i] + heights[i]).wide()).sum()]
+        });
+        let bound = (product - even).max(0.0);
+        if bound == 0.0 {
+            0.0
+        } else if work > 0.0 {
+            (bound / work).sqrt()
+        } else {
+            // overlap without any pressure is all wrong
+            1.0
+        }
     }
 
     /// `pressure` brought to the mean pressure wanted without leaving its bounds: scaled, and where a limit

@@ -11,14 +11,13 @@ use asperity_material::units::rounded;
 use rayon::prelude::*;
 use thiserror::Error;
 
-/// Residual of the complementarity conditions to which the contact is found unless said otherwise: the pixels
-/// in contact are then those of 1e-8 but for a few in a million, or with a limit of pressure a few in ten
-/// thousand.
+/// Proven relative error of the pressures, in the norm of the energy, to which the contact is found unless
+/// said otherwise: the pixels in contact are then those of 1e-8 but for a few in a million.
 pub const TOLERANCE: f64 = 1e-6;
 /// Long side over short side of a pixel up to which the search was seen to end: the preconditioner takes the
 /// lines for neighbours that move each other.
 const LONG_PIXEL: f64 = 30.0;
-/// The least residual that can be asked for.
+/// The least error that can be asked for.
 pub const FINEST_TOLERANCE: f64 = 1e-10;
 
 /// The reason why a half-space cannot carry a load.
@@ -46,27 +45,27 @@ pub enum HalfSpaceError {
     },
     /// The search did not end.
     #[error(
-        "the contact was not found: the residual stopped at {reached:.1e} instead of {wanted:.1e}; raise half_space.tolerance, or \
+        "the contact was not found: the proven error of the pressures stopped at {reached:.1e} instead of {wanted:.1e}; raise half_space.tolerance, or \
          check the map for spikes"
     )]
     Unfinished {
-        /// Residual reached.
+        /// Error reached.
         reached: f64,
-        /// Residual asked for.
+        /// Error asked for.
         wanted: f64,
     },
     /// The search did not end on pixels far from square.
     #[error(
         "the contact was not found: pixels are {ratio:.0} times as long as wide, and lines so far apart hardly feel each other, so \
-         that the residual stopped at {reached:.1e} instead of {wanted:.1e}; average points along the short side until the sides are \
+         that the proven error stopped at {reached:.1e} instead of {wanted:.1e}; average points along the short side until the sides are \
          as 1 to {LONG_PIXEL:.0} or nearer, or raise half_space.tolerance"
     )]
     LongPixels {
         /// Long side of a pixel over its short one.
         ratio: f64,
-        /// Residual reached.
+        /// Error reached.
         reached: f64,
-        /// Residual asked for.
+        /// Error asked for.
         wanted: f64,
     },
     /// Numbers that are no body.
@@ -88,8 +87,7 @@ pub struct HalfSpace {
     pub reduced_modulus: f64,
     /// Largest pressure that the metal bears, in Pa: it flows there. None of an elastic body.
     pub limit: Option<f64>,
-    /// Residual of the complementarity conditions at which the search ends: Σ p|g| over Σ p times the rms
-    /// height.
+    /// Proven relative error of the pressures, in the norm of the energy, at which the search ends.
     pub tolerance: f64,
 }
 
@@ -121,8 +119,11 @@ pub struct HalfSpaceContact {
     pub plastic_work: f64,
     /// Highest point of the surface minus its highest point after unloading, in metres.
     pub residual_displacement: f64,
-    /// Residual of the complementarity conditions.
+    /// Residual of the complementarity conditions: Σ p|g| over Σ p times the rms height.
     pub residual: f64,
+    /// Proven bound of the relative error of the pressures in the norm of the energy: √(δ·Kδ / p·Sp). Its
+    /// square bounds that of the energy.
+    pub pressure_error: f64,
     /// Convolutions on the finest grid.
     pub convolutions: usize,
     /// Pixels that are used: those with a height.
@@ -202,6 +203,7 @@ impl HalfSpace {
                 lift: task.heights.iter().map(|h| -h).collect(),
                 plane,
                 residual: 0.0,
+                error: 0.0,
                 convolutions: 0,
             };
             return Ok(self.contact(surface, &task, &units, pixels, answer, None));
@@ -210,8 +212,8 @@ impl HalfSpace {
         let start: Option<Vec<f64>> =
             start.map(|s| s.pressures.par_iter().map(|p| f64::from(*p) / units.stress).collect());
         let answer = task.solve(hold, start.as_deref(), self.tolerance);
-        if answer.residual.is_nan() || answer.residual > 3.0 * self.tolerance {
-            let (reached, wanted) = (answer.residual, self.tolerance);
+        if answer.error.is_nan() || answer.error > 3.0 * self.tolerance {
+            let (reached, wanted) = (answer.error, self.tolerance);
             let [a, b] = task.sides;
             let ratio = (a / b).max(b / a);
             return Err(if ratio > LONG_PIXEL {
@@ -272,7 +274,7 @@ impl HalfSpace {
         slope: Option<f64>,
     ) -> HalfSpaceContact {
         let map = &surface.map;
-        let Answer { pressure, lift, plane, residual, convolutions } = answer;
+        let Answer { pressure, lift, plane, residual, error, convolutions } = answer;
         let limit = task.limit;
         let gap = |i: usize| lift[i] + plane;
         let [load, touching, limited, gaps, stored, spent] = sums(pressure.len(), |range| {
@@ -317,6 +319,7 @@ impl HalfSpace {
             plastic_work: spent * units.stress * units.height * cell,
             residual_displacement: lowered(map, &flattened, surface.extent.high),
             residual,
+            pressure_error: error,
             convolutions,
             pixels,
             nominal_area: n * cell,

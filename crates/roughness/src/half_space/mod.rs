@@ -40,4 +40,6 @@ pub use limit::{LimitSource, PressureLimit, patch_slope};
 #[cfg(test)]
 mod area_tests;
 #[cfg(test)]
+mod proof_tests;
+#[cfg(test)]
 mod tests;

@@ -1,15 +1,19 @@
 //! Projected gradients with steps after Barzilai and Borwein, for contacts where most of the metal flows.
 
+use super::convolution::Way;
 use crate::half_space::float::{CHUNK, Real, total};
-use crate::half_space::grid_level::{Hold, Level, MISSING_HEIGHT, Search};
+use crate::half_space::grid_level::{Hold, Level, MISSING_HEIGHT, Search, is_free};
 use rayon::prelude::*;
 
+/// The error is looked at when the residual has come down by this: it takes a convolution.
+const LOOK_FACTOR: f64 = 0.7;
 /// Passes of the search for the shift of a projection.
 const PASSES: usize = 100;
 /// Relative error of the load after a projection.
 const LOAD_TOLERANCE: f64 = 1e-12;
 
-/// Lowers the residual of `start` to `tolerance`, at most `iterations` times; the best pressure that was met.
+/// Lowers the proven error of `start` to `tolerance`, at most `iterations` times; the best pressure that
+/// was met.
 ///
 /// p pressure, u = A p - h lift, P the projection on the bounds and, where it is held, on the load: one shift
 /// for all nodes, which is the plane. Each iteration: p := P(p - α u) with α = s·s/s·y or s·y/y·y in turn
@@ -27,6 +31,7 @@ pub(super) fn projected_gradient<T: Real>(
     let [mut u, mut p_old, mut u_old] = [(); 3].map(|()| vec![T::zero(); n]);
     let mut alpha = first_step(level);
     let mut best: Option<Search<T>> = None;
+    let mut looked = f64::INFINITY;
     for iteration in 0..=iterations {
         level.lift(&p, &mut u);
         if iteration > 0 {
@@ -37,17 +42,34 @@ pub(super) fn projected_gradient<T: Real>(
         }
         let (next, plane) = projected(level, hold, &p, &u, alpha);
         let residual = level.residual([&p, &u], plane, &level.near_contact([&p, &u], plane));
-        let better = best.as_ref().is_none_or(|b| residual < b.residual);
-        if better {
-            best = Some(Search { pressure: p.clone(), lift: u.clone(), plane, residual });
-        }
-        if residual <= tolerance || !residual.is_finite() {
+        if !residual.is_finite() {
             break;
+        }
+        if residual <= LOOK_FACTOR * looked || iteration == iterations {
+            looked = residual;
+            let error = proven(level, hold, [&p, &u], plane);
+            if best.as_ref().is_none_or(|b| error < b.error) {
+                best = Some(Search { pressure: p.clone(), lift: u.clone(), plane, error });
+            }
+            if error <= tolerance {
+                break;
+            }
         }
         p_old = std::mem::replace(&mut p, next);
         std::mem::swap(&mut u, &mut u_old);
     }
-    best.unwrap_or(Search { pressure: p, lift: u, plane: 0.0, residual: f64::INFINITY })
+    best.unwrap_or(Search { pressure: p, lift: u, plane: 0.0, error: f64::INFINITY })
+}
+
+/// The proven error of a pressure, by a convolution.
+pub(super) fn proven<T: Real>(level: &mut Level<T>, hold: Hold, [p, u]: [&[T]; 2], plane: f64) -> f64 {
+    let (at, bounds) = (T::nearest(plane), level.bounds());
+    let near = level.near_contact([p, u], plane);
+    let freed = near.those(|i| is_free(p[i], u[i] + at, bounds));
+    let [mut wrong, mut stiff] = [(); 2].map(|()| vec![T::zero(); p.len()]);
+    freed.set(&mut wrong, |i, _| u[i] + at);
+    level.apply(Way::Stiffness, &wrong, &mut stiff);
+    level.error(hold, [&wrong, &stiff], &freed, [p, u])
 }
 
 /// A step that suits the longest waves: half the stiffness of the wave as long as the grid.

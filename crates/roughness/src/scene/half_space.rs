@@ -16,7 +16,7 @@ const USUAL_POINTS: [(usize, usize); 2] = [(512 * 512, MOST_POINTS), (1024 * 102
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct HalfSpaceScene {
-    /// Residual of the complementarity conditions: 1e-6 by default.
+    /// Proven relative error of the pressures in the norm of the energy at which the search ends: 1e-6 by default.
     #[schemars(extend("minimum" = 1e-10, "maximum" = 1e-2))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tolerance: Option<f64>,
@@ -35,7 +35,7 @@ impl HalfSpaceScene {
         *self == HalfSpaceScene::default()
     }
 
-    /// The residual to be reached.
+    /// The proven error to be reached.
     pub fn tolerance(&self) -> f64 {
         self.tolerance.unwrap_or(TOLERANCE)
     }
