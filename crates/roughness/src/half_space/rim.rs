@@ -6,8 +6,28 @@ use std::collections::BTreeMap;
 
 /// Directions of straight rims whose pixels repeat so soon that they err together. A rim along (p, q) lies on
 /// lines of the grid 1/√(p² + q²) of a pixel apart; along others the errors of its pixels cancel.
-const DIRECTIONS: [[i32; 2]; 12] =
-    [[1, 0], [0, 1], [1, 1], [1, -1], [2, 1], [2, -1], [1, 2], [1, -2], [3, 1], [3, -1], [1, 3], [1, -3]];
+const DIRECTIONS: [[i32; 2]; 20] = [
+    [1, 0],
+    [0, 1],
+    [1, 1],
+    [1, -1],
+    [2, 1],
+    [2, -1],
+    [1, 2],
+    [1, -2],
+    [3, 1],
+    [3, -1],
+    [1, 3],
+    [1, -3],
+    [3, 2],
+    [3, -2],
+    [2, 3],
+    [2, -3],
+    [4, 1],
+    [4, -1],
+    [1, 4],
+    [1, -4],
+];
 
 /// p + q of a direction: the edges of a period of a straight rim along it.
 fn periods([p, q]: [i32; 2]) -> i32 {
