@@ -2,7 +2,7 @@
 
 use super::measured::{ReadError, Request, Spacing};
 use crate::dimension::Dimension;
-use crate::text::{Dialect, TextError, folded_name};
+use crate::text::{TextError, folded_name};
 
 /// What the file says of its heights, lengths in metres.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -130,11 +130,7 @@ impl Described {
     ///
     /// # Errors
     /// Values in a unit that is no length.
-    pub fn new(
-        before: &[(usize, &str)],
-        _dialect: &Dialect,
-        request: &Request<'_>,
-    ) -> Result<Described, ReadError> {
+    pub fn new(before: &[(usize, &str)], request: &Request<'_>) -> Result<Described, ReadError> {
         let remarks: Vec<Remark> =
             before.iter().filter_map(|&(line, text)| Remark::new(line, text)).collect();
         let mut said = Described::default();
@@ -145,7 +141,7 @@ impl Described {
         for remark in &remarks {
             said.take_length(remark);
         }
-        if said.height_unit.is_none() && said.size == [None; 2] {
+        if said.size == [None; 2] && said.pixel == [None; 2] {
             said.take_by_place(&remarks);
         }
         Ok(said)

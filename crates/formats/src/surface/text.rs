@@ -45,7 +45,7 @@ pub(super) fn read(path: &Path, request: &Request<'_>) -> Result<Measured, ReadE
         decode(&data).map_err(|e| ReadError::Unknown { found: format!("the file {}", e.message) })?;
     let mut grid = read_grid(&text, request.missing_value)?;
     let mut notes = vec![format!("{encoding} {}", grid.describe())];
-    let said = Described::new(&grid.before, &grid.dialect, request)?;
+    let said = Described::new(&grid.before, request)?;
     let is_xyz = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("xyz"));
     let named =
         Asked { columns: request.columns, may_lack_units: true, key: Some("columns"), ..Asked::default() };

@@ -1,0 +1,207 @@
+//! Tables in the dialects of their sources, each with the number that it must give; the test writes the table
+//! of the book with ASPERITY_RENEW=1, and fails where the committed one is not what it would write.
+
+use asperity_formats::indentation;
+use asperity_formats::surface::{Measured, Request, Spacing, read};
+use asperity_formats::text::decode;
+use std::fmt::Write;
+use std::path::Path;
+
+/// A dialect: what is special, where it comes from, and the bytes of a file.
+struct Dialect {
+    feature: &'static str,
+    source: &'static str,
+    name: &'static str,
+    bytes: Vec<u8>,
+}
+
+fn dialect(feature: &'static str, source: &'static str, name: &'static str, text: &str) -> Dialect {
+    Dialect { feature, source, name, bytes: text.into() }
+}
+
+fn windows_1252(text: &str) -> Vec<u8> {
+    text.chars().map(|c| c as u8).collect()
+}
+
+/// Each holds the readings (0.1 µm, 2 mN) and (0.2 µm, 8 mN).
+fn curves() -> Vec<Dialect> {
+    let hysitron = "Mon May 04 11:50:04 2015\r\n\r\nNumber of Points = 2\r\nDepth (nm)\tLoad (µN)\tTime (s)\tDepth (V)\tLoad (V)\r\n100\t2000\t0\t1\t1\r\n200\t8000\t1\t1\t1\r\n";
+    let mut all = vec![
+        Dialect {
+            feature: "Windows-1252, preamble, further columns in volts",
+            source: "Hysitron TriboScan, as in micromechanics RobinSteel0000LC.txt",
+            name: "curve.txt",
+            bytes: windows_1252(hysitron),
+        },
+        Dialect {
+            feature: "UTF-16 without a mark",
+            source: "Unicode text of Excel and of LabVIEW",
+            name: "curve.txt",
+            bytes: hysitron.encode_utf16().flat_map(u16::to_le_bytes).collect(),
+        },
+        Dialect {
+            feature: "Windows-1252, decimal commas, semicolons",
+            source: "Fischerscope, as in micromechanics FS1.txt",
+            name: "curve.csv",
+            bytes: windows_1252("Eindringtiefe;Prüfkraft\r\nµm;mN\r\n0,1;2,0\r\n0,2;8,0\r\n"),
+        },
+    ];
+    for (feature, source, text) in [
+        (
+            "Pd and Fn in brackets",
+            "Anton Paar/CSM, as in Indentation-Yield-Analyzer",
+            "Time [s]\tPd [nm]\tFn [mN]\n0\t100\t2\n1\t200\t8\n",
+        ),
+        (
+            "name of a sample before the quantity",
+            "Anton Paar/CSM, as in Indentation-Yield-Analyzer",
+            "X_Glass 1_Pd_[µm]\tY_Glass 1_Fn_[mN]\t\n0.1\t2\t\n0.2\t8\t\n",
+        ),
+        (
+            "quotes, units in a line of their own",
+            "Instron Bluehill, raw data",
+            "\"Time\",\"Extension\",\"Load\"\n\"(s)\",\"(mm)\",\"(N)\"\n\"0.0\",\"0.0001\",\"0.002\"\n\"0.1\",\"0.0002\",\"0.008\"\n",
+        ),
+        (
+            "German names, \"in mm\"",
+            "ZwickRoell testXpert",
+            "Standardweg in mm;Standardkraft in N\n0,0001;0,002\n0,0002;0,008\n",
+        ),
+        (
+            "French names, decimal commas",
+            "a French spreadsheet",
+            "Profondeur (nm);Force normale (mN)\n100,0;2\n200,0;8\n",
+        ),
+        (
+            "prefix as a word",
+            "sandialabs nanoindentation-consistency-checker",
+            "depth_nm,load_micro_N,time_s\n100,2000,0\n200,8000,1\n",
+        ),
+        (
+            "kilogram-force",
+            "hardness testers",
+            "Depth (µm),Load (kgf)\n0.1,0.000203943242595586\n0.2,0.000815772970382343\n",
+        ),
+        (
+            "header behind #, exponents of Fortran",
+            "numpy.savetxt, Fortran programs",
+            "# depth_nm force_mN\n1.0e+02 2.0D+00\n2.0e+02 8.0\n",
+        ),
+        (
+            "thousands with commas beside decimals",
+            "LabVIEW in English",
+            "depth_nm\tforce_uN\n100.0\t2,000.0\n200.0\t8,000.0\n",
+        ),
+        ("footer and empty rows", "spreadsheets", "depth_um;force_mN\n0,1;2\n;\n0,2;8\nMittelwert;\n"),
+    ] {
+        all.push(dialect(feature, source, "curve.txt", text));
+    }
+    all
+}
+
+/// Each holds the heights 1, 2, 3; 4, missing, 6.
+fn maps() -> Vec<Dialect> {
+    let body = "1\t2\t3\n4\tnan\t6\n";
+    let head = |words: &str| format!("{words}{body}");
+    let gwyddion = "Gwyddion, text export with its header";
+    vec![
+        dialect(
+            "comments: width, height, unit",
+            gwyddion,
+            "map.txt",
+            &head("# Channel: Topography\n# Width: 3.00 µm\n# Height: 1.000 µm\n# Value units: nm\n"),
+        ),
+        dialect(
+            "the same in German, decimal commas",
+            gwyddion,
+            "map.txt",
+            "# Kanal: Topographie\n# Breite: 3,00 µm\n# Höhe: 1,000 µm\n# Value units: nm\n1,0e+00\t2,0\t3,0\n4,0\tnan\t6,0\n",
+        ),
+        dialect(
+            "the same in any language, by its place",
+            gwyddion,
+            "map.txt",
+            &head("# a: b\n# ширинка: 3.00 µm\n# высотка: 1.000 µm\n# единица: nm\n"),
+        ),
+        dialect(
+            "key = value",
+            "SurfaceTopography, asc files",
+            "map.asc",
+            &head("x-length = 3\ny-length = 1\nx-unit = µm\nz-unit = nm\n"),
+        ),
+        dialect(
+            "quotes, pixel in nm/pixel",
+            "Keyence VK analyzer, CSV",
+            "map.csv",
+            "\"XY calibration\",\"1000\",\"nm/pixel\"\n\"Unit\",\"nm\"\n\"1\",\"2\",\"3\"\n\"4\",\"\",\"6\"\n",
+        ),
+        dialect(
+            "heights in waves",
+            "interferometers",
+            "map.txt",
+            &head("Wavelength = 1 nm\nPixel size = 1 um\nValue unit = waves\n"),
+        ),
+        dialect(
+            "words for missing points",
+            "Wyko (Bad), Zygo (No Data), spreadsheets (N/A)",
+            "map.txt",
+            "pixel size = 1 um\nz unit = nm\n1 2 3\n4 No Data 6\n",
+        ),
+        dialect(
+            "a number for missing points, 1e37 and beyond",
+            "SPIP, old instruments",
+            "map.txt",
+            "pixel size = 1 um\nz unit = nm\n1;2;3\n4;3,4e38;6\n",
+        ),
+    ]
+}
+
+fn curve_is_right(one: &Dialect) -> bool {
+    let (text, _) = decode(&one.bytes).unwrap();
+    let table =
+        indentation::read(&text, [None, None], None).unwrap_or_else(|e| panic!("{}: {e}", one.feature));
+    let near = |a: f64, b: f64| (a / b - 1.0).abs() < 1e-9;
+    let rows = &table.series[0].rows;
+    let want = [[1e-7, 2e-3], [2e-7, 8e-3]];
+    rows.len() == 2 && rows.iter().zip(want).all(|(row, want)| near(row[0], want[0]) && near(row[1], want[1]))
+}
+
+fn map_is_right(one: &Dialect) -> bool {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join(one.name);
+    std::fs::write(&path, &one.bytes).unwrap();
+    let Measured { heights, spacing, height_unit, .. } =
+        read(&path, &Request::default()).unwrap_or_else(|e| panic!("{}: {e}", one.feature));
+    let want = [1.0, 2.0, 3.0, 4.0, f64::NAN, 6.0];
+    let same = |(a, b): (&f64, f64)| *a == b || a.is_nan() && b.is_nan();
+    let Spacing::Metres([x, _]) = spacing else { return false };
+    heights.len() == 6
+        && heights.iter().zip(want).all(same)
+        && (x / 1e-6 - 1.0).abs() < 1e-9
+        && (height_unit.unwrap() / 1e-9 - 1.0).abs() < 1e-9
+}
+
+#[test]
+fn every_dialect_gives_its_numbers() {
+    let mut page = String::from("| table | what is special | where it comes from |\n|-|-|-|\n");
+    let mut row = |kind: &str, one: &Dialect| {
+        let _ = writeln!(page, "| {kind} | {} | {} |", one.feature, one.source);
+    };
+    for one in curves() {
+        assert!(curve_is_right(&one), "{}", one.feature);
+        row("curve", &one);
+    }
+    for one in maps() {
+        assert!(map_is_right(&one), "{}", one.feature);
+        row("map", &one);
+    }
+    let results = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../verification/results");
+    if !results.is_dir() {
+        return; // the crate by itself
+    }
+    let committed = results.join("files.md");
+    if std::env::var_os("ASPERITY_RENEW").is_some() {
+        std::fs::write(&committed, &page).unwrap();
+    }
+    assert_eq!(std::fs::read_to_string(&committed).unwrap_or_default(), page, "run it with ASPERITY_RENEW=1");
+}
