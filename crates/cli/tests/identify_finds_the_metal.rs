@@ -163,10 +163,11 @@ fn tables_that_are_no_curve_are_refused_with_a_way_out() {
         table(header, &all.iter().map(|p| change(*p)).collect::<Vec<_>>())
     };
     for (case, text, words) in [
-        ("nothing", String::new(), "no header that names a depth"),
+        ("nothing", String::new(), "is empty"),
+        ("no header", "1,2\n3,4\n".into(), "no header that names a depth"),
         ("a header alone", format!("{header}\n"), "without readings below it"),
-        ("no units", table("depth,force", &all), "no unit that is known"),
-        ("other units", table("Depth (inch),Load (lbf)", &all), "no unit that is known"),
+        ("no units", table("depth,force", &all), "has no unit"),
+        ("other units", table("Depth (furlong),Load (stone)", &all), "which is not known"),
         ("a single point", table(header, &all[peak..=peak]), "too few for a curve"),
         ("the way back alone", table(header, &all[peak..]), "the loading must come first"),
         ("negative depths", changed(|[h, f]| [-h, f]), "turn their sign"),
@@ -174,7 +175,7 @@ fn tables_that_are_no_curve_are_refused_with_a_way_out() {
         ("no force", changed(|[h, _]| [h, 0.0]), "no positive force"),
         ("one depth", changed(|[_, f]| [1.0, f]), "goes nowhere"),
         ("one force", changed(|[h, _]| [h, 5.0]), "goes nowhere"),
-        ("decimal commas", format!("{header}\n0,1,0,2\n0,2,0,8\n"), "decimal commas"),
+        ("decimal commas", format!("{header}\n0,1,0,2\n0,2,0,8\n"), "a decimal comma needs"),
     ] {
         std::fs::write(place.path("cone.csv"), text).unwrap();
         std::fs::write(place.path("fit.toml"), FIT).unwrap();

@@ -201,7 +201,7 @@ fn what_is_no_outline_is_refused_at_its_line() {
         ("r_um,z_um\n0,20\n", false, &["scene.toml:10:", "not 1"]),
         ("r_um,z_um\n0,20\n50,15\n40,16\n114,0\n", false, &["p.csv:4:", "at 40 um", "sort", "overhangs"]),
         ("r_um,z_um\n0,20\n50,15\n50,0\n", false, &["p.csv:4:", "upright"]),
-        ("r_um,z_um\n0,20\n50,nan\n114,0\n", false, &["p.csv:3:", "`nan`", "was not measured"]),
+        ("r_um,z_um\n0,20\n50,nan\n114,0\n", false, &["p.csv:3:", "\"nan\"", "was not measured"]),
         ("r_um,z_um\n0,20\n50,\n114,0\n", false, &["p.csv:3:", "was not measured"]),
         ("r_um,z_um\n60,20\n80,15\n114,0\n", false, &["p.csv:2:", "on the axis"]),
         ("r_um,z_um\n0,20\n10,20\n10.1,1\n20,0\n", false, &["degrees", "cut the outline off"]),

@@ -121,7 +121,7 @@ mod tests {
     #[test]
     fn what_cannot_be_read_is_refused_with_its_line() {
         for (text, line, words) in [
-            ("", None, "plastic_strain,yield_stress_MPa"),
+            ("", None, "is empty"),
             ("0,300\n", Some(1), "no header"),
             ("plastic_strain,yield_stress\n0,300", Some(1), "has no unit"),
             ("plastic_strain,yield_stress (psi)\n0,300", Some(1), "\"psi\""),

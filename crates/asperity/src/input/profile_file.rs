@@ -161,7 +161,7 @@ mod tests {
     #[test]
     fn what_cannot_be_read_is_refused_with_its_line() {
         for (text, line, words) in [
-            ("", None, "r_um,z_um"),
+            ("", None, "is empty"),
             ("0,20\n5,19\n", Some(1), "r_um,z_um"),
             ("r,z\n0,20\n", Some(1), "\"r\" has no unit"),
             ("r_um,z (furlong)\n0,20\n", Some(1), "\"furlong\""),

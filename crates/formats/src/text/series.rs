@@ -239,7 +239,9 @@ impl<'t, const N: usize> Reader<'_, 't, N> {
         };
         let asked: Vec<String> =
             self.named.columns.iter().flatten().map(|name| format!("\"{name}\"")).collect();
-        let mut message = if asked.is_empty() {
+        let mut message = if text.trim().is_empty() {
+            format!("is empty: begin it with a line like {}", list(|q| q.example, ","))
+        } else if asked.is_empty() {
             format!(
                 "has no header that names a {} with their units: write a first line like {}",
                 list(|q| q.name, " and a "),

@@ -48,23 +48,19 @@ enum PixelSize {
 
 /// Pixels that a surface may have, m: from below the distance of atoms to that of fields.
 const POSSIBLE_PIXELS: [f64; 2] = [1e-10, 1.0];
-/// Height of a map, m, and its mean slope, degrees, beyond which a unit is wrong.
+/// Height over which a map may go, m.
 const MOST_HEIGHT: f64 = 1.0;
-const MOST_SLOPE_DEG: f64 = 80.0;
 
-/// Heights or slopes that no surface has.
+/// Heights that no surface has.
 fn refuse_absurd(surface: &Surface) -> Result<(), SceneError> {
-    let parameters = &surface.parameters;
-    let (height, slope) = (parameters.sz, parameters.beta_deg());
-    let found = if height > MOST_HEIGHT {
-        format!("the heights go over {height:.3} m")
-    } else if slope > MOST_SLOPE_DEG {
-        format!("the mean slope is {slope:.2} degrees")
-    } else {
+    let height = surface.parameters.sz;
+    if height <= MOST_HEIGHT {
         return Ok(());
-    };
-    let way = "look whether height_unit and pixel_size are right, or set override = true";
-    error("surface", format!("{found}, which no surface has: {way}"))
+    }
+    let message = format!(
+        "the heights go over {height:.3} m, which no surface has: look whether height_unit is right, or set override = true"
+    );
+    error("surface", message)
 }
 
 /// Two lengths, or one that is meant twice.
