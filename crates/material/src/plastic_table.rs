@@ -15,8 +15,8 @@ pub struct PlasticTable {
     pub error: f64,
 }
 
-/// A hardening curve as a table, stresses in units of `unit`: a table as it is, a law sampled at `most` points
-/// or fewer, but two at least, up to a plastic strain of 10.
+/// A hardening curve as a table, stresses in units of `unit`: a table as it is, a law sampled at `most`
+/// points or fewer, but two at least, up to a plastic strain of 10.
 pub fn curve_table(curve: &HardeningCurve, unit: f64, most: usize) -> PlasticTable {
     match curve {
         HardeningCurve::Power(law) => power_table(law, unit, most),

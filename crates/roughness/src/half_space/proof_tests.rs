@@ -22,8 +22,8 @@ fn surface(n: usize, periodic: bool) -> Surface {
     Surface::from_map(map.with_periodic(periodic)).unwrap()
 }
 
-/// Coarse answers beside one of 1e-9, elastic and with a limit of pressure, periodic and free, by their load and
-/// by their separation: the true error is below the proven one and above a fifth of it.
+/// Coarse answers beside one of 1e-9, elastic and with a limit of pressure, periodic and free, by their load
+/// and by their separation: the true error is below the proven one and above a fifth of it.
 #[test]
 fn the_proven_error_bounds_the_true_one_and_is_near() {
     for periodic in [true, false] {
@@ -54,8 +54,8 @@ fn the_proven_error_bounds_the_true_one_and_is_near() {
     }
 }
 
-/// The proof for a map that stands free asks that a wave of pressure on the padded grid lifts its own way: the
-/// transform of Love's displacements is positive, on grids of all shapes and pixels.
+/// The proof for a map that stands free asks that a wave of pressure on the padded grid lifts its own way:
+/// the transform of Love's displacements is positive, on grids of all shapes and pixels.
 #[test]
 fn every_wave_of_the_padded_grid_is_lifted_by_its_own_pressure() {
     for nodes in [[8, 8], [64, 64], [100, 37], [3, 200], [1, 50], [255, 256]] {
