@@ -25,7 +25,7 @@ const PRUNE: &str = "0.05";
 pub struct Extract {
     /// Map of heights (.sur, .x3p, .al3d, .sdf, .npy, .csv, …), or a scene of `asperity rough` (.toml)
     pub surface: PathBuf,
-    /// Scene of `asperity rough` whose metal, load and treatment of the surface a map takes [default: that of `asperity new rough`, under the load of `asperity new surface`]
+    /// Scene of `asperity rough` whose metal, load and treatment of the surface a map takes [default: that of `asperity new surface`]
     #[arg(long, value_name = "SCENE")]
     pub like: Option<PathBuf>,
     /// Islands above this separation from the mean plane, for example "1 um" [default: --share 0.1 of a map, the load of a scene]
@@ -89,7 +89,7 @@ pub fn extract(args: &Extract) -> Result<(), Error> {
     }
     let compared = match count {
         0 => None,
-        _ => Some(compare(args, &scene, &found, count, &target)?),
+        _ => Some(compare_crushed(&found, &scene, count, &args.run, &target)?),
     };
     if let Some(compared) = &compared {
         compared.write(&mut folder)?;
@@ -130,7 +130,7 @@ pub fn scene_of(
     let scene = RoughScene::of_map(path, &given, overrides)?;
     if like.is_none() && !quiet {
         terminal::warn(&format!(
-            "the metal of {} is that of `asperity new rough`, the load that of `asperity new surface`: give your own with --like SCENE.toml or --set",
+            "metal and load of {} are those of `asperity new surface`: give your own with --like SCENE.toml or --set",
             path.display()
         ));
     }
@@ -175,16 +175,17 @@ fn forget(target: &Path) -> Result<(), Error> {
     Ok(())
 }
 
-fn compare(
-    args: &Extract,
-    scene: &RoughScene,
+/// Crushes `count` asperities of `found`, whose files lie in `target`, and holds closures against them.
+pub fn compare_crushed(
     found: &Extracted,
+    scene: &RoughScene,
     count: usize,
+    run: &RunFlags,
     target: &Path,
 ) -> Result<Comparison, Error> {
-    let mut progress = BatchProgress::new(args.run.quiet, ["asperity", "asperities"], target.to_path_buf());
+    let mut progress = BatchProgress::new(run.quiet, ["asperity", "asperities"], target.to_path_buf());
     let options = Options {
-        threads: args.run.threads.map_or(0, usize::from),
+        threads: run.threads.map_or(0, usize::from),
         part: None,
         folder: Some(target.to_path_buf()),
     };

@@ -1,15 +1,16 @@
 //! `asperity rough`: the contact of a rough surface with a rigid plane.
 
-use crate::extract::scene_of;
+use crate::extract::{compare_crushed, scene_of};
 use crate::flags::{ReportFlag, RunFlags};
 use crate::folder::{Folder, claim};
 use crate::progress::Line;
 use crate::{interrupt, terminal};
-use asperity::error::Error;
+use asperity::error::{Error, InputError};
+use asperity::extract::{Extraction, extract};
 use asperity::output::Directory;
 use asperity::rough::{RoughScene, press, press_several};
 use asperity_paper::table1::table1;
-use clap::Args;
+use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
 
 /// Arguments of `asperity rough`.
@@ -18,7 +19,7 @@ pub struct Rough {
     /// Scene (TOML) or map of heights (.sur, .x3p, …); several of them give one table
     #[arg(required_unless_present = "table1")]
     pub scenes: Vec<PathBuf>,
-    /// Scene whose metal, load and treatment of the surface maps take [default: that of `asperity new rough`, under the load of `asperity new surface`]
+    /// Scene whose metal, load and treatment of the surface maps take [default: that of `asperity new surface`]
     #[arg(long, value_name = "SCENE", conflicts_with = "table1")]
     pub like: Option<PathBuf>,
     /// Print the paper's Table 1 beside ours: three generated surfaces, every closure; into files with --out or --report
@@ -27,9 +28,9 @@ pub struct Rough {
     /// Change a value of the file, for example --set "load.pressure=100 MPa"; repeatable
     #[arg(long = "set", value_name = "KEY.PATH=VALUE", conflicts_with = "table1")]
     pub overrides: Vec<String>,
-    /// Compare every closure with the half-space (default on maps of up to 1024 x 1024 points)
-    #[arg(long, conflicts_with_all = ["table1", "no_judge"])]
-    pub judge: bool,
+    /// Compare every closure with the half-space (default on maps of up to 1024 x 1024 points); "crush" crushes three summits too, by finite elements
+    #[arg(long, value_name = "BY", num_args = 0..=1, default_missing_value = "half-space", conflicts_with_all = ["table1", "no_judge"])]
+    pub judge: Option<Judge>,
     /// Do not compare closures with the half-space
     #[arg(long, conflicts_with = "table1")]
     pub no_judge: bool,
@@ -37,6 +38,15 @@ pub struct Rough {
     pub page: ReportFlag,
     #[command(flatten)]
     pub run: RunFlags,
+}
+
+/// Measure of closures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Judge {
+    /// The half-space of the same metal.
+    HalfSpace,
+    /// Finite elements of the highest summits, beside the half-space.
+    Crush,
 }
 
 /// Runs the command.
@@ -54,8 +64,8 @@ pub fn rough(args: &Rough) -> Result<(), Error> {
 /// A scene, or a map in a scene like another.
 fn read(path: &Path, args: &Rough, quiet: bool) -> Result<RoughScene, Error> {
     let mut overrides = args.overrides.clone();
-    if args.judge || args.no_judge {
-        overrides.push(format!("judge={}", args.judge));
+    if args.judge.is_some() || args.no_judge {
+        overrides.push(format!("judge={}", args.judge.is_some()));
     }
     scene_of(path, args.like.as_deref(), &overrides, quiet)
 }
@@ -72,12 +82,37 @@ fn one_scene(path: &Path, args: &Rough) -> Result<(), Error> {
     if !args.run.quiet {
         rough.summary.warnings.iter().for_each(terminal::warn);
     }
-    args.run.say(&target, || rough.json(), || rough.text())
+    let crushed = match args.judge {
+        Some(Judge::Crush) => Some(judge_by_crush(&scene, &target, args)?),
+        _ => None,
+    };
+    args.run.say(&target, || rough.json(), || rough.text() + &crushed.unwrap_or_default())
+}
+
+/// Crushes the highest summits of the surface and holds closures against them: into the folder `judge` of the
+/// results; what that says.
+fn judge_by_crush(scene: &RoughScene, target: &Path, args: &Rough) -> Result<String, Error> {
+    let found = extract(scene, &Extraction::to_judge())?;
+    let target = target.join("judge");
+    let mut folder = Directory::create(&target)?;
+    found.write(&mut folder)?;
+    let count = found.bodies.len();
+    if count == 0 {
+        let why = found.warnings.last().cloned().unwrap_or_else(|| "none has a profile".into());
+        return Ok(format!("no summit can be crushed to judge closures: {why}\n"));
+    }
+    let compared = compare_crushed(&found, scene, count, &args.run, &target)?;
+    compared.write(&mut folder)?;
+    Ok(compared.verdict().map_or_else(|| compared.text(), |verdict| format!("{verdict}.\n")))
 }
 
 /// `asperity rough A.x3p B.x3p …`: the results of each in a folder of its name, the tables of all beside
 /// them.
 fn several(paths: &[PathBuf], args: &Rough) -> Result<(), Error> {
+    if args.judge == Some(Judge::Crush) {
+        let message = "--judge crush takes one surface at a time";
+        return Err(InputError::new(message).help("press the others without it, or one by one").into());
+    }
     // what is not said is told once
     let quiet = |i: usize| args.run.quiet || i > 0;
     let scenes = paths.iter().enumerate().map(|(i, path)| read(path, args, quiet(i)));

@@ -233,6 +233,37 @@ impl Comparison {
         picture.map_or(Ok(()), |picture| sink.text("compared.svg", &picture))
     }
 
+    /// The closures that know the hardening of the metal beside the finite elements, in a sentence: which
+    /// is to be believed, by the force at the full depth; None where nothing was crushed.
+    pub fn verdict(&self) -> Option<String> {
+        let middle = |name: &str, value: fn(&ComparedRow) -> Option<f64>| {
+            let mut all: Vec<f64> = self.at_depth(name).filter_map(value).collect();
+            all.sort_by(f64::total_cmp);
+            all.get(all.len() / 2).copied()
+        };
+        let judged = [Closure::Calibrated, Closure::HalfSpacePlastic].into_iter().filter_map(|closure| {
+            let force = middle(closure.name(), |row| row.force_over_finite_elements)?;
+            let area = middle(closure.name(), |row| row.area_over_finite_elements)?;
+            Some((closure.name(), force, area))
+        });
+        let judged: Vec<(&str, f64, f64)> = judged.collect();
+        let said: Vec<String> = judged
+            .iter()
+            .map(|(name, force, area)| {
+                let [force, area] = [force, area].map(|ratio| 100.0 * (ratio - 1.0));
+                format!("{name} has a force {force:+.0} % and an area {area:+.0} % off")
+            })
+            .collect();
+        let off = |one: &(&str, f64, f64)| one.1.ln().abs();
+        let nearest = judged.iter().min_by(|a, b| off(a).total_cmp(&off(b)))?;
+        Some(format!(
+            "finite elements of {} summits (draft, to the same depth): {}; of the two believe {} here",
+            self.at_depth(FINITE_ELEMENTS).count(),
+            said.join(", "),
+            nearest.0
+        ))
+    }
+
     /// Force and area of every closure over those of the finite elements, at the full depth, for a person.
     pub fn text(&self) -> String {
         use std::fmt::Write;

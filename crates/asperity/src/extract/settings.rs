@@ -82,7 +82,21 @@ impl Default for Extraction {
     }
 }
 
+/// Summits that are crushed to judge closures.
+const JUDGING_SUMMITS: usize = 3;
+
 impl Extraction {
+    /// The highest summits above the plane at which `calibrated` carries the load of the scene, at `draft`:
+    /// enough to tell closures apart that differ by tens of percent, in seconds.
+    pub fn to_judge() -> Extraction {
+        Extraction {
+            parts: Parts::Load(Some(Closure::Calibrated)),
+            bodies: JUDGING_SUMMITS,
+            accuracy: Accuracy::Draft,
+            ..Extraction::default()
+        }
+    }
+
     /// Checks the values that need no map.
     ///
     /// # Errors
