@@ -5,13 +5,16 @@ use crate::results::units::{MEGAPASCAL, MICROMETRE};
 use crate::rough::closure_contact::{Body, ClosureContact};
 use asperity_roughness::CurvePoint;
 
-/// File names and charts of all closures at once; `mean_gradient` is that of the surface.
-pub(super) fn all(contacts: &[ClosureContact], mean_gradient: f64) -> [(&'static str, Chart); 3] {
-    [
+/// File names and charts of all closures at once, those that show something; `mean_gradient` is that of the
+/// surface.
+pub(super) fn all(contacts: &[ClosureContact], mean_gradient: f64) -> Vec<(&'static str, Chart)> {
+    let charts = [
         ("load_curve.svg", load_curves(contacts)),
         ("closures.svg", closures(contacts, mean_gradient)),
         ("pressure_histogram.svg", histogram(contacts)),
-    ]
+    ];
+    let seen = |(_, chart): &(&str, Chart)| chart.series.iter().any(|series| !series.points.is_empty());
+    charts.into_iter().filter(seen).collect()
 }
 
 /// The closures themselves: pressure on the contact of an island against its slope, to three times the mean
@@ -43,11 +46,28 @@ fn load_curves(contacts: &[ClosureContact]) -> Chart {
             if curve.len() > 2 { series } else { ends_only(series) }
         };
         series.push(series_of(false, one.curve()));
-        if !one.returns_everything() && !one.unloading_curve().is_empty() {
+        let gains = unloading_lies_above(one.curve(), one.unloading_curve());
+        if !one.returns_everything() && !one.unloading_curve().is_empty() && !gains {
             series.push(series_of(true, one.unloading_curve()));
         }
     }
     travel_chart(series)
+}
+
+/// True where a way back carries more than the way there at the same separation: energy from nothing, that
+/// the unloading law of closures gives where asperities are flatter than the cones it was made for.
+pub(super) fn unloading_lies_above(loading: &[CurvePoint], back: &[CurvePoint]) -> bool {
+    /// What points of a curve leave between them, of the largest pressure.
+    const MARGIN: f64 = 0.02;
+    let most = loading.iter().map(|p| p.pressure).fold(0.0, f64::max);
+    let loaded = |separation: f64| {
+        let after = loading.iter().position(|p| p.separation <= separation)?;
+        let [a, b] = [&loading[after.saturating_sub(1)], &loading[after]];
+        let whole = a.separation - b.separation;
+        let share = if whole > 0.0 { (a.separation - separation) / whole } else { 1.0 };
+        Some(a.pressure + share * (b.pressure - a.pressure))
+    };
+    back.iter().any(|p| loaded(p.separation).is_some_and(|there| p.pressure > there + MARGIN * most))
 }
 
 /// Points alone, for nothing is known between them: a line would be read as the curve.
@@ -85,4 +105,26 @@ fn histogram(contacts: &[ClosureContact]) -> Chart {
     });
     Chart::new("pressure over nominal pressure", format!("contact area per step of {width:.2} (%)"), series)
         .titled("Distribution of the pressure over the contact")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A way back above the way there gains energy and is not drawn; a chart without curves is not written.
+    #[test]
+    fn what_gains_energy_or_shows_nothing_is_left_out() {
+        let curve = |points: &[[f64; 2]]| -> Vec<CurvePoint> {
+            let point = |[separation, pressure]: &[f64; 2]| CurvePoint {
+                separation: *separation,
+                pressure: *pressure,
+                area_ratio: 0.0,
+            };
+            points.iter().map(point).collect()
+        };
+        let loading = curve(&[[3.0, 0.0], [2.0, 10.0], [1.0, 40.0]]);
+        assert!(!unloading_lies_above(&loading, &curve(&[[1.0, 40.0], [1.5, 12.0], [2.0, 0.0]])));
+        assert!(unloading_lies_above(&loading, &curve(&[[1.0, 40.0], [2.0, 20.0], [2.5, 0.0]])));
+        assert!(all(&[], 0.1).is_empty());
+    }
 }

@@ -14,10 +14,23 @@ pub struct ClosureContact {
     pub plasticity_index: Option<f64>,
     /// Nominal pressure: that asked for, or that carried at the separation asked for, in Pa.
     pub nominal: f64,
-    /// Area and mean pressure over those of the half-space with the same metal.
-    pub judged: Option<[f64; 2]>,
+    /// Comparison with the half-space of the same metal.
+    pub judged: Option<Judged>,
     /// The largest nominal pressure that it carries, in Pa, where that is less than was asked for.
     pub largest_load: Option<f64>,
+}
+
+/// A contact beside that of the half-space with the same metal, areas being those corrected for pixels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Judged {
+    /// The half-space: elastic, or with the limit of pressure of the metal.
+    pub by: Closure,
+    /// Area over that of the half-space.
+    pub area: f64,
+    /// Mean pressure over that of the half-space.
+    pub pressure: f64,
+    /// Relative error of the area of the half-space.
+    pub area_error: f64,
 }
 
 /// The model that presses a surface, with its contact.
@@ -90,6 +103,26 @@ impl ClosureContact {
     /// Contact area over nominal area.
     pub fn area_ratio(&self) -> Option<f64> {
         self.either(|i| i.contact.area_ratio, |s| s.contact.area.ratio)
+    }
+
+    /// The same as well as it is known: of a half-space corrected for the rims of its pixels.
+    pub fn corrected_ratio(&self) -> Option<f64> {
+        self.either(|i| i.contact.area_ratio, |s| s.contact.area.corrected)
+    }
+
+    /// Area over which the load is nominal, in m²: of islands that of the cells with a height at each corner,
+    /// of a half-space that of the pixels with a height.
+    pub fn nominal_area(&self) -> Option<f64> {
+        self.either(|i| i.contact.nominal_area, |s| s.contact.nominal_area)
+    }
+
+    /// The half-space of the same metal: elastic for closures of elastic cones, with the limit of pressure
+    /// for the others.
+    pub fn half_space_of_its_metal(&self) -> Closure {
+        match self.closure {
+            Closure::Sneddon | Closure::HalfSpace => Closure::HalfSpace,
+            _ => Closure::HalfSpacePlastic,
+        }
     }
 
     /// Load over contact area, in Pa; None without contact.

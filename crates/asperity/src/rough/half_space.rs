@@ -1,20 +1,26 @@
 //! The contact of a surface on a half-space with its load curve, unloading, gap and leak.
 
 use asperity_roughness::flow::{Axis, Constriction, Gap, Leak, constriction, leak};
-use asperity_roughness::half_space::{HalfSpace, HalfSpaceContact, HalfSpaceError, LimitSource, patches};
+use asperity_roughness::half_space::{
+    HalfSpace, HalfSpaceContact, HalfSpaceError, LimitSource, PressureLimit, patches,
+};
 use asperity_roughness::scene::Scene;
 use asperity_roughness::{CurvePoint, Load, Surface, fill};
 
 /// Residual of the points of a load curve before its last: areas to a few per mille.
 const CURVE_TOLERANCE: f64 = 1e-4;
 
+/// Share by which a hardness may be off the plateau of yield stress and hardening without a word: what atlas
+/// and slope leave.
+pub(super) const CONTRADICTION: f64 = 0.1;
+
 /// A surface on a half-space.
 #[derive(Clone, Debug)]
 pub struct SpaceContact {
     /// The half-space.
     pub body: HalfSpace,
-    /// The origin of its limit of pressure; None of an elastic one.
-    pub limit: Option<LimitSource>,
+    /// Its limit of pressure; None of an elastic one.
+    pub limit: Option<PressureLimit>,
     /// The contact at the load.
     pub contact: HalfSpaceContact,
     /// From first touch to the load.
@@ -73,7 +79,7 @@ impl SpaceContact {
     /// The results that a scene asks for of the contact `found` of `body` on `surface`.
     pub(super) fn evaluate(
         body: HalfSpace,
-        limit: Option<LimitSource>,
+        limit: Option<PressureLimit>,
         surface: &Surface,
         scene: &Scene,
         found: HalfSpaceContact,
@@ -146,9 +152,14 @@ impl SpaceContact {
         (self.flows && unknown.is_none()).then(|| leak.map_or(0.0, |l| l.conductance))
     }
 
+    /// Relative error of the leak along an axis; None without one, or where nothing bounds it.
+    pub fn leak_error(&self, axis: usize) -> Option<f64> {
+        self.passages[axis].leak.map(|leak| leak.error).filter(|error| error.is_finite())
+    }
+
     /// The origin of the limit of pressure, in words.
     pub(super) fn limit_from(&self) -> Option<String> {
-        let words = match self.limit? {
+        let words = match self.limit?.source {
             LimitSource::Hardness => "hardness",
             LimitSource::YieldStress => "3 yield_stress",
             LimitSource::Atlas(_) => "atlas of cones",
@@ -158,16 +169,35 @@ impl SpaceContact {
 
     /// Slope at which the atlas was read, degrees.
     pub(super) fn limit_slope_deg(&self) -> Option<f64> {
-        match self.limit? {
+        match self.limit?.source {
             LimitSource::Atlas(tan) => Some(tan.atan().to_degrees()),
             _ => None,
         }
+    }
+
+    /// 95 % bound of the error of the corrected area ratio: of its pixels, and of the limit of pressure.
+    pub fn area_error(&self) -> f64 {
+        area_error(&self.contact, self.limit.map_or(0.0, |limit| limit.error))
+    }
+
+    /// True where the area is load over limit to a twentieth: the roughness hardly matters.
+    pub(super) fn saturated(&self) -> bool {
+        const NEARLY: f64 = 1.05;
+        let area = self.contact.area.corrected;
+        self.body.limit.is_some_and(|limit| area > 0.0 && area <= NEARLY * self.contact.pressure / limit)
     }
 
     /// Relative error of the load where `asked` is what was asked for, in Pa.
     pub(super) fn load_error(&self, asked: f64) -> Option<f64> {
         (asked > 0.0).then(|| (self.contact.pressure / asked - 1.0).abs())
     }
+}
+
+/// 95 % bound of the error of the corrected area ratio of `contact`, whose limit of pressure is uncertain
+/// by the share `limit_error`.
+pub(super) fn area_error(contact: &HalfSpaceContact, limit_error: f64) -> f64 {
+    let of_limit = contact.limit.map_or(0.0, |limit| contact.limit_sensitivity(limit) * limit_error);
+    contact.area.error.hypot(contact.area.corrected * of_limit)
 }
 
 fn point(contact: &HalfSpaceContact) -> CurvePoint {

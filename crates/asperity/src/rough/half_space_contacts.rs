@@ -1,6 +1,6 @@
 //! The half-spaces of a scene: each contact found once, and what closures give beside them.
 
-use super::closure_contact::ClosureContact;
+use super::closure_contact::{ClosureContact, Judged};
 use super::half_space;
 use crate::error::InputError;
 use crate::rough::rough_scene::RoughScene;
@@ -55,7 +55,7 @@ impl HalfSpaceContacts {
     }
 }
 
-/// Area and mean pressure of each closure over those of the half-space with the same metal: elastic for
+/// Area and mean pressure of each closure beside those of the half-space with the same metal: elastic for
 /// "sneddon", with its limit of pressure for the others.
 pub(super) fn compare_with_half_space(
     contacts: &mut [ClosureContact],
@@ -66,15 +66,23 @@ pub(super) fn compare_with_half_space(
     let tables = scene.tables();
     let Ok(load) = tables.load.load() else { return };
     for one in contacts.iter_mut() {
-        let elastic = matches!(one.closure, Closure::Sneddon | Closure::HalfSpace);
+        let by = one.half_space_of_its_metal();
+        let elastic = by == Closure::HalfSpace;
         let limit = if elastic { None } else { spaces.limit(scene, surface, load).ok().flatten() };
         let known = elastic || limit.is_some();
         let body = half_space::body(tables, limit.map(|l| l.pressure));
         let found = known.then(|| spaces.contact(&body, surface, load));
-        if let (Some(Ok(found)), Some(area)) = (found, one.area_ratio())
-            && let (Some(pressure), Some(mean)) = (found.mean_pressure(), one.mean_pressure())
+        if let (Some(Ok(found)), Some(area)) = (&found, one.corrected_ratio())
+            && let known = found.area
+            && known.corrected > 0.0
+            && area > 0.0
         {
-            one.judged = Some([area / found.area.ratio, mean / pressure]);
+            let loads = if one.nominal > 0.0 { one.nominal / found.pressure } else { 1.0 };
+            let ratio = area / known.corrected;
+            // the limit is the closure's too, but where hardness and yield stress are two metals
+            let two_metals = limit.map_or(0.0, |l| l.contradiction());
+            let area_error = half_space::area_error(found, two_metals) / known.corrected;
+            one.judged = Some(Judged { by, area: ratio, pressure: loads / ratio, area_error });
         }
     }
 }

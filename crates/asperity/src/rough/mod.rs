@@ -26,7 +26,7 @@ mod rough_report;
 pub use asperity_roughness::scene as tables;
 
 pub use crate::crush::Phase;
-pub use crate::rough::closure_contact::{Body, ClosureContact, IslandContact};
+pub use crate::rough::closure_contact::{Body, ClosureContact, IslandContact, Judged};
 pub use crate::rough::contact::{Rough, press};
 pub use crate::rough::rough_scene::RoughScene;
 pub use curves::{BearingRow, GapShare, SpectrumRow};

@@ -136,10 +136,9 @@ impl Task<'_> {
         // on the contact an elastic cone of the mean slope has half of E* tan β
         let sneddon = 0.5 * tables.material.elastic().reduced_modulus() * surface.parameters.mean_gradient;
         let body = half_space::body(tables, limit.map(|l| l.pressure));
-        let source = limit.map(|l| l.source);
         let one = spaces
             .contact(&body, surface, self.load)
-            .and_then(|found| SpaceContact::evaluate(body, source, surface, tables, found))
+            .and_then(|found| SpaceContact::evaluate(body, limit, surface, tables, found))
             .map_err(|e| PressError::of_half_space(&e, sneddon))?;
         let warnings = warnings::half_space_warnings(closure, &one, tables);
         let carried = one.contact.pressure;

@@ -2,6 +2,7 @@
 
 use super::charts;
 use super::summary::ClosureSummary;
+use super::table::TableRow;
 use crate::error::Error;
 use crate::input::toml_file::to_toml;
 use crate::page::{self, Numbers, Report};
@@ -56,7 +57,7 @@ impl Rough {
         if let Some(verdict) = &self.summary.verdict {
             return verdict.clone();
         }
-        let areas = self.table.iter().map(|row| row.contact_area_ratio).filter(|a| a.is_finite());
+        let areas = self.table.iter().map(TableRow::best_area_ratio).filter(|a| a.is_finite());
         let (low, high) = areas.fold((f64::INFINITY, 0.0_f64), |(l, h), a| (l.min(a), h.max(a)));
         if low > high {
             return "No closure carries this load.".into();

@@ -68,17 +68,13 @@ impl RoughScene {
         Ok(read)
     }
 
-    /// The scene that stands for what is not said: the milled surface of steel that `asperity new rough`
-    /// writes, under the load that `asperity new surface` writes, which most measured surfaces carry by every
-    /// closure.
+    /// The scene that stands for what is not said: metal, load and treatment of the surface as `asperity new
+    /// surface` writes them.
     ///
     /// # Errors
     /// None: the text comes with the program.
     pub fn usual() -> Result<RoughScene, InputError> {
-        let at = Path::new("");
-        let measured = RoughScene::from_toml(crate::scenes::SURFACE, at)?;
-        let scene = RoughScene::from_toml(crate::scenes::ROUGH_MILLED, at)?.scene;
-        Ok(RoughScene::new(Scene { load: measured.scene.load, ..scene }, at))
+        RoughScene::from_toml(crate::scenes::SURFACE, Path::new(""))
     }
 
     /// A scene built in code; its paths are relative to the folder `base`.

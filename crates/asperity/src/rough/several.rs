@@ -147,8 +147,8 @@ impl Several {
                 "{:<20} {:<18} {:>8} {:>9} {:>14} {:>7}",
                 row.surface,
                 row.closure.name(),
-                shown(Some(100.0 * row.contact_area_ratio), 3),
-                shown(row.mean_pressure_MPa, 1),
+                shown(Some(100.0 * row.best_area_ratio()), 3),
+                shown(row.best_mean_pressure_mpa(), 1),
                 shown(Some(row.separation_um), 4),
                 shown(row.area_over_half_space, 3),
             );

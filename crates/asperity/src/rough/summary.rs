@@ -54,7 +54,7 @@ row! {
         understood: Vec<String> = surface.notes.clone(),
         /// Points that `surface.outliers` took away.
         outliers: usize = surface.outliers,
-        /// Area of the cells used.
+        /// Area of the cells used, over which closures of islands carry the pressure; `nominal_area_um2` of a closure is its own.
         nominal_area_um2: f64 = surface.nominal_area() / MICROMETRE / MICROMETRE,
         /// Arithmetic mean height Sa of ISO 25178-2, over the whole map.
         sa_um: f64 = surface.parameters.sa / MICROMETRE,
@@ -135,6 +135,14 @@ row! {
         limit_from: Option<String> = one.space().and_then(|s| s.limit_from()),
         /// Slope of the patches of contact at which the atlas of cones was read, degrees.
         limit_slope_deg: Option<f64> = one.space().and_then(|s| s.limit_slope_deg()),
+        /// Relative uncertainty of that limit (95 %); it goes into `area_error`.
+        limit_error: Option<f64> = one.space().and_then(|s| s.limit).map(|l| l.error),
+        /// The part of `area_error` that pixels leave.
+        area_error_of_pixels: Option<f64> = one.space().map(|s| s.contact.area.error),
+        /// Proven bound of the relative error of the pressures that the search of the half-space leaves, in the norm of the energy.
+        pressure_error: Option<f64> = one.space().map(|s| s.contact.pressure_error),
+        /// The same of the energy.
+        energy_error: Option<f64> = one.space().map(|s| s.contact.pressure_error.powi(2)),
         /// Convolutions on the finest grid of the half-space.
         convolutions: Option<usize> = one.space().map(|s| s.contact.convolutions),
         /// Root mean square height of the surface after unloading, µm.

@@ -59,8 +59,13 @@ row! {
             .flatten(),
         /// Contact area ratio, corrected for the perimeter of the pixels (Yastrebov et al. 2017).
         contact_area_ratio_corrected: Option<f64> = one.space().map(|s| s.contact.area.corrected),
-        /// Uncertainty of the corrected ratio.
-        area_error: Option<f64> = one.space().map(|s| s.contact.area.error),
+        /// 95 % bound of the error of the corrected ratio: what pixels leave, and what the limit of pressure leaves.
+        area_error: Option<f64> = one.space().map(|s| s.area_error()),
+        /// The same of the mean pressure that the corrected area has, MPa.
+        mean_pressure_error_MPa: Option<f64> = one
+            .space()
+            .filter(|s| s.contact.area.corrected > 0.0)
+            .map(|s| s.contact.pressure * s.area_error() / s.contact.area.corrected.powi(2) / MEGAPASCAL),
         /// Residual of the complementarity conditions of the half-space.
         residual: Option<f64> = one.space().map(|s| s.contact.residual),
         /// Mean distance of plane and surface, µm.
@@ -68,7 +73,7 @@ row! {
         /// Normal contact stiffness per unit of area, -dp/d(mean gap), MPa/µm.
         stiffness_MPa_per_um: Option<f64> =
             one.space().and_then(|s| s.contact.stiffness).map(|k| k / MEGAPASCAL * MICROMETRE),
-        /// Whether an open path crosses the map along x.
+        /// Whether an open path crosses the map along x; none where that hangs on points without a height.
         percolates_x: Option<bool> = one.space().and_then(|s| s.percolates(0)),
         /// The same along y.
         percolates_y: Option<bool> = one.space().and_then(|s| s.percolates(1)),
@@ -78,22 +83,43 @@ row! {
         /// The same along y.
         critical_gap_y_um: Option<f64> =
             one.space().and_then(|s| s.passages[1].narrowest).map(|c| c.gap / MICROMETRE),
-        /// Volumetric flow rate times viscosity over pressure difference along x, m³; 0 where tight, none where not asked for.
+        /// Volumetric flow rate times viscosity over pressure difference along x, m³; 0 where tight, none where not asked for or not known.
         leak_x_m3: Option<f64> = one.space().and_then(|s| s.leak(0)),
         /// The same along y.
         leak_y_m3: Option<f64> = one.space().and_then(|s| s.leak(1)),
+        /// Error of the leak along x by the pixels and by points without a height: the true one lies between leak/(1 + error) and leak (1 + error). None without a leak, or where nothing bounds it.
+        leak_x_error: Option<f64> = one.space().and_then(|s| s.leak_error(0)),
+        /// The same along y.
+        leak_y_error: Option<f64> = one.space().and_then(|s| s.leak_error(1)),
         /// Gap between parallel planes that leak as much along x, µm.
         hydraulic_gap_x_um: Option<f64> =
             one.space().and_then(|s| s.passages[0].leak).map(|l| l.hydraulic_gap / MICROMETRE),
         /// The same along y.
         hydraulic_gap_y_um: Option<f64> =
             one.space().and_then(|s| s.passages[1].leak).map(|l| l.hydraulic_gap / MICROMETRE),
-        /// Area over that of the half-space with the same metal.
-        area_over_half_space: Option<f64> = one.judged.map(|j| j[0]),
-        /// Mean pressure over that of the half-space with the same metal.
-        pressure_over_half_space: Option<f64> = one.judged.map(|j| j[1]),
+        /// Area over that of the half-space with the same metal, those of half-spaces corrected for pixels.
+        area_over_half_space: Option<f64> = one.judged.map(|j| j.area),
+        /// Mean pressure over that of the half-space with the same metal, by the same areas.
+        pressure_over_half_space: Option<f64> = one.judged.map(|j| j.pressure),
+        /// The half-space of the two columns before: elastic, or with the limit of pressure of the metal.
+        judged_by: Option<Closure> = one.judged.map(|j| j.by),
+        /// Area over which the load is nominal, µm²: the load is the nominal pressure times it. Islands stand on cells with a height at each corner, half-spaces on pixels with a height.
+        nominal_area_um2: Option<f64> = one.nominal_area().map(|a| a / MICROMETRE / MICROMETRE),
         /// `ok`, or why there are no numbers.
         status: String = one.status().into(),
+    }
+}
+
+impl TableRow {
+    /// Contact area over nominal area as well as it is known: corrected for pixels where it is made of them;
+    /// NaN without a contact.
+    pub fn best_area_ratio(&self) -> f64 {
+        self.contact_area_ratio_corrected.unwrap_or(self.contact_area_ratio)
+    }
+
+    /// Load over that area, MPa; none without contact.
+    pub fn best_mean_pressure_mpa(&self) -> Option<f64> {
+        self.mean_pressure_MPa.map(|pressure| pressure * self.contact_area_ratio / self.best_area_ratio())
     }
 }
 

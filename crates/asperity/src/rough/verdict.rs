@@ -1,13 +1,12 @@
 //! The sentence at the end of a run: area, the closure to believe, gap, and whether and how much it leaks.
 
-use super::half_space::SpaceContact;
+use super::half_space::{CONTRADICTION, SpaceContact, area_error};
 use crate::results::numbers::{rounded, significant, with_digits};
 use crate::results::units::{MEGAPASCAL, MICROMETRE};
 use crate::rough::closure_contact::ClosureContact;
 use crate::rough::contact::Rough;
 use asperity_roughness::Closure;
 use asperity_roughness::flow::Axis;
-use asperity_roughness::half_space::Area;
 use asperity_roughness::scene::Fluid;
 use std::fmt::Write;
 
@@ -39,24 +38,40 @@ impl Rough {
             "{}: true contact on {:.3} ± {:.3} % of the area",
             best.name(),
             100.0 * area.corrected,
-            100.0 * area.error
+            100.0 * space.area_error()
         );
-        if let (Some(limit), Some(slope)) = (space.body.limit, space.limit_slope_deg()) {
-            let _ = write!(
-                text,
-                "; no point bears more than {:.0} MPa, the plateau of the atlas of cones at the {slope:.1}° of the patches",
-                limit / MEGAPASCAL
-            );
+        if space.saturated() {
+            text += "; saturated: that is load over limit of pressure, whatever the roughness";
         }
-        if let Some(belief) = belief(&self.contacts, area) {
+        text += &limit_in_words(space);
+        if let Some(belief) = belief(&self.contacts, best) {
             let _ = write!(text, "; {belief}");
         }
         let _ = write!(text, "; mean gap {} µm", with_digits(space.contact.mean_gap / MICROMETRE, 3));
         for (k, axis) in [Axis::X, Axis::Y].into_iter().enumerate() {
             let _ = write!(text, "; {}", passage(space, k, axis, self.summary.scene.fluid.as_ref()));
         }
+        if !space.flows && space.passages.iter().any(|p| p.narrowest.is_some()) {
+            text += "; how much leaks is not computed beside other closures: --set half_space.leak=true, or a [fluid] table";
+        }
         text.push('.');
         Some(text)
+    }
+}
+
+/// The limit of pressure of `space`, where its source says more than the scene does.
+fn limit_in_words(space: &SpaceContact) -> String {
+    let Some(limit) = space.limit else { return String::new() };
+    let [pressure, error] = [limit.pressure, limit.error * limit.pressure].map(|p| p / MEGAPASCAL);
+    match (space.limit_slope_deg(), limit.rival) {
+        (Some(slope), _) => format!(
+            "; no point bears more than {pressure:.0} ± {error:.0} MPa, the plateau of the atlas of cones at the {slope:.1}° of the patches"
+        ),
+        (None, Some(rival)) if limit.contradiction() > CONTRADICTION => format!(
+            "; no point bears more than the hardness, {pressure:.0} MPa, where yield stress and hardening say {:.0} MPa: two metals",
+            rival / MEGAPASCAL
+        ),
+        _ => String::new(),
     }
 }
 
@@ -75,9 +90,15 @@ fn overload(contacts: &[ClosureContact]) -> Option<String> {
     ))
 }
 
-/// The closure that has the area of the half-space, or the reason why that cannot be told.
-fn belief(contacts: &[ClosureContact], area: &Area) -> Option<String> {
-    let islands = contacts.iter().filter_map(|one| Some((one.name(), one.islands()?)));
+/// The closure that has the area of the half-space `best`, or the reason why that cannot be told: of those
+/// that make their contact of the same metal.
+fn belief(contacts: &[ClosureContact], best: &ClosureContact) -> Option<String> {
+    let space = best.space()?;
+    let area = &space.contact.area;
+    let two_metals = space.limit.map_or(0.0, |limit| limit.contradiction());
+    let error = area_error(&space.contact, two_metals) / area.corrected;
+    let same_metal = contacts.iter().filter(|one| one.half_space_of_its_metal() == best.closure);
+    let islands = same_metal.filter_map(|one| Some((one.name(), one.islands()?)));
     let judged = islands.map(|(name, one)| ComparedClosure {
         name,
         ratio: one.contact.area_ratio / area.corrected,
@@ -85,7 +106,7 @@ fn belief(contacts: &[ClosureContact], area: &Area) -> Option<String> {
     });
     let judged: Vec<ComparedClosure> =
         judged.filter(|one| one.ratio.is_finite() && one.ratio > 0.0).collect();
-    judgement(&judged, area.error / area.corrected)
+    judgement(&judged, best.name(), error, two_metals > KNOWN_AREA_ERROR)
 }
 
 /// A closure beside the half-space.
@@ -98,33 +119,37 @@ struct ComparedClosure {
     outside: f64,
 }
 
-/// The sentence on the closure whose area is nearest, where that of the half-space is known up to the share
-/// `error`.
-fn judgement(judged: &[ComparedClosure], error: f64) -> Option<String> {
+/// The sentence on the closure whose area is nearest, where that of the half-space `by` is known up to the
+/// share `error`, because of its pixels or because hardness and yield stress are those of `two_metals`.
+fn judgement(judged: &[ComparedClosure], by: &str, error: f64, two_metals: bool) -> Option<String> {
     let nearest = judged.iter().min_by(|a, b| a.ratio.ln().abs().total_cmp(&b.ratio.ln().abs()))?;
     let ComparedClosure { name, ratio, outside } = *nearest;
     let off = 100.0 * (ratio - 1.0);
     if error > KNOWN_AREA_ERROR {
+        let way_out = if two_metals {
+            "give the hardness or the yield stress of the metal, not both"
+        } else {
+            "measure finer, or smooth with s_filter"
+        };
         return Some(format!(
-            "which closure to believe cannot be judged here: that area is uncertain by {:.0} %, more than {:.0} % (measure finer, or smooth \
-             with s_filter; the nearest, {name}, has an area {off:+.0} % off)",
+            "which closure to believe cannot be judged here: that area is uncertain by {:.0} %, more than {:.0} % ({way_out}; the nearest, {name}, has an area {off:+.0} % off that of {by})",
             100.0 * error,
             100.0 * KNOWN_AREA_ERROR
         ));
     }
     if (ratio - 1.0).abs() > BELIEVED_AREA_ERROR {
         return Some(format!(
-            "believe none of the closures here (the nearest, {name}, has an area {off:+.0} % off)"
+            "believe none of the closures here (the nearest, {name}, has an area {off:+.0} % off that of {by})"
         ));
     }
     if outside > MAX_LOAD_OUTSIDE {
         return Some(format!(
-            "which closure to believe cannot be judged here: the nearest, {name}, has an area {off:+.0} % off, but {:.0} % of its load is on \
+            "which closure to believe cannot be judged here: the nearest, {name}, has an area {off:+.0} % off that of {by}, but {:.0} % of its load is on \
              asperities outside the range that it was made for",
             100.0 * outside
         ));
     }
-    Some(format!("of the closures believe {name} here (its area is {off:+.0} % off)"))
+    Some(format!("of the closures believe {name} here (its area is {off:+.0} % off that of {by})"))
 }
 
 fn passage(space: &SpaceContact, k: usize, axis: Axis, fluid: Option<&Fluid>) -> String {
@@ -152,8 +177,9 @@ fn passage(space: &SpaceContact, k: usize, axis: Axis, fluid: Option<&Fluid>) ->
     if let Some(leak) = space.passages[k].leak {
         let _ = write!(
             text,
-            ", and leaks {:.2e} m³ × pressure difference / viscosity, as parallel planes {} µm apart",
+            ", and leaks {:.2e} m³ × pressure difference / viscosity {}, as parallel planes {} µm apart",
             leak.conductance,
+            known_to(leak.error),
             with_digits(leak.hydraulic_gap / MICROMETRE, 3)
         );
         if let Some(fluid) = fluid {
@@ -165,6 +191,22 @@ fn passage(space: &SpaceContact, k: usize, axis: Axis, fluid: Option<&Fluid>) ->
     text
 }
 
+/// How well a leak is known whose true value lies within the factor 1 + `error`.
+fn known_to(error: f64) -> String {
+    const SMALL: f64 = 0.5;
+    const ORDER: f64 = 10.0;
+    let factor = with_digits(1.0 + error, 2);
+    if error <= SMALL {
+        format!("(± {} %)", with_digits(100.0 * error, 2))
+    } else if 1.0 + error <= ORDER {
+        format!("(within an order of magnitude: by a factor of {factor})")
+    } else if error.is_finite() {
+        format!("(its order of magnitude is not known: by a factor of {factor}; nearly closed)")
+    } else {
+        "(nothing bounds its error)".into()
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -173,12 +215,18 @@ mod tests {
     fn a_closure_is_believed_only_where_area_and_range_allow() {
         let one = |name, ratio, outside| ComparedClosure { name, ratio, outside };
         let said = |ratio, outside, error| {
-            judgement(&[one("far", 2.0, 0.0), one("near", ratio, outside)], error).unwrap()
+            judgement(&[one("far", 2.0, 0.0), one("near", ratio, outside)], "half-space", error, false)
+                .unwrap()
         };
         assert!(said(0.95, 0.0, 0.02).starts_with("of the closures believe near"));
+        assert!(said(0.95, 0.0, 0.02).contains("off that of half-space"));
         assert!(said(0.8, 0.0, 0.02).starts_with("believe none"));
         assert!(said(0.95, 0.0, 0.22).contains("uncertain by 22 %"));
         assert!(said(0.95, 0.6, 0.02).contains("60 % of its load"));
-        assert_eq!(judgement(&[], 0.0), None);
+        assert_eq!(known_to(0.123), "(± 12 %)");
+        assert!(
+            known_to(3.0).contains("within an order of magnitude") && known_to(33.0).contains("factor of 34")
+        );
+        assert_eq!(judgement(&[], "half-space", 0.0, false), None);
     }
 }

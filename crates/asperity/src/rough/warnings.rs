@@ -1,9 +1,11 @@
 //! Warnings: remarks on the trust in the numbers of a rough contact.
 
+use super::charts;
 use super::closure_contact::IslandContact;
-use super::half_space::SpaceContact;
-use crate::results::units::MICROMETRE;
-use asperity_roughness::scene::{Missing, Scene};
+use super::half_space::{CONTRADICTION, SpaceContact};
+use crate::results::numbers::with_digits;
+use crate::results::units::{MEGAPASCAL, MICROMETRE};
+use asperity_roughness::scene::Scene;
 use asperity_roughness::{Closure, Coefficient, Levelling, SINGLE_ASPERITY_EXPONENT, Surface, level};
 
 /// Remarks on the trust in the numbers.
@@ -30,7 +32,40 @@ pub(super) fn stopped_before(closure: Closure) -> String {
 /// Of the scene as a whole: an unused fluid, its material, its surface and its load.
 pub(super) fn scene_warnings(surface: &Surface, scene: &Scene) -> Warnings {
     let first = unused_fluid(scene).into_iter().chain(two_materials(scene));
-    first.chain(surface_warnings(surface, scene)).collect()
+    first.chain(missing_points(surface, scene)).chain(surface_warnings(surface, scene)).collect()
+}
+
+/// Share of points without a height below which no number of a contact moves by more than pixels move it.
+const SEEN_MISSING_SHARE: f64 = 1e-3;
+
+/// Points without a height: what they do to load, area and flow.
+fn missing_points(surface: &Surface, scene: &Scene) -> Option<String> {
+    let map = &surface.map;
+    let nodes = map.heights().len() as f64;
+    let share = (surface.missing + surface.outliers) as f64 / nodes;
+    if share <= SEEN_MISSING_SHARE {
+        return None;
+    }
+    let percent = 100.0 * share;
+    if map.missing() == 0 {
+        return Some(format!(
+            "{percent:.1} % of the points have no height and were filled from their rims: contact, gap and flow there are a guess"
+        ));
+    }
+    let cells = surface.extent.cells as f64 / (map.cell_columns() * map.cell_rows()) as f64;
+    let pixels = 1.0 - map.missing() as f64 / nodes;
+    let flow = if scene.closure.closures().iter().any(|closure| closure.is_half_space()) {
+        "; percolation and leak take them for closed, which they may not be"
+    } else {
+        ""
+    };
+    Some(format!(
+        "{percent:.1} % of the points have no height and bear nothing: areas and the load are those of the rest, which is {:.1} % of the cells \
+         for closures of islands and {:.1} % of the pixels for the half-space (force = nominal pressure x nominal_area_um2 of the \
+         row){flow}; surface.missing = \"fill\" fills them",
+        100.0 * cells,
+        100.0 * pixels,
+    ))
 }
 
 /// A fluid that no closure lets flow.
@@ -40,8 +75,13 @@ fn unused_fluid(scene: &Scene) -> Option<String> {
     (scene.fluid.is_some() && !flows).then(|| text.into())
 }
 
-/// A hardness that is not that of the yield stress.
+/// A hardness that is not that of the yield stress. Where hardening is known the half-space tells, by the
+/// atlas of cones at the slope of the patches.
 fn two_materials(scene: &Scene) -> Option<String> {
+    let plastic = scene.closure.closures().contains(&Closure::HalfSpacePlastic);
+    if plastic && scene.material.hardening_exponent.is_some() {
+        return None;
+    }
     let ratio = scene.material.hardness?.0 / (3.0 * scene.material.yield_stress?.0);
     let text = format!("hardness is {ratio:.2} times 3 yield_stress (eq. 20 says 1): two different metals?");
     (!(0.8..=1.25).contains(&ratio)).then_some(text)
@@ -86,26 +126,11 @@ fn surface_warnings(surface: &Surface, scene: &Scene) -> Vec<String> {
         )
     });
     let first = [seam, spike, unit, apart].into_iter().flatten();
-    first.chain(missing_points(surface, scene)).chain(tilt(surface, scene)).collect()
+    first.chain(tilt(surface, scene)).collect()
 }
 
-/// Share of the points that may be missing without a word.
-const MAX_MISSING_SHARE: f64 = 0.02;
 /// Share of Sq that the plane of a surface may be without a word.
 const MAX_TILT_SHARE: f64 = 0.9;
-
-/// Points without a height that are left out.
-fn missing_points(surface: &Surface, scene: &Scene) -> Option<String> {
-    let (missing, all) = (surface.missing, surface.map.heights().len());
-    let share = missing as f64 / all as f64;
-    (share > MAX_MISSING_SHARE && scene.surface.missing == Missing::Exclude).then(|| {
-        format!(
-            "{missing} of {all} points ({:.1} %) have no height: they bear nothing and let no fluid through; measure them, or close \
-             the holes smoothly by surface.missing = \"fill\"",
-            100.0 * share
-        )
-    })
-}
 
 /// A surface that is tilted far more than it is rough.
 fn tilt(surface: &Surface, scene: &Scene) -> Option<String> {
@@ -122,6 +147,9 @@ fn tilt(surface: &Surface, scene: &Scene) -> Option<String> {
     })
 }
 
+/// Relative error of a leak above which a warning says so.
+const UNSURE_LEAK: f64 = 1.0;
+
 /// Of a contact on a half-space.
 pub(super) fn half_space_warnings(closure: Closure, one: &SpaceContact, scene: &Scene) -> Warnings {
     let leaks = one.passages.iter().filter_map(|p| p.leak);
@@ -132,12 +160,34 @@ pub(super) fn half_space_warnings(closure: Closure, one: &SpaceContact, scene: &
             l.imbalance
         )
     });
+    let doubtful = (0..2)
+        .filter_map(|k| Some((k, one.passages[k].leak?.error)))
+        .filter(|(_, error)| *error > UNSURE_LEAK);
+    let doubtful = doubtful.map(|(k, error)| {
+        format!(
+            "{}: the leak along {} is known up to a factor of {} alone: the paths are few pixels wide, or missing points lie in them; measure \
+             finer, or fill",
+            closure.name(),
+            ["x", "y"][k],
+            with_digits(1.0 + error, 2)
+        )
+    });
+    let doubtful: Vec<String> = doubtful.collect();
+    let rival = one.limit.filter(|limit| limit.contradiction() > CONTRADICTION).and_then(|limit| {
+        let [hardness, plateau] = [limit.pressure, limit.rival?].map(|p| p / MEGAPASCAL);
+        Some(format!(
+            "hardness {hardness:.0} MPa contradicts yield_stress and hardening_exponent: metal with those bears {plateau:.0} MPa under these \
+             patches (atlas of cones). \"{}\" and closures of a hardness take the first, \"calibrated\" the second; leave out what \
+             was not measured on this metal, or give hardness_error",
+            closure.name()
+        ))
+    });
     let area = &one.contact.area;
-    let coarse = (area.error > 0.1 * area.ratio).then(|| {
+    let coarse = (area.error > 0.1 * area.corrected).then(|| {
         format!(
             "{}: the contact is made of few pixels: its area is uncertain by {:.0} %; measure finer, or smooth with s_filter",
             closure.name(),
-            100.0 * area.error / area.ratio
+            100.0 * area.error / area.corrected
         )
     });
     let ends = (one.has_ends_only() && scene.half_space.load_points.is_none()).then(|| {
@@ -147,7 +197,7 @@ pub(super) fn half_space_warnings(closure: Closure, one: &SpaceContact, scene: &
             closure.name()
         )
     });
-    unbalanced.chain(coarse).chain(ends).collect()
+    unbalanced.chain(doubtful).chain(rival).chain(coarse).chain(ends).collect()
 }
 
 /// Share of the load below which nothing is said of it: no number moves by more.
@@ -177,6 +227,14 @@ pub(super) fn island_warnings(
         warnings.push(format!(
             "{name}: unloading exponent {} is that of the paper's single asperity, not of a calibration",
             SINGLE_ASPERITY_EXPONENT
+        ));
+    }
+    if let Some(unloading) = &one.unloading
+        && !one.law.returns_everything()
+        && charts::unloading_lies_above(&one.contact.curve, &unloading.curve)
+    {
+        warnings.push(format!(
+            "{name}: unloading carries more than loading at the same separation, which gains energy: load_curve.svg leaves it out"
         ));
     }
     if let Some(unloading) = &one.unloading

@@ -139,11 +139,16 @@ impl Study {
 
     /// The column that the picture shows.
     pub fn shown(&self) -> Option<&str> {
-        const USUAL_COLUMNS: [&str; 3] = ["peak_force_N", "peak_force_N_per_mm", "contact_area_ratio"];
+        // of a half-space the area that is corrected for pixels
+        const USUAL_COLUMNS: [&str; 4] =
+            ["peak_force_N", "peak_force_N_per_mm", "contact_area_ratio_corrected", "contact_area_ratio"];
         let columns = columns(&self.runs);
         let usual = || {
             let named = USUAL_COLUMNS.into_iter().find_map(|name| columns.get(name));
-            named.or_else(|| columns.iter().find(|name| name.ends_with(".contact_area_ratio")))
+            let of_closure = |end: &str| columns.iter().find(|name| name.ends_with(end));
+            named
+                .or_else(|| of_closure(".contact_area_ratio_corrected"))
+                .or_else(|| of_closure(".contact_area_ratio"))
         };
         match &self.definition.show {
             Some(name) => columns.get(name.as_str()).copied(),
