@@ -57,6 +57,6 @@ fn the_error_of_band_limited_maps_holds_and_is_near() {
         }
     }
     let [middle, held] = judged(ratios.clone());
-    // over many maps the middle is 4 (verified/rough.md); of twelve contacts some are right by chance
+    // over 405 contacts the middle was 4; of twelve some are right by chance
     assert!(held == 1.0 && middle <= 8.0, "{ratios:?}");
 }
