@@ -45,7 +45,7 @@ impl RoughScene {
     /// A path that is no text, an override that names no key or a value of another kind.
     pub fn of_map(path: &Path, like: &RoughScene, overrides: &[String]) -> Result<RoughScene, InputError> {
         if let Err(e) = std::fs::metadata(path) {
-            let help = "give a map of heights (.sur, .x3p, .al3d, .sdf, .npy, .csv, .xyz) or a scene of `asperity rough` (.toml)";
+            let help = "give a map of heights (.sur, .x3p, .sdf, .al3d, .gwy, .gsf, .npy, .csv, .txt, .xyz) or a scene of `asperity rough` (.toml)";
             return Err(InputError::new(format!("cannot read {}: {e}", path.display())).help(help));
         }
         let mut scene = like.scene.clone();

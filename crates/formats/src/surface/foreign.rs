@@ -6,12 +6,12 @@ use super::measured::ReadError;
 pub(super) const LOOKED_AT: u64 = 1024;
 
 const SUR: &str =
-    "export it as .sur, .x3p or text in its own program, or open it in Gwyddion and save it as text (.txt)";
+    "export it as .sur, .x3p or text in its own program, or open it in Gwyddion and save it as .gwy or .gsf";
 const PICTURE: &str = "colours are not heights: export the heights as .sur, .x3p or text";
 const SHEET: &str = "save the sheet as CSV";
 
 /// Beginning, name, and what to do.
-const KINDS: [(&[u8], &str, &str); 27] = [
+const KINDS: [(&[u8], &str, &str); 25] = [
     (b"\x89PNG", "a PNG picture", PICTURE),
     (b"\xff\xd8\xff", "a JPEG picture", PICTURE),
     (b"GIF8", "a GIF picture", PICTURE),
@@ -21,16 +21,6 @@ const KINDS: [(&[u8], &str, &str); 27] = [
         b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1",
         "a file of old Microsoft Office or of an instrument that stores so (.xls, .doc, .oir)",
         SHEET,
-    ),
-    (
-        b"GWYP",
-        "a Gwyddion file (.gwy)",
-        "save the channel of heights as .gsf, or export it as text with its header",
-    ),
-    (
-        b"Gwyddion Simple Field",
-        "a Gwyddion simple field (.gsf)",
-        "export the heights as text with their header",
     ),
     (b"\x89HDF\r\n\x1a\n", "an HDF5 file (.datx of Zygo, .h5, .nid)", SUR),
     (b"CDF\x01", "a NetCDF file (.nc)", "save the heights by np.save(\"map.npy\", heights)"),

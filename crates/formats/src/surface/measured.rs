@@ -12,7 +12,9 @@ pub enum ReadError {
     #[error("cannot be read: {0}; a path is relative to the folder of the file that names it")]
     Io(#[from] std::io::Error),
     /// No reader knows it.
-    #[error("{found}; a surface is a .npy, .x3p, .sdf, .sur, .al3d, .xyz or .csv file")]
+    #[error(
+        "{found}; a surface is a .sur, .x3p, .sdf, .al3d, .gwy, .gsf or .npy file, or text (.csv, .txt, .xyz)"
+    )]
     Unknown {
         /// Its probable kind.
         found: String,

@@ -7,6 +7,8 @@ mod measured;
 mod al3d;
 mod described;
 mod foreign;
+mod gsf;
+mod gwy;
 mod npy;
 mod points;
 mod sdf;
@@ -52,12 +54,14 @@ pub fn read(path: &Path, request: &Request<'_>) -> Result<Measured, ReadError> {
 
 /// The reader of a file that begins so.
 fn reader(start: &[u8]) -> Option<Reader> {
-    let known: [(&[u8], Reader); 5] = [
+    let known: [(&[u8], Reader); 7] = [
         (b"\x93NUMPY", npy::read),
         (b"PK\x03\x04", x3p::read),
         (b"DIGITAL SURF", sur::read),
         (b"DSCOMPRESSED", sur::read),
         (b"AliconaImaging", al3d::read),
+        (gsf::MAGIC, gsf::read),
+        (b"GWYP", gwy::read),
     ];
     let is_sdf = start.first().is_some_and(|kind| b"ab ".contains(kind))
         && sdf::VERSIONS.iter().any(|version| start[1..].starts_with(version.as_bytes()));

@@ -80,10 +80,32 @@ fn archives_of_other_programs_are_named() {
         (b"\\*File list\r\n", "NanoScope"),
         (b"\x01\x00Directory", "Wyko"),
         (b"\x88\x1b\x03\x6f", "MetroPro"),
-        (b"GWYPrest", "Gwyddion"),
     ] {
         let refused = found("a.dat", start).unwrap_err();
         assert!(refused.contains(word) && refused.contains("not read"), "{refused}");
+    }
+}
+
+/// Files that gwyfile 0.3.0 and gsffile 0.5.5 (PyPI) wrote: 3 x 2 points of 0.5 x 0.25 um, the last but one no
+/// number; the second Gwyddion file has a channel of phase before that of heights.
+#[test]
+fn files_of_gwyddion_by_independent_writers_are_read() {
+    let want = [1e-7, 2e-7, -3e-7, 4e-7, NAN, 6e-7];
+    for (name, content) in [
+        ("a.gwy", &include_bytes!("data/gwyfile.gwy")[..]),
+        ("b.gwy", include_bytes!("data/gwyfile-two-channels.gwy")),
+        ("a.gsf", include_bytes!("data/gsffile.gsf")),
+    ] {
+        let map = found(name, content).unwrap_or_else(|e| panic!("{name}: {e}"));
+        assert_eq!((map.columns, map.rows, map.height_unit), (3, 2, Some(1.0)));
+        let near = |a: f64, b: f64| (a / b - 1.0).abs() < 1e-7 || a.is_nan() && b.is_nan();
+        assert!(map.heights.iter().zip(want).all(|(a, b)| near(*a, b)), "{name} {:?}", map.heights);
+        let Spacing::Metres(p) = map.spacing else { panic!() };
+        assert!(near(p[0], 0.5e-6) && near(p[1], 0.25e-6), "{name} {p:?}");
+        assert_eq!(map.notes.len(), usize::from(name == "b.gwy"), "{:?}", map.notes);
+        // every cut is answered
+        let folder = Folder::new();
+        assert!((0..content.len() - 1).all(|end| read_plain(&folder.file(name, &content[..end])).is_err()));
     }
 }
 

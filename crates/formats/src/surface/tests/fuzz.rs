@@ -17,6 +17,11 @@ fn samples(extension: &str) -> Vec<(String, Vec<u8>)> {
         "al3d" => vec![al3d()],
         "sdf" => vec![sdf_binary(), SDF.into(), SDF.replace("BAD", "1e999").into()],
         "x3p" => vec![x3p_of(&holes)],
+        "gwy" => vec![
+            include_bytes!("data/gwyfile.gwy").into(),
+            include_bytes!("data/gwyfile-two-channels.gwy").into(),
+        ],
+        "gsf" => vec![include_bytes!("data/gsffile.gsf").into()],
         _ => ["0 0 1\n1 0 2\n0 1 3\n1 1 4\n", "1,2,3\n4,,6\n", "x;y;z\n0;0;1,5\n1;0;2\n0;1;3\n1;1;4\n"]
             .map(|t| t.into())
             .into(),
@@ -185,6 +190,16 @@ fn damaged_x3p_is_answered() {
 }
 
 #[test]
+fn damaged_gwy_is_answered() {
+    survives("gwy");
+}
+
+#[test]
+fn damaged_gsf_is_answered() {
+    survives("gsf");
+}
+
+#[test]
 fn damaged_text_is_answered() {
     survives("text");
 }
@@ -194,7 +209,7 @@ fn damaged_text_is_answered() {
 fn noise_after_a_known_beginning_is_answered() {
     let folder = Folder::new();
     let config = ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(cases()) };
-    let kinds = ["npy", "sur", "al3d", "sdf", "x3p", "text"];
+    let kinds = ["npy", "sur", "al3d", "sdf", "x3p", "gwy", "gsf", "text"];
     let input = (0..kinds.len(), prop::collection::vec(any::<u8>(), 0..700));
     prop::test_runner::TestRunner::new(config)
         .run(&input, |(kind, noise)| {
