@@ -4,6 +4,10 @@ use crate::ElementKind;
 use crate::grading::Grading;
 use crate::profile::Profile;
 
+/// Half width of a contact over that of its foot up to which it counts as untouched. A core of twenty columns
+/// in it is then 1e-7 of a foot wide, far above the rounding of a place in a row of a thousand feet.
+const LEAST_WIDTH_SHARE: f64 = 1e-6;
+
 /// A contact to be resolved.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Contact {
@@ -27,6 +31,12 @@ impl Contact {
             if share == 1.0 { x } else { power([half, half], [self.foot, share * self.foot], x) }
         };
         [self.centre - side(self.sides[0]), self.centre + side(self.sides[1])]
+    }
+
+    /// True where it is wide enough for a mesh of its own: one of a rounding carries nothing, and its columns
+    /// would lie closer than their coordinates can tell.
+    pub(super) fn is_resolved(&self) -> bool {
+        self.half_width > LEAST_WIDTH_SHARE * self.foot
     }
 
     /// Half width of the narrower side of its foot.
@@ -69,12 +79,12 @@ pub(super) fn power(from: [f64; 2], to: [f64; 2], x: f64) -> f64 {
 /// Half width that the sizes around a contact follow: an untouched asperity is meshed coarsely after its
 /// foot.
 pub(super) fn contact_size(contact: &Contact) -> f64 {
-    if contact.half_width > 0.0 { contact.half_width } else { 0.1 * contact.foot }
+    if contact.is_resolved() { contact.half_width } else { 0.1 * contact.foot }
 }
 
 pub(super) fn core_half_width(plan: &Plan, contact: &Contact) -> f64 {
     let wish =
-        if contact.half_width > 0.0 { plan.grading.start * contact.half_width } else { 0.3 * contact.foot };
+        if contact.is_resolved() { plan.grading.start * contact.half_width } else { 0.3 * contact.foot };
     wish.min(0.6 * contact.narrow())
 }
 

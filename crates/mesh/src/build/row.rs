@@ -112,7 +112,7 @@ fn cell(grid: &mut Grid, plan: &Plan, contact: &Contact, halved: bool, row_depth
 
 /// The shells of a cell from the `half` width of its core to its foot, with the `depths` of core and row.
 fn shells(plan: &Plan, contact: &Contact, halved: bool, half: f64, depths: [f64; 2]) -> Vec<Rectangle> {
-    let grading = if contact.half_width > 0.0 {
+    let grading = if contact.is_resolved() {
         plan.grading
     } else {
         Grading { fineness: 0.5, far: 0.5, ..plan.grading }
@@ -176,4 +176,48 @@ pub fn rectangles_around(plan: &Plan, inner: Rectangle) -> Vec<Rectangle> {
         }
     };
     stations[1..].iter().enumerate().map(rectangle).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::ElementKind;
+    use crate::build::{Contact, Plan, build};
+    use crate::grading::Grading;
+    use crate::profile::{Asperity, Profile, Shape};
+
+    /// Three ridges far from 0, of which the first is touched.
+    fn row(second: f64, third: f64) -> Plan {
+        let centres = [1000.0, 1020.0, 1040.0];
+        let ridge = |centre| Asperity {
+            shape: Shape::Cone { tan_slope: 0.1, tip_radius: 0.0 },
+            height: 1.0,
+            centre,
+            valley_radius: 0.0,
+        };
+        let contact =
+            |(centre, half_width)| Contact { centre, half_width, foot: 10.0, sides: [1.0; 2], slope: 0.1 };
+        Plan {
+            profile: Profile { asperities: centres.map(ridge).to_vec(), line: None },
+            contacts: centres.into_iter().zip([1.0, second, third]).map(contact).collect(),
+            row: [990.0, 1050.0],
+            width: [900.0, 1140.0],
+            depth: 200.0,
+            grading: Grading { fineness: 0.2, start: 0.7, fine: 1.6, far: 0.4 },
+            kind: ElementKind::Quad8,
+        }
+    }
+
+    /// Half widths below the rounding of a place, up to what the columns of a core can still tell apart.
+    #[test]
+    fn a_contact_as_wide_as_a_rounding_is_meshed_as_an_untouched_one() {
+        let untouched = build(&row(0.0, 0.0));
+        assert!(untouched.quality().unwrap().min_scaled_jacobian > 0.1);
+        for width in [f64::MIN_POSITIVE, 1e-14, 1e-10, 9e-6] {
+            assert_eq!(build(&row(width, 0.0)), untouched, "{width}");
+            assert_eq!(build(&row(0.0, width)), untouched, "{width}");
+        }
+        let touched = build(&row(1.1e-5, 0.0));
+        assert!(touched.cell_count() > untouched.cell_count());
+        assert!(touched.quality().unwrap().min_scaled_jacobian > 0.1, "{:?}", touched.quality());
+    }
 }

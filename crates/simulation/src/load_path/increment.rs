@@ -52,6 +52,12 @@ pub enum Stop {
     /// A force that the tool does not find as deep as it can go.
     #[error("target force not reached at maximum depth: ask for less force, or for a depth")]
     ForceNotReached,
+    /// Loading went back: the contact jumps between two states, as that of a light load does on a surface
+    /// that was dented far deeper.
+    #[error(
+        "the depth fell while loading, so that force and depth go back and forth: press deeper, or give the body no earlier load that is so much heavier"
+    )]
+    DepthFell,
     /// A flank went through another part of the surface before the contact of the two was seen.
     #[error("a flank met another flank and went through it")]
     FlanksMeet,

@@ -231,13 +231,24 @@ impl<'p> Path<'p> {
         sums
     }
 
-    /// Accepts the attempted increment to `travel`.
+    /// True where the attempted increment to `travel` is less deep than the last one, by more than Newton's
+    /// method leaves open.
+    fn goes_back(&self, travel: f64) -> bool {
+        let before = self.depth(self.stand.travel, self.stand.contact);
+        let after = self.depth(travel, ContactLoad::from_sums(&self.sums()));
+        self.stand.contact.force > 0.0 && after < (1.0 - self.problem.numbers.newton_tolerance) * before
+    }
+
+    /// Accepts the attempted increment to `travel`, unless loading would go back.
     pub(super) fn accept(
         &mut self,
         travel: f64,
         phase: Phase,
         observer: &mut Observer<'_>,
     ) -> Result<Increment, Stop> {
+        if phase == Phase::Load && self.goes_back(travel) {
+            return Err(Stop::DepthFell);
+        }
         let before = (self.stand.contact.force, self.stand.slope);
         // loading is close to a parabola but at its start, whose power only the slope tells (1 of a ridge, 2
         // of a cone); unloading bends less the flatter the contact has become; so there the slope is asked

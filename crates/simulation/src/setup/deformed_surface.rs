@@ -56,8 +56,8 @@ impl Formed {
         let places = self.clearances(tool);
         let top = places.iter().map(|place| place[1]).fold(f64::NEG_INFINITY, f64::max);
         let widest = |centre: f64, [left, right]: [f64; 2]| {
-            let within = places.iter().filter(|[x, z]| (left..=right).contains(x) && *z >= top - depth);
-            within.map(|[x, _]| (x - centre).abs()).fold(0.0, f64::max)
+            let edges = edges_above(&places, top - depth).filter(|x| (left..=right).contains(x));
+            edges.map(|x| (x - centre).abs()).fold(0.0, f64::max)
         };
         if profile.asperities.is_empty() {
             return vec![widest(0.0, [f64::NEG_INFINITY, f64::INFINITY])];
@@ -85,6 +85,17 @@ impl Formed {
     }
 }
 
+/// Ends of the parts of the polyline through `places` that lie at `height` or above it. A summit that is one
+/// place alone has a width too: that of the polyline, not of the place.
+fn edges_above(places: &[[f64; 2]], height: f64) -> impl Iterator<Item = f64> {
+    let ends = places.iter().filter(move |[_, z]| *z >= height).map(|[x, _]| *x);
+    let crossings = places.windows(2).filter_map(move |pair| {
+        let [[x, z], [to, z_to]] = [pair[0], pair[1]];
+        ((z >= height) != (z_to >= height)).then(|| x + (to - x) * (height - z) / (z_to - z))
+    });
+    ends.chain(crossings)
+}
+
 /// Mean contact pressure to be expected at `depth`, in units of E, on the surface that earlier loads left, or
 /// else on that of `profile`.
 pub fn expected_pressure(
@@ -103,10 +114,32 @@ pub fn expected_pressure(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use asperity_mesh::profile::Shape;
 
     /// A plateau of half width 2 with flanks of slope ½ on a base.
     fn plateau() -> Formed {
         Formed::new(vec![[4.0, -1.0], [0.0, 0.0], [2.0, 0.0], [10.0, -1.0]], 0.01)
+    }
+
+    /// A hat of the slope ½ whose sides have no place but summit and foot: at a depth of 0.1 the cut is 0.2
+    /// to either side of its summit; the places around the axis of the tool are far from it.
+    #[test]
+    fn a_summit_of_one_place_is_as_wide_as_its_sides_say() {
+        let row = |x: f64| {
+            let foot = |s: f64| [x + 2.0 * s, -1.0];
+            vec![foot(-1.0), [x, 0.0], foot(1.0)]
+        };
+        let formed = Formed::new([row(0.0), row(1000.0)].concat(), 0.01);
+        let hat = |centre: f64| Asperity {
+            shape: Shape::Cone { tan_slope: 0.5, tip_radius: 0.0 },
+            height: 1.0,
+            centre,
+            valley_radius: 0.0,
+        };
+        let profile = Profile { asperities: vec![hat(0.0), hat(1000.0)], line: None };
+        for width in formed.half_widths(&profile, &Tool::Plane, 0.1) {
+            assert!((width - 0.2).abs() < 1e-12, "{width}");
+        }
     }
 
     #[test]
