@@ -2,7 +2,7 @@
 //!
 //! In order: quantities with units ([`units`]) and units of columns ([`dimension`]), memory that a file may
 //! take ([`memory`]), tables of numbers ([`text`]), curves of indentation instruments ([`indentation`]), maps
-//! of surfaces ([`surface`]).
+//! of surfaces ([`surface`]), and the file in which many runs keep what they have finished ([`journal`]).
 
 pub mod units;
 
@@ -15,3 +15,5 @@ pub mod text;
 pub mod indentation;
 
 pub mod surface;
+
+pub mod journal;

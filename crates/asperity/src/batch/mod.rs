@@ -4,9 +4,9 @@
 //! run that is found there is not run again, so that a killed batch resumes and a batch that has grown runs
 //! only what is new.
 
-pub mod journal;
+pub use asperity_formats::journal;
 
-use crate::batch::journal::Journal;
+use crate::batch::journal::{Journal, Opened};
 use crate::error::{Error, InputError};
 use crate::progress::{Observer, Progress};
 use crate::results::output::open_journal;
@@ -105,17 +105,14 @@ pub(crate) fn run<C: Sync, R: Clone + Send + Sync + Serialize + DeserializeOwned
     observer: &mut Observer<'_, R>,
 ) -> Result<Finished<R>, Error> {
     let keys: Vec<String> = batch.cases.iter().map(batch.key).collect();
-    let wanted: HashSet<&str> = keys.iter().map(String::as_str).collect();
-    let (journal, lines) = open_journal(batch.journal, batch.definition)?;
-    let mut rows: HashMap<String, R> =
-        lines.iter().filter_map(|line| serde_json::from_str(line).ok()).collect();
-    rows.retain(|key, _| wanted.contains(key.as_str()));
+    let Resumed { mut rows, journal, notice } = resume(batch, &keys)?;
     let count = |rows: &HashMap<String, R>| keys.iter().filter(|key| rows.contains_key(*key)).count();
     let (done, cases) = (count(&rows), batch.cases.len());
     let mut seen = HashSet::new();
     let open: Vec<usize> =
         (0..cases).filter(|&i| !rows.contains_key(&keys[i]) && seen.insert(keys[i].as_str())).collect();
-    let stop = AtomicBool::new(!observer(&Progress::counted(done, cases, None)));
+    let first = Progress { notice: notice.as_deref(), ..Progress::counted(done, cases, None) };
+    let stop = AtomicBool::new(!observer(&first));
     let shared = Mutex::new(Shared { journal, observer, done });
     let lock = || shared.lock().unwrap_or_else(PoisonError::into_inner);
     let go_on = || {
@@ -154,6 +151,51 @@ pub(crate) fn run<C: Sync, R: Clone + Send + Sync + Serialize + DeserializeOwned
     }
     let rows: Vec<(usize, R)> = (0..cases).filter_map(|i| Some((i, rows.get(&keys[i])?.clone()))).collect();
     Ok(Finished { stopped: rows.len() < cases, rows })
+}
+
+/// The work of earlier starts.
+struct Resumed<R> {
+    /// Results that are wanted, under their keys.
+    rows: HashMap<String, R>,
+    journal: Option<Journal>,
+    /// See [`Progress::notice`].
+    notice: Option<String>,
+}
+
+/// Opens the journal of the batch, whose runs have these `keys`.
+///
+/// # Errors
+/// A journal that cannot be written.
+fn resume<C, R: DeserializeOwned>(batch: &Batch<'_, C, R>, keys: &[String]) -> Result<Resumed<R>, Error> {
+    let Some(opened) = open_journal(batch.journal, batch.definition)? else {
+        return Ok(Resumed { rows: HashMap::new(), journal: None, notice: None });
+    };
+    let wanted: HashSet<&str> = keys.iter().map(String::as_str).collect();
+    let mut rows: HashMap<String, R> =
+        opened.texts.iter().filter_map(|line| serde_json::from_str(line).ok()).collect();
+    let known = rows.len();
+    rows.retain(|key, _| wanted.contains(key.as_str()));
+    let notice = left_behind(&opened, known - rows.len());
+    Ok(Resumed { rows, journal: Some(opened.journal), notice })
+}
+
+/// A word on what the journal holds and this work does not take up: another's runs, damaged lines, `others`,
+/// the number of runs with other values.
+fn left_behind(opened: &Opened, others: usize) -> Option<String> {
+    let set_aside = opened.set_aside.as_ref().map(|old| {
+        format!(
+            "the runs of an earlier start had another scene, accuracy, definition or version of the program: their journal is kept as {}",
+            old.display()
+        )
+    });
+    let runs = |n: usize| if n == 1 { "1 run".to_string() } else { format!("{n} runs") };
+    let damaged = (opened.damaged > 0)
+        .then(|| format!("{} in the journal cannot be read and will be done again", runs(opened.damaged)));
+    let others = (others > 0).then(|| {
+        format!("{} with other values stay in the journal and are not in the results", runs(others))
+    });
+    let words: Vec<String> = [set_aside, damaged, others].into_iter().flatten().collect();
+    (!words.is_empty()).then(|| words.join("; "))
 }
 
 /// Threads where `asked` are asked for: 0 stands for all cores.

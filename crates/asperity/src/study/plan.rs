@@ -2,8 +2,8 @@
 
 use super::points::{Points, Sample};
 use super::subject::{Subject, is_study};
-use super::vary::{Vary, wrong};
-use crate::batch::journal::fingerprint;
+use super::vary::{Values, Vary, wrong};
+use crate::batch::journal::fingerprint_of_file;
 use crate::error::{Error, InputError};
 use crate::input::toml_file::TomlFile;
 use indexmap::IndexMap;
@@ -224,7 +224,7 @@ impl Plan {
     /// Every value of a list, and every range, with at least one combination that makes sense.
     fn check(&self) -> Result<(), InputError> {
         let vary = &self.definition.vary;
-        let listed: Vec<bool> = vary.iter().map(|one| one.levels().is_some()).collect();
+        let listed: Vec<bool> = vary.iter().map(|one| one.count().is_some()).collect();
         let mut good: BTreeSet<(usize, String)> = BTreeSet::new();
         let mut bad: Vec<((usize, String), usize)> = Vec::new();
         let mut errors: Vec<InputError> = Vec::new();
@@ -278,16 +278,18 @@ impl Plan {
 fn files(subject: &Subject, vary: &[Vary]) -> Result<Vec<(String, u64)>, InputError> {
     let mut words: BTreeSet<String> = subject.words().into_iter().collect();
     for one in vary {
-        let levels = one.levels().unwrap_or_default();
-        words.extend(levels.iter().map(|level| level.trim_matches('"').to_string()));
+        // a number between two others names no file
+        if let Values::List(levels) = &one.values {
+            words.extend(levels.iter().map(|level| level.trim_matches('"').to_string()));
+        }
     }
     let mut found = Vec::new();
     for word in words.into_iter().filter(|word| !word.is_empty()) {
         let path = subject.resolve(Path::new(&word));
         if path.is_file() {
-            let bytes = std::fs::read(&path)
+            let number = fingerprint_of_file(&path)
                 .map_err(|e| wrong(&word, &format!("cannot read {}: {e}", path.display())))?;
-            found.push((word, fingerprint(&bytes)));
+            found.push((word, number));
         }
     }
     Ok(found)

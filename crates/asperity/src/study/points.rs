@@ -43,10 +43,10 @@ pub(super) struct Points {
 
 #[derive(Clone, Debug)]
 enum Kind {
-    /// Values of each key, combined.
-    Grid(Vec<Vec<String>>),
+    /// Numbers of values of each key, combined.
+    Grid(Vec<usize>),
     /// Values of each key, in step.
-    List(Vec<Vec<String>>),
+    List,
     /// Share of the way for each key and point.
     Lhs(Vec<Vec<f64>>),
     Sobol(Sobol),
@@ -66,26 +66,22 @@ impl Points {
                 return Err(wrong(&one.key, "is varied twice"));
             }
         }
-        let levels = || vary.iter().map(levels).collect::<Result<Vec<_>, _>>();
+        let counts = || vary.iter().map(count).collect::<Result<Vec<_>, _>>();
         let (kind, len) = match sample {
             Sample::Grid => {
-                let levels = levels()?;
-                let len = levels.iter().try_fold(1_usize, |len, values| len.checked_mul(values.len()));
-                (Kind::Grid(levels), len.unwrap_or(usize::MAX))
+                let counts = counts()?;
+                let len = counts.iter().try_fold(1_usize, |len, &count| len.checked_mul(count));
+                (Kind::Grid(counts), len.unwrap_or(usize::MAX))
             }
             Sample::List => {
-                let levels = levels()?;
-                let len = levels[0].len();
-                if let Some((one, values)) = vary.iter().zip(&levels).find(|(_, values)| values.len() != len)
-                {
-                    let message = format!(
-                        "has {} values, {} has {len}: in step they need as many",
-                        values.len(),
-                        vary[0].key
-                    );
+                let counts = counts()?;
+                let len = counts[0];
+                if let Some((one, count)) = vary.iter().zip(&counts).find(|(_, count)| **count != len) {
+                    let first = &vary[0].key;
+                    let message = format!("has {count} values, {first} has {len}: in step they need as many");
                     return Err(wrong(&one.key, &message));
                 }
-                (Kind::List(levels), len)
+                (Kind::List, len)
             }
             Sample::Lhs { points, seed } => {
                 check_drawn(vary, points)?;
@@ -104,7 +100,7 @@ impl Points {
             }
         };
         if len > MAX_RUNS {
-            return Err(InputError::new(format!("the study has more than {MAX_RUNS} runs")));
+            return Err(too_many());
         }
         Ok(Points { vary: vary.to_vec(), kind, len })
     }
@@ -120,30 +116,34 @@ impl Points {
             self.vary.iter().enumerate().map(|(key, one)| one.value_at(share(key))).collect()
         };
         match &self.kind {
-            Kind::Grid(levels) => {
+            Kind::Grid(counts) => {
                 let mut rest = i;
-                let mut values: Vec<String> = levels
-                    .iter()
-                    .rev()
-                    .map(|values| {
-                        let value = values[rest % values.len()].clone();
-                        rest /= values.len();
+                let keys = self.vary.iter().zip(counts).rev();
+                let mut values: Vec<String> = keys
+                    .map(|(one, count)| {
+                        let value = one.level(rest % count);
+                        rest /= count;
                         value
                     })
                     .collect();
                 values.reverse();
                 values
             }
-            Kind::List(levels) => levels.iter().map(|values| values[i].clone()).collect(),
+            Kind::List => self.vary.iter().map(|one| one.level(i)).collect(),
             Kind::Lhs(shares) => drawn(&|key| shares[key][i]),
             Kind::Sobol(sobol) => drawn(&|key| sobol.coordinate(key, i)),
         }
     }
 }
 
-fn levels(vary: &Vary) -> Result<Vec<String>, InputError> {
-    vary.levels()
+fn count(vary: &Vary) -> Result<usize, InputError> {
+    vary.count()
         .ok_or_else(|| wrong(&vary.key, "a range without --sample needs its number of values behind a slash"))
+}
+
+fn too_many() -> InputError {
+    InputError::new(format!("the study has more than {MAX_RUNS} runs"))
+        .help("take fewer values of a key, or draw from the ranges: --sample lhs 1000")
 }
 
 fn check_drawn(vary: &[Vary], points: usize) -> Result<(), InputError> {
@@ -151,7 +151,7 @@ fn check_drawn(vary: &[Vary], points: usize) -> Result<(), InputError> {
         return Err(InputError::new("a sample needs at least 1 point"));
     }
     if points > MAX_RUNS {
-        return Err(InputError::new(format!("the study has more than {MAX_RUNS} runs")));
+        return Err(too_many());
     }
     let counted = |one: &&Vary| matches!(&one.values, Values::Range(range) if range.count.is_some());
     match vary.iter().find(counted) {
@@ -219,6 +219,10 @@ mod tests {
         assert!(said(&["a=1,2", "a=3"], Sample::Grid).starts_with("a: is varied twice"));
         assert!(said(&["a=0..1"], Sample::Lhs { points: 0, seed: 0 }).contains("at least 1"));
         assert!(said(&["a=0..1/10000", "b=0..1/10000"], Sample::Grid).contains("more than"));
+        // refused before any list is made: it would hold 24 GB, and 1e18 values
+        assert!(said(&["a=0..1/1000000000"], Sample::Grid).contains("more than"));
+        assert!(said(&["a=0..1/1000000000000000000"], Sample::List).contains("more than"));
+        assert!(said(&["a=0..1/10000000000", "b=0..1/10000000000"], Sample::Grid).contains("more than"));
         assert!(said(&[], Sample::Grid).contains("at least one key"));
     }
 }

@@ -51,7 +51,7 @@ impl Vary {
     /// use asperity::study::Vary;
     ///
     /// let depth = Vary::parse("loading.depth=1 um..2 um/3")?;
-    /// assert_eq!(depth.levels(), Some(vec!["1 um".to_string(), "1.5 um".into(), "2 um".into()]));
+    /// assert_eq!((depth.count(), depth.level(1)), (Some(3), "1.5 um".to_string()));
     /// # Ok::<(), asperity::InputError>(())
     /// ```
     pub fn parse(text: &str) -> Result<Vary, InputError> {
@@ -100,13 +100,21 @@ impl Vary {
         Ok(Vary { key: key.into(), values: Values::List(values) })
     }
 
-    /// The values one after the other; `None` of a range without a number of steps.
-    pub fn levels(&self) -> Option<Vec<String>> {
+    /// The number of values; `None` of a range without a number of steps.
+    pub fn count(&self) -> Option<usize> {
         match &self.values {
-            Values::List(values) => Some(values.clone()),
+            Values::List(values) => Some(values.len()),
+            Values::Range(range) => range.count,
+        }
+    }
+
+    /// Value `i`, from 0 and below the number of values. No list is made of a range, which may be long.
+    pub fn level(&self, i: usize) -> String {
+        match &self.values {
+            Values::List(values) => values[i].clone(),
             Values::Range(range) => {
-                let last = range.count? - 1;
-                Some((0..=last).map(|i| range.value_at(i as f64 / last as f64)).collect())
+                let last = range.count.map_or(1, |count| count - 1);
+                range.value_at(i as f64 / last as f64)
             }
         }
     }
@@ -249,7 +257,11 @@ mod tests {
     use super::*;
 
     fn levels(text: &str) -> Vec<String> {
-        Vary::parse(text).unwrap().levels().unwrap()
+        all_levels(&Vary::parse(text).unwrap())
+    }
+
+    fn all_levels(vary: &Vary) -> Vec<String> {
+        (0..vary.count().unwrap()).map(|i| vary.level(i)).collect()
     }
 
     #[test]
@@ -264,7 +276,7 @@ mod tests {
         assert_eq!(levels("surface.file=../a.npy,../b.npy"), ["../a.npy", "../b.npy"]);
         assert_eq!(levels("m.n=-1e-3..1e-3/3"), ["-0.001", "0", "0.001"]);
         let list = serde_json::json!([0, 0.25, "5 um", [1, 2]]);
-        assert_eq!(Vary::new("k", &list).unwrap().levels().unwrap(), ["0", "0.25", "5 um", "[1,2]"]);
+        assert_eq!(all_levels(&Vary::new("k", &list).unwrap()), ["0", "0.25", "5 um", "[1,2]"]);
     }
 
     #[test]
