@@ -58,7 +58,7 @@ fn grow(set: Set, folder: &Path, count: usize, words: &[String]) {
     let mut known = vec![false; count];
     rows.iter().filter(|row| row.index < count).for_each(|row| known[row.index] = true);
     let path = folder.join(set.journal(part, parts));
-    let (mut journal, _) = Journal::open(&path, set.identity()).expect("the journal");
+    let mut journal = Journal::open(&path, set.identity()).expect("the journal").journal;
     let analyses = Analyses::default();
     for index in (part - 1..count).step_by(parts).filter(|&index| !known[index]) {
         if clock.elapsed() > Duration::from_secs(seconds) {

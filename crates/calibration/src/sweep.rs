@@ -66,6 +66,14 @@ impl Sweep {
     /// # Errors
     /// The first value that makes no sense, with the allowed range.
     pub fn validate(&self) -> Result<(), SceneError> {
+        // before anything goes through pairs of values
+        let Sweep { slopes_deg, youngs_modulus, yield_stress, hardening_exponent, .. } = self;
+        let lists = [slopes_deg.len(), youngs_modulus.len(), yield_stress.len(), hardening_exponent.len()];
+        let cases = lists.iter().try_fold(1_usize, |cases, &count| cases.checked_mul(count));
+        if cases.is_none_or(|cases| cases > MOST_CASES) {
+            let message = format!("more than {MOST_CASES} cases: give fewer values, or cut the sweep in two");
+            return Err(error("", &message));
+        }
         let slope_limit = match self.tool {
             Tool::Plane => 30.0,
             Tool::Cone => 50.0,
@@ -98,10 +106,6 @@ impl Sweep {
             }
         }
         self.accuracy.check()?;
-        let lists = [self.slopes_deg.len(), moduli.len(), yields.len(), self.hardening_exponent.len()];
-        if lists.iter().product::<usize>() > MOST_CASES {
-            return Err(error("", &format!("more than {MOST_CASES} cases")));
-        }
         Ok(())
     }
 

@@ -3,8 +3,7 @@
 
 use crate::flags::{ReportFlag, RunFlags, SceneFlags};
 use crate::folder::{Folder, journal_beside};
-use crate::progress::Line;
-use crate::terminal;
+use crate::progress::BatchProgress;
 use asperity::batch::Shard;
 use asperity::calibrate::{Calibration, CaseRow, Options, calibrate as run, merge, read_sweep};
 use asperity::error::{Error, InputError};
@@ -121,25 +120,20 @@ fn options(flags: &RunFlags, target: &Path) -> Options {
     Options { threads, journal: Some(journal_beside(target)), ..Options::default() }
 }
 
-/// Runs `work` with a line that shows its progress.
-fn observed<T>(options: &Options, quiet: bool, work: impl FnOnce(&mut Observer<'_, CaseRow>) -> T) -> T {
-    let progress = Line::new(quiet);
+/// Runs `work` with a line that shows its progress; work that an interrupt ended is an error that says how to
+/// go on.
+fn observed<T>(
+    options: &Options,
+    quiet: bool,
+    work: impl FnOnce(&mut Observer<'_, CaseRow>) -> Result<T, Error>,
+) -> Result<T, Error> {
     let journal = options.journal.clone().unwrap_or_default();
+    let mut progress = BatchProgress::new(quiet, ["case", "cases"], journal);
     let result = work(&mut |reached: &Progress<'_, CaseRow>| {
-        match reached.news {
-            Some(row) => progress.show(reached.share, || {
-                format!("case {} of {}: {} degrees", reached.done, reached.all, row.beta_deg)
-            }),
-            None if reached.done > 0 && !quiet => {
-                let kept = journal.display();
-                terminal::complain(&format!("{} cases of an earlier run are in {kept}", reached.done));
-            }
-            None => {}
-        }
-        true
+        progress.show(reached, |row| format!("{} degrees", row.beta_deg))
     });
-    progress.finish();
-    result
+    let stopped = progress.finish();
+    result.and_then(|done| stopped.map_or(Ok(done), Err))
 }
 
 fn finish(

@@ -41,7 +41,8 @@ pub fn crush(args: &Crush) -> Result<(), Error> {
     flags.overrides.extend(args.no_refine.then(|| "numerics.refine=false".to_string()));
     let scene = flags.read(path)?;
     if !args.run.quiet {
-        scene.tables().unused().iter().for_each(terminal::warn);
+        let tables = scene.tables();
+        tables.unused().iter().chain(&tables.costly()).for_each(terminal::warn);
     }
     let out = args.run.target(&scene.name());
     let earlier = scene.tables().initial.as_ref().and_then(|initial| initial.from.as_ref());

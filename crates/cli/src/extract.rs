@@ -87,27 +87,22 @@ pub fn extract(args: &Extract) -> Result<(), Error> {
     if !args.run.quiet {
         found.warnings.iter().for_each(terminal::warn);
     }
-    let compared = match count {
+    let mut compared = match count {
         0 => None,
         _ => Some(compare_crushed(&found, &scene, count, &args.run, &target)?),
     };
-    if let Some(compared) = &compared {
+    if let Some((compared, stopped)) = compared.as_mut() {
         compared.write(&mut folder)?;
         if !args.run.quiet {
             compared.warnings.iter().for_each(terminal::warn);
         }
-        if compared.stopped {
-            let reason = format!(
-                "stopped after {} of {count} asperities, which are in {}; the same command goes on from there",
-                compared.asperities.len(),
-                target.display()
-            );
-            return Err(Error::Unfinished(reason));
+        if let Some(stopped) = stopped.take() {
+            return Err(stopped);
         }
     }
     drop(mark);
     let text = || {
-        let compared = compared.as_ref().map(|c| format!("\n{}", c.text()));
+        let compared = compared.as_ref().map(|(c, _)| format!("\n{}", c.text()));
         found.text() + &compared.unwrap_or_default()
     };
     args.run.say(&target, || asperity::output::json(&found.summary()), text)
@@ -175,14 +170,15 @@ fn forget(target: &Path) -> Result<(), Error> {
     Ok(())
 }
 
-/// Crushes `count` asperities of `found`, whose files lie in `target`, and holds closures against them.
+/// Crushes `count` asperities of `found`, whose files lie in `target`, and holds closures against them; with
+/// the error of crushes that were ended.
 pub fn compare_crushed(
     found: &Extracted,
     scene: &RoughScene,
     count: usize,
     run: &RunFlags,
     target: &Path,
-) -> Result<Comparison, Error> {
+) -> Result<(Comparison, Option<Error>), Error> {
     let mut progress = BatchProgress::new(run.quiet, ["asperity", "asperities"], target.to_path_buf());
     let options = Options {
         threads: run.threads.map_or(0, usize::from),
@@ -190,7 +186,7 @@ pub fn compare_crushed(
         folder: Some(target.to_path_buf()),
     };
     let compared =
-        found.crush(scene, count, &options, &mut |reached| progress.show(reached.done, reached.all));
-    progress.finish();
-    compared
+        found.crush(scene, count, &options, &mut |reached| progress.show(reached, |_| String::new()));
+    let stopped = progress.finish();
+    Ok((compared?, stopped))
 }

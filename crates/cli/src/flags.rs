@@ -83,7 +83,7 @@ impl RunFlags {
     /// all.
     ///
     /// # Errors
-    /// Those of `json`.
+    /// Those of `json`, or a disk that refuses.
     pub fn say(
         &self,
         target: &Path,
@@ -91,9 +91,9 @@ impl RunFlags {
         text: impl FnOnce() -> String,
     ) -> Result<(), Error> {
         if self.json {
-            terminal::say(json()?.trim_end());
+            terminal::say(json()?.trim_end())?;
         } else if !self.quiet {
-            terminal::say(&format!("{}\nresults   {}", text().trim_end(), target.display()));
+            terminal::say(&format!("{}\nresults   {}", text().trim_end(), target.display()))?;
         }
         Ok(())
     }

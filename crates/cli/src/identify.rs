@@ -52,6 +52,7 @@ pub fn identify(args: &Identify) -> Result<(), Error> {
         !interrupt::requested()
     });
     progress.finish();
+    let found = found.map_err(|e| if interrupt::requested() { stopped() } else { e });
     let found = folder.fill(found, |found, sink| {
         found.write(sink)?;
         args.page.write(sink, || found.report())
@@ -60,4 +61,11 @@ pub fn identify(args: &Identify) -> Result<(), Error> {
         found.notes.iter().for_each(terminal::warn);
     }
     args.run.say(&out, || found.to_json(), || found.overview())
+}
+
+/// The error of a search that an interrupt ended.
+fn stopped() -> Error {
+    let reason = "stopped: a search keeps nothing on its way, so that nothing was written and the same command begins anew; \
+        with --accuracy draft it is quicker";
+    Error::Unfinished(reason.into())
 }

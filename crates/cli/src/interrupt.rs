@@ -1,5 +1,6 @@
 //! Ctrl-C: the first one asks the running command to end with what it has reached, the second one kills it.
 
+use crate::terminal;
 use std::process::exit;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -15,6 +16,7 @@ pub fn catch() {
         if STOP_REQUESTED.swap(true, Ordering::Relaxed) {
             exit(KILLED_STATUS);
         }
+        terminal::complain("interrupted: the command ends with what it is at; Ctrl-C again ends it at once");
     });
 }
 

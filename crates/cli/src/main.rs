@@ -31,11 +31,16 @@ const STACK: usize = 8 << 20;
 
 /// Reads the arguments, runs the command, gives its exit status.
 fn main() -> ExitCode {
-    let cli = Cli::parse();
     // long lines stay whole: the terminal wraps them, and a search finds them
     let _ = miette::set_hook(Box::new(|_| {
         Box::new(miette::MietteHandlerOpts::new().wrap_lines(false).context_lines(1).build())
     }));
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        // help and version go to stdout
+        Err(told) if !told.use_stderr() => return ended(terminal::written(told.print())),
+        Err(wrong) => wrong.exit(),
+    };
     let threads = cli.command.threads().map_or(0, usize::from);
     // the command runs on a thread of the pool: one outside would have to be woken whenever the others are
     // done
@@ -43,6 +48,11 @@ fn main() -> ExitCode {
         Ok(pool) => pool.install(|| run(&cli.command)),
         Err(_) => run(&cli.command),
     };
+    ended(result)
+}
+
+/// Tells the error of a command, if it has one; gives the exit status.
+fn ended(result: Result<(), Error>) -> ExitCode {
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
@@ -67,10 +77,7 @@ fn run(command: &Command) -> Result<(), Error> {
         Command::Reproduce(args) => reproduce::reproduce(args),
         Command::New(args) => new::new(args),
         Command::Schema(args) => schema::schema(args),
-        Command::Completions(args) => {
-            manual::completions(args, Cli::command());
-            Ok(())
-        }
+        Command::Completions(args) => manual::completions(args, Cli::command()),
         Command::Man(args) => manual::man(args, Cli::command()),
         Command::Reference(args) => reference::reference(args, Cli::command()),
     }

@@ -1,10 +1,10 @@
 //! `asperity completions` and `asperity man`: completions for shells and pages of the manual, made from the
 //! arguments.
 
+use crate::terminal;
 use asperity::error::{Error, InputError};
 use clap::{Args, Command};
 use clap_complete::Shell;
-use std::io::Write;
 
 /// Arguments of `asperity completions`.
 #[derive(Debug, Args)]
@@ -22,16 +22,19 @@ pub struct ManPage {
 }
 
 /// Prints the completions of the command line `cli`.
-pub fn completions(args: &Completions, mut cli: Command) {
+///
+/// # Errors
+/// A disk that refuses.
+pub fn completions(args: &Completions, mut cli: Command) -> Result<(), Error> {
     let mut text = Vec::new();
     clap_complete::generate(args.shell, &mut cli, "asperity", &mut text);
-    print(&text);
+    terminal::print(&text)
 }
 
 /// Prints a page of the manual of the command line `cli`.
 ///
 /// # Errors
-/// A command that there is not.
+/// A command that there is not, or a disk that refuses.
 pub fn man(args: &ManPage, mut cli: Command) -> Result<(), Error> {
     cli.build();
     let command = match &args.command {
@@ -49,11 +52,5 @@ pub fn man(args: &ManPage, mut cli: Command) -> Result<(), Error> {
     clap_mangen::Man::new(command)
         .render(&mut text)
         .map_err(|e| Error::Unfinished(format!("the page could not be made: {e}")))?;
-    print(&text);
-    Ok(())
-}
-
-/// To stdout as it is; a closed pipe is no reason to fail.
-fn print(text: &[u8]) {
-    let _ = std::io::stdout().write_all(text);
+    terminal::print(&text)
 }

@@ -85,8 +85,8 @@ pub fn mesh(args: &MeshCommand) -> Result<(), Error> {
         .map_err(|e| InputError::new(e.to_string()).help("give another file with -o"))?;
     if !args.quiet {
         warnings.iter().for_each(terminal::warn);
-        terminal::say(&overview(&mesh));
-        terminal::say(&format!("written    {}", path.display()));
+        terminal::say(&overview(&mesh))?;
+        terminal::say(&format!("written    {}", path.display()))?;
     }
     Ok(())
 }

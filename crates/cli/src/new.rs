@@ -86,6 +86,6 @@ pub fn new(args: &New) -> Result<(), Error> {
         "written   {}; run it with: asperity {command} {}",
         path.display(),
         path.display()
-    ));
+    ))?;
     Ok(())
 }

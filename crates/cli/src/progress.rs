@@ -1,6 +1,8 @@
 //! One line on the terminal while a run lasts; nothing where there is no terminal to draw on.
 
 use crate::{interrupt, terminal};
+use asperity::Progress;
+use asperity::error::Error;
 use indicatif::{MultiProgress, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
 use std::path::PathBuf;
@@ -68,44 +70,65 @@ impl Line {
         self.bar.set_position((share.clamp(0.0, 1.0) * FULL as f64) as u64);
     }
 
+    /// Prints what is to stay, above the line.
+    pub fn say(&self, text: &str) {
+        self.bar.suspend(|| terminal::complain(text));
+    }
+
     /// Takes the line away.
     pub fn finish(self) {
         self.bar.finish_and_clear();
     }
 }
 
-/// The line of runs that are kept in a folder, from which they go on after a stop.
+/// The line of runs that are kept on disk, from where they go on after a stop.
 #[derive(Debug)]
 pub struct BatchProgress {
     line: Line,
+    quiet: bool,
     /// Says what an earlier start left; not before the first run is known, and not if quiet.
     greets: bool,
     /// A run, and several.
     names: [&'static str; 2],
-    folder: PathBuf,
+    /// The folder or file that keeps them.
+    place: PathBuf,
+    /// How many are done, and how many there are.
+    reached: [usize; 2],
 }
 
 impl BatchProgress {
-    /// A line on stderr for runs called `names` (one, several) in `folder`; silent if `quiet`. From now on an
-    /// interrupt is a wish.
-    pub fn new(quiet: bool, names: [&'static str; 2], folder: PathBuf) -> Self {
+    /// A line on stderr for runs called `names` (one, several) that are kept in `place`; silent if `quiet`.
+    /// From now on an interrupt is a wish.
+    pub fn new(quiet: bool, names: [&'static str; 2], place: PathBuf) -> Self {
         interrupt::catch();
-        BatchProgress { line: Line::new(quiet), greets: !quiet, names, folder }
+        BatchProgress { line: Line::new(quiet), quiet, greets: !quiet, names, place, reached: [0; 2] }
     }
 
-    /// Shows that `done` of `all` runs are finished. Returns whether to go on.
-    pub fn show(&mut self, done: usize, all: usize) -> bool {
+    /// Shows how far the runs have come, with `detail` of the last one. Returns whether to go on.
+    pub fn show<N>(&mut self, reached: &Progress<'_, N>, detail: impl FnOnce(&N) -> String) -> bool {
         let [one, several] = self.names;
-        if std::mem::take(&mut self.greets) && done > 0 {
-            let folder = self.folder.display();
-            terminal::complain(&format!("{done} {several} of an earlier start are in {folder}"));
+        let Progress { share, done, all, news, notice } = *reached;
+        self.reached = [done, all];
+        if let Some(notice) = notice.filter(|_| !self.quiet) {
+            self.line.say(&format!("warning: {notice}"));
         }
-        self.line.show(done as f64 / all.max(1) as f64, || format!("{one} {done} of {all}"));
+        if std::mem::take(&mut self.greets) && done > 0 {
+            self.line.say(&format!("{done} {several} of an earlier start are in {}", self.place.display()));
+        }
+        let detail = || news.map_or_else(String::new, |news| format!("  {}", detail(news)));
+        self.line.show(share, || format!("{one} {done} of {all}{}", detail()));
         !interrupt::requested()
     }
 
-    /// Takes the line away.
-    pub fn finish(self) {
+    /// Takes the line away; gives the error of runs that an interrupt ended before they were all done.
+    pub fn finish(self) -> Option<Error> {
+        let ([done, all], several) = (self.reached, self.names[1]);
         self.line.finish();
+        (interrupt::requested() && done < all).then(|| {
+            Error::Unfinished(format!(
+                "stopped after {done} of {all} {several}, which are in {}; the same command goes on from there",
+                self.place.display()
+            ))
+        })
     }
 }

@@ -4,11 +4,11 @@ use crate::failure;
 use crate::flags::{AccuracyParser, RunFlags};
 use crate::folder::claim;
 use crate::progress::{Line, Lines};
-use crate::terminal;
+use crate::{interrupt, terminal};
 use asperity::error::Error;
 use asperity::simulation::scene::Accuracy;
 use asperity_paper::part::Stamp;
-use asperity_paper::plan::{ITEMS, items};
+use asperity_paper::plan::{ITEMS, items, parts};
 use asperity_paper::{News, Options, Planned};
 use clap::Args;
 use std::collections::HashMap;
@@ -38,13 +38,14 @@ pub struct Reproduce {
 pub fn reproduce(args: &Reproduce) -> Result<(), Error> {
     if args.list {
         let lines = ITEMS.map(|item| format!("{:<8} {}", item.name, item.title));
-        terminal::say(&lines.join("\n"));
+        terminal::say(&lines.join("\n"))?;
         return Ok(());
     }
     let (items, quiet) = (items(&args.only)?, args.run.quiet);
     let accuracy = args.accuracy.unwrap_or_default();
     let target = args.run.target("reproduce");
     let _mark = claim(&target, "reproduce", args.run.force)?;
+    interrupt::catch();
     let (start, lines, open) = (Instant::now(), Lines::new(quiet), Mutex::new(HashMap::<_, Line>::new()));
     let options = Options { out: &target, items: &items, accuracy, estimate: !quiet };
     let done = asperity_paper::reproduce(&options, &|progress| {
@@ -61,14 +62,24 @@ pub fn reproduce(args: &Reproduce) -> Result<(), Error> {
                 }
             }
         }
-        true
+        !interrupt::requested()
     })?;
+    if interrupt::requested() {
+        let (all, place) = (parts(&items).len(), target.display());
+        let done = done.parts.iter().filter(|(_, outcome)| outcome.is_ok()).count();
+        if done < all {
+            let reason = format!(
+                "stopped: {done} of {all} parts are done and kept in {place}; the same command goes on from there"
+            );
+            return Err(Error::Unfinished(reason));
+        }
+    }
     if args.run.json {
-        terminal::say(done.report.claims_json.trim_end());
+        terminal::say(done.report.claims_json.trim_end())?;
     } else if !quiet {
-        terminal::say(done.report.overview.trim_end());
+        terminal::say(done.report.overview.trim_end())?;
         let path = target.join("report/index.html");
-        terminal::say(&format!("report    {} ({:.0} s)", path.display(), start.elapsed().as_secs_f64()));
+        terminal::say(&format!("report    {} ({:.0} s)", path.display(), start.elapsed().as_secs_f64()))?;
     }
     let unfinished = done.parts.into_iter().filter_map(|(name, outcome)| match outcome {
         Ok(stamp) => stamp.stopped.map(|why| format!("{name}: {why}")),
@@ -82,6 +93,7 @@ fn ending(outcome: &Result<Stamp, Error>) -> String {
     match outcome {
         Ok(Stamp { stopped: Some(why), .. }) => why.clone(),
         Ok(stamp) => format!("{:.1} s", stamp.wall_s),
+        Err(_) if interrupt::requested() => "stopped".into(),
         Err(_) => "could not be done".into(),
     }
 }

@@ -73,9 +73,27 @@ fn read(path: &Path, args: &Rough, quiet: bool) -> Result<RoughScene, Error> {
 /// `asperity rough SCENE.toml`.
 fn one_scene(path: &Path, args: &Rough) -> Result<(), Error> {
     let scene = read(path, args, args.run.quiet)?;
-    let rough = press(&scene, &mut |_| true)?;
     let target = args.run.target(&scene.name());
     let mut folder = Folder::create(&target, "rough", args.run.force)?;
+    interrupt::catch();
+    let progress = Line::new(args.run.quiet);
+    let rough = press(&scene, &mut |reached| {
+        progress.show(reached.share, || reached.news.map_or("half-space", |closure| closure.name()).into());
+        !interrupt::requested()
+    });
+    progress.finish();
+    let rough = match rough {
+        Ok(rough) if rough.stopped && rough.contacts.is_empty() => {
+            folder.abandon();
+            let reason = "stopped before the first closure was done: nothing was written; the same command begins anew";
+            return Err(Error::Unfinished(reason.into()));
+        }
+        Ok(rough) => rough,
+        Err(error) => {
+            folder.abandon();
+            return Err(error);
+        }
+    };
     rough.write(&mut folder)?;
     args.page.write(&mut folder, || rough.report())?;
     let target = folder.publish()?;
@@ -83,10 +101,18 @@ fn one_scene(path: &Path, args: &Rough) -> Result<(), Error> {
         rough.summary.warnings.iter().for_each(terminal::warn);
     }
     let crushed = match args.judge {
-        Some(Judge::Crush) => Some(judge_by_crush(&scene, &target, args)?),
+        Some(Judge::Crush) if !rough.stopped => Some(judge_by_crush(&scene, &target, args)?),
         _ => None,
     };
-    args.run.say(&target, || rough.json(), || rough.text() + &crushed.unwrap_or_default())
+    args.run.say(&target, || rough.json(), || rough.text() + &crushed.unwrap_or_default())?;
+    if rough.stopped {
+        let done = format!("{} of {}", rough.contacts.len(), scene.tables().closure.closures().len());
+        return Err(Error::Unfinished(format!(
+            "stopped: {done} closures are in {}; the same command begins anew",
+            target.display()
+        )));
+    }
+    Ok(())
 }
 
 /// Crushes the highest summits of the surface and holds closures against them: into the folder `judge` of the
@@ -101,9 +127,12 @@ fn judge_by_crush(scene: &RoughScene, target: &Path, args: &Rough) -> Result<Str
         let why = found.warnings.last().cloned().unwrap_or_else(|| "none has a profile".into());
         return Ok(format!("no summit can be crushed to judge closures: {why}\n"));
     }
-    let compared = compare_crushed(&found, scene, count, &args.run, &target)?;
+    let (compared, stopped) = compare_crushed(&found, scene, count, &args.run, &target)?;
     compared.write(&mut folder)?;
-    Ok(compared.verdict().map_or_else(|| compared.text(), |verdict| format!("{verdict}.\n")))
+    match stopped {
+        Some(stopped) => Err(stopped),
+        None => Ok(compared.verdict().map_or_else(|| compared.text(), |verdict| format!("{verdict}.\n"))),
+    }
 }
 
 /// `asperity rough A.x3p B.x3p …`: the results of each in a folder of its name, the tables of all beside
@@ -160,16 +189,29 @@ fn several(paths: &[PathBuf], args: &Rough) -> Result<(), Error> {
 fn whole_table(page: &ReportFlag, flags: &RunFlags) -> Result<(), Error> {
     let kept = flags.out.is_some() || page.report;
     let folder = kept.then(|| Folder::create(&flags.target("table1"), "rough", flags.force)).transpose()?;
-    let table = table1()?;
+    interrupt::catch();
+    let progress = Line::new(flags.quiet);
+    let table = table1(&mut |share, message| {
+        progress.show(share, || message.to_string());
+        !interrupt::requested()
+    });
+    progress.finish();
+    let (folder, table) = match table {
+        Ok(table) => (folder, table),
+        Err(error) => {
+            folder.into_iter().for_each(Folder::abandon);
+            return Err(error);
+        }
+    };
     if let Some(mut folder) = folder {
         table.write(&mut folder)?;
         page.write(&mut folder, || table.report())?;
         folder.publish()?;
     }
     if flags.json {
-        terminal::say(&table.json()?);
+        terminal::say(&table.json()?)?;
     } else if !flags.quiet {
-        terminal::say(table.text().trim_end());
+        terminal::say(table.text().trim_end())?;
     }
     Ok(())
 }

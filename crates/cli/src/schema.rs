@@ -37,10 +37,10 @@ pub enum SchemaKind {
 /// Prints the schema.
 ///
 /// # Errors
-/// None that is known: a schema is always JSON.
+/// A disk that refuses.
 pub fn schema(args: &SchemaCommand) -> Result<(), Error> {
     let text = serde_json::to_string_pretty(&of_kind(args.kind));
-    terminal::say(&text.map_err(|e| Error::Unfinished(e.to_string()))?);
+    terminal::say(&text.map_err(|e| Error::Unfinished(e.to_string()))?)?;
     Ok(())
 }
 

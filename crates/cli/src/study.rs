@@ -78,7 +78,7 @@ pub fn study(args: &Study) -> Result<(), Error> {
             let target = run.target("study");
             let mark = claim(&target, "study", run.force)?;
             joined.copy_curves(parts, &target)?;
-            let done = finish(Ok(joined), &target, run);
+            let done = finish(Ok(joined), None, &target, run);
             drop(mark);
             done
         }
@@ -101,9 +101,9 @@ fn sweep(args: &Study, path: &Path) -> Result<(), Error> {
         part: args.shard,
         folder: Some(target.clone()),
     };
-    let result = run(&plan, &options, &mut |reached| progress.show(reached.done, reached.all));
-    progress.finish();
-    let done = finish(result, &target, &args.run);
+    let result = run(&plan, &options, &mut |reached| progress.show(reached, |_| String::new()));
+    let stopped = progress.finish();
+    let done = finish(result, stopped, &target, &args.run);
     drop(mark);
     done
 }
@@ -153,16 +153,17 @@ fn parse_sample(words: &[String]) -> Result<SampleTable, InputError> {
     Ok(SampleTable { kind, points: points.transpose()?, seed: 0 })
 }
 
-fn finish(result: Result<Runs, Error>, target: &Path, flags: &RunFlags) -> Result<(), Error> {
+/// Writes what was found; `stopped` is the error of a study that was ended.
+fn finish(
+    result: Result<Runs, Error>,
+    stopped: Option<Error>,
+    target: &Path,
+    flags: &RunFlags,
+) -> Result<(), Error> {
     let done = result?;
     done.write(&mut Directory::create(target)?)?;
-    if done.stopped {
-        let reason = format!(
-            "stopped after {} runs, which are in {}; the same command goes on from there",
-            done.runs.len(),
-            target.display()
-        );
-        return Err(Error::Unfinished(reason));
+    if let Some(stopped) = stopped {
+        return Err(stopped);
     }
     flags.say(target, || done.json(), || done.text())
 }

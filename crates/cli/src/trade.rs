@@ -4,8 +4,8 @@
 
 use crate::flags::{RunFlags, SceneFlags};
 use crate::folder::{Folder, journal_beside};
-use crate::progress::Line;
-use crate::terminal;
+use crate::progress::BatchProgress;
+use crate::{interrupt, terminal};
 use asperity::error::Error;
 use asperity::input::scene::Scene;
 use asperity::output::json;
@@ -18,6 +18,8 @@ use std::fmt::Display;
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
+use std::thread;
+use std::time::Duration;
 
 /// Arguments of `asperity trade`.
 #[derive(Debug, Args)]
@@ -25,8 +27,8 @@ pub struct Trade {
     /// Scene file (TOML) [default: the asperity of the paper]
     pub scene: Option<PathBuf>,
     /// How many settings differ in everything at once
-    #[arg(long, value_name = "N", default_value_t = 30)]
-    pub combinations: usize,
+    #[arg(long, value_name = "N", default_value_t = 30, value_parser = clap::value_parser!(u16).range(..=1000))]
+    pub combinations: u16,
     /// Answer one case of another run, given on stdin
     #[arg(long, hide = true)]
     pub case: bool,
@@ -53,20 +55,12 @@ pub fn trade(args: &Trade) -> Result<(), Error> {
     let target = args.run.target(&name);
     let folder = Folder::create(&target, "trade", args.run.force)?;
     let journal = journal_beside(&target);
-    let options = Options { combinations: args.combinations, journal: Some(&journal), runner: &ask };
-    let progress = Line::new(args.run.quiet);
+    let options = Options { combinations: args.combinations.into(), journal: Some(&journal), runner: &ask };
+    let mut progress = BatchProgress::new(args.run.quiet, ["run", "runs"], journal.clone());
     let result = asperity::trade::trade(scene.tables(), &options, &mut |reached| {
-        match reached.news {
-            Some(knob) => progress.show(reached.share, || format!("{knob:?}").to_lowercase()),
-            None if reached.done > 0 && !args.run.quiet => {
-                let kept = journal.display();
-                terminal::complain(&format!("{} runs of an earlier trade are in {kept}", reached.done));
-            }
-            None => {}
-        }
-        true
+        progress.show(reached, |knob| format!("{knob:?}").to_lowercase())
     });
-    progress.finish();
+    let result = progress.finish().map_or(result, Err);
     let trade = folder.fill(result, |trade, folder| trade.write(folder))?;
     // the results are in their place: the journal has done its work
     let _ = std::fs::remove_file(&journal);
@@ -88,6 +82,9 @@ fn read_scene(args: &Trade) -> Result<(Scene, String), Error> {
     }
 }
 
+/// Time between two looks at a run in another process: the hundredth of a quick one.
+const BETWEEN_LOOKS: Duration = Duration::from_millis(5);
+
 /// Asks another instance of this program for a setting.
 fn ask(setting: &Setting, scene: &Tables) -> Result<Measured, TradeError> {
     let failed = |e: &dyn Display| TradeError::Process(e.to_string());
@@ -104,11 +101,26 @@ fn ask(setting: &Setting, scene: &Tables) -> Result<Measured, TradeError> {
         // a child that died early closes the pipe: its status says more
         let _ = input.write_all(&question);
     }
-    let output = child.wait_with_output().map_err(|e| failed(&e))?;
-    if !output.status.success() {
-        return Err(failed(&output.status));
+    let mut answer = child.stdout.take();
+    let reader = thread::spawn(move || {
+        let mut text = Vec::new();
+        answer.as_mut().map_or(Ok(0), |answer| answer.read_to_end(&mut text)).map(|_| text)
+    });
+    let status = loop {
+        if let Some(status) = child.try_wait().map_err(|e| failed(&e))? {
+            break status;
+        }
+        if interrupt::requested() {
+            // one that has ended by itself is as good as one that is ended
+            let _ = child.kill();
+        }
+        thread::sleep(BETWEEN_LOOKS);
+    };
+    let text = reader.join().map_err(|_| failed(&"its answer could not be read"))?.map_err(|e| failed(&e))?;
+    if !status.success() {
+        return Err(failed(&status));
     }
-    let answer: Result<Measured, String> = serde_json::from_slice(&output.stdout).map_err(|e| failed(&e))?;
+    let answer: Result<Measured, String> = serde_json::from_slice(&text).map_err(|e| failed(&e))?;
     answer.map_err(TradeError::Run)
 }
 
@@ -118,6 +130,6 @@ fn answer() -> Result<(), Error> {
     let mut text = String::new();
     std::io::stdin().read_to_string(&mut text).map_err(|e| failed(&e))?;
     let scene: Tables = serde_json::from_str(&text).map_err(|e| failed(&e))?;
-    terminal::say(&serde_json::to_string(&solve(&scene)).map_err(|e| failed(&e))?);
+    terminal::say(&serde_json::to_string(&solve(&scene)).map_err(|e| failed(&e))?)?;
     Ok(())
 }

@@ -227,3 +227,80 @@ fn a_scene_with_a_measured_outline_is_varied() {
     let end = place.run(&[&["study"], &all[..], &["--quiet"]].concat());
     assert!(end.status != 0 || forces("shapes")[1] != found[1], "{}", end.err);
 }
+
+/// Runs of another accuracy cost seconds or days: they stay in their journal, which goes on where it was.
+#[test]
+fn runs_of_other_settings_are_kept_and_told() {
+    let place = Place::with_scene(SCENE);
+    let study = |vary: &str, more: &[&str]| {
+        let usual = ["study", "scene.toml", "--vary", vary, "--out", "out"];
+        let end = place.run(&[&usual[..], more].concat());
+        assert_eq!(end.status, 0, "{}", end.err);
+        end.err
+    };
+    let first = "loading.depth=1 um,2 um";
+    study(first, &[]);
+    let (journal, table) = (place.text("out/study.journal"), place.text("out/results.csv"));
+    let said = study(first, &["--accuracy", "standard"]);
+    assert!(said.contains("study.journal.old") && said.contains("accuracy"), "{said}");
+    assert_eq!(place.text("out/study.journal.old"), journal);
+    // a second one finds a name of its own
+    let said = study(first, &["--set", "material.poissons_ratio=0.2"]);
+    assert!(said.contains("study.journal.old2"), "{said}");
+    assert_eq!(place.text("out/study.journal.old"), journal);
+    // put back, its runs are not run again
+    std::fs::rename(place.path("out/study.journal.old"), place.path("out/study.journal")).unwrap();
+    study(first, &[]);
+    assert_eq!((place.text("out/study.journal"), place.text("out/results.csv")), (journal, table));
+    // other values share the journal
+    let said = study("loading.depth=2 um,3 um", &[]);
+    assert!(said.contains("1 run with other values"), "{said}");
+    assert_eq!(place.text("out/study.journal").lines().count(), 4);
+}
+
+#[test]
+fn a_damaged_line_of_a_journal_costs_its_own_run_only() {
+    let place = Place::with_scene(SCENE);
+    let study =
+        || place.run(&["study", "scene.toml", "--vary", "loading.depth=1 um,2 um,3 um", "--out", "out"]);
+    assert_eq!(study().status, 0);
+    let (journal, table) = (place.text("out/study.journal"), place.text("out/results.csv"));
+    let mut bytes = journal.clone().into_bytes();
+    let second = journal.find('\n').unwrap() + 1;
+    bytes[second + 40] ^= 4;
+    std::fs::write(place.path("out/study.journal"), bytes).unwrap();
+    let end = study();
+    assert!(end.status == 0 && end.err.contains("1 run in the journal cannot be read"), "{}", end.err);
+    assert!(end.err.contains("2 runs of an earlier start"), "{}", end.err);
+    assert_eq!(place.text("out/results.csv"), table);
+    assert_eq!(place.text("out/study.journal").lines().count(), 5, "one line more");
+}
+
+/// A count of values that would fill the memory is refused before they are listed.
+#[test]
+fn a_study_of_a_billion_runs_is_refused_at_once() {
+    let place = Place::with_scene(SCENE);
+    let start = Instant::now();
+    for vary in ["loading.depth=1 um..3 um/1000000000", "loading.depth=1 um..3 um/18446744073709551615"] {
+        let end = place.run(&["study", "scene.toml", "--vary", vary, "--out", "out"]);
+        assert!(end.status == 2 && end.err.contains("more than 10000000 runs"), "{}", end.err);
+    }
+    let end = place.run(&["trade", "scene.toml", "--combinations", "1000000000", "--out", "out"]);
+    assert!(end.status == 2 && end.err.contains("1000"), "{}", end.err);
+    // four lists of 50,000 numbers, and their pairs
+    let list = |unit: &str| {
+        let values: Vec<String> = (0..50_000).map(|i| format!("\"{}.{i:05} {unit}\"", 1 + i % 7)).collect();
+        format!("[{}]", values.join(","))
+    };
+    let numbers: Vec<String> = (0..50_000).map(|i| format!("0.1{i:05}")).collect();
+    let sweep = format!(
+        "slopes_deg = [{0}]\nhardening_exponent = [{0}]\nyoungs_modulus = {1}\nyield_stress = {2}\n",
+        numbers.join(","),
+        list("TPa"),
+        list("GPa")
+    );
+    std::fs::write(place.path("sweep.toml"), sweep).unwrap();
+    let end = place.run(&["calibrate", "sweep.toml", "--out", "out"]);
+    assert!(end.status == 2 && end.err.contains("cases: give fewer values"), "{}", end.err);
+    assert!(!place.path("out").exists() && start.elapsed() < Duration::from_secs(5));
+}

@@ -93,6 +93,11 @@ impl Chart {
         Chart { x_label: x_label.into(), y_label: y_label.into(), series, title: String::new() }
     }
 
+    /// True where no line has a point to show.
+    pub fn is_empty(&self) -> bool {
+        !self.series.iter().flat_map(|line| &line.points).any(|point| point.iter().all(|v| v.is_finite()))
+    }
+
     /// The same under a title.
     #[must_use]
     pub fn titled(self, title: impl Into<String>) -> Chart {

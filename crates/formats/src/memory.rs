@@ -21,23 +21,25 @@ pub fn default_limit() -> u64 {
     free.into_iter().chain(allowed).min().map_or(u64::MAX, |bytes| bytes / 2)
 }
 
-/// A file as a whole, of at most `limit` bytes.
+/// A file as a whole, of at most `limit` bytes, which messages call `name`. A device without end is read up
+/// to there.
 ///
 /// # Errors
-/// A file that cannot be read, is no plain file, or is longer.
-pub(crate) fn read_file(path: &Path, limit: u64) -> io::Result<Vec<u8>> {
+/// A file that cannot be read, or is longer.
+pub fn read_file(path: &Path, limit: u64, name: &str) -> io::Result<Vec<u8>> {
     let file = File::open(path)?;
     let length = file.metadata()?.len();
     if length > limit {
         let gigabytes = |bytes: u64| bytes as f64 / 1e9;
         let message =
-            format!("its {:.2} GB are more than memory_limit, {:.2} GB", gigabytes(length), gigabytes(limit));
+            format!("its {:.2} GB are more than {name}, {:.2} GB", gigabytes(length), gigabytes(limit));
         return Err(io::Error::new(io::ErrorKind::OutOfMemory, message));
     }
     let mut data = Vec::with_capacity(length as usize);
     file.take(limit.saturating_add(1)).read_to_end(&mut data)?;
     if data.len() as u64 > limit {
-        return Err(io::Error::new(io::ErrorKind::OutOfMemory, "it has no end below memory_limit"));
+        let message = format!("it has no end below {name}, {:.2} GB", limit as f64 / 1e9);
+        return Err(io::Error::new(io::ErrorKind::OutOfMemory, message));
     }
     Ok(data)
 }

@@ -324,19 +324,17 @@ fn unloading(results: &Results) -> Result<Markup, String> {
     let mut figures = Vec::new();
     for part in ROUGH {
         let Some(curve) = results.rows::<LoadPoint>(part, "load_curve.csv") else { continue };
-        let mut series = Vec::new();
-        for closure in [Closure::Johnson, Closure::Calibrated] {
+        let travel = |closure: Closure| {
             let of = |phase: Phase| {
                 curve.iter().filter(move |p: &&LoadPoint| p.closure == closure && p.phase == phase)
             };
-            let Some(first) = of(Phase::Load).next().map(|p| p.separation_um) else { continue };
-            for (phase, unloading) in [(Phase::Load, false), (Phase::Unload, true)] {
-                let travel = of(phase).map(|p| [first - p.separation_um, p.pressure_MPa]).collect();
-                series.push(Series::of_closure(closure, unloading, travel));
-            }
-        }
-        if !series.is_empty() {
-            figures.push((chart::svg(&travel_chart(series))?, part.trim_start_matches("rough-")));
+            let first = of(Phase::Load).next()?.separation_um;
+            let points = |phase| of(phase).map(|p| [first - p.separation_um, p.pressure_MPa]).collect();
+            Some((closure, [points(Phase::Load), points(Phase::Unload)]))
+        };
+        let chart = travel_chart([Closure::Johnson, Closure::Calibrated].into_iter().filter_map(travel));
+        if !chart.is_empty() {
+            figures.push((chart::svg(&chart)?, part.trim_start_matches("rough-")));
         }
     }
     Ok(html! {

@@ -16,8 +16,8 @@ use asperity::input::scene::Scene;
 use asperity::input::toml_file::TomlFile;
 use asperity::output::{Directory, Sink, SinkExt, write_csv, write_whole};
 use asperity::rough::{self, RoughScene};
-use asperity::roughness::KindName;
 use asperity::roughness::scene::Scene as RoughTables;
+use asperity::roughness::{Closure, KindName};
 use asperity::simulation::run::Run;
 use asperity::simulation::scene::{Accuracy, Level, Scene as Tables};
 use asperity::units::MICROMETRE;
@@ -28,6 +28,9 @@ use std::time::Instant;
 
 /// Dots along a side of a map of a rough surface in the report, its key included.
 const MAP: usize = 900;
+
+/// Share of the work of a rough surface that its own scene takes; five surfaces of Table 1 take the rest.
+const OWN_SHARE: f64 = 0.2;
 
 /// That a part is done.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -131,18 +134,22 @@ impl Job {
     /// by `false`.
     ///
     /// # Errors
-    /// The failure that kept it from being done. A crush that ends before its target is done: its stamp says
-    /// so.
+    /// The failure that kept it from being done, or an observer that ended it: then the part is as it was
+    /// before. A crush that ends by itself before its target is done: its stamp says so.
     pub fn run(&self, observer: &mut (dyn FnMut(f64, &str) -> bool + Send)) -> Result<Stamp, Error> {
         let start = Instant::now();
         let _ = std::fs::remove_file(self.stamp_path());
         let stopped = match &self.scene {
             Resolved::Crush(scene, sketches) => self.fill(|sink| {
+                let mut goes_on = true;
                 let told = &mut |reached: &Progress<'_, Increment<'_>>| {
                     let depth = reached.news.map_or(0.0, |news| news.row.depth / MICROMETRE);
-                    observer(reached.share, &format!("{depth:.3} um  increment {}", reached.done))
+                    let message = format!("{depth:.3} um  increment {}", reached.done);
+                    goes_on = goes_on && observer(reached.share, &message);
+                    goes_on
                 };
-                crush_into(scene, sink, sketches, told).map(|crushed| crushed.summary.stopped)
+                let crushed = crush_into(scene, sink, sketches, told)?;
+                if goes_on { Ok(crushed.summary.stopped) } else { Err(table1::ended()) }
             })?,
             Resolved::Calibrate(sweep) => {
                 self.keep_own_journal()?;
@@ -180,6 +187,10 @@ impl Job {
         let calibration = calibrate(sweep, &options, &mut |solved: &Progress<'_, CaseRow>| {
             observer(solved.share, &format!("case {} of {}", solved.done, solved.all))
         })?;
+        if calibration.stopped {
+            let done = calibration.cases.len();
+            return Err(Error::Unfinished(format!("stopped after {done} cases, which are kept")));
+        }
         self.fill(|sink| calibration.write(sink))?;
         calibration.remove_journal();
         Ok(())
@@ -203,9 +214,15 @@ impl Job {
         observer: &mut (dyn FnMut(f64, &str) -> bool + Send),
     ) -> Result<(), Error> {
         let name = kind.name();
-        observer(0.0, &format!("the {name} surface"));
         let scene = RoughScene::new(scene.clone(), Path::new(""));
-        let rough = embedded(self.part.name, rough::press(&scene, &mut |_| true))?;
+        let told = &mut |reached: &Progress<'_, Closure>| {
+            let closure = reached.news.map_or("half-space", |closure| closure.name());
+            observer(OWN_SHARE * reached.share, &format!("the {name} surface, {closure}"))
+        };
+        let rough = embedded(self.part.name, rough::press(&scene, told))?;
+        if rough.stopped {
+            return Err(table1::ended());
+        }
         rough.write_tables(sink)?;
         rough.write_topography(sink, MAP)?;
         for one in &rough.contacts {
@@ -216,8 +233,9 @@ impl Job {
             sink.write("profile.csv", |out| write_csv(out, &points))?;
         }
         if let Some((kind, row)) = table1::TABLE.iter().find(|(row, _)| *row == kind) {
-            observer(0.2, &format!("five {name} surfaces, every closure"));
-            let table = table1::measure(*kind, row)?;
+            let table = table1::measure(*kind, row, &mut |share, message| {
+                observer(OWN_SHARE + (1.0 - OWN_SHARE) * share, message)
+            })?;
             sink.text("table1.json", &asperity::output::json(&table)?)?;
         }
         Ok(())

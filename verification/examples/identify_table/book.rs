@@ -53,7 +53,7 @@ impl Book {
     pub fn open(path: Option<&Path>) -> Book {
         let identity = fingerprint(concat!("identify_table 2, asperity ", env!("CARGO_PKG_VERSION")));
         let opened = path.map(|path| Journal::open(path, identity).expect("can be written"));
-        let (journal, lines) = opened.map_or((None, Vec::new()), |(journal, lines)| (Some(journal), lines));
+        let (journal, lines) = opened.map_or((None, Vec::new()), |o| (Some(o.journal), o.texts));
         let known = lines.iter().filter_map(|l| serde_json::from_str::<(u64, Value)>(l).ok()).collect();
         Book { journal: Mutex::new(journal), known }
     }

@@ -5,6 +5,7 @@ use crate::error::InputError;
 use crate::input::RELATIVE_PATH_NOTE;
 use crate::input::toml_file::TomlFile;
 use asperity_formats::indentation;
+use asperity_formats::memory::read_file;
 use asperity_formats::text::{Series, TextError, decode};
 use asperity_identification::experiment::Data;
 use asperity_identification::fit_file::{Features, FitCurve, FitFile};
@@ -18,6 +19,9 @@ pub(super) struct Said {
     /// Remarks.
     pub notes: Vec<String>,
 }
+
+/// Bytes of the largest file of curves: a day of an instrument.
+const LARGEST_CURVE_FILE: u64 = 256 << 20;
 
 /// The data of measurement `i`, one or several tests, each with its name and deepest depth.
 pub(super) fn measurements(
@@ -41,7 +45,7 @@ pub(super) fn measurements(
         (Some(path), None) => {
             let path = file.resolve(path);
             let shown = path.display().to_string();
-            let bytes = std::fs::read(&path)
+            let bytes = read_file(&path, LARGEST_CURVE_FILE, "the limit of a file of curves")
                 .map_err(|e| at(".file", &format!("{shown}: cannot be read: {e}; {RELATIVE_PATH_NOTE}")))?;
             let (text, encoding) =
                 decode(&bytes).map_err(|e| at(".file", &format!("{shown} {}", e.message)))?;

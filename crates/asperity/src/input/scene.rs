@@ -4,6 +4,7 @@ use crate::error::{Error, InputError};
 use crate::input::toml_file::{TomlFile, read_text, to_toml};
 use crate::input::{RELATIVE_PATH_NOTE, hardening_file, profile_file};
 use crate::results::crush_summary::Summary;
+use asperity_formats::memory::read_file;
 use asperity_material::{FlowCurve, OwnLaw};
 use asperity_mesh::{Mesh, OwnTool, ToolOutline, read_msh};
 use asperity_simulation::scene::{
@@ -271,6 +272,9 @@ fn as_asked(summary: Summary) -> Tables {
     if Discretisation::new(&open).numerics() == scene.numerics { open } else { scene }
 }
 
+/// Bytes of the largest mesh file: some two million cells, more than a run can solve.
+const LARGEST_MESH_FILE: u64 = 256 << 20;
+
 /// The mesh that the scene names, in metres, its highest point at height 0; `None` if it is to be built.
 fn read_mesh(file: &TomlFile<Tables>) -> Result<Option<Mesh>, InputError> {
     let Some(named) = &file.value.mesh else { return Ok(None) };
@@ -279,8 +283,8 @@ fn read_mesh(file: &TomlFile<Tables>) -> Result<Option<Mesh>, InputError> {
         file.error_at("mesh.file", &format!("{}: {reason}", path.display()))
             .help("a mesh is a Gmsh MSH 4.1 ASCII file of quadrangles with physical curves axis, base, surface, outer")
     };
-    let bytes =
-        std::fs::read(&path).map_err(|e| error(format!("cannot be read: {e}; {RELATIVE_PATH_NOTE}")))?;
+    let bytes = read_file(&path, LARGEST_MESH_FILE, "the limit of a mesh")
+        .map_err(|e| error(format!("cannot be read: {e}; {RELATIVE_PATH_NOTE}")))?;
     let mut mesh = read_msh(&bytes).map_err(|e| error(e.to_string()))?;
     let scale = named.unit.map_or(1.0, |unit| unit.0);
     let summit = mesh.nodes.iter().map(|node| node[1]).fold(f64::NEG_INFINITY, f64::max);
@@ -339,6 +343,18 @@ mod tests {
             }
         }
         assert!((20..1_900).contains(&scenes), "{scenes}");
+    }
+
+    /// Of a device that never ends, and of a file that is none.
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn a_mesh_file_without_end_is_refused_at_its_key() {
+        let text = format!("{}\n[mesh]\nfile = \"/dev/zero\"\n", crate::scenes::SINGLE_ASPERITY);
+        let error = Scene::from_toml(&text, Path::new("")).unwrap_err().to_string();
+        assert!(
+            error.contains("mesh.file") && error.contains("no end below the limit of a mesh, 0.27 GB"),
+            "{error}"
+        );
     }
 
     #[test]

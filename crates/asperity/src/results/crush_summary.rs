@@ -1,9 +1,11 @@
 //! `summary.json`: its keys, as they are written and read.
 
 use crate::error::{Error, InputError};
+use crate::input::toml_file::LARGEST_FILE;
 use crate::results::columns::{Described, Unit, columns, named, symmetry_of, unnamed};
 use crate::results::numbers::four_decimals;
 use crate::results::units::per_length;
+use asperity_formats::memory::read_file;
 use asperity_simulation::record::rows::{Errors, ErrorsAlong, OliverPharr, Summary as Numbers};
 use asperity_simulation::refine::work_to_keep;
 use asperity_simulation::run::Outcome;
@@ -252,8 +254,8 @@ impl Summary {
     pub fn read(path: &Path) -> Result<Summary, Error> {
         let error =
             |e: &dyn std::fmt::Display| InputError::new(format!("cannot read {}: {e}", path.display()));
-        let text = std::fs::read_to_string(path).map_err(|e| error(&e))?;
-        serde_json::from_str(&text).map_err(|e| error(&e).into())
+        let bytes = read_file(path, LARGEST_FILE, "the limit of a summary").map_err(|e| error(&e))?;
+        serde_json::from_slice(&bytes).map_err(|e| error(&e).into())
     }
 
     /// Promises of the accuracy that this run does not keep, as far as it can tell.

@@ -1,6 +1,6 @@
 //! Where results are put, anything that can give a path to each file by its name, and rows as CSV.
 
-use crate::batch::journal::{Journal, fingerprint};
+use crate::batch::journal::{Journal, Opened, fingerprint};
 use crate::error::{Error, InputError};
 use crate::results::numbers::shortest;
 use serde::de::DeserializeOwned;
@@ -152,18 +152,16 @@ pub fn path_beside(path: &Path, ending: &str) -> PathBuf {
     name.into()
 }
 
-/// The journal at `path` of the work that `definition` says, and the lines that it holds.
+/// The journal at `path` of the work that `definition` says, with what it holds.
 ///
 /// # Errors
 /// A file that cannot be read or written.
-pub(crate) fn open_journal(
-    path: Option<&Path>,
-    definition: &str,
-) -> Result<(Option<Journal>, Vec<String>), InputError> {
-    let Some(path) = path else { return Ok((None, Vec::new())) };
-    let (journal, lines) = Journal::open(path, fingerprint(definition))
-        .map_err(|e| InputError::new(format!("cannot write the journal {}: {e}", path.display())))?;
-    Ok((Some(journal), lines))
+pub(crate) fn open_journal(path: Option<&Path>, definition: &str) -> Result<Option<Opened>, InputError> {
+    let opened = path.map(|path| {
+        Journal::open(path, fingerprint(definition))
+            .map_err(|e| InputError::new(format!("cannot write the journal {}: {e}", path.display())))
+    });
+    opened.transpose()
 }
 
 /// Writes rows as CSV under the names of their fields: numbers in the shortest digits that read back to the

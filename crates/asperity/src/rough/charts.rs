@@ -3,18 +3,20 @@
 use crate::draw::chart::{Chart, Dash, Series};
 use crate::results::units::{MEGAPASCAL, MICROMETRE};
 use crate::rough::closure_contact::{Body, ClosureContact};
-use asperity_roughness::CurvePoint;
+use asperity_roughness::{Closure, CurvePoint};
 
-/// File names and charts of all closures at once, those that show something; `mean_gradient` is that of the
-/// surface.
-pub(super) fn all(contacts: &[ClosureContact], mean_gradient: f64) -> Vec<(&'static str, Chart)> {
+/// File names and charts of all closures at once, without those that show nothing; `mean_gradient` is that of
+/// the surface.
+pub(super) fn all(
+    contacts: &[ClosureContact],
+    mean_gradient: f64,
+) -> impl Iterator<Item = (&'static str, Chart)> {
     let charts = [
         ("load_curve.svg", load_curves(contacts)),
         ("closures.svg", closures(contacts, mean_gradient)),
         ("pressure_histogram.svg", histogram(contacts)),
     ];
-    let seen = |(_, chart): &(&str, Chart)| chart.series.iter().any(|series| !series.points.is_empty());
-    charts.into_iter().filter(seen).collect()
+    charts.into_iter().filter(|(_, chart)| !chart.is_empty())
 }
 
 /// The closures themselves: pressure on the contact of an island against its slope, to three times the mean
@@ -35,39 +37,36 @@ fn closures(contacts: &[ClosureContact], mean_gradient: f64) -> Chart {
 
 /// Pressure against the travel of the plane from first touch.
 fn load_curves(contacts: &[ClosureContact]) -> Chart {
-    let mut series = Vec::new();
-    for one in contacts {
+    let curves = contacts.iter().map(|one| {
         let first = one.curve().first().map_or(0.0, |p| p.separation);
         let points = |curve: &[CurvePoint]| {
             curve.iter().map(|p| [(first - p.separation) / MICROMETRE, p.pressure / MEGAPASCAL]).collect()
         };
-        let series_of = |unloading, curve| {
-            let series = Series::of_closure(one.closure, unloading, points(curve));
-            if curve.len() > 2 { series } else { ends_only(series) }
-        };
-        series.push(series_of(false, one.curve()));
-        let gains = unloading_lies_above(one.curve(), one.unloading_curve());
-        if !one.returns_everything() && !one.unloading_curve().is_empty() && !gains {
-            series.push(series_of(true, one.unloading_curve()));
-        }
-    }
-    travel_chart(series)
+        let back = if one.returns_everything() { &[][..] } else { one.unloading_curve() };
+        (one.closure, [points(one.curve()), points(back)])
+    });
+    travel_chart(curves)
 }
 
-/// True where a way back carries more than the way there at the same separation: energy from nothing, that
-/// the unloading law of closures gives where asperities are flatter than the cones it was made for.
-pub(super) fn unloading_lies_above(loading: &[CurvePoint], back: &[CurvePoint]) -> bool {
-    /// What points of a curve leave between them, of the largest pressure.
-    const MARGIN: f64 = 0.02;
-    let most = loading.iter().map(|p| p.pressure).fold(0.0, f64::max);
-    let loaded = |separation: f64| {
-        let after = loading.iter().position(|p| p.separation <= separation)?;
-        let [a, b] = [&loading[after.saturating_sub(1)], &loading[after]];
-        let whole = a.separation - b.separation;
-        let share = if whole > 0.0 { (a.separation - separation) / whole } else { 1.0 };
-        Some(a.pressure + share * (b.pressure - a.pressure))
+/// Excess of unloading over loading, relative to the largest pressure, that a picture would show.
+const VISIBLE_EXCESS: f64 = 0.01;
+
+/// True where the unloading carries more than the loading at the same travel, both as points (travel,
+/// pressure): it would give work from nothing.
+fn lies_above(unloading: &[[f64; 2]], loading: &[[f64; 2]]) -> bool {
+    let peak = loading.iter().map(|point| point[1]).fold(0.0, f64::max);
+    let loaded = |travel: f64| {
+        let pair = loading.windows(2).find(|pair| (pair[0][0]..=pair[1][0]).contains(&travel))?;
+        let [[x, p], [to, p_to]] = [pair[0], pair[1]];
+        Some(if to > x { p + (p_to - p) * (travel - x) / (to - x) } else { p.max(p_to) })
     };
-    back.iter().any(|p| loaded(p.separation).is_some_and(|there| p.pressure > there + MARGIN * most))
+    unloading.iter().any(|&[travel, p]| loaded(travel).is_some_and(|l| p > l + VISIBLE_EXCESS * peak))
+}
+
+/// [`lies_above`] of the curves of a closure, by their separations.
+pub(super) fn unloading_lies_above(loading: &[CurvePoint], back: &[CurvePoint]) -> bool {
+    let points = |curve: &[CurvePoint]| curve.iter().map(|p| [-p.separation, p.pressure]).collect::<Vec<_>>();
+    lies_above(&points(back), &points(loading))
 }
 
 /// Points alone, for nothing is known between them: a line would be read as the curve.
@@ -75,56 +74,82 @@ fn ends_only(series: Series) -> Series {
     Series { dash: Some(Dash::Hidden), ..series.marked() }
 }
 
-/// A chart of nominal pressure against the travel of the plane.
-pub fn travel_chart(series: Vec<Series>) -> Chart {
-    Chart::new("travel of the plane from first touch (µm)", "nominal pressure (MPa)", series)
-        .titled("Load curve: nominal pressure over the travel of the plane")
+/// A chart of nominal pressure against the travel of the plane: of each closure its loading and unloading, as
+/// points (travel, pressure) in the units of the axes. An unloading that lies above its loading is not drawn,
+/// and the title says so.
+pub fn travel_chart(curves: impl IntoIterator<Item = (Closure, [Vec<[f64; 2]>; 2])>) -> Chart {
+    let (mut series, mut left_out) = (Vec::new(), Vec::new());
+    for (closure, [loading, unloading]) in curves {
+        let drawn = if lies_above(&unloading, &loading) {
+            left_out.push(closure.name());
+            vec![(false, loading)]
+        } else {
+            vec![(false, loading), (true, unloading)]
+        };
+        let with_points = drawn.into_iter().filter(|(_, points)| !points.is_empty());
+        series.extend(with_points.map(|(back, points)| Series::of_closure(closure, back, points)));
+    }
+    let series = series.into_iter().map(|one| if one.points.len() > 2 { one } else { ends_only(one) });
+    let mut title = "Load curve: nominal pressure over the travel of the plane".to_string();
+    if !left_out.is_empty() {
+        let names = left_out.join(", ");
+        title += &format!("; not drawn: the unloading of {names}, which its law puts above the loading");
+    }
+    Chart::new("travel of the plane from first touch (µm)", "nominal pressure (MPa)", series).titled(title)
+}
+
+/// Share of the contact area that the histogram shows: the few pixels beyond it would leave the rest one
+/// spike.
+const SHOWN_AREA: f64 = 0.99;
+
+/// Pressure over nominal pressure of each pixel in contact, with its contact area.
+fn pressures(one: &ClosureContact) -> Vec<(f64, f64)> {
+    let ratio = |pressure: f32| f64::from(pressure) / one.nominal;
+    match &one.body {
+        Body::Islands(one) => {
+            one.field.pixels.iter().map(|p| (ratio(p.pressure), f64::from(p.contact))).collect()
+        }
+        Body::HalfSpace(one) => {
+            one.contact.pressures.iter().filter(|p| **p > 0.0).map(|p| (ratio(*p), 1.0)).collect()
+        }
+        Body::Failed(_) => Vec::new(),
+    }
+}
+
+/// The ratio up to which [`SHOWN_AREA`] of the contact lies.
+fn shown_up_to(pressures: &[(f64, f64)]) -> f64 {
+    let mut sorted = pressures.to_vec();
+    sorted.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let total: f64 = sorted.iter().map(|(_, area)| area).sum();
+    let mut below = 0.0;
+    let end = sorted.iter().find(|(_, area)| {
+        below += area;
+        below >= SHOWN_AREA * total
+    });
+    end.map_or(0.0, |(ratio, _)| *ratio)
 }
 
 /// Share of the contact area per step of pressure, against pressure over nominal pressure.
 fn histogram(contacts: &[ClosureContact]) -> Chart {
     const STEPS: usize = 60;
-    let most = contacts.iter().filter_map(ClosureContact::peak_ratio).fold(0.0, f64::max);
-    let width = if most > 0.0 { most / STEPS as f64 } else { 1.0 };
-    let series = contacts.iter().filter(|one| one.nominal > 0.0).map(|one| {
+    let loaded = contacts.iter().filter(|one| one.nominal > 0.0);
+    let found: Vec<_> = loaded
+        .map(|one| (one.closure, pressures(one)))
+        .filter(|(_, pressures)| pressures.iter().any(|(_, area)| *area > 0.0))
+        .collect();
+    let most = found.iter().map(|(_, pressures)| shown_up_to(pressures)).fold(0.0, f64::max);
+    let width = if most > 0.0 { most / (STEPS as f64 - 0.5) } else { 1.0 };
+    let series = found.iter().map(|(closure, pressures)| {
+        let total: f64 = pressures.iter().map(|(_, area)| area).sum();
         let mut bins = [0.0; STEPS];
-        let mut count = |pressure: f32, contact: f32| {
-            let ratio = f64::from(pressure) / one.nominal;
-            bins[((ratio / width) as usize).min(STEPS - 1)] += f64::from(contact);
-        };
-        match &one.body {
-            Body::Islands(one) => one.field.pixels.iter().for_each(|p| count(p.pressure, p.contact)),
-            Body::HalfSpace(one) => {
-                one.contact.pressures.iter().filter(|p| **p > 0.0).for_each(|p| count(*p, 1.0));
+        for (ratio, area) in pressures {
+            if let Some(bin) = bins.get_mut((ratio / width) as usize) {
+                *bin += area;
             }
-            Body::Failed(_) => {}
         }
-        let total: f64 = bins.iter().sum::<f64>().max(f64::MIN_POSITIVE);
         let points = bins.iter().enumerate().map(|(i, b)| [(i as f64 + 0.5) * width, 100.0 * b / total]);
-        Series::of_closure(one.closure, false, points.collect())
+        Series::of_closure(*closure, false, points.collect())
     });
     Chart::new("pressure over nominal pressure", format!("contact area per step of {width:.2} (%)"), series)
-        .titled("Distribution of the pressure over the contact")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// A way back above the way there gains energy and is not drawn; a chart without curves is not written.
-    #[test]
-    fn what_gains_energy_or_shows_nothing_is_left_out() {
-        let curve = |points: &[[f64; 2]]| -> Vec<CurvePoint> {
-            let point = |[separation, pressure]: &[f64; 2]| CurvePoint {
-                separation: *separation,
-                pressure: *pressure,
-                area_ratio: 0.0,
-            };
-            points.iter().map(point).collect()
-        };
-        let loading = curve(&[[3.0, 0.0], [2.0, 10.0], [1.0, 40.0]]);
-        assert!(!unloading_lies_above(&loading, &curve(&[[1.0, 40.0], [1.5, 12.0], [2.0, 0.0]])));
-        assert!(unloading_lies_above(&loading, &curve(&[[1.0, 40.0], [2.0, 20.0], [2.5, 0.0]])));
-        assert!(all(&[], 0.1).is_empty());
-    }
+        .titled("Distribution of the pressure over the contact; of each closure at least 99 % of its area")
 }

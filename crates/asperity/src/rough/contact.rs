@@ -30,12 +30,14 @@ pub struct Rough {
     pub surface: Surface,
     /// The contacts with their islands and pressures, one per row of the table.
     pub contacts: Vec<ClosureContact>,
+    /// True where the observer ended the run before all closures were done and compared.
+    pub stopped: bool,
 }
 
 /// Presses a rigid plane on the surface of `scene` by every closure that it asks for.
 ///
-/// `observer` is asked before each closure, which is its news; `false` ends the run, which keeps the closures
-/// that were done.
+/// `observer` is asked before each closure, which is its news, and before they are compared with the
+/// half-space; `false` ends the run, which keeps the closures that were done.
 ///
 /// # Errors
 /// A scene that makes no sense, a surface that cannot be read, a closure without its material or its
@@ -55,8 +57,10 @@ pub fn press(
     let mut contacts = Vec::new();
     let mut spaces = HalfSpaceContacts::default();
     let closures = tables.closure.closures();
+    let mut stopped = false;
     for (i, &closure) in closures.iter().enumerate() {
-        if !observer(&Progress::counted(i, closures.len(), Some(&closure))) {
+        stopped = !observer(&Progress::counted(i, closures.len(), Some(&closure)));
+        if stopped {
             summary.warnings.push(warnings::stopped_before(closure));
             break;
         }
@@ -64,10 +68,12 @@ pub fn press(
         summary.warnings.extend(remarks);
         contacts.extend(contact);
     }
-    if tables.judge.unwrap_or(surface.map.heights().len() <= MODEST_MAP_POINTS) {
+    let judged = tables.judge.unwrap_or(surface.map.heights().len() <= MODEST_MAP_POINTS);
+    stopped = stopped || judged && !observer(&Progress::counted(closures.len(), closures.len(), None));
+    if judged && !stopped {
         compare_with_half_space(&mut contacts, scene, &surface, &mut spaces);
     }
-    if contacts.is_empty() && summary.warnings.iter().all(|w| warnings::is_skipped(w)) {
+    if contacts.is_empty() && !stopped && summary.warnings.iter().all(|w| warnings::is_skipped(w)) {
         let message = "no closure can be used with this material: add hardness or yield_stress";
         return Err(scene.error(&SceneError::new("closure", message)).into());
     }
@@ -77,7 +83,7 @@ pub fn press(
         table.iter().zip(&contacts).map(|(row, one)| ClosureSummary::new(row.clone(), one)).collect();
     let load_curve = contacts.iter().flat_map(LoadPoint::curve).collect();
     summary.wall_s = start.elapsed().as_secs_f64();
-    let mut rough = Rough { table, load_curve, summary, surface, contacts };
+    let mut rough = Rough { table, load_curve, summary, surface, contacts, stopped };
     rough.summary.verdict = rough.verdict();
     Ok(rough)
 }

@@ -24,8 +24,7 @@ impl Rough {
         let s = &self.summary;
         let numbers = Numbers::from_summary(s)?;
         let charts = charts::all(&self.contacts, self.surface.parameters.mean_gradient);
-        let charts =
-            charts.iter().map(|(_, chart)| page::chart(chart, &chart.title, &format!("{}.", chart.title)));
+        let charts = charts.map(|(_, chart)| page::chart(&chart, &chart.title, &format!("{}.", chart.title)));
         let charts = charts.collect::<Result<Vec<Markup>, Error>>()?;
         let sections = html! {
             h2 { "Every closure" }

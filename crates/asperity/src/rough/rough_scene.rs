@@ -3,7 +3,8 @@
 use crate::batch::journal::fingerprint;
 use crate::error::InputError;
 use crate::input::RELATIVE_PATH_NOTE;
-use crate::input::toml_file::{TomlFile, to_toml};
+use crate::input::toml_file::{LARGEST_FILE, TomlFile, to_toml};
+use asperity_formats::memory::read_file;
 use asperity_formats::surface::{Measured, Spacing};
 use asperity_material::HardeningLaw;
 use asperity_roughness::scene::{Choice, OwnClosure, Scene, SceneError};
@@ -223,9 +224,10 @@ impl RoughScene {
             return Coefficient::committed().map_err(refused);
         };
         let path = self.resolve(path);
-        let text = std::fs::read_to_string(&path).map_err(|e| {
+        let bytes = read_file(&path, LARGEST_FILE, "the limit of a calibration").map_err(|e| {
             error("coefficient", format!("{}: cannot be read: {e}; {RELATIVE_PATH_NOTE}", path.display()))
         })?;
-        Coefficient::from_toml(&text).map_err(|e| error("coefficient", format!("{}: {e}", path.display())))
+        Coefficient::from_toml(&String::from_utf8_lossy(&bytes))
+            .map_err(|e| error("coefficient", format!("{}: {e}", path.display())))
     }
 }

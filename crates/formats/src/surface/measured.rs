@@ -189,7 +189,7 @@ impl Request<'_> {
 
     /// The whole file.
     pub(super) fn read_file(&self, path: &Path) -> Result<Vec<u8>, ReadError> {
-        Ok(read_file(path, self.memory())?)
+        Ok(read_file(path, self.memory(), "memory_limit")?)
     }
 }
 

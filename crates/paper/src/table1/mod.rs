@@ -139,16 +139,32 @@ pub struct ComparedRow {
     pub against_itself: String,
 }
 
+/// Hears of the share that is done (0 to 1) and of what comes next; `false` ends the work.
+pub type Told<'a> = dyn FnMut(f64, &str) -> bool + 'a;
+
+/// The error of work that its observer ended.
+pub(crate) fn ended() -> Error {
+    Error::Unfinished("stopped: nothing of it was written; the same command begins it anew".into())
+}
+
 /// Every closure on the surfaces of one row.
 ///
 /// # Errors
-/// A calibration that cannot be read, or a surface that cannot be made or pressed.
-pub fn measure(kind: KindName, row: &Printed) -> Result<ComparedRow, Error> {
+/// A calibration that cannot be read, a surface that cannot be made or pressed, an observer that ended the
+/// work.
+pub fn measure(kind: KindName, row: &Printed, observer: &mut Told<'_>) -> Result<ComparedRow, Error> {
     let mut table: Vec<ClosureSeeds> = Vec::new();
     let mut notes = Vec::new();
     for seed in 1..=SEEDS {
         let scene = RoughScene::from_toml(&scene(kind, row, seed), Path::new(""))?;
-        let rough = press(&scene, &mut |_| true)?;
+        let rough = press(&scene, &mut |reached| {
+            let closure = reached.news.map_or("half-space", |closure| closure.name());
+            let share = ((seed - 1) as f64 + reached.share) / SEEDS as f64;
+            observer(share, &format!("{} surface {seed} of {SEEDS}, {closure}", kind.name()))
+        })?;
+        if rough.stopped {
+            return Err(ended());
+        }
         if seed == 1 {
             let warnings = rough.summary.warnings.iter();
             notes = warnings.map(|warning| format!("{}, seed 1: {warning}", kind.name())).collect();
@@ -184,8 +200,12 @@ pub struct Table1 {
 ///
 /// # Errors
 /// As for [`measure`].
-pub fn table1() -> Result<Table1, Error> {
-    let rows = TABLE.iter().map(|(kind, row)| measure(*kind, row)).collect::<Result<_, Error>>()?;
+pub fn table1(observer: &mut Told<'_>) -> Result<Table1, Error> {
+    let share = |i: usize, share: f64| (i as f64 + share) / TABLE.len() as f64;
+    let row = |(i, (kind, row)): (usize, (KindName, Printed))| {
+        measure(kind, &row, &mut |part, text| observer(share(i, part), text))
+    };
+    let rows = TABLE.into_iter().enumerate().map(row).collect::<Result<_, Error>>()?;
     Ok(Table1 { rows })
 }
 

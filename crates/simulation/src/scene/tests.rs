@@ -429,6 +429,22 @@ fn the_names_of_laws_are_those_of_a_file() {
     assert!(HardeningChoice::OF_FILES.iter().all(|law| error.message.contains(law.name())), "{error}");
 }
 
+/// 0.34e² + 15e cells of 18 kB under a contact: 0.01 GB with the 24 of `standard`, 6.4 GB with 1000.
+#[test]
+fn a_run_of_gigabytes_is_told_with_its_key() {
+    assert_eq!(scene().costly(), None);
+    let mut fine = scene();
+    fine.numerics.elements_in_contact = Some(1000);
+    fine.numerics.element = Some(ElementChoice::Q8r);
+    let told = fine.costly().unwrap();
+    assert_eq!(told.path, "numerics.elements_in_contact");
+    assert!(told.message.contains("about 6 GB") && told.message.contains("fewer"), "{}", told.message);
+    let many = Scene { asperity: vec![scene().asperity[0].clone(); 300], ..scene() };
+    assert_eq!(many.costly().unwrap().path, "asperity");
+    fine.mesh = Some(MeshFile { file: "body.msh".into(), unit: None });
+    assert_eq!(fine.costly(), None);
+}
+
 #[test]
 fn what_has_no_effect_is_named() {
     let unused = |change: &dyn Fn(&mut Scene)| {

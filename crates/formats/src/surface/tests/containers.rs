@@ -86,8 +86,8 @@ fn archives_of_other_programs_are_named() {
     }
 }
 
-/// Files that gwyfile 0.3.0 and gsffile 0.5.5 (PyPI) wrote: 3 x 2 points of 0.5 x 0.25 um, the last but one no
-/// number; the second Gwyddion file has a channel of phase before that of heights.
+/// Files that gwyfile 0.3.0 and gsffile 0.5.5 (PyPI) wrote: 3 x 2 points of 0.5 x 0.25 um, the last but one
+/// no number; the second Gwyddion file has a channel of phase before that of heights.
 #[test]
 fn files_of_gwyddion_by_independent_writers_are_read() {
     let want = [1e-7, 2e-7, -3e-7, 4e-7, NAN, 6e-7];
