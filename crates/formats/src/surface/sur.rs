@@ -26,16 +26,8 @@ fn metres(unit: &str) -> Option<f64> {
     Length::UNITS.iter().find(|(name, _)| *name == unit).map(|(_, metres)| *metres)
 }
 
-/// Reads a surface; profiles, series and pictures are refused.
-pub(super) fn read(path: &Path, request: &Request<'_>) -> Result<Measured, ReadError> {
-    let data = request.read_file(path)?;
-    let header = Bytes { format: FORMAT, data: &data };
-    let compressed = header.text(0, 12)? == "DSCOMPRESSED";
-    let (byte_order, kind) = (header.number(Number::I16, 12)?, header.number(Number::I16, 18)?);
-    if byte_order != 0.0 {
-        return Err(FORMAT.header("format", byte_order, "only 0 (little-endian) is known"));
-    }
-    let (columns, rows) = (header.number(Number::I32, 108)? as u64, header.number(Number::I32, 112)? as u64);
+/// What is said of the kind of object and of how many there are; refused if it holds no heights of a surface.
+fn remarks_of_kind(header: &Bytes<'_>, kind: f64, rows: u64) -> Result<Vec<String>, ReadError> {
     let objects = header.number(Number::I16, 14)?;
     let mut notes = Vec::new();
     match kind as i16 {
@@ -53,6 +45,20 @@ pub(super) fn read(path: &Path, request: &Request<'_>) -> Result<Measured, ReadE
             return Err(FORMAT.header("object type", kind, allowed));
         }
     }
+    Ok(notes)
+}
+
+/// Reads a surface; profiles, series and pictures are refused.
+pub(super) fn read(path: &Path, request: &Request<'_>) -> Result<Measured, ReadError> {
+    let data = request.read_file(path)?;
+    let header = Bytes { format: FORMAT, data: &data };
+    let compressed = header.text(0, 12)? == "DSCOMPRESSED";
+    let (byte_order, kind) = (header.number(Number::I16, 12)?, header.number(Number::I16, 18)?);
+    if byte_order != 0.0 {
+        return Err(FORMAT.header("format", byte_order, "only 0 (little-endian) is known"));
+    }
+    let (columns, rows) = (header.number(Number::I32, 108)? as u64, header.number(Number::I32, 112)? as u64);
+    let notes = remarks_of_kind(&header, kind, rows)?;
     let points = header.number(Number::I32, 116)?;
     if points != 0.0 && points != columns as f64 * rows as f64 {
         let allowed = "it must be the product of the points of a line and the lines";

@@ -103,9 +103,9 @@ impl Heading {
         let ends =
             |called: &&str| called.len() > 1 && name.strip_suffix(*called).is_some_and(|r| r.ends_with(' '));
         let starts = |called: &&str| called.len() > 3 && name.strip_prefix(*called).is_some_and(follows);
-        if quantity.called.iter().any(|called| ends(&called)) {
+        if quantity.called.iter().any(ends) {
             Some(1)
-        } else if quantity.called.iter().any(|called| starts(&called)) {
+        } else if quantity.called.iter().any(starts) {
             Some(2)
         } else {
             None
