@@ -134,7 +134,8 @@ fn every_force_up_to_what_a_depth_bears_is_reached() {
         (
             "sharp wedge that hardens",
             changed(|s| {
-                (soft(s), wedge(s)).0;
+                soft(s);
+                wedge(s);
                 s.tool.tip_radius = None;
                 s.material.hardening_exponent = Some(0.1);
             }),

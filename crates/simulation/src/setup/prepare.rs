@@ -159,13 +159,16 @@ fn goal_and_reach(scene: &Scene, units: &Units, expected: &Expected) -> Result<(
     })
 }
 
+/// How deep each contact indents its surroundings under a tool at a depth.
+type OwnDepths<'a> = &'a dyn Fn(&Tool, f64) -> Vec<f64>;
+
 /// `contacts` and those of the earlier loads of `scene` on one mesh, lengths over `length`.
 fn with_earlier_contacts(
     mut contacts: Contacts,
     scene: &Scene,
     expected: &Expected,
     profile: &Profile,
-    (length, own_depths_under): (f64, &dyn Fn(&Tool, f64) -> Vec<f64>),
+    (length, own_depths_under): (f64, OwnDepths<'_>),
 ) -> Result<Contacts, SceneError> {
     for (load, earlier) in scene.earlier_loads().iter().zip(&expected.earlier) {
         let tool = load.tool.form().map_err(|e| in_table("tool", e))?.in_units_of(length);
