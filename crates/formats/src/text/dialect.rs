@@ -114,7 +114,7 @@ impl Dialect {
                 .find_map(|&(line, row)| Some((line, point.cells(row).find(|cell| is_cut(cell))?)));
             if let Some((line, cell)) = cut {
                 let message = format!(
-                    "commas stand both between columns and before decimals, as \"{cell}\" shows: part the columns by semicolons or tabs"
+                    "a decimal comma stands among commas between columns, as \"{cell}\" shows: part the columns by semicolons or tabs"
                 );
                 return Err(TextError::new(line, message));
             }

@@ -38,6 +38,7 @@ struct Part {
 /// # Errors
 /// No numbers, rows of different lengths, cells that are no numbers, words between rows.
 pub fn read_grid(text: &str, missing: Option<f64>) -> Result<Grid<'_>, TextError> {
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let dialect = Dialect::detect(text)?;
     let (before, start, first) = beginning(text, &dialect)?;
     let (end, after) = ending(text, start);

@@ -60,6 +60,7 @@ pub fn read_series<const N: usize>(
     wanted: &[Quantity; N],
     named: &Asked<'_, N>,
 ) -> Result<SeriesTable<N>, TextError> {
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let dialect = Dialect::detect(text)?;
     let (series, said) = (Vec::new(), String::new());
     let mut reader = Reader {

@@ -189,7 +189,7 @@ fn rows_that_are_no_table_are_refused_at_their_line() {
         ("1 2\n3 4\nsecond map\n5 6\n", Some(3), "second map"),
         ("0,5\t1,234\n0.5\t2\n", Some(2), "comma"),
         ("1,234\t5,678\n", Some(1), "may be a thousand"),
-        ("0,07552,0,25755\n0,1,0,2\n", Some(1), "commas stand both"),
+        ("0,07552,0,25755\n0,1,0,2\n", Some(1), "a decimal comma stands among"),
         ("1 2 3\n4 5 6 7\n", Some(2), "4 numbers"),
     ] {
         let fault = read_grid(text, None).unwrap_err();
