@@ -173,7 +173,7 @@ impl Task {
             let near = level.near_contact([&found.pressure, &found.lift], found.plane);
             return Answer {
                 residual: level.residual([&found.pressure, &found.lift], found.plane, &near),
-                pressure: self.carried_to_zero(base, start),
+                pressure: self.counted_from_zero(base, start),
                 lift: found.lift.par_iter().map(|u| f64::from(*u)).collect(),
                 plane: found.plane,
                 error: found.error,
@@ -187,7 +187,7 @@ impl Task {
         let near = level.near_contact([&found.pressure, &found.lift], found.plane);
         Answer {
             residual: level.residual([&found.pressure, &found.lift], found.plane, &near),
-            pressure: self.carried_to_zero(base, found.pressure),
+            pressure: self.counted_from_zero(base, found.pressure),
             lift: found.lift,
             plane: found.plane,
             error: found.error,
@@ -196,7 +196,7 @@ impl Task {
     }
 
     /// Pressures counted from 0 of those counted from `base`, those at a bound exactly there.
-    fn carried_to_zero(&self, base: f64, mut pressure: Vec<f64>) -> Vec<f64> {
+    fn counted_from_zero(&self, base: f64, mut pressure: Vec<f64>) -> Vec<f64> {
         if base > 0.0 {
             // the bound is that of either number type
             let low = -base;
