@@ -2,7 +2,7 @@
 
 use crate::load_history::ready;
 use crate::load_path::Stop;
-use crate::record::recorder::{Outcome, Watcher};
+use crate::record::outcome::{Outcome, Watcher};
 use crate::scene::{Scene, Target};
 use crate::setup::discretisation::Discretisation;
 use crate::setup::prepare::Expected;

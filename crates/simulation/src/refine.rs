@@ -6,7 +6,7 @@
 //! have shown. Where all numbers are just twice as fine, the round before is the companion of the next one.
 //! Work is counted in operations, never in seconds, so that the bits are those of every machine.
 
-use crate::record::recorder::{Event, Outcome, Watcher};
+use crate::record::outcome::{Event, Outcome, Watcher};
 use crate::record::rows::Summary;
 use crate::run::{CrushError, Run};
 use crate::scene::Scene;

@@ -16,7 +16,7 @@ use asperity_mesh::Mesh;
 use asperity_solver::body::analysis::Analyses;
 use asperity_solver::point::material::Metal;
 
-pub use crate::record::recorder::{Event, FieldFrame, Outcome, Stopped, Watcher};
+pub use crate::record::outcome::{Event, FieldFrame, Outcome, Stopped, Watcher};
 pub use crate::simulate::CrushError;
 
 /// A run to be made. Without more than its scene: `Run::new(&scene).run(…)`.

@@ -1,7 +1,8 @@
 //! A problem from first touch to its end: loading, unloading, reloading, and what is recorded on the way.
 
 use crate::load_path::{Path, Stop};
-use crate::record::recorder::{Outcome, Recorder, Watcher};
+use crate::record::outcome::{Outcome, Watcher};
+use crate::record::recorder::Recorder;
 use crate::scene::SceneError;
 use crate::setup::problem::Problem;
 use asperity_solver::body::analysis::Analyses;

@@ -44,7 +44,7 @@ pub(super) use rescale::rescale_to_force;
 
 use crate::fitted::FITTED;
 use crate::record::curve::Curve;
-use crate::record::recorder::Outcome;
+use crate::record::outcome::Outcome;
 use crate::record::rows::{
     AsperityRow, CurveRow, Errors, ErrorsAlong, Phase, Summary, largest_work, work_along,
 };

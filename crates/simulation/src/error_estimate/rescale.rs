@@ -2,7 +2,7 @@
 
 use super::bound::longer;
 use crate::record::curve::Curve;
-use crate::record::recorder::Outcome;
+use crate::record::outcome::Outcome;
 use crate::record::rows::{CurveRow, Phase, Summary};
 use asperity_solver::point::kinematics::Symmetry;
 

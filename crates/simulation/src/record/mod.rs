@@ -9,4 +9,6 @@ mod mesh_ripple;
 
 pub mod oliver_pharr;
 
+pub(crate) mod outcome;
+
 pub(crate) mod recorder;
