@@ -132,7 +132,7 @@ fn a_disk_that_refuses_is_named_and_loses_no_case() {
     let kept = place.text("full.journal").lines().count() - 1;
     assert!((1..24).contains(&kept), "{kept} rows");
     let end = place.run(&["calibrate", "scene.toml", "--out", "full"]);
-    assert!(end.status == 0 && end.err.contains(&format!("{kept} cases of an earlier run")), "{}", end.err);
+    assert!(end.status == 0 && end.err.contains(&format!("{kept} cases of an earlier start")), "{}", end.err);
     assert_eq!(place.run(&["calibrate", "scene.toml", "--out", "whole"]).status, 0);
     assert_eq!(results(&place, "full"), results(&place, "whole"));
 }

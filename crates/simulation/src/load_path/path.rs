@@ -231,12 +231,16 @@ impl<'p> Path<'p> {
         sums
     }
 
-    /// True where the attempted increment to `travel` is less deep than the last one, by more than Newton's
-    /// method leaves open.
+    /// True where the attempted increment to `travel` of a body that earlier loads left is less deep than the
+    /// last one, by more than Newton's method leaves open. At first touch of a virgin body the penetration
+    /// that is taken off may grow by more than the travel, once.
     fn goes_back(&self, travel: f64) -> bool {
         let before = self.depth(self.stand.travel, self.stand.contact);
         let after = self.depth(travel, ContactLoad::from_sums(&self.sums()));
-        self.stand.contact.force > 0.0 && after < (1.0 - self.problem.numbers.newton_tolerance) * before
+        let is_formed = self.problem.specimen.earlier.is_some();
+        is_formed
+            && self.stand.contact.force > 0.0
+            && after < (1.0 - self.problem.numbers.newton_tolerance) * before
     }
 
     /// Accepts the attempted increment to `travel`, unless loading would go back.
