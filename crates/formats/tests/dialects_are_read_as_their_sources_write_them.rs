@@ -10,6 +10,9 @@ use asperity_formats::text::decode;
 use std::fmt::Write;
 use std::path::Path;
 
+/// First line of the table.
+const WRITTEN_BY: &str = "<!-- written by `ASPERITY_RENEW=1 cargo test --release -p asperity-formats --test dialects_are_read_as_their_sources_write_them` -->\n\n";
+
 /// A dialect: what is special, where it comes from, and the bytes of a file.
 struct Dialect {
     feature: &'static str,
@@ -187,7 +190,8 @@ fn map_is_right(one: &Dialect) -> bool {
 
 #[test]
 fn every_dialect_gives_its_numbers() {
-    let mut page = String::from("| table | what is special | where it comes from |\n|-|-|-|\n");
+    let mut page = String::from(WRITTEN_BY);
+    page.push_str("| table | what is special | where it comes from |\n|-|-|-|\n");
     let mut row = |kind: &str, one: &Dialect| {
         let _ = writeln!(page, "| {kind} | {} | {} |", one.feature, one.source);
     };

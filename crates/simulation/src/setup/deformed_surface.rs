@@ -56,8 +56,14 @@ impl Formed {
         let places = self.clearances(tool);
         let top = places.iter().map(|place| place[1]).fold(f64::NEG_INFINITY, f64::max);
         let widest = |centre: f64, [left, right]: [f64; 2]| {
-            let edges = edges_above(&places, top - depth).filter(|x| (left..=right).contains(x));
-            edges.map(|x| (x - centre).abs()).fold(0.0, f64::max)
+            let within = |x: &f64| (left..=right).contains(x);
+            let farthest = |places: &mut dyn Iterator<Item = f64>| {
+                places.filter(within).map(|x| (x - centre).abs()).fold(0.0, f64::max)
+            };
+            let touched = places.iter().filter(|[_, z]| *z >= top - depth).map(|[x, _]| *x);
+            let width = farthest(&mut touched.into_iter());
+            // a summit that is one place alone has the width of the polyline
+            if width > 0.0 { width } else { farthest(&mut edges_above(&places, top - depth)) }
         };
         if profile.asperities.is_empty() {
             return vec![widest(0.0, [f64::NEG_INFINITY, f64::INFINITY])];
