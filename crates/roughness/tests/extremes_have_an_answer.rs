@@ -143,7 +143,7 @@ fn what_is_no_surface_is_refused_by_its_content() {
         ("a.csv", b"\x89PNG\r\n\x1a\n", "PNG picture"),
         ("a.sur", b"\xff\xd8\xff\xe0", "JPEG picture"),
         ("a.xyz", b"II*\0\x08\0\0\0", "TIFF file"),
-        ("a.docx", b"hello", "not known"),
+        ("a.docx", b"hello", "no rows of numbers"),
         ("a.sur", b"", "empty"),
     ];
     for (name, content, words) in rows {
