@@ -5,7 +5,7 @@
 
 mod common;
 
-use asperity::crush::{CurveRow, Phase, read_rows};
+use asperity::crush::{AsperityRow, CurveRow, Phase, read_rows};
 use common::Place;
 
 const STEEL: &str = r#"accuracy = "draft"
@@ -52,6 +52,24 @@ fn a_plane_after_a_ball_meets_the_summits_that_the_ball_left() {
     let place = Place::with_scene(row("plane-strain", 5.0, 3));
     let end = place.run(&["crush", "scene.toml", "--out", "out"]);
     assert!(end.status == 0 || end.status == 1 && end.err.contains("stopped"), "{} {}", end.status, end.err);
+}
+
+/// The loads of a body share its coordinates: the ball dents the first summit also where a plane comes after
+/// it, which then meets the second one alone.
+#[test]
+fn a_ball_before_a_plane_comes_down_on_the_first_ridge() {
+    let dented = row("plane-strain", 9.0, 2);
+    let virgin = dented.replace(&ball_before("0.8 um"), "");
+    let bears = |scene: &str| {
+        let place = Place::with_scene(scene);
+        let end = place.run(&["crush", "scene.toml", "--out", "out", "--set", "numerics.refine=false"]);
+        assert_eq!(end.status, 0, "{}", end.err);
+        let rows: Vec<AsperityRow> = read_rows(&place.path("out/asperities.csv")).unwrap();
+        // a quarter of the dent
+        let early = || rows.iter().filter(|row| row.depth < 0.2e-6);
+        [0, 1].map(|asperity| early().any(|row| row.asperity == asperity && row.force > 0.0))
+    };
+    assert_eq!((bears(&virgin), bears(&dented)), ([true, true], [false, true]));
 }
 
 /// A cone of 12° on the dent of a ball that went a thousand times as deep touches a few uneven nodes: force

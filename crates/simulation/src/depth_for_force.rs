@@ -9,7 +9,7 @@
 use crate::load_history::ready;
 use crate::load_path::Path;
 use crate::record::curve::Curve;
-use crate::scene::{Accuracy, Loading, Numerics, Scene, SceneError, Substrate, Symmetry, Target};
+use crate::scene::{Accuracy, Loading, Numerics, Scene, SceneError, Substrate, Symmetry, Target, Tool};
 use crate::setup::compliance::Compliance;
 use crate::setup::contact_estimate::expected_depth;
 use crate::setup::deformed_surface::Formed;
@@ -57,7 +57,9 @@ pub fn expect(
     units: Units,
     analyses: &Analyses,
 ) -> Result<Expected, SceneError> {
-    let mut expected = Expected::default();
+    let earlier = scene.earlier_loads().iter().map(|load| &load.tool);
+    let centred = earlier.chain([&scene.tool]).any(Tool::is_curved);
+    let mut expected = Expected { centred, ..Expected::default() };
     for index in 0..scene.earlier_loads().len() {
         let within = |e: SceneError| SceneError { path: format!("initial.load[{index}].{}", e.path), ..e };
         let load = with_body_of(&scene.at_load(index), mesh);
@@ -68,7 +70,7 @@ pub fn expect(
         })?;
         let mut earlier = std::mem::take(&mut expected.earlier);
         earlier.push(expected);
-        expected = Expected { formed: Some(formed), earlier, ..Expected::default() };
+        expected = Expected { formed: Some(formed), earlier, centred, ..Expected::default() };
     }
     expected.expect_peak(target_depth(scene, mesh, &expected, (units, analyses))?);
     Ok(expected)
@@ -106,7 +108,7 @@ fn target_depth(
         }
         Target::Depth(depth) => Ok(Peak { depth: depth / units.length, is_sure: true }),
         Target::Force(force) => {
-            let (profile, tool) = bodies(scene, units.length)?;
+            let (profile, tool) = bodies(scene, expected.centred, units.length)?;
             let length = Units::of_scene(scene)?.length / units.length;
             let force = force / units.force;
             let guess = expected_depth(&metal(scene), scene.symmetry, &profile, &tool, force, length);

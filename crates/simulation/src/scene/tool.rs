@@ -201,6 +201,11 @@ impl ToolShape {
 }
 
 impl Tool {
+    /// True of all but a plane: it has an axis, and comes down at 0.
+    pub(crate) fn is_curved(&self) -> bool {
+        !matches!(self.form(), Ok(ToolForm::Plane))
+    }
+
     /// The shape that the keys describe.
     ///
     /// # Errors

@@ -80,7 +80,10 @@ impl Formed {
     /// Share of the contact half width at `reach` from which the contact must be resolved: see
     /// [`crate::setup::contact_estimate::resolved_from`].
     pub fn resolved_from(&self, profile: &Profile, tool: &Tool, depth: f64, reach: f64) -> f64 {
-        self.widest(profile, tool, LEAST_COUNTED_DEPTH * depth) / self.widest(profile, tool, reach)
+        let share =
+            self.widest(profile, tool, LEAST_COUNTED_DEPTH * depth) / self.widest(profile, tool, reach);
+        // metal that was pressed up between two feet may be touched before any summit
+        if share > 0.0 { share } else { 1.0 }
     }
 
     /// Mean contact pressure to be expected at `depth`, in units of E: that of a contact of this depth and

@@ -1,6 +1,6 @@
 //! From a scene and its depth to what the solver computes with: unit of length, profile, tool, mesh, penalty.
 
-use crate::scene::{AsperityForm, ElementChoice, Line, LineAsperity, Scene, SceneError, Target, ToolForm};
+use crate::scene::{AsperityForm, ElementChoice, Line, LineAsperity, Scene, SceneError, Target};
 use crate::setup::contact_estimate;
 use crate::setup::deformed_surface::{Formed, expected_pressure};
 use crate::setup::discretisation::Discretisation;
@@ -33,14 +33,15 @@ pub fn metal(scene: &Scene) -> Metal {
     }
 }
 
-/// The asperities and the tool of `scene`, lengths over `length` (m).
-pub fn bodies(scene: &Scene, length: f64) -> Result<(Profile, Tool), SceneError> {
+/// The asperities and the tool of `scene`, lengths over `length` (m); the first summit stands at 0 where the
+/// loads are [`Expected::centred`].
+pub fn bodies(scene: &Scene, centred: bool, length: f64) -> Result<(Profile, Tool), SceneError> {
     let tool = scene.tool.form().map_err(|e| in_table("tool", e))?.in_units_of(length);
     if let Some(line) = scene.profile.first() {
         let profile = measured_line(&line.line().map_err(|e| in_table("profile[0]", e))?, length);
         return Ok((profile, tool));
     }
-    let asperities = outlines(scene)?.iter().map(|a| a.in_units_of(length)).collect();
+    let asperities = outlines(scene, centred)?.iter().map(|a| a.in_units_of(length)).collect();
     Ok((Profile { asperities, line: None }, tool))
 }
 
@@ -66,6 +67,9 @@ pub struct Expected {
     pub depth: f64,
     /// Whether no coarse run has carried the force there: the depth may be further off.
     pub is_guessed: bool,
+    /// True where a tool of the scene, or of a load before or after it, is curved: it comes down at 0, and
+    /// all loads of a body share the places of its asperities.
+    pub centred: bool,
     /// The surface that earlier loads left; `None`: that of the scene.
     pub formed: Option<Formed>,
     /// The same of the earlier loads, in their order.
@@ -89,7 +93,7 @@ pub fn prepare(
     let length = units.length;
     let symmetry = scene.symmetry;
     let metal = metal(scene);
-    let (profile, tool) = bodies(scene, length)?;
+    let (profile, tool) = bodies(scene, expected.centred, length)?;
     let (goal, reach) = goal_and_reach(scene, &units, expected)?;
     let formed = expected.formed.clone();
     let substrate = scene.substrate.as_ref().and_then(|s| s.depth);
@@ -247,10 +251,9 @@ fn in_table(table: &str, error: SceneError) -> SceneError {
 }
 
 /// The asperities side by side, in metres.
-fn outlines(scene: &Scene) -> Result<Vec<Asperity>, SceneError> {
+fn outlines(scene: &Scene, centred: bool) -> Result<Vec<Asperity>, SceneError> {
     let mut outlines = Vec::new();
     let plane = scene.symmetry == Symmetry::PlaneStrain;
-    let curved = !matches!(scene.tool.form(), Ok(ToolForm::Plane));
     let mut edge = 0.0; // where the next asperity may begin
     for (index, asperity) in scene.asperity.iter().enumerate() {
         let form = asperity.form().map_err(|e| in_table(&format!("asperity[{index}]"), e))?;
@@ -263,7 +266,7 @@ fn outlines(scene: &Scene) -> Result<Vec<Asperity>, SceneError> {
         };
         let [left, right] = form.feet();
         // a curved tool comes down at 0: over the first summit
-        let at_zero = index == 0 && (!plane || curved);
+        let at_zero = index == 0 && (!plane || centred);
         let centre = if at_zero { 0.0 } else { edge + left };
         outlines.push(Asperity { shape, height: form.height(), centre, valley_radius });
         edge = centre + right + asperity.spacing.map_or(0.0, |s| s.0);
