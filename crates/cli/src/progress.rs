@@ -112,11 +112,8 @@ impl BatchProgress {
         if let Some(notice) = notice.filter(|_| !self.quiet) {
             self.line.say(&format!("warning: {notice}"));
         }
-        // the run that is told of is one of this start
-        let earlier = done - usize::from(news.is_some()).min(done);
-        if std::mem::take(&mut self.greets) && earlier > 0 {
-            self.line
-                .say(&format!("{earlier} {several} of an earlier start are in {}", self.place.display()));
+        if std::mem::take(&mut self.greets) && done > 0 {
+            self.line.say(&format!("{done} {several} of an earlier start are in {}", self.place.display()));
         }
         let detail = || news.map_or_else(String::new, |news| format!("  {}", detail(news)));
         self.line.show(share, || format!("{one} {done} of {all}{}", detail()));

@@ -78,18 +78,18 @@ pub fn expect(
 
 impl Expected {
     fn expect_peak(&mut self, peak: Peak) {
-        (self.depth, self.is_guessed) = (peak.depth, !peak.is_sure);
+        (self.depth, self.is_guessed) = (peak.depth, peak.is_guessed);
     }
 }
 
-/// What each coarse crush of a search computes with.
+/// Units and analyses, which all coarse crushes of a search share.
 type Shared<'a> = (Units, &'a Analyses);
 
 /// An estimate of the depth of a peak.
 struct Peak {
     depth: f64,
-    /// Whether a coarse crush has been there.
-    is_sure: bool,
+    /// Whether no coarse crush has carried the force there.
+    is_guessed: bool,
 }
 
 /// The peak of `scene` after the loads that are `expected` before it.
@@ -104,16 +104,15 @@ fn target_depth(
         Target::Depth(depth) if gives_way(scene) => {
             let asked = depth / units.length;
             let depth = depth_of_body(&with_body_of(scene, mesh), asked, expected, shared);
-            Ok(Peak { depth, is_sure: true })
+            Ok(Peak { depth, is_guessed: false })
         }
-        Target::Depth(depth) => Ok(Peak { depth: depth / units.length, is_sure: true }),
+        Target::Depth(depth) => Ok(Peak { depth: depth / units.length, is_guessed: false }),
         Target::Force(force) => {
             let (profile, tool) = bodies(scene, expected.centred, units.length)?;
             let length = Units::of_scene(scene)?.length / units.length;
             let force = force / units.force;
             let guess = expected_depth(&metal(scene), scene.symmetry, &profile, &tool, force, length);
-            let (depth, carried) = depth_of(&with_body_of(scene, mesh), force, guess, expected, shared);
-            Ok(Peak { depth, is_sure: carried })
+            Ok(depth_of(&with_body_of(scene, mesh), force, guess, expected, shared))
         }
     }
 }
@@ -145,7 +144,7 @@ fn with_body_of(scene: &Scene, mesh: Option<&Mesh>) -> Scene {
 ///
 /// Where a coarse crush breaks off before it carries the force, a finer one is tried; where that does too,
 /// the depth is extrapolated from what it reached.
-fn depth_of(scene: &Scene, force: f64, guess: f64, expected: &Expected, shared: Shared<'_>) -> (f64, bool) {
+fn depth_of(scene: &Scene, force: f64, guess: f64, expected: &Expected, shared: Shared<'_>) -> Peak {
     let deepest = scene.deepest() / shared.0.length;
     let mut depth = guess.min(deepest);
     let mut fineness = 1;
@@ -161,7 +160,9 @@ fn depth_of(scene: &Scene, force: f64, guess: f64, expected: &Expected, shared: 
         };
         let end = curve.end();
         match curve.depth_of(force) {
-            Some(found) if LARGEST_DEPTH_RATIO * found >= end => return (found, true),
+            Some(found) if LARGEST_DEPTH_RATIO * found >= end => {
+                return Peak { depth: found, is_guessed: false };
+            }
             Some(found) => depth = PASSED_DEPTH_RATIO * found,
             None => {
                 let exponent = (curve.value(end) / curve.value(0.5 * end)).log2().clamp(0.7, 4.0);
@@ -177,7 +178,7 @@ fn depth_of(scene: &Scene, force: f64, guess: f64, expected: &Expected, shared: 
             }
         }
     }
-    (depth, false)
+    Peak { depth, is_guessed: true }
 }
 
 /// Whether tool or machine are elastic.

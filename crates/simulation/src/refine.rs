@@ -104,32 +104,25 @@ impl Run<'_> {
     pub fn run_refined(self, observer: &mut Watcher<'_>) -> Result<Outcome, CrushError> {
         let scene = self.scene;
         let run = self.begin()?;
-        let mut numbers = Discretisation::new(scene);
-        let first = run.round(numbers, None, observer)?;
-        let allowed = MOST_WORK_RATIO * first.work;
-        let mut last_miss = misses(scene, &first.outcome);
-        let mut best = Kept { miss: largest(last_miss), outcome: first.outcome.clone() };
-        let (mut before, mut work, mut iterations, mut rounds) =
-            (first.main, first.work, best.outcome.summary.newton_iterations, 1);
-        let (mut orders, mut fineness) = (EXPECTED_ORDERS, 1.0);
-        let ended = best.outcome.stopped.is_some();
-        while !ended && best.miss > 1.0 && rounds < MOST_ROUNDS && scene.may_refine() {
-            let Some(factor) = affordable(wanted(last_miss, orders), fineness, work / first.work) else {
-                break;
-            };
-            let twice = factor == FACTORS[1];
+        let first = run.round(Discretisation::new(scene), None, observer)?;
+        let (mut best, mut before, mut work, mut rounds) = (first.outcome, first.main, first.work, 1);
+        let (mut miss, mut orders, mut fineness) = (misses(scene, &best), EXPECTED_ORDERS, 1.0);
+        let (mut least, mut iterations) = (largest(miss), best.summary.newton_iterations);
+        let refines = scene.may_refine() && best.stopped.is_none();
+        while refines && least > 1.0 && rounds < MOST_ROUNDS {
+            let Some(factor) = affordable(wanted(miss, orders), fineness, work / first.work) else { break };
             if observer(&Event::Round(rounds + 1)).is_break() {
                 break;
             }
-            let next = numbers.finer(factor, &scene.numerics);
+            let numbers = before.numbers.finer(factor, &scene.numerics);
+            let coarser = (factor == FACTORS[1]).then_some(&before);
             let mut interrupted = false;
             let told = &mut |event: &Event<'_>| {
                 let told = observer(event);
                 interrupted |= told.is_break();
                 told
             };
-            let found = run.round(next, twice.then_some(&before), told);
-            let Ok(found) = found else { break };
+            let Ok(found) = run.round(numbers, coarser, told) else { break };
             if interrupted {
                 break;
             }
@@ -139,29 +132,18 @@ impl Run<'_> {
             if found.outcome.stopped.is_some() {
                 break;
             }
-            let miss = misses(scene, &found.outcome);
-            orders = observed(last_miss, miss, factor);
-            (numbers, fineness, last_miss, before) = (next, fineness * factor, miss, found.main);
-            if largest(miss) < best.miss {
-                let outcome = Outcome { round: rounds, numbers, ..found.outcome };
-                best = Kept { miss: largest(miss), outcome };
-            }
-            if work > allowed {
-                break;
+            let now = misses(scene, &found.outcome);
+            orders = observed(miss, now, factor);
+            (fineness, miss, before) = (fineness * factor, now, found.main);
+            if largest(now) < least {
+                (least, best) = (largest(now), Outcome { round: rounds, ..found.outcome });
             }
         }
-        let mut outcome = best.outcome;
-        outcome.summary.newton_iterations = iterations;
-        outcome.summary.rounds = rounds;
-        outcome.summary.promise_kept = outcome.stopped.is_none().then_some(best.miss <= 1.0);
-        Ok(outcome)
+        best.summary.newton_iterations = iterations;
+        best.summary.rounds = rounds;
+        best.summary.promise_kept = best.stopped.is_none().then_some(least <= 1.0);
+        Ok(best)
     }
-}
-
-/// The best round so far.
-struct Kept {
-    miss: f64,
-    outcome: Outcome,
 }
 
 /// The factor of fineness that is made of the `wanted` one after rounds that took `spent` times the work of

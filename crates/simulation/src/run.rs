@@ -51,15 +51,15 @@ impl<'a> Run<'a> {
         Ok(self.begin()?.round(numbers, None, observer)?.outcome)
     }
 
-    /// What all rounds of it share.
+    /// The run, ready for its rounds: all that they share.
     pub(crate) fn begin(self) -> Result<Rounds<'a>, CrushError> {
         self.scene.validate()?;
         let units = Units::of_scene(self.scene)?;
-        self.begin_in(units)
+        Ok(self.begin_in(units)?)
     }
 
     /// [`Run::begin`] in these `units`; its scene is valid.
-    fn begin_in(self, units: Units) -> Result<Rounds<'a>, CrushError> {
+    fn begin_in(self, units: Units) -> Result<Rounds<'a>, SceneError> {
         let Run { scene, mesh, metal, analyses } = self;
         let target = scene.loading.target()?;
         let expected = expect(scene, mesh.as_ref(), units, &analyses)?;
@@ -72,10 +72,8 @@ impl<'a> Run<'a> {
     /// # Errors
     /// A scene that cannot be meshed: path and reason.
     pub fn problem(self) -> Result<Problem, SceneError> {
-        let Run { scene, mesh, analyses, .. } = self;
-        let units = Units::of_scene(scene)?;
-        let expected = expect(scene, mesh.as_ref(), units, &analyses)?;
-        let mesh = mesh.map(|mesh| mesh.scaled(units.length.recip()));
+        let units = Units::of_scene(self.scene)?;
+        let Rounds { scene, mesh, expected, .. } = self.begin_in(units)?;
         prepare(scene, Discretisation::new(scene), mesh, &expected, units)
     }
 }
@@ -93,7 +91,7 @@ pub(crate) struct Rounds<'a> {
 
 /// A run with its companion.
 pub(crate) struct Round {
-    /// What is stated.
+    /// The outcome as it is stated.
     pub outcome: Outcome,
     /// The run as it was found: a companion of one with numbers twice as fine.
     pub main: Outcome,

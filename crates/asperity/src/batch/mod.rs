@@ -106,12 +106,12 @@ pub(crate) fn run<C: Sync, R: Clone + Send + Sync + Serialize + DeserializeOwned
 ) -> Result<Finished<R>, Error> {
     let keys: Vec<String> = batch.cases.iter().map(batch.key).collect();
     let Resumed { mut rows, journal, notice } = resume(batch, &keys)?;
-    let count = |rows: &HashMap<String, R>| keys.iter().filter(|key| rows.contains_key(*key)).count();
-    let (done, cases) = (count(&rows), batch.cases.len());
+    // cases of one key are one run
     let mut seen = HashSet::new();
-    let open: Vec<usize> =
-        (0..cases).filter(|&i| !rows.contains_key(&keys[i]) && seen.insert(keys[i].as_str())).collect();
-    let first = Progress { notice: notice.as_deref(), ..Progress::counted(done, cases, None) };
+    let runs: Vec<usize> = (0..keys.len()).filter(|&i| seen.insert(keys[i].as_str())).collect();
+    let open: Vec<usize> = runs.iter().copied().filter(|&i| !rows.contains_key(&keys[i])).collect();
+    let (done, all) = (runs.len() - open.len(), runs.len());
+    let first = Progress { notice: notice.as_deref(), ..Progress::counted(done, all, None) };
     let stop = AtomicBool::new(!observer(&first));
     let shared = Mutex::new(Shared { journal, observer, done });
     let lock = || shared.lock().unwrap_or_else(PoisonError::into_inner);
@@ -119,7 +119,7 @@ pub(crate) fn run<C: Sync, R: Clone + Send + Sync + Serialize + DeserializeOwned
         if !stop.load(Ordering::Relaxed) {
             let mut shared = lock();
             let done = shared.done;
-            if !(shared.observer)(&Progress::counted(done, cases, None)) {
+            if !(shared.observer)(&Progress::counted(done, all, None)) {
                 stop.store(true, Ordering::Relaxed);
             }
         }
@@ -138,7 +138,7 @@ pub(crate) fn run<C: Sync, R: Clone + Send + Sync + Serialize + DeserializeOwned
         }
         shared.done += 1;
         let done = shared.done;
-        if !(shared.observer)(&Progress::counted(done, cases, Some(&row))) {
+        if !(shared.observer)(&Progress::counted(done, all, Some(&row))) {
             stop.store(true, Ordering::Relaxed);
         }
         Ok(Some((i, row)))
@@ -149,8 +149,9 @@ pub(crate) fn run<C: Sync, R: Clone + Send + Sync + Serialize + DeserializeOwned
             rows.insert(keys[i].clone(), row);
         }
     }
-    let rows: Vec<(usize, R)> = (0..cases).filter_map(|i| Some((i, rows.get(&keys[i])?.clone()))).collect();
-    Ok(Finished { stopped: rows.len() < cases, rows })
+    let rows: Vec<(usize, R)> =
+        keys.iter().enumerate().filter_map(|(i, key)| Some((i, rows.get(key)?.clone()))).collect();
+    Ok(Finished { stopped: rows.len() < keys.len(), rows })
 }
 
 /// The work of earlier starts.

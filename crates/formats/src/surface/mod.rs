@@ -48,7 +48,13 @@ pub fn read(path: &Path, request: &Request<'_>) -> Result<Measured, ReadError> {
         "npy" | "x3p" | "sdf" | "sur" | "al3d" => Err(ReadError::Unknown {
             found: format!("the name says .{extension}, but the file does not begin like one"),
         }),
-        _ => text::read(path, request),
+        "csv" | "txt" | "asc" | "dat" | "xyz" | "" => text::read(path, request),
+        other => text::read(path, request).map_err(|error| match error {
+            ReadError::Text(error) => ReadError::Unknown {
+                found: format!("files of type .{other} are not known, and as text: {error}"),
+            },
+            error => error,
+        }),
     }
 }
 

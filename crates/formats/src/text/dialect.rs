@@ -67,7 +67,7 @@ fn looks_like_number(word: &str) -> bool {
 }
 
 /// True of a row of numbers: at least half of its words are numbers, and it begins with one or with a word
-/// that means that there is none.
+/// that means that there is none. A row of several such words alone is one too: the edge of a masked map.
 pub(super) fn is_row(line: &str) -> bool {
     let is_blank = |c: char| c == ' ' || c == '\t' || c == ';' || c == ',';
     let mut words = line.split(is_blank).map(|word| word.trim_matches('"')).filter(|word| !word.is_empty());
@@ -75,12 +75,19 @@ pub(super) fn is_row(line: &str) -> bool {
     if !starts && !line.to_ascii_lowercase().starts_with("no data") {
         return false;
     }
-    let (mut numbers, mut others) = (0, 0);
+    let (mut numbers, mut missing, mut others) = (0, 0, 0);
     // a row of thousands is known by its beginning
     for word in words.by_ref().take(64) {
-        if looks_like_number(word) { numbers += 1 } else { others += usize::from(!is_missing_word(word)) }
+        if looks_like_number(word) {
+            numbers += 1;
+        } else if !is_missing_word(word) {
+            others += 1;
+        } else if !word.bytes().all(|b| b == b'-') {
+            // dashes may also be a line below titles, or the unit of a ratio
+            missing += 1;
+        }
     }
-    numbers > 0 && numbers >= others
+    numbers > 0 && numbers >= others || missing > 1 && others == 0
 }
 
 impl Dialect {

@@ -179,6 +179,28 @@ fn rows_of_numbers_are_read_in_every_dialect() {
     }
 }
 
+/// The mask of a round aperture: whole rows at the edge of the map, and the beginnings of others, are missing.
+#[test]
+fn a_masked_map_keeps_its_rows_at_the_edge() {
+    for word in ["nan", "***", "Bad", "N/A", "#NV"] {
+        for separator in [",", ";", "\t"] {
+            let row = |cells: [&str; 3]| {
+                let many = [vec![cells[0]; 80], vec![cells[1]; 20], vec![cells[2]; 80]].concat();
+                many.join(separator) + "\n"
+            };
+            let [edge, within] = [row([word; 3]), row([word, "1.5", word])];
+            for head in ["", "# map\n", "Height map of a lens\n"] {
+                let text = format!("{head}{edge}{edge}{within}{edge}");
+                let grid = read_grid(&text, None).unwrap();
+                let missing = grid.values.iter().filter(|z| z.is_nan()).count();
+                assert_eq!((grid.columns, grid.rows(), missing), (180, 4, 700), "{word}{separator}{head}");
+            }
+        }
+    }
+    let grid = read_grid("nan,nan\nnan,nan\n", None).unwrap();
+    assert_eq!((grid.columns, grid.rows()), (2, 2));
+}
+
 #[test]
 fn rows_that_are_no_table_are_refused_at_their_line() {
     for (text, line, word) in [

@@ -85,8 +85,7 @@ pub(super) fn contact_size(contact: &Contact) -> f64 {
 pub(super) fn core_half_width(plan: &Plan, contact: &Contact) -> f64 {
     let wish =
         if contact.is_resolved() { plan.grading.start * contact.half_width } else { 0.3 * contact.foot };
-    // a core that is narrower than its place can tell has no left side
-    wish.max(LEAST_WIDTH_SHARE * contact.foot).min(0.6 * contact.narrow())
+    wish.min(0.6 * contact.narrow())
 }
 
 /// Distances of the kinks of the profile to the right of `centre`.

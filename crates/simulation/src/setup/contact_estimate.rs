@@ -174,16 +174,8 @@ pub fn expected_depth(
             meetings.iter().map(|m| area(symmetry, m.centre, m.half_width((depth - m.below).max(0.0))));
         pressure * areas.sum::<f64>()
     };
-    // the carried force grows with the depth; the mean of two lengths is their geometric one, which knows no
-    // unit
-    let [mut low, mut high] = [length / SEARCHED_DEPTH_RATIO, length * SEARCHED_DEPTH_RATIO];
-    for _ in 0..DEPTH_HALVINGS {
-        let middle = low * (high / low).sqrt();
-        if carried(middle) < force {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    low * (high / low).sqrt()
+    // the carried force grows with the depth; the logarithm of a ratio knows no unit
+    let ends = [-1.0, 1.0].map(|sign| sign * SEARCHED_DEPTH_RATIO.ln());
+    let [low, high] = bisect(ends, DEPTH_HALVINGS, |ratio| carried(length * ratio.exp()) < force);
+    length * (0.5 * (low + high)).exp()
 }

@@ -57,13 +57,8 @@ impl Formed {
         let top = places.iter().map(|place| place[1]).fold(f64::NEG_INFINITY, f64::max);
         let widest = |centre: f64, [left, right]: [f64; 2]| {
             let within = |x: &f64| (left..=right).contains(x);
-            let farthest = |places: &mut dyn Iterator<Item = f64>| {
-                places.filter(within).map(|x| (x - centre).abs()).fold(0.0, f64::max)
-            };
-            let touched = places.iter().filter(|[_, z]| *z >= top - depth).map(|[x, _]| *x);
-            let width = farthest(&mut touched.into_iter());
-            // a summit that is one place alone has the width of the polyline
-            if width > 0.0 { width } else { farthest(&mut edges_above(&places, top - depth)) }
+            let touched = edges_above(&places, top - depth).filter(|x| (left..=right).contains(x));
+            touched.map(|x| (x - centre).abs()).fold(0.0, f64::max)
         };
         if profile.asperities.is_empty() {
             return vec![widest(0.0, [f64::NEG_INFINITY, f64::INFINITY])];
@@ -94,8 +89,8 @@ impl Formed {
     }
 }
 
-/// Ends of the parts of the polyline through `places` that lie at `height` or above it. A summit that is one
-/// place alone has a width too: that of the polyline, not of the place.
+/// Places of the polyline through `places` that lie at `height` or above it, and where it crosses `height`: a
+/// summit that is one place alone is as wide as the polyline says.
 fn edges_above(places: &[[f64; 2]], height: f64) -> impl Iterator<Item = f64> {
     let ends = places.iter().filter(move |[_, z]| *z >= height).map(|[x, _]| *x);
     let crossings = places.windows(2).filter_map(move |pair| {

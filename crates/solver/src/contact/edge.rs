@@ -151,7 +151,7 @@ impl ContactEdge {
         let places = self.places(context, x);
         let straight = match context.tool {
             Tool::Plane => true,
-            Tool::Cone { tip_radius, .. } => *tip_radius == 0.0 && places.is_empty(),
+            Tool::Cone { tip_radius, .. } => *tip_radius == 0.0 && places.as_slice().is_empty(),
             _ => false,
         };
         if !straight {

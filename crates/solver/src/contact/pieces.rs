@@ -23,25 +23,21 @@ pub struct Places {
 }
 
 impl Places {
-    /// None.
-    pub const NONE: Places = Places { xi: [0.0; MOST_PLACES], count: 0 };
-
     /// Those at which the foot of the points of an edge passes a kink of `tool`, whose lowest point is at
     /// height `tip`. The edge has its nodes at `x`, and at ξ the `point`, a parabola in ξ.
     pub fn of_edge(x: &[[f64; 2]], point: impl Fn(f64) -> [f64; 2], tool: &Tool, tip: f64) -> Places {
         let radii = x.iter().map(|x| x[0]);
         let (low, high) = radii.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), r| (a.min(r), b.max(r)));
-        let mut places = Places::NONE;
+        let mut places = Places { xi: [0.0; MOST_PLACES], count: 0 };
         tool.kinks_near([low, high], &mut |kink| places.add(&point, tip, kink));
-        let used = &mut places.xi[..places.count];
-        used.sort_by(f64::total_cmp);
+        places.xi[..places.count].sort_by(f64::total_cmp);
         places
     }
 
     /// Those at which the foot passes `kink`, on either side of the axis.
     fn add(&mut self, point: &impl Fn(f64) -> [f64; 2], tip: f64, kink: Kink) {
-        let sides = if kink.radius == 0.0 { [1.0, 1.0] } else { [1.0, -1.0] };
-        for side in &sides[..1 + usize::from(sides[0] != sides[1])] {
+        let sides: &[f64] = if kink.radius == 0.0 { &[1.0] } else { &[1.0, -1.0] };
+        for side in sides {
             let value = |xi: f64| {
                 let [r, z] = point(xi);
                 side * r - kink.radius + kink.slope * (z - tip - kink.rise)
@@ -56,11 +52,6 @@ impl Places {
                 }
             }
         }
-    }
-
-    /// Whether there is none.
-    pub fn is_empty(&self) -> bool {
-        self.count == 0
     }
 
     /// The places, from left to right.

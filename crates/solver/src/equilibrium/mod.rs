@@ -289,13 +289,16 @@ impl<'m> Equilibrium<'m> {
         self.begin(self.state.tip, 0.0, |_| [0.0; 2]);
         let parts: Vec<Parts> = self.state.parts().collect();
         let ([inner, outer], share) = whole_edges_around(&parts);
-        let mut depth = self.elastic_stiffness(&outer)?.depth;
-        if share > 0.0 && inner.iter().any(|touching| *touching != NOTHING) {
-            depth = (1.0 - share) * self.elastic_stiffness(&inner)?.depth + share * depth;
+        let mut between = None;
+        if share > 0.0 {
+            let outer = self.elastic_stiffness(&outer)?.depth;
+            let touches = inner.iter().any(|touching| *touching != NOTHING);
+            let inner = if touches { self.elastic_stiffness(&inner)?.depth } else { outer };
+            between = Some((1.0 - share) * inner + share * outer);
         }
         let as_it_is = self.elastic_stiffness(&parts)?;
         self.contact_set.set_keeping(false);
-        Ok(ToolStiffness { depth, ..as_it_is })
+        Ok(ToolStiffness { depth: between.unwrap_or(as_it_is.depth), ..as_it_is })
     }
 
     /// How the force answers the travel with every point elastic and these parts of the edges in contact.
