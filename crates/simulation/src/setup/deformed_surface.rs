@@ -56,7 +56,6 @@ impl Formed {
         let places = self.clearances(tool);
         let top = places.iter().map(|place| place[1]).fold(f64::NEG_INFINITY, f64::max);
         let widest = |centre: f64, [left, right]: [f64; 2]| {
-            let within = |x: &f64| (left..=right).contains(x);
             let touched = edges_above(&places, top - depth).filter(|x| (left..=right).contains(x));
             touched.map(|x| (x - centre).abs()).fold(0.0, f64::max)
         };
