@@ -2,7 +2,7 @@
 //! force, and what the method of Oliver and Pharr makes of the two curves is the true reduced modulus to 2 %
 //! and the true contact area to 4 %. At the numbers of a level the contact area is true within the error that
 //! the run states. A flat punch whose edge is rounded by 1 % of its radius has F = 2 E* a h and S = 2 E* a to
-//! 4 %.
+//! 4 %. The stiffness of unloading is the slope of the loading, at any number of elements in contact.
 //!
 //! Source: `contact` (Johnson 1985; Sneddon 1965); Oliver and Pharr 1992, whose h_c is exact for both.
 //! Tolerance 1 %: as in `elastic_flattening`, compared from a fifth of the peak on. Modulus: unloading
@@ -12,6 +12,8 @@
 //! pressure rises without end toward an edge that the mesh resolves to a part of the radius.
 
 use asperity_material::units::Length;
+use asperity_numerics::least_squares::{powers, solve};
+use asperity_simulation::record::rows::Phase;
 use asperity_simulation::run::Outcome;
 use asperity_simulation::scene::{Accuracy, Scene, Tool};
 use asperity_verification::contact::{cone_force, cone_radius, hertz_force, hertz_radius};
@@ -86,6 +88,38 @@ fn a_punch_presses_with_its_whole_face() {
     let unloading = outcome.summary.unloading_stiffness.unwrap() / stiffness - 1.0;
     assert!(unloading.abs() < 0.04, "{unloading:e}");
     assert!(outcome.summary.elements < 20_000, "{}", outcome.summary.elements);
+}
+
+/// An elastic body gives back what it took: S is dF/dh of the loading, here of a parabola through ln F over
+/// ln h from half of the depth on, at whatever part of its edge the contact ends. 0.5 % at `standard` and
+/// 0.2 % at `reference`: the stiffness of the edges that touch is 0.7 to 1.5 % above it.
+#[test]
+fn the_stiffness_of_unloading_is_the_slope_of_the_loading() {
+    let ball = Tool::sphere(Length(30e-6));
+    let bounds = [(Accuracy::Standard, 0.005), (Accuracy::Reference, 0.002)];
+    let counts = [21, 23, 25, 27].map(|count| (ball.clone(), 0, Some(count)));
+    let levels = [(ball.clone(), 0, None), (ball, 1, None), (Tool::cone(15.0), 0, None)];
+    for (tool, level, elements) in counts.into_iter().chain(levels) {
+        let (accuracy, bound) = bounds[level];
+        let mut scene = scene(accuracy).unwrap();
+        scene.material.yield_stress = None;
+        scene.material.hardening_exponent = None;
+        scene.asperity.clear();
+        scene.tool = tool.clone();
+        let depth = 0.4e-6;
+        scene.loading.depth = Some(Length(depth));
+        scene.loading.unload = true;
+        scene.numerics.refine = Some(false);
+        scene.numerics.elements_in_contact = elements;
+        let outcome = crush(&scene).unwrap();
+        let late = outcome.rows.iter().filter(|row| row.phase == Phase::Load && row.depth > 0.5 * depth);
+        let points: Vec<_> =
+            late.map(|row| (powers::<3>((row.depth / depth).ln()), row.force.ln(), 1.0)).collect();
+        let [peak, exponent, _] = solve(&points).unwrap();
+        let slope = exponent * peak.exp() / depth;
+        let error = outcome.summary.unloading_stiffness.unwrap() / slope - 1.0;
+        assert!(error.abs() < bound, "{tool:?} {elements:?} at {accuracy:?}: {error:e}");
+    }
 }
 
 /// The contact area at the numbers of a level, against the closed forms: within the error that the run

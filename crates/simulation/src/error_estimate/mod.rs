@@ -45,6 +45,7 @@ pub(super) use rescale::rescale_to_force;
 use crate::fitted::FITTED;
 use crate::record::curve::Curve;
 use crate::record::outcome::Outcome;
+use crate::record::recorder::stiffer;
 use crate::record::rows::{
     AsperityRow, CurveRow, Errors, ErrorsAlong, Phase, Summary, largest_work, work_along,
 };
@@ -65,15 +66,6 @@ const LEAST_STATED_ERROR: f64 = 1e-5;
 
 /// Share of the depth that the companion must reach.
 const LEAST_COMPANION_DEPTH: f64 = 0.9;
-
-/// Factor of the unloading stiffness where the area grows by the factor `wider`: 2 E* a of a punch. That of a
-/// strip depends on its width by a logarithm.
-fn stiffer(symmetry: Symmetry, wider: f64) -> f64 {
-    match symmetry {
-        Symmetry::Axisymmetric => wider.sqrt(),
-        Symmetry::PlaneStrain => 1.0,
-    }
-}
 
 /// A quantity of a run and of its companion over the first loading, and how the two differ.
 struct Compared {

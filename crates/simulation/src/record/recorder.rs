@@ -310,6 +310,7 @@ impl<'p> Recorder<'p> {
             let _ = self.draw(&path.model, observer);
         }
         let axis = self.on_axis();
+        let nodal_area = self.rows[self.peak].contact_area;
         remove(&mut self.rows, &mut self.asperities, &self.ends, self.peak, self.problem.symmetry, axis);
         let (peak, last) = (self.rows[self.peak], self.rows[self.rows.len() - 1]);
         // of the first loading and unloading, whatever comes after
@@ -319,11 +320,17 @@ impl<'p> Recorder<'p> {
         let elastic_work = first.map(|c| c.work_out);
         let u = self.problem.units;
         let stiffness_unit = u.force / u.length;
+        // the stiffness is that of a contact whose end rippled, too
+        let wider = if nodal_area > 0.0 {
+            stiffer(self.problem.symmetry, peak.contact_area / nodal_area)
+        } else {
+            1.0
+        };
         let summary = Summary {
             peak_force: peak.force,
             peak_depth: peak.depth,
             residual_depth: first.map(|c| c.residual_depth),
-            unloading_stiffness: self.stiffness.map(|s| s * stiffness_unit),
+            unloading_stiffness: self.stiffness.map(|s| s * wider * stiffness_unit),
             contact_area: peak.contact_area,
             contact_radius: peak.contact_radius,
             total_work,
@@ -384,6 +391,15 @@ fn groups(problem: &Problem) -> Vec<usize> {
 fn group_sums(model: &Equilibrium<'_>, groups: &[usize], group: usize) -> ContactSums {
     let edges = model.state().contact.iter().zip(groups).filter(|(_, g)| **g == group);
     contact_sums(edges.map(|(edge, _)| edge), model.body().symmetry)
+}
+
+/// Factor of the unloading stiffness where the area grows by the factor `wider`: 2 E* a of a punch. That of a
+/// strip depends on its width by a logarithm.
+pub(crate) fn stiffer(symmetry: Symmetry, wider: f64) -> f64 {
+    match symmetry {
+        Symmetry::Axisymmetric => wider.sqrt(),
+        Symmetry::PlaneStrain => 1.0,
+    }
 }
 
 #[cfg(test)]

@@ -25,7 +25,7 @@ pub struct ToolContact {
 impl ToolContact {
     /// The contact with the tool's tip at height `tip`.
     pub fn context(&self, tip: f64, penalty: f64, symmetry: Symmetry) -> ContactContext<'_> {
-        ContactContext { tool: &self.tool, tip, penalty, symmetry }
+        ContactContext { tool: &self.tool, tip, penalty, spring: penalty, symmetry }
     }
 }
 

@@ -39,6 +39,8 @@ pub struct ContactContext<'a> {
     pub tip: f64,
     /// Penalty ε: pressure per penetration.
     pub penalty: f64,
+    /// The same in the second derivative of the energy: ε where that is to be exact.
+    pub spring: f64,
     /// Axisymmetric or plane strain.
     pub symmetry: Symmetry,
 }
@@ -225,7 +227,7 @@ impl ContactEdge {
                 out.line[1] += 1.5 * weight * abscissa * pressure;
                 let [krr, kzz, krz] = d.curvature;
                 let [sr, sz] = d.slope;
-                let e = context.penalty;
+                let e = context.spring;
                 let form = [
                     [w * (e * sr * sr + p * krr), w * (e * sr * sz + p * krz)],
                     [w * (e * sr * sz + p * krz), w * (e * sz * sz + p * kzz)],

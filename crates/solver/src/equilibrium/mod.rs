@@ -7,6 +7,7 @@ mod factorise;
 mod factors;
 mod line_search;
 pub mod tool_stiffness;
+mod unloading;
 
 use crate::body::assembly::Response;
 use crate::body::discrete_body::Body;
@@ -16,7 +17,6 @@ use crate::body::state::{State, Trial};
 use crate::body::stiffness::Stiffness;
 use crate::body::surface::Surface;
 use crate::contact::edge::EdgeContact;
-use crate::contact::parts::{NOTHING, Parts, whole_edges_around};
 use crate::equilibrium::contact_set::ContactSet;
 use crate::equilibrium::factors::Factors;
 use crate::equilibrium::line_search::LineSearch;
@@ -274,39 +274,6 @@ impl<'m> Equilibrium<'m> {
     /// Whether tangents that are far from definite are stiffened, or fail.
     pub fn stiffen(&mut self, stiffens: bool) {
         self.stiffens = stiffens;
-    }
-
-    /// dF/dh at the converged state with every point elastic and the contact kept, linear between that of the
-    /// edges which touch wholly and that of all which touch; dF per travel that of the ends as they are.
-    ///
-    /// A spring on part of an edge holds the shape of all of it: the stiffness of the ends as they are
-    /// depends on their places in their edges. Where contact ends at ends of edges, what the mesh adds is of
-    /// first order in the edge, and a companion shows it.
-    ///
-    /// # Errors
-    /// A stiffness that cannot be factorised.
-    pub fn unloading_stiffness(&mut self) -> Result<ToolStiffness, Failure> {
-        self.begin(self.state.tip, 0.0, |_| [0.0; 2]);
-        let parts: Vec<Parts> = self.state.parts().collect();
-        let ([inner, outer], share) = whole_edges_around(&parts);
-        let mut between = None;
-        if share > 0.0 {
-            let outer = self.elastic_stiffness(&outer)?.depth;
-            let touches = inner.iter().any(|touching| *touching != NOTHING);
-            let inner = if touches { self.elastic_stiffness(&inner)?.depth } else { outer };
-            between = Some((1.0 - share) * inner + share * outer);
-        }
-        let as_it_is = self.elastic_stiffness(&parts)?;
-        self.contact_set.set_keeping(false);
-        Ok(ToolStiffness { depth: between.unwrap_or(as_it_is.depth), ..as_it_is })
-    }
-
-    /// How the force answers the travel with every point elastic and these parts of the edges in contact.
-    fn elastic_stiffness(&mut self, parts: &[Parts]) -> Result<ToolStiffness, Failure> {
-        let Equilibrium { body, state, trial, response, stiffness, .. } = self;
-        body.assemble_elastic(state, trial, parts, response, stiffness)?;
-        self.has_tangent = true;
-        self.tool_stiffness()
     }
 
     /// How the force answers the travel of the tool at the last assessed iterate.
