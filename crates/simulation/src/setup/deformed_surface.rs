@@ -56,8 +56,13 @@ impl Formed {
         let places = self.clearances(tool);
         let top = places.iter().map(|place| place[1]).fold(f64::NEG_INFINITY, f64::max);
         let widest = |centre: f64, [left, right]: [f64; 2]| {
-            let touched = edges_above(&places, top - depth).filter(|x| (left..=right).contains(x));
-            touched.map(|x| (x - centre).abs()).fold(0.0, f64::max)
+            let farthest = |places: &mut dyn Iterator<Item = f64>| {
+                let within = places.filter(|x| (left..=right).contains(x));
+                within.map(|x| (x - centre).abs()).fold(0.0, f64::max)
+            };
+            let width = farthest(&mut places.iter().filter(|[_, z]| *z >= top - depth).map(|[x, _]| *x));
+            // a summit that is one place alone has the width of the polyline
+            if width > 0.0 { width } else { farthest(&mut edges_above(&places, top - depth)) }
         };
         if profile.asperities.is_empty() {
             return vec![widest(0.0, [f64::NEG_INFINITY, f64::INFINITY])];
@@ -125,7 +130,7 @@ mod tests {
     }
 
     /// A hat of the slope ½ whose sides have no place but summit and foot: at a depth of 0.1 the cut is 0.2
-    /// to either side of its summit; the places around the axis of the tool are far from it.
+    /// to either side of its summit.
     #[test]
     fn a_summit_of_one_place_is_as_wide_as_its_sides_say() {
         let row = |x: f64| {
@@ -140,9 +145,10 @@ mod tests {
             valley_radius: 0.0,
         };
         let profile = Profile { asperities: vec![hat(0.0), hat(1000.0)], line: None };
-        for width in formed.half_widths(&profile, &Tool::Plane, 0.1) {
-            assert!((width - 0.2).abs() < 1e-12, "{width}");
-        }
+        let [at_axis, lone] = formed.half_widths(&profile, &Tool::Plane, 0.1)[..] else { panic!() };
+        assert!((lone - 0.2).abs() < 1e-12, "{lone}");
+        // places stand around the axis of the tool, each 5 % farther than the one before
+        assert!((0.19..=0.2).contains(&at_axis), "{at_axis}");
     }
 
     #[test]
