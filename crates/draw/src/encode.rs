@@ -51,7 +51,7 @@ fn encode(
     let mut encoder = png::Encoder::new(&mut bytes, size[0] as u32, size[1] as u32);
     describe(&mut encoder);
     encoder.set_depth(png::BitDepth::Eight);
-    encoder.set_compression(png::Compression::High);
+    encoder.set_compression(png::Compression::Fast);
     let written = encoder.write_header().and_then(|mut writer| {
         writer.write_image_data(data)?;
         writer.finish()

@@ -42,21 +42,31 @@ struct Numbers {
     scaled: Vec<f64>,
 }
 
-/// Adds the update of a child, whose row i has the place `places[i]` in its parent, to the parent's panel and
-/// update.
-fn add_child(child: &[f64], places: &[u32], front: &Front, panel: &mut [f64], update: &mut [f64]) {
+/// Adds those columns of the update of a child which are pivots of its parent to the panel there: row i of the
+/// child has the place `places[i]` in the parent.
+fn add_to_panel(child: &[f64], places: &[u32], front: &Front, panel: &mut [f64]) {
+    let stride = padded(places.len());
+    let column_length = front.size.panel_column();
+    for (j, &column) in places.iter().enumerate() {
+        if column as usize >= front.size.pivots {
+            break;
+        }
+        let from = &child[j * stride + j..][..places.len() - j];
+        let to = &mut panel[column as usize * column_length..][..column_length];
+        from.iter().zip(&places[j..]).for_each(|(value, &row)| to[row as usize] += value);
+    }
+}
+
+/// Adds the columns that [`add_to_panel`] leaves to the update of the parent.
+fn add_to_update(child: &[f64], places: &[u32], front: &Front, update: &mut [f64]) {
     let stride = padded(places.len());
     let pivots = front.size.pivots;
-    let (column_length, update_length) = (front.size.panel_column(), padded(front.size.below));
-    for (j, &column) in places.iter().enumerate() {
-        let (column, from) = (column as usize, &child[j * stride + j..][..places.len() - j]);
-        if column < pivots {
-            let to = &mut panel[column * column_length..][..column_length];
-            from.iter().zip(&places[j..]).for_each(|(value, &row)| to[row as usize] += value);
-        } else {
-            let to = &mut update[(column - pivots) * update_length..][..update_length];
-            from.iter().zip(&places[j..]).for_each(|(value, &row)| to[row as usize - pivots] += value);
-        }
+    let update_length = padded(front.size.below);
+    let first = places.partition_point(|&place| (place as usize) < pivots);
+    for (j, &column) in places.iter().enumerate().skip(first) {
+        let from = &child[j * stride + j..][..places.len() - j];
+        let to = &mut update[(column as usize - pivots) * update_length..][..update_length];
+        from.iter().zip(&places[j..]).for_each(|(value, &row)| to[row as usize - pivots] += value);
     }
 }
 
@@ -80,18 +90,24 @@ impl Numbers {
             let panel = &mut self.values[front.panel..][..front.size.panel()];
             let update = &mut own[front.update..][..front.size.update()];
             panel.fill(0.0);
-            update.fill(0.0);
             for entry in &tree.entries[front.entries.clone()] {
                 panel[entry.place as usize] = matrix[entry.value as usize];
             }
-            for &child in &tree.children[front.children.clone()] {
-                let child = &tree.fronts[child as usize];
-                let stack =
-                    if child.part == part { others } else { &branches[child.part].stacks[child.parity] };
-                let left = &stack[child.update..][..child.size.update()];
-                add_child(left, &tree.places[child.rows.clone()], front, panel, update);
+            let children = || {
+                tree.children[front.children.clone()].iter().map(|&child| {
+                    let child = &tree.fronts[child as usize];
+                    let stack =
+                        if child.part == part { others } else { &branches[child.part].stacks[child.parity] };
+                    (&stack[child.update..][..child.size.update()], &tree.places[child.rows.clone()])
+                })
+            };
+            for (left, places) in children() {
+                add_to_panel(left, places, front, panel);
             }
-            negative += eliminate(arch, front.size, [panel, update, &mut self.scaled], pivots)?;
+            negative += eliminate(arch, front.size, [panel, &mut *update, &mut self.scaled], pivots)?;
+            for (left, places) in children() {
+                add_to_update(left, places, front, update);
+            }
         }
         Some(negative)
     }

@@ -12,7 +12,7 @@
 //! the same bits.
 
 use crate::sparse::front_size::{LANES, Size, padded};
-use crate::sparse::large_front::{is_large, take_from_panel, take_from_update};
+use crate::sparse::large_front::{is_large, take_from_panel, update_of_pivots};
 use pulp::{Arch, Simd, WithSimd};
 use std::ops::Range;
 
@@ -97,7 +97,7 @@ fn taken_from<const N: usize, const FUSED: bool>(
     c
 }
 
-/// Columns of a matrix from which products are taken away.
+/// Columns of a matrix that become products.
 struct Columns<'a> {
     /// The first of the columns.
     target: &'a mut [f64],
@@ -108,24 +108,24 @@ struct Columns<'a> {
 }
 
 impl Columns<'_> {
-    /// C ← C − L Wᵀ, where rows of `l` are those of C, and the first `N` rows of `w` its columns.
+    /// C ← − L Wᵀ, where rows of `l` are those of C, and the first `N` rows of `w` its columns.
     #[inline(always)]
-    fn subtract<const N: usize, const FUSED: bool>(
+    fn take_product<const N: usize, const FUSED: bool>(
         &mut self,
         [l, w]: [&[f64]; 2],
         column: usize,
         depth: usize,
     ) {
         for row in self.rows.clone().step_by(LANES) {
-            let mut c = load::<N>(self.target, self.stride, row);
+            let mut c = [[0.0; LANES]; N];
             take::<N, FUSED>(&mut c, [&l[row..], w], column, depth);
             store(&c, self.target, self.stride, row);
         }
     }
 
-    /// [`Self::subtract`] for `count` columns, at most [`TILE`].
+    /// [`Self::take_product`] for `count` columns, at most [`TILE`].
     #[inline(always)]
-    fn subtract_some<const FUSED: bool>(
+    fn take_product_of_some<const FUSED: bool>(
         &mut self,
         count: usize,
         lw: [&[f64]; 2],
@@ -133,10 +133,10 @@ impl Columns<'_> {
         depth: usize,
     ) {
         match count {
-            1 => self.subtract::<1, FUSED>(lw, column, depth),
-            2 => self.subtract::<2, FUSED>(lw, column, depth),
-            3 => self.subtract::<3, FUSED>(lw, column, depth),
-            _ => self.subtract::<TILE, FUSED>(lw, column, depth),
+            1 => self.take_product::<1, FUSED>(lw, column, depth),
+            2 => self.take_product::<2, FUSED>(lw, column, depth),
+            3 => self.take_product::<3, FUSED>(lw, column, depth),
+            _ => self.take_product::<TILE, FUSED>(lw, column, depth),
         }
     }
 }
@@ -270,7 +270,7 @@ impl Elimination<'_> {
         Some(negative)
     }
 
-    /// Subtracts the pivots' products from the update.
+    /// Makes the update: what the products of the pivots take away.
     #[inline(always)]
     fn rest<const FUSED: bool>(&mut self) {
         let Size { pivots, below } = self.size;
@@ -280,7 +280,7 @@ impl Elimination<'_> {
             let rows = first / LANES * LANES..stride;
             let mut rest = Columns { target: &mut self.update[first * stride..], stride, rows };
             let w = &self.scaled[pivots + first..];
-            rest.subtract_some::<FUSED>((below - first).min(TILE), [l, w], column, pivots);
+            rest.take_product_of_some::<FUSED>((below - first).min(TILE), [l, w], column, pivots);
         }
     }
 
@@ -300,7 +300,7 @@ impl Elimination<'_> {
             }
             negative += self.pivots::<FUSED>(start, start..end)?;
         }
-        take_from_update(self.size, self.panel, self.scaled, self.update);
+        update_of_pivots(self.size, self.panel, self.scaled, self.update);
         Some(negative)
     }
 }
@@ -315,7 +315,7 @@ impl WithSimd for Elimination<'_> {
 }
 
 /// Eliminates the pivots of a front: its panel becomes the columns of L with D on the diagonal, its update
-/// what is left of the rest. `scaled` is work space as large as the panel. Returns the number of negative
+/// what that adds to the rest, whatever it held. `scaled` is work space as large as the panel. Returns the number of negative
 /// pivots, nothing where a pivot is not accepted.
 pub fn eliminate(
     arch: Arch,

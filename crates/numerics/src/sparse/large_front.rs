@@ -16,48 +16,53 @@ pub fn is_large(size: Size) -> bool {
     size.pivots * size.below * size.below > LARGE_UPDATE_OPERATIONS
 }
 
-/// C ← C − L Wᵀ by blocks.
-fn subtract(c: MatMut<'_, f64>, l: MatRef<'_, f64>, w: MatRef<'_, f64>) {
+/// C ← C − L Wᵀ by blocks, or − L Wᵀ where C is to be replaced.
+fn subtract(c: MatMut<'_, f64>, l: MatRef<'_, f64>, w: MatRef<'_, f64>, how: Accum) {
     let (rows, columns) = (c.nrows(), c.ncols());
     if rows > BLOCK && rows >= columns {
         let half = (rows / 2).next_multiple_of(8);
         let (top, bottom) = c.split_at_row_mut(half);
         let (l_top, l_bottom) = l.split_at_row(half);
-        rayon::join(|| subtract(top, l_top, w), || subtract(bottom, l_bottom, w));
+        rayon::join(|| subtract(top, l_top, w, how), || subtract(bottom, l_bottom, w, how));
     } else if columns > BLOCK {
         let half = (columns / 2).next_multiple_of(8);
         let (left, right) = c.split_at_col_mut(half);
         let (w_left, w_right) = w.split_at_row(half);
-        rayon::join(|| subtract(left, l, w_left), || subtract(right, l, w_right));
+        rayon::join(|| subtract(left, l, w_left, how), || subtract(right, l, w_right, how));
     } else {
-        matmul(c, Accum::Add, l, w.transpose(), -1.0, Par::Seq);
+        matmul(c, how, l, w.transpose(), -1.0, Par::Seq);
     }
 }
 
-/// C ← C − L Wᵀ in the lower triangle of a square C; some entries above it change as well.
-fn subtract_lower(c: MatMut<'_, f64>, l: MatRef<'_, f64>, w: MatRef<'_, f64>) {
+/// C ← − L Wᵀ in the lower triangle of a square C; some entries above it change as well.
+fn lower_product(c: MatMut<'_, f64>, l: MatRef<'_, f64>, w: MatRef<'_, f64>) {
     let size = c.nrows();
     if size <= BLOCK {
-        return subtract(c, l, w);
+        return subtract(c, l, w, Accum::Replace);
     }
     let half = (size / 2).next_multiple_of(8);
     let (top_left, _, bottom_left, bottom_right) = c.split_at_mut(half, half);
     let (l_top, l_bottom) = l.split_at_row(half);
     let (w_top, w_bottom) = w.split_at_row(half);
     rayon::join(
-        || rayon::join(|| subtract_lower(top_left, l_top, w_top), || subtract(bottom_left, l_bottom, w_top)),
-        || subtract_lower(bottom_right, l_bottom, w_bottom),
+        || {
+            rayon::join(
+                || lower_product(top_left, l_top, w_top),
+                || subtract(bottom_left, l_bottom, w_top, Accum::Replace),
+            )
+        },
+        || lower_product(bottom_right, l_bottom, w_bottom),
     );
 }
 
-/// Takes what the pivots leave from the update of a front: U ← U − L Wᵀ. `panel` holds L, `scaled` W.
-pub fn take_from_update(size: Size, panel: &[f64], scaled: &[f64], update: &mut [f64]) {
+/// What the pivots take from the update of a front: U ← − L Wᵀ. `panel` holds L, `scaled` W.
+pub fn update_of_pivots(size: Size, panel: &[f64], scaled: &[f64], update: &mut [f64]) {
     let Size { pivots, below } = size;
     let (column, stride) = (size.panel_column(), padded(below));
     let view = |from| MatRef::from_column_major_slice_with_stride(from, column, pivots, column);
     let (l, w) = (view(panel), view(&scaled[..panel.len()]));
     let update = MatMut::from_column_major_slice_with_stride_mut(update, below, below, stride);
-    subtract_lower(update, l.subrows(pivots, below), w.subrows(pivots, below));
+    lower_product(update, l.subrows(pivots, below), w.subrows(pivots, below));
 }
 
 /// Takes what the pivots before `start` leave from columns `start..end` of the panel.
@@ -68,5 +73,10 @@ pub fn take_from_panel(size: Size, start: usize, end: usize, panel: &mut [f64], 
     let (l, w) = (view(&*done), view(&scaled[..start * column]));
     let rest = MatMut::from_column_major_slice_with_stride_mut(rest, column, end - start, column);
     let rows = column - start;
-    subtract(rest.subrows_mut(start, rows), l.subrows(start, rows), w.subrows(start, end - start));
+    subtract(
+        rest.subrows_mut(start, rows),
+        l.subrows(start, rows),
+        w.subrows(start, end - start),
+        Accum::Add,
+    );
 }
