@@ -86,7 +86,7 @@ pub fn write_vtu(
         data: DataSet::inline(piece),
         file_path: None,
     }
-    .try_into_xml_format(Compressor::ZLib, 6)
+    .try_into_xml_format(Compressor::ZLib, 1)
     .map_err(|e| VtuError::Encode(e.to_string()))?;
     let mut text = Vec::new();
     file.write(&mut text).map_err(|e| VtuError::Encode(e.to_string()))?;
