@@ -65,8 +65,25 @@ fn curve_and_summary_agree() {
     assert_eq!((force[force.len() - 1], phase[phase.len() - 1].as_str()), (0.0, "unload"));
     assert_eq!(summary["residual_depth_um"].as_f64(), depth.last().copied());
     assert!((summary["peak_depth_um"].as_f64().unwrap() - 5.0).abs() < 1e-9);
-    // coarse as it is, the run knows the paper's asperity to 10 %
-    assert!((peak / 5.52 - 1.0).abs() < 0.1, "{peak}");
+    // two other codes give 5.51 N; eight steps hold the direction of flow too long and lie below, by 6 %
+    assert!((0.92 * 5.51..5.51).contains(&peak), "{peak}");
+    let of = |key: &str| summary[key].as_f64().unwrap();
+    // both works are areas under the curve; the tool's own travel differs from the depth by the penetration
+    let up = phase.iter().position(|p| p == "unload").unwrap();
+    let work = |range: std::ops::Range<usize>| -> f64 {
+        range.map(|i| 0.5 * (force[i - 1] + force[i]) * (depth[i] - depth[i - 1])).sum()
+    };
+    assert!((work(1..up) / of("total_work_uJ") - 1.0).abs() < 0.01, "{}", work(1..up));
+    assert!((-work(up..force.len()) / of("elastic_work_uJ") - 1.0).abs() < 0.01);
+    assert!((of("elastic_work_uJ") / of("total_work_uJ") / of("elastic_fraction") - 1.0).abs() < 1e-9);
+    // a contact that holds the axis is a disc
+    let disc = std::f64::consts::PI * of("contact_radius_um").powi(2);
+    assert!((disc / of("contact_area_um2") - 1.0).abs() < 1e-6);
+    // the force is borne by about the hardness, three times the flow stress at ε_r = 0.13 tan β (Tabor)
+    let mean = 1e6 * peak / of("contact_area_um2");
+    let strain = 0.13 * 10_f64.to_radians().tan() + 300.0 / 210e3;
+    let flow = 300.0 * (210e3 / 300.0 * strain).powf(0.3);
+    assert!((2.0..3.2).contains(&(mean / flow)), "{mean} {flow}");
     assert!(place.text("out/curve.svg").contains("Force F (N)"));
 }
 
@@ -97,7 +114,7 @@ fn plane_strain_forces_and_energies_are_per_length() {
     let end = place.run(&["crush", "scene.toml", "--out", "out"]);
     assert_eq!(end.status, 0, "{}", end.err);
     let curve = place.text("out/curve.csv");
-    assert!(numbers(&curve, "force_N_per_mm").iter().copied().fold(0.0, f64::max) > 0.0);
+    let (force, depth) = (numbers(&curve, "force_N_per_mm"), numbers(&curve, "depth_um"));
     assert_eq!(numbers(&curve, "contact_width_um").len(), numbers(&curve, "external_work_uJ_per_mm").len());
     let summary: Value = serde_json::from_str(&place.text("out/summary.json")).unwrap();
     for key in [
@@ -108,6 +125,14 @@ fn plane_strain_forces_and_energies_are_per_length() {
     ] {
         assert!(summary[key].is_number(), "{key}");
     }
+    // N/mm times µm is µJ/mm
+    let up = column(&curve, "phase").iter().position(|p| p == "unload").unwrap();
+    let work: f64 = (1..up).map(|i| 0.5 * (force[i - 1] + force[i]) * (depth[i] - depth[i - 1])).sum();
+    assert!((work / summary["total_work_uJ_per_mm"].as_f64().unwrap() - 1.0).abs() < 0.01, "{work}");
+    // N/mm over µm in GPa: the hardness, two to three times what the metal flows at under this slope, 0.6 GPa
+    let peak = summary["peak_force_N_per_mm"].as_f64().unwrap();
+    let pressure = peak / summary["contact_width_um"].as_f64().unwrap();
+    assert!((1.2..2.4).contains(&pressure), "{pressure}");
 }
 
 #[test]
@@ -130,7 +155,10 @@ fn forces_of_asperities_add_up_to_the_curve() {
     // the lower one is touched later: until then its place is empty
     assert_eq!(column(&asperities, "contact_left_um")[1], "");
     let gaps = place.text("out/gaps.csv");
-    assert!(numbers(&gaps, "width_um").iter().chain(&numbers(&gaps, "height_um")).all(|v| *v > 0.0));
+    // between the summits no gap is wider than they are apart, none higher than the taller is
+    let apart = 20.0 / 10_f64.to_radians().tan() + 19.0 / 12_f64.to_radians().tan();
+    assert!(numbers(&gaps, "width_um").iter().all(|v| *v > 0.0 && *v < 1.1 * apart));
+    assert!(numbers(&gaps, "height_um").iter().all(|v| *v > 0.0 && *v <= 20.0));
     let summary: Value = serde_json::from_str(&end.out).unwrap();
     for island in summary["elastic_islands"].as_array().unwrap() {
         assert!(island["area_um2"].as_f64().unwrap() > 0.0 && island["mean_pressure_MPa"].is_number());

@@ -72,7 +72,8 @@ fn cells_names_units_and_values_survive() {
             .map(|line| serde_json::from_str(line).unwrap())
             .collect();
         assert_eq!(seen.len(), files.len());
-        let mut largest_pressure = 0.0_f64;
+        // of the frame in which the metal is pushed down furthest, the peak
+        let (mut lowest, mut largest_pressure) = (0.0_f64, 0.0);
         for (grid, file) in seen.iter().zip(&files) {
             assert_eq!(grid["types"], serde_json::json!([cell_type]), "{element}");
             assert_eq!(grid["cells"], summary["elements"]);
@@ -102,14 +103,18 @@ fn cells_names_units_and_values_survive() {
             // nothing has yielded before the crush
             let least = if file == "fields_0000.vtu" { 0.0 } else { 1.0 };
             assert!(zone.0 >= 0.0 && (least..=2.0).contains(&zone.1));
-            largest_pressure = largest_pressure.max(number("/arrays/contact_pressure_MPa/2"));
+            if number("/arrays/displacement_um/1") < lowest {
+                lowest = number("/arrays/displacement_um/1");
+                largest_pressure = number("/arrays/contact_pressure_MPa/2");
+            }
             // a tool 5 um down pushes no metal further than that
             assert!(number("/arrays/displacement_um/1") > -5.2);
         }
         // pressure in MPa: of the order of the mean pressure, force over area
         let mean =
             1e6 * summary["peak_force_N"].as_f64().unwrap() / summary["contact_area_um2"].as_f64().unwrap();
-        // six elements across the contact: the node at the summit shows five times the mean
-        assert!(largest_pressure > mean && largest_pressure < 7.0 * mean, "{largest_pressure} {mean}");
+        // under a rounded tip that yields the pressure falls from the middle to the edge by less than under an
+        // elastic cone, whose pressure is twice its mean at a fifth of the radius
+        assert!(largest_pressure > 1.05 * mean && largest_pressure < 2.0 * mean, "{largest_pressure} {mean}");
     }
 }

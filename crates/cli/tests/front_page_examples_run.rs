@@ -30,8 +30,21 @@ fn the_commands_of_the_front_page_run() {
         assert_eq!(end.status, 0, "{line}: {}", end.err);
     }
     let summary: serde_json::Value = serde_json::from_str(&place.text("out/single/summary.json")).unwrap();
-    for error in ["force", "contact_area", "residual_depth"] {
-        assert!(summary["errors"][error].as_f64().is_some_and(|e| e > 0.0 && e < 0.1), "{error}");
+    // what is stated is what the run is off by, of the right size: a finer run says how far that is
+    let finer = place.run(&["crush", "single.toml", "--accuracy", "standard", "--out", "finer", "--json"]);
+    assert_eq!(finer.status, 0, "{}", finer.err);
+    let finer: serde_json::Value = serde_json::from_str(&finer.out).unwrap();
+    for (error, key, over) in [
+        ("force", "peak_force_N", "peak_force_N"),
+        ("contact_area", "contact_area_um2", "contact_area_um2"),
+        ("residual_depth", "residual_depth_um", "peak_depth_um"),
+    ] {
+        let of = |summary: &serde_json::Value, key: &str| summary[key].as_f64().unwrap();
+        let true_error = (of(&summary, key) - of(&finer, key)).abs() / of(&finer, over);
+        let [stated, finer_stated] = [&summary, &finer].map(|s| s["errors"][error].as_f64().unwrap());
+        assert!(true_error < stated + finer_stated, "{error}: {true_error} {stated} {finer_stated}");
+        // a constant would pass that: the bound falls with the accuracy
+        assert!(finer_stated > 0.0 && finer_stated < 0.7 * stated && stated < 0.05, "{error}: {stated}");
     }
 }
 

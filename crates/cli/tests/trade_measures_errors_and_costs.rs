@@ -31,7 +31,7 @@ fn table_front_and_picture() {
     assert!(rows.len() >= 15, "{table}");
     for row in &rows {
         assert_eq!((row[column("elements_in_contact")], row[column("status")]), ("6", "ok"));
-        assert!(number(row, "force_error") > 0.0 && number(row, "core_s") > 0.0);
+        assert!((1e-6..0.2).contains(&number(row, "force_error")) && number(row, "core_s") > 0.0);
         assert!(number(row, "elastic_fraction_error") < 0.1 && number(row, "residual_depth_error") < 0.1);
     }
     for level in ["draft", "3%", "standard", "reference"] {

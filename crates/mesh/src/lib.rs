@@ -9,6 +9,7 @@ pub mod outline;
 pub mod profile;
 mod punch;
 mod quality;
+pub mod regions;
 pub mod smoothing;
 mod tool_outline;
 mod vtu;

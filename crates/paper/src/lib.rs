@@ -19,9 +19,13 @@ pub mod table1;
 pub mod sensitivity;
 mod sensitivity_parts;
 
+pub mod verdict;
+pub mod zones;
+
 pub mod claims;
 mod figures;
 pub mod paper_report;
+mod rough_claims;
 
 mod reproduction;
 

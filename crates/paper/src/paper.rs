@@ -10,3 +10,5 @@ pub const ROUGH: [&str; 3] = ["rough-ground", "rough-milled", "rough-sanded"];
 pub const PEAKS: [[f64; 2]; 3] = [[7.5, 8.5], [60.0, 80.0], [60.0, 80.0]];
 /// Table 2 as printed: residual displacement (µm) and elastic energy (%), for ground, milled, sanded.
 pub const TABLE2: [[f64; 2]; 3] = [[1.63, 7.0], [5.7, 15.0], [17.91, 31.0]];
+/// The row of three identical asperities on three meshes, from the coarsest to the finest.
+pub const IDENTICAL: [&str; 3] = ["three-identical", "three-identical-finer", "three-identical-finest"];

@@ -1,9 +1,10 @@
 //! The report: one self-contained page, its claims as JSON, and its overview as a table for a page of text.
 
-use super::claims::{Claim, Verdict, claims};
+use super::claims::{Claim, claims};
 use super::figures;
 use super::plan::{Item, Part, Work, parts};
 use super::results_reader::Results;
+use super::verdict::{RULE, Verdict};
 use asperity::crush::Summary;
 use asperity::page::document;
 use asperity::simulation::scene::Accuracy;
@@ -120,6 +121,7 @@ fn numbers_markdown(numbers: &[Number], level: &str) -> String {
 fn sign(verdict: Verdict) -> &'static str {
     match verdict {
         Verdict::BorneOut => "✓",
+        Verdict::BorneOutInPart => "◐",
         Verdict::Contradicted => "✗",
         Verdict::CannotBeJudged => "?",
     }
@@ -162,13 +164,12 @@ fn page(results: &Results, items: &[Item], claims: &[Claim], level: &str) -> Res
                     td { (claim.claim) }
                     td {
                         (claim.ours)
-                        @if claim.verdict == Verdict::Contradicted && !claim.why.is_empty() { p class="cause" { (claim.why) } }
+                        @if claim.verdict != Verdict::BorneOut && !claim.why.is_empty() { p class="cause" { (claim.why) } }
                     }
                     td class="place" { a href={ "#" (claim.item) } { (claim.place) } }
                 } } }
             } }
-            p { "“Borne out” means within the rounding of the printed number and our own error: the interval of a fit, or two standard "
-                "deviations over five generated surfaces. Nothing here was adjusted to the paper." }
+            p { (RULE) }
             @for section in &sections { (section) }
             h2 id="scenes" { "Scenes" }
             p { "Everything above was computed from these files and nothing else; " code { "asperity crush" } " and "
@@ -230,7 +231,8 @@ fn scene(part: &Part, results: &Results) -> Markup {
     let (text, command) = match part.work {
         Work::Crush { scene, changes, .. } => {
             let changes: Vec<String> = changes.iter().map(|c| format!(" --set \"{c}\"")).collect();
-            (scene, format!("asperity crush meshes/{}.toml{}", part.name, changes.concat()))
+            let file = part.name.replace("-finest", "").replace("-finer", "");
+            (scene, format!("asperity crush meshes/{file}.toml{}", changes.concat()))
         }
         Work::Rough { scene, .. } => {
             (scene, format!("asperity rough meshes/{}.toml, and asperity rough --table1", part.name))

@@ -5,6 +5,7 @@
 
 use super::plan::{Part, Work};
 use super::profile::profile;
+use super::zones::Zones;
 use crate::table1;
 use asperity::Progress;
 use asperity::calibrate::{Options, calibrate};
@@ -29,8 +30,10 @@ use std::time::Instant;
 /// Dots along a side of a map of a rough surface in the report, its key included.
 const MAP: usize = 900;
 
-/// Share of the work of a rough surface that its own scene takes; five surfaces of Table 1 take the rest.
+/// Share of the work of a rough surface that its own scene takes, and that the five surfaces of Table 1 take;
+/// the rest is that of the surfaces of other kinds.
 const OWN_SHARE: f64 = 0.2;
+const OF_TABLE: f64 = 0.7;
 
 /// That a part is done.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -149,6 +152,12 @@ impl Job {
                     goes_on
                 };
                 let crushed = crush_into(scene, sink, sketches, told)?;
+                let tables = scene.tables();
+                if tables.asperity_count() > 1
+                    && let Some(zones) = crushed.peak().and_then(|peak| Zones::new(peak, tables))
+                {
+                    sink.text("zones.json", &asperity::output::json(&zones)?)?;
+                }
                 if goes_on { Ok(crushed.summary.stopped) } else { Err(table1::ended()) }
             })?,
             Resolved::Calibrate(sweep) => {
@@ -234,9 +243,12 @@ impl Job {
         }
         if let Some((kind, row)) = table1::TABLE.iter().find(|(row, _)| *row == kind) {
             let table = table1::measure(*kind, row, &mut |share, message| {
-                observer(OWN_SHARE + (1.0 - OWN_SHARE) * share, message)
+                observer(OWN_SHARE + OF_TABLE * share, message)
             })?;
             sink.text("table1.json", &asperity::output::json(&table)?)?;
+            let others =
+                table1::other_kinds(*kind, row, &mut |message| observer(OWN_SHARE + OF_TABLE, message))?;
+            sink.text("other_kinds.json", &asperity::output::json(&others)?)?;
         }
         Ok(())
     }

@@ -72,6 +72,8 @@ pub struct Part {
 const PEAK_ONLY: &str = "output.every=1000000";
 /// All of the asperities' height.
 const TOTAL: &str = "loading.depth=20 um";
+/// The zones are those of the peak.
+const LOADING_ALONE: &str = "loading.unload=false";
 const ELEMENTS: Sketch = Sketch { name: "elements", reach: Reach::Asperities(3.0), panels: &[Panel::Mesh] };
 const ZONES: Sketch = Sketch { name: "zones", reach: Reach::Asperities(9.0), panels: &Panel::FIG5 };
 
@@ -95,7 +97,7 @@ const ROUGH: &[&str] = &["fig11", "fig12", "fig13", "table1", "fig15", "table2"]
 const MILLED: &[&str] = &["fig3", "fig9", "fig11", "fig12", "fig13", "table1", "fig15", "table2"];
 
 /// Every part, those that take longest first, so that all cores end at about the same time.
-pub const PARTS: [Part; 13] = [
+pub const PARTS: [Part; 17] = [
     crush!("slopes-9-12", SLOPES_9_12, &[], &[], &["fig6"]),
     crush!("slopes-9-12-plane-strain", SLOPES_9_12_PLANE_STRAIN, &[], &[], &["fig6"]),
     crush!("slopes-5-8", SLOPES_5_8, &[], &[], &["fig6"]),
@@ -103,17 +105,45 @@ pub const PARTS: [Part; 13] = [
     crush!("slopes-1-4", SLOPES_1_4, &[], &[], &["fig6"]),
     crush!("slopes-1-4-plane-strain", SLOPES_1_4_PLANE_STRAIN, &[], &[], &["fig6"]),
     crush!(
+        "three-identical-finest",
+        THREE_IDENTICAL,
+        &[TOTAL, PEAK_ONLY, LOADING_ALONE, "numerics.elements_in_contact=64"],
+        &[ZONES],
+        &["fig5"]
+    ),
+    crush!(
+        "three-identical-finest-plane-strain",
+        THREE_IDENTICAL_PLANE_STRAIN,
+        &[TOTAL, PEAK_ONLY, LOADING_ALONE, "numerics.elements_in_contact=64"],
+        &[ZONES],
+        &["fig5"]
+    ),
+    crush!(
+        "three-identical-finer",
+        THREE_IDENTICAL,
+        &[TOTAL, PEAK_ONLY, LOADING_ALONE, "numerics.elements_in_contact=45"],
+        &[],
+        &["fig5"]
+    ),
+    crush!(
+        "three-identical-finer-plane-strain",
+        THREE_IDENTICAL_PLANE_STRAIN,
+        &[TOTAL, PEAK_ONLY, LOADING_ALONE, "numerics.elements_in_contact=45"],
+        &[],
+        &["fig5"]
+    ),
+    crush!(
         "three-identical",
         THREE_IDENTICAL,
-        &[TOTAL, PEAK_ONLY],
-        &[Sketch::PEAK, ELEMENTS, ZONES],
+        &[TOTAL, PEAK_ONLY, "numerics.elements_in_contact=32"],
+        &[Sketch::PEAK, ELEMENTS],
         &["fig4", "fig5"]
     ),
     crush!(
         "three-identical-plane-strain",
         THREE_IDENTICAL_PLANE_STRAIN,
-        &[TOTAL, PEAK_ONLY],
-        &[ZONES],
+        &[TOTAL, PEAK_ONLY, LOADING_ALONE, "numerics.elements_in_contact=32"],
+        &[],
         &["fig5"]
     ),
     rough!("rough-ground", ROUGH_GROUND, KindName::Ground, ROUGH),

@@ -1,10 +1,13 @@
 //! The results that the parts have left on disk, read back into types. A file that is not there is `None`,
 //! never a guess.
 
+use super::paper::IDENTICAL;
 use super::part::{Job, Stamp};
+use super::verdict::Measured;
+use super::zones::Zones;
 use crate::table1::{ClosureSeeds, ComparedRow, Seeds};
 use asperity::calibrate::Fit;
-use asperity::crush::{CurveRow, Island, Phase, Summary, read_rows};
+use asperity::crush::{CurveRow, Phase, Summary, read_rows};
 use asperity::draw::frame::data_uri;
 use asperity::numbers::Spread;
 use asperity::numerics::least_squares::Line;
@@ -124,8 +127,24 @@ impl Results {
         Some(Line::fit(&logs).slope).filter(|slope| slope.is_finite())
     }
 
-    /// Regions of a crush that never yielded and do not belong to the bulk.
-    pub fn islands(&self, part: &str) -> Option<Vec<Island>> {
-        Some(self.summary(part)?.elastic_islands.into_iter().filter(|i| !i.reaches_substrate).collect())
+    /// The elastic zones of the row of identical asperities on each of its meshes, from the coarsest to the
+    /// finest; `end` tells the symmetry.
+    pub fn zones_of_meshes(&self, end: &str) -> Vec<Zones> {
+        IDENTICAL.iter().filter_map(|name| self.json(&format!("{name}{end}"), "zones.json")).collect()
+    }
+
+    /// A quantity of Table 1 by a closure, with what is not known of it: two standard deviations over the
+    /// generated surfaces, and how far surfaces of other kinds with the same height and slope lie from them.
+    pub fn of_surface(
+        &self,
+        part: &str,
+        closure: Closure,
+        quantity: fn(&ClosureSeeds) -> &Seeds,
+    ) -> Option<Measured> {
+        let Spread { mean, deviation } = self.rough(part, closure, quantity)?;
+        let others: Vec<ClosureSeeds> = self.json(part, "other_kinds.json")?;
+        let others = others.iter().filter(|other| other.closure == closure).map(|other| quantity(other));
+        let far = others.flat_map(|seeds| &seeds.0).map(|v| (v - mean).abs()).fold(f64::NAN, f64::max);
+        Some(Measured { value: mean, error: (2.0 * deviation).hypot(far) })
     }
 }

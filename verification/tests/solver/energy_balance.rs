@@ -29,3 +29,20 @@ fn work_balances_in_perfect_plasticity() {
     let error = balance_error(0.0, None);
     assert!(error <= 1e-2, "{error:e}");
 }
+
+/// The work of an elastic body on its way back is judged over the largest work, and balances at every row: what
+/// is left of it at the end is near nothing, so that an error over that says nothing.
+#[test]
+fn an_elastic_body_gives_back_its_work() {
+    let mut scene = scene(Accuracy::Draft).unwrap();
+    (scene.material.yield_stress, scene.material.hardening_exponent) = (None, None);
+    let outcome = crush(&scene).unwrap();
+    assert!(outcome.stopped.is_none());
+    let work = outcome.summary.total_work;
+    assert!(outcome.summary.plastic_work.abs() < 1e-12 * work);
+    // two per cent: forces of draft over the steps of draft, there and back
+    let last = outcome.rows.last().unwrap();
+    assert!(last.external_work.abs() < 0.02 * work, "{:e} of {work:e}", last.external_work);
+    let elastic = outcome.summary.elastic_work.unwrap();
+    assert!((elastic / work - 1.0).abs() < 0.02, "{elastic:e} of {work:e}");
+}

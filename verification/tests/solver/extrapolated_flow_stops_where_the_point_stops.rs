@@ -128,3 +128,37 @@ fn a_turn_by_a_right_angle_is_that_of_backward_euler() {
         }
     }
 }
+
+/// Strain whose direction turns by a right angle while it grows by eight yield strains, in steps of half a
+/// yield strain: the rule of second order errs by less than half of what backward Euler does, against steps a
+/// sixteenth as long. Without extrapolation both are the same.
+#[test]
+fn a_steady_turn_is_followed_better_than_by_backward_euler() {
+    for metal in metals() {
+        let turned = |parts: usize, ratio: f64| {
+            let mesh = mapped(ElementKind::Quad8, [1, 1], |x| x);
+            let held: Vec<[bool; 2]> = boundary(&mesh).iter().map(|&b| [b, b]).collect();
+            let mut model = model(&mesh, Symmetry::PlaneStrain, metal.clone(), &held, None).unwrap();
+            let step = 0.5 * YIELD / parts as f64;
+            let mut advance = |twice_angle: f64| {
+                let (c, s) = (step * twice_angle.cos(), step * twice_angle.sin());
+                let x = model.state().position.clone();
+                increment(&mut model, ratio, |node| {
+                    [c * x[node][0] + s * x[node][1], s * x[node][0] - c * x[node][1]]
+                });
+            };
+            (0..8 * parts).for_each(|_| advance(0.0));
+            let turns = 16 * parts;
+            (0..turns).for_each(|i| advance(std::f64::consts::PI * (i as f64 + 0.5) / turns as f64));
+            stresses(&model)[0]
+        };
+        let exact = turned(16, 1.0);
+        let error = |found: [f64; 4]| {
+            let difference = std::array::from_fn(|i| found[i] - exact[i]);
+            contract(&difference, &difference).sqrt() / YIELD
+        };
+        let (second, euler) = (error(turned(1, 1.0)), error(turned(1, 0.0)));
+        println!("second order {second:.2e}, backward Euler {euler:.2e}");
+        assert!(second < 0.5 * euler && euler > 1e-3, "{second:e} {euler:e}");
+    }
+}

@@ -2,9 +2,10 @@
 //! surface only grows shakes down (`ten_reloads`). The energy of both balances.
 //!
 //! Source: Bauschinger's effect, and the remark of Jourani et al. that results differ with the hardening
-//! mode. What is held here is the order of the two modes, with tolerances far from what was measured
-//! (`verification/results/cycles.md`): force 6 % lower, residual depth 2 % smaller, hysteresis of the tenth
-//! reload 15 times larger for half of the hardening. Energy balance: 1e-2, what draft keeps for isotropic
+//! mode. Bounds are those between which half of the hardening lies and a quarter of it, all of it and its
+//! square do not: what a share takes of the force and of the residual depth is of first order in it, so that a
+//! quarter takes half of what a half takes. Measured at draft: force 6.6 % lower, residual depth 2.4 % smaller,
+//! 3.2 and 0.95 % for a quarter; hysteresis of the tenth reload 17 times larger. Energy balance: 1e-2, what draft keeps for isotropic
 //! hardening. Metal that flows back far as the tool retreats has a residual depth that does not depend on the
 //! step: 5 % of the depth between draft, which promises that, and standard (3 % measured; 10 % when the tool
 //! was taken away in one increment from 3 % of the force).
@@ -34,14 +35,20 @@ fn cycled(share: Option<f64>) -> Outcome {
 
 #[test]
 fn kinematic_hardening_loses_work_in_every_reload() {
-    let [grows, moves] = [None, Some(0.5)].map(cycled);
+    let [grows, quarter, moves] = [None, Some(0.25), Some(0.5)].map(cycled);
     let hysteresis = |o: &Outcome, k: usize| o.cycles[k].work_in - o.cycles[k].work_out;
-    assert!(hysteresis(&moves, 10) > 5.0 * hysteresis(&grows, 10));
+    assert!(hysteresis(&moves, 10) > 10.0 * hysteresis(&grows, 10));
+    assert!(hysteresis(&quarter, 10) < 4.0 * hysteresis(&grows, 10));
     assert!(moves.cycles[10].plastic_work > 100.0 * grows.cycles[10].plastic_work);
-    let peak = |o: &Outcome| o.summary.peak_force;
-    assert!(peak(&moves) < 0.97 * peak(&grows) && peak(&moves) > 0.9 * peak(&grows));
-    let residual = |o: &Outcome| o.summary.residual_depth.unwrap();
-    assert!(residual(&moves) < 0.99 * residual(&grows));
+    let taken = |quantity: fn(&Outcome) -> f64| {
+        [&quarter, &moves].map(|share| 1.0 - quantity(share) / quantity(&grows))
+    };
+    let [few, half] = taken(|o| o.summary.peak_force);
+    assert!((0.058..0.075).contains(&half), "force: {half}");
+    assert!((few / half - 0.5).abs() < 0.1, "force: {few} {half}");
+    let [few, half] = taken(|o| o.summary.residual_depth.unwrap());
+    assert!((0.018..0.03).contains(&half), "residual depth: {half}");
+    assert!((few / half - 0.5).abs() < 0.2, "residual depth: {few} {half}");
 }
 
 #[test]

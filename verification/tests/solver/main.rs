@@ -9,6 +9,7 @@ mod contact_patch;
 mod curved_tool_on_an_asperity;
 mod elastic_flattening;
 mod elastic_indentation;
+mod elastic_zones;
 mod energy_balance;
 mod extrapolated_flow_stops_where_the_point_stops;
 mod failed_increment_leaves_no_trace;

@@ -120,7 +120,9 @@ fn trapezoids_cost_the_quadratic_element_an_order() {
     assert!(linear.iter().all(|p| (p - 2.0).abs() < 0.15), "{linear:?}");
     let errors = counts.map(|n| solve_on(&trapezoidal(ElementKind::Quad8, n)));
     let quadratic = orders(&errors);
-    assert!(quadratic[1] < quadratic[0] && quadratic[1] < 2.85, "{quadratic:?}");
+    // from 3 toward the order 2 of theory: between the two, and on its way
+    assert!(quadratic[1] < quadratic[0] && quadratic.iter().all(|p| *p > 1.85), "{quadratic:?}");
+    assert!(quadratic[1] < 2.85, "{quadratic:?}");
     // and at equal size it is less exact than on parallelograms
     assert!(errors[2] > 2.0 * solve_on(&affine(ElementKind::Quad8, 32)));
 }

@@ -4,8 +4,8 @@
 //!
 //! Source: Melan's theorem of shakedown with isotropic hardening: each further flow widens the yield surface,
 //! so that flow on a closed path dies out. Measured on the single asperity, at draft and at standard alike:
-//! the edge of the contact flows back a little when the load is taken off, which costs the first reload 0.5 %
-//! of the force; what each further cycle loses is a seventh of that. Tolerances: 1e-5 is ten times that of
+//! the edge of the contact flows back a little when the load is taken off, which costs the first reload 0.3 to
+//! 0.5 % of the force; what each further cycle loses is a seventh of that. Tolerances: 1e-5 is ten times that of
 //! Newton's method; 5e-3 of the returned work is the quadrature of an unloading in six increments.
 
 use asperity_simulation::record::rows::Phase;
@@ -42,8 +42,16 @@ fn isotropic_hardening_shakes_down() {
     let cycles = &outcome.cycles;
     assert!(cycles.iter().all(|c| (c.peak_depth / cycles[0].peak_depth - 1.0).abs() < 1e-8));
     let loss = |k: usize| 1.0 - cycles[k].peak_force / cycles[k - 1].peak_force;
-    assert!(loss(1) > 0.0 && loss(1) < 6e-3, "{}", loss(1));
-    assert!(loss(2) < 0.2 * loss(1) && loss(3) < 0.2 * loss(2), "{} {}", loss(2), loss(3));
+    // no loss at all would be metal that does not flow back, twice as much metal that flows everywhere
+    assert!((1.5e-3..5e-3).contains(&loss(1)), "{}", loss(1));
+    for k in 2..4 {
+        assert!(
+            loss(k) > 0.05 * loss(k - 1) && loss(k) < 0.2 * loss(k - 1),
+            "{k}: {} {}",
+            loss(k - 1),
+            loss(k)
+        );
+    }
     assert_shaken_down(&outcome);
     // as much as the loading alone, at this accuracy
     assert!(outcome.summary.energy_balance_error < 1e-2);

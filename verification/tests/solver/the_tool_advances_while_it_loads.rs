@@ -5,7 +5,7 @@
 //! the first increments. Tolerance: none.
 
 use asperity_material::units::Stress;
-use asperity_simulation::record::rows::Phase;
+use asperity_simulation::record::rows::{CurveRow, Phase};
 use asperity_simulation::scene::Accuracy;
 use asperity_verification::single_asperity::{crush, loaded};
 
@@ -20,7 +20,15 @@ fn travel_grows_from_increment_to_increment() {
     assert!(outcome.stopped.is_none());
     let loading = outcome.rows.iter().filter(|row| row.phase == Phase::Load);
     let travels: Vec<f64> = loading.map(|row| row.depth + row.penetration).collect();
-    assert!(travels.len() > 20);
+    // 36 steps of draft and more where they are halved; the last ends at the depth, the tool as much further as
+    // it is pressed in
+    assert!(travels.len() > 36, "{}", travels.len());
+    let last = outcome.rows.iter().rfind(|row| row.phase == Phase::Load).unwrap();
+    assert!((last.depth / 5e-6 - 1.0).abs() < 1e-9, "{:e}", last.depth);
+    // its penetration falls: by a fifth at least of what the first increment had over its depth
+    let share = |row: &CurveRow| row.penetration / row.depth;
+    let first = outcome.rows.iter().find(|row| row.phase == Phase::Load && row.depth > 0.0).unwrap();
+    assert!(share(last) < 0.8 * share(first), "{} {}", share(first), share(last));
     for pair in travels.windows(2) {
         assert!(pair[1] > pair[0], "from {:e} to {:e}", pair[0], pair[1]);
     }

@@ -298,6 +298,11 @@ impl Crush {
         Ok(())
     }
 
+    /// The fields of the last increment of the first loading, SI; `None` where the run hands out none.
+    pub fn peak(&self) -> Option<&FieldFrame> {
+        self.peak.as_ref()
+    }
+
     /// The last increment of the first loading.
     fn peak_row(&self) -> Option<&CurveRow> {
         self.curve.iter().take_while(|row| row.phase == Phase::Load).last()

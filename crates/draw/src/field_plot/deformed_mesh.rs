@@ -5,8 +5,9 @@ use asperity_mesh::{Edge, Mesh};
 use asperity_simulation::run::FieldFrame;
 use asperity_solver::element::{quad4, quad8};
 
-/// Fields of a facet: von Mises stress, hydrostatic pressure (MPa), accumulated plastic strain.
-pub type Values = [f64; 3];
+/// Fields of a facet: von Mises stress, hydrostatic pressure (MPa), accumulated plastic strain, distance from
+/// first yield, yield function.
+pub type Values = [f64; 5];
 
 /// A corner of a facet.
 #[derive(Clone, Copy, Debug)]
@@ -24,8 +25,6 @@ pub struct DeformedMesh {
     points: Vec<[f64; 2]>,
     values: Vec<Values>,
     contact_pressure: Vec<f64>,
-    /// Of each cell: 0 never yielded, 1 has yielded, 2 yields now.
-    pub zone: Vec<u8>,
     /// r and contact pressure along the surface, from the axis (left) outward, µm and MPa.
     pub surface: Vec<[f64; 2]>,
 }
@@ -35,13 +34,16 @@ impl DeformedMesh {
     pub fn new(frame: &FieldFrame) -> DeformedMesh {
         let fields = &frame.fields;
         let moved = frame.mesh.nodes.iter().zip(&fields.displacement);
-        let stresses = fields.von_mises.iter().zip(&fields.pressure).zip(&fields.plastic_strain);
+        let [v, p] = [&fields.von_mises, &fields.pressure];
+        let values = |i: usize| {
+            let [stress, pressure] = [v[i] / MEGAPASCAL, p[i] / MEGAPASCAL];
+            [stress, pressure, fields.plastic_strain[i], fields.first_yield[i], fields.yield_function[i]]
+        };
         DeformedMesh {
             mesh: frame.mesh.clone(),
             points: moved.map(|(x, u)| [0, 1].map(|k| (x[k] + u[k]) / MICROMETRE)).collect(),
-            values: stresses.map(|((v, p), e)| [v / MEGAPASCAL, p / MEGAPASCAL, *e]).collect(),
+            values: (0..frame.mesh.nodes.len()).map(values).collect(),
             contact_pressure: fields.contact_pressure.clone(),
-            zone: fields.plastic_zone.iter().map(|z| *z as u8).collect(),
             surface: fields.surface.iter().map(|p| [p.r / MICROMETRE, p.pressure / MEGAPASCAL]).collect(),
         }
     }
@@ -73,6 +75,11 @@ impl DeformedMesh {
         self.mesh.cell_count()
     }
 
+    /// Whether some of a cell has yielded.
+    pub fn yielded(&self, cell: usize) -> bool {
+        self.mesh.cell(cell)[..4].iter().any(|&node| self.values[node as usize][3] > 0.0)
+    }
+
     /// The corners of a cell.
     pub fn corners(&self, cell: usize) -> [[f64; 2]; 4] {
         let nodes = self.mesh.cell(cell);
@@ -96,14 +103,14 @@ impl DeformedMesh {
         let nodes = self.mesh.cell(cell);
         let (linear, quadratic) = (quad4::shape(x, y, 1.0).value, quad8::shape(x, y, 1.0).value);
         let shape = if nodes.len() == 8 { &quadratic[..] } else { &linear[..] };
-        let mut vertex = Vertex { at: [0.0; 2], values: [0.0; 3] };
+        let mut vertex = Vertex { at: [0.0; 2], values: [0.0; 5] };
         for (weight, &node) in shape.iter().zip(nodes) {
             let point = self.points[node as usize];
             vertex.at = [0, 1].map(|k| vertex.at[k] + weight * point[k]);
         }
         for (weight, &node) in linear.iter().zip(nodes) {
             let of_node = self.values[node as usize];
-            vertex.values = [0, 1, 2].map(|i| vertex.values[i] + weight * of_node[i]);
+            vertex.values = [0, 1, 2, 3, 4].map(|i| vertex.values[i] + weight * of_node[i]);
         }
         vertex
     }

@@ -2,6 +2,7 @@
 
 use super::raster::{Dot, Raster};
 use super::section::Section;
+use crate::encode::indexed_png;
 use crate::frame::{Frame, ROOM_LEFT, Short, boxes, tick};
 use crate::palette::{Bands, Colour, ELASTIC, ZONES};
 use crate::scale;
@@ -109,11 +110,14 @@ impl Panel {
             Panel::ElasticZones => {
                 let names = ["never yielded", "has yielded, elastic now", "yields now"];
                 let mut boxes: Vec<_> = ZONES.into_iter().zip(names.map(String::from)).collect();
+                let mut heading =
+                    "elastic zones: contours of first yield and of the yield function".to_string();
                 if let Some(stress) = section.yield_stress {
-                    boxes.push((ZONES[3], format!("von Mises stress = {stress} MPa")));
+                    let _ = write!(heading, "; line: von Mises stress {stress} MPa");
+                    boxes.truncate(3);
                 }
                 let image = zones(section, raster)?;
-                Ok(Contours { heading: "elastic zones".into(), image, bar: None, boxes })
+                Ok(Contours { heading, image, bar: None, boxes })
             }
             Panel::Mesh | Panel::ContactPressure => {
                 let image = raster.png(&[ELASTIC], |_| 1)?;
@@ -123,23 +127,40 @@ impl Panel {
     }
 }
 
-/// Zones by cell, and a line where the von Mises stress passes the first yield stress.
+/// Yield function over yield stress below which metal is elastic: the yield stress of an increment is that of
+/// the volume at its start, so that flowing metal is off by some thousandths.
+const ELASTIC_NOW: f32 = -0.01;
+
+/// Number of the zone of a dot among [`ZONES`], counted from 1.
+pub(super) fn zone(dot: &Dot) -> u8 {
+    match dot.values {
+        [.., first_yield, _] if first_yield < 0.0 => 1,
+        [.., now] if now < ELASTIC_NOW => 2,
+        _ => 3,
+    }
+}
+
+/// Zones by first yield and yield function, and a line where the von Mises stress passes the first yield
+/// stress.
 fn zones(section: &Section, raster: &Raster) -> Result<Vec<u8>, String> {
     let [columns, rows] = raster.size;
     let limit = section.yield_stress.unwrap_or(f64::INFINITY) as f32;
-    let above = |x: usize, y: usize| raster.dots[y * columns + x].map(|dot: Dot| dot.values[0] >= limit);
-    let mut painted = Raster { size: raster.size, dots: raster.dots.clone() };
-    for y in 0..rows {
-        for x in 0..columns {
-            let here = above(x, y);
-            let next = [(x + 1 < columns).then(|| above(x + 1, y)), (y + 1 < rows).then(|| above(x, y + 1))];
-            let crossing = next.into_iter().flatten().flatten().any(|other| here.is_some_and(|h| h != other));
-            if crossing && let Some(dot) = &mut painted.dots[y * columns + x] {
-                dot.zone = 3;
-            }
-        }
-    }
-    painted.png(&ZONES, |dot| 1 + dot.zone.min(3))
+    let above = |dot: Option<Dot>| dot.map(|dot| dot.values[0] >= limit);
+    let on_line = |place: usize| {
+        let (x, y) = (place % columns, place / columns);
+        let here = above(raster.dots[place]);
+        let next =
+            [(x + 1 < columns).then_some(place + 1), (y + 1 < rows).then_some(place + columns)].into_iter();
+        next.flatten()
+            .filter_map(|other| above(raster.dots[other]))
+            .any(|other| here.is_some_and(|h| h != other))
+    };
+    let zones = raster.dots.iter().enumerate().map(|(place, dot)| match dot {
+        None => 0,
+        Some(_) if on_line(place) => 4,
+        Some(dot) => zone(dot),
+    });
+    indexed_png(raster.size, &ZONES, &zones.collect::<Vec<u8>>())
 }
 
 /// A path of straight and parabolic sides and their mirror images, those outside the window left out.

@@ -20,9 +20,7 @@ pub struct Raster {
 #[derive(Clone, Copy, Debug)]
 pub struct Dot {
     /// Fields, single precision is plenty for a colour.
-    pub values: [f32; 3],
-    /// Zone of the cell.
-    pub zone: u8,
+    pub values: [f32; 5],
 }
 
 impl Raster {
@@ -51,7 +49,7 @@ impl Raster {
                         let [r, z] = shown(v.at);
                         Vertex { at: [(r - window.low[0]) * scale, (window.high[1] - z) * scale], ..v }
                     });
-                    raster.paint(&facet, mesh.zone[cell]);
+                    raster.paint(&facet);
                 }
             }
         }
@@ -59,7 +57,7 @@ impl Raster {
     }
 
     /// Fills the dots whose centre lies in the facet.
-    fn paint(&mut self, facet: &[Vertex; 3], zone: u8) {
+    fn paint(&mut self, facet: &[Vertex; 3]) {
         let [a, b, c] = facet.map(|v| v.at);
         let area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
         if area == 0.0 || !area.is_finite() {
@@ -81,7 +79,7 @@ impl Raster {
                 if weights.iter().all(|w| *w >= -1e-9) {
                     let value =
                         |i: usize| (0..3).map(|k| weights[k] * facet[k].values[i]).sum::<f64>() as f32;
-                    self.dots[y * self.size[0] + x] = Some(Dot { values: [0, 1, 2].map(value), zone });
+                    self.dots[y * self.size[0] + x] = Some(Dot { values: [0, 1, 2, 3, 4].map(value) });
                 }
             }
         }

@@ -91,8 +91,35 @@ fn roxmltree_free_check(svg: &str) -> bool {
 fn an_elastic_body_is_drawn() {
     let (mut scene, mut frame) = peak();
     scene.material.yield_stress = None;
-    frame.fields.plastic_zone.iter_mut().for_each(|z| *z = 0.0);
+    frame.fields.first_yield.iter_mut().for_each(|z| *z = -1.0);
     frame.fields.plastic_strain.iter_mut().for_each(|s| *s = 0.0);
     let svg = Section::new(&frame, &scene, Reach::Yielded).unwrap().svg(&Panel::PEAK, "").unwrap();
     assert!(!svg.contains("NaN"));
+}
+
+/// A zone ends on a line through cells, not along their sides: where first yield is a line of the height, every
+/// dot is on the side of that height on which it lies.
+#[test]
+fn elastic_zones_end_between_nodes() {
+    let (scene, mut frame) = peak();
+    let moved = frame.mesh.nodes.iter().zip(&frame.fields.displacement).map(|(x, u)| x[1] + u[1]);
+    let heights: Vec<f64> = moved.map(|z| z / crate::MICROMETRE).collect();
+    let (limit, depth) = (-23.0, 40.0);
+    frame.fields.first_yield = heights.iter().map(|z| ((z - limit) / depth).clamp(-1.0, 1.0)).collect();
+    let section = Section::new(&frame, &scene, Reach::Asperities(3.0)).unwrap();
+    let size = [300, 200];
+    let raster = Raster::draw(&section.mesh, &section.window, true, size);
+    let dot_height = section.window.size()[0] / size[0] as f64;
+    let mut zones = [0; 2];
+    for (place, dot) in raster.dots.iter().enumerate() {
+        let z = section.window.high[1] - ((place / size[0]) as f64 + 0.5) * dot_height;
+        // sides of deformed cells are curved, fields bilinear in them
+        if let Some(dot) = dot
+            && (z - limit).abs() > 1.0
+        {
+            assert_eq!(panel::zone(dot) == 1, z < limit, "{z}");
+            zones[usize::from(z < limit)] += 1;
+        }
+    }
+    assert!(zones.iter().all(|count| *count > 1000), "{zones:?}");
 }

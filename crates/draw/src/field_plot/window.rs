@@ -48,7 +48,7 @@ impl Window {
         let all = |k: usize| range(mesh.points().iter().map(move |p| p[k])).unwrap_or([0.0, 1.0]);
         let (body_x, body_z) = (all(0), all(1));
         let yielded: Vec<[f64; 2]> = (0..mesh.cells())
-            .filter(|&cell| mesh.zone[cell] > 0)
+            .filter(|&cell| mesh.yielded(cell))
             .flat_map(|cell| mesh.corners(cell))
             .collect();
         let pressed = range(mesh.pressed().map(|p| p[0]));

@@ -4,6 +4,7 @@ mod table1_report;
 
 use asperity::error::Error;
 use asperity::output::{Sink, SinkExt};
+use asperity::rough::Rough;
 use asperity::rough::contact::press;
 use asperity::rough::rough_scene::RoughScene;
 use asperity::roughness::{Closure, KindName, PUBLISHED_COEFFICIENT};
@@ -46,9 +47,9 @@ const MODULUS: f64 = 210e3;
 const POISSON: f64 = 0.3;
 
 /// The scene of a row; σ_y for the closures that need it is that of eq. (20), H = 3 σ_y.
-fn scene(kind: KindName, row: &Printed, seed: u64) -> String {
+fn scene(kind: KindName, row: &Printed, seed: u64, closure: &str) -> String {
     format!(
-        r#"closure = "all"
+        r#"closure = "{closure}"
 [surface.generate]
 kind = "{}"
 ra = "{} um"
@@ -156,7 +157,7 @@ pub fn measure(kind: KindName, row: &Printed, observer: &mut Told<'_>) -> Result
     let mut table: Vec<ClosureSeeds> = Vec::new();
     let mut notes = Vec::new();
     for seed in 1..=SEEDS {
-        let scene = RoughScene::from_toml(&scene(kind, row, seed), Path::new(""))?;
+        let scene = RoughScene::from_toml(&scene(kind, row, seed, "all"), Path::new(""))?;
         let rough = press(&scene, &mut |reached| {
             let closure = reached.news.map_or("half-space", |closure| closure.name());
             let share = ((seed - 1) as f64 + reached.share) / SEEDS as f64;
@@ -169,23 +170,57 @@ pub fn measure(kind: KindName, row: &Printed, observer: &mut Told<'_>) -> Result
             let warnings = rough.summary.warnings.iter();
             notes = warnings.map(|warning| format!("{}, seed 1: {warning}", kind.name())).collect();
         }
-        for one in rough.summary.closures.iter().filter(|one| one.row.status == "ok") {
-            let closure = one.row.closure;
-            let at = table.iter().position(|o| o.closure == closure).unwrap_or_else(|| {
-                table.push(ClosureSeeds::new(closure));
-                table.len() - 1
-            });
-            let ours = &mut table[at];
-            ours.pressure.0.extend(one.row.mean_pressure_MPa);
-            ours.area.0.push(100.0 * one.row.contact_area_ratio);
-            ours.index.0.extend(one.row.plasticity_index);
-            ours.peak.0.extend(one.row.max_pressure_over_nominal);
-            ours.residual.0.extend(one.row.residual_displacement_um);
-            ours.elastic.0.extend(one.elastic_energy_share_by_law.map(|e| 100.0 * e));
-        }
+        take_down(&mut table, &rough);
     }
     let (paper, against_itself) = (row.clone(), contradictions(row));
     Ok(ComparedRow { surface: kind, paper, closures: table, notes, against_itself })
+}
+
+/// Adds the numbers of one surface to those of the closures.
+fn take_down(table: &mut Vec<ClosureSeeds>, rough: &Rough) {
+    for one in rough.summary.closures.iter().filter(|one| one.row.status == "ok") {
+        let closure = one.row.closure;
+        let at = table.iter().position(|o| o.closure == closure).unwrap_or_else(|| {
+            table.push(ClosureSeeds::new(closure));
+            table.len() - 1
+        });
+        let ours = &mut table[at];
+        ours.pressure.0.extend(one.row.mean_pressure_MPa);
+        ours.area.0.push(100.0 * one.row.contact_area_ratio);
+        ours.index.0.extend(one.row.plasticity_index);
+        ours.peak.0.extend(one.row.max_pressure_over_nominal);
+        ours.residual.0.extend(one.row.residual_displacement_um);
+        ours.elastic.0.extend(one.elastic_energy_share_by_law.map(|e| 100.0 * e));
+    }
+}
+
+/// The closures that claims are judged by.
+const JUDGED: [Closure; 2] = [Closure::Published, Closure::Johnson];
+
+/// What the closures that claims are judged by give on one surface of each other kind with the Ra and the slope
+/// of `row`: how much of a result Ra and slope do not determine. A kind that has no such surface is left out.
+///
+/// # Errors
+/// As for [`measure`].
+pub fn other_kinds(
+    kind: KindName,
+    row: &Printed,
+    observer: &mut dyn FnMut(&str) -> bool,
+) -> Result<Vec<ClosureSeeds>, Error> {
+    let mut table = Vec::new();
+    for (other, _) in TABLE.iter().filter(|(other, _)| *other != kind) {
+        for closure in JUDGED {
+            let scene = RoughScene::from_toml(&scene(*other, row, 1, closure.name()), Path::new(""))?;
+            let message = format!("{} surface as a {} one, {}", kind.name(), other.name(), closure.name());
+            match press(&scene, &mut |_| observer(&message)) {
+                Ok(rough) if rough.stopped => return Err(ended()),
+                Ok(rough) => take_down(&mut table, &rough),
+                Err(Error::Input(_)) => {}
+                Err(error) => return Err(error),
+            }
+        }
+    }
+    Ok(table)
 }
 
 /// The whole table: the content of `table1.json`.

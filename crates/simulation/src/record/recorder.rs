@@ -218,6 +218,8 @@ impl<'p> Recorder<'p> {
                 pressure: scaled(raw.pressure),
                 contact_pressure: scaled(raw.contact_pressure),
                 plastic_strain: raw.plastic_strain,
+                first_yield: raw.first_yield,
+                yield_function: raw.yield_function,
                 plastic_zone: raw.plastic_zone,
                 surface: raw
                     .surface

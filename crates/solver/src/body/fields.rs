@@ -5,6 +5,7 @@ use crate::body::state::State;
 use crate::body::surface::Surface;
 use crate::contact::parts::{NOTHING, WHOLE};
 use crate::element::kernel::POINTS;
+use crate::point::kinematic_hardening::yield_function;
 use crate::point::material::{hydrostatic, stress, volume_ratio};
 use crate::point::tensor::{Sym, von_mises};
 use serde::{Deserialize, Serialize};
@@ -24,6 +25,12 @@ pub struct Fields {
     pub pressure: Vec<f64>,
     /// Contact pressure at the nodes, 0 off the contact.
     pub contact_pressure: Vec<f64>,
+    /// How far the metal at the nodes is from first yield: below 0 where it never yielded, von Mises stress
+    /// over first yield stress less 1; above 0 where it did, plastic strain over the strain of first yield,
+    /// 1 at most. It passes 0 at the edge of what never yielded.
+    pub first_yield: Vec<f64>,
+    /// Yield function over the yield stress at the nodes: 0 where metal yields, below 0 where it is elastic.
+    pub yield_function: Vec<f64>,
     /// Of each cell: 0 never yielded, 1 has yielded, 2 yields in this increment.
     pub plastic_zone: Vec<f64>,
     /// The free surface from the axis outward.
@@ -67,6 +74,8 @@ pub fn fields(body: &Body<'_>, state: &State) -> Fields {
         displacement,
         stress,
         plastic_strain: averages.iter().map(|s| s[4].max(0.0)).collect(),
+        first_yield: averages.iter().map(|s| s[5]).collect(),
+        yield_function: averages.iter().map(|s| s[6]).collect(),
         contact_pressure: contact_pressure(body, state),
         plastic_zone: (0..body.mesh.cell_count()).map(zone).collect(),
         surface: Vec::new(),
@@ -75,24 +84,32 @@ pub fn fields(body: &Body<'_>, state: &State) -> Fields {
     fields
 }
 
-/// Cauchy stress and plastic strain at the nodes. Point values are extrapolated linearly to the corners of
-/// their element and averaged by volume over the elements that share a node; mid-side nodes take the mean of
-/// their corners.
-fn averaged_at_nodes(body: &Body<'_>, state: &State) -> Vec<[f64; 5]> {
+/// Values at a node or a point: Cauchy stress, plastic strain, then what [`Fields::first_yield`] and
+/// [`Fields::yield_function`] are.
+type Values = [f64; 7];
+
+/// The first of the values that tell of yield. They bend where the metal begins to: a line through the points
+/// of a cell would leave their range.
+const OF_YIELD: usize = 5;
+
+/// The values at the nodes. Point values are extrapolated linearly to the corners of their element and
+/// averaged by volume over the elements that share a node, those of yield within the range of the points
+/// around; mid-side nodes take the mean of their corners.
+pub(super) fn averaged_at_nodes(body: &Body<'_>, state: &State) -> Vec<Values> {
     let mesh = body.mesh;
     let nodes = mesh.nodes.len();
-    let mut sums = vec![[0.0; 5]; nodes];
+    let mut sums = vec![[0.0; 7]; nodes];
+    let mut ranges = vec![[[f64::INFINITY, f64::NEG_INFINITY]; 2]; nodes];
     let mut weights = vec![0.0; nodes];
-    let elastic = &body.material.elastic;
     // corner value from the points: √3 times their bilinear coordinates
     let root = 3.0_f64.sqrt();
     let (near, side, far) = (0.25 * (1.0 + root).powi(2), 0.25 * (1.0 - 3.0), 0.25 * (1.0 - root).powi(2));
     for cell in 0..mesh.cell_count() {
-        let states = &state.points.states[Body::points_of(cell)];
-        let values: [[f64; 5]; POINTS] = std::array::from_fn(|q| {
-            let j = volume_ratio(&states[q].b_minus_i);
-            let [rr, zz, tt, rz] = stress(elastic, &states[q].b_minus_i).map(|t| t / j);
-            [rr, zz, tt, rz, states[q].plastic_strain]
+        let first = Body::points_of(cell).start;
+        let values: [Values; POINTS] = std::array::from_fn(|q| values_at(body, state, first + q));
+        let range = [0, 1].map(|i| {
+            let of_points = values.map(|v| v[OF_YIELD + i]);
+            [of_points.into_iter().fold(f64::INFINITY, f64::min), of_points.into_iter().fold(-1.0, f64::max)]
         });
         let volume: f64 = body.volume[Body::points_of(cell)].iter().sum();
         for (corner, &node) in mesh.cell(cell)[..4].iter().enumerate() {
@@ -103,11 +120,17 @@ fn averaged_at_nodes(body: &Body<'_>, state: &State) -> Vec<[f64; 5]> {
                 }
             }
             weights[node as usize] += volume;
+            for (known, new) in ranges[node as usize].iter_mut().zip(range) {
+                *known = [known[0].min(new[0]), known[1].max(new[1])];
+            }
         }
     }
-    for (sum, weight) in sums.iter_mut().zip(&weights) {
+    for ((sum, weight), range) in sums.iter_mut().zip(&weights).zip(&ranges) {
         if *weight > 0.0 {
             *sum = sum.map(|s| s / weight);
+            for (value, [low, high]) in sum[OF_YIELD..].iter_mut().zip(range) {
+                *value = value.max(*low).min(*high);
+            }
         }
     }
     for cell in 0..mesh.cell_count() {
@@ -118,6 +141,22 @@ fn averaged_at_nodes(body: &Body<'_>, state: &State) -> Vec<[f64; 5]> {
         }
     }
     sums
+}
+
+/// The values of a point.
+fn values_at(body: &Body<'_>, state: &State, point: usize) -> Values {
+    let metal = &body.material;
+    let now = &state.points.states[point];
+    let kirchhoff = stress(&metal.elastic, &now.b_minus_i);
+    let j = volume_ratio(&now.b_minus_i);
+    let [rr, zz, tt, rz] = kirchhoff.map(|t| t / j);
+    let first = metal.virgin().yield_stress;
+    let first_yield = match now.plastic_strain {
+        strain if strain > 0.0 => (strain * metal.elastic.youngs_modulus / first).min(1.0),
+        _ => (von_mises(&kirchhoff) / (now.yield_scale * first) - 1.0).min(0.0),
+    };
+    let history = state.points.history.get(point);
+    [rr, zz, tt, rz, now.plastic_strain, first_yield, yield_function(metal, now, history)]
 }
 
 /// The nodes of the free surface, from its outer end inwards, with the `fields` there.

@@ -1,16 +1,15 @@
 //! Where fluid may leak: gaps between contacts, and regions that never yielded among the asperities.
 
 use crate::body::discrete_body::Body;
+use crate::body::fields::fields;
 use crate::body::state::State;
 use crate::body::surface::Surface;
 use crate::contact::parts::NOTHING;
-use crate::element::kernel::POINTS;
 use crate::point::kinematics::Symmetry;
-use crate::point::material::{hydrostatic, stress, volume_ratio};
-use crate::point::tensor::von_mises;
-use asperity_mesh::Mesh;
+use asperity_mesh::regions::{Region, regions_below_zero};
+use asperity_mesh::{Edge, Mesh};
 use serde::{Deserialize, Serialize};
-use std::collections::{BTreeSet, HashMap, HashSet};
+use std::collections::{BTreeSet, HashSet};
 
 /// An untouched stretch of surface between two contacts, or one that flanks enclose which press each other.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -140,131 +139,65 @@ fn between_contacts(surface: &Surface<'_>, count: impl Fn(usize) -> bool) -> Vec
     gaps
 }
 
-/// Regions of cells without plastic strain whose centroid lies within `extent` along r before the crush:
-/// those enclosed by yielded material at any depth, and of the elastic bulk what lay above `floor`. Cells
-/// hang together through common edges.
-pub fn islands(body: &Body<'_>, state: &State, floor: f64, extent: [f64; 2]) -> Vec<Island> {
-    let mesh = body.mesh;
-    let cells = 0..mesh.cell_count();
-    let neighbours = neighbours(mesh);
-    let elastic: Vec<bool> = cells
-        .clone()
-        .map(|cell| state.points.states[Body::points_of(cell)].iter().all(|s| s.plastic_strain == 0.0))
-        .collect();
-    let on_base: HashSet<u32> = mesh.sides.base.iter().map(|e| e.cell).collect();
-    let within = |r: f64| r > extent[0] && r < extent[1];
-    let mut bulk = vec![false; mesh.cell_count()];
-    let mut islands = Vec::new();
-    for region in regions(&neighbours, &elastic) {
-        if region.iter().any(|cell| on_base.contains(&(*cell as u32))) {
-            region.iter().for_each(|cell| bulk[*cell] = true);
-        } else {
-            islands.push(describe(body, state, &region, false));
-        }
-    }
-    let standing: Vec<bool> = cells
-        .map(|cell| {
-            let [r, z] = centre(mesh, state, cell);
-            bulk[cell] && z > floor && within(r)
-        })
-        .collect();
-    islands.extend(regions(&neighbours, &standing).iter().map(|region| describe(body, state, region, true)));
-    islands.retain(|island| within(island.place[0]));
-    islands
-}
-
-/// Cells that share an edge with each cell.
-fn neighbours(mesh: &Mesh) -> Vec<Vec<usize>> {
-    let mut sharing: HashMap<(u32, u32), usize> = HashMap::new();
-    let mut neighbours = vec![Vec::new(); mesh.cell_count()];
-    for cell in 0..mesh.cell_count() {
-        let corners = mesh.cell(cell);
-        for k in 0..4 {
-            let (a, b) = (corners[k], corners[(k + 1) % 4]);
-            if let Some(other) = sharing.insert((a.min(b), a.max(b)), cell) {
-                neighbours[cell].push(other);
-                neighbours[other].push(cell);
-            }
-        }
-    }
-    neighbours
-}
-
-/// Connected regions of the cells that are `inside`.
-fn regions(neighbours: &[Vec<usize>], inside: &[bool]) -> Vec<Vec<usize>> {
-    let mut seen = vec![false; inside.len()];
-    let mut regions = Vec::new();
-    for seed in 0..inside.len() {
-        if seen[seed] || !inside[seed] {
-            continue;
-        }
-        let mut region = vec![seed];
-        seen[seed] = true;
-        let mut next = 0;
-        while next < region.len() {
-            for &cell in &neighbours[region[next]] {
-                if inside[cell] && !seen[cell] {
-                    seen[cell] = true;
-                    region.push(cell);
-                }
-            }
-            next += 1;
-        }
-        regions.push(region);
-    }
+/// Regions where `values` at the nodes are below zero that do not hang together with the base of the body.
+pub fn enclosed_regions(mesh: &Mesh, places: &[[f64; 2]], values: &[f64]) -> Vec<Region> {
+    let on_base = nodes_along(mesh, &mesh.sides.base);
+    let mut regions = regions_below_zero(mesh, places, values, |_| true);
+    regions.retain(|region| !reaches(region, &on_base));
     regions
 }
 
-/// Place, size and mean stress of a region.
-fn describe(body: &Body<'_>, state: &State, region: &[usize], reaches_substrate: bool) -> Island {
+/// Whether a region holds one of the nodes.
+fn reaches(region: &Region, nodes: &HashSet<u32>) -> bool {
+    region.weights.keys().any(|node| nodes.contains(node))
+}
+
+/// Regions of metal that never yielded whose centroid lies within `extent` along r before the crush: those
+/// enclosed by yielded metal at any depth, and of the elastic bulk what lay above `floor`. They end where
+/// [`Fields::first_yield`](crate::body::fields::Fields::first_yield) passes zero.
+pub fn islands(body: &Body<'_>, state: &State, floor: f64, extent: [f64; 2]) -> Vec<Island> {
     let mesh = body.mesh;
-    let on_surface: HashSet<u32> = mesh.sides.surface.iter().map(|e| e.cell).collect();
-    let mut island = Island {
-        place: [0.0; 2],
-        area: 0.0,
-        mean_pressure: 0.0,
-        mean_von_mises: 0.0,
-        reaches_substrate,
-        reaches_surface: region.iter().any(|cell| on_surface.contains(&(*cell as u32))),
+    let fields = fields(body, state);
+    let first_yield = &fields.first_yield;
+    let within = |r: f64| r > extent[0] && r < extent[1];
+    let on_base = nodes_along(mesh, &mesh.sides.base);
+    let regions = regions_below_zero(mesh, &state.origin, first_yield, |_| true);
+    let (bulk, enclosed): (Vec<_>, Vec<_>) = regions.iter().partition(|region| reaches(region, &on_base));
+    let standing = |cell: usize| {
+        let [r, z] = centre(mesh, state, cell);
+        z > floor && within(r)
     };
-    let mut volume = 0.0;
-    for &cell in region {
-        let ([r, z], corners) = (centre(mesh, state, cell), mesh.cell(cell));
-        let area = section_area(corners[..4].iter().map(|&n| state.origin[n as usize]));
-        island.area += area;
-        island.place[0] += area * r;
-        island.place[1] += area * z;
-        for q in cell * POINTS..(cell + 1) * POINTS {
-            let point = &state.points.states[q];
-            let tau = stress(&body.material.elastic, &point.b_minus_i);
-            let weight = body.volume[q];
-            let ratio = volume_ratio(&point.b_minus_i);
-            island.mean_pressure -= weight * hydrostatic(&tau) / ratio;
-            island.mean_von_mises += weight * von_mises(&tau) / ratio;
-            volume += weight;
+    let mut above = regions_below_zero(mesh, &state.origin, first_yield, standing);
+    above.retain(|part| bulk.iter().any(|whole| part.weights.keys().all(|n| whole.weights.contains_key(n))));
+    let on_surface = nodes_along(mesh, &mesh.sides.surface);
+    let described = |(region, reaches_substrate): (&Region, bool)| {
+        let measure = |node: u32| match body.symmetry {
+            Symmetry::Axisymmetric => state.origin[node as usize][0],
+            Symmetry::PlaneStrain => 1.0,
+        };
+        Island {
+            place: region.centre,
+            area: region.area,
+            mean_pressure: region.mean(&fields.pressure, measure),
+            mean_von_mises: region.mean(&fields.von_mises, measure),
+            reaches_substrate,
+            reaches_surface: reaches(region, &on_surface),
         }
-    }
-    island.place = island.place.map(|x| x / island.area);
-    island.mean_pressure /= volume;
-    island.mean_von_mises /= volume;
-    island
+    };
+    let enclosed = enclosed.into_iter().map(|region| (region, false));
+    let islands = enclosed.chain(above.iter().map(|region| (region, true))).map(described);
+    islands.filter(|island| within(island.place[0])).collect()
+}
+
+/// The corners of the cells along these edges that lie on them.
+fn nodes_along(mesh: &Mesh, edges: &[Edge]) -> HashSet<u32> {
+    edges.iter().flat_map(|&edge| mesh.edge_nodes(edge).0).collect()
 }
 
 /// Mean of the corners of a cell before the crush.
 fn centre(mesh: &Mesh, state: &State, cell: usize) -> [f64; 2] {
     let corners = &mesh.cell(cell)[..4];
     [0, 1].map(|i| corners.iter().map(|&n| state.origin[n as usize][i]).sum::<f64>() / 4.0)
-}
-
-/// Area of a polygon.
-fn section_area(corners: impl Iterator<Item = [f64; 2]>) -> f64 {
-    let corners: Vec<[f64; 2]> = corners.collect();
-    (0..corners.len())
-        .map(|i| {
-            let (p, q) = (corners[i], corners[(i + 1) % corners.len()]);
-            0.5 * (p[0] * q[1] - q[0] * p[1])
-        })
-        .sum()
 }
 
 /// Extent along r in which islands are searched: the asperities, from the axis or from the left foot.

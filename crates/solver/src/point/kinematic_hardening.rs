@@ -28,8 +28,8 @@ use crate::point::bdf2::{PlasticIncrement, exponential_minus_identity};
 use crate::point::failure::Failure;
 use crate::point::j2::{PointUpdate, Tangent};
 use crate::point::log_space::{LogStrain, compose};
-use crate::point::material::{Metal, PointState, Spectral, plastic_work};
-use crate::point::tensor::{Gradient, Sym, contract, trace};
+use crate::point::material::{Metal, PointState, Spectral, plastic_work, stress};
+use crate::point::tensor::{Gradient, Sym, contract, trace, von_mises};
 use asperity_material::{Elastic, HardeningCurve};
 
 /// History variables of a point beside its [`PointState`], all in the undeformed configuration.
@@ -113,6 +113,27 @@ pub fn update(
         strain.tangent(&t, [k, 2.0 * g * left, drop], &n, &geometric)
     };
     Ok((PointUpdate { state, stress, plastic: flow.is_some(), tangent: form }, end))
+}
+
+/// The yield function of a point over its yield stress: 0 where it yields, below 0 where it is elastic, -1
+/// for a body that never yields. Without `memory` the yield surface has its centre at the origin.
+pub fn yield_function(metal: &Metal, state: &PointState, memory: Option<&History>) -> f64 {
+    let Some(curve) = &metal.hardening else { return -1.0 };
+    let isotropic = || (von_mises(&stress(&metal.elastic, &state.b_minus_i)), state.yield_stress);
+    let moved = metal.kinematic_share * (state.yield_stress - curve.yield_stress());
+    let shifted = |memory: &History| {
+        let strain = LogStrain::new(&memory.deformation).ok()?;
+        let [e1, e2, e3] = strain.principal;
+        let mean = (e1 + e2 + e3) / 3.0;
+        let (plastic, back) = (strain.into_frame(&memory.plastic), strain.into_frame(&memory.back));
+        let total = [e1 - mean, e2 - mean, e3 - mean, 0.0];
+        let double_g = 2.0 * metal.elastic.shear_modulus();
+        let xi: Sym =
+            std::array::from_fn(|i| double_g * (total[i] - plastic[i]) - state.yield_scale * back[i]);
+        Some((root() * contract(&xi, &xi).sqrt(), state.yield_stress - moved))
+    };
+    let (q, radius) = memory.and_then(shifted).unwrap_or_else(isotropic);
+    q / (state.yield_scale * radius) - 1.0
 }
 
 /// b_e - I of the elastic body that bears `stress`: exp(2ε) - I with ε = dev τ/2G + tr τ/9K.
