@@ -288,8 +288,8 @@ fn last_peak_over_first(o: &Outcome) -> f64 {
 }
 
 /// K/E of a crushed cone of 10° with the exponent and E/σ_y, from the cones of another code at 10° whose
-/// representative stresses, σ_y(1 + E ε_r/σ_y)^n at ε_r = 0.13 tan β, are the nearest below and above: ln K is
-/// a line over its logarithm.
+/// representative stresses, σ_y(1 + E ε_r/σ_y)^n at ε_r = 0.13 tan β, are the nearest below and above: ln K
+/// is a line over its logarithm.
 fn by_representative_stress(exponent: f64, e_over_sy: f64) -> f64 {
     let strain = 0.13 * 10f64.to_radians().tan();
     let log_stress = |n: f64, ratio: f64| ((1.0 + ratio * strain).powf(n) / ratio).ln();
@@ -304,10 +304,10 @@ fn by_representative_stress(exponent: f64, e_over_sy: f64) -> f64 {
     (a[1] + (x - a[0]) / (b[0] - a[0]) * (b[1] - a[1])).exp()
 }
 
-/// The radius of the contact of a cone pressed flat to half its height, against the half of its base radius at
-/// which the plane cuts it. It is no smaller, and no larger than if the metal of the tip filled the frustum
-/// below evenly: a third of the area at the cut, √(4/3) = 1.155 times the radius. The middle of the two, give
-/// or take half of their distance.
+/// The radius of the contact of a cone pressed flat to half its height, against the half of its base radius
+/// at which the plane cuts it. It is no smaller, and no larger than if the metal of the tip filled the
+/// frustum below evenly: a third of the area at the cut, √(4/3) = 1.155 times the radius. The middle of the
+/// two, give or take half of their distance.
 fn cut_cone(name: &'static str, scene: Scene) -> Row {
     let cut = 10e-6 / scene.asperity[0].slope_deg.unwrap().to_radians().tan();
     let most = (4.0_f64 / 3.0).sqrt();

@@ -113,8 +113,8 @@ fn cells_names_units_and_values_survive() {
         // pressure in MPa: of the order of the mean pressure, force over area
         let mean =
             1e6 * summary["peak_force_N"].as_f64().unwrap() / summary["contact_area_um2"].as_f64().unwrap();
-        // under a rounded tip that yields the pressure falls from the middle to the edge by less than under an
-        // elastic cone, whose pressure is twice its mean at a fifth of the radius
+        // under a rounded tip that yields the pressure falls from the middle to the edge by less than under
+        // an elastic cone, whose pressure is twice its mean at a fifth of the radius
         assert!(largest_pressure > 1.05 * mean && largest_pressure < 2.0 * mean, "{largest_pressure} {mean}");
     }
 }

@@ -28,8 +28,8 @@ fn three_hundred_random_scenes_end_with_a_result_or_a_reason() {
     assert!(faults.is_empty(), "{} faults, the first: {}", faults.len(), faults[0]);
 }
 
-/// A reason is no excuse: a scene that is driven by nine tenths of the force that its own depth carried is never
-/// told that no depth carries it.
+/// A reason is no excuse: a scene that is driven by nine tenths of the force that its own depth carried is
+/// never told that no depth carries it.
 #[test]
 fn a_force_that_a_depth_carries_is_not_called_out_of_reach() {
     let scenes = draw(60, 11).unwrap();

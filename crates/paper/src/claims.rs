@@ -5,43 +5,13 @@
 use super::paper::{SETS, SYMMETRIES};
 use super::results_reader::Results;
 use super::rough_claims::rough_claims;
-use super::verdict::{Measured, Said, Verdict, falls, worst, zone_is_there};
+use super::verdict::{Claim, Measured, NEAR, Said, Verdict, falls, worst, zone_is_there};
 use super::zones::{Zone, Zones, area};
 use asperity::calibrate::{AngleFit, Fit};
 use asperity::columns::Unit;
 use asperity::crush::Summary;
 use asperity::numbers::{listed, significant};
 use asperity::roughness::PUBLISHED_COEFFICIENT;
-use serde::Serialize;
-
-/// A claim of the paper and its fate.
-#[derive(Clone, Debug, Serialize)]
-pub struct Claim {
-    /// Figure or table it belongs to.
-    pub item: &'static str,
-    /// The place where the paper says it.
-    pub place: &'static str,
-    /// The claim itself.
-    pub claim: String,
-    /// The result of the computation.
-    pub ours: String,
-    /// The verdict.
-    pub verdict: Verdict,
-    /// The reason, where there is more to say.
-    pub why: String,
-}
-
-impl Claim {
-    pub(super) fn new(
-        (item, place): (&'static str, &'static str),
-        claim: impl Into<String>,
-        ours: impl Into<String>,
-        verdict: Verdict,
-        why: impl Into<String>,
-    ) -> Claim {
-        Claim { item, place, claim: claim.into(), ours: ours.into(), verdict, why: why.into() }
-    }
-}
 
 /// Every claim that the results can speak about.
 pub(super) fn claims(results: &Results) -> Vec<Claim> {
@@ -113,9 +83,8 @@ fn elastic_areas(results: &Results, (end, symmetry): &(&str, &str)) -> Option<Ve
         let pressures: Vec<f64> = below.iter().flatten().map(|zone| zone.pressure).collect();
         let shown = below.last().into_iter().flatten().map(|zone| format!("{:.0}", zone.pressure));
         // the pressure of a zone differs between meshes by far less than its area
-        let compressed = worst(
-            pressures.iter().map(|p| Said::Above(0.0).judge(Measured::within(*p, super::verdict::NEAR))),
-        );
+        let compressed =
+            worst(pressures.iter().map(|p| Said::Above(0.0).judge(Measured::known_to(*p, NEAR))));
         claims.push(Claim::new(
             of,
             format!("these areas show hydrostatic compression ({symmetry})"),
@@ -140,7 +109,8 @@ fn sets(results: &Results, (end, symmetry): &(&str, &str)) -> Option<Vec<Claim>>
         SETS.iter().map(|set| quantity(results.summary(&format!("{set}{end}"))?)).collect()
     };
     // the work is a sum of forces over depths, whose errors are those of the force along the curve
-    let works = of(|s| Some(Measured::within(s.written(s.total_work, Unit::Energy), s.errors_along.force)))?;
+    let works =
+        of(|s| Some(Measured::known_to(s.written(s.total_work, Unit::Energy), s.errors_along.force)))?;
     let shares = of(|s| Some(Measured { value: s.elastic_fraction?, error: s.errors.elastic_fraction? }))?;
     let percent = shares.iter().map(|s| format!("{:.1} ± {:.1}", 100.0 * s.value, 100.0 * s.error));
     let percent = percent.collect::<Vec<_>>().join(", ");
@@ -193,7 +163,7 @@ fn strain(fit: &Fit) -> Vec<Claim> {
                 100.0 * most,
                 100.0 * ONE_CURVE
             ),
-            Said::Below(ONE_CURVE).judge(Measured::within(most, 0.0)),
+            Said::Below(ONE_CURVE).judge(Measured::known_to(most, 0.0)),
             "An assumption of the paper, not a consequence of the π theorem; what is left is the scatter.",
         ));
     }

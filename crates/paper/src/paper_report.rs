@@ -1,10 +1,10 @@
 //! The report: one self-contained page, its claims as JSON, and its overview as a table for a page of text.
 
-use super::claims::{Claim, claims};
+use super::claims::claims;
 use super::figures;
 use super::plan::{Item, Part, Work, parts};
 use super::results_reader::Results;
-use super::verdict::{RULE, Verdict};
+use super::verdict::{Claim, RULE, Verdict};
 use asperity::crush::Summary;
 use asperity::page::document;
 use asperity::simulation::scene::Accuracy;

@@ -1,9 +1,8 @@
 //! The claims on rough surfaces: Tables 1 and 2, and the figures between them.
 
-use super::claims::Claim;
 use super::paper::{PEAKS, ROUGH, TABLE2};
 use super::results_reader::Results;
-use super::verdict::{Measured, Said, Verdict, falls, rises, worst};
+use super::verdict::{Claim, Measured, Said, Verdict, falls, rises, worst};
 use crate::table1::{self, ClosureSeeds, Seeds};
 use asperity::numbers::{rounded, significant};
 use asperity::roughness::Closure;

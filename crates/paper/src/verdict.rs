@@ -1,4 +1,4 @@
-//! The one rule by which a claim of the paper is judged.
+//! A claim of the paper, and the one rule by which it is judged.
 
 use serde::Serialize;
 
@@ -44,6 +44,35 @@ impl Verdict {
             Verdict::CannotBeJudged => "cannot be judged",
             Verdict::Contradicted => "contradicted",
         }
+    }
+}
+
+/// A claim of the paper and its fate.
+#[derive(Clone, Debug, Serialize)]
+pub struct Claim {
+    /// Figure or table it belongs to.
+    pub item: &'static str,
+    /// The place where the paper says it.
+    pub place: &'static str,
+    /// The claim itself.
+    pub claim: String,
+    /// The result of the computation.
+    pub ours: String,
+    /// The verdict.
+    pub verdict: Verdict,
+    /// The reason, where there is more to say.
+    pub why: String,
+}
+
+impl Claim {
+    pub(super) fn new(
+        (item, place): (&'static str, &'static str),
+        claim: impl Into<String>,
+        ours: impl Into<String>,
+        verdict: Verdict,
+        why: impl Into<String>,
+    ) -> Claim {
+        Claim { item, place, claim: claim.into(), ours: ours.into(), verdict, why: why.into() }
     }
 }
 
@@ -95,7 +124,7 @@ pub struct Measured {
 
 impl Measured {
     /// A value known to a share of itself.
-    pub fn within(value: f64, share: f64) -> Measured {
+    pub fn known_to(value: f64, share: f64) -> Measured {
         Measured { value, error: (share * value).abs() }
     }
 
@@ -125,9 +154,9 @@ pub fn rises(values: &[Measured]) -> Verdict {
     worst(values.windows(2).map(|w| Said::Above(0.0).judge(w[1].less(w[0]))))
 }
 
-/// Whether there is a zone, by its area on three meshes: there is where the areas agree within [`NEAR`] of the
-/// largest, there is none where all are `least` or smaller, and nothing can be said where they differ or where
-/// there are not three.
+/// Whether there is a zone, by its area on three meshes: there is where the areas agree within [`NEAR`] of
+/// the largest, there is none where all are `least` or smaller, and nothing can be said where they differ or
+/// where there are not three.
 pub fn zone_is_there(areas: &[f64], least: f64) -> Verdict {
     let (low, high) = areas.iter().fold((f64::INFINITY, 0.0_f64), |(l, h), a| (l.min(*a), h.max(*a)));
     match areas.len() {

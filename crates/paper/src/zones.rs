@@ -1,9 +1,9 @@
 //! `zones.json`: the elastic zones of a row of asperities at the peak, enclosed by metal that yields or has
 //! yielded.
 //!
-//! Two quantities bound them, both continuous over the mesh: what the metal itself says, first yield, and what
-//! the paper's Figure 5 draws, the von Mises stress against the first yield stress. Metal that has yielded may
-//! bear less than that and be elastic again.
+//! Two quantities bound them, both continuous over the mesh: what the metal itself says, first yield, and
+//! what the paper's Figure 5 draws, the von Mises stress against the first yield stress. Metal that has
+//! yielded may bear less than that and be elastic again.
 
 use asperity::simulation::run::FieldFrame;
 use asperity::simulation::scene::{Scene, Symmetry};
@@ -11,7 +11,8 @@ use asperity::solver::body::islands::enclosed_regions;
 use asperity::units::{MEGAPASCAL, MICROMETRE};
 use serde::{Deserialize, Serialize};
 
-/// Share of the section of one asperity up to which a zone is none: the line that bounds a zone is that exact.
+/// Share of the section of one asperity up to which a zone is none: the line that bounds a zone is that
+/// exact.
 const LEAST_SHARE: f64 = 0.01;
 
 /// A zone of the section before the crush.

@@ -1,9 +1,10 @@
 //! Claim: the zones of metal that never yielded under three crushed asperities are those of the metal, not of
 //! the mesh: their area on three meshes agrees to 10 %, a part of it is no cell.
 //!
-//! Source: the same body on finer meshes, two times as many elements on the finest as on the coarsest. The area
-//! inside a line between nodes errs by the square of the size of the cells there, a tenth of the zone and less;
-//! a zone of whole cells without plastic strain grew by two thirds from mesh to mesh (1150, 2050 and 3380 µm²).
+//! Source: the same body on finer meshes, two times as many elements on the finest as on the coarsest. The
+//! area inside a line between nodes errs by the square of the size of the cells there, a tenth of the zone
+//! and less; a zone of whole cells without plastic strain grew by two thirds from mesh to mesh (1150, 2050
+//! and 3380 µm²).
 
 use asperity::crush::crush;
 use asperity::{Scene, scenes};

@@ -30,8 +30,8 @@ fn work_balances_in_perfect_plasticity() {
     assert!(error <= 1e-2, "{error:e}");
 }
 
-/// The work of an elastic body on its way back is judged over the largest work, and balances at every row: what
-/// is left of it at the end is near nothing, so that an error over that says nothing.
+/// The work of an elastic body on its way back is judged over the largest work, and balances at every row:
+/// what is left of it at the end is near nothing, so that an error over that says nothing.
 #[test]
 fn an_elastic_body_gives_back_its_work() {
     let mut scene = scene(Accuracy::Draft).unwrap();

@@ -1,5 +1,5 @@
-//! Claim: crushed toward its whole height of 20 µm the paper's asperity reaches at least half of it, and one of
-//! 30 degrees all of it; where a crush cannot go on, it stops with a reason and keeps every increment that
+//! Claim: crushed toward its whole height of 20 µm the paper's asperity reaches at least half of it, and one
+//! of 30 degrees all of it; where a crush cannot go on, it stops with a reason and keeps every increment that
 //! converged.
 //!
 //! Source: another element on another mesh, for the force; its tolerance stands with it.
@@ -45,7 +45,8 @@ fn ten_degree_asperity_reaches_half_its_height() {
 }
 
 /// Force at three quarters of the height beside that of the other element on its own mesh: the 5 % that draft
-/// promises. (With nine tenths of the height both lie down on the base, where the force is steep in the depth.)
+/// promises. (With nine tenths of the height both lie down on the base, where the force is steep in the
+/// depth.)
 #[test]
 fn thirty_degree_asperity_reaches_its_height_with_the_force_of_the_other_element() {
     let outcome = toward_whole_height(30.0, ElementChoice::Q8r);

@@ -4,9 +4,9 @@
 //!
 //! Source: Melan's theorem of shakedown with isotropic hardening: each further flow widens the yield surface,
 //! so that flow on a closed path dies out. Measured on the single asperity, at draft and at standard alike:
-//! the edge of the contact flows back a little when the load is taken off, which costs the first reload 0.3 to
-//! 0.5 % of the force; what each further cycle loses is a seventh of that. Tolerances: 1e-5 is ten times that of
-//! Newton's method; 5e-3 of the returned work is the quadrature of an unloading in six increments.
+//! the edge of the contact flows back a little when the load is taken off, which costs the first reload 0.3
+//! to 0.5 % of the force; what each further cycle loses is a seventh of that. Tolerances: 1e-5 is ten times
+//! that of Newton's method; 5e-3 of the returned work is the quadrature of an unloading in six increments.
 
 use asperity_simulation::record::rows::Phase;
 use asperity_simulation::run::Outcome;

@@ -20,8 +20,8 @@ fn travel_grows_from_increment_to_increment() {
     assert!(outcome.stopped.is_none());
     let loading = outcome.rows.iter().filter(|row| row.phase == Phase::Load);
     let travels: Vec<f64> = loading.map(|row| row.depth + row.penetration).collect();
-    // 36 steps of draft and more where they are halved; the last ends at the depth, the tool as much further as
-    // it is pressed in
+    // 36 steps of draft and more where they are halved; the last ends at the depth, the tool as much further
+    // as it is pressed in
     assert!(travels.len() > 36, "{}", travels.len());
     let last = outcome.rows.iter().rfind(|row| row.phase == Phase::Load).unwrap();
     assert!((last.depth / 5e-6 - 1.0).abs() < 1e-9, "{:e}", last.depth);

@@ -97,8 +97,8 @@ fn an_elastic_body_is_drawn() {
     assert!(!svg.contains("NaN"));
 }
 
-/// A zone ends on a line through cells, not along their sides: where first yield is a line of the height, every
-/// dot is on the side of that height on which it lies.
+/// A zone ends on a line through cells, not along their sides: where first yield is a line of the height,
+/// every dot is on the side of that height on which it lies.
 #[test]
 fn elastic_zones_end_between_nodes() {
     let (scene, mut frame) = peak();

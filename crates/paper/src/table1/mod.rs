@@ -197,8 +197,9 @@ fn take_down(table: &mut Vec<ClosureSeeds>, rough: &Rough) {
 /// The closures that claims are judged by.
 const JUDGED: [Closure; 2] = [Closure::Published, Closure::Johnson];
 
-/// What the closures that claims are judged by give on one surface of each other kind with the Ra and the slope
-/// of `row`: how much of a result Ra and slope do not determine. A kind that has no such surface is left out.
+/// What the closures that claims are judged by give on one surface of each other kind with the Ra and the
+/// slope of `row`: how much of a result Ra and slope do not determine. A kind that has no such surface is
+/// left out.
 ///
 /// # Errors
 /// As for [`measure`].
