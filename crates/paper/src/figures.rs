@@ -133,10 +133,10 @@ fn single(results: &Results) -> Markup {
         ("contact radius at 5 µm, µm", of(|s| Some(s.contact_radius / MICROMETRE))),
         ("exponent of F over h, upper half", results.force_exponent()),
     ];
-    let rows = rows.map(|(name, value)| vec![name.into(), shown(value), "not printed".into()]);
+    let rows = rows.map(|(name, value)| vec![name.into(), shown(value)]);
     html! {
         (file(results, part, "curve.svg", "Force against depth of the paper's asperity, loading and unloading."))
-        (table("The paper's asperity in numbers", &["quantity", "ours", "paper"], &rows))
+        (table("The paper's asperity in numbers; the paper prints none of them", &["quantity", "ours"], &rows))
         (sketch(results, part, "section", "The peak: pressure of the tool, von Mises stress, plastic strain and hydrostatic pressure on the deformed section."))
     }
 }
@@ -228,7 +228,11 @@ fn strains(results: &Results) -> Markup {
                 strain(ours),
                 format!("{} … {}", strain(Some(angle.low)), strain(Some(angle.high))),
                 strain(Some(published)),
-                ours.map_or_else(|| "–".into(), |v| format!("{:+.0} %", 100.0 * (v / published - 1.0))),
+                // what rounds to -0 is 0
+                ours.map_or_else(
+                    || "–".into(),
+                    |v| format!("{:+.0} %", (100.0 * (v / published - 1.0)).round() + 0.0),
+                ),
                 ours.map_or_else(|| "–".into(), |v| format!("{:.4}", v / tan)),
             ]
         })
