@@ -2,7 +2,7 @@
 //! tangent that is not stiffened, before the path ends.
 
 use super::increment::{Observer, Stop};
-use super::path::{ContactLoad, FIRST_GUESS_SHARE, Path};
+use super::path::{ContactLoad, FIRST_GUESS_SHARE, Miss, Path};
 use crate::record::rows::Phase;
 use asperity_solver::body::energy::ContactSums;
 use asperity_solver::body::failure::Failure as BodyFailure;
@@ -48,12 +48,14 @@ impl Path<'_> {
         observer: &mut Observer<'_>,
     ) -> Result<(f64, ContactSums), Stop> {
         let mut halvings = 0;
-        let mut stiffens = true;
+        let (mut stiffens, mut leapt) = (true, false);
         self.model.stiffen(true);
         let mut next = travel;
         let mut guess = if carry { FIRST_GUESS_SHARE } else { 0.0 };
         loop {
-            match self.attempt(next, carry, guess) {
+            let attempt = self.attempt(next, carry, guess);
+            leapt |= attempt == Err(Miss::Leap);
+            match attempt {
                 Ok(sums)
                     if self.area() > 0.0
                         && sums.area > self.rules().area_growth * self.area()
@@ -71,6 +73,7 @@ impl Path<'_> {
                 }
                 Ok(_) => {
                     self.accept(next, phase, observer)?;
+                    leapt = false;
                     // try to take the rest in steps as long as the one that went
                     let step = self.stand.last_step;
                     next = if (travel - next).abs() <= 1.01 * step.abs() { travel } else { next + step };
@@ -89,9 +92,10 @@ impl Path<'_> {
                     halvings = 0;
                     next = travel;
                 }
-                Err(failure) => {
+                Err(miss) => {
                     if halvings >= MAX_HALVINGS {
-                        return Err(self.stop(&failure));
+                        // what was found before was the other state
+                        return Err(self.stop(if leapt { &Miss::Leap } else { &miss }));
                     }
                     halvings += 1;
                     self.counts.cutbacks += 1;
@@ -102,11 +106,12 @@ impl Path<'_> {
         }
     }
 
-    /// Why the path ends where the smallest increment has no equilibrium.
-    fn stop(&self, failure: &SolveFailure) -> Stop {
-        self.because(match failure {
-            SolveFailure::System(BodyFailure::Element { .. }) => Stop::Distorted,
-            _ => Stop::NoEquilibrium,
+    /// Why the path ends where the smallest increment cannot be accepted.
+    pub(super) fn stop(&self, miss: &Miss) -> Stop {
+        self.because(match miss {
+            Miss::Failure(SolveFailure::System(BodyFailure::Element { .. })) => Stop::Distorted,
+            Miss::Failure(_) => Stop::NoEquilibrium,
+            Miss::Leap => Stop::Leaps,
         })
     }
 

@@ -49,6 +49,11 @@ pub enum Stop {
         "an elastic strain beyond 1/3, where Hencky's elasticity ends: give a yield stress, or press less deep"
     )]
     ElasticStrain,
+    /// However small the increment, the metal flows by more than the tool and what is stored have energy for.
+    #[error(
+        "the metal leaps to another state, with more plastic work than there is energy for, however small the increment"
+    )]
+    Leaps,
     /// A force that the tool does not find as deep as it can go.
     #[error("target force not reached at maximum depth: ask for less force, or for a depth")]
     ForceNotReached,

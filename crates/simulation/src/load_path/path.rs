@@ -16,8 +16,31 @@ use asperity_solver::remesh::distortion::LIMITS_WHILE_LOADING;
 /// (2001)).
 const LARGEST_ELASTIC_STRAIN: f64 = 1.0 / 3.0;
 
+/// Why an attempted increment cannot be accepted.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Miss {
+    /// It has no equilibrium that was found.
+    Failure(SolveFailure),
+    /// It is a leap to another state.
+    Leap,
+}
+
+impl From<SolveFailure> for Miss {
+    fn from(failure: SolveFailure) -> Miss {
+        Miss::Failure(failure)
+    }
+}
+
 /// Growth of the travel before a better mesh is looked for again where there was none: each look costs.
 const REMESHING_TRAVEL_RATIO: f64 = 1.1;
+
+/// Energy that all transfers to better meshes may take, over the plastic work and [`TRANSFERABLE_WORK`] of the
+/// largest work: where the path could go on with its mesh, and where it could not. Transfers of metal that
+/// flows take a thousandth of it; of a body that is elastic but for a little they took twice its plastic work.
+const TRANSFER_SHARES: [f64; 2] = [0.1, 1.0];
+
+/// Share of the work that counts beside the plastic work: of a body that hardly yields.
+const TRANSFERABLE_WORK: f64 = 0.01;
 
 /// Share of the last increment that is a good first guess for the next: measured 0.5 to 0.9 save a fifth of
 /// the iterations, 1 saves less because it overshoots where the contact front moves from element to element.
@@ -177,27 +200,31 @@ impl<'p> Path<'p> {
         self.stand.contact.area
     }
 
+    /// True where the increment to `travel` that was solved is a leap to another state: see
+    /// [`EnergyAccount::leaps`].
+    fn leaps(&self, travel: f64) -> bool {
+        let force = self.model.contacts().iter().map(|contact| contact.load).sum();
+        let forces = [(self.stand.contact.force, self.stand.slope), (force, None)];
+        let step = travel - self.stand.travel;
+        self.account.leaps(self.model.plastic_work(), || self.model.energy_released(), forces, step)
+    }
+
     /// Solves, but does not accept, the increment to `travel` with the first guess `guess` times the scaled
     /// last one.
-    pub(super) fn attempt(
-        &mut self,
-        travel: f64,
-        carry: bool,
-        guess: f64,
-    ) -> Result<ContactSums, SolveFailure> {
+    pub(super) fn attempt(&mut self, travel: f64, carry: bool, guess: f64) -> Result<ContactSums, Miss> {
         let ratio = self.stand.ratio(travel);
         let guess = self.scaled(guess * ratio);
         if travel > self.stand.deepest {
             self.model.press_with(self.problem.penalty_at(travel));
         }
         self.model.begin(-(self.touch + travel), if carry { ratio } else { 0.0 }, guess);
-        self.solve_attempted()
+        self.solve_attempted(travel)
     }
 
     /// Solves the increment that was attempted last to a `travel` nearby, from where that stands.
-    pub(super) fn attempt_again(&mut self, travel: f64) -> Result<ContactSums, SolveFailure> {
+    pub(super) fn attempt_again(&mut self, travel: f64) -> Result<ContactSums, Miss> {
         self.model.move_tool(-(self.touch + travel));
-        self.solve_attempted()
+        self.solve_attempted(travel)
     }
 
     /// The displacement of the last increment times `scale`.
@@ -206,17 +233,26 @@ impl<'p> Path<'p> {
         move |node| last.get(node).map_or([0.0; 2], |du| du.map(|u| scale * u))
     }
 
-    fn solve_attempted(&mut self) -> Result<ContactSums, SolveFailure> {
+    fn solve_attempted(&mut self, travel: f64) -> Result<ContactSums, Miss> {
         self.iterate()?;
-        Ok(self.sums())
+        if self.leaps(travel) { Err(Miss::Leap) } else { Ok(self.sums()) }
     }
 
-    pub(super) fn iterate(&mut self) -> Result<(), SolveFailure> {
+    fn iterate(&mut self) -> Result<(), SolveFailure> {
         self.model.set_tolerance(self.settings.tolerance);
         let outcome = solve(&mut self.model, &self.settings).map(|done| done.iterations);
         let (Ok(spent) | Err((_, spent))) = outcome;
         self.counts.add_iterations(spent);
         outcome.map(|_| ()).map_err(|(failure, _)| failure)
+    }
+
+    /// Solves, but does not accept, the body without its tool. Returns the travel at which that parts from
+    /// it.
+    pub(super) fn take_away(&mut self) -> Result<f64, Miss> {
+        self.model.begin(f64::INFINITY, 0.0, |_| [0.0; 2]);
+        self.iterate()?;
+        let separation = self.model.trial_surface().first_touch() - self.touch;
+        if self.leaps(separation) { Err(Miss::Leap) } else { Ok(separation) }
     }
 
     pub(super) fn sums(&self) -> ContactSums {
@@ -289,21 +325,43 @@ impl<'p> Path<'p> {
         }
         let looks =
             phase == Phase::Load && self.stand.travel > REMESHING_TRAVEL_RATIO * self.remeshing.in_vain;
-        if looks && self.model.is_distorted(LIMITS_WHILE_LOADING) && !self.remesh() {
+        if looks && self.model.is_distorted(LIMITS_WHILE_LOADING) && !self.remesh_for_the_better() {
             self.remeshing.in_vain = self.stand.travel;
         }
         Ok(increment)
     }
 
-    /// Remeshes where the tool stands, and records the contact there. Whether it did.
+    /// Remeshes where the tool stands, and records the contact there. Whether it did: where the body did not
+    /// move since it was tried last, or too much energy would go, it does not.
     pub fn remesh(&mut self) -> bool {
         if self.remeshing.after == self.counts.increments {
             return false;
         }
         self.remeshing.after = self.counts.increments;
+        self.remesh_within(TRANSFER_SHARES[1])
+    }
+
+    /// [`Path::remesh`] where the path could go on as it is: with less energy to lose.
+    pub(super) fn remesh_for_the_better(&mut self) -> bool {
+        let tried = self.remeshing.after;
+        if tried == self.counts.increments {
+            return false;
+        }
+        self.remeshing.after = self.counts.increments;
+        let done = self.remesh_within(TRANSFER_SHARES[0]);
+        if !done {
+            self.remeshing.after = tried;
+        }
+        done
+    }
+
+    /// Remeshes unless that takes more than a `share` of what may be counted on.
+    fn remesh_within(&mut self, share: f64) -> bool {
+        let plastic = self.model.state().ledger.plastic_work;
+        let largest = share * (plastic + TRANSFERABLE_WORK * self.account.largest_work());
         let tolerance = self.settings.tolerance;
         let (settings, mut spent) = (self.settings, 0);
-        let done = self.model.remesh(|model| {
+        let done = self.model.remesh(largest, |model| {
             model.set_tolerance(tolerance);
             let outcome = solve(model, &settings).map(|done| done.iterations);
             let (Ok(iterations) | Err((_, iterations))) = outcome;

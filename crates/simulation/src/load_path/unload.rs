@@ -6,7 +6,6 @@ use super::target::GOAL_TOLERANCE;
 use crate::record::rows::Phase;
 use crate::setup::problem::Goal;
 use crate::setup::schedule::{UNLOADING_EXPONENT, unloading};
-use asperity_solver::equilibrium::SolveFailure;
 use asperity_solver::equilibrium::tool_stiffness::ToolStiffness;
 use asperity_solver::remesh::distortion::LIMITS_BEFORE_UNLOADING;
 
@@ -37,7 +36,7 @@ impl Path<'_> {
         observer: &mut Observer<'_>,
     ) -> Result<(), Stop> {
         if self.model.is_distorted(LIMITS_BEFORE_UNLOADING) {
-            self.remesh();
+            self.remesh_for_the_better();
         }
         let (peak_force, peak) = (self.stand.contact.force, self.stand.travel);
         let compliance = 1.0 / stiffness.depth + self.sums().penetration / peak_force;
@@ -76,20 +75,12 @@ impl Path<'_> {
         if self.model.body().material.has_back_stress() {
             self.retreat_from_reverse_flow(0.03 * peak_force, steps, observer)?;
         }
-        if self.take_away().is_err() {
-            if !self.remesh() {
-                return Err(Stop::NoEquilibrium);
-            }
-            self.take_away().map_err(|_| Stop::NoEquilibrium)?;
-        }
-        let separation = self.model.trial_surface().first_touch() - self.touch;
+        let separation = match self.take_away() {
+            Err(_) if self.remesh() => self.take_away(),
+            found => found,
+        };
+        let separation = separation.map_err(|miss| self.stop(&miss))?;
         self.accept(separation, Phase::Unload, observer).map(|_| ())
-    }
-
-    /// Solves, but does not accept, the body without its tool.
-    fn take_away(&mut self) -> Result<(), SolveFailure> {
-        self.model.begin(f64::INFINITY, 0.0, |_| [0.0; 2]);
-        self.iterate()
     }
 
     /// Goes on unloading down to `force` where metal flows in reverse and gives way more than elastic metal

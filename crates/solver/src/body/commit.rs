@@ -5,11 +5,12 @@ use crate::body::assembly::Response;
 use crate::body::discrete_body::Body;
 use crate::body::failure::Failure;
 use crate::body::flow::Flows;
-use crate::body::state::{State, Trial};
+use crate::body::state::{Points, State, Trial};
 use crate::contact::self_contact::Facing;
 use crate::element::kernel::POINTS;
 use crate::point::bdf2::PlasticIncrement;
-use crate::point::material::volume_ratio;
+use crate::point::kinematic_hardening::plastic_increment;
+use crate::point::material::{plastic_work, volume_ratio};
 
 impl State {
     /// Accepts the converged `trial` with its `response`, whose points are taken over; it holds no valid
@@ -50,6 +51,26 @@ impl State {
         }
         let larger = (1.0 + remeasured / before) * penalty / self.penalty;
         0.5 * (before * (larger - 1.0) + after * (1.0 - 1.0 / larger))
+    }
+
+    /// Plastic work from this state to the points of a trial.
+    pub fn plastic_work_to(&self, body: &Body<'_>, points: &Points) -> f64 {
+        let Some(hardening) = &body.material.hardening else { return 0.0 };
+        let mut work = 0.0;
+        for (q, volume) in body.volume.iter().enumerate() {
+            let (old, new) = (&self.points.states[q], &points.states[q]);
+            if new.plastic_strain <= old.plastic_strain {
+                continue;
+            }
+            work += volume
+                * match (self.points.history.get(q), points.history.get(q)) {
+                    (Some(before), Some(after)) => {
+                        plastic_increment(&body.material, (old, before), (new, after)).1
+                    }
+                    _ => plastic_work(hardening, old, new),
+                };
+        }
+        work
     }
 
     /// Takes down the plastic increment of each point, its work, and the change of its volume ratio.

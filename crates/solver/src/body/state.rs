@@ -26,6 +26,15 @@ impl Points {
         Points { states: vec![material.virgin(); count], history: vec![History::default(); with_history] }
     }
 
+    /// Elastic energy that they store.
+    pub fn elastic_energy(&self, body: &Body<'_>) -> f64 {
+        if self.history.is_empty() {
+            return stored(&body.material, &self.states, &body.volume);
+        }
+        let of = |(history, v): (&History, &f64)| v * elastic_energy(&body.material.elastic, history);
+        self.history.iter().zip(&body.volume).map(of).sum()
+    }
+
     /// Those of one element.
     pub fn slice<'a>(&'a self, body: &'a Body<'_>, cell: usize) -> PointSlice<'a> {
         let range = Body::points_of(cell);
@@ -204,13 +213,6 @@ impl State {
 
     /// Stored elastic energy and plastic work.
     pub fn energies(&self, body: &Body<'_>) -> [f64; 2] {
-        let points = &self.points;
-        let elastic = if points.history.is_empty() {
-            stored(&body.material, &points.states, &body.volume)
-        } else {
-            let of = |(history, v): (&History, &f64)| v * elastic_energy(&body.material.elastic, history);
-            points.history.iter().zip(&body.volume).map(of).sum()
-        };
-        [elastic, self.ledger.plastic_work]
+        [self.points.elastic_energy(body), self.ledger.plastic_work]
     }
 }

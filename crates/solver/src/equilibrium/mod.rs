@@ -12,6 +12,7 @@ mod unloading;
 use crate::body::assembly::Response;
 use crate::body::discrete_body::Body;
 use crate::body::dofs::FIXED;
+use crate::body::energy::contact_sums;
 use crate::body::failure::Failure;
 use crate::body::state::{State, Trial};
 use crate::body::stiffness::Stiffness;
@@ -233,8 +234,13 @@ impl<'m> Equilibrium<'m> {
     }
 
     /// Remeshes the distorted body under its surface and finds the equilibrium there by `solve`, while the
-    /// tool stays. Whether it did: else all is as it was.
-    pub fn remesh(&mut self, solve: impl FnOnce(&mut Self) -> Result<(), SolveFailure>) -> bool {
+    /// tool stays. Whether it did: else all is as it was. It does not where all transfers so far would change
+    /// the energies by more than `largest`.
+    pub fn remesh(
+        &mut self,
+        largest: f64,
+        solve: impl FnOnce(&mut Self) -> Result<(), SolveFailure>,
+    ) -> bool {
         // back stresses are not carried over
         let carries = self.state.points.history.is_empty();
         let places =
@@ -247,20 +253,39 @@ impl<'m> Equilibrium<'m> {
             (self.state.plastic.clone(), self.state.volume_change.clone(), self.state.displacement.clone());
         self.discard_factors();
         self.begin(self.state.tip, 0.0, |_| [0.0; 2]);
-        if solve(self).is_err() || self.accept().is_err() {
+        let mut done = solve(self).is_ok() && self.accept().is_ok();
+        if done {
+            // the flow of the last increment of the load is what the next one extrapolates
+            (self.state.plastic, self.state.volume_change, self.state.displacement) = flow;
+            self.state.note_transfer(&self.body, &before.1, &before.0);
+            done = self.state.ledger.transferred.abs() <= largest;
+        }
+        if !done {
             (self.body, self.state) = before;
             self.discard_factors();
-            return false;
         }
-        // the flow of the last increment of the load is what the next one extrapolates
-        (self.state.plastic, self.state.volume_change, self.state.displacement) = flow;
-        self.state.note_transfer(&self.body, &before.1, &before.0);
-        true
+        done
     }
 
     /// Whether the mesh is more distorted than the `limits` allow.
     pub fn is_distorted(&self, limits: Limits) -> bool {
         is_distorted(&self.body, &self.state, limits)
+    }
+
+    /// Plastic work of the increment under way, from the converged state to the last assessed iterate.
+    pub fn plastic_work(&self) -> f64 {
+        self.state.plastic_work_to(&self.body, &self.response.points)
+    }
+
+    /// Elastic energy and energy of the contacts that the increment under way gives up; what grows counts as
+    /// 0. What the change of a contact's area or penalty adds is not there to be given up.
+    pub fn energy_released(&self) -> f64 {
+        let Equilibrium { body, state, response, .. } = self;
+        let elastic = state.points.elastic_energy(body) - response.points.elastic_energy(body);
+        let pressed: f64 = response.pressed.iter().map(|point| point.energy).sum();
+        let before = contact_sums(state.contact.iter(), body.symmetry).energy + state.ledger.self_contact;
+        let after = contact_sums(response.contact.iter(), body.symmetry).energy + pressed;
+        elastic.max(0.0) + (before - after).max(0.0)
     }
 
     /// Accepts the increment under way.
