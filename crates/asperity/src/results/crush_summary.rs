@@ -114,8 +114,8 @@ columns! {
         oliver_pharr: Table(OliverPharr::COLUMNS),
         /// Work returned on unloading over the work to the peak.
         elastic_fraction: Plain,
-        /// Largest |W - E_e - W_p - E_c + E_t|/W over increments with W above 1 % of its peak, E_t what
-        /// remeshing changed: large with coarse steps, not a measure of the error of the force.
+        /// Largest |W - E_e - W_p - E_c + E_t| over the largest W up to the row, from 1 % of its peak on, E_t
+        /// what remeshing changed: large with coarse steps, not a measure of the error of the force.
         energy_balance_error: Plain,
         /// `errors.force`; NaN (`null`) where it is not known.
         estimated_error: Plain,
