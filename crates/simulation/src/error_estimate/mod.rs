@@ -34,7 +34,9 @@
 //! after it are not extrapolated. Their bound is the difference itself, and what the stated errors of force
 //! and stiffness near the peak (in squares) would do to it, since two runs may agree by chance; to that of
 //! the stiffness, half the bound of the area there is added. The elastic fraction has them in squares, and
-//! with them the work over the depths that the energies of the body do not account for.
+//! with them the work over the depths that the energies of the body do not account for. What transfers to
+//! better meshes took and gave is added to both whole: the companion has transfers of its own, at other
+//! depths.
 
 mod bound;
 mod rescale;
@@ -141,6 +143,10 @@ impl Comparison {
         let share = |x: f64| x * (1.0 - x) * indirect;
         let residual = summary.residual_depth.map(|depth| (depth / summary.peak_depth).clamp(0.0, 1.0));
         let elastic = summary.elastic_fraction.map(|fraction| fraction.clamp(0.0, 1.0));
+        let transferred = transferred(&run.rows);
+        // F u/(m + 1) comes back over the recovered depth u: with energy that is gone u is shorter by its share
+        let recovered = (UNLOADING_EXPONENT + 1.0) * transferred * largest_work(&run.rows)
+            / (summary.peak_force * summary.peak_depth);
         Errors {
             force,
             contact_area: area,
@@ -149,10 +155,13 @@ impl Comparison {
             depth: None,
             residual_depth: difference(summary.residual_depth, companion.residual_depth)
                 .zip(residual)
-                .map(|(d, r)| (d / summary.peak_depth + share(r)).max(LEAST_STATED_ERROR)),
+                .map(|(d, r)| (d / summary.peak_depth + share(r) + recovered).max(LEAST_STATED_ERROR)),
             elastic_fraction: difference(summary.elastic_fraction, companion.elastic_fraction)
                 .zip(elastic)
-                .map(|(d, e)| d.hypot(share(e)).hypot(unaccounted(&run.rows)).max(LEAST_STATED_ERROR)),
+                .map(|(d, e)| {
+                    let left = d.hypot(share(e)).hypot(unaccounted(&run.rows));
+                    (left + transferred).max(LEAST_STATED_ERROR)
+                }),
             unloading_stiffness,
         }
     }
@@ -304,6 +313,13 @@ pub(super) fn extrapolate_and_bound(run: Outcome, companion: &Outcome, setting: 
     };
     let summary = note_peak(summary, &rows);
     Outcome { rows, asperities, cycles, summary, ..run }
+}
+
+/// Energy that transfers to better meshes took and gave up to the end of an unloaded run, each counted for
+/// itself, over the external work at the peak.
+fn transferred(rows: &[CurveRow]) -> f64 {
+    let each = rows.windows(2).map(|pair| (pair[1].transfer_energy - pair[0].transfer_energy).abs());
+    each.sum::<f64>() / largest_work(rows)
 }
 
 /// Work over the depths of an unloaded run that the energies of its body do not account for, over the
