@@ -3,16 +3,20 @@
 //! W. C. Oliver, G. M. Pharr, J. Mater. Res. 7 (1992) 1564 and 19 (2004) 3: from force F, depth h and
 //! stiffness S at the peak, with the area function A of the tool,
 //!   h_c = h - ε F/S,   H = F/A(h_c),   E_r = (√π/2) S/√A(h_c).
-//! ε is that of the tool's shape, 2(π - 2)/π for a cone and 3/4 for a paraboloid, with which all three are
-//! exact for an elastic body. Metal that piles up around the tool makes the true area larger than A(h_c):
-//! hence both are given.
+//! ε is that of the tool's outline up to h_c: with Sneddon's solution for a tool of revolution (Int. J. Engng
+//! Sci. 3 (1965) 47) all three are exact for an elastic body. It is 2(π - 2)/π for a cone and 3/4 for a
+//! paraboloid, and between the two for a cone that is in contact beyond its rounded tip. Metal that piles up
+//! around the tool makes the true area larger than A(h_c): hence both are given.
 
 use crate::record::rows::{OliverPharr, Summary};
 use crate::scene::AreaFunction;
 use crate::setup::problem::Problem;
 use asperity_solver::contact::tool::Tool;
 use asperity_solver::point::kinematics::Symmetry;
-use std::f64::consts::{FRAC_2_PI, PI};
+use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, PI};
+
+/// ε of a paraboloid.
+const PARABOLOID: f64 = 0.75;
 
 /// The peak of an indentation, any consistent units.
 struct Peak {
@@ -22,25 +26,56 @@ struct Peak {
     stiffness: f64,
 }
 
-/// ε of a tool that is in contact up to about `height` above its apex; `None` for a plane, which has no tip
-/// from which a contact depth could count.
+/// Places at which the slope of an outline is asked for.
+const PLACES: usize = 512;
+
+/// What an outline can have for ε: from a cusp to the flat end of a punch.
+const SENSIBLE: [f64; 2] = [0.5, 1.0];
+
+/// Tries until ε belongs to the contact depth that it leads to; a few are enough.
+const TRIES: usize = 40;
+
+/// ε of an outline of rise and slope `outline(r)` in contact up to the radius `a`.
 ///
-/// An outline that rises with r^n has ε = (1 + 1/n)(1 - Γ((n + 1)/2)/(√π Γ(n/2 + 1))) (Sneddon 1965), nearly
-/// linear in n between the cone's and the paraboloid's (within 0.001).
-fn geometry_factor(tool: &Tool, height: f64) -> Option<f64> {
-    let (cone, paraboloid) = (2.0 - 2.0 * FRAC_2_PI, 0.75);
-    match tool {
-        Tool::Plane => None,
-        Tool::Cone { .. } => Some(cone),
-        Tool::Sphere { .. } => Some(paraboloid),
-        Tool::Measured(outline) => {
-            let r = outline.widths(height)[1];
-            let [rise, slope] = outline.drop_and_slope(r);
-            let exponent = (r * slope / rise).clamp(1.0, 2.0);
-            Some(cone + (exponent - 1.0) * (paraboloid - cone))
-        }
-        Tool::Own(tool) => Some(cone + (tool.power(height) - 1.0) * (paraboloid - cone)),
+/// Sneddon's elastic contact has, with r = a sin t over a quarter turn and the slope f',
+///   h = a ∫ f' dt,   F = 2E* ∫ r² f' dt,   S = 2E* a,
+/// and ε = (h - f(a)) S/F. The midpoint rule leaves 1e-5 of it where the slope jumps.
+fn factor_of_outline(outline: impl Fn(f64) -> [f64; 2], a: f64) -> f64 {
+    let step = FRAC_PI_2 / PLACES as f64;
+    let (mut depth, mut force) = (0.0, 0.0);
+    for place in 0..PLACES {
+        let r = a * ((place as f64 + 0.5) * step).sin();
+        let [_, slope] = outline(r);
+        depth += a * slope * step;
+        force += r * r * slope * step;
     }
+    (a * (depth - outline(a)[0]) / force).clamp(SENSIBLE[0], SENSIBLE[1])
+}
+
+/// ε of a tool that is in contact up to `height` above its apex; `None` for a plane, which has no tip from
+/// which a contact depth could count.
+///
+/// A ball, and the rounded tip of a cone, is taken for the paraboloid, which joins the flank of the cone where
+/// the ball does.
+fn geometry_factor(tool: &Tool, height: f64) -> Option<f64> {
+    let cone = 2.0 - 2.0 * FRAC_2_PI;
+    let radius = tool.mirrored()?.half_width(height);
+    Some(match tool {
+        Tool::Plane => return None,
+        Tool::Sphere { .. } => PARABOLOID,
+        Tool::Cone { tip_radius, .. } if *tip_radius <= 0.0 => cone,
+        &Tool::Cone { tan_slope, tip_radius } => {
+            let join = tip_radius * tan_slope / tan_slope.hypot(1.0);
+            let rounded = |r: f64| {
+                let within = r.min(join);
+                [tan_slope * (r - within + 0.5 * within * within / join), tan_slope * within / join]
+            };
+            if radius <= join { PARABOLOID } else { factor_of_outline(rounded, radius) }
+        }
+        Tool::Measured(outline) => factor_of_outline(|r| outline.drop_and_slope(r), radius),
+        Tool::Own(tool) => factor_of_outline(|r| [tool.rise(r), tool.slope(r)], radius),
+    })
+    .filter(|factor| factor.is_finite())
 }
 
 /// The readings of an instrument, in the units of the peak.
@@ -55,8 +90,16 @@ struct Reading {
 /// Evaluates `peak` of a tool of revolution with the area function `area`. `None` for a plane, or if nothing
 /// is left of the depth or the area.
 fn read(tool: &Tool, area: impl Fn(f64) -> f64, peak: &Peak) -> Option<Reading> {
-    let epsilon = geometry_factor(tool, peak.depth)?;
-    let contact_depth = peak.depth - epsilon * peak.force / peak.stiffness;
+    let depth_of = |epsilon: f64| peak.depth - epsilon * peak.force / peak.stiffness;
+    let mut epsilon = geometry_factor(tool, peak.depth)?;
+    for _ in 0..TRIES {
+        let next = geometry_factor(tool, depth_of(epsilon)).unwrap_or(epsilon);
+        if next == epsilon {
+            break;
+        }
+        epsilon = next;
+    }
+    let contact_depth = depth_of(epsilon);
     if !(contact_depth > 0.0 && contact_depth.is_finite()) {
         return None;
     }
@@ -132,6 +175,46 @@ mod tests {
         let found = read(&Tool::Sphere { radius }, |z| PI * 2.0 * radius * z, &peak).unwrap();
         assert!((found.contact_area / (PI * radius * h) - 1.0).abs() < 1e-14);
         assert!((found.reduced_modulus / modulus - 1.0).abs() < 1e-14);
+    }
+
+    /// Sneddon's contact of a rounded cone: with r = a sin t, b the radius where the tip ends and s = a/b,
+    /// tan β = b = 1: h = s [s (1 - cos α) + π/2 - α] and F = 2E* {s³ (cos³α/3 - cos α + 2/3) + s² [(π/2 - α)/2
+    /// + sin 2α/4]}, sin α = 1/s. Before the tip ends it is a ball, far beyond it a cone.
+    #[test]
+    fn an_elastic_contact_on_a_rounded_tip_gives_its_own_area_and_modulus() {
+        let (modulus, tan_slope) = (1.7, 0.01_f64);
+        let join = 40.0 * tan_slope / tan_slope.hypot(1.0);
+        let tool = Tool::Cone { tan_slope, tip_radius: 40.0 };
+        for s in [1.0_f64, 1.1, 1.5, 3.0, 20.0] {
+            let alpha = s.recip().asin();
+            let (cos, rest) = (alpha.cos(), FRAC_PI_2 - alpha);
+            let h = s * (s * (1.0 - cos) + rest) * tan_slope * join;
+            let force = s.powi(3) * (cos.powi(3) / 3.0 - cos + 2.0 / 3.0)
+                + s * s * (0.5 * rest + 0.25 * (2.0 * alpha).sin());
+            let peak = Peak {
+                force: 2.0 * modulus * force * tan_slope * join * join,
+                depth: h,
+                stiffness: 2.0 * modulus * s * join,
+            };
+            let outline = |z: f64| PI * tool.mirrored().unwrap().half_width(z).powi(2);
+            let found = read(&tool, outline, &peak).unwrap();
+            // the tip is a circle, which differs from the parabola by tan²β/4
+            assert!((found.contact_area / (PI * (s * join).powi(2)) - 1.0).abs() < 2e-4, "{s}");
+            assert!((found.reduced_modulus / modulus - 1.0).abs() < 1e-4, "{s}");
+        }
+    }
+
+    #[test]
+    fn a_contact_on_the_tip_of_a_cone_is_read_as_that_of_the_ball() {
+        let (h, radius) = (0.1, 9.0_f64);
+        let peak =
+            Peak { force: 1.7 * h * (radius * h).sqrt(), depth: h, stiffness: 2.5 * (radius * h).sqrt() };
+        let read_as =
+            |tool: Tool| read(&tool, |z| PI * tool.mirrored().unwrap().half_width(z).powi(2), &peak).unwrap();
+        let ball = read_as(Tool::Sphere { radius });
+        let tip = read_as(Tool::Cone { tan_slope: 1.0, tip_radius: radius });
+        assert_eq!((ball.epsilon, ball.contact_area), (tip.epsilon, tip.contact_area));
+        assert_eq!(ball.reduced_modulus, tip.reduced_modulus);
     }
 
     #[test]
