@@ -215,7 +215,7 @@ fn simulate(
     }
     let stopped = match &failure {
         Some(_) => Some("its fields could not be written".to_string()),
-        None => reason(&outcome, tables.loading.depth.map(|depth| depth.0)),
+        None => reason(&outcome, tables),
     };
     let resolved = Tables { numerics: outcome.numbers.numerics(), ..tables.clone() };
     let crush = Crush {
@@ -234,17 +234,19 @@ fn simulate(
     Ok((crush, failure))
 }
 
-/// Why the run ended before its target, with the place where it did; `target` is a depth in m.
-fn reason(outcome: &Outcome, target: Option<f64>) -> Option<String> {
+/// Why the run of `scene` ended before its target, with the place where it did and the way out.
+fn reason(outcome: &Outcome, scene: &Tables) -> Option<String> {
     let stopped = outcome.stopped.as_ref()?;
     let verb = match stopped.phase {
         Phase::Load => "loading",
         Phase::Unload => "unloading",
         Phase::Reload => "reloading",
     };
-    let target = target.filter(|_| stopped.phase != Phase::Unload);
-    let target = target.map_or(String::new(), |depth| format!(" of {:.4} um", depth / MICROMETRE));
-    Some(format!("stopped {verb} at {:.4} um{target}: {}", stopped.depth / MICROMETRE, stopped.reason))
+    let target = scene.loading.depth.filter(|_| stopped.phase != Phase::Unload);
+    let target = target.map_or(String::new(), |depth| format!(" of {:.4} um", depth.0 / MICROMETRE));
+    let way_out = stopped.way_out(scene).map_or(String::new(), |way_out| format!("; {way_out}"));
+    let depth = stopped.depth / MICROMETRE;
+    Some(format!("stopped {verb} at {depth:.4} um{target}: {}{way_out}", stopped.reason))
 }
 
 fn begin_error(scene: &Scene, error: CrushError) -> Error {

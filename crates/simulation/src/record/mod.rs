@@ -11,4 +11,6 @@ pub mod oliver_pharr;
 
 pub(crate) mod outcome;
 
+mod way_out;
+
 pub(crate) mod recorder;

@@ -12,7 +12,7 @@ pub(super) fn error(path: impl Into<String>, message: impl Into<String>) -> Scen
 }
 
 /// A length as a person writes it: "20 um".
-pub(super) fn length(metres: f64) -> String {
+pub(crate) fn length(metres: f64) -> String {
     let unit = match metres.abs() {
         v if v == 0.0 || (1e-6..1e-3).contains(&v) => "um",
         v if v < 1e-6 => "nm",

@@ -14,7 +14,7 @@ mod line;
 mod loading;
 mod material;
 mod measured;
-mod messages;
+pub(crate) mod messages;
 mod tool;
 mod warnings;
 mod whole;
