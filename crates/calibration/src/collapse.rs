@@ -24,8 +24,11 @@ pub struct Sample {
     pub contact_ratio: f64,
 }
 
-/// The trial strains, in units of tan β: their range and number.
-const TRIALS: ([f64; 2], usize) = ([0.005, 1.2], 72);
+/// Range of the trial strains, in units of tan β.
+pub const SEARCHED: [f64; 2] = [0.005, 1.2];
+
+/// Their number.
+const TRIALS: usize = 72;
 
 /// Least ratio of the largest to the least scatter over the trial strains for which there is a minimum at
 /// all.
@@ -59,9 +62,8 @@ pub struct Measure {
 impl Collapse {
     /// Prepares the samples of the slope `tan_beta` for the reduced modulus `reduced_modulus` (E = 1).
     pub fn new(samples: &[Sample], tan_beta: f64, reduced_modulus: f64) -> Collapse {
-        let ([low, high], count) = TRIALS;
-        let trials: Vec<f64> =
-            (0..count).map(|i| low.ln() + (high / low).ln() * i as f64 / (count - 1) as f64).collect();
+        let ([low, high], last) = (SEARCHED, (TRIALS - 1) as f64);
+        let trials: Vec<f64> = (0..TRIALS).map(|i| low.ln() + (high / low).ln() * i as f64 / last).collect();
         let points = trials.iter().map(|t| {
             let raw: Vec<(f64, f64)> = samples
                 .iter()

@@ -4,7 +4,7 @@
 //!   on the metals and slopes that it is fitted to, by more than its arithmetic tells.
 
 use crate::collapse::{
-    Collapse, Measure, Sample, distinct, largest_correlation, least_scatter, scatter_left,
+    Collapse, Measure, SEARCHED, Sample, distinct, largest_correlation, least_scatter, scatter_left,
 };
 use crate::row::Row;
 use asperity_material::Elastic;
@@ -60,8 +60,8 @@ pub struct StrainCoefficient {
 pub struct ModelChoice {
     /// The part, in words.
     pub part: String,
-    /// Its c by least squares.
-    pub c: f64,
+    /// Its c by least squares; `None` where it determines none.
+    pub c: Option<f64>,
 }
 
 /// Samples of every slope, ascending.
@@ -156,7 +156,7 @@ pub fn angles(data: &Data) -> Vec<Angle> {
             let share = resampled.iter().flatten().count() as f64 / resampled.len() as f64;
             let strain = least_scatter(&curve).filter(|_| share >= DETERMINED_SHARE).map(|s| s * tan);
             // a resample without a minimum says only that the strain may be anything
-            let (first, last) = (curve[0].share.ln(), curve[curve.len() - 1].share.ln());
+            let [first, last] = SEARCHED.map(f64::ln);
             let undecided = resampled.len() - resampled.iter().flatten().count();
             let mut all: Vec<f64> = resampled.iter().flatten().copied().collect();
             all.extend((0..undecided).map(|i| if i % 2 == 0 { first } else { last }));
@@ -182,9 +182,14 @@ pub fn strain_coefficient(angles: &[Angle]) -> Option<StrainCoefficient> {
     let strains: Vec<[f64; 2]> = known.iter().filter_map(|a| Some([tan(a), a.strain?])).collect();
     let c = through_origin(&strains)?;
     let mean_ratio = strains.iter().map(|[tan, strain]| strain / tan).sum::<f64>() / strains.len() as f64;
+    // a slope without a minimum may have any strain, in turn the least and the largest that is searched: left
+    // out, it would take its doubt along, and the steepest slope has most of the weight
+    let mut side = 0;
     let resample = |b: usize| {
-        let drawn = known.iter().filter_map(|a| Some([tan(a), a.resampled[b]?.exp() * tan(a)]));
-        through_origin(&drawn.collect::<Vec<_>>())
+        let undecided = known.iter().any(|a| a.resampled[b].is_none());
+        side = if undecided { 1 - side } else { side };
+        let ratio = |a: &Angle| a.resampled[b].map_or(SEARCHED[side], f64::exp);
+        through_origin(&known.iter().map(|a| [tan(a), ratio(a) * tan(a)]).collect::<Vec<_>>())
     };
     let ci95 = quantiles(&mut (0..RESAMPLES).filter_map(resample).collect::<Vec<f64>>());
     Some(StrainCoefficient { c, mean_ratio, ci95, angles: known.len() })
@@ -198,8 +203,7 @@ fn through_origin(points: &[[f64; 2]]) -> Option<f64> {
 }
 
 /// c of parts of `data`: each half of the range of E/σ_y, each hardening exponent left out, each half of the
-/// slopes and each slope left out. Parts that determine no c are not listed. One law was swept; what another
-/// would give is in none of them.
+/// slopes and each slope left out. One law was swept; what another would give is in none of them.
 pub fn model_choices(data: &Data) -> Vec<ModelChoice> {
     let ratio = |s: &Sample| 1.0 / s.hardening.yield_stress;
     let all = || data.slopes.iter().flat_map(|(_, samples)| samples);
@@ -212,10 +216,9 @@ pub fn model_choices(data: &Data) -> Vec<ModelChoice> {
     for n in distinct(all().map(|s| s.hardening.exponent)) {
         parts.push((format!("without n = {n}"), data.filtered(|_, s| s.hardening.exponent != n)));
     }
-    let of_metals = parts.iter().filter_map(|(part, data)| {
-        let enough = obstacle(data).is_none();
-        let c = enough.then(|| through_origin(&least_scatters(data))).flatten()?;
-        Some(ModelChoice { part: part.clone(), c })
+    let of_metals = parts.into_iter().map(|(part, data)| {
+        let enough = obstacle(&data).is_none();
+        ModelChoice { part, c: enough.then(|| through_origin(&least_scatters(&data))).flatten() }
     });
     let strains = least_scatters(data);
     let half = strains.len().div_ceil(2);
@@ -233,15 +236,15 @@ pub fn model_choices(data: &Data) -> Vec<ModelChoice> {
             slopes.push((format!("without {}°", degrees(out)), others.collect()));
         }
     }
-    let of_slopes = slopes
-        .into_iter()
-        .filter_map(|(part, points)| Some(ModelChoice { part, c: through_origin(&points)? }));
+    let of_slopes = slopes.into_iter().map(|(part, points)| ModelChoice { part, c: through_origin(&points) });
     of_metals.chain(of_slopes).collect()
 }
 
-/// Least and largest c of the whole, `c`, and of the `choices`.
+/// Least and largest c of the whole, `c`, and of the `choices`: all that is searched where one of them
+/// determines none, as with two exponents, of which one is left out.
 pub fn model_interval(c: f64, choices: &[ModelChoice]) -> [f64; 2] {
-    choices.iter().fold([c, c], |[low, high], choice| [low.min(choice.c), high.max(choice.c)])
+    let ends = |choice: &ModelChoice| choice.c.map_or(SEARCHED, |c| [c; 2]);
+    choices.iter().map(ends).fold([c, c], |[low, high], [least, most]| [low.min(least), high.max(most)])
 }
 
 /// tan β and ε_r of least scatter of every slope that has one.
@@ -374,12 +377,48 @@ mod tests {
         let choices = model_choices(&Data::new(&synthetic(0.1, 0.0)));
         // two halves of the metals, four exponents, two halves of the slopes, ten slopes
         assert_eq!(choices.len(), 18);
-        assert!(choices.iter().all(|choice| (choice.c / 0.1 - 1.0).abs() < 0.01), "{choices:?}");
+        let near = |choice: &ModelChoice| (choice.c.unwrap() / 0.1 - 1.0).abs() < 0.01;
+        assert!(choices.iter().all(near), "{choices:?}");
         let parts: Vec<&str> = choices.iter().map(|choice| choice.part.as_str()).collect();
         assert!(parts.contains(&"E/σ_y up to 324") && parts.contains(&"without n = 0.5"), "{parts:?}");
         assert!(parts.contains(&"slopes up to 5°") && parts.contains(&"slopes from 5°"), "{parts:?}");
         let [low, high] = model_interval(0.1, &choices);
         assert!(low <= 0.1 && 0.1 <= high);
+    }
+
+    /// Of two exponents one is left out, and c may be anything.
+    #[test]
+    fn a_part_that_determines_nothing_opens_the_interval_of_the_model() {
+        let two = |s: &Sample| s.hardening.exponent < 0.25;
+        let choices = model_choices(&Data::new(&synthetic(0.1, 0.0)).filtered(|_, s| two(s)));
+        let open: Vec<&str> = choices.iter().filter(|c| c.c.is_none()).map(|c| c.part.as_str()).collect();
+        assert_eq!(open, ["without n = 0.1", "without n = 0.2"]);
+        assert_eq!(model_interval(0.1, &choices), SEARCHED);
+    }
+
+    /// The steeper of two slopes has four fifths of the weight, and no minimum in 6 % of the resamples: in 3 %
+    /// c may be as large as a strain of 1.2 tan β there makes it, which a 95 % interval holds.
+    #[test]
+    fn a_steep_slope_that_is_not_always_determined_widens_the_interval() {
+        let angle = |beta_deg: f64, undecided: usize| Angle {
+            beta_deg,
+            strain: Some(0.1 * beta_deg.to_radians().tan()),
+            correlation_strain: None,
+            interval: [0.0; 2],
+            scatter: 0.0,
+            curve: Vec::new(),
+            cases: 48,
+            resampled: (0..RESAMPLES).map(|b| (b >= undecided).then(|| 0.1_f64.ln())).collect(),
+        };
+        let interval = |undecided| strain_coefficient(&[angle(5.0, 0), angle(10.0, undecided)]).unwrap().ci95;
+        let near = |a: f64, b: f64| (a / b - 1.0).abs() < 1e-12;
+        let [low, high] = interval(0);
+        assert!(near(low, 0.1) && near(high, 0.1));
+        let square = |beta: f64| beta.to_radians().tan().powi(2);
+        let steep = square(10.0) / (square(5.0) + square(10.0));
+        let [low, high] = interval(RESAMPLES * 6 / 100);
+        let [least, most] = SEARCHED.map(|share| 0.1 + steep * (share - 0.1));
+        assert!(near(low, least) && near(high, most), "{low} {least} {high} {most}");
     }
 
     #[test]

@@ -34,7 +34,7 @@ row! {
         coefficient_mean_ratio: Option<f64> = all.map(|a| a.mean_ratio),
         /// 95 % bootstrap interval of c: cases drawn again with replacement, K shifted by its error, the same choice of cases and law.
         ci95: Option<[f64; 2]> = all.map(|a| a.ci95),
-        /// Interval of the model: least and largest c that other choices of metals and slopes give.
+        /// Interval of the model: least and largest c that other choices of metals and slopes give; the ends of what is searched, 0.005 and 1.2, where one of them determines no c.
         model_interval: Option<[f64; 2]> = all.map(|a| model_interval(a.c, choices)),
         /// Those choices and their c. No other law is among them: a sweep has one.
         model_choices: Vec<PartFit> = if all.is_some() { choices.iter().map(PartFit::new).collect() } else { Vec::new() },
@@ -64,8 +64,8 @@ row! {
     PartFit(choice: &ModelChoice) {
         /// Which part.
         part: String = choice.part.clone(),
-        /// Its c by least squares.
-        coefficient: f64 = choice.c,
+        /// Its c by least squares; none where it determines none.
+        coefficient: Option<f64> = choice.c,
     }
 }
 
