@@ -42,7 +42,7 @@ impl Area {
     ) -> Area {
         let rim = Rim::new(map, pressures);
         let (edges, n) = (rim.edges(), pixels as f64);
-        let correction = RIM * edges as f64;
+        let correction = RIM * edges as f64 * Rim::hidden(map, pressures);
         let ratio = touching as f64 / n;
         // the rule of the rim is for pressures that fall to nothing there; at the limit they end as they are
         let corrected = (ratio - correction / n).max(least).min(ratio);
@@ -85,4 +85,32 @@ pub fn patches(map: &HeightMap, pressures: &[f32]) -> usize {
         }
     }
     count
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A round contact of which three tenths of the points were not measured: the rim of the holes is no rim
+    /// of the contact, whose corrected share of what was measured is that of the whole map. A tenth of the
+    /// correction is left to chance: 37 of 75 edges are seen.
+    #[test]
+    fn holes_have_no_rim() {
+        let n = 96_usize;
+        let inside = |i: usize| (i % n) as f64 - 47.3;
+        let touches = |i: usize| inside(i).hypot((i / n) as f64 - 48.1) < 30.0;
+        let area = |holes: bool| {
+            let missing = |i: usize| holes && (i.wrapping_mul(2_654_435_761) >> 7) % 10 < 3;
+            let heights = (0..n * n).map(|i| if missing(i) { f64::NAN } else { 1e-6 }).collect();
+            let map = HeightMap::new(n, n, [1e-6; 2], heights).unwrap();
+            let pressed = |i: usize| touches(i) && !missing(i);
+            let pressures: Vec<f32> = (0..n * n).map(|i| f32::from(u8::from(pressed(i)))).collect();
+            let touching = (0..n * n).filter(|i| pressed(*i)).count();
+            Area::from_pixels(&map, &pressures, [touching, n * n - map.missing()], 0.0)
+        };
+        let [whole, holed] = [false, true].map(area);
+        let correction = |area: &Area| 1.0 - area.corrected / area.ratio;
+        assert!((correction(&holed) / correction(&whole) - 1.0).abs() < 0.1, "{holed:?} {whole:?}");
+        assert!((PI * 900.0 / (n * n) as f64 / whole.ratio - 1.0).abs() < 0.01);
+    }
 }

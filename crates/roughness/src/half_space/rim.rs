@@ -70,14 +70,17 @@ pub(super) struct Rim {
 }
 
 impl Rim {
-    /// That of the pixels under pressure.
+    /// That of the pixels under pressure. Beside a point without a height there is none: contact ends there
+    /// because the map does.
     pub fn new(map: &HeightMap, pressures: &[f32]) -> Rim {
         let nodes @ [nx, ny] = [map.columns(), map.rows()];
-        let loaded = |x: usize, y: usize| i8::from(pressures[y * nx + x] > 0.0);
+        let loaded = |i: usize| i8::from(pressures[i] > 0.0);
         let step = |axis: usize, [x, y]: [usize; 2]| {
             let next = [x + 1 - axis, y + axis];
             let inside = next[axis] < nodes[axis];
-            if inside || map.periodic() { loaded(next[0] % nx, next[1] % ny) - loaded(x, y) } else { 0 }
+            let [own, other] = [y * nx + x, next[1] % ny * nx + next[0] % nx];
+            let known = || [own, other].iter().all(|i| !map.heights()[*i].is_nan());
+            if (inside || map.periodic()) && known() { loaded(other) - loaded(own) } else { 0 }
         };
         let steps = [0, 1].map(|axis| {
             let rows = chunks(ny, |rows| {
@@ -91,6 +94,25 @@ impl Rim {
     /// Number of edges.
     pub fn edges(&self) -> usize {
         self.steps.iter().flatten().filter(|step| **step != 0).count()
+    }
+
+    /// Sides of the pixels of contact over those whose other side has a height: what the number of edges is
+    /// to be multiplied by, as a side towards a missing point is one of the rim as often as others are.
+    pub fn hidden(map: &HeightMap, pressures: &[f32]) -> f64 {
+        let [nx, ny] = [map.columns(), map.rows()];
+        let (mut known, mut all) = (0_usize, 0_usize);
+        for i in (0..pressures.len()).filter(|i| map.missing() > 0 && pressures[*i] > 0.0) {
+            let (x, y) = (i % nx, i / nx);
+            let beside = [(x + 1, y), (x + nx - 1, y), (x, y + 1), (x, y + ny - 1)];
+            let inside = [x + 1 < nx, x > 0, y + 1 < ny, y > 0];
+            for ((x, y), inside) in beside.into_iter().zip(inside) {
+                if inside || map.periodic() {
+                    all += 1;
+                    known += usize::from(!map.heights()[y % ny * nx + x % nx].is_nan());
+                }
+            }
+        }
+        if known > 0 { all as f64 / known as f64 } else { 1.0 }
     }
 
     /// How far the area inside the rim may be off because its pixels err together.
