@@ -1,8 +1,9 @@
 #![doc = include_str!("../README.md")]
 //!
 //! In order: quantities with units ([`units`]) and units of columns ([`dimension`]), memory that a file may
-//! take ([`memory`]), tables of numbers ([`text`]), curves of indentation instruments ([`indentation`]), maps
-//! of surfaces ([`surface`]), and the file in which many runs keep what they have finished ([`journal`]).
+//! take ([`memory`]), tables of numbers ([`text`], of workbooks too), curves of indentation instruments
+//! ([`indentation`]), maps of surfaces ([`surface`]), and the file in which many runs keep what they have
+//! finished ([`journal`]).
 
 pub mod units;
 
@@ -11,6 +12,8 @@ pub mod dimension;
 pub mod memory;
 
 pub mod text;
+
+mod workbook;
 
 pub mod indentation;
 

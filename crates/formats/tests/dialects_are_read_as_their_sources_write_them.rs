@@ -103,7 +103,51 @@ fn curves() -> Vec<Dialect> {
     ] {
         all.push(dialect(feature, source, "curve.txt", text));
     }
+    all.extend([
+        dialect(
+            "tables of approach and drift before that of the test",
+            "Hysitron TriboScan .hld, as micromechanics reads it",
+            "curve.hld",
+            "File Version: Hysitron 9.0\r\nMachine Comp: 0.9 nm/uN\r\nTip C0: 24.5 nm^2/nm^2\r\nSample Approach Data Points: 2 \r\nTime_s\tMotorDisp_mm\tPiezo Extension_nm\r\n0\t1.5\t20\r\n1\t1.6\t30\r\nDrift Data Points: 2 \r\nTime_s\tDisp_nm\r\n0\t0.1\r\n1\t0.2\r\nTest Data Points: 2 \r\nTime_s\tDisp_nm\tForce_uN\tLoadCell_nm\tPiezoDisp_nm\tDisp_V\tForce_V\tPiezo_LowV\r\n0\t100\t2000\t0\t0\t1\t1\t1\r\n1\t200\t8000\t0\t0\t1\t1\t1\r\n",
+        ),
+        Dialect {
+            feature: "a workbook with the test on its second sheet, units in a row of their own",
+            source: "KLA/MTS NanoIndenter .xlsx, written by openpyxl 3.1.5",
+            name: "curve.xlsx",
+            bytes: include_bytes!("files/openpyxl-curve.xlsx").into(),
+        },
+        Dialect {
+            feature: "the same of Excel 97",
+            source: "MTS NanoIndenter XP .xls, written by xlwt 1.3.0",
+            name: "curve.xls",
+            bytes: include_bytes!("files/xlwt-curve.xls").into(),
+        },
+    ]);
     all
+}
+
+/// Each holds the same heights as [`maps`], point by point.
+fn points() -> Vec<Dialect> {
+    vec![
+        dialect(
+            "units in the names, decimal commas",
+            "GOM, PolyWorks and German spreadsheets",
+            "points.txt",
+            "X [mm];Y [mm];Z [µm]\n0;0;0,001\n0,001;0;0,002\n0,002;0;0,003\n0;0,001;0,004\n0,001;0,001;\n0,002;0,001;0,006\n",
+        ),
+        dialect(
+            "No Data in the place of a height",
+            "Zygo Mx and MetroPro, .xyz",
+            "points.xyz",
+            "x_um y_um z_nm\n0 0 1\n1 0 2\n2 0 3\n0 1 4\n1 1 No Data\n2 1 6\n",
+        ),
+        dialect(
+            "a missing point left out, in any order",
+            "Sensofar .dat, Alicona point clouds",
+            "points.csv",
+            "x_um,y_um,z_nm\n2,1,6\n0,1,4\n2,0,3\n1,0,2\n0,0,1\n",
+        ),
+    ]
 }
 
 /// Each holds the heights 1, 2, 3; 4, missing, 6.
@@ -180,12 +224,10 @@ fn map_is_right(one: &Dialect) -> bool {
     let Measured { heights, spacing, height_unit, .. } =
         read(&path, &Request::default()).unwrap_or_else(|e| panic!("{}: {e}", one.feature));
     let want = [1.0, 2.0, 3.0, 4.0, f64::NAN, 6.0];
-    let same = |(a, b): (&f64, f64)| *a == b || a.is_nan() && b.is_nan();
+    let unit = height_unit.unwrap() / 1e-9;
+    let same = |(a, b): (&f64, f64)| (a * unit - b).abs() < 1e-9 || a.is_nan() && b.is_nan();
     let Spacing::Metres([x, _]) = spacing else { return false };
-    heights.len() == 6
-        && heights.iter().zip(want).all(same)
-        && (x / 1e-6 - 1.0).abs() < 1e-9
-        && (height_unit.unwrap() / 1e-9 - 1.0).abs() < 1e-9
+    heights.len() == 6 && heights.iter().zip(want).all(same) && (x / 1e-6 - 1.0).abs() < 1e-9
 }
 
 #[test]
@@ -199,9 +241,11 @@ fn every_dialect_gives_its_numbers() {
         assert!(curve_is_right(&one), "{}", one.feature);
         row("curve", &one);
     }
-    for one in maps() {
-        assert!(map_is_right(&one), "{}", one.feature);
-        row("map", &one);
+    for (kind, all) in [("map", maps()), ("points", points())] {
+        for one in all {
+            assert!(map_is_right(&one), "{}", one.feature);
+            row(kind, &one);
+        }
     }
     let results = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../verification/results");
     if !results.is_dir() {

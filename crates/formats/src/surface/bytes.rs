@@ -26,6 +26,13 @@ impl<'a> Bytes<'a> {
         Ok(out[0])
     }
 
+    /// The big-endian number at `offset`.
+    pub fn big_number(&self, kind: Number, offset: usize) -> Result<f64, ReadError> {
+        let mut out = [0.0];
+        kind.decode(self.slice("header", offset, kind.size())?, true, &mut out);
+        Ok(out[0])
+    }
+
     /// Text of a fixed field, without padding.
     pub fn text(&self, offset: usize, length: usize) -> Result<String, ReadError> {
         let raw = self.slice("header", offset, length)?;

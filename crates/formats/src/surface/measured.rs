@@ -13,7 +13,7 @@ pub enum ReadError {
     Io(#[from] std::io::Error),
     /// No reader knows it.
     #[error(
-        "{found}; a surface is a .sur, .x3p, .sdf, .al3d, .gwy, .gsf or .npy file, or text (.csv, .txt, .xyz)"
+        "{found}; a surface is a .sur, .x3p, .sdf, .al3d, .plu, .plux, .opd, .opdx, .spm, .vk4, .vk6, .zon, .dat, .datx, .gwy, .gsf, .tif or .npy file, a workbook (.xlsx, .xls), or text (.csv, .txt, .xyz)"
     )]
     Unknown {
         /// Its probable kind.
@@ -48,9 +48,14 @@ pub enum ReadError {
     /// A text file has something else than rows of heights.
     #[error(transparent)]
     Text(#[from] TextError),
-    /// The zip container or its XML is damaged.
-    #[error("the x3p file is damaged: {0}")]
-    Container(String),
+    /// The container in which the heights lie, or its XML, is damaged.
+    #[error("the {format} file is damaged: {what}")]
+    Container {
+        /// Format.
+        format: &'static str,
+        /// The damage.
+        what: String,
+    },
     /// More memory than may be taken.
     #[error(
         "the {format} file holds {points} points, which take {needed:.2} GB, more than memory_limit, {limit:.2} GB (half of what is free unless told): raise it, or thin the map out"
@@ -88,6 +93,11 @@ impl Format {
     /// A file that is shorter than its header says.
     pub fn truncated(self, what: &'static str, promised: u64, found: u64) -> ReadError {
         ReadError::Truncated { format: self.0, what, promised, found }
+    }
+
+    /// A container that cannot be read.
+    pub fn damaged(self, what: impl ToString) -> ReadError {
+        ReadError::Container { format: self.0, what: what.to_string() }
     }
 
     /// The number of nodes of a map, checked against what can be handled.

@@ -5,15 +5,24 @@ mod bytes;
 mod measured;
 
 mod al3d;
+mod archive;
+mod datx;
 mod described;
 mod foreign;
 mod gsf;
 mod gwy;
+mod keyence;
+mod metropro;
+mod nanoscope;
 mod npy;
+mod opd;
+mod opdx;
 mod points;
 mod sdf;
+mod sensofar;
 mod sur;
 mod text;
+mod tif;
 mod vti;
 mod x3p;
 
@@ -45,9 +54,12 @@ pub fn read(path: &Path, request: &Request<'_>) -> Result<Measured, ReadError> {
     let extension = path.extension().and_then(|e| e.to_str()).unwrap_or("").to_ascii_lowercase();
     match extension.as_str() {
         _ if start.is_empty() => Err(ReadError::Unknown { found: "the file is empty".into() }),
-        "npy" | "x3p" | "sdf" | "sur" | "al3d" => Err(ReadError::Unknown {
-            found: format!("the name says .{extension}, but the file does not begin like one"),
-        }),
+        "plu" | "apx" => sensofar::read_plu(path, request),
+        "npy" | "x3p" | "sdf" | "sur" | "al3d" | "opd" | "opdx" | "vk4" | "vk6" | "datx" | "plux" => {
+            Err(ReadError::Unknown {
+                found: format!("the name says .{extension}, but the file does not begin like one"),
+            })
+        }
         "csv" | "txt" | "asc" | "dat" | "xyz" | "" => text::read(path, request),
         other => text::read(path, request).map_err(|error| match error {
             ReadError::Text(error) => ReadError::Unknown {
@@ -60,19 +72,50 @@ pub fn read(path: &Path, request: &Request<'_>) -> Result<Measured, ReadError> {
 
 /// The reader of a file that begins so.
 fn reader(start: &[u8]) -> Option<Reader> {
-    let known: [(&[u8], Reader); 7] = [
+    let known: [(&[u8], Reader); 17] = [
         (b"\x93NUMPY", npy::read),
-        (b"PK\x03\x04", x3p::read),
+        (b"PK\x03\x04", read_archive),
+        (b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1", text::read),
         (b"DIGITAL SURF", sur::read),
         (b"DSCOMPRESSED", sur::read),
         (b"AliconaImaging", al3d::read),
         (gsf::MAGIC, gsf::read),
         (b"GWYP", gwy::read),
+        (opd::MAGIC, opd::read),
+        (opdx::MAGIC, opdx::read),
+        (nanoscope::MAGIC, nanoscope::read),
+        (b"VK3_", keyence::read_vk4),
+        (b"VK4_", keyence::read_vk4),
+        (b"VK6", keyence::read_vk6),
+        (b"VK7", keyence::read_vk6),
+        (b"KPK0", keyence::read_zon),
+        (datx::MAGIC, datx::read),
     ];
+    let several = [(&tif::MAGICS[..], tif::read as Reader), (&metropro::MAGICS, metropro::read)];
+    if let Some((_, reader)) = several.iter().find(|(magics, _)| magics.iter().any(|m| start.starts_with(m)))
+    {
+        return Some(*reader);
+    }
     let is_sdf = start.first().is_some_and(|kind| b"ab ".contains(kind))
         && sdf::VERSIONS.iter().any(|version| start[1..].starts_with(version.as_bytes()));
     let found = known.iter().find(|(magic, _)| start.starts_with(magic)).map(|(_, reader)| *reader);
     found.or(is_sdf.then_some(sdf::read as Reader))
+}
+
+/// Reads the surface of an archive, whichever program wrote it.
+fn read_archive(path: &Path, request: &Request<'_>) -> Result<Measured, ReadError> {
+    let names = archive::Archive::open(measured::Format("x3p"), path)?.names();
+    let has = |test: &dyn Fn(&str) -> bool| names.iter().any(|name| test(name));
+    if has(&|name| name.rsplit('/').next().is_some_and(|last| last.eq_ignore_ascii_case("main.xml"))) {
+        return x3p::read(path, request);
+    }
+    if has(&|name| name == "index.xml") {
+        return sensofar::read_plux(path, request);
+    }
+    if has(&|name| name.starts_with("xl/")) {
+        return text::read(path, request);
+    }
+    Err(foreign::archive(&names))
 }
 
 #[cfg(test)]

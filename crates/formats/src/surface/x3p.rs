@@ -1,5 +1,6 @@
 //! x3p of ISO 25178-72: a zip with main.xml and binary heights; all lengths in metres.
 
+use super::archive::plain;
 use super::bytes::Number;
 use super::measured::{Format, Measured, ReadError, Request};
 use crate::memory::MOST_UNPACKED;
@@ -26,7 +27,7 @@ const LONGEST_REST: u64 = 1 << 16;
 const LONGEST_TAG: usize = 1 << 16;
 
 fn damaged(what: impl ToString) -> ReadError {
-    ReadError::Container(what.to_string())
+    FORMAT.damaged(what)
 }
 
 /// The members of the archive of one surface.
@@ -35,12 +36,6 @@ struct Archive<'r> {
     /// Folder of main.xml, with its last slash.
     folder: String,
     request: &'r Request<'r>,
-}
-
-/// A path in an archive without what programs put before it.
-fn plain(name: &str) -> String {
-    let name = name.replace('\\', "/");
-    name.split('/').filter(|part| !part.is_empty() && *part != ".").collect::<Vec<_>>().join("/")
 }
 
 impl<'r> Archive<'r> {
@@ -54,7 +49,7 @@ impl<'r> Archive<'r> {
                 && !name.split('/').any(|part| part == "__MACOSX")
         };
         let main = names.iter().filter(is_main).min_by_key(|name| name.matches('/').count());
-        let Some(main) = main else { return Err(foreign(&names)) };
+        let main = main.ok_or_else(|| damaged("it holds no main.xml"))?;
         let folder = main.rfind('/').map_or("", |end| &main[..=end]).to_string();
         Ok(Archive { zip, folder, request })
     }
@@ -116,33 +111,6 @@ impl<'r> Archive<'r> {
         (sum.len() == 32 && !md5_of(xml).eq_ignore_ascii_case(sum))
             .then(|| "main.xml was changed after its sum (MD5) was taken".into())
     }
-}
-
-/// The kind of an archive that is no x3p, by the names in it.
-fn foreign(names: &[String]) -> ReadError {
-    let has = |test: &dyn Fn(&str) -> bool| names.iter().any(|name| test(&name.to_ascii_lowercase()));
-    let (found, export) = if has(&|n| n.starts_with("xl/")) {
-        ("an Excel workbook (.xlsx)", "save the sheet as CSV")
-    } else if has(&|n| n.starts_with("word/")) {
-        ("a Word document", "save the table as plain text")
-    } else if has(&|n| n == "content.xml") {
-        ("an OpenDocument file", "save the sheet as CSV")
-    } else if has(&|n| n.starts_with("layer_") || n == "index.xml") {
-        (
-            "a Sensofar measurement (.plux)",
-            "export it as .sur, .x3p or .dat of points in SensoSCAN or SensoMAP",
-        )
-    } else if has(&|n| n.ends_with(".npy")) {
-        (
-            "a NumPy archive of several arrays (.npz)",
-            "save the heights alone by np.save(\"map.npy\", heights)",
-        )
-    } else {
-        let shown: Vec<&str> = names.iter().take(3).map(String::as_str).collect();
-        let found = format!("a zip archive without main.xml (it holds {})", shown.join(", "));
-        return ReadError::Foreign { found, export: "give the file of the surface itself" };
-    };
-    ReadError::Foreign { found: found.into(), export }
 }
 
 fn child<'a>(node: Node<'a, 'a>, name: &str) -> Option<Node<'a, 'a>> {

@@ -1,6 +1,7 @@
 //! Text of files, whichever way their characters were written.
 
 use super::TextError;
+use crate::workbook;
 use std::borrow::Cow;
 
 /// Bytes that are looked at to tell UTF-16 without a mark, and text from other data.
@@ -13,12 +14,18 @@ const WINDOWS_1252: [char; 32] = [
 ];
 
 /// The text of `bytes` and the name of its encoding: by the byte order mark, UTF-16 without one by its zeros,
-/// UTF-8 where it is that, else Windows-1252. Lines end in `\n` or `\r\n`.
+/// UTF-8 where it is that, else Windows-1252; of an Excel workbook the sheet with a table. Lines end in `\n`
+/// or `\r\n`.
 ///
 /// # Errors
 /// Bytes that are no text.
-pub fn decode(bytes: &[u8]) -> Result<(Cow<'_, str>, &'static str), TextError> {
+pub fn decode(bytes: &[u8]) -> Result<(Cow<'_, str>, Cow<'static, str>), TextError> {
+    if bytes.starts_with(workbook::ARCHIVE) || bytes.starts_with(workbook::COMPOUND) {
+        let (text, name) = workbook::text(bytes)?;
+        return Ok((text.into(), name.into()));
+    }
     let (text, name) = decode_characters(bytes)?;
+    let name = Cow::Borrowed(name);
     // old programs for the Mac end lines by a carriage return, those for DOS a file by Ctrl-Z
     if text.contains('\r') && !text.contains('\n') {
         return Ok((text.replace('\r', "\n").into(), name));

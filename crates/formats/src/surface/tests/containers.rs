@@ -63,7 +63,7 @@ fn an_x3p_is_read_from_whichever_folder_was_packed() {
 fn archives_of_other_programs_are_named() {
     for (names, word) in [
         (&["[Content_Types].xml", "xl/workbook.xml"][..], "Excel"),
-        (&["index.xml", "LAYER_0.raw"], "Sensofar"),
+        (&["index.xml", "LAYER_0.raw"], "plux"),
         (&["arr_0.npy"], "np.save"),
         (&["content.xml", "mimetype"], "OpenDocument"),
         (&["holiday.jpg"], "holiday.jpg"),
@@ -73,17 +73,16 @@ fn archives_of_other_programs_are_named() {
         assert!(refused.contains(word) && !refused.contains("damaged"), "{refused}");
     }
     for (start, word) in [
-        (&b"II*\0rest"[..], "TIFF"),
-        (b"\x89HDF\r\n\x1a\nrest", "HDF5"),
-        (b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1rest", "Office"),
-        (b"VK4_rest", "Keyence"),
-        (b"\\*File list\r\n", "NanoScope"),
-        (b"\x01\x00Directory", "Wyko"),
-        (b"\x88\x1b\x03\x6f", "MetroPro"),
+        (&b"\x89PNGrest"[..], "PNG"),
+        (b"CDF\x01rest", "NetCDF"),
+        (b"KPK1rest", "Keyence"),
+        (b"\\*Force file list\r\n", "force curve"),
     ] {
         let refused = found("a.dat", start).unwrap_err();
         assert!(refused.contains(word) && refused.contains("not read"), "{refused}");
     }
+    let office = found("a.doc", b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1rest").unwrap_err();
+    assert!(office.contains("Excel") && office.contains("CSV"), "{office}");
 }
 
 /// Files that gwyfile 0.3.0 and gsffile 0.5.5 (PyPI) wrote: 3 x 2 points of 0.5 x 0.25 um, the last but one

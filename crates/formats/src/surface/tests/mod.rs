@@ -1,7 +1,6 @@
 //! Claims about the readers and writers of surfaces.
 
 use super::*;
-use proptest::prelude::*;
 use std::path::PathBuf;
 
 /// A file that nothing else is known of.
@@ -303,4 +302,5 @@ fn an_x3p_that_lies_is_refused_and_not_unpacked() {
 
 mod containers;
 mod fuzz;
+mod instruments;
 mod words;
