@@ -396,8 +396,8 @@ mod tests {
         assert_eq!(model_interval(0.1, &choices), SEARCHED);
     }
 
-    /// The steeper of two slopes has four fifths of the weight, and no minimum in 6 % of the resamples: in 3 %
-    /// c may be as large as a strain of 1.2 tan β there makes it, which a 95 % interval holds.
+    /// The steeper of two slopes has four fifths of the weight, and no minimum in 6 % of the resamples: in 3
+    /// % c may be as large as a strain of 1.2 tan β there makes it, which a 95 % interval holds.
     #[test]
     fn a_steep_slope_that_is_not_always_determined_widens_the_interval() {
         let angle = |beta_deg: f64, undecided: usize| Angle {

@@ -143,7 +143,7 @@ impl Results {
     ) -> Option<Measured> {
         let Spread { mean, deviation } = self.rough(part, closure, quantity)?;
         let others: Vec<ClosureSeeds> = self.json(part, "other_kinds.json")?;
-        let others = others.iter().filter(|other| other.closure == closure).map(|other| quantity(other));
+        let others = others.iter().filter(|other| other.closure == closure).map(quantity);
         let far = others.flat_map(|seeds| &seeds.0).map(|v| (v - mean).abs()).fold(f64::NAN, f64::max);
         Some(Measured { value: mean, error: (2.0 * deviation).hypot(far) })
     }

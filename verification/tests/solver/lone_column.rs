@@ -2,9 +2,9 @@
 //! column, and a row, of two elements or more has the rigid motions and no other motion without energy.
 //!
 //! Source: the mode is u = α ξ (1 - 3η²), v = β η (3ξ² - 1) with α/h_y = β/h_x for the half widths h: all
-//! strains vanish at ξ², η² = 1/3. On the side η = 1 of one element and η = -1 of the next it gives u = -2α ξ in
-//! both, but v = β (3ξ² - 1) and -β (3ξ² - 1): so α is the same in both and β its own opposite, both are 0. The
-//! eigenvalues below 1e-9 of E are counted by the negative pivots of K - 1e-9 (Sylvester).
+//! strains vanish at ξ², η² = 1/3. On the side η = 1 of one element and η = -1 of the next it gives u = -2α ξ
+//! in both, but v = β (3ξ² - 1) and -β (3ξ² - 1): so α is the same in both and β its own opposite, both are
+//! 0. The eigenvalues below 1e-9 of E are counted by the negative pivots of K - 1e-9 (Sylvester).
 
 use asperity_mesh::ElementKind;
 use asperity_numerics::newton::System;

@@ -1,10 +1,10 @@
 //! Claim: the plastic work of a step, the integral of σ_y dε_p with dε_p the length of its flow, balances the
 //! work that is done on metal whose direction of flow turns, up to the second order of the step.
 //!
-//! Source: along an arc on which the flow turns by φ the length of its chord is short by φ²/24, and the mean of
-//! the stresses at both ends does cos(φ/2) of the work along it: both are of second order, while the stress at
-//! the end does cos φ/2 of it with an error of first order in what it has turned. Half the step leaves a
-//! quarter, 0.254 and 0.252 of it here: 0.23 to 0.27. The metal does not harden, so that σ_y is no
+//! Source: along an arc on which the flow turns by φ the length of its chord is short by φ²/24, and the mean
+//! of the stresses at both ends does cos(φ/2) of the work along it: both are of second order, while the
+//! stress at the end does cos φ/2 of it with an error of first order in what it has turned. Half the step
+//! leaves a quarter, 0.254 and 0.252 of it here: 0.23 to 0.27. The metal does not harden, so that σ_y is no
 //! part of it.
 
 use asperity_mesh::ElementKind;

@@ -42,8 +42,8 @@ struct Numbers {
     scaled: Vec<f64>,
 }
 
-/// Adds those columns of the update of a child which are pivots of its parent to the panel there: row i of the
-/// child has the place `places[i]` in the parent.
+/// Adds those columns of the update of a child which are pivots of its parent to the panel there: row i of
+/// the child has the place `places[i]` in the parent.
 fn add_to_panel(child: &[f64], places: &[u32], front: &Front, panel: &mut [f64]) {
     let stride = padded(places.len());
     let column_length = front.size.panel_column();

@@ -315,8 +315,8 @@ impl WithSimd for Elimination<'_> {
 }
 
 /// Eliminates the pivots of a front: its panel becomes the columns of L with D on the diagonal, its update
-/// what that adds to the rest, whatever it held. `scaled` is work space as large as the panel. Returns the number of negative
-/// pivots, nothing where a pivot is not accepted.
+/// what that adds to the rest, whatever it held. `scaled` is work space as large as the panel. Returns the
+/// number of negative pivots, nothing where a pivot is not accepted.
 pub fn eliminate(
     arch: Arch,
     size: Size,

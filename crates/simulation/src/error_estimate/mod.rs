@@ -144,7 +144,8 @@ impl Comparison {
         let residual = summary.residual_depth.map(|depth| (depth / summary.peak_depth).clamp(0.0, 1.0));
         let elastic = summary.elastic_fraction.map(|fraction| fraction.clamp(0.0, 1.0));
         let transferred = transferred(&run.rows);
-        // F u/(m + 1) comes back over the recovered depth u: with energy that is gone u is shorter by its share
+        // F u/(m + 1) comes back over the recovered depth u: with energy that is gone u is shorter by its
+        // share
         let recovered = (UNLOADING_EXPONENT + 1.0) * transferred * largest_work(&run.rows)
             / (summary.peak_force * summary.peak_depth);
         Errors {

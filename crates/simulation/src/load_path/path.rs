@@ -34,9 +34,10 @@ impl From<SolveFailure> for Miss {
 /// Growth of the travel before a better mesh is looked for again where there was none: each look costs.
 const REMESHING_TRAVEL_RATIO: f64 = 1.1;
 
-/// Energy that all transfers to better meshes may take, over the plastic work and [`TRANSFERABLE_WORK`] of the
-/// largest work: where the path could go on with its mesh, and where it could not. Transfers of metal that
-/// flows take a thousandth of it; of a body that is elastic but for a little they took twice its plastic work.
+/// Energy that all transfers to better meshes may take, over the plastic work and [`TRANSFERABLE_WORK`] of
+/// the largest work: where the path could go on with its mesh, and where it could not. Transfers of metal
+/// that flows take a thousandth of it; of a body that is elastic but for a little they took twice its plastic
+/// work.
 const TRANSFER_SHARES: [f64; 2] = [0.1, 1.0];
 
 /// Share of the work that counts beside the plastic work: of a body that hardly yields.

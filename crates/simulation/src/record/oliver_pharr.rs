@@ -55,8 +55,8 @@ fn factor_of_outline(outline: impl Fn(f64) -> [f64; 2], a: f64) -> f64 {
 /// ε of a tool that is in contact up to `height` above its apex; `None` for a plane, which has no tip from
 /// which a contact depth could count.
 ///
-/// A ball, and the rounded tip of a cone, is taken for the paraboloid, which joins the flank of the cone where
-/// the ball does.
+/// A ball, and the rounded tip of a cone, is taken for the paraboloid, which joins the flank of the cone
+/// where the ball does.
 fn geometry_factor(tool: &Tool, height: f64) -> Option<f64> {
     let cone = 2.0 - 2.0 * FRAC_2_PI;
     let radius = tool.mirrored()?.half_width(height);
@@ -178,8 +178,8 @@ mod tests {
     }
 
     /// Sneddon's contact of a rounded cone: with r = a sin t, b the radius where the tip ends and s = a/b,
-    /// tan β = b = 1: h = s [s (1 - cos α) + π/2 - α] and F = 2E* {s³ (cos³α/3 - cos α + 2/3) + s² [(π/2 - α)/2
-    /// + sin 2α/4]}, sin α = 1/s. Before the tip ends it is a ball, far beyond it a cone.
+    /// tan β = b = 1: h = s [s (1 - cos α) + π/2 - α] and F = 2E* {s³ (cos³α/3 - cos α + 2/3) + s² [(π/2 -
+    /// α)/2 + sin 2α/4]}, sin α = 1/s. Before the tip ends it is a ball, far beyond it a cone.
     #[test]
     fn an_elastic_contact_on_a_rounded_tip_gives_its_own_area_and_modulus() {
         let (modulus, tan_slope) = (1.7, 0.01_f64);
