@@ -11,7 +11,7 @@ const STEEP_DEG: f64 = 45.0;
 /// Hardening exponent up to which the shear under a sharp flank gathers in one row of elements.
 const HARDLY_HARDENS: f64 = 0.1;
 
-/// Tip radius over height with which cones of 60° and 75° reached half of their height at every level.
+/// Tip radius over height with which cones of 50° to 75° reached half of their height at draft and standard.
 const ROUNDED: f64 = 0.1;
 
 impl Stopped {
