@@ -54,7 +54,8 @@ fn elastic_areas(results: &Results, (end, symmetry): &(&str, &str)) -> Option<Ve
     let meshes = results.zones_of_meshes(end);
     let finest = meshes.last()?;
     let judged = |zones: fn(&Zones) -> Vec<Zone>| {
-        let on_each: Vec<Vec<Zone>> = meshes.iter().map(zones).collect();
+        let large = |mesh: &Zones| zones(mesh).into_iter().filter(|zone| zone.area > mesh.least).collect();
+        let on_each: Vec<Vec<Zone>> = meshes.iter().map(large).collect();
         let areas: Vec<f64> = on_each.iter().map(|zones| area(zones)).collect();
         (zone_is_there(&areas, finest.least), on_each)
     };

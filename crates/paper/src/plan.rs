@@ -75,7 +75,7 @@ const TOTAL: &str = "loading.depth=20 um";
 /// The zones are those of the peak.
 const LOADING_ALONE: &str = "loading.unload=false";
 const ELEMENTS: Sketch = Sketch { name: "elements", reach: Reach::Asperities(3.0), panels: &[Panel::Mesh] };
-const ZONES: Sketch = Sketch { name: "zones", reach: Reach::Asperities(9.0), panels: &Panel::FIG5 };
+const ZONES: Sketch = Sketch { name: "zones", reach: Reach::Asperities(11.0), panels: &Panel::FIG5 };
 
 macro_rules! crush {
     ($name:literal, $scene:ident, $changes:expr, $sketches:expr, $serves:expr) => {
