@@ -90,5 +90,5 @@ impl Zones {
 
 /// The area of them all.
 pub fn area(zones: &[Zone]) -> f64 {
-    zones.iter().map(|zone| zone.area).sum()
+    zones.iter().fold(0.0, |sum, zone| sum + zone.area)
 }
