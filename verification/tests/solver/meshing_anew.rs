@@ -5,6 +5,7 @@
 //! as well as without.
 
 use asperity_material::units::{Length, Stress};
+use asperity_numerics::newton;
 use asperity_simulation::load_path::{Increment, Path};
 use asperity_simulation::run::Run;
 use asperity_simulation::scene::{self, Loading, Material, Scene, Symmetry, Tool};
@@ -111,5 +112,40 @@ fn perfectly_plastic_metal_lets_a_steep_cone_in_and_out() {
         let changed: f64 = sums.windows(2).map(|pair| (pair[1] - pair[0]).abs()).sum();
         let share = changed / outcome.summary.plastic_work;
         assert!(share < TRANSFERRED, "{yield_stress:e} Pa: transfers change {share:.2e} of the plastic work");
+    }
+}
+
+/// Ten meshes in a row under a tool that stays keep the mass, the sum of the reference volumes, to 1e-4, and
+/// the largest plastic strain to 5 %.
+#[test]
+fn transfers_at_rest_keep_the_mass() {
+    for exponent in [0.3, 0.0] {
+        let mut scene = scene();
+        scene.material.hardening_exponent = Some(exponent);
+        let problem = Run::new(&scene).problem().unwrap();
+        let mut path = Path::new(&problem, &Analyses::default()).unwrap();
+        path.load(&mut |_, _| true).unwrap();
+        let settings = path.settings;
+        // of the metal that may flow: the substrate, which no transfer moves, would hide it
+        let measured = |path: &Path<'_>| {
+            let (body, points) = (path.model.body(), &path.model.state().points.states);
+            let near = points.iter().zip(&body.volume).filter(|(point, _)| point.plastic_strain > 0.0);
+            let strain = points.iter().fold(0.0, |most: f64, point| most.max(point.plastic_strain));
+            [body.volume.iter().sum::<f64>(), near.map(|(_, volume)| volume).sum(), strain]
+        };
+        let before = measured(&path);
+        let flowed = before[1];
+        for transfer in 0..10 {
+            let done = path.model.remesh(f64::INFINITY, |model| {
+                newton::solve(model, &settings).map(|_| ()).map_err(|(failure, _)| failure)
+            });
+            assert!(done, "transfer {transfer}");
+        }
+        let after = measured(&path);
+        let mass = (after[0] - before[0]) / flowed;
+        let strain = after[2] / before[2] - 1.0;
+        println!("n {exponent}: mass {mass:.2e} of what flowed, plastic strain {strain:.2e}");
+        assert!(mass.abs() < 1e-4, "n {exponent}: {mass:.2e}");
+        assert!(strain.abs() < 0.05, "n {exponent}: {strain:.2e}");
     }
 }
