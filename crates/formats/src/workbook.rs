@@ -12,6 +12,10 @@ pub(crate) const ARCHIVE: &[u8] = b"PK\x03\x04";
 /// Bytes that a cell takes in memory, with its text.
 const CELL_BYTES: u64 = 128;
 
+/// Rows and columns of the largest sheet.
+const MOST_ROWS: u32 = 1 << 20;
+const MOST_COLUMNS: u32 = 1 << 14;
+
 /// A sheet: its rows, each with its cells by their columns.
 struct Sheet {
     name: String,
@@ -27,6 +31,12 @@ pub(crate) fn text(bytes: &[u8]) -> Result<(String, String), TextError> {
     let most = sheets.iter().map(|sheet| sheet.numbers).max().unwrap_or(0);
     let found = sheets.iter().find(|sheet| most > 0 && 2 * sheet.numbers >= most);
     let sheet = found.ok_or_else(|| TextError::whole("is an Excel workbook without a number"))?;
+    let columns = sheet.rows.values().flat_map(|row| row.keys());
+    let width = columns.max().map_or(0, |last| *last as usize + 1);
+    // cells that are empty take a tab each
+    if width.saturating_mul(sheet.rows.len()) / CELL_BYTES as usize > most_cells() {
+        return Err(TextError::whole(too_many()));
+    }
     let others = if sheets.len() > 1 { format!(", one of {}", sheets.len()) } else { String::new() };
     Ok((sheet.text(), format!("sheet \"{}\"{others} of an Excel workbook as", sheet.name)))
 }
@@ -36,7 +46,10 @@ impl Sheet {
         Sheet { name, rows: BTreeMap::new(), numbers: 0 }
     }
 
-    fn put(&mut self, place: (u32, u32), cell: &impl DataType) {
+    fn put(&mut self, place: (u32, u32), cell: &impl DataType) -> Result<(), String> {
+        if place.0 >= MOST_ROWS || place.1 >= MOST_COLUMNS {
+            return Err(refused(&format_args!("a cell in row {} and column {}", place.0, place.1)));
+        }
         // dates and times are numbers too, of days
         let number = cell.get_float().or_else(|| cell.get_int().map(|i| i as f64));
         let number = number.or_else(|| cell.get_datetime().map(|date| date.as_f64()));
@@ -49,6 +62,7 @@ impl Sheet {
             self.numbers += usize::from(number.is_some());
             self.rows.entry(place.0).or_default().insert(place.1, text);
         }
+        Ok(())
     }
 
     /// Rows up to the last column with a number, so that empty cells of a map stay.
@@ -116,7 +130,7 @@ fn xlsx(bytes: &[u8]) -> Result<Vec<Sheet>, String> {
         let Ok(mut cells) = book.worksheet_cells_reader(&name) else { continue };
         while let Some(cell) = cells.next_cell().map_err(|e| refused(&e))? {
             if !matches!(cell.get_value(), DataRef::Empty) {
-                sheet.put(cell.get_position(), cell.get_value());
+                sheet.put(cell.get_position(), cell.get_value())?;
                 held += 1;
             }
             if held > most_cells() {
@@ -137,7 +151,7 @@ fn xls(bytes: &[u8]) -> Result<Vec<Sheet>, String> {
         let (row, column) = range.start().unwrap_or((0, 0));
         for (down, across, cell) in range.used_cells() {
             if *cell != Data::Empty {
-                sheet.put((row + down as u32, column + across as u32), cell);
+                sheet.put((row + down as u32, column + across as u32), cell)?;
             }
         }
         sheets.push(sheet);
@@ -147,7 +161,7 @@ fn xls(bytes: &[u8]) -> Result<Vec<Sheet>, String> {
 
 /// Refuses cells in places that no sheet has, for a reader allocates all cells between the outermost ones.
 fn check_places(bytes: &[u8]) -> Result<(), String> {
-    const MOST_COLUMNS: u64 = 256;
+    const COLUMNS: u64 = 256;
     let mut file = cfb::CompoundFile::open(Cursor::new(bytes)).map_err(|e| refused(&e))?;
     let name = ["/Workbook", "/Book"].into_iter().find(|name| file.exists(name));
     let name = name.ok_or(
@@ -168,7 +182,7 @@ fn check_places(bytes: &[u8]) -> Result<(), String> {
         let (row, column) = (word(0), word(2));
         match kind {
             // numbers, texts, truths, formulas
-            0x203 | 0x204 | 0x205 | 0x27e | 0xfd | 0x0d6 | 0x006 | 0x0bd if column >= MOST_COLUMNS => {
+            0x203 | 0x204 | 0x205 | 0x27e | 0xfd | 0x0d6 | 0x006 | 0x0bd if column >= COLUMNS => {
                 return Err(refused(&format_args!("a cell in column {column}")));
             }
             0x203 | 0x204 | 0x205 | 0x27e | 0xfd | 0x0d6 | 0x006 | 0x0bd => rows = rows.max(row + 1),
@@ -179,18 +193,18 @@ fn check_places(bytes: &[u8]) -> Result<(), String> {
                     _ => [row + (column << 16), word(4) + (word(6) << 16), word(8), word(10)],
                 };
                 let [top, bottom, left, right] = sizes;
-                if bottom < top || right < left || bottom > 1 << 16 || right > MOST_COLUMNS {
+                if bottom < top || right < left || bottom > 1 << 16 || right > COLUMNS {
                     return Err(refused(&"its dimensions make no sense"));
                 }
                 rows = rows.max(bottom);
             }
             // a sheet ends
             0x00a => {
-                held += rows * MOST_COLUMNS;
+                held += rows * COLUMNS;
                 rows = 0;
             }
             _ => {}
         }
     }
-    if held + rows * MOST_COLUMNS > most_cells() as u64 { Err(too_many()) } else { Ok(()) }
+    if held + rows * COLUMNS > most_cells() as u64 { Err(too_many()) } else { Ok(()) }
 }
