@@ -4,6 +4,8 @@ use crate::text::TextError;
 use calamine::{Data, DataRef, DataType, Reader, Xls, Xlsx};
 use std::collections::BTreeMap;
 use std::io::{Cursor, Read};
+use std::panic;
+use std::sync::{Mutex, PoisonError};
 
 /// Beginning of a compound file, in which an `.xls` lies.
 pub(crate) const COMPOUND: &[u8] = b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1";
@@ -142,8 +144,20 @@ fn xlsx(bytes: &[u8]) -> Result<Vec<Sheet>, String> {
     Ok(sheets)
 }
 
+/// The reader of `.xls` files indexes without asking whether a damaged file goes so far: its panic is an error
+/// of the file. Messages of panics are kept back meanwhile, those of other threads too.
 fn xls(bytes: &[u8]) -> Result<Vec<Sheet>, String> {
+    static ONE_AT_A_TIME: Mutex<()> = Mutex::new(());
     check_places(bytes)?;
+    let _turn = ONE_AT_A_TIME.lock().unwrap_or_else(PoisonError::into_inner);
+    let hook = panic::take_hook();
+    panic::set_hook(Box::new(|_| ()));
+    let sheets = panic::catch_unwind(|| xls_sheets(bytes));
+    panic::set_hook(hook);
+    sheets.unwrap_or_else(|_| Err(refused(&"it is damaged")))
+}
+
+fn xls_sheets(bytes: &[u8]) -> Result<Vec<Sheet>, String> {
     let mut book = Xls::new(Cursor::new(bytes)).map_err(|e| refused(&e))?;
     let mut sheets = Vec::new();
     for (name, range) in book.worksheets() {

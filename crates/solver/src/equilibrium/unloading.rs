@@ -37,11 +37,12 @@ impl Equilibrium<'_> {
     pub fn unloading_stiffness(&mut self) -> Result<ToolStiffness, Failure> {
         self.begin(self.state.tip, 0.0, |_| [0.0; 2]);
         let parts: Vec<Parts> = self.state.parts().collect();
-        let travel = self.elastic_stiffness(&parts, 1.0)?.travel;
         let ([inner, outer], share) = whole_edges_around(&parts);
         let wide = self.elastic_stiffness(&outer, RIGID)?.depth;
         let has_narrow = share > 0.0 && inner.iter().any(|touching| *touching != NOTHING);
         let narrow = if has_narrow { self.elastic_stiffness(&inner, RIGID)?.depth } else { wide };
+        // last, since its factors are those with which unloading begins
+        let travel = self.elastic_stiffness(&parts, 1.0)?.travel;
         self.contact_set.set_keeping(false);
         let is_quadratic = self.state.edges.first().is_some_and(|edge| edge.quadratic);
         let shift = rim_shift(is_quadratic, self.body.material.elastic.poissons_ratio);
