@@ -41,6 +41,7 @@ pub fn crush(args: &Crush) -> Result<(), Error> {
     flags.overrides.extend(args.no_refine.then(|| "numerics.refine=false".to_string()));
     let scene = flags.read(path)?;
     if !args.run.quiet {
+        scene.understood().iter().for_each(|line| terminal::complain(&format!("read {line}")));
         let tables = scene.tables();
         tables.unused().iter().chain(&tables.costly()).for_each(terminal::warn);
     }

@@ -21,6 +21,8 @@ pub struct CurveFile {
     pub points: Vec<[f64; 2]>,
     /// Line of each point, from 1.
     pub lines: Vec<usize>,
+    /// What was understood of the file, in one sentence.
+    pub understood: String,
 }
 
 /// Accumulated plastic strain.
@@ -90,7 +92,7 @@ impl CurveFile {
         let shown: Vec<[f64; 2]> = points.iter().map(|p| [p[0], p[1] / table.scales[1]]).collect();
         HardeningTable::new(&shown)
             .map_err(|e| TextError { line: e.point.map(|point| lines[point]), message: e.message })?;
-        Ok(CurveFile { points, lines })
+        Ok(CurveFile { points, lines, understood: table.understood })
     }
 }
 

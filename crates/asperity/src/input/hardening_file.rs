@@ -41,6 +41,11 @@ impl ReadCurve {
             Some(self.curve.points.iter().map(|&[strain, stress]| (strain, Stress(stress))).collect());
     }
 
+    /// One line on what was understood of the table.
+    pub fn understood(&self) -> String {
+        self.table.understood(&self.curve.understood)
+    }
+
     /// An error of the scene that is about a point of this table, at its line.
     pub fn point_at(&self, scene: &TomlFile<Scene>, error: &SceneError) -> Option<InputError> {
         self.table.point_at(scene, "material.hardening_table", &self.curve.lines, error)

@@ -56,6 +56,8 @@ pub struct ReadProfile {
     table: String,
     /// Line of each point.
     lines: Vec<usize>,
+    /// What was understood of its columns.
+    columns: String,
 }
 
 /// The table of a scene that names a file, and the key.
@@ -88,9 +90,10 @@ pub fn read(scene: &mut TomlFile<Scene>) -> Result<Vec<ReadProfile>, InputError>
     let mut read = Vec::new();
     for Named { table, key, file } in named(&scene.value) {
         let file = TableFile::read(scene, &format!("{table}.{key}"), &file, MAX_BYTES)?;
-        let (points, lines) = parse(&file.text).map_err(|error| file.error(scene, &error))?;
+        let Outline { points, lines, columns } =
+            parse(&file.text).map_err(|error| file.error(scene, &error))?;
         put(&mut scene.value, &table, Points::new(points));
-        read.push(ReadProfile { file, table, lines });
+        read.push(ReadProfile { file, table, lines, columns });
     }
     Ok(read)
 }
@@ -110,11 +113,16 @@ fn put(scene: &mut Scene, table: &str, points: Points) {
     (*file, *values) = (None, Some(points));
 }
 
-/// Points in metres with their lines.
-type Lines = (Vec<[f64; 2]>, Vec<usize>);
+/// Points in metres with their lines, and what was understood of the columns.
+#[derive(Debug)]
+struct Outline {
+    points: Vec<[f64; 2]>,
+    lines: Vec<usize>,
+    columns: String,
+}
 
 /// Reads a text.
-fn parse(text: &str) -> Result<Lines, TextError> {
+fn parse(text: &str) -> Result<Outline, TextError> {
     let named = Asked { needs_all: true, ..Asked::default() };
     let mut table = read_series(text, &[PLACE, HEIGHT], &named)?;
     let Series { rows: mut points, mut lines, .. } = table.series.swap_remove(0);
@@ -126,10 +134,15 @@ fn parse(text: &str) -> Result<Lines, TextError> {
         points.reverse();
         lines.reverse();
     }
-    Ok((points, lines))
+    Ok(Outline { points, lines, columns: table.understood })
 }
 
 impl ReadProfile {
+    /// One line on what was understood of the outline.
+    pub fn understood(&self) -> String {
+        self.file.understood(&self.columns)
+    }
+
     /// An error of the scene that is about this outline, at its line or at the key that names its file.
     pub fn point_at(&self, scene: &TomlFile<Scene>, error: &SceneError) -> Option<InputError> {
         self.file.point_at(scene, &format!("{}.points", self.table), &self.lines, error)
@@ -150,7 +163,7 @@ mod tests {
             "Taster 2 µm\nx [µm];z [µm]\n0,0;20,00\n5,0;19,00\n;\n",
             "\"r\",\"z\"\n\"(um)\",\"(um)\"\n\"0\",\"20\"\n\"5\",\"19\"\n",
         ] {
-            let (points, lines) = parse(text).unwrap();
+            let Outline { points, lines, .. } = parse(text).unwrap();
             assert_eq!(lines.len(), 2);
             for (p, e) in points.iter().zip(expected) {
                 assert!((p[0] - e[0]).abs() < 1e-18 && (p[1] - e[1]).abs() < 1e-18, "{text}: {points:?}");

@@ -25,6 +25,7 @@ pub struct Scene {
     file: TomlFile<Tables>,
     mesh: Option<Mesh>,
     own: Own,
+    understood: Vec<String>,
 }
 
 /// The parts that a program hands in beside the text of a scene, which cannot hold them.
@@ -162,6 +163,9 @@ impl Scene {
             curve.put_into(&mut file.value.material);
         }
         let outlines = profile_file::read(&mut file)?;
+        let understood = curve.iter().map(hardening_file::ReadCurve::understood);
+        let understood =
+            understood.chain(outlines.iter().map(profile_file::ReadProfile::understood)).collect();
         // what is wrong with a table shows in the file that holds it
         file.value.validate().map_err(|e| {
             let shown = curve.and_then(|curve| curve.point_at(&file, &e));
@@ -169,7 +173,12 @@ impl Scene {
             shown.unwrap_or_else(|| file.error_at(&e.path, &e.message))
         })?;
         let mesh = read_mesh(&file)?;
-        Ok(Scene { file, mesh, own })
+        Ok(Scene { file, mesh, own, understood })
+    }
+
+    /// One line on what was understood of each table and outline that the scene names.
+    pub fn understood(&self) -> &[String] {
+        &self.understood
     }
 
     /// The tables of the scene, in SI, tables of hardening and outlines in the place of their files.

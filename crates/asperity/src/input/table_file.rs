@@ -14,6 +14,8 @@ pub struct TableFile {
     name: String,
     /// Its text.
     pub text: String,
+    /// Its encoding, or the sheet of a workbook.
+    encoding: String,
     /// Key of the scene that names it.
     key: String,
 }
@@ -30,7 +32,7 @@ impl TableFile {
         limit: u64,
     ) -> Result<TableFile, InputError> {
         let path = scene.resolve(named);
-        let mut table = TableFile { name: path.display().to_string(), text: String::new(), key: key.into() };
+        let mut table = TableFile { name: path.display().to_string(), text: String::new(), encoding: String::new(), key: key.into() };
         let unreadable = |e: std::io::Error| {
             scene.error_at(key, &format!("{}: cannot be read: {e}; {RELATIVE_PATH_NOTE}", path.display()))
         };
@@ -40,9 +42,14 @@ impl TableFile {
         if bytes.len() as u64 > limit {
             return Err(table.refuse(scene, &format!("is larger than {} MB: thin it out", limit >> 20)));
         }
-        let decoded = decode(&bytes).map(|(text, _)| text.into_owned());
-        table.text = decoded.map_err(|e| table.refuse(scene, &e.message))?;
+        let decoded = decode(&bytes).map(|(text, encoding)| (text.into_owned(), encoding.into_owned()));
+        (table.text, table.encoding) = decoded.map_err(|e| table.refuse(scene, &e.message))?;
         Ok(table)
+    }
+
+    /// One line on what was understood of the table.
+    pub fn understood(&self, columns: &str) -> String {
+        format!("{}: {} text: {columns}", self.name, self.encoding)
     }
 
     /// An error about the table as a whole, at the key that names it.
