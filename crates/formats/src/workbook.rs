@@ -144,8 +144,8 @@ fn xlsx(bytes: &[u8]) -> Result<Vec<Sheet>, String> {
     Ok(sheets)
 }
 
-/// The reader of `.xls` files indexes without asking whether a damaged file goes so far: its panic is an error
-/// of the file. Messages of panics are kept back meanwhile, those of other threads too.
+/// The reader of `.xls` files does not ask whether a damaged file goes as far as its indices: its panic is an
+/// error of the file. Messages of panics are kept back meanwhile, those of other threads too.
 fn xls(bytes: &[u8]) -> Result<Vec<Sheet>, String> {
     static ONE_AT_A_TIME: Mutex<()> = Mutex::new(());
     check_places(bytes)?;

@@ -32,7 +32,12 @@ impl TableFile {
         limit: u64,
     ) -> Result<TableFile, InputError> {
         let path = scene.resolve(named);
-        let mut table = TableFile { name: path.display().to_string(), text: String::new(), encoding: String::new(), key: key.into() };
+        let mut table = TableFile {
+            name: path.display().to_string(),
+            text: String::new(),
+            encoding: String::new(),
+            key: key.into(),
+        };
         let unreadable = |e: std::io::Error| {
             scene.error_at(key, &format!("{}: cannot be read: {e}; {RELATIVE_PATH_NOTE}", path.display()))
         };
