@@ -76,7 +76,7 @@ impl Claim {
     }
 }
 
-/// What the paper says of a quantity.
+/// The paper's statement on a quantity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Said {
     /// A number or a range, its rounding included.

@@ -3,6 +3,7 @@
 use super::material_checks::{KeyError, key_error};
 use crate::error::InputError;
 use crate::input::RELATIVE_PATH_NOTE;
+use crate::input::table_file::understood;
 use crate::input::toml_file::TomlFile;
 use asperity_formats::indentation;
 use asperity_formats::memory::read_file;
@@ -52,7 +53,7 @@ pub(super) fn measurements(
             let columns = curve.columns.as_ref().map(|c| [Some(c.depth.as_str()), Some(c.force.as_str())]);
             let table = indentation::read(&text, columns.unwrap_or_default(), curve.missing_value)
                 .map_err(|error| table_error(file, i, &shown, &text, error))?;
-            said.understood.push(format!("{name}: {encoding} text: {}", table.understood));
+            said.understood.push(understood(&name, &encoding, &table.understood));
             chosen(table.series, curve.test)
                 .map_err(|m| at(".test", &m))?
                 .into_iter()

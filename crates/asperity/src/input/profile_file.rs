@@ -56,7 +56,7 @@ pub struct ReadProfile {
     table: String,
     /// Line of each point.
     lines: Vec<usize>,
-    /// What was understood of its columns.
+    /// Its columns as they were understood.
     columns: String,
 }
 

@@ -20,6 +20,11 @@ pub struct TableFile {
     key: String,
 }
 
+/// One line on a text table as it was understood: its file, its encoding, its columns.
+pub fn understood(name: &str, encoding: &str, columns: &str) -> String {
+    format!("{name}: {encoding} text: {columns}")
+}
+
 impl TableFile {
     /// Reads the table that the scene names under `key`, of at most `limit` bytes.
     ///
@@ -52,9 +57,9 @@ impl TableFile {
         Ok(table)
     }
 
-    /// One line on what was understood of the table.
+    /// One line on the table as it was understood.
     pub fn understood(&self, columns: &str) -> String {
-        format!("{}: {} text: {columns}", self.name, self.encoding)
+        understood(&self.name, &self.encoding, columns)
     }
 
     /// An error about the table as a whole, at the key that names it.

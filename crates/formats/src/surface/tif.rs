@@ -77,7 +77,7 @@ pub(super) fn read(path: &Path, request: &Request<'_>) -> Result<Measured, ReadE
 const LONGEST_TAG: usize = 1 << 20;
 const NO_HEIGHTS: &str = "heights are floating-point numbers, one to a point: grey levels and colours are none; export 32-bit floats, .sur or .x3p";
 
-/// What ImageJ writes: the unit of places, with pixels per unit, and of values.
+/// The words of ImageJ: the unit of places, with pixels per unit, and of values.
 fn units(decoder: &mut Decoder<Cursor<Vec<u8>>>, description: &str) -> (Spacing, Option<f64>) {
     if !description.starts_with("ImageJ") {
         return (Spacing::Unknown, None);

@@ -55,7 +55,7 @@ fn lower_product(c: MatMut<'_, f64>, l: MatRef<'_, f64>, w: MatRef<'_, f64>) {
     );
 }
 
-/// What the pivots take from the update of a front: U ← − L Wᵀ. `panel` holds L, `scaled` W.
+/// The share of the pivots in the update of a front: U ← − L Wᵀ. `panel` holds L, `scaled` W.
 pub fn update_of_pivots(size: Size, panel: &[f64], scaled: &[f64], update: &mut [f64]) {
     let Size { pivots, below } = size;
     let (column, stride) = (size.panel_column(), padded(below));

@@ -344,14 +344,12 @@ impl<'p> Path<'p> {
 
     /// [`Path::remesh`] where the path could go on as it is: with less energy to lose.
     pub(super) fn remesh_for_the_better(&mut self) -> bool {
-        let tried = self.remeshing.after;
-        if tried == self.counts.increments {
+        if self.remeshing.after == self.counts.increments {
             return false;
         }
-        self.remeshing.after = self.counts.increments;
         let done = self.remesh_within(TRANSFER_SHARES[0]);
-        if !done {
-            self.remeshing.after = tried;
+        if done {
+            self.remeshing.after = self.counts.increments;
         }
         done
     }

@@ -29,7 +29,7 @@ struct Peak {
 /// Places at which the slope of an outline is asked for.
 const PLACES: usize = 512;
 
-/// What an outline can have for ε: from a cusp to the flat end of a punch.
+/// Range of ε of all outlines: from a cusp to the flat end of a punch.
 const SENSIBLE: [f64; 2] = [0.5, 1.0];
 
 /// Tries until ε belongs to the contact depth that it leads to; a few are enough.

@@ -1,4 +1,4 @@
-//! What a scene can give so that its run goes further than it did.
+//! The key of a scene that lets its run go further than it did.
 
 use crate::load_path::Stop;
 use crate::record::outcome::Stopped;
