@@ -16,16 +16,25 @@ pub struct UnitError(String);
 fn parse(text: &str, dimension: &str, units: &[(&str, f64)]) -> Result<f64, UnitError> {
     let names = || units.iter().map(|(name, _)| *name).collect::<Vec<_>>().join(", ");
     let text = text.trim();
-    // the unit is the trailing run of letters; an exponent ("2e-6 m") ends in a digit and so stays with the
-    // number
-    let split = text
-        .rfind(|c: char| !(c.is_alphabetic() || c == '/'))
-        .map_or(0, |i| i + text[i..].chars().next().map_or(1, char::len_utf8));
+    // the unit is the longest known one at the end, else the trailing run of letters; an exponent ("2e-6 m")
+    // ends in a digit and so stays with the number
+    let part_of_word = |c: char| c.is_alphabetic() || c == '/';
+    let known = units.iter().filter_map(|(name, _)| {
+        let number = text.strip_suffix(name)?;
+        (!number.ends_with(part_of_word)).then_some(number.len())
+    });
+    let trailing = || {
+        text.rfind(|c: char| !part_of_word(c))
+            .map_or(0, |i| i + text[i..].chars().next().map_or(1, char::len_utf8))
+    };
+    let split = known.min().unwrap_or_else(trailing);
     let (number, unit) = (text[..split].trim(), &text[split..]);
     if unit.is_empty() {
         return Err(UnitError(format!(
-            "\"{text}\" has no unit: write a {dimension} with one of {}, for example \"{text} {}\"",
+            "\"{text}\" has no unit{}: write a {dimension} with one of {}, for example \"{} {}\"",
+            if text.contains(char::is_alphabetic) { format!(" of {dimension}") } else { String::new() },
             names(),
+            if text.contains(char::is_alphabetic) { "1" } else { text },
             units[0].0
         )));
     }
@@ -49,7 +58,7 @@ pub fn quantity_schema<'u>(units: impl IntoIterator<Item = &'u (&'u str, f64)>) 
     let number = r"[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?";
     json_schema!({
         "type": "string",
-        "pattern": format!(r"^\s*{number}\s*({})\s*$", units.join("|")),
+        "pattern": format!(r"^\s*{number}\s*({})\s*$", units.join("|").replace('(', r"\(").replace(')', r"\)")),
         "examples": [format!("1 {}", units.first().unwrap_or(&""))],
     })
 }
@@ -182,6 +191,16 @@ quantity!(
     &[("nm/mN", 1e-6), ("um/N", 1e-6), ("µm/N", 1e-6), ("μm/N", 1e-6), ("nm/N", 1e-9), ("nm/uN", 1e-3), ("um/mN", 1e-3), ("um/kN", 1e-9), ("mm/kN", 1e-6), ("mm/N", 1e-3), ("m/N", 1.0)]
 );
 quantity!(
+    /// A thermal conductivity, kept in watts per metre and kelvin.
+    ThermalConductivity, "thermal conductivity", "W/(m K)",
+    &[("W/(m K)", 1.0), ("W/(m·K)", 1.0), ("W/(mK)", 1.0), ("W/mK", 1.0), ("W/m/K", 1.0), ("mW/(m K)", 1e-3)]
+);
+quantity!(
+    /// An electrical conductivity, kept in siemens per metre.
+    ElectricalConductivity, "electrical conductivity", "S/m",
+    &[("MS/m", 1e6), ("S/m", 1.0), ("kS/m", 1e3), ("S/cm", 1e2)]
+);
+quantity!(
     /// Memory, kept in bytes.
     Memory, "memory", "B",
     &[("GB", 1e9), ("MB", 1e6), ("kB", 1e3), ("B", 1.0), ("GiB", 1073741824.0), ("MiB", 1048576.0)]
@@ -198,6 +217,21 @@ mod tests {
         assert_eq!(" 210 GPa ".parse::<Stress>().unwrap().0, 210e9);
         for bad in ["20", "20 MPa", "nan um", "inf um", "um", "", "1e400 um", "1e-320 nm", "1 2 um"] {
             assert!(bad.parse::<Length>().is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn units_of_more_than_letters_are_read_and_their_lack_is_told() {
+        for text in ["50 W/(m K)", "50W/(m·K)", "50 W/mK"] {
+            assert_eq!(text.parse::<ThermalConductivity>().unwrap().0, 50.0);
+        }
+        assert_eq!(ThermalConductivity(0.5).to_string(), "0.5 W/(m K)");
+        assert_eq!("58 MS/m".parse::<ElectricalConductivity>().unwrap().0, 58.0 * 1e6);
+        for (bad, word) in
+            [("50", "has no unit:"), ("50 W/(m F)", "of thermal conductivity:"), ("50 W", "\"W\"")]
+        {
+            let said = bad.parse::<ThermalConductivity>().unwrap_err().to_string();
+            assert!(said.contains(word) && said.contains("W/(m K)"), "{said}");
         }
     }
 

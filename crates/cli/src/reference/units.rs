@@ -1,7 +1,9 @@
 //! The units that quantities may be written in.
 
 use super::markdown::{code, table};
-use asperity::material::units::{Compliance, Force, Length, LineForce, Stiffness, Stress};
+use asperity::material::units::{
+    Compliance, ElectricalConductivity, Force, Length, LineForce, Stiffness, Stress, ThermalConductivity,
+};
 use asperity::roughness::scene::Viscosity;
 
 /// The page.
@@ -14,6 +16,8 @@ pub fn page() -> String {
         ("stiffness (`unloading_slope` of a fit)", Stiffness::UNITS, "N/m"),
         ("compliance (`machine_compliance`)", Compliance::UNITS, "m/N"),
         ("viscosity", Viscosity::UNITS, "Pa s"),
+        ("thermal conductivity", ThermalConductivity::UNITS, "W/(m K)"),
+        ("electrical conductivity", ElectricalConductivity::UNITS, "S/m"),
     ];
     let row = |(kind, units, si): (&str, &[(&str, f64)], &str)| {
         let units: Vec<String> = units.iter().map(|(name, _)| code(name)).collect();

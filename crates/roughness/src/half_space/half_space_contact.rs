@@ -3,7 +3,7 @@
 
 use super::area::Area;
 use super::cascade::{Answer, Task, spread};
-use super::stiffness::stiffness;
+use super::stiffness::{Stiffness, stiffness};
 use crate::half_space::float::sums;
 use crate::half_space::grid_level::Hold;
 use crate::{HeightMap, Load, Surface};
@@ -111,8 +111,10 @@ pub struct HalfSpaceContact {
     pub limited_share: f64,
     /// Largest pressure of a pixel, in Pa.
     pub largest_pressure: f64,
-    /// -dp/d(mean gap), in Pa/m; None without contact or without gap.
+    /// -dp/d(mean gap), in Pa/m, pixels at the limit carrying no more; None without contact or without gap.
     pub stiffness: Option<f64>,
+    /// The same by the way of the plane.
+    pub plane_stiffness: Option<f64>,
     /// Work stored and returned on unloading, in J.
     pub elastic_work: f64,
     /// Work spent on flow, in J.
@@ -149,6 +151,13 @@ struct Units {
     used: f64,
 }
 
+impl Units {
+    /// Stiffness of one solver unit, of pressures over the pixels used, in Pa/m.
+    fn stiffness(&self) -> f64 {
+        self.stress / self.height / self.used
+    }
+}
+
 impl HalfSpace {
     /// Presses a rigid plane on `surface` until it carries `load`.
     ///
@@ -168,18 +177,36 @@ impl HalfSpace {
         load: Load,
         start: Option<&HalfSpaceContact>,
     ) -> Result<HalfSpaceContact, HalfSpaceError> {
+        self.search(surface, load, start, true)
+    }
+
+    /// The same without its stiffnesses, which take about as long as the contact.
+    ///
+    /// # Errors
+    /// As for [`HalfSpace::press`].
+    pub fn press_without_stiffness(
+        &self,
+        surface: &Surface,
+        load: Load,
+        start: &HalfSpaceContact,
+    ) -> Result<HalfSpaceContact, HalfSpaceError> {
+        self.search(surface, load, Some(start), false)
+    }
+
+    fn search(
+        &self,
+        surface: &Surface,
+        load: Load,
+        start: Option<&HalfSpaceContact>,
+        stiffnesses: bool,
+    ) -> Result<HalfSpaceContact, HalfSpaceError> {
         self.check()?;
         let map = &surface.map;
         let pixels = map.heights().len() - map.missing();
         let (task, units) = self.task(surface, pixels);
         let hold = match load {
             Load::Pressure(p) => {
-                if let Some(limit) = self.limit.filter(|limit| p >= *limit) {
-                    return Err(HalfSpaceError::Limit {
-                        wanted_mpa: rounded(p * 1e-6, 6),
-                        limit_mpa: rounded(limit * 1e-6, 6),
-                    });
-                }
+                self.bears(p)?;
                 Hold::Pressure(p / units.stress * units.used)
             }
             Load::Separation(s) => {
@@ -222,8 +249,34 @@ impl HalfSpace {
                 HalfSpaceError::Unfinished { reached, wanted }
             });
         }
-        let slope = stiffness(&task, &answer.pressure);
+        let slope = if stiffnesses { stiffness(&task, &answer.pressure) } else { None };
         Ok(self.contact(surface, &task, &units, pixels, answer, slope))
+    }
+
+    /// Stiffness of `contact` on `surface` as it stands, elastic: every pixel in contact moves with the
+    /// plane, those at the limit of pressure too. None without contact or without gap.
+    pub fn elastic_stiffness(&self, surface: &Surface, contact: &HalfSpaceContact) -> Option<Stiffness> {
+        if contact.limited_share == 0.0 {
+            let (gap, plane) = (contact.stiffness?, contact.plane_stiffness?);
+            return Some(Stiffness { gap, plane });
+        }
+        let (task, units) = HalfSpace { limit: None, ..*self }.task(surface, contact.pixels);
+        let pressure: Vec<f64> = contact.pressures.par_iter().map(|p| f64::from(*p)).collect();
+        stiffness(&task, &pressure).map(|s| s.scaled(units.stiffness()))
+    }
+
+    /// Says whether a surface of this metal can carry the nominal `pressure` (Pa).
+    ///
+    /// # Errors
+    /// More than the limit of pressure on every pixel.
+    pub fn bears(&self, pressure: f64) -> Result<(), HalfSpaceError> {
+        match self.limit.filter(|limit| pressure >= *limit) {
+            Some(limit) => Err(HalfSpaceError::Limit {
+                wanted_mpa: rounded(pressure * 1e-6, 6),
+                limit_mpa: rounded(limit * 1e-6, 6),
+            }),
+            None => Ok(()),
+        }
     }
 
     fn check(&self) -> Result<(), HalfSpaceError> {
@@ -271,7 +324,7 @@ impl HalfSpace {
         units: &Units,
         pixels: usize,
         answer: Answer,
-        slope: Option<f64>,
+        slope: Option<Stiffness>,
     ) -> HalfSpaceContact {
         let map = &surface.map;
         let Answer { pressure, lift, plane, residual, error, convolutions } = answer;
@@ -292,6 +345,7 @@ impl HalfSpace {
         });
         let cell = map.cell_area();
         let n = pixels as f64;
+        let slope = slope.map(|s| s.scaled(units.stiffness()));
         let flattened: Vec<f32> = if limit.is_finite() {
             let flat = |i: usize| {
                 if pressure[i] >= limit { ((-gap(i)).max(0.0) * units.height) as f32 } else { 0.0 }
@@ -314,7 +368,8 @@ impl HalfSpace {
             limit: self.limit,
             limited_share: if touching > 0.0 { limited / touching } else { 0.0 },
             largest_pressure: pressure.par_iter().copied().reduce(|| 0.0, f64::max) * units.stress,
-            stiffness: slope.map(|s| s * units.stress / units.height / units.used),
+            stiffness: slope.map(|s| s.gap),
+            plane_stiffness: slope.map(|s| s.plane),
             elastic_work: stored * units.stress * units.height * cell,
             plastic_work: spent * units.stress * units.height * cell,
             residual_displacement: lowered(map, &flattened, surface.extent.high),

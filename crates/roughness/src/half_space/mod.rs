@@ -36,6 +36,7 @@ pub use crate::half_space::half_space_contact::{
 };
 pub use area::{Area, patches};
 pub use limit::{LimitSource, PressureLimit, patch_slope};
+pub use stiffness::Stiffness;
 
 #[cfg(test)]
 mod area_tests;

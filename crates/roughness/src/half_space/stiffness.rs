@@ -11,13 +11,31 @@ const TOLERANCE: f64 = 1e-2;
 /// Iterations at most.
 const ITERATIONS: usize = 200;
 
-/// -d(mean pressure over all nodes)/d(mean gap), in the units of the solver; None without contact or gap.
+/// Changes of the nominal pressure while a contact keeps its rim, in Pa/m.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stiffness {
+    /// -dp/d(mean gap): of the roughness alone.
+    pub gap: f64,
+    /// -dp/d(plane): of a map that stands free the dent of the body is in it; of a periodic elastic one it is
+    /// the same.
+    pub plane: f64,
+}
+
+impl Stiffness {
+    /// The same with its numbers times `factor`.
+    pub(super) fn scaled(self, factor: f64) -> Stiffness {
+        Stiffness { gap: self.gap * factor, plane: self.plane * factor }
+    }
+}
+
+/// The stiffness by the mean pressure over all nodes, in the units of the solver; None without contact or
+/// gap.
 ///
 /// On the nodes in contact that are below the limit the displacement t → A t follows the plane, on the others
 /// t is 0. The change of pressure of unit mean solves A t = const there, by preconditioned conjugate
 /// gradients on a fixed set. The plane moves by that constant, and the gap by as much as surface beside the
 /// contact does not follow.
-pub(super) fn stiffness(task: &Task, pressure: &[f64]) -> Option<f64> {
+pub(super) fn stiffness(task: &Task, pressure: &[f64]) -> Option<Stiffness> {
     let mut level: Level<f32> = task.level(0.0);
     let n = pressure.len();
     let inside: Vec<bool> = pressure.iter().map(|p| *p > 0.0 && *p < task.limit).collect();
@@ -84,5 +102,5 @@ pub(super) fn stiffness(task: &Task, pressure: &[f64]) -> Option<f64> {
     });
     // beside is the loss of gap per unit of mean pressure, summed over the open nodes
     let change = beside / measured;
-    (change > 0.0).then(|| 1.0 / change)
+    (change > 0.0 && plane > 0.0).then(|| Stiffness { gap: 1.0 / change, plane: 1.0 / plane })
 }

@@ -4,12 +4,14 @@ mod error;
 mod fluid;
 mod generate;
 mod half_space;
+mod joint;
 mod surface;
 
 pub use asperity_material::range::SceneError;
 pub use fluid::{Fluid, Viscosity};
 pub use generate::GenerateScene;
 pub use half_space::HalfSpaceScene;
+pub use joint::{Electrical, JointScene, Thermal};
 pub use surface::{HeightUnit, Missing, PointColumns, SurfaceScene};
 
 pub use crate::contact::material::Material;
@@ -48,7 +50,8 @@ pub struct Scene {
     pub surface: SurfaceScene,
     /// Its material.
     pub material: Material,
-    /// Its load.
+    /// Its load; a joint may go without one.
+    #[serde(default)]
     pub load: LoadScene,
     /// How the half-space is solved.
     #[serde(default, skip_serializing_if = "HalfSpaceScene::is_default")]
@@ -56,6 +59,15 @@ pub struct Scene {
     /// A fluid in the gap.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fluid: Option<Fluid>,
+    /// For `asperity joint`: its loads.
+    #[serde(default, skip_serializing_if = "JointScene::is_default")]
+    pub joint: JointScene,
+    /// For `asperity joint`: the conductivities of heat.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub thermal: Option<Thermal>,
+    /// For `asperity joint`: the conductivities of electric current.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub electrical: Option<Electrical>,
     /// Output files.
     #[serde(default)]
     pub output: Output,
@@ -102,7 +114,7 @@ impl Choice {
 }
 
 /// Load of the plane: exactly one of pressure and separation.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LoadScene {
     /// Nominal pressure.
@@ -161,6 +173,9 @@ impl Scene {
             load,
             half_space: HalfSpaceScene::default(),
             fluid: None,
+            joint: JointScene::default(),
+            thermal: None,
+            electrical: None,
             output: Output::default(),
             custom: None,
         }
@@ -171,6 +186,20 @@ impl Scene {
     /// # Errors
     /// The first value that makes no sense, by the path of its key.
     pub fn validate(&self) -> Result<(), SceneError> {
+        self.validate_but_load()?;
+        self.load.load().map(|_| ())
+    }
+
+    /// The same of a joint, which may have no load.
+    ///
+    /// # Errors
+    /// As for [`Scene::validate`].
+    pub fn validate_joint(&self) -> Result<(), SceneError> {
+        self.validate_but_load()?;
+        self.load.of_joint().map(|_| ())
+    }
+
+    fn validate_but_load(&self) -> Result<(), SceneError> {
         match (self.closure, &self.custom) {
             (Choice::Custom, None) => {
                 let message = "\"custom\" is a closure that a program hands in: a file takes a built-in one, or \"all\"";
@@ -182,9 +211,11 @@ impl Scene {
             _ => {}
         }
         check_material(&self.material)?;
-        self.load.load()?;
         self.half_space.validate()?;
         self.fluid.as_ref().map_or(Ok(()), Fluid::validate)?;
+        self.joint.validate()?;
+        self.thermal.as_ref().map_or(Ok(()), Thermal::validate)?;
+        self.electrical.as_ref().map_or(Ok(()), Electrical::validate)?;
         self.surface.validate()
     }
 }
@@ -213,6 +244,18 @@ fn check_material(material: &Material) -> Result<(), SceneError> {
 }
 
 impl LoadScene {
+    /// The load of a joint, in SI; None where none is given: then the surface or the metal says where it
+    /// ends.
+    ///
+    /// # Errors
+    /// Both, or a negative pressure.
+    pub fn of_joint(&self) -> Result<Option<Load>, SceneError> {
+        if *self == (LoadScene { unload: self.unload, ..LoadScene::default() }) {
+            return Ok(None);
+        }
+        self.load().map(Some)
+    }
+
     /// The load, in SI.
     ///
     /// # Errors

@@ -1,0 +1,32 @@
+//! Conductance of a joint for heat or electric current.
+
+/// The two bodies of a joint.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bodies {
+    /// Their conductivities: W/(m K) of heat, S/m of current.
+    pub conductivities: [f64; 2],
+}
+
+impl Bodies {
+    /// 2 k₁ k₂/(k₁ + k₂): the conductivity of two equal bodies that let through as much.
+    pub fn conductivity(&self) -> f64 {
+        let [one, other] = self.conductivities;
+        // the form holds for any two positive numbers
+        2.0 / (1.0 / one + 1.0 / other)
+    }
+
+    /// Conductance through the spots of contact over the nominal area (Barber 2003), k S/E*, in W/(m² K) or
+    /// S/m²: the temperature drop of the flux q through the spots is the closure of the pressure p on them
+    /// with k in the place of E*. `stiffness` is the elastic one of the contact as it stands (Pa/m),
+    /// `reduced_modulus` E* (Pa).
+    pub fn of_contact(&self, stiffness: f64, reduced_modulus: f64) -> f64 {
+        self.conductivity() * stiffness / reduced_modulus
+    }
+}
+
+/// Conductance of a medium of this `conductivity` in a gap of this mean height (m), in W/(m² K) or S/m²: that
+/// between parallel planes. Of uneven gaps it is the least there can be, as the mean of 1/g is at least 1
+/// over the mean of g.
+pub fn of_medium(conductivity: f64, mean_gap: f64) -> f64 {
+    conductivity / mean_gap
+}
