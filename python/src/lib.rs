@@ -13,6 +13,7 @@ mod calibrate;
 mod crush;
 mod extract;
 mod identify;
+mod joint;
 mod press;
 mod study;
 mod trade;
@@ -28,8 +29,10 @@ fn _asperity(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<scene::RoughScene>()?;
     module.add_class::<crush::Crush>()?;
     module.add_class::<press::Rough>()?;
+    module.add_class::<joint::Joint>()?;
     module.add_function(wrap_pyfunction!(crush::crush, module)?)?;
     module.add_function(wrap_pyfunction!(press::press, module)?)?;
+    module.add_function(wrap_pyfunction!(joint::joint, module)?)?;
     module.add_function(wrap_pyfunction!(calibrate::calibrate, module)?)?;
     module.add_function(wrap_pyfunction!(trade::trade, module)?)?;
     module.add_function(wrap_pyfunction!(identify::identify, module)?)?;

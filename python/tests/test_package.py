@@ -368,3 +368,26 @@ def test_the_scripts_of_the_front_page_run(tmp_path: pathlib.Path, monkeypatch: 
     exec(front_page[1].split("```")[0], scope)
     assert 0 < scope["ball"].summary["estimated_error"] < 0.05
     assert len(scope["study"].results) == 12 and set(scope["study"].results["status"]) == {"ok"}
+
+
+def test_a_joint_is_a_table_with_its_errors_and_the_files_of_the_command(tmp_path: pathlib.Path) -> None:
+    tables: dict[str, Any] = {
+        "material": {"youngs_modulus": "210 GPa", "poissons_ratio": 0.3},
+        "surface": {"periodic": True, "level": "mean"},
+        "load": {"pressure": "50 MPa"},
+        "thermal": {"conductivity": ["50 W/(m K)", "50 W/(m K)"]},
+        "joint": {"loads": 9},
+    }
+    joint = asperity.joint(waves(), pixel_size_um=(1.0, 2.0), out=tmp_path / "joint", **tables)
+    pressures = joint.table["pressure_MPa"]
+    loading = np.array([phase == "load" for phase in joint.table["phase"]]) & (pressures > 0)
+    assert loading.sum() == 9 and pressures.max() == pytest.approx(50.0, rel=1e-6)
+    # conductance is k S/E*
+    expected = 50.0 * joint.table["elastic_stiffness_MPa_per_um"] * 1e6 / joint.summary["reduced_modulus_MPa"]
+    assert joint.table["conductance_W_per_m2K"][loading] == pytest.approx(expected[loading], rel=1e-9)
+    assert (np.diff(joint.law["approach_um"]) > 0).all()
+    assert (tmp_path / "joint" / "calculix.inp").exists() and "<html" in joint.report()
+    twice = asperity.joint([waves(), waves()], pixel_size_um=(1.0, 2.0), **tables)
+    assert twice.table["repeatability"][loading] == pytest.approx(0.0, abs=1e-9)
+    with pytest.raises(asperity.InputError, match="of one size"):
+        asperity.joint([waves(), waves()[:32]], pixel_size_um=(1.0, 2.0), **tables)

@@ -1,7 +1,8 @@
 //! The command line: the commands and what help says of them.
 
 use super::{
-    calibrate, crush, extract, identify, manual, mesh, new, reference, reproduce, rough, schema, study, trade,
+    calibrate, crush, extract, identify, joint, manual, mesh, new, reference, reproduce, rough, schema,
+    study, trade,
 };
 use clap::{Parser, Subcommand};
 
@@ -28,6 +29,7 @@ const EXAMPLES: &str = "Examples:
   asperity new fit; asperity identify fit.toml     from measured curves to the metal
   asperity trade single.toml                       what accuracy costs on a scene, knob by knob
   asperity rough --table1                          three rough surfaces beside the paper's Table 1
+  asperity joint surface.sur                       pressure over gap, stiffness, conductance, for other programs
   asperity extract surface.sur --crush 20          asperities of a map, and the closures beside finite elements
   asperity schema > scene.schema.json              for editors that complete and check TOML
   asperity completions bash; asperity man crush    for shells and manuals
@@ -49,6 +51,11 @@ const ROUGH: &str = "Examples:
   asperity new rough && asperity rough rough.toml
   asperity rough rough.toml --set closure=half-space --set \"load.pressure=100 MPa\" --out out/half-space
   asperity rough --table1                          the surfaces of the paper beside its Table 1";
+
+const JOINT: &str = "Examples:
+  asperity joint surface.sur --set \"load.pressure=50 MPa\"     into out/surface: joint.csv, calculix.inp, abaqus.inp, moose.csv
+  asperity joint one.sur two.sur three.sur --like steel.toml    their mean, and how far they differ
+  asperity joint scene.toml --set 'thermal.conductivity=[\"50 W/(m K)\", \"50 W/(m K)\"]' --report";
 
 const CALIBRATE: &str = "Examples:
   asperity calibrate                               480 cones, into out/calibrate
@@ -91,6 +98,9 @@ pub enum Command {
     /// Press a rigid plane on a rough surface and write table, load curve, maps
     #[command(after_help = ROUGH)]
     Rough(rough::Rough),
+    /// Press a surface from first touch to its largest load and write its law (pressure, gap, stiffness, conductance, leak) for CalculiX, Abaqus, MOOSE
+    #[command(after_help = JOINT)]
+    Joint(joint::Joint),
     /// Find the asperities of a measured map, write profiles and scenes of them, crush some beside the closures
     Extract(extract::Extract),
     /// Crush cones of many slopes and metals and find the representative strain
@@ -128,6 +138,7 @@ impl Command {
         match self {
             Command::Crush(args) => args.run.threads,
             Command::Rough(args) => args.run.threads,
+            Command::Joint(args) => args.run.threads,
             Command::Extract(args) => args.run.threads,
             Command::Calibrate(args) => args.run.threads,
             Command::Study(args) => args.run.threads,

@@ -5,7 +5,7 @@ use crate::folder::claim;
 use crate::progress::BatchProgress;
 use crate::terminal;
 use asperity::batch::Options;
-use asperity::error::Error;
+use asperity::error::{Error, InputError};
 use asperity::extract::{Comparison, Extracted, Extraction, LineAt, Parts, extract as take};
 use asperity::material::units::Length;
 use asperity::output::Directory;
@@ -118,10 +118,24 @@ pub fn scene_of(
     overrides: &[String],
     quiet: bool,
 ) -> Result<RoughScene, Error> {
+    scene_like(path, like, RoughScene::usual, overrides, quiet)
+}
+
+/// The same with `usual` for what is not said of a map.
+///
+/// # Errors
+/// A scene that cannot be read or makes no sense.
+pub fn scene_like(
+    path: &Path,
+    like: Option<&Path>,
+    usual: fn() -> Result<RoughScene, InputError>,
+    overrides: &[String],
+    quiet: bool,
+) -> Result<RoughScene, Error> {
     if path.extension().is_some_and(|end| end == "toml") {
         return Ok(RoughScene::read(path, overrides)?);
     }
-    let given = like.map_or_else(RoughScene::usual, |like| RoughScene::read(like, &[]))?;
+    let given = like.map_or_else(usual, |like| RoughScene::read(like, &[]))?;
     let scene = RoughScene::of_map(path, &given, overrides)?;
     if like.is_none() && !quiet {
         terminal::warn(&format!(

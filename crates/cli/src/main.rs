@@ -9,6 +9,7 @@ mod flags;
 mod folder;
 mod identify;
 mod interrupt;
+mod joint;
 mod manual;
 mod mesh;
 mod new;
@@ -69,6 +70,7 @@ fn run(command: &Command) -> Result<(), Error> {
         Command::Crush(args) => crush::crush(args),
         Command::Mesh(args) => mesh::mesh(args),
         Command::Rough(args) => rough::rough(args),
+        Command::Joint(args) => joint::joint(args),
         Command::Extract(args) => extract::extract(args),
         Command::Calibrate(args) => calibrate::calibrate(args),
         Command::Study(args) => study::study(args),

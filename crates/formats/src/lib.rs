@@ -2,8 +2,8 @@
 //!
 //! In order: quantities with units ([`units`]) and units of columns ([`dimension`]), memory that a file may
 //! take ([`memory`]), tables of numbers ([`text`], of workbooks too), curves of indentation instruments
-//! ([`indentation`]), maps of surfaces ([`surface`]), and the file in which many runs keep what they have
-//! finished ([`journal`]).
+//! ([`indentation`]), maps of surfaces ([`surface`]), the law of an interface for other programs
+//! ([`interface_law`]), and the file in which many runs keep what they have finished ([`journal`]).
 
 pub mod units;
 
@@ -18,5 +18,7 @@ mod workbook;
 pub mod indentation;
 
 pub mod surface;
+
+pub mod interface_law;
 
 pub mod journal;

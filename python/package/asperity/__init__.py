@@ -22,13 +22,14 @@ from ._asperity import (
     UnfinishedError,
     __version__,
 )
-from ._functions import calibrate, crush, extract, identify, press, study, trade
+from ._functions import calibrate, crush, extract, identify, joint, press, study, trade
 from ._results import (
     Calibration,
     Crush,
     Extraction,
     Fields,
     Identification,
+    Joint,
     Rough,
     Study,
     Table,
@@ -42,6 +43,7 @@ __all__ = [
     "Fields",
     "Identification",
     "InputError",
+    "Joint",
     "Rough",
     "RoughScene",
     "Scene",
@@ -54,6 +56,7 @@ __all__ = [
     "crush",
     "extract",
     "identify",
+    "joint",
     "press",
     "study",
     "trade",

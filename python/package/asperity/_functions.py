@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import _asperity
-from ._results import Calibration, Crush, Extraction, FloatArray, Identification, Rough, Study, Trade
+from ._results import Calibration, Crush, Extraction, FloatArray, Identification, Joint, Rough, Study, Trade
 
 if TYPE_CHECKING:
     from ._asperity import RoughScene, Scene
@@ -103,6 +103,21 @@ def _surface(
     return _asperity.RoughScene(**{"surface": {}, **scene}), heights, pixel
 
 
+def _is_whole(surface: Any) -> bool:
+    """Tells whether a surface has all tables of its scene."""
+    is_file = isinstance(surface, str | os.PathLike) and os.fspath(surface).endswith(".toml")
+    return is_file or isinstance(surface, _asperity.RoughScene)
+
+
+def _are_several(surfaces: Any) -> bool:
+    """Tells a list of surfaces from one whose heights are lists."""
+    if not isinstance(surfaces, list | tuple) or not surfaces:
+        return False
+    first = surfaces[0]
+    named = isinstance(first, str | os.PathLike | _asperity.RoughScene)
+    return named or callable(getattr(first, "heights", None)) or np.ndim(first) == 2
+
+
 def press(
     heights: Any = None,
     *,
@@ -124,6 +139,32 @@ def press(
     :raises InputError: a scene that makes no sense, a load that the surface cannot carry.
     """
     return Rough(_asperity.press(*_surface(heights, pixel_size_um, scene), _path(out), progress))
+
+
+def joint(
+    heights: Any = None,
+    *,
+    pixel_size_um: tuple[float, float] | None = None,
+    out: PathLike | None = None,
+    progress: Progress | None = None,
+    **scene: Any,
+) -> Joint:
+    """Presses a surface from first touch to its largest load and back: pressure, gap, stiffness, conductance and leak for other programs.
+
+    :param heights: of the map, its path, a topography, or a :class:`RoughScene` or its path, as for :func:`press`; or a list of
+        them, which are maps of one surface and give their mean and how far they differ.
+    :param pixel_size_um: distance of the heights along x and y.
+    :param out: folder for the files of ``asperity joint``; files of the same name are replaced.
+    :param progress: called with the share that is done and a text.
+    :param scene: the tables of the scene: ``material={...}``, ``load={...}`` (without it to the end of the metal or of the gap),
+        ``thermal={"conductivity": ["50 W/(m K)", "50 W/(m K)"]}``, ``joint={"loads": 25}``.
+    :raises InputError: a scene that makes no sense, maps of different sizes, a load that touches nothing or cannot be carried.
+    """
+    maps = list(heights) if _are_several(heights) else [heights]
+    # where nothing is said, the metal decides whether it flows
+    tables = [scene if _is_whole(one) else {"closure": "all", **scene} for one in maps]
+    taken = [_surface(one, pixel_size_um, own) for one, own in zip(maps, tables, strict=True)]
+    return Joint(_asperity.joint(taken, _path(out), progress))
 
 
 def extract(

@@ -265,6 +265,35 @@ class Rough:
         return self.table._repr_html_()
 
 
+class Joint:
+    """The law of a joint: pressure, gap, stiffness, conductance and leak from first touch to the largest load, and back."""
+
+    def __init__(self, inner: _asperity.Joint) -> None:
+        self._inner = inner
+        self.table = Table(inner.table())
+        """The rows of ``joint.csv``."""
+        self.law = Table(inner.law())
+        """Approach and pressure for straight lines between them."""
+        self.summary: dict[str, Any] = inner.summary()
+        """The numbers of ``joint.json``."""
+        self.warnings: list[str] = self.summary["warnings"]
+        """Remarks on the trust in the numbers."""
+
+    def write(self, folder: PathLike) -> None:
+        """Writes the files of ``asperity joint``; files of the same name are replaced."""
+        self._inner.write(os.fspath(folder))
+
+    def report(self, path: PathLike | None = None) -> str:
+        """The page of ``--report``, which stands alone; written to ``path`` too if there is one."""
+        return _page(self._inner.report(), path)
+
+    def __repr__(self) -> str:
+        return f"<Joint\n{self._inner.text()}>"
+
+    def _repr_html_(self) -> str:
+        return self.table._repr_html_()
+
+
 class Extraction:
     """The asperities of a map, with profiles and scenes of the highest, and the closures beside finite elements."""
 

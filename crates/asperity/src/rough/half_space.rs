@@ -89,10 +89,28 @@ impl SpaceContact {
         let curve = curve(&body, surface, &found, points, high)?;
         let unloading =
             scene.load.unload.then(|| unload(&body, surface, &found, &curve, points)).transpose()?;
-        let gap = Gap::new(&surface.map, &found.gaps);
         // in a comparison of closures the flow is a cost that only a fluid asks for
         let asked = scene.fluid.is_some() || scene.closure.closures().len() == 1;
         let flows = scene.half_space.leak.unwrap_or(asked);
+        let passages = Passage::both(&body, surface, &found, flows)?;
+        let patches = patches(&surface.map, &found.pressures);
+        Ok(SpaceContact { body, limit, contact: found, curve, unloading, passages, flows, patches })
+    }
+}
+
+impl Passage {
+    /// The gap of the contact `found` of `body` on `surface` along x and along y, with its flow where
+    /// `flows`.
+    ///
+    /// # Errors
+    /// Where points without a height decide: a surface with its holes filled that does not carry the load.
+    pub(crate) fn both(
+        body: &HalfSpace,
+        surface: &Surface,
+        found: &HalfSpaceContact,
+        flows: bool,
+    ) -> Result<[Passage; 2], HalfSpaceError> {
+        let gap = Gap::new(&surface.map, &found.gaps);
         let passage = |axis| {
             let narrowest = constriction(&gap, axis);
             let leak = narrowest.filter(|_| flows).and_then(|_| leak(&gap, axis));
@@ -102,7 +120,7 @@ impl SpaceContact {
         let closed = |one: &Passage, axis| one.narrowest.is_none() && is_closed_by_missing(&gap, axis);
         let unknown = [closed(&x, Axis::X), closed(&y, Axis::Y)];
         if unknown != [false; 2] {
-            let filled = with_points_filled(&body, surface, found.pressure)?;
+            let filled = with_points_filled(body, surface, found.pressure)?;
             let tell = |axis| UnknownPassage {
                 missing: surface.map.missing(),
                 filled: constriction(&Gap::new(&surface.map, &filled.gaps), axis),
@@ -110,8 +128,13 @@ impl SpaceContact {
             x.unknown = unknown[0].then(|| tell(Axis::X));
             y.unknown = unknown[1].then(|| tell(Axis::Y));
         }
-        let patches = patches(&surface.map, &found.pressures);
-        Ok(SpaceContact { body, limit, contact: found, curve, unloading, passages: [x, y], flows, patches })
+        Ok([x, y])
+    }
+
+    /// Volume flux times viscosity over pressure difference, m³; 0 where nothing passes; None where it was
+    /// not asked for, or points without a height decide.
+    pub(crate) fn conductance(&self, flows: bool) -> Option<f64> {
+        (flows && self.unknown.is_none()).then(|| self.leak.map_or(0.0, |leak| leak.conductance))
     }
 }
 
@@ -148,8 +171,7 @@ impl SpaceContact {
     /// Flux times viscosity over pressure difference along an axis, m³; 0 where nothing passes; None where it
     /// was not asked for, or points without a height decide.
     pub fn leak(&self, axis: usize) -> Option<f64> {
-        let Passage { leak, unknown, .. } = &self.passages[axis];
-        (self.flows && unknown.is_none()).then(|| leak.map_or(0.0, |l| l.conductance))
+        self.passages[axis].conductance(self.flows)
     }
 
     /// Relative error of the leak along an axis; None without one, or where nothing bounds it.

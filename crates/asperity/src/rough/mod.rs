@@ -36,3 +36,4 @@ pub use half_space::{Passage, SpaceContact, SpaceUnloading};
 pub use several::{Several, SurfaceRow, press_several};
 pub use summary::{ClosureSummary, Summary};
 pub use table::{LoadPoint, TableRow};
+pub(crate) use warnings::scene_warnings;

@@ -7,7 +7,7 @@ use crate::input::toml_file::{LARGEST_FILE, TomlFile, to_toml};
 use asperity_formats::memory::read_file;
 use asperity_formats::surface::{Measured, Spacing};
 use asperity_material::HardeningLaw;
-use asperity_roughness::scene::{Choice, OwnClosure, Scene, SceneError};
+use asperity_roughness::scene::{Choice, LoadScene, OwnClosure, Scene, SceneError};
 use asperity_roughness::{Closure, Coefficient, IslandClosure};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -76,6 +76,17 @@ impl RoughScene {
     /// None: the text comes with the program.
     pub fn usual() -> Result<RoughScene, InputError> {
         RoughScene::from_toml(crate::scenes::SURFACE, Path::new(""))
+    }
+
+    /// The same for a joint: the whole of the map under no load of its own, so that the metal says where the
+    /// joint ends.
+    ///
+    /// # Errors
+    /// As for [`RoughScene::usual`].
+    pub fn usual_joint() -> Result<RoughScene, InputError> {
+        let mut usual = RoughScene::usual()?;
+        (usual.scene.closure, usual.scene.load) = (Choice::HalfSpacePlastic, LoadScene::default());
+        Ok(usual)
     }
 
     /// A scene built in code; its paths are relative to the folder `base`.

@@ -183,9 +183,8 @@ fn passage(space: &SpaceContact, k: usize, axis: Axis, fluid: Option<&Fluid>) ->
             with_digits(leak.hydraulic_gap / MICROMETRE, 3)
         );
         if let Some(fluid) = fluid {
-            let difference = fluid.pressures[0].0 - fluid.pressures[1].0;
-            let flux = leak.conductance * difference / fluid.viscosity.pascal_seconds;
-            let _ = write!(text, ": {flux:.2e} m³/s of this fluid");
+            let unit = if fluid.gas { "Pa m³/s of this gas" } else { "m³/s of this fluid" };
+            let _ = write!(text, ": {:.2e} {unit}", fluid.flow(leak.conductance));
         }
     }
     text

@@ -30,7 +30,7 @@ pub(super) fn stopped_before(closure: Closure) -> String {
 }
 
 /// Of the scene as a whole: an unused fluid, its material, its surface and its load.
-pub(super) fn scene_warnings(surface: &Surface, scene: &Scene) -> Warnings {
+pub(crate) fn scene_warnings(surface: &Surface, scene: &Scene) -> Warnings {
     let first = unused_fluid(scene).into_iter().chain(two_materials(scene));
     first.chain(missing_points(surface, scene)).chain(surface_warnings(surface, scene)).collect()
 }

@@ -9,6 +9,7 @@ use asperity::crush::{
     AsperityRow, CurveRow, CycleRow, Errors, GapRow, Island, OliverPharr, Smoothing, Summary, SurfacePoint,
 };
 use asperity::extract;
+use asperity::joint;
 use asperity::rough;
 use asperity::tables::Symmetry;
 use asperity::trade::TradeRow;
@@ -36,7 +37,11 @@ const ROUGH: &str = "`contact.vti` holds the maps of all closures for ParaView, 
     `table1.json`: for each surface the row as printed (µm, degrees, MPa, %) and, for each closure, the values of the five seeds of \
     every column.";
 
-const REPORT: &str = "`crush`, `calibrate`, `rough` and `identify` with `--report` leave `report.html` as well: a page that needs no \
+const JOINT: &str = "`calculix.inp` and `abaqus.inp` hold `*SURFACE INTERACTION` with its tables, ready to be included by a deck in N, mm, K; \
+    `moose.csv` holds the same in SI for piecewise functions. Their heads say what made them, where the overclosure is 0, and what goes \
+    beyond the last row. `pressure.svg`, `stiffness.svg` and, with `[thermal]`, `conductance.svg` show the law with its errors.";
+
+const REPORT: &str = "`crush`, `calibrate`, `rough`, `joint` and `identify` with `--report` leave `report.html` as well: a page that needs no \
     network, with the numbers and their errors first, what to beware of, and curves that tell the value under the pointer.";
 
 /// The page.
@@ -81,7 +86,16 @@ pub fn page() -> String {
         "summary.json: `closures`",
         "beside the columns of `table.csv`",
     );
-    text += &format!("{ROUGH}\n\n## asperity extract\n\n");
+    text += &format!("{ROUGH}\n\n## asperity joint\n\n");
+    text += &file_columns::<joint::JointRow>("joint.csv", "a row per load, of several maps their mean");
+    text += &file_columns::<joint::Summary>("joint.json", "fits, errors and what was pressed");
+    text += &file_columns::<joint::LawRow>("joint.json: `law`", "the table that programs take");
+    text += &file_columns::<joint::ExponentialFit>("joint.json: `fit_pressure`", "pressure over mean gap");
+    text += &file_columns::<joint::PowerFit>(
+        "joint.json: `fit_stiffness`, `fit_conductance`",
+        "over the pressure in MPa",
+    );
+    text += &format!("{JOINT}\n\n## asperity extract\n\n");
     text += &file_columns::<extract::AsperityRow>(
         "asperities.csv",
         "a row per asperity, from the highest summit down",

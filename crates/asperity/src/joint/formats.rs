@@ -1,0 +1,138 @@
+//! The files of a joint: CSV, JSON, charts, and the law as other programs read it.
+
+use super::press_joint::Joint;
+use super::table::JointRow;
+use crate::crush::Phase;
+use crate::error::Error;
+use crate::results::numbers::{rounded, with_digits};
+use crate::results::output::{Sink, SinkExt, sorted_json, write_csv};
+use crate::results::units::{MEGAPASCAL, MICROMETRE};
+use asperity_formats::interface_law::InterfaceLaw;
+use std::fmt::Write;
+
+/// The tables end at this many times the largest load that was computed, along the last tangent.
+const CONTINUED: f64 = 2.0;
+
+impl Joint {
+    /// Writes joint.csv, joint.json, calculix.inp, abaqus.inp, moose.csv and the charts.
+    ///
+    /// # Errors
+    /// A disk that refuses.
+    pub fn write(&self, sink: &mut dyn Sink) -> Result<(), Error> {
+        sink.write("joint.csv", |out| write_csv(out, &self.rows))?;
+        let law = self.interface_law();
+        let continued = InterfaceLaw { pressure: self.continued(&law.pressure), ..law.clone() };
+        sink.text("calculix.inp", &continued.calculix())?;
+        sink.text("abaqus.inp", &continued.abaqus())?;
+        sink.text("moose.csv", &law.moose())?;
+        for (name, chart) in self.charts() {
+            sink.text(name, &crate::draw::chart::svg(&chart).map_err(Error::Unfinished)?)?;
+        }
+        sink.text("joint.json", &self.json()?)
+    }
+
+    /// The text of joint.json.
+    ///
+    /// # Errors
+    /// None that is known: every summary is JSON.
+    pub fn json(&self) -> Result<String, Error> {
+        sorted_json(&self.summary)
+    }
+
+    /// Rows of loading that carry something.
+    pub(super) fn loaded(&self) -> impl Iterator<Item = &JointRow> {
+        self.rows.iter().filter(|row| row.phase == Phase::Load && row.pressure_MPa > 0.0)
+    }
+
+    /// The law for other programs, in SI.
+    fn interface_law(&self) -> InterfaceLaw {
+        let s = &self.summary;
+        let touch = s.first_touch_gap_um * MICROMETRE;
+        let conductances = |of: fn(&JointRow) -> Option<f64>| {
+            let rows = self.rows.iter().take(1).chain(self.loaded());
+            rows.filter_map(|row| Some([row.pressure_MPa * MEGAPASCAL, of(row)?])).collect()
+        };
+        InterfaceLaw {
+            head: self.head(),
+            pressure: s
+                .law
+                .iter()
+                .map(|row| [row.approach_um * MICROMETRE, row.pressure_MPa * MEGAPASCAL])
+                .collect(),
+            // the gap is that of first touch less the overclosure
+            exponential: s.fit_pressure.as_ref().map(|fit| {
+                let length = fit.length_um * MICROMETRE;
+                [fit.pressure_MPa * MEGAPASCAL * (-touch / length).exp(), length]
+            }),
+            heat: conductances(|row| row.conductance_W_per_m2K),
+            current: conductances(|row| row.electrical_conductance_S_per_m2),
+        }
+    }
+
+    /// The rows of pressure with one more beyond the last load, along the tangent.
+    fn continued(&self, rows: &[[f64; 2]]) -> Vec<[f64; 2]> {
+        let mut table = rows.to_vec();
+        if let [.., a, b] = *rows {
+            let chord = (b[1] - a[1]) / (b[0] - a[0]);
+            let tangent = self.loaded().last().and_then(|row| row.stiffness_MPa_per_um);
+            let slope = tangent.map_or(chord, |slope| slope * MEGAPASCAL / MICROMETRE);
+            table.push([b[0] + (CONTINUED - 1.0) * b[1] / slope, CONTINUED * b[1]]);
+        }
+        table
+    }
+
+    /// What made the law and how to read it.
+    fn head(&self) -> String {
+        let s = &self.summary;
+        let metal =
+            s.limit_MPa.map_or("elastic".into(), |limit| format!("at most {limit:.0} MPa on a pixel"));
+        let errors = self.loaded().filter_map(|row| row.error);
+        let (low, high) = errors.fold((f64::INFINITY, 0.0_f64), |(l, h), e| (l.min(e), h.max(e)));
+        let error = match low <= high {
+            true => format!(
+                "Stiffness and conductance of single loads are known to {} to {} %. ",
+                rounded(1e2 * low),
+                rounded(1e2 * high)
+            ),
+            false => String::new(),
+        };
+        format!(
+            "Joint of the surface {} ({} x {} points of {:.6} x {:.6} um) on a smooth rigid plane, by asperity {}. Metal: E* = {:.1} MPa, \
+             {metal}. Units: N, mm, MPa, mW, K, A, V. Overclosure 0 is first touch, where the mean planes are {:.6} um apart, which the mesh \
+             leaves out. Straight lines between rows are off the law by at most 0.5 %. {error}The law was computed to {:.6} MPa; the last row of \
+             pressure continues it along its tangent to twice that, and no row of conductance goes beyond.",
+            s.surfaces.join(" and "),
+            s.pixels[0],
+            s.pixels[1],
+            s.pixel_size_um[0],
+            s.pixel_size_um[1],
+            s.version,
+            s.reduced_modulus_MPa,
+            s.first_touch_gap_um,
+            s.largest_pressure_MPa,
+        )
+    }
+
+    /// The result for a person.
+    pub fn text(&self) -> String {
+        let mut text = String::from(
+            "phase    pressure MPa   mean gap um   approach um    A/A0 %  elastic MPa/um  h W/(m² K)  error %\n",
+        );
+        let shown = |value: Option<f64>| value.map_or_else(|| "-".into(), |v| with_digits(v, 4));
+        for row in &self.rows {
+            let _ = writeln!(
+                text,
+                "{:<8} {:>12}  {:>12}  {:>12}  {:>8}  {:>14}  {:>10}  {:>7}",
+                if row.phase == Phase::Load { "load" } else { "unload" },
+                shown(Some(row.pressure_MPa)),
+                shown(Some(row.mean_gap_um)),
+                shown(Some(row.approach_um)),
+                shown(Some(100.0 * row.contact_area_ratio_corrected)),
+                shown(row.elastic_stiffness_MPa_per_um),
+                shown(row.conductance_W_per_m2K),
+                row.error.map_or_else(|| "-".into(), |e| rounded(100.0 * e)),
+            );
+        }
+        text + &self.summary.verdict + "\n"
+    }
+}

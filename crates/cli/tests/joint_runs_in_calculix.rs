@@ -1,0 +1,133 @@
+//! Claim: what `asperity joint` writes for CalculiX does there what the table says: two blocks that are
+//! pressed together close by the approach of the table, and let through the heat of its conductance.
+//!
+//! Source: the rows of joint.csv. Tolerance: 1 %, of which straight lines between rows take 0.5 %. Needs ccx
+//! (Debian: calculix-ccx; tried with 2.20); without it the test fails, as nothing else would tell.
+
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
+
+mod common;
+
+use common::Place;
+use std::collections::BTreeMap;
+use std::fmt::Write;
+use std::process::Command;
+
+const SCENE: &str = r#"closure = "half-space"
+[surface.generate]
+kind = "self-affine"
+hurst = 0.8
+rolloff = "32 um"
+cutoff = "8 um"
+ra = "0.5 um"
+size = ["128 um", "128 um"]
+pixels = [64, 64]
+seed = 4
+[material]
+youngs_modulus = "70 GPa"
+poissons_ratio = 0.33
+[load]
+pressure = "400 MPa"
+[half_space]
+leak = false
+[thermal]
+conductivity = ["50 W/(m K)", "150 W/(m K)"]
+[output]
+maps = false
+"#;
+
+/// Two cubes of 1 mm, the upper on the lower, which bend by nothing.
+fn blocks() -> String {
+    let mut deck = String::from("*NODE\n");
+    for i in 0..16 {
+        let (x, y) = [(0, 0), (1, 0), (1, 1), (0, 1)][i % 4];
+        let z = [0, 1, 1, 2][i / 4];
+        let _ = writeln!(deck, "{}, {x}, {y}, {z}", i + 1);
+    }
+    deck + "*ELEMENT, TYPE=C3D8, ELSET=LOW\n1, 1,2,3,4,5,6,7,8\n*ELEMENT, TYPE=C3D8, ELSET=HIGH\n2, 9,10,11,12,13,14,15,16\n\
+            *ELSET, ELSET=ALL\nLOW, HIGH\n*NSET, NSET=BASE\n1,2,3,4\n*NSET, NSET=TOP\n13,14,15,16\n*NSET, NSET=FACE\n9\n\
+            *NSET, NSET=EVERY, GENERATE\n1,16\n*SURFACE, NAME=SLAVE, TYPE=ELEMENT\nHIGH, S1\n\
+            *SURFACE, NAME=MASTER, TYPE=ELEMENT\nLOW, S2\n*MATERIAL, NAME=RIGID\n*ELASTIC\n1e11, 0.\n*CONDUCTIVITY\n1e11\n\
+            *EXPANSION\n0.\n*SPECIFIC HEAT\n1.\n*DENSITY\n1e-9\n*SOLID SECTION, ELSET=ALL, MATERIAL=RIGID\n\
+            *INCLUDE, INPUT=calculix.inp\n"
+}
+
+/// Runs `deck` beside calculix.inp: by the time the first number of each printed block that `of` begins,
+/// `column` columns after the node.
+fn run(place: &Place, name: &str, deck: &str, of: &str, column: usize) -> BTreeMap<u32, f64> {
+    std::fs::write(place.path(&format!("out/{name}.inp")), deck).unwrap();
+    let ended = Command::new("ccx")
+        .arg(name)
+        .current_dir(place.path("out"))
+        .env("OMP_NUM_THREADS", "1")
+        .output()
+        .expect("this test needs ccx (Debian: apt-get install calculix-ccx)");
+    let said = String::from_utf8_lossy(&ended.stdout).into_owned();
+    assert!(ended.status.success(), "{said}");
+    let text = place.text(&format!("out/{name}.dat"));
+    let mut lines = text.lines();
+    let mut found = BTreeMap::new();
+    while let Some(line) = lines.next() {
+        if !line.trim().starts_with(of) {
+            continue;
+        }
+        let time: f64 = line.split_whitespace().last().unwrap().parse().unwrap();
+        let row = lines.by_ref().find(|row| !row.trim().is_empty()).unwrap();
+        let number: f64 = row.split_whitespace().nth(column).unwrap().parse().unwrap();
+        // steps last 1, and end at whole times
+        if (time - time.round()).abs() < 1e-9 {
+            found.insert(time.round() as u32, number);
+        }
+    }
+    found
+}
+
+#[test]
+fn two_blocks_close_and_conduct_as_the_table_says() {
+    let place = Place::with_scene(SCENE);
+    let end = place.run(&["joint", "scene.toml", "--out", "out", "--quiet"]);
+    assert_eq!(end.status, 0, "{}", end.err);
+    let rows: Vec<BTreeMap<String, String>> = csv::Reader::from_path(place.path("out/joint.csv"))
+        .unwrap()
+        .deserialize()
+        .map(Result::unwrap)
+        .collect();
+    let loading: Vec<[f64; 3]> = rows
+        .iter()
+        .filter(|row| row["phase"] == "load" && row["pressure_MPa"].parse::<f64>().unwrap() > 0.0)
+        .map(|row| {
+            ["pressure_MPa", "approach_um", "conductance_W_per_m2K"].map(|name| row[name].parse().unwrap())
+        })
+        .collect();
+    // five loads over the upper two decades of the law
+    let chosen: Vec<[f64; 3]> = (1..=5).map(|k| loading[loading.len() - 1 - 4 * (5 - k)]).collect();
+    let steps = |kind: &str, print: &str| {
+        chosen.iter().fold(String::new(), |mut text, [p, ..]| {
+            let _ =
+                write!(text, "*STEP, INC=500\n{kind}\n1., 1.\n*DLOAD\n2, P2, {p:.9e}\n{print}\n*END STEP\n");
+            text
+        })
+    };
+    let supports = "*BOUNDARY\nEVERY, 1, 2, 0.\nBASE, 3, 3, 0.\n";
+    let pair = |interaction: &str, kind: &str| {
+        format!("*CONTACT PAIR, INTERACTION={interaction}, TYPE={kind}\nSLAVE, MASTER\n{supports}")
+    };
+    let mechanics =
+        blocks() + &pair("JOINT", "NODE TO SURFACE") + &steps("*STATIC", "*NODE PRINT, NSET=FACE\nU");
+    let closure = run(&place, "mechanics", &mechanics, "displacements", 3);
+    let heat = blocks()
+        + &pair("JOINT_HEAT", "SURFACE TO SURFACE")
+        + "BASE, 11, 11, 0.\nTOP, 11, 11, 10.\n*INITIAL CONDITIONS, TYPE=TEMPERATURE\nEVERY, 0.\n"
+        + &steps(
+            "*COUPLED TEMPERATURE-DISPLACEMENT, STEADY STATE",
+            "*NODE PRINT, NSET=BASE, TOTALS=ONLY\nRFL",
+        );
+    let flux = run(&place, "heat", &heat, "total heat generation", 0);
+    for (k, [pressure, approach, conductance]) in (1..).zip(&chosen) {
+        let closed = -1e3 * closure[&k];
+        assert!((closed / approach - 1.0).abs() < 0.01, "{pressure} MPa: {closed} um, {approach} um");
+        // mW through 1 mm² at 10 K
+        let h = -1e3 * flux[&k] / 10.0;
+        assert!((h / conductance - 1.0).abs() < 0.01, "{pressure} MPa: {h}, {conductance} W/(m² K)");
+    }
+}

@@ -1,0 +1,93 @@
+//! `asperity joint` writes the columns and files that its users rely on, and refuses what has no law.
+
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
+
+mod common;
+
+use common::Place;
+use std::collections::BTreeMap;
+
+/// Small enough to be pressed in a moment.
+const SCENE: &str = r#"closure = "half-space"
+[surface.generate]
+kind = "self-affine"
+hurst = 0.8
+rolloff = "16 um"
+cutoff = "8 um"
+ra = "0.2 um"
+size = ["32 um", "32 um"]
+pixels = [32, 32]
+seed = 2
+[material]
+youngs_modulus = "70 GPa"
+poissons_ratio = 0.33
+hardness = "1 GPa"
+[load]
+pressure = "100 MPa"
+[joint]
+loads = 7
+[thermal]
+conductivity = ["50 W/(m K)", "150 W/(m K)"]
+[output]
+maps = false
+"#;
+
+const COLUMNS: &str = "phase,pressure_MPa,mean_gap_um,approach_um,contact_area_ratio,stiffness_MPa_per_um,\
+                       elastic_stiffness_MPa_per_um,conductance_W_per_m2K,leak_x_m3,leak_y_m3,error";
+
+fn rows(place: &Place, file: &str) -> Vec<BTreeMap<String, String>> {
+    csv::Reader::from_path(place.path(file)).unwrap().deserialize().map(Result::unwrap).collect()
+}
+
+#[test]
+fn the_law_has_its_columns_and_every_file_its_rows() {
+    let place = Place::with_scene(SCENE);
+    let end = place.run(&["joint", "scene.toml", "--out", "out", "--report"]);
+    assert_eq!(end.status, 0, "{}", end.err);
+    assert!(place.text("out/joint.csv").starts_with(COLUMNS));
+    let names = place.names("out");
+    for name in ["abaqus.inp", "calculix.inp", "conductance.svg", "joint.json", "moose.csv", "report.html"] {
+        assert!(names.iter().any(|have| have == name), "{names:?}");
+    }
+    let number = |row: &BTreeMap<String, String>, name: &str| row[name].parse::<f64>().unwrap_or(f64::NAN);
+    let all = rows(&place, "out/joint.csv");
+    let loads = || all.iter().filter(|row| row["phase"] == "load" && number(row, "pressure_MPa") > 0.0);
+    assert_eq!(loads().count(), 7);
+    assert!(all.iter().any(|row| row["phase"] == "unload"));
+    // five of the loads have a leak, 0 where it is tight
+    assert_eq!(loads().filter(|row| !row["leak_x_m3"].is_empty()).count(), 5);
+    // k S/E* with k = 2 50 150/200 and E* = 70 GPa/(1 - 0.33²)
+    for row in loads() {
+        let h = 75.0 * number(row, "elastic_stiffness_MPa_per_um") * 1e6 / (70e3 / (1.0 - 0.33 * 0.33));
+        assert!((number(row, "conductance_W_per_m2K") / h - 1.0).abs() < 1e-9, "{row:?}");
+    }
+    let moose = rows(&place, "out/moose.csv");
+    let rising = |two: &[BTreeMap<String, String>]| number(&two[1], "approach_m") > number(&two[0], "approach_m");
+    assert!(moose.len() > 7 && moose.windows(2).all(rising));
+    let summary: serde_json::Value = serde_json::from_str(&place.text("out/joint.json")).unwrap();
+    // a few pixels of a small map; the law itself is held to 0.1 % where it is tested
+    assert!(summary["energy_error"].as_f64().unwrap().abs() < 0.02, "{summary}");
+    let flowing = place.run(&["joint", "scene.toml", "--set", "closure=half-space-plastic", "--out", "flowing"]);
+    assert_eq!(flowing.status, 0, "{}", flowing.err);
+    let last = rows(&place, "flowing/joint.csv").pop().unwrap();
+    assert!(last["phase"] == "unload" && number(&last, "approach_um") > 0.0, "{last:?}");
+}
+
+#[test]
+fn what_has_no_law_is_refused_where_it_is_wrong() {
+    let place = Place::with_scene(SCENE);
+    let small = SCENE.replace("[32, 32]", "[16, 32]");
+    std::fs::write(place.path("small.toml"), small).unwrap();
+    for (args, words) in [
+        (&["--set", "load.pressure=0 MPa"][..], &["load", "nothing touches"][..]),
+        (&["--set", "closure=half-space-plastic", "--set", "load.pressure=2 GPa"], &["load.pressure", "1000 MPa"]),
+        (&["--set", "thermal.conductivity=[\"50\", \"50 W/(m K)\"]"], &["no unit", "W/(m K)"]),
+        (&["--set", "joint.loads=2"], &["joint.loads", "between 5 and 200"]),
+        (&["small.toml"], &["of one size", "32 x 32", "16 x 32"]),
+    ] {
+        let end = place.run(&[&["joint", "scene.toml", "--out", "out"], args].concat());
+        assert_eq!(end.status, 2, "{args:?}: {}", end.err);
+        assert!(words.iter().all(|word| end.err.contains(word)), "{args:?}: {}", end.err);
+        assert!(place.names("out").is_empty());
+    }
+}

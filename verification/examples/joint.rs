@@ -1,0 +1,176 @@
+//! Joints beside a correlation of measured conductances, the work beside the stored energy, the power of the
+//! stiffness, and the proven bounds beside the whole maps.
+//!
+//! `cargo run --release -p asperity-verification --example joint [-- --out FILE]` (some minutes of one core);
+//! the tables are `verification/results/joint.md`.
+
+// on surfaces made here
+#![allow(clippy::expect_used)]
+
+use asperity_roughness::half_space::HalfSpace;
+use asperity_roughness::joint::{Fits, JointPath, Law, bounds, follow, loads};
+use asperity_roughness::{Grid, HeightMap, Kind, Surface, Target, generate, s_filter};
+use asperity_verification::report::Report;
+
+/// Side of the maps, in pixels of 1 µm.
+const SIDE: usize = 256;
+/// E*, in Pa.
+const REDUCED: f64 = 100e9;
+/// Mean gradient of all maps.
+const GRADIENT: f64 = 0.15;
+/// Cut-offs of what is left out, in µm.
+const CUTOFFS: [f64; 5] = [12.0, 16.0, 24.0, 32.0, 48.0];
+/// Maps of the bounds.
+const BOUNDED_MAPS: u64 = 20;
+
+fn surface(hurst: f64, [rolloff, cutoff]: [f64; 2], seed: u64) -> Surface {
+    let grid = Grid { nodes: [SIDE; 2], pixel: [1e-6; 2], seed };
+    let kind = Kind::SelfAffine { hurst, rolloff: rolloff * 1e-6, cutoff: cutoff * 1e-6 };
+    let map = generate(kind, &grid, Target::Slope(GRADIENT)).expect("the kind is in range");
+    Surface::from_map(map.with_periodic(true)).expect("a map of many cells")
+}
+
+fn pressed(surface: &Surface, limit: Option<f64>, pressures: &[f64]) -> JointPath {
+    let body = HalfSpace { reduced_modulus: REDUCED, limit, tolerance: 1e-6 };
+    follow(&body, surface, pressures, &mut |_, _| Ok(true)).expect("the loads are below the limit")
+}
+
+/// Mean of |dz/dx| over neighbours along x and y: the mean absolute slope of profiles.
+fn profile_slope(map: &HeightMap) -> f64 {
+    let (nx, ny) = (map.columns(), map.rows());
+    let z = |x: usize, y: usize| map.row(y % ny)[x % nx];
+    let steps = (0..nx * ny).map(|i| {
+        let (x, y) = (i % nx, i / nx);
+        (z(x + 1, y) - z(x, y)).abs() + (z(x, y + 1) - z(x, y)).abs()
+    });
+    0.5 * steps.sum::<f64>() / (nx * ny) as f64 / map.pixel()[0]
+}
+
+/// Cooper, Mikic and Yovanovich 1969: h/k = 1.25 m/σ (p/H)^0.95 of Gaussian surfaces whose spots flow.
+fn correlation(report: &mut Report) {
+    const HARDNESS: f64 = 1e9;
+    const SHARES: [f64; 4] = [1e-3, 3e-3, 1e-2, 5e-2];
+    report.section("Conductance over that of Cooper, Mikic and Yovanovich");
+    report.line(&format!(
+        "Periodic maps of {SIDE}², E* = {} GPa, a limit of 1 GPa, mean gradient {GRADIENT}; by p/H.\n",
+        REDUCED * 1e-9
+    ));
+    report.table("| Hurst exponent | roll-off, µm | cut-off, µm | 1e-3 | 3e-3 | 1e-2 | 5e-2 |");
+    for (hurst, lengths) in
+        [(0.8, [64.0, 16.0]), (0.8, [64.0, 8.0]), (0.8, [128.0, 8.0]), (0.5, [64.0, 8.0]), (0.3, [64.0, 8.0])]
+    {
+        let surface = surface(hurst, lengths, 1);
+        let path = pressed(&surface, Some(HARDNESS), &SHARES.map(|share| share * HARDNESS));
+        let slope = profile_slope(&surface.map);
+        let cells = SHARES.iter().zip(&path.loading[1..]).map(|(share, point)| {
+            let known = 1.25 * slope / surface.parameters.sq * share.powf(0.95);
+            let found = point.elastic.map_or(f64::NAN, |s| s.gap / REDUCED);
+            format!("{:.3}", found / known)
+        });
+        let cells: Vec<String> = cells.collect();
+        let [rolloff, cutoff] = lengths;
+        report.line(&format!("| {hurst} | {rolloff} | {cutoff} | {} |", cells.join(" | ")));
+    }
+}
+
+/// Energy and power of elastic maps, over three decades to 0.05 E* h'.
+fn elastic(report: &mut Report) {
+    report.section("Elastic maps: work and power of the stiffness");
+    report.line("25 loads over three decades to 0.05 E* of the rms gradient, periodic.\n");
+    report.table(
+        "| Hurst exponent | seed | work over stored energy, less 1, % | exponent of S over p | residual, % | S Sq/p |",
+    );
+    for hurst in [0.3, 0.5, 0.8] {
+        for seed in [1, 2] {
+            let surface = surface(hurst, [64.0, 8.0], seed);
+            let most = 0.05 * REDUCED * surface.parameters.rms_gradient;
+            let path = pressed(&surface, None, &loads(most, 25));
+            let law = Law::new(&path.loading).expect("25 loads");
+            let last = path.loading[path.loading.len() - 1];
+            let energy = law.work() / (last.elastic_work / path.nominal_area) - 1.0;
+            // the upper two decades
+            let upper: Vec<_> = path.loading.iter().filter(|p| p.pressure >= 0.0099 * most).copied().collect();
+            let fit = Fits::new(&upper).stiffness.expect("the loads touch in spots");
+            let height = last.elastic.map_or(f64::NAN, |s| s.gap) * surface.parameters.sq / last.pressure;
+            report.line(&format!(
+                "| {hurst} | {seed} | {:.3} | {:.3} | {:.1} | {height:.2} |",
+                1e2 * energy,
+                fit.exponent,
+                1e2 * fit.fit.residual
+            ));
+        }
+    }
+}
+
+/// Barber's bounds of the filtered map, beside the whole map.
+fn bounded(report: &mut Report) {
+    report.section("Proven bounds of the stiffness, beside the whole maps");
+    report.line(&format!(
+        "{BOUNDED_MAPS} elastic, periodic maps (Hurst exponent 0.8, roll-off 64 µm, cut-off 8 µm): the map without what a Gaussian filter takes \
+         off bounds the stiffness of the whole map, at 25 loads to 0.1 E* of the rms gradient. Width: upper over lower bound at half of \
+         the largest load.\n"
+    ));
+    report.table(
+        "| cut-off of the filter, µm | height range left out over Sq, median | violations of the bracket | violations of the bounds | width, median | without upper bound |",
+    );
+    let whole: Vec<(Surface, JointPath, Vec<f64>)> = (1..=BOUNDED_MAPS)
+        .map(|seed| {
+            let surface = surface(0.8, [64.0, 8.0], seed);
+            let pressures = loads(0.1 * REDUCED * surface.parameters.rms_gradient, 25);
+            let path = pressed(&surface, None, &pressures);
+            (surface, path, pressures)
+        })
+        .collect();
+    for cutoff in CUTOFFS {
+        let (mut outside, mut wrong, mut unbounded) = (0, 0, 0);
+        let (mut ranges, mut widths) = (Vec::new(), Vec::new());
+        for (surface, path, pressures) in &whole {
+            let smooth = s_filter(&surface.map, cutoff * 1e-6).expect("a cut-off of the map");
+            let rest: Vec<f64> =
+                surface.map.heights().iter().zip(smooth.heights()).map(|(a, b)| a - b).collect();
+            let high = rest.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+            let low = rest.iter().copied().fold(f64::INFINITY, f64::min);
+            let range = high - low;
+            let smooth = Surface::from_map(smooth).expect("a map of many cells");
+            let smoothed = pressed(&smooth, None, pressures);
+            let law = Law::new(&smoothed.loading).expect("25 loads");
+            // the approach counts from where the plane would touch the smooth map raised by the highest rest
+            let start = smoothed.loading[0].mean_gap + smooth.parameters.mean + high;
+            let mean = surface.parameters.mean;
+            for (one, all) in smoothed.loading.iter().zip(&path.loading).skip(1) {
+                let approach = start - (all.mean_gap + mean);
+                let bracket = [one.approach, one.approach + range];
+                let slack = 1e-6 * range;
+                outside += usize::from(approach < bracket[0] - slack || approach > bracket[1] + slack);
+                let found = bounds(&law, range, all.pressure);
+                let Some(stiffness) = all.elastic else { continue };
+                let above = found.high.is_some_and(|high| stiffness.gap > high);
+                wrong += usize::from(stiffness.gap < found.low || above);
+            }
+            ranges.push(range / surface.parameters.sq);
+            let middle = bounds(&law, range, 0.5 * pressures[pressures.len() - 1]);
+            match middle.high {
+                Some(high) => widths.push(high / middle.low),
+                None => unbounded += 1,
+            }
+        }
+        let width = median(&mut widths).map_or("–".into(), |width| format!("{width:.2}"));
+        report.line(&format!(
+            "| {cutoff} | {:.2} | {outside} | {wrong} | {width} | {unbounded} of {BOUNDED_MAPS} |",
+            median(&mut ranges).unwrap_or(f64::NAN)
+        ));
+    }
+}
+
+fn median(values: &mut [f64]) -> Option<f64> {
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() / 2).copied()
+}
+
+fn main() -> std::io::Result<()> {
+    let (mut report, _) = Report::of_example("joint", "half_space.tolerance = 1e-6");
+    correlation(&mut report);
+    elastic(&mut report);
+    bounded(&mut report);
+    report.finish()
+}
