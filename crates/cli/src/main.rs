@@ -18,6 +18,7 @@ mod reference;
 mod reproduce;
 mod rough;
 mod schema;
+mod slips;
 mod study;
 mod terminal;
 mod trade;
@@ -40,7 +41,11 @@ fn main() -> ExitCode {
         Ok(cli) => cli,
         // help and version go to stdout
         Err(told) if !told.use_stderr() => return ended(terminal::written(told.print())),
-        Err(wrong) => wrong.exit(),
+        Err(wrong) => {
+            let words: Vec<String> =
+                std::env::args_os().map(|word| word.to_string_lossy().into_owned()).collect();
+            slips::with_way_out(wrong, &words).exit()
+        }
     };
     let threads = cli.command.threads().map_or(0, usize::from);
     // the command runs on a thread of the pool: one outside would have to be woken whenever the others are

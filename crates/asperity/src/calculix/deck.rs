@@ -4,7 +4,7 @@ use super::outline::outline;
 use crate::error::Error;
 use crate::input::scene::Scene;
 use crate::mesh::problem;
-use asperity_material::{PlasticTable, curve_table};
+use asperity_material::{PlasticTable, StressMeasure, curve_table};
 use asperity_mesh::{Edge, Mesh, Section};
 use asperity_simulation::scene::{Lateral, Scene as Tables, SceneError, Target};
 use asperity_simulation::setup::problem::Problem;
@@ -53,6 +53,8 @@ pub struct Deck {
     pub(super) elastic: [f64; 2],
     /// Hardening, unless the body is elastic.
     pub(super) table: Option<PlasticTable>,
+    /// The stress that it holds.
+    pub(super) stress_measure: StressMeasure,
     /// Contact pressure per penetration, MPa/µm.
     pub(super) penalty: f64,
     /// Penetration for which the penalty is made, as a share of the depth.
@@ -123,6 +125,7 @@ impl Deck {
             mesh: opened(&problem.mesh, section, hole).scaled(um),
             section,
             elastic: [problem.units.stress / STRESS, problem.metal.elastic.poissons_ratio],
+            stress_measure: scene.material.stress_measure,
             table: hardening.map(|curve| curve_table(&curve, STRESS, POINTS)),
             penalty: problem.penalty * problem.units.stress / STRESS / um,
             penetration: problem.numbers.penetration,

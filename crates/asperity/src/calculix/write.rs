@@ -1,6 +1,7 @@
 //! The text of a deck.
 
 use super::deck::{Deck, Reader};
+use asperity_material::StressMeasure;
 use asperity_mesh::{ElementKind, Section, write_inp, write_inp_side};
 use std::io::{self, Write};
 
@@ -75,17 +76,23 @@ impl Deck {
                 "** The linear element of asperity has one dilatation; that of the reader of this deck is its own."
             )?;
         }
-        if self.reader == Reader::Abaqus {
-            return writeln!(
+        if self.table.is_some() {
+            let measure = match self.stress_measure {
+                StressMeasure::Cauchy => "true (Cauchy) stress, force over current area",
+                StressMeasure::Kirchhoff => "Kirchhoff stress, the true one times the volume ratio",
+            };
+            writeln!(
                 out,
-                "** Elasticity and the stress measure of the table (here Kirchhoff's) are those of Abaqus."
-            );
+                "** *PLASTIC holds {measure}, as the scene means it; its reader has a measure of its own."
+            )?;
+        }
+        if self.reader == Reader::Abaqus {
+            return Ok(());
         }
         writeln!(
             out,
             "** Abaqus: in the first step write *CONTACT PRINT ... with CFN, CAREA instead of CF and *ENERGY PRINT instead\n\
-             ** of *EL PRINT ... ELSE; all else is common. Elasticity and the stress measure of the table (here Kirchhoff's)\n\
-             ** are those of the reader."
+             ** of *EL PRINT ... ELSE; all else is common."
         )
     }
 

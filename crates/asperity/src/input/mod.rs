@@ -6,6 +6,7 @@ pub(crate) const RELATIVE_PATH_NOTE: &str = "a path is relative to the folder of
 
 pub mod hardening_file;
 mod kind;
+pub mod missing_file;
 pub mod profile_file;
 pub mod scene;
 pub mod suggest;

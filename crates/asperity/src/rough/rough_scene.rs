@@ -3,6 +3,7 @@
 use crate::batch::journal::fingerprint;
 use crate::error::InputError;
 use crate::input::RELATIVE_PATH_NOTE;
+use crate::input::missing_file::unreadable;
 use crate::input::toml_file::{LARGEST_FILE, TomlFile, to_toml};
 use asperity_formats::memory::read_file;
 use asperity_formats::surface::{Measured, Spacing};
@@ -47,7 +48,8 @@ impl RoughScene {
     pub fn of_map(path: &Path, like: &RoughScene, overrides: &[String]) -> Result<RoughScene, InputError> {
         if let Err(e) = std::fs::metadata(path) {
             let help = "give a map of heights (.sur, .x3p, .sdf, .al3d, .gwy, .gsf, .npy, .csv, .txt, .xyz) or a scene of `asperity rough` (.toml)";
-            return Err(InputError::new(format!("cannot read {}: {e}", path.display())).help(help));
+            let told = unreadable(path, &e);
+            return Err(if told.help.is_some() { told } else { told.help(help) });
         }
         let mut scene = like.scene.clone();
         let surface = &mut scene.surface;

@@ -1,6 +1,7 @@
 //! Reading a TOML file into a type, with `--set` on top and errors that point at the line.
 
 use crate::error::InputError;
+use crate::input::missing_file::unreadable;
 use crate::input::{kind, suggest};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -129,8 +130,9 @@ pub fn read_text(path: &Path) -> Result<String, InputError> {
     let from_input = path == Path::new(STANDARD_INPUT);
     let name = if from_input { "standard input".into() } else { path.display().to_string() };
     let error = |e: std::io::Error| {
-        InputError::new(format!("cannot read {name}: {e}"))
-            .help("give the path of a TOML file, or - for standard input")
+        let told = unreadable(Path::new(&name), &e);
+        let help = "give the path of a TOML file, or - for standard input";
+        if told.help.is_some() { told } else { told.help(help) }
     };
     let mut bytes = Vec::new();
     if from_input {

@@ -1,0 +1,68 @@
+//! Files that cannot be opened, told without the words of the system.
+
+use super::suggest::nearest;
+use crate::error::InputError;
+use std::io;
+use std::path::Path;
+
+/// Names of a folder that are looked at for one that was meant.
+const MOST_NAMES: usize = 10_000;
+
+/// The error of a file at `path` that cannot be read: where there is none, the name in its folder that was
+/// probably meant.
+pub fn unreadable(path: &Path, error: &io::Error) -> InputError {
+    let name = path.display();
+    match error.kind() {
+        io::ErrorKind::NotFound => {
+            let message = format!("there is no file {name}");
+            match meant(path) {
+                Some(other) => InputError::new(message).help(format!("did you mean {other}?")),
+                None => InputError::new(message),
+            }
+        }
+        _ => InputError::new(format!("cannot read {name}: {}", reason(error))),
+    }
+}
+
+/// What went wrong, without the number that the system gives it.
+pub fn reason(error: &io::Error) -> String {
+    let text = error.to_string();
+    text.split(" (os error").next().unwrap_or(&text).to_lowercase()
+}
+
+/// The file beside `path` whose name is nearest to its.
+fn meant(path: &Path) -> Option<String> {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+    let entries = std::fs::read_dir(folder.unwrap_or(Path::new("."))).ok()?;
+    let files = entries.take(MOST_NAMES).filter_map(Result::ok).filter(|entry| entry.path().is_file());
+    let names: Vec<String> = files.filter_map(|entry| entry.file_name().into_string().ok()).collect();
+    let names: Vec<&str> = names.iter().map(String::as_str).collect();
+    let name = nearest(path.file_name()?.to_str()?, &names)?;
+    Some(folder.map_or_else(|| name.into(), |folder| folder.join(name).display().to_string()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_slip_in_a_name_finds_the_file_beside_it() {
+        let folder = tempfile::tempdir().unwrap();
+        for name in ["single.toml", "map.sur"] {
+            std::fs::write(folder.path().join(name), "").unwrap();
+        }
+        let told = |name: &str| {
+            let path = folder.path().join(name);
+            unreadable(&path, &std::fs::metadata(&path).unwrap_err())
+        };
+        for (slip, file) in
+            [("singel.toml", "single.toml"), ("single", "single.toml"), ("map.srf", "map.sur")]
+        {
+            let error = told(slip);
+            assert!(error.to_string().contains(slip) && !error.to_string().contains("os error"), "{error}");
+            let help = error.help.unwrap();
+            assert!(help.contains(file), "{slip}: {help}");
+        }
+        assert!(told("elsewhere.dat").help.is_none());
+    }
+}
