@@ -1,6 +1,6 @@
-//! The numbers of README.md and of the paper are those of files that programs wrote (`verification/results`,
-//! renewed by `scripts/renew`); the book includes the files themselves. Outside quotations README.md states
-//! no result in figures.
+//! The tables of README.md, of the paper and of the book are those of files that programs wrote
+//! (`verification/results`, renewed by `scripts/renew`). Outside quotations README.md states no result in
+//! figures.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
@@ -52,13 +52,25 @@ fn result(name: &str) -> String {
     format!("{}\n", section.trim_matches('\n'))
 }
 
-/// Pages with quotations.
-const PAGES: [&str; 2] = ["README.md", "docs/paper.md"];
+/// The names of the pages of the book.
+fn book() -> Vec<String> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let mut pages = Vec::new();
+    for folder in ["", "verified", "theory", "design", "tutorials", "reference"] {
+        for entry in std::fs::read_dir(root.join("docs/src").join(folder)).unwrap() {
+            let name = entry.unwrap().file_name().into_string().unwrap();
+            if name.ends_with(".md") {
+                pages.push(format!("docs/src/{folder}/{name}"));
+            }
+        }
+    }
+    pages
+}
 
 #[test]
 fn quotations_are_those_of_their_files() {
-    for page in PAGES {
-        for (name, inside) in quotations(&text(page)).0 {
+    for page in ["README.md", "docs/paper.md"].map(String::from).into_iter().chain(book()) {
+        for (name, inside) in quotations(&text(&page)).0 {
             assert!(inside == result(&name), "{page} quotes {name} otherwise: scripts/renew --quotes");
         }
     }
@@ -72,26 +84,23 @@ fn the_front_page_quotes_the_overview_and_the_paper_the_numbers() {
 }
 
 /// Every table of `verification/results` stands on a page of the book, so that none is measured for nobody,
-/// above a link for those who read the page in the repository, where an include shows nothing.
+/// above a link to its file. None is included: an include shows nothing to those who read the page in the
+/// repository.
 #[test]
-fn the_book_includes_every_result() {
+fn the_book_quotes_every_result() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-    let mut book = String::new();
-    for folder in ["verified", "theory", "design", "tutorials"] {
-        for entry in std::fs::read_dir(root.join("docs/src").join(folder)).unwrap() {
-            let path = entry.unwrap().path();
-            if path.extension().is_some_and(|e| e == "md") {
-                book += &std::fs::read_to_string(path).unwrap();
-            }
-        }
-    }
+    let book: String = book().iter().map(|page| text(page)).collect();
+    assert!(
+        !book.contains("{{#include"),
+        "a page of the book includes a file: quote it by `<!-- results: … -->`"
+    );
     for entry in std::fs::read_dir(root.join("verification/results")).unwrap() {
         let name = entry.unwrap().file_name().into_string().unwrap();
-        let on_the_front_page = name == "overview.md" || !name.ends_with(".md");
-        let file = format!("../../../verification/results/{name}");
-        let included =
-            book.contains(&format!("{{{{#include {file}}}}}\n\n<a class=\"file\" href=\"{file}\">"));
-        assert!(on_the_front_page || included, "no page of the book includes {name} with its link");
+        let Some(stem) = name.strip_suffix(".md").filter(|stem| *stem != "overview") else { continue };
+        let quoted = [" -->", "#"].iter().any(|end| book.contains(&format!("<!-- results: {stem}{end}")));
+        let link =
+            format!("<!-- end -->\n\n<a class=\"file\" href=\"../../../verification/results/{name}\">");
+        assert!(quoted && book.contains(&link), "no page of the book quotes {name} with its link");
     }
 }
 
