@@ -48,23 +48,28 @@ fn key_of(flag: &str, words: &[String]) -> Option<String> {
     keys(&of_kind(kind).to_value(), "", &mut paths);
     // the key itself, else one that begins with it: slopes for slopes_deg
     let last = |path: &str| path.rsplit('.').next().unwrap_or(path).to_string();
-    let path = paths
+    let (path, is_list) = paths
         .iter()
-        .find(|path| last(path) == name)
-        .or_else(|| paths.iter().find(|path| name.len() > 2 && last(path).starts_with(&name)))?;
+        .find(|(path, _)| last(path) == name)
+        .or_else(|| paths.iter().find(|(path, _)| name.len() > 2 && last(path).starts_with(&name)))?;
     let value = given.map(String::from).or_else(|| {
         let place = words.iter().position(|word| word == flag)?;
         words.get(place + 1).filter(|word| !word.starts_with('-')).cloned()
     });
-    let value = value.unwrap_or_else(|| "...".into());
+    let value = match value {
+        Some(value) if *is_list && !value.starts_with('[') => format!("[{value}]"),
+        Some(value) => value,
+        None => "...".into(),
+    };
     Some(format!("the keys of the file are changed by --set: --set \"{path}={value}\""))
 }
 
-/// The keys of a `schema` with the tables that lead to them, those of the outer tables first.
-fn keys(schema: &Value, within: &str, found: &mut Vec<String>) {
+/// The keys of a `schema` with the tables that lead to them, those of the outer tables first, and whether each
+/// holds a list.
+fn keys(schema: &Value, within: &str, found: &mut Vec<(String, bool)>) {
     let Some(properties) = schema["properties"].as_object() else { return };
     let path = |key: &str| if within.is_empty() { key.to_string() } else { format!("{within}.{key}") };
-    found.extend(properties.keys().map(|key| path(key)));
+    found.extend(properties.iter().map(|(key, value)| (path(key), value["type"] == "array")));
     for (key, value) in properties {
         keys(value, &path(key), found);
     }
@@ -88,7 +93,7 @@ mod tests {
             ("asperity|crush|a.toml|--depth|3 um", "--set \"loading.depth=3 um\""),
             ("asperity|crush|a.toml|--depth=3 um", "--set \"loading.depth=3 um\""),
             ("asperity|rough|a.toml|--pressure|5 MPa", "--set \"load.pressure=5 MPa\""),
-            ("asperity|calibrate|--slopes|[2]", "--set \"slopes_deg=[2]\""),
+            ("asperity|calibrate|--slopes|2", "--set \"slopes_deg=[2]\""),
             ("asperity|run|a.toml", "asperity crush SCENE"),
         ] {
             let told = told(line);
