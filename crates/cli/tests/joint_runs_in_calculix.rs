@@ -2,7 +2,8 @@
 //! pressed together close by the approach of the table, and let through the heat of its conductance.
 //!
 //! Source: the rows of joint.csv. Tolerance: 1 %, of which straight lines between rows take 0.5 %. Needs ccx
-//! (Debian: calculix-ccx; tried with 2.20); without it the test fails, as nothing else would tell.
+//! (Debian: calculix-ccx; tried with 2.20). Without it the test says so and passes, except where CI is `true`:
+//! a machine that judges changes has it.
 
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
@@ -82,8 +83,21 @@ fn run(place: &Place, name: &str, deck: &str, of: &str, column: usize) -> BTreeM
     found
 }
 
+/// Whether CalculiX is in the path, or has to be.
+#[allow(clippy::print_stderr, reason = "a test that was skipped says so")]
+fn calculix_is_due() -> bool {
+    let due = Command::new("ccx").arg("-v").output().is_ok() || std::env::var("CI").is_ok_and(|ci| ci == "true");
+    if !due {
+        eprintln!("skipped: ccx (Debian: calculix-ccx) is not on the PATH");
+    }
+    due
+}
+
 #[test]
 fn two_blocks_close_and_conduct_as_the_table_says() {
+    if !calculix_is_due() {
+        return;
+    }
     let place = Place::with_scene(SCENE);
     let end = place.run(&["joint", "scene.toml", "--out", "out", "--quiet"]);
     assert_eq!(end.status, 0, "{}", end.err);
