@@ -2,7 +2,7 @@
 //! pressed together close by the approach of the table, and let through the heat of its conductance.
 //!
 //! Source: the rows of joint.csv. Tolerance: 1 %, of which straight lines between rows take 0.5 %. Needs ccx
-//! (Debian: calculix-ccx; tried with 2.20). Without it the test says so and passes, except where CI is `true`:
+//! (Debian: calculix-ccx; tried with 2.20). Without it the test says so and passes, unless CI is `true`:
 //! a machine that judges changes has it.
 
 #![allow(clippy::unwrap_used, reason = "a test may panic")]

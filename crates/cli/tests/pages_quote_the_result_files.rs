@@ -56,7 +56,7 @@ fn result(name: &str) -> String {
 fn book() -> Vec<String> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     let mut pages = Vec::new();
-    for folder in ["", "verified", "theory", "design", "tutorials", "reference"] {
+    for folder in ["", "verified", "theory", "design", "tutorials", "questions", "reference"] {
         for entry in std::fs::read_dir(root.join("docs/src").join(folder)).unwrap() {
             let name = entry.unwrap().file_name().into_string().unwrap();
             if name.ends_with(".md") {
