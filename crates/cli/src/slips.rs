@@ -64,7 +64,7 @@ fn key_of(flag: &str, words: &[String]) -> Option<String> {
     Some(format!("the keys of the file are changed by --set: --set \"{path}={value}\""))
 }
 
-/// The keys of a `schema` with the tables that lead to them, those of the outer tables first, and whether each
+/// The keys of a `schema` with the tables that lead to them, outer tables first, and whether each
 /// holds a list.
 fn keys(schema: &Value, within: &str, found: &mut Vec<(String, bool)>) {
     let Some(properties) = schema["properties"].as_object() else { return };

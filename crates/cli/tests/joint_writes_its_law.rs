@@ -9,6 +9,8 @@ use std::collections::BTreeMap;
 
 /// Small enough to be pressed in a moment.
 const SCENE: &str = r#"closure = "half-space"
+[surface]
+periodic = true
 [surface.generate]
 kind = "self-affine"
 hurst = 0.8
