@@ -89,7 +89,8 @@ fn elastic(report: &mut Report) {
             let last = path.loading[path.loading.len() - 1];
             let energy = law.work() / (last.elastic_work / path.nominal_area) - 1.0;
             // the upper two decades
-            let upper: Vec<_> = path.loading.iter().filter(|p| p.pressure >= 0.0099 * most).copied().collect();
+            let upper: Vec<_> =
+                path.loading.iter().filter(|p| p.pressure >= 0.0099 * most).copied().collect();
             let fit = Fits::new(&upper).stiffness.expect("the loads touch in spots");
             let height = last.elastic.map_or(f64::NAN, |s| s.gap) * surface.parameters.sq / last.pressure;
             report.line(&format!(

@@ -86,7 +86,8 @@ fn run(place: &Place, name: &str, deck: &str, of: &str, column: usize) -> BTreeM
 /// Whether CalculiX is in the path, or has to be.
 #[allow(clippy::print_stderr, reason = "a test that was skipped says so")]
 fn calculix_is_due() -> bool {
-    let due = Command::new("ccx").arg("-v").output().is_ok() || std::env::var("CI").is_ok_and(|ci| ci == "true");
+    let due =
+        Command::new("ccx").arg("-v").output().is_ok() || std::env::var("CI").is_ok_and(|ci| ci == "true");
     if !due {
         eprintln!("skipped: ccx (Debian: calculix-ccx) is not on the PATH");
     }

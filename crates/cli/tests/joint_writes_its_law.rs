@@ -64,12 +64,14 @@ fn the_law_has_its_columns_and_every_file_its_rows() {
         assert!((number(row, "conductance_W_per_m2K") / h - 1.0).abs() < 1e-9, "{row:?}");
     }
     let moose = rows(&place, "out/moose.csv");
-    let rising = |two: &[BTreeMap<String, String>]| number(&two[1], "approach_m") > number(&two[0], "approach_m");
+    let rising =
+        |two: &[BTreeMap<String, String>]| number(&two[1], "approach_m") > number(&two[0], "approach_m");
     assert!(moose.len() > 7 && moose.windows(2).all(rising));
     let summary: serde_json::Value = serde_json::from_str(&place.text("out/joint.json")).unwrap();
     // a few pixels of a small map; the law itself is held to 0.1 % where it is tested
     assert!(summary["energy_error"].as_f64().unwrap().abs() < 0.02, "{summary}");
-    let flowing = place.run(&["joint", "scene.toml", "--set", "closure=half-space-plastic", "--out", "flowing"]);
+    let flowing =
+        place.run(&["joint", "scene.toml", "--set", "closure=half-space-plastic", "--out", "flowing"]);
     assert_eq!(flowing.status, 0, "{}", flowing.err);
     let last = rows(&place, "flowing/joint.csv").pop().unwrap();
     assert!(last["phase"] == "unload" && number(&last, "approach_um") > 0.0, "{last:?}");
@@ -82,7 +84,10 @@ fn what_has_no_law_is_refused_where_it_is_wrong() {
     std::fs::write(place.path("small.toml"), small).unwrap();
     for (args, words) in [
         (&["--set", "load.pressure=0 MPa"][..], &["load", "nothing touches"][..]),
-        (&["--set", "closure=half-space-plastic", "--set", "load.pressure=2 GPa"], &["load.pressure", "1000 MPa"]),
+        (
+            &["--set", "closure=half-space-plastic", "--set", "load.pressure=2 GPa"],
+            &["load.pressure", "1000 MPa"],
+        ),
         (&["--set", "thermal.conductivity=[\"50\", \"50 W/(m K)\"]"], &["no unit", "W/(m K)"]),
         (&["--set", "joint.loads=2"], &["joint.loads", "between 5 and 200"]),
         (&["small.toml"], &["of one size", "32 x 32", "16 x 32"]),

