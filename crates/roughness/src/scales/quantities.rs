@@ -6,6 +6,9 @@ use super::verdict::{Octaves, Series, Verdict};
 
 /// Relative error by the pixels of a gap, an integral over all of them.
 const GAP_ERROR: f64 = 0.01;
+/// The same of a stiffness, beside that of the area: a fixed set of pixels jumps as rims go from one to the
+/// next.
+const STIFFNESS_ERROR: f64 = 0.03;
 
 /// A quantity of a contact.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -86,17 +89,35 @@ impl Quantity {
             Quantity::MeanGap => Some(GAP_ERROR),
             Quantity::LeakX => found.leak_errors[0],
             Quantity::LeakY => found.leak_errors[1],
-            // of a spot the stiffness is as its radius
-            Quantity::Stiffness => area.map(|area| 0.5 * area.error / area.corrected),
+            Quantity::Stiffness => area.map(|area| (area.error / area.corrected).hypot(STIFFNESS_ERROR)),
+            // nothing is above the limit
+            Quantity::HighPressure if is_at_limit(found) => Some(GAP_ERROR),
             _ => area.map(|area| area.error / area.corrected),
         }
         .unwrap_or(0.0)
+    }
+
+    /// The values that it lies between: no pressure is above the limit, no area below load over limit.
+    fn range(self, found: &Numbers) -> [f64; 2] {
+        let limit = found.limit.unwrap_or(f64::INFINITY);
+        match self {
+            Quantity::Area => {
+                [found.mean_pressure.zip(found.area_ratio).map_or(0.0, |(p, a)| p * a / limit), 1.0]
+            }
+            Quantity::MeanPressure | Quantity::HighPressure => [0.0, limit],
+            _ => [0.0, f64::INFINITY],
+        }
     }
 
     /// True where the longest waves decide, so that a map shorter than its roll-off says little.
     fn is_of_long_waves(self) -> bool {
         matches!(self, Quantity::MeanGap | Quantity::LeakX | Quantity::LeakY | Quantity::Stiffness)
     }
+}
+
+/// True where 1 % of the contact or more is at the limit of pressure.
+fn is_at_limit(found: &Numbers) -> bool {
+    found.limit.zip(found.pressures[1]).is_some_and(|(limit, p)| p >= 0.999 * limit)
 }
 
 /// The verdicts on the slope and on the contacts by both half-spaces, where these have one at every scale.
@@ -106,7 +127,7 @@ pub(super) fn verdicts(steps: &[Step], growth: Growth, has_rolloff: bool) -> Vec
         values: steps.iter().map(|step| Some(step.slopes.rms)).collect(),
         error: 0.0,
         of_long_waves: false,
-        floor: None,
+        range: [0.0, f64::INFINITY],
     };
     let judge = |quantity, limited, series: &Series| {
         let verdict = octaves.verdict(series, has_rolloff)?;
@@ -118,13 +139,11 @@ pub(super) fn verdicts(steps: &[Step], growth: Growth, has_rolloff: bool) -> Vec
         let contacts: Vec<Option<Numbers>> = steps.iter().map(of).collect();
         let Some(last) = contacts.last().copied().flatten() else { continue };
         found.extend(Quantity::OF_CONTACT.iter().filter_map(|quantity| {
-            let nominal = last.mean_pressure.zip(last.area_ratio).map(|(p, area)| p * area);
-            let floor = nominal.zip(last.limit).map(|(p, limit)| p / limit);
             let series = Series {
                 values: contacts.iter().map(|found| quantity.value(&(*found)?)).collect(),
                 error: quantity.error(&last),
                 of_long_waves: quantity.is_of_long_waves(),
-                floor: floor.filter(|_| *quantity == Quantity::Area),
+                range: quantity.range(&last),
             };
             judge(*quantity, by == By::Limited, &series)
         }));

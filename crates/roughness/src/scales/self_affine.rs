@@ -2,8 +2,8 @@
 //!
 //! The density of a self-affine surface is flat above the roll-off and falls as f^-2(1+H) below it, down to
 //! an end. Powers of single waves scatter as exponentials, so that a band of n of them has the deviance 2n
-//! (r - ln r - 1) of its mean over the law, r (Whittle 1953). For a given roll-off the sum is convex in H, and
-//! the level follows in closed form. Bands beyond the end are left out, each at a price.
+//! (r - ln r - 1) of its mean over the law, r (Whittle 1953). For a given roll-off the sum is convex in H,
+//! and the level follows in closed form. Bands beyond the end are left out, each at a price.
 
 use super::cutoffs::{finest, side};
 use crate::{HeightMap, SpectrumPoint};
@@ -26,6 +26,8 @@ const FEWEST_OCTAVES: f64 = 1.0;
 /// 2(1 + H) that is sought, and the halvings of the search.
 const EXPONENTS: [f64; 2] = [0.5, 8.0];
 const HALVINGS: usize = 36;
+/// Half a band of the spectrum, in octaves: where in its band a roll-off lies is not seen.
+const HALF_BAND: f64 = 1.0 / 16.0;
 /// Steps of H in its interval.
 const HURST_STEP: f64 = 0.0025;
 
@@ -126,7 +128,7 @@ impl SelfAffine {
         };
         let hurst = |s: f64| 0.5 * s - 1.0;
         let [low, high] = [-1.0, 1.0].map(|sign| reach(sign).unwrap_or(exponent) + sign * 2.0 * HURST_STEP);
-        let half = 0.5 / ROLLOFFS * std::f64::consts::LN_2;
+        let half = HALF_BAND * std::f64::consts::LN_2;
         let resolved = first > 0;
         let shortest = (-used[count - 1][0]).exp();
         Some(SelfAffine {

@@ -3,10 +3,11 @@
 use super::cutoffs::finest;
 use crate::surface::height_map::MapError;
 use crate::{HeightMap, SpectrumPoint, spectrum};
-use std::f64::consts::{LN_2, TAU};
+use std::f64::consts::{LN_2, SQRT_2, TAU};
 
-/// Of a power law that goes on, the power of slopes of the finest octave is not below this share of what the
-/// law has: a map smoothed over its own pixel keeps 0.4, one that ends before its pixel next to nothing.
+/// Of a power law that goes on, the power of slopes of the finest half octave is not below this share of what
+/// the law has by the one before: a map smoothed over its own pixel keeps a half, one that ends before its
+/// pixel next to nothing.
 const GOES_ON: f64 = 0.2;
 /// The share of the mean square slope that the finest octave of such a spectrum has at least.
 const LEAST_SHARE: f64 = 0.02;
@@ -61,19 +62,20 @@ impl SlopePower {
         [1, 2].map(|order| self.sum(order, gain).sqrt())
     }
 
-    /// Mean square slope of waves from `low` to twice that, in metres.
-    fn octave(&self, low: f64) -> f64 {
-        // half a band to both sides of the edges is where it lies
-        self.sum(1, |f| if f * low <= 1.0 + 1e-9 && 2.0 * f * low > 1.0 + 1e-9 { 1.0 } else { 0.0 })
+    /// Mean square slope of waves from `low` to `times` that, in metres.
+    fn part(&self, low: f64, times: f64) -> f64 {
+        let inside = |f: f64| f * low <= 1.0 + 1e-9 && times * f * low > 1.0 + 1e-9;
+        self.sum(1, |f| if inside(f) { 1.0 } else { 0.0 })
     }
 
     /// How the slope grows below the pixel: as the finest octaves grow, at least as the power law of `hurst`
     /// goes on, not at all where the spectrum ends before.
     pub fn growth(&self, hurst: Option<f64>) -> Growth {
-        let [last, before] = [1.0, 2.0].map(|octave| self.octave(octave * self.finest));
+        let [last, before] = [1.0, 2.0].map(|octave| self.part(octave * self.finest, 2.0));
+        let [last_half, half_before] = [1.0, SQRT_2].map(|half| self.part(half * self.finest, SQRT_2));
         let whole = self.filtered(None)[0].powi(2);
         let law = 4f64.powf(1.0 - hurst.unwrap_or(0.8).clamp(0.0, 1.0));
-        let goes_on = last > GOES_ON * law * before && last > LEAST_SHARE * whole;
+        let goes_on = last_half > GOES_ON * law.sqrt() * half_before && last > LEAST_SHARE * whole;
         if !goes_on {
             return Growth { octaves: [0.0; 2], goes_on };
         }

@@ -86,8 +86,8 @@ pub(super) struct Series {
     pub error: f64,
     /// True where the longest waves decide it, so that a map shorter than its roll-off says little.
     pub of_long_waves: bool,
-    /// The value that it does not fall below, where there is one.
-    pub floor: Option<f64>,
+    /// The values that it lies between whatever waves there are.
+    pub range: [f64; 2],
 }
 
 impl Octaves {
@@ -143,15 +143,17 @@ impl Octaves {
             let octaves = (1..).zip(self.growth.octaves);
             octaves.map(|(k, growth)| follows * fall.powi(k) * growth).sum::<f64>()
         };
-        // what is still possible where the quantity cannot fall below a value
-        let most = series.floor.map_or(f64::NEG_INFINITY, |floor| (floor / value).ln().min(0.0));
-        let expected = come(fall).max(most);
-        let worst = come(fall.max(steps.steepest_fall()).min(1.0)).max(most);
+        // what is still possible
+        let [least, most] = series.range.map(|end| (end / value).ln());
+        let possible = |change: f64| change.max(least.min(0.0)).min(most.max(0.0));
+        let expected = possible(come(fall));
+        let worst = possible(come(fall.max(steps.steepest_fall()).min(1.0)));
         let noise = series.error;
-        let next = (follows * fall * self.growth.octaves[0]).max(most);
+        let next = possible(follows * fall * self.growth.octaves[0]);
         let steady = self.growth.goes_on && fall >= STEADY && next.abs() > SMALL;
         let bound = expected.abs().max(worst.abs()) * DOUBT;
         let error = bound.exp_m1().hypot(noise);
+        let ends = expected <= least || expected >= most;
         let verdict = |class, error, extrapolated| Verdict {
             class,
             from: None,
@@ -160,9 +162,9 @@ impl Octaves {
             value,
             extrapolated,
         };
-        if error <= CONVERGED {
+        if bound.exp_m1() <= CONVERGED {
             verdict(Class::Converged, Some(error), Some(value * expected.exp()))
-        } else if steady && next > most {
+        } else if steady && !ends {
             verdict(Class::NotConverging, None, Some(value * expected.exp()))
         } else if !self.growth.goes_on {
             // nothing is to come; what is left are the pixels
