@@ -42,8 +42,8 @@ fn every_scale_has_its_rows_and_every_quantity_its_verdict() {
     for name in ["area.svg", "report.html", "slopes.csv", "spectrum.csv", "summary.json"] {
         assert!(names.iter().any(|have| have == name), "{names:?}");
     }
-    let read = csv::Reader::from_path(place.path("out/scales.csv")).unwrap().deserialize();
-    let rows: Vec<BTreeMap<String, String>> = read.map(Result::unwrap).collect();
+    let mut read = csv::Reader::from_path(place.path("out/scales.csv")).unwrap();
+    let rows: Vec<BTreeMap<String, String>> = read.deserialize().map(Result::unwrap).collect();
     let number = |row: &BTreeMap<String, String>, name: &str| row[name].parse::<f64>().unwrap();
     for closure in ["half-space", "half-space-plastic", "johnson", "persson", "persson-plastic", "bearing"] {
         let of: Vec<_> = rows.iter().filter(|row| row["closure"] == closure).collect();

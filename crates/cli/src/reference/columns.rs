@@ -100,14 +100,7 @@ pub fn page() -> String {
         "over the pressure in MPa",
     );
     text += &format!("{JOINT}\n\n## asperity scales\n\n");
-    text += &file_columns::<scales::ScaleRow>("scales.csv", "a row per cut-off and closure");
-    text += &file_columns::<scales::SlopeRow>("slopes.csv", "a row per cut-off");
-    text += &file_columns::<scales::Summary>("summary.json", "verdicts, fits and what was pressed");
-    text += &file_columns::<scales::VerdictRow>("summary.json: `verdicts`", "the verdict on one quantity");
-    text += &file_columns::<scales::IntervalRow>(
-        "summary.json: `hurst`, `rolloff_um`, `shortest_um`",
-        "an interval",
-    );
+    text += &of_scales();
     text += &format!("{SCALES}\n\n## asperity extract\n\n");
     text += &file_columns::<extract::AsperityRow>(
         "asperities.csv",
@@ -120,6 +113,20 @@ pub fn page() -> String {
     text += &file_columns::<extract::Summary>("summary.json", "the map and what was found on it");
     text += &format!("## asperity study\n\n{STUDY}\n\n## asperity trade\n\n");
     text += &file_columns::<TradeRow>("trade.csv", "a row per setting");
+    text
+}
+
+/// The files of `asperity scales`.
+fn of_scales() -> String {
+    let mut text = String::new();
+    text += &file_columns::<scales::ScaleRow>("scales.csv", "a row per cut-off and closure");
+    text += &file_columns::<scales::SlopeRow>("slopes.csv", "a row per cut-off");
+    text += &file_columns::<scales::Summary>("summary.json", "verdicts, fits and what was pressed");
+    text += &file_columns::<scales::VerdictRow>("summary.json: `verdicts`", "the verdict on one quantity");
+    text += &file_columns::<scales::IntervalRow>(
+        "summary.json: `hurst`, `rolloff_um`, `shortest_um`",
+        "an interval",
+    );
     text
 }
 

@@ -6,6 +6,9 @@ use super::verdict::{Octaves, Series, Verdict};
 
 /// Relative error by the pixels of a gap, an integral over all of them.
 const GAP_ERROR: f64 = 0.01;
+/// The same of a limit of pressure: that of metal that hardens follows the slope of the patches, which finer
+/// waves move.
+const LIMIT_ERROR: f64 = 0.05;
 /// The same of a stiffness, beside that of the area: a fixed set of pixels jumps as rims go from one to the
 /// next.
 const STIFFNESS_ERROR: f64 = 0.03;
@@ -84,17 +87,19 @@ impl Quantity {
 
     /// Its relative error by the pixels.
     fn error(self, found: &Numbers) -> f64 {
+        let of_limit = LIMIT_ERROR * found.limited_share.unwrap_or(0.0);
         let area = found.area.filter(|area| area.corrected > 0.0);
+        let of_area = area.map_or(0.0, |area| area.error / area.corrected);
         match self {
-            Quantity::MeanGap => Some(GAP_ERROR),
-            Quantity::LeakX => found.leak_errors[0],
-            Quantity::LeakY => found.leak_errors[1],
-            Quantity::Stiffness => area.map(|area| (area.error / area.corrected).hypot(STIFFNESS_ERROR)),
+            Quantity::Slope => 0.0,
+            Quantity::MeanGap => GAP_ERROR,
+            Quantity::LeakX => found.leak_errors[0].unwrap_or(0.0),
+            Quantity::LeakY => found.leak_errors[1].unwrap_or(0.0),
+            Quantity::Stiffness => of_area.hypot(STIFFNESS_ERROR),
             // nothing is above the limit
-            Quantity::HighPressure if is_at_limit(found) => Some(GAP_ERROR),
-            _ => area.map(|area| area.error / area.corrected),
+            Quantity::HighPressure if is_at_limit(found) => LIMIT_ERROR,
+            Quantity::Area | Quantity::MeanPressure | Quantity::HighPressure => of_area.hypot(of_limit),
         }
-        .unwrap_or(0.0)
     }
 
     /// The values that it lies between: no pressure is above the limit, no area below load over limit.

@@ -11,6 +11,8 @@ const ENDED: f64 = 0.95;
 /// Digits of a number in the sentence, and of a percentage.
 const DIGITS: usize = 3;
 const DIGITS_OF_SHARES: usize = 2;
+/// Numbers below it are written with a power of ten.
+const TINY: f64 = 1e-3;
 
 /// Quantities of the sentence in words, with the unit in SI; of metal whose limit is known only the areas are
 /// those of both half-spaces.
@@ -25,6 +27,12 @@ const WORDS: [(&str, Quantity, bool, f64); 6] = [
 
 fn micrometres(length: f64) -> f64 {
     rounded(length * 1e6, DIGITS)
+}
+
+/// A number to three digits; tiny ones, as leaks are, with their power of ten.
+fn number(value: f64) -> String {
+    let value = rounded(value, DIGITS);
+    if value.abs() < TINY { format!("{value:e}") } else { value.to_string() }
 }
 
 fn percent(share: f64) -> f64 {
@@ -103,8 +111,8 @@ impl Scales {
                 Some(format!("{words} is decided by waves longer than {from} um (to {error} %)"))
             }
             Class::Converging => {
-                let [now, end] = [found.value, found.extrapolated.unwrap_or(f64::NAN)]
-                    .map(|value| rounded(value / unit, DIGITS));
+                let [now, end] =
+                    [found.value, found.extrapolated.unwrap_or(f64::NAN)].map(|value| number(value / unit));
                 Some(format!("{words} still changes, from {now} to {end} ± {error} % with two finer octaves"))
             }
             Class::NotConverging => {

@@ -17,6 +17,8 @@ const STEADY: f64 = 0.75;
 const SMALL: f64 = 0.01;
 /// Times that what is to come may be off.
 const DOUBT: f64 = 1.5;
+/// Error by the pixels beyond which a map says nothing of a quantity.
+const LARGEST_ERROR: f64 = 0.5;
 /// Octaves from the pixel up that a verdict is made of.
 const OCTAVES: usize = 3;
 /// Values within this share of the last count as that from which on the quantity has converged.
@@ -31,7 +33,8 @@ pub enum Class {
     Converging,
     /// It changes by the same factor with every octave.
     NotConverging,
-    /// The map holds too few waves to say, or too few of the longest that decide it.
+    /// The map holds too few waves to say, or too few of the longest that decide it, or its pixels leave half
+    /// of the value open.
     MapTooSmall,
 }
 
@@ -131,8 +134,8 @@ impl Octaves {
         let steps = Steps { y, t, noise: series.error };
         let mut found = self.judge(value, &steps, series);
         found.from = self.from(series, value, found.error.unwrap_or(0.0).max(FROM));
-        if series.of_long_waves && !has_rolloff {
-            found = Verdict { class: Class::MapTooSmall, error: None, extrapolated: None, ..found };
+        if series.of_long_waves && !has_rolloff || series.error > LARGEST_ERROR {
+            found = Verdict { exponent: found.exponent, ..few };
         }
         Some(found)
     }
