@@ -15,6 +15,7 @@ mod extract;
 mod identify;
 mod joint;
 mod press;
+mod scales;
 mod study;
 mod trade;
 
@@ -30,9 +31,11 @@ fn _asperity(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<crush::Crush>()?;
     module.add_class::<press::Rough>()?;
     module.add_class::<joint::Joint>()?;
+    module.add_class::<scales::Scales>()?;
     module.add_function(wrap_pyfunction!(crush::crush, module)?)?;
     module.add_function(wrap_pyfunction!(press::press, module)?)?;
     module.add_function(wrap_pyfunction!(joint::joint, module)?)?;
+    module.add_function(wrap_pyfunction!(scales::scales, module)?)?;
     module.add_function(wrap_pyfunction!(calibrate::calibrate, module)?)?;
     module.add_function(wrap_pyfunction!(trade::trade, module)?)?;
     module.add_function(wrap_pyfunction!(identify::identify, module)?)?;

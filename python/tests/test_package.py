@@ -391,3 +391,22 @@ def test_a_joint_is_a_table_with_its_errors_and_the_files_of_the_command(tmp_pat
     assert twice.table["repeatability"][loading] == pytest.approx(0.0, abs=1e-9)
     with pytest.raises(asperity.InputError, match="of one size"):
         asperity.joint([waves(), waves()[:32]], pixel_size_um=(1.0, 2.0), **tables)
+
+
+def test_scales_are_a_row_a_cutoff_and_closure_with_verdicts(tmp_path: pathlib.Path) -> None:
+    tables: dict[str, Any] = {
+        "material": {"youngs_modulus": "210 GPa", "poissons_ratio": 0.3, "yield_stress": "800 MPa"},
+        "surface": {"periodic": True, "level": "mean"},
+        "load": {"pressure": "50 MPa"},
+    }
+    found = asperity.scales(waves(), pixel_size_um=(1.0, 2.0), out=tmp_path / "scales", **tables)
+    elastic = np.array([closure == "half-space" for closure in found.table["closure"]])
+    load = found.table["contact_area_ratio"] * found.table["mean_pressure_MPa"]
+    assert load[elastic] == pytest.approx(50.0, rel=1e-3)
+    assert elastic.sum() == len(found.slopes["cutoff_um"])
+    assert (np.diff(found.slopes["rms_slope"]) > 0).all()
+    classes = {"converged", "converging", "not converging", "map too small"}
+    assert {verdict["class"] for verdict in found.verdicts.values()} <= classes
+    assert (tmp_path / "scales" / "scales.csv").exists() and "<html" in found.report()
+    with pytest.raises(asperity.InputError, match="repetition"):
+        asperity.scales([waves(), waves()[:32]], pixel_size_um=(1.0, 2.0), **tables)

@@ -107,6 +107,7 @@ pub mod extract;
 pub mod identify;
 pub mod joint;
 pub mod rough;
+pub mod scales;
 pub mod study;
 pub mod trade;
 
@@ -130,6 +131,7 @@ pub use joint::{Joint, joint};
 pub use mesh::{Mesh, mesh};
 pub use progress::{Observer, Progress};
 pub use results::{columns, numbers, output, units};
+pub use scales::{Scales, scales};
 pub use study::{Study, study};
 
 /// The crates below, for their types in the signatures here: a program needs no other dependency.

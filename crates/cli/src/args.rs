@@ -1,8 +1,8 @@
 //! The command line: the commands and what help says of them.
 
 use super::{
-    calibrate, crush, extract, identify, joint, manual, mesh, new, reference, reproduce, rough, schema,
-    study, trade,
+    calibrate, crush, extract, identify, joint, manual, mesh, new, reference, reproduce, rough, scales,
+    schema, study, trade,
 };
 use clap::{Parser, Subcommand};
 
@@ -30,6 +30,7 @@ const EXAMPLES: &str = "Examples:
   asperity trade single.toml                       what accuracy costs on a scene, knob by knob
   asperity rough --table1                          three rough surfaces beside the paper's Table 1
   asperity joint surface.sur                       pressure over gap, stiffness, conductance, for other programs
+  asperity scales surface.sur                      which waves matter: slope, area, pressure, gap, leak by scale, with verdicts
   asperity extract surface.sur --crush 20          asperities of a map, and the closures beside finite elements
   asperity schema > scene.schema.json              for editors that complete and check TOML
   asperity completions bash; asperity man crush    for shells and manuals
@@ -56,6 +57,11 @@ const JOINT: &str = "Examples:
   asperity joint surface.sur --set \"load.pressure=50 MPa\"     into out/surface: joint.csv, calculix.inp, abaqus.inp, moose.csv
   asperity joint one.sur two.sur three.sur --like steel.toml    their mean, and how far they differ
   asperity joint scene.toml --set 'thermal.conductivity=[\"50 W/(m K)\", \"50 W/(m K)\"]' --report";
+
+const SCALES: &str = "Examples:
+  asperity scales surface.sur --like steel.toml        into out/surface: scales.csv, slopes.csv, spectrum.csv, summary.json
+  asperity scales one.sur again.sur --report           the second measurement tells the noise of the first
+  asperity scales surface.sur --set \"scales.tip_radius=2 um\" --set \"load.pressure=50 MPa\"";
 
 const CALIBRATE: &str = "Examples:
   asperity calibrate                               480 cones, into out/calibrate
@@ -101,6 +107,9 @@ pub enum Command {
     /// Press a surface from first touch to its largest load and write its law (pressure, gap, stiffness, conductance, leak) for CalculiX, Abaqus, MOOSE
     #[command(after_help = JOINT)]
     Joint(joint::Joint),
+    /// Press a surface with ever finer waves let in and say of each answer whether it has stopped changing
+    #[command(after_help = SCALES)]
+    Scales(scales::Scales),
     /// Find the asperities of a measured map, write profiles and scenes of them, crush some beside the closures
     Extract(extract::Extract),
     /// Crush cones of many slopes and metals and find the representative strain
@@ -139,6 +148,7 @@ impl Command {
             Command::Crush(args) => args.run.threads,
             Command::Rough(args) => args.run.threads,
             Command::Joint(args) => args.run.threads,
+            Command::Scales(args) => args.run.threads,
             Command::Extract(args) => args.run.threads,
             Command::Calibrate(args) => args.run.threads,
             Command::Study(args) => args.run.threads,

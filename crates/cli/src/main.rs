@@ -17,6 +17,7 @@ mod progress;
 mod reference;
 mod reproduce;
 mod rough;
+mod scales;
 mod schema;
 mod slips;
 mod study;
@@ -76,6 +77,7 @@ fn run(command: &Command) -> Result<(), Error> {
         Command::Mesh(args) => mesh::mesh(args),
         Command::Rough(args) => rough::rough(args),
         Command::Joint(args) => joint::joint(args),
+        Command::Scales(args) => scales::scales(args),
         Command::Extract(args) => extract::extract(args),
         Command::Calibrate(args) => calibrate::calibrate(args),
         Command::Study(args) => study::study(args),

@@ -11,6 +11,7 @@ pub mod frame;
 pub mod chart;
 pub mod field_plot;
 pub mod rough_map;
+pub mod scale_charts;
 
 /// Lengths are drawn in micrometres, m.
 pub const MICROMETRE: f64 = 1e-6;

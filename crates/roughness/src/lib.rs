@@ -3,8 +3,8 @@
 //! In the order of the data: a height map is read or generated, levelled and filtered, its parameters are
 //! taken (`surface`); a plane cuts it into islands, a closure gives each its force, and the separation that
 //! carries the load is found (`contact`); the whole surface as a half-space ([`half_space`]) and the leak
-//! through its gap ([`flow`]), and at every load the law of a joint ([`joint`]); [`scene`] says all of it
-//! in a file.
+//! through its gap ([`flow`]), at every load the law of a joint ([`joint`]), and with ever finer waves let in
+//! what has stopped changing ([`scales`]); [`scene`] says all of it in a file.
 
 mod surface;
 
@@ -20,6 +20,8 @@ pub mod half_space;
 pub mod flow;
 
 pub mod joint;
+
+pub mod scales;
 
 pub mod scene;
 

@@ -22,7 +22,7 @@ from ._asperity import (
     UnfinishedError,
     __version__,
 )
-from ._functions import calibrate, crush, extract, identify, joint, press, study, trade
+from ._functions import calibrate, crush, extract, identify, joint, press, scales, study, trade
 from ._results import (
     Calibration,
     Crush,
@@ -31,6 +31,7 @@ from ._results import (
     Identification,
     Joint,
     Rough,
+    Scales,
     Study,
     Table,
     Trade,
@@ -46,6 +47,7 @@ __all__ = [
     "Joint",
     "Rough",
     "RoughScene",
+    "Scales",
     "Scene",
     "Study",
     "Table",
@@ -58,6 +60,7 @@ __all__ = [
     "identify",
     "joint",
     "press",
+    "scales",
     "study",
     "trade",
 ]

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import _asperity
-from ._results import Calibration, Crush, Extraction, FloatArray, Identification, Joint, Rough, Study, Trade
+from ._results import Calibration, Crush, Extraction, FloatArray, Identification, Joint, Rough, Scales, Study, Trade
 
 if TYPE_CHECKING:
     from ._asperity import RoughScene, Scene
@@ -165,6 +165,30 @@ def joint(
     tables = [scene if _is_whole(one) else {"closure": "all", **scene} for one in maps]
     taken = [_surface(one, pixel_size_um, own) for one, own in zip(maps, tables, strict=True)]
     return Joint(_asperity.joint(taken, _path(out), progress))
+
+
+def scales(
+    heights: Any = None,
+    *,
+    pixel_size_um: tuple[float, float] | None = None,
+    out: PathLike | None = None,
+    progress: Progress | None = None,
+    **scene: Any,
+) -> Scales:
+    """Presses a surface with ever finer waves let in: slopes, area, pressure, gap and leak by scale, each with a verdict.
+
+    :param heights: of the map, its path, a topography, or a :class:`RoughScene` or its path, as for :func:`press`; of a list of
+        them the first is looked at, and the others are repeated measurements of it, which tell its noise.
+    :param pixel_size_um: distance of the heights along x and y.
+    :param out: folder for the files of ``asperity scales``; files of the same name are replaced.
+    :param progress: called with the share that is done and a text.
+    :param scene: the tables of the scene: ``material={...}``, ``load={...}``, ``scales={"tip_radius": "2 um"}``.
+    :raises InputError: a scene that makes no sense, a flat map, repetitions of another size, a load that touches nothing.
+    """
+    maps = list(heights) if _are_several(heights) else [heights]
+    tables = [scene if _is_whole(one) else {"closure": "all", **scene} for one in maps]
+    taken = [_surface(one, pixel_size_um, own) for one, own in zip(maps, tables, strict=True)]
+    return Scales(_asperity.scales(taken, _path(out), progress))
 
 
 def extract(

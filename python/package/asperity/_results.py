@@ -294,6 +294,37 @@ class Joint:
         return self.table._repr_html_()
 
 
+class Scales:
+    """A surface as ever finer waves are let in: slopes, contact, and of each answer whether it has stopped changing."""
+
+    def __init__(self, inner: _asperity.Scales) -> None:
+        self._inner = inner
+        self.table = Table(inner.table())
+        """The rows of ``scales.csv``."""
+        self.slopes = Table(inner.slopes())
+        """The rows of ``slopes.csv``."""
+        self.summary: dict[str, Any] = inner.summary()
+        """The numbers of ``summary.json``."""
+        self.verdicts: dict[str, dict[str, Any]] = self.summary["verdicts"]
+        """Of each quantity its class, the cut-off from which on it holds, its error and its exponent."""
+        self.warnings: list[str] = self.summary["warnings"]
+        """Remarks on the trust in the numbers."""
+
+    def write(self, folder: PathLike) -> None:
+        """Writes the files of ``asperity scales``; files of the same name are replaced."""
+        self._inner.write(os.fspath(folder))
+
+    def report(self, path: PathLike | None = None) -> str:
+        """The page of ``--report``, which stands alone; written to ``path`` too if there is one."""
+        return _page(self._inner.report(), path)
+
+    def __repr__(self) -> str:
+        return f"<Scales\n{self._inner.text()}>"
+
+    def _repr_html_(self) -> str:
+        return self.table._repr_html_()
+
+
 class Extraction:
     """The asperities of a map, with profiles and scenes of the highest, and the closures beside finite elements."""
 

@@ -11,6 +11,7 @@ use asperity::crush::{
 use asperity::extract;
 use asperity::joint;
 use asperity::rough;
+use asperity::scales;
 use asperity::tables::Symmetry;
 use asperity::trade::TradeRow;
 use schemars::schema_for;
@@ -37,11 +38,14 @@ const ROUGH: &str = "`contact.vti` holds the maps of all closures for ParaView, 
     `table1.json`: for each surface the row as printed (µm, degrees, MPa, %) and, for each closure, the values of the five seeds of \
     every column.";
 
+const SCALES: &str = "`spectrum.csv` is that of `asperity rough`; `spectrum.svg`, `slope.svg`, `area.svg`, `pressure.svg`, `gap.svg`, `leak.svg` and \
+     `regimes.svg` show the scales.";
+
 const JOINT: &str = "`calculix.inp` and `abaqus.inp` hold `*SURFACE INTERACTION` with its tables, ready to be included by a deck in N, mm, K; \
     `moose.csv` holds the same in SI for piecewise functions. Their heads say what made them, where the overclosure is 0, and what goes \
     beyond the last row. `pressure.svg`, `stiffness.svg` and, with `[thermal]`, `conductance.svg` show the law with its errors.";
 
-const REPORT: &str = "`crush`, `calibrate`, `rough`, `joint` and `identify` with `--report` leave `report.html` as well: a page that needs no \
+const REPORT: &str = "`crush`, `calibrate`, `rough`, `joint`, `scales` and `identify` with `--report` leave `report.html` as well: a page that needs no \
     network, with the numbers and their errors first, what to beware of, and curves that tell the value under the pointer.";
 
 /// The page.
@@ -95,7 +99,9 @@ pub fn page() -> String {
         "joint.json: `fit_stiffness`, `fit_conductance`",
         "over the pressure in MPa",
     );
-    text += &format!("{JOINT}\n\n## asperity extract\n\n");
+    text += &format!("{JOINT}\n\n## asperity scales\n\n");
+    text += &of_scales();
+    text += &format!("{SCALES}\n\n## asperity extract\n\n");
     text += &file_columns::<extract::AsperityRow>(
         "asperities.csv",
         "a row per asperity, from the highest summit down",
@@ -107,6 +113,20 @@ pub fn page() -> String {
     text += &file_columns::<extract::Summary>("summary.json", "the map and what was found on it");
     text += &format!("## asperity study\n\n{STUDY}\n\n## asperity trade\n\n");
     text += &file_columns::<TradeRow>("trade.csv", "a row per setting");
+    text
+}
+
+/// The files of `asperity scales`.
+fn of_scales() -> String {
+    let mut text = String::new();
+    text += &file_columns::<scales::ScaleRow>("scales.csv", "a row per cut-off and closure");
+    text += &file_columns::<scales::SlopeRow>("slopes.csv", "a row per cut-off");
+    text += &file_columns::<scales::Summary>("summary.json", "verdicts, fits and what was pressed");
+    text += &file_columns::<scales::VerdictRow>("summary.json: `verdicts`", "the verdict on one quantity");
+    text += &file_columns::<scales::IntervalRow>(
+        "summary.json: `hurst`, `rolloff_um`, `shortest_um`",
+        "an interval",
+    );
     text
 }
 

@@ -53,11 +53,17 @@ impl Area {
     }
 }
 
-/// Patches of pixels under pressure, joined over sides and corners, and over the edges of a periodic map.
+/// Patches of pixels under pressure, joined over sides and corners, and over the edges of a periodic map:
+/// their number.
 pub fn patches(map: &HeightMap, pressures: &[f32]) -> usize {
+    each_patch(map, pressures, |_| {})
+}
+
+/// Calls `visit` with the pixels of each patch; their number.
+pub(crate) fn each_patch(map: &HeightMap, pressures: &[f32], mut visit: impl FnMut(&[usize])) -> usize {
     let (nx, ny) = (map.columns(), map.rows());
     let mut seen = vec![false; pressures.len()];
-    let mut stack = Vec::new();
+    let mut patch = Vec::new();
     let mut count = 0;
     // the neighbour of `at` by `step`, where there is one
     let beside = |at: usize, n: usize, step: usize| match (at + step).checked_sub(1) {
@@ -71,18 +77,22 @@ pub fn patches(map: &HeightMap, pressures: &[f32]) -> usize {
         }
         count += 1;
         seen[first] = true;
-        stack.push(first);
-        while let Some(i) = stack.pop() {
+        patch.clear();
+        patch.push(first);
+        let mut done = 0;
+        while let Some(&i) = patch.get(done) {
+            done += 1;
             for (dx, dy) in (0..9).map(|k| (k % 3, k / 3)) {
                 if let (Some(x), Some(y)) = (beside(i % nx, nx, dx), beside(i / nx, ny, dy)) {
                     let j = y * nx + x;
                     if !seen[j] && pressures[j] > 0.0 {
                         seen[j] = true;
-                        stack.push(j);
+                        patch.push(j);
                     }
                 }
             }
         }
+        visit(&patch);
     }
     count
 }

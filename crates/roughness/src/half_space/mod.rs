@@ -34,6 +34,7 @@ mod limit;
 pub use crate::half_space::half_space_contact::{
     FINEST_TOLERANCE, HalfSpace, HalfSpaceContact, HalfSpaceError, TOLERANCE,
 };
+pub(crate) use area::each_patch;
 pub use area::{Area, patches};
 pub use limit::{LimitSource, PressureLimit, patch_slope};
 pub use stiffness::Stiffness;

@@ -5,6 +5,7 @@ mod fluid;
 mod generate;
 mod half_space;
 mod joint;
+mod scales;
 mod surface;
 
 pub use asperity_material::range::SceneError;
@@ -12,6 +13,7 @@ pub use fluid::{Fluid, Viscosity};
 pub use generate::GenerateScene;
 pub use half_space::HalfSpaceScene;
 pub use joint::{Electrical, JointScene, Thermal};
+pub use scales::ScalesScene;
 pub use surface::{HeightUnit, Missing, PointColumns, SurfaceScene};
 
 pub use crate::contact::material::Material;
@@ -68,6 +70,9 @@ pub struct Scene {
     /// For `asperity joint`: the conductivities of electric current.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub electrical: Option<Electrical>,
+    /// For `asperity scales`: the instrument.
+    #[serde(default, skip_serializing_if = "ScalesScene::is_default")]
+    pub scales: ScalesScene,
     /// Output files.
     #[serde(default)]
     pub output: Output,
@@ -176,6 +181,7 @@ impl Scene {
             joint: JointScene::default(),
             thermal: None,
             electrical: None,
+            scales: ScalesScene::default(),
             output: Output::default(),
             custom: None,
         }
@@ -216,6 +222,7 @@ impl Scene {
         self.joint.validate()?;
         self.thermal.as_ref().map_or(Ok(()), Thermal::validate)?;
         self.electrical.as_ref().map_or(Ok(()), Electrical::validate)?;
+        self.scales.validate()?;
         self.surface.validate()
     }
 }

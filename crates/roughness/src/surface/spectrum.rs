@@ -22,6 +22,10 @@ const PER_OCTAVE: f64 = 8.0;
 pub struct SpectrumPoint {
     /// Mean frequency, 1/m.
     pub frequency: f64,
+    /// Waves of the map that the mean over all directions is of, each of a pair that are one real wave.
+    pub waves: f64,
+    /// Mean frequency of their power, 1/m.
+    pub frequency_of_power: f64,
     /// Mean over all directions, m⁴; `None` where the map has no wave so short or long.
     pub areal: Option<f64>,
     /// Of profiles along x, m³.
@@ -36,6 +40,8 @@ struct Sum {
     frequency: f64,
     density: f64,
     waves: f64,
+    /// Σ of density times frequency.
+    moment: f64,
 }
 
 impl Sum {
@@ -43,6 +49,7 @@ impl Sum {
         self.frequency += waves * frequency;
         self.density += waves * density;
         self.waves += waves;
+        self.moment += waves * density * frequency;
     }
 
     fn mean(&self) -> Option<f64> {
@@ -100,7 +107,13 @@ pub fn spectrum(map: &HeightMap) -> Result<Vec<SpectrumPoint>, MapError> {
     let point = |sums: &[Sum; 3]| {
         let (frequency, waves) = sums.iter().fold((0.0, 0.0), |(f, w), s| (f + s.frequency, w + s.waves));
         let [areal, along_x, along_y] = [0, 1, 2].map(|k: usize| sums[k].mean());
-        (waves > 0.0).then(|| SpectrumPoint { frequency: frequency / waves, areal, along_x, along_y })
+        let frequency = frequency / waves;
+        let power = sums[0].density;
+        let frequency_of_power = if power > 0.0 { sums[0].moment / power } else { frequency };
+        let waves_of_map = sums[0].waves;
+        let found =
+            SpectrumPoint { frequency, waves: waves_of_map, frequency_of_power, areal, along_x, along_y };
+        (waves > 0.0).then_some(found)
     };
     Ok(bands.sums.iter().filter_map(point).collect())
 }

@@ -1,0 +1,76 @@
+//! Charts of a surface at all its scales, over the logarithm of the cut-off.
+
+use crate::chart::{Chart, Series};
+use asperity_roughness::scales::{By, Numbers, Scales};
+
+/// A number of a contact over which a chart is drawn, and its unit in SI.
+type Column = (fn(&Numbers) -> Option<f64>, f64);
+
+/// The charts of `found` with the names of their files; those without a point are left out.
+pub fn scale_charts(found: &Scales) -> Vec<(&'static str, Chart)> {
+    let spectrum = found.spectrum.iter().filter_map(|point| {
+        let density = point.areal.filter(|density| *density > 0.0)?;
+        Some([(point.frequency * 1e-6).log10(), (density * 1e24).log10()])
+    });
+    let spectrum = Series::line("mean over all directions", spectrum.collect());
+    let slopes = found.steps.iter().map(|step| [octave(step.cutoff), step.slopes.rms]);
+    let slopes = Series::line("rms slope", slopes.collect()).marked();
+    let charts = [
+        (
+            "spectrum.svg",
+            Chart::new("log₁₀ of the frequency (1/µm)", "log₁₀ of the density (µm⁴)", [spectrum])
+                .titled("Power spectrum of the whole map"),
+        ),
+        (
+            "slope.svg",
+            Chart::new(CUTOFF, "rms slope", [slopes]).titled("Rms slope of the waves above the cut-off"),
+        ),
+        (
+            "area.svg",
+            by_scale(
+                found,
+                "contact area ratio",
+                "Contact area by scale",
+                (|one| one.area.map(|area| area.corrected).or(one.area_ratio), 1.0),
+            ),
+        ),
+        (
+            "pressure.svg",
+            by_scale(found, "mean pressure (MPa)", "Mean pressure by scale", (|one| one.mean_pressure, 1e6)),
+        ),
+        ("gap.svg", by_scale(found, "mean gap (µm)", "Mean gap by scale", (|one| one.mean_gap, 1e-6))),
+        ("leak.svg", by_scale(found, "leak along x (µm³)", "Leak by scale", (|one| one.leaks[0], 1e-18))),
+        (
+            "regimes.svg",
+            by_scale(
+                found,
+                "share of the load",
+                "Load on fully plastic patches by scale",
+                (|one| one.by_load[2], 1.0),
+            ),
+        ),
+    ];
+    charts.into_iter().filter(|(_, chart)| !chart.is_empty()).collect()
+}
+
+const CUTOFF: &str = "log₂ of the cut-off (µm)";
+
+fn octave(cutoff: f64) -> f64 {
+    (cutoff * 1e6).log2()
+}
+
+fn by_scale(found: &Scales, label: &str, title: &str, (of, unit): Column) -> Chart {
+    let mut names: Vec<By> = Vec::new();
+    for (by, _) in found.steps.iter().flat_map(|step| &step.contacts) {
+        if !names.contains(by) {
+            names.push(*by);
+        }
+    }
+    let series = names.into_iter().filter_map(|by| {
+        let points =
+            found.contacts(by).filter_map(|(step, one)| Some([octave(step.cutoff), of(one)? / unit]));
+        let points: Vec<[f64; 2]> = points.collect();
+        (!points.is_empty()).then(|| Series::line(by.name(), points).marked())
+    });
+    Chart::new(CUTOFF, label, series).titled(title)
+}

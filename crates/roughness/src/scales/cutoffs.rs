@@ -1,0 +1,82 @@
+//! The cut-offs of a map, and what a filter leaves of it.
+
+use crate::surface::filter::FilterError;
+use crate::{HeightMap, Surface, s_filter};
+
+/// Waves of the coarsest cut-off along the shorter side: fewer are no sample.
+const FEWEST_WAVES: f64 = 4.0;
+/// Pixels of a wave of the cut-off, at least, where the map has them: coarser cut-offs lie on coarser grids.
+pub const PIXELS_PER_WAVE: f64 = 8.0;
+/// Points of a map up to which cut-offs are half an octave apart; on larger ones a whole.
+const FINELY_STEPPED: usize = 1 << 20;
+
+/// A map without the waves below a cut-off.
+#[derive(Clone, Debug)]
+pub struct Scale {
+    /// The cut-off, in metres: of a wave so long the Gaussian filter keeps half the height. That of the whole
+    /// map is two pixels, the shortest wave that it holds; it is not filtered.
+    pub cutoff: f64,
+    /// The shortest wave, in metres: the one of which the filter keeps half the power, √2 cut-offs; of the
+    /// whole map two pixels.
+    pub wave: f64,
+    /// What is left, on a grid of at least [`PIXELS_PER_WAVE`] pixels a cut-off where the map has them.
+    pub surface: Surface,
+}
+
+/// Two pixels of a map, in metres: the shortest wave that it holds.
+pub(super) fn finest(map: &HeightMap) -> f64 {
+    2.0 * map.pixel()[0].max(map.pixel()[1])
+}
+
+/// The shorter side of a map, in metres.
+pub(super) fn side(map: &HeightMap) -> f64 {
+    (map.columns() as f64 * map.pixel()[0]).min(map.rows() as f64 * map.pixel()[1])
+}
+
+/// The cut-offs of `map` from the coarsest to that of the whole map, in metres: √2 apart, 2 on maps of more
+/// than a million points, so that the shortest waves of filtered and whole maps are in steps of octaves.
+pub fn cutoffs(map: &HeightMap) -> Vec<f64> {
+    let finest = finest(map);
+    let steps = if map.heights().len() <= FINELY_STEPPED { 2.0 } else { 1.0 };
+    let filtered = (0..).map(|k| finest * 2f64.powf(0.5 + f64::from(k) / steps));
+    let most = side(map) / FEWEST_WAVES * (1.0 + 1e-9);
+    let mut found: Vec<f64> = std::iter::once(finest).chain(filtered.take_while(|c| *c <= most)).collect();
+    found.reverse();
+    found
+}
+
+impl Scale {
+    /// `surface` without the waves below `cutoff` (m); the whole of it where that is two pixels.
+    ///
+    /// # Errors
+    /// A cut-off that does not fit the map, or points so far between that no cell is left.
+    pub fn new(surface: &Surface, cutoff: f64) -> Result<Scale, FilterError> {
+        let map = &surface.map;
+        if cutoff <= finest(map) * (1.0 + 1e-9) {
+            return Ok(Scale { cutoff, wave: cutoff, surface: surface.clone() });
+        }
+        let smooth = thinned(s_filter(map, cutoff)?, cutoff)?;
+        let wave = std::f64::consts::SQRT_2 * cutoff;
+        Ok(Scale { cutoff, wave, surface: Surface::from_map(smooth)? })
+    }
+}
+
+/// Every so many points of a smooth map, those of the edges left out alike on both sides; of a periodic one
+/// the step divides the number of points.
+fn thinned(map: HeightMap, cutoff: f64) -> Result<HeightMap, FilterError> {
+    let nodes = [map.columns(), map.rows()];
+    let step = [0, 1].map(|k| {
+        let most = (cutoff / (PIXELS_PER_WAVE * map.pixel()[k])).floor().max(1.0) as usize;
+        let divides = |s: &usize| !map.periodic() || nodes[k].is_multiple_of(*s);
+        (1..=most).rev().find(divides).unwrap_or(1)
+    });
+    if step == [1, 1] {
+        return Ok(map);
+    }
+    let count = [0, 1].map(|k| nodes[k] / step[k]);
+    let first = [0, 1].map(|k| (nodes[k] - 1 - (count[k] - 1) * step[k]) / 2);
+    let row = |y: usize| map.row(first[1] + y * step[1]);
+    let heights = (0..count[1]).flat_map(|y| (0..count[0]).map(move |x| row(y)[first[0] + x * step[0]]));
+    let pixel = [0, 1].map(|k| map.pixel()[k] * step[k] as f64);
+    Ok(HeightMap::new(count[0], count[1], pixel, heights.collect())?.with_periodic(map.periodic()))
+}

@@ -1,0 +1,77 @@
+//! The scales of a surface.
+
+use crate::error::raised;
+use crate::press::with_heights;
+use crate::scene::RoughScene;
+use crate::table::{of_json, of_rows};
+use crate::work;
+use asperity::output::Directory;
+use numpy::PyReadonlyArray2;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use std::path::{Path, PathBuf};
+
+/// The scales of a surface.
+#[pyclass(module = "asperity", frozen)]
+#[derive(Debug)]
+pub struct Scales {
+    inner: asperity::Scales,
+}
+
+/// A scene, its heights in µm where they are in memory, and their pixel in µm.
+type Map<'py> = (PyRef<'py, RoughScene>, Option<PyReadonlyArray2<'py, f64>>, Option<[f64; 2]>);
+
+/// Presses a surface at every scale; more maps are repeated measurements of it.
+#[pyfunction]
+#[pyo3(signature = (maps, out=None, progress=None))]
+pub fn scales(
+    py: Python<'_>,
+    maps: Vec<Map<'_>>,
+    out: Option<PathBuf>,
+    progress: Option<&Bound<'_, PyAny>>,
+) -> PyResult<Scales> {
+    let scenes = maps.into_iter().map(|(scene, heights, pixel)| with_heights(&scene, heights, pixel));
+    let scenes = scenes.collect::<PyResult<Vec<_>>>()?;
+    let result = work::run(py, progress, |tell| {
+        asperity::scales::scales(&scenes, &mut |reached| {
+            tell(reached.share, reached.news.map_or(String::new(), |p| format!("waves from {:.4} um", p * 1e6)))
+        })
+    })?;
+    let scales = Scales { inner: result.map_err(raised)? };
+    out.map_or(Ok(()), |folder| scales.save(&folder))?;
+    Ok(scales)
+}
+
+impl Scales {
+    fn save(&self, folder: &Path) -> PyResult<()> {
+        let mut folder = Directory::create(folder).map_err(raised)?;
+        self.inner.write(&mut folder).map_err(raised)
+    }
+}
+
+#[pymethods]
+impl Scales {
+    fn table<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        of_rows(py, &self.inner.rows)
+    }
+
+    fn slopes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        of_rows(py, &self.inner.slopes)
+    }
+
+    fn summary<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        of_json(py, &self.inner.json().map_err(raised)?)
+    }
+
+    fn text(&self) -> String {
+        self.inner.text()
+    }
+
+    fn report(&self) -> PyResult<String> {
+        self.inner.report().map_err(raised)
+    }
+
+    fn write(&self, folder: PathBuf) -> PyResult<()> {
+        self.save(&folder)
+    }
+}
