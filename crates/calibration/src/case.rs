@@ -80,7 +80,7 @@ impl Case {
             kinematic_share: 0.0,
             stress_measure: self.stress_measure,
         };
-        Cone { slope_deg: self.beta_deg, indents: self.tool == Tool::Cone, metal }
+        Cone { slope_deg: self.beta_deg, indents: self.tool == Tool::Cone, metal, friction: None }
     }
 
     /// The problem of the solver, loaded to the depth 1, E = 1.

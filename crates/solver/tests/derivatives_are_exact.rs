@@ -258,7 +258,14 @@ fn contact() {
         for (tool, tolerance) in tools.clone() {
             for (tip, middle) in [(0.03, 0.04), (0.03, 0.12), (-0.3, -0.2), (-0.5, 0.04), (0.02, -0.1)] {
                 for quadratic in [true, false] {
-                    let context = ContactContext { tool: &tool, tip, penalty: 3.0, spring: 3.0, symmetry };
+                    let context = ContactContext {
+                        tool: &tool,
+                        tip,
+                        penalty: 3.0,
+                        spring: 3.0,
+                        symmetry,
+                        rubbing: None,
+                    };
                     let edge =
                         ContactEdge::new([0, 1], quadratic.then_some(2), |n| reference[n as usize], symmetry);
                     let mut x = reference;

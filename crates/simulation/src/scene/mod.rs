@@ -8,6 +8,7 @@ mod area_function;
 mod build;
 mod checks;
 mod earlier_loads;
+mod friction;
 mod geometry;
 mod initial;
 mod line;
@@ -21,6 +22,7 @@ mod whole;
 
 pub use accuracy::{Accuracy, AccuracyError, Level};
 pub use area_function::AreaFunction;
+pub use friction::Friction;
 pub use geometry::{Asperity, AsperityForm, Lateral, Substrate};
 pub use initial::{EarlierLoad, Initial};
 pub use line::{Line, LineAsperity, LineProfile};
