@@ -1,6 +1,7 @@
 //! The key `friction` of a tool.
 
-use super::messages::{Check, check_range};
+use super::SceneError;
+use super::messages::check_range;
 use asperity_solver::contact::friction::Friction as Law;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{Error, Visitor};
@@ -32,7 +33,11 @@ impl Friction {
         }
     }
 
-    pub(super) fn check(self) -> Check {
+    /// Whether the coefficient lies in its range.
+    ///
+    /// # Errors
+    /// The key and its range.
+    pub fn check(self) -> Result<(), SceneError> {
         match self {
             Friction::Sticking => Ok(()),
             Friction::Coefficient(value) => {

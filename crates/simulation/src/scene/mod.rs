@@ -68,7 +68,7 @@ pub struct Scene {
     /// The body under the asperities; absent in axisymmetry: sized from the contact.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub substrate: Option<Substrate>,
-    /// The frictionless tool, rigid unless it has a modulus; absent: a rigid plane.
+    /// The tool, rigid unless it has a modulus and smooth unless it has friction; absent: a smooth rigid plane.
     #[serde(default = "Tool::plane")]
     pub tool: Tool,
     /// How far it goes: exactly one of `depth` and `force`.

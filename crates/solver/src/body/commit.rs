@@ -117,7 +117,10 @@ impl State {
         };
         let context = contact.context_from(trial.tip_before, trial.tip, trial.penalty, body.symmetry);
         for edge in &mut self.edges {
-            edge.slip = edge.slip_after(&context, &edge.nodes.map(|node| self.position[node as usize]));
+            let (slip, lost) =
+                edge.slip_after(&context, &edge.nodes.map(|node| self.position[node as usize]));
+            edge.slip = slip;
+            self.ledger.friction_work += lost;
         }
     }
 

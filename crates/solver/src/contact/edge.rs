@@ -59,6 +59,8 @@ pub struct EdgeContact {
     pub force: [[f64; 2]; 3],
     /// Second derivative of the energy, `[node a][i][node b][j]`.
     pub stiffness: [[[[f64; 2]; 3]; 2]; 3],
+    /// What the derivative of the forces of friction has beside the symmetric part that is in the stiffness.
+    pub unsymmetric: [[[[f64; 2]; 3]; 2]; 3],
     /// Force on the tool along z.
     pub load: f64,
     /// ∫ p²/(2ε) dA.
@@ -196,6 +198,7 @@ impl ContactEdge {
             parts,
             force: [[0.0; 2]; 3],
             stiffness: [[[[0.0; 2]; 3]; 2]; 3],
+            unsymmetric: [[[[0.0; 2]; 3]; 2]; 3],
             load: 0.0,
             energy: 0.0,
             penalty_energy: 0.0,

@@ -2,10 +2,10 @@
 //! mapping.
 //!
 //! A point of the surface that moves by Δ beside the tool slips by Δs = t·Δ along the tangent t of the tool,
-//! of which it takes the share φ since it touches. The elastic slip s_e holds the traction q = ε_t s_e, and
-//! what would lift that above its limit is slip that is lost:
+//! of which it takes the share φ since it touches. The elastic slip s_e holds the traction q = ε s_e with the
+//! penalty ε of the pressure, and what would lift that above its limit is slip that is lost:
 //! ```text
-//! s* = s_e + φ Δs,    q = ε_t s*  where |ε_t s*| ≤ μp,  else ±μp,    s_e ← q/ε_t.
+//! s* = s_e + φ Δs,    q = ε s*  where |ε s*| ≤ μp,  else ±μp,    s_e ← q/ε.
 //! ```
 //! The elastic slip is kept at places of the edges, which move with the metal: integration points move with
 //! the end of contact. Because the traction vanishes with the pressure or with φ where contact begins, the
@@ -31,10 +31,6 @@ impl Friction {
         }
     }
 }
-
-/// Tangential penalty over the normal one. The traction is a fraction of the pressure: the elastic slip is
-/// that fraction of a quarter of the penetration.
-const TANGENTIAL_RATIO: f64 = 4.0;
 
 /// Places of an edge, evenly over -1 ≤ ξ ≤ 1, that keep its elastic slip: corners and mid-side are among
 /// them.
@@ -62,8 +58,12 @@ struct Shear {
     elastic_slip: f64,
     /// Unit vector along the tool.
     tangent: [f64; 2],
-    /// ∂traction/∂s where the point sticks, 0 where it slips.
+    /// Its derivative by the end of the way.
+    slope: [f64; 2],
+    /// The symmetric part of that: ∂traction/∂s where the point sticks, 0 where it slips.
     stiffness: f64,
+    /// ∂tangent_i/∂x_j.
+    turn: [[f64; 2]; 2],
     /// Work lost per reference area.
     work: f64,
 }
@@ -84,31 +84,60 @@ fn between(slip: &EdgeSlip, xi: f64) -> f64 {
 impl Rubbing {
     /// Traction at the end `to` of the way of a point from `from`, which held the elastic slip `before`.
     fn shear(&self, context: &ContactContext<'_>, [from, to]: [[f64; 2]; 2], before: f64) -> Shear {
-        let penalty = TANGENTIAL_RATIO * context.penalty;
+        let penalty = context.penalty;
         let earlier = context.tool.penetration(from, self.tip_before).depth;
         let now = context.tool.penetration(to, context.tip);
         let tangent = [now.slope[1], -now.slope[0]];
+        let [rr, zz, rz] = now.curvature;
+        let turn = [[rz, zz], [-rr, -rz]];
+        let newly = earlier < 0.0 && !self.holds;
         // the share of the way since the point touches
-        let touching = if earlier < 0.0 && !self.holds {
-            (now.depth / (now.depth - earlier)).clamp(0.0, 1.0)
-        } else {
-            1.0
-        };
+        let touching = if newly { (now.depth / (now.depth - earlier)).clamp(0.0, 1.0) } else { 1.0 };
         let way = [to[0] - from[0], to[1] - from[1] - (context.tip - self.tip_before)];
-        let trial = before + touching * (tangent[0] * way[0] + tangent[1] * way[1]);
-        let (pressure, earlier) = (context.penalty * now.depth.max(0.0), context.penalty * earlier.max(0.0));
+        let along = tangent[0] * way[0] + tangent[1] * way[1];
+        let trial = before + touching * along;
+        let (pressure, pressure_before) =
+            (context.penalty * now.depth.max(0.0), context.penalty * earlier.max(0.0));
         let coefficient = match self.friction {
             Friction::Coulomb(coefficient) if !self.holds => coefficient,
             _ => f64::INFINITY,
         };
-        let stiffness = touching * TANGENTIAL_RATIO * context.spring;
-        if self.holds || (penalty * trial).abs() <= coefficient * pressure || coefficient == f64::INFINITY {
-            return Shear { traction: penalty * trial, elastic_slip: trial, tangent, stiffness, work: 0.0 };
+        if coefficient == f64::INFINITY || (penalty * trial).abs() <= coefficient * pressure {
+            let stiffness = touching * context.spring;
+            let sooner = if newly { -earlier / (now.depth - earlier).powi(2) } else { 0.0 };
+            let slope = [0, 1].map(|j| {
+                let turned = turn[0][j] * way[0] + turn[1][j] * way[1];
+                stiffness * (tangent[j] + turned) + penalty * along * sooner * now.slope[j]
+            });
+            return Shear {
+                traction: penalty * trial,
+                elastic_slip: trial,
+                tangent,
+                slope,
+                stiffness,
+                turn,
+                work: 0.0,
+            };
         }
         let traction = (coefficient * pressure).copysign(trial);
         let elastic_slip = traction / penalty;
-        let work = 0.5 * coefficient * (earlier + pressure) * (trial - elastic_slip).abs();
-        Shear { traction, elastic_slip, tangent, stiffness: 0.0, work }
+        let work = 0.5 * coefficient * (pressure_before + pressure) * (trial - elastic_slip).abs();
+        let growth = if pressure > 0.0 { (coefficient * context.spring).copysign(trial) } else { 0.0 };
+        let slope = now.slope.map(|n| growth * n);
+        Shear { traction, elastic_slip, tangent, slope, stiffness: 0.0, turn, work }
+    }
+}
+
+impl Rubbing {
+    /// Work lost at a point that parts from the tool on its way, per reference area.
+    fn work_of_parting(&self, context: &ContactContext<'_>, [from, to]: [[f64; 2]; 2], before: f64) -> f64 {
+        let penalty = context.penalty;
+        if !context.tip.is_finite() {
+            return 0.5 * penalty * before * before;
+        }
+        let [nr, nz] = context.tool.penetration(from, self.tip_before).slope;
+        let along = nz * (to[0] - from[0]) - nr * (to[1] - from[1] - (context.tip - self.tip_before));
+        0.5 * penalty * (before * (before + along)).max(0.0)
     }
 }
 
@@ -142,7 +171,10 @@ impl ContactEdge {
                         out.force[a][i] += w * shear.traction * t[i] * n[a];
                         for b in 0..self.node_count() {
                             for j in 0..2 {
-                                out.stiffness[a][i][b][j] += w * shear.stiffness * t[i] * t[j] * n[a] * n[b];
+                                let symmetric = shear.stiffness * t[i] * t[j];
+                                let whole = t[i] * shear.slope[j] + shear.traction * shear.turn[i][j];
+                                out.stiffness[a][i][b][j] += w * symmetric * n[a] * n[b];
+                                out.unsymmetric[a][i][b][j] += w * (whole - symmetric) * n[a] * n[b];
                             }
                         }
                     }
@@ -151,24 +183,30 @@ impl ContactEdge {
         }
     }
 
-    /// The elastic slip that is left where the nodes of the edge have come to `x`: none off the tool.
-    pub(crate) fn slip_after(&self, context: &ContactContext<'_>, x: &[[f64; 2]; 3]) -> EdgeSlip {
-        let Some(rubbing) = context.rubbing.filter(|_| context.tip.is_finite()) else {
-            return [0.0; SLIP_PLACES];
-        };
-        std::array::from_fn(|place| {
-            let xi = coordinate(place);
+    /// The elastic slip that is left where the nodes of the edge have come to `x`, none off the tool; and the
+    /// work that is lost where the surface parts from it: the traction falls to nothing along the way.
+    pub(crate) fn slip_after(&self, context: &ContactContext<'_>, x: &[[f64; 2]; 3]) -> (EdgeSlip, f64) {
+        let (mut slip, mut lost) = ([0.0; SLIP_PLACES], 0.0);
+        let Some(rubbing) = context.rubbing else { return (slip, lost) };
+        for (place, after) in slip.iter_mut().enumerate() {
+            let (xi, before) = (coordinate(place), self.slip[place]);
             let way = [self.point(&self.reference, xi), self.point(x, xi)];
-            if context.tool.penetration(way[1], context.tip).depth <= 0.0 {
-                return 0.0;
+            let touches =
+                context.tip.is_finite() && context.tool.penetration(way[1], context.tip).depth > 0.0;
+            if touches {
+                *after = rubbing.shear(context, way, before).elastic_slip;
+            } else if before != 0.0 {
+                let ends = if place == 0 || place == SLIP_PLACES - 1 { 0.5 } else { 1.0 };
+                let area = ends * 2.0 / (SLIP_PLACES - 1) as f64 * self.measure(xi);
+                lost += area * rubbing.work_of_parting(context, way, before);
             }
-            rubbing.shear(context, way, self.slip[place]).elastic_slip
-        })
+        }
+        (slip, lost)
     }
 
     /// Traction along the tool at ξ per current area, the edge at rest with its nodes at `x`.
     pub(crate) fn shear_traction(&self, penalty: f64, x: &[[f64; 2]; 3], xi: f64) -> f64 {
-        TANGENTIAL_RATIO * penalty * between(&self.slip, xi) / self.stretch(x, xi)
+        penalty * between(&self.slip, xi) / self.stretch(x, xi)
     }
 }
 
@@ -204,4 +242,57 @@ fn nearest(pieces: &[[([f64; 2], f64); 2]], x: [f64; 2]) -> f64 {
         }
     }
     least.1
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::tool::Tool;
+    use crate::point::kinematics::Symmetry;
+
+    /// An edge along a plane, pressed by 0.01 and moved by `slide`, under a plane that stays.
+    fn rubbed(friction: Friction, slide: f64) -> (ContactEdge, EdgeContact, EdgeSlip) {
+        let place = |node: u32| [f64::from(node), 0.01];
+        let edge = ContactEdge::new([0, 1], None, place, Symmetry::PlaneStrain);
+        let rubbing = Some(Rubbing { friction, tip_before: 0.0, holds: false });
+        let (penalty, symmetry) = (2.0, Symmetry::PlaneStrain);
+        let context =
+            ContactContext { tool: &Tool::Plane, tip: 0.0, penalty, spring: penalty, symmetry, rubbing };
+        let x = edge.reference.map(|[r, z]| [r + slide, z]);
+        let contact = edge.integrate(&context, edge.touching(&context, &x), &x);
+        (edge, contact, edge.slip_after(&context, &x).0)
+    }
+
+    /// Over a width of 1 the pressure is 0.02: the traction is 2 times the slip up to 0.3 of that, what slips
+    /// beyond is lost at that traction.
+    #[test]
+    fn the_traction_grows_to_its_limit_and_what_slips_beyond_is_lost() {
+        for sign in [1.0, -1.0] {
+            let (_, stuck, slip) = rubbed(Friction::Coulomb(0.3), sign * 0.002);
+            let force: f64 = stuck.force.iter().map(|f| f[0]).sum();
+            assert!((force - sign * 0.004).abs() < 1e-15 && stuck.friction_work == 0.0);
+            assert!(slip.iter().all(|s| (s - sign * 0.002).abs() < 1e-15));
+            let (_, slipped, slip) = rubbed(Friction::Coulomb(0.3), sign * 0.01);
+            let force: f64 = slipped.force.iter().map(|f| f[0]).sum();
+            assert!((force - sign * 0.006).abs() < 1e-15);
+            assert!((slipped.friction_work - 0.006 * 0.007).abs() < 1e-15);
+            assert!(slip.iter().all(|s| (s - sign * 0.003).abs() < 1e-15));
+            let (_, stuck, _) = rubbed(Friction::Sticking, sign * 0.01);
+            assert!((stuck.force.iter().map(|f| f[0]).sum::<f64>() - sign * 0.02).abs() < 1e-15);
+        }
+    }
+
+    /// A surface whose nodes move along it keeps its elastic slip where the metal is, and none beyond.
+    #[test]
+    fn slip_is_carried_over_where_it_was() {
+        let edge = |from: f64, to: f64| {
+            ContactEdge::new([0, 1], None, |node| [[from, to][node as usize], 0.0], Symmetry::PlaneStrain)
+        };
+        let mut old = edge(0.0, 1.0);
+        old.slip = std::array::from_fn(|place| 0.1 * place as f64);
+        let mut new = [edge(0.25, 0.75), edge(1.25, 1.5)];
+        carry_slip(&[old], &mut new);
+        assert!((new[0].slip[0] - 0.2).abs() < 1e-15 && (new[0].slip[8] - 0.6).abs() < 1e-15);
+        assert_eq!(new[1].slip, [0.0; SLIP_PLACES]);
+    }
 }
