@@ -1,6 +1,6 @@
 //! Claims: friction is Coulomb's. A body that sticks is as much stiffer as theory says; a small coefficient
-//! changes nothing, a large one sticks; friction only takes work, and the energies balance with what it takes;
-//! what sticks grows in proportion with the contact; a new mesh keeps the tractions.
+//! changes nothing, a large one sticks; friction only takes work, and the energies balance with what it
+//! takes; what sticks grows in proportion with the contact; a new mesh keeps the tractions.
 //!
 //! Sources: Mossakovskii, PMM 27 (1963); Spence, Proc. R. Soc. A 305 (1968), J. Elasticity 5 (1975).
 
@@ -97,7 +97,8 @@ fn friction_only_takes_work_and_the_energies_balance() {
     assert!(crush(&indent(None)).unwrap().rows[3].friction_work.is_none());
 }
 
-/// Spence 1975: the share is that of μ and ν alone. Two elements of 24 in the contact.
+/// Spence 1975: the share is that of μ and ν alone. Both ends are read at nodes: an element of 40 in the
+/// contact of an elastic body at the peak, and of fewer before it, each way.
 #[test]
 fn what_sticks_grows_with_the_contact_and_is_the_same_under_cone_and_ball() {
     let mut all = Vec::new();
@@ -106,14 +107,16 @@ fn what_sticks_grows_with_the_contact_and_is_the_same_under_cone_and_ball() {
         all.extend_from_slice(&shares[shares.len() - 3..]);
     }
     let (low, high) = all.iter().fold((1.0_f64, 0.0_f64), |(low, high), s| (low.min(*s), high.max(*s)));
-    assert!(low > 0.1 && high < 0.95 && high - low < 2.0 / 24.0, "{all:?}");
+    assert!(low > 0.1 && high < 0.95 && high - low < 2.0 / 40.0, "{all:?}");
 }
 
-/// A body that is taken to a new mesh half way, without need: 0.3 % of the force is what is asked of it.
+/// A body that is taken to a new mesh half way, without need: 0.3 % of the force is what is asked of it (on
+/// coarse meshes of cones a new mesh alone, without friction, moves the force by 1 %).
 #[test]
 fn a_new_mesh_keeps_the_tractions() {
-    let force = |anew: bool| {
-        let problem = Run::new(&indent(Some(Friction::Coefficient(0.2)))).problem().unwrap();
+    let force = |coefficient: f64, anew: bool| {
+        let scene = with_friction(asperity(), Some(Friction::Coefficient(coefficient)));
+        let problem = Run::new(&scene).problem().unwrap();
         let mut path = Path::new(&problem, &Analyses::default()).unwrap();
         let mut last = f64::NAN;
         for fraction in problem.numbers.schedule() {
@@ -125,5 +128,8 @@ fn a_new_mesh_keeps_the_tractions() {
         }
         last
     };
-    assert!((force(true) / force(false) - 1.0).abs() < 3e-3);
+    for coefficient in [0.02, 0.1] {
+        let ratio = force(coefficient, true) / force(coefficient, false);
+        assert!((ratio - 1.0).abs() < 3e-3, "{coefficient}: {ratio}");
+    }
 }

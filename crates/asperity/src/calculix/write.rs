@@ -164,8 +164,8 @@ impl Deck {
         )
     }
 
-    /// Friction: in CalculiX the coefficient and the traction per elastic slip, in Abaqus the coefficient with
-    /// the elastic slip over an element at most, or a rough tool.
+    /// Friction: in CalculiX the coefficient and the traction per elastic slip, in Abaqus the coefficient
+    /// with the largest elastic slip over an element, or a rough tool.
     fn friction(&self, out: &mut impl Write, friction: Friction) -> io::Result<()> {
         match (self.reader, friction) {
             (Reader::CalculiX, Friction::Coulomb(coefficient)) => {

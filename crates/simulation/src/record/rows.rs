@@ -322,8 +322,8 @@ pub fn largest_work(rows: &[CurveRow]) -> f64 {
     rows.iter().fold(0.0, |largest: f64, row| largest.max(row.external_work))
 }
 
-/// The largest |W - E_e - W_p - E_c - W_f + E_t| over the largest W up to the row, of rows from which on that is
-/// above 1 % of the peak: as a body springs back its work falls to nothing, and what is left of it says
+/// The largest |W - E_e - W_p - E_c - W_f + E_t| over the largest W up to the row, of rows from which on that
+/// is above 1 % of the peak: as a body springs back its work falls to nothing, and what is left of it says
 /// nothing.
 pub(super) fn balance_error(rows: &[CurveRow]) -> f64 {
     let peak = largest_work(rows);

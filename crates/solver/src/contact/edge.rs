@@ -1,5 +1,5 @@
-//! Penalty contact of surface edges with a rigid tool, integrated over exactly the part that touches; friction
-//! is added by [`crate::contact::friction`].
+//! Penalty contact of surface edges with a rigid tool, integrated over exactly the part that touches;
+//! friction is added by [`crate::contact::friction`].
 //!
 //! Energy ∫ p²/(2ε) dA over a reference area, p = ε d with the penetration d. Each edge is clipped where p =
 //! 0 and Gauss points are laid on the clipped part: force and contact radius move smoothly as the front

@@ -74,7 +74,7 @@ fn coordinate(place: usize) -> f64 {
 }
 
 /// Elastic slip at ξ, straight between the places.
-fn between(slip: &EdgeSlip, xi: f64) -> f64 {
+fn slip_between(slip: &EdgeSlip, xi: f64) -> f64 {
     let along = 0.5 * (xi + 1.0) * (SLIP_PLACES - 1) as f64;
     let place = (along.max(0.0) as usize).min(SLIP_PLACES - 2);
     let share = along - place as f64;
@@ -160,7 +160,7 @@ impl ContactEdge {
             for [xi, weight] in points {
                 let n = self.shape(xi);
                 let way = [self.point(&self.reference, xi), self.point(x, xi)];
-                let shear = rubbing.shear(context, way, between(&self.slip, xi));
+                let shear = rubbing.shear(context, way, slip_between(&self.slip, xi));
                 let w = weight * self.measure(xi);
                 let t = shear.tangent;
                 out.penalty_energy += 0.5 * w * shear.traction * shear.elastic_slip;
@@ -206,7 +206,7 @@ impl ContactEdge {
 
     /// Traction along the tool at ξ per current area, the edge at rest with its nodes at `x`.
     pub(crate) fn shear_traction(&self, penalty: f64, x: &[[f64; 2]; 3], xi: f64) -> f64 {
-        penalty * between(&self.slip, xi) / self.stretch(x, xi)
+        penalty * slip_between(&self.slip, xi) / self.stretch(x, xi)
     }
 }
 

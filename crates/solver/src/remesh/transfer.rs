@@ -297,8 +297,8 @@ fn carried_over(body: &Body<'_>, state: &State, places: &[[f64; 2]]) -> Option<C
 }
 
 impl State {
-    /// Elastic energy, plastic work, contact energy and work of friction so far, of which only the work of the tool may change
-    /// the sum.
+    /// Elastic energy, plastic work, contact energy and work of friction so far, of which only the work of
+    /// the tool may change the sum.
     fn balanced_energy(&self, body: &Body<'_>) -> f64 {
         let [elastic, plastic] = self.energies(body);
         let contact = contact_sums(self.contact.iter(), body.symmetry).energy;
