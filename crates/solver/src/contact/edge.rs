@@ -85,6 +85,28 @@ pub struct EdgeContact {
     pub max_pressure: f64,
 }
 
+impl EdgeContact {
+    /// Of an edge that touches in these parts, nothing summed up yet.
+    fn empty(parts: Parts) -> EdgeContact {
+        EdgeContact {
+            parts,
+            force: [[0.0; 2]; 3],
+            stiffness: [[[[0.0; 2]; 3]; 2]; 3],
+            unsymmetric: [[[[0.0; 2]; 3]; 2]; 3],
+            load: 0.0,
+            energy: 0.0,
+            penalty_energy: 0.0,
+            friction_work: 0.0,
+            pressure_penetration: 0.0,
+            pressure: 0.0,
+            area: 0.0,
+            reach: [f64::INFINITY, f64::NEG_INFINITY],
+            line: [0.0; 2],
+            max_pressure: 0.0,
+        }
+    }
+}
+
 /// Integration points of an interval [-1, 1]: abscissa and weight.
 pub(super) const GAUSS4: [[f64; 2]; 4] = [
     [-0.861_136_311_594_052_6, 0.347_854_845_137_453_85],
@@ -194,22 +216,7 @@ impl ContactEdge {
 
     /// Integrates pressure over `parts`, wherever it may be negative there (a kept contact set may pull).
     pub fn integrate(&self, context: &ContactContext<'_>, parts: Parts, x: &[[f64; 2]; 3]) -> EdgeContact {
-        let mut out = EdgeContact {
-            parts,
-            force: [[0.0; 2]; 3],
-            stiffness: [[[[0.0; 2]; 3]; 2]; 3],
-            unsymmetric: [[[[0.0; 2]; 3]; 2]; 3],
-            load: 0.0,
-            energy: 0.0,
-            penalty_energy: 0.0,
-            friction_work: 0.0,
-            pressure_penetration: 0.0,
-            pressure: 0.0,
-            area: 0.0,
-            reach: [f64::INFINITY, f64::NEG_INFINITY],
-            line: [0.0; 2],
-            max_pressure: 0.0,
-        };
+        let mut out = EdgeContact::empty(parts);
         let places = self.places(context, x);
         for [start, end] in parts.into_iter().flatten().filter(|[start, end]| end > start) {
             let (centre, half) = (0.5 * (start + end), 0.5 * (end - start));
