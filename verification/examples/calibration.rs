@@ -117,6 +117,7 @@ fn elastic(report: &mut Report) {
                 poissons_ratio: 0.3,
                 tool,
                 stress_measure: StressMeasure::Kirchhoff,
+                friction: None,
             };
             let k = loading_curvature::solve(
                 &case,
@@ -144,6 +145,7 @@ fn lengths(report: &mut Report) {
         poissons_ratio: 0.3,
         tool: Tool::Plane,
         stress_measure: StressMeasure::Kirchhoff,
+        friction: None,
     });
     type Change = fn(&mut ConeDiscretisation);
     let changes: [(&str, Change); 10] = [
@@ -183,6 +185,7 @@ fn indentation(report: &mut Report) {
                     poissons_ratio: 0.3,
                     tool: Tool::Cone,
                     stress_measure: StressMeasure::Kirchhoff,
+                    friction: None,
                 };
                 let resolution = case.discretisation(Accuracy::Standard);
                 let k = loading_curvature::solve(&case, &resolution, &Analyses::default()).expect("runs");
@@ -219,7 +222,14 @@ fn published(report: &mut Report, file: &str, beta_deg: f64) {
         .collect();
     let difference = |[exponent, ratio, k_over_e]: &[f64; 3], stress_measure: StressMeasure| {
         let yielding = Some(metal(HardeningLaw::Swift, *exponent, *ratio));
-        let case = Case { beta_deg, yielding, poissons_ratio: 0.3, tool: Tool::Cone, stress_measure };
+        let case = Case {
+            beta_deg,
+            yielding,
+            poissons_ratio: 0.3,
+            tool: Tool::Cone,
+            stress_measure,
+            friction: None,
+        };
         let resolution = case.discretisation(Accuracy::Standard);
         100.0
             * (loading_curvature::solve(&case, &resolution, &Analyses::default()).expect("runs").k_over_e

@@ -50,5 +50,6 @@ pub fn peer_case(peer: &Peer) -> Case {
         poissons_ratio: 0.3,
         tool: Tool::Plane,
         stress_measure: StressMeasure::Kirchhoff,
+        friction: None,
     }
 }

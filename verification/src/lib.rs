@@ -3,7 +3,7 @@
 //! The claims are in `tests/`, one a file; what was reached is in `results/`, in tables that the programs of
 //! `examples/` write with `report`. Closed forms: `contact` (elastic), `uniaxial`, `simple_shear`,
 //! `thick_wall`, `manufactured`. Other codes: `calibration`. Bodies: `coverage_scenes` (with their `truth`),
-//! `test_meshes`, `single_asperity`. `single_increment` solves one increment.
+//! `test_meshes`, `single_asperity`, `friction`. `single_increment` solves one increment.
 
 pub mod contact;
 pub mod manufactured;
@@ -19,6 +19,7 @@ mod measured_scenes;
 mod random_metal;
 pub mod truth;
 
+pub mod friction;
 pub mod random_scenes;
 pub mod single_asperity;
 pub mod test_meshes;

@@ -16,6 +16,7 @@ fn main() {
         poissons_ratio: 0.3,
         tool: Tool::Plane,
         stress_measure: StressMeasure::Kirchhoff,
+        friction: None,
     };
     match solve(&case, Accuracy::Draft, &Analyses::default()).outcome {
         Ok(cone) => println!("K/E = {:.4} within {:.2} %", cone.k_over_e, 100.0 * cone.error),

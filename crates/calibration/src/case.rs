@@ -5,6 +5,7 @@ use asperity_simulation::scene::Accuracy;
 use asperity_simulation::setup::cone::Cone;
 use asperity_simulation::setup::discretisation::ConeDiscretisation;
 use asperity_simulation::setup::problem::Problem;
+use asperity_solver::contact::friction::Friction;
 use asperity_solver::point::material::Metal;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -43,6 +44,8 @@ pub struct Case {
     pub tool: Tool,
     /// The stress that yields.
     pub stress_measure: StressMeasure,
+    /// Friction of plane or cone; `None`: it is smooth.
+    pub friction: Option<Friction>,
 }
 
 impl Case {
@@ -80,7 +83,7 @@ impl Case {
             kinematic_share: 0.0,
             stress_measure: self.stress_measure,
         };
-        Cone { slope_deg: self.beta_deg, indents: self.tool == Tool::Cone, metal }
+        Cone { slope_deg: self.beta_deg, indents: self.tool == Tool::Cone, metal, friction: self.friction }
     }
 
     /// The problem of the solver, loaded to the depth 1, E = 1.

@@ -144,6 +144,7 @@ mod tests {
             poissons_ratio: 0.3,
             tool: Tool::Plane,
             stress_measure: StressMeasure::Kirchhoff,
+            friction: None,
         };
         let m = unloading_exponent(&case, &case.discretisation(Accuracy::Standard), &Analyses::default())
             .unwrap();

@@ -48,6 +48,7 @@ fn drawn(index: usize, moved: [f64; 4]) -> Case {
         poissons_ratio: rounded(even(POISSONS_RATIOS, share(3)), 6),
         tool: [Tool::Plane, Tool::Cone][combination >> 1],
         stress_measure: StressMeasure::Cauchy,
+        friction: None,
     }
 }
 
@@ -154,6 +155,7 @@ impl Row {
             poissons_ratio: nu.parse().ok()?,
             tool: if *contact == "plane" { Tool::Plane } else { Tool::Cone },
             stress_measure: StressMeasure::Cauchy,
+            friction: None,
         };
         let (status, numbers) = rest.split_last()?;
         let outcome = match *status {

@@ -244,9 +244,12 @@ mod tests {
             kinematic_share: 0.0,
             stress_measure: StressMeasure::Kirchhoff,
         };
-        let (found, _) =
-            solve(&Cone { slope_deg: 3.0, indents: true, metal }, Accuracy::Standard, &Analyses::default())
-                .unwrap();
+        let (found, _) = solve(
+            &Cone { slope_deg: 3.0, indents: true, metal, friction: None },
+            Accuracy::Standard,
+            &Analyses::default(),
+        )
+        .unwrap();
         let sneddon = std::f64::consts::FRAC_2_PI * elastic.reduced_modulus() / 3f64.to_radians().tan();
         let near = |a: f64, b: f64, share: f64| (a / b - 1.0).abs() < share;
         assert!(near(found.k_over_e, sneddon, 0.02), "{found:?} {sneddon}");

@@ -3,7 +3,7 @@
 use crate::case::{Case, Tool, Yielding};
 use asperity_material::units::{Stress, rounded};
 use asperity_material::{HardeningLaw, StressMeasure, range};
-use asperity_simulation::scene::{Accuracy, SceneError};
+use asperity_simulation::scene::{Accuracy, Friction, SceneError};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -34,6 +34,9 @@ pub struct Sweep {
     /// Which stress the hardening law speaks of.
     #[serde(alias = "stress")]
     pub stress_measure: StressMeasure,
+    /// Coulomb's coefficient of friction between plane or cone and metal, from 0 to 2, or "sticking". Absent: 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub friction: Option<Friction>,
     /// Error of K: draft 5 %, standard 1 %, reference 0.2 %, or a percentage from 0.2% to 5%.
     pub accuracy: Accuracy,
 }
@@ -52,6 +55,7 @@ impl Default for Sweep {
             poissons_ratio: 0.3,
             tool: Tool::Plane,
             stress_measure: StressMeasure::Cauchy,
+            friction: None,
             accuracy: Accuracy::Standard,
         }
     }
@@ -105,6 +109,7 @@ impl Sweep {
                 })?;
             }
         }
+        self.friction.map_or(Ok(()), Friction::check)?;
         self.accuracy.check()?;
         Ok(())
     }
@@ -124,6 +129,7 @@ impl Sweep {
                             poissons_ratio: self.poissons_ratio,
                             tool: self.tool,
                             stress_measure: self.stress_measure,
+                            friction: self.friction.and_then(Friction::law),
                         });
                     }
                 }

@@ -3,7 +3,7 @@
 use crate::known_or_unknown::{KnownOrUnknown, Percent};
 use asperity_material::units::{Compliance, Length, Stiffness, Stress};
 use asperity_material::{HardeningLaw, StressMeasure};
-use asperity_simulation::scene::{Asperity, HardeningChoice};
+use asperity_simulation::scene::{Asperity, Friction, HardeningChoice};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
@@ -257,6 +257,9 @@ pub struct FitTool {
     /// Poisson's ratio of the tool.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub poissons_ratio: Option<f64>,
+    /// Friction of the tool: 0, as what is compared is computed for smooth tools. Another value is refused.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub friction: Option<Friction>,
     /// Depth per force that the machine adds; absent: none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub machine_compliance: Option<KnownOrUnknown<Compliance>>,

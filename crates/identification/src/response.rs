@@ -111,7 +111,7 @@ fn sharp(
     accuracy: Accuracy,
     analyses: &Analyses,
 ) -> Result<Response, String> {
-    let cone = Cone { slope_deg, indents: true, metal: point(question) };
+    let cone = Cone { slope_deg, indents: true, metal: point(question), friction: None };
     let (found, errors) = solve(&cone, accuracy, analyses).map_err(|e| e.to_string())?;
     Ok(Response {
         logarithms: of_cone(&found),

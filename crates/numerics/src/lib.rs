@@ -9,6 +9,7 @@ pub mod sobol;
 pub mod transpose;
 pub mod vectors;
 
+pub mod corrected;
 pub mod secants;
 
 pub mod newton;

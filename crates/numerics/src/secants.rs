@@ -6,7 +6,7 @@
 //! direction of the tangent that satisfies the last pairs; Matthies & Strang (1979) brought it to finite
 //! elements. A pair costs four products of vectors, where new factors cost an assembly and a factorisation.
 
-use crate::vectors::dot;
+use crate::vectors::{add, dot};
 
 /// Pairs kept: older ones tell of another tangent.
 const PAIRS: usize = 6;
@@ -23,10 +23,6 @@ pub struct Secants {
     inverse_curvature: Vec<f64>,
     /// Pairs that count.
     count: usize,
-}
-
-fn add(to: &mut [f64], factor: f64, what: &[f64]) {
-    to.iter_mut().zip(what).for_each(|(to, what)| *to += factor * what);
 }
 
 impl Secants {

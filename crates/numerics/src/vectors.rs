@@ -16,6 +16,11 @@ pub fn dot(a: &[f64], b: &[f64]) -> f64 {
     sums.iter().sum::<f64>() + rest
 }
 
+/// Adds `factor` times `what` to `to`.
+pub(crate) fn add(to: &mut [f64], factor: f64, what: &[f64]) {
+    to.iter_mut().zip(what).for_each(|(to, what)| *to += factor * what);
+}
+
 /// √(a · a).
 pub fn norm(a: &[f64]) -> f64 {
     dot(a, a).sqrt()

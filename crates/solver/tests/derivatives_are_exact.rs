@@ -9,6 +9,7 @@ use asperity_material::{Elastic, Hardening, HardeningLaw, HardeningTable, Stress
 use asperity_mesh::outline::{Outline, Parabola};
 use asperity_numerics::lanes::{Lanes, Real};
 use asperity_solver::contact::edge::{ContactContext, ContactEdge};
+use asperity_solver::contact::friction::{Friction, Rubbing, SLIP_PLACES};
 use asperity_solver::contact::tool::Tool;
 use asperity_solver::element::kernel::{ENTRIES, ElementContext, ElementOutput, PointSlice, Triangle};
 use asperity_solver::element::quad4;
@@ -258,7 +259,14 @@ fn contact() {
         for (tool, tolerance) in tools.clone() {
             for (tip, middle) in [(0.03, 0.04), (0.03, 0.12), (-0.3, -0.2), (-0.5, 0.04), (0.02, -0.1)] {
                 for quadratic in [true, false] {
-                    let context = ContactContext { tool: &tool, tip, penalty: 3.0, spring: 3.0, symmetry };
+                    let context = ContactContext {
+                        tool: &tool,
+                        tip,
+                        penalty: 3.0,
+                        spring: 3.0,
+                        symmetry,
+                        rubbing: None,
+                    };
                     let edge =
                         ContactEdge::new([0, 1], quadratic.then_some(2), |n| reference[n as usize], symmetry);
                     let mut x = reference;
@@ -299,6 +307,66 @@ fn contact() {
                         }
                     }
                 }
+            }
+        }
+    }
+}
+
+/// The derivative of the forces of friction is the stiffness and what that lacks of symmetry: where all
+/// slips, up to an end of contact too; where all sticks, on an edge that has touched before or touches now as
+/// a whole.
+#[test]
+fn friction() {
+    let reference = [[2.0, 0.0], [1.0, 0.1], [1.5, 0.04]];
+    // with how much lower each stands
+    let tools = [
+        (Tool::Plane, 0.0, TOLERANCE),
+        (Tool::Sphere { radius: 60.0 }, 0.0, 1e-4),
+        (Tool::Cone { tan_slope: 0.2, tip_radius: 0.0 }, 0.3, TOLERANCE),
+    ];
+    // law, height of the tool now and before
+    let ways = [
+        (Friction::Coulomb(0.3), 0.03, 0.04),
+        (Friction::Coulomb(0.3), -0.5, -0.4),
+        (Friction::Sticking, -0.5, -0.4),
+        (Friction::Sticking, -0.5, -0.6),
+        (Friction::Sticking, -0.6, 1.0),
+    ];
+    for symmetry in [Symmetry::Axisymmetric, Symmetry::PlaneStrain] {
+        for (tool, lower, tolerance) in &tools {
+            for (law, tip, tip_before) in ways {
+                let [tip, tip_before] = [tip - lower, tip_before - lower];
+                let rubbing = Some(Rubbing { friction: law, tip_before, holds: false });
+                let context = ContactContext { tool, tip, penalty: 3.0, spring: 3.0, symmetry, rubbing };
+                let mut edge = ContactEdge::new([0, 1], Some(2), |n| reference[n as usize], symmetry);
+                edge.slip = [0.002; SLIP_PLACES];
+                let mut x = reference.map(|[r, z]| [1.3 * r, z]);
+                let run = |x: &[[f64; 2]; 3]| edge.integrate(&context, edge.touching(&context, x), x);
+                let here = run(&x);
+                let whole = |a: usize, i: usize, b: usize, j: usize| {
+                    here.stiffness[a][i][b][j] + here.unsymmetric[a][i][b][j]
+                };
+                for b in 0..3 {
+                    for j in 0..2 {
+                        let keep = x[b][j];
+                        let [up, down] = [STEP, -STEP].map(|step| {
+                            x[b][j] = keep + step;
+                            run(&x)
+                        });
+                        x[b][j] = keep;
+                        for a in 0..3 {
+                            for i in 0..2 {
+                                let difference = (up.force[a][i] - down.force[a][i]) / (2.0 * STEP);
+                                let (exact, scale) = (whole(a, i, b, j), here.stiffness[0][1][0][1]);
+                                assert!(
+                                    (difference - exact).abs() < tolerance * scale,
+                                    "{tool:?} {law:?} {tip} ({a}, {i}, {b}, {j}): {difference} {exact}"
+                                );
+                            }
+                        }
+                    }
+                }
+                assert!(here.friction_work > 0.0 || law == Friction::Sticking);
             }
         }
     }

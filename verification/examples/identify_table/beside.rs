@@ -44,7 +44,10 @@ fn cone(book: &Book, p: &Published, slope_deg: f64, accuracy: Accuracy) -> Optio
             kinematic_share: 0.0,
             stress_measure: StressMeasure::Cauchy,
         };
-        let found = solve(&Cone { slope_deg, indents: true, metal }, accuracy, &Analyses::default()).ok()?.0;
+        let found =
+            solve(&Cone { slope_deg, indents: true, metal, friction: None }, accuracy, &Analyses::default())
+                .ok()?
+                .0;
         Some(json!([found.k_over_e, found.stiffness]))
     })?;
     Some([found[0].as_f64()?, found[1].as_f64()?])

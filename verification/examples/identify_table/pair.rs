@@ -35,8 +35,12 @@ fn computed(slope_deg: f64, [e, ratio, n]: Metal) -> Option<[f64; 3]> {
         kinematic_share: 0.0,
         stress_measure: StressMeasure::Cauchy,
     };
-    let (found, _) =
-        solve(&Cone { slope_deg, indents: true, metal }, Accuracy::Standard, &Analyses::default()).ok()?;
+    let (found, _) = solve(
+        &Cone { slope_deg, indents: true, metal, friction: None },
+        Accuracy::Standard,
+        &Analyses::default(),
+    )
+    .ok()?;
     Some([found.k_over_e * e, found.stiffness * e, 1.0 - found.elastic_share])
 }
 

@@ -23,6 +23,7 @@ fn elastic_cones_follow_sneddon() {
                 poissons_ratio: 0.3,
                 tool,
                 stress_measure: StressMeasure::Kirchhoff,
+                friction: None,
             };
             let kick = solve(&case, &case.discretisation(Accuracy::Standard), &Analyses::default()).unwrap();
             let sneddon = FRAC_2_PI * case.elastic().reduced_modulus() / case.tan_beta();

@@ -22,6 +22,7 @@ fn tip_height_and_substrate_do_not_change_k() {
         poissons_ratio: 0.3,
         tool: Tool::Plane,
         stress_measure: StressMeasure::Kirchhoff,
+        friction: None,
     };
     let standard = case.discretisation(Accuracy::Standard);
     type Change = fn(&mut ConeDiscretisation);

@@ -27,6 +27,7 @@ fn cone(beta_deg: f64, exponent: f64, e_over_sy: f64) -> Case {
         poissons_ratio: 0.3,
         tool: Tool::Cone,
         stress_measure: StressMeasure::Kirchhoff,
+        friction: None,
     }
 }
 

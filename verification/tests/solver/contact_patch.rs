@@ -20,7 +20,7 @@ fn contact_pressure_is_uniform_and_that_of_the_bar() {
         let mut held = vec![[false; 2]; mesh.nodes.len()];
         nodes_of(&mesh, &mesh.sides.base).iter().for_each(|&n| held[n][1] = true);
         nodes_of(&mesh, &mesh.sides.axis).iter().for_each(|&n| held[n][0] = true);
-        let contact = ToolContact { tool: Tool::Plane, penalty };
+        let contact = ToolContact { tool: Tool::Plane, penalty, friction: None };
         let mut model = model(&mesh, Symmetry::Axisymmetric, ELASTIC_METAL, &held, Some(contact)).unwrap();
         let travels = [0.1, 0.2, 0.3, 0.4];
         for travel in travels {

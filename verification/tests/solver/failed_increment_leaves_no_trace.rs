@@ -28,7 +28,7 @@ fn contact_is_that_of_the_last_converged_increment() {
     let mesh = distorted_square(ElementKind::Quad8);
     let mut held = vec![[false; 2]; mesh.nodes.len()];
     nodes_of(&mesh, &mesh.sides.base).iter().for_each(|&n| held[n] = [true, true]);
-    let contact = ToolContact { tool: Tool::Sphere { radius: 3.0 }, penalty: 4.0 };
+    let contact = ToolContact { tool: Tool::Sphere { radius: 3.0 }, penalty: 4.0, friction: None };
     let mut model = model(&mesh, Symmetry::Axisymmetric, ELASTIC_METAL, &held, Some(contact)).unwrap();
     increment(&mut model, 0.9, &TIGHT_SETTINGS, |_| [0.0; 2]).unwrap();
     let before = seen(&model);

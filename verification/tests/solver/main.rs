@@ -15,6 +15,7 @@ mod extrapolated_flow_stops_where_the_point_stops;
 mod failed_increment_leaves_no_trace;
 mod fill_ordering_grows_like_dissection;
 mod flattened_sphere;
+mod friction;
 mod full_quad;
 mod hysteresis_of_reloads;
 mod kinematic_hardening;

@@ -55,7 +55,7 @@ fn ridges_pressed_on_each_other_bear_the_pressure_of_hertz() {
         nodes_of(&mesh, &mesh.sides.base).iter().chain(&moved).for_each(|&n| held[n][1] = true);
         nodes_of(&mesh, &mesh.sides.axis).iter().for_each(|&n| held[n][0] = true);
         // a tool that is out of reach gives the penalty
-        let contact = ToolContact { tool: Tool::Plane, penalty: PENALTY };
+        let contact = ToolContact { tool: Tool::Plane, penalty: PENALTY, friction: None };
         let mut model = model(&mesh, Symmetry::PlaneStrain, ELASTIC_METAL, &held, Some(contact)).unwrap();
         let effective = 0.5 * ELASTIC_METAL.elastic.reduced_modulus();
         let [columns, rows] = counts;

@@ -50,7 +50,7 @@ fn a_uniform_pressure_passes_between_blocks_that_do_not_match_and_falls_with_the
             nodes_of(&mesh, &mesh.sides.base).iter().chain(&moved).for_each(|&n| held[n][1] = true);
             nodes_of(&mesh, &mesh.sides.axis).iter().for_each(|&n| held[n][0] = true);
             // a tool that is out of reach gives the penalty
-            let contact = ToolContact { tool: Tool::Plane, penalty: 4.0 };
+            let contact = ToolContact { tool: Tool::Plane, penalty: 4.0, friction: None };
             let mut model = model(&mesh, symmetry, ELASTIC_METAL, &held, Some(contact)).unwrap();
             for _ in 0..4 {
                 press(&mut model, &moved, 0.02);

@@ -30,7 +30,7 @@ fn check(kind: ElementKind, symmetry: Symmetry) {
     nodes_of(&mesh, &mesh.sides.base).iter().for_each(|&n| held[n] = [true; 2]);
     nodes_of(&mesh, &mesh.sides.axis).iter().for_each(|&n| held[n][0] = true);
     let tool = Tool::Cone { tan_slope: 0.3, tip_radius: 0.0 };
-    let contact = ToolContact { tool, penalty: 2.0 };
+    let contact = ToolContact { tool, penalty: 2.0, friction: None };
     let mut model = model(&mesh, symmetry, hollomon(0.01, 0.2), &held, Some(contact)).unwrap();
     // one converged increment, so that the next starts with flow carried on
     model.begin(0.95, 0.0, |_| [0.0; 2]);

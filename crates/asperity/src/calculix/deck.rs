@@ -9,6 +9,7 @@ use asperity_mesh::{Edge, Mesh, Section};
 use asperity_simulation::scene::{Lateral, Scene as Tables, SceneError, Target};
 use asperity_simulation::setup::problem::Problem;
 use asperity_simulation::setup::schedule::{UNLOADING_EXPONENT, unloading};
+use asperity_solver::contact::friction::Friction;
 use asperity_solver::point::kinematics::Symmetry;
 
 /// SI value of the deck's unit of length, 1 µm: nodes are numbers near 1, which the tolerances of such codes
@@ -57,6 +58,8 @@ pub struct Deck {
     pub(super) stress_measure: StressMeasure,
     /// Contact pressure per penetration, MPa/µm.
     pub(super) penalty: f64,
+    /// Friction of the tool, its penalty the same; `None`: it is smooth.
+    pub(super) friction: Option<Friction>,
     /// Penetration for which the penalty is made, as a share of the depth.
     pub(super) penetration: f64,
     /// Whether the lateral sides are held sideways.
@@ -128,6 +131,7 @@ impl Deck {
             stress_measure: scene.material.stress_measure,
             table: hardening.map(|curve| curve_table(&curve, STRESS, POINTS)),
             penalty: problem.penalty * problem.units.stress / STRESS / um,
+            friction: problem.friction,
             penetration: problem.numbers.penetration,
             symmetric: scene.lateral == Lateral::Symmetric,
             contact,

@@ -3,7 +3,14 @@
 use super::deck::{Deck, Reader};
 use asperity_material::StressMeasure;
 use asperity_mesh::{ElementKind, Section, write_inp, write_inp_side};
+use asperity_solver::contact::friction::Friction;
 use std::io::{self, Write};
+
+/// Coefficient that stands for a tool to which what touches sticks.
+const STICKING: f64 = 1000.0;
+
+/// Elastic slip of Abaqus over the length of an element.
+const SLIP_TOLERANCE: f64 = 0.001;
 
 /// A number in at most 18 characters: a field of CalculiX holds 20.
 fn number(x: f64) -> String {
@@ -140,17 +147,38 @@ impl Deck {
         write!(out, "*SOLID SECTION, ELSET=TOOL, MATERIAL=RIGID\n{thickness}")
     }
 
-    /// Frictionless contact with the penalty.
+    /// Contact with the penalty, smooth or with friction.
     fn interaction(&self, out: &mut impl Write) -> io::Result<()> {
+        let name = if self.friction.is_some() { "RUBBING" } else { "FRICTIONLESS" };
         writeln!(
             out,
-            "*SURFACE INTERACTION, NAME=FRICTIONLESS\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n{}",
+            "*SURFACE INTERACTION, NAME={name}\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n{}",
             number(self.penalty)
         )?;
+        if let Some(friction) = self.friction {
+            self.friction(out, friction)?;
+        }
         writeln!(
             out,
-            "** slave, master\n*CONTACT PAIR, INTERACTION=FRICTIONLESS, TYPE=SURFACE TO SURFACE\nCONTACT, TOOL"
+            "** slave, master\n*CONTACT PAIR, INTERACTION={name}, TYPE=SURFACE TO SURFACE\nCONTACT, TOOL"
         )
+    }
+
+    /// Friction: in CalculiX the coefficient and the traction per elastic slip, in Abaqus the coefficient
+    /// with the largest elastic slip over an element, or a rough tool.
+    fn friction(&self, out: &mut impl Write, friction: Friction) -> io::Result<()> {
+        match (self.reader, friction) {
+            (Reader::CalculiX, Friction::Coulomb(coefficient)) => {
+                writeln!(out, "*FRICTION\n{}, {}", number(coefficient), number(self.penalty))
+            }
+            (Reader::CalculiX, Friction::Sticking) => {
+                writeln!(out, "** sticks\n*FRICTION\n{STICKING}, {}", number(self.penalty))
+            }
+            (Reader::Abaqus, Friction::Coulomb(coefficient)) => {
+                writeln!(out, "*FRICTION, SLIP TOLERANCE={SLIP_TOLERANCE}\n{}", number(coefficient))
+            }
+            (Reader::Abaqus, Friction::Sticking) => writeln!(out, "*FRICTION, ROUGH"),
+        }
     }
 
     /// The base is clamped, the axis and symmetric sides slide along themselves, the tool moves along z only.

@@ -2,7 +2,7 @@
 //! written.
 
 use crate::error::Error;
-use crate::results::columns::{Described, Unit, values, write_rows, write_values};
+use crate::results::columns::{Unit, names, values, write_rows, write_values};
 use crate::results::output::{Sink, SinkExt};
 use crate::results::units::{MEGAPASCAL, MICROMETRE};
 use asperity_mesh::{FieldArray, Mesh, write_vtu};
@@ -129,17 +129,16 @@ impl FieldSeries {
     /// # Errors
     /// A disk that refuses.
     pub fn write_surfaces(&self, folder: &mut dyn Sink) -> Result<(), Error> {
-        if self.surfaces.is_empty() {
-            return Ok(());
-        }
+        let Some((_, first)) = self.surfaces.first() else { return Ok(()) };
         // the columns of a surface have one name in both symmetries
         let symmetry = Symmetry::Axisymmetric;
-        let point = SurfacePoint::COLUMNS.iter().map(|column| column.name(symmetry));
-        let names = ["increment", "phase", "depth_um"].map(String::from).into_iter().chain(point);
         let rows = self.surfaces.iter().flat_map(|(state, points)| {
             points.iter().map(move |point| Ok([&state[..], &values(point, symmetry)?].concat()))
         });
-        folder.write("surfaces.csv", |out| write_values(out, names, rows))
+        folder.write("surfaces.csv", |out| {
+            let state = ["increment", "phase", "depth_um"].map(String::from);
+            write_values(out, state.into_iter().chain(names(first, symmetry)?), rows)
+        })
     }
 
     /// The ParaView collection; its time is the way of the depth, µm: the depth while the tool advances

@@ -149,6 +149,7 @@ mod tests {
             elastic_energy: 0.0,
             plastic_work: 0.0,
             contact_energy: 0.0,
+            friction_work: None,
             penetration: 0.0,
             compliance_depth: 0.0,
             newton_iterations: 4,

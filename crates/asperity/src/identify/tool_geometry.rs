@@ -4,6 +4,7 @@ use super::material_checks::{KeyError, key_error};
 use asperity_identification::fit_file::{FitCurve, FitShape, FitTool, Nuisance};
 use asperity_identification::known_or_unknown::KnownOrUnknown;
 use asperity_identification::response::Geometry;
+use asperity_simulation::scene::Friction;
 
 /// Half apex angle of the cone whose section is that of Berkovich's and of Vickers' pyramid at every depth,
 /// degrees.
@@ -34,6 +35,12 @@ pub(super) fn geometry(curve: &FitCurve) -> Result<Geometry, KeyError> {
     let tool = &curve.tool;
     let pyramid = matches!(tool.shape, FitShape::Berkovich | FitShape::Vickers);
     let cone = matches!(tool.shape, FitShape::Cone | FitShape::Conospherical);
+    if tool.friction.is_some_and(|friction| friction != Friction::Coefficient(0.0)) {
+        return Err(key_error(
+            "tool.friction",
+            "is not known to `identify`, which compares with smooth tools: leave it out, and see with `asperity study --vary tool.friction=0,0.1,0.2` what it would change",
+        ));
+    }
     for (key, given, allowed) in [
         ("slope_deg", tool.slope_deg.is_some(), cone),
         ("half_apex_deg", tool.half_apex_deg.is_some(), cone),

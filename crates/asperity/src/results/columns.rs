@@ -158,15 +158,16 @@ fn from_file(value: Value, unit: Unit, symmetry: Symmetry) -> Value {
     }
 }
 
-/// The values of a row in SI as a file has them, by their names there, in its order.
+/// The values of a row in SI as a file has them, by their names there, in its order; a quantity that the row
+/// does not have is left out.
 pub(crate) fn named(
     mut row: Map<String, Value>,
     columns: &[Column],
     symmetry: Symmetry,
 ) -> impl Iterator<Item = (String, Value)> {
-    columns.iter().map(move |column| {
-        let value = row.remove(column.quantity).unwrap_or_default();
-        (column.name(symmetry), to_file(value, column.unit, symmetry))
+    columns.iter().filter_map(move |column| {
+        let value = row.remove(column.quantity)?;
+        Some((column.name(symmetry), to_file(value, column.unit, symmetry)))
     })
 }
 
@@ -191,6 +192,16 @@ pub(crate) fn symmetry_of(columns: &[Column], has: impl Fn(&str) -> bool) -> Sym
     if plane > round { Symmetry::PlaneStrain } else { Symmetry::Axisymmetric }
 }
 
+/// Names of the columns of `rows` in a file: of all quantities, or of those that the first row has.
+pub(crate) fn names<T: Described + Serialize>(rows: &[T], symmetry: Symmetry) -> csv::Result<Vec<String>> {
+    let Some(row) = rows.first() else {
+        return Ok(T::COLUMNS.iter().map(|column| column.name(symmetry)).collect());
+    };
+    let row = serde_json::to_value(row).map_err(std::io::Error::from)?;
+    let has = |column: &&Column| row.get(column.quantity).is_some();
+    Ok(T::COLUMNS.iter().filter(has).map(|column| column.name(symmetry)).collect())
+}
+
 /// The values of a row in SI as a file has them.
 pub(crate) fn values<T: Described + Serialize>(row: &T, symmetry: Symmetry) -> csv::Result<Vec<Value>> {
     let Value::Object(row) = serde_json::to_value(row).map_err(std::io::Error::from)? else {
@@ -209,7 +220,7 @@ pub fn write_rows<T: Described + Serialize>(
     rows: &[T],
     symmetry: Symmetry,
 ) -> csv::Result<()> {
-    let names = T::COLUMNS.iter().map(|column| column.name(symmetry));
+    let names = names(rows, symmetry)?.into_iter();
     write_values(out, names, rows.iter().map(|row| values(row, symmetry)))
 }
 

@@ -34,6 +34,8 @@ columns! {
         /// the contact was measured anew over the last converged surface, which is no work of the tool: an
         /// artefact of the method, no energy of the metal.
         contact_energy: Energy,
+        /// Work that friction has taken; no column without friction.
+        friction_work: Energy,
         /// Mean penetration, weighted by the pressure.
         penetration: Length,
         /// Newton iterations spent since the last row.
@@ -135,6 +137,12 @@ columns! {
         u_z: Length,
         /// Contact pressure, without the zigzag between corners and mid-side nodes.
         pressure: Pressure,
+        /// Shear traction along the tool, positive where the tool pushes the surface towards the axis; no
+        /// column without friction.
+        shear_traction: Pressure,
+        /// 1 where the surface sticks to the tool, 0 where it slips or does not touch; no column without
+        /// friction.
+        sticks: Bit,
         /// 1 where the material has yielded, else 0.
         yielded: Bit,
     }
@@ -161,6 +169,7 @@ mod tests {
             elastic_energy: 1e-6 / 3.0,
             plastic_work: 8e-6,
             contact_energy: 5e-11,
+            friction_work: None,
             penetration: 2e-8,
             compliance_depth: 0.0,
             newton_iterations: 6,

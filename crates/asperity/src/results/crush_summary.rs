@@ -110,12 +110,15 @@ columns! {
         elastic_work: Energy,
         /// Plastic work at the end of loading.
         plastic_work: Energy,
+        /// Work that friction took to the end of loading; absent without friction.
+        friction_work: Energy,
         /// Reading of the unloading curve by the method of Oliver and Pharr, under a tool with an apex.
         oliver_pharr: Table(OliverPharr::COLUMNS),
         /// Work returned on unloading over the work to the peak.
         elastic_fraction: Plain,
-        /// Largest |W - E_e - W_p - E_c + E_t| over the largest W up to the row, from 1 % of its peak on, E_t
-        /// what remeshing changed: large with coarse steps, not a measure of the error of the force.
+        /// Largest |W - E_e - W_p - E_c - W_f + E_t| over the largest W up to the row, from 1 % of its peak
+        /// on, W_f what friction took and E_t what remeshing changed: large with coarse steps, not a measure
+        /// of the error of the force.
         energy_balance_error: Plain,
         /// `errors.force`; NaN (`null`) where it is not known.
         estimated_error: Plain,

@@ -326,6 +326,9 @@ fn transferred(rows: &[CurveRow]) -> f64 {
 /// Work over the depths of an unloaded run that the energies of its body do not account for, over the
 /// external work at the peak.
 fn unaccounted(rows: &[CurveRow]) -> f64 {
-    let kept = |row: &CurveRow| row.elastic_energy + row.plastic_work - row.transfer_energy;
+    let kept = |row: &CurveRow| {
+        let rubbed = row.friction_work.unwrap_or(0.0);
+        row.elastic_energy + row.plastic_work - row.transfer_energy + rubbed
+    };
     rows.last().map_or(0.0, |last| (work_along(rows) - kept(last)).abs() / largest_work(rows))
 }

@@ -54,6 +54,7 @@ impl<'p> Recorder<'p> {
             elastic_energy: 0.0,
             plastic_work: 0.0,
             contact_energy: 0.0,
+            friction_work: problem.friction.map(|_| 0.0),
             transfer_energy: 0.0,
             penetration: 0.0,
             compliance_depth: 0.0,
@@ -118,6 +119,7 @@ impl<'p> Recorder<'p> {
             plastic_work: energies.plastic * u.energy,
             contact_energy: (contact.energy + state.ledger.self_contact - state.remeasured_energy())
                 * u.energy,
+            friction_work: self.problem.friction.map(|_| state.ledger.friction_work * u.energy),
             transfer_energy: state.ledger.transferred * u.energy,
             penetration: contact.penetration * u.length,
             compliance_depth: increment.compliance_depth * u.length,
@@ -230,6 +232,7 @@ impl<'p> Recorder<'p> {
                         u_r: p.u_r * l,
                         u_z: p.u_z * l,
                         pressure: p.pressure * e,
+                        shear_traction: p.shear_traction.map(|shear| shear * e),
                         ..p
                     })
                     .collect(),
@@ -338,6 +341,7 @@ impl<'p> Recorder<'p> {
             total_work,
             elastic_work,
             plastic_work: peak.plastic_work,
+            friction_work: peak.friction_work,
             oliver_pharr: None,
             elastic_fraction: elastic_work.map(|w| w / total_work),
             energy_balance_error: balance_error(&self.rows),

@@ -81,7 +81,10 @@ pub struct CurveRow {
     pub plastic_work: f64,
     /// Energy stored in the penalty, ½ε∫d² dA with the penetration d, J (J/m): an artefact of the method.
     pub contact_energy: f64,
-    /// Change of the three energies by all transfers to better meshes so far, J (J/m): no work of the tool.
+    /// Work that friction has taken, J (J/m); `None` under a smooth tool.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub friction_work: Option<f64>,
+    /// Change of the energies by all transfers to better meshes so far, J (J/m): no work of the tool.
     pub transfer_energy: f64,
     /// Pressure-weighted mean penetration, m.
     pub penetration: f64,
@@ -104,7 +107,7 @@ impl CurveRow {
     /// leave.
     pub fn unaccounted_work(&self) -> f64 {
         let kept = self.elastic_energy + self.plastic_work + self.contact_energy - self.transfer_energy;
-        self.external_work - kept
+        self.external_work - kept - self.friction_work.unwrap_or(0.0)
     }
 }
 
@@ -254,13 +257,16 @@ pub struct Summary {
     pub elastic_work: Option<f64>,
     /// Plastic work at the end of loading, J (J/m).
     pub plastic_work: f64,
+    /// Work that friction took to the end of loading, J (J/m); `None` under a smooth tool.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub friction_work: Option<f64>,
     /// The evaluation of the curve after Oliver and Pharr; `None` without unloading, under a plane, in plane
     /// strain.
     pub oliver_pharr: Option<OliverPharr>,
     /// elastic_work / total_work.
     pub elastic_fraction: Option<f64>,
-    /// Largest |W - E_e - W_p - E_c + E_t| over the largest W up to the row, E_t what transfers to better
-    /// meshes changed, from 1 % of the work at the peak on.
+    /// Largest |W - E_e - W_p - E_c - W_f + E_t| over the largest W up to the row, W_f what friction took and
+    /// E_t what transfers to better meshes changed, from 1 % of the work at the peak on.
     #[serde(deserialize_with = "nan_for_null")]
     pub energy_balance_error: f64,
     /// That of the force among the errors.
@@ -316,8 +322,8 @@ pub fn largest_work(rows: &[CurveRow]) -> f64 {
     rows.iter().fold(0.0, |largest: f64, row| largest.max(row.external_work))
 }
 
-/// The largest |W - E_e - W_p - E_c + E_t| over the largest W up to the row, of rows from which on that is
-/// above 1 % of the peak: as a body springs back its work falls to nothing, and what is left of it says
+/// The largest |W - E_e - W_p - E_c - W_f + E_t| over the largest W up to the row, of rows from which on that
+/// is above 1 % of the peak: as a body springs back its work falls to nothing, and what is left of it says
 /// nothing.
 pub(super) fn balance_error(rows: &[CurveRow]) -> f64 {
     let peak = largest_work(rows);

@@ -1,8 +1,8 @@
 //! Scenes built in code: what a kind of part needs, and nothing for the rest.
 
 use super::{
-    Accuracy, Asperity, HardeningChoice, Lateral, Loading, Material, Numerics, Output, Points, Scene,
-    Substrate, Symmetry, Tool, ToolForce, ToolShape,
+    Accuracy, Asperity, Friction, HardeningChoice, Lateral, Loading, Material, Numerics, Output, Points,
+    Scene, Substrate, Symmetry, Tool, ToolForce, ToolShape,
 };
 use asperity_material::units::{Length, Stress};
 use asperity_material::{FlowCurve, HardeningMode, OwnLaw, StressMeasure};
@@ -152,9 +152,16 @@ impl Tool {
             youngs_modulus: None,
             poissons_ratio: None,
             machine_compliance: None,
+            friction: None,
             area_function: None,
             custom: None,
         }
+    }
+
+    /// The tool with this friction.
+    #[must_use]
+    pub fn rubbing(self, friction: Friction) -> Tool {
+        Tool { friction: Some(friction), ..self }
     }
 
     /// A flat punch with an edge rounded by `edge_radius`.

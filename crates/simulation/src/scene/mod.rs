@@ -8,6 +8,7 @@ mod area_function;
 mod build;
 mod checks;
 mod earlier_loads;
+mod friction;
 mod geometry;
 mod initial;
 mod line;
@@ -21,6 +22,7 @@ mod whole;
 
 pub use accuracy::{Accuracy, AccuracyError, Level};
 pub use area_function::AreaFunction;
+pub use friction::Friction;
 pub use geometry::{Asperity, AsperityForm, Lateral, Substrate};
 pub use initial::{EarlierLoad, Initial};
 pub use line::{Line, LineAsperity, LineProfile};
@@ -66,7 +68,7 @@ pub struct Scene {
     /// The body under the asperities; absent in axisymmetry: sized from the contact.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub substrate: Option<Substrate>,
-    /// The frictionless tool, rigid unless it has a modulus; absent: a rigid plane.
+    /// The tool, rigid unless it has a modulus and smooth unless it has friction; absent: a smooth rigid plane.
     #[serde(default = "Tool::plane")]
     pub tool: Tool,
     /// How far it goes: exactly one of `depth` and `force`.

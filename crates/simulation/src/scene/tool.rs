@@ -2,6 +2,7 @@
 
 use super::SceneError;
 use super::area_function::AreaFunction;
+use super::friction::Friction;
 use super::measured::{self, Points};
 use super::messages::{Check, error, inside, length, not_negative, positive, slope};
 use asperity_material::units::{Compliance, Length, Stress};
@@ -92,6 +93,9 @@ pub struct Tool {
     #[schemars(example = "0.5 nm/mN")]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub machine_compliance: Option<Compliance>,
+    /// Coulomb's coefficient of friction between tool and surface, from 0 to 2, or "sticking": what touches sticks. Absent: 0.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub friction: Option<Friction>,
     /// Area function of the tip by which the reading of Oliver and Pharr goes; absent: the outline of the tool.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub area_function: Option<AreaFunction>,
@@ -330,6 +334,7 @@ impl Tool {
         not_negative("tolerance", "the tolerance", self.tolerance)?;
         self.radius.map_or(Ok(()), |r| positive("radius", "the radius", r))?;
         self.edge_radius.map_or(Ok(()), |r| positive("edge_radius", "the radius of the edge", r))?;
+        self.friction.map_or(Ok(()), Friction::check)?;
         if self.custom.is_some() && self.shape != ToolShape::Custom {
             return Err(error("custom", "needs shape = \"custom\" beside it: set that, or leave it out"));
         }

@@ -9,6 +9,7 @@ use crate::setup::problem::{Goal, Problem, Rules, Specimen, held_nodes};
 use crate::setup::units::Units;
 use asperity_mesh::build::{SelfSimilar, self_similar};
 use asperity_mesh::profile::{Asperity, Profile, Shape};
+use asperity_solver::contact::friction::Friction;
 use asperity_solver::contact::tool::Tool;
 use asperity_solver::point::kinematics::Symmetry;
 use asperity_solver::point::material::Metal;
@@ -23,6 +24,8 @@ pub struct Cone {
     pub indents: bool,
     /// The material, E = 1.
     pub metal: Metal,
+    /// Friction of plane or cone; `None`: it is smooth.
+    pub friction: Option<Friction>,
 }
 
 impl Cone {
@@ -54,6 +57,7 @@ impl Cone {
             penalty: expected_pressure(&self.metal, &profile, &tool, 1.0) / numbers.penetration,
             profile,
             tool,
+            friction: self.friction,
             half_widths: vec![radius],
             depth: 1.0,
             specimen: Specimen {
@@ -102,7 +106,7 @@ mod tests {
             stress_measure: StressMeasure::Cauchy,
         };
         for (slope_deg, indents) in [(10.0, false), (30.0, true)] {
-            let cone = Cone { slope_deg, indents, metal: metal.clone() };
+            let cone = Cone { slope_deg, indents, metal: metal.clone(), friction: None };
             let exponent = Some(hardening.exponent);
             let problem =
                 cone.problem(&ConeDiscretisation::new(slope_deg, indents, exponent, Accuracy::Draft));

@@ -1,6 +1,6 @@
 //! From a scene and its depth to what the solver computes with: unit of length, profile, tool, mesh, penalty.
 
-use crate::scene::{AsperityForm, ElementChoice, Line, LineAsperity, Scene, SceneError, Target};
+use crate::scene::{AsperityForm, ElementChoice, Friction, Line, LineAsperity, Scene, SceneError, Target};
 use crate::setup::contact_estimate;
 use crate::setup::deformed_surface::{Formed, expected_pressure};
 use crate::setup::discretisation::Discretisation;
@@ -136,6 +136,7 @@ pub fn prepare(
         metal,
         profile,
         tool,
+        friction: scene.tool.friction.and_then(Friction::law),
         half_widths,
         depth,
         penalty: pressure / (numbers.penetration * indents),

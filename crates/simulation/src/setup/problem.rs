@@ -12,6 +12,7 @@ use asperity_solver::body::analysis::Analyses;
 use asperity_solver::body::discrete_body::{Body, ToolContact};
 use asperity_solver::body::failure::Failure;
 use asperity_solver::body::state::{State, Unloaded};
+use asperity_solver::contact::friction::Friction;
 use asperity_solver::contact::tool::Tool;
 use asperity_solver::equilibrium::Equilibrium;
 use asperity_solver::point::kinematics::Symmetry;
@@ -101,6 +102,8 @@ pub struct Problem {
     pub profile: Profile,
     /// The tool.
     pub tool: Tool,
+    /// Its friction; `None`: it is smooth.
+    pub friction: Option<Friction>,
     /// Estimated contact half width of each asperity at the peak (one entry for a flat body under a tool).
     pub half_widths: Vec<f64>,
     /// Estimated depth of the peak of the first loading.
@@ -132,7 +135,7 @@ impl Problem {
     /// # Errors
     /// An element of the mesh that is inside out.
     pub fn equilibrium(&self, analyses: &Analyses) -> Result<Equilibrium<'_>, Failure> {
-        let contact = ToolContact { tool: self.tool.clone(), penalty: self.penalty };
+        let contact = ToolContact { tool: self.tool.clone(), penalty: self.penalty, friction: self.friction };
         let fixed = |node: usize| self.specimen.held[node];
         let body = Body::new(analyses, &self.mesh, self.symmetry, self.metal.clone(), fixed, Some(contact))?;
         match &self.specimen.earlier {

@@ -6,7 +6,7 @@ use crate::body::elements::{Buffers, Motion, Start, current};
 use crate::body::failure::Failure;
 use crate::body::state::{Points, State, Trial};
 use crate::body::stiffness::Stiffness;
-use crate::contact::edge::{ContactContext, EdgeContact};
+use crate::contact::edge::EdgeContact;
 use crate::contact::parts::{NOTHING, Parts};
 use crate::contact::self_contact::Pressed;
 use crate::element::kernel::ElementContext;
@@ -89,7 +89,7 @@ impl Body<'_> {
         stiffness: &mut Stiffness,
     ) -> Result<(), Failure> {
         self.assemble_elements(&self.material, state, trial, tangent, response, stiffness)?;
-        self.integrate_contact(state, trial, touching, state.parts(), 1.0, response);
+        self.integrate_contact(state, trial, touching, state.parts(), None, response);
         self.balance(state, tangent, response, stiffness);
         Ok(())
     }
@@ -116,7 +116,7 @@ impl Body<'_> {
     }
 
     /// Assembles the stiffness of unloading: every point responds elastically, and the `kept` parts of the
-    /// edges stay in contact, held by springs that are `stiffer` than the penalty.
+    /// edges stay in contact, held by springs that are `stiffer` than the penalty; with friction they stick.
     ///
     /// # Errors
     /// An integration point that cannot be updated.
@@ -130,7 +130,7 @@ impl Body<'_> {
     ) -> Result<(), Failure> {
         let elastic = self.material.elastic_part();
         self.assemble_elements(&elastic, state, trial, Tangent::Exact, response, stiffness)?;
-        self.integrate_contact(state, trial, Touching::Kept, kept.iter().copied(), stiffer, response);
+        self.integrate_contact(state, trial, Touching::Kept, kept.iter().copied(), Some(stiffer), response);
         self.balance(state, Tangent::Exact, response, stiffness);
         Ok(())
     }
@@ -194,13 +194,14 @@ impl Body<'_> {
     }
 
     /// Contact loop over the surface edges, of which the `kept` parts touch where they are not found anew.
+    /// With `springs` over the penalty what touches sticks.
     fn integrate_contact(
         &self,
         state: &State,
         trial: &Trial,
         touching: Touching,
         kept: impl Iterator<Item = Parts>,
-        stiffer: f64,
+        springs: Option<f64>,
         response: &mut Response,
     ) {
         response.contact.clear();
@@ -210,8 +211,11 @@ impl Body<'_> {
             response.pressed.extend(state.facing.press(&state.edges, trial.penalty, x));
         }
         let Some(contact) = self.contact.as_ref().filter(|_| trial.tip.is_finite()) else { return };
-        let context = contact.context(trial.tip, trial.penalty, self.symmetry);
-        let context = ContactContext { spring: stiffer * trial.penalty, ..context };
+        let mut context = contact.context_from(trial.tip_before, trial.tip, trial.penalty, self.symmetry);
+        context.spring = springs.unwrap_or(1.0) * trial.penalty;
+        if let Some(rubbing) = &mut context.rubbing {
+            rubbing.holds = springs.is_some();
+        }
         for (edge, kept) in state.edges.iter().zip(kept) {
             let x = edge.nodes.map(|node| current(&state.position, &trial.displacement, node));
             let parts = match touching {

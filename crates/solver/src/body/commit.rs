@@ -30,6 +30,8 @@ impl State {
         self.penalty = trial.penalty;
         self.contact.clone_from(&response.contact);
         self.tip = trial.tip;
+        self.ledger.friction_work += self.contact.iter().map(|share| share.friction_work).sum::<f64>();
+        self.slip(body, trial);
         self.remeasure_contact(body);
         self.face_anew(response);
         self.yielding.clone_from(&response.yielding);
@@ -106,6 +108,20 @@ impl State {
         let after: f64 = self.facing.press(&self.edges, self.penalty, x).map(|point| point.energy).sum();
         self.ledger.self_contact = before;
         self.ledger.remeasured[1] += after - before;
+    }
+
+    /// Takes down the elastic slip along the surface.
+    fn slip(&mut self, body: &Body<'_>, trial: &Trial) {
+        let Some(contact) = body.contact.as_ref().filter(|contact| contact.friction.is_some()) else {
+            return;
+        };
+        let context = contact.context_from(trial.tip_before, trial.tip, trial.penalty, body.symmetry);
+        for edge in &mut self.edges {
+            let (slip, lost) =
+                edge.slip_after(&context, &edge.nodes.map(|node| self.position[node as usize]));
+            edge.slip = slip;
+            self.ledger.friction_work += lost;
+        }
     }
 
     /// Takes the contact energy over the surface as it is now, which the tool has stretched; what that adds

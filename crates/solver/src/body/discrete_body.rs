@@ -3,6 +3,7 @@
 use crate::body::analysis::{Analyses, Analysis};
 use crate::body::failure::Failure;
 use crate::contact::edge::{ContactContext, ContactEdge};
+use crate::contact::friction::{Friction, Rubbing};
 use crate::contact::tool::Tool;
 use crate::element::kernel::POINTS;
 use crate::element::{quad4, quad8};
@@ -20,12 +21,26 @@ pub struct ToolContact {
     pub tool: Tool,
     /// Pressure per penetration in the stress-free state; a load path may change it.
     pub penalty: f64,
+    /// Its friction; `None`: it is smooth.
+    pub friction: Option<Friction>,
 }
 
 impl ToolContact {
-    /// The contact with the tool's tip at height `tip`.
+    /// The contact with the tool's tip at rest at height `tip`.
     pub fn context(&self, tip: f64, penalty: f64, symmetry: Symmetry) -> ContactContext<'_> {
-        ContactContext { tool: &self.tool, tip, penalty, spring: penalty, symmetry }
+        self.context_from(tip, tip, penalty, symmetry)
+    }
+
+    /// The contact with the tool's tip at height `tip`, which comes from the height `tip_before`.
+    pub fn context_from(
+        &self,
+        tip_before: f64,
+        tip: f64,
+        penalty: f64,
+        symmetry: Symmetry,
+    ) -> ContactContext<'_> {
+        let rubbing = self.friction.map(|friction| Rubbing { friction, tip_before, holds: false });
+        ContactContext { tool: &self.tool, tip, penalty, spring: penalty, symmetry, rubbing }
     }
 }
 

@@ -5,6 +5,7 @@ use crate::body::assembly::Response;
 use crate::body::discrete_body::Body;
 use crate::body::flow::Flows;
 use crate::body::state::{Points, State, Trial};
+use crate::body::surface::Surface;
 use crate::element::kernel::POINTS;
 use crate::point::bdf2::{PlasticIncrement, bounded, extrapolate, extrapolation_factor, share};
 use crate::point::kinematic_hardening;
@@ -30,6 +31,12 @@ impl State {
         trial: &mut Trial,
     ) {
         trial.tip = tip;
+        trial.tip_before = self.tip;
+        if body.contact.as_ref().is_some_and(|contact| contact.friction.is_some())
+            && self.tip == f64::INFINITY
+        {
+            trial.tip_before = -Surface::of_state(body, self).first_touch();
+        }
         trial.displacement.iter_mut().enumerate().for_each(|(node, du)| *du = guess(node));
         trial.factor = extrapolation_factor(ratio);
         trial.start.clone_from(&self.points);

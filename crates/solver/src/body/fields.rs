@@ -50,6 +50,13 @@ pub struct SurfacePoint {
     pub u_z: f64,
     /// Contact pressure (current area).
     pub pressure: f64,
+    /// Shear traction (current area), positive where the tool pushes the surface towards -r; `None` under a
+    /// smooth tool.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shear_traction: Option<f64>,
+    /// Whether the surface sticks to the tool there; `None` under a smooth tool.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sticks: Option<bool>,
     /// Whether the material there has yielded.
     pub yielded: bool,
 }
@@ -162,6 +169,7 @@ fn values_at(body: &Body<'_>, state: &State, point: usize) -> Values {
 /// The nodes of the free surface, from its outer end inwards, with the `fields` there.
 fn surface_points(body: &Body<'_>, state: &State, fields: &Fields) -> Vec<SurfacePoint> {
     let mut surface: Vec<SurfacePoint> = Vec::new();
+    let shear = shear_tractions(body, state);
     for &edge in &body.mesh.sides.surface {
         // the edge runs counterclockwise around the body: from its outer to its inner corner
         let (corners, middle) = body.mesh.edge_nodes(edge);
@@ -177,6 +185,8 @@ fn surface_points(body: &Body<'_>, state: &State, fields: &Fields) -> Vec<Surfac
                 u_r,
                 u_z,
                 pressure: fields.contact_pressure[i],
+                shear_traction: shear.as_ref().map(|shear| shear[i].0),
+                sticks: shear.as_ref().map(|shear| shear[i].1),
                 yielded: fields.plastic_strain[i] > 0.0,
             };
             if surface.last() != Some(&point) {
@@ -185,6 +195,22 @@ fn surface_points(body: &Body<'_>, state: &State, fields: &Fields) -> Vec<Surfac
         }
     }
     surface
+}
+
+/// Shear traction at the nodes, and whether the surface sticks there; `None` under a smooth tool.
+fn shear_tractions(body: &Body<'_>, state: &State) -> Option<Vec<(f64, bool)>> {
+    let friction = body.contact.as_ref()?.friction?;
+    let mut shear = vec![(0.0, false); body.mesh.nodes.len()];
+    let surface = Surface::of_state(body, state);
+    for (edge, _) in surface.edges.iter().zip(surface.contact).filter(|(_, share)| share.parts != NOTHING) {
+        let x = edge.nodes.map(|node| state.position[node as usize]);
+        for (node, xi) in edge.nodes.into_iter().zip([-1.0, 1.0, 0.0]).take(edge.node_count()) {
+            let (traction, pressure) =
+                (edge.shear_traction(state.penalty, &x, xi), surface.nodal_pressure(edge, xi));
+            shear[node as usize] = (traction, pressure > 0.0 && friction.sticks(traction, pressure));
+        }
+    }
+    Some(shear)
 }
 
 /// Current pressure at the surface nodes: penalty times penetration, per current area.

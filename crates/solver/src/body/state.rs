@@ -88,6 +88,8 @@ pub struct Ledger {
     pub plastic_work: f64,
     /// Energy of the contact of the surface with itself.
     pub self_contact: f64,
+    /// Work that friction has taken so far.
+    pub friction_work: f64,
     /// Change of the contact energy by that of the area it is taken over and of the penalty, up to the last
     /// increment and after it.
     pub remeasured: [f64; 2],
@@ -116,6 +118,9 @@ pub struct Unloaded {
 pub struct Trial {
     /// Height of the tool's lowest point; infinite without a tool.
     pub tip: f64,
+    /// The same at the converged state, or where the tool touches that first; of a smooth tool that is not
+    /// asked for.
+    pub tip_before: f64,
     /// Contact pressure per penetration.
     pub penalty: f64,
     /// Displacement of each node from the converged state.
@@ -185,6 +190,7 @@ impl State {
     pub fn trial(&self) -> Trial {
         Trial {
             tip: f64::INFINITY,
+            tip_before: self.tip,
             penalty: self.penalty,
             displacement: vec![[0.0; 2]; self.position.len()],
             start: self.points.clone(),

@@ -1,5 +1,5 @@
-//! Frictionless penalty contact of surface edges with a rigid tool, integrated over exactly the part that
-//! touches.
+//! Penalty contact of surface edges with a rigid tool, integrated over exactly the part that touches;
+//! friction is added by [`crate::contact::friction`].
 //!
 //! Energy ∫ p²/(2ε) dA over a reference area, p = ε d with the penetration d. Each edge is clipped where p =
 //! 0 and Gauss points are laid on the clipped part: force and contact radius move smoothly as the front
@@ -9,6 +9,7 @@
 //! apex over a large part of its flank, where a penalty over the undeformed area fades: the apex then pierces
 //! the surface (30° cone, n = 0.1: K 15 % low, and no convergence to any mesh).
 
+use crate::contact::friction::{EdgeSlip, Rubbing, SLIP_PLACES};
 use crate::contact::parts::{NOTHING, Parts, WHOLE};
 use crate::contact::pieces::Places;
 use crate::contact::roots::parts_above_zero;
@@ -26,6 +27,8 @@ pub struct ContactEdge {
     pub quadratic: bool,
     /// Positions of the three nodes in the configuration whose area the energy is taken over.
     pub reference: [[f64; 2]; 3],
+    /// Elastic slip of friction in that configuration.
+    pub slip: EdgeSlip,
     /// Axisymmetric or plane strain.
     symmetry: Symmetry,
 }
@@ -43,6 +46,8 @@ pub struct ContactContext<'a> {
     pub spring: f64,
     /// Axisymmetric or plane strain.
     pub symmetry: Symmetry,
+    /// Friction, where there is any.
+    pub rubbing: Option<Rubbing>,
 }
 
 /// Contribution of one edge.
@@ -54,12 +59,16 @@ pub struct EdgeContact {
     pub force: [[f64; 2]; 3],
     /// Second derivative of the energy, `[node a][i][node b][j]`.
     pub stiffness: [[[[f64; 2]; 3]; 2]; 3],
+    /// What the derivative of the forces of friction has beside the symmetric part that is in the stiffness.
+    pub unsymmetric: [[[[f64; 2]; 3]; 2]; 3],
     /// Force on the tool along z.
     pub load: f64,
     /// ∫ p²/(2ε) dA.
     pub energy: f64,
-    /// ∫ ½ε d² dA: the same but for rounding.
+    /// ∫ ½ε d² dA: the same but for rounding, and with the energy of the elastic slip.
     pub penalty_energy: f64,
+    /// Work that friction takes in the increment.
+    pub friction_work: f64,
     /// ∫ p d dA, for the pressure-weighted mean penetration.
     pub pressure_penetration: f64,
     /// ∫ p dA.
@@ -74,6 +83,28 @@ pub struct EdgeContact {
     /// Largest current pressure of that line where it is the pressure itself, if that is a parabola: at t =
     /// ±1/√3. The pressures of corners and mid-side nodes of one edge lie on two sides of the line.
     pub max_pressure: f64,
+}
+
+impl EdgeContact {
+    /// Of an edge that touches in these parts, nothing summed up yet.
+    fn empty(parts: Parts) -> EdgeContact {
+        EdgeContact {
+            parts,
+            force: [[0.0; 2]; 3],
+            stiffness: [[[[0.0; 2]; 3]; 2]; 3],
+            unsymmetric: [[[[0.0; 2]; 3]; 2]; 3],
+            load: 0.0,
+            energy: 0.0,
+            penalty_energy: 0.0,
+            friction_work: 0.0,
+            pressure_penetration: 0.0,
+            pressure: 0.0,
+            area: 0.0,
+            reach: [f64::INFINITY, f64::NEG_INFINITY],
+            line: [0.0; 2],
+            max_pressure: 0.0,
+        }
+    }
 }
 
 /// Integration points of an interval [-1, 1]: abscissa and weight.
@@ -94,7 +125,7 @@ impl ContactEdge {
     ) -> Self {
         let quadratic = middle.is_some();
         let nodes = [nodes[0], nodes[1], middle.unwrap_or(nodes[0])];
-        ContactEdge { nodes, quadratic, reference: nodes.map(position), symmetry }
+        ContactEdge { nodes, quadratic, reference: nodes.map(position), slip: [0.0; SLIP_PLACES], symmetry }
     }
 
     /// Number of its nodes.
@@ -142,7 +173,7 @@ impl ContactEdge {
     }
 
     /// Places that part it into pieces along which the penetration is smooth.
-    fn places(&self, context: &ContactContext<'_>, x: &[[f64; 2]; 3]) -> Places {
+    pub(super) fn places(&self, context: &ContactContext<'_>, x: &[[f64; 2]; 3]) -> Places {
         Places::of_edge(&x[..self.node_count()], |xi| self.point(x, xi), context.tool, context.tip)
     }
 
@@ -185,20 +216,7 @@ impl ContactEdge {
 
     /// Integrates pressure over `parts`, wherever it may be negative there (a kept contact set may pull).
     pub fn integrate(&self, context: &ContactContext<'_>, parts: Parts, x: &[[f64; 2]; 3]) -> EdgeContact {
-        let mut out = EdgeContact {
-            parts,
-            force: [[0.0; 2]; 3],
-            stiffness: [[[[0.0; 2]; 3]; 2]; 3],
-            load: 0.0,
-            energy: 0.0,
-            penalty_energy: 0.0,
-            pressure_penetration: 0.0,
-            pressure: 0.0,
-            area: 0.0,
-            reach: [f64::INFINITY, f64::NEG_INFINITY],
-            line: [0.0; 2],
-            max_pressure: 0.0,
-        };
+        let mut out = EdgeContact::empty(parts);
         let places = self.places(context, x);
         for [start, end] in parts.into_iter().flatten().filter(|[start, end]| end > start) {
             let (centre, half) = (0.5 * (start + end), 0.5 * (end - start));
@@ -250,6 +268,9 @@ impl ContactEdge {
                 Symmetry::PlaneStrain => (r1 - r0).abs(),
             };
             out.reach = [out.reach[0].min(r0).min(r1), out.reach[1].max(r0).max(r1)];
+        }
+        if let Some(rubbing) = &context.rubbing {
+            self.rub(context, rubbing, x, &mut out);
         }
         out
     }

@@ -1,5 +1,5 @@
-//! Contact with the rigid tool: its shape, the clipped surface edge, the penalty correction of the depth, the
-//! surface in contact with itself.
+//! Contact with the rigid tool: its shape, the clipped surface edge, friction, the penalty correction of the
+//! depth, the surface in contact with itself.
 
 pub mod tool;
 
@@ -7,6 +7,8 @@ pub mod parts;
 pub mod pieces;
 
 pub mod edge;
+
+pub mod friction;
 
 mod roots;
 

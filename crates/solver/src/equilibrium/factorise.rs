@@ -1,7 +1,9 @@
 //! The factorisation of the tangent, and of what takes its place where it is not definite.
 
 use super::Equilibrium;
+use crate::body::dofs::FIXED;
 use crate::body::failure::Failure;
+use crate::contact::parts::NOTHING;
 use crate::point::j2::Tangent;
 use std::time::Instant;
 
@@ -24,9 +26,35 @@ impl Equilibrium<'_> {
             Err(_) => self.factorise_indefinite(),
         };
         self.factors.valid = outcome.is_ok();
+        self.note_friction();
         self.factors.note_yielding(self.response.yielding_points(&self.trial));
         self.counters.factor_s += clock.elapsed().as_secs_f64();
         outcome
+    }
+
+    /// Takes down what the tangent of friction has beside the stiffness.
+    fn note_friction(&mut self) {
+        let correction = &mut self.factors.correction;
+        correction.clear();
+        if self.body.contact.as_ref().is_none_or(|contact| contact.friction.is_none()) {
+            return;
+        }
+        let numbers = &self.body.analysis.dofs.number;
+        for (edge, share) in
+            self.state.edges.iter().zip(&self.response.contact).filter(|(_, s)| s.parts != NOTHING)
+        {
+            let nodes = &edge.nodes[..edge.node_count()];
+            for (a, row) in nodes.iter().enumerate() {
+                for (b, column) in nodes.iter().enumerate() {
+                    for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+                        let [row, column] = [numbers[*row as usize][i], numbers[*column as usize][j]];
+                        if row != FIXED && column != FIXED {
+                            correction.add_entry(row, column, share.unsymmetric[a][i][b][j]);
+                        }
+                    }
+                }
+            }
+        }
     }
 
     /// A tangent without the compressive geometric term; else LDLᵀ of the exact one if it is nearly definite;

@@ -1,5 +1,6 @@
 //! The factors of a tangent, and what corrects them since.
 
+use asperity_numerics::corrected::Correction;
 use asperity_numerics::secants::Secants;
 use asperity_numerics::sparse::cholesky::Factor;
 use asperity_numerics::sparse::front_tree::FrontTree;
@@ -8,6 +9,8 @@ use std::sync::Arc;
 /// The factors of a tangent, and what corrects them since it was made.
 pub(super) struct Factors {
     pub factor: Factor,
+    /// What friction adds that is not symmetric.
+    pub correction: Correction,
     pub secants: Secants,
     /// Whether they are of the tangent of some iterate of this body.
     pub valid: bool,
@@ -20,6 +23,7 @@ impl Factors {
     pub fn new(fronts: Arc<FrontTree>) -> Factors {
         Factors {
             factor: Factor::with_tree(fronts),
+            correction: Correction::default(),
             secants: Secants::default(),
             valid: false,
             yielded: Vec::new(),

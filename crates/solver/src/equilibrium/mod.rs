@@ -405,10 +405,12 @@ impl System for Equilibrium<'_> {
 
     fn find_direction(&mut self) {
         let clock = Instant::now();
-        let Factors { factor, secants, .. } = &mut self.factors;
+        let Factors { factor, correction, secants, .. } = &mut self.factors;
         let kept_contact = self.contact_set.was_kept();
         let (residual, displacement) = (&self.response.residual, &self.trial.displacement);
-        self.search.find_direction(residual, displacement, kept_contact, secants, |rhs| factor.solve(rhs));
+        self.search.find_direction(residual, displacement, kept_contact, secants, |rhs| {
+            correction.solve(rhs, |rhs| factor.solve(rhs));
+        });
         self.counters.solve_s += clock.elapsed().as_secs_f64();
     }
 

@@ -7,6 +7,7 @@
 use crate::body::discrete_body::Body;
 use crate::body::energy::contact_sums;
 use crate::body::state::State;
+use crate::contact::friction::carry_slip;
 use crate::contact::self_contact::Facing;
 use crate::element::kernel::{GAUSS, POINTS};
 use crate::element::{quad4, quad8};
@@ -296,12 +297,13 @@ fn carried_over(body: &Body<'_>, state: &State, places: &[[f64; 2]]) -> Option<C
 }
 
 impl State {
-    /// Elastic energy, plastic work and contact energy so far, of which only the work of the tool may change
-    /// the sum.
+    /// Elastic energy, plastic work, contact energy and work of friction so far, of which only the work of
+    /// the tool may change the sum.
     fn balanced_energy(&self, body: &Body<'_>) -> f64 {
         let [elastic, plastic] = self.energies(body);
         let contact = contact_sums(self.contact.iter(), body.symmetry).energy;
-        elastic + plastic + contact + self.ledger.self_contact - self.remeasured_energy()
+        let kept = contact + self.ledger.self_contact - self.remeasured_energy();
+        elastic + plastic + kept + self.ledger.friction_work
     }
 
     /// Takes down that a transfer from the state `before`, of the body `old`, ended here.
@@ -321,6 +323,7 @@ impl State {
         (state.origin, state.points.states) = (carried.origin, carried.states);
         (state.plastic, state.volume_change) = (carried.plastic, carried.volume_change);
         state.edges = body.surface(&places);
+        carry_slip(&self.edges, &mut state.edges);
         state.displacement = carried.displacement;
         if let Some(contact) = body.contact.as_ref().filter(|_| self.tip.is_finite()) {
             let context = contact.context(self.tip, self.penalty, body.symmetry);

@@ -1,0 +1,192 @@
+//! Friction held against closed forms, and what it does to force, area and residual depth.
+//!
+//! `cargo run --release -p asperity-verification --example friction [-- --out FILE]`; the table is
+//! `verification/results/friction.md`.
+
+use asperity_material::units::{Length, Stress};
+use asperity_simulation::run::{Outcome, Run};
+use asperity_simulation::scene::{
+    Accuracy, Asperity, Friction, Loading, Material, Scene, Substrate, Symmetry, Tool,
+};
+use asperity_simulation::simulate::simulate;
+use asperity_solver::body::analysis::Analyses;
+use asperity_verification::friction::{
+    computed_force_ratio, elastic, force_ratios, sticking_shares, stiffness_ratio, with_friction,
+};
+use asperity_verification::report::Report;
+use asperity_verification::single_asperity::crush;
+use std::error::Error;
+use std::f64::consts::PI;
+use std::ops::ControlFlow;
+
+type Done = Result<(), Box<dyn Error>>;
+
+/// Friction from none to sticking, with its name.
+const FRICTIONS: [(&str, Option<Friction>); 6] = [
+    ("0", None),
+    ("0.05", Some(Friction::Coefficient(0.05))),
+    ("0.1", Some(Friction::Coefficient(0.1))),
+    ("0.2", Some(Friction::Coefficient(0.2))),
+    ("0.4", Some(Friction::Coefficient(0.4))),
+    ("sticking", Some(Friction::Sticking)),
+];
+
+fn main() -> Done {
+    let (mut report, _) = Report::of_example("friction", "standard");
+    elastic_bodies(&mut report)?;
+    sticking_parts(&mut report)?;
+    punches(&mut report)?;
+    steps(&mut report)?;
+    metals(&mut report)?;
+    Ok(report.finish()?)
+}
+
+/// Force at equal depth and stiffness of an elastic body, sticking over smooth.
+fn elastic_bodies(report: &mut Report) -> Done {
+    report.section("An elastic body, sticking over smooth");
+    report.table("| ν | tool | force at equal depth | theory | difference, % | stiffness S/(2E\\*a) | theory C | difference, % |");
+    for poissons_ratio in [0.0, 0.2, 0.3] {
+        for (power, tool) in [(2, "ball"), (1, "cone")] {
+            let found = computed_force_ratio(poissons_ratio, power)?;
+            let [_, expected] = force_ratios(poissons_ratio, power);
+            let stiffness = |friction| -> Result<f64, Box<dyn Error>> {
+                let summary = crush(&elastic(poissons_ratio, power, friction))?.summary;
+                let radius = (summary.contact_area / PI).sqrt();
+                Ok(summary.unloading_stiffness.unwrap_or(f64::NAN) / radius)
+            };
+            let ratio = stiffness(Some(Friction::Sticking))? / stiffness(None)?;
+            let theory = stiffness_ratio(poissons_ratio);
+            let off = |found: f64, expected: f64| 100.0 * (found / expected - 1.0);
+            report.line(&format!(
+                "| {poissons_ratio} | {tool} | {found:.4} | {expected:.4} | {:+.2} | {ratio:.4} | {theory:.4} | {:+.2} |",
+                off(found, expected),
+                off(ratio, theory)
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// Radius of what sticks over that of the contact, at three depths, ν = 0.2.
+fn sticking_parts(report: &mut Report) -> Done {
+    report.section("What sticks of an elastic contact");
+    report.table("| μ | tool | stick over contact radius at three depths | | |");
+    for coefficient in [0.05, 0.1, 0.15, 0.2] {
+        for (power, tool) in [(2, "ball"), (1, "cone")] {
+            let shares = sticking_shares(elastic(0.2, power, Some(Friction::Coefficient(coefficient))))?;
+            let last: Vec<String> =
+                shares.iter().rev().take(3).rev().map(|share| format!("{share:.3}")).collect();
+            report.line(&format!("| {coefficient} | {tool} | {} |", last.join(" | ")));
+        }
+    }
+    Ok(())
+}
+
+/// Metal that does not harden under flat punches: mean pressure over the shear yield stress k.
+fn punches(report: &mut Report) -> Done {
+    report.section("Flat punches on metal that does not harden, E/σ_y 1000");
+    report.table(
+        "| punch | friction | mean pressure / k | slip-line theory of a smooth and a sticking punch |",
+    );
+    let strength = 200e6;
+    for (symmetry, name, theory) in [
+        (Symmetry::PlaneStrain, "strip", "2 + π = 5.142, both"),
+        (Symmetry::Axisymmetric, "disc", "Tresca's metal: 5.69, 6.05"),
+    ] {
+        for (word, friction) in [FRICTIONS[0], FRICTIONS[3], FRICTIONS[5]] {
+            let metal =
+                Material::elastic_body(Stress(1000.0 * strength), 0.3).yielding(Stress(strength), 0.0);
+            let tool = Tool::punch(Length(20e-6), Length(0.4e-6));
+            let mut scene = Scene::new(symmetry, metal, tool, Loading::to_depth(Length(0.6e-6)));
+            if symmetry == Symmetry::PlaneStrain {
+                scene.substrate =
+                    Some(Substrate { radius: Some(Length(400e-6)), depth: Some(Length(400e-6)) });
+            }
+            let summary = crush(&with_friction(scene, friction))?.summary;
+            let pressure = summary.peak_force / summary.contact_area;
+            report
+                .line(&format!("| {name} | {word} | {:.3} | {theory} |", pressure * 3_f64.sqrt() / strength));
+        }
+    }
+    Ok(())
+}
+
+/// Force of a cone over the number of load steps, on one mesh.
+fn steps(report: &mut Report) -> Done {
+    report.section("Load steps, a cone of 70.3° on the metal below, one mesh");
+    report.table("| steps | smooth force, mN | its change, % | force with μ = 0.1, mN | its change, % |");
+    let mut before = [f64::NAN; 2];
+    for count in [18, 36, 72, 144, 288] {
+        let mut forces = [0.0; 2];
+        for (force, friction) in forces.iter_mut().zip([FRICTIONS[0].1, FRICTIONS[2].1]) {
+            let mut problem = Run::new(&indent(friction, false)).problem()?;
+            problem.numbers.steps = count;
+            let done = simulate(&problem, &Analyses::default(), 0, &mut |_| ControlFlow::Continue(()))?;
+            let outcome = done.outcome(&mut |_| ControlFlow::Continue(()));
+            *force = outcome.rows.last().map_or(f64::NAN, |row| row.force);
+        }
+        let change = |i: usize| 100.0 * (forces[i] / before[i] - 1.0);
+        report.line(&format!(
+            "| {count} | {:.3} | {:+.2} | {:.3} | {:+.2} |",
+            1e3 * forces[0],
+            change(0),
+            1e3 * forces[1],
+            change(1)
+        ));
+        before = forces;
+    }
+    Ok(())
+}
+
+/// Metal under a cone of 70.3°.
+fn indent(friction: Option<Friction>, unload: bool) -> Scene {
+    let metal = Material::elastic_body(Stress(200e9), 0.3).yielding(Stress(500e6), 0.1);
+    let loading = Loading { depth: Some(Length(2e-6)), force: None, unload, reloads: 0 };
+    with_friction(Scene::new(Symmetry::Axisymmetric, metal, Tool::cone(19.7), loading), friction)
+}
+
+/// A scene without its friction, with a name.
+fn scenes() -> Vec<(&'static str, Scene)> {
+    let metal = || Material::elastic_body(Stress(200e9), 0.3).yielding(Stress(500e6), 0.1);
+    let steel = || Material::elastic_body(Stress(210e9), 0.3).yielding(Stress(300e6), 0.3);
+    let to = |um: f64| Loading { depth: Some(Length(um * 1e-6)), force: None, unload: true, reloads: 0 };
+    let round = Symmetry::Axisymmetric;
+    let ball = Scene::new(round, metal(), Tool::sphere(Length(60e-6)), to(5.0));
+    let crushed = Scene::new(round, steel(), Tool::plane(), to(5.0))
+        .with(Asperity::cone(Length(20e-6), 10.0).rounded(Length(10e-6)));
+    let mut steep = Scene::new(round, metal(), Tool::cone(30.0), to(2.0));
+    steep.accuracy = Accuracy::Draft;
+    vec![
+        ("asperity of 10° under a plane", crushed),
+        ("ball, a/R 0.4", ball),
+        ("cone of 70.3°", indent(None, true)),
+        ("cone of 60°, draft", steep),
+    ]
+}
+
+/// Force, area, residual depth, work and cost over the coefficient.
+fn metals(report: &mut Report) -> Done {
+    report.section("Metals over the coefficient");
+    report.table(
+        "| scene | μ | force | ± % | contact area | residual depth | friction work, % of the work | energy balance | iterations an increment |",
+    );
+    for (name, scene) in scenes() {
+        let mut smooth: Option<Outcome> = None;
+        for (word, friction) in FRICTIONS {
+            let outcome = crush(&with_friction(scene.clone(), friction))?;
+            let (own, first) = (&outcome.summary, &smooth.as_ref().unwrap_or(&outcome).summary);
+            report.line(&format!(
+                "| {name} | {word} | {:.4} | {:.1} | {:.4} | {:.4} | {:.2} | {:.1e} | {:.1} |",
+                own.peak_force / first.peak_force,
+                100.0 * own.errors.force,
+                own.contact_area / first.contact_area,
+                own.residual_depth.unwrap_or(f64::NAN) / own.peak_depth,
+                100.0 * own.friction_work.unwrap_or(0.0) / own.total_work,
+                own.energy_balance_error,
+                own.newton_iterations as f64 / own.increments as f64,
+            ));
+            smooth = smooth.or(Some(outcome));
+        }
+    }
+    Ok(())
+}
