@@ -34,7 +34,10 @@ pub fn scales(
     let scenes = scenes.collect::<PyResult<Vec<_>>>()?;
     let result = work::run(py, progress, |tell| {
         asperity::scales::scales(&scenes, &mut |reached| {
-            tell(reached.share, reached.news.map_or(String::new(), |p| format!("waves from {:.4} um", p * 1e6)))
+            tell(
+                reached.share,
+                reached.news.map_or(String::new(), |p| format!("waves from {:.4} um", p * 1e6)),
+            )
         })
     })?;
     let scales = Scales { inner: result.map_err(raised)? };

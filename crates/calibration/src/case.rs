@@ -5,7 +5,7 @@ use asperity_simulation::scene::Accuracy;
 use asperity_simulation::setup::cone::Cone;
 use asperity_simulation::setup::discretisation::ConeDiscretisation;
 use asperity_simulation::setup::problem::Problem;
-use asperity_solver::contact::friction::Friction;
+use asperity_solver::contact::slip::Friction;
 use asperity_solver::point::material::Metal;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -9,7 +9,7 @@ use asperity_material::{Elastic, Hardening, HardeningLaw, HardeningTable, Stress
 use asperity_mesh::outline::{Outline, Parabola};
 use asperity_numerics::lanes::{Lanes, Real};
 use asperity_solver::contact::edge::{ContactContext, ContactEdge};
-use asperity_solver::contact::friction::{Friction, Rubbing, SLIP_PLACES};
+use asperity_solver::contact::slip::{Friction, Rubbing, SLIP_PLACES};
 use asperity_solver::contact::tool::Tool;
 use asperity_solver::element::kernel::{ENTRIES, ElementContext, ElementOutput, PointSlice, Triangle};
 use asperity_solver::element::quad4;

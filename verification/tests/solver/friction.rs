@@ -10,7 +10,7 @@ use asperity_simulation::run::Run;
 use asperity_simulation::scene::{Accuracy, Asperity, Friction, Loading, Material, Scene, Symmetry, Tool};
 use asperity_simulation::setup::problem::{Goal, Problem};
 use asperity_solver::body::analysis::Analyses;
-use asperity_solver::contact::friction::Friction as Law;
+use asperity_solver::contact::slip::Friction as Law;
 use asperity_verification::friction::{
     computed_force_ratio, elastic, force_ratios, sticking_shares, stiffness_ratio, with_friction,
 };

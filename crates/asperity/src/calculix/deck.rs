@@ -9,7 +9,7 @@ use asperity_mesh::{Edge, Mesh, Section};
 use asperity_simulation::scene::{Lateral, Scene as Tables, SceneError, Target};
 use asperity_simulation::setup::problem::Problem;
 use asperity_simulation::setup::schedule::{UNLOADING_EXPONENT, unloading};
-use asperity_solver::contact::friction::Friction;
+use asperity_solver::contact::slip::Friction;
 use asperity_solver::point::kinematics::Symmetry;
 
 /// SI value of the deck's unit of length, 1 µm: nodes are numbers near 1, which the tolerances of such codes

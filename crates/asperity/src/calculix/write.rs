@@ -3,7 +3,7 @@
 use super::deck::{Deck, Reader};
 use asperity_material::StressMeasure;
 use asperity_mesh::{ElementKind, Section, write_inp, write_inp_side};
-use asperity_solver::contact::friction::Friction;
+use asperity_solver::contact::slip::Friction;
 use std::io::{self, Write};
 
 /// Coefficient that stands for a tool to which what touches sticks.

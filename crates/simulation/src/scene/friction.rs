@@ -2,7 +2,7 @@
 
 use super::SceneError;
 use super::messages::check_range;
-use asperity_solver::contact::friction::Friction as Law;
+use asperity_solver::contact::slip::Friction as Law;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{Error, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};

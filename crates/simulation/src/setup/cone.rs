@@ -9,7 +9,7 @@ use crate::setup::problem::{Goal, Problem, Rules, Specimen, held_nodes};
 use crate::setup::units::Units;
 use asperity_mesh::build::{SelfSimilar, self_similar};
 use asperity_mesh::profile::{Asperity, Profile, Shape};
-use asperity_solver::contact::friction::Friction;
+use asperity_solver::contact::slip::Friction;
 use asperity_solver::contact::tool::Tool;
 use asperity_solver::point::kinematics::Symmetry;
 use asperity_solver::point::material::Metal;

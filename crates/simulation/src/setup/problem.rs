@@ -12,7 +12,7 @@ use asperity_solver::body::analysis::Analyses;
 use asperity_solver::body::discrete_body::{Body, ToolContact};
 use asperity_solver::body::failure::Failure;
 use asperity_solver::body::state::{State, Unloaded};
-use asperity_solver::contact::friction::Friction;
+use asperity_solver::contact::slip::Friction;
 use asperity_solver::contact::tool::Tool;
 use asperity_solver::equilibrium::Equilibrium;
 use asperity_solver::point::kinematics::Symmetry;

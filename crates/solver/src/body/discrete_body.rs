@@ -3,7 +3,7 @@
 use crate::body::analysis::{Analyses, Analysis};
 use crate::body::failure::Failure;
 use crate::contact::edge::{ContactContext, ContactEdge};
-use crate::contact::friction::{Friction, Rubbing};
+use crate::contact::slip::{Friction, Rubbing};
 use crate::contact::tool::Tool;
 use crate::element::kernel::POINTS;
 use crate::element::{quad4, quad8};

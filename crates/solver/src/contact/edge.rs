@@ -9,10 +9,10 @@
 //! apex over a large part of its flank, where a penalty over the undeformed area fades: the apex then pierces
 //! the surface (30° cone, n = 0.1: K 15 % low, and no convergence to any mesh).
 
-use crate::contact::friction::{EdgeSlip, Rubbing, SLIP_PLACES};
 use crate::contact::parts::{NOTHING, Parts, WHOLE};
 use crate::contact::pieces::Places;
 use crate::contact::roots::parts_above_zero;
+use crate::contact::slip::{EdgeSlip, Rubbing, SLIP_PLACES};
 use crate::contact::tool::Tool;
 use crate::point::kinematics::Symmetry;
 use asperity_mesh::outline::quadratic_roots;

@@ -6,6 +6,8 @@ pub mod tool;
 pub mod parts;
 pub mod pieces;
 
+pub mod slip;
+
 pub mod edge;
 
 pub mod friction;
