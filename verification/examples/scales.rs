@@ -324,9 +324,12 @@ fn judged(report: &mut Report) {
     }
 }
 
+/// A section of the report.
+type Part = fn(&mut Report);
+
 fn main() -> std::io::Result<()> {
     let (mut report, rest) = Report::of_example("scales", "half_space.tolerance = 1e-6");
-    let parts: [(&str, fn(&mut Report)); 5] = [
+    let parts: [(&str, Part); 5] = [
         ("slopes", slopes),
         ("fits", fits),
         ("pressures", pressures),

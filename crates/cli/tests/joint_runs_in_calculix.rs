@@ -5,7 +5,7 @@
 //! (Debian: calculix-ccx; tried with 2.20). Without it the test says so and passes, unless CI is `true`:
 //! a machine that judges changes has it.
 
-#![allow(clippy::unwrap_used, reason = "a test may panic")]
+#![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may panic")]
 
 mod common;
 
