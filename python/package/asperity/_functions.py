@@ -10,7 +10,18 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import _asperity
-from ._results import Calibration, Crush, Extraction, FloatArray, Identification, Joint, Rough, Scales, Study, Trade
+from ._results import (
+    Calibration,
+    Crush,
+    Extraction,
+    FloatArray,
+    Identification,
+    Joint,
+    Rough,
+    Scales,
+    Study,
+    Trade,
+)
 
 if TYPE_CHECKING:
     from ._asperity import RoughScene, Scene
