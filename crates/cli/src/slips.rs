@@ -42,7 +42,6 @@ fn key_of(flag: &str, words: &[String]) -> Option<String> {
         "identify" => SchemaKind::Fit,
         _ => return None,
     };
-    let (flag, given) = flag.split_once('=').map_or((flag, None), |(flag, value)| (flag, Some(value)));
     let name = flag.trim_start_matches('-').replace('-', "_");
     let mut paths = Vec::new();
     keys(&of_kind(kind).to_value(), "", &mut paths);
@@ -52,10 +51,11 @@ fn key_of(flag: &str, words: &[String]) -> Option<String> {
         .iter()
         .find(|(path, _)| last(path) == name)
         .or_else(|| paths.iter().find(|(path, _)| name.len() > 2 && last(path).starts_with(&name)))?;
-    let value = given.map(String::from).or_else(|| {
-        let place = words.iter().position(|word| word == flag)?;
-        words.get(place + 1).filter(|word| !word.starts_with('-')).cloned()
-    });
+    let place = words.iter().position(|word| word.split('=').next() == Some(flag))?;
+    let value = match words[place].split_once('=') {
+        Some((_, value)) => Some(value.to_string()),
+        None => words.get(place + 1).filter(|word| !word.starts_with('-')).cloned(),
+    };
     let value = match value {
         Some(value) if *is_list && !value.starts_with('[') => format!("[{value}]"),
         Some(value) => value,
