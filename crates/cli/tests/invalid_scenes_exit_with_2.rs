@@ -128,7 +128,7 @@ fn what_is_no_scene_at_all_is_refused() {
         );
     }
     let place = Place::with_scene(SCENE);
-    refused(&place, &["crush", "nowhere.toml"], &["cannot read nowhere.toml"], "missing file");
+    refused(&place, &["crush", "nowhere.toml"], &["there is no file nowhere.toml"], "missing file");
     refused(&place, &["crush", "."], &["cannot read ."], "a folder");
     refused(&place, &["mesh", "scene.toml", "-o", "mesh.stl"], &[".vtu", ".msh", ".inp"], "mesh format");
     refused(
