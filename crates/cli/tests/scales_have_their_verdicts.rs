@@ -76,12 +76,12 @@ fn every_scale_has_its_rows_and_every_quantity_its_verdict() {
 #[test]
 fn what_has_no_scales_is_refused_where_it_is_wrong() {
     let place = Place::with_scene(SCENE);
-    std::fs::write(place.path("small.toml"), SCENE.replace("[64, 64]", "[32, 64]")).unwrap();
+    std::fs::write(place.path("small.toml"), SCENE.replace("[64, 64]", "[128, 64]")).unwrap();
     std::fs::write(place.path("line.csv"), "0,1,2,1,0,2\n").unwrap();
     for (args, words) in [
         (&["scene.toml", "--set", "load.pressure=0 MPa"][..], &["load", "nothing touches"][..]),
         (&["scene.toml", "--set", "scales.tip_radius=0 um"], &["scales.tip_radius", "above 0"]),
-        (&["scene.toml", "small.toml"], &["64 x 64", "32 x 64"]),
+        (&["scene.toml", "small.toml"], &["64 x 64", "128 x 64"]),
         (
             &["line.csv", "--set", "surface.pixel_size=\"1 um\"", "--set", "surface.height_unit=um"],
             &["2 x 2"],
