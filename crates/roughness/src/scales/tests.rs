@@ -156,8 +156,9 @@ fn a_map_that_ends_before_its_pixel_has_converged_and_one_that_goes_on_has_not()
     let (slope, exponent, goes_on) = class(2.0, Quantity::Slope);
     // an octave multiplies the slope by 2^(1 - H), more near the roll-off
     assert!(slope == Class::NotConverging && goes_on && (0.3..0.7).contains(&exponent), "{exponent}");
+    // the area falls as the slope grows where contact is light, by less where it is not
     let (area, exponent, _) = class(2.0, Quantity::Area);
-    assert!(area == Class::NotConverging && (-0.8..-0.3).contains(&exponent), "{exponent}");
+    assert!(area == Class::NotConverging && (-0.8..-0.2).contains(&exponent), "{exponent}");
 }
 
 #[test]
