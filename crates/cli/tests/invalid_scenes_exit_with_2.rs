@@ -173,7 +173,7 @@ fn a_rough_scene_is_checked_too() {
         refused(&place, &["extract", "scene.toml", "--out", "out"], words, new);
     }
     // a map on the command line is not shown as a scene that nobody wrote
-    let words = ["cannot read none.npy", "give a map of heights"];
+    let words = ["there is no file none.npy", "give a map of heights"];
     refused(&Place::with_scene(scene), &["extract", "none.npy", "--out", "out"], &words, "no map");
 }
 

@@ -40,29 +40,3 @@ fn meant(path: &Path) -> Option<String> {
     let name = nearest(path.file_name()?.to_str()?, &names)?;
     Some(folder.map_or_else(|| name.into(), |folder| folder.join(name).display().to_string()))
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_slip_in_a_name_finds_the_file_beside_it() {
-        let folder = tempfile::tempdir().unwrap();
-        for name in ["single.toml", "map.sur"] {
-            std::fs::write(folder.path().join(name), "").unwrap();
-        }
-        let told = |name: &str| {
-            let path = folder.path().join(name);
-            unreadable(&path, &std::fs::metadata(&path).unwrap_err())
-        };
-        for (slip, file) in
-            [("singel.toml", "single.toml"), ("single", "single.toml"), ("map.srf", "map.sur")]
-        {
-            let error = told(slip);
-            assert!(error.to_string().contains(slip) && !error.to_string().contains("os error"), "{error}");
-            let help = error.help.unwrap();
-            assert!(help.contains(file), "{slip}: {help}");
-        }
-        assert!(told("elsewhere.dat").help.is_none());
-    }
-}

@@ -52,36 +52,3 @@ pub fn reword(message: &str) -> (String, Option<String>) {
         }
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_slip_finds_its_word_and_a_foreign_word_none() {
-        let keys = ["height", "slope_deg", "tip_radius", "valley_radius", "spacing", "radius"];
-        for (word, meant) in
-            [("hieght", "height"), ("slope", "slope_deg"), ("tipradius", "tip_radius"), ("Radius", "radius")]
-        {
-            assert_eq!(nearest(word, &keys), Some(meant), "{word}");
-        }
-        assert_eq!(nearest("colour", &keys), None);
-    }
-
-    #[test]
-    fn serde_is_put_into_plain_words() {
-        let (message, help) = reword("unknown field `depht`, expected one of `depth`, `force`");
-        assert_eq!(message, "unknown key `depht`");
-        assert_eq!(help.unwrap(), "did you mean `depth`? Known here: depth, force");
-        let (message, help) =
-            reword("unknown field `contact`, expected one of `element`, `newton_tolerance`");
-        assert_eq!(message, "the key `contact` is gone");
-        assert!(help.unwrap().contains("leave numerics.contact out"));
-        assert!(reword("unknown field `contact`, expected `tool`").0.contains("unknown key"));
-        assert_eq!(reword("missing field `tool`").0, "`tool` is missing");
-        assert_eq!(
-            reword("invalid type: string \"x\", expected f64").0,
-            "invalid type: string \"x\", expected a number without quotes"
-        );
-    }
-}
