@@ -125,9 +125,12 @@ fn steps(report: &mut Report) -> Done {
             let outcome = done.outcome(&mut |_| ControlFlow::Continue(()));
             *force = outcome.rows.last().map_or(f64::NAN, |row| row.force);
         }
-        let change = |i: usize| 100.0 * (forces[i] / before[i] - 1.0);
+        let change = |i: usize| {
+            let change = 100.0 * (forces[i] / before[i] - 1.0);
+            if change.is_nan() { "–".into() } else { format!("{change:+.2}") }
+        };
         report.line(&format!(
-            "| {count} | {:.3} | {:+.2} | {:.3} | {:+.2} |",
+            "| {count} | {:.3} | {} | {:.3} | {} |",
             1e3 * forces[0],
             change(0),
             1e3 * forces[1],
