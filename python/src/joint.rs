@@ -1,12 +1,10 @@
 //! The law of a joint.
 
 use crate::error::raised;
-use crate::press::with_heights;
-use crate::scene::RoughScene;
+use crate::press::{Map, scenes_of};
 use crate::table::{of_json, of_rows};
 use crate::work;
 use asperity::output::Directory;
-use numpy::PyReadonlyArray2;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::path::{Path, PathBuf};
@@ -18,9 +16,6 @@ pub struct Joint {
     inner: asperity::Joint,
 }
 
-/// A scene, its heights in µm where they are in memory, and their pixel in µm.
-type Map<'py> = (PyRef<'py, RoughScene>, Option<PyReadonlyArray2<'py, f64>>, Option<[f64; 2]>);
-
 /// Presses maps of one surface from first touch to their largest load and back.
 #[pyfunction]
 #[pyo3(signature = (maps, out=None, progress=None))]
@@ -30,8 +25,7 @@ pub fn joint(
     out: Option<PathBuf>,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Joint> {
-    let scenes = maps.into_iter().map(|(scene, heights, pixel)| with_heights(&scene, heights, pixel));
-    let scenes = scenes.collect::<PyResult<Vec<_>>>()?;
+    let scenes = scenes_of(maps)?;
     let result = work::run(py, progress, |tell| {
         asperity::joint::joint(&scenes, &mut |reached| {
             tell(reached.share, reached.news.map_or(String::new(), |p| format!("{:.4} MPa", p * 1e-6)))

@@ -55,6 +55,14 @@ pub fn with_heights(
     Ok(inner.with_heights(heights.shape()[1], pixel.map(|p| p * MICROMETRE), metres))
 }
 
+/// A scene, its heights in µm where they are in memory, and their pixel in µm.
+pub type Map<'py> = (PyRef<'py, RoughScene>, Option<PyReadonlyArray2<'py, f64>>, Option<[f64; 2]>);
+
+/// The scenes of several maps of one surface.
+pub fn scenes_of(maps: Vec<Map<'_>>) -> PyResult<Vec<asperity::RoughScene>> {
+    maps.into_iter().map(|(scene, heights, pixel)| with_heights(&scene, heights, pixel)).collect()
+}
+
 impl Rough {
     fn contact(&self, closure: Option<&str>) -> PyResult<&ClosureContact> {
         let contacts = &self.inner.contacts;

@@ -1,12 +1,10 @@
 //! The scales of a surface.
 
 use crate::error::raised;
-use crate::press::with_heights;
-use crate::scene::RoughScene;
+use crate::press::{Map, scenes_of};
 use crate::table::{of_json, of_rows};
 use crate::work;
 use asperity::output::Directory;
-use numpy::PyReadonlyArray2;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::path::{Path, PathBuf};
@@ -18,9 +16,6 @@ pub struct Scales {
     inner: asperity::Scales,
 }
 
-/// A scene, its heights in µm where they are in memory, and their pixel in µm.
-type Map<'py> = (PyRef<'py, RoughScene>, Option<PyReadonlyArray2<'py, f64>>, Option<[f64; 2]>);
-
 /// Presses a surface at every scale; more maps are repeated measurements of it.
 #[pyfunction]
 #[pyo3(signature = (maps, out=None, progress=None))]
@@ -30,8 +25,7 @@ pub fn scales(
     out: Option<PathBuf>,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Scales> {
-    let scenes = maps.into_iter().map(|(scene, heights, pixel)| with_heights(&scene, heights, pixel));
-    let scenes = scenes.collect::<PyResult<Vec<_>>>()?;
+    let scenes = scenes_of(maps)?;
     let result = work::run(py, progress, |tell| {
         asperity::scales::scales(&scenes, &mut |reached| {
             tell(

@@ -238,7 +238,7 @@ impl Count {
     }
 }
 
-/// What verdicts said of one kind of map.
+/// The verdicts on one kind of map.
 #[derive(Clone, Copy, Default)]
 struct Tally {
     /// Converged, converging, not converging: the change is inside the error; that it is above the limit.

@@ -41,7 +41,8 @@ pub fn joint(args: &Joint) -> Result<(), Error> {
     });
     let scenes = scenes.collect::<Result<Vec<_>, _>>()?;
     let name = if scenes.len() == 1 { scenes[0].name() } else { "joint".into() };
-    let folder = Folder::create(&args.run.target(&name), "joint", args.run.force)?;
+    let target = args.run.target(&name);
+    let folder = Folder::create(&target, "joint", args.run.force)?;
     interrupt::catch();
     let progress = Line::new(args.run.quiet);
     let found = press_joint(&scenes, &mut |reached| {
@@ -50,7 +51,6 @@ pub fn joint(args: &Joint) -> Result<(), Error> {
         !interrupt::requested()
     });
     progress.finish();
-    let target = args.run.target(&name);
     let found = folder.fill(found, |found, folder| {
         found.write(folder)?;
         args.page.write(folder, || found.report())

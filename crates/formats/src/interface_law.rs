@@ -12,7 +12,7 @@ const COMMENT_WIDTH: usize = 100;
 /// The law of an interface, in SI.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct InterfaceLaw {
-    /// What made it, for whom the decks are read.
+    /// The program that made it, for whom the decks are read.
     pub head: String,
     /// Overclosure (m) and pressure (Pa), both rising from 0.
     pub pressure: Vec<[f64; 2]>,

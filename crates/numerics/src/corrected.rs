@@ -9,7 +9,7 @@ const MOST_DIRECTIONS: usize = 12;
 /// leaves in a step.
 const TOLERANCE: f64 = 1e-2;
 
-/// What a matrix has beside the one whose factors are known.
+/// The entries of a matrix beside those of the one whose factors are known.
 #[derive(Clone, Debug, Default)]
 pub struct Correction {
     entries: Vec<(u32, u32, f64)>,
@@ -33,8 +33,11 @@ impl Correction {
     /// Generalised minimal residuals (Saad, Schultz: SIAM J. Sci. Stat. Comput. 7 (1986)) with K⁻¹ on the
     /// right: as C has few rows, few directions hold the solution.
     pub fn solve(&self, rhs: &mut [f64], mut solve: impl FnMut(&mut [f64])) {
+        if self.entries.is_empty() {
+            return solve(rhs);
+        }
         let size = norm(rhs);
-        if self.entries.is_empty() || size == 0.0 || !size.is_finite() {
+        if size == 0.0 || !size.is_finite() {
             return solve(rhs);
         }
         let mut basis = vec![rhs.iter().map(|r| r / size).collect::<Vec<f64>>()];

@@ -94,7 +94,7 @@ pub fn extract(scene: &RoughScene, wanted: &Extraction) -> Result<Extracted, Err
     wanted.check()?;
     scene.validate()?;
     let tables = scene.tables();
-    let surface = tables.surface.prepare(|path| scene.resolve(path)).map_err(|e| scene.error(&e))?;
+    let surface = scene.prepare_surface()?;
     let name = scene.surface_name();
     let (how, closure) = segmentation(scene, &surface, wanted.parts)?;
     let asperities = find(&surface, how).map_err(|e| not_found(&e))?;

@@ -24,8 +24,8 @@ pub fn unreadable(path: &Path, error: &io::Error) -> InputError {
     }
 }
 
-/// What went wrong, without the number that the system gives it.
-pub fn reason(error: &io::Error) -> String {
+/// The words of an error, without the number that the system gives it.
+fn reason(error: &io::Error) -> String {
     let text = error.to_string();
     text.split(" (os error").next().unwrap_or(&text).to_lowercase()
 }

@@ -81,7 +81,7 @@ impl Joint {
         table
     }
 
-    /// What made the law and how to read it.
+    /// The origin of the law and how to read it.
     fn head(&self) -> String {
         let s = &self.summary;
         let metal =

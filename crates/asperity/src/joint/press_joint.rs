@@ -61,7 +61,7 @@ pub fn joint(
         return Err(InputError::new("no surface was given").help("give a scene or a map of heights").into());
     };
     scenes.iter().try_for_each(|scene| scene.tables().validate_joint().map_err(|e| scene.error(&e)))?;
-    let surfaces = scenes.iter().map(prepare).collect::<Result<Vec<_>, _>>()?;
+    let surfaces = scenes.iter().map(RoughScene::prepare_surface).collect::<Result<Vec<_>, _>>()?;
     same_size(scenes, &surfaces)?;
     let tables = scene.tables();
     let asked = tables.load.of_joint().map_err(|e| scene.error(&e))?;
@@ -88,10 +88,6 @@ pub fn joint(
     let mut found = evaluate(scenes, &metal, &maps).ok_or_else(|| refused(JointError::NoTouch))?;
     found.summary.wall_s = start.elapsed().as_secs_f64();
     Ok(found)
-}
-
-fn prepare(scene: &RoughScene) -> Result<Surface, InputError> {
-    scene.tables().surface.prepare(|path| scene.resolve(path)).map_err(|e| scene.error(&e))
 }
 
 /// The key that an error is about.

@@ -93,7 +93,7 @@ row! {
         fit_conductance: Option<PowerFit> = None,
         /// Height range, peak to valley, of roughness that the map does not hold, µm.
         left_out_um: Option<f64> = None,
-        /// What the proven bounds say, in words.
+        /// The proven bounds, in words.
         bounds: String = String::new(),
         /// ∫p dδ over the elastic energy, less 1: of elastic, periodic maps, whose work is all stored.
         energy_error: Option<f64> = None,

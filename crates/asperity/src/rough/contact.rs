@@ -51,7 +51,7 @@ pub fn press(
     scene.validate()?;
     let coefficient = scene.coefficient()?;
     let tables = scene.tables();
-    let surface = tables.surface.prepare(|path| scene.resolve(path)).map_err(|e| scene.error(&e))?;
+    let surface = scene.prepare_surface()?;
     let name = scene.surface_name();
     let mut summary = Summary::new(&name, &surface, tables);
     let mut contacts = Vec::new();

@@ -9,7 +9,7 @@ use asperity_formats::memory::read_file;
 use asperity_formats::surface::{Measured, Spacing};
 use asperity_material::HardeningLaw;
 use asperity_roughness::scene::{Choice, LoadScene, OwnClosure, Scene, SceneError};
-use asperity_roughness::{Closure, Coefficient, IslandClosure};
+use asperity_roughness::{Closure, Coefficient, IslandClosure, Surface};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -168,6 +168,14 @@ impl RoughScene {
     /// The first value that makes no sense, pointing at its line where there is one.
     pub fn validate(&self) -> Result<(), InputError> {
         self.scene.validate().map_err(|e| self.error(&e))
+    }
+
+    /// The surface as it is pressed: read or generated, levelled and filtered.
+    ///
+    /// # Errors
+    /// A surface that cannot be read or makes no sense, pointing at its line where there is one.
+    pub(crate) fn prepare_surface(&self) -> Result<Surface, InputError> {
+        self.scene.surface.prepare(|path| self.resolve(path)).map_err(|e| self.error(&e))
     }
 
     /// Name of the scene: that of its file without extension.

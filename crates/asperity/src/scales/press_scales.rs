@@ -8,7 +8,7 @@ use crate::results::units::MICROMETRE;
 use crate::rough::tables::SceneError;
 use crate::rough::{RoughScene, SpectrumRow, half_space_of, scene_warnings};
 use asperity_roughness::scales::{self as library, ScalesError, Task};
-use asperity_roughness::{Closure, ClosureLaw, Surface};
+use asperity_roughness::{Closure, ClosureLaw};
 use std::time::Instant;
 
 /// The scales of a surface.
@@ -45,10 +45,7 @@ pub fn scales(
     scenes.iter().try_for_each(RoughScene::validate)?;
     let refused = |e: ScalesError| Error::from(scene.error(&SceneError::new(e.key(), e)));
     let load = scene.tables().load.load().map_err(|e| scene.error(&e))?;
-    let prepare = |scene: &RoughScene| {
-        scene.tables().surface.prepare(|path| scene.resolve(path)).map_err(|e| scene.error(&e))
-    };
-    let surfaces = scenes.iter().map(prepare).collect::<Result<Vec<Surface>, _>>()?;
+    let surfaces = scenes.iter().map(RoughScene::prepare_surface).collect::<Result<Vec<_>, _>>()?;
     let task = task(scene)?;
     let tip = scene.tables().scales.tip_radius.map(|radius| radius.0);
     let trusted = library::trusted(&surfaces, tip).map_err(refused)?;

@@ -33,7 +33,7 @@ impl Flow {
 /// The bodies of a joint with the conductivity of the medium between them, in SI.
 pub type BodiesAndMedium = (Bodies, Option<f64>);
 
-/// What turns a contact into conductances.
+/// The conductors that turn a contact into conductances.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Conductors {
     /// For heat.

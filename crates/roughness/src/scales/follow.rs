@@ -55,7 +55,7 @@ impl ScalesError {
     }
 }
 
-/// What presses every scale.
+/// The task of every scale.
 #[derive(Clone, Debug)]
 pub struct Task {
     /// The metal.

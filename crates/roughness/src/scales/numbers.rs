@@ -6,7 +6,7 @@ use super::slopes::Slopes;
 use crate::Contact;
 use crate::half_space::Area;
 
-/// What presses a surface at one scale.
+/// The task at one scale.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum By {
     /// The elastic half-space.

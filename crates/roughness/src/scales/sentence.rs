@@ -1,4 +1,4 @@
-//! What the verdicts say together: the cut-off to use, and a sentence that a person can quote.
+//! The verdicts together: the cut-off to use, and a sentence that a person can quote.
 
 use super::follow::Scales;
 use super::numbers::{By, Numbers};
@@ -101,7 +101,7 @@ impl Scales {
         instrument.into_iter().chain(self.overloaded.then(|| text.into())).collect()
     }
 
-    /// What a verdict says; None of a map that is too small.
+    /// A verdict in words; None of a map that is too small.
     fn clause(&self, words: &str, found: &Verdict, unit: f64) -> Option<String> {
         let error = percent(found.error.unwrap_or(f64::NAN));
         match found.class {

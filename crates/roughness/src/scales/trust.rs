@@ -47,7 +47,7 @@ fn from(pixel: f64, is_bad: impl Fn(Option<f64>) -> bool) -> Option<f64> {
     Some(cutoff(high))
 }
 
-/// What the second map has more than the first.
+/// The surplus of the second map over the first.
 fn difference(first: &HeightMap, second: &HeightMap) -> Result<HeightMap, ScalesError> {
     let size = |map: &HeightMap| [map.columns(), map.rows()];
     let ([a, b], [c, d]) = (size(first), size(second));

@@ -9,7 +9,7 @@
 use super::numbers::Step;
 use super::slope_power::Growth;
 
-/// What two finer octaves may change of a quantity that counts as converged.
+/// The change by two finer octaves that a quantity may have which counts as converged.
 const CONVERGED: f64 = 0.1;
 /// Fall of e by an octave from which on it counts as steady.
 const STEADY: f64 = 0.75;
@@ -50,7 +50,7 @@ impl Class {
     }
 }
 
-/// What finer waves do to a quantity.
+/// The effect of finer waves on a quantity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Verdict {
     /// Its class.

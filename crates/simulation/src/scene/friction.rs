@@ -13,14 +13,14 @@ use std::borrow::Cow;
 pub enum Friction {
     /// Coulomb's coefficient, from 0 to 2.
     Coefficient(f64),
-    /// What touches sticks.
+    /// A point that touches sticks.
     Sticking,
 }
 
 /// The word for what sticks.
 const STICKING: &str = "sticking";
 
-/// What the key takes.
+/// The values of the key, in words.
 const EXPECTED: &str = "a coefficient from 0 to 2, for example 0.15, or \"sticking\"";
 
 impl Friction {

@@ -59,7 +59,7 @@ pub struct EdgeContact {
     pub force: [[f64; 2]; 3],
     /// Second derivative of the energy, `[node a][i][node b][j]`.
     pub stiffness: [[[[f64; 2]; 3]; 2]; 3],
-    /// What the derivative of the forces of friction has beside the symmetric part that is in the stiffness.
+    /// The derivative of the forces of friction less its symmetric part, which is in the stiffness.
     pub unsymmetric: [[[[f64; 2]; 3]; 2]; 3],
     /// Force on the tool along z.
     pub load: f64,

@@ -18,7 +18,7 @@ use crate::contact::slip::{EdgeSlip, Friction, Rubbing, SLIP_PLACES, coordinate,
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Shear {
     traction: f64,
-    /// What it holds of the slip.
+    /// Its share of the slip that is elastic.
     elastic_slip: f64,
     /// Unit vector along the tool.
     tangent: [f64; 2],

@@ -5,7 +5,7 @@
 pub enum Friction {
     /// At most this share of the pressure.
     Coulomb(f64),
-    /// What touches sticks.
+    /// A point that touches sticks.
     Sticking,
 }
 

@@ -9,7 +9,7 @@ use std::sync::Arc;
 /// The factors of a tangent, and what corrects them since it was made.
 pub(super) struct Factors {
     pub factor: Factor,
-    /// What friction adds that is not symmetric.
+    /// The part of friction that is not symmetric.
     pub correction: Correction,
     pub secants: Secants,
     /// Whether they are of the tangent of some iterate of this body.
