@@ -56,8 +56,17 @@ impl Grading {
     }
 
     /// Columns from the centre of a core to its end, where they are as narrow as a shell.
+    ///
+    /// There are two at least: a core of one column leaves the force 2 % too low beside any mesh of two, and
+    /// run and companion would be meshes of two families.
     pub(crate) fn columns(&self, half: f64, kinks: &[f64]) -> Vec<f64> {
-        divide(0.0, half, kinks, |x| self.fineness * half * (1.0 + (COLUMN_GROWTH - 1.0) * (1.0 - x / half)))
+        let size = |x: f64| self.fineness * half * (1.0 + (COLUMN_GROWTH - 1.0) * (1.0 - x / half));
+        let columns = divide(0.0, half, kinks, size);
+        if columns.len() > 2 {
+            return columns;
+        }
+        // halves of the integral of 1/size, which no fineness changes
+        vec![0.0, half * (1.0 - (COLUMN_GROWTH.sqrt() - 1.0) / (COLUMN_GROWTH - 1.0)), half]
     }
 
     /// Wanted size over distance, `x` being the distance in depths of the row.
@@ -158,6 +167,10 @@ mod tests {
         let columns = of(0.02).columns(3.0, &[]);
         let end = columns[columns.len() - 1] - columns[columns.len() - 2];
         assert!((end / (0.02 * 3.0) - 1.0).abs() < 0.1, "{end}");
+        // coarse cores keep two, which fewer elements do not move
+        let [coarse, coarser] = [0.35, 0.7].map(|fineness| of(fineness).columns(1.0, &[]));
+        assert_eq!(coarse.len(), 3);
+        assert!(coarse.iter().zip(&coarser).all(|(a, b)| (a - b).abs() < 1e-2), "{coarse:?} {coarser:?}");
     }
 
     #[test]

@@ -15,8 +15,9 @@ pub(crate) const FITTED: Fitted = Fitted {
         widened: 0.6,
         hidden_force: [0.6, 1.5],
         hidden_area: 300.0,
-        lost_by_steps: 12.0,
+        lost_by_steps: 1.1,
         rest_in_bound: 2.0,
+        smooth_in_bound: 0.85,
         asymptotic: 0.055,
         line: 0.15,
         onset: 1.25,
@@ -60,11 +61,15 @@ pub(crate) struct FittedErrors {
     pub hidden_force: [f64; 2],
     /// ln of the area, per square of penetration over depth, that they hide.
     pub hidden_area: f64,
-    /// Force that steps lose at the peak, times the square of their number: 12 to 24 steps lose 3 to 8 %, and
-    /// their companion no more.
+    /// Force that steps lose at the peak, over the square of the last one's length in ln h: steps of 0.17 to
+    /// 0.36 lose 3 to 8 %, and their companion no more.
     pub lost_by_steps: f64,
     /// The rest of the difference that the bound allows for, over the largest that is seen.
     pub rest_in_bound: f64,
+    /// Share of the smooth part of a difference in its bound. What is left of it where the order is not the
+    /// assumed one is less: of the area 0.45 at most for orders between 0.8 and 1.5, of the force for orders
+    /// between 1 and 2.
+    pub smooth_in_bound: f64,
     /// Largest smooth part of which a share is taken off: a companion that differs by more is in no
     /// asymptotic range, and the whole difference stays in the bound.
     pub asymptotic: f64,

@@ -126,8 +126,9 @@ impl Rounds<'_> {
         let work = main.operations + beside.as_ref().map_or(0.0, |companion| companion.operations);
         let mut outcome = main.clone();
         if let Some(companion) = beside.as_ref().or(coarser) {
-            let Discretisation { element, penetration, steps, .. } = numbers;
-            let setting = Setting { symmetry: scene.symmetry, element, penetration, steps, same_mesh };
+            let Discretisation { element, penetration, .. } = numbers;
+            let log_step = numbers.last_log_step();
+            let setting = Setting { symmetry: scene.symmetry, element, penetration, log_step, same_mesh };
             outcome = extrapolate_and_bound(outcome, companion, setting);
         }
         if let (Target::Force(force), None) = (target, &outcome.stopped) {

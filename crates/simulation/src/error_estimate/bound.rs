@@ -31,8 +31,8 @@ pub(crate) struct Setting {
     pub element: ElementChoice,
     /// Penetration of the run over its depth.
     pub penetration: f64,
-    /// Load steps of the run.
-    pub steps: usize,
+    /// Length of the last load step of the run in ln h.
+    pub log_step: f64,
     /// The companion has the other element on the same mesh.
     pub same_mesh: bool,
 }
@@ -48,7 +48,7 @@ impl Setting {
     pub(super) fn force(self) -> Quantity {
         let fitted = FITTED.errors;
         let balanced = fitted.hidden_force_of(self.element);
-        let hidden = (balanced * self.penetration).hypot(fitted.lost_by_steps / (self.steps as f64).powi(2));
+        let hidden = (balanced * self.penetration).hypot(fitted.lost_by_steps * self.log_step.powi(2));
         let share = if self.same_mesh { 0.0 } else { fitted.force_share };
         Quantity { smooth: polynomial::<3>, share, widened: 0.0, hidden, safety: 1.0 }
     }
@@ -154,13 +154,19 @@ impl Difference {
         let within = self.points.iter().zip(&self.ripple).filter(|([x, _], _)| (from..=to).contains(x));
         let largest = |[smooth, rest, own]: [f64; 3], ([x, d], ripple): (&[f64; 2], &f64)| {
             // all of it where nothing is smooth
-            let even = self.smooth(*x).map_or(*d, |[even, _]| even);
-            [smooth.max(even.abs()), rest.max((d - even).abs()), own.max(ripple.abs())]
+            let [even, share] = self.smooth(*x).unwrap_or([*d, 0.0]);
+            [smooth.max(self.kept(share) * even.abs()), rest.max((d - even).abs()), own.max(ripple.abs())]
         };
         let [smooth, rest, own] = within.fold([0.0; 3], largest);
         // the companion ripples more; the run itself has kinks that are no ripple
-        let seen = smooth.hypot(FITTED.errors.rest_in_bound * rest.min(own));
-        (self.of.safety * seen).hypot(self.of.hidden)
+        let rest = self.of.safety * FITTED.errors.rest_in_bound * rest.min(own);
+        smooth.hypot(rest).hypot(self.of.hidden)
+    }
+
+    /// Factor of the smooth part in a bound after this share of it is taken off: where none is, nothing is
+    /// known of its order.
+    fn kept(&self, share: f64) -> f64 {
+        if share > 0.0 { FITTED.errors.smooth_in_bound } else { self.of.safety }
     }
 
     pub fn whole(&self) -> f64 {
@@ -198,7 +204,7 @@ mod tests {
         symmetry: Symmetry::Axisymmetric,
         element: ElementChoice::Q8r,
         penetration: 0.0,
-        steps: 1000,
+        log_step: 1e-3,
         same_mesh: false,
     };
 

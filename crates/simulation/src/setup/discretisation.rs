@@ -45,9 +45,9 @@ struct Choice {
 /// The levels from coarse to fine: the promised error, and in the order of [`Choice`] the numbers that keep
 /// it.
 const LEVELS: [(Accuracy, [f64; 6]); 3] = [
-    (Accuracy::Draft, [12.0, 36.0, 6.0, 1e-3, 40.0, 0.008]),
-    (Accuracy::Standard, [24.0, 72.0, 10.0, 1e-3, 60.0, 0.0042]),
-    (Accuracy::Reference, [48.0, 180.0, 24.0, 1e-4, 200.0, 0.002]),
+    (Accuracy::Draft, [10.0, 29.0, 6.0, 1e-3, 40.0, 0.008]),
+    (Accuracy::Standard, [20.0, 58.0, 10.0, 1e-3, 60.0, 0.0042]),
+    (Accuracy::Reference, [36.0, 170.0, 24.0, 1e-4, 200.0, 0.002]),
 ];
 
 impl Choice {
@@ -92,7 +92,7 @@ impl Discretisation {
         });
         // the work of ridges grows with h², that of a cone with h³: their early increments weigh more
         let ridges = scene.symmetry == Symmetry::PlaneStrain || scene.asperity.len() > 1;
-        let (steps, from) = if ridges { (steps + steps / 3, 0.003) } else { (steps, 0.02) };
+        let (steps, from) = if ridges { (steps + steps / 3, 0.0075) } else { (steps, 0.05) };
         // unloaded, contacts part one after the other, each with a kink in the curve
         let unload_steps = if ridges { 2 * unload_steps } else { unload_steps };
         // errors of step and mesh were made equal to the promise on metal of n 0.3 and grow as it hardens
@@ -147,6 +147,14 @@ impl Discretisation {
     /// Depths at the ends of the load steps as shares of the peak.
     pub fn schedule(&self) -> Vec<f64> {
         loading(self.steps, self.spacing)
+    }
+
+    /// Length of the last load step in ln h.
+    pub fn last_log_step(&self) -> f64 {
+        match self.schedule()[..] {
+            [.., before, last] => f64::ln(last / before),
+            _ => 1.0,
+        }
     }
 
     /// The part of it that a scene can give.
