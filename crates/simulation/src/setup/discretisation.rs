@@ -47,7 +47,7 @@ struct Choice {
 const LEVELS: [(Accuracy, [f64; 6]); 3] = [
     (Accuracy::Draft, [10.0, 29.0, 6.0, 1e-3, 40.0, 0.008]),
     (Accuracy::Standard, [20.0, 58.0, 10.0, 1e-3, 60.0, 0.0042]),
-    (Accuracy::Reference, [36.0, 170.0, 24.0, 1e-4, 200.0, 0.002]),
+    (Accuracy::Reference, [36.0, 200.0, 24.0, 1e-4, 200.0, 0.002]),
 ];
 
 impl Choice {
