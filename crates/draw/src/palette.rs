@@ -145,6 +145,14 @@ impl Bands {
         self
     }
 
+    /// [`Bands::band`], first looked for at `last`, the band of a neighbour: the same one as a rule.
+    pub fn band_near(&self, value: f64, last: usize) -> usize {
+        match self.edges[last..] {
+            [from, to, ..] if from <= value && value < to => last,
+            _ => self.band(value),
+        }
+    }
+
     /// The band of `value`, the outer ones beyond the ends.
     pub fn band(&self, value: f64) -> usize {
         self.edges.partition_point(|edge| *edge <= value).saturating_sub(1).min(self.colours.len() - 1)

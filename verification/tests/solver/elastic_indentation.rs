@@ -122,17 +122,21 @@ fn the_stiffness_of_unloading_is_the_slope_of_the_loading() {
     }
 }
 
-/// The contact area at the numbers of a level, against the closed forms: within the error that the run
-/// states.
+/// The contact area against the closed forms, with the elements of a level and the three next numbers: within
+/// the error that the run states on 14 of 16 meshes, the nine of ten that are asked of an area. The tools are
+/// so gentle that the closed forms hold: on a cone of 1° the surface moves inward by as much as makes the
+/// area 0.4 % smaller.
 #[test]
 fn the_area_of_a_level_is_within_its_stated_error() {
-    let (ball, slope) = (1e-3, 1.0);
+    let (ball, slope) = (1.0, 0.05);
     let radius_of_ball = |h: f64| hertz_radius(ball, h);
     let radius_of_cone = |h: f64| cone_radius(f64::to_radians(slope).tan(), h);
     let tools: [(Tool, &dyn Fn(f64) -> f64); 2] =
         [(Tool::sphere(Length(ball)), &radius_of_ball), (Tool::cone(slope), &radius_of_cone)];
-    for (tool, radius) in tools {
-        for accuracy in [Accuracy::Draft, Accuracy::Standard] {
+    let levels = [(Accuracy::Draft, 10), (Accuracy::Standard, 20)];
+    let (mut outside, mut promised) = (Vec::new(), Vec::new());
+    for ((tool, radius), (accuracy, least)) in tools.iter().flat_map(|t| levels.map(|level| (t, level))) {
+        for elements in least..least + 4 {
             let mut scene = scene(accuracy).unwrap();
             scene.material.yield_stress = None;
             scene.material.hardening_exponent = None;
@@ -140,13 +144,17 @@ fn the_area_of_a_level_is_within_its_stated_error() {
             scene.tool = tool.clone();
             scene.loading.depth = Some(Length(0.2e-6));
             scene.loading.unload = false;
-            let outcome = crush(&scene).unwrap();
-            let stated = outcome.summary.errors.contact_area;
-            let counted = outcome.rows.iter().filter(|row| row.depth >= 0.2 * outcome.summary.peak_depth);
-            let error = counted
-                .map(|row| (row.contact_area / (PI * radius(row.depth).powi(2)) - 1.0).abs())
-                .fold(0.0, f64::max);
-            assert!(error <= stated && stated < 2.0 * accuracy.promise(), "{accuracy}: {error} of {stated}");
+            scene.numerics.elements_in_contact = Some(elements);
+            let summary = crush(&scene).unwrap().summary;
+            let stated = summary.errors.contact_area;
+            let error = (summary.contact_area / (PI * radius(summary.peak_depth).powi(2)) - 1.0).abs();
+            promised.push(stated / accuracy.promise());
+            if error > stated {
+                outside.push((accuracy, elements, error, stated));
+            }
         }
     }
+    assert!(outside.len() <= 2, "{outside:?}");
+    let mean = promised.iter().sum::<f64>() / promised.len() as f64;
+    assert!(mean < 1.5, "stated over promised: {promised:?}");
 }

@@ -27,7 +27,9 @@ fn loading_to(depth: f64) -> Loading {
 /// The asperity of the paper, 5 um deep.
 fn asperity(material: Material) -> Scene {
     let cone = Asperity::cone(Length(20e-6), 10.0).rounded(Length(10e-6));
-    Scene::new(Symmetry::Axisymmetric, material, Tool::plane(), loading_to(5e-6)).with(cone)
+    let mut scene = Scene::new(Symmetry::Axisymmetric, material, Tool::plane(), loading_to(5e-6)).with(cone);
+    (scene.numerics.elements_in_contact, scene.numerics.steps) = (Some(24), Some(72));
+    scene
 }
 
 fn assert_near(a: f64, b: f64, tolerance: f64) {
@@ -36,7 +38,7 @@ fn assert_near(a: f64, b: f64, tolerance: f64) {
 
 /// The same tool back to the same place: the states are those of the reload, on a mesh and with a penalty of
 /// their own. The depth of the second load is the small difference of two; a thousandth of the first depth is
-/// 1 % of it, so of the force.
+/// 1 % of it, so of the force, and two runs of this level know it to two.
 #[test]
 fn the_tool_that_comes_back_finds_the_reload_of_one_run() {
     let mut kinematic = steel();
@@ -49,10 +51,12 @@ fn the_tool_that_comes_back_finds_the_reload_of_one_run() {
         let reload = once.rows.iter().rfind(|row| row.phase == Phase::Reload).unwrap();
         let residual = once.summary.residual_depth.unwrap();
         let again = crushed(&scene.loaded_again(Tool::plane(), loading_to(5e-6 - residual))).summary;
-        assert_near(again.peak_force, reload.force, 0.015);
+        assert_near(again.peak_force, reload.force, 0.02);
         // both are known to a third of an element, of 24 across the contact
         assert_near(again.contact_area, reload.contact_area, 0.03);
-        assert_near(again.unloading_stiffness.unwrap(), once.summary.unloading_stiffness.unwrap(), 0.01);
+        let [here, there] = [&again, &once.summary]
+            .map(|run| (run.unloading_stiffness.unwrap(), run.errors.unloading_stiffness.unwrap()));
+        assert_near(here.0, there.0, here.1 + there.1);
     }
 }
 

@@ -14,6 +14,8 @@ use asperity_verification::single_asperity::{crush, loaded};
 
 fn cone(slope: f64, depth: f64) -> Scene {
     let mut scene = loaded(Accuracy::Draft).unwrap();
+    // with fewer elements the hard penalty makes the force ripple by 2 %
+    (scene.numerics.elements_in_contact, scene.numerics.steps) = (Some(12), Some(36));
     (scene.asperity[0].slope_deg, scene.asperity[0].tip_radius) = (Some(slope), None);
     scene.loading.depth = Some(Length(depth));
     scene

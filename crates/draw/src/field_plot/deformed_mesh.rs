@@ -87,12 +87,14 @@ impl DeformedMesh {
     }
 
     /// A cell cut into `parts` × `parts` quadrilaterals, each two facets.
-    pub fn facets(&self, cell: usize, parts: usize) -> impl Iterator<Item = [Vertex; 3]> + '_ {
-        let at = move |i: usize| 2.0 * i as f64 / parts as f64 - 1.0;
+    pub fn facets(&self, cell: usize, parts: usize) -> impl Iterator<Item = [Vertex; 3]> + use<> {
+        let local = |i: usize| 2.0 * i as f64 / parts as f64 - 1.0;
+        let row = parts + 1;
+        let vertices: Vec<Vertex> =
+            (0..row * row).map(|i| self.vertex(cell, [local(i % row), local(i / row)])).collect();
         (0..parts * parts).flat_map(move |i| {
-            let (x, y) = ([at(i % parts), at(i % parts + 1)], [at(i / parts), at(i / parts + 1)]);
-            let [a, b, c, d] = [[x[0], y[0]], [x[1], y[0]], [x[1], y[1]], [x[0], y[1]]]
-                .map(|local| self.vertex(cell, local));
+            let first = (i / parts) * row + i % parts;
+            let [a, b, c, d] = [first, first + 1, first + row + 1, first + row].map(|k| vertices[k]);
             [[a, b, c], [a, c, d]]
         })
     }

@@ -87,7 +87,11 @@ impl Panel {
 
     fn contours(self, section: &Section, raster: &Raster) -> Result<Contours, String> {
         let banded = |heading: &str, i: usize, bands: Bands| {
-            let image = raster.png(&bands.colours, |dot| 1 + bands.band(f64::from(dot.values[i])) as u8)?;
+            let mut last = 0;
+            let image = raster.png(&bands.colours, |dot| {
+                last = bands.band_near(f64::from(dot.values[i]), last);
+                1 + last as u8
+            })?;
             Ok(Contours { heading: heading.into(), image, bar: Some(bands), boxes: Vec::new() })
         };
         match self {
@@ -99,9 +103,14 @@ impl Panel {
                 let bands = Bands::strain(raster.range(2)[1]);
                 let palette = [bands.colours.as_slice(), &[ELASTIC]].concat();
                 let elastic = palette.len() as u8;
+                let mut last = 0;
                 let image = raster.png(&palette, |dot| {
                     let strain = f64::from(dot.values[2]);
-                    if strain < bands.edges[0] { elastic } else { 1 + bands.band(strain) as u8 }
+                    if strain < bands.edges[0] {
+                        return elastic;
+                    }
+                    last = bands.band_near(strain, last);
+                    1 + last as u8
                 })?;
                 let least = 100.0 * bands.edges[0];
                 let heading = format!("accumulated plastic strain (%); pale: elastic, or below {least} %");

@@ -8,6 +8,9 @@ use crate::palette::Colour;
 /// Dots a facet covers at most along a side.
 const FACET: f64 = 6.0;
 
+/// Share of a corner, below 0, to which a dot counts as inside: facets leave no gap between them.
+const OUTSIDE: f64 = 1e-9;
+
 /// The fields at every dot.
 pub struct Raster {
     /// Columns and rows of dots.
@@ -63,24 +66,38 @@ impl Raster {
         if area == 0.0 || !area.is_finite() {
             return;
         }
-        let span = |k: usize| {
-            let (low, high) = (a[k].min(b[k]).min(c[k]), a[k].max(b[k]).max(c[k]));
-            let end = self.size[k] as f64;
-            (low - 0.5).ceil().clamp(0.0, end) as usize..(high + 0.5).floor().clamp(0.0, end) as usize
+        let per_area = area.recip();
+        let end = self.size.map(|dots| dots as f64);
+        let first = |from: f64, end: f64| (from - 0.5).ceil().clamp(0.0, end) as usize;
+        let after = |to: f64, end: f64| (to + 0.5).floor().clamp(0.0, end) as usize;
+        let [top, bottom] = [a[1].min(b[1]).min(c[1]), a[1].max(b[1]).max(c[1])];
+        let [left, right] = [a[0].min(b[0]).min(c[0]), a[0].max(b[0]).max(c[0])];
+        // shares of the corners, which change evenly along a row of dots
+        let sides = [[b, c], [c, a], [a, b]];
+        let growth = sides.map(|[q, s]| (q[1] - s[1]) * per_area);
+        let values = |shares: [f64; 3]| {
+            [0, 1, 2, 3, 4].map(|i| (0..3).map(|k| shares[k] * facet[k].values[i]).sum::<f64>())
         };
-        let (columns, rows) = (span(0), span(1));
-        for y in rows {
-            for x in columns.clone() {
-                let p = [x as f64 + 0.5, y as f64 + 0.5];
-                let share = |q: [f64; 2], s: [f64; 2]| {
-                    ((q[0] - p[0]) * (s[1] - p[1]) - (q[1] - p[1]) * (s[0] - p[0])) / area
-                };
-                let weights = [share(b, c), share(c, a), share(a, b)];
-                if weights.iter().all(|w| *w >= -1e-9) {
-                    let value =
-                        |i: usize| (0..3).map(|k| weights[k] * facet[k].values[i]).sum::<f64>() as f32;
-                    self.dots[y * self.size[0] + x] = Some(Dot { values: [0, 1, 2, 3, 4].map(value) });
+        let value_growth = values(growth);
+        for y in first(top, end[1])..after(bottom, end[1]) {
+            let (row, y) = (y * self.size[0], y as f64 + 0.5);
+            let shares = sides.map(|[q, s]| (q[0] * (s[1] - y) - (q[1] - y) * s[0]) * per_area);
+            let [mut from, mut to] = [left, right];
+            for (share, growth) in shares.iter().zip(growth) {
+                // from here the share is positive, or up to here
+                let zero = -(share + OUTSIDE) / growth;
+                match growth {
+                    growth if growth > 0.0 => from = from.max(zero),
+                    growth if growth < 0.0 => to = to.min(zero),
+                    _ if *share < -OUTSIDE => to = f64::NEG_INFINITY,
+                    _ => {}
                 }
+            }
+            let at_left = values(shares);
+            for x in first(from, end[0])..after(to, end[0]) {
+                let along = x as f64 + 0.5;
+                let values = [0, 1, 2, 3, 4].map(|i| (at_left[i] + along * value_growth[i]) as f32);
+                self.dots[row + x] = Some(Dot { values });
             }
         }
     }
@@ -94,8 +111,8 @@ impl Raster {
     ///
     /// # Errors
     /// A text for a person where the picture cannot be encoded.
-    pub fn png(&self, palette: &[Colour], colour: impl Fn(&Dot) -> u8) -> Result<Vec<u8>, String> {
-        let indices: Vec<u8> = self.dots.iter().map(|dot| dot.as_ref().map_or(0, &colour)).collect();
+    pub fn png(&self, palette: &[Colour], mut colour: impl FnMut(&Dot) -> u8) -> Result<Vec<u8>, String> {
+        let indices: Vec<u8> = self.dots.iter().map(|dot| dot.as_ref().map_or(0, &mut colour)).collect();
         indexed_png(self.size, palette, &indices)
     }
 }

@@ -166,7 +166,7 @@ impl Difference {
     /// Factor of the smooth part in a bound after this share of it is taken off: where none is, nothing is
     /// known of its order.
     fn kept(&self, share: f64) -> f64 {
-        if share > 0.0 { FITTED.errors.smooth_in_bound } else { self.of.safety }
+        if share > 0.0 { self.of.safety * FITTED.errors.smooth_in_bound } else { self.of.safety }
     }
 
     pub fn whole(&self) -> f64 {

@@ -142,7 +142,8 @@ fn periodic_part(depth: &[f64], value: &[f64], ends: &[Ends]) -> Option<(usize, 
         depth[i] > 0.0 && value[i] > 0.0 && value[i].is_finite() && ends[i].iter().all(|s| s.is_finite())
     };
     let begin = value.len() - (0..value.len()).rev().take_while(|&i| touches(i)).count();
-    let x: Vec<f64> = depth[begin..].iter().map(|h| h.ln()).collect();
+    // over those of the last row: a logarithm of metres would know the unit by its last digits
+    let x = logarithms(&depth[begin..])?;
     // both ends advance; the axis does not
     let outward = [
         ends[begin..].iter().map(|[inner, _]| -inner).collect(),
@@ -156,7 +157,7 @@ fn periodic_part(depth: &[f64], value: &[f64], ends: &[Ends]) -> Option<(usize, 
     if x.len() < LEAST_ROWS || fronts.iter().any(|s| travelled(s) < LEAST_PERIODS) {
         return None;
     }
-    let y: Vec<f64> = value[first..].iter().map(|v| v.ln()).collect();
+    let y = logarithms(&value[first..])?;
     // the front itself moves by jerks: harmonics of its even advance are fewer
     let even: Vec<Vec<f64>> = fronts.iter().map(|s| spline(x, 2).fitted(s)).collect();
     let mut part = average_fit(x, &y, &even)?;
@@ -166,6 +167,12 @@ fn periodic_part(depth: &[f64], value: &[f64], ends: &[Ends]) -> Option<(usize, 
         *part *= in_all.clamp(0.0, 1.0);
     }
     Some((first, part)).filter(|(_, part)| part.iter().all(|p| p.is_finite()))
+}
+
+/// Logarithms of numbers over the last of them; `None` of none.
+fn logarithms(numbers: &[f64]) -> Option<Vec<f64>> {
+    let last = numbers.last()?;
+    Some(numbers.iter().map(|number| (number / last).ln()).collect())
 }
 
 /// Edges that a front passes in all.

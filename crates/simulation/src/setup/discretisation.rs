@@ -337,7 +337,7 @@ mod tests {
     #[test]
     fn a_smaller_error_is_promised_by_finer_numbers() {
         let mut before = Choice::for_promise(0.05);
-        assert_eq!((before.elements, before.steps, before.tolerance), (12, 36, 1e-3));
+        assert_eq!((before.elements, before.steps, before.tolerance), (10, 29, 1e-3));
         for promise in [0.03, 0.02, 0.01, 0.007, 0.005, 0.003, 0.002] {
             let next = Choice::for_promise(promise);
             assert!(next.elements > before.elements && next.steps > before.steps, "{promise}");
@@ -346,6 +346,6 @@ mod tests {
             assert!(next.unload_steps >= before.unload_steps && next.penetration <= before.penetration);
             before = next;
         }
-        assert_eq!((before.elements, before.steps, before.domain), (48, 180, 200.0));
+        assert_eq!((before.elements, before.steps, before.domain), (36, 200, 200.0));
     }
 }
