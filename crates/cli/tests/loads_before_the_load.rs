@@ -79,7 +79,8 @@ fn a_load_too_light_for_its_surface_ends_with_that_reason() {
     let scene = |depth: &str| {
         format!(
             "symmetry = \"axisymmetric\"\n{STEEL}[tool]\nshape = \"cone\"\nslope_deg = 12\ntip_radius = \"1 um\"\n\
-             [loading]\ndepth = \"{depth}\"\n{}",
+             [loading]\ndepth = \"{depth}\"\n\
+             [numerics]\nelements_in_contact = 14\nsteps = 90\n{}",
             ball_before("1 um")
         )
     };
