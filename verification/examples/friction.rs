@@ -102,7 +102,13 @@ fn punches(report: &mut Report) -> Done {
                 scene.substrate =
                     Some(Substrate { radius: Some(Length(400e-6)), depth: Some(Length(400e-6)) });
             }
-            let summary = crush(&with_friction(scene, friction))?.summary;
+            // of the 27 elements of `standard` one lies so at the rounded edge that no equilibrium is found
+            scene.numerics.elements_in_contact = Some(40);
+            let outcome = crush(&with_friction(scene, friction))?;
+            if let Some(stopped) = outcome.stopped {
+                return Err(format!("the {name} stopped: {}", stopped.reason).into());
+            }
+            let summary = outcome.summary;
             let pressure = summary.peak_force / summary.contact_area;
             report
                 .line(&format!("| {name} | {word} | {:.3} | {theory} |", pressure * 3_f64.sqrt() / strength));
