@@ -109,7 +109,7 @@ impl Measured {
 struct Turn {
     /// The reading with which the loading ends: a hold may follow.
     first: usize,
-    /// The last reading before the way back.
+    /// The deepest reading, the last one before the way back.
     last: usize,
     /// Depth there, and the mean force of the readings at that depth.
     peak: [f64; 2],
@@ -121,9 +121,10 @@ fn turn(readings: &[[f64; 2]], most: f64) -> Turn {
     let high = |p: &[f64; 2]| p[1] >= DEEPEST_FORCE_SHARE * most;
     let deepest = readings.iter().filter(|p| high(p)).map(|p| p[0]).fold(f64::NEG_INFINITY, f64::max);
     let at_the_turn = |p: &[f64; 2]| high(p) && p[0] >= deepest - (1.0 - TURN_DEPTH_SHARE) * deepest.abs();
-    let turned: Vec<f64> = readings.iter().filter(|p| at_the_turn(p)).map(|p| p[1]).collect();
+    let last = readings.iter().position(|p| high(p) && p[0] >= deepest).unwrap_or(0);
+    // the way back, which is steep, is no part of it
+    let turned: Vec<f64> = readings[..=last].iter().filter(|p| at_the_turn(p)).map(|p| p[1]).collect();
     let force = turned.iter().sum::<f64>() / turned.len().max(1) as f64;
-    let last = readings.iter().rposition(at_the_turn).unwrap_or(0);
     let first = readings.iter().position(|p| p[1] >= PEAK_FORCE_SHARE * force).unwrap_or(0).min(last);
     Turn { first, last, peak: [readings[last][0], force] }
 }
@@ -274,6 +275,22 @@ mod tests {
         let measured = Measured::new(&readings).unwrap();
         assert_eq!((measured.peak, measured.loaded), ([1e-6, 5e-3], 1e-6));
         assert!(measured.notes.is_empty(), "{:?}", measured.notes);
+    }
+
+    /// However dense the readings are, the steep way back beside the turn is no hold, nor part of its force.
+    #[test]
+    fn a_dense_curve_without_a_hold_has_none() {
+        for count in [40, 200, 1000, 20_000] {
+            let mut readings = loaded(count);
+            let back = (1..count).map(|i| i as f64 / count as f64);
+            readings.extend(back.map(|way| [1e-6 * (1.0 - 0.1 * way), 5e-3 * (1.0 - way).powf(1.3)]));
+            let measured = Measured::new(&readings).unwrap();
+            assert!(measured.notes.is_empty(), "{count}: {:?}", measured.notes);
+            assert!(
+                (measured.peak[1] / 5e-3 - 1.0).abs() < 2e-3 && measured.loaded == measured.peak[0],
+                "{count}"
+            );
+        }
     }
 
     #[test]

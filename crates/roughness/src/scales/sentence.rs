@@ -3,7 +3,7 @@
 use super::follow::Scales;
 use super::numbers::{By, Numbers};
 use super::quantities::Quantity;
-use super::verdict::{Class, Verdict};
+use super::verdict::{Class, FROM, Verdict};
 use asperity_material::units::rounded;
 
 /// The mean pressure of the limited half-space from this share of the limit on counts as ended by it.
@@ -108,7 +108,10 @@ impl Scales {
             Class::MapTooSmall => None,
             Class::Converged => {
                 let from = micrometres(found.from.unwrap_or(self.whole()));
-                Some(format!("{words} is decided by waves longer than {from} um (to {error} %)"))
+                let within = percent(found.error.unwrap_or(0.0).max(FROM));
+                Some(format!(
+                    "{words} is decided by waves longer than {from} um (to {within} %; all waves give it to {error} %)"
+                ))
             }
             Class::Converging => {
                 let [now, end] =

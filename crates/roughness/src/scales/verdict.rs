@@ -22,7 +22,7 @@ const LARGEST_ERROR: f64 = 0.5;
 /// Octaves from the pixel up that a verdict is made of.
 const OCTAVES: usize = 3;
 /// Values within this share of the last count as that from which on the quantity has converged.
-const FROM: f64 = 0.05;
+pub(super) const FROM: f64 = 0.05;
 
 /// The class of a verdict.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
