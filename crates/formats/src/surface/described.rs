@@ -15,6 +15,8 @@ pub(super) struct Described {
     pixel: [Option<f64>; 2],
     wavelength: Option<f64>,
     height_unit_name: String,
+    /// Columns and rows of the map, with the line that names them.
+    counts: [Option<(usize, usize)>; 2],
 }
 
 /// A remark `key: value`.
@@ -125,6 +127,43 @@ const X: &[&str] =
 const Y: &[&str] =
     &["y", "dy", "pixel height", "delta y", "pas y", "ypixelsize", "y increment", "y scale", "y pitch"];
 
+/// Names of the numbers of columns and rows, which stand without a unit.
+const COLUMNS: &[&str] = &[
+    "x pixels",
+    "x pixel",
+    "pixels x",
+    "nx",
+    "ncols",
+    "ncolumns",
+    "cols",
+    "columns",
+    "number of columns",
+    "dim x",
+    "x dim",
+    "x points",
+    "points x",
+    "horizontal",
+    "width pixels",
+    "width in pixels",
+];
+const ROWS: &[&str] = &[
+    "y pixels",
+    "y pixel",
+    "pixels y",
+    "ny",
+    "nrows",
+    "rows",
+    "number of rows",
+    "dim y",
+    "y dim",
+    "y points",
+    "points y",
+    "vertical",
+    "vertikal",
+    "height pixels",
+    "height in pixels",
+];
+
 impl Described {
     /// Reads the lines before the heights.
     ///
@@ -140,6 +179,7 @@ impl Described {
         }
         for remark in &remarks {
             said.take_length(remark);
+            said.take_count(remark);
         }
         if said.size == [None; 2] && said.pixel == [None; 2] {
             said.take_by_place(&remarks);
@@ -215,6 +255,41 @@ impl Described {
         } else if HEIGHT.contains(&key) {
             set(&mut self.size[1], first);
         }
+    }
+
+    /// A whole number of columns or rows: `X pixels = 128`, `Width [px]: 128`, `X size,128,pixel`.
+    fn take_count(&mut self, remark: &Remark) {
+        const PIXELS: [&str; 7] = ["px", "pix", "pixel", "pixels", "points", "pts", "pt"];
+        let mut words = remark.value.split([' ', ',', '(', '[']).filter(|word| !word.is_empty());
+        let Some(Ok(count)) = words.next().map(str::parse::<usize>) else { return };
+        let unit = remark.key_unit.as_deref().or(words.next()).map(|word| word.trim_end_matches([']', ')']));
+        let key = remark.key.as_str();
+        let is_of_pixels = unit.is_some_and(|unit| PIXELS.contains(&unit.to_lowercase().as_str()));
+        if unit.is_some() && !is_of_pixels {
+            return;
+        }
+        for (slot, names, sizes) in [(0, COLUMNS, WIDTH), (1, ROWS, HEIGHT)] {
+            if names.contains(&key) || is_of_pixels && sizes.contains(&key) {
+                self.counts[slot] = self.counts[slot].or(Some((count, remark.line)));
+            }
+        }
+    }
+
+    /// Compares the columns and rows that the words name with those that were found.
+    ///
+    /// # Errors
+    /// Others than were found.
+    pub fn refuse_counts(&self, columns: usize, rows: usize, request: &Request<'_>) -> Result<(), ReadError> {
+        for (said, found, what) in [(self.counts[0], columns, "columns"), (self.counts[1], rows, "rows")] {
+            if let Some((count, line)) = said.filter(|(count, _)| *count != found && !request.override_file) {
+                let problem = format!(
+                    "says {count} {what}, but {found} were found (the map has {columns} columns and {rows} rows): take off \
+                     {what} that hold no heights, correct this line or delete it, or set override = true"
+                );
+                return Err(TextError::new(line, problem).into());
+            }
+        }
+        Ok(())
     }
 
     /// Gwyddion writes width, height and unit of the values below each other, in any language.

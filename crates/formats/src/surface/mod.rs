@@ -6,6 +6,7 @@ mod measured;
 
 mod al3d;
 mod archive;
+mod axes;
 mod datx;
 mod described;
 mod foreign;

@@ -1,6 +1,7 @@
 //! Text: rows of heights, or points x y z of a regular grid in any order. The shape of a table is doubted:
 //! a profile is no map.
 
+use super::axes::{self, Axes};
 use super::described::Described;
 use super::measured::{Measured, ReadError, Request, Spacing};
 use super::points::onto_grid;
@@ -68,14 +69,26 @@ pub(super) fn read(path: &Path, request: &Request<'_>) -> Result<Measured, ReadE
         return points(grid, &columns, &said, notes);
     }
     refuse_profile(&grid)?;
-    let axes = take_axes(&mut grid);
-    if axes.is_some() {
-        notes.push("the first row and column are places along x and y".into());
+    let axes = axes::take(&mut grid)?.unwrap_or_default();
+    if !axes.said.is_empty() {
+        notes.push(axes.said.clone());
     }
     let (columns, rows) = (grid.columns, grid.rows());
-    let spacing = said.spacing(columns, rows).or(axes).unwrap_or(Spacing::Unknown);
+    said.refuse_counts(columns, rows, request)?;
+    let spacing = said.spacing(columns, rows).or_else(|| between(&axes, &said)).unwrap_or(Spacing::Unknown);
     notes.extend(said.notes());
-    Ok(Measured { columns, rows, heights: grid.values, spacing, height_unit: said.height_unit, notes })
+    let height_unit = said.height_unit.or(axes.height_unit);
+    Ok(Measured { columns, rows, heights: grid.values, spacing, height_unit, notes })
+}
+
+/// Distance of the points by the places beside them.
+fn between(axes: &Axes, said: &Described) -> Option<Spacing> {
+    // one side alone tells of square pixels
+    let (x, y) = (axes.steps[0].or(axes.steps[1])?, axes.steps[1].or(axes.steps[0])?);
+    Some(match axes.lateral_unit.or(said.lateral_unit) {
+        Some(unit) => Spacing::Metres([x * unit, y * unit]),
+        None => Spacing::HeightUnits([x, y]),
+    })
 }
 
 /// The columns of x, y and z where a header or the request names them.
@@ -167,28 +180,4 @@ fn refuse_profile(grid: &Grid<'_>) -> Result<(), ReadError> {
         return Ok(());
     };
     Err(TextError::new(grid.lines[0], problem).into())
-}
-
-/// Takes off a first row and a first column that are places along x and y, as an empty corner says, and gives
-/// their steps; mere numbers of rows and columns say nothing.
-fn take_axes(grid: &mut Grid<'_>) -> Option<Spacing> {
-    let (columns, rows) = (grid.columns, grid.rows());
-    if columns < 3 || rows < 3 || !grid.values[0].is_nan() {
-        return None;
-    }
-    let across = even_step(&grid.values[1..columns])?;
-    let down: Vec<f64> = grid.values.iter().step_by(columns).skip(1).copied().collect();
-    let steps = [across, even_step(&down)?];
-    let starts = [grid.values[1], down[0]];
-    grid.values = grid.values.chunks_exact(columns).skip(1).flat_map(|row| row[1..].to_vec()).collect();
-    grid.columns -= 1;
-    let are_numbers = steps == [1.0; 2] && starts.iter().all(|s| *s == 0.0 || *s == 1.0);
-    Some(if are_numbers { Spacing::Unknown } else { Spacing::HeightUnits(steps) })
-}
-
-/// The step of places that are evenly apart.
-fn even_step(places: &[f64]) -> Option<f64> {
-    let step = (places.last()? - places.first()?) / (places.len() - 1) as f64;
-    let even = places.windows(2).all(|p| ((p[1] - p[0]) / step - 1.0).abs() < 1e-2);
-    (even && step != 0.0).then_some(step.abs())
 }

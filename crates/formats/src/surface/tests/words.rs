@@ -171,3 +171,92 @@ fn the_notes_say_what_was_understood() {
         assert!(said.contains(words), "{said}");
     }
 }
+
+/// Rough heights without a line that is straight, um.
+fn rough(i: usize, j: usize) -> f64 {
+    ((i * 37 + j * 61 + i * j * 7) % 101) as f64 / 100.0
+}
+
+/// Rows of a map with `corner` and places above and beside it where asked for.
+fn with_places(corner: &str, row: bool, column: bool, step: f64, [nx, ny]: [usize; 2]) -> String {
+    let mut text = String::new();
+    let line = |cells: Vec<String>| cells.join(",") + "\n";
+    let place = |k: usize| format!("{:.2}", k as f64 * step + 0.5);
+    if row {
+        let first = column.then(|| corner.to_string());
+        text += &line(first.into_iter().chain((0..nx).map(place)).collect());
+    }
+    for j in 0..ny {
+        let first = column.then(|| place(j));
+        text += &line(first.into_iter().chain((0..nx).map(|i| rough(i, j).to_string())).collect());
+    }
+    text
+}
+
+#[test]
+fn places_are_known_whatever_stands_in_their_corner() {
+    let sizes = [12, 9];
+    for (corner, row, column) in [
+        ("", true, true),
+        ("0", true, true),
+        ("y\\x (um)", true, true),
+        ("Height [um]", true, true),
+        ("DataLine", true, true),
+        ("0.00", true, true),
+        ("", false, true),
+        ("", true, false),
+    ] {
+        let text = format!("Unit,um\n{}", with_places(corner, row, column, 0.5, sizes));
+        let map = found("a.csv", &text).unwrap();
+        assert_eq!([map.columns, map.rows], sizes, "{corner} {:?}", map.notes);
+        assert!((0..108).all(|k| (map.heights[k] - rough(k % 12, k / 12)).abs() < 1e-12), "{corner}");
+        assert_eq!(map.height_unit, Some(1e-6));
+        let (Spacing::Metres([x, y]) | Spacing::HeightUnits([x, y])) = map.spacing else {
+            panic!("{corner}")
+        };
+        let unit = if matches!(map.spacing, Spacing::Metres(_)) { 1e-6 } else { 1.0 };
+        assert!((x / unit - 0.5).abs() < 1e-9 && (y / unit - 0.5).abs() < 1e-9, "{corner} {x} {y}");
+        assert!(map.notes.iter().any(|note| note.contains("not as heights")), "{:?}", map.notes);
+    }
+    // numbers of rows beside a size in words
+    let numbered: String = with_places("", false, true, 1.0, sizes).replace(".50,", ",");
+    let map = found("a.csv", &format!("Pixel size,0.5,um\nUnit,um\nX pixels = 12\n{numbered}")).unwrap();
+    assert_eq!(([map.columns, map.rows], map.spacing), (sizes, Spacing::Metres([0.5e-6; 2])));
+}
+
+#[test]
+fn tilted_planes_keep_their_first_row_and_column() {
+    let table = |height: &dyn Fn(usize, usize) -> f64| -> String {
+        let row = |j: usize| (0..12).map(|i| height(i, j).to_string()).collect::<Vec<_>>().join(" ");
+        (0..10).map(|j| row(j) + "\n").collect()
+    };
+    let planes: [(&str, &dyn Fn(usize, usize) -> f64); 6] = [
+        ("along x", &|i, _| i as f64),
+        ("along y", &|_, j| 0.25 * j as f64),
+        ("along both", &|i, j| 0.5 * i as f64 + 2.0 * j as f64),
+        ("twisted", &|i, j| (i + 1) as f64 * (j + 1) as f64),
+        ("of whole numbers", &|i, j| (1.04 * j as f64 + 0.01 * i as f64).round()),
+        ("with a hole", &|i, j| if (i, j) == (1, 4) { NAN } else { j as f64 }),
+    ];
+    for (name, height) in planes {
+        let map = found("a.txt", &table(height)).unwrap();
+        assert_eq!([map.columns, map.rows], [12, 10], "{name} {:?}", map.notes);
+    }
+}
+
+#[test]
+fn numbers_of_columns_and_rows_in_words_must_be_those_of_the_map() {
+    let body: String = (0..4).map(|j| format!("{} {} {}\n", rough(0, j), rough(1, j), rough(2, j))).collect();
+    for (words, line, counts) in [
+        ("X pixels = 2\nY pixels = 4\n", 1, ["2 columns", "3 were found"]),
+        ("ncols 3\nnrows 5\n", 2, ["5 rows", "4 were found"]),
+        ("Width [px]: 4\nWidth [um]: 3\n", 1, ["4 columns", "3 were found"]),
+    ] {
+        let refused = found("a.txt", &format!("{words}{body}")).unwrap_err();
+        assert!(refused.contains(&format!("line {line}")), "{refused}");
+        assert!(counts.iter().all(|count| refused.contains(count)), "{refused}");
+        let forced = Request { override_file: true, ..Request::default() };
+        assert!(asked("a.txt", &format!("{words}{body}"), &forced).is_ok());
+    }
+    assert!(found("a.txt", &format!("X pixels = 3\nY pixels: 4 px\n{body}")).is_ok());
+}
