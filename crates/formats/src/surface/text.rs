@@ -5,6 +5,7 @@ use super::axes::{self, Axes};
 use super::described::Described;
 use super::measured::{Measured, ReadError, Request, Spacing};
 use super::points::onto_grid;
+use super::titled;
 use crate::dimension::Dimension;
 use crate::text::{Asked, Columns, Grid, Header, Quantity, TextError, decode, read_grid};
 use std::path::Path;
@@ -44,6 +45,9 @@ pub(super) fn read(path: &Path, request: &Request<'_>) -> Result<Measured, ReadE
     let data = request.read_file(path)?;
     let (text, encoding) =
         decode(&data).map_err(|e| ReadError::Unknown { found: format!("the file {}", e.message) })?;
+    if let Some(known) = titled::read(&text, request) {
+        return known;
+    }
     let mut grid = read_grid(&text, request.missing_value)?;
     let mut notes = vec![format!("{encoding} {}", grid.describe())];
     let said = Described::new(&grid.before, request)?;
@@ -136,6 +140,13 @@ fn points(
         [Some(x), Some(y)] => Spacing::Metres([placed.step[0] * x, placed.step[1] * y]),
         [None, None] => match said.lateral_unit {
             Some(unit) => Spacing::Metres(placed.step.map(|step| step * unit)),
+            // numbers of pixels say nothing of their size
+            None if placed.step == [1.0; 2]
+                && points.iter().all(|p| p[0].fract() == 0.0 && p[1].fract() == 0.0) =>
+            {
+                notes.push("x and y without a unit count pixels".into());
+                Spacing::Unknown
+            }
             None => Spacing::HeightUnits(placed.step),
         },
         _ => return Err(TextError::whole("names the unit of one of x and y: name both, or none").into()),
