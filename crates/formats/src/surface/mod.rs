@@ -13,6 +13,7 @@ mod foreign;
 mod gsf;
 mod gwy;
 mod keyence;
+mod marks;
 mod metropro;
 mod nanoscope;
 mod npy;

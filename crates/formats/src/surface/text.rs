@@ -3,6 +3,7 @@
 
 use super::axes::{self, Axes};
 use super::described::Described;
+use super::marks;
 use super::measured::{Measured, ReadError, Request, Spacing};
 use super::points::onto_grid;
 use super::titled;
@@ -14,6 +15,8 @@ use std::path::Path;
 const MOST_COLUMNS_OF_POINTS: usize = 8;
 /// Rows per column from which a table of up to three columns is no map.
 const ROWS_OF_NO_MAP: usize = 16;
+/// Ratio of the sides of a pixel beyond which something is said of it.
+const MOST_UNEQUAL_PIXELS: f64 = 3.0;
 /// Rows from which a column that rises or falls all the way is no chance.
 const ROWS_OF_A_PROFILE: usize = 4;
 
@@ -45,10 +48,25 @@ pub(super) fn read(path: &Path, request: &Request<'_>) -> Result<Measured, ReadE
     let data = request.read_file(path)?;
     let (text, encoding) =
         decode(&data).map_err(|e| ReadError::Unknown { found: format!("the file {}", e.message) })?;
-    if let Some(known) = titled::read(&text, request) {
-        return known;
+    let mut map = match titled::read(&text, request) {
+        Some(known) => known?,
+        None => read_table(path, &text, &encoding, request)?,
+    };
+    marks::refuse(&map.heights, request)?;
+    let unequal = |[x, y]: [f64; 2]| x > MOST_UNEQUAL_PIXELS * y || y > MOST_UNEQUAL_PIXELS * x;
+    if let Spacing::Metres([x, y]) = map.spacing
+        && unequal([x, y])
+    {
+        map.notes.push(format!(
+            "pixels of {x:.3e} m along x and {y:.3e} m along y are very unequal: look whether both are right"
+        ));
     }
-    let mut grid = read_grid(&text, request.missing_value)?;
+    Ok(map)
+}
+
+/// Reads rows of heights or of points.
+fn read_table(path: &Path, text: &str, encoding: &str, request: &Request<'_>) -> Result<Measured, ReadError> {
+    let mut grid = read_grid(text, request.missing_value)?;
     let mut notes = vec![format!("{encoding} {}", grid.describe())];
     let said = Described::new(&grid.before, request)?;
     let is_xyz = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("xyz"));
@@ -77,6 +95,8 @@ pub(super) fn read(path: &Path, request: &Request<'_>) -> Result<Measured, ReadE
     if !axes.said.is_empty() {
         notes.push(axes.said.clone());
     }
+    notes.extend(said.take_missing(grid.values.iter_mut()));
+    said.refuse_scale(&grid.values, request)?;
     let (columns, rows) = (grid.columns, grid.rows());
     said.refuse_counts(columns, rows, request)?;
     let spacing = said.spacing(columns, rows).or_else(|| between(&axes, &said)).unwrap_or(Spacing::Unknown);
@@ -127,13 +147,14 @@ fn points(
         let problem = format!("{} numbers, but the header names more columns", grid.columns);
         return Err(TextError::new(grid.lines[0], problem).into());
     }
-    let points: Vec<[f64; 3]> = grid
+    let mut points: Vec<[f64; 3]> = grid
         .values
         .chunks_exact(grid.columns)
         .map(|row| [row[place(0)], row[place(1)], row[place(2)]])
         .collect();
     let scales = [0, 1].map(|k| picks[k].scale);
     drop(grid.values);
+    notes.extend(said.take_missing(points.iter_mut().map(|p| &mut p[2])));
     let placed = onto_grid(&points).map_err(|problem| TextError::new(grid.lines[0], problem))?;
     notes.extend(placed.note);
     let spacing = match scales {

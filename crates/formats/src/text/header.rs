@@ -4,6 +4,7 @@ use super::dialect::{Dialect, Separator};
 use super::heading::{Heading, Quantity, folded};
 use super::{TextError, shortened};
 use crate::dimension::Dimension;
+use crate::units::conversion;
 
 /// What is known of a table beside its text.
 #[derive(Clone, Copy, Debug)]
@@ -250,7 +251,11 @@ impl<'t> Header<'t> {
 
     fn without_unit(&self, head: &Heading, quantity: &Quantity) -> TextError {
         let found = match &head.unit {
-            Some(unit) => format!("has the unit \"{}\", which is not known", shortened(unit)),
+            Some(unit) => {
+                let factor =
+                    conversion(unit).map_or(String::new(), |factor| format!(" (1 {unit} is {factor})"));
+                format!("has the unit \"{}\", which is not known{factor}", shortened(unit))
+            }
             None => "has no unit".into(),
         };
         TextError::new(

@@ -260,3 +260,73 @@ fn numbers_of_columns_and_rows_in_words_must_be_those_of_the_map() {
     }
     assert!(found("a.txt", &format!("X pixels = 3\nY pixels: 4 px\n{body}")).is_ok());
 }
+
+#[test]
+fn marks_of_missing_points_are_honoured_or_asked_for() {
+    for words in
+        ["ncols 3\nnrows 2\nNODATA_value -9999\n", "Invalid value: -9999\n", "# missing_value = -9999\n"]
+    {
+        let map = found("a.txt", &format!("{words}1 2 3\n4 -9999 6\n")).unwrap();
+        same(&map, [1.0, 2.0, 3.0, 4.0, NAN, 6.0], 1.0);
+        assert!(
+            map.notes.iter().any(|note| note.contains("1 points of -9999 are missing")),
+            "{:?}",
+            map.notes
+        );
+    }
+    let points =
+        found("a.xyz", "# no data value: -9999\n0 0 1\n2 0 2\n4 0 3\n0 1 4\n2 1 -9999\n4 1 6\n").unwrap();
+    same(&points, [1.0, 2.0, 3.0, 4.0, NAN, 6.0], 1.0);
+    for mark in [-32768.0, -9999.0, 32767.0, 9999.0] {
+        let text = format!("1 2 3\n4 {mark} 6\n");
+        let refused = found("a.txt", &text).unwrap_err();
+        assert!(refused.contains(&format!("missing_value = {mark}")), "{refused}");
+        let told = Request { missing_value: Some(mark), ..Request::default() };
+        same(&asked("a.txt", &text, &told).unwrap(), [1.0, 2.0, 3.0, 4.0, NAN, 6.0], 1.0);
+        let forced = Request { override_file: true, ..Request::default() };
+        assert_eq!(asked("a.txt", &text, &forced).unwrap().heights[4], mark);
+    }
+    // a height among others
+    assert!(found("a.txt", "9000 9500 9999\n8000 8100 9800\n").is_ok());
+}
+
+#[test]
+fn one_size_gives_square_pixels_or_none() {
+    let wide = "1 2 3\n4 nan 6\n";
+    let map = found("a.txt", &format!("Scan size: 6 um\nZ unit: nm\n{wide}")).unwrap();
+    is_of(&map, [2e-6; 2], 1e-9);
+    assert!(map.notes.iter().any(|note| note.contains("square")), "{:?}", map.notes);
+    for (words, body) in
+        [("Scan size: 6 um\nAspect ratio: 1:1\n", wide), ("Scan size: 6 um\n", "1 2\n3 nan\n5 6\n")]
+    {
+        assert_eq!(found("a.txt", &format!("{words}{body}")).unwrap().spacing, Spacing::Unknown, "{words}");
+    }
+    let sides =
+        found("a.txt", &format!("Width: 6 um\nLength: 2 um\nHeight: 0.5 um\nunit: nm\n{wide}")).unwrap();
+    is_of(&sides, [2e-6, 1e-6], 1e-9);
+    let thin = found("a.txt", &format!("dx = 2 um\ndy = 0.5 um\nunit: nm\n{wide}")).unwrap();
+    assert!(thin.notes.iter().any(|note| note.contains("very unequal")), "{:?}", thin.notes);
+}
+
+#[test]
+fn a_factor_beside_whole_numbers_is_refused_unless_forced() {
+    for words in ["Scale Data = 0.1", "Z scale: 0.1 nm/digit", "Height factor: 10", "Bit2nm = 0.3"] {
+        let text = format!("Pixel size: 1 um\nZ unit: nm\n{words}\n{MAP}");
+        let refused = found("a.txt", &text).unwrap_err();
+        assert!(refused.contains("line 3") && refused.contains("override = true"), "{refused}");
+        let forced = Request { override_file: true, ..Request::default() };
+        assert!(asked("a.txt", &text, &forced).is_ok());
+        assert!(found("a.txt", &text.replace("3\n", "3.5\n").replace("0.3.5", "0.3")).is_ok());
+    }
+    assert!(found("a.txt", &format!("Scale Data = 1\nUnit Data = nm\n{MAP}")).is_ok());
+}
+
+#[test]
+fn micrometres_are_known_in_every_spelling() {
+    for unit in ["um", "µm.", "mkm", "мкм", "microns", "[um]", "Micrometers"] {
+        let map = found("a.txt", &format!("Pixel size: 1 um\nZ unit: {unit}\n{MAP}")).unwrap();
+        is_of(&map, [1e-6; 2], 1e-6);
+    }
+    let refused = found("a.txt", &format!("Z unit: mym\n{MAP}")).unwrap_err();
+    assert!(refused.contains("\"mym\"") && refused.contains("not known"), "{refused}");
+}
