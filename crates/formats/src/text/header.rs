@@ -171,8 +171,13 @@ impl<'t> Header<'t> {
             ));
             found.push(picks);
         }
-        // one depth may serve several forces only where there are as many of both
-        let count = if found.iter().all(|f| f.len() == found[0].len()) { found[0].len() } else { 1 };
+        // tests that stand side by side have as many of each
+        let count = found[0].len();
+        if let Some(i) =
+            (0..N).find(|i| found[*i].len() > 1 && found.iter().any(|f| f.len() != found[*i].len()))
+        {
+            return Err(self.several(&heads, &found, wanted, (i, named.key)));
+        }
         Ok(Columns {
             picks: (0..count).map(|k| std::array::from_fn(|i| found[i][k])).collect(),
             width: heads.len(),
@@ -247,6 +252,26 @@ impl<'t> Header<'t> {
                 None => Err(self.without_unit(&Heading { text: name.into(), ..head.clone() }, quantity)),
             },
         }
+    }
+
+    /// Two columns that may both be the quantity `i`.
+    fn several(
+        &self,
+        heads: &[Heading],
+        found: &[Vec<Pick>],
+        wanted: &[Quantity],
+        (i, key): (usize, Option<&str>),
+    ) -> TextError {
+        let name = |pick: &Pick| format!("\"{}\"", shortened(&heads[pick.column].text));
+        let names: Vec<String> = found[i].iter().take(3).map(name).collect();
+        let keys: Vec<String> =
+            wanted.iter().zip(found).map(|(q, f)| format!("{} = {}", q.name, name(&f[0]))).collect();
+        let way = key.map_or_else(
+            || "leave one out, or give the others another name".to_string(),
+            |key| format!("say which, like {key} = {{ {} }}", keys.join(", ")),
+        );
+        let message = format!("{} may all be the {}: {way}", names.join(" and "), wanted[i].name);
+        TextError::new(self.line, message)
     }
 
     fn without_unit(&self, head: &Heading, quantity: &Quantity) -> TextError {
