@@ -4,10 +4,12 @@ use super::measured::ReadError;
 use crate::dimension::Dimension;
 use crate::text::{Grid, TextError, folded_name, header_cells};
 
-/// Rows from which evenly spaced numbers beside others that are not are places, whatever stands in the corner.
+/// Rows from which even numbers beside others that are not are places, whatever stands in the corner.
 const ROWS_OF_PLACES: usize = 8;
 /// Rows from which they are places where the corner or the words above say so.
 const ROWS_BELOW_A_CORNER: usize = 3;
+/// The same where a unit of length stands in the corner.
+const ROWS_BELOW_A_UNIT: usize = 2;
 /// Largest distance of a place from its line, as a share of a step: that of printed digits.
 const SCATTER_OF_PLACES: f64 = 1e-2;
 /// The same of heights on a plane, rounded to whole numbers.
@@ -48,7 +50,7 @@ pub(super) fn take(grid: &mut Grid<'_>) -> Result<Option<Axes>, ReadError> {
     let first = column(0);
     if let Some(above) = row_above(grid)
         && let Some(down) = even_step(&first, SCATTER_OF_PLACES)
-        && rows >= ROWS_BELOW_A_CORNER
+        && rows.min(columns - 1) >= above.least()
     {
         let mut axes = Axes { said: said([true; 2]), ..Axes::default() };
         axes.take_corner(&above.corner);
@@ -117,6 +119,14 @@ fn said([across, down]: [bool; 2]) -> String {
     format!("{what} taken as places along the map, not as heights")
 }
 
+impl Above {
+    /// Rows and columns from which it is no list of a few numbers behind a name.
+    fn least(&self) -> usize {
+        let unit = folded_name(&self.corner).1.and_then(|unit| Dimension::Length.scale(&unit));
+        unit.map_or(ROWS_BELOW_A_CORNER, |_| ROWS_BELOW_A_UNIT)
+    }
+}
+
 /// The row of places that stands with a word in its corner, and so among the words above the numbers.
 fn row_above(grid: &Grid<'_>) -> Option<Above> {
     let (_, text) = grid.before.iter().rev().find(|(_, line)| !line.is_empty())?;
@@ -135,14 +145,15 @@ fn row_above(grid: &Grid<'_>) -> Option<Above> {
     })
 }
 
-/// The step of numbers that are places: even, and beside heights that are not. A plane without noise is even in
-/// all of its rows and columns.
+/// The step of numbers that are places: even, and beside heights that are not. A plane without noise is
+/// even in all of its rows and columns.
 fn places(line: &[f64], beside: &[f64], least: usize) -> Option<f64> {
     let step = even_step(line, SCATTER_OF_PLACES).filter(|_| line.len() >= least)?;
     let slope = |scatter| slope(beside, scatter);
     let is_near = |other: f64| (other.abs() / step - 1.0).abs() < SAME_SLOPE;
     let is_plane = slope(SCATTER_OF_PLACES).is_some() || slope(SCATTER_OF_HEIGHTS).is_some_and(is_near);
-    (least < ROWS_OF_PLACES || !is_plane).then_some(step)
+    let is_told = beside.iter().filter(|z| z.is_finite()).count() > 2;
+    (least < ROWS_OF_PLACES || !(is_told && is_plane)).then_some(step)
 }
 
 /// The step of numbers that lie on a straight line.
@@ -156,7 +167,7 @@ fn slope(line: &[f64], scatter: f64) -> Option<f64> {
     let (first, last) = (there().next()?, there().last()?);
     let slope = (last.1 - first.1) / (last.0 - first.0);
     let near = |(i, z): (f64, f64)| (z - first.1 - (i - first.0) * slope).abs() <= scatter * slope.abs();
-    (slope != 0.0 && slope.is_finite() && there().count() > 2 && there().all(near)).then_some(slope)
+    (slope != 0.0 && slope.is_finite() && there().all(near)).then_some(slope)
 }
 
 fn doubt(grid: &Grid<'_>, down: bool) -> ReadError {

@@ -105,6 +105,7 @@ const PIXEL: &[&str] = &[
     "pixel pitch",
     "lateral resolution",
     "xy calibration",
+    "xy kalibrierung",
     "lateral calibration",
     "lateral sampling",
     "pixelgrosse",

@@ -99,14 +99,15 @@ fn read_table(path: &Path, text: &str, encoding: &str, request: &Request<'_>) ->
     said.refuse_scale(&grid.values, request)?;
     let (columns, rows) = (grid.columns, grid.rows());
     said.refuse_counts(columns, rows, request)?;
-    let spacing = said.spacing(columns, rows).or_else(|| between(&axes, &said)).unwrap_or(Spacing::Unknown);
+    let spacing =
+        said.spacing(columns, rows).or_else(|| spacing_of_places(&axes, &said)).unwrap_or(Spacing::Unknown);
     notes.extend(said.notes());
     let height_unit = said.height_unit.or(axes.height_unit);
     Ok(Measured { columns, rows, heights: grid.values, spacing, height_unit, notes })
 }
 
 /// Distance of the points by the places beside them.
-fn between(axes: &Axes, said: &Described) -> Option<Spacing> {
+fn spacing_of_places(axes: &Axes, said: &Described) -> Option<Spacing> {
     // one side alone tells of square pixels
     let (x, y) = (axes.steps[0].or(axes.steps[1])?, axes.steps[1].or(axes.steps[0])?);
     Some(match axes.lateral_unit.or(said.lateral_unit) {

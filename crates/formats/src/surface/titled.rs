@@ -44,8 +44,8 @@ fn rows<'t>(
     Ok(read_grid(kept, request.missing_value)?)
 }
 
-/// Zygo MetroPro and Mx: x and y number the pixels of the camera, z is in micrometres; the seventh word of line 8
-/// is the pixel in metres; a line of # ends the header.
+/// Zygo MetroPro and Mx: x and y number the pixels of the camera, z is in micrometres; the seventh word of
+/// line 8 is the pixel in metres; a line of # ends the header.
 fn zygo(text: &str, request: &Request<'_>) -> Result<Measured, ReadError> {
     const LINE_OF_PIXEL: usize = 8;
     let header: Vec<&str> =
@@ -92,8 +92,8 @@ fn zygo(text: &str, request: &Request<'_>) -> Result<Measured, ReadError> {
     })
 }
 
-/// Wyko and Veeco Vision: a line for each x, from the largest y down; the second flag of the first line says whether heights
-/// are nanometres (1) or waves (0).
+/// Wyko and Veeco Vision: a line for each x, from the largest y down; the second flag of the first line says
+/// whether heights are nanometres (1) or waves (0).
 fn wyko(text: &str, request: &Request<'_>) -> Result<Measured, ReadError> {
     const FORMAT: Format = Format("Wyko ASCII");
     const HEIGHTS: [&str; 4] = ["RAW_DATA", "RAW DATA", "OPD", "SAMPLE_DATA"];
@@ -154,8 +154,8 @@ fn wyko(text: &str, request: &Request<'_>) -> Result<Measured, ReadError> {
     Ok(Measured { columns, rows, heights, spacing, height_unit: Some(unit), notes })
 }
 
-/// Surfer's text grid: numbers of nodes, ranges of x, y and z, then the heights, from the lowest y up, in lines
-/// of any length.
+/// Surfer's text grid: numbers of nodes, ranges of x, y and z, then the heights, from the lowest y up, in
+/// lines of any length.
 fn surfer(text: &str, request: &Request<'_>) -> Result<Measured, ReadError> {
     const FORMAT: Format = Format("Surfer DSAA");
     let mut words = text.split_whitespace().skip(1);

@@ -63,8 +63,8 @@ struct Block<'t, const N: usize> {
 #[derive(Clone, Copy)]
 struct End {
     line: usize,
-    /// Rows of numbers that may stand below them and be none of the test: few below names, any below names with
-    /// units, which are those of another table.
+    /// Rows of numbers that may stand below them and be none of the test: few below names, any below names
+    /// with units, which are those of another table.
     allowed: usize,
 }
 

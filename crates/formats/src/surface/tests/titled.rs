@@ -13,7 +13,7 @@ fn pixel_is(map: &Measured, pixel: [f64; 2]) -> bool {
 }
 
 /// A file of MetroPro of 3 x 2 points, with `pixel` in its header and `sign` before its lines.
-fn zygo(pixel: &str, sign: &str) -> String {
+pub(super) fn zygo(pixel: &str, sign: &str) -> String {
     let header = [
         "Zygo XYZ Data File - Format 1",
         "1 8 1 5 \"Mon Feb 03 10:00:00 2020\"",
@@ -63,7 +63,7 @@ fn numbers_of_pixels_are_no_places() {
 }
 
 /// A file of Vision of 3 x 2 points: a line for each x, from the largest y down.
-fn wyko(flag: u8, further: &str) -> String {
+pub(super) fn wyko(flag: u8, further: &str) -> String {
     format!(
         "Wyko ASCII Data File Format 0\t{flag}\t1\nX Size\t3\nY Size\t2\nBlock Name\tType\tLength\tValue\n\
          Wavelength\t7\t4\t600\n{further}Pixel_size\t7\t4\t0.002\nTitle\t5\t20\tsample 7\nStageX\t7\t4\t12.5\n\
