@@ -164,7 +164,7 @@ fn even_step(places: &[f64], scatter: f64) -> Option<f64> {
 /// The slope of numbers on a straight line, some of which may be missing.
 fn slope(line: &[f64], scatter: f64) -> Option<f64> {
     let there = || line.iter().enumerate().filter(|(_, z)| z.is_finite()).map(|(i, z)| (i as f64, *z));
-    let (first, last) = (there().next()?, there().last()?);
+    let (first, last) = (there().next()?, there().next_back()?);
     let slope = (last.1 - first.1) / (last.0 - first.0);
     let near = |(i, z): (f64, f64)| (z - first.1 - (i - first.0) * slope).abs() <= scatter * slope.abs();
     (slope != 0.0 && slope.is_finite() && there().all(near)).then_some(slope)

@@ -293,9 +293,7 @@ impl Described {
             set(&mut self.size[1], second);
         } else if WIDTH.contains(&key) {
             set(&mut self.size[0], first);
-        } else if self.has_length && LENGTH.contains(&key) {
-            set(&mut self.size[1], first);
-        } else if HEIGHT.contains(&key) && !(self.has_length && !key.contains(['x', 'y', ' '])) {
+        } else if self.is_second_side(key) {
             set(&mut self.size[1], first);
         }
     }
@@ -315,6 +313,17 @@ impl Described {
             if names.contains(&key) || is_of_pixels && sizes.contains(&key) {
                 self.counts[slot] = self.counts[slot].or(Some((count, remark.line)));
             }
+        }
+    }
+
+    /// True of the name of the side across the width: the length, where width and length are named, and then no
+    /// bare height.
+    fn is_second_side(&self, key: &str) -> bool {
+        let is_bare = !key.contains(['x', 'y', ' ']);
+        if self.has_length && (is_bare || LENGTH.contains(&key)) {
+            LENGTH.contains(&key)
+        } else {
+            HEIGHT.contains(&key)
         }
     }
 

@@ -226,11 +226,12 @@ fn places_are_known_whatever_stands_in_their_corner() {
 
 #[test]
 fn tilted_planes_keep_their_first_row_and_column() {
-    let table = |height: &dyn Fn(usize, usize) -> f64| -> String {
+    type Plane = dyn Fn(usize, usize) -> f64;
+    let table = |height: &Plane| -> String {
         let row = |j: usize| (0..12).map(|i| height(i, j).to_string()).collect::<Vec<_>>().join(" ");
         (0..10).map(|j| row(j) + "\n").collect()
     };
-    let planes: [(&str, &dyn Fn(usize, usize) -> f64); 6] = [
+    let planes: [(&str, &Plane); 6] = [
         ("along x", &|i, _| i as f64),
         ("along y", &|_, j| 0.25 * j as f64),
         ("along both", &|i, j| 0.5 * i as f64 + 2.0 * j as f64),
