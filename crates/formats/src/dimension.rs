@@ -39,15 +39,33 @@ impl Dimension {
                 ("å", 1e-10),
                 ("angstrom", 1e-10),
                 ("inch", 0.0254),
+                ("inches", 0.0254),
+                ("in", 0.0254),
+                ("mil", 25.4e-6),
+                ("mils", 25.4e-6),
+                ("thou", 25.4e-6),
+                ("uin", 25.4e-9),
+                ("µin", 25.4e-9),
                 ("micron", 1e-6),
                 ("microns", 1e-6),
+                ("mkm", 1e-6),
+                ("мкм", 1e-6),
+                ("нм", 1e-9),
+                ("мм", 1e-3),
             ],
             Dimension::Force => {
                 &[("gf", 9.80665e-3), ("kgf", 9.80665), ("kp", 9.80665), ("mgf", 9.80665e-6), ("lbf", POUND)]
             }
-            Dimension::Stress => {
-                &[("N/mm2", 1e6), ("N/mm²", 1e6), ("N/mm^2", 1e6), ("ksi", 6.894_757_293_168e6)]
-            }
+            Dimension::Stress => &[
+                ("N/mm2", 1e6),
+                ("N/mm²", 1e6),
+                ("N/mm^2", 1e6),
+                ("psi", 6.894_757_293_168e3),
+                ("ksi", 6.894_757_293_168e6),
+                ("kgf/mm2", 9.80665e6),
+                ("kgf/mm²", 9.80665e6),
+                ("kgf/mm^2", 9.80665e6),
+            ],
             Dimension::Ratio => &[("%", 0.01), ("1", 1.0), ("mm/mm", 1.0), ("m/m", 1.0), ("-", 1.0)],
         }
     }
@@ -72,7 +90,7 @@ impl Dimension {
 
     /// The SI value of one `unit`: a symbol, or words such as `micro N`, `micro_newton`, `nanometers`.
     pub fn scale(self, unit: &str) -> Option<f64> {
-        let unit = unit.trim().trim_matches(['(', ')', '[', ']', '{', '}']).trim();
+        let unit = unit.trim().trim_matches(['(', ')', '[', ']', '{', '}']).trim().trim_end_matches('.');
         let known = |test: &dyn Fn(&str) -> bool| {
             self.symbols().iter().chain(self.further()).find(|(name, _)| test(name)).map(|(_, scale)| *scale)
         };
@@ -100,8 +118,8 @@ impl Dimension {
     /// Its usual units, for messages.
     pub fn units(self) -> &'static str {
         match self {
-            Dimension::Length => "pm, nm, um, mm, m",
-            Dimension::Force => "nN, uN, mN, N, kN, gf, kgf",
+            Dimension::Length => "pm, nm, um, mm, m, in, mil",
+            Dimension::Force => "nN, uN, mN, N, kN, gf, kgf, lbf",
             Dimension::Stress => "Pa, kPa, MPa, GPa, N/mm2",
             Dimension::Ratio => "1, %",
         }

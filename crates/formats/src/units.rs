@@ -12,6 +12,25 @@ use std::str::FromStr;
 #[error("{0}")]
 pub struct UnitError(String);
 
+/// What one of a unit is that files do not take, for messages.
+pub(crate) fn conversion(unit: &str) -> Option<&'static str> {
+    const FACTORS: [(&str, &str); 12] = [
+        ("in", "25.4 mm"),
+        ("inch", "25.4 mm"),
+        ("mil", "25.4 um"),
+        ("thou", "25.4 um"),
+        ("lbf", "4.448222 N"),
+        ("kgf", "9.80665 N"),
+        ("gf", "9.80665 mN"),
+        ("psi", "6.894757 kPa"),
+        ("ksi", "6.894757 MPa"),
+        ("N/mm2", "1 MPa"),
+        ("kgf/mm2", "9.80665 MPa"),
+        ("HV", "9.80665 MPa of hardness, which is no yield stress"),
+    ];
+    FACTORS.iter().find(|(name, _)| *name == unit).map(|(_, factor)| *factor)
+}
+
 /// Splits "20 um" into a finite number and a unit, and returns the number in SI.
 fn parse(text: &str, dimension: &str, units: &[(&str, f64)]) -> Result<f64, UnitError> {
     let names = || units.iter().map(|(name, _)| *name).collect::<Vec<_>>().join(", ");
@@ -42,7 +61,8 @@ fn parse(text: &str, dimension: &str, units: &[(&str, f64)]) -> Result<f64, Unit
         UnitError(format!("\"{text}\" is not a finite number with a unit of {dimension} ({})", names()))
     })?;
     let scale = units.iter().find(|(name, _)| *name == unit).map(|(_, scale)| *scale).ok_or_else(|| {
-        UnitError(format!("\"{unit}\" is not a unit of {dimension}: use one of {}", names()))
+        let factor = conversion(unit).map_or(String::new(), |factor| format!(" (1 {unit} is {factor})"));
+        UnitError(format!("\"{unit}\" is not a unit of {dimension}{factor}: use one of {}", names()))
     })?;
     let si = value * scale;
     if si.is_finite() && (value == 0.0) == (si == 0.0) {
@@ -214,6 +234,14 @@ mod tests {
     fn quantities_read_and_refuse_as_a_person_would_expect() {
         assert_eq!("20 um".parse::<Length>().unwrap().0, 20.0 * 1e-6);
         assert_eq!("2e-6m".parse::<Length>().unwrap().0, 2e-6);
+        for (said, factor) in [
+            ("2 mil".parse::<Length>().map(|v| v.0), "1 mil is 25.4 um"),
+            ("3 lbf".parse::<Force>().map(|v| v.0), "1 lbf is 4.448222 N"),
+            ("200 HV".parse::<Stress>().map(|v| v.0), "1 HV is 9.80665 MPa of hardness"),
+        ] {
+            let said = said.unwrap_err().to_string();
+            assert!(said.contains(factor), "{said}");
+        }
         assert_eq!(" 210 GPa ".parse::<Stress>().unwrap().0, 210e9);
         for bad in ["20", "20 MPa", "nan um", "inf um", "um", "", "1e400 um", "1e-320 nm", "1 2 um"] {
             assert!(bad.parse::<Length>().is_err(), "{bad}");

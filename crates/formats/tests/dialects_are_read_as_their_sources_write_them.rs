@@ -99,6 +99,16 @@ fn curves() -> Vec<Dialect> {
             "LabVIEW in English",
             "depth_nm\tforce_uN\n100.0\t2,000.0\n200.0\t8,000.0\n",
         ),
+        (
+            "a summary with names and numbers of its own below",
+            "reports of indentation programs",
+            "Depth (nm),Load (mN)\n100,2\n200,8\n\nResults\nHmax,Fmax\n2000.0,125.0\n",
+        ),
+        (
+            "raw columns beside those of the sample",
+            "KLA/MTS NanoIndenter",
+            "Raw Displacement (nm)\tRaw Load (mN)\tDisplacement Into Surface (nm)\tLoad On Sample (mN)\n900\t9\t100\t2\n950\t15\t200\t8\n",
+        ),
         ("footer and empty rows", "spreadsheets", "depth_um;force_mN\n0,1;2\n;\n0,2;8\nMittelwert;\n"),
     ] {
         all.push(dialect(feature, source, "curve.txt", text));
@@ -140,6 +150,12 @@ fn points() -> Vec<Dialect> {
             "Zygo Mx and MetroPro, .xyz",
             "points.xyz",
             "x_um y_um z_nm\n0 0 1\n1 0 2\n2 0 3\n0 1 4\n1 1 No Data\n2 1 6\n",
+        ),
+        dialect(
+            "x and y number the pixels of a camera, whose size stands in the header",
+            "Zygo MetroPro and Mx, .xyz",
+            "points.xyz",
+            "Zygo XYZ Data File - Format 1\n1 8 1 5 \"Mon Feb 03 10:00:00 2020\"\n0 0 3 2 1 255\n10 20 3 2\n\"\"\n\"\"\n\"\"\n0 0.5 6.328e-007 0 1 0 1e-006 1580720400\n3 2 0 0 0 0 0\n1 1 0 20 2 0 0 0 0 0\n0 0 0\n\"\"\n#\n10 20 0.001\n11 20 0.002\n12 20 0.003\n10 21 0.004\n11 21 No Data\n12 21 0.006\n#\n",
         ),
         dialect(
             "a missing point left out, in any order",
@@ -185,6 +201,18 @@ fn maps() -> Vec<Dialect> {
             "Keyence VK analyzer, CSV",
             "map.csv",
             "\"XY calibration\",\"1000\",\"nm/pixel\"\n\"Unit\",\"nm\"\n\"1\",\"2\",\"3\"\n\"4\",\"\",\"6\"\n",
+        ),
+        dialect(
+            "a line for each x, Bad, pixel and unit in a header of its own",
+            "Wyko and Veeco Vision, .asc",
+            "map.asc",
+            "Wyko ASCII Data File Format 0\t1\t1\nX Size\t3\nY Size\t2\nBlock Name\tType\tLength\tValue\nWavelength\t7\t4\t600\nPixel_size\t7\t4\t0.001\nRAW_DATA\t3\t24\t\n4\t1\nBad\t2\n6\t3\n",
+        ),
+        dialect(
+            "a number for missing points in the header",
+            "grids of ESRI and of programs",
+            "map.asc",
+            "ncols 3\nnrows 2\npixel size = 1 um\nz unit = nm\nNODATA_value -9999\n1 2 3\n4 -9999 6\n",
         ),
         dialect(
             "heights in waves",

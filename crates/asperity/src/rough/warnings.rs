@@ -90,7 +90,7 @@ fn two_materials(scene: &Scene) -> Option<String> {
 /// The largest step across the seam of a periodic map, over that between neighbours, that is taken without a
 /// word.
 const MAX_SEAM_STEP: f64 = 4.0;
-/// Standard deviations above the mean beyond which the highest point looks like an error of measurement.
+/// Standard deviations from the mean beyond which the highest or lowest point looks like an error.
 const SPIKE_DEVIATIONS: f64 = 8.0;
 
 /// Mean slopes (degrees) beyond which a map looks like one in the wrong unit: lapped and polished surfaces
@@ -106,11 +106,12 @@ fn surface_warnings(surface: &Surface, scene: &Scene) -> Vec<String> {
         )
     });
     let parameters = &surface.parameters;
-    let above = surface.extent.high - parameters.mean;
-    let spike = Some(above / parameters.sq).filter(|ratio| *ratio > SPIKE_DEVIATIONS).map(|ratio| {
+    let [above, below] = [surface.extent.high - parameters.mean, parameters.mean - surface.extent.low];
+    let ends = [("highest", above), ("lowest", below)].map(|(end, off)| (end, off / parameters.sq));
+    let spike = ends.iter().find(|(_, ratio)| *ratio > SPIKE_DEVIATIONS).map(|(end, ratio)| {
         format!(
-            "the highest point is {ratio:.0} standard deviations above the mean: if it is dust or an error of measurement, the first \
-             touch and all at light loads are its own; remove it (surface.outliers = 8), or smooth with s_filter"
+            "the {end} point is {ratio:.0} standard deviations from the mean: if it is dust, a missing point or an error of measurement, \
+             first touch, gap and leak are its own; remove it (surface.outliers = 8, missing_value), or smooth with s_filter"
         )
     });
     let [flat, steep] = USUAL_SLOPES_DEG;
@@ -125,8 +126,7 @@ fn surface_warnings(surface: &Surface, scene: &Scene) -> Vec<String> {
             above / MICROMETRE
         )
     });
-    let first = [seam, spike, unit, apart].into_iter().flatten();
-    first.chain(tilt(surface, scene)).collect()
+    [seam, spike, unit, apart].into_iter().flatten().chain(tilt(surface, scene)).collect()
 }
 
 /// Share of Sq that the plane of a surface may be without a word.

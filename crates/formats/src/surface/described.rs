@@ -15,6 +15,17 @@ pub(super) struct Described {
     pixel: [Option<f64>; 2],
     wavelength: Option<f64>,
     height_unit_name: String,
+    /// Columns and rows of the map, with the line that names them.
+    counts: [Option<(usize, usize)>; 2],
+    /// The one size of the map that was named, and the ratio of its sides.
+    scan: Option<f64>,
+    aspect: Option<f64>,
+    /// Whether width and length are the sides, so that a height is one along z.
+    has_length: bool,
+    /// The number for a point that was not measured.
+    missing: Option<f64>,
+    /// A factor of the heights whose meaning is not known, with its line.
+    scale: Option<(String, usize)>,
 }
 
 /// A remark `key: value`.
@@ -94,6 +105,7 @@ const PIXEL: &[&str] = &[
     "pixel pitch",
     "lateral resolution",
     "xy calibration",
+    "xy kalibrierung",
     "lateral calibration",
     "lateral sampling",
     "pixelgrosse",
@@ -125,6 +137,64 @@ const X: &[&str] =
 const Y: &[&str] =
     &["y", "dy", "pixel height", "delta y", "pas y", "ypixelsize", "y increment", "y scale", "y pitch"];
 
+/// Names of the second side of a map beside its width.
+const LENGTH: &[&str] = &["length", "lange", "laenge", "longueur", "lunghezza", "longitud", "comprimento"];
+/// Names of the number for points that were not measured.
+const MISSING: &[&str] = &[
+    "nodata",
+    "nodata value",
+    "no data value",
+    "invalid value",
+    "missing value",
+    "bad value",
+    "void value",
+    "fill value",
+    "fillvalue",
+    "invalid data value",
+    "null value",
+    "non measured value",
+    "ungultiger wert",
+    "valeur invalide",
+    "valeur manquante",
+];
+
+/// Names of the numbers of columns and rows, which stand without a unit.
+const COLUMNS: &[&str] = &[
+    "x pixels",
+    "x pixel",
+    "pixels x",
+    "nx",
+    "ncols",
+    "ncolumns",
+    "cols",
+    "columns",
+    "number of columns",
+    "dim x",
+    "x dim",
+    "x points",
+    "points x",
+    "horizontal",
+    "width pixels",
+    "width in pixels",
+];
+const ROWS: &[&str] = &[
+    "y pixels",
+    "y pixel",
+    "pixels y",
+    "ny",
+    "nrows",
+    "rows",
+    "number of rows",
+    "dim y",
+    "y dim",
+    "y points",
+    "points y",
+    "vertical",
+    "vertikal",
+    "height pixels",
+    "height in pixels",
+];
+
 impl Described {
     /// Reads the lines before the heights.
     ///
@@ -134,14 +204,22 @@ impl Described {
         let remarks: Vec<Remark> =
             before.iter().filter_map(|&(line, text)| Remark::new(line, text)).collect();
         let mut said = Described::default();
+        let has = |names: &[&str]| {
+            remarks.iter().any(|r| {
+                names.contains(&r.key.as_str()) && r.lengths(None).first().is_some_and(Option::is_some)
+            })
+        };
+        said.has_length = has(WIDTH) && has(LENGTH);
         // units first: a number may stand without one
         for remark in &remarks {
             said.take_unit(remark, request)?;
         }
         for remark in &remarks {
             said.take_length(remark);
+            said.take_count(remark);
+            said.take_number(remark);
         }
-        if said.size == [None; 2] && said.pixel == [None; 2] {
+        if said.size == [None; 2] && said.pixel == [None; 2] && said.scan.is_none() {
             said.take_by_place(&remarks);
         }
         Ok(said)
@@ -182,7 +260,8 @@ impl Described {
                 "says that its values are in waves, but not how long one is: give height_unit".to_string()
             } else {
                 format!(
-                    "says that its values are in \"{unit}\", which is no height: export the channel of heights, or set override = true and height_unit"
+                    "says that its values are in \"{unit}\", which is not known as a unit of length (one of {}): export the channel of heights, or set override = true and height_unit",
+                    Dimension::Length.units()
                 )
             };
             return Err(TextError::new(remark.line, problem).into());
@@ -207,14 +286,107 @@ impl Described {
             set(&mut self.pixel[0], first);
         } else if Y[1..].contains(&key) || without("y") {
             set(&mut self.pixel[1], first);
+        } else if SIZE.contains(&key) && lengths.len() == 1 {
+            set(&mut self.scan, first);
         } else if SIZE.contains(&key) {
             set(&mut self.size[0], first);
             set(&mut self.size[1], second);
         } else if WIDTH.contains(&key) {
             set(&mut self.size[0], first);
-        } else if HEIGHT.contains(&key) {
+        } else if self.is_second_side(key) {
             set(&mut self.size[1], first);
         }
+    }
+
+    /// A whole number of columns or rows: `X pixels = 128`, `Width [px]: 128`, `X size,128,pixel`.
+    fn take_count(&mut self, remark: &Remark) {
+        const PIXELS: [&str; 7] = ["px", "pix", "pixel", "pixels", "points", "pts", "pt"];
+        let mut words = remark.value.split([' ', ',', '(', '[']).filter(|word| !word.is_empty());
+        let Some(Ok(count)) = words.next().map(str::parse::<usize>) else { return };
+        let unit = remark.key_unit.as_deref().or(words.next()).map(|word| word.trim_end_matches([']', ')']));
+        let key = remark.key.as_str();
+        let is_of_pixels = unit.is_some_and(|unit| PIXELS.contains(&unit.to_lowercase().as_str()));
+        if unit.is_some() && !is_of_pixels {
+            return;
+        }
+        for (slot, names, sizes) in [(0, COLUMNS, WIDTH), (1, ROWS, HEIGHT)] {
+            if names.contains(&key) || is_of_pixels && sizes.contains(&key) {
+                self.counts[slot] = self.counts[slot].or(Some((count, remark.line)));
+            }
+        }
+    }
+
+    /// True of the name of the side across the width: the length, where width and length are named, and then no
+    /// bare height.
+    fn is_second_side(&self, key: &str) -> bool {
+        let is_bare = !key.contains(['x', 'y', ' ']);
+        if self.has_length && (is_bare || LENGTH.contains(&key)) {
+            LENGTH.contains(&key)
+        } else {
+            HEIGHT.contains(&key)
+        }
+    }
+
+    /// A mark of missing points, a ratio of sides, a factor of heights.
+    fn take_number(&mut self, remark: &Remark) {
+        const SCALES: [&str; 8] =
+            ["scale", "calibration", "kalibrierung", "factor", "faktor", "multiplier", "scaling", "lsb"];
+        const HEIGHTS: [&str; 7] = ["z", "data", "height", "heights", "value", "values", "vertical"];
+        let Some((number, rest)) = number_and_unit(&remark.value) else { return };
+        let key = remark.key.as_str();
+        let has = |names: &[&str]| key.split(' ').any(|word| names.contains(&word));
+        if MISSING.contains(&key) && rest.trim().is_empty() {
+            self.missing = Some(number);
+        } else if key.contains("aspect") {
+            let other =
+                rest.trim().strip_prefix(':').and_then(number_and_unit).map_or(1.0, |(other, _)| other);
+            self.aspect = Some(number / other);
+        } else if (has(&SCALES) && has(&HEIGHTS) || key == "bit2nm") && number != 1.0 {
+            self.scale = self.scale.take().or(Some((format!("{key} = {}", remark.value), remark.line)));
+        }
+    }
+
+    /// Makes heights missing that are the number named for such; gives how many.
+    pub fn take_missing<'z>(&self, heights: impl Iterator<Item = &'z mut f64>) -> Option<String> {
+        let mark = self.missing?;
+        let count = heights.filter(|z| **z == mark).map(|z| *z = f64::NAN).count();
+        Some(format!("{count} points of {mark} are missing, as the words before the heights say"))
+    }
+
+    /// Refuses whole numbers beside a factor whose meaning is not known.
+    ///
+    /// # Errors
+    /// Such a factor.
+    pub fn refuse_scale(&self, heights: &[f64], request: &Request<'_>) -> Result<(), ReadError> {
+        let Some((said, line)) = self.scale.as_ref().filter(|_| !request.override_file) else {
+            return Ok(());
+        };
+        if heights.iter().any(|z| z.is_finite() && z.fract() != 0.0) {
+            return Ok(());
+        }
+        let problem = format!(
+            "says \"{said}\" beside heights that are whole numbers, and not whether they are to be multiplied by it: export \
+             heights in a unit of length, or multiply them and delete this line, or set override = true if they are in their \
+             unit already"
+        );
+        Err(TextError::new(*line, problem).into())
+    }
+
+    /// Compares the columns and rows that the words name with those that were found.
+    ///
+    /// # Errors
+    /// Others than were found.
+    pub fn refuse_counts(&self, columns: usize, rows: usize, request: &Request<'_>) -> Result<(), ReadError> {
+        for (said, found, what) in [(self.counts[0], columns, "columns"), (self.counts[1], rows, "rows")] {
+            if let Some((count, line)) = said.filter(|(count, _)| *count != found && !request.override_file) {
+                let problem = format!(
+                    "says {count} {what}, but {found} were found (the map has {columns} columns and {rows} rows): take off \
+                     {what} that hold no heights, correct this line or delete it, or set override = true"
+                );
+                return Err(TextError::new(line, problem).into());
+            }
+        }
+        Ok(())
     }
 
     /// Gwyddion writes width, height and unit of the values below each other, in any language.
@@ -235,6 +407,14 @@ impl Described {
 
     /// Distance of the points of a map of so many columns and rows.
     pub fn spacing(&self, columns: usize, rows: usize) -> Option<Spacing> {
+        if let Some(scan) = self.scan.filter(|_| self.size == [None; 2] && self.pixel == [None; 2]) {
+            // square pixels along the longer side, which is that of a line; else the file does not tell
+            let ratio = rows as f64 / columns as f64;
+            let fits = self
+                .aspect
+                .is_none_or(|aspect| [ratio, 1.0 / ratio].iter().any(|r| (r / aspect - 1.0).abs() < 0.02));
+            return (columns >= rows && fits).then_some(Spacing::Metres([scan / columns as f64; 2]));
+        }
         let from_size = |k: usize, count: usize| self.size[k].map(|size| size / count as f64);
         let x = self.pixel[0].or_else(|| from_size(0, columns));
         let y = self.pixel[1].or_else(|| from_size(1, rows));
@@ -245,13 +425,19 @@ impl Described {
 
     /// What was found, in words.
     pub fn notes(&self) -> Option<String> {
-        let sizes = self.size.iter().chain(&self.pixel).any(Option::is_some);
+        let sizes = self.size.iter().chain(&self.pixel).chain([&self.scan]).any(Option::is_some);
         let found = [
             (sizes, "size of the map or of its pixels"),
             (self.height_unit.is_some(), "unit of the heights"),
         ];
         let found: Vec<&str> = found.iter().filter(|(is, _)| *is).map(|(_, what)| *what).collect();
-        (!found.is_empty()).then(|| format!("{} from the words before the heights", found.join(" and ")))
+        let square = if self.scan.is_some() && self.size == [None; 2] && self.pixel == [None; 2] {
+            ", the one size along a line and pixels square"
+        } else {
+            ""
+        };
+        (!found.is_empty())
+            .then(|| format!("{} from the words before the heights{square}", found.join(" and ")))
     }
 }
 

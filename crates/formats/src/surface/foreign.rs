@@ -8,7 +8,7 @@ pub(super) const LOOKED_AT: u64 = 1024;
 const PICTURE: &str = "colours are not heights: export the heights as .sur, .x3p or text";
 
 /// Beginning, name, and what to do.
-const KINDS: [(&[u8], &str, &str); 12] = [
+const KINDS: [(&[u8], &str, &str); 14] = [
     (b"\x89PNG", "a PNG picture", PICTURE),
     (b"\xff\xd8\xff", "a JPEG picture", PICTURE),
     (b"GIF8", "a GIF picture", PICTURE),
@@ -22,6 +22,12 @@ const KINDS: [(&[u8], &str, &str); 12] = [
         "a NanoScope force curve (.spm)",
         "export the curve as ASCII for asperity identify",
     ),
+    (
+        b"Zygo ASCII Data File",
+        "a Zygo ASCII file of raw phase",
+        "export it as XYZ, .datx or .dat in MetroPro or Mx",
+    ),
+    (b"DSBB", "a binary grid of Surfer (.grd)", "save it as a text grid (DSAA) or as XYZ in Surfer"),
     (b"Rar!", "a RAR archive", "unpack it and give the file of the surface itself"),
     (b"7z\xbc\xaf", "a 7z archive", "unpack it and give the file of the surface itself"),
     (b"\x1f\x8b", "a gzip archive", "unpack it and give the file of the surface itself"),

@@ -6,12 +6,14 @@ mod measured;
 
 mod al3d;
 mod archive;
+mod axes;
 mod datx;
 mod described;
 mod foreign;
 mod gsf;
 mod gwy;
 mod keyence;
+mod marks;
 mod metropro;
 mod nanoscope;
 mod npy;
@@ -23,6 +25,7 @@ mod sensofar;
 mod sur;
 mod text;
 mod tif;
+mod titled;
 mod vti;
 mod x3p;
 
@@ -60,7 +63,7 @@ pub fn read(path: &Path, request: &Request<'_>) -> Result<Measured, ReadError> {
                 found: format!("the name says .{extension}, but the file does not begin like one"),
             })
         }
-        "csv" | "txt" | "asc" | "dat" | "xyz" | "" => text::read(path, request),
+        "csv" | "txt" | "asc" | "dat" | "xyz" | "grd" | "" => text::read(path, request),
         other => text::read(path, request).map_err(|error| match error {
             ReadError::Text(error) => ReadError::Unknown {
                 found: format!("files of type .{other} are not known, and as text: {error}"),

@@ -1,9 +1,12 @@
 //! Text: rows of heights, or points x y z of a regular grid in any order. The shape of a table is doubted:
 //! a profile is no map.
 
+use super::axes::{self, Axes};
 use super::described::Described;
+use super::marks;
 use super::measured::{Measured, ReadError, Request, Spacing};
 use super::points::onto_grid;
+use super::titled;
 use crate::dimension::Dimension;
 use crate::text::{Asked, Columns, Grid, Header, Quantity, TextError, decode, read_grid};
 use std::path::Path;
@@ -12,6 +15,8 @@ use std::path::Path;
 const MOST_COLUMNS_OF_POINTS: usize = 8;
 /// Rows per column from which a table of up to three columns is no map.
 const ROWS_OF_NO_MAP: usize = 16;
+/// Ratio of the sides of a pixel beyond which something is said of it.
+const MOST_UNEQUAL_PIXELS: f64 = 3.0;
 /// Rows from which a column that rises or falls all the way is no chance.
 const ROWS_OF_A_PROFILE: usize = 4;
 
@@ -43,7 +48,25 @@ pub(super) fn read(path: &Path, request: &Request<'_>) -> Result<Measured, ReadE
     let data = request.read_file(path)?;
     let (text, encoding) =
         decode(&data).map_err(|e| ReadError::Unknown { found: format!("the file {}", e.message) })?;
-    let mut grid = read_grid(&text, request.missing_value)?;
+    let mut map = match titled::read(&text, request) {
+        Some(known) => known?,
+        None => read_table(path, &text, &encoding, request)?,
+    };
+    marks::refuse(&map.heights, request)?;
+    let unequal = |[x, y]: [f64; 2]| x > MOST_UNEQUAL_PIXELS * y || y > MOST_UNEQUAL_PIXELS * x;
+    if let Spacing::Metres([x, y]) = map.spacing
+        && unequal([x, y])
+    {
+        map.notes.push(format!(
+            "pixels of {x:.3e} m along x and {y:.3e} m along y are very unequal: look whether both are right"
+        ));
+    }
+    Ok(map)
+}
+
+/// Reads rows of heights or of points.
+fn read_table(path: &Path, text: &str, encoding: &str, request: &Request<'_>) -> Result<Measured, ReadError> {
+    let mut grid = read_grid(text, request.missing_value)?;
     let mut notes = vec![format!("{encoding} {}", grid.describe())];
     let said = Described::new(&grid.before, request)?;
     let is_xyz = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("xyz"));
@@ -68,14 +91,29 @@ pub(super) fn read(path: &Path, request: &Request<'_>) -> Result<Measured, ReadE
         return points(grid, &columns, &said, notes);
     }
     refuse_profile(&grid)?;
-    let axes = take_axes(&mut grid);
-    if axes.is_some() {
-        notes.push("the first row and column are places along x and y".into());
+    let axes = axes::take(&mut grid)?.unwrap_or_default();
+    if !axes.said.is_empty() {
+        notes.push(axes.said.clone());
     }
+    notes.extend(said.take_missing(grid.values.iter_mut()));
+    said.refuse_scale(&grid.values, request)?;
     let (columns, rows) = (grid.columns, grid.rows());
-    let spacing = said.spacing(columns, rows).or(axes).unwrap_or(Spacing::Unknown);
+    said.refuse_counts(columns, rows, request)?;
+    let spacing =
+        said.spacing(columns, rows).or_else(|| spacing_of_places(&axes, &said)).unwrap_or(Spacing::Unknown);
     notes.extend(said.notes());
-    Ok(Measured { columns, rows, heights: grid.values, spacing, height_unit: said.height_unit, notes })
+    let height_unit = said.height_unit.or(axes.height_unit);
+    Ok(Measured { columns, rows, heights: grid.values, spacing, height_unit, notes })
+}
+
+/// Distance of the points by the places beside them.
+fn spacing_of_places(axes: &Axes, said: &Described) -> Option<Spacing> {
+    // one side alone tells of square pixels
+    let (x, y) = (axes.steps[0].or(axes.steps[1])?, axes.steps[1].or(axes.steps[0])?);
+    Some(match axes.lateral_unit.or(said.lateral_unit) {
+        Some(unit) => Spacing::Metres([x * unit, y * unit]),
+        None => Spacing::HeightUnits([x, y]),
+    })
 }
 
 /// The columns of x, y and z where a header or the request names them.
@@ -110,19 +148,27 @@ fn points(
         let problem = format!("{} numbers, but the header names more columns", grid.columns);
         return Err(TextError::new(grid.lines[0], problem).into());
     }
-    let points: Vec<[f64; 3]> = grid
+    let mut points: Vec<[f64; 3]> = grid
         .values
         .chunks_exact(grid.columns)
         .map(|row| [row[place(0)], row[place(1)], row[place(2)]])
         .collect();
     let scales = [0, 1].map(|k| picks[k].scale);
     drop(grid.values);
+    notes.extend(said.take_missing(points.iter_mut().map(|p| &mut p[2])));
     let placed = onto_grid(&points).map_err(|problem| TextError::new(grid.lines[0], problem))?;
     notes.extend(placed.note);
     let spacing = match scales {
         [Some(x), Some(y)] => Spacing::Metres([placed.step[0] * x, placed.step[1] * y]),
         [None, None] => match said.lateral_unit {
             Some(unit) => Spacing::Metres(placed.step.map(|step| step * unit)),
+            // numbers of pixels say nothing of their size
+            None if placed.step == [1.0; 2]
+                && points.iter().all(|p| p[0].fract() == 0.0 && p[1].fract() == 0.0) =>
+            {
+                notes.push("x and y without a unit count pixels".into());
+                Spacing::Unknown
+            }
             None => Spacing::HeightUnits(placed.step),
         },
         _ => return Err(TextError::whole("names the unit of one of x and y: name both, or none").into()),
@@ -167,28 +213,4 @@ fn refuse_profile(grid: &Grid<'_>) -> Result<(), ReadError> {
         return Ok(());
     };
     Err(TextError::new(grid.lines[0], problem).into())
-}
-
-/// Takes off a first row and a first column that are places along x and y, as an empty corner says, and gives
-/// their steps; mere numbers of rows and columns say nothing.
-fn take_axes(grid: &mut Grid<'_>) -> Option<Spacing> {
-    let (columns, rows) = (grid.columns, grid.rows());
-    if columns < 3 || rows < 3 || !grid.values[0].is_nan() {
-        return None;
-    }
-    let across = even_step(&grid.values[1..columns])?;
-    let down: Vec<f64> = grid.values.iter().step_by(columns).skip(1).copied().collect();
-    let steps = [across, even_step(&down)?];
-    let starts = [grid.values[1], down[0]];
-    grid.values = grid.values.chunks_exact(columns).skip(1).flat_map(|row| row[1..].to_vec()).collect();
-    grid.columns -= 1;
-    let are_numbers = steps == [1.0; 2] && starts.iter().all(|s| *s == 0.0 || *s == 1.0);
-    Some(if are_numbers { Spacing::Unknown } else { Spacing::HeightUnits(steps) })
-}
-
-/// The step of places that are evenly apart.
-fn even_step(places: &[f64]) -> Option<f64> {
-    let step = (places.last()? - places.first()?) / (places.len() - 1) as f64;
-    let even = places.windows(2).all(|p| ((p[1] - p[0]) / step - 1.0).abs() < 1e-2);
-    (even && step != 0.0).then_some(step.abs())
 }

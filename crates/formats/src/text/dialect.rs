@@ -71,7 +71,10 @@ fn looks_like_number(word: &str) -> bool {
 pub(super) fn is_row(line: &str) -> bool {
     let is_blank = |c: char| c == ' ' || c == '\t' || c == ';' || c == ',';
     let mut words = line.split(is_blank).map(|word| word.trim_matches('"')).filter(|word| !word.is_empty());
-    let starts = words.clone().next().is_some_and(|word| looks_like_number(word) || is_missing_word(word));
+    let first = words.clone().next().unwrap_or("");
+    // "Invalid value: -9999" is a remark
+    let is_word = is_missing_word(first) && first.starts_with(char::is_alphabetic);
+    let starts = looks_like_number(first) || !first.is_empty() && is_missing_word(first);
     if !starts && !line.to_ascii_lowercase().starts_with("no data") {
         return false;
     }
@@ -87,7 +90,7 @@ pub(super) fn is_row(line: &str) -> bool {
             missing += 1;
         }
     }
-    numbers > 0 && numbers >= others || missing > 1 && others == 0
+    numbers > 0 && numbers >= others + usize::from(is_word && others > 0) || missing > 1 && others == 0
 }
 
 impl Dialect {

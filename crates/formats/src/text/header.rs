@@ -4,6 +4,7 @@ use super::dialect::{Dialect, Separator};
 use super::heading::{Heading, Quantity, folded};
 use super::{TextError, shortened};
 use crate::dimension::Dimension;
+use crate::units::conversion;
 
 /// What is known of a table beside its text.
 #[derive(Clone, Copy, Debug)]
@@ -170,8 +171,13 @@ impl<'t> Header<'t> {
             ));
             found.push(picks);
         }
-        // one depth may serve several forces only where there are as many of both
-        let count = if found.iter().all(|f| f.len() == found[0].len()) { found[0].len() } else { 1 };
+        // tests that stand side by side have as many of each
+        let count = found[0].len();
+        if let Some(i) =
+            (0..N).find(|i| found[*i].len() > 1 && found.iter().any(|f| f.len() != found[*i].len()))
+        {
+            return Err(self.several(&heads, &found, wanted, (i, named.key)));
+        }
         Ok(Columns {
             picks: (0..count).map(|k| std::array::from_fn(|i| found[i][k])).collect(),
             width: heads.len(),
@@ -248,9 +254,33 @@ impl<'t> Header<'t> {
         }
     }
 
+    /// Two columns that may both be the quantity `i`.
+    fn several(
+        &self,
+        heads: &[Heading],
+        found: &[Vec<Pick>],
+        wanted: &[Quantity],
+        (i, key): (usize, Option<&str>),
+    ) -> TextError {
+        let name = |pick: &Pick| format!("\"{}\"", shortened(&heads[pick.column].text));
+        let names: Vec<String> = found[i].iter().take(3).map(name).collect();
+        let keys: Vec<String> =
+            wanted.iter().zip(found).map(|(q, f)| format!("{} = {}", q.name, name(&f[0]))).collect();
+        let way = key.map_or_else(
+            || "leave one out, or give the others another name".to_string(),
+            |key| format!("say which, like {key} = {{ {} }}", keys.join(", ")),
+        );
+        let message = format!("{} may all be the {}: {way}", names.join(" and "), wanted[i].name);
+        TextError::new(self.line, message)
+    }
+
     fn without_unit(&self, head: &Heading, quantity: &Quantity) -> TextError {
         let found = match &head.unit {
-            Some(unit) => format!("has the unit \"{}\", which is not known", shortened(unit)),
+            Some(unit) => {
+                let factor =
+                    conversion(unit).map_or(String::new(), |factor| format!(" (1 {unit} is {factor})"));
+                format!("has the unit \"{}\", which is not known{factor}", shortened(unit))
+            }
             None => "has no unit".into(),
         };
         TextError::new(

@@ -26,6 +26,9 @@ pub(super) struct Heading {
     pub unit: Option<String>,
 }
 
+/// Added to the rank of a name that says that it is not corrected.
+const RANK_OF_RAW: u8 = 10;
+
 /// Whether a text is the unit of something.
 pub(super) fn is_unit(text: &str) -> bool {
     [Dimension::Length, Dimension::Force, Dimension::Stress].iter().any(|d| d.scale(text).is_some())
@@ -77,7 +80,23 @@ impl Heading {
 
     /// How well the name is that of `quantity`: 0 best.
     pub fn rank(&self, quantity: &Quantity) -> Option<u8> {
-        const OTHERS: [&str; 12] = [
+        let name = self.name.as_str();
+        let has = |words: &[&str]| name.split(' ').any(|word| words.contains(&word));
+        // as it came from the gauge, with the frame and the way to the surface in it
+        if has(&["raw", "uncorrected", "unkorrigiert", "roh", "brut"]) {
+            return self.bare_rank(quantity).map(|rank| rank + RANK_OF_RAW);
+        }
+        let is_of_sample =
+            ["into surface", "on sample", "corrected", "korrigiert"].iter().any(|end| name.ends_with(end));
+        if is_of_sample && self.bare_rank(quantity).is_some() {
+            return Some(0);
+        }
+        self.bare_rank(quantity)
+    }
+
+    /// The rank of the name, whatever it says of corrections.
+    fn bare_rank(&self, quantity: &Quantity) -> Option<u8> {
+        const OTHERS: [&str; 14] = [
             "rate",
             "nodal",
             "error",
@@ -90,6 +109,8 @@ impl Heading {
             "voltage",
             "stress",
             "energy",
+            "sd",
+            "stdev",
         ];
         let name = self.name.as_str();
         if quantity.called.contains(&name) {

@@ -17,7 +17,7 @@ pub use header::Asked;
 pub use heading::Quantity;
 pub use series::{Series, SeriesTable, read_series};
 
-pub(crate) use header::{Columns, Header};
+pub(crate) use header::{Columns, Header, header_cells};
 pub(crate) use heading::folded_name;
 
 /// The reason why a table cannot be read: the line (from 1) where it has one, and a sentence with a way out.

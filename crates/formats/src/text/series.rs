@@ -2,7 +2,7 @@
 
 use super::dialect::{Dialect, Separator, is_comment, is_row};
 use super::header::{Asked, Columns, Header, Pick, column_number, header_cells};
-use super::heading::{Quantity, is_unit};
+use super::heading::{Quantity, folded, folded_name, is_unit};
 use super::{TextError, shortened};
 
 /// The readings of one test.
@@ -27,6 +27,26 @@ pub struct SeriesTable<const N: usize> {
     pub understood: String,
 }
 
+/// Most rows of numbers below the names of what sums up a table.
+const ROWS_OF_A_SUMMARY: usize = 2;
+/// First words of rows that sum up a table.
+const SUMMARIES: [&str; 14] = [
+    "average",
+    "mean",
+    "std",
+    "std dev",
+    "standard deviation",
+    "cov",
+    "max",
+    "min",
+    "maximum",
+    "minimum",
+    "median",
+    "mittelwert",
+    "standardabweichung",
+    "moyenne",
+];
+
 /// A header with the rows below it.
 struct Block<'t, const N: usize> {
     header: Header<'t>,
@@ -34,6 +54,18 @@ struct Block<'t, const N: usize> {
     columns: Option<Columns<N>>,
     /// Series before this block.
     first: usize,
+    /// Whether its rows begin with numbers; then a line that does not is none of them.
+    has_plain_rows: bool,
+    end: Option<End>,
+}
+
+/// The words that end a table.
+#[derive(Clone, Copy)]
+struct End {
+    line: usize,
+    /// Rows of numbers that may stand below them and be none of the test: few below names, any below names
+    /// with units, which are those of another table.
+    allowed: usize,
 }
 
 /// The reader as it goes down a table.
@@ -125,16 +157,59 @@ impl<'t, const N: usize> Reader<'_, 't, N> {
             let (line, text) = title.unwrap_or((line, ""));
             self.begin(Header { line, text, units: None });
         }
+        if self.is_behind(line, text)? {
+            self.skipped += 1;
+            return Ok(());
+        }
         self.row(line, text)
     }
 
+    /// True of a line behind the table: words end it, and numbers below those are no readings.
+    fn is_behind(&mut self, line: usize, text: &str) -> Result<bool, TextError> {
+        let Some(block) = self.block.as_mut() else { return Ok(false) };
+        let Some(columns) = &block.columns else { return Ok(false) };
+        let cells = header_cells(&self.dialect, text, Some(columns.width));
+        let is_word = |cell: &str| !cell.is_empty() && self.dialect.number(cell).is_none();
+        let is_words = !is_row(text.trim()) && self.dialect.cells(text).next().is_some_and(is_word);
+        let is_summary = cells.first().is_some_and(|cell| SUMMARIES.contains(&folded(cell).as_str()));
+        if is_words && (block.has_plain_rows || is_summary) {
+            let names = cells.iter().filter(|cell| is_word(cell)).count();
+            let least = if self.dialect.separator == Separator::Blanks { columns.width } else { 2 };
+            let allowed = match names >= least.max(2) {
+                true if cells.iter().any(|cell| folded_name(cell).1.is_some_and(|unit| is_unit(&unit))) => {
+                    usize::MAX
+                }
+                names_columns if names_columns || is_summary => ROWS_OF_A_SUMMARY,
+                _ => 0,
+            };
+            block.end = Some(End { line: block.end.map_or(line, |end| end.line), allowed });
+            return Ok(true);
+        }
+        let Some(end) = block.end.as_mut() else { return Ok(false) };
+        let numbers =
+            cells.iter().filter(|cell| self.dialect.number(cell).is_some_and(|v| !v.is_nan())).count();
+        if end.allowed > 0 || numbers < N {
+            end.allowed = end.allowed.saturating_sub(usize::from(numbers >= N));
+            return Ok(true);
+        }
+        let message = format!(
+            "numbers stand behind words (line {}), and nothing tells whether they belong to the test: begin the words with # if they \
+             do, delete the lines if they do not",
+            end.line
+        );
+        Err(TextError::new(line, message))
+    }
+
     fn begin(&mut self, header: Header<'t>) {
-        self.block = Some(Block { header, columns: None, first: self.series.len() });
+        let first = self.series.len();
+        self.block = Some(Block { header, columns: None, first, has_plain_rows: false, end: None });
     }
 
     /// Takes a row below the header.
     fn row(&mut self, line: usize, text: &'t str) -> Result<(), TextError> {
-        let Some(Block { header, columns, first }) = self.block.take() else { return Ok(()) };
+        let Some(Block { header, columns, first, has_plain_rows, end }) = self.block.take() else {
+            return Ok(());
+        };
         let row: Vec<&str> = self.dialect.cells(text).collect();
         let has_number = || row.iter().any(|cell| self.dialect.number(cell).is_some_and(|v| !v.is_nan()));
         let columns = match columns {
@@ -145,7 +220,7 @@ impl<'t, const N: usize> Reader<'_, 't, N> {
         };
         let Some(columns) = columns else {
             self.skipped += 1;
-            self.block = Some(Block { header, columns, first });
+            self.block = Some(Block { header, columns, first, has_plain_rows, end });
             return Ok(());
         };
         let more = row.get(columns.width..).is_some_and(|more| more.iter().any(|cell| !cell.is_empty()));
@@ -175,7 +250,8 @@ impl<'t, const N: usize> Reader<'_, 't, N> {
             self.said.clone_from(&columns.said);
             self.scales = columns.picks[0].map(|pick| pick.scale.unwrap_or(1.0));
         }
-        self.block = Some(Block { header, columns: Some(columns), first });
+        let has_plain_rows = has_plain_rows || is_row(text.trim());
+        self.block = Some(Block { header, columns: Some(columns), first, has_plain_rows, end });
         Ok(())
     }
 
@@ -259,6 +335,17 @@ impl<'t, const N: usize> Reader<'_, 't, N> {
             let keys = list(|q| q.name, " = \"…\", ");
             message +=
                 &format!(", or say which of {} they are: {key} = {{ {keys} = \"…\" }}", cells.join(", "));
+        }
+        if let (Some(key), None) = (self.named.key, title) {
+            let one = |(i, q): (usize, &Quantity)| {
+                let unit = q.example.rsplit('_').next().unwrap_or("");
+                format!("{} = \"{} [{unit}]\"", q.name, i + 1)
+            };
+            let keys: Vec<String> = self.wanted.iter().enumerate().map(one).collect();
+            message += &format!(
+                ", or say which columns they are, by number and unit: {key} = {{ {} }}",
+                keys.join(", ")
+            );
         }
         TextError { line: title.or_else(|| lines().next()).map(|(i, _)| i + 1), message }
     }

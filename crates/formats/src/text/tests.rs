@@ -235,3 +235,63 @@ fn a_text_of_many_parts_is_one_table() {
     let fault = read_grid(&(text + "1,x\n"), None).unwrap_err();
     assert_eq!(fault.line, Some(300_002));
 }
+
+#[test]
+fn a_curve_ends_at_words() {
+    let table = "Depth (nm),Load (mN)\n100,2\n200,8\n";
+    for footer in [
+        "\nResults\nHmax,Fmax\n2000.0,125.0\n",
+        "Average,125.0\nStd,3\n",
+        "\nEND\nMean hardness 0.98 GPa\n",
+        "Time (s),Drift (nm)\n0,1\n1,2\n",
+    ] {
+        is_the_curve(&format!("{table}{footer}"), COLUMNS);
+    }
+    let wide = "Time On Sample\tLoad On Sample\tDisplacement Into Surface\ns\tmN\tnm\n0\t2\t100\n1\t8\t200\n\nAverage\t125.02\t2000.0\n";
+    is_the_curve(wide, COLUMNS);
+    // rows that begin with words go on
+    let words =
+        "Segment,Depth (nm),Load (mN)\nLoad Segment Type,100,2\nHold Segment Type,200,8\nMean,150,5\n";
+    is_the_curve(words, COLUMNS);
+    let parted = format!("{table}Unloading\n150,3\n");
+    let fault = indentation::read(&parted, COLUMNS, None).unwrap_err();
+    assert!(
+        fault.line == Some(5) && fault.message.contains("line 4") && fault.message.contains('#'),
+        "{fault}"
+    );
+    is_the_curve("Depth (nm),Load (mN)\n100,2\n# Hold\n200,8\n", COLUMNS);
+}
+
+#[test]
+fn columns_that_were_corrected_come_before_raw_ones() {
+    for head in [
+        "Raw Displacement (nm),Raw Load (mN),Displacement Into Surface (nm),Load On Sample (mN)",
+        "Displacement Raw (nm),Raw Load (mN),Corrected Displacement (nm),Load (mN)",
+        "Uncorrected Depth (nm),Load raw (mN),Depth corrected (nm),Corrected Load (mN)",
+    ] {
+        is_the_curve(&format!("{head}\n900,9,100,2\n950,15,200,8\n"), COLUMNS);
+    }
+    is_the_curve("Raw Depth (nm),Raw Load (mN)\n100,2\n200,8\n", COLUMNS);
+    let two = "Depth (nm),Load (N),Load (mN)\n100,0.002,2\n200,0.008,8\n";
+    let fault = indentation::read(two, COLUMNS, None).unwrap_err();
+    for words in
+        ["\"Load (N)\" and \"Load (mN)\"", "columns = { depth = \"Depth (nm)\", force = \"Load (N)\" }"]
+    {
+        assert!(fault.message.contains(words), "{fault}");
+    }
+    is_the_curve(two, [Some("Depth (nm)"), Some("Load (mN)")]);
+}
+
+#[test]
+fn units_of_inches_and_pounds_are_known_and_no_header_is_answered_with_a_key() {
+    is_the_curve(
+        "Depth (mil),Load (lbf)\n0.003937007874015748,0.000449617886199421\n0.007874015748031496,0.001798471544797684\n",
+        COLUMNS,
+    );
+    let inches = "Depth (in)\tForce (kgf)\n3.937007874015748e-6\t2.03943242595586e-4\n7.874015748031496e-6\t8.15772970382343e-4\n";
+    is_the_curve(inches, COLUMNS);
+    let fault = indentation::read("100 2\n200 8\n", COLUMNS, None).unwrap_err();
+    assert!(fault.message.contains("columns = { depth = \"1 [um]\", force = \"2 [mN]\" }"), "{fault}");
+    let fault = indentation::read("Depth (nm),Force (HV)\n1,2\n", COLUMNS, None).unwrap_err();
+    assert!(fault.message.contains("1 HV is 9.80665 MPa"), "{fault}");
+}

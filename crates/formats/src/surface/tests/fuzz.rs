@@ -41,9 +41,17 @@ fn samples(extension: &str) -> Vec<(String, Vec<u8>)> {
             include_bytes!("data/gwyfile-two-channels.gwy").into(),
         ],
         "gsf" => vec![include_bytes!("data/gsffile.gsf").into()],
-        "txt" => ["0 0 1\n1 0 2\n0 1 3\n1 1 4\n", "1,2,3\n4,,6\n", "x;y;z\n0;0;1,5\n1;0;2\n0;1;3\n1;1;4\n"]
-            .map(|t| t.into())
-            .into(),
+        "txt" => [
+            "0 0 1\n1 0 2\n0 1 3\n1 1 4\n",
+            "1,2,3\n4,,6\n",
+            "x;y;z\n0;0;1,5\n1;0;2\n0;1;3\n1;1;4\n",
+            "nx 3\nNODATA_value -9999\ny\\x (um),0,1,2\n0,1,2,3\n1,4,-9999,6\n2,7,1,9\n",
+            "DSAA\n3 2\n0 4\n1 2\n1 6\n1 2 3\n4 1.70141e+038 6\n",
+            &titled::zygo("1e-6", ""),
+            &titled::wyko(0, "Aspect\t7\t4\t0.8\n"),
+        ]
+        .map(|t| t.into())
+        .into(),
         _ => Vec::new(),
     };
     let mut all: Vec<_> =

@@ -171,3 +171,163 @@ fn the_notes_say_what_was_understood() {
         assert!(said.contains(words), "{said}");
     }
 }
+
+/// Rough heights without a line that is straight, um.
+fn rough(i: usize, j: usize) -> f64 {
+    ((i * 37 + j * 61 + i * j * 7) % 101) as f64 / 100.0
+}
+
+/// Rows of a map with `corner` and places above and beside it where asked for.
+fn with_places(corner: &str, row: bool, column: bool, step: f64, [nx, ny]: [usize; 2]) -> String {
+    let mut text = String::new();
+    let line = |cells: Vec<String>| cells.join(",") + "\n";
+    let place = |k: usize| format!("{:.2}", k as f64 * step + 0.5);
+    if row {
+        let first = column.then(|| corner.to_string());
+        text += &line(first.into_iter().chain((0..nx).map(place)).collect());
+    }
+    for j in 0..ny {
+        let first = column.then(|| place(j));
+        text += &line(first.into_iter().chain((0..nx).map(|i| rough(i, j).to_string())).collect());
+    }
+    text
+}
+
+#[test]
+fn places_are_known_whatever_stands_in_their_corner() {
+    let sizes = [12, 9];
+    for (corner, row, column) in [
+        ("", true, true),
+        ("0", true, true),
+        ("y\\x (um)", true, true),
+        ("Height [um]", true, true),
+        ("DataLine", true, true),
+        ("0.00", true, true),
+        ("", false, true),
+        ("", true, false),
+    ] {
+        let text = format!("Unit,um\n{}", with_places(corner, row, column, 0.5, sizes));
+        let map = found("a.csv", &text).unwrap();
+        assert_eq!([map.columns, map.rows], sizes, "{corner} {:?}", map.notes);
+        assert!((0..108).all(|k| (map.heights[k] - rough(k % 12, k / 12)).abs() < 1e-12), "{corner}");
+        assert_eq!(map.height_unit, Some(1e-6));
+        let (Spacing::Metres([x, y]) | Spacing::HeightUnits([x, y])) = map.spacing else {
+            panic!("{corner}")
+        };
+        let unit = if matches!(map.spacing, Spacing::Metres(_)) { 1e-6 } else { 1.0 };
+        assert!((x / unit - 0.5).abs() < 1e-9 && (y / unit - 0.5).abs() < 1e-9, "{corner} {x} {y}");
+        assert!(map.notes.iter().any(|note| note.contains("not as heights")), "{:?}", map.notes);
+    }
+    // numbers of rows beside a size in words
+    let numbered: String = with_places("", false, true, 1.0, sizes).replace(".50,", ",");
+    let map = found("a.csv", &format!("Pixel size,0.5,um\nUnit,um\nX pixels = 12\n{numbered}")).unwrap();
+    assert_eq!(([map.columns, map.rows], map.spacing), (sizes, Spacing::Metres([0.5e-6; 2])));
+}
+
+#[test]
+fn tilted_planes_keep_their_first_row_and_column() {
+    type Plane = dyn Fn(usize, usize) -> f64;
+    let table = |height: &Plane| -> String {
+        let row = |j: usize| (0..12).map(|i| height(i, j).to_string()).collect::<Vec<_>>().join(" ");
+        (0..10).map(|j| row(j) + "\n").collect()
+    };
+    let planes: [(&str, &Plane); 6] = [
+        ("along x", &|i, _| i as f64),
+        ("along y", &|_, j| 0.25 * j as f64),
+        ("along both", &|i, j| 0.5 * i as f64 + 2.0 * j as f64),
+        ("twisted", &|i, j| (i + 1) as f64 * (j + 1) as f64),
+        ("of whole numbers", &|i, j| (1.04 * j as f64 + 0.01 * i as f64).round()),
+        ("with a hole", &|i, j| if (i, j) == (1, 4) { NAN } else { j as f64 }),
+    ];
+    for (name, height) in planes {
+        let map = found("a.txt", &table(height)).unwrap();
+        assert_eq!([map.columns, map.rows], [12, 10], "{name} {:?}", map.notes);
+    }
+}
+
+#[test]
+fn numbers_of_columns_and_rows_in_words_must_be_those_of_the_map() {
+    let body: String = (0..4).map(|j| format!("{} {} {}\n", rough(0, j), rough(1, j), rough(2, j))).collect();
+    for (words, line, counts) in [
+        ("X pixels = 2\nY pixels = 4\n", 1, ["2 columns", "3 were found"]),
+        ("ncols 3\nnrows 5\n", 2, ["5 rows", "4 were found"]),
+        ("Width [px]: 4\nWidth [um]: 3\n", 1, ["4 columns", "3 were found"]),
+    ] {
+        let refused = found("a.txt", &format!("{words}{body}")).unwrap_err();
+        assert!(refused.contains(&format!("line {line}")), "{refused}");
+        assert!(counts.iter().all(|count| refused.contains(count)), "{refused}");
+        let forced = Request { override_file: true, ..Request::default() };
+        assert!(asked("a.txt", &format!("{words}{body}"), &forced).is_ok());
+    }
+    assert!(found("a.txt", &format!("X pixels = 3\nY pixels: 4 px\n{body}")).is_ok());
+}
+
+#[test]
+fn marks_of_missing_points_are_honoured_or_asked_for() {
+    for words in
+        ["ncols 3\nnrows 2\nNODATA_value -9999\n", "Invalid value: -9999\n", "# missing_value = -9999\n"]
+    {
+        let map = found("a.txt", &format!("{words}1 2 3\n4 -9999 6\n")).unwrap();
+        same(&map, [1.0, 2.0, 3.0, 4.0, NAN, 6.0], 1.0);
+        assert!(
+            map.notes.iter().any(|note| note.contains("1 points of -9999 are missing")),
+            "{:?}",
+            map.notes
+        );
+    }
+    let points =
+        found("a.xyz", "# no data value: -9999\n0 0 1\n2 0 2\n4 0 3\n0 1 4\n2 1 -9999\n4 1 6\n").unwrap();
+    same(&points, [1.0, 2.0, 3.0, 4.0, NAN, 6.0], 1.0);
+    for mark in [-32768.0, -9999.0, 32767.0, 9999.0] {
+        let text = format!("1 2 3\n4 {mark} 6\n");
+        let refused = found("a.txt", &text).unwrap_err();
+        assert!(refused.contains(&format!("missing_value = {mark}")), "{refused}");
+        let told = Request { missing_value: Some(mark), ..Request::default() };
+        same(&asked("a.txt", &text, &told).unwrap(), [1.0, 2.0, 3.0, 4.0, NAN, 6.0], 1.0);
+        let forced = Request { override_file: true, ..Request::default() };
+        assert_eq!(asked("a.txt", &text, &forced).unwrap().heights[4], mark);
+    }
+    // a height among others
+    assert!(found("a.txt", "9000 9500 9999\n8000 8100 9800\n").is_ok());
+}
+
+#[test]
+fn one_size_gives_square_pixels_or_none() {
+    let wide = "1 2 3\n4 nan 6\n";
+    let map = found("a.txt", &format!("Scan size: 6 um\nZ unit: nm\n{wide}")).unwrap();
+    is_of(&map, [2e-6; 2], 1e-9);
+    assert!(map.notes.iter().any(|note| note.contains("square")), "{:?}", map.notes);
+    for (words, body) in
+        [("Scan size: 6 um\nAspect ratio: 1:1\n", wide), ("Scan size: 6 um\n", "1 2\n3 nan\n5 6\n")]
+    {
+        assert_eq!(found("a.txt", &format!("{words}{body}")).unwrap().spacing, Spacing::Unknown, "{words}");
+    }
+    let sides =
+        found("a.txt", &format!("Width: 6 um\nLength: 2 um\nHeight: 0.5 um\nunit: nm\n{wide}")).unwrap();
+    is_of(&sides, [2e-6, 1e-6], 1e-9);
+    let thin = found("a.txt", &format!("dx = 2 um\ndy = 0.5 um\nunit: nm\n{wide}")).unwrap();
+    assert!(thin.notes.iter().any(|note| note.contains("very unequal")), "{:?}", thin.notes);
+}
+
+#[test]
+fn a_factor_beside_whole_numbers_is_refused_unless_forced() {
+    for words in ["Scale Data = 0.1", "Z scale: 0.1 nm/digit", "Height factor: 10", "Bit2nm = 0.3"] {
+        let text = format!("Pixel size: 1 um\nZ unit: nm\n{words}\n{MAP}");
+        let refused = found("a.txt", &text).unwrap_err();
+        assert!(refused.contains("line 3") && refused.contains("override = true"), "{refused}");
+        let forced = Request { override_file: true, ..Request::default() };
+        assert!(asked("a.txt", &text, &forced).is_ok());
+        assert!(found("a.txt", &text.replace("3\n", "3.5\n").replace("0.3.5", "0.3")).is_ok());
+    }
+    assert!(found("a.txt", &format!("Scale Data = 1\nUnit Data = nm\n{MAP}")).is_ok());
+}
+
+#[test]
+fn micrometres_are_known_in_every_spelling() {
+    for unit in ["um", "µm.", "mkm", "мкм", "microns", "[um]", "Micrometers"] {
+        let map = found("a.txt", &format!("Pixel size: 1 um\nZ unit: {unit}\n{MAP}")).unwrap();
+        is_of(&map, [1e-6; 2], 1e-6);
+    }
+    let refused = found("a.txt", &format!("Z unit: mym\n{MAP}")).unwrap_err();
+    assert!(refused.contains("\"mym\"") && refused.contains("not known"), "{refused}");
+}

@@ -1,0 +1,187 @@
+//! Places and numbers of rows and columns beside a table of heights.
+
+use super::measured::ReadError;
+use crate::dimension::Dimension;
+use crate::text::{Grid, TextError, folded_name, header_cells};
+
+/// Rows from which even numbers beside others that are not are places, whatever stands in the corner.
+const ROWS_OF_PLACES: usize = 8;
+/// Rows from which they are places where the corner or the words above say so.
+const ROWS_BELOW_A_CORNER: usize = 3;
+/// The same where a unit of length stands in the corner.
+const ROWS_BELOW_A_UNIT: usize = 2;
+/// Largest distance of a place from its line, as a share of a step: that of printed digits.
+const SCATTER_OF_PLACES: f64 = 1e-2;
+/// The same of heights on a plane, rounded to whole numbers.
+const SCATTER_OF_HEIGHTS: f64 = 1.0;
+/// Largest difference of slope of neighbouring lines on such a plane.
+const SAME_SLOPE: f64 = 0.3;
+
+/// What stood beside the heights.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Axes {
+    /// Step along x and y where it was given.
+    pub steps: [Option<f64>; 2],
+    /// Metres per unit of the places, where the corner names it.
+    pub lateral_unit: Option<f64>,
+    /// Metres per unit of the heights, where the corner names it.
+    pub height_unit: Option<f64>,
+    /// What was taken, in words.
+    pub said: String,
+}
+
+/// A row of places among the words above the heights.
+struct Above {
+    step: f64,
+    start: f64,
+    corner: String,
+}
+
+/// Takes off a first row and a first column that are places along x and y, or numbers of rows and columns.
+///
+/// # Errors
+/// Places of which the first or the others do not fit, which may as well be heights.
+pub(super) fn take(grid: &mut Grid<'_>) -> Result<Option<Axes>, ReadError> {
+    let (columns, rows) = (grid.columns, grid.rows());
+    if columns < 3 || rows < 2 {
+        return Ok(None);
+    }
+    let column = |k: usize| grid.values.iter().skip(k).step_by(columns).copied().collect::<Vec<f64>>();
+    let first = column(0);
+    if let Some(above) = row_above(grid)
+        && let Some(down) = even_step(&first, SCATTER_OF_PLACES)
+        && rows.min(columns - 1) >= above.least()
+    {
+        let mut axes = Axes { said: said([true; 2]), ..Axes::default() };
+        axes.take_corner(&above.corner);
+        axes.take_steps([Some((above.step, above.start)), Some((down, first[0]))]);
+        remove(grid, [false, true]);
+        return Ok(Some(axes));
+    }
+    let second = column(1);
+    let (top, below) = (&grid.values[..columns], &grid.values[columns..2 * columns]);
+    let corner_is_empty = grid.values[0].is_nan();
+    let least = if corner_is_empty { ROWS_BELOW_A_CORNER } else { ROWS_OF_PLACES };
+    let down = places(&first[1..], &second[1..], least);
+    let across = places(&top[1..], &below[1..], least);
+    let (is_down, is_across) = match (down, across) {
+        (None, None) => return Ok(None),
+        (Some(_), Some(_)) => (true, true),
+        // one side alone goes through the corner, and takes many to be sure
+        (Some(_), None) => (places(&first, &second, ROWS_OF_PLACES).is_some(), false),
+        (None, Some(_)) => (false, places(top, below, ROWS_OF_PLACES).is_some()),
+    };
+    if !is_down && !is_across {
+        let many = down.map_or(top.len(), |_| first.len()) > ROWS_OF_PLACES;
+        return if many { Err(doubt(grid, down.is_some())) } else { Ok(None) };
+    }
+    let mut axes = Axes { said: said([is_across, is_down]), ..Axes::default() };
+    let both = is_down && is_across;
+    let start = |line: &[f64]| line[usize::from(both)];
+    axes.take_steps([
+        across.filter(|_| is_across).map(|step| (step, start(top))),
+        down.filter(|_| is_down).map(|step| (step, start(&first))),
+    ]);
+    remove(grid, [is_across, is_down]);
+    Ok(Some(axes))
+}
+
+impl Axes {
+    /// Steps of places; mere numbers of rows and columns say nothing.
+    fn take_steps(&mut self, found: [Option<(f64, f64)>; 2]) {
+        let is_number = |(step, start): (f64, f64)| step == 1.0 && (start == 0.0 || start == 1.0);
+        if found.iter().flatten().all(|found| is_number(*found)) && self.lateral_unit.is_none() {
+            self.said.push_str(", which count from 0 or 1");
+        } else {
+            self.steps = found.map(|found| found.map(|(step, _)| step));
+        }
+    }
+
+    /// The unit in a corner like `y\x (um)` or `Height [um]`.
+    fn take_corner(&mut self, corner: &str) {
+        let (name, unit) = folded_name(corner);
+        let Some(unit) = unit.and_then(|unit| Dimension::Length.scale(&unit)) else { return };
+        let words: Vec<&str> = name.split([' ', '\\', '|']).collect();
+        if words.iter().any(|word| ["x", "y"].contains(word)) {
+            self.lateral_unit = Some(unit);
+        } else {
+            self.height_unit = Some(unit);
+        }
+    }
+}
+
+fn said([across, down]: [bool; 2]) -> String {
+    let what = match (across, down) {
+        (true, true) => "the first row and column are",
+        (true, false) => "the first row is",
+        _ => "the first column is",
+    };
+    format!("{what} taken as places along the map, not as heights")
+}
+
+impl Above {
+    /// Rows and columns from which it is no list of a few numbers behind a name.
+    fn least(&self) -> usize {
+        let unit = folded_name(&self.corner).1.and_then(|unit| Dimension::Length.scale(&unit));
+        unit.map_or(ROWS_BELOW_A_CORNER, |_| ROWS_BELOW_A_UNIT)
+    }
+}
+
+/// The row of places that stands with a word in its corner, and so among the words above the numbers.
+fn row_above(grid: &Grid<'_>) -> Option<Above> {
+    let (_, text) = grid.before.iter().rev().find(|(_, line)| !line.is_empty())?;
+    let text = text.trim_start_matches(['#', '%', ' ']);
+    let cells = header_cells(&grid.dialect, text, Some(grid.columns));
+    let corner = cells.first().filter(|_| cells.len() == grid.columns)?;
+    if grid.dialect.number(corner).is_some_and(|v| !v.is_nan()) {
+        return None;
+    }
+    let places: Option<Vec<f64>> = cells[1..].iter().map(|cell| grid.dialect.number(cell)).collect();
+    let places = places?;
+    Some(Above {
+        step: even_step(&places, SCATTER_OF_PLACES)?,
+        start: *places.first()?,
+        corner: corner.clone(),
+    })
+}
+
+/// The step of numbers that are places: even, and beside heights that are not. A plane without noise is
+/// even in all of its rows and columns.
+fn places(line: &[f64], beside: &[f64], least: usize) -> Option<f64> {
+    let step = even_step(line, SCATTER_OF_PLACES).filter(|_| line.len() >= least)?;
+    let slope = |scatter| slope(beside, scatter);
+    let is_near = |other: f64| (other.abs() / step - 1.0).abs() < SAME_SLOPE;
+    let is_plane = slope(SCATTER_OF_PLACES).is_some() || slope(SCATTER_OF_HEIGHTS).is_some_and(is_near);
+    let is_told = beside.iter().filter(|z| z.is_finite()).count() > 2;
+    (least < ROWS_OF_PLACES || !(is_told && is_plane)).then_some(step)
+}
+
+/// The step of numbers that lie on a straight line.
+fn even_step(places: &[f64], scatter: f64) -> Option<f64> {
+    slope(places, scatter).filter(|_| places.iter().all(|place| place.is_finite())).map(f64::abs)
+}
+
+/// The slope of numbers on a straight line, some of which may be missing.
+fn slope(line: &[f64], scatter: f64) -> Option<f64> {
+    let there = || line.iter().enumerate().filter(|(_, z)| z.is_finite()).map(|(i, z)| (i as f64, *z));
+    let (first, last) = (there().next()?, there().next_back()?);
+    let slope = (last.1 - first.1) / (last.0 - first.0);
+    let near = |(i, z): (f64, f64)| (z - first.1 - (i - first.0) * slope).abs() <= scatter * slope.abs();
+    (slope != 0.0 && slope.is_finite() && there().all(near)).then_some(slope)
+}
+
+fn doubt(grid: &Grid<'_>, down: bool) -> ReadError {
+    let (line, other) = if down { ("column", "row") } else { ("row", "column") };
+    let problem = format!(
+        "the first {line} rises evenly like places, but the first {other} does not, and neither does their corner fit: \
+         take off the {line} if it holds places, or begin it with a place"
+    );
+    TextError::new(grid.lines[0], problem).into()
+}
+
+fn remove(grid: &mut Grid<'_>, [row, column]: [bool; 2]) {
+    let (skip, from) = (usize::from(row), usize::from(column));
+    let rows = grid.values.chunks_exact(grid.columns).skip(skip);
+    grid.values = rows.flat_map(|row| row[from..].to_vec()).collect();
+    grid.columns -= from;
+}
