@@ -116,8 +116,8 @@ fn perfectly_plastic_metal_lets_a_steep_cone_in_and_out() {
 }
 
 /// Ten meshes in a row under a tool that stays keep the mass, the sum of the reference volumes, to 1e-4, and
-/// the largest plastic strain, which a single point at the end of the contact has, to 10 % (8 % with 20 elements
-/// across the contact, 6 % with 24).
+/// the largest plastic strain, which a single point at the end of the contact has, to 10 % (8 % with 20
+/// elements across the contact, 6 % with 24).
 #[test]
 fn transfers_at_rest_keep_the_mass() {
     for exponent in [0.3, 0.0] {
