@@ -5,8 +5,8 @@
 //! Source: Melan's theorem of shakedown with isotropic hardening: each further flow widens the yield surface,
 //! so that flow on a closed path dies out. Measured on the single asperity, with 12 to 32 elements alike:
 //! the edge of the contact flows back a little when the load is taken off, which costs the first reload 0.3
-//! to 0.5 % of the force; what each further cycle loses is a seventh of that. The 10 elements of draft are too
-//! long for that flow and lose 0.07 %: the runs are of `standard`. Tolerances: 1e-5 is ten times that of
+//! to 0.5 % of the force; what each further cycle loses is a seventh of that. The 10 elements of draft are
+//! too long for that flow and lose 0.07 %: the runs are of `standard`. Tolerances: 1e-5 is ten times that of
 //! Newton's method; 5e-3 of the returned work is the quadrature of an unloading in ten increments.
 
 use asperity_simulation::record::rows::Phase;
