@@ -126,7 +126,7 @@ mod tests {
             ("", None, "is empty"),
             ("0,300\n", Some(1), "no header"),
             ("plastic_strain,yield_stress\n0,300", Some(1), "has no unit"),
-            ("plastic_strain,yield_stress (psi)\n0,300", Some(1), "\"psi\""),
+            ("plastic_strain,yield_stress (tsf)\n0,300", Some(1), "\"tsf\""),
             ("plastic_strain\n0", Some(1), "yield_stress_MPa"),
             ("strain,yield_stress_MPa\n0,300", Some(1), "plastic strain"),
             ("plastic_strain,yield_stress_MPa\n", Some(1), "without readings"),
