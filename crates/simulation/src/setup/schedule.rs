@@ -5,8 +5,8 @@
 pub enum Spacing {
     /// Three equal increments to this share of the depth, then geometric ones: the error of an increment
     /// depends on the ratio of the depths at its ends, and below that share the work is too small to matter.
-    /// Up to [`KNEE_DEPTH_SHARE`], below which no error is promised, they are [`EARLY_STEP_RATIO`] times as
-    /// long in ln h as beyond it.
+    /// Up to 0.15 of the depth, below which no error is promised, they are three times as long in ln h as
+    /// beyond it.
     Geometric {
         /// Where geometric increments begin, as a share of the peak.
         from: f64,
