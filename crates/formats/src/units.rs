@@ -12,8 +12,8 @@ use std::str::FromStr;
 #[error("{0}")]
 pub struct UnitError(String);
 
-/// What one of a unit is that files do not take, for messages.
-pub(crate) fn conversion(unit: &str) -> Option<&'static str> {
+/// The size of a unit that files do not take, as messages add it: " (1 lbf is 4.448222 N)", or nothing.
+pub(crate) fn conversion(unit: &str) -> String {
     const FACTORS: [(&str, &str); 12] = [
         ("in", "25.4 mm"),
         ("inch", "25.4 mm"),
@@ -28,7 +28,8 @@ pub(crate) fn conversion(unit: &str) -> Option<&'static str> {
         ("kgf/mm2", "9.80665 MPa"),
         ("HV", "9.80665 MPa of hardness, which is no yield stress"),
     ];
-    FACTORS.iter().find(|(name, _)| *name == unit).map(|(_, factor)| *factor)
+    let known = FACTORS.iter().find(|(name, _)| *name == unit);
+    known.map_or(String::new(), |(_, factor)| format!(" (1 {unit} is {factor})"))
 }
 
 /// Splits "20 um" into a finite number and a unit, and returns the number in SI.
@@ -61,7 +62,7 @@ fn parse(text: &str, dimension: &str, units: &[(&str, f64)]) -> Result<f64, Unit
         UnitError(format!("\"{text}\" is not a finite number with a unit of {dimension} ({})", names()))
     })?;
     let scale = units.iter().find(|(name, _)| *name == unit).map(|(_, scale)| *scale).ok_or_else(|| {
-        let factor = conversion(unit).map_or(String::new(), |factor| format!(" (1 {unit} is {factor})"));
+        let factor = conversion(unit);
         UnitError(format!("\"{unit}\" is not a unit of {dimension}{factor}: use one of {}", names()))
     })?;
     let si = value * scale;

@@ -405,9 +405,14 @@ impl Described {
         }
     }
 
+    /// The one size that was named, where nothing else tells the sides.
+    fn sole_size(&self) -> Option<f64> {
+        self.scan.filter(|_| self.size == [None; 2] && self.pixel == [None; 2])
+    }
+
     /// Distance of the points of a map of so many columns and rows.
     pub fn spacing(&self, columns: usize, rows: usize) -> Option<Spacing> {
-        if let Some(scan) = self.scan.filter(|_| self.size == [None; 2] && self.pixel == [None; 2]) {
+        if let Some(scan) = self.sole_size() {
             // square pixels along the longer side, which is that of a line; else the file does not tell
             let ratio = rows as f64 / columns as f64;
             let fits = self
@@ -431,11 +436,8 @@ impl Described {
             (self.height_unit.is_some(), "unit of the heights"),
         ];
         let found: Vec<&str> = found.iter().filter(|(is, _)| *is).map(|(_, what)| *what).collect();
-        let square = if self.scan.is_some() && self.size == [None; 2] && self.pixel == [None; 2] {
-            ", the one size along a line and pixels square"
-        } else {
-            ""
-        };
+        let square =
+            if self.sole_size().is_some() { ", the one size along a line and pixels square" } else { "" };
         (!found.is_empty())
             .then(|| format!("{} from the words before the heights{square}", found.join(" and ")))
     }

@@ -277,9 +277,7 @@ impl<'t> Header<'t> {
     fn without_unit(&self, head: &Heading, quantity: &Quantity) -> TextError {
         let found = match &head.unit {
             Some(unit) => {
-                let factor =
-                    conversion(unit).map_or(String::new(), |factor| format!(" (1 {unit} is {factor})"));
-                format!("has the unit \"{}\", which is not known{factor}", shortened(unit))
+                format!("has the unit \"{}\", which is not known{}", shortened(unit), conversion(unit))
             }
             None => "has no unit".into(),
         };

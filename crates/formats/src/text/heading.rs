@@ -80,18 +80,14 @@ impl Heading {
 
     /// How well the name is that of `quantity`: 0 best.
     pub fn rank(&self, quantity: &Quantity) -> Option<u8> {
-        let name = self.name.as_str();
-        let has = |words: &[&str]| name.split(' ').any(|word| words.contains(&word));
+        let rank = self.bare_rank(quantity)?;
+        let has = |words: &[&str]| self.name.split(' ').any(|word| words.contains(&word));
         // as it came from the gauge, with the frame and the way to the surface in it
         if has(&["raw", "uncorrected", "unkorrigiert", "roh", "brut"]) {
-            return self.bare_rank(quantity).map(|rank| rank + RANK_OF_RAW);
+            return Some(rank + RANK_OF_RAW);
         }
-        let is_of_sample =
-            ["into surface", "on sample", "corrected", "korrigiert"].iter().any(|end| name.ends_with(end));
-        if is_of_sample && self.bare_rank(quantity).is_some() {
-            return Some(0);
-        }
-        self.bare_rank(quantity)
+        let ends = ["into surface", "on sample", "corrected", "korrigiert"];
+        Some(if ends.iter().any(|end| self.name.ends_with(end)) { 0 } else { rank })
     }
 
     /// The rank of the name, whatever it says of corrections.
