@@ -1,7 +1,7 @@
 //! Contact with the rigid tool: its shape, the clipped surface edge, friction, the penalty correction of the
 //! depth, the surface in contact with itself. `edge` integrates the pressure over what touches of each edge;
-//! `pieces` are the stretches of it along which the tool is smooth, `roots` finds on them where contact begins
-//! and ends, and `parts` holds what is found.
+//! `pieces` are the stretches of it along which the tool is smooth, `roots` finds on them where contact
+//! begins and ends, and `parts` holds what is found.
 
 pub mod tool;
 
