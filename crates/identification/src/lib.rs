@@ -4,7 +4,8 @@
 //! ready ([`measured_curve`]), the unknowns ([`parameters`]); what finite elements answer to one metal
 //! ([`response`]) and between metals ([`emulator`]); a measurement with its covariance ([`experiment`]), all
 //! of them ([`objective`]); the search ([`mod@search`], [`levenberg_marquardt`]); intervals
-//! ([`profile_likelihood`]), samples ([`posterior`]) and the null direction ([`identifiability`]).
+//! ([`profile_likelihood`]), samples ([`posterior`]) and the null direction ([`identifiability`]); all that is
+//! said of the metal ([`inference`]).
 
 pub mod known_or_unknown;
 
@@ -33,3 +34,9 @@ pub mod posterior;
 pub mod identifiability;
 
 pub mod stress_strain;
+
+pub mod noise;
+
+pub mod inference;
+
+mod verdict;

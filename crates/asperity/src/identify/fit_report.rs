@@ -1,10 +1,11 @@
 //! `report.html` of an identification.
 
 use super::pictures::stress_strain;
-use super::result::{Found, Identification};
+use super::result::Identification;
 use crate::error::Error;
 use crate::page::{self, Numbers, Report};
 use crate::results::numbers::significant;
+use asperity_identification::inference::{CurveResidual, Found};
 use maud::html;
 
 impl Identification {
@@ -27,7 +28,7 @@ impl Identification {
             ]
         };
         let parameters: Vec<_> = self.parameters.iter().map(parameter).collect();
-        let residual = |(i, curve): (usize, &super::result::CurveResidual)| {
+        let residual = |(i, curve): (usize, &CurveResidual)| {
             let at = |key: &str| numbers.error(&format!("/residual/curves/{i}/{key}"), "");
             vec![html! { (curve.name) }, at("rms"), at("noise")]
         };

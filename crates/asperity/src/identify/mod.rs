@@ -13,7 +13,6 @@ mod measurements;
 mod tool_geometry;
 
 mod fit;
-mod noise;
 
 mod result;
 
@@ -25,10 +24,11 @@ pub use asperity_identification::fit_file::{
     Features, FitAccuracy, FitCurve, FitFile, FitMaterial, FitShape, FitTool, Nuisance,
 };
 pub use asperity_identification::identifiability::{NextExperiment, NullDirection};
+pub use asperity_identification::inference::{CurveResidual, Found, Residual};
 pub use asperity_identification::known_or_unknown::{KnownOrUnknown, Percent};
 pub use asperity_identification::stress_strain::StressAt;
 pub use fit::Fit;
-pub use result::{Found, Identification};
+pub use result::Identification;
 pub use tool_geometry::PYRAMIDS_CONE;
 
 use crate::error::Error;

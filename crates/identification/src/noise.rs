@@ -1,7 +1,7 @@
 //! The noise of curves that state none.
 
-use asperity_identification::experiment::{Data, Experiment};
-use asperity_identification::parameters::Unknowns;
+use crate::experiment::{Data, Experiment};
+use crate::parameters::Unknowns;
 
 /// Factors by which the noise of a curve that states none may change from one round to the next without
 /// another round.
@@ -9,7 +9,7 @@ const SETTLED_NOISE_FACTOR: f64 = 1.15;
 
 /// Takes the noise of curves that state none from the scatter of their loading about the fit; true where
 /// one changed.
-pub(super) fn noise_from_scatter(experiments: &mut [Experiment], unknowns: &Unknowns, point: &[f64]) -> bool {
+pub fn noise_from_scatter(experiments: &mut [Experiment], unknowns: &Unknowns, point: &[f64]) -> bool {
     let mut changed = false;
     for experiment in experiments.iter_mut().filter(|e| !e.noise_given) {
         let Data::Curve(measured) = &experiment.data else { continue };

@@ -1,0 +1,236 @@
+//! All that the measurements say at the best fit: numbers with their intervals, the stress-strain curve with
+//! its band, the residual, the verdict.
+
+use crate::experiment::{Data, Experiment};
+use crate::identifiability::{
+    NextExperiment, NullDirection, deviations, identified, next_experiment, null_direction,
+};
+use crate::levenberg_marquardt::{Minimum, Residuals};
+use crate::objective::Objective;
+use crate::parameters::{Parameter, Slot, Unknowns};
+use crate::posterior;
+use crate::profile_likelihood::{self, Interval};
+use crate::search;
+use crate::stress_strain::StressAt;
+use crate::verdict::verdict;
+use indexmap::IndexMap;
+use nalgebra::DVector;
+use rayon::prelude::*;
+use serde::Serialize;
+
+/// A number that was sought, with its 95 % interval.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Found {
+    /// The best value.
+    pub value: f64,
+    /// Lower end of the interval.
+    pub low: f64,
+    /// Upper end of the interval.
+    pub high: f64,
+    /// Unit of the three.
+    pub unit: &'static str,
+    /// True where the measurements tell it: an interval within ±15 % (±0.05 of n) that no bound cuts, neither
+    /// its own nor that of an unknown it is tied to.
+    pub identifiable: bool,
+    /// True where the lower and the upper end are the bounds of the search.
+    pub at_bound: [bool; 2],
+}
+
+/// Residual of the fit.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Residual {
+    /// Sum of squares in standard deviations.
+    pub chi2: f64,
+    /// True where that is no more than chance allows.
+    pub fits: bool,
+    /// Measured numbers less unknowns.
+    pub degrees_of_freedom: i64,
+    /// Of each measurement: name, root mean square of the relative differences of its forces (features),
+    /// noise used.
+    pub curves: Vec<CurveResidual>,
+}
+
+/// Residual of one measurement.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct CurveResidual {
+    /// Its name.
+    pub name: String,
+    /// Root mean square of the relative differences of forces, of features.
+    pub rms: f64,
+    /// Standard deviation that was given or taken from the scatter.
+    pub noise: f64,
+}
+
+/// All that is inferred.
+#[derive(Clone, Debug)]
+pub struct Inference {
+    /// The unknowns, by their names.
+    pub parameters: IndexMap<String, Found>,
+    /// Their intervals, in their coordinates.
+    pub intervals: Vec<Interval>,
+    /// Correlations of the unknowns in their order, by the curvature at the best fit.
+    pub correlation: Vec<Vec<f64>>,
+    /// In words: what the measurements tell and what they do not.
+    pub verdict: String,
+    /// The direction in which they see least.
+    pub blind_direction: Option<NullDirection>,
+    /// The sharp cone that would narrow the widest interval most; none where everything is told.
+    pub next_experiment: Option<NextExperiment>,
+    /// The stress-strain curve.
+    pub stress_strain: Vec<StressAt>,
+    /// The stress that is told best.
+    pub representative: Option<StressAt>,
+    /// The residual.
+    pub residual: Residual,
+    /// Samples of the posterior, in the units of the parameters.
+    pub samples: Vec<Vec<f64>>,
+}
+
+/// Plastic strains of the stress-strain curve.
+const STRAINS: [f64; 13] = [0.0, 0.002, 0.005, 0.01, 0.02, 0.033, 0.05, 0.066, 0.1, 0.15, 0.2, 0.25, 0.3];
+
+/// Samples of the posterior that are wanted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Sampling {
+    /// Number of samples; 0: none.
+    pub count: usize,
+    /// Seed of their random numbers.
+    pub seed: u64,
+}
+
+/// All that `experiments` say of `unknowns` at the `best` fit; `None` where there is no metal.
+pub fn infer(
+    experiments: &[Experiment],
+    unknowns: &Unknowns,
+    best: &Minimum,
+    sampling: Sampling,
+) -> Option<Inference> {
+    let objective = Objective::new(experiments, unknowns, &best.point)?;
+    let function = objective.function();
+    let bounds = objective.bounds();
+    let (deviations, correlation) = deviations(&objective, unknowns, &best.point);
+    let others = search::secondary_minima(&objective, unknowns, best.chi2 + profile_likelihood::GROWTH);
+    let intervals: Vec<Interval> = (0..bounds.len())
+        .into_par_iter()
+        .map(|i| profile_likelihood::of_coordinate(&function, best, &others, &bounds, i, deviations[i]))
+        .collect();
+    let residual = residual(experiments, unknowns, best)?;
+    let identified = identified(&unknowns.parameters, &intervals, &correlation);
+    let parameters: IndexMap<String, Found> = unknowns
+        .parameters
+        .iter()
+        .zip(&intervals)
+        .zip(&best.point)
+        .zip(&identified)
+        .map(|(((p, i), x), told)| (p.name.clone(), found(p, i, *x, residual.fits && *told)))
+        .collect();
+    let stress_strain = band(&function, unknowns, best, &bounds, &correlation, &deviations);
+    let blind_direction = null_direction(&objective, unknowns, &best.point);
+    let widest = widest(unknowns, &intervals, &identified);
+    let next_experiment =
+        widest.and_then(|of| next_experiment(&objective, experiments, unknowns, &best.point, of));
+    let width = |s: &StressAt| (s.high_MPa / s.low_MPa).ln();
+    let representative = stress_strain.iter().copied().min_by(|a, b| width(a).total_cmp(&width(b)));
+    let samples = posterior::samples(&function, best, &deviations, &bounds, sampling.count, sampling.seed);
+    let shown = |point: &Vec<f64>| point.iter().zip(&unknowns.parameters).map(|(x, p)| p.shown(*x)).collect();
+    let verdict = verdict(
+        &parameters,
+        representative.as_ref(),
+        blind_direction.as_ref(),
+        next_experiment.as_ref(),
+        &residual,
+    );
+    Some(Inference {
+        parameters,
+        intervals,
+        correlation,
+        verdict,
+        blind_direction,
+        next_experiment,
+        stress_strain,
+        representative,
+        residual,
+        samples: samples.iter().map(shown).collect(),
+    })
+}
+
+fn found(parameter: &Parameter, interval: &Interval, best: f64, identifiable: bool) -> Found {
+    Found {
+        value: parameter.shown(best),
+        low: parameter.shown(interval.ends[0].min(best)),
+        high: parameter.shown(interval.ends[1].max(best)),
+        unit: parameter.unit,
+        identifiable,
+        at_bound: interval.bounded,
+    }
+}
+
+/// The unknown of the metal with the widest interval among those that are not told.
+fn widest(unknowns: &Unknowns, intervals: &[Interval], identified: &[bool]) -> Option<usize> {
+    let size = |i: &usize| {
+        let half = 0.5 * (intervals[*i].ends[1] - intervals[*i].ends[0]);
+        let scale = if unknowns.parameters[*i].slot == Slot::HardeningExponent { 3.0 } else { 1.0 };
+        half * scale
+    };
+    (0..unknowns.of_the_metal()).filter(|&i| !identified[i]).max_by(|a, b| size(a).total_cmp(&size(b)))
+}
+
+/// The stress-strain curve with its band.
+fn band(
+    function: &Residuals<'_>,
+    unknowns: &Unknowns,
+    best: &Minimum,
+    bounds: &[[f64; 2]],
+    correlation: &[Vec<f64>],
+    deviations: &[f64],
+) -> Vec<StressAt> {
+    let at = |strain: &f64| {
+        let number = |point: &[f64]| Some(unknowns.metal(point)?.stress_at(*strain).ln());
+        let here = number(&best.point)?;
+        let gradient = DVector::from_fn(bounds.len(), |i, _| {
+            let mut moved = best.point.clone();
+            let step = 1e-4 * (bounds[i][1] - bounds[i][0]);
+            moved[i] += if moved[i] + step > bounds[i][1] { -step } else { step };
+            number(&moved).map_or(0.0, |y| (y - here) / (moved[i] - best.point[i]))
+        });
+        let count = bounds.len();
+        let variance: f64 = (0..count * count)
+            .map(|k| (k / count, k % count))
+            .map(|(i, j)| gradient[i] * gradient[j] * deviations[i] * deviations[j] * correlation[i][j])
+            .sum();
+        let interval =
+            profile_likelihood::of_number(function, best, bounds, &number, variance.max(1e-8).sqrt())?;
+        let [low_mpa, high_mpa] = interval.ends.map(|x| 1e-6 * x.exp());
+        Some(StressAt {
+            plastic_strain: *strain,
+            value_MPa: 1e-6 * here.exp(),
+            low_MPa: low_mpa,
+            high_MPa: high_mpa,
+        })
+    };
+    STRAINS.par_iter().filter_map(at).collect()
+}
+
+fn residual(experiments: &[Experiment], unknowns: &Unknowns, best: &Minimum) -> Option<Residual> {
+    let mut count = 0;
+    let curves = experiments.iter().map(|e| {
+        let differences = e.differences(unknowns, &best.point, false)?;
+        count += differences.len() as i64;
+        let loading = match &e.data {
+            Data::Curve(measured) => measured.loading.len(),
+            Data::Features { .. } => differences.len(),
+        };
+        let square = differences[..loading].iter().map(|d| d * d).sum::<f64>() / loading.max(1) as f64;
+        Some(CurveResidual { name: e.name.clone(), rms: square.sqrt(), noise: e.noise })
+    });
+    let curves = curves.collect::<Option<_>>()?;
+    let degrees_of_freedom = count - unknowns.parameters.len() as i64;
+    Some(Residual { chi2: best.chi2, fits: fits(best.chi2, degrees_of_freedom), degrees_of_freedom, curves })
+}
+
+/// True where a sum of squares lies within three standard deviations of what is expected of so many degrees
+/// of freedom; that of none has to be small.
+fn fits(chi2: f64, freedom: i64) -> bool {
+    let free = freedom.max(0) as f64;
+    chi2 <= free + 3.0 * (2.0 * free).sqrt() + 4.0
+}

@@ -1,0 +1,56 @@
+//! What the measurements tell and what they do not, in words.
+
+use crate::identifiability::{NextExperiment, NullDirection};
+use crate::inference::{Found, Residual};
+use crate::stress_strain::StressAt;
+use indexmap::IndexMap;
+use std::fmt::Write;
+
+/// The verdict, in one sentence that can be quoted.
+pub fn verdict(
+    parameters: &IndexMap<String, Found>,
+    representative: Option<&StressAt>,
+    null: Option<&NullDirection>,
+    next: Option<&NextExperiment>,
+    residual: &Residual,
+) -> String {
+    let list = |told: bool| -> Vec<&str> {
+        parameters.iter().filter(|(_, f)| f.identifiable == told).map(|(name, _)| name.as_str()).collect()
+    };
+    if !residual.fits {
+        return format!(
+            "not identifiable: no metal within the bounds fits the measurements within their errors, so the model is rejected (χ² {:.1}, {} degrees of freedom); look for a wrong unit, tool, law, bound or noise",
+            residual.chi2, residual.degrees_of_freedom
+        );
+    }
+    let (told, unidentified) = (list(true), list(false));
+    let mut text = match (&told[..], &unidentified[..]) {
+        (_, []) => "identifiable: the measurements determine all that is sought".to_string(),
+        ([], _) => format!("not identifiable: the measurements do not determine {}", unidentified.join(", ")),
+        _ => format!(
+            "partly identifiable: the measurements determine {}, but not {}",
+            told.join(", "),
+            unidentified.join(", ")
+        ),
+    };
+    if let (false, Some(null)) = (unidentified.is_empty(), null) {
+        let _ = write!(text, "; they are least sensitive to {}", null.text);
+    }
+    if let (false, Some(s)) = (unidentified.is_empty(), representative) {
+        let _ = write!(
+            text,
+            "; what they determine best is the stress at a plastic strain of {}: {:.0} ({:.0} to {:.0}) MPa",
+            s.plastic_strain, s.value_MPa, s.low_MPa, s.high_MPa
+        );
+    }
+    if let Some(next) = next {
+        let _ = write!(
+            text,
+            "; a sharp cone of {:.0} degrees half apex angle beside these would narrow the interval of {} to {:.0} % of its width",
+            next.half_apex_deg,
+            next.parameter,
+            100.0 * next.interval_ratio
+        );
+    }
+    text
+}
