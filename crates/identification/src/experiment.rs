@@ -2,7 +2,7 @@
 
 use super::emulator::{Emulator, by_the_atlas};
 use super::parameters::{Slot, Unknowns};
-use super::response::{DesignPoint, Geometry, NUMBERS_AFTER_LOADING, linear_between, smooth};
+use super::response::{DesignPoint, Geometry, NUMBERS_AFTER_LOADING, smooth};
 use crate::measured_curve::Measured;
 use asperity_calibration::indentation::FORCES;
 use asperity_material::{Elastic, StressMeasure};
@@ -51,6 +51,8 @@ pub struct Experiment {
     pub noise: f64,
     /// True where that was given, and not taken from the scatter.
     pub noise_given: bool,
+    /// Correlation of the noise of neighbouring points of a curve.
+    pub noise_correlation: f64,
     /// Relative standard deviation of what the model leaves out.
     pub model_error: f64,
     /// Relative 95 % errors of the finite elements: loading, slope, way back.
@@ -62,6 +64,19 @@ pub struct Experiment {
 /// Logarithms of the depth over which the force that a body is expected to need is too large or too small
 /// alike. That of a sharp cone is one number, K, off alike at every depth.
 const ALIKE_LOG_DEPTH: f64 = 1.0;
+/// Share of the deepest depth from which finite elements state the error of the force along a curve; below
+/// it, where fewer elements touch, the error of a body grows as the inverse of the depth.
+const STATED_DEPTH_SHARE: f64 = 0.2;
+/// Shares of the peak force over which the error of the shape of the way back is alike, and its standard
+/// deviation over that of the whole way: a way back is read at few forces, at a few steps.
+const ALIKE_FORCE_SHARE: f64 = 0.25;
+const WAY_SHAPE_SHARE: f64 = 0.5;
+
+/// Shares of the deepest depth: room beside the depths of first touch to which the laws of a tool point, the
+/// farthest of them, and that from which a sharp tool is doubted.
+const TOUCH_ROOM: f64 = 0.08;
+const FARTHEST_TOUCH: f64 = 0.24;
+const DOUBTED_TOUCH: f64 = 0.03;
 
 /// Effect on the difference at a point of a curve of errors of the expected force and of the way back.
 struct ErrorOfAPoint {
@@ -69,8 +84,15 @@ struct ErrorOfAPoint {
     place: f64,
     /// Of a relative error of the force.
     by_the_force: f64,
-    /// Of a relative error of the way back.
-    by_the_way: f64,
+    /// Of a relative error of the slope where unloading begins, and of the whole way back.
+    by_the_way: [f64; 2],
+    /// Share of the peak force.
+    share: f64,
+}
+
+/// Correlation of two places a distance `apart` of each other.
+fn alike(apart: f64, length: f64) -> f64 {
+    (-0.5 * (apart / length).powi(2)).exp()
 }
 
 /// Predicted values of a measurement.
@@ -239,30 +261,69 @@ impl Experiment {
     ) -> DMatrix<f64> {
         let load = measured.loading.len();
         let length = if self.is_sharp() { f64::INFINITY } else { ALIKE_LOG_DEPTH };
+        let shallow = |share: f64| if self.is_sharp() { 1.0 } else { (STATED_DEPTH_SHARE / share).max(1.0) };
         // a force that is expected too large takes from each difference of the loading, and adds to each of
         // the way back
         let of_the_loading = measured.loading.iter().map(|p| {
-            let place = (p[0] / self.depth).abs().max(1e-3).ln();
-            ErrorOfAPoint { place, by_the_force: -1.0, by_the_way: 0.0 }
+            let depth = (p[0] / self.depth).abs().max(1e-3);
+            let by_the_force = -shallow(depth);
+            ErrorOfAPoint { place: depth.ln(), by_the_force, by_the_way: [0.0; 2], share: 1.0 }
         });
         let shares: Vec<f64> = measured.unloading.iter().map(|p| p[1] / measured.peak[1]).collect();
         let slopes: Vec<f64> =
             shares.iter().map(|share| share * slope_back(&expected.logarithms, *share)).collect();
-        let of_the_way_back = measured.unloading.iter().zip(&slopes).map(|(p, slope)| {
+        let of_the_way_back = measured.unloading.iter().zip(&slopes).zip(&shares).map(|((p, slope), s)| {
             let way = (measured.peak[0] - p[0]).max(0.0) / self.depth;
-            ErrorOfAPoint { place: 0.0, by_the_force: *slope, by_the_way: way }
+            // near the peak the way is the slope's, at the end the whole
+            let by_the_way = [way * s, way * (1.0 - s)];
+            ErrorOfAPoint { place: 0.0, by_the_force: *slope, by_the_way, share: *s }
         });
         let errors: Vec<ErrorOfAPoint> = of_the_loading.chain(of_the_way_back).collect();
         let noise = |i: usize| {
-            let of_a_depth = |slope: &f64| (self.noise * slope.max(0.02)).powi(2).max(1e-10);
-            i.checked_sub(load).map_or(self.noise.powi(2), |back| of_a_depth(&slopes[back]))
+            let of_a_depth = |slope: &f64| (self.noise * slope.max(0.02)).max(1e-5);
+            i.checked_sub(load).map_or(self.noise, |back| of_a_depth(&slopes[back]))
         };
+        let [force, slope, whole] = common;
         DMatrix::from_fn(errors.len(), errors.len(), |i, j| {
             let (a, b) = (&errors[i], &errors[j]);
-            let near = (-0.5 * ((a.place - b.place) / length).powi(2)).exp();
-            let shared = common[0].powi(2) * near * a.by_the_force * b.by_the_force
-                + common[2].powi(2) * a.by_the_way * b.by_the_way;
-            shared + if i == j { noise(i) } else { 0.0 }
+            let near = alike(a.place - b.place, length);
+            let way = |e: &ErrorOfAPoint| e.by_the_way[0] + e.by_the_way[1];
+            let shape = (WAY_SHAPE_SHARE * whole).powi(2) * alike(a.share - b.share, ALIKE_FORCE_SHARE);
+            let model = force.powi(2) * near * a.by_the_force * b.by_the_force
+                + slope.powi(2) * a.by_the_way[0] * b.by_the_way[0]
+                + whole.powi(2) * a.by_the_way[1] * b.by_the_way[1]
+                + shape * way(a) * way(b);
+            // readings of one stretch are off alike, those of loading and way back are not
+            let of_one_stretch = (i < load) == (j < load);
+            let steps = i.abs_diff(j) as i32;
+            let noisy = if of_one_stretch { self.noise_correlation.powi(steps) } else { 0.0 };
+            model + noise(i) * noise(j) * noisy
+        })
+    }
+
+    /// Depth readings between which the tool of a curve may first touch, 0 among them: those to which the laws
+    /// of the tool point, with room on both sides.
+    pub fn touch_range(&self) -> Option<[f64; 2]> {
+        let Data::Curve(measured) = &self.data else { return None };
+        let [room, farthest] = [TOUCH_ROOM, FARTHEST_TOUCH].map(|share| share * self.depth);
+        let touches = self.geometry.loading_powers().map(|power| measured.touches(power));
+        let low = touches[0].min(touches[1]).clamp(-farthest + room, farthest - room);
+        let high = touches[0].max(touches[1]).clamp(-farthest + room, farthest - room);
+        Some([(low - room).min(-0.25 * room), (high + room).max(0.25 * room)])
+    }
+
+    /// A doubt of the model: the curve of a sharp tool that does not begin where the file says, while
+    /// `first_touch_sought` is false.
+    pub fn doubt(&self, first_touch_sought: bool) -> Option<String> {
+        let Data::Curve(measured) = &self.data else { return None };
+        let touches = measured.touches(2.0);
+        let elsewhere = self.is_sharp() && !first_touch_sought && touches.abs() > DOUBTED_TOUCH * self.depth;
+        elsewhere.then(|| {
+            format!(
+                "{}: √F points to first touch at {:.4} um, not at 0: a rounded tip or an offset; add unknown = [\"contact_depth\"] or a tip_radius",
+                self.name,
+                1e6 * touches
+            )
         })
     }
 
@@ -284,7 +345,7 @@ fn recovery(logarithms: &[f64], share: f64) -> f64 {
     let ways = &logarithms[logarithms.len() - (NUMBERS_AFTER_LOADING - 2)..];
     let mut points = vec![[bent(1.0), 0.0]];
     points.extend(FORCES.iter().zip(ways).map(|(force, way)| [bent(*force), way.exp()]));
-    linear_between(&points, bent(share))
+    smooth(&points, bent(share))
 }
 
 /// The growth of the way back as the share of the force falls.

@@ -12,7 +12,8 @@ use crate::profile_likelihood::Interval;
 use nalgebra::{DMatrix, DVector};
 use serde::Serialize;
 
-/// Relative half width of the interval of a stress, of n, within which a number counts as found.
+/// Largest distance of an end of the interval from the value, relative of a stress, absolute of n, within
+/// which a number counts as found.
 const FOUND_HALF_WIDTHS: [f64; 2] = [0.15, 0.05];
 
 /// Correlation of two unknowns from which a bound on the one decides the other.
@@ -25,23 +26,39 @@ fn is_cut(parameter: &Parameter, interval: &Interval) -> bool {
     interval.bounded[1] || (interval.bounded[0] && !natural)
 }
 
+/// Share of the width of the bounds within which a best value sits at its bound.
+const AT_BOUND_SHARE: f64 = 1e-3;
+
 /// The unknowns that the measurements identify: those of narrow intervals that no bound cuts, neither their
-/// own nor that of an unknown they are tied to.
-pub fn identified(parameters: &[Parameter], intervals: &[Interval], correlation: &[Vec<f64>]) -> Vec<bool> {
+/// own nor that of an unknown they are tied to. While an unknown of the `best` fit sits at a bound, another
+/// metal beyond it would fit better, and none is identified.
+pub fn identified(
+    parameters: &[Parameter],
+    best: &[f64],
+    intervals: &[Interval],
+    correlation: &[Vec<f64>],
+) -> Vec<bool> {
     let cut = |j: usize| is_cut(&parameters[j], &intervals[j]);
-    let tied = |i: usize| (0..parameters.len()).any(|j| correlation[i][j].abs() > TIED_CORRELATION && cut(j));
-    (0..parameters.len()).map(|i| is_narrow(&parameters[i], &intervals[i]) && !tied(i)).collect()
+    let sits = |j: usize| {
+        let (p, x) = (&parameters[j], best[j]);
+        cut(j) && (x - p.bounds[0]).min(p.bounds[1] - x) <= AT_BOUND_SHARE * p.width()
+    };
+    let count = parameters.len();
+    let none = (0..count).any(sits);
+    let tied = |i: usize| (0..count).any(|j| correlation[i][j].abs() > TIED_CORRELATION && cut(j));
+    (0..count).map(|i| !none && is_narrow(&parameters[i], best[i], &intervals[i]) && !tied(i)).collect()
 }
 
-/// True where the interval of `parameter` is narrow.
-fn is_narrow(parameter: &Parameter, interval: &Interval) -> bool {
-    let half = 0.5 * (interval.ends[1] - interval.ends[0]);
+/// True where the interval of `parameter` is narrow about its `best` coordinate.
+fn is_narrow(parameter: &Parameter, best: f64, interval: &Interval) -> bool {
+    let value = parameter.value(best);
+    let [below, above] = interval.ends.map(|end| (parameter.value(end) - value).abs());
     let allowed = match parameter.slot {
         Slot::HardeningExponent | Slot::PoissonsRatio => FOUND_HALF_WIDTHS[1],
-        Slot::ContactDepth(_) | Slot::Compliance(_) => 0.25 * parameter.width(),
-        _ => FOUND_HALF_WIDTHS[0],
+        Slot::ContactDepth(_) | Slot::Compliance(_) => 0.25 * parameter.width() * parameter.scale,
+        _ => FOUND_HALF_WIDTHS[0] * value.abs(),
     };
-    half <= allowed
+    below.max(above) <= allowed
 }
 
 /// A change of the unknowns that the measurements do not notice.

@@ -1,16 +1,16 @@
 //! All that the measurements say at the best fit: numbers with their intervals, the stress-strain curve with
 //! its band, the residual, the verdict.
 
+use crate::branches::{allowed_minima, branches};
 use crate::experiment::{Data, Experiment};
 use crate::identifiability::{
     NextExperiment, NullDirection, deviations, identified, next_experiment, null_direction,
 };
-use crate::levenberg_marquardt::{Minimum, Residuals};
+use crate::levenberg_marquardt::Minimum;
 use crate::objective::Objective;
 use crate::parameters::{Parameter, Slot, Unknowns};
 use crate::posterior;
-use crate::profile_likelihood::{self, Interval};
-use crate::search;
+use crate::profile_likelihood::{Interval, Profile};
 use crate::stress_strain::StressAt;
 use crate::verdict::verdict;
 use indexmap::IndexMap;
@@ -29,11 +29,28 @@ pub struct Found {
     pub high: f64,
     /// Unit of the three.
     pub unit: &'static str,
-    /// True where the measurements tell it: an interval within ±15 % (±0.05 of n) that no bound cuts, neither
-    /// its own nor that of an unknown it is tied to.
+    /// True where the measurements tell it: the model fits and no remark doubts it, the interval lies within
+    /// ±15 % of the value (±0.05 of n), and no bound cuts it, neither its own nor that of an unknown it is
+    /// tied to.
     pub identifiable: bool,
     /// True where the lower and the upper end are the bounds of the search.
     pub at_bound: [bool; 2],
+    /// Where several metals fit, each with its own interval, the best one first; else empty.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub branches: Vec<Branch>,
+}
+
+/// A number of one of several metals that fit.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Branch {
+    /// The best value.
+    pub value: f64,
+    /// Lower end of the interval of this metal.
+    pub low: f64,
+    /// Upper end.
+    pub high: f64,
+    /// Sum of squares at the best value.
+    pub chi2: f64,
 }
 
 /// Residual of the fit.
@@ -98,40 +115,58 @@ pub struct Sampling {
     pub seed: u64,
 }
 
-/// All that `experiments` say of `unknowns` at the `best` fit; `None` where there is no metal.
+/// All that `experiments` say of `unknowns` at the `best` fit; `None` where there is no metal. While there are
+/// `doubts` of the model nothing counts as determined.
 pub fn infer(
     experiments: &[Experiment],
     unknowns: &Unknowns,
     best: &Minimum,
+    doubts: &[String],
     sampling: Sampling,
 ) -> Option<Inference> {
     let objective = Objective::new(experiments, unknowns, &best.point)?;
     let function = objective.function();
     let bounds = objective.bounds();
     let (deviations, correlation) = deviations(&objective, unknowns, &best.point);
-    let others = search::secondary_minima(&objective, unknowns, best.chi2 + profile_likelihood::GROWTH);
-    let intervals: Vec<Interval> = (0..bounds.len())
-        .into_par_iter()
-        .map(|i| profile_likelihood::of_coordinate(&function, best, &others, &bounds, i, deviations[i]))
-        .collect();
+    let others = allowed_minima(&objective, unknowns, best);
+    let metals = branches(&objective, best, &others);
+    let all: Vec<Minimum> = std::iter::once(best).chain(&others).cloned().collect();
+    let profile = Profile { residuals: &function, bounds: &bounds, lowest: best.chi2 };
+    let interval = |minima: &[Minimum], i: usize| {
+        let size = |j: usize| deviations[j] / deviations[i];
+        let along: Vec<f64> = (0..bounds.len()).map(|j| correlation[i][j] * size(j)).collect();
+        profile.of_coordinate(minima, i, deviations[i], &along)
+    };
+    let intervals: Vec<Interval> = (0..bounds.len()).into_par_iter().map(|i| interval(&all, i)).collect();
+    let branch = |minimum: &Minimum, i: usize| {
+        let (p, ends) = (&unknowns.parameters[i], interval(std::slice::from_ref(minimum), i).ends);
+        let [low, high] = ends.map(|x| p.shown(x));
+        Branch { value: p.shown(minimum.point[i]), low, high, chi2: minimum.chi2 }
+    };
+    let branches_of = |i: usize| match &metals[..] {
+        [_] => Vec::new(),
+        several => several.iter().map(|metal| branch(metal, i)).collect(),
+    };
     let residual = residual(experiments, unknowns, best)?;
-    let identified = identified(&unknowns.parameters, &intervals, &correlation);
+    let identified = identified(&unknowns.parameters, &best.point, &intervals, &correlation);
+    let trusted = residual.fits && doubts.is_empty();
     let parameters: IndexMap<String, Found> = unknowns
         .parameters
         .iter()
-        .zip(&intervals)
-        .zip(&best.point)
-        .zip(&identified)
-        .map(|(((p, i), x), told)| (p.name.clone(), found(p, i, *x, residual.fits && *told)))
+        .enumerate()
+        .map(|(i, p)| {
+            let found = found(p, &intervals[i], best.point[i], trusted && identified[i]);
+            (p.name.clone(), Found { branches: branches_of(i), ..found })
+        })
         .collect();
-    let stress_strain = band(&function, unknowns, best, &bounds, &correlation, &deviations);
+    let stress_strain = band(&profile, unknowns, &all, &correlation, &deviations);
     let blind_direction = null_direction(&objective, unknowns, &best.point);
     let widest = widest(unknowns, &intervals, &identified);
     let next_experiment =
         widest.and_then(|of| next_experiment(&objective, experiments, unknowns, &best.point, of));
     let width = |s: &StressAt| (s.high_MPa / s.low_MPa).ln();
     let representative = stress_strain.iter().copied().min_by(|a, b| width(a).total_cmp(&width(b)));
-    let samples = posterior::samples(&function, best, &deviations, &bounds, sampling.count, sampling.seed);
+    let samples = posterior::samples(&function, &metals, &deviations, &bounds, sampling.count, sampling.seed);
     let shown = |point: &Vec<f64>| point.iter().zip(&unknowns.parameters).map(|(x, p)| p.shown(*x)).collect();
     let verdict = verdict(
         &parameters,
@@ -139,6 +174,7 @@ pub fn infer(
         blind_direction.as_ref(),
         next_experiment.as_ref(),
         &residual,
+        doubts,
     );
     Some(Inference {
         parameters,
@@ -162,6 +198,7 @@ fn found(parameter: &Parameter, interval: &Interval, best: f64, identifiable: bo
         unit: parameter.unit,
         identifiable,
         at_bound: interval.bounded,
+        branches: Vec::new(),
     }
 }
 
@@ -177,14 +214,15 @@ fn widest(unknowns: &Unknowns, intervals: &[Interval], identified: &[bool]) -> O
 
 /// The stress-strain curve with its band.
 fn band(
-    function: &Residuals<'_>,
+    profile: &Profile<'_>,
     unknowns: &Unknowns,
-    best: &Minimum,
-    bounds: &[[f64; 2]],
+    minima: &[Minimum],
     correlation: &[Vec<f64>],
     deviations: &[f64],
 ) -> Vec<StressAt> {
+    let bounds = profile.bounds;
     let at = |strain: &f64| {
+        let best = minima.first()?;
         let number = |point: &[f64]| Some(unknowns.metal(point)?.stress_at(*strain).ln());
         let here = number(&best.point)?;
         let gradient = DVector::from_fn(bounds.len(), |i, _| {
@@ -198,8 +236,7 @@ fn band(
             .map(|k| (k / count, k % count))
             .map(|(i, j)| gradient[i] * gradient[j] * deviations[i] * deviations[j] * correlation[i][j])
             .sum();
-        let interval =
-            profile_likelihood::of_number(function, best, bounds, &number, variance.max(1e-8).sqrt())?;
+        let interval = profile.of_number(minima, &number, variance.max(1e-8).sqrt())?;
         let [low_mpa, high_mpa] = interval.ends.map(|x| 1e-6 * x.exp());
         Some(StressAt {
             plastic_strain: *strain,

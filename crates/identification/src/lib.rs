@@ -3,7 +3,7 @@
 //! In the order of the data: the keys of a fit ([`fit_file`], [`known_or_unknown`]), measured curves made
 //! ready ([`measured_curve`]), the unknowns ([`parameters`]); what finite elements answer to one metal
 //! ([`response`]) and between metals ([`emulator`]); a measurement with its covariance ([`experiment`]), all
-//! of them ([`objective`]); the search ([`mod@search`], [`levenberg_marquardt`]); intervals
+//! of them ([`objective`]); the search ([`mod@search`], [`levenberg_marquardt`], [`branches`]); intervals
 //! ([`profile_likelihood`]), samples ([`posterior`]) and the null direction ([`identifiability`]); all that is
 //! said of the metal ([`inference`]).
 
@@ -26,6 +26,8 @@ pub mod levenberg_marquardt;
 pub mod objective;
 
 pub mod search;
+
+pub mod branches;
 
 pub mod profile_likelihood;
 

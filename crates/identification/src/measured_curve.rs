@@ -2,6 +2,7 @@
 //! cycles cut.
 
 use asperity_formats::indentation::Readings;
+use asperity_numerics::least_squares::Line;
 
 /// A curve made ready.
 #[derive(Clone, Debug, PartialEq)]
@@ -14,8 +15,6 @@ pub struct Measured {
     pub peak: [f64; 2],
     /// Depth where the loading ended: less than that of the peak where the load was held there.
     pub loaded: f64,
-    /// Depth reading at which the tool seems to touch: where the line through √F meets zero.
-    pub touches: f64,
     /// Remarks.
     pub notes: Vec<String>,
 }
@@ -38,6 +37,8 @@ const TURN_DEPTH_SHARE: f64 = 0.999;
 /// Growth of the force over that of the depth, both relative, below which readings are a hold: a loading
 /// grows with the power 1.5 of the depth at least.
 const HOLD_GROWTH: f64 = 0.5;
+/// Share of the deepest depth above which a loading shows where the tool touches.
+const TOUCH_DEPTH_SHARE: f64 = 0.4;
 
 impl Measured {
     /// Makes `readings` ready.
@@ -95,8 +96,17 @@ impl Measured {
         if unloading.is_empty() {
             notes.push("there is no unloading: the elastic modulus is hardly seen".into());
         }
-        let touches = touches(&loading);
-        Ok(Measured { loading: thinned(&loading), unloading, peak, loaded, touches, notes })
+        Ok(Measured { loading: thinned(&loading), unloading, peak, loaded, notes })
+    }
+
+    /// Depth reading at which the tool seems to touch, if its force grows with that `power` of the depth:
+    /// where the line through the upper part of F^(1/power) meets zero.
+    pub fn touches(&self, power: f64) -> f64 {
+        let deepest = self.loading.last().map_or(1.0, |p| p[0]);
+        let upper = self.loading.iter().filter(|p| p[0] > TOUCH_DEPTH_SHARE * deepest);
+        let upper: Vec<[f64; 2]> = upper.map(|p| [p[1].powf(1.0 / power), p[0]]).collect();
+        let mean = |k: usize| upper.iter().map(|p| p[k]).sum::<f64>() / upper.len().max(1) as f64;
+        mean(1) - Line::fit(&upper).slope * mean(0)
     }
 
     /// Depths where the loading ended and where the way back began, and the force there.
@@ -198,16 +208,6 @@ fn averaged(
     parts.iter().filter(|p| p.0 > 0.0).map(|(n, sum)| sum.map(|s| of_mean(s / n))).collect()
 }
 
-/// The depth at which the straight line through √F over the upper half of the loading meets zero force.
-fn touches(loading: &[[f64; 2]]) -> f64 {
-    let deepest = loading.last().map_or(1.0, |p| p[0]);
-    let upper: Vec<[f64; 2]> =
-        loading.iter().filter(|p| p[0] > 0.4 * deepest).map(|p| [p[1].sqrt(), p[0]]).collect();
-    let n = upper.len() as f64;
-    let mean = |k: usize| upper.iter().map(|p| p[k]).sum::<f64>() / n;
-    mean(1) - asperity_numerics::least_squares::Line::fit(&upper).slope * mean(0)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -223,7 +223,7 @@ mod tests {
             .extend((0..500).map(|i| 1.0 - f64::from(i) / 500.0).map(|s| [0.9e-6 + 0.1e-6 * s, 5e-3 * s]));
         let measured = Measured::new(&readings).unwrap();
         assert!(measured.loading.len() <= KEPT_POINTS[0] && measured.loading.len() >= 20);
-        assert!(measured.unloading.len() >= 15 && measured.touches.abs() < 1e-9);
+        assert!(measured.unloading.len() >= 15 && measured.touches(2.0).abs() < 1e-9);
         for p in &measured.loading {
             assert!((p[1] / (5e9 * p[0] * p[0]) - 1.0).abs() < 1e-9, "{p:?}");
         }

@@ -136,6 +136,17 @@ impl Unknowns {
         self.parameters.push(Parameter::new(name, slot, unit, logarithmic, ends));
     }
 
+    /// The same with first touch and compliance held at 0, or as near to it as their bounds let them.
+    pub fn without_nuisances(&self) -> Unknowns {
+        let mut held = self.clone();
+        for p in &mut held.parameters {
+            if matches!(p.slot, Slot::ContactDepth(_) | Slot::Compliance(_)) {
+                p.bounds = [0.0_f64.clamp(p.bounds[0], p.bounds[1]); 2];
+            }
+        }
+        held
+    }
+
     /// Value of `slot` at `point`, where it is sought.
     pub fn unknown_value(&self, point: &[f64], slot: Slot) -> Option<f64> {
         let i = self.parameters.iter().position(|p| p.slot == slot)?;

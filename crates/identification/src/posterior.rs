@@ -16,10 +16,10 @@ fn uniform(random: &mut ChaCha8Rng) -> f64 {
     (random.next_u64() >> 11) as f64 / (1_u64 << 53) as f64
 }
 
-/// About `count` samples around `best`; `deviations` spread the walkers at first.
+/// About `count` samples around `minima`, the best one first; `deviations` spread the walkers at first.
 pub fn samples(
     residuals: &Residuals<'_>,
-    best: &Minimum,
+    minima: &[Minimum],
     deviations: &[f64],
     bounds: &[[f64; 2]],
     count: usize,
@@ -28,8 +28,8 @@ pub fn samples(
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let inside = |p: &[f64]| p.iter().zip(bounds).all(|(x, [low, high])| x >= low && x <= high);
     let mut walkers: Vec<(Vec<f64>, f64)> = Vec::new();
-    for _ in 0..WALKERS {
-        let spread: Vec<f64> = best
+    for walker in minima.iter().cycle().take(WALKERS) {
+        let spread: Vec<f64> = walker
             .point
             .iter()
             .zip(deviations)
@@ -79,11 +79,11 @@ mod tests {
     fn samples_have_the_mean_and_spread_of_a_normal_law() {
         let residuals = |p: &[f64]| Some(vec![(p[0] - 1.0) / 0.2, (p[1] - p[0]) / 0.1]);
         let best = Minimum { point: vec![1.0, 1.0], chi2: 0.0 };
-        let found = samples(&residuals, &best, &[0.2, 0.2], &[[-9.0, 9.0]; 2], 4000, 3);
+        let found = samples(&residuals, std::slice::from_ref(&best), &[0.2, 0.2], &[[-9.0, 9.0]; 2], 4000, 3);
         let mean = found.iter().map(|p| p[0]).sum::<f64>() / 4000.0;
         let spread = (found.iter().map(|p| (p[0] - mean).powi(2)).sum::<f64>() / 4000.0).sqrt();
         // 4000 samples of which each third or so is new: 4 % of the spread
         assert!((mean - 1.0).abs() < 0.03 && (spread / 0.2 - 1.0).abs() < 0.1, "{mean} {spread}");
-        assert_eq!(found, samples(&residuals, &best, &[0.2, 0.2], &[[-9.0, 9.0]; 2], 4000, 3));
+        assert_eq!(found, samples(&residuals, std::slice::from_ref(&best), &[0.2, 0.2], &[[-9.0, 9.0]; 2], 4000, 3));
     }
 }

@@ -20,63 +20,115 @@ pub struct Interval {
     pub bounded: [bool; 2],
 }
 
-/// The interval of coordinate `i`; `deviation` is its size by the curvature at the minimum. Where the sum of
-/// squares has several valleys, minima in the `others` count too: the interval reaches from the first end to
-/// the last.
-pub fn of_coordinate(
-    residuals: &Residuals<'_>,
-    best: &Minimum,
-    others: &[Minimum],
-    bounds: &[[f64; 2]],
-    i: usize,
-    deviation: f64,
+/// What a profile goes along: the residuals within their bounds, and how far the sum of squares has to grow
+/// from the lowest one of all.
+pub struct Profile<'a> {
+    /// The residuals.
+    pub residuals: &'a Residuals<'a>,
+    /// Bounds of the coordinates.
+    pub bounds: &'a [[f64; 2]],
+    /// The lowest sum of squares.
+    pub lowest: f64,
+}
+
+impl Profile<'_> {
+    /// The interval of coordinate `i`. Where the sum of squares has several valleys, their `minima` all count,
+    /// and the interval reaches from the first end to the last. By the curvature at the minimum, coordinate
+    /// `i` has the size `deviation`, and the others move `along` as it moves by one.
+    pub fn of_coordinate(&self, minima: &[Minimum], i: usize, deviation: f64, along: &[f64]) -> Interval {
+        let held_at = |x: f64, from: &[f64]| {
+            let mut held = self.bounds.to_vec();
+            held[i] = [x, x];
+            let by = x - from[i];
+            let tilted: Vec<f64> = from.iter().zip(along).map(|(y, slope)| y + by * slope).collect();
+            let starts = [tilted.as_slice(), from].map(|start| {
+                let mut start = start.to_vec();
+                start[i] = x;
+                start
+            });
+            let first = minimise(self.residuals, &starts[0], &held);
+            // a wall may be that of the start alone
+            if first.chi2 - self.lowest <= GROWTH {
+                return first;
+            }
+            let second = minimise(self.residuals, &starts[1], &held);
+            if second.chi2 < first.chi2 { second } else { first }
+        };
+        let end = |from: &Minimum, side: usize| {
+            let limit = self.bounds[i][side];
+            self.one_side(&held_at, from, from.point[i], limit, deviation)
+        };
+        hull(minima, |minimum| minimum.point[i], end)
+    }
+
+    /// The interval of a number that is a function of the coordinates, over the valleys of all `minima`.
+    pub fn of_number(
+        &self,
+        minima: &[Minimum],
+        number: &(dyn Fn(&[f64]) -> Option<f64> + Sync),
+        deviation: f64,
+    ) -> Option<Interval> {
+        let held_at = |x: f64, from: &[f64]| {
+            let held = |point: &[f64]| {
+                let mut all = (self.residuals)(point)?;
+                all.push(CONDITION_WEIGHT * (number(point)? - x));
+                Some(all)
+            };
+            let point = minimise(&held, from, self.bounds).point;
+            // a number that the bounds do not let come so far is as good as beyond
+            let met = number(&point).is_some_and(|y| (y - x).abs() < 1e-3 * (1.0 + deviation));
+            let chi2 = if met { chi2(self.residuals, &point) } else { f64::INFINITY };
+            Minimum { point, chi2 }
+        };
+        let numbers = minima.iter().map(|m| number(&m.point)).collect::<Option<Vec<f64>>>()?;
+        number(&minima.first()?.point)?;
+        let far = 40.0;
+        let value = |minimum: &Minimum| {
+            let known = minima.iter().position(|m| m.point == minimum.point);
+            known.map_or(f64::NAN, |k| numbers[k])
+        };
+        let end = |from: &Minimum, side: usize| {
+            let here = value(from);
+            let limit = here + [-far, far][side];
+            self.one_side(&held_at, from, here, limit, deviation)
+        };
+        Some(hull(minima, value, end))
+    }
+
+    /// The end of the interval from `here`, where the minimum `from` lies, toward `limit`, and whether it is
+    /// that.
+    fn one_side(
+        &self,
+        at: &dyn Fn(f64, &[f64]) -> Minimum,
+        from: &Minimum,
+        here: f64,
+        limit: f64,
+        deviation: f64,
+    ) -> (f64, bool) {
+        one_side(at, from, self.lowest, here, limit, deviation)
+    }
+}
+
+/// The interval from the first end to the last of those about `minima`; one that lies within what was found
+/// is not gone from again.
+fn hull(
+    minima: &[Minimum],
+    value: impl Fn(&Minimum) -> f64,
+    end: impl Fn(&Minimum, usize) -> (f64, bool),
 ) -> Interval {
-    let at = |x: f64, from: &[f64]| {
-        let mut held = bounds.to_vec();
-        held[i] = [x, x];
-        let mut start = from.to_vec();
-        start[i] = x;
-        minimise(residuals, &start, &held)
-    };
-    let end = |from: &Minimum, side: usize| {
-        one_side(&at, from, best.chi2, from.point[i], bounds[i][side], deviation)
+    let Some((best, others)) = minima.split_first() else {
+        return Interval { ends: [f64::NAN; 2], bounded: [false; 2] };
     };
     let mut ends = [0, 1].map(|side| end(best, side));
     for other in others {
-        if other.point[i] < ends[0].0 {
+        if value(other) < ends[0].0 {
             ends[0] = end(other, 0);
         }
-        if other.point[i] > ends[1].0 {
+        if value(other) > ends[1].0 {
             ends[1] = end(other, 1);
         }
     }
     Interval { ends: ends.map(|e| e.0), bounded: ends.map(|e| e.1) }
-}
-
-/// The interval of a number that is a function of the coordinates.
-pub fn of_number(
-    residuals: &Residuals<'_>,
-    best: &Minimum,
-    bounds: &[[f64; 2]],
-    number: &(dyn Fn(&[f64]) -> Option<f64> + Sync),
-    deviation: f64,
-) -> Option<Interval> {
-    let here = number(&best.point)?;
-    let at = |x: f64, from: &[f64]| {
-        let held = |point: &[f64]| {
-            let mut all = residuals(point)?;
-            all.push(CONDITION_WEIGHT * (number(point)? - x));
-            Some(all)
-        };
-        let point = minimise(&held, from, bounds).point;
-        // a number that the bounds do not let come so far is as good as beyond
-        let met = number(&point).is_some_and(|y| (y - x).abs() < 1e-3 * (1.0 + deviation));
-        let chi2 = if met { chi2(residuals, &point) } else { f64::INFINITY };
-        Minimum { point, chi2 }
-    };
-    let far = 40.0;
-    let ends = [-far, far].map(|side| one_side(&at, best, best.chi2, here, here + side, deviation));
-    Some(Interval { ends: ends.map(|e| e.0), bounded: ends.map(|e| e.1) })
 }
 
 /// The end of the interval from `here`, where the minimum `from` lies, toward `limit`, and whether it is
@@ -143,10 +195,15 @@ mod tests {
     fn an_interval_follows_the_curve_and_ends_at_a_bound() {
         let residuals = |p: &[f64]| Some(vec![(p[0].exp() - 1.0) / 0.1]);
         let best = Minimum { point: vec![0.0], chi2: 0.0 };
-        let free = of_coordinate(&residuals, &best, &[], &[[-2.0, 2.0]], 0, 0.1);
+        let bounds = [[-2.0, 2.0], [-0.05, 2.0]];
+        let within = |i: usize| {
+            let profile = Profile { residuals: &residuals, bounds: &bounds[i..=i], lowest: 0.0 };
+            profile.of_coordinate(std::slice::from_ref(&best), 0, 0.1, &[1.0])
+        };
+        let free = within(0);
         assert!((free.ends[0] - (1.0 - 0.196_f64).ln()).abs() < 2e-3, "{free:?}");
         assert!((free.ends[1] - (1.0 + 0.196_f64).ln()).abs() < 2e-3 && free.bounded == [false; 2]);
-        let tight = of_coordinate(&residuals, &best, &[], &[[-0.05, 2.0]], 0, 0.1);
+        let tight = within(1);
         assert!(tight.ends[0] == -0.05 && tight.bounded == [true, false]);
     }
 
@@ -157,9 +214,10 @@ mod tests {
         let residuals = |p: &[f64]| Some(vec![(p[0] + p[1]) / 0.1]);
         let best = Minimum { point: vec![0.0, 0.0], chi2: 0.0 };
         let bounds = [[-1.0, 1.0], [-1.0, 1.0]];
-        let sum = of_number(&residuals, &best, &bounds, &|p| Some(p[0] + p[1]), 0.1).unwrap();
+        let profile = Profile { residuals: &residuals, bounds: &bounds, lowest: 0.0 };
+        let sum = profile.of_number(&[best.clone()], &|p| Some(p[0] + p[1]), 0.1).unwrap();
         assert!((sum.ends[1] - 0.196).abs() < 2e-3 && (sum.ends[0] + 0.196).abs() < 2e-3, "{sum:?}");
-        let one = of_coordinate(&residuals, &best, &[], &bounds, 0, 0.1);
+        let one = profile.of_coordinate(&[best], 0, 0.1, &[1.0, -1.0]);
         assert_eq!((one.ends, one.bounded), ([-1.0, 1.0], [true, true]));
     }
 
@@ -169,9 +227,10 @@ mod tests {
         let residuals = |p: &[f64]| Some(vec![(p[0] * p[0] - 1.0) / 0.1]);
         let [best, other] = [1.0, -1.0].map(|x| Minimum { point: vec![x], chi2: 0.0 });
         let [near, far] = [0.804_f64, 1.196].map(f64::sqrt);
-        let alone = of_coordinate(&residuals, &best, &[], &[[-3.0, 3.0]], 0, 0.05);
+        let profile = Profile { residuals: &residuals, bounds: &[[-3.0, 3.0]], lowest: 0.0 };
+        let alone = profile.of_coordinate(std::slice::from_ref(&best), 0, 0.05, &[1.0]);
         assert!((alone.ends[0] - near).abs() < 2e-3 && (alone.ends[1] - far).abs() < 2e-3, "{alone:?}");
-        let both = of_coordinate(&residuals, &best, &[other], &[[-3.0, 3.0]], 0, 0.05);
+        let both = profile.of_coordinate(&[best, other], 0, 0.05, &[1.0]);
         assert!((both.ends[0] + far).abs() < 2e-3 && (both.ends[1] - far).abs() < 2e-3, "{both:?}");
     }
 }

@@ -52,6 +52,17 @@ impl Geometry {
     pub fn shares(&self) -> &'static [f64] {
         if matches!(self, Geometry::Sharp { .. }) { &SHARES[SHARES.len() - 1..] } else { &SHARES }
     }
+
+    /// Powers of the depth with which the force of its loading may grow: from plastic to elastic of a ball
+    /// (Meyer's and Hertz's laws), 2 of a sharp cone by similarity, between the two where a tip is round.
+    pub fn loading_powers(&self) -> [f64; 2] {
+        match self {
+            Geometry::Sharp { .. } => [2.0, 2.0],
+            Geometry::Rounded { .. } => [1.5, 2.0],
+            Geometry::Ball { .. } => [1.0, 1.5],
+            Geometry::Crush { .. } => [1.0, 2.0],
+        }
+    }
 }
 
 /// Relative error of a run whose companion came to no end.
@@ -200,7 +211,7 @@ fn recovery(rows: &[CurveRow], depth: f64) -> Vec<f64> {
     let bent = |share: f64| -share.max(0.0).powf(2.0 / 3.0);
     let points: Vec<[f64; 2]> =
         rows[peak..].iter().map(|r| [bent(r.force / top), 1.0 - r.depth / depth]).collect();
-    FORCES.iter().map(|force| linear_between(&points, bent(*force))).collect()
+    FORCES.iter().map(|force| smooth(&points, bent(*force))).collect()
 }
 
 /// Linear between `points` of rising x, and on beyond their ends.

@@ -1,6 +1,7 @@
 //! The search: from points all over the bounds, on what finite elements are expected to answer; then they are
 //! asked at the best point, which changes what is expected, until the best point stays.
 
+use super::branches::{FIRST_POINTS, allowed_minima, minima};
 use super::emulator::{Emulator, features};
 use super::experiment::Experiment;
 use super::objective::{Objective, roughly};
@@ -32,10 +33,6 @@ pub enum SearchError {
     NoAnswer(String),
 }
 
-/// Points of the first look.
-const FIRST_POINTS: usize = 512;
-/// Best of them from which a minimum is sought.
-const STARTS: usize = 6;
 /// Most rounds of asking at the best point.
 const ROUNDS: usize = 4;
 /// Standard deviations of the best point within which it stays.
@@ -57,7 +54,13 @@ pub struct Found {
     pub notes: Vec<String>,
 }
 
+/// Other minima at which finite elements are asked as well.
+const OTHER_MINIMA: usize = 2;
+
 /// Searches; the emulators of the experiments learn on the way.
+///
+/// First touch and compliance that are sought are held at 0 at first and then set free from the metal found
+/// there: so an unknown more never makes the best fit worse.
 ///
 /// # Errors
 /// No metal of the bounds that could be computed, or an observer that ended the search.
@@ -70,39 +73,104 @@ pub fn search(
     let mut found =
         Found { minimum: Minimum { point: Vec::new(), chi2: f64::INFINITY }, runs: 0, notes: Vec::new() };
     let analyses = &Analyses::for_threads(rayon::current_num_threads());
-    design(experiments, unknowns, analyses, &mut found, observer)?;
-    let mut best = everywhere(experiments, unknowns)?;
-    // the atlas of sharp cones is as exact as `accuracy`, and coarser runs would only blur it; other tools
-    // have coarse runs all about
-    let early = |e: &Experiment| if e.is_sharp() { accuracy } else { Accuracy::Draft };
-    let mut asked = Vec::new();
-    for round in 0..ROUNDS {
-        go_on(observer, 0.5 + 0.1 * round as f64, "asking finite elements at the best fit")?;
-        run_at(experiments, unknowns, &[best.point.clone()], early, analyses, &mut found)?;
-        let before = best;
-        asked.clone_from(&before.point);
-        best = again(experiments, unknowns, &before.point)?;
-        if moved(experiments, unknowns, &before.point, &best.point) < SETTLED_DEVIATIONS {
-            break;
+    let held = unknowns.without_nuisances();
+    design(experiments, &held, analyses, &mut found, observer)?;
+    let mut ask = Asking { accuracy, analyses, found };
+    let mut best = everywhere(experiments, &held)?;
+    ask.until_settled(experiments, &held, &mut best, [0.5, 0.95], observer)?;
+    if held.parameters != unknowns.parameters {
+        let free = again(experiments, unknowns, &best.point)?;
+        let other = everywhere(experiments, unknowns)?;
+        best = if other.chi2 < free.chi2 - MUCH_LOWER { other } else { free };
+        ask.until_settled(experiments, unknowns, &mut best, [0.9, 0.99], observer)?;
+    }
+    for other in allowed_minima(&objective(experiments, unknowns, &best.point)?, unknowns, &best)
+        .into_iter()
+        .take(OTHER_MINIMA)
+    {
+        go_on(observer, 0.99, "asking finite elements at another metal that fits")?;
+        ask.at(experiments, unknowns, &[other.point.clone()], accuracy)?;
+        let there = again(experiments, unknowns, &other.point)?;
+        best = again(experiments, unknowns, &best.point)?;
+        if there.chi2 < best.chi2 {
+            best = there;
         }
     }
-    let sharp = experiments.iter().all(Experiment::is_sharp);
-    if !sharp {
-        go_on(observer, 0.85, "asking finite elements where the curves see least")?;
-        let beside = along_null_direction(experiments, unknowns, &best.point);
-        run_at(experiments, unknowns, &beside, early, analyses, &mut found)?;
-        best = again(experiments, unknowns, &best.point)?;
+    ask.found.minimum = best;
+    Ok(ask.found)
+}
+
+/// Sum of squares by which a minimum elsewhere must be lower than the one near by to be gone to.
+const MUCH_LOWER: f64 = 0.1;
+
+fn objective<'a>(
+    experiments: &'a [Experiment],
+    unknowns: &'a Unknowns,
+    point: &[f64],
+) -> Result<Objective<'a>, SearchError> {
+    Objective::new(experiments, unknowns, point).ok_or(SearchError::NoMetal)
+}
+
+/// The asking of finite elements, and what came of it.
+struct Asking<'a> {
+    accuracy: Accuracy,
+    analyses: &'a Analyses,
+    found: Found,
+}
+
+impl Asking<'_> {
+    fn at(
+        &mut self,
+        experiments: &mut [Experiment],
+        unknowns: &Unknowns,
+        points: &[Vec<f64>],
+        level: Accuracy,
+    ) -> Result<(), SearchError> {
+        // the atlas of sharp cones is as exact as `accuracy`, and coarser runs would only blur it; other tools
+        // have coarse runs all about
+        let finest = self.accuracy;
+        let level = |e: &Experiment| if e.is_sharp() { finest } else { level };
+        run_at(experiments, unknowns, points, level, self.analyses, &mut self.found)
     }
-    // the answer is that of finite elements at this point, or so near to it that they say the same
-    let answered = sharp || accuracy == Accuracy::Draft;
-    if answered && moved(experiments, unknowns, &asked, &best.point) < SETTLED_DEVIATIONS {
-        found.minimum = best;
-        return Ok(found);
+
+    /// Asks at `best`, which changes what is expected, until it stays. Tells of shares between `from` and
+    /// `to`.
+    fn until_settled(
+        &mut self,
+        experiments: &mut [Experiment],
+        unknowns: &Unknowns,
+        best: &mut Minimum,
+        [from, to]: [f64; 2],
+        observer: &mut Observer<'_>,
+    ) -> Result<(), SearchError> {
+        let share = |part: f64| from + part * (to - from);
+        let mut asked = Vec::new();
+        for round in 0..ROUNDS {
+            go_on(observer, share(0.2 * round as f64), "asking finite elements at the best fit")?;
+            self.at(experiments, unknowns, &[best.point.clone()], Accuracy::Draft)?;
+            asked.clone_from(&best.point);
+            *best = again(experiments, unknowns, &asked)?;
+            if moved(experiments, unknowns, &asked, &best.point) < SETTLED_DEVIATIONS {
+                break;
+            }
+        }
+        let sharp = experiments.iter().all(Experiment::is_sharp);
+        if !sharp {
+            go_on(observer, share(0.8), "asking finite elements where the curves see least")?;
+            let beside = along_null_direction(experiments, unknowns, &best.point);
+            self.at(experiments, unknowns, &beside, Accuracy::Draft)?;
+            *best = again(experiments, unknowns, &best.point)?;
+        }
+        // the answer is that of finite elements at this point, or so near to it that they say the same
+        let answered = sharp || self.accuracy == Accuracy::Draft;
+        if answered && moved(experiments, unknowns, &asked, &best.point) < SETTLED_DEVIATIONS {
+            return Ok(());
+        }
+        go_on(observer, share(0.9), "the final answer")?;
+        self.at(experiments, unknowns, &[best.point.clone()], self.accuracy)?;
+        *best = again(experiments, unknowns, &best.point)?;
+        Ok(())
     }
-    go_on(observer, 0.95, "the final answer")?;
-    run_at(experiments, unknowns, &[best.point.clone()], |_| accuracy, analyses, &mut found)?;
-    found.minimum = again(experiments, unknowns, &best.point)?;
-    Ok(found)
 }
 
 fn go_on(observer: &mut Observer<'_>, share: f64, text: &str) -> Result<(), SearchError> {
@@ -116,27 +184,7 @@ fn everywhere(experiments: &[Experiment], unknowns: &Unknowns) -> Result<Minimum
     let rough = roughly(experiments, unknowns, BALL_AS_CONE_ERROR);
     let first = least(&*rough, &points).ok_or(SearchError::NoMetal)?;
     let objective = Objective::new(experiments, unknowns, &first).ok_or(SearchError::NoMetal)?;
-    minima(&objective, &points)
-        .into_iter()
-        .min_by(|a, b| a.chi2.total_cmp(&b.chi2))
-        .filter(|m| m.chi2.is_finite())
-        .ok_or(SearchError::NoMetal)
-}
-
-/// Minima from the best of `points`.
-fn minima(objective: &Objective<'_>, points: &[Vec<f64>]) -> Vec<Minimum> {
-    let (function, bounds) = (objective.function(), objective.bounds());
-    let mut ranked: Vec<(f64, &Vec<f64>)> = points.par_iter().map(|p| (chi2(&function, p), p)).collect();
-    ranked.sort_by(|a, b| a.0.total_cmp(&b.0));
-    ranked[..STARTS.min(ranked.len())].par_iter().map(|(_, p)| minimise(&function, p, &bounds)).collect()
-}
-
-/// Minima anywhere within the bounds whose sum of squares is less than `chi2`: other metals that the
-/// measurements allow.
-pub fn secondary_minima(objective: &Objective<'_>, unknowns: &Unknowns, chi2: f64) -> Vec<Minimum> {
-    let mut found = minima(objective, &sobol_points(&unknowns.parameters, FIRST_POINTS));
-    found.retain(|minimum| minimum.chi2 < chi2);
-    found
+    minima(&objective, unknowns, &points).into_iter().next().ok_or(SearchError::NoMetal)
 }
 
 fn least(residuals: &Residuals<'_>, points: &[Vec<f64>]) -> Option<Vec<f64>> {
@@ -168,6 +216,9 @@ fn moved(experiments: &[Experiment], unknowns: &Unknowns, a: &[f64], b: &[f64]) 
     }
 }
 
+/// Curvature of a coordinate whose bounds meet.
+const HELD_CURVATURE: f64 = 1e18;
+
 /// Curvature of half the sum of squares, coordinates over the widths of their bounds, with its eigenvalues
 /// and directions.
 pub fn curvature(objective: &Objective<'_>, point: &[f64]) -> Option<SymmetricEigen<f64, nalgebra::Dyn>> {
@@ -176,7 +227,11 @@ pub fn curvature(objective: &Objective<'_>, point: &[f64]) -> Option<SymmetricEi
     for (mut column, [low, high]) in slopes.column_iter_mut().zip(&bounds) {
         column *= high - low;
     }
-    let normal: DMatrix<f64> = slopes.tr_mul(&slopes);
+    let mut normal: DMatrix<f64> = slopes.tr_mul(&slopes);
+    // a coordinate that is held is known
+    for (i, _) in bounds.iter().enumerate().filter(|(_, [low, high])| high <= low) {
+        normal[(i, i)] = HELD_CURVATURE;
+    }
     Some(normal.symmetric_eigen())
 }
 
@@ -312,7 +367,7 @@ fn plausible(experiments: &[Experiment], unknowns: &Unknowns) -> Result<Vec<Vec<
 }
 
 /// `count` of `points`, each the one farthest from those taken before, the first one first.
-fn far_apart(points: &[&Vec<f64>], unknowns: &Unknowns, count: usize) -> Vec<Vec<f64>> {
+pub(crate) fn far_apart(points: &[&Vec<f64>], unknowns: &Unknowns, count: usize) -> Vec<Vec<f64>> {
     let span: Vec<f64> = (0..unknowns.parameters.len())
         .map(|i| {
             let of = points.iter().map(|p| p[i]);

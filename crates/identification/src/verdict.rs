@@ -3,6 +3,7 @@
 use crate::identifiability::{NextExperiment, NullDirection};
 use crate::inference::{Found, Residual};
 use crate::stress_strain::StressAt;
+use asperity_material::units::rounded;
 use indexmap::IndexMap;
 use std::fmt::Write;
 
@@ -13,6 +14,7 @@ pub fn verdict(
     null: Option<&NullDirection>,
     next: Option<&NextExperiment>,
     residual: &Residual,
+    doubts: &[String],
 ) -> String {
     let list = |told: bool| -> Vec<&str> {
         parameters.iter().filter(|(_, f)| f.identifiable == told).map(|(name, _)| name.as_str()).collect()
@@ -22,6 +24,9 @@ pub fn verdict(
             "not identifiable: no metal within the bounds fits the measurements within their errors, so the model is rejected (χ² {:.1}, {} degrees of freedom); look for a wrong unit, tool, law, bound or noise",
             residual.chi2, residual.degrees_of_freedom
         );
+    }
+    if let Some(doubt) = doubts.first() {
+        return format!("not identifiable: the numbers hold for this tool and this first touch alone, which the curve itself doubts ({doubt})");
     }
     let (told, unidentified) = (list(true), list(false));
     let mut text = match (&told[..], &unidentified[..]) {
@@ -33,6 +38,9 @@ pub fn verdict(
             unidentified.join(", ")
         ),
     };
+    if let Some(metals) = several_metals(parameters) {
+        let _ = write!(text, "; {metals}");
+    }
     if let (false, Some(null)) = (unidentified.is_empty(), null) {
         let _ = write!(text, "; they are least sensitive to {}", null.text);
     }
@@ -53,4 +61,19 @@ pub fn verdict(
         );
     }
     text
+}
+
+/// The sentence on several metals that fit; `None` of one.
+fn several_metals(parameters: &IndexMap<String, Found>) -> Option<String> {
+    let count = parameters.values().map(|f| f.branches.len()).max().filter(|count| *count > 1)?;
+    let metal = |k: usize| {
+        let number = |(name, f): (&String, &Found)| {
+            let value = f.branches.get(k)?.value;
+            Some(format!("{name} {} {}", rounded(value, 3), f.unit).trim_end().to_string())
+        };
+        parameters.iter().filter_map(number).collect::<Vec<_>>().join(", ")
+    };
+    let metals: Vec<String> = (0..count).map(metal).collect();
+    let number = if count == 2 { "two".to_string() } else { count.to_string() };
+    Some(format!("{number} metals fit: {}", metals.join("; or ")))
 }

@@ -25,6 +25,8 @@ pub struct Fit {
     pub understood: Vec<String>,
     /// Remarks on the input.
     pub notes: Vec<String>,
+    /// Those among them that doubt the model.
+    pub(super) doubts: Vec<String>,
 }
 
 /// Standard deviation of a feature that states none, and the first guess of that of a curve.
@@ -119,7 +121,7 @@ impl Fit {
             }
         }
         let count = experiments.len();
-        for (experiment, i) in experiments.iter().zip(owners) {
+        for (experiment, &i) in experiments.iter().zip(&owners) {
             add_nuisances(&mut unknowns, experiment, &tables.curve[i], count)
                 .map_err(|(key, m)| file.error_at(&format!("curve[{i}].{key}"), &m))?;
         }
@@ -135,9 +137,11 @@ impl Fit {
         for experiment in &mut experiments {
             experiment.emulator = Emulator::of_a_cone(1 + NUMBERS_AFTER_LOADING, like);
         }
+        let sought = |e: &Experiment| tables.curve[owners[e.curve]].unknown.contains(&Nuisance::ContactDepth);
+        let doubts: Vec<String> = experiments.iter().filter_map(|e| e.doubt(sought(e))).collect();
         let Said { understood, mut notes } = said;
-        notes.extend(experiments.iter().filter_map(begins_elsewhere));
-        Ok(Fit { file, unknowns, experiments, understood, notes })
+        notes.extend(doubts.iter().cloned());
+        Ok(Fit { file, unknowns, experiments, understood, notes, doubts })
     }
 }
 
@@ -190,6 +194,7 @@ fn experiment(
         stress_measure,
         noise: curve.noise.map_or(DEFAULT_NOISE, |n| n.0).max(1e-4),
         noise_given: curve.noise.is_some() || matches!(data, Data::Features { .. }),
+        noise_correlation: 0.0,
         data,
         model_error: curve.model_error.map_or(if pyramid { PYRAMID_MODEL_ERROR } else { 0.0 }, |m| m.0),
         errors: [0.01, 0.02, 0.02],
@@ -207,12 +212,10 @@ fn add_nuisances(
     let of = experiment.curve;
     let asked = |nuisance| curve.unknown.contains(&nuisance);
     if asked(Nuisance::ContactDepth) {
-        let Data::Curve(measured) = &experiment.data else {
-            return Err(key_error("unknown", "contact_depth needs a curve in a file: features have none"));
-        };
-        let room = 0.08 * experiment.depth;
-        let middle = measured.touches.clamp(-2.0 * room, 2.0 * room);
-        unknowns.add("contact_depth", of, count, [middle - room, middle + room]);
+        let range = experiment.touch_range().ok_or_else(|| {
+            key_error("unknown", "contact_depth needs a curve in a file: features have none")
+        })?;
+        unknowns.add("contact_depth", of, count, range);
     }
     match curve.tool.machine_compliance {
         Some(KnownOrUnknown::Range(ends)) => unknowns.add("machine_compliance", of, count, ends.map(|c| c.0)),
@@ -235,17 +238,4 @@ fn add_nuisances(
         _ => {}
     }
     Ok(())
-}
-
-/// A remark on a curve of a sharp tool that does not begin where the file says.
-fn begins_elsewhere(experiment: &Experiment) -> Option<String> {
-    let Data::Curve(measured) = &experiment.data else { return None };
-    let sharp = matches!(experiment.geometry, Geometry::Sharp { .. });
-    (sharp && measured.touches.abs() > 0.03 * experiment.depth).then(|| {
-        format!(
-            "{}: √F points to first touch at {:.4} um, not at 0: a rounded tip or an offset; add unknown = [\"contact_depth\"] or a tip_radius",
-            experiment.name,
-            1e6 * measured.touches
-        )
-    })
 }

@@ -76,7 +76,7 @@ pub(super) fn identify(
     let best = &found.minimum;
     let sampling = Sampling { count: fit.tables().samples, seed: fit.tables().seed };
     let nowhere = || Error::Unfinished("the best fit lies at a metal that cannot be computed".into());
-    let inference = infer(&experiments, &unknowns, best, sampling).ok_or_else(nowhere)?;
+    let inference = infer(&experiments, &unknowns, best, &fit.doubts, sampling).ok_or_else(nowhere)?;
     let objective = Objective::new(&experiments, &unknowns, &best.point).ok_or_else(nowhere)?;
     let drawn = pictures::Drawn::new(&objective, &experiments, &unknowns, best, &inference.intervals);
     let mut notes = std::mem::take(&mut fit.notes);

@@ -1,0 +1,88 @@
+//! Other metals that the measurements allow: minima all over the bounds, and those that a wall parts from the
+//! best one.
+
+use crate::levenberg_marquardt::{Minimum, chi2, minimise};
+use crate::objective::Objective;
+use crate::parameters::{Unknowns, sobol_points};
+use crate::profile_likelihood::GROWTH;
+use crate::search::far_apart;
+use rayon::prelude::*;
+
+/// Points of a look all over the bounds.
+pub const FIRST_POINTS: usize = 512;
+/// Of the points of a look: the best ones, from which minima are sought, and those among the better ones that
+/// lie farthest apart, for the best may all lie in one valley.
+const STARTS: usize = 6;
+const BETTER_POINTS: usize = 96;
+const STARTS_APART: usize = 10;
+/// Places between two minima at which a wall is looked for.
+const PLACES_BETWEEN: usize = 7;
+/// Share of the widths of the bounds within which two minima are one.
+const SAME_PLACE_SHARE: f64 = 0.01;
+
+/// Minima from the best of `points` and from good ones far apart, the lowest one first.
+pub(crate) fn minima(objective: &Objective<'_>, unknowns: &Unknowns, points: &[Vec<f64>]) -> Vec<Minimum> {
+    let (function, bounds) = (objective.function(), objective.bounds());
+    let mut ranked: Vec<(f64, &Vec<f64>)> = points.par_iter().map(|p| (chi2(&function, p), p)).collect();
+    ranked.retain(|r| r.0.is_finite());
+    ranked.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let better: Vec<&Vec<f64>> = ranked.iter().take(BETTER_POINTS).map(|r| r.1).collect();
+    let apart = far_apart(&better, unknowns, STARTS_APART);
+    let starts: Vec<&Vec<f64>> = better.iter().take(STARTS).copied().chain(&apart).collect();
+    let mut found: Vec<Minimum> =
+        starts.par_iter().map(|p| minimise(&function, p, &bounds)).filter(|m| m.chi2.is_finite()).collect();
+    found.sort_by(|a, b| a.chi2.total_cmp(&b.chi2));
+    found
+}
+
+/// Minima anywhere within the bounds that the measurements allow beside the `best` one, with sums of squares
+/// grown by less than that of a 95 % interval; each place once, the lowest one first.
+pub fn allowed_minima(objective: &Objective<'_>, unknowns: &Unknowns, best: &Minimum) -> Vec<Minimum> {
+    let mut kept = vec![best.clone()];
+    for minimum in minima(objective, unknowns, &sobol_points(&unknowns.parameters, FIRST_POINTS)) {
+        let new = kept.iter().all(|other| !is_near(&minimum.point, &other.point, unknowns));
+        if minimum.chi2 < best.chi2 + GROWTH && new {
+            kept.push(minimum);
+        }
+    }
+    kept.split_off(1)
+}
+
+fn is_near(a: &[f64], b: &[f64], unknowns: &Unknowns) -> bool {
+    let widths = unknowns.parameters.iter().map(|p| SAME_PLACE_SHARE * p.width());
+    a.iter().zip(b).zip(widths).all(|((x, y), width)| (x - y).abs() <= width)
+}
+
+/// The `best` minimum and those of `others` that a wall, higher than what the measurements allow, parts from
+/// it and from each other: metals of their own.
+pub fn branches(objective: &Objective<'_>, best: &Minimum, others: &[Minimum]) -> Vec<Minimum> {
+    let mut kept = vec![best.clone()];
+    for other in others {
+        if kept.iter().all(|branch| is_parted(objective, branch, other, best.chi2 + GROWTH)) {
+            kept.push(other.clone());
+        }
+    }
+    kept
+}
+
+/// True where every way between two minima that follows one coordinate, the others at their best, climbs
+/// above `wall`.
+fn is_parted(objective: &Objective<'_>, a: &Minimum, b: &Minimum, wall: f64) -> bool {
+    let (function, bounds) = (objective.function(), objective.bounds());
+    let share = |i: usize| (a.point[i] - b.point[i]).abs() / (bounds[i][1] - bounds[i][0]).max(1e-300);
+    let Some(i) = (0..bounds.len()).max_by(|i, j| share(*i).total_cmp(&share(*j))) else { return false };
+    let climbs = |[from, to]: [&Minimum; 2]| {
+        let mut point = from.point.clone();
+        (1..=PLACES_BETWEEN).any(|k| {
+            let share = k as f64 / (PLACES_BETWEEN + 1) as f64;
+            let x = from.point[i] + share * (to.point[i] - from.point[i]);
+            let mut held = bounds.clone();
+            held[i] = [x, x];
+            point[i] = x;
+            let lowest = minimise(&function, &point, &held);
+            point.clone_from(&lowest.point);
+            lowest.chi2 > wall
+        })
+    };
+    climbs([a, b]) && climbs([b, a])
+}
