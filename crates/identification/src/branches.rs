@@ -3,9 +3,8 @@
 
 use crate::levenberg_marquardt::{Minimum, chi2, minimise};
 use crate::objective::Objective;
-use crate::parameters::{Unknowns, sobol_points};
+use crate::parameters::{Unknowns, far_apart, sobol_points};
 use crate::profile_likelihood::GROWTH;
-use crate::search::far_apart;
 use rayon::prelude::*;
 
 /// Points of a look all over the bounds.

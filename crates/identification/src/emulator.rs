@@ -194,12 +194,17 @@ impl Emulator {
         value
     }
 
-    /// Standard deviations of what may be left, of loading, slope and way back.
-    pub fn left(&self, question: &DesignPoint, loading: usize) -> [f64; 3] {
+    /// The share, from 0 to 1, of what is left of the trend that the computed metals do not tell at `question`.
+    pub fn untold(&self, question: &DesignPoint) -> f64 {
         let place = features(question);
         let k = DVector::from_fn(self.nodes.len(), |i, _| self.correlation(&place, &self.nodes[i].place));
         let known = self.factor.as_ref().map_or(0.0, |factor| k.dot(&factor.solve(&k)));
-        let share = (1.0 - known).clamp(0.0, 1.0).sqrt();
+        (1.0 - known).clamp(0.0, 1.0).sqrt()
+    }
+
+    /// Standard deviations of what may be left, of loading, slope and way back.
+    pub fn left(&self, question: &DesignPoint, loading: usize) -> [f64; 3] {
+        let share = self.untold(question);
         let of = |i: usize| share * self.amplitudes.get(i).copied().unwrap_or(0.0);
         [of(loading - 1), of(loading), of(loading + 1)]
     }

@@ -6,7 +6,7 @@ use super::response::{DesignPoint, Geometry, NUMBERS_AFTER_LOADING, smooth};
 use crate::measured_curve::Measured;
 use asperity_calibration::indentation::FORCES;
 use asperity_material::{Elastic, StressMeasure};
-use nalgebra::DMatrix;
+use nalgebra::{Cholesky, DMatrix, Dyn};
 
 /// Measured values, SI.
 #[derive(Clone, Debug)]
@@ -88,6 +88,26 @@ struct ErrorOfAPoint {
     by_the_way: [f64; 2],
     /// Share of the peak force.
     share: f64,
+}
+
+/// Covariance of the differences of a measurement: what belongs to the data, and what each relative error of
+/// the finite elements adds for a variance of 1.
+#[derive(Clone, Debug)]
+pub struct Covariance {
+    noise: DMatrix<f64>,
+    /// Of an error of the force, of the slope where unloading begins, of the way back.
+    model: [DMatrix<f64>; 3],
+}
+
+impl Covariance {
+    /// The factor of the covariance with the model's standard deviations; `None` where it has none.
+    pub fn factor(&self, deviations: [f64; 3]) -> Option<Cholesky<f64, Dyn>> {
+        let mut sum = self.noise.clone();
+        for (part, deviation) in self.model.iter().zip(deviations) {
+            sum.zip_apply(part, |entry, more| *entry += deviation * deviation * more);
+        }
+        sum.cholesky()
+    }
 }
 
 /// Correlation of two places a distance `apart` of each other.
@@ -228,37 +248,39 @@ impl Experiment {
         Some([load, back])
     }
 
-    /// Covariance of the differences at `point`.
-    pub fn covariance(&self, unknowns: &Unknowns, point: &[f64]) -> Option<DMatrix<f64>> {
-        let question = self.design_point(unknowns, point)?;
-        let expected = self.expected(unknowns, point, false)?;
-        let left = self.emulator.left(&question, self.of_the_loading());
+    /// Relative standard deviations of what finite elements expect at `point`: of the force, of the slope
+    /// where unloading begins, of the way back.
+    pub fn model_deviations(&self, unknowns: &Unknowns, point: &[f64]) -> Option<[f64; 3]> {
+        let left = self.emulator.left(&self.design_point(unknowns, point)?, self.of_the_loading());
         // the stated errors are 95 % bounds
-        let model = [self.model_error; 3];
-        let common: [f64; 3] = std::array::from_fn(|i| (0.5 * self.errors[i]).hypot(left[i]).hypot(model[i]));
+        Some(std::array::from_fn(|i| (0.5 * self.errors[i]).hypot(left[i]).hypot(self.model_error)))
+    }
+
+    /// Covariance of the differences at `point`, in its parts.
+    pub fn covariance(&self, unknowns: &Unknowns, point: &[f64]) -> Option<Covariance> {
+        let expected = self.expected(unknowns, point, false)?;
         Some(match &self.data {
             Data::Features { loading_curvature, unloading_slope, plastic_work_ratio } => {
                 let share = 1.0 - self.features(&expected)[2];
-                let of = [
-                    loading_curvature.map(|_| common[0]),
-                    unloading_slope.map(|_| common[1]),
+                let given = [
+                    loading_curvature.map(|_| [1.0, 0.0, 0.0]),
+                    unloading_slope.map(|_| [0.0, 1.0, 0.0]),
                     // what is said of the returned work is said of its complement, less
-                    plastic_work_ratio.map(|data| common[2] * share / data),
+                    plastic_work_ratio.map(|data| [0.0, 0.0, share / data]),
                 ];
-                let variances: Vec<f64> =
-                    of.into_iter().flatten().map(|c| c.hypot(self.noise).powi(2)).collect();
-                DMatrix::from_diagonal(&variances.into())
+                let effects: Vec<[f64; 3]> = given.into_iter().flatten().collect();
+                let count = effects.len();
+                let part = |k: usize| {
+                    DMatrix::from_fn(count, count, |i, j| if i == j { effects[i][k].powi(2) } else { 0.0 })
+                };
+                let noise = DMatrix::identity(count, count) * self.noise.powi(2);
+                Covariance { noise, model: [part(0), part(1), part(2)] }
             }
-            Data::Curve(measured) => self.covariance_of_a_curve(&expected, measured, common),
+            Data::Curve(measured) => self.covariance_of_a_curve(&expected, measured),
         })
     }
 
-    fn covariance_of_a_curve(
-        &self,
-        expected: &Expected,
-        measured: &Measured,
-        common: [f64; 3],
-    ) -> DMatrix<f64> {
+    fn covariance_of_a_curve(&self, expected: &Expected, measured: &Measured) -> Covariance {
         let load = measured.loading.len();
         let length = if self.is_sharp() { f64::INFINITY } else { ALIKE_LOG_DEPTH };
         let shallow = |share: f64| if self.is_sharp() { 1.0 } else { (STATED_DEPTH_SHARE / share).max(1.0) };
@@ -279,26 +301,29 @@ impl Experiment {
             ErrorOfAPoint { place: 0.0, by_the_force: *slope, by_the_way, share: *s }
         });
         let errors: Vec<ErrorOfAPoint> = of_the_loading.chain(of_the_way_back).collect();
+        let count = errors.len();
         let noise = |i: usize| {
             let of_a_depth = |slope: &f64| (self.noise * slope.max(0.02)).max(1e-5);
             i.checked_sub(load).map_or(self.noise, |back| of_a_depth(&slopes[back]))
         };
-        let [force, slope, whole] = common;
-        DMatrix::from_fn(errors.len(), errors.len(), |i, j| {
-            let (a, b) = (&errors[i], &errors[j]);
-            let near = alike(a.place - b.place, length);
+        let part = |of_a_pair: &dyn Fn(&ErrorOfAPoint, &ErrorOfAPoint) -> f64| {
+            DMatrix::from_fn(count, count, |i, j| of_a_pair(&errors[i], &errors[j]))
+        };
+        let force = part(&|a, b| alike(a.place - b.place, length) * a.by_the_force * b.by_the_force);
+        let slope = part(&|a, b| a.by_the_way[0] * b.by_the_way[0]);
+        let whole = part(&|a, b| {
             let way = |e: &ErrorOfAPoint| e.by_the_way[0] + e.by_the_way[1];
-            let shape = (WAY_SHAPE_SHARE * whole).powi(2) * alike(a.share - b.share, ALIKE_FORCE_SHARE);
-            let model = force.powi(2) * near * a.by_the_force * b.by_the_force
-                + slope.powi(2) * a.by_the_way[0] * b.by_the_way[0]
-                + whole.powi(2) * a.by_the_way[1] * b.by_the_way[1]
-                + shape * way(a) * way(b);
+            let shape = WAY_SHAPE_SHARE.powi(2) * alike(a.share - b.share, ALIKE_FORCE_SHARE);
+            a.by_the_way[1] * b.by_the_way[1] + shape * way(a) * way(b)
+        });
+        let noise = DMatrix::from_fn(count, count, |i, j| {
             // readings of one stretch are off alike, those of loading and way back are not
             let of_one_stretch = (i < load) == (j < load);
             let steps = i.abs_diff(j) as i32;
-            let noisy = if of_one_stretch { self.noise_correlation.powi(steps) } else { 0.0 };
-            model + noise(i) * noise(j) * noisy
-        })
+            let together = if of_one_stretch { self.noise_correlation.powi(steps) } else { 0.0 };
+            noise(i) * noise(j) * together
+        });
+        Covariance { noise, model: [force, slope, whole] }
     }
 
     /// Depth readings between which the tool of a curve may first touch, 0 among them: those to which the laws

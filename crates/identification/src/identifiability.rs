@@ -3,10 +3,9 @@
 
 use super::emulator::by_the_atlas;
 use super::experiment::Experiment;
-use super::objective::Objective;
+use super::objective::{Objective, curvature};
 use super::parameters::{Parameter, Slot, Unknowns};
 use super::response::{DesignPoint, Geometry};
-use super::search::curvature;
 use crate::levenberg_marquardt::jacobian;
 use crate::profile_likelihood::Interval;
 use nalgebra::{DMatrix, DVector};

@@ -7,76 +7,16 @@ use crate::identifiability::{
     NextExperiment, NullDirection, deviations, identified, next_experiment, null_direction,
 };
 use crate::levenberg_marquardt::Minimum;
+use crate::numbers::{Branch, CurveResidual, Found, Residual, StressAt};
 use crate::objective::Objective;
 use crate::parameters::{Parameter, Slot, Unknowns};
 use crate::posterior;
 use crate::profile_likelihood::{Interval, Profile};
-use crate::stress_strain::StressAt;
 use crate::verdict::verdict;
 use indexmap::IndexMap;
 use nalgebra::DVector;
 use rayon::prelude::*;
 use serde::Serialize;
-
-/// A number that was sought, with its 95 % interval.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Found {
-    /// The best value.
-    pub value: f64,
-    /// Lower end of the interval.
-    pub low: f64,
-    /// Upper end of the interval.
-    pub high: f64,
-    /// Unit of the three.
-    pub unit: &'static str,
-    /// True where the measurements tell it: the model fits and no remark doubts it, the interval lies within
-    /// ±15 % of the value (±0.05 of n), and no bound cuts it, neither its own nor that of an unknown it is
-    /// tied to.
-    pub identifiable: bool,
-    /// True where the lower and the upper end are the bounds of the search.
-    pub at_bound: [bool; 2],
-    /// Where several metals fit, each with its own interval, the best one first; else empty.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub branches: Vec<Branch>,
-}
-
-/// A number of one of several metals that fit.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Branch {
-    /// The best value.
-    pub value: f64,
-    /// Lower end of the interval of this metal.
-    pub low: f64,
-    /// Upper end.
-    pub high: f64,
-    /// Sum of squares at the best value.
-    pub chi2: f64,
-}
-
-/// Residual of the fit.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Residual {
-    /// Sum of squares in standard deviations.
-    pub chi2: f64,
-    /// True where that is no more than chance allows.
-    pub fits: bool,
-    /// Measured numbers less unknowns.
-    pub degrees_of_freedom: i64,
-    /// Of each measurement: name, root mean square of the relative differences of its forces (features),
-    /// noise used.
-    pub curves: Vec<CurveResidual>,
-}
-
-/// Residual of one measurement.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct CurveResidual {
-    /// Its name.
-    pub name: String,
-    /// Root mean square of the relative differences of forces, of features.
-    pub rms: f64,
-    /// Standard deviation that was given or taken from the scatter.
-    pub noise: f64,
-}
 
 /// All that is inferred.
 #[derive(Clone, Debug)]
@@ -135,7 +75,7 @@ pub fn infer(
     let interval = |minima: &[Minimum], i: usize| {
         let size = |j: usize| deviations[j] / deviations[i];
         let along: Vec<f64> = (0..bounds.len()).map(|j| correlation[i][j] * size(j)).collect();
-        profile.of_coordinate(minima, i, deviations[i], &along)
+        Interval::between(&profile.ends_of_coordinate(minima, i, deviations[i], &along))
     };
     let intervals: Vec<Interval> = (0..bounds.len()).into_par_iter().map(|i| interval(&all, i)).collect();
     let branch = |minimum: &Minimum, i: usize| {

@@ -35,7 +35,7 @@ pub mod posterior;
 
 pub mod identifiability;
 
-pub mod stress_strain;
+pub mod numbers;
 
 pub mod noise;
 

@@ -1,32 +1,36 @@
 //! All measurements at once: residuals in standard deviations, by one covariance for each measurement.
 
-use super::experiment::Experiment;
+use super::experiment::{Covariance, Experiment};
 use super::parameters::Unknowns;
-use crate::levenberg_marquardt::Residuals;
-use nalgebra::{Cholesky, DVector, Dyn};
+use crate::levenberg_marquardt::{Residuals, jacobian};
+use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
-/// The measurements with their covariances at one point.
+/// The measurements with the parts of their covariances at one point.
+///
+/// The deviations of what finite elements expect are those of the metal that is asked for: a metal far from
+/// every computed one is not ruled out by what the emulator does not know of it.
 pub struct Objective<'a> {
     experiments: &'a [Experiment],
     unknowns: &'a Unknowns,
-    factors: Vec<Cholesky<f64, Dyn>>,
+    covariances: Vec<Covariance>,
 }
 
 impl<'a> Objective<'a> {
-    /// With the covariances at `point`; `None` where there is no metal.
+    /// With the parts of the covariances at `point`; `None` where there is no metal.
     pub fn new(
         experiments: &'a [Experiment],
         unknowns: &'a Unknowns,
         point: &[f64],
     ) -> Option<Objective<'a>> {
-        let factors = experiments.iter().map(|e| e.covariance(unknowns, point)?.cholesky());
-        Some(Objective { experiments, unknowns, factors: factors.collect::<Option<_>>()? })
+        let covariances = experiments.iter().map(|e| e.covariance(unknowns, point));
+        Some(Objective { experiments, unknowns, covariances: covariances.collect::<Option<_>>()? })
     }
 
     /// The residuals at `point`, in standard deviations and independent of each other.
     pub fn residuals(&self, point: &[f64]) -> Option<Vec<f64>> {
         let mut all = Vec::new();
-        for (experiment, factor) in self.experiments.iter().zip(&self.factors) {
+        for (experiment, covariance) in self.experiments.iter().zip(&self.covariances) {
+            let factor = covariance.factor(experiment.model_deviations(self.unknowns, point)?)?;
             let differences = DVector::from_vec(experiment.differences(self.unknowns, point, false)?);
             let whitened = factor.l_dirty().solve_lower_triangular(&differences)?;
             if whitened.iter().any(|x| !x.is_finite()) {
@@ -46,6 +50,25 @@ impl<'a> Objective<'a> {
     pub fn bounds(&self) -> Vec<[f64; 2]> {
         self.unknowns.parameters.iter().map(|p| p.bounds).collect()
     }
+}
+
+/// Curvature of a coordinate whose bounds meet.
+const HELD_CURVATURE: f64 = 1e18;
+
+/// Curvature of half the sum of squares, coordinates over the widths of their bounds, with its eigenvalues
+/// and directions.
+pub fn curvature(objective: &Objective<'_>, point: &[f64]) -> Option<SymmetricEigen<f64, nalgebra::Dyn>> {
+    let bounds = objective.bounds();
+    let mut slopes = jacobian(&objective.function(), point, &bounds)?;
+    for (mut column, [low, high]) in slopes.column_iter_mut().zip(&bounds) {
+        column *= high - low;
+    }
+    let mut normal: DMatrix<f64> = slopes.tr_mul(&slopes);
+    // a coordinate that is held is known
+    for (i, _) in bounds.iter().enumerate().filter(|(_, [low, high])| high <= low) {
+        normal[(i, i)] = HELD_CURVATURE;
+    }
+    Some(normal.symmetric_eigen())
 }
 
 /// Rough residuals by the atlas of cones, with a standard deviation of `rough` beside the noise: where to

@@ -233,3 +233,28 @@ pub fn sobol_points(parameters: &[Parameter], count: usize) -> Vec<Vec<f64>> {
     let coordinate = |i: usize, (k, p): (usize, &Parameter)| p.bounds[0] + p.width() * sobol.coordinate(k, i);
     (1..=count).map(|i| parameters.iter().enumerate().map(|k| coordinate(i, k)).collect()).collect()
 }
+
+/// `count` of `points`, each the one farthest from those taken before, the first one first.
+pub(crate) fn far_apart(points: &[&Vec<f64>], unknowns: &Unknowns, count: usize) -> Vec<Vec<f64>> {
+    let span: Vec<f64> = (0..unknowns.parameters.len())
+        .map(|i| {
+            let of = points.iter().map(|p| p[i]);
+            of.clone().fold(f64::NEG_INFINITY, f64::max) - of.fold(f64::INFINITY, f64::min)
+        })
+        .collect();
+    let distance = |a: &[f64], b: &[f64]| {
+        let square = |((a, b), s): ((&f64, &f64), &f64)| if *s > 0.0 { ((a - b) / s).powi(2) } else { 0.0 };
+        a.iter().zip(b).zip(&span).map(square).sum::<f64>()
+    };
+    let mut nearest = vec![f64::INFINITY; points.len()];
+    let mut taken: Vec<Vec<f64>> = Vec::new();
+    let mut next = 0;
+    while taken.len() < count.min(points.len()) {
+        taken.push(points[next].clone());
+        for (near, point) in nearest.iter_mut().zip(points) {
+            *near = near.min(distance(point, points[next]));
+        }
+        next = (0..points.len()).max_by(|a, b| nearest[*a].total_cmp(&nearest[*b])).unwrap_or(0);
+    }
+    taken
+}

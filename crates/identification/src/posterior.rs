@@ -84,6 +84,9 @@ mod tests {
         let spread = (found.iter().map(|p| (p[0] - mean).powi(2)).sum::<f64>() / 4000.0).sqrt();
         // 4000 samples of which each third or so is new: 4 % of the spread
         assert!((mean - 1.0).abs() < 0.03 && (spread / 0.2 - 1.0).abs() < 0.1, "{mean} {spread}");
-        assert_eq!(found, samples(&residuals, std::slice::from_ref(&best), &[0.2, 0.2], &[[-9.0, 9.0]; 2], 4000, 3));
+        assert_eq!(
+            found,
+            samples(&residuals, std::slice::from_ref(&best), &[0.2, 0.2], &[[-9.0, 9.0]; 2], 4000, 3)
+        );
     }
 }

@@ -20,6 +20,24 @@ pub struct Interval {
     pub bounded: [bool; 2],
 }
 
+impl Interval {
+    /// The interval between two ends.
+    pub fn between(ends: &[End; 2]) -> Interval {
+        Interval { ends: [ends[0].place, ends[1].place], bounded: [ends[0].bounded, ends[1].bounded] }
+    }
+}
+
+/// An end of an interval.
+#[derive(Clone, Debug)]
+pub struct End {
+    /// Its place in the coordinate of the number.
+    pub place: f64,
+    /// True where it is a bound, not what the measurements say.
+    pub bounded: bool,
+    /// The point there, or just within, the other coordinates at their best.
+    pub point: Vec<f64>,
+}
+
 /// What a profile goes along: the residuals within their bounds, and how far the sum of squares has to grow
 /// from the lowest one of all.
 pub struct Profile<'a> {
@@ -32,10 +50,16 @@ pub struct Profile<'a> {
 }
 
 impl Profile<'_> {
-    /// The interval of coordinate `i`. Where the sum of squares has several valleys, their `minima` all count,
-    /// and the interval reaches from the first end to the last. By the curvature at the minimum, coordinate
+    /// The ends of the interval of coordinate `i`. Where the sum of squares has several valleys, their `minima`
+    /// all count, the best one first, and the interval reaches from the first end to the last. By the curvature at the minimum, coordinate
     /// `i` has the size `deviation`, and the others move `along` as it moves by one.
-    pub fn of_coordinate(&self, minima: &[Minimum], i: usize, deviation: f64, along: &[f64]) -> Interval {
+    pub fn ends_of_coordinate(
+        &self,
+        minima: &[Minimum],
+        i: usize,
+        deviation: f64,
+        along: &[f64],
+    ) -> [End; 2] {
         let held_at = |x: f64, from: &[f64]| {
             let mut held = self.bounds.to_vec();
             held[i] = [x, x];
@@ -56,7 +80,7 @@ impl Profile<'_> {
         };
         let end = |from: &Minimum, side: usize| {
             let limit = self.bounds[i][side];
-            self.one_side(&held_at, from, from.point[i], limit, deviation)
+            one_side(&held_at, from, self.lowest, from.point[i], limit, deviation)
         };
         hull(minima, |minimum| minimum.point[i], end)
     }
@@ -81,7 +105,7 @@ impl Profile<'_> {
             Minimum { point, chi2 }
         };
         let numbers = minima.iter().map(|m| number(&m.point)).collect::<Option<Vec<f64>>>()?;
-        number(&minima.first()?.point)?;
+        minima.first()?;
         let far = 40.0;
         let value = |minimum: &Minimum| {
             let known = minima.iter().position(|m| m.point == minimum.point);
@@ -90,45 +114,30 @@ impl Profile<'_> {
         let end = |from: &Minimum, side: usize| {
             let here = value(from);
             let limit = here + [-far, far][side];
-            self.one_side(&held_at, from, here, limit, deviation)
+            one_side(&held_at, from, self.lowest, here, limit, deviation)
         };
-        Some(hull(minima, value, end))
-    }
-
-    /// The end of the interval from `here`, where the minimum `from` lies, toward `limit`, and whether it is
-    /// that.
-    fn one_side(
-        &self,
-        at: &dyn Fn(f64, &[f64]) -> Minimum,
-        from: &Minimum,
-        here: f64,
-        limit: f64,
-        deviation: f64,
-    ) -> (f64, bool) {
-        one_side(at, from, self.lowest, here, limit, deviation)
+        Some(Interval::between(&hull(minima, value, end)))
     }
 }
 
-/// The interval from the first end to the last of those about `minima`; one that lies within what was found
-/// is not gone from again.
+/// The first and the last end of the intervals about `minima`, of which there is one at least; one that lies
+/// within what was found is not gone from again.
 fn hull(
     minima: &[Minimum],
     value: impl Fn(&Minimum) -> f64,
-    end: impl Fn(&Minimum, usize) -> (f64, bool),
-) -> Interval {
-    let Some((best, others)) = minima.split_first() else {
-        return Interval { ends: [f64::NAN; 2], bounded: [false; 2] };
-    };
+    end: impl Fn(&Minimum, usize) -> End,
+) -> [End; 2] {
+    let (best, others) = (&minima[0], &minima[1..]);
     let mut ends = [0, 1].map(|side| end(best, side));
     for other in others {
-        if value(other) < ends[0].0 {
+        if value(other) < ends[0].place {
             ends[0] = end(other, 0);
         }
-        if value(other) > ends[1].0 {
+        if value(other) > ends[1].place {
             ends[1] = end(other, 1);
         }
     }
-    Interval { ends: ends.map(|e| e.0), bounded: ends.map(|e| e.1) }
+    ends
 }
 
 /// The end of the interval from `here`, where the minimum `from` lies, toward `limit`, and whether it is
@@ -140,10 +149,10 @@ fn one_side(
     here: f64,
     limit: f64,
     deviation: f64,
-) -> (f64, bool) {
+) -> End {
     let room = limit - here;
     if room.abs() < 1e-12 {
-        return (limit, true);
+        return End { place: limit, bounded: true, point: from.point.clone() };
     }
     // the root of the growth is nearly a straight line
     let root = |minimum: &Minimum| (minimum.chi2 - lowest).max(0.0).sqrt();
@@ -162,11 +171,11 @@ fn one_side(
         }
         (inner, point) = ((next, grown), minimum.point);
         if next == limit {
-            return (limit, true);
+            return End { place: limit, bounded: true, point };
         }
         step *= 1.4;
     }
-    let Some(mut outer) = outer else { return (inner.0, true) };
+    let Some(mut outer) = outer else { return End { place: inner.0, bounded: true, point } };
     for _ in 0..STEPS[1] {
         if (outer.0 - inner.0).abs() < 0.01 * deviation {
             break;
@@ -182,7 +191,7 @@ fn one_side(
         }
     }
     let share = if outer.1.is_finite() { (goal - inner.1) / (outer.1 - inner.1) } else { 0.5 };
-    (inner.0 + share.clamp(0.0, 1.0) * (outer.0 - inner.0), false)
+    End { place: inner.0 + share.clamp(0.0, 1.0) * (outer.0 - inner.0), bounded: false, point }
 }
 
 #[cfg(test)]
@@ -198,7 +207,7 @@ mod tests {
         let bounds = [[-2.0, 2.0], [-0.05, 2.0]];
         let within = |i: usize| {
             let profile = Profile { residuals: &residuals, bounds: &bounds[i..=i], lowest: 0.0 };
-            profile.of_coordinate(std::slice::from_ref(&best), 0, 0.1, &[1.0])
+            Interval::between(&profile.ends_of_coordinate(std::slice::from_ref(&best), 0, 0.1, &[1.0]))
         };
         let free = within(0);
         assert!((free.ends[0] - (1.0 - 0.196_f64).ln()).abs() < 2e-3, "{free:?}");
@@ -217,7 +226,7 @@ mod tests {
         let profile = Profile { residuals: &residuals, bounds: &bounds, lowest: 0.0 };
         let sum = profile.of_number(&[best.clone()], &|p| Some(p[0] + p[1]), 0.1).unwrap();
         assert!((sum.ends[1] - 0.196).abs() < 2e-3 && (sum.ends[0] + 0.196).abs() < 2e-3, "{sum:?}");
-        let one = profile.of_coordinate(&[best], 0, 0.1, &[1.0, -1.0]);
+        let one = Interval::between(&profile.ends_of_coordinate(&[best], 0, 0.1, &[1.0, -1.0]));
         assert_eq!((one.ends, one.bounded), ([-1.0, 1.0], [true, true]));
     }
 
@@ -228,9 +237,11 @@ mod tests {
         let [best, other] = [1.0, -1.0].map(|x| Minimum { point: vec![x], chi2: 0.0 });
         let [near, far] = [0.804_f64, 1.196].map(f64::sqrt);
         let profile = Profile { residuals: &residuals, bounds: &[[-3.0, 3.0]], lowest: 0.0 };
-        let alone = profile.of_coordinate(std::slice::from_ref(&best), 0, 0.05, &[1.0]);
+        let across =
+            |minima: &[Minimum]| Interval::between(&profile.ends_of_coordinate(minima, 0, 0.05, &[1.0]));
+        let alone = across(std::slice::from_ref(&best));
         assert!((alone.ends[0] - near).abs() < 2e-3 && (alone.ends[1] - far).abs() < 2e-3, "{alone:?}");
-        let both = profile.of_coordinate(&[best, other], 0, 0.05, &[1.0]);
+        let both = across(&[best, other]);
         assert!((both.ends[0] + far).abs() < 2e-3 && (both.ends[1] - far).abs() < 2e-3, "{both:?}");
     }
 }

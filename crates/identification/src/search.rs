@@ -4,14 +4,15 @@
 use super::branches::{FIRST_POINTS, allowed_minima, minima};
 use super::emulator::{Emulator, features};
 use super::experiment::Experiment;
+use super::identifiability::deviations;
 use super::objective::{Objective, roughly};
-use super::parameters::{Unknowns, sobol_points};
+use super::parameters::{Unknowns, far_apart, sobol_points};
 use super::response::{DesignPoint, Response, respond};
-use crate::levenberg_marquardt::{Minimum, Residuals, chi2, jacobian, minimise};
+use crate::levenberg_marquardt::{Minimum, Residuals, chi2, minimise};
+use crate::profile_likelihood::Profile;
 use asperity_material::range;
 use asperity_simulation::scene::Accuracy;
 use asperity_solver::body::analysis::Analyses;
-use nalgebra::{DMatrix, SymmetricEigen};
 use rayon::prelude::*;
 use thiserror::Error;
 
@@ -54,6 +55,9 @@ pub struct Found {
     pub notes: Vec<String>,
 }
 
+/// Rounds of asking at the ends of a valley, and the share that the computed metals must leave untold there.
+const VALLEY_ROUNDS: usize = 3;
+const UNTOLD_SHARE: f64 = 0.5;
 /// Other minima at which finite elements are asked as well.
 const OTHER_MINIMA: usize = 2;
 
@@ -89,7 +93,7 @@ pub fn search(
         .take(OTHER_MINIMA)
     {
         go_on(observer, 0.99, "asking finite elements at another metal that fits")?;
-        ask.at(experiments, unknowns, &[other.point.clone()], accuracy)?;
+        ask.at(experiments, unknowns, (&[other.point.clone()], false), accuracy)?;
         let there = again(experiments, unknowns, &other.point)?;
         best = again(experiments, unknowns, &best.point)?;
         if there.chi2 < best.chi2 {
@@ -123,14 +127,14 @@ impl Asking<'_> {
         &mut self,
         experiments: &mut [Experiment],
         unknowns: &Unknowns,
-        points: &[Vec<f64>],
+        (points, needed): (&[Vec<f64>], bool),
         level: Accuracy,
     ) -> Result<(), SearchError> {
         // the atlas of sharp cones is as exact as `accuracy`, and coarser runs would only blur it; other tools
         // have coarse runs all about
         let finest = self.accuracy;
         let level = |e: &Experiment| if e.is_sharp() { finest } else { level };
-        run_at(experiments, unknowns, points, level, self.analyses, &mut self.found)
+        run_at(experiments, unknowns, (points, needed), level, self.analyses, &mut self.found)
     }
 
     /// Asks at `best`, which changes what is expected, until it stays. Tells of shares between `from` and
@@ -147,27 +151,30 @@ impl Asking<'_> {
         let mut asked = Vec::new();
         for round in 0..ROUNDS {
             go_on(observer, share(0.2 * round as f64), "asking finite elements at the best fit")?;
-            self.at(experiments, unknowns, &[best.point.clone()], Accuracy::Draft)?;
+            self.at(experiments, unknowns, (&[best.point.clone()], true), Accuracy::Draft)?;
             asked.clone_from(&best.point);
             *best = again(experiments, unknowns, &asked)?;
             if moved(experiments, unknowns, &asked, &best.point) < SETTLED_DEVIATIONS {
                 break;
             }
         }
-        let sharp = experiments.iter().all(Experiment::is_sharp);
-        if !sharp {
-            go_on(observer, share(0.8), "asking finite elements where the curves see least")?;
-            let beside = along_null_direction(experiments, unknowns, &best.point);
-            self.at(experiments, unknowns, &beside, Accuracy::Draft)?;
+        for _ in 0..VALLEY_ROUNDS {
+            let ends = ends_of_the_valley(experiments, unknowns, best);
+            if ends.is_empty() {
+                break;
+            }
+            go_on(observer, share(0.8), "asking finite elements where the measurements see least")?;
+            self.at(experiments, unknowns, (&ends, false), Accuracy::Draft)?;
             *best = again(experiments, unknowns, &best.point)?;
         }
+        let sharp = experiments.iter().all(Experiment::is_sharp);
         // the answer is that of finite elements at this point, or so near to it that they say the same
         let answered = sharp || self.accuracy == Accuracy::Draft;
         if answered && moved(experiments, unknowns, &asked, &best.point) < SETTLED_DEVIATIONS {
             return Ok(());
         }
         go_on(observer, share(0.9), "the final answer")?;
-        self.at(experiments, unknowns, &[best.point.clone()], self.accuracy)?;
+        self.at(experiments, unknowns, (&[best.point.clone()], true), self.accuracy)?;
         *best = again(experiments, unknowns, &best.point)?;
         Ok(())
     }
@@ -216,49 +223,32 @@ fn moved(experiments: &[Experiment], unknowns: &Unknowns, a: &[f64], b: &[f64]) 
     }
 }
 
-/// Curvature of a coordinate whose bounds meet.
-const HELD_CURVATURE: f64 = 1e18;
-
-/// Curvature of half the sum of squares, coordinates over the widths of their bounds, with its eigenvalues
-/// and directions.
-pub fn curvature(objective: &Objective<'_>, point: &[f64]) -> Option<SymmetricEigen<f64, nalgebra::Dyn>> {
-    let bounds = objective.bounds();
-    let mut slopes = jacobian(&objective.function(), point, &bounds)?;
-    for (mut column, [low, high]) in slopes.column_iter_mut().zip(&bounds) {
-        column *= high - low;
-    }
-    let mut normal: DMatrix<f64> = slopes.tr_mul(&slopes);
-    // a coordinate that is held is known
-    for (i, _) in bounds.iter().enumerate().filter(|(_, [low, high])| high <= low) {
-        normal[(i, i)] = HELD_CURVATURE;
-    }
-    Some(normal.symmetric_eigen())
+/// The ends of the interval of the unknown of the metal that is seen least, where the computed metals tell
+/// little: along a valley an end is none before finite elements were asked there.
+fn ends_of_the_valley(experiments: &[Experiment], unknowns: &Unknowns, best: &Minimum) -> Vec<Vec<f64>> {
+    let Some(objective) = Objective::new(experiments, unknowns, &best.point) else { return Vec::new() };
+    let (deviations, correlation) = deviations(&objective, unknowns, &best.point);
+    let share = |i: &usize| deviations[*i] / unknowns.parameters[*i].width();
+    let metal = 0..unknowns.of_the_metal();
+    let Some(i) = metal.max_by(|a, b| share(a).total_cmp(&share(b))) else { return Vec::new() };
+    let (function, bounds) = (objective.function(), objective.bounds());
+    let profile = Profile { residuals: &function, bounds: &bounds, lowest: best.chi2 };
+    let along: Vec<f64> =
+        (0..bounds.len()).map(|j| correlation[i][j] * deviations[j] / deviations[i]).collect();
+    let ends = profile.ends_of_coordinate(std::slice::from_ref(best), i, deviations[i], &along);
+    let untold = |point: &Vec<f64>| {
+        let of = |e: &Experiment| e.design_point(unknowns, point).map_or(0.0, |q| e.emulator.untold(&q));
+        experiments.iter().any(|e| of(e) > UNTOLD_SHARE)
+    };
+    ends.into_iter().map(|end| end.point).filter(untold).collect()
 }
 
-/// Two points on both sides of `point` along the direction that the measurements see least, at most 1.5
-/// standard deviations and a third of the bounds away.
-fn along_null_direction(experiments: &[Experiment], unknowns: &Unknowns, point: &[f64]) -> Vec<Vec<f64>> {
-    let seen = Objective::new(experiments, unknowns, point).and_then(|o| curvature(&o, point));
-    let Some(seen) = seen else { return Vec::new() };
-    let weakest = seen.eigenvalues.imin();
-    let length = (1.5 / seen.eigenvalues[weakest].max(1e-12).sqrt()).min(0.33);
-    let direction = seen.eigenvectors.column(weakest);
-    [-1.0, 1.0]
-        .iter()
-        .map(|side| {
-            let widths = unknowns.parameters.iter().zip(direction.iter());
-            let step: Vec<f64> = widths.map(|(p, d)| side * length * d * p.width()).collect();
-            unknowns.clamped(&point.iter().zip(step).map(|(x, s)| x + s).collect::<Vec<_>>())
-        })
-        .filter(|other| unknowns.metal(other).is_some())
-        .collect()
-}
-
-/// Asks the finite elements of every experiment at `points`, and the emulators learn the answers.
+/// Asks the finite elements of every experiment at `points`, and the emulators learn the answers; no answer
+/// at all is an error where it is `needed`.
 fn run_at(
     experiments: &mut [Experiment],
     unknowns: &Unknowns,
-    points: &[Vec<f64>],
+    (points, needed): (&[Vec<f64>], bool),
     accuracy: impl Fn(&Experiment) -> Accuracy,
     analyses: &Analyses,
     found: &mut Found,
@@ -298,7 +288,7 @@ fn run_at(
             }
         }
     }
-    let silent = learned.iter().position(|l| !l).filter(|_| points.len() == 1);
+    let silent = learned.iter().position(|l| !l).filter(|_| needed);
     match silent {
         Some(i) => Err(SearchError::NoAnswer(format!(
             "{}: no answer of the finite elements near the best fit: {}",
@@ -364,29 +354,4 @@ fn plausible(experiments: &[Experiment], unknowns: &Unknowns) -> Result<Vec<Vec<
         ranked.iter().take_while(|r| r.0 <= lowest + 12.0).count().max(4 * wanted).min(ranked.len());
     let open: Vec<&Vec<f64>> = ranked[..allowed].iter().map(|r| r.1).collect();
     Ok(far_apart(&open, unknowns, wanted))
-}
-
-/// `count` of `points`, each the one farthest from those taken before, the first one first.
-pub(crate) fn far_apart(points: &[&Vec<f64>], unknowns: &Unknowns, count: usize) -> Vec<Vec<f64>> {
-    let span: Vec<f64> = (0..unknowns.parameters.len())
-        .map(|i| {
-            let of = points.iter().map(|p| p[i]);
-            of.clone().fold(f64::NEG_INFINITY, f64::max) - of.fold(f64::INFINITY, f64::min)
-        })
-        .collect();
-    let distance = |a: &[f64], b: &[f64]| {
-        let square = |((a, b), s): ((&f64, &f64), &f64)| if *s > 0.0 { ((a - b) / s).powi(2) } else { 0.0 };
-        a.iter().zip(b).zip(&span).map(square).sum::<f64>()
-    };
-    let mut nearest = vec![f64::INFINITY; points.len()];
-    let mut taken: Vec<Vec<f64>> = Vec::new();
-    let mut next = 0;
-    while taken.len() < count.min(points.len()) {
-        taken.push(points[next].clone());
-        for (near, point) in nearest.iter_mut().zip(points) {
-            *near = near.min(distance(point, points[next]));
-        }
-        next = (0..points.len()).max_by(|a, b| nearest[*a].total_cmp(&nearest[*b])).unwrap_or(0);
-    }
-    taken
 }

@@ -1,8 +1,7 @@
 //! What the measurements tell and what they do not, in words.
 
 use crate::identifiability::{NextExperiment, NullDirection};
-use crate::inference::{Found, Residual};
-use crate::stress_strain::StressAt;
+use crate::numbers::{Found, Residual, StressAt};
 use asperity_material::units::rounded;
 use indexmap::IndexMap;
 use std::fmt::Write;
@@ -26,7 +25,9 @@ pub fn verdict(
         );
     }
     if let Some(doubt) = doubts.first() {
-        return format!("not identifiable: the numbers hold for this tool and this first touch alone, which the curve itself doubts ({doubt})");
+        return format!(
+            "not identifiable: the numbers hold for this tool and this first touch alone, which the curve itself doubts ({doubt})"
+        );
     }
     let (told, unidentified) = (list(true), list(false));
     let mut text = match (&told[..], &unidentified[..]) {

@@ -5,7 +5,7 @@ use super::result::Identification;
 use crate::error::Error;
 use crate::page::{self, Numbers, Report};
 use crate::results::numbers::significant;
-use asperity_identification::inference::{CurveResidual, Found};
+use asperity_identification::numbers::{CurveResidual, Found};
 use maud::html;
 
 impl Identification {

@@ -24,9 +24,9 @@ pub use asperity_identification::fit_file::{
     Features, FitAccuracy, FitCurve, FitFile, FitMaterial, FitShape, FitTool, Nuisance,
 };
 pub use asperity_identification::identifiability::{NextExperiment, NullDirection};
-pub use asperity_identification::inference::{CurveResidual, Found, Residual};
 pub use asperity_identification::known_or_unknown::{KnownOrUnknown, Percent};
-pub use asperity_identification::stress_strain::StressAt;
+pub use asperity_identification::numbers::StressAt;
+pub use asperity_identification::numbers::{CurveResidual, Found, Residual};
 pub use fit::Fit;
 pub use result::Identification;
 pub use tool_geometry::PYRAMIDS_CONE;

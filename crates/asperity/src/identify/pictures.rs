@@ -7,10 +7,10 @@ use crate::draw::chart::{
 use crate::draw::palette::{Colour, LINES, VIRIDIS, interpolated};
 use asperity_identification::experiment::{Data, Experiment};
 use asperity_identification::levenberg_marquardt::{Minimum, chi2};
+use asperity_identification::numbers::StressAt;
 use asperity_identification::objective::Objective;
 use asperity_identification::parameters::Unknowns;
 use asperity_identification::profile_likelihood::{GROWTH, Interval};
-use asperity_identification::stress_strain::StressAt;
 use plotters::prelude::*;
 use rayon::prelude::*;
 
