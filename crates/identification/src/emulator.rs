@@ -92,6 +92,9 @@ pub fn by_the_atlas(question: &DesignPoint) -> Vec<f64> {
     }
 }
 
+/// Least scatter about a polynomial: what the mesh, which differs from metal to metal, leaves.
+const MIN_AMPLITUDE: f64 = 0.003;
+
 impl Emulator {
     /// That of a sharp cone before any run of its own.
     pub fn of_a_cone(outputs: usize, like_the_atlas: bool) -> Emulator {
@@ -107,7 +110,7 @@ impl Emulator {
         let values: Vec<&[f64]> = runs.iter().map(|(_, r)| r.logarithms.as_slice()).collect();
         let (polynomial, left) = Polynomial::fit(&places, &values)?;
         let lengths = polynomial.widths.iter().map(|w| if *w > 0.0 { 0.8 * w } else { 1.0 }).collect();
-        let amplitudes = left.iter().map(|l| l.max(0.003)).collect();
+        let amplitudes = left.iter().map(|l| l.max(MIN_AMPLITUDE)).collect();
         let mut emulator = Emulator::new(Trend::Polynomial(polynomial), lengths, amplitudes);
         for (place, response) in runs {
             emulator.push(place.clone(), response);
@@ -206,6 +209,12 @@ impl Emulator {
     pub fn left(&self, question: &DesignPoint, loading: usize) -> [f64; 3] {
         let share = self.untold(question);
         let of = |i: usize| share * self.amplitudes.get(i).copied().unwrap_or(0.0);
+        if question.imprint {
+            // of its heights, which stand behind the radius
+            let heights = self.amplitudes.iter().skip(1);
+            let mean = (heights.clone().map(|a| a * a).sum::<f64>() / heights.len().max(1) as f64).sqrt();
+            return [share * mean, 0.0, 0.0];
+        }
         [of(loading - 1), of(loading), of(loading + 1)]
     }
 }

@@ -1,8 +1,10 @@
 //! One measurement: what was measured, what the finite elements expect, and how far the two may differ.
 
 use super::emulator::{Emulator, by_the_atlas};
+use super::imprint::{self, Imprint};
+use super::interpolation::smooth;
 use super::parameters::{Slot, Unknowns};
-use super::response::{DesignPoint, Geometry, NUMBERS_AFTER_LOADING, smooth};
+use super::response::{DesignPoint, Geometry, NUMBERS_AFTER_LOADING};
 use crate::measured_curve::Measured;
 use asperity_calibration::indentation::FORCES;
 use asperity_material::{Elastic, StressMeasure};
@@ -22,6 +24,21 @@ pub enum Data {
     },
     /// A curve.
     Curve(Measured),
+    /// The imprint after unloading.
+    Imprint(Imprint),
+    /// Numbers of an imprint.
+    ImprintNumbers(ImprintNumbers),
+}
+
+/// Numbers of an imprint, m.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ImprintNumbers {
+    /// Highest point of the surface above the far field.
+    pub pile_up_height: Option<f64>,
+    /// Depth of the lowest point below the far field.
+    pub residual_depth: Option<f64>,
+    /// Radius of the rim, the highest point.
+    pub rim_radius: Option<f64>,
 }
 
 /// One measurement.
@@ -43,6 +60,8 @@ pub struct Experiment {
     pub compliance: f64,
     /// Deepest depth, m; 1 where nothing hangs on it.
     pub depth: f64,
+    /// Of an imprint: the peak force, where a curve tells it, N.
+    pub imprint_force: Option<f64>,
     /// The stress that yields.
     pub stress_measure: StressMeasure,
     /// The data.
@@ -100,6 +119,12 @@ pub struct Covariance {
 }
 
 impl Covariance {
+    /// That of data of which one error of the finite elements is known alone.
+    fn of_the_first(noise: DMatrix<f64>, model: DMatrix<f64>) -> Covariance {
+        let none = DMatrix::zeros(noise.nrows(), noise.ncols());
+        Covariance { model: [model, none.clone(), none], noise }
+    }
+
     /// The factor of the covariance with the model's standard deviations; `None` where it has none.
     pub fn factor(&self, deviations: [f64; 3]) -> Option<Cholesky<f64, Dyn>> {
         let mut sum = self.noise.clone();
@@ -137,22 +162,32 @@ impl Experiment {
             metal,
             tip_radius: unknowns.unknown_value(point, Slot::TipRadius(self.curve)).unwrap_or(self.tip_radius),
             stress_measure: self.stress_measure,
+            imprint: self.is_imprint(),
         })
     }
 
-    /// True where the tool is a sharp cone, for which there is an atlas.
+    /// True where the imprint was measured.
+    pub fn is_imprint(&self) -> bool {
+        matches!(self.data, Data::Imprint(_) | Data::ImprintNumbers(_))
+    }
+
+    /// True where finite elements answer by the atlas of sharp cones: curves and their numbers under one.
     pub fn is_sharp(&self) -> bool {
-        matches!(self.geometry, Geometry::Sharp { .. })
+        matches!(self.geometry, Geometry::Sharp { .. }) && !self.is_imprint()
     }
 
     /// Numbers of the loading in a response.
     pub fn of_the_loading(&self) -> usize {
-        self.geometry.shares().len()
+        if self.is_imprint() { 1 } else { self.geometry.shares().len() }
     }
 
     fn expected(&self, unknowns: &Unknowns, point: &[f64], roughly: bool) -> Option<Expected> {
         let question = self.design_point(unknowns, point)?;
-        let logarithms = if roughly { by_the_atlas(&question) } else { self.emulator.predict(&question) };
+        let logarithms = if roughly && !question.imprint {
+            by_the_atlas(&question)
+        } else {
+            self.emulator.predict(&question)
+        };
         let own = |slot, known| unknowns.unknown_value(point, slot).unwrap_or(known);
         Some(Expected {
             modulus: question.modulus,
@@ -165,6 +200,9 @@ impl Experiment {
     /// Measured less expected, each over what it is measured in: logarithms of forces and slopes, shares of
     /// the work, depths of unloading over the deepest. `roughly`: by the atlas of cones alone.
     pub fn differences(&self, unknowns: &Unknowns, point: &[f64], roughly: bool) -> Option<Vec<f64>> {
+        if roughly && self.is_imprint() {
+            return Some(Vec::new());
+        }
         let expected = self.expected(unknowns, point, roughly)?;
         Some(match &self.data {
             Data::Features { loading_curvature, unloading_slope, plastic_work_ratio } => {
@@ -188,7 +226,30 @@ impl Experiment {
                     .map(|p| (p[0] - self.depth_back(&expected, measured.turn(), p[1])) / self.depth);
                 load.chain(back).collect()
             }
+            Data::Imprint(imprint) => {
+                let depth = self.true_depth(&expected);
+                let model = |r: f64| depth * imprint::height(&expected.logarithms, r / depth);
+                imprint.points.iter().map(|[r, z]| (z - model(*r)) / self.depth).collect()
+            }
+            Data::ImprintNumbers(numbers) => {
+                let depth = self.true_depth(&expected);
+                let [pile_up, residual, rim] = imprint::outstanding(&expected.logarithms).map(|x| depth * x);
+                let over = |data: Option<f64>, model: f64| data.map(|d| (d - model) / self.depth);
+                let logarithm = |data: Option<f64>, model: f64| data.map(|d| (d / model).ln());
+                let all = [
+                    over(numbers.pile_up_height, pile_up),
+                    over(numbers.residual_depth, residual),
+                    logarithm(numbers.rim_radius, rim),
+                ];
+                all.into_iter().flatten().collect()
+            }
         })
+    }
+
+    /// The depth from contact of an imprint: what the machine and first touch take is no imprint.
+    fn true_depth(&self, expected: &Expected) -> f64 {
+        let peak = self.imprint_force.unwrap_or(0.0);
+        (self.depth - expected.contact_depth - expected.compliance * peak).max(0.1 * self.depth)
     }
 
     /// Loading curvature (Pa), unloading slope (N/m) and plastic share that are expected.
@@ -256,6 +317,13 @@ impl Experiment {
         Some(std::array::from_fn(|i| (0.5 * self.errors[i]).hypot(left[i]).hypot(self.model_error)))
     }
 
+    /// Heights (m) expected at the places of a measured imprint; `None` without one.
+    pub fn imprint_heights(&self, unknowns: &Unknowns, point: &[f64]) -> Option<Vec<f64>> {
+        let Data::Imprint(imprint) = &self.data else { return None };
+        let left = self.differences(unknowns, point, false)?;
+        Some(imprint.points.iter().zip(left).map(|(p, d)| p[1] - d * self.depth).collect())
+    }
+
     /// Covariance of the differences at `point`, in its parts.
     pub fn covariance(&self, unknowns: &Unknowns, point: &[f64]) -> Option<Covariance> {
         let expected = self.expected(unknowns, point, false)?;
@@ -277,6 +345,20 @@ impl Experiment {
                 Covariance { noise, model: [part(0), part(1), part(2)] }
             }
             Data::Curve(measured) => self.covariance_of_a_curve(&expected, measured),
+            Data::Imprint(imprint) => {
+                let radius = imprint::radius_over_depth(&expected.logarithms) * self.true_depth(&expected);
+                let [noise, model] = imprint.covariances(radius, self.depth);
+                Covariance::of_the_first(noise, model)
+            }
+            Data::ImprintNumbers(numbers) => {
+                let given = [numbers.pile_up_height, numbers.residual_depth, numbers.rim_radius];
+                let scales = [0, 1, 2].map(|k| given[k].map(|d| if k < 2 { d / self.depth } else { 1.0 }));
+                let sizes: Vec<f64> = scales.into_iter().flatten().collect();
+                let noise = DMatrix::from_diagonal(
+                    &sizes.iter().map(|s| (self.noise * s).powi(2)).collect::<Vec<_>>().into(),
+                );
+                Covariance::of_the_first(noise, DMatrix::identity(sizes.len(), sizes.len()))
+            }
         })
     }
 
@@ -359,6 +441,7 @@ impl Experiment {
             Data::Features { loading_curvature, .. } => {
                 loading_curvature.map(|k| [self.depth, k * self.depth * self.depth])
             }
+            Data::Imprint(_) | Data::ImprintNumbers(_) => None,
         }
     }
 }

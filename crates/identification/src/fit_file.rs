@@ -138,6 +138,46 @@ pub struct FitCurve {
     /// Further unknowns of this measurement.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub unknown: Vec<Nuisance>,
+    /// The imprint that was left, of a cone or a ball: a profile with columns such as r_um,z_um (r from the axis, z up, 0 on
+    /// the far field), or a map that says its units; or a table with its noise.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub imprint: Option<FitImprint>,
+}
+
+/// The imprint of a measurement: its file, or the file with its noise.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum FitImprint {
+    /// Its file.
+    File(PathBuf),
+    /// Its file and its noise.
+    Table(ImprintTable),
+}
+
+/// The file of an imprint and its noise.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ImprintTable {
+    /// Profile or map, relative to the fit file.
+    pub file: PathBuf,
+    /// Standard deviation of a height; absent: from the far field.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub noise: Option<Length>,
+    /// Distance over which heights are off alike, that of roughness or of the stylus; absent: from the far field.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub correlation_length: Option<Length>,
+}
+
+impl FitImprint {
+    /// The file with what is stated of its noise.
+    pub fn table(&self) -> ImprintTable {
+        match self {
+            FitImprint::File(file) => {
+                ImprintTable { file: file.clone(), noise: None, correlation_length: None }
+            }
+            FitImprint::Table(table) => table.clone(),
+        }
+    }
 }
 
 /// The columns of a curve.
@@ -186,6 +226,18 @@ pub struct Features {
     #[schemars(example = "10.4 um")]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub max_depth: Option<Length>,
+    /// Height of the imprint's highest point above the far field, at `max_depth`; of cones and balls.
+    #[schemars(example = "0.19 um")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pile_up_height: Option<Length>,
+    /// Depth of the imprint's lowest point below the far field, likewise.
+    #[schemars(example = "1.86 um")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub residual_depth: Option<Length>,
+    /// Radius of the imprint's rim, its highest point, likewise.
+    #[schemars(example = "5.9 um")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rim_radius: Option<Length>,
 }
 
 impl Features {

@@ -155,6 +155,7 @@ pub fn next_experiment(
             let metal = unknowns.metal(point)?;
             let question = DesignPoint {
                 geometry: Geometry::Sharp { slope_deg },
+                imprint: false,
                 modulus: metal.elastic.youngs_modulus,
                 metal,
                 ..first.clone()

@@ -7,7 +7,7 @@ use crate::identifiability::{
     NextExperiment, NullDirection, deviations, identified, next_experiment, null_direction,
 };
 use crate::levenberg_marquardt::Minimum;
-use crate::numbers::{Branch, CurveResidual, Found, Residual, StressAt};
+use crate::numbers::{Branch, CurveResidual, Found, Residual, StressAt, fits};
 use crate::objective::Objective;
 use crate::parameters::{Parameter, Slot, Unknowns};
 use crate::posterior;
@@ -16,7 +16,6 @@ use crate::verdict::verdict;
 use indexmap::IndexMap;
 use nalgebra::DVector;
 use rayon::prelude::*;
-use serde::Serialize;
 
 /// All that is inferred.
 #[derive(Clone, Debug)]
@@ -195,19 +194,16 @@ fn residual(experiments: &[Experiment], unknowns: &Unknowns, best: &Minimum) -> 
         count += differences.len() as i64;
         let loading = match &e.data {
             Data::Curve(measured) => measured.loading.len(),
-            Data::Features { .. } => differences.len(),
+            Data::Features { .. } | Data::Imprint(_) | Data::ImprintNumbers(_) => differences.len(),
         };
         let square = differences[..loading].iter().map(|d| d * d).sum::<f64>() / loading.max(1) as f64;
-        Some(CurveResidual { name: e.name.clone(), rms: square.sqrt(), noise: e.noise })
+        let noise = match &e.data {
+            Data::Imprint(imprint) => imprint.noise / e.depth,
+            _ => e.noise,
+        };
+        Some(CurveResidual { name: e.name.clone(), rms: square.sqrt(), noise })
     });
     let curves = curves.collect::<Option<_>>()?;
     let degrees_of_freedom = count - unknowns.parameters.len() as i64;
     Some(Residual { chi2: best.chi2, fits: fits(best.chi2, degrees_of_freedom), degrees_of_freedom, curves })
-}
-
-/// True where a sum of squares lies within three standard deviations of what is expected of so many degrees
-/// of freedom; that of none has to be small.
-fn fits(chi2: f64, freedom: i64) -> bool {
-    let free = freedom.max(0) as f64;
-    chi2 <= free + 3.0 * (2.0 * free).sqrt() + 4.0
 }

@@ -17,6 +17,12 @@ pub mod parameters;
 
 pub mod response;
 
+pub mod imprint;
+
+pub mod imprint_file;
+
+mod interpolation;
+
 pub mod emulator;
 
 pub mod experiment;

@@ -75,3 +75,10 @@ pub struct CurveResidual {
     /// Standard deviation that was given or taken from the scatter.
     pub noise: f64,
 }
+
+/// True where a sum of squares lies within three standard deviations of what is expected of so many degrees
+/// of freedom; that of none has to be small.
+pub fn fits(chi2: f64, freedom: i64) -> bool {
+    let free = freedom.max(0) as f64;
+    chi2 <= free + 3.0 * (2.0 * free).sqrt() + 4.0
+}

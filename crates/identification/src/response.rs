@@ -4,15 +4,20 @@
 //! h_max, the slope S/(E h_max) where unloading begins, the share of the work that is returned, and the way
 //! back over h_max at the shares [`FORCES`] of the peak force. A sharp cone has one number for its loading.
 
+use super::imprint;
+use super::interpolation::{linear_between, smooth};
 use super::parameters::Metal;
 use asperity_calibration::indentation::{FORCES, Indentation, solve};
 use asperity_material::units::{Length, Stress};
 use asperity_material::{Elastic, StressMeasure};
 use asperity_simulation::record::rows::{CurveRow, Phase};
-use asperity_simulation::run::Run;
-use asperity_simulation::scene::{Accuracy, Asperity, Loading, Material, Scene, Symmetry, Tool, ToolShape};
+use asperity_simulation::run::{Event, Outcome, Run};
+use asperity_simulation::scene::{
+    Accuracy, Asperity, Loading, Material, Output, Scene, Symmetry, Tool, ToolShape,
+};
 use asperity_simulation::setup::cone::Cone;
 use asperity_solver::body::analysis::Analyses;
+use asperity_solver::body::fields::SurfacePoint;
 use asperity_solver::point::material::Metal as Point;
 use std::ops::ControlFlow;
 
@@ -53,6 +58,18 @@ impl Geometry {
         if matches!(self, Geometry::Sharp { .. }) { &SHARES[SHARES.len() - 1..] } else { &SHARES }
     }
 
+    /// Radius of the contact at a depth without pile-up, m; `None` where no tool leaves an imprint of
+    /// revolution in a flat body.
+    pub fn plain_radius(&self, depth: f64) -> Option<f64> {
+        match self {
+            Geometry::Sharp { slope_deg } | Geometry::Rounded { slope_deg } => {
+                Some(depth / slope_deg.to_radians().tan())
+            }
+            Geometry::Ball { radius } => Some((depth * (2.0 * radius - depth)).max(0.0).sqrt()),
+            Geometry::Crush { .. } => None,
+        }
+    }
+
     /// Powers of the depth with which the force of its loading may grow: from plastic to elastic of a ball
     /// (Meyer's and Hertz's laws), 2 of a sharp cone by similarity, between the two where a tip is round.
     pub fn loading_powers(&self) -> [f64; 2] {
@@ -83,12 +100,14 @@ pub struct DesignPoint {
     pub tip_radius: f64,
     /// The stress that yields.
     pub stress_measure: StressMeasure,
+    /// True where the imprint is asked for, not the curve.
+    pub imprint: bool,
 }
 
 /// The answer.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Response {
-    /// The logarithms: loading, slope, share of the work, way back.
+    /// The logarithms: loading, slope, share of the work, way back. Of an imprint its numbers.
     pub logarithms: Vec<f64>,
     /// Relative 95 % errors of the loading, of the slope, of what unloading returns.
     pub errors: [f64; 3],
@@ -102,6 +121,7 @@ pub struct Response {
 /// Why there is no answer.
 pub fn respond(question: &DesignPoint, accuracy: Accuracy, analyses: &Analyses) -> Result<Response, String> {
     match question.geometry {
+        _ if question.imprint => imprint(question, accuracy, analyses),
         Geometry::Sharp { slope_deg } => sharp(question, slope_deg, accuracy, analyses),
         _ => body(question, accuracy, analyses),
     }
@@ -157,20 +177,43 @@ fn scene(question: &DesignPoint, accuracy: Accuracy) -> Scene {
     asperity.into_iter().fold(scene, Scene::with)
 }
 
-fn body(question: &DesignPoint, accuracy: Accuracy, analyses: &Analyses) -> Result<Response, String> {
-    let scene = scene(question, accuracy);
+/// Runs the scene of `question`, of which `last` hears the surface after unloading.
+fn run(
+    question: &DesignPoint,
+    scene: &Scene,
+    analyses: &Analyses,
+    last: &mut dyn FnMut(&[SurfacePoint]),
+) -> Result<Outcome, String> {
     scene.validate().map_err(|e| e.to_string())?;
     // the scene stands for the mesh; the metal is this one exactly
     let metal = point(question);
-    let run = Run { metal: Some(&metal), analyses: analyses.clone(), ..Run::new(&scene) };
-    let outcome = run.run(&mut |_| ControlFlow::Continue(())).map_err(|e| e.to_string())?;
-    if let Some(stopped) = &outcome.stopped {
-        return Err(format!(
-            "stopped at {:.2} of the depth: {}",
-            stopped.depth / question.depth,
-            stopped.reason
-        ));
+    let run = Run { metal: Some(&metal), analyses: analyses.clone(), ..Run::new(scene) };
+    let outcome = run.run(&mut |event| {
+        if let Event::Fields(frame) = event {
+            last(&frame.fields.surface);
+        }
+        ControlFlow::Continue(())
+    });
+    let outcome = outcome.map_err(|e| e.to_string())?;
+    match &outcome.stopped {
+        Some(stopped) => {
+            Err(format!("stopped at {:.2} of the depth: {}", stopped.depth / question.depth, stopped.reason))
+        }
+        None => Ok(outcome),
     }
+}
+
+fn imprint(question: &DesignPoint, accuracy: Accuracy, analyses: &Analyses) -> Result<Response, String> {
+    let output = Output { every: Some(usize::MAX), fields: None };
+    let scene = Scene { output, ..scene(question, accuracy) };
+    let mut surface = Vec::new();
+    let outcome = run(question, &scene, analyses, &mut |points| surface = points.to_vec())?;
+    let numbers = imprint::numbers(&surface, &outcome.rows, question.depth).ok_or("left no imprint")?;
+    Ok(Response { logarithms: numbers, errors: imprint::errors(accuracy), reached: 1.0 })
+}
+
+fn body(question: &DesignPoint, accuracy: Accuracy, analyses: &Analyses) -> Result<Response, String> {
+    let outcome = run(question, &scene(question, accuracy), analyses, &mut |_| ())?;
     let summary = &outcome.summary;
     let stiffness = summary.unloading_stiffness.ok_or("no unloading stiffness")?;
     let share = summary.elastic_fraction.ok_or("no unloading")?;
@@ -212,53 +255,4 @@ fn recovery(rows: &[CurveRow], depth: f64) -> Vec<f64> {
     let points: Vec<[f64; 2]> =
         rows[peak..].iter().map(|r| [bent(r.force / top), 1.0 - r.depth / depth]).collect();
     FORCES.iter().map(|force| smooth(&points, bent(*force))).collect()
-}
-
-/// Linear between `points` of rising x, and on beyond their ends.
-pub fn linear_between(points: &[[f64; 2]], x: f64) -> f64 {
-    let Some(last) = points.len().checked_sub(2) else { return points.first().map_or(f64::NAN, |p| p[1]) };
-    let k = points[1..=last].iter().take_while(|p| p[0] <= x).count();
-    let ([x0, y0], [x1, y1]) = (points[k], points[k + 1]);
-    if x1 == x0 { y0 } else { y0 + (x - x0) / (x1 - x0) * (y1 - y0) }
-}
-
-/// A cubic through the four of `points` of rising x around `x`; linear where there are fewer, and beyond
-/// their ends.
-pub fn smooth(points: &[[f64; 2]], x: f64) -> f64 {
-    let count = points.len();
-    let beyond = |p: &[f64; 2], sign: f64| sign * (x - p[0]) > 0.0;
-    if count < 4 || beyond(&points[count - 1], 1.0) || beyond(&points[0], -1.0) {
-        return linear_between(points, x);
-    }
-    let k = points.iter().take_while(|p| p[0] <= x).count();
-    let four = &points[k.saturating_sub(2).min(count - 4)..][..4];
-    let weight = |i: usize| {
-        let others = (0..4).filter(|&j| j != i);
-        others.map(|j| (x - four[j][0]) / (four[i][0] - four[j][0])).product::<f64>()
-    };
-    (0..4).map(|i| weight(i) * four[i][1]).sum()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_cubic_is_met_between_points_and_left_along_a_line() {
-        let cubic = |x: f64| 1.0 + x * (0.5 + x * (0.3 - 0.2 * x));
-        let points = [-1.0, -0.4, 0.1, 0.5, 1.2, 2.0].map(|x| [x, cubic(x)]);
-        for x in [-1.0, -0.7, 0.0, 0.3, 0.8, 1.9, 2.0] {
-            assert!((smooth(&points, x) - cubic(x)).abs() < 1e-12, "{x}");
-        }
-        assert_eq!(smooth(&points, 3.0), linear_between(&points, 3.0));
-        assert_eq!(smooth(&points[..1], 3.0), points[0][1]);
-    }
-
-    #[test]
-    fn values_between_points_and_beyond_them_lie_on_straight_lines() {
-        let points = [[0.0, 0.0], [1.0, 2.0], [3.0, 3.0]];
-        let at = |x| linear_between(&points, x);
-        assert_eq!([at(0.5), at(1.0), at(2.0), at(4.0), at(-1.0)], [1.0, 2.0, 2.5, 3.5, -2.0]);
-        assert_eq!(linear_between(&points[..1], 7.0), 0.0);
-    }
 }

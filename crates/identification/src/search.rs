@@ -9,6 +9,7 @@ use super::objective::{Objective, roughly};
 use super::parameters::{Unknowns, far_apart, sobol_points};
 use super::response::{DesignPoint, Response, respond};
 use crate::levenberg_marquardt::{Minimum, Residuals, chi2, minimise};
+use crate::numbers::fits;
 use crate::profile_likelihood::Profile;
 use asperity_material::range;
 use asperity_simulation::scene::Accuracy;
@@ -56,7 +57,7 @@ pub struct Found {
 }
 
 /// Rounds of asking at the ends of a valley, and the share that the computed metals must leave untold there.
-const VALLEY_ROUNDS: usize = 3;
+const VALLEY_ROUNDS: usize = 2;
 const UNTOLD_SHARE: f64 = 0.5;
 /// Other minima at which finite elements are asked as well.
 const OTHER_MINIMA: usize = 2;
@@ -227,6 +228,11 @@ fn moved(experiments: &[Experiment], unknowns: &Unknowns, a: &[f64], b: &[f64]) 
 /// little: along a valley an end is none before finite elements were asked there.
 fn ends_of_the_valley(experiments: &[Experiment], unknowns: &Unknowns, best: &Minimum) -> Vec<Vec<f64>> {
     let Some(objective) = Objective::new(experiments, unknowns, &best.point) else { return Vec::new() };
+    let count = objective.residuals(&best.point).map_or(0, |r| r.len()) as i64;
+    if !fits(best.chi2, count - unknowns.parameters.len() as i64) {
+        // an interval of a model that is rejected says nothing
+        return Vec::new();
+    }
     let (deviations, correlation) = deviations(&objective, unknowns, &best.point);
     let share = |i: &usize| deviations[*i] / unknowns.parameters[*i].width();
     let metal = 0..unknowns.of_the_metal();

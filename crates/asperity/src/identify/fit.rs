@@ -1,7 +1,7 @@
 //! A fit that makes sense: the unknowns, and the measurements read from their files.
 
 use super::material_checks::{KeyError, check_material, key_error};
-use super::measurements::{Said, measurements};
+use super::measurements::{Said, imprint, measurements};
 use super::tool_geometry::geometry;
 use crate::error::Error;
 use crate::input::toml_file::TomlFile;
@@ -98,17 +98,17 @@ impl Fit {
             };
             let geometry = geometry(curve).map_err(|(key, m)| at(&key, &m))?;
             let read = measurements(&file, i, curve, &mut said)?;
+            if curve.imprint.is_some() && read.len() > 1 {
+                let message = "belongs to one test, and the file has several: choose it by `test`";
+                return Err(at("imprint", message).into());
+            }
             for (name, data, depth) in read {
-                let experiment = experiment(
-                    curve,
-                    (experiments.len(), name),
-                    geometry.clone(),
-                    data,
-                    depth,
-                    tables.material.stress_measure,
-                )
-                .map_err(|(key, m)| at(&key, &m))?;
-                experiments.push(experiment);
+                let made = experiments_of(curve, (owners.len(), name), &geometry, data, depth, |name| {
+                    imprint(&file, curve, &geometry, depth, &mut said, name)
+                });
+                let measure = tables.material.stress_measure;
+                let made = made.map_err(|(key, m)| at(&key, &m))?;
+                experiments.extend(made.into_iter().map(|e| Experiment { stress_measure: measure, ..e }));
                 owners.push(i);
             }
             let slope = curve.features.is_some_and(|f| f.unloading_slope.is_some() && f.max_depth.is_none());
@@ -120,9 +120,9 @@ impl Fit {
                 .into());
             }
         }
-        let count = experiments.len();
-        for (experiment, &i) in experiments.iter().zip(&owners) {
-            add_nuisances(&mut unknowns, experiment, &tables.curve[i], count)
+        for experiment in experiments.iter().filter(|e| !e.is_imprint()) {
+            let i = owners[experiment.curve];
+            add_nuisances(&mut unknowns, experiment, &tables.curve[i], owners.len())
                 .map_err(|(key, m)| file.error_at(&format!("curve[{i}].{key}"), &m))?;
         }
         if unknowns.parameters.len() > MOST_UNKNOWNS {
@@ -145,13 +145,39 @@ impl Fit {
     }
 }
 
+/// The experiments of a measurement: its curve or features, and its imprint.
+fn experiments_of(
+    curve: &FitCurve,
+    (number, name): (usize, String),
+    geometry: &Geometry,
+    data: Data,
+    depth: f64,
+    imprint: impl FnOnce(&str) -> Result<Option<Data>, KeyError>,
+) -> Result<Vec<Experiment>, KeyError> {
+    let left = imprint(&name)?;
+    let imprint_force = match &data {
+        Data::Curve(measured) => Some(measured.peak[1]),
+        _ => None,
+    };
+    let of_the_imprint = left.map(|data| {
+        let made = experiment(curve, (number, format!("{name}, imprint")), geometry.clone(), data, depth)?;
+        Ok(Experiment { imprint_force, model_error: 0.0, ..made })
+    });
+    let no_curve = matches!(
+        data,
+        Data::Features { loading_curvature: None, unloading_slope: None, plastic_work_ratio: None }
+    );
+    let of_the_curve =
+        (!no_curve).then(|| experiment(curve, (number, name.clone()), geometry.clone(), data, depth));
+    of_the_curve.into_iter().chain(of_the_imprint).collect()
+}
+
 fn experiment(
     curve: &FitCurve,
     (number, name): (usize, String),
     geometry: Geometry,
     data: Data,
     depth: f64,
-    stress_measure: StressMeasure,
 ) -> Result<Experiment, KeyError> {
     for (key, share) in [("noise", curve.noise), ("model_error", curve.model_error)] {
         if let Some(share) = share.filter(|s| !(0.0..=0.5).contains(&s.0)) {
@@ -191,9 +217,10 @@ fn experiment(
         tip_radius: known(curve.tool.tip_radius.map(|t| t.map(|l| l.0))),
         compliance: known(curve.tool.machine_compliance.map(|c| c.map(|v| v.0))),
         depth,
-        stress_measure,
+        imprint_force: None,
+        stress_measure: StressMeasure::default(),
         noise: curve.noise.map_or(DEFAULT_NOISE, |n| n.0).max(1e-4),
-        noise_given: curve.noise.is_some() || matches!(data, Data::Features { .. }),
+        noise_given: curve.noise.is_some() || !matches!(data, Data::Curve(_)),
         noise_correlation: 0.0,
         data,
         model_error: curve.model_error.map_or(if pyramid { PYRAMID_MODEL_ERROR } else { 0.0 }, |m| m.0),

@@ -45,6 +45,9 @@ impl Identification {
             @if let Some(forces) = self.drawn.forces() {
                 (page::chart(&forces, "Measured points of force over depth, and the fit through them.", "Measured points and the fit.")?)
             }
+            @if let Some(imprints) = self.drawn.imprints() {
+                (page::chart(&imprints, "Heights of the imprint over the distance from the axis, measured and fitted.", "The imprint and the surface that finite elements leave.")?)
+            }
             (page::chart(&self.drawn.left(), "What is left between measurements and fit.", "Measured less fitted force; of unloading the depth over the deepest.")?)
             (page::chart(&stress, "Stress over plastic strain with the band of its error.", "The stress-strain curve with its 95 % band.")?)
             @if let Some(svg) = self.objective_svg()? {

@@ -8,9 +8,12 @@ use crate::input::toml_file::TomlFile;
 use asperity_formats::indentation;
 use asperity_formats::memory::read_file;
 use asperity_formats::text::{Series, TextError, decode};
-use asperity_identification::experiment::Data;
-use asperity_identification::fit_file::{Features, FitCurve, FitFile};
+use asperity_identification::experiment::{Data, ImprintNumbers};
+use asperity_identification::fit_file::{Features, FitCurve, FitFile, FitShape};
+use asperity_identification::imprint::{Imprint, StatedNoise};
+use asperity_identification::imprint_file;
 use asperity_identification::measured_curve::Measured;
+use asperity_identification::response::Geometry;
 
 /// What is told of the files of a fit.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -77,6 +80,9 @@ fn features(f: &Features) -> Result<(Data, f64), KeyError> {
         ("unloading_slope", f.unloading_slope.map(|v| v.0)),
         ("plastic_work_ratio", f.plastic_work_ratio),
         ("max_depth", f.max_depth.map(|v| v.0)),
+        ("pile_up_height", f.pile_up_height.map(|v| v.0)),
+        ("residual_depth", f.residual_depth.map(|v| v.0)),
+        ("rim_radius", f.rim_radius.map(|v| v.0)),
     ];
     for (key, value) in positive {
         let most = if key == "plastic_work_ratio" { 1.0 } else { f64::INFINITY };
@@ -85,10 +91,11 @@ fn features(f: &Features) -> Result<(Data, f64), KeyError> {
             return Err(key_error(&format!(".{key}"), message));
         }
     }
-    if positive[..3].iter().all(|(_, value)| value.is_none()) {
+    let measured = positive.iter().filter(|(key, _)| *key != "max_depth");
+    if measured.clone().all(|(_, value)| value.is_none()) {
         return Err(key_error(
             "",
-            "holds no number of a curve: give loading_curvature, unloading_slope or plastic_work_ratio",
+            "holds no number of a curve or an imprint: give loading_curvature, unloading_slope, plastic_work_ratio, pile_up_height, residual_depth or rim_radius",
         ));
     }
     let data = Data::Features {
@@ -125,4 +132,72 @@ fn chosen(tests: Vec<Series<2>>, wanted: Option<usize>) -> Result<Chosen, String
             "there is no test {k} in the file, which has {count}: give a number from 1 to {count}"
         )),
     }
+}
+
+/// The imprint beside a measurement of `depth` with a tool of `geometry`: its file, or its numbers; `None`
+/// where none is given.
+pub(super) fn imprint(
+    file: &TomlFile<FitFile>,
+    curve: &FitCurve,
+    geometry: &Geometry,
+    depth: f64,
+    said: &mut Said,
+    name: &str,
+) -> Result<Option<Data>, KeyError> {
+    let numbers = curve.features.map_or(ImprintNumbers::default(), |f| ImprintNumbers {
+        pile_up_height: f.pile_up_height.map(|v| v.0),
+        residual_depth: f.residual_depth.map(|v| v.0),
+        rim_radius: f.rim_radius.map(|v| v.0),
+    });
+    let (has_numbers, key) = (numbers != ImprintNumbers::default(), "imprint");
+    let key = if curve.imprint.is_some() { key } else { "features" };
+    if !has_numbers && curve.imprint.is_none() {
+        return Ok(None);
+    }
+    if matches!(curve.tool.shape, FitShape::Berkovich | FitShape::Vickers) {
+        return Err(key_error(
+            key,
+            "of a pyramid is not compared: the mean around it is not the pile-up of a cone, which is computed; give the imprint of a cone or a ball, or the curve alone",
+        ));
+    }
+    if depth == 1.0 {
+        return Err(key_error(
+            key,
+            "needs the depth that left it: give features = { max_depth = \"2 um\", … }, or the curve in a file",
+        ));
+    }
+    let radius = geometry
+        .plain_radius(depth)
+        .filter(|r| *r > 0.0)
+        .ok_or_else(|| key_error(key, "belongs to a cone or a ball that indents a flat body: remove it"))?;
+    let Some(given) = &curve.imprint else { return Ok(Some(Data::ImprintNumbers(numbers))) };
+    if has_numbers {
+        return Err(key_error("features", "and `imprint` both describe the imprint: remove one of the two"));
+    }
+    let table = given.table();
+    let path = file.resolve(&table.file);
+    let shown = path.display().to_string();
+    let error = |reason: String| key_error(key, format!("{shown} {reason}"));
+    let bytes = read_file(&path, LARGEST_CURVE_FILE, "the limit of a file of an imprint")
+        .map_err(|e| error(format!("cannot be read: {e}; {RELATIVE_PATH_NOTE}")))?;
+    let text = decode(&bytes).ok().and_then(|(text, encoding)| {
+        let read = imprint_file::profile(&text);
+        read.ok()
+            .map(|(points, columns)| (points, understood(&format!("{name}, imprint"), &encoding, &columns)))
+    });
+    let (points, line) = match text {
+        Some(read) => read,
+        None => {
+            let (points, line) = imprint_file::map(&path, radius).map_err(error)?;
+            (points, format!("{name}, imprint: {line}"))
+        }
+    };
+    let stated = StatedNoise {
+        noise: table.noise.map(|l| l.0),
+        correlation_length: table.correlation_length.map(|l| l.0),
+    };
+    let imprint = Imprint::new(&points, radius, depth, stated).map_err(error)?;
+    said.understood.push(line);
+    said.notes.extend(imprint.notes.iter().map(|note| format!("{name}: {note}")));
+    Ok(Some(Data::Imprint(imprint)))
 }

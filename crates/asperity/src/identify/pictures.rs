@@ -29,6 +29,8 @@ struct One {
     fitted: Vec<[f64; 2]>,
     /// Depth (of features: their number) and what is left, % (of unloading: of the deepest depth).
     left: Vec<[f64; 2]>,
+    /// Heights of the imprint over the distance from the axis (µm), measured and fitted.
+    imprint: [Vec<[f64; 2]>; 2],
 }
 
 /// The map of the objective.
@@ -105,9 +107,25 @@ impl Drawn {
         Some(Chart::new("Depth h (µm)", format!("Force F ({unit})"), lines))
     }
 
+    /// Measured and fitted imprints; `None` without one.
+    pub fn imprints(&self) -> Option<Chart> {
+        let with_one = || self.ones.iter().enumerate().filter(|(_, one)| !one.imprint[0].is_empty());
+        with_one().next()?;
+        let lines = with_one().flat_map(|(i, one)| {
+            let [measured, fitted] = one.imprint.clone();
+            let fitted = Series::line(format!("{}, fit", one.name), fitted);
+            let measured = Series::line(format!("{}, measured", one.name), measured);
+            [
+                Series { colour: Some(colour(i)), dash: Some(Dash::Hidden), ..measured }.marked(),
+                Series { colour: Some(LINES[(i + 1) % LINES.len()]), ..fitted },
+            ]
+        });
+        Some(Chart::new("Distance from the axis r (µm)", "Height z (µm)", lines).titled("The imprint"))
+    }
+
     /// Residuals of the fit.
     pub fn left(&self) -> Chart {
-        let dots = self.ones.iter().enumerate().map(|(i, one)| {
+        let dots = self.ones.iter().enumerate().filter(|(_, one)| !one.left.is_empty()).map(|(i, one)| {
             let line = Series::line(one.name.clone(), one.left.clone());
             Series { colour: Some(colour(i)), dash: Some(Dash::Hidden), ..line }.marked()
         });
@@ -134,7 +152,14 @@ fn one(experiment: &Experiment, unknowns: &Unknowns, point: &[f64], number: &mut
     let shown = |p: &[f64; 2]| [1e6 * p[0], p[1]];
     let name = experiment.label.clone();
     match &experiment.data {
-        Data::Features { .. } => {
+        Data::Imprint(imprint) => {
+            let fitted = experiment.imprint_heights(unknowns, point)?;
+            let shown = |p: &[f64; 2]| [1e6 * p[0], 1e6 * p[1]];
+            let measured: Vec<[f64; 2]> = imprint.points.iter().map(shown).collect();
+            let fitted = measured.iter().zip(fitted).map(|(p, z)| [p[0], 1e6 * z]).collect();
+            Some(One { name, imprint: [measured, fitted], ..One::default() })
+        }
+        Data::Features { .. } | Data::ImprintNumbers(_) => {
             let left = differences.iter().map(|d| {
                 *number += 1;
                 [*number as f64, 100.0 * d]
@@ -150,6 +175,7 @@ fn one(experiment: &Experiment, unknowns: &Unknowns, point: &[f64], number: &mut
                 measured: both().map(shown).collect(),
                 fitted: load.iter().chain(&back).map(shown).collect(),
                 left: left.collect(),
+                ..One::default()
             })
         }
     }

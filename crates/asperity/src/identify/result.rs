@@ -224,6 +224,9 @@ impl Identification {
         }
         sink.text("curve.svg", &self.curve_svg()?)?;
         sink.text("stress_strain.svg", &self.stress_strain_svg()?)?;
+        if let Some(imprints) = self.drawn.imprints() {
+            sink.text("imprint.svg", &svg(&imprints).map_err(Error::Unfinished)?)?;
+        }
         if let Some(map) = self.objective_svg()? {
             sink.text("objective.svg", &map)?;
         }
