@@ -15,6 +15,7 @@ use asperity_simulation::setup::cone::Cone;
 use asperity_simulation::setup::discretisation::ConeDiscretisation;
 use asperity_simulation::setup::problem::Problem;
 use asperity_solver::body::analysis::Analyses;
+use asperity_solver::body::fields::fields;
 
 pub use asperity_material::cone_atlas::FORCES;
 
@@ -187,6 +188,43 @@ fn indent(
         iterations: path.counts.iterations,
     };
     Ok((found, fitted))
+}
+
+/// The surface that a cone leaves, lengths over the depth of the peak.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ResidualSurface {
+    /// Places (r, z) of its nodes, heights over the surface before.
+    pub points: Vec<[f64; 2]>,
+    /// Radius of the contact under load, at the last step.
+    pub contact_radius: f64,
+}
+
+/// The surface that `cone` leaves at `accuracy`: one run, without a companion.
+///
+/// # Errors
+/// A path that did not go to its end.
+pub fn residual_surface(
+    cone: &Cone,
+    accuracy: Accuracy,
+    analyses: &Analyses,
+) -> Result<ResidualSurface, CaseError> {
+    let exponent = cone.metal.hardening.as_ref().map(|h| h.exponent(cone.metal.elastic.youngs_modulus));
+    let discretisation = ConeDiscretisation::new(cone.slope_deg, cone.indents, exponent, accuracy);
+    let problem = cone.problem(&discretisation);
+    let mut path = start(&problem, analyses)?;
+    let (points, stop) = load(&mut path, &problem);
+    let peak = *points.last().ok_or(CaseError::NotSimilar(f64::NAN))?;
+    let failed = |cause: Stop| CaseError::Stopped { share: peak.depth, cause };
+    if let Some(cause) = stop {
+        return Err(failed(cause));
+    }
+    let stiffness = path.model.unloading_stiffness().map_err(|_| failed(Stop::NoEquilibrium))?;
+    path.unload(stiffness, STEPS_BACK, &mut |_, _| true).map_err(failed)?;
+    let surface = fields(path.model.body(), path.model.state()).surface;
+    Ok(ResidualSurface {
+        points: surface.iter().map(|p| [p.r / peak.depth, p.z / peak.depth]).collect(),
+        contact_radius: disc_radius(&peak) / peak.depth,
+    })
 }
 
 /// Goes along the schedule of `problem` as far as it goes.

@@ -21,15 +21,15 @@ const SAME_PLACE_SHARE: f64 = 0.01;
 
 /// Minima from the best of `points` and from good ones far apart, the lowest one first.
 pub(crate) fn minima(objective: &Objective<'_>, unknowns: &Unknowns, points: &[Vec<f64>]) -> Vec<Minimum> {
-    let (function, bounds) = (objective.function(), objective.bounds());
-    let mut ranked: Vec<(f64, &Vec<f64>)> = points.par_iter().map(|p| (chi2(&function, p), p)).collect();
+    let bounds = objective.bounds();
+    let mut ranked: Vec<(f64, &Vec<f64>)> = points.par_iter().map(|p| (chi2(objective, p), p)).collect();
     ranked.retain(|r| r.0.is_finite());
     ranked.sort_by(|a, b| a.0.total_cmp(&b.0));
     let better: Vec<&Vec<f64>> = ranked.iter().take(BETTER_POINTS).map(|r| r.1).collect();
     let apart = far_apart(&better, unknowns, STARTS_APART);
     let starts: Vec<&Vec<f64>> = better.iter().take(STARTS).copied().chain(&apart).collect();
     let mut found: Vec<Minimum> =
-        starts.par_iter().map(|p| minimise(&function, p, &bounds)).filter(|m| m.chi2.is_finite()).collect();
+        starts.par_iter().map(|p| minimise(objective, p, &bounds)).filter(|m| m.chi2.is_finite()).collect();
     found.sort_by(|a, b| a.chi2.total_cmp(&b.chi2));
     found
 }
@@ -67,7 +67,7 @@ pub fn branches(objective: &Objective<'_>, best: &Minimum, others: &[Minimum]) -
 /// True where every way between two minima that follows one coordinate, the others at their best, climbs
 /// above `wall`.
 fn is_parted(objective: &Objective<'_>, a: &Minimum, b: &Minimum, wall: f64) -> bool {
-    let (function, bounds) = (objective.function(), objective.bounds());
+    let bounds = objective.bounds();
     let share = |i: usize| (a.point[i] - b.point[i]).abs() / (bounds[i][1] - bounds[i][0]).max(1e-300);
     let Some(i) = (0..bounds.len()).max_by(|i, j| share(*i).total_cmp(&share(*j))) else { return false };
     let climbs = |[from, to]: [&Minimum; 2]| {
@@ -78,7 +78,7 @@ fn is_parted(objective: &Objective<'_>, a: &Minimum, b: &Minimum, wall: f64) -> 
             let mut held = bounds.clone();
             held[i] = [x, x];
             point[i] = x;
-            let lowest = minimise(&function, &point, &held);
+            let lowest = minimise(objective, &point, &held);
             point.clone_from(&lowest.point);
             lowest.chi2 > wall
         })

@@ -197,17 +197,18 @@ impl Emulator {
         value
     }
 
-    /// The share, from 0 to 1, of what is left of the trend that the computed metals do not tell at `question`.
-    pub fn untold(&self, question: &DesignPoint) -> f64 {
+    /// Correlation, from 0 to 1, of `question` with the computed metal that is nearest to it.
+    pub fn nearness(&self, question: &DesignPoint) -> f64 {
         let place = features(question);
-        let k = DVector::from_fn(self.nodes.len(), |i, _| self.correlation(&place, &self.nodes[i].place));
-        let known = self.factor.as_ref().map_or(0.0, |factor| k.dot(&factor.solve(&k)));
-        (1.0 - known).clamp(0.0, 1.0).sqrt()
+        self.nodes.iter().map(|node| self.correlation(&place, &node.place)).fold(0.0, f64::max)
     }
 
     /// Standard deviations of what may be left, of loading, slope and way back.
     pub fn left(&self, question: &DesignPoint, loading: usize) -> [f64; 3] {
-        let share = self.untold(question);
+        let place = features(question);
+        let k = DVector::from_fn(self.nodes.len(), |i, _| self.correlation(&place, &self.nodes[i].place));
+        let known = self.factor.as_ref().map_or(0.0, |factor| k.dot(&factor.solve(&k)));
+        let share = (1.0 - known).clamp(0.0, 1.0).sqrt();
         let of = |i: usize| share * self.amplitudes.get(i).copied().unwrap_or(0.0);
         if question.imprint {
             // of its heights, which stand behind the radius

@@ -133,7 +133,7 @@ pub fn next_experiment(
     of: usize,
 ) -> Option<NextExperiment> {
     let bounds = objective.bounds();
-    let slopes = jacobian(&objective.function(), point, &bounds)?;
+    let slopes = jacobian(objective, point, &bounds)?;
     // the bounds themselves are a weak measurement, without which nothing that is not seen had a width
     let mut normal = slopes.tr_mul(&slopes);
     for (i, parameter) in unknowns.parameters.iter().enumerate() {

@@ -64,13 +64,12 @@ pub fn infer(
     sampling: Sampling,
 ) -> Option<Inference> {
     let objective = Objective::new(experiments, unknowns, &best.point)?;
-    let function = objective.function();
     let bounds = objective.bounds();
     let (deviations, correlation) = deviations(&objective, unknowns, &best.point);
     let others = allowed_minima(&objective, unknowns, best);
     let metals = branches(&objective, best, &others);
     let all: Vec<Minimum> = std::iter::once(best).chain(&others).cloned().collect();
-    let profile = Profile { residuals: &function, bounds: &bounds, lowest: best.chi2 };
+    let profile = Profile { residuals: &objective, bounds: &bounds, lowest: best.chi2 };
     let interval = |minima: &[Minimum], i: usize| {
         let size = |j: usize| deviations[j] / deviations[i];
         let along: Vec<f64> = (0..bounds.len()).map(|j| correlation[i][j] * size(j)).collect();
@@ -105,7 +104,8 @@ pub fn infer(
         widest.and_then(|of| next_experiment(&objective, experiments, unknowns, &best.point, of));
     let width = |s: &StressAt| (s.high_MPa / s.low_MPa).ln();
     let representative = stress_strain.iter().copied().min_by(|a, b| width(a).total_cmp(&width(b)));
-    let samples = posterior::samples(&function, &metals, &deviations, &bounds, sampling.count, sampling.seed);
+    let samples =
+        posterior::samples(&objective, &metals, &deviations, &bounds, sampling.count, sampling.seed);
     let shown = |point: &Vec<f64>| point.iter().zip(&unknowns.parameters).map(|(x, p)| p.shown(*x)).collect();
     let verdict = verdict(
         &parameters,

@@ -4,7 +4,28 @@
 use nalgebra::{DMatrix, DVector};
 
 /// Residuals at a point; `None` where there is no metal.
-pub type Residuals<'a> = dyn Fn(&[f64]) -> Option<Vec<f64>> + Sync + 'a;
+pub type Function<'a> = dyn Fn(&[f64]) -> Option<Vec<f64>> + 'a;
+
+/// Residuals in standard deviations.
+pub trait ResidualFunction: Sync {
+    /// Those at `point`; `None` where there is no metal.
+    fn residuals(&self, point: &[f64]) -> Option<Vec<f64>>;
+
+    /// The same with all deviations held at those of `point`: what derivatives are taken of. As they stand
+    /// where deviations do not depend on the point.
+    fn about(&self, _point: &[f64]) -> Option<Box<Function<'_>>> {
+        Some(Box::new(|point| self.residuals(point)))
+    }
+}
+
+impl<F: Fn(&[f64]) -> Option<Vec<f64>> + Sync> ResidualFunction for F {
+    fn residuals(&self, point: &[f64]) -> Option<Vec<f64>> {
+        self(point)
+    }
+}
+
+/// Residuals of any kind.
+pub type Residuals<'a> = dyn ResidualFunction + 'a;
 
 /// The end of a search.
 #[derive(Clone, Debug)]
@@ -17,7 +38,7 @@ pub struct Minimum {
 
 /// Sum of squares; infinite where there is no metal.
 pub fn chi2(residuals: &Residuals<'_>, point: &[f64]) -> f64 {
-    residuals(point).map_or(f64::INFINITY, |r| r.iter().map(|x| x * x).sum())
+    residuals.residuals(point).map_or(f64::INFINITY, |r| r.iter().map(|x| x * x).sum())
 }
 
 /// Share of the width of the bounds over which a slope is taken: wide enough for the rounding of logarithms.
@@ -27,6 +48,7 @@ const MOST_STEPS: usize = 60;
 
 /// Derivatives of the residuals by differences into the bounds; a coordinate whose bounds meet has none.
 pub fn jacobian(residuals: &Residuals<'_>, point: &[f64], bounds: &[[f64; 2]]) -> Option<DMatrix<f64>> {
+    let residuals = residuals.about(point)?;
     let here = residuals(point)?;
     let mut slopes = DMatrix::zeros(here.len(), point.len());
     for (j, [low, high]) in bounds.iter().enumerate() {
@@ -60,7 +82,8 @@ pub fn minimise(residuals: &Residuals<'_>, start: &[f64], bounds: &[[f64; 2]]) -
     let mut least = chi2(residuals, &point);
     let mut damping = 1e-3;
     for _ in 0..MOST_STEPS {
-        let (Some(here), Some(slopes)) = (residuals(&point), jacobian(residuals, &point, bounds)) else {
+        let (Some(here), Some(slopes)) = (residuals.residuals(&point), jacobian(residuals, &point, bounds))
+        else {
             break;
         };
         let gradient = slopes.tr_mul(&DVector::from_vec(here));

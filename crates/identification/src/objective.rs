@@ -2,8 +2,8 @@
 
 use super::experiment::{Covariance, Experiment};
 use super::parameters::Unknowns;
-use crate::levenberg_marquardt::{Residuals, jacobian};
-use nalgebra::{DMatrix, DVector, SymmetricEigen};
+use crate::levenberg_marquardt::{Function, ResidualFunction, Residuals, jacobian};
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn, SymmetricEigen};
 
 /// The measurements with the parts of their covariances at one point.
 ///
@@ -26,11 +26,16 @@ impl<'a> Objective<'a> {
         Some(Objective { experiments, unknowns, covariances: covariances.collect::<Option<_>>()? })
     }
 
-    /// The residuals at `point`, in standard deviations and independent of each other.
-    pub fn residuals(&self, point: &[f64]) -> Option<Vec<f64>> {
+    /// Factors of the covariances at `point`.
+    fn factors(&self, point: &[f64]) -> Option<Vec<Cholesky<f64, Dyn>>> {
+        let both = self.experiments.iter().zip(&self.covariances);
+        both.map(|(e, covariance)| covariance.factor(e.model_deviations(self.unknowns, point)?)).collect()
+    }
+
+    /// The differences at `point`, independent of each other by the `factors` of their covariances.
+    fn whitened(&self, factors: &[Cholesky<f64, Dyn>], point: &[f64]) -> Option<Vec<f64>> {
         let mut all = Vec::new();
-        for (experiment, covariance) in self.experiments.iter().zip(&self.covariances) {
-            let factor = covariance.factor(experiment.model_deviations(self.unknowns, point)?)?;
+        for (experiment, factor) in self.experiments.iter().zip(factors) {
             let differences = DVector::from_vec(experiment.differences(self.unknowns, point, false)?);
             let whitened = factor.l_dirty().solve_lower_triangular(&differences)?;
             if whitened.iter().any(|x| !x.is_finite()) {
@@ -41,14 +46,20 @@ impl<'a> Objective<'a> {
         Some(all)
     }
 
-    /// The residuals as a function.
-    pub fn function(&self) -> impl Fn(&[f64]) -> Option<Vec<f64>> + Sync + '_ {
-        |point| self.residuals(point)
-    }
-
     /// The bounds of the coordinates.
     pub fn bounds(&self) -> Vec<[f64; 2]> {
         self.unknowns.parameters.iter().map(|p| p.bounds).collect()
+    }
+}
+
+impl ResidualFunction for Objective<'_> {
+    fn residuals(&self, point: &[f64]) -> Option<Vec<f64>> {
+        self.whitened(&self.factors(point)?, point)
+    }
+
+    fn about(&self, point: &[f64]) -> Option<Box<Function<'_>>> {
+        let factors = self.factors(point)?;
+        Some(Box::new(move |near| self.whitened(&factors, near)))
     }
 }
 
@@ -57,9 +68,9 @@ const HELD_CURVATURE: f64 = 1e18;
 
 /// Curvature of half the sum of squares, coordinates over the widths of their bounds, with its eigenvalues
 /// and directions.
-pub fn curvature(objective: &Objective<'_>, point: &[f64]) -> Option<SymmetricEigen<f64, nalgebra::Dyn>> {
+pub fn curvature(objective: &Objective<'_>, point: &[f64]) -> Option<SymmetricEigen<f64, Dyn>> {
     let bounds = objective.bounds();
-    let mut slopes = jacobian(&objective.function(), point, &bounds)?;
+    let mut slopes = jacobian(objective, point, &bounds)?;
     for (mut column, [low, high]) in slopes.column_iter_mut().zip(&bounds) {
         column *= high - low;
     }

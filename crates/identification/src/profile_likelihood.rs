@@ -2,7 +2,7 @@
 //! squares has grown by 3.84 (95 % of one unknown). Bounds end an interval (Raue et al., Bioinformatics 25
 //! (2009) 1923).
 
-use crate::levenberg_marquardt::{Minimum, Residuals, chi2, minimise};
+use crate::levenberg_marquardt::{Function, Minimum, ResidualFunction, Residuals, chi2, minimise};
 
 /// Growth of the sum of squares at the end of a 95 % interval of one number.
 pub const GROWTH: f64 = 3.841;
@@ -93,11 +93,7 @@ impl Profile<'_> {
         deviation: f64,
     ) -> Option<Interval> {
         let held_at = |x: f64, from: &[f64]| {
-            let held = |point: &[f64]| {
-                let mut all = (self.residuals)(point)?;
-                all.push(CONDITION_WEIGHT * (number(point)? - x));
-                Some(all)
-            };
+            let held = Conditioned { residuals: self.residuals, number, goal: x };
             let point = minimise(&held, from, self.bounds).point;
             // a number that the bounds do not let come so far is as good as beyond
             let met = number(&point).is_some_and(|y| (y - x).abs() < 1e-3 * (1.0 + deviation));
@@ -117,6 +113,31 @@ impl Profile<'_> {
             one_side(&held_at, from, self.lowest, here, limit, deviation)
         };
         Some(Interval::between(&hull(minima, value, end)))
+    }
+}
+
+/// Residuals under the condition that a number has a value.
+struct Conditioned<'a> {
+    residuals: &'a Residuals<'a>,
+    number: &'a (dyn Fn(&[f64]) -> Option<f64> + Sync),
+    goal: f64,
+}
+
+impl Conditioned<'_> {
+    fn with_the_condition(&self, mut all: Vec<f64>, point: &[f64]) -> Option<Vec<f64>> {
+        all.push(CONDITION_WEIGHT * ((self.number)(point)? - self.goal));
+        Some(all)
+    }
+}
+
+impl ResidualFunction for Conditioned<'_> {
+    fn residuals(&self, point: &[f64]) -> Option<Vec<f64>> {
+        self.with_the_condition(self.residuals.residuals(point)?, point)
+    }
+
+    fn about(&self, point: &[f64]) -> Option<Box<Function<'_>>> {
+        let residuals = self.residuals.about(point)?;
+        Some(Box::new(move |near| self.with_the_condition(residuals(near)?, near)))
     }
 }
 

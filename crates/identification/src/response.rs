@@ -7,7 +7,7 @@
 use super::imprint;
 use super::interpolation::{linear_between, smooth};
 use super::parameters::Metal;
-use asperity_calibration::indentation::{FORCES, Indentation, solve};
+use asperity_calibration::indentation::{FORCES, Indentation, residual_surface, solve};
 use asperity_material::units::{Length, Stress};
 use asperity_material::{Elastic, StressMeasure};
 use asperity_simulation::record::rows::{CurveRow, Phase};
@@ -204,12 +204,22 @@ fn run(
 }
 
 fn imprint(question: &DesignPoint, accuracy: Accuracy, analyses: &Analyses) -> Result<Response, String> {
+    let respond = |numbers: Option<Vec<f64>>| {
+        let logarithms = numbers.ok_or("left no imprint")?;
+        Ok(Response { logarithms, errors: imprint::errors(accuracy), reached: 1.0 })
+    };
+    if let Geometry::Sharp { slope_deg } = question.geometry {
+        let cone = Cone { slope_deg, indents: true, metal: point(question), friction: None };
+        let left = residual_surface(&cone, accuracy, analyses).map_err(|e| e.to_string())?;
+        return respond(imprint::numbers(left.points, left.contact_radius));
+    }
     let output = Output { every: Some(usize::MAX), fields: None };
     let scene = Scene { output, ..scene(question, accuracy) };
     let mut surface = Vec::new();
     let outcome = run(question, &scene, analyses, &mut |points| surface = points.to_vec())?;
-    let numbers = imprint::numbers(&surface, &outcome.rows, question.depth).ok_or("left no imprint")?;
-    Ok(Response { logarithms: numbers, errors: imprint::errors(accuracy), reached: 1.0 })
+    let radius = outcome.rows.iter().rfind(|r| r.phase == Phase::Load).map_or(0.0, |r| r.contact_radius);
+    let points = surface.iter().map(|p| [p.r / question.depth, p.z / question.depth]).collect();
+    respond(imprint::numbers(points, radius / question.depth))
 }
 
 fn body(question: &DesignPoint, accuracy: Accuracy, analyses: &Analyses) -> Result<Response, String> {

@@ -8,7 +8,7 @@ use super::identifiability::deviations;
 use super::objective::{Objective, roughly};
 use super::parameters::{Unknowns, far_apart, sobol_points};
 use super::response::{DesignPoint, Response, respond};
-use crate::levenberg_marquardt::{Minimum, Residuals, chi2, minimise};
+use crate::levenberg_marquardt::{Minimum, ResidualFunction, Residuals, chi2, minimise};
 use crate::numbers::fits;
 use crate::profile_likelihood::Profile;
 use asperity_material::range;
@@ -35,8 +35,9 @@ pub enum SearchError {
     NoAnswer(String),
 }
 
-/// Most rounds of asking at the best point.
+/// Most rounds of asking at the best point, and of asking at the level of the answer.
 const ROUNDS: usize = 4;
+const FINAL_ROUNDS: usize = 4;
 /// Standard deviations of the best point within which it stays.
 const SETTLED_DEVIATIONS: f64 = 0.25;
 /// Relative error of a ball taken as a cone.
@@ -56,9 +57,12 @@ pub struct Found {
     pub notes: Vec<String>,
 }
 
-/// Rounds of asking at the ends of a valley, and the share that the computed metals must leave untold there.
+/// Rounds of asking at the ends of a valley.
 const VALLEY_ROUNDS: usize = 2;
-const UNTOLD_SHARE: f64 = 0.5;
+/// Correlations with the nearest computed metal: below the one an end of a valley is asked, above the other
+/// nothing is asked again.
+const FAR_NEARNESS: f64 = 0.7;
+const TOLD_NEARNESS: f64 = 0.97;
 /// Other minima at which finite elements are asked as well.
 const OTHER_MINIMA: usize = 2;
 
@@ -174,9 +178,16 @@ impl Asking<'_> {
         if answered && moved(experiments, unknowns, &asked, &best.point) < SETTLED_DEVIATIONS {
             return Ok(());
         }
-        go_on(observer, share(0.9), "the final answer")?;
-        self.at(experiments, unknowns, (&[best.point.clone()], true), self.accuracy)?;
-        *best = again(experiments, unknowns, &best.point)?;
+        for _ in 0..FINAL_ROUNDS {
+            go_on(observer, share(0.9), "the final answer")?;
+            asked.clone_from(&best.point);
+            self.at(experiments, unknowns, (&[asked.clone()], true), self.accuracy)?;
+            // what a finer level says may lead to another valley
+            *best = lowest_from(experiments, unknowns, &asked)?;
+            if moved(experiments, unknowns, &asked, &best.point) < SETTLED_DEVIATIONS {
+                break;
+            }
+        }
         Ok(())
     }
 }
@@ -209,16 +220,27 @@ pub fn again(experiments: &[Experiment], unknowns: &Unknowns, point: &[f64]) -> 
     let mut minimum = Minimum { point: point.to_vec(), chi2: f64::INFINITY };
     for _ in 0..2 {
         let objective = Objective::new(experiments, unknowns, &minimum.point).ok_or(SearchError::NoMetal)?;
-        minimum = minimise(&objective.function(), &minimum.point, &objective.bounds());
+        minimum = minimise(&objective, &minimum.point, &objective.bounds());
     }
     Ok(minimum)
+}
+
+/// The lowest of the minima near `point` and elsewhere.
+fn lowest_from(
+    experiments: &[Experiment],
+    unknowns: &Unknowns,
+    point: &[f64],
+) -> Result<Minimum, SearchError> {
+    let near = again(experiments, unknowns, point)?;
+    let points = sobol_points(&unknowns.parameters, FIRST_POINTS);
+    let found = minima(&objective(experiments, unknowns, &near.point)?, unknowns, &points);
+    Ok(found.into_iter().find(|m| m.chi2 < near.chi2 - MUCH_LOWER).unwrap_or(near))
 }
 
 /// Distance between two points in standard deviations.
 fn moved(experiments: &[Experiment], unknowns: &Unknowns, a: &[f64], b: &[f64]) -> f64 {
     let Some(objective) = Objective::new(experiments, unknowns, b) else { return f64::INFINITY };
-    let function = objective.function();
-    match (function(a), function(b)) {
+    match (objective.residuals(a), objective.residuals(b)) {
         (Some(a), Some(b)) => a.iter().zip(&b).map(|(x, y)| (x - y).powi(2)).sum::<f64>().sqrt(),
         _ => f64::INFINITY,
     }
@@ -237,16 +259,17 @@ fn ends_of_the_valley(experiments: &[Experiment], unknowns: &Unknowns, best: &Mi
     let share = |i: &usize| deviations[*i] / unknowns.parameters[*i].width();
     let metal = 0..unknowns.of_the_metal();
     let Some(i) = metal.max_by(|a, b| share(a).total_cmp(&share(b))) else { return Vec::new() };
-    let (function, bounds) = (objective.function(), objective.bounds());
-    let profile = Profile { residuals: &function, bounds: &bounds, lowest: best.chi2 };
+    let bounds = objective.bounds();
+    let profile = Profile { residuals: &objective, bounds: &bounds, lowest: best.chi2 };
     let along: Vec<f64> =
         (0..bounds.len()).map(|j| correlation[i][j] * deviations[j] / deviations[i]).collect();
     let ends = profile.ends_of_coordinate(std::slice::from_ref(best), i, deviations[i], &along);
-    let untold = |point: &Vec<f64>| {
-        let of = |e: &Experiment| e.design_point(unknowns, point).map_or(0.0, |q| e.emulator.untold(&q));
-        experiments.iter().any(|e| of(e) > UNTOLD_SHARE)
+    let is_far = |point: &Vec<f64>| {
+        let nearness =
+            |e: &Experiment| e.design_point(unknowns, point).map_or(1.0, |q| e.emulator.nearness(&q));
+        experiments.iter().any(|e| nearness(e) < FAR_NEARNESS)
     };
-    ends.into_iter().map(|end| end.point).filter(untold).collect()
+    ends.into_iter().map(|end| end.point).filter(is_far).collect()
 }
 
 /// Asks the finite elements of every experiment at `points`, and the emulators learn the answers; no answer
@@ -260,11 +283,18 @@ fn run_at(
     found: &mut Found,
 ) -> Result<(), SearchError> {
     let levels: Vec<Accuracy> = experiments.iter().map(accuracy).collect();
+    // what computed metals beside a point tell is not asked again, but for a finer level
+    let open = |e: &Experiment, level: Accuracy, question: &DesignPoint| {
+        let finer = !e.is_sharp() && level != Accuracy::Draft;
+        finer || e.emulator.nearness(question) < TOLD_NEARNESS
+    };
     let questions: Vec<(usize, DesignPoint)> = experiments
         .iter()
         .enumerate()
         .flat_map(|(i, e)| points.iter().filter_map(move |p| Some((i, e.design_point(unknowns, p)?))))
+        .filter(|(i, question)| open(&experiments[*i], levels[*i], question))
         .collect();
+    let asked: Vec<bool> = (0..experiments.len()).map(|i| questions.iter().any(|(of, _)| *of == i)).collect();
     let answers: Vec<Result<Response, String>> =
         questions.par_iter().with_max_len(1).map(|(i, q)| respond(q, levels[*i], analyses)).collect();
     let mut learned = vec![false; experiments.len()];
@@ -294,7 +324,7 @@ fn run_at(
             }
         }
     }
-    let silent = learned.iter().position(|l| !l).filter(|_| needed);
+    let silent = learned.iter().zip(&asked).position(|(l, a)| *a && !l).filter(|_| needed);
     match silent {
         Some(i) => Err(SearchError::NoAnswer(format!(
             "{}: no answer of the finite elements near the best fit: {}",

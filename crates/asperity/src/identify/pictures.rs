@@ -193,11 +193,10 @@ fn map(objective: &Objective<'_>, unknowns: &Unknowns, best: &Minimum, intervals
         let [low, high] = [(low - room).max(parameter.bounds[0]), (high + room).min(parameter.bounds[1])];
         (0..CELLS).map(|k| low + (high - low) * k as f64 / (CELLS - 1) as f64).collect::<Vec<f64>>()
     });
-    let function = objective.function();
     let growth = (0..CELLS * CELLS).into_par_iter().map(|k| {
         let mut point = best.point.clone();
         (point[pair[0]], point[pair[1]]) = (places[0][k % CELLS], places[1][k / CELLS]);
-        chi2(&function, &point) - best.chi2
+        chi2(objective, &point) - best.chi2
     });
     let growth = growth.collect();
     let named = |i: usize| {
