@@ -7,6 +7,7 @@ use crate::{interrupt, terminal};
 use asperity::columns::Unit;
 use asperity::crush::{CurveRow, Sketch, crush_into};
 use asperity::error::{Error, InputError};
+use asperity::identify::metal_override;
 use asperity::simulation::scene::Symmetry;
 use asperity::units::MICROMETRE;
 use clap::Args;
@@ -19,6 +20,9 @@ pub struct Crush {
     pub scene: Option<PathBuf>,
     #[command(flatten)]
     pub scene_flags: SceneFlags,
+    /// Take the metal of this fit.json, which asperity identify wrote, in place of the scene's [material]
+    #[arg(long, value_name = "FIT.JSON")]
+    pub metal: Option<PathBuf>,
     /// Run once, whatever errors it states [default: finer rounds until they are what the accuracy promises]
     #[arg(long)]
     pub no_refine: bool,
@@ -38,6 +42,10 @@ pub fn crush(args: &Crush) -> Result<(), Error> {
         return Err(InputError::new("Missing scene file.").help(help).into());
     };
     let mut flags = args.scene_flags.clone();
+    if let Some(fit) = &args.metal {
+        // a value that is set by hand counts more
+        flags.overrides.insert(0, metal_override(fit)?);
+    }
     flags.overrides.extend(args.no_refine.then(|| "numerics.refine=false".to_string()));
     let scene = flags.read(path)?;
     if !args.run.quiet {

@@ -1,7 +1,7 @@
 //! Other metals that the measurements allow: minima all over the bounds, and those that a wall parts from the
 //! best one.
 
-use crate::levenberg_marquardt::{Minimum, chi2, minimise};
+use crate::levenberg_marquardt::{Minimum, Residuals, chi2, minimise};
 use crate::objective::Objective;
 use crate::parameters::{Unknowns, far_apart, sobol_points};
 use crate::profile_likelihood::GROWTH;
@@ -54,10 +54,15 @@ fn is_near(a: &[f64], b: &[f64], unknowns: &Unknowns) -> bool {
 
 /// The `best` minimum and those of `others` that a wall, higher than what the measurements allow, parts from
 /// it and from each other: metals of their own.
-pub fn branches(objective: &Objective<'_>, best: &Minimum, others: &[Minimum]) -> Vec<Minimum> {
+pub fn branches(
+    residuals: &Residuals<'_>,
+    bounds: &[[f64; 2]],
+    best: &Minimum,
+    others: &[Minimum],
+) -> Vec<Minimum> {
     let mut kept = vec![best.clone()];
     for other in others {
-        if kept.iter().all(|branch| is_parted(objective, branch, other, best.chi2 + GROWTH)) {
+        if kept.iter().all(|branch| is_parted(residuals, bounds, [branch, other], best.chi2 + GROWTH)) {
             kept.push(other.clone());
         }
     }
@@ -66,8 +71,7 @@ pub fn branches(objective: &Objective<'_>, best: &Minimum, others: &[Minimum]) -
 
 /// True where every way between two minima that follows one coordinate, the others at their best, climbs
 /// above `wall`.
-fn is_parted(objective: &Objective<'_>, a: &Minimum, b: &Minimum, wall: f64) -> bool {
-    let bounds = objective.bounds();
+fn is_parted(residuals: &Residuals<'_>, bounds: &[[f64; 2]], [a, b]: [&Minimum; 2], wall: f64) -> bool {
     let share = |i: usize| (a.point[i] - b.point[i]).abs() / (bounds[i][1] - bounds[i][0]).max(1e-300);
     let Some(i) = (0..bounds.len()).max_by(|i, j| share(*i).total_cmp(&share(*j))) else { return false };
     let climbs = |[from, to]: [&Minimum; 2]| {
@@ -75,13 +79,36 @@ fn is_parted(objective: &Objective<'_>, a: &Minimum, b: &Minimum, wall: f64) -> 
         (1..=PLACES_BETWEEN).any(|k| {
             let share = k as f64 / (PLACES_BETWEEN + 1) as f64;
             let x = from.point[i] + share * (to.point[i] - from.point[i]);
-            let mut held = bounds.clone();
+            let mut held = bounds.to_vec();
             held[i] = [x, x];
             point[i] = x;
-            let lowest = minimise(objective, &point, &held);
+            let lowest = minimise(residuals, &point, &held);
             point.clone_from(&lowest.point);
             lowest.chi2 > wall
         })
     };
     climbs([a, b]) && climbs([b, a])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn minimum(point: &[f64]) -> Minimum {
+        Minimum { point: point.to_vec(), chi2: 0.0 }
+    }
+
+    /// x² measured as 1: metals at 1 and at -1, with a wall of 100 between them. A ring x² + y² = 1 has the same
+    /// minima, and a way around.
+    #[test]
+    fn a_wall_makes_two_metals_and_a_way_around_it_one() {
+        let bounds = [[-2.0, 2.0], [-2.0, 2.0]];
+        let parted = |p: &[f64]| Some(vec![10.0 * (p[0] * p[0] - 1.0), p[1]]);
+        let ring = |p: &[f64]| Some(vec![10.0 * (p[0] * p[0] + p[1] * p[1] - 1.0), 0.0]);
+        let (best, other) = (minimum(&[1.0, 0.0]), minimum(&[-1.0, 0.0]));
+        let of_two = branches(&parted, &bounds, &best, std::slice::from_ref(&other));
+        assert_eq!(of_two.len(), 2);
+        let (best, other) = (minimum(&[0.8, 0.6]), minimum(&[-0.8, 0.6]));
+        assert_eq!(branches(&ring, &bounds, &best, &[other]).len(), 1);
+    }
 }

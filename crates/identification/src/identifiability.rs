@@ -2,12 +2,13 @@
 //! it best.
 
 use super::emulator::by_the_atlas;
-use super::experiment::Experiment;
+use super::experiment::{Data, Experiment};
 use super::objective::{Objective, curvature};
 use super::parameters::{Parameter, Slot, Unknowns};
 use super::response::{DesignPoint, Geometry};
 use crate::levenberg_marquardt::jacobian;
 use crate::profile_likelihood::Interval;
+use indexmap::IndexMap;
 use nalgebra::{DMatrix, DVector};
 use serde::Serialize;
 
@@ -123,8 +124,24 @@ const NOISE: f64 = 0.01;
 /// Angles nearer than this to one that was measured are no other experiment, degrees.
 const MIN_ANGLE_DISTANCE: f64 = 4.0;
 
-/// The sharp cone whose loading curvature, unloading slope and work ratio would narrow the interval of
-/// unknown `of` most, by the atlas of cones.
+/// Names of the quantities of a curve, those that an experiment like the given ones would measure.
+const FEATURES: [&str; 3] = ["loading_curvature", "unloading_slope", "plastic_work_ratio"];
+
+/// Those of [`FEATURES`] that `experiments` measured: a next experiment is expected to measure no more.
+fn measured_features(experiments: &[Experiment]) -> [bool; 3] {
+    let of = |e: &Experiment| match &e.data {
+        Data::Features { loading_curvature, unloading_slope, plastic_work_ratio } => {
+            [loading_curvature.is_some(), unloading_slope.is_some(), plastic_work_ratio.is_some()]
+        }
+        Data::Curve(curve) => [true, !curve.unloading.is_empty(), !curve.unloading.is_empty()],
+        Data::Imprint(_) | Data::ImprintNumbers(_) => [false; 3],
+    };
+    let all = experiments.iter().map(of).fold([false; 3], |a, b| [0, 1, 2].map(|k| a[k] || b[k]));
+    if all == [false; 3] { [true; 3] } else { all }
+}
+
+/// The sharp cone that would narrow the interval of unknown `of` most by the quantities that the given
+/// measurements have, by the atlas of cones.
 pub fn next_experiment(
     objective: &Objective<'_>,
     experiments: &[Experiment],
@@ -141,6 +158,7 @@ pub fn next_experiment(
     }
     let width = |matrix: &DMatrix<f64>| Some(matrix.clone().try_inverse()?[(of, of)].sqrt());
     let now = width(&normal)?;
+    let features = measured_features(experiments);
     let first = experiments.first()?.design_point(unknowns, point)?;
     let noise = experiments.iter().map(|e| e.noise).fold(NOISE, f64::max);
     let measured = |angle: f64| {
@@ -163,11 +181,9 @@ pub fn next_experiment(
             let logs = by_the_atlas(&question);
             let modulus = question.modulus.ln();
             let error = noise.hypot(0.01);
-            Some(vec![
-                (logs[0] + modulus) / error,
-                (logs[1] + modulus) / (2.0 * error),
-                logs[2] / (3.0 * error),
-            ])
+            let all =
+                [(logs[0] + modulus) / error, (logs[1] + modulus) / (2.0 * error), logs[2] / (3.0 * error)];
+            Some(all.into_iter().zip(features).filter(|(_, has)| *has).map(|(x, _)| x).collect::<Vec<_>>())
         };
         let more = jacobian(&at, point, &bounds)?;
         Some((angle, width(&(&normal + more.tr_mul(&more)))? / now))
@@ -176,7 +192,12 @@ pub fn next_experiment(
     let best = angles.filter_map(ratio).min_by(|a, b| a.1.total_cmp(&b.1))?;
     Some(NextExperiment {
         half_apex_deg: best.0,
-        features: ["loading_curvature", "unloading_slope", "plastic_work_ratio"].map(String::from).to_vec(),
+        features: FEATURES
+            .iter()
+            .zip(features)
+            .filter(|(_, has)| *has)
+            .map(|(name, _)| name.to_string())
+            .collect(),
         parameter: unknowns.parameters[of].name.clone(),
         interval_ratio: best.1,
     })
@@ -200,4 +221,46 @@ pub fn deviations(
     let correlation = |i: usize, j: usize| covariance[(i, j)] / (deviation(i) * deviation(j));
     let rows = (0..count).map(|i| (0..count).map(|j| correlation(i, j)).collect()).collect();
     ((0..count).map(|i| deviation(i) * widths[i]).collect(), rows)
+}
+
+/// What one of several measurements decides: the width of every interval without it over that with it, by the
+/// curvature at the best fit.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Decided {
+    /// The measurement that is left out.
+    pub measurement: String,
+    /// Unknowns and the factors by which their intervals would widen.
+    pub widening: IndexMap<String, f64>,
+}
+
+/// What each of `experiments` decides; empty of one.
+pub fn decided(
+    objective: &Objective<'_>,
+    experiments: &[Experiment],
+    unknowns: &Unknowns,
+    point: &[f64],
+) -> Option<Vec<Decided>> {
+    if experiments.len() < 2 {
+        return Some(Vec::new());
+    }
+    let bounds = objective.bounds();
+    let mut slopes = jacobian(objective, point, &bounds)?;
+    for (mut column, [low, high]) in slopes.column_iter_mut().zip(&bounds) {
+        column *= high - low;
+    }
+    let count = bounds.len();
+    // the bounds themselves are a weak measurement
+    let information = |rows: &DMatrix<f64>| rows.tr_mul(rows) + 3.0 * DMatrix::<f64>::identity(count, count);
+    let whole = information(&slopes).try_inverse()?;
+    let mut first = 0;
+    let each = experiments.iter().map(|experiment| {
+        let size = experiment.differences(unknowns, point, false)?.len();
+        let rest = slopes.clone().remove_rows(first, size);
+        first += size;
+        let without = information(&rest).try_inverse()?;
+        let factor = |i: usize| (without[(i, i)] / whole[(i, i)]).sqrt();
+        let widening = unknowns.parameters.iter().enumerate().map(|(i, p)| (p.name.clone(), factor(i)));
+        Some(Decided { measurement: experiment.name.clone(), widening: widening.collect() })
+    });
+    each.collect()
 }

@@ -224,3 +224,71 @@ pub fn outstanding(numbers: &[f64]) -> [f64; 3] {
     let lowest = heights.iter().copied().fold(f64::INFINITY, f64::min);
     [heights[top], -lowest, PLACES[top] * radius_over_depth(numbers)]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A cone of depth 1 and radius 3 with a rim of 0.1, heights in micrometres.
+    fn surface(r: f64) -> f64 {
+        if r < 3.0 { r / 3.0 * 1.1 - 1.0 } else { 0.1 * (-(r - 3.0)).exp() }
+    }
+
+    #[test]
+    fn a_computed_surface_is_read_back_between_its_places() {
+        let points = (0..2000).map(|i| 0.01 * f64::from(i)).map(|r| [r, surface(r)]).collect();
+        let numbers = numbers(points, 3.0).unwrap();
+        assert_eq!(numbers.len(), NUMBERS);
+        for r in [0.0, 1.7, 2.9, 3.0, 3.2, 5.0, 9.0] {
+            // straight lines between the places leave a thousandth of the depth of the bent pile-up
+            assert!((height(&numbers, r) - surface(r)).abs() < 2e-3, "{r}");
+        }
+        let [pile_up, residual, rim] = outstanding(&numbers);
+        assert!((pile_up - 0.1).abs() < 1e-3 && (residual - 1.0).abs() < 1e-9 && (rim - 3.0).abs() < 1e-9);
+    }
+
+    /// Roughness of 20 nm whose neighbours, 0.1 um apart, are alike by exp(-1/3): made by a fixed rule, an
+    /// autoregression of a hash.
+    #[test]
+    fn the_far_field_tells_noise_and_its_correlation() {
+        let alike = (-1.0_f64 / 3.0).exp();
+        let (mut seed, mut rough) = (7_u64, 0.0);
+        let mut draw = || {
+            let uniform = |s: &mut u64| {
+                *s = s.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+                (*s >> 11) as f64 / (1_u64 << 53) as f64
+            };
+            // the sum of twelve has a variance of 1
+            (0..12).map(|_| uniform(&mut seed)).sum::<f64>() - 6.0
+        };
+        let points: Vec<[f64; 2]> = (-90..=90)
+            .map(|i| {
+                rough = alike * rough + (1.0 - alike * alike).sqrt() * draw();
+                let r = 0.1 * f64::from(i);
+                [1e-6 * r, 1e-6 * surface(r.abs()) + 20e-9 * rough]
+            })
+            .collect();
+        let far = far_field(&points, 3e-6).unwrap();
+        // 60 points of which each third is new: a quarter of the deviation, half of the length
+        assert!((far.0 / 20e-9 - 1.0).abs() < 0.35 && (0.1e-6..0.7e-6).contains(&far.1), "{far:?}");
+        let white: Vec<[f64; 2]> = points.iter().map(|p| [p[0], 20e-9 * draw()]).collect();
+        let far = far_field(&white, 3e-6).unwrap();
+        assert!((far.0 / 20e-9 - 1.0).abs() < 0.25 && far.1 < 0.1e-6, "{far:?}");
+    }
+
+    #[test]
+    fn a_profile_that_is_no_imprint_is_refused_with_a_way_out() {
+        let points = |factor: f64, reach: i32| -> Vec<[f64; 2]> {
+            (0..reach).map(|i| 0.1 * f64::from(i)).map(|r| [1e-6 * r, factor * 1e-6 * surface(r)]).collect()
+        };
+        let refused = |points: &[[f64; 2]], word: &str| {
+            let error = Imprint::new(points, 3e-6, 1e-6, StatedNoise::default()).unwrap_err();
+            assert!(error.contains(word), "{error}");
+        };
+        refused(&points(-1.0, 90), "turn their sign");
+        refused(&points(1.0, 25), "three radii");
+        refused(&points(1.0, 4), "too few");
+        let imprint = Imprint::new(&points(1.0, 45), 3e-6, 1e-6, StatedNoise::default()).unwrap();
+        assert!(imprint.notes[0].contains("state it"), "{:?}", imprint.notes);
+    }
+}

@@ -4,7 +4,7 @@
 use crate::branches::{allowed_minima, branches};
 use crate::experiment::{Data, Experiment};
 use crate::identifiability::{
-    NextExperiment, NullDirection, deviations, identified, next_experiment, null_direction,
+    Decided, NextExperiment, NullDirection, decided, deviations, identified, next_experiment, null_direction,
 };
 use crate::levenberg_marquardt::Minimum;
 use crate::numbers::{Branch, CurveResidual, Found, Residual, StressAt, fits};
@@ -32,6 +32,8 @@ pub struct Inference {
     pub blind_direction: Option<NullDirection>,
     /// The sharp cone that would narrow the widest interval most; none where everything is told.
     pub next_experiment: Option<NextExperiment>,
+    /// What each of several measurements decides.
+    pub decided: Vec<Decided>,
     /// The stress-strain curve.
     pub stress_strain: Vec<StressAt>,
     /// The stress that is told best.
@@ -67,7 +69,7 @@ pub fn infer(
     let bounds = objective.bounds();
     let (deviations, correlation) = deviations(&objective, unknowns, &best.point);
     let others = allowed_minima(&objective, unknowns, best);
-    let metals = branches(&objective, best, &others);
+    let metals = branches(&objective, &bounds, best, &others);
     let all: Vec<Minimum> = std::iter::once(best).chain(&others).cloned().collect();
     let profile = Profile { residuals: &objective, bounds: &bounds, lowest: best.chi2 };
     let interval = |minima: &[Minimum], i: usize| {
@@ -122,6 +124,7 @@ pub fn infer(
         verdict,
         blind_direction,
         next_experiment,
+        decided: decided(&objective, experiments, unknowns, &best.point).unwrap_or_default(),
         stress_strain,
         representative,
         residual,

@@ -277,6 +277,21 @@ mod tests {
         assert!(measured.notes.is_empty(), "{:?}", measured.notes);
     }
 
+    /// A ball's force grows with a power between 1 and 1.5 of the depth: the laws at both ends enclose its touch.
+    #[test]
+    fn the_laws_of_a_ball_enclose_its_first_touch() {
+        for offset in [0.0, 0.1e-6] {
+            let readings: Readings = (1..=60)
+                .map(|i| f64::from(i) / 60.0)
+                .map(|s| [offset + 1e-6 * s, 5e-3 * s.powf(1.2)])
+                .collect();
+            let measured = Measured::new(&readings).unwrap();
+            let [plastic, elastic] = [1.0, 1.5].map(|power| measured.touches(power));
+            assert!(elastic < offset && offset < plastic, "{elastic:e} {offset:e} {plastic:e}");
+            assert!((measured.touches(1.2) - offset).abs() < 1e-9);
+        }
+    }
+
     /// However dense the readings are, the steep way back beside the turn is no hold, nor part of its force.
     #[test]
     fn a_dense_curve_without_a_hold_has_none() {

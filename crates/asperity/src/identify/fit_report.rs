@@ -41,6 +41,16 @@ impl Identification {
                 &["quantity", "value", "95 % interval", "do the measurements tell it"],
                 &parameters,
             ))
+            @if !self.decided.is_empty() {
+                (page::table(
+                    "How much wider each interval would be without one of the measurements.",
+                    &["left out", "intervals wider by a factor of"],
+                    &self.decided.iter().map(|d| {
+                        let factors = d.widening.iter().map(|(name, by)| format!("{name} {}", significant(*by)));
+                        vec![html! { (d.measurement) }, html! { (factors.collect::<Vec<_>>().join(", ")) }]
+                    }).collect::<Vec<_>>(),
+                ))
+            }
             h2 { "Curves" }
             @if let Some(forces) = self.drawn.forces() {
                 (page::chart(&forces, "Measured points of force over depth, and the fit through them.", "Measured points and the fit.")?)

@@ -23,12 +23,12 @@ mod fit_report;
 pub use asperity_identification::fit_file::{
     Features, FitAccuracy, FitCurve, FitFile, FitMaterial, FitShape, FitTool, Nuisance,
 };
-pub use asperity_identification::identifiability::{NextExperiment, NullDirection};
+pub use asperity_identification::identifiability::{Decided, NextExperiment, NullDirection};
 pub use asperity_identification::known_or_unknown::{KnownOrUnknown, Percent};
 pub use asperity_identification::numbers::StressAt;
 pub use asperity_identification::numbers::{CurveResidual, Found, Residual};
 pub use fit::Fit;
-pub use result::Identification;
+pub use result::{Identification, metal_override};
 pub use tool_geometry::PYRAMIDS_CONE;
 
 use crate::error::Error;

@@ -4,11 +4,11 @@
 use super::fit::Fit;
 use super::pictures;
 use crate::draw::chart::svg;
-use crate::error::Error;
+use crate::error::{Error, InputError};
 use crate::input::toml_file::to_toml;
 use crate::results::numbers::decimals;
 use crate::results::output::{Sink, SinkExt, json};
-use asperity_identification::identifiability::{NextExperiment, NullDirection};
+use asperity_identification::identifiability::{Decided, NextExperiment, NullDirection};
 use asperity_identification::inference::{Inference, Sampling, infer};
 use asperity_identification::noise::noise_from_scatter;
 use asperity_identification::numbers::StressAt;
@@ -19,6 +19,7 @@ use asperity_simulation::scene::Material;
 use indexmap::IndexMap;
 use serde::Serialize;
 use std::fmt::Write;
+use std::path::Path;
 use std::time::Instant;
 
 /// The result.
@@ -34,6 +35,9 @@ pub struct Identification {
     pub blind_direction: Option<NullDirection>,
     /// The sharp cone that would narrow the widest interval most; none where everything is told.
     pub next_experiment: Option<NextExperiment>,
+    /// What each of several measurements decides.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub decided: Vec<Decided>,
     /// The stress-strain curve.
     pub stress_strain: Vec<StressAt>,
     /// The stress that is told best.
@@ -50,8 +54,7 @@ pub struct Identification {
     pub wall_s: f64,
     /// The program.
     pub version: &'static str,
-    /// The metal at the best values, as the `[material]` of a scene has it.
-    #[serde(skip)]
+    /// The metal at the best values, as the `[material]` of a scene has it: `asperity crush --metal` takes it.
     pub material: Material,
     /// Samples of the posterior, in the units of the parameters.
     #[serde(skip)]
@@ -91,6 +94,7 @@ pub(super) fn identify(
         verdict,
         blind_direction,
         next_experiment,
+        decided: inference.decided,
         stress_strain: inference.stress_strain,
         representative: inference.representative,
         residual: inference.residual,
@@ -103,6 +107,24 @@ pub(super) fn identify(
         samples: inference.samples,
         drawn,
     })
+}
+
+/// The metal of the `fit.json` at `path` as an override of a scene, `material={…}`.
+///
+/// # Errors
+/// A file that cannot be read or holds no metal.
+pub fn metal_override(path: &Path) -> Result<String, InputError> {
+    let shown = path.display();
+    let text = std::fs::read_to_string(path)
+        .map_err(|e| InputError::new(format!("{shown}: cannot be read: {e}")))?;
+    let fit: Option<serde_json::Value> = serde_json::from_str(&text).ok();
+    let metal = fit.and_then(|mut fit| serde_json::from_value::<toml::Table>(fit["material"].take()).ok());
+    let metal = metal.ok_or_else(|| {
+        InputError::new(format!("{shown} holds no metal")).help(
+            "give the fit.json that asperity identify wrote; a [material] of TOML goes into the scene itself",
+        )
+    })?;
+    Ok(format!("material={}", toml::Value::Table(metal)))
 }
 
 fn assumed(fit: &Fit) -> Option<String> {
@@ -155,7 +177,7 @@ impl Identification {
             self.runs, self.residual.chi2, self.residual.degrees_of_freedom
         );
         if self.residual.fits {
-            text += "\nhand on   material.toml is the [material] of a scene for asperity crush";
+            text += "\nhand on   asperity crush scene.toml --metal fit.json takes this metal; material.toml is its [material]";
         }
         text
     }

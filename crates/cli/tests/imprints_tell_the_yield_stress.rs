@@ -1,0 +1,135 @@
+//! `asperity identify` with the imprint of a cone: what one curve leaves open it closes, what belongs to another
+//! indent is rejected, and the metal goes on into a scene.
+//!
+//! Curve and imprint are the program's own, at a finer level than that of the fit: E 120 GPa, σ_y 400 MPa, n 0.2
+//! (`swift`). A sharp cone's curve has one number of loading and one shape of unloading for two unknowns of
+//! flow (Jiao and Vlassak 2024).
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+mod common;
+
+use common::Place;
+use std::fmt::Write;
+
+const FIT: &str = r#"accuracy = "draft"
+samples = 0
+[material]
+youngs_modulus = ["100 GPa", "140 GPa"]
+poissons_ratio = 0.3
+yield_stress = ["50 MPa", "2 GPa"]
+hardening_exponent = [0.0, 0.5]
+hardening_law = "swift"
+[[curve]]
+file = "cone.csv"
+tool = { shape = "cone", half_apex_deg = 70.3 }
+noise = "0.5 %"
+"#;
+
+/// Crushes the twin, and writes its curve and the profile that it leaves with every height times `factor`.
+fn twin(place: &Place, factor: f64) {
+    let scene = "symmetry = \"axisymmetric\"\naccuracy = \"standard\"\n[material]\nyoungs_modulus = \"120 GPa\"\npoissons_ratio = 0.3\nyield_stress = \"400 MPa\"\nhardening_exponent = 0.2\nhardening_law = \"swift\"\n[tool]\nshape = \"cone\"\nslope_deg = 19.7\n[loading]\ndepth = \"1 um\"\nunload = true\n";
+    std::fs::write(place.path("scene.toml"), scene).unwrap();
+    let end = place.run(&["crush", "scene.toml", "--out", "twin", "--quiet"]);
+    assert_eq!(end.status, 0, "{}", end.err);
+    let rows = |name: &str, columns: [&str; 2]| {
+        let text = place.text(&format!("twin/{name}"));
+        let mut lines = text.lines();
+        let head: Vec<String> = lines.next().unwrap().split(',').map(String::from).collect();
+        let at = columns.map(|c| head.iter().position(|h| h == c).unwrap());
+        lines
+            .map(|line| {
+                let cells: Vec<&str> = line.split(',').collect();
+                at.map(|i| cells[i].parse::<f64>().unwrap())
+            })
+            .collect::<Vec<_>>()
+    };
+    let mut text = String::from("depth_um,force_N\n");
+    for [h, f] in rows("curve.csv", ["depth_um", "force_N"]) {
+        let _ = writeln!(text, "{h},{f}");
+    }
+    std::fs::write(place.path("cone.csv"), text).unwrap();
+    let mut names = place.names("twin");
+    names.retain(|name| name.starts_with("surface_") && name.ends_with(".csv"));
+    names.sort();
+    let mut text = String::from("Abstand (µm);Höhe (nm)\n");
+    for [r, z] in rows(names.last().unwrap(), ["r_um", "z_um"]).into_iter().filter(|[r, _]| *r < 9.0) {
+        let _ = writeln!(text, "{r};{}", 1e3 * factor * z);
+    }
+    std::fs::write(place.path("profile.csv"), text).unwrap();
+}
+
+fn fit(place: &Place, more: &str, out: &str) -> serde_json::Value {
+    std::fs::write(place.path("fit.toml"), format!("{FIT}{more}")).unwrap();
+    let end = place.run(&["identify", "fit.toml", "--out", out, "--quiet"]);
+    assert_eq!(end.status, 0, "{}", end.err);
+    serde_json::from_str(&place.text(&format!("{out}/fit.json"))).unwrap()
+}
+
+fn ends(found: &serde_json::Value, name: &str) -> [f64; 3] {
+    ["value", "low", "high"].map(|key| found["parameters"][name][key].as_f64().unwrap())
+}
+
+#[test]
+fn an_imprint_tells_the_yield_stress_that_its_curve_leaves_open() {
+    let place = Place::with_scene("");
+    twin(&place, 1.0);
+    let alone = fit(&place, "", "alone");
+    let both = fit(&place, "imprint = \"profile.csv\"\n", "both");
+    for found in [&alone, &both] {
+        assert_eq!(found["residual"]["fits"], true, "{}", found["residual"]);
+        let [_, low, high] = ends(found, "yield_stress");
+        assert!(low <= 400.0 && 400.0 <= high, "{low} to {high}");
+    }
+    assert_eq!(alone["parameters"]["yield_stress"]["identifiable"], false);
+    let ([_, low, high], [value, less, more]) = (ends(&alone, "yield_stress"), ends(&both, "yield_stress"));
+    assert!(
+        (value / 400.0 - 1.0).abs() < 0.1 && more - less < 0.3 * (high - low),
+        "{value}: {less} to {more}"
+    );
+    // the imprint decides it, the curve decides E
+    let decided = both["decided"].as_array().unwrap();
+    let widening = |k: usize, name: &str| decided[k]["widening"][name].as_f64().unwrap();
+    assert!(widening(1, "yield_stress") > 2.0 && widening(0, "youngs_modulus") > 2.0, "{decided:?}");
+    assert!(place.names("both").contains(&"imprint.svg".to_string()));
+    // the metal goes on into a scene
+    let end = place.run(&["crush", "scene.toml", "--metal", "both/fit.json", "--out", "next", "--quiet"]);
+    assert_eq!(end.status, 0, "{}", end.err);
+    let peaks = ["twin", "next"].map(|folder| {
+        let text = place.text(&format!("{folder}/summary.json"));
+        serde_json::from_str::<serde_json::Value>(&text).unwrap()["force_N"].as_f64().unwrap()
+    });
+    assert!((peaks[1] / peaks[0] - 1.0).abs() < 0.02, "{peaks:?}");
+}
+
+/// An imprint of a depth 10 % less than that of the curve is of another indent.
+#[test]
+fn an_imprint_of_another_depth_is_rejected() {
+    let place = Place::with_scene("");
+    twin(&place, 0.9);
+    let found = fit(&place, "imprint = \"profile.csv\"\n", "out");
+    assert_eq!(found["residual"]["fits"], false, "{}", found["residual"]);
+}
+
+#[test]
+fn imprints_that_cannot_be_compared_are_refused_with_a_way_out() {
+    let place = Place::with_scene("");
+    twin(&place, 1.0);
+    let refused = |text: &str, word: &str| {
+        std::fs::write(place.path("fit.toml"), text).unwrap();
+        let end = place.run(&["identify", "fit.toml", "--out", "out", "--quiet"]);
+        assert_eq!(end.status, 2, "{text}\n{}", end.err);
+        let said = end.err.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(said.contains(word), "{word}: {said}");
+    };
+    let imprint = "imprint = \"profile.csv\"\n";
+    refused(
+        &format!("{FIT}{imprint}").replace("\"cone\", half_apex_deg = 70.3", "\"berkovich\""),
+        "of a pyramid",
+    );
+    let features = FIT.replace("file = \"cone.csv\"", "features = { loading_curvature = \"30 GPa\" }");
+    refused(&format!("{features}{imprint}"), "max_depth");
+    std::fs::write(place.path("flat.csv"), "r_um,z_um\n".to_string() + &"1,0\n2,0.1\n".repeat(20)).unwrap();
+    refused(&format!("{FIT}imprint = \"flat.csv\"\n"), "out to three radii");
+    refused(&format!("{FIT}imprint = \"none.csv\"\n"), "cannot be read");
+}
