@@ -1,9 +1,9 @@
-//! `asperity identify` with the imprint of a cone: what one curve leaves open it closes, what belongs to another
-//! indent is rejected, and the metal goes on into a scene.
+//! `asperity identify` with the imprint of a cone: what one curve leaves open it closes, what belongs to
+//! another indent is rejected, and the metal goes on into a scene.
 //!
-//! Curve and imprint are the program's own, at a finer level than that of the fit: E 120 GPa, σ_y 400 MPa, n 0.2
-//! (`swift`). A sharp cone's curve has one number of loading and one shape of unloading for two unknowns of
-//! flow (Jiao and Vlassak 2024).
+//! Curve and imprint are the program's own, at a finer level than that of the fit: E 120 GPa, σ_y 400 MPa, n
+//! 0.2 (`swift`). A sharp cone's curve has one number of loading and one shape of unloading for two unknowns
+//! of flow (Jiao and Vlassak 2024).
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 

@@ -98,8 +98,8 @@ mod tests {
         Minimum { point: point.to_vec(), chi2: 0.0 }
     }
 
-    /// x² measured as 1: metals at 1 and at -1, with a wall of 100 between them. A ring x² + y² = 1 has the same
-    /// minima, and a way around.
+    /// x² measured as 1: metals at 1 and at -1, with a wall of 100 between them. A ring x² + y² = 1 has the
+    /// same minima, and a way around.
     #[test]
     fn a_wall_makes_two_metals_and_a_way_around_it_one() {
         let bounds = [[-2.0, 2.0], [-2.0, 2.0]];

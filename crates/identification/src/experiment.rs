@@ -408,8 +408,8 @@ impl Experiment {
         Covariance { noise, model: [force, slope, whole] }
     }
 
-    /// Depth readings between which the tool of a curve may first touch, 0 among them: those to which the laws
-    /// of the tool point, with room on both sides.
+    /// Depth readings between which the tool of a curve may first touch, 0 among them: those to which the
+    /// laws of the tool point, with room on both sides.
     pub fn touch_range(&self) -> Option<[f64; 2]> {
         let Data::Curve(measured) = &self.data else { return None };
         let [room, farthest] = [TOUCH_ROOM, FARTHEST_TOUCH].map(|share| share * self.depth);

@@ -1,9 +1,9 @@
-//! The imprint that a tool leaves: the residual surface of finite elements, the profile that was measured, and
-//! how far the two may differ.
+//! The imprint that a tool leaves: the residual surface of finite elements, the profile that was measured,
+//! and how far the two may differ.
 //!
-//! Loading and unloading of one sharp cone leave one direction in (σ_y, n) open; the pile-up closes it (Jiao and
-//! Vlassak 2024). Heights stand over the deepest depth h, places over the contact radius a under load: so a
-//! profile varies smoothly with the metal, and that of a sharp cone does not depend on the depth.
+//! Loading and unloading of one sharp cone leave one direction in (σ_y, n) open; the pile-up closes it (Jiao
+//! and Vlassak 2024). Heights stand over the deepest depth h, places over the contact radius a under load: so
+//! a profile varies smoothly with the metal, and that of a sharp cone does not depend on the depth.
 
 use crate::interpolation::linear_between;
 use asperity_numerics::least_squares;
@@ -27,7 +27,8 @@ const MIN_FAR_POINTS: usize = 8;
 const ASSUMED_NOISE_SHARE: f64 = 0.02;
 /// Least standard deviation over the depth: no instrument and no metal is smoother.
 const MIN_NOISE_SHARE: f64 = 1e-3;
-/// Standard deviations of what levelling leaves: an offset, and a tilt over one contact radius, over the depth.
+/// Standard deviations of what levelling leaves: an offset, and a tilt over one contact radius, over the
+/// depth.
 const LEVELLING_SHARE: f64 = 0.01;
 /// Contact radii within which an imprint is a hole, and the share of the depth that it has at least there.
 const INNER_RADII: f64 = 0.3;
@@ -122,8 +123,8 @@ impl Imprint {
         })
     }
 
-    /// Covariance of the heights over `depth` by noise and levelling, and what an error of the finite elements
-    /// with a variance of 1 adds, for a contact of the radius `radius`.
+    /// Covariance of the heights over `depth` by noise and levelling, and what an error of the finite
+    /// elements with a variance of 1 adds, for a contact of the radius `radius`.
     pub fn covariances(&self, radius: f64, depth: f64) -> [DMatrix<f64>; 2] {
         let count = self.points.len();
         let pair = |of: &dyn Fn(f64, f64, bool) -> f64| {
@@ -194,8 +195,8 @@ fn far_field(points: &[[f64; 2]], radius: f64) -> Option<(f64, f64)> {
     Some((variance.sqrt(), length))
 }
 
-/// The numbers of an imprint from `points` (r, z) of the surface after unloading and the contact `radius` under
-/// load, all over the depth; `None` where nothing touched.
+/// The numbers of an imprint from `points` (r, z) of the surface after unloading and the contact `radius`
+/// under load, all over the depth; `None` where nothing touched.
 pub fn numbers(mut points: Vec<[f64; 2]>, radius: f64) -> Option<Vec<f64>> {
     if radius.is_nan() || radius <= 0.0 {
         return None;
@@ -221,8 +222,8 @@ pub fn height(numbers: &[f64], place: f64) -> f64 {
     below + (place - low) / (high - low) * (above - below)
 }
 
-/// Height of the highest point, depth of the lowest one, and place of the highest one of a computed imprint, all
-/// over the depth.
+/// Height of the highest point, depth of the lowest one, and place of the highest one of a computed imprint,
+/// all over the depth.
 pub fn outstanding(numbers: &[f64]) -> [f64; 3] {
     let heights = &numbers[1..];
     let top = (0..heights.len()).max_by(|a, b| heights[*a].total_cmp(&heights[*b])).unwrap_or(0);

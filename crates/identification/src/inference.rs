@@ -56,7 +56,8 @@ pub struct Sampling {
     pub seed: u64,
 }
 
-/// All that `experiments` say of `unknowns` at the `best` fit; `None` where there is no metal. While there are
+/// All that `experiments` say of `unknowns` at the `best` fit; `None` where there is no metal. While there
+/// are
 /// `doubts` of the model nothing counts as determined.
 pub fn infer(
     experiments: &[Experiment],
@@ -75,7 +76,7 @@ pub fn infer(
     let interval = |minima: &[Minimum], i: usize| {
         let size = |j: usize| deviations[j] / deviations[i];
         let along: Vec<f64> = (0..bounds.len()).map(|j| correlation[i][j] * size(j)).collect();
-        Interval::between(&profile.ends_of_coordinate(minima, i, deviations[i], &along))
+        Interval::from_ends(&profile.ends_of_coordinate(minima, i, deviations[i], &along))
     };
     let intervals: Vec<Interval> = (0..bounds.len()).into_par_iter().map(|i| interval(&all, i)).collect();
     let branch = |minimum: &Minimum, i: usize| {

@@ -4,8 +4,8 @@
 //! ready ([`measured_curve`]), the unknowns ([`parameters`]); what finite elements answer to one metal
 //! ([`response`]) and between metals ([`emulator`]); a measurement with its covariance ([`experiment`]), all
 //! of them ([`objective`]); the search ([`mod@search`], [`levenberg_marquardt`], [`branches`]); intervals
-//! ([`profile_likelihood`]), samples ([`posterior`]) and the null direction ([`identifiability`]); all that is
-//! said of the metal ([`inference`]).
+//! ([`profile_likelihood`]), samples ([`posterior`]) and the null direction ([`identifiability`]); all that
+//! is said of the metal ([`inference`]).
 
 pub mod known_or_unknown;
 

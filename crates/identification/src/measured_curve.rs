@@ -277,7 +277,8 @@ mod tests {
         assert!(measured.notes.is_empty(), "{:?}", measured.notes);
     }
 
-    /// A ball's force grows with a power between 1 and 1.5 of the depth: the laws at both ends enclose its touch.
+    /// A ball's force grows with a power between 1 and 1.5 of the depth: the laws at both ends enclose its
+    /// touch.
     #[test]
     fn the_laws_of_a_ball_enclose_its_first_touch() {
         for offset in [0.0, 0.1e-6] {

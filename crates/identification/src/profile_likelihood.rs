@@ -22,7 +22,7 @@ pub struct Interval {
 
 impl Interval {
     /// The interval between two ends.
-    pub fn between(ends: &[End; 2]) -> Interval {
+    pub fn from_ends(ends: &[End; 2]) -> Interval {
         Interval { ends: [ends[0].place, ends[1].place], bounded: [ends[0].bounded, ends[1].bounded] }
     }
 }
@@ -50,8 +50,9 @@ pub struct Profile<'a> {
 }
 
 impl Profile<'_> {
-    /// The ends of the interval of coordinate `i`. Where the sum of squares has several valleys, their `minima`
-    /// all count, the best one first, and the interval reaches from the first end to the last. By the curvature at the minimum, coordinate
+    /// The ends of the interval of coordinate `i`. Where the sum of squares has several valleys, their
+    /// `minima` all count, the best one first, and the interval reaches from the first end to the last. By
+    /// the curvature at the minimum, coordinate
     /// `i` has the size `deviation`, and the others move `along` as it moves by one.
     pub fn ends_of_coordinate(
         &self,
@@ -112,7 +113,7 @@ impl Profile<'_> {
             let limit = here + [-far, far][side];
             one_side(&held_at, from, self.lowest, here, limit, deviation)
         };
-        Some(Interval::between(&hull(minima, value, end)))
+        Some(Interval::from_ends(&hull(minima, value, end)))
     }
 }
 
@@ -228,7 +229,7 @@ mod tests {
         let bounds = [[-2.0, 2.0], [-0.05, 2.0]];
         let within = |i: usize| {
             let profile = Profile { residuals: &residuals, bounds: &bounds[i..=i], lowest: 0.0 };
-            Interval::between(&profile.ends_of_coordinate(std::slice::from_ref(&best), 0, 0.1, &[1.0]))
+            Interval::from_ends(&profile.ends_of_coordinate(std::slice::from_ref(&best), 0, 0.1, &[1.0]))
         };
         let free = within(0);
         assert!((free.ends[0] - (1.0 - 0.196_f64).ln()).abs() < 2e-3, "{free:?}");
@@ -247,7 +248,7 @@ mod tests {
         let profile = Profile { residuals: &residuals, bounds: &bounds, lowest: 0.0 };
         let sum = profile.of_number(&[best.clone()], &|p| Some(p[0] + p[1]), 0.1).unwrap();
         assert!((sum.ends[1] - 0.196).abs() < 2e-3 && (sum.ends[0] + 0.196).abs() < 2e-3, "{sum:?}");
-        let one = Interval::between(&profile.ends_of_coordinate(&[best], 0, 0.1, &[1.0, -1.0]));
+        let one = Interval::from_ends(&profile.ends_of_coordinate(&[best], 0, 0.1, &[1.0, -1.0]));
         assert_eq!((one.ends, one.bounded), ([-1.0, 1.0], [true, true]));
     }
 
@@ -259,7 +260,7 @@ mod tests {
         let [near, far] = [0.804_f64, 1.196].map(f64::sqrt);
         let profile = Profile { residuals: &residuals, bounds: &[[-3.0, 3.0]], lowest: 0.0 };
         let across =
-            |minima: &[Minimum]| Interval::between(&profile.ends_of_coordinate(minima, 0, 0.05, &[1.0]));
+            |minima: &[Minimum]| Interval::from_ends(&profile.ends_of_coordinate(minima, 0, 0.05, &[1.0]));
         let alone = across(std::slice::from_ref(&best));
         assert!((alone.ends[0] - near).abs() < 2e-3 && (alone.ends[1] - far).abs() < 2e-3, "{alone:?}");
         let both = across(&[best, other]);

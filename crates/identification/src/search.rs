@@ -98,7 +98,7 @@ pub fn search(
         .take(OTHER_MINIMA)
     {
         go_on(observer, 0.99, "asking finite elements at another metal that fits")?;
-        ask.at(experiments, unknowns, (&[other.point.clone()], false), accuracy)?;
+        ask.ask_at(experiments, unknowns, (&[other.point.clone()], false), accuracy)?;
         let there = again(experiments, unknowns, &other.point)?;
         best = again(experiments, unknowns, &best.point)?;
         if there.chi2 < best.chi2 {
@@ -128,15 +128,15 @@ struct Asking<'a> {
 }
 
 impl Asking<'_> {
-    fn at(
+    fn ask_at(
         &mut self,
         experiments: &mut [Experiment],
         unknowns: &Unknowns,
         (points, needed): (&[Vec<f64>], bool),
         level: Accuracy,
     ) -> Result<(), SearchError> {
-        // the atlas of sharp cones is as exact as `accuracy`, and coarser runs would only blur it; other tools
-        // have coarse runs all about
+        // the atlas of sharp cones is as exact as `accuracy`, and coarser runs would only blur it; other
+        // tools have coarse runs all about
         let finest = self.accuracy;
         let level = |e: &Experiment| if e.is_sharp() { finest } else { level };
         run_at(experiments, unknowns, (points, needed), level, self.analyses, &mut self.found)
@@ -156,7 +156,7 @@ impl Asking<'_> {
         let mut asked = Vec::new();
         for round in 0..ROUNDS {
             go_on(observer, share(0.2 * round as f64), "asking finite elements at the best fit")?;
-            self.at(experiments, unknowns, (&[best.point.clone()], true), Accuracy::Draft)?;
+            self.ask_at(experiments, unknowns, (&[best.point.clone()], true), Accuracy::Draft)?;
             asked.clone_from(&best.point);
             *best = again(experiments, unknowns, &asked)?;
             if moved(experiments, unknowns, &asked, &best.point) < SETTLED_DEVIATIONS {
@@ -169,7 +169,7 @@ impl Asking<'_> {
                 break;
             }
             go_on(observer, share(0.8), "asking finite elements where the measurements see least")?;
-            self.at(experiments, unknowns, (&ends, false), Accuracy::Draft)?;
+            self.ask_at(experiments, unknowns, (&ends, false), Accuracy::Draft)?;
             *best = again(experiments, unknowns, &best.point)?;
         }
         let sharp = experiments.iter().all(Experiment::is_sharp);
@@ -181,7 +181,7 @@ impl Asking<'_> {
         for _ in 0..FINAL_ROUNDS {
             go_on(observer, share(0.9), "the final answer")?;
             asked.clone_from(&best.point);
-            self.at(experiments, unknowns, (&[asked.clone()], true), self.accuracy)?;
+            self.ask_at(experiments, unknowns, (&[asked.clone()], true), self.accuracy)?;
             // what a finer level says may lead to another valley
             *best = lowest_from(experiments, unknowns, &asked)?;
             if moved(experiments, unknowns, &asked, &best.point) < SETTLED_DEVIATIONS {

@@ -125,7 +125,8 @@ pub fn published(metals: &[Published], asked: Asked) -> Vec<Case> {
     metals.iter().map(one).collect()
 }
 
-fn material(modulus: &str, poissons_ratio: f64, [low, high]: [&str; 2]) -> String {
+/// The head of a fit file: the metal that is sought.
+pub fn material(modulus: &str, poissons_ratio: f64, [low, high]: [&str; 2]) -> String {
     format!(
         "accuracy = \"standard\"\nsamples = 0\n[material]\nyoungs_modulus = {modulus}\npoissons_ratio = {poissons_ratio}\nyield_stress = [\"{low}\", \"{high}\"]\nhardening_exponent = [0.0, 0.5]\nhardening_law = \"swift\"\n"
     )

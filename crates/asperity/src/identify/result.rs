@@ -54,7 +54,8 @@ pub struct Identification {
     pub wall_s: f64,
     /// The program.
     pub version: &'static str,
-    /// The metal at the best values, as the `[material]` of a scene has it: `asperity crush --metal` takes it.
+    /// The metal at the best values, as the `[material]` of a scene has it: `asperity crush --metal` takes
+    /// it.
     pub material: Material,
     /// Samples of the posterior, in the units of the parameters.
     #[serde(skip)]

@@ -1,0 +1,134 @@
+//! Twins of one cone with its imprint, at a finer level than that of the fit.
+
+use crate::cases::{Case, material};
+use asperity::tables::Accuracy;
+use asperity_calibration::fit::SplitMix;
+use asperity_calibration::indentation::{FORCES, residual_surface, solve};
+use asperity_material::{Elastic, Hardening, HardeningLaw, StressMeasure};
+use asperity_numerics::sobol::Sobol;
+use asperity_simulation::setup::cone::Cone;
+use asperity_solver::body::analysis::Analyses;
+use asperity_solver::point::material::Metal;
+use rayon::prelude::*;
+use std::fmt::Write;
+use std::path::Path;
+
+/// The depth of every imprint, µm.
+const DEPTH: f64 = 2.0;
+/// Slope of the cone of 70.3° half apex angle, degrees.
+const SLOPE_DEG: f64 = 19.7;
+/// Standard deviations: of a force, of a height over the depth; and of offset and tilt over the depth.
+const NOISE: [f64; 3] = [0.01, 0.02, 0.005];
+
+/// A draw of normal numbers.
+struct Normal(SplitMix);
+
+impl Normal {
+    fn draw(&mut self) -> f64 {
+        let mut uniform = || ((self.0.bits() >> 11) as f64 + 0.5) / (1_u64 << 53) as f64;
+        // Box and Muller
+        (-2.0 * uniform().ln()).sqrt() * (std::f64::consts::TAU * uniform()).cos()
+    }
+}
+
+/// `count` metals of E/σ_y from 100 to 600 and n from 0 to 0.3, each with the curve of a cone of 70.3° (200
+/// points of loading, 100 of unloading) and its imprint (150 points to three contact radii), both with noise.
+/// Heights are alike over `length` contact radii.
+pub fn imprints(count: usize, length: f64) -> Vec<Case> {
+    let folder = std::env::temp_dir().join(concat!("asperity-imprints-", env!("CARGO_PKG_VERSION")));
+    std::fs::create_dir_all(&folder).expect("can be made");
+    let sobol = Sobol::new(3).expect("three dimensions");
+    let metal = |i: usize| {
+        let at = |k: usize| sobol.coordinate(k, i + 1);
+        let e = (10.0 * 60.0 * 3.5_f64.powf(at(0))).round() / 10.0;
+        [e, (1e3 * e / (100.0 * 6.0_f64.powf(at(1)))).round(), (300.0 * at(2)).round() / 1e3]
+    };
+    let one = |i: usize| {
+        let [e, s, n] = metal(i);
+        let curve = folder.join(format!("curve-{i}.csv"));
+        let imprint = folder.join(format!("imprint-{i}-{length}.csv"));
+        if !curve.exists() || !imprint.exists() {
+            write([e, s, n], i as u64, length, [&curve, &imprint])?;
+        }
+        let modulus = format!("[\"{:.1} GPa\", \"{:.1} GPa\"]", 0.8 * e, 1.2 * e);
+        let mut fit = material(&modulus, 0.3, ["50 MPa", "10 GPa"]);
+        let _ = write!(
+            fit,
+            "[[curve]]\nfile = \"curve-{i}.csv\"\ntool = {{ shape = \"cone\", half_apex_deg = 70.3 }}\nnoise = \"1 %\"\nimprint = \"imprint-{i}-{length}.csv\"\n"
+        );
+        Some(Case {
+            name: format!("imprint {i}"),
+            youngs_modulus: e,
+            yield_stress: s,
+            exponent: n,
+            stresses: Vec::new(),
+            fit,
+            folder: folder.clone(),
+        })
+    };
+    (0..count).into_par_iter().with_max_len(1).filter_map(one).collect()
+}
+
+/// Writes curve and imprint of a metal (GPa, MPa, n) by finite elements at `reference`.
+fn write([e, s, n]: [f64; 3], seed: u64, length: f64, [curve, imprint]: [&Path; 2]) -> Option<()> {
+    let law =
+        Hardening { law: HardeningLaw::Swift, yield_stress: 1e-3 * s / e, exponent: n, youngs_modulus: 1.0 };
+    let metal = Metal {
+        elastic: Elastic { youngs_modulus: 1.0, poissons_ratio: 0.3 },
+        hardening: Some(law.into()),
+        kinematic_share: 0.0,
+        stress_measure: StressMeasure::default(),
+    };
+    let cone = Cone { slope_deg: SLOPE_DEG, indents: true, metal, friction: None };
+    let analyses = Analyses::default();
+    let (found, _) = solve(&cone, Accuracy::Reference, &analyses).ok()?;
+    let left = residual_surface(&cone, Accuracy::Reference, &analyses).ok()?;
+    let mut noise = Normal(SplitMix(seed + 77));
+    let mut text = "depth_um,force_mN\n".to_string();
+    // E in GPa over lengths in µm: mN
+    let force = |depth: f64| e * found.k_over_e * depth * depth;
+    let mut row = |depth: f64, force: f64| {
+        let _ = writeln!(text, "{depth:.6},{:.8}", force * (1.0 + NOISE[0] * noise.draw()));
+    };
+    for k in 1..=200 {
+        let depth = DEPTH * f64::from(k) / 200.0;
+        row(depth, force(depth));
+    }
+    let points: Vec<[f64; 2]> = std::iter::once([1.0, 0.0])
+        .chain(FORCES.iter().copied().zip(found.recovery).map(|(f, r)| [f, r]))
+        .collect();
+    for k in 1..100 {
+        let share = 1.0 - f64::from(k) / 100.0;
+        row(DEPTH * (1.0 - recovered(&points, share)), share * force(DEPTH));
+    }
+    std::fs::write(curve, text).ok()?;
+    let mut surface = left.points.clone();
+    surface.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    let far = surface.last()?[1];
+    let radius = left.contact_radius;
+    let step = 3.0 / 149.0;
+    let alike = (-step / length).exp();
+    let [offset, tilt] = [NOISE[2] * noise.draw(), NOISE[2] * noise.draw()];
+    let mut rough = noise.draw();
+    let mut text = "r_um,z_um\n".to_string();
+    for k in 0..150 {
+        let place = step * f64::from(k);
+        let height = interpolated(&surface, place * radius) - far + NOISE[1] * rough + offset + tilt * place;
+        let _ = writeln!(text, "{:.6},{:.6}", DEPTH * place * radius, DEPTH * height);
+        rough = alike * rough + (1.0 - alike * alike).sqrt() * noise.draw();
+    }
+    std::fs::write(imprint, text).ok()
+}
+
+/// Linear between points of rising x.
+fn interpolated(points: &[[f64; 2]], x: f64) -> f64 {
+    let k = points.partition_point(|p| p[0] <= x).clamp(1, points.len() - 1);
+    let ([x0, y0], [x1, y1]) = (points[k - 1], points[k]);
+    if x1 > x0 { y0 + (x - x0) / (x1 - x0) * (y1 - y0) } else { y0 }
+}
+
+/// The recovery at a share of the peak force, straight in F^(2/3) between `points` of falling force.
+fn recovered(points: &[[f64; 2]], share: f64) -> f64 {
+    let bent: Vec<[f64; 2]> = points.iter().map(|p| [-p[0].powf(2.0 / 3.0), p[1]]).collect();
+    interpolated(&bent, -share.powf(2.0 / 3.0))
+}
