@@ -9,6 +9,7 @@
 use super::response::{DesignPoint, Geometry, Response, SHARES};
 use asperity_material::cone_atlas::{Atlas, Contact, SharpCone};
 use asperity_material::{Elastic, HardeningCurve};
+use asperity_simulation::scene::Friction;
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 /// A computed metal.
@@ -42,8 +43,11 @@ pub struct Emulator {
     lift: Vec<f64>,
 }
 
+/// The coefficient of friction whose tool holds a surface like one that sticks: most of it does from there on.
+const STICKS_LIKE: f64 = 0.5;
+
 /// The coordinates of a question: logarithms of E/σ_y, n (of what is no power law: of E over
-/// stresses), ν, the law's E over that of the contact, tip over depth.
+/// stresses), ν, the law's E over that of the contact, tip over depth; and the coefficient of friction.
 pub fn features(question: &DesignPoint) -> Vec<f64> {
     let curve = &question.metal.hardening;
     let mut place = match curve {
@@ -56,6 +60,11 @@ pub fn features(question: &DesignPoint) -> Vec<f64> {
     place.push(question.metal.elastic.poissons_ratio);
     place.push((question.metal.elastic.youngs_modulus / question.modulus).ln());
     place.push((question.tip_radius / question.depth).max(1e-4).ln());
+    place.push(match question.friction {
+        Some(Friction::Coefficient(coefficient)) => coefficient,
+        Some(Friction::Sticking) => STICKS_LIKE,
+        None => 0.0,
+    });
     place
 }
 
@@ -100,7 +109,7 @@ impl Emulator {
     pub fn of_a_cone(outputs: usize, like_the_atlas: bool) -> Emulator {
         let wide = if like_the_atlas { 1.0 } else { 2.0 };
         let amplitudes = (0..outputs).map(|i| if i == 0 { 0.006 * wide } else { 0.015 * wide }).collect();
-        let lengths = vec![1.2, 0.25, 0.15, 0.5, 1.0];
+        let lengths = vec![1.2, 0.25, 0.15, 0.5, 1.0, 0.2];
         Emulator::new(Trend::Atlas, lengths, amplitudes)
     }
 

@@ -8,6 +8,7 @@ use super::response::{DesignPoint, Geometry, NUMBERS_AFTER_LOADING};
 use crate::measured_curve::Measured;
 use asperity_calibration::indentation::FORCES;
 use asperity_material::{Elastic, StressMeasure};
+use asperity_simulation::scene::Friction;
 use nalgebra::{Cholesky, DMatrix, Dyn};
 
 /// Measured values, SI.
@@ -58,6 +59,10 @@ pub struct Experiment {
     pub tip_radius: f64,
     /// Compliance of the machine where it is known, m/N.
     pub compliance: f64,
+    /// Friction of the tool where it is known; `None`: smooth.
+    pub friction: Option<Friction>,
+    /// True where the friction is sought.
+    pub friction_sought: bool,
     /// Deepest depth, m; 1 where nothing hangs on it.
     pub depth: f64,
     /// Of an imprint: the peak force, where a curve tells it, N.
@@ -162,6 +167,9 @@ impl Experiment {
             metal,
             tip_radius: unknowns.unknown_value(point, Slot::TipRadius(self.curve)).unwrap_or(self.tip_radius),
             stress_measure: self.stress_measure,
+            friction: unknowns
+                .unknown_value(point, Slot::Friction(self.curve))
+                .map_or(self.friction, |coefficient| Some(Friction::Coefficient(coefficient))),
             imprint: self.is_imprint(),
         })
     }
@@ -171,9 +179,21 @@ impl Experiment {
         matches!(self.data, Data::Imprint(_) | Data::ImprintNumbers(_))
     }
 
-    /// True where finite elements answer by the atlas of sharp cones: curves and their numbers under one.
+    /// True where the atlas of sharp cones is the trend: curves and their numbers under one, smooth or of known
+    /// friction.
     pub fn is_sharp(&self) -> bool {
-        matches!(self.geometry, Geometry::Sharp { .. }) && !self.is_imprint()
+        matches!(self.geometry, Geometry::Sharp { .. }) && !self.is_imprint() && !self.friction_sought
+    }
+
+    /// True where a sharp cone has friction, of which the atlas knows nothing: what finite elements answer
+    /// shifts all that the atlas expects.
+    pub fn shifts_the_atlas(&self) -> bool {
+        self.is_sharp() && self.friction.and_then(Friction::law).is_some()
+    }
+
+    /// True where the loading is one number, K, by similarity.
+    fn is_similar(&self) -> bool {
+        matches!(self.geometry, Geometry::Sharp { .. })
     }
 
     /// Numbers of the loading in a response.
@@ -364,8 +384,9 @@ impl Experiment {
 
     fn covariance_of_a_curve(&self, expected: &Expected, measured: &Measured) -> Covariance {
         let load = measured.loading.len();
-        let length = if self.is_sharp() { f64::INFINITY } else { ALIKE_LOG_DEPTH };
-        let shallow = |share: f64| if self.is_sharp() { 1.0 } else { (STATED_DEPTH_SHARE / share).max(1.0) };
+        let length = if self.is_similar() { f64::INFINITY } else { ALIKE_LOG_DEPTH };
+        let shallow =
+            |share: f64| if self.is_similar() { 1.0 } else { (STATED_DEPTH_SHARE / share).max(1.0) };
         // a force that is expected too large takes from each difference of the loading, and adds to each of
         // the way back
         let of_the_loading = measured.loading.iter().map(|p| {
@@ -424,7 +445,8 @@ impl Experiment {
     pub fn doubt(&self, first_touch_sought: bool) -> Option<String> {
         let Data::Curve(measured) = &self.data else { return None };
         let touches = measured.touches(2.0);
-        let elsewhere = self.is_sharp() && !first_touch_sought && touches.abs() > DOUBTED_TOUCH * self.depth;
+        let elsewhere =
+            self.is_similar() && !first_touch_sought && touches.abs() > DOUBTED_TOUCH * self.depth;
         elsewhere.then(|| {
             format!(
                 "{}: √F points to first touch at {:.4} um, not at 0: a rounded tip or an offset; add unknown = [\"contact_depth\"] or a tip_radius",

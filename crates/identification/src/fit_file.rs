@@ -263,6 +263,8 @@ pub enum Nuisance {
     MachineCompliance,
     /// The radius of the rounded tip.
     TipRadius,
+    /// The coefficient of friction, from 0 to 0.5; a list of two as `friction` of the tool gives other bounds.
+    Friction,
 }
 
 /// Outline of a tool.
@@ -309,9 +311,9 @@ pub struct FitTool {
     /// Poisson's ratio of the tool.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub poissons_ratio: Option<f64>,
-    /// Friction of the tool: 0, as what is compared is computed for smooth tools. Another value is refused.
+    /// Friction of the tool: a coefficient from 0 to 2, "sticking", or a list of two coefficients where it is sought; absent: smooth.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub friction: Option<Friction>,
+    pub friction: Option<KnownOrUnknown<Friction>>,
     /// Depth per force that the machine adds; absent: none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub machine_compliance: Option<KnownOrUnknown<Compliance>>,

@@ -19,10 +19,11 @@ const FOUND_HALF_WIDTHS: [f64; 2] = [0.15, 0.05];
 /// Correlation of two unknowns from which a bound on the one decides the other.
 const TIED_CORRELATION: f64 = 0.9;
 
-/// True where a bound of the search, not the measurements, ends the interval of `parameter`. (n ≥ 0 is no
-/// choice.)
+/// True where a bound of the search, not the measurements, ends the interval of `parameter`. (n ≥ 0 and
+/// friction ≥ 0 are no choice.)
 fn is_cut(parameter: &Parameter, interval: &Interval) -> bool {
-    let natural = matches!(parameter.slot, Slot::HardeningExponent) && interval.ends[0] <= 0.0;
+    let from_zero = matches!(parameter.slot, Slot::HardeningExponent | Slot::Friction(_));
+    let natural = from_zero && interval.ends[0] <= 0.0;
     interval.bounded[1] || (interval.bounded[0] && !natural)
 }
 
@@ -54,7 +55,7 @@ fn is_narrow(parameter: &Parameter, best: f64, interval: &Interval) -> bool {
     let value = parameter.value(best);
     let [below, above] = interval.ends.map(|end| (parameter.value(end) - value).abs());
     let allowed = match parameter.slot {
-        Slot::HardeningExponent | Slot::PoissonsRatio => FOUND_HALF_WIDTHS[1],
+        Slot::HardeningExponent | Slot::PoissonsRatio | Slot::Friction(_) => FOUND_HALF_WIDTHS[1],
         Slot::ContactDepth(_) | Slot::Compliance(_) => 0.25 * parameter.width() * parameter.scale,
         _ => FOUND_HALF_WIDTHS[0] * value.abs(),
     };
@@ -174,6 +175,7 @@ pub fn next_experiment(
             let question = DesignPoint {
                 geometry: Geometry::Sharp { slope_deg },
                 imprint: false,
+                friction: None,
                 modulus: metal.elastic.youngs_modulus,
                 metal,
                 ..first.clone()

@@ -110,7 +110,7 @@ pub fn infer(
     let samples =
         posterior::samples(&objective, &metals, &deviations, &bounds, sampling.count, sampling.seed);
     let shown = |point: &Vec<f64>| point.iter().zip(&unknowns.parameters).map(|(x, p)| p.shown(*x)).collect();
-    let verdict = verdict(
+    let mut verdict = verdict(
         &parameters,
         representative.as_ref(),
         blind_direction.as_ref(),
@@ -118,6 +118,9 @@ pub fn infer(
         &residual,
         doubts,
     );
+    if let Some(decides) = friction_decides(unknowns, &correlation, &identified) {
+        verdict = format!("{verdict}; {decides}");
+    }
     Some(Inference {
         parameters,
         intervals,
@@ -131,6 +134,22 @@ pub fn infer(
         residual,
         samples: samples.iter().map(shown).collect(),
     })
+}
+
+/// Correlation of an unknown of the metal with friction from which friction decides it.
+const DECIDED_BY_FRICTION: f64 = 0.8;
+
+/// The sentence on unknowns of the metal that are open because friction is; `None` of none.
+fn friction_decides(unknowns: &Unknowns, correlation: &[Vec<f64>], identified: &[bool]) -> Option<String> {
+    let all = &unknowns.parameters;
+    let frictions: Vec<usize> =
+        (0..all.len()).filter(|&j| matches!(all[j].slot, Slot::Friction(_))).collect();
+    let decided = |i: &usize| {
+        !identified[*i] && frictions.iter().any(|&j| correlation[*i][j].abs() > DECIDED_BY_FRICTION)
+    };
+    let names: Vec<&str> =
+        (0..unknowns.of_the_metal()).filter(decided).map(|i| all[i].name.as_str()).collect();
+    (!names.is_empty()).then(|| format!("friction, not the metal, decides {}", names.join(", ")))
 }
 
 fn found(parameter: &Parameter, interval: &Interval, best: f64, identifiable: bool) -> Found {

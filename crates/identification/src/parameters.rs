@@ -26,6 +26,8 @@ pub enum Slot {
     Compliance(usize),
     /// Radius of the tip, of a measurement.
     TipRadius(usize),
+    /// Coefficient of friction of the tool, of a measurement.
+    Friction(usize),
 }
 
 /// A parameter. Its coordinate is the logarithm of its SI value where that is positive by nature, else the
@@ -131,6 +133,7 @@ impl Unknowns {
         let (slot, unit, logarithmic) = match key {
             "contact_depth" => (Slot::ContactDepth(curve), ("um", 1e-6), false),
             "machine_compliance" => (Slot::Compliance(curve), ("nm/mN", 1e-6), false),
+            "friction" => (Slot::Friction(curve), ("", 1.0), false),
             _ => (Slot::TipRadius(curve), ("um", 1e-6), true),
         };
         self.parameters.push(Parameter::new(name, slot, unit, logarithmic, ends));
@@ -221,7 +224,10 @@ impl Unknowns {
     /// Number of unknowns of the metal, which stand first.
     pub fn of_the_metal(&self) -> usize {
         let nuisance = |p: &&Parameter| {
-            matches!(p.slot, Slot::ContactDepth(_) | Slot::Compliance(_) | Slot::TipRadius(_))
+            matches!(
+                p.slot,
+                Slot::ContactDepth(_) | Slot::Compliance(_) | Slot::TipRadius(_) | Slot::Friction(_)
+            )
         };
         self.parameters.iter().filter(|p| !nuisance(p)).count()
     }

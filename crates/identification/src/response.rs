@@ -13,11 +13,12 @@ use asperity_material::{Elastic, StressMeasure};
 use asperity_simulation::record::rows::{CurveRow, Phase};
 use asperity_simulation::run::{Event, Outcome, Run};
 use asperity_simulation::scene::{
-    Accuracy, Asperity, Loading, Material, Output, Scene, Symmetry, Tool, ToolShape,
+    Accuracy, Asperity, Friction, Loading, Material, Output, Scene, Symmetry, Tool, ToolShape,
 };
 use asperity_simulation::setup::cone::Cone;
 use asperity_solver::body::analysis::Analyses;
 use asperity_solver::body::fields::SurfacePoint;
+use asperity_solver::contact::slip::Friction as Law;
 use asperity_solver::point::material::Metal as Point;
 use std::ops::ControlFlow;
 
@@ -100,8 +101,17 @@ pub struct DesignPoint {
     pub tip_radius: f64,
     /// The stress that yields.
     pub stress_measure: StressMeasure,
+    /// Friction of the tool.
+    pub friction: Option<Friction>,
     /// True where the imprint is asked for, not the curve.
     pub imprint: bool,
+}
+
+impl DesignPoint {
+    /// The law of its friction; `None` of a smooth tool.
+    fn friction_law(&self) -> Option<Law> {
+        self.friction.and_then(Friction::law)
+    }
 }
 
 /// The answer.
@@ -142,7 +152,7 @@ fn sharp(
     accuracy: Accuracy,
     analyses: &Analyses,
 ) -> Result<Response, String> {
-    let cone = Cone { slope_deg, indents: true, metal: point(question), friction: None };
+    let cone = Cone { slope_deg, indents: true, metal: point(question), friction: question.friction_law() };
     let (found, errors) = solve(&cone, accuracy, analyses).map_err(|e| e.to_string())?;
     Ok(Response {
         logarithms: of_cone(&found),
@@ -172,6 +182,7 @@ fn scene(question: &DesignPoint, accuracy: Accuracy) -> Scene {
         Geometry::Ball { radius } => (Tool::sphere(Length(*radius)), None),
         Geometry::Crush { asperity } => (Tool::plane(), Some(asperity.clone())),
     };
+    let tool = Tool { friction: question.friction, ..tool };
     let loading = Loading::to_depth(Length(question.depth)).unloaded();
     let scene = Scene::new(Symmetry::Axisymmetric, material, tool, loading).with_accuracy(accuracy);
     asperity.into_iter().fold(scene, Scene::with)
@@ -209,7 +220,8 @@ fn imprint(question: &DesignPoint, accuracy: Accuracy, analyses: &Analyses) -> R
         Ok(Response { logarithms, errors: imprint::errors(accuracy), reached: 1.0 })
     };
     if let Geometry::Sharp { slope_deg } = question.geometry {
-        let cone = Cone { slope_deg, indents: true, metal: point(question), friction: None };
+        let cone =
+            Cone { slope_deg, indents: true, metal: point(question), friction: question.friction_law() };
         let left = residual_surface(&cone, accuracy, analyses).map_err(|e| e.to_string())?;
         return respond(imprint::numbers(left.points, left.contact_radius));
     }

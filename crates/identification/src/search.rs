@@ -98,7 +98,7 @@ pub fn search(
         .take(OTHER_MINIMA)
     {
         go_on(observer, 0.99, "asking finite elements at another metal that fits")?;
-        ask.ask_at(experiments, unknowns, (&[other.point.clone()], false), accuracy)?;
+        ask.ask_at(experiments, unknowns, (&[other.point.clone()], false), Accuracy::Draft)?;
         let there = again(experiments, unknowns, &other.point)?;
         best = again(experiments, unknowns, &best.point)?;
         if there.chi2 < best.chi2 {
@@ -267,7 +267,7 @@ fn ends_of_the_valley(experiments: &[Experiment], unknowns: &Unknowns, best: &Mi
     let is_far = |point: &Vec<f64>| {
         let nearness =
             |e: &Experiment| e.design_point(unknowns, point).map_or(1.0, |q| e.emulator.nearness(&q));
-        experiments.iter().any(|e| nearness(e) < FAR_NEARNESS)
+        experiments.iter().any(|e| !e.shifts_the_atlas() && nearness(e) < FAR_NEARNESS)
     };
     ends.into_iter().map(|end| end.point).filter(is_far).collect()
 }
@@ -285,6 +285,10 @@ fn run_at(
     let levels: Vec<Accuracy> = experiments.iter().map(accuracy).collect();
     // what computed metals beside a point tell is not asked again, but for a finer level
     let open = |e: &Experiment, level: Accuracy, question: &DesignPoint| {
+        if e.shifts_the_atlas() {
+            // one shift belongs to one metal, the best
+            return needed;
+        }
         let finer = !e.is_sharp() && level != Accuracy::Draft;
         finer || e.emulator.nearness(question) < TOLD_NEARNESS
     };
@@ -312,7 +316,9 @@ fn run_at(
                 }
                 experiment.errors = response.errors;
                 // what was asked of a body before was asked of the coarsest level
-                if experiment.is_sharp() || levels[*i] == Accuracy::Draft {
+                let shifts =
+                    experiment.shifts_the_atlas() || levels[*i] != Accuracy::Draft && !experiment.is_sharp();
+                if !shifts {
                     experiment.emulator.add(question, &response);
                 } else {
                     experiment.emulator.meet(question, &response);

@@ -2,7 +2,7 @@
 
 use super::material_checks::{KeyError, check_material, key_error};
 use super::measurements::{Said, imprint, measurements};
-use super::tool_geometry::geometry;
+use super::tool_geometry::{friction, geometry};
 use crate::error::Error;
 use crate::input::toml_file::TomlFile;
 use asperity_identification::emulator::Emulator;
@@ -204,6 +204,7 @@ fn experiment(
             "`max_depth` is missing: only features of a sharp cone do without",
         ));
     }
+    let (friction, sought) = friction(curve)?;
     let known = |sought: Option<KnownOrUnknown<f64>>| match sought {
         Some(KnownOrUnknown::Known(value)) => value,
         _ => 0.0,
@@ -216,6 +217,8 @@ fn experiment(
         tool,
         tip_radius: known(curve.tool.tip_radius.map(|t| t.map(|l| l.0))),
         compliance: known(curve.tool.machine_compliance.map(|c| c.map(|v| v.0))),
+        friction,
+        friction_sought: sought.is_some(),
         depth,
         imprint_force: None,
         stress_measure: StressMeasure::default(),
@@ -263,6 +266,9 @@ fn add_nuisances(
             unknowns.add("tip_radius", of, count, [0.005 * experiment.depth, 0.5 * experiment.depth]);
         }
         _ => {}
+    }
+    if let (_, Some(range)) = friction(curve)? {
+        unknowns.add("friction", of, count, range);
     }
     Ok(())
 }

@@ -35,12 +35,6 @@ pub(super) fn geometry(curve: &FitCurve) -> Result<Geometry, KeyError> {
     let tool = &curve.tool;
     let pyramid = matches!(tool.shape, FitShape::Berkovich | FitShape::Vickers);
     let cone = matches!(tool.shape, FitShape::Cone | FitShape::Conospherical);
-    if tool.friction.is_some_and(|friction| friction != Friction::Coefficient(0.0)) {
-        return Err(key_error(
-            "tool.friction",
-            "is not known to `identify`, which compares with smooth tools: leave it out, and see with `asperity study --vary tool.friction=0,0.1,0.2` what it would change",
-        ));
-    }
     for (key, given, allowed) in [
         ("slope_deg", tool.slope_deg.is_some(), cone),
         ("half_apex_deg", tool.half_apex_deg.is_some(), cone),
@@ -100,4 +94,33 @@ pub(super) fn geometry(curve: &FitCurve) -> Result<Geometry, KeyError> {
         FitShape::Berkovich | FitShape::Vickers => cone_of(90.0 - PYRAMIDS_CONE),
         FitShape::Cone | FitShape::Conospherical => cone_of(slope_deg(tool)?),
     }
+}
+
+/// Range of the coefficient of friction where it is sought without one.
+const SOUGHT_FRICTION: [f64; 2] = [0.0, 0.5];
+
+/// The friction of the tool that is known, and the range of the one that is sought.
+pub(super) fn friction(curve: &FitCurve) -> Result<(Option<Friction>, Option<[f64; 2]>), KeyError> {
+    let asked = curve.unknown.contains(&Nuisance::Friction);
+    let checked = |friction: Friction| {
+        friction.check().map(|()| friction).map_err(|e| key_error(&format!("tool.{}", e.path), e.message))
+    };
+    Ok(match curve.tool.friction {
+        Some(KnownOrUnknown::Range(ends)) => {
+            let ends = [checked(ends[0])?, checked(ends[1])?];
+            let [Friction::Coefficient(low), Friction::Coefficient(high)] = ends else {
+                return Err(key_error("tool.friction", "is sought between two coefficients: give [0, 0.5]"));
+            };
+            if low >= high {
+                return Err(key_error("tool.friction", "the lower coefficient comes first: give [0, 0.5]"));
+            }
+            (None, Some([low, high]))
+        }
+        Some(KnownOrUnknown::Known(_)) if asked => {
+            let message = "is known by tool.friction and sought by unknown: remove one of the two";
+            return Err(key_error("unknown", message));
+        }
+        Some(KnownOrUnknown::Known(friction)) => (Some(checked(friction)?), None),
+        None => (None, asked.then_some(SOUGHT_FRICTION)),
+    })
 }
