@@ -267,3 +267,29 @@ fn the_fit_to_start_from_runs() {
     assert_eq!((end.status, end.err.as_str()), (0, ""));
     assert!(parameters(&place, "out")["parameters"]["yield_stress"]["value"].is_number());
 }
+
+/// Under a cone of 60° friction raises the force as hardening does: with μ 0.2 the metal is found, as of a
+/// smooth tool its yield stress is missed.
+#[test]
+fn a_known_friction_gives_the_metal_that_a_smooth_tool_misses() {
+    let place = Place::with_scene("");
+    let scene = "symmetry = \"axisymmetric\"\naccuracy = \"standard\"\n[material]\nyoungs_modulus = \"120 GPa\"\npoissons_ratio = 0.3\nyield_stress = \"400 MPa\"\nhardening_exponent = 0.15\nhardening_law = \"swift\"\n[tool]\nshape = \"cone\"\nhalf_apex_deg = 60\nfriction = 0.2\n[loading]\ndepth = \"1 um\"\nunload = true\n[numerics]\nrefine = false\n";
+    std::fs::write(place.path("scene.toml"), scene).unwrap();
+    assert_eq!(place.run(&["crush", "scene.toml", "--out", "crushed", "--quiet"]).status, 0);
+    std::fs::copy(place.path("crushed/curve.csv"), place.path("cone.csv")).unwrap();
+    let fit = |friction: &str| {
+        let text = FIT
+            .replace("half_apex_deg = 70.3", &format!("half_apex_deg = 60{friction}"))
+            .replace("1 %", "0.5 %")
+            .replace("samples = 100", "samples = 0");
+        std::fs::write(place.path("fit.toml"), text).unwrap();
+        let end = place.run(&["identify", "fit.toml", "--out", "out", "--quiet"]);
+        (end.status, end.err, (end.status == 0).then(|| parameters(&place, "out")))
+    };
+    let known = fit(", friction = 0.2").2.unwrap();
+    assert!(covers(&known, "yield_stress", 400.0) && covers(&known, "hardening_exponent", 0.15), "{known}");
+    let smooth = fit("").2.unwrap();
+    assert!(!covers(&smooth, "yield_stress", 400.0), "{smooth}");
+    let (status, text, _) = fit(", friction = 5");
+    assert!(status == 2 && text.contains("from 0 to 2"), "{text}");
+}
