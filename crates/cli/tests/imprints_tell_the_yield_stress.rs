@@ -28,7 +28,7 @@ noise = "0.5 %"
 
 /// Crushes the twin, and writes its curve and the profile that it leaves with every height times `factor`.
 fn twin(place: &Place, factor: f64) {
-    let scene = "symmetry = \"axisymmetric\"\naccuracy = \"standard\"\n[material]\nyoungs_modulus = \"120 GPa\"\npoissons_ratio = 0.3\nyield_stress = \"400 MPa\"\nhardening_exponent = 0.2\nhardening_law = \"swift\"\n[tool]\nshape = \"cone\"\nslope_deg = 19.7\n[loading]\ndepth = \"1 um\"\nunload = true\n";
+    let scene = "symmetry = \"axisymmetric\"\naccuracy = \"standard\"\n[material]\nyoungs_modulus = \"120 GPa\"\npoissons_ratio = 0.3\nyield_stress = \"400 MPa\"\nhardening_exponent = 0.2\nhardening_law = \"swift\"\n[tool]\nshape = \"cone\"\nslope_deg = 19.7\n[loading]\ndepth = \"1 um\"\nunload = true\n[output]\nevery = 1000\nfields = [\"displacement\"]\n";
     std::fs::write(place.path("scene.toml"), scene).unwrap();
     let end = place.run(&["crush", "scene.toml", "--out", "twin", "--quiet"]);
     assert_eq!(end.status, 0, "{}", end.err);

@@ -108,9 +108,11 @@ impl Heading {
             "sd",
             "stdev",
         ];
+        /// Names that other quantities bear too: a simulation calls what its contact law lets overlap so.
+        const WEAK: [&str; 1] = ["penetration"];
         let name = self.name.as_str();
         if quantity.called.contains(&name) {
-            return Some(0);
+            return Some(u8::from(WEAK.contains(&name)));
         }
         let other = |word: &str| OTHERS.contains(&word) && !quantity.called.iter().any(|c| c.contains(word));
         if name.split(' ').any(other) {
