@@ -4,6 +4,7 @@ use super::emulator::{Emulator, by_the_atlas};
 use super::imprint::{self, Imprint};
 use super::interpolation::smooth;
 use super::parameters::{Slot, Unknowns};
+use super::pyramid::Pyramid;
 use super::response::{DesignPoint, Geometry, NUMBERS_AFTER_LOADING};
 use crate::measured_curve::Measured;
 use asperity_calibration::indentation::FORCES;
@@ -53,6 +54,8 @@ pub struct Experiment {
     pub curve: usize,
     /// Body and tool.
     pub geometry: Geometry,
+    /// The pyramid whose cone of the same section is its geometry.
+    pub pyramid: Option<Pyramid>,
     /// Elasticity of the tool; `None`: rigid.
     pub tool: Option<Elastic>,
     /// Radius of the tip where it is known, m.
@@ -77,7 +80,7 @@ pub struct Experiment {
     pub noise_given: bool,
     /// Correlation of the noise of neighbouring points of a curve.
     pub noise_correlation: f64,
-    /// Relative standard deviation of what the model leaves out.
+    /// Relative standard deviation of what the model leaves out, beside that of a pyramid's correction.
     pub model_error: f64,
     /// Relative 95 % errors of the finite elements: loading, slope, way back.
     pub errors: [f64; 3],
@@ -132,11 +135,15 @@ impl Covariance {
 
     /// The factor of the covariance with the model's standard deviations; `None` where it has none.
     pub fn factor(&self, deviations: [f64; 3]) -> Option<Cholesky<f64, Dyn>> {
+        self.sum(deviations).cholesky()
+    }
+
+    fn sum(&self, deviations: [f64; 3]) -> DMatrix<f64> {
         let mut sum = self.noise.clone();
         for (part, deviation) in self.model.iter().zip(deviations) {
             sum.zip_apply(part, |entry, more| *entry += deviation * deviation * more);
         }
-        sum.cholesky()
+        sum
     }
 }
 
@@ -203,11 +210,14 @@ impl Experiment {
 
     fn expected(&self, unknowns: &Unknowns, point: &[f64], roughly: bool) -> Option<Expected> {
         let question = self.design_point(unknowns, point)?;
-        let logarithms = if roughly && !question.imprint {
+        let mut logarithms = if roughly && !question.imprint {
             by_the_atlas(&question)
         } else {
             self.emulator.predict(&question)
         };
+        if let Some(pyramid) = self.pyramid {
+            pyramid.correct(&question, &mut logarithms, self.of_the_loading());
+        }
         let own = |slot, known| unknowns.unknown_value(point, slot).unwrap_or(known);
         Some(Expected {
             modulus: question.modulus,
@@ -347,7 +357,7 @@ impl Experiment {
     /// Covariance of the differences at `point`, in its parts.
     pub fn covariance(&self, unknowns: &Unknowns, point: &[f64]) -> Option<Covariance> {
         let expected = self.expected(unknowns, point, false)?;
-        Some(match &self.data {
+        let covariance = match &self.data {
             Data::Features { loading_curvature, unloading_slope, plastic_work_ratio } => {
                 let share = 1.0 - self.features(&expected)[2];
                 let given = [
@@ -379,7 +389,11 @@ impl Experiment {
                 );
                 Covariance::of_the_first(noise, DMatrix::identity(sizes.len(), sizes.len()))
             }
-        })
+        };
+        let Some(pyramid) = self.pyramid else { return Some(covariance) };
+        // that of the metal at the point: where it grows with the metal, a fit would flee to where it is wide
+        let corrected = pyramid.correction(&self.design_point(unknowns, point)?).deviations;
+        Some(Covariance { noise: covariance.sum(corrected), ..covariance })
     }
 
     fn covariance_of_a_curve(&self, expected: &Expected, measured: &Measured) -> Covariance {

@@ -131,8 +131,8 @@ pub struct FitCurve {
     /// Standard deviation of the force (of each feature); absent: from the scatter about the fit, 1 % of features.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub noise: Option<Percent>,
-    /// Standard deviation of what the model leaves out, common to the whole curve; absent: 4 % of a pyramid taken as a
-    /// cone, 0 of others.
+    /// Standard deviation of what the model leaves out, common to the whole curve; absent: 0. That of the correction of a
+    /// pyramid counts in addition.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub model_error: Option<Percent>,
     /// Further unknowns of this measurement.
@@ -279,9 +279,10 @@ pub enum FitShape {
     Conospherical,
     /// A ball.
     Sphere,
-    /// Berkovich's pyramid, taken as the cone of 70.3° half apex angle, which has the same section at every depth.
+    /// Berkovich's pyramid, taken as the cone of 70.3° half apex angle, which has the same section at every depth, with a
+    /// correction.
     Berkovich,
-    /// Vickers' pyramid, likewise.
+    /// Vickers' pyramid, likewise, with half the correction.
     Vickers,
 }
 

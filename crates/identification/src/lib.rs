@@ -2,10 +2,10 @@
 //!
 //! In the order of the data: the keys of a fit ([`fit_file`], [`known_or_unknown`]), measured curves made
 //! ready ([`measured_curve`]), the unknowns ([`parameters`]); what finite elements answer to one metal
-//! ([`response`]) and between metals ([`emulator`]); a measurement with its covariance ([`experiment`]), all
-//! of them ([`objective`]); the search ([`mod@search`], [`levenberg_marquardt`], [`branches`]); intervals
-//! ([`profile_likelihood`]), samples ([`posterior`]) and the null direction ([`identifiability`]); all that
-//! is said of the metal ([`inference`]).
+//! ([`response`]) and between metals ([`emulator`]); pyramids as cones ([`pyramid`]); a measurement with its
+//! covariance ([`experiment`]), all of them ([`objective`]); the search ([`mod@search`],
+//! [`levenberg_marquardt`], [`branches`]); intervals ([`profile_likelihood`]), samples ([`posterior`]) and
+//! the null direction ([`identifiability`]); all that is said of the metal ([`inference`]).
 
 pub mod known_or_unknown;
 
@@ -24,6 +24,8 @@ pub mod imprint_file;
 mod interpolation;
 
 pub mod emulator;
+
+pub mod pyramid;
 
 pub mod experiment;
 

@@ -31,9 +31,15 @@ impl Ratios {
     }
 }
 
-/// K/E and S/(E h) under a cone of this slope; none where the path stopped.
-fn cone(book: &Book, p: &Published, slope_deg: f64, accuracy: Accuracy) -> Option<[f64; 2]> {
-    let (ratio, exponent) = (p.youngs_modulus / p.yield_stress, p.exponent);
+/// K/E, S/(E h) and the returned share of the work under a cone of this slope on a metal of law `swift`; none
+/// where the path stopped.
+pub fn indented(
+    book: &Book,
+    ratio: f64,
+    exponent: f64,
+    slope_deg: f64,
+    accuracy: Accuracy,
+) -> Option<[f64; 3]> {
     let level = if accuracy == Accuracy::Standard { "" } else { " finer" };
     let found = book.recall(&format!("cone {slope_deg} {ratio} {exponent}{level}"), || {
         let law =
@@ -48,9 +54,13 @@ fn cone(book: &Book, p: &Published, slope_deg: f64, accuracy: Accuracy) -> Optio
             solve(&Cone { slope_deg, indents: true, metal, friction: None }, accuracy, &Analyses::default())
                 .ok()?
                 .0;
-        Some(json!([found.k_over_e, found.stiffness]))
+        Some(json!([found.k_over_e, found.stiffness, found.elastic_share]))
     })?;
-    Some([found[0].as_f64()?, found[1].as_f64()?])
+    Some([found[0].as_f64()?, found[1].as_f64()?, found[2].as_f64()?])
+}
+
+fn cone(book: &Book, p: &Published, slope_deg: f64, accuracy: Accuracy) -> Option<[f64; 3]> {
+    indented(book, p.youngs_modulus / p.yield_stress, p.exponent, slope_deg, accuracy)
 }
 
 /// The ratios of all metals.
@@ -63,7 +73,7 @@ pub fn ratios(book: &Book, metals: &[Published]) -> Vec<Ratios> {
             e_over_sy: p.youngs_modulus / p.yield_stress,
             curvatures: [curvature(0), curvature(1)],
             // GPa times µm is kN/m
-            slope: under[0].map(|[_, s]| 1e3 * s * p.youngs_modulus * DEPTH / p.slope),
+            slope: under[0].map(|[_, s, _]| 1e3 * s * p.youngs_modulus * DEPTH / p.slope),
         }
     };
     metals.par_iter().with_max_len(1).map(one).collect()

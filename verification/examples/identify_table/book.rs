@@ -51,7 +51,7 @@ impl Book {
     /// The journal at `path`, begun anew where another version of the program wrote it; without one nothing
     /// is kept.
     pub fn open(path: Option<&Path>) -> Book {
-        let identity = fingerprint(concat!("identify_table 2, asperity ", env!("CARGO_PKG_VERSION")));
+        let identity = fingerprint(concat!("identify_table 3, asperity ", env!("CARGO_PKG_VERSION")));
         let opened = path.map(|path| Journal::open(path, identity).expect("can be written"));
         let (journal, lines) = opened.map_or((None, Vec::new()), |o| (Some(o.journal), o.texts));
         let known = lines.iter().filter_map(|l| serde_json::from_str::<(u64, Value)>(l).ok()).collect();

@@ -40,7 +40,7 @@ impl Case {
 }
 
 /// The numbers of the rows of a table, by the names of its columns.
-fn rows(path: &Path) -> Vec<HashMap<String, f64>> {
+pub fn rows(path: &Path) -> Vec<HashMap<String, f64>> {
     let mut reader = csv::Reader::from_path(path).expect("the data");
     let names: Vec<String> = reader.headers().expect("a header").iter().map(str::to_string).collect();
     let row = |record: csv::StringRecord| {
@@ -132,17 +132,24 @@ pub fn material(modulus: &str, poissons_ratio: f64, [low, high]: [&str; 2]) -> S
     )
 }
 
-/// The six indents in aluminium: the diamond's compliance is in their E*, so the tool is rigid and E the one
+/// Indents in aluminium: the diamond's compliance is in their E*, so the tool is rigid and E the one
 /// that gives it.
 pub fn aluminium(folder: &Path) -> Vec<Case> {
+    of_aluminium(&folder.join("Al6061.csv"), "tool = { shape = \"berkovich\" }\n", true)
+}
+
+/// Fits of the indents in `file`, with the tool as `tool` says it, with or without the unloading slope.
+pub fn of_aluminium(file: &Path, tool: &str, with_slope: bool) -> Vec<Case> {
     let of = |(i, r): (usize, &HashMap<String, f64>)| {
         let (reduced, nu) = (r["E* (GPa)"], 0.33);
         let modulus = reduced * (1.0 - nu * nu);
+        let slope = format!("unloading_slope = \"{} N/m\", ", r["dP/dh (N/m)"]);
+        let slope = if with_slope { slope.as_str() } else { "" };
         let mut fit = material(&format!("\"{modulus} GPa\""), nu, ["20 MPa", "2 GPa"]);
         let _ = write!(
             fit,
-            "[[curve]]\nfeatures = {{ loading_curvature = \"{} GPa\", unloading_slope = \"{} N/m\", plastic_work_ratio = {}, max_depth = \"{} um\" }}\ntool = {{ shape = \"berkovich\" }}\nnoise = \"2 %\"\n",
-            r["C (GPa)"], r["dP/dh (N/m)"], r["Wp/Wt"], r["hm (um)"]
+            "[[curve]]\nfeatures = {{ loading_curvature = \"{} GPa\", {slope}plastic_work_ratio = {}, max_depth = \"{} um\" }}\n{tool}noise = \"2 %\"\n",
+            r["C (GPa)"], r["Wp/Wt"], r["hm (um)"]
         );
         let stress = |strain: f64, key: &str| (strain, 1e3 * r[key]);
         Case {
@@ -159,7 +166,7 @@ pub fn aluminium(folder: &Path) -> Vec<Case> {
             folder: PathBuf::new(),
         }
     };
-    rows(&folder.join("Al6061.csv")).iter().enumerate().map(of).collect()
+    rows(file).iter().enumerate().map(of).collect()
 }
 
 /// Metals drawn with a fixed seed, indented by a cone of 70.3° and by a ball at `standard`, their forces with

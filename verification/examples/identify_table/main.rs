@@ -3,9 +3,11 @@
 //! metals that one cone cannot tell apart.
 //!
 //! `cargo run --release -p asperity-verification --example identify_table -- FOLDER [--twins N]
-//! [--imprints N] [--every N] [--leave-out sought,twins] [--journal FILE] [--out FILE]`; without FOLDER the
-//! two metals alone. FOLDER holds FEM_60deg.csv, FEM_50deg.csv (rows 1 to 76 are used) and Al6061.csv. What
-//! the journal holds is not computed again.
+//! [--imprints N] [--every N] [--leave-out sought,twins] [--pyramid] [--journal FILE] [--out FILE]`; without
+//! FOLDER the two metals alone. FOLDER holds FEM_60deg.csv, FEM_50deg.csv (rows 1 to 76 are used) and
+//! Al6061.csv. What the journal holds is not computed again.
+//! `--pyramid` writes of pyramids as cones alone; it needs Berkovich.csv, and where they are there it takes
+//! FEM_70deg.csv, Al6061.csv and Al7075.csv.
 //! `--every N` takes every N-th published metal but in the fit of two cones with E known.
 
 // on committed cases
@@ -16,6 +18,7 @@ mod book;
 mod cases;
 mod imprints;
 mod pair;
+mod pyramid;
 mod score;
 
 use asperity_verification::report::Report;
@@ -63,6 +66,11 @@ fn main() {
     };
     let count: usize = after("--twins").map_or(200, |n| n.parse().expect("a number"));
     let book = Book::open(after("--journal").map(Path::new));
+    if words.iter().any(|word| word == "--pyramid") {
+        pyramid::section(&mut report, folder, &book);
+        report.finish().expect("can be written");
+        return;
+    }
     let metals = series(folder);
 
     let indents = aluminium(folder);

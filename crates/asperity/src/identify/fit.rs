@@ -10,6 +10,7 @@ use asperity_identification::experiment::{Data, Experiment};
 use asperity_identification::fit_file::{FitAccuracy, FitCurve, FitFile, FitLaw, FitShape, Nuisance};
 use asperity_identification::known_or_unknown::KnownOrUnknown;
 use asperity_identification::parameters::Unknowns;
+use asperity_identification::pyramid::Pyramid;
 use asperity_identification::response::{Geometry, NUMBERS_AFTER_LOADING};
 use asperity_material::{Elastic, StressMeasure};
 use asperity_simulation::scene::Accuracy;
@@ -31,8 +32,6 @@ pub struct Fit {
 
 /// Standard deviation of a feature that states none, and the first guess of that of a curve.
 const DEFAULT_NOISE: f64 = 0.01;
-/// Standard deviation of the force of a pyramid taken as a cone of the same section.
-const PYRAMID_MODEL_ERROR: f64 = 0.04;
 /// Most unknowns of a fit.
 const MOST_UNKNOWNS: usize = 12;
 /// Most measurements of a fit.
@@ -184,7 +183,11 @@ fn experiment(
             return Err(key_error(key, format!("must be from 0 % to 50 %, not {} %", 100.0 * share.0)));
         }
     }
-    let pyramid = matches!(curve.tool.shape, FitShape::Berkovich | FitShape::Vickers);
+    let pyramid = match curve.tool.shape {
+        FitShape::Berkovich => Some(Pyramid::Berkovich),
+        FitShape::Vickers => Some(Pyramid::Vickers),
+        _ => None,
+    };
     let tool = match (curve.tool.youngs_modulus, curve.tool.poissons_ratio) {
         (None, None) => None,
         (Some(modulus), ratio) if modulus.0 > 0.0 => {
@@ -214,6 +217,7 @@ fn experiment(
         name,
         curve: number,
         geometry,
+        pyramid,
         tool,
         tip_radius: known(curve.tool.tip_radius.map(|t| t.map(|l| l.0))),
         compliance: known(curve.tool.machine_compliance.map(|c| c.map(|v| v.0))),
@@ -226,7 +230,7 @@ fn experiment(
         noise_given: curve.noise.is_some() || !matches!(data, Data::Curve(_)),
         noise_correlation: 0.0,
         data,
-        model_error: curve.model_error.map_or(if pyramid { PYRAMID_MODEL_ERROR } else { 0.0 }, |m| m.0),
+        model_error: curve.model_error.map_or(0.0, |m| m.0),
         errors: [0.01, 0.02, 0.02],
         emulator: Emulator::of_a_cone(1 + NUMBERS_AFTER_LOADING, true),
     })

@@ -8,12 +8,15 @@ use crate::error::{Error, InputError};
 use crate::input::toml_file::to_toml;
 use crate::results::numbers::decimals;
 use crate::results::output::{Sink, SinkExt, json};
+use asperity_identification::experiment::Experiment;
 use asperity_identification::identifiability::{Decided, NextExperiment, NullDirection};
 use asperity_identification::inference::{Inference, Sampling, infer};
 use asperity_identification::noise::noise_from_scatter;
 use asperity_identification::numbers::StressAt;
 use asperity_identification::numbers::{Found, Residual};
 use asperity_identification::objective::Objective;
+use asperity_identification::parameters::Unknowns;
+use asperity_identification::pyramid::Pyramid;
 use asperity_identification::search::{self, search};
 use asperity_simulation::scene::Material;
 use indexmap::IndexMap;
@@ -87,6 +90,7 @@ pub(super) fn identify(
     let mut notes = std::mem::take(&mut fit.notes);
     notes.extend(found.notes);
     notes.extend(assumed(&fit));
+    notes.extend(notes_on_pyramids(&experiments, &unknowns, &best.point));
     notes.dedup();
     let Inference { parameters, correlation, verdict, blind_direction, next_experiment, .. } = inference;
     Ok(Identification {
@@ -126,6 +130,19 @@ pub fn metal_override(path: &Path) -> Result<String, InputError> {
         )
     })?;
     Ok(format!("material={}", toml::Value::Table(metal)))
+}
+
+/// What pyramids are taken as, and how good that is for the metal at `point`.
+fn notes_on_pyramids(experiments: &[Experiment], unknowns: &Unknowns, point: &[f64]) -> Vec<String> {
+    let one = |kind: Pyramid| {
+        let own: Vec<&Experiment> = experiments.iter().filter(|e| e.pyramid == Some(kind)).collect();
+        let names = match own.len() {
+            ..=3 => own.iter().map(|e| e.name.as_str()).collect::<Vec<_>>().join(", "),
+            many => format!("{many} measurements"),
+        };
+        Some(kind.note(&names, &own.first()?.design_point(unknowns, point)?))
+    };
+    [Pyramid::Berkovich, Pyramid::Vickers].into_iter().filter_map(one).collect()
 }
 
 fn assumed(fit: &Fit) -> Option<String> {
