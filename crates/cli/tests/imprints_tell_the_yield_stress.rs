@@ -75,7 +75,7 @@ fn an_imprint_tells_the_yield_stress_that_its_curve_leaves_open() {
     let place = Place::with_scene("");
     twin(&place, 1.0);
     let alone = fit(&place, "", "alone");
-    let both = fit(&place, "imprint = \"profile.csv\"\n", "both");
+    let both = fit(&place, "imprint = { file = \"profile.csv\", noise = \"10 nm\" }\n", "both");
     for found in [&alone, &both] {
         assert_eq!(found["residual"]["fits"], true, "{}", found["residual"]);
         let [_, low, high] = ends(found, "yield_stress");
@@ -107,7 +107,7 @@ fn an_imprint_tells_the_yield_stress_that_its_curve_leaves_open() {
 fn an_imprint_of_another_depth_is_rejected() {
     let place = Place::with_scene("");
     twin(&place, 0.9);
-    let found = fit(&place, "imprint = \"profile.csv\"\n", "out");
+    let found = fit(&place, "imprint = { file = \"profile.csv\", noise = \"20 nm\" }\n", "out");
     assert_eq!(found["residual"]["fits"], false, "{}", found["residual"]);
 }
 

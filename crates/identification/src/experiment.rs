@@ -10,7 +10,6 @@ use crate::measured_curve::Measured;
 use asperity_calibration::indentation::FORCES;
 use asperity_material::{Elastic, StressMeasure};
 use asperity_simulation::scene::Friction;
-use nalgebra::{Cholesky, DMatrix, Dyn};
 
 /// Measured values, SI.
 #[derive(Clone, Debug)]
@@ -88,75 +87,17 @@ pub struct Experiment {
     pub emulator: Emulator,
 }
 
-/// Logarithms of the depth over which the force that a body is expected to need is too large or too small
-/// alike. That of a sharp cone is one number, K, off alike at every depth.
-const ALIKE_LOG_DEPTH: f64 = 1.0;
-/// Share of the deepest depth from which finite elements state the error of the force along a curve; below
-/// it, where fewer elements touch, the error of a body grows as the inverse of the depth.
-const STATED_DEPTH_SHARE: f64 = 0.2;
-/// Shares of the peak force over which the error of the shape of the way back is alike, and its standard
-/// deviation over that of the whole way: a way back is read at few forces, at a few steps.
-const ALIKE_FORCE_SHARE: f64 = 0.25;
-const WAY_SHAPE_SHARE: f64 = 0.5;
-
 /// Shares of the deepest depth: room beside the depths of first touch to which the laws of a tool point, the
 /// farthest of them, and that from which a sharp tool is doubted.
 const TOUCH_ROOM: f64 = 0.08;
 const FARTHEST_TOUCH: f64 = 0.24;
 const DOUBTED_TOUCH: f64 = 0.03;
 
-/// Effect on the difference at a point of a curve of errors of the expected force and of the way back.
-struct ErrorOfAPoint {
-    /// Logarithm of the depth over the deepest; the way back begins there.
-    place: f64,
-    /// Of a relative error of the force.
-    by_the_force: f64,
-    /// Of a relative error of the slope where unloading begins, and of the whole way back.
-    by_the_way: [f64; 2],
-    /// Share of the peak force.
-    share: f64,
-}
-
-/// Covariance of the differences of a measurement: what belongs to the data, and what each relative error of
-/// the finite elements adds for a variance of 1.
-#[derive(Clone, Debug)]
-pub struct Covariance {
-    noise: DMatrix<f64>,
-    /// Of an error of the force, of the slope where unloading begins, of the way back.
-    model: [DMatrix<f64>; 3],
-}
-
-impl Covariance {
-    /// That of data of which one error of the finite elements is known alone.
-    fn of_the_first(noise: DMatrix<f64>, model: DMatrix<f64>) -> Covariance {
-        let none = DMatrix::zeros(noise.nrows(), noise.ncols());
-        Covariance { model: [model, none.clone(), none], noise }
-    }
-
-    /// The factor of the covariance with the model's standard deviations; `None` where it has none.
-    pub fn factor(&self, deviations: [f64; 3]) -> Option<Cholesky<f64, Dyn>> {
-        self.sum(deviations).cholesky()
-    }
-
-    fn sum(&self, deviations: [f64; 3]) -> DMatrix<f64> {
-        let mut sum = self.noise.clone();
-        for (part, deviation) in self.model.iter().zip(deviations) {
-            sum.zip_apply(part, |entry, more| *entry += deviation * deviation * more);
-        }
-        sum
-    }
-}
-
-/// Correlation of two places a distance `apart` of each other.
-fn alike(apart: f64, length: f64) -> f64 {
-    (-0.5 * (apart / length).powi(2)).exp()
-}
-
 /// Predicted values of a measurement.
-struct Expected {
+pub(crate) struct Expected {
     /// E for the contact.
     modulus: f64,
-    logarithms: Vec<f64>,
+    pub(crate) logarithms: Vec<f64>,
     contact_depth: f64,
     compliance: f64,
 }
@@ -199,7 +140,7 @@ impl Experiment {
     }
 
     /// True where the loading is one number, K, by similarity.
-    fn is_similar(&self) -> bool {
+    pub(crate) fn is_similar(&self) -> bool {
         matches!(self.geometry, Geometry::Sharp { .. })
     }
 
@@ -208,7 +149,7 @@ impl Experiment {
         if self.is_imprint() { 1 } else { self.geometry.shares().len() }
     }
 
-    fn expected(&self, unknowns: &Unknowns, point: &[f64], roughly: bool) -> Option<Expected> {
+    pub(crate) fn expected(&self, unknowns: &Unknowns, point: &[f64], roughly: bool) -> Option<Expected> {
         let question = self.design_point(unknowns, point)?;
         let mut logarithms = if roughly && !question.imprint {
             by_the_atlas(&question)
@@ -277,13 +218,13 @@ impl Experiment {
     }
 
     /// The depth from contact of an imprint: what the machine and first touch take is no imprint.
-    fn true_depth(&self, expected: &Expected) -> f64 {
+    pub(crate) fn true_depth(&self, expected: &Expected) -> f64 {
         let peak = self.imprint_force.unwrap_or(0.0);
         (self.depth - expected.contact_depth - expected.compliance * peak).max(0.1 * self.depth)
     }
 
     /// Loading curvature (Pa), unloading slope (N/m) and plastic share that are expected.
-    fn features(&self, expected: &Expected) -> [f64; 3] {
+    pub(crate) fn features(&self, expected: &Expected) -> [f64; 3] {
         let loading = self.of_the_loading();
         let [curvature, slope, share] =
             [loading - 1, loading, loading + 1].map(|i| expected.logarithms[i].exp());
@@ -339,108 +280,11 @@ impl Experiment {
         Some([load, back])
     }
 
-    /// Relative standard deviations of what finite elements expect at `point`: of the force, of the slope
-    /// where unloading begins, of the way back.
-    pub fn model_deviations(&self, unknowns: &Unknowns, point: &[f64]) -> Option<[f64; 3]> {
-        let left = self.emulator.left(&self.design_point(unknowns, point)?, self.of_the_loading());
-        // the stated errors are 95 % bounds
-        Some(std::array::from_fn(|i| (0.5 * self.errors[i]).hypot(left[i]).hypot(self.model_error)))
-    }
-
     /// Heights (m) expected at the places of a measured imprint; `None` without one.
     pub fn imprint_heights(&self, unknowns: &Unknowns, point: &[f64]) -> Option<Vec<f64>> {
         let Data::Imprint(imprint) = &self.data else { return None };
         let left = self.differences(unknowns, point, false)?;
         Some(imprint.points.iter().zip(left).map(|(p, d)| p[1] - d * self.depth).collect())
-    }
-
-    /// Covariance of the differences at `point`, in its parts.
-    pub fn covariance(&self, unknowns: &Unknowns, point: &[f64]) -> Option<Covariance> {
-        let expected = self.expected(unknowns, point, false)?;
-        let covariance = match &self.data {
-            Data::Features { loading_curvature, unloading_slope, plastic_work_ratio } => {
-                let share = 1.0 - self.features(&expected)[2];
-                let given = [
-                    loading_curvature.map(|_| [1.0, 0.0, 0.0]),
-                    unloading_slope.map(|_| [0.0, 1.0, 0.0]),
-                    // what is said of the returned work is said of its complement, less
-                    plastic_work_ratio.map(|data| [0.0, 0.0, share / data]),
-                ];
-                let effects: Vec<[f64; 3]> = given.into_iter().flatten().collect();
-                let count = effects.len();
-                let part = |k: usize| {
-                    DMatrix::from_fn(count, count, |i, j| if i == j { effects[i][k].powi(2) } else { 0.0 })
-                };
-                let noise = DMatrix::identity(count, count) * self.noise.powi(2);
-                Covariance { noise, model: [part(0), part(1), part(2)] }
-            }
-            Data::Curve(measured) => self.covariance_of_a_curve(&expected, measured),
-            Data::Imprint(imprint) => {
-                let radius = imprint::radius_over_depth(&expected.logarithms) * self.true_depth(&expected);
-                let [noise, model] = imprint.covariances(radius, self.depth);
-                Covariance::of_the_first(noise, model)
-            }
-            Data::ImprintNumbers(numbers) => {
-                let given = [numbers.pile_up_height, numbers.residual_depth, numbers.rim_radius];
-                let scales = [0, 1, 2].map(|k| given[k].map(|d| if k < 2 { d / self.depth } else { 1.0 }));
-                let sizes: Vec<f64> = scales.into_iter().flatten().collect();
-                let noise = DMatrix::from_diagonal(
-                    &sizes.iter().map(|s| (self.noise * s).powi(2)).collect::<Vec<_>>().into(),
-                );
-                Covariance::of_the_first(noise, DMatrix::identity(sizes.len(), sizes.len()))
-            }
-        };
-        let Some(pyramid) = self.pyramid else { return Some(covariance) };
-        // that of the metal at the point: where it grows with the metal, a fit would flee to where it is wide
-        let corrected = pyramid.correction(&self.design_point(unknowns, point)?).deviations;
-        Some(Covariance { noise: covariance.sum(corrected), ..covariance })
-    }
-
-    fn covariance_of_a_curve(&self, expected: &Expected, measured: &Measured) -> Covariance {
-        let load = measured.loading.len();
-        let length = if self.is_similar() { f64::INFINITY } else { ALIKE_LOG_DEPTH };
-        let shallow =
-            |share: f64| if self.is_similar() { 1.0 } else { (STATED_DEPTH_SHARE / share).max(1.0) };
-        // a force that is expected too large takes from each difference of the loading, and adds to each of
-        // the way back
-        let of_the_loading = measured.loading.iter().map(|p| {
-            let depth = (p[0] / self.depth).abs().max(1e-3);
-            let by_the_force = -shallow(depth);
-            ErrorOfAPoint { place: depth.ln(), by_the_force, by_the_way: [0.0; 2], share: 1.0 }
-        });
-        let shares: Vec<f64> = measured.unloading.iter().map(|p| p[1] / measured.peak[1]).collect();
-        let slopes: Vec<f64> =
-            shares.iter().map(|share| share * slope_back(&expected.logarithms, *share)).collect();
-        let of_the_way_back = measured.unloading.iter().zip(&slopes).zip(&shares).map(|((p, slope), s)| {
-            let way = (measured.peak[0] - p[0]).max(0.0) / self.depth;
-            // near the peak the way is the slope's, at the end the whole
-            let by_the_way = [way * s, way * (1.0 - s)];
-            ErrorOfAPoint { place: 0.0, by_the_force: *slope, by_the_way, share: *s }
-        });
-        let errors: Vec<ErrorOfAPoint> = of_the_loading.chain(of_the_way_back).collect();
-        let count = errors.len();
-        let noise = |i: usize| {
-            let of_a_depth = |slope: &f64| (self.noise * slope.max(0.02)).max(1e-5);
-            i.checked_sub(load).map_or(self.noise, |back| of_a_depth(&slopes[back]))
-        };
-        let part = |of_a_pair: &dyn Fn(&ErrorOfAPoint, &ErrorOfAPoint) -> f64| {
-            DMatrix::from_fn(count, count, |i, j| of_a_pair(&errors[i], &errors[j]))
-        };
-        let force = part(&|a, b| alike(a.place - b.place, length) * a.by_the_force * b.by_the_force);
-        let slope = part(&|a, b| a.by_the_way[0] * b.by_the_way[0]);
-        let whole = part(&|a, b| {
-            let way = |e: &ErrorOfAPoint| e.by_the_way[0] + e.by_the_way[1];
-            let shape = WAY_SHAPE_SHARE.powi(2) * alike(a.share - b.share, ALIKE_FORCE_SHARE);
-            a.by_the_way[1] * b.by_the_way[1] + shape * way(a) * way(b)
-        });
-        let noise = DMatrix::from_fn(count, count, |i, j| {
-            // readings of one stretch are off alike, those of loading and way back are not
-            let of_one_stretch = (i < load) == (j < load);
-            let steps = i.abs_diff(j) as i32;
-            let together = if of_one_stretch { self.noise_correlation.powi(steps) } else { 0.0 };
-            noise(i) * noise(j) * together
-        });
-        Covariance { noise, model: [force, slope, whole] }
     }
 
     /// Depth readings between which the tool of a curve may first touch, 0 among them: those to which the
@@ -483,17 +327,11 @@ impl Experiment {
 }
 
 /// Way back over the deepest depth to a share of the peak force.
-fn recovery(logarithms: &[f64], share: f64) -> f64 {
+pub(crate) fn recovery(logarithms: &[f64], share: f64) -> f64 {
     // straight in F^(2/3) nearly, from no way at the peak
     let bent = |share: f64| -share.max(0.0).powf(2.0 / 3.0);
     let ways = &logarithms[logarithms.len() - (NUMBERS_AFTER_LOADING - 2)..];
     let mut points = vec![[bent(1.0), 0.0]];
     points.extend(FORCES.iter().zip(ways).map(|(force, way)| [bent(*force), way.exp()]));
     smooth(&points, bent(share))
-}
-
-/// The growth of the way back as the share of the force falls.
-fn slope_back(logarithms: &[f64], share: f64) -> f64 {
-    let (high, low) = ((share + 0.02).min(1.0), (share - 0.02).max(0.0));
-    (recovery(logarithms, low) - recovery(logarithms, high)) / (high - low)
 }

@@ -66,7 +66,8 @@ pub fn infer(
     doubts: &[String],
     sampling: Sampling,
 ) -> Option<Inference> {
-    let objective = Objective::new(experiments, unknowns, &best.point)?;
+    let objective = Objective::new(experiments, unknowns, &best.point)?.for_intervals();
+    let best = &Minimum { chi2: objective.misfit(&best.point)?, ..best.clone() };
     let bounds = objective.bounds();
     let (deviations, correlation) = deviations(&objective, unknowns, &best.point);
     let others = allowed_minima(&objective, unknowns, best);
@@ -88,7 +89,7 @@ pub fn infer(
         [_] => Vec::new(),
         several => several.iter().map(|metal| branch(metal, i)).collect(),
     };
-    let residual = residual(experiments, unknowns, best)?;
+    let residual = residual(&objective, experiments, unknowns, best)?;
     let identified = identified(&unknowns.parameters, &best.point, &intervals, &correlation);
     let trusted = residual.fits && doubts.is_empty();
     let parameters: IndexMap<String, Found> = unknowns
@@ -210,7 +211,13 @@ fn band(
     STRAINS.par_iter().filter_map(at).collect()
 }
 
-fn residual(experiments: &[Experiment], unknowns: &Unknowns, best: &Minimum) -> Option<Residual> {
+fn residual(
+    objective: &Objective<'_>,
+    experiments: &[Experiment],
+    unknowns: &Unknowns,
+    best: &Minimum,
+) -> Option<Residual> {
+    let chi2 = objective.misfit(&best.point)?;
     let mut count = 0;
     let curves = experiments.iter().map(|e| {
         let differences = e.differences(unknowns, &best.point, false)?;
@@ -228,5 +235,5 @@ fn residual(experiments: &[Experiment], unknowns: &Unknowns, best: &Minimum) -> 
     });
     let curves = curves.collect::<Option<_>>()?;
     let degrees_of_freedom = count - unknowns.parameters.len() as i64;
-    Some(Residual { chi2: best.chi2, fits: fits(best.chi2, degrees_of_freedom), degrees_of_freedom, curves })
+    Some(Residual { chi2, fits: fits(chi2, degrees_of_freedom), degrees_of_freedom, curves })
 }

@@ -29,6 +29,8 @@ pub mod pyramid;
 
 pub mod experiment;
 
+pub mod covariance;
+
 pub mod levenberg_marquardt;
 
 pub mod objective;

@@ -1,6 +1,7 @@
 //! All measurements at once: residuals in standard deviations, by one covariance for each measurement.
 
-use super::experiment::{Covariance, Experiment};
+use super::covariance::Covariance;
+use super::experiment::Experiment;
 use super::parameters::Unknowns;
 use crate::levenberg_marquardt::{Function, ResidualFunction, Residuals, jacobian};
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn, SymmetricEigen};
@@ -8,11 +9,15 @@ use nalgebra::{Cholesky, DMatrix, DVector, Dyn, SymmetricEigen};
 /// The measurements with the parts of their covariances at one point.
 ///
 /// The deviations of what finite elements expect are those of the metal that is asked for: a metal far from
-/// every computed one is not ruled out by what the emulator does not know of it.
+/// every computed one is not ruled out by what the emulator does not know of it. A search does not prefer it
+/// for that either: there the growth of ln det C over that of a computed metal is one more residual, as in the
+/// likelihood of a normal law. Intervals go without it, for what was not asked does not narrow them.
 pub struct Objective<'a> {
     experiments: &'a [Experiment],
     unknowns: &'a Unknowns,
     covariances: Vec<Covariance>,
+    /// Sum of ln det C of computed metals, above which its growth counts; infinite where it does not.
+    least_logarithm: f64,
 }
 
 impl<'a> Objective<'a> {
@@ -23,7 +28,21 @@ impl<'a> Objective<'a> {
         point: &[f64],
     ) -> Option<Objective<'a>> {
         let covariances = experiments.iter().map(|e| e.covariance(unknowns, point));
-        Some(Objective { experiments, unknowns, covariances: covariances.collect::<Option<_>>()? })
+        let covariances: Vec<Covariance> = covariances.collect::<Option<_>>()?;
+        let told = experiments.iter().zip(&covariances).map(|(e, c)| c.factor(e.told_deviations()));
+        let least_logarithm = logarithm(&told.collect::<Option<Vec<_>>>()?);
+        Some(Objective { experiments, unknowns, covariances, least_logarithm })
+    }
+
+    /// The same for intervals, in which what is not known of a metal counts for it.
+    pub fn for_intervals(self) -> Objective<'a> {
+        Objective { least_logarithm: f64::INFINITY, ..self }
+    }
+
+    /// Sum of squares of the differences at `point` alone.
+    pub fn misfit(&self, point: &[f64]) -> Option<f64> {
+        let all = self.whitened(&self.factors(point)?, point)?;
+        Some(all[..all.len() - 1].iter().map(|x| x * x).sum())
     }
 
     /// Factors of the covariances at `point`.
@@ -32,7 +51,8 @@ impl<'a> Objective<'a> {
         both.map(|(e, covariance)| covariance.factor(e.model_deviations(self.unknowns, point)?)).collect()
     }
 
-    /// The differences at `point`, independent of each other by the `factors` of their covariances.
+    /// The differences at `point`, independent of each other by the `factors` of their covariances, and the
+    /// residual of the latter.
     fn whitened(&self, factors: &[Cholesky<f64, Dyn>], point: &[f64]) -> Option<Vec<f64>> {
         let mut all = Vec::new();
         for (experiment, factor) in self.experiments.iter().zip(factors) {
@@ -43,6 +63,7 @@ impl<'a> Objective<'a> {
             }
             all.extend(whitened.iter());
         }
+        all.push((logarithm(factors) - self.least_logarithm).max(0.0).sqrt());
         Some(all)
     }
 
@@ -50,6 +71,12 @@ impl<'a> Objective<'a> {
     pub fn bounds(&self) -> Vec<[f64; 2]> {
         self.unknowns.parameters.iter().map(|p| p.bounds).collect()
     }
+}
+
+/// Sum of ln det of factored covariances.
+fn logarithm(factors: &[Cholesky<f64, Dyn>]) -> f64 {
+    let of = |factor: &Cholesky<f64, Dyn>| factor.l_dirty().diagonal().iter().map(|x| x.ln()).sum::<f64>();
+    2.0 * factors.iter().map(of).sum::<f64>()
 }
 
 impl ResidualFunction for Objective<'_> {

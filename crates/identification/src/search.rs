@@ -93,10 +93,8 @@ pub fn search(
         best = if other.chi2 < free.chi2 - MUCH_LOWER { other } else { free };
         ask.until_settled(experiments, unknowns, &mut best, [0.9, 0.99], observer)?;
     }
-    for other in allowed_minima(&objective(experiments, unknowns, &best.point)?, unknowns, &best)
-        .into_iter()
-        .take(OTHER_MINIMA)
-    {
+    let found = objective(experiments, unknowns, &best.point)?.for_intervals();
+    for other in allowed_minima(&found, unknowns, &best).into_iter().take(OTHER_MINIMA) {
         go_on(observer, 0.99, "asking finite elements at another metal that fits")?;
         ask.ask_at(experiments, unknowns, (&[other.point.clone()], false), Accuracy::Draft)?;
         let there = again(experiments, unknowns, &other.point)?;
@@ -250,8 +248,10 @@ fn moved(experiments: &[Experiment], unknowns: &Unknowns, a: &[f64], b: &[f64]) 
 /// little: along a valley an end is none before finite elements were asked there.
 fn ends_of_the_valley(experiments: &[Experiment], unknowns: &Unknowns, best: &Minimum) -> Vec<Vec<f64>> {
     let Some(objective) = Objective::new(experiments, unknowns, &best.point) else { return Vec::new() };
-    let count = objective.residuals(&best.point).map_or(0, |r| r.len()) as i64;
-    if !fits(best.chi2, count - unknowns.parameters.len() as i64) {
+    let objective = objective.for_intervals();
+    let count = objective.residuals(&best.point).map_or(0, |r| r.len() - 1) as i64;
+    let misfit = objective.misfit(&best.point).unwrap_or(f64::INFINITY);
+    if !fits(misfit, count - unknowns.parameters.len() as i64) {
         // an interval of a model that is rejected says nothing
         return Vec::new();
     }
@@ -260,7 +260,7 @@ fn ends_of_the_valley(experiments: &[Experiment], unknowns: &Unknowns, best: &Mi
     let metal = 0..unknowns.of_the_metal();
     let Some(i) = metal.max_by(|a, b| share(a).total_cmp(&share(b))) else { return Vec::new() };
     let bounds = objective.bounds();
-    let profile = Profile { residuals: &objective, bounds: &bounds, lowest: best.chi2 };
+    let profile = Profile { residuals: &objective, bounds: &bounds, lowest: misfit };
     let along: Vec<f64> =
         (0..bounds.len()).map(|j| correlation[i][j] * deviations[j] / deviations[i]).collect();
     let ends = profile.ends_of_coordinate(std::slice::from_ref(best), i, deviations[i], &along);

@@ -11,6 +11,7 @@ use crate::results::output::{Sink, SinkExt, json};
 use asperity_identification::experiment::Experiment;
 use asperity_identification::identifiability::{Decided, NextExperiment, NullDirection};
 use asperity_identification::inference::{Inference, Sampling, infer};
+use asperity_identification::levenberg_marquardt::Minimum;
 use asperity_identification::noise::noise_from_scatter;
 use asperity_identification::numbers::StressAt;
 use asperity_identification::numbers::{Found, Residual};
@@ -85,7 +86,8 @@ pub(super) fn identify(
     let sampling = Sampling { count: fit.tables().samples, seed: fit.tables().seed };
     let nowhere = || Error::Unfinished("the best fit lies at a metal that cannot be computed".into());
     let inference = infer(&experiments, &unknowns, best, &fit.doubts, sampling).ok_or_else(nowhere)?;
-    let objective = Objective::new(&experiments, &unknowns, &best.point).ok_or_else(nowhere)?;
+    let objective = Objective::new(&experiments, &unknowns, &best.point).ok_or_else(nowhere)?.for_intervals();
+    let best = &Minimum { chi2: inference.residual.chi2, ..best.clone() };
     let drawn = pictures::Drawn::new(&objective, &experiments, &unknowns, best, &inference.intervals);
     let mut notes = std::mem::take(&mut fit.notes);
     notes.extend(found.notes);

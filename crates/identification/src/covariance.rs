@@ -1,0 +1,176 @@
+//! Covariance of the differences between a measurement and what finite elements expect.
+
+use super::experiment::{Data, Expected, Experiment, recovery};
+use super::imprint;
+use super::parameters::Unknowns;
+use crate::measured_curve::Measured;
+use nalgebra::{Cholesky, DMatrix, Dyn};
+
+/// Logarithms of the depth over which the force that a body is expected to need is too large or too small
+/// alike. That of a sharp cone is one number, K, off alike at every depth.
+const ALIKE_LOG_DEPTH: f64 = 1.0;
+/// Share of the deepest depth from which finite elements state the error of the force along a curve; below
+/// it, where fewer elements touch, the error of a body grows as the inverse of the depth.
+const STATED_DEPTH_SHARE: f64 = 0.2;
+/// Shares of the peak force over which the error of the shape of the way back is alike, and its standard
+/// deviation over that of the whole way: a way back is read at few forces, at a few steps.
+const ALIKE_FORCE_SHARE: f64 = 0.25;
+const WAY_SHAPE_SHARE: f64 = 0.5;
+
+/// Effect on the difference at a point of a curve of errors of the expected force and of the way back.
+struct ErrorOfAPoint {
+    /// Logarithm of the depth over the deepest; the way back begins there.
+    place: f64,
+    /// Of a relative error of the force.
+    by_the_force: f64,
+    /// Of a relative error of the slope where unloading begins, and of the whole way back.
+    by_the_way: [f64; 2],
+    /// Share of the peak force.
+    share: f64,
+}
+
+/// Covariance of the differences of a measurement: what belongs to the data, and what each relative error of
+/// the finite elements adds for a variance of 1.
+#[derive(Clone, Debug)]
+pub struct Covariance {
+    noise: DMatrix<f64>,
+    /// Of an error of the force, of the slope where unloading begins, of the way back.
+    model: [DMatrix<f64>; 3],
+}
+
+impl Covariance {
+    /// That of data of which one error of the finite elements is known alone.
+    fn of_the_first(noise: DMatrix<f64>, model: DMatrix<f64>) -> Covariance {
+        let none = DMatrix::zeros(noise.nrows(), noise.ncols());
+        Covariance { model: [model, none.clone(), none], noise }
+    }
+
+    /// The factor of the covariance with the model's standard deviations; `None` where it has none.
+    pub fn factor(&self, deviations: [f64; 3]) -> Option<Cholesky<f64, Dyn>> {
+        self.sum(deviations).cholesky()
+    }
+
+    fn sum(&self, deviations: [f64; 3]) -> DMatrix<f64> {
+        let mut sum = self.noise.clone();
+        for (part, deviation) in self.model.iter().zip(deviations) {
+            sum.zip_apply(part, |entry, more| *entry += deviation * deviation * more);
+        }
+        sum
+    }
+}
+
+/// Correlation of two places a distance `apart` of each other.
+fn alike(apart: f64, length: f64) -> f64 {
+    (-0.5 * (apart / length).powi(2)).exp()
+}
+
+impl Experiment {
+    /// Relative standard deviations of what finite elements expect at `point`: of the force, of the slope
+    /// where unloading begins, of the way back.
+    pub fn model_deviations(&self, unknowns: &Unknowns, point: &[f64]) -> Option<[f64; 3]> {
+        let left = self.emulator.left(&self.design_point(unknowns, point)?, self.of_the_loading());
+        let told = self.told_deviations();
+        Some([0, 1, 2].map(|i| told[i].hypot(left[i])))
+    }
+
+    /// The same at a computed metal, where the emulator leaves nothing open.
+    pub fn told_deviations(&self) -> [f64; 3] {
+        // the stated errors are 95 % bounds
+        self.errors.map(|error| (0.5 * error).hypot(self.model_error))
+    }
+
+    /// Covariance of the differences at `point`, in its parts.
+    pub fn covariance(&self, unknowns: &Unknowns, point: &[f64]) -> Option<Covariance> {
+        let expected = self.expected(unknowns, point, false)?;
+        let covariance = match &self.data {
+            Data::Features { loading_curvature, unloading_slope, plastic_work_ratio } => {
+                let share = 1.0 - self.features(&expected)[2];
+                let given = [
+                    loading_curvature.map(|_| [1.0, 0.0, 0.0]),
+                    unloading_slope.map(|_| [0.0, 1.0, 0.0]),
+                    // what is said of the returned work is said of its complement, less
+                    plastic_work_ratio.map(|data| [0.0, 0.0, share / data]),
+                ];
+                let effects: Vec<[f64; 3]> = given.into_iter().flatten().collect();
+                let count = effects.len();
+                let part = |k: usize| {
+                    DMatrix::from_fn(count, count, |i, j| if i == j { effects[i][k].powi(2) } else { 0.0 })
+                };
+                let noise = DMatrix::identity(count, count) * self.noise.powi(2);
+                Covariance { noise, model: [part(0), part(1), part(2)] }
+            }
+            Data::Curve(measured) => self.covariance_of_a_curve(&expected, measured),
+            Data::Imprint(imprint) => {
+                let radius = imprint::radius_over_depth(&expected.logarithms) * self.true_depth(&expected);
+                let [noise, model] = imprint.covariances(radius, self.depth);
+                Covariance::of_the_first(noise, model)
+            }
+            Data::ImprintNumbers(numbers) => {
+                let given = [numbers.pile_up_height, numbers.residual_depth, numbers.rim_radius];
+                let scales = [0, 1, 2].map(|k| given[k].map(|d| if k < 2 { d / self.depth } else { 1.0 }));
+                let sizes: Vec<f64> = scales.into_iter().flatten().collect();
+                let noise = DMatrix::from_diagonal(
+                    &sizes.iter().map(|s| (self.noise * s).powi(2)).collect::<Vec<_>>().into(),
+                );
+                Covariance::of_the_first(noise, DMatrix::identity(sizes.len(), sizes.len()))
+            }
+        };
+        let Some(pyramid) = self.pyramid else { return Some(covariance) };
+        // that of the metal at the point: where it grows with the metal, a fit would flee to where it is wide
+        let corrected = pyramid.correction(&self.design_point(unknowns, point)?).deviations;
+        Some(Covariance { noise: covariance.sum(corrected), ..covariance })
+    }
+
+    fn covariance_of_a_curve(&self, expected: &Expected, measured: &Measured) -> Covariance {
+        let load = measured.loading.len();
+        let length = if self.is_similar() { f64::INFINITY } else { ALIKE_LOG_DEPTH };
+        let shallow =
+            |share: f64| if self.is_similar() { 1.0 } else { (STATED_DEPTH_SHARE / share).max(1.0) };
+        // a force that is expected too large takes from each difference of the loading, and adds to each of
+        // the way back
+        let of_the_loading = measured.loading.iter().map(|p| {
+            let depth = (p[0] / self.depth).abs().max(1e-3);
+            let by_the_force = -shallow(depth);
+            ErrorOfAPoint { place: depth.ln(), by_the_force, by_the_way: [0.0; 2], share: 1.0 }
+        });
+        let shares: Vec<f64> = measured.unloading.iter().map(|p| p[1] / measured.peak[1]).collect();
+        let slopes: Vec<f64> =
+            shares.iter().map(|share| share * slope_back(&expected.logarithms, *share)).collect();
+        let of_the_way_back = measured.unloading.iter().zip(&slopes).zip(&shares).map(|((p, slope), s)| {
+            let way = (measured.peak[0] - p[0]).max(0.0) / self.depth;
+            // near the peak the way is the slope's, at the end the whole
+            let by_the_way = [way * s, way * (1.0 - s)];
+            ErrorOfAPoint { place: 0.0, by_the_force: *slope, by_the_way, share: *s }
+        });
+        let errors: Vec<ErrorOfAPoint> = of_the_loading.chain(of_the_way_back).collect();
+        let count = errors.len();
+        let noise = |i: usize| {
+            let of_a_depth = |slope: &f64| (self.noise * slope.max(0.02)).max(1e-5);
+            i.checked_sub(load).map_or(self.noise, |back| of_a_depth(&slopes[back]))
+        };
+        let part = |of_a_pair: &dyn Fn(&ErrorOfAPoint, &ErrorOfAPoint) -> f64| {
+            DMatrix::from_fn(count, count, |i, j| of_a_pair(&errors[i], &errors[j]))
+        };
+        let force = part(&|a, b| alike(a.place - b.place, length) * a.by_the_force * b.by_the_force);
+        let slope = part(&|a, b| a.by_the_way[0] * b.by_the_way[0]);
+        let whole = part(&|a, b| {
+            let way = |e: &ErrorOfAPoint| e.by_the_way[0] + e.by_the_way[1];
+            let shape = WAY_SHAPE_SHARE.powi(2) * alike(a.share - b.share, ALIKE_FORCE_SHARE);
+            a.by_the_way[1] * b.by_the_way[1] + shape * way(a) * way(b)
+        });
+        let noise = DMatrix::from_fn(count, count, |i, j| {
+            // readings of one stretch are off alike, those of loading and way back are not
+            let of_one_stretch = (i < load) == (j < load);
+            let steps = i.abs_diff(j) as i32;
+            let together = if of_one_stretch { self.noise_correlation.powi(steps) } else { 0.0 };
+            noise(i) * noise(j) * together
+        });
+        Covariance { noise, model: [force, slope, whole] }
+    }
+}
+
+/// The growth of the way back as the share of the force falls.
+fn slope_back(logarithms: &[f64], share: f64) -> f64 {
+    let (high, low) = ((share + 0.02).min(1.0), (share - 0.02).max(0.0));
+    (recovery(logarithms, low) - recovery(logarithms, high)) / (high - low)
+}
