@@ -97,7 +97,7 @@ fn an_imprint_tells_the_yield_stress_that_its_curve_leaves_open() {
     assert_eq!(end.status, 0, "{}", end.err);
     let peaks = ["twin", "next"].map(|folder| {
         let text = place.text(&format!("{folder}/summary.json"));
-        serde_json::from_str::<serde_json::Value>(&text).unwrap()["force_N"].as_f64().unwrap()
+        serde_json::from_str::<serde_json::Value>(&text).unwrap()["peak_force_N"].as_f64().unwrap()
     });
     assert!((peaks[1] / peaks[0] - 1.0).abs() < 0.02, "{peaks:?}");
 }

@@ -29,7 +29,7 @@ const ASSUMED_NOISE_SHARE: f64 = 0.02;
 const MIN_NOISE_SHARE: f64 = 1e-3;
 /// Standard deviations of what levelling leaves: an offset, and a tilt over one contact radius, over the
 /// depth.
-const LEVELLING_SHARE: f64 = 0.01;
+const LEVELLING_SHARE: f64 = 0.005;
 /// Contact radii within which an imprint is a hole, and the share of the depth that it has at least there.
 const INNER_RADII: f64 = 0.3;
 const LEAST_DEPTH_SHARE: f64 = 0.05;

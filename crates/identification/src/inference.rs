@@ -217,7 +217,8 @@ fn residual(
     unknowns: &Unknowns,
     best: &Minimum,
 ) -> Option<Residual> {
-    let chi2 = objective.misfit(&best.point)?;
+    let misfits = objective.misfits(&best.point)?;
+    let chi2: f64 = misfits.iter().map(|(square, _)| square).sum();
     let mut count = 0;
     let curves = experiments.iter().map(|e| {
         let differences = e.differences(unknowns, &best.point, false)?;
@@ -235,5 +236,7 @@ fn residual(
     });
     let curves = curves.collect::<Option<_>>()?;
     let degrees_of_freedom = count - unknowns.parameters.len() as i64;
-    Some(Residual { chi2, fits: fits(chi2, degrees_of_freedom), degrees_of_freedom, curves })
+    // a measurement that does not fit is not hidden by others that fit well
+    let each = misfits.iter().all(|(square, count)| fits(*square, *count as i64));
+    Some(Residual { chi2, fits: each && fits(chi2, degrees_of_freedom), degrees_of_freedom, curves })
 }

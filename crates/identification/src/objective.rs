@@ -41,8 +41,20 @@ impl<'a> Objective<'a> {
 
     /// Sum of squares of the differences at `point` alone.
     pub fn misfit(&self, point: &[f64]) -> Option<f64> {
+        Some(self.misfits(point)?.iter().map(|(square, _)| square).sum())
+    }
+
+    /// Sum of squares of the differences of each measurement at `point`, with their number.
+    pub fn misfits(&self, point: &[f64]) -> Option<Vec<(f64, usize)>> {
         let all = self.whitened(&self.factors(point)?, point)?;
-        Some(all[..all.len() - 1].iter().map(|x| x * x).sum())
+        let mut first = 0;
+        let each = self.experiments.iter().map(|e| {
+            let count = e.differences(self.unknowns, point, false)?.len();
+            let square = all[first..first + count].iter().map(|x| x * x).sum();
+            first += count;
+            Some((square, count))
+        });
+        each.collect()
     }
 
     /// Factors of the covariances at `point`.
