@@ -90,7 +90,7 @@ impl SpaceContact {
         let unloading =
             scene.load.unload.then(|| unload(&body, surface, &found, &curve, points)).transpose()?;
         // in a comparison of closures the flow is a cost that only a fluid asks for
-        let asked = scene.fluid.is_some() || scene.closure.closures().len() == 1;
+        let asked = scene.fluid.is_some() || !scene.closure.is_several();
         let flows = scene.half_space.leak.unwrap_or(asked);
         let passages = Passage::both(&body, surface, &found, flows)?;
         let patches = patches(&surface.map, &found.pressures);
