@@ -36,7 +36,13 @@ impl Lines {
 
     /// A new line that begins with `name`.
     pub fn add(&self, name: &str) -> Line {
-        let template = format!("{name:<28} {{bar:24.cyan/dim}} {{percent:>3}} %  {{msg}}  {{eta}} left");
+        let template = format!("{name:<36} {{bar:24.cyan/dim}} {{percent:>3}} %  {{msg}}  {{eta}} left");
+        Line::styled(self.lines.add(ProgressBar::new(FULL)), &template)
+    }
+
+    /// A line for all of them together, whose message tells the time left.
+    pub fn add_whole(&self, name: &str) -> Line {
+        let template = format!("{name:<36} {{bar:24.cyan/dim}} {{percent:>3}} %  {{msg}}");
         Line::styled(self.lines.add(ProgressBar::new(FULL)), &template)
     }
 

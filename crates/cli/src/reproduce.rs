@@ -7,6 +7,7 @@ use crate::progress::{Line, Lines};
 use crate::{interrupt, terminal};
 use asperity::error::Error;
 use asperity::simulation::scene::Accuracy;
+use asperity_paper::pace::Outlook;
 use asperity_paper::part::Stamp;
 use asperity_paper::plan::{ITEMS, items, parts};
 use asperity_paper::{News, Options, Planned};
@@ -47,23 +48,27 @@ pub fn reproduce(args: &Reproduce) -> Result<(), Error> {
     let _mark = claim(&target, "reproduce", args.run.force)?;
     interrupt::catch();
     let (start, lines, open) = (Instant::now(), Lines::new(quiet), Mutex::new(HashMap::<_, Line>::new()));
+    let whole = lines.add_whole("all parts");
     let options = Options { out: &target, items: &items, accuracy, estimate: !quiet };
     let done = asperity_paper::reproduce(&options, &|progress| {
         let mut open = open.lock().unwrap_or_else(PoisonError::into_inner);
         match progress {
             News::Planned(parts) => announce(parts, accuracy),
-            News::Reached { part, share, message } => {
+            News::Reached { part, share, message, outlook } => {
                 open.entry(*part).or_insert_with(|| lines.add(part)).show(*share, || message.to_string());
+                outlook.iter().for_each(|all| whole.show(all.share, || left(*all)));
             }
-            News::Ended { part, outcome } => {
+            News::Ended { part, outcome, outlook } => {
                 open.remove(part).into_iter().for_each(Line::finish);
                 if !quiet {
-                    lines.say(&format!("{part:<28} {}", ending(outcome)));
+                    let left = outlook.filter(|all| all.left > 0.0).map_or_else(String::new, left);
+                    lines.say(format!("{part:<36} {:<10} {left}", ending(outcome)).trim_end());
                 }
             }
         }
         !interrupt::requested()
     })?;
+    whole.finish();
     if interrupt::requested() {
         let (all, place) = (parts(&items).len(), target.display());
         let done = done.parts.iter().filter(|(_, outcome)| outcome.is_ok()).count();
@@ -98,6 +103,11 @@ fn ending(outcome: &Result<Stamp, Error>) -> String {
     }
 }
 
+/// The time that all parts still take, in words.
+fn left(all: Outlook) -> String {
+    format!("about {} left", duration(all.left))
+}
+
 /// Announces the parts and how long they take.
 fn announce(parts: &[Planned], accuracy: Accuracy) {
     let open: Vec<f64> = parts.iter().filter_map(|part| part.seconds).collect();
@@ -108,13 +118,15 @@ fn announce(parts: &[Planned], accuracy: Accuracy) {
     }
     for part in parts {
         let time = part.seconds.map_or_else(|| "done".into(), |s| format!("about {}", duration(s)));
-        terminal::complain(&format!("  {:<28} {time:<16} {}", part.name, part.serves.join(" ")));
+        terminal::complain(&format!("  {:<36} {time:<12} {}", part.name, part.serves.join(" ")));
     }
     let cores = rayon::current_num_threads();
+    // no part is shared by cores
+    let longest = open.iter().copied().fold(0.0, f64::max);
     terminal::complain(&format!(
         "{count} parts at {accuracy}, {} of them done; about {} on {cores} cores",
         count - open.len(),
-        duration(open.iter().sum::<f64>() / cores as f64)
+        duration((open.iter().sum::<f64>() / cores as f64).max(longest))
     ));
 }
 

@@ -1,8 +1,9 @@
 #![doc = include_str!("../README.md")]
 //!
-//! Parts of the work (`plan`) run side by side, each into a folder of its own with a stamp that says it is
-//! done (`part`); the report reads those folders (`results_reader`), judges the paper's claims (`claims`) and
-//! shows its figures (`figures`, `report`).
+//! Parts of the work (`plan`) run side by side, each on a core of its own, into a folder of its own with a
+//! stamp that says it is done (`part`, `rough_part`); `pace` tells what is left. The report reads those
+//! folders (`results_reader`), judges the paper's claims (`claims`) and shows its figures (`figures`,
+//! `report`).
 
 mod paper;
 
@@ -10,7 +11,9 @@ pub mod plan;
 
 mod profile;
 
+pub mod pace;
 pub mod part;
+mod rough_part;
 
 mod results_reader;
 

@@ -228,14 +228,16 @@ fn section(item: Item, results: &Results, claims: &[Claim], level: &str) -> Resu
 
 /// A scene as it stands in its file, how to run it alone, and how long it took.
 fn scene(part: &Part, results: &Results) -> Markup {
+    let sets = |changes: &[&str]| changes.iter().map(|c| format!(" --set \"{c}\"")).collect::<String>();
     let (text, command) = match part.work {
         Work::Crush { scene, changes, .. } => {
-            let changes: Vec<String> = changes.iter().map(|c| format!(" --set \"{c}\"")).collect();
             let file = part.name.replace("-finest", "").replace("-finer", "");
-            (scene, format!("asperity crush meshes/{file}.toml{}", changes.concat()))
+            (scene, format!("asperity crush meshes/{file}.toml{}", sets(changes)))
         }
-        Work::Rough { scene, .. } => {
-            (scene, format!("asperity rough meshes/{}.toml, and asperity rough --table1", part.name))
+        Work::Rough { scene, changes, .. } => {
+            let name = part.name;
+            let alone = format!("asperity rough meshes/{name}.toml{}", sets(changes));
+            (scene, format!("{alone}, and asperity rough --table1"))
         }
         Work::Calibrate => (
             "# the defaults: 10 slopes, 3 moduli, 4 yield stresses, 4 exponents",

@@ -1,13 +1,14 @@
 //! A reproduction from the items to the report.
 
+use super::pace::{Outlook, Pace};
 use super::part::{Job, Stamp, yardstick};
 use super::plan::{Item, parts};
 use super::results_reader::Results;
 use crate::paper_report::{Report, report};
+use asperity::batch::side_by_side;
 use asperity::error::Error;
 use asperity::output::write_whole;
 use asperity::simulation::scene::Accuracy;
-use rayon::prelude::*;
 use std::fs;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::Path;
@@ -23,7 +24,7 @@ pub struct Options<'a> {
     pub items: &'a [Item],
     /// Accuracy of the crushes and of the sweep.
     pub accuracy: Accuracy,
-    /// True where the observer is told how long each part takes, which costs three small crushes.
+    /// True where the observer is told how long each part takes, which costs a few small crushes.
     pub estimate: bool,
 }
 
@@ -51,6 +52,8 @@ pub enum News<'a> {
         share: f64,
         /// Its place.
         message: &'a str,
+        /// What is left of all parts; `None` without an estimate.
+        outlook: Option<Outlook>,
     },
     /// A part has ended.
     Ended {
@@ -58,6 +61,8 @@ pub enum News<'a> {
         part: &'static str,
         /// Its stamp, or why it could not be done.
         outcome: &'a Result<Stamp, Error>,
+        /// What is left of all parts; `None` without an estimate.
+        outlook: Option<Outlook>,
     },
 }
 
@@ -91,26 +96,29 @@ pub fn reproduce(
         .map(|part| Job::new(part, options.accuracy, &folder, program))
         .collect::<Result<Vec<Job>, Error>>()?;
     let planned = if options.estimate { plan(&jobs)? } else { Vec::new() };
+    let cores = rayon::current_num_threads();
+    let pace = Pace::new(planned.iter().map(|part| part.seconds.unwrap_or(0.0)), cores);
+    let reach = |i: usize, share: f64| options.estimate.then(|| pace.reach(i, share));
     let stopped = AtomicBool::new(options.estimate && !observer(&News::Planned(&planned)));
-    let mut parts: Vec<(usize, &'static str, Result<Stamp, Error>)> = jobs
-        .iter()
-        .enumerate()
-        .par_bridge()
-        .filter_map(|(i, job)| {
-            let part = job.part.name;
-            if let Some(stamp) = job.done() {
-                return Some((i, part, Ok(stamp)));
-            }
-            if stopped.load(Ordering::Relaxed) {
-                return None;
-            }
-            let outcome = job.run(&mut |share, message| observer(&News::Reached { part, share, message }));
-            if !observer(&News::Ended { part, outcome: &outcome }) {
-                stopped.store(true, Ordering::Relaxed);
-            }
-            Some((i, part, outcome))
-        })
-        .collect();
+    let one = |i: usize| {
+        let (job, part) = (&jobs[i], jobs[i].part.name);
+        if let Some(stamp) = job.done() {
+            return Some((i, part, Ok(stamp)));
+        }
+        if stopped.load(Ordering::Relaxed) {
+            return None;
+        }
+        pace.begin(i);
+        let outcome = job.run(&mut |share, message| {
+            observer(&News::Reached { part, share, message, outlook: reach(i, share) })
+        });
+        if !observer(&News::Ended { part, outcome: &outcome, outlook: reach(i, 1.0) }) {
+            stopped.store(true, Ordering::Relaxed);
+        }
+        Some((i, part, outcome))
+    };
+    let order: Vec<usize> = (0..jobs.len()).collect();
+    let mut parts: Vec<_> = side_by_side(cores, &order, &one).into_iter().flatten().collect();
     parts.sort_by_key(|(i, ..)| *i);
     let report =
         report(&Results::read(&folder, &jobs), options.items, options.accuracy).map_err(Error::Unfinished)?;

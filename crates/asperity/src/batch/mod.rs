@@ -204,9 +204,10 @@ pub(crate) fn thread_count(asked: usize) -> usize {
     if asked == 0 { rayon::current_num_threads() } else { asked }
 }
 
-/// The results of `one` for all of `open`, each on one thread: what a run does side by side in itself is done
-/// one after the other, unless there are fewer runs than threads. `threads` is how many, 0 for all cores.
-fn side_by_side<T: Send>(threads: usize, open: &[usize], one: &(dyn Fn(usize) -> T + Sync)) -> Vec<T> {
+/// The results of `one` for all of `open`, as they end, each on one thread: what a run does side by side in
+/// itself is done one after the other, unless there are fewer runs than threads. `threads` is how many, 0 for
+/// all cores.
+pub fn side_by_side<T: Send>(threads: usize, open: &[usize], one: &(dyn Fn(usize) -> T + Sync)) -> Vec<T> {
     let threads = thread_count(threads);
     let workers = threads.min(open.len()).max(1);
     let next = AtomicUsize::new(0);

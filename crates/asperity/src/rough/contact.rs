@@ -41,8 +41,8 @@ pub struct Rough {
 ///
 /// # Errors
 /// A scene that makes no sense, a surface that cannot be read, a closure without its material or its
-/// calibration, a load that the surface cannot carry. Of a scene with all closures those that cannot be used
-/// are warnings.
+/// calibration, a load that the surface cannot carry. Of a scene with several closures those that cannot be
+/// used are warnings.
 pub fn press(
     scene: &RoughScene,
     observer: &mut dyn FnMut(&Progress<'_, Closure>) -> bool,

@@ -8,7 +8,7 @@ use crate::error::InputError;
 use crate::results::units::MEGAPASCAL;
 use crate::rough::rough_scene::RoughScene;
 use asperity_roughness::half_space::HalfSpaceError;
-use asperity_roughness::scene::{Choice, SceneError};
+use asperity_roughness::scene::SceneError;
 use asperity_roughness::{
     Closure, ClosureLaw, Coefficient, Contact, ContactError, Load, PressureField, SINGLE_ASPERITY_EXPONENT,
     Surface, press, unload,
@@ -50,8 +50,8 @@ enum PressError {
     },
 }
 
-/// The contact by `closure` with its warnings; of a scene with all closures, one that lacks its material is a
-/// warning alone and one that cannot carry the load says so in its row.
+/// The contact by `closure` with its warnings; of a scene with several closures, one that lacks its material
+/// is a warning alone and one that cannot carry the load says so in its row.
 pub(super) fn press_by(
     closure: Closure,
     scene: &RoughScene,
@@ -89,7 +89,7 @@ impl Task<'_> {
         pressed: Result<Pressed, PressError>,
     ) -> Result<(Option<ClosureContact>, Warnings), InputError> {
         let tables = self.scene.tables();
-        let all = tables.closure == Choice::All;
+        let several = tables.closure.is_several();
         let hardness = tables.material.limit();
         let row = |body: Body, elastic: f64, nominal: f64, largest_load: Option<f64>| ClosureContact {
             closure,
@@ -105,9 +105,9 @@ impl Task<'_> {
                 Ok((Some(row(body, elastic, nominal, None)), warnings))
             }
             Err(PressError::Input(e)) => Err(e),
-            Err(PressError::Material(message)) if all => Ok((None, vec![warnings::skipped(&message)])),
+            Err(PressError::Material(message)) if several => Ok((None, vec![warnings::skipped(&message)])),
             Err(PressError::Material(message)) => Err(self.error("closure", message)),
-            Err(PressError::Load { message, elastic, largest, .. }) if all => {
+            Err(PressError::Load { message, elastic, largest, .. }) if several => {
                 let warning = format!("{}: {message}", closure.name());
                 let failed = row(Body::Failed(message), elastic, self.asked(), largest);
                 Ok((Some(failed), vec![warning]))

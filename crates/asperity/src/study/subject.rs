@@ -119,7 +119,7 @@ impl Subject {
             }),
             Subject::Rough(scene) => press(scene, &mut |_| observe()).and_then(|rough| {
                 let mut columns = flat(&rough.summary)?;
-                let several = scene.tables().closure.closures().len() > 1;
+                let several = scene.tables().closure.is_several();
                 for (row, closure) in rough.table.iter().zip(&rough.summary.closures) {
                     for (name, value) in flat(closure)? {
                         let name = if several { format!("{}.{name}", row.closure.name()) } else { name };

@@ -2,11 +2,13 @@
 
 mod table1_report;
 
-use asperity::error::Error;
+use asperity::Progress;
+use asperity::error::{Error, InputError};
 use asperity::output::{Sink, SinkExt};
 use asperity::rough::Rough;
 use asperity::rough::contact::press;
 use asperity::rough::rough_scene::RoughScene;
+use asperity::roughness::scene::{Choice, Scene};
 use asperity::roughness::{Closure, KindName, PUBLISHED_COEFFICIENT};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
@@ -41,15 +43,18 @@ pub const TABLE: [(KindName, Printed); 3] = [
     (KindName::Sanded, printed(5.27, 11.38, 75683.0, 2.23, 3.87, "60-80")),
 ];
 const NOMINAL: f64 = 200.0;
-const SEEDS: u64 = 5;
+/// Generated surfaces of a row.
+pub(crate) const SEEDS: u64 = 5;
 const HARDNESS: f64 = 1280.0;
 const MODULUS: f64 = 210e3;
 const POISSON: f64 = 0.3;
 
-/// The scene of a row; σ_y for the closures that need it is that of eq. (20), H = 3 σ_y.
-fn scene(kind: KindName, row: &Printed, seed: u64, closure: &str) -> String {
-    format!(
-        r#"closure = "{closure}"
+/// The scene of a row; σ_y for the closures that need it is that of eq. (20), H = 3 σ_y. Only what the table
+/// prints is computed: no comparison of closures, no flow, no load curve of a half-space.
+fn scene(kind: KindName, row: &Printed, seed: u64, closure: Choice) -> Result<RoughScene, InputError> {
+    let text = format!(
+        r#"closure = "all"
+judge = false
 [surface.generate]
 kind = "{}"
 ra = "{} um"
@@ -66,12 +71,18 @@ hardening_exponent = 0.3
 [load]
 pressure = "{NOMINAL} MPa"
 unload = true
+[half_space]
+leak = false
+load_points = 1
 "#,
         kind.name(),
         row.ra,
         row.beta,
         HARDNESS / 3.0
-    )
+    );
+    let base = Path::new("");
+    let tables = RoughScene::from_toml(&text, base)?.tables().clone();
+    Ok(RoughScene::new(Scene { closure, ..tables }, base))
 }
 
 /// Values of one quantity, one per seed.
@@ -148,16 +159,21 @@ pub(crate) fn ended() -> Error {
     Error::Unfinished("stopped: nothing of it was written; the same command begins it anew".into())
 }
 
-/// Every closure on the surfaces of one row.
+/// The closures of `closure` on the surfaces of one row.
 ///
 /// # Errors
 /// A calibration that cannot be read, a surface that cannot be made or pressed, an observer that ended the
 /// work.
-pub fn measure(kind: KindName, row: &Printed, observer: &mut Told<'_>) -> Result<ComparedRow, Error> {
+pub fn measure(
+    kind: KindName,
+    row: &Printed,
+    closure: Choice,
+    observer: &mut Told<'_>,
+) -> Result<ComparedRow, Error> {
     let mut table: Vec<ClosureSeeds> = Vec::new();
     let mut notes = Vec::new();
     for seed in 1..=SEEDS {
-        let scene = RoughScene::from_toml(&scene(kind, row, seed, "all"), Path::new(""))?;
+        let scene = scene(kind, row, seed, closure)?;
         let rough = press(&scene, &mut |reached| {
             let closure = reached.news.map_or("half-space", |closure| closure.name());
             let share = ((seed - 1) as f64 + reached.share) / SEEDS as f64;
@@ -206,22 +222,23 @@ const JUDGED: [Closure; 2] = [Closure::Published, Closure::Johnson];
 pub fn other_kinds(
     kind: KindName,
     row: &Printed,
-    observer: &mut dyn FnMut(&str) -> bool,
+    observer: &mut Told<'_>,
 ) -> Result<Vec<ClosureSeeds>, Error> {
     let mut table = Vec::new();
-    for (other, _) in TABLE.iter().filter(|(other, _)| *other != kind) {
-        for closure in JUDGED {
-            let scene = RoughScene::from_toml(&scene(*other, row, 1, closure.name()), Path::new(""))?;
-            let message = format!("{} surface as a {} one, {}", kind.name(), other.name(), closure.name());
-            match press(&scene, &mut |_| observer(&message)) {
-                Ok(rough) if rough.stopped => return Err(ended()),
-                Ok(rough) => take_down(&mut table, &rough),
-                Err(Error::Input(_)) => {}
-                Err(error) => return Err(error),
-            }
+    let others = TABLE.into_iter().map(|(other, _)| other).filter(|other| *other != kind);
+    for (i, other) in others.enumerate() {
+        let message = format!("{} surface as a {} one", kind.name(), other.name());
+        let told = &mut |reached: &Progress<'_, Closure>| {
+            observer((i as f64 + reached.share) / (TABLE.len() - 1) as f64, &message)
+        };
+        match press(&scene(other, row, 1, Choice::Islands)?, told) {
+            Ok(rough) if rough.stopped => return Err(ended()),
+            Ok(rough) => take_down(&mut table, &rough),
+            Err(Error::Input(_)) => {}
+            Err(error) => return Err(error),
         }
     }
-    Ok(table)
+    Ok(table.into_iter().filter(|one| JUDGED.contains(&one.closure)).collect())
 }
 
 /// The whole table: the content of `table1.json`.
@@ -239,7 +256,7 @@ pub struct Table1 {
 pub fn table1(observer: &mut Told<'_>) -> Result<Table1, Error> {
     let share = |i: usize, share: f64| (i as f64 + share) / TABLE.len() as f64;
     let row = |(i, (kind, row)): (usize, (KindName, Printed))| {
-        measure(kind, &row, &mut |part, text| observer(share(i, part), text))
+        measure(kind, &row, Choice::All, &mut |part, text| observer(share(i, part), text))
     };
     let rows = TABLE.into_iter().enumerate().map(row).collect::<Result<_, Error>>()?;
     Ok(Table1 { rows })

@@ -188,9 +188,9 @@ impl HalfSpace {
         &self,
         surface: &Surface,
         load: Load,
-        start: &HalfSpaceContact,
+        start: Option<&HalfSpaceContact>,
     ) -> Result<HalfSpaceContact, HalfSpaceError> {
-        self.search(surface, load, Some(start), false)
+        self.search(surface, load, start, false)
     }
 
     fn search(

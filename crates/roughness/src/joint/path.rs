@@ -86,7 +86,7 @@ fn chord(
     found: &HalfSpaceContact,
 ) -> Result<Option<Stiffness>, HalfSpaceError> {
     let p = found.pressure;
-    let press = |pressure: f64| body.press_without_stiffness(surface, Load::Pressure(pressure), found);
+    let press = |pressure: f64| body.press_without_stiffness(surface, Load::Pressure(pressure), Some(found));
     let room = body.limit.map_or(f64::INFINITY, |limit| 0.5 * (limit - p));
     let mut reach = (REACH * p).min(room);
     let mut above = press(p + reach)?;

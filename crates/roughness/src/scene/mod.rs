@@ -37,7 +37,7 @@ use std::path::PathBuf;
 #[serde(deny_unknown_fields)]
 #[schemars(title = "A scene of `asperity rough`")]
 pub struct Scene {
-    /// Which closure, or all.
+    /// Which closure, or several.
     pub closure: Choice,
     /// Result of a calibration, for "fitted" (c), "calibrated" (cones, unloading) and "johnson" (unloading).
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -82,7 +82,7 @@ pub struct Scene {
     pub custom: Option<OwnClosure>,
 }
 
-/// One closure or all.
+/// One closure or several.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Choice {
@@ -102,6 +102,8 @@ pub enum Choice {
     HalfSpacePlastic,
     /// Every closure the material allows.
     All,
+    /// Every closure of single islands that the material allows: all but the half-spaces.
+    Islands,
     /// A closure that a program hands in.
     #[schemars(skip)]
     Custom,
@@ -110,11 +112,18 @@ pub enum Choice {
 impl Choice {
     /// The closures chosen, in the order of the tables.
     pub fn closures(self) -> Vec<Closure> {
-        if self == Choice::Custom {
-            return vec![Closure::Custom];
+        let of_islands = |closure: &Closure| !closure.is_half_space();
+        match self {
+            Choice::Custom => vec![Closure::Custom],
+            Choice::Islands => Closure::ALL.into_iter().filter(of_islands).collect(),
+            // the choices are the closures in their order, then all
+            _ => Closure::ALL.get(self as usize).map_or(Closure::ALL.to_vec(), |closure| vec![*closure]),
         }
-        // the choices are the closures in their order, then all
-        Closure::ALL.get(self as usize).map_or(Closure::ALL.to_vec(), |closure| vec![*closure])
+    }
+
+    /// True of a choice of several closures, of which one that cannot be used is a warning and no error.
+    pub fn is_several(self) -> bool {
+        matches!(self, Choice::All | Choice::Islands)
     }
 }
 
@@ -208,7 +217,7 @@ impl Scene {
     fn validate_but_load(&self) -> Result<(), SceneError> {
         match (self.closure, &self.custom) {
             (Choice::Custom, None) => {
-                let message = "\"custom\" is a closure that a program hands in: a file takes a built-in one, or \"all\"";
+                let message = "\"custom\" is a closure that a program hands in: a file takes a built-in one, \"islands\" or \"all\"";
                 return error("closure", message);
             }
             (choice, Some(_)) if choice != Choice::Custom => {

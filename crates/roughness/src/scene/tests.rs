@@ -31,6 +31,17 @@ fn a_scene_reads_and_is_written_back() {
     assert_eq!(toml::from_str::<Scene>(&toml::to_string(&scene).unwrap()).unwrap(), scene);
 }
 
+/// Beside "all", "islands" leaves out what is solved at once and no law of single islands.
+#[test]
+fn islands_are_all_closures_but_the_half_spaces() {
+    let scene = read(&GOOD.replacen("\"published\"", "\"islands\"", 1)).unwrap();
+    let [islands, all] = [scene.closure, Choice::All].map(Choice::closures);
+    assert!(islands.iter().all(|closure| !closure.is_half_space()));
+    assert!(all.iter().all(|closure| islands.contains(closure) != closure.is_half_space()));
+    assert!(scene.closure.is_several() && !Choice::Published.is_several());
+    assert_eq!(Choice::HalfSpacePlastic.closures(), [Closure::HalfSpacePlastic]);
+}
+
 #[test]
 fn a_wrong_scene_is_refused_where_it_is_wrong() {
     for (old, new, place) in [

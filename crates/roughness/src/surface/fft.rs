@@ -32,20 +32,42 @@ fn both(mut data: Vec<Complex64>, columns: usize, direction: FftDirection) -> Ve
     data
 }
 
-/// The map whose spectrum is that of `noise` times `gain(frequency index x, y)`, indices from -n/2 to n/2.
-pub(crate) fn shaped(noise: &[f64], columns: usize, gain: impl Fn(f64, f64) -> f64 + Sync) -> Vec<f64> {
-    let rows = noise.len() / columns;
-    let signed = |k: usize, n: usize| if 2 * k > n { k as f64 - n as f64 } else { k as f64 };
-    let mut spectrum =
-        both(noise.iter().map(|z| Complex64::new(*z, 0.0)).collect(), columns, FftDirection::Forward);
-    spectrum.par_chunks_mut(rows).enumerate().for_each(|(kx, line)| {
-        for (ky, value) in line.iter_mut().enumerate() {
-            *value *= gain(signed(kx, columns), signed(ky, rows));
-        }
-    });
-    let map = both(spectrum, rows, FftDirection::Inverse);
-    let scale = 1.0 / noise.len() as f64;
-    map.into_par_iter().map(|z| z.re * scale).collect()
+/// The spectrum of a map, of which maps with other spectra are made.
+pub(crate) struct Spectrum {
+    values: Vec<Complex64>,
+    columns: usize,
+    rows: usize,
+}
+
+impl Spectrum {
+    /// That of a map with rows of `columns` numbers.
+    pub fn of_map(map: &[f64], columns: usize) -> Spectrum {
+        let values =
+            both(map.iter().map(|z| Complex64::new(*z, 0.0)).collect(), columns, FftDirection::Forward);
+        Spectrum { values, columns, rows: map.len() / columns }
+    }
+
+    /// The map whose spectrum is this one times `gain(frequency index x, y)`, indices from 0 to n/2: waves
+    /// that run the other way have the same gain.
+    pub fn shaped(&self, gain: impl Fn(f64, f64) -> f64 + Sync) -> Vec<f64> {
+        let Spectrum { columns, rows, .. } = *self;
+        let folded = |k: usize, n: usize| k.min(n - k);
+        let [along_x, along_y] = [columns, rows].map(|n| n / 2 + 1);
+        let gains: Vec<f64> = (0..along_x * along_y)
+            .into_par_iter()
+            .map(|i| gain((i / along_y) as f64, (i % along_y) as f64))
+            .collect();
+        let mut spectrum = self.values.clone();
+        spectrum.par_chunks_mut(rows).enumerate().for_each(|(kx, line)| {
+            let gains = &gains[folded(kx, columns) * along_y..];
+            for (ky, value) in line.iter_mut().enumerate() {
+                *value *= gains[folded(ky, rows)];
+            }
+        });
+        let map = both(spectrum, rows, FftDirection::Inverse);
+        let scale = 1.0 / (columns * rows) as f64;
+        map.into_par_iter().map(|z| z.re * scale).collect()
+    }
 }
 
 #[cfg(test)]
@@ -56,7 +78,7 @@ mod tests {
     fn a_gain_of_one_returns_the_map_and_of_a_shift_of_sign_its_negative() {
         let map: Vec<f64> = (0..12 * 35).map(|i| ((i * i) as f64).sin()).collect();
         for (gain, sign) in [(1.0, 1.0), (-1.0, -1.0)] {
-            let out = shaped(&map, 35, |_, _| gain);
+            let out = Spectrum::of_map(&map, 35).shaped(|_, _| gain);
             assert!(map.iter().zip(&out).all(|(a, b)| (a * sign - b).abs() < 1e-13));
         }
     }
@@ -65,7 +87,7 @@ mod tests {
     fn one_frequency_is_kept() {
         let wave = |i: usize| (std::f64::consts::TAU * ((i % 16) * 3) as f64 / 16.0).cos() + 5.0;
         let map: Vec<f64> = (0..16 * 8).map(wave).collect();
-        let out = shaped(&map, 16, |x, y| if x.abs() == 3.0 && y == 0.0 { 1.0 } else { 0.0 });
+        let out = Spectrum::of_map(&map, 16).shaped(|x, y| if x == 3.0 && y == 0.0 { 1.0 } else { 0.0 });
         assert!(map.iter().zip(&out).all(|(a, b)| (a - 5.0 - b).abs() < 1e-13));
     }
 }

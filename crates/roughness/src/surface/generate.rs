@@ -4,8 +4,9 @@
 //! Every kind is a shape that depends on one length; the length is searched so that the mean slope belongs to
 //! the arithmetic mean height, and the heights are then scaled. The random numbers depend on the seed alone.
 
-use crate::surface::fft;
+use crate::surface::fft::Spectrum;
 use crate::surface::height_map::{HeightMap, MapError};
+use crate::surface::parameters::height_over_slope;
 use crate::surface::prepared_surface::Surface;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
@@ -127,6 +128,7 @@ fn noise(seed: u64, count: usize) -> Vec<f64> {
 /// Waves that the grid does not hold, or a height and a slope that no surface of the kind has together.
 pub fn generate(kind: Kind, grid: &Grid, target: Target) -> Result<HeightMap, GenerateError> {
     let noise = noise(grid.seed, grid.nodes[0].saturating_mul(grid.nodes[1]));
+    let noise = Spectrum::of_map(&noise, grid.nodes[0]);
     let (shape, wanted) = match (kind, target) {
         (Kind::SelfAffine { hurst, rolloff, cutoff }, target) => {
             let least = 2.0 * grid.pixel[0].max(grid.pixel[1]);
@@ -159,13 +161,21 @@ fn span(grid: &Grid) -> f64 {
 
 /// The shape whose Ra over mean slope is `ra`/`slope`: the ratio grows with the longest wave, which is
 /// searched.
-fn matched(kind: Kind, grid: &Grid, noise: &[f64], ra: f64, slope: f64) -> Result<Vec<f64>, GenerateError> {
+fn matched(
+    kind: Kind,
+    grid: &Grid,
+    noise: &Spectrum,
+    ra: f64,
+    slope: f64,
+) -> Result<Vec<f64>, GenerateError> {
     let wanted = ra / slope;
-    let ratio = |wave: f64| -> Result<(f64, Vec<f64>), GenerateError> {
-        let Surface { map, parameters, .. } = on_grid(grid, machined(kind, grid, noise, wave))?;
-        Ok((parameters.sa / parameters.mean_gradient, map.heights().to_vec()))
-    };
     let pixel = grid.pixel[0].max(grid.pixel[1]);
+    let tried = |wave: f64| -> Result<(f64, Vec<f64>), GenerateError> {
+        let shape = machined(kind, grid, noise, wave);
+        let map = HeightMap::new(grid.nodes[0], grid.nodes[1], grid.pixel, shape)?;
+        let found = height_over_slope(&map, &map.extent()?);
+        Ok((found, map.into_heights()))
+    };
     let no_shape = |need| GenerateError::NoShape {
         ra_um: ra * 1e6,
         slope_deg: slope.atan().to_degrees(),
@@ -174,32 +184,37 @@ fn matched(kind: Kind, grid: &Grid, noise: &[f64], ra: f64, slope: f64) -> Resul
         pixel_um: pixel * 1e6,
     };
     let (mut low, mut high) = (6.0 * pixel, 0.7 * span(grid));
-    if low >= high || ratio(high)?.0 < wanted {
+    if low >= high {
         return Err(no_shape("too long"));
     }
-    if ratio(low)?.0 > wanted {
-        return Err(no_shape("too short"));
-    }
+    // an end is tried when the search first leaves the bracket there
+    let mut untried = [true; 2];
     // the ratio is nearly proportional to the wave: the first guess is scaled, the bracket keeps it honest
     let mut wave = (7.0 * wanted).clamp(low, high);
     for _ in 0..60 {
-        let (found, shape) = ratio(wave)?;
+        let (found, shape) = tried(wave)?;
         if (found / wanted - 1.0).abs() < MATCH_TOLERANCE || high - low < 1e-12 * high {
             return Ok(shape);
         }
         if found < wanted {
-            low = wave
+            (low, untried[0]) = (wave, false);
         } else {
-            high = wave
+            (high, untried[1]) = (wave, false);
         }
         let scaled = wave * wanted / found;
+        if scaled >= high && std::mem::take(&mut untried[1]) && tried(high)?.0 < wanted {
+            return Err(no_shape("too long"));
+        }
+        if scaled <= low && std::mem::take(&mut untried[0]) && tried(low)?.0 > wanted {
+            return Err(no_shape("too short"));
+        }
         wave = if scaled > low && scaled < high { scaled } else { (low * high).sqrt() };
     }
-    Ok(ratio(wave)?.1)
+    Ok(tried(wave)?.1)
 }
 
 /// Heights of a machined surface whose longest wave is `wave`, of any scale.
-fn machined(kind: Kind, grid: &Grid, noise: &[f64], wave: f64) -> Vec<f64> {
+fn machined(kind: Kind, grid: &Grid, noise: &Spectrum, wave: f64) -> Vec<f64> {
     let pixel = grid.pixel[0].max(grid.pixel[1]);
     let waves = |longest: f64| [longest, (longest / OCTAVES).max(4.0 * pixel).min(0.9 * longest)];
     match kind {
@@ -227,10 +242,10 @@ enum End {
 }
 
 /// Gaussian heights with waves between `waves` = [roll-off, cut-off] (m); `lay` stretches them along y.
-fn self_affine(noise: &[f64], grid: &Grid, hurst: f64, waves: [f64; 2], lay: f64, end: End) -> Vec<f64> {
+fn self_affine(noise: &Spectrum, grid: &Grid, hurst: f64, waves: [f64; 2], lay: f64, end: End) -> Vec<f64> {
     let size = [0, 1].map(|k| grid.nodes[k] as f64 * grid.pixel[k]);
     let [low, high] = waves.map(|w| 1.0 / w);
-    fft::shaped(noise, grid.nodes[0], |kx, ky| {
+    noise.shaped(|kx, ky| {
         let q = (kx / size[0]).hypot(lay * ky / size[1]);
         if q == 0.0 || (end == End::Sharp && q > high) {
             return 0.0;

@@ -122,6 +122,11 @@ impl HeightMap {
         &self.heights
     }
 
+    /// The heights alone, as [`HeightMap::heights`] gives them.
+    pub(crate) fn into_heights(self) -> Vec<f64> {
+        self.heights
+    }
+
     /// The number of nodes that have no height.
     pub fn missing(&self) -> usize {
         self.missing

@@ -45,11 +45,7 @@ impl Parameters {
 
     /// The numbers of `map`; `extent` is its own.
     pub fn measure(map: &HeightMap, extent: &Extent) -> Parameters {
-        let nodes = (map.heights().len() - map.missing()) as f64;
-        let reference = 0.5 * (extent.low + extent.high);
-        let above = |part: &[f64]| part.iter().filter(|z| !z.is_nan()).map(|z| z - reference).sum::<f64>();
-        let mean = reference + map.parts(above).iter().sum::<f64>() / nodes;
-        let [sa, s2, s3, s4] = central_sums(map, mean, extent.high - extent.low).map(|s| s / nodes);
+        let (mean, [sa, s2, s3, s4]) = moments(map, extent);
         let range = extent.high - extent.low;
         let (ssk, sku) =
             if s2 > 0.0 { (s3 / (s2 * s2.sqrt()), s4 / (s2 * s2)) } else { (f64::NAN, f64::NAN) };
@@ -72,6 +68,22 @@ impl Parameters {
             mean_slope_x: slope_x,
         }
     }
+}
+
+/// Arithmetic mean height of `map` over its mean |∇h|, whose `extent` is its own, in metres.
+pub(crate) fn height_over_slope(map: &HeightMap, extent: &Extent) -> f64 {
+    let (_, [sa, ..]) = moments(map, extent);
+    let [gradient, ..] = slope_sums(map).map(|s| s / extent.cells as f64);
+    sa * (extent.high - extent.low) / gradient
+}
+
+/// Mean height of the nodes, and the means of |u|, u², u³, u⁴ with u = (z - mean)/range.
+fn moments(map: &HeightMap, extent: &Extent) -> (f64, [f64; 4]) {
+    let nodes = (map.heights().len() - map.missing()) as f64;
+    let reference = 0.5 * (extent.low + extent.high);
+    let above = |part: &[f64]| part.iter().filter(|z| !z.is_nan()).map(|z| z - reference).sum::<f64>();
+    let mean = reference + map.parts(above).iter().sum::<f64>() / nodes;
+    (mean, central_sums(map, mean, extent.high - extent.low).map(|s| s / nodes))
 }
 
 /// Σ|u|, Σu², Σu³, Σu⁴ with u = (z - mean)/range.
