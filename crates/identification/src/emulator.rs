@@ -43,7 +43,8 @@ pub struct Emulator {
     lift: Vec<f64>,
 }
 
-/// The coefficient of friction whose tool holds a surface like one that sticks: most of it does from there on.
+/// The coefficient of friction whose tool holds a surface like one that sticks: most of it does from there
+/// on.
 const STICKS_LIKE: f64 = 0.5;
 
 /// The coordinates of a question: logarithms of E/σ_y, n (of what is no power law: of E over

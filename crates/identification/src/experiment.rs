@@ -127,8 +127,8 @@ impl Experiment {
         matches!(self.data, Data::Imprint(_) | Data::ImprintNumbers(_))
     }
 
-    /// True where the atlas of sharp cones is the trend: curves and their numbers under one, smooth or of known
-    /// friction.
+    /// True where the atlas of sharp cones is the trend: curves and their numbers under one, smooth or of
+    /// known friction.
     pub fn is_sharp(&self) -> bool {
         matches!(self.geometry, Geometry::Sharp { .. }) && !self.is_imprint() && !self.friction_sought
     }

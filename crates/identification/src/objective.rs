@@ -10,8 +10,8 @@ use nalgebra::{Cholesky, DMatrix, DVector, Dyn, SymmetricEigen};
 ///
 /// The deviations of what finite elements expect are those of the metal that is asked for: a metal far from
 /// every computed one is not ruled out by what the emulator does not know of it. A search does not prefer it
-/// for that either: there the growth of ln det C over that of a computed metal is one more residual, as in the
-/// likelihood of a normal law. Intervals go without it, for what was not asked does not narrow them.
+/// for that either: there the growth of ln det C over that of a computed metal is one more residual, as in
+/// the likelihood of a normal law. Intervals go without it, for what was not asked does not narrow them.
 pub struct Objective<'a> {
     experiments: &'a [Experiment],
     unknowns: &'a Unknowns,

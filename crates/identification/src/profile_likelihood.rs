@@ -246,7 +246,7 @@ mod tests {
         let best = Minimum { point: vec![0.0, 0.0], chi2: 0.0 };
         let bounds = [[-1.0, 1.0], [-1.0, 1.0]];
         let profile = Profile { residuals: &residuals, bounds: &bounds, lowest: 0.0 };
-        let sum = profile.of_number(&[best.clone()], &|p| Some(p[0] + p[1]), 0.1).unwrap();
+        let sum = profile.of_number(std::slice::from_ref(&best), &|p| Some(p[0] + p[1]), 0.1).unwrap();
         assert!((sum.ends[1] - 0.196).abs() < 2e-3 && (sum.ends[0] + 0.196).abs() < 2e-3, "{sum:?}");
         let one = Interval::from_ends(&profile.ends_of_coordinate(&[best], 0, 0.1, &[1.0, -1.0]));
         assert_eq!((one.ends, one.bounded), ([-1.0, 1.0], [true, true]));

@@ -96,7 +96,7 @@ pub fn search(
     let found = objective(experiments, unknowns, &best.point)?.for_intervals();
     for other in allowed_minima(&found, unknowns, &best).into_iter().take(OTHER_MINIMA) {
         go_on(observer, 0.99, "asking finite elements at another metal that fits")?;
-        ask.ask_at(experiments, unknowns, (&[other.point.clone()], false), Accuracy::Draft)?;
+        ask.ask_at(experiments, unknowns, (std::slice::from_ref(&other.point), false), Accuracy::Draft)?;
         let there = again(experiments, unknowns, &other.point)?;
         best = again(experiments, unknowns, &best.point)?;
         if there.chi2 < best.chi2 {
@@ -154,7 +154,7 @@ impl Asking<'_> {
         let mut asked = Vec::new();
         for round in 0..ROUNDS {
             go_on(observer, share(0.2 * round as f64), "asking finite elements at the best fit")?;
-            self.ask_at(experiments, unknowns, (&[best.point.clone()], true), Accuracy::Draft)?;
+            self.ask_at(experiments, unknowns, (std::slice::from_ref(&best.point), true), Accuracy::Draft)?;
             asked.clone_from(&best.point);
             *best = again(experiments, unknowns, &asked)?;
             if moved(experiments, unknowns, &asked, &best.point) < SETTLED_DEVIATIONS {
@@ -179,7 +179,7 @@ impl Asking<'_> {
         for _ in 0..FINAL_ROUNDS {
             go_on(observer, share(0.9), "the final answer")?;
             asked.clone_from(&best.point);
-            self.ask_at(experiments, unknowns, (&[asked.clone()], true), self.accuracy)?;
+            self.ask_at(experiments, unknowns, (std::slice::from_ref(&asked), true), self.accuracy)?;
             // what a finer level says may lead to another valley
             *best = lowest_from(experiments, unknowns, &asked)?;
             if moved(experiments, unknowns, &asked, &best.point) < SETTLED_DEVIATIONS {
