@@ -18,17 +18,17 @@ use std::sync::Arc;
 /// ```
 /// use asperity_material::FlowCurve;
 ///
-/// /// Ludwik's σ = σ_y + K ε_p^m, its slope bounded at first yield.
+/// /// σ = σ_y + K (ε_p + 1e-6)^m: Ludwik's law, its slope bounded at first yield.
 /// #[derive(Debug)]
-/// struct Ludwik {
+/// struct Shifted {
 ///     yield_stress: f64,
 ///     strength: f64,
 ///     exponent: f64,
 /// }
 ///
-/// impl FlowCurve for Ludwik {
+/// impl FlowCurve for Shifted {
 ///     fn name(&self) -> &str {
-///         "ludwik"
+///         "shifted-power"
 ///     }
 ///     fn parameters(&self) -> Vec<(&str, f64)> {
 ///         vec![("yield_stress_Pa", self.yield_stress), ("strength_Pa", self.strength), ("exponent", self.exponent)]
@@ -40,7 +40,7 @@ use std::sync::Arc;
 ///     }
 /// }
 ///
-/// let law = Ludwik { yield_stress: 300e6, strength: 500e6, exponent: 0.5 };
+/// let law = Shifted { yield_stress: 300e6, strength: 500e6, exponent: 0.5 };
 /// // q - 3G Δε_p = σ(ε_p) from the virgin state on
 /// let strain = law.return_to_yield(1e9, 240e9, 0.0);
 /// assert!((1e9 - 240e9 * strain - law.flow(strain)[0]).abs() < 1.0);

@@ -1,4 +1,4 @@
-//! The door for tools of other crates: a rigid outline that a program hands in.
+//! A rigid outline given by functions: of this program (`punch.rs`), or of another crate that hands it in.
 
 use std::fmt;
 use std::sync::Arc;
@@ -30,7 +30,7 @@ const LEAST_SLOPE: f64 = 1e-3;
 /// ```
 /// use asperity_mesh::{Penetration, ToolOutline};
 ///
-/// /// A paraboloid, z = r²/2R; the depth is measured along z.
+/// /// A flat paraboloid, z = r²/2R: far inside R the height over it is a distance to first order.
 /// #[derive(Debug)]
 /// struct Paraboloid {
 ///     radius: f64,

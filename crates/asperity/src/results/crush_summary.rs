@@ -96,7 +96,7 @@ columns! {
         /// Depth at the peak.
         peak_depth: Length,
         /// After unloading: how much lower the highest point of the body is than its first summit; under a
-        /// cone or a sphere, how far that tool now travels before it touches.
+        /// tool that is no plane, how far it now travels before it touches.
         residual_depth: Length,
         /// dF/dh at the peak from one elastic solve with the contact kept.
         unloading_stiffness: Stiffness,

@@ -2,7 +2,7 @@
 //! files are put.
 
 pub mod columns;
-pub(crate) mod crush_rows;
+pub(crate) mod crush_columns;
 pub(crate) mod crush_summary;
 pub mod output;
 pub mod units;

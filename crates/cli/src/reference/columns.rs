@@ -61,7 +61,7 @@ pub fn page() -> String {
     text += &of_crush::<Errors>("summary.json: `errors`", "bounds of the errors");
     text += &of_crush::<OliverPharr>(
         "summary.json: `oliver_pharr`",
-        "an instrument's reading, under a cone or a sphere with unloading",
+        "an instrument's reading, under a tool that is no plane, with unloading",
     );
     text += &of_crush::<Smoothing>("summary.json: `outlines`", "what was made of a measured outline");
     text += &of_crush::<Island>("summary.json: `elastic_islands`", "regions that never yielded");

@@ -23,7 +23,7 @@ pub(super) struct EnergyAccount {
     /// Force at the start of the last increment, and its length.
     earlier: Option<[f64; 2]>,
     /// Share of the work that went into flow while the body was loaded first: see
-    /// [`asperity_solver::contact::penalty_correction`].
+    /// [`asperity_solver::contact::depth_correction`].
     plastic_share: f64,
 }
 

@@ -8,7 +8,7 @@ use asperity_numerics::newton::{KEPT_FACTORS_REDUCTION, Settings, solve};
 use asperity_solver::body::analysis::Analyses;
 use asperity_solver::body::energy::{ContactSums, contact_sums};
 use asperity_solver::body::failure::Failure as BodyFailure;
-use asperity_solver::contact::penalty_correction::Punches;
+use asperity_solver::contact::depth_correction::Punches;
 use asperity_solver::equilibrium::{Equilibrium, SolveFailure};
 use asperity_solver::remesh::distortion::LIMITS_WHILE_LOADING;
 

@@ -20,7 +20,7 @@ pub struct Material {
     /// Poisson's ratio ν, in (-1, 0.5).
     #[schemars(extend("exclusiveMinimum" = -1, "exclusiveMaximum" = 0.5))]
     pub poissons_ratio: f64,
-    /// Initial yield stress σ_y; absent without a table: the body stays elastic.
+    /// Initial yield stress σ_y; absent with `hollomon` or `swift`: the body stays elastic; `voce` needs it.
     #[schemars(example = "300 MPa")]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub yield_stress: Option<Stress>,
@@ -179,7 +179,7 @@ impl Material {
         if self.hardening_mode == HardeningMode::Kinematic && !self.yields() {
             return Err(error(
                 "hardening_mode",
-                "needs a metal that yields: give yield_stress and hardening_exponent, or a table, or leave it out",
+                "needs a metal that yields: give the keys of its hardening_law, or leave it out",
             ));
         }
         match self.kinematic_share {
@@ -210,18 +210,20 @@ impl Material {
 
     /// No key belongs to another law.
     fn check_keys_of_laws(&self) -> Check {
-        for (path, given, law) in [
-            ("hardening_file", self.hardening_file.is_some(), HardeningChoice::Table),
-            ("hardening_table", self.hardening_table.is_some(), HardeningChoice::Table),
-            ("saturation_stress", self.saturation_stress.is_some(), HardeningChoice::Voce),
-            ("saturation_strain", self.saturation_strain.is_some(), HardeningChoice::Voce),
-            ("custom", self.custom.is_some(), HardeningChoice::Custom),
-        ] {
-            if given && self.hardening_law != law {
-                return Err(error(
-                    path,
-                    format!("needs hardening_law = \"{}\" beside it: add that, or remove it", law.name()),
-                ));
+        // a key that several laws have names all of them
+        let rows: [(&str, bool, &[HardeningChoice]); 5] = [
+            ("hardening_file", self.hardening_file.is_some(), &[HardeningChoice::Table]),
+            ("hardening_table", self.hardening_table.is_some(), &[HardeningChoice::Table]),
+            ("saturation_stress", self.saturation_stress.is_some(), &[HardeningChoice::Voce]),
+            ("saturation_strain", self.saturation_strain.is_some(), &[HardeningChoice::Voce]),
+            ("custom", self.custom.is_some(), &[HardeningChoice::Custom]),
+        ];
+        for (path, given, laws) in rows {
+            if given && !laws.contains(&self.hardening_law) {
+                let names: Vec<String> = laws.iter().map(|law| format!("\"{}\"", law.name())).collect();
+                let message =
+                    format!("needs hardening_law = {} beside it: add that, or remove it", names.join(" or "));
+                return Err(error(path, message));
             }
         }
         Ok(())

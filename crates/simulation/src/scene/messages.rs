@@ -1,4 +1,4 @@
-//! Ranges of single values, and the sentences for values outside of them.
+//! Sentences for values outside of their ranges.
 
 use super::SceneError;
 use asperity_material::units::Length;

@@ -6,11 +6,11 @@
 mod accuracy;
 mod area_function;
 mod build;
-mod checks;
 mod earlier_loads;
 mod friction;
 mod geometry;
 mod initial;
+mod keys_together;
 mod line;
 mod loading;
 mod material;

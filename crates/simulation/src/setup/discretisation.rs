@@ -1,5 +1,5 @@
 //! The numbers of the discretisation that an accuracy chooses for a scene and for a self-similar cone:
-//! elements, steps, penalty, tolerance, size of the substrate.
+//! elements, steps, penetration, tolerance, size of the substrate.
 
 use crate::scene::{Accuracy, ElementChoice, Numerics, Scene, Symmetry, ToolForm};
 use crate::setup::schedule::{Spacing, loading};

@@ -1,6 +1,6 @@
-//! Where increments end: depths on the way to the peak, travels on the way back.
+//! Where load steps end: depths on the way to the peak, travels on the way back.
 
-/// How loading is divided into increments.
+/// Division of loading into load steps.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Spacing {
     /// Three equal increments to this share of the depth, then geometric ones: the error of an increment

@@ -4,8 +4,8 @@ use crate::body::assembly::Response;
 use crate::body::discrete_body::Body;
 use crate::body::elements::current;
 use crate::body::state::{State, Trial};
+use crate::contact::depth_correction::{Punches, under_punches};
 use crate::contact::edge::{ContactEdge, EdgeContact};
-use crate::contact::penalty_correction::{Punches, under_punches};
 use crate::contact::tool::{Penetration, Tool};
 
 /// Positions of the surface's nodes with the contact there.

@@ -16,7 +16,7 @@ pub mod friction;
 
 mod roots;
 
-pub mod penalty_correction;
+pub mod depth_correction;
 
 pub mod projection;
 

@@ -1,4 +1,5 @@
-//! Which scenes make sense.
+//! Keys that have to go together, and those of `[numerics]`; the range of one key stands in the file of its
+//! table.
 
 use super::geometry::HIGHEST_CAP;
 use super::measured::span_of;
