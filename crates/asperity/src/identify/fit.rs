@@ -160,7 +160,10 @@ fn experiments_of(
     };
     let of_the_imprint = left.map(|data| {
         let made = experiment(curve, (number, format!("{name}, imprint")), geometry.clone(), data, depth)?;
-        Ok(Experiment { imprint_force, model_error: 0.0, ..made })
+        let file = curve.imprint.as_ref().map(|imprint| imprint.table().file);
+        let label = file.as_ref().and_then(|file| file.file_name());
+        let label = label.map_or_else(|| made.label.clone(), |name| name.to_string_lossy().into_owned());
+        Ok(Experiment { imprint_force, label, model_error: 0.0, ..made })
     });
     let no_curve = matches!(
         data,

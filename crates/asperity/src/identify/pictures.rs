@@ -96,7 +96,8 @@ impl Drawn {
         let most = points().map(|p| p[1]).fold(0.0, f64::max);
         let (scale, unit) = if most < 0.1 { (1e3, "mN") } else { (1.0, "N") };
         let scaled = |points: &[[f64; 2]]| points.iter().map(|p| [p[0], scale * p[1]]).collect();
-        let lines = self.ones.iter().enumerate().flat_map(|(i, one)| {
+        let curves = self.ones.iter().enumerate().filter(|(_, one)| !one.measured.is_empty());
+        let lines = curves.flat_map(|(i, one)| {
             let fitted = Series::line(format!("{}, fit", one.name), scaled(&one.fitted));
             let measured = Series::line(format!("{}, measured", one.name), scaled(&one.measured));
             [
