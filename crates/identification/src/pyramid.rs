@@ -3,8 +3,8 @@
 //!
 //! The correction is fitted to fourteen three-dimensional finite-element simulations of Berkovich's pyramid
 //! (Lu et al., PNAS 117 (2020) 7052, their Berkovich.csv; rigid, frictionless, ν 0.3, depth 0.2 µm) over this
-//! program's cones of 70.3° at `reference`, in E/σ_y and the stress at [`STRAIN`] over σ_y, which every law
-//! of hardening has.
+//! program's cones of 70.3° at `reference`, in E/σ_y and the stress at a plastic strain of 0.033 over σ_y,
+//! which every law of hardening has.
 
 use crate::response::DesignPoint;
 
