@@ -2,6 +2,7 @@
 
 use super::experiment::{Data, Expected, Experiment, recovery};
 use super::imprint;
+use super::interpolation::alike;
 use super::parameters::Unknowns;
 use crate::measured_curve::Measured;
 use nalgebra::{Cholesky, DMatrix, Dyn};
@@ -57,11 +58,6 @@ impl Covariance {
         }
         sum
     }
-}
-
-/// Correlation of two places a distance `apart` of each other.
-fn alike(apart: f64, length: f64) -> f64 {
-    (-0.5 * (apart / length).powi(2)).exp()
 }
 
 impl Experiment {

@@ -3,7 +3,7 @@
 
 use super::emulator::by_the_atlas;
 use super::experiment::{Data, Experiment};
-use super::objective::{Objective, curvature};
+use super::objective::{Objective, curvature, slopes};
 use super::parameters::{Parameter, Slot, Unknowns};
 use super::response::{DesignPoint, Geometry};
 use crate::levenberg_marquardt::jacobian;
@@ -205,6 +205,12 @@ pub fn next_experiment(
     })
 }
 
+/// Changes of all coordinates at the minimum as coordinate `i` grows by one, by their `deviations` and
+/// `correlation`.
+pub fn along_coordinate(i: usize, deviations: &[f64], correlation: &[Vec<f64>]) -> Vec<f64> {
+    correlation[i].iter().zip(deviations).map(|(c, deviation)| c * deviation / deviations[i]).collect()
+}
+
 /// Standard deviations of the coordinates and their correlations by the curvature at the minimum; a direction
 /// that is not seen has the width of the bounds.
 pub fn deviations(
@@ -245,12 +251,8 @@ pub fn decided(
     if experiments.len() < 2 {
         return Some(Vec::new());
     }
-    let bounds = objective.bounds();
-    let mut slopes = jacobian(objective, point, &bounds)?;
-    for (mut column, [low, high]) in slopes.column_iter_mut().zip(&bounds) {
-        column *= high - low;
-    }
-    let count = bounds.len();
+    let slopes = slopes(objective, point)?;
+    let count = unknowns.parameters.len();
     // the bounds themselves are a weak measurement
     let information = |rows: &DMatrix<f64>| rows.tr_mul(rows) + 3.0 * DMatrix::<f64>::identity(count, count);
     let whole = information(&slopes).try_inverse()?;

@@ -5,7 +5,7 @@
 //! and Vlassak 2024). Heights stand over the deepest depth h, places over the contact radius a under load: so
 //! a profile varies smoothly with the metal, and that of a sharp cone does not depend on the depth.
 
-use crate::interpolation::linear_between;
+use crate::interpolation::{alike, linear_between};
 use asperity_numerics::least_squares;
 use asperity_simulation::scene::Accuracy;
 use nalgebra::DMatrix;
@@ -45,7 +45,7 @@ const ALIKE_RADII: f64 = 0.25;
 /// to 0.003 at `standard` and 0.001 to 0.008 at `draft` but for the rim, where 0.010 to 0.013 and 0.013 to
 /// 0.031 are off, for an element there is a tenth or a twentieth of the contact long.
 const HEIGHT_ERROR: f64 = 0.002;
-/// Error of the rim over that elsewhere, and the contact radii over which it is alike and falls.
+/// Error of the rim over that elsewhere, and the contact radii over which it falls.
 const RIM_FACTOR: f64 = 5.0;
 const RIM_RADII: f64 = 0.04;
 
@@ -130,24 +130,19 @@ impl Imprint {
         let pair = |of: &dyn Fn(f64, f64, bool) -> f64| {
             DMatrix::from_fn(count, count, |i, j| of(self.points[i][0], self.points[j][0], i == j))
         };
-        let alike = |apart: f64, length: f64| (-apart.abs() / length).exp();
         let noise = pair(&|a, b, same| {
             let together = match self.correlation_length {
-                length if length > 0.0 => alike(a - b, length),
+                length if length > 0.0 => (-(a - b).abs() / length).exp(),
                 _ => f64::from(u8::from(same)),
             };
             let levelling = LEVELLING_SHARE.powi(2) * (1.0 + a * b / (radius * radius));
             (self.noise / depth).powi(2) * together + levelling
         });
-        let size = |place: f64| 1.0 + (RIM_FACTOR - 1.0) * bell(place.abs() / radius - 1.0, RIM_RADII);
+        let size = |place: f64| 1.0 + (RIM_FACTOR - 1.0) * alike(place.abs() / radius - 1.0, RIM_RADII);
         // on both sides of the axis the finite elements are off alike
-        let model = pair(&|a, b, _| size(a) * size(b) * bell((a.abs() - b.abs()) / radius, ALIKE_RADII));
+        let model = pair(&|a, b, _| size(a) * size(b) * alike((a.abs() - b.abs()) / radius, ALIKE_RADII));
         [noise, model]
     }
-}
-
-fn bell(apart: f64, length: f64) -> f64 {
-    (-0.5 * (apart / length).powi(2)).exp()
 }
 
 /// Relative 95 % errors of a computed imprint at `accuracy`, as those of a response stand.

@@ -4,7 +4,8 @@
 use crate::branches::{allowed_minima, branches};
 use crate::experiment::{Data, Experiment};
 use crate::identifiability::{
-    Decided, NextExperiment, NullDirection, decided, deviations, identified, next_experiment, null_direction,
+    Decided, NextExperiment, NullDirection, along_coordinate, decided, deviations, identified,
+    next_experiment, null_direction,
 };
 use crate::levenberg_marquardt::Minimum;
 use crate::numbers::{Branch, CurveResidual, Found, Residual, StressAt, fits};
@@ -57,8 +58,7 @@ pub struct Sampling {
 }
 
 /// All that `experiments` say of `unknowns` at the `best` fit; `None` where there is no metal. While there
-/// are
-/// `doubts` of the model nothing counts as determined.
+/// are `doubts` of the model nothing counts as determined.
 pub fn infer(
     experiments: &[Experiment],
     unknowns: &Unknowns,
@@ -75,8 +75,7 @@ pub fn infer(
     let all: Vec<Minimum> = std::iter::once(best).chain(&others).cloned().collect();
     let profile = Profile { residuals: &objective, bounds: &bounds, lowest: best.chi2 };
     let interval = |minima: &[Minimum], i: usize| {
-        let size = |j: usize| deviations[j] / deviations[i];
-        let along: Vec<f64> = (0..bounds.len()).map(|j| correlation[i][j] * size(j)).collect();
+        let along = along_coordinate(i, &deviations, &correlation);
         Interval::from_ends(&profile.ends_of_coordinate(minima, i, deviations[i], &along))
     };
     let intervals: Vec<Interval> = (0..bounds.len()).into_par_iter().map(|i| interval(&all, i)).collect();

@@ -1,4 +1,9 @@
-//! Interpolation between points of rising x.
+//! Interpolation between points of rising x, and the correlation of places.
+
+/// Correlation of two places a distance `apart` of each other, alike over `length`.
+pub fn alike(apart: f64, length: f64) -> f64 {
+    (-0.5 * (apart / length).powi(2)).exp()
+}
 
 /// Linear between `points` of rising x, and on beyond their ends.
 pub fn linear_between(points: &[[f64; 2]], x: f64) -> f64 {

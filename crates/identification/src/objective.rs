@@ -105,14 +105,21 @@ impl ResidualFunction for Objective<'_> {
 /// Curvature of a coordinate whose bounds meet.
 const HELD_CURVATURE: f64 = 1e18;
 
-/// Curvature of half the sum of squares, coordinates over the widths of their bounds, with its eigenvalues
-/// and directions.
-pub fn curvature(objective: &Objective<'_>, point: &[f64]) -> Option<SymmetricEigen<f64, Dyn>> {
+/// Derivatives of the residuals at `point`, coordinates over the widths of their bounds.
+pub fn slopes(objective: &Objective<'_>, point: &[f64]) -> Option<DMatrix<f64>> {
     let bounds = objective.bounds();
     let mut slopes = jacobian(objective, point, &bounds)?;
     for (mut column, [low, high]) in slopes.column_iter_mut().zip(&bounds) {
         column *= high - low;
     }
+    Some(slopes)
+}
+
+/// Curvature of half the sum of squares, coordinates over the widths of their bounds, with its eigenvalues
+/// and directions.
+pub fn curvature(objective: &Objective<'_>, point: &[f64]) -> Option<SymmetricEigen<f64, Dyn>> {
+    let bounds = objective.bounds();
+    let slopes = slopes(objective, point)?;
     let mut normal: DMatrix<f64> = slopes.tr_mul(&slopes);
     // a coordinate that is held is known
     for (i, _) in bounds.iter().enumerate().filter(|(_, [low, high])| high <= low) {
@@ -127,12 +134,12 @@ pub fn roughly<'a>(experiments: &'a [Experiment], unknowns: &'a Unknowns, rough:
     Box::new(move |point: &[f64]| {
         let mut all = Vec::new();
         for experiment in experiments {
-            let sharp = matches!(experiment.geometry, super::response::Geometry::Sharp { .. });
             let differences = experiment.differences(unknowns, point, true)?;
             // the points of a curve say together little more than one
             let many = (differences.len() as f64 / 3.0).max(1.0).sqrt();
-            let error =
-                (if sharp { 0.03 } else { rough }).hypot(experiment.noise).hypot(experiment.model_error);
+            let error = (if experiment.is_similar() { 0.03 } else { rough })
+                .hypot(experiment.noise)
+                .hypot(experiment.model_error);
             all.extend(differences.iter().map(|d| d / (error * many)));
         }
         all.iter().all(|x| x.is_finite()).then_some(all)

@@ -101,13 +101,11 @@ impl Profile<'_> {
             let chi2 = if met { chi2(self.residuals, &point) } else { f64::INFINITY };
             Minimum { point, chi2 }
         };
-        let numbers = minima.iter().map(|m| number(&m.point)).collect::<Option<Vec<f64>>>()?;
-        minima.first()?;
+        if minima.is_empty() || minima.iter().any(|m| number(&m.point).is_none()) {
+            return None;
+        }
         let far = 40.0;
-        let value = |minimum: &Minimum| {
-            let known = minima.iter().position(|m| m.point == minimum.point);
-            known.map_or(f64::NAN, |k| numbers[k])
-        };
+        let value = |minimum: &Minimum| number(&minimum.point).unwrap_or(f64::NAN);
         let end = |from: &Minimum, side: usize| {
             let here = value(from);
             let limit = here + [-far, far][side];

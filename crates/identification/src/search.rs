@@ -4,7 +4,7 @@
 use super::branches::{FIRST_POINTS, allowed_minima, minima};
 use super::emulator::{Emulator, features};
 use super::experiment::Experiment;
-use super::identifiability::deviations;
+use super::identifiability::{along_coordinate, deviations};
 use super::objective::{Objective, roughly};
 use super::parameters::{Unknowns, far_apart, sobol_points};
 use super::response::{DesignPoint, Response, respond};
@@ -200,8 +200,10 @@ fn everywhere(experiments: &[Experiment], unknowns: &Unknowns) -> Result<Minimum
     // covariances hang on the point weakly: those of the best rough point serve the first look
     let rough = roughly(experiments, unknowns, BALL_AS_CONE_ERROR);
     let first = least(&*rough, &points).ok_or(SearchError::NoMetal)?;
-    let objective = Objective::new(experiments, unknowns, &first).ok_or(SearchError::NoMetal)?;
-    minima(&objective, unknowns, &points).into_iter().next().ok_or(SearchError::NoMetal)
+    minima(&objective(experiments, unknowns, &first)?, unknowns, &points)
+        .into_iter()
+        .next()
+        .ok_or(SearchError::NoMetal)
 }
 
 fn least(residuals: &Residuals<'_>, points: &[Vec<f64>]) -> Option<Vec<f64>> {
@@ -217,7 +219,7 @@ fn least(residuals: &Residuals<'_>, points: &[Vec<f64>]) -> Option<Vec<f64>> {
 pub fn again(experiments: &[Experiment], unknowns: &Unknowns, point: &[f64]) -> Result<Minimum, SearchError> {
     let mut minimum = Minimum { point: point.to_vec(), chi2: f64::INFINITY };
     for _ in 0..2 {
-        let objective = Objective::new(experiments, unknowns, &minimum.point).ok_or(SearchError::NoMetal)?;
+        let objective = objective(experiments, unknowns, &minimum.point)?;
         minimum = minimise(&objective, &minimum.point, &objective.bounds());
     }
     Ok(minimum)
@@ -249,9 +251,10 @@ fn moved(experiments: &[Experiment], unknowns: &Unknowns, a: &[f64], b: &[f64]) 
 fn ends_of_the_valley(experiments: &[Experiment], unknowns: &Unknowns, best: &Minimum) -> Vec<Vec<f64>> {
     let Some(objective) = Objective::new(experiments, unknowns, &best.point) else { return Vec::new() };
     let objective = objective.for_intervals();
-    let count = objective.residuals(&best.point).map_or(0, |r| r.len() - 1) as i64;
-    let misfit = objective.misfit(&best.point).unwrap_or(f64::INFINITY);
-    if !fits(misfit, count - unknowns.parameters.len() as i64) {
+    let Some(misfits) = objective.misfits(&best.point) else { return Vec::new() };
+    let misfit: f64 = misfits.iter().map(|(square, _)| square).sum();
+    let count: usize = misfits.iter().map(|(_, count)| count).sum();
+    if !fits(misfit, count as i64 - unknowns.parameters.len() as i64) {
         // an interval of a model that is rejected says nothing
         return Vec::new();
     }
@@ -261,8 +264,7 @@ fn ends_of_the_valley(experiments: &[Experiment], unknowns: &Unknowns, best: &Mi
     let Some(i) = metal.max_by(|a, b| share(a).total_cmp(&share(b))) else { return Vec::new() };
     let bounds = objective.bounds();
     let profile = Profile { residuals: &objective, bounds: &bounds, lowest: misfit };
-    let along: Vec<f64> =
-        (0..bounds.len()).map(|j| correlation[i][j] * deviations[j] / deviations[i]).collect();
+    let along = along_coordinate(i, &deviations, &correlation);
     let ends = profile.ends_of_coordinate(std::slice::from_ref(best), i, deviations[i], &along);
     let is_far = |point: &Vec<f64>| {
         let nearness =

@@ -149,8 +149,8 @@ pub(super) fn imprint(
         residual_depth: f.residual_depth.map(|v| v.0),
         rim_radius: f.rim_radius.map(|v| v.0),
     });
-    let (has_numbers, key) = (numbers != ImprintNumbers::default(), "imprint");
-    let key = if curve.imprint.is_some() { key } else { "features" };
+    let has_numbers = numbers != ImprintNumbers::default();
+    let key = if curve.imprint.is_some() { "imprint" } else { "features" };
     if !has_numbers && curve.imprint.is_none() {
         return Ok(None);
     }
