@@ -22,7 +22,7 @@ pub mod imprint;
 
 pub mod imprint_file;
 
-mod interpolation;
+pub mod interpolation;
 
 pub mod emulator;
 

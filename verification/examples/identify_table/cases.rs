@@ -206,6 +206,18 @@ pub fn twins(count: usize) -> Vec<Case> {
     metals.into_par_iter().enumerate().with_max_len(1).filter_map(one).collect()
 }
 
+/// A draw of normal numbers.
+pub struct Normal(pub SplitMix);
+
+impl Normal {
+    /// The next one.
+    pub fn draw(&mut self) -> f64 {
+        let mut uniform = || ((self.0.bits() >> 11) as f64 + 0.5) / (1_u64 << 53) as f64;
+        // Box and Muller
+        (-2.0 * uniform().ln()).sqrt() * (std::f64::consts::TAU * uniform()).cos()
+    }
+}
+
 /// A curve with noise on its forces, as a table.
 fn curve([e, s, n]: [f64; 3], tool: Tool, seed: u64) -> Option<String> {
     let mut metal = Material::elastic_body(Stress(1e9 * e), 0.3).yielding(Stress(1e6 * s), n);
@@ -213,12 +225,10 @@ fn curve([e, s, n]: [f64; 3], tool: Tool, seed: u64) -> Option<String> {
     let loading = Loading::to_depth(Length(1e-6)).unloaded();
     let tables = Tables::new(Symmetry::Axisymmetric, metal, tool, loading).with_accuracy(Accuracy::Standard);
     let done = crush(&Scene::new(&tables).ok()?, &mut |_| true).ok()?;
-    let mut draw = SplitMix(seed);
-    let mut uniform = || ((draw.bits() >> 11) as f64 + 0.5) / (1_u64 << 53) as f64;
+    let mut noise = Normal(SplitMix(seed));
     let mut text = "depth_um,force_mN\n".to_string();
     for row in done.curve.iter().filter(|_| done.summary.stopped.is_none()) {
-        // Box and Muller's normal numbers
-        let normal = (-2.0 * uniform().ln()).sqrt() * (std::f64::consts::TAU * uniform()).cos();
+        let normal = noise.draw();
         let _ =
             writeln!(text, "{:.6},{:.8}", row.depth / MICROMETRE, 1e3 * row.force * (1.0 + 0.005 * normal));
     }

@@ -1,9 +1,10 @@
 //! Twins of one cone with its imprint, at a finer level than that of the fit.
 
-use crate::cases::{Case, material};
+use crate::cases::{Case, Normal, material};
 use asperity::tables::Accuracy;
 use asperity_calibration::fit::SplitMix;
 use asperity_calibration::indentation::{FORCES, residual_surface, solve};
+use asperity_identification::interpolation::linear_between;
 use asperity_material::{Elastic, Hardening, HardeningLaw, StressMeasure};
 use asperity_numerics::sobol::Sobol;
 use asperity_simulation::setup::cone::Cone;
@@ -19,17 +20,6 @@ const DEPTH: f64 = 2.0;
 const SLOPE_DEG: f64 = 19.7;
 /// Standard deviations: of a force, of a height over the depth; and of offset and tilt over the depth.
 const NOISE: [f64; 3] = [0.01, 0.02, 0.005];
-
-/// A draw of normal numbers.
-struct Normal(SplitMix);
-
-impl Normal {
-    fn draw(&mut self) -> f64 {
-        let mut uniform = || ((self.0.bits() >> 11) as f64 + 0.5) / (1_u64 << 53) as f64;
-        // Box and Muller
-        (-2.0 * uniform().ln()).sqrt() * (std::f64::consts::TAU * uniform()).cos()
-    }
-}
 
 /// `count` metals of E/σ_y from 100 to 600 and n from 0 to 0.3, each with the curve of a cone of 70.3° (200
 /// points of loading, 100 of unloading) and its imprint (150 points to three contact radii), both with noise.
@@ -113,22 +103,16 @@ fn write([e, s, n]: [f64; 3], seed: u64, length: f64, [curve, imprint]: [&Path; 
     let mut text = "r_um,z_um\n".to_string();
     for k in 0..150 {
         let place = step * f64::from(k);
-        let height = interpolated(&surface, place * radius) - far + NOISE[1] * rough + offset + tilt * place;
+        let height =
+            linear_between(&surface, place * radius) - far + NOISE[1] * rough + offset + tilt * place;
         let _ = writeln!(text, "{:.6},{:.6}", DEPTH * place * radius, DEPTH * height);
         rough = alike * rough + (1.0 - alike * alike).sqrt() * noise.draw();
     }
     std::fs::write(imprint, text).ok()
 }
 
-/// Linear between points of rising x.
-fn interpolated(points: &[[f64; 2]], x: f64) -> f64 {
-    let k = points.partition_point(|p| p[0] <= x).clamp(1, points.len() - 1);
-    let ([x0, y0], [x1, y1]) = (points[k - 1], points[k]);
-    if x1 > x0 { y0 + (x - x0) / (x1 - x0) * (y1 - y0) } else { y0 }
-}
-
 /// The recovery at a share of the peak force, straight in F^(2/3) between `points` of falling force.
 fn recovered(points: &[[f64; 2]], share: f64) -> f64 {
     let bent: Vec<[f64; 2]> = points.iter().map(|p| [-p[0].powf(2.0 / 3.0), p[1]]).collect();
-    interpolated(&bent, -share.powf(2.0 / 3.0))
+    linear_between(&bent, -share.powf(2.0 / 3.0))
 }
