@@ -78,7 +78,10 @@ impl Left {
                 [0.15, (0.001 * size.powi(4)).hypot(0.024 * remeshing(tan_beta))]
             }
             (ElementChoice::Q8r, true) => [0.4, 0.005],
-            (ElementChoice::Q8r, false) => [0.4, 0.045 * tan_beta.powi(4)],
+            (ElementChoice::Q8r, false) => {
+                let size = 10.0 / discretisation.numbers.elements_in_contact as f64;
+                [0.4, (0.002 * size.powi(4)).hypot(0.045 * tan_beta.powi(4))]
+            }
         };
         Left { of_the_difference, at_least, taken_off: ORDER }
     }

@@ -11,7 +11,7 @@
 //! Every product is fused with its sum, on processors that can, whatever processor the program was built for:
 //! the same bits.
 
-use crate::sparse::front_size::{LANES, Size, padded};
+use crate::sparse::front_size::{LANES, Number, Size, padded};
 use crate::sparse::large_front::{is_large, take_from_panel, update_of_pivots};
 use pulp::{Arch, Simd, WithSimd};
 use std::ops::Range;
@@ -33,16 +33,16 @@ pub enum Pivots {
 
 /// a·b + c, in one operation if `FUSED`.
 #[inline(always)]
-pub(super) fn fma<const FUSED: bool>(a: f64, b: f64, c: f64) -> f64 {
+pub(super) fn fma<const FUSED: bool>(a: Number, b: Number, c: Number) -> Number {
     if FUSED { a.mul_add(b, c) } else { a * b + c }
 }
 
 /// Rows of a tile in the registers, column by column.
-type Tile<const N: usize> = [[f64; LANES]; N];
+type Tile<const N: usize> = [[Number; LANES]; N];
 
 /// Rows `row..row + LANES` of the first N columns of `from`, which are `stride` apart.
 #[inline(always)]
-fn load<const N: usize>(from: &[f64], stride: usize, row: usize) -> Tile<N> {
+fn load<const N: usize>(from: &[Number], stride: usize, row: usize) -> Tile<N> {
     let mut c = [[0.0; LANES]; N];
     for (j, c) in c.iter_mut().enumerate() {
         if let Some(from) = from[j * stride + row..].first_chunk() {
@@ -54,7 +54,7 @@ fn load<const N: usize>(from: &[f64], stride: usize, row: usize) -> Tile<N> {
 
 /// The tile `c` back to where [`load`] takes it from.
 #[inline(always)]
-fn store<const N: usize>(c: &Tile<N>, to: &mut [f64], stride: usize, row: usize) {
+fn store<const N: usize>(c: &Tile<N>, to: &mut [Number], stride: usize, row: usize) {
     for (j, c) in c.iter().enumerate() {
         if let Some(to) = to[j * stride + row..].first_chunk_mut() {
             *to = *c;
@@ -69,7 +69,7 @@ fn store<const N: usize>(c: &Tile<N>, to: &mut [f64], stride: usize, row: usize)
 #[inline(always)]
 fn take<const N: usize, const FUSED: bool>(
     c: &mut Tile<N>,
-    [l, w]: [&[f64]; 2],
+    [l, w]: [&[Number]; 2],
     column: usize,
     depth: usize,
 ) {
@@ -86,10 +86,10 @@ fn take<const N: usize, const FUSED: bool>(
 /// The tile of `panel` from `row` on, from which the product of the `depth` columns of L and W is taken.
 #[inline(always)]
 fn taken_from<const N: usize, const FUSED: bool>(
-    panel: &[f64],
+    panel: &[Number],
     column: usize,
     row: usize,
-    [l, w]: [&[f64]; 2],
+    [l, w]: [&[Number]; 2],
     depth: usize,
 ) -> Tile<N> {
     let mut c = load::<N>(panel, column, row);
@@ -100,7 +100,7 @@ fn taken_from<const N: usize, const FUSED: bool>(
 /// Columns of a matrix that become products.
 struct Columns<'a> {
     /// The first of the columns.
-    target: &'a mut [f64],
+    target: &'a mut [Number],
     /// Their distance.
     stride: usize,
     /// Rows: tiles from the first on, to the last.
@@ -112,7 +112,7 @@ impl Columns<'_> {
     #[inline(always)]
     fn take_product<const N: usize, const FUSED: bool>(
         &mut self,
-        [l, w]: [&[f64]; 2],
+        [l, w]: [&[Number]; 2],
         column: usize,
         depth: usize,
     ) {
@@ -128,7 +128,7 @@ impl Columns<'_> {
     fn take_product_of_some<const FUSED: bool>(
         &mut self,
         count: usize,
-        lw: [&[f64]; 2],
+        lw: [&[Number]; 2],
         column: usize,
         depth: usize,
     ) {
@@ -144,18 +144,18 @@ impl Columns<'_> {
 /// Elimination of the pivots of a front.
 struct Elimination<'a> {
     size: Size,
-    panel: &'a mut [f64],
-    update: &'a mut [f64],
-    scaled: &'a mut [f64],
+    panel: &'a mut [Number],
+    update: &'a mut [Number],
+    scaled: &'a mut [Number],
     pivots: Pivots,
 }
 
 /// A block of N pivots: what the rows below it take from it.
 struct Block<const N: usize> {
     /// Its part of W: the entry of column p in row j of the block at \[p\]\[j\].
-    scaled: [[f64; N]; N],
+    scaled: [[Number; N]; N],
     /// 1/D.
-    inverse: [f64; N],
+    inverse: [Number; N],
     /// Pivots below zero.
     negative: usize,
 }
@@ -163,7 +163,7 @@ struct Block<const N: usize> {
 impl<const N: usize> Block<N> {
     /// Eliminates the block: `a` is row by row its lower triangle, and becomes L with D on the diagonal.
     #[inline(always)]
-    fn eliminate<const FUSED: bool>(a: &mut [[f64; N]; N], pivots: Pivots) -> Option<Block<N>> {
+    fn eliminate<const FUSED: bool>(a: &mut [[Number; N]; N], pivots: Pivots) -> Option<Block<N>> {
         let mut block = Block { scaled: [[0.0; N]; N], inverse: [0.0; N], negative: 0 };
         for j in 0..N {
             for p in 0..N {
@@ -320,7 +320,7 @@ impl WithSimd for Elimination<'_> {
 pub fn eliminate(
     arch: Arch,
     size: Size,
-    [panel, update, scaled]: [&mut [f64]; 3],
+    [panel, update, scaled]: [&mut [Number]; 3],
     pivots: Pivots,
 ) -> Option<usize> {
     arch.dispatch(Elimination { size, panel, update, scaled, pivots })

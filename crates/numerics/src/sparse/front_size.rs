@@ -1,7 +1,13 @@
 //! Size of a front, and the way its columns are filled up.
 
+/// Numbers of the factors. Single precision halves memory and time of a factorisation; iterations whose
+/// residuals are double take as many as with double factors, and
+/// [`solve_refined`](super::cholesky::Factor::solve_refined) gives the digits where a solve itself is the
+/// answer.
+pub type Number = f32;
+
 /// Rows of a tile; the length of a column is a multiple of it.
-pub const LANES: usize = 8;
+pub const LANES: usize = 16;
 
 /// `length` rounded up to a multiple of [`LANES`].
 pub const fn padded(length: usize) -> usize {

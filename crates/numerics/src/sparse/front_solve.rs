@@ -3,14 +3,17 @@
 //! Symbols and storage: see `front`. Every product is fused with its sum where the processor can.
 
 use crate::sparse::front::{TILE, fma};
-use crate::sparse::front_size::Size;
+use crate::sparse::front_size::{Number, Size};
 use pulp::{Arch, Simd, WithSimd};
+
+/// Rows that are taken at once.
+const SOLVE_ROWS: usize = 8;
 
 /// Solves with the columns of a front: `local` holds the right-hand side in its rows.
 struct Solve<'a> {
     size: Size,
-    panel: &'a [f64],
-    local: &'a mut [f64],
+    panel: &'a [Number],
+    local: &'a mut [Number],
 }
 
 /// y ← L⁻¹ y, with what that takes from the rows below.
@@ -22,7 +25,7 @@ struct Backward<'a>(Solve<'a>);
 impl<'a> Solve<'a> {
     /// The columns of the N pivots from `start` on, from the row `from` on.
     #[inline(always)]
-    fn columns<const N: usize>(&self, start: usize, from: usize) -> [&'a [f64]; N] {
+    fn columns<const N: usize>(&self, start: usize, from: usize) -> [&'a [Number]; N] {
         let column = self.size.panel_column();
         let mut out = [self.panel; N];
         for (p, out) in out.iter_mut().enumerate() {
@@ -32,14 +35,14 @@ impl<'a> Solve<'a> {
     }
 }
 
-/// Rows from `row` on that come before the next whole tile of [`TILE`] rows.
+/// Rows from `row` on that come before the next [`SOLVE_ROWS`] rows.
 const fn before_tiles(row: usize) -> usize {
-    row.next_multiple_of(TILE) - row
+    row.next_multiple_of(SOLVE_ROWS) - row
 }
 
-/// The tile of [`TILE`] numbers from `row` on.
+/// [`SOLVE_ROWS`] numbers from `row` on.
 #[inline(always)]
-fn four(of: &[f64], row: usize) -> [f64; TILE] {
+fn some_rows(of: &[Number], row: usize) -> [Number; SOLVE_ROWS] {
     of[row..].first_chunk().copied().unwrap_or_default()
 }
 
@@ -67,15 +70,15 @@ impl Forward<'_> {
                 below[row] = fma::<FUSED>(-columns[j][row], y[j], below[row]);
             }
         }
-        for row in (first..below.len()).step_by(TILE) {
-            let mut c = four(below, row);
+        for row in (first..below.len()).step_by(SOLVE_ROWS) {
+            let mut c = some_rows(below, row);
             for j in 0..N {
-                let l = four(columns[j], row);
-                for i in 0..TILE {
+                let l = some_rows(columns[j], row);
+                for i in 0..SOLVE_ROWS {
                     c[i] = fma::<FUSED>(-l[i], y[j], c[i]);
                 }
             }
-            below[row..row + TILE].copy_from_slice(&c);
+            below[row..row + SOLVE_ROWS].copy_from_slice(&c);
         }
     }
 
@@ -95,18 +98,18 @@ impl Backward<'_> {
         let own = self.0.columns::<N>(start, start);
         let columns = self.0.columns::<N>(start, end);
         let (pivots, below) = self.0.local[start..].split_at_mut(N);
-        let mut sums = [[0.0; TILE]; N];
+        let mut sums = [[0.0; SOLVE_ROWS]; N];
         let first = before_tiles(end).min(below.len());
         for row in 0..first {
             for j in 0..N {
                 sums[j][0] = fma::<FUSED>(columns[j][row], below[row], sums[j][0]);
             }
         }
-        for row in (first..below.len()).step_by(TILE) {
-            let y = four(below, row);
+        for row in (first..below.len()).step_by(SOLVE_ROWS) {
+            let y = some_rows(below, row);
             for j in 0..N {
-                let l = four(columns[j], row);
-                for i in 0..TILE {
+                let l = some_rows(columns[j], row);
+                for i in 0..SOLVE_ROWS {
                     sums[j][i] = fma::<FUSED>(l[i], y[i], sums[j][i]);
                 }
             }
@@ -114,8 +117,8 @@ impl Backward<'_> {
         let mut y = [0.0; N];
         y.copy_from_slice(pivots);
         for j in (0..N).rev() {
-            let [a, b, c, d] = sums[j];
-            y[j] -= (a + b) + (c + d);
+            let [a, b, c, d, e, f, g, h] = sums[j];
+            y[j] -= ((a + b) + (c + d)) + ((e + f) + (g + h));
             for i in 0..N {
                 if i > j {
                     y[j] = fma::<FUSED>(-own[j][i], y[i], y[j]);
@@ -163,11 +166,11 @@ dispatched!(Forward);
 dispatched!(Backward);
 
 /// y ← L⁻¹ y: `local` has the rows of the panel.
-pub fn solve_forward(arch: Arch, size: Size, panel: &[f64], local: &mut [f64]) {
+pub fn solve_forward(arch: Arch, size: Size, panel: &[Number], local: &mut [Number]) {
     arch.dispatch(Forward(Solve { size, panel, local }));
 }
 
 /// y ← L⁻ᵀ y: `local` has the rows of the panel, those below the pivots are known.
-pub fn solve_backward(arch: Arch, size: Size, panel: &[f64], local: &mut [f64]) {
+pub fn solve_backward(arch: Arch, size: Size, panel: &[Number], local: &mut [Number]) {
     arch.dispatch(Backward(Solve { size, panel, local }));
 }

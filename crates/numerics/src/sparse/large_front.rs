@@ -1,7 +1,7 @@
 //! Elimination in fronts so large that products in cache blocks and several threads pay. The blocks do not
 //! depend on the number of threads: neither do the bits.
 
-use crate::sparse::front_size::{Size, padded};
+use crate::sparse::front_size::{Number, Size, padded};
 use faer::linalg::matmul::matmul;
 use faer::{Accum, MatMut, MatRef, Par};
 
@@ -17,7 +17,7 @@ pub fn is_large(size: Size) -> bool {
 }
 
 /// C ← C − L Wᵀ by blocks, or − L Wᵀ where C is to be replaced.
-fn subtract(c: MatMut<'_, f64>, l: MatRef<'_, f64>, w: MatRef<'_, f64>, how: Accum) {
+fn subtract(c: MatMut<'_, Number>, l: MatRef<'_, Number>, w: MatRef<'_, Number>, how: Accum) {
     let (rows, columns) = (c.nrows(), c.ncols());
     if rows > BLOCK && rows >= columns {
         let half = (rows / 2).next_multiple_of(8);
@@ -35,7 +35,7 @@ fn subtract(c: MatMut<'_, f64>, l: MatRef<'_, f64>, w: MatRef<'_, f64>, how: Acc
 }
 
 /// C ← − L Wᵀ in the lower triangle of a square C; some entries above it change as well.
-fn lower_product(c: MatMut<'_, f64>, l: MatRef<'_, f64>, w: MatRef<'_, f64>) {
+fn lower_product(c: MatMut<'_, Number>, l: MatRef<'_, Number>, w: MatRef<'_, Number>) {
     let size = c.nrows();
     if size <= BLOCK {
         return subtract(c, l, w, Accum::Replace);
@@ -56,7 +56,7 @@ fn lower_product(c: MatMut<'_, f64>, l: MatRef<'_, f64>, w: MatRef<'_, f64>) {
 }
 
 /// The share of the pivots in the update of a front: U ← − L Wᵀ. `panel` holds L, `scaled` W.
-pub fn update_of_pivots(size: Size, panel: &[f64], scaled: &[f64], update: &mut [f64]) {
+pub fn update_of_pivots(size: Size, panel: &[Number], scaled: &[Number], update: &mut [Number]) {
     let Size { pivots, below } = size;
     let (column, stride) = (size.panel_column(), padded(below));
     let view = |from| MatRef::from_column_major_slice_with_stride(from, column, pivots, column);
@@ -66,7 +66,7 @@ pub fn update_of_pivots(size: Size, panel: &[f64], scaled: &[f64], update: &mut 
 }
 
 /// Takes what the pivots before `start` leave from columns `start..end` of the panel.
-pub fn take_from_panel(size: Size, start: usize, end: usize, panel: &mut [f64], scaled: &[f64]) {
+pub fn take_from_panel(size: Size, start: usize, end: usize, panel: &mut [Number], scaled: &[Number]) {
     let column = size.panel_column();
     let (done, rest) = panel.split_at_mut(start * column);
     let view = |from| MatRef::from_column_major_slice_with_stride(from, column, start, column);

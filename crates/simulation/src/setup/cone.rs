@@ -88,9 +88,9 @@ mod tests {
     use asperity_material::{Elastic, Hardening, HardeningCurve, HardeningLaw, StressMeasure};
     use asperity_solver::body::analysis::Analyses;
 
-    /// Elements give the same bits, a factorisation without fused multiply-add rounds otherwise: with steps
-    /// of given lengths and as many iterations the difference stays that of rounding, magnified by the
-    /// condition of the tangent.
+    /// Elements give the same bits, a factorisation without fused multiply-add rounds otherwise, in single
+    /// precision. Its directions differ by that, magnified by the condition of the tangent, and what
+    /// Newton's tolerance leaves of it is in the force: 1e-3 of some 1e-6. 8e-10 is measured at 10°.
     #[test]
     fn a_processor_without_vector_registers_gives_the_same_force() {
         let hardening = Hardening {
@@ -118,7 +118,7 @@ mod tests {
                 path.load(&mut |_, _| true).unwrap().contact.force
             };
             let (here, there) = (force(false), force(true));
-            assert!((here / there - 1.0).abs() < 1e-10, "{slope_deg} degrees: {here} {there}");
+            assert!((here / there - 1.0).abs() < 1e-8, "{slope_deg} degrees: {here} {there}");
         }
     }
 }

@@ -224,13 +224,16 @@ pub struct ConeDiscretisation {
 /// Share of the final depth to which longer steps lead, and from which they are equal.
 pub const EQUAL_STEPS_FROM: f64 = 0.3;
 
-/// Numbers of a cone of metal that hardens with n = 0.3 or more, at draft, standard and reference: elements
-/// across the contact, of which so many are one column at the axis, steps to [`EQUAL_STEPS_FROM`] and from
-/// there; depth of the core, growth of its rows, first shell in elements, growth of the shells, substrate and
-/// foot of the cone in contact radii; penetration over depth, tolerance; powers of the
-/// [softness](softness_of) in the numbers of elements and of steps, with which the difference between run and
-/// companion is about the same for all n: without hardening, flow gathers where the mesh lets it.
-type ConeLevels = [([usize; 4], [f64; 6], [f64; 2], [f64; 2]); 3];
+/// Numbers of a cone of metal that hardens with n = 0.3 or more: elements across the contact, of which so many
+/// are one column at the axis, steps to [`EQUAL_STEPS_FROM`] and from there; depth of the core, growth of its
+/// rows, first shell in elements, growth of the shells, substrate and foot of the cone in contact radii;
+/// penetration over depth, tolerance; powers of the [softness](softness_of) in the numbers of elements and of
+/// steps, with which the difference between run and companion is about the same for all n: without hardening,
+/// flow gathers where the mesh lets it.
+type ConeLevel = ([usize; 4], [f64; 6], [f64; 2], [f64; 2]);
+
+/// At draft, standard and reference.
+type ConeLevels = [ConeLevel; 3];
 
 /// Quadratic elements. A companion of four elements across the contact tells little of the error of eight: of
 /// 124 cones of the default sweep 59 % lay within the bound that these gave at standard, 99 % with 12 and 6.
@@ -239,6 +242,15 @@ const QUADRATIC_LEVELS: ConeLevels = [
     ([12, 1, 5, 20], [0.4, 0.4, 1.0, 0.4, 32.0, 8.0], [0.008, 1e-3], [0.3, 1.4]),
     ([18, 1, 12, 60], [0.8, 0.2, 1.0, 0.25, 200.0, 12.0], [0.004, 1e-6], [1.6, 2.0]),
 ];
+
+/// Numbers of [`QUADRATIC_LEVELS`] at standard for a crushed cone of a gentle slope, to whose K the same promise
+/// takes a third less work: of 160 cones of the default sweep all state at most 0.9 %, and 158 lie within what they
+/// state. Under a slope of 30° such a mesh states 1.3 %.
+const GENTLE_STANDARD: ConeLevel =
+    ([10, 1, 3, 20], [0.4, 0.3, 1.0, 0.4, 20.0, 8.0], [0.008, 1e-3], [0.7, 1.4]);
+
+/// Slope of a crushed cone, degrees, up to which it is gentle.
+const GENTLE_SLOPE_DEG: f64 = 11.0;
 
 /// Linear elements under a steep cone: they want finer meshes, and a wide column at the axis leaves room to
 /// what is stretched along the flank.
@@ -273,7 +285,10 @@ impl ConeDiscretisation {
         let element = element_under(indents.then_some(slope_deg.to_radians()));
         let quadratic = element == ElementChoice::Q8r;
         let levels = if quadratic { QUADRATIC_LEVELS } else { STEEP_LINEAR_LEVELS };
-        let (counts, lengths, [penetration, tolerance], powers) = levels[accuracy.level() as usize];
+        let level = accuracy.level() as usize;
+        let gentle = quadratic && !indents && slope_deg <= GENTLE_SLOPE_DEG && level == 1;
+        let (counts, lengths, [penetration, tolerance], powers) =
+            if gentle { GENTLE_STANDARD } else { levels[level] };
         let [elements, at_axis, lead, steps] = counts;
         let [core_depth, row_growth, first_shell, growth, domain, foot] = lengths;
         let softness = exponent.map_or(1.0, softness_of);

@@ -310,7 +310,7 @@ impl<'m> Equilibrium<'m> {
         Ok(tool_stiffness(
             &self.body.analysis.dofs,
             self.state.edges.iter().zip(&self.response.contact),
-            |rhs| self.factors.factor.solve(rhs),
+            |rhs| self.factors.factor.solve_refined(&self.stiffness.matrix, rhs),
         ))
     }
 
