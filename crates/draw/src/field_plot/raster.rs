@@ -26,6 +26,13 @@ pub struct Dot {
     pub values: [f32; 5],
 }
 
+/// The least whole number from `x` on, which is not negative. (`f64::ceil` is a call on processors without an instruction
+/// for it.)
+fn ceiling(x: f64) -> usize {
+    let whole = x as usize;
+    whole + usize::from((whole as f64) < x)
+}
+
 impl Raster {
     /// Paints the part of `mesh` in `window`, and its mirror image where `mirrored`.
     pub fn draw(mesh: &DeformedMesh, window: &Window, mirrored: bool, size: [usize; 2]) -> Raster {
@@ -33,26 +40,27 @@ impl Raster {
         let span = window.size();
         let scale = size[0] as f64 / span[0];
         let sides: &[f64] = if mirrored { &[1.0, -1.0] } else { &[1.0] };
-        for &side in sides {
-            let shown = |[r, z]: [f64; 2]| [side * r, z];
-            for cell in 0..mesh.cells() {
-                let corners = mesh.corners(cell).map(shown);
-                if !window.meets(&corners) {
-                    continue;
-                }
-                let largest = (0..4)
-                    .map(|k| {
-                        let (a, b) = (corners[k], corners[(k + 1) % 4]);
-                        (a[0] - b[0]).hypot(a[1] - b[1])
-                    })
-                    .fold(0.0, f64::max);
-                let parts = ((largest * scale / FACET).ceil() as usize).clamp(2, 64);
-                for facet in mesh.facets(cell, parts) {
-                    let facet = facet.map(|v| {
-                        let [r, z] = shown(v.at);
+        for cell in 0..mesh.cells() {
+            let corners = mesh.corners(cell);
+            let image = |side: f64, [r, z]: [f64; 2]| [side * r, z];
+            let shown = |side: &&f64| window.meets(&corners.map(|corner| image(**side, corner)));
+            let shown: Vec<f64> = sides.iter().filter(shown).copied().collect();
+            if shown.is_empty() {
+                continue;
+            }
+            let largest = (0..4)
+                .map(|k| {
+                    let (a, b) = (corners[k], corners[(k + 1) % 4]);
+                    (a[0] - b[0]).hypot(a[1] - b[1])
+                })
+                .fold(0.0, f64::max);
+            let parts = ceiling(largest * scale / FACET).clamp(2, 64);
+            for facet in mesh.facets(cell, parts) {
+                for &side in &shown {
+                    raster.paint(&facet.map(|v| {
+                        let [r, z] = image(side, v.at);
                         Vertex { at: [(r - window.low[0]) * scale, (window.high[1] - z) * scale], ..v }
-                    });
-                    raster.paint(&facet);
+                    }));
                 }
             }
         }
@@ -68,8 +76,8 @@ impl Raster {
         }
         let per_area = area.recip();
         let end = self.size.map(|dots| dots as f64);
-        let first = |from: f64, end: f64| (from - 0.5).ceil().clamp(0.0, end) as usize;
-        let after = |to: f64, end: f64| (to + 0.5).floor().clamp(0.0, end) as usize;
+        let first = |from: f64, end: f64| ceiling((from - 0.5).clamp(0.0, end));
+        let after = |to: f64, end: f64| (to + 0.5).clamp(0.0, end) as usize;
         let [top, bottom] = [a[1].min(b[1]).min(c[1]), a[1].max(b[1]).max(c[1])];
         let [left, right] = [a[0].min(b[0]).min(c[0]), a[0].max(b[0]).max(c[0])];
         // shares of the corners, which change evenly along a row of dots
