@@ -6,21 +6,35 @@
 
 pub use crate::random_metal::{Drawn, Kind};
 
+use crate::coverage_scenes::Case;
 use crate::measured_scenes::measured;
 use crate::random_metal::{log_between, material};
+use asperity_simulation::scene::Accuracy;
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
+use std::error::Error;
 use std::fmt::Write;
+use std::ops::Range;
 use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
+/// A run that reached its depth.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Done {
+    /// Energy balance of the summary.
+    pub energy_balance: f64,
+    /// True where the run states no more than its accuracy promises; `None` where it cannot make itself finer, because
+    /// the scene gives its numbers.
+    pub promise_kept: Option<bool>,
+}
+
 /// The end of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub enum End {
-    /// Exit status 0, with the energy balance of the summary.
-    Done(f64),
+    /// Exit status 0.
+    Done(Done),
     /// Exit status 1, with the reason.
     Stopped(String),
     /// Exit status 2.
@@ -150,9 +164,26 @@ pub fn draw(count: usize, seed: u64) -> Result<Vec<Drawn>, String> {
         .collect()
 }
 
+/// The scenes `numbers` of the battery of [`coverage_scenes`](crate::coverage_scenes), as text: another generator, with
+/// tools, tables, ridges between walls and kinematic hardening.
+///
+/// # Errors
+/// A scene that the program refuses, or that has no text.
+pub fn of_battery(numbers: Range<usize>) -> Result<Vec<Drawn>, Box<dyn Error>> {
+    let text = |number| -> Result<Drawn, Box<dyn Error>> {
+        Ok(Drawn { text: toml::to_string(&Case::new(number)?.scene)?, kind: Kind::Sound })
+    };
+    numbers.map(text).collect()
+}
+
 /// Crushes `drawn` with the program `binary` at draft accuracy in the empty folder `place`, for at most
 /// `limit`.
 pub fn crush(binary: &Path, drawn: &Drawn, place: &Path, limit: Duration) -> End {
+    crush_at(Accuracy::Draft, binary, drawn, place, limit)
+}
+
+/// [`crush`] at `accuracy`.
+pub fn crush_at(accuracy: Accuracy, binary: &Path, drawn: &Drawn, place: &Path, limit: Duration) -> End {
     let scene = place.join("scene.toml");
     let out = place.join("out");
     if let Err(e) = std::fs::write(&scene, &drawn.text) {
@@ -162,7 +193,7 @@ pub fn crush(binary: &Path, drawn: &Drawn, place: &Path, limit: Duration) -> End
     command
         .arg("crush")
         .arg(&scene)
-        .args(["--accuracy", "draft", "--quiet", "--threads", "1", "--out"])
+        .args(["--accuracy", &accuracy.to_string(), "--quiet", "--threads", "1", "--out"])
         .arg(&out);
     let messages = place.join("stderr");
     let spawned = std::fs::File::create(&messages)
@@ -198,7 +229,9 @@ fn judge(kind: Kind, code: Option<i32>, message: &str, out: &Path) -> End {
     }
     match (code, kind) {
         (Some(0), Kind::Sound | Kind::CutOff) => match number(&summary, "energy_balance_error") {
-            Some(balance) => End::Done(balance),
+            Some(energy_balance) => {
+                End::Done(Done { energy_balance, promise_kept: truth(&summary, "promise_kept") })
+            }
             None => End::Fault("the summary has no energy balance".into()),
         },
         (Some(1), Kind::Sound | Kind::CutOff) if !message.trim().is_empty() => {
@@ -215,10 +248,20 @@ fn judge(kind: Kind, code: Option<i32>, message: &str, out: &Path) -> End {
     }
 }
 
-/// The number at `key` in a flat JSON object.
-fn number(json: &str, key: &str) -> Option<f64> {
+/// The word at `key` in a flat JSON object.
+fn word<'a>(json: &'a str, key: &str) -> Option<&'a str> {
     let after = json.split_once(&format!("\"{key}\":"))?.1;
-    after.split([',', '}', '\n']).next()?.trim().parse().ok()
+    after.split([',', '}', '\n']).next().map(str::trim)
+}
+
+/// The number there.
+fn number(json: &str, key: &str) -> Option<f64> {
+    word(json, key)?.parse().ok()
+}
+
+/// The truth value there.
+fn truth(json: &str, key: &str) -> Option<bool> {
+    word(json, key)?.parse().ok()
 }
 
 /// The reason why a run stopped, without the numbers of the scene.
