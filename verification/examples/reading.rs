@@ -30,17 +30,19 @@ fn height(column: usize, row: usize) -> f64 {
 enum Kind {
     Text,
     Npy64,
+    Npy32,
     Gsf,
     Sur,
 }
 
 impl Kind {
-    const ALL: [Kind; 4] = [Kind::Text, Kind::Npy64, Kind::Gsf, Kind::Sur];
+    const ALL: [Kind; 5] = [Kind::Text, Kind::Npy64, Kind::Npy32, Kind::Gsf, Kind::Sur];
 
     fn name(self) -> &'static str {
         match self {
             Kind::Text => "text, tabs between six digits",
             Kind::Npy64 => "npy of 64-bit floats",
+            Kind::Npy32 => "npy of 32-bit floats",
             Kind::Gsf => "gsf, 32-bit floats",
             Kind::Sur => "sur, 32-bit whole numbers",
         }
@@ -51,7 +53,7 @@ impl Kind {
         match self {
             Kind::Text => 0,
             Kind::Npy64 => 8,
-            Kind::Gsf | Kind::Sur => 4,
+            Kind::Npy32 | Kind::Gsf | Kind::Sur => 4,
         }
     }
 
@@ -70,6 +72,16 @@ impl Kind {
                 }
             }
             Kind::Npy64 => {}
+            Kind::Npy32 => {
+                let dictionary =
+                    format!("{{'descr': '<f4', 'fortran_order': False, 'shape': ({side}, {side}), }}");
+                // magic, version and length of what follows make ten bytes; all together a multiple of 64
+                let head = format!("{dictionary:117}\n");
+                out.write_all(b"\x93NUMPY\x01\x00")?;
+                out.write_all(&(head.len() as u16).to_le_bytes())?;
+                out.write_all(head.as_bytes())?;
+                points().try_for_each(|z| out.write_all(&(z as f32).to_le_bytes()))?;
+            }
             Kind::Gsf => {
                 let head = format!(
                     "Gwyddion Simple Field 1.0\nXRes = {side}\nYRes = {side}\nXReal = 1e-3\nYReal = 1e-3\nXYUnits = m\nZUnits = m\n"
@@ -112,7 +124,7 @@ impl Kind {
                 .filter_map(|word| word.parse().ok())
                 .collect(),
             Kind::Npy64 => body.as_chunks().0.iter().map(|bytes| f64::from_le_bytes(*bytes)).collect(),
-            Kind::Gsf => {
+            Kind::Npy32 | Kind::Gsf => {
                 body.as_chunks().0.iter().map(|bytes| f64::from(f32::from_le_bytes(*bytes))).collect()
             }
             Kind::Sur => {
