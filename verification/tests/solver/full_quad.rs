@@ -4,7 +4,7 @@
 
 use asperity_mesh::Mesh;
 use asperity_numerics::newton::{Assessment, System};
-use asperity_numerics::sparse::cholesky::Factor;
+use asperity_numerics::sparse::cholesky::{Factor, Precision};
 use asperity_solver::body::dofs::{Dofs, FIXED};
 use asperity_solver::body::failure::Failure;
 use asperity_solver::body::stiffness::Stiffness;
@@ -38,7 +38,7 @@ impl<'m> FullQuad<'m> {
         let order: Vec<usize> = (0..mesh.nodes.len()).collect();
         let dofs = Dofs::new(mesh.nodes.len(), &order, |node| held[node]);
         let stiffness = Stiffness::new(&mesh.cells, 4, &dofs);
-        let factor = Factor::new(&stiffness.matrix);
+        let factor = Factor::new(&stiffness.matrix, Precision::Double);
         let points = quad4::points();
         let still = [[0.0; 2]; 4];
         let volume: Vec<f64> = (0..mesh.cell_count())

@@ -1,13 +1,11 @@
 //! Factorisation of the sparse stiffness, front by front: the symbolic analysis once per mesh, numbers in
 //! place, nothing allocated per factorisation or solve.
 
+use crate::sparse::factor_numbers::FactorNumbers;
 use crate::sparse::failure::FactorError;
-use crate::sparse::front::{Pivots, eliminate};
-use crate::sparse::front_size::{Number, padded};
-use crate::sparse::front_solve::{solve_backward, solve_forward};
-use crate::sparse::front_tree::{Front, FrontTree, Part};
+use crate::sparse::front::Pivots;
+use crate::sparse::front_tree::FrontTree;
 use pulp::Arch;
-use rayon::prelude::*;
 use sprs::CsMat;
 use std::sync::Arc;
 
@@ -20,97 +18,36 @@ pub struct Operations {
     pub solve: f64,
 }
 
+/// Digits of the factors. Single precision halves memory and time of a factorisation, and iterations whose residuals
+/// are double take as many as with double factors, unless the matrix is nearly singular to its digits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Precision {
+    /// Of 32 bits.
+    Single,
+    /// Of 64 bits.
+    Double,
+}
+
+/// The factors.
+enum Numbers {
+    Single(FactorNumbers<f32>),
+    Double(FactorNumbers<f64>),
+}
+
+impl Numbers {
+    fn new(tree: &FrontTree, precision: Precision) -> Numbers {
+        match precision {
+            Precision::Single => Numbers::Single(FactorNumbers::new(tree)),
+            Precision::Double => Numbers::Double(FactorNumbers::new(tree)),
+        }
+    }
+}
+
 /// Symbolic analysis, factor values and work space of one pattern.
 pub struct Factor {
     arch: Arch,
     tree: Arc<FrontTree>,
-    /// Numbers of every part of the tree.
-    parts: Vec<Numbers>,
-    /// Work space of one column of a front.
-    local: Vec<Number>,
-    /// Work space: a right-hand side in the order of elimination.
-    ordered: Vec<Number>,
-}
-
-/// Numbers of one part of the tree.
-struct Numbers {
-    /// The panels of its fronts.
-    values: Vec<Number>,
-    /// Updates of fronts whose parent is still to come, by parity.
-    stacks: [Vec<Number>; 2],
-    /// Work space of one panel.
-    scaled: Vec<Number>,
-}
-
-/// Adds those columns of the update of a child which are pivots of its parent to the panel there: row i of
-/// the child has the place `places[i]` in the parent.
-fn add_to_panel(child: &[Number], places: &[u32], front: &Front, panel: &mut [Number]) {
-    let stride = padded(places.len());
-    let column_length = front.size.panel_column();
-    for (j, &column) in places.iter().enumerate() {
-        if column as usize >= front.size.pivots {
-            break;
-        }
-        let from = &child[j * stride + j..][..places.len() - j];
-        let to = &mut panel[column as usize * column_length..][..column_length];
-        from.iter().zip(&places[j..]).for_each(|(value, &row)| to[row as usize] += value);
-    }
-}
-
-/// Adds the columns that [`add_to_panel`] leaves to the update of the parent.
-fn add_to_update(child: &[Number], places: &[u32], front: &Front, update: &mut [Number]) {
-    let stride = padded(places.len());
-    let pivots = front.size.pivots;
-    let update_length = padded(front.size.below);
-    let first = places.partition_point(|&place| (place as usize) < pivots);
-    for (j, &column) in places.iter().enumerate().skip(first) {
-        let from = &child[j * stride + j..][..places.len() - j];
-        let to = &mut update[(column as usize - pivots) * update_length..][..update_length];
-        from.iter().zip(&places[j..]).for_each(|(value, &row)| to[row as usize - pivots] += value);
-    }
-}
-
-impl Numbers {
-    /// Eliminates the fronts of part `part`, whose children are in it or in `branches`. Returns the number of
-    /// negative pivots, nothing where a pivot is not accepted.
-    fn eliminate(
-        &mut self,
-        arch: Arch,
-        tree: &FrontTree,
-        part: usize,
-        branches: &[Numbers],
-        matrix: &[f64],
-        pivots: Pivots,
-    ) -> Option<usize> {
-        let [even, odd] = &mut self.stacks;
-        let mut negative = 0;
-        for &front in &tree.parts[part].fronts {
-            let front = &tree.fronts[front as usize];
-            let (own, others) = if front.parity == 0 { (&mut *even, &*odd) } else { (&mut *odd, &*even) };
-            let panel = &mut self.values[front.panel..][..front.size.panel()];
-            let update = &mut own[front.update..][..front.size.update()];
-            panel.fill(0.0);
-            for entry in &tree.entries[front.entries.clone()] {
-                panel[entry.place as usize] = matrix[entry.value as usize] as Number;
-            }
-            let children = || {
-                tree.children[front.children.clone()].iter().map(|&child| {
-                    let child = &tree.fronts[child as usize];
-                    let stack =
-                        if child.part == part { others } else { &branches[child.part].stacks[child.parity] };
-                    (&stack[child.update..][..child.size.update()], &tree.places[child.rows.clone()])
-                })
-            };
-            for (left, places) in children() {
-                add_to_panel(left, places, front, panel);
-            }
-            negative += eliminate(arch, front.size, [panel, &mut *update, &mut self.scaled], pivots)?;
-            for (left, places) in children() {
-                add_to_update(left, places, front, update);
-            }
-        }
-        Some(negative)
-    }
+    numbers: Numbers,
 }
 
 impl Factor {
@@ -121,24 +58,26 @@ impl Factor {
     }
 
     /// Analyses the lower triangle `matrix`, whose unknowns stand in an order of little fill.
-    pub fn new(matrix: &CsMat<f64>) -> Factor {
-        Factor::with_tree(Arc::new(FrontTree::new(matrix)))
+    pub fn new(matrix: &CsMat<f64>, precision: Precision) -> Factor {
+        Factor::with_tree(Arc::new(FrontTree::new(matrix)), precision)
     }
 
     /// Of the pattern that was analysed.
-    pub fn with_tree(tree: Arc<FrontTree>) -> Factor {
-        let numbers = |part: &Part| Numbers {
-            values: vec![0.0; part.factor],
-            stacks: part.stacks.map(|length| vec![0.0; length]),
-            scaled: vec![0.0; part.panel],
-        };
-        Factor {
-            arch: Arch::new(),
-            parts: tree.parts.iter().map(numbers).collect(),
-            local: vec![0.0; tree.longest_column()],
-            ordered: vec![0.0; tree.number.len()],
-            tree,
+    pub fn with_tree(tree: Arc<FrontTree>, precision: Precision) -> Factor {
+        Factor { arch: Arch::new(), numbers: Numbers::new(&tree, precision), tree }
+    }
+
+    /// The digits of its numbers.
+    pub fn precision(&self) -> Precision {
+        match self.numbers {
+            Numbers::Single(_) => Precision::Single,
+            Numbers::Double(_) => Precision::Double,
         }
+    }
+
+    /// Of this precision from now on; it has no factors then.
+    pub fn set_precision(&mut self, precision: Precision) {
+        self.numbers = Numbers::new(&self.tree, precision);
     }
 
     /// L D Lᵀ of a matrix with the analysed pattern, all pivots positive.
@@ -155,19 +94,6 @@ impl Factor {
     /// A pivot of zero, or one that is not finite.
     pub fn ldlt(&mut self, matrix: &CsMat<f64>) -> Result<usize, FactorError> {
         self.factorise(matrix.data(), Pivots::Any).ok_or(FactorError::Singular)
-    }
-
-    /// Factorises; returns the number of negative pivots, nothing where a pivot is not accepted.
-    fn factorise(&mut self, matrix: &[f64], pivots: Pivots) -> Option<usize> {
-        let Factor { arch, tree, parts, .. } = self;
-        let (trunk, branches) = parts.split_last_mut()?;
-        let negative: usize = branches
-            .par_iter_mut()
-            .enumerate()
-            .map(|(part, numbers)| numbers.eliminate(*arch, tree, part, &[], matrix, pivots))
-            .sum::<Option<usize>>()?;
-        let last = branches.len();
-        Some(negative + trunk.eliminate(*arch, tree, last, branches, matrix, pivots)?)
     }
 
     /// Operations of a factorisation and a solve: a column with n entries below its diagonal takes n(n + 1)
@@ -204,43 +130,22 @@ impl Factor {
         }
     }
 
-    /// Solves in place with the last factorisation, to single precision.
+    /// Solves in place with the last factorisation, to the digits of its [`Precision`].
     pub fn solve(&mut self, rhs: &mut [f64]) {
-        let Factor { arch, tree, parts, local, ordered } = self;
-        // no entry leaves the range of the factors' numbers
-        let largest = rhs.iter().fold(f64::MIN_POSITIVE, |m, x| m.max(x.abs()));
-        rhs.iter()
-            .zip(&tree.number)
-            .for_each(|(&value, &number)| ordered[number] = (value / largest) as Number);
-        for front in &tree.fronts {
-            let panel = &parts[front.part].values[front.panel..][..front.size.panel()];
-            let rows = &tree.rows[front.rows.clone()];
-            let (column, pivots) = (front.size.panel_column(), front.size.pivots);
-            let local = &mut local[..column];
-            local[pivots..].fill(0.0);
-            local[..pivots].copy_from_slice(&ordered[front.first..][..pivots]);
-            solve_forward(*arch, front.size, panel, local);
-            for j in 0..pivots {
-                ordered[front.first + j] = local[j];
-            }
-            rows.iter().zip(&local[pivots..]).for_each(|(&row, taken)| ordered[row as usize] += taken);
+        let Factor { arch, tree, numbers } = self;
+        match numbers {
+            Numbers::Single(numbers) => numbers.solve(*arch, tree, rhs),
+            Numbers::Double(numbers) => numbers.solve(*arch, tree, rhs),
         }
-        for front in tree.fronts.iter().rev() {
-            let panel = &parts[front.part].values[front.panel..][..front.size.panel()];
-            let rows = &tree.rows[front.rows.clone()];
-            let (column, pivots) = (front.size.panel_column(), front.size.pivots);
-            let local = &mut local[..column];
-            local[pivots..].fill(0.0);
-            for j in 0..pivots {
-                local[j] = ordered[front.first + j] / panel[j * column + j];
-            }
-            local[pivots..].iter_mut().zip(rows).for_each(|(value, &row)| *value = ordered[row as usize]);
-            solve_backward(*arch, front.size, panel, local);
-            ordered[front.first..][..pivots].copy_from_slice(&local[..pivots]);
+    }
+
+    /// Factorises; returns the number of negative pivots, nothing where a pivot is not accepted.
+    fn factorise(&mut self, matrix: &[f64], pivots: Pivots) -> Option<usize> {
+        let Factor { arch, tree, numbers } = self;
+        match numbers {
+            Numbers::Single(numbers) => numbers.factorise(*arch, tree, matrix, pivots),
+            Numbers::Double(numbers) => numbers.factorise(*arch, tree, matrix, pivots),
         }
-        rhs.iter_mut()
-            .zip(&tree.number)
-            .for_each(|(value, &number)| *value = f64::from(ordered[number]) * largest);
     }
 }
 
@@ -332,16 +237,18 @@ mod tests {
     fn the_solution_satisfies_the_equations_at_every_size() {
         for side in [1, 2, 3, 7, 20, 45, 160] {
             let matrix = grid(side, 1.0);
-            let mut factor = Factor::new(&matrix);
-            factor.cholesky(&matrix).unwrap();
             let b = right_hand_side(matrix.cols());
-            let mut x = b.clone();
-            factor.solve(&mut x);
             // rounding of a diagonally dominant matrix of condition below 100
-            assert!(relative_residual(&matrix, &x, &b) < 1e-5, "side {side}");
-            x.copy_from_slice(&b);
-            factor.solve_refined(&matrix, &mut x);
-            assert!(relative_residual(&matrix, &x, &b) < 1e-14, "side {side}");
+            for (precision, rounding) in [(Precision::Single, 1e-5), (Precision::Double, 1e-13)] {
+                let mut factor = Factor::new(&matrix, precision);
+                factor.cholesky(&matrix).unwrap();
+                let mut x = b.clone();
+                factor.solve(&mut x);
+                assert!(relative_residual(&matrix, &x, &b) < rounding, "side {side}, {precision:?}");
+                x.copy_from_slice(&b);
+                factor.solve_refined(&matrix, &mut x);
+                assert!(relative_residual(&matrix, &x, &b) < 1e-14, "side {side}, {precision:?}");
+            }
         }
         let tree = FrontTree::new(&grid(160, 1.0));
         assert!(tree.parts.len() > 2, "no branches");
@@ -354,7 +261,7 @@ mod tests {
         let solution = |threads: usize| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
             pool.install(|| {
-                let mut factor = Factor::new(&matrix);
+                let mut factor = Factor::new(&matrix, Precision::Single);
                 factor.cholesky(&matrix).unwrap();
                 let mut x = right_hand_side(matrix.cols());
                 factor.solve(&mut x);
@@ -369,7 +276,7 @@ mod tests {
     #[test]
     fn negative_pivots_are_counted_and_refused_by_cholesky() {
         let matrix = grid(6, -8.0);
-        let mut factor = Factor::new(&matrix);
+        let mut factor = Factor::new(&matrix, Precision::Single);
         let dense = nalgebra::DMatrix::from_fn(matrix.rows(), matrix.cols(), |i, j| {
             matrix.get(i.max(j), i.min(j)).copied().unwrap_or(0.0)
         });
@@ -387,7 +294,7 @@ mod tests {
     #[test]
     fn a_matrix_that_is_not_finite_is_refused() {
         let mut matrix = grid(5, 1.0);
-        let mut factor = Factor::new(&matrix);
+        let mut factor = Factor::new(&matrix, Precision::Single);
         matrix.data_mut()[17] = f64::NAN;
         assert_eq!(factor.cholesky(&matrix), Err(FactorError::NotPositive));
         assert_eq!(factor.ldlt(&matrix), Err(FactorError::Singular));

@@ -33,17 +33,17 @@ pub enum Pivots {
 
 /// a·b + c, in one operation if `FUSED`.
 #[inline(always)]
-pub(super) fn fma<const FUSED: bool>(a: Number, b: Number, c: Number) -> Number {
-    if FUSED { a.mul_add(b, c) } else { a * b + c }
+pub(super) fn fma<const FUSED: bool, T: Number>(a: T, b: T, c: T) -> T {
+    if FUSED { a.fused(b, c) } else { a * b + c }
 }
 
 /// Rows of a tile in the registers, column by column.
-type Tile<const N: usize> = [[Number; LANES]; N];
+type Tile<T, const N: usize> = [[T; LANES]; N];
 
 /// Rows `row..row + LANES` of the first N columns of `from`, which are `stride` apart.
 #[inline(always)]
-fn load<const N: usize>(from: &[Number], stride: usize, row: usize) -> Tile<N> {
-    let mut c = [[0.0; LANES]; N];
+fn load<T: Number, const N: usize>(from: &[T], stride: usize, row: usize) -> Tile<T, N> {
+    let mut c = [[T::default(); LANES]; N];
     for (j, c) in c.iter_mut().enumerate() {
         if let Some(from) = from[j * stride + row..].first_chunk() {
             *c = *from;
@@ -54,7 +54,7 @@ fn load<const N: usize>(from: &[Number], stride: usize, row: usize) -> Tile<N> {
 
 /// The tile `c` back to where [`load`] takes it from.
 #[inline(always)]
-fn store<const N: usize>(c: &Tile<N>, to: &mut [Number], stride: usize, row: usize) {
+fn store<T: Number, const N: usize>(c: &Tile<T, N>, to: &mut [T], stride: usize, row: usize) {
     for (j, c) in c.iter().enumerate() {
         if let Some(to) = to[j * stride + row..].first_chunk_mut() {
             *to = *c;
@@ -67,9 +67,9 @@ fn store<const N: usize>(c: &Tile<N>, to: &mut [Number], stride: usize, row: usi
 /// `l` starts at the first row of the tile in L, `w` at the row of W that is the first of its columns;
 /// columns of both are `column` apart.
 #[inline(always)]
-fn take<const N: usize, const FUSED: bool>(
-    c: &mut Tile<N>,
-    [l, w]: [&[Number]; 2],
+fn take<T: Number, const N: usize, const FUSED: bool>(
+    c: &mut Tile<T, N>,
+    [l, w]: [&[T]; 2],
     column: usize,
     depth: usize,
 ) {
@@ -77,7 +77,7 @@ fn take<const N: usize, const FUSED: bool>(
         let (Some(l), Some(w)) = (l.first_chunk::<LANES>(), w.first_chunk::<N>()) else { break };
         for (c, &w) in c.iter_mut().zip(w) {
             for (c, &l) in c.iter_mut().zip(l) {
-                *c = fma::<FUSED>(-l, w, *c);
+                *c = fma::<FUSED, T>(-l, w, *c);
             }
         }
     }
@@ -85,40 +85,40 @@ fn take<const N: usize, const FUSED: bool>(
 
 /// The tile of `panel` from `row` on, from which the product of the `depth` columns of L and W is taken.
 #[inline(always)]
-fn taken_from<const N: usize, const FUSED: bool>(
-    panel: &[Number],
+fn taken_from<T: Number, const N: usize, const FUSED: bool>(
+    panel: &[T],
     column: usize,
     row: usize,
-    [l, w]: [&[Number]; 2],
+    [l, w]: [&[T]; 2],
     depth: usize,
-) -> Tile<N> {
-    let mut c = load::<N>(panel, column, row);
-    take::<N, FUSED>(&mut c, [l.get(row..).unwrap_or_default(), w], column, depth);
+) -> Tile<T, N> {
+    let mut c = load::<T, N>(panel, column, row);
+    take::<T, N, FUSED>(&mut c, [l.get(row..).unwrap_or_default(), w], column, depth);
     c
 }
 
 /// Columns of a matrix that become products.
-struct Columns<'a> {
+struct Columns<'a, T> {
     /// The first of the columns.
-    target: &'a mut [Number],
+    target: &'a mut [T],
     /// Their distance.
     stride: usize,
     /// Rows: tiles from the first on, to the last.
     rows: Range<usize>,
 }
 
-impl Columns<'_> {
+impl<T: Number> Columns<'_, T> {
     /// C ← − L Wᵀ, where rows of `l` are those of C, and the first `N` rows of `w` its columns.
     #[inline(always)]
     fn take_product<const N: usize, const FUSED: bool>(
         &mut self,
-        [l, w]: [&[Number]; 2],
+        [l, w]: [&[T]; 2],
         column: usize,
         depth: usize,
     ) {
         for row in self.rows.clone().step_by(LANES) {
-            let mut c = [[0.0; LANES]; N];
-            take::<N, FUSED>(&mut c, [&l[row..], w], column, depth);
+            let mut c = [[T::default(); LANES]; N];
+            take::<T, N, FUSED>(&mut c, [&l[row..], w], column, depth);
             store(&c, self.target, self.stride, row);
         }
     }
@@ -128,7 +128,7 @@ impl Columns<'_> {
     fn take_product_of_some<const FUSED: bool>(
         &mut self,
         count: usize,
-        lw: [&[Number]; 2],
+        lw: [&[T]; 2],
         column: usize,
         depth: usize,
     ) {
@@ -142,47 +142,47 @@ impl Columns<'_> {
 }
 
 /// Elimination of the pivots of a front.
-struct Elimination<'a> {
+struct Elimination<'a, T> {
     size: Size,
-    panel: &'a mut [Number],
-    update: &'a mut [Number],
-    scaled: &'a mut [Number],
+    panel: &'a mut [T],
+    update: &'a mut [T],
+    scaled: &'a mut [T],
     pivots: Pivots,
 }
 
 /// A block of N pivots: what the rows below it take from it.
-struct Block<const N: usize> {
+struct Block<T, const N: usize> {
     /// Its part of W: the entry of column p in row j of the block at \[p\]\[j\].
-    scaled: [[Number; N]; N],
+    scaled: [[T; N]; N],
     /// 1/D.
-    inverse: [Number; N],
+    inverse: [T; N],
     /// Pivots below zero.
     negative: usize,
 }
 
-impl<const N: usize> Block<N> {
+impl<T: Number, const N: usize> Block<T, N> {
     /// Eliminates the block: `a` is row by row its lower triangle, and becomes L with D on the diagonal.
     #[inline(always)]
-    fn eliminate<const FUSED: bool>(a: &mut [[Number; N]; N], pivots: Pivots) -> Option<Block<N>> {
-        let mut block = Block { scaled: [[0.0; N]; N], inverse: [0.0; N], negative: 0 };
+    fn eliminate<const FUSED: bool>(a: &mut [[T; N]; N], pivots: Pivots) -> Option<Block<T, N>> {
+        let mut block = Block { scaled: [[T::default(); N]; N], inverse: [T::default(); N], negative: 0 };
         for j in 0..N {
             for p in 0..N {
                 for i in 0..N {
                     if p < j && i >= j {
-                        a[i][j] = fma::<FUSED>(-block.scaled[p][j], a[i][p], a[i][j]);
+                        a[i][j] = fma::<FUSED, T>(-block.scaled[p][j], a[i][p], a[i][j]);
                     }
                 }
             }
             let pivot = a[j][j];
             let accepted = match pivots {
-                Pivots::Positive => pivot > 0.0,
-                Pivots::Any => pivot != 0.0,
+                Pivots::Positive => pivot > T::default(),
+                Pivots::Any => pivot != T::default(),
             };
-            if !(accepted && pivot.is_finite()) {
+            if !(accepted && pivot.is_a_number()) {
                 return None;
             }
-            block.negative += usize::from(pivot < 0.0);
-            block.inverse[j] = pivot.recip();
+            block.negative += usize::from(pivot < T::default());
+            block.inverse[j] = T::nearest(1.0) / pivot;
             for i in 0..N {
                 if i >= j {
                     block.scaled[j][i] = a[i][j];
@@ -197,13 +197,13 @@ impl<const N: usize> Block<N> {
 
     /// Rows below the block: W and L of the tile `c`.
     #[inline(always)]
-    fn rows_below<const FUSED: bool>(&self, mut c: Tile<N>) -> [Tile<N>; 2] {
+    fn rows_below<const FUSED: bool>(&self, mut c: Tile<T, N>) -> [Tile<T, N>; 2] {
         let mut l = c;
         for j in 0..N {
             for p in 0..N {
                 if p < j {
                     for i in 0..LANES {
-                        c[j][i] = fma::<FUSED>(-self.scaled[p][j], l[p][i], c[j][i]);
+                        c[j][i] = fma::<FUSED, T>(-self.scaled[p][j], l[p][i], c[j][i]);
                     }
                 }
             }
@@ -215,7 +215,7 @@ impl<const N: usize> Block<N> {
     }
 }
 
-impl Elimination<'_> {
+impl<T: Number> Elimination<'_, T> {
     /// The N pivots from `start` on, from which those before `taken` have been taken. Negative ones are
     /// counted.
     #[inline(always)]
@@ -226,9 +226,9 @@ impl Elimination<'_> {
         let (l, w) = (&done[taken * column..], earlier.get(taken * column + start..).unwrap_or_default());
         let first = start / LANES * LANES;
         // what stands above the diagonal in the first tile is never read
-        let c = taken_from::<N, FUSED>(panel, column, first, [l, w], depth);
+        let c = taken_from::<T, N, FUSED>(panel, column, first, [l, w], depth);
         store(&c, panel, column, first);
-        let mut a = [[0.0; N]; N];
+        let mut a = [[T::default(); N]; N];
         for i in 0..N {
             for j in 0..N {
                 a[i][j] = panel[j * column + start + i];
@@ -247,7 +247,7 @@ impl Elimination<'_> {
             }
         }
         for row in (first + LANES..column).step_by(LANES) {
-            let c = taken_from::<N, FUSED>(panel, column, row, [l, w], depth);
+            let c = taken_from::<T, N, FUSED>(panel, column, row, [l, w], depth);
             let [below, lower] = block.rows_below::<FUSED>(c);
             store(&below, scaled, column, row);
             store(&lower, panel, column, row);
@@ -305,7 +305,7 @@ impl Elimination<'_> {
     }
 }
 
-impl WithSimd for Elimination<'_> {
+impl<T: Number> WithSimd for Elimination<'_, T> {
     type Output = Option<usize>;
 
     #[inline(always)]
@@ -317,10 +317,10 @@ impl WithSimd for Elimination<'_> {
 /// Eliminates the pivots of a front: its panel becomes the columns of L with D on the diagonal, its update
 /// what that adds to the rest, whatever it held. `scaled` is work space as large as the panel. Returns the
 /// number of negative pivots, nothing where a pivot is not accepted.
-pub fn eliminate(
+pub fn eliminate<T: Number>(
     arch: Arch,
     size: Size,
-    [panel, update, scaled]: [&mut [Number]; 3],
+    [panel, update, scaled]: [&mut [T]; 3],
     pivots: Pivots,
 ) -> Option<usize> {
     arch.dispatch(Elimination { size, panel, update, scaled, pivots })

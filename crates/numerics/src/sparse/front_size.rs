@@ -1,10 +1,58 @@
-//! Size of a front, and the way its columns are filled up.
+//! Size of a front, the way its columns are filled up, and the numbers in them.
 
-/// Numbers of the factors. Single precision halves memory and time of a factorisation; iterations whose
-/// residuals are double take as many as with double factors, and
-/// [`solve_refined`](super::cholesky::Factor::solve_refined) gives the digits where a solve itself is the
-/// answer.
-pub type Number = f32;
+use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, SubAssign};
+
+/// Numbers of factors, in single or in double precision.
+pub trait Number:
+    faer::traits::ComplexField
+    + Copy
+    + Default
+    + PartialOrd
+    + Send
+    + Sync
+    + Neg<Output = Self>
+    + Add<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + AddAssign
+    + SubAssign
+    + MulAssign
+{
+    /// The nearest number to `x`.
+    fn nearest(x: f64) -> Self;
+    /// The number in double precision.
+    fn double(self) -> f64;
+    /// self · b + c in one operation.
+    fn fused(self, b: Self, c: Self) -> Self;
+    /// False of an overflow and of what is no number.
+    fn is_a_number(self) -> bool;
+}
+
+macro_rules! number {
+    ($float:ident) => {
+        impl Number for $float {
+            #[inline(always)]
+            fn nearest(x: f64) -> Self {
+                x as $float
+            }
+            #[inline(always)]
+            fn double(self) -> f64 {
+                f64::from(self)
+            }
+            #[inline(always)]
+            fn fused(self, b: Self, c: Self) -> Self {
+                self.mul_add(b, c)
+            }
+            #[inline(always)]
+            fn is_a_number(self) -> bool {
+                self.is_finite()
+            }
+        }
+    };
+}
+
+number!(f32);
+number!(f64);
 
 /// Rows of a tile; the length of a column is a multiple of it.
 pub const LANES: usize = 16;

@@ -10,22 +10,22 @@ use pulp::{Arch, Simd, WithSimd};
 const SOLVE_ROWS: usize = 8;
 
 /// Solves with the columns of a front: `local` holds the right-hand side in its rows.
-struct Solve<'a> {
+struct Solve<'a, T> {
     size: Size,
-    panel: &'a [Number],
-    local: &'a mut [Number],
+    panel: &'a [T],
+    local: &'a mut [T],
 }
 
 /// y ← L⁻¹ y, with what that takes from the rows below.
-struct Forward<'a>(Solve<'a>);
+struct Forward<'a, T>(Solve<'a, T>);
 
 /// y ← L⁻ᵀ y in the rows of pivots, from the rows below.
-struct Backward<'a>(Solve<'a>);
+struct Backward<'a, T>(Solve<'a, T>);
 
-impl<'a> Solve<'a> {
+impl<'a, T: Number> Solve<'a, T> {
     /// The columns of the N pivots from `start` on, from the row `from` on.
     #[inline(always)]
-    fn columns<const N: usize>(&self, start: usize, from: usize) -> [&'a [Number]; N] {
+    fn columns<const N: usize>(&self, start: usize, from: usize) -> [&'a [T]; N] {
         let column = self.size.panel_column();
         let mut out = [self.panel; N];
         for (p, out) in out.iter_mut().enumerate() {
@@ -42,11 +42,11 @@ const fn before_tiles(row: usize) -> usize {
 
 /// [`SOLVE_ROWS`] numbers from `row` on.
 #[inline(always)]
-fn some_rows(of: &[Number], row: usize) -> [Number; SOLVE_ROWS] {
+fn some_rows<T: Number>(of: &[T], row: usize) -> [T; SOLVE_ROWS] {
     of[row..].first_chunk().copied().unwrap_or_default()
 }
 
-impl Forward<'_> {
+impl<T: Number> Forward<'_, T> {
     /// The N pivots from `start` on.
     #[inline(always)]
     fn block<const N: usize, const FUSED: bool>(&mut self, start: usize) {
@@ -54,12 +54,12 @@ impl Forward<'_> {
         let own = self.0.columns::<N>(start, start);
         let columns = self.0.columns::<N>(start, end);
         let (pivots, below) = self.0.local[start..].split_at_mut(N);
-        let mut y = [0.0; N];
+        let mut y = [T::default(); N];
         y.copy_from_slice(pivots);
         for j in 0..N {
             for i in 0..N {
                 if i > j {
-                    y[i] = fma::<FUSED>(-own[j][i], y[j], y[i]);
+                    y[i] = fma::<FUSED, T>(-own[j][i], y[j], y[i]);
                 }
             }
         }
@@ -67,7 +67,7 @@ impl Forward<'_> {
         let first = before_tiles(end).min(below.len());
         for row in 0..first {
             for j in 0..N {
-                below[row] = fma::<FUSED>(-columns[j][row], y[j], below[row]);
+                below[row] = fma::<FUSED, T>(-columns[j][row], y[j], below[row]);
             }
         }
         for row in (first..below.len()).step_by(SOLVE_ROWS) {
@@ -75,7 +75,7 @@ impl Forward<'_> {
             for j in 0..N {
                 let l = some_rows(columns[j], row);
                 for i in 0..SOLVE_ROWS {
-                    c[i] = fma::<FUSED>(-l[i], y[j], c[i]);
+                    c[i] = fma::<FUSED, T>(-l[i], y[j], c[i]);
                 }
             }
             below[row..row + SOLVE_ROWS].copy_from_slice(&c);
@@ -90,7 +90,7 @@ impl Forward<'_> {
     }
 }
 
-impl Backward<'_> {
+impl<T: Number> Backward<'_, T> {
     /// The N pivots from `start` on.
     #[inline(always)]
     fn block<const N: usize, const FUSED: bool>(&mut self, start: usize) {
@@ -98,11 +98,11 @@ impl Backward<'_> {
         let own = self.0.columns::<N>(start, start);
         let columns = self.0.columns::<N>(start, end);
         let (pivots, below) = self.0.local[start..].split_at_mut(N);
-        let mut sums = [[0.0; SOLVE_ROWS]; N];
+        let mut sums = [[T::default(); SOLVE_ROWS]; N];
         let first = before_tiles(end).min(below.len());
         for row in 0..first {
             for j in 0..N {
-                sums[j][0] = fma::<FUSED>(columns[j][row], below[row], sums[j][0]);
+                sums[j][0] = fma::<FUSED, T>(columns[j][row], below[row], sums[j][0]);
             }
         }
         for row in (first..below.len()).step_by(SOLVE_ROWS) {
@@ -110,18 +110,18 @@ impl Backward<'_> {
             for j in 0..N {
                 let l = some_rows(columns[j], row);
                 for i in 0..SOLVE_ROWS {
-                    sums[j][i] = fma::<FUSED>(l[i], y[i], sums[j][i]);
+                    sums[j][i] = fma::<FUSED, T>(l[i], y[i], sums[j][i]);
                 }
             }
         }
-        let mut y = [0.0; N];
+        let mut y = [T::default(); N];
         y.copy_from_slice(pivots);
         for j in (0..N).rev() {
             let [a, b, c, d, e, f, g, h] = sums[j];
             y[j] -= ((a + b) + (c + d)) + ((e + f) + (g + h));
             for i in 0..N {
                 if i > j {
-                    y[j] = fma::<FUSED>(-own[j][i], y[i], y[j]);
+                    y[j] = fma::<FUSED, T>(-own[j][i], y[i], y[j]);
                 }
             }
         }
@@ -138,7 +138,7 @@ impl Backward<'_> {
 
 macro_rules! dispatched {
     ($what:ident) => {
-        impl $what<'_> {
+        impl<T: Number> $what<'_, T> {
             /// The block of pivots from `start` on, as many as a tile has columns or are left.
             #[inline(always)]
             fn next_block<const FUSED: bool>(&mut self, start: usize) {
@@ -151,7 +151,7 @@ macro_rules! dispatched {
             }
         }
 
-        impl WithSimd for $what<'_> {
+        impl<T: Number> WithSimd for $what<'_, T> {
             type Output = ();
 
             #[inline(always)]
@@ -166,11 +166,11 @@ dispatched!(Forward);
 dispatched!(Backward);
 
 /// y ← L⁻¹ y: `local` has the rows of the panel.
-pub fn solve_forward(arch: Arch, size: Size, panel: &[Number], local: &mut [Number]) {
+pub fn solve_forward<T: Number>(arch: Arch, size: Size, panel: &[T], local: &mut [T]) {
     arch.dispatch(Forward(Solve { size, panel, local }));
 }
 
 /// y ← L⁻ᵀ y: `local` has the rows of the panel, those below the pivots are known.
-pub fn solve_backward(arch: Arch, size: Size, panel: &[Number], local: &mut [Number]) {
+pub fn solve_backward<T: Number>(arch: Arch, size: Size, panel: &[T], local: &mut [T]) {
     arch.dispatch(Backward(Solve { size, panel, local }));
 }

@@ -17,7 +17,7 @@ pub fn is_large(size: Size) -> bool {
 }
 
 /// C ← C − L Wᵀ by blocks, or − L Wᵀ where C is to be replaced.
-fn subtract(c: MatMut<'_, Number>, l: MatRef<'_, Number>, w: MatRef<'_, Number>, how: Accum) {
+fn subtract<T: Number>(c: MatMut<'_, T>, l: MatRef<'_, T>, w: MatRef<'_, T>, how: Accum) {
     let (rows, columns) = (c.nrows(), c.ncols());
     if rows > BLOCK && rows >= columns {
         let half = (rows / 2).next_multiple_of(8);
@@ -30,12 +30,12 @@ fn subtract(c: MatMut<'_, Number>, l: MatRef<'_, Number>, w: MatRef<'_, Number>,
         let (w_left, w_right) = w.split_at_row(half);
         rayon::join(|| subtract(left, l, w_left, how), || subtract(right, l, w_right, how));
     } else {
-        matmul(c, how, l, w.transpose(), -1.0, Par::Seq);
+        matmul(c, how, l, w.transpose(), T::nearest(-1.0), Par::Seq);
     }
 }
 
 /// C ← − L Wᵀ in the lower triangle of a square C; some entries above it change as well.
-fn lower_product(c: MatMut<'_, Number>, l: MatRef<'_, Number>, w: MatRef<'_, Number>) {
+fn lower_product<T: Number>(c: MatMut<'_, T>, l: MatRef<'_, T>, w: MatRef<'_, T>) {
     let size = c.nrows();
     if size <= BLOCK {
         return subtract(c, l, w, Accum::Replace);
@@ -56,7 +56,7 @@ fn lower_product(c: MatMut<'_, Number>, l: MatRef<'_, Number>, w: MatRef<'_, Num
 }
 
 /// The share of the pivots in the update of a front: U ← − L Wᵀ. `panel` holds L, `scaled` W.
-pub fn update_of_pivots(size: Size, panel: &[Number], scaled: &[Number], update: &mut [Number]) {
+pub fn update_of_pivots<T: Number>(size: Size, panel: &[T], scaled: &[T], update: &mut [T]) {
     let Size { pivots, below } = size;
     let (column, stride) = (size.panel_column(), padded(below));
     let view = |from| MatRef::from_column_major_slice_with_stride(from, column, pivots, column);
@@ -66,7 +66,7 @@ pub fn update_of_pivots(size: Size, panel: &[Number], scaled: &[Number], update:
 }
 
 /// Takes what the pivots before `start` leave from columns `start..end` of the panel.
-pub fn take_from_panel(size: Size, start: usize, end: usize, panel: &mut [Number], scaled: &[Number]) {
+pub fn take_from_panel<T: Number>(size: Size, start: usize, end: usize, panel: &mut [T], scaled: &[T]) {
     let column = size.panel_column();
     let (done, rest) = panel.split_at_mut(start * column);
     let view = |from| MatRef::from_column_major_slice_with_stride(from, column, start, column);

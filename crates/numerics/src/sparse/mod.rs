@@ -17,6 +17,8 @@ pub mod front_tree;
 
 pub mod front_solve;
 
+mod factor_numbers;
+
 pub mod cholesky;
 
 /// A matrix of compressed rows or columns, of the crate sprs.

@@ -1,5 +1,5 @@
-//! Cutbacks: an increment that does not converge is tried with half its length, on a new mesh, and with a
-//! tangent that is not stiffened, before the path ends.
+//! Cutbacks: an increment that does not converge is tried with factors in double precision, with half its length,
+//! on a new mesh, and with a tangent that is not stiffened, before the path ends.
 
 use super::increment::{Observer, Stop};
 use super::path::{ContactLoad, FIRST_GUESS_SHARE, Miss, Path};
@@ -78,6 +78,8 @@ impl Path<'_> {
                     let step = self.stand.last_step;
                     next = if (travel - next).abs() <= 1.01 * step.abs() { travel } else { next + step };
                 }
+                // the digits of the factors may have been too few
+                Err(Miss::Failure(_)) if self.model.sharpen() => {}
                 Err(_) if halvings == HALVINGS_BEFORE_REMESHING && self.remesh() => {
                     self.counts.cutbacks += 1;
                     halvings = 0;

@@ -1,8 +1,9 @@
 //! The factors of a tangent, and what corrects them since.
 
+use crate::point::material::Metal;
 use asperity_numerics::corrected::Correction;
 use asperity_numerics::secants::Secants;
-use asperity_numerics::sparse::cholesky::Factor;
+use asperity_numerics::sparse::cholesky::{Factor, Precision};
 use asperity_numerics::sparse::front_tree::FrontTree;
 use std::sync::Arc;
 
@@ -18,11 +19,23 @@ pub(super) struct Factors {
     yielded: Vec<bool>,
 }
 
+/// Bulk modulus over shear modulus from which single precision is too little: with the thousandfold differences of
+/// stiffness in a graded mesh the factors then have no digit to spare. 100 is Poisson's ratio 0.495; at 0.4999999 no
+/// first increment of an elastic cone converges.
+const NEARLY_INCOMPRESSIBLE: f64 = 100.0;
+
+/// Digits of the factors that a body of `metal` begins with.
+pub(super) fn precision(metal: &Metal) -> Precision {
+    let elastic = &metal.elastic;
+    let ratio = elastic.bulk_modulus() / elastic.shear_modulus();
+    if ratio < NEARLY_INCOMPRESSIBLE { Precision::Single } else { Precision::Double }
+}
+
 impl Factors {
     /// None yet, of a stiffness whose fronts are known.
-    pub fn new(fronts: Arc<FrontTree>) -> Factors {
+    pub fn new(fronts: Arc<FrontTree>, precision: Precision) -> Factors {
         Factors {
-            factor: Factor::with_tree(fronts),
+            factor: Factor::with_tree(fronts, precision),
             correction: Correction::default(),
             secants: Secants::default(),
             valid: false,

@@ -19,13 +19,13 @@ use crate::body::stiffness::Stiffness;
 use crate::body::surface::Surface;
 use crate::contact::edge::EdgeContact;
 use crate::equilibrium::contact_set::ContactSet;
-use crate::equilibrium::factors::Factors;
+use crate::equilibrium::factors::{Factors, precision};
 use crate::equilibrium::line_search::LineSearch;
 use crate::equilibrium::tool_stiffness::{ToolStiffness, tool_stiffness};
 use crate::point::j2::Tangent;
 use crate::remesh::distortion::{Limits, is_distorted, smoothed_places};
 use asperity_numerics::newton::{self, Assessment, System};
-use asperity_numerics::sparse::cholesky::{Factor, Operations};
+use asperity_numerics::sparse::cholesky::{Factor, Operations, Precision};
 use asperity_numerics::vectors::norm;
 use std::collections::BTreeSet;
 use std::time::Instant;
@@ -99,7 +99,7 @@ impl<'m> Equilibrium<'m> {
     /// As for [`Equilibrium::new`].
     pub fn from_state(body: Body<'m>, state: State) -> Result<Self, Failure> {
         let stiffness = body.analysis.stiffness.clone();
-        let factors = Factors::new(body.analysis.fronts.clone());
+        let factors = Factors::new(body.analysis.fronts.clone(), precision(&body.material));
         let search = LineSearch::new(body.mesh.nodes.len(), body.analysis.dofs.count);
         Ok(Equilibrium {
             trial: state.trial(),
@@ -187,7 +187,7 @@ impl<'m> Equilibrium<'m> {
             let mesh = self.body.mesh;
             self.stiffness =
                 Stiffness::coupled(&mesh.cells, mesh.kind.nodes(), &groups, &self.body.analysis.dofs);
-            self.factors.factor = Factor::new(&self.stiffness.matrix);
+            self.factors.factor = Factor::new(&self.stiffness.matrix, self.factors.factor.precision());
             self.discard_factors();
         }
     }
@@ -312,6 +312,17 @@ impl<'m> Equilibrium<'m> {
             self.state.edges.iter().zip(&self.response.contact),
             |rhs| self.factors.factor.solve_refined(&self.stiffness.matrix, rhs),
         ))
+    }
+
+    /// Factorises in double precision from now on. True where it did not before: an increment that failed may then be
+    /// tried again.
+    pub fn sharpen(&mut self) -> bool {
+        let coarse = self.factors.factor.precision() == Precision::Single;
+        if coarse {
+            self.factors.factor.set_precision(Precision::Double);
+            self.discard_factors();
+        }
+        coarse
     }
 
     /// Assembles the last assessed iterate once more, with the same contact.
