@@ -12,11 +12,14 @@ import subprocess
 import sys
 import threading
 import time
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import asperity
 import numpy as np
 import pytest
+
+if TYPE_CHECKING:
+    from asperity.keys import RoughMaterialTable
 
 SCENE: dict[str, Any] = {
     "symmetry": "axisymmetric",
@@ -32,7 +35,7 @@ SCENE: dict[str, Any] = {
     "loading": {"depth": "2 um", "unload": True},
     "output": {"every": 0},
 }
-STEEL = {"youngs_modulus": "210 GPa", "poissons_ratio": 0.3, "hardness": "1280 MPa"}
+STEEL: "RoughMaterialTable" = {"youngs_modulus": "210 GPa", "poissons_ratio": 0.3, "hardness": "1280 MPa"}
 
 
 def waves() -> asperity._results.FloatArray:
@@ -250,6 +253,9 @@ def test_reports_are_those_of_the_command(tmp_path: pathlib.Path) -> None:
     scene = asperity.Scene(**SCENE)
     (tmp_path / "scene.toml").write_text(scene.to_toml())
     result = asperity.crush(scene)
+    assert (
+        asperity.crush(tmp_path / "scene.toml").curve["force_N"].tolist() == result.curve["force_N"].tolist()
+    )
     page = result.report(tmp_path / "report.html")
     assert page == (tmp_path / "report.html").read_text(encoding="utf-8")
     peak = f'value="{result.summary["peak_force_N"]!r}" data-place="/peak_force_N"'

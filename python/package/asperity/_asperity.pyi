@@ -4,7 +4,10 @@ import os
 from collections.abc import Callable
 from typing import Any
 
+from typing_extensions import Unpack
+
 from ._results import FloatArray
+from .keys import RoughTable, SceneTable
 
 _Progress = Callable[[float, str], object] | None
 _Columns = dict[str, Any]
@@ -20,7 +23,7 @@ class UnfinishedError(RuntimeError):
 class Scene:
     """A scene of ``crush``: what is crushed, by what, how far."""
 
-    def __init__(self, **tables: Any) -> None: ...
+    def __init__(self, **tables: Unpack[SceneTable]) -> None: ...
     @staticmethod
     def from_toml(path_or_text: str | os.PathLike[str]) -> Scene:
         """Reads a scene: a path, or the text of a TOML file."""
@@ -39,7 +42,7 @@ class Scene:
 class RoughScene:
     """A scene of ``press``: a surface, its material, its load."""
 
-    def __init__(self, **tables: Any) -> None: ...
+    def __init__(self, **tables: Unpack[RoughTable]) -> None: ...
     @staticmethod
     def from_toml(path_or_text: str | os.PathLike[str]) -> RoughScene:
         """Reads a scene: a path, or the text of a TOML file."""

@@ -24,7 +24,10 @@ from ._results import (
 )
 
 if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
     from ._asperity import RoughScene, Scene
+    from .keys import RoughTable, SweepTable
 
     PathLike = str | os.PathLike[str]
     Progress = Callable[[float, str], object]
@@ -34,8 +37,13 @@ def _path(path: PathLike | None) -> str | None:
     return None if path is None else os.fspath(path)
 
 
+def _scene(scene: Scene | PathLike) -> Scene:
+    """A scene, or that of a file."""
+    return scene if isinstance(scene, _asperity.Scene) else _asperity.Scene.from_toml(os.fspath(scene))
+
+
 def crush(
-    scene: Scene,
+    scene: Scene | PathLike,
     *,
     accuracy: str | None = None,
     out: PathLike | None = None,
@@ -43,6 +51,7 @@ def crush(
 ) -> Crush:
     """Crushes a scene.
 
+    :param scene: a scene or the path of its file.
     :param accuracy: ``draft`` (5 %), ``standard`` (1 %), ``reference`` (0.2 %) or a percentage in place of the scene's.
     :param out: folder for the files of ``asperity crush``; files of the same name are replaced.
     :param progress: called with the share that is done and a text.
@@ -52,7 +61,7 @@ def crush(
     ``partial``.
     """
     try:
-        return Crush(_asperity.crush(scene, accuracy, _path(out), progress))
+        return Crush(_asperity.crush(_scene(scene), accuracy, _path(out), progress))
     except BaseException as error:
         reached = getattr(error, "partial", None)
         if isinstance(reached, _asperity.Crush):
@@ -95,9 +104,10 @@ def _heights(
 
 
 def _surface(
-    surface: Any, pixel_size_um: tuple[float, float] | None, scene: dict[str, Any]
+    surface: Any, pixel_size_um: tuple[float, float] | None, tables: Mapping[str, object]
 ) -> tuple[RoughScene, FloatArray | None, tuple[float, float] | None]:
     """The scene of a surface however it is given, with heights in µm and their pixel where they are no file."""
+    scene: dict[str, Any] = dict(tables)
     whole = surface if isinstance(surface, _asperity.RoughScene) else None
     if isinstance(surface, str | os.PathLike):
         path = os.fspath(surface)
@@ -135,7 +145,7 @@ def press(
     pixel_size_um: tuple[float, float] | None = None,
     out: PathLike | None = None,
     progress: Progress | None = None,
-    **scene: Any,
+    **scene: Unpack[RoughTable],
 ) -> Rough:
     """Presses a rigid plane on a rough surface.
 
@@ -158,7 +168,7 @@ def joint(
     pixel_size_um: tuple[float, float] | None = None,
     out: PathLike | None = None,
     progress: Progress | None = None,
-    **scene: Any,
+    **scene: Unpack[RoughTable],
 ) -> Joint:
     """Presses a surface from first touch to its largest load and back: pressure, gap, stiffness, conductance and leak for other programs.
 
@@ -173,7 +183,9 @@ def joint(
     """
     maps = list(heights) if _are_several(heights) else [heights]
     # where nothing is said, the metal decides whether it flows
-    tables = [scene if _is_whole(one) else {"closure": "all", **scene} for one in maps]
+    tables: list[dict[str, object]] = [
+        {**scene} if _is_whole(one) else {"closure": "all", **scene} for one in maps
+    ]
     taken = [_surface(one, pixel_size_um, own) for one, own in zip(maps, tables, strict=True)]
     return Joint(_asperity.joint(taken, _path(out), progress))
 
@@ -184,7 +196,7 @@ def scales(
     pixel_size_um: tuple[float, float] | None = None,
     out: PathLike | None = None,
     progress: Progress | None = None,
-    **scene: Any,
+    **scene: Unpack[RoughTable],
 ) -> Scales:
     """Presses a surface with ever finer waves let in: slopes, area, pressure, gap and leak by scale, each with a verdict.
 
@@ -197,7 +209,9 @@ def scales(
     :raises InputError: a scene that makes no sense, a flat map, repetitions of another size, a load that touches nothing.
     """
     maps = list(heights) if _are_several(heights) else [heights]
-    tables = [scene if _is_whole(one) else {"closure": "all", **scene} for one in maps]
+    tables: list[dict[str, object]] = [
+        {**scene} if _is_whole(one) else {"closure": "all", **scene} for one in maps
+    ]
     taken = [_surface(one, pixel_size_um, own) for one, own in zip(maps, tables, strict=True)]
     return Scales(_asperity.scales(taken, _path(out), progress))
 
@@ -218,7 +232,7 @@ def extract(
     threads: int = 0,
     out: PathLike | None = None,
     progress: Progress | None = None,
-    **scene: Any,
+    **scene: Unpack[RoughTable],
 ) -> Extraction:
     """Finds the asperities of a map, the bodies that stand for the highest of them, and holds the closures against crushing them.
 
@@ -255,7 +269,11 @@ def extract(
 
 
 def calibrate(
-    *, threads: int = 0, out: PathLike | None = None, progress: Progress | None = None, **sweep: Any
+    *,
+    threads: int = 0,
+    out: PathLike | None = None,
+    progress: Progress | None = None,
+    **sweep: Unpack[SweepTable],
 ) -> Calibration:
     """Crushes cones of many slopes and metals and finds the representative strain.
 
@@ -265,11 +283,11 @@ def calibrate(
     :param sweep: keys of a sweep, ``slopes_deg=[2, 4]``, ``yield_stress=["200 MPa"]``; what is absent is the paper's.
     :raises InputError: values that make no sense.
     """
-    return Calibration(*_asperity.calibrate(sweep, threads, _path(out), progress))
+    return Calibration(*_asperity.calibrate(dict(sweep), threads, _path(out), progress))
 
 
 def trade(
-    scene: Scene,
+    scene: Scene | PathLike,
     *,
     combinations: int = 30,
     out: PathLike | None = None,
@@ -277,9 +295,12 @@ def trade(
 ) -> Trade:
     """Measures what accuracy costs on a scene, knob by knob.
 
+    :param scene: a scene or the path of its file.
     :param combinations: how many settings differ in everything at once.
+    :param out: folder for the files of ``asperity trade``.
+    :param progress: called with the share that is done and a text.
     """
-    return Trade(*_asperity.trade(scene, combinations, _path(out), progress))
+    return Trade(*_asperity.trade(_scene(scene), combinations, _path(out), progress))
 
 
 def identify(
