@@ -10,7 +10,7 @@ use nalgebra::{DMatrix, DVector};
 pub struct Solved {
     /// The cone.
     pub cone: SharpCone,
-    /// K/E, contact ratio, S/(E h), elastic share, way back.
+    /// K/E, contact ratio, S/(E h), elastic share, recovery.
     pub answer: [f64; OUTPUTS],
     /// Stated errors of the first four.
     pub errors: [f64; ERRORS],
@@ -35,7 +35,7 @@ pub const FOLDS: usize = 5;
 /// Added to the diagonal of the normal equations, over its mean: rounding, not smoothing.
 const RIDGE: f64 = 1e-9;
 
-/// The formula, and how well it foretells.
+/// The formula, and its errors.
 #[derive(Clone, Debug)]
 pub struct Fit {
     /// Through all cones.
@@ -117,7 +117,7 @@ const NOTHING_ERROR: f64 = 1e-4;
 /// Share of the cones left out that lie within the error.
 const COVERED_SHARE: f64 = 0.95;
 
-/// Coefficients of the error of number `k`: the logarithm of what is left goes with the place, and 95 % lie
+/// Coefficients of the error of number `k`: the logarithm of the residual goes with the place, and 95 % lie
 /// below.
 fn errors(places: &[Place], left: &[[f64; ERRORS]], k: usize) -> Option<Vec<f64>> {
     let rows: Vec<Vec<f64>> = places.iter().map(Place::terms_of_errors).collect();

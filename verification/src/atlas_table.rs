@@ -1,5 +1,4 @@
-//! The tables of `results/atlas.md`: what the atlas of cones holds, how well its formula foretells, and what
-//! it shows.
+//! The tables of `results/atlas.md`: cones of the atlas, errors of its formula, and what it shows.
 
 use crate::atlas::{self, Set};
 use crate::atlas_fit::{Fit, Solved, differences, solved};
@@ -69,8 +68,8 @@ type Kind = (&'static str, fn(&Row) -> bool);
 fn left_out(report: &mut Report, rows: &[Row], cones: &[Solved], fit: &Fit) {
     report.section("Cones left out");
     report.line(
-        "Every fifth cone is foretold by the formula through the other four fifths: root mean square of what is left / 95 % of \
-         the cones below. What is left holds the scatter of the cone itself.\n",
+        "Every fifth cone is predicted by the formula through the other four fifths: root mean square of the residual / 95 % of \
+         the cones below. The residual holds the scatter of the cone itself.\n",
     );
     report.table("| cones | | K | contact ratio | S | elastic share |");
     let kinds: [Kind; 4] = [

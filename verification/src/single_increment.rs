@@ -44,7 +44,7 @@ pub fn model<'m>(
 }
 
 /// Solves the increment with the tool at `tip` (infinite: none) from `guess`, whose held components are kept,
-/// and accepts it. Backward Euler: no flow is carried on.
+/// and accepts it. Backward Euler: no flow is extrapolated.
 ///
 /// # Errors
 /// Newton did not converge.

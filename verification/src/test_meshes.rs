@@ -100,7 +100,7 @@ pub fn punch_block(kind: ElementKind, across: usize, size: f64) -> Mesh {
 }
 
 /// Adds stations to `size`, each step `factor` times the last, the first `step` long; the last step fills
-/// what is left.
+/// the remainder.
 fn grow(stations: &mut Vec<f64>, mut step: f64, factor: f64, size: f64) {
     let mut x = stations[stations.len() - 1];
     while x + 1.5 * step < size {

@@ -102,7 +102,7 @@ pub struct Truth {
 /// A truth, or why it was not reached.
 pub type Found = Result<Truth, String>;
 
-/// What is stated, of which older truths hold six: there the first three are those along the curve.
+/// Stated errors, of which older truths hold six: there the first three are those along the curve.
 fn read_stated<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Each, D::Error> {
     let held = Vec::<Option<f64>>::deserialize(deserializer)?;
     let older = held.len() == 6;

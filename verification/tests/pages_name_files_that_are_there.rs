@@ -41,7 +41,7 @@ fn each_file_of_code_on_a_page_is_there() {
     assert!(named > 100, "{named}");
 }
 
-/// Whether a quoted word names a file of code.
+/// True where a quoted word names a file of code.
 fn is_file(word: &str) -> bool {
     let path = word.strip_suffix(".rs");
     path.is_some_and(|path| path.chars().all(|c| c.is_ascii_alphanumeric() || "_/-.".contains(c)))

@@ -11,7 +11,7 @@ pub type Colour = [u8; 3];
 /// palette).
 pub const LINES: [Colour; 7] =
     [[0, 114, 178], [213, 94, 0], [0, 158, 115], [204, 121, 167], [230, 159, 0], [86, 180, 233], [0, 0, 0]];
-/// What a program hands in.
+/// Colour of a closure that a program passes in.
 const CUSTOM: Colour = [120, 80, 40];
 /// Lines of axes and letters.
 pub const INK: Colour = [40, 40, 40];

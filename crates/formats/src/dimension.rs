@@ -2,7 +2,7 @@
 
 use crate::units::{Force, Length, Stress};
 
-/// What a column measures.
+/// Dimension of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Dimension {
     /// Metres.

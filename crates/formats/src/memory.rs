@@ -1,4 +1,4 @@
-//! How much memory a file may take, known before it is read.
+//! Largest memory that a file may take, known before it is read.
 
 use std::fs::File;
 use std::io::{self, Read};

@@ -4,7 +4,7 @@
 //!   μ = |T|² / 2χ + ½ (χ + 1/χ),   T = [a/A  b/B],   χ = ½ (τ + √(τ² + 4δ²)),   τ = det T,
 //! with a and b the sides that leave the corner, A and B their first lengths. The first part is least where
 //! the sides are perpendicular and as long, one to the other, as they were first, the second where the cell
-//! is as large. χ lets a corner that is inside out come back; δ falls to almost 0.
+//! is as large. χ lets a corner that is inside out turn right again; δ falls to almost 0.
 //!
 //! Source: P. Knupp, Algebraic mesh quality metrics, SIAM J. Sci. Comput. 23 (2001); χ from J. Escobar et
 //! al., Simultaneous untangling and smoothing of tetrahedral meshes, Comput. Methods Appl. Mech. Engrg. 192

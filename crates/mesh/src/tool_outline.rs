@@ -3,7 +3,7 @@
 use std::fmt;
 use std::sync::Arc;
 
-/// How deep a point is inside a tool, and the derivatives with respect to the point.
+/// Depth of a point inside a tool, and the derivatives with respect to the point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Penetration {
     /// Depth inside the tool; negative outside.

@@ -1,7 +1,7 @@
 //! Bisection: the place at which a condition ceases to hold.
 
 /// Halves the interval between `ends` so many times, towards where `is_below` turns from true to false on the
-/// way from the first end to the second, and returns the ends of what is left. Neither end is asked: where
+/// way from the first end to the second, and returns the ends of the remainder. Neither end is asked: where
 /// the condition holds all along, the second end stays, and where it holds nowhere the first.
 ///
 /// ```

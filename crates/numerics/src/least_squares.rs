@@ -117,7 +117,7 @@ impl Columns {
         true
     }
 
-    /// Mean square of the error with which `y` of each row is foretold by the fit to all other rows (Allen's
+    /// Mean square of the error with which `y` of each row is predicted by the fit to all other rows (Allen's
     /// PRESS): unlike the residual, it grows again where columns fit what is chance.
     pub fn left_out_error(&self, y: &[f64]) -> f64 {
         let rest = self.remainder(y);

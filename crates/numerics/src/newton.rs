@@ -96,7 +96,7 @@ struct LineSearch {
 /// Newton's steps are mostly good as they are: looking costs an assembly.
 const LINE_SEARCH_LOOSE: LineSearch = LineSearch { overshoot: 0.6, smallest: 0.03 };
 
-/// Where a branch is entered and left again as a whole, loose steps jump between the two for ever.
+/// Loose steps jump between two branches for ever where each is entered and left again as a whole.
 const LINE_SEARCH_CLOSE: LineSearch = LineSearch { overshoot: 0.05, smallest: 0.003 };
 
 /// Iterations after which the line search is a close one. Sound increments take half of them.

@@ -68,7 +68,7 @@ fn elastic_areas(results: &Results, (end, symmetry): &(&str, &str)) -> Option<Ve
         match verdict {
             Verdict::BorneOut => String::new(),
             _ => "The paper draws a von Mises stress below the first yield stress, which is not the same: metal that has \
-                  yielded may bear less and be elastic again."
+                  yielded may carry less and be elastic again."
                 .into(),
         },
     )];
@@ -165,7 +165,7 @@ fn strain(fit: &Fit) -> Vec<Claim> {
                 100.0 * ONE_CURVE
             ),
             Said::Below(ONE_CURVE).judge(Measured::known_to(most, 0.0)),
-            "An assumption of the paper, not a consequence of the π theorem; what is left is the scatter.",
+            "An assumption of the paper, not a consequence of the π theorem; the remainder is the scatter.",
         ));
     }
     claims.extend(where_it_holds(fit));

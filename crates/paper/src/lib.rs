@@ -1,8 +1,8 @@
 #![doc = include_str!("../README.md")]
 //!
 //! Parts of the work (`plan`) run side by side, each on a core of its own, into a folder of its own with a
-//! stamp that says it is done (`part`, `rough_part`); `pace` tells what is left. The report reads those
-//! folders (`results_reader`), judges the paper's claims (`claims`) and shows its figures (`figures`,
+//! stamp that says it is done (`part`, `rough_part`); `pace` tells the work that remains. The report reads
+//! those folders (`results_reader`), judges the paper's claims (`claims`) and shows its figures (`figures`,
 //! `report`).
 
 mod paper;

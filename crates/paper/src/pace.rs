@@ -20,14 +20,14 @@ struct Reached {
     took: f64,
 }
 
-/// How far all parts have come.
+/// Progress of all parts.
 #[derive(Debug)]
 pub struct Pace {
     parts: Mutex<Vec<Reached>>,
     cores: f64,
 }
 
-/// What is done of all parts, and what is left.
+/// Work of all parts that is done, and work that remains.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outlook {
     /// Share of the work that is done, 0 to 1.
@@ -65,7 +65,7 @@ impl Pace {
     }
 }
 
-/// What is left of `parts`, as they were expected, at the pace of what is done of them.
+/// The remaining work of `parts`, as they were expected, at the pace of the work done.
 fn outlook(parts: &[Reached], cores: f64) -> Outlook {
     let sum = |of: fn(&Reached) -> f64| parts.iter().map(of).sum::<f64>();
     let (all, done, took) = (sum(|p| p.expected), sum(|p| p.expected * p.share), sum(|p| p.took));

@@ -52,7 +52,7 @@ pub enum News<'a> {
         share: f64,
         /// Its place.
         message: &'a str,
-        /// What is left of all parts; `None` without an estimate.
+        /// The remaining work of all parts; `None` without an estimate.
         outlook: Option<Outlook>,
     },
     /// A part has ended.
@@ -61,7 +61,7 @@ pub enum News<'a> {
         part: &'static str,
         /// Its stamp, or why it could not be done.
         outcome: &'a Result<Stamp, Error>,
-        /// What is left of all parts; `None` without an estimate.
+        /// The remaining work of all parts; `None` without an estimate.
         outlook: Option<Outlook>,
     },
 }

@@ -13,8 +13,8 @@ pub const RULE: &str = "One rule judges every claim. What the paper says is an i
     judged. A claim on a range of slopes that holds on a part of it is borne out in part, and its row says where. Of several numbers \
     in one claim the worst counts. Nothing here was adjusted to the paper.";
 
-/// How far from a printed number the whole of our interval may reach, as a share of the number, and how much
-/// areas may differ between meshes.
+/// Largest distance of the whole of our interval from a printed number, as a share of the number, and largest
+/// difference of areas between meshes.
 pub const NEAR: f64 = 0.1;
 
 /// The fate of a claim.
@@ -144,19 +144,19 @@ pub fn worst(verdicts: impl IntoIterator<Item = Verdict>) -> Verdict {
     verdicts.into_iter().max().unwrap_or(Verdict::CannotBeJudged)
 }
 
-/// Whether each value lies below the one before it.
+/// Judges the claim that each value lies below the one before it.
 pub fn falls(values: &[Measured]) -> Verdict {
     worst(values.windows(2).map(|w| Said::Below(0.0).judge(w[1].less(w[0]))))
 }
 
-/// Whether each value lies above the one before it.
+/// Judges the claim that each value lies above the one before it.
 pub fn rises(values: &[Measured]) -> Verdict {
     worst(values.windows(2).map(|w| Said::Above(0.0).judge(w[1].less(w[0]))))
 }
 
-/// Whether there is a zone, by its area on three meshes: there is where the areas agree within [`NEAR`] of
-/// the largest, there is none where all are `least` or smaller, and nothing can be said where they differ or
-/// where there are not three.
+/// Judges the claim that there is a zone, by its area on three meshes: there is where the areas agree within
+/// [`NEAR`] of the largest, there is none where all are `least` or smaller, and nothing can be said where
+/// they differ or where there are not three.
 pub fn zone_is_there(areas: &[f64], least: f64) -> Verdict {
     let (low, high) = areas.iter().fold((f64::INFINITY, 0.0_f64), |(l, h), a| (l.min(*a), h.max(*a)));
     match areas.len() {

@@ -3,7 +3,7 @@
 //!
 //! Two quantities bound them, both continuous over the mesh: what the metal itself says, first yield, and
 //! what the paper's Figure 5 draws, the von Mises stress against the first yield stress. Metal that has
-//! yielded may bear less than that and be elastic again.
+//! yielded may carry less than that and be elastic again.
 
 use asperity::simulation::run::FieldFrame;
 use asperity::simulation::scene::{Scene, Symmetry};
@@ -29,9 +29,9 @@ pub struct Zone {
 /// The zones of a row on one mesh.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Zones {
-    /// Where the metal never yielded.
+    /// Zones in which the metal never yielded.
     pub never_yielded: Vec<Zone>,
-    /// Where the von Mises stress is below the first yield stress.
+    /// Zones in which the von Mises stress is below the first yield stress.
     pub below_yield: Vec<Zone>,
     /// Places of the outermost summits, µm.
     pub summits: [f64; 2],
@@ -88,7 +88,7 @@ impl Zones {
     }
 }
 
-/// The area of them all.
+/// The area of all zones.
 pub fn area(zones: &[Zone]) -> f64 {
     zones.iter().fold(0.0, |sum, zone| sum + zone.area)
 }

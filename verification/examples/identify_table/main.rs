@@ -108,7 +108,7 @@ fn main() {
 /// Cover that is asked of an interval, whatever its errors.
 const COVERS: Bound = Bound { covers: [90.0, 100.0], asked: "covers 90", ..ANY };
 
-/// What is asked of the yield stress by one cone and its imprint.
+/// Bound on the yield stress from one cone and its imprint.
 const IMPRINT: Bound =
     Bound { mean: 5.0, worst: 12.0, covers: [90.0, 100.0], asked: "5 mean, 12 worst, covers 90" };
 

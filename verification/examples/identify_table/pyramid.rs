@@ -27,9 +27,9 @@ struct Simulation {
     yield_stress: f64,
     exponent: f64,
     answers: Answers,
-    /// What the program answers under the cone of the same section, at `reference`.
+    /// Answers of the program under the cone of the same section, at `reference`.
     cone: Answers,
-    /// What was published with it of that cone.
+    /// Numbers of that cone that were published with it.
     published_cone: Option<Answers>,
 }
 
@@ -81,7 +81,7 @@ struct Fitted {
     coefficients: DVector<f64>,
     /// Measured less expected at each simulation by the formula fitted without it.
     left_out: DVector<f64>,
-    /// What the formula of all expects of each less what that without it expects.
+    /// Expectation of the formula of all less that of the formula without each.
     moved: DVector<f64>,
 }
 
@@ -149,7 +149,7 @@ fn formula(report: &mut Report, all: &[Simulation], i: usize, published: bool) -
     Some(fitted)
 }
 
-/// What a fit of a simulation is given.
+/// Input of a fit of a simulation.
 #[derive(Clone, Copy, PartialEq)]
 struct Given {
     slope: bool,

@@ -171,7 +171,7 @@ fn without_hardening_coaxial_paths_are_those_of_the_isotropic_update() {
     }
 }
 
-/// Where directions turn, strains that add differ from strains that multiply. In simple shear without
+/// Strains that add differ from strains that multiply where directions turn. In simple shear without
 /// hardening the shear stress is σ_y/√3 in the latter; measured in the former here.
 #[test]
 fn simple_shear_shows_the_limit_of_additive_strains() {

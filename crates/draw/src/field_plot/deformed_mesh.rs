@@ -75,7 +75,7 @@ impl DeformedMesh {
         self.mesh.cell_count()
     }
 
-    /// Whether some of a cell has yielded.
+    /// True where some of a cell has yielded.
     pub fn yielded(&self, cell: usize) -> bool {
         self.mesh.cell(cell)[..4].iter().any(|&node| self.values[node as usize][3] > 0.0)
     }

@@ -26,8 +26,8 @@ pub struct Dot {
     pub values: [f32; 5],
 }
 
-/// The least whole number from `x` on, which is not negative. (`f64::ceil` is a call on processors without an instruction
-/// for it.)
+/// The least whole number from `x` on, which is not negative. (`f64::ceil` is a call on processors without an
+/// instruction for it.)
 fn ceiling(x: f64) -> usize {
     let whole = x as usize;
     whole + usize::from((whole as f64) < x)

@@ -17,7 +17,7 @@ const SCATTER_OF_HEIGHTS: f64 = 1.0;
 /// Largest difference of slope of neighbouring lines on such a plane.
 const SAME_SLOPE: f64 = 0.3;
 
-/// What stood beside the heights.
+/// Places and units that stood beside the heights.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Axes {
     /// Step along x and y where it was given.
@@ -26,7 +26,7 @@ pub(super) struct Axes {
     pub lateral_unit: Option<f64>,
     /// Metres per unit of the heights, where the corner names it.
     pub height_unit: Option<f64>,
-    /// What was taken, in words.
+    /// The finding, in words.
     pub said: String,
 }
 
@@ -37,7 +37,7 @@ struct Above {
     corner: String,
 }
 
-/// Takes off a first row and a first column that are places along x and y, or numbers of rows and columns.
+/// Removes a first row and a first column that are places along x and y, or numbers of rows and columns.
 ///
 /// # Errors
 /// Places of which the first or the others do not fit, which may as well be heights.
@@ -174,7 +174,7 @@ fn doubt(grid: &Grid<'_>, down: bool) -> ReadError {
     let (line, other) = if down { ("column", "row") } else { ("row", "column") };
     let problem = format!(
         "the first {line} rises evenly like places, but the first {other} does not, and neither does their corner fit: \
-         take off the {line} if it holds places, or begin it with a place"
+         remove the {line} if it holds places, or begin it with a place"
     );
     TextError::new(grid.lines[0], problem).into()
 }

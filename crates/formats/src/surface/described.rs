@@ -1,10 +1,10 @@
-//! What the words before the heights of a text file say of them: size, pixels, units, wavelength.
+//! Words before the heights of a text file: size, pixels, units, wavelength.
 
 use super::measured::{ReadError, Request, Spacing};
 use crate::dimension::Dimension;
 use crate::text::{TextError, folded_name};
 
-/// What the file says of its heights, lengths in metres.
+/// Statements of the file on its heights, lengths in metres.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Described {
     /// Metres per unit of height.
@@ -20,7 +20,7 @@ pub(super) struct Described {
     /// The one size of the map that was named, and the ratio of its sides.
     scan: Option<f64>,
     aspect: Option<f64>,
-    /// Whether width and length are the sides, so that a height is one along z.
+    /// True where width and length are the sides, so that a height is one along z.
     has_length: bool,
     /// The number for a point that was not measured.
     missing: Option<f64>,
@@ -380,7 +380,7 @@ impl Described {
         for (said, found, what) in [(self.counts[0], columns, "columns"), (self.counts[1], rows, "rows")] {
             if let Some((count, line)) = said.filter(|(count, _)| *count != found && !request.override_file) {
                 let problem = format!(
-                    "says {count} {what}, but {found} were found (the map has {columns} columns and {rows} rows): take off \
+                    "says {count} {what}, but {found} were found (the map has {columns} columns and {rows} rows): remove \
                      {what} that hold no heights, correct this line or delete it, or set override = true"
                 );
                 return Err(TextError::new(line, problem).into());
@@ -428,7 +428,7 @@ impl Described {
         (x > 0.0 && y > 0.0).then_some(Spacing::Metres([x, y]))
     }
 
-    /// What was found, in words.
+    /// The finding, in words.
     pub fn notes(&self) -> Option<String> {
         let sizes = self.size.iter().chain(&self.pixel).chain([&self.scan]).any(Option::is_some);
         let found = [

@@ -65,9 +65,9 @@ pub enum ReadError {
         format: &'static str,
         /// Points of the map.
         points: u64,
-        /// What they take, GB.
+        /// Memory that they take, GB.
         needed: f64,
-        /// What may be taken, GB.
+        /// Memory that may be taken, GB.
         limit: f64,
     },
     /// A format that is known by its beginning, but not read.
@@ -159,7 +159,7 @@ pub struct Measured {
     pub spacing: Spacing,
     /// Metres per unit of height, where the file says.
     pub height_unit: Option<f64>,
-    /// What was understood of the file, and remarks on it, each a sentence without its full stop.
+    /// Interpretation of the file, and remarks on it, each a sentence without its full stop.
     pub notes: Vec<String>,
 }
 
@@ -178,14 +178,14 @@ impl Measured {
     }
 }
 
-/// What is asked of a file beside its name.
+/// Requests on a file beside its name.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Request<'a> {
     /// Columns of x, y and z in a list of points, by name or number.
     pub columns: [Option<&'a str>; 3],
     /// A number that means that a point was not measured, in the unit of the file.
     pub missing_value: Option<f64>,
-    /// Whether sums that do not hold, and values that are said to be no heights, are passed over.
+    /// True where sums that do not hold, and values that are said to be no heights, are passed over.
     pub override_file: bool,
     /// Bytes that may be taken; `None`: [`default_limit`].
     pub memory_limit: Option<u64>,

@@ -19,7 +19,7 @@ pub(super) struct Placed {
     pub step: [f64; 2],
     /// Heights row by row, NaN where no point is.
     pub heights: Vec<f64>,
-    /// What was done to the points.
+    /// Changes that were made to the points.
     pub note: Option<String>,
 }
 

@@ -26,7 +26,7 @@ fn metres(unit: &str) -> Option<f64> {
     Length::UNITS.iter().find(|(name, _)| *name == unit).map(|(_, metres)| *metres)
 }
 
-/// What is said of the kind of object and of how many there are; refused if it holds no heights of a surface.
+/// Remarks on the kind of object and on their number; refused if it holds no heights of a surface.
 fn remarks_of_kind(header: &Bytes<'_>, kind: f64, rows: u64) -> Result<Vec<String>, ReadError> {
     let objects = header.number(Number::I16, 14)?;
     let mut notes = Vec::new();

@@ -2,7 +2,7 @@
 
 use super::{TextError, shortened};
 
-/// What stands between columns.
+/// Separator of columns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Separator {
     /// A character, with blanks about it or not.
@@ -11,7 +11,7 @@ pub enum Separator {
     Blanks,
 }
 
-/// What stands before decimals.
+/// Mark before decimals.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Decimal {
     /// 1.5
@@ -257,7 +257,7 @@ impl Dialect {
     }
 }
 
-/// Whether the commas of a number stand before decimals; `None` where they may be those of a thousand too.
+/// True where the commas of a number stand before decimals; `None` where they may be those of a thousand too.
 fn is_decimal_comma(cell: &str) -> Option<bool> {
     let (whole, decimals) = cell.rsplit_once(',')?;
     let whole = whole.trim_start_matches(['-', '+', '−']);

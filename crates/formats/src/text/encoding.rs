@@ -7,7 +7,7 @@ use std::borrow::Cow;
 /// Bytes that are looked at to tell UTF-16 without a mark, and text from other data.
 const LOOKED_AT: usize = 1 << 16;
 
-/// What Windows-1252 means by the bytes 0x80 to 0x9F.
+/// Characters of the bytes 0x80 to 0x9F in Windows-1252.
 const WINDOWS_1252: [char; 32] = [
     '€', '\u{81}', '‚', 'ƒ', '„', '…', '†', '‡', 'ˆ', '‰', 'Š', '‹', 'Œ', '\u{8d}', 'Ž', '\u{8f}', '\u{90}',
     '‘', '’', '“', '”', '•', '–', '—', '˜', '™', 'š', '›', 'œ', '\u{9d}', 'ž', 'Ÿ',

@@ -18,7 +18,7 @@ pub struct Grid<'t> {
     pub values: Vec<f64>,
     /// First and last line of numbers, from 1.
     pub lines: [usize; 2],
-    /// Whether the first cell of the first row is empty.
+    /// True where the first cell of the first row is empty.
     pub corner_is_empty: bool,
     /// Lines behind the numbers that hold none.
     pub after: usize,

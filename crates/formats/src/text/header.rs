@@ -6,16 +6,16 @@ use super::{TextError, shortened};
 use crate::dimension::Dimension;
 use crate::units::conversion;
 
-/// What is known of a table beside its text.
+/// Facts on a table beside its text.
 #[derive(Clone, Copy, Debug)]
 pub struct Asked<'a, const N: usize> {
     /// Name of each column, with or without its unit, or its number from 1; `None`: by the usual names.
     pub columns: [Option<&'a str>; N],
     /// A number that means that nothing was measured, in the unit of the file.
     pub missing: Option<f64>,
-    /// Whether a row with a missing number is an error.
+    /// True where a row with a missing number is an error.
     pub needs_all: bool,
-    /// Whether a column may have no unit.
+    /// True where a column may have no unit.
     pub may_lack_units: bool,
     /// The key that names columns, for messages.
     pub key: Option<&'a str>,
@@ -56,7 +56,7 @@ pub(crate) struct Columns<const N: usize> {
     pub width: usize,
     /// The column that numbers tests.
     pub test: Option<usize>,
-    /// What they were understood as.
+    /// Interpretation of the header, in words.
     pub said: String,
 }
 

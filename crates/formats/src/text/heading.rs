@@ -7,7 +7,7 @@ use crate::dimension::{Dimension, PREFIXES};
 pub struct Quantity {
     /// Its name in messages and as a key.
     pub name: &'static str,
-    /// What it measures.
+    /// Its dimension.
     pub dimension: Dimension,
     /// Names of columns, in small letters without accents, words apart by blanks.
     pub called: &'static [&'static str],
@@ -29,7 +29,7 @@ pub(super) struct Heading {
 /// Added to the rank of a name that says that it is not corrected.
 const RANK_OF_RAW: u8 = 10;
 
-/// Whether a text is the unit of something.
+/// True where a text is the unit of something.
 pub(super) fn is_unit(text: &str) -> bool {
     [Dimension::Length, Dimension::Force, Dimension::Stress].iter().any(|d| d.scale(text).is_some())
 }
@@ -78,7 +78,7 @@ impl Heading {
         Heading { text: text.into(), name: name.into(), unit }
     }
 
-    /// How well the name is that of `quantity`: 0 best.
+    /// Rank of the name as one of `quantity`: 0 best.
     pub fn rank(&self, quantity: &Quantity) -> Option<u8> {
         let rank = self.bare_rank(quantity)?;
         let has = |words: &[&str]| self.name.split(' ').any(|word| words.contains(&word));
@@ -108,7 +108,7 @@ impl Heading {
             "sd",
             "stdev",
         ];
-        /// Names that other quantities bear too: a simulation calls what its contact law lets overlap so.
+        /// Names that other quantities have too: a simulation calls what its contact law lets overlap so.
         const WEAK: [&str; 1] = ["penetration"];
         let name = self.name.as_str();
         if quantity.called.contains(&name) {

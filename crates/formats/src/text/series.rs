@@ -23,7 +23,7 @@ pub struct SeriesTable<const N: usize> {
     pub series: Vec<Series<N>>,
     /// SI value of one in each column of the first test.
     pub scales: [f64; N],
-    /// What was understood, in one sentence.
+    /// Its interpretation, in one sentence.
     pub understood: String,
 }
 
@@ -54,7 +54,7 @@ struct Block<'t, const N: usize> {
     columns: Option<Columns<N>>,
     /// Series before this block.
     first: usize,
-    /// Whether its rows begin with numbers; then a line that does not is none of them.
+    /// True where its rows begin with numbers; then a line that does not is none of them.
     has_plain_rows: bool,
     end: Option<End>,
 }
@@ -255,7 +255,7 @@ impl<'t, const N: usize> Reader<'_, 't, N> {
         Ok(())
     }
 
-    /// The reading of a row; `None` where its cells are empty or the row is a note.
+    /// Interpretation of a row; `None` where its cells are empty or the row is a note.
     fn reading(
         &mut self,
         line: usize,

@@ -123,7 +123,7 @@ pub struct ClosureSeeds {
     pub index: Seeds,
     /// Largest over nominal pressure.
     pub peak: Seeds,
-    /// Displacement that stays after unloading, µm.
+    /// Residual displacement after unloading, µm.
     pub residual: Seeds,
     /// Work returned over work done by the unloading law, %.
     pub elastic: Seeds,
@@ -213,7 +213,7 @@ fn take_down(table: &mut Vec<ClosureSeeds>, rough: &Rough) {
 /// The closures that claims are judged by.
 const JUDGED: [Closure; 2] = [Closure::Published, Closure::Johnson];
 
-/// What the closures that claims are judged by give on one surface of each other kind with the Ra and the
+/// Results of the closures that claims are judged by on one surface of each other kind with the Ra and the
 /// slope of `row`: how much of a result Ra and slope do not determine. A kind that has no such surface is
 /// left out.
 ///

@@ -85,7 +85,7 @@ impl Table1 {
 fn surface(row: &ComparedRow) -> Markup {
     let paper = &row.paper;
     let head =
-        ["", "P_m, MPa", "A_r, %", "ψ", "peak over nominal", "stays after unloading, µm", "work returned, %"];
+        ["", "P_m, MPa", "A_r, %", "ψ", "peak over nominal", "residual displacement, µm", "work returned, %"];
     let mut rows = vec![vec![
         html! { "paper" },
         html! { (paper.pressure) },

@@ -1,4 +1,4 @@
-//! What the topology of a mesh decides before any number is known: the order of elimination, the numbers of
+//! Analysis of the topology of a mesh, before any number is known: the order of elimination, the numbers of
 //! the unknowns, the pattern of the stiffness and the fronts of its factorisation.
 //!
 //! To analyse a mesh takes a twentieth of a crush at `standard`. The cases of a sweep are meshes of few

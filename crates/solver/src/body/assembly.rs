@@ -14,7 +14,7 @@ use crate::point::j2::{Linearisation, Tangent};
 use crate::point::material::Metal;
 use asperity_numerics::lanes::Lanes;
 
-/// Which part of the surface is taken to touch.
+/// The part of the surface that is taken to touch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Touching {
     /// That of the converged state, which may pull: the first iterate of an increment.
@@ -28,7 +28,7 @@ pub enum Touching {
 pub struct Response {
     /// Integration points at the end of the increment.
     pub points: Points,
-    /// Whether each element yields.
+    /// True for each element that yields.
     pub yielding: Vec<bool>,
     /// Points returned to the yield surface.
     pub returns: usize,
@@ -46,7 +46,7 @@ pub struct Response {
 }
 
 impl Response {
-    /// Whether each point yields, which started as in `trial`.
+    /// True for each point that yields, which started as in `trial`.
     pub fn yielding_points<'a>(&'a self, trial: &'a Trial) -> impl Iterator<Item = bool> + use<'a> {
         let started = &trial.start.states;
         self.points.states.iter().zip(started).map(|(new, start)| new.plastic_strain > start.plastic_strain)

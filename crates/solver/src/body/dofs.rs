@@ -1,4 +1,4 @@
-//! Which displacement components are unknown, and their numbers.
+//! Unknown displacement components and their numbers.
 
 /// Marks a component that is fixed or prescribed.
 pub const FIXED: u32 = u32::MAX;
@@ -8,7 +8,7 @@ pub const FIXED: u32 = u32::MAX;
 pub struct Dofs {
     /// Number of (u_r, u_z) of each node, or [`FIXED`].
     pub number: Vec<[u32; 2]>,
-    /// How many are unknown.
+    /// Number of unknowns.
     pub count: usize,
 }
 

@@ -1,4 +1,4 @@
-//! Why a body cannot be assembled or its stiffness not be factorised.
+//! Reasons why a body cannot be assembled or its stiffness not be factorised.
 
 use crate::point::failure::Failure as PointFailure;
 
@@ -10,7 +10,7 @@ pub enum Failure {
     Element {
         /// Number of the element, from 0.
         cell: usize,
-        /// Why a point of it fails.
+        /// The reason why a point of it fails.
         cause: PointFailure,
     },
     /// The stiffness could not be factorised in any of the ways tried.

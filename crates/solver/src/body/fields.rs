@@ -25,7 +25,7 @@ pub struct Fields {
     pub pressure: Vec<f64>,
     /// Contact pressure at the nodes, 0 off the contact.
     pub contact_pressure: Vec<f64>,
-    /// How far the metal at the nodes is from first yield: below 0 where it never yielded, von Mises stress
+    /// Distance of the metal at the nodes from first yield: below 0 where it never yielded, von Mises stress
     /// over first yield stress less 1; above 0 where it did, plastic strain over the strain of first yield,
     /// 1 at most. It passes 0 at the edge of what never yielded.
     pub first_yield: Vec<f64>,
@@ -54,10 +54,10 @@ pub struct SurfacePoint {
     /// smooth tool.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shear_traction: Option<f64>,
-    /// Whether the surface sticks to the tool there; `None` under a smooth tool.
+    /// True where the surface sticks to the tool there; `None` under a smooth tool.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sticks: Option<bool>,
-    /// Whether the material there has yielded.
+    /// True where the material there has yielded.
     pub yielded: bool,
 }
 
@@ -216,8 +216,8 @@ fn shear_tractions(body: &Body<'_>, state: &State) -> Option<Vec<(f64, bool)>> {
 /// Current pressure at the surface nodes: penalty times penetration, per current area.
 ///
 /// Corners penetrate less than mid-side nodes: only the line through the pressure of an edge is accurate.
-/// Where an edge and its neighbours touch wholly, its nodes get that line, and a corner the mean of its two;
-/// beside the end of the contact the pressure falls too fast for a line.
+/// Nodes of an edge that touches wholly, as its neighbours do, get that line, and a corner the mean of its
+/// two; beside the end of the contact the pressure falls too fast for a line.
 fn contact_pressure(body: &Body<'_>, state: &State) -> Vec<f64> {
     let mut pressure = vec![0.0; body.mesh.nodes.len()];
     let surface = Surface::of_state(body, state);

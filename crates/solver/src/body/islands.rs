@@ -1,4 +1,4 @@
-//! Where fluid may leak: gaps between contacts, and regions that never yielded among the asperities.
+//! Possible leaks: gaps between contacts, and regions that never yielded among the asperities.
 
 use crate::body::discrete_body::Body;
 use crate::body::fields::fields;
@@ -14,13 +14,13 @@ use std::collections::{BTreeSet, HashSet};
 /// An untouched stretch of surface between two contacts, or one that flanks enclose which press each other.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gap {
-    /// Where the contact before it ends; the least place of an enclosed one.
+    /// End of the contact before it; the least place of an enclosed one.
     pub left: f64,
-    /// Where the contact after it begins; the greatest place of an enclosed one.
+    /// Beginning of the contact after it; the greatest place of an enclosed one.
     pub right: f64,
     /// Largest distance from the tool in between; from the lowest to the highest point of an enclosed one.
     pub height: f64,
-    /// Whether the surface itself closes it off from the tool.
+    /// True where the surface itself closes it off from the tool.
     pub enclosed: bool,
 }
 
@@ -40,9 +40,9 @@ pub struct Island {
     /// Volume-weighted mean von Mises stress: far below the pressure where confinement keeps the material
     /// elastic.
     pub mean_von_mises: f64,
-    /// Whether it hangs together with the elastic bulk of the substrate.
+    /// True where it hangs together with the elastic bulk of the substrate.
     pub reaches_substrate: bool,
-    /// Whether it holds a part of the free surface.
+    /// True where it holds a part of the free surface.
     pub reaches_surface: bool,
 }
 
@@ -147,7 +147,7 @@ pub fn enclosed_regions(mesh: &Mesh, places: &[[f64; 2]], values: &[f64]) -> Vec
     regions
 }
 
-/// Whether a region holds one of the nodes.
+/// True where a region holds one of the nodes.
 fn reaches(region: &Region, nodes: &HashSet<u32>) -> bool {
     region.weights.keys().any(|node| nodes.contains(node))
 }

@@ -63,7 +63,7 @@ pub struct State {
     /// Change of each point's volume ratio J in the last increment; empty where the yield stress does not
     /// depend on it.
     pub volume_change: Vec<f64>,
-    /// Whether each element yielded in the last increment.
+    /// True for each element that yielded in the last increment.
     pub yielding: Vec<bool>,
     /// Height of the tool's lowest point; infinite without a tool.
     pub tip: f64,
@@ -73,7 +73,7 @@ pub struct State {
     pub edges: Vec<ContactEdge>,
     /// Contact of each edge.
     pub contact: Vec<EdgeContact>,
-    /// Which points of the surface face other parts of it.
+    /// Points of the surface that face other parts of it.
     pub facing: Facing,
     /// Largest load so far.
     pub load_scale: f64,
@@ -96,7 +96,7 @@ pub struct Ledger {
     /// Change of the stored energy, the plastic work and the contact energy by all transfers to better
     /// meshes.
     pub transferred: f64,
-    /// How many there were.
+    /// Number of transfers.
     pub transfers: usize,
 }
 

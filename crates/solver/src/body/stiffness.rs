@@ -113,7 +113,7 @@ impl Stiffness {
         }
     }
 
-    /// Whether the pattern couples these nodes.
+    /// True where the pattern couples these nodes.
     pub fn couples(&self, nodes: &[u32], dofs: &Dofs) -> bool {
         let numbers = numbers_of(nodes, dofs);
         let free = || numbers.iter().copied().filter(|&number| number != FIXED);

@@ -91,7 +91,7 @@ impl<'a> Surface<'a> {
         )
     }
 
-    /// How far the tool must travel down from height 0 to touch this surface.
+    /// Travel of the tool down from height 0 until it touches this surface.
     pub fn first_touch(&self) -> f64 {
         let Some(contact) = &self.body.contact else { return 0.0 };
         // the way along z to the flank, exact for planes and cones; repeated for round tools. A point beside

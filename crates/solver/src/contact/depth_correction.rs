@@ -1,7 +1,7 @@
 //! Penalty correction from tool travel to depth: travel less this is the depth.
 //!
 //! The penalty is an elastic layer of stiffness ε per area on the tool; the layer is compressed by d = p/ε.
-//! What depth the tool would have without it depends on how the material answers:
+//! The depth that the tool would have without it depends on how the material answers:
 //! * elastic: the layer adds E_c = ∫ ½ε d² dA to the complementary energy, so to first order in 1/ε the depth
 //!   grows by dE_c/dF = ∫ d (∂p/∂F) dA (Castigliano). What an elastic contact gains in pressure is the
 //!   pressure of a flat punch as wide as the contact (Johnson, Contact Mechanics, 1985, eq. 3.34 and 2.64),

@@ -23,7 +23,7 @@ use asperity_mesh::outline::quadratic_roots;
 pub struct ContactEdge {
     /// Nodes: two corners, then the mid-side node (or the first corner again).
     pub nodes: [u32; 3],
-    /// Whether the mid-side node exists.
+    /// True where the mid-side node exists.
     pub quadratic: bool,
     /// Positions of the three nodes in the configuration whose area the energy is taken over.
     pub reference: [[f64; 2]; 3],
@@ -53,7 +53,7 @@ pub struct ContactContext<'a> {
 /// Contribution of one edge.
 #[derive(Clone, Copy, Debug)]
 pub struct EdgeContact {
-    /// Which parts touch.
+    /// The parts that touch.
     pub parts: Parts,
     /// Nodal forces (r, z) of the three nodes, the gradient of the energy.
     pub force: [[f64; 2]; 3],

@@ -1,4 +1,4 @@
-//! How deep a point of one edge lies behind another edge, with first and second derivatives.
+//! Depth of a point of one edge behind another edge, with first and second derivatives.
 //!
 //! Let y(ξ) be the other edge with the body on its left, t = y' with m = |t|, n its outward normal, κ = n ·
 //! y'', and ξ where (x - y) · t = 0. The depth is d = -(x - y) · n. Its first variation is -n · (δx - δy),
@@ -24,16 +24,16 @@ pub struct Placed<'a> {
     pub x: [[f64; 2]; 3],
 }
 
-/// Where the nearest point of an edge lies.
+/// The nearest point of an edge.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Nearest {
     /// Its coordinate on the edge.
     pub xi: f64,
     /// The end that it is, 0 or 1, if it is one.
     pub end: Option<usize>,
-    /// How far away it is.
+    /// Distance of the point.
     pub distance: f64,
-    /// Whether the point lies on the side of the body.
+    /// True where the point lies on the side of the body.
     pub behind: bool,
 }
 

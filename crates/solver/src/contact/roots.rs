@@ -1,4 +1,4 @@
-//! Where a pressure along an edge is above zero: its roots, isolated between samples and found to the last
+//! Intervals of an edge with a pressure above zero: its roots, isolated between samples and found to the last
 //! digits.
 
 use crate::contact::parts::{NOTHING, Parts};

@@ -8,9 +8,9 @@
 //! places where nodes of the other side were, so that two meshes that do not match carry a uniform pressure
 //! exactly.
 //!
-//! Which points face which edges is found once an increment, from the converged state: a point inside thin
-//! metal lies behind its other side as well, and only its past tells the two apart. An edge is faced if the
-//! two normals part by more than 60° and the point lay outside of it or less than `LARGEST_OVERLAP` of a
+//! Points and the edges that they face are found once an increment, from the converged state: a point inside
+//! thin metal lies behind its other side as well, and only its past tells the two apart. An edge is faced if
+//! the two normals part by more than 60° and the point lay outside of it or less than `LARGEST_OVERLAP` of a
 //! piece behind. Pieces are the straight lines between neighbouring nodes.
 
 use crate::contact::edge::{ContactEdge, GAUSS4};
@@ -67,7 +67,7 @@ pub struct Facing {
 pub struct Pressed {
     /// Nodes: those of the edge of the point, then those of the other edge.
     pub nodes: [u32; NODES_OF_TWO_EDGES],
-    /// How many of them there are.
+    /// Number of them.
     pub count: usize,
     /// Energy.
     pub energy: f64,
@@ -100,7 +100,7 @@ impl Piece {
         self.edge == other.edge || self.nodes.iter().any(|node| other.nodes.contains(node))
     }
 
-    /// Whether the two normals part so far that the pieces may press each other.
+    /// True where the two normals part so far that the pieces may press each other.
     fn faces(&self, other: &Piece) -> bool {
         let (s, t) = (self.direction(), other.direction());
         !self.touches(other) && s[0] * t[0] + s[1] * t[1] < FACING_COSINE
@@ -196,8 +196,8 @@ impl Facing {
         Facing { points }
     }
 
-    /// Where the surface of `edges`, whose nodes are at `position`, passed through itself: pieces cross that
-    /// do not face each other.
+    /// The place where the surface of `edges`, whose nodes are at `position`, passed through itself: pieces
+    /// cross that do not face each other.
     pub fn fold(&self, edges: &[ContactEdge], position: &[[f64; 2]]) -> Option<[f64; 2]> {
         let pieces = pieces(edges, position);
         let pairs = close_pairs(&pieces, 0.0, |a, b| !a.touches(b));
@@ -208,7 +208,7 @@ impl Facing {
         })
     }
 
-    /// Whether a point of the piece faces the edge.
+    /// True where a point of the piece faces the edge.
     fn knows(&self, piece: &Piece, edge: usize) -> bool {
         let [from, to] = piece.interval;
         self.points
@@ -216,7 +216,7 @@ impl Facing {
             .any(|p| p.edge == piece.edge && (from..=to).contains(&p.xi) && p.faced.contains(&edge))
     }
 
-    /// Whether nothing faces anything.
+    /// True where nothing faces anything.
     pub fn is_empty(&self) -> bool {
         self.points.is_empty()
     }

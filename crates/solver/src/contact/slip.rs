@@ -10,7 +10,7 @@ pub enum Friction {
 }
 
 impl Friction {
-    /// Whether a traction is below its limit under this pressure.
+    /// True where a traction is below its limit under this pressure.
     pub(crate) fn sticks(self, traction: f64, pressure: f64) -> bool {
         match self {
             Friction::Coulomb(coefficient) => traction.abs() < (1.0 - 1e-9) * coefficient * pressure,
@@ -33,7 +33,7 @@ pub struct Rubbing {
     pub friction: Friction,
     /// Height of the tool's lowest point at the converged state.
     pub tip_before: f64,
-    /// Whether what touches sticks whatever its law: an infinitesimal unloading.
+    /// True where what touches sticks whatever its law: an infinitesimal unloading.
     pub holds: bool,
 }
 

@@ -22,7 +22,7 @@ pub struct ElementContext<'a> {
     pub symmetry: Symmetry,
     /// The material.
     pub metal: &'a Metal,
-    /// Which tangent is wanted.
+    /// The tangent that is wanted.
     pub tangent: Tangent,
 }
 

@@ -1,4 +1,4 @@
-//! Which parts of the surface touch the tool, from iterate to iterate.
+//! Parts of the surface that touch the tool, from iterate to iterate.
 
 use crate::body::assembly::Touching;
 use crate::contact::edge::EdgeContact;
@@ -7,9 +7,9 @@ use crate::contact::parts::{NOTHING, Parts};
 /// The parts that touched at the last assessed iterate, and whether they are kept at the next.
 pub(super) struct ContactSet {
     touching: Vec<Parts>,
-    /// Whether the next assembly keeps the contact of the converged state.
+    /// True where the next assembly keeps the contact of the converged state.
     keep: bool,
-    /// Whether the last one did.
+    /// True where the last one did.
     kept: bool,
 }
 
@@ -26,12 +26,12 @@ impl ContactSet {
         self.keep = self.touching.iter().any(|p| *p != NOTHING);
     }
 
-    /// Whether the next assembly keeps what the converged state has, from now on.
+    /// Sets for the next assemblies whether the contact of the converged state is kept.
     pub fn set_keeping(&mut self, keep: bool) {
         self.keep = keep;
     }
 
-    /// Whether the last assembly kept it.
+    /// True where the last assembly kept it.
     pub fn was_kept(&self) -> bool {
         self.kept
     }

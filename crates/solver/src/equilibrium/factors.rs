@@ -13,9 +13,9 @@ pub(super) struct Factors {
     /// The part of friction that is not symmetric.
     pub correction: Correction,
     pub secants: Secants,
-    /// Whether they are of the tangent of some iterate of this body.
+    /// True where they are of the tangent of some iterate of this body.
     pub valid: bool,
-    /// Whether each point yielded there.
+    /// True for each point that yielded there.
     yielded: Vec<bool>,
 }
 
@@ -55,8 +55,8 @@ impl Factors {
         self.yielded.extend(yielding);
     }
 
-    /// Whether other points are `yielding` than where they were made: where a point yields that did not, or
-    /// the other way, its modulus has leapt.
+    /// True where other points are `yielding` than where they were made: where a point yields that did not,
+    /// or the other way, its modulus has leapt.
     pub fn are_stale(&self, yielding: impl Iterator<Item = bool>) -> bool {
         !yielding.eq(self.yielded.iter().copied())
     }

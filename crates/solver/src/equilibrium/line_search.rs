@@ -9,11 +9,11 @@ pub(super) struct LineSearch {
     /// Displacement of each node where the direction was found.
     base: Vec<[f64; 2]>,
     residual_before: Vec<f64>,
-    /// Whether the contact of the converged state was kept there.
+    /// True where the contact of the converged state was kept there.
     kept_contact: bool,
     /// Share of the direction that was gone since.
     fraction: f64,
-    /// Whether a limit changed the residual at the last assessed iterate: no secant leads there.
+    /// True where a limit changed the residual at the last assessed iterate: no secant leads there.
     jumped: bool,
 }
 

@@ -33,7 +33,7 @@ use std::time::Instant;
 /// Relative residual at which a displacement is good enough to tell which points stop yielding.
 const YIELDING_KNOWN_AT: f64 = 0.1;
 
-/// Why an increment has no equilibrium.
+/// The reason why an increment has no equilibrium.
 pub type SolveFailure = newton::NewtonError<Failure>;
 
 /// Counters of the work done.
@@ -71,12 +71,12 @@ pub struct Equilibrium<'m> {
     factors: Factors,
     search: LineSearch,
     contact_set: ContactSet,
-    /// Whether the stiffness is that of the last assessed iterate.
+    /// True where the stiffness is that of the last assessed iterate.
     has_tangent: bool,
-    /// Whether tangents that are far from definite are stiffened.
+    /// True where tangents that are far from definite are stiffened.
     stiffens: bool,
-    /// Whether what the points extrapolate is still to be limited (see [`State::limit_extrapolation`]), and
-    /// at which relative residual.
+    /// True where the extrapolation of the points is still to be limited (see
+    /// [`State::limit_extrapolation`]), and the relative residual at which it is.
     unlimited: bool,
     limited_at: f64,
     /// Work done so far.
@@ -161,7 +161,7 @@ impl<'m> Equilibrium<'m> {
         &self.stiffness.matrix
     }
 
-    /// Whether each point yields at the last assessed iterate.
+    /// True for each point that yields at the last assessed iterate.
     pub fn yielding_points(&self) -> impl Iterator<Item = bool> + '_ {
         self.response.yielding_points(&self.trial)
     }
@@ -267,7 +267,7 @@ impl<'m> Equilibrium<'m> {
         done
     }
 
-    /// Whether the mesh is more distorted than the `limits` allow.
+    /// True where the mesh is more distorted than the `limits` allow.
     pub fn is_distorted(&self, limits: Limits) -> bool {
         is_distorted(&self.body, &self.state, limits)
     }
@@ -296,12 +296,12 @@ impl<'m> Equilibrium<'m> {
         self.state.commit(&self.body, &self.trial, &mut self.response)
     }
 
-    /// Whether tangents that are far from definite are stiffened, or fail.
+    /// Sets whether tangents that are far from definite are stiffened, or fail.
     pub fn stiffen(&mut self, stiffens: bool) {
         self.stiffens = stiffens;
     }
 
-    /// How the force answers the travel of the tool at the last assessed iterate.
+    /// Answer of the force to the travel of the tool at the last assessed iterate.
     ///
     /// # Errors
     /// A stiffness that cannot be factorised.
@@ -351,7 +351,7 @@ impl<'m> Equilibrium<'m> {
         Ok(())
     }
 
-    /// How far the last assembled iterate is from equilibrium.
+    /// Distance of the last assembled iterate from equilibrium.
     fn out_of_balance(&self, changed: bool) -> Assessment {
         let residual = norm(&self.response.residual);
         // forces of the fixed components and of the tool, and the largest load so far (the load itself goes

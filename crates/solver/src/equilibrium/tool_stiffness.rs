@@ -1,4 +1,4 @@
-//! How the force of the tool answers its travel, from one solve.
+//! Answer of the force of the tool to its travel, from one solve.
 
 use crate::body::dofs::Dofs;
 use crate::contact::edge::{ContactEdge, EdgeContact};

@@ -49,7 +49,7 @@ impl Equilibrium<'_> {
         Ok(ToolStiffness { travel, depth: wide - (1.0 + shift - share) * (wide - narrow) })
     }
 
-    /// How the force answers the tool with every point elastic and these parts of the edges in contact, on
+    /// Answer of the force to the tool with every point elastic and these parts of the edges in contact, on
     /// springs that are `stiffer` than the penalty.
     fn elastic_stiffness(&mut self, parts: &[Parts], stiffer: f64) -> Result<ToolStiffness, Failure> {
         let Equilibrium { body, state, trial, response, stiffness, .. } = self;

@@ -1,4 +1,4 @@
-//! Why an integration point cannot be updated.
+//! Reasons why an integration point cannot be updated.
 
 /// A deformation that a point cannot follow.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]

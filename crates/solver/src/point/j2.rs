@@ -25,7 +25,7 @@ pub struct PointUpdate<T: Real = f64> {
     pub state: PointState<T>,
     /// Kirchhoff stress τ.
     pub stress: Sym<T>,
-    /// Whether the point yielded in the increment.
+    /// True where the point yielded in the increment.
     pub plastic: T::Mask,
     /// Second derivative of the incremental energy with respect to the current displacement gradient.
     pub tangent: GradientForm<T>,
@@ -42,12 +42,12 @@ pub enum Tangent {
     WithoutCompression,
 }
 
-/// Where a stress update has led a point, or several side by side.
+/// Result of a stress update of a point, or of several side by side.
 #[derive(Clone, Copy, Debug)]
 pub struct Return<T: Real> {
     /// State at the end of the increment.
     pub state: PointState<T>,
-    /// Whether the point yielded in the increment.
+    /// True where the point yielded in the increment.
     pub plastic: T::Mask,
     /// Stress there, and what its derivative needs.
     pub response: Linearisation<T>,

@@ -136,7 +136,7 @@ pub fn yield_function(metal: &Metal, state: &PointState, memory: Option<&History
     q / (state.yield_scale * radius) - 1.0
 }
 
-/// b_e - I of the elastic body that bears `stress`: exp(2ε) - I with ε = dev τ/2G + tr τ/9K.
+/// b_e - I of the elastic body under `stress`: exp(2ε) - I with ε = dev τ/2G + tr τ/9K.
 fn hencky_stretch(elastic: &Elastic, stress: &Sym) -> Sym {
     let mean = trace(stress) / 3.0;
     let (shear, volume) = (1.0 / elastic.shear_modulus(), 2.0 * mean / (3.0 * elastic.bulk_modulus()));

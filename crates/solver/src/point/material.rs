@@ -19,7 +19,7 @@ pub struct Metal {
     /// Share of the hardening that moves the yield surface; the rest makes it grow. 0: isotropic, 1:
     /// kinematic.
     pub kinematic_share: f64,
-    /// Which stress the hardening curve speaks of.
+    /// The stress that the hardening curve speaks of.
     pub stress_measure: StressMeasure,
 }
 
@@ -64,12 +64,12 @@ impl PointState<Lanes> {
 }
 
 impl Metal {
-    /// Whether points have history variables beside their state (see `kinematic_hardening`).
+    /// True where points have history variables beside their state (see `kinematic_hardening`).
     pub fn has_back_stress(&self) -> bool {
         self.kinematic_share > 0.0
     }
 
-    /// Whether the yield stress is Cauchy's.
+    /// True where the yield stress is Cauchy's.
     pub fn yields_by_true_stress(&self) -> bool {
         self.stress_measure == StressMeasure::Cauchy
     }

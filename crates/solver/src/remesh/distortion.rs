@@ -31,7 +31,7 @@ const KINK_COSINE: f64 = 0.985;
 const BULGE_SHARES: [f64; 4] = [1.0, 0.67, 0.33, 0.0];
 const LEAST_JACOBIAN: f64 = 0.2;
 
-/// How distorted a mesh may be.
+/// Limits of the distortion of a mesh.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
     /// Length of an edge of the surface in the contact over its first length.
@@ -63,7 +63,7 @@ fn length(position: &[[f64; 2]], edge: &ContactEdge) -> f64 {
     (b[0] - a[0]).hypot(b[1] - a[1])
 }
 
-/// Whether a corner of a cell has become sharper than a scaled Jacobian of `sharpest`, and than it was.
+/// True where a corner of a cell has become sharper than a scaled Jacobian of `sharpest`, and than it was.
 fn has_sharper_corner(mesh: &Mesh, position: &[[f64; 2]], sharpest: f64) -> bool {
     (0..mesh.cell_count()).any(|cell| {
         let now = mesh.sharpest_corner(position, cell);
@@ -71,7 +71,8 @@ fn has_sharper_corner(mesh: &Mesh, position: &[[f64; 2]], sharpest: f64) -> bool
     })
 }
 
-/// Whether edges in the contact are drawn out, or corners of cells become sharper, than the `limits` allow.
+/// True where edges in the contact are drawn out, or corners of cells become sharper, than the `limits`
+/// allow.
 pub fn is_distorted(body: &Body<'_>, state: &State, limits: Limits) -> bool {
     let touching = state.edges.iter().zip(&state.contact).filter(|(_, contact)| contact.parts != NOTHING);
     let lengths: Vec<[f64; 2]> =
@@ -83,7 +84,7 @@ pub fn is_distorted(body: &Body<'_>, state: &State, limits: Limits) -> bool {
     }) || has_sharper_corner(body.mesh, &state.position, limits.sharpest)
 }
 
-/// Whether the surface turns sharply from edge to edge, at the inner end of each.
+/// True for each edge at whose inner end the surface turns sharply.
 fn kinks(edges: &[ContactEdge], position: &[[f64; 2]]) -> Vec<bool> {
     let direction = |edge: &ContactEdge, xi: f64| {
         let t = edge.tangent(&edge.nodes.map(|node| position[node as usize]), xi);

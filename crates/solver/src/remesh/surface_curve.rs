@@ -20,7 +20,7 @@ pub(super) struct SurfaceCurve<'a> {
     ends: Vec<[f64; 2]>,
     /// Arc length up to each of them.
     arc: Vec<f64>,
-    /// Whether each piece is where a lip was cut off.
+    /// True for each piece where a lip was cut off.
     cut: Vec<bool>,
 }
 
@@ -37,7 +37,7 @@ fn arc_lengths(points: &[[f64; 2]]) -> Vec<f64> {
     arc
 }
 
-/// Whether a part of a surface that returns to its start encloses metal, which lies on its right.
+/// True where a part of a surface that returns to its start encloses metal, which lies on its right.
 fn encloses_metal(points: &[[f64; 2]]) -> bool {
     let next = points.iter().cycle().skip(1);
     points.iter().zip(next).map(|(a, b)| a[0] * b[1] - a[1] * b[0]).sum::<f64>() < 0.0
@@ -102,7 +102,7 @@ impl<'a> SurfaceCurve<'a> {
         (start + 3..=to).rev().find(|&end| inside && intersection(piece(start + 1), piece(end)).is_some())
     }
 
-    /// Cuts off lips within `around` where a straight line no longer than `thickness` takes them off, and
+    /// Cuts off lips within `around` where a straight line no longer than `thickness` removes them, and
     /// loops within the `contact`, where nodes slid past their neighbours along the tool: no cell fits in
     /// there. Both are arc lengths.
     pub fn cut_lips(&mut self, around: [f64; 2], contact: [f64; 2], thickness: f64) {

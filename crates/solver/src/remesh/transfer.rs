@@ -65,7 +65,8 @@ struct Lookup<'a> {
     boxes: Vec<[[f64; 2]; 2]>,
 }
 
-/// How far outside an element, in its coordinates, a point beside a curved surface may lie.
+/// Largest distance, in coordinates of an element, at which a point beside a curved surface may lie outside
+/// it.
 const LARGEST_WAY_OUTSIDE: f64 = 0.5;
 
 impl<'a> Lookup<'a> {
