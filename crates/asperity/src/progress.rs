@@ -1,15 +1,15 @@
-//! How far a command has come.
+//! Progress of a command.
 
-/// How far a command has come, for its observer, who ends the work by `false`.
+/// Progress of a command, for its observer, who ends the work by `false`.
 #[derive(Debug)]
 pub struct Progress<'a, N> {
     /// Share of the work that is done, 0 to 1.
     pub share: f64,
     /// Runs, closures or increments that are done, those of an earlier start too.
     pub done: usize,
-    /// How many there are in all, as far as is known.
+    /// Number of all, as far as is known.
     pub all: usize,
-    /// What has just ended or comes next; none at the beginning of many runs and while they go on.
+    /// The part that has just ended or comes next; none at the beginning of many runs and while they go on.
     pub news: Option<&'a N>,
     /// A word for a person about work of an earlier start that is not taken up; once, at the beginning.
     pub notice: Option<&'a str>,

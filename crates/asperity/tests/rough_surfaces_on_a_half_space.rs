@@ -179,7 +179,7 @@ fn a_fluid_leaks_by_the_gap_and_more_load_leaks_less() {
     }
 }
 
-/// Metal of known hardening bears under its patches what the atlas of cones has at their slope: near 3 σ_y
+/// Metal of known hardening carries under its patches what the atlas of cones has at their slope: near 3 σ_y
 /// without hardening, more with it; the summary says which limit it was. A hardness is taken as it is.
 #[test]
 fn the_limit_of_pressure_knows_the_hardening() {
@@ -337,7 +337,7 @@ fn answers_with_and_without_a_hardness_agree_within_their_errors() {
     assert!(area(&stated).1 < b_error);
 }
 
-/// Where nearly all of the contact is at the limit its area is load over limit, of any surface.
+/// A contact that is at the limit nearly everywhere has the area load over limit, on any surface.
 #[test]
 fn a_saturated_contact_says_so() {
     let verdict = |hardness: &str| {

@@ -10,7 +10,7 @@ use asperity_solver::point::material::Metal;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Which of the two bodies is the cone.
+/// The one of the two bodies that is the cone.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Tool {

@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 pub struct Formula {
     /// a_0 … a_4, then b_0 … b_2.
     pub coefficients: [f64; 8],
-    /// Root mean square of what is left in the logarithm: a relative error.
+    /// Root mean square of the residuals of the logarithm: a relative error.
     #[serde(rename = "rms_error")]
     pub rms: f64,
     /// The largest of it.

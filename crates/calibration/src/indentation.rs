@@ -1,5 +1,5 @@
-//! A sharp cone that indents a flat body, or is crushed by a plane, and comes back: what an instrument sees
-//! of it, from one run by similarity.
+//! A sharp cone that indents a flat body, or is crushed by a plane, and is unloaded: the readings of an
+//! instrument, from one run by similarity.
 //!
 //! Nothing but the depth h gives a sharp cone a length, so that of a material of Young's modulus E
 //!   F = K h² in loading,   S = dF/dh = S₁ E h where unloading begins,   W_e/W_t = const,
@@ -19,7 +19,7 @@ use asperity_solver::body::fields::fields;
 
 pub use asperity_material::cone_atlas::FORCES;
 
-/// Steps of the way back.
+/// Steps of unloading.
 const STEPS_BACK: usize = 8;
 
 /// Least share of the final depth that a path must have reached for its slope to count: half of the equal
@@ -54,15 +54,15 @@ pub struct Errors {
     pub contact_ratio: f64,
     /// Of S.
     pub stiffness: f64,
-    /// Of the elastic share of the work and of the way back.
+    /// Of the elastic share of the work and of the unloading curve.
     pub elastic_share: f64,
     /// ln of the run's over the companion's K, contact radius, S, elastic share; NaN without a
     /// companion.
     pub differences: [f64; 4],
 }
 
-/// Share of the difference between run and companion that is taken off the contact radius and S, by which the
-/// penalty widens them: of metal whose elastic share of the work is W.
+/// Share of the difference between run and companion that is subtracted from the contact radius and S, which
+/// the penalty widens by as much: of metal whose elastic share of the work is W.
 fn order_of_radius(element: ElementChoice, elastic_share: f64) -> f64 {
     let share = elastic_share.clamp(0.0, 1.0);
     match element {
@@ -241,7 +241,7 @@ fn load(path: &mut Path<'_>, problem: &Problem) -> (Vec<Increment>, Option<Stop>
     (points, None)
 }
 
-/// ∫F du over the way back, F over that of the peak: exact for F = (a + b u)² between two points.
+/// ∫F du over the unloading, F over that of the peak: exact for F = (a + b u)² between two points.
 fn work(shares: &[[f64; 2]]) -> f64 {
     let piece = |pair: &[[f64; 2]]| {
         let [f, g] = [pair[0][1], pair[1][1]].map(|f| f.max(0.0));
@@ -250,7 +250,7 @@ fn work(shares: &[[f64; 2]]) -> f64 {
     shares.windows(2).map(piece).sum()
 }
 
-/// The way back to `force`, linear between points in F^(2/3): unloading goes as (1 - u/u₀)^1.5 nearly.
+/// The recovery at `force`, linear between points in F^(2/3): unloading goes as (1 - u/u₀)^1.5 nearly.
 fn recovery(shares: &[[f64; 2]], force: f64) -> f64 {
     let bent = |f: f64| f.max(0.0).powf(2.0 / 3.0);
     let pair = shares.windows(2).find(|pair| pair[1][1] <= force);

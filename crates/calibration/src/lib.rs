@@ -3,8 +3,8 @@
 //! In the order of the data: a case ([`case`]), its path ([`cone`]) and its constant ([`loading_curvature`]);
 //! the grid ([`sweep`]), its rows on disk ([`row`]) and the run of a case ([`solve_case`]); the
 //! representative strain of a slope ([`collapse`]) and of all ([`fit`]), the force as a formula
-//! ([`dimensionless`]) and the way back ([`unloading`]); cones that indent ([`indentation`]) and the rows of
-//! the atlas of cones ([`cones`]).
+//! ([`dimensionless`]) and the unloading curve ([`unloading`]); cones that indent ([`indentation`]) and the
+//! rows of the atlas of cones ([`cones`]).
 
 pub mod case;
 

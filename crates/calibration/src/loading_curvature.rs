@@ -3,12 +3,12 @@
 //! K is the square of the slope of √F over h. The companion is the same cone with every number of the
 //! discretisation half as good, and costs a sixth. D = ln(K_companion/K) holds what mesh, load steps, penalty
 //! and substrate do.
-//! * `ORDER` of D is taken off ln K: Richardson's extrapolation of errors of second order. Of crushed metal
-//!   that hardly hardens less is, and nothing of perfectly plastic metal, whose flow gathers where the mesh
-//!   lets it: the companion is in no asymptotic range. Six such cones (2°, 5°, 10°, E/σ_y 1000, 3000) differ
-//!   at `standard` from `reference` by -0.6 to 0.7 % without, in the mean by 0.1 %, while D is 0.4 to 3.2 %;
-//!   with a third of D taken off they lay 0.2 to 1.1 % below, each of them.
-//! * What is left is bounded by a share of D, twice the standard errors of both slopes and something at least
+//! * `ORDER` of D is subtracted from ln K: Richardson's extrapolation of errors of second order. Of crushed
+//!   metal that hardly hardens less is, and nothing of perfectly plastic metal, whose flow gathers where the
+//!   mesh lets it: the companion is in no asymptotic range. Six such cones (2°, 5°, 10°, E/σ_y 1000, 3000)
+//!   differ at `standard` from `reference` by -0.6 to 0.7 % without, in the mean by 0.1 %, while D is 0.4 to
+//!   3.2 %; with a third of D subtracted they lay 0.2 to 1.1 % below, each of them.
+//! * The residual is bounded by a share of D, twice the standard errors of both slopes and something at least
 //!   (`Left`), added in squares. Against `reference`, 123 of 124 crushed cones drawn from the default sweep
 //!   lay within that bound at `standard`, with a mean error of 0.05 % ± 0.14 %. Without the extrapolation the
 //!   mean would be 0.27 %.
@@ -61,14 +61,14 @@ pub(crate) struct Left {
     of_the_difference: f64,
     /// Relative.
     at_least: f64,
-    /// Share of the difference that is taken off ln K.
+    /// Share of the difference that is subtracted from ln K.
     taken_off: f64,
 }
 
 impl Left {
     /// That of a cone of the slope `tan_beta` that `indents` or is crushed. With linear elements all that
     /// makes an error is of the second order but the penalty, which is stiff, so that the difference tells it
-    /// well; what is left goes with the promise of a level, which is the fourth power of the size of elements
+    /// well; the residual goes with the promise of a level, which is the fourth power of the size of elements
     /// here. Runs of quadratic elements under an indenting cone differ less than they err, and those of steep
     /// cones of metal that hardly hardens differ by other things.
     pub(crate) fn for_cone(tan_beta: f64, indents: bool, discretisation: &ConeDiscretisation) -> Left {
@@ -131,8 +131,8 @@ impl Fitted {
         if similar { Ok(()) } else { Err(CaseError::NotSimilar(self.exponent)) }
     }
 
-    /// K/E, carried on from the `companion` to no error of the discretisation, and what may be left of that,
-    /// relative.
+    /// K/E, extrapolated from the `companion` to no error of the discretisation, and what may be left of
+    /// that, relative.
     pub(crate) fn extrapolated(&self, companion: &Fitted, left: &Left) -> [f64; 2] {
         // K is the square of the slope
         let difference = 2.0 * (companion.root / self.root).ln();

@@ -35,7 +35,7 @@ pub struct CaseRow {
     /// Young's modulus over yield stress.
     #[serde(serialize_with = "plain")]
     pub E_over_sy: f64,
-    /// Which stress yields, `cauchy` or `kirchhoff`. Files of versions without this column are refused: they do not say.
+    /// The stress that yields, `cauchy` or `kirchhoff`. Files of versions without this column are refused: they do not say.
     pub stress_measure: StressMeasure,
     /// F/(E h²); none of a case that failed, like the next four.
     #[serde(serialize_with = "plain")]

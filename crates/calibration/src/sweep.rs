@@ -31,7 +31,7 @@ pub struct Sweep {
     pub poissons_ratio: f64,
     /// Crush by a plane, or indentation by a cone.
     pub tool: Tool,
-    /// Which stress the hardening law speaks of.
+    /// The stress that the hardening law speaks of.
     #[serde(alias = "stress")]
     pub stress_measure: StressMeasure,
     /// Coulomb's coefficient of friction between plane or cone and metal, from 0 to 2, or "sticking". Absent: 0.

@@ -98,7 +98,7 @@ pub struct BatchProgress {
     names: [&'static str; 2],
     /// The folder or file that keeps them.
     place: PathBuf,
-    /// How many are done, and how many there are.
+    /// Numbers of those that are done, and of all.
     reached: [usize; 2],
 }
 

@@ -14,7 +14,7 @@ use serde_json::Value;
 /// Arguments of `asperity schema`.
 #[derive(Debug, Args)]
 pub struct SchemaCommand {
-    /// Which file
+    /// The kind of file
     #[arg(value_enum, default_value = "scene")]
     pub kind: SchemaKind,
 }

@@ -26,7 +26,7 @@ use std::time::Duration;
 pub struct Trade {
     /// Scene file (TOML) [default: the asperity of the paper]
     pub scene: Option<PathBuf>,
-    /// How many settings differ in everything at once
+    /// Number of settings that differ in everything at once
     #[arg(long, value_name = "N", default_value_t = 30, value_parser = clap::value_parser!(u16).range(..=1000))]
     pub combinations: u16,
     /// Answer one case of another run, given on stdin

@@ -83,7 +83,7 @@ fn run(place: &Place, name: &str, deck: &str, of: &str, column: usize) -> BTreeM
     found
 }
 
-/// Whether CalculiX is in the path, or has to be.
+/// True where CalculiX is in the path, or has to be.
 #[allow(clippy::print_stderr, reason = "a test that was skipped says so")]
 fn calculix_is_due() -> bool {
     let due =

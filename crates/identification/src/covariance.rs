@@ -13,18 +13,18 @@ const ALIKE_LOG_DEPTH: f64 = 1.0;
 /// Share of the deepest depth from which finite elements state the error of the force along a curve; below
 /// it, where fewer elements touch, the error of a body grows as the inverse of the depth.
 const STATED_DEPTH_SHARE: f64 = 0.2;
-/// Shares of the peak force over which the error of the shape of the way back is alike, and its standard
-/// deviation over that of the whole way: a way back is read at few forces, at a few steps.
+/// Shares of the peak force over which the error of the shape of the unloading curve is alike, and its
+/// standard deviation over that of the whole recovery: an unloading is read at few forces, at a few steps.
 const ALIKE_FORCE_SHARE: f64 = 0.25;
 const WAY_SHAPE_SHARE: f64 = 0.5;
 
-/// Effect on the difference at a point of a curve of errors of the expected force and of the way back.
+/// Effect on the difference at a point of a curve of errors of the expected force and of the unloading curve.
 struct ErrorOfAPoint {
-    /// Logarithm of the depth over the deepest; the way back begins there.
+    /// Logarithm of the depth over the deepest; unloading begins there.
     place: f64,
     /// Of a relative error of the force.
     by_the_force: f64,
-    /// Of a relative error of the slope where unloading begins, and of the whole way back.
+    /// Of a relative error of the slope where unloading begins, and of the whole recovery.
     by_the_way: [f64; 2],
     /// Share of the peak force.
     share: f64,
@@ -35,7 +35,7 @@ struct ErrorOfAPoint {
 #[derive(Clone, Debug)]
 pub struct Covariance {
     noise: DMatrix<f64>,
-    /// Of an error of the force, of the slope where unloading begins, of the way back.
+    /// Of an error of the force, of the slope where unloading begins, of the recovery.
     model: [DMatrix<f64>; 3],
 }
 
@@ -62,7 +62,7 @@ impl Covariance {
 
 impl Experiment {
     /// Relative standard deviations of what finite elements expect at `point`: of the force, of the slope
-    /// where unloading begins, of the way back.
+    /// where unloading begins, of the recovery.
     pub fn model_deviations(&self, unknowns: &Unknowns, point: &[f64]) -> Option<[f64; 3]> {
         let left = self.emulator.left(&self.design_point(unknowns, point)?, self.of_the_loading());
         let told = self.told_deviations();
@@ -165,7 +165,7 @@ impl Experiment {
     }
 }
 
-/// The growth of the way back as the share of the force falls.
+/// The growth of the recovery as the share of the force falls.
 fn slope_back(logarithms: &[f64], share: f64) -> f64 {
     let (high, low) = ((share + 0.02).min(1.0), (share - 0.02).max(0.0));
     (recovery(logarithms, low) - recovery(logarithms, high)) / (high - low)

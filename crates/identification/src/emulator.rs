@@ -81,8 +81,8 @@ fn likened_slope(question: &DesignPoint) -> f64 {
     }
 }
 
-/// The logarithms that the atlas of cones has for a tool like the one in question, carried on from its edge
-/// beyond it.
+/// The logarithms that the atlas of cones has for a tool like the one in question, extrapolated beyond its
+/// edge.
 pub fn by_the_atlas(question: &DesignPoint) -> Vec<f64> {
     let Some(atlas) = Atlas::committed() else { return vec![f64::NAN; 3] };
     let contact = match question.geometry {
@@ -213,7 +213,7 @@ impl Emulator {
         self.nodes.iter().map(|node| self.correlation(&place, &node.place)).fold(0.0, f64::max)
     }
 
-    /// Standard deviations of what may be left, of loading, slope and way back.
+    /// Standard deviations of the residuals of loading, slope and recovery.
     pub fn left(&self, question: &DesignPoint, loading: usize) -> [f64; 3] {
         let place = features(question);
         let k = DVector::from_fn(self.nodes.len(), |i, _| self.correlation(&place, &self.nodes[i].place));

@@ -81,7 +81,7 @@ pub struct Experiment {
     pub noise_correlation: f64,
     /// Relative standard deviation of what the model leaves out, beside that of a pyramid's correction.
     pub model_error: f64,
-    /// Relative 95 % errors of the finite elements: loading, slope, way back.
+    /// Relative 95 % errors of the finite elements: loading, slope, recovery.
     pub errors: [f64; 3],
     /// The answers to be expected.
     pub emulator: Emulator,
@@ -243,11 +243,11 @@ impl Experiment {
         expected.modulus * depth * depth * smooth(&points, (depth / self.depth).ln()).exp()
     }
 
-    /// Reading of the depth expected on the way back at `force`, from a turn of which the depths where the
-    /// loading ended and where the way back began were read under a force.
+    /// Reading of the depth expected in unloading at `force`, from a turn of which the depths where the
+    /// loading ended and where the unloading began were read under a force.
     ///
     /// A hold between them makes the contact wider under the same force. The slope where unloading begins
-    /// goes with the width, so with the depth; the whole way with the force over it.
+    /// goes with the width, so with the depth; the whole recovery with the force over it.
     fn depth_back(&self, expected: &Expected, [loaded, turned, held]: [f64; 3], force: f64) -> f64 {
         let less = expected.contact_depth + expected.compliance * held;
         let (loaded, top) = (loaded - less, turned - less);
@@ -326,7 +326,7 @@ impl Experiment {
     }
 }
 
-/// Way back over the deepest depth to a share of the peak force.
+/// Recovery over the deepest depth, at a share of the peak force.
 pub(crate) fn recovery(logarithms: &[f64], share: f64) -> f64 {
     // straight in F^(2/3) nearly, from no way at the peak
     let bent = |share: f64| -share.max(0.0).powf(2.0 / 3.0);

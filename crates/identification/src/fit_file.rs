@@ -67,12 +67,12 @@ pub struct FitMaterial {
     /// For hardening_law = "table": plastic strain, from 0, and yield stress (known or sought), point by point.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hardening_table: Option<Vec<(f64, KnownOrUnknown<Stress>)>>,
-    /// Which stress the yield stress means: true stress, or Kirchhoff's.
+    /// The stress that the yield stress means: true stress, or Kirchhoff's.
     #[serde(default)]
     pub stress_measure: StressMeasure,
 }
 
-/// How the curve of hardening that is sought is given.
+/// Form of the hardening curve that is sought.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum FitLaw {
@@ -116,7 +116,7 @@ pub struct FitCurve {
     #[schemars(example = -9999.0)]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub missing_value: Option<f64>,
-    /// Which test of a file of several, from 1; absent: every test is a curve of its own.
+    /// Number of the test in a file of several, from 1; absent: every test is a curve of its own.
     #[schemars(range(min = 1))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub test: Option<usize>,

@@ -231,8 +231,8 @@ pub fn deviations(
     ((0..count).map(|i| deviation(i) * widths[i]).collect(), rows)
 }
 
-/// What one of several measurements decides: the width of every interval without it over that with it, by the
-/// curvature at the best fit.
+/// Narrowing of the intervals by one of several measurements: the width of every interval without it over
+/// that with it, by the curvature at the best fit.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Decided {
     /// The measurement that is left out.
@@ -241,7 +241,7 @@ pub struct Decided {
     pub widening: IndexMap<String, f64>,
 }
 
-/// What each of `experiments` decides; empty of one.
+/// Narrowing of the intervals by each of `experiments`; empty of one.
 pub fn decided(
     objective: &Objective<'_>,
     experiments: &[Experiment],

@@ -33,11 +33,11 @@ pub struct Inference {
     pub blind_direction: Option<NullDirection>,
     /// The sharp cone that would narrow the widest interval most; none where everything is told.
     pub next_experiment: Option<NextExperiment>,
-    /// What each of several measurements decides.
+    /// Narrowing of the intervals by each of several measurements.
     pub decided: Vec<Decided>,
     /// The stress-strain curve.
     pub stress_strain: Vec<StressAt>,
-    /// The stress that is told best.
+    /// The stress that is determined best.
     pub representative: Option<StressAt>,
     /// The residual.
     pub residual: Residual,

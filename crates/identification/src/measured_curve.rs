@@ -9,9 +9,9 @@ use asperity_numerics::least_squares::Line;
 pub struct Measured {
     /// Loading, rising in depth.
     pub loading: Vec<[f64; 2]>,
-    /// The way back from the peak, falling in force; empty where there is none.
+    /// Unloading from the peak, falling in force; empty where there is none.
     pub unloading: Vec<[f64; 2]>,
-    /// Depth and force where the way back begins.
+    /// Depth and force where the unloading begins.
     pub peak: [f64; 2],
     /// Depth where the loading ended: less than that of the peak where the load was held there.
     pub loaded: f64,
@@ -109,7 +109,7 @@ impl Measured {
         mean(1) - Line::fit(&upper).slope * mean(0)
     }
 
-    /// Depths where the loading ended and where the way back began, and the force there.
+    /// Depths where the loading ended and where the unloading began, and the force there.
     pub fn turn(&self) -> [f64; 3] {
         [self.loaded, self.peak[0], self.peak[1]]
     }
@@ -119,7 +119,7 @@ impl Measured {
 struct Turn {
     /// The reading with which the loading ends: a hold may follow.
     first: usize,
-    /// The deepest reading, the last one before the way back.
+    /// The deepest reading, the last one before the unloading.
     last: usize,
     /// Depth there, and the mean force of the readings at that depth.
     peak: [f64; 2],
@@ -169,7 +169,7 @@ fn envelope(readings: &[[f64; 2]], notes: &mut Vec<String>) -> Vec<[f64; 2]> {
     kept
 }
 
-/// The way back between the shares of the peak force, averaged.
+/// The unloading between the shares of the peak force, averaged.
 fn falling(readings: &[[f64; 2]], peak: [f64; 2]) -> Vec<[f64; 2]> {
     let inside: Vec<[f64; 2]> = readings
         .iter()

@@ -33,7 +33,7 @@ pub struct Found {
     pub identifiable: bool,
     /// True where the lower and the upper end are the bounds of the search.
     pub at_bound: [bool; 2],
-    /// Where several metals fit, each with its own interval, the best one first; else empty.
+    /// Several metals that fit, each with its own interval, the best one first; else empty.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub branches: Vec<Branch>,
 }

@@ -38,8 +38,8 @@ pub struct End {
     pub point: Vec<f64>,
 }
 
-/// What a profile goes along: the residuals within their bounds, and how far the sum of squares has to grow
-/// from the lowest one of all.
+/// Problem of a profile: the residuals within their bounds, and the lowest sum of squares of all, from which
+/// it grows.
 pub struct Profile<'a> {
     /// The residuals.
     pub residuals: &'a Residuals<'a>,

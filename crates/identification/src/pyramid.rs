@@ -17,7 +17,7 @@ pub enum Pyramid {
     Vickers,
 }
 
-/// What a pyramid answers over its cone.
+/// Answers of a pyramid over those of its cone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Correction {
     /// Logarithms of the ratios of loading curvature, unloading slope, share of the work that is returned.
@@ -126,7 +126,7 @@ impl Pyramid {
         }
     }
 
-    /// Corrects the answer of the cone, `loading` numbers of the loading first; the way back goes with the
+    /// Corrects the answer of the cone, `loading` numbers of the loading first; the unloading goes with the
     /// share of the work that it returns.
     pub fn correct(self, question: &DesignPoint, answer: &mut [f64], loading: usize) {
         let [curvature, slope, share] = self.correction(question).logarithms;

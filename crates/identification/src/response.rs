@@ -25,7 +25,7 @@ use std::ops::ControlFlow;
 /// Shares of the deepest depth at which loading is read.
 pub const SHARES: [f64; 9] = [0.1, 0.15, 0.22, 0.32, 0.45, 0.6, 0.75, 0.88, 1.0];
 
-/// Numbers after those of the loading: slope, work, way back.
+/// Numbers after those of the loading: slope, work, recovery.
 pub const NUMBERS_AFTER_LOADING: usize = 2 + FORCES.len();
 
 /// The body and tool of a measurement; lengths in m.
@@ -117,7 +117,7 @@ impl DesignPoint {
 /// The answer.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Response {
-    /// The logarithms: loading, slope, share of the work, way back. Of an imprint its numbers.
+    /// The logarithms: loading, slope, share of the work, recovery. Of an imprint its numbers.
     pub logarithms: Vec<f64>,
     /// Relative 95 % errors of the loading, of the slope, of what unloading returns.
     pub errors: [f64; 3],
@@ -128,7 +128,7 @@ pub struct Response {
 /// Answers `question` at `accuracy`. Questions of one search share `analyses` of their meshes.
 ///
 /// # Errors
-/// Why there is no answer.
+/// The reason why there is no answer.
 pub fn respond(question: &DesignPoint, accuracy: Accuracy, analyses: &Analyses) -> Result<Response, String> {
     match question.geometry {
         _ if question.imprint => imprint(question, accuracy, analyses),

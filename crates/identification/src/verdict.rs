@@ -1,4 +1,4 @@
-//! What the measurements tell and what they do not, in words.
+//! Verdict on what the measurements tell and what they do not, in words.
 
 use crate::identifiability::{NextExperiment, NullDirection};
 use crate::numbers::{Found, Residual, StressAt};

@@ -1,4 +1,4 @@
-//! The atlas of cones: force, contact radius and way back of a sharp cone of any slope and any power-law
+//! The atlas of cones: force, contact radius and recovery of a sharp cone of any slope and any power-law
 //! metal, as a formula through tens of thousands of computed cones.
 //!
 //! A sharp cone has no length but its depth h, so F = K h² and everything else goes with h alike. With σ_r =
@@ -45,10 +45,10 @@ pub const EXPONENTS: [f64; 2] = [0.0, 0.6];
 /// Its Poisson's ratios.
 pub const POISSONS_RATIOS: [f64; 2] = [0.0, 0.49];
 
-/// Forces over that of the peak at which the way back is read.
+/// Forces over that of the peak at which the recovery is read.
 pub const FORCES: [f64; 9] = [0.95, 0.85, 0.7, 0.55, 0.4, 0.25, 0.12, 0.04, 0.0];
 
-/// Which of the two bodies is the cone.
+/// The one of the two bodies that is the cone.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Contact {
     /// A cone of metal is crushed by a rigid plane.
@@ -91,11 +91,11 @@ pub struct Answer {
     pub recovery: [f64; FORCES.len()],
     /// σ_r/E at ε_r = [`STRAIN`] tan β.
     pub stress_over_e: f64,
-    /// Whether the cone lies inside the atlas; else the answer is carried on from its edge.
+    /// True where the cone lies inside the atlas; else the answer is extrapolated from its edge.
     pub inside: bool,
 }
 
-/// Numbers of an answer as the formula has them: K, contact ratio, S, elastic share, way back.
+/// Numbers of an answer as the formula has them: K, contact ratio, S, elastic share, recovery.
 pub const OUTPUTS: usize = 4 + FORCES.len();
 
 /// Coordinates of a cone in the formula.
@@ -144,8 +144,8 @@ impl SharpCone {
         SharpCone { tan: slope_deg.to_radians().tan(), elastic: *elastic, curve: curve.into(), contact }
     }
 
-    /// Whether slope, metal and ν lie in the ranges of the atlas. All cones of the atlas hardened by a power
-    /// law.
+    /// True where slope, metal and ν lie in the ranges of the atlas. All cones of the atlas hardened by a
+    /// power law.
     pub fn is_inside(&self) -> bool {
         let holds = |[low, high]: [f64; 2], x: f64| x >= low * (1.0 - 1e-9) && x <= high * (1.0 + 1e-9);
         let HardeningCurve::Power(law) = &self.curve else { return false };
@@ -176,7 +176,7 @@ impl SharpCone {
         edge
     }
 
-    /// Where the cone lies in the formula; what lies beyond the atlas is taken to its edge.
+    /// Place of the cone in the formula; a cone beyond the atlas is taken to its edge.
     pub fn place(&self) -> Place {
         let [x, exponent] = self.groups();
         let x = x.max(least_x());
@@ -199,7 +199,7 @@ impl SharpCone {
         }
     }
 
-    /// The formula's form of K/E, contact ratio, S/(E h), elastic share and way back.
+    /// The formula's form of K/E, contact ratio, S/(E h), elastic share and recovery.
     pub fn logarithms(&self, answer: [f64; OUTPUTS]) -> [f64; OUTPUTS] {
         let modulus = self.elastic.reduced_modulus() / self.elastic.youngs_modulus;
         let [k, ratio, stiffness, ..] = answer;

@@ -21,7 +21,7 @@ pub struct CurveFile {
     pub points: Vec<[f64; 2]>,
     /// Line of each point, from 1.
     pub lines: Vec<usize>,
-    /// What was understood of the file, in one sentence.
+    /// Interpretation of the file, in one sentence.
     pub understood: String,
 }
 

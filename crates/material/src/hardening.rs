@@ -5,7 +5,7 @@ use asperity_numerics::lanes::Real;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Which strain the power law hardens with.
+/// The strain that the power law hardens with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum HardeningLaw {
@@ -32,7 +32,7 @@ impl HardeningLaw {
 /// which they are smooth and nearly linear for every n in [0, 1).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Hardening {
-    /// Which strain hardens.
+    /// The strain that hardens.
     pub law: HardeningLaw,
     /// Initial yield stress σ_y, in the unit of E.
     pub yield_stress: f64,

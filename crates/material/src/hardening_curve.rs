@@ -9,7 +9,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// How the yield surface changes with plastic strain.
+/// Change of the yield surface with plastic strain.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum HardeningMode {
@@ -19,7 +19,7 @@ pub enum HardeningMode {
     Kinematic,
 }
 
-/// Which stress the hardening curve speaks of. A bar in tension hardly tells them apart; material under an indenter, whose volume
+/// The stress that the hardening curve speaks of. A bar in tension hardly tells them apart; material under an indenter, whose volume
 /// shrinks, does: K of a steep cone at E/σ_y = 30 differs by 2 to 3 %.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]

@@ -22,11 +22,11 @@ pub struct HardeningTable {
     work: Vec<f64>,
 }
 
-/// Why a point of a table is refused.
+/// The reason why a point of a table is refused.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{}{message}", point.map_or_else(String::new, |point| format!("point {}: ", point + 1)))]
 pub struct TableError {
-    /// Which point, from 0; `None`: the table as a whole.
+    /// Number of the point, from 0; `None`: the table as a whole.
     pub point: Option<usize>,
     /// Names the value, what is allowed and a way out.
     pub message: String,

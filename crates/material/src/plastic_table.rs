@@ -81,7 +81,7 @@ fn power_table(law: &Hardening, unit: f64, most: usize) -> PlasticTable {
     PlasticTable { points, error }
 }
 
-/// How far a chord misses the law.
+/// Error of a chord against the law.
 struct Miss {
     /// Relative error of the stress.
     error: f64,

@@ -8,7 +8,7 @@ use thiserror::Error;
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 #[error("{path}: {message}")]
 pub struct SceneError {
-    /// Where: keys joined by dots, tables of an array by index, for example `asperity[0].height`.
+    /// The place: keys joined by dots, tables of an array by index, for example `asperity[0].height`.
     pub path: String,
     /// The fault: names the value, the allowed range and a way out.
     pub message: String,

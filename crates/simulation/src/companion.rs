@@ -28,7 +28,8 @@ pub(super) fn companion(
 }
 
 /// The outcome of `main`, a run of `scene`, and that of its `companion` as far as the two can be compared.
-/// What ended early, or was looking for a force, is compared as far as it came; what the user ended is not.
+/// A run that ended early, or was looking for a force, is compared as far as it came; one that the user
+/// ended is not.
 ///
 /// # Errors
 /// Those of `main`.

@@ -28,7 +28,7 @@ use std::ops::ControlFlow;
 const COARSE_ELEMENTS: usize = 6;
 const COARSE_STEPS: usize = 12;
 
-/// How many times finer a coarse crush is made where one breaks off.
+/// Factor by which a coarse crush is made finer where one breaks off.
 const FINER: usize = 3;
 
 /// Points of a curve, the first one included, from which nothing is extrapolated.
@@ -41,7 +41,7 @@ const MOST_CRUSHES: usize = 6;
 /// there.
 const LARGEST_DEPTH_RATIO: f64 = 2.0;
 
-/// How far beyond the expected depth a crush goes, so that the force is passed and not just missed.
+/// Depth of a crush over the expected one, so that the force is passed and not just missed.
 const PASSED_DEPTH_RATIO: f64 = 1.1;
 
 /// Estimates of `scene`, which is valid: the depth of its peak is the one that it asks for, or else the one
@@ -50,7 +50,7 @@ const PASSED_DEPTH_RATIO: f64 = 1.1;
 /// they leave. Lengths are in `units`.
 ///
 /// # Errors
-/// Bodies that make no sense, an earlier load that does not come back: path and reason.
+/// Bodies that make no sense, an earlier load that cannot be removed: path and reason.
 pub fn expect(
     scene: &Scene,
     mesh: Option<&Mesh>,
@@ -65,7 +65,7 @@ pub fn expect(
         let load = with_body_of(&scene.at_load(index), mesh);
         expected.expect_peak(target_depth(&load, mesh, &expected, (units, analyses)).map_err(within)?);
         let formed = formed(&load, &expected, (units, analyses)).ok_or_else(|| {
-            let message = "does not come back from its depth: ask for less";
+            let message = "cannot be unloaded from its depth: ask for less";
             within(SceneError { path: "loading".into(), message: message.into() })
         })?;
         let mut earlier = std::mem::take(&mut expected.earlier);
@@ -88,7 +88,7 @@ type Shared<'a> = (Units, &'a Analyses);
 /// An estimate of the depth of a peak.
 struct Peak {
     depth: f64,
-    /// Whether no coarse crush has carried the force there.
+    /// True where no coarse crush has carried the force there.
     is_guessed: bool,
 }
 
@@ -117,7 +117,7 @@ fn target_depth(
     }
 }
 
-/// The surface that `scene` leaves, from a coarse crush; `None` where it does not come back.
+/// The surface that `scene` leaves, from a coarse crush; `None` where it cannot be unloaded.
 fn formed(scene: &Scene, expected: &Expected, shared: Shared<'_>) -> Option<Formed> {
     let problem = coarse_problem(scene, expected, (shared, 1))?;
     let problem = Problem { unload: true, reloads: 0, ..problem };
@@ -142,7 +142,7 @@ fn with_body_of(scene: &Scene, mesh: Option<&Mesh>) -> Scene {
 /// Depth at which `scene` carries `force`, from the first guess `guess`, and whether a coarse crush has
 /// carried it.
 ///
-/// Where a coarse crush breaks off before it carries the force, a finer one is tried; where that does too,
+/// A finer crush is tried where a coarse one breaks off before it carries the force; where that does too,
 /// the depth is extrapolated from what it reached.
 fn depth_of(scene: &Scene, force: f64, guess: f64, expected: &Expected, shared: Shared<'_>) -> Peak {
     let deepest = scene.deepest() / shared.0.length;
@@ -181,7 +181,7 @@ fn depth_of(scene: &Scene, force: f64, guess: f64, expected: &Expected, shared: 
     Peak { depth, is_guessed: true }
 }
 
-/// Whether tool or machine are elastic.
+/// True where tool or machine are elastic.
 fn gives_way(scene: &Scene) -> bool {
     scene.tool.youngs_modulus.is_some() || scene.tool.machine_compliance.is_some()
 }

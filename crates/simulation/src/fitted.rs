@@ -44,8 +44,8 @@ pub(crate) struct Fitted {
 
 /// Numbers of the error estimate.
 pub(crate) struct FittedErrors {
-    /// Share of the difference to the companion that is taken off the force: 1/(2ᵖ - 1) of the order p = 3/2.
-    /// Observed orders lie between 1 and 2.
+    /// Share of the difference to the companion that is subtracted from the force: 1/(2ᵖ - 1) of the order
+    /// p = 3/2. Observed orders lie between 1 and 2.
     pub force_share: f64,
     /// The same of the area: p = 1.
     pub area_share: f64,
@@ -70,7 +70,7 @@ pub(crate) struct FittedErrors {
     /// assumed one is less: of the area 0.45 at most for orders between 0.8 and 1.5, of the force for orders
     /// between 1 and 2.
     pub smooth_in_bound: f64,
-    /// Largest smooth part of which a share is taken off: a companion that differs by more is in no
+    /// Largest smooth part of which a share is subtracted: a companion that differs by more is in no
     /// asymptotic range, and the whole difference stays in the bound.
     pub asymptotic: f64,
     /// Share of the variance about the mean below which what a line leaves makes it the smooth part of the
@@ -101,7 +101,7 @@ pub(crate) struct FittedRipple {
     pub apart_from_spline: f64,
     /// Share that must lie outside the splines and the harmonics before it.
     pub apart: f64,
-    /// A ripple is taken off if the mean square error of rows left out falls below this share of that of the
+    /// A ripple is removed if the mean square error of rows left out falls below this share of that of the
     /// best spline. Where curves have chance errors and no ripple, that happens twice in a hundred times.
     pub better: f64,
     /// Weight of a fit in the mean of all: its mean square error of rows left out to minus this power per

@@ -36,14 +36,14 @@ const FACTORS: [f64; 2] = [1.15, 2.0];
 /// Factor from which the round is made twice as fine, so that the round before is its companion.
 const NEARLY_TWICE: f64 = 1.7;
 
-/// How much finer than just enough: the stated error of a finer run scatters.
+/// Margin over the refinement that is just enough: the stated error of a finer run scatters.
 const MARGIN: f64 = 1.2;
 
 /// Smallest error of the area that an accuracy promises.
 const FINEST_AREA_PROMISE: f64 = 0.005;
 
 impl Scene {
-    /// What is promised and what `summary` states of the force (along the curve, of several contacts at the
+    /// Errors that `summary` states, and promises, of the force (along the curve, of several contacts at the
     /// peak) and of the area (at the peak): each as [stated, promised]; stated NaN where it is not known.
     pub fn stated_and_promised(&self, summary: &Summary) -> [[f64; 2]; 2] {
         let promise = self.accuracy.promise();
@@ -51,7 +51,7 @@ impl Scene {
         [[force, promise], [summary.errors.contact_area, promise.max(FINEST_AREA_PROMISE)]]
     }
 
-    /// Whether a run of it may be made again with finer numbers: the user gave neither the elements nor a
+    /// True where a run of it may be made again with finer numbers: the user gave neither the elements nor a
     /// mesh, nor asked for one run.
     pub fn may_refine(&self) -> bool {
         self.numerics.refine != Some(false)
@@ -77,7 +77,7 @@ fn largest(misses: [f64; 2]) -> f64 {
     misses[0].max(misses[1])
 }
 
-/// How much finer the next round is to be, with the orders by which errors fall.
+/// Factor by which the next round is to be finer, with the orders by which errors fall.
 fn wanted(misses: [f64; 2], orders: [f64; 2]) -> f64 {
     let finer = |i: usize| (MARGIN * misses[i]).powf(orders[i].recip());
     let factor = finer(0).max(finer(1));

@@ -7,7 +7,7 @@ use crate::scene::SceneError;
 use crate::setup::problem::Problem;
 use asperity_solver::body::analysis::Analyses;
 
-/// Why a run could not begin.
+/// The reason why a run could not begin.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum CrushError {
     /// The scene makes no sense.
@@ -24,7 +24,7 @@ pub enum CrushError {
 pub struct Simulation<'p> {
     /// The path as it stands at its end.
     pub path: Path<'p>,
-    /// Why it ended before its goal, if it did.
+    /// The reason why it ended before its goal, if it did.
     pub stopped: Option<Stop>,
     recorder: Recorder<'p>,
 }
@@ -55,7 +55,7 @@ pub fn simulate<'p>(
 }
 
 impl Simulation<'_> {
-    /// What was recorded of it; the observer hears of the fields of its end, if they are due.
+    /// The record of it; the observer hears of the fields of its end, if they are due.
     pub fn outcome(self, observer: &mut Watcher<'_>) -> Outcome {
         self.recorder.finish(&self.path, self.stopped, observer)
     }

@@ -62,7 +62,7 @@ pub struct Deck {
     pub(super) friction: Option<Friction>,
     /// Penetration for which the penalty is made, as a share of the depth.
     pub(super) penetration: f64,
-    /// Whether the lateral sides are held sideways.
+    /// True where the lateral sides are held sideways.
     pub(super) symmetric: bool,
     /// Edges that may touch the tool.
     pub(super) contact: Vec<Edge>,
@@ -142,7 +142,7 @@ impl Deck {
         })
     }
 
-    /// What the deck says worse than the scene, a sentence each.
+    /// Simplifications of the deck against the scene, a sentence each.
     pub fn warnings(&self) -> Vec<String> {
         let coarse = self.table.as_ref().filter(|table| table.error > COARSE);
         let message = coarse.map(|table| {

@@ -38,7 +38,7 @@ row! {
         model_interval: Option<[f64; 2]> = all.map(|a| model_interval(a.c, choices)),
         /// Those choices and their c. No other law is among them: a sweep has one.
         model_choices: Vec<PartFit> = if all.is_some() { choices.iter().map(PartFit::new).collect() } else { Vec::new() },
-        /// Why there is no coefficient.
+        /// The reason why there is no coefficient.
         reason: Option<String> = reason,
         /// Every slope.
         per_angle: Vec<AngleFit> = angles.iter().map(AngleFit::new).collect(),
@@ -62,7 +62,7 @@ row! {
 row! {
     /// c of a part of the cases.
     PartFit(choice: &ModelChoice) {
-        /// Which part.
+        /// Name of the part.
         part: String = choice.part.clone(),
         /// Its c by least squares; none where it determines none.
         coefficient: Option<f64> = choice.c,
@@ -87,7 +87,7 @@ row! {
         scatter: f64 = angle.scatter,
         /// Cases that took part.
         cases: usize = angle.cases,
-        /// Whether there is a representative strain.
+        /// True where there is a representative strain.
         determined: bool = angle.strain.is_some(),
         /// ε_r of largest correlation.
         correlation_strain: Option<f64> = angle.correlation_strain,

@@ -12,8 +12,8 @@ use asperity_simulation::scene::Symmetry;
 use maud::{Markup, html};
 
 impl Crush {
-    /// The run as one page that stands alone: what was found and how exactly, what to beware of, curves that
-    /// tell their values.
+    /// The run as one page that stands alone: what was found and how exactly, warnings, curves that tell
+    /// their values.
     ///
     /// # Errors
     /// A drawing that fails.
@@ -75,7 +75,7 @@ impl Crush {
             .map_or("its error is not known".into(), |error| format!("within {} %", rounded(100.0 * error)));
         let back = match (summary.residual_depth, summary.elastic_fraction) {
             (Some(residual), Some(fraction)) => format!(
-                "; unloaded, {} µm of depth stay and {} % of the work came back",
+                "; after unloading {} µm of depth remain, and {} % of the work is recovered",
                 significant(residual / MICROMETRE),
                 significant(100.0 * fraction)
             ),
@@ -118,7 +118,7 @@ impl Crush {
         ];
         if self.summary.residual_depth.is_some() {
             rows.extend([
-                line("Depth that stays after unloading", "residual_depth", 1.0, " µm", stays),
+                line("Residual depth", "residual_depth", 1.0, " µm", stays),
                 line(
                     "Stiffness of unloading",
                     "unloading_stiffness",
@@ -130,7 +130,7 @@ impl Crush {
                 line("Share of the work returned", "elastic_fraction", 100.0, " %", returned),
             ]);
         }
-        rows.push(line("Work less energies", "energy_balance_error", 100.0, " % of the work", None));
+        rows.push(line("Energy-balance error", "energy_balance_error", 100.0, " % of the work", None));
         let caption =
             "Errors are bounds against the limit of fine meshes and steps, meant to hold in 95 % of scenes.";
         Ok(page::table(caption, &["quantity", "value", "error below"], &rows))

@@ -67,7 +67,7 @@ pub struct Increment<'a> {
 pub struct Sketch {
     /// Start of the file's name.
     pub name: &'static str,
-    /// Which part of the section.
+    /// The part of the section.
     pub reach: Reach,
     /// The panels, side by side.
     pub panels: &'static [Panel],
@@ -136,7 +136,7 @@ pub fn crush_into(
     failure.map_or(written, Err).map(|()| crush)
 }
 
-/// What a run hands out of its fields.
+/// The fields that a run gives out.
 enum Shown {
     /// One more frame.
     Frame(Frame),
@@ -234,7 +234,7 @@ fn simulate(
     Ok((crush, failure))
 }
 
-/// Why the run of `scene` ended before its target, with the place where it did and the way out.
+/// The reason why the run of `scene` ended before its target, with the place and the way out.
 fn reason(outcome: &Outcome, scene: &Tables) -> Option<String> {
     let stopped = outcome.stopped.as_ref()?;
     let verb = match stopped.phase {

@@ -49,7 +49,7 @@ struct Quantity {
     column: fn(&CurveRow) -> f64,
     unit: Unit,
     units: &'static [(f64, &'static str)],
-    /// Whether `force_error` is its error.
+    /// True where `force_error` is its error.
     band: bool,
 }
 

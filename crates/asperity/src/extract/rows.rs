@@ -44,7 +44,7 @@ row! {
         tip_radius_um: Option<f64> = one.tip.and_then(|t| t.radius()).map(|r| r / MICROMETRE),
         /// Nodes of the map that it holds.
         nodes: usize = one.nodes,
-        /// Whether it reaches the edge of the map or a point that was not measured.
+        /// True where it reaches the edge of the map or a point that was not measured.
         cut: bool = one.cut,
         /// Depth to which its scene crushes it; none without a profile, like what follows.
         depth_um: Option<f64> = body.map(|b| b.depth / MICROMETRE),

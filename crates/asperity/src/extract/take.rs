@@ -204,7 +204,7 @@ fn without_numbers(reason: &str) -> String {
 /// Length over width of half the area from which a body of revolution says little.
 const LONG_ASPECT_RATIO: f64 = 3.0;
 
-/// A doubt about bodies of revolution of long asperities; by area, for many small round ones bear little.
+/// A doubt about bodies of revolution of long asperities; by area, for many small round ones carry little.
 fn long(bodies: &[Body]) -> Option<String> {
     let shape =
         |body: &Body| body.asperity.ellipse.map(|e| (e.semi_axes[0] / e.semi_axes[1], body.asperity.area));

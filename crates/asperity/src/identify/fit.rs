@@ -22,7 +22,7 @@ pub struct Fit {
     file: TomlFile<FitFile>,
     pub(super) unknowns: Unknowns,
     pub(super) experiments: Vec<Experiment>,
-    /// What was understood of each file.
+    /// Interpretation of each file, in a sentence.
     pub understood: Vec<String>,
     /// Remarks on the input.
     pub notes: Vec<String>,

@@ -58,12 +58,12 @@ impl Identification {
             @if let Some(imprints) = self.drawn.imprints() {
                 (page::chart(&imprints, "Heights of the imprint over the distance from the axis, measured and fitted.", "The imprint and the surface that finite elements leave.")?)
             }
-            (page::chart(&self.drawn.left(), "What is left between measurements and fit.", "Measured less fitted force; of unloading the depth over the deepest.")?)
+            (page::chart(&self.drawn.left(), "Residuals of the fit.", "Measured less fitted force; of unloading the depth over the deepest.")?)
             (page::chart(&stress, "Stress over plastic strain with the band of its error.", "The stress-strain curve with its 95 % band.")?)
             @if let Some(svg) = self.objective_svg()? {
                 (page::drawing(&svg, "Map of the sum of squares over two unknowns.", "The sum of squares over the two unknowns that are determined worst: along a long valley the measurements do not distinguish."))
             }
-            h2 { "What is left" }
+            h2 { "Residuals" }
             (page::table("Root mean square of the differences to the fit, and the noise that was counted with.", &["measurement", "left", "noise"], &residuals))
             p {
                 "Sum of squares " (numbers.shown("/residual/chi2", 1.0, "")) " with " (self.residual.degrees_of_freedom)

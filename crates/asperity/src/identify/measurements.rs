@@ -15,10 +15,10 @@ use asperity_identification::imprint_file;
 use asperity_identification::measured_curve::Measured;
 use asperity_identification::response::Geometry;
 
-/// What is told of the files of a fit.
+/// Sentences on the files of a fit.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Said {
-    /// What was understood of each.
+    /// Interpretation of each file.
     pub understood: Vec<String>,
     /// Remarks.
     pub notes: Vec<String>,

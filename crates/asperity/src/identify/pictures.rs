@@ -14,7 +14,7 @@ use asperity_identification::profile_likelihood::{GROWTH, Interval};
 use plotters::prelude::*;
 use rayon::prelude::*;
 
-/// Width of the axes, heights of the curves and of what is left, in pixels.
+/// Width of the axes, heights of the curves and of their residuals, in pixels.
 const SIZE: (u32, [u32; 2]) = (760, [440, 220]);
 /// Cells of the map along each unknown.
 const CELLS: usize = 61;
@@ -27,7 +27,7 @@ struct One {
     measured: Vec<[f64; 2]>,
     /// The fit.
     fitted: Vec<[f64; 2]>,
-    /// Depth (of features: their number) and what is left, % (of unloading: of the deepest depth).
+    /// Depth (of features: their number) and residual, % (of unloading: of the deepest depth).
     left: Vec<[f64; 2]>,
     /// Heights of the imprint over the distance from the axis (µm), measured and fitted.
     imprint: [Vec<[f64; 2]>; 2],
@@ -66,7 +66,7 @@ impl Drawn {
         Drawn { ones, map }
     }
 
-    /// Measured points, fit, and what is left, as SVG.
+    /// Measured points, fit and residuals, as SVG.
     ///
     /// # Errors
     /// A text for a person where the drawing library fails.
@@ -86,7 +86,7 @@ impl Drawn {
             draw(&forces, &top)?;
             draw(&self.left(), &bottom).map(|_| ())
         })?;
-        Ok(titled("Measurements, their fit, and what is left", drawn))
+        Ok(titled("Measurements, their fit and its residuals", drawn))
     }
 
     /// Measured points and fit; `None` of features alone.

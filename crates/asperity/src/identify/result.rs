@@ -39,16 +39,16 @@ pub struct Identification {
     pub blind_direction: Option<NullDirection>,
     /// The sharp cone that would narrow the widest interval most; none where everything is told.
     pub next_experiment: Option<NextExperiment>,
-    /// What each of several measurements decides.
+    /// Narrowing of the intervals by each of several measurements.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub decided: Vec<Decided>,
     /// The stress-strain curve.
     pub stress_strain: Vec<StressAt>,
-    /// The stress that is told best.
+    /// The stress that is determined best.
     pub representative: Option<StressAt>,
     /// The residual.
     pub residual: Residual,
-    /// What was understood of each file of a curve: columns, units, rows.
+    /// Interpretation of each file of a curve: columns, units, rows.
     pub understood: Vec<String>,
     /// Remarks: holds cut, runs that stopped early, noise that was assumed.
     pub notes: Vec<String>,
@@ -134,7 +134,7 @@ pub fn metal_override(path: &Path) -> Result<String, InputError> {
     Ok(format!("material={}", toml::Value::Table(metal)))
 }
 
-/// What pyramids are taken as, and how good that is for the metal at `point`.
+/// Notes on the cones that stand for pyramids, and on the error of that for the metal at `point`.
 fn notes_on_pyramids(experiments: &[Experiment], unknowns: &Unknowns, point: &[f64]) -> Vec<String> {
     let one = |kind: Pyramid| {
         let own: Vec<&Experiment> = experiments.iter().filter(|e| e.pyramid == Some(kind)).collect();
@@ -229,7 +229,7 @@ impl Identification {
         ))
     }
 
-    /// `curve.svg`: measured points, the fit, and what is left.
+    /// `curve.svg`: measured points, the fit and its residuals.
     ///
     /// # Errors
     /// A drawing that fails.

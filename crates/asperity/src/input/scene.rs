@@ -36,7 +36,7 @@ struct Own {
 }
 
 impl Own {
-    /// What `tables` hold of it, taken out of them.
+    /// Its part of `tables`, removed from them.
     fn taken_from(tables: &mut Tables) -> Own {
         let own = Own { law: tables.material.custom.take(), tool: tables.tool.custom.take() };
         if own.law.is_some() {

@@ -74,7 +74,7 @@ row! {
         nominal_area_um2: f64 = path.nominal_area / MICROMETRE / MICROMETRE,
         /// E* = E/(1 - ν²), MPa.
         reduced_modulus_MPa: f64 = scene.material.elastic().reduced_modulus() / MEGAPASCAL,
-        /// Largest pressure that a pixel bears, MPa; none of elastic metal.
+        /// Largest pressure that a pixel carries, MPa; none of elastic metal.
         limit_MPa: Option<f64> = None,
         /// Relative uncertainty of that limit (95 %).
         limit_error: Option<f64> = None,

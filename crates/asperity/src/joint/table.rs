@@ -45,7 +45,7 @@ fn in_file(stiffness: f64) -> f64 {
 row! {
     /// A row of `joint.csv`: the joint at one load, of several maps their mean.
     JointRow(phase: Phase, point: &JointPoint, conductors: &Conductors, seal: &Seal, flow: Flow, bounds: Option<Bounds>) {
-        /// `load` from first touch to the largest load; `unload` back, elastic, on the surface as flow left it. Loaded again the joint goes the same way back.
+        /// `load` from first touch to the largest load; `unload` from there, elastic, on the surface as flow left it. A second loading follows the same curve.
         phase: Phase = phase,
         /// Nominal pressure, MPa.
         pressure_MPa: f64 = point.pressure / MEGAPASCAL,

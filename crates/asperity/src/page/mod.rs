@@ -56,7 +56,7 @@ impl Report<'_> {
                 p class="finding" { (self.verdict) }
                 @if !self.warnings.is_empty() {
                     div class="warnings" role="note" {
-                        p { strong { "Beware" } }
+                        p { strong { "Warnings" } }
                         ul { @for warning in self.warnings { li { (warning) } } }
                     }
                 }

@@ -1,4 +1,4 @@
-//! How columns of tables and keys of summaries are listed and written (those of a crush stand in
+//! Lists of the columns of tables and the keys of summaries (those of a crush stand in
 //! `crush_columns.rs`): each is listed once with its unit and meaning, and what is listed
 //! writes CSV, JSON and the page of columns, and reads the files. In plane strain forces and energies are per
 //! length of ridge, and the contact area is a width.

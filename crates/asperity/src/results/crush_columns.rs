@@ -94,7 +94,7 @@ columns! {
         /// Largest distance from the tool in between; from the lowest to the highest point of an enclosed
         /// gap.
         height: Length,
-        /// Whether flanks that press each other close it off from the tool.
+        /// True where flanks that press each other close it off from the tool.
         enclosed: Plain,
     }
 }

@@ -25,7 +25,7 @@ use std::path::Path;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(remote = "Self")]
 pub struct Summary {
-    /// Why and where the run ended before its target.
+    /// The reason why the run ended before its target, and the place.
     #[serde(default)]
     pub stopped: Option<String>,
     /// The numbers of the run, which the summary gives as its own.
@@ -89,7 +89,7 @@ columns! {
 
 columns! {
     Summary {
-        /// Why and where the run ended before its target; absent if it did not.
+        /// The reason why the run ended before its target, and the place; absent if it did not.
         stopped: Plain,
         /// Force at the end of the first loading, its largest but for what gives way on the way.
         peak_force: Force,
@@ -126,8 +126,9 @@ columns! {
         errors: Table(Errors::COLUMNS),
         /// The largest of such bounds along the curve, over 0.2 ≤ h/h_peak ≤ 1.
         errors_along: Table(ErrorsAlong::COLUMNS),
-        /// Whether the stated errors are what the accuracy promises: of the force along the curve (of several
-        /// contacts at the peak), of the area at the peak; `null` of a run that did not reach its goal.
+        /// True where the stated errors are what the accuracy promises: of the force along the curve (of
+        /// several contacts at the peak), of the area at the peak; `null` of a run that did not reach its
+        /// goal.
         promise_kept: Plain,
         /// Rounds that were made, each finer than the one before: rows, fields and errors are those of the
         /// best.
@@ -173,9 +174,9 @@ columns! {
         mean_von_mises: Pressure,
         /// Centroid (r, z) of its section before the crush.
         place: Length,
-        /// Whether it hangs together with the elastic bulk of the substrate.
+        /// True where it hangs together with the elastic bulk of the substrate.
         reaches_substrate: Plain,
-        /// Whether it reaches the free surface; the paper takes such a region for a possible leak path.
+        /// True where it reaches the free surface; the paper takes such a region for a possible leak path.
         reaches_surface: Plain,
     }
 }
@@ -293,7 +294,7 @@ impl Summary {
         }
         if self.elastic_fraction.is_some_and(|fraction| fraction > 1.0) {
             warnings.push(
-                "more work came back than was done: force and energies of this run are not to be used; press less deep, or by a blunter tool"
+                "more work was recovered than was done: force and energies of this run are not to be used; press less deep, or by a blunter tool"
                     .into(),
             );
         }
@@ -308,7 +309,7 @@ impl Summary {
         warnings
     }
 
-    /// What to do where the stated errors are these times what is promised.
+    /// The way out where the stated errors are these times what is promised.
     fn way_out(&self, over: [f64; 2]) -> String {
         let work = work_to_keep(over);
         match self.rounds {

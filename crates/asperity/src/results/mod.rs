@@ -1,5 +1,4 @@
-//! What results are made of: their rows and summaries as the files have them, units and numbers, and where
-//! files are put.
+//! Parts of results: rows and summaries as the files have them, units and numbers, and places of files.
 
 pub mod columns;
 pub(crate) mod crush_columns;

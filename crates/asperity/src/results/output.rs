@@ -1,4 +1,4 @@
-//! Where results are put, anything that can give a path to each file by its name, and rows as CSV.
+//! The place of results, anything that can give a path to each file by its name, and rows as CSV.
 
 use crate::batch::journal::{Journal, Opened, fingerprint};
 use crate::error::{Error, InputError};

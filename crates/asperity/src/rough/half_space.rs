@@ -35,7 +35,7 @@ pub struct SpaceContact {
     pub patches: usize,
 }
 
-/// The return of a half-space when the load is taken off: elastic, on the surface as the flow left it.
+/// The unloading of a half-space: elastic, on the surface as the flow left it.
 #[derive(Clone, Debug)]
 pub struct SpaceUnloading {
     /// First touch minus last touch, in metres.
@@ -55,7 +55,7 @@ pub struct Passage {
     pub narrowest: Option<Constriction>,
     /// The flow; None where nothing passes or no flow was asked for.
     pub leak: Option<Leak>,
-    /// Where points without a height alone close the way.
+    /// The place that only points without a height close.
     pub unknown: Option<UnknownPassage>,
 }
 
@@ -103,7 +103,7 @@ impl Passage {
     /// `flows`.
     ///
     /// # Errors
-    /// Where points without a height decide: a surface with its holes filled that does not carry the load.
+    /// A surface with its holes filled that does not carry the load, where points without a height decide.
     pub(crate) fn both(
         body: &HalfSpace,
         surface: &Surface,
@@ -162,7 +162,7 @@ impl SpaceContact {
         self.curve.len() == 2
     }
 
-    /// Whether an open path crosses along an axis; None where points without a height decide.
+    /// True where an open path crosses along an axis; None where points without a height decide.
     pub fn percolates(&self, axis: usize) -> Option<bool> {
         let Passage { narrowest, unknown, .. } = &self.passages[axis];
         unknown.is_none().then_some(narrowest.is_some())

@@ -16,8 +16,8 @@ pub(super) struct HalfSpaceContacts {
 }
 
 impl HalfSpaceContacts {
-    /// The largest pressure that the metal bears under the patches of `surface` at `load`; None where nothing
-    /// of its strength is known.
+    /// The largest pressure that the metal carries under the patches of `surface` at `load`; None where
+    /// nothing of its strength is known.
     ///
     /// # Errors
     /// A calibration that cannot be read, of metal whose law of hardening is that of the calibration.

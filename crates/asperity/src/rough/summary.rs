@@ -50,7 +50,7 @@ row! {
         pixel_size_um: [f64; 2] = surface.map.pixel().map(|p| p / MICROMETRE),
         /// Points that were not measured.
         missing: usize = surface.missing,
-        /// What was understood of the file: dialect, columns, units, lines; and remarks on it.
+        /// Interpretation of the file: dialect, columns, units, lines; and remarks on it.
         understood: Vec<String> = surface.notes.clone(),
         /// Points that `surface.outliers` took away.
         outliers: usize = surface.outliers,
@@ -113,11 +113,11 @@ row! {
         /// The row of `table.csv`.
         #[serde(flatten)]
         row: TableRow = row,
-        /// Where the closure comes from.
+        /// Source of the closure.
         source: String = one.islands().map_or(one.closure.source(), |i| i.law.source()).into(),
         /// The pressure asked for, or carried at the separation asked for, MPa.
         nominal_pressure_MPa: f64 = one.nominal / MEGAPASCAL,
-        /// Whether the load jumps at the separation.
+        /// True where the load jumps at the separation.
         load_jumps: bool = one.islands().is_some_and(|i| i.contact.jump),
         /// Share of the load on islands outside the range of the closure: of `calibrated` outside both the calibration and the atlas of cones.
         load_share_outside_range: Option<f64> = one.islands().and_then(|i| i.contact.outside_share),
@@ -129,9 +129,9 @@ row! {
         /// Share of the load on islands that the law would raise by more than they were pressed.
         load_share_return_limited: Option<f64> =
             one.islands().and_then(|i| i.unloading.as_ref()).and_then(|u| u.limited_share),
-        /// Largest pressure that a pixel of the half-space bears, MPa.
+        /// Largest pressure that a pixel of the half-space carries, MPa.
         limit_MPa: Option<f64> = one.space().and_then(|s| s.body.limit).map(|l| l / MEGAPASCAL),
-        /// Where that limit comes from: the hardness, 3 yield_stress, or the atlas of cones.
+        /// Source of that limit: the hardness, 3 yield_stress, or the atlas of cones.
         limit_from: Option<String> = one.space().and_then(|s| s.limit_from()),
         /// Slope of the patches of contact at which the atlas of cones was read, degrees.
         limit_slope_deg: Option<f64> = one.space().and_then(|s| s.limit_slope_deg()),

@@ -42,7 +42,7 @@ row! {
         load_error: Option<f64> = one.either(|i| i.contact.load_error, |s| s.load_error(one.nominal)).flatten(),
         /// Islands in contact; patches of pixels on a half-space.
         asperities: Option<usize> = one.either(|i| i.contact.islands.islands.len(), |s| s.patches),
-        /// Displacement that stays after unloading, µm.
+        /// Residual displacement after unloading, µm.
         residual_displacement_um: Option<f64> = one
             .either(
                 |i| i.unloading.as_ref().map(|u| u.residual_displacement),
@@ -73,7 +73,7 @@ row! {
         /// Normal contact stiffness per unit of area, -dp/d(mean gap), MPa/µm.
         stiffness_MPa_per_um: Option<f64> =
             one.space().and_then(|s| s.contact.stiffness).map(|k| k / MEGAPASCAL * MICROMETRE),
-        /// Whether an open path crosses the map along x; none where that hangs on points without a height.
+        /// True where an open path crosses the map along x; none where that hangs on points without a height.
         percolates_x: Option<bool> = one.space().and_then(|s| s.percolates(0)),
         /// The same along y.
         percolates_y: Option<bool> = one.space().and_then(|s| s.percolates(1)),
@@ -135,7 +135,7 @@ row! {
     LoadPoint(closure: Closure, phase: Phase, point: &CurvePoint) {
         /// The closure.
         closure: Closure = closure,
-        /// Whether the plane goes down or up.
+        /// Direction of the plane, down or up.
         phase: Phase = phase,
         /// The plane above the mean height, µm.
         separation_um: f64 = point.separation / MICROMETRE,

@@ -65,10 +65,10 @@ fn limit_in_words(space: &SpaceContact) -> String {
     let [pressure, error] = [limit.pressure, limit.error * limit.pressure].map(|p| p / MEGAPASCAL);
     match (space.limit_slope_deg(), limit.rival) {
         (Some(slope), _) => format!(
-            "; no point bears more than {pressure:.0} ± {error:.0} MPa, the plateau of the atlas of cones at the {slope:.1}° of the patches"
+            "; no point carries more than {pressure:.0} ± {error:.0} MPa, the plateau of the atlas of cones at the {slope:.1}° of the patches"
         ),
         (None, Some(rival)) if limit.contradiction() > CONTRADICTION => format!(
-            "; no point bears more than the hardness, {pressure:.0} MPa, where yield stress and hardening say {:.0} MPa: two metals",
+            "; no point carries more than the hardness, {pressure:.0} MPa, where yield stress and hardening say {:.0} MPa: two metals",
             rival / MEGAPASCAL
         ),
         _ => String::new(),
@@ -190,7 +190,7 @@ fn passage(space: &SpaceContact, k: usize, axis: Axis, fluid: Option<&Fluid>) ->
     text
 }
 
-/// How well a leak is known whose true value lies within the factor 1 + `error`.
+/// Words on a leak whose true value lies within the factor 1 + `error`.
 fn known_to(error: f64) -> String {
     const SMALL: f64 = 0.5;
     const ORDER: f64 = 10.0;

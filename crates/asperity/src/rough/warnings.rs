@@ -60,7 +60,7 @@ fn missing_points(surface: &Surface, scene: &Scene) -> Option<String> {
         ""
     };
     Some(format!(
-        "{percent:.1} % of the points have no height and bear nothing: areas and the load are those of the rest, which is {:.1} % of the cells \
+        "{percent:.1} % of the points have no height and carry nothing: areas and the load are those of the rest, which is {:.1} % of the cells \
          for closures of islands and {:.1} % of the pixels for the half-space (force = nominal pressure x nominal_area_um2 of the \
          row){flow}; surface.missing = \"fill\" fills them",
         100.0 * cells,
@@ -176,7 +176,7 @@ pub(super) fn half_space_warnings(closure: Closure, one: &SpaceContact, scene: &
     let rival = one.limit.filter(|limit| limit.contradiction() > CONTRADICTION).and_then(|limit| {
         let [hardness, plateau] = [limit.pressure, limit.rival?].map(|p| p / MEGAPASCAL);
         Some(format!(
-            "hardness {hardness:.0} MPa contradicts yield_stress and hardening_exponent: metal with those bears {plateau:.0} MPa under these \
+            "hardness {hardness:.0} MPa contradicts yield_stress and hardening_exponent: metal with those carries {plateau:.0} MPa under these \
              patches (atlas of cones). \"{}\" and closures of a hardness take the first, \"calibrated\" the second; leave out what \
              was not measured on this metal, or give hardness_error",
             closure.name()

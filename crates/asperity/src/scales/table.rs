@@ -59,7 +59,7 @@ row! {
         leak_x_error: Option<f64> = found.leak_errors[0],
         /// The same along y.
         leak_y_error: Option<f64> = found.leak_errors[1],
-        /// Largest pressure that the metal bears, MPa.
+        /// Largest pressure that the metal carries, MPa.
         limit_MPa: Option<f64> = found.limit.map(|p| p / MEGAPASCAL),
         /// Share of the contact area at that limit.
         limited_share: Option<f64> = found.limited_share,

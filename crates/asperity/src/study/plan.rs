@@ -68,10 +68,10 @@ pub struct StudyFile {
     #[schemars(with = "std::collections::BTreeMap<String, Value>")]
     #[serde(default)]
     pub set: IndexMap<String, Value>,
-    /// How values are combined; every combination where it is absent.
+    /// Combination of the values; every combination where it is absent.
     #[serde(default)]
     pub sample: SampleTable,
-    /// Whether the curve of every run is kept.
+    /// True where the curve of every run is kept.
     #[serde(default)]
     pub curves: bool,
     /// Column of the results that the picture shows.
@@ -79,13 +79,13 @@ pub struct StudyFile {
     pub show: Option<String>,
 }
 
-/// How values are combined, as a file says it.
+/// Combination of the values, as a file says it.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SampleTable {
     /// Every combination, values in step, a Latin hypercube, or Sobol's sequence.
     pub kind: SampleKind,
-    /// How many points are drawn.
+    /// Number of points that are drawn.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub points: Option<usize>,
     /// Other seeds draw other points.
@@ -93,7 +93,7 @@ pub struct SampleTable {
     pub seed: u64,
 }
 
-/// How values are combined.
+/// Combination of the values.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum SampleKind {

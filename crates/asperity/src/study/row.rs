@@ -106,7 +106,7 @@ pub(super) fn columns(runs: &[Run]) -> IndexSet<&str> {
     columns
 }
 
-/// The text of `results.csv`, the same bytes whoever ran it.
+/// The text of `results.csv`, the same bytes from the command and from Python.
 pub(super) fn results(keys: &[String], runs: &[Run]) -> csv::Result<String> {
     let columns = columns(runs);
     let curves = runs.iter().any(|run| run.curve.is_some());

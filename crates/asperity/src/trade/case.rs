@@ -24,7 +24,7 @@ row! {
             .collect(),
         /// Depth that remains without the tool, m.
         residual_depth: Option<f64> = outcome.summary.residual_depth,
-        /// Share of the work that came back.
+        /// Share of the work that is recovered.
         elastic_fraction: Option<f64> = outcome.summary.elastic_fraction,
         /// The error that the run states itself.
         estimated_error: Option<f64> = Some(outcome.summary.estimated_error).filter(|e| e.is_finite()),

@@ -49,7 +49,7 @@ row! {
         peak_memory_MB: Option<f64> = run.and_then(|r| r.peak_memory_mb),
         /// The error of the force that the run states itself.
         estimated_error: Option<f64> = run.and_then(|r| r.estimated_error),
-        /// Whether no other setting has a smaller error of the force at no higher cost.
+        /// True where no other setting has a smaller error of the force at no higher cost.
         on_front: bool = false,
         /// `ok`, or the reason why there is no result, without commas: readers that split at them find every column.
         status: String = failure.map_or_else(|| "ok".into(), |reason| reason.replace([',', '\n', '"'], ";")),

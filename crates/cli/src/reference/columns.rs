@@ -46,7 +46,7 @@ const JOINT: &str = "`calculix.inp` and `abaqus.inp` hold `*SURFACE INTERACTION`
     beyond the last row. `pressure.svg`, `stiffness.svg` and, with `[thermal]`, `conductance.svg` show the law with its errors.";
 
 const REPORT: &str = "`crush`, `calibrate`, `rough`, `joint`, `scales` and `identify` with `--report` leave `report.html` as well: a page that needs no \
-    network, with the numbers and their errors first, what to beware of, and curves that tell the value under the pointer.";
+    network, with the numbers and their errors first, the warnings, and curves that tell the value under the pointer.";
 
 /// The page.
 pub fn page() -> String {

@@ -57,7 +57,7 @@ impl Closure {
         matches!(self, Closure::HalfSpace | Closure::HalfSpacePlastic)
     }
 
-    /// Whether it goes by the result of a calibration, for its law or for its unloading.
+    /// True where it goes by the result of a calibration, for its law or for its unloading.
     pub fn takes_calibration(self) -> bool {
         matches!(self, Closure::Fitted | Closure::Johnson | Closure::Calibrated | Closure::Custom)
     }
@@ -200,7 +200,7 @@ impl ClosureLaw {
         }
     }
 
-    /// Where the closure comes from, in one line.
+    /// Source of the closure, in one line.
     pub fn source(&self) -> &str {
         match &self.law {
             Law::Own(own) => own.closure().source(),

@@ -42,7 +42,7 @@ pub trait IslandClosure: fmt::Debug + Send + Sync {
     /// Name of the closure in results, not one of a built-in closure.
     fn name(&self) -> &str;
 
-    /// Where it comes from, in one line.
+    /// Its source, in one line.
     fn source(&self) -> &str;
 
     /// Its numbers in SI by name, for results. Two closures of one name and the same numbers are taken to be

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// How the pressure of an island falls from its middle to its edge, ρ being the elliptic radius.
+/// Fall of the pressure of an island from its middle to its edge, ρ being the elliptic radius.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum PressureProfile {

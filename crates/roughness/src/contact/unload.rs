@@ -1,10 +1,10 @@
-//! Elastic return of the islands when the load is taken off.
+//! Elastic unloading of the islands.
 
 use super::closures::ClosureLaw;
 use crate::contact::islands_contact::{CURVE_POINTS, Contact, CurvePoint};
 use std::f64::consts::PI;
 
-/// Elastic return when the load is taken off.
+/// Elastic unloading.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Unloading {
     /// First touch minus final separation minus the largest elastic return, in metres.

@@ -21,7 +21,7 @@ pub struct Gap<'a> {
     pub nodes: [usize; 2],
     /// Sides of a pixel, in metres.
     pub pixel: [f64; 2],
-    /// True where a flow leaves over one side and comes back over the other.
+    /// True where a flow leaves over one side and enters again over the other.
     pub periodic: bool,
     /// Gaps in metres, row by row.
     pub values: &'a [f32],

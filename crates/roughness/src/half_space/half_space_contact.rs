@@ -85,7 +85,7 @@ pub enum HalfSpaceError {
 pub struct HalfSpace {
     /// E* = E/(1-ν²), in Pa.
     pub reduced_modulus: f64,
-    /// Largest pressure that the metal bears, in Pa: it flows there. None of an elastic body.
+    /// Largest pressure that the metal carries, in Pa: it flows there. None of an elastic body.
     pub limit: Option<f64>,
     /// Proven relative error of the pressures, in the norm of the energy, at which the search ends.
     pub tolerance: f64,
@@ -105,7 +105,7 @@ pub struct HalfSpaceContact {
     pub mean_gap: f64,
     /// Contact area, of pixels and corrected for their edges.
     pub area: Area,
-    /// Largest pressure that the metal bears, in Pa; None of an elastic half-space.
+    /// Largest pressure that the metal carries, in Pa; None of an elastic half-space.
     pub limit: Option<f64>,
     /// Share of the contact area at the limit of pressure.
     pub limited_share: f64,

@@ -1,10 +1,10 @@
-//! The largest pressure that a metal bears under the patches of a contact.
+//! The largest pressure that a metal carries under the patches of a contact.
 //!
-//! A hardness is a limit by itself. Metal of which yield stress and hardening are known bears what the atlas
-//! of cones has for a fully plastic cone, and that rises with the slope as the metal hardens. The slope is
-//! that of the patch as a whole: of the elliptic cone with the area, the second moments and the volume of the
-//! metal above the plane. The mean gradient that closures take grows with every finer wave of the map; volume
-//! and area do not.
+//! A hardness is a limit by itself. Metal of which yield stress and hardening are known carries what the
+//! atlas of cones has for a fully plastic cone, and that rises with the slope as the metal hardens. The slope
+//! is that of the patch as a whole: of the elliptic cone with the area, the second moments and the volume of
+//! the metal above the plane. The mean gradient that closures take grows with every finer wave of the map;
+//! volume and area do not.
 
 use crate::surface::cells;
 use crate::{Island, Islands, Load, Material, Surface};
@@ -22,7 +22,7 @@ pub enum LimitSource {
     Atlas(f64),
 }
 
-/// The largest pressure that a metal bears.
+/// The largest pressure that a metal carries.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PressureLimit {
     /// In Pa.

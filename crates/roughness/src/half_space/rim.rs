@@ -34,7 +34,7 @@ fn periods([p, q]: [i32; 2]) -> i32 {
     p.abs() + q.abs()
 }
 
-/// How far a contact area may be off because pixels of its rim err together.
+/// Error of a contact area because pixels of its rim err together.
 pub(super) struct Doubt {
     /// Variance, in pixels squared.
     pub variance: f64,
@@ -115,7 +115,7 @@ impl Rim {
         if known > 0 { all as f64 / known as f64 } else { 1.0 }
     }
 
-    /// How far the area inside the rim may be off because its pixels err together.
+    /// Error of the area inside the rim because its pixels err together.
     ///
     /// A straight piece along (p, q) of m periods may lie anywhere between two lines of the grid, which is
     /// one pixel of area a period: its variance is m²/12. It is p + q chains of m edges, each of which

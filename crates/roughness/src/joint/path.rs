@@ -4,7 +4,7 @@ use crate::half_space::{Area, HalfSpace, HalfSpaceContact, HalfSpaceError, Stiff
 use crate::{Load, Surface};
 use thiserror::Error;
 
-/// Loads between two of the way back, where flow has changed the surface.
+/// Loads between two of unloading, where flow has changed the surface.
 const WAY_BACK_STRIDE: usize = 3;
 
 /// The reason why a surface has no law.
@@ -61,8 +61,8 @@ pub struct JointPoint {
 pub struct JointPath {
     /// Rising from first touch, which carries nothing.
     pub loading: Vec<JointPoint>,
-    /// From the largest load to last touch: elastic, on the surface as flow left it. Loaded again, the joint
-    /// goes the same way back.
+    /// From the largest load to last touch: elastic, on the surface as flow left it. A second loading
+    /// follows the same curve.
     pub unloading: Vec<JointPoint>,
     /// Area over which the pressure is nominal, in m².
     pub nominal_area: f64,
@@ -73,8 +73,8 @@ pub struct JointPath {
 /// Chords of the law reach so far to both sides of a load, as a share of it: its rims move by pixels there,
 /// which the stiffness of a fixed set of pixels jumps with.
 const REACH: f64 = 0.1;
-/// Where a chord closes the gap to less than this share, it is halved, so often at most: there the law bends
-/// too much for it.
+/// Share of the gap below which a chord that closes it is halved, so often at most: there the law bends too
+/// much for it.
 const LEAST_GAP: f64 = 0.25;
 const HALVINGS: usize = 3;
 
@@ -184,7 +184,7 @@ pub fn follow(
     Ok(path)
 }
 
-/// The elastic way back from `peak`.
+/// The elastic unloading from `peak`.
 fn way_back(
     body: &HalfSpace,
     surface: &Surface,

@@ -7,8 +7,8 @@ use crate::half_space::Stiffness;
 const DEVIATIONS: f64 = 2.0;
 
 impl JointPath {
-    /// The mean of `paths`, whose loads are the same, with their repeatability; None of no path. The way back
-    /// goes over the loads that all have.
+    /// The mean of `paths`, whose loads are the same, with their repeatability; None of no path. The
+    /// unloading goes over the loads that all have.
     pub fn mean(paths: &[JointPath]) -> Option<JointPath> {
         let first = paths.first()?;
         if paths.len() == 1 {

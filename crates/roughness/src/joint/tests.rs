@@ -124,7 +124,7 @@ fn without_a_load_a_joint_is_pressed_until_it_is_closed_or_flows() {
     assert!((most / (0.9 * 0.05 * REDUCED) - 1.0).abs() < 1e-12);
 }
 
-/// Metal that flows is stiffer on the way back than on loading, and does not come back all the way.
+/// Metal that flows is stiffer in unloading than in loading, and does not recover all of its approach.
 #[test]
 fn a_flattened_joint_goes_back_elastically() {
     let surface = Waves::drawn(8.0, 5).surface(64);

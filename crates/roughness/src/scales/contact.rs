@@ -29,7 +29,7 @@ pub struct ScaleContact {
     pub leak_errors: [Option<f64>; 2],
     /// -dp/d(mean gap), in Pa/m; None without contact or gap.
     pub stiffness: Option<f64>,
-    /// Largest pressure that the metal bears, in Pa; None of elastic metal.
+    /// Largest pressure that the metal carries, in Pa; None of elastic metal.
     pub limit: Option<f64>,
     /// Share of the contact area at that limit.
     pub limited_share: f64,

@@ -19,7 +19,8 @@ pub struct Scale {
     /// The shortest wave, in metres: the one of which the filter keeps half the power, √2 cut-offs; of the
     /// whole map two pixels.
     pub wave: f64,
-    /// What is left, on a grid of at least [`PIXELS_PER_WAVE`] pixels a cut-off where the map has them.
+    /// The filtered surface, on a grid of at least [`PIXELS_PER_WAVE`] pixels a cut-off where the map has
+    /// them.
     pub surface: Surface,
 }
 

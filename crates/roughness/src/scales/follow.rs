@@ -79,7 +79,7 @@ pub struct Scales {
     pub spectrum: Vec<SpectrumPoint>,
     /// The same as that of a self-affine surface; None of a map with too few waves.
     pub fit: Option<SelfAffine>,
-    /// How the slope goes on below the pixel.
+    /// Growth of the slope below the pixel.
     pub growth: Growth,
     /// The slopes at which the regimes of the metal end; None where nothing of its strength is known.
     pub regimes: Option<RegimeSlopes>,

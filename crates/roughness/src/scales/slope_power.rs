@@ -68,7 +68,7 @@ impl SlopePower {
         self.sum(1, |f| if inside(f) { 1.0 } else { 0.0 })
     }
 
-    /// How the slope grows below the pixel: as the finest octaves grow, at least as the power law of `hurst`
+    /// Growth of the slope below the pixel: as the finest octaves grow, at least as the power law of `hurst`
     /// goes on, not at all where the spectrum ends before.
     pub fn growth(&self, hurst: Option<f64>) -> Growth {
         let [last, before] = [1.0, 2.0].map(|octave| self.part(octave * self.finest, 2.0));

@@ -16,7 +16,7 @@ pub struct Fluid {
     pub viscosity: Viscosity,
     /// Its pressure on both sides that a flow joins: left and right, then first and last row.
     pub pressures: [Stress; 2],
-    /// Whether it is a gas, which expands on its way: its flow is counted in pressure times volume.
+    /// True where it is a gas, which expands on its way: its flow is counted in pressure times volume.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub gas: bool,
     /// Mean free path of a gas: below ten of them the flow is no longer that of a continuum, and a warning says so.

@@ -12,7 +12,7 @@ const MOST_POINTS: usize = 8;
 /// there is one.
 const USUAL_POINTS: [(usize, usize); 2] = [(512 * 512, MOST_POINTS), (1024 * 1024, 6)];
 
-/// How the half-space is solved.
+/// Settings of the half-space.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct HalfSpaceScene {
@@ -24,7 +24,7 @@ pub struct HalfSpaceScene {
     #[schemars(extend("minimum" = 1, "maximum" = 8))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub load_points: Option<usize>,
-    /// Whether the flow through the gap is computed: by default where a fluid is given or one closure alone is chosen.
+    /// True where the flow through the gap is computed: by default where a fluid is given or one closure alone is chosen.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub leak: Option<bool>,
 }

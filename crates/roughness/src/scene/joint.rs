@@ -18,7 +18,7 @@ pub struct JointScene {
     #[schemars(extend("minimum" = 5, "maximum" = 200))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub loads: Option<usize>,
-    /// Height range, peak to valley, of roughness that the map does not hold: of it follow proven bounds of the elastic stiffness. By default what `surface.s_filter` took off.
+    /// Height range, peak to valley, of roughness that the map does not hold: of it follow proven bounds of the elastic stiffness. By default the range that `surface.s_filter` removed.
     #[schemars(example = "20 nm")]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub left_out: Option<Length>,

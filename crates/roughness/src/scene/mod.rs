@@ -37,15 +37,15 @@ use std::path::PathBuf;
 #[serde(deny_unknown_fields)]
 #[schemars(title = "A scene of `asperity rough`")]
 pub struct Scene {
-    /// Which closure, or several.
+    /// The closure, or several.
     pub closure: Choice,
     /// Result of a calibration, for "fitted" (c), "calibrated" (cones, unloading) and "johnson" (unloading).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub coefficient: Option<PathBuf>,
-    /// How the pressure of an island is spread.
+    /// Distribution of the pressure over an island.
     #[serde(default)]
     pub pressure_profile: PressureProfile,
-    /// Whether every closure is compared with the half-space: by default on maps of up to 1024 x 1024 points.
+    /// True where every closure is compared with the half-space: by default on maps of up to 1024 x 1024 points.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub judge: Option<bool>,
     /// The surface.
@@ -55,7 +55,7 @@ pub struct Scene {
     /// Its load; a joint may go without one.
     #[serde(default)]
     pub load: LoadScene,
-    /// How the half-space is solved.
+    /// Settings of the half-space.
     #[serde(default, skip_serializing_if = "HalfSpaceScene::is_default")]
     pub half_space: HalfSpaceScene,
     /// A fluid in the gap.
@@ -139,7 +139,7 @@ pub struct LoadScene {
     #[schemars(example = "1 um")]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub separation: Option<Length>,
-    /// Whether the load is taken off again.
+    /// True where the load is removed again.
     #[serde(default)]
     pub unload: bool,
 }

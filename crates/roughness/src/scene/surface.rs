@@ -37,7 +37,7 @@ pub struct HeightUnit {
     metres: f64,
 }
 
-/// How [`SurfaceScene::pixel_size`] is written.
+/// Forms of [`SurfaceScene::pixel_size`].
 #[derive(JsonSchema)]
 #[schemars(untagged, inline)]
 #[allow(dead_code, reason = "the schema alone is wanted")]
@@ -121,7 +121,7 @@ pub struct PointColumns {
     pub z: String,
 }
 
-/// Where the surface comes from and what is done to it before the contact.
+/// Source of the surface and its treatment before the contact.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SurfaceScene {
@@ -142,7 +142,7 @@ pub struct SurfaceScene {
     #[schemars(schema_with = "unit_schema")]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub height_unit: Option<HeightUnit>,
-    /// Whether `pixel_size` and `height_unit` win over what the file says, and a file is read whose sums do not hold.
+    /// True where `pixel_size` and `height_unit` win over what the file says, and a file is read whose sums do not hold.
     #[serde(default, rename = "override")]
     pub override_file: bool,
     /// Number that stands for a point that was not measured, in the unit of the file (text).
@@ -174,7 +174,7 @@ pub struct SurfaceScene {
     #[schemars(example = "0.8 mm")]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub l_filter: Option<Length>,
-    /// Whether the map is one period of an endless surface.
+    /// True where the map is one period of an endless surface.
     #[serde(default)]
     pub periodic: bool,
 }
@@ -284,7 +284,7 @@ impl SurfaceScene {
         Ok(surface)
     }
 
-    /// What the scene says of its file.
+    /// Requests of the scene on its file.
     fn request(&self) -> Request<'_> {
         let columns = self.columns.as_ref().map(|c| [&c.x, &c.y, &c.z].map(|name| Some(name.as_str())));
         Request {

@@ -12,7 +12,7 @@ pub struct Surface {
     pub missing: usize,
     /// Points that were taken away because they stood out, before any were filled.
     pub outliers: usize,
-    /// What was understood of its file, and remarks on it.
+    /// Interpretation of its file, and remarks on it.
     pub notes: Vec<String>,
     /// Extent of the map.
     pub extent: Extent,

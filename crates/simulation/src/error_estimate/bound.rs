@@ -1,5 +1,5 @@
-//! How a quantity of a run differs from that of its companion over the depth: what of that is taken off, and
-//! the bound of what is left.
+//! Difference of a quantity between a run and its companion over the depth: the part that is subtracted, and
+//! the bound of the remainder.
 
 use crate::fitted::FITTED;
 use crate::scene::ElementChoice;
@@ -12,7 +12,7 @@ use asperity_solver::point::kinematics::Symmetry;
 pub(super) struct Quantity {
     /// The smooth part through points, as coefficients of a parabola.
     smooth: fn(&[[f64; 2]]) -> Option<[f64; 3]>,
-    /// Share of the smooth part that is taken off: 1/(2ᵖ - 1) for an order p.
+    /// Share of the smooth part that is subtracted: 1/(2ᵖ - 1) for an order p.
     share: f64,
     /// ln Q that the penetration is known to add beyond that.
     widened: f64,
@@ -107,7 +107,7 @@ pub(super) struct Difference {
 struct Stretch {
     ends: [f64; 2],
     smooth: [f64; 3],
-    /// Share of the smooth part that is taken off.
+    /// Share of the smooth part that is subtracted.
     share: f64,
 }
 
@@ -135,7 +135,7 @@ impl Difference {
         Some(Difference { points, ripple, stretches, of })
     }
 
-    /// The smooth part at x = ln(h/h_peak), and the share of it that is taken off; that of the first depth
+    /// The smooth part at x = ln(h/h_peak), and the share of it that is subtracted; that of the first depth
     /// before it, `None` in an onset.
     fn smooth(&self, x: f64) -> Option<[f64; 2]> {
         let x = x.clamp(LEAST_COUNTED_DEPTH.ln(), 0.0);
@@ -149,7 +149,7 @@ impl Difference {
         -share * smooth - self.of.widened
     }
 
-    /// The bound of what is left near x.
+    /// The bound of the residual near x.
     pub fn bound(&self, from: f64, to: f64) -> f64 {
         let within = self.points.iter().zip(&self.ripple).filter(|([x, _], _)| (from..=to).contains(x));
         let largest = |[smooth, rest, own]: [f64; 3], ([x, d], ripple): (&[f64; 2], &f64)| {
@@ -163,7 +163,7 @@ impl Difference {
         smooth.hypot(rest).hypot(self.of.hidden)
     }
 
-    /// Factor of the smooth part in a bound after this share of it is taken off: where none is, nothing is
+    /// Factor of the smooth part in a bound after this share of it is subtracted: where none is, nothing is
     /// known of its order.
     fn kept(&self, share: f64) -> f64 {
         if share > 0.0 { self.of.safety * FITTED.errors.smooth_in_bound } else { self.of.safety }

@@ -5,28 +5,28 @@
 //! and substrate do, each of first order nearly or better, and the ripple of both. The smooth part of D over
 //! ln h is a parabola for the force; for the area, whose companion ripples more than it differs, the mean, or
 //! a line where D is one.
-//! * Were all errors of the order p, ln Q would be off by D/(2ᵖ - 1), which is taken off (Richardson's
+//! * Were all errors of the order p, ln Q would be off by D/(2ᵖ - 1), which is subtracted (Richardson's
 //!   extrapolation): with p = 3/2 of the force, whose observed orders lie between 1 and 2, and with p = 1 of
 //!   the area.
 //! * A penetration d over the depth widens radius or half width by about 3 d, of an order near 0.85: after
-//!   Richardson's extrapolation of the first order 3 d (2 - 2^0.85) = 0.6 d is left, and taken off too.
-//! * The bound of what is left is, added in squares, the largest smooth part from a fifth of the depth on and
-//!   twice the largest rest, of the area both with Roache's factor of safety, and what errors of mesh and
+//!   Richardson's extrapolation of the first order 3 d (2 - 2^0.85) = 0.6 d is left, and subtracted too.
+//! * The bound of the remainder is, added in squares, the largest smooth part from a fifth of the depth on
+//!   and twice the largest rest, of the area both with Roache's factor of safety, and what errors of mesh and
 //!   penetration, which have opposite signs, may hide from each other by chance (of the force also what
 //!   coarse steps lose). The rest is that of D, or that of the run from a smooth curve of its own where it is
 //!   less: the companion ripples more.
 //! * Where another asperity begins to carry, run and companion differ by what it carries: that stretch of
 //!   depths has no smooth part, parts those before and after it, and counts whole in the bound.
-//! * A companion that differs too much is in no asymptotic range: no share of D is taken off.
+//! * A companion that differs too much is in no asymptotic range: no share of D is subtracted.
 //! * The mesh that is given cannot be made coarser. Its companion has the other element, of which no order is
-//!   known: nothing is taken off the force, half of D off the area.
+//!   known: nothing is subtracted from the force, half of D from the area.
 //!
 //! Numbers that were chosen on measured scenes stand in `fitted.rs`.
 //!
-//! The stiffness of the first unloading is that of a punch, 2 E* a: half of what is taken off the area of an
-//! axisymmetric contact is taken off it.
+//! The stiffness of the first unloading is that of a punch, 2 E* a: its correction is half of that of the
+//! area of an axisymmetric contact.
 //!
-//! What is stated of the peak is the bound near it, what is stated along the curve the largest one, and a row
+//! The error stated of the peak is the bound near it, that stated along the curve the largest one, and a row
 //! has that of its neighbourhood. A companion that ends before the run says nothing of the peak itself: the
 //! largest bound stands for it.
 //!
@@ -83,7 +83,7 @@ struct Comparison {
     area: Compared,
     /// Depth of the last row of the first loading.
     depth: f64,
-    /// Whether the companion ended before the run, of whose peak it then says nothing of its own.
+    /// True where the companion ended before the run, of whose peak it then says nothing of its own.
     ended_early: bool,
     symmetry: Symmetry,
 }
@@ -131,7 +131,7 @@ impl Comparison {
         }
     }
 
-    /// The errors of what is stated of `run`, before anything is taken off it.
+    /// The errors of what is stated of `run`, before anything is subtracted from it.
     fn errors(&self, run: &Outcome, companion: &Summary) -> Errors {
         let summary = &run.summary;
         let relative = |own: Option<f64>, other: Option<f64>| Some((other? / own? - 1.0).abs());
@@ -282,7 +282,7 @@ fn difference(
 }
 
 /// The `run` without the errors that its `companion` reveals of force, area and stiffness, and with the
-/// bounds of what is left; as it was where the two cannot be compared.
+/// bounds of the residuals; as it was where the two cannot be compared.
 pub(super) fn extrapolate_and_bound(run: Outcome, companion: &Outcome, setting: Setting) -> Outcome {
     let Some(found) = Comparison::new(&run, companion, setting) else { return run };
     let errors = found.errors(&run, &companion.summary);

@@ -19,7 +19,7 @@ const HALVINGS_BEFORE_REMESHING: u32 = 3;
 pub(super) struct StopAt {
     pub depth: f64,
     pub force: f64,
-    /// Whether the depth is that of the body, without the deflection of tool and machine.
+    /// True where the depth is that of the body, without the deflection of tool and machine.
     pub of_body: bool,
 }
 
@@ -108,7 +108,7 @@ impl Path<'_> {
         }
     }
 
-    /// Why the path ends where the smallest increment cannot be accepted.
+    /// The reason why the path ends where the smallest increment cannot be accepted.
     pub(super) fn stop(&self, miss: &Miss) -> Stop {
         self.because(match miss {
             Miss::Failure(SolveFailure::System(BodyFailure::Element { .. })) => Stop::Distorted,

@@ -13,7 +13,7 @@ pub(super) type SlopedForce = (f64, Option<f64>);
 /// increment is a leap.
 const LARGEST_EXCESS: f64 = 0.01;
 
-/// What the tool has spent so far, and what the body held before.
+/// Work of the tool so far, and energy of the body before.
 pub(super) struct EnergyAccount {
     external_work: f64,
     /// The largest work so far.
@@ -76,7 +76,7 @@ impl EnergyAccount {
         self.earlier = Some([forces[0].0, step]);
     }
 
-    /// Whether an increment over `step` between two forces, with this `plastic` work, does more of it than
+    /// True where an increment over `step` between two forces, with this `plastic` work, does more of it than
     /// there is energy for: more than the tool does, and than the body and its contacts give up, by more than
     /// [`LARGEST_EXCESS`] of the work so far. No path of the metal leads there. `released` is asked for
     /// only where the work of the tool alone is not enough.

@@ -35,7 +35,7 @@ pub struct Energies {
     pub plastic: f64,
 }
 
-/// Why a run ended before its target. The last converged increment is kept.
+/// The reason why a run ended before its target. The last converged increment is kept.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Stop {
     /// Elements were distorted until one turned inside out.

@@ -15,9 +15,9 @@ const MOST_HALVINGS_AT_GOAL: usize = 3;
 /// cut off.
 const FIRST_TRAVEL_RATIO: f64 = 2.0;
 
-/// Share of the tolerance that is left where nothing yields: all of the work comes back, so that what little
-/// of it is left in the end shows each residual. Of a ridge that hardly yields 0.05 % of the work was lost
-/// without it.
+/// Share of the tolerance that is left where nothing yields: all of the work is recovered, so that the little
+/// of it that is left in the end shows each residual. Of a ridge that hardly yields 0.05 % of the work was
+/// lost without it.
 const ELASTIC_TOLERANCE_SHARE: f64 = 0.1;
 
 /// Tolerance that is never made smaller.
@@ -31,7 +31,7 @@ impl Path<'_> {
     /// from its expected depth on, which is doubled until the force is exceeded.
     ///
     /// # Errors
-    /// Why it could not: the path then stands at its last converged increment.
+    /// The reason why it could not: the path then stands at its last converged increment.
     pub fn advance_to(&mut self, goal: Goal, observer: &mut Observer<'_>) -> Result<Increment, Stop> {
         match goal {
             Goal::Travel(travel) => {
@@ -46,13 +46,13 @@ impl Path<'_> {
     /// Loads to the goal of the problem along its schedule.
     ///
     /// # Errors
-    /// Why it stopped on its way.
+    /// The reason why it stopped on its way.
     pub fn load(&mut self, observer: &mut Observer<'_>) -> Result<Increment, Stop> {
         let problem = self.problem;
         self.follow(problem.goal, &problem.numbers.schedule(), problem.expected_penetration(), observer)
     }
 
-    /// How much longer than the depth the travel is, over the depth: of a goal that is a depth with all that
+    /// Excess of the travel over the depth, as a share of the depth: of a goal that is a depth with all that
     /// gives way.
     fn share(&self, goal: Goal, travel: f64, sums: &ContactSums) -> f64 {
         if self.rules().compliance.is_none() || !matches!(goal, Goal::Depth(_)) {

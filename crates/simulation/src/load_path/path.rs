@@ -16,7 +16,7 @@ use asperity_solver::remesh::distortion::LIMITS_WHILE_LOADING;
 /// (2001)).
 const LARGEST_ELASTIC_STRAIN: f64 = 1.0 / 3.0;
 
-/// Why an attempted increment cannot be accepted.
+/// The reason why an attempted increment cannot be accepted.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Miss {
     /// It has no equilibrium that was found.
@@ -47,7 +47,7 @@ const TRANSFERABLE_WORK: f64 = 0.01;
 /// the iterations, 1 saves less because it overshoots where the contact front moves from element to element.
 pub(super) const FIRST_GUESS_SHARE: f64 = 0.7;
 
-/// How far the end of loading may be from the depth or from the root of the force that was asked for,
+/// Largest distance of the end of loading from the depth or from the root of the force that was asked for,
 /// relative to it.
 pub(super) const GOAL_DISTANCE: f64 = 1e-9;
 
@@ -65,14 +65,14 @@ impl ContactLoad {
     }
 }
 
-/// Where the tool stands at the last converged increment, and what it bears there.
+/// The tool at the last converged increment: its travel and its load.
 pub(super) struct Stand {
     pub travel: f64,
     /// Largest travel so far.
     deepest: f64,
     /// Length of the last increment.
     pub last_step: f64,
-    /// What the contact bears; its penetration is the correction of the travel.
+    /// Load of the contact; its penetration is the correction of the travel.
     pub contact: ContactLoad,
     /// dF per travel, known while unloading and reloading.
     pub slope: Option<f64>,
@@ -100,7 +100,7 @@ impl Stand {
     }
 }
 
-/// How much a path has taken so far.
+/// Work of a path so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Counts {
     /// Newton iterations, failed ones included.
@@ -121,7 +121,7 @@ impl Counts {
     }
 }
 
-/// Where a better mesh was looked for last.
+/// The last search for a better mesh.
 struct Remeshing {
     /// Increments before that.
     after: usize,
@@ -133,7 +133,7 @@ struct Remeshing {
 pub struct Path<'p> {
     /// The mechanical system.
     pub model: Equilibrium<'p>,
-    /// How each increment is solved.
+    /// Settings of the solution of each increment.
     pub settings: Settings,
     pub(super) problem: &'p Problem,
     /// Place of the tool at the travel 0, in the coordinates of the mesh: it touches there, or above a tip
@@ -184,12 +184,12 @@ impl<'p> Path<'p> {
         self.stand.travel
     }
 
-    /// Depth of the body at a `travel` of which a `penetration` is to be taken off, under a `force`.
+    /// Depth of the body at a `travel` less a `penetration`, under a `force`.
     pub(super) fn body_depth(&self, travel: f64, penetration: f64, force: f64) -> f64 {
         travel - penetration + self.rules().far_field * force
     }
 
-    /// Depth at a `travel` under what the contact bears: that of the body and the deflection of tool and
+    /// Depth at a `travel` under the load of the contact: that of the body and the deflection of tool and
     /// machine.
     pub(super) fn depth(&self, travel: f64, contact_load: ContactLoad) -> f64 {
         let deflection = self.rules().compliance.deflection(contact_load.force, contact_load.area);
@@ -260,7 +260,7 @@ impl<'p> Path<'p> {
         self.corrected(&self.model.trial_surface().under_punches())
     }
 
-    /// The sums over the contact, their penetration that to be taken off the travel.
+    /// The sums over the contact, with the penetration that is to be subtracted from the travel.
     fn corrected(&self, punches: &Punches) -> ContactSums {
         let mut sums = contact_sums(self.model.contacts().iter(), self.model.body().symmetry);
         sums.penetration =
@@ -270,7 +270,7 @@ impl<'p> Path<'p> {
 
     /// True where the attempted increment to `travel` of a body that earlier loads left is less deep than the
     /// last one, by more than Newton's method leaves open. At first touch of a virgin body the penetration
-    /// that is taken off may grow by more than the travel, once.
+    /// that is subtracted may grow by more than the travel, once.
     fn goes_back(&self, travel: f64) -> bool {
         let before = self.depth(self.stand.travel, self.stand.contact);
         let after = self.depth(travel, ContactLoad::from_sums(&self.sums()));

@@ -15,14 +15,14 @@ const MOST_TRIES: usize = 24;
 /// Share of an increment by which the next try may differ to be the same increment.
 const SAME_INCREMENT_SHARE: f64 = 0.05;
 
-/// How close a goal is to be met by increments that are solved to the tolerance of the run.
+/// Distance to which a goal is to be met by increments that are solved to the tolerance of the run.
 const LOOSE_GOAL_DISTANCE: f64 = 1e-7;
 
 /// Tries after which the interval around the goal is halved instead: the response leaps.
 const MOST_SECANTS: usize = 6;
 
 impl Path<'_> {
-    /// How far a travel is from `goal`, relative to it; of a force the root.
+    /// Distance of a travel from `goal`, relative to it; of a force the root.
     fn miss(&self, goal: Goal, travel: f64, contact_load: ContactLoad) -> f64 {
         match goal {
             Goal::Travel(asked) => travel / asked - 1.0,

@@ -73,7 +73,7 @@ impl Touches {
         self.travel = travel;
     }
 
-    /// Where an increment from the travel noted last towards `wanted` is to end.
+    /// Travel at which an increment from the travel noted last towards `wanted` is to end.
     pub fn stop_before(&self, wanted: f64) -> f64 {
         let touches = self.waiting.iter().map(|waiting| self.travel + waiting.clearance / waiting.rate);
         // of one that is as good as touched nothing is to be gained

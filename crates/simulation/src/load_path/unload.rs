@@ -9,7 +9,7 @@ use crate::setup::schedule::{UNLOADING_EXPONENT, unloading};
 use asperity_solver::equilibrium::tool_stiffness::ToolStiffness;
 use asperity_solver::remesh::distortion::LIMITS_BEFORE_UNLOADING;
 
-/// Retreats after which a tool is taken away whatever it still bears.
+/// Retreats after which a tool is taken away whatever load it still carries.
 const MOST_RETREATS: usize = 500;
 
 /// Share of the tolerance of the loading to which unloading increments are solved.
@@ -28,7 +28,7 @@ impl Path<'_> {
     /// chased.
     ///
     /// # Errors
-    /// Why it stopped on its way.
+    /// The reason why it stopped on its way.
     pub fn unload(
         &mut self,
         stiffness: ToolStiffness,
@@ -84,8 +84,8 @@ impl Path<'_> {
     }
 
     /// Goes on unloading down to `force` where metal flows in reverse and gives way more than elastic metal
-    /// does: each step takes off a share of the force that the slope foretells, `steps` of which would take
-    /// off all; and further while metal that has little force left still has far to go.
+    /// does: each step removes a share of the force, as the slope predicts it, `steps` of which would remove
+    /// all; and further while metal that has little force left still has far to go.
     fn retreat_from_reverse_flow(
         &mut self,
         force: f64,
@@ -115,7 +115,7 @@ impl Path<'_> {
     /// hysteresis alone.
     ///
     /// # Errors
-    /// Why it stopped on its way.
+    /// The reason why it stopped on its way.
     pub fn reload(&mut self, goal: Goal, observer: &mut Observer<'_>) -> Result<(), Stop> {
         let mut travels = std::mem::take(&mut self.unloading_travels);
         let peak = if travels.is_empty() { self.stand.travel } else { travels.remove(0) };

@@ -83,7 +83,7 @@ impl Curve {
         self.differences(reference, peak).fold(0.0, |m, d| if m.is_nan() { m } else { larger(m, d) })
     }
 
-    /// The mean of the [`differences`](Self::differences): what is left is bias, the ripple averages out.
+    /// The mean of the [`differences`](Self::differences): the remainder is bias, the ripple averages out.
     pub fn mean_difference(&self, reference: impl Fn(f64) -> f64, peak: f64) -> f64 {
         self.differences(reference, peak).sum::<f64>() / 161.0
     }

@@ -9,10 +9,10 @@
 //! ```
 //! s: edges between the middle of the contact and its front, the touched share of the last one included; t:
 //! ln h from -1 at the first row to 1 at the peak, for a shape that changes slowly. Only the periodic part is
-//! taken off, so that whatever else a curve does stays.
+//! removed, so that whatever else a curve does stays.
 //!
-//! How many knots, harmonics and powers of t there are, the curve itself decides: fits count the more the
-//! better they foretell rows left out. Nothing is taken off where that is not clearly better than the spline
+//! The curve itself decides on the numbers of knots, harmonics and powers of t: fits count the more the
+//! better they predict rows left out. Nothing is removed where that is not clearly better than the spline
 //! alone. Harmonics that the rows sample so that they look like a slow change (three rows per period and the
 //! third harmonic, two and the second) cannot be told from the curve and stay out.
 
@@ -52,7 +52,7 @@ pub(super) fn ends(edges: &[ContactEdge], contact: &[EdgeContact], belongs: impl
     ends
 }
 
-/// Whether the edge `i` begins where the next one does, or ends where the one before it does.
+/// True where the edge `i` begins where the next one does, or ends where the one before it does.
 fn is_reversed(edges: &[ContactEdge], i: usize) -> bool {
     let shares = |other: Option<&ContactEdge>, node: usize| {
         other.is_some_and(|other| other.nodes[..2].contains(&edges[i].nodes[node]))

@@ -45,11 +45,11 @@ pub struct FieldFrame {
 /// A run that ended before its target.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stopped {
-    /// Why.
+    /// The reason.
     pub reason: Stop,
     /// Depth of the last converged increment, m.
     pub depth: f64,
-    /// Whether the tool was advancing or retreating.
+    /// Direction of the tool, advancing or retreating.
     pub phase: Phase,
 }
 
@@ -70,13 +70,13 @@ pub struct Outcome {
     pub summary: Summary,
     /// `None` if the run reached its end.
     pub stopped: Option<Stopped>,
-    /// Where the work went.
+    /// Counts of the work.
     pub counters: Counters,
     /// Operations of the run, an estimate that is the same on every machine.
     pub operations: f64,
     /// The numbers of its discretisation.
     pub numbers: Discretisation,
-    /// Which of its rounds this is, counted from 1.
+    /// Number of this round, counted from 1.
     pub round: usize,
 }
 

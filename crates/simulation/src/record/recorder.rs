@@ -21,7 +21,7 @@ pub struct Recorder<'p> {
     interval: usize,
     planned: usize,
     unknowns: usize,
-    /// Which asperity each surface edge belongs to.
+    /// The asperity to which each surface edge belongs.
     groups: Vec<usize>,
     rows: Vec<CurveRow>,
     /// Ends of the contact of each asperity, for each row.

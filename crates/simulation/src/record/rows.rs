@@ -6,7 +6,7 @@
 use asperity_solver::body::energy::work;
 use serde::{Deserialize, Deserializer, Serialize};
 
-/// Whether the tool advances or retreats.
+/// Direction of the tool: it advances or retreats.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Phase {
@@ -20,7 +20,7 @@ pub enum Phase {
 }
 
 impl Phase {
-    /// Whether the tool advances, for the first time or again.
+    /// True where the tool advances, for the first time or again.
     pub fn advances(self) -> bool {
         self != Phase::Unload
     }
@@ -202,15 +202,15 @@ pub struct GapRow {
     pub phase: Phase,
     /// As in the curve, m.
     pub depth: f64,
-    /// Where the contact before the gap ends, m.
+    /// End of the contact before the gap, m.
     pub left: f64,
-    /// Where the contact after it begins, m.
+    /// Beginning of the contact after it, m.
     pub right: f64,
     /// Distance of the two, m.
     pub width: f64,
     /// Largest distance from the tool in between, m; from the lowest to the highest point of an enclosed gap.
     pub height: f64,
-    /// Whether flanks that press each other close it off from the tool.
+    /// True where flanks that press each other close it off from the tool.
     pub enclosed: bool,
 }
 
@@ -276,7 +276,7 @@ pub struct Summary {
     pub errors: Errors,
     /// Bounds of the errors along the curve, where they are known.
     pub errors_along: ErrorsAlong,
-    /// Whether the stated errors are what the accuracy promises: of the force along the curve (of several
+    /// True where the stated errors are what the accuracy promises: of the force along the curve (of several
     /// contacts at the peak), of the area at the peak. `None` of a run that did not reach its goal, or was
     /// made once.
     pub promise_kept: Option<bool>,

@@ -1,4 +1,4 @@
-//! How exact the force must be: a level by name, or a share in percent.
+//! Accuracy that the force must have: a level by name, or a share in percent.
 
 use super::SceneError;
 use super::messages::error;

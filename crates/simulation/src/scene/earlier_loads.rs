@@ -20,7 +20,7 @@ impl Scene {
         }
     }
 
-    /// The scene whose body is loaded again, by this tool, after the load of this scene is taken off.
+    /// The scene whose body is loaded again, by this tool, after the load of this scene is removed.
     #[must_use]
     pub fn loaded_again(mut self, tool: Tool, loading: Loading) -> Scene {
         let load = EarlierLoad {

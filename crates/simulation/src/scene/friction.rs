@@ -33,7 +33,7 @@ impl Friction {
         }
     }
 
-    /// Whether the coefficient lies in its range.
+    /// Checks that the coefficient lies in its range.
     ///
     /// # Errors
     /// The key and its range.

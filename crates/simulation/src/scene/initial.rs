@@ -1,4 +1,4 @@
-//! Loads that the body of a scene bore before.
+//! Earlier loads of the body of a scene.
 
 use super::{Loading, Tool};
 use schemars::JsonSchema;
@@ -7,7 +7,7 @@ use std::path::PathBuf;
 
 /// Earlier loads of a body: it starts deformed and hardened, with its residual stress.
 ///
-/// Asperities, material and substrate are those before the first load. Every earlier load is taken off before the next.
+/// Asperities, material and substrate are those before the first load. Every earlier load is removed before the next.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Initial {
@@ -21,13 +21,13 @@ pub struct Initial {
     pub load: Vec<EarlierLoad>,
 }
 
-/// One load that was taken off again.
+/// One load that was removed again.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct EarlierLoad {
     /// Its tool; absent: a rigid plane.
     #[serde(default = "Tool::plane")]
     pub tool: Tool,
-    /// How far it went, from first touch of the body as it was then. It was unloaded, whatever `unload` says.
+    /// Its goal, from first touch of the body as it was then. It was unloaded, whatever `unload` says.
     pub loading: Loading,
 }

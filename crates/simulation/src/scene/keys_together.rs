@@ -25,7 +25,7 @@ enum End {
 }
 
 impl Scene {
-    /// Whether every value lies in its allowed range and the parts go together.
+    /// Checks that every value lies in its allowed range and the parts go together.
     ///
     /// # Errors
     /// The first value that does not, with its place in the scene, the allowed range and a way out.
@@ -56,7 +56,7 @@ impl Scene {
         self.numerics.check().map_err(|e| inside("numerics", e))
     }
 
-    /// Whether tool and loading make sense on the body.
+    /// Checks that tool and loading make sense on the body.
     pub(super) fn check_load(&self) -> Check {
         self.tool.check().map_err(|e| inside("tool", e))?;
         self.check_tool_compliance()?;
@@ -111,7 +111,7 @@ impl Scene {
         Err(error("profile", fault))
     }
 
-    /// Whether anything stands on the substrate.
+    /// True where anything stands on the substrate.
     fn is_flat(&self) -> bool {
         self.asperity.is_empty() && self.profile.is_empty()
     }

@@ -1,4 +1,4 @@
-//! How far the tool goes, and by which force.
+//! Goal of a loading: a depth or a force.
 
 use super::messages::{Check, check_range, error, positive};
 use asperity_material::range::SceneError;
@@ -7,7 +7,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::borrow::Cow;
 
-/// How far the tool goes: exactly one of `depth` and `force`.
+/// Goal of the tool: exactly one of `depth` and `force`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Loading {
@@ -19,10 +19,10 @@ pub struct Loading {
     #[schemars(example = "4 N", example = "4 N/mm")]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub force: Option<ToolForce>,
-    /// Whether the tool then retreats to zero force.
+    /// True where the tool then retreats to zero force.
     #[serde(default)]
     pub unload: bool,
-    /// How often the tool then comes back to the same depth (or force) and retreats again; needs `unload`.
+    /// Number of times that the tool then returns to the same depth (or force) and retreats again; needs `unload`.
     #[schemars(range(max = 1000))]
     #[serde(default, skip_serializing_if = "is_zero")]
     pub reloads: usize,
@@ -32,7 +32,7 @@ fn is_zero(count: &usize) -> bool {
     *count == 0
 }
 
-/// Where loading ends, complete.
+/// The end of loading, complete.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Target {
     /// At this corrected depth, m.
@@ -92,7 +92,7 @@ impl<'de> Deserialize<'de> for ToolForce {
 }
 
 impl Loading {
-    /// Where loading ends.
+    /// The end of loading.
     ///
     /// # Errors
     /// Neither or both of `depth` and `force`; the path is relative to the loading table.

@@ -51,10 +51,10 @@ pub struct Material {
     #[schemars(extend("examples" = [[[0, "300 MPa"], [0.1, "450 MPa"]]]))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hardening_table: Option<Vec<(f64, Stress)>>,
-    /// Which stress the yield stress and the hardening curve mean: true stress, or Kirchhoff's, which is J times that.
+    /// The stress that the yield stress and the hardening curve mean: true stress, or Kirchhoff's, which is J times that.
     #[serde(default)]
     pub stress_measure: StressMeasure,
-    /// Whether the yield surface grows or moves with plastic flow; they differ in unloading and reloading.
+    /// Change of the yield surface with plastic flow: it grows or moves; the two differ in unloading and reloading.
     #[serde(default = "isotropic")]
     pub hardening_mode: HardeningMode,
     /// Share of the hardening that moves the yield surface in the kinematic mode, in (0, 1]; absent: all of it.
@@ -75,7 +75,7 @@ fn isotropic() -> HardeningMode {
     HardeningMode::Isotropic
 }
 
-/// How the curve of hardening is given.
+/// Form of the hardening curve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum HardeningChoice {
@@ -124,7 +124,7 @@ impl Material {
         Elastic { youngs_modulus: self.youngs_modulus.0, poissons_ratio: self.poissons_ratio }
     }
 
-    /// Whether the metal yields at any stress.
+    /// True where the metal yields at any stress.
     pub fn yields(&self) -> bool {
         self.yield_stress.is_some()
             || matches!(self.hardening_law, HardeningChoice::Table | HardeningChoice::Custom)

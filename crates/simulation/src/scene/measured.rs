@@ -109,7 +109,7 @@ pub(super) fn refused(points: &Points, e: FitError) -> SceneError {
 /// Least share of the height at which a half begins: what begins lower is a whole section, from foot to foot.
 const HALF_WAY: f64 = 0.5;
 
-/// Which part of a section the points of an asperity are: a half begins on its axis, at least half way up.
+/// The part of a section that the points of an asperity are: a half begins on its axis, at least half way up.
 pub(super) fn span_of(points: &[[f64; 2]]) -> Span {
     let heights = || points.iter().map(|p| p[1]);
     let (low, high) = (heights().fold(f64::INFINITY, f64::min), heights().fold(f64::NEG_INFINITY, f64::max));

@@ -71,12 +71,12 @@ pub struct Scene {
     /// The tool, rigid unless it has a modulus and smooth unless it has friction; absent: a smooth rigid plane.
     #[serde(default = "Tool::plane")]
     pub tool: Tool,
-    /// How far it goes: exactly one of `depth` and `force`.
+    /// Goal of the tool: exactly one of `depth` and `force`.
     pub loading: Loading,
     /// Earlier loads of the body; absent: it starts undeformed and free of stress.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub initial: Option<Initial>,
-    /// Which fields are written, and how often.
+    /// Fields that are written, and their interval.
     #[serde(default)]
     pub output: Output,
     /// Discretisation; what is absent follows from `accuracy`.
@@ -105,7 +105,7 @@ pub enum Field {
     PlasticStrain,
     /// Hydrostatic pressure, positive in compression.
     Pressure,
-    /// Whether the metal yields now, has yielded, or never has.
+    /// State of the metal: it yields now, has yielded, or never has.
     PlasticZone,
 }
 
@@ -150,7 +150,7 @@ impl Output {
     }
 }
 
-/// Which quadrilateral.
+/// Kind of quadrilateral.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum ElementChoice {
@@ -174,7 +174,7 @@ impl ElementChoice {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Numerics {
-    /// Which element.
+    /// Kind of element.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub element: Option<ElementChoice>,
     /// Elements across the contact radius at the peak.
@@ -197,7 +197,7 @@ pub struct Numerics {
     #[schemars(range(min = 3, max = 10_000))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub domain: Option<f64>,
-    /// Whether a run that misses what `accuracy` promises is made again with finer numbers; absent: it is. With `elements_in_contact` or
+    /// True where a run that misses what `accuracy` promises is made again with finer numbers; absent: it is. With `elements_in_contact` or
     /// a mesh by hand there is one run.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub refine: Option<bool>,

@@ -256,7 +256,7 @@ impl Tool {
         }
     }
 
-    /// Whether every key belongs to the shape.
+    /// Checks that every key belongs to the shape.
     fn check_keys(&self) -> Check {
         let given = [
             ("slope_deg", self.slope_deg.is_some()),

@@ -27,7 +27,7 @@ impl Scene {
         if self.symmetry == Symmetry::Axisymmetric { total } else { 0.5 * total }
     }
 
-    /// Whether symmetric sides repeat the asperities.
+    /// True where symmetric sides repeat the asperities.
     pub(crate) fn has_repeated_asperities(&self) -> bool {
         self.lateral == Lateral::Symmetric && !(self.asperity.is_empty() && self.profile.is_empty())
     }

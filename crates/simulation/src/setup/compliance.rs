@@ -36,7 +36,7 @@ impl Compliance {
         Compliance { machine, tool }
     }
 
-    /// Whether both are rigid.
+    /// True where both are rigid.
     pub fn is_none(&self) -> bool {
         *self == Compliance::NONE
     }

@@ -19,8 +19,8 @@ use asperity_solver::point::material::Metal;
 pub struct Cone {
     /// Slope β of the flank against the plane, degrees.
     pub slope_deg: f64,
-    /// Whether a rigid cone indents a flat body of the material; else a cone of the material is crushed by a
-    /// rigid plane.
+    /// True where a rigid cone indents a flat body of the material; else a cone of the material is crushed by
+    /// a rigid plane.
     pub indents: bool,
     /// The material, E = 1.
     pub metal: Metal,

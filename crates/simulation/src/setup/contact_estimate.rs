@@ -12,7 +12,7 @@ use std::f64::consts::{FRAC_2_PI, PI};
 /// cone, 2/π) to 1.06 (perfectly plastic), 0.89 for the single asperity.
 const CONTACT_WIDTH_RATIO: f64 = 0.9;
 
-/// How a tool and an asperity meet, or a curved tool and a flat body.
+/// Contact of a tool and an asperity, or of a curved tool and a flat body.
 pub struct Meeting<'p> {
     /// `None`: a flat body.
     asperity: Option<&'p Asperity>,

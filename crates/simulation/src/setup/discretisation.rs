@@ -14,13 +14,13 @@ pub const LEAST_COUNTED_DEPTH: f64 = 0.2;
 /// Every number of the discretisation, none left open.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Discretisation {
-    /// Which quadrilateral.
+    /// Kind of quadrilateral.
     pub element: ElementChoice,
     /// Elements across the contact radius at the peak.
     pub elements_in_contact: usize,
     /// Load steps to the peak.
     pub steps: usize,
-    /// How the steps are spaced.
+    /// Spacing of the steps.
     pub spacing: Spacing,
     /// Steps back to zero force.
     pub unload_steps: usize,
@@ -176,8 +176,8 @@ const STEEP_SLOPE_DEG: f64 = 11.0;
 
 /// The quadratic element gives the smaller error for its cost. Under a steep indenter, though, the material
 /// at the axis is drawn out along the flank until four points no longer hold the shape of its cells:
-/// perfectly plastic material of E/σ_y 500 went to 0.6 of the depth under a cone of 20° and did not come back
-/// from one of 14°. With linear elements it does both, up to 40°.
+/// perfectly plastic material of E/σ_y 500 went to 0.6 of the depth under a cone of 20° and could not be
+/// unloaded from one of 14°. With linear elements it does both, up to 40°.
 fn element_under(indenter: Option<f64>) -> ElementChoice {
     if indenter.is_some_and(|slope| slope > STEEP_SLOPE_DEG.to_radians()) {
         ElementChoice::Q4
@@ -224,12 +224,12 @@ pub struct ConeDiscretisation {
 /// Share of the final depth to which longer steps lead, and from which they are equal.
 pub const EQUAL_STEPS_FROM: f64 = 0.3;
 
-/// Numbers of a cone of metal that hardens with n = 0.3 or more: elements across the contact, of which so many
-/// are one column at the axis, steps to [`EQUAL_STEPS_FROM`] and from there; depth of the core, growth of its
-/// rows, first shell in elements, growth of the shells, substrate and foot of the cone in contact radii;
-/// penetration over depth, tolerance; powers of the [softness](softness_of) in the numbers of elements and of
-/// steps, with which the difference between run and companion is about the same for all n: without hardening,
-/// flow gathers where the mesh lets it.
+/// Numbers of a cone of metal that hardens with n = 0.3 or more: elements across the contact, of which so
+/// many are one column at the axis, steps to [`EQUAL_STEPS_FROM`] and from there; depth of the core, growth
+/// of its rows, first shell in elements, growth of the shells, substrate and foot of the cone in contact
+/// radii; penetration over depth, tolerance; powers of the [softness](softness_of) in the numbers of elements
+/// and of steps, with which the difference between run and companion is about the same for all n: without
+/// hardening, flow gathers where the mesh lets it.
 type ConeLevel = ([usize; 4], [f64; 6], [f64; 2], [f64; 2]);
 
 /// At draft, standard and reference.
@@ -243,9 +243,9 @@ const QUADRATIC_LEVELS: ConeLevels = [
     ([18, 1, 12, 60], [0.8, 0.2, 1.0, 0.25, 200.0, 12.0], [0.004, 1e-6], [1.6, 2.0]),
 ];
 
-/// Numbers of [`QUADRATIC_LEVELS`] at standard for a crushed cone of a gentle slope, to whose K the same promise
-/// takes a third less work: of 160 cones of the default sweep all state at most 0.9 %, and 158 lie within what they
-/// state. Under a slope of 30° such a mesh states 1.3 %.
+/// Numbers of [`QUADRATIC_LEVELS`] at standard for a crushed cone of a gentle slope, to whose K the same
+/// promise takes a third less work: of 160 cones of the default sweep all state at most 0.9 %, and 158 lie
+/// within what they state. Under a slope of 30° such a mesh states 1.3 %.
 const GENTLE_STANDARD: ConeLevel =
     ([10, 1, 3, 20], [0.4, 0.3, 1.0, 0.4, 20.0, 8.0], [0.008, 1e-3], [0.7, 1.4]);
 
@@ -264,10 +264,10 @@ const STEEP_LINEAR_LEVELS: ConeLevels = [
 /// costs more of the depth.
 const INDENTED_PENETRATION_RATIO: f64 = 0.5;
 
-/// How much faster cells grow with the distance from the contact in a companion. With quadratic elements the
-/// error of that growth is of the fourth order nearly, so that twice as much of it would tell of nothing
-/// else; with linear ones it is of the second (growth times 2, 1.5, 1/2, 1/4 under a cone of 30°: +0.85,
-/// +0.37, -0.25, -0.33 % of K), as that of the elements themselves.
+/// Factor by which cells grow faster with the distance from the contact in a companion. With quadratic
+/// elements the error of that growth is of the fourth order nearly, so that twice as much of it would tell of
+/// nothing else; with linear ones it is of the second (growth times 2, 1.5, 1/2, 1/4 under a cone of 30°:
+/// +0.85, +0.37, -0.25, -0.33 % of K), as that of the elements themselves.
 fn faster(element: ElementChoice) -> f64 {
     if element == ElementChoice::Q4 { 2.0 } else { 1.5 }
 }

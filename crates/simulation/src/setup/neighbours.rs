@@ -1,4 +1,4 @@
-//! How deep each contact of a row indents its own surroundings, estimated before a run: what it and its
+//! Depth by which each contact of a row indents its own surroundings, estimated before a run: what it and its
 //! neighbours press down further away is no part of that.
 //!
 //! Under a row of contacts most of the depth of the tool goes into the body at large. With the depth `d` that
@@ -80,7 +80,7 @@ pub fn own_depths(metal: &Metal, profile: &Profile, tool: &Tool, support: &Suppo
     own
 }
 
-/// Where `excess`, which grows, is 0 between 0 and `high`.
+/// The root of `excess`, which grows, between 0 and `high`.
 fn root(excess: impl Fn(f64) -> f64, high: f64) -> f64 {
     bisect([0.0, high], 60, |x| excess(x) < 0.0)[1]
 }

@@ -17,8 +17,8 @@ use asperity_solver::contact::tool::Tool;
 use asperity_solver::point::kinematics::Symmetry;
 use asperity_solver::point::material::Metal;
 
-/// How far a run that is driven by a force may go beyond the depth at which it is expected, and beyond one
-/// that no coarse run has reached.
+/// Largest depth of a run that is driven by a force over that at which it is expected, and over one that no
+/// coarse run has reached.
 const PROBED_DEPTH_RATIO: f64 = 1.3;
 const PROBED_GUESS_RATIO: f64 = 3.0;
 
@@ -65,7 +65,7 @@ fn measured_line(line: &Line, length: f64) -> Profile {
 pub struct Expected {
     /// Depth of the peak: the one that is asked for, or the one at which the force is expected.
     pub depth: f64,
-    /// Whether no coarse run has carried the force there: the depth may be further off.
+    /// True where no coarse run has carried the force there: the depth may be further off.
     pub is_guessed: bool,
     /// True where a tool of the scene, or of a load before or after it, is curved: it comes down at 0, and
     /// all loads of a body share the places of its asperities.
@@ -150,7 +150,7 @@ pub fn prepare(
     })
 }
 
-/// Where loading ends, and how deep the mesh is to reach: a force may be found somewhat deeper than the
+/// The end of loading, and the depth that the mesh is to reach: a force may be found somewhat deeper than the
 /// `depth` at which it is expected.
 fn goal_and_reach(scene: &Scene, units: &Units, expected: &Expected) -> Result<(Goal, f64), SceneError> {
     let depth = expected.depth;
@@ -164,7 +164,7 @@ fn goal_and_reach(scene: &Scene, units: &Units, expected: &Expected) -> Result<(
     })
 }
 
-/// How deep each contact indents its surroundings under a tool at a depth.
+/// Depth by which each contact indents its surroundings under a tool at a depth.
 type OwnDepths<'a> = &'a dyn Fn(&Tool, f64) -> Vec<f64>;
 
 /// `contacts` and those of the earlier loads of `scene` on one mesh, lengths over `length`.
@@ -322,8 +322,8 @@ const BLUNT_WIDTH_RATIO: f64 = 0.2;
 
 /// The profile as it is meshed. A plane that comes down on the tip of a steep flank touches one node of a
 /// high and narrow cell: a pressure of ten yield stresses there crushes the cell before the contact is as
-/// wide as it. What an arc half a column wide takes off such a tip is crushed before the contact is resolved
-/// in any case.
+/// wide as it. The part of such a tip that an arc half a column wide cuts off is crushed before the contact
+/// is resolved in any case.
 fn blunted(profile: &Profile, half_widths: &[f64], grading: &Grading) -> Profile {
     let blunt = |(asperity, half_width): (&Asperity, &f64)| match asperity.shape {
         Shape::Cone { tan_slope, .. } if tan_slope > STEEP_FLANK_SLOPE => {

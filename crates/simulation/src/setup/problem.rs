@@ -18,7 +18,7 @@ use asperity_solver::equilibrium::Equilibrium;
 use asperity_solver::point::kinematics::Symmetry;
 use asperity_solver::point::material::Metal;
 
-/// Where loading ends, dimensionless.
+/// The end of loading, dimensionless.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Goal {
     /// At this travel of the tool from first touch, penetration included.
@@ -36,13 +36,13 @@ pub enum Goal {
     },
 }
 
-/// How a load path goes and what it counts.
+/// Rules of a load path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rules {
     /// Depth that a substrate of finite size takes away per force and that is added to the depth; 0: not
     /// corrected.
     pub far_field: f64,
-    /// How tool and machine give way, which is added to the depth.
+    /// Deflection of tool and machine, which is added to the depth.
     pub compliance: Compliance,
     /// An increment in which the contact area grows by more than this factor is halved, as long as halvings
     /// are left.
@@ -78,7 +78,7 @@ impl Rules {
     }
 }
 
-/// How a body is held, and what it went through before.
+/// Supports of a body, and its earlier loads.
 #[derive(Clone, Debug)]
 pub struct Specimen {
     /// Fixed displacement components of each node.
@@ -116,13 +116,13 @@ pub struct Problem {
     pub specimen: Specimen,
     /// The discretisation used.
     pub numbers: Discretisation,
-    /// Where the first loading ends.
+    /// The end of the first loading.
     pub goal: Goal,
-    /// Whether the tool then retreats to zero force.
+    /// True where the tool then retreats to zero force.
     pub unload: bool,
-    /// How often it then comes back to the goal and retreats again.
+    /// Number of times that it then returns to the goal and retreats again.
     pub reloads: usize,
-    /// How the path goes.
+    /// Rules of the path.
     pub rules: Rules,
     /// The surface that earlier loads left, as far as estimates need it.
     pub formed: Option<Formed>,
@@ -176,8 +176,8 @@ impl Problem {
     }
 }
 
-/// Which displacement components of each node are fixed: both at the base, that across at the axis and at
-/// symmetric sides.
+/// Fixed displacement components of each node: both at the base, that across at the axis and at symmetric
+/// sides.
 pub fn held_nodes(mesh: &Mesh, symmetry: Symmetry, lateral: Lateral) -> Vec<[bool; 2]> {
     let mut held = vec![[false; 2]; mesh.nodes.len()];
     let mut hold = |edges: &[asperity_mesh::Edge], components: [bool; 2]| {

@@ -1,4 +1,4 @@
-//! Where load steps end: depths on the way to the peak, travels on the way back.
+//! Ends of load steps: depths of loading, travels of unloading.
 
 /// Division of loading into load steps.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -8,13 +8,13 @@ pub enum Spacing {
     /// Up to 0.15 of the depth, below which no error is promised, they are three times as long in ln h as
     /// beyond it.
     Geometric {
-        /// Where geometric increments begin, as a share of the peak.
+        /// Beginning of the geometric increments, as a share of the peak.
         from: f64,
     },
     /// Longer equal increments to a share of the depth, then equal ones: the error of an equal increment is
     /// the same shift of the depth everywhere, which the slope of a curve does not notice.
     Equal {
-        /// How many lead to `from`.
+        /// Number of those that lead to `from`.
         lead: usize,
         /// The share of the peak to which they lead.
         from: f64,
@@ -61,8 +61,8 @@ pub fn loading(steps: usize, spacing: Spacing) -> Vec<f64> {
 /// 1, and a cone, 2.
 pub const UNLOADING_EXPONENT: f64 = 1.25;
 
-/// Travels at the ends of `steps` increments back from `peak`, each of which takes off the same force if F ∝
-/// (1 - u/u₀)^1.25 with u₀ = `recovery`. The last one leaves `rest` steps of force.
+/// Travels at the ends of `steps` increments back from `peak`, each of which removes the same force if
+/// F ∝ (1 - u/u₀)^1.25 with u₀ = `recovery`. The last one leaves `rest` steps of force.
 pub fn unloading(peak: f64, recovery: f64, steps: usize, rest: f64) -> impl Iterator<Item = f64> {
     (1..=steps).map(move |i| {
         let share = 1.0 - i as f64 / (steps as f64 + rest);
