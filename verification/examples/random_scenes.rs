@@ -1,6 +1,6 @@
-//! Ends of scenes drawn at random, crushed with the program itself: COUNT scenes of a generator of texts at draft,
-//! a tenth as many of the next seed at standard, and a tenth as many of the generator of the battery of stated
-//! errors, of numbers that are not in the battery.
+//! Ends of scenes drawn at random, crushed with the program itself: COUNT scenes of a generator of texts at
+//! draft, a tenth as many of the next seed at standard, and a tenth as many of the generator of the battery
+//! of stated errors, of numbers that are not in the battery.
 //!
 //! `cargo build --release && cargo run --release -p asperity-verification --example random_scenes -- [COUNT]
 //! [SEED] [--out FILE]` (2000 scenes of seed 1 unless told). A scene that ends as it must not, takes long or
@@ -23,7 +23,8 @@ use std::time::Duration;
 /// Longer than the slowest draft scene by far: what is still running then hangs.
 const LIMIT: Duration = Duration::from_secs(600);
 
-/// The first number of the battery of stated errors that is not in it, and that of one seed after that of another.
+/// The first number of the battery of stated errors that is not in it, and that of one seed after that of
+/// another.
 const BEYOND_BATTERY: usize = 1000;
 
 /// A part of the test: scenes of one generator at one accuracy.
@@ -142,7 +143,8 @@ fn main() -> Result<(), Box<dyn Error>> {
 /// Number, end and seconds of a scene.
 type Ended = (usize, End, f64);
 
-/// The end of every scene of `part`; ends that the journal `name` of an earlier run knows are taken from there.
+/// The end of every scene of `part`; ends that the journal `name` of an earlier run knows are taken from
+/// there.
 fn solve(part: &Part, name: &str) -> Result<Vec<Ended>, Box<dyn Error>> {
     let (program, kept) = (program()?, PathBuf::from("out/random-scenes").join(name));
     std::fs::create_dir_all(&kept)?;

@@ -1,10 +1,11 @@
-//! Time and memory of reading a map of heights, beside the least that a program has to do: one pass over the bytes of
-//! the file into numbers, on one thread.
+//! Time and memory of reading a map of heights, beside the least that a program has to do: one pass over the
+//! bytes of the file into numbers, on one thread.
 //!
-//! `cargo run --release -p asperity-verification --example reading -- [SIDE] [--out FILE]`: maps of SIDE² points as
-//! text and of (2 SIDE)² as binary files (4096 unless told; 1.5 GB of files in the folder for temporary files). Each
-//! time is the least of three. The peak of memory is that of a process of its own, less what one has that reads a map
-//! of four points; Linux tells it, elsewhere the column is empty. The table is `verification/results/reading.md`.
+//! `cargo run --release -p asperity-verification --example reading -- [SIDE] [--out FILE]`: maps of SIDE²
+//! points as text and of (2 SIDE)² as binary files (4096 unless told; 1.5 GB of files in the folder for
+//! temporary files). Each time is the least of three. The peak of memory is that of a process of its own,
+//! less what one has that reads a map of four points; Linux tells it, elsewhere the column is empty. The
+//! table is `verification/results/reading.md`.
 
 // files of its own making, on a disk that has room
 #![allow(clippy::expect_used, clippy::print_stdout)]

@@ -25,8 +25,8 @@ use std::time::{Duration, Instant};
 pub struct Done {
     /// Energy balance of the summary.
     pub energy_balance: f64,
-    /// True where the run states no more than its accuracy promises; `None` where it cannot make itself finer, because
-    /// the scene gives its numbers.
+    /// True where the run states no more than its accuracy promises; `None` where it cannot make itself
+    /// finer, because the scene gives its numbers.
     pub promise_kept: Option<bool>,
 }
 
@@ -164,8 +164,8 @@ pub fn draw(count: usize, seed: u64) -> Result<Vec<Drawn>, String> {
         .collect()
 }
 
-/// The scenes `numbers` of the battery of [`coverage_scenes`](crate::coverage_scenes), as text: another generator, with
-/// tools, tables, ridges between walls and kinematic hardening.
+/// The scenes `numbers` of the battery of [`coverage_scenes`](crate::coverage_scenes), as text: another
+/// generator, with tools, tables, ridges between walls and kinematic hardening.
 ///
 /// # Errors
 /// A scene that the program refuses, or that has no text.

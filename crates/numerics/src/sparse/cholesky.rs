@@ -18,8 +18,9 @@ pub struct Operations {
     pub solve: f64,
 }
 
-/// Digits of the factors. Single precision halves memory and time of a factorisation, and iterations whose residuals
-/// are double take as many as with double factors, unless the matrix is nearly singular to its digits.
+/// Digits of the factors. Single precision halves memory and time of a factorisation, and iterations whose
+/// residuals are double take as many as with double factors, unless the matrix is nearly singular to its
+/// digits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Precision {
     /// Of 32 bits.

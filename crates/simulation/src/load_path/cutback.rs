@@ -1,5 +1,5 @@
-//! Cutbacks: an increment that does not converge is tried with factors in double precision, with half its length,
-//! on a new mesh, and with a tangent that is not stiffened, before the path ends.
+//! Cutbacks: an increment that does not converge is tried with factors in double precision, with half its
+//! length, on a new mesh, and with a tangent that is not stiffened, before the path ends.
 
 use super::increment::{Observer, Stop};
 use super::path::{ContactLoad, FIRST_GUESS_SHARE, Miss, Path};

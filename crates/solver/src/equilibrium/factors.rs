@@ -19,9 +19,9 @@ pub(super) struct Factors {
     yielded: Vec<bool>,
 }
 
-/// Bulk modulus over shear modulus from which single precision is too little: with the thousandfold differences of
-/// stiffness in a graded mesh the factors then have no digit to spare. 100 is Poisson's ratio 0.495; at 0.4999999 no
-/// first increment of an elastic cone converges.
+/// Bulk modulus over shear modulus from which single precision is too little: with the thousandfold
+/// differences of stiffness in a graded mesh the factors then have no digit to spare. 100 is Poisson's ratio
+/// 0.495; at 0.4999999 no first increment of an elastic cone converges.
 const NEARLY_INCOMPRESSIBLE: f64 = 100.0;
 
 /// Digits of the factors that a body of `metal` begins with.

@@ -314,8 +314,8 @@ impl<'m> Equilibrium<'m> {
         ))
     }
 
-    /// Factorises in double precision from now on. True where it did not before: an increment that failed may then be
-    /// tried again.
+    /// Factorises in double precision from now on. True where it did not before: an increment that failed may
+    /// then be tried again.
     pub fn sharpen(&mut self) -> bool {
         let coarse = self.factors.factor.precision() == Precision::Single;
         if coarse {
