@@ -48,7 +48,7 @@ class AsperityTable(TypedDict, total=False):
 
 
 class LoadingTable(TypedDict, total=False):
-    """How far it went, from first touch of the body as it was then. It was unloaded, whatever `unload` says."""
+    """Its goal, from first touch of the body as it was then. It was unloaded, whatever `unload` says."""
 
     depth: str
     """Tool travel from first touch of the highest summit, corrected for penetration."""
@@ -57,10 +57,10 @@ class LoadingTable(TypedDict, total=False):
     """Force at the peak, instead of `depth`; per length of ridge in plane strain."""
 
     reloads: int
-    """How often the tool then comes back to the same depth (or force) and retreats again; needs `unload`."""
+    """Number of times that the tool then returns to the same depth (or force) and retreats again; needs `unload`."""
 
     unload: bool
-    """Whether the tool then retreats to zero force."""
+    """True where the tool then retreats to zero force."""
 
 
 class AreaFunctionTable(TypedDict, total=False):
@@ -127,10 +127,10 @@ class ToolTable(TypedDict, total=False):
 
 
 class LoadTable(TypedDict, total=False):
-    """One load that was taken off again."""
+    """One load that was removed again."""
 
     loading: LoadingTable
-    """How far it went, from first touch of the body as it was then. It was unloaded, whatever `unload` says."""
+    """Its goal, from first touch of the body as it was then. It was unloaded, whatever `unload` says."""
 
     tool: ToolTable
     """Its tool; absent: a rigid plane."""
@@ -165,7 +165,7 @@ class MaterialTable(TypedDict, total=False):
     """
 
     hardening_mode: Literal["isotropic", "kinematic"]
-    """Whether the yield surface grows or moves with plastic flow; they differ in unloading and reloading."""
+    """Change of the yield surface with plastic flow: it grows or moves; the two differ in unloading and reloading."""
 
     hardening_table: Sequence[Sequence[float | str]]
     """Instead of `hardening_file`: accumulated plastic strain, from 0, and yield stress, point by point."""
@@ -185,7 +185,8 @@ class MaterialTable(TypedDict, total=False):
     """For hardening_law = "voce": the stress that the yield stress goes to, above yield_stress."""
 
     stress_measure: Literal["cauchy", "kirchhoff"]
-    """Which stress the yield stress and the hardening curve mean: true stress, or Kirchhoff's, which is J times that.
+    """The stress that the yield stress and the hardening curve mean: true stress, or Kirchhoff's, which is J times
+    that.
     """
 
     yield_stress: str
@@ -212,7 +213,7 @@ class NumericsTable(TypedDict, total=False):
     """Size of an automatic substrate, in contact radii."""
 
     element: Literal["q8r", "q4"]
-    """Which element."""
+    """Kind of element."""
 
     elements_in_contact: int
     """Elements across the contact radius at the peak."""
@@ -224,7 +225,7 @@ class NumericsTable(TypedDict, total=False):
     """Mean penetration over depth that sets the penalty."""
 
     refine: bool
-    """Whether a run that misses what `accuracy` promises is made again with finer numbers; absent: it is. With
+    """True where a run that misses what `accuracy` promises is made again with finer numbers; absent: it is. With
     `elements_in_contact` or a mesh by hand there is one run.
     """
 
@@ -233,7 +234,7 @@ class NumericsTable(TypedDict, total=False):
 
 
 class OutputTable(TypedDict, total=False):
-    """Which fields are written, and how often."""
+    """Fields that are written, and their interval."""
 
     every: int
     """Increments between field files; 0: no files. Absent: 5 where `fields` are named, else 0."""
@@ -286,7 +287,7 @@ class SceneTable(TypedDict, total=False):
     """The side of the substrate: free, or a frictionless wall beyond which the body repeats."""
 
     loading: LoadingTable
-    """How far it goes: exactly one of `depth` and `force`."""
+    """Goal of the tool: exactly one of `depth` and `force`."""
 
     material: MaterialTable
     """The material of asperities and substrate. A scene that starts from an earlier result has that of the result."""
@@ -298,7 +299,7 @@ class SceneTable(TypedDict, total=False):
     """Discretisation; what is absent follows from `accuracy`."""
 
     output: OutputTable
-    """Which fields are written, and how often."""
+    """Fields that are written, and their interval."""
 
     profile: Sequence[ProfileTable]
     """A measured line instead of asperities, in plane strain: one."""
@@ -327,7 +328,7 @@ class FluidTable(TypedDict, total=False):
     """A fluid in the gap."""
 
     gas: bool
-    """Whether it is a gas, which expands on its way: its flow is counted in pressure times volume."""
+    """True where it is a gas, which expands on its way: its flow is counted in pressure times volume."""
 
     mean_free_path: str
     """Mean free path of a gas: below ten of them the flow is no longer that of a continuum, and a warning says so."""
@@ -343,10 +344,11 @@ class FluidTable(TypedDict, total=False):
 
 
 class HalfSpaceTable(TypedDict, total=False):
-    """How the half-space is solved."""
+    """Settings of the half-space."""
 
     leak: bool
-    """Whether the flow through the gap is computed: by default where a fluid is given or one closure alone is chosen.
+    """True where the flow through the gap is computed: by default where a fluid is given or one closure alone is
+    chosen.
     """
 
     load_points: int
@@ -363,7 +365,7 @@ class JointTable(TypedDict, total=False):
 
     left_out: str
     """Height range, peak to valley, of roughness that the map does not hold: of it follow proven bounds of the elastic
-    stiffness. By default what `surface.s_filter` took off.
+    stiffness. By default the range that `surface.s_filter` removed.
     """
 
     loads: int
@@ -380,7 +382,7 @@ class RoughLoadTable(TypedDict, total=False):
     """Separation from the mean plane."""
 
     unload: bool
-    """Whether the load is taken off again."""
+    """True where the load is removed again."""
 
 
 class RoughMaterialTable(TypedDict, total=False):
@@ -517,10 +519,11 @@ class SurfaceTable(TypedDict, total=False):
     """
 
     override: bool
-    """Whether `pixel_size` and `height_unit` win over what the file says, and a file is read whose sums do not hold."""
+    """True where `pixel_size` and `height_unit` win over what the file says, and a file is read whose sums do not hold.
+    """
 
     periodic: bool
-    """Whether the map is one period of an endless surface."""
+    """True where the map is one period of an endless surface."""
 
     pixel_size: Sequence[str] | str
     """Distance of the points along x and y, or one for both, where the file does not say."""
@@ -543,7 +546,7 @@ class RoughTable(TypedDict, total=False):
     """A rough surface under a rigid plane."""
 
     closure: Literal["published", "fitted", "johnson", "sneddon", "calibrated", "half-space", "half-space-plastic", "all", "islands"]
-    """Which closure, or several."""
+    """The closure, or several."""
 
     coefficient: str
     """Result of a calibration, for "fitted" (c), "calibrated" (cones, unloading) and "johnson" (unloading)."""
@@ -555,13 +558,13 @@ class RoughTable(TypedDict, total=False):
     """A fluid in the gap."""
 
     half_space: HalfSpaceTable
-    """How the half-space is solved."""
+    """Settings of the half-space."""
 
     joint: JointTable
     """For `asperity joint`: its loads."""
 
     judge: bool
-    """Whether every closure is compared with the half-space: by default on maps of up to 1024 x 1024 points."""
+    """True where every closure is compared with the half-space: by default on maps of up to 1024 x 1024 points."""
 
     load: RoughLoadTable
     """Its load; a joint may go without one."""
@@ -573,7 +576,7 @@ class RoughTable(TypedDict, total=False):
     """Output files."""
 
     pressure_profile: Literal["hertz", "cone", "uniform"]
-    """How the pressure of an island is spread."""
+    """Distribution of the pressure over an island."""
 
     scales: ScalesTable
     """For `asperity scales`: the instrument."""
@@ -607,7 +610,7 @@ class SweepTable(TypedDict, total=False):
     """Slopes β of the cones against the plane, degrees; at most 30, under a cone 50."""
 
     stress_measure: Literal["cauchy", "kirchhoff"]
-    """Which stress the hardening law speaks of."""
+    """The stress that the hardening law speaks of."""
 
     tool: Literal["plane", "cone"]
     """Crush by a plane, or indentation by a cone."""
@@ -732,7 +735,7 @@ class CurveTable(TypedDict, total=False):
     """Standard deviation of the force (of each feature); absent: from the scatter about the fit, 1 % of features."""
 
     test: int
-    """Which test of a file of several, from 1; absent: every test is a curve of its own."""
+    """Number of the test in a file of several, from 1; absent: every test is a curve of its own."""
 
     tool: CurveToolTable
     """The tool."""
@@ -759,7 +762,7 @@ class FitMaterialTable(TypedDict, total=False):
     """Poisson's ratio ν, in (-1, 0.5)."""
 
     stress_measure: Literal["cauchy", "kirchhoff"]
-    """Which stress the yield stress means: true stress, or Kirchhoff's."""
+    """The stress that the yield stress means: true stress, or Kirchhoff's."""
 
     yield_stress: str | Sequence[str]
     """Initial yield stress σ_y."""
