@@ -121,8 +121,9 @@ impl Factor {
         loop {
             let mut correction = residual(matrix, rhs, &wanted);
             let now = correction.iter().fold(0.0_f64, |m, r| m.max(r.abs()));
-            // NaN ends it, too
-            if !(now < 0.5 * size) || now == 0.0 {
+            // false of NaN, too
+            let falls = now > 0.0 && now < 0.5 * size;
+            if !falls {
                 return;
             }
             size = now;
