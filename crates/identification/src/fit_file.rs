@@ -198,6 +198,12 @@ pub struct CurveColumns {
 }
 
 impl FitCurve {
+    /// Columns of depth and force, where a key names them.
+    pub fn column_names(&self) -> [Option<&str>; 2] {
+        let names = self.columns.as_ref().map(|c| [Some(c.depth.as_str()), Some(c.force.as_str())]);
+        names.unwrap_or_default()
+    }
+
     /// The name in pictures of a measurement that messages call `name`: that of its file, with the test where
     /// it has several.
     pub fn label(&self, name: &str) -> String {
