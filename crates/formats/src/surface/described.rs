@@ -439,8 +439,8 @@ impl Sides {
         }
     }
 
-    /// True of the name of the side across the width: the length, where width and length are named, and then no
-    /// bare height.
+    /// True of the name of the side across the width: the length, where width and length are named, and then
+    /// no bare height.
     fn is_second_side(key: &str, has_length: bool) -> bool {
         let is_bare = !key.contains(['x', 'y', ' ']);
         if has_length && (is_bare || LENGTH.contains(&key)) {

@@ -1,6 +1,6 @@
-//! Nanosurf `.nid`: sections of lines `key=value`, then `#!` and the channels that `[DataSet]` lists, group by
-//! group, in signed little-endian integers, row by row from the bottom up. The least integer is `Dim2Min`, the
-//! range of all integers `Dim2Range`.
+//! Nanosurf `.nid`: sections of lines `key=value`, then `#!` and the channels that `[DataSet]` lists, group
+//! by group, in signed little-endian integers, row by row from the bottom up. The least integer is `Dim2Min`,
+//! the range of all integers `Dim2Range`.
 //! Source: NSFopen of Nanosurf (MIT), which reads the same layout.
 
 use super::bytes::{Bytes, Number};

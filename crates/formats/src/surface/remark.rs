@@ -56,7 +56,7 @@ impl Remark {
             (number > 0.0 && unit.trim().is_empty()).then_some(number)
         };
         let value = self.value.replace(['×', '*'], "x");
-        let numbers: Option<Vec<f64>> = value.split('x').map(|part| bare(part)).collect();
+        let numbers: Option<Vec<f64>> = value.split('x').map(bare).collect();
         numbers.filter(|_| self.key_unit.is_none()).unwrap_or_default()
     }
 }

@@ -97,8 +97,8 @@ pub(super) fn is_row(line: &str) -> bool {
 }
 
 impl Dialect {
-    /// The way `text` writes its rows of numbers; commas and points where it has none. `asked` says what stands
-    /// before decimals, and `has_key` whether a message may name the key `decimal` that does.
+    /// The way `text` writes its rows of numbers; commas and points where it has none. `asked` says what
+    /// stands before decimals, and `has_key` whether a message may name the key `decimal` that does.
     ///
     /// # Errors
     /// A number like `1,234`, where nothing in the file says whether its comma stands before decimals; commas
