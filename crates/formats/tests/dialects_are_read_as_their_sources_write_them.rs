@@ -202,6 +202,7 @@ fn points() -> Vec<Dialect> {
 }
 
 /// Each holds the heights 1, 2, 3; 4, missing, 6.
+#[expect(clippy::too_many_lines, reason = "a list of dialects")]
 fn maps() -> Vec<Dialect> {
     let body = "1\t2\t3\n4\tnan\t6\n";
     let head = |words: &str| format!("{words}{body}");
