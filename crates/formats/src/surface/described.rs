@@ -395,7 +395,7 @@ impl Described {
         (self.sides == Sides::default() && !is_count).then_some(Spacing::Numbers(steps))
     }
 
-    /// What was found, in words.
+    /// The finding, in words.
     pub fn notes(&self) -> Option<String> {
         let found = [
             (self.sides != Sides::default(), "size of the map or of its pixels"),

@@ -33,8 +33,8 @@ struct Part {
     all_end_empty: bool,
 }
 
-/// Reads the rows of numbers of `text`. Numbers that are `missing` in the file count as none; `decimal` is the
-/// mark before decimals where the file does not tell.
+/// Reads the rows of numbers of `text`. Numbers that are `missing` in the file count as none; `decimal` is
+/// the mark before decimals where the file does not tell.
 ///
 /// # Errors
 /// No numbers, rows of different lengths, cells that are no numbers, words between rows.
