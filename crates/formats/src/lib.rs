@@ -15,6 +15,8 @@ pub mod text;
 
 mod workbook;
 
+mod cantilever;
+
 pub mod indentation;
 
 pub mod surface;

@@ -19,10 +19,12 @@ struct Dialect {
     source: &'static str,
     name: &'static str,
     bytes: Vec<u8>,
+    /// Keys that name the columns of depth and force.
+    columns: [Option<&'static str>; 2],
 }
 
 fn dialect(feature: &'static str, source: &'static str, name: &'static str, text: &str) -> Dialect {
-    Dialect { feature, source, name, bytes: text.into() }
+    Dialect { feature, source, name, bytes: text.into(), columns: [None; 2] }
 }
 
 fn windows_1252(text: &str) -> Vec<u8> {
@@ -39,18 +41,21 @@ fn curves() -> Vec<Dialect> {
             source: "Hysitron TriboScan, as in micromechanics RobinSteel0000LC.txt",
             name: "curve.txt",
             bytes: windows_1252(hysitron),
+            columns: [None; 2],
         },
         Dialect {
             feature: "UTF-16 without a mark",
             source: "Unicode text of Excel and of LabVIEW",
             name: "curve.txt",
             bytes: hysitron.encode_utf16().flat_map(u16::to_le_bytes).collect(),
+            columns: [None; 2],
         },
         Dialect {
             feature: "Windows-1252, decimal commas, semicolons",
             source: "Fischerscope, as in micromechanics FS1.txt",
             name: "curve.csv",
             bytes: windows_1252("Eindringtiefe;Prüfkraft\r\nµm;mN\r\n0,1;2,0\r\n0,2;8,0\r\n"),
+            columns: [None; 2],
         },
     ];
     for (feature, source, text) in [
@@ -113,7 +118,35 @@ fn curves() -> Vec<Dialect> {
     ] {
         all.push(dialect(feature, source, "curve.txt", text));
     }
+    for (feature, source, columns, text) in [
+        (
+            "compression counted negative, turned by `columns = { depth = \"-…\", force = \"-…\" }`",
+            "testing machines",
+            ["-Displacement (um)", "-Force (mN)"],
+            "Time (s),Displacement (um),Force (mN)\n0,-0.1,-2\n1,-0.2,-8\n",
+        ),
+        (
+            "no header, columns by number and unit",
+            "Micro Materials NanoTest, as micromechanics reads it",
+            ["2 [nm]", "3 [mN]"],
+            "0.0\t100\t2\n1.0\t200\t8\n",
+        ),
+        (
+            "remarks behind #, a tip that moves down, columns by number and unit",
+            "JPK, force curve as text",
+            ["-1 [m]", "2 [N]"],
+            "# segment: extend\n# columns: verticalTipPosition vDeflection height\n# units: m N m\n#\n-1e-7 2e-3 5e-6\n\n# segment: retract\n# columns: verticalTipPosition vDeflection height\n# units: m N m\n#\n-2e-7 8e-3 5e-6\n",
+        ),
+    ] {
+        all.push(Dialect { columns: columns.map(Some), ..dialect(feature, source, "curve.txt", text) });
+    }
     all.extend([
+        dialect(
+            "numbers with units in the words before the table, two more depths",
+            "Optics11 Piuma, Chiaro and Pavone",
+            "curve.txt",
+            "X-position (um)\t0.0\nk (N/m)\t0.52\nD[Z1] (nm)\t10000\tt[1] (s)\t2\nP[max] (uN)\t8000\nD[max] (nm)\t200\nE[v=0.500] (Pa)\t750\n\nTime (s)\tLoad (uN)\tIndentation (nm)\tCantilever (nm)\tPiezo (nm)\tAuxiliary\n0\t2000\t100\t50\t150\t0.01\n1\t8000\t200\t90\t290\t0.01\n",
+        ),
         dialect(
             "tables of approach and drift before that of the test",
             "Hysitron TriboScan .hld, as micromechanics reads it",
@@ -125,12 +158,14 @@ fn curves() -> Vec<Dialect> {
             source: "KLA/MTS NanoIndenter .xlsx, written by openpyxl 3.1.5",
             name: "curve.xlsx",
             bytes: include_bytes!("files/openpyxl-curve.xlsx").into(),
+            columns: [None; 2],
         },
         Dialect {
             feature: "the same of Excel 97",
             source: "MTS NanoIndenter XP .xls, written by xlwt 1.3.0",
             name: "curve.xls",
             bytes: include_bytes!("files/xlwt-curve.xls").into(),
+            columns: [None; 2],
         },
     ]);
     all
@@ -167,6 +202,7 @@ fn points() -> Vec<Dialect> {
 }
 
 /// Each holds the heights 1, 2, 3; 4, missing, 6.
+#[expect(clippy::too_many_lines, reason = "a list of dialects")]
 fn maps() -> Vec<Dialect> {
     let body = "1\t2\t3\n4\tnan\t6\n";
     let head = |words: &str| format!("{words}{body}");
@@ -195,6 +231,20 @@ fn maps() -> Vec<Dialect> {
             "SurfaceTopography, asc files",
             "map.asc",
             &head("x-length = 3\ny-length = 1\nx-unit = µm\nz-unit = nm\n"),
+        ),
+        dialect(
+            "sizes in nm without a unit",
+            "SPIP, ASCII export",
+            "map.asc",
+            &head(
+                "# File Format = ASCII\n# Created by SPIP 6.7.7\n# x-pixels = 3\n# y-pixels = 2\n# x-length = 3000\n# y-length = 2000\n# z-unit = nm\n# voidpixels =1\n# Start of Data:\n",
+            ),
+        ),
+        dialect(
+            "Scale X, Unit X, Unit Data",
+            "NT-MDT Nova, ASCII export",
+            "map.txt",
+            &head("NX = 3\nNY = 2\nScale X = 1\nScale Y = 1\nUnit X = um\nUnit Data = nm\nStart of Data :\n"),
         ),
         dialect(
             "quotes, pixel in nm/pixel",
@@ -238,7 +288,7 @@ fn maps() -> Vec<Dialect> {
 fn curve_is_right(one: &Dialect) -> bool {
     let (text, _) = decode(&one.bytes).unwrap();
     let table =
-        indentation::read(&text, [None, None], None).unwrap_or_else(|e| panic!("{}: {e}", one.feature));
+        indentation::read(&text, one.columns, None).unwrap_or_else(|e| panic!("{}: {e}", one.feature));
     let near = |a: f64, b: f64| (a / b - 1.0).abs() < 1e-9;
     let rows = &table.series[0].rows;
     let want = [[1e-7, 2e-3], [2e-7, 8e-3]];

@@ -1,6 +1,7 @@
 //! The content of a fit file: the metal with what is known and sought of it, and the measurements.
 
 use crate::known_or_unknown::{KnownOrUnknown, Percent};
+use asperity_formats::text::Decimal;
 use asperity_material::units::{Compliance, Length, Stiffness, Stress};
 use asperity_material::{HardeningLaw, StressMeasure};
 use asperity_simulation::scene::{Asperity, Friction, HardeningChoice};
@@ -116,6 +117,9 @@ pub struct FitCurve {
     #[schemars(example = -9999.0)]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub missing_value: Option<f64>,
+    /// Mark before decimals, `point` or `comma`, where the file does not tell.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub decimal: Option<Decimal>,
     /// Number of the test in a file of several, from 1; absent: every test is a curve of its own.
     #[schemars(range(min = 1))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -184,7 +188,8 @@ impl FitImprint {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CurveColumns {
-    /// Name of the column of depth, with or without a unit in brackets, or its number from 1.
+    /// Name of the column of depth, with or without a unit in brackets, or its number from 1; a minus before it
+    /// turns the sign of its numbers.
     #[schemars(example = "Pd [nm]")]
     pub depth: String,
     /// That of force.
@@ -193,6 +198,12 @@ pub struct CurveColumns {
 }
 
 impl FitCurve {
+    /// Columns of depth and force, where a key names them.
+    pub fn column_names(&self) -> [Option<&str>; 2] {
+        let names = self.columns.as_ref().map(|c| [Some(c.depth.as_str()), Some(c.force.as_str())]);
+        names.unwrap_or_default()
+    }
+
     /// The name in pictures of a measurement that messages call `name`: that of its file, with the test where
     /// it has several.
     pub fn label(&self, name: &str) -> String {

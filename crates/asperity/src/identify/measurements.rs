@@ -53,8 +53,8 @@ pub(super) fn measurements(
                 .map_err(|e| at(".file", &format!("{shown}: cannot be read: {e}; {RELATIVE_PATH_NOTE}")))?;
             let (text, encoding) =
                 decode(&bytes).map_err(|e| at(".file", &format!("{shown} {}", e.message)))?;
-            let columns = curve.columns.as_ref().map(|c| [Some(c.depth.as_str()), Some(c.force.as_str())]);
-            let table = indentation::read(&text, columns.unwrap_or_default(), curve.missing_value)
+            let (names, missing) = (curve.column_names(), curve.missing_value);
+            let table = indentation::read_as(&text, names, missing, curve.decimal)
                 .map_err(|error| table_error(file, i, &shown, &text, error))?;
             said.understood.push(understood(&name, &encoding, &table.understood));
             chosen(table.series, curve.test)

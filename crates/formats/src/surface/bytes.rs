@@ -107,8 +107,13 @@ numbers! { stored;
 impl Number {
     /// Decodes all `count` little-endian numbers of `raw`.
     pub fn decode_all(self, raw: &[u8], count: usize) -> Vec<f64> {
+        self.decode_all_ordered(raw, count, false)
+    }
+
+    /// The same, big-endian where told.
+    pub fn decode_all_ordered(self, raw: &[u8], count: usize, big_endian: bool) -> Vec<f64> {
         let mut out = vec![0.0; count];
-        self.decode(raw, false, &mut out);
+        self.decode(raw, big_endian, &mut out);
         out
     }
 }

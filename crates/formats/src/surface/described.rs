@@ -1,8 +1,9 @@
 //! Words before the heights of a text file: size, pixels, units, wavelength.
 
 use super::measured::{ReadError, Request, Spacing};
+use super::remark::{Remark, number_and_unit};
 use crate::dimension::Dimension;
-use crate::text::{TextError, folded_name};
+use crate::text::TextError;
 
 /// Statements of the file on its heights, lengths in metres.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -11,30 +12,32 @@ pub(super) struct Described {
     pub height_unit: Option<f64>,
     /// Metres per unit of places along the surface.
     pub lateral_unit: Option<f64>,
-    size: [Option<f64>; 2],
-    pixel: [Option<f64>; 2],
+    /// Sides in metres, and those that stand without a unit.
+    sides: Sides,
+    bare: Sides,
     wavelength: Option<f64>,
     height_unit_name: String,
     /// Columns and rows of the map, with the line that names them.
     counts: [Option<(usize, usize)>; 2],
-    /// The one size of the map that was named, and the ratio of its sides.
-    scan: Option<f64>,
+    /// The ratio of the sides of the map.
     aspect: Option<f64>,
-    /// True where width and length are the sides, so that a height is one along z.
-    has_length: bool,
+    /// True where width and length are the sides, so that a height is one along z: with units, and without.
+    has_length: [bool; 2],
+    /// True where sizes without a unit are in nm, as SPIP writes them.
+    is_spip: bool,
     /// The number for a point that was not measured.
     missing: Option<f64>,
     /// A factor of the heights whose meaning is not known, with its line.
     scale: Option<(String, usize)>,
 }
 
-/// A remark `key: value`.
-struct Remark {
-    line: usize,
-    key: String,
-    /// Unit that stands with the key.
-    key_unit: Option<String>,
-    value: String,
+/// Sides of a map and of its pixels, in one unit.
+#[derive(Clone, Debug, Default, PartialEq)]
+struct Sides {
+    size: [Option<f64>; 2],
+    pixel: [Option<f64>; 2],
+    /// The one size that was named.
+    scan: Option<f64>,
 }
 
 /// Names of sizes and pixels, in small letters without accents.
@@ -131,11 +134,14 @@ const PIXEL: &[&str] = &[
     "xy pixel size",
     "pixel size xy",
     "camera resolution",
+    "pitch",
+    "cellsize",
+    "cell size",
 ];
 const X: &[&str] =
-    &["x", "dx", "pixel width", "delta x", "pas x", "xpixelsize", "x increment", "x scale", "x pitch"];
+    &["x", "dx", "pixel width", "delta x", "pas x", "xpixelsize", "x increment", "x scale", "scale x"];
 const Y: &[&str] =
-    &["y", "dy", "pixel height", "delta y", "pas y", "ypixelsize", "y increment", "y scale", "y pitch"];
+    &["y", "dy", "pixel height", "delta y", "pas y", "ypixelsize", "y increment", "y scale", "scale y"];
 
 /// Names of the second side of a map beside its width.
 const LENGTH: &[&str] = &["length", "lange", "laenge", "longueur", "lunghezza", "longitud", "comprimento"];
@@ -204,22 +210,27 @@ impl Described {
         let remarks: Vec<Remark> =
             before.iter().filter_map(|&(line, text)| Remark::new(line, text)).collect();
         let mut said = Described::default();
-        let has = |names: &[&str]| {
+        let has = |names: &[&str], unit: Option<f64>| {
             remarks.iter().any(|r| {
-                names.contains(&r.key.as_str()) && r.lengths(None).first().is_some_and(Option::is_some)
+                names.contains(&r.key.as_str()) && r.lengths(unit).first().is_some_and(Option::is_some)
             })
         };
-        said.has_length = has(WIDTH) && has(LENGTH);
+        said.has_length = [None, Some(1.0)].map(|unit| has(WIDTH, unit) && has(LENGTH, unit));
+        said.is_spip =
+            remarks.iter().any(|r| r.key == "file format" && r.value.eq_ignore_ascii_case("ascii"));
         // units first: a number may stand without one
         for remark in &remarks {
             said.take_unit(remark, request)?;
+        }
+        if said.is_spip {
+            said.lateral_unit = said.lateral_unit.or(Some(1e-9));
         }
         for remark in &remarks {
             said.take_length(remark);
             said.take_count(remark);
             said.take_number(remark);
         }
-        if said.size == [None; 2] && said.pixel == [None; 2] && said.scan.is_none() {
+        if said.sides == Sides::default() {
             said.take_by_place(&remarks);
         }
         Ok(said)
@@ -270,31 +281,10 @@ impl Described {
     }
 
     fn take_length(&mut self, remark: &Remark) {
-        let key = remark.key.as_str();
-        let lengths = remark.lengths(self.lateral_unit);
-        let Some(first) = lengths.first().copied().flatten() else { return };
-        let second = lengths.get(1).copied().flatten().unwrap_or(first);
-        let without = |axis: &str| {
-            let rest = key.strip_prefix(axis).or_else(|| key.strip_suffix(axis)).map(str::trim);
-            rest.is_some_and(|rest| PIXEL.contains(&rest))
-        };
-        let set = |slot: &mut Option<f64>, value: f64| *slot = slot.or(Some(value));
-        if PIXEL.contains(&key) {
-            set(&mut self.pixel[0], first);
-            set(&mut self.pixel[1], second);
-        } else if X[1..].contains(&key) || without("x") {
-            set(&mut self.pixel[0], first);
-        } else if Y[1..].contains(&key) || without("y") {
-            set(&mut self.pixel[1], first);
-        } else if SIZE.contains(&key) && lengths.len() == 1 {
-            set(&mut self.scan, first);
-        } else if SIZE.contains(&key) {
-            set(&mut self.size[0], first);
-            set(&mut self.size[1], second);
-        } else if WIDTH.contains(&key) {
-            set(&mut self.size[0], first);
-        } else if self.is_second_side(key) {
-            set(&mut self.size[1], first);
+        let lengths: Option<Vec<f64>> = remark.lengths(self.lateral_unit).into_iter().collect();
+        match lengths.filter(|lengths| !lengths.is_empty()) {
+            Some(lengths) => self.sides.take(&remark.key, &lengths, self.has_length[0]),
+            None => self.bare.take(&remark.key, &remark.bare_numbers(), self.has_length[1]),
         }
     }
 
@@ -313,17 +303,6 @@ impl Described {
             if names.contains(&key) || is_of_pixels && sizes.contains(&key) {
                 self.counts[slot] = self.counts[slot].or(Some((count, remark.line)));
             }
-        }
-    }
-
-    /// True of the name of the side across the width: the length, where width and length are named, and then no
-    /// bare height.
-    fn is_second_side(&self, key: &str) -> bool {
-        let is_bare = !key.contains(['x', 'y', ' ']);
-        if self.has_length && (is_bare || LENGTH.contains(&key)) {
-            LENGTH.contains(&key)
-        } else {
-            HEIGHT.contains(&key)
         }
     }
 
@@ -397,7 +376,7 @@ impl Described {
             if let (true, Some(width), Some(height), Some(unit)) =
                 (follow, width, height, Dimension::Length.scale(&three[2].value))
             {
-                self.size = [Some(width), Some(height)];
+                self.sides.size = [Some(width), Some(height)];
                 self.height_unit = Some(unit);
                 self.height_unit_name.clone_from(&three[2].value);
                 return;
@@ -405,89 +384,91 @@ impl Described {
         }
     }
 
+    /// Distance of the points of a map of so many columns and rows.
+    pub fn spacing(&self, columns: usize, rows: usize) -> Option<Spacing> {
+        if let Some(steps) = self.sides.steps(columns, rows, self.aspect) {
+            return Some(Spacing::Metres(steps));
+        }
+        // a width of 3 of a map of 3 columns counts these
+        let is_count = self.bare.size == [Some(columns as f64), Some(rows as f64)];
+        let steps = self.bare.steps(columns, rows, self.aspect)?;
+        (self.sides == Sides::default() && !is_count).then_some(Spacing::Numbers(steps))
+    }
+
+    /// The finding, in words.
+    pub fn notes(&self) -> Option<String> {
+        let found = [
+            (self.sides != Sides::default(), "size of the map or of its pixels"),
+            (self.height_unit.is_some(), "unit of the heights"),
+        ];
+        let found: Vec<&str> = found.iter().filter(|(is, _)| *is).map(|(_, what)| *what).collect();
+        let square =
+            if self.sides.sole().is_some() { ", the one size along a line and pixels square" } else { "" };
+        let spip = if self.is_spip { ", sizes in nm where SPIP names no unit" } else { "" };
+        (!found.is_empty())
+            .then(|| format!("{} from the words before the heights{square}{spip}", found.join(" and ")))
+    }
+}
+
+impl Sides {
+    /// Takes what `key` names.
+    fn take(&mut self, key: &str, lengths: &[f64], has_length: bool) {
+        let Some(&first) = lengths.first() else { return };
+        let second = lengths.get(1).copied().unwrap_or(first);
+        let without = |axis: &str| {
+            let rest = key.strip_prefix(axis).or_else(|| key.strip_suffix(axis)).map(str::trim);
+            rest.is_some_and(|rest| PIXEL.contains(&rest))
+        };
+        let set = |slot: &mut Option<f64>, value: f64| *slot = slot.or(Some(value));
+        if PIXEL.contains(&key) {
+            set(&mut self.pixel[0], first);
+            set(&mut self.pixel[1], second);
+        } else if X[1..].contains(&key) || without("x") {
+            set(&mut self.pixel[0], first);
+        } else if Y[1..].contains(&key) || without("y") {
+            set(&mut self.pixel[1], first);
+        } else if SIZE.contains(&key) && lengths.len() == 1 {
+            set(&mut self.scan, first);
+        } else if SIZE.contains(&key) {
+            set(&mut self.size[0], first);
+            set(&mut self.size[1], second);
+        } else if WIDTH.contains(&key) {
+            set(&mut self.size[0], first);
+        } else if Sides::is_second_side(key, has_length) {
+            set(&mut self.size[1], first);
+        }
+    }
+
+    /// True of the name of the side across the width: the length, where width and length are named, and then
+    /// no bare height.
+    fn is_second_side(key: &str, has_length: bool) -> bool {
+        let is_bare = !key.contains(['x', 'y', ' ']);
+        if has_length && (is_bare || LENGTH.contains(&key)) {
+            LENGTH.contains(&key)
+        } else {
+            HEIGHT.contains(&key)
+        }
+    }
+
     /// The one size that was named, where nothing else tells the sides.
-    fn sole_size(&self) -> Option<f64> {
+    fn sole(&self) -> Option<f64> {
         self.scan.filter(|_| self.size == [None; 2] && self.pixel == [None; 2])
     }
 
-    /// Distance of the points of a map of so many columns and rows.
-    pub fn spacing(&self, columns: usize, rows: usize) -> Option<Spacing> {
-        if let Some(scan) = self.sole_size() {
+    /// Distance of the points along x and y of a map of so many columns and rows.
+    fn steps(&self, columns: usize, rows: usize, aspect: Option<f64>) -> Option<[f64; 2]> {
+        if let Some(scan) = self.sole() {
             // square pixels along the longer side, which is that of a line; else the file does not tell
             let ratio = rows as f64 / columns as f64;
-            let fits = self
-                .aspect
+            let fits = aspect
                 .is_none_or(|aspect| [ratio, 1.0 / ratio].iter().any(|r| (r / aspect - 1.0).abs() < 0.02));
-            return (columns >= rows && fits).then_some(Spacing::Metres([scan / columns as f64; 2]));
+            return (columns >= rows && fits).then_some([scan / columns as f64; 2]);
         }
         let from_size = |k: usize, count: usize| self.size[k].map(|size| size / count as f64);
         let x = self.pixel[0].or_else(|| from_size(0, columns));
         let y = self.pixel[1].or_else(|| from_size(1, rows));
         // one side alone tells of square pixels
         let (x, y) = (x.or(y)?, y.or(x)?);
-        (x > 0.0 && y > 0.0).then_some(Spacing::Metres([x, y]))
+        (x > 0.0 && y > 0.0).then_some([x, y])
     }
-
-    /// The finding, in words.
-    pub fn notes(&self) -> Option<String> {
-        let sizes = self.size.iter().chain(&self.pixel).chain([&self.scan]).any(Option::is_some);
-        let found = [
-            (sizes, "size of the map or of its pixels"),
-            (self.height_unit.is_some(), "unit of the heights"),
-        ];
-        let found: Vec<&str> = found.iter().filter(|(is, _)| *is).map(|(_, what)| *what).collect();
-        let square =
-            if self.sole_size().is_some() { ", the one size along a line and pixels square" } else { "" };
-        (!found.is_empty())
-            .then(|| format!("{} from the words before the heights{square}", found.join(" and ")))
-    }
-}
-
-impl Remark {
-    fn new(line: usize, text: &str) -> Option<Remark> {
-        let text = text.trim_start_matches(['#', '%', '/', ';', '!', '*', ' ']).replace('"', "");
-        let text = text.trim();
-        let cut =
-            text.find([':', '=']).or_else(|| text.find(['\t', ';', ','])).map(|i| (i, i + 1)).or_else(|| {
-                let i = text.find(|c: char| c.is_ascii_digit() || c == '-')?;
-                (i > 0).then_some((i, i))
-            });
-        let (end, start) = cut?;
-        let (key, key_unit) = folded_name(&text[..end]);
-        let value = text[start..].trim_matches([' ', '\t', ';', ',', '=', ':']).replace(['\t', ';'], " ");
-        (!key.is_empty() && !value.is_empty()).then_some(Remark { line, key, key_unit, value })
-    }
-
-    /// One or two lengths of the value, in metres; `unit` where none stands with them.
-    fn lengths(&self, unit: Option<f64>) -> Vec<Option<f64>> {
-        let value = self.value.replace(['×', '*'], "x");
-        let parts: Vec<(f64, Option<f64>)> = value
-            .split('x')
-            .filter_map(|part| {
-                let (number, unit) = number_and_unit(part)?;
-                let unit = unit.trim_start_matches([' ', ',', '(', '[']);
-                let unit = unit.split(['/', ')', ']', ' ']).next().unwrap_or("");
-                Some((number, Dimension::Length.scale(unit).filter(|_| !unit.is_empty())))
-            })
-            .collect();
-        let of_key = self.key_unit.as_ref().and_then(|unit| Dimension::Length.scale(unit.split('/').next()?));
-        let last = parts.last().and_then(|(_, unit)| *unit);
-        let metres = |(number, own): &(f64, Option<f64>)| Some(number * own.or(last).or(of_key).or(unit)?);
-        parts.iter().map(|part| metres(part).filter(|length| *length > 0.0)).collect()
-    }
-}
-
-/// A number, with point or comma before its decimals, and the text behind it.
-fn number_and_unit(text: &str) -> Option<(f64, &str)> {
-    let text = text.trim();
-    let is_part = |c: char| c.is_ascii_digit() || "+-.,".contains(c);
-    let mut end = text.find(|c| !is_part(c)).unwrap_or(text.len());
-    let exponent = text[end..].strip_prefix(['e', 'E']).map_or(0, |rest| {
-        1 + rest.find(|c: char| !(c.is_ascii_digit() || c == '-' || c == '+')).unwrap_or(rest.len())
-    });
-    if exponent > 1 {
-        end += exponent;
-    }
-    let number = text[..end].trim_end_matches(',').replace(',', ".");
-    Some((number.parse().ok()?, &text[end..]))
 }

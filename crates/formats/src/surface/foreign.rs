@@ -8,7 +8,7 @@ pub(super) const LOOKED_AT: u64 = 1024;
 const PICTURE: &str = "colours are not heights: export the heights as .sur, .x3p or text";
 
 /// Beginning, name, and what to do.
-const KINDS: [(&[u8], &str, &str); 14] = [
+const KINDS: [(&[u8], &str, &str); 18] = [
     (b"\x89PNG", "a PNG picture", PICTURE),
     (b"\xff\xd8\xff", "a JPEG picture", PICTURE),
     (b"GIF8", "a GIF picture", PICTURE),
@@ -20,7 +20,24 @@ const KINDS: [(&[u8], &str, &str); 14] = [
     (
         b"\\*Force file list",
         "a NanoScope force curve (.spm)",
-        "export the curve as ASCII for asperity identify",
+        "an ASCII export holds the way of the piezo and the bending of the cantilever: write a table depth_nm,force_nN from \
+         them for asperity identify, depth = ramp - bending (nm, both from first touch)",
+    ),
+    (
+        b"\x05\x00",
+        "an Igor binary wave (.ibw)",
+        "export the heights as .gwy, .gsf or text (Gwyddion opens the file)",
+    ),
+    (
+        b":NANONIS_VERSION:",
+        "a Nanonis scan (.sxm)",
+        "export the heights as .gwy, .gsf or text (Gwyddion opens it)",
+    ),
+    (b"WSxM file copyright", "a WSxM image (.stp, .top)", "export the heights as text with a header in WSxM"),
+    (
+        b"ply",
+        "a mesh of points (.ply)",
+        "save its points as text x y z on a regular grid, or its heights as .x3p or .sur",
     ),
     (
         b"Zygo ASCII Data File",

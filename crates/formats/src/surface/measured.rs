@@ -1,7 +1,7 @@
 //! The result of every reader: heights as a file holds them, or why it is no surface.
 
 use crate::memory::{default_limit, read_file};
-use crate::text::TextError;
+use crate::text::{Decimal, TextError};
 use std::path::Path;
 use thiserror::Error;
 
@@ -13,7 +13,7 @@ pub enum ReadError {
     Io(#[from] std::io::Error),
     /// No reader knows it.
     #[error(
-        "{found}; a surface is a .sur, .x3p, .sdf, .al3d, .plu, .plux, .opd, .opdx, .spm, .vk4, .vk6, .zon, .dat, .datx, .gwy, .gsf, .tif or .npy file, a workbook (.xlsx, .xls), or text (.csv, .txt, .xyz)"
+        "{found}; a surface is a .sur, .x3p, .sdf, .al3d, .plu, .plux, .opd, .opdx, .spm, .vk4, .vk6, .zon, .dat, .datx, .gwy, .gsf, .bcr, .bcrf, .nid, .tif or .npy file, a workbook (.xlsx, .xls), or text (.csv, .txt, .xyz)"
     )]
     Unknown {
         /// Its probable kind.
@@ -144,6 +144,8 @@ pub enum Spacing {
     Metres([f64; 2]),
     /// In the unit of the heights, which the file does not name.
     HeightUnits([f64; 2]),
+    /// In a unit that the file does not name.
+    Numbers([f64; 2]),
 }
 
 /// Heights as a file holds them.
@@ -185,6 +187,8 @@ pub struct Request<'a> {
     pub columns: [Option<&'a str>; 3],
     /// A number that means that a point was not measured, in the unit of the file.
     pub missing_value: Option<f64>,
+    /// Mark before decimals in text, where the file does not tell.
+    pub decimal: Option<Decimal>,
     /// True where sums that do not hold, and values that are said to be no heights, are passed over.
     pub override_file: bool,
     /// Bytes that may be taken; `None`: [`default_limit`].

@@ -7,6 +7,7 @@ mod measured;
 mod al3d;
 mod archive;
 mod axes;
+mod bcr;
 mod datx;
 mod described;
 mod foreign;
@@ -16,10 +17,12 @@ mod keyence;
 mod marks;
 mod metropro;
 mod nanoscope;
+mod nid;
 mod npy;
 mod opd;
 mod opdx;
 mod points;
+mod remark;
 mod sdf;
 mod sensofar;
 mod sur;
@@ -58,11 +61,10 @@ pub fn read(path: &Path, request: &Request<'_>) -> Result<Measured, ReadError> {
     match extension.as_str() {
         _ if start.is_empty() => Err(ReadError::Unknown { found: "the file is empty".into() }),
         "plu" | "apx" => sensofar::read_plu(path, request),
-        "npy" | "x3p" | "sdf" | "sur" | "al3d" | "opd" | "opdx" | "vk4" | "vk6" | "datx" | "plux" => {
-            Err(ReadError::Unknown {
-                found: format!("the name says .{extension}, but the file does not begin like one"),
-            })
-        }
+        "npy" | "x3p" | "sdf" | "sur" | "al3d" | "opd" | "opdx" | "vk4" | "vk6" | "datx" | "plux" | "bcr"
+        | "bcrf" | "nid" => Err(ReadError::Unknown {
+            found: format!("the name says .{extension}, but the file does not begin like one"),
+        }),
         "csv" | "txt" | "asc" | "dat" | "xyz" | "grd" | "" => text::read(path, request),
         other => text::read(path, request).map_err(|error| match error {
             ReadError::Text(error) => ReadError::Unknown {
@@ -75,7 +77,7 @@ pub fn read(path: &Path, request: &Request<'_>) -> Result<Measured, ReadError> {
 
 /// The reader of a file that begins so.
 fn reader(start: &[u8]) -> Option<Reader> {
-    let known: [(&[u8], Reader); 17] = [
+    let known: [(&[u8], Reader); 18] = [
         (b"\x93NUMPY", npy::read),
         (b"PK\x03\x04", read_archive),
         (b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1", text::read),
@@ -87,6 +89,7 @@ fn reader(start: &[u8]) -> Option<Reader> {
         (opd::MAGIC, opd::read),
         (opdx::MAGIC, opdx::read),
         (nanoscope::MAGIC, nanoscope::read),
+        (nid::MAGIC, nid::read),
         (b"VK3_", keyence::read_vk4),
         (b"VK4_", keyence::read_vk4),
         (b"VK6", keyence::read_vk6),
@@ -94,7 +97,11 @@ fn reader(start: &[u8]) -> Option<Reader> {
         (b"KPK0", keyence::read_zon),
         (datx::MAGIC, datx::read),
     ];
-    let several = [(&tif::MAGICS[..], tif::read as Reader), (&metropro::MAGICS, metropro::read)];
+    let several = [
+        (&tif::MAGICS[..], tif::read as Reader),
+        (&metropro::MAGICS, metropro::read),
+        (&bcr::MAGICS, bcr::read),
+    ];
     if let Some((_, reader)) = several.iter().find(|(magics, _)| magics.iter().any(|m| start.starts_with(m)))
     {
         return Some(*reader);

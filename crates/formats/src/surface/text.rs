@@ -66,7 +66,7 @@ pub(super) fn read(path: &Path, request: &Request<'_>) -> Result<Measured, ReadE
 
 /// Reads rows of heights or of points.
 fn read_table(path: &Path, text: &str, encoding: &str, request: &Request<'_>) -> Result<Measured, ReadError> {
-    let mut grid = read_grid(text, request.missing_value)?;
+    let mut grid = read_grid(text, request.missing_value, request.decimal)?;
     let mut notes = vec![format!("{encoding} {}", grid.describe())];
     let said = Described::new(&grid.before, request)?;
     let is_xyz = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("xyz"));

@@ -41,7 +41,7 @@ fn rows<'t>(
         kept.push_str(line);
         kept.push('\n');
     }
-    Ok(read_grid(kept, request.missing_value)?)
+    Ok(read_grid(kept, request.missing_value, request.decimal)?)
 }
 
 /// Zygo MetroPro and Mx: x and y number the pixels of the camera, z is in micrometres; the seventh word of

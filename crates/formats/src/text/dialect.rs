@@ -1,6 +1,8 @@
 //! Cells of a line and numbers in them, as the program that wrote the file parts and writes them.
 
 use super::{TextError, shortened};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 /// Separator of columns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -12,7 +14,8 @@ pub enum Separator {
 }
 
 /// Mark before decimals.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
 pub enum Decimal {
     /// 1.5
     Point,
@@ -94,12 +97,13 @@ pub(super) fn is_row(line: &str) -> bool {
 }
 
 impl Dialect {
-    /// The way `text` writes its rows of numbers; commas and points where it has none.
+    /// The way `text` writes its rows of numbers; commas and points where it has none. `asked` says what
+    /// stands before decimals, and `has_key` whether a message may name the key `decimal` that does.
     ///
     /// # Errors
     /// A number like `1,234`, where nothing in the file says whether its comma stands before decimals; commas
     /// that stand both between columns and before decimals.
-    pub fn detect(text: &str) -> Result<Dialect, TextError> {
+    pub fn detect(text: &str, asked: Option<Decimal>, has_key: bool) -> Result<Dialect, TextError> {
         let rows = || {
             let lines = text.lines().enumerate().map(|(i, line)| (i + 1, line.trim()));
             lines.filter(|(_, line)| !is_comment(line) && is_row(line))
@@ -129,6 +133,14 @@ impl Dialect {
                 return Err(TextError::new(line, message));
             }
         }
+        if let Some(decimal) = asked {
+            if separator == Separator::Mark(',') && decimal == Decimal::Comma {
+                let message = "decimal = \"comma\" does not go with a file whose commas part the columns: remove the key, or part \
+                               the columns by semicolons or tabs";
+                return Err(TextError::whole(message));
+            }
+            return Ok(Dialect { decimal, ..point });
+        }
         if !text.contains(',') || separator == Separator::Mark(',') && !text.contains('"') {
             return Ok(point);
         }
@@ -143,13 +155,19 @@ impl Dialect {
         }
         match doubtful {
             None => Ok(point),
-            Some((line, cell)) => Err(TextError::new(
-                line,
-                format!(
-                    "\"{}\" may be a thousand or have decimals behind its comma, and nothing in the file tells: write a decimal point, or another number of decimals",
-                    shortened(cell)
-                ),
-            )),
+            Some((line, cell)) => {
+                let cell = shortened(cell);
+                let (small, large) = (cell.replace(',', "."), cell.replace(',', ""));
+                let key = if has_key {
+                    format!("set decimal = \"comma\" for {small}, decimal = \"point\" for {large}, or ")
+                } else {
+                    String::new()
+                };
+                let message = format!(
+                    "\"{cell}\" is {small} or {large}, and nothing in the file tells which: {key}write another number of decimals"
+                );
+                Err(TextError::new(line, message))
+            }
         }
     }
 
@@ -273,14 +291,14 @@ fn is_decimal_comma(cell: &str) -> Option<bool> {
 }
 
 /// True of a number with groups of three digits that `other` parts, and decimals behind `mark`, or of
-/// several groups.
+/// several groups. Where decimals stand behind a point, one group is enough: that they do is known then.
 fn has_thousands(cell: &str, mark: char, other: char) -> bool {
     let (whole, has_mark) = cell.split_once(mark).map_or((cell, false), |(whole, _)| (whole, true));
     let mut groups = whole.trim_start_matches(['-', '+', '−']).split(other);
     let first = groups.next().unwrap_or("");
     let later: Vec<&str> = groups.collect();
     let is_digits = |group: &str| !group.is_empty() && group.bytes().all(|b| b.is_ascii_digit());
-    (has_mark || later.len() > 1)
+    (has_mark || later.len() > 1 || mark == '.' && later.len() == 1 && !first.starts_with('0'))
         && (1..=3).contains(&first.len())
         && is_digits(first)
         && later.iter().all(|group| group.len() == 3 && is_digits(group))

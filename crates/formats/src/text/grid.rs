@@ -1,6 +1,6 @@
 //! Rows of numbers, as many in each: the heights of a map, or points line by line.
 
-use super::dialect::{Dialect, is_comment, is_row};
+use super::dialect::{Decimal, Dialect, is_comment, is_row};
 use super::{TextError, shortened};
 use rayon::prelude::*;
 use std::ops::Range;
@@ -33,13 +33,14 @@ struct Part {
     all_end_empty: bool,
 }
 
-/// Reads the rows of numbers of `text`. Numbers that are `missing` in the file count as none.
+/// Reads the rows of numbers of `text`. Numbers that are `missing` in the file count as none; `decimal` is
+/// the mark before decimals where the file does not tell.
 ///
 /// # Errors
 /// No numbers, rows of different lengths, cells that are no numbers, words between rows.
-pub fn read_grid(text: &str, missing: Option<f64>) -> Result<Grid<'_>, TextError> {
+pub fn read_grid(text: &str, missing: Option<f64>, decimal: Option<Decimal>) -> Result<Grid<'_>, TextError> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-    let dialect = Dialect::detect(text)?;
+    let dialect = Dialect::detect(text, decimal, true)?;
     let (before, start, first) = beginning(text, &dialect)?;
     let (end, after) = ending(text, start);
     let body = &text[start..end];

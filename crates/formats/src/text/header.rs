@@ -1,6 +1,6 @@
 //! The line that names columns, and the columns that are wanted of it.
 
-use super::dialect::{Dialect, Separator};
+use super::dialect::{Decimal, Dialect, Separator};
 use super::heading::{Heading, Quantity, folded};
 use super::{TextError, shortened};
 use crate::dimension::Dimension;
@@ -13,6 +13,8 @@ pub struct Asked<'a, const N: usize> {
     pub columns: [Option<&'a str>; N],
     /// A number that means that nothing was measured, in the unit of the file.
     pub missing: Option<f64>,
+    /// Mark before decimals; `None`: as the file tells.
+    pub decimal: Option<Decimal>,
     /// True where a row with a missing number is an error.
     pub needs_all: bool,
     /// True where a column may have no unit.
@@ -23,7 +25,14 @@ pub struct Asked<'a, const N: usize> {
 
 impl<const N: usize> Default for Asked<'_, N> {
     fn default() -> Self {
-        Asked { columns: [None; N], missing: None, needs_all: false, may_lack_units: false, key: None }
+        Asked {
+            columns: [None; N],
+            missing: None,
+            decimal: None,
+            needs_all: false,
+            may_lack_units: false,
+            key: None,
+        }
     }
 }
 
@@ -56,6 +65,8 @@ pub(crate) struct Columns<const N: usize> {
     pub width: usize,
     /// The column that numbers tests.
     pub test: Option<usize>,
+    /// Names of the columns as a key takes them.
+    pub names: [String; N],
     /// Interpretation of the header, in words.
     pub said: String,
 }
@@ -181,6 +192,10 @@ impl<'t> Header<'t> {
         Ok(Columns {
             picks: (0..count).map(|k| std::array::from_fn(|i| found[i][k])).collect(),
             width: heads.len(),
+            names: std::array::from_fn(|i| match named.columns[i] {
+                Some(name) => name.into(),
+                None => heads[found[i][0].column].text.clone(),
+            }),
             test: heads.iter().position(|head| TESTS.contains(&head.name.as_str())),
             said: said.join(", "),
         })

@@ -23,6 +23,8 @@ pub struct SeriesTable<const N: usize> {
     pub series: Vec<Series<N>>,
     /// SI value of one in each column of the first test.
     pub scales: [f64; N],
+    /// Names of these columns as a key takes them.
+    pub names: [String; N],
     /// Its interpretation, in one sentence.
     pub understood: String,
 }
@@ -81,6 +83,7 @@ struct Reader<'q, 't, const N: usize> {
     /// Columns that were understood first.
     said: String,
     scales: [f64; N],
+    names: [String; N],
 }
 
 /// Reads the columns `wanted` of `text`.
@@ -93,7 +96,7 @@ pub fn read_series<const N: usize>(
     named: &Asked<'_, N>,
 ) -> Result<SeriesTable<N>, TextError> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-    let dialect = Dialect::detect(text)?;
+    let dialect = Dialect::detect(text, named.decimal, named.key.is_some())?;
     let (series, said) = (Vec::new(), String::new());
     let mut reader = Reader {
         dialect,
@@ -105,6 +108,7 @@ pub fn read_series<const N: usize>(
         words: None,
         said,
         scales: [1.0; N],
+        names: std::array::from_fn(|_| String::new()),
     };
     for (i, line) in text.lines().enumerate() {
         reader.take(i + 1, line)?;
@@ -248,6 +252,7 @@ impl<'t, const N: usize> Reader<'_, 't, N> {
         }
         if self.said.is_empty() {
             self.said.clone_from(&columns.said);
+            self.names.clone_from(&columns.names);
             self.scales = columns.picks[0].map(|pick| pick.scale.unwrap_or(1.0));
         }
         let has_plain_rows = has_plain_rows || is_row(text.trim());
@@ -302,7 +307,23 @@ impl<'t, const N: usize> Reader<'_, 't, N> {
             last.lines[last.lines.len() - 1],
             if self.skipped > 0 { format!(", {} others left out", self.skipped) } else { String::new() }
         );
-        Ok(SeriesTable { series: self.series, scales: self.scales, understood })
+        Ok(SeriesTable { series: self.series, scales: self.scales, names: self.names, understood })
+    }
+
+    /// The number of largest size in each column of the rows, as it is written.
+    fn most_of_columns(&self, text: &str) -> Vec<String> {
+        let mut most: Vec<(f64, &str)> = Vec::new();
+        for line in text.lines().filter(|line| is_row(line.trim())) {
+            for (i, cell) in self.dialect.cells(line).enumerate() {
+                let size = self.dialect.number(cell).map_or(0.0, f64::abs);
+                match most.get_mut(i) {
+                    Some(known) if size > known.0 => *known = (size, cell),
+                    Some(_) => {}
+                    None => most.push((size, cell)),
+                }
+            }
+        }
+        most.into_iter().map(|(_, cell)| cell.to_string()).collect()
     }
 
     /// The reason why there are no readings.
@@ -337,13 +358,18 @@ impl<'t, const N: usize> Reader<'_, 't, N> {
                 &format!(", or say which of {} they are: {key} = {{ {keys} = \"…\" }}", cells.join(", "));
         }
         if let (Some(key), None) = (self.named.key, title) {
+            let most = self.most_of_columns(text);
+            // which of more columns than are wanted is which cannot be guessed
+            let is_open = most.len() > N;
             let one = |(i, q): (usize, &Quantity)| {
                 let unit = q.example.rsplit('_').next().unwrap_or("");
-                format!("{} = \"{} [{unit}]\"", q.name, i + 1)
+                let number = if is_open { "NUMBER".to_string() } else { format!("{}", i + 1) };
+                format!("{} = \"{number} [{unit}]\"", q.name)
             };
             let keys: Vec<String> = self.wanted.iter().enumerate().map(one).collect();
+            let reach = if is_open { format!(" (they reach {})", most.join(", ")) } else { String::new() };
             message += &format!(
-                ", or say which columns they are, by number and unit: {key} = {{ {} }}",
+                ", or say which columns they are, by number and unit: {key} = {{ {} }}{reach}",
                 keys.join(", ")
             );
         }

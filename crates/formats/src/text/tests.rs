@@ -85,6 +85,93 @@ fn columns_named_by_a_key_are_taken() {
     assert!(fault.message.contains("\"Kanal 1\", \"Kanal 2\"") && fault.line == Some(1), "{fault}");
 }
 
+/// 1,125 to 8,875 has three decimals throughout.
+#[test]
+fn a_key_says_what_stands_before_decimals() {
+    let text = "depth_um;force_mN\n0;0\n1,125;2\n1,250;8\n";
+    for (decimal, depth) in [(Decimal::Comma, 1.125e-6), (Decimal::Point, 1125e-6)] {
+        let table = indentation::read_as(text, COLUMNS, None, Some(decimal)).unwrap();
+        assert!(is_near(table.series[0].rows[1][0], depth), "{decimal:?} {table:?}");
+        let grid = read_grid("1,125;2\n1,250;8\n", None, Some(decimal)).unwrap();
+        assert!(is_near(grid.values[0], 1e6 * depth), "{decimal:?} {grid:?}");
+    }
+    let fault =
+        indentation::read_as("depth_um,force_mN\n1,2\n", COLUMNS, None, Some(Decimal::Comma)).unwrap_err();
+    assert!(fault.message.contains("part the columns"), "{fault}");
+    // a comma of thousands behind others that tell
+    is_the_curve(
+        "depth_nm\tforce_uN\n100.5\t2,000.5\n100\t2,000\n200\t8,000\n"
+            .replace("100.5\t2,000.5\n", "\t2,000.5\n")
+            .as_str(),
+        COLUMNS,
+    );
+}
+
+/// Testing machines count tension positive.
+#[test]
+fn compression_counted_negative_is_answered_with_the_key_that_turns_it() {
+    let rows = |depth: i32, force: i32| {
+        let row = |[h, f]: [i32; 2]| format!("{},{}\n", depth * h, force * f);
+        let rows: String = [[0, 0], [100, 2], [200, 8]].map(row).concat();
+        format!("Displacement (nm),Force (mN)\n{rows}")
+    };
+    for (depth, force, key) in [
+        (-1, -1, ["-Displacement (nm)", "-Force (mN)"]),
+        (1, -1, ["Displacement (nm)", "-Force (mN)"]),
+        (-1, 1, ["-Displacement (nm)", "Force (mN)"]),
+    ] {
+        let text = rows(depth, force);
+        let fault = indentation::read(&text, COLUMNS, None).unwrap_err();
+        let want = format!("columns = {{ depth = \"{}\", force = \"{}\" }}", key[0], key[1]);
+        assert!(fault.message.contains(&want) && fault.line == Some(4), "{fault}");
+        let table = indentation::read(&text, key.map(Some), None).unwrap();
+        assert!(
+            is_near(table.series[0].rows[2][0], 2e-7) && is_near(table.series[0].rows[2][1], 8e-3),
+            "{table:?}"
+        );
+        assert!(table.understood.contains("the sign of the"), "{}", table.understood);
+    }
+    // the key is turned back where it was wrong, and numbers of columns turn too
+    let fault = indentation::read(&rows(1, 1), ["-1 [nm]", "-2"].map(Some), None).unwrap_err();
+    assert!(fault.message.contains("columns = { depth = \"1 [nm]\", force = \"2\" }"), "{fault}");
+    // an attraction of the tip is no compression
+    let pulled = "Depth (nm),Force (mN)\n0,0\n100,2\n200,8\n-10,-9\n";
+    assert!(indentation::read(pulled, COLUMNS, None).is_ok());
+}
+
+/// Layouts of NanoScope Analysis' ASCII export and of JPK's text export, as public readers of them take them.
+#[test]
+fn force_curves_of_a_cantilever_are_named_with_what_makes_them_curves() {
+    let bruker = "Calc_Ramp_Ex_nm\tCalc_Ramp_Rt_nm\tDefl_pN_Ex\tDefl_pN_Rt\t\n0\t9\t0\t9\t\n1\t8\t1\t8\t\n";
+    let fault = indentation::read(bruker, COLUMNS, None).unwrap_err();
+    assert!(fault.message.contains("depth = Ramp - Defl") && fault.line == Some(1), "{fault}");
+    let jpk = |columns: &str, units: &str| {
+        let segment =
+            |rows: &str| format!("# segment: extend\n# columns: {columns}\n# units: {units}\n#\n{rows}\n");
+        format!(
+            "# xPosition: 0.0\n#\n{}{}",
+            segment("9e-6 0 0 0\n-1e-7 2e-3 0 1\n-2e-7 8e-3 0 2\n"),
+            segment("-1e-7 1e-3 0 3\n")
+        )
+    };
+    let text = jpk("verticalTipPosition vDeflection height time", "m N m s");
+    let fault = indentation::read(&text, COLUMNS, None).unwrap_err();
+    assert!(fault.message.contains("columns = { depth = \"-1 [m]\", force = \"2 [N]\" }"), "{fault}");
+    let table = indentation::read(&text, ["-1 [m]", "2 [N]"].map(Some), None).unwrap();
+    let rows = &table.series[0].rows;
+    assert!(rows.len() == 4 && is_near(rows[2][0], 2e-7) && is_near(rows[2][1], 8e-3), "{table:?}");
+    let volts = indentation::read(&jpk("height vDeflection", "m V"), COLUMNS, None).unwrap_err();
+    assert!(volts.message.contains("tip position"), "{volts}");
+}
+
+/// NanoTest of Micro Materials: time, depth and load without a header.
+#[test]
+fn more_columns_than_are_wanted_are_not_guessed() {
+    let fault = indentation::read("0.0 0 0\n0.1 100 2\n0.2 200 8\n", COLUMNS, None).unwrap_err();
+    let want = "columns = { depth = \"NUMBER [um]\", force = \"NUMBER [mN]\" } (they reach 0.2, 200, 8)";
+    assert!(fault.message.contains(want), "{fault}");
+}
+
 #[test]
 fn characters_of_every_encoding_give_the_same_curve() {
     let text = "Depth (µm);Load (mN)\n0,1;2,0\n0,2;8,0\n";
@@ -136,7 +223,7 @@ fn what_cannot_be_read_names_the_line_and_a_way_out() {
         ("1,2\n3,4\n", 1, "header"),
         ("depth_um,force_mN\n\n", 1, "without readings"),
         ("depth_um,force_mN\n0,1,0,2\n0,2,0,8\n", 2, "decimal comma"),
-        ("depth_um;force_mN\n1,234;5\n", 2, "may be a thousand"),
+        ("depth_um;force_mN\n1,234;5\n", 2, "decimal = \"comma\" for 1.234, decimal = \"point\" for 1234"),
         ("depth_um;force_mN\n1,2;5\n1.234;6\n", 3, "decimals stand behind a comma"),
         ("depth_um,load_micro\n1,2\n", 1, "\"micro\""),
         ("depth_um,force_kilo_furlong\n1,2\n", 1, "force"),
@@ -171,7 +258,7 @@ fn rows_of_numbers_are_read_in_every_dialect() {
         "1.5,2,3.4e38\n% between\n4,5,6.25\n,,\n",
         "−1.5 2 nan\n4 5 6.25".replace('−', "").as_str(),
     ] {
-        let grid = read_grid(text, Some(-9999.0)).unwrap_or_else(|e| panic!("{text}: {e}"));
+        let grid = read_grid(text, Some(-9999.0), None).unwrap_or_else(|e| panic!("{text}: {e}"));
         assert_eq!((grid.columns, grid.rows()), (3, 2), "{text}");
         for (a, b) in grid.values.iter().zip(want) {
             assert!(a == &b || a.is_nan() && b.is_nan(), "{text}: {:?}", grid.values);
@@ -191,13 +278,13 @@ fn a_masked_map_keeps_its_rows_at_the_edge() {
             let [edge, within] = [row([word; 3]), row([word, "1.5", word])];
             for head in ["", "# map\n", "Height map of a lens\n"] {
                 let text = format!("{head}{edge}{edge}{within}{edge}");
-                let grid = read_grid(&text, None).unwrap();
+                let grid = read_grid(&text, None, None).unwrap();
                 let missing = grid.values.iter().filter(|z| z.is_nan()).count();
                 assert_eq!((grid.columns, grid.rows(), missing), (180, 4, 700), "{word}{separator}{head}");
             }
         }
     }
-    let grid = read_grid("nan,nan\nnan,nan\n", None).unwrap();
+    let grid = read_grid("nan,nan\nnan,nan\n", None, None).unwrap();
     assert_eq!((grid.columns, grid.rows()), (2, 2));
 }
 
@@ -210,11 +297,11 @@ fn rows_that_are_no_table_are_refused_at_their_line() {
         ("words\nand more\n", None, "no rows"),
         ("1 2\n3 4\nsecond map\n5 6\n", Some(3), "second map"),
         ("0,5\t1,234\n0.5\t2\n", Some(2), "comma"),
-        ("1,234\t5,678\n", Some(1), "may be a thousand"),
+        ("1,234\t5,678\n", Some(1), "is 1.234 or 1234"),
         ("0,07552,0,25755\n0,1,0,2\n", Some(1), "a decimal comma stands among"),
         ("1 2 3\n4 5 6 7\n", Some(2), "4 numbers"),
     ] {
-        let fault = read_grid(text, None).unwrap_err();
+        let fault = read_grid(text, None, None).unwrap_err();
         assert!(fault.line == line && fault.message.contains(word), "{text}: {fault:?}");
     }
 }
@@ -226,13 +313,13 @@ fn a_text_of_many_parts_is_one_table() {
     for i in 0..300_000 {
         writeln!(text, "{i}.5,{}", i % 7).unwrap();
     }
-    let grid = read_grid(&text, None).unwrap();
+    let grid = read_grid(&text, None, None).unwrap();
     assert_eq!((grid.rows(), grid.lines), (300_000, [2, 300_001]));
     assert!(
         (0..300_000)
             .all(|i| grid.values[2 * i] == i as f64 + 0.5 && grid.values[2 * i + 1] == (i % 7) as f64)
     );
-    let fault = read_grid(&(text + "1,x\n"), None).unwrap_err();
+    let fault = read_grid(&(text + "1,x\n"), None, None).unwrap_err();
     assert_eq!(fault.line, Some(300_002));
 }
 

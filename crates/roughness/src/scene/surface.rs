@@ -10,7 +10,8 @@ use crate::surface::level::{self, Levelling};
 use crate::surface::outliers;
 use crate::surface::prepared_surface::Surface;
 use asperity_formats::surface::{self, Measured, Request, Spacing};
-use asperity_material::units::{Length, Memory};
+use asperity_formats::text::Decimal;
+use asperity_material::units::{Length, Memory, rounded};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::value::SeqAccessDeserializer;
 use serde::de::{self, IntoDeserializer, SeqAccess, Visitor};
@@ -50,6 +51,22 @@ enum PixelSize {
 const POSSIBLE_PIXELS: [f64; 2] = [1e-10, 1.0];
 /// Height over which a map may go, m.
 const MOST_HEIGHT: f64 = 1.0;
+
+/// The reason why the pixel of a file is not known.
+fn without_pixel(spacing: Spacing) -> String {
+    let (problem, size) = match spacing {
+        Spacing::Numbers(steps) => {
+            let [x, y] = steps.map(|step| rounded(step, 6));
+            let size = if x == y { format!("\"{x} um\"") } else { format!("[\"{x} um\", \"{y} um\"]") };
+            (format!("says that its points are {x} x {y} apart, but not in which unit"), size)
+        }
+        _ => ("does not say how far its points are apart".into(), "\"1 um\"".to_string()),
+    };
+    format!(
+        "the file {problem}: add pixel_size = {size} to [surface] (or nm, mm, m, whichever it is), or --set \
+         'surface.pixel_size={size}'"
+    )
+}
 
 /// Heights that no surface has.
 fn refuse_absurd(surface: &Surface) -> Result<(), SceneError> {
@@ -149,6 +166,9 @@ pub struct SurfaceScene {
     #[schemars(example = -9999.0)]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub missing_value: Option<f64>,
+    /// Mark before decimals in text, `point` or `comma`, where the file does not tell.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub decimal: Option<Decimal>,
     /// Most memory that reading the file may take; half of what is free unless told.
     #[schemars(example = "4 GB")]
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -290,6 +310,7 @@ impl SurfaceScene {
         Request {
             columns: columns.unwrap_or_default(),
             missing_value: self.missing_value,
+            decimal: self.decimal,
             override_file: self.override_file,
             memory_limit: self.memory_limit.map(|limit| limit.0.max(0.0) as u64),
         }
@@ -315,7 +336,7 @@ impl SurfaceScene {
             }
         };
         let said = match measured.spacing {
-            Spacing::Unknown => None,
+            Spacing::Unknown | Spacing::Numbers(_) => None,
             Spacing::Metres(p) => Some(p),
             Spacing::HeightUnits(p) => Some(p.map(|v| v * unit)),
         };
@@ -329,11 +350,7 @@ impl SurfaceScene {
             }
             (_, Some(scene)) => scene,
             (Some(file), None) => file,
-            (None, None) => {
-                let message = "the file does not say how far its points are apart: add pixel_size = \"1 um\" to [surface], or --set \
-                               'surface.pixel_size=\"1 um\"'";
-                return error("surface", message);
-            }
+            (None, None) => return error("surface", without_pixel(measured.spacing)),
         };
         let mut heights = measured.heights;
         let [least, most] = POSSIBLE_PIXELS;

@@ -119,6 +119,11 @@ fn units_and_pixels_are_demanded_and_contradictions_refused() {
         let message = surface(&text).prepare(resolve).err().unwrap().to_string();
         assert!(message.contains(place), "{message}");
     }
+    // a size without a unit is no reason to guess one
+    let text = "cellsize 0.5\n1 2 5\n4 4 2\n7 1 1\n";
+    std::fs::write(resolve(Path::new("z.asc")), text).unwrap();
+    let bare = surface(&format!("file = \"z.asc\"\n{unit}")).prepare(resolve).err().unwrap().to_string();
+    assert!(bare.contains("0.5 x 0.5 apart") && bare.contains("pixel_size = \"0.5 um\""), "{bare}");
     let square = surface(&format!("file = \"z.npy\"\n{unit}pixel_size = \"2 um\"\n"));
     assert_eq!(square.pixel_size, surface(&format!("file = \"z.npy\"\n{unit}{pixel}")).pixel_size);
     let forced = surface(&format!("file = \"z.x3p\"\n{unit}{pixel}override = true\nlevel = \"none\""))

@@ -40,6 +40,8 @@ fn samples(extension: &str) -> Vec<(String, Vec<u8>)> {
             include_bytes!("data/gwyfile.gwy").into(),
             include_bytes!("data/gwyfile-two-channels.gwy").into(),
         ],
+        "bcr" => ["bcrstm", "bcrf", "bcrf_unicode"].map(|kind| scanning::bcr(kind, false, "")).into(),
+        "nid" => vec![scanning::nid(16, "m"), scanning::nid(32, "m")],
         "gsf" => vec![include_bytes!("data/gsffile.gsf").into()],
         "txt" => [
             "0 0 1\n1 0 2\n0 1 3\n1 1 4\n",
@@ -196,6 +198,8 @@ damaged! {
     damaged_npy_is_answered: "npy",
     damaged_sur_is_answered: "sur",
     damaged_al3d_is_answered: "al3d",
+    damaged_bcr_is_answered: "bcr",
+    damaged_nid_is_answered: "nid",
     damaged_sdf_is_answered: "sdf",
     damaged_x3p_is_answered: "x3p",
     damaged_gwy_is_answered: "gwy",

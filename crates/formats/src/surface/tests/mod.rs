@@ -303,5 +303,6 @@ fn an_x3p_that_lies_is_refused_and_not_unpacked() {
 mod containers;
 mod fuzz;
 mod instruments;
+mod scanning;
 mod titled;
 mod words;

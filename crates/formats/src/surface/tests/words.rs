@@ -47,10 +47,34 @@ fn size_pixels_and_units_in_words_are_used() {
     is_of(&keyence, [1.389e-6, 1.389e-6], 1e-6);
     let waves = "Wavelength = 632.8 nm\nPixel size = 2 um\nValue unit = waves\n";
     is_of(&found("a.txt", &format!("{waves}{MAP}")).unwrap(), [2e-6; 2], 632.8e-9);
+    // SPIP writes sizes in nm and their unit with none
+    let spip = "# File Format = ASCII\n# Created by SPIP 6.7.7\n# x-pixels = 3\n# y-pixels = 2\n# x-length = 3000\n\
+                # y-length = 1000\n# x-offset = 0\n# z-unit = nm\n# voidpixels =1\n# Start of Data:\n";
+    let spip = found("a.asc", &format!("{spip}{MAP}")).unwrap();
+    is_of(&spip, [1e-6, 0.5e-6], 1e-9);
+    assert!(spip.notes.iter().any(|note| note.contains("SPIP")), "{:?}", spip.notes);
+    // Nova of NT-MDT
+    let nova = "NX = 3\nNY = 2\nScale X = 1\nScale Y = 0.5\nUnit X = um\nUnit Data = nm\nStart of Data :\n";
+    is_of(&found("a.txt", &format!("{nova}{MAP}")).unwrap(), [1e-6, 0.5e-6], 1e-9);
     // numbers of pixels and times are no lengths
     let counts = "Width: 3\nHeight: 2\nDate: 12.05.2024 11:50:04\nGain = 3 um/V\n";
     let bare = found("a.txt", &format!("{counts}{MAP}")).unwrap();
     assert_eq!((bare.spacing, bare.height_unit), (Spacing::Unknown, None));
+}
+
+/// ESRI: "cellsize"; a sensor: "pitch_x"; people: "Width: 6".
+#[test]
+fn sizes_without_a_unit_are_kept_as_numbers() {
+    for (head, steps) in [
+        ("ncols 3\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 0.5\nNODATA_value -9999\n", [0.5, 0.5]),
+        ("ncols 3\nnrows 2\ndx 0.5\ndy 0.25\n", [0.5, 0.25]),
+        ("# x-pixels = 3\n# pitch_x = 0.5\n# pitch_y = 0.25\n# z-unit = um\n", [0.5, 0.25]),
+        ("Width: 6\nHeight: 1\nz unit: nm\n", [2.0, 0.5]),
+        ("Width: 6\nLength: 1\nHeight: 9\n", [2.0, 0.5]),
+    ] {
+        let map = found("a.txt", &format!("{head}{MAP}")).unwrap();
+        assert_eq!(map.spacing, Spacing::Numbers(steps), "{head}");
+    }
 }
 
 #[test]
