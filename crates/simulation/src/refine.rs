@@ -102,6 +102,11 @@ impl Run<'_> {
     /// # Errors
     /// As for [`Run::run`].
     pub fn run_refined(self, observer: &mut Watcher<'_>) -> Result<Outcome, CrushError> {
+        self.refined(observer).map(|(outcome, _)| outcome)
+    }
+
+    /// [`Run::run_refined`], and the work of all rounds that came to their end over that of the first.
+    fn refined(self, observer: &mut Watcher<'_>) -> Result<(Outcome, f64), CrushError> {
         let scene = self.scene;
         let run = self.begin()?;
         let first = run.round(Discretisation::new(scene), None, observer)?;
@@ -142,7 +147,7 @@ impl Run<'_> {
         best.summary.newton_iterations = iterations;
         best.summary.rounds = rounds;
         best.summary.promise_kept = best.stopped.is_none().then_some(least <= 1.0);
-        Ok(best)
+        Ok((best, work / first.work))
     }
 }
 
@@ -164,7 +169,15 @@ fn affordable(wanted: f64, fineness: f64, spent: f64) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
+    //! Claims: a run whose first round states more than its accuracy promises goes on with finer numbers
+    //! until it keeps the promise, in three rounds and at most twelve times the first one's work, with the
+    //! same bits on any number of threads; what the user gave stays, and an interrupt keeps the last round
+    //! that came to its end. Source: [`Run::run_refined`] says so. Tolerance: none.
     use super::*;
+    use crate::scene::{Accuracy, Asperity, Loading, Material, MeshFile, Symmetry, Tool};
+    use asperity_material::units::{Length, Stress};
+    use asperity_mesh::Mesh;
+    use std::ops::ControlFlow;
 
     #[test]
     fn a_miss_of_the_area_by_a_third_asks_for_a_third_more_and_double_goes_by_the_round_before() {
@@ -188,5 +201,132 @@ mod tests {
         let [force, area] = observed([4.0, 3.0], [1.0, 3.2], 2.0);
         assert_eq!([force, area], [2.0, ORDERS[0]]);
         assert_eq!(observed([f64::INFINITY; 2], [1.0; 2], 2.0), EXPECTED_ORDERS);
+    }
+
+    /// Sharp cone of steel of 300 MPa on a half space at `draft`: slope in degrees, exponent, depth in µm.
+    fn crushed([slope, exponent, depth]: [f64; 3]) -> Scene {
+        let steel = Material::elastic_body(Stress(210e9), 0.3).yielding(Stress(300e6), exponent);
+        let loading = Loading::to_depth(Length(depth * 1e-6));
+        let mut scene = Scene::new(Symmetry::Axisymmetric, steel, Tool::plane(), loading)
+            .with(Asperity::cone(Length(20e-6), slope))
+            .with_accuracy(Accuracy::Draft);
+        scene.output.every = Some(0);
+        scene
+    }
+
+    /// Perfectly plastic: the first round states 1.5 times the area's promise.
+    const MISSES: [f64; 3] = [10.0, 0.0, 5.0];
+
+    fn go_on(_: &Event<'_>) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
+
+    /// The scene so refined: its outcome and the work of all rounds over that of the first.
+    fn refined(scene: &Scene) -> (Outcome, f64) {
+        Run::new(scene).refined(&mut go_on).unwrap()
+    }
+
+    /// Of one round.
+    fn single(scene: &Scene) -> Outcome {
+        let outcome = Run::new(scene).run(&mut go_on).unwrap();
+        assert_eq!((outcome.summary.promise_kept, outcome.summary.rounds), (None, 1));
+        outcome
+    }
+
+    /// Twice as fine, by the round before, and by less, with a companion of its own.
+    #[test]
+    fn a_run_that_misses_its_promise_goes_on_until_it_keeps_it() {
+        for (numbers, by_the_round_before) in [(MISSES, true), ([30.0, 0.05, 2.0], false)] {
+            let scene = crushed(numbers);
+            let first = single(&scene);
+            assert!(largest(misses(&scene, &first)) > 1.0, "{numbers:?}");
+            let (outcome, work) = refined(&scene);
+            let summary = &outcome.summary;
+            assert!((2..=MOST_ROUNDS).contains(&summary.rounds), "{numbers:?}: {} rounds", summary.rounds);
+            assert_eq!((outcome.round, summary.promise_kept), (summary.rounds, Some(true)), "{numbers:?}");
+            assert!(largest(misses(&scene, &outcome)) <= 1.0, "{numbers:?}");
+            assert!(work > 2.0 && work <= MOST_WORK_RATIO, "{numbers:?}: {work} times the work of the first");
+            assert!(summary.newton_iterations > first.summary.newton_iterations);
+            let elements = outcome.numbers.elements_in_contact;
+            assert_eq!(elements == 2 * first.numbers.elements_in_contact, by_the_round_before, "{elements}");
+        }
+    }
+
+    /// Eight steps lose more force than any mesh gives back: a round of more elements comes out worse.
+    #[test]
+    fn a_promise_that_is_out_of_reach_leaves_the_best_round() {
+        let mut scene = crushed(MISSES);
+        scene.numerics.steps = Some(8);
+        let (outcome, work) = refined(&scene);
+        let summary = &outcome.summary;
+        assert_eq!((summary.promise_kept, outcome.numbers.steps), (Some(false), 8));
+        assert!((2..=MOST_ROUNDS).contains(&summary.rounds) && work <= MOST_WORK_RATIO, "{work}");
+        let first = single(&scene);
+        assert_eq!((outcome.round, &outcome.rows), (1, &first.rows));
+        assert!(summary.newton_iterations > first.summary.newton_iterations);
+    }
+
+    #[test]
+    fn a_refined_run_has_the_same_bits_on_one_and_two_threads() {
+        let scene = crushed(MISSES);
+        let bits = [1, 2].map(|threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            let text = format!("{:#?}", pool.install(|| refined(&scene)));
+            // but for the seconds
+            text.lines().filter(|line| !line.contains("_s: ")).collect::<Vec<_>>().join("\n")
+        });
+        assert!(bits[0].contains("rounds: 2"));
+        assert!(bits[0] == bits[1]);
+    }
+
+    #[test]
+    fn numbers_and_meshes_that_are_given_stay() {
+        let scene = crushed(MISSES);
+        let once = |change: &dyn Fn(&mut Scene), mesh: Option<Mesh>| {
+            let mut scene = scene.clone();
+            change(&mut scene);
+            let run = Run { mesh, ..Run::new(&scene) };
+            let (outcome, work) = run.refined(&mut go_on).unwrap();
+            assert_eq!((outcome.summary.rounds, work), (1, 1.0));
+            // one round says too whether it keeps the promise
+            let kept = largest(misses(&scene, &outcome)) <= 1.0;
+            assert_eq!(outcome.summary.promise_kept, Some(kept));
+            outcome
+        };
+        let given = once(&|s| s.numerics.elements_in_contact = Some(10), None);
+        assert_eq!((given.numbers.elements_in_contact, given.summary.promise_kept), (10, Some(false)));
+        let told = once(&|s| s.numerics.refine = Some(false), None);
+        assert_eq!(told.summary.promise_kept, Some(false));
+        let problem = Run::new(&scene).problem().unwrap();
+        let cells = problem.mesh.cell_count();
+        let mesh = problem.mesh.scaled(problem.units.length);
+        let file = MeshFile { file: "cone.msh".into(), unit: None };
+        let imported = once(&|s| s.mesh = Some(file.clone()), Some(mesh));
+        assert_eq!(imported.summary.elements, cells);
+    }
+
+    /// On the way of the second round, or before it begins.
+    #[test]
+    fn an_interrupt_in_a_later_round_keeps_the_one_before() {
+        let scene = crushed(MISSES);
+        let first = single(&scene);
+        for increments in [0, 5] {
+            let mut left = None;
+            let outcome = Run::new(&scene).run_refined(&mut |event| {
+                match event {
+                    Event::Round(round) => {
+                        assert_eq!((*round, left), (2, None));
+                        left = Some(increments);
+                    }
+                    Event::Increment { .. } => left = left.map(|count: usize| count.saturating_sub(1)),
+                    Event::Fields(_) => {}
+                }
+                if left == Some(0) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            });
+            let outcome = outcome.unwrap();
+            assert_eq!(left, Some(0));
+            assert_eq!((outcome.stopped, outcome.round, outcome.summary.rounds), (None, 1, 1));
+            assert_eq!((outcome.summary.promise_kept, outcome.rows), (Some(false), first.rows.clone()));
+        }
     }
 }

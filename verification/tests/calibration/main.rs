@@ -5,4 +5,5 @@ mod calculix_cones;
 mod coefficient_recovered;
 mod elastic_cone;
 mod independent_of_other_lengths;
+mod perfectly_plastic_cone;
 mod steep_indentation;

@@ -65,6 +65,13 @@ impl Setting {
     }
 }
 
+impl Quantity {
+    /// The same where nothing is known of the order of its errors.
+    pub fn as_it_is(self) -> Quantity {
+        Quantity { share: 0.0, widened: 0.0, ..self }
+    }
+}
+
 /// Lengths that an area is a product of.
 fn lengths(symmetry: Symmetry) -> f64 {
     match symmetry {

@@ -18,6 +18,8 @@
 //! * Where another asperity begins to carry, run and companion differ by what it carries: that stretch of
 //!   depths has no smooth part, parts those before and after it, and counts whole in the bound.
 //! * A companion that differs too much is in no asymptotic range: no share of D is subtracted.
+//! * The contact of a punch ends in one edge of the mesh all the way, which two meshes place differently: D
+//!   of the area is no mean over many edges, has no order, and nothing is subtracted from area and stiffness.
 //! * The mesh that is given cannot be made coarser. Its companion has the other element, of which no order is
 //!   known: nothing is subtracted from the force, half of D from the area.
 //!
@@ -69,6 +71,10 @@ const LEAST_STATED_ERROR: f64 = 1e-5;
 /// Share of the depth that the companion must reach.
 const LEAST_COMPANION_DEPTH: f64 = 0.9;
 
+/// Edges that the front of the contact of a companion passes: with fewer, where in its edge it ends decides
+/// how the areas differ.
+const LEAST_EDGES_PASSED: f64 = 1.0;
+
 /// A quantity of a run and of its companion over the first loading, and how the two differ.
 struct Compared {
     difference: Difference,
@@ -109,9 +115,15 @@ impl Comparison {
         let compared = |curves: [Curve; 2], of: Quantity, power: f64| {
             Some(Compared { difference: difference(&curves, common, &onsets, of)?, curves, power })
         };
+        let elements = companion.numbers.elements_in_contact;
+        let of_area = if passes_edges(&area[1], common, elements, setting.symmetry) {
+            setting.area()
+        } else {
+            setting.area().as_it_is()
+        };
         Some(Comparison {
             force: compared(force, setting.force(), UNLOADING_EXPONENT)?,
-            area: compared(area, setting.area(), UNLOADING_AREA_EXPONENT)?,
+            area: compared(area, of_area, UNLOADING_AREA_EXPONENT)?,
             depth: top.depth,
             ended_early: other < end,
             symmetry: setting.symmetry,
@@ -228,6 +240,14 @@ impl Comparison {
     }
 }
 
+/// Whether the front of a contact with so many `elements` across it, the `area` of which is known up to the
+/// depth `common`, passes an edge over the depths that count.
+fn passes_edges(area: &Curve, common: f64, elements: usize, symmetry: Symmetry) -> bool {
+    let grown = area.logarithm_at(common) - area.logarithm_at(LEAST_COUNTED_DEPTH * common);
+    let passed = elements as f64 * (1.0 - longer(symmetry, (-grown).exp()));
+    passed.is_nan() || passed >= LEAST_EDGES_PASSED
+}
+
 /// Stretches of ln(h/h_peak) in which an asperity begins to carry in one of the `runs`, up to where it no
 /// longer decides how they differ. `top` is the peak of the first.
 fn onsets(runs: [&Outcome; 2], top: &CurveRow) -> Vec<[f64; 2]> {
@@ -332,3 +352,6 @@ fn unaccounted(rows: &[CurveRow]) -> f64 {
     };
     rows.last().map_or(0.0, |last| (work_along(rows) - kept(last)).abs() / largest_work(rows))
 }
+
+#[cfg(test)]
+mod tests;

@@ -51,8 +51,8 @@ impl State {
         if before <= 0.0 || before + remeasured <= 0.0 {
             return remeasured;
         }
-        // ∫ E d(ln κ) of a contact energy E whose stiffness κ grows by this factor, by the trapezoidal rule: a spring
-        // that nearly vanishes gives up what it holds, not that divided by next to nothing
+        // ∫ E d(ln κ) of a contact energy E whose stiffness κ grows by this factor, by the trapezoidal rule:
+        // a spring that nearly vanishes gives up what it holds, not that divided by next to nothing
         let larger = (1.0 + remeasured / before) * penalty / self.penalty;
         0.5 * (before + after) * larger.ln()
     }
