@@ -221,14 +221,17 @@ fn crushed_cones_agree_with_the_closure_that_was_made_from_cones() {
         assert!(number(row, "force_N") > 0.0 && number(row, "contact_area_um2") > 0.0, "{row:?}");
     }
     assert_eq!(found.len(), 2 * 4 * closures.len());
-    // at the full depth; draft is 5 %, the pixels of the tip and the closure's table the rest
-    let last = found.iter().rev().find(|row| row["closure"] == "calibrated").unwrap();
-    assert!((number(last, "force_over_finite_elements") - 1.0).abs() < 0.08, "{last:?}");
-    assert!((number(last, "area_over_finite_elements") - 1.0).abs() < 0.1, "{last:?}");
+    // at the full depth of both asperities: the force to 2.3 and 1.9 %, of which draft is most (0.8 and 0.9 %
+    // at standard); the area is 7.9 and 9.7 % too large (7.8 and 7.5 % at standard), most of it by the
+    // contact ratio of the table, 0.943, where cones of this metal have 0.920
+    for row in found.iter().filter(|row| row["closure"] == "calibrated").skip(3).step_by(4) {
+        assert!((number(row, "force_over_finite_elements") - 1.0).abs() < 0.03, "{row:?}");
+        assert!((1.04..1.1).contains(&number(row, "area_over_finite_elements")), "{row:?}");
+    }
     // Love's cone: the exact elastic answer on a half-space
     let of = |name: &str| found.iter().rev().find(|row| row["closure"] == name).unwrap();
     let elastic = number(of("half-space"), "force_N") / number(of("sneddon"), "force_N");
-    assert!((elastic - 1.0).abs() < 0.03, "{elastic}");
+    assert!((elastic - 1.0).abs() < 0.005, "{elastic}");
     assert_eq!(place.names("out/curves"), ["001.csv", "002.csv"]);
     assert!(place.text("out/compared.svg").contains("contact area over finite elements"));
     // again: from the journal, the same bytes

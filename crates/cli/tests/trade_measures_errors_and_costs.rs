@@ -31,8 +31,11 @@ fn table_front_and_picture() {
     assert!(rows.len() >= 15, "{table}");
     for row in &rows {
         assert_eq!((row[column("elements_in_contact")], row[column("status")]), ("6", "ok"));
-        assert!((1e-6..0.2).contains(&number(row, "force_error")) && number(row, "core_s") > 0.0);
-        assert!(number(row, "elastic_fraction_error") < 0.1 && number(row, "residual_depth_error") < 0.1);
+        // the promise of draft, and a tenth of it for what is read after the peak: the worst row has 3.8 % of
+        // the force, 0.35 % of the elastic fraction and 0.26 % of the depth
+        assert!((1e-6..0.05).contains(&number(row, "force_error")) && number(row, "core_s") > 0.0);
+        let after = ["elastic_fraction_error", "residual_depth_error"].map(|name| number(row, name));
+        assert!(after.iter().all(|error| (0.0..0.005).contains(error)), "{row:?}");
     }
     for level in ["draft", "3%", "standard", "reference"] {
         assert!(rows.iter().any(|r| r[0] == "level" && r[1] == level), "{level} is missing");
