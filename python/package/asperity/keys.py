@@ -489,6 +489,9 @@ class SurfaceTable(TypedDict, total=False):
     columns: ColumnsTable
     """Columns of a list of points (text), by their names or numbers, with units where the file has none."""
 
+    decimal: Literal["point", "comma"]
+    """Mark before decimals in text, `point` or `comma`, where the file does not tell."""
+
     file: str
     """A file, relative to the scene."""
 
@@ -626,7 +629,9 @@ class CurveColumnsTable(TypedDict, total=False):
     """Columns of depth and force, where their names are unusual."""
 
     depth: str
-    """Name of the column of depth, with or without a unit in brackets, or its number from 1."""
+    """Name of the column of depth, with or without a unit in brackets, or its number from 1; a minus before it turns
+    the sign of its numbers.
+    """
 
     force: str
     """That of force."""
@@ -711,6 +716,9 @@ class CurveTable(TypedDict, total=False):
 
     columns: CurveColumnsTable
     """Columns of depth and force, where their names are unusual."""
+
+    decimal: Literal["point", "comma"]
+    """Mark before decimals, `point` or `comma`, where the file does not tell."""
 
     features: FeaturesTable
     """Numbers of a curve in its place."""
