@@ -39,8 +39,11 @@ pub fn model<'m>(
     held: &[[bool; 2]],
     contact: Option<ToolContact>,
 ) -> Result<Equilibrium<'m>, SolveFailure> {
-    Ok(Body::new(&Analyses::default(), mesh, symmetry, metal, |node| held[node], contact)
-        .and_then(Equilibrium::new)?)
+    let mut model = Body::new(&Analyses::default(), mesh, symmetry, metal, |node| held[node], contact)
+        .and_then(Equilibrium::new)?;
+    // what is exact is looked at to the last digits
+    model.sharpen();
+    Ok(model)
 }
 
 /// Solves the increment with the tool at `tip` (infinite: none) from `guess`, whose held components are kept,
