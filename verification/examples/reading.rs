@@ -158,7 +158,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     if words.next().as_deref() == Some("--read") {
         let file = words.next().ok_or("no file")?;
         let map = read(Path::new(&file), &Request::default())?;
-        println!("{}", peak().unwrap_or(0).max(map.heights.len() as u64));
+        println!("{}", peak().map_or(String::new(), |bytes| bytes.to_string()));
+        drop(map);
         return Ok(());
     }
     let (mut report, words) = Report::of_example("reading", "one thread");

@@ -18,6 +18,7 @@ use std::fmt::Write;
 use std::ops::Range;
 use std::path::Path;
 use std::process::{Command, Stdio};
+use std::str::FromStr;
 use std::time::{Duration, Instant};
 
 /// A run that reached its depth.
@@ -228,9 +229,9 @@ fn judge(kind: Kind, code: Option<i32>, message: &str, out: &Path) -> End {
         return End::Fault("a number that is none was written".into());
     }
     match (code, kind) {
-        (Some(0), Kind::Sound | Kind::CutOff) => match number(&summary, "energy_balance_error") {
+        (Some(0), Kind::Sound | Kind::CutOff) => match value(&summary, "energy_balance_error") {
             Some(energy_balance) => {
-                End::Done(Done { energy_balance, promise_kept: truth(&summary, "promise_kept") })
+                End::Done(Done { energy_balance, promise_kept: value(&summary, "promise_kept") })
             }
             None => End::Fault("the summary has no energy balance".into()),
         },
@@ -248,20 +249,10 @@ fn judge(kind: Kind, code: Option<i32>, message: &str, out: &Path) -> End {
     }
 }
 
-/// The word at `key` in a flat JSON object.
-fn word<'a>(json: &'a str, key: &str) -> Option<&'a str> {
+/// The value at `key` in a flat JSON object.
+fn value<T: FromStr>(json: &str, key: &str) -> Option<T> {
     let after = json.split_once(&format!("\"{key}\":"))?.1;
-    after.split([',', '}', '\n']).next().map(str::trim)
-}
-
-/// The number there.
-fn number(json: &str, key: &str) -> Option<f64> {
-    word(json, key)?.parse().ok()
-}
-
-/// The truth value there.
-fn truth(json: &str, key: &str) -> Option<bool> {
-    word(json, key)?.parse().ok()
+    after.split([',', '}', '\n']).next()?.trim().parse().ok()
 }
 
 /// The reason why a run stopped, without the numbers of the scene.

@@ -21,15 +21,21 @@ use asperity_verification::contact::{cone_force, cone_radius, hertz_force, hertz
 use asperity_verification::single_asperity::{crush, scene};
 use std::f64::consts::PI;
 
-/// A flat elastic body under `tool`, and back.
-fn indent(tool: Tool, depth: f64) -> (Scene, Outcome) {
-    let mut scene = scene(Accuracy::Standard).unwrap();
+/// A flat elastic body that is loaded by `tool` and unloaded once.
+fn loaded_and_unloaded(tool: Tool, accuracy: Accuracy, depth: f64) -> Scene {
+    let mut scene = scene(accuracy).unwrap();
     scene.material.yield_stress = None;
     scene.material.hardening_exponent = None;
     scene.asperity.clear();
     scene.tool = tool;
     scene.loading.depth = Some(Length(depth));
     scene.loading.unload = true;
+    scene
+}
+
+/// A flat elastic body under `tool`, and back.
+fn indent(tool: Tool, depth: f64) -> (Scene, Outcome) {
+    let mut scene = loaded_and_unloaded(tool, Accuracy::Standard, depth);
     scene.numerics.domain = Some(400.0);
     scene.numerics.steps = Some(16);
     scene.numerics.elements_in_contact = Some(48);
@@ -107,15 +113,9 @@ fn the_stiffness_of_unloading_is_the_slope_of_the_loading() {
     }
 }
 
-/// A flat elastic body that is loaded and unloaded once, in one round.
+/// The same in one round.
 fn unloading(tool: Tool, accuracy: Accuracy, depth: f64) -> Scene {
-    let mut scene = scene(accuracy).unwrap();
-    scene.material.yield_stress = None;
-    scene.material.hardening_exponent = None;
-    scene.asperity.clear();
-    scene.tool = tool;
-    scene.loading.depth = Some(Length(depth));
-    scene.loading.unload = true;
+    let mut scene = loaded_and_unloaded(tool, accuracy, depth);
     scene.numerics.refine = Some(false);
     scene
 }
