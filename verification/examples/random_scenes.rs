@@ -177,9 +177,10 @@ struct Tally {
     /// Of scenes of formulas, and of measured outlines: sound ones, and those of them that reached their
     /// depth.
     reached: [[usize; 2]; 2],
-    balances: Vec<f64>,
-    /// Runs that may make themselves finer, and those of them that keep their promise.
-    promised: [usize; 2],
+    /// Energy balances of runs that choose their own numbers, and of those of which the scene gives some.
+    balances: [Vec<f64>; 2],
+    /// Of the same two: those of them that keep their promise.
+    kept: [usize; 2],
     /// Scenes by the reason of their end.
     stopped: BTreeMap<String, usize>,
     refused: usize,
@@ -198,10 +199,9 @@ impl Tally {
             }
             match end {
                 End::Done(done) => {
-                    tally.balances.push(done.energy_balance);
-                    let [asked, kept] = &mut tally.promised;
-                    *asked += usize::from(done.promise_kept.is_some());
-                    *kept += usize::from(done.promise_kept == Some(true));
+                    let given = usize::from(one.gives_numbers());
+                    tally.balances[given].push(done.energy_balance);
+                    tally.kept[given] += usize::from(done.promise_kept == Some(true));
                 }
                 End::Stopped(reason) => *tally.stopped.entry(reason.clone()).or_default() += 1,
                 End::Refused => tally.refused += 1,
@@ -217,11 +217,12 @@ impl Tally {
         report.table("| stopped because | scenes |");
         self.stopped.iter().for_each(|(reason, scenes)| report.line(&format!("| {reason} | {scenes} |")));
         report.line("");
-        report.table("| energy balance | scenes |");
+        report.table("| energy balance | own numbers | given numbers |");
         let edges = [0.0, 1e-3, 3e-3, 1e-2, 3e-2, 1e-1, f64::INFINITY];
         for pair in edges.windows(2) {
-            let within = self.balances.iter().filter(|b| (pair[0]..pair[1]).contains(b)).count();
-            report.line(&format!("| {:.0e} to {:.0e} | {within} |", pair[0], pair[1]));
+            let within = |of: &[f64]| of.iter().filter(|b| (pair[0]..pair[1]).contains(b)).count();
+            let [own, given] = self.balances.each_ref().map(|of| within(of));
+            report.line(&format!("| {:.0e} to {:.0e} | {own} | {given} |", pair[0], pair[1]));
         }
         let total: f64 = ends.iter().map(|(.., seconds)| seconds).sum();
         let mut slowest: Vec<(f64, usize)> = ends.iter().map(|(i, _, seconds)| (*seconds, *i)).collect();
@@ -236,7 +237,7 @@ impl Tally {
         self.faults.iter().for_each(|fault| report.line(&format!("{fault}\n")));
     }
 
-    /// Three lines and an empty one.
+    /// Four lines and an empty one.
     fn summary(&self) -> String {
         let percent = |done: usize, sound: usize| 100.0 * done as f64 / sound.max(1) as f64;
         let [sound, done] = [0, 1].map(|i| self.reached[0][i] + self.reached[1][i]);
@@ -256,19 +257,24 @@ impl Tally {
         };
         let [formulas, measured] = self.reached.map(share);
         let (refused, faults) = (self.refused, self.faults.len());
-        let [asked, kept] = self.promised;
-        let above = |limit: f64| self.balances.iter().filter(|balance| **balance > limit).count();
-        let poor = [1e-2, 3e-2].map(above);
+        let promises = [0, 1].map(|given| {
+            let (kept, balances) = (self.kept[given], &self.balances[given]);
+            let above = |limit: f64| balances.iter().filter(|balance| **balance > limit).count();
+            format!(
+                "{kept} of {} keep their promise ({:.1} %), energy balance above 1e-2 in {} ({:.1} %), above 3e-2 in {}",
+                balances.len(),
+                percent(kept, balances.len()),
+                above(1e-2),
+                percent(above(1e-2), balances.len()),
+                above(3e-2),
+            )
+        });
         format!(
             "Of formulas: {formulas}. Of measured outlines: {measured}. {refused} refused;\n\
              {faults} ended as they must not. {together}\n\
-             Promise kept in {kept} of {asked} runs that choose their own numbers ({:.1} %). Energy balance above 1e-2 in {} \
-             ({:.1} %), above 3e-2 in {} of {}.\n",
-            percent(kept, asked),
-            poor[0],
-            percent(poor[0], self.balances.len()),
-            poor[1],
-            self.balances.len()
+             Of runs that choose their own numbers {}.\n\
+             Of those of which the scene gives steps or penetration {}.\n",
+            promises[0], promises[1]
         )
     }
 }

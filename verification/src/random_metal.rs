@@ -28,6 +28,14 @@ impl Drawn {
     pub fn is_measured(&self) -> bool {
         self.text.contains("\npoints = ")
     }
+
+    /// True where the scene gives steps, elements or the penetration itself: what it promises then is not
+    /// the program's to keep.
+    pub fn gives_numbers(&self) -> bool {
+        ["steps", "elements_in_contact", "penetration"]
+            .iter()
+            .any(|key| self.text.contains(&format!("\n{key} = ")))
+    }
 }
 
 pub(crate) fn log_between(low: f64, high: f64) -> impl Strategy<Value = f64> {

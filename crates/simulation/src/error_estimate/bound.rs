@@ -66,9 +66,11 @@ impl Setting {
 }
 
 impl Quantity {
-    /// The same where nothing is known of the order of its errors.
-    pub fn as_it_is(self) -> Quantity {
-        Quantity { share: 0.0, widened: 0.0, ..self }
+    /// The same of a contact with so many `elements` across it, whose front stays within an edge: nothing is
+    /// known of the order of its errors, and the place of the front to an edge alone.
+    pub fn within_an_edge(self, elements: usize, symmetry: Symmetry) -> Quantity {
+        let edge = lengths(symmetry) / elements as f64;
+        Quantity { share: 0.0, widened: 0.0, hidden: self.hidden.hypot(edge), ..self }
     }
 }
 

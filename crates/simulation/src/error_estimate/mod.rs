@@ -20,6 +20,7 @@
 //! * A companion that differs too much is in no asymptotic range: no share of D is subtracted.
 //! * The contact of a punch ends in one edge of the mesh all the way, which two meshes place differently: D
 //!   of the area is no mean over many edges, has no order, and nothing is subtracted from area and stiffness.
+//!   The bound of the area holds that edge.
 //! * The mesh that is given cannot be made coarser. Its companion has the other element, of which no order is
 //!   known: nothing is subtracted from the force, half of D from the area.
 //!
@@ -119,7 +120,7 @@ impl Comparison {
         let of_area = if passes_edges(&area[1], common, elements, setting.symmetry) {
             setting.area()
         } else {
-            setting.area().as_it_is()
+            setting.area().within_an_edge(run.numbers.elements_in_contact, setting.symmetry)
         };
         Some(Comparison {
             force: compared(force, setting.force(), UNLOADING_EXPONENT)?,

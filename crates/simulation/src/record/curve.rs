@@ -31,32 +31,15 @@ impl Curve {
     /// The value at `depth`: the cubic in √value through the four nearest increments, whose error is far
     /// below the curve's own. NaN outside the curve.
     pub fn value(&self, depth: f64) -> f64 {
-        self.interpolated(depth, |x| x).powi(2)
+        interpolated(&self.points, depth, |x| x).powi(2)
     }
 
     /// The logarithm of the value at `depth`: the cubic in the logarithms through the four nearest
-    /// increments, exact for powers of the depth however far the increments are apart. NaN outside the curve.
+    /// increments with a value, exact for powers of the depth however far the increments are apart. NaN
+    /// outside the curve.
     pub fn logarithm_at(&self, depth: f64) -> f64 {
-        2.0 * self.interpolated(depth, f64::ln)
-    }
-
-    /// `scale(√value)` at `depth`, the cubic in `scale(depth)` through the four nearest increments.
-    fn interpolated(&self, depth: f64, scale: impl Fn(f64) -> f64) -> f64 {
-        // 5 µm may be 5e-6 or 5 times 1e-6
-        let end = self.end();
-        let depth = if depth > end && depth <= end * (1.0 + 1e-9) { end } else { depth };
-        let after = self.points.partition_point(|p| p[0] < depth);
-        if self.points.len() < 4 || after == self.points.len() || depth < self.points[0][0] {
-            return f64::NAN;
-        }
-        let first = after.saturating_sub(2).min(self.points.len() - 4);
-        let near: [[f64; 2]; 4] = std::array::from_fn(|i| self.points[first + i].map(&scale));
-        let x = scale(depth);
-        let term = |(i, p): (usize, &[f64; 2])| {
-            let others = near.iter().enumerate().filter(|(j, _)| *j != i);
-            p[1] * others.map(|(_, q)| (x - q[0]) / (p[0] - q[0])).product::<f64>()
-        };
-        near.iter().enumerate().map(term).sum()
+        let first = self.points.partition_point(|p| p[0] <= 0.0 || p[1] <= 0.0);
+        2.0 * interpolated(&self.points[first..], depth, f64::ln)
     }
 
     /// The first depth at which the value is reached, linear in √value between increments; `None` if it never
@@ -98,6 +81,25 @@ impl Curve {
         let rows: Vec<([f64; CURVE_TERMS], f64, f64)> = (0..=400).map(row).collect();
         Smooth { peak, coefficients: solve(&rows).unwrap_or([f64::NAN; CURVE_TERMS]) }
     }
+}
+
+/// `scale(√value)` at `depth`, the cubic in `scale(depth)` through the four nearest of the `points`.
+fn interpolated(points: &[[f64; 2]], depth: f64, scale: impl Fn(f64) -> f64) -> f64 {
+    // 5 µm may be 5e-6 or 5 times 1e-6
+    let end = points.last().map_or(0.0, |p| p[0]);
+    let depth = if depth > end && depth <= end * (1.0 + 1e-9) { end } else { depth };
+    let after = points.partition_point(|p| p[0] < depth);
+    if points.len() < 4 || after == points.len() || depth < points[0][0] {
+        return f64::NAN;
+    }
+    let first = after.saturating_sub(2).min(points.len() - 4);
+    let near: [[f64; 2]; 4] = std::array::from_fn(|i| points[first + i].map(&scale));
+    let x = scale(depth);
+    let term = |(i, p): (usize, &[f64; 2])| {
+        let others = near.iter().enumerate().filter(|(j, _)| *j != i);
+        p[1] * others.map(|(_, q)| (x - q[0]) / (p[0] - q[0])).product::<f64>()
+    };
+    near.iter().enumerate().map(term).sum()
 }
 
 /// A smooth curve: the logarithm of the value as a polynomial of the fourth degree in ln(h/h_peak).
