@@ -4,7 +4,8 @@
 use crate::single_asperity::crush;
 use asperity_material::units::{Length, Stress};
 use asperity_simulation::run::{CrushError, Event, Outcome, Run};
-use asperity_simulation::scene::{Friction, Loading, Material, Scene, Symmetry, Tool};
+use asperity_simulation::scene::{Accuracy, Friction, Loading, Material, Scene, Substrate, Symmetry, Tool};
+use std::error::Error;
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
@@ -74,6 +75,50 @@ pub fn with_friction(mut scene: Scene, friction: Option<Friction>) -> Scene {
     scene.tool.friction = friction;
     scene.output.every = Some(0);
     scene
+}
+
+/// E/σ_y of [`rigid_plastic`] metal under a punch, and E tan β/σ_y under a wedge of the slope β.
+pub const STIFF: [f64; 2] = [10_000.0, 2_000.0];
+
+/// Yield stress of [`rigid_plastic`] metal, Pa.
+pub const STRENGTH: f64 = 200e6;
+
+/// Metal that does not harden, so stiff that nearly all of it flows, under this tool.
+pub fn rigid_plastic(
+    symmetry: Symmetry,
+    stiffness: f64,
+    poissons_ratio: f64,
+    tool: Tool,
+    depth: f64,
+) -> Scene {
+    let metal = Material::elastic_body(Stress(stiffness * STRENGTH), poissons_ratio);
+    let loading = Loading::to_depth(Length(depth));
+    let mut scene = Scene::new(symmetry, metal.yielding(Stress(STRENGTH), 0.0), tool, loading);
+    if symmetry == Symmetry::PlaneStrain {
+        let size = Some(Length(400e-6));
+        scene.substrate = Some(Substrate { radius: size, depth: size });
+    }
+    scene
+}
+
+/// Mean over the second half of the depth of force over width and shear yield stress, under a wedge of this
+/// slope (degrees) with friction.
+///
+/// # Errors
+/// The run could not begin, or stopped.
+pub fn computed_wedge(slope: f64, friction: f64, accuracy: Accuracy) -> Result<f64, Box<dyn Error>> {
+    let stiffness = STIFF[1] / slope.to_radians().tan();
+    let scene = rigid_plastic(Symmetry::PlaneStrain, stiffness, 0.49, Tool::cone(slope), 2e-6)
+        .with_accuracy(accuracy);
+    let friction = (friction > 0.0).then_some(Friction::Coefficient(friction));
+    let outcome = crush(&with_friction(scene, friction))?;
+    if let Some(stopped) = outcome.stopped {
+        return Err(format!("the wedge of {slope}° stopped: {}", stopped.reason).into());
+    }
+    let half = 0.5 * outcome.summary.peak_depth;
+    let deep: Vec<f64> =
+        outcome.rows.iter().filter(|row| row.depth >= half).map(|row| row.mean_pressure).collect();
+    Ok(deep.iter().sum::<f64>() / deep.len() as f64 * 3_f64.sqrt() / STRENGTH)
 }
 
 /// Force (N) of the run at this share of its depth, on the way in.

@@ -2,13 +2,14 @@
 //!
 //! The claims are in `tests/`, one a file; what was reached is in `results/`, in tables that the programs of
 //! `examples/` write with `report`. Closed forms: `contact` (elastic), `uniaxial`, `simple_shear`,
-//! `thick_wall`, `manufactured`. Other codes: `calibration`. Bodies: `coverage_scenes` (with their `truth`),
-//! `test_meshes`, `single_asperity`, `friction`. `single_increment` solves one increment.
+//! `slip_lines`, `thick_wall`, `manufactured`. Other codes: `calibration`. Bodies: `coverage_scenes` (with
+//! their `truth`), `test_meshes`, `single_asperity`, `friction`. `single_increment` solves one increment.
 
 pub mod contact;
 pub mod manufactured;
 pub mod several;
 pub mod simple_shear;
+pub mod slip_lines;
 pub mod thick_wall;
 pub mod uniaxial;
 

@@ -2,7 +2,8 @@
 //! changes nothing, a large one sticks; friction only takes work, and the energies balance with what it
 //! takes; what sticks grows in proportion with the contact; a new mesh keeps the tractions.
 //!
-//! Sources: Mossakovskii, PMM 27 (1963); Spence, Proc. R. Soc. A 305 (1968), J. Elasticity 5 (1975).
+//! Sources: Mossakovskii, PMM 27 (1963); Spence, Proc. R. Soc. A 305 (1968), J. Elasticity 5 (1975); Hill,
+//! Lee, Tupper, Proc. R. Soc. A 188 (1947); Grunzweig, Longman, Petch, J. Mech. Phys. Solids 2 (1954).
 
 use asperity_material::units::{Length, Stress};
 use asperity_simulation::load_path::Path;
@@ -12,9 +13,11 @@ use asperity_simulation::setup::problem::{Goal, Problem};
 use asperity_solver::body::analysis::Analyses;
 use asperity_solver::contact::slip::Friction as Law;
 use asperity_verification::friction::{
-    computed_force_ratio, elastic, force_ratios, sticking_shares, stiffness_ratio, with_friction,
+    computed_force_ratio, computed_wedge, elastic, force_ratios, sticking_shares, stiffness_ratio,
+    with_friction,
 };
 use asperity_verification::single_asperity::crush;
+use asperity_verification::slip_lines::wedge;
 use std::f64::consts::PI;
 
 /// 0.3 % is what is asked of it; the runs are of 1 % each, but alike.
@@ -40,6 +43,17 @@ fn unloading_begins_with_every_point_stuck() {
     for friction in [Friction::Coefficient(0.1), Friction::Sticking] {
         let ratio = stiffness(Some(friction)) / smooth;
         assert!((ratio / stiffness_ratio(0.2) - 1.0).abs() < 3e-3, "{friction:?}: {ratio}");
+    }
+}
+
+/// Rigid, perfectly plastic metal under a wedge of 30°. 3 %: measured +2.5 and +1.2 % at `draft`, +1.3 and
+/// +1.2 % at `standard`; the rest is elastic, at E tan β/σ_y 2000.
+#[test]
+fn the_force_of_a_wedge_is_that_of_slip_lines_with_and_without_friction() {
+    for friction in [0.0, 0.2] {
+        let found = computed_wedge(30.0, friction, Accuracy::Draft).unwrap();
+        let theory = wedge(30_f64.to_radians(), friction).mean_pressure;
+        assert!((found / theory - 1.0).abs() < 0.03, "μ {friction}: {found}, {theory} by slip lines");
     }
 }
 
