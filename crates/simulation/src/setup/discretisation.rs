@@ -1,7 +1,7 @@
 //! The numbers of the discretisation that an accuracy chooses for a scene and for a self-similar cone:
 //! elements, steps, penetration, tolerance, size of the substrate.
 
-use crate::scene::{Accuracy, ElementChoice, Numerics, Scene, Symmetry, ToolForm};
+use crate::scene::{Accuracy, ElementChoice, Level, Numerics, Scene, Symmetry, ToolForm};
 use crate::setup::schedule::{Spacing, loading};
 use asperity_material::units::rounded;
 use asperity_mesh::build::Sizes;
@@ -285,10 +285,10 @@ impl ConeDiscretisation {
         let element = element_under(indents.then_some(slope_deg.to_radians()));
         let quadratic = element == ElementChoice::Q8r;
         let levels = if quadratic { QUADRATIC_LEVELS } else { STEEP_LINEAR_LEVELS };
-        let level = accuracy.level() as usize;
-        let gentle = quadratic && !indents && slope_deg <= GENTLE_SLOPE_DEG && level == 1;
+        let level = accuracy.level();
+        let gentle = quadratic && !indents && slope_deg <= GENTLE_SLOPE_DEG && level == Level::Standard;
         let (counts, lengths, [penetration, tolerance], powers) =
-            if gentle { GENTLE_STANDARD } else { levels[level] };
+            if gentle { GENTLE_STANDARD } else { levels[level as usize] };
         let [elements, at_axis, lead, steps] = counts;
         let [core_depth, row_growth, first_shell, growth, domain, foot] = lengths;
         let softness = exponent.map_or(1.0, softness_of);
