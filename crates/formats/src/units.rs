@@ -14,7 +14,7 @@ pub struct UnitError(String);
 
 /// The size of a unit that files do not take, as messages add it: " (1 lbf is 4.448222 N)", or nothing.
 pub(crate) fn conversion(unit: &str) -> String {
-    const FACTORS: [(&str, &str); 12] = [
+    const FACTORS: [(&str, &str); 11] = [
         ("in", "25.4 mm"),
         ("inch", "25.4 mm"),
         ("mil", "25.4 um"),
@@ -24,7 +24,6 @@ pub(crate) fn conversion(unit: &str) -> String {
         ("gf", "9.80665 mN"),
         ("psi", "6.894757 kPa"),
         ("ksi", "6.894757 MPa"),
-        ("N/mm2", "1 MPa"),
         ("kgf/mm2", "9.80665 MPa"),
         ("HV", "9.80665 MPa of hardness, which is no yield stress"),
     ];
@@ -120,8 +119,9 @@ fn shortest(value: f64, si: &str, units: &[(&str, f64)]) -> String {
         let digits = format!("{number:?}");
         Some(format!("{} {name}", digits.strip_suffix(".0").unwrap_or(&digits)))
     };
-    let ascii = units.iter().filter(|(name, _)| name.is_ascii());
-    ascii.filter_map(in_unit).min_by_key(String::len).unwrap_or_else(|| format!("{value:?} {si}"))
+    // bar is read and not written: 0.5 MPa stays so
+    let written = units.iter().filter(|(name, _)| name.is_ascii() && !name.ends_with("bar"));
+    written.filter_map(in_unit).min_by_key(String::len).unwrap_or_else(|| format!("{value:?} {si}"))
 }
 
 macro_rules! quantity {
@@ -189,7 +189,7 @@ quantity!(
 quantity!(
     /// A stress, pressure or modulus, kept in pascals.
     Stress, "stress", "Pa",
-    &[("MPa", 1e6), ("GPa", 1e9), ("kPa", 1e3), ("Pa", 1.0), ("TPa", 1e12)]
+    &[("MPa", 1e6), ("GPa", 1e9), ("kPa", 1e3), ("Pa", 1.0), ("TPa", 1e12), ("bar", 1e5), ("mbar", 1e2), ("N/mm2", 1e6), ("N/mm²", 1e6)]
 );
 quantity!(
     /// A force, kept in newtons.
@@ -244,6 +244,12 @@ mod tests {
             assert!(said.contains(factor), "{said}");
         }
         assert_eq!(" 210 GPa ".parse::<Stress>().unwrap().0, 210e9);
+        for (text, pascals, written) in
+            [("2 bar", 2e5, "0.2 MPa"), ("0.1 mbar", 10.0, "10 Pa"), ("3 N/mm²", 3e6, "3 MPa")]
+        {
+            let stress: Stress = text.parse().unwrap();
+            assert_eq!((stress.0, stress.to_string().as_str()), (pascals, written), "{text}");
+        }
         for bad in ["20", "20 MPa", "nan um", "inf um", "um", "", "1e400 um", "1e-320 nm", "1 2 um"] {
             assert!(bad.parse::<Length>().is_err(), "{bad}");
         }
