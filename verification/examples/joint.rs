@@ -1,16 +1,20 @@
-//! Joints beside a correlation of measured conductances, the work beside the stored energy, the power of the
-//! stiffness, and the proven bounds beside the whole maps.
+//! Joints beside a finite-volume solution of the potential, a correlation of measured conductances, the work
+//! beside the stored energy, the power of the stiffness, the proven bounds beside the whole maps, and what it
+//! costs.
 //!
-//! `cargo run --release -p asperity-verification --example joint [-- --out FILE]` (some minutes of one core);
-//! the tables are `verification/results/joint.md`.
+//! `cargo run --release -p asperity-verification --example joint [-- [PART …] --out FILE]` (some minutes of
+//! one core); the tables are `verification/results/joint.md`.
 
 // on surfaces made here
 #![allow(clippy::expect_used)]
 
 use asperity_roughness::half_space::HalfSpace;
 use asperity_roughness::joint::{Fits, JointPath, Law, bounds, follow, loads};
-use asperity_roughness::{Grid, HeightMap, Kind, Surface, Target, generate, s_filter};
+use asperity_roughness::{Grid, HeightMap, Kind, Load, Surface, Target, generate, s_filter};
+use asperity_verification::potential::conductance;
 use asperity_verification::report::Report;
+use cpu_time::ProcessTime;
+use std::f64::consts::TAU;
 
 /// Side of the maps, in pixels of 1 µm.
 const SIDE: usize = 256;
@@ -23,8 +27,12 @@ const CUTOFFS: [f64; 5] = [12.0, 16.0, 24.0, 32.0, 48.0];
 /// Maps of the bounds.
 const BOUNDED_MAPS: u64 = 20;
 
-fn surface(hurst: f64, [rolloff, cutoff]: [f64; 2], seed: u64) -> Surface {
-    let grid = Grid { nodes: [SIDE; 2], pixel: [1e-6; 2], seed };
+fn surface(hurst: f64, lengths: [f64; 2], seed: u64) -> Surface {
+    made(SIDE, hurst, lengths, seed)
+}
+
+fn made(side: usize, hurst: f64, [rolloff, cutoff]: [f64; 2], seed: u64) -> Surface {
+    let grid = Grid { nodes: [side; 2], pixel: [1e-6; 2], seed };
     let kind = Kind::SelfAffine { hurst, rolloff: rolloff * 1e-6, cutoff: cutoff * 1e-6 };
     let map = generate(kind, &grid, Target::Slope(GRADIENT)).expect("the kind is in range");
     Surface::from_map(map.with_periodic(true)).expect("a map of many cells")
@@ -46,20 +54,19 @@ fn profile_slope(map: &HeightMap) -> f64 {
     0.5 * steps.sum::<f64>() / (nx * ny) as f64 / map.pixel()[0]
 }
 
-/// Cooper, Mikic and Yovanovich 1969: h/k = 1.25 m/σ (p/H)^0.95 of Gaussian surfaces whose spots flow.
-fn correlation(report: &mut Report) {
+/// Cooper, Mikic and Yovanovich 1969: h/k = 1.25 m/σ (p/H)^0.95 of Gaussian surfaces whose spots flow, beside
+/// maps of `side` points.
+fn correlation_on(report: &mut Report, side: usize, maps: &[(f64, [f64; 2])]) {
     const HARDNESS: f64 = 1e9;
     const SHARES: [f64; 4] = [1e-3, 3e-3, 1e-2, 5e-2];
     report.section("Conductance over that of Cooper, Mikic and Yovanovich");
     report.line(&format!(
-        "Periodic maps of {SIDE}², E* = {} GPa, a limit of 1 GPa, mean gradient {GRADIENT}; by p/H.\n",
+        "Periodic maps of {side}², E* = {} GPa, a limit of 1 GPa, mean gradient {GRADIENT}; by p/H.\n",
         REDUCED * 1e-9
     ));
     report.table("| Hurst exponent | roll-off, µm | cut-off, µm | 1e-3 | 3e-3 | 1e-2 | 5e-2 |");
-    for (hurst, lengths) in
-        [(0.8, [64.0, 16.0]), (0.8, [64.0, 8.0]), (0.8, [128.0, 8.0]), (0.5, [64.0, 8.0]), (0.3, [64.0, 8.0])]
-    {
-        let surface = surface(hurst, lengths, 1);
+    for (hurst, lengths) in maps {
+        let surface = made(side, *hurst, *lengths, 1);
         let path = pressed(&surface, Some(HARDNESS), &SHARES.map(|share| share * HARDNESS));
         let slope = profile_slope(&surface.map);
         let cells = SHARES.iter().zip(&path.loading[1..]).map(|(share, point)| {
@@ -71,6 +78,22 @@ fn correlation(report: &mut Report) {
         let [rolloff, cutoff] = lengths;
         report.line(&format!("| {hurst} | {rolloff} | {cutoff} | {} |", cells.join(" | ")));
     }
+}
+
+fn correlation(report: &mut Report) {
+    let maps = [
+        (0.8, [64.0, 16.0]),
+        (0.8, [64.0, 8.0]),
+        (0.8, [128.0, 8.0]),
+        (0.5, [64.0, 8.0]),
+        (0.3, [64.0, 8.0]),
+    ];
+    correlation_on(report, SIDE, &maps);
+}
+
+/// The same on maps of more roll-offs to a side, whose summits are more like those of an endless surface.
+fn wide(report: &mut Report) {
+    correlation_on(report, 2 * SIDE, &[(0.8, [32.0, 8.0]), (0.3, [32.0, 8.0]), (0.8, [64.0, 8.0])]);
 }
 
 /// Energy and power of elastic maps, over three decades to 0.05 E* h'.
@@ -168,10 +191,113 @@ fn median(values: &mut [f64]) -> Option<f64> {
     values.get(values.len() / 2).copied()
 }
 
+/// A sum of waves of 16 to 32 of 64 pixels with phases drawn by `seed`, in µm, on `side` points to 64 µm.
+fn summed(side: usize, seed: u64) -> Surface {
+    // a multiplicative generator of whole numbers (Park and Miller 1988)
+    let mut state = 7_u64.pow(5) * (seed + 1);
+    let mut drawn = || {
+        state = state * 16_807 % 2_147_483_647;
+        state as f64 / 2_147_483_647.0
+    };
+    let numbers = (0..=4).flat_map(|x| (-4..=4).map(move |y| [f64::from(x), f64::from(y)]));
+    let waves: Vec<[f64; 4]> = numbers
+        .filter(|[x, y]| (2.0..=4.0).contains(&x.hypot(*y)))
+        .map(|[x, y]| [x, y, x.hypot(y).powf(-1.8), TAU * drawn()])
+        .collect();
+    let height = |i: usize| {
+        let [x, y] = [i % side, i / side].map(|k| TAU * k as f64 / side as f64);
+        1e-6 * waves
+            .iter()
+            .map(|[p, q, amplitude, phase]| amplitude * (p * x + q * y + phase).cos())
+            .sum::<f64>()
+    };
+    let heights = (0..side * side).map(height).collect();
+    let map = HeightMap::new(side, side, [64e-6 / side as f64; 2], heights).expect("points");
+    Surface::from_map(map.with_periodic(true)).expect("a map of many cells")
+}
+
+/// Conductances beside the potential in the two bodies, solved by finite volumes.
+fn potential(report: &mut Report) {
+    const PIXELS: usize = 64;
+    const FINER: usize = 3;
+    report.section("Conductance over that of the potential");
+    report.line(
+        "k S/E* of the joint over the conductance of its spots by finite volumes, which know no half-space; periodic sums of waves of 16 to 32 \
+         pixels on 64². Spots that are whole pixels conduct too well, by the first power of the pixel: they are taken from 64² and 192² points of the \
+         same surface under the same load, and that is extrapolated away.\n",
+    );
+    report.table(
+        "| contact | area, % | h·64 µm/k, spots of 64² | of 192² | without pixels | joint of 64² over that | of 192² |",
+    );
+    let cases = [
+        ("elastic", 1, 0.03, None),
+        ("elastic", 2, 0.10, None),
+        ("with a limit of pressure", 3, 0.05, Some(0.3)),
+    ];
+    for (name, seed, load, limit) in cases {
+        let stress = REDUCED * summed(PIXELS, seed).parameters.rms_gradient;
+        let limit = limit.map(|limit: f64| limit * stress);
+        let body = HalfSpace { reduced_modulus: REDUCED, limit, tolerance: 1e-6 };
+        let found = [1, FINER].map(|finer| {
+            let surface = summed(finer * PIXELS, seed);
+            let path = pressed(&surface, limit, &[load * stress]);
+            let found = body.press(&surface, Load::Pressure(load * stress)).expect("below the limit");
+            let spots: Vec<bool> = found.pressures.iter().map(|p| *p > 0.0).collect();
+            let known =
+                (finer * PIXELS) as f64 * conductance(&spots, finer * PIXELS, if finer == 1 { 2 } else { 1 });
+            let joint = path.loading[1].elastic.map_or(f64::NAN, |s| s.gap) * 64e-6 / REDUCED;
+            (known, joint, found.area.corrected)
+        });
+        let [(coarse, joint, area), (fine, finer_joint, _)] = found;
+        // the rest goes with the pixel
+        let known = fine + (fine - coarse) / (FINER - 1) as f64;
+        report.line(&format!(
+            "| {name} | {:.1} | {coarse:.3} | {fine:.3} | {known:.3} | {:.3} | {:.3} |",
+            1e2 * area,
+            joint / known,
+            finer_joint / known
+        ));
+    }
+}
+
+/// Core seconds of a law beside those of one load, both with stiffness and without leak.
+fn cost(report: &mut Report) {
+    report.section("Core seconds");
+    report.line(
+        "25 loads to 0.05 E* of the rms gradient on periodic, elastic maps (H 0.8, roll-off a quarter of the side, shortest wave 8 pixels), beside one load, \
+         the middle one, pressed from nothing with the same numbers.\n",
+    );
+    report.table("| map | 25 loads | one load | ratio |");
+    for side in [1024, 2048] {
+        let surface = made(side, 0.8, [side as f64 / 4.0, 8.0], 1);
+        let pressures = loads(0.05 * REDUCED * surface.parameters.rms_gradient, 25);
+        let seconds = |pressures: &[f64]| {
+            let start = ProcessTime::now();
+            pressed(&surface, None, pressures);
+            start.elapsed().as_secs_f64()
+        };
+        let [all, one] = [&pressures[..], &pressures[12..13]].map(seconds);
+        report.line(&format!("| {side}² | {all:.1} | {one:.1} | {:.1} |", all / one));
+    }
+}
+
+/// A section of the report.
+type Part = fn(&mut Report);
+
 fn main() -> std::io::Result<()> {
-    let (mut report, _) = Report::of_example("joint", "half_space.tolerance = 1e-6");
-    correlation(&mut report);
-    elastic(&mut report);
-    bounded(&mut report);
+    let (mut report, rest) = Report::of_example("joint", "half_space.tolerance = 1e-6");
+    let parts: [(&str, Part); 6] = [
+        ("potential", potential),
+        ("correlation", correlation),
+        ("wide", wide),
+        ("elastic", elastic),
+        ("bounds", bounded),
+        ("cost", cost),
+    ];
+    for (name, part) in parts {
+        if rest.is_empty() || rest.iter().any(|word| word == name) {
+            part(&mut report);
+        }
+    }
     report.finish()
 }

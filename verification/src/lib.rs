@@ -21,12 +21,14 @@ mod random_metal;
 pub mod truth;
 
 pub mod friction;
+pub mod potential;
 pub mod random_scenes;
 pub mod single_asperity;
 pub mod test_meshes;
 
 pub mod roofline;
 pub mod single_increment;
+pub mod wave_on_wave;
 
 pub mod report;
 

@@ -161,6 +161,13 @@ fn a_fluid_leaks_by_the_gap_and_more_load_leaks_less() {
     };
     let (light, heavy) = (leak("20 MPa"), leak("100 MPa"));
     assert!(heavy.0 < light.0 && heavy.1 > light.1, "{light:?} {heavy:?}");
+    // a scene that forbids the leak is not told to ask for it
+    let rest = format!("[load]\npressure = \"20 MPa\"\n[half_space]\nleak = false\n{fluid}");
+    let dry = pressed("closure = \"half-space\"", &rest).unwrap();
+    let verdict = dry.summary.verdict.unwrap();
+    assert!(verdict.contains("half_space.leak = false") && !verdict.contains("leak=true"), "{verdict}");
+    let unused = |text: &String| text.contains("[fluid] is not used: half_space.leak = false");
+    assert!(dry.summary.warnings.iter().any(unused), "{:?}", dry.summary.warnings);
     for (wrong, place) in [
         ("[fluid]\nviscosity = \"1 mPa\"\npressures = [\"2 MPa\", \"1 MPa\"]", "viscosity"),
         ("[half_space]\ntolerance = 0.5", "half_space.tolerance"),

@@ -98,3 +98,23 @@ fn what_has_no_law_is_refused_where_it_is_wrong() {
         assert!(place.names("out").is_empty());
     }
 }
+
+/// The sentence of `rough`, by every command that reads a map.
+#[test]
+fn what_was_understood_of_a_file_is_said() {
+    let place = Place::with_scene(SCENE);
+    // bumps, each of a column's height
+    let height = |x: usize, y: usize| 0.1 + ((x % 8) * (7 - x % 8) + (y % 8) * (7 - y % 8)) as f64 / 50.0;
+    let row = |y: usize| (0..32).map(|x| height(x, y).to_string()).collect::<Vec<_>>().join(",");
+    let text: String = (0..32).map(|y| row(y) + "\n").collect();
+    std::fs::write(place.path("map.csv"), text).unwrap();
+    let treatment = ["--set", "surface.pixel_size=[\"1 um\", \"1 um\"]", "--set", "surface.height_unit=um"];
+    for command in ["rough", "joint", "scales", "extract"] {
+        let end = place.run(&[&[command, "map.csv", "--out", command, "--force"][..], &treatment].concat());
+        assert!(end.out.starts_with("read as "), "{command}: {} {}", end.out, end.err);
+        let file = if command == "joint" { "joint.json" } else { "summary.json" };
+        let summary = place.text(&format!("{command}/{file}"));
+        let summary: serde_json::Value = serde_json::from_str(&summary).unwrap();
+        assert!(summary["understood"][0].is_string(), "{command}: {summary}");
+    }
+}

@@ -155,7 +155,7 @@ fn what_it_cannot_reproduce_is_said() {
     assert!(end.err.contains("fig10") && end.err.contains("fig11"), "{}", end.err);
     assert!(place.names("out").is_empty());
     let list = place.run(&["reproduce", "--list"]);
-    assert!(list.out.lines().count() == 15 && list.out.contains("table2"), "{}", list.out);
+    assert!(list.out.lines().count() == 16 && list.out.contains("table2"), "{}", list.out);
     // a folder of somebody else
     std::fs::create_dir(place.path("thesis")).unwrap();
     std::fs::write(place.path("thesis/chapter.tex"), "years").unwrap();

@@ -75,6 +75,7 @@ pub fn body(item: Item, results: &Results) -> Result<Markup, String> {
         "table1" => numbers(results),
         "fig15" => unloading(results)?,
         "table2" => energies(results),
+        "outlook" => outlook(results),
         _ => html! {},
     };
     Ok(body)
@@ -377,5 +378,42 @@ fn energies(results: &Results) -> Markup {
     html! {
         (table("Table 2: measured by the paper, predicted by the closures that yield", &["surface", "residual displacement, µm", "elastic energy, %", "plastic energy, %"], &rows))
         p { "Where the law of unloading returns more than the work done, on islands that are shallower than their cones, the share is cut at 100 %." }
+    }
+}
+
+fn outlook(results: &Results) -> Markup {
+    let kinds = table1::TABLE.map(|(kind, _)| kind.name());
+    let part = |kind: &str| format!("scales-{kind}");
+    let summaries = kinds.map(|kind| results.scales(&part(kind)));
+    let rows: Vec<Vec<String>> = kinds
+        .iter()
+        .zip(&summaries)
+        .filter_map(|(kind, found)| {
+            let found = found.as_ref()?;
+            Some(vec![
+                (*kind).into(),
+                shown(found.hurst.map(|h| h.value)),
+                shown(percent(found.singular_pressure_share)),
+                shown(found.hardness_ends_um),
+                significant(found.cutoff_um),
+            ])
+        })
+        .collect();
+    let charts = [
+        ("area.svg", "Contact area as ever finer waves are let in"),
+        ("pressure.svg", "Mean pressure"),
+        ("regimes.svg", "Share of the load on slopes too steep for an elastic pressure"),
+    ];
+    html! {
+        p { "The paper ends with its next step: the spectral analysis of the slopes of roughness, and the scales that make singular "
+            "pressures. Here each surface (1 mm a side, 200 MPa) is pressed at ever finer cut-offs, by an elastic half-space and by one "
+            "whose pressure the metal limits. A pressure is singular where the slope of its patch is so steep that a cone of the metal "
+            "is fully plastic." }
+        (table("Singular pressures of the three surfaces", &["surface", "Hurst exponent", "singular share of the elastic load, %", "hardness ends the growth of pressure from, µm", "cut-off to use, µm"], &rows))
+        @for (kind, found) in kinds.iter().zip(&summaries) {
+            h3 { (kind) }
+            @if let Some(found) = found { p { (found.verdict) } }
+            @for (name, caption) in charts { (file(results, &part(kind), name, &format!("{caption}, {kind} surface."))) }
+        }
     }
 }

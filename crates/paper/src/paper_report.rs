@@ -239,6 +239,10 @@ fn scene(part: &Part, results: &Results) -> Markup {
             let alone = format!("asperity rough meshes/{name}.toml{}", sets(changes));
             (scene, format!("{alone}, and asperity rough --table1"))
         }
+        Work::Scales { scene, changes } => {
+            let file = part.name.replace("scales", "rough");
+            (scene, format!("asperity scales meshes/{file}.toml{}", sets(changes)))
+        }
         Work::Calibrate => (
             "# the defaults: 10 slopes, 3 moduli, 4 yield stresses, 4 exponents",
             "asperity calibrate".into(),

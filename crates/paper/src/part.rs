@@ -34,6 +34,9 @@ const CASE: [f64; 3] = [1.6, 2.5, 22.0];
 /// The same of a surface under all closures of islands.
 const ROUGH_SURFACE: f64 = 50.0;
 
+/// The same of a quarter of a surface at all its scales.
+const SCALES_OF_SURFACE: f64 = 150.0;
+
 /// Power of the nodes that the time of an iteration goes with.
 const NODES_POWER: f64 = 1.25;
 
@@ -66,6 +69,7 @@ enum Resolved {
     Crush(Box<Scene>, &'static [Sketch]),
     Calibrate(Sweep),
     Rough(Box<RoughTables>, KindName),
+    Scales(Box<RoughTables>),
 }
 
 impl Resolved {
@@ -75,6 +79,7 @@ impl Resolved {
             Resolved::Crush(scene, sketches) => format!("{:?}", (scene.resolved(), sketches)),
             Resolved::Calibrate(sweep) => format!("{sweep:?}"),
             Resolved::Rough(scene, kind) => format!("{:?}", (scene, kind)),
+            Resolved::Scales(scene) => format!("{scene:?}"),
         }
     }
 }
@@ -84,13 +89,20 @@ fn embedded<T>(name: &str, result: Result<T, impl std::fmt::Display>) -> Result<
     result.map_err(|e| Error::Unfinished(format!("the scene of {name}: {e}")))
 }
 
+/// A scene of a rough surface that comes with the program, with these changes.
+fn rough_tables(name: &str, scene: &str, changes: &[&str]) -> Result<RoughTables, Error> {
+    let changes: Vec<String> = changes.iter().map(|c| (*c).to_string()).collect();
+    let read: TomlFile<RoughTables> = TomlFile::parse(Path::new(name), scene.into(), &changes)?;
+    embedded(name, read.value.validate())?;
+    Ok(read.value)
+}
+
 impl Job {
     /// `part` at an accuracy, in a folder of `parts`; `program` stands for the program.
     ///
     /// # Errors
     /// A scene of the program that is none.
     pub fn new(part: Part, accuracy: Accuracy, parts: &Path, program: u64) -> Result<Job, Error> {
-        let file = Path::new(part.name);
         let scene = match part.work {
             Work::Crush { scene, changes, sketches } => {
                 let accuracy = format!("accuracy={accuracy}");
@@ -101,10 +113,10 @@ impl Job {
             }
             Work::Calibrate => Resolved::Calibrate(Sweep { accuracy, ..Sweep::default() }),
             Work::Rough { scene, changes, kind } => {
-                let changes: Vec<String> = changes.iter().map(|c| (*c).to_string()).collect();
-                let read: TomlFile<RoughTables> = TomlFile::parse(file, scene.into(), &changes)?;
-                embedded(part.name, read.value.validate())?;
-                Resolved::Rough(Box::new(read.value), kind)
+                Resolved::Rough(Box::new(rough_tables(part.name, scene, changes)?), kind)
+            }
+            Work::Scales { scene, changes } => {
+                Resolved::Scales(Box::new(rough_tables(part.name, scene, changes)?))
             }
         };
         let mut hasher = DefaultHasher::new();
@@ -139,6 +151,7 @@ impl Job {
             Resolved::Rough(scene, _) => {
                 ROUGH_SURFACE * rough_part::surfaces(scene.closure).iter().sum::<f64>()
             }
+            Resolved::Scales(_) => SCALES_OF_SURFACE,
         }
     }
 
@@ -176,6 +189,10 @@ impl Job {
             }
             Resolved::Rough(scene, kind) => {
                 self.fill(|sink| rough_part::press(scene, *kind, sink, observer))?;
+                None
+            }
+            Resolved::Scales(scene) => {
+                self.fill(|sink| rough_part::press_scales(scene, sink, observer))?;
                 None
             }
         };

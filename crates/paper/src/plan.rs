@@ -16,7 +16,7 @@ pub struct Item {
 }
 
 /// Every figure and table that computation can give, in the order of the paper.
-pub const ITEMS: [Item; 15] = [
+pub const ITEMS: [Item; 16] = [
     Item { name: "fig1", title: "Figure 1. Geometry of an asperity" },
     Item { name: "fig2", title: "Figure 2. Strength/depth curve for the crushing of the modelled asperity" },
     Item { name: "fig3", title: "Figure 3. Strength/depth curve for the crushing of a milled real surface" },
@@ -32,6 +32,7 @@ pub const ITEMS: [Item; 15] = [
     Item { name: "table1", title: "Table 1. Numerical results" },
     Item { name: "fig15", title: "Figure 15. Indentation curves" },
     Item { name: "table2", title: "Table 2. Experimental results" },
+    Item { name: "outlook", title: "Outlook. Scales of roughness and singular pressures" },
 ];
 
 /// The way a part is computed.
@@ -56,6 +57,13 @@ pub enum Work {
         changes: &'static [&'static str],
         /// The row of Table 1.
         kind: KindName,
+    },
+    /// A rough surface at all its scales.
+    Scales {
+        /// The scene file.
+        scene: &'static str,
+        /// Changes, as `--set` takes them.
+        changes: &'static [&'static str],
     },
 }
 
@@ -113,11 +121,28 @@ macro_rules! rough {
     };
 }
 
+/// A quarter of the surface with the same pixel: its longest waves are far below a side.
+const QUARTER: &[&str] = &[
+    "closure=half-space-plastic",
+    "surface.generate.size=[\"1 mm\", \"1 mm\"]",
+    "surface.generate.pixels=[512, 512]",
+];
+
+macro_rules! scales {
+    ($name:literal, $scene:ident) => {
+        Part {
+            name: $name,
+            work: Work::Scales { scene: scenes::$scene, changes: QUARTER },
+            serves: &["outlook"],
+        }
+    };
+}
+
 const ROUGH: &[&str] = &["fig11", "fig12", "fig13", "table1", "fig15", "table2"];
 const MILLED: &[&str] = &["fig3", "fig9", "fig11", "fig12", "fig13", "table1", "fig15", "table2"];
 
 /// Every part, those that take longest first, so that all cores end at about the same time.
-pub const PARTS: [Part; 17] = [
+pub const PARTS: [Part; 20] = [
     Part { name: "calibrate", work: Work::Calibrate, serves: &["fig7", "fig8"] },
     crush!(
         "three-identical-finest-plane-strain",
@@ -150,6 +175,9 @@ pub const PARTS: [Part; 17] = [
         &["fig5"]
     ),
     rough!("rough-sanded", ROUGH_SANDED, ISLANDS, KindName::Sanded, ROUGH),
+    scales!("scales-ground", ROUGH_GROUND),
+    scales!("scales-milled", ROUGH_MILLED),
+    scales!("scales-sanded", ROUGH_SANDED),
     crush!("slopes-1-4", SLOPES_1_4, &[], &[], &["fig6"]),
     crush!(
         "three-identical-plane-strain",

@@ -14,9 +14,32 @@ use asperity::numerics::least_squares::Line;
 use asperity::output::read_csv;
 use asperity::roughness::Closure;
 use asperity::units::MICROMETRE;
+use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+
+/// What the report shows of `summary.json` of `asperity scales`.
+#[derive(Clone, Debug, Deserialize)]
+pub struct ScalesSummary {
+    /// Of the power spectrum.
+    pub hurst: Option<Hurst>,
+    /// Share of the elastic load on patches so steep that the metal under them is fully plastic.
+    pub singular_pressure_share: Option<f64>,
+    /// The coarsest cut-off at which hardness ends the growth of the mean pressure, µm.
+    pub hardness_ends_um: Option<f64>,
+    /// The cut-off to use, µm.
+    pub cutoff_um: f64,
+    /// The result in words.
+    pub verdict: String,
+}
+
+/// The Hurst exponent of a spectrum.
+#[derive(Clone, Copy, Debug, Deserialize)]
+pub struct Hurst {
+    /// The number.
+    pub value: f64,
+}
 
 /// The folders of the parts that are done.
 pub struct Results {
@@ -93,6 +116,11 @@ impl Results {
         let table = self.table1(part)?;
         let seeds = quantity(table.closures.iter().find(|row| row.closure == closure)?);
         (!seeds.0.is_empty()).then(|| Spread { mean: seeds.mean(), deviation: seeds.deviation() })
+    }
+
+    /// The summary of a surface at all its scales.
+    pub fn scales(&self, part: &str) -> Option<ScalesSummary> {
+        self.json(part, "summary.json")
     }
 
     /// A PNG of a part as a data URI.

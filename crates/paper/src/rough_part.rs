@@ -8,6 +8,8 @@ use asperity::output::{Sink, SinkExt, write_csv};
 use asperity::rough::{self, RoughScene};
 use asperity::roughness::scene::{Choice, Scene};
 use asperity::roughness::{Closure, KindName};
+use asperity::scales::scales;
+use asperity::units::MICROMETRE;
 use std::path::Path;
 
 /// Dots along a side of a map in the report, its key included.
@@ -64,4 +66,22 @@ pub fn press(
     let told = &mut |share: f64, message: &str| observer(own + of_table + of_others * share, message);
     let others = table1::other_kinds(kind, &row, told)?;
     sink.text("other_kinds.json", &asperity::output::json(&others)?)
+}
+
+/// Presses the surface of `scene` at all its scales and writes what `asperity scales` writes; `observer`
+/// hears of the share that is done (0 to 1) and ends the work by `false`.
+///
+/// # Errors
+/// A surface that cannot be made or pressed, a disk that refuses, an observer that ended the work.
+pub fn press_scales(
+    scene: &Scene,
+    sink: &mut dyn Sink,
+    observer: &mut (dyn FnMut(f64, &str) -> bool + Send),
+) -> Result<(), Error> {
+    let scene = RoughScene::new(scene.clone(), Path::new(""));
+    let told = &mut |reached: &Progress<'_, f64>| {
+        let cutoff = reached.news.map_or(0.0, |cutoff| cutoff / MICROMETRE);
+        observer(reached.share, &format!("waves from {cutoff:.3} um"))
+    };
+    scales(&[scene], told)?.write(sink)
 }

@@ -26,7 +26,7 @@ pub mod scales;
 pub mod scene;
 
 pub use crate::contact::islands_contact::{Contact, ContactError, CurvePoint, Load, press};
-pub use crate::surface::prepared_surface::Surface;
+pub use crate::surface::prepared_surface::{Surface, read_as};
 pub use contact::closures::{
     Closure, ClosureError, ClosureLaw, PUBLISHED_COEFFICIENT, SINGLE_ASPERITY_EXPONENT,
 };

@@ -13,7 +13,7 @@ use asperity_roughness::asperities::{
     Asperity, Direction, FindError, RadialProfile, Segmentation, find, line,
 };
 use asperity_roughness::scene::{Scene, SceneError};
-use asperity_roughness::{Closure, ClosureLaw, Load, Surface, press};
+use asperity_roughness::{Closure, ClosureLaw, Load, Surface, press, read_as};
 
 /// Asperities and lines of a map.
 #[derive(Clone, Debug)]
@@ -45,6 +45,8 @@ row! {
     Summary(done: &Extracted) {
         /// Name of the map.
         surface: String = done.name.clone(),
+        /// Interpretation of the file: dialect, columns, units, lines; and remarks on it.
+        understood: Vec<String> = done.surface.notes.clone(),
         /// Points along x and y.
         pixels: [usize; 2] = [done.surface.map.columns(), done.surface.map.rows()],
         /// Distance of the points.
@@ -362,7 +364,8 @@ impl Extracted {
             )
         });
         let [nx, ny] = s.pixels;
-        let mut text = format!(
+        let mut text = read_as(&s.understood);
+        text += &format!(
             "{}: {nx} x {ny} points; {} {} ({plane}), {} of them cut by an edge or a hole; {:.4} per mm²\n",
             s.surface,
             s.asperities,

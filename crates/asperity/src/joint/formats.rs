@@ -8,6 +8,7 @@ use crate::results::numbers::{rounded, with_digits};
 use crate::results::output::{Sink, SinkExt, sorted_json, write_csv};
 use crate::results::units::{MEGAPASCAL, MICROMETRE};
 use asperity_formats::interface_law::InterfaceLaw;
+use asperity_roughness::read_as;
 use std::fmt::Write;
 
 /// The tables end at this many times the largest load that was computed, along the last tangent.
@@ -115,9 +116,8 @@ impl Joint {
 
     /// The result for a person.
     pub fn text(&self) -> String {
-        let mut text = String::from(
-            "phase    pressure MPa   mean gap um   approach um    A/A0 %  elastic MPa/um  h W/(m² K)  error %\n",
-        );
+        let mut text = read_as(&self.summary.understood);
+        text += "phase    pressure MPa   mean gap um   approach um    A/A0 %  elastic MPa/um  h W/(m² K)  error %\n";
         let shown = |value: Option<f64>| value.map_or_else(|| "-".into(), |v| with_digits(v, 4));
         for row in &self.rows {
             let _ = writeln!(

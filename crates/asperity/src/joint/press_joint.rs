@@ -234,6 +234,9 @@ fn evaluate(scenes: &[RoughScene], metal: &Metal, maps: &[PressedMap]) -> Option
     let mut summary = Summary::new(names, surface, tables, &path, Fits::new(&path.loading));
     summary.limit_MPa = metal.limit.map(|limit| limit.pressure / MEGAPASCAL);
     summary.limit_error = metal.limit.map(|limit| limit.error);
+    // maps of one instrument are read alike
+    summary.understood = maps.iter().flat_map(|map| map.surface.notes.clone()).collect();
+    summary.understood.dedup();
     summary.left_out_um = range.map(|range| range * 1e6);
     // the surface and its metal are looked at as those of a half-space
     let closure = if elastic { Choice::HalfSpace } else { Choice::HalfSpacePlastic };

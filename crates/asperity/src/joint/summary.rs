@@ -64,6 +64,8 @@ row! {
     Summary(surfaces: Vec<String>, surface: &Surface, scene: &Scene, path: &JointPath, fits: Fits) {
         /// Names of the maps.
         surfaces: Vec<String> = surfaces,
+        /// Interpretation of the files: dialect, columns, units, lines; and remarks on them.
+        understood: Vec<String> = Vec::new(),
         /// Points along x and y.
         pixels: [usize; 2] = [surface.map.columns(), surface.map.rows()],
         /// Distance of points along x and y.
@@ -153,8 +155,7 @@ impl Summary {
 
     fn bounds_in_words(&self, elastic: bool) -> String {
         let Some(range) = self.left_out_um else {
-            return "joint.left_out, the height range of the roughness that the map does not hold, would give proven bounds of the elastic \
-                    stiffness"
+            return "proven bounds of the elastic stiffness need joint.left_out, the height range of the roughness that the map does not hold"
                 .into();
         };
         let range = with_digits(range, 3);

@@ -10,7 +10,7 @@ use crate::rough::half_space_contacts::{HalfSpaceContacts, compare_with_half_spa
 use crate::rough::press_closure::press_by;
 use crate::rough::rough_scene::RoughScene;
 use asperity_roughness::scene::SceneError;
-use asperity_roughness::{Closure, Surface};
+use asperity_roughness::{Closure, Surface, read_as};
 use std::fmt::Write;
 use std::time::Instant;
 
@@ -122,11 +122,7 @@ impl Rough {
     pub fn text(&self) -> String {
         let s = &self.summary;
         let ([nx, ny], [dx, dy]) = (s.pixels, s.pixel_size_um);
-        let mut text = if s.understood.is_empty() {
-            String::new()
-        } else {
-            format!("read as {}\n", s.understood.join("; "))
-        };
+        let mut text = read_as(&s.understood);
         // lengths far below a micrometre keep their digits
         let um = |v: f64| if v != 0.0 && v.abs() < 1e-3 { format!("{v:.3e}") } else { format!("{v:.4}") };
         let _ = writeln!(

@@ -52,7 +52,12 @@ impl Rough {
             let _ = write!(text, "; {}", passage(space, k, axis, self.summary.scene.fluid.as_ref()));
         }
         if !space.flows && space.passages.iter().any(|p| p.narrowest.is_some()) {
-            text += "; how much leaks is not computed beside other closures: --set half_space.leak=true, or a [fluid] table";
+            text += match self.summary.scene.half_space.leak {
+                Some(_) => "; how much leaks is not computed: the scene has half_space.leak = false",
+                None => {
+                    "; how much leaks is not computed beside other closures: --set half_space.leak=true, or a [fluid] table"
+                }
+            };
         }
         text.push('.');
         Some(text)

@@ -71,8 +71,14 @@ fn missing_points(surface: &Surface, scene: &Scene) -> Option<String> {
 /// A fluid that no closure lets flow.
 fn unused_fluid(scene: &Scene) -> Option<String> {
     let flows = scene.closure.closures().iter().any(|closure| closure.is_half_space());
-    let text = "[fluid] is not used: closures of islands leave no gap that can leak; add closure \"half-space\" or \"half-space-plastic\"";
-    (scene.fluid.is_some() && !flows).then(|| text.into())
+    let text = match scene.half_space.leak {
+        _ if !flows => {
+            "closures of islands leave no gap that can leak; add closure \"half-space\" or \"half-space-plastic\""
+        }
+        Some(false) => "half_space.leak = false; leave it out and the fluid flows",
+        _ => return None,
+    };
+    scene.fluid.as_ref().map(|_| format!("[fluid] is not used: {text}"))
 }
 
 /// A hardness that is not that of the yield stress. Where hardening is known the half-space tells, by the

@@ -8,6 +8,7 @@ use crate::input::toml_file::to_toml;
 use crate::page::{self, Numbers, Report};
 use crate::results::numbers::{rounded, with_digits};
 use crate::results::output::{Sink, SinkExt, sorted_json, write_csv};
+use asperity_roughness::read_as;
 use maud::{Markup, html};
 use std::fmt::Write;
 
@@ -36,9 +37,9 @@ impl Scales {
 
     /// The result for a person: the half-spaces by scale, the verdicts, the sentence.
     pub fn text(&self) -> String {
-        let mut text = String::from(
-            "cut-off um, rms slope, half-space: A/A0 %, mean MPa, 99 % MPa, gap um, leak x m3, plastic %\n",
-        );
+        let mut text = read_as(&self.summary.understood);
+        text +=
+            "cut-off um, rms slope, half-space: A/A0 %, mean MPa, 99 % MPa, gap um, leak x m3, plastic %\n";
         let shown = |value: Option<f64>| value.map_or_else(|| "-".into(), |v| with_digits(v, 4));
         for row in self.rows.iter().filter(|row| row.mean_gap_um.is_some()) {
             let [cutoff, slope] = [row.cutoff_um, row.rms_slope].map(|v| with_digits(v, 4));

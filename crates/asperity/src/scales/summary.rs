@@ -51,6 +51,8 @@ row! {
         pixel_size_um: [f64; 2] = map.map.pixel().map(|p| p / MICROMETRE),
         /// Points without a height.
         missing: usize = map.missing,
+        /// Interpretation of the file: dialect, columns, units, lines; and remarks on it.
+        understood: Vec<String> = map.notes.clone(),
         /// Nominal pressure of every scale, MPa.
         pressure_MPa: f64 = found.pressure / MEGAPASCAL,
         /// E* = E/(1 - ν²), MPa.

@@ -20,6 +20,11 @@ pub struct Surface {
     pub parameters: Parameters,
 }
 
+/// A line that says by `notes` what was understood of a file; empty where there was none.
+pub fn read_as(notes: &[String]) -> String {
+    if notes.is_empty() { String::new() } else { format!("read as {}\n", notes.join("; ")) }
+}
+
 impl Surface {
     /// The surface of `map` as it is.
     ///
