@@ -127,6 +127,17 @@ impl Experiment {
         matches!(self.data, Data::Imprint(_) | Data::ImprintNumbers(_))
     }
 
+    /// Variance of the sum of squares of its `count` differences because the noise was taken from few points:
+    /// with ν degrees of freedom the variance of a noise is off by √(2/ν) of itself.
+    pub fn variance_of_the_noise(&self, count: usize) -> f64 {
+        match &self.data {
+            Data::Imprint(Imprint { noise_freedom: Some(freedom), .. }) => {
+                2.0 * (count as f64).powi(2) / freedom
+            }
+            _ => 0.0,
+        }
+    }
+
     /// True where the atlas of sharp cones is the trend: curves and their numbers under one, smooth or of
     /// known friction.
     pub fn is_sharp(&self) -> bool {

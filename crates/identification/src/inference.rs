@@ -8,8 +8,8 @@ use crate::identifiability::{
     next_experiment, null_direction,
 };
 use crate::levenberg_marquardt::Minimum;
-use crate::numbers::{Branch, CurveResidual, Found, Residual, StressAt, fits};
-use crate::objective::Objective;
+use crate::numbers::{Branch, CurveResidual, Found, Residual, StressAt};
+use crate::objective::{Misfit, Objective};
 use crate::parameters::{Parameter, Slot, Unknowns};
 use crate::posterior;
 use crate::profile_likelihood::{Interval, Profile};
@@ -217,11 +217,9 @@ fn residual(
     best: &Minimum,
 ) -> Option<Residual> {
     let misfits = objective.misfits(&best.point)?;
-    let chi2: f64 = misfits.iter().map(|(square, _)| square).sum();
-    let mut count = 0;
+    let all = Misfit::sum(&misfits);
     let curves = experiments.iter().map(|e| {
         let differences = e.differences(unknowns, &best.point, false)?;
-        count += differences.len() as i64;
         let loading = match &e.data {
             Data::Curve(measured) => measured.loading.len(),
             Data::Features { .. } | Data::Imprint(_) | Data::ImprintNumbers(_) => differences.len(),
@@ -234,8 +232,13 @@ fn residual(
         Some(CurveResidual { name: e.name.clone(), rms: square.sqrt(), noise })
     });
     let curves = curves.collect::<Option<_>>()?;
-    let degrees_of_freedom = count - unknowns.parameters.len() as i64;
     // a measurement that does not fit is not hidden by others that fit well
-    let each = misfits.iter().all(|(square, count)| fits(*square, *count as i64));
-    Some(Residual { chi2, fits: each && fits(chi2, degrees_of_freedom), degrees_of_freedom, curves })
+    let each = misfits.iter().all(|misfit| misfit.fits(0));
+    let sought = unknowns.parameters.len();
+    Some(Residual {
+        chi2: all.chi2,
+        fits: each && all.fits(sought),
+        degrees_of_freedom: all.count as i64 - sought as i64,
+        curves,
+    })
 }

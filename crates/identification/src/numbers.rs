@@ -77,8 +77,23 @@ pub struct CurveResidual {
 }
 
 /// True where a sum of squares lies within three standard deviations of what is expected of so many degrees
-/// of freedom; that of none has to be small.
-pub fn fits(chi2: f64, freedom: i64) -> bool {
+/// of freedom; that of none has to be small. `of_the_noise` is the variance that it has because the noise
+/// itself was taken from few points.
+pub fn fits(chi2: f64, freedom: i64, of_the_noise: f64) -> bool {
     let free = freedom.max(0) as f64;
-    chi2 <= free + 3.0 * (2.0 * free).sqrt() + 4.0
+    chi2 <= free + 3.0 * (2.0 * free + of_the_noise).sqrt() + 4.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A noise taken from 25 degrees of freedom is off by √(2/25) of its variance (28 %) in one of three: 75
+    /// differences that are 1.9 times as large as it says, two such deviations, are no doubt of the model.
+    #[test]
+    fn a_sum_of_squares_may_be_off_as_much_as_its_noise() {
+        let of_the_noise = 2.0 * 75.0 * 75.0 / 25.0;
+        assert!(fits(1.9 * 75.0, 75, of_the_noise) && !fits(1.9 * 75.0, 75, 0.0));
+        assert!(!fits(3.0 * 75.0, 75, of_the_noise));
+    }
 }
